@@ -1,0 +1,171 @@
+//! Configuration in two stages: TOML text and `--set` pairs as given, then a [`Config`] in which every value is checked.
+//!
+//! Order of precedence, lowest first: defaults in code, the preset, the file, `--set`, the command's own flags.
+
+mod preset;
+mod section;
+mod sections;
+mod source;
+
+use serde::{Deserialize, Serialize};
+
+pub use preset::{PRESETS, preset};
+pub use section::{KeyDoc, Section};
+pub use sections::{BusConfig, EnvConfig, LearnerConfig, PolicyConfig, PpoConfig, RolloutConfig, RunConfig};
+pub use source::ConfigSource;
+
+/// Everything that can be configured, checked.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Config {
+    /// What this run is.
+    pub run: RunConfig,
+    /// The task.
+    pub env: EnvConfig,
+    /// How experience is gathered.
+    pub rollout: RolloutConfig,
+    /// The networks.
+    pub policy: PolicyConfig,
+    /// The algorithm.
+    pub ppo: PpoConfig,
+    /// The learner's side of the fleet.
+    pub learner: LearnerConfig,
+    /// The message bus.
+    pub bus: BusConfig,
+}
+
+/// Why a configuration is refused.
+#[derive(Debug, thiserror::Error, PartialEq)]
+pub enum ConfigError {
+    /// The key does not exist.
+    #[error("unknown config key `{key}`; {hint}")]
+    UnknownKey {
+        /// The key as given.
+        key: String,
+        /// What is there instead.
+        hint: String,
+    },
+    /// The value's type is not the key's.
+    #[error("config key `{key}` is {value}, which is not of the right type; allowed: {allowed}")]
+    Type {
+        /// The key.
+        key: String,
+        /// The value as given.
+        value: String,
+        /// Allowed values in words.
+        allowed: String,
+    },
+    /// The value is out of range.
+    #[error("config key `{key}` is {value}; allowed: {allowed}")]
+    Value {
+        /// The key.
+        key: String,
+        /// The value as given.
+        value: String,
+        /// Allowed values in words.
+        allowed: String,
+    },
+    /// A `--set` argument without `=`.
+    #[error("`--set {given}` is not of the form key=value, for instance --set ppo.learning_rate=3e-4")]
+    SetSyntax {
+        /// The argument as given.
+        given: String,
+    },
+    /// The preset does not exist.
+    #[error("unknown preset `{given}`; allowed: {allowed}")]
+    Preset {
+        /// The name as given.
+        given: String,
+        /// Names that exist.
+        allowed: String,
+    },
+    /// The file could not be read.
+    #[error("config file `{path}` cannot be read: {why}; give an existing TOML file")]
+    File {
+        /// Its path.
+        path: String,
+        /// What the system said.
+        why: String,
+    },
+    /// The text is no TOML.
+    #[error("{origin} is not valid TOML: {why}")]
+    Syntax {
+        /// Where the text came from.
+        origin: String,
+        /// What the parser said.
+        why: String,
+    },
+}
+
+impl Config {
+    /// Every key with documentation, default and allowed values.
+    pub fn keys() -> Vec<KeyDoc> {
+        [
+            RunConfig::keys(),
+            EnvConfig::keys(),
+            RolloutConfig::keys(),
+            PolicyConfig::keys(),
+            PpoConfig::keys(),
+            LearnerConfig::keys(),
+            BusConfig::keys(),
+        ]
+        .concat()
+    }
+
+    /// Checks every value by itself, then those that must fit each other.
+    pub fn check(&self) -> Result<(), ConfigError> {
+        self.run.check()?;
+        self.env.check()?;
+        self.rollout.check()?;
+        self.policy.check()?;
+        self.ppo.check()?;
+        self.learner.check()?;
+        self.bus.check()?;
+        self.check_together()
+    }
+
+    fn check_together(&self) -> Result<(), ConfigError> {
+        let refuse = |key: &str, value: String, allowed: String| {
+            Err(ConfigError::Value { key: key.to_string(), value, allowed })
+        };
+        if self.ppo.minibatch > self.ppo.batch {
+            return refuse(
+                "ppo.minibatch",
+                self.ppo.minibatch.to_string(),
+                format!("1 to ppo.batch, which is {}", self.ppo.batch),
+            );
+        }
+        if self.ppo.learning_rate_min > self.ppo.learning_rate_max {
+            return refuse(
+                "ppo.learning_rate_min",
+                show(&self.ppo.learning_rate_min),
+                format!("at most ppo.learning_rate_max, which is {}", show(&self.ppo.learning_rate_max)),
+            );
+        }
+        if self.env.healthy_z_min_m >= self.env.healthy_z_max_m {
+            return refuse(
+                "env.healthy_z_min_m",
+                show(&self.env.healthy_z_min_m),
+                format!("below env.healthy_z_max_m, which is {}", show(&self.env.healthy_z_max_m)),
+            );
+        }
+        if self.rollout.actors > self.rollout.envs {
+            return refuse(
+                "rollout.actors",
+                self.rollout.actors.to_string(),
+                format!("0 to rollout.envs, which is {}", self.rollout.envs),
+            );
+        }
+        Ok(())
+    }
+
+    /// The configuration as TOML, every key named.
+    pub fn to_toml(&self) -> String {
+        toml::to_string(self).expect("a checked config is plain tables of plain values")
+    }
+}
+
+/// A value in TOML notation.
+pub(crate) fn show<T: Serialize>(value: &T) -> String {
+    toml::Value::try_from(value).map_or_else(|why| why.to_string(), |value| value.to_string())
+}

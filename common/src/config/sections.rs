@@ -1,0 +1,147 @@
+//! Every key of the configuration, with its default.
+
+use super::section::section;
+
+section! {
+    /// What this run is.
+    RunConfig as "run" {
+        /// Seed from which every random stream of the run is derived.
+        seed: u64 = 1, "0 to 9223372036854775807" => |v| *v <= i64::MAX as u64;
+        /// Total environment steps of the run; no schedule depends on it.
+        steps: u64 = 8_000_000, "1 to 1000000000000" => |v| (1..=1_000_000_000_000).contains(v);
+        /// One actor in lock-step with the learner, so that the same seed gives the same weights bit for bit.
+        deterministic: bool = false, "true or false" => |_| true;
+    }
+}
+
+section! {
+    /// The humanoid task: Gymnasium's Humanoid-v5 by default.
+    EnvConfig as "env" {
+        /// Reward per m/s of forward velocity of the whole body's centre of mass.
+        forward_reward_weight: f64 = 1.25, "a finite number" => |v| v.is_finite();
+        /// Cost per squared unit of control.
+        ctrl_cost_weight: f64 = 0.1, "0 or more" => |v| *v >= 0.0 && v.is_finite();
+        /// Cost per squared newton (or newton metre) of external contact force.
+        contact_cost_weight: f64 = 5e-7, "0 or more" => |v| *v >= 0.0 && v.is_finite();
+        /// Upper bound of the contact cost of one step.
+        contact_cost_max: f64 = 10.0, "0 or more" => |v| *v >= 0.0 && v.is_finite();
+        /// Reward of each step on which the humanoid is healthy.
+        healthy_reward: f64 = 5.0, "a finite number" => |v| v.is_finite();
+        /// Whether leaving the healthy range of torso height ends the episode.
+        terminate_when_unhealthy: bool = true, "true or false" => |_| true;
+        /// Lowest healthy torso height in metres.
+        healthy_z_min_m: f64 = 1.0, "a finite number below env.healthy_z_max_m" => |v| v.is_finite();
+        /// Highest healthy torso height in metres.
+        healthy_z_max_m: f64 = 2.0, "a finite number above env.healthy_z_min_m" => |v| v.is_finite();
+        /// Half width of the uniform noise on every position and velocity entry at reset.
+        reset_noise_scale: f64 = 0.01, "0 to 1" => |v| (0.0..=1.0).contains(v);
+        /// Control steps after which an episode is truncated.
+        max_episode_steps: u32 = 1000, "1 to 1000000" => |v| (1..=1_000_000).contains(v);
+        /// Physics steps per control step of 15 ms.
+        substeps: u32 = 2, "1 to 50" => |v| (1..=50).contains(v);
+        /// Solver iterations per physics step.
+        solver_iterations: u32 = 4, "1 to 50" => |v| (1..=50).contains(v);
+        /// Whether the humanoid's own limbs can touch each other.
+        self_collision: bool = false, "true or false" => |_| true;
+    }
+}
+
+section! {
+    /// How experience is gathered.
+    RolloutConfig as "rollout" {
+        /// Environments in total, split over the actors of `train`.
+        envs: u32 = 64, "1 to 65536" => |v| (1..=65_536).contains(v);
+        /// Actor processes that `train` starts; 0 means one per core.
+        actors: u32 = 0, "0 to 256" => |v| *v <= 256;
+        /// Control steps of each environment in one fragment.
+        fragment_steps: u32 = 128, "1 to 4096" => |v| (1..=4096).contains(v);
+        /// Unanswered fragments that an actor may have on the bus.
+        max_in_flight: u32 = 2, "1 or 2" => |v| (1..=2).contains(v);
+        /// Accepted but not yet durable fragments that an actor keeps to send again.
+        resend_window: u32 = 8, "1 to 64" => |v| (1..=64).contains(v);
+    }
+}
+
+section! {
+    /// The actor and critic networks.
+    PolicyConfig as "policy" {
+        /// Widths of the hidden layers of both networks.
+        hidden: Vec<u32> = vec![256, 128], "1 to 8 widths, each 1 to 4096" => |v| (1..=8).contains(&v.len()) && v.iter().all(|w| (1..=4096).contains(w));
+        /// Natural logarithm of the initial standard deviation of each action.
+        init_log_std: f64 = -0.5, "-5 to 2" => |v| (-5.0..=2.0).contains(v);
+        /// Normalised observations are clipped to plus and minus this.
+        observation_clip: f64 = 10.0, "above 0" => |v| *v > 0.0 && v.is_finite();
+    }
+}
+
+section! {
+    /// Proximal policy optimisation.
+    PpoConfig as "ppo" {
+        /// Transitions gathered for one update.
+        batch: u32 = 8192, "1 to 16777216" => |v| (1..=16_777_216).contains(v);
+        /// Transitions of one gradient step.
+        minibatch: u32 = 2048, "1 to ppo.batch" => |v| *v >= 1;
+        /// Passes over the batch in one update.
+        epochs: u32 = 5, "1 to 100" => |v| (1..=100).contains(v);
+        /// Discount of future reward per control step.
+        gamma: f64 = 0.99, "0 to 1" => |v| (0.0..=1.0).contains(v);
+        /// Bias-variance trade-off of generalised advantage estimation.
+        gae_lambda: f64 = 0.95, "0 to 1" => |v| (0.0..=1.0).contains(v);
+        /// Range around 1 to which the probability ratio is clipped.
+        clip_range: f64 = 0.2, "above 0, at most 1" => |v| *v > 0.0 && *v <= 1.0;
+        /// Weight of the value loss.
+        value_coefficient: f64 = 1.0, "0 or more" => |v| *v >= 0.0 && v.is_finite();
+        /// Weight of the entropy bonus.
+        entropy_coefficient: f64 = 0.0, "0 or more" => |v| *v >= 0.0 && v.is_finite();
+        /// Weight of the squared excess of action means over ppo.bounds_limit.
+        bounds_coefficient: f64 = 5e-4, "0 or more" => |v| *v >= 0.0 && v.is_finite();
+        /// Action mean beyond which the bounds loss begins, in units of the action range.
+        bounds_limit: f64 = 1.1, "above 0" => |v| *v > 0.0 && v.is_finite();
+        /// Largest Euclidean norm of the gradient.
+        max_grad_norm: f64 = 1.0, "above 0" => |v| *v > 0.0 && v.is_finite();
+        /// Learning rate of Adam at the start.
+        learning_rate: f64 = 3e-4, "above 0, at most 1" => |v| *v > 0.0 && *v <= 1.0;
+        /// Lowest learning rate that adaptation may reach.
+        learning_rate_min: f64 = 1e-5, "above 0, at most ppo.learning_rate_max" => |v| *v > 0.0 && v.is_finite();
+        /// Highest learning rate that adaptation may reach.
+        learning_rate_max: f64 = 1e-3, "at least ppo.learning_rate_min, at most 1" => |v| *v > 0.0 && *v <= 1.0;
+        /// KL divergence aimed at: over twice this the learning rate is divided by 1.5, under half of it multiplied; 0 keeps it fixed.
+        target_kl: f64 = 0.008, "0 or more" => |v| *v >= 0.0 && v.is_finite();
+        /// Factor on rewards before returns are computed.
+        reward_scale: f64 = 0.1, "above 0" => |v| *v > 0.0 && v.is_finite();
+    }
+}
+
+section! {
+    /// The learner's side of the fleet.
+    LearnerConfig as "learner" {
+        /// Threads of the update; 0 means one per core.
+        threads: u32 = 0, "0 to 256" => |v| *v <= 256;
+        /// Fragments from a policy more versions older than this are dropped and counted.
+        max_policy_lag: u32 = 2, "0 to 100" => |v| *v <= 100;
+        /// Fragments that may wait, unanswered, for the learner to take them.
+        intake_fragments: u32 = 256, "1 to 65536" => |v| (1..=65_536).contains(v);
+        /// Rejected fragments in a row after which a sender is put in quarantine.
+        quarantine_after: u32 = 8, "1 to 1000" => |v| (1..=1000).contains(v);
+        /// Numbered checkpoints that are kept beside `latest` and `best`.
+        keep_checkpoints: u32 = 3, "0 to 1000" => |v| *v <= 1000;
+        /// Updates between two numbered checkpoints.
+        checkpoint_every_updates: u32 = 50, "1 to 1000000" => |v| (1..=1_000_000).contains(v);
+        /// Updates between two tables on the screen.
+        table_every_updates: u32 = 10, "1 to 1000000" => |v| (1..=1_000_000).contains(v);
+    }
+}
+
+section! {
+    /// The message bus.
+    BusConfig as "bus" {
+        /// Silence in milliseconds after which a peer counts as gone.
+        lease_ms: u64 = 4000, "1000 to 60000" => |v| (1000..=60_000).contains(v);
+        /// Milliseconds an actor waits for the receipt of a fragment before it sends it again.
+        receipt_timeout_ms: u64 = 60_000, "1000 to 3600000" => |v| (1000..=3_600_000).contains(v);
+        /// Milliseconds between two unprompted looks for a newer policy, jittered.
+        policy_poll_ms: u64 = 10_000, "100 to 600000" => |v| (100..=600_000).contains(v);
+        /// Milliseconds between two statistics messages of an actor.
+        stats_every_ms: u64 = 2000, "100 to 600000" => |v| (100..=600_000).contains(v);
+    }
+}

@@ -1,0 +1,235 @@
+//! The first stage: tables as the user gave them, laid over each other, names and types checked one by one.
+
+use std::path::Path;
+
+use toml::{Table, Value};
+
+use super::{Config, ConfigError, KeyDoc, preset};
+
+/// Collects configuration from its sources, later ones winning.
+#[derive(Clone, Debug, Default)]
+pub struct ConfigSource {
+    table: Table,
+}
+
+impl ConfigSource {
+    /// Lays a preset over what is there.
+    pub fn preset(&mut self, name: &str) -> Result<(), ConfigError> {
+        self.text(preset(name)?, &format!("preset {name}"))
+    }
+
+    /// Lays a TOML file over what is there.
+    pub fn file(&mut self, path: &Path) -> Result<(), ConfigError> {
+        let shown = path.display().to_string();
+        let text = std::fs::read_to_string(path)
+            .map_err(|why| ConfigError::File { path: shown.clone(), why: why.to_string() })?;
+        self.text(&text, &format!("config file `{shown}`"))
+    }
+
+    /// Lays TOML text over what is there; `origin` names it in errors.
+    pub fn text(&mut self, text: &str, origin: &str) -> Result<(), ConfigError> {
+        let table: Table = text.parse().map_err(|why: toml::de::Error| ConfigError::Syntax {
+            origin: origin.to_string(),
+            why: why.to_string(),
+        })?;
+        let keys = Config::keys();
+        for (section, value) in table {
+            let Value::Table(entries) = value else {
+                return Err(unknown(&section, &keys));
+            };
+            if entries.is_empty() && !keys.iter().any(|known| section_of(known) == section) {
+                return Err(unknown(&section, &keys));
+            }
+            for (name, value) in entries {
+                self.put(&format!("{section}.{name}"), value, &keys)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Lays one `key=value` over what is there; a value that is no TOML is taken as text.
+    pub fn set(&mut self, pair: &str) -> Result<(), ConfigError> {
+        let (key, text) = pair.split_once('=').ok_or_else(|| ConfigError::SetSyntax { given: pair.to_string() })?;
+        let value = format!("v = {text}")
+            .parse::<Table>()
+            .ok()
+            .and_then(|mut table| table.remove("v"))
+            .unwrap_or_else(|| Value::String(text.to_string()));
+        self.put(key.trim(), value, &Config::keys())
+    }
+
+    /// Lays one typed value over what is there.
+    pub fn value(&mut self, key: &str, value: impl Into<Value>) -> Result<(), ConfigError> {
+        self.put(key, value.into(), &Config::keys())
+    }
+
+    /// The second stage: a configuration in which every value is checked.
+    pub fn build(&self) -> Result<Config, ConfigError> {
+        let config: Config = self.table.clone().try_into().map_err(|why: toml::de::Error| ConfigError::Syntax {
+            origin: "the configuration".to_string(),
+            why: why.to_string(),
+        })?;
+        config.check()?;
+        Ok(config)
+    }
+
+    fn put(&mut self, key: &str, value: Value, keys: &[KeyDoc]) -> Result<(), ConfigError> {
+        let known = keys.iter().find(|known| known.key == key).ok_or_else(|| unknown(key, keys))?;
+        let value = fit(value, known)?;
+        let (section, name) = key.split_once('.').expect("every known key has a section");
+        self.table
+            .entry(section)
+            .or_insert_with(|| Value::Table(Table::new()))
+            .as_table_mut()
+            .expect("sections are tables")
+            .insert(name.to_string(), value);
+        Ok(())
+    }
+}
+
+/// Turns a value into the key's type where that loses nothing, as `1` for `1.0` and `8e6` for `8000000`.
+fn fit(value: Value, known: &KeyDoc) -> Result<Value, ConfigError> {
+    let refuse = |value: &Value| ConfigError::Type {
+        key: known.key.clone(),
+        value: value.to_string(),
+        allowed: known.allowed.to_string(),
+    };
+    let whole = |number: f64| number.fract() == 0.0 && number.abs() < 9e15;
+    match (known.kind, &value) {
+        ("bool", Value::Boolean(_)) | ("f64", Value::Float(_)) => Ok(value),
+        ("f64", Value::Integer(number)) => Ok(Value::Float(*number as f64)),
+        ("u32" | "u64", Value::Float(number)) if whole(*number) => {
+            fit(Value::Integer(*number as i64), known)
+        }
+        ("u32", Value::Integer(number)) if u32::try_from(*number).is_err() => Err(ConfigError::Value {
+            key: known.key.clone(),
+            value: number.to_string(),
+            allowed: known.allowed.to_string(),
+        }),
+        ("u64", Value::Integer(number)) if *number < 0 => Err(ConfigError::Value {
+            key: known.key.clone(),
+            value: number.to_string(),
+            allowed: known.allowed.to_string(),
+        }),
+        ("u32" | "u64", Value::Integer(_)) => Ok(value),
+        ("Vec<u32>", Value::Array(items))
+            if items.iter().all(|item| item.as_integer().is_some_and(|item| u32::try_from(item).is_ok())) =>
+        {
+            Ok(value)
+        }
+        _ => Err(refuse(&value)),
+    }
+}
+
+fn section_of(known: &KeyDoc) -> &str {
+    known.key.split('.').next().unwrap_or_default()
+}
+
+fn unknown(key: &str, keys: &[KeyDoc]) -> ConfigError {
+    let wanted = key.rsplit('.').next().unwrap_or(key);
+    let nearest = keys
+        .iter()
+        .map(|known| (distance(key, &known.key).min(distance(wanted, known.key.rsplit('.').next().unwrap_or(""))), known))
+        .min_by_key(|(distance, _)| *distance);
+    let hint = match nearest {
+        Some((distance, known)) if distance <= 3 => format!("did you mean `{}`?", known.key),
+        _ => {
+            let section = key.split('.').next().unwrap_or(key);
+            let mut allowed: Vec<&str> =
+                keys.iter().filter(|known| section_of(known) == section).map(|known| known.key.as_str()).collect();
+            if allowed.is_empty() {
+                allowed = keys.iter().map(section_of).collect();
+                allowed.dedup();
+            }
+            format!("allowed: {}", allowed.join(", "))
+        }
+    };
+    ConfigError::UnknownKey { key: key.to_string(), hint }
+}
+
+/// Levenshtein distance of two short names.
+fn distance(left: &str, right: &str) -> usize {
+    let right: Vec<char> = right.chars().collect();
+    let mut row: Vec<usize> = (0..=right.len()).collect();
+    for (i, a) in left.chars().enumerate() {
+        let mut diagonal = row[0];
+        row[0] = i + 1;
+        for (j, b) in right.iter().enumerate() {
+            let substitution = diagonal + usize::from(a != *b);
+            diagonal = row[j + 1];
+            row[j + 1] = substitution.min(row[j] + 1).min(diagonal + 1);
+        }
+    }
+    row[right.len()]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    fn set(pair: &str) -> Result<Config, ConfigError> {
+        let mut source = ConfigSource::default();
+        source.set(pair)?;
+        source.build()
+    }
+
+    #[test]
+    fn defaults_pass_their_own_checks_and_survive_toml() {
+        let config = ConfigSource::default().build().unwrap();
+        let mut again = ConfigSource::default();
+        again.text(&config.to_toml(), "saved").unwrap();
+        assert_eq!(again.build().unwrap(), config);
+    }
+
+    #[test]
+    fn every_preset_builds() {
+        for (name, _) in crate::config::PRESETS {
+            let mut source = ConfigSource::default();
+            source.preset(name).unwrap();
+            source.build().unwrap();
+        }
+    }
+
+    #[test]
+    fn later_sources_win() {
+        let mut source = ConfigSource::default();
+        source.preset("smoke").unwrap();
+        source.text("[ppo]\nepochs = 7\n", "file").unwrap();
+        source.set("ppo.epochs=9").unwrap();
+        let config = source.build().unwrap();
+        assert_eq!((config.ppo.epochs, config.rollout.envs), (9, 8));
+    }
+
+    #[test]
+    fn refusals_name_key_value_and_what_is_allowed() {
+        let message = |pair: &str| set(pair).unwrap_err().to_string();
+        assert_eq!(message("rollout.envs=0"), "config key `rollout.envs` is 0; allowed: 1 to 65536");
+        assert!(message("ppo.learning_rat=1").contains("did you mean `ppo.learning_rate`?"));
+        assert!(message("ppo.minibatch=9000").contains("1 to ppo.batch, which is 8192"));
+        assert!(message("ppo.epochs=many").contains("`ppo.epochs` is \"many\""));
+        assert!(message("ppo.epochs=-1").contains("is -1; allowed: 1 to 100"));
+        assert!(message("nonsense.key=1").contains("allowed: run, env, rollout, policy, ppo, learner, bus"));
+        assert!(message("ppo.gamma=nan").contains("allowed: 0 to 1"));
+        assert!(message("seed").contains("key=value"));
+    }
+
+    #[test]
+    fn whole_floats_serve_as_integers() {
+        assert_eq!(set("run.steps=8e6").unwrap().run.steps, 8_000_000);
+        assert_eq!(set("ppo.gamma=1").unwrap().ppo.gamma, 1.0);
+    }
+
+    proptest! {
+        #[test]
+        fn no_pair_panics(pair in ".{0,40}") {
+            let _ = set(&pair);
+        }
+
+        #[test]
+        fn distance_is_a_metric(a in "[a-d]{0,6}", b in "[a-d]{0,6}") {
+            prop_assert_eq!(distance(&a, &b), distance(&b, &a));
+            prop_assert_eq!(distance(&a, &b) == 0, a == b);
+        }
+    }
+}

@@ -1,0 +1,8 @@
+//! Compiles the schemas with `protox`, so that no `protoc` has to be installed.
+
+fn main() -> Result<(), Box<dyn std::error::Error>> {
+    println!("cargo:rerun-if-changed=schema");
+    let files = protox::compile(["schema/policy.proto", "schema/rollout.proto", "schema/stats.proto"], ["schema"])?;
+    prost_build::Config::new().bytes(["."]).compile_fds(files)?;
+    Ok(())
+}

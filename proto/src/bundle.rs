@@ -1,0 +1,233 @@
+//! The policy that the learner hands out, and its announcement.
+
+use bytes::Bytes;
+use prost::Message;
+use serde::{Deserialize, Serialize};
+
+use crate::{
+    Malformed,
+    ident::check_ident,
+    limits::{BUNDLE_BYTES_MAX, HIDDEN_LAYERS_MAX, SMALL_BYTES_MAX, WIDTH_MAX},
+    planes, wire,
+};
+
+/// Which policy: numbers grow by one with each update, incarnations are drawn anew at each start of a learner.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
+pub struct PolicyVersion {
+    /// Which learner process.
+    pub incarnation: u64,
+    /// How many updates the run has seen.
+    pub number: u64,
+}
+
+impl From<PolicyVersion> for wire::PolicyVersion {
+    fn from(version: PolicyVersion) -> Self {
+        Self { incarnation: version.incarnation, number: version.number }
+    }
+}
+
+impl From<wire::PolicyVersion> for PolicyVersion {
+    fn from(version: wire::PolicyVersion) -> Self {
+        Self { incarnation: version.incarnation, number: version.number }
+    }
+}
+
+/// The newest version and its checksum.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct PolicyAnnouncement {
+    /// The newest version.
+    pub version: PolicyVersion,
+    /// Checksum of its weights.
+    pub checksum: u64,
+}
+
+impl PolicyAnnouncement {
+    /// Protobuf bytes.
+    pub fn encode(&self) -> Vec<u8> {
+        wire::PolicyAnnouncement { version: Some(self.version.into()), checksum: self.checksum }.encode_to_vec()
+    }
+
+    /// Reads protobuf bytes from a stranger.
+    pub fn decode(bytes: &[u8]) -> Result<Self, Malformed> {
+        check_small("announcement", bytes.len())?;
+        let message = wire::PolicyAnnouncement::decode(bytes)
+            .map_err(|why| Malformed::Undecodable { what: "announcement", why: why.to_string() })?;
+        Ok(Self { version: version(message.version)?, checksum: message.checksum })
+    }
+}
+
+/// Everything an actor needs.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PolicyBundle {
+    /// The run it belongs to.
+    pub run: String,
+    /// Which policy.
+    pub version: PolicyVersion,
+    /// Entries of one observation.
+    pub observation_size: u32,
+    /// Entries of one action.
+    pub action_size: u32,
+    /// Widths of the hidden layers.
+    pub hidden: Vec<u32>,
+    /// A safetensors file.
+    pub weights: Bytes,
+    /// Mean of each entry of the observation.
+    pub observation_mean: Vec<f32>,
+    /// One over the standard deviation of each entry.
+    pub observation_inverse_std: Vec<f32>,
+    /// Normalised observations are clipped to plus and minus this.
+    pub observation_clip: f32,
+    /// Hash over configuration and model.
+    pub config_hash: u64,
+    /// The run's configuration.
+    pub config_toml: String,
+    /// The humanoid as MJCF.
+    pub model_xml: String,
+    /// Checksum of `weights`.
+    pub checksum: u64,
+}
+
+impl PolicyBundle {
+    fn check(&self) -> Result<(), Malformed> {
+        check_ident("run", &self.run)?;
+        width("observation_size", self.observation_size)?;
+        width("action_size", self.action_size)?;
+        if self.hidden.is_empty() || self.hidden.len() > HIDDEN_LAYERS_MAX {
+            return Err(Malformed::field("hidden", self.hidden.len(), format!("1 to {HIDDEN_LAYERS_MAX} layers")));
+        }
+        self.hidden.iter().try_for_each(|hidden| width("hidden", *hidden))?;
+        let size = self.observation_size as usize;
+        for (field, plane) in [
+            ("observation_mean", &self.observation_mean),
+            ("observation_inverse_std", &self.observation_inverse_std),
+        ] {
+            if plane.len() != size {
+                return Err(Malformed::field(field, format!("{} numbers long", plane.len()), format!("{size}")));
+            }
+            planes::all_finite(field, plane)?;
+        }
+        if !(self.observation_clip.is_finite() && self.observation_clip > 0.0) {
+            return Err(Malformed::field("observation_clip", self.observation_clip, "a number above 0"));
+        }
+        Ok(())
+    }
+
+    /// Protobuf bytes.
+    pub fn encode(&self) -> Result<Vec<u8>, Malformed> {
+        self.check()?;
+        let bytes = wire::PolicyBundle {
+            run: self.run.clone(),
+            version: Some(self.version.into()),
+            observation_size: self.observation_size,
+            action_size: self.action_size,
+            hidden: self.hidden.clone(),
+            weights: self.weights.clone(),
+            observation_mean: planes::to_bytes(&self.observation_mean),
+            observation_inverse_std: planes::to_bytes(&self.observation_inverse_std),
+            observation_clip: self.observation_clip,
+            config_hash: self.config_hash,
+            config_toml: self.config_toml.clone(),
+            model_xml: self.model_xml.clone(),
+            checksum: self.checksum,
+        }
+        .encode_to_vec();
+        check_size(bytes.len())?;
+        Ok(bytes)
+    }
+
+    /// Reads and checks protobuf bytes from a stranger.
+    pub fn decode(bytes: impl Into<Bytes>) -> Result<Self, Malformed> {
+        let bytes = bytes.into();
+        check_size(bytes.len())?;
+        let message = wire::PolicyBundle::decode(bytes)
+            .map_err(|why| Malformed::Undecodable { what: "policy bundle", why: why.to_string() })?;
+        width("observation_size", message.observation_size)?;
+        let size = message.observation_size as usize;
+        let bundle = Self {
+            version: version(message.version)?,
+            observation_mean: planes::from_bytes("observation_mean", &message.observation_mean, size)?,
+            observation_inverse_std: planes::from_bytes(
+                "observation_inverse_std",
+                &message.observation_inverse_std,
+                size,
+            )?,
+            run: message.run,
+            observation_size: message.observation_size,
+            action_size: message.action_size,
+            hidden: message.hidden,
+            weights: message.weights,
+            observation_clip: message.observation_clip,
+            config_hash: message.config_hash,
+            config_toml: message.config_toml,
+            model_xml: message.model_xml,
+            checksum: message.checksum,
+        };
+        bundle.check()?;
+        Ok(bundle)
+    }
+}
+
+pub(crate) fn version(version: Option<wire::PolicyVersion>) -> Result<PolicyVersion, Malformed> {
+    version.map(Into::into).ok_or_else(|| Malformed::field("version", "missing", "a policy version"))
+}
+
+pub(crate) fn check_small(what: &'static str, bytes: usize) -> Result<(), Malformed> {
+    if bytes > SMALL_BYTES_MAX {
+        return Err(Malformed::TooLarge { what, bytes, limit: SMALL_BYTES_MAX });
+    }
+    Ok(())
+}
+
+fn check_size(bytes: usize) -> Result<(), Malformed> {
+    if bytes > BUNDLE_BYTES_MAX {
+        return Err(Malformed::TooLarge { what: "policy bundle", bytes, limit: BUNDLE_BYTES_MAX });
+    }
+    Ok(())
+}
+
+fn width(field: &'static str, value: u32) -> Result<(), Malformed> {
+    if (1..=WIDTH_MAX).contains(&value) {
+        return Ok(());
+    }
+    Err(Malformed::field(field, value, format!("1 to {WIDTH_MAX}")))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn sample() -> PolicyBundle {
+        PolicyBundle {
+            run: "walk".into(),
+            version: PolicyVersion { incarnation: 1, number: 2 },
+            observation_size: 2,
+            action_size: 1,
+            hidden: vec![4],
+            weights: Bytes::from_static(b"weights"),
+            observation_mean: vec![0.5, 1.0],
+            observation_inverse_std: vec![1.0, 2.0],
+            observation_clip: 10.0,
+            config_hash: 3,
+            config_toml: "[run]".into(),
+            model_xml: "<mujoco/>".into(),
+            checksum: 5,
+        }
+    }
+
+    #[test]
+    fn bundle_and_announcement_survive_the_wire() {
+        assert_eq!(PolicyBundle::decode(sample().encode().unwrap()).unwrap(), sample());
+        let announcement = PolicyAnnouncement { version: sample().version, checksum: 5 };
+        assert_eq!(PolicyAnnouncement::decode(&announcement.encode()).unwrap(), announcement);
+    }
+
+    #[test]
+    fn wrong_statistics_are_named() {
+        let bad = PolicyBundle { observation_mean: vec![1.0], ..sample() };
+        assert!(bad.encode().unwrap_err().to_string().contains("observation_mean"));
+        let bad = PolicyBundle { observation_inverse_std: vec![1.0, f32::NAN], ..sample() };
+        assert!(bad.encode().unwrap_err().to_string().contains("index 1"));
+        let bad = PolicyBundle { hidden: vec![], ..sample() };
+        assert!(bad.encode().unwrap_err().to_string().contains("hidden"));
+    }
+}

@@ -1,0 +1,289 @@
+//! Rollout fragments: T control steps of N environments under one policy version.
+
+use bytes::Bytes;
+use prost::Message;
+
+use crate::{
+    Malformed, PolicyVersion,
+    ident::check_ident,
+    limits::{ENVS_MAX, FRAGMENT_BYTES_MAX, STEPS_MAX, WIDTH_MAX},
+    planes, wire,
+};
+
+/// Flag bit of a transition after which the episode was over by rule of the task.
+pub const TERMINATED: u8 = 1;
+/// Flag bit of a transition after which the episode was cut off by the time limit.
+pub const TRUNCATED: u8 = 2;
+
+/// Why an episode ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum EndCause {
+    /// The torso left its healthy range.
+    Fell,
+    /// The greatest length was reached.
+    TimeLimit,
+    /// The physics gave a number that is not finite.
+    Fault,
+}
+
+impl EndCause {
+    /// The word that stands in JSON.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Fell => "fell",
+            Self::TimeLimit => "time_limit",
+            Self::Fault => "fault",
+        }
+    }
+}
+
+/// A finished episode.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Episode {
+    /// Sum of unscaled rewards.
+    pub return_sum: f64,
+    /// Control steps.
+    pub length: u32,
+    /// Forward distance between start and end in metres.
+    pub distance_m: f64,
+    /// Distance over time.
+    pub velocity_mean_mps: f64,
+    /// Why it ended.
+    pub cause: EndCause,
+}
+
+/// One fragment. Planes are time-major: entry `[t][n][i]` stands at `((t * N) + n) * width + i`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Fragment {
+    /// The run it belongs to.
+    pub run: String,
+    /// Who sent it.
+    pub actor: String,
+    /// Which process of that name.
+    pub actor_incarnation: u64,
+    /// Counts the fragments of this incarnation from 1.
+    pub sequence: u64,
+    /// The policy that chose the actions.
+    pub version: PolicyVersion,
+    /// Hash over configuration and model.
+    pub config_hash: u64,
+    /// T.
+    pub steps: u32,
+    /// N.
+    pub envs: u32,
+    /// Entries of one observation.
+    pub observation_size: u32,
+    /// Entries of one action.
+    pub action_size: u32,
+    /// `[T][N][observation_size]`, as the environment gave them.
+    pub observations: Vec<f32>,
+    /// `[T][N][action_size]`, before clipping, in units of the action range.
+    pub actions: Vec<f32>,
+    /// `[T][N]`, of the unclipped actions.
+    pub log_probs: Vec<f32>,
+    /// `[T][N]`, unscaled.
+    pub rewards: Vec<f32>,
+    /// `[T][N]`, bits [`TERMINATED`] and [`TRUNCATED`].
+    pub flags: Vec<u8>,
+    /// `[K][observation_size]`: see [`Fragment::needs_last_observation`] for which.
+    pub last_observations: Vec<f32>,
+    /// Episodes that ended within.
+    pub episodes: Vec<Episode>,
+}
+
+impl Fragment {
+    /// T × N.
+    pub fn transitions(&self) -> usize {
+        self.steps as usize * self.envs as usize
+    }
+
+    /// Whether step `t` of an environment with these flags carries its true last observation: where the episode was cut
+    /// off, and at the fragment's end unless it was terminated.
+    pub fn needs_last_observation(flags: u8, t: u32, steps: u32) -> bool {
+        flags & TRUNCATED != 0 || (t + 1 == steps && flags & TERMINATED == 0)
+    }
+
+    fn last_observation_count(&self) -> usize {
+        let envs = self.envs as usize;
+        self.flags
+            .iter()
+            .enumerate()
+            .filter(|(index, flags)| Self::needs_last_observation(**flags, (index / envs) as u32, self.steps))
+            .count()
+    }
+
+    /// Checks shapes, ranges and numbers; called before encoding and after decoding.
+    pub fn check(&self) -> Result<(), Malformed> {
+        check_ident("run", &self.run)?;
+        check_ident("actor", &self.actor)?;
+        in_range("steps", self.steps, STEPS_MAX)?;
+        in_range("envs", self.envs, ENVS_MAX)?;
+        in_range("observation_size", self.observation_size, WIDTH_MAX)?;
+        in_range("action_size", self.action_size, WIDTH_MAX)?;
+        if self.sequence == 0 {
+            return Err(Malformed::field("sequence", 0, "1 or more"));
+        }
+        let rows = self.transitions();
+        plane("observations", &self.observations, rows * self.observation_size as usize)?;
+        plane("actions", &self.actions, rows * self.action_size as usize)?;
+        plane("log_probs", &self.log_probs, rows)?;
+        plane("rewards", &self.rewards, rows)?;
+        check_flags(&self.flags, rows)?;
+        plane(
+            "last_observations",
+            &self.last_observations,
+            self.last_observation_count() * self.observation_size as usize,
+        )?;
+        if self.episodes.len() > rows {
+            return Err(Malformed::field("episodes", self.episodes.len(), format!("at most {rows}")));
+        }
+        for (index, episode) in self.episodes.iter().enumerate() {
+            let sum = episode.return_sum + episode.distance_m + episode.velocity_mean_mps;
+            if !sum.is_finite() {
+                return Err(Malformed::NotFinite { field: "episodes", index, value: format!("{episode:?}") });
+            }
+        }
+        Ok(())
+    }
+
+    /// Protobuf bytes.
+    pub fn encode(&self) -> Result<Vec<u8>, Malformed> {
+        self.check()?;
+        let message = wire::Fragment {
+            run: self.run.clone(),
+            actor: self.actor.clone(),
+            actor_incarnation: self.actor_incarnation,
+            sequence: self.sequence,
+            version: Some(self.version.into()),
+            config_hash: self.config_hash,
+            steps: self.steps,
+            envs: self.envs,
+            observation_size: self.observation_size,
+            action_size: self.action_size,
+            observations: planes::to_bytes(&self.observations),
+            actions: planes::to_bytes(&self.actions),
+            log_probs: planes::to_bytes(&self.log_probs),
+            rewards: planes::to_bytes(&self.rewards),
+            flags: Bytes::copy_from_slice(&self.flags),
+            last_observations: planes::to_bytes(&self.last_observations),
+            episodes: self.episodes.iter().map(Into::into).collect(),
+        };
+        let bytes = message.encode_to_vec();
+        check_size(bytes.len())?;
+        Ok(bytes)
+    }
+
+    /// Reads and checks protobuf bytes from a stranger.
+    pub fn decode(bytes: impl Into<Bytes>) -> Result<Self, Malformed> {
+        let bytes = bytes.into();
+        check_size(bytes.len())?;
+        let message = wire::Fragment::decode(bytes)
+            .map_err(|why| Malformed::Undecodable { what: "fragment", why: why.to_string() })?;
+        in_range("steps", message.steps, STEPS_MAX)?;
+        in_range("envs", message.envs, ENVS_MAX)?;
+        in_range("observation_size", message.observation_size, WIDTH_MAX)?;
+        in_range("action_size", message.action_size, WIDTH_MAX)?;
+        let rows = message.steps as usize * message.envs as usize;
+        let (width, action) = (message.observation_size as usize, message.action_size as usize);
+        // Whether the last observations are as many as the flags ask for is checked below, over the whole.
+        let fragment = Self {
+            version: message.version.ok_or_else(|| Malformed::field("version", "missing", "a policy version"))?.into(),
+            observations: planes::from_bytes("observations", &message.observations, rows * width)?,
+            actions: planes::from_bytes("actions", &message.actions, rows * action)?,
+            log_probs: planes::from_bytes("log_probs", &message.log_probs, rows)?,
+            rewards: planes::from_bytes("rewards", &message.rewards, rows)?,
+            last_observations: planes::from_bytes(
+                "last_observations",
+                &message.last_observations,
+                message.last_observations.len() / 4,
+            )?,
+            flags: message.flags.to_vec(),
+            episodes: message.episodes.iter().map(Episode::try_from).collect::<Result<_, _>>()?,
+            run: message.run,
+            actor: message.actor,
+            actor_incarnation: message.actor_incarnation,
+            sequence: message.sequence,
+            config_hash: message.config_hash,
+            steps: message.steps,
+            envs: message.envs,
+            observation_size: message.observation_size,
+            action_size: message.action_size,
+        };
+        fragment.check()?;
+        Ok(fragment)
+    }
+}
+
+fn check_size(bytes: usize) -> Result<(), Malformed> {
+    if bytes > FRAGMENT_BYTES_MAX {
+        return Err(Malformed::TooLarge { what: "fragment", bytes, limit: FRAGMENT_BYTES_MAX });
+    }
+    Ok(())
+}
+
+fn in_range(field: &'static str, value: u32, max: u32) -> Result<(), Malformed> {
+    if (1..=max).contains(&value) { Ok(()) } else { Err(Malformed::field(field, value, format!("1 to {max}"))) }
+}
+
+fn plane(field: &'static str, numbers: &[f32], count: usize) -> Result<(), Malformed> {
+    if numbers.len() != count {
+        return Err(Malformed::field(
+            field,
+            format!("{} numbers long", numbers.len()),
+            format!("{count} numbers, as steps, envs and widths say"),
+        ));
+    }
+    planes::all_finite(field, numbers)
+}
+
+fn check_flags(flags: &[u8], rows: usize) -> Result<(), Malformed> {
+    if flags.len() != rows {
+        return Err(Malformed::field("flags", format!("{} bytes long", flags.len()), format!("{rows} bytes")));
+    }
+    // A transition that ended both ways has no defined bootstrap.
+    match flags.iter().find(|flags| **flags > TRUNCATED) {
+        Some(bad) => Err(Malformed::field("flags", bad, "0, 1 (terminated) or 2 (truncated)")),
+        None => Ok(()),
+    }
+}
+
+impl From<&Episode> for wire::Episode {
+    fn from(episode: &Episode) -> Self {
+        let cause = match episode.cause {
+            EndCause::Fell => wire::EndCause::Fell,
+            EndCause::TimeLimit => wire::EndCause::TimeLimit,
+            EndCause::Fault => wire::EndCause::Fault,
+        };
+        Self {
+            return_sum: episode.return_sum,
+            length: episode.length,
+            distance_m: episode.distance_m,
+            velocity_mean_mps: episode.velocity_mean_mps,
+            cause: cause.into(),
+        }
+    }
+}
+
+impl TryFrom<&wire::Episode> for Episode {
+    type Error = Malformed;
+
+    fn try_from(episode: &wire::Episode) -> Result<Self, Malformed> {
+        let cause = match wire::EndCause::try_from(episode.cause) {
+            Ok(wire::EndCause::Fell) => EndCause::Fell,
+            Ok(wire::EndCause::TimeLimit) => EndCause::TimeLimit,
+            Ok(wire::EndCause::Fault) => EndCause::Fault,
+            _ => return Err(Malformed::field("episodes.cause", episode.cause, "1, 2 or 3")),
+        };
+        Ok(Self {
+            return_sum: episode.return_sum,
+            length: episode.length,
+            distance_m: episode.distance_m,
+            velocity_mean_mps: episode.velocity_mean_mps,
+            cause,
+        })
+    }
+}
+
+#[cfg(test)]
+#[path = "fragment_tests.rs"]
+mod tests;

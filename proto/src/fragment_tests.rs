@@ -1,0 +1,86 @@
+use proptest::prelude::*;
+
+use super::*;
+
+fn sample() -> Fragment {
+    Fragment {
+        run: "walk".into(),
+        actor: "a1".into(),
+        actor_incarnation: 7,
+        sequence: 3,
+        version: PolicyVersion { incarnation: 9, number: 4 },
+        config_hash: 11,
+        steps: 2,
+        envs: 3,
+        observation_size: 2,
+        action_size: 1,
+        observations: (0..12).map(|i| i as f32).collect(),
+        actions: vec![0.5; 6],
+        log_probs: vec![-1.0; 6],
+        rewards: vec![5.0; 6],
+        // Env 0 runs on, env 1 is truncated at t = 0, env 2 is terminated at t = 1.
+        flags: vec![0, TRUNCATED, 0, 0, 0, TERMINATED],
+        last_observations: vec![1.0; 3 * 2],
+        episodes: vec![Episode {
+            return_sum: 12.0,
+            length: 2,
+            distance_m: 0.1,
+            velocity_mean_mps: 3.0,
+            cause: EndCause::TimeLimit,
+        }],
+    }
+}
+
+#[test]
+fn a_fragment_survives_the_wire() {
+    let fragment = sample();
+    assert_eq!(Fragment::decode(fragment.encode().unwrap()).unwrap(), fragment);
+}
+
+#[test]
+fn last_observations_follow_the_flags() {
+    // One for the truncation, and two at the end: environments 0 and 1 run on, environment 2 was terminated.
+    assert_eq!(sample().last_observation_count(), 3);
+    let mut short = sample();
+    short.last_observations.truncate(4);
+    assert!(short.encode().unwrap_err().to_string().contains("last_observations"));
+}
+
+#[test]
+fn each_fault_is_named() {
+    let refuse = |change: fn(&mut Fragment)| {
+        let mut fragment = sample();
+        change(&mut fragment);
+        fragment.check().unwrap_err().to_string()
+    };
+    assert!(refuse(|f| f.run = "a/b".into()).contains("`run`"));
+    assert!(refuse(|f| f.steps = 0).contains("`steps` is 0"));
+    assert!(refuse(|f| f.sequence = 0).contains("`sequence`"));
+    assert!(refuse(|f| f.observations[3] = f32::NAN).contains("`observations` holds NaN at index 3"));
+    assert!(refuse(|f| f.rewards.truncate(5)).contains("`rewards` is 5 numbers long; expected 6"));
+    assert!(refuse(|f| f.flags[0] = 3).contains("`flags` is 3"));
+    assert!(refuse(|f| f.episodes[0].return_sum = f64::INFINITY).contains("`episodes`"));
+}
+
+#[test]
+fn too_large_is_refused_before_decoding() {
+    let huge = Bytes::from(vec![0xff; FRAGMENT_BYTES_MAX + 1]);
+    assert!(matches!(Fragment::decode(huge), Err(Malformed::TooLarge { .. })));
+}
+
+proptest! {
+    #[test]
+    fn noise_never_panics(bytes in prop::collection::vec(any::<u8>(), 0..400)) {
+        let _ = Fragment::decode(bytes);
+    }
+
+    #[test]
+    fn one_flipped_byte_never_panics(at in 0usize..300, with in any::<u8>()) {
+        let mut bytes = sample().encode().unwrap();
+        let at = at % bytes.len();
+        bytes[at] ^= with;
+        if let Ok(fragment) = Fragment::decode(bytes) {
+            prop_assert!(fragment.check().is_ok());
+        }
+    }
+}

@@ -1,0 +1,76 @@
+//! The objects on the JSON topics, readable from any language.
+
+use serde::{Deserialize, Serialize};
+
+use crate::Episode;
+
+/// `treadmill/{run}/metrics/{group}/{name}`, and a line of `metrics.jsonl`.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Metric {
+    /// The run.
+    pub run: String,
+    /// Group and name, as in `rollout/ep_rew_mean`.
+    pub tag: String,
+    /// Environment steps so far.
+    pub step: u64,
+    /// The scalar.
+    pub value: f64,
+    /// Seconds since 1970.
+    pub time_unix_s: f64,
+}
+
+/// `treadmill/{run}/episodes/{actor}`.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct EpisodeReport {
+    /// The run.
+    pub run: String,
+    /// Which actor.
+    pub actor: String,
+    /// Sum of unscaled rewards.
+    #[serde(rename = "return")]
+    pub return_sum: f64,
+    /// Control steps.
+    pub length: u32,
+    /// Forward distance in metres.
+    pub distance_m: f64,
+    /// Distance over time.
+    pub velocity_mean_mps: f64,
+    /// `fell`, `time_limit` or `fault`.
+    pub cause: String,
+}
+
+impl EpisodeReport {
+    /// The report of one episode.
+    pub fn new(run: &str, actor: &str, episode: &Episode) -> Self {
+        Self {
+            run: run.to_string(),
+            actor: actor.to_string(),
+            return_sum: episode.return_sum,
+            length: episode.length,
+            distance_m: episode.distance_m,
+            velocity_mean_mps: episode.velocity_mean_mps,
+            cause: episode.cause.name().to_string(),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::EndCause;
+
+    #[test]
+    fn an_episode_reads_as_documented() {
+        let episode = Episode {
+            return_sum: 1.5,
+            length: 2,
+            distance_m: 0.25,
+            velocity_mean_mps: 0.5,
+            cause: EndCause::Fell,
+        };
+        assert_eq!(
+            serde_json::to_string(&EpisodeReport::new("r", "a", &episode)).unwrap(),
+            r#"{"run":"r","actor":"a","return":1.5,"length":2,"distance_m":0.25,"velocity_mean_mps":0.5,"cause":"fell"}"#
+        );
+    }
+}

@@ -1,0 +1,83 @@
+//! What crosses a process boundary: schemas, encoding and limits. No I/O, no tensors, no async.
+//!
+//! # Layout
+//! - [`wire`]: the structures generated from `schema/*.proto`.
+//! - [`fragment`]: rollouts, checked on both sides.
+//! - [`bundle`]: the policy that the learner hands out.
+//! - [`receipt`]: the learner's answer to a fragment.
+//! - [`stats`]: what an actor tells about itself.
+//! - [`json`]: the objects on the JSON topics.
+//! - [`ident`]: names that may stand in a key.
+//! - [`limits`]: what is refused before it is decoded.
+//!
+//! Whatever arrives is hostile until checked: size first, then shape, then numbers.
+
+pub mod bundle;
+pub mod fragment;
+pub mod ident;
+pub mod json;
+pub mod limits;
+pub mod receipt;
+pub mod stats;
+
+mod planes;
+
+/// Structures generated from `schema/*.proto`.
+#[allow(missing_docs, unreachable_pub, clippy::all)]
+pub mod wire {
+    include!(concat!(env!("OUT_DIR"), "/treadmill.v1.rs"));
+}
+
+pub use bundle::{PolicyAnnouncement, PolicyBundle, PolicyVersion};
+pub use fragment::{EndCause, Episode, Fragment};
+pub use receipt::{Outcome, Receipt};
+pub use stats::ActorStats;
+
+/// Why a message was refused.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+pub enum Malformed {
+    /// Larger than its kind may be.
+    #[error("{what} has {bytes} bytes, more than the {limit} that are allowed")]
+    TooLarge {
+        /// Which message.
+        what: &'static str,
+        /// Its size.
+        bytes: usize,
+        /// The limit.
+        limit: usize,
+    },
+    /// No valid protobuf or JSON.
+    #[error("{what} cannot be decoded: {why}")]
+    Undecodable {
+        /// Which message.
+        what: &'static str,
+        /// What the decoder said.
+        why: String,
+    },
+    /// A field's value is out of range, missing or of the wrong length.
+    #[error("field `{field}` is {value}; expected {expected}")]
+    Field {
+        /// The field.
+        field: &'static str,
+        /// What was found.
+        value: String,
+        /// What is allowed.
+        expected: String,
+    },
+    /// A number that is not finite.
+    #[error("field `{field}` holds {value} at index {index}; every number must be finite")]
+    NotFinite {
+        /// The field.
+        field: &'static str,
+        /// Where.
+        index: usize,
+        /// What was found.
+        value: String,
+    },
+}
+
+impl Malformed {
+    pub(crate) fn field(field: &'static str, value: impl ToString, expected: impl Into<String>) -> Self {
+        Self::Field { field, value: value.to_string(), expected: expected.into() }
+    }
+}

@@ -1,0 +1,18 @@
+//! What is refused before anything is allocated for it.
+
+/// Largest encoded fragment: below the bus's own limit of 32 MiB per message, above any sensible configuration.
+pub const FRAGMENT_BYTES_MAX: usize = 30 << 20;
+/// Largest encoded policy bundle.
+pub const BUNDLE_BYTES_MAX: usize = 30 << 20;
+/// Largest message of any other kind: receipts, statistics, announcements, JSON.
+pub const SMALL_BYTES_MAX: usize = 64 << 10;
+/// Most control steps in one fragment.
+pub const STEPS_MAX: u32 = 4096;
+/// Most environments in one fragment.
+pub const ENVS_MAX: u32 = 65_536;
+/// Largest observation or action vector.
+pub const WIDTH_MAX: u32 = 4096;
+/// Most hidden layers, and the widest of them.
+pub const HIDDEN_LAYERS_MAX: usize = 8;
+/// Longest run or actor name.
+pub const IDENT_CHARS_MAX: usize = 64;

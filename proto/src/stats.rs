@@ -1,0 +1,45 @@
+//! What an actor tells about itself every few seconds.
+
+use prost::Message;
+
+use crate::{Malformed, bundle, ident::check_ident, wire};
+
+pub use wire::ActorStats;
+
+impl ActorStats {
+    /// Reads and checks protobuf bytes from a stranger.
+    pub fn decode_checked(bytes: &[u8]) -> Result<Self, Malformed> {
+        bundle::check_small("statistics", bytes.len())?;
+        let stats = Self::decode(bytes)
+            .map_err(|why| Malformed::Undecodable { what: "statistics", why: why.to_string() })?;
+        check_ident("actor", &stats.actor)?;
+        if !stats.env_steps_per_s.is_finite() {
+            return Err(Malformed::NotFinite {
+                field: "env_steps_per_s",
+                index: 0,
+                value: stats.env_steps_per_s.to_string(),
+            });
+        }
+        Ok(stats)
+    }
+
+    /// Protobuf bytes.
+    pub fn to_bytes(&self) -> Vec<u8> {
+        self.encode_to_vec()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn statistics_survive_and_nonsense_is_refused() {
+        let stats = ActorStats { actor: "a".into(), env_steps: 7, ..Default::default() };
+        assert_eq!(ActorStats::decode_checked(&stats.to_bytes()).unwrap(), stats);
+        let bad = ActorStats { actor: "A/B".into(), ..Default::default() };
+        assert!(ActorStats::decode_checked(&bad.to_bytes()).is_err());
+        let bad = ActorStats { env_steps_per_s: f64::NAN, ..stats };
+        assert!(ActorStats::decode_checked(&bad.to_bytes()).is_err());
+    }
+}
