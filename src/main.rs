@@ -1,1 +1,67 @@
-fn main() {}
+//! Treadmill's command line: one file per subcommand, each thin.
+//!
+//! # Layout
+//! - [`train`], [`learner`], [`actor`], [`eval`], [`bench`]: the subcommands.
+//! - [`startup`]: from flags to a run that is ready to begin.
+//! - [`supervisor`]: the actor processes of `train`.
+//! - [`signals`]: Ctrl-C, once and twice.
+//! - [`outcome`]: errors and exit codes.
+//! - [`output`]: standard output that may be closed.
+
+mod actor;
+mod bench;
+mod eval;
+mod learner;
+mod outcome;
+mod output;
+mod signals;
+mod startup;
+mod supervisor;
+mod train;
+
+use std::process::ExitCode;
+
+use clap::{Parser, Subcommand};
+
+/// Distributed reinforcement learning for humanoid robots.
+///
+/// Exit codes: 0 done, 1 failed, 2 wrong usage or configuration.
+#[derive(Parser)]
+#[command(name = "treadmill", version, max_term_width = 110)]
+struct Cli {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Subcommand)]
+enum Command {
+    /// Train: a learner in this process, and actor processes beside it.
+    Train(train::TrainArgs),
+    /// Run only the learner; actors join from other terminals or machines.
+    Learner(learner::LearnerArgs),
+    /// Run only an actor; task and settings come from the learner.
+    Actor(actor::ActorArgs),
+    /// Play deterministic episodes with a trained policy, or with one of the baselines.
+    Eval(eval::EvalArgs),
+    /// Measure speed.
+    Bench(bench::BenchArgs),
+}
+
+fn main() -> ExitCode {
+    let filter = tracing_subscriber::EnvFilter::try_from_env("TREADMILL_LOG")
+        .unwrap_or_else(|_| tracing_subscriber::EnvFilter::new("warn,zenoh=error,treadmill=warn"));
+    tracing_subscriber::fmt()
+        .with_env_filter(filter)
+        .with_writer(std::io::stderr)
+        .with_ansi(std::io::IsTerminal::is_terminal(&std::io::stderr()))
+        .with_target(false)
+        .init();
+    let done = match Cli::parse().command {
+        Command::Train(args) => train::run(args),
+        Command::Learner(args) => learner::run(args),
+        Command::Actor(args) => actor::run(args),
+        Command::Eval(args) => eval::run(args),
+        Command::Bench(args) => bench::run(args),
+    };
+    outcome::exit_code(done)
+}

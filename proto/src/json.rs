@@ -19,6 +19,17 @@ pub struct Metric {
     pub time_unix_s: f64,
 }
 
+impl Metric {
+    /// The object as it stands on the topic and, on a line of its own, in the file.
+    pub fn to_json(&self) -> Vec<u8> {
+        to_json(self)
+    }
+}
+
+fn to_json(object: &impl Serialize) -> Vec<u8> {
+    serde_json::to_vec(object).expect("strings and numbers have a JSON form")
+}
+
 /// `treadmill/{run}/episodes/{actor}`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct EpisodeReport {
@@ -51,6 +62,11 @@ impl EpisodeReport {
             velocity_mean_mps: episode.velocity_mean_mps,
             cause: episode.cause.name().to_string(),
         }
+    }
+
+    /// The object as it stands on the topic.
+    pub fn to_json(&self) -> Vec<u8> {
+        to_json(self)
     }
 }
 

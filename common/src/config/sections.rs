@@ -42,7 +42,7 @@ section! {
         /// Solver iterations per physics step.
         solver_iterations: u32 = 4, "1 to 50" => |v| (1..=50).contains(v);
         /// Whether the humanoid's own limbs can touch each other.
-        self_collision: bool = false, "true or false" => |_| true;
+        self_collision: bool = true, "true or false" => |_| true;
     }
 }
 
@@ -55,10 +55,8 @@ section! {
         actors: u32 = 0, "0 to 256" => |v| *v <= 256;
         /// Control steps of each environment in one fragment.
         fragment_steps: u32 = 128, "1 to 4096" => |v| (1..=4096).contains(v);
-        /// Unanswered fragments that an actor may have on the bus.
-        max_in_flight: u32 = 2, "1 or 2" => |v| (1..=2).contains(v);
-        /// Accepted but not yet durable fragments that an actor keeps to send again.
-        resend_window: u32 = 8, "1 to 64" => |v| (1..=64).contains(v);
+        /// Unanswered fragments that an actor may have on the bus: 1 keeps step with the learner, 2 never idles but lags.
+        max_in_flight: u32 = 1, "1 or 2" => |v| (1..=2).contains(v);
     }
 }
 

@@ -1,0 +1,189 @@
+//! One humanoid with its clock: episodes, resets, faults.
+
+use rand::{Rng, RngExt, SeedableRng};
+use rand_xoshiro::Xoshiro256PlusPlus;
+
+use crate::config::{CONTROL_STEP_S, EnvironmentConfig};
+use crate::error::ModelError;
+use crate::model::Model;
+use crate::observation;
+use crate::physics::{JointQuality, Physics};
+use crate::task::{self, Step, StepInfo, Transition};
+
+/// A humanoid that is reset, acts, is observed and rewarded.
+///
+/// The same seed and the same actions give the same observations and rewards, bit for bit, whatever the environment
+/// did before. It allocates in [`Self::reset`] only.
+pub struct Environment {
+    config: EnvironmentConfig,
+    physics: Physics,
+    nominal_position: Vec<f64>,
+    /// Buffers of the reset: positions and velocities with noise.
+    start_position: Vec<f64>,
+    start_velocity: Vec<f64>,
+    controls: Vec<f32>,
+    /// The last observation handed out, which is handed out again on a fault.
+    last_observation: Vec<f32>,
+    last_info: StepInfo,
+    episode_steps: u32,
+    faults: u64,
+}
+
+impl Environment {
+    /// Builds an environment for a model text (see [`Model::from_mjcf`]); it stands at the nominal pose,
+    /// as after a reset without noise.
+    ///
+    /// # Errors
+    /// [`ModelError`] if the model or a setting cannot be simulated.
+    pub fn new(config: &EnvironmentConfig, model_xml: &str) -> Result<Self, ModelError> {
+        let physics = Physics::new(Model::from_mjcf(model_xml)?, config)?;
+        let nominal_position = physics.model().nominal_position();
+        let mut last_observation = vec![0.0; observation::size(&physics)];
+        observation::write(&physics, &mut last_observation);
+        Ok(Self {
+            config: config.clone(),
+            start_position: nominal_position.clone(),
+            start_velocity: vec![0.0; physics.model().velocity_size()],
+            controls: vec![0.0; physics.model().motors.len()],
+            last_info: standing_info(&physics),
+            nominal_position,
+            last_observation,
+            physics,
+            episode_steps: 0,
+            faults: 0,
+        })
+    }
+
+    /// Length of an observation.
+    #[must_use]
+    pub fn observation_size(&self) -> usize {
+        self.last_observation.len()
+    }
+
+    /// Length of an action.
+    #[must_use]
+    pub fn action_size(&self) -> usize {
+        self.controls.len()
+    }
+
+    /// Duration of one step (s).
+    #[must_use]
+    pub fn control_step_s(&self) -> f64 {
+        CONTROL_STEP_S
+    }
+
+    /// Actions are clamped to ± this (units of control).
+    #[must_use]
+    pub fn action_limit(&self) -> f32 {
+        self.physics.model().control_limit as f32
+    }
+
+    /// Starts a new episode whose noise comes from `seed`, and writes its first observation.
+    ///
+    /// # Panics
+    /// If `observation` does not have length [`Self::observation_size`].
+    pub fn reset(&mut self, seed: u64, observation: &mut [f32]) {
+        let mut random = Xoshiro256PlusPlus::seed_from_u64(seed);
+        let scale = self.config.reset_noise_scale;
+        for (start, nominal) in self.start_position.iter_mut().zip(&self.nominal_position) {
+            *start = nominal + symmetric(&mut random, scale);
+        }
+        for start in &mut self.start_velocity {
+            *start = symmetric(&mut random, scale);
+        }
+        // The noisy quaternion is made a unit again where the bodies are placed.
+        self.physics.set_state(&self.start_position, &self.start_velocity);
+        self.episode_steps = 0;
+        self.last_info = standing_info(&self.physics);
+        self.observe(observation);
+    }
+
+    /// Acts for one control step and writes what is seen afterwards.
+    ///
+    /// `action` has one control per motor, in actuator order, and is clamped to ± [`Self::action_limit`].
+    /// If the action or the physics is not finite the step is a fault: terminated, reward 0, and the observation
+    /// and `info` are those of the step before. So is every further step until [`Self::reset`].
+    ///
+    /// # Panics
+    /// If `action` or `observation` has the wrong length.
+    pub fn step(&mut self, action: &[f32], observation: &mut [f32]) -> Step {
+        assert_eq!(action.len(), self.controls.len(), "action has the wrong length");
+        let limit = self.action_limit();
+        for (control, action) in self.controls.iter_mut().zip(action) {
+            *control = action.clamp(-limit, limit);
+        }
+        let before = self.physics.centre_of_mass();
+        self.episode_steps = self.episode_steps.saturating_add(1);
+        if self.physics.step_only(action).is_err() {
+            return self.fault(observation);
+        }
+        let after = self.physics.centre_of_mass();
+        let position = self.physics.position();
+        let step = task::judge(
+            &self.config,
+            &Transition {
+                centre_before_m: [before.x, before.y],
+                centre_after_m: [after.x, after.y],
+                torso_m: [position[0], position[1], position[2]],
+                controls: &self.controls,
+                squared_contact_wrenches: self.physics.squared_contact_wrenches(),
+                episode_steps: self.episode_steps,
+            },
+        );
+        self.last_info = step.info;
+        self.observe(observation);
+        step
+    }
+
+    fn observe(&mut self, observation: &mut [f32]) {
+        observation::write(&self.physics, observation);
+        self.last_observation.copy_from_slice(observation);
+    }
+
+    fn fault(&mut self, observation: &mut [f32]) -> Step {
+        self.faults += 1;
+        observation.copy_from_slice(&self.last_observation);
+        Step { reward: 0.0, terminated: true, truncated: false, fault: true, info: self.last_info }
+    }
+
+    /// How many steps ended in a fault since the environment was built.
+    #[must_use]
+    pub fn fault_count(&self) -> u64 {
+        self.faults
+    }
+
+    /// The simulated body.
+    #[must_use]
+    pub fn physics(&self) -> &Physics {
+        &self.physics
+    }
+
+    /// The simulated body, to be stepped without task and observation or set to a state of choice.
+    #[must_use]
+    pub fn physics_mut(&mut self) -> &mut Physics {
+        &mut self.physics
+    }
+
+    /// How well the joints hold after the last step.
+    #[must_use]
+    pub fn joint_quality(&self) -> JointQuality {
+        self.physics.joint_quality()
+    }
+}
+
+/// A number from [−scale, scale).
+fn symmetric(random: &mut impl Rng, scale: f64) -> f64 {
+    (2.0 * random.random::<f64>() - 1.0) * scale
+}
+
+/// What is known of an episode before its first step.
+fn standing_info(physics: &Physics) -> StepInfo {
+    let position = physics.position();
+    StepInfo {
+        x_position_m: position[0],
+        y_position_m: position[1],
+        distance_from_origin_m: position[0].hypot(position[1]),
+        torso_height_m: position[2],
+        ..StepInfo::default()
+    }
+}

@@ -1,0 +1,46 @@
+//! Why an environment could not be built.
+
+/// A model text or a setting that cannot be simulated, with what to change.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum ModelError {
+    /// The text is not readable MJCF.
+    #[error("the model text is not valid MJCF")]
+    Parse(#[source] mjcf_rs::ParseError),
+    /// The text is MJCF, but uses something this environment does not simulate.
+    #[error("model element `{element}`: {problem}")]
+    Unsupported {
+        /// Name of the body, joint, shape or motor.
+        element: String,
+        /// What is wrong with it, and what would be accepted.
+        problem: String,
+    },
+    /// A figure of the model makes no physical sense.
+    #[error("model element `{element}`: {figure} is {value}, but must be {expected}")]
+    Figure {
+        /// Name of the body, joint, shape or motor.
+        element: String,
+        /// Which figure, with its unit.
+        figure: &'static str,
+        /// The value found.
+        value: f64,
+        /// What would be accepted.
+        expected: &'static str,
+    },
+    /// A setting of the environment is out of range.
+    #[error("environment setting `{setting}` is {value}, but must be {expected}")]
+    Setting {
+        /// Field of [`crate::EnvironmentConfig`].
+        setting: &'static str,
+        /// The value found.
+        value: f64,
+        /// What would be accepted.
+        expected: &'static str,
+    },
+}
+
+impl ModelError {
+    pub(crate) fn unsupported(element: &str, problem: impl Into<String>) -> Self {
+        Self::Unsupported { element: element.to_owned(), problem: problem.into() }
+    }
+}

@@ -1,0 +1,31 @@
+//! Treadmill: the humanoid environment.
+//!
+//! A 17-joint humanoid on a floor, simulated by Rapier with the task of Gymnasium's Humanoid-v5.
+//! No Zenoh, no tokio, no Candle: evaluation, benchmarks and the Python package use this crate too.
+//!
+//! # Layout
+//! - [`environment`]: owns time. Episodes, resets, faults; the entry point.
+//! - [`task`]: reward and end of an episode, as pure functions.
+//! - [`observation`]: what the policy sees.
+//! - [`physics`]: named quantities of the simulated body; the only place in the project that names Rapier.
+//! - [`model`]: MJCF text → bodies, hinge chains, motors.
+//! - `chain`: angles and axes of a chain of hinges.
+//! - [`config`], [`error`]: what can be set, and what is refused.
+
+pub mod config;
+pub mod environment;
+pub mod error;
+pub mod model;
+pub mod observation;
+pub mod physics;
+pub mod task;
+
+mod chain;
+
+pub use config::{CONTROL_STEP_S, EnvironmentConfig};
+pub use environment::Environment;
+pub use error::ModelError;
+pub use model::{HUMANOID_XML, Model};
+pub use observation::OBSERVATION_SIZE_COMPACT;
+pub use physics::{JointQuality, Physics, PhysicsFault};
+pub use task::{Step, StepInfo};

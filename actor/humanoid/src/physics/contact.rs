@@ -1,0 +1,58 @@
+//! Contact forces on the bodies, read off Rapier after a physics step.
+
+use nalgebra::{Point3, Vector3};
+use rapier3d::prelude::*;
+
+use super::convert::from_vector;
+use super::world::World;
+
+/// Impulse of all contacts on one body: force × time (N·s) and moment × time (N·m·s), world frame.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct ContactImpulse {
+    pub(super) linear_ns: Vector3<f64>,
+    pub(super) angular_nms: Vector3<f64>,
+}
+
+/// Adds the impulses of the physics step just done, with moments about `about` (m, world).
+pub(super) fn accumulate(world: &World, about: &Point3<f64>, impulses: &mut [ContactImpulse]) {
+    let passes = world.rapier.integration_parameters.num_solver_iterations as f32;
+    for pair in world.rapier.narrow_phase.contact_pairs() {
+        if !pair.has_any_active_contact() {
+            continue;
+        }
+        let colliders = &world.rapier.colliders;
+        let (Some(first), Some(second)) = (colliders.get(pair.collider1), colliders.get(pair.collider2)) else {
+            continue;
+        };
+        let bodies = [first.user_data, second.user_data].map(|data| (data as usize).checked_sub(1));
+        for manifold in pair.solver_manifolds() {
+            let mut rubbing = None;
+            for contact in &manifold.points {
+                if contact.data.impulse == 0.0 {
+                    continue;
+                }
+                let at = first.position().transform_point(contact.local_p1);
+                push(bodies, at, manifold.data.normal * -contact.data.impulse, about, impulses);
+                // Rapier solves friction once per manifold, stores it with every contact, and keeps the last solver
+                // pass only; taking all passes to be like it is the closest reading there is. Normal impulses are
+                // exact sums.
+                rubbing = Some((at, contact.data.warmstart_tangent_world * passes));
+            }
+            if let Some((at, impulse)) = rubbing {
+                push(bodies, at, impulse, about, impulses);
+            }
+        }
+    }
+}
+
+/// Gives an impulse (N·s) at a point (m) to the first body and its opposite to the second; `None` is the floor.
+fn push(bodies: [Option<usize>; 2], at: Vector, impulse: Vector, about: &Point3<f64>, impulses: &mut [ContactImpulse]) {
+    let linear = from_vector(impulse);
+    let angular = (from_vector(at) - about.coords).cross(&linear);
+    for (body, sign) in bodies.into_iter().zip([1.0, -1.0]) {
+        if let Some(body) = body {
+            impulses[body].linear_ns += linear * sign;
+            impulses[body].angular_nms += angular * sign;
+        }
+    }
+}

@@ -1,0 +1,69 @@
+//! Any position and velocity can be set, and is read back.
+
+use proptest::prelude::*;
+use treadmill_humanoid::{EnvironmentConfig, HUMANOID_XML, Model, Physics};
+
+fn physics() -> Physics {
+    let model = Model::from_mjcf(HUMANOID_XML).expect("valid");
+    Physics::new(model, &EnvironmentConfig::default()).expect("valid")
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(200))]
+
+    #[test]
+    fn what_is_set_is_read_back(
+        place in prop::array::uniform3(-5.0..5.0f64),
+        turn in prop::array::uniform4(-1.0..1.0f64).prop_filter("a rotation", |q| q.iter().map(|x| x * x).sum::<f64>() > 0.1),
+        fractions in prop::collection::vec(0.0..1.0f64, 17),
+        velocity in prop::collection::vec(-10.0..10.0f64, 23),
+    ) {
+        let mut physics = physics();
+        let norm = turn.iter().map(|x| x * x).sum::<f64>().sqrt();
+        let mut position: Vec<f64> = place.to_vec();
+        position.extend(turn.iter().map(|x| x / norm));
+        for (hinge, fraction) in physics.model().hinges.iter().zip(&fractions) {
+            position.push(hinge.min_rad + fraction * (hinge.max_rad - hinge.min_rad));
+        }
+        physics.set_state(&position, &velocity);
+        // Rapier calculates in single precision.
+        for (index, (found, set)) in physics.position().iter().zip(&position).enumerate() {
+            prop_assert!((found - set).abs() < 1e-5, "position {index}: {found} instead of {set}");
+        }
+        for (index, (found, set)) in physics.velocity().iter().zip(&velocity).enumerate() {
+            prop_assert!((found - set).abs() < 1e-3, "velocity {index}: {found} instead of {set}");
+        }
+        let quality = physics.joint_quality();
+        prop_assert!(quality.separation_m < 1e-5);
+        prop_assert!(quality.limit_overshoot_rad < 1e-5);
+    }
+}
+
+#[test]
+fn the_root_moves_with_its_frame_and_not_with_its_centre_of_mass() {
+    let mut physics = physics();
+    let mut position = physics.model().nominal_position();
+    position[2] = 3.0;
+    let mut velocity = [0.0; 23];
+    velocity[..6].copy_from_slice(&[1.0, 0.0, 0.0, 0.0, 2.0, 0.0]);
+    physics.set_state(&position, &velocity);
+    let (torso, motion) = (&physics.model().bodies[0], &physics.body_motions()[0]);
+    // Turning forward at 2 rad/s carries a centre that lies d above the frame forward at 2d.
+    let expected = 1.0 + 2.0 * torso.centre_of_mass_m.z;
+    assert!(torso.centre_of_mass_m.z.abs() > 0.01);
+    assert!((motion.linear_mps.x - expected).abs() < 1e-6);
+}
+
+#[test]
+fn bending_the_knee_lifts_the_foot_backwards() {
+    let mut physics = physics();
+    let mut position = physics.model().nominal_position();
+    let knee = physics.model().hinges.iter().position(|hinge| hinge.name == "right_knee").expect("has a knee");
+    let shin = physics.model().bodies.iter().position(|body| body.name == "right_shin").expect("has a shin");
+    let foot = |physics: &Physics| physics.body_motions()[shin].pose * physics.model().bodies[shin].shapes[1].from_m;
+    let straight = foot(&physics);
+    position[7 + knee] = -1.5;
+    physics.set_state(&position, &[0.0; 23]);
+    let bent = foot(&physics);
+    assert!(bent.x < straight.x - 0.2 && bent.z > straight.z + 0.2, "from {straight} to {bent}");
+}

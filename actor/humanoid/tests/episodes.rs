@@ -1,0 +1,221 @@
+//! Episodes of the environment: determinism, resets, faults, limits of time.
+
+use rand::{RngExt, SeedableRng};
+use rand_xoshiro::Xoshiro256PlusPlus;
+use treadmill_humanoid::{
+    CONTROL_STEP_S, Environment, EnvironmentConfig, HUMANOID_XML, OBSERVATION_SIZE_COMPACT, Step,
+};
+
+fn environment(config: &EnvironmentConfig) -> Environment {
+    Environment::new(config, HUMANOID_XML).expect("the humanoid is valid")
+}
+
+fn random_action(random: &mut Xoshiro256PlusPlus) -> [f32; 17] {
+    std::array::from_fn(|_| random.random_range(-0.4..0.4))
+}
+
+/// Bits of all observations and rewards of an episode of random actions that goes on after falls.
+fn episode_bits(environment: &mut Environment, seed: u64, steps: u32) -> Vec<u32> {
+    let mut random = Xoshiro256PlusPlus::seed_from_u64(seed);
+    let mut observation = [0.0; OBSERVATION_SIZE_COMPACT];
+    environment.reset(seed, &mut observation);
+    let mut bits: Vec<u32> = observation.iter().map(|number| number.to_bits()).collect();
+    for _ in 0..steps {
+        let step = environment.step(&random_action(&mut random), &mut observation);
+        bits.extend(observation.iter().map(|number| number.to_bits()));
+        bits.push(step.reward.to_bits());
+    }
+    bits
+}
+
+#[test]
+fn sizes_are_those_of_the_humanoid() {
+    let environment = environment(&EnvironmentConfig::default());
+    assert_eq!(environment.observation_size(), OBSERVATION_SIZE_COMPACT);
+    assert_eq!(environment.action_size(), 17);
+    assert_eq!(environment.action_limit(), 0.4);
+    assert_eq!(environment.control_step_s(), CONTROL_STEP_S);
+}
+
+#[test]
+fn nothing_of_an_earlier_episode_reaches_a_later_one() {
+    let config = EnvironmentConfig::default();
+    let fresh = episode_bits(&mut environment(&config), 7, 200);
+    let mut used = environment(&config);
+    for (seed, steps) in [(1, 300), (2, 1), (3, 57)] {
+        episode_bits(&mut used, seed, steps);
+    }
+    used.physics_mut().poison();
+    episode_bits(&mut used, 4, 2);
+    assert_eq!(fresh, episode_bits(&mut used, 7, 200));
+    assert_ne!(fresh, episode_bits(&mut used, 8, 200));
+}
+
+#[test]
+fn resets_stay_within_the_noise_and_use_all_of_it() {
+    let mut environment = environment(&EnvironmentConfig::default());
+    let mut observation = [0.0; OBSERVATION_SIZE_COMPACT];
+    let mut largest = [0.0f32; OBSERVATION_SIZE_COMPACT];
+    for seed in 0..300 {
+        environment.reset(seed, &mut observation);
+        let mut nominal = [0.0; OBSERVATION_SIZE_COMPACT];
+        nominal[..2].copy_from_slice(&[1.4, 1.0]);
+        for (index, largest) in largest.iter_mut().enumerate() {
+            *largest = largest.max((observation[index] - nominal[index]).abs());
+        }
+        let norm: f32 = observation[1..5].iter().map(|part| part * part).sum();
+        assert!((norm - 1.0).abs() < 1e-6);
+    }
+    for (index, &largest) in largest.iter().enumerate() {
+        assert!(largest < 0.010_2, "entry {index} is off by {largest}");
+        // w of the quaternion is 1 again after normalisation.
+        assert!(index == 1 || largest > 0.009, "entry {index} never moves further than {largest}");
+    }
+}
+
+#[test]
+fn velocity_in_the_reward_is_that_of_the_centre_of_mass() {
+    let mut environment = environment(&EnvironmentConfig { reset_noise_scale: 0.0, ..EnvironmentConfig::default() });
+    let mut observation = [0.0; OBSERVATION_SIZE_COMPACT];
+    environment.reset(0, &mut observation);
+    let position = environment.physics().position().to_vec();
+    let mut velocity = [0.0; 23];
+    velocity[..2].copy_from_slice(&[2.0, -1.0]);
+    environment.physics_mut().set_state(&position, &velocity);
+    let step = environment.step(&[0.0; 17], &mut observation);
+    assert!((step.info.x_velocity_mps - 2.0).abs() < 1e-3);
+    assert!((step.info.y_velocity_mps + 1.0).abs() < 1e-3);
+    assert!((step.info.reward_forward - 2.5).abs() < 2e-3);
+    assert!((step.info.x_position_m - 0.03).abs() < 1e-3);
+    let sum = step.info.reward_survive + step.info.reward_forward + step.info.reward_ctrl + step.info.reward_contact;
+    assert!((f64::from(step.reward) - sum).abs() < 1e-6);
+}
+
+#[test]
+fn control_is_charged_after_clamping() {
+    let mut environment = environment(&EnvironmentConfig::default());
+    let mut observation = [0.0; OBSERVATION_SIZE_COMPACT];
+    environment.reset(0, &mut observation);
+    let step = environment.step(&[100.0; 17], &mut observation);
+    // 0.1 × 17 × 0.4².
+    assert!((step.info.reward_ctrl + 0.272).abs() < 1e-6);
+}
+
+#[test]
+fn a_fall_terminates_and_a_time_limit_truncates() {
+    let mut observation = [0.0; OBSERVATION_SIZE_COMPACT];
+    let mut falling = environment(&EnvironmentConfig::default());
+    falling.reset(0, &mut observation);
+    let mut steps = 0;
+    let last: Step = loop {
+        let step = falling.step(&[0.0; 17], &mut observation);
+        steps += 1;
+        if step.terminated || steps == 200 {
+            break step;
+        }
+        assert!(step.info.reward_survive == 5.0 && !step.truncated);
+    };
+    assert!(last.terminated && !last.truncated && !last.fault);
+    assert!(last.info.torso_height_m <= 1.0);
+    assert_eq!(last.info.reward_survive, 0.0);
+    assert!((5..150).contains(&steps), "fell after {steps} steps");
+
+    let mut short = environment(&EnvironmentConfig { max_episode_steps: 3, ..EnvironmentConfig::default() });
+    for _ in 0..2 {
+        short.reset(0, &mut observation);
+        let ends: Vec<bool> = (0..3).map(|_| short.step(&[0.0; 17], &mut observation).truncated).collect();
+        assert_eq!(ends, [false, false, true]);
+    }
+}
+
+#[test]
+fn a_poisoned_body_is_a_fault_with_the_last_finite_observation() {
+    let mut environment = environment(&EnvironmentConfig::default());
+    let mut observation = [0.0; OBSERVATION_SIZE_COMPACT];
+    environment.reset(5, &mut observation);
+    environment.step(&[0.1; 17], &mut observation);
+    let last = observation;
+    environment.physics_mut().poison();
+    for faults in 1..=2 {
+        observation.fill(9.0);
+        let step = environment.step(&[0.1; 17], &mut observation);
+        assert!(step.fault && step.terminated && !step.truncated);
+        assert_eq!(step.reward, 0.0);
+        assert_eq!(observation, last);
+        assert!(step.info.torso_height_m.is_finite());
+        assert_eq!(environment.fault_count(), faults);
+    }
+    environment.reset(6, &mut observation);
+    let step = environment.step(&[0.1; 17], &mut observation);
+    assert!(!step.fault && !step.terminated);
+    assert!(observation.iter().all(|number| number.is_finite()));
+}
+
+#[test]
+fn an_action_that_is_not_finite_is_a_fault() {
+    for bad in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY] {
+        let mut environment = environment(&EnvironmentConfig::default());
+        let mut observation = [0.0; OBSERVATION_SIZE_COMPACT];
+        environment.reset(5, &mut observation);
+        let mut action = [0.0; 17];
+        action[3] = bad;
+        let step = environment.step(&action, &mut observation);
+        assert!(step.fault && step.terminated, "{bad} was taken for an action");
+        assert!(observation.iter().all(|number| number.is_finite()));
+    }
+}
+
+#[test]
+#[should_panic(expected = "action has the wrong length")]
+fn an_action_of_the_wrong_length_panics() {
+    environment(&EnvironmentConfig::default()).step(&[0.0; 16], &mut [0.0; OBSERVATION_SIZE_COMPACT]);
+}
+
+#[test]
+#[should_panic(expected = "observation buffer has the wrong length")]
+fn an_observation_of_the_wrong_length_panics() {
+    environment(&EnvironmentConfig::default()).reset(0, &mut [0.0; 44]);
+}
+
+#[test]
+fn the_environment_can_move_to_another_thread() {
+    fn assert_send<T: Send>() {}
+    assert_send::<Environment>();
+}
+
+/// Value below which a fraction of the sorted samples lies.
+fn quantile(samples: &mut [f64], fraction: f64) -> f64 {
+    samples.sort_by(f64::total_cmp);
+    samples[((samples.len() - 1) as f64 * fraction) as usize]
+}
+
+#[test]
+fn joints_hold_under_maximal_random_torques() {
+    let mut environment = environment(&EnvironmentConfig {
+        terminate_when_unhealthy: false,
+        max_episode_steps: 0,
+        ..EnvironmentConfig::default()
+    });
+    let mut random = Xoshiro256PlusPlus::seed_from_u64(11);
+    let mut observation = [0.0; OBSERVATION_SIZE_COMPACT];
+    environment.reset(11, &mut observation);
+    let (mut separations, mut overshoots) = (Vec::new(), Vec::new());
+    for count in 0..12_000u64 {
+        let action: [f32; 17] = std::array::from_fn(|_| if random.random() { 0.4 } else { -0.4 });
+        let step = environment.step(&action, &mut observation);
+        assert!(!step.fault && observation.iter().all(|number| number.is_finite()));
+        let quality = environment.joint_quality();
+        separations.push(quality.separation_m);
+        overshoots.push(quality.limit_overshoot_rad);
+        // Half of the time it starts standing again, half of the time it flails on the floor.
+        if count > 6000 && step.info.torso_height_m < 1.0 {
+            environment.reset(count, &mut observation);
+        }
+    }
+    let separation_m = quantile(&mut separations, 0.999);
+    let overshoot_rad = quantile(&mut overshoots, 0.999);
+    assert!(separation_m < 0.01, "joints come apart by {separation_m} m");
+    assert!(overshoot_rad < 0.3, "hinges leave their range by {overshoot_rad} rad");
+    assert!(quantile(&mut separations, 0.5) < 0.003);
+    assert!(quantile(&mut separations, 1.0) < 0.05);
+}

@@ -1,0 +1,53 @@
+//! The policy in use: networks, statistics and version of one bundle.
+
+use treadmill_common::{
+    normaliser::Normaliser,
+    policy::{NetworkShape, Policy, from_safetensors},
+    seeds,
+};
+use treadmill_proto::{PolicyBundle, PolicyVersion};
+
+use crate::ActorError;
+
+/// What chooses actions.
+pub struct ActingPolicy {
+    /// Which policy this is.
+    pub version: PolicyVersion,
+    policy: Policy,
+    normaliser: Normaliser,
+}
+
+impl ActingPolicy {
+    /// Checks a bundle and makes it ready.
+    pub fn new(bundle: &PolicyBundle) -> Result<Self, ActorError> {
+        let refuse = |why: String| ActorError::Bundle { number: bundle.version.number, why };
+        if seeds::checksum(&[&bundle.weights]) != bundle.checksum {
+            return Err(refuse("the weights do not have the checksum that was announced".to_string()));
+        }
+        let shape = NetworkShape {
+            observation: bundle.observation_size as usize,
+            action: bundle.action_size as usize,
+            hidden: bundle.hidden.iter().map(|width| *width as usize).collect(),
+        };
+        let parameters = from_safetensors(&bundle.weights, &shape).map_err(|why| refuse(why.to_string()))?;
+        let policy = Policy::new(shape, parameters).map_err(|why| refuse(why.to_string()))?;
+        let normaliser = Normaliser {
+            mean: bundle.observation_mean.clone(),
+            inverse_std: bundle.observation_inverse_std.clone(),
+            clip: bundle.observation_clip,
+        };
+        Ok(Self { version: bundle.version, policy, normaliser })
+    }
+
+    /// Logarithms of the standard deviations, `[action]`.
+    pub fn log_std(&self) -> &[f32] {
+        self.policy.log_std()
+    }
+
+    /// Action means of raw observations, `[rows][action]`; `observations`, `[rows][observation]`, are normalised in
+    /// place.
+    pub fn means(&self, observations: &mut [f32], rows: usize, means: &mut [f32]) -> Result<(), ActorError> {
+        self.normaliser.apply(observations);
+        Ok(self.policy.means(observations, rows, means)?)
+    }
+}

@@ -1,0 +1,129 @@
+//! Fragments: T control steps of N environments under one policy.
+
+use rand_distr::{Distribution, StandardNormal};
+use treadmill_common::{policy::gaussian, seeds::Stream};
+use treadmill_proto::Fragment;
+
+use crate::{
+    ActorError,
+    acting::ActingPolicy,
+    environments::{Environments, Stepped},
+};
+
+/// What every fragment of this actor says of itself.
+#[derive(Clone, Debug)]
+pub struct Sender {
+    /// The run.
+    pub run: String,
+    /// The actor's name.
+    pub actor: String,
+    /// Which process of that name.
+    pub incarnation: u64,
+    /// Hash over configuration and model.
+    pub config_hash: u64,
+}
+
+/// Collects fragments, one after the other; episodes run on from one to the next.
+pub struct Collector {
+    environments: Environments,
+    noise: Stream,
+    steps: u32,
+    sender: Sender,
+    sequence: u64,
+    stepped: Stepped,
+    normalised: Vec<f32>,
+    means: Vec<f32>,
+    normals: Vec<f32>,
+}
+
+impl Collector {
+    /// A collector of fragments of `steps` control steps.
+    pub fn new(environments: Environments, noise: Stream, steps: u32, sender: Sender) -> Self {
+        let (envs, action) = (environments.len(), environments.action_size());
+        Self {
+            noise,
+            steps,
+            sender,
+            sequence: 0,
+            stepped: Stepped::default(),
+            normalised: Vec::new(),
+            means: vec![0.0; envs * action],
+            normals: vec![0.0; action],
+            environments,
+        }
+    }
+
+    /// Transitions of one fragment.
+    pub fn transitions(&self) -> usize {
+        self.steps as usize * self.environments.len()
+    }
+
+    /// The next fragment.
+    pub fn collect(&mut self, policy: &ActingPolicy) -> Result<Fragment, ActorError> {
+        let (envs, width, action_size) =
+            (self.environments.len(), self.environments.observation_size(), self.environments.action_size());
+        let rows = self.transitions();
+        self.sequence += 1;
+        let mut fragment = Fragment {
+            run: self.sender.run.clone(),
+            actor: self.sender.actor.clone(),
+            actor_incarnation: self.sender.incarnation,
+            sequence: self.sequence,
+            version: policy.version,
+            config_hash: self.sender.config_hash,
+            steps: self.steps,
+            envs: envs as u32,
+            observation_size: width as u32,
+            action_size: action_size as u32,
+            observations: Vec::with_capacity(rows * width),
+            actions: Vec::with_capacity(rows * action_size),
+            log_probs: Vec::with_capacity(rows),
+            rewards: Vec::with_capacity(rows),
+            flags: Vec::with_capacity(rows),
+            last_observations: Vec::new(),
+            episodes: Vec::new(),
+        };
+        for t in 0..self.steps {
+            let start = fragment.actions.len();
+            fragment.observations.extend_from_slice(self.environments.observations());
+            self.act(policy, &mut fragment)?;
+            self.environments.step(&fragment.actions[start..], &mut self.stepped);
+            fragment.rewards.extend_from_slice(&self.stepped.rewards);
+            fragment.flags.extend_from_slice(&self.stepped.flags);
+            fragment.episodes.append(&mut self.stepped.episodes);
+            self.add_last_observations(t, &mut fragment);
+        }
+        Ok(fragment)
+    }
+
+    fn act(&mut self, policy: &ActingPolicy, fragment: &mut Fragment) -> Result<(), ActorError> {
+        let (envs, action_size) = (self.environments.len(), self.environments.action_size());
+        self.normalised.clear();
+        self.normalised.extend_from_slice(self.environments.observations());
+        policy.means(&mut self.normalised, envs, &mut self.means)?;
+        for mean in self.means.chunks_exact(action_size) {
+            self.normals.fill_with(|| StandardNormal.sample(&mut self.noise));
+            let start = fragment.actions.len();
+            fragment.actions.resize(start + action_size, 0.0);
+            let action = &mut fragment.actions[start..];
+            gaussian::sample(mean, policy.log_std(), &self.normals, action);
+            fragment.log_probs.push(gaussian::log_probability(action, mean, policy.log_std()));
+        }
+        Ok(())
+    }
+
+    /// Ordered by step, then by environment; see [`Fragment::needs_last_observation`].
+    fn add_last_observations(&mut self, t: u32, fragment: &mut Fragment) {
+        let width = self.environments.observation_size();
+        let mut truncated = self.stepped.truncated_observations.chunks_exact(width);
+        for (env, flags) in self.stepped.flags.iter().enumerate() {
+            if flags & treadmill_proto::fragment::TRUNCATED != 0 {
+                let last = truncated.next().expect("one observation for each truncated environment");
+                fragment.last_observations.extend_from_slice(last);
+            } else if Fragment::needs_last_observation(*flags, t, self.steps) {
+                let now = &self.environments.observations()[env * width..][..width];
+                fragment.last_observations.extend_from_slice(now);
+            }
+        }
+    }
+}

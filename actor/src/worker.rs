@@ -1,0 +1,249 @@
+//! One actor process: joins, collects, delivers, tells about itself, and outlives the learner.
+
+use std::{
+    sync::{
+        Arc,
+        atomic::{AtomicU64, Ordering},
+        mpsc,
+    },
+    time::{Duration, Instant},
+};
+
+use bytes::Bytes;
+use tokio::sync::mpsc as tokio_mpsc;
+use treadmill_common::{
+    bus::{Bus, keys, publish_dropping, token, watch_announcements},
+    config::{Config, ConfigSource},
+    machine, seeds,
+    shutdown::Shutdown,
+};
+use treadmill_proto::{ActorStats, EndCause, Episode, Fragment, PolicyBundle, json::EpisodeReport};
+
+use crate::{
+    ActorError,
+    courier::Courier,
+    environments::{Environments, SeedSource},
+    policies::{Policies, Refreshed, join},
+    rollout::{Collector, Sender},
+    settings,
+};
+
+/// How this process was started.
+#[derive(Clone, Debug)]
+pub struct WorkerOptions {
+    /// The run to join; the only one there is if none is named.
+    pub run: Option<String>,
+    /// The actor's name.
+    pub name: String,
+    /// Its environments; what the run's configuration says if none are named.
+    pub envs: Option<u32>,
+    /// How many times this actor was started before.
+    pub restart: u64,
+    /// Where the learner is, for messages.
+    pub where_to: String,
+}
+
+/// Why one stay in a run ended.
+enum Ended {
+    Asked,
+    OtherRun,
+}
+
+/// Runs until somebody asks to stop.
+pub async fn run(bus: Bus, options: WorkerOptions, shutdown: Shutdown) -> Result<(), ActorError> {
+    loop {
+        let Some(bundle) = join(&bus, options.run.as_deref(), &options.where_to, &shutdown).await? else {
+            return Ok(());
+        };
+        tracing::info!("{} joined run `{}` at version {}", options.name, bundle.run, bundle.version.number);
+        match stay(&bus, &options, &bundle, &shutdown).await? {
+            Ended::Asked => return Ok(()),
+            Ended::OtherRun => tracing::warn!("run `{}` was started anew; joining again", bundle.run),
+        }
+    }
+}
+
+/// What the physics thread counts.
+#[derive(Default)]
+struct Progress {
+    env_steps: AtomicU64,
+    episodes: AtomicU64,
+    faults: AtomicU64,
+}
+
+/// A fragment on its way from the physics thread to the courier.
+struct Produced {
+    sequence: u64,
+    bytes: Bytes,
+    episodes: Vec<Episode>,
+}
+
+async fn stay(
+    bus: &Bus,
+    options: &WorkerOptions,
+    bundle: &PolicyBundle,
+    shutdown: &Shutdown,
+) -> Result<Ended, ActorError> {
+    let mut source = ConfigSource::default();
+    source.text(&bundle.config_toml, "the configuration of the run")?;
+    let config = source.build()?;
+    let incarnation = seeds::unique();
+    let policies = Arc::new(Policies::new(bus.clone(), bundle)?);
+    let receipt_timeout = Duration::from_millis(config.bus.receipt_timeout_ms);
+    let courier =
+        Arc::new(Courier::new(bus.clone(), &bundle.run, &options.name, receipt_timeout, policies.clone()));
+    let collector = collector(options, bundle, &config, incarnation)?;
+    let progress = Arc::new(Progress::default());
+
+    // Credit: the physics thread takes one for each fragment; the courier gives it back with the receipt.
+    let (give_credit, credit) = mpsc::channel();
+    (0..config.rollout.max_in_flight).for_each(|_| drop(give_credit.send(())));
+    let (outbox, mut produced) = tokio_mpsc::channel::<Result<Produced, ActorError>>(2);
+    let physics = std::thread::Builder::new()
+        .name("physics".to_string())
+        .spawn({
+            let (policies, progress) = (policies.clone(), progress.clone());
+            move || simulate(collector, &policies, &credit, &outbox, &progress)
+        })
+        .map_err(|why| ActorError::Physics { why: why.to_string() })?;
+
+    let _token = token(bus, &bundle.run, &options.name)?;
+    let announcements = watch_announcements(bus, &bundle.run)?;
+    let tell_episode = publish_dropping(bus, keys::episodes(&bundle.run, &options.name))?;
+    let tell_stats = publish_dropping(bus, keys::stats(&bundle.run, &options.name))?;
+    let mut stats_due = tokio::time::interval(Duration::from_millis(config.bus.stats_every_ms));
+    // Actors that joined together do not ask together.
+    let jitter = 0.8 + 0.4 * (incarnation % 1000) as f64 / 1000.0;
+    let mut poll_due = tokio::time::interval(Duration::from_secs_f64(config.bus.policy_poll_ms as f64 / 1e3 * jitter));
+    let mut deliveries = tokio::task::JoinSet::new();
+    let mut rate = Rate { since: Instant::now(), env_steps: 0 };
+    let ended = loop {
+        tokio::select! {
+            () = shutdown.wait() => break Ended::Asked,
+            next = produced.recv() => {
+                let Some(next) = next else { return Err(ActorError::Physics { why: "it ended".to_string() }) };
+                let Produced { sequence, bytes, episodes } = next?;
+                courier.counts.produced.fetch_add(1, Ordering::SeqCst);
+                let courier = courier.clone();
+                deliveries.spawn(async move { courier.deliver(sequence, bytes).await });
+                for episode in &episodes {
+                    let report = EpisodeReport::new(&bundle.run, &options.name, episode);
+                    tell_episode(report.to_json());
+                }
+            }
+            Some(delivered) = deliveries.join_next() => {
+                let refreshed = delivered.map_err(|why| ActorError::Physics { why: why.to_string() })??;
+                if refreshed == Refreshed::OtherRun { break Ended::OtherRun }
+                let _ = give_credit.send(());
+            }
+            Some(announced) = announcements.next() => {
+                if policies.refresh(Some(announced.version)).await == Refreshed::OtherRun { break Ended::OtherRun }
+            }
+            _ = poll_due.tick() => {
+                if policies.refresh(None).await == Refreshed::OtherRun { break Ended::OtherRun }
+            }
+            _ = stats_due.tick() => {
+                tell_stats(stats(options, incarnation, &policies, &courier, &progress, &mut rate).to_bytes());
+            }
+        }
+    };
+    // Without credit and outbox the physics thread ends after the fragment it is at.
+    drop((give_credit, produced));
+    deliveries.abort_all();
+    tokio::task::spawn_blocking(move || physics.join())
+        .await
+        .ok()
+        .and_then(Result::ok)
+        .ok_or_else(|| ActorError::Physics { why: "it panicked".to_string() })?;
+    Ok(ended)
+}
+
+fn collector(
+    options: &WorkerOptions,
+    bundle: &PolicyBundle,
+    config: &Config,
+    incarnation: u64,
+) -> Result<Collector, ActorError> {
+    let seeds =
+        SeedSource { run_seed: config.run.seed, actor: options.name.clone(), restart: options.restart };
+    let noise = seeds.noise();
+    let envs = options.envs.unwrap_or(config.rollout.envs) as usize;
+    let environments = Environments::new(envs, &settings::environment(&config.env), &bundle.model_xml, seeds)?;
+    let wanted = (bundle.observation_size as usize, bundle.action_size as usize);
+    let found = (environments.observation_size(), environments.action_size());
+    if wanted != found {
+        let why = format!("its observation and action sizes are {wanted:?}, the model's are {found:?}");
+        return Err(ActorError::Bundle { number: bundle.version.number, why });
+    }
+    let sender = Sender {
+        run: bundle.run.clone(),
+        actor: options.name.clone(),
+        incarnation,
+        config_hash: bundle.config_hash,
+    };
+    Ok(Collector::new(environments, noise, config.rollout.fragment_steps, sender))
+}
+
+/// The physics thread: one fragment for each credit, with the newest policy at its beginning.
+fn simulate(
+    mut collector: Collector,
+    policies: &Policies,
+    credit: &mpsc::Receiver<()>,
+    outbox: &tokio_mpsc::Sender<Result<Produced, ActorError>>,
+    progress: &Progress,
+) {
+    while credit.recv().is_ok() {
+        let produced = collector.collect(&policies.current()).and_then(|fragment| encode(fragment, progress));
+        let failed = produced.is_err();
+        if outbox.blocking_send(produced).is_err() || failed {
+            return;
+        }
+    }
+}
+
+fn encode(fragment: Fragment, progress: &Progress) -> Result<Produced, ActorError> {
+    let bytes = fragment.encode().map_err(|why| ActorError::Physics { why: why.to_string() })?;
+    progress.env_steps.fetch_add(fragment.transitions() as u64, Ordering::Relaxed);
+    progress.episodes.fetch_add(fragment.episodes.len() as u64, Ordering::Relaxed);
+    let faults = fragment.episodes.iter().filter(|episode| episode.cause == EndCause::Fault).count();
+    progress.faults.fetch_add(faults as u64, Ordering::Relaxed);
+    Ok(Produced { sequence: fragment.sequence, bytes: bytes.into(), episodes: fragment.episodes })
+}
+
+struct Rate {
+    since: Instant,
+    env_steps: u64,
+}
+
+fn stats(
+    options: &WorkerOptions,
+    incarnation: u64,
+    policies: &Policies,
+    courier: &Courier,
+    progress: &Progress,
+    rate: &mut Rate,
+) -> ActorStats {
+    let env_steps = progress.env_steps.load(Ordering::Relaxed);
+    let elapsed_s = rate.since.elapsed().as_secs_f64().max(1e-9);
+    let env_steps_per_s = (env_steps - rate.env_steps) as f64 / elapsed_s;
+    *rate = Rate { since: Instant::now(), env_steps };
+    ActorStats {
+        actor: options.name.clone(),
+        incarnation,
+        host: machine::host_name(),
+        pid: std::process::id(),
+        version: Some(policies.current().version.into()),
+        envs: options.envs.unwrap_or_default(),
+        env_steps_per_s,
+        env_steps,
+        episodes: progress.episodes.load(Ordering::Relaxed),
+        faults: progress.faults.load(Ordering::Relaxed),
+        produced: courier.counts.produced.load(Ordering::SeqCst),
+        accepted: courier.counts.accepted.load(Ordering::SeqCst),
+        dropped_by_rule: courier.counts.dropped_by_rule.load(Ordering::SeqCst),
+        in_flight: courier.counts.in_flight(),
+        resent: courier.counts.resent.load(Ordering::SeqCst),
+        awaiting_durability: courier.awaiting_durability(),
+        resident_bytes: machine::resident_bytes(),
+    }
+}

@@ -1,0 +1,46 @@
+//! The keys of the bus. Names are fixed: other tools subscribe to them.
+
+/// `treadmill/{run}/policy/version`: announcements.
+pub fn policy_version(run: &str) -> String {
+    format!("treadmill/{run}/policy/version")
+}
+
+/// `treadmill/{run}/policy/latest`: the newest policy bundle.
+pub fn policy_latest(run: &str) -> String {
+    format!("treadmill/{run}/policy/latest")
+}
+
+/// `treadmill/{run}/rollouts/{actor}`: acknowledged fragments.
+pub fn rollouts(run: &str, actor: &str) -> String {
+    format!("treadmill/{run}/rollouts/{actor}")
+}
+
+/// `treadmill/{run}/actors/{actor}`: liveliness.
+pub fn actor(run: &str, actor: &str) -> String {
+    format!("treadmill/{run}/actors/{actor}")
+}
+
+/// `treadmill/{run}/learner`: liveliness.
+pub fn learner(run: &str) -> String {
+    format!("treadmill/{run}/learner")
+}
+
+/// `treadmill/{run}/actors/{actor}/stats`.
+pub fn stats(run: &str, actor: &str) -> String {
+    format!("treadmill/{run}/actors/{actor}/stats")
+}
+
+/// `treadmill/{run}/episodes/{actor}`.
+pub fn episodes(run: &str, actor: &str) -> String {
+    format!("treadmill/{run}/episodes/{actor}")
+}
+
+/// `treadmill/{run}/metrics/{group}/{name}`.
+pub fn metric(run: &str, tag: &str) -> String {
+    format!("treadmill/{run}/metrics/{tag}")
+}
+
+/// The part of a key after its last slash.
+pub fn last_part(key: &str) -> &str {
+    key.rsplit('/').next().unwrap_or(key)
+}

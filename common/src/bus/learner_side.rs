@@ -1,0 +1,262 @@
+//! What the learner declares: the intake of rollouts, the shelf of policies, who is alive, statistics.
+
+use std::{
+    collections::{BTreeSet, HashMap},
+    sync::{
+        Arc, Mutex, RwLock,
+        atomic::{AtomicUsize, Ordering},
+        mpsc::{Receiver, RecvTimeoutError, SyncSender, TrySendError, sync_channel},
+    },
+    time::Duration,
+};
+
+use bytes::Bytes;
+use treadmill_proto::{
+    ActorStats, Outcome, PolicyAnnouncement, PolicyVersion, Receipt, ident::check_ident, limits::FRAGMENT_BYTES_MAX,
+};
+use zenoh::{
+    Wait,
+    handlers::RingChannel,
+    liveliness::LivelinessToken,
+    pubsub::{Publisher, Subscriber},
+    qos::{CongestionControl, Priority},
+    query::{Query, Queryable},
+    sample::{Sample, SampleKind},
+};
+
+use super::{Bus, BusError, keys};
+
+/// Bytes of fragments that may wait for the learner, whatever their number.
+const INTAKE_BYTES_MAX: usize = 128 << 20;
+/// Policy requests that may wait for the shelf's thread.
+const SHELF_QUEUE: usize = 4096;
+/// Statistics messages that may wait; older ones give way.
+const STATS_RING: usize = 1024;
+
+/// A fragment that waits for its receipt. Dropped without one, the sender gets no reply and sends again.
+pub struct Delivery {
+    /// Who sent it, from the key.
+    pub actor: String,
+    /// The encoded fragment.
+    pub payload: Bytes,
+    query: Query,
+    queued_bytes: Arc<AtomicUsize>,
+}
+
+impl Delivery {
+    /// Answers, which gives the sender its credit back.
+    pub fn answer(self, receipt: &Receipt) {
+        reply(&self.query, receipt);
+    }
+
+    /// Lets go of the payload once it is decoded; the answer is still owed.
+    pub fn release_payload(&mut self) {
+        self.queued_bytes.fetch_sub(self.payload.len(), Ordering::Relaxed);
+        self.payload = Bytes::new();
+    }
+}
+
+impl Drop for Delivery {
+    fn drop(&mut self) {
+        self.queued_bytes.fetch_sub(self.payload.len(), Ordering::Relaxed);
+    }
+}
+
+fn reply(query: &Query, receipt: &Receipt) {
+    if let Err(why) = query.reply(query.key_expr().clone(), receipt.encode()).wait() {
+        // The sender went away or lost its link: it will send again, and the ledger knows the fragment.
+        tracing::debug!("a receipt could not be sent: {why}");
+    }
+}
+
+/// The bounded queue of fragments on their way into the learner.
+pub struct RolloutIntake {
+    queue: Receiver<Delivery>,
+    _queryable: Queryable<()>,
+}
+
+impl RolloutIntake {
+    /// Begins to take fragments; at most `capacity` wait, the rest is told to come again.
+    pub fn open(bus: &Bus, run: &str, capacity: usize) -> Result<Self, BusError> {
+        let (sender, queue) = sync_channel(capacity);
+        let queued_bytes = Arc::new(AtomicUsize::new(0));
+        let queryable = bus
+            .session
+            .declare_queryable(keys::rollouts(run, "*"))
+            .callback(move |query| take(query, &sender, &queued_bytes))
+            .wait()
+            .map_err(BusError::flow("taking rollouts"))?;
+        Ok(Self { queue, _queryable: queryable })
+    }
+
+    /// The next fragment, if one comes within `patience`.
+    pub fn next(&self, patience: Duration) -> Option<Delivery> {
+        match self.queue.recv_timeout(patience) {
+            Ok(delivery) => Some(delivery),
+            Err(RecvTimeoutError::Timeout | RecvTimeoutError::Disconnected) => None,
+        }
+    }
+}
+
+/// Runs in the bus's receiving thread: checks the header, hands over, returns.
+fn take(query: Query, sender: &SyncSender<Delivery>, queued_bytes: &Arc<AtomicUsize>) {
+    let refuse = |outcome, reason: String| {
+        reply(&query, &Receipt { outcome, reason, version: PolicyVersion::default(), durable_through: 0 });
+    };
+    let actor = keys::last_part(query.key_expr().as_str()).to_string();
+    if let Err(why) = check_ident("actor", &actor) {
+        return refuse(Outcome::Malformed, why.to_string());
+    }
+    let size = query.payload().map_or(0, |payload| payload.len());
+    if size == 0 || size > FRAGMENT_BYTES_MAX {
+        return refuse(
+            Outcome::Malformed,
+            format!("the payload has {size} bytes; a fragment has 1 to {FRAGMENT_BYTES_MAX}"),
+        );
+    }
+    if queued_bytes.fetch_add(size, Ordering::Relaxed) + size > INTAKE_BYTES_MAX {
+        queued_bytes.fetch_sub(size, Ordering::Relaxed);
+        return refuse(Outcome::Busy, format!("{INTAKE_BYTES_MAX} bytes of fragments wait already"));
+    }
+    let payload = query.payload().map_or_else(Bytes::new, |payload| Bytes::from(payload.to_bytes().into_owned()));
+    let delivery = Delivery { actor, payload, query, queued_bytes: queued_bytes.clone() };
+    if let Err(TrySendError::Full(delivery) | TrySendError::Disconnected(delivery)) = sender.try_send(delivery) {
+        delivery.answer(&Receipt {
+            outcome: Outcome::Busy,
+            reason: "the intake is full".to_string(),
+            version: PolicyVersion::default(),
+            durable_through: 0,
+        });
+    }
+}
+
+/// Serves the newest policy bundle and announces it.
+pub struct PolicyShelf {
+    current: Arc<RwLock<Bytes>>,
+    announcer: Publisher<'static>,
+    _queryable: Queryable<()>,
+}
+
+impl PolicyShelf {
+    /// Opens the shelf with its first bundle.
+    pub fn open(bus: &Bus, run: &str, bundle: Bytes) -> Result<Self, BusError> {
+        let current = Arc::new(RwLock::new(bundle));
+        let (sender, requests) = sync_channel::<Query>(SHELF_QUEUE);
+        let key = keys::policy_latest(run);
+        std::thread::Builder::new()
+            .name("policy-shelf".to_string())
+            .spawn({
+                let (current, key) = (current.clone(), key.clone());
+                move || {
+                    for query in requests {
+                        let bundle = current.read().expect("no holder of this lock panics").clone();
+                        // The answer names the run also where the question left it open.
+                        let answer = query.reply(key.clone(), bundle);
+                        if let Err(why) = answer.wait() {
+                            tracing::debug!("a policy bundle could not be sent: {why}");
+                        }
+                    }
+                }
+            })
+            .map_err(|why| BusError::Flow { what: "starting the policy shelf".to_string(), why: why.to_string() })?;
+        let queryable = bus
+            .session
+            .declare_queryable(key)
+            // A request that finds the queue full gets no reply, and its actor asks again.
+            .callback(move |query| drop(sender.try_send(query)))
+            .wait()
+            .map_err(BusError::flow("serving policies"))?;
+        let announcer = bus
+            .session
+            .declare_publisher(keys::policy_version(run))
+            .congestion_control(CongestionControl::Drop)
+            .priority(Priority::DataHigh)
+            .wait()
+            .map_err(BusError::flow("declaring the announcement"))?;
+        Ok(Self { current, announcer, _queryable: queryable })
+    }
+
+    /// Puts a new bundle on the shelf, then tells everybody.
+    pub fn publish(&self, bundle: Bytes, announcement: &PolicyAnnouncement) {
+        *self.current.write().expect("no holder of this lock panics") = bundle;
+        if let Err(why) = self.announcer.put(announcement.encode()).wait() {
+            // Actors also hear of it from receipts, and look by themselves now and then.
+            tracing::debug!("a policy announcement could not be sent: {why}");
+        }
+    }
+}
+
+/// Who is alive, by liveliness token.
+pub struct Alive {
+    actors: Arc<Mutex<BTreeSet<String>>>,
+    _subscriber: Subscriber<()>,
+    _token: LivelinessToken,
+}
+
+impl Alive {
+    /// Shows the learner's own token and begins to watch those of actors.
+    pub fn watch(bus: &Bus, run: &str) -> Result<Self, BusError> {
+        let actors = Arc::new(Mutex::new(BTreeSet::new()));
+        let subscriber = bus
+            .session
+            .liveliness()
+            .declare_subscriber(keys::actor(run, "*"))
+            .history(true)
+            .callback({
+                let actors = actors.clone();
+                move |sample: Sample| {
+                    let actor = keys::last_part(sample.key_expr().as_str()).to_string();
+                    let mut actors = actors.lock().expect("no holder of this lock panics");
+                    match sample.kind() {
+                        SampleKind::Put => actors.insert(actor),
+                        SampleKind::Delete => actors.remove(&actor),
+                    };
+                }
+            })
+            .wait()
+            .map_err(BusError::flow("watching actors"))?;
+        let token = bus
+            .session
+            .liveliness()
+            .declare_token(keys::learner(run))
+            .wait()
+            .map_err(BusError::flow("declaring the learner's token"))?;
+        Ok(Self { actors, _subscriber: subscriber, _token: token })
+    }
+
+    /// Names of the actors that are alive.
+    pub fn actors(&self) -> BTreeSet<String> {
+        self.actors.lock().expect("no holder of this lock panics").clone()
+    }
+}
+
+/// The newest statistics of each actor.
+pub struct StatsFeed {
+    ring: Subscriber<zenoh::handlers::RingChannelHandler<Sample>>,
+    newest: HashMap<String, ActorStats>,
+}
+
+impl StatsFeed {
+    /// Begins to listen.
+    pub fn open(bus: &Bus, run: &str) -> Result<Self, BusError> {
+        let ring = bus
+            .session
+            .declare_subscriber(keys::stats(run, "*"))
+            .with(RingChannel::new(STATS_RING))
+            .wait()
+            .map_err(BusError::flow("listening to statistics"))?;
+        Ok(Self { ring, newest: HashMap::new() })
+    }
+
+    /// Takes what came and forgets who is gone.
+    pub fn newest(&mut self, alive: &BTreeSet<String>) -> &HashMap<String, ActorStats> {
+        while let Ok(Some(sample)) = self.ring.try_recv() {
+            match ActorStats::decode_checked(&sample.payload().to_bytes()) {
+                Ok(stats) => drop(self.newest.insert(stats.actor.clone(), stats)),
+                Err(why) => tracing::debug!("statistics refused: {why}"),
+            }
+        }
+        self.newest.retain(|actor, _| alive.contains(actor));
+        &self.newest
+    }
+}

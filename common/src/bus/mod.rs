@@ -1,0 +1,56 @@
+//! Sessions, keys and flows of the bus; the only place that names Zenoh.
+//!
+//! Rollouts and policies are queries, because a publication succeeds also when it goes nowhere. Announcements,
+//! statistics and metrics are publications that may be dropped. No callback blocks: each hands over to a bounded queue.
+
+mod actor_side;
+pub mod endpoint;
+pub mod keys;
+mod learner_side;
+mod session;
+
+pub use actor_side::{Announcements, fetch_policy, publish_dropping, submit, token, watch_announcements};
+pub use learner_side::{Alive, Delivery, PolicyShelf, RolloutIntake, StatsFeed};
+pub use session::{Bus, BusOptions};
+
+/// Why the bus cannot be used.
+#[derive(Debug, thiserror::Error)]
+pub enum BusError {
+    /// An endpoint is not acceptable.
+    #[error("endpoint `{endpoint}`: {why}")]
+    Endpoint {
+        /// As given.
+        endpoint: String,
+        /// What is wrong and what to do.
+        why: String,
+    },
+    /// A setting was refused.
+    #[error("{what}: {why}")]
+    Config {
+        /// Which setting.
+        what: String,
+        /// What the bus said.
+        why: String,
+    },
+    /// The session could not be opened.
+    #[error("the bus cannot be opened: {why}")]
+    Open {
+        /// What the bus said.
+        why: String,
+    },
+    /// A declaration, query or publication failed.
+    #[error("{what} failed on the bus: {why}")]
+    Flow {
+        /// What was tried.
+        what: String,
+        /// What the bus said.
+        why: String,
+    },
+}
+
+impl BusError {
+    fn flow(what: impl Into<String>) -> impl FnOnce(zenoh::Error) -> Self {
+        let what = what.into();
+        move |why| Self::Flow { what, why: why.to_string() }
+    }
+}

@@ -1,0 +1,133 @@
+//! Opening and closing a session: the one place that builds the bus's configuration.
+
+use std::{
+    path::{Path, PathBuf},
+    time::Duration,
+};
+
+use serde_json::json;
+use zenoh::{Config, Session, Wait};
+
+use super::{BusError, endpoint};
+use crate::config::BusConfig;
+
+/// Largest message that is reassembled: above every limit of our own formats.
+const MESSAGE_BYTES_MAX: usize = 32 << 20;
+/// Closing can hang on a dead link: after this the process goes on without it.
+const CLOSE_TIMEOUT: Duration = Duration::from_secs(2);
+
+/// How to reach the bus.
+#[derive(Clone, Debug, Default)]
+pub struct BusOptions {
+    /// Endpoints to listen on; the learner's are a router's.
+    pub listen: Vec<String>,
+    /// Endpoints to dial.
+    pub connect: Vec<String>,
+    /// Whether plain tcp may leave this machine.
+    pub insecure: bool,
+    /// The user's own configuration, under which ours is laid.
+    pub zenoh_config: Option<PathBuf>,
+}
+
+/// A session on the bus.
+#[derive(Clone, Debug)]
+pub struct Bus {
+    pub(super) session: Session,
+}
+
+impl Bus {
+    /// Opens the learner's session: a router that only listens. Port 0 is replaced by a free one; the endpoints that
+    /// were really opened are returned.
+    pub fn open_learner(options: &BusOptions, config: &BusConfig) -> Result<(Self, Vec<String>), BusError> {
+        let mut listen = Vec::new();
+        for given in &options.listen {
+            endpoint::check(given, options.insecure)?;
+            let endpoint = endpoint::with_port(given)?;
+            endpoint::check_free(&endpoint)?;
+            listen.push(endpoint);
+        }
+        options.connect.iter().try_for_each(|given| endpoint::check(given, options.insecure))?;
+        let mut settings = base(options.zenoh_config.as_deref(), config)?;
+        insert(&mut settings, "mode", json!("router"))?;
+        insert(&mut settings, "listen/endpoints", json!(listen))?;
+        if !options.connect.is_empty() {
+            insert(&mut settings, "connect/endpoints", json!(options.connect))?;
+        }
+        Ok((Self::open(settings)?, listen))
+    }
+
+    /// Opens an actor's or observer's session: a client that dials, and keeps dialling until it is let in.
+    pub fn open_client(options: &BusOptions, config: &BusConfig) -> Result<Self, BusError> {
+        options.connect.iter().try_for_each(|given| endpoint::check(given, options.insecure))?;
+        let mut settings = base(options.zenoh_config.as_deref(), config)?;
+        insert(&mut settings, "mode", json!("client"))?;
+        insert(&mut settings, "connect/endpoints", json!(options.connect))?;
+        insert(&mut settings, "connect/timeout_ms", json!(-1))?;
+        insert(&mut settings, "connect/exit_on_failure", json!(false))?;
+        insert(
+            &mut settings,
+            "connect/retry",
+            json!({"period_init_ms": 200, "period_max_ms": 2000, "period_increase_factor": 2}),
+        )?;
+        Self::open(settings)
+    }
+
+    fn open(settings: Config) -> Result<Self, BusError> {
+        let session = zenoh::open(settings).wait().map_err(|why| BusError::Open { why: why.to_string() })?;
+        Ok(Self { session })
+    }
+
+    /// Closes the session; a close that hangs is left behind.
+    pub fn close(&self) {
+        let session = self.session.clone();
+        let (done, closed) = std::sync::mpsc::channel();
+        std::thread::spawn(move || {
+            let _ = session.close().wait();
+            let _ = done.send(());
+        });
+        if closed.recv_timeout(CLOSE_TIMEOUT).is_err() {
+            tracing::debug!("the bus session did not close within {CLOSE_TIMEOUT:?}");
+        }
+    }
+}
+
+fn base(own: Option<&Path>, config: &BusConfig) -> Result<Config, BusError> {
+    let mut settings = match own {
+        Some(path) => Config::from_file(path).map_err(|why| BusError::Config {
+            what: format!("--zenoh-config {}", path.display()),
+            why: why.to_string(),
+        })?,
+        None => Config::default(),
+    };
+    let ours = [
+        ("scouting/multicast/enabled", json!(false)),
+        ("scouting/gossip/enabled", json!(false)),
+        ("adminspace/enabled", json!(true)),
+        ("transport/unicast/max_sessions", json!(4096)),
+        ("transport/unicast/accept_pending", json!(1024)),
+        ("transport/unicast/accept_timeout", json!(5000)),
+        ("transport/unicast/open_timeout", json!(5000)),
+        ("transport/link/tx/lease", json!(config.lease_ms)),
+        ("transport/link/tx/keep_alive", json!(4)),
+        (
+            "transport/link/tx/queue/size",
+            json!({"control": 2, "real_time": 2, "interactive_high": 4, "interactive_low": 2,
+                   "data_high": 4, "data": 16, "data_low": 2, "background": 2}),
+        ),
+        // A learner that is busy for a moment must not have its links cut.
+        ("transport/link/tx/queue/congestion_control/block/wait_before_close", json!(10_000_000)),
+        ("transport/link/rx/buffer_size", json!(1_048_576)),
+        ("transport/link/rx/max_message_size", json!(MESSAGE_BYTES_MAX)),
+        ("transport/shared_memory/enabled", json!(false)),
+    ];
+    for (key, value) in ours {
+        insert(&mut settings, key, value)?;
+    }
+    Ok(settings)
+}
+
+fn insert(settings: &mut Config, key: &str, value: serde_json::Value) -> Result<(), BusError> {
+    settings
+        .insert_json5(key, &value.to_string())
+        .map_err(|why| BusError::Config { what: format!("bus setting {key}"), why: why.to_string() })
+}

@@ -1,0 +1,50 @@
+//! What hardware this is, for benchmark sheets and the fleet's overview.
+
+/// The CPU's name as the system tells it.
+pub fn cpu_name() -> String {
+    let named = std::fs::read_to_string("/proc/cpuinfo").ok().and_then(|text| {
+        text.lines()
+            .find(|line| line.starts_with("model name") || line.starts_with("Model"))
+            .and_then(|line| line.split_once(':'))
+            .map(|(_, name)| name.trim().to_string())
+    });
+    named.unwrap_or_else(|| format!("{} ({})", std::env::consts::ARCH, std::env::consts::OS))
+}
+
+/// Cores that this process may use.
+pub fn cores() -> usize {
+    std::thread::available_parallelism().map_or(1, |cores| cores.get())
+}
+
+/// The host's name, as far as it can be had.
+pub fn host_name() -> String {
+    std::fs::read_to_string("/proc/sys/kernel/hostname")
+        .ok()
+        .or_else(|| std::env::var("HOSTNAME").ok())
+        .map(|name| name.trim().to_string())
+        .filter(|name| !name.is_empty())
+        .unwrap_or_else(|| "unknown".to_string())
+}
+
+/// Memory of this process that is in RAM, in bytes; zero where the system does not tell.
+pub fn resident_bytes() -> u64 {
+    std::fs::read_to_string("/proc/self/statm")
+        .ok()
+        .and_then(|text| text.split_whitespace().nth(1).and_then(|pages| pages.parse::<u64>().ok()))
+        .map_or(0, |pages| pages * 4096)
+}
+
+/// Seconds since 1970, for what people read and never for the mathematics.
+pub fn time_unix_s() -> f64 {
+    std::time::SystemTime::now().duration_since(std::time::UNIX_EPOCH).map_or(0.0, |since| since.as_secs_f64())
+}
+
+#[cfg(test)]
+mod tests {
+    #[test]
+    fn the_machine_has_a_name_and_a_core() {
+        assert!(!super::cpu_name().is_empty());
+        assert!(super::cores() >= 1);
+        assert!(!super::host_name().contains('\n'));
+    }
+}

@@ -1,0 +1,272 @@
+//! Running mean and variance of numbers, and the normalisation made from them.
+//!
+//! The statistics used for a rollout are the ones that travel with that version's weights: [`RunningMoments`] is the
+//! learner's running state, [`Normaliser`] the fixed function that it sends out with the policy.
+
+use serde::{Deserialize, Serialize};
+
+/// Added to a variance before its root is taken, so that a column that never changes is not divided by zero.
+pub const VARIANCE_EPSILON: f64 = 1e-5;
+
+/// Count, mean and sum of squared deviations of each column.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct RunningMoments {
+    /// Rows seen.
+    pub count: f64,
+    /// Mean of each column.
+    pub mean: Vec<f64>,
+    /// Sum over rows of the squared deviation from the mean, for each column.
+    pub m2: Vec<f64>,
+}
+
+impl RunningMoments {
+    /// Moments of no rows of `width` columns.
+    pub fn new(width: usize) -> Self {
+        Self { count: 0.0, mean: vec![0.0; width], m2: vec![0.0; width] }
+    }
+
+    /// Adds rows, `[n, width]`. The rows must be finite: one number that is not would stay in the moments for ever.
+    ///
+    /// # Panics
+    /// If `width` is not that of the moments, or `rows` does not hold whole rows.
+    pub fn update(&mut self, rows: &[f32], width: usize) {
+        assert_eq!(width, self.mean.len(), "the moments have another width");
+        if rows.is_empty() {
+            return;
+        }
+        assert!(rows.len().is_multiple_of(width), "{} numbers are no whole rows of {width}", rows.len());
+        // Two passes: the textbook one-pass sum of squares loses all digits where the mean is large.
+        let count = (rows.len() / width) as f64;
+        let mut batch = Self { count, ..Self::new(width) };
+        for row in rows.chunks_exact(width) {
+            batch.mean.iter_mut().zip(row).for_each(|(sum, x)| *sum += f64::from(*x));
+        }
+        batch.mean.iter_mut().for_each(|sum| *sum /= count);
+        for row in rows.chunks_exact(width) {
+            for ((m2, mean), x) in batch.m2.iter_mut().zip(&batch.mean).zip(row) {
+                let deviation = f64::from(*x) - mean;
+                *m2 += deviation * deviation;
+            }
+        }
+        self.merge(&batch);
+    }
+
+    /// Adds the rows that `other` has seen: Chan, Golub & LeVeque 1979, "Updating formulae and a pairwise algorithm
+    /// for computing sample variances", equation 2.1.
+    ///
+    /// # Panics
+    /// If the widths differ.
+    pub fn merge(&mut self, other: &Self) {
+        assert_eq!(self.mean.len(), other.mean.len(), "the moments have another width");
+        let total = self.count + other.count;
+        if total == 0.0 {
+            return;
+        }
+        let share = other.count / total;
+        for i in 0..self.mean.len() {
+            let delta = other.mean[i] - self.mean[i];
+            self.mean[i] += delta * share;
+            self.m2[i] += other.m2[i] + delta * delta * self.count * share;
+        }
+        self.count = total;
+    }
+
+    /// The population variance of each column; 1 before any row was seen.
+    pub fn variance(&self) -> Vec<f64> {
+        let divide = |m2: &f64| if self.count > 0.0 { m2 / self.count } else { 1.0 };
+        self.m2.iter().map(divide).collect()
+    }
+}
+
+/// `(x − mean) / √(variance + ε)`, clipped; ε is [`VARIANCE_EPSILON`].
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Normaliser {
+    /// Mean of each column.
+    pub mean: Vec<f32>,
+    /// `1 / √(variance + ε)` of each column.
+    pub inverse_std: Vec<f32>,
+    /// Results are kept within plus and minus this.
+    pub clip: f32,
+}
+
+impl Normaliser {
+    /// The normalisation of the rows seen so far; before any, it only clips.
+    pub fn from_moments(moments: &RunningMoments, clip: f32) -> Self {
+        if moments.count == 0.0 {
+            return Self::identity(moments.mean.len(), clip);
+        }
+        let inverse = |variance: f64| (1.0 / (variance + VARIANCE_EPSILON).sqrt()) as f32;
+        Self {
+            mean: moments.mean.iter().map(|m| *m as f32).collect(),
+            inverse_std: moments.variance().into_iter().map(inverse).collect(),
+            clip,
+        }
+    }
+
+    /// Leaves rows of `width` columns as they are, except for the clipping.
+    pub fn identity(width: usize, clip: f32) -> Self {
+        Self { mean: vec![0.0; width], inverse_std: vec![1.0; width], clip }
+    }
+
+    /// Columns of a row.
+    pub fn width(&self) -> usize {
+        self.mean.len()
+    }
+
+    /// Whether these are usable numbers for rows of `width` columns; to be asked of what came from outside.
+    pub fn is_valid(&self, width: usize) -> bool {
+        self.mean.len() == width
+            && self.inverse_std.len() == width
+            && self.mean.iter().all(|m| m.is_finite())
+            && self.inverse_std.iter().all(|s| s.is_finite() && *s > 0.0)
+            && self.clip.is_finite()
+            && self.clip > 0.0
+    }
+
+    /// Normalises rows, `[n, width]`, in place; what is not a number stays so.
+    ///
+    /// # Panics
+    /// If `rows` does not hold whole rows.
+    pub fn apply(&self, rows: &mut [f32]) {
+        assert!(rows.is_empty() || rows.len().is_multiple_of(self.width()), "no whole rows of {}", self.width());
+        for row in rows.chunks_exact_mut(self.width().max(1)) {
+            for ((x, mean), inverse_std) in row.iter_mut().zip(&self.mean).zip(&self.inverse_std) {
+                *x = ((*x - mean) * inverse_std).clamp(-self.clip, self.clip);
+            }
+        }
+    }
+
+    /// Writes the normalised `rows` to `target`, whose former content and length do not matter.
+    ///
+    /// # Panics
+    /// If `rows` does not hold whole rows.
+    pub fn apply_into(&self, rows: &[f32], target: &mut Vec<f32>) {
+        target.clear();
+        target.extend_from_slice(rows);
+        self.apply(target);
+    }
+}
+
+/// The normalisation of one quantity in both directions, for value targets: the critic learns normalised returns.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ScalarNormaliser {
+    /// Mean of the quantity.
+    pub mean: f32,
+    /// `√(variance + ε)` of the quantity.
+    pub std: f32,
+}
+
+impl ScalarNormaliser {
+    /// The normalisation of the numbers seen so far; before any, it is the identity.
+    ///
+    /// # Panics
+    /// If the moments are not those of one column.
+    pub fn from_moments(moments: &RunningMoments) -> Self {
+        assert_eq!(moments.mean.len(), 1, "moments of one column");
+        if moments.count == 0.0 {
+            return Self { mean: 0.0, std: 1.0 };
+        }
+        Self { mean: moments.mean[0] as f32, std: (moments.variance()[0] + VARIANCE_EPSILON).sqrt() as f32 }
+    }
+
+    /// In units of the quantity's standard deviation, in place.
+    pub fn normalise(&self, numbers: &mut [f32]) {
+        numbers.iter_mut().for_each(|x| *x = (*x - self.mean) / self.std);
+    }
+
+    /// Back in the quantity's own units, in place.
+    pub fn denormalise(&self, numbers: &mut [f32]) {
+        numbers.iter_mut().for_each(|x| *x = *x * self.std + self.mean);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    fn close(a: f64, b: f64) {
+        assert!((a - b).abs() < 1e-9 * (1.0 + b.abs()), "{a} is not {b}");
+    }
+
+    #[test]
+    fn moments_are_those_computed_by_hand() {
+        let mut moments = RunningMoments::new(2);
+        moments.update(&[1.0, 10.0, 2.0, 10.0], 2);
+        moments.update(&[6.0, 40.0], 2);
+        assert_eq!(moments.count, 3.0);
+        close(moments.mean[0], 3.0);
+        close(moments.mean[1], 20.0);
+        close(moments.variance()[0], 14.0 / 3.0);
+        close(moments.variance()[1], 200.0);
+    }
+
+    #[test]
+    fn a_large_mean_does_not_swallow_the_variance() {
+        let mut moments = RunningMoments::new(1);
+        for _ in 0..100 {
+            moments.update(&[16_000_000.0, 16_000_001.0], 1);
+        }
+        close(moments.variance()[0], 0.25);
+    }
+
+    #[test]
+    fn normalised_rows_are_those_computed_by_hand() {
+        let moments = RunningMoments { count: 2.0, mean: vec![1.0, -1.0], m2: vec![8.0, 0.0] };
+        let normaliser = Normaliser::from_moments(&moments, 10.0);
+        let mut rows = Vec::new();
+        normaliser.apply_into(&[3.0, -1.0, 101.0, 1.0, f32::NAN, -2.0], &mut rows);
+        assert!((rows[0] - 1.0).abs() < 1e-5);
+        assert_eq!(rows[1..4], [0.0, 10.0, 10.0]);
+        assert!(rows[4].is_nan());
+        assert_eq!(rows[5], -10.0);
+    }
+
+    #[test]
+    fn before_any_data_normalisation_only_clips() {
+        let mut rows = [0.5, -3.0, 11.0, 7.0];
+        Normaliser::from_moments(&RunningMoments::new(2), 10.0).apply(&mut rows);
+        assert_eq!(rows, [0.5, -3.0, 10.0, 7.0]);
+        let scalar = ScalarNormaliser::from_moments(&RunningMoments::new(1));
+        assert_eq!(scalar, ScalarNormaliser { mean: 0.0, std: 1.0 });
+    }
+
+    #[test]
+    fn a_scalar_goes_there_and_back() {
+        let scalar = ScalarNormaliser::from_moments(&RunningMoments { count: 4.0, mean: vec![5.0], m2: vec![16.0] });
+        let mut numbers = [7.0, 5.0];
+        scalar.normalise(&mut numbers);
+        assert!((numbers[0] - 1.0).abs() < 1e-5 && numbers[1] == 0.0);
+        scalar.denormalise(&mut numbers);
+        assert!((numbers[0] - 7.0).abs() < 1e-5 && numbers[1] == 5.0);
+    }
+
+    #[test]
+    fn numbers_from_outside_are_judged() {
+        let good = Normaliser::identity(3, 10.0);
+        assert!(good.is_valid(3));
+        assert!(!good.is_valid(4));
+        assert!(!Normaliser { inverse_std: vec![1.0, 0.0, 1.0], ..good.clone() }.is_valid(3));
+        assert!(!Normaliser { mean: vec![f32::NAN, 0.0, 0.0], ..good.clone() }.is_valid(3));
+        assert!(!Normaliser { clip: -1.0, ..good }.is_valid(3));
+    }
+
+    proptest! {
+        #[test]
+        fn merged_parts_equal_the_whole(rows in prop::collection::vec(-100.0_f32..100.0, 0..60), cut in 0_usize..20) {
+            let rows = &rows[..rows.len() / 3 * 3];
+            let cut = (cut * 3).min(rows.len());
+            let mut whole = RunningMoments::new(3);
+            whole.update(rows, 3);
+            let (mut left, mut right) = (RunningMoments::new(3), RunningMoments::new(3));
+            left.update(&rows[..cut], 3);
+            right.update(&rows[cut..], 3);
+            left.merge(&right);
+            prop_assert_eq!(left.count, whole.count);
+            for i in 0..3 {
+                prop_assert!((left.mean[i] - whole.mean[i]).abs() < 1e-9);
+                prop_assert!((left.m2[i] - whole.m2[i]).abs() < 1e-6);
+            }
+        }
+    }
+}

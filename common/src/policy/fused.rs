@@ -1,0 +1,288 @@
+//! Several networks over the same observations as one Candle operation with its own gradient.
+//!
+//! Candle's graph then has one node where plain operations would make thirty, its element-wise loops are the
+//! vectorised ones of `elementwise`, and all memory is reused. The operation has no GPU version; `plain` has.
+//!
+//! **Results do not depend on the number of threads.** Rows are cut into chunks of [`CHUNK_ROWS`]. Chunk `c` adds its
+//! gradient to lane `c mod LANES`, each lane takes its chunks in order, and lanes are summed in order.
+
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+
+use candle_core::{CpuStorage, CustomOp2, Layout, Result, Shape, Storage, Tensor, bail};
+use rayon::ThreadPool;
+use rayon::prelude::*;
+
+use super::NetworkShape;
+use super::kernel::{Mlp, Scratch};
+
+/// Rows that are processed together: activations of one layer then stay in the second-level cache.
+const CHUNK_ROWS: usize = 256;
+/// Partial gradients; bounds the memory, and the parallelism to this times the number of networks.
+const LANES: usize = 8;
+/// Sets of buffers that are kept for reuse.
+const SPARE_BUFFERS: usize = 2;
+
+/// Networks that share one flat parameter vector and one input, ready to be applied.
+///
+/// They run on the threads of a pool, or on the calling thread where there is none or it has a single thread.
+#[derive(Clone, Debug)]
+pub struct FusedNetworks {
+    inner: Arc<Inner>,
+}
+
+#[derive(Debug)]
+struct Inner {
+    networks: Vec<Mlp>,
+    observation: usize,
+    parameter_count: usize,
+    pool: Option<Arc<ThreadPool>>,
+    spare: Mutex<Vec<Vec<Buffers>>>,
+}
+
+/// What one network keeps from the forward to the backward pass, and its memory for the latter.
+#[derive(Debug, Default)]
+struct Buffers {
+    activations: Vec<f32>,
+    output: Vec<f32>,
+    lanes: Vec<Lane>,
+}
+
+/// One partial gradient and the memory to compute it.
+#[derive(Debug, Default)]
+struct Lane {
+    gradient: Vec<f32>,
+    output_gradient: Vec<f32>,
+    scratch: Scratch,
+}
+
+impl FusedNetworks {
+    /// Actor and critic: the output is `[rows, action + 1]`, action means and then the value.
+    pub fn actor_critic(shape: &NetworkShape, pool: Option<Arc<ThreadPool>>) -> Self {
+        Self::new(shape, vec![Mlp::new(shape.actor()), Mlp::new(shape.critic())], pool)
+    }
+
+    /// The actor alone: the output is `[rows, action]`.
+    pub fn actor(shape: &NetworkShape, pool: Option<Arc<ThreadPool>>) -> Self {
+        Self::new(shape, vec![Mlp::new(shape.actor())], pool)
+    }
+
+    /// The critic alone: the output is `[rows, 1]`.
+    pub fn critic(shape: &NetworkShape, pool: Option<Arc<ThreadPool>>) -> Self {
+        Self::new(shape, vec![Mlp::new(shape.critic())], pool)
+    }
+
+    fn new(shape: &NetworkShape, networks: Vec<Mlp>, pool: Option<Arc<ThreadPool>>) -> Self {
+        let inner = Inner {
+            networks,
+            observation: shape.observation,
+            parameter_count: shape.parameter_count(),
+            pool,
+            spare: Mutex::default(),
+        };
+        Self { inner: Arc::new(inner) }
+    }
+
+    /// Applies the networks to `observations`, `[rows, observation]`; `parameters` is the whole flat vector.
+    ///
+    /// The gradient with respect to the parameters is defined, that with respect to the observations is not.
+    ///
+    /// # Errors
+    /// If a tensor has another shape, is not `f32`, or does not live on the CPU.
+    pub fn forward(&self, parameters: &Tensor, observations: &Tensor) -> Result<Tensor> {
+        let operation = Operation { inner: self.inner.clone(), buffers: Mutex::default() };
+        parameters.contiguous()?.apply_op2(&observations.contiguous()?, operation)
+    }
+}
+
+/// One application: it owns its buffers until Candle drops the graph.
+struct Operation {
+    inner: Arc<Inner>,
+    buffers: Mutex<Vec<Buffers>>,
+}
+
+impl CustomOp2 for Operation {
+    fn name(&self) -> &'static str {
+        "fused-networks"
+    }
+
+    fn cpu_fwd(&self, s1: &CpuStorage, l1: &Layout, s2: &CpuStorage, l2: &Layout) -> Result<(CpuStorage, Shape)> {
+        let (parameters, observations) = (contiguous(s1, l1)?, contiguous(s2, l2)?);
+        let (rows, width) = l2.shape().dims2()?;
+        let Inner { parameter_count, observation, .. } = *self.inner;
+        if parameters.len() != parameter_count || width != observation {
+            let found = parameters.len();
+            bail!("network takes {parameter_count} parameters and {observation} observations, got {found} and {width}");
+        }
+        let mut buffers = lock(&self.buffers);
+        if buffers.is_empty() {
+            *buffers = lock(&self.inner.spare).pop().unwrap_or_default();
+        }
+        let output = self.inner.forward(parameters, observations, rows, &mut buffers);
+        Ok((CpuStorage::F32(output), Shape::from((rows, self.inner.output()))))
+    }
+
+    fn bwd(
+        &self,
+        parameters: &Tensor,
+        observations: &Tensor,
+        _output: &Tensor,
+        output_gradient: &Tensor,
+    ) -> Result<(Option<Tensor>, Option<Tensor>)> {
+        let output_gradient = output_gradient.contiguous()?;
+        let gradient = with_slice(parameters, |parameters| {
+            with_slice(observations, |observations| {
+                with_slice(&output_gradient, |output_gradient| {
+                    let rows = observations.len() / self.inner.observation;
+                    self.inner.backward(parameters, observations, rows, output_gradient, &mut lock(&self.buffers))
+                })
+            })
+        })?;
+        let gradient = Tensor::from_vec(gradient, parameters.shape(), parameters.device())?;
+        Ok((Some(gradient), None))
+    }
+}
+
+impl Drop for Operation {
+    fn drop(&mut self) {
+        let buffers = std::mem::take(&mut *lock(&self.buffers));
+        let mut spare = lock(&self.inner.spare);
+        if spare.len() < SPARE_BUFFERS && !buffers.is_empty() {
+            spare.push(buffers);
+        }
+    }
+}
+
+impl Inner {
+    fn output(&self) -> usize {
+        self.networks.iter().map(Mlp::output).sum()
+    }
+
+    fn forward(&self, parameters: &[f32], observations: &[f32], rows: usize, buffers: &mut Vec<Buffers>) -> Vec<f32> {
+        buffers.resize_with(self.networks.len(), Buffers::default);
+        let mut tasks = Vec::new();
+        for (network, buffers) in self.networks.iter().zip(&mut *buffers) {
+            buffers.activations.resize(rows * network.hidden(), 0.0);
+            buffers.output.resize(rows * network.output(), 0.0);
+            let mut activations = &mut buffers.activations[..];
+            let outputs = buffers.output.chunks_mut(CHUNK_ROWS * network.output());
+            for (input, output) in observations.chunks(CHUNK_ROWS * self.observation).zip(outputs) {
+                let chunk = input.len() / self.observation * network.hidden();
+                let (activation, rest) = activations.split_at_mut(chunk);
+                tasks.push((network, input, activation, output));
+                activations = rest;
+            }
+        }
+        self.for_each(tasks, |(network, input, activations, output)| {
+            let rows = input.len() / self.observation;
+            network.forward(&parameters[network.range.clone()], input, rows, activations, output);
+        });
+        self.side_by_side(rows, buffers)
+    }
+
+    /// The outputs of all networks, row by row.
+    fn side_by_side(&self, rows: usize, buffers: &[Buffers]) -> Vec<f32> {
+        let total = self.output();
+        let mut joined = vec![0.0; rows * total];
+        let mut column = 0;
+        for (network, buffers) in self.networks.iter().zip(buffers) {
+            let width = network.output();
+            for (target, source) in joined.chunks_exact_mut(total).zip(buffers.output.chunks_exact(width)) {
+                target[column..column + width].copy_from_slice(source);
+            }
+            column += width;
+        }
+        joined
+    }
+
+    fn backward(
+        &self,
+        parameters: &[f32],
+        observations: &[f32],
+        rows: usize,
+        output_gradient: &[f32],
+        buffers: &mut [Buffers],
+    ) -> Result<Vec<f32>> {
+        if buffers.len() != self.networks.len() {
+            bail!("the backward pass came without a forward pass");
+        }
+        let total = self.output();
+        let chunks = rows.div_ceil(CHUNK_ROWS);
+        let mut tasks = Vec::new();
+        let mut column = 0;
+        for (network, buffers) in self.networks.iter().zip(&mut *buffers) {
+            buffers.lanes.resize_with(chunks.min(LANES), Lane::default);
+            let activations = &buffers.activations[..];
+            for (i, lane) in buffers.lanes.iter_mut().enumerate() {
+                tasks.push((network, column, i, lane, activations));
+            }
+            column += network.output();
+        }
+        self.for_each(tasks, |(network, column, first, lane, activations)| {
+            lane.gradient.resize(network.range.len(), 0.0);
+            for chunk in (first..chunks).step_by(LANES) {
+                let (from, to) = (chunk * CHUNK_ROWS, rows.min((chunk + 1) * CHUNK_ROWS));
+                lane.output_gradient.clear();
+                for row in output_gradient[from * total..to * total].chunks_exact(total) {
+                    lane.output_gradient.extend_from_slice(&row[column..column + network.output()]);
+                }
+                network.backward(
+                    &parameters[network.range.clone()],
+                    &observations[from * self.observation..to * self.observation],
+                    to - from,
+                    &activations[from * network.hidden()..to * network.hidden()],
+                    &lane.output_gradient,
+                    &mut lane.scratch,
+                    &mut lane.gradient,
+                    chunk != first,
+                );
+            }
+        });
+        Ok(self.sum_lanes(buffers))
+    }
+
+    /// The whole flat gradient; parameters of no network here have none.
+    fn sum_lanes(&self, buffers: &[Buffers]) -> Vec<f32> {
+        let mut gradient = vec![0.0; self.parameter_count];
+        for (network, buffers) in self.networks.iter().zip(buffers) {
+            for lane in &buffers.lanes {
+                let target = &mut gradient[network.range.clone()];
+                target.iter_mut().zip(&lane.gradient).for_each(|(sum, part)| *sum += part);
+            }
+        }
+        gradient
+    }
+
+    fn for_each<T: Send>(&self, tasks: Vec<T>, work: impl Fn(T) + Send + Sync) {
+        match &self.pool {
+            Some(pool) if tasks.len() > 1 && pool.current_num_threads() > 1 => {
+                pool.install(|| tasks.into_par_iter().with_max_len(1).for_each(work))
+            }
+            _ => tasks.into_iter().for_each(work),
+        }
+    }
+}
+
+fn contiguous<'a>(storage: &'a CpuStorage, layout: &Layout) -> Result<&'a [f32]> {
+    match layout.contiguous_offsets() {
+        Some((start, end)) => Ok(&storage.as_slice::<f32>()?[start..end]),
+        None => bail!("the fused networks take contiguous tensors only"),
+    }
+}
+
+/// Calls `work` with the numbers of a contiguous tensor on the CPU.
+fn with_slice<T>(tensor: &Tensor, work: impl FnOnce(&[f32]) -> Result<T>) -> Result<T> {
+    let (storage, layout) = tensor.storage_and_layout();
+    match &*storage {
+        Storage::Cpu(storage) => work(contiguous(storage, layout)?),
+        _ => bail!("the fused networks run on the CPU only"),
+    }
+}
+
+/// Buffers are overwritten before they are read, so what a panic left in them does no harm.
+fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+#[cfg(test)]
+#[path = "fused_tests.rs"]
+mod tests;

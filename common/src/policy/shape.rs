@@ -1,0 +1,170 @@
+//! The shape of the networks and the place of every tensor in the flat parameter vector.
+
+use serde::{Deserialize, Serialize};
+
+/// Widths of the separate actor and critic networks, which share their hidden widths.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct NetworkShape {
+    /// Numbers in one observation.
+    pub observation: usize,
+    /// Numbers in one action.
+    pub action: usize,
+    /// Widths of the hidden layers of either network, from the observation onwards.
+    pub hidden: Vec<usize>,
+}
+
+/// One tensor inside the flat parameter vector.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct NamedTensor {
+    /// Name, such as `actor.0.weight`.
+    pub name: String,
+    /// Index of its first number in the flat vector.
+    pub offset: usize,
+    /// Its dimensions, row-major; a weight is `[output, input]`, as in PyTorch.
+    pub shape: Vec<usize>,
+}
+
+impl NamedTensor {
+    /// How many numbers the tensor holds.
+    pub fn len(&self) -> usize {
+        self.shape.iter().product()
+    }
+
+    /// Whether it holds none.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// Its place in the flat vector.
+    pub fn range(&self) -> std::ops::Range<usize> {
+        self.offset..self.offset + self.len()
+    }
+}
+
+/// One dense layer, `y = W x + b`, by its place in the flat parameter vector.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Dense {
+    /// Numbers that go in.
+    pub input: usize,
+    /// Numbers that come out.
+    pub output: usize,
+    /// Offset of the weight, `[output, input]`; the bias, `[output]`, follows it.
+    pub offset: usize,
+}
+
+impl Dense {
+    /// The place of the weight.
+    pub fn weight(&self) -> std::ops::Range<usize> {
+        self.offset..self.offset + self.output * self.input
+    }
+
+    /// The place of the bias.
+    pub fn bias(&self) -> std::ops::Range<usize> {
+        let start = self.offset + self.output * self.input;
+        start..start + self.output
+    }
+}
+
+impl NetworkShape {
+    /// The layers of the actor, whose last one gives the action means.
+    pub fn actor(&self) -> Vec<Dense> {
+        self.dense_layers(0, self.action)
+    }
+
+    /// The layers of the critic, whose last one gives the value.
+    pub fn critic(&self) -> Vec<Dense> {
+        self.dense_layers(self.log_std().end, 1)
+    }
+
+    /// The place of the logarithms of the standard deviations, `[action]`, between the two networks.
+    pub fn log_std(&self) -> std::ops::Range<usize> {
+        let start = end_of(&self.actor());
+        start..start + self.action
+    }
+
+    /// How many numbers the flat parameter vector holds.
+    pub fn parameter_count(&self) -> usize {
+        end_of(&self.critic())
+    }
+
+    /// Every tensor in the order of the flat vector: the actor's layers, `log_std`, the critic's layers.
+    pub fn tensors(&self) -> Vec<NamedTensor> {
+        let log_std = self.log_std();
+        let mut tensors = named("actor", &self.actor());
+        tensors.push(NamedTensor { name: "log_std".into(), offset: log_std.start, shape: vec![self.action] });
+        tensors.extend(named("critic", &self.critic()));
+        tensors
+    }
+
+    fn dense_layers(&self, start: usize, last: usize) -> Vec<Dense> {
+        let mut offset = start;
+        let mut input = self.observation;
+        let widths = self.hidden.iter().copied().chain([last]);
+        widths
+            .map(|output| {
+                let layer = Dense { input, output, offset };
+                offset = layer.bias().end;
+                input = output;
+                layer
+            })
+            .collect()
+    }
+}
+
+fn end_of(layers: &[Dense]) -> usize {
+    layers.last().map_or(0, |layer| layer.bias().end)
+}
+
+fn named(network: &str, layers: &[Dense]) -> Vec<NamedTensor> {
+    let pair = |(i, layer): (usize, &Dense)| {
+        [
+            NamedTensor {
+                name: format!("{network}.{i}.weight"),
+                offset: layer.weight().start,
+                shape: vec![layer.output, layer.input],
+            },
+            NamedTensor { name: format!("{network}.{i}.bias"), offset: layer.bias().start, shape: vec![layer.output] },
+        ]
+    };
+    layers.iter().enumerate().flat_map(pair).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn shape() -> NetworkShape {
+        NetworkShape { observation: 3, action: 2, hidden: vec![4, 5] }
+    }
+
+    #[test]
+    fn parameters_are_counted_by_hand() {
+        let actor = 4 * 3 + 4 + 5 * 4 + 5 + 2 * 5 + 2;
+        let critic = 4 * 3 + 4 + 5 * 4 + 5 + 5 + 1;
+        assert_eq!(shape().parameter_count(), actor + 2 + critic);
+        assert_eq!(shape().log_std(), actor..actor + 2);
+    }
+
+    #[test]
+    fn tensors_follow_each_other_without_gaps_in_the_fixed_order() {
+        let tensors = shape().tensors();
+        let names: Vec<_> = tensors.iter().map(|t| t.name.as_str()).collect();
+        assert_eq!(names[..3], ["actor.0.weight", "actor.0.bias", "actor.1.weight"]);
+        assert_eq!(names[6..8], ["log_std", "critic.0.weight"]);
+        assert_eq!(names.last(), Some(&"critic.2.bias"));
+        assert_eq!(tensors[0].shape, [4, 3]);
+        let mut next = 0;
+        for tensor in &tensors {
+            assert_eq!(tensor.offset, next, "{}", tensor.name);
+            next += tensor.len();
+        }
+        assert_eq!(next, shape().parameter_count());
+    }
+
+    #[test]
+    fn a_network_without_hidden_layers_is_one_dense_layer() {
+        let shape = NetworkShape { observation: 3, action: 2, hidden: vec![] };
+        assert_eq!(shape.actor(), [Dense { input: 3, output: 2, offset: 0 }]);
+        assert_eq!(shape.parameter_count(), 8 + 2 + 4);
+    }
+}

@@ -1,0 +1,180 @@
+//! Parameters as safetensors bytes: plain f32 under the names of [`NetworkShape::tensors`].
+//!
+//! Equal parameters give equal bytes: nothing but the tensors is written, in an order that safetensors fixes.
+
+use safetensors::tensor::{Dtype, SafeTensorError, SafeTensors, TensorView, serialize};
+
+use super::{NamedTensor, NetworkShape};
+
+/// Why bytes are not the parameters of a network of the expected shape.
+#[derive(Debug, thiserror::Error)]
+pub enum ParameterError {
+    /// The bytes are not in the safetensors format.
+    #[error("the weights are not valid safetensors data")]
+    Format(#[from] SafeTensorError),
+    /// A tensor of the network is not there.
+    #[error("the weights have no tensor {name:?} of shape {expected:?}")]
+    Missing {
+        /// Its name.
+        name: String,
+        /// The shape that the network gives it.
+        expected: Vec<usize>,
+    },
+    /// A tensor does not fit the network.
+    #[error("tensor {name:?} has shape {found:?}, expected {expected:?}: these weights belong to another network")]
+    Shape {
+        /// Its name.
+        name: String,
+        /// The shape in the bytes.
+        found: Vec<usize>,
+        /// The shape that the network gives it.
+        expected: Vec<usize>,
+    },
+    /// A tensor is of another number type.
+    #[error("tensor {name:?} holds {found}, expected F32")]
+    Dtype {
+        /// Its name.
+        name: String,
+        /// The type in the bytes.
+        found: String,
+    },
+    /// A number is infinite or not a number.
+    #[error("tensor {name:?} holds {value} at index {index}; every parameter must be finite")]
+    NonFinite {
+        /// The tensor's name.
+        name: String,
+        /// Index within the tensor, row-major.
+        index: usize,
+        /// What stands there.
+        value: f32,
+    },
+    /// A flat vector has the wrong length.
+    #[error("{found} parameters given, the network has {expected}")]
+    Count {
+        /// Length of the vector.
+        found: usize,
+        /// Length that the network needs.
+        expected: usize,
+    },
+    /// The tensor library refused an operation.
+    #[error("the tensor library failed")]
+    Tensor(#[from] candle_core::Error),
+}
+
+/// Refuses a flat parameter vector of the wrong length or with a number that is not finite.
+pub fn check_parameters(shape: &NetworkShape, parameters: &[f32]) -> Result<(), ParameterError> {
+    let expected = shape.parameter_count();
+    if parameters.len() != expected {
+        return Err(ParameterError::Count { found: parameters.len(), expected });
+    }
+    shape.tensors().iter().try_for_each(|tensor| check_finite(tensor, &parameters[tensor.range()]))
+}
+
+/// The parameters as safetensors bytes.
+///
+/// # Panics
+/// If `parameters` does not have the length of `shape`.
+pub fn to_safetensors(shape: &NetworkShape, parameters: &[f32]) -> Vec<u8> {
+    assert_eq!(parameters.len(), shape.parameter_count(), "parameters do not fit the network");
+    let bytes: Vec<u8> = parameters.iter().flat_map(|p| p.to_le_bytes()).collect();
+    let views = shape.tensors().into_iter().map(|tensor| {
+        let range = tensor.range();
+        let view = TensorView::new(Dtype::F32, tensor.shape, &bytes[range.start * 4..range.end * 4])
+            .expect("the slice has the length of the shape");
+        (tensor.name, view)
+    });
+    serialize(views, None).expect("names are unique and every view is complete")
+}
+
+/// The flat parameter vector out of safetensors bytes; tensors that the network does not name are ignored.
+///
+/// # Errors
+/// If a tensor is missing, has another shape or number type, or holds a number that is not finite.
+pub fn from_safetensors(bytes: &[u8], shape: &NetworkShape) -> Result<Vec<f32>, ParameterError> {
+    let file = SafeTensors::deserialize(bytes)?;
+    let mut parameters = vec![0.0; shape.parameter_count()];
+    for tensor in shape.tensors() {
+        let view = file
+            .tensor(&tensor.name)
+            .map_err(|_| ParameterError::Missing { name: tensor.name.clone(), expected: tensor.shape.clone() })?;
+        if view.dtype() != Dtype::F32 {
+            return Err(ParameterError::Dtype { name: tensor.name, found: format!("{:?}", view.dtype()) });
+        }
+        if view.shape() != tensor.shape {
+            return Err(ParameterError::Shape {
+                name: tensor.name,
+                found: view.shape().to_vec(),
+                expected: tensor.shape,
+            });
+        }
+        let target = &mut parameters[tensor.range()];
+        for (number, bytes) in target.iter_mut().zip(view.data().as_chunks::<4>().0) {
+            *number = f32::from_le_bytes(*bytes);
+        }
+        check_finite(&tensor, target)?;
+    }
+    Ok(parameters)
+}
+
+fn check_finite(tensor: &NamedTensor, numbers: &[f32]) -> Result<(), ParameterError> {
+    match numbers.iter().position(|x| !x.is_finite()) {
+        None => Ok(()),
+        Some(index) => Err(ParameterError::NonFinite { name: tensor.name.clone(), index, value: numbers[index] }),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn shape() -> NetworkShape {
+        NetworkShape { observation: 3, action: 2, hidden: vec![4] }
+    }
+
+    fn numbers() -> Vec<f32> {
+        (0..shape().parameter_count()).map(|i| i as f32 * 0.25 - 3.0).collect()
+    }
+
+    #[test]
+    fn parameters_come_back_and_bytes_are_the_same_every_time() {
+        let bytes = to_safetensors(&shape(), &numbers());
+        assert_eq!(from_safetensors(&bytes, &shape()).expect("own bytes"), numbers());
+        assert_eq!(to_safetensors(&shape(), &numbers()), bytes);
+    }
+
+    #[test]
+    fn another_shape_is_refused_by_name_with_both_shapes() {
+        let bytes = to_safetensors(&shape(), &numbers());
+        let other = NetworkShape { observation: 7, ..shape() };
+        let text = from_safetensors(&bytes, &other).expect_err("wrong shape").to_string();
+        assert!(text.contains("actor.0.weight") && text.contains("[4, 3]") && text.contains("[4, 7]"), "{text}");
+    }
+
+    #[test]
+    fn a_missing_tensor_is_refused_by_name() {
+        let bytes = to_safetensors(&shape(), &numbers());
+        let deeper = NetworkShape { hidden: vec![4, 2], ..shape() };
+        let text = from_safetensors(&bytes, &deeper).expect_err("a layer is missing").to_string();
+        assert!(text.contains("actor.2.weight"), "{text}");
+    }
+
+    #[test]
+    fn a_number_that_is_not_finite_is_refused_by_name_and_index() {
+        let mut parameters = numbers();
+        parameters[shape().log_std().start + 1] = f32::NAN;
+        let bytes = to_safetensors(&shape(), &parameters);
+        let error = from_safetensors(&bytes, &shape()).expect_err("not finite");
+        assert!(matches!(&error, ParameterError::NonFinite { name, index: 1, .. } if name == "log_std"), "{error}");
+    }
+
+    #[test]
+    fn other_number_types_and_garbage_are_refused() {
+        let tensor = &shape().tensors()[0];
+        let bytes = vec![0_u8; tensor.len() * 8];
+        let view = TensorView::new(Dtype::F64, tensor.shape.clone(), &bytes).expect("complete");
+        let file = serialize([(tensor.name.clone(), view)], None).expect("one tensor");
+        let error = from_safetensors(&file, &shape()).expect_err("wrong type");
+        assert!(matches!(error, ParameterError::Dtype { .. }), "{error}");
+        assert!(matches!(from_safetensors(b"garbage", &shape()), Err(ParameterError::Format(_))));
+    }
+}

@@ -1,0 +1,181 @@
+//! Where a run keeps its files.
+//!
+//! ```text
+//! runs/NAME/
+//!   config.toml           the configuration as used
+//!   command.txt           the command line, one line per start
+//!   versions.json         of this program, the toolchain's target and the machine
+//!   endpoint.txt          where the learner listens
+//!   model.xml             the humanoid
+//!   metrics.jsonl         one line per scalar
+//!   events.out.tfevents.* for TensorBoard
+//!   checkpoints/          latest.bundle, best.bundle, NNNNNNNN.bundle
+//!   learning_curve.png    at the end
+//! ```
+
+use std::{
+    fs, io,
+    path::{Path, PathBuf},
+};
+
+use treadmill_proto::ident::check_ident;
+
+/// A run's folder.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RunFolder {
+    root: PathBuf,
+    name: String,
+}
+
+/// Why a run's folder cannot be used.
+#[derive(Debug, thiserror::Error)]
+pub enum RunFolderError {
+    /// Nothing is there.
+    #[error("there is no run at `{path}`; {known}")]
+    Missing {
+        /// Where it was looked for.
+        path: String,
+        /// Runs that exist.
+        known: String,
+    },
+    /// A run is there already.
+    #[error("`{path}` already holds a run; go on with it by `--resume {path}`, or choose another --run-dir")]
+    Taken {
+        /// The folder.
+        path: String,
+    },
+    /// The system refused.
+    #[error("the run folder `{path}` cannot be used: {source}")]
+    Io {
+        /// The folder.
+        path: String,
+        /// What the system said.
+        source: io::Error,
+    },
+}
+
+impl RunFolder {
+    /// Makes the folder of a new run: `run_dir` itself, or `runs/PREFIX-N` with the first N that is free.
+    pub fn create(run_dir: Option<&Path>, prefix: &str) -> Result<Self, RunFolderError> {
+        if let Some(root) = run_dir {
+            let folder = Self::at(root);
+            if folder.checkpoints().exists() || folder.metrics().exists() {
+                return Err(RunFolderError::Taken { path: root.display().to_string() });
+            }
+            return folder.prepare();
+        }
+        for number in 1u32.. {
+            let folder = Self::at(&Path::new("runs").join(format!("{prefix}-{number}")));
+            fs::create_dir_all("runs").map_err(|source| folder.io(source))?;
+            // Two starts at the same moment get two folders: only one of them can create each.
+            match fs::create_dir(&folder.root) {
+                Ok(()) => return folder.prepare(),
+                Err(why) if why.kind() == io::ErrorKind::AlreadyExists => {}
+                Err(why) => return Err(folder.io(why)),
+            }
+        }
+        unreachable!("a folder system does not hold four thousand million runs")
+    }
+
+    /// Opens the folder of an existing run, given by path or by its name below `runs/`.
+    pub fn open(run: &str) -> Result<Self, RunFolderError> {
+        let given = Path::new(run);
+        [given.to_path_buf(), Path::new("runs").join(given)]
+            .into_iter()
+            .map(|root| Self::at(&root))
+            .find(|folder| folder.checkpoints().is_dir())
+            .ok_or_else(|| RunFolderError::Missing { path: run.to_string(), known: known_runs() })
+    }
+
+    fn at(root: &Path) -> Self {
+        let base = root.file_name().map(|name| name.to_string_lossy().to_lowercase()).unwrap_or_default();
+        let name: String = base
+            .chars()
+            .map(|c| if c.is_ascii_lowercase() || c.is_ascii_digit() || c == '_' || c == '-' { c } else { '-' })
+            .take(64)
+            .collect();
+        let name = if check_ident("run", &name).is_ok() { name } else { "run".to_string() };
+        Self { root: root.to_path_buf(), name }
+    }
+
+    fn prepare(self) -> Result<Self, RunFolderError> {
+        fs::create_dir_all(self.checkpoints()).map_err(|source| self.io(source))?;
+        Ok(self)
+    }
+
+    fn io(&self, source: io::Error) -> RunFolderError {
+        RunFolderError::Io { path: self.root.display().to_string(), source }
+    }
+
+    /// The folder itself.
+    pub fn root(&self) -> &Path {
+        &self.root
+    }
+
+    /// The run's name, fit to stand in a key of the bus.
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// Where checkpoints lie.
+    pub fn checkpoints(&self) -> PathBuf {
+        self.root.join("checkpoints")
+    }
+
+    /// One line per scalar.
+    pub fn metrics(&self) -> PathBuf {
+        self.root.join("metrics.jsonl")
+    }
+
+    /// The configuration as used.
+    pub fn config(&self) -> PathBuf {
+        self.root.join("config.toml")
+    }
+
+    /// The picture of the learning curve.
+    pub fn learning_curve(&self) -> PathBuf {
+        self.root.join("learning_curve.png")
+    }
+
+    /// Where the learner listens.
+    pub fn endpoint(&self) -> PathBuf {
+        self.root.join("endpoint.txt")
+    }
+}
+
+fn known_runs() -> String {
+    let mut names: Vec<String> = fs::read_dir("runs")
+        .into_iter()
+        .flatten()
+        .flatten()
+        .filter(|entry| entry.path().join("checkpoints").is_dir())
+        .map(|entry| format!("runs/{}", entry.file_name().to_string_lossy()))
+        .collect();
+    names.sort();
+    if names.is_empty() {
+        "there are no runs here yet: `treadmill train` makes one".to_string()
+    } else {
+        format!("runs here: {}", names.join(", "))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_run_is_found_again_and_not_overwritten() {
+        let folder = tempfile::tempdir().unwrap();
+        let root = folder.path().join("My Run.1");
+        let run = RunFolder::create(Some(&root), "walk").unwrap();
+        assert_eq!(run.name(), "my-run-1");
+        assert_eq!(RunFolder::open(root.to_str().unwrap()).unwrap(), run);
+        let again = RunFolder::create(Some(&root), "walk").unwrap_err().to_string();
+        assert!(again.contains("--resume"), "{again}");
+    }
+
+    #[test]
+    fn a_missing_run_is_named() {
+        assert!(RunFolder::open("no/such/run").unwrap_err().to_string().contains("no/such/run"));
+    }
+}

@@ -1,0 +1,95 @@
+//! The file around a checkpoint: magic, format version, length, SHA-256, then the state in bincode.
+//!
+//! This is the only file that names bincode, which is unmaintained (RUSTSEC-2025-0141) and pinned to 2.0.1. To leave
+//! it: raise [`FORMAT`], encode the state by another serde format below, and keep [`decode`]'s branch for the old number
+//! for as long as old runs matter. Nothing else knows how the bytes are made.
+
+use serde::{Serialize, de::DeserializeOwned};
+use sha2::{Digest, Sha256};
+
+use super::CheckpointError;
+
+const MAGIC: &[u8; 8] = b"TREADMIL";
+/// Version of the format; raised whenever the state's fields change.
+pub const FORMAT: u32 = 1;
+const HEADER_BYTES: usize = 8 + 4 + 8 + 32;
+/// Checkpoints are read from disk, not from the bus, but a damaged length must not ask for all memory.
+const STATE_BYTES_MAX: usize = 4 << 30;
+
+/// State as the bytes of a file.
+pub fn encode<T: Serialize>(state: &T) -> Result<Vec<u8>, CheckpointError> {
+    let payload = bincode::serde::encode_to_vec(state, bincode::config::standard())
+        .map_err(|why| CheckpointError::Encode { why: why.to_string() })?;
+    let mut bytes = Vec::with_capacity(HEADER_BYTES + payload.len());
+    bytes.extend_from_slice(MAGIC);
+    bytes.extend_from_slice(&FORMAT.to_le_bytes());
+    bytes.extend_from_slice(&(payload.len() as u64).to_le_bytes());
+    bytes.extend_from_slice(&Sha256::digest(&payload));
+    bytes.extend_from_slice(&payload);
+    Ok(bytes)
+}
+
+/// The bytes of a file as state.
+pub fn decode<T: DeserializeOwned>(path: &str, bytes: &[u8]) -> Result<T, CheckpointError> {
+    let damaged = |why: String| CheckpointError::Damaged { path: path.to_string(), why };
+    if bytes.len() < HEADER_BYTES {
+        return Err(damaged(format!("it has {} bytes, fewer than its header alone", bytes.len())));
+    }
+    let (header, payload) = bytes.split_at(HEADER_BYTES);
+    if &header[..8] != MAGIC {
+        return Err(damaged("it does not begin as a checkpoint does".to_string()));
+    }
+    let format = u32::from_le_bytes(header[8..12].try_into().expect("four bytes"));
+    if format != FORMAT {
+        return Err(CheckpointError::Format { path: path.to_string(), found: format, known: FORMAT });
+    }
+    let length = u64::from_le_bytes(header[12..20].try_into().expect("eight bytes"));
+    if length != payload.len() as u64 {
+        return Err(damaged(format!("it is truncated: {} of {length} bytes of state are there", payload.len())));
+    }
+    if Sha256::digest(payload).as_slice() != &header[20..] {
+        return Err(damaged("its checksum does not match its content".to_string()));
+    }
+    bincode::serde::decode_from_slice(payload, bincode::config::standard().with_limit::<STATE_BYTES_MAX>())
+        .map(|(state, _)| state)
+        .map_err(|why| damaged(why.to_string()))
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+
+    #[test]
+    fn state_survives() {
+        let state = (vec![1.0f32, -0.5], "run".to_string(), 7u64);
+        let read: (Vec<f32>, String, u64) = decode("x", &encode(&state).unwrap()).unwrap();
+        assert_eq!(read, state);
+    }
+
+    #[test]
+    fn each_damage_is_named() {
+        let sound = encode(&vec![1u64; 20]).unwrap();
+        let why = |bytes: &[u8]| decode::<Vec<u64>>("here", bytes).unwrap_err().to_string();
+        assert!(why(&sound[..10]).contains("header"));
+        assert!(why(&sound[..sound.len() - 3]).contains("truncated"));
+        let mut flipped = sound.clone();
+        *flipped.last_mut().unwrap() ^= 1;
+        assert!(why(&flipped).contains("checksum"));
+        let mut newer = sound.clone();
+        newer[8] = 99;
+        assert!(why(&newer).contains("format 99"), "{}", why(&newer));
+        assert!(why(&[b'x'; 200]).contains("does not begin"));
+    }
+
+    proptest! {
+        #[test]
+        fn one_changed_byte_is_always_noticed(at in 0usize..100, with in 1u8..) {
+            let mut bytes = encode(&vec![3u64; 40]).unwrap();
+            let at = at % bytes.len();
+            bytes[at] ^= with;
+            prop_assert!(decode::<Vec<u64>>("x", &bytes).is_err());
+        }
+    }
+}

@@ -1,0 +1,212 @@
+//! Everything a run is, in one file, written before the version it holds is announced.
+//!
+//! `checkpoints/latest.bundle` after each update, `best.bundle` at the best mean return so far, `NNNNNNNN.bundle` (the
+//! number of updates) every so many updates, the last few of which are kept.
+
+pub mod encoding;
+mod state;
+
+use std::{
+    fs, io,
+    path::{Path, PathBuf},
+};
+
+use treadmill_common::{atomic_file, run_folder::RunFolder};
+
+pub use state::{Counters, TrainingState};
+
+/// Which checkpoint of a run.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Which {
+    /// The newest.
+    Latest,
+    /// The one with the best mean return.
+    Best,
+    /// The one after so many updates.
+    Numbered(u64),
+    /// The best if there is one, else the newest.
+    BestOrLatest,
+}
+
+impl std::str::FromStr for Which {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        match text {
+            "latest" => Ok(Self::Latest),
+            "best" => Ok(Self::Best),
+            _ => text.parse().map(Self::Numbered).map_err(|_| {
+                format!("`{text}` is no checkpoint; allowed: best, latest, or the number of updates of a kept one")
+            }),
+        }
+    }
+}
+
+/// Why a checkpoint cannot be read or written.
+#[derive(Debug, thiserror::Error)]
+pub enum CheckpointError {
+    /// It is not there.
+    #[error("there is no checkpoint `{path}`; {known}")]
+    Missing {
+        /// Where it was looked for.
+        path: String,
+        /// Those that are there.
+        known: String,
+    },
+    /// It is there and unsound.
+    #[error("checkpoint `{path}` is damaged: {why}; choose another one by --checkpoint")]
+    Damaged {
+        /// Its path.
+        path: String,
+        /// What is wrong.
+        why: String,
+    },
+    /// It was written by another version of this program.
+    #[error("checkpoint `{path}` has format {found}; this program reads format {known}")]
+    Format {
+        /// Its path.
+        path: String,
+        /// Its format.
+        found: u32,
+        /// Ours.
+        known: u32,
+    },
+    /// Its parts do not fit each other.
+    #[error("checkpoint `{path}` does not fit its network: {why}")]
+    Shape {
+        /// Its path.
+        path: String,
+        /// What does not fit.
+        why: String,
+    },
+    /// The state could not be encoded.
+    #[error("the state cannot be encoded: {why}")]
+    Encode {
+        /// What the encoder said.
+        why: String,
+    },
+    /// The system refused to write.
+    #[error("cannot save checkpoint `{path}`: {source}; the one before it is untouched")]
+    Write {
+        /// Its path.
+        path: String,
+        /// What the system said.
+        source: io::Error,
+    },
+    /// The system refused to read.
+    #[error("cannot read checkpoint `{path}`: {source}")]
+    Read {
+        /// Its path.
+        path: String,
+        /// What the system said.
+        source: io::Error,
+    },
+}
+
+/// Reads one checkpoint of a run.
+pub fn load(folder: &RunFolder, which: Which) -> Result<TrainingState, CheckpointError> {
+    let checkpoints = folder.checkpoints();
+    let path = match which {
+        Which::Latest => checkpoints.join("latest.bundle"),
+        Which::Best => checkpoints.join("best.bundle"),
+        Which::Numbered(number) => checkpoints.join(numbered(number)),
+        Which::BestOrLatest => [checkpoints.join("best.bundle"), checkpoints.join("latest.bundle")]
+            .into_iter()
+            .find(|path| path.exists())
+            .unwrap_or_else(|| checkpoints.join("latest.bundle")),
+    };
+    load_file(&path)
+}
+
+/// Reads one bundle file.
+pub fn load_file(path: &Path) -> Result<TrainingState, CheckpointError> {
+    let shown = path.display().to_string();
+    let bytes = match fs::read(path) {
+        Ok(bytes) => bytes,
+        Err(why) if why.kind() == io::ErrorKind::NotFound => {
+            return Err(CheckpointError::Missing { known: known(path.parent().unwrap_or(path)), path: shown });
+        }
+        Err(source) => return Err(CheckpointError::Read { path: shown, source }),
+    };
+    let state: TrainingState = encoding::decode(&shown, &bytes)?;
+    state.check().map_err(|why| CheckpointError::Shape { path: shown, why })?;
+    Ok(state)
+}
+
+fn known(folder: &Path) -> String {
+    let mut names: Vec<String> = fs::read_dir(folder)
+        .into_iter()
+        .flatten()
+        .flatten()
+        .filter_map(|entry| entry.file_name().to_string_lossy().strip_suffix(".bundle").map(str::to_string))
+        .filter(|name| !name.starts_with('.'))
+        .map(|name| name.parse::<u64>().map_or(name, |number| number.to_string()))
+        .collect();
+    names.sort();
+    if names.is_empty() {
+        "this run has saved none yet".to_string()
+    } else {
+        format!("this run has: {}", names.join(", "))
+    }
+}
+
+fn numbered(number: u64) -> String {
+    format!("{number:08}.bundle")
+}
+
+/// Writes the checkpoints of one run.
+#[derive(Debug)]
+pub struct Saver {
+    folder: PathBuf,
+    every_updates: u64,
+    keep: usize,
+}
+
+impl Saver {
+    /// Writes into the run's folder; every so many updates a numbered one, of which the last `keep` stay.
+    pub fn new(folder: &RunFolder, every_updates: u64, keep: usize) -> Self {
+        Self { folder: folder.checkpoints(), every_updates, keep }
+    }
+
+    /// Writes `latest`, and beside it what else is due.
+    pub fn save(&self, state: &TrainingState, is_best: bool) -> Result<(), CheckpointError> {
+        let bytes = encoding::encode(state)?;
+        self.write("latest.bundle", &bytes)?;
+        if is_best {
+            self.write("best.bundle", &bytes)?;
+        }
+        let updates = state.counters.updates;
+        if self.keep > 0 && updates > 0 && updates.is_multiple_of(self.every_updates) {
+            self.write(&numbered(updates), &bytes)?;
+            self.prune();
+        }
+        Ok(())
+    }
+
+    /// Where the newest lies.
+    pub fn latest(&self) -> PathBuf {
+        self.folder.join("latest.bundle")
+    }
+
+    fn write(&self, name: &str, bytes: &[u8]) -> Result<(), CheckpointError> {
+        let path = self.folder.join(name);
+        atomic_file::write(&path, bytes)
+            .map_err(|source| CheckpointError::Write { path: path.display().to_string(), source })
+    }
+
+    fn prune(&self) {
+        let mut numbers: Vec<u64> = fs::read_dir(&self.folder)
+            .into_iter()
+            .flatten()
+            .flatten()
+            .filter_map(|entry| entry.file_name().to_string_lossy().strip_suffix(".bundle")?.parse().ok())
+            .collect();
+        numbers.sort_unstable();
+        let surplus = numbers.len().saturating_sub(self.keep);
+        for number in &numbers[..surplus] {
+            if let Err(why) = fs::remove_file(self.folder.join(numbered(*number))) {
+                tracing::warn!("checkpoint {number} cannot be removed: {why}");
+            }
+        }
+    }
+}

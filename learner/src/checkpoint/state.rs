@@ -1,0 +1,172 @@
+//! What a checkpoint holds.
+
+use serde::{Deserialize, Serialize};
+use treadmill_common::{
+    config::{Config, ConfigSource},
+    normaliser::{Normaliser, RunningMoments},
+    policy::{NetworkShape, init},
+    seeds::{self, Stream},
+};
+use treadmill_proto::PolicyBundle;
+
+use crate::{
+    episodes::EpisodeWindow,
+    intake::{Ledger, Lineage, Tally},
+    optimiser::OptimiserState,
+};
+
+/// Everything a run is. A field that is added or removed raises [`super::encoding::FORMAT`].
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct TrainingState {
+    /// The run's name on the bus.
+    pub run: String,
+    /// The configuration as used.
+    pub config_toml: String,
+    /// The humanoid as MJCF.
+    pub model_xml: String,
+    /// The networks' shape.
+    pub shape: NetworkShape,
+    /// Which versions this state descends from; the newest is its own.
+    pub lineage: Lineage,
+    /// Actor, log standard deviations and critic, in [`NetworkShape`]'s order.
+    pub parameters: Vec<f32>,
+    /// Adam's moments and step count.
+    pub optimiser: OptimiserState,
+    /// The current learning rate, as adaptation left it.
+    pub learning_rate: f64,
+    /// Statistics of raw observations.
+    pub observation_moments: RunningMoments,
+    /// Statistics of scaled returns.
+    pub value_moments: RunningMoments,
+    /// The stream that shuffles minibatches.
+    pub shuffle: Stream,
+    /// Which fragments were dealt with.
+    pub ledger: Ledger,
+    /// Counts of fragments by outcome.
+    pub tally: Tally,
+    /// The last finished episodes.
+    pub episodes: EpisodeWindow,
+    /// Counters of the run.
+    pub counters: Counters,
+    /// The best mean return so far.
+    pub best_return: Option<f64>,
+}
+
+/// Counters over the whole run, across resumes.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Counters {
+    /// Transitions learnt from.
+    pub env_steps: u64,
+    /// Updates.
+    pub updates: u64,
+    /// Gradient steps.
+    pub gradient_steps: u64,
+    /// Updates that were undone because a number was not finite.
+    pub undone_updates: u64,
+    /// Seconds of training.
+    pub wall_s: f64,
+    /// Actor processes that were started again.
+    pub restarts: u64,
+}
+
+impl TrainingState {
+    /// A run that begins.
+    pub fn fresh(
+        run: &str,
+        config: &Config,
+        model_xml: &str,
+        observation: usize,
+        action: usize,
+        incarnation: u64,
+    ) -> Self {
+        let hidden = config.policy.hidden.iter().map(|width| *width as usize).collect();
+        let shape = NetworkShape { observation, action, hidden };
+        let seed = config.run.seed;
+        let mut random = seeds::stream(seed, "initial-parameters", &[]);
+        let parameters = init::initial_parameters(&shape, config.policy.init_log_std as f32, &mut random);
+        Self {
+            run: run.to_string(),
+            config_toml: config.to_toml(),
+            model_xml: model_xml.to_string(),
+            lineage: Lineage::new(incarnation),
+            optimiser: OptimiserState::new(parameters.len()),
+            learning_rate: config.ppo.learning_rate,
+            observation_moments: RunningMoments::new(observation),
+            value_moments: RunningMoments::new(1),
+            shuffle: seeds::stream(seed, "shuffle", &[]),
+            ledger: Ledger::default(),
+            tally: Tally::default(),
+            episodes: EpisodeWindow::default(),
+            counters: Counters::default(),
+            best_return: None,
+            parameters,
+            shape,
+        }
+    }
+
+    /// The configuration as used.
+    pub fn config(&self) -> Result<Config, String> {
+        let mut source = ConfigSource::default();
+        source.text(&self.config_toml, "the configuration in the checkpoint").map_err(|why| why.to_string())?;
+        source.build().map_err(|why| why.to_string())
+    }
+
+    /// Whether the parts fit each other.
+    pub fn check(&self) -> Result<(), String> {
+        let count = self.shape.parameter_count();
+        let lengths = [
+            ("parameters", self.parameters.len(), count),
+            ("first moments", self.optimiser.first_moment.len(), count),
+            ("second moments", self.optimiser.second_moment.len(), count),
+            ("observation means", self.observation_moments.mean.len(), self.shape.observation),
+        ];
+        for (what, found, wanted) in lengths {
+            if found != wanted {
+                return Err(format!("it has {found} {what}, but its network {:?} needs {wanted}", self.shape));
+            }
+        }
+        let config = self.config()?;
+        let hidden: Vec<usize> = config.policy.hidden.iter().map(|width| *width as usize).collect();
+        if hidden != self.shape.hidden {
+            return Err(format!(
+                "its network has hidden layers {:?}, but its configuration says policy.hidden = {hidden:?}",
+                self.shape.hidden
+            ));
+        }
+        Ok(())
+    }
+
+    /// The hash that every fragment repeats: over all that gives its numbers their meaning.
+    pub fn config_hash(&self) -> Result<u64, String> {
+        let config = self.config()?;
+        let text = |section: Result<String, toml::ser::Error>| section.map_err(|why| why.to_string());
+        Ok(seeds::checksum(&[
+            text(toml::to_string(&config.env))?.as_bytes(),
+            text(toml::to_string(&config.policy))?.as_bytes(),
+            self.model_xml.as_bytes(),
+        ]))
+    }
+
+    /// What actors get of this state.
+    pub fn bundle(&self) -> Result<PolicyBundle, String> {
+        let config = self.config()?;
+        let weights = treadmill_common::policy::to_safetensors(&self.shape, &self.parameters);
+        let normaliser = Normaliser::from_moments(&self.observation_moments, config.policy.observation_clip as f32);
+        let narrow = |size: usize| u32::try_from(size).map_err(|why| why.to_string());
+        Ok(PolicyBundle {
+            run: self.run.clone(),
+            version: self.lineage.newest(),
+            observation_size: narrow(self.shape.observation)?,
+            action_size: narrow(self.shape.action)?,
+            hidden: config.policy.hidden.clone(),
+            checksum: seeds::checksum(&[&weights]),
+            weights: weights.into(),
+            observation_mean: normaliser.mean,
+            observation_inverse_std: normaliser.inverse_std,
+            observation_clip: normaliser.clip,
+            config_hash: self.config_hash()?,
+            config_toml: self.config_toml.clone(),
+            model_xml: self.model_xml.clone(),
+        })
+    }
+}

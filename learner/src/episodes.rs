@@ -1,0 +1,105 @@
+//! The last finished episodes, as Stable-Baselines3 averages them.
+
+use std::collections::VecDeque;
+
+use serde::{Deserialize, Serialize};
+use treadmill_proto::{EndCause, Episode};
+
+/// Episodes that a mean is taken over.
+pub const WINDOW: usize = 100;
+
+/// The last [`WINDOW`] episodes and counts over the run.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct EpisodeWindow {
+    recent: VecDeque<Entry>,
+    /// Episodes over the run.
+    pub finished: u64,
+    /// Episodes over the run that the physics ended with a number that is not finite.
+    pub faults: u64,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+struct Entry {
+    return_sum: f64,
+    length: f64,
+    distance_m: f64,
+    velocity_mean_mps: f64,
+    fell: bool,
+}
+
+/// Means over the window.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct EpisodeMeans {
+    /// Mean return.
+    pub return_mean: f64,
+    /// Mean length in control steps.
+    pub length_mean: f64,
+    /// Mean forward distance.
+    pub distance_mean_m: f64,
+    /// Mean over episodes of distance over time.
+    pub velocity_mean_mps: f64,
+    /// Share of episodes that ended with a fall.
+    pub fall_fraction: f64,
+}
+
+impl EpisodeWindow {
+    /// Adds what a fragment reports.
+    pub fn extend<'a>(&mut self, episodes: impl IntoIterator<Item = &'a Episode>) {
+        for episode in episodes {
+            self.finished += 1;
+            self.faults += u64::from(episode.cause == EndCause::Fault);
+            if self.recent.len() == WINDOW {
+                self.recent.pop_front();
+            }
+            self.recent.push_back(Entry {
+                return_sum: episode.return_sum,
+                length: episode.length.into(),
+                distance_m: episode.distance_m,
+                velocity_mean_mps: episode.velocity_mean_mps,
+                fell: episode.cause == EndCause::Fell,
+            });
+        }
+    }
+
+    /// Whether a mean over the window says anything yet.
+    pub fn is_full(&self) -> bool {
+        self.recent.len() == WINDOW
+    }
+
+    /// Means over the window; `None` before the first episode ended.
+    pub fn means(&self) -> Option<EpisodeMeans> {
+        if self.recent.is_empty() {
+            return None;
+        }
+        let mean = |of: fn(&Entry) -> f64| self.recent.iter().map(of).sum::<f64>() / self.recent.len() as f64;
+        Some(EpisodeMeans {
+            return_mean: mean(|entry| entry.return_sum),
+            length_mean: mean(|entry| entry.length),
+            distance_mean_m: mean(|entry| entry.distance_m),
+            velocity_mean_mps: mean(|entry| entry.velocity_mean_mps),
+            fall_fraction: mean(|entry| f64::from(u8::from(entry.fell))),
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn episode(return_sum: f64, cause: EndCause) -> Episode {
+        Episode { return_sum, length: 10, distance_m: 2.0, velocity_mean_mps: 0.5, cause }
+    }
+
+    #[test]
+    fn means_are_over_the_last_hundred() {
+        let mut window = EpisodeWindow::default();
+        assert_eq!(window.means(), None);
+        window.extend(&vec![episode(1000.0, EndCause::Fault); 50]);
+        window.extend(&vec![episode(1.0, EndCause::Fell); 50]);
+        assert_eq!(window.means().unwrap().return_mean, 500.5);
+        window.extend(&vec![episode(3.0, EndCause::TimeLimit); 50]);
+        let means = window.means().unwrap();
+        assert_eq!((means.return_mean, means.fall_fraction), (2.0, 0.5));
+        assert_eq!((window.finished, window.faults), (150, 50));
+    }
+}

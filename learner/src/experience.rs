@@ -1,0 +1,100 @@
+//! Fragments turned into what the update wants: observations normalised, returns and advantages estimated.
+//!
+//! Observations are normalised by the statistics of the newest policy, which are those its fragments were acted by; a
+//! fragment that lags is read with them too, because networks and statistics together are the policy that is improved.
+
+use treadmill_common::{
+    config::PpoConfig,
+    normaliser::{Normaliser, RunningMoments, ScalarNormaliser},
+    policy::Policy,
+};
+use treadmill_proto::{
+    Fragment,
+    fragment::{TERMINATED, TRUNCATED},
+};
+
+use crate::{
+    gae::{self, Steps},
+    intake::Accepted,
+    ppo::Batch,
+};
+
+/// The batch of one update, from whole fragments. `value_moments` take in the new returns before returns and values are
+/// normalised by them.
+///
+/// # Errors
+/// If the critic cannot be evaluated.
+pub fn prepare(
+    accepted: &[Accepted],
+    critic: &Policy,
+    normaliser: &Normaliser,
+    value_moments: &mut RunningMoments,
+    config: &PpoConfig,
+) -> Result<Batch, candle_core::Error> {
+    let mut batch = Batch::default();
+    let old_scale = ScalarNormaliser::from_moments(value_moments);
+    for Accepted { fragment, .. } in accepted {
+        let mut observations = fragment.observations.clone();
+        normaliser.apply(&mut observations);
+        let mut values = critic.values(&observations, fragment.transitions())?;
+        let next_values = next_values(fragment, critic, normaliser, &mut values, &old_scale)?;
+        let rewards: Vec<f32> =
+            fragment.rewards.iter().map(|reward| reward * config.reward_scale as f32).collect();
+        let steps = Steps {
+            envs: fragment.envs as usize,
+            rewards: &rewards,
+            values: &values,
+            next_values: &next_values,
+            terminated: &flagged(fragment, TERMINATED),
+            truncated: &flagged(fragment, TRUNCATED),
+        };
+        let estimated = gae::estimate(&steps, config.gamma as f32, config.gae_lambda as f32);
+        batch.observations.append(&mut observations);
+        batch.actions.extend_from_slice(&fragment.actions);
+        batch.log_probs.extend_from_slice(&fragment.log_probs);
+        batch.advantages.extend(estimated.advantages);
+        batch.returns.extend(estimated.returns);
+        batch.values.append(&mut values);
+    }
+    value_moments.update(&batch.returns, 1);
+    let new_scale = ScalarNormaliser::from_moments(value_moments);
+    new_scale.normalise(&mut batch.returns);
+    new_scale.normalise(&mut batch.values);
+    Ok(batch)
+}
+
+/// Values of the observations truly reached; brings `values` to the units of returns on the way.
+fn next_values(
+    fragment: &Fragment,
+    critic: &Policy,
+    normaliser: &Normaliser,
+    values: &mut [f32],
+    scale: &ScalarNormaliser,
+) -> Result<Vec<f32>, candle_core::Error> {
+    let mut last = fragment.last_observations.clone();
+    normaliser.apply(&mut last);
+    let rows = last.len() / fragment.observation_size as usize;
+    let mut last_values = if rows > 0 { critic.values(&last, rows)? } else { Vec::new() };
+    scale.denormalise(&mut last_values);
+    scale.denormalise(values);
+    // The fragment's last observations mix both kinds, ordered by step and environment.
+    let (envs, mut last_values) = (fragment.envs as usize, last_values.into_iter());
+    let (mut truncated_values, mut final_values) = (Vec::new(), vec![0.0; envs]);
+    for (index, flags) in fragment.flags.iter().enumerate() {
+        if !Fragment::needs_last_observation(*flags, (index / envs) as u32, fragment.steps) {
+            continue;
+        }
+        let value = last_values.next().expect("a checked fragment has one last observation for each that is needed");
+        if flags & TRUNCATED != 0 {
+            truncated_values.push(value);
+        } else {
+            final_values[index % envs] = value;
+        }
+    }
+    let (terminated, truncated) = (flagged(fragment, TERMINATED), flagged(fragment, TRUNCATED));
+    Ok(gae::next_values(values, &terminated, &truncated, &truncated_values, &final_values))
+}
+
+fn flagged(fragment: &Fragment, flag: u8) -> Vec<bool> {
+    fragment.flags.iter().map(|flags| flags & flag != 0).collect()
+}

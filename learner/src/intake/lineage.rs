@@ -1,0 +1,94 @@
+//! Which policy versions this learner descends from.
+
+use serde::{Deserialize, Serialize};
+use treadmill_proto::PolicyVersion;
+
+/// Starts of a learner that are remembered; fragments of older ones are long past any lag.
+const BRANCHES_MAX: usize = 64;
+
+/// The newest version, and for each earlier incarnation the last of its versions that this one grew from.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Lineage {
+    branches: Vec<PolicyVersion>,
+    newest: PolicyVersion,
+}
+
+/// How a fragment's version stands to the newest.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Descent {
+    /// An ancestor, or the newest itself: so many versions back.
+    Lag(u64),
+    /// Never made durable, or of no learner of this run.
+    Vanished,
+}
+
+impl Lineage {
+    /// A run that begins.
+    pub fn new(incarnation: u64) -> Self {
+        Self { branches: Vec::new(), newest: PolicyVersion { incarnation, number: 0 } }
+    }
+
+    /// The newest version.
+    pub fn newest(&self) -> PolicyVersion {
+        self.newest
+    }
+
+    /// One update more.
+    pub fn advance(&mut self) {
+        self.newest.number += 1;
+    }
+
+    /// A learner that resumed under a new incarnation: numbers go on.
+    pub fn resume(&mut self, incarnation: u64) {
+        self.branches.push(self.newest);
+        if self.branches.len() > BRANCHES_MAX {
+            self.branches.remove(0);
+        }
+        self.newest.incarnation = incarnation;
+    }
+
+    /// How `version` stands to the newest.
+    pub fn descent(&self, version: PolicyVersion) -> Descent {
+        let last = if version.incarnation == self.newest.incarnation {
+            Some(self.newest.number)
+        } else {
+            let branch = self.branches.iter().rev().find(|branch| branch.incarnation == version.incarnation);
+            branch.map(|branch| branch.number)
+        };
+        match last {
+            Some(last) if version.number <= last => Descent::Lag(self.newest.number - version.number),
+            _ => Descent::Vanished,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn version(incarnation: u64, number: u64) -> PolicyVersion {
+        PolicyVersion { incarnation, number }
+    }
+
+    #[test]
+    fn lag_counts_across_a_resume_and_vanished_versions_are_known_as_such() {
+        let mut lineage = Lineage::new(7);
+        (0..5).for_each(|_| lineage.advance());
+        assert_eq!(lineage.descent(version(7, 3)), Descent::Lag(2));
+        assert_eq!(lineage.descent(version(7, 6)), Descent::Vanished);
+        // The process went on to version 8, but its successor resumed from the checkpoint of version 5.
+        lineage.resume(9);
+        lineage.advance();
+        assert_eq!(lineage.newest(), version(9, 6));
+        assert_eq!(lineage.descent(version(7, 5)), Descent::Lag(1));
+        assert_eq!(lineage.descent(version(7, 6)), Descent::Vanished);
+        assert_eq!(lineage.descent(version(8, 1)), Descent::Vanished);
+    }
+
+    #[test]
+    fn memory_is_bounded() {
+        let mut lineage = Lineage::new(0);
+        (1..200).for_each(|incarnation| lineage.resume(incarnation));
+        assert_eq!(lineage.branches.len(), BRANCHES_MAX);
+    }
+}

@@ -1,0 +1,27 @@
+//! From rollouts to weights.
+//!
+//! # Layout, in the order of the data
+//! - [`intake`]: fragments from the bus, judged, answered and gathered into a batch.
+//! - [`gae`]: generalised advantage estimation, a pure function.
+//! - [`ppo`]: the loss and the update.
+//! - [`optimiser`]: Adam and gradient clipping over one flat slice.
+//! - [`experience`]: fragments turned into what the update wants.
+//! - [`training`]: the loop: collect, update, save, publish, log.
+//! - [`checkpoint`]: everything a run is, in one file.
+//! - [`scalars`]: what is logged after each update.
+//! - [`report`]: every place it goes to.
+//! - [`logging`]: where it is logged to.
+//!
+//! The loop runs on a thread of its own; nothing here is async, and nothing depends on the actor's crates.
+
+pub mod checkpoint;
+pub mod episodes;
+pub mod experience;
+pub mod gae;
+pub mod intake;
+pub mod logging;
+pub mod optimiser;
+pub mod ppo;
+pub mod report;
+pub mod scalars;
+pub mod training;

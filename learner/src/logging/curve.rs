@@ -1,0 +1,218 @@
+//! The learning curve as a picture, drawn from `metrics.jsonl`.
+
+use std::fs::{self, File};
+use std::io;
+use std::ops::Range;
+use std::path::{Path, PathBuf};
+
+use plotters::coord::Shift;
+use plotters::prelude::*;
+use plotters::style::text_anchor::{HPos, Pos, VPos};
+use plotters::style::{FontDesc, FontStyle, register_font};
+
+use super::jsonl::for_each_metric;
+use super::table::format_number;
+
+/// Width and height of the picture in pixels.
+const SIZE: (u32, u32) = (1200, 1200);
+
+/// The name under which the embedded font is known to the plotter.
+const FONT: &str = "DejaVu Sans";
+
+/// Up to here a number can be drawn; what lies beyond is left out, as the plotter's arithmetic would overflow.
+const DRAWABLE_MAX: f64 = 1e12;
+
+/// Up to this many points each gets a dot: a line alone would not show that they are few.
+const DOTS_MAX: usize = 60;
+
+const TITLE: RGBColor = RGBColor(40, 40, 40);
+const LABEL: RGBColor = RGBColor(90, 90, 90);
+const GRID: RGBColor = RGBColor(225, 225, 225);
+
+/// One quantity over the environment steps.
+struct Panel {
+    tag: &'static str,
+    title: &'static str,
+    axis: &'static str,
+    colour: RGBColor,
+}
+
+const PANELS: [Panel; 3] = [
+    Panel { tag: "rollout/ep_rew_mean", title: "Return", axis: "return per episode", colour: RGBColor(31, 119, 180) },
+    Panel {
+        tag: "rollout/distance_mean_m",
+        title: "Distance",
+        axis: "distance per episode [m]",
+        colour: RGBColor(44, 140, 60),
+    },
+    Panel {
+        tag: "rollout/velocity_mean_mps",
+        title: "Velocity",
+        axis: "mean velocity [m/s]",
+        colour: RGBColor(200, 80, 30),
+    },
+];
+
+/// Why there is no picture.
+#[derive(Debug, thiserror::Error)]
+pub enum CurveError {
+    /// The metrics cannot be read.
+    #[error("cannot read the metrics in {path}")]
+    Read {
+        /// The file.
+        path: PathBuf,
+        /// What the system said.
+        source: io::Error,
+    },
+    /// The plotter gave up; a file that cannot be written is the usual reason.
+    #[error("cannot draw the learning curve to {path}: {why}")]
+    Draw {
+        /// The file.
+        path: PathBuf,
+        /// What the plotter said.
+        why: String,
+    },
+    /// The finished picture cannot be put in its place.
+    #[error("cannot put the learning curve in its place at {path}")]
+    Replace {
+        /// The file.
+        path: PathBuf,
+        /// What the system said.
+        source: io::Error,
+    },
+}
+
+/// Draws the learning curve of a run: return, distance and velocity over environment steps, one panel below the
+/// other. A quantity without points gets an empty panel that says so. The picture replaces an older one as a whole.
+pub fn draw_curve(metrics_jsonl: &Path, png: &Path) -> Result<(), CurveError> {
+    let read = |source| CurveError::Read { path: metrics_jsonl.to_path_buf(), source };
+    let curves = File::open(metrics_jsonl).and_then(read_curves).map_err(read)?;
+
+    // The plotter chooses the format by the name's end, so the temporary name ends in `.png` too.
+    let temporary = png.with_extension("tmp.png");
+    let drawn = draw(&curves, &temporary)
+        .map_err(|error| CurveError::Draw { path: png.to_path_buf(), why: error.to_string() })
+        .and_then(|()| {
+            fs::rename(&temporary, png).map_err(|source| CurveError::Replace { path: png.to_path_buf(), source })
+        });
+    if drawn.is_err() {
+        // It may never have been made; the first error is the one to tell.
+        let _ = fs::remove_file(&temporary);
+    }
+    drawn
+}
+
+/// Points (millions of steps, value), one list per panel.
+type Curves = [Vec<(f64, f64)>; PANELS.len()];
+
+fn read_curves(file: File) -> io::Result<Curves> {
+    let mut curves = Curves::default();
+    for_each_metric(file, |metric, _| {
+        let point = (metric.step as f64 / 1e6, metric.value);
+        if let Some(panel) = PANELS.iter().position(|panel| panel.tag == metric.tag)
+            && point.0 <= DRAWABLE_MAX
+            && point.1.abs() <= DRAWABLE_MAX
+        {
+            curves[panel].push(point);
+        }
+        Ok(())
+    })?;
+    Ok(curves)
+}
+
+type DrawError<'a> = DrawingAreaErrorKind<<BitMapBackend<'a> as DrawingBackend>::ErrorType>;
+type Area<'a> = DrawingArea<BitMapBackend<'a>, Shift>;
+
+fn draw<'a>(curves: &Curves, path: &'a Path) -> Result<(), DrawError<'a>> {
+    // The font is part of the program: a machine without a screen often has none. Its bytes are a valid font, and
+    // without it the first text would be an error, not a panic.
+    let _ = register_font(FONT, FontStyle::Normal, dejavu::sans::regular());
+    let area = BitMapBackend::new(path, SIZE).into_drawing_area();
+    area.fill(&WHITE)?;
+    let million_steps_max = curves.iter().flatten().map(|point| point.0).fold(0.0, f64::max);
+    let million_steps = 0.0..if million_steps_max > 0.0 { million_steps_max } else { 1.0 };
+    for ((panel, points), area) in PANELS.iter().zip(curves).zip(area.split_evenly((PANELS.len(), 1))) {
+        draw_panel(panel, points, million_steps.clone(), &area)?;
+    }
+    area.present()
+}
+
+fn draw_panel<'a>(
+    panel: &Panel,
+    points: &[(f64, f64)],
+    million_steps: Range<f64>,
+    area: &Area<'a>,
+) -> Result<(), DrawError<'a>> {
+    let values = value_range(points);
+    let (steps_span, values_span) = (million_steps.end - million_steps.start, values.end - values.start);
+    let middle = ((million_steps.start + million_steps.end) / 2.0, (values.start + values.end) / 2.0);
+
+    let mut chart = ChartBuilder::on(area)
+        .caption(caption(panel, points), font(26).color(&TITLE))
+        .margin(16)
+        .margin_right(36)
+        .x_label_area_size(58)
+        .y_label_area_size(100)
+        .build_cartesian_2d(million_steps, values)?;
+    chart
+        .configure_mesh()
+        .max_light_lines(1)
+        .bold_line_style(GRID)
+        .light_line_style(WHITE)
+        .axis_style(LABEL)
+        .label_style(font(18).color(&LABEL))
+        .axis_desc_style(font(20).color(&TITLE))
+        .x_labels(11)
+        .y_labels(7)
+        .x_label_formatter(&|steps| axis_label(*steps, steps_span) + " M")
+        .y_label_formatter(&|value| axis_label(*value, values_span))
+        .x_desc("environment steps")
+        .y_desc(panel.axis)
+        .draw()?;
+
+    if points.is_empty() {
+        let style = font(22).color(&LABEL).pos(Pos::new(HPos::Center, VPos::Center));
+        chart.draw_series([Text::new(format!("no points of {} yet", panel.tag), middle, style)])?;
+    }
+    chart.draw_series(LineSeries::new(points.iter().copied(), panel.colour.stroke_width(3)))?;
+    if points.len() <= DOTS_MAX {
+        chart.draw_series(points.iter().map(|point| Circle::new(*point, 5, panel.colour.filled())))?;
+    }
+    Ok(())
+}
+
+fn caption(panel: &Panel, points: &[(f64, f64)]) -> String {
+    let best = points.iter().map(|point| point.1).fold(f64::NEG_INFINITY, f64::max);
+    match points.last() {
+        Some(last) => {
+            format!("{}: {} at last, {} at best", panel.title, format_number(last.1), format_number(best))
+        }
+        None => panel.title.to_string(),
+    }
+}
+
+/// What the vertical axis shows: all points and some air, also for a single point or a constant.
+fn value_range(points: &[(f64, f64)]) -> Range<f64> {
+    if points.is_empty() {
+        return 0.0..1.0;
+    }
+    let (low, high) = points
+        .iter()
+        .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), point| (low.min(point.1), high.max(point.1)));
+    let size = low.abs().max(high.abs());
+    let span = high - low;
+    let air = if span > size * 1e-6 { span * 0.06 } else { (size * 0.1).max(1e-3) };
+    low - air..high + air
+}
+
+/// As many decimals as it takes to tell neighbouring labels of an axis of this span apart, and none that are zero.
+fn axis_label(value: f64, span: f64) -> String {
+    let decimals = (1.0 - span.log10().floor()).clamp(0.0, 9.0);
+    let label = format!("{value:.*}", decimals as usize);
+    let label = if label.contains('.') { label.trim_end_matches('0').trim_end_matches('.') } else { &label };
+    if label == "-0" { "0".to_string() } else { label.to_string() }
+}
+
+fn font(size: u32) -> FontDesc<'static> {
+    (FONT, size).into_font()
+}

@@ -1,0 +1,175 @@
+//! Scalars as text: a boxed table for a terminal, one line for a log file.
+
+use console::measure_text_width;
+
+use super::Scalars;
+
+/// How far a name stands in from its group's heading.
+const INDENT: &str = "   ";
+
+/// Digits that count in a number with a fraction.
+const SIGNIFICANT_DIGITS: i32 = 4;
+
+/// From here on a number is written with an exponent.
+const PLAIN_BELOW: f64 = 1e15;
+
+/// Below this a number is written with an exponent.
+const PLAIN_FROM: f64 = 1e-4;
+
+/// A boxed table with two columns, one block per group; the group is what stands before the `/` of a tag.
+/// Groups, and the names in each, keep the order in which they were first given. Every line ends in a newline.
+pub fn render_table(scalars: &Scalars) -> String {
+    let rows = rows(scalars);
+    let width = |column: fn(&Row) -> &str| rows.iter().map(|row| measure_text_width(column(row))).max().unwrap_or(0);
+    let (names, values) = (width(|row| &row.0), width(|row| &row.1));
+
+    // Two columns with `| ` before, ` | ` between and ` |` after them.
+    let rule = format!("{}\n", "-".repeat(names + values + 7));
+    let mut table = rule.clone();
+    for (name, value) in &rows {
+        table.push_str(&format!("| {} | {} |\n", padded(name, names), padded(value, values)));
+    }
+    table.push_str(&rule);
+    table
+}
+
+/// One line without a newline, easy to search and to split: `steps=81920 rollout/ep_rew_mean=123.4 …`.
+pub fn render_line(env_steps: u64, scalars: &Scalars) -> String {
+    let mut line = format!("steps={env_steps}");
+    for (tag, value) in scalars {
+        line.push_str(&format!(" {tag}={}", format_number(*value)));
+    }
+    line
+}
+
+/// Four significant digits; whole numbers in full; an exponent only where the number would not be readable without.
+pub fn format_number(value: f64) -> String {
+    if value.is_nan() {
+        return "nan".to_string();
+    }
+    if value.is_infinite() {
+        return if value > 0.0 { "inf" } else { "-inf" }.to_string();
+    }
+    let size = value.abs();
+    if size < PLAIN_BELOW && value.fract() == 0.0 {
+        // Adding zero turns -0 into 0.
+        return format!("{:.0}", value + 0.0);
+    }
+    // The exponent after rounding: 9.99996 has that of 10.
+    let scientific = format!("{value:.*e}", (SIGNIFICANT_DIGITS - 1) as usize);
+    let (mantissa, exponent) = scientific.split_once('e').unwrap_or((&scientific, "0"));
+    if !(PLAIN_FROM..PLAIN_BELOW).contains(&size) {
+        return format!("{}e{exponent}", without_trailing_zeros(mantissa));
+    }
+    let decimals = SIGNIFICANT_DIGITS - 1 - exponent.parse::<i32>().unwrap_or(0);
+    let fixed = format!("{value:.*}", decimals.max(0) as usize);
+    without_trailing_zeros(&fixed).to_string()
+}
+
+/// A name and a value, both as shown; a heading has no value.
+type Row = (String, String);
+
+fn rows(scalars: &Scalars) -> Vec<Row> {
+    let mut groups: Vec<(&str, Vec<Row>)> = Vec::new();
+    for (tag, value) in scalars {
+        let (group, name) = tag.split_once('/').unwrap_or(("", tag));
+        let indent = if group.is_empty() { "" } else { INDENT };
+        let row = (format!("{indent}{name}"), format_number(*value));
+        match groups.iter_mut().find(|(known, _)| *known == group) {
+            Some((_, rows)) => rows.push(row),
+            None => groups.push((group, vec![row])),
+        }
+    }
+    let heading = |group: &str| (!group.is_empty()).then(|| (format!("{group}/"), String::new()));
+    groups.into_iter().flat_map(|(group, rows)| heading(group).into_iter().chain(rows)).collect()
+}
+
+fn padded(text: &str, width: usize) -> String {
+    format!("{text}{}", " ".repeat(width - measure_text_width(text)))
+}
+
+fn without_trailing_zeros(number: &str) -> &str {
+    if number.contains('.') { number.trim_end_matches('0').trim_end_matches('.') } else { number }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn scalars(values: &[(&str, f64)]) -> Vec<(String, f64)> {
+        values.iter().map(|(tag, value)| (tag.to_string(), *value)).collect()
+    }
+
+    #[test]
+    fn numbers_have_four_significant_digits() {
+        let cases = [
+            (0.0, "0"),
+            (-0.0, "0"),
+            (123.456, "123.5"),
+            (-1.234567, "-1.235"),
+            (0.000_3, "0.0003"),
+            (0.012_345_6, "0.01235"),
+            (9.999_96, "10"),
+            (99_999.5, "100000"),
+            (12_345.67, "12346"),
+            (0.000_099_999_9, "1e-4"),
+            (0.000_012_345, "1.234e-5"),
+            (-2.5e17, "-2.5e17"),
+            (1e300, "1e300"),
+            (10_000_000.0, "10000000"),
+            (81_920.0, "81920"),
+            (100.0, "100"),
+            (f64::NAN, "nan"),
+            (f64::INFINITY, "inf"),
+            (f64::NEG_INFINITY, "-inf"),
+            (f64::MIN_POSITIVE, "2.225e-308"),
+        ];
+        for (value, text) in cases {
+            assert_eq!(format_number(value), text, "{value:e}");
+        }
+    }
+
+    #[test]
+    fn a_table_is_grouped_by_what_stands_before_the_slash() {
+        let table = render_table(&scalars(&[
+            ("rollout/ep_rew_mean", 123.456),
+            ("time/total_timesteps", 81_920.0),
+            ("rollout/ep_len_mean", f64::NAN),
+        ]));
+        assert_eq!(
+            table,
+            "------------------------------\n\
+             | rollout/           |       |\n\
+             |    ep_rew_mean     | 123.5 |\n\
+             |    ep_len_mean     | nan   |\n\
+             | time/              |       |\n\
+             |    total_timesteps | 81920 |\n\
+             ------------------------------\n"
+        );
+    }
+
+    #[test]
+    fn odd_tags_and_no_scalars_are_drawn_as_well() {
+        assert_eq!(render_table(&[]), "-------\n-------\n");
+        let table = render_table(&scalars(&[("loose", 1.0), ("größe/höhe", 2.0), ("a/b/c", 3.0)]));
+        assert_eq!(
+            table,
+            "---------------\n\
+             | loose   | 1 |\n\
+             | größe/  |   |\n\
+             |    höhe | 2 |\n\
+             | a/      |   |\n\
+             |    b/c  | 3 |\n\
+             ---------------\n"
+        );
+    }
+
+    #[test]
+    fn a_line_keeps_whole_tags() {
+        assert_eq!(render_line(7, &[]), "steps=7");
+        assert_eq!(
+            render_line(81_920, &scalars(&[("rollout/ep_rew_mean", 1.5), ("train/loss", f64::NAN)])),
+            "steps=81920 rollout/ep_rew_mean=1.5 train/loss=nan"
+        );
+    }
+}

@@ -1,0 +1,104 @@
+//! Tests of the event files, read back with a reader of their own.
+
+use std::fs;
+use std::path::Path;
+
+use prost::Message;
+
+use super::EventWriter;
+use super::tensorboard::{Event, framed, masked_crc};
+
+/// Every event of a file; each checksum is checked.
+fn read(path: &Path) -> Vec<Event> {
+    let bytes = fs::read(path).unwrap();
+    let mut rest = bytes.as_slice();
+    let mut take = |count: usize| {
+        let (taken, left) = rest.split_at_checked(count)?;
+        rest = left;
+        Some(taken)
+    };
+    let mut events = Vec::new();
+    while let Some(length) = take(8) {
+        assert_eq!(take(4).unwrap(), masked_crc(length).to_le_bytes());
+        let data = take(u64::from_le_bytes(length.try_into().unwrap()) as usize).unwrap();
+        assert_eq!(take(4).unwrap(), masked_crc(data).to_le_bytes());
+        events.push(Event::decode(data).unwrap());
+    }
+    events
+}
+
+fn files(folder: &Path) -> Vec<std::path::PathBuf> {
+    let mut files: Vec<_> = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).collect();
+    files.sort();
+    files
+}
+
+fn scalars(values: &[(&str, f64)]) -> Vec<(String, f64)> {
+    values.iter().map(|(tag, value)| (tag.to_string(), *value)).collect()
+}
+
+#[test]
+fn a_record_is_framed_as_documented() {
+    // The CRC-32C of "123456789" is e3069283 in every table of checksums. Rotated right by 15 bits it is
+    // 2507c60d: e3069283 >> 15 = 0001c60d, e3069283 << 17 = 25060000. Plus a282ead8 is c78ab0e5.
+    assert_eq!(masked_crc(b"123456789"), 0xc78a_b0e5);
+    let record = framed(b"123456789");
+    assert_eq!(record.len(), 8 + 4 + 9 + 4);
+    assert_eq!(record[..8], [9, 0, 0, 0, 0, 0, 0, 0]);
+    assert_eq!(record[12..21], *b"123456789");
+    assert_eq!(record[21..], [0xe5, 0xb0, 0x8a, 0xc7]);
+}
+
+#[test]
+fn the_first_record_is_the_one_tensorflow_writes() {
+    // wall_time = 1.0: field 1, 64 bit, 3ff0000000000000; file_version: field 3, 13 bytes.
+    let event = Event { wall_time: 1.0, file_version: Some("brain.Event:2".into()), ..Event::default() };
+    let expected = [&[0x09, 0, 0, 0, 0, 0, 0, 0xf0, 0x3f, 0x1a, 13][..], b"brain.Event:2"].concat();
+    assert_eq!(event.encode_to_vec(), expected);
+
+    let folder = tempfile::tempdir().unwrap();
+    EventWriter::create(folder.path(), 1.0, "box").unwrap();
+    assert_eq!(fs::read(&files(folder.path())[0]).unwrap(), framed(&expected));
+}
+
+#[test]
+fn scalars_and_text_are_read_back() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut writer = EventWriter::create(folder.path(), 1_700_000_000.9, "a box/1").unwrap();
+    writer.text("config", "# *ä*").unwrap();
+    writer.scalars(8192, 2.5, &scalars(&[("rollout/ep_rew_mean", 0.0), ("train/kl", f64::NAN), ("x", 1e39)])).unwrap();
+    writer.scalars(9000, 3.5, &scalars(&[("train/kl", f64::NEG_INFINITY)])).unwrap();
+    writer.resume(8193, 4.5).unwrap();
+
+    let [file] = &files(folder.path())[..] else { panic!("one file") };
+    let name = file.file_name().unwrap().to_str().unwrap();
+    assert!(name.starts_with("events.out.tfevents.1700000000.a_box_1."), "{name}");
+
+    let events = read(file);
+    assert_eq!(events.len(), 4, "a step without a finite scalar is no event");
+    let text = &events[1].summary.as_ref().unwrap().value[0];
+    assert_eq!((text.tag.as_str(), text.simple_value), ("config", None));
+    assert_eq!(text.tensor.as_ref().unwrap().string_val, ["# *ä*".as_bytes()]);
+    assert_eq!(events[1].wall_time, 1_700_000_000.9);
+    let values = &events[2].summary.as_ref().unwrap().value;
+    assert_eq!((events[2].step, events[2].wall_time, values.len()), (8192, 2.5, 1));
+    assert_eq!((values[0].tag.as_str(), values[0].simple_value), ("rollout/ep_rew_mean", Some(0.0)));
+    assert_eq!((events[3].step, events[3].session_log.is_some()), (8193, true));
+}
+
+#[test]
+fn writers_of_the_same_second_get_files_of_their_own_in_order() {
+    let folder = tempfile::tempdir().unwrap();
+    for time in [5.25, 5.75, 5.0] {
+        EventWriter::create(folder.path(), time, "").unwrap();
+    }
+    let files = files(folder.path());
+    assert_eq!(files.iter().map(|file| read(file)[0].wall_time).collect::<Vec<_>>(), [5.25, 5.75, 5.0]);
+    assert!(files[0].to_str().unwrap().contains("/events.out.tfevents.0000000005.localhost."));
+}
+
+#[test]
+fn a_folder_that_is_not_there_is_an_error() {
+    let folder = tempfile::tempdir().unwrap();
+    assert!(EventWriter::create(&folder.path().join("gone"), 1.0, "box").is_err());
+}

@@ -1,0 +1,186 @@
+//! What is logged after each update: one tag and one number each.
+
+use std::{
+    collections::{BTreeSet, HashMap},
+    time::{Duration, Instant},
+};
+
+use treadmill_common::{config::Config, machine};
+use treadmill_proto::ActorStats;
+
+use crate::{checkpoint::TrainingState, intake::Accepted, ppo::UpdateStats};
+
+/// How long the parts of one round took.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Durations {
+    /// Waiting for and judging fragments.
+    pub collect: Duration,
+    /// Estimating advantages and learning.
+    pub update: Duration,
+    /// Writing the checkpoint.
+    pub checkpoint: Duration,
+}
+
+/// Lag of the batch, over transitions.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Lag {
+    /// Mean number of versions behind.
+    pub mean: f64,
+    /// The largest.
+    pub max: f64,
+}
+
+impl Lag {
+    /// Over every transition of a batch.
+    pub fn of(batch: &[Accepted]) -> Self {
+        let transitions: f64 = batch.iter().map(|accepted| accepted.fragment.transitions() as f64).sum();
+        let sum: f64 =
+            batch.iter().map(|accepted| accepted.lag as f64 * accepted.fragment.transitions() as f64).sum();
+        Self {
+            mean: sum / transitions.max(1.0),
+            max: batch.iter().map(|accepted| accepted.lag).max().unwrap_or(0) as f64,
+        }
+    }
+}
+
+/// Environment steps per second over the last rounds.
+#[derive(Debug)]
+pub struct Speed {
+    marks: std::collections::VecDeque<(Instant, u64)>,
+}
+
+impl Speed {
+    /// Rounds that the speed is taken over.
+    const ROUNDS: usize = 20;
+
+    /// Begins to measure.
+    pub fn new(env_steps: u64) -> Self {
+        Self { marks: [(Instant::now(), env_steps)].into() }
+    }
+
+    /// Notes the steps so far; the speed since the oldest mark.
+    pub fn mark(&mut self, env_steps: u64) -> f64 {
+        let now = Instant::now();
+        self.marks.push_back((now, env_steps));
+        if self.marks.len() > Self::ROUNDS {
+            self.marks.pop_front();
+        }
+        let (since, steps) = self.marks.front().copied().expect("a mark was just added");
+        (env_steps - steps) as f64 / now.duration_since(since).as_secs_f64().max(1e-9)
+    }
+}
+
+/// What one round is described by.
+pub struct Round<'a> {
+    /// The state after it.
+    pub state: &'a TrainingState,
+    /// The configuration.
+    pub config: &'a Config,
+    /// What the update did; `None` where it was undone.
+    pub update: Option<&'a UpdateStats>,
+    /// Lag of the batch.
+    pub lag: Lag,
+    /// How long its parts took.
+    pub durations: Durations,
+    /// Environment steps per second.
+    pub env_steps_per_s: f64,
+    /// Who is alive.
+    pub alive: &'a BTreeSet<String>,
+    /// The newest statistics of each.
+    pub stats: &'a HashMap<String, ActorStats>,
+    /// How many senders are in quarantine.
+    pub quarantined: usize,
+}
+
+impl Round<'_> {
+    /// Every tag with its number.
+    pub fn scalars(&self) -> Vec<(String, f64)> {
+        let mut out: Vec<(&str, f64)> = Vec::with_capacity(64);
+        self.rollout(&mut out);
+        self.time(&mut out);
+        self.train(&mut out);
+        self.bus(&mut out);
+        self.actors(&mut out);
+        out.into_iter().map(|(tag, value)| (tag.to_string(), value)).collect()
+    }
+
+    fn rollout(&self, out: &mut Vec<(&str, f64)>) {
+        if let Some(means) = self.state.episodes.means() {
+            out.extend([
+                ("rollout/ep_rew_mean", means.return_mean),
+                ("rollout/ep_len_mean", means.length_mean),
+                ("rollout/distance_mean_m", means.distance_mean_m),
+                ("rollout/velocity_mean_mps", means.velocity_mean_mps),
+                ("rollout/fall_fraction", means.fall_fraction),
+            ]);
+        }
+        out.push(("rollout/episodes", self.state.episodes.finished as f64));
+    }
+
+    fn time(&self, out: &mut Vec<(&str, f64)>) {
+        let counters = &self.state.counters;
+        out.extend([
+            ("time/fps", self.env_steps_per_s),
+            ("time/iterations", counters.updates as f64),
+            ("time/time_elapsed", counters.wall_s),
+            ("time/total_timesteps", counters.env_steps as f64),
+            ("time/collect_s", self.durations.collect.as_secs_f64()),
+            ("time/update_s", self.durations.update.as_secs_f64()),
+            ("time/checkpoint_s", self.durations.checkpoint.as_secs_f64()),
+        ]);
+    }
+
+    fn train(&self, out: &mut Vec<(&str, f64)>) {
+        if let Some(update) = self.update {
+            out.extend([
+                ("train/approx_kl", update.approx_kl),
+                ("train/clip_fraction", update.clip_fraction),
+                // Stable-Baselines3 logs the loss, which is minus the entropy.
+                ("train/entropy_loss", -update.entropy),
+                ("train/explained_variance", update.explained_variance),
+                ("train/policy_gradient_loss", update.policy_loss),
+                ("train/value_loss", update.value_loss),
+                ("train/bounds_loss", update.bounds_loss),
+                ("train/grad_norm", update.grad_norm),
+                ("train/std", update.std),
+                ("train/samples_per_s", update.samples as f64 / self.durations.update.as_secs_f64().max(1e-9)),
+            ]);
+        }
+        let counters = &self.state.counters;
+        out.extend([
+            ("train/clip_range", self.config.ppo.clip_range),
+            ("train/learning_rate", self.state.learning_rate),
+            ("train/n_updates", counters.gradient_steps as f64),
+            ("train/undone_updates", counters.undone_updates as f64),
+        ]);
+    }
+
+    fn bus(&self, out: &mut Vec<(&str, f64)>) {
+        let tally = &self.state.tally;
+        out.extend([
+            ("bus/policy_lag_mean", self.lag.mean),
+            ("bus/policy_lag_max", self.lag.max),
+            ("bus/fragments_accepted", tally.accepted as f64),
+            ("bus/fragments_duplicate", tally.duplicate as f64),
+            ("bus/fragments_too_old", tally.too_old as f64),
+            ("bus/fragments_vanished", tally.vanished as f64),
+            ("bus/fragments_malformed", tally.malformed as f64),
+            ("bus/fragments_quarantined", tally.quarantined as f64),
+        ]);
+    }
+
+    fn actors(&self, out: &mut Vec<(&str, f64)>) {
+        let sum = |of: fn(&ActorStats) -> f64| self.stats.values().map(of).sum::<f64>();
+        let memory_max = self.stats.values().map(|stats| stats.resident_bytes).max().unwrap_or(0);
+        out.extend([
+            ("actors/alive", self.alive.len() as f64),
+            ("actors/restarts", self.state.counters.restarts as f64),
+            ("actors/quarantined", self.quarantined as f64),
+            ("actors/physics_faults", self.state.episodes.faults as f64),
+            ("actors/env_steps_per_s", sum(|stats| stats.env_steps_per_s)),
+            ("actors/fragments_resent", sum(|stats| stats.resent as f64)),
+            ("actors/memory_max_mb", memory_max as f64 / 1e6),
+            ("learner/memory_mb", machine::resident_bytes() as f64 / 1e6),
+        ]);
+    }
+}

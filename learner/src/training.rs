@@ -1,0 +1,298 @@
+//! The loop: collect, update, save, publish, log.
+
+use std::{
+    io,
+    sync::{
+        Arc,
+        atomic::{AtomicU64, Ordering},
+    },
+    time::Instant,
+};
+
+use treadmill_common::{
+    bus::{Alive, Bus, BusError, PolicyShelf, RolloutIntake, StatsFeed},
+    config::Config,
+    machine,
+    normaliser::Normaliser,
+    run_folder::RunFolder,
+    shutdown::Shutdown,
+};
+use treadmill_proto::PolicyAnnouncement;
+
+use crate::{
+    checkpoint::{CheckpointError, Saver, TrainingState},
+    experience,
+    intake::{Accepted, Expected, Intake, Judge},
+    logging::CurveError,
+    ppo::{UpdateError, UpdateStats, Updater},
+    report::Report,
+    scalars::{Durations, Lag, Round, Speed},
+};
+
+/// Updates in a row that may be undone before the run stops.
+const UNDONE_MAX: u32 = 10;
+
+/// What training needs beside the state it begins with.
+pub struct TrainingOptions {
+    /// Where files go.
+    pub folder: RunFolder,
+    /// Whether a bar is drawn on a terminal.
+    pub show_progress: bool,
+    /// Actor processes that were started again, counted by whoever starts them.
+    pub restarts: Arc<AtomicU64>,
+}
+
+/// Why training stopped early.
+#[derive(Debug, thiserror::Error)]
+pub enum TrainingError {
+    /// The bus failed.
+    #[error(transparent)]
+    Bus(#[from] BusError),
+    /// The state could not be saved.
+    #[error(transparent)]
+    Checkpoint(#[from] CheckpointError),
+    /// A log could not be written.
+    #[error("the logs of the run cannot be written: {0}")]
+    Log(#[from] io::Error),
+    /// The networks could not be evaluated.
+    #[error("the networks cannot be evaluated: {0}")]
+    Evaluation(#[from] candle_core::Error),
+    /// Update after update was undone.
+    #[error("{updates} updates in a row were undone, the last because {why}; the last sound checkpoint stays in place")]
+    NotFinite {
+        /// How many.
+        updates: u32,
+        /// What was not finite.
+        why: UpdateError,
+    },
+    /// The state does not fit together.
+    #[error("the state of the run cannot be used: {why}")]
+    State {
+        /// What is wrong.
+        why: String,
+    },
+    /// The picture could not be drawn.
+    #[error("the learning curve cannot be drawn: {0}")]
+    Curve(#[from] CurveError),
+}
+
+/// What came of a run.
+#[derive(Clone, Debug)]
+pub struct Summary {
+    /// The state at the end.
+    pub state: TrainingState,
+    /// Seconds of this start.
+    pub wall_s: f64,
+    /// Environment steps of this start.
+    pub env_steps: u64,
+    /// Whether somebody asked to stop before the last step.
+    pub stopped: bool,
+}
+
+/// Trains until the run has its steps or somebody asks to stop. Blocks: give it a thread of its own.
+pub fn train(
+    bus: &Bus,
+    state: TrainingState,
+    options: &TrainingOptions,
+    shutdown: &Shutdown,
+) -> Result<Summary, TrainingError> {
+    let (begun, steps_before) = (Instant::now(), state.counters.env_steps);
+    let mut trainer = Trainer::start(bus, state, options)?;
+    let mut stopped = false;
+    while trainer.state.counters.env_steps < trainer.config.run.steps {
+        let round_begun = Instant::now();
+        let Some(batch) = trainer.collect(shutdown) else {
+            stopped = true;
+            break;
+        };
+        let collect = round_begun.elapsed();
+        let update = trainer.update(&batch)?;
+        let update_time = round_begun.elapsed() - collect;
+        trainer.account(&batch, round_begun);
+        trainer.save()?;
+        let checkpoint = round_begun.elapsed() - collect - update_time;
+        trainer.publish()?;
+        let durations = Durations { collect, update: update_time, checkpoint };
+        trainer.log(update.as_ref(), Lag::of(&batch), durations)?;
+    }
+    trainer.finish()?;
+    let state = trainer.state;
+    Ok(Summary { wall_s: begun.elapsed().as_secs_f64(), env_steps: state.counters.env_steps - steps_before, stopped, state })
+}
+
+struct Trainer {
+    state: TrainingState,
+    config: Config,
+    updater: Updater,
+    intake: Intake,
+    shelf: PolicyShelf,
+    stats: StatsFeed,
+    saver: Saver,
+    report: Report,
+    speed: Speed,
+    restarts: Arc<AtomicU64>,
+    restarts_before: u64,
+    undone_in_a_row: u32,
+    is_best: bool,
+}
+
+impl Trainer {
+    fn start(bus: &Bus, state: TrainingState, options: &TrainingOptions) -> Result<Self, TrainingError> {
+        let wrong = |why: String| TrainingError::State { why };
+        let config = state.config().map_err(wrong)?;
+        let bundle = state.bundle().map_err(wrong)?;
+        let expected = Expected {
+            run: state.run.clone(),
+            config_hash: bundle.config_hash,
+            observation_size: bundle.observation_size,
+            action_size: bundle.action_size,
+            max_policy_lag: config.learner.max_policy_lag.into(),
+        };
+        let judge =
+            Judge::new(expected, config.learner.quarantine_after, state.ledger.clone(), state.tally);
+        let threads = match config.learner.threads {
+            0 => machine::cores(),
+            threads => threads as usize,
+        };
+        let pool = rayon::ThreadPoolBuilder::new()
+            .num_threads(threads)
+            .thread_name(|index| format!("update-{index}"))
+            .build()
+            .map_err(|why| wrong(why.to_string()))?;
+        let mut updater =
+            Updater::new(state.shape.clone(), state.parameters.clone(), &config.ppo, Arc::new(pool))
+                .map_err(|why| wrong(why.to_string()))?;
+        updater
+            .restore(state.optimiser.clone(), state.learning_rate)
+            .map_err(|why| wrong(why.to_string()))?;
+        let saver = Saver::new(
+            &options.folder,
+            config.learner.checkpoint_every_updates.into(),
+            config.learner.keep_checkpoints as usize,
+        );
+        // Before any actor can hold this version, it is on disk: a learner that dies now is resumed from it.
+        saver.save(&state, false)?;
+        let encoded = bundle.encode().map_err(|why| wrong(why.to_string()))?;
+        let report = Report::open(bus, &state, &config, options)?;
+        let intake = Intake::new(
+            RolloutIntake::open(bus, &state.run, config.learner.intake_fragments as usize)?,
+            Alive::watch(bus, &state.run)?,
+            judge,
+        );
+        Ok(Self {
+            intake,
+            stats: StatsFeed::open(bus, &state.run)?,
+            shelf: PolicyShelf::open(bus, &state.run, encoded.into())?,
+            speed: Speed::new(state.counters.env_steps),
+            restarts: options.restarts.clone(),
+            restarts_before: state.counters.restarts,
+            undone_in_a_row: 0,
+            is_best: false,
+            saver,
+            report,
+            updater,
+            config,
+            state,
+        })
+    }
+
+    fn collect(&mut self, shutdown: &Shutdown) -> Option<Vec<Accepted>> {
+        self.intake.collect(self.config.ppo.batch as usize, &self.state.lineage, shutdown)
+    }
+
+    fn update(&mut self, accepted: &[Accepted]) -> Result<Option<UpdateStats>, TrainingError> {
+        let state = &mut self.state;
+        let critic = self.updater.policy().map_err(|why| TrainingError::State { why: why.to_string() })?;
+        let clip = self.config.policy.observation_clip as f32;
+        let normaliser = Normaliser::from_moments(&state.observation_moments, clip);
+        let mut value_moments = state.value_moments.clone();
+        let batch = experience::prepare(accepted, &critic, &normaliser, &mut value_moments, &self.config.ppo)?;
+        match self.updater.update(&batch, &mut state.shuffle) {
+            Ok(stats) => {
+                self.undone_in_a_row = 0;
+                state.value_moments = value_moments;
+                for Accepted { fragment, .. } in accepted {
+                    state.observation_moments.update(&fragment.observations, state.shape.observation);
+                }
+                state.counters.gradient_steps += stats.minibatches as u64;
+                Ok(Some(stats))
+            }
+            Err(why) => {
+                tracing::warn!("an update was undone: {why}");
+                self.undone_in_a_row += 1;
+                state.counters.undone_updates += 1;
+                if self.undone_in_a_row >= UNDONE_MAX {
+                    return Err(TrainingError::NotFinite { updates: self.undone_in_a_row, why });
+                }
+                Ok(None)
+            }
+        }
+    }
+
+    /// Brings the state up to date with what was learnt and from what.
+    fn account(&mut self, batch: &[Accepted], round_begun: Instant) {
+        let state = &mut self.state;
+        state.parameters = self.updater.parameters();
+        state.optimiser = self.updater.optimiser().clone();
+        state.learning_rate = self.updater.learning_rate();
+        state.lineage.advance();
+        state.counters.updates += 1;
+        for Accepted { fragment, .. } in batch {
+            state.counters.env_steps += fragment.transitions() as u64;
+            state.episodes.extend(&fragment.episodes);
+        }
+        state.counters.wall_s += round_begun.elapsed().as_secs_f64();
+        state.counters.restarts = self.restarts_before + self.restarts.load(Ordering::Relaxed);
+        self.is_best = state.episodes.is_full()
+            && state.episodes.means().is_some_and(|means| state.best_return.is_none_or(|best| means.return_mean > best));
+        if self.is_best {
+            state.best_return = state.episodes.means().map(|means| means.return_mean);
+        }
+    }
+
+    fn save(&mut self) -> Result<(), TrainingError> {
+        let judge = self.intake.judge();
+        self.state.tally = judge.tally;
+        self.state.ledger = judge.ledger.clone();
+        // In the state that is written, everything taken so far is durable by being written.
+        self.state.ledger.mark_durable();
+        self.saver.save(&self.state, self.is_best)?;
+        self.intake.mark_durable();
+        Ok(())
+    }
+
+    fn publish(&mut self) -> Result<(), TrainingError> {
+        let wrong = |why: String| TrainingError::State { why };
+        let bundle = self.state.bundle().map_err(wrong)?;
+        let announcement = PolicyAnnouncement { version: bundle.version, checksum: bundle.checksum };
+        let encoded = bundle.encode().map_err(|why| wrong(why.to_string()))?;
+        self.shelf.publish(encoded.into(), &announcement);
+        self.intake.answer_held(&self.state.lineage);
+        Ok(())
+    }
+
+    fn log(&mut self, update: Option<&UpdateStats>, lag: Lag, durations: Durations) -> Result<(), TrainingError> {
+        let alive = self.intake.alive();
+        let env_steps = self.state.counters.env_steps;
+        let env_steps_per_s = self.speed.mark(env_steps);
+        let round = Round {
+            state: &self.state,
+            config: &self.config,
+            update,
+            lag,
+            durations,
+            env_steps_per_s,
+            stats: self.stats.newest(&alive),
+            alive: &alive,
+            quarantined: self.intake.judge().quarantined(Instant::now()).len(),
+        };
+        let scalars = round.scalars();
+        Ok(self.report.log(env_steps, self.state.counters.updates, &scalars)?)
+    }
+
+    fn finish(&mut self) -> Result<(), TrainingError> {
+        self.intake.stop(&self.state.lineage);
+        self.report.finish()?;
+        Ok(())
+    }
+}

@@ -1,0 +1,98 @@
+//! `treadmill actor`: only an actor; task, model and rollout settings come from the learner with the policy bundle.
+
+use std::io::Read;
+
+use anyhow::Context;
+use clap::Args;
+use treadmill_actor::worker::{self, WorkerOptions};
+use treadmill_common::{bus::Bus, config::BusConfig, machine, seeds, shutdown::Shutdown};
+
+use crate::{outcome::Usage, signals, startup::NetworkArgs};
+
+/// Flags of `actor`.
+#[derive(Args)]
+pub struct ActorArgs {
+    /// Where the learner or a router listens; may be repeated.
+    #[arg(long, value_name = "ENDPOINT", default_value = "tcp/127.0.0.1:7447")]
+    connect: Vec<String>,
+    /// The run to join; may be left out where there is only one.
+    #[arg(long, value_name = "NAME")]
+    run: Option<String>,
+    /// This actor's name, unlike that of any other; by default made from the host's name.
+    #[arg(long, value_name = "NAME")]
+    name: Option<String>,
+    /// Environments of this actor; by default as many as the run's configuration says in total.
+    #[arg(long)]
+    envs: Option<u32>,
+    #[command(flatten)]
+    network: NetworkArgs,
+    /// How many times this actor was started before: it draws other random numbers each time.
+    #[arg(long, hide = true, default_value_t = 0)]
+    restart_count: u64,
+    /// End when standard input closes, which it does when the parent process is gone.
+    #[arg(long, hide = true)]
+    until_stdin_closes: bool,
+}
+
+/// Runs the actor until it is told to stop.
+pub fn run(args: ActorArgs) -> anyhow::Result<()> {
+    let options = WorkerOptions {
+        name: args.name.unwrap_or_else(default_name),
+        run: args.run,
+        envs: args.envs,
+        restart: args.restart_count,
+        where_to: args.connect.join(", "),
+    };
+    let wrong = |why: treadmill_proto::Malformed| Usage(why.to_string());
+    treadmill_proto::ident::check_ident("name", &options.name).map_err(wrong)?;
+    if let Some(run) = &options.run {
+        treadmill_proto::ident::check_ident("run", run).map_err(wrong)?;
+    }
+    if !options.envs.is_none_or(|envs| (1..=65_536).contains(&envs)) {
+        return Err(Usage("--envs must be 1 to 65536".to_string()).into());
+    }
+    let runtime =
+        tokio::runtime::Builder::new_multi_thread().worker_threads(2).enable_all().build().context("no runtime")?;
+    let outcome = runtime.block_on(async {
+        let shutdown = Shutdown::default();
+        signals::listen(shutdown.clone(), "")?;
+        if args.until_stdin_closes {
+            follow_standard_input(shutdown.clone())?;
+        }
+        let bus_options = args.network.options(Vec::new(), args.connect);
+        let opened = tokio::task::spawn_blocking(move || Bus::open_client(&bus_options, &BusConfig::default()));
+        let bus = tokio::select! {
+            bus = opened => bus??,
+            // The bus dials for as long as nobody answers; somebody who asks to stop does not wait for that.
+            () = shutdown.wait() => return Ok(()),
+        };
+        let outcome = worker::run(bus.clone(), options, shutdown).await;
+        bus.close();
+        Ok(outcome?)
+    });
+    runtime.shutdown_background();
+    outcome
+}
+
+fn default_name() -> String {
+    let host: String = machine::host_name()
+        .to_lowercase()
+        .chars()
+        .map(|c| if c.is_ascii_lowercase() || c.is_ascii_digit() { c } else { '-' })
+        .take(40)
+        .collect();
+    format!("{host}-{:08x}", seeds::unique() as u32)
+}
+
+/// The parent holds the other end of standard input open and sends nothing.
+fn follow_standard_input(shutdown: Shutdown) -> std::io::Result<()> {
+    std::thread::Builder::new().name("parent-watch".to_string()).spawn(move || {
+        let mut bytes = [0; 64];
+        while matches!(std::io::stdin().read(&mut bytes), Ok(count) if count > 0) {}
+        shutdown.ask();
+        // A process that does not come to an end by itself is of no use to a parent that is gone.
+        std::thread::sleep(std::time::Duration::from_secs(5));
+        std::process::exit(1);
+    })?;
+    Ok(())
+}

@@ -1,0 +1,51 @@
+//! `treadmill bench`: the benchmark sheet. Each bench prints its workload and a checksum of its result.
+
+mod env;
+mod train;
+mod update;
+
+use clap::{Args, Subcommand};
+
+use crate::output::say;
+
+/// Flags of `bench`.
+#[derive(Args)]
+pub struct BenchArgs {
+    #[command(subcommand)]
+    what: What,
+}
+
+#[derive(Subcommand)]
+enum What {
+    /// Environment steps per second of one core, with observation and without policy.
+    Env(env::EnvArgs),
+    /// Minibatch samples per second of the update.
+    Update(update::UpdateArgs),
+    /// Trained environment steps per second of the whole system.
+    Train(train::TrainArgs),
+}
+
+/// Runs one bench.
+pub fn run(args: BenchArgs) -> anyhow::Result<()> {
+    match args.what {
+        What::Env(args) => env::run(&args),
+        What::Update(args) => update::run(&args),
+        What::Train(args) => train::run(&args),
+    }
+}
+
+/// The result as one JSON object or as lines for people.
+fn tell(result: &serde_json::Value, json: bool) {
+    if json {
+        return say(&result.to_string());
+    }
+    for (name, value) in result.as_object().into_iter().flatten() {
+        let value = value.as_str().map_or_else(|| value.to_string(), str::to_string);
+        say(&format!("{name:<24} {value}"));
+    }
+}
+
+/// Digits that say something.
+fn rounded(rate: f64) -> f64 {
+    (rate * 10.0).round() / 10.0
+}

@@ -1,0 +1,176 @@
+//! `treadmill eval`: episodes without learning, by a trained policy or by one of the baselines.
+
+use std::path::Path;
+
+use clap::{Args, ValueEnum};
+use serde_json::json;
+use treadmill_actor::{
+    agent::{Agent, PolicyAgent, PreferredActionAgent, RandomAgent},
+    evaluation::{Evaluation, Told, evaluate},
+    settings,
+};
+use treadmill_common::{config::EnvConfig, run_folder::RunFolder};
+use treadmill_humanoid::{Environment, HUMANOID_XML};
+use treadmill_learner::checkpoint::{self, TrainingState, Which};
+
+use crate::{outcome::Usage, output::say};
+
+/// Who chooses the actions.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum Who {
+    /// The run's policy without exploration.
+    Policy,
+    /// Uniformly random actions.
+    Random,
+    /// The naive learner that nudges one preferred action.
+    PreferredAction,
+}
+
+impl Who {
+    fn name(self) -> &'static str {
+        match self {
+            Self::Policy => "policy",
+            Self::Random => "random",
+            Self::PreferredAction => "preferred-action",
+        }
+    }
+}
+
+/// Flags of `eval`.
+#[derive(Args)]
+pub struct EvalArgs {
+    /// The run: its folder, its name below runs/, or a bundle file. Needed for the policy only.
+    run: Option<String>,
+    /// Episodes to play.
+    #[arg(long, default_value_t = 20, value_parser = clap::value_parser!(u32).range(1..=100_000))]
+    episodes: u32,
+    /// Seed of the resets and of the baselines.
+    #[arg(long, default_value_t = 1)]
+    seed: u64,
+    /// Who chooses the actions.
+    #[arg(long, value_enum, default_value = "policy")]
+    agent: Who,
+    /// Which checkpoint: best, latest, or the number of updates of a kept one; by default best if there is one.
+    #[arg(long, value_name = "WHICH")]
+    checkpoint: Option<Which>,
+    /// Print the first and every N-th step of each episode; 100 for the baselines, 0 (never) for the policy.
+    #[arg(long, value_name = "N")]
+    print_every: Option<u32>,
+    /// Print one JSON object as the last line of standard output, and nothing else.
+    #[arg(long)]
+    json: bool,
+}
+
+/// Plays the episodes and prints what came of them.
+pub fn run(args: EvalArgs) -> anyhow::Result<()> {
+    let (mut environment, mut agent) = prepare(&args)?;
+    let print_every = match (args.print_every, args.agent) {
+        (Some(every), _) => every,
+        (None, Who::Policy) => 0,
+        (None, _) => 100,
+    };
+    let quiet = args.json || print_every == 0;
+    let evaluation = evaluate(&mut environment, agent.as_mut(), args.episodes, args.seed, |told| {
+        if !quiet && (told.step == 1 || told.step.is_multiple_of(print_every)) {
+            let Told { episode, step, reward, total } = told;
+            say(&format!("episode {episode:>3}  step {step:>4}  reward {reward:>8.3}  total {total:>9.2}"));
+        }
+    })?;
+    let control_step_s = environment.control_step_s();
+    if args.json {
+        say(&as_json(args.agent, &evaluation, control_step_s));
+    } else {
+        print_table(args.agent, &evaluation, control_step_s);
+    }
+    Ok(())
+}
+
+fn prepare(args: &EvalArgs) -> anyhow::Result<(Environment, Box<dyn Agent>)> {
+    let Some(run) = &args.run else {
+        if matches!(args.agent, Who::Policy) {
+            let why = "eval needs a RUN, as in `treadmill eval runs/walk-1`; or choose --agent random".to_string();
+            return Err(Usage(why).into());
+        }
+        let environment = Environment::new(&settings::environment(&EnvConfig::default()), HUMANOID_XML)?;
+        let action_size = environment.action_size();
+        return Ok((environment, baseline(args, action_size)));
+    };
+    let state = load(run, args.checkpoint)?;
+    let config = state.config().map_err(anyhow::Error::msg)?;
+    let environment = Environment::new(&settings::environment(&config.env), &state.model_xml)?;
+    let agent: Box<dyn Agent> = match args.agent {
+        Who::Policy => Box::new(PolicyAgent::new(&state.bundle().map_err(anyhow::Error::msg)?)?),
+        _ => baseline(args, environment.action_size()),
+    };
+    Ok((environment, agent))
+}
+
+fn load(run: &str, which: Option<Which>) -> anyhow::Result<TrainingState> {
+    if Path::new(run).is_file() {
+        return Ok(checkpoint::load_file(Path::new(run))?);
+    }
+    let folder = RunFolder::open(run)?;
+    Ok(checkpoint::load(&folder, which.unwrap_or(Which::BestOrLatest))?)
+}
+
+fn baseline(args: &EvalArgs, action_size: usize) -> Box<dyn Agent> {
+    match args.agent {
+        Who::PreferredAction => Box::new(PreferredActionAgent::new(args.seed, action_size)),
+        _ => Box::new(RandomAgent::new(args.seed)),
+    }
+}
+
+fn print_table(who: Who, evaluation: &Evaluation, control_step_s: f64) {
+    say("episode      return  length  distance m  velocity m/s  end");
+    for (index, played) in evaluation.episodes.iter().enumerate() {
+        let end = match (played.fault, played.fell) {
+            (true, _) => "fault",
+            (_, true) => "fell",
+            _ => "time limit",
+        };
+        say(&format!(
+            "{:>7} {:>11.1} {:>7} {:>11.2} {:>13.2}  {end}",
+            index + 1,
+            played.return_sum,
+            played.length,
+            played.distance_m,
+            played.velocity_mps
+        ));
+    }
+    let joints = &evaluation.joints;
+    say("");
+    say(&format!("agent         {}", who.name()));
+    say(&format!("episodes      {}, {} of them ended with a fall", evaluation.episodes.len(), evaluation.falls()));
+    say(&format!(
+        "return        {:.1} ± {:.1}",
+        evaluation.mean(|played| played.return_sum),
+        evaluation.return_std()
+    ));
+    say(&format!("length        {:.1} steps", evaluation.mean(|played| f64::from(played.length))));
+    say(&format!("distance      {:.2} m", evaluation.mean(|played| played.distance_m)));
+    say(&format!("velocity      {:.2} m/s", evaluation.velocity_mean_mps(control_step_s)));
+    say(&format!(
+        "joints        separation {:.4} m, limit overshoot {:.3} rad (99.9 % of steps; largest {:.4} m, {:.3} rad)",
+        joints.separation_p999_m, joints.overshoot_p999_rad, joints.separation_max_m, joints.overshoot_max_rad
+    ));
+}
+
+fn as_json(who: Who, evaluation: &Evaluation, control_step_s: f64) -> String {
+    let joints = &evaluation.joints;
+    json!({
+        "agent": who.name(),
+        "episodes": evaluation.episodes.len(),
+        "return_mean": evaluation.mean(|played| played.return_sum),
+        "return_std": evaluation.return_std(),
+        "length_mean": evaluation.mean(|played| f64::from(played.length)),
+        "distance_mean_m": evaluation.mean(|played| played.distance_m),
+        "velocity_mean_mps": evaluation.velocity_mean_mps(control_step_s),
+        "falls": evaluation.falls(),
+        "faults": evaluation.episodes.iter().filter(|played| played.fault).count(),
+        "joint_separation_p999_m": joints.separation_p999_m,
+        "joint_separation_max_m": joints.separation_max_m,
+        "limit_overshoot_p999_rad": joints.overshoot_p999_rad,
+        "limit_overshoot_max_rad": joints.overshoot_max_rad,
+    })
+    .to_string()
+}

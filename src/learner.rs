@@ -1,0 +1,166 @@
+//! `treadmill learner`: only the learner.
+
+use std::sync::{Arc, atomic::AtomicU64};
+
+use anyhow::Context;
+use clap::Args;
+use serde_json::json;
+use treadmill_common::{bus::Bus, shutdown::Shutdown};
+use treadmill_learner::training::{self, Summary, TrainingOptions};
+
+use crate::{
+    output::{complain, say},
+    signals,
+    startup::{self, AnyRunArgs, NetworkArgs, NewRunArgs, Prepared},
+    supervisor::{Fleet, Supervisor},
+};
+
+/// Flags of `learner`.
+#[derive(Args)]
+pub struct LearnerArgs {
+    #[command(flatten)]
+    new: NewRunArgs,
+    #[command(flatten)]
+    any: AnyRunArgs,
+    #[command(flatten)]
+    network: NetworkArgs,
+    /// The run's name on the bus; by default the name of its folder.
+    #[arg(long, value_name = "NAME", conflicts_with = "resume")]
+    run: Option<String>,
+    /// Where to listen; may be repeated.
+    #[arg(long, value_name = "ENDPOINT", default_value = "tcp/127.0.0.1:7447")]
+    listen: Vec<String>,
+    /// Other routers to join; may be repeated.
+    #[arg(long, value_name = "ENDPOINT")]
+    connect: Vec<String>,
+}
+
+/// Runs the learner until the run has its steps.
+pub fn run(args: LearnerArgs) -> anyhow::Result<()> {
+    let mut prepared = startup::prepare(&args.new, &args.any, &[])?;
+    if let Some(run) = &args.run {
+        treadmill_proto::ident::check_ident("run", run).map_err(|why| crate::outcome::Usage(why.to_string()))?;
+        prepared.state.run.clone_from(run);
+    }
+    let options = args.network.options(args.listen, args.connect);
+    host(prepared, &args.any, &options, None)
+}
+
+/// Hosts a learner, with actor processes beside it where `actors` says so.
+pub fn host(
+    prepared: Prepared,
+    any: &AnyRunArgs,
+    options: &treadmill_common::bus::BusOptions,
+    actors: Option<u32>,
+) -> anyhow::Result<()> {
+    let runtime =
+        tokio::runtime::Builder::new_multi_thread().worker_threads(2).enable_all().build().context("no runtime")?;
+    let outcome = runtime.block_on(host_until_done(prepared, any, options, actors));
+    // A close that hangs must not keep the process.
+    runtime.shutdown_background();
+    outcome
+}
+
+async fn host_until_done(
+    prepared: Prepared,
+    any: &AnyRunArgs,
+    options: &treadmill_common::bus::BusOptions,
+    actors: Option<u32>,
+) -> anyhow::Result<()> {
+    let Prepared { config, folder, state } = prepared;
+    let shutdown = Shutdown::default();
+    signals::listen(shutdown.clone(), "stopping after this update; press Ctrl-C again to stop at once")?;
+    let (bus, endpoints) = {
+        let (options, config) = (options.clone(), config.bus.clone());
+        tokio::task::spawn_blocking(move || Bus::open_learner(&options, &config)).await??
+    };
+    std::fs::write(folder.endpoint(), endpoints.join("\n") + "\n").context("the endpoint cannot be written")?;
+    greet(&folder, &state, &endpoints, actors);
+
+    let restarts = Arc::new(AtomicU64::new(0));
+    let run = state.run.clone();
+    let training_options = TrainingOptions {
+        folder: folder.clone(),
+        show_progress: !any.no_progress,
+        restarts: restarts.clone(),
+    };
+    let (tell, told) = tokio::sync::oneshot::channel();
+    std::thread::Builder::new().name("training".to_string()).spawn({
+        let (bus, shutdown) = (bus.clone(), shutdown.clone());
+        move || {
+            let _ = tell.send(training::train(&bus, state, &training_options, &shutdown));
+        }
+    })?;
+    let supervisor = actors.map(|actors| {
+        let fleet = Fleet { endpoint: endpoints[0].clone(), run, actors, envs: config.rollout.envs };
+        Supervisor::start(&fleet, restarts, shutdown)
+    });
+    let outcome = told.await.context("the training thread panicked");
+    if let Some(supervisor) = supervisor {
+        supervisor.stop().await?;
+    }
+    bus.close();
+    let summary = outcome??;
+    part(&folder, &summary);
+    if any.json {
+        say(&as_json(&summary));
+    }
+    Ok(())
+}
+
+fn greet(
+    folder: &treadmill_common::run_folder::RunFolder,
+    state: &treadmill_learner::checkpoint::TrainingState,
+    endpoints: &[String],
+    actors: Option<u32>,
+) {
+    let root = folder.root().display();
+    let verb = if state.counters.env_steps > 0 {
+        format!("going on at {} env steps", state.counters.env_steps)
+    } else {
+        "training a humanoid to walk".to_string()
+    };
+    say(&format!("run `{}`: {verb}", state.run));
+    say(&format!("  files     {root}  (curves: tensorboard --logdir {root})"));
+    match actors {
+        Some(actors) => say(&format!("  actors    {actors} processes beside this one")),
+        None => say(&format!(
+            "  actors    none yet; start some by: treadmill actor --connect {} --run {}",
+            endpoints[0], state.run
+        )),
+    }
+    say(&format!("  listening {}", endpoints.join(", ")));
+    say("  stop      Ctrl-C once finishes the update and saves");
+}
+
+fn part(folder: &treadmill_common::run_folder::RunFolder, summary: &Summary) {
+    let root = folder.root().display();
+    let steps = summary.state.counters.env_steps;
+    let what = if summary.stopped { "stopped" } else { "done" };
+    say(&format!("{what} after {steps} env steps; saved in {root}/checkpoints"));
+    if summary.stopped {
+        complain(&format!("resume with: treadmill train --resume {root}"));
+    } else {
+        say(&format!("see how far it walks: treadmill eval {root}"));
+    }
+}
+
+fn as_json(summary: &Summary) -> String {
+    let state = &summary.state;
+    let means = state.episodes.means();
+    let number = |of: fn(&treadmill_learner::episodes::EpisodeMeans) -> f64| means.as_ref().map(of);
+    json!({
+        "run": state.run,
+        "env_steps": state.counters.env_steps,
+        "updates": state.counters.updates,
+        "wall_s": summary.wall_s,
+        "env_steps_per_s": summary.env_steps as f64 / summary.wall_s.max(1e-9),
+        "return_mean": number(|means| means.return_mean),
+        "length_mean": number(|means| means.length_mean),
+        "distance_mean_m": number(|means| means.distance_mean_m),
+        "velocity_mean_mps": number(|means| means.velocity_mean_mps),
+        "restarts": state.counters.restarts,
+        "stopped": summary.stopped,
+    })
+    .to_string()
+}

@@ -1,0 +1,197 @@
+//! From flags to a run that is ready to begin: configuration, folder, first state.
+
+use std::{fs, path::PathBuf};
+
+use anyhow::Context;
+use clap::Args;
+use serde_json::json;
+use treadmill_actor::settings;
+use treadmill_common::{
+    bus::BusOptions,
+    config::{Config, ConfigSource},
+    machine,
+    run_folder::RunFolder,
+    seeds,
+};
+use treadmill_humanoid::{Environment, HUMANOID_XML};
+use treadmill_learner::checkpoint::{self, TrainingState, Which};
+
+use crate::outcome::Usage;
+
+/// Flags that say what a run is; they make no sense together with `--resume`, which has them saved.
+#[derive(Args, Clone, Debug, Default)]
+pub struct NewRunArgs {
+    /// Starting point of the configuration: walk or smoke.
+    #[arg(long, value_name = "NAME", default_value = "walk")]
+    pub preset: String,
+    /// Configuration file (TOML) laid over the preset.
+    #[arg(long, value_name = "FILE", conflicts_with = "resume")]
+    pub config: Option<PathBuf>,
+    /// One configuration key, as in ppo.learning_rate=3e-4; may be repeated.
+    #[arg(long, value_name = "KEY=VALUE", conflicts_with = "resume")]
+    pub set: Vec<String>,
+    /// Seed of every random stream.
+    #[arg(long, conflicts_with = "resume")]
+    pub seed: Option<u64>,
+    /// Folder of this run; by default runs/PRESET-N with the first free N.
+    #[arg(long, value_name = "DIR", conflicts_with = "resume")]
+    pub run_dir: Option<PathBuf>,
+    /// One actor in lock-step: the same seed gives the same weights bit for bit.
+    #[arg(long, conflicts_with = "resume")]
+    pub deterministic: bool,
+}
+
+/// Flags that make sense for a new run and for a resumed one.
+#[derive(Args, Clone, Debug, Default)]
+pub struct AnyRunArgs {
+    /// Environment steps of the run in total.
+    #[arg(long)]
+    pub steps: Option<u64>,
+    /// Go on with this run: its folder, or its name below runs/.
+    #[arg(long, value_name = "RUN", conflicts_with = "preset")]
+    pub resume: Option<String>,
+    /// Which checkpoint to resume from: latest, best, or the number of updates of a kept one.
+    #[arg(long, value_name = "WHICH", requires = "resume")]
+    pub checkpoint: Option<Which>,
+    /// Do not draw a progress bar.
+    #[arg(long)]
+    pub no_progress: bool,
+    /// Print one JSON summary as the last line of standard output.
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// Flags about the network.
+#[derive(Args, Clone, Debug, Default)]
+pub struct NetworkArgs {
+    /// Allow plain tcp beyond loopback, where anybody on the network can read and forge it.
+    #[arg(long)]
+    pub insecure: bool,
+    /// The bus's own configuration (JSON5), under which ours is laid; for certificates, say.
+    #[arg(long, value_name = "FILE")]
+    pub zenoh_config: Option<PathBuf>,
+}
+
+impl NetworkArgs {
+    /// How to reach the bus.
+    pub fn options(&self, listen: Vec<String>, connect: Vec<String>) -> BusOptions {
+        BusOptions { listen, connect, insecure: self.insecure, zenoh_config: self.zenoh_config.clone() }
+    }
+}
+
+/// A run that is ready to begin.
+pub struct Prepared {
+    /// Its configuration.
+    pub config: Config,
+    /// Its folder.
+    pub folder: RunFolder,
+    /// Its state.
+    pub state: TrainingState,
+}
+
+/// Prepares a new run, or one that goes on. `changes` are keys that the command's own flags set.
+pub fn prepare(new: &NewRunArgs, any: &AnyRunArgs, changes: &[(&str, i64)]) -> anyhow::Result<Prepared> {
+    let prepared = match &any.resume {
+        Some(run) => resume(run, any)?,
+        None => begin(new, any, changes)?,
+    };
+    write_run_files(&prepared).with_context(|| format!("cannot write to {}", prepared.folder.root().display()))?;
+    Ok(prepared)
+}
+
+fn begin(new: &NewRunArgs, any: &AnyRunArgs, changes: &[(&str, i64)]) -> anyhow::Result<Prepared> {
+    let mut source = ConfigSource::default();
+    source.preset(&new.preset)?;
+    if let Some(file) = &new.config {
+        source.file(file)?;
+    }
+    for pair in &new.set {
+        source.set(pair)?;
+    }
+    for (key, value) in changes {
+        source.value(key, *value)?;
+    }
+    for (key, value) in [("run.seed", new.seed), ("run.steps", any.steps)] {
+        if let Some(value) = value {
+            let value = i64::try_from(value)
+                .map_err(|_| Usage(format!("`{key}` is {value}; allowed: at most {}", i64::MAX)))?;
+            source.value(key, value)?;
+        }
+    }
+    if new.deterministic {
+        source.value("run.deterministic", true)?;
+    }
+    let mut config = source.build()?;
+    if config.run.deterministic {
+        config.rollout.actors = 1;
+        config.rollout.max_in_flight = 1;
+    }
+    let environment = Environment::new(&settings::environment(&config.env), HUMANOID_XML)?;
+    let folder = RunFolder::create(new.run_dir.as_deref(), &new.preset)?;
+    let state = TrainingState::fresh(
+        folder.name(),
+        &config,
+        HUMANOID_XML,
+        environment.observation_size(),
+        environment.action_size(),
+        seeds::unique(),
+    );
+    Ok(Prepared { config, folder, state })
+}
+
+fn resume(run: &str, any: &AnyRunArgs) -> anyhow::Result<Prepared> {
+    let folder = RunFolder::open(run)?;
+    let mut state = checkpoint::load(&folder, any.checkpoint.unwrap_or(Which::Latest))?;
+    let mut config = state.config().map_err(anyhow::Error::msg)?;
+    if let Some(steps) = any.steps {
+        config.run.steps = steps;
+        config.check()?;
+        state.config_toml = config.to_toml();
+    }
+    state.lineage.resume(seeds::unique());
+    Ok(Prepared { config, folder, state })
+}
+
+fn write_run_files(prepared: &Prepared) -> std::io::Result<()> {
+    use std::io::Write;
+    let Prepared { config, folder, state } = prepared;
+    fs::write(folder.config(), config.to_toml())?;
+    fs::write(folder.root().join("model.xml"), &state.model_xml)?;
+    let mut commands = fs::OpenOptions::new().create(true).append(true).open(folder.root().join("command.txt"))?;
+    writeln!(commands, "{}", std::env::args().map(|part| quoted(&part)).collect::<Vec<_>>().join(" "))?;
+    let versions = json!({
+        "treadmill": env!("CARGO_PKG_VERSION"),
+        "checkpoint_format": checkpoint::encoding::FORMAT,
+        "os": std::env::consts::OS,
+        "architecture": std::env::consts::ARCH,
+        "cpu": machine::cpu_name(),
+        "cores": machine::cores(),
+    });
+    fs::write(folder.root().join("versions.json"), format!("{versions:#}\n"))
+}
+
+/// A part of a command line as a shell would take it.
+fn quoted(part: &str) -> String {
+    let plain = |c: char| c.is_ascii_alphanumeric() || "-_./=:,+".contains(c);
+    if !part.is_empty() && part.chars().all(plain) {
+        return part.to_string();
+    }
+    format!("'{}'", part.replace('\'', r"'\''"))
+}
+
+/// Command-line flags as configuration keys, where they were given.
+pub fn changes(flags: &[(&'static str, Option<u32>)]) -> Vec<(&'static str, i64)> {
+    flags.iter().filter_map(|(key, value)| value.map(|value| (*key, i64::from(value)))).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_command_line_can_be_pasted_into_a_shell() {
+        assert_eq!(quoted("--set"), "--set");
+        assert_eq!(quoted("policy.hidden=[8, 8]"), "'policy.hidden=[8, 8]'");
+        assert_eq!(quoted("it's"), r"'it'\''s'");
+    }
+}

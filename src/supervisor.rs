@@ -1,0 +1,128 @@
+//! The actor processes of `train`: started beside the learner, started again when they die, gone when it is gone.
+
+use std::{
+    process::Stdio,
+    sync::{
+        Arc,
+        atomic::{AtomicU64, Ordering},
+    },
+    time::{Duration, Instant},
+};
+
+use anyhow::Context;
+use tokio::{
+    process::{Child, Command},
+    task::JoinSet,
+};
+use treadmill_common::shutdown::Shutdown;
+
+use crate::output::complain;
+
+/// An actor that lived shorter than this did not do anything useful.
+const TOO_SHORT: Duration = Duration::from_secs(5);
+/// So many useless lives in a row mean that starting it again does not help.
+const TOO_SHORT_MAX: u32 = 8;
+const BACKOFF_MAX: Duration = Duration::from_secs(5);
+/// An actor ends within this once its standard input is closed; then it is killed.
+const STOP_PATIENCE: Duration = Duration::from_secs(3);
+
+/// What every actor of this run is started with.
+#[derive(Clone, Debug)]
+pub struct Fleet {
+    /// Where the learner listens.
+    pub endpoint: String,
+    /// The run's name.
+    pub run: String,
+    /// Actor processes.
+    pub actors: u32,
+    /// Environments in total.
+    pub envs: u32,
+}
+
+/// Runs actor processes.
+pub struct Supervisor {
+    tasks: JoinSet<anyhow::Result<()>>,
+    stopping: Shutdown,
+}
+
+impl Supervisor {
+    /// Starts all; each life after the first is counted in `restarts`. An actor that cannot live asks `shutdown`.
+    pub fn start(fleet: &Fleet, restarts: Arc<AtomicU64>, shutdown: Shutdown) -> Self {
+        let stopping = Shutdown::default();
+        let mut tasks = JoinSet::new();
+        for index in 0..fleet.actors {
+            let (fleet, restarts, shutdown, stopping) =
+                (fleet.clone(), restarts.clone(), shutdown.clone(), stopping.clone());
+            tasks.spawn(async move {
+                let ended = keep_alive(&fleet, index, &restarts, &stopping).await;
+                if ended.is_err() {
+                    shutdown.ask();
+                }
+                ended
+            });
+        }
+        Self { tasks, stopping }
+    }
+
+    /// Ends every actor; the first reason why one could not live, if there was one.
+    pub async fn stop(mut self) -> anyhow::Result<()> {
+        self.stopping.ask();
+        let mut outcome = Ok(());
+        while let Some(ended) = self.tasks.join_next().await {
+            let ended = ended.context("an actor's supervisor failed").and_then(|ended| ended);
+            outcome = outcome.and(ended);
+        }
+        outcome
+    }
+}
+
+async fn keep_alive(fleet: &Fleet, index: u32, restarts: &AtomicU64, stopping: &Shutdown) -> anyhow::Result<()> {
+    let mut short_lives = 0;
+    for life in 0u64.. {
+        let begun = Instant::now();
+        let mut child = spawn(fleet, index, life)?;
+        let status = tokio::select! {
+            status = child.wait() => status.context("an actor cannot be waited for")?,
+            () = stopping.wait() => return end(child).await,
+        };
+        short_lives = if begun.elapsed() < TOO_SHORT { short_lives + 1 } else { 0 };
+        if short_lives >= TOO_SHORT_MAX {
+            anyhow::bail!("actor-{index} ended {short_lives} times in a row right after its start, last with {status}");
+        }
+        restarts.fetch_add(1, Ordering::Relaxed);
+        complain(&format!("actor-{index} ended with {status}; starting it again"));
+        let pause = (Duration::from_millis(100) * 2u32.saturating_pow(short_lives)).min(BACKOFF_MAX);
+        tokio::select! {
+            () = tokio::time::sleep(pause) => {}
+            () = stopping.wait() => return Ok(()),
+        }
+    }
+    Ok(())
+}
+
+fn spawn(fleet: &Fleet, index: u32, life: u64) -> anyhow::Result<Child> {
+    let program = std::env::current_exe().context("this program's own path is unknown")?;
+    // The first actors take what does not divide evenly.
+    let envs = fleet.envs / fleet.actors + u32::from(index < fleet.envs % fleet.actors);
+    Command::new(program)
+        .arg("actor")
+        .args(["--connect", &fleet.endpoint, "--run", &fleet.run])
+        .args(["--name", &format!("actor-{index}"), "--envs", &envs.to_string()])
+        .args(["--restart-count", &life.to_string(), "--until-stdin-closes", "--insecure"])
+        // Held open by this process alone: it closes by itself when this process is gone, however it went.
+        .stdin(Stdio::piped())
+        .stdout(Stdio::null())
+        // Its own group, so that Ctrl-C reaches only the learner, which then ends its actors in order.
+        .process_group(0)
+        .kill_on_drop(true)
+        .spawn()
+        .with_context(|| format!("actor-{index} cannot be started"))
+}
+
+async fn end(mut child: Child) -> anyhow::Result<()> {
+    drop(child.stdin.take());
+    if tokio::time::timeout(STOP_PATIENCE, child.wait()).await.is_err() {
+        child.kill().await.context("an actor cannot be killed")?;
+    }
+    Ok(())
+}

@@ -1,0 +1,43 @@
+//! `treadmill train`: a learner in this process, actor processes started beside it; no router, no container, no
+//! network beyond loopback.
+
+use clap::Args;
+use treadmill_common::machine;
+
+use crate::{
+    learner,
+    startup::{self, AnyRunArgs, NetworkArgs, NewRunArgs},
+};
+
+/// Flags of `train`.
+#[derive(Args)]
+pub struct TrainArgs {
+    #[command(flatten)]
+    new: NewRunArgs,
+    #[command(flatten)]
+    any: AnyRunArgs,
+    #[command(flatten)]
+    network: NetworkArgs,
+    /// Actor processes; by default one per core.
+    #[arg(long)]
+    actors: Option<u32>,
+    /// Environments in total, split over the actors.
+    #[arg(long, conflicts_with = "resume")]
+    envs: Option<u32>,
+    /// Where to listen; by default a free port on loopback, which is written to the run's folder.
+    #[arg(long, value_name = "ENDPOINT", default_value = "tcp/127.0.0.1:0")]
+    listen: String,
+}
+
+/// Trains until the run has its steps.
+pub fn run(args: TrainArgs) -> anyhow::Result<()> {
+    let changes = startup::changes(&[("rollout.envs", args.envs), ("rollout.actors", args.actors)]);
+    let prepared = startup::prepare(&args.new, &args.any, &changes)?;
+    let rollout = &prepared.config.rollout;
+    let wanted = args.actors.filter(|_| !prepared.config.run.deterministic).unwrap_or(rollout.actors);
+    let actors = match wanted {
+        0 => (machine::cores() as u32).min(rollout.envs),
+        wanted => wanted.min(rollout.envs),
+    };
+    learner::host(prepared, &args.any, &args.network.options(vec![args.listen], Vec::new()), Some(actors))
+}
