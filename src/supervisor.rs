@@ -11,7 +11,7 @@ use std::{
 
 use anyhow::Context;
 use tokio::{
-    process::{Child, Command},
+    process::{Child, ChildStdin, Command},
     task::JoinSet,
 };
 use treadmill_common::shutdown::Shutdown;
@@ -81,9 +81,11 @@ async fn keep_alive(fleet: &Fleet, index: u32, restarts: &AtomicU64, stopping: &
     for life in 0u64.. {
         let begun = Instant::now();
         let mut child = spawn(fleet, index, life)?;
+        // Taken out, because waiting for a child closes what it still holds of its standard input.
+        let leash = child.stdin.take();
         let status = tokio::select! {
             status = child.wait() => status.context("an actor cannot be waited for")?,
-            () = stopping.wait() => return end(child).await,
+            () = stopping.wait() => return end(child, leash).await,
         };
         short_lives = if begun.elapsed() < TOO_SHORT { short_lives + 1 } else { 0 };
         if short_lives >= TOO_SHORT_MAX {
@@ -119,8 +121,8 @@ fn spawn(fleet: &Fleet, index: u32, life: u64) -> anyhow::Result<Child> {
         .with_context(|| format!("actor-{index} cannot be started"))
 }
 
-async fn end(mut child: Child) -> anyhow::Result<()> {
-    drop(child.stdin.take());
+async fn end(mut child: Child, leash: Option<ChildStdin>) -> anyhow::Result<()> {
+    drop(leash);
     if tokio::time::timeout(STOP_PATIENCE, child.wait()).await.is_err() {
         child.kill().await.context("an actor cannot be killed")?;
     }

@@ -97,7 +97,7 @@ async fn stay(
 
     // Credit: the physics thread takes one for each fragment; the courier gives it back with the receipt.
     let (give_credit, credit) = mpsc::channel();
-    (0..config.rollout.max_in_flight).for_each(|_| drop(give_credit.send(())));
+    (0..config.rollout.max_in_flight).for_each(|_| give_credit.send(()).unwrap_or_default());
     let (outbox, mut produced) = tokio_mpsc::channel::<Result<Produced, ActorError>>(2);
     let physics = std::thread::Builder::new()
         .name("physics".to_string())

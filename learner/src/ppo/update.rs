@@ -1,11 +1,10 @@
 //! One update: several epochs of gradient steps over one batch, undone as a whole if a number is not finite.
 
-use std::num::NonZero;
 use std::sync::Arc;
 
 use candle_core::{Device, Tensor, Var};
 use rand::Rng;
-use rayon::{ThreadPool, ThreadPoolBuilder};
+use rayon::ThreadPool;
 use treadmill_common::config::PpoConfig;
 use treadmill_common::policy::gaussian::clamp_log_std;
 use treadmill_common::policy::{FusedNetworks, NetworkShape, ParameterError, Policy, check_parameters};
@@ -103,51 +102,41 @@ pub enum UpdaterError {
         /// Parameters of the network.
         expected: usize,
     },
-    /// The operating system gave no threads.
-    #[error("the threads of the update cannot be started")]
-    Threads(#[from] rayon::ThreadPoolBuildError),
 }
 
 impl Updater {
-    /// A fresh optimiser for `parameters`, on `threads` threads; 0 means one per core.
-    ///
-    /// The results do not depend on the number of threads.
+    /// A fresh optimiser for `parameters`. The update runs on the threads of `pool`, on the calling one where `pool` has
+    /// a single thread; the results do not depend on how many there are.
     ///
     /// # Errors
-    /// If the parameters do not fit the shape or are not finite, or the threads cannot be started.
+    /// If the parameters do not fit the shape or are not finite.
     pub fn new(
         shape: NetworkShape,
-        parameters: Vec<f32>,
-        config: &PpoConfig,
-        threads: usize,
-    ) -> Result<Self, UpdaterError> {
-        let optimiser = OptimiserState::new(shape.parameter_count());
-        Self::restore(shape, parameters, optimiser, config.learning_rate, config, threads)
-    }
-
-    /// Goes on exactly where `parameters`, `optimiser` and the current `learning_rate` were taken.
-    ///
-    /// # Errors
-    /// As [`Updater::new`], and if the optimiser's state does not fit the shape.
-    pub fn restore(
-        shape: NetworkShape,
         mut parameters: Vec<f32>,
-        optimiser: OptimiserState,
-        learning_rate: f64,
         config: &PpoConfig,
-        threads: usize,
+        pool: Arc<ThreadPool>,
     ) -> Result<Self, UpdaterError> {
         check_parameters(&shape, &parameters)?;
+        clamp_log_std(&mut parameters[shape.log_std()]);
+        let optimiser = OptimiserState::new(parameters.len());
+        let networks = FusedNetworks::actor_critic(&shape, Some(pool.clone()));
+        let state = State { parameters, optimiser, learning_rate: config.learning_rate };
+        Ok(Self { shape, config: config.clone(), networks, pool, state })
+    }
+
+    /// Goes on exactly where `optimiser` and the current `learning_rate` were taken from an updater.
+    ///
+    /// # Errors
+    /// If the optimiser's state does not fit the shape; then nothing has changed.
+    pub fn restore(&mut self, optimiser: OptimiserState, learning_rate: f64) -> Result<(), UpdaterError> {
+        let expected = self.state.parameters.len();
         for moment in [&optimiser.first_moment, &optimiser.second_moment] {
-            if moment.len() != parameters.len() {
-                return Err(UpdaterError::Optimiser { found: moment.len(), expected: parameters.len() });
+            if moment.len() != expected {
+                return Err(UpdaterError::Optimiser { found: moment.len(), expected });
             }
         }
-        clamp_log_std(&mut parameters[shape.log_std()]);
-        let pool = thread_pool(threads)?;
-        let networks = FusedNetworks::actor_critic(&shape, Some(pool.clone()));
-        let state = State { parameters, optimiser, learning_rate };
-        Ok(Self { shape, config: config.clone(), networks, pool, state })
+        (self.state.optimiser, self.state.learning_rate) = (optimiser, learning_rate);
+        Ok(())
     }
 
     /// The shape of the networks.
@@ -285,16 +274,6 @@ fn leaf(numbers: &[f32]) -> candle_core::Result<Var> {
 
 fn scalar(tensor: &Tensor) -> candle_core::Result<f64> {
     Ok(f64::from(tensor.to_scalar::<f32>()?))
-}
-
-/// A pool of `threads` threads, 0 for one per core.
-fn thread_pool(threads: usize) -> Result<Arc<ThreadPool>, rayon::ThreadPoolBuildError> {
-    let threads = match threads {
-        0 => std::thread::available_parallelism().map_or(1, NonZero::get),
-        given => given,
-    };
-    let pool = ThreadPoolBuilder::new().num_threads(threads).thread_name(|i| format!("update-{i}")).build()?;
-    Ok(Arc::new(pool))
 }
 
 #[cfg(test)]

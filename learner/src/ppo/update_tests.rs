@@ -22,13 +22,18 @@ fn config() -> PpoConfig {
 
 fn updater(config: &PpoConfig, threads: usize) -> Updater {
     let parameters = initial_parameters(&shape(), -0.5, &mut rng(1));
-    Updater::new(shape(), parameters, config, threads).expect("fresh parameters fit")
+    Updater::new(shape(), parameters, config, pool(threads)).expect("fresh parameters fit")
+}
+
+fn pool(threads: usize) -> Arc<ThreadPool> {
+    Arc::new(rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads start"))
 }
 
 /// A new updater with all that a checkpoint keeps of another.
 fn restored(other: &Updater, learning_rate: f64) -> Updater {
-    let (parameters, optimiser) = (other.parameters(), other.optimiser().clone());
-    Updater::restore(shape(), parameters, optimiser, learning_rate, &other.config, 1).expect("its state fits")
+    let mut updater = Updater::new(shape(), other.parameters(), &other.config, pool(1)).expect("its parameters fit");
+    updater.restore(other.optimiser().clone(), learning_rate).expect("its state fits");
+    updater
 }
 
 /// Actions drawn from the updater's policy; the best action is the first two observations, the return their sum.
@@ -234,10 +239,11 @@ fn batches_that_do_not_fit_are_refused() {
 
 #[test]
 fn state_that_does_not_fit_is_refused() {
-    let parameters = updater(&config(), 1).parameters();
-    let error = Updater::restore(shape(), parameters, OptimiserState::new(3), 1e-3, &config(), 1).expect_err("three");
+    let mut updater = updater(&config(), 1);
+    let error = updater.restore(OptimiserState::new(3), 1e-3).expect_err("three parameters");
     assert!(matches!(error, UpdaterError::Optimiser { found: 3, .. }), "{error}");
+    assert_eq!(updater.learning_rate(), config().learning_rate);
     let bad = vec![f32::NAN; shape().parameter_count()];
-    let error = Updater::new(shape(), bad, &config(), 1).expect_err("not a number");
+    let error = Updater::new(shape(), bad, &config(), pool(1)).expect_err("not a number");
     assert!(matches!(error, UpdaterError::Parameters(_)), "{error}");
 }
