@@ -5,7 +5,7 @@ use std::io::Read;
 use anyhow::Context;
 use clap::Args;
 use treadmill_actor::worker::{self, WorkerOptions};
-use treadmill_common::{bus::Bus, config::BusConfig, machine, seeds, shutdown::Shutdown};
+use treadmill_common::{bus::Bus, machine, seeds, shutdown::Shutdown};
 
 use crate::{outcome::Usage, signals, startup::NetworkArgs};
 
@@ -21,14 +21,14 @@ pub struct ActorArgs {
     /// This actor's name, unlike that of any other; by default made from the host's name.
     #[arg(long, value_name = "NAME")]
     name: Option<String>,
-    /// Environments of this actor; by default as many as the run's configuration says in total.
-    #[arg(long)]
-    envs: Option<u32>,
+    /// Environments of this actor.
+    #[arg(long, default_value_t = 32, value_parser = clap::value_parser!(u32).range(1..=65_536))]
+    envs: u32,
     #[command(flatten)]
     network: NetworkArgs,
-    /// How many times this actor was started before: it draws other random numbers each time.
-    #[arg(long, hide = true, default_value_t = 0)]
-    restart_count: u64,
+    /// Number of this start, from which its random streams are derived; without it, unlike that of any other start.
+    #[arg(long, hide = true)]
+    start_number: Option<u64>,
     /// End when standard input closes, which it does when the parent process is gone.
     #[arg(long, hide = true)]
     until_stdin_closes: bool,
@@ -40,16 +40,13 @@ pub fn run(args: ActorArgs) -> anyhow::Result<()> {
         name: args.name.unwrap_or_else(default_name),
         run: args.run,
         envs: args.envs,
-        restart: args.restart_count,
+        start: args.start_number.unwrap_or_else(seeds::unique),
         where_to: args.connect.join(", "),
     };
     let wrong = |why: treadmill_proto::Malformed| Usage(why.to_string());
     treadmill_proto::ident::check_ident("name", &options.name).map_err(wrong)?;
     if let Some(run) = &options.run {
         treadmill_proto::ident::check_ident("run", run).map_err(wrong)?;
-    }
-    if !options.envs.is_none_or(|envs| (1..=65_536).contains(&envs)) {
-        return Err(Usage("--envs must be 1 to 65536".to_string()).into());
     }
     let runtime =
         tokio::runtime::Builder::new_multi_thread().worker_threads(2).enable_all().build().context("no runtime")?;
@@ -60,7 +57,7 @@ pub fn run(args: ActorArgs) -> anyhow::Result<()> {
             follow_standard_input(shutdown.clone())?;
         }
         let bus_options = args.network.options(Vec::new(), args.connect);
-        let opened = tokio::task::spawn_blocking(move || Bus::open_client(&bus_options, &BusConfig::default()));
+        let opened = tokio::task::spawn_blocking(move || Bus::open_client(&bus_options));
         let bus = tokio::select! {
             bus = opened => bus??,
             // The bus dials for as long as nobody answers; somebody who asks to stop does not wait for that.

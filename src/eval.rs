@@ -141,11 +141,7 @@ fn print_table(who: Who, evaluation: &Evaluation, control_step_s: f64) {
     say("");
     say(&format!("agent         {}", who.name()));
     say(&format!("episodes      {}, {} of them ended with a fall", evaluation.episodes.len(), evaluation.falls()));
-    say(&format!(
-        "return        {:.1} ± {:.1}",
-        evaluation.mean(|played| played.return_sum),
-        evaluation.return_std()
-    ));
+    say(&format!("return        {:.1} ± {:.1}", evaluation.mean(|played| played.return_sum), evaluation.return_std()));
     say(&format!("length        {:.1} steps", evaluation.mean(|played| f64::from(played.length))));
     say(&format!("distance      {:.2} m", evaluation.mean(|played| played.distance_m)));
     say(&format!("velocity      {:.2} m/s", evaluation.velocity_mean_mps(control_step_s)));

@@ -71,19 +71,16 @@ async fn host_until_done(
     let shutdown = Shutdown::default();
     signals::listen(shutdown.clone(), "stopping after this update; press Ctrl-C again to stop at once")?;
     let (bus, endpoints) = {
-        let (options, config) = (options.clone(), config.bus.clone());
-        tokio::task::spawn_blocking(move || Bus::open_learner(&options, &config)).await??
+        let options = options.clone();
+        tokio::task::spawn_blocking(move || Bus::open_learner(&options)).await??
     };
     std::fs::write(folder.endpoint(), endpoints.join("\n") + "\n").context("the endpoint cannot be written")?;
     greet(&folder, &state, &endpoints, actors);
 
     let restarts = Arc::new(AtomicU64::new(0));
-    let run = state.run.clone();
-    let training_options = TrainingOptions {
-        folder: folder.clone(),
-        show_progress: !any.no_progress,
-        restarts: restarts.clone(),
-    };
+    let (run, starts_before) = (state.run.clone(), state.counters.resumes);
+    let training_options =
+        TrainingOptions { folder: folder.clone(), show_progress: !any.no_progress, restarts: restarts.clone() };
     let (tell, told) = tokio::sync::oneshot::channel();
     std::thread::Builder::new().name("training".to_string()).spawn({
         let (bus, shutdown) = (bus.clone(), shutdown.clone());
@@ -92,7 +89,7 @@ async fn host_until_done(
         }
     })?;
     let supervisor = actors.map(|actors| {
-        let fleet = Fleet { endpoint: endpoints[0].clone(), run, actors, envs: config.rollout.envs };
+        let fleet = Fleet { endpoint: endpoints[0].clone(), run, actors, envs: config.rollout.envs, starts_before };
         Supervisor::start(&fleet, restarts, shutdown)
     });
     let outcome = told.await.context("the training thread panicked");
@@ -101,7 +98,7 @@ async fn host_until_done(
     }
     bus.close();
     let summary = outcome??;
-    part(&folder, &summary);
+    part(&folder, &summary, actors.map_or("learner", |_| "train"));
     if any.json {
         say(&as_json(&summary));
     }
@@ -133,13 +130,13 @@ fn greet(
     say("  stop      Ctrl-C once finishes the update and saves");
 }
 
-fn part(folder: &treadmill_common::run_folder::RunFolder, summary: &Summary) {
+fn part(folder: &treadmill_common::run_folder::RunFolder, summary: &Summary, command: &str) {
     let root = folder.root().display();
     let steps = summary.state.counters.env_steps;
     let what = if summary.stopped { "stopped" } else { "done" };
     say(&format!("{what} after {steps} env steps; saved in {root}/checkpoints"));
     if summary.stopped {
-        complain(&format!("resume with: treadmill train --resume {root}"));
+        complain(&format!("resume with: treadmill {command} --resume {root}"));
     } else {
         say(&format!("see how far it walks: treadmill eval {root}"));
     }

@@ -36,9 +36,6 @@ pub struct NewRunArgs {
     /// Folder of this run; by default runs/PRESET-N with the first free N.
     #[arg(long, value_name = "DIR", conflicts_with = "resume")]
     pub run_dir: Option<PathBuf>,
-    /// One actor in lock-step: the same seed gives the same weights bit for bit.
-    #[arg(long, conflicts_with = "resume")]
-    pub deterministic: bool,
 }
 
 /// Flags that make sense for a new run and for a resumed one.
@@ -90,7 +87,7 @@ pub struct Prepared {
 }
 
 /// Prepares a new run, or one that goes on. `changes` are keys that the command's own flags set.
-pub fn prepare(new: &NewRunArgs, any: &AnyRunArgs, changes: &[(&str, i64)]) -> anyhow::Result<Prepared> {
+pub fn prepare(new: &NewRunArgs, any: &AnyRunArgs, changes: &[(&str, toml::Value)]) -> anyhow::Result<Prepared> {
     let prepared = match &any.resume {
         Some(run) => resume(run, any)?,
         None => begin(new, any, changes)?,
@@ -99,7 +96,7 @@ pub fn prepare(new: &NewRunArgs, any: &AnyRunArgs, changes: &[(&str, i64)]) -> a
     Ok(prepared)
 }
 
-fn begin(new: &NewRunArgs, any: &AnyRunArgs, changes: &[(&str, i64)]) -> anyhow::Result<Prepared> {
+fn begin(new: &NewRunArgs, any: &AnyRunArgs, changes: &[(&str, toml::Value)]) -> anyhow::Result<Prepared> {
     let mut source = ConfigSource::default();
     source.preset(&new.preset)?;
     if let Some(file) = &new.config {
@@ -109,7 +106,7 @@ fn begin(new: &NewRunArgs, any: &AnyRunArgs, changes: &[(&str, i64)]) -> anyhow:
         source.set(pair)?;
     }
     for (key, value) in changes {
-        source.value(key, *value)?;
+        source.value(key, value.clone())?;
     }
     for (key, value) in [("run.seed", new.seed), ("run.steps", any.steps)] {
         if let Some(value) = value {
@@ -117,9 +114,6 @@ fn begin(new: &NewRunArgs, any: &AnyRunArgs, changes: &[(&str, i64)]) -> anyhow:
                 .map_err(|_| Usage(format!("`{key}` is {value}; allowed: at most {}", i64::MAX)))?;
             source.value(key, value)?;
         }
-    }
-    if new.deterministic {
-        source.value("run.deterministic", true)?;
     }
     let mut config = source.build()?;
     if config.run.deterministic {
@@ -149,6 +143,7 @@ fn resume(run: &str, any: &AnyRunArgs) -> anyhow::Result<Prepared> {
         state.config_toml = config.to_toml();
     }
     state.lineage.resume(seeds::unique());
+    state.counters.resumes += 1;
     Ok(Prepared { config, folder, state })
 }
 
@@ -180,8 +175,8 @@ fn quoted(part: &str) -> String {
 }
 
 /// Command-line flags as configuration keys, where they were given.
-pub fn changes(flags: &[(&'static str, Option<u32>)]) -> Vec<(&'static str, i64)> {
-    flags.iter().filter_map(|(key, value)| value.map(|value| (*key, i64::from(value)))).collect()
+pub fn changes(flags: &[(&'static str, Option<u32>)]) -> Vec<(&'static str, toml::Value)> {
+    flags.iter().filter_map(|(key, value)| value.map(|value| (*key, i64::from(value).into()))).collect()
 }
 
 #[cfg(test)]

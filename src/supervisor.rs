@@ -37,6 +37,8 @@ pub struct Fleet {
     pub actors: u32,
     /// Environments in total.
     pub envs: u32,
+    /// Starts of the learner before this one: a resumed run draws other random numbers than its first start.
+    pub starts_before: u64,
 }
 
 /// Runs actor processes.
@@ -106,11 +108,12 @@ fn spawn(fleet: &Fleet, index: u32, life: u64) -> anyhow::Result<Child> {
     let program = std::env::current_exe().context("this program's own path is unknown")?;
     // The first actors take what does not divide evenly.
     let envs = fleet.envs / fleet.actors + u32::from(index < fleet.envs % fleet.actors);
+    let start = (fleet.starts_before << 32) + life;
     Command::new(program)
         .arg("actor")
         .args(["--connect", &fleet.endpoint, "--run", &fleet.run])
         .args(["--name", &format!("actor-{index}"), "--envs", &envs.to_string()])
-        .args(["--restart-count", &life.to_string(), "--until-stdin-closes", "--insecure"])
+        .args(["--start-number", &start.to_string(), "--until-stdin-closes", "--insecure"])
         // Held open by this process alone: it closes by itself when this process is gone, however it went.
         .stdin(Stdio::piped())
         .stdout(Stdio::null())

@@ -18,6 +18,9 @@ pub struct TrainArgs {
     any: AnyRunArgs,
     #[command(flatten)]
     network: NetworkArgs,
+    /// One actor in lock-step: the same seed gives the same weights bit for bit.
+    #[arg(long, conflicts_with = "resume")]
+    deterministic: bool,
     /// Actor processes; by default one per core.
     #[arg(long)]
     actors: Option<u32>,
@@ -31,7 +34,10 @@ pub struct TrainArgs {
 
 /// Trains until the run has its steps.
 pub fn run(args: TrainArgs) -> anyhow::Result<()> {
-    let changes = startup::changes(&[("rollout.envs", args.envs), ("rollout.actors", args.actors)]);
+    let mut changes = startup::changes(&[("rollout.envs", args.envs), ("rollout.actors", args.actors)]);
+    if args.deterministic {
+        changes.push(("run.deterministic", true.into()));
+    }
     let prepared = startup::prepare(&args.new, &args.any, &changes)?;
     let rollout = &prepared.config.rollout;
     let wanted = args.actors.filter(|_| !prepared.config.run.deterministic).unwrap_or(rollout.actors);

@@ -1,9 +1,9 @@
 //! Fragments to the learner: sent until a receipt says what became of them, and kept until they are durable.
 
 use std::{
-    collections::BTreeMap,
+    collections::{BTreeMap, BTreeSet},
     sync::{
-        Arc, Mutex,
+        Arc, Mutex, MutexGuard,
         atomic::{AtomicU64, Ordering},
     },
     time::Duration,
@@ -61,6 +61,9 @@ pub struct Courier {
 struct Kept {
     incarnation: u64,
     fragments: BTreeMap<u64, Bytes>,
+    /// Handed to the courier and without a receipt.
+    in_flight: BTreeSet<u64>,
+    newest: u64,
 }
 
 /// What is to be done after a receipt.
@@ -81,18 +84,34 @@ impl Courier {
             receipt_timeout,
             policies,
             counts: Counts::default(),
-            kept: Mutex::new(Kept { incarnation, fragments: BTreeMap::new() }),
+            kept: Mutex::new(Kept { incarnation, ..Kept::default() }),
         }
     }
 
     /// Fragments that were taken but are not yet part of a checkpoint.
     pub fn awaiting_durability(&self) -> u64 {
-        self.kept.lock().expect("no holder of this lock panics").fragments.len() as u64
+        self.kept().fragments.len() as u64
+    }
+
+    /// Every fragment up to this sequence number is dealt with for good: neither in flight nor kept.
+    pub fn settled_through(&self) -> u64 {
+        let kept = self.kept();
+        let open = [kept.in_flight.first(), kept.fragments.keys().next()].into_iter().flatten().min();
+        open.map_or(kept.newest, |first| first - 1)
+    }
+
+    /// Notes a fragment that is about to be delivered.
+    pub fn produced(&self, sequence: u64) {
+        self.counts.produced.fetch_add(1, Ordering::SeqCst);
+        let mut kept = self.kept();
+        kept.in_flight.insert(sequence);
+        kept.newest = sequence;
     }
 
     /// Sends one new fragment until it is dealt with, then sees that the newest policy is in use.
     pub async fn deliver(&self, sequence: u64, fragment: Bytes) -> Result<Refreshed, BusError> {
         let receipt = self.send_until_dealt_with(&fragment).await?;
+        self.kept().in_flight.remove(&sequence);
         match receipt.outcome {
             Outcome::Accepted | Outcome::Duplicate => {
                 self.counts.accepted.fetch_add(1, Ordering::SeqCst);
@@ -110,8 +129,12 @@ impl Courier {
         Ok(refreshed)
     }
 
+    fn kept(&self) -> MutexGuard<'_, Kept> {
+        self.kept.lock().expect("no holder of this lock panics")
+    }
+
     fn keep(&self, sequence: u64, fragment: Bytes, durable_through: u64) {
-        let mut kept = self.kept.lock().expect("no holder of this lock panics");
+        let mut kept = self.kept();
         kept.fragments.insert(sequence, fragment);
         kept.fragments.retain(|sequence, _| *sequence > durable_through);
     }
@@ -121,7 +144,7 @@ impl Courier {
     pub async fn send_again_to_a_new_learner(&self) -> Result<(), BusError> {
         let incarnation = self.policies.current().version.incarnation;
         let again: Vec<(u64, Bytes)> = {
-            let mut kept = self.kept.lock().expect("no holder of this lock panics");
+            let mut kept = self.kept();
             if kept.incarnation == incarnation {
                 return Ok(());
             }
@@ -137,7 +160,7 @@ impl Courier {
                 // It was counted as accepted by a learner that is gone.
                 self.counts.dropped_by_rule.fetch_add(1, Ordering::SeqCst);
                 self.counts.accepted.fetch_sub(1, Ordering::SeqCst);
-                self.kept.lock().expect("no holder of this lock panics").fragments.remove(&sequence);
+                self.kept().fragments.remove(&sequence);
             }
         }
         Ok(())

@@ -11,18 +11,18 @@ pub struct SeedSource {
     pub run_seed: u64,
     /// The actor's name.
     pub actor: String,
-    /// How many times this actor was started before.
-    pub restart: u64,
+    /// Number of this start of the actor: it draws other random numbers each time.
+    pub start: u64,
 }
 
 impl SeedSource {
     fn reset(&self, env: usize, episode: u64) -> u64 {
-        seeds::derive(self.run_seed, &format!("reset/{}", self.actor), &[self.restart, env as u64, episode])
+        seeds::derive(self.run_seed, &format!("reset/{}", self.actor), &[self.start, env as u64, episode])
     }
 
     /// The stream of exploration noise.
     pub fn noise(&self) -> seeds::Stream {
-        seeds::stream(self.run_seed, &format!("action-noise/{}", self.actor), &[self.restart])
+        seeds::stream(self.run_seed, &format!("action-noise/{}", self.actor), &[self.start])
     }
 }
 

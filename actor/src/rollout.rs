@@ -58,8 +58,8 @@ impl Collector {
         self.steps as usize * self.environments.len()
     }
 
-    /// The next fragment.
-    pub fn collect(&mut self, policy: &ActingPolicy) -> Result<Fragment, ActorError> {
+    /// The next fragment, which tells the learner what will not be sent again.
+    pub fn collect(&mut self, policy: &ActingPolicy, settled_through: u64) -> Result<Fragment, ActorError> {
         let (envs, width, action_size) =
             (self.environments.len(), self.environments.observation_size(), self.environments.action_size());
         let rows = self.transitions();
@@ -82,6 +82,7 @@ impl Collector {
             flags: Vec::with_capacity(rows),
             last_observations: Vec::new(),
             episodes: Vec::new(),
+            settled_through,
         };
         for t in 0..self.steps {
             let start = fragment.actions.len();

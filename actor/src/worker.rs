@@ -28,6 +28,10 @@ use crate::{
     settings,
 };
 
+/// Fragments between the physics thread and the courier; credit keeps them at no more than `max_in_flight`, which is 2 at
+/// most.
+const OUTBOX_FRAGMENTS: usize = 2;
+
 /// How this process was started.
 #[derive(Clone, Debug)]
 pub struct WorkerOptions {
@@ -35,10 +39,10 @@ pub struct WorkerOptions {
     pub run: Option<String>,
     /// The actor's name.
     pub name: String,
-    /// Its environments; what the run's configuration says if none are named.
-    pub envs: Option<u32>,
-    /// How many times this actor was started before.
-    pub restart: u64,
+    /// Its environments.
+    pub envs: u32,
+    /// Number of this start, from which its random streams are derived.
+    pub start: u64,
     /// Where the learner is, for messages.
     pub where_to: String,
 }
@@ -90,20 +94,19 @@ async fn stay(
     let incarnation = seeds::unique();
     let policies = Arc::new(Policies::new(bus.clone(), bundle)?);
     let receipt_timeout = Duration::from_millis(config.bus.receipt_timeout_ms);
-    let courier =
-        Arc::new(Courier::new(bus.clone(), &bundle.run, &options.name, receipt_timeout, policies.clone()));
+    let courier = Arc::new(Courier::new(bus.clone(), &bundle.run, &options.name, receipt_timeout, policies.clone()));
     let collector = collector(options, bundle, &config, incarnation)?;
     let progress = Arc::new(Progress::default());
 
     // Credit: the physics thread takes one for each fragment; the courier gives it back with the receipt.
     let (give_credit, credit) = mpsc::channel();
     (0..config.rollout.max_in_flight).for_each(|_| give_credit.send(()).unwrap_or_default());
-    let (outbox, mut produced) = tokio_mpsc::channel::<Result<Produced, ActorError>>(2);
+    let (outbox, mut produced) = tokio_mpsc::channel::<Result<Produced, ActorError>>(OUTBOX_FRAGMENTS);
     let physics = std::thread::Builder::new()
         .name("physics".to_string())
         .spawn({
-            let (policies, progress) = (policies.clone(), progress.clone());
-            move || simulate(collector, &policies, &credit, &outbox, &progress)
+            let (policies, courier, progress) = (policies.clone(), courier.clone(), progress.clone());
+            move || simulate(collector, &policies, &courier, &credit, &outbox, &progress)
         })
         .map_err(|why| ActorError::Physics { why: why.to_string() })?;
 
@@ -116,6 +119,14 @@ async fn stay(
     let jitter = 0.8 + 0.4 * (incarnation % 1000) as f64 / 1000.0;
     let mut poll_due = tokio::time::interval(Duration::from_secs_f64(config.bus.policy_poll_ms as f64 / 1e3 * jitter));
     let mut deliveries = tokio::task::JoinSet::new();
+    // Beside the loop: whoever asks for a policy may wait for the answer, and credit and Ctrl-C must not.
+    let mut lookups = tokio::task::JoinSet::new();
+    let look = |version, lookups: &mut tokio::task::JoinSet<Refreshed>| {
+        if lookups.is_empty() {
+            let policies = policies.clone();
+            lookups.spawn(async move { policies.refresh(version).await });
+        }
+    };
     let mut rate = Rate { since: Instant::now(), env_steps: 0 };
     let ended = loop {
         tokio::select! {
@@ -123,7 +134,6 @@ async fn stay(
             next = produced.recv() => {
                 let Some(next) = next else { return Err(ActorError::Physics { why: "it ended".to_string() }) };
                 let Produced { sequence, bytes, episodes } = next?;
-                courier.counts.produced.fetch_add(1, Ordering::SeqCst);
                 let courier = courier.clone();
                 deliveries.spawn(async move { courier.deliver(sequence, bytes).await });
                 for episode in &episodes {
@@ -136,11 +146,10 @@ async fn stay(
                 if refreshed == Refreshed::OtherRun { break Ended::OtherRun }
                 let _ = give_credit.send(());
             }
-            Some(announced) = announcements.next() => {
-                if policies.refresh(Some(announced.version)).await == Refreshed::OtherRun { break Ended::OtherRun }
-            }
-            _ = poll_due.tick() => {
-                if policies.refresh(None).await == Refreshed::OtherRun { break Ended::OtherRun }
+            Some(announced) = announcements.next() => look(Some(announced.version), &mut lookups),
+            _ = poll_due.tick() => look(None, &mut lookups),
+            Some(found) = lookups.join_next() => {
+                if found.is_ok_and(|found| found == Refreshed::OtherRun) { break Ended::OtherRun }
             }
             _ = stats_due.tick() => {
                 tell_stats(stats(options, incarnation, &policies, &courier, &progress, &mut rate).to_bytes());
@@ -150,6 +159,7 @@ async fn stay(
     // Without credit and outbox the physics thread ends after the fragment it is at.
     drop((give_credit, produced));
     deliveries.abort_all();
+    lookups.abort_all();
     tokio::task::spawn_blocking(move || physics.join())
         .await
         .ok()
@@ -164,10 +174,9 @@ fn collector(
     config: &Config,
     incarnation: u64,
 ) -> Result<Collector, ActorError> {
-    let seeds =
-        SeedSource { run_seed: config.run.seed, actor: options.name.clone(), restart: options.restart };
+    let seeds = SeedSource { run_seed: config.run.seed, actor: options.name.clone(), start: options.start };
     let noise = seeds.noise();
-    let envs = options.envs.unwrap_or(config.rollout.envs) as usize;
+    let envs = options.envs as usize;
     let environments = Environments::new(envs, &settings::environment(&config.env), &bundle.model_xml, seeds)?;
     let wanted = (bundle.observation_size as usize, bundle.action_size as usize);
     let found = (environments.observation_size(), environments.action_size());
@@ -175,12 +184,8 @@ fn collector(
         let why = format!("its observation and action sizes are {wanted:?}, the model's are {found:?}");
         return Err(ActorError::Bundle { number: bundle.version.number, why });
     }
-    let sender = Sender {
-        run: bundle.run.clone(),
-        actor: options.name.clone(),
-        incarnation,
-        config_hash: bundle.config_hash,
-    };
+    let sender =
+        Sender { run: bundle.run.clone(), actor: options.name.clone(), incarnation, config_hash: bundle.config_hash };
     Ok(Collector::new(environments, noise, config.rollout.fragment_steps, sender))
 }
 
@@ -188,12 +193,16 @@ fn collector(
 fn simulate(
     mut collector: Collector,
     policies: &Policies,
+    courier: &Courier,
     credit: &mpsc::Receiver<()>,
     outbox: &tokio_mpsc::Sender<Result<Produced, ActorError>>,
     progress: &Progress,
 ) {
     while credit.recv().is_ok() {
-        let produced = collector.collect(&policies.current()).and_then(|fragment| encode(fragment, progress));
+        let produced = collector.collect(&policies.current(), courier.settled_through()).and_then(|fragment| {
+            courier.produced(fragment.sequence);
+            encode(fragment, progress)
+        });
         let failed = produced.is_err();
         if outbox.blocking_send(produced).is_err() || failed {
             return;
@@ -233,7 +242,7 @@ fn stats(
         host: machine::host_name(),
         pid: std::process::id(),
         version: Some(policies.current().version.into()),
-        envs: options.envs.unwrap_or_default(),
+        envs: options.envs,
         env_steps_per_s,
         env_steps,
         episodes: progress.episodes.load(Ordering::Relaxed),

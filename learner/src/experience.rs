@@ -38,8 +38,7 @@ pub fn prepare(
         normaliser.apply(&mut observations);
         let mut values = critic.values(&observations, fragment.transitions())?;
         let next_values = next_values(fragment, critic, normaliser, &mut values, &old_scale)?;
-        let rewards: Vec<f32> =
-            fragment.rewards.iter().map(|reward| reward * config.reward_scale as f32).collect();
+        let rewards: Vec<f32> = fragment.rewards.iter().map(|reward| reward * config.reward_scale as f32).collect();
         let steps = Steps {
             envs: fragment.envs as usize,
             rewards: &rewards,

@@ -34,8 +34,7 @@ impl Lag {
     /// Over every transition of a batch.
     pub fn of(batch: &[Accepted]) -> Self {
         let transitions: f64 = batch.iter().map(|accepted| accepted.fragment.transitions() as f64).sum();
-        let sum: f64 =
-            batch.iter().map(|accepted| accepted.lag as f64 * accepted.fragment.transitions() as f64).sum();
+        let sum: f64 = batch.iter().map(|accepted| accepted.lag as f64 * accepted.fragment.transitions() as f64).sum();
         Self {
             mean: sum / transitions.max(1.0),
             max: batch.iter().map(|accepted| accepted.lag).max().unwrap_or(0) as f64,

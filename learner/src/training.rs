@@ -108,7 +108,7 @@ pub fn train(
         let collect = round_begun.elapsed();
         let update = trainer.update(&batch)?;
         let update_time = round_begun.elapsed() - collect;
-        trainer.account(&batch, round_begun);
+        trainer.account(&batch);
         trainer.save()?;
         let checkpoint = round_begun.elapsed() - collect - update_time;
         trainer.publish()?;
@@ -117,7 +117,12 @@ pub fn train(
     }
     trainer.finish()?;
     let state = trainer.state;
-    Ok(Summary { wall_s: begun.elapsed().as_secs_f64(), env_steps: state.counters.env_steps - steps_before, stopped, state })
+    Ok(Summary {
+        wall_s: begun.elapsed().as_secs_f64(),
+        env_steps: state.counters.env_steps - steps_before,
+        stopped,
+        state,
+    })
 }
 
 struct Trainer {
@@ -132,6 +137,8 @@ struct Trainer {
     speed: Speed,
     restarts: Arc<AtomicU64>,
     restarts_before: u64,
+    begun: Instant,
+    wall_before_s: f64,
     undone_in_a_row: u32,
     is_best: bool,
 }
@@ -148,8 +155,7 @@ impl Trainer {
             action_size: bundle.action_size,
             max_policy_lag: config.learner.max_policy_lag.into(),
         };
-        let judge =
-            Judge::new(expected, config.learner.quarantine_after, state.ledger.clone(), state.tally);
+        let judge = Judge::new(expected, config.learner.quarantine_after, state.ledger.clone(), state.tally);
         let threads = match config.learner.threads {
             0 => machine::cores(),
             threads => threads as usize,
@@ -159,12 +165,9 @@ impl Trainer {
             .thread_name(|index| format!("update-{index}"))
             .build()
             .map_err(|why| wrong(why.to_string()))?;
-        let mut updater =
-            Updater::new(state.shape.clone(), state.parameters.clone(), &config.ppo, Arc::new(pool))
-                .map_err(|why| wrong(why.to_string()))?;
-        updater
-            .restore(state.optimiser.clone(), state.learning_rate)
+        let mut updater = Updater::new(state.shape.clone(), state.parameters.clone(), &config.ppo, Arc::new(pool))
             .map_err(|why| wrong(why.to_string()))?;
+        updater.restore(state.optimiser.clone(), state.learning_rate).map_err(|why| wrong(why.to_string()))?;
         let saver = Saver::new(
             &options.folder,
             config.learner.checkpoint_every_updates.into(),
@@ -186,6 +189,8 @@ impl Trainer {
             speed: Speed::new(state.counters.env_steps),
             restarts: options.restarts.clone(),
             restarts_before: state.counters.restarts,
+            begun: Instant::now(),
+            wall_before_s: state.counters.wall_s,
             undone_in_a_row: 0,
             is_best: false,
             saver,
@@ -230,7 +235,7 @@ impl Trainer {
     }
 
     /// Brings the state up to date with what was learnt and from what.
-    fn account(&mut self, batch: &[Accepted], round_begun: Instant) {
+    fn account(&mut self, batch: &[Accepted]) {
         let state = &mut self.state;
         state.parameters = self.updater.parameters();
         state.optimiser = self.updater.optimiser().clone();
@@ -241,10 +246,13 @@ impl Trainer {
             state.counters.env_steps += fragment.transitions() as u64;
             state.episodes.extend(&fragment.episodes);
         }
-        state.counters.wall_s += round_begun.elapsed().as_secs_f64();
+        state.counters.wall_s = self.wall_before_s + self.begun.elapsed().as_secs_f64();
         state.counters.restarts = self.restarts_before + self.restarts.load(Ordering::Relaxed);
         self.is_best = state.episodes.is_full()
-            && state.episodes.means().is_some_and(|means| state.best_return.is_none_or(|best| means.return_mean > best));
+            && state
+                .episodes
+                .means()
+                .is_some_and(|means| state.best_return.is_none_or(|best| means.return_mean > best));
         if self.is_best {
             state.best_return = state.episodes.means().map(|means| means.return_mean);
         }

@@ -97,10 +97,9 @@ impl PolicyBundle {
         }
         self.hidden.iter().try_for_each(|hidden| width("hidden", *hidden))?;
         let size = self.observation_size as usize;
-        for (field, plane) in [
-            ("observation_mean", &self.observation_mean),
-            ("observation_inverse_std", &self.observation_inverse_std),
-        ] {
+        for (field, plane) in
+            [("observation_mean", &self.observation_mean), ("observation_inverse_std", &self.observation_inverse_std)]
+        {
             if plane.len() != size {
                 return Err(Malformed::field(field, format!("{} numbers long", plane.len()), format!("{size}")));
             }

@@ -89,6 +89,8 @@ pub struct Fragment {
     pub last_observations: Vec<f32>,
     /// Episodes that ended within.
     pub episodes: Vec<Episode>,
+    /// The sender will not send anything up to this sequence number again: it is durable, or dropped by rule.
+    pub settled_through: u64,
 }
 
 impl Fragment {
@@ -122,6 +124,9 @@ impl Fragment {
         in_range("action_size", self.action_size, WIDTH_MAX)?;
         if self.sequence == 0 {
             return Err(Malformed::field("sequence", 0, "1 or more"));
+        }
+        if self.settled_through >= self.sequence {
+            return Err(Malformed::field("settled_through", self.settled_through, "below the fragment's own sequence"));
         }
         let rows = self.transitions();
         plane("observations", &self.observations, rows * self.observation_size as usize)?;
@@ -167,6 +172,7 @@ impl Fragment {
             flags: Bytes::copy_from_slice(&self.flags),
             last_observations: planes::to_bytes(&self.last_observations),
             episodes: self.episodes.iter().map(Into::into).collect(),
+            settled_through: self.settled_through,
         };
         let bytes = message.encode_to_vec();
         check_size(bytes.len())?;
@@ -208,6 +214,7 @@ impl Fragment {
             envs: message.envs,
             observation_size: message.observation_size,
             action_size: message.action_size,
+            settled_through: message.settled_through,
         };
         fragment.check()?;
         Ok(fragment)

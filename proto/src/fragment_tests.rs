@@ -28,6 +28,7 @@ fn sample() -> Fragment {
             velocity_mean_mps: 3.0,
             cause: EndCause::TimeLimit,
         }],
+        settled_through: 1,
     }
 }
 
@@ -56,6 +57,7 @@ fn each_fault_is_named() {
     assert!(refuse(|f| f.run = "a/b".into()).contains("`run`"));
     assert!(refuse(|f| f.steps = 0).contains("`steps` is 0"));
     assert!(refuse(|f| f.sequence = 0).contains("`sequence`"));
+    assert!(refuse(|f| f.settled_through = 3).contains("`settled_through` is 3"));
     assert!(refuse(|f| f.observations[3] = f32::NAN).contains("`observations` holds NaN at index 3"));
     assert!(refuse(|f| f.rewards.truncate(5)).contains("`rewards` is 5 numbers long; expected 6"));
     assert!(refuse(|f| f.flags[0] = 3).contains("`flags` is 3"));

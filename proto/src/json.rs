@@ -77,13 +77,8 @@ mod tests {
 
     #[test]
     fn an_episode_reads_as_documented() {
-        let episode = Episode {
-            return_sum: 1.5,
-            length: 2,
-            distance_m: 0.25,
-            velocity_mean_mps: 0.5,
-            cause: EndCause::Fell,
-        };
+        let episode =
+            Episode { return_sum: 1.5, length: 2, distance_m: 0.25, velocity_mean_mps: 0.5, cause: EndCause::Fell };
         assert_eq!(
             serde_json::to_string(&EpisodeReport::new("r", "a", &episode)).unwrap(),
             r#"{"run":"r","actor":"a","return":1.5,"length":2,"distance_m":0.25,"velocity_mean_mps":0.5,"cause":"fell"}"#

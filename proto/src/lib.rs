@@ -7,12 +7,14 @@
 //! - [`receipt`]: the learner's answer to a fragment.
 //! - [`stats`]: what an actor tells about itself.
 //! - [`json`]: the objects on the JSON topics.
+//! - [`event_file`]: TensorBoard's messages.
 //! - [`ident`]: names that may stand in a key.
 //! - [`limits`]: what is refused before it is decoded.
 //!
 //! Whatever arrives is hostile until checked: size first, then shape, then numbers.
 
 pub mod bundle;
+pub mod event_file;
 pub mod fragment;
 pub mod ident;
 pub mod json;

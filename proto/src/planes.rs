@@ -21,8 +21,7 @@ pub(crate) fn from_bytes(field: &'static str, bytes: &[u8], count: usize) -> Res
             format!("{count} numbers of 4 bytes"),
         ));
     }
-    let numbers: Vec<f32> =
-        bytes.chunks_exact(4).map(|b| f32::from_le_bytes([b[0], b[1], b[2], b[3]])).collect();
+    let numbers: Vec<f32> = bytes.chunks_exact(4).map(|b| f32::from_le_bytes([b[0], b[1], b[2], b[3]])).collect();
     all_finite(field, &numbers)?;
     Ok(numbers)
 }

@@ -10,8 +10,8 @@ impl ActorStats {
     /// Reads and checks protobuf bytes from a stranger.
     pub fn decode_checked(bytes: &[u8]) -> Result<Self, Malformed> {
         bundle::check_small("statistics", bytes.len())?;
-        let stats = Self::decode(bytes)
-            .map_err(|why| Malformed::Undecodable { what: "statistics", why: why.to_string() })?;
+        let stats =
+            Self::decode(bytes).map_err(|why| Malformed::Undecodable { what: "statistics", why: why.to_string() })?;
         check_ident("actor", &stats.actor)?;
         if !stats.env_steps_per_s.is_finite() {
             return Err(Malformed::NotFinite {

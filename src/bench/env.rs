@@ -28,8 +28,7 @@ pub struct EnvArgs {
 /// Measures and tells.
 pub fn run(args: &EnvArgs) -> anyhow::Result<()> {
     let config = settings::environment(&EnvConfig::default());
-    let mut worlds =
-        (0..WORLDS).map(|_| Environment::new(&config, HUMANOID_XML)).collect::<Result<Vec<_>, _>>()?;
+    let mut worlds = (0..WORLDS).map(|_| Environment::new(&config, HUMANOID_XML)).collect::<Result<Vec<_>, _>>()?;
     let rounds = args.steps.div_ceil(WORLDS as u64).max(1);
     let mut random = seeds::stream(1, "bench-actions", &[]);
     let (size, limit) = (worlds[0].action_size(), worlds[0].action_limit());

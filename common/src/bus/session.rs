@@ -9,10 +9,12 @@ use serde_json::json;
 use zenoh::{Config, Session, Wait};
 
 use super::{BusError, endpoint};
-use crate::config::BusConfig;
 
 /// Largest message that is reassembled: above every limit of our own formats.
 const MESSAGE_BYTES_MAX: usize = 32 << 20;
+/// Silence after which a peer counts as gone, announced by each side for itself: a client opens its session before it
+/// has the run's configuration, so this is no part of it.
+const LEASE_MS: u64 = 4000;
 /// Closing can hang on a dead link: after this the process goes on without it.
 const CLOSE_TIMEOUT: Duration = Duration::from_secs(2);
 
@@ -38,7 +40,7 @@ pub struct Bus {
 impl Bus {
     /// Opens the learner's session: a router that only listens. Port 0 is replaced by a free one; the endpoints that
     /// were really opened are returned.
-    pub fn open_learner(options: &BusOptions, config: &BusConfig) -> Result<(Self, Vec<String>), BusError> {
+    pub fn open_learner(options: &BusOptions) -> Result<(Self, Vec<String>), BusError> {
         let mut listen = Vec::new();
         for given in &options.listen {
             endpoint::check(given, options.insecure)?;
@@ -47,7 +49,7 @@ impl Bus {
             listen.push(endpoint);
         }
         options.connect.iter().try_for_each(|given| endpoint::check(given, options.insecure))?;
-        let mut settings = base(options.zenoh_config.as_deref(), config)?;
+        let mut settings = base(options.zenoh_config.as_deref())?;
         insert(&mut settings, "mode", json!("router"))?;
         insert(&mut settings, "listen/endpoints", json!(listen))?;
         if !options.connect.is_empty() {
@@ -57,9 +59,9 @@ impl Bus {
     }
 
     /// Opens an actor's or observer's session: a client that dials, and keeps dialling until it is let in.
-    pub fn open_client(options: &BusOptions, config: &BusConfig) -> Result<Self, BusError> {
+    pub fn open_client(options: &BusOptions) -> Result<Self, BusError> {
         options.connect.iter().try_for_each(|given| endpoint::check(given, options.insecure))?;
-        let mut settings = base(options.zenoh_config.as_deref(), config)?;
+        let mut settings = base(options.zenoh_config.as_deref())?;
         insert(&mut settings, "mode", json!("client"))?;
         insert(&mut settings, "connect/endpoints", json!(options.connect))?;
         insert(&mut settings, "connect/timeout_ms", json!(-1))?;
@@ -91,7 +93,7 @@ impl Bus {
     }
 }
 
-fn base(own: Option<&Path>, config: &BusConfig) -> Result<Config, BusError> {
+fn base(own: Option<&Path>) -> Result<Config, BusError> {
     let mut settings = match own {
         Some(path) => Config::from_file(path).map_err(|why| BusError::Config {
             what: format!("--zenoh-config {}", path.display()),
@@ -107,7 +109,7 @@ fn base(own: Option<&Path>, config: &BusConfig) -> Result<Config, BusError> {
         ("transport/unicast/accept_pending", json!(1024)),
         ("transport/unicast/accept_timeout", json!(5000)),
         ("transport/unicast/open_timeout", json!(5000)),
-        ("transport/link/tx/lease", json!(config.lease_ms)),
+        ("transport/link/tx/lease", json!(LEASE_MS)),
         ("transport/link/tx/keep_alive", json!(4)),
         (
             "transport/link/tx/queue/size",

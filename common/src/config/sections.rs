@@ -115,7 +115,7 @@ section! {
     LearnerConfig as "learner" {
         /// Threads of the update; 0 means one per core.
         threads: u32 = 0, "0 to 256" => |v| *v <= 256;
-        /// Fragments from a policy more versions older than this are dropped and counted.
+        /// Versions that a fragment's policy may be behind the newest; older ones are dropped and counted.
         max_policy_lag: u32 = 2, "0 to 100" => |v| *v <= 100;
         /// Fragments that may wait, unanswered, for the learner to take them.
         intake_fragments: u32 = 256, "1 to 65536" => |v| (1..=65_536).contains(v);
@@ -133,8 +133,6 @@ section! {
 section! {
     /// The message bus.
     BusConfig as "bus" {
-        /// Silence in milliseconds after which a peer counts as gone.
-        lease_ms: u64 = 4000, "1000 to 60000" => |v| (1000..=60_000).contains(v);
         /// Milliseconds an actor waits for the receipt of a fragment before it sends it again.
         receipt_timeout_ms: u64 = 60_000, "1000 to 3600000" => |v| (1000..=3_600_000).contains(v);
         /// Milliseconds between two unprompted looks for a newer policy, jittered.

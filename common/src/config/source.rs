@@ -28,10 +28,9 @@ impl ConfigSource {
 
     /// Lays TOML text over what is there; `origin` names it in errors.
     pub fn text(&mut self, text: &str, origin: &str) -> Result<(), ConfigError> {
-        let table: Table = text.parse().map_err(|why: toml::de::Error| ConfigError::Syntax {
-            origin: origin.to_string(),
-            why: why.to_string(),
-        })?;
+        let table: Table = text
+            .parse()
+            .map_err(|why: toml::de::Error| ConfigError::Syntax { origin: origin.to_string(), why: why.to_string() })?;
         let keys = Config::keys();
         for (section, value) in table {
             let Value::Table(entries) = value else {
@@ -98,9 +97,7 @@ fn fit(value: Value, known: &KeyDoc) -> Result<Value, ConfigError> {
     match (known.kind, &value) {
         ("bool", Value::Boolean(_)) | ("f64", Value::Float(_)) => Ok(value),
         ("f64", Value::Integer(number)) => Ok(Value::Float(*number as f64)),
-        ("u32" | "u64", Value::Float(number)) if whole(*number) => {
-            fit(Value::Integer(*number as i64), known)
-        }
+        ("u32" | "u64", Value::Float(number)) if whole(*number) => fit(Value::Integer(*number as i64), known),
         ("u32", Value::Integer(number)) if u32::try_from(*number).is_err() => Err(ConfigError::Value {
             key: known.key.clone(),
             value: number.to_string(),
@@ -129,7 +126,9 @@ fn unknown(key: &str, keys: &[KeyDoc]) -> ConfigError {
     let wanted = key.rsplit('.').next().unwrap_or(key);
     let nearest = keys
         .iter()
-        .map(|known| (distance(key, &known.key).min(distance(wanted, known.key.rsplit('.').next().unwrap_or(""))), known))
+        .map(|known| {
+            (distance(key, &known.key).min(distance(wanted, known.key.rsplit('.').next().unwrap_or(""))), known)
+        })
         .min_by_key(|(distance, _)| *distance);
     let hint = match nearest {
         Some((distance, known)) if distance <= 3 => format!("did you mean `{}`?", known.key),

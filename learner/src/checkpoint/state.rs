@@ -67,6 +67,8 @@ pub struct Counters {
     pub wall_s: f64,
     /// Actor processes that were started again.
     pub restarts: u64,
+    /// Learners that went on with this run.
+    pub resumes: u64,
 }
 
 impl TrainingState {
@@ -136,15 +138,11 @@ impl TrainingState {
         Ok(())
     }
 
-    /// The hash that every fragment repeats: over all that gives its numbers their meaning.
+    /// The hash that every fragment repeats: over the model and the configuration, but for how long the run is.
     pub fn config_hash(&self) -> Result<u64, String> {
-        let config = self.config()?;
-        let text = |section: Result<String, toml::ser::Error>| section.map_err(|why| why.to_string());
-        Ok(seeds::checksum(&[
-            text(toml::to_string(&config.env))?.as_bytes(),
-            text(toml::to_string(&config.policy))?.as_bytes(),
-            self.model_xml.as_bytes(),
-        ]))
+        let mut config = self.config()?;
+        config.run.steps = 0;
+        Ok(seeds::checksum(&[config.to_toml().as_bytes(), self.model_xml.as_bytes()]))
     }
 
     /// What actors get of this state.

@@ -101,6 +101,7 @@ impl Judge {
         };
         self.quarantine.succeeded(actor);
         let (incarnation, sequence) = (fragment.actor_incarnation, fragment.sequence);
+        self.ledger.settle(actor, incarnation, fragment.settled_through);
         let durable_through = self.ledger.durable_through(actor, incarnation);
         if self.ledger.contains(actor, incarnation, sequence) {
             self.tally.duplicate += 1;

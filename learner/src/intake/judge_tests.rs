@@ -27,6 +27,7 @@ fn fragment(sequence: u64, number: u64) -> Fragment {
         flags: vec![0],
         last_observations: vec![0.0],
         episodes: vec![],
+        settled_through: 0,
     }
 }
 
@@ -69,7 +70,8 @@ fn what_was_dropped_by_rule_is_not_sent_again() {
 #[test]
 fn refusals_name_the_field_and_lead_to_quarantine() {
     let (mut judge, lineage) = (judge(), lineage(0));
-    let wrong = Fragment { observation_size: 2, observations: vec![0.0; 2], last_observations: vec![0.0; 2], ..fragment(1, 0) };
+    let wrong =
+        Fragment { observation_size: 2, observations: vec![0.0; 2], last_observations: vec![0.0; 2], ..fragment(1, 0) };
     for _ in 0..3 {
         let receipt = judge.judge("a", wrong.encode().unwrap().into(), &lineage, Instant::now()).unwrap_err();
         assert_eq!(receipt.outcome, Outcome::Malformed);

@@ -10,6 +10,14 @@ const ACTORS_MAX: usize = 4096;
 /// fewer fragments than that.
 const AHEAD_MAX: usize = 65_536;
 
+impl Watermark {
+    fn close_gap(&mut self) {
+        while self.ahead.remove(&(self.through + 1)) {
+            self.through += 1;
+        }
+    }
+}
+
 /// Watermarks of every actor process.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Ledger {
@@ -48,13 +56,27 @@ impl Ledger {
         if mark.ahead.len() > AHEAD_MAX {
             mark.through = mark.ahead.first().map_or(mark.through, |first| first - 1);
         }
-        while mark.ahead.remove(&(mark.through + 1)) {
-            mark.through += 1;
-        }
+        mark.close_gap();
+        self.forget_the_oldest();
+    }
+
+    fn forget_the_oldest(&mut self) {
         if self.processes.len() > ACTORS_MAX {
             let oldest = self.processes.iter().min_by_key(|(_, mark)| mark.last_seen).map(|(key, _)| key.clone());
             oldest.map(|key| self.processes.remove(&key));
         }
+    }
+
+    /// Notes that the sender will not send anything up to this number again. Without this, a number that this ledger
+    /// never saw, because it was dropped by rule by a learner that is gone, would hold the watermark back for ever.
+    pub fn settle(&mut self, actor: &str, incarnation: u64, through: u64) {
+        self.clock += 1;
+        let mark = self.processes.entry((actor.to_string(), incarnation)).or_default();
+        mark.last_seen = self.clock;
+        mark.through = mark.through.max(through);
+        mark.ahead = mark.ahead.split_off(&(mark.through + 1));
+        mark.close_gap();
+        self.forget_the_oldest();
     }
 
     /// Called on the copy that goes into a checkpoint, and on the ledger itself once that checkpoint is written.
@@ -85,6 +107,18 @@ mod tests {
         assert_eq!(ledger.durable_through("a", 1), 1, "not before the next checkpoint");
         ledger.mark_durable();
         assert_eq!(ledger.durable_through("a", 1), 3);
+    }
+
+    #[test]
+    fn what_the_sender_settled_closes_a_gap() {
+        let mut ledger = Ledger::default();
+        ledger.insert("a", 1, 5);
+        ledger.insert("a", 1, 7);
+        ledger.settle("a", 1, 4);
+        ledger.mark_durable();
+        assert_eq!(ledger.durable_through("a", 1), 5);
+        ledger.settle("a", 1, 2);
+        assert!(ledger.contains("a", 1, 4) && !ledger.contains("a", 1, 6) && ledger.contains("a", 1, 7));
     }
 
     #[test]

@@ -65,7 +65,7 @@ impl Intake {
     ///
     /// Ordered by sender and sequence number, so that what is learnt does not depend on who came first.
     pub fn collect(&mut self, transitions: usize, lineage: &Lineage, shutdown: &Shutdown) -> Option<Vec<Accepted>> {
-        let begun = Instant::now();
+        let mut begun = Instant::now();
         let mut batch: Vec<Accepted> = Vec::new();
         let mut gathered = 0;
         let mut delivered = BTreeSet::new();
@@ -88,6 +88,7 @@ impl Intake {
             if gathered < transitions && !delivered.is_empty() && (all_are_in || out_of_patience) {
                 self.answer_held(lineage);
                 delivered.clear();
+                begun = Instant::now();
                 patience = None;
             }
         }

@@ -1,13 +1,13 @@
 //! TensorBoard's event files: one protobuf message per record, each record framed with masked checksums.
 //!
 //! The messages are the parts of TensorFlow's `event.proto`, `summary.proto` and `tensor.proto` that scalars and text
-//! need. They are a file format of others and never on the bus, which is why they stand here and not in `proto`.
+//! need; like everything that is serialised, they stand in `proto`.
 
 use std::fs::{File, OpenOptions};
 use std::io;
 use std::path::Path;
 
-use prost::Message;
+use treadmill_proto::event_file::{Dim, Event, Metadata, PluginData, SessionLog, Shape, Summary, Tensor, Value};
 
 use super::{Scalars, append_whole};
 
@@ -87,7 +87,7 @@ impl EventWriter {
     }
 
     fn event(&mut self, event: Event) -> io::Result<()> {
-        append_whole(&mut self.file, &framed(&event.encode_to_vec()))
+        append_whole(&mut self.file, &framed(&event.to_bytes()))
     }
 }
 
@@ -121,77 +121,4 @@ fn create_new(folder: &Path, seconds: u64, host: &str) -> io::Result<File> {
         }
     }
     Err(io::Error::new(io::ErrorKind::AlreadyExists, format!("no free name for an event file in {}", folder.display())))
-}
-
-#[derive(Clone, PartialEq, Message)]
-pub(super) struct Event {
-    #[prost(double, tag = "1")]
-    pub(super) wall_time: f64,
-    #[prost(int64, tag = "2")]
-    pub(super) step: i64,
-    #[prost(string, optional, tag = "3")]
-    pub(super) file_version: Option<String>,
-    #[prost(message, optional, tag = "5")]
-    pub(super) summary: Option<Summary>,
-    #[prost(message, optional, tag = "7")]
-    pub(super) session_log: Option<SessionLog>,
-}
-
-#[derive(Clone, PartialEq, Message)]
-pub(super) struct SessionLog {
-    #[prost(int32, tag = "1")]
-    pub(super) status: i32,
-}
-
-#[derive(Clone, PartialEq, Message)]
-pub(super) struct Summary {
-    #[prost(message, repeated, tag = "1")]
-    pub(super) value: Vec<Value>,
-}
-
-/// In TensorFlow's schema `simple_value` and `tensor` are alternatives; here exactly one of them is set.
-#[derive(Clone, PartialEq, Message)]
-pub(super) struct Value {
-    #[prost(string, tag = "1")]
-    pub(super) tag: String,
-    #[prost(float, optional, tag = "2")]
-    pub(super) simple_value: Option<f32>,
-    #[prost(message, optional, tag = "8")]
-    pub(super) tensor: Option<Tensor>,
-    #[prost(message, optional, tag = "9")]
-    pub(super) metadata: Option<Metadata>,
-}
-
-#[derive(Clone, PartialEq, Message)]
-pub(super) struct Tensor {
-    #[prost(int32, tag = "1")]
-    pub(super) dtype: i32,
-    #[prost(message, optional, tag = "2")]
-    pub(super) shape: Option<Shape>,
-    #[prost(bytes = "vec", repeated, tag = "8")]
-    pub(super) string_val: Vec<Vec<u8>>,
-}
-
-#[derive(Clone, PartialEq, Message)]
-pub(super) struct Shape {
-    #[prost(message, repeated, tag = "2")]
-    pub(super) dim: Vec<Dim>,
-}
-
-#[derive(Clone, PartialEq, Message)]
-pub(super) struct Dim {
-    #[prost(int64, tag = "1")]
-    pub(super) size: i64,
-}
-
-#[derive(Clone, PartialEq, Message)]
-pub(super) struct Metadata {
-    #[prost(message, optional, tag = "1")]
-    pub(super) plugin_data: Option<PluginData>,
-}
-
-#[derive(Clone, PartialEq, Message)]
-pub(super) struct PluginData {
-    #[prost(string, tag = "1")]
-    pub(super) plugin_name: String,
 }

@@ -3,10 +3,10 @@
 use std::fs;
 use std::path::Path;
 
-use prost::Message;
-
 use super::EventWriter;
-use super::tensorboard::{Event, framed, masked_crc};
+use treadmill_proto::event_file::Event;
+
+use super::tensorboard::{framed, masked_crc};
 
 /// Every event of a file; each checksum is checked.
 fn read(path: &Path) -> Vec<Event> {
@@ -22,7 +22,7 @@ fn read(path: &Path) -> Vec<Event> {
         assert_eq!(take(4).unwrap(), masked_crc(length).to_le_bytes());
         let data = take(u64::from_le_bytes(length.try_into().unwrap()) as usize).unwrap();
         assert_eq!(take(4).unwrap(), masked_crc(data).to_le_bytes());
-        events.push(Event::decode(data).unwrap());
+        events.push(Event::from_bytes(data).unwrap());
     }
     events
 }
@@ -54,7 +54,7 @@ fn the_first_record_is_the_one_tensorflow_writes() {
     // wall_time = 1.0: field 1, 64 bit, 3ff0000000000000; file_version: field 3, 13 bytes.
     let event = Event { wall_time: 1.0, file_version: Some("brain.Event:2".into()), ..Event::default() };
     let expected = [&[0x09, 0, 0, 0, 0, 0, 0, 0xf0, 0x3f, 0x1a, 13][..], b"brain.Event:2"].concat();
-    assert_eq!(event.encode_to_vec(), expected);
+    assert_eq!(event.to_bytes(), expected);
 
     let folder = tempfile::tempdir().unwrap();
     EventWriter::create(folder.path(), 1.0, "box").unwrap();

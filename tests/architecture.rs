@@ -1,0 +1,141 @@
+//! The architecture's invariants, checked over the sources.
+
+use std::{
+    fs,
+    path::{Path, PathBuf},
+};
+
+use treadmill_common::config::Config;
+
+fn root() -> &'static Path {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+}
+
+/// Every Rust source and manifest of the workspace, with its path from the root. Tests at the root see all parts.
+fn sources() -> Vec<(String, String)> {
+    let mut found = Vec::new();
+    for folder in ["src", "proto", "common", "actor", "learner"] {
+        collect(&root().join(folder), &mut found);
+    }
+    found
+        .into_iter()
+        .map(|path| {
+            let name = path.strip_prefix(root()).unwrap().to_string_lossy().into_owned();
+            (name, fs::read_to_string(&path).unwrap())
+        })
+        .collect()
+}
+
+fn collect(folder: &Path, found: &mut Vec<PathBuf>) {
+    for entry in fs::read_dir(folder).unwrap().flatten() {
+        let path = entry.path();
+        if path.is_dir() && path.file_name().is_some_and(|name| name != "target") {
+            collect(&path, found);
+        } else if path.extension().is_some_and(|extension| extension == "rs") {
+            found.push(path);
+        }
+    }
+}
+
+/// Code lines, without comments.
+fn code(text: &str) -> impl Iterator<Item = &str> {
+    text.lines().map(str::trim).filter(|line| !line.starts_with("//"))
+}
+
+/// Files outside `allowed` whose code contains one of `words`.
+fn named_outside(words: &[&str], allowed: &[&str]) -> Vec<String> {
+    sources()
+        .into_iter()
+        .filter(|(name, _)| !allowed.iter().any(|prefix| name.starts_with(prefix)))
+        .filter(|(_, text)| code(text).any(|line| words.iter().any(|word| line.contains(word))))
+        .map(|(name, _)| name)
+        .collect()
+}
+
+#[test]
+fn wire_serialisers_are_named_only_in_proto() {
+    assert_eq!(named_outside(&["prost::", "prost_build", "protox::"], &["proto/"]), [""; 0]);
+}
+
+#[test]
+fn bincode_is_named_in_one_file() {
+    assert_eq!(named_outside(&["bincode::"], &["learner/src/checkpoint/encoding.rs"]), [""; 0]);
+}
+
+#[test]
+fn only_the_bus_names_zenoh() {
+    assert_eq!(named_outside(&["zenoh::"], &["common/src/bus/"]), [""; 0]);
+}
+
+#[test]
+fn only_the_humanoid_names_rapier() {
+    assert_eq!(named_outside(&["rapier3d", "parry3d"], &["actor/humanoid/"]), [""; 0]);
+}
+
+#[test]
+fn the_humanoid_knows_nothing_of_bus_runtime_and_tensors() {
+    let manifest = fs::read_to_string(root().join("actor/humanoid/Cargo.toml")).unwrap();
+    for foreign in ["zenoh", "tokio", "candle", "treadmill-common", "treadmill-proto"] {
+        assert!(!manifest.lines().any(|line| line.starts_with(foreign)), "{foreign}");
+    }
+}
+
+#[test]
+fn the_learner_does_not_depend_on_the_actor() {
+    for manifest in ["learner/Cargo.toml", "common/Cargo.toml", "proto/Cargo.toml"] {
+        let text = fs::read_to_string(root().join(manifest)).unwrap();
+        for foreign in ["treadmill-actor", "treadmill-humanoid", "rapier3d"] {
+            assert!(!text.lines().any(|line| line.starts_with(foreign)), "{foreign} in {manifest}");
+        }
+    }
+}
+
+#[test]
+fn the_mathematics_does_no_io_and_reads_no_clock() {
+    let pure = [
+        "learner/src/gae.rs",
+        "learner/src/ppo/",
+        "learner/src/optimiser.rs",
+        "actor/humanoid/src/task.rs",
+        "common/src/policy/gaussian.rs",
+    ];
+    let impure = ["std::fs", "std::io", "std::net", "Instant", "SystemTime", "tokio::", "rand::rng"];
+    let mut checked = 0;
+    for (name, text) in sources().into_iter().filter(|(name, _)| pure.iter().any(|prefix| name.starts_with(prefix))) {
+        checked += 1;
+        for word in impure {
+            assert!(!code(&text).any(|line| line.contains(word)), "{word} in {name}");
+        }
+    }
+    assert!(checked >= pure.len(), "the files that this test is about are there");
+}
+
+#[test]
+fn every_path_that_the_architecture_names_exists() {
+    let text = fs::read_to_string(root().join("ARCHITECTURE.md")).unwrap();
+    let mut checked = 0;
+    for path in text.split('`').skip(1).step_by(2) {
+        let looks_like_a_path =
+            path.contains('/') && !path.contains([' ', '*', '{', '<', ':']) && !path.starts_with("treadmill/");
+        if looks_like_a_path
+            && !path.starts_with("runs/")
+            && !path.starts_with("tcp/")
+            && !path.starts_with("checkpoints/")
+        {
+            checked += 1;
+            assert!(root().join(path).exists(), "{path}");
+        }
+    }
+    assert!(checked > 20, "{checked}");
+}
+
+#[test]
+fn the_configuration_is_documented_as_it_is() {
+    let text = fs::read_to_string(root().join("docs/configuration.md")).unwrap();
+    let rows: Vec<&str> = text.lines().filter(|line| line.starts_with("| `") && line.contains('.')).collect();
+    let wanted: Vec<String> = Config::keys()
+        .iter()
+        .map(|key| format!("| `{}` | `{}` | {} | {} |", key.key, key.default, key.allowed, key.doc))
+        .collect();
+    assert_eq!(rows, wanted);
+}

@@ -1,0 +1,206 @@
+//! What the whole-system tests share: the real binary in a folder of its own, and ways to wait for what it does.
+#![allow(dead_code, reason = "each test file uses its own part")]
+
+use std::{
+    fs,
+    io::{BufRead, BufReader},
+    path::{Path, PathBuf},
+    process::{Child, Command, ExitStatus, Output, Stdio},
+    sync::mpsc::{Receiver, RecvTimeoutError, channel},
+    time::{Duration, Instant},
+};
+
+use serde_json::Value;
+
+/// Nothing in these tests takes this long unless it is broken.
+pub const PATIENCE: Duration = Duration::from_secs(120);
+
+/// The binary under test, run in `folder`.
+pub fn treadmill(folder: &Path) -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_treadmill"));
+    command.current_dir(folder).env_remove("TREADMILL_LOG").stdin(Stdio::null());
+    command
+}
+
+/// Runs to the end.
+pub fn run(folder: &Path, args: &[&str]) -> Output {
+    treadmill(folder).args(args).output().expect("the binary starts")
+}
+
+/// Standard output as text.
+pub fn stdout(output: &Output) -> String {
+    String::from_utf8_lossy(&output.stdout).into_owned()
+}
+
+/// Standard error as text.
+pub fn stderr(output: &Output) -> String {
+    String::from_utf8_lossy(&output.stderr).into_owned()
+}
+
+/// The JSON object on the last line of standard output.
+pub fn last_json(output: &Output) -> Value {
+    let text = stdout(output);
+    let line = text.trim_end().lines().last().unwrap_or_default();
+    serde_json::from_str(line).unwrap_or_else(|why| panic!("{why} in `{line}`; standard error: {}", stderr(output)))
+}
+
+/// Asserts an exit code and what standard error says.
+pub fn assert_refused(output: &Output, code: i32, parts: &[&str]) {
+    let text = stderr(output);
+    assert_eq!(output.status.code(), Some(code), "{text}");
+    for part in parts {
+        assert!(text.contains(part), "`{part}` is missing in: {text}");
+    }
+    assert!(!text.contains("panicked"), "{text}");
+}
+
+/// A process that is killed when the test is over, however it ends.
+pub struct Running {
+    child: Child,
+    lines: Receiver<String>,
+}
+
+impl Running {
+    /// Starts and follows standard output and standard error.
+    pub fn start(mut command: Command) -> Self {
+        let mut child = command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().expect("the binary starts");
+        let (sender, lines) = channel();
+        let out = child.stdout.take().expect("piped");
+        let err = child.stderr.take().expect("piped");
+        let streams: [Box<dyn std::io::Read + Send>; 2] = [Box::new(out), Box::new(err)];
+        for stream in streams {
+            let sender = sender.clone();
+            std::thread::spawn(move || {
+                for line in BufReader::new(stream).lines().map_while(Result::ok) {
+                    if sender.send(line).is_err() {
+                        return;
+                    }
+                }
+            });
+        }
+        Self { child, lines }
+    }
+
+    /// The process's number.
+    pub fn pid(&self) -> u32 {
+        self.child.id()
+    }
+
+    /// Waits for a line that contains `part`.
+    pub fn wait_for(&self, part: &str) -> String {
+        let until = Instant::now() + PATIENCE;
+        let mut seen = Vec::new();
+        loop {
+            match self.lines.recv_timeout(until.saturating_duration_since(Instant::now())) {
+                Ok(line) if line.contains(part) => return line,
+                Ok(line) => seen.push(line),
+                Err(RecvTimeoutError::Timeout) => panic!("no line with `{part}`; seen: {seen:#?}"),
+                Err(RecvTimeoutError::Disconnected) => panic!("it ended without `{part}`; seen: {seen:#?}"),
+            }
+        }
+    }
+
+    /// Sends a signal.
+    pub fn signal(&self, signal: i32) {
+        send_signal(self.pid(), signal);
+    }
+
+    /// Waits for the end; all lines not read before, and the status.
+    pub fn wait(mut self) -> (ExitStatus, Vec<String>) {
+        let status = await_that("the process ends", || self.child.try_wait().expect("it can be waited for"));
+        // Both streams are closed now, or will be once a killed process's children are gone.
+        let mut lines = Vec::new();
+        while let Ok(line) = self.lines.recv_timeout(Duration::from_secs(5)) {
+            lines.push(line);
+        }
+        (status, lines)
+    }
+}
+
+impl Drop for Running {
+    fn drop(&mut self) {
+        let _ = self.child.kill();
+        let _ = self.child.wait();
+    }
+}
+
+/// Sends a signal to any process.
+pub fn send_signal(pid: u32, signal: i32) {
+    // SAFETY: kill takes two numbers and touches no memory of ours.
+    let sent = unsafe { libc::kill(pid as i32, signal) };
+    assert_eq!(sent, 0, "process {pid} cannot be signalled");
+}
+
+/// Looks until `look` finds something.
+pub fn await_that<T>(what: &str, mut look: impl FnMut() -> Option<T>) -> T {
+    let until = Instant::now() + PATIENCE;
+    loop {
+        if let Some(found) = look() {
+            return found;
+        }
+        assert!(Instant::now() < until, "waited in vain: {what}");
+        std::thread::sleep(Duration::from_millis(10));
+    }
+}
+
+/// Child processes of `parent` whose command line contains `part`.
+pub fn children(parent: u32, part: &str) -> Vec<u32> {
+    fs::read_dir("/proc")
+        .expect("these tests run on Linux")
+        .flatten()
+        .filter_map(|entry| entry.file_name().to_string_lossy().parse::<u32>().ok())
+        .filter(|pid| {
+            let stat = fs::read_to_string(format!("/proc/{pid}/stat")).unwrap_or_default();
+            let after_name = stat.rsplit(')').next().unwrap_or_default();
+            let mut fields = after_name.split_whitespace();
+            let state = fields.next();
+            let parent_of_it = fields.next().and_then(|field| field.parse::<u32>().ok());
+            let command = fs::read_to_string(format!("/proc/{pid}/cmdline")).unwrap_or_default();
+            state != Some("Z") && parent_of_it == Some(parent) && command.contains(part)
+        })
+        .collect()
+}
+
+/// Whether a process is there and not a zombie.
+pub fn is_running(pid: u32) -> bool {
+    let stat = fs::read_to_string(format!("/proc/{pid}/stat")).unwrap_or_default();
+    stat.rsplit(')').next().and_then(|rest| rest.split_whitespace().next()).is_some_and(|state| state != "Z")
+}
+
+/// Every metric of a run, as (tag, step, value).
+pub fn metrics(run: &Path) -> Vec<(String, u64, f64)> {
+    let text = fs::read_to_string(run.join("metrics.jsonl")).unwrap_or_default();
+    text.lines()
+        .filter_map(|line| serde_json::from_str::<Value>(line).ok())
+        .map(|metric| {
+            let tag = metric["tag"].as_str().expect("a tag").to_string();
+            (tag, metric["step"].as_u64().expect("a step"), metric["value"].as_f64().expect("a value"))
+        })
+        .collect()
+}
+
+/// The last value of one tag.
+pub fn last_value(run: &Path, tag: &str) -> Option<f64> {
+    metrics(run).into_iter().rev().find(|(name, ..)| name == tag).map(|(.., value)| value)
+}
+
+/// Waits until a run has learnt from at least so many steps.
+pub fn await_steps(run: &Path, steps: u64) {
+    await_that(&format!("{steps} steps in {}", run.display()), || {
+        metrics(run).last().filter(|(_, step, _)| *step >= steps).map(drop)
+    });
+}
+
+/// The endpoint that a learner wrote into its run folder.
+pub fn endpoint(run: &Path) -> String {
+    await_that("the endpoint", || fs::read_to_string(run.join("endpoint.txt")).ok().filter(|text| text.ends_with('\n')))
+        .trim()
+        .to_string()
+}
+
+/// A folder for one test, and a run's folder inside it.
+pub fn folders() -> (tempfile::TempDir, PathBuf) {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let run = folder.path().join("run");
+    (folder, run)
+}

@@ -1,0 +1,36 @@
+//! The event files, read back by TensorBoard's own reader.
+
+mod support;
+
+use std::process::Command;
+
+use serde_json::Value;
+use support::*;
+
+#[test]
+fn tensorboard_reads_the_same_scalars_as_metrics_jsonl() {
+    // The only test that wants Python: `.ci/run` makes one with the package `tensorboard` and names it here.
+    let Ok(python) = std::env::var("TREADMILL_PYTHON") else {
+        eprintln!("SKIPPED: set TREADMILL_PYTHON to a Python that has the package tensorboard");
+        return;
+    };
+    let (folder, run) = folders();
+    let run_name = run.to_str().unwrap();
+    let train = ["train", "--preset", "smoke", "--steps", "2048", "--run-dir", run_name];
+    assert!(self::run(folder.path(), &train).status.success());
+    assert!(self::run(folder.path(), &["train", "--resume", run_name, "--steps", "4096"]).status.success());
+
+    let script = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/python/read_events.py");
+    let output = Command::new(python).arg(script).arg(&run).output().expect("Python starts");
+    assert!(output.status.success(), "{}", stderr(&output));
+    let read: Value = serde_json::from_slice(&output.stdout).unwrap();
+    let mut compared = 0;
+    for (tag, step, value) in metrics(&run) {
+        let points = read[&tag].as_array().unwrap_or_else(|| panic!("TensorBoard has no {tag}"));
+        let found = points.iter().find(|point| point[0] == step).unwrap_or_else(|| panic!("no {tag} at {step}"));
+        assert_eq!(found[1].as_f64().unwrap() as f32, value as f32, "{tag} at {step}");
+        compared += 1;
+    }
+    assert!(compared > 8 * 30, "eight updates of some thirty tags each, {compared} compared");
+    assert!(read["config"][0][1].as_str().unwrap().contains("[ppo]"));
+}

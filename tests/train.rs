@@ -1,0 +1,175 @@
+//! `train` as a user sees it: runs to its end, stops when asked, goes on where it was.
+
+mod support;
+
+use std::fs;
+
+use support::*;
+use treadmill_learner::checkpoint::load_file;
+
+const SMOKE: [&str; 4] = ["train", "--preset", "smoke", "--json"];
+
+fn smoke(folder: &std::path::Path, run: &std::path::Path, more: &[&str]) -> std::process::Output {
+    let mut args = SMOKE.to_vec();
+    args.extend(["--run-dir", run.to_str().unwrap()]);
+    args.extend(more);
+    self::run(folder, &args)
+}
+
+#[test]
+fn a_run_leaves_everything_a_user_looks_for() {
+    let (folder, run) = folders();
+    let output = smoke(folder.path(), &run, &[]);
+    assert!(output.status.success(), "{}", stderr(&output));
+    assert!(!stdout(&output).contains('\u{1b}'), "no escape codes without a terminal");
+    let summary = last_json(&output);
+    for field in ["wall_s", "env_steps_per_s", "return_mean", "length_mean", "distance_mean_m", "velocity_mean_mps"] {
+        assert!(summary[field].is_f64(), "{field} in {summary}");
+    }
+    assert_eq!(
+        (&summary["run"], &summary["env_steps"], &summary["restarts"]),
+        (&"run".into(), &8192.into(), &0.into())
+    );
+    assert_eq!(summary["updates"], 16);
+
+    for file in [
+        "config.toml",
+        "command.txt",
+        "versions.json",
+        "model.xml",
+        "endpoint.txt",
+        "checkpoints/latest.bundle",
+        "checkpoints/best.bundle",
+    ] {
+        assert!(run.join(file).is_file(), "{file}");
+    }
+    assert!(fs::read_to_string(run.join("command.txt")).unwrap().contains("train --preset smoke"));
+    assert!(fs::read(run.join("learning_curve.png")).unwrap().starts_with(b"\x89PNG"));
+    let events = fs::read_dir(&run).unwrap().flatten();
+    assert_eq!(
+        events.filter(|entry| entry.file_name().to_string_lossy().starts_with("events.out.tfevents.")).count(),
+        1
+    );
+    let metrics = metrics(&run);
+    for tag in [
+        "rollout/ep_rew_mean",
+        "time/fps",
+        "train/approx_kl",
+        "train/explained_variance",
+        "bus/policy_lag_mean",
+        "actors/alive",
+    ] {
+        assert!(metrics.iter().any(|(name, ..)| name == tag), "{tag}");
+    }
+    assert_eq!(
+        metrics.iter().filter(|(name, ..)| name == "train/learning_rate").count(),
+        16,
+        "one line for each update"
+    );
+    assert_eq!(last_value(&run, "bus/policy_lag_max"), Some(0.0), "actors keep step with the learner");
+}
+
+#[test]
+fn the_same_seed_gives_the_same_weights_bit_for_bit() {
+    let weights = |seed: &str| {
+        let (folder, run) = folders();
+        let output = smoke(folder.path(), &run, &["--deterministic", "--seed", seed, "--steps", "2048"]);
+        assert!(output.status.success(), "{}", stderr(&output));
+        load_file(&run.join("checkpoints/latest.bundle")).unwrap().parameters
+    };
+    let first = weights("7");
+    assert_eq!(first, weights("7"));
+    assert_ne!(first, weights("8"));
+}
+
+#[test]
+fn resume_goes_on_with_everything() {
+    let (folder, run) = folders();
+    assert!(smoke(folder.path(), &run, &["--steps", "4096"]).status.success());
+    let before = load_file(&run.join("checkpoints/latest.bundle")).unwrap();
+    let run_name = run.to_str().unwrap();
+    let output = self::run(folder.path(), &["train", "--resume", run_name, "--steps", "8192", "--json"]);
+    assert!(output.status.success(), "{}", stderr(&output));
+    let after = load_file(&run.join("checkpoints/latest.bundle")).unwrap();
+    assert_eq!((before.counters.env_steps, after.counters.env_steps), (4096, 8192));
+    assert_eq!(after.optimiser.step, 2 * before.optimiser.step);
+    assert_eq!(after.observation_moments.count, 2.0 * before.observation_moments.count);
+    assert_eq!(after.counters.updates, 16);
+    assert_eq!(after.tally.accepted, 2 * before.tally.accepted);
+    assert!(after.episodes.finished > before.episodes.finished);
+    assert_ne!(after.lineage.newest().incarnation, before.lineage.newest().incarnation);
+    let steps: Vec<u64> =
+        metrics(&run).iter().filter(|(tag, ..)| tag == "train/std").map(|(_, step, _)| *step).collect();
+    assert_eq!(steps, (1..=16).map(|update| update * 512).collect::<Vec<u64>>(), "no step is missing or told twice");
+    assert_eq!(last_json(&output)["env_steps"], 8192);
+}
+
+#[test]
+fn the_first_ctrl_c_saves_and_says_how_to_go_on() {
+    let (folder, run) = folders();
+    let mut command = treadmill(folder.path());
+    command.args(["train", "--preset", "smoke", "--steps", "100000000", "--run-dir", run.to_str().unwrap()]);
+    let training = Running::start(command);
+    await_steps(&run, 1024);
+    let actors = children(training.pid(), "actor");
+    assert_eq!(actors.len(), 2);
+    training.signal(libc::SIGINT);
+    let resume = training.wait_for("resume with:");
+    let (status, _) = training.wait();
+    assert!(status.success(), "{status}");
+    assert!(resume.contains(&format!("treadmill train --resume {}", run.display())));
+    await_that("the actors are gone", || actors.iter().all(|pid| !is_running(*pid)).then_some(()));
+    let saved = load_file(&run.join("checkpoints/latest.bundle")).unwrap().counters.env_steps;
+    assert_eq!(last_value(&run, "time/total_timesteps"), Some(saved as f64));
+    let steps = (saved + 512).to_string();
+    let output = self::run(folder.path(), &["train", "--resume", run.to_str().unwrap(), "--steps", &steps, "--json"]);
+    assert_eq!(last_json(&output)["env_steps"], saved + 512);
+}
+
+#[test]
+fn the_second_ctrl_c_ends_it_at_once() {
+    let (folder, run) = folders();
+    let mut command = treadmill(folder.path());
+    // The batch never gets full, so that the first Ctrl-C finds the learner waiting.
+    command.args(["train", "--preset", "smoke", "--run-dir", run.to_str().unwrap()]);
+    command.args(["--set", "ppo.epochs=100", "--set", "ppo.batch=65536", "--set", "ppo.minibatch=16"]);
+    command.args(["--steps", "100000000"]);
+    let training = Running::start(command);
+    // The update after the first batch takes long: a hundred epochs of four thousand gradient steps.
+    await_that("the first batch is gathered", || {
+        let threads = fs::read_dir(format!("/proc/{}/task", training.pid())).ok()?;
+        let busy = threads.flatten().any(|thread| {
+            let name = fs::read_to_string(thread.path().join("comm")).unwrap_or_default();
+            let stat = fs::read_to_string(thread.path().join("stat")).unwrap_or_default();
+            let ticks = stat
+                .rsplit(')')
+                .next()
+                .and_then(|rest| rest.split_whitespace().nth(11))
+                .and_then(|t| t.parse::<u64>().ok());
+            name.starts_with("training") && ticks.is_some_and(|ticks| ticks > 20)
+        });
+        busy.then_some(())
+    });
+    training.signal(libc::SIGINT);
+    training.wait_for("press Ctrl-C again");
+    training.signal(libc::SIGINT);
+    let (status, _) = training.wait();
+    assert_eq!(status.code(), Some(130));
+}
+
+#[test]
+fn a_run_folder_is_not_overwritten() {
+    let (folder, run) = folders();
+    assert!(smoke(folder.path(), &run, &["--steps", "512"]).status.success());
+    assert_refused(&smoke(folder.path(), &run, &[]), 2, &["already holds a run", "--resume"]);
+}
+
+#[test]
+fn runs_get_the_first_free_name() {
+    let (folder, _) = folders();
+    for name in ["smoke-1", "smoke-2"] {
+        let output = self::run(folder.path(), &["train", "--preset", "smoke", "--steps", "512", "--json"]);
+        assert_eq!(last_json(&output)["run"], name);
+        assert!(folder.path().join("runs").join(name).join("metrics.jsonl").is_file());
+    }
+}
