@@ -1,6 +1,6 @@
 //! `treadmill actor`: only an actor; task, model and rollout settings come from the learner with the policy bundle.
 
-use std::io::Read;
+use std::{io::Read, time::Duration};
 
 use anyhow::Context;
 use clap::Args;
@@ -8,6 +8,10 @@ use treadmill_actor::worker::{self, WorkerOptions};
 use treadmill_common::{bus::Bus, machine, seeds, shutdown::Shutdown};
 
 use crate::{outcome::Usage, signals, startup::NetworkArgs};
+
+/// A learner that is just starting is no news.
+const FIRST_COMPLAINT: Duration = Duration::from_secs(1);
+const COMPLAIN_EVERY: Duration = Duration::from_secs(10);
 
 /// Flags of `actor`.
 #[derive(Args)]
@@ -58,10 +62,15 @@ pub fn run(args: ActorArgs) -> anyhow::Result<()> {
         }
         let bus_options = args.network.options(Vec::new(), args.connect);
         let opened = tokio::task::spawn_blocking(move || Bus::open_client(&bus_options));
-        let bus = tokio::select! {
-            bus = opened => bus??,
-            // The bus dials for as long as nobody answers; somebody who asks to stop does not wait for that.
-            () = shutdown.wait() => return Ok(()),
+        tokio::pin!(opened);
+        // The bus dials for as long as nobody answers; somebody who asks to stop does not wait for that.
+        let mut silence = tokio::time::interval_at(tokio::time::Instant::now() + FIRST_COMPLAINT, COMPLAIN_EVERY);
+        let bus = loop {
+            tokio::select! {
+                bus = &mut opened => break bus??,
+                () = shutdown.wait() => return Ok(()),
+                _ = silence.tick() => tracing::warn!("nobody answers at {}; trying on until somebody does", options.where_to),
+            }
         };
         let outcome = worker::run(bus.clone(), options, shutdown).await;
         bus.close();
@@ -88,7 +97,7 @@ fn follow_standard_input(shutdown: Shutdown) -> std::io::Result<()> {
         while matches!(std::io::stdin().read(&mut bytes), Ok(count) if count > 0) {}
         shutdown.ask();
         // A process that does not come to an end by itself is of no use to a parent that is gone.
-        std::thread::sleep(std::time::Duration::from_secs(5));
+        std::thread::sleep(Duration::from_secs(5));
         std::process::exit(1);
     })?;
     Ok(())

@@ -123,11 +123,19 @@ fn greet(
         Some(actors) => say(&format!("  actors    {actors} processes beside this one")),
         None => say(&format!(
             "  actors    none yet; start some by: treadmill actor --connect {} --run {}",
-            endpoints[0], state.run
+            to_dial(&endpoints[0]),
+            state.run
         )),
     }
     say(&format!("  listening {}", endpoints.join(", ")));
     say("  stop      Ctrl-C once finishes the update and saves");
+}
+
+/// An endpoint as another process dials it: to listen on every address is not to have that address.
+fn to_dial(endpoint: &str) -> String {
+    let host = treadmill_common::machine::host_name();
+    let dialled = endpoint.replace("/0.0.0.0:", &format!("/{host}:")).replace("/[::]:", &format!("/{host}:"));
+    if dialled.contains(&host) && dialled != endpoint { format!("{dialled} --insecure") } else { dialled }
 }
 
 fn part(folder: &treadmill_common::run_folder::RunFolder, summary: &Summary, command: &str) {

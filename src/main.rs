@@ -48,8 +48,12 @@ enum Command {
 }
 
 fn main() -> ExitCode {
+    // Candle would spread its larger element-wise operations over threads of its own, which wait by spinning and take the
+    // cores from physics and from the update's threads.
+    // SAFETY: no other thread is there yet that could read or write the environment.
+    unsafe { std::env::set_var("CANDLE_NUM_THREADS", "1") };
     let filter = tracing_subscriber::EnvFilter::try_from_env("TREADMILL_LOG")
-        .unwrap_or_else(|_| tracing_subscriber::EnvFilter::new("warn,zenoh=error,treadmill=warn"));
+        .unwrap_or_else(|_| tracing_subscriber::EnvFilter::new("warn,zenoh=off"));
     tracing_subscriber::fmt()
         .with_env_filter(filter)
         .with_writer(std::io::stderr)

@@ -15,11 +15,11 @@ fn trained(folder: &Path, run: &Path) {
 #[test]
 fn random_actions_are_told_as_the_first_and_every_hundredth_step() {
     let (folder, _) = folders();
-    let output = self::run(folder.path(), &["eval", "--agent", "random", "--episodes", "2", "--print-every", "10"]);
+    let output = self::run(folder.path(), &["eval", "--agent", "random", "--episodes", "2", "--print-every", "5"]);
     assert!(output.status.success(), "{}", stderr(&output));
     let text = stdout(&output);
     let told: Vec<&str> = text.lines().filter(|line| line.starts_with("episode   1")).collect();
-    assert!(told[0].contains("step    1") && told[1].contains("step   10") && told[2].contains("step   20"), "{text}");
+    assert!(told[0].contains("step    1") && told[1].contains("step    5") && told[2].contains("step   10"), "{text}");
     assert!(told[0].contains("reward") && told[0].contains("total"));
     assert!(text.contains("distance") && text.contains("limit overshoot"), "{text}");
     let default = stdout(&self::run(folder.path(), &["eval", "--agent", "random", "--episodes", "1"]));

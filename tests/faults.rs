@@ -117,9 +117,8 @@ fn a_learner_that_is_killed_is_resumed_while_its_actors_wait() {
 #[test]
 fn a_disk_that_takes_no_more_ends_the_run_with_the_last_checkpoint_intact() {
     let (folder, run) = folders();
-    let steps = ["--steps", "1024"];
-    let mut first = endless(folder.path(), &run, "train");
-    assert!(first.args(["--set", "run.seed=5"]).args(steps).output().unwrap().status.success());
+    let first = ["train", "--preset", "smoke", "--steps", "1024", "--run-dir", run.to_str().unwrap()];
+    assert!(self::run(folder.path(), &first).status.success());
     let latest = run.join("checkpoints/latest.bundle");
     let sound = fs::read(&latest).unwrap();
 

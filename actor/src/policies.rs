@@ -52,6 +52,8 @@ pub async fn join(
 pub struct Policies {
     bus: Bus,
     run: String,
+    /// What the user named; an actor that was told none follows the learner to another run.
+    asked: Option<String>,
     config_hash: u64,
     current: RwLock<Arc<ActingPolicy>>,
     fetching: Mutex<()>,
@@ -64,16 +66,17 @@ pub enum Refreshed {
     Same,
     /// A newer policy is in use.
     Newer,
-    /// The run was started anew with another configuration or model: everything begins again.
+    /// It is another run, or the same begun anew with another configuration or model: everything begins again.
     OtherRun,
 }
 
 impl Policies {
     /// Begins with the policy that was handed out on joining.
-    pub fn new(bus: Bus, bundle: &PolicyBundle) -> Result<Self, ActorError> {
+    pub fn new(bus: Bus, asked: Option<String>, bundle: &PolicyBundle) -> Result<Self, ActorError> {
         Ok(Self {
             bus,
             run: bundle.run.clone(),
+            asked,
             config_hash: bundle.config_hash,
             current: RwLock::new(Arc::new(ActingPolicy::new(bundle)?)),
             fetching: Mutex::new(()),
@@ -93,7 +96,7 @@ impl Policies {
         if known == Some(version) {
             return Refreshed::Same;
         }
-        let bundle = match fetch_policy(&self.bus, Some(&self.run), FETCH_TIMEOUT).await {
+        let bundle = match fetch_policy(&self.bus, self.asked.as_deref(), FETCH_TIMEOUT).await {
             Ok(Some(bundle)) => bundle,
             Ok(None) => return Refreshed::Same,
             Err(why) => {
@@ -101,7 +104,7 @@ impl Policies {
                 return Refreshed::Same;
             }
         };
-        if bundle.config_hash != self.config_hash {
+        if bundle.run != self.run || bundle.config_hash != self.config_hash {
             return Refreshed::OtherRun;
         }
         if bundle.version == version {

@@ -62,7 +62,7 @@ pub async fn run(bus: Bus, options: WorkerOptions, shutdown: Shutdown) -> Result
         tracing::info!("{} joined run `{}` at version {}", options.name, bundle.run, bundle.version.number);
         match stay(&bus, &options, &bundle, &shutdown).await? {
             Ended::Asked => return Ok(()),
-            Ended::OtherRun => tracing::warn!("run `{}` was started anew; joining again", bundle.run),
+            Ended::OtherRun => tracing::warn!("run `{}` is no longer there as it was; joining again", bundle.run),
         }
     }
 }
@@ -92,7 +92,7 @@ async fn stay(
     source.text(&bundle.config_toml, "the configuration of the run")?;
     let config = source.build()?;
     let incarnation = seeds::unique();
-    let policies = Arc::new(Policies::new(bus.clone(), bundle)?);
+    let policies = Arc::new(Policies::new(bus.clone(), options.run.clone(), bundle)?);
     let receipt_timeout = Duration::from_millis(config.bus.receipt_timeout_ms);
     let courier = Arc::new(Courier::new(bus.clone(), &bundle.run, &options.name, receipt_timeout, policies.clone()));
     let collector = collector(options, bundle, &config, incarnation)?;
@@ -235,6 +235,7 @@ fn stats(
     let env_steps = progress.env_steps.load(Ordering::Relaxed);
     let elapsed_s = rate.since.elapsed().as_secs_f64().max(1e-9);
     let env_steps_per_s = (env_steps - rate.env_steps) as f64 / elapsed_s;
+    let counts = courier.counts();
     *rate = Rate { since: Instant::now(), env_steps };
     ActorStats {
         actor: options.name.clone(),
@@ -247,12 +248,12 @@ fn stats(
         env_steps,
         episodes: progress.episodes.load(Ordering::Relaxed),
         faults: progress.faults.load(Ordering::Relaxed),
-        produced: courier.counts.produced.load(Ordering::SeqCst),
-        accepted: courier.counts.accepted.load(Ordering::SeqCst),
-        dropped_by_rule: courier.counts.dropped_by_rule.load(Ordering::SeqCst),
-        in_flight: courier.counts.in_flight(),
-        resent: courier.counts.resent.load(Ordering::SeqCst),
-        awaiting_durability: courier.awaiting_durability(),
+        produced: counts.produced,
+        accepted: counts.accepted,
+        dropped_by_rule: counts.dropped_by_rule,
+        in_flight: counts.in_flight,
+        resent: counts.resent,
+        awaiting_durability: counts.awaiting_durability,
         resident_bytes: machine::resident_bytes(),
     }
 }

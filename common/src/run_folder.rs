@@ -59,7 +59,8 @@ impl RunFolder {
     pub fn create(run_dir: Option<&Path>, prefix: &str) -> Result<Self, RunFolderError> {
         if let Some(root) = run_dir {
             let folder = Self::at(root);
-            if folder.checkpoints().exists() || folder.metrics().exists() {
+            let checkpoints = fs::read_dir(folder.checkpoints()).into_iter().flatten().count();
+            if checkpoints > 0 || folder.metrics().exists() {
                 return Err(RunFolderError::Taken { path: root.display().to_string() });
             }
             return folder.prepare();
@@ -170,6 +171,9 @@ mod tests {
         let run = RunFolder::create(Some(&root), "walk").unwrap();
         assert_eq!(run.name(), "my-run-1");
         assert_eq!(RunFolder::open(root.to_str().unwrap()).unwrap(), run);
+        // Killed before its first checkpoint, it is no run yet.
+        assert_eq!(RunFolder::create(Some(&root), "walk").unwrap(), run);
+        fs::write(run.checkpoints().join("latest.bundle"), "state").unwrap();
         let again = RunFolder::create(Some(&root), "walk").unwrap_err().to_string();
         assert!(again.contains("--resume"), "{again}");
     }

@@ -51,10 +51,7 @@ pub fn check_free(endpoint: &str) -> Result<(), BusError> {
     let address = endpoint.split_once('/').map_or(endpoint, |(_, address)| address);
     match TcpListener::bind(address) {
         Ok(_) => Ok(()),
-        Err(why) => Err(BusError::Endpoint {
-            endpoint: endpoint.to_string(),
-            why: format!("cannot listen there: {why}; choose another port with --listen, or port 0 for any free one"),
-        }),
+        Err(why) => Err(BusError::Listen { endpoint: endpoint.to_string(), why: why.to_string() }),
     }
 }
 

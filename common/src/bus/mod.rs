@@ -26,6 +26,14 @@ pub enum BusError {
         /// What is wrong and what to do.
         why: String,
     },
+    /// An endpoint cannot be listened on.
+    #[error("cannot listen on `{endpoint}`: {why}; choose another port with --listen, or port 0 for any free one")]
+    Listen {
+        /// As given.
+        endpoint: String,
+        /// What the system said.
+        why: String,
+    },
     /// A setting was refused.
     #[error("{what}: {why}")]
     Config {

@@ -40,7 +40,7 @@ section! {
         /// Physics steps per control step of 15 ms.
         substeps: u32 = 2, "1 to 50" => |v| (1..=50).contains(v);
         /// Solver iterations per physics step.
-        solver_iterations: u32 = 4, "1 to 50" => |v| (1..=50).contains(v);
+        solver_iterations: u32 = 8, "1 to 50" => |v| (1..=50).contains(v);
         /// Whether the humanoid's own limbs can touch each other.
         self_collision: bool = true, "true or false" => |_| true;
     }
@@ -104,7 +104,7 @@ section! {
         /// Highest learning rate that adaptation may reach.
         learning_rate_max: f64 = 1e-3, "at least ppo.learning_rate_min, at most 1" => |v| *v > 0.0 && *v <= 1.0;
         /// KL divergence aimed at: over twice this the learning rate is divided by 1.5, under half of it multiplied; 0 keeps it fixed.
-        target_kl: f64 = 0.008, "0 or more" => |v| *v >= 0.0 && v.is_finite();
+        target_kl: f64 = 0.016, "0 or more" => |v| *v >= 0.0 && v.is_finite();
         /// Factor on rewards before returns are computed.
         reward_scale: f64 = 0.1, "above 0" => |v| *v > 0.0 && v.is_finite();
     }

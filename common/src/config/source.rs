@@ -131,7 +131,8 @@ fn unknown(key: &str, keys: &[KeyDoc]) -> ConfigError {
         })
         .min_by_key(|(distance, _)| *distance);
     let hint = match nearest {
-        Some((distance, known)) if distance <= 3 => format!("did you mean `{}`?", known.key),
+        // A third of the letters wrong is a slip; more is another word.
+        Some((distance, known)) if distance <= wanted.len() / 3 => format!("did you mean `{}`?", known.key),
         _ => {
             let section = key.split('.').next().unwrap_or(key);
             let mut allowed: Vec<&str> =
