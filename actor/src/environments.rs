@@ -121,6 +121,12 @@ impl Environments {
         }
     }
 
+    /// Makes the physics of one environment fail at the next step; for tests.
+    #[doc(hidden)]
+    pub fn poison(&mut self, env: usize) {
+        self.environments[env].physics_mut().poison();
+    }
+
     fn step_one(&mut self, env: usize, action: &[f32], stepped: &mut Stepped) -> u8 {
         use treadmill_proto::fragment::{TERMINATED, TRUNCATED};
         let environment = &mut self.environments[env];
