@@ -1,5 +1,7 @@
 //! The event files, read back by TensorBoard's own reader.
 
+#![allow(clippy::print_stderr, reason = "a test that was left out must say so")]
+
 mod support;
 
 use std::process::Command;

@@ -219,7 +219,7 @@ impl Trainer {
                 for Accepted { fragment, .. } in accepted {
                     state.observation_moments.update(&fragment.observations, state.shape.observation);
                 }
-                state.counters.gradient_steps += stats.minibatches as u64;
+                state.counters.gradient_steps += stats.minibatches;
                 Ok(Some(stats))
             }
             Err(why) => {
