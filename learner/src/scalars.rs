@@ -17,6 +17,8 @@ pub struct Durations {
     pub collect: Duration,
     /// Estimating advantages and learning.
     pub update: Duration,
+    /// Learning alone: minibatches forward and back.
+    pub learn: Duration,
     /// Writing the checkpoint.
     pub checkpoint: Duration,
 }
@@ -142,7 +144,7 @@ impl Round<'_> {
                 ("train/bounds_loss", update.bounds_loss),
                 ("train/grad_norm", update.grad_norm),
                 ("train/std", update.std),
-                ("train/samples_per_s", update.samples as f64 / self.durations.update.as_secs_f64().max(1e-9)),
+                ("train/samples_per_s", update.samples as f64 / self.durations.learn.as_secs_f64().max(1e-9)),
             ]);
         }
         let counters = &self.state.counters;

@@ -6,7 +6,7 @@ use std::{
         Arc,
         atomic::{AtomicU64, Ordering},
     },
-    time::Instant,
+    time::{Duration, Instant},
 };
 
 use treadmill_common::{
@@ -112,7 +112,7 @@ pub fn train(
         trainer.save()?;
         let checkpoint = round_begun.elapsed() - collect - update_time;
         trainer.publish()?;
-        let durations = Durations { collect, update: update_time, checkpoint };
+        let durations = Durations { collect, update: update_time, learn: trainer.learn, checkpoint };
         trainer.log(update.as_ref(), Lag::of(&batch), durations)?;
     }
     trainer.finish()?;
@@ -140,6 +140,8 @@ struct Trainer {
     begun: Instant,
     wall_before_s: f64,
     undone_in_a_row: u32,
+    /// How long the last update proper took.
+    learn: Duration,
     is_best: bool,
 }
 
@@ -192,6 +194,7 @@ impl Trainer {
             begun: Instant::now(),
             wall_before_s: state.counters.wall_s,
             undone_in_a_row: 0,
+            learn: Duration::ZERO,
             is_best: false,
             saver,
             report,
@@ -212,7 +215,10 @@ impl Trainer {
         let normaliser = Normaliser::from_moments(&state.observation_moments, clip);
         let mut value_moments = state.value_moments.clone();
         let batch = experience::prepare(accepted, &critic, &normaliser, &mut value_moments, &self.config.ppo)?;
-        match self.updater.update(&batch, &mut state.shuffle) {
+        let begun = Instant::now();
+        let updated = self.updater.update(&batch, &mut state.shuffle);
+        self.learn = begun.elapsed();
+        match updated {
             Ok(stats) => {
                 self.undone_in_a_row = 0;
                 state.value_moments = value_moments;
