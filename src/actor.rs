@@ -60,7 +60,7 @@ pub fn run(args: ActorArgs) -> anyhow::Result<()> {
         if args.until_stdin_closes {
             follow_standard_input(shutdown.clone())?;
         }
-        let bus_options = args.network.options(Vec::new(), args.connect);
+        let bus_options = args.network.options(Vec::new(), args.connect)?;
         let opened = tokio::task::spawn_blocking(move || Bus::open_client(&bus_options));
         tokio::pin!(opened);
         // The bus dials for as long as nobody answers; somebody who asks to stop does not wait for that.

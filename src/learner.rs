@@ -37,12 +37,14 @@ pub struct LearnerArgs {
 
 /// Runs the learner until the run has its steps.
 pub fn run(args: LearnerArgs) -> anyhow::Result<()> {
-    let mut prepared = startup::prepare(&args.new, &args.any, &[])?;
     if let Some(run) = &args.run {
         treadmill_proto::ident::check_ident("run", run).map_err(|why| crate::outcome::Usage(why.to_string()))?;
-        prepared.state.run.clone_from(run);
     }
-    let options = args.network.options(args.listen, args.connect);
+    let options = args.network.options(args.listen, args.connect)?;
+    let mut prepared = startup::prepare(&args.new, &args.any, &[])?;
+    if let Some(run) = args.run {
+        prepared.state.run = run;
+    }
     host(prepared, &args.any, &options, None)
 }
 

@@ -70,9 +70,11 @@ pub struct NetworkArgs {
 }
 
 impl NetworkArgs {
-    /// How to reach the bus.
-    pub fn options(&self, listen: Vec<String>, connect: Vec<String>) -> BusOptions {
-        BusOptions { listen, connect, insecure: self.insecure, zenoh_config: self.zenoh_config.clone() }
+    /// How to reach the bus; called before anything is written, so that an endpoint that is refused leaves nothing behind.
+    pub fn options(&self, listen: Vec<String>, connect: Vec<String>) -> anyhow::Result<BusOptions> {
+        let options = BusOptions { listen, connect, insecure: self.insecure, zenoh_config: self.zenoh_config.clone() };
+        options.check()?;
+        Ok(options)
     }
 }
 

@@ -34,6 +34,7 @@ pub struct TrainArgs {
 
 /// Trains until the run has its steps.
 pub fn run(args: TrainArgs) -> anyhow::Result<()> {
+    let options = args.network.options(vec![args.listen], Vec::new())?;
     let mut changes = startup::changes(&[("rollout.envs", args.envs), ("rollout.actors", args.actors)]);
     if args.deterministic {
         changes.push(("run.deterministic", true.into()));
@@ -45,5 +46,5 @@ pub fn run(args: TrainArgs) -> anyhow::Result<()> {
         0 => (machine::cores() as u32).min(rollout.envs),
         wanted => wanted.min(rollout.envs),
     };
-    learner::host(prepared, &args.any, &args.network.options(vec![args.listen], Vec::new()), Some(actors))
+    learner::host(prepared, &args.any, &options, Some(actors))
 }

@@ -134,13 +134,12 @@ fn the_first_ctrl_c_saves_and_says_how_to_go_on() {
 fn the_second_ctrl_c_ends_it_at_once() {
     let (folder, run) = folders();
     let mut command = treadmill(folder.path());
-    // The batch never gets full, so that the first Ctrl-C finds the learner waiting.
     command.args(["train", "--preset", "smoke", "--run-dir", run.to_str().unwrap()]);
     command.args(["--set", "ppo.epochs=100", "--set", "ppo.batch=65536", "--set", "ppo.minibatch=16"]);
     command.args(["--steps", "100000000"]);
     let training = Running::start(command);
-    // The update after the first batch takes long: a hundred epochs of four thousand gradient steps.
-    await_that("the first batch is gathered", || {
+    // The first update takes long, a hundred epochs of four thousand gradient steps: Ctrl-C finds the learner in it.
+    await_that("the training thread is busy", || {
         let threads = fs::read_dir(format!("/proc/{}/task", training.pid())).ok()?;
         let busy = threads.flatten().any(|thread| {
             let name = fs::read_to_string(thread.path().join("comm")).unwrap_or_default();

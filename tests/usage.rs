@@ -74,8 +74,12 @@ fn plain_text_beyond_loopback_must_be_asked_for() {
     let (folder, run) = folders();
     let args = ["train", "--preset", "smoke", "--run-dir", run.to_str().unwrap(), "--listen", "tcp/0.0.0.0:0"];
     assert_refused(&self::run(folder.path(), &args), 2, &["tcp/0.0.0.0:0", "--insecure"]);
+    assert!(!run.exists(), "an endpoint that is refused leaves no folder behind");
     let args = ["actor", "--connect", "tcp/192.0.2.1:7447"];
     assert_refused(&self::run(folder.path(), &args), 2, &["tcp/192.0.2.1:7447", "--insecure"]);
+    let args = ["learner", "--preset", "smoke", "--run", "A/B", "--run-dir", run.to_str().unwrap()];
+    assert_refused(&self::run(folder.path(), &args), 2, &["`run` is `A/B`", "a-z"]);
+    assert!(!run.exists(), "a name that is refused leaves no folder behind");
     let args = ["actor", "--name", "A/B"];
     assert_refused(&self::run(folder.path(), &args), 2, &["A/B", "a-z"]);
 }

@@ -44,10 +44,16 @@ impl ActingPolicy {
         self.policy.log_std()
     }
 
-    /// Action means of raw observations, `[rows][action]`; `observations`, `[rows][observation]`, are normalised in
-    /// place.
-    pub fn means(&self, observations: &mut [f32], rows: usize, means: &mut [f32]) -> Result<(), ActorError> {
-        self.normaliser.apply(observations);
-        Ok(self.policy.means(observations, rows, means)?)
+    /// Action means, `[rows][action]`, of raw observations, `[rows][observation]`; `normalised` is room for those as the
+    /// networks see them.
+    pub fn means(
+        &self,
+        observations: &[f32],
+        rows: usize,
+        normalised: &mut Vec<f32>,
+        means: &mut [f32],
+    ) -> Result<(), ActorError> {
+        self.normaliser.apply_into(observations, normalised);
+        Ok(self.policy.means(normalised, rows, means)?)
     }
 }

@@ -33,9 +33,7 @@ impl PolicyAgent {
 
 impl Agent for PolicyAgent {
     fn act(&mut self, observation: &[f32], action: &mut [f32]) -> Result<(), ActorError> {
-        self.normalised.clear();
-        self.normalised.extend_from_slice(observation);
-        self.policy.means(&mut self.normalised, 1, action)
+        self.policy.means(observation, 1, &mut self.normalised, action)
     }
 }
 

@@ -99,9 +99,7 @@ impl Collector {
 
     fn act(&mut self, policy: &ActingPolicy, fragment: &mut Fragment) -> Result<(), ActorError> {
         let (envs, action_size) = (self.environments.len(), self.environments.action_size());
-        self.normalised.clear();
-        self.normalised.extend_from_slice(self.environments.observations());
-        policy.means(&mut self.normalised, envs, &mut self.means)?;
+        policy.means(self.environments.observations(), envs, &mut self.normalised, &mut self.means)?;
         for mean in self.means.chunks_exact(action_size) {
             self.normals.fill_with(|| StandardNormal.sample(&mut self.noise));
             let start = fragment.actions.len();

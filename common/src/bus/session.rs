@@ -31,6 +31,13 @@ pub struct BusOptions {
     pub zenoh_config: Option<PathBuf>,
 }
 
+impl BusOptions {
+    /// Refuses endpoints that are not acceptable.
+    pub fn check(&self) -> Result<(), BusError> {
+        self.listen.iter().chain(&self.connect).try_for_each(|given| endpoint::check(given, self.insecure))
+    }
+}
+
 /// A session on the bus.
 #[derive(Clone, Debug)]
 pub struct Bus {
@@ -41,14 +48,13 @@ impl Bus {
     /// Opens the learner's session: a router that only listens. Port 0 is replaced by a free one; the endpoints that
     /// were really opened are returned.
     pub fn open_learner(options: &BusOptions) -> Result<(Self, Vec<String>), BusError> {
+        options.check()?;
         let mut listen = Vec::new();
         for given in &options.listen {
-            endpoint::check(given, options.insecure)?;
             let endpoint = endpoint::with_port(given)?;
             endpoint::check_free(&endpoint)?;
             listen.push(endpoint);
         }
-        options.connect.iter().try_for_each(|given| endpoint::check(given, options.insecure))?;
         let mut settings = base(options.zenoh_config.as_deref())?;
         insert(&mut settings, "mode", json!("router"))?;
         insert(&mut settings, "listen/endpoints", json!(listen))?;
@@ -60,7 +66,7 @@ impl Bus {
 
     /// Opens an actor's or observer's session: a client that dials, and keeps dialling until it is let in.
     pub fn open_client(options: &BusOptions) -> Result<Self, BusError> {
-        options.connect.iter().try_for_each(|given| endpoint::check(given, options.insecure))?;
+        options.check()?;
         let mut settings = base(options.zenoh_config.as_deref())?;
         insert(&mut settings, "mode", json!("client"))?;
         insert(&mut settings, "connect/endpoints", json!(options.connect))?;
