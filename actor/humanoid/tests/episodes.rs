@@ -213,6 +213,11 @@ fn joints_hold_under_maximal_random_torques() {
             environment.reset(count, &mut observation);
         }
     }
+    println!(
+        "separation {:?} overshoot {:?}",
+        [0.5, 0.99, 0.999, 1.0].map(|f| quantile(&mut separations, f)),
+        [0.5, 0.99, 0.999, 1.0].map(|f| quantile(&mut overshoots, f))
+    );
     let separation_m = quantile(&mut separations, 0.999);
     let overshoot_rad = quantile(&mut overshoots, 0.999);
     assert!(separation_m < 0.01, "joints come apart by {separation_m} m");
