@@ -14,6 +14,7 @@ observations; --treadmill also plays policy and random actions in Treadmill, and
 import argparse
 import json
 import pathlib
+import struct
 import subprocess
 import sys
 
@@ -119,7 +120,10 @@ def main():
     parser.add_argument("--treadmill", type=pathlib.Path, help="the binary, to play the same in Treadmill")
     parser.add_argument("--doc", type=pathlib.Path, help="page whose generated part is replaced")
     arguments = parser.parse_args()
-    policy = Policy(arguments.policy)
+    try:
+        policy = Policy(arguments.policy)
+    except (OSError, ValueError, KeyError, struct.error) as why:
+        sys.exit(f"{arguments.policy} is no policy that `treadmill export --safetensors` wrote: {why!r}")
     if arguments.check:
         check(policy, arguments.check)
         return
