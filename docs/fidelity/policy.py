@@ -12,9 +12,11 @@ import numpy as np
 def read_safetensors(path):
     """Tensors by name, and the metadata: eight bytes of header length, the header as JSON, then the numbers."""
     with open(path, "rb") as file:
-        (length,) = struct.unpack("<Q", file.read(8))
-        header = json.loads(file.read(length))
-        data = file.read()
+        content = file.read()
+    (length,) = struct.unpack_from("<Q", content)
+    if 8 + length > len(content):
+        raise ValueError("it is truncated, or no safetensors file")
+    header, data = json.loads(content[8 : 8 + length]), content[8 + length :]
     metadata = header.pop("__metadata__", {})
     kinds = {"F32": "<f4", "F64": "<f8"}
     tensors = {}
