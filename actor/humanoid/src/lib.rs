@@ -10,6 +10,7 @@
 //! - [`physics`]: named quantities of the simulated body; the only place in the project that names Rapier.
 //! - [`model`]: MJCF text → bodies, hinge chains, motors.
 //! - `chain`: angles and axes of a chain of hinges.
+//! - [`randomisation`]: what differs from episode to episode, so that a policy depends on none of it.
 //! - [`config`], [`error`]: what can be set, and what is refused.
 
 pub mod config;
@@ -18,6 +19,7 @@ pub mod error;
 pub mod model;
 pub mod observation;
 pub mod physics;
+pub mod randomisation;
 pub mod task;
 
 mod chain;
@@ -27,5 +29,6 @@ pub use environment::Environment;
 pub use error::ModelError;
 pub use model::{HUMANOID_XML, Model};
 pub use observation::OBSERVATION_SIZE_COMPACT;
-pub use physics::{JointQuality, Physics, PhysicsFault};
+pub use physics::{JointQuality, Physics, PhysicsFault, Variation};
+pub use randomisation::Randomisation;
 pub use task::{Step, StepInfo};

@@ -6,6 +6,7 @@ mod contact;
 mod convert;
 mod drive;
 mod kinematics;
+mod variation;
 mod world;
 
 use nalgebra::{Isometry3, Point3, Vector3};
@@ -13,6 +14,8 @@ use nalgebra::{Isometry3, Point3, Vector3};
 use self::contact::ContactImpulse;
 pub use self::kinematics::BodyMotion;
 use self::kinematics::ChainMotion;
+use self::variation::Variable;
+pub use self::variation::Variation;
 use self::world::World;
 use crate::config::{CONTROL_STEP_S, EnvironmentConfig};
 use crate::error::ModelError;
@@ -44,6 +47,7 @@ pub struct Physics {
     contacts: Vec<ContactImpulse>,
     hinge_torques_nm: Vec<f64>,
     body_torques: Vec<Vector3<f64>>,
+    variable: Variable,
     is_faulty: bool,
 }
 
@@ -65,6 +69,7 @@ impl Physics {
             contacts: vec![ContactImpulse::default(); bodies],
             hinge_torques_nm: vec![0.0; model.hinges.len()],
             body_torques: vec![Vector3::zeros(); bodies],
+            variable: Variable::new(&model),
             is_faulty: false,
             model,
         };
@@ -82,6 +87,7 @@ impl Physics {
     pub fn set_state(&mut self, position: &[f64], velocity: &[f64]) {
         assert_eq!(position.len(), self.model.position_size(), "position vector has the wrong length");
         assert_eq!(velocity.len(), self.model.velocity_size(), "velocity vector has the wrong length");
+        self.variable.take_effect(&mut self.model, &mut self.world);
         kinematics::place(&self.model, position, velocity, &mut self.motions);
         self.world.restore(&self.motions);
         self.contacts.fill(ContactImpulse::default());
