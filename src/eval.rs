@@ -15,7 +15,7 @@ use treadmill_actor::{
     evaluation::{Evaluation, Told, evaluate},
     settings,
 };
-use treadmill_common::config::EnvConfig;
+use treadmill_common::config::{Config, ConfigSource, RandomisationConfig};
 use treadmill_humanoid::{Environment, HUMANOID_XML};
 use treadmill_learner::checkpoint::Which;
 
@@ -59,6 +59,12 @@ pub struct EvalArgs {
     /// Which checkpoint: best, latest, or the number of updates of a kept one; by default best if there is one.
     #[arg(long, value_name = "WHICH")]
     checkpoint: Option<Which>,
+    /// Randomise the episodes as the run did in training; without this they are not, whatever the run did.
+    #[arg(long)]
+    randomised: bool,
+    /// One key of [env] or [randomisation], laid over the run's configuration; may be repeated.
+    #[arg(long, value_name = "KEY=VALUE")]
+    set: Vec<String>,
     /// Print the first and every N-th step of each episode; 100 for the baselines, 0 (never) for the policy.
     #[arg(long, value_name = "N")]
     print_every: Option<u32>,
@@ -106,17 +112,40 @@ fn prepare(args: &EvalArgs) -> anyhow::Result<(Environment, Box<dyn Agent>)> {
             let why = "eval needs a RUN, as in `treadmill eval runs/walk-1`; or choose --agent random".to_string();
             return Err(Usage(why).into());
         }
-        let environment = Environment::new(&settings::environment(&EnvConfig::default()), HUMANOID_XML)?;
+        let config = configuration(args, Config::default())?;
+        let environment = Environment::new(&settings::training(&config), HUMANOID_XML)?;
         let action_size = environment.action_size();
         return Ok((environment, baseline(args, action_size)));
     };
     let policy = saved_policy::load(run, args.checkpoint.unwrap_or(Which::BestOrLatest))?;
-    let environment = saved_policy::environment(run, &policy)?;
+    let trained = Config { env: policy.env.clone(), randomisation: policy.randomisation.clone(), ..Config::default() };
+    let environment = saved_policy::environment(run, &policy, &configuration(args, trained)?)?;
     let agent: Box<dyn Agent> = match args.agent {
         Who::Policy => Box::new(PolicyAgent::new(&policy)?),
         _ => baseline(args, environment.action_size()),
     };
     Ok((environment, agent))
+}
+
+/// What the episodes are played under: the run's task, without what it randomised in training unless that is asked for.
+fn configuration(args: &EvalArgs, mut config: Config) -> anyhow::Result<Config> {
+    if !args.randomised {
+        config.randomisation = RandomisationConfig::default();
+    } else if config.randomisation == RandomisationConfig::default() {
+        let why = "--randomised plays as the run did in training, but it randomised nothing; \
+                   name what you want, as in --set randomisation.push_mps=[0.5,0.5]";
+        return Err(Usage(why.to_string()).into());
+    }
+    let mut source = ConfigSource::default();
+    source.text(&config.to_toml(), "the run's configuration")?;
+    for pair in &args.set {
+        if !["env.", "randomisation."].iter().any(|section| pair.trim_start().starts_with(section)) {
+            let why = format!("`--set {pair}` has no effect on episodes; allowed: keys of [env] and [randomisation]");
+            return Err(Usage(why).into());
+        }
+        source.set(pair)?;
+    }
+    Ok(source.build()?)
 }
 
 fn baseline(args: &EvalArgs, action_size: usize) -> Box<dyn Agent> {

@@ -12,6 +12,7 @@ mod convert;
 mod drive;
 mod exchange;
 mod motion;
+mod variation;
 mod world;
 
 use nalgebra::{Point3, Vector3};
@@ -19,6 +20,8 @@ use nalgebra::{Point3, Vector3};
 use self::contact::ContactImpulse;
 use self::exchange::Exchange;
 pub use self::motion::BodyMotion;
+use self::variation::Variable;
+pub use self::variation::Variation;
 use self::world::World;
 use crate::config::{CONTROL_STEP_S, EnvironmentConfig};
 use crate::dynamics::{Flight, Motion, Posture, ROOT_DOFS, ROOT_POSITIONS, Tree};
@@ -56,6 +59,7 @@ pub struct Physics {
     motions: Vec<BodyMotion>,
     contacts: Vec<ContactImpulse>,
     hinge_torques_nm: Vec<f64>,
+    variable: Variable,
     /// Whether Rapier has the bodies: not yet after a reset.
     has_stepped: bool,
     is_faulty: bool,
@@ -82,6 +86,7 @@ impl Physics {
             motions: vec![BodyMotion::still(); bodies],
             contacts: vec![ContactImpulse::default(); bodies],
             hinge_torques_nm: vec![0.0; model.hinges.len()],
+            variable: Variable::new(&model),
             has_stepped: false,
             is_faulty: false,
             tree,
@@ -101,6 +106,7 @@ impl Physics {
     pub fn set_state(&mut self, position: &[f64], velocity: &[f64]) {
         assert_eq!(position.len(), self.model.position_size(), "position vector has the wrong length");
         assert_eq!(velocity.len(), self.model.velocity_size(), "velocity vector has the wrong length");
+        self.variable.take_effect(&mut self.model, &mut self.tree, &mut self.world);
         self.position.copy_from_slice(position);
         self.velocity.copy_from_slice(velocity);
         let norm = position[3..ROOT_POSITIONS].iter().map(|part| part * part).sum::<f64>().sqrt();

@@ -24,13 +24,14 @@ pub(super) struct World {
     pub(super) bodies: Vec<RigidBodyHandle>,
     /// Joint of each body to its parent, in the same order; the root has none.
     pub(super) joints: Vec<Option<ImpulseJointHandle>>,
-    template: Template,
+    pub(super) floor: ColliderHandle,
+    pub(super) template: Template,
 }
 
 /// The sets as they were filled, never stepped: what every episode starts from.
-struct Template {
-    bodies: RigidBodySet,
-    colliders: ColliderSet,
+pub(super) struct Template {
+    pub(super) bodies: RigidBodySet,
+    pub(super) colliders: ColliderSet,
     joints: ImpulseJointSet,
 }
 
@@ -56,7 +57,7 @@ impl World {
             .friction_combine_rule(CoefficientCombineRule::Max)
             .collision_groups(InteractionGroups::new(FLOOR_GROUP, Group::ALL, InteractionTestMode::And))
             .user_data(0);
-        rapier.insert_collider(floor, None);
+        let floor = rapier.insert_collider(floor, None);
 
         let mut bodies = Vec::with_capacity(model.bodies.len());
         let mut joints = Vec::with_capacity(model.bodies.len());
@@ -73,7 +74,7 @@ impl World {
             colliders: rapier.colliders.clone(),
             joints: rapier.impulse_joints.clone(),
         };
-        Self { rapier, bodies, joints, template }
+        Self { rapier, bodies, joints, floor, template }
     }
 
     /// Forgets everything that was simulated.
@@ -113,18 +114,21 @@ impl World {
 }
 
 fn rigid_body(body: &Body) -> RigidBodyBuilder {
-    let mass = MassProperties::with_inertia_matrix(
-        to_point(&body.centre_of_mass_m),
-        body.mass_kg as f32,
-        to_matrix(&body.inertia_kgm2),
-    );
-    // Gyroscopic forces are in the flight.
     RigidBodyBuilder::dynamic()
-        .additional_mass_properties(mass)
+        .additional_mass_properties(mass_properties(body))
         .can_sleep(false)
+        // Gyroscopic forces are in the flight.
         .gyroscopic_forces_enabled(false)
         // Its guard against fast turning is for shapes that could pass through each other; limbs may whirl.
         .allow_fast_rotation(true)
+}
+
+pub(super) fn mass_properties(body: &Body) -> MassProperties {
+    MassProperties::with_inertia_matrix(
+        to_point(&body.centre_of_mass_m),
+        body.mass_kg as f32,
+        to_matrix(&body.inertia_kgm2),
+    )
 }
 
 fn collider(model: &Model, config: &EnvironmentConfig, body: usize, shape: &Shape) -> ColliderBuilder {
