@@ -31,6 +31,11 @@ pub fn load(run: &str, which: Which) -> anyhow::Result<ExportedPolicy> {
     policy.with_context(|| format!("`{run}` is no policy that can be used"))
 }
 
+/// The configuration that a policy was trained under, as far as episodes depend on it.
+pub fn trained_under(policy: &ExportedPolicy) -> Config {
+    Config { env: policy.env.clone(), randomisation: policy.randomisation.clone(), ..Config::default() }
+}
+
 /// The environment for a policy, under a configuration made from the one that it was trained with.
 pub fn environment(run: &str, policy: &ExportedPolicy, config: &Config) -> anyhow::Result<Environment> {
     let environment = Environment::new(&settings::training(config), &policy.model_xml)
