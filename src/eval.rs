@@ -118,8 +118,8 @@ fn prepare(args: &EvalArgs) -> anyhow::Result<(Environment, Box<dyn Agent>)> {
         return Ok((environment, baseline(args, action_size)));
     };
     let policy = saved_policy::load(run, args.checkpoint.unwrap_or(Which::BestOrLatest))?;
-    let trained = Config { env: policy.env.clone(), randomisation: policy.randomisation.clone(), ..Config::default() };
-    let environment = saved_policy::environment(run, &policy, &configuration(args, trained)?)?;
+    let config = configuration(args, saved_policy::trained_under(&policy))?;
+    let environment = saved_policy::environment(run, &policy, &config)?;
     let agent: Box<dyn Agent> = match args.agent {
         Who::Policy => Box::new(PolicyAgent::new(&policy)?),
         _ => baseline(args, environment.action_size()),
