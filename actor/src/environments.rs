@@ -109,7 +109,7 @@ impl Environments {
         &self.observations
     }
 
-    /// Steps all by `actions`, `[N][action]` in units of the action range, which are clipped to it here.
+    /// Steps all by `actions`, `[N][action]`: −1 is the lower end of a motor's range, 1 its upper one; clipped here.
     pub fn step(&mut self, actions: &[f32], stepped: &mut Stepped) {
         stepped.rewards.clear();
         stepped.flags.clear();
@@ -130,10 +130,7 @@ impl Environments {
     fn step_one(&mut self, env: usize, action: &[f32], stepped: &mut Stepped) -> u8 {
         use treadmill_proto::fragment::{TERMINATED, TRUNCATED};
         let environment = &mut self.environments[env];
-        let limit = environment.action_limit();
-        for (control, action) in self.control.iter_mut().zip(action) {
-            *control = action.clamp(-1.0, 1.0) * limit;
-        }
+        environment.action_from_shares(action, &mut self.control);
         let observation = &mut self.observations[env * self.observation_size..][..self.observation_size];
         let step = environment.step(&self.control, observation);
         let running = &mut self.episodes[env];

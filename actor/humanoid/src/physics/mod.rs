@@ -42,6 +42,7 @@ pub struct Physics {
     position: Vec<f64>,
     velocity: Vec<f64>,
     contacts: Vec<ContactImpulse>,
+    controls: Vec<f32>,
     hinge_torques_nm: Vec<f64>,
     body_torques: Vec<Vector3<f64>>,
     is_faulty: bool,
@@ -51,9 +52,10 @@ impl Physics {
     /// Builds a world for a model, at rest in its nominal pose.
     ///
     /// # Errors
-    /// [`ModelError`] if a setting is out of range.
+    /// [`ModelError`] if a setting is out of range, or a servo too stiff for the physics step.
     pub fn new(model: Model, config: &EnvironmentConfig) -> Result<Self, ModelError> {
         config.check()?;
+        model.check_servos(CONTROL_STEP_S / f64::from(config.substeps))?;
         let bodies = model.bodies.len();
         let mut physics = Self {
             world: World::new(&model, config),
@@ -63,6 +65,7 @@ impl Physics {
             position: vec![0.0; model.position_size()],
             velocity: vec![0.0; model.velocity_size()],
             contacts: vec![ContactImpulse::default(); bodies],
+            controls: vec![0.0; model.motors.len()],
             hinge_torques_nm: vec![0.0; model.hinges.len()],
             body_torques: vec![Vector3::zeros(); bodies],
             is_faulty: false,
@@ -91,7 +94,8 @@ impl Physics {
 
     /// Simulates one control step of [`CONTROL_STEP_S`] with the motors' controls held, one number per motor.
     ///
-    /// Controls are clamped to ± [`Model::control_limit`].
+    /// Controls are clamped to each motor's [`crate::model::Motor::control`]. A servo's torque follows its hinge from
+    /// one physics step to the next.
     ///
     /// # Errors
     /// [`PhysicsFault`] if anything is not finite; the named quantities then keep their values of the last physics
@@ -105,11 +109,7 @@ impl Physics {
             self.is_faulty = true;
             return Err(PhysicsFault);
         }
-        let limit = self.model.control_limit;
-        self.hinge_torques_nm.fill(0.0);
-        for (motor, &control) in self.model.motors.iter().zip(controls) {
-            self.hinge_torques_nm[motor.hinge] += motor.gear_nm * f64::from(control).clamp(-limit, limit);
-        }
+        self.controls.copy_from_slice(controls);
         self.contacts.fill(ContactImpulse::default());
         for _ in 0..self.substeps {
             self.substep()?;
@@ -118,6 +118,8 @@ impl Physics {
     }
 
     fn substep(&mut self) -> Result<(), PhysicsFault> {
+        let (angles_rad, rates_radps) = (&self.position[7..], &self.velocity[6..]);
+        self.model.motor_torques(&self.controls, angles_rad, rates_radps, &mut self.hinge_torques_nm);
         drive::prepare(
             &mut self.world,
             &self.model,
@@ -174,7 +176,7 @@ impl Physics {
         &self.velocity[6..]
     }
 
-    /// Torque of each hinge's motor during the last step (N·m), in position order.
+    /// Torque of each hinge's motors during the last physics step (N·m), in position order.
     #[must_use]
     pub fn joint_torques_nm(&self) -> &[f64] {
         &self.hinge_torques_nm
