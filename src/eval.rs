@@ -7,13 +7,16 @@ use serde_json::json;
 use treadmill_actor::{
     agent::{Agent, PolicyAgent, PreferredActionAgent, RandomAgent},
     evaluation::{Evaluation, Told, evaluate},
-    settings,
 };
-use treadmill_common::{config::EnvConfig, run_folder::RunFolder};
-use treadmill_humanoid::{Environment, HUMANOID_XML};
+use treadmill_common::run_folder::RunFolder;
+use treadmill_humanoid::Environment;
 use treadmill_learner::checkpoint::{self, TrainingState, Which};
 
-use crate::{outcome::Usage, output::say};
+use crate::{
+    model::{self, ModelArgs},
+    outcome::Usage,
+    output::say,
+};
 
 /// Who chooses the actions.
 #[derive(Clone, Copy, Debug, ValueEnum)]
@@ -53,6 +56,8 @@ pub struct EvalArgs {
     /// Which checkpoint: best, latest, or the number of updates of a kept one; by default best if there is one.
     #[arg(long, value_name = "WHICH")]
     checkpoint: Option<Which>,
+    #[command(flatten)]
+    model: ModelArgs,
     /// Print the first and every N-th step of each episode; 100 for the baselines, 0 (never) for the policy.
     #[arg(long, value_name = "N")]
     print_every: Option<u32>,
@@ -91,18 +96,49 @@ fn prepare(args: &EvalArgs) -> anyhow::Result<(Environment, Box<dyn Agent>)> {
             let why = "eval needs a RUN, as in `treadmill eval runs/walk-1`; or choose --agent random".to_string();
             return Err(Usage(why).into());
         }
-        let environment = Environment::new(&settings::environment(&EnvConfig::default()), HUMANOID_XML)?;
+        let file = args.model.model.as_deref();
+        let environment = model::environment(&args.model.config()?, &model::text(file)?, file)?;
         let action_size = environment.action_size();
         return Ok((environment, baseline(args, action_size)));
     };
     let state = load(run, args.checkpoint)?;
     let config = state.config().map_err(anyhow::Error::msg)?;
-    let environment = Environment::new(&settings::environment(&config.env), &state.model_xml)?;
+    if !args.model.set.is_empty() {
+        return Err(
+            Usage("--set: a run is evaluated with its own configuration; leave it or RUN out".to_string()).into()
+        );
+    }
+    let environment = match args.model.model.as_deref() {
+        None => model::environment(&config.env, &state.model_xml, None)?,
+        Some(file) => {
+            let environment = model::environment(&config.env, &model::text(Some(file))?, Some(file))?;
+            check_fits(&state, &environment, args.agent, file)?;
+            environment
+        }
+    };
     let agent: Box<dyn Agent> = match args.agent {
         Who::Policy => Box::new(PolicyAgent::new(&state.bundle().map_err(anyhow::Error::msg)?)?),
         _ => baseline(args, environment.action_size()),
     };
     Ok((environment, agent))
+}
+
+/// A policy goes with every robot that has as many joints and motors as its own; what they mean is the user's to know.
+fn check_fits(state: &TrainingState, environment: &Environment, who: Who, file: &Path) -> Result<(), Usage> {
+    let wanted = (state.shape.observation, state.shape.action);
+    let found = (environment.observation_size(), environment.action_size());
+    if found == wanted || !matches!(who, Who::Policy) {
+        return Ok(());
+    }
+    Err(Usage(format!(
+        "model file `{}`: its observations and actions have {} and {} numbers, those of the run's policy {} and {}; leave \
+         --model out to evaluate on the run's own model",
+        file.display(),
+        found.0,
+        found.1,
+        wanted.0,
+        wanted.1
+    )))
 }
 
 fn load(run: &str, which: Option<Which>) -> anyhow::Result<TrainingState> {

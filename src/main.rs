@@ -5,6 +5,7 @@
 //! - [`startup`]: from flags to a run that is ready to begin.
 //! - [`supervisor`]: the actor processes of `train`.
 //! - [`signals`]: Ctrl-C, once and twice.
+//! - [`model`]: the robot, built in or from a file.
 //! - [`outcome`]: errors and exit codes.
 //! - [`output`]: standard output that may be closed.
 
@@ -12,6 +13,7 @@ mod actor;
 mod bench;
 mod eval;
 mod learner;
+mod model;
 mod outcome;
 mod output;
 mod signals;

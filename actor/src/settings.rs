@@ -30,4 +30,9 @@ mod tests {
     fn both_sides_have_the_same_defaults() {
         assert_eq!(environment(&EnvConfig::default()), EnvironmentConfig::default());
     }
+
+    #[test]
+    fn a_model_that_is_read_also_travels() {
+        assert_eq!(treadmill_humanoid::model::MODEL_BYTES_MAX, treadmill_proto::limits::MODEL_BYTES_MAX);
+    }
 }

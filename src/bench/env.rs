@@ -5,11 +5,10 @@ use std::time::Instant;
 use clap::Args;
 use rand::RngExt;
 use serde_json::json;
-use treadmill_actor::settings;
-use treadmill_common::{config::EnvConfig, machine, seeds};
-use treadmill_humanoid::{Environment, HUMANOID_XML};
+use treadmill_common::{machine, seeds};
 
 use super::{rounded, tell};
+use crate::model::{self, ModelArgs};
 
 /// Worlds that are stepped in turn, as an actor has them: one alone would stay in the cache.
 const WORLDS: usize = 64;
@@ -20,6 +19,8 @@ pub struct EnvArgs {
     /// Environment steps to measure over.
     #[arg(long, default_value_t = 100_000)]
     steps: u64,
+    #[command(flatten)]
+    model: ModelArgs,
     /// Print one JSON object.
     #[arg(long)]
     json: bool,
@@ -27,13 +28,15 @@ pub struct EnvArgs {
 
 /// Measures and tells.
 pub fn run(args: &EnvArgs) -> anyhow::Result<()> {
-    let config = settings::environment(&EnvConfig::default());
+    let (config, file) = (args.model.config()?, args.model.model.as_deref());
+    let text = model::text(file)?;
     let healthy = config.healthy_z_min_m..config.healthy_z_max_m;
-    let mut worlds = (0..WORLDS).map(|_| Environment::new(&config, HUMANOID_XML)).collect::<Result<Vec<_>, _>>()?;
+    let mut worlds = (0..WORLDS).map(|_| model::environment(&config, &text, file)).collect::<Result<Vec<_>, _>>()?;
     let rounds = args.steps.div_ceil(WORLDS as u64).max(1);
     let mut random = seeds::stream(1, "bench-actions", &[]);
-    let (size, limit) = (worlds[0].action_size(), worlds[0].action_limit());
-    let actions: Vec<f32> = (0..size * 4096).map(|_| random.random_range(-limit..limit)).collect();
+    let (size, ranges) = (worlds[0].action_size(), worlds[0].action_ranges());
+    let mut draw = |[low, high]: &[f32; 2]| random.random_range(*low..*high);
+    let actions: Vec<f32> = ranges.iter().cycle().take(size * 4096).map(&mut draw).collect();
     let action = |index: usize| &actions[index % 4096 * size..][..size];
 
     let mut observation = vec![0.0; worlds[0].observation_size()];

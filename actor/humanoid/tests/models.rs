@@ -1,5 +1,6 @@
 //! Model texts that are refused, and what the refusal names.
 
+use proptest::prelude::*;
 use treadmill_humanoid::{Environment, EnvironmentConfig, HUMANOID_XML, Model};
 
 /// A body with an arm on a floor; each test changes one spot.
@@ -95,7 +96,7 @@ fn the_tree_must_be_one_robot_on_a_floor() {
     let second = "<worldbody><body name=\"ball\" pos=\"2 0 1\"><freejoint/><geom size=\"0.1\"/></body>";
     assert_refused(&[
         ("<freejoint name=\"root\"/>", "<joint name=\"root\" axis=\"0 0 1\"/>", &["base", "free joint"]),
-        ("<freejoint name=\"root\"/>", "", &["upper", "root", "free joint"]),
+        ("<freejoint name=\"root\"/>", "", &["trunk", "`base`", "free joint"]),
         ("<freejoint name=\"root\"/>", "<joint type=\"free\"/><joint/>", &["base", "one free joint"]),
         (
             "<freejoint name=\"root\"/>",
@@ -242,6 +243,38 @@ fn what_is_only_seen_is_accepted() {
     let text = dressed.iter().fold(ARM.to_owned(), |text, (from, to)| changed(&text, from, to));
     let dressed = Model::from_mjcf(&text).expect("only looks were added");
     assert_eq!(format!("{plain:?}"), format!("{dressed:?}"));
+}
+
+/// Where each attribute's value lies in a text.
+fn values(text: &str) -> Vec<std::ops::Range<usize>> {
+    let quotes: Vec<usize> = text.match_indices('"').map(|(index, _)| index).collect();
+    quotes.chunks_exact(2).map(|pair| pair[0] + 1..pair[1]).collect()
+}
+
+proptest! {
+    #[test]
+    fn no_text_however_spoilt_does_more_than_be_refused(
+        spot in any::<prop::sample::Index>(), value in r#"-?[0-9]{0,3}(\.[0-9]{1,9})?(e[0-9]{1,3})?|nan|inf|true|free|[ -~&&[^"<]]{0,9}"#,
+        cut in any::<prop::sample::Index>(), length in 0..60usize,
+    ) {
+        let config = EnvironmentConfig::default();
+        for text in [ARM, HUMANOID_XML] {
+            let all = values(text);
+            let mut spoilt = text.to_owned();
+            spoilt.replace_range(all[spot.index(all.len())].clone(), &value);
+            // What is accepted must also be able to move.
+            if let Ok(mut environment) = Environment::new(&config, &spoilt) {
+                let mut observation = vec![0.0; environment.observation_size()];
+                let action = vec![1.0; environment.action_size()];
+                environment.reset(1, &mut observation);
+                environment.step(&action, &mut observation);
+            }
+            let start = cut.index(text.len() - length);
+            if text.is_char_boundary(start) && text.is_char_boundary(start + length) {
+                let _ = Model::from_mjcf(&[&text[..start], &text[start + length..]].concat());
+            }
+        }
+    }
 }
 
 #[test]

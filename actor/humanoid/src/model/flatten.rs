@@ -79,14 +79,14 @@ impl Writer {
     /// Everything but the robot: known sections, settings, defaults, assets.
     fn read_settings(&mut self, root: Node<'_, '_>) -> Result<(), ModelError> {
         vocabulary::check("mujoco", "mujoco", &own(root))?;
+        if let Some(include) = root.descendants().find(|node| node.has_tag_name("include")) {
+            let file = include.attribute("file").unwrap_or_default();
+            let problem = format!("`{file}` must be pasted in: a model travels as one text");
+            return Err(ModelError::unsupported("include", problem));
+        }
         for node in elements(root) {
             let tag = node.tag_name().name();
             match tag {
-                "include" => {
-                    let file = node.attribute("file").unwrap_or_default();
-                    let problem = format!("`{file}` must be pasted in: a model travels as one text");
-                    return Err(ModelError::unsupported("include", problem));
-                }
                 "equality" => {
                     if let Some(constraint) = elements(node).next() {
                         let kind = constraint.tag_name().name();

@@ -20,7 +20,7 @@ pub(super) fn read(text: &str) -> Result<Model, ModelError> {
         match entry.parent {
             None => {
                 reader.places.push(Place { body: None, offset: Isometry3::identity() });
-                reader.read_world(&entry.body.geoms, &Isometry3::identity())?;
+                reader.read_world("the world", &entry.body.geoms, &Isometry3::identity())?;
             }
             Some(parent) => reader.read_body(index, parent, &entry.body, &source.compiler)?,
         }
@@ -51,13 +51,17 @@ struct Reader {
 
 impl Reader {
     /// Reads what stands still. Only a level floor may be touched.
-    fn read_world(&mut self, geoms: &[Geom], offset: &Isometry3<f64>) -> Result<(), ModelError> {
+    fn read_world(&mut self, body: &str, geoms: &[Geom], offset: &Isometry3<f64>) -> Result<(), ModelError> {
         for geom in geoms.iter().filter(|geom| geom.contype != 0 || geom.conaffinity != 0) {
-            let name = geom.name.as_deref().unwrap_or("geom of the world");
+            let name = geom.name.as_deref().unwrap_or("geom");
             let pose = offset * isometry(&geom.pose);
             let up = pose.rotation * Vector3::z();
             if !matches!(geom.type_, GeomType::Plane) || pose.translation.z.abs() > 1e-9 || up.z < 1.0 - 1e-9 {
-                return Err(ModelError::unsupported(name, "the world may hold only a level plane at z = 0"));
+                let problem = format!(
+                    "it is part of {body}, which stands still, and there may be only a level plane at z = 0; a robot's \
+                     root needs a free joint"
+                );
+                return Err(ModelError::unsupported(name, problem));
             }
             if self.floor.is_some() {
                 return Err(ModelError::unsupported(name, "there may be only one floor"));
@@ -96,7 +100,7 @@ impl Reader {
             if compiler.set_total_mass > 0.0 && !(body.geoms.is_empty() && body.inertial.is_none()) {
                 return Err(ModelError::unsupported(&name, "with settotalmass there may be no body that stands still"));
             }
-            return self.read_world(&body.geoms, &place.offset);
+            return self.read_world(&format!("`{name}`"), &body.geoms, &place.offset);
         };
         let mut weights = Vec::new();
         for geom in &body.geoms {
