@@ -1,21 +1,28 @@
 //! `treadmill eval`: episodes without learning, by a trained policy or by one of the baselines.
 
-use std::path::Path;
+use std::{
+    fs::File,
+    io::{BufWriter, Write},
+    path::{Path, PathBuf},
+};
 
+use anyhow::Context;
 use clap::{Args, ValueEnum};
 use serde_json::json;
 use treadmill_actor::{
+    ActorError,
     agent::{Agent, PolicyAgent, PreferredActionAgent, RandomAgent},
     evaluation::{Evaluation, Told, evaluate},
 };
-use treadmill_common::run_folder::RunFolder;
+use treadmill_common::exported::ExportedPolicy;
 use treadmill_humanoid::Environment;
-use treadmill_learner::checkpoint::{self, TrainingState, Which};
+use treadmill_learner::checkpoint::Which;
 
 use crate::{
     model::{self, ModelArgs},
     outcome::Usage,
     output::say,
+    saved_policy,
 };
 
 /// Who chooses the actions.
@@ -42,7 +49,7 @@ impl Who {
 /// Flags of `eval`.
 #[derive(Args)]
 pub struct EvalArgs {
-    /// The run: its folder, its name below runs/, or a bundle file. Needed for the policy only.
+    /// The run: its folder, its name below runs/, a bundle file, or what `export` wrote. Needed for the policy only.
     run: Option<String>,
     /// Episodes to play.
     #[arg(long, default_value_t = 20, value_parser = clap::value_parser!(u32).range(1..=100_000))]
@@ -61,6 +68,9 @@ pub struct EvalArgs {
     /// Print the first and every N-th step of each episode; 100 for the baselines, 0 (never) for the policy.
     #[arg(long, value_name = "N")]
     print_every: Option<u32>,
+    /// Write each observation and the action chosen for it to a file, one JSON object per line.
+    #[arg(long, value_name = "FILE")]
+    trace: Option<PathBuf>,
     /// Print one JSON object as the last line of standard output, and nothing else.
     #[arg(long)]
     json: bool,
@@ -68,19 +78,25 @@ pub struct EvalArgs {
 
 /// Plays the episodes and prints what came of them.
 pub fn run(args: EvalArgs) -> anyhow::Result<()> {
-    let (mut environment, mut agent) = prepare(&args)?;
+    let (mut environment, agent) = prepare(&args)?;
+    let mut agent = Tracing { agent, file: None };
+    if let Some(path) = &args.trace {
+        let file = File::create(path).with_context(|| format!("cannot write the trace `{}`", path.display()))?;
+        agent.file = Some(BufWriter::new(file));
+    }
     let print_every = match (args.print_every, args.agent) {
         (Some(every), _) => every,
         (None, Who::Policy) => 0,
         (None, _) => 100,
     };
     let quiet = args.json || print_every == 0;
-    let evaluation = evaluate(&mut environment, agent.as_mut(), args.episodes, args.seed, |told| {
+    let evaluation = evaluate(&mut environment, &mut agent, args.episodes, args.seed, |told| {
         if !quiet && (told.step == 1 || told.step.is_multiple_of(print_every)) {
             let Told { episode, step, reward, total } = told;
             say(&format!("episode {episode:>3}  step {step:>4}  reward {reward:>8.3}  total {total:>9.2}"));
         }
     })?;
+    agent.finish()?;
     let control_step_s = environment.control_step_s();
     if args.json {
         say(&as_json(args.agent, &evaluation, control_step_s));
@@ -101,31 +117,29 @@ fn prepare(args: &EvalArgs) -> anyhow::Result<(Environment, Box<dyn Agent>)> {
         let action_size = environment.action_size();
         return Ok((environment, baseline(args, action_size)));
     };
-    let state = load(run, args.checkpoint)?;
-    let config = state.config().map_err(anyhow::Error::msg)?;
     if !args.model.set.is_empty() {
-        return Err(
-            Usage("--set: a run is evaluated with its own configuration; leave it or RUN out".to_string()).into()
-        );
+        let why = "--set: a run is evaluated with its own configuration; leave it or RUN out";
+        return Err(Usage(why.to_string()).into());
     }
+    let policy = saved_policy::load(run, args.checkpoint.unwrap_or(Which::BestOrLatest))?;
     let environment = match args.model.model.as_deref() {
-        None => model::environment(&config.env, &state.model_xml, None)?,
+        None => saved_policy::environment(run, &policy)?,
         Some(file) => {
-            let environment = model::environment(&config.env, &model::text(Some(file))?, Some(file))?;
-            check_fits(&state, &environment, args.agent, file)?;
+            let environment = model::environment(&policy.env, &model::text(Some(file))?, Some(file))?;
+            check_fits(&policy, &environment, args.agent, file)?;
             environment
         }
     };
     let agent: Box<dyn Agent> = match args.agent {
-        Who::Policy => Box::new(PolicyAgent::new(&state.bundle().map_err(anyhow::Error::msg)?)?),
+        Who::Policy => Box::new(PolicyAgent::new(&policy)?),
         _ => baseline(args, environment.action_size()),
     };
     Ok((environment, agent))
 }
 
 /// A policy goes with every robot that has as many joints and motors as its own; what they mean is the user's to know.
-fn check_fits(state: &TrainingState, environment: &Environment, who: Who, file: &Path) -> Result<(), Usage> {
-    let wanted = (state.shape.observation, state.shape.action);
+fn check_fits(policy: &ExportedPolicy, environment: &Environment, who: Who, file: &Path) -> Result<(), Usage> {
+    let wanted = (policy.shape.observation, policy.shape.action);
     let found = (environment.observation_size(), environment.action_size());
     if found == wanted || !matches!(who, Who::Policy) {
         return Ok(());
@@ -141,18 +155,41 @@ fn check_fits(state: &TrainingState, environment: &Environment, who: Who, file: 
     )))
 }
 
-fn load(run: &str, which: Option<Which>) -> anyhow::Result<TrainingState> {
-    if Path::new(run).is_file() {
-        return Ok(checkpoint::load_file(Path::new(run))?);
-    }
-    let folder = RunFolder::open(run)?;
-    Ok(checkpoint::load(&folder, which.unwrap_or(Which::BestOrLatest))?)
-}
-
 fn baseline(args: &EvalArgs, action_size: usize) -> Box<dyn Agent> {
     match args.agent {
         Who::PreferredAction => Box::new(PreferredActionAgent::new(args.seed, action_size)),
         _ => Box::new(RandomAgent::new(args.seed)),
+    }
+}
+
+/// An agent whose observations and actions are written down.
+struct Tracing {
+    agent: Box<dyn Agent>,
+    file: Option<BufWriter<File>>,
+}
+
+impl Tracing {
+    fn finish(&mut self) -> anyhow::Result<()> {
+        self.file.as_mut().map_or(Ok(()), |file| file.flush()).context("cannot write the trace")
+    }
+}
+
+impl Agent for Tracing {
+    fn act(&mut self, observation: &[f32], action: &mut [f32]) -> Result<(), ActorError> {
+        self.agent.act(observation, action)?;
+        if let Some(file) = &mut self.file {
+            let line = json!({"observation": observation, "action": action});
+            writeln!(file, "{line}").map_err(|why| ActorError::Trace { why })?;
+        }
+        Ok(())
+    }
+
+    fn rewarded(&mut self, reward: f32) {
+        self.agent.rewarded(reward);
+    }
+
+    fn episode_ended(&mut self) {
+        self.agent.episode_ended();
     }
 }
 

@@ -87,7 +87,7 @@ fn plain_text_beyond_loopback_must_be_asked_for() {
 #[test]
 fn help_and_version_are_there() {
     let (folder, _) = folders();
-    for command in ["train", "learner", "actor", "eval", "bench"] {
+    for command in ["train", "learner", "actor", "eval", "export", "bench"] {
         let output = self::run(folder.path(), &[command, "--help"]);
         assert!(output.status.success() && stdout(&output).contains("Usage: treadmill"), "{command}");
     }

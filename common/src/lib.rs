@@ -4,6 +4,7 @@
 //! - [`config`]: every key, in two stages: text as given, then values checked.
 //! - [`policy`]: the networks: shape, parameters, forward pass.
 //! - [`normaliser`]: running statistics of observations and values.
+//! - [`exported`]: a policy with all that is needed to play it, as one safetensors file.
 //! - [`bus`]: sessions, keys and flows; the only place that names Zenoh.
 //! - [`seeds`]: named random streams from the run's seed.
 //! - [`run_folder`]: where a run keeps its files.
@@ -14,6 +15,7 @@
 pub mod atomic_file;
 pub mod bus;
 pub mod config;
+pub mod exported;
 pub mod machine;
 pub mod normaliser;
 pub mod policy;

@@ -50,7 +50,7 @@ impl Default for EnvironmentConfig {
             reset_noise_scale: 0.01,
             max_episode_steps: 1000,
             substeps: 2,
-            solver_iterations: 8,
+            solver_iterations: 4,
             self_collision: true,
         }
     }

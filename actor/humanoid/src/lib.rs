@@ -10,7 +10,8 @@
 //! - [`observation`]: what the policy sees.
 //! - [`physics`]: named quantities of the simulated body; the only place in the project that names Rapier.
 //! - [`model`]: MJCF text → bodies, hinge chains, motors.
-//! - `chain`: angles and axes of a chain of hinges.
+//! - `dynamics`: how an articulated body moves between contacts.
+//! - `chain`: frames of a chain of hinges.
 //! - [`config`], [`error`]: what can be set, and what is refused.
 
 pub mod config;
@@ -22,6 +23,7 @@ pub mod physics;
 pub mod task;
 
 mod chain;
+mod dynamics;
 
 pub use config::{CONTROL_STEP_S, EnvironmentConfig};
 pub use environment::Environment;

@@ -40,7 +40,7 @@ section! {
         /// Physics steps per control step of 15 ms.
         substeps: u32 = 2, "1 to 50" => |v| (1..=50).contains(v);
         /// Solver iterations per physics step.
-        solver_iterations: u32 = 8, "1 to 50" => |v| (1..=50).contains(v);
+        solver_iterations: u32 = 4, "1 to 50" => |v| (1..=50).contains(v);
         /// Whether the humanoid's own limbs can touch each other.
         self_collision: bool = true, "true or false" => |_| true;
     }

@@ -2,11 +2,11 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use nalgebra::UnitQuaternion;
+use nalgebra::{Isometry3, UnitQuaternion};
 use rapier3d::prelude::*;
 
-use super::convert::{from_pose, from_vector, to_matrix, to_point, to_pose, to_rotation, to_vector};
-use super::kinematics::{BodyMotion, chain_base, parent_anchor};
+use super::convert::{to_matrix, to_point, to_rotation, to_vector};
+use crate::chain;
 use crate::config::{CONTROL_STEP_S, EnvironmentConfig};
 use crate::model::{Body, FLOOR_GROUP, Geometry, Model, Shape};
 
@@ -37,7 +37,8 @@ struct Template {
 impl World {
     pub(super) fn new(model: &Model, config: &EnvironmentConfig) -> Self {
         let mut rapier = PhysicsWorld::new();
-        rapier.gravity = to_vector(&model.gravity_mps2);
+        // Gravity is in the flight.
+        rapier.gravity = Vector::ZERO;
         let parameters = &mut rapier.integration_parameters;
         parameters.dt = (CONTROL_STEP_S / f64::from(config.substeps)) as f32;
         parameters.num_solver_iterations = config.solver_iterations as usize;
@@ -77,11 +78,11 @@ impl World {
         Self { rapier, bodies, joints, template }
     }
 
-    /// Forgets everything that was simulated and puts the bodies where they are told.
+    /// Forgets everything that was simulated.
     ///
     /// Contact pairs, impulses kept for warm starts, islands and the order of constraints all live in what is thrown
     /// away here, so nothing of an earlier episode can reach the next one.
-    pub(super) fn restore(&mut self, motions: &[BodyMotion]) {
+    pub(super) fn restore(&mut self) {
         let world = &mut self.rapier;
         world.bodies = self.template.bodies.clone();
         world.colliders = self.template.colliders.clone();
@@ -91,12 +92,6 @@ impl World {
         world.broad_phase = BroadPhaseBvh::default();
         world.narrow_phase = NarrowPhase::new();
         world.ccd_solver = CCDSolver::new();
-        for (handle, motion) in self.bodies.iter().zip(motions) {
-            let body = &mut world.bodies[*handle];
-            body.set_position(to_pose(&motion.pose), false);
-            body.set_linvel(to_vector(&motion.linear_mps), false);
-            body.set_angvel(to_vector(&motion.angular_radps), false);
-        }
     }
 
     /// Whether every body's motion is finite. Rapier disables a body whose state is not, and goes on without it.
@@ -108,21 +103,14 @@ impl World {
             })
     }
 
-    /// Makes the root's velocity NaN.
-    pub(super) fn poison(&mut self) {
-        self.rapier.bodies[self.bodies[0]].set_linvel(Vector::splat(Real::NAN), false);
-    }
-
-    /// Copies the bodies' motion out of Rapier.
-    pub(super) fn read(&self, motions: &mut [BodyMotion]) {
-        for (handle, motion) in self.bodies.iter().zip(motions) {
-            let body = &self.rapier.bodies[*handle];
-            *motion = BodyMotion {
-                pose: from_pose(body.position()),
-                linear_mps: from_vector(body.linvel()),
-                angular_radps: from_vector(body.angvel()),
-            };
-        }
+    /// Largest distance between the two ends of a joint (m).
+    pub(super) fn separation_m(&self, model: &Model) -> f64 {
+        let pose = |body: usize| self.rapier.bodies[self.bodies[body]].position();
+        let apart = model.bodies.iter().enumerate().filter_map(|(index, body)| {
+            let inner = pose(body.parent?).transform_point(to_point(&chain::parent_anchor(body)));
+            Some((inner - pose(index).transform_point(to_point(&body.anchor_m))).length())
+        });
+        f64::from(apart.fold(0.0, f32::max))
     }
 }
 
@@ -132,7 +120,13 @@ fn rigid_body(body: &Body) -> RigidBodyBuilder {
         body.mass_kg as f32,
         to_matrix(&body.inertia_kgm2),
     );
-    RigidBodyBuilder::dynamic().additional_mass_properties(mass).can_sleep(false)
+    // Gyroscopic forces are in the flight.
+    RigidBodyBuilder::dynamic()
+        .additional_mass_properties(mass)
+        .can_sleep(false)
+        .gyroscopic_forces_enabled(false)
+        // Its guard against fast turning is for shapes that could pass through each other; limbs may whirl.
+        .allow_fast_rotation(true)
 }
 
 /// Form and place of a shape; `None` for those that the model's reader lets only weigh.
@@ -147,13 +141,17 @@ fn form(geometry: &Geometry) -> Option<ColliderBuilder> {
         Geometry::Cylinder { pose, radius_m, half_length_m } => {
             // Rapier's cylinders lie along y.
             let upright = UnitQuaternion::from_axis_angle(&nalgebra::Vector3::x_axis(), FRAC_PI_2);
-            ColliderBuilder::cylinder(half_length_m as f32, radius_m as f32).position(to_pose(&(pose * upright)))
+            ColliderBuilder::cylinder(half_length_m as f32, radius_m as f32).position(at(&(pose * upright)))
         }
         Geometry::Box { pose, half_m } => {
-            ColliderBuilder::cuboid(half_m.x as f32, half_m.y as f32, half_m.z as f32).position(to_pose(&pose))
+            ColliderBuilder::cuboid(half_m.x as f32, half_m.y as f32, half_m.z as f32).position(at(&pose))
         }
         Geometry::Ellipsoid { .. } => return None,
     })
+}
+
+fn at(pose: &Isometry3<f64>) -> Pose {
+    Pose::from_parts(to_vector(&pose.translation.vector), to_rotation(&pose.rotation))
 }
 
 fn collider(
@@ -186,7 +184,7 @@ fn joint(body: &Body) -> GenericJoint {
         _ => JointAxesMask::empty(),
     };
     let mut joint = GenericJoint::new(JointAxesMask::LIN_AXES | missing);
-    joint.local_frame1 = Pose::from_parts(to_point(&parent_anchor(body)), to_rotation(&chain_base(body)));
+    joint.local_frame1 = Pose::from_parts(to_point(&chain::parent_anchor(body)), to_rotation(&chain::base(body)));
     joint.local_frame2 = Pose::from_parts(to_point(&body.anchor_m), to_rotation(&body.hinge_frame));
     joint.contacts_enabled = false;
     joint

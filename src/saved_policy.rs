@@ -1,0 +1,86 @@
+//! The policy that a RUN argument names: of a run's folder, of a bundle file, or of a file that `export` wrote.
+
+use std::{fs, path::Path};
+
+use anyhow::Context;
+use treadmill_actor::settings;
+use treadmill_common::{
+    exported::{ActionFacts, ExportedPolicy, ObservationFacts},
+    run_folder::RunFolder,
+};
+use treadmill_humanoid::{CONTROL_STEP_S, Environment, Model};
+use treadmill_learner::checkpoint::{self, TrainingState, Which, encoding};
+
+/// What this program's policies see: positions and velocities.
+const OBSERVATION_KIND: &str = "compact";
+
+/// Reads the policy of a run's folder (its checkpoint `which`), of a bundle file or of an exported file.
+pub fn load(run: &str, which: Which) -> anyhow::Result<ExportedPolicy> {
+    let path = Path::new(run);
+    if !path.is_file() {
+        let state = checkpoint::load(&RunFolder::open(run)?, which)?;
+        return from_state(&state).with_context(|| format!("the policy of `{run}` cannot be used"));
+    }
+    let bytes = fs::read(path).with_context(|| format!("cannot read `{run}`"))?;
+    let policy = if encoding::is_checkpoint(&bytes) || path.extension().is_some_and(|end| end == "bundle") {
+        from_state(&checkpoint::load_file(path)?)
+    } else {
+        ExportedPolicy::from_bytes(&bytes).map_err(anyhow::Error::from)
+    };
+    policy.with_context(|| format!("`{run}` is no policy that can be used"))
+}
+
+/// The environment that a policy was trained in.
+pub fn environment(run: &str, policy: &ExportedPolicy) -> anyhow::Result<Environment> {
+    let environment = Environment::new(&settings::environment(&policy.env), &policy.model_xml)
+        .with_context(|| format!("the environment of `{run}` cannot be built"))?;
+    let found = environment.observation_size();
+    let sizes = (policy.shape.observation, policy.shape.action);
+    if sizes != (found, environment.action_size()) {
+        anyhow::bail!(
+            "`{run}` has a policy for {} observations and {} actions, but its model gives {found} and takes {}",
+            sizes.0,
+            sizes.1,
+            environment.action_size()
+        );
+    }
+    let ranges = policy.action.low.iter().zip(&policy.action.high).map(|(low, high)| [*low, *high]);
+    for ((found, [low, high]), name) in ranges.zip(environment.action_ranges()).zip(&policy.action.names) {
+        if found != [*low, *high] {
+            let [found_low, found_high] = found;
+            anyhow::bail!(
+                "`{run}` drives `{name}` from action.low {found_low} to action.high {found_high}, but its model from {low} to \
+                 {high}"
+            );
+        }
+    }
+    if policy.control_step_s != CONTROL_STEP_S {
+        anyhow::bail!("`{run}` has a control_step_s of {}, this program only {CONTROL_STEP_S}", policy.control_step_s);
+    }
+    Ok(environment)
+}
+
+fn from_state(state: &TrainingState) -> anyhow::Result<ExportedPolicy> {
+    let config = state.config().map_err(anyhow::Error::msg)?;
+    let model = Model::from_mjcf(&state.model_xml)?;
+    let (observation, mean, variance) = ObservationFacts::from_moments(
+        OBSERVATION_KIND,
+        &state.observation_moments,
+        config.policy.observation_clip as f32,
+    );
+    Ok(ExportedPolicy {
+        shape: state.shape.clone(),
+        parameters: state.parameters.clone(),
+        observation,
+        mean,
+        variance,
+        action: ActionFacts {
+            names: model.motors.iter().map(|motor| motor.name.clone()).collect(),
+            low: model.motors.iter().map(|motor| motor.control[0] as f32).collect(),
+            high: model.motors.iter().map(|motor| motor.control[1] as f32).collect(),
+        },
+        control_step_s: CONTROL_STEP_S,
+        env: config.env,
+        model_xml: state.model_xml.clone(),
+    })
+}
