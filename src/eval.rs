@@ -3,7 +3,7 @@
 use std::{
     fs::File,
     io::{BufWriter, Write},
-    path::PathBuf,
+    path::{Path, PathBuf},
 };
 
 use anyhow::Context;
@@ -13,13 +13,20 @@ use treadmill_actor::{
     ActorError,
     agent::{Agent, PolicyAgent, PreferredActionAgent, RandomAgent},
     evaluation::{Evaluation, Told, evaluate},
-    settings,
 };
-use treadmill_common::config::{Config, ConfigSource, RandomisationConfig};
-use treadmill_humanoid::{Environment, HUMANOID_XML};
+use treadmill_common::{
+    config::{Config, RandomisationConfig},
+    exported::ExportedPolicy,
+};
+use treadmill_humanoid::Environment;
 use treadmill_learner::checkpoint::Which;
 
-use crate::{outcome::Usage, output::say, saved_policy};
+use crate::{
+    model::{self, ModelArgs},
+    outcome::Usage,
+    output::say,
+    saved_policy,
+};
 
 /// Who chooses the actions.
 #[derive(Clone, Copy, Debug, ValueEnum)]
@@ -62,9 +69,8 @@ pub struct EvalArgs {
     /// Randomise the episodes as the run did in training; without this they are not, whatever the run did.
     #[arg(long)]
     randomised: bool,
-    /// One key of [env] or [randomisation], laid over the run's configuration; may be repeated.
-    #[arg(long, value_name = "KEY=VALUE")]
-    set: Vec<String>,
+    #[command(flatten)]
+    model: ModelArgs,
     /// Print the first and every N-th step of each episode; 100 for the baselines, 0 (never) for the policy.
     #[arg(long, value_name = "N")]
     print_every: Option<u32>,
@@ -113,13 +119,21 @@ fn prepare(args: &EvalArgs) -> anyhow::Result<(Environment, Box<dyn Agent>)> {
             return Err(Usage(why).into());
         }
         let config = configuration(args, Config::default())?;
-        let environment = Environment::new(&settings::training(&config), HUMANOID_XML)?;
+        let file = args.model.model.as_deref();
+        let environment = model::environment(&config, &model::text(file)?, file)?;
         let action_size = environment.action_size();
         return Ok((environment, baseline(args, action_size)));
     };
     let policy = saved_policy::load(run, args.checkpoint.unwrap_or(Which::BestOrLatest))?;
     let config = configuration(args, saved_policy::trained_under(&policy))?;
-    let environment = saved_policy::environment(run, &policy, &config)?;
+    let environment = match args.model.model.as_deref() {
+        None => saved_policy::environment(run, &policy, &config)?,
+        Some(file) => {
+            let environment = model::environment(&config, &model::text(Some(file))?, Some(file))?;
+            check_fits(&policy, &environment, args.agent, file)?;
+            environment
+        }
+    };
     let agent: Box<dyn Agent> = match args.agent {
         Who::Policy => Box::new(PolicyAgent::new(&policy)?),
         _ => baseline(args, environment.action_size()),
@@ -136,16 +150,25 @@ fn configuration(args: &EvalArgs, mut config: Config) -> anyhow::Result<Config> 
                    name what you want, as in --set randomisation.push_mps=[0.5,0.5]";
         return Err(Usage(why.to_string()).into());
     }
-    let mut source = ConfigSource::default();
-    source.text(&config.to_toml(), "the run's configuration")?;
-    for pair in &args.set {
-        if !["env.", "randomisation."].iter().any(|section| pair.trim_start().starts_with(section)) {
-            let why = format!("`--set {pair}` has no effect on episodes; allowed: keys of [env] and [randomisation]");
-            return Err(Usage(why).into());
-        }
-        source.set(pair)?;
+    args.model.config(&config)
+}
+
+/// A policy goes with every robot that has as many joints and motors as its own; what they mean is the user's to know.
+fn check_fits(policy: &ExportedPolicy, environment: &Environment, who: Who, file: &Path) -> Result<(), Usage> {
+    let wanted = (policy.shape.observation, policy.shape.action);
+    let found = (environment.observation_size(), environment.action_size());
+    if found == wanted || !matches!(who, Who::Policy) {
+        return Ok(());
     }
-    Ok(source.build()?)
+    Err(Usage(format!(
+        "model file `{}`: its observations and actions have {} and {} numbers, those of the run's policy {} and {}; leave \
+         --model out to evaluate on the run's own model",
+        file.display(),
+        found.0,
+        found.1,
+        wanted.0,
+        wanted.1
+    )))
 }
 
 fn baseline(args: &EvalArgs, action_size: usize) -> Box<dyn Agent> {

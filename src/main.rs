@@ -6,6 +6,7 @@
 //! - [`startup`]: from flags to a run that is ready to begin.
 //! - [`supervisor`]: the actor processes of `train`.
 //! - [`signals`]: Ctrl-C, once and twice.
+//! - [`model`]: the robot, built in or from a file.
 //! - [`outcome`]: errors and exit codes.
 //! - [`output`]: standard output that may be closed.
 
@@ -14,6 +15,7 @@ mod bench;
 mod eval;
 mod export;
 mod learner;
+mod model;
 mod outcome;
 mod output;
 mod saved_policy;

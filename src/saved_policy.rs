@@ -40,7 +40,7 @@ pub fn trained_under(policy: &ExportedPolicy) -> Config {
 pub fn environment(run: &str, policy: &ExportedPolicy, config: &Config) -> anyhow::Result<Environment> {
     let environment = Environment::new(&settings::training(config), &policy.model_xml)
         .with_context(|| format!("the environment of `{run}` cannot be built"))?;
-    let (found, limit) = (environment.observation_size(), environment.action_limit());
+    let found = environment.observation_size();
     let sizes = (policy.shape.observation, policy.shape.action);
     if sizes != (found, environment.action_size()) {
         anyhow::bail!(
@@ -50,8 +50,15 @@ pub fn environment(run: &str, policy: &ExportedPolicy, config: &Config) -> anyho
             environment.action_size()
         );
     }
-    if policy.action.low.iter().any(|low| *low != -limit) || policy.action.high.iter().any(|high| *high != limit) {
-        anyhow::bail!("`{run}` has actions from action.low to action.high, but its model takes ±{limit} only");
+    let ranges = policy.action.low.iter().zip(&policy.action.high).map(|(low, high)| [*low, *high]);
+    for ((found, [low, high]), name) in ranges.zip(environment.action_ranges()).zip(&policy.action.names) {
+        if found != [*low, *high] {
+            let [found_low, found_high] = found;
+            anyhow::bail!(
+                "`{run}` drives `{name}` from action.low {found_low} to action.high {found_high}, but its model from {low} to \
+                 {high}"
+            );
+        }
     }
     if policy.control_step_s != CONTROL_STEP_S {
         anyhow::bail!("`{run}` has a control_step_s of {}, this program only {CONTROL_STEP_S}", policy.control_step_s);
@@ -62,7 +69,6 @@ pub fn environment(run: &str, policy: &ExportedPolicy, config: &Config) -> anyho
 fn from_state(state: &TrainingState) -> anyhow::Result<ExportedPolicy> {
     let config = state.config().map_err(anyhow::Error::msg)?;
     let model = Model::from_mjcf(&state.model_xml)?;
-    let limit = model.control_limit as f32;
     let (observation, mean, variance) = ObservationFacts::from_moments(
         OBSERVATION_KIND,
         &state.observation_moments,
@@ -76,8 +82,8 @@ fn from_state(state: &TrainingState) -> anyhow::Result<ExportedPolicy> {
         variance,
         action: ActionFacts {
             names: model.motors.iter().map(|motor| motor.name.clone()).collect(),
-            low: vec![-limit; model.motors.len()],
-            high: vec![limit; model.motors.len()],
+            low: model.motors.iter().map(|motor| motor.control[0] as f32).collect(),
+            high: model.motors.iter().map(|motor| motor.control[1] as f32).collect(),
         },
         control_step_s: CONTROL_STEP_S,
         env: config.env,

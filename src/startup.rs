@@ -5,7 +5,6 @@ use std::{fs, path::PathBuf};
 use anyhow::Context;
 use clap::Args;
 use serde_json::json;
-use treadmill_actor::settings;
 use treadmill_common::{
     bus::BusOptions,
     config::{Config, ConfigSource},
@@ -13,10 +12,9 @@ use treadmill_common::{
     run_folder::RunFolder,
     seeds,
 };
-use treadmill_humanoid::{Environment, HUMANOID_XML};
 use treadmill_learner::checkpoint::{self, TrainingState, Which};
 
-use crate::outcome::Usage;
+use crate::{model, outcome::Usage};
 
 /// Flags that say what a run is; they make no sense together with `--resume`, which has them saved.
 #[derive(Args, Clone, Debug, Default)]
@@ -47,6 +45,9 @@ pub struct AnyRunArgs {
     /// Go on with this run: its folder, or its name below runs/.
     #[arg(long, value_name = "RUN", conflicts_with = "preset")]
     pub resume: Option<String>,
+    /// Another robot than the built-in humanoid, as MJCF (see docs/models.md); a resumed run keeps its own.
+    #[arg(long, value_name = "FILE")]
+    pub model: Option<PathBuf>,
     /// Which checkpoint to resume from: latest, best, or the number of updates of a kept one.
     #[arg(long, value_name = "WHICH", requires = "resume")]
     pub checkpoint: Option<Which>,
@@ -122,22 +123,19 @@ fn begin(new: &NewRunArgs, any: &AnyRunArgs, changes: &[(&str, toml::Value)]) ->
         config.rollout.actors = 1;
         config.rollout.max_in_flight = 1;
     }
-    let environment = Environment::new(&settings::environment(&config.env), HUMANOID_XML)?;
+    let text = model::text(any.model.as_deref())?;
+    let (observation, action) = model::check(&config, &text, any.model.as_deref())?;
     let folder = RunFolder::create(new.run_dir.as_deref(), &new.preset)?;
-    let state = TrainingState::fresh(
-        folder.name(),
-        &config,
-        HUMANOID_XML,
-        environment.observation_size(),
-        environment.action_size(),
-        seeds::unique(),
-    );
+    let state = TrainingState::fresh(folder.name(), &config, &text, observation, action, seeds::unique());
     Ok(Prepared { config, folder, state })
 }
 
 fn resume(run: &str, any: &AnyRunArgs) -> anyhow::Result<Prepared> {
     let folder = RunFolder::open(run)?;
     let mut state = checkpoint::load(&folder, any.checkpoint.unwrap_or(Which::Latest))?;
+    if let Some(file) = &any.model {
+        model::check_same(&state.model_xml, file)?;
+    }
     let mut config = state.config().map_err(anyhow::Error::msg)?;
     if let Some(steps) = any.steps {
         config.run.steps = steps;

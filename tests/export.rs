@@ -147,7 +147,7 @@ fn unusable_files_are_named_with_what_is_wrong() {
     let header = String::from_utf8_lossy(&sound).into_owned();
     assert!(header.contains("-0.4 0.4"));
     let replaced = replace(&sound, b"-0.4 0.4", b"-0.5 0.5");
-    assert_refused(&eval(&replaced), 1, &["policy.safetensors", "action.low", "±0.5"]);
+    assert_refused(&eval(&replaced), 1, &["policy.safetensors", "`abdomen_y`", "action.low -0.4", "-0.5 to 0.5"]);
 
     let nowhere = folder.path().join("no/such/folder/x.safetensors");
     let output =

@@ -8,7 +8,7 @@ use treadmill_common::{
 
 use crate::{ActorError, acting::ActingPolicy};
 
-/// Chooses actions, in units of the action range from −1 to 1.
+/// Chooses actions: −1 is the lower end of a motor's range, 1 its upper one.
 pub trait Agent {
     /// The action for one raw observation.
     fn act(&mut self, observation: &[f32], action: &mut [f32]) -> Result<(), ActorError>;

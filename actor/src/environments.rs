@@ -166,7 +166,8 @@ impl Environments {
         &self.observations
     }
 
-    /// Steps all by `actions`, `[N][action]` in units of the action range, which are clipped to it here. An episode that
+    /// Steps all by `actions`, `[N][action]` where −1 is the lower end of a motor's range and 1 its upper one; they are
+    /// clipped to it here. An episode that
     /// ends is followed by the next at once.
     ///
     /// # Panics
@@ -233,10 +234,7 @@ impl Place {
     }
 
     fn step(&mut self, action: &[f32], seeds: &ResetSeeds, observation: &mut [f32]) {
-        let limit = self.environment.action_limit();
-        for (control, action) in self.control.iter_mut().zip(action) {
-            *control = action.clamp(-1.0, 1.0) * limit;
-        }
+        self.environment.action_from_shares(action, &mut self.control);
         let step = self.environment.step(&self.control, observation);
         let running = &mut self.running;
         running.length += 1;

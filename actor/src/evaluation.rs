@@ -93,7 +93,6 @@ pub fn evaluate(
     let mut observation = vec![0.0; environment.observation_size()];
     let mut action = vec![0.0; environment.action_size()];
     let mut control = action.clone();
-    let limit = environment.action_limit();
     let (mut separations, mut overshoots) = (Vec::new(), Vec::new());
     let mut all = Vec::new();
     for episode in 0..episodes {
@@ -102,9 +101,7 @@ pub fn evaluate(
         let mut played = Played::default();
         loop {
             agent.act(&observation, &mut action)?;
-            for (control, action) in control.iter_mut().zip(&action) {
-                *control = action.clamp(-1.0, 1.0) * limit;
-            }
+            environment.action_from_shares(&action, &mut control);
             let step: Step = environment.step(&control, &mut observation);
             played.length += 1;
             played.fault = step.fault;

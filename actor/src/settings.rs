@@ -81,4 +81,9 @@ mod tests {
             }
         }
     }
+
+    #[test]
+    fn a_model_that_is_read_also_travels() {
+        assert_eq!(treadmill_humanoid::model::MODEL_BYTES_MAX, treadmill_proto::limits::MODEL_BYTES_MAX);
+    }
 }

@@ -62,7 +62,7 @@ fn action(env: usize, step: u64) -> [f32; 17] {
 fn physics_alone() -> u64 {
     let mut bodies: Vec<Environment> =
         (0..ENVS).map(|_| Environment::new(&config(), HUMANOID_XML).expect("valid")).collect();
-    let limit = bodies[0].action_limit();
+    let limit = bodies[0].action_ranges()[0][1];
     let mut observation = vec![0.0; bodies[0].observation_size()];
     let mut reset = |body: &mut Environment, env: usize, episode: u64| {
         body.reset(seeds::derive(5, "reset/a", &[0, env as u64, episode]), &mut observation);

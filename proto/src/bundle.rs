@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use crate::{
     Malformed,
     ident::check_ident,
-    limits::{BUNDLE_BYTES_MAX, HIDDEN_LAYERS_MAX, SMALL_BYTES_MAX, WIDTH_MAX},
+    limits::{BUNDLE_BYTES_MAX, HIDDEN_LAYERS_MAX, MODEL_BYTES_MAX, SMALL_BYTES_MAX, WIDTH_MAX},
     planes, wire,
 };
 
@@ -96,6 +96,10 @@ impl PolicyBundle {
             return Err(Malformed::field("hidden", self.hidden.len(), format!("1 to {HIDDEN_LAYERS_MAX} layers")));
         }
         self.hidden.iter().try_for_each(|hidden| width("hidden", *hidden))?;
+        if self.model_xml.len() > MODEL_BYTES_MAX {
+            let found = format!("{} bytes long", self.model_xml.len());
+            return Err(Malformed::field("model_xml", found, format!("at most {MODEL_BYTES_MAX}")));
+        }
         let size = self.observation_size as usize;
         for (field, plane) in
             [("observation_mean", &self.observation_mean), ("observation_inverse_std", &self.observation_inverse_std)]
@@ -228,5 +232,7 @@ mod tests {
         assert!(bad.encode().unwrap_err().to_string().contains("index 1"));
         let bad = PolicyBundle { hidden: vec![], ..sample() };
         assert!(bad.encode().unwrap_err().to_string().contains("hidden"));
+        let bad = PolicyBundle { model_xml: " ".repeat(MODEL_BYTES_MAX + 1), ..sample() };
+        assert!(bad.encode().unwrap_err().to_string().contains("model_xml"));
     }
 }

@@ -9,16 +9,14 @@ use treadmill_actor::{
     environments::{Environments, SeedSource, Stepped},
     settings,
 };
-use treadmill_common::{
-    config::{Config, ConfigSource},
-    machine, seeds,
-};
-use treadmill_humanoid::{EnvironmentConfig, HUMANOID_XML};
+use treadmill_common::{config::Config, machine, seeds};
+use treadmill_humanoid::EnvironmentConfig;
 
 use super::{
     quality, rounded, tell,
     worlds::{self, WORLDS, Worlds},
 };
+use crate::model::{self, ModelArgs};
 
 /// Random actions that the worlds are stepped with, over and over; a multiple of their number.
 const ACTIONS: usize = 64 * WORLDS;
@@ -35,9 +33,8 @@ pub struct EnvArgs {
     /// What the policy is to see, short for --set env.observation=KIND.
     #[arg(long, value_name = "KIND")]
     observation: Option<String>,
-    /// One configuration key, as in env.substeps=5; may be repeated.
-    #[arg(long, value_name = "KEY=VALUE")]
-    set: Vec<String>,
+    #[command(flatten)]
+    model: ModelArgs,
     /// Instead of speed, measure how well joints and limits hold under the largest torques in random directions.
     #[arg(long)]
     quality: bool,
@@ -48,27 +45,26 @@ pub struct EnvArgs {
 
 impl EnvArgs {
     fn config(&self) -> anyhow::Result<Config> {
-        let mut source = ConfigSource::default();
-        for pair in &self.set {
-            source.set(pair)?;
-        }
-        if let Some(kind) = &self.observation {
-            source.value("env.observation", kind.as_str())?;
-        }
-        Ok(source.build()?)
+        let mut given = self.model.clone();
+        given.set.extend(self.observation.iter().map(|kind| format!("env.observation={kind}")));
+        given.config(&Config::default())
     }
 }
 
 /// Measures and tells.
 pub fn run(args: &EnvArgs) -> anyhow::Result<()> {
     let config = args.config()?;
+    let file = args.model.model.as_deref();
+    let text = model::text(file)?;
+    // Says what is wrong with the file, where anything is.
+    model::environment(&config, &text, file)?;
     let environment = settings::training(&config);
     let threads = worlds::threads(args.threads.into());
     let rounds = args.steps.div_ceil(WORLDS as u64).max(1);
     let result = if args.quality {
-        quality::measure(&environment, threads, rounds)?
+        quality::measure(&environment, &text, threads, rounds)?
     } else {
-        measure(&environment, &observation_kind(&config), threads, rounds)?
+        measure(&environment, &text, &observation_kind(&config), threads, rounds)?
     };
     tell(&result, args.json);
     Ok(())
@@ -84,12 +80,13 @@ fn observation_kind(config: &Config) -> String {
 
 fn measure(
     config: &EnvironmentConfig,
+    model_xml: &str,
     observation_kind: &str,
     threads: usize,
     rounds: u64,
 ) -> anyhow::Result<serde_json::Value> {
     let seeds = SeedSource { run_seed: 1, actor: "bench".to_string(), start: 0 };
-    let mut environments = Environments::new(WORLDS, config, HUMANOID_XML, seeds)?.with_threads(threads)?;
+    let mut environments = Environments::new(WORLDS, config, model_xml, seeds)?.with_threads(threads)?;
     let mut random = seeds::stream(1, "bench-actions", &[]);
     let size = environments.action_size();
     let actions: Vec<f32> = (0..ACTIONS * size).map(|_| random.random_range(-1.0..1.0)).collect();
@@ -112,14 +109,13 @@ fn measure(
     // The same bodies under the same actions, without observation and reward; a body on the ground costs more than one that
     // stands, so those that fell stand up again here too.
     let healthy = config.healthy_z_min_m..config.healthy_z_max_m;
-    let mut worlds = Worlds::new(config, threads, |_| vec![0.0f32; size])?;
-    let limit = worlds.iter().next().map_or(0.0, |(world, _)| world.environment.action_limit());
+    let mut worlds = Worlds::new(config, model_xml, threads, |_| vec![0.0f32; size])?;
     let begun = Instant::now();
     for round in 0..rounds {
         let actions = actions_of(round);
         worlds.each(|world, controls| {
             let action = &actions[world.index * size..][..size];
-            controls.iter_mut().zip(action).for_each(|(control, action)| *control = action * limit);
+            world.environment.action_from_shares(action, controls);
             let failed = world.environment.physics_mut().step_only(controls).is_err();
             world.faults += u64::from(failed);
             if failed || !healthy.contains(&world.environment.physics().torso_height_m()) {

@@ -23,9 +23,14 @@ struct Record {
 }
 
 /// Lets all worlds flail and tells what their joints did; memory does not grow with the steps.
-pub fn measure(config: &EnvironmentConfig, threads: usize, rounds: u64) -> anyhow::Result<serde_json::Value> {
+pub fn measure(
+    config: &EnvironmentConfig,
+    model_xml: &str,
+    threads: usize,
+    rounds: u64,
+) -> anyhow::Result<serde_json::Value> {
     let healthy = config.healthy_z_min_m..config.healthy_z_max_m;
-    let mut worlds = Worlds::new(config, threads, |index| Record {
+    let mut worlds = Worlds::new(config, model_xml, threads, |index| Record {
         random: seeds::stream(1, "bench-quality", &[index as u64]),
         controls: Vec::new(),
         steps: 0,
@@ -84,9 +89,10 @@ pub fn measure(config: &EnvironmentConfig, threads: usize, rounds: u64) -> anyho
 impl Record {
     /// One step with every motor at one end of its range; whether physics failed.
     fn step(&mut self, world: &mut World) -> bool {
-        let limit = world.environment.action_limit();
         self.controls.resize(world.environment.action_size(), 0.0);
-        self.controls.fill_with(|| if self.random.random() { limit } else { -limit });
+        for (control, [low, high]) in self.controls.iter_mut().zip(world.environment.action_ranges()) {
+            *control = if self.random.random() { *high } else { *low };
+        }
         self.steps += 1;
         if world.environment.physics_mut().step_only(&self.controls).is_err() {
             world.faults += 1;

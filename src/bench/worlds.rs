@@ -2,7 +2,7 @@
 
 use rayon::{ThreadPool, ThreadPoolBuilder, prelude::*};
 use treadmill_common::{machine, seeds};
-use treadmill_humanoid::{Environment, EnvironmentConfig, HUMANOID_XML};
+use treadmill_humanoid::{Environment, EnvironmentConfig};
 
 /// Worlds that are stepped in turn, as an actor has them: one alone would stay in the cache.
 pub const WORLDS: usize = 64;
@@ -37,9 +37,14 @@ pub struct Worlds<T> {
 
 impl<T: Send> Worlds<T> {
     /// Makes and resets all; `beside` makes what each world has with it.
-    pub fn new(config: &EnvironmentConfig, threads: usize, beside: impl Fn(usize) -> T) -> anyhow::Result<Self> {
+    pub fn new(
+        config: &EnvironmentConfig,
+        model_xml: &str,
+        threads: usize,
+        beside: impl Fn(usize) -> T,
+    ) -> anyhow::Result<Self> {
         let world = |index| -> anyhow::Result<(World, T)> {
-            let environment = Environment::new(config, HUMANOID_XML)?;
+            let environment = Environment::new(config, model_xml)?;
             let observation = vec![0.0; environment.observation_size()];
             let mut world = World { index, environment, resets: 0, faults: 0, observation };
             world.reset();

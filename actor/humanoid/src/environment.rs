@@ -25,6 +25,8 @@ pub struct Environment {
     start_position: Vec<f64>,
     start_velocity: Vec<f64>,
     controls: Vec<f32>,
+    /// Least and greatest control of each motor.
+    ranges: Vec<[f32; 2]>,
     /// The last observation handed out, which is handed out again on a fault.
     last_observation: Vec<f32>,
     last_info: StepInfo,
@@ -49,6 +51,7 @@ impl Environment {
             start_position: nominal_position.clone(),
             start_velocity: vec![0.0; physics.model().velocity_size()],
             controls: vec![0.0; physics.model().motors.len()],
+            ranges: physics.model().motors.iter().map(|motor| motor.control.map(|end| end as f32)).collect(),
             last_info: standing_info(&physics),
             nominal_position,
             last_observation,
@@ -76,10 +79,24 @@ impl Environment {
         CONTROL_STEP_S
     }
 
-    /// Actions are clamped to ± this (units of control).
+    /// Least and greatest value of each entry of an action, which is clamped to them (units of control).
     #[must_use]
-    pub fn action_limit(&self) -> f32 {
-        self.physics.model().control_limit as f32
+    pub fn action_ranges(&self) -> &[[f32; 2]] {
+        &self.ranges
+    }
+
+    /// Writes the action that stands at `share` of each motor's range: −1 is its lower end, 1 its upper one. Shares
+    /// beyond are clamped.
+    ///
+    /// # Panics
+    /// If a slice does not have length [`Self::action_size`].
+    pub fn action_from_shares(&self, shares: &[f32], action: &mut [f32]) {
+        assert_eq!(shares.len(), self.ranges.len(), "there must be one share per motor");
+        assert_eq!(action.len(), self.ranges.len(), "action has the wrong length");
+        for (action, (share, [low, high])) in action.iter_mut().zip(shares.iter().zip(&self.ranges)) {
+            let (centre, half) = (f32::midpoint(*low, *high), high / 2.0 - low / 2.0);
+            *action = (centre + share.clamp(-1.0, 1.0) * half).clamp(*low, *high);
+        }
     }
 
     /// Starts a new episode of which everything random comes from `seed`, and writes its first observation.
@@ -105,7 +122,7 @@ impl Environment {
 
     /// Acts for one control step and writes what is seen afterwards.
     ///
-    /// `action` has one control per motor, in actuator order, and is clamped to ± [`Self::action_limit`].
+    /// `action` has one control per motor, in actuator order, and is clamped to [`Self::action_ranges`].
     /// If the action or the physics is not finite the step is a fault: terminated, reward 0, and the observation
     /// and `info` are those of the step before. So is every further step until [`Self::reset`].
     /// Where actions are delayed or disturbed on their way to the motors, the step is charged for the action given here.
@@ -114,9 +131,8 @@ impl Environment {
     /// If `action` or `observation` has the wrong length.
     pub fn step(&mut self, action: &[f32], observation: &mut [f32]) -> Step {
         assert_eq!(action.len(), self.controls.len(), "action has the wrong length");
-        let limit = self.action_limit();
-        for (control, action) in self.controls.iter_mut().zip(action) {
-            *control = action.clamp(-limit, limit);
+        for (control, (action, [low, high])) in self.controls.iter_mut().zip(action.iter().zip(&self.ranges)) {
+            *control = action.clamp(*low, *high);
         }
         if let Some(velocity_mps) = self.disturber.due_push() {
             self.physics.push(velocity_mps);

@@ -1,5 +1,7 @@
 //! Why an environment could not be built.
 
+use std::path::PathBuf;
+
 /// A model text or a setting that cannot be simulated, with what to change.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
@@ -14,6 +16,35 @@ pub enum ModelError {
         element: String,
         /// What is wrong with it, and what would be accepted.
         problem: String,
+    },
+    /// An attribute holds something that cannot be read, or that would change the physics in a way not simulated.
+    #[error("model element `{element}`: `{attribute}` is \"{value}\", but must be {expected}")]
+    Attribute {
+        /// Name of the body, joint, shape or motor.
+        element: String,
+        /// Name of the attribute.
+        attribute: String,
+        /// What stands there, with defaults filled in.
+        value: String,
+        /// What would be accepted.
+        expected: String,
+    },
+    /// The text is longer than any model.
+    #[error("the model text has {bytes} bytes, but at most {limit} are read")]
+    TooLarge {
+        /// Its length.
+        bytes: u64,
+        /// [`crate::model::MODEL_BYTES_MAX`].
+        limit: u64,
+    },
+    /// A file of the model cannot be read.
+    #[error("`{}` cannot be read", path.display())]
+    File {
+        /// Which file.
+        path: PathBuf,
+        /// Why.
+        #[source]
+        source: std::io::Error,
     },
     /// A figure of the model makes no physical sense.
     #[error("model element `{element}`: {figure} is {value}, but must be {expected}")]
@@ -42,5 +73,18 @@ pub enum ModelError {
 impl ModelError {
     pub(crate) fn unsupported(element: &str, problem: impl Into<String>) -> Self {
         Self::Unsupported { element: element.to_owned(), problem: problem.into() }
+    }
+
+    pub(crate) fn attribute(element: &str, attribute: &str, value: &str, expected: impl Into<String>) -> Self {
+        Self::Attribute {
+            element: element.to_owned(),
+            attribute: attribute.to_owned(),
+            value: value.to_owned(),
+            expected: expected.into(),
+        }
+    }
+
+    pub(crate) fn figure(element: &str, figure: &'static str, value: f64, expected: &'static str) -> Self {
+        Self::Figure { element: element.to_owned(), figure, value, expected }
     }
 }

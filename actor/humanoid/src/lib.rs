@@ -1,6 +1,7 @@
 //! Treadmill: the humanoid environment.
 //!
-//! A 17-joint humanoid on a floor, simulated by Rapier with the task of Gymnasium's Humanoid-v5.
+//! A humanoid on a floor, simulated by Rapier with the task of Gymnasium's Humanoid-v5: the built-in one with 17 joints,
+//! or any that an MJCF text describes.
 //! No Zenoh, no tokio, no Candle: evaluation, benchmarks and the Python package use this crate too.
 //!
 //! # Layout
@@ -29,7 +30,7 @@ mod dynamics;
 pub use config::{CONTROL_STEP_S, EnvironmentConfig};
 pub use environment::Environment;
 pub use error::ModelError;
-pub use model::{HUMANOID_XML, Model};
+pub use model::{HUMANOID_XML, Model, read_model_file};
 pub use observation::OBSERVATION_SIZE_COMPACT;
 pub use physics::{JointQuality, Physics, PhysicsFault, Variation};
 pub use randomisation::Randomisation;

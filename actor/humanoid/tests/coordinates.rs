@@ -60,7 +60,9 @@ fn bending_the_knee_lifts_the_foot_backwards() {
     let mut position = physics.model().nominal_position();
     let knee = physics.model().hinges.iter().position(|hinge| hinge.name == "right_knee").expect("has a knee");
     let shin = physics.model().bodies.iter().position(|body| body.name == "right_shin").expect("has a shin");
-    let foot = |physics: &Physics| physics.body_motions()[shin].pose * physics.model().bodies[shin].shapes[1].from_m;
+    let foot = |physics: &Physics| {
+        physics.body_motions()[shin].pose * physics.model().bodies[shin].shapes[1].geometry.centre_m()
+    };
     let straight = foot(&physics);
     position[7 + knee] = -1.5;
     physics.set_state(&position, &[0.0; 23]);

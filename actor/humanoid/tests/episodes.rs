@@ -33,7 +33,7 @@ fn sizes_are_those_of_the_humanoid() {
     let environment = environment(&EnvironmentConfig::default());
     assert_eq!(environment.observation_size(), OBSERVATION_SIZE_COMPACT);
     assert_eq!(environment.action_size(), 17);
-    assert_eq!(environment.action_limit(), 0.4);
+    assert_eq!(environment.action_ranges(), [[-0.4, 0.4]; 17]);
     assert_eq!(environment.control_step_s(), CONTROL_STEP_S);
 }
 

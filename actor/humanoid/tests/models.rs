@@ -1,34 +1,280 @@
-//! Model texts that are refused, and why; texts that are not the built-in one.
+//! Model texts that are refused, and what the refusal names.
 
-use treadmill_humanoid::{CONTROL_STEP_S, Environment, EnvironmentConfig, HUMANOID_XML, Model};
+use proptest::prelude::*;
+use treadmill_humanoid::{Environment, EnvironmentConfig, HUMANOID_XML, Model};
 
-/// The humanoid with one spot of its text changed.
-fn changed(from: &str, to: &str) -> String {
-    assert!(HUMANOID_XML.contains(from), "the model no longer contains {from}");
-    HUMANOID_XML.replacen(from, to, 1)
+/// A body with an arm on a floor; each test changes one spot.
+const ARM: &str = r#"
+<mujoco>
+  <compiler angle="radian"/>
+  <option timestep="0.002"/>
+  <default><default class="limb"/></default>
+  <worldbody>
+    <geom name="floor" type="plane" size="1 1 1"/>
+    <body name="base" pos="0 0 1.5">
+      <freejoint name="root"/>
+      <geom name="trunk" type="sphere" size="0.2"/>
+      <body name="upper" pos="0 0 -0.3" childclass="limb">
+        <joint name="shoulder" axis="0 1 0" range="-1 1"/>
+        <geom name="humerus" type="capsule" fromto="0 0 0 0 0 -0.3" size="0.05"/>
+        <body name="lower" pos="0 0 -0.4">
+          <joint name="elbow" axis="0 1 0"/>
+          <inertial pos="0 0 -0.1" mass="0.5" diaginertia="0.01 0.01 0.001"/>
+        </body>
+      </body>
+    </body>
+  </worldbody>
+  <tendon><fixed name="sinew"><joint joint="elbow" coef="2"/></fixed></tendon>
+  <actuator><motor name="biceps" joint="elbow" gear="2" ctrlrange="-1 1"/></actuator>
+</mujoco>"#;
+
+/// What a text is refused with, causes included.
+fn problem(text: &str) -> String {
+    let error = Model::from_mjcf(text).expect_err(text);
+    match std::error::Error::source(&error) {
+        Some(cause) => format!("{error}: {cause}"),
+        None => error.to_string(),
+    }
+}
+
+/// A text with one spot changed.
+fn changed(text: &str, from: &str, to: &str) -> String {
+    assert!(text.contains(from), "there is no {from}");
+    text.replacen(from, to, 1)
+}
+
+/// Each change of [`ARM`], and parts of what it must be refused with.
+fn assert_refused(cases: &[(&str, &str, &[&str])]) {
+    assert!(Model::from_mjcf(ARM).is_ok());
+    for (from, to, parts) in cases {
+        let told = problem(&changed(ARM, from, to));
+        for part in *parts {
+            assert!(told.contains(part), "`{to}`: `{part}` is missing in: {told}");
+        }
+    }
 }
 
 #[test]
-fn what_cannot_be_simulated_is_refused_by_name() {
+fn spots_of_the_built_in_text_that_make_it_impossible() {
     let cases = [
         ("<worldbody>", "<worldbody><include file=\"/etc/passwd\"/>", "include"),
         ("<joint name=\"root\" type=\"free\"", "<joint name=\"root\" type=\"ball\"", "torso"),
-        ("type=\"sphere\" pos=\"0 0 0.19\"", "type=\"box\" pos=\"0 0 0.19\"", "head"),
         ("axis=\"0 1 0\" range=\"-75 30\"", "axis=\"0 1 1\" range=\"-75 30\"", "lwaist"),
         ("range=\"-75 30\"", "range=\"30 -75\"", "abdomen_y"),
         ("size=\"0.09\"", "size=\"-0.09\"", "head"),
         ("joint=\"left_elbow\" gear", "joint=\"left_wing\" gear", "left_elbow"),
         ("<motor name=\"abdomen_x\"", "<position name=\"abdomen_x\"", "abdomen_x"),
         ("type=\"plane\"", "type=\"plane\" pos=\"0 0 1\"", "floor"),
-        ("ctrlrange=\"-0.4 0.4\"", "ctrlrange=\"-0.4 0.5\"", "abdomen_y"),
+        ("ctrlrange=\"-0.4 0.4\"", "ctrlrange=\"0.5 -0.4\"", "abdomen_y"),
         ("stiffness=\"20\"", "stiffness=\"-20\"", "abdomen_z"),
     ];
     for (from, to, element) in cases {
-        let error = Model::from_mjcf(&changed(from, to)).expect_err(to).to_string();
-        assert!(error.contains(element), "`{to}` is blamed on: {error}");
+        let told = problem(&changed(HUMANOID_XML, from, to));
+        assert!(told.contains(element), "`{to}` is blamed on: {told}");
     }
-    assert!(Model::from_mjcf("<mujoco>").is_err());
-    assert!(Model::from_mjcf("").is_err());
+}
+
+#[test]
+fn a_text_must_be_one_whole_mjcf_document() {
+    assert!(problem("").contains("empty"));
+    assert!(problem("solid steel").contains("not valid MJCF"));
+    assert!(problem("<mujoco><worldbody>").contains("not valid MJCF"));
+    assert!(problem("<robot name=\"r2\"/>").contains("<mujoco>"));
+    assert!(problem("<mujoco/>").contains("free joint"));
+    assert!(problem(&format!("<mujoco>{}", " ".repeat(4 << 20))).contains("4194304"));
+    assert!(problem(&"<body>".repeat(100_000)).contains("nested"));
+    assert_refused(&[
+        ("<worldbody>", "<worldbody><include file=\"legs.xml\"/>", &["include", "legs.xml", "pasted"]),
+        ("</worldbody>", "</worldbody><include file=\"hands.xml\"/>", &["include", "hands.xml"]),
+        ("</worldbody>", "</worldbody><extension/>", &["<extension> is not supported"]),
+        ("</worldbody>", "</worldbody><deformable/>", &["<deformable> is not supported"]),
+    ]);
+}
+
+#[test]
+fn the_tree_must_be_one_robot_on_a_floor() {
+    let second = "<worldbody><body name=\"ball\" pos=\"2 0 1\"><freejoint/><geom size=\"0.1\"/></body>";
+    assert_refused(&[
+        ("<freejoint name=\"root\"/>", "<joint name=\"root\" axis=\"0 0 1\"/>", &["base", "free joint"]),
+        ("<freejoint name=\"root\"/>", "", &["trunk", "`base`", "free joint"]),
+        ("<freejoint name=\"root\"/>", "<joint type=\"free\"/><joint/>", &["base", "one free joint"]),
+        (
+            "<freejoint name=\"root\"/>",
+            "<joint name=\"root\" type=\"free\" damping=\"1\"/>",
+            &["root", "damping", "is 1"],
+        ),
+        ("<worldbody>", second, &["base", "one root only"]),
+        ("<joint name=\"elbow\" axis=\"0 1 0\"/>", "<freejoint name=\"elbow\"/>", &["elbow", "only the root"]),
+        ("<geom name=\"floor\" type=\"plane\" size=\"1 1 1\"/>", "", &["worldbody", "floor"]),
+        ("type=\"plane\"", "type=\"plane\" contype=\"0\" conaffinity=\"0\"", &["worldbody", "collides"]),
+        ("type=\"plane\"", "type=\"plane\" euler=\"0.1 0 0\"", &["floor", "level"]),
+        ("<worldbody>", "<worldbody><geom name=\"rug\" type=\"plane\" size=\"1 1 1\"/>", &["floor", "only one"]),
+        ("<worldbody>", "<worldbody><geom name=\"step\" type=\"box\" size=\"1 1 1\"/>", &["step", "level plane"]),
+        ("<worldbody>", "<worldbody><body name=\"cart\" mocap=\"true\"/>", &["cart", "mocap"]),
+        ("name=\"lower\"", "name=\"upper\"", &["upper", "two"]),
+        ("name=\"elbow\" axis", "name=\"shoulder\" axis", &["shoulder", "two"]),
+        ("name=\"humerus\"", "name=\"trunk\"", &["trunk", "two"]),
+        (
+            "<tendon>",
+            "<equality><connect name=\"loop\" body1=\"base\"/></equality><tendon>",
+            &["loop", "kinematic loop"],
+        ),
+        (
+            "<tendon>",
+            "<equality><weld body1=\"base\" body2=\"lower\"/></equality><tendon>",
+            &["weld", "kinematic loop"],
+        ),
+    ]);
+}
+
+#[test]
+fn more_bodies_than_collision_groups_are_refused_with_their_number() {
+    let link = |n: usize| format!("<body name=\"link{n}\" pos=\"0 0 -1\"><joint/><geom size=\"0.1\"/>");
+    let chain = |count| (1..=count).map(link).collect::<String>() + &"</body>".repeat(count);
+    let with = |count| changed(ARM, "<body name=\"upper\"", &format!("{}<body name=\"upper\"", chain(count)));
+    assert!(Model::from_mjcf(&with(28)).is_ok());
+    let told = problem(&with(29));
+    assert!(told.contains("32 moving bodies") && told.contains("31"), "{told}");
+}
+
+#[test]
+fn masses_and_figures_must_make_sense() {
+    assert_refused(&[
+        ("mass=\"0.5\"", "mass=\"-0.5\"", &["lower", "mass", "-0.5"]),
+        ("mass=\"0.5\"", "mass=\"0\"", &["lower", "needs mass"]),
+        ("mass=\"0.5\" ", "", &["inertial of lower", "mass"]),
+        ("diaginertia=\"0.01 0.01 0.001\"", "", &["inertial of lower", "diaginertia"]),
+        ("diaginertia=\"0.01 0.01 0.001\"", "diaginertia=\"0.01 0.01 0.1\"", &["lower", "balanceinertia"]),
+        ("diaginertia=\"0.01 0.01 0.001\"", "diaginertia=\"0 0 0\"", &["lower", "inertia"]),
+        ("diaginertia=\"0.01 0.01 0.001\"", "fullinertia=\"1 1 1 5 0 0\"", &["lower", "principal inertia"]),
+        ("type=\"sphere\" size=\"0.2\"", "type=\"sphere\" size=\"0.2\" mass=\"-1\"", &["trunk", "mass", "-1"]),
+        ("type=\"sphere\" size=\"0.2\"", "type=\"sphere\" size=\"0.2\" density=\"0\"", &["base", "needs mass"]),
+        ("size=\"0.2\"", "size=\"nan\"", &["trunk", "size", "nan", "finite"]),
+        ("size=\"0.2\"", "size=\"0.2\" pos=\"0 inf 0\"", &["trunk", "pos", "inf"]),
+        ("size=\"0.2\"", "size=\"0.2\" pos=\"0 0\"", &["trunk", "pos", "3 finite numbers"]),
+        ("size=\"0.2\"", "size=\"0.2\" quat=\"0 0 0 0\"", &["trunk", "quat"]),
+        ("size=\"0.2\"", "size=\"0\"", &["trunk", "radius", "is 0"]),
+        ("range=\"-1 1\"", "range=\"1 -1\"", &["shoulder", "range", "is 1"]),
+        ("range=\"-1 1\"", "limited=\"true\"", &["shoulder", "no range"]),
+        ("angle=\"radian\"", "autolimits=\"false\"", &["shoulder", "limited"]),
+        ("angle=\"radian\"", "eulerseq=\"xyzw\"", &["eulerseq", "xyzw"]),
+        ("axis=\"0 1 0\" range", "axis=\"0 0 0\" range", &["shoulder", "axis"]),
+        ("<joint name=\"elbow\"", "<joint axis=\"0 1 0.1\"/><joint name=\"elbow\"", &["lower", "perpendicular"]),
+        ("<joint name=\"elbow\"", "<joint pos=\"1 0 0\"/><joint name=\"elbow\"", &["lower", "one point"]),
+    ]);
+}
+
+#[test]
+fn physics_that_is_not_simulated_is_refused_by_name() {
+    assert_refused(&[
+        ("axis=\"0 1 0\" range", "type=\"slide\" axis=\"0 1 0\" range", &["shoulder", "slide"]),
+        ("axis=\"0 1 0\" range", "type=\"ball\" range", &["shoulder", "ball"]),
+        ("range=\"-1 1\"", "range=\"-1 1\" frictionloss=\"0.1\"", &["shoulder", "frictionloss", "0.1"]),
+        ("range=\"-1 1\"", "range=\"-1 1\" ref=\"0.1\"", &["shoulder", "`ref`"]),
+        ("range=\"-1 1\"", "range=\"-1 1\" springdamper=\"1 1\"", &["shoulder", "springdamper"]),
+        ("range=\"-1 1\"", "range=\"-1 1\" solreflimit=\"0.01 1\"", &["shoulder", "solreflimit", "0.02 1"]),
+        ("class=\"limb\"/>", "class=\"limb\"><joint frictionloss=\"1\"/></default>", &["shoulder", "frictionloss"]),
+        ("class=\"limb\"/>", "class=\"limb\"><joint wings=\"1\"/></default>", &["default limb", "wings"]),
+        ("childclass=\"limb\"", "childclass=\"wing\"", &["upper", "wing"]),
+        ("size=\"0.2\"", "size=\"0.2\" solref=\"0.01 1\"", &["trunk", "solref"]),
+        ("size=\"0.2\"", "size=\"0.2\" condim=\"6\"", &["trunk", "condim", "rolling"]),
+        ("size=\"0.2\"", "size=\"0.2\" priority=\"1\"", &["trunk", "priority"]),
+        ("size=\"0.2\"", "size=\"0.2\" gap=\"0.1\"", &["trunk", "gap"]),
+        ("size=\"0.2\"", "size=\"0.2\" margin=\"0.1\"", &["trunk", "margin"]),
+        ("size=\"0.2\"", "size=\"0.2\" condim=\"1\" friction=\"1.5\"", &["trunk", "floor", "1.5"]),
+        ("size=\"0.2\"", "size=\"0.2\" fromto=\"0 0 0 0 0 1\"", &["trunk", "fromto"]),
+        ("type=\"sphere\" size=\"0.2\"", "type=\"ellipsoid\" size=\"0.2 0.1 0.1\"", &["trunk", "ellipsoids"]),
+        ("type=\"sphere\" size=\"0.2\"", "type=\"mesh\" mesh=\"skull\"", &["trunk", "mesh `skull`", "primitive"]),
+        (
+            "type=\"sphere\" size=\"0.2\"",
+            "type=\"mesh\" mesh=\"skull\" contype=\"0\" conaffinity=\"0\"",
+            &["trunk", "skull", "<inertial>"],
+        ),
+        ("type=\"sphere\" size=\"0.2\"", "type=\"hfield\" hfield=\"hill\"", &["trunk", "height field `hill`"]),
+        ("timestep=\"0.002\"", "wind=\"1 0 0\"", &["option", "wind"]),
+        ("timestep=\"0.002\"", "density=\"1.2\"", &["option", "density"]),
+        ("timestep=\"0.002\"/>", "timestep=\"0.002\"><flag contact=\"disable\"/></option>", &["flag", "contact"]),
+        ("<body name=\"lower\"", "<body name=\"lower\" gravcomp=\"1\"", &["lower", "gravcomp"]),
+        ("<body name=\"lower\"", "<flexcomp/><body name=\"lower\"", &["upper", "flexcomp"]),
+        ("<body name=\"lower\"", "<frame><joint/></frame><body name=\"lower\"", &["upper", "<frame>"]),
+        ("<tendon>", "<contact><pair geom1=\"trunk\" geom2=\"floor\"/></contact><tendon>", &["pair", "exclude"]),
+        ("<tendon>", "<contact><exclude body1=\"base\" body2=\"wing\"/></contact><tendon>", &["exclude", "wing"]),
+        ("<fixed name=\"sinew\">", "<fixed name=\"sinew\" stiffness=\"5\">", &["sinew", "stiffness"]),
+        ("<fixed name=\"sinew\">", "<fixed name=\"sinew\" range=\"0 1\">", &["sinew", "limits"]),
+        ("<joint joint=\"elbow\"", "<joint joint=\"knee\"", &["sinew", "knee"]),
+        ("<tendon>", "<tendon><spatial name=\"rope\"/>", &["rope", "spatial"]),
+    ]);
+}
+
+#[test]
+fn motors_must_be_there_and_say_how_strong_they_are() {
+    assert_refused(&[
+        ("<motor name=\"biceps\" joint=\"elbow\" gear=\"2\" ctrlrange=\"-1 1\"/>", "", &["actuator", "at least one"]),
+        ("joint=\"elbow\" gear", "joint=\"knee\" gear", &["biceps", "hinge"]),
+        ("joint=\"elbow\" gear", "joint=\"root\" gear", &["biceps", "hinge"]),
+        ("joint=\"elbow\" gear", "tendon=\"sinew\" gear", &["biceps", "tendon"]),
+        ("ctrlrange=\"-1 1\"", "ctrlrange=\"1 -1\"", &["biceps", "ctrlrange", "1 -1"]),
+        ("ctrlrange=\"-1 1\"", "ctrllimited=\"true\"", &["biceps", "ctrlrange"]),
+        ("gear=\"2\"", "gear=\"0\"", &["biceps", "gear"]),
+        ("<motor name", "<muscle name", &["biceps", "muscle"]),
+        ("<motor name=\"biceps\"", "<position dampratio=\"1\" name=\"biceps\"", &["biceps", "dampratio"]),
+        ("<motor name=\"biceps\"", "<position kp=\"-5\" name=\"biceps\"", &["biceps", "stiffness", "-5"]),
+        ("<motor name=\"biceps\"", "<general dyntype=\"filter\" name=\"biceps\"", &["biceps", "dyntype"]),
+        ("<default class=\"limb\"/>", "<position kp=\"5\"/>", &["limb"]),
+    ]);
+    let mixed = changed(ARM, "<default class=\"limb\"/>", "<position kp=\"5\"/><default class=\"limb\"/>");
+    assert!(problem(&mixed).contains("defaults of <position>"));
+    let open_ended = changed(ARM, "<motor name=\"biceps\"", "<position kp=\"5\" name=\"biceps\"");
+    assert!(problem(&changed(&open_ended, "ctrlrange=\"-1 1\"", "")).contains("range of its targets"));
+}
+
+#[test]
+fn what_is_only_seen_is_accepted() {
+    let dressed = [
+        ("<tendon>", "<visual><map fogend=\"5\"/></visual><statistic extent=\"2\"/><size nkey=\"5\"/><tendon>"),
+        ("<tendon>", "<sensor><gyro site=\"imu\"/></sensor><keyframe><key qpos=\"0\"/></keyframe><custom/><tendon>"),
+        ("<tendon>", "<asset><texture builtin=\"flat\"/><material name=\"m\"/><mesh file=\"no.stl\"/></asset><tendon>"),
+        ("<worldbody>", "<worldbody><light/><camera name=\"c\"/><site name=\"home\"/>"),
+        ("size=\"0.2\"", "size=\"0.2\" rgba=\"1 0 0 1\" material=\"m\" group=\"1\" user=\"258\""),
+        ("<inertial", "<geom type=\"mesh\" mesh=\"no\" contype=\"0\" conaffinity=\"0\"/><site name=\"imu\"/><inertial"),
+        ("<compiler", "<compiler meshdir=\"meshes\""),
+    ];
+    let plain = Model::from_mjcf(ARM).expect("valid");
+    let text = dressed.iter().fold(ARM.to_owned(), |text, (from, to)| changed(&text, from, to));
+    let dressed = Model::from_mjcf(&text).expect("only looks were added");
+    assert_eq!(format!("{plain:?}"), format!("{dressed:?}"));
+}
+
+/// Where each attribute's value lies in a text.
+fn values(text: &str) -> Vec<std::ops::Range<usize>> {
+    let quotes: Vec<usize> = text.match_indices('"').map(|(index, _)| index).collect();
+    quotes.chunks_exact(2).map(|pair| pair[0] + 1..pair[1]).collect()
+}
+
+proptest! {
+    #[test]
+    fn no_text_however_spoilt_does_more_than_be_refused(
+        spot in any::<prop::sample::Index>(), value in r#"-?[0-9]{0,3}(\.[0-9]{1,9})?(e[0-9]{1,3})?|nan|inf|true|free|[ -~&&[^"<]]{0,9}"#,
+        cut in any::<prop::sample::Index>(), length in 0..60usize,
+    ) {
+        let config = EnvironmentConfig::default();
+        for text in [ARM, HUMANOID_XML] {
+            let all = values(text);
+            let mut spoilt = text.to_owned();
+            spoilt.replace_range(all[spot.index(all.len())].clone(), &value);
+            // What is accepted must also be able to move.
+            if let Ok(mut environment) = Environment::new(&config, &spoilt) {
+                let mut observation = vec![0.0; environment.observation_size()];
+                let action = vec![1.0; environment.action_size()];
+                environment.reset(1, &mut observation);
+                environment.step(&action, &mut observation);
+            }
+            let start = cut.index(text.len() - length);
+            if text.is_char_boundary(start) && text.is_char_boundary(start + length) {
+                let _ = Model::from_mjcf(&[&text[..start], &text[start + length..]].concat());
+            }
+        }
+    }
 }
 
 #[test]
@@ -36,34 +282,4 @@ fn settings_out_of_range_are_refused() {
     let config = EnvironmentConfig { substeps: 0, ..EnvironmentConfig::default() };
     let error = Environment::new(&config, HUMANOID_XML).err().expect("no step at all is refused");
     assert!(error.to_string().contains("substeps"));
-}
-
-#[test]
-fn another_body_has_its_own_sizes() {
-    // A pendulum of two bodies on a floating root: one hinge, one motor.
-    let text = r#"
-        <mujoco>
-          <worldbody>
-            <geom type="plane" size="1 1 1"/>
-            <body name="base" pos="0 0 1.5">
-              <freejoint/>
-              <geom type="sphere" size="0.2"/>
-              <body name="rod" pos="0 0 -0.3">
-                <joint name="swing" axis="0 1 0"/>
-                <geom type="capsule" fromto="0 0 0 0 0 -0.3" size="0.05"/>
-              </body>
-            </body>
-          </worldbody>
-          <actuator><motor joint="swing" gear="2" ctrllimited="true" ctrlrange="-1 1"/></actuator>
-        </mujoco>"#;
-    let mut environment = Environment::new(&EnvironmentConfig::default(), text).expect("a simple body is accepted");
-    assert_eq!(environment.observation_size(), 13);
-    assert_eq!(environment.action_size(), 1);
-    assert_eq!(environment.action_limit(), 1.0);
-    let mut observation = [0.0; 13];
-    environment.reset(0, &mut observation);
-    let swing_before = observation[12];
-    let step = environment.step(&[1.0], &mut observation);
-    assert!(!step.fault);
-    assert!(observation[12] > swing_before + (2.0 * CONTROL_STEP_S / 0.2) as f32);
 }

@@ -1,14 +1,18 @@
-//! Mass, centre and inertia of bodies made of overlapping spheres and capsules.
+//! Mass, centre and inertia of bodies made of overlapping shapes.
 //!
 //! Overlaps count twice, as in MuJoCo: the figures are sums over the shapes.
 
 use std::f64::consts::PI;
 
-use nalgebra::{Matrix3, Point3, Rotation3, Vector3};
+use nalgebra::{Isometry3, Matrix3, Point3, Rotation3, Vector3};
 
-use super::Shape;
+use super::Geometry;
 
-/// Mass properties of a body, in the body's frame.
+/// Density of a shape whose text gives none (kg/m³).
+pub(super) const WATER_KGPM3: f64 = 1000.0;
+
+/// Mass properties of a body or a part of it, in the body's frame.
+#[derive(Clone, Debug)]
 pub(crate) struct MassProperties {
     /// Mass (kg).
     pub(crate) mass_kg: f64,
@@ -18,9 +22,8 @@ pub(crate) struct MassProperties {
     pub(crate) inertia_kgm2: Matrix3<f64>,
 }
 
-/// Adds up the shapes of one body; `None` if they weigh nothing.
-pub(crate) fn of_shapes(shapes: &[Shape]) -> Option<MassProperties> {
-    let parts: Vec<MassProperties> = shapes.iter().map(of_shape).collect();
+/// Adds up the parts of one body; `None` if they weigh nothing.
+pub(crate) fn sum(parts: &[MassProperties]) -> Option<MassProperties> {
     let mass_kg: f64 = parts.iter().map(|part| part.mass_kg).sum();
     if mass_kg <= 0.0 {
         return None;
@@ -37,11 +40,53 @@ fn point_inertia(mass_kg: f64, offset: Vector3<f64>) -> Matrix3<f64> {
     (Matrix3::identity() * offset.norm_squared() - offset * offset.transpose()) * mass_kg
 }
 
-fn of_shape(shape: &Shape) -> MassProperties {
-    let axis = shape.to_m - shape.from_m;
-    let (length, radius) = (axis.norm(), shape.radius_m);
-    let cylinder_kg = shape.density_kgpm3 * PI * radius.powi(2) * length;
-    let ball_kg = shape.density_kgpm3 * 4.0 / 3.0 * PI * radius.powi(3);
+/// Volume (m³).
+pub(crate) fn volume_m3(geometry: &Geometry) -> f64 {
+    of_geometry(geometry, 1.0).mass_kg
+}
+
+/// Mass properties of a solid of even density (kg/m³).
+pub(crate) fn of_geometry(geometry: &Geometry, density_kgpm3: f64) -> MassProperties {
+    match *geometry {
+        Geometry::Sphere { centre_m, radius_m } => of_round(&centre_m, &centre_m, radius_m, density_kgpm3),
+        Geometry::Capsule { from_m, to_m, radius_m } => of_round(&from_m, &to_m, radius_m, density_kgpm3),
+        Geometry::Cylinder { pose, radius_m, half_length_m } => {
+            let mass_kg = density_kgpm3 * PI * radius_m.powi(2) * 2.0 * half_length_m;
+            let across = mass_kg * (radius_m.powi(2) / 4.0 + half_length_m.powi(2) / 3.0);
+            at(&pose, mass_kg, Vector3::new(across, across, mass_kg * radius_m.powi(2) / 2.0))
+        }
+        Geometry::Box { pose, half_m } => {
+            let mass_kg = density_kgpm3 * 8.0 * half_m.product();
+            at(&pose, mass_kg, squares(&half_m) * (mass_kg / 3.0))
+        }
+        Geometry::Ellipsoid { pose, half_m } => {
+            let mass_kg = density_kgpm3 * 4.0 / 3.0 * PI * half_m.product();
+            at(&pose, mass_kg, squares(&half_m) * (mass_kg / 5.0))
+        }
+    }
+}
+
+/// For each axis, the sum of squares of the other two.
+fn squares(half_m: &Vector3<f64>) -> Vector3<f64> {
+    let [x, y, z] = [half_m.x, half_m.y, half_m.z].map(|half_m| half_m * half_m);
+    Vector3::new(y + z, z + x, x + y)
+}
+
+/// A part whose principal axes are those of a pose.
+pub(crate) fn at(pose: &Isometry3<f64>, mass_kg: f64, principal_kgm2: Vector3<f64>) -> MassProperties {
+    let turn = pose.rotation.to_rotation_matrix();
+    MassProperties {
+        mass_kg,
+        centre_m: Point3::from(pose.translation.vector),
+        inertia_kgm2: turn * Matrix3::from_diagonal(&principal_kgm2) * turn.inverse(),
+    }
+}
+
+fn of_round(from_m: &Point3<f64>, to_m: &Point3<f64>, radius: f64, density_kgpm3: f64) -> MassProperties {
+    let axis = to_m - from_m;
+    let length = axis.norm();
+    let cylinder_kg = density_kgpm3 * PI * radius.powi(2) * length;
+    let ball_kg = density_kgpm3 * 4.0 / 3.0 * PI * radius.powi(3);
 
     // Along the axis, and across it. Each half ball's centre lies 3/8 r beyond the cylinder's end,
     // which is where the mixed term comes from.
@@ -57,7 +102,7 @@ fn of_shape(shape: &Shape) -> MassProperties {
     let principal = Matrix3::from_diagonal(&Vector3::new(across, across, along));
     MassProperties {
         mass_kg: cylinder_kg + ball_kg,
-        centre_m: nalgebra::center(&shape.from_m, &shape.to_m),
+        centre_m: nalgebra::center(from_m, to_m),
         inertia_kgm2: turn * principal * turn.inverse(),
     }
 }
@@ -68,14 +113,13 @@ mod tests {
 
     const TOLERANCE: f64 = 1e-12;
 
-    fn sphere(centre: [f64; 3], radius_m: f64) -> Shape {
-        let centre = Point3::from(centre);
-        Shape { from_m: centre, to_m: centre, radius_m, density_kgpm3: 1000.0 }
+    fn sphere(centre: [f64; 3], radius_m: f64) -> MassProperties {
+        of_geometry(&Geometry::Sphere { centre_m: Point3::from(centre), radius_m }, 1000.0)
     }
 
     #[test]
     fn sphere_has_two_fifths_of_mass_times_radius_squared() {
-        let body = of_shapes(&[sphere([0.0; 3], 0.1)]).expect("a sphere has mass");
+        let body = sum(&[sphere([0.0; 3], 0.1)]).expect("a sphere has mass");
         // 4/3 π 0.1³ × 1000 = 4.18879 kg; × 0.01 × 0.4 = 0.0167552 kg·m².
         assert!((body.mass_kg - 4.188_790_204_786_391).abs() < TOLERANCE);
         assert!((body.inertia_kgm2 - Matrix3::identity() * 0.016_755_160_819_145_56).norm() < TOLERANCE);
@@ -83,7 +127,7 @@ mod tests {
 
     #[test]
     fn two_spheres_balance_in_the_middle_and_resist_turning_across_their_line() {
-        let body = of_shapes(&[sphere([0.0, -0.5, 0.0], 0.1), sphere([0.0, 0.5, 0.0], 0.1)]).expect("mass");
+        let body = sum(&[sphere([0.0, -0.5, 0.0], 0.1), sphere([0.0, 0.5, 0.0], 0.1)]).expect("mass");
         let one = 4.188_790_204_786_391;
         assert!(body.centre_m.coords.norm() < TOLERANCE);
         assert!((body.inertia_kgm2[(1, 1)] - 2.0 * one * 0.004).abs() < TOLERANCE);
@@ -93,13 +137,9 @@ mod tests {
     #[test]
     fn capsule_agrees_with_a_sum_over_thin_discs() {
         let (radius, length, density) = (0.06, 0.34, 1000.0);
-        let capsule = Shape {
-            from_m: Point3::origin(),
-            to_m: Point3::new(length, 0.0, 0.0),
-            radius_m: radius,
-            density_kgpm3: density,
-        };
-        let body = of_shapes(&[capsule]).expect("a capsule has mass");
+        let capsule =
+            Geometry::Capsule { from_m: Point3::origin(), to_m: Point3::new(length, 0.0, 0.0), radius_m: radius };
+        let body = of_geometry(&capsule, density);
         let (mut mass, mut along, mut across) = (0.0, 0.0, 0.0);
         let slices = 100_000;
         let thickness = (length + 2.0 * radius) / f64::from(slices);
@@ -119,9 +159,39 @@ mod tests {
     }
 
     #[test]
-    fn shapes_without_density_weigh_nothing() {
-        let hollow = Shape { density_kgpm3: 0.0, ..sphere([0.0; 3], 0.1) };
-        assert!(of_shapes(&[hollow]).is_none());
-        assert!(of_shapes(&[]).is_none());
+    fn nothing_and_weightless_parts_weigh_nothing() {
+        let hollow = of_geometry(&Geometry::Sphere { centre_m: Point3::origin(), radius_m: 0.1 }, 0.0);
+        assert!(sum(&[hollow]).is_none());
+        assert!(sum(&[]).is_none());
+    }
+
+    #[test]
+    fn solids_agree_with_a_sum_over_small_cubes() {
+        let half_m = Vector3::new(0.2, 0.1, 0.3);
+        let pose = Isometry3::translation(0.5, 0.0, 0.0);
+        type Inside = fn(Vector3<f64>) -> bool;
+        let round: Inside = |p| p.x.hypot(p.y) < 0.2 && p.z.abs() < 0.3;
+        let oval: Inside = |p| (p.x / 0.2).powi(2) + (p.y / 0.1).powi(2) + (p.z / 0.3).powi(2) < 1.0;
+        let cases: [(Geometry, Inside); 3] = [
+            (Geometry::Box { pose, half_m }, |p| p.x.abs() < 0.2 && p.y.abs() < 0.1 && p.z.abs() < 0.3),
+            (Geometry::Ellipsoid { pose, half_m }, oval),
+            (Geometry::Cylinder { pose, radius_m: 0.2, half_length_m: 0.3 }, round),
+        ];
+        let (cells, side) = (120, 0.6 / 120.0);
+        for (geometry, inside) in cases {
+            let (mut mass, mut inertia) = (0.0, Matrix3::zeros());
+            for index in 0..cells * cells * cells {
+                let cell = [index % cells, index / cells % cells, index / cells / cells];
+                let at = Vector3::from(cell.map(|cell: i32| (f64::from(cell) + 0.5) * side - 0.3));
+                if inside(at) {
+                    mass += side.powi(3);
+                    inertia += point_inertia(side.powi(3), at);
+                }
+            }
+            let body = of_geometry(&geometry, 1.0);
+            assert!((body.mass_kg / mass - 1.0).abs() < 0.01, "{geometry:?}: {} against {mass}", body.mass_kg);
+            assert!((body.inertia_kgm2 - inertia).norm() < 0.01 * inertia.norm(), "{geometry:?}");
+            assert_eq!(body.centre_m, Point3::new(0.5, 0.0, 0.0));
+        }
     }
 }

@@ -1,35 +1,34 @@
 //! From MJCF text to a [`Model`]: what is read, what is merged, what is refused.
 
 use mjcf_rs::body::{Geom, GeomType, Joint, JointType};
-use mjcf_rs::extras::ActuatorKind;
-use nalgebra::{Isometry3, Matrix3, Point3, Quaternion, Rotation3, Translation3, Unit, UnitQuaternion, Vector3};
+use nalgebra::{Isometry3, Matrix3, Point3, Quaternion, Translation3, UnitQuaternion, Vector3};
 
-use super::{Body, Hinge, Model, Motor, Shape, inertia};
+use super::flatten::{Flat, flatten};
+use super::inertia::MassProperties;
+use super::{Body, Geometry, Hinge, Model, Shape, collision, geoms, inertia, joints, mass, motors};
 use crate::error::ModelError;
 
-/// More bodies than this do not fit the collision groups: one bit each, and one for the floor.
+/// More moving bodies than this do not fit the collision groups: one bit each, and one for the floor.
 const BODIES_MAX: usize = 31;
-/// How far from perpendicular two neighbouring hinge axes may be (cosine).
-const AXIS_COSINE_MAX: f64 = 1e-3;
 
 /// Reads and checks a model text.
 pub(super) fn read(text: &str) -> Result<Model, ModelError> {
-    // A model may come from another machine, and the parser would open included files.
-    if text.contains("<include") {
-        return Err(ModelError::unsupported("include", "a model must be one text; paste the included file into it"));
-    }
-    let source = mjcf_rs::Model::from_str(text, ".").map_err(ModelError::Parse)?;
-    let mut reader = Reader::default();
+    let flat = flatten(text)?;
+    let source = mjcf_rs::Model::from_str(&flat.text, ".").map_err(ModelError::Parse)?;
+    let mut reader = Reader { flat, ..Reader::default() };
     for (index, entry) in source.bodies.iter().enumerate() {
         match entry.parent {
-            None => reader.read_world(&entry.body.geoms)?,
+            None => {
+                reader.places.push(Place { body: None, offset: Isometry3::identity() });
+                reader.read_world("the world", &entry.body.geoms, &Isometry3::identity())?;
+            }
             Some(parent) => reader.read_body(index, parent, &entry.body, &source.compiler)?,
         }
     }
     reader.finish(&source)
 }
 
-/// Where a body of the text ended up: in which of our bodies, and at which pose inside it.
+/// Where a body of the text ended up: in which of our bodies, and at which pose inside it; no body is the world.
 #[derive(Clone, Copy)]
 struct Place {
     body: Option<usize>,
@@ -38,24 +37,38 @@ struct Place {
 
 #[derive(Default)]
 struct Reader {
+    flat: Flat,
+    /// For each body of the text.
     places: Vec<Place>,
     bodies: Vec<Body>,
     hinges: Vec<Hinge>,
-    floor_friction: Option<f64>,
+    floor: Option<Shape>,
+    /// For each of our bodies, the parts that make up its mass.
+    parts: Vec<Vec<MassProperties>>,
+    /// For each of our bodies and each of its shapes, the body of the text that it was written in.
+    links: Vec<Vec<usize>>,
 }
 
 impl Reader {
-    fn read_world(&mut self, geoms: &[Geom]) -> Result<(), ModelError> {
-        for geom in geoms {
-            let name = geom.name.as_deref().unwrap_or("geom of the world");
-            let pose = isometry(&geom.pose);
+    /// Reads what stands still. Only a level floor may be touched.
+    fn read_world(&mut self, body: &str, geoms: &[Geom], offset: &Isometry3<f64>) -> Result<(), ModelError> {
+        for geom in geoms.iter().filter(|geom| geom.contype != 0 || geom.conaffinity != 0) {
+            let name = geom.name.as_deref().unwrap_or("geom");
+            let pose = offset * isometry(&geom.pose);
             let up = pose.rotation * Vector3::z();
             if !matches!(geom.type_, GeomType::Plane) || pose.translation.z.abs() > 1e-9 || up.z < 1.0 - 1e-9 {
-                return Err(ModelError::unsupported(name, "the world may hold only a level plane at z = 0"));
+                let problem = format!(
+                    "it is part of {body}, which stands still, and there may be only a level plane at z = 0; a robot's \
+                     root needs a free joint"
+                );
+                return Err(ModelError::unsupported(name, problem));
             }
-            self.floor_friction = Some(positive(name, "friction", geom.friction[0])?);
+            if self.floor.is_some() {
+                return Err(ModelError::unsupported(name, "there may be only one floor"));
+            }
+            let below = Geometry::Sphere { centre_m: Point3::origin(), radius_m: 0.0 };
+            self.floor = Some(geoms::surface(name, geom, below)?);
         }
-        self.places.push(Place { body: None, offset: Isometry3::identity() });
         Ok(())
     }
 
@@ -66,68 +79,87 @@ impl Reader {
         body: &mjcf_rs::body::Body,
         compiler: &mjcf_rs::compiler::Compiler,
     ) -> Result<(), ModelError> {
-        let name = body.name.clone().unwrap_or_else(|| format!("body {index}"));
-        if body.inertial.is_some() {
-            return Err(ModelError::unsupported(&name, "give densities instead of <inertial>"));
-        }
-        let Place { body: parent, offset } = self.places[parent];
+        let name = body.name.clone().unwrap_or_default();
+        let Place { body: owner, offset } = self.places[parent];
         let pose = offset * isometry(&body.pose);
         let place = if body.joints.is_empty() {
-            Place { body: parent, offset: pose }
+            Place { body: owner, offset: pose }
         } else {
-            let joints = self.read_joints(&name, parent.is_none(), &body.joints, compiler)?;
-            self.bodies.push(Body {
-                name: name.clone(),
-                parent,
-                pose,
-                shapes: Vec::new(),
-                mass_kg: 0.0,
-                centre_of_mass_m: Point3::origin(),
-                inertia_kgm2: Matrix3::zeros(),
-                ..joints
-            });
+            if owner.is_none() {
+                self.check_root(&name, parent, &body.joints)?;
+            }
+            let jointed = self.read_joints(name.clone(), owner, pose, &body.joints, compiler.autolimits)?;
+            self.bodies.push(jointed);
+            self.parts.push(Vec::new());
+            self.links.push(Vec::new());
             Place { body: Some(self.bodies.len() - 1), offset: Isometry3::identity() }
         };
         self.places.push(place);
         let Some(owner) = place.body else {
-            return Err(ModelError::unsupported(&name, "the first body needs a free joint"));
+            // MuJoCo would count it.
+            if compiler.set_total_mass > 0.0 && !(body.geoms.is_empty() && body.inertial.is_none()) {
+                return Err(ModelError::unsupported(&name, "with settotalmass there may be no body that stands still"));
+            }
+            return self.read_world(&format!("`{name}`"), &body.geoms, &place.offset);
         };
+        let mut weights = Vec::new();
         for geom in &body.geoms {
-            let shape = read_shape(geom, &name, &place.offset, compiler.inertia_density)?;
-            self.bodies[owner].shapes.push(shape);
+            let [first, last] = self.flat.inertia_groups;
+            let counts = (first..=last).contains(&geom.group) && mass::needs_shapes(body.inertial.as_ref(), compiler);
+            let (weight, shape) = geoms::read(geom, &place.offset, counts)?;
+            weights.extend(weight);
+            if let Some(shape) = shape {
+                self.bodies[owner].shapes.push(shape);
+                self.links[owner].push(index);
+            }
         }
+        let parts = mass::parts_of_body(&name, weights, body.inertial.as_ref(), &place.offset, compiler)?;
+        self.parts[owner].extend(parts);
         Ok(())
     }
 
-    /// Adds a body's hinges and returns a body that carries only their figures.
+    fn check_root(&self, body: &str, parent: usize, joints: &[Joint]) -> Result<(), ModelError> {
+        let [joint] = joints else {
+            return Err(ModelError::unsupported(
+                body,
+                "the root moves freely: it must have one free joint and no other",
+            ));
+        };
+        if !matches!(joint.type_, JointType::Free) || parent != 0 {
+            return Err(ModelError::unsupported(body, "the root, directly below the world, must have a free joint"));
+        }
+        if !self.bodies.is_empty() {
+            return Err(ModelError::unsupported(body, "there must be one root only: everything else hangs on it"));
+        }
+        joints::check_free(joint)
+    }
+
+    /// Adds a body's hinges and returns the body without shapes and mass.
     fn read_joints(
         &mut self,
-        body: &str,
-        is_root: bool,
+        name: String,
+        parent: Option<usize>,
+        pose: Isometry3<f64>,
         joints: &[Joint],
-        compiler: &mjcf_rs::compiler::Compiler,
+        autolimits: bool,
     ) -> Result<Body, ModelError> {
         let first = self.hinges.len();
         let mut anchor_m = Point3::origin();
-        if is_root {
-            let free = matches!(joints, [joint] if matches!(joint.type_, JointType::Free));
-            if !free || !self.bodies.is_empty() {
-                return Err(ModelError::unsupported(body, "there must be one root body with one free joint"));
-            }
-        } else {
+        if parent.is_some() {
             anchor_m = Point3::from(joints[0].pos);
             if joints.len() > 3 || joints.iter().any(|joint| Point3::from(joint.pos) != anchor_m) {
-                return Err(ModelError::unsupported(body, "a body takes at most three hinges, all at one point"));
+                return Err(ModelError::unsupported(&name, "a body takes at most three hinges, all at one point"));
             }
             for joint in joints {
-                self.hinges.push(read_hinge(joint, body, compiler.autolimits)?);
+                let torque_nm = joint.name.as_ref().and_then(|joint| self.flat.torque_ranges.get(joint)).copied();
+                self.hinges.push(joints::read_hinge(joint, autolimits, torque_nm)?);
             }
         }
-        let hinge_frame = orient_chain(body, &mut self.hinges[first..])?;
+        let hinge_frame = joints::orient_chain(&name, &mut self.hinges[first..])?;
         Ok(Body {
-            name: String::new(),
-            parent: None,
-            pose: Isometry3::identity(),
+            name,
+            parent,
+            pose,
             anchor_m,
             hinges: first..self.hinges.len(),
             hinge_frame,
@@ -139,159 +171,77 @@ impl Reader {
     }
 
     fn finish(mut self, source: &mjcf_rs::Model) -> Result<Model, ModelError> {
-        if self.bodies.is_empty() || self.bodies.len() > BODIES_MAX {
-            return Err(ModelError::unsupported(
-                "worldbody",
-                format!("there must be 1 to {BODIES_MAX} jointed bodies"),
-            ));
+        if self.bodies.is_empty() {
+            return Err(ModelError::unsupported("worldbody", "there must be a root body with a free joint"));
         }
-        for body in &mut self.bodies {
-            let mass = inertia::of_shapes(&body.shapes)
-                .ok_or_else(|| ModelError::unsupported(&body.name, "a body that moves needs mass"))?;
-            body.mass_kg = mass.mass_kg;
-            body.centre_of_mass_m = mass.centre_m;
-            body.inertia_kgm2 = mass.inertia_kgm2;
+        if self.bodies.len() > BODIES_MAX {
+            let problem =
+                format!("there are {} moving bodies, but at most {BODIES_MAX} are possible", self.bodies.len());
+            return Err(ModelError::unsupported(&self.bodies[BODIES_MAX].name, problem));
         }
-        let (motors, control_limit) = read_motors(source, &self.hinges)?;
+        self.weigh(source.compiler.set_total_mass)?;
+        let floor = self
+            .floor
+            .take()
+            .ok_or_else(|| ModelError::unsupported("worldbody", "a floor is needed: a plane at z = 0 that collides"))?;
+        let exclusions = self.read_exclusions(source)?;
+        let touches = collision::sort(&mut self.bodies, &self.links, &floor, &exclusions)?;
+        let motors = motors::read(&source.actuators, &self.hinges, &source.compiler)?;
         Ok(Model {
             bodies: self.bodies,
             hinges: self.hinges,
             motors,
-            control_limit,
-            floor_friction: self
-                .floor_friction
-                .ok_or_else(|| ModelError::unsupported("worldbody", "a floor is needed: a plane at z = 0"))?,
+            touches,
+            floor_friction: if floor.rubs { floor.friction } else { 0.0 },
             gravity_mps2: Vector3::from(source.option.gravity),
         })
     }
+
+    fn weigh(&mut self, total_kg: f64) -> Result<(), ModelError> {
+        for (body, parts) in self.bodies.iter_mut().zip(&self.parts) {
+            let mass = inertia::sum(parts)
+                .ok_or_else(|| ModelError::unsupported(&body.name, "a body that moves needs mass"))?;
+            body.mass_kg = mass.mass_kg;
+            body.centre_of_mass_m = mass.centre_m;
+            body.inertia_kgm2 = mass.inertia_kgm2;
+            let least_kgm2 = body.inertia_kgm2.symmetric_eigenvalues().min();
+            if !(least_kgm2.is_finite() && least_kgm2 > 0.0) {
+                let wanted = "finite and above 0";
+                return Err(ModelError::figure(&body.name, "least principal inertia (kg·m²)", least_kgm2, wanted));
+            }
+        }
+        if total_kg > 0.0 {
+            let factor = total_kg / self.bodies.iter().map(|body| body.mass_kg).sum::<f64>();
+            for body in &mut self.bodies {
+                body.mass_kg *= factor;
+                body.inertia_kgm2 *= factor;
+            }
+        }
+        Ok(())
+    }
+
+    /// Pairs of bodies of the text that never touch.
+    fn read_exclusions(&self, source: &mjcf_rs::Model) -> Result<Vec<collision::Exclusion>, ModelError> {
+        let find = |exclusion: &str, name: &str| match source.body_id_by_name(name) {
+            // What does not move touches no more than the world does.
+            Some(index) => Ok(self.places[index].body.map(|_| index)),
+            None if name == "world" => Ok(None),
+            None => Err(ModelError::unsupported(exclusion, format!("there is no body `{name}`"))),
+        };
+        let excludes = source.contact.excludes.iter();
+        excludes
+            .map(|exclude| {
+                let label = exclude.name.as_deref().unwrap_or("exclude");
+                Ok([find(label, &exclude.body1)?, find(label, &exclude.body2)?])
+            })
+            .collect()
+    }
 }
 
-fn read_shape(geom: &Geom, body: &str, offset: &Isometry3<f64>, density: f64) -> Result<Shape, ModelError> {
-    let name = geom.name.as_deref().unwrap_or(body);
-    let radius_m = positive(name, "radius (m)", geom.size[0])?;
-    let (from, to) = match (&geom.type_, geom.fromto) {
-        (GeomType::Sphere, _) => (Point3::origin(), Point3::origin()),
-        (GeomType::Capsule, Some([ax, ay, az, bx, by, bz])) => (Point3::new(ax, ay, az), Point3::new(bx, by, bz)),
-        (GeomType::Capsule, None) => (Point3::new(0.0, 0.0, -geom.size[1]), Point3::new(0.0, 0.0, geom.size[1])),
-        _ => return Err(ModelError::unsupported(name, "shapes must be spheres or capsules")),
-    };
-    if geom.mass.is_some() {
-        return Err(ModelError::unsupported(name, "give a density instead of a mass"));
-    }
-    // The ends of a `fromto` capsule are in the body's frame already.
-    let place = if geom.fromto.is_some() { *offset } else { offset * isometry(&geom.pose) };
-    let density_kgpm3 = geom.density.unwrap_or(density);
-    if !(density_kgpm3.is_finite() && density_kgpm3 >= 0.0) {
-        return Err(figure(name, "density (kg/m³)", density_kgpm3, "finite and not negative"));
-    }
-    Ok(Shape { from_m: place * from, to_m: place * to, radius_m, density_kgpm3 })
-}
-
-fn read_hinge(joint: &Joint, body: &str, autolimits: bool) -> Result<Hinge, ModelError> {
-    let name = joint.name.clone().unwrap_or_else(|| format!("joint of {body}"));
-    if !matches!(joint.type_, JointType::Hinge) {
-        return Err(ModelError::unsupported(&name, "joints must be hinges"));
-    }
-    if joint.ref_ != 0.0 || joint.frictionloss != 0.0 || joint.springdamper.is_some() {
-        return Err(ModelError::unsupported(&name, "`ref`, `frictionloss` and `springdamper` are not simulated"));
-    }
-    let axis = Unit::try_new(Vector3::from(joint.axis), 1e-6)
-        .ok_or_else(|| ModelError::unsupported(&name, "the axis must not be zero"))?;
-    let (min_rad, max_rad) = match joint.range {
-        Some([min, max]) if joint.limited.resolve(autolimits, true) => (min, max),
-        _ => (f64::NEG_INFINITY, f64::INFINITY),
-    };
-    if min_rad.is_nan() || max_rad.is_nan() || min_rad >= max_rad {
-        return Err(figure(&name, "lower end of the range (rad)", min_rad, "below the upper end"));
-    }
-    for (what, value) in [
-        ("stiffness (N·m/rad)", joint.stiffness),
-        ("damping (N·m·s/rad)", joint.damping),
-        ("armature (kg·m²)", joint.armature),
-    ] {
-        if !(value.is_finite() && value >= 0.0) {
-            return Err(figure(&name, what, value, "finite and not negative"));
-        }
-    }
-    Ok(Hinge {
-        name,
-        axis,
-        frame_sign: 1.0,
-        min_rad,
-        max_rad,
-        stiffness_nmprad: joint.stiffness,
-        rest_rad: joint.springref,
-        damping_nmsprad: joint.damping,
-        armature_kgm2: joint.armature,
-    })
-}
-
-/// The right-handed triad of a chain; a third axis that points against it gets `frame_sign` −1.
-fn orient_chain(body: &str, hinges: &mut [Hinge]) -> Result<UnitQuaternion<f64>, ModelError> {
-    let Some(first) = hinges.first().map(|hinge| hinge.axis.into_inner()) else {
-        return Ok(UnitQuaternion::identity());
-    };
-    let second = match hinges.get(1) {
-        Some(hinge) => hinge.axis.into_inner(),
-        // Any direction across a single hinge will do; take the coordinate axis farthest from it.
-        None => {
-            let across = Vector3::ith(first.iamin(), 1.0);
-            (across - first * first.dot(&across)).normalize()
-        }
-    };
-    let third = first.cross(&second);
-    let skew = first.dot(&second).abs();
-    let third_skew = hinges.get(2).map_or(0.0, |hinge| 1.0 - hinge.axis.dot(&third).abs());
-    if skew > AXIS_COSINE_MAX || third_skew > AXIS_COSINE_MAX {
-        return Err(ModelError::unsupported(body, "hinges of one body must be perpendicular to each other"));
-    }
-    if let Some(hinge) = hinges.get_mut(2) {
-        hinge.frame_sign = hinge.axis.dot(&third).signum();
-    }
-    let frame = Matrix3::from_columns(&[first, second, third]);
-    Ok(UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix(&frame)))
-}
-
-fn read_motors(source: &mjcf_rs::Model, hinges: &[Hinge]) -> Result<(Vec<Motor>, f64), ModelError> {
-    let mut motors = Vec::with_capacity(source.actuators.len());
-    let mut limit: Option<f64> = None;
-    for actuator in &source.actuators {
-        let name = actuator.name.clone().or_else(|| actuator.joint.clone()).unwrap_or_default();
-        if actuator.kind != ActuatorKind::Motor {
-            return Err(ModelError::unsupported(&name, "actuators must be motors"));
-        }
-        let hinge = hinges
-            .iter()
-            .position(|hinge| Some(hinge.name.as_str()) == actuator.joint.as_deref())
-            .ok_or_else(|| ModelError::unsupported(&name, "the motor names no hinge of this model"))?;
-        let [low, high] =
-            actuator.ctrl_range.ok_or_else(|| ModelError::unsupported(&name, "the motor needs a control range"))?;
-        if low != -high || !(high.is_finite() && high > 0.0) || limit.is_some_and(|limit| limit != high) {
-            return Err(ModelError::unsupported(&name, "all motors need one symmetric control range"));
-        }
-        limit = Some(high);
-        let gear_nm = actuator.gear[0];
-        if !gear_nm.is_finite() {
-            return Err(figure(&name, "gear (N·m)", gear_nm, "finite"));
-        }
-        motors.push(Motor { name, hinge, gear_nm });
-    }
-    let limit = limit.ok_or_else(|| ModelError::unsupported("actuator", "at least one motor is needed"))?;
-    Ok((motors, limit))
-}
-
-fn isometry(pose: &mjcf_rs::Pose) -> Isometry3<f64> {
+pub(super) fn isometry(pose: &mjcf_rs::Pose) -> Isometry3<f64> {
     let (t, r) = (pose.translation, pose.rotation);
     Isometry3::from_parts(
         Translation3::new(t.x, t.y, t.z),
         UnitQuaternion::new_normalize(Quaternion::new(r.w, r.x, r.y, r.z)),
     )
-}
-
-fn positive(element: &str, what: &'static str, value: f64) -> Result<f64, ModelError> {
-    if value.is_finite() && value > 0.0 { Ok(value) } else { Err(figure(element, what, value, "finite and above 0")) }
-}
-
-fn figure(element: &str, figure: &'static str, value: f64, expected: &'static str) -> ModelError {
-    ModelError::Figure { element: element.to_owned(), figure, value, expected }
 }

@@ -3,13 +3,26 @@
 //! [`Model::from_mjcf`] reads the text; [`crate::physics`] builds a world from the result.
 //! Lengths are metres, angles radians, masses kilograms.
 
+mod collision;
+mod defaults;
+mod file;
+mod flatten;
+mod geoms;
 mod inertia;
+mod joints;
+mod mass;
 mod mjcf;
+mod motors;
+mod vocabulary;
+mod xml;
 
 use std::ops::Range;
 
 use nalgebra::{Isometry3, Matrix3, Point3, Unit, UnitQuaternion, Vector3};
 
+pub(crate) use self::collision::FLOOR_GROUP;
+pub use self::file::read_model_file;
+pub use self::xml::MODEL_BYTES_MAX;
 use crate::error::ModelError;
 
 /// The humanoid of this project, as MJCF text: 17 hinges, about 42 kg, the figures of Humanoid-v5.
@@ -24,9 +37,9 @@ pub struct Model {
     pub hinges: Vec<Hinge>,
     /// Motors in action order.
     pub motors: Vec<Motor>,
-    /// Every motor's control is clamped to ± this.
-    pub control_limit: f64,
-    /// Friction coefficient between the body and the floor.
+    /// For each [`Shape::group`], bits of the groups that its shapes may touch; the highest bit is the floor.
+    pub touches: Vec<u32>,
+    /// Friction coefficient of the floor; the greater one of two shapes counts.
     pub floor_friction: f64,
     /// Acceleration of gravity (m/s²), world frame.
     pub gravity_mps2: Vector3<f64>,
@@ -57,24 +70,80 @@ pub struct Body {
     pub inertia_kgm2: Matrix3<f64>,
 }
 
-/// A collision shape, in its body's frame.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// A collision shape.
+#[derive(Clone, Debug, PartialEq)]
 pub struct Shape {
-    /// One end of the capsule's axis (m).
-    pub from_m: Point3<f64>,
-    /// Other end of the capsule's axis (m); equal to `from_m` for a sphere.
-    pub to_m: Point3<f64>,
-    /// Radius (m).
-    pub radius_m: f64,
-    /// Density (kg/m³).
-    pub density_kgpm3: f64,
+    /// Name in the text.
+    pub name: String,
+    /// Form and place, in its body's frame.
+    pub geometry: Geometry,
+    /// Friction coefficient; between two shapes the greater one counts, if at least one of them rubs.
+    pub friction: f64,
+    /// Whether contacts with it resist sliding by themselves (MJCF's `condim` 3) or not (1).
+    pub rubs: bool,
+    /// Bits that say what it is: it touches what has affinity to one of them.
+    pub contype: u32,
+    /// Bits of what it has affinity to.
+    pub conaffinity: u32,
+    /// Group of shapes to which the same rules of collision apply: an index into [`Model::touches`].
+    pub group: usize,
 }
 
-impl Shape {
-    /// Whether the shape is a sphere and not a capsule.
+/// Form and place of a shape; lengths in metres.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Geometry {
+    /// A ball.
+    Sphere {
+        /// Its centre.
+        centre_m: Point3<f64>,
+        /// Its radius.
+        radius_m: f64,
+    },
+    /// All points within a radius of a line.
+    Capsule {
+        /// One end of the line.
+        from_m: Point3<f64>,
+        /// The other end.
+        to_m: Point3<f64>,
+        /// The radius.
+        radius_m: f64,
+    },
+    /// A cylinder along the z axis of its pose.
+    Cylinder {
+        /// Centre and orientation.
+        pose: Isometry3<f64>,
+        /// Its radius.
+        radius_m: f64,
+        /// From the centre to either end.
+        half_length_m: f64,
+    },
+    /// A box.
+    Box {
+        /// Centre and orientation.
+        pose: Isometry3<f64>,
+        /// From the centre to the sides.
+        half_m: Vector3<f64>,
+    },
+    /// An ellipsoid; it has mass, but cannot collide.
+    Ellipsoid {
+        /// Centre and orientation.
+        pose: Isometry3<f64>,
+        /// Semi-axes.
+        half_m: Vector3<f64>,
+    },
+}
+
+impl Geometry {
+    /// Its middle, in its body's frame (m).
     #[must_use]
-    pub fn is_sphere(&self) -> bool {
-        self.from_m == self.to_m
+    pub fn centre_m(&self) -> Point3<f64> {
+        match self {
+            Self::Sphere { centre_m, .. } => *centre_m,
+            Self::Capsule { from_m, to_m, .. } => nalgebra::center(from_m, to_m),
+            Self::Cylinder { pose, .. } | Self::Box { pose, .. } | Self::Ellipsoid { pose, .. } => {
+                Point3::from(pose.translation.vector)
+            }
+        }
     }
 }
 
@@ -99,6 +168,8 @@ pub struct Hinge {
     pub damping_nmsprad: f64,
     /// Inertia of the motor's rotor, seen at the hinge (kg·m²).
     pub armature_kgm2: f64,
+    /// Least and greatest torque of all its motors together (N·m); infinite without limits.
+    pub torque_nm: [f64; 2],
 }
 
 impl Hinge {
@@ -116,23 +187,31 @@ impl Hinge {
     }
 }
 
-/// A motor: torque = gear × control.
+/// A motor or a servo: torque = gear × force, where force = gain × control + bias · (1, length, velocity), and length
+/// and velocity are gear × angle (rad) and gear × rate (rad/s) of the hinge. A plain motor has gain 1 and no bias.
 #[derive(Clone, Debug)]
 pub struct Motor {
     /// Name in the text.
     pub name: String,
     /// Which hinge it turns: an index into [`Model::hinges`].
     pub hinge: usize,
-    /// Torque at control 1 (N·m).
+    /// Torque per unit of force (N·m).
     pub gear_nm: f64,
+    /// Least and greatest control; others are clamped.
+    pub control: [f64; 2],
+    /// Force per unit of control.
+    pub gain: f64,
+    /// Force, force per length and force per velocity.
+    pub bias: [f64; 3],
+    /// Least and greatest force; infinite without limits.
+    pub force: [f64; 2],
 }
 
 impl Model {
     /// Reads a model from MJCF text.
     ///
-    /// Accepted: one tree on a free joint; hinges (at most three to a body, at one point, perpendicular in order);
-    /// spheres and capsules; motors with one common symmetric control range; a floor at z = 0.
-    /// Files are never opened: a text with `<include>` is refused.
+    /// docs/models.md tells what is accepted. Whatever MJCF has beyond that is refused by name, unless no motion depends
+    /// on it. Files are never opened: [`read_model_file`] makes one text of a file and those that it includes.
     ///
     /// # Errors
     /// [`ModelError`] names the first element that cannot be simulated.

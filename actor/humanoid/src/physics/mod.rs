@@ -58,6 +58,7 @@ pub struct Physics {
     body_velocities: Vec<Motion>,
     motions: Vec<BodyMotion>,
     contacts: Vec<ContactImpulse>,
+    controls: Vec<f32>,
     hinge_torques_nm: Vec<f64>,
     variable: Variable,
     /// Whether Rapier has the bodies: not yet after a reset.
@@ -69,9 +70,10 @@ impl Physics {
     /// Builds a world for a model, at rest in its nominal pose.
     ///
     /// # Errors
-    /// [`ModelError`] if a setting is out of range.
+    /// [`ModelError`] if a setting is out of range, or a servo too stiff for the physics step.
     pub fn new(model: Model, config: &EnvironmentConfig) -> Result<Self, ModelError> {
         config.check()?;
+        model.check_servos(CONTROL_STEP_S / f64::from(config.substeps))?;
         let bodies = model.bodies.len();
         let tree = Tree::new(&model);
         let mut physics = Self {
@@ -85,6 +87,7 @@ impl Physics {
             body_velocities: vec![Motion::default(); bodies],
             motions: vec![BodyMotion::still(); bodies],
             contacts: vec![ContactImpulse::default(); bodies],
+            controls: vec![0.0; model.motors.len()],
             hinge_torques_nm: vec![0.0; model.hinges.len()],
             variable: Variable::new(&model),
             has_stepped: false,
@@ -122,7 +125,8 @@ impl Physics {
 
     /// Simulates one control step of [`CONTROL_STEP_S`] with the motors' controls held, one number per motor.
     ///
-    /// Controls are clamped to ± [`Model::control_limit`].
+    /// Controls are clamped to each motor's [`crate::model::Motor::control`]. A servo's torque follows its hinge from
+    /// one physics step to the next.
     ///
     /// # Errors
     /// [`PhysicsFault`] if anything is not finite; the named quantities then keep their values of the last control
@@ -136,11 +140,7 @@ impl Physics {
             self.is_faulty = true;
             return Err(PhysicsFault);
         }
-        let limit = self.model.control_limit;
-        self.hinge_torques_nm.fill(0.0);
-        for (motor, &control) in self.model.motors.iter().zip(controls) {
-            self.hinge_torques_nm[motor.hinge] += motor.gear_nm * f64::from(control).clamp(-limit, limit);
-        }
+        self.controls.copy_from_slice(controls);
         self.contacts.fill(ContactImpulse::default());
         for _ in 0..self.substeps {
             self.substep()?;
@@ -150,6 +150,8 @@ impl Physics {
     }
 
     fn substep(&mut self) -> Result<(), PhysicsFault> {
+        let (angles_rad, rates_radps) = (&self.position[ROOT_POSITIONS..], &self.velocity[ROOT_DOFS..]);
+        self.model.motor_torques(&self.controls, angles_rad, rates_radps, &mut self.hinge_torques_nm);
         let step_s = CONTROL_STEP_S / f64::from(self.substeps);
         let Self { tree, world, flight, touching, .. } = self;
         flight.fly(tree, &self.posture, &self.position, &self.velocity, &self.hinge_torques_nm, step_s);
@@ -215,7 +217,7 @@ impl Physics {
         &self.velocity[ROOT_DOFS..]
     }
 
-    /// Torque of each hinge's motor during the last step (N·m), in position order.
+    /// Torque of each hinge's motors during the last physics step (N·m), in position order.
     #[must_use]
     pub fn joint_torques_nm(&self) -> &[f64] {
         &self.hinge_torques_nm

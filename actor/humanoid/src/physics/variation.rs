@@ -50,7 +50,10 @@ impl Variation {
             hinge.armature_kgm2 = nominal.armature_kgm2 * self.armature_scale[index];
         }
         for ((motor, nominal), scale) in model.motors.iter_mut().zip(&nominal.motors).zip(&self.motor_scale) {
-            motor.gear_nm = nominal.gear_nm * scale;
+            // Not the gear: a servo measures its hinge through it.
+            motor.gain = nominal.gain * scale;
+            motor.bias = nominal.bias.map(|force| force * scale);
+            motor.force = nominal.force.map(|end| end * scale);
         }
         model.floor_friction = nominal.floor_friction * self.floor_friction_scale;
         model.gravity_mps2 = nominal.gravity_mps2 * self.gravity_scale;

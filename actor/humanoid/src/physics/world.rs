@@ -1,14 +1,14 @@
 //! The Rapier world of one humanoid, and how it is made pristine again for every episode.
 
+use std::f64::consts::FRAC_PI_2;
+
+use nalgebra::{Isometry3, UnitQuaternion};
 use rapier3d::prelude::*;
 
-use super::convert::{to_matrix, to_point, to_rotation};
+use super::convert::{to_matrix, to_point, to_rotation, to_vector};
 use crate::chain;
 use crate::config::{CONTROL_STEP_S, EnvironmentConfig};
-use crate::model::{Body, Model, Shape};
-
-/// Collision group of the floor; body i is in group i.
-const FLOOR_GROUP: Group = Group::GROUP_32;
+use crate::model::{Body, FLOOR_GROUP, Geometry, Model, Shape};
 
 /// Sweeps over all constraints in each pass of the solver: the second halves the distance that is left between joint
 /// ends for a few percent of the time.
@@ -54,7 +54,7 @@ impl World {
         let floor = ColliderBuilder::new(SharedShape::halfspace(Vector::Z))
             .friction(model.floor_friction as f32)
             .friction_combine_rule(CoefficientCombineRule::Max)
-            .collision_groups(InteractionGroups::new(FLOOR_GROUP, Group::ALL, InteractionTestMode::And))
+            .collision_groups(InteractionGroups::new(group(FLOOR_GROUP), Group::ALL, InteractionTestMode::And))
             .user_data(0);
         let floor = rapier.insert_collider(floor, None);
 
@@ -63,7 +63,9 @@ impl World {
         for (index, body) in model.bodies.iter().enumerate() {
             let handle = rapier.insert_body(rigid_body(body));
             for shape in &body.shapes {
-                rapier.insert_collider(collider(model, config, index, shape), Some(handle));
+                if let Some(form) = form(&shape.geometry) {
+                    rapier.insert_collider(collider(form, model, config, index, shape), Some(handle));
+                }
             }
             joints.push(body.parent.map(|parent| rapier.insert_impulse_joint(bodies[parent], handle, joint(body))));
             bodies.push(handle);
@@ -130,32 +132,52 @@ pub(super) fn mass_properties(body: &Body) -> MassProperties {
     )
 }
 
-fn collider(model: &Model, config: &EnvironmentConfig, body: usize, shape: &Shape) -> ColliderBuilder {
-    let builder = if shape.is_sphere() {
-        ColliderBuilder::ball(shape.radius_m as f32).translation(to_point(&shape.from_m))
-    } else {
-        ColliderBuilder::capsule_from_endpoints(to_point(&shape.from_m), to_point(&shape.to_m), shape.radius_m as f32)
-    };
-    let filter = if config.self_collision { FLOOR_GROUP | strangers(model, body) } else { FLOOR_GROUP };
-    builder
+/// Form and place of a shape; `None` for those that the model's reader lets only weigh.
+fn form(geometry: &Geometry) -> Option<ColliderBuilder> {
+    Some(match *geometry {
+        Geometry::Sphere { centre_m, radius_m } => {
+            ColliderBuilder::ball(radius_m as f32).translation(to_point(&centre_m))
+        }
+        Geometry::Capsule { from_m, to_m, radius_m } => {
+            ColliderBuilder::capsule_from_endpoints(to_point(&from_m), to_point(&to_m), radius_m as f32)
+        }
+        Geometry::Cylinder { pose, radius_m, half_length_m } => {
+            // Rapier's cylinders lie along y.
+            let upright = UnitQuaternion::from_axis_angle(&nalgebra::Vector3::x_axis(), FRAC_PI_2);
+            ColliderBuilder::cylinder(half_length_m as f32, radius_m as f32).position(at(&(pose * upright)))
+        }
+        Geometry::Box { pose, half_m } => {
+            ColliderBuilder::cuboid(half_m.x as f32, half_m.y as f32, half_m.z as f32).position(at(&pose))
+        }
+        Geometry::Ellipsoid { .. } => return None,
+    })
+}
+
+fn at(pose: &Isometry3<f64>) -> Pose {
+    Pose::from_parts(to_vector(&pose.translation.vector), to_rotation(&pose.rotation))
+}
+
+fn collider(
+    form: ColliderBuilder,
+    model: &Model,
+    config: &EnvironmentConfig,
+    body: usize,
+    shape: &Shape,
+) -> ColliderBuilder {
+    let touches = Group::from_bits_truncate(model.touches[shape.group]);
+    let filter = if config.self_collision { touches } else { touches & group(FLOOR_GROUP) };
+    form
         // Masses are the body's: it was summed up in double precision, with overlaps as the model means them.
         .density(0.0)
-        // Contacts between body parts slide, as in the original; the floor's rule lifts contacts with it to its friction.
-        .friction(0.0)
-        .collision_groups(InteractionGroups::new(group(body), filter, InteractionTestMode::And))
+        // The greater friction of a pair counts; where neither shape rubs, both have none.
+        .friction(if shape.rubs { shape.friction as f32 } else { 0.0 })
+        .friction_combine_rule(CoefficientCombineRule::Max)
+        .collision_groups(InteractionGroups::new(group(shape.group), filter, InteractionTestMode::And))
         .user_data(body as u128 + 1)
 }
 
-/// Groups of the bodies that a body may touch: all but itself and its neighbours in the tree.
-fn strangers(model: &Model, body: usize) -> Group {
-    let parent = model.bodies[body].parent;
-    (0..model.bodies.len())
-        .filter(|&other| other != body && parent != Some(other) && model.bodies[other].parent != Some(body))
-        .fold(Group::NONE, |groups, other| groups | group(other))
-}
-
-fn group(body: usize) -> Group {
-    Group::from_bits_truncate(1 << body)
+fn group(index: usize) -> Group {
+    Group::from_bits_truncate(1 << index)
 }
 
 fn joint(body: &Body) -> GenericJoint {

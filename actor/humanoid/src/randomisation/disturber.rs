@@ -25,7 +25,8 @@ pub(crate) struct Disturber {
     /// Entries of an observation that are positions; as many velocities as the model has follow them.
     positions: usize,
     velocities: usize,
-    control_limit: f64,
+    /// Half of each motor's control range.
+    half_ranges: Vec<f64>,
     /// The last actions, `[delay + 1][motor]`, as a ring.
     past: Vec<f32>,
     /// Place of the newest action in `past`.
@@ -48,7 +49,7 @@ impl Disturber {
             variation: Variation::none(model),
             positions: model.position_size() - 2,
             velocities: model.velocity_size(),
-            control_limit: model.control_limit,
+            half_ranges: model.motors.iter().map(|motor| (motor.control[1] - motor.control[0]) / 2.0).collect(),
             past: vec![0.0; slots * model.motors.len()],
             newest: 0,
             delay_steps: 0,
@@ -118,10 +119,9 @@ impl Disturber {
         self.past[self.newest * size..][..size].copy_from_slice(controls);
         let arriving = (self.newest + slots - self.delay_steps) % slots;
         self.acting.copy_from_slice(&self.past[arriving * size..][..size]);
-        let std = self.settings.control_noise * self.control_limit;
-        if std > 0.0 {
-            for control in &mut self.acting {
-                *control += (std * normal(&mut self.motors)) as f32;
+        if self.settings.control_noise > 0.0 {
+            for (control, half) in self.acting.iter_mut().zip(&self.half_ranges) {
+                *control += (self.settings.control_noise * half * normal(&mut self.motors)) as f32;
             }
         }
         &self.acting

@@ -1,0 +1,204 @@
+//! Classes of defaults, laid under the attributes of each element the way MuJoCo does it.
+//!
+//! `mjcf-rs` resolves classes too, but overlooks unknown classes, and takes a default
+//! position away from an element that gives only its orientation. So it is handed a text without defaults.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use roxmltree::Node;
+
+use super::vocabulary::{self, INERT, Rule};
+use crate::error::ModelError;
+
+/// Name and value.
+pub(super) type Attribute = (String, String);
+
+/// Value of an attribute.
+pub(super) fn get<'a>(attributes: &'a [Attribute], name: &str) -> Option<&'a str> {
+    attributes.iter().find(|(found, _)| found == name).map(|(_, value)| value.as_str())
+}
+
+/// The class of elements that name none.
+const MAIN: &str = "main";
+/// Elements that are actuators.
+pub(super) const ACTUATORS: [&str; 4] = ["motor", "position", "velocity", "general"];
+
+/// Defaults of one class, those of its parents included: attributes for each kind of element.
+type Class = BTreeMap<String, Vec<Attribute>>;
+
+/// All classes of a model.
+#[derive(Debug, Default)]
+pub(super) struct Classes {
+    classes: BTreeMap<String, Class>,
+    /// Kinds of actuators that have defaults.
+    pub(super) actuators: BTreeSet<String>,
+}
+
+impl Classes {
+    /// Reads the outermost <default>; it may be repeated.
+    pub(super) fn read_main(&mut self, node: Node<'_, '_>) -> Result<(), ModelError> {
+        if let Some(name) = node.attribute("class")
+            && name != MAIN
+        {
+            return Err(ModelError::attribute(
+                "default",
+                "class",
+                name,
+                "main, or left out, for the outermost <default>",
+            ));
+        }
+        let class = self.classes.remove(MAIN).unwrap_or_default();
+        self.read(node, MAIN, class)
+    }
+
+    fn read(&mut self, node: Node<'_, '_>, name: &str, mut class: Class) -> Result<(), ModelError> {
+        let label = format!("default {name}");
+        let mut nested = Vec::new();
+        for child in node.children().filter(Node::is_element) {
+            let tag = child.tag_name().name();
+            if tag == "default" {
+                nested.push(child);
+                continue;
+            }
+            // Defaults of elements that are refused wherever they occur do no harm.
+            if INERT.contains(&tag) || matches!(tag, "equality" | "pair" | "tendon") {
+                if tag == "tendon" {
+                    class.insert("fixed".to_owned(), own(child));
+                }
+                continue;
+            }
+            if vocabulary::rules(tag).is_none() {
+                return Err(ModelError::unsupported(&label, format!("<{tag}> is not supported")));
+            }
+            let attributes = own(child);
+            for (attribute, value) in &attributes {
+                let rule = vocabulary::rule(tag, attribute).ok_or_else(|| {
+                    ModelError::unsupported(&label, format!("attribute `{attribute}` of <{tag}> is not supported"))
+                })?;
+                // What has an effect that is not simulated is refused at the element that it reaches, if there is one.
+                if !matches!(rule, Rule::Only(_))
+                    && let Err(expected) = vocabulary::allowed(rule, value)
+                {
+                    return Err(ModelError::attribute(&label, attribute, value, expected));
+                }
+            }
+            if ACTUATORS.contains(&tag) {
+                self.actuators.insert(tag.to_owned());
+            }
+            let before = class.remove(tag).unwrap_or_default();
+            class.insert(tag.to_owned(), lay_over(tag, before, attributes));
+        }
+        for child in nested {
+            let name = child
+                .attribute("class")
+                .ok_or_else(|| ModelError::unsupported(&label, "a <default> within another needs a class"))?;
+            if self.classes.contains_key(name) || name == MAIN {
+                return Err(ModelError::unsupported(&format!("default {name}"), "there are two classes of this name"));
+            }
+            self.read(child, name, class.clone())?;
+        }
+        self.classes.insert(name.to_owned(), class);
+        Ok(())
+    }
+
+    /// Attributes of an element with its class's defaults under them; `ambient` is the class that its body gives.
+    pub(super) fn complete(
+        &self,
+        node: Node<'_, '_>,
+        ambient: Option<&str>,
+        label: &str,
+    ) -> Result<Vec<Attribute>, ModelError> {
+        let tag = node.tag_name().name();
+        let name = node.attribute("class").or(ambient).unwrap_or(MAIN);
+        let under = match self.class(name, label)?.and_then(|class| class.get(tag)) {
+            Some(attributes) => attributes.clone(),
+            None => Vec::new(),
+        };
+        Ok(lay_over(tag, under, own(node)))
+    }
+
+    /// The class of a name, which is [`None`] for [`MAIN`] where nothing has defaults.
+    pub(super) fn class(&self, name: &str, label: &str) -> Result<Option<&Class>, ModelError> {
+        match self.classes.get(name) {
+            None if name != MAIN => {
+                Err(ModelError::unsupported(label, format!("there is no <default class=\"{name}\">")))
+            }
+            found => Ok(found),
+        }
+    }
+}
+
+/// Attributes as they stand in the text.
+pub(super) fn own(node: Node<'_, '_>) -> Vec<Attribute> {
+    node.attributes().map(|attribute| (attribute.name().to_owned(), attribute.value().to_owned())).collect()
+}
+
+/// Lays attributes over others. A list that may be short keeps the rest of the one below it.
+fn lay_over(tag: &str, mut under: Vec<Attribute>, over: Vec<Attribute>) -> Vec<Attribute> {
+    for (name, mut value) in over {
+        let open = matches!(vocabulary::rule(tag, &name), Some(Rule::Numbers(least, most)) if least < most);
+        match under.iter_mut().find(|(found, _)| *found == name) {
+            Some((_, below)) => {
+                let given = value.split_whitespace().count();
+                if open && given > 0 {
+                    for rest in below.split_whitespace().skip(given) {
+                        value.push(' ');
+                        value.push_str(rest);
+                    }
+                }
+                *below = value;
+            }
+            None => under.push((name, value)),
+        }
+    }
+    under
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use roxmltree::Document;
+
+    /// The attributes of the element named `part` in a text, defaults included.
+    fn completed(text: &str) -> Result<Vec<Attribute>, ModelError> {
+        let document = Document::parse(text).expect("well-formed");
+        let mut classes = Classes::default();
+        for node in document.root_element().children().filter(|node| node.has_tag_name("default")) {
+            classes.read_main(node)?;
+        }
+        let part = document.descendants().find(|node| node.attribute("name") == Some("part")).expect("a part");
+        classes.complete(part, Some("leg"), "part")
+    }
+
+    #[test]
+    fn a_class_inherits_from_the_one_around_it_attribute_by_attribute() {
+        let text = r#"<mujoco>
+            <default>
+              <default class="leg"><geom quat="0 1 0 0"/><default class="foot"><geom mass="2"/></default></default>
+              <geom pos="1 2 3" size="0.1 0.2 0.3" friction="0.5"/>
+            </default>
+            <geom name="part" size="0.4"/></mujoco>"#;
+        let part = completed(text).expect("valid");
+        // The instance gives one size of three; position and orientation come from different classes.
+        assert_eq!(get(&part, "size"), Some("0.4 0.2 0.3"));
+        assert_eq!((get(&part, "pos"), get(&part, "quat")), (Some("1 2 3"), Some("0 1 0 0")));
+        assert_eq!(get(&part, "mass"), None);
+        let foot = completed(&text.replace("name=\"part\"", "name=\"part\" class=\"foot\"")).expect("valid");
+        assert_eq!((get(&foot, "mass"), get(&foot, "pos")), (Some("2"), Some("1 2 3")));
+    }
+
+    #[test]
+    fn classes_that_are_missing_doubled_or_nameless_are_refused() {
+        let problem = |text: &str| completed(text).expect_err("refused").to_string();
+        assert!(problem("<mujoco><geom name='part'/></mujoco>").contains("class=\"leg\""));
+        let twice =
+            "<mujoco><default><default class='leg'/><default class='leg'/></default><geom name='part'/></mujoco>";
+        assert!(problem(twice).contains("default leg"));
+        let nameless = "<mujoco><default><default><geom/></default></default><geom name='part'/></mujoco>";
+        assert!(problem(nameless).contains("needs a class"));
+        let unknown = "<mujoco><default><geom wings='2'/></default><geom name='part'/></mujoco>";
+        assert!(problem(unknown).contains("wings"));
+        let renamed = "<mujoco><default class='all'><default class='leg'/></default><geom name='part'/></mujoco>";
+        assert!(problem(renamed).contains("`class` is \"all\""));
+    }
+}

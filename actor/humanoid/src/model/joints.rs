@@ -1,0 +1,101 @@
+//! Hinges, and the chains they make.
+
+use mjcf_rs::body::{Joint, JointType};
+use mjcf_rs::types::Tristate;
+use nalgebra::{Matrix3, Rotation3, Unit, UnitQuaternion, Vector3};
+
+use super::Hinge;
+use super::geoms::not_negative;
+use crate::error::ModelError;
+
+/// How far from perpendicular two neighbouring hinge axes may be (cosine).
+const AXIS_COSINE_MAX: f64 = 1e-3;
+
+/// Refuses a free joint that does more than let the root move freely.
+pub(super) fn check_free(joint: &Joint) -> Result<(), ModelError> {
+    let name = joint.name.as_deref().unwrap_or("free joint");
+    for (what, value) in [
+        ("stiffness of a free joint", joint.stiffness),
+        ("damping of a free joint", joint.damping),
+        ("armature of a free joint", joint.armature),
+    ] {
+        if value != 0.0 {
+            return Err(ModelError::figure(name, what, value, "0: nothing holds the root"));
+        }
+    }
+    Ok(())
+}
+
+/// Reads a hinge; `torque_nm` is where the torque of its motors ends, if it does.
+pub(super) fn read_hinge(joint: &Joint, autolimits: bool, torque_nm: Option<[f64; 2]>) -> Result<Hinge, ModelError> {
+    let name = joint.name.clone().unwrap_or_default();
+    match joint.type_ {
+        JointType::Hinge => {}
+        JointType::Free => return Err(ModelError::unsupported(&name, "only the root, below the world, may be free")),
+        JointType::Ball | JointType::Slide => {
+            let kind = format!("{:?}", joint.type_).to_lowercase();
+            return Err(ModelError::unsupported(&name, format!("joints must be hinges, not of type {kind}")));
+        }
+    }
+    let axis = Unit::try_new(Vector3::from(joint.axis), 1e-6)
+        .ok_or_else(|| ModelError::unsupported(&name, "the axis must not be zero"))?;
+    let (min_rad, max_rad) = range(&name, joint, autolimits)?;
+    Ok(Hinge {
+        axis,
+        frame_sign: 1.0,
+        min_rad,
+        max_rad,
+        stiffness_nmprad: not_negative(&name, "stiffness (N·m/rad)", joint.stiffness)?,
+        rest_rad: joint.springref,
+        damping_nmsprad: not_negative(&name, "damping (N·m·s/rad)", joint.damping)?,
+        armature_kgm2: not_negative(&name, "armature (kg·m²)", joint.armature)?,
+        torque_nm: torque_nm.unwrap_or([f64::NEG_INFINITY, f64::INFINITY]),
+        name,
+    })
+}
+
+fn range(name: &str, joint: &Joint, autolimits: bool) -> Result<(f64, f64), ModelError> {
+    let limited = match joint.limited {
+        Tristate::True => true,
+        Tristate::False => false,
+        Tristate::Auto if joint.range.is_some() && !autolimits => {
+            return Err(ModelError::unsupported(name, "without autolimits a range needs `limited`"));
+        }
+        Tristate::Auto => joint.range.is_some(),
+    };
+    if !limited {
+        return Ok((f64::NEG_INFINITY, f64::INFINITY));
+    }
+    let [min_rad, max_rad] =
+        joint.range.ok_or_else(|| ModelError::unsupported(name, "it is limited, but has no range"))?;
+    if min_rad.is_nan() || max_rad.is_nan() || min_rad >= max_rad {
+        return Err(ModelError::figure(name, "lower end of the range (rad)", min_rad, "below the upper end"));
+    }
+    Ok((min_rad, max_rad))
+}
+
+/// The right-handed triad of a chain; a third axis that points against it gets `frame_sign` −1.
+pub(super) fn orient_chain(body: &str, hinges: &mut [Hinge]) -> Result<UnitQuaternion<f64>, ModelError> {
+    let Some(first) = hinges.first().map(|hinge| hinge.axis.into_inner()) else {
+        return Ok(UnitQuaternion::identity());
+    };
+    let second = match hinges.get(1) {
+        Some(hinge) => hinge.axis.into_inner(),
+        // Any direction across a single hinge will do; take the coordinate axis farthest from it.
+        None => {
+            let across = Vector3::ith(first.iamin(), 1.0);
+            (across - first * first.dot(&across)).normalize()
+        }
+    };
+    let third = first.cross(&second);
+    let skew = first.dot(&second).abs();
+    let third_skew = hinges.get(2).map_or(0.0, |hinge| 1.0 - hinge.axis.dot(&third).abs());
+    if skew > AXIS_COSINE_MAX || third_skew > AXIS_COSINE_MAX {
+        return Err(ModelError::unsupported(body, "hinges of one body must be perpendicular to each other"));
+    }
+    if let Some(hinge) = hinges.get_mut(2) {
+        hinge.frame_sign = hinge.axis.dot(&third).signum();
+    }
+    let frame = Matrix3::from_columns(&[first, second, third]);
+    Ok(UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix(&frame)))
+}

@@ -1,0 +1,190 @@
+//! Motors and servos: from controls to torques.
+
+use mjcf_rs::extras::{Actuator, ActuatorKind};
+use mjcf_rs::types::Tristate;
+use nalgebra::Isometry3;
+
+use super::{Hinge, Model, Motor};
+use crate::error::ModelError;
+
+/// Range of controls of a motor whose text gives neither a control range nor an end to its force.
+const UNIT_RANGE: [f64; 2] = [-1.0, 1.0];
+const UNLIMITED: [f64; 2] = [f64::NEG_INFINITY, f64::INFINITY];
+
+/// Reads all motors.
+pub(super) fn read(
+    actuators: &[Actuator],
+    hinges: &[Hinge],
+    compiler: &mjcf_rs::compiler::Compiler,
+) -> Result<Vec<Motor>, ModelError> {
+    if actuators.is_empty() {
+        return Err(ModelError::unsupported("actuator", "at least one motor is needed"));
+    }
+    actuators.iter().map(|actuator| read_one(actuator, hinges, compiler.autolimits)).collect()
+}
+
+fn read_one(actuator: &Actuator, hinges: &[Hinge], autolimits: bool) -> Result<Motor, ModelError> {
+    let name = actuator.name.clone().or_else(|| actuator.joint.clone()).unwrap_or_default();
+    let hinge = hinges
+        .iter()
+        .position(|hinge| Some(hinge.name.as_str()) == actuator.joint.as_deref())
+        .ok_or_else(|| ModelError::unsupported(&name, "the motor names no hinge of this model"))?;
+    let gear = actuator.gear[0];
+    if gear == 0.0 {
+        return Err(ModelError::figure(&name, "gear", gear, "other than 0"));
+    }
+    let (gain, bias) = law(&name, actuator)?;
+    let force = limits(&name, "forcerange", actuator.force_range, actuator.force_limited, autolimits)?;
+    let control = limits(&name, "ctrlrange", actuator.ctrl_range, actuator.ctrl_limited, autolimits)?;
+    let is_servo = bias != [0.0; 3];
+    let control = match (control, force) {
+        (Some(control), _) => control,
+        (None, _) if is_servo => {
+            return Err(ModelError::unsupported(&name, "a servo needs a `ctrlrange`: the range of its targets"));
+        }
+        // The action range must come from somewhere: from what the motor or its joint can do.
+        (None, Some([low, high])) => in_order(low / gain, high / gain),
+        (None, None) => match hinges[hinge].torque_nm {
+            [low, high] if low.is_finite() => in_order(low / (gain * gear), high / (gain * gear)),
+            _ => UNIT_RANGE,
+        },
+    };
+    Ok(Motor { name, hinge, gear_nm: gear, control, gain, bias, force: force.unwrap_or(UNLIMITED) })
+}
+
+fn in_order(one: f64, other: f64) -> [f64; 2] {
+    [one.min(other), one.max(other)]
+}
+
+/// Gain and bias of an actuator: force = gain × control + bias · (1, length, velocity).
+fn law(name: &str, actuator: &Actuator) -> Result<(f64, [f64; 3]), ModelError> {
+    let parameter = |list: &[f64], index: usize| list.get(index).copied().unwrap_or(0.0);
+    let (gain, bias) = match actuator.kind {
+        ActuatorKind::Motor => (1.0, [0.0; 3]),
+        ActuatorKind::Position => {
+            let (kp, kv) = (actuator.kp.unwrap_or(1.0), actuator.kv.unwrap_or(0.0));
+            (kp, [0.0, -kp, -kv])
+        }
+        ActuatorKind::Velocity => {
+            let kv = actuator.kv.unwrap_or(1.0);
+            (kv, [0.0, 0.0, -kv])
+        }
+        ActuatorKind::General => {
+            let gain = actuator.gainprm.first().copied().unwrap_or(1.0);
+            match actuator.bias_type.as_deref() {
+                Some("affine") => (gain, [0, 1, 2].map(|index| parameter(&actuator.biasprm, index))),
+                _ => (gain, [0.0; 3]),
+            }
+        }
+        _ => return Err(ModelError::unsupported(name, "actuators must be motor, position, velocity or general")),
+    };
+    if gain == 0.0 {
+        return Err(ModelError::figure(name, "gain", gain, "other than 0"));
+    }
+    for (what, value) in [("stiffness of the servo", -bias[1]), ("damping of the servo", -bias[2])] {
+        if value < 0.0 {
+            return Err(ModelError::figure(name, what, value, "not negative: it would run away"));
+        }
+    }
+    Ok((gain, bias))
+}
+
+fn limits(
+    name: &str,
+    attribute: &str,
+    range: Option<[f64; 2]>,
+    limited: Tristate,
+    autolimits: bool,
+) -> Result<Option<[f64; 2]>, ModelError> {
+    match (limited, range) {
+        (Tristate::False, _) | (Tristate::Auto, None) => Ok(None),
+        (Tristate::Auto, Some(_)) if !autolimits => {
+            Err(ModelError::unsupported(name, format!("without autolimits `{attribute}` needs its `limited` flag")))
+        }
+        (_, Some([low, high])) if low < high => Ok(Some([low, high])),
+        (_, Some([low, high])) => {
+            Err(ModelError::attribute(name, attribute, &format!("{low} {high}"), "a lower and a higher number"))
+        }
+        (_, None) => Err(ModelError::unsupported(name, format!("it is limited, but has no `{attribute}`"))),
+    }
+}
+
+impl Motor {
+    /// Force at a control, for a hinge at `angle_rad` and `rate_radps`; torque is gear × force (N·m).
+    fn force(&self, control: f64, angle_rad: f64, rate_radps: f64) -> f64 {
+        let [constant, per_length, per_velocity] = self.bias;
+        let (length, velocity) = (self.gear_nm * angle_rad, self.gear_nm * rate_radps);
+        (self.gain * control.clamp(self.control[0], self.control[1])
+            + constant
+            + per_length * length
+            + per_velocity * velocity)
+            .clamp(self.force[0], self.force[1])
+    }
+}
+
+impl Model {
+    /// Writes the torque of all motors on each hinge (N·m), for one control per motor and the hinges' angles (rad) and
+    /// rates (rad/s). Controls are clamped to [`Motor::control`].
+    pub(crate) fn motor_torques(
+        &self,
+        controls: &[f32],
+        angles_rad: &[f64],
+        rates_radps: &[f64],
+        torques_nm: &mut [f64],
+    ) {
+        torques_nm.fill(0.0);
+        for (motor, &control) in self.motors.iter().zip(controls) {
+            let (angle_rad, rate_radps) = (angles_rad[motor.hinge], rates_radps[motor.hinge]);
+            torques_nm[motor.hinge] += motor.gear_nm * motor.force(f64::from(control), angle_rad, rate_radps);
+        }
+        for (torque_nm, hinge) in torques_nm.iter_mut().zip(&self.hinges) {
+            *torque_nm = torque_nm.clamp(hinge.torque_nm[0], hinge.torque_nm[1]);
+        }
+    }
+
+    /// Refuses servos that physics steps of `step_s` cannot follow: their torque is found before each step, so what they
+    /// damp and hold must not swing beyond its target within one.
+    ///
+    /// # Errors
+    /// [`ModelError`] names the servo.
+    pub(crate) fn check_servos(&self, step_s: f64) -> Result<(), ModelError> {
+        for motor in &self.motors {
+            let [_, per_length, per_velocity] = motor.bias;
+            let squared = motor.gear_nm * motor.gear_nm;
+            let inertia_kgm2 = self.hinges[motor.hinge].armature_kgm2 + self.carried_inertia_kgm2(motor.hinge);
+            let most = inertia_kgm2 / (squared * step_s);
+            if -per_velocity - per_length * step_s > most {
+                let problem = format!(
+                    "its damping of {} and stiffness of {} need physics steps shorter than {} ms: raise env.substeps, \
+                     the joint's armature, or use the joint's own `damping`, which has no such bound",
+                    -per_velocity,
+                    -per_length,
+                    step_s * 1e3
+                );
+                return Err(ModelError::unsupported(&motor.name, problem));
+            }
+        }
+        Ok(())
+    }
+
+    /// Inertia about a hinge's axis of all that it carries, with all hinges at zero (kg·m²).
+    fn carried_inertia_kgm2(&self, hinge: usize) -> f64 {
+        let Some(carrier) = self.bodies.iter().position(|body| body.hinges.contains(&hinge)) else { return 0.0 };
+        let axis = self.hinges[hinge].axis.into_inner();
+        let anchor = self.bodies[carrier].anchor_m;
+        let mut poses: Vec<Option<Isometry3<f64>>> = vec![None; self.bodies.len()];
+        let mut sum = 0.0;
+        for (index, body) in self.bodies.iter().enumerate().skip(carrier) {
+            let pose = match body.parent.and_then(|parent| poses[parent]) {
+                _ if index == carrier => Isometry3::identity(),
+                Some(parent) => parent * body.pose,
+                None => continue,
+            };
+            poses[index] = Some(pose);
+            let local = pose.rotation.inverse() * axis;
+            let arm = (pose * body.centre_of_mass_m - anchor).cross(&axis);
+            sum += local.dot(&(body.inertia_kgm2 * local)) + body.mass_kg * arm.norm_squared();
+        }
+        sum
+    }
+}

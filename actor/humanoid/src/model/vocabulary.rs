@@ -1,0 +1,382 @@
+//! Every element and attribute of MJCF that is understood, and what each may hold.
+//!
+//! What is not listed here is refused: MJCF grows, and `mjcf-rs` passes over what it does not know in silence. Names and
+//! defaults are those of MuJoCo's XML reference (<https://mujoco.readthedocs.io/en/stable/XMLreference.html>).
+
+use super::defaults::{Attribute, get};
+use crate::error::ModelError;
+
+/// What an attribute may hold.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Rule {
+    /// Anything: no motion depends on it.
+    Inert,
+    /// A name or keyword, checked where it is used.
+    Word,
+    /// From so many to so many finite numbers.
+    Numbers(usize, usize),
+    /// From so many to so many whole numbers.
+    Whole(usize, usize),
+    /// One of these, separated by `|`, which mean that it has no effect: everything else is not simulated.
+    Only(&'static str),
+}
+
+use Rule::{Inert, Numbers, Only, Whole, Word};
+
+type Rules = [(&'static str, Rule)];
+
+/// The ways to write an orientation; at most one may be used.
+pub(super) const ORIENTATIONS: [&str; 5] = ["quat", "axisangle", "xyaxes", "zaxis", "euler"];
+
+const PLACE: &Rules = &[
+    ("pos", Numbers(3, 3)),
+    ("quat", Numbers(4, 4)),
+    ("axisangle", Numbers(4, 4)),
+    ("xyaxes", Numbers(6, 6)),
+    ("zaxis", Numbers(3, 3)),
+    ("euler", Numbers(3, 3)),
+];
+
+const NAMED: &Rules = &[("name", Word), ("class", Word), ("group", Whole(1, 1)), ("user", Inert)];
+
+const COMPILER: &Rules = &[
+    ("autolimits", Word),
+    ("boundmass", Numbers(1, 1)),
+    ("boundinertia", Numbers(1, 1)),
+    ("settotalmass", Numbers(1, 1)),
+    ("balanceinertia", Word),
+    ("coordinate", Only("local")),
+    ("angle", Word),
+    ("eulerseq", Word),
+    ("inertiafromgeom", Word),
+    ("inertiagrouprange", Whole(2, 2)),
+    ("alignfree", Only("false")),
+    ("strippath", Inert),
+    ("fitaabb", Inert),
+    ("meshdir", Inert),
+    ("texturedir", Inert),
+    ("assetdir", Inert),
+    ("discardvisual", Inert),
+    ("usethread", Inert),
+    ("fusestatic", Inert),
+    ("saveinertial", Inert),
+    ("exactmeshinertia", Inert),
+    ("convexhull", Inert),
+];
+
+/// Apart from what acts on the robot, how MuJoCo computes: Rapier and this crate have their own ways.
+const OPTION: &Rules = &[
+    ("gravity", Numbers(3, 3)),
+    ("wind", Only("0 0 0")),
+    ("density", Only("0")),
+    ("viscosity", Only("0")),
+    ("magnetic", Inert),
+    ("timestep", Inert),
+    ("apirate", Inert),
+    ("impratio", Inert),
+    ("integrator", Inert),
+    ("cone", Inert),
+    ("jacobian", Inert),
+    ("solver", Inert),
+    ("iterations", Inert),
+    ("tolerance", Inert),
+    ("ls_iterations", Inert),
+    ("ls_tolerance", Inert),
+    ("noslip_iterations", Inert),
+    ("noslip_tolerance", Inert),
+    ("mpr_iterations", Inert),
+    ("mpr_tolerance", Inert),
+    ("ccd_iterations", Inert),
+    ("ccd_tolerance", Inert),
+    ("sleep_tolerance", Inert),
+    ("sdf_iterations", Inert),
+    ("sdf_initpoints", Inert),
+];
+
+const FLAG: &Rules = &[
+    ("constraint", Only("enable")),
+    ("equality", Only("enable")),
+    ("frictionloss", Only("enable")),
+    ("limit", Only("enable")),
+    ("contact", Only("enable")),
+    ("passive", Only("enable")),
+    ("spring", Only("enable")),
+    ("damper", Only("enable")),
+    ("gravity", Only("enable")),
+    ("clampctrl", Only("enable")),
+    ("filterparent", Only("enable")),
+    ("actuation", Only("enable")),
+    ("override", Only("disable")),
+    ("warmstart", Inert),
+    ("refsafe", Inert),
+    ("sensor", Inert),
+    ("midphase", Inert),
+    ("nativeccd", Inert),
+    ("eulerdamp", Inert),
+    ("autoreset", Inert),
+    ("energy", Inert),
+    ("fwdinv", Inert),
+    ("invdiscrete", Inert),
+    ("multiccd", Inert),
+    ("island", Inert),
+    ("sleep", Inert),
+];
+
+const BODY: &Rules = &[
+    ("name", Word),
+    ("childclass", Word),
+    ("mocap", Only("false")),
+    ("gravcomp", Only("0")),
+    ("user", Inert),
+    ("sleep", Inert),
+];
+
+const INERTIAL: &Rules = &[("mass", Numbers(1, 1)), ("diaginertia", Numbers(3, 3)), ("fullinertia", Numbers(6, 6))];
+
+const JOINT: &Rules = &[
+    ("type", Word),
+    ("pos", Numbers(3, 3)),
+    ("axis", Numbers(3, 3)),
+    ("springdamper", Only("0 0")),
+    ("limited", Word),
+    ("range", Numbers(2, 2)),
+    ("actuatorfrclimited", Word),
+    ("actuatorfrcrange", Numbers(2, 2)),
+    ("actuatorgravcomp", Only("false")),
+    ("solreflimit", Only("0.02 1")),
+    ("solimplimit", Only("0.9 0.95 0.001 0.5 2")),
+    // Of no effect without frictionloss.
+    ("solreffriction", Inert),
+    ("solimpfriction", Inert),
+    ("frictionloss", Only("0")),
+    ("margin", Only("0")),
+    ("ref", Only("0")),
+    ("springref", Numbers(1, 1)),
+    ("stiffness", Numbers(1, 1)),
+    ("damping", Numbers(1, 1)),
+    ("armature", Numbers(1, 1)),
+];
+
+const FREEJOINT: &Rules = &[("name", Word), ("group", Inert), ("align", Only("false|auto"))];
+
+const GEOM: &Rules = &[
+    ("type", Word),
+    ("size", Numbers(1, 3)),
+    ("fromto", Numbers(6, 6)),
+    ("friction", Numbers(1, 3)),
+    ("mass", Numbers(1, 1)),
+    ("density", Numbers(1, 1)),
+    ("shellinertia", Only("false")),
+    ("contype", Whole(1, 1)),
+    ("conaffinity", Whole(1, 1)),
+    ("condim", Whole(1, 1)),
+    ("priority", Only("0")),
+    ("margin", Numbers(1, 1)),
+    ("gap", Only("0")),
+    ("solref", Only("0.02 1")),
+    ("solimp", Only("0.9 0.95 0.001 0.5 2")),
+    // Of no effect where all shapes have the same softness, and where there is no fluid.
+    ("solmix", Inert),
+    ("fluidshape", Inert),
+    ("fluidcoef", Inert),
+    ("mesh", Word),
+    ("hfield", Word),
+    ("fitscale", Inert),
+    ("material", Inert),
+    ("rgba", Inert),
+];
+
+const ACTUATOR: &Rules = &[
+    ("joint", Word),
+    ("gear", Numbers(1, 6)),
+    ("ctrllimited", Word),
+    ("ctrlrange", Numbers(2, 2)),
+    ("forcelimited", Word),
+    ("forcerange", Numbers(2, 2)),
+    ("actlimited", Only("false|auto")),
+    ("actearly", Only("false")),
+    // For muscles.
+    ("lengthrange", Inert),
+];
+
+const POSITION: &Rules =
+    &[("kp", Numbers(1, 1)), ("kv", Numbers(1, 1)), ("timeconst", Only("0")), ("inheritrange", Only("0"))];
+const VELOCITY: &Rules = &[("kv", Numbers(1, 1))];
+const GENERAL: &Rules = &[
+    ("gaintype", Only("fixed")),
+    ("biastype", Only("none|affine")),
+    ("dyntype", Only("none")),
+    ("gainprm", Numbers(1, 10)),
+    ("biasprm", Numbers(1, 10)),
+    ("dynprm", Inert),
+];
+
+/// A tendon without stiffness, friction, limit and motor moves nothing.
+const FIXED: &Rules = &[
+    ("limited", Only("false|auto")),
+    ("stiffness", Only("0")),
+    ("damping", Only("0")),
+    ("frictionloss", Only("0")),
+    ("armature", Only("0")),
+    ("range", Numbers(2, 2)),
+    ("actuatorfrclimited", Inert),
+    ("actuatorfrcrange", Inert),
+    ("springlength", Inert),
+    ("margin", Inert),
+    ("solreflimit", Inert),
+    ("solimplimit", Inert),
+    ("solreffriction", Inert),
+    ("solimpfriction", Inert),
+    ("width", Inert),
+    ("material", Inert),
+    ("rgba", Inert),
+];
+
+/// Attributes of an element; `None` where the element itself is not supported.
+pub(super) fn rules(tag: &str) -> Option<&'static [&'static Rules]> {
+    Some(match tag {
+        "mujoco" => &[&[("model", Inert)]],
+        "compiler" => &[COMPILER],
+        "option" => &[OPTION],
+        "flag" => &[FLAG],
+        "default" => &[&[("class", Word)]],
+        "worldbody" | "contact" | "tendon" | "actuator" | "asset" => &[],
+        "body" => &[BODY, PLACE],
+        "frame" => &[&[("name", Word), ("childclass", Word)], PLACE],
+        "inertial" => &[INERTIAL, PLACE],
+        "joint" => &[NAMED, JOINT],
+        "freejoint" => &[FREEJOINT],
+        "geom" => &[NAMED, GEOM, PLACE],
+        "motor" => &[NAMED, ACTUATOR],
+        "position" => &[NAMED, ACTUATOR, POSITION],
+        "velocity" => &[NAMED, ACTUATOR, VELOCITY],
+        "general" => &[NAMED, ACTUATOR, GENERAL],
+        "exclude" => &[&[("name", Word), ("body1", Word), ("body2", Word)]],
+        "fixed" => &[NAMED, FIXED],
+        "term" => &[&[("joint", Word), ("coef", Numbers(1, 1))]],
+        _ => return None,
+    })
+}
+
+/// Elements that move nothing, with all that they hold, wherever they stand.
+pub(super) const INERT: [&str; 16] = [
+    "size",
+    "visual",
+    "statistic",
+    "custom",
+    "sensor",
+    "keyframe",
+    "texture",
+    "material",
+    "mesh",
+    "hfield",
+    "light",
+    "camera",
+    "site",
+    "lengthrange",
+    "numeric",
+    "text",
+];
+
+/// The rule of one attribute.
+pub(super) fn rule(tag: &str, attribute: &str) -> Option<Rule> {
+    rules(tag)?.iter().copied().flatten().find(|(name, _)| *name == attribute).map(|(_, rule)| *rule)
+}
+
+/// Refuses attributes that are not understood or do not hold what they must.
+pub(super) fn check(label: &str, tag: &str, attributes: &[Attribute]) -> Result<(), ModelError> {
+    for (name, value) in attributes {
+        let rule = rule(tag, name)
+            .ok_or_else(|| ModelError::unsupported(label, format!("attribute `{name}` of <{tag}> is not supported")))?;
+        if let Err(expected) = allowed(rule, value) {
+            return Err(ModelError::attribute(label, name, value, expected));
+        }
+    }
+    let mut turned = ORIENTATIONS.into_iter().filter(|name| get(attributes, name).is_some());
+    if let (Some(first), Some(second)) = (turned.next(), turned.next()) {
+        return Err(ModelError::unsupported(label, format!("give either `{first}` or `{second}`, not both")));
+    }
+    for name in ["quat", "axisangle", "xyaxes", "zaxis", "axis"] {
+        // Of an axis and an angle, the axis is the one that must not vanish.
+        let vanishes = |value: &str| numbers(value).is_some_and(|all| all[..3].iter().all(|number| *number == 0.0));
+        if let Some(value) = get(attributes, name)
+            && vanishes(value)
+            && (name != "quat" || numbers(value).is_some_and(|all| all[3] == 0.0))
+        {
+            return Err(ModelError::attribute(label, name, value, "a direction, not zero"));
+        }
+    }
+    Ok(())
+}
+
+/// Whether a value obeys a rule; if not, what would.
+pub(super) fn allowed(rule: Rule, value: &str) -> Result<(), String> {
+    let several = |least: usize, most: usize, what: &str| {
+        let count = if least == most { least.to_string() } else { format!("{least} to {most}") };
+        format!("{count} {what} number{}", if most == 1 { "" } else { "s" })
+    };
+    match rule {
+        Inert | Word => Ok(()),
+        Numbers(least, most) => match numbers(value) {
+            Some(all) if (least..=most).contains(&all.len()) => Ok(()),
+            _ => Err(several(least, most, "finite")),
+        },
+        Whole(least, most) => {
+            let all: Option<Vec<i32>> = value.split_whitespace().map(|token| token.parse().ok()).collect();
+            match all {
+                Some(all) if (least..=most).contains(&all.len()) => Ok(()),
+                _ => Err(several(least, most, "whole")),
+            }
+        }
+        Only(choices) if choices.split('|').any(|choice| same(choice, value)) => Ok(()),
+        Only(choices) => Err(format!("{}; anything else is not simulated", choices.replace('|', " or "))),
+    }
+}
+
+/// Finite numbers of a list, or `None` if there is anything else in it.
+pub(super) fn numbers(value: &str) -> Option<Vec<f64>> {
+    value.split_whitespace().map(|token| token.parse::<f64>().ok().filter(|number| number.is_finite())).collect()
+}
+
+/// Whether two texts say the same: as numbers where they are, the ends of a shorter list left at their defaults.
+fn same(wanted: &str, found: &str) -> bool {
+    match (numbers(wanted), numbers(found)) {
+        (Some(wanted), Some(found)) if !found.is_empty() => found.len() <= wanted.len() && wanted.starts_with(&found),
+        _ => wanted == found.trim(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn values_are_held_against_their_rules() {
+        assert!(allowed(Numbers(1, 3), "0.1 -2e3").is_ok());
+        for wrong in ["", "a", "1 2 3 4", "nan", "1 inf"] {
+            assert_eq!(allowed(Numbers(1, 3), wrong).unwrap_err(), "1 to 3 finite numbers", "{wrong}");
+        }
+        assert!(allowed(Whole(1, 1), "-3").is_ok());
+        assert_eq!(allowed(Whole(1, 1), "1.5").unwrap_err(), "1 whole number");
+        assert!(allowed(Only("0.02 1"), "2e-2").is_ok());
+        assert!(allowed(Only("0.02 1"), "0.02 1.0").is_ok());
+        assert!(allowed(Only("0.02 1"), "0.01 1").is_err());
+        assert!(allowed(Only("0"), "").is_err());
+        assert!(allowed(Only("false|auto"), "auto").is_ok());
+        assert!(allowed(Only("false|auto"), "true").unwrap_err().contains("false or auto"));
+    }
+
+    #[test]
+    fn an_element_has_one_orientation_and_it_has_a_direction() {
+        let check = |pairs: &[(&str, &str)]| {
+            let attributes: Vec<Attribute> =
+                pairs.iter().map(|(name, value)| ((*name).to_owned(), (*value).to_owned())).collect();
+            super::check("part", "body", &attributes).map_err(|why| why.to_string())
+        };
+        assert!(check(&[("pos", "0 0 0"), ("quat", "0 0 0 1")]).is_ok());
+        assert!(check(&[("quat", "1 0 0 0"), ("euler", "0 0 0")]).unwrap_err().contains("not both"));
+        assert!(check(&[("quat", "0 0 0 0")]).unwrap_err().contains("quat"));
+        assert!(check(&[("axisangle", "0 0 0 90")]).unwrap_err().contains("axisangle"));
+        assert!(check(&[("wings", "2")]).unwrap_err().contains("`wings` of <body>"));
+    }
+}

@@ -1,0 +1,96 @@
+//! XML text to a tree that is safe to walk: bounded in length and depth.
+
+use roxmltree::Document;
+
+use crate::error::ModelError;
+
+/// Longest model text (bytes); a humanoid of primitive shapes takes a few thousand.
+pub const MODEL_BYTES_MAX: usize = 4 << 20;
+/// Deepest nesting of elements: readers of XML descend by recursion, and a stack is finite.
+const DEPTH_MAX: usize = 100;
+
+/// Reads a model text, or says why it is none.
+pub(super) fn parse_model(text: &str) -> Result<Document<'_>, ModelError> {
+    let document = parse(text)?;
+    let root = document.root_element().tag_name().name();
+    if root != "mujoco" {
+        return Err(ModelError::unsupported(root, "the outermost element must be <mujoco>"));
+    }
+    Ok(document)
+}
+
+/// Reads any XML text.
+pub(super) fn parse(text: &str) -> Result<Document<'_>, ModelError> {
+    if text.len() > MODEL_BYTES_MAX {
+        return Err(ModelError::TooLarge { bytes: text.len() as u64, limit: MODEL_BYTES_MAX as u64 });
+    }
+    if text.trim().is_empty() {
+        return Err(ModelError::unsupported("mujoco", "the text is empty"));
+    }
+    if nesting(text) > DEPTH_MAX {
+        return Err(ModelError::unsupported("mujoco", format!("elements are nested more than {DEPTH_MAX} deep")));
+    }
+    Document::parse(text).map_err(|why| ModelError::Parse(why.into()))
+}
+
+/// How deep elements are nested; in a text that is not well-formed, a figure that need not mean anything.
+fn nesting(text: &str) -> usize {
+    let (mut rest, mut depth, mut deepest) = (text, 0usize, 0);
+    while let Some(start) = rest.find('<') {
+        rest = &rest[start..];
+        let skipped = [("<!--", "-->"), ("<![CDATA[", "]]>"), ("<?", "?>")]
+            .into_iter()
+            .find(|(opening, _)| rest.starts_with(opening))
+            .map(|(_, closing)| rest.find(closing).map_or(rest.len(), |end| end + closing.len()));
+        if let Some(end) = skipped {
+            rest = &rest[end..];
+            continue;
+        }
+        let end = tag_end(rest);
+        if rest.starts_with("</") {
+            depth = depth.saturating_sub(1);
+        } else if !rest[..end].ends_with("/>") {
+            depth += 1;
+            deepest = deepest.max(depth);
+        }
+        rest = &rest[end..];
+    }
+    deepest
+}
+
+/// Length of the tag at the beginning of a text; a `>` within quotes does not end it.
+fn tag_end(text: &str) -> usize {
+    let mut quote = None;
+    for (index, byte) in text.bytes().enumerate() {
+        match (quote, byte) {
+            (None, b'>') => return index + 1,
+            (None, b'"' | b'\'') => quote = Some(byte),
+            (Some(open), _) if open == byte => quote = None,
+            _ => {}
+        }
+    }
+    text.len()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn nesting_counts_open_elements_only() {
+        assert_eq!(nesting("<a><b/><c><d x='>'/></c></a>"), 2);
+        assert_eq!(nesting("<a><!-- <b><c><d> --><?x <e> ?><![CDATA[<f><g>]]></a>"), 1);
+        assert_eq!(nesting("no tags"), 0);
+        assert_eq!(nesting("<a"), 1);
+    }
+
+    #[test]
+    fn what_is_no_model_is_told_apart() {
+        let problem = |text: &str| parse_model(text).expect_err("no model").to_string();
+        assert!(problem(" \n").contains("empty"));
+        assert!(problem("<robot/>").contains("`robot`"));
+        assert!(problem(&format!("<mujoco>{}", "<body>".repeat(200_000))).contains("nested"));
+        assert!(problem(&" ".repeat(MODEL_BYTES_MAX + 1)).contains("4194305 bytes"));
+        assert!(matches!(parse("mass = 3"), Err(ModelError::Parse(_))));
+    }
+}
