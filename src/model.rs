@@ -97,9 +97,3 @@ fn blame(file: Option<&Path>, why: &ModelError) -> Usage {
         None => Usage(told),
     }
 }
-
-/// The environment's settings of a whole configuration, checked with a model.
-pub fn check(config: &Config, text: &str, file: Option<&Path>) -> Result<(usize, usize), Usage> {
-    let environment = environment(config, text, file)?;
-    Ok((environment.observation_size(), environment.action_size()))
-}

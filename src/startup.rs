@@ -124,7 +124,8 @@ fn begin(new: &NewRunArgs, any: &AnyRunArgs, changes: &[(&str, toml::Value)]) ->
         config.rollout.max_in_flight = 1;
     }
     let text = model::text(any.model.as_deref())?;
-    let (observation, action) = model::check(&config, &text, any.model.as_deref())?;
+    let environment = model::environment(&config, &text, any.model.as_deref())?;
+    let (observation, action) = (environment.observation_size(), environment.action_size());
     let folder = RunFolder::create(new.run_dir.as_deref(), &new.preset)?;
     let state = TrainingState::fresh(folder.name(), &config, &text, observation, action, seeds::unique());
     Ok(Prepared { config, folder, state })

@@ -107,7 +107,6 @@ fn a_robot_trains_is_evaluated_and_goes_on_as_itself() {
     let two = HOPPER.replace("</actuator>", "<motor joint=\"hip\"/></actuator>");
     write(folder.path(), "two.xml", &two);
     assert_refused(&eval(&["--model", "two.xml"]), 2, &["two.xml", "13 and 2", "13 and 1"]);
-    assert_refused(&eval(&["--set", "env.substeps=4"]), 2, &["--set", "own configuration"]);
 }
 
 #[test]

@@ -4,7 +4,7 @@ use nalgebra::Vector3;
 use rapier3d::prelude::*;
 
 use super::Physics;
-use super::world::{World, mass_properties};
+use super::world::{World, mass_properties, own_friction};
 use crate::dynamics::Tree;
 use crate::model::Model;
 
@@ -19,7 +19,7 @@ pub struct Variation {
     pub armature_scale: Vec<f64>,
     /// On the torque of each motor.
     pub motor_scale: Vec<f64>,
-    /// On the friction coefficient between body and floor.
+    /// On the friction coefficient between body and floor, and on that of limbs that rub.
     pub floor_friction_scale: f64,
     /// On gravity.
     pub gravity_scale: f64,
@@ -44,16 +44,17 @@ impl Variation {
         for ((body, nominal), scale) in model.bodies.iter_mut().zip(&nominal.bodies).zip(&self.mass_scale) {
             body.mass_kg = nominal.mass_kg * scale;
             body.inertia_kgm2 = nominal.inertia_kgm2 * *scale;
+            // The greater friction of a pair counts, so that of the floor alone would change nothing.
+            for (shape, nominal) in body.shapes.iter_mut().zip(&nominal.shapes) {
+                shape.friction = nominal.friction * self.floor_friction_scale;
+            }
         }
         for (index, (hinge, nominal)) in model.hinges.iter_mut().zip(&nominal.hinges).enumerate() {
             hinge.damping_nmsprad = nominal.damping_nmsprad * self.damping_scale[index];
             hinge.armature_kgm2 = nominal.armature_kgm2 * self.armature_scale[index];
         }
         for ((motor, nominal), scale) in model.motors.iter_mut().zip(&nominal.motors).zip(&self.motor_scale) {
-            // Not the gear: a servo measures its hinge through it.
-            motor.gain = nominal.gain * scale;
-            motor.bias = nominal.bias.map(|force| force * scale);
-            motor.force = nominal.force.map(|end| end * scale);
+            motor.gear_nm = nominal.gear_nm * scale;
         }
         model.floor_friction = nominal.floor_friction * self.floor_friction_scale;
         model.gravity_mps2 = nominal.gravity_mps2 * self.gravity_scale;
@@ -120,6 +121,11 @@ impl World {
         }
         if let Some(floor) = self.template.colliders.get_mut(self.floor) {
             floor.set_friction(model.floor_friction as f32);
+        }
+        for (handle, body, place) in &self.limbs {
+            if let Some(limb) = self.template.colliders.get_mut(*handle) {
+                limb.set_friction(own_friction(&model.bodies[*body].shapes[*place]));
+            }
         }
     }
 }

@@ -25,6 +25,8 @@ pub(super) struct World {
     /// Joint of each body to its parent, in the same order; the root has none.
     pub(super) joints: Vec<Option<ImpulseJointHandle>>,
     pub(super) floor: ColliderHandle,
+    /// Colliders of the limbs, with the body and the place among its shapes.
+    pub(super) limbs: Vec<(ColliderHandle, usize, usize)>,
     pub(super) template: Template,
 }
 
@@ -60,11 +62,13 @@ impl World {
 
         let mut bodies = Vec::with_capacity(model.bodies.len());
         let mut joints = Vec::with_capacity(model.bodies.len());
+        let mut limbs = Vec::new();
         for (index, body) in model.bodies.iter().enumerate() {
             let handle = rapier.insert_body(rigid_body(body));
-            for shape in &body.shapes {
+            for (place, shape) in body.shapes.iter().enumerate() {
                 if let Some(form) = form(&shape.geometry) {
-                    rapier.insert_collider(collider(form, model, config, index, shape), Some(handle));
+                    let limb = rapier.insert_collider(collider(form, model, config, index, shape), Some(handle));
+                    limbs.push((limb, index, place));
                 }
             }
             joints.push(body.parent.map(|parent| rapier.insert_impulse_joint(bodies[parent], handle, joint(body))));
@@ -75,7 +79,7 @@ impl World {
             colliders: rapier.colliders.clone(),
             joints: rapier.impulse_joints.clone(),
         };
-        Self { rapier, bodies, joints, floor, template }
+        Self { rapier, bodies, joints, floor, limbs, template }
     }
 
     /// Forgets everything that was simulated.
@@ -170,10 +174,14 @@ fn collider(
         // Masses are the body's: it was summed up in double precision, with overlaps as the model means them.
         .density(0.0)
         // The greater friction of a pair counts; where neither shape rubs, both have none.
-        .friction(if shape.rubs { shape.friction as f32 } else { 0.0 })
+        .friction(own_friction(shape))
         .friction_combine_rule(CoefficientCombineRule::Max)
         .collision_groups(InteractionGroups::new(group(shape.group), filter, InteractionTestMode::And))
         .user_data(body as u128 + 1)
+}
+
+pub(super) fn own_friction(shape: &Shape) -> f32 {
+    if shape.rubs { shape.friction as f32 } else { 0.0 }
 }
 
 fn group(index: usize) -> Group {

@@ -25,7 +25,7 @@ pub(crate) struct Disturber {
     /// Entries of an observation that are positions; as many velocities as the model has follow them.
     positions: usize,
     velocities: usize,
-    /// Half of each motor's control range.
+    /// Half of each motor's range of controls.
     half_ranges: Vec<f64>,
     /// The last actions, `[delay + 1][motor]`, as a ring.
     past: Vec<f32>,
@@ -49,7 +49,7 @@ impl Disturber {
             variation: Variation::none(model),
             positions: model.position_size() - 2,
             velocities: model.velocity_size(),
-            half_ranges: model.motors.iter().map(|motor| (motor.control[1] - motor.control[0]) / 2.0).collect(),
+            half_ranges: model.motors.iter().map(|motor| motor.control[1] / 2.0 - motor.control[0] / 2.0).collect(),
             past: vec![0.0; slots * model.motors.len()],
             newest: 0,
             delay_steps: 0,
@@ -120,8 +120,9 @@ impl Disturber {
         let arriving = (self.newest + slots - self.delay_steps) % slots;
         self.acting.copy_from_slice(&self.past[arriving * size..][..size]);
         if self.settings.control_noise > 0.0 {
-            for (control, half) in self.acting.iter_mut().zip(&self.half_ranges) {
-                *control += (self.settings.control_noise * half * normal(&mut self.motors)) as f32;
+            for (control, half_range) in self.acting.iter_mut().zip(&self.half_ranges) {
+                let std = self.settings.control_noise * half_range;
+                *control += (std * normal(&mut self.motors)) as f32;
             }
         }
         &self.acting
