@@ -26,7 +26,7 @@ pub struct ExportArgs {
 pub fn run(args: &ExportArgs) -> anyhow::Result<()> {
     let policy = saved_policy::load(&args.run, args.checkpoint)?;
     // Nothing is written that `eval` would refuse.
-    saved_policy::environment(&args.run, &policy)?;
+    saved_policy::environment(&args.run, &policy, &saved_policy::trained_under(&policy))?;
     let bytes = policy.to_bytes().with_context(|| format!("the policy of `{}` cannot be exported", args.run))?;
     let path = args.safetensors.display();
     atomic_file::write(&args.safetensors, &bytes)

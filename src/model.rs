@@ -1,42 +1,12 @@
 //! The robot: the built-in humanoid, or the one that `--model FILE` describes.
 
-use std::{
-    borrow::Cow,
-    error::Error,
-    path::{Path, PathBuf},
-};
+use std::{borrow::Cow, error::Error, path::Path};
 
-use clap::Args;
 use treadmill_actor::settings;
-use treadmill_common::config::{Config, ConfigSource, EnvConfig};
+use treadmill_common::config::{Config, EnvConfig};
 use treadmill_humanoid::{Environment, HUMANOID_XML, ModelError, read_model_file};
 
 use crate::outcome::Usage;
-
-/// Flags about robot and task of commands that play without a run.
-#[derive(Args, Clone, Debug, Default)]
-pub struct ModelArgs {
-    /// Another robot than the built-in humanoid, as MJCF; see docs/models.md.
-    #[arg(long, value_name = "FILE")]
-    pub model: Option<PathBuf>,
-    /// One configuration key of the environment, as in env.healthy_z_min_m=0.5; may be repeated.
-    #[arg(long, value_name = "KEY=VALUE")]
-    pub set: Vec<String>,
-}
-
-impl ModelArgs {
-    /// Settings of the environment as given.
-    pub fn config(&self) -> anyhow::Result<EnvConfig> {
-        let mut source = ConfigSource::default();
-        for pair in &self.set {
-            if !pair.starts_with("env.") {
-                return Err(Usage(format!("`--set {pair}`: only keys of [env] mean anything here")).into());
-            }
-            source.set(pair)?;
-        }
-        Ok(source.build()?.env)
-    }
-}
 
 /// The text of a model file, or of the built-in humanoid where there is none.
 pub fn text(file: Option<&Path>) -> Result<Cow<'static, str>, Usage> {
@@ -47,10 +17,10 @@ pub fn text(file: Option<&Path>) -> Result<Cow<'static, str>, Usage> {
 }
 
 /// An environment with a model's text, which came from `file` if there is one.
-pub fn environment(env: &EnvConfig, text: &str, file: Option<&Path>) -> Result<Environment, Usage> {
-    let environment = Environment::new(&settings::environment(env), text).map_err(|why| blame(file, &why))?;
+pub fn environment(config: &Config, text: &str, file: Option<&Path>) -> Result<Environment, Usage> {
+    let environment = Environment::new(&settings::training(config), text).map_err(|why| blame(file, &why))?;
     if let Some(path) = file {
-        check_height(env, environment.physics().model().nominal_position()[2], path)?;
+        check_height(&config.env, environment.physics().model().nominal_position()[2], path)?;
     }
     Ok(environment)
 }
@@ -94,10 +64,4 @@ fn blame(file: Option<&Path>, why: &ModelError) -> Usage {
         Some(path) => Usage(format!("model file `{}`: {told}", path.display())),
         None => Usage(told),
     }
-}
-
-/// The environment's settings of a whole configuration, checked with a model.
-pub fn check(config: &Config, text: &str, file: Option<&Path>) -> Result<(usize, usize), Usage> {
-    let environment = environment(&config.env, text, file)?;
-    Ok((environment.observation_size(), environment.action_size()))
 }

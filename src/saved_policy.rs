@@ -5,6 +5,7 @@ use std::{fs, path::Path};
 use anyhow::Context;
 use treadmill_actor::settings;
 use treadmill_common::{
+    config::Config,
     exported::{ActionFacts, ExportedPolicy, ObservationFacts},
     run_folder::RunFolder,
 };
@@ -30,9 +31,14 @@ pub fn load(run: &str, which: Which) -> anyhow::Result<ExportedPolicy> {
     policy.with_context(|| format!("`{run}` is no policy that can be used"))
 }
 
-/// The environment that a policy was trained in.
-pub fn environment(run: &str, policy: &ExportedPolicy) -> anyhow::Result<Environment> {
-    let environment = Environment::new(&settings::environment(&policy.env), &policy.model_xml)
+/// The configuration that a policy was trained under, as far as episodes depend on it.
+pub fn trained_under(policy: &ExportedPolicy) -> Config {
+    Config { env: policy.env.clone(), randomisation: policy.randomisation.clone(), ..Config::default() }
+}
+
+/// The environment for a policy, under a configuration made from the one that it was trained with.
+pub fn environment(run: &str, policy: &ExportedPolicy, config: &Config) -> anyhow::Result<Environment> {
+    let environment = Environment::new(&settings::training(config), &policy.model_xml)
         .with_context(|| format!("the environment of `{run}` cannot be built"))?;
     let found = environment.observation_size();
     let sizes = (policy.shape.observation, policy.shape.action);
@@ -81,6 +87,7 @@ fn from_state(state: &TrainingState) -> anyhow::Result<ExportedPolicy> {
         },
         control_step_s: CONTROL_STEP_S,
         env: config.env,
+        randomisation: config.randomisation,
         model_xml: state.model_xml.clone(),
     })
 }

@@ -19,7 +19,7 @@ use crate::{model, outcome::Usage};
 /// Flags that say what a run is; they make no sense together with `--resume`, which has them saved.
 #[derive(Args, Clone, Debug, Default)]
 pub struct NewRunArgs {
-    /// Starting point of the configuration: walk or smoke.
+    /// Starting point of the configuration: walk, smoke or sim2sim.
     #[arg(long, value_name = "NAME", default_value = "walk")]
     pub preset: String,
     /// Configuration file (TOML) laid over the preset.
@@ -124,7 +124,8 @@ fn begin(new: &NewRunArgs, any: &AnyRunArgs, changes: &[(&str, toml::Value)]) ->
         config.rollout.max_in_flight = 1;
     }
     let text = model::text(any.model.as_deref())?;
-    let (observation, action) = model::check(&config, &text, any.model.as_deref())?;
+    let environment = model::environment(&config, &text, any.model.as_deref())?;
+    let (observation, action) = (environment.observation_size(), environment.action_size());
     let folder = RunFolder::create(new.run_dir.as_deref(), &new.preset)?;
     let state = TrainingState::fresh(folder.name(), &config, &text, observation, action, seeds::unique());
     Ok(Prepared { config, folder, state })

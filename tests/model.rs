@@ -74,8 +74,6 @@ fn a_robot_that_starts_unhealthy_is_refused_with_the_settings_that_it_needs() {
     let parts = ["hopper.xml", "0.9 m", "1 m to 2 m", "env.healthy_z_min_m=0.63"];
     assert_refused(&train(folder.path(), &run, "hopper.xml", &[]), 2, &parts);
     assert_refused(&self::run(folder.path(), &["bench", "env", "--model", "hopper.xml"]), 2, &parts);
-    let args = ["eval", "--agent", "random", "--set", "ppo.gamma=0.9"];
-    assert_refused(&self::run(folder.path(), &args), 2, &["ppo.gamma", "[env]"]);
 }
 
 #[test]
@@ -107,7 +105,6 @@ fn a_robot_trains_is_evaluated_and_goes_on_as_itself() {
     let two = HOPPER.replace("</actuator>", "<motor joint=\"hip\"/></actuator>");
     write(folder.path(), "two.xml", &two);
     assert_refused(&eval(&["--model", "two.xml"]), 2, &["two.xml", "13 and 2", "13 and 1"]);
-    assert_refused(&eval(&["--set", "env.substeps=4"]), 2, &["--set", "own configuration"]);
 }
 
 #[test]

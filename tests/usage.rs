@@ -42,7 +42,7 @@ fn a_configuration_file_is_checked_like_everything_else() {
     assert_refused(&with("[ppo\n"), 2, &["not valid TOML", "mine.toml"]);
     assert_refused(&train(&["--config", "no-such-file.toml"]), 2, &["no-such-file.toml"]);
     let output = self::run(folder.path(), &["train", "--preset", "stroll"]);
-    assert_refused(&output, 2, &["stroll", "walk, smoke"]);
+    assert_refused(&output, 2, &["stroll", "walk, smoke, sim2sim"]);
 }
 
 #[test]
@@ -80,6 +80,8 @@ fn plain_text_beyond_loopback_must_be_asked_for() {
     let args = ["learner", "--preset", "smoke", "--run", "A/B", "--run-dir", run.to_str().unwrap()];
     assert_refused(&self::run(folder.path(), &args), 2, &["`run` is `A/B`", "a-z"]);
     assert!(!run.exists(), "a name that is refused leaves no folder behind");
+    let args = ["actor", "--threads", "many"];
+    assert_refused(&self::run(folder.path(), &args), 2, &["--threads", "many"]);
     let args = ["actor", "--name", "A/B"];
     assert_refused(&self::run(folder.path(), &args), 2, &["A/B", "a-z"]);
 }

@@ -18,7 +18,7 @@ use serde::{Deserialize, Serialize};
 use treadmill_proto::limits::{BUNDLE_BYTES_MAX, HIDDEN_LAYERS_MAX, WIDTH_MAX};
 
 use crate::{
-    config::{Config, ConfigError, EnvConfig},
+    config::{Config, ConfigError, EnvConfig, RandomisationConfig},
     normaliser::{Normaliser, RunningMoments, VARIANCE_EPSILON},
     policy::{NetworkShape, ParameterError, check_parameters, column, from_safetensors, to_safetensors_with},
 };
@@ -99,6 +99,8 @@ pub struct ExportedPolicy {
     pub control_step_s: f64,
     /// The task's settings.
     pub env: EnvConfig,
+    /// What was randomised in training.
+    pub randomisation: RandomisationConfig,
     /// The humanoid as MJCF.
     pub model_xml: String,
 }
@@ -138,6 +140,7 @@ struct Metadata {
     action: ActionFacts,
     control_step_s: f64,
     env: EnvConfig,
+    randomisation: RandomisationConfig,
     model_xml: String,
 }
 
@@ -187,6 +190,7 @@ impl ExportedPolicy {
             action: self.action.clone(),
             control_step_s: self.control_step_s,
             env: self.env.clone(),
+            randomisation: self.randomisation.clone(),
             model_xml: self.model_xml.clone(),
         };
         let text = serde_json::to_string(&metadata).map_err(|why| ExportedError::Metadata { why: why.to_string() })?;
@@ -223,6 +227,7 @@ impl ExportedPolicy {
             action: metadata.action,
             control_step_s: metadata.control_step_s,
             env: metadata.env,
+            randomisation: metadata.randomisation,
             model_xml: metadata.model_xml,
         };
         policy.check()?;
@@ -267,7 +272,8 @@ impl ExportedPolicy {
             let expected = "means, variances and a clip that give finite numbers".into();
             return Err(entry("observation", &format!("{:?}", self.observation), expected));
         }
-        Ok(Config { env: self.env.clone(), ..Config::default() }.check()?)
+        let (env, randomisation) = (self.env.clone(), self.randomisation.clone());
+        Ok(Config { env, randomisation, ..Config::default() }.check()?)
     }
 }
 

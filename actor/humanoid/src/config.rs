@@ -1,6 +1,7 @@
 //! What can be set about the environment, with the figures of Humanoid-v5 as defaults.
 
 use crate::error::ModelError;
+use crate::randomisation::Randomisation;
 
 /// Duration of one control step (s): one action, one observation, one reward.
 pub const CONTROL_STEP_S: f64 = 0.015;
@@ -34,6 +35,8 @@ pub struct EnvironmentConfig {
     pub solver_iterations: u32,
     /// Whether parts of the body that are not neighbours collide with each other.
     pub self_collision: bool,
+    /// What differs from episode to episode beside the start; nothing by default.
+    pub randomisation: Randomisation,
 }
 
 impl Default for EnvironmentConfig {
@@ -52,6 +55,7 @@ impl Default for EnvironmentConfig {
             substeps: 2,
             solver_iterations: 4,
             self_collision: true,
+            randomisation: Randomisation::default(),
         }
     }
 }
@@ -88,7 +92,7 @@ impl EnvironmentConfig {
         if !(0.0..=1.0).contains(&self.reset_noise_scale) {
             return refuse("reset_noise_scale", self.reset_noise_scale, "between 0 and 1");
         }
-        Ok(())
+        self.randomisation.check()
     }
 }
 

@@ -8,15 +8,18 @@ use crate::error::ModelError;
 use crate::model::Model;
 use crate::observation;
 use crate::physics::{JointQuality, Physics};
+use crate::randomisation::Disturber;
 use crate::task::{self, Step, StepInfo, Transition};
 
 /// A humanoid that is reset, acts, is observed and rewarded.
 ///
 /// The same seed and the same actions give the same observations and rewards, bit for bit, whatever the environment
-/// did before. It allocates in [`Self::reset`] only.
+/// did before: that holds for everything [`EnvironmentConfig::randomisation`] adds, too. It allocates in [`Self::reset`]
+/// only.
 pub struct Environment {
     config: EnvironmentConfig,
     physics: Physics,
+    disturber: Disturber,
     nominal_position: Vec<f64>,
     /// Buffers of the reset: positions and velocities with noise.
     start_position: Vec<f64>,
@@ -44,6 +47,7 @@ impl Environment {
         observation::write(&physics, &mut last_observation);
         Ok(Self {
             config: config.clone(),
+            disturber: Disturber::new(&config.randomisation, physics.model()),
             start_position: nominal_position.clone(),
             start_velocity: vec![0.0; physics.model().velocity_size()],
             controls: vec![0.0; physics.model().motors.len()],
@@ -95,7 +99,7 @@ impl Environment {
         }
     }
 
-    /// Starts a new episode whose noise comes from `seed`, and writes its first observation.
+    /// Starts a new episode of which everything random comes from `seed`, and writes its first observation.
     ///
     /// # Panics
     /// If `observation` does not have length [`Self::observation_size`].
@@ -108,6 +112,7 @@ impl Environment {
         for start in &mut self.start_velocity {
             *start = symmetric(&mut random, scale);
         }
+        self.disturber.begin_episode(seed, &mut self.physics);
         // The noisy quaternion is made a unit again where the bodies are placed.
         self.physics.set_state(&self.start_position, &self.start_velocity);
         self.episode_steps = 0;
@@ -120,6 +125,7 @@ impl Environment {
     /// `action` has one control per motor, in actuator order, and is clamped to [`Self::action_ranges`].
     /// If the action or the physics is not finite the step is a fault: terminated, reward 0, and the observation
     /// and `info` are those of the step before. So is every further step until [`Self::reset`].
+    /// Where actions are delayed or disturbed on their way to the motors, the step is charged for the action given here.
     ///
     /// # Panics
     /// If `action` or `observation` has the wrong length.
@@ -128,9 +134,15 @@ impl Environment {
         for (control, (action, [low, high])) in self.controls.iter_mut().zip(action.iter().zip(&self.ranges)) {
             *control = action.clamp(*low, *high);
         }
+        if let Some(velocity_mps) = self.disturber.due_push() {
+            self.physics.push(velocity_mps);
+        }
         let before = self.physics.centre_of_mass();
         self.episode_steps = self.episode_steps.saturating_add(1);
-        if self.physics.step_only(action).is_err() {
+        // An action that is not finite is physics' to refuse: it must not be clamped, or be lost in a delay.
+        let is_finite = action.iter().all(|control| control.is_finite());
+        let acting = if is_finite { self.disturber.act(&self.controls) } else { action };
+        if self.physics.step_only(acting).is_err() {
             return self.fault(observation);
         }
         let after = self.physics.centre_of_mass();
@@ -153,6 +165,7 @@ impl Environment {
 
     fn observe(&mut self, observation: &mut [f32]) {
         observation::write(&self.physics, observation);
+        self.disturber.corrupt(observation);
         self.last_observation.copy_from_slice(observation);
     }
 

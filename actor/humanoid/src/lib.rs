@@ -12,6 +12,7 @@
 //! - [`model`]: MJCF text → bodies, hinge chains, motors.
 //! - `dynamics`: how an articulated body moves between contacts.
 //! - `chain`: frames of a chain of hinges.
+//! - [`randomisation`]: what differs from episode to episode, so that a policy depends on none of it.
 //! - [`config`], [`error`]: what can be set, and what is refused.
 
 pub mod config;
@@ -20,6 +21,7 @@ pub mod error;
 pub mod model;
 pub mod observation;
 pub mod physics;
+pub mod randomisation;
 pub mod task;
 
 mod chain;
@@ -30,5 +32,6 @@ pub use environment::Environment;
 pub use error::ModelError;
 pub use model::{HUMANOID_XML, Model, read_model_file};
 pub use observation::OBSERVATION_SIZE_COMPACT;
-pub use physics::{JointQuality, Physics, PhysicsFault};
+pub use physics::{JointQuality, Physics, PhysicsFault, Variation};
+pub use randomisation::Randomisation;
 pub use task::{Step, StepInfo};

@@ -1,6 +1,6 @@
 //! How bodies of other texts move: contacts by their rules, motors by their ranges, servos.
 
-use treadmill_humanoid::{CONTROL_STEP_S, Environment, EnvironmentConfig, Model, Physics};
+use treadmill_humanoid::{CONTROL_STEP_S, Environment, EnvironmentConfig, Model, Physics, Variation};
 
 const G1_LIKE_XML: &str = include_str!("../assets/g1-like.xml");
 
@@ -165,6 +165,46 @@ fn servos_pull_with_the_torques_that_mujoco_finds() {
     assert!((torque_nm(&mut driven(speed, ""), 1.0, 0.1, 0.3) - 3.0 * 0.7).abs() < 1e-5);
     let strong = "<position joint=\"j\" kp=\"500\" ctrlrange=\"-1 1\" forcerange=\"-5 5\"/>";
     assert_eq!(torque_nm(&mut driven(strong, heavy), 1.0, -3.0, 0.0), 5.0);
+}
+
+#[test]
+fn a_weaker_servo_still_knows_where_it_is() {
+    let servo = driven("<position joint=\"j\" kp=\"50\" gear=\"2\" ctrlrange=\"-0.4 0.4\"/>", "armature=\"1\"");
+    let mut physics = Physics::new(servo.physics().model().clone(), &EnvironmentConfig::default()).expect("valid");
+    let mut position = physics.model().nominal_position();
+    position[7] = 0.1;
+    let mut variation = Variation::none(physics.model());
+    variation.motor_scale[0] = 0.5;
+    physics.set_variation(&variation);
+    physics.set_state(&position, &[0.0; 7]);
+    let control = 0.2;
+    physics.step_only(&[control]).expect("finite");
+    // Gear 2 at 0.1 rad is a length of 0.2: where it is to be, so that nothing pulls, however strong it is.
+    assert!(physics.joint_torques_nm()[0].abs() < 1e-4, "{} N·m", physics.joint_torques_nm()[0]);
+    position[7] = 0.0;
+    physics.set_state(&position, &[0.0; 7]);
+    physics.step_only(&[control]).expect("finite");
+    // Half of 2 × 50 × 0.2 at first; the hinge has hardly moved by the second physics step.
+    assert!((physics.joint_torques_nm()[0] - 10.0).abs() < 0.1, "{} N·m", physics.joint_torques_nm()[0]);
+}
+
+#[test]
+fn varied_friction_is_also_that_of_shapes_that_rub() {
+    let text = r#"<mujoco><worldbody><geom type="plane" size="1 1 1" friction="0.8"/><body pos="0 0 0.1"><freejoint/>
+        <geom type="box" size="0.3 0.3 0.1" mass="1" friction="0.8"/>
+        <body><joint name="j"/><geom size="0.01" mass="0.001" contype="0" conaffinity="0"/></body></body></worldbody>
+        <actuator><motor joint="j"/></actuator></mujoco>"#;
+    let mut physics =
+        Physics::new(Model::from_mjcf(text).expect("valid"), &EnvironmentConfig::default()).expect("valid");
+    let mut variation = Variation::none(physics.model());
+    variation.floor_friction_scale = 0.25;
+    physics.set_variation(&variation);
+    physics.set_state(&physics.model().nominal_position(), &[2.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]);
+    for _ in 0..10 {
+        physics.step_only(&[0.0]).expect("finite");
+    }
+    let (found, wanted) = (physics.centre_of_mass_velocity().x, 2.0 - 0.2 * 9.81 * 0.15);
+    assert!((found - wanted).abs() < 0.05, "{found} m/s instead of {wanted} m/s");
 }
 
 #[test]

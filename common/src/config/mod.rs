@@ -11,7 +11,9 @@ use serde::{Deserialize, Serialize};
 
 pub use preset::{PRESETS, preset};
 pub use section::{KeyDoc, Section};
-pub use sections::{BusConfig, EnvConfig, LearnerConfig, PolicyConfig, PpoConfig, RolloutConfig, RunConfig};
+pub use sections::{
+    BusConfig, EnvConfig, LearnerConfig, PolicyConfig, PpoConfig, RandomisationConfig, RolloutConfig, RunConfig,
+};
 pub use source::ConfigSource;
 
 /// Everything that can be configured, checked.
@@ -22,6 +24,8 @@ pub struct Config {
     pub run: RunConfig,
     /// The task.
     pub env: EnvConfig,
+    /// What differs from episode to episode.
+    pub randomisation: RandomisationConfig,
     /// How experience is gathered.
     pub rollout: RolloutConfig,
     /// The networks.
@@ -103,6 +107,7 @@ impl Config {
         [
             RunConfig::keys(),
             EnvConfig::keys(),
+            RandomisationConfig::keys(),
             RolloutConfig::keys(),
             PolicyConfig::keys(),
             PpoConfig::keys(),
@@ -116,6 +121,7 @@ impl Config {
     pub fn check(&self) -> Result<(), ConfigError> {
         self.run.check()?;
         self.env.check()?;
+        self.randomisation.check()?;
         self.rollout.check()?;
         self.policy.check()?;
         self.ppo.check()?;

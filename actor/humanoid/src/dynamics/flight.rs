@@ -162,8 +162,8 @@ impl Flight {
         let (posture, rates) = (&self.posture, &self.mean_velocity);
         let linear = nalgebra::Vector3::new(rates[0], rates[1], rates[2]);
         let mut root = Motion::default();
-        for dof in 0..ROOT_DOFS {
-            root += posture.axes[dof] * rates[dof];
+        for (axis, rate) in posture.axes.iter().zip(rates).take(ROOT_DOFS) {
+            root += *axis * *rate;
         }
         self.velocities[0] = root;
         // The rotation axes travel with the root; its coordinates are the velocity of its origin.

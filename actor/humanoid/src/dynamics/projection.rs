@@ -57,8 +57,8 @@ impl Projection {
             }
             self.loads[node.parent] += load;
         }
-        for dof in 0..ROOT_DOFS {
-            change[dof] = posture.axes[dof].dot(&self.loads[0]);
+        for (change, axis) in change.iter_mut().zip(&posture.axes).take(ROOT_DOFS) {
+            *change = axis.dot(&self.loads[0]);
         }
         flight.matrix.solve(tree, change);
     }

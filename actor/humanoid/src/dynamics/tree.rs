@@ -91,6 +91,19 @@ impl Tree {
         Self { nodes, hinges, dof_parents, gravity_mps2: model.gravity_mps2 }
     }
 
+    /// Takes over masses, friction, rotors and gravity of a model of the same build; allocates nothing.
+    pub(crate) fn vary(&mut self, model: &Model) {
+        for (node, body) in self.nodes.iter_mut().zip(&model.bodies) {
+            node.mass_kg = body.mass_kg;
+            node.inertia_kgm2 = body.inertia_kgm2;
+        }
+        for (node, hinge) in self.hinges.iter_mut().zip(&model.hinges) {
+            node.damping_nmsprad = hinge.damping_nmsprad;
+            node.armature_kgm2 = hinge.armature_kgm2;
+        }
+        self.gravity_mps2 = model.gravity_mps2;
+    }
+
     /// Length of the velocity vector.
     pub(crate) fn dofs(&self) -> usize {
         self.dof_parents.len()
@@ -104,8 +117,8 @@ impl Tree {
 
 fn dof_parents(nodes: &[Node], hinges: usize) -> Vec<u32> {
     let mut parents = vec![NO_DOF; ROOT_DOFS + hinges];
-    for dof in 1..ROOT_DOFS {
-        parents[dof] = dof as u32 - 1;
+    for (dof, parent) in parents.iter_mut().enumerate().take(ROOT_DOFS).skip(1) {
+        *parent = dof as u32 - 1;
     }
     // The innermost degree of freedom that moves each body.
     let mut last = vec![ROOT_DOFS as u32 - 1; nodes.len()];

@@ -188,7 +188,7 @@ impl Hinge {
 }
 
 /// A motor or a servo: torque = gear × force, where force = gain × control + bias · (1, length, velocity), and length
-/// and velocity are gear × angle (rad) and gear × rate (rad/s) of the hinge. A plain motor has gain 1 and no bias.
+/// and velocity are those of the hinge times [`Motor::length_per_rad`]. A plain motor has gain 1 and no bias.
 #[derive(Clone, Debug)]
 pub struct Motor {
     /// Name in the text.
@@ -197,6 +197,8 @@ pub struct Motor {
     pub hinge: usize,
     /// Torque per unit of force (N·m).
     pub gear_nm: f64,
+    /// What a servo measures per angle of the hinge: the gear again, also where a motor is stronger or weaker than it.
+    pub length_per_rad: f64,
     /// Least and greatest control; others are clamped.
     pub control: [f64; 2],
     /// Force per unit of control.

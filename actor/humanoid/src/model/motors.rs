@@ -49,7 +49,16 @@ fn read_one(actuator: &Actuator, hinges: &[Hinge], autolimits: bool) -> Result<M
             _ => UNIT_RANGE,
         },
     };
-    Ok(Motor { name, hinge, gear_nm: gear, control, gain, bias, force: force.unwrap_or(UNLIMITED) })
+    Ok(Motor {
+        name,
+        hinge,
+        gear_nm: gear,
+        length_per_rad: gear,
+        control,
+        gain,
+        bias,
+        force: force.unwrap_or(UNLIMITED),
+    })
 }
 
 fn in_order(one: f64, other: f64) -> [f64; 2] {
@@ -113,7 +122,7 @@ impl Motor {
     /// Force at a control, for a hinge at `angle_rad` and `rate_radps`; torque is gear × force (N·m).
     fn force(&self, control: f64, angle_rad: f64, rate_radps: f64) -> f64 {
         let [constant, per_length, per_velocity] = self.bias;
-        let (length, velocity) = (self.gear_nm * angle_rad, self.gear_nm * rate_radps);
+        let (length, velocity) = (self.length_per_rad * angle_rad, self.length_per_rad * rate_radps);
         (self.gain * control.clamp(self.control[0], self.control[1])
             + constant
             + per_length * length

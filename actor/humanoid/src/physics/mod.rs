@@ -12,6 +12,7 @@ mod convert;
 mod drive;
 mod exchange;
 mod motion;
+mod variation;
 mod world;
 
 use nalgebra::{Point3, Vector3};
@@ -19,6 +20,8 @@ use nalgebra::{Point3, Vector3};
 use self::contact::ContactImpulse;
 use self::exchange::Exchange;
 pub use self::motion::BodyMotion;
+use self::variation::Variable;
+pub use self::variation::Variation;
 use self::world::World;
 use crate::config::{CONTROL_STEP_S, EnvironmentConfig};
 use crate::dynamics::{Flight, Motion, Posture, ROOT_DOFS, ROOT_POSITIONS, Tree};
@@ -57,6 +60,7 @@ pub struct Physics {
     contacts: Vec<ContactImpulse>,
     controls: Vec<f32>,
     hinge_torques_nm: Vec<f64>,
+    variable: Variable,
     /// Whether Rapier has the bodies: not yet after a reset.
     has_stepped: bool,
     is_faulty: bool,
@@ -85,6 +89,7 @@ impl Physics {
             contacts: vec![ContactImpulse::default(); bodies],
             controls: vec![0.0; model.motors.len()],
             hinge_torques_nm: vec![0.0; model.hinges.len()],
+            variable: Variable::new(&model),
             has_stepped: false,
             is_faulty: false,
             tree,
@@ -104,6 +109,7 @@ impl Physics {
     pub fn set_state(&mut self, position: &[f64], velocity: &[f64]) {
         assert_eq!(position.len(), self.model.position_size(), "position vector has the wrong length");
         assert_eq!(velocity.len(), self.model.velocity_size(), "velocity vector has the wrong length");
+        self.variable.take_effect(&mut self.model, &mut self.tree, &mut self.world);
         self.position.copy_from_slice(position);
         self.velocity.copy_from_slice(velocity);
         let norm = position[3..ROOT_POSITIONS].iter().map(|part| part * part).sum::<f64>().sqrt();

@@ -24,13 +24,16 @@ pub(super) struct World {
     pub(super) bodies: Vec<RigidBodyHandle>,
     /// Joint of each body to its parent, in the same order; the root has none.
     pub(super) joints: Vec<Option<ImpulseJointHandle>>,
-    template: Template,
+    pub(super) floor: ColliderHandle,
+    /// Colliders of the limbs, with the body and the place among its shapes.
+    pub(super) limbs: Vec<(ColliderHandle, usize, usize)>,
+    pub(super) template: Template,
 }
 
 /// The sets as they were filled, never stepped: what every episode starts from.
-struct Template {
-    bodies: RigidBodySet,
-    colliders: ColliderSet,
+pub(super) struct Template {
+    pub(super) bodies: RigidBodySet,
+    pub(super) colliders: ColliderSet,
     joints: ImpulseJointSet,
 }
 
@@ -56,15 +59,17 @@ impl World {
             .friction_combine_rule(CoefficientCombineRule::Max)
             .collision_groups(InteractionGroups::new(group(FLOOR_GROUP), Group::ALL, InteractionTestMode::And))
             .user_data(0);
-        rapier.insert_collider(floor, None);
+        let floor = rapier.insert_collider(floor, None);
 
         let mut bodies = Vec::with_capacity(model.bodies.len());
         let mut joints = Vec::with_capacity(model.bodies.len());
+        let mut limbs = Vec::new();
         for (index, body) in model.bodies.iter().enumerate() {
             let handle = rapier.insert_body(rigid_body(body));
-            for shape in &body.shapes {
+            for (place, shape) in body.shapes.iter().enumerate() {
                 if let Some(form) = form(&shape.geometry) {
-                    rapier.insert_collider(collider(form, model, config, index, shape), Some(handle));
+                    let limb = rapier.insert_collider(collider(form, model, config, index, shape), Some(handle));
+                    limbs.push((limb, index, place));
                 }
             }
             joints.push(body.parent.map(|parent| rapier.insert_impulse_joint(bodies[parent], handle, joint(body))));
@@ -75,7 +80,7 @@ impl World {
             colliders: rapier.colliders.clone(),
             joints: rapier.impulse_joints.clone(),
         };
-        Self { rapier, bodies, joints, template }
+        Self { rapier, bodies, joints, floor, limbs, template }
     }
 
     /// Forgets everything that was simulated.
@@ -115,18 +120,21 @@ impl World {
 }
 
 fn rigid_body(body: &Body) -> RigidBodyBuilder {
-    let mass = MassProperties::with_inertia_matrix(
-        to_point(&body.centre_of_mass_m),
-        body.mass_kg as f32,
-        to_matrix(&body.inertia_kgm2),
-    );
-    // Gyroscopic forces are in the flight.
     RigidBodyBuilder::dynamic()
-        .additional_mass_properties(mass)
+        .additional_mass_properties(mass_properties(body))
         .can_sleep(false)
+        // Gyroscopic forces are in the flight.
         .gyroscopic_forces_enabled(false)
         // Its guard against fast turning is for shapes that could pass through each other; limbs may whirl.
         .allow_fast_rotation(true)
+}
+
+pub(super) fn mass_properties(body: &Body) -> MassProperties {
+    MassProperties::with_inertia_matrix(
+        to_point(&body.centre_of_mass_m),
+        body.mass_kg as f32,
+        to_matrix(&body.inertia_kgm2),
+    )
 }
 
 /// Form and place of a shape; `None` for those that the model's reader lets only weigh.
@@ -167,10 +175,14 @@ fn collider(
         // Masses are the body's: it was summed up in double precision, with overlaps as the model means them.
         .density(0.0)
         // The greater friction of a pair counts; where neither shape rubs, both have none.
-        .friction(if shape.rubs { shape.friction as f32 } else { 0.0 })
+        .friction(own_friction(shape))
         .friction_combine_rule(CoefficientCombineRule::Max)
         .collision_groups(InteractionGroups::new(group(shape.group), filter, InteractionTestMode::And))
         .user_data(body as u128 + 1)
+}
+
+pub(super) fn own_friction(shape: &Shape) -> f32 {
+    if shape.rubs { shape.friction as f32 } else { 0.0 }
 }
 
 fn group(index: usize) -> Group {
