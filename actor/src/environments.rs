@@ -143,7 +143,8 @@ impl Environments {
         stepped.rewards.push(reward);
         running.return_sum += f64::from(reward);
         if !step.fault {
-            running.last_x_m = step.info.x_position_m;
+            // The torso's place, whatever the task's info tells.
+            running.last_x_m = environment.physics().position()[0];
         }
         let (flags, cause) = match (step.fault, step.terminated, step.truncated) {
             (true, ..) => (TERMINATED, EndCause::Fault),

@@ -7,7 +7,7 @@ use rand::RngExt;
 use serde_json::json;
 use treadmill_actor::settings;
 use treadmill_common::{config::EnvConfig, machine, seeds};
-use treadmill_humanoid::{Environment, HUMANOID_XML};
+use treadmill_humanoid::{Environment, HUMANOID_XML, task};
 
 use super::{rounded, tell};
 
@@ -28,7 +28,6 @@ pub struct EnvArgs {
 /// Measures and tells.
 pub fn run(args: &EnvArgs) -> anyhow::Result<()> {
     let config = settings::environment(&EnvConfig::default());
-    let healthy = config.healthy_z_min_m..config.healthy_z_max_m;
     let mut worlds = (0..WORLDS).map(|_| Environment::new(&config, HUMANOID_XML)).collect::<Result<Vec<_>, _>>()?;
     let rounds = args.steps.div_ceil(WORLDS as u64).max(1);
     let mut random = seeds::stream(1, "bench-actions", &[]);
@@ -64,7 +63,7 @@ pub fn run(args: &EnvArgs) -> anyhow::Result<()> {
             let failed = world.physics_mut().step_only(action(index)).is_err();
             faults += u64::from(failed);
             index += 1;
-            if failed || !healthy.contains(&world.physics().torso_height_m()) {
+            if failed || !task::is_healthy(&config, world.physics().torso_height_m()) {
                 resets += 1;
                 world.reset(WORLDS as u64 + resets, &mut observation);
             }

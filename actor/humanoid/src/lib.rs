@@ -1,11 +1,12 @@
 //! Treadmill: the humanoid environment.
 //!
-//! A 17-joint humanoid on a floor, simulated by Rapier with the task of Gymnasium's Humanoid-v5.
+//! A 17-joint humanoid on a floor, simulated by Rapier with the tasks of Gymnasium's Humanoid-v5 and -v4.
 //! No Zenoh, no tokio, no Candle: evaluation, benchmarks and the Python package use this crate too.
 //!
 //! # Layout
 //! - [`environment`]: owns time. Episodes, resets, faults; the entry point.
 //! - [`task`]: reward and end of an episode, as pure functions.
+//! - [`info`]: a step in detail, under Gymnasium's names.
 //! - [`observation`]: what the policy sees.
 //! - [`physics`]: named quantities of the simulated body; the only place in the project that names Rapier.
 //! - [`model`]: MJCF text → bodies, hinge chains, motors.
@@ -15,6 +16,7 @@
 pub mod config;
 pub mod environment;
 pub mod error;
+pub mod info;
 pub mod model;
 pub mod observation;
 pub mod physics;
@@ -22,10 +24,11 @@ pub mod task;
 
 mod chain;
 
-pub use config::{CONTROL_STEP_S, EnvironmentConfig};
+pub use config::{CONTROL_STEP_S, EnvironmentConfig, ObservationKind, Task};
 pub use environment::Environment;
-pub use error::ModelError;
+pub use error::{LengthError, ModelError};
+pub use info::{InfoValue, StepInfo};
 pub use model::{HUMANOID_XML, Model};
-pub use observation::OBSERVATION_SIZE_COMPACT;
-pub use physics::{JointQuality, Physics, PhysicsFault};
-pub use task::{Step, StepInfo};
+pub use observation::{OBSERVATION_SIZE_COMPACT, Observation};
+pub use physics::{ContactForce, JointQuality, Physics, PhysicsFault};
+pub use task::Step;

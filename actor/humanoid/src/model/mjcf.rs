@@ -1,10 +1,12 @@
 //! From MJCF text to a [`Model`]: what is read, what is merged, what is refused.
 
+use std::ops::Range;
+
 use mjcf_rs::body::{Geom, GeomType, Joint, JointType};
 use mjcf_rs::extras::ActuatorKind;
 use nalgebra::{Isometry3, Matrix3, Point3, Quaternion, Rotation3, Translation3, Unit, UnitQuaternion, Vector3};
 
-use super::{Body, Hinge, Model, Motor, Shape, inertia};
+use super::{Body, Hinge, Link, Model, Motor, Shape, inertia, tendon};
 use crate::error::ModelError;
 
 /// More bodies than this do not fit the collision groups: one bit each, and one for the floor.
@@ -26,7 +28,8 @@ pub(super) fn read(text: &str) -> Result<Model, ModelError> {
             Some(parent) => reader.read_body(index, parent, &entry.body, &source.compiler)?,
         }
     }
-    reader.finish(&source)
+    let tendons = tendon::read(text, &source, &reader.hinges)?;
+    Ok(Model { tendons, ..reader.finish(&source)? })
 }
 
 /// Where a body of the text ended up: in which of our bodies, and at which pose inside it.
@@ -41,6 +44,7 @@ struct Reader {
     places: Vec<Place>,
     bodies: Vec<Body>,
     hinges: Vec<Hinge>,
+    links: Vec<Link>,
     floor_friction: Option<f64>,
 }
 
@@ -92,10 +96,13 @@ impl Reader {
         let Some(owner) = place.body else {
             return Err(ModelError::unsupported(&name, "the first body needs a free joint"));
         };
+        let first_shape = self.bodies[owner].shapes.len();
         for geom in &body.geoms {
             let shape = read_shape(geom, &name, &place.offset, compiler.inertia_density)?;
             self.bodies[owner].shapes.push(shape);
         }
+        let shapes = first_shape..self.bodies[owner].shapes.len();
+        self.links.push(link(name, owner, place.offset, shapes, &self.bodies[owner].shapes));
         Ok(())
     }
 
@@ -157,12 +164,32 @@ impl Reader {
             bodies: self.bodies,
             hinges: self.hinges,
             motors,
+            links: self.links,
+            tendons: Vec::new(),
             control_limit,
             floor_friction: self
                 .floor_friction
                 .ok_or_else(|| ModelError::unsupported("worldbody", "a floor is needed: a plane at z = 0"))?,
             gravity_mps2: Vector3::from(source.option.gravity),
         })
+    }
+}
+
+/// The part of a rigid body that one body of the text makes; `all` are the rigid body's shapes so far.
+fn link(name: String, body: usize, pose: Isometry3<f64>, shapes: Range<usize>, all: &[Shape]) -> Link {
+    let mass = inertia::of_shapes(&all[shapes.clone()]).unwrap_or(inertia::MassProperties {
+        mass_kg: 0.0,
+        centre_m: pose * Point3::origin(),
+        inertia_kgm2: Matrix3::zeros(),
+    });
+    Link {
+        name,
+        body,
+        pose,
+        shapes,
+        mass_kg: mass.mass_kg,
+        centre_of_mass_m: mass.centre_m,
+        inertia_kgm2: mass.inertia_kgm2,
     }
 }
 

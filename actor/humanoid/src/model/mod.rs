@@ -5,11 +5,13 @@
 
 mod inertia;
 mod mjcf;
+mod tendon;
 
 use std::ops::Range;
 
 use nalgebra::{Isometry3, Matrix3, Point3, Unit, UnitQuaternion, Vector3};
 
+pub use self::tendon::TENDONS_MAX;
 use crate::error::ModelError;
 
 /// The humanoid of this project, as MJCF text: 17 hinges, about 42 kg, the figures of Humanoid-v5.
@@ -24,6 +26,11 @@ pub struct Model {
     pub hinges: Vec<Hinge>,
     /// Motors in action order.
     pub motors: Vec<Motor>,
+    /// The bodies as they stand in the text, in its order and without the world; those that are welded together
+    /// share one of `bodies`.
+    pub links: Vec<Link>,
+    /// Fixed tendons, in the order of the text; at most [`TENDONS_MAX`].
+    pub tendons: Vec<Tendon>,
     /// Every motor's control is clamped to ± this.
     pub control_limit: f64,
     /// Friction coefficient between the body and the floor.
@@ -55,6 +62,42 @@ pub struct Body {
     pub centre_of_mass_m: Point3<f64>,
     /// Inertia about the centre of mass, in this body's axes (kg·m²).
     pub inertia_kgm2: Matrix3<f64>,
+}
+
+/// A body of the text: a rigid body of its own, or a welded part of one.
+#[derive(Clone, Debug)]
+pub struct Link {
+    /// Name in the text.
+    pub name: String,
+    /// Which rigid body it is part of: an index into [`Model::bodies`].
+    pub body: usize,
+    /// Pose of its frame in the rigid body's frame (m).
+    pub pose: Isometry3<f64>,
+    /// Which of the rigid body's shapes are its own.
+    pub shapes: Range<usize>,
+    /// Mass (kg); 0 for a part without shapes.
+    pub mass_kg: f64,
+    /// Centre of mass in the rigid body's frame (m); the origin of its own frame if it weighs nothing.
+    pub centre_of_mass_m: Point3<f64>,
+    /// Inertia about its centre of mass, in the rigid body's axes (kg·m²).
+    pub inertia_kgm2: Matrix3<f64>,
+}
+
+/// A fixed tendon: a weighted sum of hinge angles. It exerts no force.
+#[derive(Clone, Debug)]
+pub struct Tendon {
+    /// Name in the text.
+    pub name: String,
+    /// Hinges, as indices into [`Model::hinges`], with their weights.
+    pub terms: Vec<(usize, f64)>,
+}
+
+impl Tendon {
+    /// Length or velocity of the tendon: Σ weight × angle or rate, one for each hinge of the model.
+    #[must_use]
+    pub fn sum_over(&self, hinges: &[f64]) -> f64 {
+        self.terms.iter().map(|&(hinge, weight)| weight * hinges[hinge]).sum()
+    }
 }
 
 /// A collision shape, in its body's frame.
@@ -131,13 +174,20 @@ impl Model {
     /// Reads a model from MJCF text.
     ///
     /// Accepted: one tree on a free joint; hinges (at most three to a body, at one point, perpendicular in order);
-    /// spheres and capsules; motors with one common symmetric control range; a floor at z = 0.
+    /// spheres and capsules; motors with one common symmetric control range; fixed tendons that exert no force;
+    /// a floor at z = 0.
     /// Files are never opened: a text with `<include>` is refused.
     ///
     /// # Errors
     /// [`ModelError`] names the first element that cannot be simulated.
     pub fn from_mjcf(text: &str) -> Result<Self, ModelError> {
         mjcf::read(text)
+    }
+
+    /// Which link a shape of a rigid body belongs to.
+    #[must_use]
+    pub fn link_of_shape(&self, body: usize, shape: usize) -> Option<usize> {
+        self.links.iter().position(|link| link.body == body && link.shapes.contains(&shape))
     }
 
     /// Mass of the whole robot (kg).

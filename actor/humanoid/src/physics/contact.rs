@@ -1,4 +1,4 @@
-//! Contact forces on the bodies, read off Rapier after a physics step.
+//! Contact forces on the links, read off Rapier after a physics step.
 
 use nalgebra::{Point3, Vector3};
 use rapier3d::prelude::*;
@@ -6,7 +6,18 @@ use rapier3d::prelude::*;
 use super::convert::from_vector;
 use super::world::World;
 
-/// Impulse of all contacts on one body: force × time (N·s) and moment × time (N·m·s), world frame.
+/// A force between two links, or between a link and the floor.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ContactForce {
+    /// The two links, as indices into [`crate::Model::links`]; `None` is the floor.
+    pub links: [Option<usize>; 2],
+    /// Where it acts (m, world frame).
+    pub at_m: Point3<f64>,
+    /// What the first link feels (N, world frame); the second one feels the opposite.
+    pub force_n: Vector3<f64>,
+}
+
+/// Impulse of all contacts on one link: force × time (N·s) and moment × time (N·m·s), world frame.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct ContactImpulse {
     pub(super) linear_ns: Vector3<f64>,
@@ -24,7 +35,7 @@ pub(super) fn accumulate(world: &World, about: &Point3<f64>, impulses: &mut [Con
         let (Some(first), Some(second)) = (colliders.get(pair.collider1), colliders.get(pair.collider2)) else {
             continue;
         };
-        let bodies = [first.user_data, second.user_data].map(|data| (data as usize).checked_sub(1));
+        let links = [first.user_data, second.user_data].map(|data| (data as usize).checked_sub(1));
         for manifold in pair.solver_manifolds() {
             let mut rubbing = None;
             for contact in &manifold.points {
@@ -32,27 +43,33 @@ pub(super) fn accumulate(world: &World, about: &Point3<f64>, impulses: &mut [Con
                     continue;
                 }
                 let at = first.position().transform_point(contact.local_p1);
-                push(bodies, at, manifold.data.normal * -contact.data.impulse, about, impulses);
+                let impulse = from_vector(manifold.data.normal * -contact.data.impulse);
+                push(links, from_vector(at), impulse, about, impulses);
                 // Rapier solves friction once per manifold, stores it with every contact, and keeps the last solver
                 // pass only; taking all passes to be like it is the closest reading there is. Normal impulses are
                 // exact sums.
                 rubbing = Some((at, contact.data.warmstart_tangent_world * passes));
             }
             if let Some((at, impulse)) = rubbing {
-                push(bodies, at, impulse, about, impulses);
+                push(links, from_vector(at), from_vector(impulse), about, impulses);
             }
         }
     }
 }
 
-/// Gives an impulse (N·s) at a point (m) to the first body and its opposite to the second; `None` is the floor.
-fn push(bodies: [Option<usize>; 2], at: Vector, impulse: Vector, about: &Point3<f64>, impulses: &mut [ContactImpulse]) {
-    let linear = from_vector(impulse);
-    let angular = (from_vector(at) - about.coords).cross(&linear);
-    for (body, sign) in bodies.into_iter().zip([1.0, -1.0]) {
-        if let Some(body) = body {
-            impulses[body].linear_ns += linear * sign;
-            impulses[body].angular_nms += angular * sign;
+/// Gives an impulse (N·s) at a point (m) to the first link and its opposite to the second; `None` is the floor.
+pub(super) fn push(
+    links: [Option<usize>; 2],
+    at: Vector3<f64>,
+    linear: Vector3<f64>,
+    about: &Point3<f64>,
+    impulses: &mut [ContactImpulse],
+) {
+    let angular = (at - about.coords).cross(&linear);
+    for (link, sign) in links.into_iter().zip([1.0, -1.0]) {
+        if let Some(link) = link {
+            impulses[link].linear_ns += linear * sign;
+            impulses[link].angular_nms += angular * sign;
         }
     }
 }

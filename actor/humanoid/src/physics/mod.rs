@@ -10,6 +10,7 @@ mod world;
 
 use nalgebra::{Isometry3, Point3, Vector3};
 
+pub use self::contact::ContactForce;
 use self::contact::ContactImpulse;
 pub use self::kinematics::BodyMotion;
 use self::kinematics::ChainMotion;
@@ -62,7 +63,7 @@ impl Physics {
             chains: vec![ChainMotion::default(); bodies],
             position: vec![0.0; model.position_size()],
             velocity: vec![0.0; model.velocity_size()],
-            contacts: vec![ContactImpulse::default(); bodies],
+            contacts: vec![ContactImpulse::default(); model.links.len()],
             hinge_torques_nm: vec![0.0; model.hinges.len()],
             body_torques: vec![Vector3::zeros(); bodies],
             is_faulty: false,
@@ -85,8 +86,45 @@ impl Physics {
         kinematics::place(&self.model, position, velocity, &mut self.motions);
         self.world.restore(&self.motions);
         self.contacts.fill(ContactImpulse::default());
+        self.hinge_torques_nm.fill(0.0);
         self.is_faulty = false;
         self.refresh();
+    }
+
+    /// Holds the motors' controls, one number per motor: see [`Self::joint_torques_nm`]. No time passes.
+    ///
+    /// Controls are clamped to ± [`Model::control_limit`].
+    ///
+    /// # Errors
+    /// [`PhysicsFault`] if one is not finite.
+    ///
+    /// # Panics
+    /// If there are not as many controls as motors.
+    pub fn set_controls(&mut self, controls: &[f32]) -> Result<(), PhysicsFault> {
+        assert_eq!(controls.len(), self.model.motors.len(), "one control per motor is needed");
+        if self.is_faulty || !controls.iter().all(|control| control.is_finite()) {
+            self.is_faulty = true;
+            return Err(PhysicsFault);
+        }
+        let limit = self.model.control_limit;
+        self.hinge_torques_nm.fill(0.0);
+        for (motor, &control) in self.model.motors.iter().zip(controls) {
+            self.hinge_torques_nm[motor.hinge] += motor.gear_nm * f64::from(control).clamp(-limit, limit);
+        }
+        Ok(())
+    }
+
+    /// Replaces the contact forces of the last control step by others, for observations of a state of choice.
+    ///
+    /// # Panics
+    /// If a link does not exist.
+    pub fn set_contacts(&mut self, forces: &[ContactForce]) {
+        self.contacts.fill(ContactImpulse::default());
+        let about = self.centre_of_mass();
+        for force in forces {
+            let impulse = force.force_n * CONTROL_STEP_S;
+            contact::push(force.links, force.at_m.coords, impulse, &about, &mut self.contacts);
+        }
     }
 
     /// Simulates one control step of [`CONTROL_STEP_S`] with the motors' controls held, one number per motor.
@@ -100,16 +138,7 @@ impl Physics {
     /// # Panics
     /// If there are not as many controls as motors.
     pub fn step_only(&mut self, controls: &[f32]) -> Result<(), PhysicsFault> {
-        assert_eq!(controls.len(), self.model.motors.len(), "one control per motor is needed");
-        if self.is_faulty || !controls.iter().all(|control| control.is_finite()) {
-            self.is_faulty = true;
-            return Err(PhysicsFault);
-        }
-        let limit = self.model.control_limit;
-        self.hinge_torques_nm.fill(0.0);
-        for (motor, &control) in self.model.motors.iter().zip(controls) {
-            self.hinge_torques_nm[motor.hinge] += motor.gear_nm * f64::from(control).clamp(-limit, limit);
-        }
+        self.set_controls(controls)?;
         self.contacts.fill(ContactImpulse::default());
         for _ in 0..self.substeps {
             self.substep()?;
@@ -213,18 +242,18 @@ impl Physics {
         sum / mass_kg
     }
 
-    /// Mean contact force (N) and moment about the whole body's centre of mass (N·m) on one body during the last
-    /// control step, world frame.
+    /// Mean contact force (N) and moment about the whole body's centre of mass (N·m) on one link during the last
+    /// control step, world frame: what its surroundings do to it.
     ///
     /// # Panics
-    /// If there is no such body.
+    /// If there is no such link.
     #[must_use]
-    pub fn contact_wrench(&self, body: usize) -> (Vector3<f64>, Vector3<f64>) {
-        let impulse = &self.contacts[body];
+    pub fn contact_wrench(&self, link: usize) -> (Vector3<f64>, Vector3<f64>) {
+        let impulse = &self.contacts[link];
         (impulse.linear_ns / CONTROL_STEP_S, impulse.angular_nms / CONTROL_STEP_S)
     }
 
-    /// Sum of squares of all bodies' contact forces (N²) and moments ((N·m)²) during the last control step.
+    /// Sum of squares of all links' contact forces (N²) and moments ((N·m)²) during the last control step.
     #[must_use]
     pub fn squared_contact_wrenches(&self) -> f64 {
         self.contacts

@@ -61,8 +61,10 @@ impl World {
         let mut joints = Vec::with_capacity(model.bodies.len());
         for (index, body) in model.bodies.iter().enumerate() {
             let handle = rapier.insert_body(rigid_body(body));
-            for shape in &body.shapes {
-                rapier.insert_collider(collider(model, config, index, shape), Some(handle));
+            for (number, shape) in body.shapes.iter().enumerate() {
+                // The floor is 0, and so is a shape that is no link's; every shape that was read is some link's.
+                let owner = model.link_of_shape(index, number).map_or(0, |link| link as u128 + 1);
+                rapier.insert_collider(collider(model, config, index, shape).user_data(owner), Some(handle));
             }
             joints.push(body.parent.map(|parent| rapier.insert_impulse_joint(bodies[parent], handle, joint(body))));
             bodies.push(handle);
@@ -146,7 +148,6 @@ fn collider(model: &Model, config: &EnvironmentConfig, body: usize, shape: &Shap
         // Contacts between body parts slide, as in the original; the floor's rule lifts contacts with it to its friction.
         .friction(0.0)
         .collision_groups(InteractionGroups::new(group(body), filter, InteractionTestMode::And))
-        .user_data(body as u128 + 1)
 }
 
 /// Groups of the bodies that a body may touch: all but itself and its neighbours in the tree.
