@@ -38,7 +38,7 @@ fn seen(config: &EnvironmentConfig, states: &[State]) -> Vec<Vec<f32>> {
     rows.collect()
 }
 
-fn expected<'a>(kind: ObservationKind, states: &'a [State]) -> Vec<&'a [f32]> {
+fn expected(kind: ObservationKind, states: &[State]) -> Vec<&[f32]> {
     states.iter().map(|state| if kind == V4 { &state.v4[..] } else { &state.v5[..] }).collect()
 }
 

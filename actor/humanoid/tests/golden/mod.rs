@@ -93,8 +93,8 @@ pub fn compare(found: &[Vec<f32>], expected: &[&[f32]]) -> Result<(), Mismatch> 
             assert_eq!(found.len(), width);
             let tolerance = 1e-3 * scale.max(expected[entry].abs());
             let (found, expected) = (found[entry], expected[entry]);
-            // Written so that a number that is not one fails.
-            if !((found - expected).abs() <= tolerance) {
+            let is_close = (found - expected).abs() <= tolerance;
+            if !is_close {
                 return Err(Mismatch { state, entry, found, expected, tolerance });
             }
         }
