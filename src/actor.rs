@@ -28,6 +28,9 @@ pub struct ActorArgs {
     /// Environments of this actor.
     #[arg(long, default_value_t = 32, value_parser = clap::value_parser!(u32).range(1..=65_536))]
     envs: u32,
+    /// Threads that the environments are spread over, 0 for one per core; by default what the run says.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(0..=256))]
+    threads: Option<u32>,
     #[command(flatten)]
     network: NetworkArgs,
     /// Number of this start, from which its random streams are derived; without it, unlike that of any other start.
@@ -44,6 +47,7 @@ pub fn run(args: ActorArgs) -> anyhow::Result<()> {
         name: args.name.unwrap_or_else(default_name),
         run: args.run,
         envs: args.envs,
+        threads: args.threads,
         start: args.start_number.unwrap_or_else(seeds::unique),
         where_to: args.connect.join(", "),
     };

@@ -1,19 +1,25 @@
 //! `treadmill eval`: episodes without learning, by a trained policy or by one of the baselines.
 
-use std::path::Path;
+use std::{
+    fs::File,
+    io::{BufWriter, Write},
+    path::PathBuf,
+};
 
+use anyhow::Context;
 use clap::{Args, ValueEnum};
 use serde_json::json;
 use treadmill_actor::{
+    ActorError,
     agent::{Agent, PolicyAgent, PreferredActionAgent, RandomAgent},
     evaluation::{Evaluation, Told, evaluate},
     settings,
 };
-use treadmill_common::{config::EnvConfig, run_folder::RunFolder};
+use treadmill_common::config::{Config, ConfigSource, RandomisationConfig};
 use treadmill_humanoid::{Environment, HUMANOID_XML};
-use treadmill_learner::checkpoint::{self, TrainingState, Which};
+use treadmill_learner::checkpoint::Which;
 
-use crate::{outcome::Usage, output::say};
+use crate::{outcome::Usage, output::say, saved_policy};
 
 /// Who chooses the actions.
 #[derive(Clone, Copy, Debug, ValueEnum)]
@@ -39,7 +45,7 @@ impl Who {
 /// Flags of `eval`.
 #[derive(Args)]
 pub struct EvalArgs {
-    /// The run: its folder, its name below runs/, or a bundle file. Needed for the policy only.
+    /// The run: its folder, its name below runs/, a bundle file, or what `export` wrote. Needed for the policy only.
     run: Option<String>,
     /// Episodes to play.
     #[arg(long, default_value_t = 20, value_parser = clap::value_parser!(u32).range(1..=100_000))]
@@ -53,9 +59,18 @@ pub struct EvalArgs {
     /// Which checkpoint: best, latest, or the number of updates of a kept one; by default best if there is one.
     #[arg(long, value_name = "WHICH")]
     checkpoint: Option<Which>,
+    /// Randomise the episodes as the run did in training; without this they are not, whatever the run did.
+    #[arg(long)]
+    randomised: bool,
+    /// One key of [env] or [randomisation], laid over the run's configuration; may be repeated.
+    #[arg(long, value_name = "KEY=VALUE")]
+    set: Vec<String>,
     /// Print the first and every N-th step of each episode; 100 for the baselines, 0 (never) for the policy.
     #[arg(long, value_name = "N")]
     print_every: Option<u32>,
+    /// Write each observation and the action chosen for it to a file, one JSON object per line.
+    #[arg(long, value_name = "FILE")]
+    trace: Option<PathBuf>,
     /// Print one JSON object as the last line of standard output, and nothing else.
     #[arg(long)]
     json: bool,
@@ -63,19 +78,25 @@ pub struct EvalArgs {
 
 /// Plays the episodes and prints what came of them.
 pub fn run(args: EvalArgs) -> anyhow::Result<()> {
-    let (mut environment, mut agent) = prepare(&args)?;
+    let (mut environment, agent) = prepare(&args)?;
+    let mut agent = Tracing { agent, file: None };
+    if let Some(path) = &args.trace {
+        let file = File::create(path).with_context(|| format!("cannot write the trace `{}`", path.display()))?;
+        agent.file = Some(BufWriter::new(file));
+    }
     let print_every = match (args.print_every, args.agent) {
         (Some(every), _) => every,
         (None, Who::Policy) => 0,
         (None, _) => 100,
     };
     let quiet = args.json || print_every == 0;
-    let evaluation = evaluate(&mut environment, agent.as_mut(), args.episodes, args.seed, |told| {
+    let evaluation = evaluate(&mut environment, &mut agent, args.episodes, args.seed, |told| {
         if !quiet && (told.step == 1 || told.step.is_multiple_of(print_every)) {
             let Told { episode, step, reward, total } = told;
             say(&format!("episode {episode:>3}  step {step:>4}  reward {reward:>8.3}  total {total:>9.2}"));
         }
     })?;
+    agent.finish()?;
     let control_step_s = environment.control_step_s();
     if args.json {
         say(&as_json(args.agent, &evaluation, control_step_s));
@@ -91,32 +112,77 @@ fn prepare(args: &EvalArgs) -> anyhow::Result<(Environment, Box<dyn Agent>)> {
             let why = "eval needs a RUN, as in `treadmill eval runs/walk-1`; or choose --agent random".to_string();
             return Err(Usage(why).into());
         }
-        let environment = Environment::new(&settings::environment(&EnvConfig::default()), HUMANOID_XML)?;
+        let config = configuration(args, Config::default())?;
+        let environment = Environment::new(&settings::training(&config), HUMANOID_XML)?;
         let action_size = environment.action_size();
         return Ok((environment, baseline(args, action_size)));
     };
-    let state = load(run, args.checkpoint)?;
-    let config = state.config().map_err(anyhow::Error::msg)?;
-    let environment = Environment::new(&settings::environment(&config.env), &state.model_xml)?;
+    let policy = saved_policy::load(run, args.checkpoint.unwrap_or(Which::BestOrLatest))?;
+    let config = configuration(args, saved_policy::trained_under(&policy))?;
+    let environment = saved_policy::environment(run, &policy, &config)?;
     let agent: Box<dyn Agent> = match args.agent {
-        Who::Policy => Box::new(PolicyAgent::new(&state.bundle().map_err(anyhow::Error::msg)?)?),
+        Who::Policy => Box::new(PolicyAgent::new(&policy)?),
         _ => baseline(args, environment.action_size()),
     };
     Ok((environment, agent))
 }
 
-fn load(run: &str, which: Option<Which>) -> anyhow::Result<TrainingState> {
-    if Path::new(run).is_file() {
-        return Ok(checkpoint::load_file(Path::new(run))?);
+/// What the episodes are played under: the run's task, without what it randomised in training unless that is asked for.
+fn configuration(args: &EvalArgs, mut config: Config) -> anyhow::Result<Config> {
+    if !args.randomised {
+        config.randomisation = RandomisationConfig::default();
+    } else if config.randomisation == RandomisationConfig::default() {
+        let why = "--randomised plays as the run did in training, but it randomised nothing; \
+                   name what you want, as in --set randomisation.push_mps=[0.5,0.5]";
+        return Err(Usage(why.to_string()).into());
     }
-    let folder = RunFolder::open(run)?;
-    Ok(checkpoint::load(&folder, which.unwrap_or(Which::BestOrLatest))?)
+    let mut source = ConfigSource::default();
+    source.text(&config.to_toml(), "the run's configuration")?;
+    for pair in &args.set {
+        if !["env.", "randomisation."].iter().any(|section| pair.trim_start().starts_with(section)) {
+            let why = format!("`--set {pair}` has no effect on episodes; allowed: keys of [env] and [randomisation]");
+            return Err(Usage(why).into());
+        }
+        source.set(pair)?;
+    }
+    Ok(source.build()?)
 }
 
 fn baseline(args: &EvalArgs, action_size: usize) -> Box<dyn Agent> {
     match args.agent {
         Who::PreferredAction => Box::new(PreferredActionAgent::new(args.seed, action_size)),
         _ => Box::new(RandomAgent::new(args.seed)),
+    }
+}
+
+/// An agent whose observations and actions are written down.
+struct Tracing {
+    agent: Box<dyn Agent>,
+    file: Option<BufWriter<File>>,
+}
+
+impl Tracing {
+    fn finish(&mut self) -> anyhow::Result<()> {
+        self.file.as_mut().map_or(Ok(()), |file| file.flush()).context("cannot write the trace")
+    }
+}
+
+impl Agent for Tracing {
+    fn act(&mut self, observation: &[f32], action: &mut [f32]) -> Result<(), ActorError> {
+        self.agent.act(observation, action)?;
+        if let Some(file) = &mut self.file {
+            let line = json!({"observation": observation, "action": action});
+            writeln!(file, "{line}").map_err(|why| ActorError::Trace { why })?;
+        }
+        Ok(())
+    }
+
+    fn rewarded(&mut self, reward: f32) {
+        self.agent.rewarded(reward);
+    }
+
+    fn episode_ended(&mut self) {
+        self.agent.episode_ended();
     }
 }
 

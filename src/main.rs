@@ -1,7 +1,8 @@
 //! Treadmill's command line: one file per subcommand, each thin.
 //!
 //! # Layout
-//! - [`train`], [`learner`], [`actor`], [`eval`], [`bench`]: the subcommands.
+//! - [`train`], [`learner`], [`actor`], [`eval`], [`export`], [`bench`]: the subcommands.
+//! - [`saved_policy`]: the policy of a run, a checkpoint or an exported file.
 //! - [`startup`]: from flags to a run that is ready to begin.
 //! - [`supervisor`]: the actor processes of `train`.
 //! - [`signals`]: Ctrl-C, once and twice.
@@ -11,9 +12,11 @@
 mod actor;
 mod bench;
 mod eval;
+mod export;
 mod learner;
 mod outcome;
 mod output;
+mod saved_policy;
 mod signals;
 mod startup;
 mod supervisor;
@@ -43,6 +46,8 @@ enum Command {
     Actor(actor::ActorArgs),
     /// Play deterministic episodes with a trained policy, or with one of the baselines.
     Eval(eval::EvalArgs),
+    /// Write a trained policy as a file that other programs read.
+    Export(export::ExportArgs),
     /// Measure speed.
     Bench(bench::BenchArgs),
 }
@@ -65,6 +70,7 @@ fn main() -> ExitCode {
         Command::Learner(args) => learner::run(args),
         Command::Actor(args) => actor::run(args),
         Command::Eval(args) => eval::run(args),
+        Command::Export(args) => export::run(&args),
         Command::Bench(args) => bench::run(args),
     };
     outcome::exit_code(done)

@@ -21,9 +21,35 @@ fn env_measures_steps_with_and_without_observation() {
     assert!(first["env_steps_per_s"].as_f64().unwrap() > 0.0);
     assert!(first["physics_only_steps_per_s"].as_f64().unwrap() > 0.0);
     assert_eq!((&first["observation"], &first["threads"]), (&45.into(), &1.into()));
+    assert_eq!(first["observation_kind"], "compact");
     assert_eq!(first["control_step_s"], 0.015);
     assert!(!first["cpu"].as_str().unwrap().is_empty());
     assert_eq!(first["checksum"], bench(&["env", "--steps", "1280"])["checksum"], "the same work each time");
+    let spread = bench(&["env", "--steps", "1280", "--threads", "2"]);
+    assert_eq!((&spread["threads"], &spread["checksum"]), (&2.into(), &first["checksum"]));
+    assert_eq!(spread["workload"], first["workload"], "as many resets");
+    let finer = bench(&["env", "--steps", "1280", "--set", "env.substeps=4"]);
+    assert_ne!(finer["checksum"], first["checksum"], "keys of the configuration are heeded");
+}
+
+#[test]
+fn env_measures_how_well_the_joints_hold() {
+    let one = bench(&["env", "--quality", "--steps", "6400"]);
+    for (quantity, unit) in [("joint_separation", "m"), ("limit_overshoot", "rad")] {
+        let told = |name: &str| one[format!("{quantity}_{name}_{unit}")].as_f64().expect("a number");
+        let ordered = [told("p50"), told("p99"), told("p999"), told("max")];
+        assert!(ordered.is_sorted() && ordered[0] >= 0.0 && ordered[3].is_finite(), "{quantity}: {ordered:?}");
+    }
+    assert_eq!((&one["faults"], &one["steps"]), (&0.into(), &6400.into()));
+    let two = bench(&["env", "--quality", "--steps", "6400", "--threads", "2"]);
+    assert_eq!(one["checksum"], two["checksum"]);
+}
+
+#[test]
+fn env_refuses_a_key_that_does_not_exist() {
+    let (folder, _) = folders();
+    let output = self::run(folder.path(), &["bench", "env", "--set", "env.substep=4"]);
+    assert_refused(&output, 2, &["env.substep", "env.substeps"]);
 }
 
 #[test]

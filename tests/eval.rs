@@ -63,6 +63,32 @@ fn every_agent_gives_the_promised_fields_and_repeats_with_its_seed() {
 }
 
 #[test]
+fn episodes_are_randomised_only_where_that_is_asked_for() {
+    let (folder, run) = folders();
+    let run_name = run.to_str().unwrap();
+    let train = ["train", "--preset", "smoke", "--steps", "1024", "--run-dir", run_name];
+    let pushes = ["--set", "randomisation.push_mps=[2, 3]", "--set", "randomisation.push_interval_s=[0.1, 0.2]"];
+    let trained = self::run(folder.path(), &[&train[..], &pushes[..]].concat());
+    assert!(trained.status.success(), "{}", stderr(&trained));
+    let play = |more: &[&str]| {
+        let output = self::run(folder.path(), &[&["eval", run_name, "--episodes", "2", "--json"], more].concat());
+        assert!(output.status.success(), "{}", stderr(&output));
+        last_json(&output)
+    };
+    let (plain, pushed) = (play(&[]), play(&["--randomised"]));
+    assert_ne!(plain["return_mean"], pushed["return_mean"]);
+    assert_eq!(pushed, play(&["--randomised"]), "the same seed gives the same pushes");
+    assert_eq!(pushed, play(&pushes), "the same ranges give the same episodes");
+    assert_eq!(plain, play(&["--set", "randomisation.push_mps=[0, 0]"]));
+    assert_eq!(play(&["--set", "env.max_episode_steps=3"])["length_mean"], 3.0);
+
+    let refused = |args: &[&str], parts: &[&str]| assert_refused(&self::run(folder.path(), args), 2, parts);
+    refused(&["eval", "--agent", "random", "--randomised"], &["--randomised", "randomised nothing", "--set"]);
+    refused(&["eval", run_name, "--set", "ppo.gamma=0.5"], &["ppo.gamma=0.5", "[env] and [randomisation]"]);
+    refused(&["eval", run_name, "--set", "randomisation.push_mps=[3, 2]"], &["push_mps", "[smallest, largest]"]);
+}
+
+#[test]
 fn a_bundle_file_can_be_played_by_itself() {
     let (folder, run) = folders();
     trained(folder.path(), &run);

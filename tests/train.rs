@@ -103,15 +103,21 @@ fn the_full_observations_of_gymnasium_can_be_learnt_from() {
 
 #[test]
 fn the_same_seed_gives_the_same_weights_bit_for_bit() {
-    let weights = |seed: &str| {
+    let weights = |seed: &str, more: &[&str]| {
         let (folder, run) = folders();
-        let output = smoke(folder.path(), &run, &["--deterministic", "--seed", seed, "--steps", "2048"]);
+        let args = [&["--deterministic", "--seed", seed, "--steps", "2048"], more].concat();
+        let output = smoke(folder.path(), &run, &args);
         assert!(output.status.success(), "{}", stderr(&output));
         load_file(&run.join("checkpoints/latest.bundle")).unwrap().parameters
     };
-    let first = weights("7");
-    assert_eq!(first, weights("7"));
-    assert_ne!(first, weights("8"));
+    let first = weights("7", &[]);
+    assert_eq!(first, weights("7", &[]));
+    assert_eq!(first, weights("7", &["--set", "rollout.threads=2"]), "threads change no result");
+    assert_ne!(first, weights("8", &[]));
+    let randomised = ["--set", "randomisation.mass_scale=[0.8, 1.2]", "--set", "randomisation.control_noise=0.1"];
+    let other = weights("7", &randomised);
+    assert_ne!(first, other);
+    assert_eq!(other, weights("7", &randomised));
 }
 
 #[test]

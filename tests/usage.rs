@@ -47,7 +47,7 @@ fn a_configuration_file_is_checked_like_everything_else() {
     assert_refused(&with("[ppo\n"), 2, &["not valid TOML", "mine.toml"]);
     assert_refused(&train(&["--config", "no-such-file.toml"]), 2, &["no-such-file.toml"]);
     let output = self::run(folder.path(), &["train", "--preset", "stroll"]);
-    assert_refused(&output, 2, &["stroll", "walk, walk-v5obs, walk-v4obs, smoke"]);
+    assert_refused(&output, 2, &["stroll", "walk, walk-v5obs, walk-v4obs, smoke, sim2sim"]);
 }
 
 #[test]
@@ -85,6 +85,8 @@ fn plain_text_beyond_loopback_must_be_asked_for() {
     let args = ["learner", "--preset", "smoke", "--run", "A/B", "--run-dir", run.to_str().unwrap()];
     assert_refused(&self::run(folder.path(), &args), 2, &["`run` is `A/B`", "a-z"]);
     assert!(!run.exists(), "a name that is refused leaves no folder behind");
+    let args = ["actor", "--threads", "many"];
+    assert_refused(&self::run(folder.path(), &args), 2, &["--threads", "many"]);
     let args = ["actor", "--name", "A/B"];
     assert_refused(&self::run(folder.path(), &args), 2, &["A/B", "a-z"]);
 }
@@ -92,7 +94,7 @@ fn plain_text_beyond_loopback_must_be_asked_for() {
 #[test]
 fn help_and_version_are_there() {
     let (folder, _) = folders();
-    for command in ["train", "learner", "actor", "eval", "bench"] {
+    for command in ["train", "learner", "actor", "eval", "export", "bench"] {
         let output = self::run(folder.path(), &[command, "--help"]);
         assert!(output.status.success() && stdout(&output).contains("Usage: treadmill"), "{command}");
     }

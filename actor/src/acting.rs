@@ -1,6 +1,7 @@
 //! The policy in use: networks, statistics and version of one bundle.
 
 use treadmill_common::{
+    exported::ExportedPolicy,
     normaliser::Normaliser,
     policy::{NetworkShape, Policy, from_safetensors},
     seeds,
@@ -37,6 +38,14 @@ impl ActingPolicy {
             clip: bundle.observation_clip,
         };
         Ok(Self { version: bundle.version, policy, normaliser })
+    }
+
+    /// Makes an exported policy ready; it has no version, because no learner will ask.
+    pub fn exported(exported: &ExportedPolicy) -> Result<Self, ActorError> {
+        let refuse = |why: String| ActorError::Bundle { number: 0, why };
+        let policy = Policy::new(exported.shape.clone(), exported.parameters.clone());
+        let policy = policy.map_err(|why| refuse(why.to_string()))?;
+        Ok(Self { version: PolicyVersion::default(), policy, normaliser: exported.normaliser() })
     }
 
     /// Logarithms of the standard deviations, `[action]`.

@@ -1,8 +1,10 @@
 //! Whoever chooses actions in an evaluation: the trained policy, or one of the baselines.
 
 use rand::RngExt;
-use treadmill_common::seeds::{self, Stream};
-use treadmill_proto::PolicyBundle;
+use treadmill_common::{
+    exported::ExportedPolicy,
+    seeds::{self, Stream},
+};
 
 use crate::{ActorError, acting::ActingPolicy};
 
@@ -25,9 +27,9 @@ pub struct PolicyAgent {
 }
 
 impl PolicyAgent {
-    /// Takes the policy out of a bundle.
-    pub fn new(bundle: &PolicyBundle) -> Result<Self, ActorError> {
-        Ok(Self { policy: ActingPolicy::new(bundle)?, normalised: Vec::new() })
+    /// Acts as an exported policy says.
+    pub fn new(policy: &ExportedPolicy) -> Result<Self, ActorError> {
+        Ok(Self { policy: ActingPolicy::exported(policy)?, normalised: Vec::new() })
     }
 }
 

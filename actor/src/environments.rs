@@ -1,8 +1,14 @@
 //! N humanoids that step together, each in its own world, and the record of their episodes.
 
-use treadmill_common::seeds;
+use rayon::{ThreadPool, ThreadPoolBuilder, prelude::*};
+use treadmill_common::{machine, seeds};
 use treadmill_humanoid::{Environment, EnvironmentConfig, ModelError};
-use treadmill_proto::{EndCause, Episode};
+use treadmill_proto::{
+    EndCause, Episode,
+    fragment::{TERMINATED, TRUNCATED},
+};
+
+use crate::ActorError;
 
 /// Where the reset seeds of these environments come from.
 #[derive(Clone, Debug)]
@@ -16,8 +22,8 @@ pub struct SeedSource {
 }
 
 impl SeedSource {
-    fn reset(&self, env: usize, episode: u64) -> u64 {
-        seeds::derive(self.run_seed, &format!("reset/{}", self.actor), &[self.start, env as u64, episode])
+    fn resets(&self) -> ResetSeeds {
+        ResetSeeds { run_seed: self.run_seed, stream: format!("reset/{}", self.actor), start: self.start }
     }
 
     /// The stream of exploration noise.
@@ -26,15 +32,43 @@ impl SeedSource {
     }
 }
 
+/// Seeds of episodes: they depend on the environment's number and the episode's, and on no other environment.
+struct ResetSeeds {
+    run_seed: u64,
+    stream: String,
+    start: u64,
+}
+
+impl ResetSeeds {
+    fn of(&self, env: usize, episode: u64) -> u64 {
+        seeds::derive(self.run_seed, &self.stream, &[self.start, env as u64, episode])
+    }
+}
+
 /// N environments.
 pub struct Environments {
-    environments: Vec<Environment>,
-    episodes: Vec<Running>,
-    seeds: SeedSource,
+    places: Vec<Place>,
+    seeds: ResetSeeds,
     observations: Vec<f32>,
     observation_size: usize,
     action_size: usize,
+    /// None where the caller's own thread steps all. Rayon's, because it shares out what is left of a step whenever a
+    /// thread runs dry: steps take unlike times, by contacts and resets. On two cores that others kept busy, 64
+    /// environments took 5 % more CPU time on two threads than on one.
+    pool: Option<ThreadPool>,
+}
+
+/// One environment with everything that its step writes, so that threads have nothing in common.
+struct Place {
+    env: usize,
+    environment: Environment,
+    running: Running,
     control: Vec<f32>,
+    reward: f32,
+    flags: u8,
+    ended: Option<Episode>,
+    /// Where an episode ended, kept while the next one begins in the same step.
+    last_observation: Vec<f32>,
 }
 
 #[derive(Clone, Copy, Debug, Default)]
@@ -60,38 +94,61 @@ pub struct Stepped {
 }
 
 impl Environments {
-    /// Makes and resets `count` environments.
+    /// Makes and resets `count` environments, to be stepped on the caller's thread.
     pub fn new(
         count: usize,
         config: &EnvironmentConfig,
         model_xml: &str,
         seeds: SeedSource,
     ) -> Result<Self, ModelError> {
-        let environments =
-            (0..count).map(|_| Environment::new(config, model_xml)).collect::<Result<Vec<_>, ModelError>>()?;
-        let observation_size = environments.first().map_or(0, Environment::observation_size);
-        let action_size = environments.first().map_or(0, Environment::action_size);
+        let places = (0..count)
+            .map(|env| Ok(Place::new(env, Environment::new(config, model_xml)?)))
+            .collect::<Result<Vec<_>, ModelError>>()?;
+        let observation_size = places.first().map_or(0, |place| place.environment.observation_size());
+        let action_size = places.first().map_or(0, |place| place.environment.action_size());
         let mut all = Self {
-            episodes: vec![Running::default(); count],
-            seeds,
+            places,
+            seeds: seeds.resets(),
             observations: vec![0.0; count * observation_size],
             observation_size,
             action_size,
-            control: vec![0.0; action_size],
-            environments,
+            pool: None,
         };
-        (0..count).for_each(|env| all.reset(env));
+        for (place, observation) in
+            all.places.iter_mut().zip(all.observations.chunks_exact_mut(observation_size.max(1)))
+        {
+            place.reset(&all.seeds, observation);
+        }
         Ok(all)
+    }
+
+    /// Spreads the environments over this many threads; 0 means one per core, and more than environments are of no use.
+    /// What they give is the same, bit for bit, for any number.
+    pub fn with_threads(mut self, threads: usize) -> Result<Self, ActorError> {
+        let threads = if threads == 0 { machine::cores() } else { threads };
+        let threads = threads.min(self.len());
+        let pool =
+            || ThreadPoolBuilder::new().num_threads(threads).thread_name(|index| format!("physics-{index}")).build();
+        self.pool = match threads {
+            0 | 1 => None,
+            _ => Some(pool().map_err(|why| ActorError::Physics { why: why.to_string() })?),
+        };
+        Ok(self)
     }
 
     /// N.
     pub fn len(&self) -> usize {
-        self.environments.len()
+        self.places.len()
     }
 
     /// Whether there are none.
     pub fn is_empty(&self) -> bool {
-        self.environments.is_empty()
+        self.places.is_empty()
+    }
+
+    /// Threads that step the environments.
+    pub fn threads(&self) -> usize {
+        self.pool.as_ref().map_or(1, ThreadPool::current_num_threads)
     }
 
     /// Entries of one observation.
@@ -109,39 +166,83 @@ impl Environments {
         &self.observations
     }
 
-    /// Steps all by `actions`, `[N][action]` in units of the action range, which are clipped to it here.
+    /// Steps all by `actions`, `[N][action]` in units of the action range, which are clipped to it here. An episode that
+    /// ends is followed by the next at once.
+    ///
+    /// # Panics
+    /// If there are not as many actions as environments.
     pub fn step(&mut self, actions: &[f32], stepped: &mut Stepped) {
-        stepped.rewards.clear();
-        stepped.flags.clear();
-        stepped.truncated_observations.clear();
-        stepped.episodes.clear();
-        for env in 0..self.environments.len() {
-            let flags = self.step_one(env, &actions[env * self.action_size..][..self.action_size], stepped);
-            stepped.flags.push(flags);
+        assert_eq!(actions.len(), self.len() * self.action_size, "one action for each environment is needed");
+        let Self { places, seeds, observations, .. } = self;
+        // Without environments there is nothing to cut into pieces.
+        let (width, action_size) = (self.observation_size.max(1), self.action_size.max(1));
+        match &self.pool {
+            None => places
+                .iter_mut()
+                .zip(observations.chunks_exact_mut(width))
+                .zip(actions.chunks_exact(action_size))
+                .for_each(|((place, observation), action)| place.step(action, seeds, observation)),
+            Some(pool) => pool.install(|| {
+                places
+                    .par_iter_mut()
+                    .zip(observations.par_chunks_exact_mut(width))
+                    .zip(actions.par_chunks_exact(action_size))
+                    .for_each(|((place, observation), action)| place.step(action, seeds, observation));
+            }),
         }
+        stepped.gather(&mut self.places);
     }
 
     /// Makes the physics of one environment fail at the next step; for tests.
     #[doc(hidden)]
     pub fn poison(&mut self, env: usize) {
-        self.environments[env].physics_mut().poison();
+        self.places[env].environment.physics_mut().poison();
+    }
+}
+
+impl Stepped {
+    /// Takes what the environments left, in their order.
+    fn gather(&mut self, places: &mut [Place]) {
+        self.rewards.clear();
+        self.flags.clear();
+        self.truncated_observations.clear();
+        self.episodes.clear();
+        for place in places {
+            self.rewards.push(place.reward);
+            self.flags.push(place.flags);
+            if place.flags & TRUNCATED != 0 {
+                self.truncated_observations.extend_from_slice(&place.last_observation);
+            }
+            self.episodes.extend(place.ended.take());
+        }
+    }
+}
+
+impl Place {
+    fn new(env: usize, environment: Environment) -> Self {
+        Self {
+            env,
+            running: Running::default(),
+            control: vec![0.0; environment.action_size()],
+            reward: 0.0,
+            flags: 0,
+            ended: None,
+            last_observation: vec![0.0; environment.observation_size()],
+            environment,
+        }
     }
 
-    fn step_one(&mut self, env: usize, action: &[f32], stepped: &mut Stepped) -> u8 {
-        use treadmill_proto::fragment::{TERMINATED, TRUNCATED};
-        let environment = &mut self.environments[env];
-        let limit = environment.action_limit();
+    fn step(&mut self, action: &[f32], seeds: &ResetSeeds, observation: &mut [f32]) {
+        let limit = self.environment.action_limit();
         for (control, action) in self.control.iter_mut().zip(action) {
             *control = action.clamp(-1.0, 1.0) * limit;
         }
-        let observation = &mut self.observations[env * self.observation_size..][..self.observation_size];
-        let step = environment.step(&self.control, observation);
-        let running = &mut self.episodes[env];
+        let step = self.environment.step(&self.control, observation);
+        let running = &mut self.running;
         running.length += 1;
         // The reward of a step whose physics failed says nothing.
-        let reward = if step.fault { 0.0 } else { step.reward };
-        stepped.rewards.push(reward);
-        running.return_sum += f64::from(reward);
+        self.reward = if step.fault { 0.0 } else { step.reward };
+        running.return_sum += f64::from(self.reward);
         if !step.fault {
             // The torso's place, whatever the task's info tells.
             running.last_x_m = environment.physics().position()[0];
@@ -150,29 +251,28 @@ impl Environments {
             (true, ..) => (TERMINATED, EndCause::Fault),
             (_, true, _) => (TERMINATED, EndCause::Fell),
             (_, _, true) => (TRUNCATED, EndCause::TimeLimit),
-            _ => return 0,
+            _ => {
+                self.flags = 0;
+                return;
+            }
         };
-        if flags == TRUNCATED {
-            stepped.truncated_observations.extend_from_slice(observation);
-        }
+        self.flags = flags;
+        self.last_observation.copy_from_slice(observation);
         let distance_m = running.last_x_m - running.start_x_m;
-        stepped.episodes.push(Episode {
+        self.ended = Some(Episode {
             return_sum: running.return_sum,
             length: running.length,
             distance_m,
-            velocity_mean_mps: distance_m / (f64::from(running.length) * environment.control_step_s()),
+            velocity_mean_mps: distance_m / (f64::from(running.length) * self.environment.control_step_s()),
             cause,
         });
-        self.reset(env);
-        flags
+        self.reset(seeds, observation);
     }
 
-    fn reset(&mut self, env: usize) {
-        let running = &mut self.episodes[env];
-        let seed = self.seeds.reset(env, running.number);
-        let observation = &mut self.observations[env * self.observation_size..][..self.observation_size];
-        self.environments[env].reset(seed, observation);
-        let x_m = self.environments[env].physics().position()[0];
-        *running = Running { number: running.number + 1, start_x_m: x_m, last_x_m: x_m, ..Running::default() };
+    fn reset(&mut self, seeds: &ResetSeeds, observation: &mut [f32]) {
+        let number = self.running.number;
+        self.environment.reset(seeds.of(self.env, number), observation);
+        let x_m = self.environment.physics().position()[0];
+        self.running = Running { number: number + 1, start_x_m: x_m, last_x_m: x_m, ..Running::default() };
     }
 }

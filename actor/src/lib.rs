@@ -46,6 +46,12 @@ pub enum ActorError {
     /// The policy could not be evaluated.
     #[error("the policy cannot be evaluated: {0}")]
     Inference(#[from] candle_core::Error),
+    /// The trace of an evaluation could not be written.
+    #[error("the trace cannot be written: {why}")]
+    Trace {
+        /// What the system said.
+        why: std::io::Error,
+    },
     /// The physics thread is gone.
     #[error("the physics thread stopped: {why}")]
     Physics {

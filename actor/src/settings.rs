@@ -1,9 +1,31 @@
 //! The run's configuration as the environment takes it.
 
-use treadmill_common::config::{EnvConfig, EnvObservation, EnvTask};
-use treadmill_humanoid::{EnvironmentConfig, ObservationKind, Task};
+use treadmill_common::config::{Config, EnvConfig, EnvObservation, EnvTask, RandomisationConfig};
+use treadmill_humanoid::{EnvironmentConfig, ObservationKind, Randomisation, Task};
 
-/// The environment's settings; the environment's crate knows nothing of configuration files.
+/// The environment that experience is gathered in: the task, with what the run randomises.
+pub fn training(config: &Config) -> EnvironmentConfig {
+    EnvironmentConfig { randomisation: randomisation(&config.randomisation), ..environment(&config.env) }
+}
+
+fn randomisation(config: &RandomisationConfig) -> Randomisation {
+    Randomisation {
+        mass_scale: config.mass_scale,
+        floor_friction_scale: config.floor_friction_scale,
+        motor_scale: config.motor_scale,
+        damping_scale: config.damping_scale,
+        armature_scale: config.armature_scale,
+        gravity_scale: config.gravity_scale,
+        sensor_noise_position: config.sensor_noise_position,
+        sensor_noise_velocity: config.sensor_noise_velocity,
+        control_noise: config.control_noise,
+        action_delay_steps: config.action_delay_steps,
+        push_interval_s: config.push_interval_s,
+        push_mps: config.push_mps,
+    }
+}
+
+/// The task without randomisation; the environment's crate knows nothing of configuration files.
 pub fn environment(config: &EnvConfig) -> EnvironmentConfig {
     EnvironmentConfig {
         task: match config.task {
@@ -32,15 +54,44 @@ pub fn environment(config: &EnvConfig) -> EnvironmentConfig {
         substeps: config.substeps,
         solver_iterations: config.solver_iterations,
         self_collision: config.self_collision,
+        randomisation: Randomisation::default(),
     }
 }
 
 #[cfg(test)]
 mod tests {
+    use treadmill_humanoid::{Environment, HUMANOID_XML};
+
     use super::*;
 
     #[test]
     fn both_sides_have_the_same_defaults() {
         assert_eq!(environment(&EnvConfig::default()), EnvironmentConfig::default());
+        assert_eq!(training(&Config::default()), EnvironmentConfig::default());
+    }
+
+    #[test]
+    fn both_sides_refuse_the_same_ranges() {
+        let ends = [-1.0, 0.0, 0.015, 0.1, 1.0, 3.0, 10.0, 1000.0, f64::NAN];
+        type Put = fn(&mut RandomisationConfig, [f64; 2]);
+        let keys: [Put; 9] = [
+            |config, range| config.mass_scale = range,
+            |config, range| config.floor_friction_scale = range,
+            |config, range| config.motor_scale = range,
+            |config, range| config.damping_scale = range,
+            |config, range| config.armature_scale = range,
+            |config, range| config.gravity_scale = range,
+            |config, range| config.push_interval_s = range,
+            |config, range| config.push_mps = range,
+            |config, [low, _]| config.control_noise = low,
+        ];
+        for (key, put) in keys.into_iter().enumerate() {
+            for range in ends.iter().flat_map(|low| ends.map(|high| [*low, high])) {
+                let mut config = Config::default();
+                put(&mut config.randomisation, range);
+                let there = Environment::new(&training(&config), HUMANOID_XML).is_ok();
+                assert_eq!(config.check().is_ok(), there, "key {key}: {range:?}");
+            }
+        }
     }
 }

@@ -41,6 +41,8 @@ pub struct WorkerOptions {
     pub name: String,
     /// Its environments.
     pub envs: u32,
+    /// Threads that step them; the run's `rollout.threads` where nothing is said. 0 means one per core.
+    pub threads: Option<u32>,
     /// Number of this start, from which its random streams are derived.
     pub start: u64,
     /// Where the learner is, for messages.
@@ -177,7 +179,9 @@ fn collector(
     let seeds = SeedSource { run_seed: config.run.seed, actor: options.name.clone(), start: options.start };
     let noise = seeds.noise();
     let envs = options.envs as usize;
-    let environments = Environments::new(envs, &settings::environment(&config.env), &bundle.model_xml, seeds)?;
+    let threads = options.threads.unwrap_or(config.rollout.threads) as usize;
+    let environments = Environments::new(envs, &settings::training(config), &bundle.model_xml, seeds)?;
+    let environments = environments.with_threads(threads)?;
     let wanted = (bundle.observation_size as usize, bundle.action_size as usize);
     let found = (environments.observation_size(), environments.action_size());
     if wanted != found {

@@ -1,87 +1,138 @@
-//! One core, 64 worlds in turn, random actions, resets included.
+//! 64 worlds, random actions, resets included: with task and observation, and physics alone.
 
 use std::time::Instant;
 
 use clap::Args;
 use rand::RngExt;
 use serde_json::json;
-use treadmill_actor::settings;
-use treadmill_common::{config::EnvConfig, machine, seeds};
-use treadmill_humanoid::{Environment, HUMANOID_XML, task};
+use treadmill_actor::{
+    environments::{Environments, SeedSource, Stepped},
+    settings,
+};
+use treadmill_common::{
+    config::{Config, ConfigSource},
+    machine, seeds,
+};
+use treadmill_humanoid::{EnvironmentConfig, HUMANOID_XML, task};
 
-use super::{rounded, tell};
+use super::{
+    quality, rounded, tell,
+    worlds::{self, WORLDS, Worlds},
+};
 
-/// Worlds that are stepped in turn, as an actor has them: one alone would stay in the cache.
-const WORLDS: usize = 64;
+/// Random actions that the worlds are stepped with, over and over; a multiple of their number.
+const ACTIONS: usize = 64 * WORLDS;
 
 /// Flags of `bench env`.
 #[derive(Args)]
 pub struct EnvArgs {
     /// Environment steps to measure over.
     #[arg(long, default_value_t = 100_000)]
-    steps: u64,
+    pub steps: u64,
+    /// Threads that the worlds are spread over; 0 means one per core.
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u16).range(0..=256))]
+    threads: u16,
+    /// What the policy is to see, short for --set env.observation=KIND.
+    #[arg(long, value_name = "KIND")]
+    observation: Option<String>,
+    /// One configuration key, as in env.substeps=5; may be repeated.
+    #[arg(long, value_name = "KEY=VALUE")]
+    set: Vec<String>,
+    /// Instead of speed, measure how well joints and limits hold under the largest torques in random directions.
+    #[arg(long)]
+    quality: bool,
     /// Print one JSON object.
     #[arg(long)]
     json: bool,
 }
 
+impl EnvArgs {
+    fn config(&self) -> anyhow::Result<Config> {
+        let mut source = ConfigSource::default();
+        for pair in &self.set {
+            source.set(pair)?;
+        }
+        if let Some(kind) = &self.observation {
+            source.value("env.observation", kind.as_str())?;
+        }
+        Ok(source.build()?)
+    }
+}
+
 /// Measures and tells.
 pub fn run(args: &EnvArgs) -> anyhow::Result<()> {
-    let config = settings::environment(&EnvConfig::default());
-    let mut worlds = (0..WORLDS).map(|_| Environment::new(&config, HUMANOID_XML)).collect::<Result<Vec<_>, _>>()?;
+    let config = args.config()?;
+    let environment = settings::training(&config);
+    let threads = worlds::threads(args.threads.into());
     let rounds = args.steps.div_ceil(WORLDS as u64).max(1);
-    let mut random = seeds::stream(1, "bench-actions", &[]);
-    let (size, limit) = (worlds[0].action_size(), worlds[0].action_limit());
-    let actions: Vec<f32> = (0..size * 4096).map(|_| random.random_range(-limit..limit)).collect();
-    let action = |index: usize| &actions[index % 4096 * size..][..size];
+    let result = if args.quality {
+        quality::measure(&environment, threads, rounds)?
+    } else {
+        measure(&environment, config.env.observation.name(), threads, rounds)?
+    };
+    tell(&result, args.json);
+    Ok(())
+}
 
-    let mut observation = vec![0.0; worlds[0].observation_size()];
-    worlds.iter_mut().enumerate().for_each(|(index, world)| world.reset(index as u64, &mut observation));
-    let (mut sum, mut resets, mut index) = (0.0f64, 0u64, 0);
+fn measure(
+    config: &EnvironmentConfig,
+    observation_kind: &str,
+    threads: usize,
+    rounds: u64,
+) -> anyhow::Result<serde_json::Value> {
+    let seeds = SeedSource { run_seed: 1, actor: "bench".to_string(), start: 0 };
+    let mut environments = Environments::new(WORLDS, config, HUMANOID_XML, seeds)?.with_threads(threads)?;
+    let mut random = seeds::stream(1, "bench-actions", &[]);
+    let size = environments.action_size();
+    let actions: Vec<f32> = (0..ACTIONS * size).map(|_| random.random_range(-1.0..1.0)).collect();
+    let actions_of = |round: u64| {
+        let first = round as usize * WORLDS % ACTIONS;
+        &actions[first * size..][..WORLDS * size]
+    };
+
+    let (mut stepped, mut sum, mut resets) = (Stepped::default(), 0.0f64, 0u64);
     let begun = Instant::now();
-    for _ in 0..rounds {
-        for world in &mut worlds {
-            let step = world.step(action(index), &mut observation);
-            sum += f64::from(step.reward);
-            index += 1;
-            if step.terminated || step.truncated {
-                resets += 1;
-                world.reset(WORLDS as u64 + resets, &mut observation);
-            }
-        }
+    for round in 0..rounds {
+        environments.step(actions_of(round), &mut stepped);
+        sum += stepped.rewards.iter().map(|reward| f64::from(*reward)).sum::<f64>();
+        resets += stepped.episodes.len() as u64;
     }
     let steps = rounds * WORLDS as u64;
     let env_steps_per_s = steps as f64 / begun.elapsed().as_secs_f64();
+    let observations: Vec<u8> = environments.observations().iter().flat_map(|entry| entry.to_le_bytes()).collect();
 
     // The same bodies under the same actions, without observation and reward; a body on the ground costs more than one that
     // stands, so those that fell stand up again here too.
-    worlds.iter_mut().enumerate().for_each(|(index, world)| world.reset(index as u64, &mut observation));
+    let mut worlds = Worlds::new(config, threads, |_| vec![0.0f32; size])?;
+    let limit = worlds.iter().next().map_or(0.0, |(world, _)| world.environment.action_limit());
     let begun = Instant::now();
-    let mut faults = 0u64;
-    for _ in 0..rounds {
-        for world in &mut worlds {
-            let failed = world.physics_mut().step_only(action(index)).is_err();
-            faults += u64::from(failed);
-            index += 1;
-            if failed || !task::is_healthy(&config, world.physics().torso_height_m()) {
-                resets += 1;
-                world.reset(WORLDS as u64 + resets, &mut observation);
+    for round in 0..rounds {
+        let actions = actions_of(round);
+        worlds.each(|world, controls| {
+            let action = &actions[world.index * size..][..size];
+            controls.iter_mut().zip(action).for_each(|(control, action)| *control = action * limit);
+            let failed = world.environment.physics_mut().step_only(controls).is_err();
+            world.faults += u64::from(failed);
+            if failed || !task::is_healthy(config, world.environment.physics().torso_height_m()) {
+                world.reset();
             }
-        }
+        });
     }
     let physics_only_steps_per_s = steps as f64 / begun.elapsed().as_secs_f64();
+    let faults: u64 = worlds.iter().map(|(world, _)| world.faults).sum();
+    // Each world was put on its feet once before the first step.
+    let resets = resets + worlds.iter().map(|(world, _)| world.resets - 1).sum::<u64>();
 
-    let result = json!({
+    Ok(json!({
         "env_steps_per_s": rounded(env_steps_per_s),
         "physics_only_steps_per_s": rounded(physics_only_steps_per_s),
-        "observation": observation.len(),
-        "control_step_s": worlds[0].control_step_s(),
-        "threads": 1,
+        "observation": environments.observation_size(),
+        "observation_kind": observation_kind,
+        "control_step_s": treadmill_humanoid::CONTROL_STEP_S,
+        "threads": threads,
         "cpu": machine::cpu_name(),
-        "workload": format!("{WORLDS} humanoids in turn, uniformly random actions, {steps} steps each way, {resets} resets"),
+        "workload": format!("{WORLDS} humanoids, uniformly random actions, {steps} steps each way, {resets} resets"),
         "faults": faults,
-        "checksum": format!("{:016x}", seeds::checksum(&[&sum.to_le_bytes()])),
-    });
-    tell(&result, args.json);
-    Ok(())
+        "checksum": format!("{:016x}", seeds::checksum(&[&sum.to_le_bytes(), &observations])),
+    }))
 }

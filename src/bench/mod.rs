@@ -1,8 +1,11 @@
 //! `treadmill bench`: the benchmark sheet. Each bench prints its workload and a checksum of its result.
 
 mod env;
+mod quality;
+mod quantiles;
 mod train;
 mod update;
+mod worlds;
 
 use clap::{Args, Subcommand};
 
@@ -17,7 +20,7 @@ pub struct BenchArgs {
 
 #[derive(Subcommand)]
 enum What {
-    /// Environment steps per second of one core, with observation and without policy.
+    /// Environment steps per second, with observation and without policy; or how well the joints hold.
     Env(env::EnvArgs),
     /// Minibatch samples per second of the update.
     Update(update::UpdateArgs),

@@ -3,6 +3,7 @@
 //! Weights, ranges and flags carry the names of the arguments of Gymnasium's environments.
 
 use crate::error::ModelError;
+use crate::randomisation::Randomisation;
 
 /// Duration of one control step (s): one action, one observation, one reward.
 pub const CONTROL_STEP_S: f64 = 0.015;
@@ -70,6 +71,8 @@ pub struct EnvironmentConfig {
     pub solver_iterations: u32,
     /// Whether parts of the body that are not neighbours collide with each other.
     pub self_collision: bool,
+    /// What differs from episode to episode beside the start; nothing by default.
+    pub randomisation: Randomisation,
 }
 
 impl Default for EnvironmentConfig {
@@ -92,8 +95,9 @@ impl Default for EnvironmentConfig {
             include_cfrc_ext_in_observation: true,
             max_episode_steps: 1000,
             substeps: 2,
-            solver_iterations: 8,
+            solver_iterations: 4,
             self_collision: true,
+            randomisation: Randomisation::default(),
         }
     }
 }
@@ -145,7 +149,7 @@ impl EnvironmentConfig {
                 }
             }
         }
-        Ok(())
+        self.randomisation.check()
     }
 
     /// The flags of the blocks that can be left out.

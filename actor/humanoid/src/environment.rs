@@ -9,16 +9,19 @@ use crate::info::{PerTendon, StepInfo};
 use crate::model::{Model, Tendon};
 use crate::observation::Observation;
 use crate::physics::{JointQuality, Physics};
+use crate::randomisation::Disturber;
 use crate::task::{self, Step, Transition};
 
 /// A humanoid that is reset, acts, is observed and rewarded.
 ///
 /// The same seed and the same actions give the same observations and rewards, bit for bit, whatever the environment
-/// did before. It allocates in [`Self::reset`] only.
+/// did before: that holds for everything [`EnvironmentConfig::randomisation`] adds, too. It allocates in [`Self::reset`]
+/// only.
 pub struct Environment {
     config: EnvironmentConfig,
     physics: Physics,
     observation: Observation,
+    disturber: Disturber,
     nominal_position: Vec<f64>,
     /// Buffers of the reset: positions and velocities with noise.
     start_position: Vec<f64>,
@@ -45,6 +48,7 @@ impl Environment {
         observation.write(&physics, &mut last_observation);
         Ok(Self {
             config: config.clone(),
+            disturber: Disturber::new(&config.randomisation, physics.model(), &observation),
             start_position: nominal_position.clone(),
             start_velocity: vec![0.0; physics.model().velocity_size()],
             controls: vec![0.0; physics.model().motors.len()],
@@ -82,7 +86,7 @@ impl Environment {
         self.physics.model().control_limit as f32
     }
 
-    /// Starts a new episode whose noise comes from `seed`, and writes its first observation.
+    /// Starts a new episode of which everything random comes from `seed`, and writes its first observation.
     ///
     /// # Panics
     /// If `observation` does not have length [`Self::observation_size`].
@@ -104,6 +108,7 @@ impl Environment {
         for start in &mut self.start_velocity {
             *start = symmetric(&mut random, scale);
         }
+        self.disturber.begin_episode(seed, &mut self.physics);
         // The noisy quaternion is made a unit again where the bodies are placed.
         self.physics.set_state(&self.start_position, &self.start_velocity);
         self.episode_steps = 0;
@@ -117,6 +122,7 @@ impl Environment {
     /// `action` has one control per motor, in actuator order, and is clamped to ± [`Self::action_limit`].
     /// If the action or the physics is not finite the step is a fault: terminated, reward 0, and the observation
     /// and `info` are those of the step before. So is every further step until [`Self::reset`].
+    /// Where actions are delayed or disturbed on their way to the motors, the step is charged for the action given here.
     ///
     /// # Panics
     /// If `action` or `observation` has the wrong length.
@@ -135,9 +141,15 @@ impl Environment {
         for (control, action) in self.controls.iter_mut().zip(action) {
             *control = action.clamp(-limit, limit);
         }
+        if let Some(velocity_mps) = self.disturber.due_push() {
+            self.physics.push(velocity_mps);
+        }
         let before = self.physics.centre_of_mass();
         self.episode_steps = self.episode_steps.saturating_add(1);
-        if self.physics.step_only(action).is_err() {
+        // An action that is not finite is physics' to refuse: it must not be clamped, or be lost in a delay.
+        let is_finite = action.iter().all(|control| control.is_finite());
+        let acting = if is_finite { self.disturber.act(&self.controls) } else { action };
+        if self.physics.step_only(acting).is_err() {
             return Ok(self.fault(observation));
         }
         let after = self.physics.centre_of_mass();
@@ -160,7 +172,7 @@ impl Environment {
         Ok(step)
     }
 
-    /// Writes what is seen now, whichever way the body got into its state.
+    /// Writes what is seen now, without sensor noise, whichever way the body got into its state.
     ///
     /// # Errors
     /// [`LengthError`] if `observation` has the wrong length.
@@ -195,6 +207,7 @@ impl Environment {
 
     fn record(&mut self, observation: &mut [f32]) {
         self.observation.write(&self.physics, observation);
+        self.disturber.corrupt(observation);
         self.last_observation.copy_from_slice(observation);
     }
 

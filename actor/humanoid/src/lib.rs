@@ -10,7 +10,9 @@
 //! - [`observation`]: what the policy sees.
 //! - [`physics`]: named quantities of the simulated body; the only place in the project that names Rapier.
 //! - [`model`]: MJCF text → bodies, hinge chains, motors.
-//! - `chain`: angles and axes of a chain of hinges.
+//! - `dynamics`: how an articulated body moves between contacts.
+//! - `chain`: frames of a chain of hinges.
+//! - [`randomisation`]: what differs from episode to episode, so that a policy depends on none of it.
 //! - [`config`], [`error`]: what can be set, and what is refused.
 
 pub mod config;
@@ -20,9 +22,11 @@ pub mod info;
 pub mod model;
 pub mod observation;
 pub mod physics;
+pub mod randomisation;
 pub mod task;
 
 mod chain;
+mod dynamics;
 
 pub use config::{CONTROL_STEP_S, EnvironmentConfig, ObservationKind, Task};
 pub use environment::Environment;
@@ -30,5 +34,6 @@ pub use error::{LengthError, ModelError};
 pub use info::{InfoValue, StepInfo};
 pub use model::{HUMANOID_XML, Model};
 pub use observation::{OBSERVATION_SIZE_COMPACT, Observation};
-pub use physics::{ContactForce, JointQuality, Physics, PhysicsFault};
+pub use physics::{ContactForce, JointQuality, Physics, PhysicsFault, Variation};
+pub use randomisation::Randomisation;
 pub use task::Step;

@@ -17,6 +17,14 @@ macro_rules! choice {
         impl $name {
             /// The names, as a configuration gives them.
             pub const NAMES: &[&str] = &[$($text),*];
+
+            /// Its name.
+            #[must_use]
+            pub fn name(self) -> &'static str {
+                match self {
+                    $( Self::$variant => $text, )*
+                }
+            }
         }
     };
 }

@@ -13,7 +13,9 @@ use serde::{Deserialize, Serialize};
 pub use choices::{EnvObservation, EnvTask};
 pub use preset::{PRESETS, preset};
 pub use section::{KeyDoc, Section};
-pub use sections::{BusConfig, EnvConfig, LearnerConfig, PolicyConfig, PpoConfig, RolloutConfig, RunConfig};
+pub use sections::{
+    BusConfig, EnvConfig, LearnerConfig, PolicyConfig, PpoConfig, RandomisationConfig, RolloutConfig, RunConfig,
+};
 pub use source::ConfigSource;
 
 /// Everything that can be configured, checked.
@@ -24,6 +26,8 @@ pub struct Config {
     pub run: RunConfig,
     /// The task.
     pub env: EnvConfig,
+    /// What differs from episode to episode.
+    pub randomisation: RandomisationConfig,
     /// How experience is gathered.
     pub rollout: RolloutConfig,
     /// The networks.
@@ -105,6 +109,7 @@ impl Config {
         [
             RunConfig::keys(),
             EnvConfig::keys(),
+            RandomisationConfig::keys(),
             RolloutConfig::keys(),
             PolicyConfig::keys(),
             PpoConfig::keys(),
@@ -118,6 +123,7 @@ impl Config {
     pub fn check(&self) -> Result<(), ConfigError> {
         self.run.check()?;
         self.env.check()?;
+        self.randomisation.check()?;
         self.rollout.check()?;
         self.policy.check()?;
         self.ppo.check()?;

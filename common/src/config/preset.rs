@@ -16,7 +16,23 @@ pub const PRESETS: &[(&str, &str)] = &[
          [policy]\nhidden = [32, 32]\n[ppo]\nbatch = 512\nminibatch = 256\nepochs = 2\n\
          [learner]\ntable_every_updates = 4\n[bus]\nstats_every_ms = 500\n",
     ),
+    // The recipe on a body and a floor that are never quite the same, for policies that are to walk in another simulator.
+    ("sim2sim", SIM2SIM),
 ];
+
+/// How far apart two simulators of the same humanoid may be taken to be.
+const SIM2SIM: &str = "\
+[randomisation]
+mass_scale = [0.85, 1.15]
+floor_friction_scale = [0.5, 1.5]
+motor_scale = [0.85, 1.15]
+damping_scale = [0.6, 1.5]
+sensor_noise_position = 0.005
+sensor_noise_velocity = 0.05
+action_delay_steps = [0, 1]
+push_interval_s = [2.0, 5.0]
+push_mps = [0.0, 0.5]
+";
 
 /// The text of one preset.
 pub fn preset(name: &str) -> Result<&'static str, ConfigError> {

@@ -53,10 +53,45 @@ section! {
         /// Physics steps per control step of 15 ms.
         substeps: u32 = 2, "1 to 50" => |v| (1..=50).contains(v);
         /// Solver iterations per physics step.
-        solver_iterations: u32 = 8, "1 to 50" => |v| (1..=50).contains(v);
+        solver_iterations: u32 = 4, "1 to 50" => |v| (1..=50).contains(v);
         /// Whether the humanoid's own limbs can touch each other.
         self_collision: bool = true, "true or false" => |_| true;
     }
+}
+
+section! {
+    /// What differs from episode to episode while training, so that the policy depends on none of it. Ranges are smallest and largest value; by default nothing is randomised.
+    RandomisationConfig as "randomisation" {
+        /// Factor on the mass and inertia of each body.
+        mass_scale: [f64; 2] = [1.0, 1.0], "[smallest, largest], 0.1 to 10" => |v| is_range(v, 0.1, 10.0);
+        /// Factor on the friction coefficient of the floor.
+        floor_friction_scale: [f64; 2] = [1.0, 1.0], "[smallest, largest], 0 to 10" => |v| is_range(v, 0.0, 10.0);
+        /// Factor on the torque of each motor.
+        motor_scale: [f64; 2] = [1.0, 1.0], "[smallest, largest], 0 to 10" => |v| is_range(v, 0.0, 10.0);
+        /// Factor on the viscous friction of each hinge.
+        damping_scale: [f64; 2] = [1.0, 1.0], "[smallest, largest], 0 to 10" => |v| is_range(v, 0.0, 10.0);
+        /// Factor on the rotor inertia of each hinge.
+        armature_scale: [f64; 2] = [1.0, 1.0], "[smallest, largest], 0 to 10" => |v| is_range(v, 0.0, 10.0);
+        /// Factor on gravity.
+        gravity_scale: [f64; 2] = [1.0, 1.0], "[smallest, largest], 0 to 10" => |v| is_range(v, 0.0, 10.0);
+        /// Standard deviation of the noise on observed height (m), orientation (rad about each axis) and hinge angles (rad).
+        sensor_noise_position: f64 = 0.0, "0 to 1" => |v| (0.0..=1.0).contains(v);
+        /// Standard deviation of the noise on observed velocities (m/s, rad/s).
+        sensor_noise_velocity: f64 = 0.0, "0 to 1" => |v| (0.0..=1.0).contains(v);
+        /// Standard deviation of the noise on each control, as a share of the largest control.
+        control_noise: f64 = 0.0, "0 to 1" => |v| (0.0..=1.0).contains(v);
+        /// Control steps after which an action reaches the motors, the same throughout an episode.
+        action_delay_steps: [u32; 2] = [0, 0], "[smallest, largest], 0 to 3" => |v| v[0] <= v[1] && v[1] <= 3;
+        /// Seconds from one push to the next, and from the start of an episode to the first.
+        push_interval_s: [f64; 2] = [2.0, 5.0], "[smallest, largest], 0.015 to 1000" => |v| is_range(v, 0.015, 1000.0);
+        /// Velocity in m/s that a push adds to the whole body, in any horizontal direction; 0 means no pushes.
+        push_mps: [f64; 2] = [0.0, 0.0], "[smallest, largest], 0 to 10" => |v| is_range(v, 0.0, 10.0);
+    }
+}
+
+/// Whether these are a smallest and a largest value within bounds.
+fn is_range(range: &[f64; 2], min: f64, max: f64) -> bool {
+    min <= range[0] && range[0] <= range[1] && range[1] <= max
 }
 
 section! {
@@ -70,6 +105,8 @@ section! {
         fragment_steps: u32 = 128, "1 to 4096" => |v| (1..=4096).contains(v);
         /// Unanswered fragments that an actor may have on the bus: 1 keeps step with the learner, 2 never idles but lags.
         max_in_flight: u32 = 1, "1 or 2" => |v| (1..=2).contains(v);
+        /// Threads of each actor process that its environments are spread over; 0 means one per core.
+        threads: u32 = 1, "0 to 256" => |v| *v <= 256;
     }
 }
 

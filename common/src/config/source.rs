@@ -114,10 +114,11 @@ fn fit(value: Value, known: &KeyDoc) -> Result<Value, ConfigError> {
         {
             Ok(value)
         }
-        ("[f64; 2]", Value::Array(items)) => match items[..] {
-            [ref low, ref high] => Ok(Value::Array(vec![number(low, known)?, number(high, known)?])),
-            _ => Err(refuse(&value)),
-        },
+        ("[f64; 2]" | "[u32; 2]", Value::Array(items)) if items.len() == 2 => {
+            let kind = if known.kind == "[f64; 2]" { "f64" } else { "u32" };
+            let part = KeyDoc { kind, ..known.clone() };
+            items.iter().map(|item| fit(item.clone(), &part)).collect::<Result<_, _>>().map(Value::Array)
+        }
         (kind, Value::String(name)) if choices::names(kind).is_some() => {
             if choices::names(kind).is_some_and(|names| names.contains(&name.as_str())) {
                 return Ok(value);
@@ -130,11 +131,6 @@ fn fit(value: Value, known: &KeyDoc) -> Result<Value, ConfigError> {
         }
         _ => Err(refuse(&value)),
     }
-}
-
-/// One number of a pair.
-fn number(value: &Value, known: &KeyDoc) -> Result<Value, ConfigError> {
-    fit(value.clone(), &KeyDoc { kind: "f64", ..known.clone() })
 }
 
 fn section_of(known: &KeyDoc) -> &str {
@@ -238,7 +234,9 @@ mod tests {
         assert!(message("ppo.minibatch=9000").contains("1 to ppo.batch, which is 8192"));
         assert!(message("ppo.epochs=many").contains("`ppo.epochs` is \"many\""));
         assert!(message("ppo.epochs=-1").contains("is -1; allowed: 1 to 100"));
-        assert!(message("nonsense.key=1").contains("allowed: run, env, rollout, policy, ppo, learner, bus"));
+        assert!(
+            message("nonsense.key=1").contains("allowed: run, env, randomisation, rollout, policy, ppo, learner, bus")
+        );
         assert!(message("ppo.gamma=nan").contains("allowed: 0 to 1"));
         assert!(message("seed").contains("key=value"));
     }
@@ -295,6 +293,32 @@ mod tests {
     fn whole_floats_serve_as_integers() {
         assert_eq!(set("run.steps=8e6").unwrap().run.steps, 8_000_000);
         assert_eq!(set("ppo.gamma=1").unwrap().ppo.gamma, 1.0);
+    }
+
+    #[test]
+    fn ranges_are_two_numbers_in_order() {
+        assert_eq!(set("randomisation.mass_scale=[0.9, 2]").unwrap().randomisation.mass_scale, [0.9, 2.0]);
+        assert_eq!(set("randomisation.action_delay_steps=[0, 1]").unwrap().randomisation.action_delay_steps, [0, 1]);
+        let message = |pair: &str| set(pair).unwrap_err().to_string();
+        assert_eq!(
+            message("randomisation.mass_scale=[1.5, 0.5]"),
+            "config key `randomisation.mass_scale` is [1.5, 0.5]; allowed: [smallest, largest], 0.1 to 10"
+        );
+        for wrong in ["1", "[1]", "[1, 1, 1]", "[\"a\", 1]", "[nan, 1]", "[0, 1]"] {
+            assert!(message(&format!("randomisation.mass_scale={wrong}")).contains("0.1 to 10"), "{wrong}");
+        }
+        for wrong in ["[0, 4]", "[0.5, 1]", "[-1, 1]", "[2, 1]"] {
+            assert!(message(&format!("randomisation.action_delay_steps={wrong}")).contains("0 to 3"), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn a_preset_of_randomisation_differs_from_the_recipe_in_nothing_else() {
+        let mut source = ConfigSource::default();
+        source.preset("sim2sim").unwrap();
+        let config = source.build().unwrap();
+        assert_ne!(config.randomisation, Config::default().randomisation);
+        assert_eq!(Config { randomisation: Config::default().randomisation, ..config }, Config::default());
     }
 
     proptest! {

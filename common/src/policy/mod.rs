@@ -29,3 +29,4 @@ pub use fused::FusedNetworks;
 pub use inference::Policy;
 pub use shape::{Dense, NamedTensor, NetworkShape};
 pub use tensors::{ParameterError, check_parameters, from_safetensors, to_safetensors};
+pub(crate) use tensors::{column, to_safetensors_with};

@@ -2,6 +2,8 @@
 //!
 //! Equal parameters give equal bytes: nothing but the tensors is written, in an order that safetensors fixes.
 
+use std::collections::HashMap;
+
 use safetensors::tensor::{Dtype, SafeTensorError, SafeTensors, TensorView, serialize};
 
 use super::{NamedTensor, NetworkShape};
@@ -31,10 +33,12 @@ pub enum ParameterError {
         expected: Vec<usize>,
     },
     /// A tensor is of another number type.
-    #[error("tensor {name:?} holds {found}, expected F32")]
+    #[error("tensor {name:?} holds {found}, expected {expected}")]
     Dtype {
         /// Its name.
         name: String,
+        /// The type that is read.
+        expected: &'static str,
         /// The type in the bytes.
         found: String,
     },
@@ -46,7 +50,7 @@ pub enum ParameterError {
         /// Index within the tensor, row-major.
         index: usize,
         /// What stands there.
-        value: f32,
+        value: f64,
     },
     /// A flat vector has the wrong length.
     #[error("{found} parameters given, the network has {expected}")]
@@ -75,15 +79,38 @@ pub fn check_parameters(shape: &NetworkShape, parameters: &[f32]) -> Result<(), 
 /// # Panics
 /// If `parameters` does not have the length of `shape`.
 pub fn to_safetensors(shape: &NetworkShape, parameters: &[f32]) -> Vec<u8> {
+    to_safetensors_with(shape, parameters, &[], None)
+}
+
+/// The parameters, named columns of f64 and one entry of metadata as safetensors bytes.
+///
+/// One entry and no more: several would be written in an order that changes from call to call.
+///
+/// # Panics
+/// If `parameters` does not have the length of `shape`.
+pub(crate) fn to_safetensors_with(
+    shape: &NetworkShape,
+    parameters: &[f32],
+    columns: &[(&str, &[f64])],
+    metadata: Option<(&str, String)>,
+) -> Vec<u8> {
     assert_eq!(parameters.len(), shape.parameter_count(), "parameters do not fit the network");
     let bytes: Vec<u8> = parameters.iter().flat_map(|p| p.to_le_bytes()).collect();
-    let views = shape.tensors().into_iter().map(|tensor| {
+    let weights = shape.tensors().into_iter().map(|tensor| {
         let range = tensor.range();
-        let view = TensorView::new(Dtype::F32, tensor.shape, &bytes[range.start * 4..range.end * 4])
-            .expect("the slice has the length of the shape");
-        (tensor.name, view)
+        (tensor.name, view(Dtype::F32, tensor.shape, &bytes[range.start * 4..range.end * 4]))
     });
-    serialize(views, None).expect("names are unique and every view is complete")
+    let wide: Vec<(String, Vec<u8>)> = columns
+        .iter()
+        .map(|(name, numbers)| (name.to_string(), numbers.iter().flat_map(|x| x.to_le_bytes()).collect()))
+        .collect();
+    let columns = wide.iter().map(|(name, bytes)| (name.clone(), view(Dtype::F64, vec![bytes.len() / 8], bytes)));
+    let metadata = metadata.map(|(key, value)| HashMap::from([(key.to_string(), value)]));
+    serialize(weights.chain(columns), metadata).expect("names are unique and every view is complete")
+}
+
+fn view(dtype: Dtype, shape: Vec<usize>, bytes: &[u8]) -> TensorView<'_> {
+    TensorView::new(dtype, shape, bytes).expect("the slice has the length of the shape")
 }
 
 /// The flat parameter vector out of safetensors bytes; tensors that the network does not name are ignored.
@@ -94,21 +121,9 @@ pub fn from_safetensors(bytes: &[u8], shape: &NetworkShape) -> Result<Vec<f32>, 
     let file = SafeTensors::deserialize(bytes)?;
     let mut parameters = vec![0.0; shape.parameter_count()];
     for tensor in shape.tensors() {
-        let view = file
-            .tensor(&tensor.name)
-            .map_err(|_| ParameterError::Missing { name: tensor.name.clone(), expected: tensor.shape.clone() })?;
-        if view.dtype() != Dtype::F32 {
-            return Err(ParameterError::Dtype { name: tensor.name, found: format!("{:?}", view.dtype()) });
-        }
-        if view.shape() != tensor.shape {
-            return Err(ParameterError::Shape {
-                name: tensor.name,
-                found: view.shape().to_vec(),
-                expected: tensor.shape,
-            });
-        }
+        let data = data_of(&file, &tensor.name, &tensor.shape, Dtype::F32, "F32")?;
         let target = &mut parameters[tensor.range()];
-        for (number, bytes) in target.iter_mut().zip(view.data().as_chunks::<4>().0) {
+        for (number, bytes) in target.iter_mut().zip(data.as_chunks::<4>().0) {
             *number = f32::from_le_bytes(*bytes);
         }
         check_finite(&tensor, target)?;
@@ -116,10 +131,49 @@ pub fn from_safetensors(bytes: &[u8], shape: &NetworkShape) -> Result<Vec<f32>, 
     Ok(parameters)
 }
 
+/// A column of f64 out of a safetensors file.
+///
+/// # Errors
+/// If it is missing, has another length or number type, or holds a number that is not finite.
+pub(crate) fn column(file: &SafeTensors<'_>, name: &str, length: usize) -> Result<Vec<f64>, ParameterError> {
+    let data = data_of(file, name, &[length], Dtype::F64, "F64")?;
+    let numbers: Vec<f64> = data.as_chunks::<8>().0.iter().map(|bytes| f64::from_le_bytes(*bytes)).collect();
+    match numbers.iter().position(|x| !x.is_finite()) {
+        None => Ok(numbers),
+        Some(index) => Err(ParameterError::NonFinite { name: name.to_string(), index, value: numbers[index] }),
+    }
+}
+
+/// The bytes of one tensor, if it is of the wanted shape and number type.
+fn data_of<'a>(
+    file: &SafeTensors<'a>,
+    name: &str,
+    shape: &[usize],
+    dtype: Dtype,
+    expected: &'static str,
+) -> Result<&'a [u8], ParameterError> {
+    let view =
+        file.tensor(name).map_err(|_| ParameterError::Missing { name: name.to_string(), expected: shape.to_vec() })?;
+    if view.dtype() != dtype {
+        return Err(ParameterError::Dtype { name: name.to_string(), expected, found: format!("{:?}", view.dtype()) });
+    }
+    if view.shape() != shape {
+        return Err(ParameterError::Shape {
+            name: name.to_string(),
+            found: view.shape().to_vec(),
+            expected: shape.to_vec(),
+        });
+    }
+    Ok(view.data())
+}
+
 fn check_finite(tensor: &NamedTensor, numbers: &[f32]) -> Result<(), ParameterError> {
     match numbers.iter().position(|x| !x.is_finite()) {
         None => Ok(()),
-        Some(index) => Err(ParameterError::NonFinite { name: tensor.name.clone(), index, value: numbers[index] }),
+        Some(index) => {
+            let value = f64::from(numbers[index]);
+            Err(ParameterError::NonFinite { name: tensor.name.clone(), index, value })
+        }
     }
 }
 

@@ -16,6 +16,11 @@ const HEADER_BYTES: usize = 8 + 4 + 8 + 32;
 /// Checkpoints are read from disk, not from the bus, but a damaged length must not ask for all memory.
 const STATE_BYTES_MAX: usize = 4 << 30;
 
+/// Whether bytes begin as a checkpoint's do.
+pub fn is_checkpoint(bytes: &[u8]) -> bool {
+    bytes.starts_with(MAGIC)
+}
+
 /// State as the bytes of a file.
 pub fn encode<T: Serialize>(state: &T) -> Result<Vec<u8>, CheckpointError> {
     let payload = bincode::serde::encode_to_vec(state, bincode::config::standard())

@@ -72,6 +72,8 @@ pub struct Observation {
     blocks: Vec<Block>,
     /// Whether world and root, whose numbers are always zero, have their rows.
     has_world: bool,
+    /// Numbers before the height of the torso.
+    skips: usize,
 }
 
 impl Observation {
@@ -101,7 +103,7 @@ impl Observation {
                 Block { name, range: start..end, part }
             })
             .collect();
-        Self { blocks, has_world }
+        Self { blocks, has_world, skips: HIDDEN - hidden }
     }
 
     /// Length of the observation.
@@ -114,6 +116,11 @@ impl Observation {
     #[must_use]
     pub fn blocks(&self) -> &[Block] {
         &self.blocks
+    }
+
+    /// Where the height of the torso is: after x and y where they are seen. The rest of positions and velocities follows.
+    pub(crate) fn height_at(&self) -> usize {
+        self.skips
     }
 
     /// Writes what is seen of a body as it is now. Allocates nothing.

@@ -24,9 +24,10 @@ pub(super) struct ContactImpulse {
     pub(super) angular_nms: Vector3<f64>,
 }
 
-/// Adds the impulses of the physics step just done, with moments about `about` (m, world).
-pub(super) fn accumulate(world: &World, about: &Point3<f64>, impulses: &mut [ContactImpulse]) {
-    let passes = world.rapier.integration_parameters.num_solver_iterations as f32;
+/// Adds the impulses of the physics step just done, with moments about `about` (m, Rapier's world); says whether there
+/// were any.
+pub(super) fn accumulate(world: &World, about: &Point3<f64>, impulses: &mut [ContactImpulse]) -> bool {
+    let mut touched = false;
     for pair in world.rapier.narrow_phase.contact_pairs() {
         if !pair.has_any_active_contact() {
             continue;
@@ -37,24 +38,31 @@ pub(super) fn accumulate(world: &World, about: &Point3<f64>, impulses: &mut [Con
         };
         let links = [first.user_data, second.user_data].map(|data| (data as usize).checked_sub(1));
         for manifold in pair.solver_manifolds() {
-            let mut rubbing = None;
+            let (mut rubbing, mut pressed, mut pressed_last) = (None, 0.0, 0.0);
             for contact in &manifold.points {
                 if contact.data.impulse == 0.0 {
                     continue;
                 }
+                touched = true;
                 let at = first.position().transform_point(contact.local_p1);
                 let impulse = from_vector(manifold.data.normal * -contact.data.impulse);
                 push(links, from_vector(at), impulse, about, impulses);
-                // Rapier solves friction once per manifold, stores it with every contact, and keeps the last solver
-                // pass only; taking all passes to be like it is the closest reading there is. Normal impulses are
-                // exact sums.
-                rubbing = Some((at, contact.data.warmstart_tangent_world * passes));
+                pressed += contact.data.impulse;
+                pressed_last += contact.data.warmstart_impulse;
+                rubbing = Some((at, contact.data.warmstart_tangent_world));
             }
-            if let Some((at, impulse)) = rubbing {
-                push(links, from_vector(at), from_vector(impulse), about, impulses);
+            // Rapier solves friction once per manifold, stores it with every contact, and keeps the last solver pass
+            // only. Taking it to be in proportion to the normal impulse, of which both the sum and the last pass are
+            // known, is the closest reading there is.
+            if let Some((at, impulse)) = rubbing
+                && pressed_last > 0.0
+            {
+                let impulse = from_vector(impulse * (pressed / pressed_last));
+                push(links, from_vector(at), impulse, about, impulses);
             }
         }
     }
+    touched
 }
 
 /// Gives an impulse (N·s) at a point (m) to the first link and its opposite to the second; `None` is the floor.

@@ -1,7 +1,7 @@
 //! Between nalgebra in double precision, which the model and the task use, and Rapier's own types.
 
-use nalgebra::{Isometry3, Matrix3, Point3, Quaternion, Translation3, UnitQuaternion, Vector3};
-use rapier3d::math::{Matrix, Pose, Rotation, Vector};
+use nalgebra::{Matrix3, Point3, Quaternion, UnitQuaternion, Vector3};
+use rapier3d::math::{Matrix, Rotation, Vector};
 
 pub(super) fn to_vector(v: &Vector3<f64>) -> Vector {
     Vector::new(v.x as f32, v.y as f32, v.z as f32)
@@ -17,10 +17,6 @@ pub(super) fn to_rotation(r: &UnitQuaternion<f64>) -> Rotation {
     Rotation::from_xyzw(q.i as f32, q.j as f32, q.k as f32, q.w as f32).normalize()
 }
 
-pub(super) fn to_pose(pose: &Isometry3<f64>) -> Pose {
-    Pose::from_parts(to_vector(&pose.translation.vector), to_rotation(&pose.rotation))
-}
-
 pub(super) fn to_matrix(m: &Matrix3<f64>) -> Matrix {
     Matrix::from_cols(to_vector(&m.column(0).into()), to_vector(&m.column(1).into()), to_vector(&m.column(2).into()))
 }
@@ -29,10 +25,6 @@ pub(super) fn from_vector(v: Vector) -> Vector3<f64> {
     Vector3::new(f64::from(v.x), f64::from(v.y), f64::from(v.z))
 }
 
-pub(super) fn from_pose(pose: &Pose) -> Isometry3<f64> {
-    let q = pose.rotation;
-    Isometry3::from_parts(
-        Translation3::from(from_vector(pose.translation)),
-        UnitQuaternion::new_normalize(Quaternion::new(f64::from(q.w), f64::from(q.x), f64::from(q.y), f64::from(q.z))),
-    )
+pub(super) fn from_rotation(r: &Rotation) -> UnitQuaternion<f64> {
+    UnitQuaternion::new_normalize(Quaternion::new(f64::from(r.w), f64::from(r.x), f64::from(r.y), f64::from(r.z)))
 }

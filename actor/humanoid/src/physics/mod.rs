@@ -1,21 +1,31 @@
 //! One humanoid in one Rapier world, as named quantities.
 //!
+//! Its state is in joint coordinates (see [`crate::dynamics`]). A physics step has three parts. The *flight* carries
+//! the state over the step as if nothing touched. Then Rapier gets the bodies as rigid bodies on their way along that
+//! flight, and solves contacts together with joints and limits. What it changed is projected back onto the joint
+//! coordinates. So between contacts the body moves as exactly as the flight does, and joints never come apart.
+//!
 //! Nothing here knows about rewards or episodes. Rapier is named in this module only.
 
 mod contact;
 mod convert;
 mod drive;
-mod kinematics;
+mod exchange;
+mod motion;
+mod variation;
 mod world;
 
-use nalgebra::{Isometry3, Point3, Vector3};
+use nalgebra::{Point3, Vector3};
 
 pub use self::contact::ContactForce;
 use self::contact::ContactImpulse;
-pub use self::kinematics::BodyMotion;
-use self::kinematics::ChainMotion;
+use self::exchange::Exchange;
+pub use self::motion::BodyMotion;
+use self::variation::Variable;
+pub use self::variation::Variation;
 use self::world::World;
 use crate::config::{CONTROL_STEP_S, EnvironmentConfig};
+use crate::dynamics::{Flight, Motion, Posture, ROOT_DOFS, ROOT_POSITIONS, Tree};
 use crate::error::ModelError;
 use crate::model::Model;
 
@@ -27,7 +37,8 @@ pub struct PhysicsFault;
 /// How well the joints hold at one moment.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct JointQuality {
-    /// Largest distance between the two ends of a joint (m).
+    /// Largest distance between the two ends of a joint as the contact solver left them (m); the projection onto joint
+    /// coordinates then closes it.
     pub separation_m: f64,
     /// Largest angle by which a hinge is outside its range (rad).
     pub limit_overshoot_rad: f64,
@@ -36,15 +47,22 @@ pub struct JointQuality {
 /// A simulated humanoid.
 pub struct Physics {
     model: Model,
+    tree: Tree,
     world: World,
+    flight: Flight,
+    exchange: Exchange,
     substeps: u32,
-    motions: Vec<BodyMotion>,
-    chains: Vec<ChainMotion>,
     position: Vec<f64>,
     velocity: Vec<f64>,
+    /// Posture at `position`.
+    posture: Posture,
+    body_velocities: Vec<Motion>,
+    motions: Vec<BodyMotion>,
     contacts: Vec<ContactImpulse>,
     hinge_torques_nm: Vec<f64>,
-    body_torques: Vec<Vector3<f64>>,
+    variable: Variable,
+    /// Whether Rapier has the bodies: not yet after a reset.
+    has_stepped: bool,
     is_faulty: bool,
 }
 
@@ -56,17 +74,23 @@ impl Physics {
     pub fn new(model: Model, config: &EnvironmentConfig) -> Result<Self, ModelError> {
         config.check()?;
         let bodies = model.bodies.len();
+        let tree = Tree::new(&model);
         let mut physics = Self {
             world: World::new(&model, config),
+            flight: Flight::new(&tree),
+            exchange: Exchange::new(&tree),
             substeps: config.substeps,
-            motions: vec![BodyMotion::still(Isometry3::identity()); bodies],
-            chains: vec![ChainMotion::default(); bodies],
             position: vec![0.0; model.position_size()],
             velocity: vec![0.0; model.velocity_size()],
+            posture: Posture::new(&tree),
+            body_velocities: vec![Motion::default(); bodies],
+            motions: vec![BodyMotion::still(); bodies],
             contacts: vec![ContactImpulse::default(); model.links.len()],
             hinge_torques_nm: vec![0.0; model.hinges.len()],
-            body_torques: vec![Vector3::zeros(); bodies],
+            variable: Variable::new(&model),
+            has_stepped: false,
             is_faulty: false,
+            tree,
             model,
         };
         let (position, velocity) = (physics.model.nominal_position(), vec![0.0; physics.model.velocity_size()]);
@@ -83,12 +107,19 @@ impl Physics {
     pub fn set_state(&mut self, position: &[f64], velocity: &[f64]) {
         assert_eq!(position.len(), self.model.position_size(), "position vector has the wrong length");
         assert_eq!(velocity.len(), self.model.velocity_size(), "velocity vector has the wrong length");
-        kinematics::place(&self.model, position, velocity, &mut self.motions);
-        self.world.restore(&self.motions);
+        self.variable.take_effect(&mut self.model, &mut self.tree, &mut self.world);
+        self.position.copy_from_slice(position);
+        self.velocity.copy_from_slice(velocity);
+        let norm = position[3..ROOT_POSITIONS].iter().map(|part| part * part).sum::<f64>().sqrt();
+        self.position[3..ROOT_POSITIONS].iter_mut().for_each(|part| *part /= norm);
+        self.world.restore();
         self.contacts.fill(ContactImpulse::default());
         self.hinge_torques_nm.fill(0.0);
         self.is_faulty = false;
-        self.refresh();
+        self.has_stepped = false;
+        self.posture.lay(&self.tree, &self.position);
+        self.posture.weigh(&self.tree);
+        self.describe();
     }
 
     /// Holds the motors' controls, one number per motor: see [`Self::joint_torques_nm`]. No time passes.
@@ -132,7 +163,7 @@ impl Physics {
     /// Controls are clamped to ± [`Model::control_limit`].
     ///
     /// # Errors
-    /// [`PhysicsFault`] if anything is not finite; the named quantities then keep their values of the last physics
+    /// [`PhysicsFault`] if anything is not finite; the named quantities then keep their values of the last control
     /// step that was.
     ///
     /// # Panics
@@ -143,33 +174,49 @@ impl Physics {
         for _ in 0..self.substeps {
             self.substep()?;
         }
+        self.describe();
         Ok(())
     }
 
     fn substep(&mut self) -> Result<(), PhysicsFault> {
-        drive::prepare(
-            &mut self.world,
-            &self.model,
-            &self.motions,
-            &self.chains,
-            &self.hinge_torques_nm,
-            &mut self.body_torques,
-        );
-        let about = self.centre_of_mass();
-        self.world.rapier.step();
-        if !self.world.is_sound() {
+        let step_s = CONTROL_STEP_S / f64::from(self.substeps);
+        let Self { tree, world, flight, exchange, .. } = self;
+        flight.fly(tree, &self.posture, &self.position, &self.velocity, &self.hinge_torques_nm, step_s);
+        exchange.send(world, &self.position, &self.posture, flight, step_s);
+        drive::lay_joints(world, &self.model, &self.position, flight);
+        world.rapier.step();
+        self.has_stepped = true;
+        if !world.is_sound() {
             self.is_faulty = true;
             return Err(PhysicsFault);
         }
-        contact::accumulate(&self.world, &about, &mut self.contacts);
-        self.refresh();
+        // In Rapier's world the root is always above the origin.
+        let about = Point3::from(Vector3::new(0.0, 0.0, self.position[2]) + centre_of_mass(tree, &self.posture));
+        if contact::accumulate(world, &about, &mut self.contacts) {
+            exchange.receive(tree, world, flight, &mut self.position, &mut self.velocity, &mut self.posture);
+        } else {
+            self.position.copy_from_slice(&flight.position);
+            self.velocity.copy_from_slice(&flight.velocity);
+            std::mem::swap(&mut flight.end, &mut self.posture);
+        }
+        if !self.position.iter().chain(&self.velocity).all(|number| number.is_finite()) {
+            self.is_faulty = true;
+            return Err(PhysicsFault);
+        }
         Ok(())
     }
 
-    /// Brings the named quantities up to date with Rapier.
-    fn refresh(&mut self) {
-        self.world.read(&mut self.motions);
-        kinematics::read(&self.model, &self.motions, &mut self.chains, &mut self.position, &mut self.velocity);
+    /// Brings the bodies' motion up to date with the state.
+    fn describe(&mut self) {
+        let root = Vector3::from_column_slice(&self.position[..3]);
+        motion::describe(
+            &self.tree,
+            &self.posture,
+            &root,
+            &self.velocity,
+            &mut self.body_velocities,
+            &mut self.motions,
+        );
     }
 
     /// The model that is simulated.
@@ -194,13 +241,13 @@ impl Physics {
     /// Angle of each hinge (rad), in position order.
     #[must_use]
     pub fn joint_angles(&self) -> &[f64] {
-        &self.position[7..]
+        &self.position[ROOT_POSITIONS..]
     }
 
     /// Rate of each hinge (rad/s), in position order.
     #[must_use]
     pub fn joint_rates(&self) -> &[f64] {
-        &self.velocity[6..]
+        &self.velocity[ROOT_DOFS..]
     }
 
     /// Torque of each hinge's motor during the last step (N·m), in position order.
@@ -224,22 +271,16 @@ impl Physics {
     /// Centre of mass of the whole body (m, world frame).
     #[must_use]
     pub fn centre_of_mass(&self) -> Point3<f64> {
-        Point3::from(self.mass_average(|body, motion| (motion.pose * body.centre_of_mass_m).coords))
+        let root = Vector3::from_column_slice(&self.position[..3]);
+        Point3::from(root + centre_of_mass(&self.tree, &self.posture))
     }
 
     /// Velocity of the centre of mass of the whole body (m/s, world frame).
     #[must_use]
     pub fn centre_of_mass_velocity(&self) -> Vector3<f64> {
-        self.mass_average(|_, motion| motion.linear_mps)
-    }
-
-    fn mass_average(&self, of: impl Fn(&crate::model::Body, &BodyMotion) -> Vector3<f64>) -> Vector3<f64> {
-        let (mut sum, mut mass_kg) = (Vector3::zeros(), 0.0);
-        for (body, motion) in self.model.bodies.iter().zip(&self.motions) {
-            sum += of(body, motion) * body.mass_kg;
-            mass_kg += body.mass_kg;
-        }
-        sum / mass_kg
+        let sum: Vector3<f64> =
+            self.tree.nodes.iter().zip(&self.motions).map(|(node, motion)| motion.linear_mps * node.mass_kg).sum();
+        sum / self.tree.mass_kg()
     }
 
     /// Mean contact force (N) and moment about the whole body's centre of mass (N·m) on one link during the last
@@ -266,22 +307,23 @@ impl Physics {
     /// How well the joints hold now.
     #[must_use]
     pub fn joint_quality(&self) -> JointQuality {
-        let mut quality = JointQuality::default();
-        for (body, motion) in self.model.bodies.iter().zip(&self.motions) {
-            let Some(parent) = body.parent else { continue };
-            let inner = self.motions[parent].pose * kinematics::parent_anchor(body);
-            let separation = nalgebra::distance(&inner, &(motion.pose * body.anchor_m));
-            quality.separation_m = quality.separation_m.max(separation);
-        }
+        let separation_m = if self.has_stepped { self.world.separation_m(&self.model) } else { 0.0 };
+        let mut quality = JointQuality { separation_m, ..JointQuality::default() };
         for (hinge, &angle) in self.model.hinges.iter().zip(self.joint_angles()) {
             quality.limit_overshoot_rad = quality.limit_overshoot_rad.max(hinge.overshoot_rad(angle));
         }
         quality
     }
 
-    /// Makes one body's velocity NaN, so that the next step faults; for tests of fault handling.
+    /// Makes the root's velocity NaN, so that the next step faults; for tests of fault handling.
     #[doc(hidden)]
     pub fn poison(&mut self) {
-        self.world.poison();
+        self.velocity[0] = f64::NAN;
     }
+}
+
+/// Centre of mass of the whole body (m, relative to the root's origin).
+fn centre_of_mass(tree: &Tree, posture: &Posture) -> Vector3<f64> {
+    let sum: Vector3<f64> = tree.nodes.iter().zip(&posture.centres_m).map(|(node, centre)| centre * node.mass_kg).sum();
+    sum / tree.mass_kg()
 }

@@ -2,8 +2,8 @@
 
 use rapier3d::prelude::*;
 
-use super::convert::{from_pose, from_vector, to_matrix, to_point, to_pose, to_rotation, to_vector};
-use super::kinematics::{BodyMotion, chain_base, parent_anchor};
+use super::convert::{to_matrix, to_point, to_rotation};
+use crate::chain;
 use crate::config::{CONTROL_STEP_S, EnvironmentConfig};
 use crate::model::{Body, Model, Shape};
 
@@ -24,20 +24,22 @@ pub(super) struct World {
     pub(super) bodies: Vec<RigidBodyHandle>,
     /// Joint of each body to its parent, in the same order; the root has none.
     pub(super) joints: Vec<Option<ImpulseJointHandle>>,
-    template: Template,
+    pub(super) floor: ColliderHandle,
+    pub(super) template: Template,
 }
 
 /// The sets as they were filled, never stepped: what every episode starts from.
-struct Template {
-    bodies: RigidBodySet,
-    colliders: ColliderSet,
+pub(super) struct Template {
+    pub(super) bodies: RigidBodySet,
+    pub(super) colliders: ColliderSet,
     joints: ImpulseJointSet,
 }
 
 impl World {
     pub(super) fn new(model: &Model, config: &EnvironmentConfig) -> Self {
         let mut rapier = PhysicsWorld::new();
-        rapier.gravity = to_vector(&model.gravity_mps2);
+        // Gravity is in the flight.
+        rapier.gravity = Vector::ZERO;
         let parameters = &mut rapier.integration_parameters;
         parameters.dt = (CONTROL_STEP_S / f64::from(config.substeps)) as f32;
         parameters.num_solver_iterations = config.solver_iterations as usize;
@@ -55,7 +57,7 @@ impl World {
             .friction_combine_rule(CoefficientCombineRule::Max)
             .collision_groups(InteractionGroups::new(FLOOR_GROUP, Group::ALL, InteractionTestMode::And))
             .user_data(0);
-        rapier.insert_collider(floor, None);
+        let floor = rapier.insert_collider(floor, None);
 
         let mut bodies = Vec::with_capacity(model.bodies.len());
         let mut joints = Vec::with_capacity(model.bodies.len());
@@ -74,14 +76,14 @@ impl World {
             colliders: rapier.colliders.clone(),
             joints: rapier.impulse_joints.clone(),
         };
-        Self { rapier, bodies, joints, template }
+        Self { rapier, bodies, joints, floor, template }
     }
 
-    /// Forgets everything that was simulated and puts the bodies where they are told.
+    /// Forgets everything that was simulated.
     ///
     /// Contact pairs, impulses kept for warm starts, islands and the order of constraints all live in what is thrown
     /// away here, so nothing of an earlier episode can reach the next one.
-    pub(super) fn restore(&mut self, motions: &[BodyMotion]) {
+    pub(super) fn restore(&mut self) {
         let world = &mut self.rapier;
         world.bodies = self.template.bodies.clone();
         world.colliders = self.template.colliders.clone();
@@ -91,12 +93,6 @@ impl World {
         world.broad_phase = BroadPhaseBvh::default();
         world.narrow_phase = NarrowPhase::new();
         world.ccd_solver = CCDSolver::new();
-        for (handle, motion) in self.bodies.iter().zip(motions) {
-            let body = &mut world.bodies[*handle];
-            body.set_position(to_pose(&motion.pose), false);
-            body.set_linvel(to_vector(&motion.linear_mps), false);
-            body.set_angvel(to_vector(&motion.angular_radps), false);
-        }
     }
 
     /// Whether every body's motion is finite. Rapier disables a body whose state is not, and goes on without it.
@@ -108,31 +104,33 @@ impl World {
             })
     }
 
-    /// Makes the root's velocity NaN.
-    pub(super) fn poison(&mut self) {
-        self.rapier.bodies[self.bodies[0]].set_linvel(Vector::splat(Real::NAN), false);
-    }
-
-    /// Copies the bodies' motion out of Rapier.
-    pub(super) fn read(&self, motions: &mut [BodyMotion]) {
-        for (handle, motion) in self.bodies.iter().zip(motions) {
-            let body = &self.rapier.bodies[*handle];
-            *motion = BodyMotion {
-                pose: from_pose(body.position()),
-                linear_mps: from_vector(body.linvel()),
-                angular_radps: from_vector(body.angvel()),
-            };
-        }
+    /// Largest distance between the two ends of a joint (m).
+    pub(super) fn separation_m(&self, model: &Model) -> f64 {
+        let pose = |body: usize| self.rapier.bodies[self.bodies[body]].position();
+        let apart = model.bodies.iter().enumerate().filter_map(|(index, body)| {
+            let inner = pose(body.parent?).transform_point(to_point(&chain::parent_anchor(body)));
+            Some((inner - pose(index).transform_point(to_point(&body.anchor_m))).length())
+        });
+        f64::from(apart.fold(0.0, f32::max))
     }
 }
 
 fn rigid_body(body: &Body) -> RigidBodyBuilder {
-    let mass = MassProperties::with_inertia_matrix(
+    RigidBodyBuilder::dynamic()
+        .additional_mass_properties(mass_properties(body))
+        .can_sleep(false)
+        // Gyroscopic forces are in the flight.
+        .gyroscopic_forces_enabled(false)
+        // Its guard against fast turning is for shapes that could pass through each other; limbs may whirl.
+        .allow_fast_rotation(true)
+}
+
+pub(super) fn mass_properties(body: &Body) -> MassProperties {
+    MassProperties::with_inertia_matrix(
         to_point(&body.centre_of_mass_m),
         body.mass_kg as f32,
         to_matrix(&body.inertia_kgm2),
-    );
-    RigidBodyBuilder::dynamic().additional_mass_properties(mass).can_sleep(false)
+    )
 }
 
 fn collider(model: &Model, config: &EnvironmentConfig, body: usize, shape: &Shape) -> ColliderBuilder {
@@ -169,7 +167,7 @@ fn joint(body: &Body) -> GenericJoint {
         _ => JointAxesMask::empty(),
     };
     let mut joint = GenericJoint::new(JointAxesMask::LIN_AXES | missing);
-    joint.local_frame1 = Pose::from_parts(to_point(&parent_anchor(body)), to_rotation(&chain_base(body)));
+    joint.local_frame1 = Pose::from_parts(to_point(&chain::parent_anchor(body)), to_rotation(&chain::base(body)));
     joint.local_frame2 = Pose::from_parts(to_point(&body.anchor_m), to_rotation(&body.hinge_frame));
     joint.contacts_enabled = false;
     joint

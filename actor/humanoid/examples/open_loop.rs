@@ -1,0 +1,117 @@
+//! Plays given actions from given states and prints every state that follows, for comparison with other simulators.
+//!
+//! Usage: `open_loop [CASES.json]`; without a file, the cases come from standard input.
+//!
+//! Input: a JSON list of cases, each `{"qpos": [24], "qvel": [23], "actions": [[17], …], "model_file": "x.xml",
+//! "config": {"substeps": 2, "solver_iterations": 8, "self_collision": true}}`; the last two entries, and each setting,
+//! may be left out. Vectors are MuJoCo's: see `treadmill_humanoid::physics`.
+//!
+//! Output: a JSON list with one list per case, one object per control step: `{"qpos", "qvel", "separation_m",
+//! "limit_overshoot_rad", "bodies_in_contact", "contact_force_n"}`. The force is the sum over bodies of the size of the mean
+//! contact force during the step. A case whose physics is no longer finite ends early.
+
+use std::{
+    error::Error,
+    fs,
+    io::{self, BufWriter, Read, Write},
+};
+
+use serde::{Deserialize, Serialize};
+use treadmill_humanoid::{EnvironmentConfig, HUMANOID_XML, Model, Physics};
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Case {
+    qpos: Vec<f64>,
+    qvel: Vec<f64>,
+    actions: Vec<Vec<f32>>,
+    #[serde(default)]
+    model_file: Option<String>,
+    #[serde(default)]
+    config: Overrides,
+}
+
+/// Settings of the environment that may be other than its defaults.
+#[derive(Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Overrides {
+    substeps: Option<u32>,
+    solver_iterations: Option<u32>,
+    self_collision: Option<bool>,
+}
+
+#[derive(Serialize)]
+struct State {
+    qpos: Vec<f64>,
+    qvel: Vec<f64>,
+    separation_m: f64,
+    limit_overshoot_rad: f64,
+    bodies_in_contact: usize,
+    contact_force_n: f64,
+}
+
+fn main() -> Result<(), Box<dyn Error>> {
+    let text = match std::env::args().nth(1) {
+        Some(path) => fs::read_to_string(&path).map_err(|why| format!("cannot read `{path}`: {why}"))?,
+        None => {
+            let mut text = String::new();
+            io::stdin().read_to_string(&mut text)?;
+            text
+        }
+    };
+    let cases: Vec<Case> = serde_json::from_str(&text).map_err(|why| format!("the cases are unreadable: {why}"))?;
+    let played = cases
+        .iter()
+        .enumerate()
+        .map(|(index, case)| play(case).map_err(|why| format!("case {index}: {why}").into()))
+        .collect::<Result<Vec<_>, Box<dyn Error>>>()?;
+    let mut out = BufWriter::new(io::stdout().lock());
+    serde_json::to_writer(&mut out, &played)?;
+    writeln!(out)?;
+    Ok(out.flush()?)
+}
+
+fn play(case: &Case) -> Result<Vec<State>, Box<dyn Error>> {
+    let xml = match &case.model_file {
+        Some(path) => fs::read_to_string(path).map_err(|why| format!("cannot read `{path}`: {why}"))?,
+        None => HUMANOID_XML.to_string(),
+    };
+    let mut physics = Physics::new(Model::from_mjcf(&xml)?, &case.config.apply())?;
+    let model = physics.model();
+    let (positions, velocities, motors) = (model.position_size(), model.velocity_size(), model.motors.len());
+    length("qpos", case.qpos.len(), positions)?;
+    length("qvel", case.qvel.len(), velocities)?;
+    case.actions.iter().try_for_each(|action| length("an action", action.len(), motors))?;
+    physics.set_state(&case.qpos, &case.qvel);
+    let states = case.actions.iter().map_while(|action| physics.step_only(action).is_ok().then(|| state(&physics)));
+    Ok(states.collect())
+}
+
+fn length(what: &str, found: usize, wanted: usize) -> Result<(), String> {
+    if found == wanted { Ok(()) } else { Err(format!("{what} has {found} numbers; the model needs {wanted}")) }
+}
+
+fn state(physics: &Physics) -> State {
+    let joints = physics.joint_quality();
+    let forces = (0..physics.model().links.len()).map(|link| physics.contact_wrench(link).0.norm());
+    State {
+        qpos: physics.position().to_vec(),
+        qvel: physics.velocity().to_vec(),
+        separation_m: joints.separation_m,
+        limit_overshoot_rad: joints.limit_overshoot_rad,
+        bodies_in_contact: forces.clone().filter(|force_n| *force_n > 0.0).count(),
+        contact_force_n: forces.sum(),
+    }
+}
+
+impl Overrides {
+    fn apply(&self) -> EnvironmentConfig {
+        let defaults = EnvironmentConfig::default();
+        EnvironmentConfig {
+            substeps: self.substeps.unwrap_or(defaults.substeps),
+            solver_iterations: self.solver_iterations.unwrap_or(defaults.solver_iterations),
+            self_collision: self.self_collision.unwrap_or(defaults.self_collision),
+            ..defaults
+        }
+    }
+}

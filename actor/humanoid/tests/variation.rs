@@ -1,0 +1,231 @@
+//! Bodies that differ from their model, and pushes, seen from outside.
+
+use nalgebra::Vector3;
+use treadmill_humanoid::{CONTROL_STEP_S, EnvironmentConfig, HUMANOID_XML, Model, Physics, Variation};
+
+const IDLE: [f32; 17] = [0.0; 17];
+const STILL: [f64; 23] = [0.0; 23];
+
+fn physics(xml: &str) -> Physics {
+    Physics::new(Model::from_mjcf(xml).expect("valid"), &EnvironmentConfig::default()).expect("valid")
+}
+
+fn weightless() -> Physics {
+    physics(&HUMANOID_XML.replace("<option ", "<option gravity=\"0 0 0\" "))
+}
+
+/// A position far above the floor, without a hinge at the end of its range.
+fn in_the_air(physics: &Physics) -> Vec<f64> {
+    let mut position = physics.model().nominal_position();
+    position[2] = 3.0;
+    for (angle, hinge) in position[7..].iter_mut().zip(&physics.model().hinges) {
+        *angle = hinge.centre_rad();
+    }
+    position
+}
+
+fn varied(physics: &mut Physics, change: impl FnOnce(&mut Variation)) {
+    let mut variation = Variation::none(physics.model());
+    change(&mut variation);
+    physics.set_variation(&variation);
+}
+
+/// Position and velocity after a few steps with the motors at work, from the nominal pose.
+fn outcome(physics: &mut Physics) -> Vec<f64> {
+    let position = physics.model().nominal_position();
+    physics.set_state(&position, &STILL);
+    for step in 0..40 {
+        let action: [f32; 17] = std::array::from_fn(|motor| ((step * motor) as f32).sin() * 0.4);
+        physics.step_only(&action).expect("finite");
+    }
+    [physics.position(), physics.velocity()].concat()
+}
+
+#[test]
+fn no_variation_is_the_model_bit_for_bit_whatever_was_before() {
+    let plain = outcome(&mut physics(HUMANOID_XML));
+    let mut body = physics(HUMANOID_XML);
+    varied(&mut body, |_| {});
+    assert_eq!(plain, outcome(&mut body));
+    for _ in 0..2 {
+        varied(&mut body, |variation| {
+            variation.mass_scale.fill(1.3);
+            variation.damping_scale.fill(0.5);
+            variation.armature_scale.fill(2.0);
+            variation.motor_scale.fill(0.7);
+            variation.floor_friction_scale = 0.4;
+            variation.gravity_scale = 0.9;
+        });
+    }
+    let other = outcome(&mut body);
+    assert_ne!(plain, other);
+    assert_eq!(other, outcome(&mut body), "a variation stays until the next");
+    varied(&mut body, |_| {});
+    assert_eq!(plain, outcome(&mut body));
+}
+
+#[test]
+fn the_floor_carries_the_varied_mass() {
+    let mut body = physics(HUMANOID_XML);
+    let nominal_kg: Vec<f64> = body.model().bodies.iter().map(|body| body.mass_kg).collect();
+    let scale = |index: usize| 0.6 + 0.1 * index as f64;
+    varied(&mut body, |variation| {
+        variation.mass_scale.iter_mut().enumerate().for_each(|(index, factor)| *factor = scale(index));
+    });
+    let position = body.model().nominal_position();
+    body.set_state(&position, &STILL);
+    let expected_kg: f64 = nominal_kg.iter().enumerate().map(|(index, mass_kg)| mass_kg * scale(index)).sum();
+    assert!((body.model().mass_kg() - expected_kg).abs() < 1e-9);
+    assert!((expected_kg / nominal_kg.iter().sum::<f64>() - 1.0).abs() > 0.03, "the sum is another");
+    for (index, part) in body.model().bodies.iter().enumerate() {
+        let links = || body.model().links.iter().filter(|link| link.body == index);
+        let mass_kg: f64 = links().map(|link| link.mass_kg).sum();
+        assert!((mass_kg - part.mass_kg).abs() < 1e-9, "what is observed of {} varies with it", part.name);
+    }
+    (0..400).for_each(|_| body.step_only(&IDLE).expect("finite"));
+    let samples = 200;
+    let mut force_n = 0.0;
+    for _ in 0..samples {
+        body.step_only(&IDLE).expect("finite");
+        force_n +=
+            (0..body.model().links.len()).map(|link| body.contact_wrench(link).0.z).sum::<f64>() / f64::from(samples);
+    }
+    let weight_n = 9.81 * expected_kg;
+    assert!((force_n / weight_n - 1.0).abs() < 0.02, "the floor carries {force_n} N of {weight_n} N");
+}
+
+#[test]
+fn a_heavier_body_is_harder_to_turn() {
+    // The same torque on the same joint: where every mass and inertia is twice as large, and rotors are, the motion is
+    // half as fast.
+    let mut body = weightless();
+    let position = in_the_air(&body);
+    let mut action = IDLE;
+    action[10] = 0.01;
+    let mut rate = |scale: f64| {
+        varied(&mut body, |variation| {
+            variation.mass_scale.fill(scale);
+            variation.armature_scale.fill(scale);
+            variation.damping_scale.fill(0.0);
+        });
+        // What springs do is taken off: they do not scale.
+        let mut after = |action: &[f32]| {
+            body.set_state(&position, &STILL);
+            body.step_only(action).expect("finite");
+            body.joint_rates()[10]
+        };
+        after(&action) - after(&IDLE)
+    };
+    let ratio = rate(2.0) / rate(1.0);
+    assert!((ratio - 0.5).abs() < 0.01, "{ratio}");
+}
+
+#[test]
+fn twice_the_motor_is_twice_the_control() {
+    let mut body = weightless();
+    let position = in_the_air(&body);
+    let mut velocity = |scale: f64, control: f32| {
+        varied(&mut body, |variation| variation.motor_scale[6] = scale);
+        body.set_state(&position, &STILL);
+        let mut action = [0.05; 17];
+        action[6] = control;
+        body.step_only(&action).expect("finite");
+        body.velocity().to_vec()
+    };
+    assert_eq!(velocity(2.0, 0.1), velocity(1.0, 0.2));
+    assert_ne!(velocity(1.0, 0.1), velocity(1.0, 0.2));
+    let [weak, nominal, strong] = [0.5, 1.0, 2.0].map(|scale| velocity(scale, 0.1)[6 + 6]);
+    // A knee's motor of 200 N·m: what differs between the three is proportional to the strength.
+    assert!(((strong - nominal) / (nominal - weak) - 2.0).abs() < 0.05, "{weak}, {nominal}, {strong}");
+}
+
+#[test]
+fn damping_slows_a_swinging_hinge() {
+    let mut body = weightless();
+    let position = in_the_air(&body);
+    let knee = body.model().hinges.iter().position(|hinge| hinge.name == "right_knee").expect("has a knee");
+    let mut velocity = STILL;
+    velocity[6 + knee] = 3.0;
+    let mut rate_after = |scale: f64| {
+        varied(&mut body, |variation| variation.damping_scale[knee] = scale);
+        body.set_state(&position, &velocity);
+        (0..10).for_each(|_| body.step_only(&IDLE).expect("finite"));
+        body.joint_rates()[knee]
+    };
+    let [free, nominal, damped] = [0.0, 1.0, 4.0].map(&mut rate_after);
+    assert!(free > nominal + 0.2 && nominal > damped + 0.2, "{free}, {nominal}, {damped}");
+    assert!(damped > 0.0);
+}
+
+#[test]
+fn a_larger_rotor_speeds_up_more_slowly() {
+    let mut body = weightless();
+    let position = in_the_air(&body);
+    let elbow = body.model().hinges.iter().position(|hinge| hinge.name == "right_elbow").expect("has an elbow");
+    let motor = body.model().motors.iter().position(|motor| motor.hinge == elbow).expect("has a motor");
+    let mut action = IDLE;
+    action[motor] = 0.2;
+    let mut rate = |scale: f64| {
+        varied(&mut body, |variation| variation.armature_scale[elbow] = scale);
+        body.set_state(&position, &STILL);
+        body.step_only(&action).expect("finite");
+        body.joint_rates()[elbow].abs()
+    };
+    let [small, large] = [1.0, 10.0].map(&mut rate);
+    assert!(large > 0.0 && large < 0.8 * small, "{small} and {large} rad/s");
+}
+
+#[test]
+fn without_friction_a_body_slides() {
+    let mut body = physics(HUMANOID_XML);
+    (0..600).for_each(|_| body.step_only(&IDLE).expect("finite"));
+    let lying = body.position().to_vec();
+    let mut velocity = STILL;
+    velocity[0] = 2.0;
+    let mut speed_after = |scale: f64| {
+        varied(&mut body, |variation| variation.floor_friction_scale = scale);
+        body.set_state(&lying, &velocity);
+        (0..20).for_each(|_| body.step_only(&IDLE).expect("finite"));
+        body.centre_of_mass_velocity().x
+    };
+    // 0.3 s of friction coefficient 1 take 2.9 m/s; a quarter of it takes 0.74 m/s.
+    let [ice, some, nominal] = [0.0, 0.25, 1.0].map(&mut speed_after);
+    assert!((ice - 2.0).abs() < 0.1, "{ice} m/s on ice");
+    assert!((some - 1.26).abs() < 0.25, "{some} m/s with a quarter of the friction");
+    assert!(nominal < 0.4, "{nominal} m/s");
+}
+
+#[test]
+fn gravity_scales_free_fall() {
+    let mut body = physics(HUMANOID_XML);
+    let position = in_the_air(&body);
+    varied(&mut body, |variation| variation.gravity_scale = 0.5);
+    body.set_state(&position, &STILL);
+    (0..10).for_each(|_| body.step_only(&IDLE).expect("finite"));
+    let expected = -0.5 * 9.81 * 10.0 * CONTROL_STEP_S;
+    assert!((body.centre_of_mass_velocity().z - expected).abs() < 1e-2);
+}
+
+#[test]
+fn a_push_changes_the_velocity_of_the_whole_body_and_nothing_else() {
+    let mut body = physics(HUMANOID_XML);
+    (0..7).for_each(|_| body.step_only(&[0.2; 17]).expect("finite"));
+    let (position, velocity) = (body.position().to_vec(), body.velocity().to_vec());
+    let centre = body.centre_of_mass_velocity();
+    let push = Vector3::new(0.5, -0.25, 0.125);
+    body.push(push);
+    assert_eq!(position, body.position());
+    assert!((body.centre_of_mass_velocity() - centre - push).norm() < 1e-6);
+    for (index, (before, after)) in velocity.iter().zip(body.velocity()).enumerate() {
+        let expected = before + push.as_slice().get(index).copied().unwrap_or(0.0);
+        assert!((after - expected).abs() < 1e-5, "entry {index}: {after} instead of {expected}");
+    }
+    assert!(body.body_motions().iter().all(|motion| motion.linear_mps.iter().all(|part| part.is_finite())));
+}
+
+#[test]
+#[should_panic(expected = "one mass scale per body is needed")]
+fn a_variation_of_the_wrong_size_panics() {
+    let mut body = physics(HUMANOID_XML);
+    varied(&mut body, |variation| variation.mass_scale.truncate(10));
+}

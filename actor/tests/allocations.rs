@@ -1,0 +1,109 @@
+//! Stepping many environments adds no allocation to those of the physics engine, resets included.
+//!
+//! One test alone in its process: the count is over all threads.
+
+use std::{
+    alloc::{GlobalAlloc, Layout, System},
+    sync::atomic::{AtomicU64, Ordering},
+};
+
+use treadmill_actor::environments::{Environments, SeedSource, Stepped};
+use treadmill_common::seeds;
+use treadmill_humanoid::{Environment, EnvironmentConfig, HUMANOID_XML};
+
+struct Counting;
+
+static COUNT: AtomicU64 = AtomicU64::new(0);
+
+// SAFETY: everything is handed to the system's allocator unchanged.
+unsafe impl GlobalAlloc for Counting {
+    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
+        COUNT.fetch_add(1, Ordering::Relaxed);
+        // SAFETY: the caller's promises are those that the system's allocator asks for.
+        unsafe { System.alloc(layout) }
+    }
+
+    unsafe fn dealloc(&self, pointer: *mut u8, layout: Layout) {
+        // SAFETY: as above.
+        unsafe { System.dealloc(pointer, layout) }
+    }
+
+    unsafe fn realloc(&self, pointer: *mut u8, layout: Layout, size: usize) -> *mut u8 {
+        COUNT.fetch_add(1, Ordering::Relaxed);
+        // SAFETY: as above.
+        unsafe { System.realloc(pointer, layout, size) }
+    }
+}
+
+#[global_allocator]
+static ALLOCATOR: Counting = Counting;
+
+fn counted(work: impl FnOnce()) -> u64 {
+    let before = COUNT.load(Ordering::Relaxed);
+    work();
+    COUNT.load(Ordering::Relaxed) - before
+}
+
+const ENVS: usize = 4;
+const EPISODE_STEPS: u32 = 10;
+const WARM_UP_STEPS: u64 = 20;
+const STEPS: u64 = 200;
+
+/// Episodes that end by time alone: physics alone can be reset in the same steps.
+fn config() -> EnvironmentConfig {
+    EnvironmentConfig { terminate_when_unhealthy: false, max_episode_steps: EPISODE_STEPS, ..Default::default() }
+}
+
+/// An action in units of the action range.
+fn action(env: usize, step: u64) -> [f32; 17] {
+    std::array::from_fn(|motor| ((env * 31 + motor * 7) as f32 + step as f32).sin())
+}
+
+fn physics_alone() -> u64 {
+    let mut bodies: Vec<Environment> =
+        (0..ENVS).map(|_| Environment::new(&config(), HUMANOID_XML).expect("valid")).collect();
+    let limit = bodies[0].action_limit();
+    let mut observation = vec![0.0; bodies[0].observation_size()];
+    let mut reset = |body: &mut Environment, env: usize, episode: u64| {
+        body.reset(seeds::derive(5, "reset/a", &[0, env as u64, episode]), &mut observation);
+    };
+    bodies.iter_mut().enumerate().for_each(|(env, body)| reset(body, env, 0));
+    let mut play = |steps: std::ops::Range<u64>| {
+        for step in steps {
+            for (env, body) in bodies.iter_mut().enumerate() {
+                body.physics_mut().step_only(&action(env, step).map(|part| part * limit)).expect("finite");
+                if (step + 1).is_multiple_of(EPISODE_STEPS.into()) {
+                    reset(body, env, (step + 1) / u64::from(EPISODE_STEPS));
+                }
+            }
+        }
+    };
+    play(0..WARM_UP_STEPS);
+    counted(|| play(WARM_UP_STEPS..WARM_UP_STEPS + STEPS))
+}
+
+fn environments(threads: usize) -> u64 {
+    let seeds = SeedSource { run_seed: 5, actor: "a".into(), start: 0 };
+    let environments = Environments::new(ENVS, &config(), HUMANOID_XML, seeds).expect("valid");
+    let mut environments = environments.with_threads(threads).expect("threads start");
+    let (mut stepped, mut actions) = (Stepped::default(), [0.0; 17 * ENVS]);
+    let mut play = |steps: std::ops::Range<u64>| {
+        for step in steps {
+            for (env, part) in actions.chunks_exact_mut(17).enumerate() {
+                part.copy_from_slice(&action(env, step));
+            }
+            environments.step(&actions, &mut stepped);
+        }
+    };
+    play(0..WARM_UP_STEPS);
+    counted(|| play(WARM_UP_STEPS..WARM_UP_STEPS + STEPS))
+}
+
+#[test]
+fn environments_allocate_no_more_than_their_physics() {
+    let alone = physics_alone();
+    assert_eq!(environments(1), alone, "allocations in {STEPS} steps of {ENVS} environments, and of physics alone");
+    // The pool's queue of waiting steps is made of blocks of some 60, and each thread starts with a queue of its own.
+    let spread = environments(2);
+    assert!(spread <= alone + STEPS / 10, "{spread} on two threads, {alone} of physics alone");
+}

@@ -1,0 +1,86 @@
+"""Starting states and actions that both simulators are given.
+
+A case is {"qpos": [24], "qvel": [23], "actions": [T, 17]}, in MuJoCo's conventions; actions are single precision.
+"""
+
+import numpy as np
+
+import body
+
+_MODEL = body.load()
+_LOW, _HIGH = _MODEL.jnt_range[1:].T
+
+
+def _actions(rng, steps, limit):
+    return rng.uniform(-limit, limit, (steps, 17)).astype(np.float32).astype(float)
+
+
+def _rotation(rng):
+    quaternion = rng.normal(size=4)
+    return quaternion / np.linalg.norm(quaternion)
+
+
+def _posture(rng, share):
+    middle, half = (_LOW + _HIGH) / 2, (_HIGH - _LOW) / 2
+    return middle + rng.uniform(-share, share, 17) * half
+
+
+def flights(rng, count, steps, limit):
+    """High above the floor: any orientation, angles in the inner 80 % of their ranges, brisk motion, random actions."""
+    made = []
+    for _ in range(count):
+        qpos = np.concatenate([[0, 0, 5], _rotation(rng), _posture(rng, 0.8)])
+        qvel = np.concatenate([rng.normal(size=3), rng.uniform(-2, 2, 3), rng.uniform(-3, 3, 17)])
+        made.append({"qpos": qpos, "qvel": qvel, "actions": _actions(rng, steps, limit)})
+    return made
+
+
+def passive_flights(rng, count, steps):
+    """So high that it never lands; every joint turns and no motor acts."""
+    made = []
+    for _ in range(count):
+        qpos = np.concatenate([[0, 0, 40], _rotation(rng), _posture(rng, 0.5)])
+        qvel = np.concatenate([rng.normal(size=3), rng.uniform(-2, 2, 3), rng.uniform(-2, 2, 17)])
+        made.append({"qpos": qpos, "qvel": qvel, "actions": np.zeros((steps, 17))})
+    return made
+
+
+def drops(rng, count, steps, limit):
+    """Episode starts: the nominal pose with the task's reset noise. The feet hang 11 cm above the floor, so they land after 0.15 s."""
+    made = []
+    for _ in range(count):
+        qpos = _MODEL.qpos0 + rng.uniform(-0.01, 0.01, 24)
+        qpos[3:7] /= np.linalg.norm(qpos[3:7])
+        made.append({"qpos": qpos, "qvel": rng.uniform(-0.01, 0.01, 23), "actions": _actions(rng, steps, limit)})
+    return made
+
+
+def thrashing(rng, count, steps):
+    """Episode starts, then every motor at its largest torque with a random sign, also when the body lies on the floor."""
+    made = drops(rng, count, steps, 0.0)
+    for case in made:
+        signs = rng.choice([-1.0, 1.0], (steps, 17))
+        case["actions"] = np.float32(body.CONTROL_LIMIT).astype(float) * signs
+    return made
+
+
+def perturbed(cases, size, seed):
+    """The same cases with every number of the start changed by up to `size`."""
+    rng = np.random.default_rng(seed)
+    made = []
+    for case in cases:
+        qpos = case["qpos"] + rng.uniform(-size, size, 24)
+        made.append({**case, "qpos": qpos, "qvel": case["qvel"] + rng.uniform(-size, size, 23)})
+    return made
+
+
+def mirrored(cases):
+    """The mirror image of each case."""
+    return [
+        {
+            "qpos": body.mirror_qpos(case["qpos"]),
+            "qvel": body.mirror_qvel(case["qvel"]),
+            "actions": body.mirror_actions(case["actions"]),
+        }
+        for case in cases
+    ]

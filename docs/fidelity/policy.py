@@ -1,0 +1,71 @@
+"""A policy that `treadmill export --safetensors` wrote, read and evaluated with numpy alone.
+
+Needs: pip install numpy
+"""
+
+import json
+import struct
+
+import numpy as np
+
+
+def read_safetensors(path):
+    """Tensors by name, and the metadata: eight bytes of header length, the header as JSON, then the numbers."""
+    with open(path, "rb") as file:
+        content = file.read()
+    (length,) = struct.unpack_from("<Q", content)
+    if 8 + length > len(content):
+        raise ValueError("it is truncated, or no safetensors file")
+    header, data = json.loads(content[8 : 8 + length]), content[8 + length :]
+    metadata = header.pop("__metadata__", {})
+    kinds = {"F32": "<f4", "F64": "<f8"}
+    tensors = {}
+    for name, place in header.items():
+        begin, end = place["data_offsets"]
+        tensors[name] = np.frombuffer(data[begin:end], kinds[place["dtype"]]).reshape(place["shape"])
+    return tensors, metadata
+
+
+class Policy:
+    """Chooses actions by their mean, without exploration."""
+
+    def __init__(self, path):
+        tensors, metadata = read_safetensors(path)
+        self.facts = json.loads(metadata["treadmill"])
+        if self.facts["format"] != 1 or self.facts["network"]["activation"] != "elu":
+            raise ValueError(f"{path} has format {self.facts['format']}; this script reads format 1 with ELU only")
+        self.kind = self.facts["observation"]["kind"]
+        self.clip = np.float32(self.facts["observation"]["clip"])
+        spread = np.sqrt(tensors["observation.variance"] + self.facts["observation"]["variance_epsilon"])
+        self.mean, self.scale = tensors["observation.mean"].astype(np.float32), (1 / spread).astype(np.float32)
+        count = len(self.facts["network"]["hidden"]) + 1
+        self.layers = [(tensors[f"actor.{i}.weight"], tensors[f"actor.{i}.bias"]) for i in range(count)]
+        self.low, self.high = (np.array(self.facts["action"][end], np.float32) for end in ("low", "high"))
+
+    def means(self, observation):
+        """The network's output for one raw observation, in units of the action range."""
+        x = np.clip((np.asarray(observation, np.float32) - self.mean) * self.scale, -self.clip, self.clip)
+        for index, (weight, bias) in enumerate(self.layers):
+            x = weight @ x + bias
+            if index + 1 < len(self.layers):
+                x = np.where(x > 0, x, np.expm1(np.minimum(x, 0)))
+        return x
+
+    def controls(self, observation):
+        """What the motors are set to: the means clipped to ±1 and stretched to [low, high]."""
+        share = (np.clip(self.means(observation), -1, 1) + 1) / 2
+        return self.low + share * (self.high - self.low)
+
+
+def observe(kind, data):
+    """The observation of Treadmill's `kind` from MuJoCo's state, single precision."""
+    motion = [data.qpos[2:], data.qvel]
+    if kind == "compact":
+        parts = motion
+    elif kind == "gymnasium-v5":
+        parts = [*motion, data.cinert[1:], data.cvel[1:], data.qfrc_actuator[6:], data.cfrc_ext[1:]]
+    elif kind == "gymnasium-v4":
+        parts = [*motion, data.cinert, data.cvel, data.qfrc_actuator, data.cfrc_ext]
+    else:
+        raise ValueError(f"observations of kind {kind!r} are not known here: compact, gymnasium-v5, gymnasium-v4 are")
+    return np.concatenate([np.ravel(part) for part in parts]).astype(np.float32)

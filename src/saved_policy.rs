@@ -1,0 +1,84 @@
+//! The policy that a RUN argument names: of a run's folder, of a bundle file, or of a file that `export` wrote.
+
+use std::{fs, path::Path};
+
+use anyhow::Context;
+use treadmill_actor::settings;
+use treadmill_common::{
+    config::Config,
+    exported::{ActionFacts, ExportedPolicy, ObservationFacts},
+    run_folder::RunFolder,
+};
+use treadmill_humanoid::{CONTROL_STEP_S, Environment, Model};
+use treadmill_learner::checkpoint::{self, TrainingState, Which, encoding};
+
+/// Reads the policy of a run's folder (its checkpoint `which`), of a bundle file or of an exported file.
+pub fn load(run: &str, which: Which) -> anyhow::Result<ExportedPolicy> {
+    let path = Path::new(run);
+    if !path.is_file() {
+        let state = checkpoint::load(&RunFolder::open(run)?, which)?;
+        return from_state(&state).with_context(|| format!("the policy of `{run}` cannot be used"));
+    }
+    let bytes = fs::read(path).with_context(|| format!("cannot read `{run}`"))?;
+    let policy = if encoding::is_checkpoint(&bytes) || path.extension().is_some_and(|end| end == "bundle") {
+        from_state(&checkpoint::load_file(path)?)
+    } else {
+        ExportedPolicy::from_bytes(&bytes).map_err(anyhow::Error::from)
+    };
+    policy.with_context(|| format!("`{run}` is no policy that can be used"))
+}
+
+/// The configuration that a policy was trained under, as far as episodes depend on it.
+pub fn trained_under(policy: &ExportedPolicy) -> Config {
+    Config { env: policy.env.clone(), randomisation: policy.randomisation.clone(), ..Config::default() }
+}
+
+/// The environment for a policy, under a configuration made from the one that it was trained with.
+pub fn environment(run: &str, policy: &ExportedPolicy, config: &Config) -> anyhow::Result<Environment> {
+    let environment = Environment::new(&settings::training(config), &policy.model_xml)
+        .with_context(|| format!("the environment of `{run}` cannot be built"))?;
+    let (found, limit) = (environment.observation_size(), environment.action_limit());
+    let sizes = (policy.shape.observation, policy.shape.action);
+    if sizes != (found, environment.action_size()) {
+        anyhow::bail!(
+            "`{run}` has a policy for {} observations and {} actions, but its model gives {found} and takes {}",
+            sizes.0,
+            sizes.1,
+            environment.action_size()
+        );
+    }
+    if policy.action.low.iter().any(|low| *low != -limit) || policy.action.high.iter().any(|high| *high != limit) {
+        anyhow::bail!("`{run}` has actions from action.low to action.high, but its model takes ±{limit} only");
+    }
+    if policy.control_step_s != CONTROL_STEP_S {
+        anyhow::bail!("`{run}` has a control_step_s of {}, this program only {CONTROL_STEP_S}", policy.control_step_s);
+    }
+    Ok(environment)
+}
+
+fn from_state(state: &TrainingState) -> anyhow::Result<ExportedPolicy> {
+    let config = state.config().map_err(anyhow::Error::msg)?;
+    let model = Model::from_mjcf(&state.model_xml)?;
+    let limit = model.control_limit as f32;
+    let (observation, mean, variance) = ObservationFacts::from_moments(
+        config.env.observation.name(),
+        &state.observation_moments,
+        config.policy.observation_clip as f32,
+    );
+    Ok(ExportedPolicy {
+        shape: state.shape.clone(),
+        parameters: state.parameters.clone(),
+        observation,
+        mean,
+        variance,
+        action: ActionFacts {
+            names: model.motors.iter().map(|motor| motor.name.clone()).collect(),
+            low: vec![-limit; model.motors.len()],
+            high: vec![limit; model.motors.len()],
+        },
+        control_step_s: CONTROL_STEP_S,
+        env: config.env,
+        randomisation: config.randomisation,
+        model_xml: state.model_xml.clone(),
+    })
+}
