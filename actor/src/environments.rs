@@ -245,7 +245,7 @@ impl Place {
         running.return_sum += f64::from(self.reward);
         if !step.fault {
             // The torso's place, whatever the task's info tells.
-            running.last_x_m = environment.physics().position()[0];
+            running.last_x_m = self.environment.physics().position()[0];
         }
         let (flags, cause) = match (step.fault, step.terminated, step.truncated) {
             (true, ..) => (TERMINATED, EndCause::Fault),
