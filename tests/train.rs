@@ -98,6 +98,12 @@ fn the_full_observations_of_gymnasium_can_be_learnt_from() {
         assert!(variances.iter().all(|variance| variance.is_finite()));
         let output = self::run(folder.path(), &["eval", run.to_str().unwrap(), "--episodes", "1", "--json"]);
         assert_eq!(last_json(&output)["episodes"], 1, "{}", stderr(&output));
+        // Open ranges and the kind of observation go with the exported policy.
+        let exported = folder.path().join("policy.safetensors");
+        let args = ["export", run.to_str().unwrap(), "--safetensors", exported.to_str().unwrap()];
+        assert!(self::run(folder.path(), &args).status.success());
+        let again = self::run(folder.path(), &["eval", exported.to_str().unwrap(), "--episodes", "1", "--json"]);
+        assert_eq!(last_json(&again), last_json(&output), "{}", stderr(&again));
     }
 }
 
