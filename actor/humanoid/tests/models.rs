@@ -292,7 +292,7 @@ fn tendons_that_would_act_are_refused_by_name() {
         (fixed, with("limited=\"true\" range=\"-1 1\""), ["left_hipknee", "limited"]),
         ("joint=\"left_knee\" coef", "joint=\"left_wing\" coef".to_owned(), ["left_hipknee", "left_wing"]),
         ("joint=\"left_knee\" coef=\"1\"", "joint=\"left_knee\" coef=\"nan\"".to_owned(), ["left_hipknee", "coef"]),
-        ("<joint joint=\"left_knee\" coef", "<joint name=\"left_knee\" coef".to_owned(), ["left_hipknee", "joint"]),
+        ("<joint joint=\"left_knee\" coef", "<joint name=\"left_knee\" coef".to_owned(), ["left_hipknee", "name"]),
         ("<tendon>", "<tendon><fixed name=\"slack\"/>".to_owned(), ["slack", "at least one joint"]),
         (
             "<tendon>",
