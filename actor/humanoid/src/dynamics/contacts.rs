@@ -10,7 +10,7 @@ use super::mass_matrix::MassMatrix;
 use super::posture::Posture;
 use super::softness::{IMPEDANCE, settle, slide};
 use super::spatial::Force;
-use super::tree::{NO_DOF, ROOT_DOFS, Tree};
+use super::tree::{ROOT_DOFS, Tree};
 
 /// Sweeps over all contacts and limits.
 const SWEEPS: usize = 12;
@@ -225,10 +225,8 @@ fn write_jacobian(tree: &Tree, posture: &Posture, point: &ContactPoint, directio
     row.fill(0.0);
     for (body, sign) in point.bodies.iter().zip([-1.0, 1.0]) {
         let Some(body) = body else { continue };
-        let mut dof = tree.innermost_dof(*body);
-        while dof != NO_DOF {
-            row[dof as usize] += sign * posture.axes[dof as usize].at(&point.place_m).dot(direction);
-            dof = tree.dof_parents[dof as usize];
+        for dof in tree.path_of_body(*body) {
+            row[*dof as usize] += sign * posture.axes[*dof as usize].at(&point.place_m).dot(direction);
         }
     }
     if point.bodies.iter().all(Option::is_some) {

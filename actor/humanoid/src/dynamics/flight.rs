@@ -158,7 +158,7 @@ impl Flight {
                 + node.damping_nmsprad * step_s / 2.0
                 + node.stiffness_nmprad * step_s * step_s / 4.0;
         }
-        self.effective.add_diagonal(&self.diagonal);
+        self.effective.add_diagonal(tree, &self.diagonal);
         self.effective.factor(tree);
 
         // Gyroscopic forces first with the old velocity, then with that of the middle.

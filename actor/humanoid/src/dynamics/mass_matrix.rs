@@ -5,20 +5,21 @@
 
 use super::posture::Posture;
 use super::spatial::Inertia;
-use super::tree::{NO_DOF, ROOT_DOFS, Tree};
+use super::tree::{ROOT_DOFS, Tree};
 
-/// A symmetric matrix over the degrees of freedom with the zeros of a tree; lower triangle, row by row.
+/// A symmetric matrix over the degrees of freedom with the zeros of a tree.
+///
+/// Row k holds what couples k to its path, from the first degree of freedom down to k itself. The path of a degree of
+/// freedom on it is the beginning of that path, so rows are aligned: inner loops run over slices without indices.
 #[derive(Clone, Debug)]
 pub(crate) struct MassMatrix {
-    dofs: usize,
     entries: Vec<f64>,
     composites: Vec<Inertia>,
 }
 
 impl MassMatrix {
     pub(crate) fn new(tree: &Tree) -> Self {
-        let dofs = tree.dofs();
-        Self { dofs, entries: vec![0.0; dofs * dofs], composites: vec![Inertia::default(); tree.nodes.len()] }
+        Self { entries: vec![0.0; tree.path_entries()], composites: vec![Inertia::default(); tree.nodes.len()] }
     }
 
     /// Assembles the matrix of the bodies alone, without rotors, for a posture that has been weighed.
@@ -39,60 +40,57 @@ impl MassMatrix {
 
     fn fill_row(&mut self, tree: &Tree, posture: &Posture, dof: usize, composite: &Inertia) {
         let force = composite.times(&posture.axes[dof]);
-        let mut other = dof as u32;
-        while other != NO_DOF {
-            self.entries[dof * self.dofs + other as usize] = posture.axes[other as usize].dot(&force);
-            other = tree.dof_parents[other as usize];
+        let row = &mut self.entries[tree.row(dof)];
+        for (entry, other) in row.iter_mut().zip(tree.path(dof)) {
+            *entry = posture.axes[*other as usize].dot(&force);
         }
     }
 
     /// Adds to the diagonal, one number per degree of freedom.
-    pub(crate) fn add_diagonal(&mut self, extra: &[f64]) {
+    pub(crate) fn add_diagonal(&mut self, tree: &Tree, extra: &[f64]) {
         for (dof, extra) in extra.iter().enumerate() {
-            self.entries[dof * self.dofs + dof] += extra;
+            self.entries[tree.row(dof).end - 1] += extra;
         }
     }
 
-    /// Factors in place; from then on [`Self::solve`] works and the entries are those of the factors.
+    /// Factors in place; from then on [`Self::solve`] works and the entries are those of the factors, with the inverse
+    /// of D on the diagonal.
     pub(crate) fn factor(&mut self, tree: &Tree) {
-        let n = self.dofs;
-        for k in (0..n).rev() {
-            let pivot = 1.0 / self.entries[k * n + k];
-            let mut i = tree.dof_parents[k];
-            while i != NO_DOF {
-                let row = i as usize;
-                let factor = self.entries[k * n + row] * pivot;
-                let mut j = i;
-                while j != NO_DOF {
-                    self.entries[row * n + j as usize] -= factor * self.entries[k * n + j as usize];
-                    j = tree.dof_parents[j as usize];
+        for k in (0..tree.dofs()).rev() {
+            let place = tree.row(k);
+            // Rows of the path of k lie before it.
+            let (before, from) = self.entries.split_at_mut(place.start);
+            let Some((own, row)) = from[..place.len()].split_last_mut() else { continue };
+            let pivot = 1.0 / *own;
+            *own = pivot;
+            for (position, i) in tree.path(k)[..row.len()].iter().enumerate().rev() {
+                let factor = row[position] * pivot;
+                let start = tree.row(*i as usize).start;
+                for (entry, coupled) in before[start..=start + position].iter_mut().zip(&row[..=position]) {
+                    *entry -= factor * coupled;
                 }
-                self.entries[k * n + row] = factor;
-                i = tree.dof_parents[row];
+                row[position] = factor;
             }
-            self.entries[k * n + k] = pivot;
         }
     }
 
     /// Replaces a right-hand side by the solution; the matrix must have been factored.
     pub(crate) fn solve(&self, tree: &Tree, x: &mut [f64]) {
-        let n = self.dofs;
-        for i in (0..n).rev() {
+        for i in (0..tree.dofs()).rev() {
             let value = x[i];
-            let mut j = tree.dof_parents[i];
-            while j != NO_DOF {
-                x[j as usize] -= self.entries[i * n + j as usize] * value;
-                j = tree.dof_parents[j as usize];
+            if value == 0.0 {
+                continue;
+            }
+            let row = &self.entries[tree.row(i)];
+            for (entry, j) in row[..row.len() - 1].iter().zip(tree.path(i)) {
+                x[*j as usize] -= entry * value;
             }
         }
-        for i in 0..n {
-            let mut value = x[i] * self.entries[i * n + i];
-            let mut j = tree.dof_parents[i];
-            while j != NO_DOF {
-                value -= self.entries[i * n + j as usize] * x[j as usize];
-                j = tree.dof_parents[j as usize];
-            }
-            x[i] = value;
+        for i in 0..tree.dofs() {
+            let row = &self.entries[tree.row(i)];
+            let Some((pivot, row)) = row.split_last() else { continue };
+            let known: f64 = row.iter().zip(tree.path(i)).map(|(entry, j)| entry * x[*j as usize]).sum();
+            x[i] = x[i] * pivot - known;
         }
     }
 }

@@ -18,14 +18,13 @@ pub(crate) struct Tree {
     pub(crate) hinges: Vec<HingeNode>,
     /// For each body the degree of freedom nearest to it.
     innermost_dofs: Vec<u32>,
-    /// For each degree of freedom the next one towards the root; [`NO_DOF`] for the first.
-    pub(crate) dof_parents: Vec<u32>,
+    /// The paths of all degrees of freedom, one after the other.
+    paths: Vec<u32>,
+    /// Where the path of each degree of freedom starts in `paths`, and where the last one ends.
+    path_starts: Vec<usize>,
     /// Acceleration of gravity (m/s²).
     pub(crate) gravity_mps2: Vector3<f64>,
 }
-
-/// Stands for the missing parent of the first degree of freedom.
-pub(crate) const NO_DOF: u32 = u32::MAX;
 
 /// One rigid body.
 #[derive(Clone, Debug)]
@@ -89,8 +88,8 @@ impl Tree {
                 max_rad: hinge.max_rad,
             })
             .collect();
-        let (dof_parents, innermost_dofs) = connect(&nodes, model.hinges.len());
-        Self { nodes, hinges, innermost_dofs, dof_parents, gravity_mps2: model.gravity_mps2 }
+        let (paths, path_starts, innermost_dofs) = connect(&nodes, model.hinges.len());
+        Self { nodes, hinges, innermost_dofs, paths, path_starts, gravity_mps2: model.gravity_mps2 }
     }
 
     /// Takes over masses, friction, rotors and gravity of a model of the same build; allocates nothing.
@@ -106,14 +105,31 @@ impl Tree {
         self.gravity_mps2 = model.gravity_mps2;
     }
 
-    /// The degree of freedom nearest to a body: with those towards the root, all that move it.
-    pub(crate) fn innermost_dof(&self, body: usize) -> u32 {
-        self.innermost_dofs[body]
+    /// Degrees of freedom that move a body, from the first one to the nearest.
+    pub(crate) fn path_of_body(&self, body: usize) -> &[u32] {
+        self.path(self.innermost_dofs[body] as usize)
+    }
+
+    /// The degrees of freedom from the first one to this one, along the tree.
+    #[inline]
+    pub(crate) fn path(&self, dof: usize) -> &[u32] {
+        &self.paths[self.row(dof)]
+    }
+
+    /// Where [`Self::path`] lies when all paths are laid one after the other.
+    #[inline]
+    pub(crate) fn row(&self, dof: usize) -> std::ops::Range<usize> {
+        self.path_starts[dof]..self.path_starts[dof + 1]
+    }
+
+    /// Lengths of all paths together.
+    pub(crate) fn path_entries(&self) -> usize {
+        self.paths.len()
     }
 
     /// Length of the velocity vector.
     pub(crate) fn dofs(&self) -> usize {
-        self.dof_parents.len()
+        self.path_starts.len() - 1
     }
 
     /// Mass of all bodies (kg).
@@ -122,22 +138,27 @@ impl Tree {
     }
 }
 
-fn connect(nodes: &[Node], hinges: usize) -> (Vec<u32>, Vec<u32>) {
-    let mut parents = vec![NO_DOF; ROOT_DOFS + hinges];
-    for (dof, parent) in parents.iter_mut().enumerate().take(ROOT_DOFS).skip(1) {
-        *parent = dof as u32 - 1;
-    }
-    let mut last = vec![ROOT_DOFS as u32 - 1; nodes.len()];
+/// Paths of all degrees of freedom, where each starts, and the innermost degree of freedom of each body.
+fn connect(nodes: &[Node], hinges: usize) -> (Vec<u32>, Vec<usize>, Vec<u32>) {
+    let root: Vec<u32> = (0..ROOT_DOFS as u32).collect();
+    let mut paths: Vec<Vec<u32>> = (0..ROOT_DOFS).map(|dof| root[..=dof].to_vec()).collect();
+    paths.resize(ROOT_DOFS + hinges, Vec::new());
+    let mut innermost = vec![ROOT_DOFS as u32 - 1; nodes.len()];
     for (index, node) in nodes.iter().enumerate().skip(1) {
-        let mut above = last[node.parent];
+        let mut above = innermost[node.parent];
         for hinge in node.hinges.clone() {
             let dof = ROOT_DOFS + hinge;
-            parents[dof] = above;
+            paths[dof] = paths[above as usize].clone();
+            paths[dof].push(dof as u32);
             above = dof as u32;
         }
-        last[index] = above;
+        innermost[index] = above;
     }
-    (parents, last)
+    let mut starts = vec![0];
+    for path in &paths {
+        starts.push(starts[starts.len() - 1] + path.len());
+    }
+    (paths.concat(), starts, innermost)
 }
 
 pub(crate) fn matrix(rotation: &UnitQuaternion<f64>) -> Matrix3<f64> {

@@ -98,7 +98,8 @@ impl World {
         world.impulse_joints = self.template.joints.clone();
         world.physics_pipeline = PhysicsPipeline::new();
         world.islands = IslandManager::new();
-        world.broad_phase = BroadPhaseBvh::default();
+        // A tree of a few dozen limbs needs no rebalancing while they move.
+        world.broad_phase = BroadPhaseBvh::with_optimization_strategy(BvhOptimizationStrategy::None);
         world.narrow_phase = NarrowPhase::new();
         world.ccd_solver = CCDSolver::new();
     }
