@@ -77,7 +77,7 @@ fn check_height(env: &EnvConfig, height_m: f64, path: &Path) -> Result<(), Usage
     }
     Err(Usage(format!(
         "model file `{}`: its root starts at a height of {height_m} m, but only {low_m} m to {high_m} m is healthy, so that \
-         every episode would end at once; say what is, as in --set env.healthy_z_range=[{:.2},{:.2}]",
+         every episode would end at once; say what is, as in --set 'env.healthy_z_range=[{:.2}, {:.2}]'",
         path.display(),
         0.7 * height_m,
         1.4 * height_m

@@ -177,6 +177,8 @@ fn a_weaker_servo_still_knows_where_it_is() {
     variation.motor_scale[0] = 0.5;
     physics.set_variation(&variation);
     physics.set_state(&position, &[0.0; 7]);
+    // Before the first step a servo holds control 0, and pulls back: half of 2 × 50 × −0.2.
+    assert!((physics.joint_torques_nm()[0] + 10.0).abs() < 1e-9, "{} N·m", physics.joint_torques_nm()[0]);
     let control = 0.2;
     physics.step_only(&[control]).expect("finite");
     // Gear 2 at 0.1 rad is a length of 0.2: where it is to be, so that nothing pulls, however strong it is.
@@ -270,7 +272,7 @@ fn the_robot_of_29_hinges_stands_on_its_soles_and_obeys_its_ranges() {
     for _ in 0..steps {
         assert!(!environment.step(&[0.0; 29], &mut observation).terminated);
         let physics = environment.physics();
-        let force_n: f64 = (0..physics.model().bodies.len()).map(|body| physics.contact_wrench(body).0.z).sum();
+        let force_n: f64 = (0..physics.model().links.len()).map(|link| physics.contact_wrench(link).0.z).sum();
         impulse_ns += force_n * CONTROL_STEP_S;
     }
     // What the floor gives is what gravity takes, and the change of momentum.

@@ -299,11 +299,11 @@ fn tendons_that_would_act_are_refused_by_name() {
             "<tendon><spatial name=\"cable\"><site site=\"a\"/><site site=\"b\"/></spatial>".to_owned(),
             ["cable", "spatial"],
         ),
-        ("<default>", "<default><tendon stiffness=\"2\"/>".to_owned(), ["default tendon", "stiffness"]),
+        ("<default>", "<default><tendon stiffness=\"2\"/>".to_owned(), ["left_hipknee", "stiffness"]),
         (
             "<tendon>",
             "<equality><tendon tendon1=\"left_hipknee\"/></equality><tendon>".to_owned(),
-            ["left_hipknee", "equality"],
+            ["tendon", "equality"],
         ),
     ];
     for (from, to, words) in cases {

@@ -27,8 +27,7 @@ pub(super) fn read(text: &str) -> Result<Model, ModelError> {
             Some(parent) => reader.read_body(index, parent, &entry.body, &source.compiler)?,
         }
     }
-    let tendons = tendon::read(&reader.flat.text, &source, &reader.hinges)?;
-    Ok(Model { tendons, ..reader.finish(&source)? })
+    reader.finish(&source)
 }
 
 /// Where a body of the text ended up: in which of our bodies, and at which pose inside it; no body is the world.
@@ -194,13 +193,14 @@ impl Reader {
             .ok_or_else(|| ModelError::unsupported("worldbody", "a floor is needed: a plane at z = 0 that collides"))?;
         let exclusions = self.read_exclusions(source)?;
         let touches = collision::sort(&mut self.bodies, &self.origins, &floor, &exclusions)?;
+        let tendons = tendon::read(&source.tendons, &self.hinges)?;
         let motors = motors::read(&source.actuators, &self.hinges, &source.compiler)?;
         Ok(Model {
             bodies: self.bodies,
             hinges: self.hinges,
             motors,
             links: self.links,
-            tendons: Vec::new(),
+            tendons,
             touches,
             floor_friction: if floor.rubs { floor.friction } else { 0.0 },
             gravity_mps2: Vector3::from(source.option.gravity),

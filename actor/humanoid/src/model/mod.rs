@@ -39,8 +39,8 @@ pub struct Model {
     pub hinges: Vec<Hinge>,
     /// Motors in action order.
     pub motors: Vec<Motor>,
-    /// The bodies as they stand in the text, in its order and without the world; those that are welded together
-    /// share one of `bodies`.
+    /// The bodies as they stand in the text, in its order and without the world and what stands still; those that are
+    /// welded together share one of `bodies`.
     pub links: Vec<Link>,
     /// Fixed tendons, in the order of the text; at most [`TENDONS_MAX`].
     pub tendons: Vec<Tendon>,

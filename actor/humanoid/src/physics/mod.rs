@@ -117,7 +117,8 @@ impl Physics {
         self.position[3..ROOT_POSITIONS].iter_mut().for_each(|part| *part /= norm);
         self.world.restore();
         self.contacts.fill(ContactImpulse::default());
-        self.hinge_torques_nm.fill(0.0);
+        self.controls.fill(0.0);
+        self.pull();
         self.is_faulty = false;
         self.has_stepped = false;
         self.posture.lay(&self.tree, &self.position);
