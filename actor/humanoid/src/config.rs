@@ -31,7 +31,7 @@ pub struct EnvironmentConfig {
     pub max_episode_steps: u32,
     /// Physics steps per control step, at least 1.
     pub substeps: u32,
-    /// Iterations of the constraint solver per physics step, at least 1.
+    /// Iterations of Rapier's constraint solver per physics step, at least 1; its result is then refined in joint coordinates.
     pub solver_iterations: u32,
     /// Whether parts of the body that are not neighbours collide with each other.
     pub self_collision: bool,
@@ -53,7 +53,7 @@ impl Default for EnvironmentConfig {
             reset_noise_scale: 0.01,
             max_episode_steps: 1000,
             substeps: 2,
-            solver_iterations: 4,
+            solver_iterations: 2,
             self_collision: true,
             randomisation: Randomisation::default(),
         }

@@ -39,8 +39,8 @@ section! {
         max_episode_steps: u32 = 1000, "1 to 1000000" => |v| (1..=1_000_000).contains(v);
         /// Physics steps per control step of 15 ms.
         substeps: u32 = 2, "1 to 50" => |v| (1..=50).contains(v);
-        /// Solver iterations per physics step.
-        solver_iterations: u32 = 4, "1 to 50" => |v| (1..=50).contains(v);
+        /// Iterations of Rapier's solver per physics step; its result is then refined in joint coordinates.
+        solver_iterations: u32 = 2, "1 to 50" => |v| (1..=50).contains(v);
         /// Whether the humanoid's own limbs can touch each other.
         self_collision: bool = true, "true or false" => |_| true;
     }

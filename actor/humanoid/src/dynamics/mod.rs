@@ -1,4 +1,4 @@
-//! Joint-space dynamics of the articulated body: what it does between contacts.
+//! Joint-space dynamics of the articulated body.
 //!
 //! State: a position vector (root place, root quaternion w x y z, one angle per hinge) and a velocity vector (root
 //! velocity in world axes, root angular velocity in the root's axes, one rate per hinge), the coordinates of MJCF.
@@ -10,20 +10,21 @@
 //! - `flight`: one time step without contacts.
 //! - `momentum`: what a flight conserves.
 //! - `limits`: the hinges' ranges within that step.
-//! - `projection`: from disturbed rigid bodies back to joint coordinates.
+//! - `softness`: how limits and contacts give way.
+//! - `contacts`: impulses at the points that touch.
 
+mod contacts;
 mod flight;
 mod limits;
 mod mass_matrix;
 mod momentum;
 mod posture;
-mod projection;
+mod softness;
 mod spatial;
 mod tree;
 
+pub(crate) use contacts::{ContactPoint, Contacts};
 pub(crate) use flight::Flight;
-pub(crate) use momentum::Momentum;
-pub(crate) use posture::{Posture, integrate};
-pub(crate) use projection::{Disturbance, Projection};
+pub(crate) use posture::Posture;
 pub(crate) use spatial::Motion;
 pub(crate) use tree::{ROOT_DOFS, ROOT_POSITIONS, Tree};

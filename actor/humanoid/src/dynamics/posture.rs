@@ -5,7 +5,7 @@
 use nalgebra::{Matrix3, Quaternion, UnitQuaternion, Vector3};
 
 use super::spatial::{Inertia, Motion};
-use super::tree::{Node, ROOT_DOFS, ROOT_POSITIONS, Tree, matrix};
+use super::tree::{ROOT_DOFS, ROOT_POSITIONS, Tree, matrix};
 
 /// Poses, joint axes and inertias of a tree at one position.
 #[derive(Clone, Debug)]
@@ -77,12 +77,6 @@ impl Posture {
             let dofs = ROOT_DOFS + node.hinges.start..ROOT_DOFS + node.hinges.end;
             out[index] = out[node.parent] + self.span(dofs, velocity);
         }
-    }
-
-    /// Angular momentum of one body about its own centre (N·m·s) at an angular velocity.
-    pub(crate) fn spin(&self, index: usize, node: &Node, angular_radps: &Vector3<f64>) -> Vector3<f64> {
-        let rotation = &self.rotations[index];
-        rotation * (node.inertia_kgm2 * rotation.tr_mul(angular_radps))
     }
 
     fn span(&self, dofs: std::ops::Range<usize>, velocity: &[f64]) -> Motion {

@@ -16,6 +16,8 @@ pub(crate) struct Tree {
     pub(crate) nodes: Vec<Node>,
     /// One per hinge, in position order.
     pub(crate) hinges: Vec<HingeNode>,
+    /// For each body the degree of freedom nearest to it.
+    innermost_dofs: Vec<u32>,
     /// For each degree of freedom the next one towards the root; [`NO_DOF`] for the first.
     pub(crate) dof_parents: Vec<u32>,
     /// Acceleration of gravity (m/s²).
@@ -87,8 +89,8 @@ impl Tree {
                 max_rad: hinge.max_rad,
             })
             .collect();
-        let dof_parents = dof_parents(&nodes, model.hinges.len());
-        Self { nodes, hinges, dof_parents, gravity_mps2: model.gravity_mps2 }
+        let (dof_parents, innermost_dofs) = connect(&nodes, model.hinges.len());
+        Self { nodes, hinges, innermost_dofs, dof_parents, gravity_mps2: model.gravity_mps2 }
     }
 
     /// Takes over masses, friction, rotors and gravity of a model of the same build; allocates nothing.
@@ -104,6 +106,11 @@ impl Tree {
         self.gravity_mps2 = model.gravity_mps2;
     }
 
+    /// The degree of freedom nearest to a body: with those towards the root, all that move it.
+    pub(crate) fn innermost_dof(&self, body: usize) -> u32 {
+        self.innermost_dofs[body]
+    }
+
     /// Length of the velocity vector.
     pub(crate) fn dofs(&self) -> usize {
         self.dof_parents.len()
@@ -115,12 +122,11 @@ impl Tree {
     }
 }
 
-fn dof_parents(nodes: &[Node], hinges: usize) -> Vec<u32> {
+fn connect(nodes: &[Node], hinges: usize) -> (Vec<u32>, Vec<u32>) {
     let mut parents = vec![NO_DOF; ROOT_DOFS + hinges];
     for (dof, parent) in parents.iter_mut().enumerate().take(ROOT_DOFS).skip(1) {
         *parent = dof as u32 - 1;
     }
-    // The innermost degree of freedom that moves each body.
     let mut last = vec![ROOT_DOFS as u32 - 1; nodes.len()];
     for (index, node) in nodes.iter().enumerate().skip(1) {
         let mut above = last[node.parent];
@@ -131,7 +137,7 @@ fn dof_parents(nodes: &[Node], hinges: usize) -> Vec<u32> {
         }
         last[index] = above;
     }
-    parents
+    (parents, last)
 }
 
 pub(crate) fn matrix(rotation: &UnitQuaternion<f64>) -> Matrix3<f64> {

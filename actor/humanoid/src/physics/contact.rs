@@ -1,10 +1,15 @@
-//! Contact forces on the bodies, read off Rapier after a physics step.
+//! Contacts: found by Rapier, with its solution as a first guess; and what they do to each body.
 
-use nalgebra::{Point3, Vector3};
+use nalgebra::Vector3;
 use rapier3d::prelude::*;
 
-use super::convert::from_vector;
+use super::convert::{from_vector, to_vector};
+use super::exchange::pose;
 use super::world::World;
+use crate::dynamics::{ContactPoint, Contacts, Posture};
+
+/// Surfaces push each other off from this distance on (m): the `margin` of the humanoid's shapes.
+const MARGIN_M: f64 = 0.001;
 
 /// Impulse of all contacts on one body: force × time (N·s) and moment × time (N·m·s), world frame.
 #[derive(Clone, Copy, Debug, Default)]
@@ -13,53 +18,58 @@ pub(super) struct ContactImpulse {
     pub(super) angular_nms: Vector3<f64>,
 }
 
-/// Adds the impulses of the physics step just done, with moments about `about` (m, Rapier's world); says whether there
-/// were any.
-pub(super) fn accumulate(world: &World, about: &Point3<f64>, impulses: &mut [ContactImpulse]) -> bool {
-    let mut touched = false;
+/// Collects the contacts of the physics step that Rapier has just done; `start` is the posture that it began with and
+/// `root_height_m` how high its root was.
+pub(super) fn collect(world: &World, start: &Posture, root_height_m: f64, contacts: &mut Contacts) {
+    contacts.points.clear();
+    let root = Vector3::new(0.0, 0.0, root_height_m);
     for pair in world.rapier.narrow_phase.contact_pairs() {
-        if !pair.has_any_active_contact() {
-            continue;
-        }
         let colliders = &world.rapier.colliders;
         let (Some(first), Some(second)) = (colliders.get(pair.collider1), colliders.get(pair.collider2)) else {
             continue;
         };
         let bodies = [first.user_data, second.user_data].map(|data| (data as usize).checked_sub(1));
+        // Colliders have moved on since the contact was found.
+        let at_start = match (bodies[0], first.position_wrt_parent()) {
+            (Some(body), Some(place)) => pose(start, body, &root) * *place,
+            _ => *first.position(),
+        };
         for manifold in pair.solver_manifolds() {
-            let (mut rubbing, mut pressed, mut pressed_last) = (None, 0.0, 0.0);
+            let (mut pressed, mut pressed_last) = (0.0, 0.0);
             for contact in &manifold.points {
-                if contact.data.impulse == 0.0 {
-                    continue;
-                }
-                touched = true;
-                let at = first.position().transform_point(contact.local_p1);
-                push(bodies, at, manifold.data.normal * -contact.data.impulse, about, impulses);
                 pressed += contact.data.impulse;
                 pressed_last += contact.data.warmstart_impulse;
-                rubbing = Some((at, contact.data.warmstart_tangent_world));
             }
-            // Rapier solves friction once per manifold, stores it with every contact, and keeps the last solver pass
-            // only. Taking it to be in proportion to the normal impulse, of which both the sum and the last pass are
-            // known, is the closest reading there is.
-            if let Some((at, impulse)) = rubbing
-                && pressed_last > 0.0
-            {
-                push(bodies, at, impulse * (pressed / pressed_last), about, impulses);
+            for contact in &manifold.points {
+                let data = &contact.data;
+                // Rapier solves friction once per manifold and keeps the last solver pass only. Taking it to be in
+                // proportion to the normal impulse, of which both the sum and the last pass are known, is near enough
+                // for a guess.
+                let share = if pressed_last > 0.0 { data.impulse / pressed_last } else { 0.0 };
+                let rubbing = if pressed > 0.0 { data.warmstart_tangent_world * -share } else { Vector::ZERO };
+                let middle = at_start.transform_point(contact.local_p1) + manifold.data.normal * (contact.dist / 2.0);
+                contacts.push(ContactPoint {
+                    bodies,
+                    place_m: from_vector(middle - to_vector(&root)),
+                    normal: from_vector(manifold.data.normal).normalize(),
+                    gap_m: f64::from(contact.dist) - MARGIN_M,
+                    friction: f64::from(manifold.data.friction),
+                    impulse_ns: from_vector(manifold.data.normal * data.impulse + rubbing),
+                });
             }
         }
     }
-    touched
 }
 
-/// Gives an impulse (N·s) at a point (m) to the first body and its opposite to the second; `None` is the floor.
-fn push(bodies: [Option<usize>; 2], at: Vector, impulse: Vector, about: &Point3<f64>, impulses: &mut [ContactImpulse]) {
-    let linear = from_vector(impulse);
-    let angular = (from_vector(at) - about.coords).cross(&linear);
-    for (body, sign) in bodies.into_iter().zip([1.0, -1.0]) {
-        if let Some(body) = body {
-            impulses[body].linear_ns += linear * sign;
-            impulses[body].angular_nms += angular * sign;
+/// Adds the contacts' impulses, with moments about `about_m` (relative to O).
+pub(super) fn accumulate(contacts: &Contacts, about_m: &Vector3<f64>, impulses: &mut [ContactImpulse]) {
+    for point in &contacts.points {
+        let moment = (point.place_m - about_m).cross(&point.impulse_ns);
+        for (body, sign) in point.bodies.into_iter().zip([-1.0, 1.0]) {
+            if let Some(body) = body {
+                impulses[body].linear_ns += point.impulse_ns * sign;
+                impulses[body].angular_nms += moment * sign;
+            }
         }
     }
 }

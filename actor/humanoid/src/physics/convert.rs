@@ -1,6 +1,6 @@
 //! Between nalgebra in double precision, which the model and the task use, and Rapier's own types.
 
-use nalgebra::{Matrix3, Point3, Quaternion, UnitQuaternion, Vector3};
+use nalgebra::{Matrix3, Point3, UnitQuaternion, Vector3};
 use rapier3d::math::{Matrix, Rotation, Vector};
 
 pub(super) fn to_vector(v: &Vector3<f64>) -> Vector {
@@ -23,8 +23,4 @@ pub(super) fn to_matrix(m: &Matrix3<f64>) -> Matrix {
 
 pub(super) fn from_vector(v: Vector) -> Vector3<f64> {
     Vector3::new(f64::from(v.x), f64::from(v.y), f64::from(v.z))
-}
-
-pub(super) fn from_rotation(r: &Rotation) -> UnitQuaternion<f64> {
-    UnitQuaternion::new_normalize(Quaternion::new(f64::from(r.w), f64::from(r.x), f64::from(r.y), f64::from(r.z)))
 }

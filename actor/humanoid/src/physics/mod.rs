@@ -1,9 +1,10 @@
 //! One humanoid in one Rapier world, as named quantities.
 //!
-//! Its state is in joint coordinates (see [`crate::dynamics`]). A physics step has three parts. The *flight* carries
-//! the state over the step as if nothing touched. Then Rapier gets the bodies as rigid bodies on their way along that
-//! flight, and solves contacts together with joints and limits. What it changed is projected back onto the joint
-//! coordinates. So between contacts the body moves as exactly as the flight does, and joints never come apart.
+//! Its state is in joint coordinates (see `dynamics`). A physics step has three parts. The *flight* carries the state
+//! over the step as if nothing touched. Then Rapier steps the bodies, as rigid bodies on their way along that flight: it
+//! finds the contacts and solves them together with joints and limits. From there the contact impulses are refined in
+//! joint coordinates until the body as a whole answers to them, and what they do to the state is exact. So the body moves
+//! as an articulated body does, and joints never come apart for longer than a step.
 //!
 //! Nothing here knows about rewards or episodes. Rapier is named in this module only.
 
@@ -18,13 +19,12 @@ mod world;
 use nalgebra::{Point3, Vector3};
 
 use self::contact::ContactImpulse;
-use self::exchange::Exchange;
 pub use self::motion::BodyMotion;
 use self::variation::Variable;
 pub use self::variation::Variation;
 use self::world::World;
 use crate::config::{CONTROL_STEP_S, EnvironmentConfig};
-use crate::dynamics::{Flight, Motion, Posture, ROOT_DOFS, ROOT_POSITIONS, Tree};
+use crate::dynamics::{Contacts, Flight, Motion, Posture, ROOT_DOFS, ROOT_POSITIONS, Tree};
 use crate::error::ModelError;
 use crate::model::Model;
 
@@ -36,8 +36,8 @@ pub struct PhysicsFault;
 /// How well the joints hold at one moment.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct JointQuality {
-    /// Largest distance between the two ends of a joint as the contact solver left them (m); the projection onto joint
-    /// coordinates then closes it.
+    /// Largest distance between the two ends of a joint as Rapier's solver left them in the last physics step (m); in
+    /// joint coordinates they are together again.
     pub separation_m: f64,
     /// Largest angle by which a hinge is outside its range (rad).
     pub limit_overshoot_rad: f64,
@@ -49,7 +49,7 @@ pub struct Physics {
     tree: Tree,
     world: World,
     flight: Flight,
-    exchange: Exchange,
+    touching: Contacts,
     substeps: u32,
     position: Vec<f64>,
     velocity: Vec<f64>,
@@ -79,7 +79,7 @@ impl Physics {
         let mut physics = Self {
             world: World::new(&model, config),
             flight: Flight::new(&tree),
-            exchange: Exchange::new(&tree),
+            touching: Contacts::new(&tree),
             substeps: config.substeps,
             position: vec![0.0; model.position_size()],
             velocity: vec![0.0; model.velocity_size()],
@@ -153,9 +153,9 @@ impl Physics {
         let (angles_rad, rates_radps) = (&self.position[ROOT_POSITIONS..], &self.velocity[ROOT_DOFS..]);
         self.model.motor_torques(&self.controls, angles_rad, rates_radps, &mut self.hinge_torques_nm);
         let step_s = CONTROL_STEP_S / f64::from(self.substeps);
-        let Self { tree, world, flight, exchange, .. } = self;
+        let Self { tree, world, flight, touching, .. } = self;
         flight.fly(tree, &self.posture, &self.position, &self.velocity, &self.hinge_torques_nm, step_s);
-        exchange.send(world, &self.position, &self.posture, flight, step_s);
+        exchange::send(world, &self.position, &self.posture, flight, step_s);
         drive::lay_joints(world, &self.model, &self.position, flight);
         world.rapier.step();
         self.has_stepped = true;
@@ -163,15 +163,9 @@ impl Physics {
             self.is_faulty = true;
             return Err(PhysicsFault);
         }
-        // In Rapier's world the root is always above the origin.
-        let about = Point3::from(Vector3::new(0.0, 0.0, self.position[2]) + centre_of_mass(tree, &self.posture));
-        if contact::accumulate(world, &about, &mut self.contacts) {
-            exchange.receive(tree, world, flight, &mut self.position, &mut self.velocity, &mut self.posture);
-        } else {
-            self.position.copy_from_slice(&flight.position);
-            self.velocity.copy_from_slice(&flight.velocity);
-            std::mem::swap(&mut flight.end, &mut self.posture);
-        }
+        contact::collect(world, &self.posture, self.position[2], touching);
+        flight.touch_down(tree, touching, &mut self.position, &mut self.velocity, &mut self.posture, step_s);
+        contact::accumulate(touching, &flight.start_centre_m, &mut self.contacts);
         if !self.position.iter().chain(&self.velocity).all(|number| number.is_finite()) {
             self.is_faulty = true;
             return Err(PhysicsFault);

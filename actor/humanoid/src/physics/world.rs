@@ -10,8 +10,8 @@ use crate::chain;
 use crate::config::{CONTROL_STEP_S, EnvironmentConfig};
 use crate::model::{Body, FLOOR_GROUP, Geometry, Model, Shape};
 
-/// Sweeps over all constraints in each pass of the solver. The second halves the distance between joint ends
-/// for a tenth of the time.
+/// Sweeps over all constraints in each pass of the solver: the second halves the distance that is left between joint
+/// ends for a few percent of the time.
 const SWEEPS: usize = 2;
 /// Speed at which a hinge beyond its limit is brought back (rad/s). With Rapier's default of 3 a fall bends the waist
 /// up to 0.5 rad too far. The solver takes this speed out again before velocities count, so nothing is flung.
@@ -46,7 +46,6 @@ impl World {
         parameters.dt = (CONTROL_STEP_S / f64::from(config.substeps)) as f32;
         parameters.num_solver_iterations = config.solver_iterations as usize;
         parameters.max_ccd_substeps = 0;
-        // A light waist between a heavy chest and heavy legs: one sweep over the joints per pass leaves them apart.
         parameters.num_internal_pgs_iterations = SWEEPS;
         // Only limits that are far exceeded ever get this fast (rad/s); contacts push out much more slowly.
         parameters.normalized_max_corrective_velocity = LIMIT_RECOVERY_RADPS;

@@ -1,0 +1,42 @@
+//! How soft limits and contacts are: as in MuJoCo with MJCF's defaults `solref` 0.02 1 and `solimp` 0.9 0.95.
+//!
+//! A constraint takes over the share [`IMPEDANCE`] of what presses against it, and beyond that pulls back like a critically
+//! damped spring ("Computation" chapter of MuJoCo's documentation, solver parameters).
+
+/// Share of a force against a constraint that the constraint takes over.
+pub(super) const IMPEDANCE: f64 = 0.95;
+/// Time constant of the pull-back (s).
+const TIME_S: f64 = 0.02;
+/// Angular frequency of the pull-back (1/s): 1 / (impedance × time constant).
+const FREQUENCY_PER_S: f64 = 1.0 / (IMPEDANCE * TIME_S);
+
+/// Rate of approach a time after a constraint was `beyond` its end, approaching at `rate`: the exact solution of
+/// r″ = −2 ω r′ − ω² r, so that a long step cannot overshoot.
+pub(super) fn settle(rate: f64, beyond: f64, time_s: f64) -> f64 {
+    let phase = FREQUENCY_PER_S * time_s;
+    (-phase).exp() * ((1.0 - phase) * rate - FREQUENCY_PER_S * phase * beyond)
+}
+
+/// What friction leaves of a sliding rate after a time.
+pub(super) fn slide(rate: f64, time_s: f64) -> f64 {
+    rate * (-2.0 * FREQUENCY_PER_S * time_s).exp()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn settling_is_the_solution_of_the_damped_spring() {
+        // Integrated in ten thousand small steps instead.
+        let (mut rate, mut beyond) = (1.3, 0.02);
+        let (time_s, steps) = (0.03, 100_000);
+        for _ in 0..steps {
+            let step_s = time_s / f64::from(steps);
+            rate -= step_s * (2.0 * FREQUENCY_PER_S * rate + FREQUENCY_PER_S * FREQUENCY_PER_S * beyond);
+            beyond += step_s * rate;
+        }
+        assert!((settle(1.3, 0.02, time_s) - rate).abs() < 1e-3, "{rate}");
+        assert!((slide(2.0, 0.019 / 2.0) - 2.0 / std::f64::consts::E).abs() < 1e-12);
+    }
+}
