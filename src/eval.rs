@@ -15,13 +15,18 @@ use treadmill_actor::{
     evaluation::{Evaluation, Told, evaluate},
 };
 use treadmill_common::{
-    config::{Config, ConfigSource, RandomisationConfig},
+    config::{Config, RandomisationConfig},
     exported::ExportedPolicy,
 };
 use treadmill_humanoid::Environment;
 use treadmill_learner::checkpoint::Which;
 
-use crate::{model, outcome::Usage, output::say, saved_policy};
+use crate::{
+    model::{self, ModelArgs},
+    outcome::Usage,
+    output::say,
+    saved_policy,
+};
 
 /// Who chooses the actions.
 #[derive(Clone, Copy, Debug, ValueEnum)]
@@ -61,15 +66,11 @@ pub struct EvalArgs {
     /// Which checkpoint: best, latest, or the number of updates of a kept one; by default best if there is one.
     #[arg(long, value_name = "WHICH")]
     checkpoint: Option<Which>,
-    /// Another robot than the run's own or the built-in humanoid, as MJCF; see docs/models.md.
-    #[arg(long, value_name = "FILE")]
-    model: Option<PathBuf>,
     /// Randomise the episodes as the run did in training; without this they are not, whatever the run did.
     #[arg(long)]
     randomised: bool,
-    /// One key of [env] or [randomisation], laid over the run's configuration; may be repeated.
-    #[arg(long, value_name = "KEY=VALUE")]
-    set: Vec<String>,
+    #[command(flatten)]
+    model: ModelArgs,
     /// Print the first and every N-th step of each episode; 100 for the baselines, 0 (never) for the policy.
     #[arg(long, value_name = "N")]
     print_every: Option<u32>,
@@ -112,20 +113,20 @@ pub fn run(args: EvalArgs) -> anyhow::Result<()> {
 }
 
 fn prepare(args: &EvalArgs) -> anyhow::Result<(Environment, Box<dyn Agent>)> {
-    let file = args.model.as_deref();
     let Some(run) = &args.run else {
         if matches!(args.agent, Who::Policy) {
             let why = "eval needs a RUN, as in `treadmill eval runs/walk-1`; or choose --agent random".to_string();
             return Err(Usage(why).into());
         }
         let config = configuration(args, Config::default())?;
+        let file = args.model.model.as_deref();
         let environment = model::environment(&config, &model::text(file)?, file)?;
         let action_size = environment.action_size();
         return Ok((environment, baseline(args, action_size)));
     };
     let policy = saved_policy::load(run, args.checkpoint.unwrap_or(Which::BestOrLatest))?;
     let config = configuration(args, saved_policy::trained_under(&policy))?;
-    let environment = match file {
+    let environment = match args.model.model.as_deref() {
         None => saved_policy::environment(run, &policy, &config)?,
         Some(file) => {
             let environment = model::environment(&config, &model::text(Some(file))?, Some(file))?;
@@ -138,6 +139,18 @@ fn prepare(args: &EvalArgs) -> anyhow::Result<(Environment, Box<dyn Agent>)> {
         _ => baseline(args, environment.action_size()),
     };
     Ok((environment, agent))
+}
+
+/// What the episodes are played under: the run's task, without what it randomised in training unless that is asked for.
+fn configuration(args: &EvalArgs, mut config: Config) -> anyhow::Result<Config> {
+    if !args.randomised {
+        config.randomisation = RandomisationConfig::default();
+    } else if config.randomisation == RandomisationConfig::default() {
+        let why = "--randomised plays as the run did in training, but it randomised nothing; \
+                   name what you want, as in --set randomisation.push_mps=[0.5,0.5]";
+        return Err(Usage(why.to_string()).into());
+    }
+    args.model.config(&config)
 }
 
 /// A policy goes with every robot that has as many joints and motors as its own; what they mean is the user's to know.
@@ -156,27 +169,6 @@ fn check_fits(policy: &ExportedPolicy, environment: &Environment, who: Who, file
         wanted.0,
         wanted.1
     )))
-}
-
-/// What the episodes are played under: the run's task, without what it randomised in training unless that is asked for.
-fn configuration(args: &EvalArgs, mut config: Config) -> anyhow::Result<Config> {
-    if !args.randomised {
-        config.randomisation = RandomisationConfig::default();
-    } else if config.randomisation == RandomisationConfig::default() {
-        let why = "--randomised plays as the run did in training, but it randomised nothing; \
-                   name what you want, as in --set randomisation.push_mps=[0.5,0.5]";
-        return Err(Usage(why.to_string()).into());
-    }
-    let mut source = ConfigSource::default();
-    source.text(&config.to_toml(), "the run's configuration")?;
-    for pair in &args.set {
-        if !["env.", "randomisation."].iter().any(|section| pair.trim_start().starts_with(section)) {
-            let why = format!("`--set {pair}` has no effect on episodes; allowed: keys of [env] and [randomisation]");
-            return Err(Usage(why).into());
-        }
-        source.set(pair)?;
-    }
-    Ok(source.build()?)
 }
 
 fn baseline(args: &EvalArgs, action_size: usize) -> Box<dyn Agent> {

@@ -1,12 +1,44 @@
 //! The robot: the built-in humanoid, or the one that `--model FILE` describes.
 
-use std::{borrow::Cow, error::Error, path::Path};
+use std::{
+    borrow::Cow,
+    error::Error,
+    path::{Path, PathBuf},
+};
 
+use clap::Args;
 use treadmill_actor::settings;
-use treadmill_common::config::{Config, EnvConfig};
+use treadmill_common::config::{Config, ConfigSource, EnvConfig};
 use treadmill_humanoid::{Environment, HUMANOID_XML, ModelError, read_model_file};
 
 use crate::outcome::Usage;
+
+/// Flags about robot and task of commands that play without a run.
+#[derive(Args, Clone, Debug, Default)]
+pub struct ModelArgs {
+    /// Another robot than the built-in humanoid, as MJCF; see docs/models.md.
+    #[arg(long, value_name = "FILE")]
+    pub model: Option<PathBuf>,
+    /// One key of [env] or [randomisation], as in env.substeps=5; may be repeated.
+    #[arg(long, value_name = "KEY=VALUE")]
+    pub set: Vec<String>,
+}
+
+impl ModelArgs {
+    /// A configuration with the given keys laid over it.
+    pub fn config(&self, base: &Config) -> anyhow::Result<Config> {
+        let mut source = ConfigSource::default();
+        source.text(&base.to_toml(), "the run's configuration")?;
+        for pair in &self.set {
+            if !["env.", "randomisation."].iter().any(|section| pair.trim_start().starts_with(section)) {
+                let why = format!("`--set {pair}` has no effect here; allowed: keys of [env] and [randomisation]");
+                return Err(Usage(why).into());
+            }
+            source.set(pair)?;
+        }
+        Ok(source.build()?)
+    }
+}
 
 /// The text of a model file, or of the built-in humanoid where there is none.
 pub fn text(file: Option<&Path>) -> Result<Cow<'static, str>, Usage> {

@@ -74,6 +74,8 @@ fn a_robot_that_starts_unhealthy_is_refused_with_the_settings_that_it_needs() {
     let parts = ["hopper.xml", "0.9 m", "1 m to 2 m", "env.healthy_z_min_m=0.63"];
     assert_refused(&train(folder.path(), &run, "hopper.xml", &[]), 2, &parts);
     assert_refused(&self::run(folder.path(), &["bench", "env", "--model", "hopper.xml"]), 2, &parts);
+    let args = ["eval", "--agent", "random", "--set", "ppo.gamma=0.9"];
+    assert_refused(&self::run(folder.path(), &args), 2, &["ppo.gamma", "[env]"]);
 }
 
 #[test]

@@ -166,8 +166,9 @@ impl Environments {
         &self.observations
     }
 
-    /// Steps all by `actions`, `[N][action]`: −1 is the lower end of a motor's range, 1 its upper one; clipped here. An
-    /// episode that ends is followed by the next at once.
+    /// Steps all by `actions`, `[N][action]` where −1 is the lower end of a motor's range and 1 its upper one; they are
+    /// clipped to it here. An episode that
+    /// ends is followed by the next at once.
     ///
     /// # Panics
     /// If there are not as many actions as environments.

@@ -21,7 +21,7 @@ fn sample() -> ExportedPolicy {
         action: ActionFacts { names: vec!["hip".into(), "knee".into()], low: vec![-0.4; 2], high: vec![0.4; 2] },
         control_step_s: 0.015,
         env: EnvConfig { reset_noise_scale: 0.02, ..EnvConfig::default() },
-        randomisation: Default::default(),
+        randomisation: RandomisationConfig { mass_scale: [0.9, 1.1], ..RandomisationConfig::default() },
         model_xml: "<mujoco/>".into(),
     }
 }

@@ -1,6 +1,6 @@
 //! 64 worlds, random actions, resets included: with task and observation, and physics alone.
 
-use std::{path::PathBuf, time::Instant};
+use std::time::Instant;
 
 use clap::Args;
 use rand::RngExt;
@@ -9,17 +9,14 @@ use treadmill_actor::{
     environments::{Environments, SeedSource, Stepped},
     settings,
 };
-use treadmill_common::{
-    config::{Config, ConfigSource},
-    machine, seeds,
-};
+use treadmill_common::{config::Config, machine, seeds};
 use treadmill_humanoid::EnvironmentConfig;
 
 use super::{
     quality, rounded, tell,
     worlds::{self, WORLDS, Worlds},
 };
-use crate::model;
+use crate::model::{self, ModelArgs};
 
 /// Random actions that the worlds are stepped with, over and over; a multiple of their number.
 const ACTIONS: usize = 64 * WORLDS;
@@ -36,12 +33,8 @@ pub struct EnvArgs {
     /// What the policy is to see, short for --set env.observation=KIND.
     #[arg(long, value_name = "KIND")]
     observation: Option<String>,
-    /// One configuration key, as in env.substeps=5; may be repeated.
-    #[arg(long, value_name = "KEY=VALUE")]
-    set: Vec<String>,
-    /// Another robot than the built-in humanoid, as MJCF; see docs/models.md.
-    #[arg(long, value_name = "FILE")]
-    model: Option<PathBuf>,
+    #[command(flatten)]
+    model: ModelArgs,
     /// Instead of speed, measure how well joints and limits hold under the largest torques in random directions.
     #[arg(long)]
     quality: bool,
@@ -52,23 +45,19 @@ pub struct EnvArgs {
 
 impl EnvArgs {
     fn config(&self) -> anyhow::Result<Config> {
-        let mut source = ConfigSource::default();
-        for pair in &self.set {
-            source.set(pair)?;
-        }
-        if let Some(kind) = &self.observation {
-            source.value("env.observation", kind.as_str())?;
-        }
-        Ok(source.build()?)
+        let mut given = self.model.clone();
+        given.set.extend(self.observation.iter().map(|kind| format!("env.observation={kind}")));
+        given.config(&Config::default())
     }
 }
 
 /// Measures and tells.
 pub fn run(args: &EnvArgs) -> anyhow::Result<()> {
     let config = args.config()?;
-    let text = model::text(args.model.as_deref())?;
-    // Whatever is wrong with it is told once, with the file's name.
-    model::environment(&config, &text, args.model.as_deref())?;
+    let file = args.model.model.as_deref();
+    let text = model::text(file)?;
+    // Says what is wrong with the file, where anything is.
+    model::environment(&config, &text, file)?;
     let environment = settings::training(&config);
     let threads = worlds::threads(args.threads.into());
     let rounds = args.steps.div_ceil(WORLDS as u64).max(1);
