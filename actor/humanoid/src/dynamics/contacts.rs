@@ -16,6 +16,9 @@ use super::tree::{NO_DOF, ROOT_DOFS, Tree};
 const SWEEPS: usize = 12;
 /// Contacts considered at once; a humanoid lying on the floor has about twenty.
 const CONTACTS_MAX: usize = 64;
+/// A direction in which an impulse of 1 N·s moves the surfaces by less than this (m/s) is none that the body can move in:
+/// two limbs that touch on their hinges' axes, say. What rounding leaves there must not be divided by.
+const RESPONSE_MIN_PER_KG: f64 = 1e-9;
 /// Directions of a contact: normal, and two across.
 const DIRECTIONS: usize = 3;
 
@@ -158,6 +161,10 @@ impl Contacts {
             response.copy_from_slice(row);
             matrix.solve(tree, response);
             let own = dot(row, response);
+            if own < RESPONSE_MIN_PER_KG {
+                solved.softened[direction] = f64::INFINITY;
+                continue;
+            }
             solved.softness[direction] = own * (1.0 - IMPEDANCE) / IMPEDANCE;
             solved.softened[direction] = own + solved.softness[direction];
             solved.impulses[direction] = solved.directions[direction].dot(&point.impulse_ns);
