@@ -71,14 +71,13 @@ pub fn check_same(run_text: &str, file: &Path) -> Result<(), Usage> {
 
 /// A robot that starts outside the healthy range would end every episode at once.
 fn check_height(env: &EnvConfig, height_m: f64, path: &Path) -> Result<(), Usage> {
-    let (low_m, high_m) = (env.healthy_z_min_m, env.healthy_z_max_m);
+    let [low_m, high_m] = env.healthy_z_range;
     if !env.terminate_when_unhealthy || (low_m < height_m && height_m < high_m) {
         return Ok(());
     }
     Err(Usage(format!(
         "model file `{}`: its root starts at a height of {height_m} m, but only {low_m} m to {high_m} m is healthy, so that \
-         every episode would end at once; say what is, as in --set env.healthy_z_min_m={:.2} --set \
-         env.healthy_z_max_m={:.2}",
+         every episode would end at once; say what is, as in --set env.healthy_z_range=[{:.2},{:.2}]",
         path.display(),
         0.7 * height_m,
         1.4 * height_m

@@ -12,9 +12,6 @@ use treadmill_common::{
 use treadmill_humanoid::{CONTROL_STEP_S, Environment, Model};
 use treadmill_learner::checkpoint::{self, TrainingState, Which, encoding};
 
-/// What this program's policies see: positions and velocities.
-const OBSERVATION_KIND: &str = "compact";
-
 /// Reads the policy of a run's folder (its checkpoint `which`), of a bundle file or of an exported file.
 pub fn load(run: &str, which: Which) -> anyhow::Result<ExportedPolicy> {
     let path = Path::new(run);
@@ -70,7 +67,7 @@ fn from_state(state: &TrainingState) -> anyhow::Result<ExportedPolicy> {
     let config = state.config().map_err(anyhow::Error::msg)?;
     let model = Model::from_mjcf(&state.model_xml)?;
     let (observation, mean, variance) = ObservationFacts::from_moments(
-        OBSERVATION_KIND,
+        config.env.observation.name(),
         &state.observation_moments,
         config.policy.observation_clip as f32,
     );

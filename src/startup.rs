@@ -19,7 +19,7 @@ use crate::{model, outcome::Usage};
 /// Flags that say what a run is; they make no sense together with `--resume`, which has them saved.
 #[derive(Args, Clone, Debug, Default)]
 pub struct NewRunArgs {
-    /// Starting point of the configuration: walk, smoke or sim2sim.
+    /// Starting point of the configuration: walk, walk-v5obs, walk-v4obs, smoke or sim2sim.
     #[arg(long, value_name = "NAME", default_value = "walk")]
     pub preset: String,
     /// Configuration file (TOML) laid over the preset.

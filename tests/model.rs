@@ -27,7 +27,7 @@ const HOPPER: &str = r#"
   <actuator><motor name="hip" joint="hip" gear="20" ctrlrange="-0.5 1"/></actuator>
 </mujoco>"#;
 
-const HEALTHY: [&str; 4] = ["--set", "env.healthy_z_min_m=0.5", "--set", "env.healthy_z_max_m=1.2"];
+const HEALTHY: [&str; 2] = ["--set", "env.healthy_z_range=[0.5,1.2]"];
 
 fn write(folder: &Path, name: &str, text: &str) -> PathBuf {
     let path = folder.join(name);
@@ -71,7 +71,7 @@ fn a_model_that_cannot_be_used_is_blamed_on_its_file_by_every_command() {
 fn a_robot_that_starts_unhealthy_is_refused_with_the_settings_that_it_needs() {
     let (folder, run) = folders();
     write(folder.path(), "hopper.xml", HOPPER);
-    let parts = ["hopper.xml", "0.9 m", "1 m to 2 m", "env.healthy_z_min_m=0.63"];
+    let parts = ["hopper.xml", "0.9 m", "1 m to 2 m", "env.healthy_z_range=[0.63,1.26]"];
     assert_refused(&train(folder.path(), &run, "hopper.xml", &[]), 2, &parts);
     assert_refused(&self::run(folder.path(), &["bench", "env", "--model", "hopper.xml"]), 2, &parts);
     let args = ["eval", "--agent", "random", "--set", "ppo.gamma=0.9"];

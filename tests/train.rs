@@ -74,6 +74,40 @@ fn a_run_leaves_everything_a_user_looks_for() {
 }
 
 #[test]
+fn the_full_observations_of_gymnasium_can_be_learnt_from() {
+    for (preset, size, task) in [("walk-v5obs", 348, "humanoid-v5"), ("walk-v4obs", 376, "humanoid-v4")] {
+        let (folder, run) = folders();
+        let small = ["ppo.batch=512", "ppo.minibatch=256", "ppo.epochs=2", "policy.hidden=[16]", "rollout.envs=8"];
+        let mut args = vec!["train", "--preset", preset, "--steps", "3072", "--run-dir", run.to_str().unwrap()];
+        args.extend(["--actors", "1", "--set", "rollout.fragment_steps=64"]);
+        small.iter().for_each(|pair| args.extend(["--set", pair]));
+        let output = self::run(folder.path(), &args);
+        assert!(output.status.success(), "{preset}: {}", stderr(&output));
+        let state = load_file(&run.join("checkpoints/latest.bundle")).unwrap();
+        assert_eq!(state.shape.observation, size);
+        assert!(state.config_toml.contains(&format!("task = \"{task}\"")));
+        assert_eq!(state.counters.updates, 6);
+        assert!(state.parameters.iter().all(|parameter| parameter.is_finite()));
+        for tag in ["train/value_loss", "train/approx_kl", "rollout/ep_rew_mean"] {
+            assert!(last_value(&run, tag).unwrap().is_finite(), "{preset} {tag}");
+        }
+        assert_eq!(last_value(&run, "train/undone_updates"), Some(0.0), "{preset}");
+        // Masses and the world's rows never change; the statistics know that, and nothing is made of it.
+        let variances = state.observation_moments.variance();
+        assert!(variances.iter().filter(|variance| **variance < 1e-12).count() >= 13, "{preset}");
+        assert!(variances.iter().all(|variance| variance.is_finite()));
+        let output = self::run(folder.path(), &["eval", run.to_str().unwrap(), "--episodes", "1", "--json"]);
+        assert_eq!(last_json(&output)["episodes"], 1, "{}", stderr(&output));
+        // Open ranges and the kind of observation go with the exported policy.
+        let exported = folder.path().join("policy.safetensors");
+        let args = ["export", run.to_str().unwrap(), "--safetensors", exported.to_str().unwrap()];
+        assert!(self::run(folder.path(), &args).status.success());
+        let again = self::run(folder.path(), &["eval", exported.to_str().unwrap(), "--episodes", "1", "--json"]);
+        assert_eq!(last_json(&again), last_json(&output), "{}", stderr(&again));
+    }
+}
+
+#[test]
 fn the_same_seed_gives_the_same_weights_bit_for_bit() {
     let weights = |seed: &str, more: &[&str]| {
         let (folder, run) = folders();

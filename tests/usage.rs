@@ -23,6 +23,11 @@ fn impossible_configuration_is_refused_with_key_value_and_what_is_allowed() {
     assert_refused(&train(&["--set", "ppo.epoch=3"]), 2, &["unknown config key `ppo.epoch`", "`ppo.epochs`"]);
     assert_refused(&train(&["--set", "ppo.epochs=few"]), 2, &["ppo.epochs", "few", "1 to 100"]);
     assert_refused(&train(&["--set", "ppo.epochs"]), 2, &["ppo.epochs", "key=value"]);
+    let replaced = train(&["--set", "env.healthy_z_min_m=0.8"]);
+    assert_refused(&replaced, 2, &["env.healthy_z_min_m", "`env.healthy_z_range`"]);
+    let range = train(&["--set", "env.contact_cost_range=[3, 1]"]);
+    assert_refused(&range, 2, &["env.contact_cost_range", "[3.0, 1.0]", "the first not above the second"]);
+    assert_refused(&train(&["--set", "env.task=humanoid-v3"]), 2, &["env.task", "humanoid-v3", "\"humanoid-v4\""]);
     assert_refused(&train(&["--steps", "0"]), 2, &["run.steps", "is 0"]);
     assert_refused(&train(&["--actors", "9"]), 2, &["rollout.actors", "is 9", "rollout.envs, which is 8"]);
     assert_refused(&train(&["--steps", "many"]), 2, &["--steps", "many"]);
@@ -42,7 +47,7 @@ fn a_configuration_file_is_checked_like_everything_else() {
     assert_refused(&with("[ppo\n"), 2, &["not valid TOML", "mine.toml"]);
     assert_refused(&train(&["--config", "no-such-file.toml"]), 2, &["no-such-file.toml"]);
     let output = self::run(folder.path(), &["train", "--preset", "stroll"]);
-    assert_refused(&output, 2, &["stroll", "walk, smoke, sim2sim"]);
+    assert_refused(&output, 2, &["stroll", "walk, walk-v5obs, walk-v4obs, smoke, sim2sim"]);
 }
 
 #[test]

@@ -242,7 +242,8 @@ impl Place {
         self.reward = if step.fault { 0.0 } else { step.reward };
         running.return_sum += f64::from(self.reward);
         if !step.fault {
-            running.last_x_m = step.info.x_position_m;
+            // The torso's place, whatever the task's info tells.
+            running.last_x_m = self.environment.physics().position()[0];
         }
         let (flags, cause) = match (step.fault, step.terminated, step.truncated) {
             (true, ..) => (TERMINATED, EndCause::Fault),

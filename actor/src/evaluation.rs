@@ -108,7 +108,7 @@ pub fn evaluate(
             if !step.fault {
                 agent.rewarded(step.reward);
                 played.return_sum += f64::from(step.reward);
-                played.distance_m = step.info.x_position_m - start_x_m;
+                played.distance_m = environment.physics().position()[0] - start_x_m;
                 let joints = environment.joint_quality();
                 separations.push(joints.separation_m);
                 overshoots.push(joints.limit_overshoot_rad);

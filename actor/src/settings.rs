@@ -1,7 +1,7 @@
 //! The run's configuration as the environment takes it.
 
-use treadmill_common::config::{Config, EnvConfig, RandomisationConfig};
-use treadmill_humanoid::{EnvironmentConfig, Randomisation};
+use treadmill_common::config::{Config, EnvConfig, EnvObservation, EnvTask, RandomisationConfig};
+use treadmill_humanoid::{EnvironmentConfig, ObservationKind, Randomisation, Task};
 
 /// The environment that experience is gathered in: the task, with what the run randomises.
 pub fn training(config: &Config) -> EnvironmentConfig {
@@ -28,15 +28,28 @@ fn randomisation(config: &RandomisationConfig) -> Randomisation {
 /// The task without randomisation; the environment's crate knows nothing of configuration files.
 pub fn environment(config: &EnvConfig) -> EnvironmentConfig {
     EnvironmentConfig {
+        task: match config.task {
+            EnvTask::HumanoidV5 => Task::HumanoidV5,
+            EnvTask::HumanoidV4 => Task::HumanoidV4,
+        },
         forward_reward_weight: config.forward_reward_weight,
         ctrl_cost_weight: config.ctrl_cost_weight,
         contact_cost_weight: config.contact_cost_weight,
-        contact_cost_max: config.contact_cost_max,
+        contact_cost_range: config.contact_cost_range,
         healthy_reward: config.healthy_reward,
         terminate_when_unhealthy: config.terminate_when_unhealthy,
-        healthy_z_min_m: config.healthy_z_min_m,
-        healthy_z_max_m: config.healthy_z_max_m,
+        healthy_z_range: config.healthy_z_range,
         reset_noise_scale: config.reset_noise_scale,
+        observation: match config.observation {
+            EnvObservation::Compact => ObservationKind::Compact,
+            EnvObservation::GymnasiumV5 => ObservationKind::GymnasiumV5,
+            EnvObservation::GymnasiumV4 => ObservationKind::GymnasiumV4,
+        },
+        exclude_current_positions_from_observation: config.exclude_current_positions_from_observation,
+        include_cinert_in_observation: config.include_cinert_in_observation,
+        include_cvel_in_observation: config.include_cvel_in_observation,
+        include_qfrc_actuator_in_observation: config.include_qfrc_actuator_in_observation,
+        include_cfrc_ext_in_observation: config.include_cfrc_ext_in_observation,
         max_episode_steps: config.max_episode_steps,
         substeps: config.substeps,
         solver_iterations: config.solver_iterations,

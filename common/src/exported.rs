@@ -8,7 +8,8 @@
 //! | `observation.mean`, `observation.variance` | F64, `[observation]` | of the raw observations |
 //!
 //! Everything else stands as one JSON object under the metadata key `treadmill`, its keys in a fixed order. Neither time nor
-//! place nor name of the run is in the file, so equal policies are equal byte for byte.
+//! place nor name of the run is in the file, so equal policies are equal byte for byte. Ends of a range that are infinite are
+//! the texts `"inf"` and `"-inf"`, since JSON has no such numbers.
 //!
 //! To act: `x = clip((observation − mean) / √(variance + variance_epsilon), ± clip)`; the actor's layers with ELU between
 //! them; `action = clip(mean, ± 1)`, stretched from [−1, 1] to [low, high].
@@ -139,6 +140,7 @@ struct Metadata {
     observation: ObservationFacts,
     action: ActionFacts,
     control_step_s: f64,
+    #[serde(with = "crate::open_json")]
     env: EnvConfig,
     randomisation: RandomisationConfig,
     model_xml: String,

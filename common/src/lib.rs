@@ -8,6 +8,7 @@
 //! - [`bus`]: sessions, keys and flows; the only place that names Zenoh.
 //! - [`seeds`]: named random streams from the run's seed.
 //! - [`run_folder`]: where a run keeps its files.
+//! - `open_json`: infinite numbers in JSON.
 //! - [`atomic_file`]: files that are either whole or absent.
 //! - [`shutdown`]: one way to ask every part to stop.
 //! - [`machine`]: what hardware this is, for benchmark sheets.
@@ -18,6 +19,7 @@ pub mod config;
 pub mod exported;
 pub mod machine;
 pub mod normaliser;
+mod open_json;
 pub mod policy;
 pub mod run_folder;
 pub mod seeds;

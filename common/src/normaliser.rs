@@ -223,6 +223,23 @@ mod tests {
     }
 
     #[test]
+    fn columns_that_never_change_become_zero_and_stay_bounded_when_they_do() {
+        // A mass, a row of zeros, and a moving column, in as many parts as a run has updates.
+        let mut moments = RunningMoments::new(3);
+        for update in 0..500 {
+            let rows: Vec<f32> = (0..64).flat_map(|row| [8.907_463_f32, 0.0, (update * row) as f32]).collect();
+            moments.update(&rows, 3);
+        }
+        let normaliser = Normaliser::from_moments(&moments, 10.0);
+        assert!(normaliser.is_valid(3));
+        let mut rows = [8.907_463, 0.0, 7.0, 9.0, 4000.0, 7.0];
+        normaliser.apply(&mut rows);
+        assert_eq!(rows[..2], [0.0, 0.0]);
+        assert_eq!(rows[3..5], [10.0, 10.0]);
+        assert!(rows[2].abs() < 2.0);
+    }
+
+    #[test]
     fn before_any_data_normalisation_only_clips() {
         let mut rows = [0.5, -3.0, 11.0, 7.0];
         Normaliser::from_moments(&RunningMoments::new(2), 10.0).apply(&mut rows);

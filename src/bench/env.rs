@@ -10,7 +10,7 @@ use treadmill_actor::{
     settings,
 };
 use treadmill_common::{config::Config, machine, seeds};
-use treadmill_humanoid::EnvironmentConfig;
+use treadmill_humanoid::{EnvironmentConfig, task};
 
 use super::{
     quality, rounded, tell,
@@ -64,18 +64,10 @@ pub fn run(args: &EnvArgs) -> anyhow::Result<()> {
     let result = if args.quality {
         quality::measure(&environment, &text, threads, rounds)?
     } else {
-        measure(&environment, &text, &observation_kind(&config), threads, rounds)?
+        measure(&environment, &text, config.env.observation.name(), threads, rounds)?
     };
     tell(&result, args.json);
     Ok(())
-}
-
-/// The kind of observation that a configuration chooses.
-fn observation_kind(config: &Config) -> String {
-    let table: toml::Table = config.to_toml().parse().unwrap_or_default();
-    let chosen = table.get("env").and_then(|env| env.get("observation")).and_then(toml::Value::as_str);
-    // Without a choice there is one kind only.
-    chosen.unwrap_or("compact").to_string()
 }
 
 fn measure(
@@ -108,7 +100,6 @@ fn measure(
 
     // The same bodies under the same actions, without observation and reward; a body on the ground costs more than one that
     // stands, so those that fell stand up again here too.
-    let healthy = config.healthy_z_min_m..config.healthy_z_max_m;
     let mut worlds = Worlds::new(config, model_xml, threads, |_| vec![0.0f32; size])?;
     let begun = Instant::now();
     for round in 0..rounds {
@@ -118,7 +109,7 @@ fn measure(
             world.environment.action_from_shares(action, controls);
             let failed = world.environment.physics_mut().step_only(controls).is_err();
             world.faults += u64::from(failed);
-            if failed || !healthy.contains(&world.environment.physics().torso_height_m()) {
+            if failed || !task::is_healthy(config, world.environment.physics().torso_height_m()) {
                 world.reset();
             }
         });

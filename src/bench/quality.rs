@@ -3,7 +3,7 @@
 use rand::RngExt;
 use serde_json::json;
 use treadmill_common::{machine, seeds};
-use treadmill_humanoid::EnvironmentConfig;
+use treadmill_humanoid::{EnvironmentConfig, task};
 
 use super::{
     quantiles::Quantiles,
@@ -29,7 +29,6 @@ pub fn measure(
     threads: usize,
     rounds: u64,
 ) -> anyhow::Result<serde_json::Value> {
-    let healthy = config.healthy_z_min_m..config.healthy_z_max_m;
     let mut worlds = Worlds::new(config, model_xml, threads, |index| Record {
         random: seeds::stream(1, "bench-quality", &[index as u64]),
         controls: Vec::new(),
@@ -41,7 +40,7 @@ pub fn measure(
         worlds.each(|world, record| {
             let failed = record.step(world);
             // Half of the worlds stand up as soon as they fell; the others are thrown about on the floor.
-            let fell = !healthy.contains(&world.environment.physics().torso_height_m());
+            let fell = !task::is_healthy(config, world.environment.physics().torso_height_m());
             if failed || (fell && world.index.is_multiple_of(2)) || record.steps >= FLAILING_STEPS {
                 record.steps = 0;
                 world.reset();

@@ -93,7 +93,7 @@ fn length(what: &str, found: usize, wanted: usize) -> Result<(), String> {
 
 fn state(physics: &Physics) -> State {
     let joints = physics.joint_quality();
-    let forces = (0..physics.model().bodies.len()).map(|body| physics.contact_wrench(body).0.norm());
+    let forces = (0..physics.model().links.len()).map(|link| physics.contact_wrench(link).0.norm());
     State {
         qpos: physics.position().to_vec(),
         qvel: physics.velocity().to_vec(),

@@ -4,12 +4,13 @@ use rand::{Rng, RngExt, SeedableRng};
 use rand_xoshiro::Xoshiro256PlusPlus;
 
 use crate::config::{CONTROL_STEP_S, EnvironmentConfig};
-use crate::error::ModelError;
-use crate::model::Model;
-use crate::observation;
+use crate::error::{LengthError, ModelError};
+use crate::info::{PerTendon, StepInfo};
+use crate::model::{Model, Tendon};
+use crate::observation::Observation;
 use crate::physics::{JointQuality, Physics};
 use crate::randomisation::Disturber;
-use crate::task::{self, Step, StepInfo, Transition};
+use crate::task::{self, Step, Transition};
 
 /// A humanoid that is reset, acts, is observed and rewarded.
 ///
@@ -19,6 +20,7 @@ use crate::task::{self, Step, StepInfo, Transition};
 pub struct Environment {
     config: EnvironmentConfig,
     physics: Physics,
+    observation: Observation,
     disturber: Disturber,
     nominal_position: Vec<f64>,
     /// Buffers of the reset: positions and velocities with noise.
@@ -43,16 +45,18 @@ impl Environment {
     pub fn new(config: &EnvironmentConfig, model_xml: &str) -> Result<Self, ModelError> {
         let physics = Physics::new(Model::from_mjcf(model_xml)?, config)?;
         let nominal_position = physics.model().nominal_position();
-        let mut last_observation = vec![0.0; observation::size(&physics)];
-        observation::write(&physics, &mut last_observation);
+        let observation = Observation::new(config, physics.model());
+        let mut last_observation = vec![0.0; observation.size()];
+        observation.write(&physics, &mut last_observation);
         Ok(Self {
             config: config.clone(),
-            disturber: Disturber::new(&config.randomisation, physics.model()),
+            disturber: Disturber::new(&config.randomisation, physics.model(), &observation),
             start_position: nominal_position.clone(),
             start_velocity: vec![0.0; physics.model().velocity_size()],
             controls: vec![0.0; physics.model().motors.len()],
             ranges: physics.model().motors.iter().map(|motor| motor.control.map(|end| end as f32)).collect(),
-            last_info: standing_info(&physics),
+            last_info: standing_info(config, &physics),
+            observation,
             nominal_position,
             last_observation,
             physics,
@@ -104,6 +108,15 @@ impl Environment {
     /// # Panics
     /// If `observation` does not have length [`Self::observation_size`].
     pub fn reset(&mut self, seed: u64, observation: &mut [f32]) {
+        self.try_reset(seed, observation).unwrap_or_else(|why| panic!("{why}"));
+    }
+
+    /// As [`Self::reset`], for buffers from outside.
+    ///
+    /// # Errors
+    /// [`LengthError`] if `observation` has the wrong length; nothing has happened then.
+    pub fn try_reset(&mut self, seed: u64, observation: &mut [f32]) -> Result<(), LengthError> {
+        self.check_observation(observation)?;
         let mut random = Xoshiro256PlusPlus::seed_from_u64(seed);
         let scale = self.config.reset_noise_scale;
         for (start, nominal) in self.start_position.iter_mut().zip(&self.nominal_position) {
@@ -116,8 +129,9 @@ impl Environment {
         // The noisy quaternion is made a unit again where the bodies are placed.
         self.physics.set_state(&self.start_position, &self.start_velocity);
         self.episode_steps = 0;
-        self.last_info = standing_info(&self.physics);
-        self.observe(observation);
+        self.last_info = standing_info(&self.config, &self.physics);
+        self.record(observation);
+        Ok(())
     }
 
     /// Acts for one control step and writes what is seen afterwards.
@@ -130,7 +144,16 @@ impl Environment {
     /// # Panics
     /// If `action` or `observation` has the wrong length.
     pub fn step(&mut self, action: &[f32], observation: &mut [f32]) -> Step {
-        assert_eq!(action.len(), self.controls.len(), "action has the wrong length");
+        self.try_step(action, observation).unwrap_or_else(|why| panic!("{why}"))
+    }
+
+    /// As [`Self::step`], for actions from outside.
+    ///
+    /// # Errors
+    /// [`LengthError`] if `action` or `observation` has the wrong length; nothing has happened then.
+    pub fn try_step(&mut self, action: &[f32], observation: &mut [f32]) -> Result<Step, LengthError> {
+        LengthError::check("action", action.len(), self.controls.len())?;
+        self.check_observation(observation)?;
         for (control, (action, [low, high])) in self.controls.iter_mut().zip(action.iter().zip(&self.ranges)) {
             *control = action.clamp(*low, *high);
         }
@@ -143,7 +166,7 @@ impl Environment {
         let is_finite = action.iter().all(|control| control.is_finite());
         let acting = if is_finite { self.disturber.act(&self.controls) } else { action };
         if self.physics.step_only(acting).is_err() {
-            return self.fault(observation);
+            return Ok(self.fault(observation));
         }
         let after = self.physics.centre_of_mass();
         let position = self.physics.position();
@@ -155,16 +178,51 @@ impl Environment {
                 torso_m: [position[0], position[1], position[2]],
                 controls: &self.controls,
                 squared_contact_wrenches: self.physics.squared_contact_wrenches(),
+                tendon_length_rad: over_tendons(&self.physics, self.physics.joint_angles()),
+                tendon_velocity_radps: over_tendons(&self.physics, self.physics.joint_rates()),
                 episode_steps: self.episode_steps,
             },
         );
         self.last_info = step.info;
-        self.observe(observation);
-        step
+        self.record(observation);
+        Ok(step)
     }
 
-    fn observe(&mut self, observation: &mut [f32]) {
-        observation::write(&self.physics, observation);
+    /// Writes what is seen now, without sensor noise, whichever way the body got into its state.
+    ///
+    /// # Errors
+    /// [`LengthError`] if `observation` has the wrong length.
+    pub fn observe(&self, observation: &mut [f32]) -> Result<(), LengthError> {
+        self.check_observation(observation)?;
+        self.observation.write(&self.physics, observation);
+        Ok(())
+    }
+
+    /// Of what an observation consists.
+    #[must_use]
+    pub fn observation(&self) -> &Observation {
+        &self.observation
+    }
+
+    /// What was last told: by the last step, or by the last reset if there was none since. See
+    /// [`StepInfo::entries`] for Gymnasium's names.
+    #[must_use]
+    pub fn info(&self) -> &StepInfo {
+        &self.last_info
+    }
+
+    /// The settings.
+    #[must_use]
+    pub fn config(&self) -> &EnvironmentConfig {
+        &self.config
+    }
+
+    fn check_observation(&self, observation: &[f32]) -> Result<(), LengthError> {
+        LengthError::check("observation buffer", observation.len(), self.observation_size())
+    }
+
+    fn record(&mut self, observation: &mut [f32]) {
+        self.observation.write(&self.physics, observation);
         self.disturber.corrupt(observation);
         self.last_observation.copy_from_slice(observation);
     }
@@ -205,14 +263,21 @@ fn symmetric(random: &mut impl Rng, scale: f64) -> f64 {
     (2.0 * random.random::<f64>() - 1.0) * scale
 }
 
+fn over_tendons(physics: &Physics, hinges: &[f64]) -> PerTendon {
+    physics.model().tendons.iter().map(|tendon: &Tendon| tendon.sum_over(hinges)).collect()
+}
+
 /// What is known of an episode before its first step.
-fn standing_info(physics: &Physics) -> StepInfo {
-    let position = physics.position();
+fn standing_info(config: &EnvironmentConfig, physics: &Physics) -> StepInfo {
+    let (position, centre) = (physics.position(), physics.centre_of_mass());
+    let [x_m, y_m] = task::place_m(config.task, [position[0], position[1]], [centre.x, centre.y]);
     StepInfo {
-        x_position_m: position[0],
-        y_position_m: position[1],
-        distance_from_origin_m: position[0].hypot(position[1]),
+        x_position_m: x_m,
+        y_position_m: y_m,
+        distance_from_origin_m: x_m.hypot(y_m),
         torso_height_m: position[2],
+        tendon_length_rad: over_tendons(physics, physics.joint_angles()),
+        tendon_velocity_radps: over_tendons(physics, physics.joint_rates()),
         ..StepInfo::default()
     }
 }

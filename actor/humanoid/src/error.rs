@@ -64,10 +64,28 @@ pub enum ModelError {
         /// Field of [`crate::EnvironmentConfig`].
         setting: &'static str,
         /// The value found.
-        value: f64,
+        value: String,
         /// What would be accepted.
         expected: &'static str,
     },
+}
+
+/// An action or an observation buffer does not have the environment's size.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{what} has the wrong length: {found} instead of {expected}")]
+pub struct LengthError {
+    /// Which of the two.
+    pub what: &'static str,
+    /// Its length.
+    pub found: usize,
+    /// The length it should have.
+    pub expected: usize,
+}
+
+impl LengthError {
+    pub(crate) fn check(what: &'static str, found: usize, expected: usize) -> Result<(), Self> {
+        if found == expected { Ok(()) } else { Err(Self { what, found, expected }) }
+    }
 }
 
 impl ModelError {

@@ -1,12 +1,13 @@
 //! Treadmill: the humanoid environment.
 //!
-//! A humanoid on a floor, simulated by Rapier with the task of Gymnasium's Humanoid-v5: the built-in one with 17 joints,
-//! or any that an MJCF text describes.
+//! A humanoid on a floor, simulated by Rapier with the tasks of Gymnasium's Humanoid-v5 and -v4: the built-in one with 17
+//! joints, or any that an MJCF text describes.
 //! No Zenoh, no tokio, no Candle: evaluation, benchmarks and the Python package use this crate too.
 //!
 //! # Layout
 //! - [`environment`]: owns time. Episodes, resets, faults; the entry point.
 //! - [`task`]: reward and end of an episode, as pure functions.
+//! - [`info`]: a step in detail, under Gymnasium's names.
 //! - [`observation`]: what the policy sees.
 //! - [`physics`]: named quantities of the simulated body; the only place in the project that names Rapier.
 //! - [`model`]: MJCF text → bodies, hinge chains, motors.
@@ -18,6 +19,7 @@
 pub mod config;
 pub mod environment;
 pub mod error;
+pub mod info;
 pub mod model;
 pub mod observation;
 pub mod physics;
@@ -27,11 +29,12 @@ pub mod task;
 mod chain;
 mod dynamics;
 
-pub use config::{CONTROL_STEP_S, EnvironmentConfig};
+pub use config::{CONTROL_STEP_S, EnvironmentConfig, ObservationKind, Task};
 pub use environment::Environment;
-pub use error::ModelError;
+pub use error::{LengthError, ModelError};
+pub use info::{InfoValue, StepInfo};
 pub use model::{HUMANOID_XML, Model, read_model_file};
-pub use observation::OBSERVATION_SIZE_COMPACT;
-pub use physics::{JointQuality, Physics, PhysicsFault, Variation};
+pub use observation::{OBSERVATION_SIZE_COMPACT, Observation};
+pub use physics::{ContactForce, JointQuality, Physics, PhysicsFault, Variation};
 pub use randomisation::Randomisation;
-pub use task::{Step, StepInfo};
+pub use task::Step;

@@ -1,6 +1,11 @@
-//! The task of Humanoid-v5: what a step is worth and when an episode is over. Pure functions, no state.
+//! The tasks of Humanoid-v5 and -v4: what a step is worth and when an episode is over. Pure functions, no state.
+//!
+//! Formulas are those of Gymnasium's `humanoid_v5.py` and `humanoid_v4.py`. They differ in three points: v4 charges
+//! nothing for contact; it pays for health on every step while unhealthy steps end the episode, so also on the last one;
+//! and its info tells where the centre of mass is, and not the torso.
 
-use crate::config::{CONTROL_STEP_S, EnvironmentConfig};
+use crate::config::{CONTROL_STEP_S, EnvironmentConfig, Task};
+use crate::info::{PerTendon, StepInfo};
 
 /// What the task needs to know about one control step.
 #[derive(Clone, Copy, Debug)]
@@ -13,8 +18,12 @@ pub struct Transition<'a> {
     pub torso_m: [f64; 3],
     /// The controls that acted, one per motor, already clamped.
     pub controls: &'a [f32],
-    /// Sum of squared contact forces (N²) and moments ((N·m)²) over all bodies.
+    /// Sum of squared contact forces (N²) and moments ((N·m)²) over all links.
     pub squared_contact_wrenches: f64,
+    /// Length of each tendon after the step (rad).
+    pub tendon_length_rad: PerTendon,
+    /// Velocity of each tendon after the step (rad/s).
+    pub tendon_velocity_radps: PerTendon,
     /// Control steps done in this episode, this one included.
     pub episode_steps: u32,
 }
@@ -34,35 +43,11 @@ pub struct Step {
     pub info: StepInfo,
 }
 
-/// One control step in detail.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct StepInfo {
-    /// Torso position along x (m).
-    pub x_position_m: f64,
-    /// Torso position along y (m).
-    pub y_position_m: f64,
-    /// Horizontal distance of the torso from the world's origin (m).
-    pub distance_from_origin_m: f64,
-    /// Mean velocity of the whole body's centre of mass along x during the step (m/s).
-    pub x_velocity_mps: f64,
-    /// Mean velocity of the whole body's centre of mass along y during the step (m/s).
-    pub y_velocity_mps: f64,
-    /// Part of the reward paid for being healthy.
-    pub reward_survive: f64,
-    /// Part of the reward paid for moving forward.
-    pub reward_forward: f64,
-    /// Part of the reward charged for control (0 or negative).
-    pub reward_ctrl: f64,
-    /// Part of the reward charged for contact (0 or negative).
-    pub reward_contact: f64,
-    /// Height of the torso (m).
-    pub torso_height_m: f64,
-}
-
 /// Whether a torso height (m) is healthy: strictly between the two bounds.
 #[must_use]
 pub fn is_healthy(config: &EnvironmentConfig, torso_height_m: f64) -> bool {
-    config.healthy_z_min_m < torso_height_m && torso_height_m < config.healthy_z_max_m
+    let [low, high] = config.healthy_z_range;
+    low < torso_height_m && torso_height_m < high
 }
 
 /// Cost of a control vector: weight × Σ control².
@@ -72,16 +57,40 @@ pub fn control_cost(config: &EnvironmentConfig, controls: &[f32]) -> f64 {
     config.ctrl_cost_weight * sum
 }
 
-/// Cost of the contact forces of a step: weight × Σ (force² + moment²), up to a maximum.
+/// Cost of the contact forces of a step: weight × Σ (force² + moment²), brought into its range; 0 in Humanoid-v4.
 #[must_use]
 pub fn contact_cost(config: &EnvironmentConfig, squared_contact_wrenches: f64) -> f64 {
-    (config.contact_cost_weight * squared_contact_wrenches).min(config.contact_cost_max)
+    let [low, high] = config.contact_cost_range;
+    match config.task {
+        Task::HumanoidV5 => (config.contact_cost_weight * squared_contact_wrenches).max(low).min(high),
+        Task::HumanoidV4 => 0.0,
+    }
+}
+
+/// Reward for the posture that a step ended with.
+#[must_use]
+pub fn health_reward(config: &EnvironmentConfig, healthy: bool) -> f64 {
+    let paid = match config.task {
+        Task::HumanoidV5 => healthy,
+        Task::HumanoidV4 => healthy || config.terminate_when_unhealthy,
+    };
+    if paid { config.healthy_reward } else { 0.0 }
+}
+
+/// Where the info says the body is: x and y (m) of the torso, or in Humanoid-v4 of the centre of mass.
+#[must_use]
+pub fn place_m(task: Task, torso_m: [f64; 2], centre_m: [f64; 2]) -> [f64; 2] {
+    match task {
+        Task::HumanoidV5 => torso_m,
+        Task::HumanoidV4 => centre_m,
+    }
 }
 
 /// Judges one control step.
 #[must_use]
 pub fn judge(config: &EnvironmentConfig, transition: &Transition<'_>) -> Step {
-    let [x_m, y_m, height_m] = transition.torso_m;
+    let [torso_x_m, torso_y_m, height_m] = transition.torso_m;
+    let [x_m, y_m] = place_m(config.task, [torso_x_m, torso_y_m], transition.centre_after_m);
     let [x_velocity_mps, y_velocity_mps] =
         [0, 1].map(|axis| (transition.centre_after_m[axis] - transition.centre_before_m[axis]) / CONTROL_STEP_S);
     let healthy = is_healthy(config, height_m);
@@ -91,7 +100,9 @@ pub fn judge(config: &EnvironmentConfig, transition: &Transition<'_>) -> Step {
         distance_from_origin_m: x_m.hypot(y_m),
         x_velocity_mps,
         y_velocity_mps,
-        reward_survive: if healthy { config.healthy_reward } else { 0.0 },
+        tendon_length_rad: transition.tendon_length_rad,
+        tendon_velocity_radps: transition.tendon_velocity_radps,
+        reward_survive: health_reward(config, healthy),
         reward_forward: config.forward_reward_weight * x_velocity_mps,
         reward_ctrl: -control_cost(config, transition.controls),
         reward_contact: -contact_cost(config, transition.squared_contact_wrenches),
@@ -121,6 +132,8 @@ mod tests {
             torso_m: [3.0, 4.0, height_m],
             controls: &CONTROLS,
             squared_contact_wrenches: 2.0e6,
+            tendon_length_rad: [0.5, -0.5].into_iter().collect(),
+            tendon_velocity_radps: [1.5, -1.5].into_iter().collect(),
             episode_steps,
         }
     }
@@ -180,10 +193,48 @@ mod tests {
     }
 
     #[test]
-    fn contact_cost_stops_at_its_maximum() {
+    fn contact_cost_stays_within_its_range() {
         let config = EnvironmentConfig::default();
         assert!((contact_cost(&config, 2.0e7) - 10.0).abs() < 1e-12);
         assert!((contact_cost(&config, 1.0e12) - 10.0).abs() < 1e-12);
         assert!((contact_cost(&config, 1.0e7) - 5.0).abs() < 1e-12);
+        assert_eq!(contact_cost(&config, 0.0), 0.0);
+        let narrow = EnvironmentConfig { contact_cost_range: [0.25, 0.5], ..config.clone() };
+        assert_eq!(contact_cost(&narrow, 0.0), 0.25);
+        assert_eq!(contact_cost(&narrow, 1.0e7), 0.5);
+        let open = EnvironmentConfig { contact_cost_range: [0.0, f64::INFINITY], ..config };
+        assert!((contact_cost(&open, 1.0e9) - 500.0).abs() < 1e-9);
+    }
+
+    #[test]
+    fn v4_pays_for_health_on_the_last_step_and_charges_nothing_for_contact() {
+        let config = EnvironmentConfig { task: Task::HumanoidV4, ..EnvironmentConfig::default() };
+        let step = judge(&config, &transition(0.9, 7));
+        assert!(step.terminated);
+        assert_eq!(step.info.reward_survive, 5.0);
+        assert_eq!(step.info.reward_contact, 0.0);
+        // 2.5 for going forward, 5 for health, 0.03125 for control.
+        assert!((f64::from(step.reward) - 7.468_75).abs() < 1e-6);
+
+        let lenient = EnvironmentConfig { terminate_when_unhealthy: false, ..config };
+        assert_eq!(judge(&lenient, &transition(0.9, 7)).info.reward_survive, 0.0);
+        assert_eq!(judge(&lenient, &transition(1.4, 7)).info.reward_survive, 5.0);
+    }
+
+    #[test]
+    fn v5_tells_where_the_torso_is_and_v4_where_the_centre_of_mass_is() {
+        let place = |task| {
+            let info = judge(&EnvironmentConfig { task, ..EnvironmentConfig::default() }, &transition(1.4, 7)).info;
+            [info.x_position_m, info.y_position_m, info.distance_from_origin_m]
+        };
+        assert_eq!(place(Task::HumanoidV5), [3.0, 4.0, 5.0]);
+        assert_eq!(place(Task::HumanoidV4), [1.03, 1.985, 1.03f64.hypot(1.985)]);
+    }
+
+    #[test]
+    fn tendons_are_passed_on() {
+        let info = judge(&EnvironmentConfig::default(), &transition(1.4, 7)).info;
+        assert_eq!(info.tendon_length_rad.as_slice(), [0.5, -0.5]);
+        assert_eq!(info.tendon_velocity_radps.as_slice(), [1.5, -1.5]);
     }
 }

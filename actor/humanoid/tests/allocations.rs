@@ -7,7 +7,9 @@ use std::{
     sync::atomic::{AtomicU64, Ordering},
 };
 
-use treadmill_humanoid::{Environment, EnvironmentConfig, HUMANOID_XML, Randomisation, Variation};
+use treadmill_humanoid::{
+    Environment, EnvironmentConfig, HUMANOID_XML, ObservationKind, Randomisation, Task, Variation,
+};
 
 struct Counting;
 
@@ -77,7 +79,13 @@ fn physics_alone(randomisation: Randomisation) -> [u64; 2] {
 }
 
 fn environment(randomisation: Randomisation) -> Environment {
-    let config = EnvironmentConfig { terminate_when_unhealthy: false, randomisation, ..EnvironmentConfig::default() };
+    let config = EnvironmentConfig {
+        terminate_when_unhealthy: false,
+        randomisation,
+        // The observation that has most to compute.
+        observation: ObservationKind::GymnasiumV4,
+        ..EnvironmentConfig::default()
+    };
     Environment::new(&config, HUMANOID_XML).expect("valid")
 }
 
@@ -89,7 +97,8 @@ fn whole(randomisation: Randomisation) -> [u64; 2] {
     let reset = counted(|| environment.reset(SEED, &mut observation));
     let steps = counted(|| {
         for step in 0..STEPS {
-            assert!(!environment.step(&action(step), &mut observation).fault);
+            let step = environment.step(&action(step), &mut observation);
+            assert!(!step.fault && step.info.entries(Task::HumanoidV5).count() == 11);
         }
     });
     [reset, steps]

@@ -141,11 +141,6 @@ fn written_otherwise() -> String {
         ),
         ("<joint name=\"root\" type=\"free\" limited=\"false\"", "<joint name=\"root\" pos=\"0 0 0\" stiffness=\"0\" type=\"free\" limited=\"false\""),
         ("<geom name=\"head\"", "<camera mode=\"trackcom\" name=\"track\" pos=\"0 -4 0\" xyaxes=\"1 0 0 0 0 1\"/><geom user=\"258\" name=\"head\""),
-        (
-            "</worldbody>",
-            "</worldbody><tendon><fixed name=\"left_hipknee\"><joint coef=\"-1\" joint=\"left_hip_y\"/>\
-             <joint coef=\"1\" joint=\"left_knee\"/></fixed></tendon>",
-        ),
     ]
     .into_iter()
     .fold(HUMANOID_XML.to_owned(), |text, (from, to)| {

@@ -259,7 +259,7 @@ fn another_body_has_its_own_sizes() {
 
 #[test]
 fn the_robot_of_29_hinges_stands_on_its_soles_and_obeys_its_ranges() {
-    let config = EnvironmentConfig { healthy_z_min_m: 0.5, healthy_z_max_m: 1.1, ..EnvironmentConfig::default() };
+    let config = EnvironmentConfig { healthy_z_range: [0.5, 1.1], ..EnvironmentConfig::default() };
     let mut environment = Environment::new(&config, G1_LIKE_XML).expect("valid");
     assert_eq!((environment.observation_size(), environment.action_size()), (69, 29));
     let mut observation = vec![0.0; environment.observation_size()];

@@ -278,6 +278,60 @@ proptest! {
 }
 
 #[test]
+fn tendons_that_would_act_are_refused_by_name() {
+    let fixed = "<fixed name=\"left_hipknee\">";
+    let with = |attributes: &str| fixed.replace('>', &format!(" {attributes}>"));
+    let cases = [
+        (fixed, with("stiffness=\"3\""), ["left_hipknee", "stiffness"]),
+        (fixed, with("stiffness=\"0 0 1\""), ["left_hipknee", "stiffness"]),
+        (fixed, with("stiffness=\"much\""), ["left_hipknee", "stiffness"]),
+        (fixed, with("damping=\"0.1\""), ["left_hipknee", "damping"]),
+        (fixed, with("frictionloss=\"1\""), ["left_hipknee", "frictionloss"]),
+        (fixed, with("armature=\"1\""), ["left_hipknee", "armature"]),
+        (fixed, with("range=\"-1 1\""), ["left_hipknee", "range"]),
+        (fixed, with("limited=\"true\" range=\"-1 1\""), ["left_hipknee", "limited"]),
+        ("joint=\"left_knee\" coef", "joint=\"left_wing\" coef".to_owned(), ["left_hipknee", "left_wing"]),
+        ("joint=\"left_knee\" coef=\"1\"", "joint=\"left_knee\" coef=\"nan\"".to_owned(), ["left_hipknee", "coef"]),
+        ("<joint joint=\"left_knee\" coef", "<joint name=\"left_knee\" coef".to_owned(), ["left_hipknee", "name"]),
+        ("<tendon>", "<tendon><fixed name=\"slack\"/>".to_owned(), ["slack", "at least one joint"]),
+        (
+            "<tendon>",
+            "<tendon><spatial name=\"cable\"><site site=\"a\"/><site site=\"b\"/></spatial>".to_owned(),
+            ["cable", "spatial"],
+        ),
+        ("<default>", "<default><tendon stiffness=\"2\"/>".to_owned(), ["left_hipknee", "stiffness"]),
+        (
+            "<tendon>",
+            "<equality><tendon tendon1=\"left_hipknee\"/></equality><tendon>".to_owned(),
+            ["left_hipknee", "equality"],
+        ),
+    ];
+    for (from, to, words) in cases {
+        let error = Model::from_mjcf(&changed(HUMANOID_XML, from, &to)).expect_err(&to).to_string();
+        assert!(words.iter().all(|word| error.contains(word)), "`{to}` is refused with: {error}");
+    }
+    let crowd: String = (0..17).map(|_| "<fixed><joint joint=\"left_knee\"/></fixed>").collect();
+    assert!(Model::from_mjcf(&changed(HUMANOID_XML, "<tendon>", &format!("<tendon>{crowd}"))).is_err());
+}
+
+#[test]
+fn tendons_that_only_measure_are_accepted() {
+    let harmless = "<fixed name=\"left_hipknee\" limited=\"false\" range=\"-1 1\" stiffness=\"0\" damping=\"0.0\">";
+    let model =
+        Model::from_mjcf(&changed(HUMANOID_XML, "<fixed name=\"left_hipknee\">", harmless)).expect("it does nothing");
+    let names: Vec<&str> = model.tendons.iter().map(|tendon| tendon.name.as_str()).collect();
+    assert_eq!(names, ["left_hipknee", "right_hipknee"]);
+    let hinge = |name: &str| model.hinges.iter().position(|hinge| hinge.name == name).expect("is a hinge");
+    assert_eq!(model.tendons[0].terms, [(hinge("left_hip_y"), -1.0), (hinge("left_knee"), 1.0)]);
+    assert_eq!(model.tendons[1].terms, [(hinge("right_hip_y"), -1.0), (hinge("right_knee"), 1.0)]);
+    let mut angles = vec![0.0; 17];
+    angles[hinge("left_hip_y")] = 0.25;
+    angles[hinge("left_knee")] = -1.0;
+    assert_eq!(model.tendons[0].sum_over(&angles), -1.25);
+    assert_eq!(model.tendons[1].sum_over(&angles), 0.0);
+}
+
+#[test]
 fn settings_out_of_range_are_refused() {
     let config = EnvironmentConfig { substeps: 0, ..EnvironmentConfig::default() };
     let error = Environment::new(&config, HUMANOID_XML).err().expect("no step at all is refused");

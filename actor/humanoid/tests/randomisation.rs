@@ -248,6 +248,33 @@ fn a_fault_hands_out_what_was_seen_last() {
 }
 
 #[test]
+fn sensor_noise_falls_on_positions_and_velocities_wherever_they_stand() {
+    use treadmill_humanoid::ObservationKind::{Compact, GymnasiumV4, GymnasiumV5};
+    let noise = Randomisation { sensor_noise_position: 0.02, sensor_noise_velocity: 0.3, ..Randomisation::default() };
+    let seen = |observation, exclude_current_positions_from_observation, randomisation| {
+        let config = EnvironmentConfig {
+            observation,
+            exclude_current_positions_from_observation,
+            randomisation,
+            ..EnvironmentConfig::default()
+        };
+        let mut environment = Environment::new(&config, HUMANOID_XML).expect("valid");
+        let mut numbers = vec![0.0; environment.observation_size()];
+        environment.reset(3, &mut numbers);
+        numbers
+    };
+    let expected = seen(Compact, true, noise.clone());
+    for kind in [Compact, GymnasiumV5, GymnasiumV4] {
+        for (skipped, excluded) in [(0, true), (2, false)] {
+            let (noisy, plain) = (seen(kind, excluded, noise.clone()), seen(kind, excluded, Randomisation::default()));
+            assert_eq!(noisy[..skipped], plain[..skipped], "x and y are told as they are");
+            assert_eq!(noisy[skipped..skipped + SIZE], expected[..], "{kind:?}: the same noise on the same numbers");
+            assert_eq!(noisy[skipped + SIZE..], plain[skipped + SIZE..], "{kind:?}: nothing beyond");
+        }
+    }
+}
+
+#[test]
 fn control_noise_has_its_width_at_the_motors_and_costs_nothing() {
     let mut environment = floating(Randomisation { control_noise: 0.1, ..Randomisation::default() });
     environment.reset(1, &mut [0.0; SIZE]);

@@ -77,12 +77,18 @@ fn the_floor_carries_the_varied_mass() {
     let expected_kg: f64 = nominal_kg.iter().enumerate().map(|(index, mass_kg)| mass_kg * scale(index)).sum();
     assert!((body.model().mass_kg() - expected_kg).abs() < 1e-9);
     assert!((expected_kg / nominal_kg.iter().sum::<f64>() - 1.0).abs() > 0.03, "the sum is another");
+    for (index, part) in body.model().bodies.iter().enumerate() {
+        let links = || body.model().links.iter().filter(|link| link.body == index);
+        let mass_kg: f64 = links().map(|link| link.mass_kg).sum();
+        assert!((mass_kg - part.mass_kg).abs() < 1e-9, "what is observed of {} varies with it", part.name);
+    }
     (0..400).for_each(|_| body.step_only(&IDLE).expect("finite"));
     let samples = 200;
     let mut force_n = 0.0;
     for _ in 0..samples {
         body.step_only(&IDLE).expect("finite");
-        force_n += (0..11).map(|part| body.contact_wrench(part).0.z).sum::<f64>() / f64::from(samples);
+        force_n +=
+            (0..body.model().links.len()).map(|link| body.contact_wrench(link).0.z).sum::<f64>() / f64::from(samples);
     }
     let weight_n = 9.81 * expected_kg;
     assert!((force_n / weight_n - 1.0).abs() < 0.02, "the floor carries {force_n} N of {weight_n} N");

@@ -2,6 +2,7 @@
 //!
 //! Order of precedence, lowest first: defaults in code, the preset, the file, `--set`, the command's own flags.
 
+mod choices;
 mod preset;
 mod section;
 mod sections;
@@ -9,6 +10,7 @@ mod source;
 
 use serde::{Deserialize, Serialize};
 
+pub use choices::{EnvObservation, EnvTask};
 pub use preset::{PRESETS, preset};
 pub use section::{KeyDoc, Section};
 pub use sections::{
@@ -148,19 +150,35 @@ impl Config {
                 format!("at most ppo.learning_rate_max, which is {}", show(&self.ppo.learning_rate_max)),
             );
         }
-        if self.env.healthy_z_min_m >= self.env.healthy_z_max_m {
-            return refuse(
-                "env.healthy_z_min_m",
-                show(&self.env.healthy_z_min_m),
-                format!("below env.healthy_z_max_m, which is {}", show(&self.env.healthy_z_max_m)),
-            );
-        }
+        self.check_observation()?;
         if self.rollout.actors > self.rollout.envs {
             return refuse(
                 "rollout.actors",
                 self.rollout.actors.to_string(),
                 format!("0 to rollout.envs, which is {}", self.rollout.envs),
             );
+        }
+        Ok(())
+    }
+
+    /// What Gymnasium's Humanoid-v4 observes has no blocks that can be left out.
+    fn check_observation(&self) -> Result<(), ConfigError> {
+        let env = &self.env;
+        let included = [
+            ("env.include_cinert_in_observation", env.include_cinert_in_observation),
+            ("env.include_cvel_in_observation", env.include_cvel_in_observation),
+            ("env.include_qfrc_actuator_in_observation", env.include_qfrc_actuator_in_observation),
+            ("env.include_cfrc_ext_in_observation", env.include_cfrc_ext_in_observation),
+        ];
+        for (key, included) in included {
+            if env.observation == EnvObservation::GymnasiumV4 && !included {
+                return Err(ConfigError::Value {
+                    key: key.to_string(),
+                    value: "false".to_string(),
+                    allowed: "true where env.observation is \"gymnasium-v4\"; \"gymnasium-v5\" can leave blocks out"
+                        .to_string(),
+                });
+            }
         }
         Ok(())
     }

@@ -6,6 +6,9 @@ use super::ConfigError;
 pub const PRESETS: &[(&str, &str)] = &[
     // The defaults are the recipe that walks.
     ("walk", ""),
+    // The same recipe under everything that Gymnasium's environments observe.
+    ("walk-v5obs", "[env]\nobservation = \"gymnasium-v5\"\n"),
+    ("walk-v4obs", "[env]\ntask = \"humanoid-v4\"\nobservation = \"gymnasium-v4\"\n"),
     // Small enough to end within seconds, on a laptop or in a test.
     (
         "smoke",

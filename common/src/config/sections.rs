@@ -1,5 +1,6 @@
 //! Every key of the configuration, with its default.
 
+use super::choices::{EnvObservation, EnvTask};
 use super::section::section;
 
 section! {
@@ -15,26 +16,38 @@ section! {
 }
 
 section! {
-    /// The humanoid task: Gymnasium's Humanoid-v5 by default.
+    /// The humanoid task: Gymnasium's Humanoid-v5 by default, and its arguments under its names.
     EnvConfig as "env" {
+        /// Whose rewards and info; v4 has no contact cost, and pays for health also on the step that ends an episode.
+        task: EnvTask = EnvTask::HumanoidV5, "\"humanoid-v5\" or \"humanoid-v4\"" => |_| true;
         /// Reward per m/s of forward velocity of the whole body's centre of mass.
         forward_reward_weight: f64 = 1.25, "a finite number" => |v| v.is_finite();
         /// Cost per squared unit of control.
         ctrl_cost_weight: f64 = 0.1, "0 or more" => |v| *v >= 0.0 && v.is_finite();
         /// Cost per squared newton (or newton metre) of external contact force.
         contact_cost_weight: f64 = 5e-7, "0 or more" => |v| *v >= 0.0 && v.is_finite();
-        /// Upper bound of the contact cost of one step.
-        contact_cost_max: f64 = 10.0, "0 or more" => |v| *v >= 0.0 && v.is_finite();
+        /// The contact cost of one step is brought into this range.
+        contact_cost_range: [f64; 2] = [f64::NEG_INFINITY, 10.0], "[lowest, highest], the first not above the second; -inf and inf are allowed" => |[low, high]| low <= high && *low < f64::INFINITY && *high > f64::NEG_INFINITY;
         /// Reward of each step on which the humanoid is healthy.
         healthy_reward: f64 = 5.0, "a finite number" => |v| v.is_finite();
         /// Whether leaving the healthy range of torso height ends the episode.
         terminate_when_unhealthy: bool = true, "true or false" => |_| true;
-        /// Lowest healthy torso height in metres.
-        healthy_z_min_m: f64 = 1.0, "a finite number below env.healthy_z_max_m" => |v| v.is_finite();
-        /// Highest healthy torso height in metres.
-        healthy_z_max_m: f64 = 2.0, "a finite number above env.healthy_z_min_m" => |v| v.is_finite();
+        /// Torso heights in metres between which, and not at which, the humanoid is healthy.
+        healthy_z_range: [f64; 2] = [1.0, 2.0], "[lowest, highest], the first below the second; -inf and inf are allowed" => |[low, high]| low < high;
         /// Half width of the uniform noise on every position and velocity entry at reset.
         reset_noise_scale: f64 = 0.01, "0 to 1" => |v| (0.0..=1.0).contains(v);
+        /// What the policy sees: positions and velocities (45 numbers), or all that Gymnasium's v5 (348) or v4 (376) observes.
+        observation: EnvObservation = EnvObservation::Compact, "\"compact\", \"gymnasium-v5\" or \"gymnasium-v4\"" => |_| true;
+        /// Whether the observation leaves out x and y of the torso.
+        exclude_current_positions_from_observation: bool = true, "true or false" => |_| true;
+        /// Whether the observation `gymnasium-v5` has the inertias of the body's parts.
+        include_cinert_in_observation: bool = true, "true or false" => |_| true;
+        /// Whether the observation `gymnasium-v5` has the velocities of the body's parts.
+        include_cvel_in_observation: bool = true, "true or false" => |_| true;
+        /// Whether the observation `gymnasium-v5` has the motors' torques.
+        include_qfrc_actuator_in_observation: bool = true, "true or false" => |_| true;
+        /// Whether the observation `gymnasium-v5` has the contact forces.
+        include_cfrc_ext_in_observation: bool = true, "true or false" => |_| true;
         /// Control steps after which an episode is truncated.
         max_episode_steps: u32 = 1000, "1 to 1000000" => |v| (1..=1_000_000).contains(v);
         /// Physics steps per control step of 15 ms.

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use toml::{Table, Value};
 
-use super::{Config, ConfigError, KeyDoc, preset};
+use super::{Config, ConfigError, KeyDoc, choices, preset};
 
 /// Collects configuration from its sources, later ones winning.
 #[derive(Clone, Debug, Default)]
@@ -119,6 +119,16 @@ fn fit(value: Value, known: &KeyDoc) -> Result<Value, ConfigError> {
             let part = KeyDoc { kind, ..known.clone() };
             items.iter().map(|item| fit(item.clone(), &part)).collect::<Result<_, _>>().map(Value::Array)
         }
+        (kind, Value::String(name)) if choices::names(kind).is_some() => {
+            if choices::names(kind).is_some_and(|names| names.contains(&name.as_str())) {
+                return Ok(value);
+            }
+            Err(ConfigError::Value {
+                key: known.key.clone(),
+                value: value.to_string(),
+                allowed: known.allowed.to_string(),
+            })
+        }
         _ => Err(refuse(&value)),
     }
 }
@@ -127,7 +137,17 @@ fn section_of(known: &KeyDoc) -> &str {
     known.key.split('.').next().unwrap_or_default()
 }
 
+/// Keys that there once were, and what takes their place.
+const REPLACED: &[(&str, &str)] = &[
+    ("env.contact_cost_max", "`env.contact_cost_range`, as in contact_cost_range = [-inf, 10.0]"),
+    ("env.healthy_z_min_m", "`env.healthy_z_range`, as in healthy_z_range = [1.0, 2.0]"),
+    ("env.healthy_z_max_m", "`env.healthy_z_range`, as in healthy_z_range = [1.0, 2.0]"),
+];
+
 fn unknown(key: &str, keys: &[KeyDoc]) -> ConfigError {
+    if let Some((_, successor)) = REPLACED.iter().find(|(old, _)| *old == key) {
+        return ConfigError::UnknownKey { key: key.to_string(), hint: format!("it is now part of {successor}") };
+    }
     let wanted = key.rsplit('.').next().unwrap_or(key);
     let nearest = keys
         .iter()
@@ -219,6 +239,54 @@ mod tests {
         );
         assert!(message("ppo.gamma=nan").contains("allowed: 0 to 1"));
         assert!(message("seed").contains("key=value"));
+    }
+
+    #[test]
+    fn replaced_keys_name_their_successor() {
+        for (old, _) in REPLACED {
+            let message = set(&format!("{old}=1.5")).unwrap_err().to_string();
+            assert!(message.contains(old) && message.contains("_range = ["), "{message}");
+        }
+        assert!(set("env.healthy_z_min_m=1").unwrap_err().to_string().contains("`env.healthy_z_range`"));
+        assert!(set("env.contact_cost_max=1").unwrap_err().to_string().contains("`env.contact_cost_range`"));
+    }
+
+    #[test]
+    fn ranges_are_pairs_that_may_be_open() {
+        let range =
+            |text: &str| set(&format!("env.contact_cost_range={text}")).map(|config| config.env.contact_cost_range);
+        assert_eq!(range("[0, 5]").unwrap(), [0.0, 5.0]);
+        assert_eq!(range("[-inf, inf]").unwrap(), [f64::NEG_INFINITY, f64::INFINITY]);
+        let open = ConfigSource::default().build().unwrap();
+        assert_eq!(open.env.contact_cost_range[0], f64::NEG_INFINITY, "the default survives TOML: see above");
+        for bad in ["[5, 0]", "[nan, 1]", "[0, nan]", "[-inf, -inf]", "[inf, inf]", "[1]", "[1, 2, 3]", "7", "[a, b]"] {
+            let message = range(bad).unwrap_err().to_string();
+            assert!(message.contains("env.contact_cost_range") && message.contains("[lowest, highest]"), "{message}");
+        }
+        assert!(set("env.healthy_z_range=[2, 2]").unwrap_err().to_string().contains("the first below the second"));
+        assert_eq!(set("env.healthy_z_range=[0.8, inf]").unwrap().env.healthy_z_range, [0.8, f64::INFINITY]);
+    }
+
+    #[test]
+    fn names_are_chosen_from_those_there_are() {
+        use crate::config::{EnvObservation, EnvTask};
+        assert_eq!(set("env.task=humanoid-v4").unwrap().env.task, EnvTask::HumanoidV4);
+        assert_eq!(set("env.observation=\"gymnasium-v5\"").unwrap().env.observation, EnvObservation::GymnasiumV5);
+        let message = set("env.task=humanoid-v6").unwrap_err().to_string();
+        assert_eq!(message, "config key `env.task` is \"humanoid-v6\"; allowed: \"humanoid-v5\" or \"humanoid-v4\"");
+        assert!(set("env.observation=5").unwrap_err().to_string().contains("\"compact\""));
+    }
+
+    #[test]
+    fn the_observation_of_v4_is_whole() {
+        let mut source = ConfigSource::default();
+        source.set("env.observation=gymnasium-v4").unwrap();
+        source.build().unwrap();
+        source.set("env.include_cvel_in_observation=false").unwrap();
+        let message = source.build().unwrap_err().to_string();
+        assert!(message.contains("env.include_cvel_in_observation") && message.contains("gymnasium-v5"), "{message}");
+        source.set("env.observation=gymnasium-v5").unwrap();
+        source.build().unwrap();
     }
 
     #[test]

@@ -16,9 +16,8 @@ use super::tree::{NO_DOF, ROOT_DOFS, Tree};
 const SWEEPS: usize = 12;
 /// Contacts considered at once; a humanoid lying on the floor has about twenty.
 const CONTACTS_MAX: usize = 64;
-/// A direction in which an impulse of 1 N·s moves the surfaces by less than this (m/s) is none that the body can move in:
-/// two limbs that touch on their hinges' axes, say. What rounding leaves there must not be divided by.
-const RESPONSE_MIN_PER_KG: f64 = 1e-9;
+/// A direction that answers less than this to an impulse (1/kg) is one in which nothing can move.
+const RESPONSE_MIN: f64 = 1e-9;
 /// Directions of a contact: normal, and two across.
 const DIRECTIONS: usize = 3;
 
@@ -27,6 +26,8 @@ const DIRECTIONS: usize = 3;
 pub(crate) struct ContactPoint {
     /// The bodies; `None` is the floor.
     pub(crate) bodies: [Option<usize>; 2],
+    /// The links that touch, in the same order: what the contact is told under. They do not matter to the motion.
+    pub(crate) links: [Option<usize>; 2],
     /// Where (m, relative to O).
     pub(crate) place_m: Vector3<f64>,
     /// Unit vector from the first body to the second.
@@ -161,7 +162,8 @@ impl Contacts {
             response.copy_from_slice(row);
             matrix.solve(tree, response);
             let own = dot(row, response);
-            if own < RESPONSE_MIN_PER_KG {
+            if own <= RESPONSE_MIN {
+                // No joint moves the bodies against each other in this direction.
                 solved.softened[direction] = f64::INFINITY;
                 continue;
             }

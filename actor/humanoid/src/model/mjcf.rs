@@ -1,11 +1,13 @@
 //! From MJCF text to a [`Model`]: what is read, what is merged, what is refused.
 
+use std::ops::Range;
+
 use mjcf_rs::body::{Geom, GeomType, Joint, JointType};
 use nalgebra::{Isometry3, Matrix3, Point3, Quaternion, Translation3, UnitQuaternion, Vector3};
 
 use super::flatten::{Flat, flatten};
 use super::inertia::MassProperties;
-use super::{Body, Geometry, Hinge, Model, Shape, collision, geoms, inertia, joints, mass, motors};
+use super::{Body, Geometry, Hinge, Link, Model, Shape, collision, geoms, inertia, joints, mass, motors, tendon};
 use crate::error::ModelError;
 
 /// More moving bodies than this do not fit the collision groups: one bit each, and one for the floor.
@@ -25,7 +27,8 @@ pub(super) fn read(text: &str) -> Result<Model, ModelError> {
             Some(parent) => reader.read_body(index, parent, &entry.body, &source.compiler)?,
         }
     }
-    reader.finish(&source)
+    let tendons = tendon::read(&reader.flat.text, &source, &reader.hinges)?;
+    Ok(Model { tendons, ..reader.finish(&source)? })
 }
 
 /// Where a body of the text ended up: in which of our bodies, and at which pose inside it; no body is the world.
@@ -46,7 +49,9 @@ struct Reader {
     /// For each of our bodies, the parts that make up its mass.
     parts: Vec<Vec<MassProperties>>,
     /// For each of our bodies and each of its shapes, the body of the text that it was written in.
-    links: Vec<Vec<usize>>,
+    origins: Vec<Vec<usize>>,
+    /// The bodies of the text that move.
+    links: Vec<Link>,
 }
 
 impl Reader {
@@ -91,7 +96,7 @@ impl Reader {
             let jointed = self.read_joints(name.clone(), owner, pose, &body.joints, compiler.autolimits)?;
             self.bodies.push(jointed);
             self.parts.push(Vec::new());
-            self.links.push(Vec::new());
+            self.origins.push(Vec::new());
             Place { body: Some(self.bodies.len() - 1), offset: Isometry3::identity() }
         };
         self.places.push(place);
@@ -102,6 +107,7 @@ impl Reader {
             }
             return self.read_world(&format!("`{name}`"), &body.geoms, &place.offset);
         };
+        let first_shape = self.bodies[owner].shapes.len();
         let mut weights = Vec::new();
         for geom in &body.geoms {
             let [first, last] = self.flat.inertia_groups;
@@ -110,10 +116,12 @@ impl Reader {
             weights.extend(weight);
             if let Some(shape) = shape {
                 self.bodies[owner].shapes.push(shape);
-                self.links[owner].push(index);
+                self.origins[owner].push(index);
             }
         }
         let parts = mass::parts_of_body(&name, weights, body.inertial.as_ref(), &place.offset, compiler)?;
+        let shapes = first_shape..self.bodies[owner].shapes.len();
+        self.links.push(link(name, owner, place.offset, shapes, &parts));
         self.parts[owner].extend(parts);
         Ok(())
     }
@@ -185,12 +193,14 @@ impl Reader {
             .take()
             .ok_or_else(|| ModelError::unsupported("worldbody", "a floor is needed: a plane at z = 0 that collides"))?;
         let exclusions = self.read_exclusions(source)?;
-        let touches = collision::sort(&mut self.bodies, &self.links, &floor, &exclusions)?;
+        let touches = collision::sort(&mut self.bodies, &self.origins, &floor, &exclusions)?;
         let motors = motors::read(&source.actuators, &self.hinges, &source.compiler)?;
         Ok(Model {
             bodies: self.bodies,
             hinges: self.hinges,
             motors,
+            links: self.links,
+            tendons: Vec::new(),
             touches,
             floor_friction: if floor.rubs { floor.friction } else { 0.0 },
             gravity_mps2: Vector3::from(source.option.gravity),
@@ -216,6 +226,10 @@ impl Reader {
                 body.mass_kg *= factor;
                 body.inertia_kgm2 *= factor;
             }
+            for link in &mut self.links {
+                link.mass_kg *= factor;
+                link.inertia_kgm2 *= factor;
+            }
         }
         Ok(())
     }
@@ -235,6 +249,24 @@ impl Reader {
                 Ok([find(label, &exclude.body1)?, find(label, &exclude.body2)?])
             })
             .collect()
+    }
+}
+
+/// The part of a rigid body that one body of the text makes, with the parts of its mass.
+fn link(name: String, body: usize, pose: Isometry3<f64>, shapes: Range<usize>, parts: &[MassProperties]) -> Link {
+    let mass = inertia::sum(parts).unwrap_or(MassProperties {
+        mass_kg: 0.0,
+        centre_m: pose * Point3::origin(),
+        inertia_kgm2: Matrix3::zeros(),
+    });
+    Link {
+        name,
+        body,
+        pose,
+        shapes,
+        mass_kg: mass.mass_kg,
+        centre_of_mass_m: mass.centre_m,
+        inertia_kgm2: mass.inertia_kgm2,
     }
 }
 

@@ -13,6 +13,7 @@ mod joints;
 mod mass;
 mod mjcf;
 mod motors;
+mod tendon;
 mod vocabulary;
 mod xml;
 
@@ -22,6 +23,7 @@ use nalgebra::{Isometry3, Matrix3, Point3, Unit, UnitQuaternion, Vector3};
 
 pub(crate) use self::collision::FLOOR_GROUP;
 pub use self::file::read_model_file;
+pub use self::tendon::TENDONS_MAX;
 pub use self::xml::MODEL_BYTES_MAX;
 use crate::error::ModelError;
 
@@ -37,6 +39,11 @@ pub struct Model {
     pub hinges: Vec<Hinge>,
     /// Motors in action order.
     pub motors: Vec<Motor>,
+    /// The bodies as they stand in the text, in its order and without the world; those that are welded together
+    /// share one of `bodies`.
+    pub links: Vec<Link>,
+    /// Fixed tendons, in the order of the text; at most [`TENDONS_MAX`].
+    pub tendons: Vec<Tendon>,
     /// For each [`Shape::group`], bits of the groups that its shapes may touch; the highest bit is the floor.
     pub touches: Vec<u32>,
     /// Friction coefficient of the floor; the greater one of two shapes counts.
@@ -68,6 +75,42 @@ pub struct Body {
     pub centre_of_mass_m: Point3<f64>,
     /// Inertia about the centre of mass, in this body's axes (kg·m²).
     pub inertia_kgm2: Matrix3<f64>,
+}
+
+/// A body of the text: a rigid body of its own, or a welded part of one.
+#[derive(Clone, Debug)]
+pub struct Link {
+    /// Name in the text.
+    pub name: String,
+    /// Which rigid body it is part of: an index into [`Model::bodies`].
+    pub body: usize,
+    /// Pose of its frame in the rigid body's frame (m).
+    pub pose: Isometry3<f64>,
+    /// Which of the rigid body's shapes are its own.
+    pub shapes: Range<usize>,
+    /// Mass (kg); 0 for a part without shapes.
+    pub mass_kg: f64,
+    /// Centre of mass in the rigid body's frame (m); the origin of its own frame if it weighs nothing.
+    pub centre_of_mass_m: Point3<f64>,
+    /// Inertia about its centre of mass, in the rigid body's axes (kg·m²).
+    pub inertia_kgm2: Matrix3<f64>,
+}
+
+/// A fixed tendon: a weighted sum of hinge angles. It exerts no force.
+#[derive(Clone, Debug)]
+pub struct Tendon {
+    /// Name in the text.
+    pub name: String,
+    /// Hinges, as indices into [`Model::hinges`], with their weights.
+    pub terms: Vec<(usize, f64)>,
+}
+
+impl Tendon {
+    /// Length or velocity of the tendon: Σ weight × angle or rate, one for each hinge of the model.
+    #[must_use]
+    pub fn sum_over(&self, hinges: &[f64]) -> f64 {
+        self.terms.iter().map(|&(hinge, weight)| weight * hinges[hinge]).sum()
+    }
 }
 
 /// A collision shape.
@@ -219,6 +262,12 @@ impl Model {
     /// [`ModelError`] names the first element that cannot be simulated.
     pub fn from_mjcf(text: &str) -> Result<Self, ModelError> {
         mjcf::read(text)
+    }
+
+    /// Which link a shape of a rigid body belongs to.
+    #[must_use]
+    pub fn link_of_shape(&self, body: usize, shape: usize) -> Option<usize> {
+        self.links.iter().position(|link| link.body == body && link.shapes.contains(&shape))
     }
 
     /// Mass of the whole robot (kg).

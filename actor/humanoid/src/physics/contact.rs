@@ -1,6 +1,6 @@
-//! Contacts: found by Rapier, with its solution as a first guess; and what they do to each body.
+//! Contacts: found by Rapier, with its solution as a first guess; and what they do to each link.
 
-use nalgebra::Vector3;
+use nalgebra::{Point3, Vector3};
 use rapier3d::prelude::*;
 
 use super::convert::{from_vector, to_vector};
@@ -11,7 +11,18 @@ use crate::dynamics::{ContactPoint, Contacts, Posture};
 /// Surfaces push each other off from this distance on (m): the `margin` of the humanoid's shapes.
 const MARGIN_M: f64 = 0.001;
 
-/// Impulse of all contacts on one body: force × time (N·s) and moment × time (N·m·s), world frame.
+/// A force between two links, or between a link and the floor.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ContactForce {
+    /// The two links, as indices into [`crate::Model::links`]; `None` is the floor.
+    pub links: [Option<usize>; 2],
+    /// Where it acts (m, world frame).
+    pub at_m: Point3<f64>,
+    /// What the first link feels (N, world frame); the second one feels the opposite.
+    pub force_n: Vector3<f64>,
+}
+
+/// Impulse of all contacts on one link: force × time (N·s) and moment × time (N·m·s), world frame.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct ContactImpulse {
     pub(super) linear_ns: Vector3<f64>,
@@ -28,7 +39,8 @@ pub(super) fn collect(world: &World, start: &Posture, root_height_m: f64, contac
         let (Some(first), Some(second)) = (colliders.get(pair.collider1), colliders.get(pair.collider2)) else {
             continue;
         };
-        let bodies = [first.user_data, second.user_data].map(|data| (data as usize).checked_sub(1));
+        let links = [first.user_data, second.user_data].map(|data| (data as usize).checked_sub(1));
+        let bodies = links.map(|link| link.map(|link| world.link_bodies[link]));
         // Colliders have moved on since the contact was found.
         let at_start = match (bodies[0], first.position_wrt_parent()) {
             (Some(body), Some(place)) => pose(start, body, &root) * *place,
@@ -50,6 +62,7 @@ pub(super) fn collect(world: &World, start: &Posture, root_height_m: f64, contac
                 let middle = at_start.transform_point(contact.local_p1) + manifold.data.normal * (contact.dist / 2.0);
                 contacts.push(ContactPoint {
                     bodies,
+                    links,
                     place_m: from_vector(middle - to_vector(&root)),
                     normal: from_vector(manifold.data.normal).normalize(),
                     gap_m: f64::from(contact.dist) - MARGIN_M,
@@ -64,12 +77,25 @@ pub(super) fn collect(world: &World, start: &Posture, root_height_m: f64, contac
 /// Adds the contacts' impulses, with moments about `about_m` (relative to O).
 pub(super) fn accumulate(contacts: &Contacts, about_m: &Vector3<f64>, impulses: &mut [ContactImpulse]) {
     for point in &contacts.points {
-        let moment = (point.place_m - about_m).cross(&point.impulse_ns);
-        for (body, sign) in point.bodies.into_iter().zip([-1.0, 1.0]) {
-            if let Some(body) = body {
-                impulses[body].linear_ns += point.impulse_ns * sign;
-                impulses[body].angular_nms += moment * sign;
-            }
+        // The solver counts what the second one feels.
+        push(point.links, &point.place_m, &-point.impulse_ns, about_m, impulses);
+    }
+}
+
+/// Gives an impulse (N·s) at a point (m) to the first link and its opposite to the second; `None` is the floor. Moments
+/// are about `about_m`.
+pub(super) fn push(
+    links: [Option<usize>; 2],
+    at_m: &Vector3<f64>,
+    linear_ns: &Vector3<f64>,
+    about_m: &Vector3<f64>,
+    impulses: &mut [ContactImpulse],
+) {
+    let angular_nms = (at_m - about_m).cross(linear_ns);
+    for (link, sign) in links.into_iter().zip([1.0, -1.0]) {
+        if let Some(link) = link {
+            impulses[link].linear_ns += linear_ns * sign;
+            impulses[link].angular_nms += angular_nms * sign;
         }
     }
 }

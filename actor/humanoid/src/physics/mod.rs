@@ -18,6 +18,7 @@ mod world;
 
 use nalgebra::{Point3, Vector3};
 
+pub use self::contact::ContactForce;
 use self::contact::ContactImpulse;
 pub use self::motion::BodyMotion;
 use self::variation::Variable;
@@ -86,7 +87,7 @@ impl Physics {
             posture: Posture::new(&tree),
             body_velocities: vec![Motion::default(); bodies],
             motions: vec![BodyMotion::still(); bodies],
-            contacts: vec![ContactImpulse::default(); bodies],
+            contacts: vec![ContactImpulse::default(); model.links.len()],
             controls: vec![0.0; model.motors.len()],
             hinge_torques_nm: vec![0.0; model.hinges.len()],
             variable: Variable::new(&model),
@@ -116,11 +117,45 @@ impl Physics {
         self.position[3..ROOT_POSITIONS].iter_mut().for_each(|part| *part /= norm);
         self.world.restore();
         self.contacts.fill(ContactImpulse::default());
+        self.hinge_torques_nm.fill(0.0);
         self.is_faulty = false;
         self.has_stepped = false;
         self.posture.lay(&self.tree, &self.position);
         self.posture.weigh(&self.tree);
         self.describe();
+    }
+
+    /// Holds the motors' controls, one number per motor: see [`Self::joint_torques_nm`]. No time passes.
+    ///
+    /// Controls are clamped to each motor's [`crate::model::Motor::control`].
+    ///
+    /// # Errors
+    /// [`PhysicsFault`] if one is not finite.
+    ///
+    /// # Panics
+    /// If there are not as many controls as motors.
+    pub fn set_controls(&mut self, controls: &[f32]) -> Result<(), PhysicsFault> {
+        assert_eq!(controls.len(), self.model.motors.len(), "one control per motor is needed");
+        if self.is_faulty || !controls.iter().all(|control| control.is_finite()) {
+            self.is_faulty = true;
+            return Err(PhysicsFault);
+        }
+        self.controls.copy_from_slice(controls);
+        self.pull();
+        Ok(())
+    }
+
+    /// Replaces the contact forces of the last control step by others, for observations of a state of choice.
+    ///
+    /// # Panics
+    /// If a link does not exist.
+    pub fn set_contacts(&mut self, forces: &[ContactForce]) {
+        self.contacts.fill(ContactImpulse::default());
+        let about = self.centre_of_mass();
+        for force in forces {
+            let impulse = force.force_n * CONTROL_STEP_S;
+            contact::push(force.links, &force.at_m.coords, &impulse, &about.coords, &mut self.contacts);
+        }
     }
 
     /// Simulates one control step of [`CONTROL_STEP_S`] with the motors' controls held, one number per motor.
@@ -135,12 +170,7 @@ impl Physics {
     /// # Panics
     /// If there are not as many controls as motors.
     pub fn step_only(&mut self, controls: &[f32]) -> Result<(), PhysicsFault> {
-        assert_eq!(controls.len(), self.model.motors.len(), "one control per motor is needed");
-        if self.is_faulty || !controls.iter().all(|control| control.is_finite()) {
-            self.is_faulty = true;
-            return Err(PhysicsFault);
-        }
-        self.controls.copy_from_slice(controls);
+        self.set_controls(controls)?;
         self.contacts.fill(ContactImpulse::default());
         for _ in 0..self.substeps {
             self.substep()?;
@@ -149,9 +179,14 @@ impl Physics {
         Ok(())
     }
 
-    fn substep(&mut self) -> Result<(), PhysicsFault> {
+    /// Brings the torques of the motors up to date with controls and state.
+    fn pull(&mut self) {
         let (angles_rad, rates_radps) = (&self.position[ROOT_POSITIONS..], &self.velocity[ROOT_DOFS..]);
         self.model.motor_torques(&self.controls, angles_rad, rates_radps, &mut self.hinge_torques_nm);
+    }
+
+    fn substep(&mut self) -> Result<(), PhysicsFault> {
+        self.pull();
         let step_s = CONTROL_STEP_S / f64::from(self.substeps);
         let Self { tree, world, flight, touching, .. } = self;
         flight.fly(tree, &self.posture, &self.position, &self.velocity, &self.hinge_torques_nm, step_s);
@@ -250,18 +285,18 @@ impl Physics {
         sum / self.tree.mass_kg()
     }
 
-    /// Mean contact force (N) and moment about the whole body's centre of mass (N·m) on one body during the last
-    /// control step, world frame.
+    /// Mean contact force (N) and moment about the whole body's centre of mass (N·m) on one link during the last
+    /// control step, world frame: what its surroundings do to it.
     ///
     /// # Panics
-    /// If there is no such body.
+    /// If there is no such link.
     #[must_use]
-    pub fn contact_wrench(&self, body: usize) -> (Vector3<f64>, Vector3<f64>) {
-        let impulse = &self.contacts[body];
+    pub fn contact_wrench(&self, link: usize) -> (Vector3<f64>, Vector3<f64>) {
+        let impulse = &self.contacts[link];
         (impulse.linear_ns / CONTROL_STEP_S, impulse.angular_nms / CONTROL_STEP_S)
     }
 
-    /// Sum of squares of all bodies' contact forces (N²) and moments ((N·m)²) during the last control step.
+    /// Sum of squares of all links' contact forces (N²) and moments ((N·m)²) during the last control step.
     #[must_use]
     pub fn squared_contact_wrenches(&self) -> f64 {
         self.contacts

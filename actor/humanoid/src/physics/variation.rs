@@ -49,6 +49,11 @@ impl Variation {
                 shape.friction = nominal.friction * self.floor_friction_scale;
             }
         }
+        for (link, nominal) in model.links.iter_mut().zip(&nominal.links) {
+            let scale = self.mass_scale[link.body];
+            link.mass_kg = nominal.mass_kg * scale;
+            link.inertia_kgm2 = nominal.inertia_kgm2 * scale;
+        }
         for (index, (hinge, nominal)) in model.hinges.iter_mut().zip(&nominal.hinges).enumerate() {
             hinge.damping_nmsprad = nominal.damping_nmsprad * self.damping_scale[index];
             hinge.armature_kgm2 = nominal.armature_kgm2 * self.armature_scale[index];

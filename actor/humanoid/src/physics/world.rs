@@ -24,6 +24,8 @@ pub(super) struct World {
     pub(super) bodies: Vec<RigidBodyHandle>,
     /// Joint of each body to its parent, in the same order; the root has none.
     pub(super) joints: Vec<Option<ImpulseJointHandle>>,
+    /// The rigid body of each link, whose number is the colliders' user data less one.
+    pub(super) link_bodies: Vec<usize>,
     pub(super) floor: ColliderHandle,
     /// Colliders of the limbs, with the body and the place among its shapes.
     pub(super) limbs: Vec<(ColliderHandle, usize, usize)>,
@@ -67,8 +69,10 @@ impl World {
             let handle = rapier.insert_body(rigid_body(body));
             for (place, shape) in body.shapes.iter().enumerate() {
                 if let Some(form) = form(&shape.geometry) {
-                    let limb = rapier.insert_collider(collider(form, model, config, index, shape), Some(handle));
-                    limbs.push((limb, index, place));
+                    // The floor is 0; every shape that was read is some link's.
+                    let owner = model.link_of_shape(index, place).map_or(0, |link| link as u128 + 1);
+                    let limb = collider(form, model, config, shape).user_data(owner);
+                    limbs.push((rapier.insert_collider(limb, Some(handle)), index, place));
                 }
             }
             joints.push(body.parent.map(|parent| rapier.insert_impulse_joint(bodies[parent], handle, joint(body))));
@@ -79,7 +83,8 @@ impl World {
             colliders: rapier.colliders.clone(),
             joints: rapier.impulse_joints.clone(),
         };
-        Self { rapier, bodies, joints, floor, limbs, template }
+        let link_bodies = model.links.iter().map(|link| link.body).collect();
+        Self { rapier, bodies, joints, link_bodies, floor, limbs, template }
     }
 
     /// Forgets everything that was simulated.
@@ -161,13 +166,7 @@ fn at(pose: &Isometry3<f64>) -> Pose {
     Pose::from_parts(to_vector(&pose.translation.vector), to_rotation(&pose.rotation))
 }
 
-fn collider(
-    form: ColliderBuilder,
-    model: &Model,
-    config: &EnvironmentConfig,
-    body: usize,
-    shape: &Shape,
-) -> ColliderBuilder {
+fn collider(form: ColliderBuilder, model: &Model, config: &EnvironmentConfig, shape: &Shape) -> ColliderBuilder {
     let touches = Group::from_bits_truncate(model.touches[shape.group]);
     let filter = if config.self_collision { touches } else { touches & group(FLOOR_GROUP) };
     form
@@ -177,7 +176,6 @@ fn collider(
         .friction(own_friction(shape))
         .friction_combine_rule(CoefficientCombineRule::Max)
         .collision_groups(InteractionGroups::new(group(shape.group), filter, InteractionTestMode::And))
-        .user_data(body as u128 + 1)
 }
 
 pub(super) fn own_friction(shape: &Shape) -> f32 {

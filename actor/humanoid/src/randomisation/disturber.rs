@@ -10,9 +10,11 @@ use rand_xoshiro::Xoshiro256PlusPlus;
 use super::{Randomisation, stream};
 use crate::config::CONTROL_STEP_S;
 use crate::model::Model;
+use crate::observation::Observation;
 use crate::physics::{Physics, Variation};
 
-/// Where the torso's quaternion stands in an observation, after the height; hinge angles and then velocities follow.
+/// Where the torso's quaternion stands in an observation, counted from the height; hinge angles and then velocities
+/// follow.
 const QUATERNION: std::ops::Range<usize> = 1..5;
 
 /// Disturbs one environment; does nothing at all, and draws nothing, where nothing is randomised.
@@ -22,7 +24,9 @@ pub(crate) struct Disturber {
     settings: Randomisation,
     is_on: bool,
     variation: Variation,
-    /// Entries of an observation that are positions; as many velocities as the model has follow them.
+    /// Where an observation has the height of the torso.
+    height_at: usize,
+    /// Entries of an observation from there on that are positions; as many velocities as the model has follow them.
     positions: usize,
     velocities: usize,
     /// Half of each motor's range of controls.
@@ -40,13 +44,15 @@ pub(crate) struct Disturber {
 }
 
 impl Disturber {
-    /// One for a model, with ranges that are checked; [`Self::begin_episode`] comes before anything else.
-    pub(crate) fn new(settings: &Randomisation, model: &Model) -> Self {
+    /// One for a model and what is observed of it, with ranges that are checked; [`Self::begin_episode`] comes before
+    /// anything else.
+    pub(crate) fn new(settings: &Randomisation, model: &Model, observation: &Observation) -> Self {
         let slots = settings.action_delay_steps[1] as usize + 1;
         Self {
             is_on: settings.is_on(),
             settings: settings.clone(),
             variation: Variation::none(model),
+            height_at: observation.height_at(),
             positions: model.position_size() - 2,
             velocities: model.velocity_size(),
             half_ranges: model.motors.iter().map(|motor| motor.control[1] / 2.0 - motor.control[0] / 2.0).collect(),
@@ -128,9 +134,10 @@ impl Disturber {
         &self.acting
     }
 
-    /// Puts sensor noise on the positions and velocities with which an observation begins. What an observation holds
-    /// beyond them is left as it is.
+    /// Puts sensor noise on the positions and velocities with which an observation begins, but for x and y. What an
+    /// observation holds beyond them is left as it is.
     pub(crate) fn corrupt(&mut self, observation: &mut [f32]) {
+        let observation = &mut observation[self.height_at..];
         let std = self.settings.sensor_noise_position;
         if std > 0.0 {
             let height = 0..QUATERNION.start;

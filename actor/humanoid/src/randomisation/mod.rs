@@ -75,7 +75,8 @@ impl Randomisation {
 
     /// Refuses ranges that are none or reach too far.
     pub(crate) fn check(&self) -> Result<(), ModelError> {
-        let refuse = |setting, value, expected| Err(ModelError::Setting { setting, value, expected });
+        let refuse =
+            |setting, value: f64, expected| Err(ModelError::Setting { setting, value: value.to_string(), expected });
         let factors = "between 0 and 10, and the first of the range not above the second";
         let delays = self.action_delay_steps.map(f64::from);
         for (setting, [low, high], [min, max], expected) in [
