@@ -90,7 +90,8 @@ impl Writer {
                 "equality" => {
                     if let Some(constraint) = elements(node).next() {
                         let kind = constraint.tag_name().name();
-                        let name = constraint.attribute("name").unwrap_or(kind);
+                        let coupled = ["name", "body1", "joint1", "tendon1"];
+                        let name = coupled.iter().find_map(|name| constraint.attribute(*name)).unwrap_or(kind);
                         let problem = format!("<equality><{kind}> makes a kinematic loop or couples joints; remove it");
                         return Err(ModelError::unsupported(name, problem));
                     }
