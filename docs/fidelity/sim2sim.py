@@ -22,7 +22,7 @@ import gymnasium
 import numpy as np
 
 import report
-from policy import Policy, observe
+from policy import Policy
 
 REPOSITORY = pathlib.Path(__file__).resolve().parents[2]
 TOLERANCE = 1e-5
@@ -130,7 +130,7 @@ def main():
     rng = np.random.default_rng(arguments.seed)
 
     def by_policy(data):
-        observation = observe(policy.kind, data)
+        observation = policy.observe(data)
         return observation, policy.controls(observation)
 
     def by_chance(_):
