@@ -8,6 +8,9 @@ import struct
 
 import numpy as np
 
+# First body and first degree of freedom that a kind of observation has rows for, 0 being the world and the root.
+FIRST_ROWS = {"compact": None, "gymnasium-v5": (1, 6), "gymnasium-v4": (0, 0)}
+
 
 def read_safetensors(path):
     """Tensors by name, and the metadata: eight bytes of header length, the header as JSON, then the numbers."""
@@ -35,6 +38,7 @@ class Policy:
         if self.facts["format"] != 1 or self.facts["network"]["activation"] != "elu":
             raise ValueError(f"{path} has format {self.facts['format']}; this script reads format 1 with ELU only")
         self.kind = self.facts["observation"]["kind"]
+        self.env = self.facts.get("env", {})
         self.clip = np.float32(self.facts["observation"]["clip"])
         spread = np.sqrt(tensors["observation.variance"] + self.facts["observation"]["variance_epsilon"])
         self.mean, self.scale = tensors["observation.mean"].astype(np.float32), (1 / spread).astype(np.float32)
@@ -51,21 +55,36 @@ class Policy:
                 x = np.where(x > 0, x, np.expm1(np.minimum(x, 0)))
         return x
 
+    def observe(self, data):
+        """What this policy sees of MuJoCo's state."""
+        observation = observe(self.kind, data, self.env)
+        if len(observation) != len(self.mean):
+            raise ValueError(f"the policy sees {len(self.mean)} numbers, but this body has {len(observation)}")
+        return observation
+
     def controls(self, observation):
         """What the motors are set to: the means clipped to ±1 and stretched to [low, high]."""
         share = (np.clip(self.means(observation), -1, 1) + 1) / 2
         return self.low + share * (self.high - self.low)
 
 
-def observe(kind, data):
-    """The observation of Treadmill's `kind` from MuJoCo's state, single precision."""
-    motion = [data.qpos[2:], data.qvel]
-    if kind == "compact":
-        parts = motion
-    elif kind == "gymnasium-v5":
-        parts = [*motion, data.cinert[1:], data.cvel[1:], data.qfrc_actuator[6:], data.cfrc_ext[1:]]
-    elif kind == "gymnasium-v4":
-        parts = [*motion, data.cinert, data.cvel, data.qfrc_actuator, data.cfrc_ext]
-    else:
-        raise ValueError(f"observations of kind {kind!r} are not known here: compact, gymnasium-v5, gymnasium-v4 are")
+def observe(kind, data, env=None):
+    """The observation of Treadmill's `kind` from MuJoCo's state, single precision.
+
+    `env` is the table of that name in an exported file: which parts are left out, and whether x and y of the torso are. What
+    it does not say is as Gymnasium's environments have it."""
+    env = env or {}
+    hidden = 2 if env.get("exclude_current_positions_from_observation", True) else 0
+    parts = [data.qpos[hidden:], data.qvel]
+    if kind not in FIRST_ROWS:
+        raise ValueError(f"observations of kind {kind!r} are not known here: {', '.join(FIRST_ROWS)} are")
+    if kind != "compact":
+        first_body, first_dof = FIRST_ROWS[kind]
+        derived = {
+            "cinert": data.cinert[first_body:],
+            "cvel": data.cvel[first_body:],
+            "qfrc_actuator": data.qfrc_actuator[first_dof:],
+            "cfrc_ext": data.cfrc_ext[first_body:],
+        }
+        parts += [part for name, part in derived.items() if env.get(f"include_{name}_in_observation", True)]
     return np.concatenate([np.ravel(part) for part in parts]).astype(np.float32)

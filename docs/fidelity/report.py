@@ -95,12 +95,16 @@ def _rollouts(title, result, before, key):
 
 
 def _with_before(result, before, key):
-    """The rows, the product's own first, and after it the one of the version compared with."""
+    """The rows, the product's own first, and after it the one of the earlier version that is compared with."""
     rows = list(result["rows"])
     if before:
         old = before[key]["rows"][0]
-        rows.insert(1, {**old, "name": f"Treadmill {before['made']['commit']}, defaults"})
+        rows.insert(1, {**old, "name": _name_before(before)})
     return rows
+
+
+def _name_before(before):
+    return f"before: Treadmill {before['made']['commit']}, its defaults"
 
 
 def _energy(result, before):
@@ -122,7 +126,7 @@ def _mirror(result, before):
     rows = [[row["name"], row["what"], number(row["median_rad"]), number(row["max_rad"])] for row in result["rows"]]
     if before:
         old = [row for row in before["mirror"]["rows"] if row["name"].startswith("Treadmill")]
-        name = f"Treadmill {before['made']['commit']}, defaults"
+        name = _name_before(before)
         rows += [[name, row["what"], number(row["median_rad"]), number(row["max_rad"])] for row in old]
     header = ["", "", "median (rad)", "largest (rad)"]
     return f"### Mirror symmetry\n\n{result['cases']} cases each.\n\n" + table(header, rows)

@@ -1,4 +1,4 @@
-"""Plays an exported policy, unchanged, in Gymnasium's Humanoid-v5, which MuJoCo simulates.
+"""Plays an exported policy, unchanged, in Gymnasium's Humanoid-v5 as it comes, which MuJoCo simulates.
 
 Needs: pip install "gymnasium[mujoco]" numpy
        treadmill export RUN --safetensors policy.safetensors
@@ -9,6 +9,9 @@ Usage: sim2sim.py policy.safetensors [--episodes 20] [--seed 0] [--json OUT.json
 
 --random plays uniformly random actions instead; --check compares this script's actions with Treadmill's own for the same
 observations; --treadmill also plays policy and random actions in Treadmill, and in MuJoCo, and prints one table of all four.
+
+The observation is the one that the policy was trained with; reward and end of an episode are Humanoid-v5's. Treadmill's rows are
+of the policy's own task, so that returns can be compared only where that is Humanoid-v5 with its defaults too.
 """
 
 import argparse
@@ -22,7 +25,7 @@ import gymnasium
 import numpy as np
 
 import report
-from policy import Policy, observe
+from policy import Policy
 
 REPOSITORY = pathlib.Path(__file__).resolve().parents[2]
 TOLERANCE = 1e-5
@@ -127,10 +130,12 @@ def main():
     if arguments.check:
         check(policy, arguments.check)
         return
+    if len(policy.low) != 17:
+        sys.exit(f"{arguments.policy} moves a body of {len(policy.low)} motors, but Humanoid-v5 has 17")
     rng = np.random.default_rng(arguments.seed)
 
     def by_policy(data):
-        observation = observe(policy.kind, data)
+        observation = policy.observe(data)
         return observation, policy.controls(observation)
 
     def by_chance(_):

@@ -23,6 +23,8 @@ fn mass_is_that_of_the_original() {
     assert_eq!(model.bodies.len(), 11);
     assert_eq!(model.hinges.len(), 17);
     assert_eq!(model.motors.len(), 17);
+    let shapes = model.bodies.iter().flat_map(|body| &body.shapes);
+    assert!(shapes.map(|shape| shape.margin_m).chain([model.floor_margin_m]).all(|margin_m| margin_m == 0.001));
     let foot_and_shin = model.bodies.iter().find(|body| body.name == "right_shin").expect("has a right shin");
     assert_eq!(foot_and_shin.shapes.len(), 2);
 }

@@ -64,7 +64,7 @@ section! {
     RandomisationConfig as "randomisation" {
         /// Factor on the mass and inertia of each body.
         mass_scale: [f64; 2] = [1.0, 1.0], "[smallest, largest], 0.1 to 10" => |v| is_range(v, 0.1, 10.0);
-        /// Factor on the friction coefficient of the floor.
+        /// Factor on the friction coefficients of the floor and of limbs that rub.
         floor_friction_scale: [f64; 2] = [1.0, 1.0], "[smallest, largest], 0 to 10" => |v| is_range(v, 0.0, 10.0);
         /// Factor on the torque of each motor.
         motor_scale: [f64; 2] = [1.0, 1.0], "[smallest, largest], 0 to 10" => |v| is_range(v, 0.0, 10.0);

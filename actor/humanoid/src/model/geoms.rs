@@ -8,7 +8,8 @@ use super::mjcf::isometry;
 use super::{Geometry, Shape};
 use crate::error::ModelError;
 
-/// Rapier keeps contacts near a surface anyway; a margin of more than this (m) would be a visible gap.
+/// Contacts are found from 2 cm on, and half of that is left for what comes near within a step; a greater margin (m)
+/// would be a visible gap too.
 const MARGIN_MAX_M: f64 = 0.01;
 
 /// Reads a shape of a body: its mass, and its surface where it can touch anything.
@@ -69,6 +70,7 @@ pub(super) fn surface(name: &str, geom: &Geom, geometry: Geometry) -> Result<Sha
         geometry,
         friction,
         rubs,
+        margin_m: geom.margin,
         contype: geom.contype,
         conaffinity: geom.conaffinity,
         group: 0,

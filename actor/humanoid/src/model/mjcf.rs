@@ -203,6 +203,7 @@ impl Reader {
             tendons,
             touches,
             floor_friction: if floor.rubs { floor.friction } else { 0.0 },
+            floor_margin_m: floor.margin_m,
             gravity_mps2: Vector3::from(source.option.gravity),
         })
     }

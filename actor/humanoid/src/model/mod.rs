@@ -48,6 +48,8 @@ pub struct Model {
     pub touches: Vec<u32>,
     /// Friction coefficient of the floor; the greater one of two shapes counts.
     pub floor_friction: f64,
+    /// Distance (m) from which on the floor pushes; the greater one of two shapes counts.
+    pub floor_margin_m: f64,
     /// Acceleration of gravity (m/s²), world frame.
     pub gravity_mps2: Vector3<f64>,
 }
@@ -124,6 +126,8 @@ pub struct Shape {
     pub friction: f64,
     /// Whether contacts with it resist sliding by themselves (MJCF's `condim` 3) or not (1).
     pub rubs: bool,
+    /// Distance (m) from which on it pushes what comes near; the greater one of two shapes counts.
+    pub margin_m: f64,
     /// Bits that say what it is: it touches what has affinity to one of them.
     pub contype: u32,
     /// Bits of what it has affinity to.

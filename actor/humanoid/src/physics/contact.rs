@@ -5,11 +5,8 @@ use rapier3d::prelude::*;
 
 use super::convert::{from_vector, to_vector};
 use super::exchange::pose;
-use super::world::World;
+use super::world::{Tag, World};
 use crate::dynamics::{ContactPoint, Contacts, Posture};
-
-/// Surfaces push each other off from this distance on (m): the `margin` of the humanoid's shapes.
-const MARGIN_M: f64 = 0.001;
 
 /// A force between two links, or between a link and the floor.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -39,7 +36,9 @@ pub(super) fn collect(world: &World, start: &Posture, root_height_m: f64, contac
         let (Some(first), Some(second)) = (colliders.get(pair.collider1), colliders.get(pair.collider2)) else {
             continue;
         };
-        let links = [first.user_data, second.user_data].map(|data| (data as usize).checked_sub(1));
+        let tags = [first, second].map(Tag::of);
+        let links = tags.map(|tag| tag.link);
+        let margin_m = tags[0].margin_m.max(tags[1].margin_m);
         let bodies = links.map(|link| link.map(|link| world.link_bodies[link]));
         // Colliders have moved on since the contact was found.
         let at_start = match (bodies[0], first.position_wrt_parent()) {
@@ -65,7 +64,7 @@ pub(super) fn collect(world: &World, start: &Posture, root_height_m: f64, contac
                     links,
                     place_m: from_vector(middle - to_vector(&root)),
                     normal: from_vector(manifold.data.normal).normalize(),
-                    gap_m: f64::from(contact.dist) - MARGIN_M,
+                    gap_m: f64::from(contact.dist) - margin_m,
                     friction: f64::from(manifold.data.friction),
                     impulse_ns: from_vector(manifold.data.normal * data.impulse + rubbing),
                 });

@@ -24,7 +24,7 @@ pub(super) struct World {
     pub(super) bodies: Vec<RigidBodyHandle>,
     /// Joint of each body to its parent, in the same order; the root has none.
     pub(super) joints: Vec<Option<ImpulseJointHandle>>,
-    /// The rigid body of each link, whose number is the colliders' user data less one.
+    /// The rigid body of each link.
     pub(super) link_bodies: Vec<usize>,
     pub(super) floor: ColliderHandle,
     /// Colliders of the limbs, with the body and the place among its shapes.
@@ -37,6 +37,27 @@ pub(super) struct Template {
     pub(super) bodies: RigidBodySet,
     pub(super) colliders: ColliderSet,
     joints: ImpulseJointSet,
+}
+
+/// What each collider says about itself, in its user data.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Tag {
+    /// Whose shape it is; `None` is the floor.
+    pub(super) link: Option<usize>,
+    /// See [`Shape::margin_m`].
+    pub(super) margin_m: f64,
+}
+
+impl Tag {
+    /// The margin's bits above, the link's number and one below.
+    fn pack(self) -> u128 {
+        u128::from(self.margin_m.to_bits()) << 64 | self.link.map_or(0, |link| link as u128 + 1)
+    }
+
+    pub(super) fn of(collider: &Collider) -> Self {
+        let data = collider.user_data;
+        Self { link: (data as u64 as usize).checked_sub(1), margin_m: f64::from_bits((data >> 64) as u64) }
+    }
 }
 
 impl World {
@@ -59,7 +80,7 @@ impl World {
             .friction(model.floor_friction as f32)
             .friction_combine_rule(CoefficientCombineRule::Max)
             .collision_groups(InteractionGroups::new(group(FLOOR_GROUP), Group::ALL, InteractionTestMode::And))
-            .user_data(0);
+            .user_data(Tag { link: None, margin_m: model.floor_margin_m }.pack());
         let floor = rapier.insert_collider(floor, None);
 
         let mut bodies = Vec::with_capacity(model.bodies.len());
@@ -69,9 +90,8 @@ impl World {
             let handle = rapier.insert_body(rigid_body(body));
             for (place, shape) in body.shapes.iter().enumerate() {
                 if let Some(form) = form(&shape.geometry) {
-                    // The floor is 0; every shape that was read is some link's.
-                    let owner = model.link_of_shape(index, place).map_or(0, |link| link as u128 + 1);
-                    let limb = collider(form, model, config, shape).user_data(owner);
+                    let tag = Tag { link: model.link_of_shape(index, place), margin_m: shape.margin_m };
+                    let limb = collider(form, model, config, shape).user_data(tag.pack());
                     limbs.push((rapier.insert_collider(limb, Some(handle)), index, place));
                 }
             }
@@ -198,4 +218,18 @@ fn joint(body: &Body) -> GenericJoint {
     joint.local_frame2 = Pose::from_parts(to_point(&body.anchor_m), to_rotation(&body.hinge_frame));
     joint.contacts_enabled = false;
     joint
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn tags_survive_the_user_data() {
+        for (link, margin_m) in [(None, 0.0), (None, 0.001), (Some(0), 0.01), (Some(30), f64::MIN_POSITIVE)] {
+            let tag = Tag { link, margin_m };
+            let collider = ColliderBuilder::ball(1.0).user_data(tag.pack()).build();
+            assert_eq!(Tag::of(&collider), tag);
+        }
+    }
 }
