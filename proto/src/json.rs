@@ -46,7 +46,7 @@ pub struct EpisodeReport {
     pub distance_m: f64,
     /// Distance over time.
     pub velocity_mean_mps: f64,
-    /// `fell`, `time_limit` or `fault`.
+    /// `fell`, `time_limit` or `non_finite`.
     pub cause: String,
 }
 
