@@ -258,7 +258,6 @@ fn energy_drift_j(substeps: u32) -> f64 {
 #[test]
 fn energy_of_a_passive_body_stays_and_the_better_the_finer_the_steps() {
     let (coarse, fine) = (energy_drift_j(2), energy_drift_j(8));
-    // The body moves with about 100 J.
     assert!(coarse < 0.5, "{coarse} J");
     assert!(fine < coarse / 9.0, "of second order, steps of a quarter leave a sixteenth: {fine} J of {coarse} J");
 }
