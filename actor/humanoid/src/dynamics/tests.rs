@@ -10,8 +10,11 @@ use super::posture::{Posture, integrate};
 use super::{ContactPoint, Contacts, Flight, ROOT_DOFS, ROOT_POSITIONS, Tree};
 use crate::model::{HUMANOID_XML, Model};
 
-/// Each body's centre (m) and orientation at a position vector.
-fn bodies(tree: &Tree, position: &[f64]) -> Vec<(Vector3<f64>, Rotation3<f64>)> {
+/// A body's centre (m) and orientation.
+type Place = (Vector3<f64>, Rotation3<f64>);
+
+/// Where each body is at a position vector.
+fn bodies(tree: &Tree, position: &[f64]) -> Vec<Place> {
     let mut posture = Posture::new(tree);
     posture.lay(tree, position);
     let root = Vector3::from_column_slice(&position[..3]);
@@ -25,7 +28,7 @@ fn mass_matrix_by_differences(tree: &Tree, position: &[f64]) -> DMatrix<f64> {
     const STEP: f64 = 1e-5;
     let dofs = tree.dofs();
     let now = bodies(tree, position);
-    let shifted: Vec<[Vec<(Vector3<f64>, Rotation3<f64>)>; 2]> = (0..dofs)
+    let shifted: Vec<[Vec<Place>; 2]> = (0..dofs)
         .map(|dof| {
             [-STEP, STEP].map(|by| {
                 let (mut direction, mut to) = (vec![0.0; dofs], position.to_vec());
