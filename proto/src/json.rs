@@ -84,4 +84,10 @@ mod tests {
             r#"{"run":"r","actor":"a","return":1.5,"length":2,"distance_m":0.25,"velocity_mean_mps":0.5,"cause":"fell"}"#
         );
     }
+
+    #[test]
+    fn each_end_of_an_episode_has_the_word_that_is_documented() {
+        let words = [EndCause::Fell, EndCause::TimeLimit, EndCause::NonFinite].map(EndCause::name);
+        assert_eq!(words, ["fell", "time_limit", "non_finite"]);
+    }
 }
