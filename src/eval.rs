@@ -213,7 +213,7 @@ fn print_table(who: Who, evaluation: &Evaluation, control_step_s: f64) {
     say("episode      return  length  distance m  velocity m/s  end");
     for (index, played) in evaluation.episodes.iter().enumerate() {
         let end = match (played.fault, played.fell) {
-            (true, _) => "fault",
+            (true, _) => "non-finite",
             (_, true) => "fell",
             _ => "time limit",
         };

@@ -246,7 +246,7 @@ impl Place {
             running.last_x_m = self.environment.physics().position()[0];
         }
         let (flags, cause) = match (step.fault, step.terminated, step.truncated) {
-            (true, ..) => (TERMINATED, EndCause::Fault),
+            (true, ..) => (TERMINATED, EndCause::NonFinite),
             (_, true, _) => (TERMINATED, EndCause::Fell),
             (_, _, true) => (TRUNCATED, EndCause::TimeLimit),
             _ => {

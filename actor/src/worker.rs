@@ -218,7 +218,7 @@ fn encode(fragment: Fragment, progress: &Progress) -> Result<Produced, ActorErro
     let bytes = fragment.encode().map_err(|why| ActorError::Physics { why: why.to_string() })?;
     progress.env_steps.fetch_add(fragment.transitions() as u64, Ordering::Relaxed);
     progress.episodes.fetch_add(fragment.episodes.len() as u64, Ordering::Relaxed);
-    let faults = fragment.episodes.iter().filter(|episode| episode.cause == EndCause::Fault).count();
+    let faults = fragment.episodes.iter().filter(|episode| episode.cause == EndCause::NonFinite).count();
     progress.faults.fetch_add(faults as u64, Ordering::Relaxed);
     Ok(Produced { sequence: fragment.sequence, bytes: bytes.into(), episodes: fragment.episodes })
 }

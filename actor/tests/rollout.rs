@@ -118,7 +118,7 @@ fn failed_physics_ends_the_episode_and_never_reaches_the_learner() {
     environments.step(&[0.0; 34], &mut stepped);
     assert_eq!(stepped.flags, [0, TERMINATED]);
     assert_eq!(stepped.rewards[1], 0.0);
-    assert_eq!((stepped.episodes.len(), stepped.episodes[0].cause), (1, EndCause::Fault));
+    assert_eq!((stepped.episodes.len(), stepped.episodes[0].cause), (1, EndCause::NonFinite));
     assert!(stepped.episodes[0].return_sum.is_finite());
     assert!(environments.observations().iter().all(|number| number.is_finite()));
     environments.step(&[0.0; 34], &mut stepped);

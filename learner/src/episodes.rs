@@ -47,7 +47,7 @@ impl EpisodeWindow {
     pub fn extend<'a>(&mut self, episodes: impl IntoIterator<Item = &'a Episode>) {
         for episode in episodes {
             self.finished += 1;
-            self.faults += u64::from(episode.cause == EndCause::Fault);
+            self.faults += u64::from(episode.cause == EndCause::NonFinite);
             if self.recent.len() == WINDOW {
                 self.recent.pop_front();
             }
@@ -94,7 +94,7 @@ mod tests {
     fn means_are_over_the_last_hundred() {
         let mut window = EpisodeWindow::default();
         assert_eq!(window.means(), None);
-        window.extend(&vec![episode(1000.0, EndCause::Fault); 50]);
+        window.extend(&vec![episode(1000.0, EndCause::NonFinite); 50]);
         window.extend(&vec![episode(1.0, EndCause::Fell); 50]);
         assert_eq!(window.means().unwrap().return_mean, 500.5);
         window.extend(&vec![episode(3.0, EndCause::TimeLimit); 50]);

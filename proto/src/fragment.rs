@@ -23,7 +23,7 @@ pub enum EndCause {
     /// The greatest length was reached.
     TimeLimit,
     /// The physics gave a number that is not finite.
-    Fault,
+    NonFinite,
 }
 
 impl EndCause {
@@ -32,7 +32,7 @@ impl EndCause {
         match self {
             Self::Fell => "fell",
             Self::TimeLimit => "time_limit",
-            Self::Fault => "fault",
+            Self::NonFinite => "non_finite",
         }
     }
 }
@@ -259,7 +259,7 @@ impl From<&Episode> for wire::Episode {
         let cause = match episode.cause {
             EndCause::Fell => wire::EndCause::Fell,
             EndCause::TimeLimit => wire::EndCause::TimeLimit,
-            EndCause::Fault => wire::EndCause::Fault,
+            EndCause::NonFinite => wire::EndCause::NonFinite,
         };
         Self {
             return_sum: episode.return_sum,
@@ -278,7 +278,7 @@ impl TryFrom<&wire::Episode> for Episode {
         let cause = match wire::EndCause::try_from(episode.cause) {
             Ok(wire::EndCause::Fell) => EndCause::Fell,
             Ok(wire::EndCause::TimeLimit) => EndCause::TimeLimit,
-            Ok(wire::EndCause::Fault) => EndCause::Fault,
+            Ok(wire::EndCause::NonFinite) => EndCause::NonFinite,
             _ => return Err(Malformed::field("episodes.cause", episode.cause, "1, 2 or 3")),
         };
         Ok(Self {

@@ -46,7 +46,7 @@ pub struct EpisodeReport {
     pub distance_m: f64,
     /// Distance over time.
     pub velocity_mean_mps: f64,
-    /// `fell`, `time_limit` or `fault`.
+    /// `fell`, `time_limit` or `non_finite`.
     pub cause: String,
 }
 
@@ -83,5 +83,11 @@ mod tests {
             serde_json::to_string(&EpisodeReport::new("r", "a", &episode)).unwrap(),
             r#"{"run":"r","actor":"a","return":1.5,"length":2,"distance_m":0.25,"velocity_mean_mps":0.5,"cause":"fell"}"#
         );
+    }
+
+    #[test]
+    fn each_end_of_an_episode_has_the_word_that_is_documented() {
+        let words = [EndCause::Fell, EndCause::TimeLimit, EndCause::NonFinite].map(EndCause::name);
+        assert_eq!(words, ["fell", "time_limit", "non_finite"]);
     }
 }

@@ -152,6 +152,42 @@ impl EnvironmentConfig {
         self.randomisation.check()
     }
 
+    /// The first setting that is not the same in another configuration: its name, its value here and its value there.
+    pub(crate) fn difference(&self, other: &Self) -> Option<(&'static str, String, String)> {
+        // Naming all fields makes the compiler ask for new ones here.
+        macro_rules! compare {
+            ($($field:ident),* $(,)?) => {{
+                let Self { $($field),* } = self;
+                $(if *$field != other.$field {
+                    return Some((stringify!($field), format!("{:?}", $field), format!("{:?}", other.$field)));
+                })*
+                None
+            }};
+        }
+        compare!(
+            task,
+            forward_reward_weight,
+            ctrl_cost_weight,
+            contact_cost_weight,
+            contact_cost_range,
+            healthy_reward,
+            terminate_when_unhealthy,
+            healthy_z_range,
+            reset_noise_scale,
+            observation,
+            exclude_current_positions_from_observation,
+            include_cinert_in_observation,
+            include_cvel_in_observation,
+            include_qfrc_actuator_in_observation,
+            include_cfrc_ext_in_observation,
+            max_episode_steps,
+            substeps,
+            solver_iterations,
+            self_collision,
+            randomisation,
+        )
+    }
+
     /// The flags of the blocks that can be left out.
     fn inclusions(&self) -> [(&'static str, bool); 4] {
         [

@@ -1,10 +1,13 @@
 //! One humanoid with its clock: episodes, resets, faults.
 
+mod snapshot;
+
 use rand::{Rng, RngExt, SeedableRng};
 use rand_xoshiro::Xoshiro256PlusPlus;
 
+pub use self::snapshot::EnvironmentSnapshot;
 use crate::config::{CONTROL_STEP_S, EnvironmentConfig};
-use crate::error::{LengthError, ModelError};
+use crate::error::{InputError, ModelError};
 use crate::info::{PerTendon, StepInfo};
 use crate::model::{Model, Tendon};
 use crate::observation::Observation;
@@ -114,8 +117,8 @@ impl Environment {
     /// As [`Self::reset`], for buffers from outside.
     ///
     /// # Errors
-    /// [`LengthError`] if `observation` has the wrong length; nothing has happened then.
-    pub fn try_reset(&mut self, seed: u64, observation: &mut [f32]) -> Result<(), LengthError> {
+    /// [`InputError`] if `observation` has the wrong length; nothing has happened then.
+    pub fn try_reset(&mut self, seed: u64, observation: &mut [f32]) -> Result<(), InputError> {
         self.check_observation(observation)?;
         let mut random = Xoshiro256PlusPlus::seed_from_u64(seed);
         let scale = self.config.reset_noise_scale;
@@ -144,16 +147,23 @@ impl Environment {
     /// # Panics
     /// If `action` or `observation` has the wrong length.
     pub fn step(&mut self, action: &[f32], observation: &mut [f32]) -> Step {
-        self.try_step(action, observation).unwrap_or_else(|why| panic!("{why}"))
+        self.check_lengths(action, observation).unwrap_or_else(|why| panic!("{why}"));
+        self.advance(action, observation)
     }
 
-    /// As [`Self::step`], for actions from outside.
+    /// As [`Self::step`], for actions from outside: one that is not finite is refused, and ends no episode.
     ///
     /// # Errors
-    /// [`LengthError`] if `action` or `observation` has the wrong length; nothing has happened then.
-    pub fn try_step(&mut self, action: &[f32], observation: &mut [f32]) -> Result<Step, LengthError> {
-        LengthError::check("action", action.len(), self.controls.len())?;
-        self.check_observation(observation)?;
+    /// [`InputError`] if `action` or `observation` has the wrong length, or an entry of `action` is not finite; nothing
+    /// has happened then.
+    pub fn try_step(&mut self, action: &[f32], observation: &mut [f32]) -> Result<Step, InputError> {
+        self.check_lengths(action, observation)?;
+        InputError::check_finite("action", action)?;
+        Ok(self.advance(action, observation))
+    }
+
+    /// One control step with slices of the right lengths.
+    fn advance(&mut self, action: &[f32], observation: &mut [f32]) -> Step {
         for (control, (action, [low, high])) in self.controls.iter_mut().zip(action.iter().zip(&self.ranges)) {
             *control = action.clamp(*low, *high);
         }
@@ -166,7 +176,7 @@ impl Environment {
         let is_finite = action.iter().all(|control| control.is_finite());
         let acting = if is_finite { self.disturber.act(&self.controls) } else { action };
         if self.physics.step_only(acting).is_err() {
-            return Ok(self.fault(observation));
+            return self.fault(observation);
         }
         let after = self.physics.centre_of_mass();
         let position = self.physics.position();
@@ -185,14 +195,14 @@ impl Environment {
         );
         self.last_info = step.info;
         self.record(observation);
-        Ok(step)
+        step
     }
 
     /// Writes what is seen now, without sensor noise, whichever way the body got into its state.
     ///
     /// # Errors
-    /// [`LengthError`] if `observation` has the wrong length.
-    pub fn observe(&self, observation: &mut [f32]) -> Result<(), LengthError> {
+    /// [`InputError`] if `observation` has the wrong length.
+    pub fn observe(&self, observation: &mut [f32]) -> Result<(), InputError> {
         self.check_observation(observation)?;
         self.observation.write(&self.physics, observation);
         Ok(())
@@ -217,8 +227,13 @@ impl Environment {
         &self.config
     }
 
-    fn check_observation(&self, observation: &[f32]) -> Result<(), LengthError> {
-        LengthError::check("observation buffer", observation.len(), self.observation_size())
+    fn check_lengths(&self, action: &[f32], observation: &[f32]) -> Result<(), InputError> {
+        InputError::check_length("action", action.len(), self.controls.len())?;
+        self.check_observation(observation)
+    }
+
+    fn check_observation(&self, observation: &[f32]) -> Result<(), InputError> {
+        InputError::check_length("observation buffer", observation.len(), self.observation_size())
     }
 
     fn record(&mut self, observation: &mut [f32]) {

@@ -1,4 +1,4 @@
-//! Why an environment could not be built.
+//! Why an environment could not be built, or does not take what it is given.
 
 use std::path::PathBuf;
 
@@ -70,22 +70,119 @@ pub enum ModelError {
     },
 }
 
-/// An action or an observation buffer does not have the environment's size.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("{what} has the wrong length: {found} instead of {expected}")]
-pub struct LengthError {
-    /// Which of the two.
-    pub what: &'static str,
-    /// Its length.
-    pub found: usize,
-    /// The length it should have.
-    pub expected: usize,
+/// An action or a buffer that an environment cannot take; nothing has happened then.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum InputError {
+    /// It does not have the environment's size.
+    #[error("{what} has the wrong length: {found} instead of {expected}")]
+    Length {
+        /// The action, or the buffer of the observation.
+        what: &'static str,
+        /// Its length.
+        found: usize,
+        /// The length it should have.
+        expected: usize,
+    },
+    /// It holds a number that is none.
+    #[error("{what}[{index}] is {value}, but every entry must be a finite number")]
+    NotFinite {
+        /// The action.
+        what: &'static str,
+        /// Which entry.
+        index: usize,
+        /// What stands there.
+        value: f32,
+    },
 }
 
-impl LengthError {
-    pub(crate) fn check(what: &'static str, found: usize, expected: usize) -> Result<(), Self> {
-        if found == expected { Ok(()) } else { Err(Self { what, found, expected }) }
+impl InputError {
+    pub(crate) fn check_length(what: &'static str, found: usize, expected: usize) -> Result<(), Self> {
+        if found == expected { Ok(()) } else { Err(Self::Length { what, found, expected }) }
     }
+
+    pub(crate) fn check_finite(what: &'static str, numbers: &[f32]) -> Result<(), Self> {
+        match numbers.iter().enumerate().find(|(_, number)| !number.is_finite()) {
+            Some((index, &value)) => Err(Self::NotFinite { what, index, value }),
+            None => Ok(()),
+        }
+    }
+}
+
+/// A position or velocity vector that no body can have; nothing has happened then.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum StateError {
+    /// A vector does not have the model's size.
+    #[error("{what} vector has the wrong length: {found} instead of {expected}")]
+    Length {
+        /// `position` or `velocity`.
+        what: &'static str,
+        /// Its length.
+        found: usize,
+        /// The length it should have.
+        expected: usize,
+    },
+    /// A number is infinite or none.
+    #[error("{what}[{index}], the {name}, is {value}, but must be a finite number")]
+    NotFinite {
+        /// `position` or `velocity`.
+        what: &'static str,
+        /// Which entry.
+        index: usize,
+        /// What it means, with the name of its hinge if it belongs to one.
+        name: String,
+        /// What stands there.
+        value: f64,
+    },
+    /// The root's quaternion is too short or too long to say a rotation.
+    #[error("the root quaternion position[3..7] is {value:?}, which is no rotation: give w, x, y, z of length 1")]
+    Quaternion {
+        /// What stands there: w, x, y, z.
+        value: [f64; 4],
+    },
+    /// A hinge is far outside its range.
+    #[error(
+        "position[{index}], the angle of hinge `{hinge}`, is {value_rad} rad, but must lie between {min_rad} rad and \
+         {max_rad} rad, or at most {} rad beyond",
+        crate::physics::HINGE_TOLERANCE_RAD
+    )]
+    Hinge {
+        /// Which entry.
+        index: usize,
+        /// Name of the hinge.
+        hinge: String,
+        /// What stands there (rad).
+        value_rad: f64,
+        /// Lower end of its range (rad).
+        min_rad: f64,
+        /// Upper end of its range (rad).
+        max_rad: f64,
+    },
+}
+
+/// A snapshot was taken of something else than what it is to be laid over; nothing has happened then.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum SnapshotError {
+    /// It is of another model.
+    #[error("the snapshot is of another model: {part} differs; restore it where the same model text was read")]
+    Model {
+        /// The first part that differs.
+        part: String,
+    },
+    /// It was taken under other settings.
+    #[error(
+        "the snapshot was taken with `{setting}` = {taken}, but here it is {found}; restore it under the same settings"
+    )]
+    Setting {
+        /// Field of [`crate::EnvironmentConfig`].
+        setting: &'static str,
+        /// Its value where the snapshot was taken.
+        taken: String,
+        /// Its value here.
+        found: String,
+    },
 }
 
 impl ModelError {

@@ -30,11 +30,11 @@ mod chain;
 mod dynamics;
 
 pub use config::{CONTROL_STEP_S, EnvironmentConfig, ObservationKind, Task};
-pub use environment::Environment;
-pub use error::{LengthError, ModelError};
+pub use environment::{Environment, EnvironmentSnapshot};
+pub use error::{InputError, ModelError, SnapshotError, StateError};
 pub use info::{InfoValue, StepInfo};
 pub use model::{HUMANOID_XML, Model, read_model_file};
 pub use observation::{OBSERVATION_SIZE_COMPACT, Observation};
-pub use physics::{ContactForce, JointQuality, Physics, PhysicsFault, Variation};
+pub use physics::{ContactForce, JointQuality, Physics, PhysicsFault, PhysicsSnapshot, Variation};
 pub use randomisation::Randomisation;
 pub use task::Step;

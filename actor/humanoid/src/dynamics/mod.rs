@@ -23,6 +23,9 @@ mod softness;
 mod spatial;
 mod tree;
 
+#[cfg(test)]
+mod tests;
+
 pub(crate) use contacts::{ContactPoint, Contacts};
 pub(crate) use flight::Flight;
 pub(crate) use posture::Posture;

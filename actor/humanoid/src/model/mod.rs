@@ -31,7 +31,7 @@ use crate::error::ModelError;
 pub const HUMANOID_XML: &str = include_str!("../../assets/humanoid.xml");
 
 /// A tree of rigid bodies on a floating root, moved by motors at its hinges.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Model {
     /// Bodies, parents before children; the first one is the floating root.
     pub bodies: Vec<Body>,
@@ -55,7 +55,7 @@ pub struct Model {
 }
 
 /// One rigid body; parts welded to it in the text are merged into it.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Body {
     /// Name in the text.
     pub name: String,
@@ -80,7 +80,7 @@ pub struct Body {
 }
 
 /// A body of the text: a rigid body of its own, or a welded part of one.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Link {
     /// Name in the text.
     pub name: String,
@@ -99,7 +99,7 @@ pub struct Link {
 }
 
 /// A fixed tendon: a weighted sum of hinge angles. It exerts no force.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Tendon {
     /// Name in the text.
     pub name: String,
@@ -195,7 +195,7 @@ impl Geometry {
 }
 
 /// One hinge of a chain between a body and its parent.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Hinge {
     /// Name in the text.
     pub name: String,
@@ -236,7 +236,7 @@ impl Hinge {
 
 /// A motor or a servo: torque = gear × force, where force = gain × control + bias · (1, length, velocity), and length
 /// and velocity are those of the hinge times [`Motor::length_per_rad`]. A plain motor has gain 1 and no bias.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Motor {
     /// Name in the text.
     pub name: String,
@@ -266,6 +266,22 @@ impl Model {
     /// [`ModelError`] names the first element that cannot be simulated.
     pub fn from_mjcf(text: &str) -> Result<Self, ModelError> {
         mjcf::read(text)
+    }
+
+    /// The first part that is not the same in another model.
+    pub(crate) fn difference(&self, other: &Self) -> Option<String> {
+        fn among<T: PartialEq>(kind: &str, ours: &[T], theirs: &[T], name: fn(&T) -> &str) -> Option<String> {
+            if ours.len() != theirs.len() {
+                return Some(format!("{kind} count ({} and {})", ours.len(), theirs.len()));
+            }
+            ours.iter().zip(theirs).find(|(one, other)| one != other).map(|(one, _)| format!("{kind} `{}`", name(one)))
+        }
+        among("body part", &self.links, &other.links, |link| &link.name)
+            .or_else(|| among("rigid body", &self.bodies, &other.bodies, |body| &body.name))
+            .or_else(|| among("hinge", &self.hinges, &other.hinges, |hinge| &hinge.name))
+            .or_else(|| among("motor", &self.motors, &other.motors, |motor| &motor.name))
+            .or_else(|| among("tendon", &self.tendons, &other.tendons, |tendon| &tendon.name))
+            .or_else(|| (self != other).then(|| "the floor, gravity or who touches whom".to_owned()))
     }
 
     /// Which link a shape of a rigid body belongs to.

@@ -13,6 +13,8 @@ mod convert;
 mod drive;
 mod exchange;
 mod motion;
+mod snapshot;
+mod state;
 mod variation;
 mod world;
 
@@ -21,6 +23,9 @@ use nalgebra::{Point3, Vector3};
 pub use self::contact::ContactForce;
 use self::contact::ContactImpulse;
 pub use self::motion::BodyMotion;
+pub use self::snapshot::PhysicsSnapshot;
+use self::snapshot::Settings;
+pub use self::state::HINGE_TOLERANCE_RAD;
 use self::variation::Variable;
 pub use self::variation::Variation;
 use self::world::World;
@@ -52,6 +57,7 @@ pub struct Physics {
     flight: Flight,
     touching: Contacts,
     substeps: u32,
+    settings: Settings,
     position: Vec<f64>,
     velocity: Vec<f64>,
     /// Posture at `position`.
@@ -82,6 +88,7 @@ impl Physics {
             flight: Flight::new(&tree),
             touching: Contacts::new(&tree),
             substeps: config.substeps,
+            settings: Settings::of(config),
             position: vec![0.0; model.position_size()],
             velocity: vec![0.0; model.velocity_size()],
             posture: Posture::new(&tree),

@@ -1,5 +1,7 @@
 //! Bodies that differ from their model, and pushes: what an episode can be made harder with.
 
+use std::sync::Arc;
+
 use nalgebra::Vector3;
 use rapier3d::prelude::*;
 
@@ -67,15 +69,16 @@ impl Variation {
 }
 
 /// The model as it was read, and the variation that takes effect at the next start.
+#[derive(Clone)]
 pub(super) struct Variable {
-    nominal: Model,
-    variation: Variation,
-    is_due: bool,
+    pub(super) nominal: Arc<Model>,
+    pub(super) variation: Variation,
+    pub(super) is_due: bool,
 }
 
 impl Variable {
     pub(super) fn new(model: &Model) -> Self {
-        Self { nominal: model.clone(), variation: Variation::none(model), is_due: false }
+        Self { nominal: Arc::new(model.clone()), variation: Variation::none(model), is_due: false }
     }
 
     /// Brings model, tree and world up to date with the variation; what is simulated must be placed anew afterwards.
@@ -118,7 +121,7 @@ impl Physics {
 
 impl World {
     /// Lays a model's masses and floor over the template, from which the next episode starts.
-    fn vary(&mut self, model: &Model) {
+    pub(super) fn vary(&mut self, model: &Model) {
         for (handle, body) in self.bodies.iter().zip(&model.bodies) {
             if let Some(rigid) = self.template.bodies.get_mut(*handle) {
                 rigid.set_additional_mass_properties(mass_properties(body), false);

@@ -20,6 +20,7 @@ const QUATERNION: std::ops::Range<usize> = 1..5;
 /// Disturbs one environment; does nothing at all, and draws nothing, where nothing is randomised.
 ///
 /// It allocates only when it is made.
+#[derive(Clone)]
 pub(crate) struct Disturber {
     settings: Randomisation,
     is_on: bool,

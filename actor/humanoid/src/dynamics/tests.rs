@@ -1,0 +1,222 @@
+//! Parts of the dynamics against independent ways to the same numbers.
+
+use nalgebra::{DMatrix, DVector, Rotation3, UnitQuaternion, Vector3};
+use rand::{RngExt, SeedableRng};
+use rand_xoshiro::Xoshiro256PlusPlus;
+
+use super::limits::Limits;
+use super::mass_matrix::MassMatrix;
+use super::posture::{Posture, integrate};
+use super::{ContactPoint, Contacts, Flight, ROOT_DOFS, ROOT_POSITIONS, Tree};
+use crate::model::{HUMANOID_XML, Model};
+
+/// A body's centre (m) and orientation.
+type Place = (Vector3<f64>, Rotation3<f64>);
+
+/// Where each body is at a position vector.
+fn bodies(tree: &Tree, position: &[f64]) -> Vec<Place> {
+    let mut posture = Posture::new(tree);
+    posture.lay(tree, position);
+    let root = Vector3::from_column_slice(&position[..3]);
+    let turned = posture.rotations.iter().map(|rotation| Rotation3::from_matrix_unchecked(*rotation));
+    posture.centres_m.iter().map(|centre| root + centre).zip(turned).collect()
+}
+
+/// The mass matrix from nothing but places and orientations: Σ m JᵀJ + J_ωᵀ I J_ω + rotors, with Jacobians by central
+/// differences.
+fn mass_matrix_by_differences(tree: &Tree, position: &[f64]) -> DMatrix<f64> {
+    const STEP: f64 = 1e-5;
+    let dofs = tree.dofs();
+    let now = bodies(tree, position);
+    let shifted: Vec<[Vec<Place>; 2]> = (0..dofs)
+        .map(|dof| {
+            [-STEP, STEP].map(|by| {
+                let (mut direction, mut to) = (vec![0.0; dofs], position.to_vec());
+                direction[dof] = 1.0;
+                integrate(position, &direction, by, &mut to);
+                bodies(tree, &to)
+            })
+        })
+        .collect();
+    let mut matrix = DMatrix::zeros(dofs, dofs);
+    for (index, node) in tree.nodes.iter().enumerate() {
+        let (mut linear, mut angular) = (DMatrix::zeros(3, dofs), DMatrix::zeros(3, dofs));
+        for (dof, [before, after]) in shifted.iter().enumerate() {
+            linear.set_column(dof, &((after[index].0 - before[index].0) / (2.0 * STEP)));
+            let turn = after[index].1 * before[index].1.inverse();
+            angular.set_column(dof, &(turn.scaled_axis() / (2.0 * STEP)));
+        }
+        let inertia = now[index].1 * node.inertia_kgm2 * now[index].1.inverse();
+        matrix += linear.transpose() * &linear * node.mass_kg + angular.transpose() * inertia * &angular;
+    }
+    for (hinge, node) in tree.hinges.iter().enumerate() {
+        matrix[(ROOT_DOFS + hinge, ROOT_DOFS + hinge)] += node.armature_kgm2;
+    }
+    matrix
+}
+
+fn random_position(model: &Model, random: &mut Xoshiro256PlusPlus) -> Vec<f64> {
+    let turn = UnitQuaternion::from_scaled_axis(Vector3::from_fn(|_, _| random.random_range(-3.0..3.0)));
+    let mut position = vec![0.3, -0.2, 2.0, turn.w, turn.i, turn.j, turn.k];
+    for hinge in &model.hinges {
+        position.push(hinge.min_rad + random.random_range(0.1..0.9) * (hinge.max_rad - hinge.min_rad));
+    }
+    position
+}
+
+#[test]
+fn torques_accelerate_about_the_true_axes_of_the_moment() {
+    let xml = HUMANOID_XML.replace("<option ", "<option gravity=\"0 0 0\" ");
+    let model = Model::from_mjcf(&xml).expect("valid");
+    let tree = Tree::new(&model);
+    let (mut flight, mut start) = (Flight::new(&tree), Posture::new(&tree));
+    let mut random = Xoshiro256PlusPlus::seed_from_u64(2);
+    // So short that the acceleration stays what it is; velocities are still of twelve digits.
+    let time_s = 1e-7;
+    for _ in 0..6 {
+        let position = random_position(&model, &mut random);
+        let inverse = mass_matrix_by_differences(&tree, &position).try_inverse().expect("positive definite");
+        start.lay(&tree, &position);
+        start.weigh(&tree);
+        for pulled in 0..model.hinges.len() {
+            let mut torques = vec![0.0; model.hinges.len()];
+            torques[pulled] = 30.0;
+            flight.fly(&tree, &start, &position, &vec![0.0; tree.dofs()], &torques, time_s);
+            let mut forces = DVector::zeros(tree.dofs());
+            for (hinge, node) in tree.hinges.iter().enumerate() {
+                let spring = -node.stiffness_nmprad * (position[ROOT_POSITIONS + hinge] - node.rest_rad);
+                forces[ROOT_DOFS + hinge] = torques[hinge] + spring;
+            }
+            let wanted = &inverse * forces;
+            let found = DVector::from_column_slice(&flight.velocity) / time_s;
+            let off = (&found - &wanted).norm() / wanted.norm();
+            assert!(off < 1e-4, "{}: off by {off}", model.hinges[pulled].name);
+        }
+    }
+}
+
+#[test]
+fn the_factored_mass_matrix_is_that_of_the_bodies() {
+    let model = Model::from_mjcf(HUMANOID_XML).expect("valid");
+    let tree = Tree::new(&model);
+    let mut random = Xoshiro256PlusPlus::seed_from_u64(4);
+    let (mut posture, mut matrix) = (Posture::new(&tree), MassMatrix::new(&tree));
+    let mut rotors = vec![0.0; tree.dofs()];
+    for (rotor, hinge) in rotors[ROOT_DOFS..].iter_mut().zip(&tree.hinges) {
+        *rotor = hinge.armature_kgm2;
+    }
+    for _ in 0..6 {
+        let position = random_position(&model, &mut random);
+        posture.lay(&tree, &position);
+        posture.weigh(&tree);
+        matrix.assemble(&tree, &posture);
+        matrix.add_diagonal(&tree, &rotors);
+        matrix.factor(&tree);
+        let dense = mass_matrix_by_differences(&tree, &position);
+        let wanted = DVector::from_fn(tree.dofs(), |_, _| random.random_range(-1.0..1.0));
+        let mut found = (&dense * &wanted).as_slice().to_vec();
+        matrix.solve(&tree, &mut found);
+        let off = (DVector::from_vec(found) - &wanted).norm();
+        // What differences lose is magnified by the matrix' condition.
+        assert!(off < 1e-4, "off by {off}");
+    }
+}
+
+/// A box of 2 kg with a small part on a hinge that is far away from any contact's line.
+const BOX: &str = r#"<mujoco><option gravity="0 0 0"/><worldbody><geom type="plane" size="1 1 1"/>
+    <body pos="0 0 0.1"><freejoint/><geom type="box" size="0.2 0.3 0.1" mass="2" contype="0" conaffinity="0"/>
+    <body><joint name="j" axis="0 0 1"/><geom size="0.01" mass="1e-6" contype="0" conaffinity="0"/></body>
+    </body></worldbody><actuator><motor joint="j"/></actuator></mujoco>"#;
+
+fn on_the_floor(x_m: f64, y_m: f64, friction: f64) -> ContactPoint {
+    ContactPoint {
+        bodies: [None, Some(0)],
+        links: [None, Some(0)],
+        place_m: Vector3::new(x_m, y_m, -0.1),
+        normal: Vector3::z(),
+        gap_m: -1e-4,
+        friction,
+        impulse_ns: Vector3::zeros(),
+    }
+}
+
+/// Velocity of the box and impulses of its contacts after one step in which nothing else acts.
+fn touch(points: &[ContactPoint], velocity: [f64; 3]) -> (Vec<f64>, Vec<Vector3<f64>>) {
+    let model = Model::from_mjcf(BOX).expect("valid");
+    let tree = Tree::new(&model);
+    let position = model.nominal_position();
+    let (mut posture, mut matrix) = (Posture::new(&tree), MassMatrix::new(&tree));
+    posture.lay(&tree, &position);
+    posture.weigh(&tree);
+    matrix.assemble(&tree, &posture);
+    matrix.factor(&tree);
+    let mut before = vec![0.0; tree.dofs()];
+    before[..3].copy_from_slice(&velocity);
+    let mut after = before.clone();
+    let (mut contacts, mut limits) = (Contacts::new(&tree), Limits::new(&tree));
+    points.iter().for_each(|point| contacts.push(*point));
+    let (posture, matrix, limits) = (&posture, &matrix, &mut limits);
+    assert!(contacts.solve(&tree, posture, matrix, limits, &position, &before, &mut after, 0.0075));
+    (after, contacts.points.iter().map(|point| point.impulse_ns).collect())
+}
+
+#[test]
+fn contact_impulses_stay_in_their_cones_and_are_what_changes_the_momentum() {
+    let corners = [(0.2, 0.3), (0.2, -0.3), (-0.2, 0.3), (-0.2, -0.3)];
+    for friction in [0.0, 0.3, 1.0, 5.0] {
+        for velocity in [[0.0, 0.0, -1.0], [2.0, 0.0, -1.0], [-0.5, 3.0, -0.2], [0.1, 0.1, -2.0]] {
+            let points = corners.map(|(x_m, y_m)| on_the_floor(x_m, y_m, friction));
+            let (after, impulses) = touch(&points, velocity);
+            let mut sum = Vector3::zeros();
+            for impulse in &impulses {
+                assert!(impulse.z >= 0.0, "contacts must not pull: {impulse}");
+                let across = impulse.x.hypot(impulse.y);
+                assert!(
+                    across <= friction * impulse.z * (1.0 + 1e-12),
+                    "{across} N·s at friction {friction}: {impulse}"
+                );
+                sum += impulse;
+            }
+            assert!(sum.z > 0.1, "it must be stopped");
+            // What rubs takes speed away and does not turn it round.
+            for axis in 0..2 {
+                assert!(
+                    sum[axis] * velocity[axis] <= 1e-9 && after[axis] * velocity[axis] >= -1e-9,
+                    "{sum}, {after:?}"
+                );
+            }
+            for axis in 0..3 {
+                assert!((sum[axis] / 2.000_001 - (after[axis] - velocity[axis])).abs() < 1e-9);
+            }
+        }
+    }
+}
+
+#[test]
+fn points_that_say_the_same_share_what_one_would_carry() {
+    // Below the centre, so that nothing turns: with friction the box would tip, so there is none.
+    let one = on_the_floor(0.0, 0.0, 0.0);
+    let velocity = [1.0, 0.5, -1.0];
+    let (alone, single) = touch(&[one], velocity);
+    for copies in [2, 4] {
+        let (together, shared) = touch(&vec![one; copies], velocity);
+        let sum: Vector3<f64> = shared.iter().sum();
+        assert!(shared.iter().all(|impulse| impulse.z >= 0.0));
+        // Each is soft by itself, so several take over a little more: at most all instead of 95 %.
+        let ratio = sum.z / single[0].z;
+        assert!((1.0..1.06).contains(&ratio), "{copies} carry {ratio} times as much");
+        assert!((together[2] - alone[2]).abs() < 0.06, "{together:?}");
+        assert!((together[0] - 1.0).abs() < 1e-12 && (together[1] - 0.5).abs() < 1e-12);
+    }
+}
+
+#[test]
+fn a_contact_between_parts_that_cannot_move_apart_does_nothing() {
+    let stuck = ContactPoint { bodies: [Some(0), Some(0)], links: [Some(0), Some(0)], ..on_the_floor(0.1, 0.0, 1.0) };
+    let velocity = [1.0, 0.0, -1.0];
+    let floor = on_the_floor(0.0, 0.0, 0.0);
+    let (after, impulses) = touch(&[stuck, floor], velocity);
+    assert_eq!(impulses[0], Vector3::zeros());
+    let (alone, single) = touch(&[floor], velocity);
+    assert_eq!((after, impulses[1]), (alone, single[0]));
+}

@@ -1,0 +1,106 @@
+//! A box on the floor: what every contact solver must get right.
+
+use nalgebra::{UnitQuaternion, Vector3};
+use treadmill_humanoid::{CONTROL_STEP_S, EnvironmentConfig, Model, Physics};
+
+const GRAVITY_MPS2: f64 = 9.81;
+const MASS_KG: f64 = 3.0;
+
+/// A flat box, 0.4 m × 0.6 m × 0.2 m; the model needs a hinge and a motor, which move next to nothing.
+fn flat_box(friction: f64, substeps: u32) -> Physics {
+    let text = format!(
+        r#"<mujoco><worldbody><geom type="plane" size="1 1 1" friction="{friction}"/><body pos="0 0 0.1"><freejoint/>
+           <geom type="box" size="0.2 0.3 0.1" mass="3" friction="{friction}"/>
+           <body><joint name="j" damping="0.01"/>
+           <inertial pos="0 0 0" mass="1e-6" diaginertia="1e-9 1e-9 1e-9"/></body>
+           </body></worldbody><actuator><motor joint="j"/></actuator></mujoco>"#
+    );
+    let config = EnvironmentConfig { substeps, ..EnvironmentConfig::default() };
+    Physics::new(Model::from_mjcf(&text).expect("valid"), &config).expect("valid")
+}
+
+fn step(body: &mut Physics) {
+    body.step_only(&[0.0]).expect("finite");
+}
+
+#[test]
+fn at_rest_the_floor_carries_the_weight_and_nothing_else_happens() {
+    let mut body = flat_box(1.0, 2);
+    for _ in 0..100 {
+        step(&mut body);
+    }
+    let place = body.position().to_vec();
+    for _ in 0..100 {
+        step(&mut body);
+        let (force_n, moment_nm) = body.contact_wrench(0);
+        let wanted = Vector3::new(0.0, 0.0, MASS_KG * GRAVITY_MPS2);
+        assert!((force_n - wanted).norm() < 0.01 * wanted.z, "{force_n} N");
+        assert!(moment_nm.norm() < 0.05, "{moment_nm} N·m");
+    }
+    let moved = place.iter().zip(body.position()).take(7).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+    // The sweeps leave a creep of 0.4 mm/s behind.
+    assert!(moved < 1.5e-3, "it crept by {moved} m or rad in 1.5 s");
+}
+
+#[test]
+fn sliding_takes_friction_times_gravity_from_the_speed() {
+    for friction in [0.2, 0.5, 0.8] {
+        let mut body = flat_box(friction, 2);
+        let mut position = body.model().nominal_position();
+        // It lies as deep as it does at rest, so that it neither lands nor jumps.
+        for _ in 0..60 {
+            step(&mut body);
+        }
+        position[2] = body.torso_height_m();
+        let speed_mps = 2.0;
+        body.set_state(&position, &[0.0, speed_mps, 0.0, 0.0, 0.0, 0.0, 0.0]);
+        let (first, steps) = (4, 10);
+        let mut start = 0.0;
+        for count in 0..first + steps {
+            if count == first {
+                start = body.centre_of_mass_velocity().y;
+            }
+            step(&mut body);
+        }
+        let slowed = (start - body.centre_of_mass_velocity().y) / (f64::from(steps) * CONTROL_STEP_S);
+        assert!((slowed / (friction * GRAVITY_MPS2) - 1.0).abs() < 0.03, "{slowed} m/s² at friction {friction}");
+        // In the end it stops and stays.
+        for _ in 0..200 {
+            step(&mut body);
+        }
+        assert!(body.centre_of_mass_velocity().norm() < 1e-3);
+    }
+}
+
+fn energy_j(body: &Physics) -> f64 {
+    let (part, motion) = (&body.model().bodies[0], body.body_motions()[0]);
+    let local = motion.pose.rotation.inverse() * motion.angular_radps;
+    let kinetic = part.mass_kg * motion.linear_mps.norm_squared() + local.dot(&(part.inertia_kgm2 * local));
+    kinetic / 2.0 + part.mass_kg * GRAVITY_MPS2 * motion.pose.translation.z
+}
+
+#[test]
+fn no_impact_gives_energy() {
+    for (index, tilt) in [(0.3, 0.2, 0.0), (0.8, 0.1, 0.5), (1.2, 0.7, 0.0), (0.0, 0.0, 0.0)].into_iter().enumerate() {
+        let mut body = flat_box(0.7, 2);
+        let rotation = UnitQuaternion::from_euler_angles(tilt.0, tilt.1, tilt.2);
+        let mut position = body.model().nominal_position();
+        position[2] = 0.8;
+        position[3..7].copy_from_slice(&[rotation.w, rotation.i, rotation.j, rotation.k]);
+        body.set_state(&position, &[1.0, -0.5, -1.0, 2.0, 1.0, -3.0, 0.0]);
+        let start = energy_j(&body);
+        let (mut last, mut gained, mut at_once) = (start, 0.0f64, 0.0f64);
+        for _ in 0..200 {
+            step(&mut body);
+            let now = energy_j(&body);
+            at_once = at_once.max(now - last);
+            gained = gained.max(now - start);
+            last = now;
+        }
+        assert!(gained <= 1e-3 * start, "drop {index}: {gained} J more than the {start} J it began with");
+        // What a soft floor has taken up it gives back, to the part of a joule.
+        assert!(at_once < 0.02 * start, "drop {index}: {at_once} J within one step");
+        // It comes to rest, on some side.
+        assert!(last < 0.7 * start, "drop {index}: {last} J left of {start} J");
+    }
+}

@@ -1,0 +1,338 @@
+//! How exact the articulated body is between contacts: symmetry, conservation, limits, springs.
+
+use nalgebra::{UnitQuaternion, Vector3};
+use rand::{RngExt, SeedableRng};
+use rand_xoshiro::Xoshiro256PlusPlus;
+use treadmill_humanoid::{CONTROL_STEP_S, EnvironmentConfig, HUMANOID_XML, Model, Physics};
+
+const GRAVITY_MPS2: f64 = 9.81;
+
+/// A text with some of its figures changed, each of which must be there.
+fn changed(changes: &[(&str, &str)]) -> String {
+    changes.iter().fold(HUMANOID_XML.to_owned(), |text, (from, to)| {
+        assert!(text.contains(from), "{from}");
+        text.replace(from, to)
+    })
+}
+
+const WEIGHTLESS: (&str, &str) = ("<option ", "<option gravity=\"0 0 0\" ");
+const WITHOUT_LIMITS: (&str, &str) = ("limited=\"true\" damping", "limited=\"false\" damping");
+const WITHOUT_FRICTION: [(&str, &str); 2] = [("damping=\"5\"", "damping=\"0\""), ("damping=\"1\"", "damping=\"0\"")];
+
+/// One in which nothing touches: far above the floor, and limbs may pass through each other.
+fn flying(xml: &str, substeps: u32) -> Physics {
+    let config = EnvironmentConfig { substeps, self_collision: false, ..EnvironmentConfig::default() };
+    Physics::new(Model::from_mjcf(xml).expect("valid"), &config).expect("valid")
+}
+
+/// A state 100 m up with any orientation, hinges in the inner part of their ranges, and rates of up to `rate`.
+fn random_state(model: &Model, random: &mut Xoshiro256PlusPlus, rate: f64) -> (Vec<f64>, Vec<f64>) {
+    let mut position = vec![random.random_range(-5.0..5.0), random.random_range(-5.0..5.0), 100.0];
+    let turn = Vector3::from_fn(|_, _| random.random_range(-3.0..3.0));
+    let quaternion = UnitQuaternion::from_scaled_axis(turn);
+    position.extend([quaternion.w, quaternion.i, quaternion.j, quaternion.k]);
+    for hinge in &model.hinges {
+        let share = random.random_range(0.2..0.8);
+        position.push(hinge.min_rad + share * (hinge.max_rad - hinge.min_rad));
+    }
+    // The pose without limits has no ranges; any angle will do.
+    for angle in &mut position[7..] {
+        if !angle.is_finite() {
+            *angle = random.random_range(-1.0..1.0);
+        }
+    }
+    let velocity = (0..model.velocity_size()).map(|_| random.random_range(-rate..rate)).collect();
+    (position, velocity)
+}
+
+/// For each hinge its mirror image and the sign that carries an angle over.
+fn mirror_of_hinges(model: &Model) -> Vec<(usize, f64)> {
+    model
+        .hinges
+        .iter()
+        .map(|hinge| {
+            let name = match hinge.name.split_once('_') {
+                Some(("left", rest)) => format!("right_{rest}"),
+                Some(("right", rest)) => format!("left_{rest}"),
+                _ => hinge.name.clone(),
+            };
+            let image = model.hinges.iter().position(|other| other.name == name).expect("each has a mirror image");
+            // An axis is a pseudo-vector: a mirror turns round what lies in it, and leaves what stands across.
+            let axis = hinge.axis.component_mul(&Vector3::new(-1.0, 1.0, -1.0));
+            let cosine = model.hinges[image].axis.dot(&axis);
+            assert!(cosine.abs() > 1.0 - 1e-12, "{name} is no mirror image of {}", hinge.name);
+            (image, cosine.signum())
+        })
+        .collect()
+}
+
+fn mirrored(state: &(Vec<f64>, Vec<f64>), hinges: &[(usize, f64)]) -> (Vec<f64>, Vec<f64>) {
+    let (mut position, mut velocity) = state.clone();
+    for index in [1, 4, 6] {
+        position[index] *= -1.0;
+    }
+    for index in [1, 3, 5] {
+        velocity[index] *= -1.0;
+    }
+    for (hinge, (image, sign)) in hinges.iter().enumerate() {
+        position[7 + image] = sign * state.0[7 + hinge];
+        velocity[6 + image] = sign * state.1[6 + hinge];
+    }
+    (position, velocity)
+}
+
+fn largest_difference(one: &[f64], other: &[f64]) -> f64 {
+    one.iter().zip(other).map(|(one, other)| (one - other).abs()).fold(0.0, f64::max)
+}
+
+/// A body and its mirror image. Left and right differ in two figures of Humanoid-v5 itself, which are made equal here.
+struct Mirror {
+    body: Physics,
+    image: Physics,
+    model: Model,
+    hinges: Vec<(usize, f64)>,
+}
+
+impl Mirror {
+    fn new(changes: &[(&str, &str)]) -> Self {
+        let equal =
+            [("stiffness=\"1\" armature=\"0.006\"", "armature=\"0.006\""), ("armature=\"0.008\"", "armature=\"0.01\"")];
+        let xml = changed(&[&equal[..], changes].concat());
+        let body = flying(&xml, 2);
+        let model = body.model().clone();
+        let hinges = mirror_of_hinges(&model);
+        assert!(hinges.iter().any(|(_, sign)| *sign < 0.0) && hinges.iter().any(|(_, sign)| *sign > 0.0));
+        Self { body, image: flying(&xml, 2), model, hinges }
+    }
+
+    fn set_state(&mut self, state: &(Vec<f64>, Vec<f64>)) {
+        let (position, velocity) = mirrored(state, &self.hinges);
+        self.body.set_state(&state.0, &state.1);
+        self.image.set_state(&position, &velocity);
+    }
+
+    /// Steps both, and tells by how much they differ afterwards in any coordinate or rate.
+    fn step(&mut self, controls: &[f32; 17]) -> f64 {
+        let mut others = [0.0; 17];
+        for (motor, control) in self.model.motors.iter().zip(controls) {
+            let (image, sign) = self.hinges[motor.hinge];
+            let other = self.model.motors.iter().position(|motor| motor.hinge == image).expect("has a motor");
+            others[other] = control * sign as f32;
+        }
+        self.body.step_only(controls).expect("finite");
+        self.image.step_only(&others).expect("finite");
+        let state = (self.body.position().to_vec(), self.body.velocity().to_vec());
+        let ((position, velocity), image) = (mirrored(&state, &self.hinges), self.image.position());
+        // q and −q are the same rotation.
+        let same: f64 = position[3..7].iter().zip(&image[3..7]).map(|(a, b)| a * b).sum();
+        (1.0 - same.abs())
+            .max(largest_difference(&position[..3], &image[..3]))
+            .max(largest_difference(&position[7..], &image[7..]))
+            .max(largest_difference(&velocity, self.image.velocity()))
+    }
+
+    fn limits_reached(&self) -> usize {
+        let pairs = self.model.hinges.iter().zip(self.body.joint_angles());
+        pairs.filter(|(hinge, angle)| hinge.overshoot_rad(**angle) > 0.0).count()
+    }
+}
+
+#[test]
+fn a_mirrored_body_moves_as_in_a_mirror() {
+    let mut mirror = Mirror::new(&[WITHOUT_LIMITS]);
+    let mut random = Xoshiro256PlusPlus::seed_from_u64(5);
+    for _ in 0..8 {
+        let state = random_state(&mirror.model, &mut random, 3.0);
+        mirror.set_state(&state);
+        for step in 0..20 {
+            let off = mirror.step(&std::array::from_fn(|_| random.random_range(-0.4..0.4)));
+            assert!(off < 1e-9, "off by {off} after step {step}");
+        }
+    }
+}
+
+#[test]
+fn limits_act_as_in_a_mirror() {
+    let mut mirror = Mirror::new(&[]);
+    let model = mirror.model.clone();
+    let mut random = Xoshiro256PlusPlus::seed_from_u64(6);
+    // One limit at a time: each hinge is flung against either end.
+    let (mut reached, mut worst) = (0, 0.0f64);
+    for (hinge, limits) in model.hinges.iter().enumerate() {
+        for (end, outwards) in [(limits.min_rad, -1.0), (limits.max_rad, 1.0)] {
+            let mut state = random_state(&model, &mut random, 0.5);
+            state.0[7 + hinge] = end - 0.03 * outwards;
+            state.1[6 + hinge] = 4.0 * outwards;
+            mirror.set_state(&state);
+            for _ in 0..4 {
+                let off = mirror.step(&[0.0; 17]);
+                match mirror.limits_reached() {
+                    0 => {}
+                    1 => reached += 1,
+                    _ => break,
+                }
+                worst = worst.max(off);
+            }
+        }
+    }
+    assert!(reached > 50, "{reached}");
+    assert!(worst < 1e-9, "off by {worst}");
+
+    // Several at once act on each other. They are solved one after the other, and not to the end: a step leaves this.
+    let mut several = 0;
+    let mut worst = 0.0f64;
+    for _ in 0..40 {
+        let mut state = random_state(&model, &mut random, 3.0);
+        for _ in 0..20 {
+            mirror.set_state(&state);
+            worst = worst.max(mirror.step(&std::array::from_fn(|_| random.random_range(-0.4..0.4))));
+            several += u32::from(mirror.limits_reached() > 1);
+            state = (mirror.body.position().to_vec(), mirror.body.velocity().to_vec());
+        }
+    }
+    assert!(several > 50, "{several}");
+    assert!(worst < 0.03, "off by {worst} rad/s");
+}
+
+#[test]
+fn a_chain_of_hinges_turns_one_after_the_other() {
+    let mut body = flying(HUMANOID_XML, 2);
+    let model = body.model().clone();
+    let mut random = Xoshiro256PlusPlus::seed_from_u64(9);
+    for _ in 0..20 {
+        let (position, velocity) = random_state(&model, &mut random, 5.0);
+        body.set_state(&position, &velocity);
+        for (index, part) in model.bodies.iter().enumerate() {
+            let Some(parent) = part.parent else { continue };
+            let motions = body.body_motions();
+            let (own, above) = (motions[index], motions[parent]);
+            let (mut rotation, mut spin) = (above.pose.rotation * part.pose.rotation, above.angular_radps);
+            for hinge in part.hinges.clone() {
+                let axis = model.hinges[hinge].axis;
+                spin += rotation * axis.into_inner() * velocity[6 + hinge];
+                rotation *= UnitQuaternion::from_axis_angle(&axis, position[7 + hinge]);
+            }
+            assert!(own.pose.rotation.angle_to(&rotation) < 1e-7, "{}", part.name);
+            assert!((own.angular_radps - spin).norm() < 1e-12, "{}", part.name);
+            // Both ends of the joint are in one place.
+            let apart = own.pose * part.anchor_m - above.pose * (part.pose * part.anchor_m);
+            assert!(apart.norm() < 1e-12, "{}", part.name);
+        }
+    }
+}
+
+/// Kinetic energy of bodies and rotors, energy of the springs, and of the height (J).
+fn energy_j(body: &Physics) -> f64 {
+    let model = body.model();
+    let mut sum = 0.0;
+    for (part, motion) in model.bodies.iter().zip(body.body_motions()) {
+        let local = motion.pose.rotation.inverse() * motion.angular_radps;
+        sum += part.mass_kg * motion.linear_mps.norm_squared() / 2.0 + local.dot(&(part.inertia_kgm2 * local)) / 2.0;
+        sum -= part.mass_kg * model.gravity_mps2.dot(&(motion.pose * part.centre_of_mass_m).coords);
+    }
+    for ((hinge, angle), rate) in model.hinges.iter().zip(body.joint_angles()).zip(body.joint_rates()) {
+        sum +=
+            hinge.armature_kgm2 * rate * rate / 2.0 + hinge.stiffness_nmprad * (angle - hinge.rest_rad).powi(2) / 2.0;
+    }
+    sum
+}
+
+/// Greatest change (J) of the energy of a passive body without friction and limits within 1 s of fall.
+fn energy_drift_j(substeps: u32) -> f64 {
+    let mut body = flying(&changed(&[&WITHOUT_FRICTION[..], &[WITHOUT_LIMITS]].concat()), substeps);
+    let model = body.model().clone();
+    let mut random = Xoshiro256PlusPlus::seed_from_u64(3);
+    let mut worst = 0.0f64;
+    for _ in 0..4 {
+        let (position, velocity) = random_state(&model, &mut random, 1.5);
+        body.set_state(&position, &velocity);
+        let start = energy_j(&body);
+        for _ in 0..(1.0 / CONTROL_STEP_S) as u32 {
+            body.step_only(&[0.0; 17]).expect("finite");
+            worst = worst.max((energy_j(&body) - start).abs());
+        }
+    }
+    worst
+}
+
+#[test]
+fn energy_of_a_passive_body_stays_and_the_better_the_finer_the_steps() {
+    let (coarse, fine) = (energy_drift_j(2), energy_drift_j(8));
+    assert!(coarse < 0.5, "{coarse} J");
+    assert!(fine < coarse / 9.0, "of second order, steps of a quarter leave a sixteenth: {fine} J of {coarse} J");
+}
+
+/// Momentum (N·s) and angular momentum about the centre of mass (N·m·s), from the bodies' motion alone.
+fn momentum(body: &Physics) -> (Vector3<f64>, Vector3<f64>) {
+    let centre = body.centre_of_mass();
+    let (mut linear, mut angular) = (Vector3::zeros(), Vector3::zeros());
+    for (part, motion) in body.model().bodies.iter().zip(body.body_motions()) {
+        let impulse = motion.linear_mps * part.mass_kg;
+        let local = motion.pose.rotation.inverse() * motion.angular_radps;
+        linear += impulse;
+        angular += (motion.pose * part.centre_of_mass_m - centre).cross(&impulse);
+        angular += motion.pose.rotation * (part.inertia_kgm2 * local);
+    }
+    (linear, angular)
+}
+
+#[test]
+fn motors_limits_and_gravity_change_no_momentum_but_that_of_falling() {
+    let mut body = flying(HUMANOID_XML, 2);
+    let model = body.model().clone();
+    let mut random = Xoshiro256PlusPlus::seed_from_u64(17);
+    let (mut reached, mut worst) = (0, 0.0f64);
+    for _ in 0..5 {
+        let (position, velocity) = random_state(&model, &mut random, 3.0);
+        body.set_state(&position, &velocity);
+        let (linear, angular) = momentum(&body);
+        let start = body.centre_of_mass();
+        for step in 1..=60 {
+            let controls: [f32; 17] = std::array::from_fn(|_| random.random_range(-0.4..0.4));
+            body.step_only(&controls).expect("finite");
+            reached += u32::from(body.joint_quality().limit_overshoot_rad > 0.0);
+            let time_s = f64::from(step) * CONTROL_STEP_S;
+            let fallen = Vector3::new(0.0, 0.0, -GRAVITY_MPS2 * time_s);
+            let (linear_now, angular_now) = momentum(&body);
+            let wanted = linear + fallen * model.mass_kg();
+            worst = worst.max((linear_now - wanted).norm() / linear.norm());
+            worst = worst.max((angular_now - angular).norm() / angular.norm());
+            // The centre of mass is on its parabola.
+            let place = start + linear / model.mass_kg() * time_s + fallen * (time_s / 2.0);
+            worst = worst.max((body.centre_of_mass() - place).norm());
+        }
+    }
+    assert!(reached > 100, "limits were hardly reached");
+    assert!(worst < 1e-11, "off by {worst}");
+}
+
+#[test]
+fn a_hinge_driven_against_an_end_stops_there_and_comes_back() {
+    let mut body = flying(&changed(&[WEIGHTLESS]), 2);
+    let model = body.model().clone();
+    let mut position = model.nominal_position();
+    position[2] = 100.0;
+    for (angle, hinge) in position[7..].iter_mut().zip(&model.hinges) {
+        *angle = hinge.centre_rad();
+    }
+    for (motor, hinge) in model.motors.iter().enumerate().map(|(index, motor)| (index, motor.hinge)) {
+        let limits = &model.hinges[hinge];
+        for (control, end_rad) in [(0.4, limits.max_rad), (-0.4, limits.min_rad)] {
+            body.set_state(&position, &[0.0; 23]);
+            let mut controls = [0.0; 17];
+            controls[motor] = control;
+            let mut beyond = f64::NEG_INFINITY;
+            for _ in 0..100 {
+                body.step_only(&controls).expect("finite");
+                beyond = beyond.max((body.joint_angles()[hinge] - end_rad) * f64::from(control).signum());
+            }
+            // Knees are flung furthest: 80 N·m push a shin by 0.17 rad too far.
+            assert!((0.0..0.2).contains(&beyond), "{} goes {beyond} rad beyond {end_rad} rad", limits.name);
+            for _ in 0..100 {
+                body.step_only(&[0.0; 17]).expect("finite");
+            }
+            let left = limits.overshoot_rad(body.joint_angles()[hinge]);
+            assert!(left < 1e-4, "{} stays {left} rad beyond {end_rad} rad", limits.name);
+        }
+    }
+}

@@ -1,0 +1,238 @@
+//! Episodes put aside and gone on with: to the last bit what they would have been.
+
+use rand::{RngExt, SeedableRng};
+use rand_xoshiro::Xoshiro256PlusPlus;
+use treadmill_humanoid::{
+    Environment, EnvironmentConfig, HUMANOID_XML, Model, ObservationKind, Physics, Randomisation, SnapshotError,
+};
+
+/// Everything that an episode can have: contact forces in the observation, and all randomisation.
+fn rich() -> EnvironmentConfig {
+    EnvironmentConfig {
+        observation: ObservationKind::GymnasiumV5,
+        terminate_when_unhealthy: false,
+        max_episode_steps: 400,
+        randomisation: Randomisation {
+            mass_scale: [0.8, 1.2],
+            floor_friction_scale: [0.5, 1.5],
+            motor_scale: [0.8, 1.2],
+            damping_scale: [0.8, 1.2],
+            armature_scale: [0.8, 1.2],
+            gravity_scale: [0.9, 1.1],
+            sensor_noise_position: 0.01,
+            sensor_noise_velocity: 0.05,
+            control_noise: 0.05,
+            action_delay_steps: [0, 3],
+            push_interval_s: [0.1, 0.5],
+            push_mps: [0.1, 0.5],
+        },
+        ..EnvironmentConfig::default()
+    }
+}
+
+fn environment(config: &EnvironmentConfig) -> Environment {
+    Environment::new(config, HUMANOID_XML).expect("valid")
+}
+
+/// Bits of all that steps `from..to` of an episode tell.
+fn go_on(environment: &mut Environment, from: u32, to: u32) -> Vec<u64> {
+    let mut observation = vec![0.0; environment.observation_size()];
+    let mut bits = Vec::new();
+    for step in from..to {
+        let action: [f32; 17] = std::array::from_fn(|motor| 0.4 * ((step * 31 + motor as u32 * 17) as f32).sin());
+        let result = environment.step(&action, &mut observation);
+        assert!(!result.fault);
+        bits.extend(observation.iter().map(|number| u64::from(number.to_bits())));
+        bits.push(u64::from(result.reward.to_bits()) << 2 | u64::from(result.truncated) << 1);
+        let physics = environment.physics();
+        bits.extend(physics.position().iter().chain(physics.velocity()).map(|number| number.to_bits()));
+    }
+    bits
+}
+
+fn reset(environment: &mut Environment, seed: u64) -> Vec<f32> {
+    let mut observation = vec![0.0; environment.observation_size()];
+    environment.reset(seed, &mut observation);
+    observation
+}
+
+#[test]
+fn an_episode_goes_on_from_a_snapshot_bit_for_bit() {
+    for config in [EnvironmentConfig { terminate_when_unhealthy: false, ..EnvironmentConfig::default() }, rich()] {
+        let mut original = environment(&config);
+        let mut other = environment(&config);
+        reset(&mut other, 99);
+        go_on(&mut other, 0, 70);
+        // Just reset, at the first contacts, while it falls, and among many contacts on the floor.
+        for at in [0, 2, 60, 150] {
+            reset(&mut original, 5);
+            go_on(&mut original, 0, at);
+            if at == 150 {
+                assert!(original.physics().squared_contact_wrenches() > 0.0, "nothing touches at {at}");
+            }
+            let snapshot = original.snapshot();
+            let wanted = go_on(&mut original, at, at + 250);
+
+            original.restore(&snapshot).expect("its own");
+            assert_eq!(wanted, go_on(&mut original, at, at + 250), "in the same environment, from {at}");
+            for seed in 0..3 {
+                reset(&mut original, seed);
+                go_on(&mut original, 0, 30);
+            }
+            original.restore(&snapshot).expect("its own");
+            assert_eq!(wanted, go_on(&mut original, at, at + 250), "after resets, from {at}");
+            other.restore(&snapshot).expect("of the same build");
+            assert_eq!(wanted, go_on(&mut other, at, at + 250), "in another environment, from {at}");
+        }
+    }
+}
+
+#[test]
+fn a_snapshot_changes_nothing_and_holds_what_was_last_told() {
+    let mut plain = environment(&rich());
+    let mut watched = environment(&rich());
+    reset(&mut plain, 8);
+    reset(&mut watched, 8);
+    let wanted = go_on(&mut plain, 0, 60);
+    let mut found = Vec::new();
+    for step in 0..60 {
+        let _ = watched.snapshot();
+        found.extend(go_on(&mut watched, step, step + 1));
+    }
+    assert_eq!(wanted, found);
+
+    let told = format!("{:?} {:?}", watched.info(), watched.joint_quality());
+    let (mut seen, mut seen_again) = (vec![0.0; watched.observation_size()], vec![0.0; watched.observation_size()]);
+    watched.observe(&mut seen).expect("the right length");
+    let snapshot = watched.snapshot();
+    reset(&mut watched, 9);
+    watched.restore(&snapshot).expect("its own");
+    watched.observe(&mut seen_again).expect("the right length");
+    assert_eq!(seen, seen_again);
+    assert_eq!(told, format!("{:?} {:?}", watched.info(), watched.joint_quality()));
+    // A fault hands out the observation of the step before, also after a restore.
+    let mut last = vec![0.0; seen.len()];
+    watched.step(&[0.1; 17], &mut last);
+    let snapshot = watched.snapshot();
+    reset(&mut watched, 10);
+    watched.restore(&snapshot).expect("its own");
+    watched.physics_mut().poison();
+    let mut after = vec![0.0; seen.len()];
+    assert!(watched.step(&[0.1; 17], &mut after).fault);
+    assert_eq!(last, after);
+}
+
+#[test]
+fn the_episode_after_a_restored_one_is_as_always() {
+    let config = rich();
+    let mut original = environment(&config);
+    reset(&mut original, 1);
+    go_on(&mut original, 0, 80);
+    let snapshot = original.snapshot();
+    // A start at a state of choice keeps the body of the episode, varied as it is.
+    let from_nominal = |environment: &mut Environment| {
+        let position = environment.physics().model().nominal_position();
+        environment.physics_mut().set_state(&position, &[0.0; 23]);
+        go_on(environment, 0, 100)
+    };
+    let varied = from_nominal(&mut original);
+    let first = reset(&mut original, 2);
+    let wanted = go_on(&mut original, 0, 80);
+
+    let mut other = environment(&config);
+    other.restore(&snapshot).expect("of the same build");
+    assert_eq!(first, reset(&mut other, 2));
+    assert_eq!(wanted, go_on(&mut other, 0, 80));
+    for environment in [&mut original, &mut other] {
+        environment.restore(&snapshot).expect("of the same build");
+        assert_eq!(varied, from_nominal(environment));
+    }
+}
+
+#[test]
+fn a_body_alone_goes_on_from_a_snapshot_and_keeps_its_fault() {
+    let build =
+        || Physics::new(Model::from_mjcf(HUMANOID_XML).expect("valid"), &EnvironmentConfig::default()).expect("valid");
+    let run = |physics: &mut Physics, seed: u64| {
+        let mut random = Xoshiro256PlusPlus::seed_from_u64(seed);
+        for _ in 0..120 {
+            let controls: [f32; 17] = std::array::from_fn(|_| random.random_range(-0.4..0.4));
+            physics.step_only(&controls).expect("finite");
+        }
+        [physics.position(), physics.velocity(), physics.joint_torques_nm()].concat()
+    };
+    let mut physics = build();
+    run(&mut physics, 1);
+    let snapshot = physics.snapshot();
+    let state = [physics.position(), physics.velocity(), physics.joint_torques_nm()].concat();
+    let wanted = run(&mut physics, 2);
+    let mut fresh = build();
+    fresh.restore(&snapshot).expect("of the same build");
+    assert_eq!(state, [fresh.position(), fresh.velocity(), fresh.joint_torques_nm()].concat());
+    assert_eq!(fresh.joint_quality(), {
+        physics.restore(&snapshot).expect("its own");
+        physics.joint_quality()
+    });
+    assert_eq!(wanted, run(&mut fresh, 2));
+
+    physics.poison();
+    assert!(physics.step_only(&[0.0; 17]).is_err());
+    let faulty = physics.snapshot();
+    fresh.restore(&faulty).expect("of the same build");
+    assert!(fresh.step_only(&[0.0; 17]).is_err(), "a fault lasts until the next start");
+    fresh.restore(&snapshot).expect("of the same build");
+    assert_eq!(wanted, run(&mut fresh, 2));
+}
+
+#[test]
+fn snapshots_of_something_else_are_refused_by_name() {
+    let config = EnvironmentConfig::default();
+    let mut original = environment(&config);
+    reset(&mut original, 3);
+    go_on(&mut original, 0, 10);
+    let snapshot = original.snapshot();
+
+    let mut finer = environment(&EnvironmentConfig { substeps: 3, ..config.clone() });
+    let untouched = reset(&mut finer, 4);
+    let refusal = finer.restore(&snapshot).expect_err("other substeps");
+    let wanted = SnapshotError::Setting { setting: "substeps", taken: "2".into(), found: "3".into() };
+    assert_eq!(refusal, wanted);
+    assert!(refusal.to_string().contains("`substeps` = 2, but here it is 3"), "{refusal}");
+    let mut seen = vec![0.0; finer.observation_size()];
+    finer.observe(&mut seen).expect("the right length");
+    assert_eq!(seen, untouched, "a refusal must change nothing");
+
+    let randomisation = Randomisation { push_mps: [0.0, 1.0], ..Randomisation::default() };
+    let told = environment(&EnvironmentConfig { randomisation, ..config.clone() }).restore(&snapshot);
+    assert!(told.expect_err("other pushes").to_string().contains("`randomisation`"));
+
+    for (from, to, part) in [
+        ("gear=\"300\"", "gear=\"301\"", "motor `right_hip_y`"),
+        ("range=\"-45 45\"", "range=\"-45 46\"", "hinge `abdomen_z`"),
+        ("size=\"0.049\"", "size=\"0.048\"", "body part `right_shin`"),
+        ("<option ", "<option gravity=\"0 0 -9.8\" ", "gravity"),
+    ] {
+        let xml = HUMANOID_XML.replace(from, to);
+        assert_ne!(xml, HUMANOID_XML);
+        let told = Environment::new(&config, &xml).expect("valid").restore(&snapshot).expect_err(part).to_string();
+        assert!(told.contains(part), "{told}");
+    }
+
+    let model = Model::from_mjcf(HUMANOID_XML).expect("valid");
+    let plain = Physics::new(model.clone(), &config).expect("valid").snapshot();
+    type Change = fn(&mut EnvironmentConfig);
+    let changes: [(&str, Change); 3] = [
+        ("substeps", |c| c.substeps = 4),
+        ("solver_iterations", |c| c.solver_iterations = 3),
+        ("self_collision", |c| c.self_collision = false),
+    ];
+    for (name, change) in changes {
+        let mut changed = config.clone();
+        change(&mut changed);
+        let refusal = Physics::new(model.clone(), &changed).expect("valid").restore(&plain).expect_err(name);
+        assert!(refusal.to_string().contains(name), "{refusal}");
+    }
+    // What no motion depends on is none of the body's business.
+    let other_task = EnvironmentConfig { healthy_reward: 1.0, ..config };
+    assert!(Physics::new(model, &other_task).expect("valid").restore(&plain).is_ok());
+}
