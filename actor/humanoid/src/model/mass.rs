@@ -1,4 +1,4 @@
-//! What a body of the text weighs: by its <inertial> element or by its shapes, and the compiler's rules about it.
+//! What a body of the text weighs: by its `<inertial>` element or by its shapes, and the compiler's rules about it.
 
 use mjcf_rs::body::{InertiaSpec, Inertial};
 use mjcf_rs::compiler::{Compiler, InertiaFromGeom};
