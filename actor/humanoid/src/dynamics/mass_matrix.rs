@@ -41,7 +41,11 @@ impl MassMatrix {
     fn fill_row(&mut self, tree: &Tree, posture: &Posture, dof: usize, composite: &Inertia) {
         let force = composite.times(&posture.axes[dof]);
         let row = &mut self.entries[tree.row(dof)];
-        for (entry, other) in row.iter_mut().zip(tree.path(dof)) {
+        // The first three degrees of freedom are translations along the world's axes: they feel the force itself.
+        for (entry, part) in row.iter_mut().zip(force.force.iter()) {
+            *entry = *part;
+        }
+        for (entry, other) in row.iter_mut().zip(tree.path(dof)).skip(3) {
             *entry = posture.axes[*other as usize].dot(&force);
         }
     }
@@ -63,13 +67,20 @@ impl MassMatrix {
             let Some((own, row)) = from[..place.len()].split_last_mut() else { continue };
             let pivot = 1.0 / *own;
             *own = pivot;
-            for (position, i) in tree.path(k)[..row.len()].iter().enumerate().rev() {
-                let factor = row[position] * pivot;
-                let start = tree.row(*i as usize).start;
-                for (entry, coupled) in before[start..=start + position].iter_mut().zip(&row[..=position]) {
+            let (root, hinges) = row.split_at_mut(row.len().min(ROOT_DOFS));
+            let path = tree.path(k);
+            for position in (0..hinges.len()).rev() {
+                let factor = hinges[position] * pivot;
+                let target = &mut before[tree.row(path[ROOT_DOFS + position] as usize)];
+                for (entry, coupled) in target.iter_mut().zip(root.iter().chain(&hinges[..=position])) {
                     *entry -= factor * coupled;
                 }
-                row[position] = factor;
+                hinges[position] = factor;
+            }
+            // The root's degrees of freedom are on every path: a block of known size.
+            match <&mut [f64; ROOT_DOFS]>::try_from(&mut *root) {
+                Ok(root) => eliminate_root(before, root, pivot),
+                Err(_) => eliminate(before, root, pivot),
             }
         }
     }
@@ -82,15 +93,53 @@ impl MassMatrix {
                 continue;
             }
             let row = &self.entries[tree.row(i)];
-            for (entry, j) in row[..row.len() - 1].iter().zip(tree.path(i)) {
+            let (root, hinges) = row[..row.len() - 1].split_at((row.len() - 1).min(ROOT_DOFS));
+            for (x, entry) in x.iter_mut().zip(root) {
+                *x -= entry * value;
+            }
+            for (entry, j) in hinges.iter().zip(tree.path(i).iter().skip(ROOT_DOFS)) {
                 x[*j as usize] -= entry * value;
             }
         }
         for i in 0..tree.dofs() {
             let row = &self.entries[tree.row(i)];
             let Some((pivot, row)) = row.split_last() else { continue };
-            let known: f64 = row.iter().zip(tree.path(i)).map(|(entry, j)| entry * x[*j as usize]).sum();
+            let (root, hinges) = row.split_at(row.len().min(ROOT_DOFS));
+            let mut known = 0.0;
+            for (entry, x) in root.iter().zip(&*x) {
+                known += entry * x;
+            }
+            for (entry, j) in hinges.iter().zip(tree.path(i).iter().skip(ROOT_DOFS)) {
+                known += entry * x[*j as usize];
+            }
             x[i] = x[i] * pivot - known;
         }
+    }
+}
+
+/// Takes a row out of the rows of the root's degrees of freedom, which are the first ones, and divides it by its pivot.
+#[inline]
+fn eliminate_root(rows: &mut [f64], row: &mut [f64; ROOT_DOFS], pivot: f64) {
+    let factors = row.map(|coupled| coupled * pivot);
+    let mut start = 0;
+    for position in 0..ROOT_DOFS {
+        let target = &mut rows[start..=start + position];
+        for (entry, coupled) in target.iter_mut().zip(&*row) {
+            *entry -= factors[position] * coupled;
+        }
+        start += position + 1;
+    }
+    *row = factors;
+}
+
+/// The same for the root's own rows, which are shorter.
+fn eliminate(rows: &mut [f64], row: &mut [f64], pivot: f64) {
+    for position in (0..row.len()).rev() {
+        let factor = row[position] * pivot;
+        let start = position * (position + 1) / 2;
+        for (entry, coupled) in rows[start..=start + position].iter_mut().zip(&row[..=position]) {
+            *entry -= factor * coupled;
+        }
+        row[position] = factor;
     }
 }

@@ -19,7 +19,8 @@ pub(super) fn send(world: &mut World, position: &[f64], start: &Posture, flight:
         let way = end_root + flight.end.centres_m[index] - start_root - start.centres_m[index];
         let turn = (end_rotation * start_rotation.inverse()).scaled_axis();
         let body = &mut world.rapier.bodies[*handle];
-        body.set_position(pose(start, index, &start_root), false);
+        let place = to_vector(&(start_root + start.origins_m[index]));
+        body.set_position(Pose::from_parts(place, to_rotation(&start_rotation)), false);
         body.set_linvel(to_vector(&(way / step_s)), false);
         body.set_angvel(to_vector(&(turn / step_s)), false);
     }
