@@ -77,11 +77,8 @@ impl MassMatrix {
                 }
                 hinges[position] = factor;
             }
-            // The root's degrees of freedom are on every path: a block of known size.
-            match <&mut [f64; ROOT_DOFS]>::try_from(&mut *root) {
-                Ok(root) => eliminate_root(before, root, pivot),
-                Err(_) => eliminate(before, root, pivot),
-            }
+            // The root's degrees of freedom are on every path, and their rows are the first ones.
+            eliminate(before, root, pivot);
         }
     }
 
@@ -117,22 +114,7 @@ impl MassMatrix {
     }
 }
 
-/// Takes a row out of the rows of the root's degrees of freedom, which are the first ones, and divides it by its pivot.
-#[inline]
-fn eliminate_root(rows: &mut [f64], row: &mut [f64; ROOT_DOFS], pivot: f64) {
-    let factors = row.map(|coupled| coupled * pivot);
-    let mut start = 0;
-    for position in 0..ROOT_DOFS {
-        let target = &mut rows[start..=start + position];
-        for (entry, coupled) in target.iter_mut().zip(&*row) {
-            *entry -= factors[position] * coupled;
-        }
-        start += position + 1;
-    }
-    *row = factors;
-}
-
-/// The same for the root's own rows, which are shorter.
+/// Takes a row out of the rows of the root's degrees of freedom and divides it by its pivot.
 fn eliminate(rows: &mut [f64], row: &mut [f64], pivot: f64) {
     for position in (0..row.len()).rev() {
         let factor = row[position] * pivot;
