@@ -3,7 +3,7 @@
 //! Usage: `open_loop [CASES.json]`; without a file, the cases come from standard input.
 //!
 //! Input: a JSON list of cases, each `{"qpos": [24], "qvel": [23], "actions": [[17], …], "model_file": "x.xml",
-//! "config": {"substeps": 2, "solver_iterations": 2, "self_collision": true}}`; the last two entries, and each setting,
+//! "config": {"substeps": 2, "solver_iterations": 1, "self_collision": true}}`; the last two entries, and each setting,
 //! may be left out. Vectors are MuJoCo's: see `treadmill_humanoid::physics`.
 //!
 //! Output: a JSON list with one list per case, one object per control step: `{"qpos", "qvel", "separation_m",

@@ -95,7 +95,7 @@ impl Default for EnvironmentConfig {
             include_cfrc_ext_in_observation: true,
             max_episode_steps: 1000,
             substeps: 2,
-            solver_iterations: 2,
+            solver_iterations: 1,
             self_collision: true,
             randomisation: Randomisation::default(),
         }

@@ -12,7 +12,6 @@
 //! - [`physics`]: named quantities of the simulated body; the only place in the project that names Rapier.
 //! - [`model`]: MJCF text → bodies, hinge chains, motors.
 //! - `dynamics`: how an articulated body moves between contacts.
-//! - `chain`: frames of a chain of hinges.
 //! - [`randomisation`]: what differs from episode to episode, so that a policy depends on none of it.
 //! - [`config`], [`error`]: what can be set, and what is refused.
 
@@ -26,7 +25,6 @@ pub mod physics;
 pub mod randomisation;
 pub mod task;
 
-mod chain;
 mod dynamics;
 
 pub use config::{CONTROL_STEP_S, EnvironmentConfig, ObservationKind, Task};

@@ -53,7 +53,7 @@ section! {
         /// Physics steps per control step of 15 ms.
         substeps: u32 = 2, "1 to 50" => |v| (1..=50).contains(v);
         /// Iterations of Rapier's solver per physics step; its result is then refined in joint coordinates.
-        solver_iterations: u32 = 2, "1 to 50" => |v| (1..=50).contains(v);
+        solver_iterations: u32 = 1, "1 to 50" => |v| (1..=50).contains(v);
         /// Whether the humanoid's own limbs can touch each other.
         self_collision: bool = true, "true or false" => |_| true;
     }

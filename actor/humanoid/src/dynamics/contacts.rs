@@ -8,8 +8,9 @@ use nalgebra::Vector3;
 use super::limits::Limits;
 use super::mass_matrix::MassMatrix;
 use super::posture::Posture;
+use super::rows::{add, dot, stride};
 use super::softness::{IMPEDANCE, settle, slide};
-use super::spatial::Force;
+use super::spatial::{Force, Motion};
 use super::tree::{ROOT_DOFS, Tree};
 
 /// Sweeps over all contacts and limits.
@@ -44,10 +45,11 @@ pub(crate) struct ContactPoint {
 pub(crate) struct Contacts {
     pub(crate) points: Vec<ContactPoint>,
     solved: Vec<Solved>,
-    /// `[contact][direction][dofs]`: rate of separation per rate of each degree of freedom.
-    jacobians: Vec<f64>,
-    /// The same size: velocity change of the whole body per unit of impulse.
-    responses: Vec<f64>,
+    /// `[contact][direction][stride]`: whitened rows, see [`super::mass_matrix`].
+    rows: Vec<f64>,
+    /// Velocity at the end of the step, whitened.
+    whitened: Vec<f64>,
+    velocities: [Vec<Motion>; 2],
 }
 
 #[derive(Clone, Copy, Debug, Default)]
@@ -62,12 +64,13 @@ struct Solved {
 
 impl Contacts {
     pub(crate) fn new(tree: &Tree) -> Self {
-        let numbers = CONTACTS_MAX * DIRECTIONS * tree.dofs();
+        let (stride, still) = (stride(tree.dofs()), vec![Motion::default(); tree.nodes.len()]);
         Self {
             points: Vec::with_capacity(CONTACTS_MAX),
             solved: Vec::with_capacity(CONTACTS_MAX),
-            jacobians: vec![0.0; numbers],
-            responses: vec![0.0; numbers],
+            rows: vec![0.0; CONTACTS_MAX * DIRECTIONS * stride],
+            whitened: vec![0.0; stride],
+            velocities: [still.clone(), still],
         }
     }
 
@@ -93,25 +96,34 @@ impl Contacts {
         after: &mut [f64],
         step_s: f64,
     ) -> bool {
-        self.select(tree, posture, before, after, step_s);
+        let [at_start, at_end] = &mut self.velocities;
+        posture.velocities(tree, before, at_start);
+        posture.velocities(tree, after, at_end);
+        self.select(step_s);
         if self.points.is_empty() {
             return false;
         }
-        let dofs = tree.dofs();
         self.solved.clear();
         for index in 0..self.points.len() {
-            self.prepare(tree, matrix, index, before, step_s);
+            self.prepare(tree, posture, matrix, index, step_s);
         }
-        for (solved, responses) in self.solved.iter().zip(self.responses.chunks_exact(DIRECTIONS * dofs)) {
-            for (impulse, response) in solved.impulses.iter().zip(responses.chunks_exact(dofs)) {
-                add(after, response, *impulse);
+        let dofs = tree.dofs();
+        self.whitened[..dofs].copy_from_slice(after);
+        matrix.whiten(tree, &mut self.whitened);
+        for (solved, rows) in self.solved.iter().zip(self.rows.chunks_exact(DIRECTIONS * self.whitened.len())) {
+            for (impulse, row) in solved.impulses.iter().zip(rows.chunks_exact(self.whitened.len())) {
+                add(&mut self.whitened, row, *impulse);
             }
         }
+        after.copy_from_slice(&self.whitened[..dofs]);
+        matrix.unwhiten(tree, after);
         limits.prepare(tree, matrix, position, before, after, step_s);
         for _ in 0..SWEEPS {
-            self.sweep(dofs, after);
-            limits.sweep(dofs, after);
+            self.sweep();
+            limits.sweep(&mut self.whitened);
         }
+        matrix.unwhiten(tree, &mut self.whitened);
+        after.copy_from_slice(&self.whitened[..dofs]);
         for (point, solved) in self.points.iter_mut().zip(&self.solved) {
             point.impulse_ns = solved.directions.iter().zip(solved.impulses).map(|(d, impulse)| d * impulse).sum();
         }
@@ -132,75 +144,76 @@ impl Contacts {
         sum
     }
 
-    /// Keeps the points that are reached within the step, and writes their Jacobians.
-    fn select(&mut self, tree: &Tree, posture: &Posture, before: &[f64], after: &[f64], step_s: f64) {
-        let dofs = tree.dofs();
-        let mut kept = 0;
-        for index in 0..self.points.len() {
-            let point = self.points[index];
-            let row = &mut self.jacobians[kept * DIRECTIONS * dofs..][..DIRECTIONS * dofs];
-            for (direction, row) in directions(&point.normal).iter().zip(row.chunks_exact_mut(dofs)) {
-                write_jacobian(tree, posture, &point, direction, row);
-            }
-            let closing = step_s * (dot(&row[..dofs], before) + dot(&row[..dofs], after)) / 2.0;
-            if point.gap_m.min(point.gap_m + closing) < 0.0 || point.impulse_ns != Vector3::zeros() {
-                self.points[kept] = point;
-                kept += 1;
-            }
-        }
-        self.points.truncate(kept);
+    /// Keeps the points that are reached within the step.
+    fn select(&mut self, step_s: f64) {
+        let [at_start, at_end] = &self.velocities;
+        self.points.retain(|point| {
+            let closing_mps = point.normal.dot(&(separation(point, at_start) + separation(point, at_end))) / 2.0;
+            point.gap_m.min(point.gap_m + step_s * closing_mps) < 0.0 || point.impulse_ns != Vector3::zeros()
+        });
     }
 
-    fn prepare(&mut self, tree: &Tree, matrix: &MassMatrix, index: usize, before: &[f64], step_s: f64) {
-        let dofs = tree.dofs();
+    fn prepare(&mut self, tree: &Tree, posture: &Posture, matrix: &MassMatrix, index: usize, step_s: f64) {
+        let stride = self.whitened.len();
         let point = &self.points[index];
-        let span = index * DIRECTIONS * dofs..(index + 1) * DIRECTIONS * dofs;
-        let (jacobian, response) = (&self.jacobians[span.clone()], &mut self.responses[span]);
+        let rows = &mut self.rows[index * DIRECTIONS * stride..][..DIRECTIONS * stride];
         let mut solved = Solved { directions: directions(&point.normal), ..Solved::default() };
-        for (direction, (row, response)) in jacobian.chunks_exact(dofs).zip(response.chunks_exact_mut(dofs)).enumerate()
-        {
-            response.copy_from_slice(row);
-            matrix.solve(tree, response);
-            let own = dot(row, response);
+        write_jacobians(tree, posture, point, &solved.directions, rows);
+        let rate_mps = separation(point, &self.velocities[0]);
+        for (direction, row) in rows.chunks_exact_mut(stride).enumerate() {
+            matrix.whiten_row(tree, row);
+            let own = dot(row, row);
             if own <= RESPONSE_MIN {
                 // No joint moves the bodies against each other in this direction.
+                row.fill(0.0);
                 solved.softened[direction] = f64::INFINITY;
                 continue;
             }
             solved.softness[direction] = own * (1.0 - IMPEDANCE) / IMPEDANCE;
             solved.softened[direction] = own + solved.softness[direction];
             solved.impulses[direction] = solved.directions[direction].dot(&point.impulse_ns);
-            let rate = dot(row, before);
+            let rate = solved.directions[direction].dot(&rate_mps);
             solved.targets[direction] =
                 if direction == 0 { approach(rate, point.gap_m, step_s) } else { slide(rate, step_s) };
         }
         self.solved.push(solved);
     }
 
-    fn sweep(&mut self, dofs: usize, velocity: &mut [f64]) {
-        let rows = self.jacobians.chunks_exact(DIRECTIONS * dofs).zip(self.responses.chunks_exact(DIRECTIONS * dofs));
-        for (((jacobian, responses), solved), point) in rows.zip(&mut self.solved).zip(&self.points) {
+    fn sweep(&mut self) {
+        let stride = self.whitened.len();
+        let velocity = &mut self.whitened[..];
+        for ((rows, solved), point) in
+            self.rows.chunks_exact(DIRECTIONS * stride).zip(&mut self.solved).zip(&self.points)
+        {
+            let row = |direction: usize| &rows[direction * stride..][..stride];
             let wanted = |solved: &Solved, direction: usize, velocity: &[f64]| {
-                let rate = dot(&jacobian[direction * dofs..][..dofs], velocity);
-                let missing =
-                    solved.targets[direction] - rate - solved.softness[direction] * solved.impulses[direction];
+                let missing = solved.targets[direction]
+                    - dot(row(direction), velocity)
+                    - solved.softness[direction] * solved.impulses[direction];
                 solved.impulses[direction] + missing / solved.softened[direction]
             };
             let normal = wanted(solved, 0, velocity).max(0.0);
-            add(velocity, &responses[..dofs], normal - solved.impulses[0]);
+            add(velocity, row(0), normal - solved.impulses[0]);
             solved.impulses[0] = normal;
             let mut across = [wanted(solved, 1, velocity), wanted(solved, 2, velocity)];
-            let (size, most) = (across[0].hypot(across[1]), point.friction * normal);
+            let size = (across[0] * across[0] + across[1] * across[1]).sqrt();
+            let most = point.friction * normal;
             if size > most {
                 across = across.map(|part| if size > 0.0 { part * most / size } else { 0.0 });
             }
             for (direction, impulse) in [1, 2].into_iter().zip(across) {
-                let response = &responses[direction * dofs..][..dofs];
-                add(velocity, response, impulse - solved.impulses[direction]);
+                add(velocity, row(direction), impulse - solved.impulses[direction]);
                 solved.impulses[direction] = impulse;
             }
         }
     }
+}
+
+/// Velocity (m/s) with which the second body's point moves away from the first one's.
+fn separation(point: &ContactPoint, velocities: &[Motion]) -> Vector3<f64> {
+    let [first, second] =
+        point.bodies.map(|body| body.map_or(Vector3::zeros(), |body| velocities[body].at(&point.place_m)));
+    second - first
 }
 
 /// Rate of separation (m/s) that a contact aims at.
@@ -221,26 +234,29 @@ fn directions(normal: &Vector3<f64>) -> [Vector3<f64>; DIRECTIONS] {
     [*normal, first, normal.cross(&first)]
 }
 
-fn write_jacobian(tree: &Tree, posture: &Posture, point: &ContactPoint, direction: &Vector3<f64>, row: &mut [f64]) {
-    row.fill(0.0);
+/// Writes rates of separation per rate of each degree of freedom, a row for each direction.
+fn write_jacobians(
+    tree: &Tree,
+    posture: &Posture,
+    point: &ContactPoint,
+    directions: &[Vector3<f64>; DIRECTIONS],
+    rows: &mut [f64],
+) {
+    rows.fill(0.0);
+    let stride = rows.len() / DIRECTIONS;
     for (body, sign) in point.bodies.iter().zip([-1.0, 1.0]) {
         let Some(body) = body else { continue };
         for dof in tree.path_of_body(*body) {
-            row[*dof as usize] += sign * posture.axes[*dof as usize].at(&point.place_m).dot(direction);
+            let moved = posture.axes[*dof as usize].at(&point.place_m) * sign;
+            for (row, direction) in directions.iter().enumerate() {
+                rows[row * stride + *dof as usize] += moved.dot(direction);
+            }
         }
     }
     if point.bodies.iter().all(Option::is_some) {
         // Contacts within the body do not move it as a whole; rounding must not either.
-        row[..ROOT_DOFS].fill(0.0);
-    }
-}
-
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
-}
-
-fn add(to: &mut [f64], what: &[f64], factor: f64) {
-    for (to, what) in to.iter_mut().zip(what) {
-        *to += what * factor;
+        for row in rows.chunks_exact_mut(stride) {
+            row[..ROOT_DOFS].fill(0.0);
+        }
     }
 }

@@ -2,7 +2,7 @@
 //!
 //! The implicit midpoint rule, of second order: forces are those of the step's middle. Spring and friction of the
 //! hinges enter the matrix, so that the step is stable however stiff they are; gyroscopic forces are found by one
-//! fixed-point pass.
+//! fixed-point pass. Contacts then change the velocity at the end ([`Flight::touch_down`]).
 
 use nalgebra::Vector3;
 
@@ -20,23 +20,17 @@ const LEGS: u32 = 2;
 /// Workspace and results of a flight.
 #[derive(Clone, Debug)]
 pub(crate) struct Flight {
-    /// Posture about the middle of the flight.
-    pub(crate) middle: Posture,
+    /// Posture in the middle of the last leg, which stands for the whole step where things touch.
+    pub(crate) late: Posture,
     /// Mass matrix there, with rotors and implicit friction, factored.
-    pub(crate) matrix: MassMatrix,
+    matrix: MassMatrix,
     /// Position at the end.
     pub(crate) position: Vec<f64>,
     /// Velocity at the end.
     pub(crate) velocity: Vec<f64>,
-    /// Posture at the end.
-    pub(crate) end: Posture,
-    /// Centre of mass at the start (m, relative to the root there).
-    pub(crate) start_centre_m: Vector3<f64>,
-    /// Momentum at the end, with the moment about the centre of mass.
-    momentum: Force,
-    posture: Posture,
-    effective: MassMatrix,
-    pub(crate) limits: Limits,
+    /// Momentum at the start.
+    before: Momentum,
+    limits: Limits,
     diagonal: Vec<f64>,
     middle_position: Vec<f64>,
     mean_velocity: Vec<f64>,
@@ -53,15 +47,11 @@ impl Flight {
         let (dofs, bodies) = (tree.dofs(), tree.nodes.len());
         let positions = ROOT_POSITIONS + tree.hinges.len();
         Self {
-            middle: Posture::new(tree),
+            late: Posture::new(tree),
             matrix: MassMatrix::new(tree),
             position: vec![0.0; positions],
             velocity: vec![0.0; dofs],
-            end: Posture::new(tree),
-            start_centre_m: Vector3::zeros(),
-            momentum: Force::default(),
-            posture: Posture::new(tree),
-            effective: MassMatrix::new(tree),
+            before: Momentum::default(),
             limits: Limits::new(tree),
             diagonal: vec![0.0; dofs],
             middle_position: vec![0.0; positions],
@@ -77,8 +67,8 @@ impl Flight {
 
     /// Carries (`position`, `velocity`) over `time_s` under the motors' torques (N·m, one per hinge).
     ///
-    /// The result is in [`Self::position`] and [`Self::velocity`].
-    /// `start` must be the posture at `position`, weighed; [`Self::end`] is that of the result, weighed too.
+    /// The result is in [`Self::position`] and [`Self::velocity`]; [`Self::touch_down`] is to follow.
+    /// `start` must be the posture at `position`, weighed.
     pub(crate) fn fly(
         &mut self,
         tree: &Tree,
@@ -89,33 +79,20 @@ impl Flight {
         time_s: f64,
     ) {
         start.velocities(tree, velocity, &mut self.velocities);
-        let before = Momentum::of(start, &self.velocities);
+        self.before = Momentum::of(start, &self.velocities);
         self.position.copy_from_slice(position);
         self.velocity.copy_from_slice(velocity);
         for leg in 0..LEGS {
-            self.step(tree, torques_nm, time_s / f64::from(LEGS));
-            if leg == LEGS / 2 {
-                std::mem::swap(&mut self.middle, &mut self.posture);
-                std::mem::swap(&mut self.matrix, &mut self.effective);
-            }
-        }
-        self.end.lay(tree, &self.position);
-        self.end.weigh(tree);
-        self.end.velocities(tree, &self.velocity, &mut self.velocities);
-        let after = Momentum::of(&self.end, &self.velocities);
-        let wanted = before.after_falling(&tree.gravity_mps2, time_s);
-        after.restore(&self.end, &wanted.about_centre, &mut self.velocity);
-        self.momentum = wanted.about_centre;
-        self.start_centre_m = before.centre_m;
-        // The centre of mass falls along a parabola, whatever the limbs do.
-        let fallen = (before.velocity_mps() + wanted.velocity_mps()) * (time_s / 2.0);
-        for axis in 0..3 {
-            self.position[axis] = position[axis] + before.centre_m[axis] + fallen[axis] - after.centre_m[axis];
+            self.step(tree, torques_nm, time_s / f64::from(LEGS), leg == 0);
         }
     }
 
-    /// Lets contacts act: writes what becomes of the state at the start of the flight, whose posture `posture` is before
-    /// and whose end's posture it is afterwards.
+    /// Centre of mass at the start (m, relative to the root there).
+    pub(crate) fn start_centre_m(&self) -> Vector3<f64> {
+        self.before.centre_m
+    }
+
+    /// Lets contacts act: writes what becomes of the state at the start of the flight, and its posture, weighed.
     pub(crate) fn touch_down(
         &mut self,
         tree: &Tree,
@@ -126,56 +103,62 @@ impl Flight {
         time_s: f64,
     ) {
         self.end_velocity.copy_from_slice(&self.velocity);
-        let (middle, limits) = (&self.middle, &mut self.limits);
+        let (late, limits) = (&self.late, &mut self.limits);
+        let start_m = Vector3::from_column_slice(&position[..3]);
         let touched =
-            contacts.solve(tree, middle, &self.matrix, limits, position, velocity, &mut self.end_velocity, time_s);
-        if !touched {
+            contacts.solve(tree, late, &self.matrix, limits, position, velocity, &mut self.end_velocity, time_s);
+        if touched {
+            for (mean, (new, flown)) in self.mean_velocity.iter_mut().zip(self.end_velocity.iter().zip(&self.velocity))
+            {
+                *mean = (new - flown) / 2.0;
+            }
+            integrate(&self.position, &self.mean_velocity, time_s, position);
+        } else {
             position.copy_from_slice(&self.position);
-            velocity.copy_from_slice(&self.velocity);
-            std::mem::swap(&mut self.end, posture);
-            return;
         }
-        for (mean, (new, flown)) in self.mean_velocity.iter_mut().zip(self.end_velocity.iter().zip(&self.velocity)) {
-            *mean = (new - flown) / 2.0;
-        }
-        integrate(&self.position, &self.mean_velocity, time_s, position);
         velocity.copy_from_slice(&self.end_velocity);
         posture.lay(tree, position);
         posture.weigh(tree);
         posture.velocities(tree, velocity, &mut self.velocities);
-        // The impulses act on the posture of the middle; the whole body's momentum is made exact.
-        let wanted = self.momentum + contacts.momentum(&self.start_centre_m);
-        Momentum::of(posture, &self.velocities).restore(posture, &wanted, velocity);
+        let after = Momentum::of(posture, &self.velocities);
+        let wanted = self.before.later(&tree.gravity_mps2, time_s, &contacts.momentum(&self.before.centre_m));
+        after.restore(posture, &wanted.about_centre, velocity);
+        // The centre of mass follows the momentum, whatever the limbs do: without contacts, along a parabola.
+        let moved = (self.before.velocity_mps() + wanted.velocity_mps()) * (time_s / 2.0);
+        let root_m = start_m + self.before.centre_m + moved - after.centre_m;
+        position[..3].copy_from_slice(root_m.as_slice());
     }
 
-    fn step(&mut self, tree: &Tree, torques_nm: &[f64], step_s: f64) {
+    fn step(&mut self, tree: &Tree, torques_nm: &[f64], step_s: f64, is_first: bool) {
         integrate(&self.position, &self.velocity, step_s / 2.0, &mut self.middle_position);
-        self.posture.lay(tree, &self.middle_position);
-        self.posture.weigh(tree);
-        self.effective.assemble(tree, &self.posture);
+        self.late.lay(tree, &self.middle_position);
+        self.late.weigh(tree);
+        self.matrix.assemble(tree, &self.late);
         for (hinge, node) in tree.hinges.iter().enumerate() {
             self.diagonal[ROOT_DOFS + hinge] = node.armature_kgm2
                 + node.damping_nmsprad * step_s / 2.0
                 + node.stiffness_nmprad * step_s * step_s / 4.0;
         }
-        self.effective.add_diagonal(tree, &self.diagonal);
-        self.effective.factor(tree);
+        self.matrix.add_diagonal(tree, &self.diagonal);
+        self.matrix.factor(tree);
 
-        // Gyroscopic forces first with the old velocity, then with that of the middle.
-        self.mean_velocity.copy_from_slice(&self.velocity);
-        for _ in 0..2 {
+        // Gyroscopic forces are those at the velocity of the middle. The acceleration until there is guessed from the leg
+        // before, or found with the gyroscopic forces of the start.
+        if is_first {
+            self.mean_velocity.copy_from_slice(&self.velocity);
             self.accelerate(tree, torques_nm, step_s);
-            for (mean, (old, acceleration)) in
-                self.mean_velocity.iter_mut().zip(self.velocity.iter().zip(&self.acceleration))
-            {
-                *mean = old + acceleration * step_s / 2.0;
-            }
         }
+        for (mean, (old, acceleration)) in
+            self.mean_velocity.iter_mut().zip(self.velocity.iter().zip(&self.acceleration))
+        {
+            *mean = old + acceleration * step_s / 2.0;
+        }
+        self.accelerate(tree, torques_nm, step_s);
         for (new, (old, acceleration)) in self.end_velocity.iter_mut().zip(self.velocity.iter().zip(&self.acceleration))
         {
             *new = old + acceleration * step_s;
         }
-        self.limits.hold(tree, &self.effective, &self.position, &self.velocity, &mut self.end_velocity, step_s);
+        self.limits.hold(tree, &self.matrix, &self.position, &self.velocity, &mut self.end_velocity, step_s);
         for (mean, (old, new)) in self.mean_velocity.iter_mut().zip(self.velocity.iter().zip(&self.end_velocity)) {
             *mean = (old + new) / 2.0;
         }
@@ -194,13 +177,13 @@ impl Flight {
                 torques_nm[hinge] - node.damping_nmsprad * self.velocity[dof] - node.stiffness_nmprad * turned;
         }
         self.acceleration.copy_from_slice(&self.forces);
-        self.effective.solve(tree, &mut self.acceleration);
+        self.matrix.solve(tree, &mut self.acceleration);
     }
 
     /// Writes minus the forces that would be needed for no acceleration: Newton and Euler, outwards and back
     /// (Featherstone 2008, table 5.1).
     fn bias(&mut self, tree: &Tree) {
-        let (posture, rates) = (&self.posture, &self.mean_velocity);
+        let (posture, rates) = (&self.late, &self.mean_velocity);
         let linear = Vector3::new(rates[0], rates[1], rates[2]);
         let mut root = Motion::default();
         for (axis, rate) in posture.axes.iter().zip(rates).take(ROOT_DOFS) {

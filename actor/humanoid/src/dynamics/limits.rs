@@ -3,21 +3,27 @@
 //! A limit is soft (see [`super::softness`]) for a stretch, and then hard.
 
 use super::mass_matrix::MassMatrix;
+use super::rows::{add, dot, stride};
 use super::softness::{IMPEDANCE, settle};
 use super::tree::{ROOT_DOFS, ROOT_POSITIONS, Tree};
 
 /// How far beyond its end a hinge may be flung (rad). MuJoCo's own limits let a knee go 0.33 rad too far (99.9 % of
 /// control steps under maximal random torques); up to here they are the same.
 const STOP_RAD: f64 = 0.1;
-/// Passes over all limits that are reached; their effects on each other are small.
-const SWEEPS: usize = 8;
+/// Passes over all limits that are reached, at most.
+const SWEEPS_MAX: usize = 50;
+/// Passes end when none of them changed a hinge's own rate by more than this (rad/s).
+const SETTLED_RADPS: f64 = 1e-7;
 
 /// Workspace for the limits of a tree.
 #[derive(Clone, Debug)]
 pub(crate) struct Limits {
     reached: Vec<Reached>,
-    /// `[reached][dofs]`: velocity change of the whole tree per unit of impulse.
-    responses: Vec<f64>,
+    /// `[reached][stride]`: whitened row of the hinge, see [`super::mass_matrix`].
+    rows: Vec<f64>,
+    /// Velocity at the end of the step, whitened.
+    whitened: Vec<f64>,
+    dofs: usize,
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -27,15 +33,21 @@ struct Reached {
     outwards: f64,
     /// Outward rate aimed at (rad/s).
     target_radps: f64,
-    /// Velocity change of the hinge itself per unit of impulse, with the limit's own softness.
-    softened: f64,
+    /// Velocity change of the hinge itself per unit of impulse.
+    response: f64,
     softness: f64,
     impulse_nms: f64,
 }
 
 impl Limits {
     pub(crate) fn new(tree: &Tree) -> Self {
-        Self { reached: Vec::with_capacity(tree.hinges.len()), responses: vec![0.0; tree.hinges.len() * tree.dofs()] }
+        let (dofs, stride) = (tree.dofs(), stride(tree.dofs()));
+        Self {
+            reached: Vec::with_capacity(tree.hinges.len()),
+            rows: vec![0.0; tree.hinges.len() * stride],
+            whitened: vec![0.0; stride],
+            dofs,
+        }
     }
 
     /// Changes the velocity at the end of a step so that limits act on it.
@@ -49,11 +61,20 @@ impl Limits {
         step_s: f64,
     ) {
         self.prepare(tree, matrix, position, before, after, step_s);
-        if !self.reached.is_empty() {
-            for _ in 0..SWEEPS {
-                self.sweep(tree.dofs(), after);
+        if self.reached.is_empty() {
+            return;
+        }
+        let mut whitened = std::mem::take(&mut self.whitened);
+        whitened[..self.dofs].copy_from_slice(after);
+        matrix.whiten(tree, &mut whitened);
+        for _ in 0..SWEEPS_MAX {
+            if self.sweep(&mut whitened) < SETTLED_RADPS {
+                break;
             }
         }
+        matrix.unwhiten(tree, &mut whitened);
+        after.copy_from_slice(&whitened[..self.dofs]);
+        self.whitened = whitened;
     }
 
     /// Finds the limits that are reached, and what an impulse of each does.
@@ -67,29 +88,30 @@ impl Limits {
         step_s: f64,
     ) {
         self.find(tree, position, before, after, step_s);
-        for (limit, response) in self.reached.iter_mut().zip(self.responses.chunks_exact_mut(tree.dofs())) {
-            response.fill(0.0);
-            response[limit.dof] = 1.0;
-            matrix.solve(tree, response);
-            let own = response[limit.dof];
-            limit.softness = own * (1.0 - IMPEDANCE) / IMPEDANCE;
-            limit.softened = own + limit.softness;
+        let stride = stride(self.dofs);
+        for (limit, row) in self.reached.iter_mut().zip(self.rows.chunks_exact_mut(stride)) {
+            row.fill(0.0);
+            row[limit.dof] = limit.outwards;
+            matrix.whiten_row(tree, row);
+            limit.response = dot(row, row);
+            limit.softness = limit.response * (1.0 - IMPEDANCE) / IMPEDANCE;
         }
     }
 
-    /// One pass over all limits that are reached.
-    pub(super) fn sweep(&mut self, dofs: usize, after: &mut [f64]) {
-        for (limit, response) in self.reached.iter_mut().zip(self.responses.chunks_exact(dofs)) {
-            let outward = after[limit.dof] * limit.outwards;
-            let missing = limit.target_radps - outward + limit.softness * limit.impulse_nms;
+    /// One pass over all limits that are reached; returns by how much it changed a hinge's rate (rad/s) at most.
+    pub(super) fn sweep(&mut self, whitened: &mut [f64]) -> f64 {
+        let stride = stride(self.dofs);
+        let mut most_radps: f64 = 0.0;
+        for (limit, row) in self.reached.iter_mut().zip(self.rows.chunks_exact(stride)) {
+            let missing = limit.target_radps - dot(row, whitened) + limit.softness * limit.impulse_nms;
             // The impulse is counted inwards: it can only be positive.
-            let impulse = (limit.impulse_nms - missing / limit.softened).max(0.0);
+            let impulse = (limit.impulse_nms - missing / (limit.response + limit.softness)).max(0.0);
             let change = impulse - limit.impulse_nms;
             limit.impulse_nms = impulse;
-            for (rate, response) in after.iter_mut().zip(response) {
-                *rate -= response * change * limit.outwards;
-            }
+            add(whitened, row, -change);
+            most_radps = most_radps.max(change.abs() * limit.response);
         }
+        most_radps
     }
 
     fn find(&mut self, tree: &Tree, position: &[f64], before: &[f64], after: &[f64], step_s: f64) {
@@ -111,7 +133,7 @@ impl Limits {
             let active_s = if beyond >= 0.0 { step_s } else { step_s * end / (end - beyond) };
             let (rate, start) = (before[dof] * outwards, beyond.max(0.0));
             let target_radps = settle(rate, start, active_s).min((STOP_RAD - start).max(0.0) / active_s);
-            self.reached.push(Reached { dof, outwards, target_radps, softened: 0.0, softness: 0.0, impulse_nms: 0.0 });
+            self.reached.push(Reached { dof, outwards, target_radps, response: 0.0, softness: 0.0, impulse_nms: 0.0 });
         }
     }
 }

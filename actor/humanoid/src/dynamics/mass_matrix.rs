@@ -2,6 +2,10 @@
 //!
 //! Formulas: Featherstone 2008, tables 6.2 (composite rigid bodies) and 6.3, 6.5 (LᵀDL factorisation, which keeps the
 //! zeros of branches that do not move each other).
+//!
+//! *Whitened* velocities u = D^½ L v are those in which the kinetic energy is |u|²/2. An impulse along a direction with
+//! Jacobian J changes u by the whitened row D^−½ L^−ᵀ Jᵀ, and the product of that row with u is again the rate along the
+//! direction: one row says both, and needs only half of a solution.
 
 use super::posture::Posture;
 use super::spatial::Inertia;
@@ -14,12 +18,18 @@ use super::tree::{ROOT_DOFS, Tree};
 #[derive(Clone, Debug)]
 pub(crate) struct MassMatrix {
     entries: Vec<f64>,
+    /// D^−½, once factored.
+    pivot_roots: Vec<f64>,
     composites: Vec<Inertia>,
 }
 
 impl MassMatrix {
     pub(crate) fn new(tree: &Tree) -> Self {
-        Self { entries: vec![0.0; tree.path_entries()], composites: vec![Inertia::default(); tree.nodes.len()] }
+        Self {
+            entries: vec![0.0; tree.path_entries()],
+            pivot_roots: vec![0.0; tree.dofs()],
+            composites: vec![Inertia::default(); tree.nodes.len()],
+        }
     }
 
     /// Assembles the matrix of the bodies alone, without rotors, for a posture that has been weighed.
@@ -67,6 +77,7 @@ impl MassMatrix {
             let Some((own, row)) = from[..place.len()].split_last_mut() else { continue };
             let pivot = 1.0 / *own;
             *own = pivot;
+            self.pivot_roots[k] = pivot.sqrt();
             let (root, hinges) = row.split_at_mut(row.len().min(ROOT_DOFS));
             let path = tree.path(k);
             for position in (0..hinges.len()).rev() {
@@ -84,6 +95,35 @@ impl MassMatrix {
 
     /// Replaces a right-hand side by the solution; the matrix must have been factored.
     pub(crate) fn solve(&self, tree: &Tree, x: &mut [f64]) {
+        self.climb(tree, x);
+        self.descend(tree, x, |dof, value| {
+            let pivot = self.pivot_roots[dof];
+            value * pivot * pivot
+        });
+    }
+
+    /// Replaces velocities by whitened ones; the matrix must have been factored.
+    pub(super) fn whiten(&self, tree: &Tree, velocity: &mut [f64]) {
+        for i in (0..tree.dofs()).rev() {
+            velocity[i] = (velocity[i] + self.coupled(tree, i, velocity)) / self.pivot_roots[i];
+        }
+    }
+
+    /// Takes [`Self::whiten`] back.
+    pub(super) fn unwhiten(&self, tree: &Tree, velocity: &mut [f64]) {
+        self.descend(tree, velocity, |dof, value| value * self.pivot_roots[dof]);
+    }
+
+    /// Replaces the Jacobian of a direction by its whitened row; the matrix must have been factored.
+    pub(super) fn whiten_row(&self, tree: &Tree, row: &mut [f64]) {
+        self.climb(tree, row);
+        for (entry, root) in row.iter_mut().zip(&self.pivot_roots) {
+            *entry *= root;
+        }
+    }
+
+    /// Multiplies by the inverse of Lᵀ.
+    fn climb(&self, tree: &Tree, x: &mut [f64]) {
         for i in (0..tree.dofs()).rev() {
             let value = x[i];
             if value == 0.0 {
@@ -98,19 +138,28 @@ impl MassMatrix {
                 x[*j as usize] -= entry * value;
             }
         }
+    }
+
+    /// Scales each number and multiplies by the inverse of L.
+    fn descend(&self, tree: &Tree, x: &mut [f64], scaled: impl Fn(usize, f64) -> f64) {
         for i in 0..tree.dofs() {
-            let row = &self.entries[tree.row(i)];
-            let Some((pivot, row)) = row.split_last() else { continue };
-            let (root, hinges) = row.split_at(row.len().min(ROOT_DOFS));
-            let mut known = 0.0;
-            for (entry, x) in root.iter().zip(&*x) {
-                known += entry * x;
-            }
-            for (entry, j) in hinges.iter().zip(tree.path(i).iter().skip(ROOT_DOFS)) {
-                known += entry * x[*j as usize];
-            }
-            x[i] = x[i] * pivot - known;
+            x[i] = scaled(i, x[i]) - self.coupled(tree, i, x);
         }
+    }
+
+    /// Row i of L without its diagonal, times a vector.
+    #[inline]
+    fn coupled(&self, tree: &Tree, i: usize, x: &[f64]) -> f64 {
+        let row = &self.entries[tree.row(i)];
+        let (root, hinges) = row[..row.len() - 1].split_at((row.len() - 1).min(ROOT_DOFS));
+        let mut sum = 0.0;
+        for (entry, x) in root.iter().zip(x) {
+            sum += entry * x;
+        }
+        for (entry, j) in hinges.iter().zip(tree.path(i).iter().skip(ROOT_DOFS)) {
+            sum += entry * x[*j as usize];
+        }
+        sum
     }
 }
 

@@ -12,6 +12,7 @@
 //! - `limits`: the hinges' ranges within that step.
 //! - `softness`: how limits and contacts give way.
 //! - `contacts`: impulses at the points that touch.
+//! - `rows`: products of rows over the degrees of freedom.
 
 mod contacts;
 mod flight;
@@ -19,6 +20,7 @@ mod limits;
 mod mass_matrix;
 mod momentum;
 mod posture;
+mod rows;
 mod softness;
 mod spatial;
 mod tree;

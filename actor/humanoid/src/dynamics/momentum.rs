@@ -31,9 +31,11 @@ impl Momentum {
         Self { about_centre, centre_m, inertia }
     }
 
-    /// What it becomes in free fall; only the momentum is that of later.
-    pub(crate) fn after_falling(&self, gravity_mps2: &Vector3<f64>, time_s: f64) -> Self {
+    /// What gravity and the floor make of it; `given` has its moment about the centre of mass. Only the momentum is that
+    /// of later.
+    pub(crate) fn later(&self, gravity_mps2: &Vector3<f64>, time_s: f64, given: &Force) -> Self {
         let mut later = *self;
+        later.about_centre += *given;
         later.about_centre.force += gravity_mps2 * (self.inertia.mass_kg * time_s);
         later
     }

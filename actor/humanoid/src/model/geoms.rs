@@ -8,8 +8,7 @@ use super::mjcf::isometry;
 use super::{Geometry, Shape};
 use crate::error::ModelError;
 
-/// Contacts are found from 2 cm on, and half of that is left for what comes near within a step; a greater margin (m)
-/// would be a visible gap too.
+/// A greater margin (m) would be a visible gap.
 const MARGIN_MAX_M: f64 = 0.01;
 
 /// Reads a shape of a body: its mass, and its surface where it can touch anything.

@@ -1,15 +1,12 @@
-//! Hinges, and the chains they make.
+//! Hinges.
 
 use mjcf_rs::body::{Joint, JointType};
 use mjcf_rs::types::Tristate;
-use nalgebra::{Matrix3, Rotation3, Unit, UnitQuaternion, Vector3};
+use nalgebra::{Unit, Vector3};
 
 use super::Hinge;
 use super::geoms::not_negative;
 use crate::error::ModelError;
-
-/// How far from perpendicular two neighbouring hinge axes may be (cosine).
-const AXIS_COSINE_MAX: f64 = 1e-3;
 
 /// Refuses a free joint that does more than let the root move freely.
 pub(super) fn check_free(joint: &Joint) -> Result<(), ModelError> {
@@ -42,7 +39,6 @@ pub(super) fn read_hinge(joint: &Joint, autolimits: bool, torque_nm: Option<[f64
     let (min_rad, max_rad) = range(&name, joint, autolimits)?;
     Ok(Hinge {
         axis,
-        frame_sign: 1.0,
         min_rad,
         max_rad,
         stiffness_nmprad: not_negative(&name, "stiffness (N·m/rad)", joint.stiffness)?,
@@ -72,30 +68,4 @@ fn range(name: &str, joint: &Joint, autolimits: bool) -> Result<(f64, f64), Mode
         return Err(ModelError::figure(name, "lower end of the range (rad)", min_rad, "below the upper end"));
     }
     Ok((min_rad, max_rad))
-}
-
-/// The right-handed triad of a chain; a third axis that points against it gets `frame_sign` −1.
-pub(super) fn orient_chain(body: &str, hinges: &mut [Hinge]) -> Result<UnitQuaternion<f64>, ModelError> {
-    let Some(first) = hinges.first().map(|hinge| hinge.axis.into_inner()) else {
-        return Ok(UnitQuaternion::identity());
-    };
-    let second = match hinges.get(1) {
-        Some(hinge) => hinge.axis.into_inner(),
-        // Any direction across a single hinge will do; take the coordinate axis farthest from it.
-        None => {
-            let across = Vector3::ith(first.iamin(), 1.0);
-            (across - first * first.dot(&across)).normalize()
-        }
-    };
-    let third = first.cross(&second);
-    let skew = first.dot(&second).abs();
-    let third_skew = hinges.get(2).map_or(0.0, |hinge| 1.0 - hinge.axis.dot(&third).abs());
-    if skew > AXIS_COSINE_MAX || third_skew > AXIS_COSINE_MAX {
-        return Err(ModelError::unsupported(body, "hinges of one body must be perpendicular to each other"));
-    }
-    if let Some(hinge) = hinges.get_mut(2) {
-        hinge.frame_sign = hinge.axis.dot(&third).signum();
-    }
-    let frame = Matrix3::from_columns(&[first, second, third]);
-    Ok(UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix(&frame)))
 }

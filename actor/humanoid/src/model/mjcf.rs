@@ -154,22 +154,20 @@ impl Reader {
         let mut anchor_m = Point3::origin();
         if parent.is_some() {
             anchor_m = Point3::from(joints[0].pos);
-            if joints.len() > 3 || joints.iter().any(|joint| Point3::from(joint.pos) != anchor_m) {
-                return Err(ModelError::unsupported(&name, "a body takes at most three hinges, all at one point"));
+            if joints.iter().any(|joint| Point3::from(joint.pos) != anchor_m) {
+                return Err(ModelError::unsupported(&name, "all hinges of a body must be at one point"));
             }
             for joint in joints {
                 let torque_nm = joint.name.as_ref().and_then(|joint| self.flat.torque_ranges.get(joint)).copied();
                 self.hinges.push(joints::read_hinge(joint, autolimits, torque_nm)?);
             }
         }
-        let hinge_frame = joints::orient_chain(&name, &mut self.hinges[first..])?;
         Ok(Body {
             name,
             parent,
             pose,
             anchor_m,
             hinges: first..self.hinges.len(),
-            hinge_frame,
             shapes: Vec::new(),
             mass_kg: 0.0,
             centre_of_mass_m: Point3::origin(),

@@ -19,7 +19,7 @@ mod xml;
 
 use std::ops::Range;
 
-use nalgebra::{Isometry3, Matrix3, Point3, Unit, UnitQuaternion, Vector3};
+use nalgebra::{Isometry3, Matrix3, Point3, Unit, Vector3};
 
 pub(crate) use self::collision::FLOOR_GROUP;
 pub use self::file::read_model_file;
@@ -48,7 +48,7 @@ pub struct Model {
     pub touches: Vec<u32>,
     /// Friction coefficient of the floor; the greater one of two shapes counts.
     pub floor_friction: f64,
-    /// Distance (m) from which on the floor pushes; the greater one of two shapes counts.
+    /// Distance (m) from which on the floor pushes; those of two shapes add up.
     pub floor_margin_m: f64,
     /// Acceleration of gravity (m/s²), world frame.
     pub gravity_mps2: Vector3<f64>,
@@ -65,10 +65,8 @@ pub struct Body {
     pub pose: Isometry3<f64>,
     /// Where all hinges to the parent sit, in this body's frame (m).
     pub anchor_m: Point3<f64>,
-    /// Which hinges join it to its parent, in chain order, parent's side first; at most 3.
+    /// Which hinges join it to its parent, in chain order, parent's side first.
     pub hinges: Range<usize>,
-    /// Orthonormal triad in this body's frame; its first columns are the hinge axes (the third up to its sign).
-    pub hinge_frame: UnitQuaternion<f64>,
     /// Collision shapes, in this body's frame.
     pub shapes: Vec<Shape>,
     /// Mass (kg).
@@ -126,7 +124,7 @@ pub struct Shape {
     pub friction: f64,
     /// Whether contacts with it resist sliding by themselves (MJCF's `condim` 3) or not (1).
     pub rubs: bool,
-    /// Distance (m) from which on it pushes what comes near; the greater one of two shapes counts.
+    /// Distance (m) from which on it pushes what comes near; those of two shapes add up.
     pub margin_m: f64,
     /// Bits that say what it is: it touches what has affinity to one of them.
     pub contype: u32,
@@ -201,8 +199,6 @@ pub struct Hinge {
     pub name: String,
     /// Axis in the frame of the body that it moves, with all hinges at zero.
     pub axis: Unit<Vector3<f64>>,
-    /// +1, or −1 where the axis is opposite to its column of the body's [`Body::hinge_frame`].
-    pub frame_sign: f64,
     /// Smallest allowed angle (rad); −∞ without a limit.
     pub min_rad: f64,
     /// Largest allowed angle (rad); +∞ without a limit.

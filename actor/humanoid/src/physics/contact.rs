@@ -38,7 +38,7 @@ pub(super) fn collect(world: &World, start: &Posture, root_height_m: f64, contac
         };
         let tags = [first, second].map(Tag::of);
         let links = tags.map(|tag| tag.link);
-        let margin_m = tags[0].margin_m.max(tags[1].margin_m);
+        let margin_m = tags[0].margin_m + tags[1].margin_m;
         let bodies = links.map(|link| link.map(|link| world.link_bodies[link]));
         // Colliders have moved on since the contact was found.
         let at_start = match (bodies[0], first.position_wrt_parent()) {

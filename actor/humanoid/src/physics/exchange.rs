@@ -8,21 +8,24 @@ use rapier3d::math::Pose;
 
 use super::convert::{to_rotation, to_vector};
 use super::world::World;
-use crate::dynamics::{Flight, Posture};
+use crate::dynamics::{Flight, Motion, Posture, Tree};
 
-/// Puts the bodies at the start of the flight, with the velocities that lead straight to its end.
-pub(super) fn send(world: &mut World, position: &[f64], start: &Posture, flight: &Flight, step_s: f64) {
-    let start_root = Vector3::new(0.0, 0.0, position[2]);
-    let end_root = Vector3::new(flight.position[0] - position[0], flight.position[1] - position[1], flight.position[2]);
-    for (index, handle) in world.bodies.iter().enumerate() {
-        let (start_rotation, end_rotation) = (quaternion(start, index), quaternion(&flight.end, index));
-        let way = end_root + flight.end.centres_m[index] - start_root - start.centres_m[index];
-        let turn = (end_rotation * start_rotation.inverse()).scaled_axis();
+/// Puts the bodies at the start of the flight, with the velocities that it leads to; `velocities` is workspace.
+pub(super) fn send(
+    world: &mut World,
+    tree: &Tree,
+    start: &Posture,
+    root_height_m: f64,
+    flight: &Flight,
+    velocities: &mut [Motion],
+) {
+    let root = Vector3::new(0.0, 0.0, root_height_m);
+    flight.late.velocities(tree, &flight.velocity, velocities);
+    for (index, (handle, velocity)) in world.bodies.iter().zip(&*velocities).enumerate() {
         let body = &mut world.rapier.bodies[*handle];
-        let place = to_vector(&(start_root + start.origins_m[index]));
-        body.set_position(Pose::from_parts(place, to_rotation(&start_rotation)), false);
-        body.set_linvel(to_vector(&(way / step_s)), false);
-        body.set_angvel(to_vector(&(turn / step_s)), false);
+        body.set_position(pose(start, index, &root), false);
+        body.set_linvel(to_vector(&velocity.at(&flight.late.centres_m[index])), false);
+        body.set_angvel(to_vector(&velocity.angular), false);
     }
 }
 

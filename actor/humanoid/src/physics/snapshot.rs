@@ -60,7 +60,6 @@ pub struct PhysicsSnapshot {
     contacts: Vec<ContactImpulse>,
     controls: Vec<f32>,
     hinge_torques_nm: Vec<f64>,
-    has_stepped: bool,
     is_faulty: bool,
 }
 
@@ -69,7 +68,6 @@ pub struct PhysicsSnapshot {
 struct RapierState {
     bodies: RigidBodySet,
     colliders: ColliderSet,
-    joints: ImpulseJointSet,
     islands: IslandManager,
     broad_phase: BroadPhaseBvh,
     narrow_phase: NarrowPhase,
@@ -92,7 +90,6 @@ impl Physics {
             contacts: self.contacts.clone(),
             controls: self.controls.clone(),
             hinge_torques_nm: self.hinge_torques_nm.clone(),
-            has_stepped: self.has_stepped,
             is_faulty: self.is_faulty,
         }
     }
@@ -124,7 +121,6 @@ impl Physics {
         self.contacts.clone_from(&snapshot.contacts);
         self.controls.clone_from(&snapshot.controls);
         self.hinge_torques_nm.clone_from(&snapshot.hinge_torques_nm);
-        self.has_stepped = snapshot.has_stepped;
         self.is_faulty = snapshot.is_faulty;
         Ok(())
     }
@@ -135,7 +131,6 @@ impl World {
         RapierState {
             bodies: self.rapier.bodies.clone(),
             colliders: self.rapier.colliders.clone(),
-            joints: self.rapier.impulse_joints.clone(),
             islands: self.rapier.islands.clone(),
             broad_phase: self.rapier.broad_phase.clone(),
             narrow_phase: self.rapier.narrow_phase.clone(),
@@ -146,7 +141,6 @@ impl World {
         let world = &mut self.rapier;
         world.bodies.clone_from(&state.bodies);
         world.colliders.clone_from(&state.colliders);
-        world.impulse_joints.clone_from(&state.joints);
         world.islands.clone_from(&state.islands);
         world.broad_phase.clone_from(&state.broad_phase);
         world.narrow_phase.clone_from(&state.narrow_phase);

@@ -6,24 +6,18 @@ use nalgebra::{Isometry3, UnitQuaternion};
 use rapier3d::prelude::*;
 
 use super::convert::{to_matrix, to_point, to_rotation, to_vector};
-use crate::chain;
 use crate::config::{CONTROL_STEP_S, EnvironmentConfig};
 use crate::model::{Body, FLOOR_GROUP, Geometry, Model, Shape};
 
-/// Sweeps over all constraints in each pass of the solver: the second halves the distance that is left between joint
-/// ends for a few percent of the time.
-const SWEEPS: usize = 2;
-/// Speed at which a hinge beyond its limit is brought back (rad/s). With Rapier's default of 3 a fall bends the waist
-/// up to 0.5 rad too far. The solver takes this speed out again before velocities count, so nothing is flung.
-const LIMIT_RECOVERY_RADPS: f32 = 30.0;
+/// Surfaces that are this much farther apart than their margins are still looked at (m): at 2.4 m/s they would meet
+/// within a step of 7.5 ms.
+const REACH_M: f64 = 0.018;
 
 /// A Rapier world with one humanoid on a floor.
 pub(super) struct World {
     pub(super) rapier: PhysicsWorld,
     /// Handles in the order of [`Model::bodies`].
     pub(super) bodies: Vec<RigidBodyHandle>,
-    /// Joint of each body to its parent, in the same order; the root has none.
-    pub(super) joints: Vec<Option<ImpulseJointHandle>>,
     /// The rigid body of each link.
     pub(super) link_bodies: Vec<usize>,
     pub(super) floor: ColliderHandle,
@@ -36,7 +30,6 @@ pub(super) struct World {
 pub(super) struct Template {
     pub(super) bodies: RigidBodySet,
     pub(super) colliders: ColliderSet,
-    joints: ImpulseJointSet,
 }
 
 /// What each collider says about itself, in its user data.
@@ -69,9 +62,10 @@ impl World {
         parameters.dt = (CONTROL_STEP_S / f64::from(config.substeps)) as f32;
         parameters.num_solver_iterations = config.solver_iterations as usize;
         parameters.max_ccd_substeps = 0;
-        parameters.num_internal_pgs_iterations = SWEEPS;
-        // Only limits that are far exceeded ever get this fast (rad/s); contacts push out much more slowly.
-        parameters.normalized_max_corrective_velocity = LIMIT_RECOVERY_RADPS;
+        // What is asked for is a first guess: without more passes for penetrations, which are dealt with later.
+        parameters.num_internal_pgs_iterations = 1;
+        parameters.num_internal_stabilization_iterations = 0;
+        parameters.normalized_prediction_distance = (REACH_M + widest_margins_m(model)) as f32;
         // A rolling foot turns its contact point away from the floor long before the 5 cm within which Rapier
         // would go on using an old one.
         parameters.contact_recycling = false;
@@ -84,7 +78,6 @@ impl World {
         let floor = rapier.insert_collider(floor, None);
 
         let mut bodies = Vec::with_capacity(model.bodies.len());
-        let mut joints = Vec::with_capacity(model.bodies.len());
         let mut limbs = Vec::new();
         for (index, body) in model.bodies.iter().enumerate() {
             let handle = rapier.insert_body(rigid_body(body));
@@ -95,16 +88,11 @@ impl World {
                     limbs.push((rapier.insert_collider(limb, Some(handle)), index, place));
                 }
             }
-            joints.push(body.parent.map(|parent| rapier.insert_impulse_joint(bodies[parent], handle, joint(body))));
             bodies.push(handle);
         }
-        let template = Template {
-            bodies: rapier.bodies.clone(),
-            colliders: rapier.colliders.clone(),
-            joints: rapier.impulse_joints.clone(),
-        };
+        let template = Template { bodies: rapier.bodies.clone(), colliders: rapier.colliders.clone() };
         let link_bodies = model.links.iter().map(|link| link.body).collect();
-        Self { rapier, bodies, joints, link_bodies, floor, limbs, template }
+        Self { rapier, bodies, link_bodies, floor, limbs, template }
     }
 
     /// Forgets everything that was simulated.
@@ -115,7 +103,6 @@ impl World {
         let world = &mut self.rapier;
         world.bodies = self.template.bodies.clone();
         world.colliders = self.template.colliders.clone();
-        world.impulse_joints = self.template.joints.clone();
         world.physics_pipeline = PhysicsPipeline::new();
         world.islands = IslandManager::new();
         // A tree of a few dozen limbs needs no rebalancing while they move.
@@ -132,16 +119,13 @@ impl World {
                 body.is_enabled() && body.position().is_finite() && body.vels().is_finite()
             })
     }
+}
 
-    /// Largest distance between the two ends of a joint (m).
-    pub(super) fn separation_m(&self, model: &Model) -> f64 {
-        let pose = |body: usize| self.rapier.bodies[self.bodies[body]].position();
-        let apart = model.bodies.iter().enumerate().filter_map(|(index, body)| {
-            let inner = pose(body.parent?).transform_point(to_point(&chain::parent_anchor(body)));
-            Some((inner - pose(index).transform_point(to_point(&body.anchor_m))).length())
-        });
-        f64::from(apart.fold(0.0, f32::max))
-    }
+/// Largest sum of the margins of two shapes (m).
+fn widest_margins_m(model: &Model) -> f64 {
+    let shapes = model.bodies.iter().flat_map(|body| &body.shapes);
+    let widest_m = shapes.map(|shape| shape.margin_m).fold(0.0, f64::max);
+    widest_m + widest_m.max(model.floor_margin_m)
 }
 
 fn rigid_body(body: &Body) -> RigidBodyBuilder {
@@ -205,19 +189,6 @@ pub(super) fn own_friction(shape: &Shape) -> f32 {
 
 fn group(index: usize) -> Group {
     Group::from_bits_truncate(1 << index)
-}
-
-fn joint(body: &Body) -> GenericJoint {
-    let missing = match body.hinges.len() {
-        1 => JointAxesMask::ANG_Y | JointAxesMask::ANG_Z,
-        2 => JointAxesMask::ANG_Z,
-        _ => JointAxesMask::empty(),
-    };
-    let mut joint = GenericJoint::new(JointAxesMask::LIN_AXES | missing);
-    joint.local_frame1 = Pose::from_parts(to_point(&chain::parent_anchor(body)), to_rotation(&chain::base(body)));
-    joint.local_frame2 = Pose::from_parts(to_point(&body.anchor_m), to_rotation(&body.hinge_frame));
-    joint.contacts_enabled = false;
-    joint
 }
 
 #[cfg(test)]
