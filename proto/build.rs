@@ -2,7 +2,8 @@
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     println!("cargo:rerun-if-changed=schema");
-    let files = protox::compile(["schema/policy.proto", "schema/rollout.proto", "schema/stats.proto"], ["schema"])?;
+    let schemas = ["schema/policy.proto", "schema/rollout.proto", "schema/stats.proto", "schema/evaluation.proto"];
+    let files = protox::compile(schemas, ["schema"])?;
     prost_build::Config::new().bytes(["."]).compile_fds(files)?;
     Ok(())
 }

@@ -4,8 +4,15 @@ use std::{io::Read, time::Duration};
 
 use anyhow::Context;
 use clap::Args;
-use treadmill_actor::worker::{self, WorkerOptions};
-use treadmill_common::{bus::Bus, machine, seeds, shutdown::Shutdown};
+use treadmill_actor::{
+    ActorError,
+    worker::{self, WorkerOptions},
+};
+use treadmill_common::{
+    bus::{Bus, BusOptions},
+    machine, seeds,
+    shutdown::Shutdown,
+};
 
 use crate::{outcome::Usage, signals, startup::NetworkArgs};
 
@@ -56,15 +63,26 @@ pub fn run(args: ActorArgs) -> anyhow::Result<()> {
     if let Some(run) = &options.run {
         treadmill_proto::ident::check_ident("run", run).map_err(wrong)?;
     }
+    let bus_options = args.network.options(Vec::new(), args.connect)?;
+    let where_to = options.where_to.clone();
+    on_the_bus(bus_options, &where_to, args.until_stdin_closes, |bus, shutdown| worker::run(bus, options, shutdown))
+}
+
+/// Joins the bus as a client and does `work` there until it is done or somebody asks to stop.
+pub fn on_the_bus<W: Future<Output = Result<(), ActorError>>>(
+    bus_options: BusOptions,
+    where_to: &str,
+    until_stdin_closes: bool,
+    work: impl FnOnce(Bus, Shutdown) -> W,
+) -> anyhow::Result<()> {
     let runtime =
         tokio::runtime::Builder::new_multi_thread().worker_threads(2).enable_all().build().context("no runtime")?;
     let outcome = runtime.block_on(async {
         let shutdown = Shutdown::default();
         signals::listen(shutdown.clone(), "")?;
-        if args.until_stdin_closes {
+        if until_stdin_closes {
             follow_standard_input(shutdown.clone())?;
         }
-        let bus_options = args.network.options(Vec::new(), args.connect)?;
         let opened = tokio::task::spawn_blocking(move || Bus::open_client(&bus_options));
         tokio::pin!(opened);
         // The bus dials for as long as nobody answers; somebody who asks to stop does not wait for that.
@@ -73,10 +91,10 @@ pub fn run(args: ActorArgs) -> anyhow::Result<()> {
             tokio::select! {
                 bus = &mut opened => break bus??,
                 () = shutdown.wait() => return Ok(()),
-                _ = silence.tick() => tracing::warn!("nobody answers at {}; trying on until somebody does", options.where_to),
+                _ = silence.tick() => tracing::warn!("nobody answers at {where_to}; trying on until somebody does"),
             }
         };
-        let outcome = worker::run(bus.clone(), options, shutdown).await;
+        let outcome = work(bus.clone(), shutdown).await;
         bus.close();
         Ok(outcome?)
     });
@@ -84,7 +102,8 @@ pub fn run(args: ActorArgs) -> anyhow::Result<()> {
     outcome
 }
 
-fn default_name() -> String {
+/// A name that no other process has.
+pub fn default_name() -> String {
     let host: String = machine::host_name()
         .to_lowercase()
         .chars()

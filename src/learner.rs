@@ -91,7 +91,9 @@ async fn host_until_done(
         }
     })?;
     let supervisor = actors.map(|actors| {
-        let fleet = Fleet { endpoint: endpoints[0].clone(), run, actors, envs: config.rollout.envs, starts_before };
+        let evaluates = config.evaluates();
+        let envs = config.rollout.envs;
+        let fleet = Fleet { endpoint: endpoints[0].clone(), run, actors, envs, evaluates, starts_before };
         Supervisor::start(&fleet, restarts, shutdown)
     });
     let outcome = told.await.context("the training thread panicked");

@@ -1,7 +1,7 @@
 //! Treadmill's command line: one file per subcommand, each thin.
 //!
 //! # Layout
-//! - [`train`], [`learner`], [`actor`], [`eval`], [`export`], [`bench`]: the subcommands.
+//! - [`train`], [`learner`], [`actor`], [`evaluator`], [`eval`], [`export`], [`bench`]: the subcommands.
 //! - [`saved_policy`]: the policy of a run, a checkpoint or an exported file.
 //! - [`startup`]: from flags to a run that is ready to begin.
 //! - [`supervisor`]: the actor processes of `train`.
@@ -13,6 +13,7 @@
 mod actor;
 mod bench;
 mod eval;
+mod evaluator;
 mod export;
 mod learner;
 mod model;
@@ -46,6 +47,8 @@ enum Command {
     Learner(learner::LearnerArgs),
     /// Run only an actor; task and settings come from the learner.
     Actor(actor::ActorArgs),
+    /// Evaluate the policies of a run while it trains; `train` starts one by itself.
+    Evaluator(evaluator::EvaluatorArgs),
     /// Play deterministic episodes with a trained policy, or with one of the baselines.
     Eval(eval::EvalArgs),
     /// Write a trained policy as a file that other programs read.
@@ -71,6 +74,7 @@ fn main() -> ExitCode {
         Command::Train(args) => train::run(args),
         Command::Learner(args) => learner::run(args),
         Command::Actor(args) => actor::run(args),
+        Command::Evaluator(args) => evaluator::run(args),
         Command::Eval(args) => eval::run(args),
         Command::Export(args) => export::run(&args),
         Command::Bench(args) => bench::run(args),

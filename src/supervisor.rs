@@ -1,4 +1,4 @@
-//! The actor processes of `train`: started beside the learner, started again when they die, gone when it is gone.
+//! The processes of `train`, actors and an evaluator: started beside the learner, started again when they die, gone when it is gone.
 
 use std::{
     process::Stdio,
@@ -37,6 +37,8 @@ pub struct Fleet {
     pub actors: u32,
     /// Environments in total.
     pub envs: u32,
+    /// Whether policies are evaluated while training goes on.
+    pub evaluates: bool,
     /// Starts of the learner before this one: a resumed run draws other random numbers than its first start.
     pub starts_before: u64,
 }
@@ -56,11 +58,21 @@ impl Supervisor {
             let (fleet, restarts, shutdown, stopping) =
                 (fleet.clone(), restarts.clone(), shutdown.clone(), stopping.clone());
             tasks.spawn(async move {
-                let ended = keep_alive(&fleet, index, &restarts, &stopping).await;
+                let ended = keep_alive(&fleet, Role::Actor { index }, &restarts, &stopping).await;
                 if ended.is_err() {
                     shutdown.ask();
                 }
                 ended
+            });
+        }
+        if fleet.evaluates {
+            let (fleet, stopping) = (fleet.clone(), stopping.clone());
+            tasks.spawn(async move {
+                // Training goes on without evaluation, so what is wrong with it is said and no more.
+                if let Err(why) = keep_alive(&fleet, Role::Evaluator, &AtomicU64::new(0), &stopping).await {
+                    complain(&format!("policies are no longer evaluated: {why}"));
+                }
+                Ok(())
             });
         }
         Self { tasks, stopping }
@@ -78,11 +90,27 @@ impl Supervisor {
     }
 }
 
-async fn keep_alive(fleet: &Fleet, index: u32, restarts: &AtomicU64, stopping: &Shutdown) -> anyhow::Result<()> {
+/// What a process is there for.
+#[derive(Clone, Copy, Debug)]
+enum Role {
+    Actor { index: u32 },
+    Evaluator,
+}
+
+impl std::fmt::Display for Role {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::Actor { index } => write!(f, "actor-{index}"),
+            Self::Evaluator => write!(f, "evaluator"),
+        }
+    }
+}
+
+async fn keep_alive(fleet: &Fleet, role: Role, restarts: &AtomicU64, stopping: &Shutdown) -> anyhow::Result<()> {
     let mut short_lives = 0;
     for life in 0u64.. {
         let begun = Instant::now();
-        let mut child = spawn(fleet, index, life)?;
+        let mut child = spawn(fleet, role, life)?;
         // Taken out, because waiting for a child closes what it still holds of its standard input.
         let leash = child.stdin.take();
         let status = tokio::select! {
@@ -91,10 +119,10 @@ async fn keep_alive(fleet: &Fleet, index: u32, restarts: &AtomicU64, stopping: &
         };
         short_lives = if begun.elapsed() < TOO_SHORT { short_lives + 1 } else { 0 };
         if short_lives >= TOO_SHORT_MAX {
-            anyhow::bail!("actor-{index} ended {short_lives} times in a row right after its start, last with {status}");
+            anyhow::bail!("{role} ended {short_lives} times in a row right after its start, last with {status}");
         }
         restarts.fetch_add(1, Ordering::Relaxed);
-        complain(&format!("actor-{index} ended with {status}; starting it again"));
+        complain(&format!("{role} ended with {status}; starting it again"));
         let pause = (Duration::from_millis(100) * 2u32.saturating_pow(short_lives)).min(BACKOFF_MAX);
         tokio::select! {
             () = tokio::time::sleep(pause) => {}
@@ -104,16 +132,21 @@ async fn keep_alive(fleet: &Fleet, index: u32, restarts: &AtomicU64, stopping: &
     Ok(())
 }
 
-fn spawn(fleet: &Fleet, index: u32, life: u64) -> anyhow::Result<Child> {
+fn spawn(fleet: &Fleet, role: Role, life: u64) -> anyhow::Result<Child> {
     let program = std::env::current_exe().context("this program's own path is unknown")?;
-    // The first actors take what does not divide evenly.
-    let envs = fleet.envs / fleet.actors + u32::from(index < fleet.envs % fleet.actors);
-    let start = (fleet.starts_before << 32) + life;
-    Command::new(program)
-        .arg("actor")
-        .args(["--connect", &fleet.endpoint, "--run", &fleet.run])
-        .args(["--name", &format!("actor-{index}"), "--envs", &envs.to_string()])
-        .args(["--start-number", &start.to_string(), "--until-stdin-closes", "--insecure"])
+    let mut command = Command::new(program);
+    match role {
+        Role::Actor { index } => {
+            // The first actors take what does not divide evenly.
+            let envs = fleet.envs / fleet.actors + u32::from(index < fleet.envs % fleet.actors);
+            let start = (fleet.starts_before << 32) + life;
+            command.args(["actor", "--envs", &envs.to_string(), "--start-number", &start.to_string()]);
+        }
+        Role::Evaluator => drop(command.arg("evaluator")),
+    }
+    command
+        .args(["--connect", &fleet.endpoint, "--run", &fleet.run, "--name", &role.to_string()])
+        .args(["--until-stdin-closes", "--insecure"])
         // Held open by this process alone: it closes by itself when this process is gone, however it went.
         .stdin(Stdio::piped())
         .stdout(Stdio::null())
@@ -121,7 +154,7 @@ fn spawn(fleet: &Fleet, index: u32, life: u64) -> anyhow::Result<Child> {
         .process_group(0)
         .kill_on_drop(true)
         .spawn()
-        .with_context(|| format!("actor-{index} cannot be started"))
+        .with_context(|| format!("{role} cannot be started"))
 }
 
 async fn end(mut child: Child, leash: Option<ChildStdin>) -> anyhow::Result<()> {

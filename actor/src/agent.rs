@@ -6,6 +6,8 @@ use treadmill_common::{
     seeds::{self, Stream},
 };
 
+use treadmill_proto::PolicyBundle;
+
 use crate::{ActorError, acting::ActingPolicy};
 
 /// Chooses actions: −1 is the lower end of a motor's range, 1 its upper one.
@@ -30,6 +32,11 @@ impl PolicyAgent {
     /// Acts as an exported policy says.
     pub fn new(policy: &ExportedPolicy) -> Result<Self, ActorError> {
         Ok(Self { policy: ActingPolicy::exported(policy)?, normalised: Vec::new() })
+    }
+
+    /// Acts as a learner's policy says.
+    pub fn of_bundle(bundle: &PolicyBundle) -> Result<Self, ActorError> {
+        Ok(Self { policy: ActingPolicy::new(bundle)?, normalised: Vec::new() })
     }
 }
 

@@ -18,6 +18,7 @@ pub mod agent;
 pub mod courier;
 pub mod environments;
 pub mod evaluation;
+pub mod evaluator;
 pub mod policies;
 pub mod rollout;
 pub mod settings;

@@ -7,6 +7,8 @@
 //! - [`optimiser`]: Adam and gradient clipping over one flat slice.
 //! - [`experience`]: fragments turned into what the update wants.
 //! - [`training`]: the loop: collect, update, save, publish, log.
+//! - [`pace`]: how much of what actors bring is learnt from, and how thoroughly.
+//! - [`trial`]: policies that are evaluated while training goes on.
 //! - [`checkpoint`]: everything a run is, in one file.
 //! - [`scalars`]: what is logged after each update.
 //! - [`report`]: every place it goes to.
@@ -26,3 +28,4 @@ pub mod ppo;
 pub mod report;
 pub mod scalars;
 pub mod training;
+pub mod trial;

@@ -8,7 +8,7 @@ use std::{
 use treadmill_common::{config::Config, machine};
 use treadmill_proto::ActorStats;
 
-use crate::{checkpoint::TrainingState, intake::Accepted, ppo::UpdateStats};
+use crate::{checkpoint::TrainingState, intake::Accepted, ppo::UpdateStats, trial::Verdict};
 
 /// How long the parts of one round took.
 #[derive(Clone, Copy, Debug, Default)]
@@ -102,6 +102,8 @@ pub struct Round<'a> {
     pub epochs: u32,
     /// How long its parts took.
     pub durations: Durations,
+    /// What an evaluation gave, where one has just ended.
+    pub verdict: Option<&'a Verdict>,
     /// Environment steps per second.
     pub env_steps_per_s: f64,
     /// Who is alive.
@@ -121,6 +123,7 @@ impl Round<'_> {
         self.train(&mut out);
         self.bus(&mut out);
         self.actors(&mut out);
+        self.eval(&mut out);
         out.into_iter().map(|(tag, value)| (tag.to_string(), value)).collect()
     }
 
@@ -188,6 +191,19 @@ impl Round<'_> {
             ("bus/fragments_vanished", tally.vanished as f64),
             ("bus/fragments_malformed", tally.malformed as f64),
             ("bus/fragments_quarantined", tally.quarantined as f64),
+        ]);
+    }
+
+    fn eval(&self, out: &mut Vec<(&str, f64)>) {
+        let Some(Verdict { report, env_steps, .. }) = self.verdict else { return };
+        out.extend([
+            ("eval/mean_reward", report.return_mean),
+            ("eval/std_reward", report.return_std),
+            ("eval/mean_ep_length", report.length_mean),
+            ("eval/distance_mean_m", report.distance_mean_m),
+            ("eval/velocity_mean_mps", report.velocity_mean_mps),
+            ("eval/fall_fraction", f64::from(report.falls) / f64::from(report.episodes)),
+            ("eval/total_timesteps", *env_steps as f64),
         ]);
     }
 

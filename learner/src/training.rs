@@ -28,6 +28,7 @@ use crate::{
     ppo::{UpdateError, UpdateStats, Updater},
     report::Report,
     scalars::{Durations, Lag, Round, Speed},
+    trial::{Trial, Verdict},
 };
 
 /// What training needs beside the state it begins with.
@@ -108,11 +109,12 @@ pub fn train(
         let update = trainer.update(batch)?;
         let update_time = round_begun.elapsed() - collect;
         trainer.account(batch);
-        trainer.save()?;
+        let verdict = trainer.heed_verdict()?;
+        let saved = trainer.save()?;
         let checkpoint = round_begun.elapsed() - collect - update_time;
-        trainer.publish()?;
+        trainer.publish(saved)?;
         let durations = Durations { collect, update: update_time, learn: trainer.learn, checkpoint };
-        trainer.log(update.as_ref(), batch, durations)?;
+        trainer.log(update.as_ref(), batch, durations, verdict.as_ref())?;
         trainer.pace.heed(&gathered);
     }
     trainer.finish()?;
@@ -133,6 +135,8 @@ struct Trainer {
     pace: Pace,
     shelf: PolicyShelf,
     stats: StatsFeed,
+    /// Where policies are evaluated while training goes on.
+    trial: Option<Trial>,
     saver: Saver,
     report: Report,
     speed: Speed,
@@ -143,7 +147,6 @@ struct Trainer {
     undone_in_a_row: u32,
     /// How long the last update proper took.
     learn: Duration,
-    is_best: bool,
 }
 
 impl Trainer {
@@ -177,7 +180,7 @@ impl Trainer {
             config.learner.keep_checkpoints as usize,
         );
         // Before any actor can hold this version, it is on disk: a learner that dies now is resumed from it.
-        saver.save(&state, false)?;
+        saver.save(&state)?;
         let encoded = bundle.encode().map_err(|why| wrong(why.to_string()))?;
         let report = Report::open(bus, &state, &config, options)?;
         let queue = RolloutIntake::open(bus, &state.run, config.learner.intake_fragments as usize)?;
@@ -186,6 +189,10 @@ impl Trainer {
         Ok(Self {
             intake,
             stats: StatsFeed::open(bus, &state.run)?,
+            trial: match config.evaluates() {
+                false => None,
+                true => Some(Trial::open(bus, &state.run, config.eval.every_steps, state.counters.env_steps)?),
+            },
             shelf: PolicyShelf::open(bus, &state.run, encoded.into())?,
             speed: Speed::new(state.counters.env_steps),
             restarts: options.restarts.clone(),
@@ -194,7 +201,6 @@ impl Trainer {
             wall_before_s: state.counters.wall_s,
             undone_in_a_row: 0,
             learn: Duration::ZERO,
-            is_best: false,
             pace: Pace::new(&config),
             saver,
             report,
@@ -260,35 +266,60 @@ impl Trainer {
         }
         state.counters.wall_s = self.wall_before_s + self.begun.elapsed().as_secs_f64();
         state.counters.restarts = self.restarts_before + self.restarts.load(Ordering::Relaxed);
-        self.is_best = state.episodes.is_full()
-            && state
-                .episodes
-                .means()
-                .is_some_and(|means| state.best_return.is_none_or(|best| means.return_mean > best));
-        if self.is_best {
-            state.best_return = state.episodes.means().map(|means| means.return_mean);
-        }
     }
 
-    fn save(&mut self) -> Result<(), TrainingError> {
+    /// Writes the checkpoint, and returns it as it was written.
+    fn save(&mut self) -> Result<Vec<u8>, TrainingError> {
         let judge = self.intake.judge();
         self.state.tally = judge.tally;
         self.state.ledger = judge.ledger.clone();
         // In the state that is written, everything taken so far is durable by being written.
         self.state.ledger.mark_durable();
-        self.saver.save(&self.state, self.is_best)?;
+        let best = self.best_in_training();
+        self.state.best_return = best.or(self.state.best_return);
+        let saved = self.saver.save(&self.state)?;
+        if best.is_some() {
+            self.saver.save_best(&saved)?;
+        }
         self.intake.mark_durable();
-        Ok(())
+        Ok(saved)
     }
 
-    fn publish(&mut self) -> Result<(), TrainingError> {
+    /// The mean return in training where it is the best so far and no policy was evaluated yet.
+    fn best_in_training(&self) -> Option<f64> {
+        let is_known = self.state.best_is_evaluated;
+        let episodes = (!is_known).then_some(&self.state.episodes).filter(|episodes| episodes.is_full())?;
+        let return_mean = episodes.means()?.return_mean;
+        self.state.best_return.is_none_or(|best| return_mean > best).then_some(return_mean)
+    }
+
+    /// Hands out the new policy, also to be evaluated where that is due; `saved` is the checkpoint that it is part of.
+    fn publish(&mut self, saved: Vec<u8>) -> Result<(), TrainingError> {
         let wrong = |why: String| TrainingError::State { why };
         let bundle = self.state.bundle().map_err(wrong)?;
         let announcement = PolicyAnnouncement { version: bundle.version, checksum: bundle.checksum };
-        let encoded = bundle.encode().map_err(|why| wrong(why.to_string()))?;
-        self.shelf.publish(encoded.into(), &announcement);
+        let encoded: bytes::Bytes = bundle.encode().map_err(|why| wrong(why.to_string()))?.into();
+        self.shelf.publish(encoded.clone(), &announcement);
         self.intake.answer_held(&self.state.lineage);
+        let env_steps = self.state.counters.env_steps;
+        if let Some(trial) = &mut self.trial
+            && trial.is_due(env_steps)
+        {
+            trial.put(bundle.version, encoded, env_steps, saved);
+        }
         Ok(())
+    }
+
+    /// Takes the next verdict on a policy that was on trial; the best policy by verdict is kept.
+    fn heed_verdict(&mut self) -> Result<Option<Verdict>, TrainingError> {
+        let Some(verdict) = self.trial.as_mut().and_then(Trial::verdict) else { return Ok(None) };
+        let return_mean = verdict.report.return_mean;
+        let state = &mut self.state;
+        if !state.best_is_evaluated || state.best_return.is_none_or(|best| return_mean > best) {
+            (state.best_return, state.best_is_evaluated) = (Some(return_mean), true);
+            self.saver.save_best(&verdict.checkpoint)?;
+        }
+        Ok(Some(verdict))
     }
 
     fn log(
@@ -296,6 +327,7 @@ impl Trainer {
         update: Option<&UpdateStats>,
         batch: &[Accepted],
         durations: Durations,
+        verdict: Option<&Verdict>,
     ) -> Result<(), TrainingError> {
         let alive = self.intake.alive();
         let env_steps = self.state.counters.env_steps;
@@ -307,6 +339,7 @@ impl Trainer {
             lag: Lag::of(batch),
             epochs: self.pace.epochs(),
             durations,
+            verdict,
             env_steps_per_s,
             stats: self.stats.newest(&alive),
             alive: &alive,

@@ -6,6 +6,7 @@
 //! - [`bundle`]: the policy that the learner hands out.
 //! - [`receipt`]: the learner's answer to a fragment.
 //! - [`stats`]: what an actor tells about itself.
+//! - [`evaluation`]: what became of a policy in an evaluation.
 //! - [`json`]: the objects on the JSON topics.
 //! - [`event_file`]: TensorBoard's messages.
 //! - [`ident`]: names that may stand in a key.
@@ -14,6 +15,7 @@
 //! Whatever arrives is hostile until checked: size first, then shape, then numbers.
 
 pub mod bundle;
+pub mod evaluation;
 pub mod event_file;
 pub mod fragment;
 pub mod ident;
@@ -31,6 +33,7 @@ pub mod wire {
 }
 
 pub use bundle::{PolicyAnnouncement, PolicyBundle, PolicyVersion};
+pub use evaluation::EvaluationReport;
 pub use fragment::{EndCause, Episode, Fragment};
 pub use receipt::{Outcome, Receipt};
 pub use stats::ActorStats;

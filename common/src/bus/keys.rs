@@ -15,6 +15,11 @@ pub fn rollouts(run: &str, actor: &str) -> String {
     format!("treadmill/{run}/rollouts/{actor}")
 }
 
+/// `treadmill/{run}/evaluations/{evaluator}`: reports handed in, policies to evaluate handed out.
+pub fn evaluations(run: &str, evaluator: &str) -> String {
+    format!("treadmill/{run}/evaluations/{evaluator}")
+}
+
 /// `treadmill/{run}/actors/{actor}`: liveliness.
 pub fn actor(run: &str, actor: &str) -> String {
     format!("treadmill/{run}/actors/{actor}")

@@ -14,7 +14,8 @@ pub use choices::{EnvObservation, EnvTask, LearnerMode, OffPolicy};
 pub use preset::{PRESETS, preset};
 pub use section::{KeyDoc, Section};
 pub use sections::{
-    BusConfig, EnvConfig, LearnerConfig, PolicyConfig, PpoConfig, RandomisationConfig, RolloutConfig, RunConfig,
+    BusConfig, EnvConfig, EvaluationConfig, LearnerConfig, PolicyConfig, PpoConfig, RandomisationConfig, RolloutConfig,
+    RunConfig,
 };
 pub use source::ConfigSource;
 
@@ -36,6 +37,8 @@ pub struct Config {
     pub ppo: PpoConfig,
     /// The learner's side of the fleet.
     pub learner: LearnerConfig,
+    /// Evaluation while training.
+    pub eval: EvaluationConfig,
     /// The message bus.
     pub bus: BusConfig,
 }
@@ -114,6 +117,7 @@ impl Config {
             PolicyConfig::keys(),
             PpoConfig::keys(),
             LearnerConfig::keys(),
+            EvaluationConfig::keys(),
             BusConfig::keys(),
         ]
         .concat()
@@ -128,6 +132,7 @@ impl Config {
         self.policy.check()?;
         self.ppo.check()?;
         self.learner.check()?;
+        self.eval.check()?;
         self.bus.check()?;
         self.check_together()
     }
@@ -197,6 +202,11 @@ impl Config {
             (0, LearnerMode::Async) => 2,
             (chosen, _) => chosen,
         }
+    }
+
+    /// Whether policies are evaluated while training goes on: the run must be long enough for one evaluation.
+    pub fn evaluates(&self) -> bool {
+        (1..=self.run.steps).contains(&self.eval.every_steps)
     }
 
     /// Versions that a fragment's policy may be behind the newest.

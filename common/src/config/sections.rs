@@ -193,6 +193,16 @@ section! {
 }
 
 section! {
+    /// Evaluation while training.
+    EvaluationConfig as "eval" {
+        /// Environment steps after which the policy of the moment is evaluated, again and again; 0 means never.
+        every_steps: u64 = 200_000, "0 to 1000000000000" => |v| *v <= 1_000_000_000_000;
+        /// Deterministic episodes of one evaluation, without randomisation and from the same starts each time.
+        episodes: u32 = 10, "1 to 1000" => |v| (1..=1000).contains(v);
+    }
+}
+
+section! {
     /// The message bus.
     BusConfig as "bus" {
         /// Milliseconds an actor waits for the receipt of a fragment before it sends it again.

@@ -1,6 +1,7 @@
 //! Everything a run is, in one file, written before the version it holds is announced.
 //!
-//! `checkpoints/latest.bundle` after each update, `best.bundle` at the best mean return so far, `NNNNNNNN.bundle` (the
+//! `checkpoints/latest.bundle` after each update, `best.bundle` at the best evaluation so far (the
+//! best mean return in training before the first evaluation), `NNNNNNNN.bundle` (the
 //! number of updates) every so many updates, the last few of which are kept.
 
 pub mod encoding;
@@ -168,19 +169,21 @@ impl Saver {
         Self { folder: folder.checkpoints(), every_updates, keep }
     }
 
-    /// Writes `latest`, and beside it what else is due.
-    pub fn save(&self, state: &TrainingState, is_best: bool) -> Result<(), CheckpointError> {
+    /// Writes `latest`, and beside it the numbered one that is due; returns what was written.
+    pub fn save(&self, state: &TrainingState) -> Result<Vec<u8>, CheckpointError> {
         let bytes = encoding::encode(state)?;
         self.write("latest.bundle", &bytes)?;
-        if is_best {
-            self.write("best.bundle", &bytes)?;
-        }
         let updates = state.counters.updates;
         if self.keep > 0 && updates > 0 && updates.is_multiple_of(self.every_updates) {
             self.write(&numbered(updates), &bytes)?;
             self.prune();
         }
-        Ok(())
+        Ok(bytes)
+    }
+
+    /// Writes `best`: a checkpoint as it was encoded.
+    pub fn save_best(&self, bytes: &[u8]) -> Result<(), CheckpointError> {
+        self.write("best.bundle", bytes)
     }
 
     /// Where the newest lies.

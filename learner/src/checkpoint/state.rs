@@ -50,6 +50,8 @@ pub struct TrainingState {
     pub counters: Counters,
     /// The best mean return so far.
     pub best_return: Option<f64>,
+    /// Whether that is of an evaluation; until the first, it is of training.
+    pub best_is_evaluated: bool,
 }
 
 /// Counters over the whole run, across resumes.
@@ -101,6 +103,7 @@ impl TrainingState {
             episodes: EpisodeWindow::default(),
             counters: Counters::default(),
             best_return: None,
+            best_is_evaluated: false,
             parameters,
             shape,
         }

@@ -1,0 +1,124 @@
+//! What became of a policy in an evaluation.
+
+use prost::Message;
+
+use crate::{Malformed, PolicyVersion, bundle, ident::check_ident, wire};
+
+/// The outcome of deterministic episodes of one policy.
+#[derive(Clone, Debug, PartialEq)]
+pub struct EvaluationReport {
+    /// The run.
+    pub run: String,
+    /// Who evaluated.
+    pub evaluator: String,
+    /// The policy.
+    pub version: PolicyVersion,
+    /// Episodes played, at least 1.
+    pub episodes: u32,
+    /// Mean return.
+    pub return_mean: f64,
+    /// Standard deviation of the return.
+    pub return_std: f64,
+    /// Mean length (control steps).
+    pub length_mean: f64,
+    /// Mean distance forward (m).
+    pub distance_mean_m: f64,
+    /// Distance over time, over all episodes (m/s).
+    pub velocity_mean_mps: f64,
+    /// Episodes that ended with a fall.
+    pub falls: u32,
+}
+
+impl EvaluationReport {
+    /// Protobuf bytes.
+    pub fn encode(&self) -> Vec<u8> {
+        wire::EvaluationReport {
+            run: self.run.clone(),
+            evaluator: self.evaluator.clone(),
+            version: Some(self.version.into()),
+            episodes: self.episodes,
+            return_mean: self.return_mean,
+            return_std: self.return_std,
+            length_mean: self.length_mean,
+            distance_mean_m: self.distance_mean_m,
+            velocity_mean_mps: self.velocity_mean_mps,
+            falls: self.falls,
+        }
+        .encode_to_vec()
+    }
+
+    /// Reads and checks protobuf bytes from a stranger.
+    pub fn decode(bytes: &[u8]) -> Result<Self, Malformed> {
+        const WHAT: &str = "evaluation report";
+        bundle::check_small(WHAT, bytes.len())?;
+        let message = wire::EvaluationReport::decode(bytes)
+            .map_err(|why| Malformed::Undecodable { what: WHAT, why: why.to_string() })?;
+        check_ident("run", &message.run)?;
+        check_ident("evaluator", &message.evaluator)?;
+        for (field, value) in [
+            ("return_mean", message.return_mean),
+            ("return_std", message.return_std),
+            ("length_mean", message.length_mean),
+            ("distance_mean_m", message.distance_mean_m),
+            ("velocity_mean_mps", message.velocity_mean_mps),
+        ] {
+            if !value.is_finite() {
+                return Err(Malformed::NotFinite { field, index: 0, value: value.to_string() });
+            }
+        }
+        if message.episodes == 0 {
+            return Err(Malformed::field("episodes", 0, "at least 1"));
+        }
+        if message.falls > message.episodes {
+            return Err(Malformed::field("falls", message.falls, format!("0 to {}, the episodes", message.episodes)));
+        }
+        Ok(Self {
+            run: message.run,
+            evaluator: message.evaluator,
+            version: bundle::version(message.version)?,
+            episodes: message.episodes,
+            return_mean: message.return_mean,
+            return_std: message.return_std,
+            length_mean: message.length_mean,
+            distance_mean_m: message.distance_mean_m,
+            velocity_mean_mps: message.velocity_mean_mps,
+            falls: message.falls,
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn reports_survive_and_nonsense_is_refused() {
+        let report = EvaluationReport {
+            run: "walk-1".into(),
+            evaluator: "evaluator".into(),
+            version: PolicyVersion { incarnation: 3, number: 4 },
+            episodes: 10,
+            return_mean: 6000.0,
+            return_std: 3.0,
+            length_mean: 990.0,
+            distance_mean_m: 20.0,
+            velocity_mean_mps: 1.3,
+            falls: 1,
+        };
+        assert_eq!(EvaluationReport::decode(&report.encode()), Ok(report.clone()));
+        let spoil: [fn(&mut EvaluationReport); 6] = [
+            |report| report.run = "a/b".into(),
+            |report| report.evaluator = String::new(),
+            |report| report.episodes = 0,
+            |report| report.falls = 11,
+            |report| report.return_mean = f64::NAN,
+            |report| report.velocity_mean_mps = f64::INFINITY,
+        ];
+        for spoil in spoil {
+            let mut bad = report.clone();
+            spoil(&mut bad);
+            assert!(EvaluationReport::decode(&bad.encode()).is_err(), "{bad:?}");
+        }
+        assert!(EvaluationReport::decode(b"no protobuf").is_err());
+    }
+}
