@@ -98,7 +98,7 @@ fn the_gradient_of_actor_and_critic_agrees_with_finite_differences() -> Result<(
         let exact = weighted_output(&shape, &p, &x, &c);
         assert!((f64::from(loss.to_scalar::<f32>()?) - exact).abs() < 1e-4, "{shape:?}");
         for tensor in shape.tensors() {
-            let range = tensor.range();
+            let (range, mut largest) = (tensor.range(), 0.0_f64);
             for i in [range.start, range.start + range.len() / 2, range.end - 1] {
                 let centre = p[i];
                 p[i] = centre + 1e-5;
@@ -112,8 +112,9 @@ fn the_gradient_of_actor_and_critic_agrees_with_finite_differences() -> Result<(
                     "{}: {found} {expected}",
                     tensor.name
                 );
-                assert!(tensor.name == "log_std" || expected.abs() > 1e-4, "{} takes part", tensor.name);
+                largest = largest.max(expected.abs());
             }
+            assert!(tensor.name == "log_std" || largest > 1e-4, "{} takes part: {largest}", tensor.name);
         }
     }
     Ok(())
