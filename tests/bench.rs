@@ -62,6 +62,30 @@ fn update_measures_samples_and_does_the_same_work_on_any_number_of_threads() {
     let two = bench(&["update", "--updates", "1", "--minibatch", "256", "--threads", "2"]);
     assert_eq!((&one["threads"], &two["threads"]), (&1.into(), &2.into()));
     assert_eq!(one["checksum"], two["checksum"]);
+    let larger = bench(&["update", "--updates", "1", "--minibatch", "64", "--network", "348-512-256"]);
+    assert_eq!(larger["network"], "348-512-256 actor and critic");
+}
+
+#[test]
+fn policy_measures_calls_and_does_the_same_work_each_time() {
+    let one = bench(&["policy", "--calls", "20"]);
+    assert!(one["call_us"].as_f64().unwrap() > 0.0 && one["rows_per_s"].as_f64().unwrap() > 0.0);
+    assert_eq!((&one["rows"], &one["threads"]), (&64.into(), &1.into()));
+    assert_eq!(one["network"], "45-256-128 actor");
+    assert!(!one["cpu"].as_str().unwrap().is_empty());
+    assert_eq!(one["checksum"], bench(&["policy", "--calls", "10"])["checksum"]);
+    let larger = bench(&["policy", "--calls", "10", "--rows", "3", "--network", "348-512-256"]);
+    assert_eq!((&larger["rows"], &larger["network"]), (&3.into(), &"348-512-256 actor".into()));
+    assert_ne!(one["checksum"], larger["checksum"]);
+}
+
+#[test]
+fn networks_that_make_no_sense_are_refused() {
+    let (folder, _) = folders();
+    for bench in ["update", "policy"] {
+        let output = self::run(folder.path(), &["bench", bench, "--network", "45-0"]);
+        assert_refused(&output, 2, &["45-0", "45-256-128"]);
+    }
 }
 
 #[test]

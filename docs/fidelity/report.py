@@ -7,15 +7,19 @@ import subprocess
 import sys
 
 
-def circumstances(repository):
-    """Commit, machine and versions."""
+PACKAGES = ("mujoco", "gymnasium", "numpy")
+SOURCES = ("actor/humanoid/src", "actor/humanoid/assets")
+
+
+def circumstances(repository, packages=PACKAGES, sources=SOURCES):
+    """Commit, machine and versions; `sources` are the paths whose changes since the commit are told."""
 
     def git(*arguments):
         run = subprocess.run(["git", *arguments], cwd=repository, capture_output=True, text=True)
         return run.stdout.strip()
 
-    changed = git("status", "--porcelain", "--untracked-files=no", "--", "actor/humanoid/src", "actor/humanoid/assets")
-    versions = {name: importlib.metadata.version(name) for name in ("mujoco", "gymnasium", "numpy")}
+    changed = git("status", "--porcelain", "--untracked-files=no", "--", *sources)
+    versions = {name: importlib.metadata.version(name) for name in packages}
     return {
         "commit": git("rev-parse", "--short=7", "HEAD") + (" with changes" if changed else ""),
         "cpu": cpu_model(),
@@ -31,9 +35,9 @@ def cpu_model():
     return f"{names[0]}, {len(names)} cores" if names else platform.processor()
 
 
-def made_by(made):
+def made_by(made, packages=PACKAGES):
     """The circumstances as one line."""
-    keys = ("mujoco", "gymnasium", "numpy", "python")
+    keys = (*packages, "python")
     return f"Treadmill {made['commit']}; " + ", ".join(f"{key} {made[key]}" for key in keys) + f"; {made['cpu']}."
 
 

@@ -1,6 +1,8 @@
 //! `treadmill bench`: the benchmark sheet. Each bench prints its workload and a checksum of its result.
 
 mod env;
+mod network;
+mod policy;
 mod quality;
 mod quantiles;
 mod train;
@@ -24,6 +26,8 @@ enum What {
     Env(env::EnvArgs),
     /// Minibatch samples per second of the update.
     Update(update::UpdateArgs),
+    /// Microseconds that an actor's policy takes to choose actions.
+    Policy(policy::PolicyArgs),
     /// Trained environment steps per second of the whole system.
     Train(train::TrainArgs),
 }
@@ -33,6 +37,7 @@ pub fn run(args: BenchArgs) -> anyhow::Result<()> {
     match args.what {
         What::Env(args) => env::run(&args),
         What::Update(args) => update::run(&args),
+        What::Policy(args) => policy::run(&args),
         What::Train(args) => train::run(&args),
     }
 }

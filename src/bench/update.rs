@@ -3,7 +3,6 @@
 use std::{sync::Arc, time::Instant};
 
 use clap::Args;
-use rand_distr::{Distribution, StandardNormal};
 use serde_json::json;
 use treadmill_common::{
     config::PpoConfig,
@@ -13,7 +12,10 @@ use treadmill_common::{
 };
 use treadmill_learner::ppo::{Batch, Updater};
 
-use super::{rounded, tell};
+use super::{
+    network::{self, Widths},
+    rounded, tell, worlds,
+};
 
 /// Flags of `bench update`.
 #[derive(Args)]
@@ -22,11 +24,14 @@ pub struct UpdateArgs {
     #[arg(long, default_value_t = 10)]
     updates: u32,
     /// Threads; 0 means one per core.
-    #[arg(long, default_value_t = 1)]
-    threads: usize,
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u16).range(0..=256))]
+    threads: u16,
     /// Transitions of one gradient step.
     #[arg(long, default_value_t = 2048)]
     minibatch: u32,
+    /// Widths of actor and critic: observation, then hidden layers.
+    #[arg(long, value_name = "WIDTHS", default_value = "45-256-128")]
+    network: Widths,
     /// Print one JSON object.
     #[arg(long)]
     json: bool,
@@ -34,13 +39,13 @@ pub struct UpdateArgs {
 
 /// Measures and tells.
 pub fn run(args: &UpdateArgs) -> anyhow::Result<()> {
-    let shape = NetworkShape { observation: 45, action: 17, hidden: vec![256, 128] };
+    let shape = args.network.shape();
     let minibatch = args.minibatch.max(1);
     let config = PpoConfig { minibatch, batch: minibatch.saturating_mul(4), ..PpoConfig::default() };
     let mut random = seeds::stream(1, "bench-update", &[]);
     let parameters = initial_parameters(&shape, -0.5, &mut random);
     let batch = made_up(&shape, config.batch as usize, &mut random);
-    let threads = if args.threads == 0 { machine::cores() } else { args.threads };
+    let threads = worlds::threads(args.threads.into());
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build()?;
     let mut updater = Updater::new(shape, parameters, &config, Arc::new(pool))?;
     updater.update(&batch, &mut random)?;
@@ -50,22 +55,21 @@ pub fn run(args: &UpdateArgs) -> anyhow::Result<()> {
         samples += updater.update(&batch, &mut random)?.samples;
     }
     let samples_per_s = samples as f64 / begun.elapsed().as_secs_f64();
-    let parameters: Vec<u8> = updater.parameters().iter().flat_map(|number| number.to_le_bytes()).collect();
     let result = json!({
         "samples_per_s": rounded(samples_per_s),
         "minibatch": minibatch,
-        "network": "45-256-128 actor and critic",
+        "network": format!("{} actor and critic", args.network),
         "threads": threads,
         "cpu": machine::cpu_name(),
         "workload": format!("{samples} samples: forward, loss, backward, gradient clipping, Adam"),
-        "checksum": format!("{:016x}", seeds::checksum(&[&parameters])),
+        "checksum": network::checksum(&updater.parameters()),
     });
     tell(&result, args.json);
     Ok(())
 }
 
 fn made_up(shape: &NetworkShape, rows: usize, random: &mut seeds::Stream) -> Batch {
-    let mut normals = |count: usize| -> Vec<f32> { (0..count).map(|_| StandardNormal.sample(random)).collect() };
+    let mut normals = |count: usize| network::normals(count, random);
     let actions = normals(rows * shape.action);
     let (mean, log_std) = (vec![0.0; shape.action], vec![-0.5; shape.action]);
     Batch {

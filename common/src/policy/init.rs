@@ -65,35 +65,57 @@ mod tests {
     use super::*;
     use rand_xoshiro::{Xoshiro256PlusPlus, rand_core::SeedableRng};
 
-    /// The Gram matrix of the shorter side must be `gain²` times the identity.
-    fn assert_orthogonal(weight: &[f32], layer: &Dense, gain: f64) {
+    /// How far the Gram matrix of the shorter side is from `gain²` times the identity.
+    fn misfit(weight: &[f32], layer: &Dense, gain: f64) -> f64 {
         let (rows, columns) = (layer.output, layer.input);
         let at = |r: usize, c: usize| f64::from(weight[r * columns + c]);
-        let count = rows.min(columns);
-        for i in 0..count {
-            for j in 0..count {
-                let product: f64 = if rows <= columns {
-                    (0..columns).map(|k| at(i, k) * at(j, k)).sum()
-                } else {
-                    (0..rows).map(|k| at(k, i) * at(k, j)).sum()
-                };
+        let short: Vec<Vec<f64>> = if rows <= columns {
+            (0..rows).map(|r| (0..columns).map(|c| at(r, c)).collect()).collect()
+        } else {
+            (0..columns).map(|c| (0..rows).map(|r| at(r, c)).collect()).collect()
+        };
+        let mut furthest = 0.0_f64;
+        for (i, left) in short.iter().enumerate() {
+            for (j, right) in short.iter().enumerate() {
                 let expected = if i == j { gain * gain } else { 0.0 };
-                assert!((product - expected).abs() < 1e-6, "{i},{j}: {product} for {layer:?}");
+                furthest = furthest.max((dot(left, right) - expected).abs());
             }
         }
+        furthest
     }
 
     #[test]
     fn weights_are_orthogonal_with_the_documented_gains() {
+        let (hidden_gain, gains) = (2.0_f64.sqrt(), [0.01, 1.0]);
+        // Tall and wide layers, and those of the presets.
+        for (observation, action, hidden) in
+            [(11, 4, vec![24, 16]), (45, 17, vec![256, 128]), (348, 17, vec![512, 256])]
+        {
+            let shape = NetworkShape { observation, action, hidden };
+            let parameters = initial_parameters(&shape, -0.5, &mut Xoshiro256PlusPlus::seed_from_u64(1));
+            for (network, last) in [shape.actor(), shape.critic()].iter().zip(gains) {
+                for (layer, gain) in network.iter().zip([hidden_gain, hidden_gain, last]) {
+                    let weight = &parameters[layer.weight()];
+                    let misfit = misfit(weight, layer, gain);
+                    assert!(misfit < 1e-6 * gain * gain, "{misfit} for {layer:?} with a gain of {gain}");
+                    assert!(parameters[layer.bias()].iter().all(|b| *b == 0.0));
+                }
+            }
+            assert!(parameters[shape.log_std()].iter().all(|l| *l == -0.5));
+        }
+    }
+
+    #[test]
+    fn one_wrong_sign_is_not_orthogonal() {
         let shape = NetworkShape { observation: 11, action: 4, hidden: vec![24, 16] };
         let parameters = initial_parameters(&shape, -0.5, &mut Xoshiro256PlusPlus::seed_from_u64(1));
-        for (network, last) in [(shape.actor(), 0.01), (shape.critic(), 1.0)] {
-            for (layer, gain) in network.iter().zip([2.0_f64.sqrt(), 2.0_f64.sqrt(), last]) {
-                assert_orthogonal(&parameters[layer.weight()], layer, gain);
-                assert!(parameters[layer.bias()].iter().all(|b| *b == 0.0));
-            }
+        for layer in &shape.actor()[..2] {
+            let mut weight = parameters[layer.weight()].to_vec();
+            let largest = (0..weight.len()).max_by(|a, b| weight[*a].abs().total_cmp(&weight[*b].abs()));
+            let largest = largest.expect("there are weights");
+            weight[largest] = -weight[largest];
+            assert!(misfit(&weight, layer, 2.0_f64.sqrt()) > 0.01, "{layer:?}");
         }
-        assert_eq!(parameters[shape.log_std()], [-0.5; 4]);
     }
 
     #[test]
