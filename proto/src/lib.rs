@@ -4,6 +4,7 @@
 //! - [`wire`]: the structures generated from `schema/*.proto`.
 //! - [`fragment`]: rollouts, checked on both sides.
 //! - [`bundle`]: the policy that the learner hands out.
+//! - [`actor_state`]: where an actor is, for deterministic runs.
 //! - [`receipt`]: the learner's answer to a fragment.
 //! - [`stats`]: what an actor tells about itself.
 //! - [`json`]: the objects on the JSON topics.
@@ -13,6 +14,7 @@
 //!
 //! Whatever arrives is hostile until checked: size first, then shape, then numbers.
 
+pub mod actor_state;
 pub mod bundle;
 pub mod event_file;
 pub mod fragment;
@@ -30,6 +32,7 @@ pub mod wire {
     include!(concat!(env!("OUT_DIR"), "/treadmill.v1.rs"));
 }
 
+pub use actor_state::ActorState;
 pub use bundle::{PolicyAnnouncement, PolicyBundle, PolicyVersion};
 pub use fragment::{EndCause, Episode, Fragment};
 pub use receipt::{Outcome, Receipt};

@@ -7,7 +7,7 @@ use treadmill_common::{
     policy::{NetworkShape, init},
     seeds::{self, Stream},
 };
-use treadmill_proto::PolicyBundle;
+use treadmill_proto::{ActorState, PolicyBundle};
 
 use crate::{
     episodes::EpisodeWindow,
@@ -50,6 +50,8 @@ pub struct TrainingState {
     pub counters: Counters,
     /// The best mean return so far.
     pub best_return: Option<f64>,
+    /// Where the only actor of a deterministic run was after the last fragment that was learnt from.
+    pub actor_state: Option<ActorState>,
 }
 
 /// Counters over the whole run, across resumes.
@@ -101,6 +103,7 @@ impl TrainingState {
             episodes: EpisodeWindow::default(),
             counters: Counters::default(),
             best_return: None,
+            actor_state: None,
             parameters,
             shape,
         }
@@ -135,7 +138,7 @@ impl TrainingState {
                 self.shape.hidden
             ));
         }
-        Ok(())
+        self.actor_state.as_ref().map_or(Ok(()), |state| state.check().map_err(|why| why.to_string()))
     }
 
     /// The hash that every fragment repeats: over the model and the configuration, but for how long the run is.
@@ -145,7 +148,7 @@ impl TrainingState {
         Ok(seeds::checksum(&[config.to_toml().as_bytes(), self.model_xml.as_bytes()]))
     }
 
-    /// What actors get of this state.
+    /// What actors get of this state. Its [`Self::actor_state`] is added where it is resumed.
     pub fn bundle(&self) -> Result<PolicyBundle, String> {
         let config = self.config()?;
         let weights = treadmill_common::policy::to_safetensors(&self.shape, &self.parameters);
@@ -165,6 +168,7 @@ impl TrainingState {
             config_hash: self.config_hash()?,
             config_toml: self.config_toml.clone(),
             model_xml: self.model_xml.clone(),
+            actor_state: None,
         })
     }
 }
