@@ -114,7 +114,15 @@ impl Collector {
             self.add_last_observations(t, &mut fragment);
         }
         if self.is_state_attached {
-            fragment.actor_state = self.environments.save(&self.noise).filter(ActorState::fits);
+            fragment.actor_state = self.environments.save(&self.noise);
+            if fragment.actor_state.as_ref().is_some_and(|state| !state.fits()) {
+                tracing::warn!(
+                    "{envs} environments are too many for their state to be saved: this run cannot be resumed bit for bit; \
+                     use fewer"
+                );
+                self.is_state_attached = false;
+                fragment.actor_state = None;
+            }
         }
         Ok(fragment)
     }
