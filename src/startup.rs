@@ -7,7 +7,7 @@ use clap::Args;
 use serde_json::json;
 use treadmill_common::{
     bus::BusOptions,
-    config::{Config, ConfigSource},
+    config::{Config, ConfigSource, LearnerMode},
     machine,
     run_folder::RunFolder,
     seeds,
@@ -122,6 +122,7 @@ fn begin(new: &NewRunArgs, any: &AnyRunArgs, changes: &[(&str, toml::Value)]) ->
     if config.run.deterministic {
         config.rollout.actors = 1;
         config.rollout.max_in_flight = 1;
+        config.learner.mode = LearnerMode::Sync;
     }
     let text = model::text(any.model.as_deref())?;
     let environment = model::environment(&config, &text, any.model.as_deref())?;

@@ -21,6 +21,7 @@ pub mod evaluation;
 pub mod policies;
 pub mod rollout;
 pub mod settings;
+pub mod staleness;
 pub mod worker;
 
 /// Why an actor cannot go on.

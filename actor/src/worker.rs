@@ -26,6 +26,7 @@ use crate::{
     policies::{Policies, Refreshed, join},
     rollout::{Collector, Sender},
     settings,
+    staleness::Staleness,
 };
 
 /// Fragments between the physics thread and the courier; credit keeps them at no more than `max_in_flight`, which is 2 at
@@ -98,17 +99,18 @@ async fn stay(
     let receipt_timeout = Duration::from_millis(config.bus.receipt_timeout_ms);
     let courier = Arc::new(Courier::new(bus.clone(), &bundle.run, &options.name, receipt_timeout, policies.clone()));
     let collector = collector(options, bundle, &config, incarnation)?;
+    let staleness = Staleness::new(&config, &options.name, options.start);
     let progress = Arc::new(Progress::default());
 
     // Credit: the physics thread takes one for each fragment; the courier gives it back with the receipt.
     let (give_credit, credit) = mpsc::channel();
-    (0..config.rollout.max_in_flight).for_each(|_| give_credit.send(()).unwrap_or_default());
+    (0..config.fragments_in_flight()).for_each(|_| give_credit.send(()).unwrap_or_default());
     let (outbox, mut produced) = tokio_mpsc::channel::<Result<Produced, ActorError>>(OUTBOX_FRAGMENTS);
     let physics = std::thread::Builder::new()
         .name("physics".to_string())
         .spawn({
             let (policies, courier, progress) = (policies.clone(), courier.clone(), progress.clone());
-            move || simulate(collector, &policies, &courier, &credit, &outbox, &progress)
+            move || simulate(collector, staleness, &policies, &courier, &credit, &outbox, &progress)
         })
         .map_err(|why| ActorError::Physics { why: why.to_string() })?;
 
@@ -207,9 +209,11 @@ fn collector(
     Ok(collector)
 }
 
-/// The physics thread: one fragment for each credit, with the newest policy at its beginning.
+/// The physics thread: one fragment for each credit, with the newest policy at its beginning, or an older one where staleness
+/// is asked for.
 fn simulate(
     mut collector: Collector,
+    mut staleness: Staleness,
     policies: &Policies,
     courier: &Courier,
     credit: &mpsc::Receiver<()>,
@@ -217,10 +221,11 @@ fn simulate(
     progress: &Progress,
 ) {
     while credit.recv().is_ok() {
-        let produced = collector.collect(&policies.current(), courier.settled_through()).and_then(|fragment| {
-            courier.produced(fragment.sequence);
-            encode(fragment, progress)
-        });
+        let produced =
+            collector.collect(&staleness.choose(policies.current()), courier.settled_through()).and_then(|fragment| {
+                courier.produced(fragment.sequence);
+                encode(fragment, progress)
+            });
         let failed = produced.is_err();
         if outbox.blocking_send(produced).is_err() || failed {
             return;

@@ -1,12 +1,13 @@
-//! Fragments turned into what the update wants: observations normalised, returns and advantages estimated.
+//! Fragments turned into what the update wants: observations normalised, returns and advantages estimated, and what
+//! older policies brought corrected for.
 //!
 //! Observations are normalised by the statistics of the newest policy, which are those its fragments were acted by; a
 //! fragment that lags is read with them too, because networks and statistics together are the policy that is improved.
 
 use treadmill_common::{
-    config::PpoConfig,
+    config::{OffPolicy, PpoConfig},
     normaliser::{Normaliser, RunningMoments, ScalarNormaliser},
-    policy::Policy,
+    policy::{Policy, gaussian},
 };
 use treadmill_proto::{
     Fragment,
@@ -19,26 +20,30 @@ use crate::{
     ppo::Batch,
 };
 
-/// The batch of one update, from whole fragments. `value_moments` take in the new returns before returns and values are
-/// normalised by them.
+/// The batch of one update, from whole fragments. `policy` is the newest, which the update is to improve.
+/// `value_moments` take in the new returns before returns and values are normalised by them.
 ///
 /// # Errors
-/// If the critic cannot be evaluated.
+/// If the networks cannot be evaluated.
 pub fn prepare(
     accepted: &[Accepted],
-    critic: &Policy,
+    policy: &Policy,
     normaliser: &Normaliser,
     value_moments: &mut RunningMoments,
     config: &PpoConfig,
 ) -> Result<Batch, candle_core::Error> {
     let mut batch = Batch::default();
     let old_scale = ScalarNormaliser::from_moments(value_moments);
-    for Accepted { fragment, .. } in accepted {
+    for Accepted { fragment, lag } in accepted {
         let mut observations = fragment.observations.clone();
         normaliser.apply(&mut observations);
-        let mut values = critic.values(&observations, fragment.transitions())?;
-        let next_values = next_values(fragment, critic, normaliser, &mut values, &old_scale)?;
+        let mut values = policy.values(&observations, fragment.transitions())?;
+        let next_values = next_values(fragment, policy, normaliser, &mut values, &old_scale)?;
         let rewards: Vec<f32> = fragment.rewards.iter().map(|reward| reward * config.reward_scale as f32).collect();
+        let correction = match (lag, config.off_policy) {
+            (0, _) | (_, OffPolicy::Uncorrected) => None,
+            _ => Some(Correction::of(fragment, policy, &observations)?),
+        };
         let steps = Steps {
             envs: fragment.envs as usize,
             rewards: &rewards,
@@ -46,11 +51,21 @@ pub fn prepare(
             next_values: &next_values,
             terminated: &flagged(fragment, TERMINATED),
             truncated: &flagged(fragment, TRUNCATED),
+            weights: correction.as_ref().map(|correction| &correction.weights[..]),
         };
         let estimated = gae::estimate(&steps, config.gamma as f32, config.gae_lambda as f32);
         batch.observations.append(&mut observations);
         batch.actions.extend_from_slice(&fragment.actions);
-        batch.log_probs.extend_from_slice(&fragment.log_probs);
+        match correction {
+            Some(Correction { weights, log_probs }) if config.off_policy == OffPolicy::Decoupled => {
+                batch.log_probs.extend(log_probs);
+                batch.weights.extend(weights);
+            }
+            _ => {
+                batch.log_probs.extend_from_slice(&fragment.log_probs);
+                batch.weights.resize(batch.log_probs.len(), 1.0);
+            }
+        }
         batch.advantages.extend(estimated.advantages);
         batch.returns.extend(estimated.returns);
         batch.values.append(&mut values);
@@ -62,10 +77,38 @@ pub fn prepare(
     Ok(batch)
 }
 
+/// What corrects for a fragment's having been acted by an older policy.
+///
+/// The decoupled objective keeps the newest policy as the one that the update stays near to, and weighs each action by
+/// how much more likely it is than when it was taken (Hilton et al. 2021, "Batch size-invariance for policy optimization",
+/// arXiv:2110.00641, equation 2; the weight is truncated as in V-trace).
+struct Correction {
+    /// `min(1, π(a|s) / μ(a|s))` of each transition, with the newest policy π and the one that acted, μ.
+    weights: Vec<f32>,
+    /// `ln π(a|s)`.
+    log_probs: Vec<f32>,
+}
+
+impl Correction {
+    fn of(fragment: &Fragment, policy: &Policy, observations: &[f32]) -> Result<Self, candle_core::Error> {
+        let actions = fragment.action_size as usize;
+        let mut means = vec![0.0; fragment.actions.len()];
+        policy.means(observations, fragment.transitions(), &mut means)?;
+        let log_probs: Vec<f32> = fragment
+            .actions
+            .chunks_exact(actions)
+            .zip(means.chunks_exact(actions))
+            .map(|(action, mean)| gaussian::log_probability(action, mean, policy.log_std()))
+            .collect();
+        let weights = log_probs.iter().zip(&fragment.log_probs).map(|(new, old)| (new - old).exp().min(1.0)).collect();
+        Ok(Self { weights, log_probs })
+    }
+}
+
 /// Values of the observations truly reached; brings `values` to the units of returns on the way.
 fn next_values(
     fragment: &Fragment,
-    critic: &Policy,
+    policy: &Policy,
     normaliser: &Normaliser,
     values: &mut [f32],
     scale: &ScalarNormaliser,
@@ -73,7 +116,7 @@ fn next_values(
     let mut last = fragment.last_observations.clone();
     normaliser.apply(&mut last);
     let rows = last.len() / fragment.observation_size as usize;
-    let mut last_values = if rows > 0 { critic.values(&last, rows)? } else { Vec::new() };
+    let mut last_values = if rows > 0 { policy.values(&last, rows)? } else { Vec::new() };
     scale.denormalise(&mut last_values);
     scale.denormalise(values);
     // The fragment's last observations mix both kinds, ordered by step and environment.
@@ -97,3 +140,7 @@ fn next_values(
 fn flagged(fragment: &Fragment, flag: u8) -> Vec<bool> {
     fragment.flags.iter().map(|flags| flags & flag != 0).collect()
 }
+
+#[cfg(test)]
+#[path = "experience_tests.rs"]
+mod tests;

@@ -21,6 +21,7 @@ pub mod gae;
 pub mod intake;
 pub mod logging;
 pub mod optimiser;
+pub mod pace;
 pub mod ppo;
 pub mod report;
 pub mod scalars;

@@ -30,17 +30,34 @@ pub struct Lag {
     pub mean: f64,
     /// The largest.
     pub max: f64,
+    /// Share of transitions that are 0, 1, 2, 3, 4, and 5 or more versions behind.
+    pub shares: [f64; LAG_SHARES.len()],
+    /// Transitions.
+    pub transitions: f64,
 }
+
+/// The histogram of lags, tag by tag.
+const LAG_SHARES: [&str; 6] = [
+    "bus/policy_lag_0_share",
+    "bus/policy_lag_1_share",
+    "bus/policy_lag_2_share",
+    "bus/policy_lag_3_share",
+    "bus/policy_lag_4_share",
+    "bus/policy_lag_5_up_share",
+];
 
 impl Lag {
     /// Over every transition of a batch.
     pub fn of(batch: &[Accepted]) -> Self {
         let transitions: f64 = batch.iter().map(|accepted| accepted.fragment.transitions() as f64).sum();
-        let sum: f64 = batch.iter().map(|accepted| accepted.lag as f64 * accepted.fragment.transitions() as f64).sum();
-        Self {
-            mean: sum / transitions.max(1.0),
-            max: batch.iter().map(|accepted| accepted.lag).max().unwrap_or(0) as f64,
+        let mut lag = Self { transitions, ..Self::default() };
+        for accepted in batch {
+            let share = accepted.fragment.transitions() as f64 / transitions.max(1.0);
+            lag.mean += share * accepted.lag as f64;
+            lag.max = lag.max.max(accepted.lag as f64);
+            lag.shares[(accepted.lag as usize).min(LAG_SHARES.len() - 1)] += share;
         }
+        lag
     }
 }
 
@@ -81,6 +98,8 @@ pub struct Round<'a> {
     pub update: Option<&'a UpdateStats>,
     /// Lag of the batch.
     pub lag: Lag,
+    /// Passes over it.
+    pub epochs: u32,
     /// How long its parts took.
     pub durations: Durations,
     /// Environment steps per second.
@@ -150,6 +169,8 @@ impl Round<'_> {
         let counters = &self.state.counters;
         out.extend([
             ("train/clip_range", self.config.ppo.clip_range),
+            ("train/batch", self.lag.transitions),
+            ("train/epochs", f64::from(self.epochs)),
             ("train/learning_rate", self.state.learning_rate),
             ("train/n_updates", counters.gradient_steps as f64),
             ("train/undone_updates", counters.undone_updates as f64),
@@ -158,9 +179,9 @@ impl Round<'_> {
 
     fn bus(&self, out: &mut Vec<(&str, f64)>) {
         let tally = &self.state.tally;
+        out.extend([("bus/policy_lag_mean", self.lag.mean), ("bus/policy_lag_max", self.lag.max)]);
+        out.extend(LAG_SHARES.into_iter().zip(self.lag.shares));
         out.extend([
-            ("bus/policy_lag_mean", self.lag.mean),
-            ("bus/policy_lag_max", self.lag.max),
             ("bus/fragments_accepted", tally.accepted as f64),
             ("bus/fragments_duplicate", tally.duplicate as f64),
             ("bus/fragments_too_old", tally.too_old as f64),

@@ -22,8 +22,9 @@ use treadmill_proto::PolicyAnnouncement;
 use crate::{
     checkpoint::{CheckpointError, Saver, TrainingState},
     experience,
-    intake::{Accepted, Expected, Intake, Judge},
+    intake::{Accepted, BusMailbox, Expected, Gathered, Intake, Judge},
     logging::CurveError,
+    pace::Pace,
     ppo::{UpdateError, UpdateStats, Updater},
     report::Report,
     scalars::{Durations, Lag, Round, Speed},
@@ -101,19 +102,21 @@ pub fn train(
     let mut stopped = false;
     while trainer.state.counters.env_steps < trainer.config.run.steps {
         let round_begun = Instant::now();
-        let Some(batch) = trainer.collect(shutdown) else {
+        let Some(gathered) = trainer.collect(shutdown) else {
             stopped = true;
             break;
         };
         let collect = round_begun.elapsed();
-        let update = trainer.update(&batch)?;
+        let batch = &gathered.fragments;
+        let update = trainer.update(batch)?;
         let update_time = round_begun.elapsed() - collect;
-        trainer.account(&batch);
+        trainer.account(batch);
         trainer.save()?;
         let checkpoint = round_begun.elapsed() - collect - update_time;
         trainer.publish()?;
         let durations = Durations { collect, update: update_time, learn: trainer.learn, checkpoint };
-        trainer.log(update.as_ref(), Lag::of(&batch), durations)?;
+        trainer.log(update.as_ref(), batch, durations)?;
+        trainer.pace.heed(&gathered);
     }
     trainer.finish()?;
     let state = trainer.state;
@@ -129,7 +132,8 @@ struct Trainer {
     state: TrainingState,
     config: Config,
     updater: Updater,
-    intake: Intake,
+    intake: Intake<BusMailbox>,
+    pace: Pace,
     shelf: PolicyShelf,
     stats: StatsFeed,
     saver: Saver,
@@ -157,7 +161,7 @@ impl Trainer {
             config_hash: bundle.config_hash,
             observation_size: bundle.observation_size,
             action_size: bundle.action_size,
-            max_policy_lag: config.learner.max_policy_lag.into(),
+            max_policy_lag: config.policy_lag_allowed().into(),
         };
         let judge = Judge::new(expected, config.learner.quarantine_after, state.ledger.clone(), state.tally);
         let threads = match config.learner.threads {
@@ -181,11 +185,9 @@ impl Trainer {
         saver.save(&state, false)?;
         let encoded = bundle.encode().map_err(|why| wrong(why.to_string()))?;
         let report = Report::open(bus, &state, &config, options)?;
-        let intake = Intake::new(
-            RolloutIntake::open(bus, &state.run, config.learner.intake_fragments as usize)?,
-            Alive::watch(bus, &state.run)?,
-            judge,
-        );
+        let queue = RolloutIntake::open(bus, &state.run, config.learner.intake_fragments as usize)?;
+        let mailbox = BusMailbox::new(queue, Alive::watch(bus, &state.run)?);
+        let intake = Intake::new(mailbox, config.learner.mode, judge);
         Ok(Self {
             intake,
             stats: StatsFeed::open(bus, &state.run)?,
@@ -198,6 +200,7 @@ impl Trainer {
             undone_in_a_row: 0,
             learn: Duration::ZERO,
             is_best: false,
+            pace: Pace::new(&config),
             saver,
             report,
             updater,
@@ -206,19 +209,19 @@ impl Trainer {
         })
     }
 
-    fn collect(&mut self, shutdown: &Shutdown) -> Option<Vec<Accepted>> {
-        self.intake.collect(self.config.ppo.batch as usize, &self.state.lineage, shutdown)
+    fn collect(&mut self, shutdown: &Shutdown) -> Option<Gathered> {
+        self.intake.collect(self.pace.wanted(), &self.state.lineage, shutdown)
     }
 
     fn update(&mut self, accepted: &[Accepted]) -> Result<Option<UpdateStats>, TrainingError> {
         let state = &mut self.state;
-        let critic = self.updater.policy().map_err(|why| TrainingError::State { why: why.to_string() })?;
+        let policy = self.updater.policy().map_err(|why| TrainingError::State { why: why.to_string() })?;
         let clip = self.config.policy.observation_clip as f32;
         let normaliser = Normaliser::from_moments(&state.observation_moments, clip);
         let mut value_moments = state.value_moments.clone();
-        let batch = experience::prepare(accepted, &critic, &normaliser, &mut value_moments, &self.config.ppo)?;
+        let batch = experience::prepare(accepted, &policy, &normaliser, &mut value_moments, &self.config.ppo)?;
         let begun = Instant::now();
-        let updated = self.updater.update(&batch, &mut state.shuffle);
+        let updated = self.updater.update_in(self.pace.epochs(), &batch, &mut state.shuffle);
         self.learn = begun.elapsed();
         match updated {
             Ok(stats) => {
@@ -288,7 +291,12 @@ impl Trainer {
         Ok(())
     }
 
-    fn log(&mut self, update: Option<&UpdateStats>, lag: Lag, durations: Durations) -> Result<(), TrainingError> {
+    fn log(
+        &mut self,
+        update: Option<&UpdateStats>,
+        batch: &[Accepted],
+        durations: Durations,
+    ) -> Result<(), TrainingError> {
         let alive = self.intake.alive();
         let env_steps = self.state.counters.env_steps;
         let env_steps_per_s = self.speed.mark(env_steps);
@@ -296,7 +304,8 @@ impl Trainer {
             state: &self.state,
             config: &self.config,
             update,
-            lag,
+            lag: Lag::of(batch),
+            epochs: self.pace.epochs(),
             durations,
             env_steps_per_s,
             stats: self.stats.newest(&alive),

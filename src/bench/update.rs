@@ -75,6 +75,7 @@ fn made_up(shape: &NetworkShape, rows: usize, random: &mut seeds::Stream) -> Bat
             .map(|action| gaussian::log_probability(action, &mean, &log_std))
             .collect(),
         actions,
+        weights: vec![1.0; rows],
         advantages: normals(rows),
         returns: normals(rows),
         values: normals(rows),

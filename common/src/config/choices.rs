@@ -51,11 +51,35 @@ choice! {
     }
 }
 
+choice! {
+    /// Which policy versions a batch is made of.
+    LearnerMode {
+        /// The newest alone: actors wait while it is improved.
+        Sync = "sync",
+        /// Also somewhat older ones: actors go on while it is improved.
+        Async = "async",
+    }
+}
+
+choice! {
+    /// How experience of older policies is corrected for.
+    OffPolicy {
+        /// Not at all.
+        Uncorrected = "uncorrected",
+        /// By truncated importance weights along the trace.
+        VTrace = "v-trace",
+        /// By those, and by a surrogate about the newest policy instead of the one that acted.
+        Decoupled = "decoupled",
+    }
+}
+
 /// The names that a key of this type (as [`super::KeyDoc::kind`] has it) may take; `None` for other types.
 pub(super) fn names(kind: &str) -> Option<&'static [&'static str]> {
     match kind {
         "EnvTask" => Some(EnvTask::NAMES),
         "EnvObservation" => Some(EnvObservation::NAMES),
+        "LearnerMode" => Some(LearnerMode::NAMES),
+        "OffPolicy" => Some(OffPolicy::NAMES),
         _ => None,
     }
 }

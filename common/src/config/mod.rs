@@ -10,7 +10,7 @@ mod source;
 
 use serde::{Deserialize, Serialize};
 
-pub use choices::{EnvObservation, EnvTask};
+pub use choices::{EnvObservation, EnvTask, LearnerMode, OffPolicy};
 pub use preset::{PRESETS, preset};
 pub use section::{KeyDoc, Section};
 pub use sections::{
@@ -150,6 +150,13 @@ impl Config {
                 format!("at most ppo.learning_rate_max, which is {}", show(&self.ppo.learning_rate_max)),
             );
         }
+        if self.learner.mode == LearnerMode::Sync && self.rollout.max_in_flight == 2 {
+            return refuse(
+                "rollout.max_in_flight",
+                "2".to_string(),
+                "0 or 1 where learner.mode is \"sync\"".to_string(),
+            );
+        }
         self.check_observation()?;
         if self.rollout.actors > self.rollout.envs {
             return refuse(
@@ -181,6 +188,23 @@ impl Config {
             }
         }
         Ok(())
+    }
+
+    /// Unanswered fragments that an actor may have on the bus.
+    pub fn fragments_in_flight(&self) -> u32 {
+        match (self.rollout.max_in_flight, self.learner.mode) {
+            (0, LearnerMode::Sync) => 1,
+            (0, LearnerMode::Async) => 2,
+            (chosen, _) => chosen,
+        }
+    }
+
+    /// Versions that a fragment's policy may be behind the newest.
+    pub fn policy_lag_allowed(&self) -> u32 {
+        match self.learner.mode {
+            LearnerMode::Sync => 0,
+            LearnerMode::Async => self.learner.max_policy_lag,
+        }
     }
 
     /// The configuration as TOML, every key named.

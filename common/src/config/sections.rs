@@ -1,6 +1,6 @@
 //! Every key of the configuration, with its default.
 
-use super::choices::{EnvObservation, EnvTask};
+use super::choices::{EnvObservation, EnvTask, LearnerMode, OffPolicy};
 use super::section::section;
 
 section! {
@@ -103,8 +103,10 @@ section! {
         actors: u32 = 0, "0 to 256" => |v| *v <= 256;
         /// Control steps of each environment in one fragment.
         fragment_steps: u32 = 128, "1 to 4096" => |v| (1..=4096).contains(v);
-        /// Unanswered fragments that an actor may have on the bus: 1 keeps step with the learner, 2 never idles but lags.
-        max_in_flight: u32 = 1, "1 or 2" => |v| (1..=2).contains(v);
+        /// Unanswered fragments that an actor may have on the bus; 0 means 1 in learner.mode "sync" and 2 in "async".
+        max_in_flight: u32 = 0, "0 to 2, and not 2 in learner.mode \"sync\"" => |v| *v <= 2;
+        /// Versions that actors stay behind on purpose, drawn anew for each fragment; for experiments with lag.
+        stale_versions: [u32; 2] = [0, 0], "[fewest, most], 0 to 16" => |v| v[0] <= v[1] && v[1] <= 16;
         /// Threads of each actor process that its environments are spread over; 0 means one per core.
         threads: u32 = 1, "0 to 256" => |v| *v <= 256;
     }
@@ -127,16 +129,22 @@ section! {
     PpoConfig as "ppo" {
         /// Transitions gathered for one update.
         batch: u32 = 8192, "1 to 16777216" => |v| (1..=16_777_216).contains(v);
+        /// Transitions that an update may take in learner.mode "async" when more of them wait.
+        batch_max: u32 = 12288, "0 to 16777216; less than ppo.batch counts as ppo.batch" => |v| *v <= 16_777_216;
         /// Transitions of one gradient step.
         minibatch: u32 = 2048, "1 to ppo.batch" => |v| *v >= 1;
         /// Passes over the batch in one update.
         epochs: u32 = 5, "1 to 100" => |v| (1..=100).contains(v);
+        /// Passes that remain in learner.mode "async" when experience keeps waiting although batches are as large as they may be.
+        epochs_min: u32 = 3, "1 to ppo.epochs; more than that counts as ppo.epochs" => |v| (1..=100).contains(v);
         /// Discount of future reward per control step.
         gamma: f64 = 0.99, "0 to 1" => |v| (0.0..=1.0).contains(v);
         /// Bias-variance trade-off of generalised advantage estimation.
         gae_lambda: f64 = 0.95, "0 to 1" => |v| (0.0..=1.0).contains(v);
         /// Range around 1 to which the probability ratio is clipped.
         clip_range: f64 = 0.2, "above 0, at most 1" => |v| *v > 0.0 && *v <= 1.0;
+        /// How experience of older policies is corrected for: by nothing, truncated importance weights, or those and a decoupled proximal policy.
+        off_policy: OffPolicy = OffPolicy::Decoupled, "\"uncorrected\", \"v-trace\" or \"decoupled\"" => |_| true;
         /// Weight of the value loss.
         value_coefficient: f64 = 1.0, "0 or more" => |v| *v >= 0.0 && v.is_finite();
         /// Weight of the entropy bonus.
@@ -165,8 +173,10 @@ section! {
     LearnerConfig as "learner" {
         /// Threads of the update; 0 means one per core.
         threads: u32 = 0, "0 to 256" => |v| *v <= 256;
-        /// Versions that a fragment's policy may be behind the newest; older ones are dropped and counted.
-        max_policy_lag: u32 = 2, "0 to 100" => |v| *v <= 100;
+        /// Whether a batch takes the newest policy's experience only and actors wait for it, or older ones' too and they never idle.
+        mode: LearnerMode = LearnerMode::Sync, "\"sync\" or \"async\"" => |_| true;
+        /// Versions that a fragment's policy may be behind the newest in mode "async"; older ones are dropped and counted.
+        max_policy_lag: u32 = 4, "0 to 100" => |v| *v <= 100;
         /// Fragments that may wait, unanswered, for the learner to take them.
         intake_fragments: u32 = 256, "1 to 65536" => |v| (1..=65_536).contains(v);
         /// Rejected fragments in a row after which a sender is put in quarantine.

@@ -1,54 +1,73 @@
 //! Fragments from the bus: judged, answered, gathered into a batch.
 //!
-//! A receipt is the sender's credit. In the normal state the learner holds it back until the batch is learnt from and
-//! the next policy is out, so that the sender goes on with the newest. It never waits for one particular actor: once
-//! every live actor has delivered, or patience with the missing ones ran out, the receipts go out and the others fill
-//! the batch.
+//! A receipt is the sender's credit. Where a batch is to be of the newest policy alone ([`LearnerMode::Sync`]), receipts
+//! are held back until the batch is learnt from and the next policy is out, so that the sender goes on with the newest.
+//! The learner never waits for one particular actor: once everybody has delivered, or patience with the missing ones ran
+//! out, the receipts go out and the others fill the batch. Where older policies may take part ([`LearnerMode::Async`]),
+//! a fragment is answered as soon as it is taken.
 
 mod judge;
 mod ledger;
 mod lineage;
+mod mailbox;
+mod patience;
 mod quarantine;
 
-use std::{
-    collections::BTreeSet,
-    time::{Duration, Instant},
-};
+use std::{collections::BTreeSet, time::Duration};
 
-use treadmill_common::{
-    bus::{Alive, Delivery, RolloutIntake},
-    shutdown::Shutdown,
-};
+use treadmill_common::{config::LearnerMode, shutdown::Shutdown};
 use treadmill_proto::{Outcome, Receipt};
 
 pub use judge::{Accepted, Expected, Judge, Tally};
 pub use ledger::Ledger;
 pub use lineage::{Descent, Lineage};
+pub use mailbox::{BusMailbox, Letter, Mailbox};
+use patience::Patience;
 pub use quarantine::Quarantine;
 
 /// How often the wait for a fragment looks up.
 const TICK: Duration = Duration::from_millis(20);
-/// Patience with missing actors never falls below this: fragments of equal size do not arrive at the same instant.
-const PATIENCE_MIN: Duration = Duration::from_millis(100);
 
 /// Gathers batches.
-pub struct Intake {
-    queue: RolloutIntake,
-    alive: Alive,
+pub struct Intake<M: Mailbox> {
+    mailbox: M,
+    mode: LearnerMode,
     judge: Judge,
-    held: Vec<Held>,
+    patience: Patience,
+    held: Vec<Held<M::Letter>>,
+    /// Came when a batch was full already.
+    waiting: Option<M::Letter>,
 }
 
 /// A fragment that was taken and whose receipt is still owed.
-struct Held {
-    delivery: Delivery,
+struct Held<L> {
+    letter: L,
     incarnation: u64,
 }
 
-impl Intake {
-    /// An intake over what is declared on the bus.
-    pub fn new(queue: RolloutIntake, alive: Alive, judge: Judge) -> Self {
-        Self { queue, alive, judge, held: Vec::new() }
+/// How much a batch is to have.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Wanted {
+    /// Transitions that are waited for.
+    pub transitions: usize,
+    /// Transitions that are taken as long as nobody has to be waited for.
+    pub transitions_max: usize,
+}
+
+/// What an update is to learn from.
+#[derive(Debug)]
+pub struct Gathered {
+    /// Whole fragments, ordered by sender and sequence number, so that what is learnt does not depend on who came first.
+    pub fragments: Vec<Accepted>,
+    /// Whether more of them waited than the batch takes.
+    pub more_waited: bool,
+}
+
+impl<M: Mailbox> Intake<M> {
+    /// An intake that takes its fragments from `mailbox`.
+    pub fn new(mailbox: M, mode: LearnerMode, judge: Judge) -> Self {
+        let patience = Patience::new(mailbox.now());
+        Self { mailbox, mode, judge, patience, held: Vec::new(), waiting: None }
     }
 
     /// What was dealt with, and the counts.
@@ -58,57 +77,64 @@ impl Intake {
 
     /// Who is alive.
     pub fn alive(&self) -> BTreeSet<String> {
-        self.alive.actors()
+        self.mailbox.actors()
     }
 
-    /// Gathers whole fragments until there are `transitions` of them; `None` once somebody asked to stop.
-    ///
-    /// Ordered by sender and sequence number, so that what is learnt does not depend on who came first.
-    pub fn collect(&mut self, transitions: usize, lineage: &Lineage, shutdown: &Shutdown) -> Option<Vec<Accepted>> {
-        let mut begun = Instant::now();
-        let mut batch: Vec<Accepted> = Vec::new();
-        let mut gathered = 0;
-        let mut delivered = BTreeSet::new();
-        let mut patience = None;
-        while gathered < transitions {
+    /// Gathers whole fragments until there are as many transitions as wanted; `None` once somebody asked to stop.
+    pub fn collect(&mut self, wanted: Wanted, lineage: &Lineage, shutdown: &Shutdown) -> Option<Gathered> {
+        let mut fragments: Vec<Accepted> = Vec::new();
+        let mut transitions = 0;
+        while transitions < wanted.transitions {
             if shutdown.asked() {
                 return None;
             }
-            if let Some(delivery) = self.queue.next(TICK)
-                && let Some(accepted) = self.take(delivery, lineage)
-            {
-                delivered.insert(accepted.fragment.actor.clone());
-                gathered += accepted.fragment.transitions();
-                batch.push(accepted);
-                // Others may take twice as long as the first, counted from the start of this round.
-                patience.get_or_insert_with(|| Instant::now() + begun.elapsed().max(PATIENCE_MIN));
+            if let Some(accepted) = self.next(TICK, lineage) {
+                self.patience.delivered(&accepted.fragment.actor, self.mailbox.now());
+                transitions += accepted.fragment.transitions();
+                fragments.push(accepted);
             }
-            let all_are_in = self.alive.actors().is_subset(&delivered);
-            let out_of_patience = patience.is_some_and(|patience| Instant::now() > patience);
-            if gathered < transitions && !delivered.is_empty() && (all_are_in || out_of_patience) {
+            if transitions < wanted.transitions && self.patience.is_over(&self.mailbox.actors(), self.mailbox.now()) {
                 self.answer_held(lineage);
-                delivered.clear();
-                begun = Instant::now();
-                patience = None;
             }
         }
-        batch.sort_by(|a, b| {
+        while transitions < wanted.transitions_max
+            && let Some(accepted) = self.next(Duration::ZERO, lineage)
+        {
+            transitions += accepted.fragment.transitions();
+            fragments.push(accepted);
+        }
+        if self.waiting.is_none() {
+            self.waiting = self.mailbox.next(Duration::ZERO);
+        }
+        fragments.sort_by(|a, b| {
             let key = |accepted: &Accepted| (accepted.fragment.actor_incarnation, accepted.fragment.sequence);
             a.fragment.actor.cmp(&b.fragment.actor).then_with(|| key(a).cmp(&key(b)))
         });
-        Some(batch)
+        Some(Gathered { fragments, more_waited: self.waiting.is_some() })
     }
 
-    fn take(&mut self, mut delivery: Delivery, lineage: &Lineage) -> Option<Accepted> {
-        let payload = delivery.payload.clone();
-        delivery.release_payload();
-        match self.judge.judge(&delivery.actor, payload, lineage, Instant::now()) {
+    fn next(&mut self, patience: Duration, lineage: &Lineage) -> Option<Accepted> {
+        let letter = match self.waiting.take() {
+            Some(letter) => letter,
+            None => self.mailbox.next(patience)?,
+        };
+        self.take(letter, lineage)
+    }
+
+    fn take(&mut self, mut letter: M::Letter, lineage: &Lineage) -> Option<Accepted> {
+        let payload = letter.take_payload();
+        let now = self.mailbox.now();
+        match self.judge.judge(letter.actor(), payload, lineage, now) {
             Ok(accepted) => {
-                self.held.push(Held { delivery, incarnation: accepted.fragment.actor_incarnation });
+                let held = Held { letter, incarnation: accepted.fragment.actor_incarnation };
+                match self.mode {
+                    LearnerMode::Sync => self.held.push(held),
+                    LearnerMode::Async => self.answer(held, lineage),
+                }
                 Some(accepted)
             }
             Err(receipt) => {
-                delivery.answer(&receipt);
+                letter.answer(&receipt);
                 None
             }
         }
@@ -116,15 +142,20 @@ impl Intake {
 
     /// Answers every fragment that was taken: its sender may go on, with the newest policy.
     pub fn answer_held(&mut self, lineage: &Lineage) {
-        for Held { delivery, incarnation } in std::mem::take(&mut self.held) {
-            let durable_through = self.judge.ledger.durable_through(&delivery.actor, incarnation);
-            delivery.answer(&Receipt {
-                outcome: Outcome::Accepted,
-                reason: String::new(),
-                version: lineage.newest(),
-                durable_through,
-            });
+        for held in std::mem::take(&mut self.held) {
+            self.answer(held, lineage);
         }
+        self.patience.begin(self.mailbox.now());
+    }
+
+    fn answer(&self, Held { letter, incarnation }: Held<M::Letter>, lineage: &Lineage) {
+        let durable_through = self.judge.ledger.durable_through(letter.actor(), incarnation);
+        letter.answer(&Receipt {
+            outcome: Outcome::Accepted,
+            reason: String::new(),
+            version: lineage.newest(),
+            durable_through,
+        });
     }
 
     /// Notes that everything taken so far is part of a checkpoint on disk.
@@ -135,9 +166,11 @@ impl Intake {
     /// Tells everybody who waits that the learner stops: what they sent is not part of any checkpoint, so they keep it
     /// for a successor.
     pub fn stop(&mut self, lineage: &Lineage) {
-        let waiting = std::iter::from_fn(|| self.queue.next(Duration::ZERO)).collect::<Vec<_>>();
-        for delivery in std::mem::take(&mut self.held).into_iter().map(|held| held.delivery).chain(waiting) {
-            delivery.answer(&Receipt {
+        let held = std::mem::take(&mut self.held).into_iter().map(|held| held.letter);
+        let mut letters: Vec<M::Letter> = held.chain(self.waiting.take()).collect();
+        letters.extend(std::iter::from_fn(|| self.mailbox.next(Duration::ZERO)));
+        for letter in letters {
+            letter.answer(&Receipt {
                 outcome: Outcome::Stopping,
                 reason: "the learner is stopping".to_string(),
                 version: lineage.newest(),

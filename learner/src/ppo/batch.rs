@@ -15,8 +15,10 @@ pub struct Batch {
     pub observations: Vec<f32>,
     /// Actions before clipping to their range, `[S, action]`.
     pub actions: Vec<f32>,
-    /// Log-probabilities of the actions under the policy that chose them, `[S]`.
+    /// Log-probabilities of the actions under the policy that ratios are taken to, `[S]`.
     pub log_probs: Vec<f32>,
+    /// Factors on the normalised advantages, `[S]`: 1, or less where another policy acted.
+    pub weights: Vec<f32>,
     /// Advantages as estimated, `[S]`; the update normalises them.
     pub advantages: Vec<f32>,
     /// Value targets, normalised, `[S]`.
@@ -43,6 +45,7 @@ impl Batch {
             ("observations", self.observations.len(), rows * shape.observation),
             ("actions", self.actions.len(), rows * shape.action),
             ("log_probs", self.log_probs.len(), rows),
+            ("weights", self.weights.len(), rows),
             ("advantages", self.advantages.len(), rows),
             ("values", self.values.len(), rows),
         ]
@@ -71,7 +74,14 @@ impl Batch {
     }
 }
 
-/// Advantages with mean 0 and standard deviation 1 over the whole batch; 1e-8 is added to the deviation.
+/// Advantages with mean 0 and standard deviation 1 over the whole batch, times their weights.
+pub(super) fn weighted(batch: &Batch) -> Vec<f32> {
+    let mut advantages = normalised(&batch.advantages);
+    advantages.iter_mut().zip(&batch.weights).for_each(|(advantage, weight)| *advantage *= weight);
+    advantages
+}
+
+/// Advantages with mean 0 and standard deviation 1; 1e-8 is added to the deviation.
 pub(super) fn normalised(advantages: &[f32]) -> Vec<f32> {
     let count = advantages.len() as f64;
     let mean = advantages.iter().map(|a| f64::from(*a)).sum::<f64>() / count;
@@ -161,6 +171,7 @@ mod tests {
             observations: vec![0.0, 1.0, 10.0, 11.0, 20.0, 21.0],
             actions: vec![0.5, 1.5, 2.5],
             log_probs: vec![-1.0, -2.0, -3.0],
+            weights: vec![1.0; 3],
             advantages: vec![0.0; 3],
             returns: vec![7.0, 8.0, 9.0],
             values: vec![0.0; 3],

@@ -9,7 +9,7 @@ use treadmill_common::config::PpoConfig;
 use treadmill_common::policy::gaussian::clamp_log_std;
 use treadmill_common::policy::{FusedNetworks, NetworkShape, ParameterError, Policy, check_parameters};
 
-use super::batch::{Batch, minibatches, normalised, shuffle};
+use super::batch::{Batch, minibatches, shuffle, weighted};
 use super::loss::ppo_loss;
 use super::measures::{PolicyShift, adapt_learning_rate, explained_variance};
 use crate::optimiser::{OptimiserState, clip_factor, global_norm};
@@ -172,6 +172,14 @@ impl Updater {
     /// # Errors
     /// If the batch does not fit, or a loss, gradient or parameter is not finite; then nothing has changed.
     pub fn update(&mut self, batch: &Batch, rng: &mut impl Rng) -> Result<UpdateStats, UpdateError> {
+        self.update_in(self.config.epochs, batch, rng)
+    }
+
+    /// As [`Self::update`], with another number of passes.
+    ///
+    /// # Errors
+    /// As there.
+    pub fn update_in(&mut self, epochs: u32, batch: &Batch, rng: &mut impl Rng) -> Result<UpdateStats, UpdateError> {
         if batch.is_empty() {
             return Err(UpdateError::Empty);
         }
@@ -179,28 +187,28 @@ impl Updater {
             return Err(UpdateError::Length { field, found, expected });
         }
         let before = self.state.clone();
-        let result = self.run_epochs(batch, rng);
+        let result = self.run_epochs(epochs, batch, rng);
         if result.is_err() {
             self.state = before;
         }
         result
     }
 
-    fn run_epochs(&mut self, batch: &Batch, rng: &mut impl Rng) -> Result<UpdateStats, UpdateError> {
-        let advantages = normalised(&batch.advantages);
+    fn run_epochs(&mut self, epochs: u32, batch: &Batch, rng: &mut impl Rng) -> Result<UpdateStats, UpdateError> {
+        let advantages = weighted(batch);
         let mut order: Vec<u32> = (0..batch.len() as u32).collect();
         let mut stats = UpdateStats {
             explained_variance: explained_variance(&batch.values, &batch.returns),
             ..UpdateStats::default()
         };
-        for _ in 0..self.config.epochs {
+        for _ in 0..epochs {
             shuffle(&mut order, rng);
             let mut shift = PolicyShift::default();
             for range in minibatches(batch.len(), self.config.minibatch as usize) {
                 self.gradient_step(batch, &order[range], &advantages, &mut stats, &mut shift)?;
             }
             stats.approx_kl = shift.approx_kl();
-            stats.clip_fraction += shift.clip_fraction() / f64::from(self.config.epochs);
+            stats.clip_fraction += shift.clip_fraction() / f64::from(epochs);
             self.state.learning_rate = adapt_learning_rate(self.state.learning_rate, stats.approx_kl, &self.config);
         }
         finite(self.state.parameters.iter().all(|p| p.is_finite()), "parameter vector")?;

@@ -7,6 +7,7 @@ use treadmill_common::policy::init::initial_parameters;
 use treadmill_common::policy::plain;
 
 use super::*;
+use crate::ppo::batch::normalised;
 
 fn rng(seed: u64) -> Xoshiro256PlusPlus {
     Xoshiro256PlusPlus::seed_from_u64(seed)
@@ -51,6 +52,7 @@ fn batch(updater: &Updater, rows: usize, seed: u64) -> Batch {
         let range = row * shape.action..(row + 1) * shape.action;
         let action = &mut batch.actions[range.clone()];
         sample(&means[range.clone()], policy.log_std(), &noise[range.clone()], action);
+        batch.weights.push(1.0);
         batch.log_probs.push(log_probability(action, &means[range], policy.log_std()));
         let seen = &observations[row * shape.observation..];
         batch.advantages.push(-(0..shape.action).map(|i| (action[i] - seen[i]).powi(2)).sum::<f32>());

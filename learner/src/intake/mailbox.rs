@@ -1,0 +1,82 @@
+//! Where fragments come from: the bus, or a model of it in tests.
+
+use std::{
+    collections::BTreeSet,
+    time::{Duration, Instant},
+};
+
+use bytes::Bytes;
+use treadmill_common::bus::{Alive, Delivery, RolloutIntake};
+use treadmill_proto::Receipt;
+
+/// Fragments as they arrive, who is alive, and what time it is.
+pub trait Mailbox {
+    /// A fragment that waits for its receipt.
+    type Letter: Letter;
+
+    /// The next fragment, if one comes within `patience`.
+    fn next(&mut self, patience: Duration) -> Option<Self::Letter>;
+
+    /// Names of the actors that are alive.
+    fn actors(&self) -> BTreeSet<String>;
+
+    /// The present moment.
+    fn now(&self) -> Instant;
+}
+
+/// A fragment that waits for its receipt. Dropped without one, its sender sends it again.
+pub trait Letter {
+    /// Who sent it.
+    fn actor(&self) -> &str;
+
+    /// The encoded fragment, once; the answer is still owed.
+    fn take_payload(&mut self) -> Bytes;
+
+    /// Answers, which gives the sender its credit back.
+    fn answer(self, receipt: &Receipt);
+}
+
+/// What comes over the bus.
+pub struct BusMailbox {
+    queue: RolloutIntake,
+    alive: Alive,
+}
+
+impl BusMailbox {
+    /// A mailbox over what is declared on the bus.
+    pub fn new(queue: RolloutIntake, alive: Alive) -> Self {
+        Self { queue, alive }
+    }
+}
+
+impl Mailbox for BusMailbox {
+    type Letter = Delivery;
+
+    fn next(&mut self, patience: Duration) -> Option<Delivery> {
+        self.queue.next(patience)
+    }
+
+    fn actors(&self) -> BTreeSet<String> {
+        self.alive.actors()
+    }
+
+    fn now(&self) -> Instant {
+        Instant::now()
+    }
+}
+
+impl Letter for Delivery {
+    fn actor(&self) -> &str {
+        &self.actor
+    }
+
+    fn take_payload(&mut self) -> Bytes {
+        let payload = self.payload.clone();
+        self.release_payload();
+        payload
+    }
+
+    fn answer(self, receipt: &Receipt) {
+        Delivery::answer(self, receipt);
+    }
+}

@@ -1,0 +1,111 @@
+//! How long the others wait for an actor that has not delivered yet.
+
+use std::{
+    collections::BTreeSet,
+    time::{Duration, Instant},
+};
+
+/// Waiting never ends sooner than this: fragments of equal size do not arrive at the same instant.
+const WAIT_MIN: Duration = Duration::from_millis(50);
+
+/// One round after the other: each actor that is waited for delivers once.
+///
+/// With `d` of the actors in after a time `t`, the others may take `t / d` longer: a round with one actor more is worth
+/// that much time and no more. An actor that was late is not waited for again until it delivers in two rounds in a row,
+/// which it can do only if it is as fast as the others. So a slow actor costs its own share at most.
+#[derive(Debug)]
+pub(super) struct Patience {
+    begun: Instant,
+    delivered: BTreeSet<String>,
+    delivered_before: BTreeSet<String>,
+    late: BTreeSet<String>,
+    until: Option<Instant>,
+}
+
+impl Patience {
+    pub(super) fn new(now: Instant) -> Self {
+        let nobody = BTreeSet::new;
+        Self { begun: now, delivered: nobody(), delivered_before: nobody(), late: nobody(), until: None }
+    }
+
+    /// Actors begin to simulate.
+    pub(super) fn begin(&mut self, now: Instant) {
+        self.begun = now;
+        self.delivered_before = std::mem::take(&mut self.delivered);
+        self.until = None;
+    }
+
+    /// Notes a fragment.
+    pub(super) fn delivered(&mut self, actor: &str, now: Instant) {
+        if self.delivered_before.contains(actor) {
+            self.late.remove(actor);
+        }
+        self.delivered.insert(actor.to_string());
+        let worth = now.duration_since(self.begun) / self.delivered.len() as u32;
+        self.until = Some(now + worth.max(WAIT_MIN));
+    }
+
+    /// Whether the round is over: everybody who is waited for has delivered, or is late.
+    pub(super) fn is_over(&mut self, alive: &BTreeSet<String>, now: Instant) -> bool {
+        let Some(until) = self.until else { return false };
+        let missing = || alive.iter().filter(|actor| !self.delivered.contains(*actor));
+        if missing().all(|actor| self.late.contains(actor)) {
+            return true;
+        }
+        if now <= until {
+            return false;
+        }
+        self.late = missing().cloned().collect();
+        true
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn names(names: &[&str]) -> BTreeSet<String> {
+        names.iter().map(|name| (*name).to_string()).collect()
+    }
+
+    #[test]
+    fn a_round_lasts_until_everybody_is_in() {
+        let begun = Instant::now();
+        let mut patience = Patience::new(begun);
+        let (both, later) = (names(&["a", "b"]), begun + Duration::from_secs(1));
+        assert!(!patience.is_over(&both, later), "nobody has delivered");
+        patience.delivered("a", later);
+        assert!(!patience.is_over(&both, later));
+        patience.delivered("b", later);
+        assert!(patience.is_over(&both, later));
+        assert!(patience.is_over(&names(&["a"]), later), "the dead are not waited for");
+    }
+
+    #[test]
+    fn waiting_is_worth_one_share() {
+        let begun = Instant::now();
+        let at = |tenths: u64| begun + Duration::from_millis(100 * tenths);
+        let all = names(&["a", "b", "c", "slow"]);
+        let mut patience = Patience::new(begun);
+        for actor in ["a", "b", "c"] {
+            patience.delivered(actor, at(9));
+        }
+        assert!(!patience.is_over(&all, at(12)), "a third of 0.9 s");
+        assert!(patience.is_over(&all, at(13)));
+        // Late once: in the next round it is not waited for.
+        patience.begin(at(13));
+        for actor in ["a", "b", "c"] {
+            patience.delivered(actor, at(22));
+        }
+        assert!(patience.is_over(&all, at(22)));
+        // What it delivers now was begun long ago; only in the round after that can it be as fast as the others.
+        for (start, is_waited_for) in [(22, false), (31, false), (40, true)] {
+            patience.begin(at(start));
+            for actor in ["a", "b", "c"] {
+                patience.delivered(actor, at(start + 9));
+            }
+            assert_eq!(patience.is_over(&all, at(start + 9)), !is_waited_for, "{start}");
+            patience.delivered("slow", at(start + 9));
+        }
+    }
+}

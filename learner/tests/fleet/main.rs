@@ -1,0 +1,217 @@
+//! A learner's intake among actors that are slow, die and come back, over messages that are late or lost: it always goes
+//! on, takes nothing that is too old, and learns from every fragment once at most.
+
+mod world;
+
+use std::{collections::BTreeSet, time::Duration};
+
+use proptest::prelude::*;
+use rand::RngExt;
+use treadmill_common::{config::LearnerMode, seeds};
+use treadmill_learner::intake::{Expected, Intake, Judge, Ledger, Lineage, Tally, Wanted};
+use world::{MemoryMailbox, Setting, Shared, World};
+
+/// Longer than this (of the fleet's time) an update never takes, whatever gets lost: many receipts in a row would have to.
+const STUCK: Duration = Duration::from_secs(3 * 3600);
+const UPDATE: Duration = Duration::from_millis(150);
+
+#[derive(Clone, Debug)]
+struct Case {
+    fleet: Setting,
+    mode: LearnerMode,
+    max_policy_lag: u64,
+    wanted: Wanted,
+    /// Rounds of a hundred in which the learner dies before it has saved.
+    learner_deaths_percent: u32,
+    actor_deaths_percent: u32,
+}
+
+/// (actor, incarnation, sequence)
+type Name = (String, u64, u64);
+
+/// What a checkpoint holds of the fleet.
+#[derive(Clone)]
+struct Saved {
+    lineage: Lineage,
+    ledger: Ledger,
+    tally: Tally,
+    learnt: BTreeSet<Name>,
+}
+
+struct Learner {
+    case: Case,
+    world: Shared,
+    intake: Intake<MemoryMailbox>,
+    lineage: Lineage,
+    /// What the present weights are made of.
+    learnt: BTreeSet<Name>,
+    saved: Saved,
+    starts: u64,
+}
+
+impl Learner {
+    fn new(case: &Case) -> Self {
+        let lineage = Lineage::new(1000);
+        let world = World::new(&case.fleet, lineage.newest());
+        let saved = Saved {
+            lineage: lineage.clone(),
+            ledger: Ledger::default(),
+            tally: Tally::default(),
+            learnt: BTreeSet::new(),
+        };
+        let intake = intake(case, &world, &saved);
+        Self { case: case.clone(), world, intake, lineage, learnt: BTreeSet::new(), saved, starts: 1 }
+    }
+
+    fn round(&mut self, dies: bool) -> Result<(), TestCaseError> {
+        let shutdown = {
+            let mut world = self.world.borrow_mut();
+            world.patient_until = world.now + STUCK;
+            world.out_of_patience.clone()
+        };
+        let gathered = self.intake.collect(self.case.wanted, &self.lineage, &shutdown);
+        let Some(gathered) = gathered else {
+            return Err(TestCaseError::fail(format!("nothing for {STUCK:?}: {:?}", self.intake.judge().tally)));
+        };
+        prop_assert!(gathered.fragments.len() >= self.case.wanted.transitions);
+        prop_assert!(gathered.fragments.len() <= self.case.wanted.transitions_max.max(self.case.wanted.transitions));
+        let allowed = if self.case.mode == LearnerMode::Sync { 0 } else { self.case.max_policy_lag };
+        for accepted in &gathered.fragments {
+            prop_assert!(accepted.lag <= allowed);
+            let fragment = &accepted.fragment;
+            let name = (fragment.actor.clone(), fragment.actor_incarnation, fragment.sequence);
+            prop_assert!(self.learnt.insert(name.clone()), "{name:?} is learnt from twice");
+        }
+        World::pass(&self.world, UPDATE);
+        if dies {
+            self.die();
+            return Ok(());
+        }
+        self.lineage.advance();
+        let mut ledger = self.intake.judge().ledger.clone();
+        ledger.mark_durable();
+        let tally = self.intake.judge().tally;
+        self.saved = Saved { lineage: self.lineage.clone(), ledger, tally, learnt: self.learnt.clone() };
+        self.intake.mark_durable();
+        self.world.borrow_mut().announce(self.lineage.newest());
+        self.intake.answer_held(&self.lineage);
+        Ok(())
+    }
+
+    /// The process is gone, and another goes on from the last checkpoint.
+    fn die(&mut self) {
+        self.starts += 1;
+        self.world.borrow_mut().kill_learner();
+        World::pass(&self.world, Duration::from_secs(2));
+        self.world.borrow_mut().is_learner_up = true;
+        self.lineage = self.saved.lineage.clone();
+        self.lineage.resume(1000 * self.starts);
+        self.learnt = self.saved.learnt.clone();
+        self.intake = intake(&self.case, &self.world, &self.saved);
+        self.world.borrow_mut().announce(self.lineage.newest());
+    }
+
+    /// Every fragment that a living process produced is somewhere: learnt from for good, dropped by rule, on its way, or
+    /// kept until it is durable.
+    fn account(&self) -> Result<(), TestCaseError> {
+        let world = self.world.borrow();
+        for actor in &world.actors {
+            for sequence in 1..=actor.newest {
+                let name = (actor.name.clone(), actor.incarnation, sequence);
+                let outstanding = actor.in_flight.contains_key(&sequence) || actor.kept.contains_key(&sequence);
+                let (learnt, dropped) = (self.saved.learnt.contains(&name), actor.dropped.contains(&sequence));
+                prop_assert!(learnt || world.refused.contains(&name) || outstanding, "{name:?} is lost");
+                prop_assert!(!(learnt && dropped), "{name:?} is learnt from and counted as dropped");
+            }
+        }
+        Ok(())
+    }
+}
+
+fn intake(case: &Case, world: &Shared, saved: &Saved) -> Intake<MemoryMailbox> {
+    let expected = Expected {
+        run: "walk".into(),
+        config_hash: 5,
+        observation_size: 1,
+        action_size: 1,
+        max_policy_lag: if case.mode == LearnerMode::Sync { 0 } else { case.max_policy_lag },
+    };
+    let judge = Judge::new(expected, 8, saved.ledger.clone(), saved.tally);
+    Intake::new(MemoryMailbox(world.clone()), case.mode, judge)
+}
+
+fn cases() -> impl Strategy<Value = Case> {
+    let fleet = (
+        any::<u64>(),
+        prop::collection::vec(prop_oneof![5 => 80_u64..150, 1 => 400_u64..3000], 1..5),
+        1_u32..=2,
+        prop_oneof![2 => Just(0_u32), 1 => 0_u32..30],
+        0_u64..400,
+    );
+    let learner = (any::<bool>(), 0_u64..5, 1_usize..8, 0_usize..6);
+    let deaths = (prop_oneof![1 => Just(0_u32), 1 => 0_u32..20], prop_oneof![1 => Just(0_u32), 1 => 0_u32..20]);
+    (fleet, learner, deaths).prop_map(|(fleet, learner, deaths)| {
+        let (seed, fragment_ms, in_flight, loss_percent, delay_ms) = fleet;
+        let (is_sync, max_policy_lag, transitions, more) = learner;
+        Case {
+            fleet: Setting { seed, fragment_ms, in_flight, loss_percent, delay_ms },
+            mode: if is_sync { LearnerMode::Sync } else { LearnerMode::Async },
+            max_policy_lag,
+            wanted: Wanted { transitions, transitions_max: transitions + more },
+            learner_deaths_percent: deaths.0,
+            actor_deaths_percent: deaths.1,
+        }
+    })
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(300))]
+
+    #[test]
+    fn no_setting_and_no_failure_stops_the_fleet_or_doubles_a_fragment(case in cases()) {
+        let mut random = seeds::stream(case.fleet.seed, "deaths", &[]);
+        let mut learner = Learner::new(&case);
+        for _ in 0..30 {
+            learner.round(random.random_range(0..100) < case.learner_deaths_percent)?;
+            learner.account()?;
+            if random.random_range(0..100) < case.actor_deaths_percent {
+                let actor = random.random_range(0..case.fleet.fragment_ms.len());
+                learner.world.borrow_mut().restart(actor, learner.lineage.newest());
+            }
+        }
+    }
+}
+
+/// Fragments that a fleet without failures has learnt from in a minute.
+fn learnt_in_a_minute(mode: LearnerMode, fragment_ms: &[u64], wanted: usize) -> f64 {
+    let case = Case {
+        fleet: Setting { seed: 1, fragment_ms: fragment_ms.to_vec(), in_flight: 1, loss_percent: 0, delay_ms: 4 },
+        mode,
+        max_policy_lag: 4,
+        wanted: Wanted { transitions: wanted, transitions_max: wanted },
+        learner_deaths_percent: 0,
+        actor_deaths_percent: 0,
+    };
+    let mut learner = Learner::new(&case);
+    while learner.world.borrow().now < Duration::from_secs(60) {
+        learner.round(false).expect("nothing goes wrong");
+    }
+    learner.learnt.len() as f64
+}
+
+#[test]
+fn a_slow_actor_costs_its_own_share_at_most() {
+    for mode in [LearnerMode::Sync, LearnerMode::Async] {
+        for slow_ms in [220, 450, 1000, 5000] {
+            let even = learnt_in_a_minute(mode, &[200, 200, 200, 200], 12);
+            let uneven = learnt_in_a_minute(mode, &[200, 200, 200, slow_ms], 12);
+            assert!(uneven >= 0.74 * even, "{mode:?}, {slow_ms} ms: {uneven} of {even}");
+        }
+    }
+}
+
+#[test]
+fn actors_that_need_not_wait_bring_more() {
+    let [sync, async_] = [LearnerMode::Sync, LearnerMode::Async].map(|mode| learnt_in_a_minute(mode, &[200, 200], 4));
+    assert!(async_ > 1.2 * sync, "{async_} and {sync}");
+}
