@@ -7,6 +7,10 @@ use serde::{Deserialize, Serialize};
 
 /// Added to a variance before its root is taken, so that a column that never changes is not divided by zero.
 pub const VARIANCE_EPSILON: f64 = 1e-5;
+/// See [`ScalarNormaliser::from_moments`].
+const STD_FLOOR: f64 = 1e-4;
+/// See [`ScalarNormaliser::from_moments`].
+const STD_MIN: f64 = 1e-12;
 
 /// Count, mean and sum of squared deviations of each column.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -89,6 +93,13 @@ pub struct Normaliser {
     pub clip: f32,
 }
 
+impl RunningMoments {
+    /// Whether nothing has overflowed.
+    pub fn is_finite(&self) -> bool {
+        self.count.is_finite() && self.mean.iter().chain(&self.m2).all(|number| number.is_finite())
+    }
+}
+
 impl Normaliser {
     /// The normalisation of the rows seen so far; before any, it only clips.
     pub fn from_moments(moments: &RunningMoments, clip: f32) -> Self {
@@ -152,12 +163,16 @@ impl Normaliser {
 pub struct ScalarNormaliser {
     /// Mean of the quantity.
     pub mean: f32,
-    /// `√(variance + ε)` of the quantity.
+    /// `√(variance + (floor · mean)²)` of the quantity; see [`ScalarNormaliser::from_moments`].
     pub std: f32,
 }
 
 impl ScalarNormaliser {
     /// The normalisation of the numbers seen so far; before any, it is the identity.
+    ///
+    /// The standard deviation never falls below 1e-4 of the mean's size, so that the rounding of numbers that hardly differ
+    /// is not blown up, nor below 1e-12. A floor in proportion to the numbers keeps the normalisation the same in whatever
+    /// units rewards are paid.
     ///
     /// # Panics
     /// If the moments are not those of one column.
@@ -166,7 +181,12 @@ impl ScalarNormaliser {
         if moments.count == 0.0 {
             return Self { mean: 0.0, std: 1.0 };
         }
-        Self { mean: moments.mean[0] as f32, std: (moments.variance()[0] + VARIANCE_EPSILON).sqrt() as f32 }
+        Self { mean: moments.mean[0] as f32, std: Self::std(moments) }
+    }
+
+    fn std(moments: &RunningMoments) -> f32 {
+        let floor = (STD_FLOOR * moments.mean[0]).abs().max(STD_MIN);
+        (moments.variance()[0] + floor * floor).sqrt() as f32
     }
 
     /// In units of the quantity's standard deviation, in place.

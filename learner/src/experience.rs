@@ -33,12 +33,13 @@ pub fn prepare(
     config: &PpoConfig,
 ) -> Result<Batch, candle_core::Error> {
     let mut batch = Batch::default();
-    let old_scale = ScalarNormaliser::from_moments(value_moments);
+    // Before any return was seen nobody knows its units, so the critic has nothing to say.
+    let old_scale = (value_moments.count > 0.0).then(|| ScalarNormaliser::from_moments(value_moments));
     for Accepted { fragment, lag } in accepted {
         let mut observations = fragment.observations.clone();
         normaliser.apply(&mut observations);
         let mut values = policy.values(&observations, fragment.transitions())?;
-        let next_values = next_values(fragment, policy, normaliser, &mut values, &old_scale)?;
+        let next_values = next_values(fragment, policy, normaliser, &mut values, old_scale.as_ref())?;
         let rewards: Vec<f32> = fragment.rewards.iter().map(|reward| reward * config.reward_scale as f32).collect();
         let correction = match (lag, config.off_policy) {
             (0, _) | (_, OffPolicy::Uncorrected) => None,
@@ -105,20 +106,24 @@ impl Correction {
     }
 }
 
-/// Values of the observations truly reached; brings `values` to the units of returns on the way.
+/// Values of the observations truly reached; brings `values` to the units of returns on the way, where they are known.
 fn next_values(
     fragment: &Fragment,
     policy: &Policy,
     normaliser: &Normaliser,
     values: &mut [f32],
-    scale: &ScalarNormaliser,
+    scale: Option<&ScalarNormaliser>,
 ) -> Result<Vec<f32>, candle_core::Error> {
     let mut last = fragment.last_observations.clone();
     normaliser.apply(&mut last);
     let rows = last.len() / fragment.observation_size as usize;
     let mut last_values = if rows > 0 { policy.values(&last, rows)? } else { Vec::new() };
-    scale.denormalise(&mut last_values);
-    scale.denormalise(values);
+    for values in [&mut last_values[..], &mut *values] {
+        match scale {
+            Some(scale) => scale.denormalise(values),
+            None => values.fill(0.0),
+        }
+    }
     // The fragment's last observations mix both kinds, ordered by step and environment.
     let (envs, mut last_values) = (fragment.envs as usize, last_values.into_iter());
     let (mut truncated_values, mut final_values) = (Vec::new(), vec![0.0; envs]);

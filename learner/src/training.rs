@@ -30,9 +30,6 @@ use crate::{
     scalars::{Durations, Lag, Round, Speed},
 };
 
-/// Updates in a row that may be undone before the run stops.
-const UNDONE_MAX: u32 = 10;
-
 /// What training needs beside the state it begins with.
 pub struct TrainingOptions {
     /// Where files go.
@@ -220,16 +217,22 @@ impl Trainer {
         let normaliser = Normaliser::from_moments(&state.observation_moments, clip);
         let mut value_moments = state.value_moments.clone();
         let batch = experience::prepare(accepted, &policy, &normaliser, &mut value_moments, &self.config.ppo)?;
+        let mut observation_moments = state.observation_moments.clone();
+        for Accepted { fragment, .. } in accepted {
+            observation_moments.update(&fragment.observations, state.shape.observation);
+        }
         let begun = Instant::now();
-        let updated = self.updater.update_in(self.pace.epochs(), &batch, &mut state.shuffle);
+        let updated = if observation_moments.is_finite() && value_moments.is_finite() {
+            self.updater.update_in(self.pace.epochs(), &batch, &mut state.shuffle)
+        } else {
+            Err(UpdateError::NonFinite { what: "running statistic" })
+        };
         self.learn = begun.elapsed();
         match updated {
             Ok(stats) => {
                 self.undone_in_a_row = 0;
                 state.value_moments = value_moments;
-                for Accepted { fragment, .. } in accepted {
-                    state.observation_moments.update(&fragment.observations, state.shape.observation);
-                }
+                state.observation_moments = observation_moments;
                 state.counters.gradient_steps += stats.minibatches;
                 Ok(Some(stats))
             }
@@ -237,7 +240,7 @@ impl Trainer {
                 tracing::warn!("an update was undone: {why}");
                 self.undone_in_a_row += 1;
                 state.counters.undone_updates += 1;
-                if self.undone_in_a_row >= UNDONE_MAX {
+                if self.undone_in_a_row >= self.config.learner.undone_max {
                     return Err(TrainingError::NotFinite { updates: self.undone_in_a_row, why });
                 }
                 Ok(None)

@@ -181,6 +181,8 @@ section! {
         intake_fragments: u32 = 256, "1 to 65536" => |v| (1..=65_536).contains(v);
         /// Rejected fragments in a row after which a sender is put in quarantine.
         quarantine_after: u32 = 8, "1 to 1000" => |v| (1..=1000).contains(v);
+        /// Updates in a row that may be undone, because a number was not finite, before the run stops.
+        undone_max: u32 = 10, "1 to 1000" => |v| (1..=1000).contains(v);
         /// Numbered checkpoints that are kept beside `latest` and `best`.
         keep_checkpoints: u32 = 3, "0 to 1000" => |v| *v <= 1000;
         /// Updates between two numbered checkpoints.

@@ -243,7 +243,9 @@ impl World {
                     world.submit(actor, sequence);
                 }
             }
-            Event::Answer { actor, incarnation, sequence, receipt } if world.actors[actor].incarnation == incarnation => {
+            Event::Answer { actor, incarnation, sequence, receipt }
+                if world.actors[actor].incarnation == incarnation =>
+            {
                 world.heed(actor, sequence, &receipt);
             }
             Event::Announcement { actor, version } => world.refresh(actor, version),
