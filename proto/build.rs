@@ -4,6 +4,10 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     println!("cargo:rerun-if-changed=schema");
     let schemas = ["schema/policy.proto", "schema/rollout.proto", "schema/stats.proto", "schema/evaluation.proto"];
     let files = protox::compile(schemas, ["schema"])?;
-    prost_build::Config::new().bytes(["."]).compile_fds(files)?;
+    prost_build::Config::new()
+        .bytes(["."])
+        // It is part of a checkpoint, too.
+        .type_attribute("treadmill.v1.ActorState", "#[derive(serde::Serialize, serde::Deserialize)]")
+        .compile_fds(files)?;
     Ok(())
 }

@@ -57,6 +57,7 @@ fn fragment(bundle: &PolicyBundle, sequence: u64) -> Fragment {
         last_observations: vec![0.0; width],
         episodes: vec![],
         settled_through: 0,
+        actor_state: None,
     }
 }
 

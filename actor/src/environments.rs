@@ -1,5 +1,7 @@
 //! N humanoids that step together, each in its own world, and the record of their episodes.
 
+mod saved;
+
 use rayon::{ThreadPool, ThreadPoolBuilder, prelude::*};
 use treadmill_common::{machine, seeds};
 use treadmill_humanoid::{Environment, EnvironmentConfig, ModelError};
@@ -22,8 +24,9 @@ pub struct SeedSource {
 }
 
 impl SeedSource {
-    fn resets(&self) -> ResetSeeds {
-        ResetSeeds { run_seed: self.run_seed, stream: format!("reset/{}", self.actor), start: self.start }
+    fn resets(self) -> ResetSeeds {
+        let stream = format!("reset/{}", self.actor);
+        ResetSeeds { run_seed: self.run_seed, actor: self.actor, stream, start: self.start }
     }
 
     /// The stream of exploration noise.
@@ -33,8 +36,10 @@ impl SeedSource {
 }
 
 /// Seeds of episodes: they depend on the environment's number and the episode's, and on no other environment.
+#[derive(Clone)]
 struct ResetSeeds {
     run_seed: u64,
+    actor: String,
     stream: String,
     start: u64,
 }
@@ -114,12 +119,17 @@ impl Environments {
             action_size,
             pool: None,
         };
-        for (place, observation) in
-            all.places.iter_mut().zip(all.observations.chunks_exact_mut(observation_size.max(1)))
-        {
-            place.reset(&all.seeds, observation);
-        }
+        all.begin();
         Ok(all)
+    }
+
+    /// Resets all to their first episodes.
+    fn begin(&mut self) {
+        let rows = self.observations.chunks_exact_mut(self.observation_size.max(1));
+        for (place, observation) in self.places.iter_mut().zip(rows) {
+            place.running = Running::default();
+            place.reset(&self.seeds, observation);
+        }
     }
 
     /// Spreads the environments over this many threads; 0 means one per core, and more than environments are of no use.
@@ -192,6 +202,16 @@ impl Environments {
             }),
         }
         stepped.gather(&mut self.places);
+    }
+
+    /// Puts fresh Rapier worlds below all, so that what follows depends on nothing that [`Self::save`] leaves out.
+    pub fn renew_worlds(&mut self) {
+        match &self.pool {
+            None => self.places.iter_mut().for_each(|place| place.environment.renew_world()),
+            Some(pool) => {
+                pool.install(|| self.places.par_iter_mut().for_each(|place| place.environment.renew_world()));
+            }
+        }
     }
 
     /// Makes the physics of one environment fail at the next step; for tests.

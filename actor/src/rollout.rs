@@ -2,7 +2,7 @@
 
 use rand_distr::{Distribution, StandardNormal};
 use treadmill_common::{policy::gaussian, seeds::Stream};
-use treadmill_proto::Fragment;
+use treadmill_proto::{ActorState, Fragment};
 
 use crate::{
     ActorError,
@@ -30,6 +30,7 @@ pub struct Collector {
     steps: u32,
     sender: Sender,
     sequence: u64,
+    is_state_attached: bool,
     stepped: Stepped,
     normalised: Vec<f32>,
     means: Vec<f32>,
@@ -45,12 +46,27 @@ impl Collector {
             steps,
             sender,
             sequence: 0,
+            is_state_attached: false,
             stepped: Stepped::default(),
             normalised: Vec::new(),
             means: vec![0.0; envs * action],
             normals: vec![0.0; action],
             environments,
         }
+    }
+
+    /// From now on each fragment says where it leaves the actor, so that a resumed run can go on from there exactly.
+    pub fn attach_state(&mut self) {
+        self.is_state_attached = true;
+    }
+
+    /// Goes on from where a fragment left an actor.
+    ///
+    /// # Errors
+    /// What does not fit, in words; nothing has happened then.
+    pub fn go_on(&mut self, state: &ActorState) -> Result<(), String> {
+        self.noise = self.environments.go_on(state)?;
+        Ok(())
     }
 
     /// Transitions of one fragment.
@@ -83,7 +99,10 @@ impl Collector {
             last_observations: Vec::new(),
             episodes: Vec::new(),
             settled_through,
+            actor_state: None,
         };
+        // What Rapier keeps from step to step is no part of an actor's state, so no fragment begins with any of it.
+        self.environments.renew_worlds();
         for t in 0..self.steps {
             let start = fragment.actions.len();
             fragment.observations.extend_from_slice(self.environments.observations());
@@ -93,6 +112,17 @@ impl Collector {
             fragment.flags.extend_from_slice(&self.stepped.flags);
             fragment.episodes.append(&mut self.stepped.episodes);
             self.add_last_observations(t, &mut fragment);
+        }
+        if self.is_state_attached {
+            fragment.actor_state = self.environments.save(&self.noise);
+            if fragment.actor_state.as_ref().is_some_and(|state| !state.fits()) {
+                tracing::warn!(
+                    "{envs} environments are too many for their state to be saved: this run cannot be resumed bit for bit; \
+                     use fewer"
+                );
+                self.is_state_attached = false;
+                fragment.actor_state = None;
+            }
         }
         Ok(fragment)
     }

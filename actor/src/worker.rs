@@ -192,7 +192,21 @@ fn collector(
     }
     let sender =
         Sender { run: bundle.run.clone(), actor: options.name.clone(), incarnation, config_hash: bundle.config_hash };
-    Ok(Collector::new(environments, noise, config.rollout.fragment_steps, sender))
+    let mut collector = Collector::new(environments, noise, config.rollout.fragment_steps, sender);
+    if config.run.deterministic {
+        collector.attach_state();
+    }
+    if let Some(state) = &bundle.actor_state {
+        match collector.go_on(state) {
+            Ok(()) => tracing::info!("{} goes on where the checkpoint left it", options.name),
+            Err(why) => tracing::warn!(
+                "{} begins new episodes, and the run is not bit for bit what it would have been: the actor's state in the \
+                 checkpoint cannot be gone on with, because {why}",
+                options.name
+            ),
+        }
+    }
+    Ok(collector)
 }
 
 /// The physics thread: one fragment for each credit, with the newest policy at its beginning, or an older one where staleness

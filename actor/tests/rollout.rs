@@ -38,6 +38,7 @@ fn policy() -> ActingPolicy {
         config_hash: 5,
         config_toml: String::new(),
         model_xml: String::new(),
+        actor_state: None,
     })
     .unwrap()
 }

@@ -50,6 +50,7 @@ fn fragment(acting: &Policy) -> Fragment {
         last_observations: vec![0.5; 6],
         episodes: vec![],
         settled_through: 0,
+        actor_state: None,
     }
 }
 

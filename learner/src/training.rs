@@ -153,7 +153,9 @@ impl Trainer {
     fn start(bus: &Bus, state: TrainingState, options: &TrainingOptions) -> Result<Self, TrainingError> {
         let wrong = |why: String| TrainingError::State { why };
         let config = state.config().map_err(wrong)?;
-        let bundle = state.bundle().map_err(wrong)?;
+        let mut bundle = state.bundle().map_err(wrong)?;
+        // Only until the next version: an actor that joins later would do once more what was learnt from.
+        bundle.actor_state = state.actor_state.clone();
         let expected = Expected {
             run: state.run.clone(),
             config_hash: bundle.config_hash,
@@ -264,6 +266,7 @@ impl Trainer {
             state.counters.env_steps += fragment.transitions() as u64;
             state.episodes.extend(&fragment.episodes);
         }
+        state.actor_state = batch.last().and_then(|accepted| accepted.fragment.actor_state.clone());
         state.counters.wall_s = self.wall_before_s + self.begun.elapsed().as_secs_f64();
         state.counters.restarts = self.restarts_before + self.restarts.load(Ordering::Relaxed);
     }

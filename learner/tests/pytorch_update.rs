@@ -83,6 +83,7 @@ impl UpdateFile {
             observations: narrow(&self.batch.observations),
             actions: narrow(&self.batch.actions),
             log_probs: narrow(&self.batch.log_probs),
+            weights: vec![1.0; self.batch.log_probs.len()],
             advantages: narrow(&self.batch.advantages),
             returns: narrow(&self.batch.returns),
             values: narrow(&self.batch.values),

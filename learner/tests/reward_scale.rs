@@ -63,6 +63,7 @@ fn learnt(scale: f32) -> (Vec<f32>, f64) {
             last_observations: vec![],
             episodes: vec![],
             settled_through: 0,
+            actor_state: None,
         };
         let accepted = [Accepted { fragment, lag: 0 }];
         let normaliser = Normaliser::identity(3, 10.0);

@@ -5,7 +5,7 @@ use prost::Message;
 use serde::{Deserialize, Serialize};
 
 use crate::{
-    Malformed,
+    ActorState, Malformed,
     ident::check_ident,
     limits::{BUNDLE_BYTES_MAX, HIDDEN_LAYERS_MAX, MODEL_BYTES_MAX, SMALL_BYTES_MAX, WIDTH_MAX},
     planes, wire,
@@ -85,6 +85,8 @@ pub struct PolicyBundle {
     pub model_xml: String,
     /// Checksum of `weights`.
     pub checksum: u64,
+    /// Where the run's only actor was when the learner last saved; only right after a resume of a deterministic run.
+    pub actor_state: Option<ActorState>,
 }
 
 impl PolicyBundle {
@@ -112,7 +114,7 @@ impl PolicyBundle {
         if !(self.observation_clip.is_finite() && self.observation_clip > 0.0) {
             return Err(Malformed::field("observation_clip", self.observation_clip, "a number above 0"));
         }
-        Ok(())
+        self.actor_state.as_ref().map_or(Ok(()), ActorState::check)
     }
 
     /// Protobuf bytes.
@@ -132,6 +134,7 @@ impl PolicyBundle {
             config_toml: self.config_toml.clone(),
             model_xml: self.model_xml.clone(),
             checksum: self.checksum,
+            actor_state: self.actor_state.clone(),
         }
         .encode_to_vec();
         check_size(bytes.len())?;
@@ -164,6 +167,7 @@ impl PolicyBundle {
             config_toml: message.config_toml,
             model_xml: message.model_xml,
             checksum: message.checksum,
+            actor_state: message.actor_state,
         };
         bundle.check()?;
         Ok(bundle)
@@ -214,6 +218,7 @@ mod tests {
             config_toml: "[run]".into(),
             model_xml: "<mujoco/>".into(),
             checksum: 5,
+            actor_state: Some(crate::actor_state::tests::sample("a", 2)),
         }
     }
 
@@ -232,6 +237,9 @@ mod tests {
         assert!(bad.encode().unwrap_err().to_string().contains("index 1"));
         let bad = PolicyBundle { hidden: vec![], ..sample() };
         assert!(bad.encode().unwrap_err().to_string().contains("hidden"));
+        let mut bad = sample();
+        bad.actor_state.as_mut().unwrap().streams.pop();
+        assert!(bad.encode().unwrap_err().to_string().contains("actor_state.streams"));
         let bad = PolicyBundle { model_xml: " ".repeat(MODEL_BYTES_MAX + 1), ..sample() };
         assert!(bad.encode().unwrap_err().to_string().contains("model_xml"));
     }

@@ -4,7 +4,7 @@ use bytes::Bytes;
 use prost::Message;
 
 use crate::{
-    Malformed, PolicyVersion,
+    ActorState, Malformed, PolicyVersion,
     ident::check_ident,
     limits::{ENVS_MAX, FRAGMENT_BYTES_MAX, STEPS_MAX, WIDTH_MAX},
     planes, wire,
@@ -91,6 +91,8 @@ pub struct Fragment {
     pub episodes: Vec<Episode>,
     /// The sender will not send anything up to this sequence number again: it is durable, or dropped by rule.
     pub settled_through: u64,
+    /// Where the actor is after this fragment; only in deterministic runs.
+    pub actor_state: Option<ActorState>,
 }
 
 impl Fragment {
@@ -128,6 +130,9 @@ impl Fragment {
         if self.settled_through >= self.sequence {
             return Err(Malformed::field("settled_through", self.settled_through, "below the fragment's own sequence"));
         }
+        if let Some(state) = &self.actor_state {
+            self.check_state(state)?;
+        }
         let rows = self.transitions();
         plane("observations", &self.observations, rows * self.observation_size as usize)?;
         plane("actions", &self.actions, rows * self.action_size as usize)?;
@@ -147,6 +152,20 @@ impl Fragment {
             if !sum.is_finite() {
                 return Err(Malformed::NotFinite { field: "episodes", index, value: format!("{episode:?}") });
             }
+        }
+        Ok(())
+    }
+
+    fn check_state(&self, state: &ActorState) -> Result<(), Malformed> {
+        state.check()?;
+        if state.actor != self.actor {
+            let wanted = format!("`{}`, as the fragment says", self.actor);
+            return Err(Malformed::field("actor_state.actor", format!("`{}`", state.actor), wanted));
+        }
+        let (found, wanted) = (state.observations.len(), self.envs as usize * self.observation_size as usize);
+        if (state.envs(), found) != (self.envs as usize, wanted) {
+            let found = format!("of {} environments and {found} numbers", state.envs());
+            return Err(Malformed::field("actor_state.observations", found, format!("{} and {wanted}", self.envs)));
         }
         Ok(())
     }
@@ -173,6 +192,7 @@ impl Fragment {
             last_observations: planes::to_bytes(&self.last_observations),
             episodes: self.episodes.iter().map(Into::into).collect(),
             settled_through: self.settled_through,
+            actor_state: self.actor_state.clone(),
         };
         let bytes = message.encode_to_vec();
         check_size(bytes.len())?;
@@ -215,6 +235,7 @@ impl Fragment {
             observation_size: message.observation_size,
             action_size: message.action_size,
             settled_through: message.settled_through,
+            actor_state: message.actor_state,
         };
         fragment.check()?;
         Ok(fragment)

@@ -1,6 +1,7 @@
 use proptest::prelude::*;
 
 use super::*;
+use crate::actor_state::tests::sample as state;
 
 fn sample() -> Fragment {
     Fragment {
@@ -29,6 +30,7 @@ fn sample() -> Fragment {
             cause: EndCause::TimeLimit,
         }],
         settled_through: 1,
+        actor_state: Some(state("a1", 3)),
     }
 }
 
@@ -57,6 +59,9 @@ fn each_fault_is_named() {
     assert!(refuse(|f| f.run = "a/b".into()).contains("`run`"));
     assert!(refuse(|f| f.steps = 0).contains("`steps` is 0"));
     assert!(refuse(|f| f.sequence = 0).contains("`sequence`"));
+    assert!(refuse(|f| f.actor_state = Some(state("a2", 3))).contains("`actor_state.actor` is `a2`"));
+    assert!(refuse(|f| f.actor_state = Some(state("a1", 2))).contains("of 2 environments and 4 numbers"));
+    assert!(refuse(|f| f.actor_state.as_mut().unwrap().noise.clear()).contains("`actor_state.noise`"));
     assert!(refuse(|f| f.settled_through = 3).contains("`settled_through` is 3"));
     assert!(refuse(|f| f.observations[3] = f32::NAN).contains("`observations` holds NaN at index 3"));
     assert!(refuse(|f| f.rewards.truncate(5)).contains("`rewards` is 5 numbers long; expected 6"));

@@ -4,6 +4,7 @@
 //! - [`wire`]: the structures generated from `schema/*.proto`.
 //! - [`fragment`]: rollouts, checked on both sides.
 //! - [`bundle`]: the policy that the learner hands out.
+//! - [`actor_state`]: where an actor is, for deterministic runs.
 //! - [`receipt`]: the learner's answer to a fragment.
 //! - [`stats`]: what an actor tells about itself.
 //! - [`evaluation`]: what became of a policy in an evaluation.
@@ -14,6 +15,7 @@
 //!
 //! Whatever arrives is hostile until checked: size first, then shape, then numbers.
 
+pub mod actor_state;
 pub mod bundle;
 pub mod evaluation;
 pub mod event_file;
@@ -32,6 +34,7 @@ pub mod wire {
     include!(concat!(env!("OUT_DIR"), "/treadmill.v1.rs"));
 }
 
+pub use actor_state::ActorState;
 pub use bundle::{PolicyAnnouncement, PolicyBundle, PolicyVersion};
 pub use evaluation::EvaluationReport;
 pub use fragment::{EndCause, Episode, Fragment};

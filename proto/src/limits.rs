@@ -4,6 +4,8 @@
 pub const FRAGMENT_BYTES_MAX: usize = 30 << 20;
 /// Largest encoded policy bundle.
 pub const BUNDLE_BYTES_MAX: usize = 30 << 20;
+/// Largest encoded state of an actor, which travels in fragments and bundles.
+pub const ACTOR_STATE_BYTES_MAX: usize = 8 << 20;
 /// Longest model text, as the environment reads it.
 pub const MODEL_BYTES_MAX: usize = 4 << 20;
 /// Largest message of any other kind: receipts, statistics, announcements, JSON.

@@ -1,10 +1,12 @@
 //! One humanoid with its clock: episodes, resets, faults.
 
+mod saved;
 mod snapshot;
 
 use rand::{Rng, RngExt, SeedableRng};
 use rand_xoshiro::Xoshiro256PlusPlus;
 
+pub use self::saved::EpisodeState;
 pub use self::snapshot::EnvironmentSnapshot;
 use crate::config::{CONTROL_STEP_S, EnvironmentConfig};
 use crate::error::{InputError, ModelError};
@@ -25,6 +27,8 @@ pub struct Environment {
     physics: Physics,
     observation: Observation,
     disturber: Disturber,
+    /// Of the episode; none before the first reset.
+    seed: Option<u64>,
     nominal_position: Vec<f64>,
     /// Buffers of the reset: positions and velocities with noise.
     start_position: Vec<f64>,
@@ -53,6 +57,7 @@ impl Environment {
         observation.write(&physics, &mut last_observation);
         Ok(Self {
             config: config.clone(),
+            seed: None,
             disturber: Disturber::new(&config.randomisation, physics.model(), &observation),
             start_position: nominal_position.clone(),
             start_velocity: vec![0.0; physics.model().velocity_size()],
@@ -128,6 +133,7 @@ impl Environment {
         for start in &mut self.start_velocity {
             *start = symmetric(&mut random, scale);
         }
+        self.seed = Some(seed);
         self.disturber.begin_episode(seed, &mut self.physics);
         // The noisy quaternion is made a unit again where the bodies are placed.
         self.physics.set_state(&self.start_position, &self.start_velocity);

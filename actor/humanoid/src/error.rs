@@ -109,14 +109,14 @@ impl InputError {
     }
 }
 
-/// A position or velocity vector that no body can have; nothing has happened then.
+/// A position or velocity vector that no body can have, or another vector that fits no episode here; nothing has happened then.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum StateError {
     /// A vector does not have the model's size.
     #[error("{what} vector has the wrong length: {found} instead of {expected}")]
     Length {
-        /// `position` or `velocity`.
+        /// Which vector.
         what: &'static str,
         /// Its length.
         found: usize,
@@ -126,7 +126,7 @@ pub enum StateError {
     /// A number is infinite or none.
     #[error("{what}[{index}], the {name}, is {value}, but must be a finite number")]
     NotFinite {
-        /// `position` or `velocity`.
+        /// Which vector.
         what: &'static str,
         /// Which entry.
         index: usize,

@@ -28,7 +28,7 @@ pub mod task;
 mod dynamics;
 
 pub use config::{CONTROL_STEP_S, EnvironmentConfig, ObservationKind, Task};
-pub use environment::{Environment, EnvironmentSnapshot};
+pub use environment::{Environment, EnvironmentSnapshot, EpisodeState};
 pub use error::{InputError, ModelError, SnapshotError, StateError};
 pub use info::{InfoValue, StepInfo};
 pub use model::{HUMANOID_XML, Model, read_model_file};

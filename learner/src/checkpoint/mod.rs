@@ -5,6 +5,7 @@
 //! number of updates) every so many updates, the last few of which are kept.
 
 pub mod encoding;
+mod fallback;
 mod state;
 
 use std::{
@@ -63,7 +64,10 @@ pub enum CheckpointError {
         why: String,
     },
     /// It was written by another version of this program.
-    #[error("checkpoint `{path}` has format {found}; this program reads format {known}")]
+    #[error(
+        "checkpoint `{path}` has format {found}; this program reads format {known}: go on with the version that wrote it, \
+         which versions.json in the run's folder names"
+    )]
     Format {
         /// Its path.
         path: String,
@@ -80,6 +84,12 @@ pub enum CheckpointError {
         /// What does not fit.
         why: String,
     },
+    /// Neither it nor any other checkpoint of the run is sound.
+    #[error("no checkpoint of this run is sound: {tried}; begin a new run, or put back a copy of one of these files")]
+    NoneSound {
+        /// Every one that was tried, with what is wrong with it.
+        tried: String,
+    },
     /// The state could not be encoded.
     #[error("the state cannot be encoded: {why}")]
     Encode {
@@ -95,7 +105,7 @@ pub enum CheckpointError {
         source: io::Error,
     },
     /// The system refused to read.
-    #[error("cannot read checkpoint `{path}`: {source}")]
+    #[error("cannot read checkpoint `{path}`: {source}; choose another one by --checkpoint")]
     Read {
         /// Its path.
         path: String,
@@ -104,19 +114,17 @@ pub enum CheckpointError {
     },
 }
 
-/// Reads one checkpoint of a run.
+/// Reads one checkpoint of a run. Where the newest is wanted and unsound, the newest sound one is read instead, with a
+/// warning; one that is named is read or refused.
 pub fn load(folder: &RunFolder, which: Which) -> Result<TrainingState, CheckpointError> {
     let checkpoints = folder.checkpoints();
-    let path = match which {
-        Which::Latest => checkpoints.join("latest.bundle"),
-        Which::Best => checkpoints.join("best.bundle"),
-        Which::Numbered(number) => checkpoints.join(numbered(number)),
-        Which::BestOrLatest => [checkpoints.join("best.bundle"), checkpoints.join("latest.bundle")]
-            .into_iter()
-            .find(|path| path.exists())
-            .unwrap_or_else(|| checkpoints.join("latest.bundle")),
-    };
-    load_file(&path)
+    let (best, latest) = (checkpoints.join("best.bundle"), checkpoints.join("latest.bundle"));
+    match which {
+        Which::Best => load_file(&best),
+        Which::Numbered(number) => load_file(&checkpoints.join(numbered(number))),
+        Which::BestOrLatest if best.exists() => fallback::load_or_newest_sound(&best),
+        Which::Latest | Which::BestOrLatest => fallback::load_or_newest_sound(&latest),
+    }
 }
 
 /// Reads one bundle file.
@@ -135,12 +143,9 @@ pub fn load_file(path: &Path) -> Result<TrainingState, CheckpointError> {
 }
 
 fn known(folder: &Path) -> String {
-    let mut names: Vec<String> = fs::read_dir(folder)
-        .into_iter()
-        .flatten()
-        .flatten()
-        .filter_map(|entry| entry.file_name().to_string_lossy().strip_suffix(".bundle").map(str::to_string))
-        .filter(|name| !name.starts_with('.'))
+    let mut names: Vec<String> = fallback::bundles(folder)
+        .iter()
+        .filter_map(|path| Some(path.file_stem()?.to_string_lossy().into_owned()))
         .map(|name| name.parse::<u64>().map_or(name, |number| number.to_string()))
         .collect();
     names.sort();

@@ -7,7 +7,7 @@ use treadmill_common::{
     policy::{NetworkShape, init},
     seeds::{self, Stream},
 };
-use treadmill_proto::PolicyBundle;
+use treadmill_proto::{ActorState, PolicyBundle};
 
 use crate::{
     episodes::EpisodeWindow,
@@ -52,6 +52,8 @@ pub struct TrainingState {
     pub best_return: Option<f64>,
     /// Whether that is of an evaluation; until the first, it is of training.
     pub best_is_evaluated: bool,
+    /// Where the only actor of a deterministic run was after the last fragment that was learnt from.
+    pub actor_state: Option<ActorState>,
 }
 
 /// Counters over the whole run, across resumes.
@@ -104,6 +106,7 @@ impl TrainingState {
             counters: Counters::default(),
             best_return: None,
             best_is_evaluated: false,
+            actor_state: None,
             parameters,
             shape,
         }
@@ -138,7 +141,7 @@ impl TrainingState {
                 self.shape.hidden
             ));
         }
-        Ok(())
+        self.actor_state.as_ref().map_or(Ok(()), |state| state.check().map_err(|why| why.to_string()))
     }
 
     /// The hash that every fragment repeats: over the model and the configuration, but for how long the run is.
@@ -148,7 +151,7 @@ impl TrainingState {
         Ok(seeds::checksum(&[config.to_toml().as_bytes(), self.model_xml.as_bytes()]))
     }
 
-    /// What actors get of this state.
+    /// What actors get of this state. Its [`Self::actor_state`] is added where it is resumed.
     pub fn bundle(&self) -> Result<PolicyBundle, String> {
         let config = self.config()?;
         let weights = treadmill_common::policy::to_safetensors(&self.shape, &self.parameters);
@@ -168,6 +171,7 @@ impl TrainingState {
             config_hash: self.config_hash()?,
             config_toml: self.config_toml.clone(),
             model_xml: self.model_xml.clone(),
+            actor_state: None,
         })
     }
 }

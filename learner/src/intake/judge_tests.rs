@@ -28,6 +28,7 @@ fn fragment(sequence: u64, number: u64) -> Fragment {
         last_observations: vec![0.0],
         episodes: vec![],
         settled_through: 0,
+        actor_state: None,
     }
 }
 

@@ -343,6 +343,7 @@ fn fragment(process: &Actor, settled_through: u64) -> Fragment {
         last_observations: vec![0.0],
         episodes: vec![],
         settled_through,
+        actor_state: None,
     }
 }
 

@@ -173,7 +173,7 @@ def moments(random):
     write("moments.json", {
         "columns": columns, "parts": parts, "mean": whole.mean(0), "variance": whole.var(0),
         "clip": clip, "rows": rows, "normalised": normalised,
-        "scalars": scalars, "scalars_normalised": (scalars - scalars.mean()) / np.sqrt(scalars.var() + epsilon),
+        "scalars": scalars, "scalars_normalised": (scalars - scalars.mean()) / np.sqrt(scalars.var() + (1e-4 * scalars.mean()) ** 2),
     })
 
 

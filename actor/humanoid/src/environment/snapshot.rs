@@ -13,6 +13,7 @@ pub struct EnvironmentSnapshot {
     config: EnvironmentConfig,
     physics: PhysicsSnapshot,
     disturber: Disturber,
+    seed: Option<u64>,
     last_observation: Vec<f32>,
     last_info: StepInfo,
     episode_steps: u32,
@@ -27,6 +28,7 @@ impl Environment {
             config: self.config.clone(),
             physics: self.physics.snapshot(),
             disturber: self.disturber.clone(),
+            seed: self.seed,
             last_observation: self.last_observation.clone(),
             last_info: self.last_info,
             episode_steps: self.episode_steps,
@@ -46,6 +48,7 @@ impl Environment {
         }
         self.physics.restore(&snapshot.physics)?;
         self.disturber.clone_from(&snapshot.disturber);
+        self.seed = snapshot.seed;
         self.last_observation.clone_from(&snapshot.last_observation);
         self.last_info = snapshot.last_info;
         self.episode_steps = snapshot.episode_steps;

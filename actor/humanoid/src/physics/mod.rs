@@ -113,11 +113,16 @@ impl Physics {
     pub fn set_state(&mut self, position: &[f64], velocity: &[f64]) {
         assert_eq!(position.len(), self.model.position_size(), "position vector has the wrong length");
         assert_eq!(velocity.len(), self.model.velocity_size(), "velocity vector has the wrong length");
-        self.variable.take_effect(&mut self.model, &mut self.tree, &mut self.world);
         self.position.copy_from_slice(position);
         self.velocity.copy_from_slice(velocity);
         let norm = position[3..ROOT_POSITIONS].iter().map(|part| part * part).sum::<f64>().sqrt();
         self.position[3..ROOT_POSITIONS].iter_mut().for_each(|part| *part /= norm);
+        self.begin();
+    }
+
+    /// Starts afresh from `position` and `velocity` as they are now.
+    fn begin(&mut self) {
+        self.variable.take_effect(&mut self.model, &mut self.tree, &mut self.world);
         self.world.restore();
         self.contacts.fill(ContactImpulse::default());
         self.controls.fill(0.0);
@@ -126,6 +131,15 @@ impl Physics {
         self.posture.lay(&self.tree, &self.position);
         self.posture.weigh(&self.tree);
         self.describe();
+    }
+
+    /// Puts a fresh Rapier world below the present state; nothing that can be observed changes.
+    ///
+    /// Rapier keeps the impulses of the last physics step and where everything was, as first guesses for the next one:
+    /// without them the next steps differ in their last digits. From here on, the motion depends on position, velocity,
+    /// variation and controls alone, so that it can be gone on with where nothing else was kept.
+    pub fn renew_world(&mut self) {
+        self.world.restore();
     }
 
     /// Holds the motors' controls, one number per motor: see [`Self::joint_torques_nm`]. No time passes.
@@ -321,6 +335,12 @@ impl Physics {
             quality.limit_overshoot_rad = quality.limit_overshoot_rad.max(hinge.overshoot_rad(angle));
         }
         quality
+    }
+
+    /// Whether a control step produced a number that is not finite, or was given one, since the body was placed.
+    #[must_use]
+    pub fn is_faulty(&self) -> bool {
+        self.is_faulty
     }
 
     /// Makes the root's velocity NaN, so that the next step faults; for tests of fault handling.

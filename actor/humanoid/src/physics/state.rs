@@ -35,9 +35,38 @@ impl Physics {
         self.set_state(position, velocity);
         Ok(())
     }
+
+    /// Whether [`Self::go_on_from`] takes a state. Hinges may be anywhere: a simulated body's can be.
+    pub(crate) fn check_exact(&self, position: &[f64], velocity: &[f64]) -> Result<(), StateError> {
+        check_numbers(&self.model, position, velocity)
+    }
+
+    /// As [`Self::set_state`], but to the last bit where a body was: its quaternion is not made a unit one again.
+    pub(crate) fn go_on_from(&mut self, position: &[f64], velocity: &[f64]) {
+        self.position.copy_from_slice(position);
+        self.velocity.copy_from_slice(velocity);
+        self.begin();
+    }
 }
 
 fn check(model: &Model, position: &[f64], velocity: &[f64]) -> Result<(), StateError> {
+    check_numbers(model, position, velocity)?;
+    for (offset, (hinge, &value_rad)) in model.hinges.iter().zip(&position[ROOT_POSITIONS..]).enumerate() {
+        if hinge.overshoot_rad(value_rad) > HINGE_TOLERANCE_RAD {
+            return Err(StateError::Hinge {
+                index: ROOT_POSITIONS + offset,
+                hinge: hinge.name.clone(),
+                value_rad,
+                min_rad: hinge.min_rad,
+                max_rad: hinge.max_rad,
+            });
+        }
+    }
+    Ok(())
+}
+
+/// Lengths, numbers that are none, and the quaternion.
+fn check_numbers(model: &Model, position: &[f64], velocity: &[f64]) -> Result<(), StateError> {
     for (what, numbers, expected, root, kind) in [
         ("position", position, model.position_size(), &ROOT_POSITION_NAMES[..], "angle"),
         ("velocity", velocity, model.velocity_size(), &ROOT_VELOCITY_NAMES[..], "rate"),
@@ -57,17 +86,6 @@ fn check(model: &Model, position: &[f64], velocity: &[f64]) -> Result<(), StateE
     let norm = value.iter().map(|part| part * part).sum::<f64>().sqrt();
     if !QUATERNION_NORMS.contains(&norm) {
         return Err(StateError::Quaternion { value });
-    }
-    for (offset, (hinge, &value_rad)) in model.hinges.iter().zip(&position[ROOT_POSITIONS..]).enumerate() {
-        if hinge.overshoot_rad(value_rad) > HINGE_TOLERANCE_RAD {
-            return Err(StateError::Hinge {
-                index: ROOT_POSITIONS + offset,
-                hinge: hinge.name.clone(),
-                value_rad,
-                min_rad: hinge.min_rad,
-                max_rad: hinge.max_rad,
-            });
-        }
     }
     Ok(())
 }

@@ -92,6 +92,30 @@ impl Disturber {
         self.schedule_push();
     }
 
+    /// Numbers that [`Self::progress`] tells of past actions.
+    pub(crate) fn past_size(&self) -> usize {
+        self.past.len()
+    }
+
+    /// What has changed since the episode began: the past actions with the newest last, steps to the next push, and
+    /// the streams of sensors, motors and pushes.
+    pub(crate) fn progress(&self) -> (Vec<f32>, u32, [Xoshiro256PlusPlus; 3]) {
+        let oldest = (self.newest + 1) * self.acting.len();
+        let past = [&self.past[oldest..], &self.past[..oldest]].concat();
+        (past, self.steps_to_push, [self.sensors.clone(), self.motors.clone(), self.pushes.clone()])
+    }
+
+    /// Goes on from such progress, after [`Self::begin_episode`] with the same seed.
+    pub(crate) fn go_on(&mut self, past: &[f32], steps_to_push: u32, streams: &[Xoshiro256PlusPlus; 3]) {
+        self.past.copy_from_slice(past);
+        self.newest = self.settings.action_delay_steps[1] as usize;
+        self.steps_to_push = steps_to_push;
+        let [sensors, motors, pushes] = streams;
+        self.sensors.clone_from(sensors);
+        self.motors.clone_from(motors);
+        self.pushes.clone_from(pushes);
+    }
+
     fn schedule_push(&mut self) {
         let interval_s = uniform(&mut self.pushes, self.settings.push_interval_s);
         self.steps_to_push = (interval_s / CONTROL_STEP_S).round().max(1.0) as u32;

@@ -1,0 +1,170 @@
+//! Episodes as plain numbers: gone on with bit for bit, and refused where they do not fit.
+
+use treadmill_humanoid::{
+    Environment, EnvironmentConfig, EpisodeState, HUMANOID_XML, ObservationKind, Randomisation, StateError,
+};
+
+/// Everything that an episode can have: contact forces in the observation, and all randomisation.
+fn rich() -> EnvironmentConfig {
+    EnvironmentConfig {
+        observation: ObservationKind::GymnasiumV5,
+        terminate_when_unhealthy: false,
+        max_episode_steps: 400,
+        randomisation: Randomisation {
+            mass_scale: [0.8, 1.2],
+            floor_friction_scale: [0.5, 1.5],
+            motor_scale: [0.8, 1.2],
+            damping_scale: [0.8, 1.2],
+            armature_scale: [0.8, 1.2],
+            gravity_scale: [0.9, 1.1],
+            sensor_noise_position: 0.01,
+            sensor_noise_velocity: 0.05,
+            control_noise: 0.05,
+            action_delay_steps: [0, 3],
+            push_interval_s: [0.1, 0.5],
+            push_mps: [0.1, 0.5],
+        },
+        ..EnvironmentConfig::default()
+    }
+}
+
+fn plain() -> EnvironmentConfig {
+    EnvironmentConfig { terminate_when_unhealthy: false, ..EnvironmentConfig::default() }
+}
+
+fn environment(config: &EnvironmentConfig) -> Environment {
+    Environment::new(config, HUMANOID_XML).expect("valid")
+}
+
+fn reset(environment: &mut Environment, seed: u64) -> Vec<f32> {
+    let mut observation = vec![0.0; environment.observation_size()];
+    environment.reset(seed, &mut observation);
+    observation
+}
+
+/// Bits of all that steps `from..to` of an episode tell.
+fn go_on(environment: &mut Environment, from: u32, to: u32) -> Vec<u64> {
+    let mut observation = vec![0.0; environment.observation_size()];
+    let mut bits = Vec::new();
+    for step in from..to {
+        let action: [f32; 17] = std::array::from_fn(|motor| 0.4 * ((step * 31 + motor as u32 * 17) as f32).sin());
+        let result = environment.step(&action, &mut observation);
+        assert!(!result.fault);
+        bits.extend(observation.iter().map(|number| u64::from(number.to_bits())));
+        bits.push(u64::from(result.reward.to_bits()) << 2 | u64::from(result.truncated) << 1);
+        let physics = environment.physics();
+        bits.extend(physics.position().iter().chain(physics.velocity()).map(|number| number.to_bits()));
+    }
+    bits
+}
+
+/// What can be seen without a step.
+fn seen(environment: &Environment) -> String {
+    let mut observation = vec![0.0; environment.observation_size()];
+    environment.observe(&mut observation).expect("the right length");
+    let physics = environment.physics();
+    let wrenches: Vec<_> = (0..physics.model().links.len()).map(|link| physics.contact_wrench(link)).collect();
+    format!(
+        "{observation:?} {:?} {:?} {:?} {wrenches:?} {:?} {:?}",
+        environment.info(),
+        environment.episode_state(),
+        environment.joint_quality(),
+        physics.body_motions(),
+        physics.joint_torques_nm(),
+    )
+}
+
+#[test]
+fn a_renewed_world_looks_the_same_and_has_forgotten_its_first_guesses() {
+    let (mut renewed, mut other) = (environment(&rich()), environment(&rich()));
+    for environment in [&mut renewed, &mut other] {
+        reset(environment, 3);
+        go_on(environment, 0, 120);
+    }
+    assert!(renewed.physics().squared_contact_wrenches() > 0.0, "something touches");
+    let before = seen(&renewed);
+    renewed.renew_world();
+    assert_eq!(before, seen(&renewed));
+    // Otherwise there would be no need for it.
+    assert_ne!(go_on(&mut renewed, 120, 160), go_on(&mut other, 120, 160));
+}
+
+#[test]
+fn an_episode_goes_on_from_its_state_bit_for_bit() {
+    for config in [plain(), rich()] {
+        let mut original = environment(&config);
+        let mut busy = environment(&config);
+        reset(&mut busy, 99);
+        go_on(&mut busy, 0, 70);
+        // Just reset, at the first contacts, while it falls, and among many contacts on the floor.
+        for at in [0, 2, 60, 150] {
+            let mut last = reset(&mut original, 5);
+            go_on(&mut original, 0, at);
+            let state = original.episode_state().expect("it was reset");
+            original.renew_world();
+            let wanted = go_on(&mut original, at, at + 250);
+
+            let mut fresh = environment(&config);
+            for other in [&mut fresh, &mut busy] {
+                other.resume_episode(&state, &mut last).expect("of the same build");
+                assert_eq!(last, state.observation);
+                assert_eq!(Some(&state), other.episode_state().as_ref(), "what was restored can be saved again");
+                assert_eq!(wanted, go_on(other, at, at + 250), "from {at}");
+            }
+            // The episode after it owes nothing to it.
+            assert_eq!(reset(&mut original, 6), reset(&mut fresh, 6));
+            assert_eq!(go_on(&mut original, 0, 60), go_on(&mut fresh, 0, 60));
+        }
+    }
+}
+
+#[test]
+fn there_is_no_state_before_the_first_reset_nor_after_a_fault() {
+    let mut environment = environment(&plain());
+    assert_eq!(environment.episode_state(), None);
+    let mut observation = reset(&mut environment, 1);
+    let state = environment.episode_state().expect("it was reset");
+    environment.physics_mut().poison();
+    assert!(environment.step(&[0.0; 17], &mut observation).fault);
+    assert_eq!(environment.episode_state(), None);
+    environment.resume_episode(&state, &mut observation).expect("of the same build");
+    assert_eq!(environment.episode_state(), Some(state));
+}
+
+#[test]
+fn a_snapshot_carries_the_state_of_its_episode() {
+    let (mut original, mut other) = (environment(&rich()), environment(&rich()));
+    reset(&mut original, 4);
+    go_on(&mut original, 0, 30);
+    other.restore(&original.snapshot()).expect("of the same build");
+    assert_eq!(original.episode_state(), other.episode_state());
+}
+
+#[test]
+fn states_that_do_not_fit_are_refused_by_name_and_change_nothing() {
+    let mut environment = environment(&rich());
+    reset(&mut environment, 2);
+    go_on(&mut environment, 0, 20);
+    let sound = environment.episode_state().expect("it was reset");
+    go_on(&mut environment, 20, 25);
+    let untouched = seen(&environment);
+    type Spoil = fn(&mut EpisodeState);
+    let spoils: [(&str, Spoil); 7] = [
+        ("position vector has the wrong length: 1 ", |s| s.position.truncate(1)),
+        ("velocity vector has the wrong length: 24", |s| s.velocity.push(0.0)),
+        ("observation vector has the wrong length", |s| s.observation.clear()),
+        ("past actions vector has the wrong length", |s| s.past_actions.truncate(1)),
+        ("the rate of hinge", |s| s.velocity[9] = f64::NAN),
+        ("quaternion", |s| s.position[3..7].fill(0.0)),
+        ("past actions[0]", |s| s.past_actions[0] = f32::INFINITY),
+    ];
+    let mut observation = vec![7.0; environment.observation_size()];
+    for (part, spoil) in spoils {
+        let mut state = sound.clone();
+        spoil(&mut state);
+        let refusal: StateError = environment.resume_episode(&state, &mut observation).expect_err(part);
+        assert!(refusal.to_string().contains(part), "{refusal}");
+        assert_eq!(untouched, seen(&environment));
+    }
+    assert!(observation.iter().all(|entry| *entry == 7.0));
+}

@@ -1,0 +1,117 @@
+//! An actor's state after a fragment: who goes on from its bytes sends, bit for bit, what the actor itself sends next.
+
+use treadmill_actor::{
+    acting::ActingPolicy,
+    environments::{Environments, SeedSource},
+    rollout::{Collector, Sender},
+};
+use treadmill_common::{
+    policy::{NetworkShape, init::initial_parameters, to_safetensors},
+    seeds,
+};
+use treadmill_humanoid::{EnvironmentConfig, HUMANOID_XML, ObservationKind, Randomisation};
+use treadmill_proto::{Fragment, PolicyBundle, PolicyVersion, fragment::TRUNCATED};
+
+/// Episodes that end in all ways within a few steps, with something of everything that is random.
+fn rich() -> EnvironmentConfig {
+    EnvironmentConfig {
+        max_episode_steps: 25,
+        observation: ObservationKind::GymnasiumV5,
+        randomisation: Randomisation {
+            mass_scale: [0.8, 1.2],
+            motor_scale: [0.8, 1.2],
+            sensor_noise_position: 0.01,
+            control_noise: 0.1,
+            action_delay_steps: [0, 2],
+            push_interval_s: [0.1, 0.2],
+            push_mps: [0.1, 2.0],
+            ..Randomisation::default()
+        },
+        ..EnvironmentConfig::default()
+    }
+}
+
+fn policy(observation: usize) -> ActingPolicy {
+    let shape = NetworkShape { observation, action: 17, hidden: vec![8] };
+    let parameters = initial_parameters(&shape, -0.5, &mut seeds::stream(1, "test", &[]));
+    let weights = to_safetensors(&shape, &parameters);
+    ActingPolicy::new(&PolicyBundle {
+        run: "walk".into(),
+        version: PolicyVersion { incarnation: 3, number: 4 },
+        observation_size: observation as u32,
+        action_size: 17,
+        hidden: vec![8],
+        checksum: seeds::checksum(&[&weights]),
+        weights: weights.into(),
+        observation_mean: vec![0.0; observation],
+        observation_inverse_std: vec![1.0; observation],
+        observation_clip: 10.0,
+        config_hash: 5,
+        config_toml: String::new(),
+        model_xml: String::new(),
+        actor_state: None,
+    })
+    .unwrap()
+}
+
+/// An actor process; every start of it draws other random numbers.
+fn collector(envs: usize, config: &EnvironmentConfig, name: &str, start: u64, threads: usize) -> Collector {
+    let seeds = SeedSource { run_seed: 1, actor: name.into(), start };
+    let noise = seeds.noise();
+    let environments = Environments::new(envs, config, HUMANOID_XML, seeds).unwrap().with_threads(threads).unwrap();
+    let sender = Sender { run: "walk".into(), actor: name.into(), incarnation: 6, config_hash: 5 };
+    let mut collector = Collector::new(environments, noise, 16, sender);
+    collector.attach_state();
+    collector
+}
+
+/// What is learnt from: a process counts its fragments from one.
+fn learnt(fragment: Fragment) -> Fragment {
+    fragment.check().unwrap();
+    Fragment { sequence: 1, settled_through: 0, ..fragment }
+}
+
+#[test]
+fn a_successor_goes_on_from_the_bytes_of_any_fragment() {
+    for (config, width) in [(EnvironmentConfig::default(), 45), (rich(), 348)] {
+        let policy = policy(width);
+        let mut original = collector(4, &config, "a", 2, 1);
+        let fragments: Vec<Fragment> = (0..8).map(|_| original.collect(&policy, 0).unwrap()).collect();
+        assert!(fragments.iter().filter(|fragment| !fragment.episodes.is_empty()).count() > 2, "episodes end");
+        let truncated = fragments.iter().flat_map(|fragment| &fragment.flags).any(|flags| flags & TRUNCATED != 0);
+        assert_eq!(truncated, width == 348);
+        for (at, threads) in [(0, 1), (3, 2), (5, 1)] {
+            let bytes = fragments[at].encode().unwrap();
+            let state = Fragment::decode(bytes).unwrap().actor_state.unwrap();
+            let mut successor = collector(4, &config, "a", 99, threads);
+            successor.go_on(&state).unwrap();
+            for fragment in &fragments[at + 1..] {
+                assert!(learnt(successor.collect(&policy, 0).unwrap()) == learnt(fragment.clone()), "from {at}");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_state_that_does_not_fit_is_refused_and_all_begins_as_without_it() {
+    let (config, policy) = (EnvironmentConfig::default(), policy(45));
+    let state = collector(3, &config, "a", 2, 1).collect(&policy, 0).unwrap().actor_state.unwrap();
+    let wanted = |envs, name| collector(envs, &config, name, 7, 1).collect(&policy, 0).unwrap();
+    let mut upside_down = state.clone();
+    // Of the last environment, so that others have gone on before.
+    let at = upside_down.positions.len() / 3 * 2 + 3;
+    upside_down.positions[at..at + 4].fill(0.0);
+    let mut narrow = state.clone();
+    narrow.velocities.truncate(3 * 22);
+    for (state, envs, name, part) in [
+        (&state, 4, "a", "it has 3 environments, and here are 4"),
+        (&state, 3, "b", "it is that of actor `a`, and this is `b`"),
+        (&upside_down, 3, "a", "quaternion"),
+        (&narrow, 3, "a", "velocity vector has the wrong length: 22 instead of 23"),
+    ] {
+        let mut collector = collector(envs, &config, name, 7, 1);
+        let why = collector.go_on(state).unwrap_err();
+        assert!(why.contains(part), "{why}");
+        assert!(collector.collect(&policy, 0).unwrap() == wanted(envs, name), "{part}");
+    }
+}

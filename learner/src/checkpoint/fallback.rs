@@ -1,0 +1,166 @@
+//! When the checkpoint that is wanted is unsound: the newest one that is not.
+
+use std::{
+    fs,
+    path::{Path, PathBuf},
+};
+
+use super::{CheckpointError, TrainingState, load_file};
+
+/// Reads `wanted`, or where it is damaged or missing the newest sound one beside it, by the number of updates inside; says
+/// in a warning which one that is, and why.
+///
+/// # Errors
+/// As [`load_file`] where the file is sound but of another format, or cannot be read; [`CheckpointError::NoneSound`] where
+/// nothing else is sound either.
+pub(super) fn load_or_newest_sound(wanted: &Path) -> Result<TrainingState, CheckpointError> {
+    let why = match load_file(wanted) {
+        Err(why) if is_unsound(&why) => why,
+        done => return done,
+    };
+    let folder = wanted.parent().unwrap_or(wanted);
+    let mut tried = vec![told(wanted, &why)];
+    let mut newest: Option<(PathBuf, TrainingState)> = None;
+    for path in bundles(folder).into_iter().filter(|path| path != wanted) {
+        match load_file(&path) {
+            Ok(state)
+                if newest.as_ref().is_some_and(|(_, newest)| newest.counters.updates >= state.counters.updates) => {}
+            Ok(state) => newest = Some((path, state)),
+            Err(why) => tried.push(told(&path, &why)),
+        }
+    }
+    if let Some((path, state)) = newest {
+        let updates = state.counters.updates;
+        let (tried, path) = (tried.join("; "), path.display());
+        tracing::warn!("checkpoint {tried}; the newest sound one is used instead: `{path}`, after {updates} updates");
+        return Ok(state);
+    }
+    match why {
+        CheckpointError::Missing { .. } if tried.len() == 1 => Err(why),
+        _ => Err(CheckpointError::NoneSound { tried: tried.join("; ") }),
+    }
+}
+
+fn is_unsound(why: &CheckpointError) -> bool {
+    matches!(why, CheckpointError::Missing { .. } | CheckpointError::Damaged { .. } | CheckpointError::Shape { .. })
+}
+
+fn told(path: &Path, why: &CheckpointError) -> String {
+    let path = path.display();
+    match why {
+        CheckpointError::Missing { .. } => format!("`{path}` is not there"),
+        CheckpointError::Damaged { why, .. } => format!("`{path}` is damaged ({why})"),
+        CheckpointError::Shape { why, .. } => format!("`{path}` does not fit its network ({why})"),
+        CheckpointError::Format { found, .. } => format!("`{path}` has format {found}"),
+        other => format!("`{path}` cannot be read ({other})"),
+    }
+}
+
+/// Files of checkpoints, in the order of their names.
+pub(super) fn bundles(folder: &Path) -> Vec<PathBuf> {
+    let mut paths: Vec<PathBuf> = fs::read_dir(folder)
+        .into_iter()
+        .flatten()
+        .flatten()
+        .filter(|entry| {
+            let name = entry.file_name();
+            let name = name.to_string_lossy();
+            name.ends_with(".bundle") && !name.starts_with('.')
+        })
+        .map(|entry| entry.path())
+        .collect();
+    paths.sort();
+    paths
+}
+
+#[cfg(test)]
+mod tests {
+    use treadmill_common::{config::Config, run_folder::RunFolder};
+
+    use super::*;
+    use crate::checkpoint::{Saver, Which, load};
+
+    fn state(updates: u64) -> TrainingState {
+        let mut state = TrainingState::fresh("run", &Config::default(), "<mujoco/>", 2, 1, 1);
+        state.counters.updates = updates;
+        state
+    }
+
+    /// `latest` after 7 updates, 2, 4 and 6 kept, `best` at 3.
+    fn saved(at: &Path) -> RunFolder {
+        let folder = RunFolder::create(Some(&at.join("run")), "x").unwrap();
+        let saver = Saver::new(&folder, 2, 9);
+        for updates in 1..=7 {
+            let saved = saver.save(&state(updates)).unwrap();
+            if updates == 3 {
+                saver.save_best(&saved).unwrap();
+            }
+        }
+        folder
+    }
+
+    fn spoil(folder: &RunFolder, name: &str) {
+        let path = folder.checkpoints().join(name);
+        let mut bytes = fs::read(&path).unwrap();
+        let middle = bytes.len() / 2;
+        bytes[middle] ^= 4;
+        fs::write(path, bytes).unwrap();
+    }
+
+    fn updates(folder: &RunFolder, which: Which) -> u64 {
+        load(folder, which).unwrap().counters.updates
+    }
+
+    #[test]
+    fn the_newest_sound_one_by_what_is_inside_takes_the_place_of_a_damaged_one() {
+        let at = tempfile::tempdir().unwrap();
+        let folder = saved(at.path());
+        assert_eq!(updates(&folder, Which::Latest), 7);
+        assert_eq!(updates(&folder, Which::BestOrLatest), 3);
+        spoil(&folder, "latest.bundle");
+        assert_eq!(updates(&folder, Which::Latest), 6);
+        spoil(&folder, "00000006.bundle");
+        assert_eq!(updates(&folder, Which::Latest), 4);
+        fs::remove_file(folder.checkpoints().join("latest.bundle")).unwrap();
+        assert_eq!(updates(&folder, Which::Latest), 4);
+        spoil(&folder, "best.bundle");
+        assert_eq!(updates(&folder, Which::BestOrLatest), 4, "nobody asked for the best by name");
+    }
+
+    #[test]
+    fn one_that_is_named_is_not_replaced_by_another() {
+        let at = tempfile::tempdir().unwrap();
+        let folder = saved(at.path());
+        for (name, which) in [("best.bundle", Which::Best), ("00000004.bundle", Which::Numbered(4))] {
+            spoil(&folder, name);
+            let why = load(&folder, which).unwrap_err().to_string();
+            assert!(why.contains(name) && why.contains("checksum") && why.contains("--checkpoint"), "{why}");
+        }
+    }
+
+    #[test]
+    fn if_none_is_sound_all_that_was_tried_is_told() {
+        let at = tempfile::tempdir().unwrap();
+        let folder = saved(at.path());
+        for path in bundles(&folder.checkpoints()) {
+            spoil(&folder, &path.file_name().unwrap().to_string_lossy());
+        }
+        let why = load(&folder, Which::Latest).unwrap_err().to_string();
+        for name in ["latest", "best", "00000002", "00000004", "00000006"] {
+            assert!(why.contains(&format!("{name}.bundle` is damaged")), "{why}");
+        }
+        let empty = RunFolder::create(Some(&at.path().join("empty")), "x").unwrap();
+        assert!(load(&empty, Which::Latest).unwrap_err().to_string().contains("has saved none yet"));
+    }
+
+    #[test]
+    fn another_format_is_refused_and_not_passed_over() {
+        let at = tempfile::tempdir().unwrap();
+        let folder = saved(at.path());
+        let path = folder.checkpoints().join("latest.bundle");
+        let mut bytes = fs::read(&path).unwrap();
+        bytes[8] = 1;
+        fs::write(path, bytes).unwrap();
+        assert!(load(&folder, Which::Latest).unwrap_err().to_string().contains("format 1"));
+    }
+}
