@@ -8,6 +8,7 @@ use serde_json::json;
 use treadmill_common::{
     bus::BusOptions,
     config::{Config, ConfigSource, LearnerMode},
+    device::{Device, DeviceKind},
     machine,
     run_folder::RunFolder,
     seeds,
@@ -51,6 +52,9 @@ pub struct AnyRunArgs {
     /// Which checkpoint to resume from: latest, best, or the number of updates of a kept one.
     #[arg(long, value_name = "WHICH", requires = "resume")]
     pub checkpoint: Option<Which>,
+    /// Where the networks are computed: cpu, or cuda in a build with that feature.
+    #[arg(long, value_name = "DEVICE", default_value = "cpu")]
+    pub device: DeviceKind,
     /// Do not draw a progress bar.
     #[arg(long)]
     pub no_progress: bool,
@@ -85,21 +89,30 @@ pub struct Prepared {
     pub config: Config,
     /// Its folder.
     pub folder: RunFolder,
+    /// Where its networks are computed.
+    pub device: Device,
     /// Its state.
     pub state: TrainingState,
 }
 
 /// Prepares a new run, or one that goes on. `changes` are keys that the command's own flags set.
 pub fn prepare(new: &NewRunArgs, any: &AnyRunArgs, changes: &[(&str, toml::Value)]) -> anyhow::Result<Prepared> {
+    // Before anything is written: a device that is not there leaves nothing behind.
+    let device = any.device.open().map_err(|why| Usage(why.to_string()))?;
     let prepared = match &any.resume {
-        Some(run) => resume(run, any)?,
-        None => begin(new, any, changes)?,
+        Some(run) => resume(run, any, device)?,
+        None => begin(new, any, changes, device)?,
     };
     write_run_files(&prepared).with_context(|| format!("cannot write to {}", prepared.folder.root().display()))?;
     Ok(prepared)
 }
 
-fn begin(new: &NewRunArgs, any: &AnyRunArgs, changes: &[(&str, toml::Value)]) -> anyhow::Result<Prepared> {
+fn begin(
+    new: &NewRunArgs,
+    any: &AnyRunArgs,
+    changes: &[(&str, toml::Value)],
+    device: Device,
+) -> anyhow::Result<Prepared> {
     let mut source = ConfigSource::default();
     source.preset(&new.preset)?;
     if let Some(file) = &new.config {
@@ -129,10 +142,10 @@ fn begin(new: &NewRunArgs, any: &AnyRunArgs, changes: &[(&str, toml::Value)]) ->
     let (observation, action) = (environment.observation_size(), environment.action_size());
     let folder = RunFolder::create(new.run_dir.as_deref(), &new.preset)?;
     let state = TrainingState::fresh(folder.name(), &config, &text, observation, action, seeds::unique());
-    Ok(Prepared { config, folder, state })
+    Ok(Prepared { config, folder, device, state })
 }
 
-fn resume(run: &str, any: &AnyRunArgs) -> anyhow::Result<Prepared> {
+fn resume(run: &str, any: &AnyRunArgs, device: Device) -> anyhow::Result<Prepared> {
     let folder = RunFolder::open(run)?;
     let mut state = checkpoint::load(&folder, any.checkpoint.unwrap_or(Which::Latest))?;
     if let Some(file) = &any.model {
@@ -146,12 +159,12 @@ fn resume(run: &str, any: &AnyRunArgs) -> anyhow::Result<Prepared> {
     }
     state.lineage.resume(seeds::unique());
     state.counters.resumes += 1;
-    Ok(Prepared { config, folder, state })
+    Ok(Prepared { config, folder, device, state })
 }
 
 fn write_run_files(prepared: &Prepared) -> std::io::Result<()> {
     use std::io::Write;
-    let Prepared { config, folder, state } = prepared;
+    let Prepared { config, folder, state, .. } = prepared;
     fs::write(folder.config(), config.to_toml())?;
     fs::write(folder.root().join("model.xml"), &state.model_xml)?;
     let mut commands = fs::OpenOptions::new().create(true).append(true).open(folder.root().join("command.txt"))?;

@@ -100,3 +100,18 @@ fn help_and_version_are_there() {
     }
     assert!(stdout(&self::run(folder.path(), &["--version"])).contains(env!("CARGO_PKG_VERSION")));
 }
+
+#[test]
+#[cfg(not(feature = "cuda"))]
+fn a_device_that_is_not_there_is_refused_before_anything_is_written() {
+    let (folder, run_folder) = folders();
+    let path = run_folder.to_str().unwrap();
+    let parts = ["without CUDA", "--features cuda", "--device cpu"];
+    for command in ["train", "learner"] {
+        let output = run(folder.path(), &[command, "--preset", "smoke", "--run-dir", path, "--device", "cuda"]);
+        assert_refused(&output, 2, &parts);
+    }
+    assert!(!run_folder.exists());
+    assert_refused(&run(folder.path(), &["bench", "update", "--device", "cuda"]), 2, &parts);
+    assert_refused(&run(folder.path(), &["train", "--device", "tpu"]), 2, &["tpu", "cpu, cuda"]);
+}

@@ -177,8 +177,7 @@ impl Environments {
     }
 
     /// Steps all by `actions`, `[N][action]` where −1 is the lower end of a motor's range and 1 its upper one; they are
-    /// clipped to it here. An episode that
-    /// ends is followed by the next at once.
+    /// clipped to it here. An episode that ends is followed by the next at once.
     ///
     /// # Panics
     /// If there are not as many actions as environments.
@@ -198,6 +197,8 @@ impl Environments {
                     .par_iter_mut()
                     .zip(observations.par_chunks_exact_mut(width))
                     .zip(actions.par_chunks_exact(action_size))
+                    // Pieces of a few hundred microseconds would leave threads idle at the end of each step.
+                    .with_max_len(1)
                     .for_each(|((place, observation), action)| place.step(action, seeds, observation));
             }),
         }

@@ -2,6 +2,7 @@
 //!
 //! # Layout
 //! - [`config`]: every key, in two stages: text as given, then values checked.
+//! - [`device`]: where the networks are computed.
 //! - [`policy`]: the networks: shape, parameters, forward pass.
 //! - [`normaliser`]: running statistics of observations and values.
 //! - [`exported`]: a policy with all that is needed to play it, as one safetensors file.
@@ -16,6 +17,7 @@
 pub mod atomic_file;
 pub mod bus;
 pub mod config;
+pub mod device;
 pub mod exported;
 pub mod machine;
 pub mod normaliser;

@@ -25,7 +25,7 @@ SEED = 1
 STEPS = {0.15: 10, 0.3: 20, 0.5: 33}
 
 # Name in the tables, settings of the environment. The first row is the product as it comes: 2 physics steps of 7.5 ms for each
-# control step, 2 iterations of Rapier's solver in each. The others have more steps and as many iterations in each.
+# control step, one iteration of Rapier's solver in each. The others have more steps and as many iterations in each.
 TREADMILL = [
     ("Treadmill, defaults", {}),
     ("Treadmill, 3 × 5 ms", {"substeps": 3}),

@@ -35,6 +35,8 @@ use crate::{
 pub struct TrainingOptions {
     /// Where files go.
     pub folder: RunFolder,
+    /// Where the networks are computed.
+    pub device: candle_core::Device,
     /// Whether a bar is drawn on a terminal.
     pub show_progress: bool,
     /// Actor processes that were started again, counted by whoever starts them.
@@ -173,7 +175,8 @@ impl Trainer {
             .thread_name(|index| format!("update-{index}"))
             .build()
             .map_err(|why| wrong(why.to_string()))?;
-        let mut updater = Updater::new(state.shape.clone(), state.parameters.clone(), &config.ppo, Arc::new(pool))
+        let parameters = state.parameters.clone();
+        let mut updater = Updater::on(&options.device, state.shape.clone(), parameters, &config.ppo, Arc::new(pool))
             .map_err(|why| wrong(why.to_string()))?;
         updater.restore(state.optimiser.clone(), state.learning_rate).map_err(|why| wrong(why.to_string()))?;
         let saver = Saver::new(

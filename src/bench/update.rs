@@ -6,11 +6,14 @@ use clap::Args;
 use serde_json::json;
 use treadmill_common::{
     config::PpoConfig,
+    device::DeviceKind,
     machine,
     policy::{NetworkShape, gaussian, init::initial_parameters},
     seeds,
 };
 use treadmill_learner::ppo::{Batch, Updater};
+
+use crate::outcome::Usage;
 
 use super::{
     network::{self, Widths},
@@ -32,6 +35,9 @@ pub struct UpdateArgs {
     /// Widths of actor and critic: observation, then hidden layers.
     #[arg(long, value_name = "WIDTHS", default_value = "45-256-128")]
     network: Widths,
+    /// Where the networks are computed: cpu, or cuda in a build with that feature.
+    #[arg(long, value_name = "DEVICE", default_value = "cpu")]
+    device: DeviceKind,
     /// Print one JSON object.
     #[arg(long)]
     json: bool,
@@ -39,6 +45,7 @@ pub struct UpdateArgs {
 
 /// Measures and tells.
 pub fn run(args: &UpdateArgs) -> anyhow::Result<()> {
+    let device = args.device.open().map_err(|why| Usage(why.to_string()))?;
     let shape = args.network.shape();
     let minibatch = args.minibatch.max(1);
     let config = PpoConfig { minibatch, batch: minibatch.saturating_mul(4), ..PpoConfig::default() };
@@ -47,7 +54,7 @@ pub fn run(args: &UpdateArgs) -> anyhow::Result<()> {
     let batch = made_up(&shape, config.batch as usize, &mut random);
     let threads = worlds::threads(args.threads.into());
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build()?;
-    let mut updater = Updater::new(shape, parameters, &config, Arc::new(pool))?;
+    let mut updater = Updater::on(&device, shape, parameters, &config, Arc::new(pool))?;
     updater.update(&batch, &mut random)?;
     let begun = Instant::now();
     let mut samples = 0;

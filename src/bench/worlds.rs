@@ -57,7 +57,7 @@ impl<T: Send> Worlds<T> {
     /// Does something once with each world.
     pub fn each(&mut self, work: impl Fn(&mut World, &mut T) + Sync) {
         let worlds = &mut self.worlds;
-        self.pool.install(|| worlds.par_iter_mut().for_each(|(world, beside)| work(world, beside)));
+        self.pool.install(|| worlds.par_iter_mut().with_max_len(1).for_each(|(world, beside)| work(world, beside)));
     }
 
     /// All of them, in their order.

@@ -235,7 +235,8 @@ mod tests {
         assert!(message("ppo.epochs=many").contains("`ppo.epochs` is \"many\""));
         assert!(message("ppo.epochs=-1").contains("is -1; allowed: 1 to 100"));
         assert!(
-            message("nonsense.key=1").contains("allowed: run, env, randomisation, rollout, policy, ppo, learner, eval, bus")
+            message("nonsense.key=1")
+                .contains("allowed: run, env, randomisation, rollout, policy, ppo, learner, eval, bus")
         );
         assert!(message("ppo.gamma=nan").contains("allowed: 0 to 1"));
         assert!(message("seed").contains("key=value"));

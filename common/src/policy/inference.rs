@@ -5,7 +5,7 @@ use std::sync::Arc;
 use candle_core::{Device, Result, Storage, Tensor};
 use rayon::ThreadPool;
 
-use super::{FusedNetworks, NetworkShape, ParameterError, check_parameters};
+use super::{NetworkShape, Networks, ParameterError, Part, check_parameters};
 
 /// Rows of one application of the networks; bounds the memory for activations.
 const ROWS_AT_ONCE: usize = 4096;
@@ -16,8 +16,9 @@ pub struct Policy {
     shape: NetworkShape,
     parameters: Vec<f32>,
     tensor: Tensor,
-    actor: FusedNetworks,
-    critic: FusedNetworks,
+    device: Device,
+    actor: Networks,
+    critic: Networks,
 }
 
 impl Policy {
@@ -26,10 +27,10 @@ impl Policy {
     /// # Errors
     /// If the parameters do not fit the shape or are not finite.
     pub fn new(shape: NetworkShape, parameters: Vec<f32>) -> std::result::Result<Self, ParameterError> {
-        Self::build(shape, parameters, None)
+        Self::build(shape, parameters, None, &Device::Cpu)
     }
 
-    /// A policy that spreads many rows over the threads of `pool`; the results are the same.
+    /// A policy on `device`; on a CPU it spreads many rows over the threads of `pool`, with the same results.
     ///
     /// # Errors
     /// If the parameters do not fit the shape or are not finite.
@@ -37,20 +38,22 @@ impl Policy {
         shape: NetworkShape,
         parameters: Vec<f32>,
         pool: Arc<ThreadPool>,
+        device: &Device,
     ) -> std::result::Result<Self, ParameterError> {
-        Self::build(shape, parameters, Some(pool))
+        Self::build(shape, parameters, Some(pool), device)
     }
 
     fn build(
         shape: NetworkShape,
         parameters: Vec<f32>,
         pool: Option<Arc<ThreadPool>>,
+        device: &Device,
     ) -> std::result::Result<Self, ParameterError> {
         check_parameters(&shape, &parameters)?;
-        let tensor = Tensor::from_slice(&parameters, parameters.len(), &Device::Cpu)?;
-        let actor = FusedNetworks::actor(&shape, pool.clone());
-        let critic = FusedNetworks::critic(&shape, pool);
-        Ok(Self { shape, parameters, tensor, actor, critic })
+        let tensor = Tensor::from_slice(&parameters, parameters.len(), device)?;
+        let actor = Networks::on(device, &shape, Part::Actor, pool.clone());
+        let critic = Networks::on(device, &shape, Part::Critic, pool);
+        Ok(Self { shape, parameters, tensor, device: device.clone(), actor, critic })
     }
 
     /// The shape of the networks.
@@ -94,7 +97,7 @@ impl Policy {
 
     fn apply(
         &self,
-        networks: &FusedNetworks,
+        networks: &Networks,
         width: usize,
         observations: &[f32],
         rows: usize,
@@ -105,12 +108,15 @@ impl Policy {
         assert_eq!(output.len(), rows * width, "the output does not hold {rows} rows of {width}");
         let inputs = observations.chunks(ROWS_AT_ONCE * columns);
         for (input, output) in inputs.zip(output.chunks_mut(ROWS_AT_ONCE * width)) {
-            let input = Tensor::from_slice(input, (input.len() / columns, columns), &Device::Cpu)?;
+            let input = Tensor::from_slice(input, (input.len() / columns, columns), &self.device)?;
             let result = networks.forward(&self.tensor, &input)?;
             let (storage, _) = result.storage_and_layout();
             if let Storage::Cpu(numbers) = &*storage {
                 output.copy_from_slice(numbers.as_slice()?);
+                continue;
             }
+            drop(storage);
+            output.copy_from_slice(&result.flatten_all()?.to_vec1()?);
         }
         Ok(())
     }

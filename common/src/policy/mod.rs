@@ -12,7 +12,8 @@
 //! | `elementwise` | the vectorised loops: ELU and its derivative |
 //! | `kernel` | forward and backward pass of one network over one chunk of rows |
 //! | `fused` | both networks as one Candle operation with its own gradient |
-//! | `plain` | the same networks from Candle's own operations: the reference for tests |
+//! | `plain` | the same networks from Candle's own operations: the reference for tests, and what runs on a GPU |
+//! | `networks` | [`Networks`]: which of the two runs where |
 //! | `inference` | [`Policy`]: what an actor evaluates |
 
 mod elementwise;
@@ -21,12 +22,14 @@ pub mod gaussian;
 mod inference;
 pub mod init;
 mod kernel;
+mod networks;
 pub mod plain;
 mod shape;
 mod tensors;
 
 pub use fused::FusedNetworks;
 pub use inference::Policy;
+pub use networks::{Networks, Part};
 pub use shape::{Dense, NamedTensor, NetworkShape};
 pub use tensors::{ParameterError, check_parameters, from_safetensors, to_safetensors};
 pub(crate) use tensors::{column, to_safetensors_with};

@@ -18,7 +18,11 @@ pub fn actor_critic(shape: &NetworkShape, parameters: &Tensor, observations: &Te
     Tensor::cat(&[means, values], 1)
 }
 
-fn network(layers: &[Dense], parameters: &Tensor, observations: &Tensor) -> Result<Tensor> {
+/// Applies one network to `observations`: `[rows, outputs of the last layer]`.
+///
+/// # Errors
+/// If a tensor has another shape.
+pub fn network(layers: &[Dense], parameters: &Tensor, observations: &Tensor) -> Result<Tensor> {
     let mut rows = observations.clone();
     for (i, layer) in layers.iter().enumerate() {
         let weight = parameters.narrow(0, layer.weight().start, layer.weight().len())?;

@@ -53,8 +53,14 @@ impl Batch {
         .find(|(_, found, expected)| found != expected)
     }
 
-    /// Observations, `[B, observation]`, and all else of the given rows. `advantages` are the normalised ones.
-    pub(super) fn gather(&self, rows: &[u32], advantages: &[f32], shape: &NetworkShape) -> Result<(Tensor, Minibatch)> {
+    /// Observations, `[B, observation]`, and all else of the given rows, on a device. `advantages` are the normalised ones.
+    pub(super) fn gather(
+        &self,
+        rows: &[u32],
+        advantages: &[f32],
+        shape: &NetworkShape,
+        device: &Device,
+    ) -> Result<(Tensor, Minibatch)> {
         let pick = |plane: &[f32], width: usize| {
             let mut picked = Vec::with_capacity(rows.len() * width);
             for row in rows.iter().map(|r| *r as usize) {
@@ -62,8 +68,8 @@ impl Batch {
             }
             picked
         };
-        let matrix = |plane, width| Tensor::from_vec(pick(plane, width), (rows.len(), width), &Device::Cpu);
-        let column = |plane| Tensor::from_vec(pick(plane, 1), rows.len(), &Device::Cpu);
+        let matrix = |plane, width| Tensor::from_vec(pick(plane, width), (rows.len(), width), device);
+        let column = |plane| Tensor::from_vec(pick(plane, 1), rows.len(), device);
         let minibatch = Minibatch {
             actions: matrix(&self.actions, shape.action)?,
             log_probs: column(&self.log_probs)?,
@@ -177,7 +183,7 @@ mod tests {
             values: vec![0.0; 3],
         };
         assert_eq!(batch.misfit(&shape), None);
-        let (observations, minibatch) = batch.gather(&[2, 0], &[4.0, 5.0, 6.0], &shape)?;
+        let (observations, minibatch) = batch.gather(&[2, 0], &[4.0, 5.0, 6.0], &shape, &Device::Cpu)?;
         assert_eq!(observations.to_vec2::<f32>()?, [[20.0, 21.0], [0.0, 1.0]]);
         assert_eq!(minibatch.actions.to_vec2::<f32>()?, [[2.5], [0.5]]);
         assert_eq!(minibatch.log_probs.to_vec1::<f32>()?, [-3.0, -1.0]);

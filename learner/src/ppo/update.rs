@@ -7,7 +7,7 @@ use rand::Rng;
 use rayon::ThreadPool;
 use treadmill_common::config::PpoConfig;
 use treadmill_common::policy::gaussian::clamp_log_std;
-use treadmill_common::policy::{FusedNetworks, NetworkShape, ParameterError, Policy, check_parameters};
+use treadmill_common::policy::{NetworkShape, Networks, ParameterError, Part, Policy, check_parameters};
 
 use super::batch::{Batch, minibatches, shuffle, weighted};
 use super::loss::ppo_loss;
@@ -19,7 +19,8 @@ use crate::optimiser::{OptimiserState, clip_factor, global_norm};
 pub struct Updater {
     shape: NetworkShape,
     config: PpoConfig,
-    networks: FusedNetworks,
+    networks: Networks,
+    device: Device,
     pool: Arc<ThreadPool>,
     state: State,
 }
@@ -112,6 +113,20 @@ impl Updater {
     /// If the parameters do not fit the shape or are not finite.
     pub fn new(
         shape: NetworkShape,
+        parameters: Vec<f32>,
+        config: &PpoConfig,
+        pool: Arc<ThreadPool>,
+    ) -> Result<Self, UpdaterError> {
+        Self::on(&Device::Cpu, shape, parameters, config, pool)
+    }
+
+    /// As [`Self::new`], with networks and loss on `device`; advantages, clipping and Adam stay on the CPU.
+    ///
+    /// # Errors
+    /// As there.
+    pub fn on(
+        device: &Device,
+        shape: NetworkShape,
         mut parameters: Vec<f32>,
         config: &PpoConfig,
         pool: Arc<ThreadPool>,
@@ -119,9 +134,9 @@ impl Updater {
         check_parameters(&shape, &parameters)?;
         clamp_log_std(&mut parameters[shape.log_std()]);
         let optimiser = OptimiserState::new(parameters.len());
-        let networks = FusedNetworks::actor_critic(&shape, Some(pool.clone()));
+        let networks = Networks::on(device, &shape, Part::ActorCritic, Some(pool.clone()));
         let state = State { parameters, optimiser, learning_rate: config.learning_rate };
-        Ok(Self { shape, config: config.clone(), networks, pool, state })
+        Ok(Self { shape, config: config.clone(), networks, device: device.clone(), pool, state })
     }
 
     /// Goes on exactly where `optimiser` and the current `learning_rate` were taken from an updater.
@@ -164,7 +179,7 @@ impl Updater {
     /// # Errors
     /// If Candle fails.
     pub fn policy(&self) -> Result<Policy, ParameterError> {
-        Policy::with_pool(self.shape.clone(), self.parameters(), self.pool.clone())
+        Policy::with_pool(self.shape.clone(), self.parameters(), self.pool.clone(), &self.device)
     }
 
     /// Takes `epochs` passes over the batch, in an order drawn from `rng`.
@@ -238,11 +253,11 @@ impl Updater {
         stats: &mut UpdateStats,
         shift: &mut PolicyShift,
     ) -> Result<(), UpdateError> {
-        let (observations, minibatch) = batch.gather(rows, advantages, &self.shape)?;
+        let (observations, minibatch) = batch.gather(rows, advantages, &self.shape, &self.device)?;
         // A leaf of its own: Candle's gradient of a slice of the flat vector would be as long as the vector.
         let log_std_range = self.shape.log_std();
-        let log_std = leaf(&self.state.parameters[log_std_range.clone()])?;
-        let parameters = leaf(&self.state.parameters)?;
+        let log_std = leaf(&self.state.parameters[log_std_range.clone()], &self.device)?;
+        let parameters = leaf(&self.state.parameters, &self.device)?;
 
         let output = self.networks.forward(&parameters, &observations)?;
         let loss = ppo_loss(&output, &log_std, &minibatch, &self.config)?;
@@ -276,8 +291,8 @@ fn finite(is_finite: bool, what: &'static str) -> Result<(), UpdateError> {
     if is_finite { Ok(()) } else { Err(UpdateError::NonFinite { what }) }
 }
 
-fn leaf(numbers: &[f32]) -> candle_core::Result<Var> {
-    Var::from_slice(numbers, numbers.len(), &Device::Cpu)
+fn leaf(numbers: &[f32], device: &Device) -> candle_core::Result<Var> {
+    Var::from_slice(numbers, numbers.len(), device)
 }
 
 fn scalar(tensor: &Tensor) -> candle_core::Result<f64> {

@@ -65,9 +65,10 @@ fn batch(updater: &Updater, rows: usize, seed: u64) -> Batch {
 /// Policy loss, value loss and total of the whole batch under the updater's parameters.
 fn losses(updater: &Updater, batch: &Batch) -> candle_core::Result<[f64; 3]> {
     let rows: Vec<u32> = (0..batch.len() as u32).collect();
-    let (observations, minibatch) = batch.gather(&rows, &normalised(&batch.advantages), &updater.shape)?;
-    let parameters = leaf(&updater.state.parameters)?;
-    let log_std = leaf(&updater.state.parameters[updater.shape.log_std()])?;
+    let (observations, minibatch) =
+        batch.gather(&rows, &normalised(&batch.advantages), &updater.shape, &Device::Cpu)?;
+    let parameters = leaf(&updater.state.parameters, &Device::Cpu)?;
+    let log_std = leaf(&updater.state.parameters[updater.shape.log_std()], &Device::Cpu)?;
     let output = plain::actor_critic(&updater.shape, &parameters, &observations)?;
     let loss = ppo_loss(&output, &log_std, &minibatch, &updater.config)?;
     Ok([scalar(&loss.policy)?, scalar(&loss.value)?, scalar(&loss.total)?])
@@ -124,9 +125,9 @@ fn one_gradient_step_is_the_one_of_candles_own_operations() -> candle_core::Resu
     let batch = batch(&updater, 600, 2);
 
     let rows: Vec<u32> = (0..600).collect();
-    let (observations, minibatch) = batch.gather(&rows, &normalised(&batch.advantages), &shape())?;
+    let (observations, minibatch) = batch.gather(&rows, &normalised(&batch.advantages), &shape(), &Device::Cpu)?;
     let start = updater.parameters();
-    let parameters = leaf(&start)?;
+    let parameters = leaf(&start, &Device::Cpu)?;
     let log_std = parameters.narrow(0, shape().log_std().start, 2)?;
     let output = plain::actor_critic(&shape(), &parameters, &observations)?;
     let gradients = ppo_loss(&output, &log_std, &minibatch, &config)?.total.backward()?;
@@ -248,4 +249,19 @@ fn state_that_does_not_fit_is_refused() {
     let bad = vec![f32::NAN; shape().parameter_count()];
     let error = Updater::new(shape(), bad, &config(), pool(1)).expect_err("not a number");
     assert!(matches!(error, UpdaterError::Parameters(_)), "{error}");
+}
+
+#[test]
+fn plain_operations_learn_what_the_fused_ones_learn() {
+    // What runs on a GPU, on the CPU: the same update within rounding.
+    let mut fused = updater(&config(), 1);
+    let batch = batch(&fused, 700, 8);
+    let mut plain = restored(&fused, fused.learning_rate());
+    plain.networks = Networks::Plain(shape(), Part::ActorCritic);
+    let stats = [&mut fused, &mut plain].map(|updater| updater.update(&batch, &mut rng(9)).expect("a sound batch"));
+    assert!((stats[0].approx_kl - stats[1].approx_kl).abs() < 1e-5);
+    assert_eq!(stats[0].learning_rate, stats[1].learning_rate);
+    for (a, b) in fused.parameters().iter().zip(plain.parameters()) {
+        assert!((a - b).abs() < 1e-4, "{a} {b}");
+    }
 }
