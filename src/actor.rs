@@ -43,6 +43,9 @@ pub struct ActorArgs {
     /// Number of this start, from which its random streams are derived; without it, unlike that of any other start.
     #[arg(long, hide = true)]
     start_number: Option<u64>,
+    /// How much less urgent than others this process is, 0 to 19.
+    #[arg(long, hide = true, default_value_t = 0, value_parser = clap::value_parser!(i32).range(0..=19))]
+    nice: i32,
     /// End when standard input closes, which it does when the parent process is gone.
     #[arg(long, hide = true)]
     until_stdin_closes: bool,
@@ -50,6 +53,11 @@ pub struct ActorArgs {
 
 /// Runs the actor until it is told to stop.
 pub fn run(args: ActorArgs) -> anyhow::Result<()> {
+    if args.nice > 0 {
+        // Before any other thread is there: each thread has its own, and inherits it. Being refused is no harm.
+        // SAFETY: it takes a number and touches no memory of ours.
+        unsafe { libc::nice(args.nice) };
+    }
     let options = WorkerOptions {
         name: args.name.unwrap_or_else(default_name),
         run: args.run,

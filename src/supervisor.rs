@@ -22,6 +22,8 @@ use crate::output::complain;
 const TOO_SHORT: Duration = Duration::from_secs(5);
 /// So many useless lives in a row mean that starting it again does not help.
 const TOO_SHORT_MAX: u32 = 8;
+/// How much less urgent than the learner an actor on the same machine is.
+const ACTOR_NICE: &str = "10";
 const BACKOFF_MAX: Duration = Duration::from_secs(5);
 /// An actor ends within this once its standard input is closed; then it is killed.
 const STOP_PATIENCE: Duration = Duration::from_secs(3);
@@ -141,6 +143,8 @@ fn spawn(fleet: &Fleet, role: Role, life: u64) -> anyhow::Result<Child> {
             let envs = fleet.envs / fleet.actors + u32::from(index < fleet.envs % fleet.actors);
             let start = (fleet.starts_before << 32) + life;
             command.args(["actor", "--envs", &envs.to_string(), "--start-number", &start.to_string()]);
+            // Where both want the cores, the learner goes first: the sooner a policy is out, the newer is what it learns from.
+            command.args(["--nice", ACTOR_NICE]);
         }
         Role::Evaluator => drop(command.arg("evaluator")),
     }

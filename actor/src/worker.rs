@@ -21,6 +21,7 @@ use treadmill_proto::{ActorStats, EndCause, Episode, Fragment, PolicyBundle, jso
 
 use crate::{
     ActorError,
+    acting::ActingPolicy,
     courier::Courier,
     environments::{Environments, SeedSource},
     policies::{Policies, Refreshed, join},
@@ -213,7 +214,7 @@ fn collector(
 /// is asked for.
 fn simulate(
     mut collector: Collector,
-    mut staleness: Staleness,
+    mut staleness: Staleness<ActingPolicy>,
     policies: &Policies,
     courier: &Courier,
     credit: &mpsc::Receiver<()>,
@@ -221,11 +222,12 @@ fn simulate(
     progress: &Progress,
 ) {
     while credit.recv().is_ok() {
-        let produced =
-            collector.collect(&staleness.choose(policies.current()), courier.settled_through()).and_then(|fragment| {
-                courier.produced(fragment.sequence);
-                encode(fragment, progress)
-            });
+        let newest = policies.current();
+        let policy = staleness.choose(newest.version, newest);
+        let produced = collector.collect(&policy, courier.settled_through()).and_then(|fragment| {
+            courier.produced(fragment.sequence);
+            encode(fragment, progress)
+        });
         let failed = produced.is_err();
         if outbox.blocking_send(produced).is_err() || failed {
             return;

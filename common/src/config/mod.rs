@@ -162,6 +162,10 @@ impl Config {
                 "0 or 1 where learner.mode is \"sync\"".to_string(),
             );
         }
+        if self.learner.mode == LearnerMode::Sync && self.rollout.stale_versions[1] > 0 {
+            let why = "[0, 0] where learner.mode is \"sync\", which takes the newest policy's experience only";
+            return refuse("rollout.stale_versions", show(&self.rollout.stale_versions), why.to_string());
+        }
         self.check_observation()?;
         if self.rollout.actors > self.rollout.envs {
             return refuse(

@@ -106,7 +106,7 @@ section! {
         /// Unanswered fragments that an actor may have on the bus; 0 means 1 in learner.mode "sync" and 2 in "async".
         max_in_flight: u32 = 0, "0 to 2, and not 2 in learner.mode \"sync\"" => |v| *v <= 2;
         /// Versions that actors stay behind on purpose, drawn anew for each fragment; for experiments with lag.
-        stale_versions: [u32; 2] = [0, 0], "[fewest, most], 0 to 16" => |v| v[0] <= v[1] && v[1] <= 16;
+        stale_versions: [u32; 2] = [0, 0], "[fewest, most], 0 to 16; [0, 0] in learner.mode \"sync\"" => |v| v[0] <= v[1] && v[1] <= 16;
         /// Threads of each actor process that its environments are spread over; 0 means one per core.
         threads: u32 = 1, "0 to 256" => |v| *v <= 256;
     }
@@ -130,7 +130,7 @@ section! {
         /// Transitions gathered for one update.
         batch: u32 = 8192, "1 to 16777216" => |v| (1..=16_777_216).contains(v);
         /// Transitions that an update may take in learner.mode "async" when more of them wait.
-        batch_max: u32 = 12288, "0 to 16777216; less than ppo.batch counts as ppo.batch" => |v| *v <= 16_777_216;
+        batch_max: u32 = 8192, "0 to 16777216; less than ppo.batch counts as ppo.batch" => |v| *v <= 16_777_216;
         /// Transitions of one gradient step.
         minibatch: u32 = 2048, "1 to ppo.batch" => |v| *v >= 1;
         /// Passes over the batch in one update.

@@ -238,6 +238,9 @@ mod tests {
             message("nonsense.key=1")
                 .contains("allowed: run, env, randomisation, rollout, policy, ppo, learner, eval, bus")
         );
+        for pair in ["rollout.max_in_flight=2", "rollout.stale_versions=[0, 1]"] {
+            assert!(message(pair).contains("where learner.mode is \"sync\""), "{pair}");
+        }
         assert!(message("ppo.gamma=nan").contains("allowed: 0 to 1"));
         assert!(message("seed").contains("key=value"));
     }
