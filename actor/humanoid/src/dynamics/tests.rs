@@ -122,6 +122,41 @@ fn the_factored_mass_matrix_is_that_of_the_bodies() {
     }
 }
 
+#[test]
+fn whitened_velocities_carry_the_energy_and_whitened_rows_the_rates() {
+    let model = Model::from_mjcf(HUMANOID_XML).expect("valid");
+    let tree = Tree::new(&model);
+    let mut random = Xoshiro256PlusPlus::seed_from_u64(5);
+    let (mut posture, mut matrix) = (Posture::new(&tree), MassMatrix::new(&tree));
+    let mut rotors = vec![0.0; tree.dofs()];
+    for (rotor, hinge) in rotors[ROOT_DOFS..].iter_mut().zip(&tree.hinges) {
+        *rotor = hinge.armature_kgm2;
+    }
+    for _ in 0..3 {
+        let position = random_position(&model, &mut random);
+        posture.lay(&tree, &position);
+        posture.weigh(&tree);
+        matrix.assemble(&tree, &posture);
+        matrix.add_diagonal(&tree, &rotors);
+        matrix.factor(&tree);
+        let dense = mass_matrix_by_differences(&tree, &position);
+        let velocity = DVector::from_fn(tree.dofs(), |_, _| random.random_range(-1.0..1.0));
+        let jacobian = DVector::from_fn(tree.dofs(), |_, _| random.random_range(-1.0..1.0));
+        let (mut whitened, mut row) = (velocity.as_slice().to_vec(), jacobian.as_slice().to_vec());
+        matrix.whiten(&tree, &mut whitened);
+        matrix.whiten_row(&tree, &mut row);
+        let of = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
+
+        let energy = velocity.dot(&(&dense * &velocity));
+        assert!((of(&whitened, &whitened) / energy - 1.0).abs() < 1e-6, "the energy is twice {energy}");
+        assert!((of(&row, &whitened) - jacobian.dot(&velocity)).abs() < 1e-9, "the rate along the direction");
+        let response = jacobian.dot(&dense.lu().solve(&jacobian).expect("positive definite"));
+        assert!((of(&row, &row) / response - 1.0).abs() < 1e-4, "the direction answers with {response}");
+        matrix.unwhiten(&tree, &mut whitened);
+        assert!((DVector::from_vec(whitened) - velocity).norm() < 1e-12);
+    }
+}
+
 /// A box of 2 kg with a small part on a hinge that is far away from any contact's line.
 const BOX: &str = r#"<mujoco><option gravity="0 0 0"/><worldbody><geom type="plane" size="1 1 1"/>
     <body pos="0 0 0.1"><freejoint/><geom type="box" size="0.2 0.3 0.1" mass="2" contype="0" conaffinity="0"/>
