@@ -3,6 +3,8 @@
 //! The learner's intake is the real one. Actors follow the protocol of the actor process: credit, fragments sent until
 //! they are dealt with, those taken kept until they are durable and sent again to a new learner.
 
+mod mailbox;
+
 use std::{
     cell::RefCell,
     cmp::Reverse,
@@ -17,8 +19,9 @@ use treadmill_common::{
     seeds::{self, Stream},
     shutdown::Shutdown,
 };
-use treadmill_learner::intake::{Letter, Mailbox};
 use treadmill_proto::{Fragment, Outcome, PolicyVersion, Receipt};
+
+pub use mailbox::{MemoryLetter, MemoryMailbox};
 
 const RECEIPT_TIMEOUT: Duration = Duration::from_secs(60);
 const RETRY: Duration = Duration::from_millis(200);
@@ -344,66 +347,5 @@ fn fragment(process: &Actor, settled_through: u64) -> Fragment {
         episodes: vec![],
         settled_through,
         actor_state: None,
-    }
-}
-
-/// The learner's end.
-pub struct MemoryMailbox(pub Shared);
-
-impl Mailbox for MemoryMailbox {
-    type Letter = MemoryLetter;
-
-    fn next(&mut self, patience: Duration) -> Option<MemoryLetter> {
-        let until = self.0.borrow().now + patience;
-        loop {
-            if let Some(letter) = self.0.borrow_mut().queue.pop_front() {
-                return Some(letter);
-            }
-            if !World::step(&self.0, until) {
-                let mut world = self.0.borrow_mut();
-                world.now = until;
-                if world.now > world.patient_until {
-                    world.out_of_patience.ask();
-                }
-                return None;
-            }
-        }
-    }
-
-    fn actors(&self) -> BTreeSet<String> {
-        self.0.borrow().actors.iter().map(|actor| actor.name.clone()).collect()
-    }
-
-    fn now(&self) -> Instant {
-        let world = self.0.borrow();
-        world.begun + world.now
-    }
-}
-
-/// A fragment in the learner's hands.
-pub struct MemoryLetter {
-    world: Shared,
-    actor: usize,
-    name: String,
-    incarnation: u64,
-    sequence: u64,
-    payload: Bytes,
-}
-
-impl Letter for MemoryLetter {
-    fn actor(&self) -> &str {
-        &self.name
-    }
-
-    fn take_payload(&mut self) -> Bytes {
-        std::mem::take(&mut self.payload)
-    }
-
-    fn answer(self, receipt: &Receipt) {
-        let Self { actor, incarnation, sequence, .. } = self;
-        if matches!(receipt.outcome, Outcome::TooOld | Outcome::Vanished) {
-            self.world.borrow_mut().refused.insert((self.name, incarnation, sequence));
-        }
-        self.world.borrow_mut().send(Event::Answer { actor, incarnation, sequence, receipt: receipt.clone() });
     }
 }

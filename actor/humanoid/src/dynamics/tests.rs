@@ -55,6 +55,21 @@ fn mass_matrix_by_differences(tree: &Tree, position: &[f64]) -> DMatrix<f64> {
     matrix
 }
 
+/// The factored mass matrix at a position, rotors included.
+fn factored(tree: &Tree, position: &[f64]) -> MassMatrix {
+    let (mut posture, mut matrix) = (Posture::new(tree), MassMatrix::new(tree));
+    let mut rotors = vec![0.0; tree.dofs()];
+    for (rotor, hinge) in rotors[ROOT_DOFS..].iter_mut().zip(&tree.hinges) {
+        *rotor = hinge.armature_kgm2;
+    }
+    posture.lay(tree, position);
+    posture.weigh(tree);
+    matrix.assemble(tree, &posture);
+    matrix.add_diagonal(tree, &rotors);
+    matrix.factor(tree);
+    matrix
+}
+
 fn random_position(model: &Model, random: &mut Xoshiro256PlusPlus) -> Vec<f64> {
     let turn = UnitQuaternion::from_scaled_axis(Vector3::from_fn(|_, _| random.random_range(-3.0..3.0)));
     let mut position = vec![0.3, -0.2, 2.0, turn.w, turn.i, turn.j, turn.k];
@@ -100,18 +115,9 @@ fn the_factored_mass_matrix_is_that_of_the_bodies() {
     let model = Model::from_mjcf(HUMANOID_XML).expect("valid");
     let tree = Tree::new(&model);
     let mut random = Xoshiro256PlusPlus::seed_from_u64(4);
-    let (mut posture, mut matrix) = (Posture::new(&tree), MassMatrix::new(&tree));
-    let mut rotors = vec![0.0; tree.dofs()];
-    for (rotor, hinge) in rotors[ROOT_DOFS..].iter_mut().zip(&tree.hinges) {
-        *rotor = hinge.armature_kgm2;
-    }
     for _ in 0..6 {
         let position = random_position(&model, &mut random);
-        posture.lay(&tree, &position);
-        posture.weigh(&tree);
-        matrix.assemble(&tree, &posture);
-        matrix.add_diagonal(&tree, &rotors);
-        matrix.factor(&tree);
+        let matrix = factored(&tree, &position);
         let dense = mass_matrix_by_differences(&tree, &position);
         let wanted = DVector::from_fn(tree.dofs(), |_, _| random.random_range(-1.0..1.0));
         let mut found = (&dense * &wanted).as_slice().to_vec();
@@ -127,18 +133,9 @@ fn whitened_velocities_carry_the_energy_and_whitened_rows_the_rates() {
     let model = Model::from_mjcf(HUMANOID_XML).expect("valid");
     let tree = Tree::new(&model);
     let mut random = Xoshiro256PlusPlus::seed_from_u64(5);
-    let (mut posture, mut matrix) = (Posture::new(&tree), MassMatrix::new(&tree));
-    let mut rotors = vec![0.0; tree.dofs()];
-    for (rotor, hinge) in rotors[ROOT_DOFS..].iter_mut().zip(&tree.hinges) {
-        *rotor = hinge.armature_kgm2;
-    }
     for _ in 0..3 {
         let position = random_position(&model, &mut random);
-        posture.lay(&tree, &position);
-        posture.weigh(&tree);
-        matrix.assemble(&tree, &posture);
-        matrix.add_diagonal(&tree, &rotors);
-        matrix.factor(&tree);
+        let matrix = factored(&tree, &position);
         let dense = mass_matrix_by_differences(&tree, &position);
         let velocity = DVector::from_fn(tree.dofs(), |_, _| random.random_range(-1.0..1.0));
         let jacobian = DVector::from_fn(tree.dofs(), |_, _| random.random_range(-1.0..1.0));
