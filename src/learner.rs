@@ -9,6 +9,7 @@ use treadmill_common::{bus::Bus, shutdown::Shutdown};
 use treadmill_learner::training::{self, Summary, TrainingOptions};
 
 use crate::{
+    memory,
     output::{complain, say},
     signals,
     startup::{self, AnyRunArgs, NetworkArgs, NewRunArgs, Prepared},
@@ -55,6 +56,7 @@ pub fn host(
     options: &treadmill_common::bus::BusOptions,
     actors: Option<u32>,
 ) -> anyhow::Result<()> {
+    memory::keep_freed();
     let runtime =
         tokio::runtime::Builder::new_multi_thread().worker_threads(2).enable_all().build().context("no runtime")?;
     let outcome = runtime.block_on(host_until_done(prepared, any, options, actors));

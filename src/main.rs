@@ -7,6 +7,7 @@
 //! - [`supervisor`]: the actor processes of `train`.
 //! - [`signals`]: Ctrl-C, once and twice.
 //! - [`model`]: the robot, built in or from a file.
+//! - [`memory`]: what becomes of memory that was freed.
 //! - [`outcome`]: errors and exit codes.
 //! - [`output`]: standard output that may be closed.
 
@@ -16,6 +17,7 @@ mod eval;
 mod evaluator;
 mod export;
 mod learner;
+mod memory;
 mod model;
 mod outcome;
 mod output;

@@ -13,7 +13,7 @@ use treadmill_common::{
 };
 use treadmill_learner::ppo::{Batch, Updater};
 
-use crate::outcome::Usage;
+use crate::{memory, outcome::Usage};
 
 use super::{
     network::{self, Widths},
@@ -45,6 +45,7 @@ pub struct UpdateArgs {
 
 /// Measures and tells.
 pub fn run(args: &UpdateArgs) -> anyhow::Result<()> {
+    memory::keep_freed();
     let device = args.device.open().map_err(|why| Usage(why.to_string()))?;
     let shape = args.network.shape();
     let minibatch = args.minibatch.max(1);
