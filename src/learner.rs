@@ -71,7 +71,7 @@ async fn host_until_done(
     options: &treadmill_common::bus::BusOptions,
     actors: Option<u32>,
 ) -> anyhow::Result<()> {
-    let Prepared { config, folder, device, state } = prepared;
+    let Prepared { config, folder, device, mirror, state } = prepared;
     let shutdown = Shutdown::default();
     signals::listen(shutdown.clone(), "stopping after this update; press Ctrl-C again to stop at once")?;
     let (bus, endpoints) = {
@@ -83,8 +83,13 @@ async fn host_until_done(
 
     let restarts = Arc::new(AtomicU64::new(0));
     let (run, starts_before) = (state.run.clone(), state.counters.resumes);
-    let training_options =
-        TrainingOptions { folder: folder.clone(), device, show_progress: !any.no_progress, restarts: restarts.clone() };
+    let training_options = TrainingOptions {
+        folder: folder.clone(),
+        device,
+        mirror,
+        show_progress: !any.no_progress,
+        restarts: restarts.clone(),
+    };
     let (tell, told) = tokio::sync::oneshot::channel();
     std::thread::Builder::new().name("training".to_string()).spawn({
         let (bus, shutdown) = (bus.clone(), shutdown.clone());

@@ -8,8 +8,9 @@ use std::{
 
 use clap::Args;
 use treadmill_actor::settings;
-use treadmill_common::config::{Config, ConfigSource, EnvConfig};
+use treadmill_common::config::{Config, ConfigSource, EnvConfig, EnvObservation, Symmetry};
 use treadmill_humanoid::{Environment, HUMANOID_XML, ModelError, read_model_file};
+use treadmill_learner::mirror::{Exchange, Mirror};
 
 use crate::outcome::Usage;
 
@@ -55,6 +56,24 @@ pub fn environment(config: &Config, text: &str, file: Option<&Path>) -> Result<E
         check_height(&config.env, environment.physics().model().nominal_position()[2], path)?;
     }
     Ok(environment)
+}
+
+/// The mirror that `ppo.symmetry` asks for.
+pub fn mirror(config: &Config, environment: &Environment) -> Result<Option<Mirror>, Usage> {
+    if config.ppo.symmetry == Symmetry::Off {
+        return Ok(None);
+    }
+    let refuse = |why: String| Usage(format!("`ppo.symmetry` is \"mirrored\", but {why}; allowed here: \"off\""));
+    if config.env.observation != EnvObservation::Compact {
+        return Err(refuse("only the observation \"compact\" has a mirror image".to_string()));
+    }
+    let of_body = treadmill_humanoid::Mirror::of(environment.physics().model()).map_err(refuse)?;
+    let hidden = of_body.position.len() + of_body.velocity.len() - environment.observation_size();
+    let positions = of_body.position.iter().skip(hidden).map(|(at, sign)| (at - hidden, *sign));
+    let before = of_body.position.len() - hidden;
+    let velocities = of_body.velocity.iter().map(|(at, sign)| (before + at, *sign));
+    let observation = Exchange(positions.chain(velocities).collect());
+    Ok(Some(Mirror { observation, action: Exchange(of_body.action) }))
 }
 
 /// Refuses another model than the one that a run was begun with.

@@ -13,7 +13,10 @@ use treadmill_common::{
     run_folder::RunFolder,
     seeds,
 };
-use treadmill_learner::checkpoint::{self, TrainingState, Which};
+use treadmill_learner::{
+    checkpoint::{self, TrainingState, Which},
+    mirror::Mirror,
+};
 
 use crate::{model, outcome::Usage};
 
@@ -91,6 +94,8 @@ pub struct Prepared {
     pub folder: RunFolder,
     /// Where its networks are computed.
     pub device: Device,
+    /// The mirror that its updates learn with.
+    pub mirror: Option<Mirror>,
     /// Its state.
     pub state: TrainingState,
 }
@@ -139,10 +144,11 @@ fn begin(
     }
     let text = model::text(any.model.as_deref())?;
     let environment = model::environment(&config, &text, any.model.as_deref())?;
+    let mirror = model::mirror(&config, &environment)?;
     let (observation, action) = (environment.observation_size(), environment.action_size());
     let folder = RunFolder::create(new.run_dir.as_deref(), &new.preset)?;
     let state = TrainingState::fresh(folder.name(), &config, &text, observation, action, seeds::unique());
-    Ok(Prepared { config, folder, device, state })
+    Ok(Prepared { config, folder, device, mirror, state })
 }
 
 fn resume(run: &str, any: &AnyRunArgs, device: Device) -> anyhow::Result<Prepared> {
@@ -159,7 +165,8 @@ fn resume(run: &str, any: &AnyRunArgs, device: Device) -> anyhow::Result<Prepare
     }
     state.lineage.resume(seeds::unique());
     state.counters.resumes += 1;
-    Ok(Prepared { config, folder, device, state })
+    let mirror = model::mirror(&config, &model::environment(&config, &state.model_xml, None)?)?;
+    Ok(Prepared { config, folder, device, mirror, state })
 }
 
 fn write_run_files(prepared: &Prepared) -> std::io::Result<()> {

@@ -108,6 +108,24 @@ fn the_full_observations_of_gymnasium_can_be_learnt_from() {
 }
 
 #[test]
+fn mirror_images_and_correlated_noise_are_learnt_with_also_after_a_resume() {
+    let (folder, run) = folders();
+    let settings = ["--set", "ppo.symmetry=mirrored", "--set", "rollout.noise_correlation=0.5"];
+    let output = smoke(folder.path(), &run, &settings);
+    assert!(output.status.success(), "{}", stderr(&output));
+    let args = ["train", "--resume", run.to_str().unwrap(), "--steps", "12288", "--json"];
+    let resumed = self::run(folder.path(), &args);
+    assert!(resumed.status.success(), "{}", stderr(&resumed));
+    assert_eq!(last_json(&resumed)["updates"], 24);
+    // A step is taken per minibatch, and there are twice as many of them as without images.
+    let steps =
+        |run: &std::path::Path| load_file(&run.join("checkpoints/latest.bundle")).unwrap().counters.gradient_steps;
+    let (plain_folder, plain) = folders();
+    assert!(smoke(plain_folder.path(), &plain, &["--steps", "12288"]).status.success());
+    assert_eq!(steps(&run), 2 * steps(&plain));
+}
+
+#[test]
 fn the_same_seed_gives_the_same_weights_bit_for_bit() {
     let weights = |seed: &str, more: &[&str]| {
         let (folder, run) = folders();

@@ -34,6 +34,9 @@ pub struct Collector {
     stepped: Stepped,
     normalised: Vec<f32>,
     means: Vec<f32>,
+    /// Correlation of `normals` with those of the step before.
+    correlation: f32,
+    /// `[N][action]`: the exploration noise of the step, in standard deviations.
     normals: Vec<f32>,
 }
 
@@ -50,9 +53,17 @@ impl Collector {
             stepped: Stepped::default(),
             normalised: Vec::new(),
             means: vec![0.0; envs * action],
-            normals: vec![0.0; action],
+            correlation: 0.0,
+            normals: vec![0.0; envs * action],
             environments,
         }
+    }
+
+    /// Lets the noise of each step have this correlation, 0 or more and below 1, with that of the step before in the same
+    /// fragment.
+    pub fn with_noise_correlation(mut self, correlation: f32) -> Self {
+        self.correlation = correlation;
+        self
     }
 
     /// From now on each fragment says where it leaves the actor, so that a resumed run can go on from there exactly.
@@ -106,6 +117,7 @@ impl Collector {
         for t in 0..self.steps {
             let start = fragment.actions.len();
             fragment.observations.extend_from_slice(self.environments.observations());
+            self.draw_noise(t == 0);
             self.act(policy, &mut fragment)?;
             self.environments.step(&fragment.actions[start..], &mut self.stepped);
             fragment.rewards.extend_from_slice(&self.stepped.rewards);
@@ -127,15 +139,26 @@ impl Collector {
         Ok(fragment)
     }
 
+    /// A first-order autoregressive process: whatever its correlation, each number by itself is standard normal, so the
+    /// log-probabilities of actions are those of the policy. A fragment begins with noise of its own, so that nothing of it
+    /// is part of an actor's state.
+    fn draw_noise(&mut self, is_first: bool) {
+        let kept = if is_first { 0.0 } else { self.correlation };
+        let fresh = (1.0 - kept * kept).sqrt();
+        for normal in &mut self.normals {
+            let drawn: f32 = StandardNormal.sample(&mut self.noise);
+            *normal = kept * *normal + fresh * drawn;
+        }
+    }
+
     fn act(&mut self, policy: &ActingPolicy, fragment: &mut Fragment) -> Result<(), ActorError> {
         let (envs, action_size) = (self.environments.len(), self.environments.action_size());
         policy.means(self.environments.observations(), envs, &mut self.normalised, &mut self.means)?;
-        for mean in self.means.chunks_exact(action_size) {
-            self.normals.fill_with(|| StandardNormal.sample(&mut self.noise));
+        for (mean, normals) in self.means.chunks_exact(action_size).zip(self.normals.chunks_exact(action_size)) {
             let start = fragment.actions.len();
             fragment.actions.resize(start + action_size, 0.0);
             let action = &mut fragment.actions[start..];
-            gaussian::sample(mean, policy.log_std(), &self.normals, action);
+            gaussian::sample(mean, policy.log_std(), normals, action);
             fragment.log_probs.push(gaussian::log_probability(action, mean, policy.log_std()));
         }
         Ok(())

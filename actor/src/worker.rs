@@ -193,7 +193,8 @@ fn collector(
     }
     let sender =
         Sender { run: bundle.run.clone(), actor: options.name.clone(), incarnation, config_hash: bundle.config_hash };
-    let mut collector = Collector::new(environments, noise, config.rollout.fragment_steps, sender);
+    let mut collector = Collector::new(environments, noise, config.rollout.fragment_steps, sender)
+        .with_noise_correlation(config.rollout.noise_correlation as f32);
     if config.run.deterministic {
         collector.attach_state();
     }

@@ -17,11 +17,12 @@ use treadmill_proto::{
 use crate::{
     gae::{self, Steps},
     intake::Accepted,
+    mirror::Mirror,
     ppo::Batch,
 };
 
 /// The batch of one update, from whole fragments. `policy` is the newest, which the update is to improve.
-/// `value_moments` take in the new returns before returns and values are normalised by them.
+/// With a `mirror` the batch has the mirror image of every transition, too. `value_moments` take in the new returns before returns and values are normalised by them.
 ///
 /// # Errors
 /// If the networks cannot be evaluated.
@@ -30,6 +31,7 @@ pub fn prepare(
     policy: &Policy,
     normaliser: &Normaliser,
     value_moments: &mut RunningMoments,
+    mirror: Option<&Mirror>,
     config: &PpoConfig,
 ) -> Result<Batch, candle_core::Error> {
     let mut batch = Batch::default();
@@ -43,7 +45,7 @@ pub fn prepare(
         let rewards: Vec<f32> = fragment.rewards.iter().map(|reward| reward * config.reward_scale as f32).collect();
         let correction = match (lag, config.off_policy) {
             (0, _) | (_, OffPolicy::Uncorrected) => None,
-            _ => Some(Correction::of(fragment, policy, &observations)?),
+            _ => Some(Correction::of(policy, &observations, &fragment.actions, &fragment.log_probs)?),
         };
         let steps = Steps {
             envs: fragment.envs as usize,
@@ -67,9 +69,24 @@ pub fn prepare(
                 batch.weights.resize(batch.log_probs.len(), 1.0);
             }
         }
-        batch.advantages.extend(estimated.advantages);
-        batch.returns.extend(estimated.returns);
-        batch.values.append(&mut values);
+        batch.advantages.extend_from_slice(&estimated.advantages);
+        batch.returns.extend_from_slice(&estimated.returns);
+        batch.values.extend_from_slice(&values);
+        if let Some(mirror) = mirror {
+            let mut observations = mirror.observation.apply(&fragment.observations);
+            normaliser.apply(&mut observations);
+            let mut actions = mirror.action.apply(&fragment.actions);
+            // Nobody did what the mirror shows; the policy that would have is the mirror image of the one that acted.
+            let Correction { weights, log_probs } =
+                Correction::of(policy, &observations, &actions, &fragment.log_probs)?;
+            batch.observations.append(&mut observations);
+            batch.actions.append(&mut actions);
+            batch.log_probs.extend(log_probs);
+            batch.weights.extend(weights);
+            batch.advantages.extend_from_slice(&estimated.advantages);
+            batch.returns.extend_from_slice(&estimated.returns);
+            batch.values.extend_from_slice(&values);
+        }
     }
     value_moments.update(&batch.returns, 1);
     let new_scale = ScalarNormaliser::from_moments(value_moments);
@@ -91,17 +108,15 @@ struct Correction {
 }
 
 impl Correction {
-    fn of(fragment: &Fragment, policy: &Policy, observations: &[f32]) -> Result<Self, candle_core::Error> {
-        let actions = fragment.action_size as usize;
-        let mut means = vec![0.0; fragment.actions.len()];
-        policy.means(observations, fragment.transitions(), &mut means)?;
-        let log_probs: Vec<f32> = fragment
-            .actions
-            .chunks_exact(actions)
-            .zip(means.chunks_exact(actions))
-            .map(|(action, mean)| gaussian::log_probability(action, mean, policy.log_std()))
-            .collect();
-        let weights = log_probs.iter().zip(&fragment.log_probs).map(|(new, old)| (new - old).exp().min(1.0)).collect();
+    /// `old` are the log-probabilities of the actions under the policy that acted, `[rows]`.
+    fn of(policy: &Policy, observations: &[f32], actions: &[f32], old: &[f32]) -> Result<Self, candle_core::Error> {
+        let mut means = vec![0.0; actions.len()];
+        policy.means(observations, old.len(), &mut means)?;
+        let log_std = policy.log_std();
+        let pairs = actions.chunks_exact(log_std.len()).zip(means.chunks_exact(log_std.len()));
+        let log_probs: Vec<f32> =
+            pairs.map(|(action, mean)| gaussian::log_probability(action, mean, log_std)).collect();
+        let weights = log_probs.iter().zip(old).map(|(new, old)| (new - old).exp().min(1.0)).collect();
         Ok(Self { weights, log_probs })
     }
 }

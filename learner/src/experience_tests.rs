@@ -55,10 +55,14 @@ fn fragment(acting: &Policy) -> Fragment {
 }
 
 fn prepared(acting: &Policy, newest: &Policy, lag: u64, off_policy: OffPolicy) -> Batch {
+    prepared_with(None, acting, newest, lag, off_policy)
+}
+
+fn prepared_with(mirror: Option<&Mirror>, acting: &Policy, newest: &Policy, lag: u64, off_policy: OffPolicy) -> Batch {
     let config = PpoConfig { off_policy, ..PpoConfig::default() };
     let accepted = [Accepted { fragment: fragment(acting), lag }];
     let normaliser = Normaliser::identity(3, 10.0);
-    prepare(&accepted, newest, &normaliser, &mut RunningMoments::new(1), &config).expect("candle runs")
+    prepare(&accepted, newest, &normaliser, &mut RunningMoments::new(1), mirror, &config).expect("candle runs")
 }
 
 #[test]
@@ -96,4 +100,38 @@ fn older_experience_is_weighed_by_how_likely_it_has_become() {
         truncated += usize::from(ratio > 1.0);
     }
     assert!((1..decoupled.weights.len()).contains(&truncated), "{truncated} ratios above 1");
+}
+
+#[test]
+fn a_mirror_adds_the_image_of_every_transition() {
+    use crate::mirror::Exchange;
+    let mirror = Mirror {
+        observation: Exchange(vec![(1, -1.0), (0, -1.0), (2, 1.0)]),
+        action: Exchange(vec![(1, 1.0), (0, 1.0)]),
+    };
+    let newest = policy(1);
+    let plain = prepared(&newest, &newest, 0, OffPolicy::Decoupled);
+    let both = prepared_with(Some(&mirror), &newest, &newest, 0, OffPolicy::Decoupled);
+    let rows = plain.len();
+    assert_eq!((both.len(), both.values.len(), both.weights.len()), (2 * rows, 2 * rows, 2 * rows));
+    for (first, second) in [(&both.advantages, &plain.advantages), (&both.log_probs, &plain.log_probs)] {
+        assert_eq!(first[..rows], second[..]);
+    }
+    assert_eq!(both.advantages[rows..], plain.advantages);
+    assert_eq!(both.returns[rows..], both.returns[..rows]);
+    let mut truncated = 0;
+    for row in 0..rows {
+        let (seen, image) = (&both.observations[row * 3..][..3], &both.observations[(rows + row) * 3..][..3]);
+        assert_eq!(image, [-seen[1], -seen[0], seen[2]]);
+        let (done, other) = (&both.actions[row * 2..][..2], &both.actions[(rows + row) * 2..][..2]);
+        assert_eq!(other, [done[1], done[0]]);
+        let mut mean = [0.0; 2];
+        newest.means(image, 1, &mut mean).expect("candle runs");
+        let log_prob = gaussian::log_probability(other, &mean, newest.log_std());
+        assert!((both.log_probs[rows + row] - log_prob).abs() < 1e-5);
+        let ratio = (log_prob - plain.log_probs[row]).exp();
+        assert!((both.weights[rows + row] - ratio.min(1.0)).abs() < 1e-5);
+        truncated += usize::from(ratio > 1.0);
+    }
+    assert!((1..rows).contains(&truncated), "{truncated} ratios above 1");
 }

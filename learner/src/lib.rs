@@ -6,6 +6,7 @@
 //! - [`ppo`]: the loss and the update.
 //! - [`optimiser`]: Adam and gradient clipping over one flat slice.
 //! - [`experience`]: fragments turned into what the update wants.
+//! - [`mirror`]: left and right exchanged.
 //! - [`training`]: the loop: collect, update, save, publish, log.
 //! - [`pace`]: how much of what actors bring is learnt from, and how thoroughly.
 //! - [`trial`]: policies that are evaluated while training goes on.
@@ -22,6 +23,7 @@ pub mod experience;
 pub mod gae;
 pub mod intake;
 pub mod logging;
+pub mod mirror;
 pub mod optimiser;
 pub mod pace;
 pub mod ppo;

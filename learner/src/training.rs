@@ -24,6 +24,7 @@ use crate::{
     experience,
     intake::{Accepted, BusMailbox, Expected, Gathered, Intake, Judge},
     logging::CurveError,
+    mirror::Mirror,
     pace::Pace,
     ppo::{UpdateError, UpdateStats, Updater},
     report::Report,
@@ -37,6 +38,8 @@ pub struct TrainingOptions {
     pub folder: RunFolder,
     /// Where the networks are computed.
     pub device: candle_core::Device,
+    /// The mirror that `ppo.symmetry` asks for.
+    pub mirror: Option<Mirror>,
     /// Whether a bar is drawn on a terminal.
     pub show_progress: bool,
     /// Actor processes that were started again, counted by whoever starts them.
@@ -133,6 +136,7 @@ struct Trainer {
     state: TrainingState,
     config: Config,
     updater: Updater,
+    mirror: Option<Mirror>,
     intake: Intake<BusMailbox>,
     pace: Pace,
     shelf: PolicyShelf,
@@ -193,6 +197,7 @@ impl Trainer {
         let intake = Intake::new(mailbox, config.learner.mode, judge);
         Ok(Self {
             intake,
+            mirror: options.mirror.clone(),
             stats: StatsFeed::open(bus, &state.run)?,
             trial: match config.evaluates() {
                 false => None,
@@ -225,7 +230,14 @@ impl Trainer {
         let clip = self.config.policy.observation_clip as f32;
         let normaliser = Normaliser::from_moments(&state.observation_moments, clip);
         let mut value_moments = state.value_moments.clone();
-        let batch = experience::prepare(accepted, &policy, &normaliser, &mut value_moments, &self.config.ppo)?;
+        let batch = experience::prepare(
+            accepted,
+            &policy,
+            &normaliser,
+            &mut value_moments,
+            self.mirror.as_ref(),
+            &self.config.ppo,
+        )?;
         let mut observation_moments = state.observation_moments.clone();
         for Accepted { fragment, .. } in accepted {
             observation_moments.update(&fragment.observations, state.shape.observation);

@@ -67,7 +67,8 @@ fn learnt(scale: f32) -> (Vec<f32>, f64) {
         };
         let accepted = [Accepted { fragment, lag: 0 }];
         let normaliser = Normaliser::identity(3, 10.0);
-        let batch = experience::prepare(&accepted, &policy, &normaliser, &mut value_moments, &config).expect("it fits");
+        let batch =
+            experience::prepare(&accepted, &policy, &normaliser, &mut value_moments, None, &config).expect("it fits");
         explained = updater.update(&batch, &mut shuffle).expect("finite").explained_variance;
     }
     (updater.parameters(), explained)

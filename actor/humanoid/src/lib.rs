@@ -31,7 +31,7 @@ pub use config::{CONTROL_STEP_S, EnvironmentConfig, ObservationKind, Task};
 pub use environment::{Environment, EnvironmentSnapshot, EpisodeState};
 pub use error::{InputError, ModelError, SnapshotError, StateError};
 pub use info::{InfoValue, StepInfo};
-pub use model::{HUMANOID_XML, Model, read_model_file};
+pub use model::{HUMANOID_XML, Model, mirror::Mirror, read_model_file};
 pub use observation::{OBSERVATION_SIZE_COMPACT, Observation};
 pub use physics::{ContactForce, JointQuality, Physics, PhysicsFault, PhysicsSnapshot, Variation};
 pub use randomisation::Randomisation;

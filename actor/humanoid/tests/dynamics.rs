@@ -3,7 +3,7 @@
 use nalgebra::{UnitQuaternion, Vector3};
 use rand::{RngExt, SeedableRng};
 use rand_xoshiro::Xoshiro256PlusPlus;
-use treadmill_humanoid::{CONTROL_STEP_S, EnvironmentConfig, HUMANOID_XML, Model, Physics};
+use treadmill_humanoid::{CONTROL_STEP_S, EnvironmentConfig, HUMANOID_XML, Mirror, Model, Physics};
 
 const GRAVITY_MPS2: f64 = 9.81;
 
@@ -45,40 +45,13 @@ fn random_state(model: &Model, random: &mut Xoshiro256PlusPlus, rate: f64) -> (V
     (position, velocity)
 }
 
-/// For each hinge its mirror image and the sign that carries an angle over.
-fn mirror_of_hinges(model: &Model) -> Vec<(usize, f64)> {
-    model
-        .hinges
-        .iter()
-        .map(|hinge| {
-            let name = match hinge.name.split_once('_') {
-                Some(("left", rest)) => format!("right_{rest}"),
-                Some(("right", rest)) => format!("left_{rest}"),
-                _ => hinge.name.clone(),
-            };
-            let image = model.hinges.iter().position(|other| other.name == name).expect("each has a mirror image");
-            // An axis is a pseudo-vector: a mirror turns round what lies in it, and leaves what stands across.
-            let axis = hinge.axis.component_mul(&Vector3::new(-1.0, 1.0, -1.0));
-            let cosine = model.hinges[image].axis.dot(&axis);
-            assert!(cosine.abs() > 1.0 - 1e-12, "{name} is no mirror image of {}", hinge.name);
-            (image, cosine.signum())
-        })
-        .collect()
+/// The numbers in their mirror image's place.
+fn exchanged(numbers: &[f64], exchange: &[(usize, f32)]) -> Vec<f64> {
+    exchange.iter().map(|(at, sign)| numbers[*at] * f64::from(*sign)).collect()
 }
 
-fn mirrored(state: &(Vec<f64>, Vec<f64>), hinges: &[(usize, f64)]) -> (Vec<f64>, Vec<f64>) {
-    let (mut position, mut velocity) = state.clone();
-    for index in [1, 4, 6] {
-        position[index] *= -1.0;
-    }
-    for index in [1, 3, 5] {
-        velocity[index] *= -1.0;
-    }
-    for (hinge, (image, sign)) in hinges.iter().enumerate() {
-        position[7 + image] = sign * state.0[7 + hinge];
-        velocity[6 + image] = sign * state.1[6 + hinge];
-    }
-    (position, velocity)
+fn mirrored(state: &(Vec<f64>, Vec<f64>), mirror: &Mirror) -> (Vec<f64>, Vec<f64>) {
+    (exchanged(&state.0, &mirror.position), exchanged(&state.1, &mirror.velocity))
 }
 
 fn largest_difference(one: &[f64], other: &[f64]) -> f64 {
@@ -86,43 +59,40 @@ fn largest_difference(one: &[f64], other: &[f64]) -> f64 {
 }
 
 /// A body and its mirror image. Left and right differ in two figures of Humanoid-v5 itself, which are made equal here.
-struct Mirror {
+struct Twins {
     body: Physics,
     image: Physics,
     model: Model,
-    hinges: Vec<(usize, f64)>,
+    mirror: Mirror,
 }
 
-impl Mirror {
+impl Twins {
     fn new(changes: &[(&str, &str)]) -> Self {
         let equal =
             [("stiffness=\"1\" armature=\"0.006\"", "armature=\"0.006\""), ("armature=\"0.008\"", "armature=\"0.01\"")];
         let xml = changed(&[&equal[..], changes].concat());
         let body = flying(&xml, 2);
         let model = body.model().clone();
-        let hinges = mirror_of_hinges(&model);
-        assert!(hinges.iter().any(|(_, sign)| *sign < 0.0) && hinges.iter().any(|(_, sign)| *sign > 0.0));
-        Self { body, image: flying(&xml, 2), model, hinges }
+        let mirror = Mirror::of(&model).expect("left and right are alike");
+        let own: Vec<usize> = (0..17).filter(|motor| mirror.action[*motor].0 == *motor).collect();
+        assert_eq!(own.len(), 3, "those of the abdomen");
+        assert!(mirror.action.iter().any(|(_, sign)| *sign < 0.0) && mirror.action.iter().any(|(_, sign)| *sign > 0.0));
+        Self { body, image: flying(&xml, 2), model, mirror }
     }
 
     fn set_state(&mut self, state: &(Vec<f64>, Vec<f64>)) {
-        let (position, velocity) = mirrored(state, &self.hinges);
+        let (position, velocity) = mirrored(state, &self.mirror);
         self.body.set_state(&state.0, &state.1);
         self.image.set_state(&position, &velocity);
     }
 
     /// Steps both, and tells by how much they differ afterwards in any coordinate or rate.
     fn step(&mut self, controls: &[f32; 17]) -> f64 {
-        let mut others = [0.0; 17];
-        for (motor, control) in self.model.motors.iter().zip(controls) {
-            let (image, sign) = self.hinges[motor.hinge];
-            let other = self.model.motors.iter().position(|motor| motor.hinge == image).expect("has a motor");
-            others[other] = control * sign as f32;
-        }
+        let others: Vec<f32> = self.mirror.action.iter().map(|(at, sign)| controls[*at] * sign).collect();
         self.body.step_only(controls).expect("finite");
         self.image.step_only(&others).expect("finite");
         let state = (self.body.position().to_vec(), self.body.velocity().to_vec());
-        let ((position, velocity), image) = (mirrored(&state, &self.hinges), self.image.position());
+        let ((position, velocity), image) = (mirrored(&state, &self.mirror), self.image.position());
         // q and −q are the same rotation.
         let same: f64 = position[3..7].iter().zip(&image[3..7]).map(|(a, b)| a * b).sum();
         (1.0 - same.abs())
@@ -139,22 +109,33 @@ impl Mirror {
 
 #[test]
 fn a_mirrored_body_moves_as_in_a_mirror() {
-    let mut mirror = Mirror::new(&[WITHOUT_LIMITS]);
+    let mut twins = Twins::new(&[WITHOUT_LIMITS]);
     let mut random = Xoshiro256PlusPlus::seed_from_u64(5);
     for _ in 0..8 {
-        let state = random_state(&mirror.model, &mut random, 3.0);
-        mirror.set_state(&state);
+        let state = random_state(&twins.model, &mut random, 3.0);
+        twins.set_state(&state);
         for step in 0..20 {
-            let off = mirror.step(&std::array::from_fn(|_| random.random_range(-0.4..0.4)));
+            let off = twins.step(&std::array::from_fn(|_| random.random_range(-0.4..0.4)));
             assert!(off < 1e-9, "off by {off} after step {step}");
         }
     }
 }
 
 #[test]
+fn what_has_no_mirror_image_is_named() {
+    let limping = changed(&[("joint=\"left_hip_x\" gear=\"100\"", "joint=\"left_hip_x\" gear=\"90\"")]);
+    let why = Mirror::of(flying(&limping, 2).model()).expect_err("one motor is weaker");
+    assert!(why.contains("motor `right_hip_x`"), "{why}");
+    let twisted =
+        changed(&[("<joint name=\"left_hip_z\" axis=\"0 0 -1\"", "<joint name=\"left_hip_z\" axis=\"0 0.6 -0.8\"")]);
+    let why = Mirror::of(flying(&twisted, 2).model()).expect_err("one axis is another");
+    assert!(why.contains("hinge `right_hip_z`"), "{why}");
+}
+
+#[test]
 fn limits_act_as_in_a_mirror() {
-    let mut mirror = Mirror::new(&[]);
-    let model = mirror.model.clone();
+    let mut twins = Twins::new(&[]);
+    let model = twins.model.clone();
     let mut random = Xoshiro256PlusPlus::seed_from_u64(6);
     // One limit at a time: each hinge is flung against either end.
     let (mut reached, mut worst) = (0, 0.0f64);
@@ -163,10 +144,10 @@ fn limits_act_as_in_a_mirror() {
             let mut state = random_state(&model, &mut random, 0.5);
             state.0[7 + hinge] = end - 0.03 * outwards;
             state.1[6 + hinge] = 4.0 * outwards;
-            mirror.set_state(&state);
+            twins.set_state(&state);
             for _ in 0..4 {
-                let off = mirror.step(&[0.0; 17]);
-                match mirror.limits_reached() {
+                let off = twins.step(&[0.0; 17]);
+                match twins.limits_reached() {
                     0 => {}
                     1 => reached += 1,
                     _ => break,
@@ -184,10 +165,10 @@ fn limits_act_as_in_a_mirror() {
     for _ in 0..40 {
         let mut state = random_state(&model, &mut random, 3.0);
         for _ in 0..20 {
-            mirror.set_state(&state);
-            worst = worst.max(mirror.step(&std::array::from_fn(|_| random.random_range(-0.4..0.4))));
-            several += u32::from(mirror.limits_reached() > 1);
-            state = (mirror.body.position().to_vec(), mirror.body.velocity().to_vec());
+            twins.set_state(&state);
+            worst = worst.max(twins.step(&std::array::from_fn(|_| random.random_range(-0.4..0.4))));
+            several += u32::from(twins.limits_reached() > 1);
+            state = (twins.body.position().to_vec(), twins.body.velocity().to_vec());
         }
     }
     assert!(several > 50, "{several}");

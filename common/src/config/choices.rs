@@ -73,6 +73,16 @@ choice! {
     }
 }
 
+choice! {
+    /// What an update makes of the symmetry of left and right.
+    Symmetry {
+        /// Nothing.
+        Off = "off",
+        /// A mirror image of each transition.
+        Mirrored = "mirrored",
+    }
+}
+
 /// The names that a key of this type (as [`super::KeyDoc::kind`] has it) may take; `None` for other types.
 pub(super) fn names(kind: &str) -> Option<&'static [&'static str]> {
     match kind {
@@ -80,6 +90,7 @@ pub(super) fn names(kind: &str) -> Option<&'static [&'static str]> {
         "EnvObservation" => Some(EnvObservation::NAMES),
         "LearnerMode" => Some(LearnerMode::NAMES),
         "OffPolicy" => Some(OffPolicy::NAMES),
+        "Symmetry" => Some(Symmetry::NAMES),
         _ => None,
     }
 }

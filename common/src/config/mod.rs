@@ -10,7 +10,7 @@ mod source;
 
 use serde::{Deserialize, Serialize};
 
-pub use choices::{EnvObservation, EnvTask, LearnerMode, OffPolicy};
+pub use choices::{EnvObservation, EnvTask, LearnerMode, OffPolicy, Symmetry};
 pub use preset::{PRESETS, preset};
 pub use section::{KeyDoc, Section};
 pub use sections::{

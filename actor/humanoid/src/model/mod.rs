@@ -11,6 +11,7 @@ mod geoms;
 mod inertia;
 mod joints;
 mod mass;
+pub mod mirror;
 mod mjcf;
 mod motors;
 mod tendon;
