@@ -157,7 +157,7 @@ def main():
     parser.add_argument("--rounds", type=int, default=5)
     parser.add_argument("--updates", type=int, default=5, help="updates per candidate and round")
     parser.add_argument("--calls", type=int, default=10_000, help="calls of the policy per candidate and round")
-    parser.add_argument("--train-steps", type=int, default=300_000, help="of Treadmill, per round")
+    parser.add_argument("--train-steps", type=int, default=500_000, help="of Treadmill, per round")
     parser.add_argument("--sb3-steps", type=int, default=20_480, help="of Stable-Baselines3, per round")
     parser.add_argument("--without-training", action="store_true", help="only update and inference")
     parser.add_argument("--cores", help="the two cores to use, as in 0,1; by default the first that are allowed")

@@ -43,6 +43,8 @@ CANDIDATES = {
     "minibatch 1024": ["ppo.minibatch=1024"],
     "minibatch 4096": ["ppo.minibatch=4096"],
     "3 epochs": ["ppo.epochs=3"],
+    "3 epochs, minibatch 1024": ["ppo.epochs=3", "ppo.minibatch=1024"],
+    "2 epochs, minibatch 512": ["ppo.epochs=2", "ppo.minibatch=512"],
     "8 epochs": ["ppo.epochs=8"],
     "reward × 1": ["ppo.reward_scale=1"],
     "target KL 0.008": ["ppo.target_kl=0.008"],

@@ -6,9 +6,13 @@ use super::ConfigError;
 pub const PRESETS: &[(&str, &str)] = &[
     // The defaults are the recipe that walks.
     ("walk", ""),
-    // The same recipe under everything that Gymnasium's environments observe.
-    ("walk-v5obs", "[env]\nobservation = \"gymnasium-v5\"\n"),
-    ("walk-v4obs", "[env]\ntask = \"humanoid-v4\"\nobservation = \"gymnasium-v4\"\n"),
+    // Everything that Gymnasium's environments observe, and more passes over it, with which they were measured.
+    ("walk-v5obs", "[env]\nobservation = \"gymnasium-v5\"\n[ppo]\nepochs = 5\nepochs_min = 3\nminibatch = 2048\n"),
+    (
+        "walk-v4obs",
+        "[env]\ntask = \"humanoid-v4\"\nobservation = \"gymnasium-v4\"\n\
+         [ppo]\nepochs = 5\nepochs_min = 3\nminibatch = 2048\n",
+    ),
     // Small enough to end within seconds, on a laptop or in a test.
     (
         "smoke",

@@ -134,11 +134,11 @@ section! {
         /// Transitions that an update may take in learner.mode "async" when more of them wait.
         batch_max: u32 = 8192, "0 to 16777216; less than ppo.batch counts as ppo.batch" => |v| *v <= 16_777_216;
         /// Transitions of one gradient step.
-        minibatch: u32 = 2048, "1 to ppo.batch" => |v| *v >= 1;
+        minibatch: u32 = 1024, "1 to ppo.batch" => |v| *v >= 1;
         /// Passes over the batch in one update.
-        epochs: u32 = 5, "1 to 100" => |v| (1..=100).contains(v);
+        epochs: u32 = 3, "1 to 100" => |v| (1..=100).contains(v);
         /// Passes that remain in learner.mode "async" when experience keeps waiting although batches are as large as they may be.
-        epochs_min: u32 = 3, "1 to ppo.epochs; more than that counts as ppo.epochs" => |v| (1..=100).contains(v);
+        epochs_min: u32 = 2, "1 to ppo.epochs; more than that counts as ppo.epochs" => |v| (1..=100).contains(v);
         /// Discount of future reward per control step.
         gamma: f64 = 0.99, "0 to 1" => |v| (0.0..=1.0).contains(v);
         /// Bias-variance trade-off of generalised advantage estimation.
