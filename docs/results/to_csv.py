@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""Turns a run's metrics.jsonl into a CSV table: one row per update, one column per tag.
+"""Turns a run's metrics.jsonl into a CSV table: one row per update, or one in N and those with an evaluation.
 
-Usage: to_csv.py RUN/metrics.jsonl > table.csv
+Usage: to_csv.py RUN/metrics.jsonl [N] > table.csv
 """
 
 import csv
@@ -14,6 +14,11 @@ TAGS = [
     "rollout/distance_mean_m",
     "rollout/velocity_mean_mps",
     "rollout/fall_fraction",
+    "eval/mean_reward",
+    "eval/mean_ep_length",
+    "eval/distance_mean_m",
+    "eval/velocity_mean_mps",
+    "eval/fall_fraction",
     "time/fps",
     "time/time_elapsed",
     "train/approx_kl",
@@ -31,9 +36,10 @@ TAGS = [
 
 
 def main():
-    if len(sys.argv) != 2:
+    if len(sys.argv) not in (2, 3):
         print(__doc__, file=sys.stderr)
         sys.exit(2)
+    every = int(sys.argv[2]) if len(sys.argv) == 3 else 1
     rows = {}
     with open(sys.argv[1], encoding="utf-8") as lines:
         for line in lines:
@@ -41,7 +47,9 @@ def main():
             rows.setdefault(metric["step"], {})[metric["tag"]] = metric["value"]
     writer = csv.writer(sys.stdout, lineterminator="\n")
     writer.writerow(["env_steps", *TAGS])
-    for step in sorted(rows):
+    for index, step in enumerate(sorted(rows), 1):
+        if index % every and "eval/mean_reward" not in rows[step]:
+            continue
         writer.writerow([step, *(f"{rows[step][tag]:.6g}" if tag in rows[step] else "" for tag in TAGS)])
 
 
