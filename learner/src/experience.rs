@@ -54,7 +54,11 @@ pub fn prepare(
             next_values: &next_values,
             terminated: &flagged(fragment, TERMINATED),
             truncated: &flagged(fragment, TRUNCATED),
-            weights: correction.as_ref().map(|correction| &correction.weights[..]),
+            // Weights along the trace cut it short, which costs more than they correct: docs/learning.md has the runs.
+            weights: match config.off_policy {
+                OffPolicy::VTrace => correction.as_ref().map(|correction| &correction.weights[..]),
+                OffPolicy::Decoupled | OffPolicy::Uncorrected => None,
+            },
         };
         let estimated = gae::estimate(&steps, config.gamma as f32, config.gae_lambda as f32);
         batch.observations.append(&mut observations);

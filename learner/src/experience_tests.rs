@@ -91,8 +91,8 @@ fn older_experience_is_weighed_by_how_likely_it_has_become() {
     assert_eq!(traced.log_probs, acted.log_probs);
     assert!(traced.weights.iter().all(|weight| *weight == 1.0));
     assert_ne!(traced.advantages, uncorrected.advantages);
-    assert_eq!(decoupled.advantages, traced.advantages);
-    assert_eq!(decoupled.returns, traced.returns);
+    assert_eq!(decoupled.advantages, uncorrected.advantages);
+    assert_eq!(decoupled.returns, uncorrected.returns);
     let mut truncated = 0;
     for (row, weight) in decoupled.weights.iter().enumerate() {
         let ratio = (decoupled.log_probs[row] - acted.log_probs[row]).exp();

@@ -68,7 +68,7 @@ choice! {
         Uncorrected = "uncorrected",
         /// By truncated importance weights along the trace.
         VTrace = "v-trace",
-        /// By those, and by a surrogate about the newest policy instead of the one that acted.
+        /// By a surrogate about the newest policy instead of the one that acted, weighed by truncated importance.
         Decoupled = "decoupled",
     }
 }

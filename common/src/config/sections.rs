@@ -147,7 +147,7 @@ section! {
         clip_range: f64 = 0.2, "above 0, at most 1" => |v| *v > 0.0 && *v <= 1.0;
         /// Whether an update learns from what was done alone, or from its mirror image, left and right exchanged, as well.
         symmetry: Symmetry = Symmetry::Off, "\"off\" or \"mirrored\"" => |_| true;
-        /// How experience of older policies is corrected for: by nothing, truncated importance weights, or those and a decoupled proximal policy.
+        /// How experience of older policies is corrected for: by nothing, truncated importance weights along the trace, or a decoupled proximal policy.
         off_policy: OffPolicy = OffPolicy::Decoupled, "\"uncorrected\", \"v-trace\" or \"decoupled\"" => |_| true;
         /// Weight of the value loss.
         value_coefficient: f64 = 1.0, "0 or more" => |v| *v >= 0.0 && v.is_finite();
