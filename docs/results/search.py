@@ -31,9 +31,12 @@ def seeing(*names):
     return SEE + [flag for name, flag in HIDE.items() if name not in names]
 
 
-# What each candidate changes in the preset `walk`.
+# What `walk` was like when the search began.
+BASE = ["ppo.epochs=5", "ppo.minibatch=2048"]
+
+# What each candidate changes in that.
 CANDIDATES = {
-    "as it is": [],
+    "as it was": [],
     "network 128–128": ["policy.hidden=[128, 128]"],
     "network 128–128, 3 epochs": ["policy.hidden=[128, 128]", "ppo.epochs=3"],
     "network 64–64": ["policy.hidden=[64, 64]"],
@@ -65,20 +68,25 @@ CANDIDATES = {
 def folder_of(root, name, seed):
     """Where a run is; its name goes into keys of the bus."""
     plain = name.replace("λ", "lambda").replace("×", "x").replace("–", "-").replace("−", "minus-")
-    plain = plain.replace(",", "").replace(" ", "-")
+    plain = plain.replace(",", "").replace(".", "-").replace(" ", "-")
     return root / f"{plain}-{seed}"
+
+
+def note_of(folder):
+    """The file that says that a run is whole."""
+    return folder.parent / f"{folder.name}.json"
 
 
 def train(binary, root, name, seed, steps):
     """One run, unless it is there; a run that was cut off is begun again."""
     folder = folder_of(root, name, seed)
-    done = folder.with_suffix(".json")
+    done = note_of(folder)
     if done.exists():
         return
     if folder.exists():
         subprocess.run(["rm", "-r", str(folder)], check=True)
     command = [str(binary), "train", "--seed", str(seed), "--steps", str(steps), "--run-dir", str(folder), "--json"]
-    for change in ["rollout.actors=1", "learner.threads=1", *CANDIDATES[name]]:
+    for change in ["rollout.actors=1", "learner.threads=1", *BASE, *CANDIDATES[name]]:
         command += ["--set", change]
     run = subprocess.run([*command, "--no-progress"], capture_output=True, text=True)
     if run.returncode != 0:
@@ -128,20 +136,21 @@ def million(steps):
 
 
 def median(values):
-    """The middle one, where what was never reached counts as last."""
+    """The middle one, of two the later; what was never reached counts as last."""
     ordered = sorted(values, key=lambda value: float("inf") if value is None else value)
-    return ordered[len(ordered) // 2] if len(ordered) % 2 else None
+    return ordered[len(ordered) // 2]
 
 
 def table(root):
     """A row for each candidate that was trained: medians, and each seed's distance at the end."""
     rows = []
     for name, changes in CANDIDATES.items():
-        done = sorted(root.glob(folder_of(root, name, "*").name + ".json"))
-        found = [measure(path.with_suffix("")) for path in done]
+        notes = [json.loads(path.read_text(encoding="utf-8")) for path in root.glob("*.json")]
+        trained = sorted(note["seed"] for note in notes if note["name"] == name)
+        found = [measure(folder_of(root, name, seed)) for seed in trained]
         if not found:
             continue
-        seeds = ", ".join(str(json.loads(path.read_text(encoding="utf-8"))["seed"]) for path in done)
+        seeds = ", ".join(map(str, trained))
         steps = [million(median([one[f"to_{metres}_m"] for one in found])) for metres in (5, 10, 20)]
         ends = ", ".join(f"{one['distance_m']:.1f}" for one in found)
         middle = f"{statistics.median(one['distance_m'] for one in found):.1f} m"
