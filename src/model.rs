@@ -59,7 +59,7 @@ pub fn environment(config: &Config, text: &str, file: Option<&Path>) -> Result<E
 }
 
 /// The mirror that `ppo.symmetry` asks for.
-pub fn mirror(config: &Config, environment: &Environment) -> Result<Option<Mirror>, Usage> {
+pub fn mirror(config: &Config, text: &str) -> Result<Option<Mirror>, Usage> {
     if config.ppo.symmetry == Symmetry::Off {
         return Ok(None);
     }
@@ -67,12 +67,9 @@ pub fn mirror(config: &Config, environment: &Environment) -> Result<Option<Mirro
     if config.env.observation != EnvObservation::Compact {
         return Err(refuse("only the observation \"compact\" has a mirror image".to_string()));
     }
+    let environment = environment(config, text, None)?;
     let of_body = treadmill_humanoid::Mirror::of(environment.physics().model()).map_err(refuse)?;
-    let hidden = of_body.position.len() + of_body.velocity.len() - environment.observation_size();
-    let positions = of_body.position.iter().skip(hidden).map(|(at, sign)| (at - hidden, *sign));
-    let before = of_body.position.len() - hidden;
-    let velocities = of_body.velocity.iter().map(|(at, sign)| (before + at, *sign));
-    let observation = Exchange(positions.chain(velocities).collect());
+    let observation = Exchange(of_body.observation(environment.observation_size()));
     Ok(Some(Mirror { observation, action: Exchange(of_body.action) }))
 }
 

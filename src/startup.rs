@@ -144,7 +144,7 @@ fn begin(
     }
     let text = model::text(any.model.as_deref())?;
     let environment = model::environment(&config, &text, any.model.as_deref())?;
-    let mirror = model::mirror(&config, &environment)?;
+    let mirror = model::mirror(&config, &text)?;
     let (observation, action) = (environment.observation_size(), environment.action_size());
     let folder = RunFolder::create(new.run_dir.as_deref(), &new.preset)?;
     let state = TrainingState::fresh(folder.name(), &config, &text, observation, action, seeds::unique());
@@ -165,7 +165,7 @@ fn resume(run: &str, any: &AnyRunArgs, device: Device) -> anyhow::Result<Prepare
     }
     state.lineage.resume(seeds::unique());
     state.counters.resumes += 1;
-    let mirror = model::mirror(&config, &model::environment(&config, &state.model_xml, None)?)?;
+    let mirror = model::mirror(&config, &state.model_xml)?;
     Ok(Prepared { config, folder, device, mirror, state })
 }
 

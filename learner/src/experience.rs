@@ -22,7 +22,8 @@ use crate::{
 };
 
 /// The batch of one update, from whole fragments. `policy` is the newest, which the update is to improve.
-/// With a `mirror` the batch has the mirror image of every transition, too. `value_moments` take in the new returns before returns and values are normalised by them.
+/// `value_moments` take in the new returns before returns and values are normalised by them. With a `mirror` the batch has
+/// the mirror image of every transition, too.
 ///
 /// # Errors
 /// If the networks cannot be evaluated.

@@ -122,6 +122,17 @@ fn a_mirrored_body_moves_as_in_a_mirror() {
 }
 
 #[test]
+fn an_observation_in_the_mirror_is_that_of_the_mirrored_body() {
+    let twins = Twins::new(&[]);
+    let state = random_state(&twins.model, &mut Xoshiro256PlusPlus::seed_from_u64(7), 3.0);
+    let seen = |(position, velocity): &(Vec<f64>, Vec<f64>), skipped: usize| [&position[skipped..], velocity].concat();
+    for skipped in [0, 2] {
+        let exchange = twins.mirror.observation(45 + 2 - skipped);
+        assert_eq!(exchanged(&seen(&state, skipped), &exchange), seen(&mirrored(&state, &twins.mirror), skipped));
+    }
+}
+
+#[test]
 fn what_has_no_mirror_image_is_named() {
     let limping = changed(&[("joint=\"left_hip_x\" gear=\"100\"", "joint=\"left_hip_x\" gear=\"90\"")]);
     let why = Mirror::of(flying(&limping, 2).model()).expect_err("one motor is weaker");

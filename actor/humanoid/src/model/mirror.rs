@@ -48,6 +48,16 @@ impl Mirror {
         let root_velocity = [1.0, -1.0, 1.0, -1.0, 1.0, -1.0];
         Ok(Self { position: with_root(&root_position, &hinges), velocity: with_root(&root_velocity, &hinges), action })
     }
+
+    /// Of the observation [`crate::ObservationKind::Compact`] with `size` numbers: positions, of which the first may be left
+    /// out, then velocities.
+    #[must_use]
+    pub fn observation(&self, size: usize) -> Exchange {
+        let skipped = self.position.len() + self.velocity.len() - size;
+        let positions = self.position[skipped..].iter().map(|(at, sign)| (at - skipped, *sign));
+        let seen = self.position.len() - skipped;
+        positions.chain(self.velocity.iter().map(|(at, sign)| (seen + at, *sign))).collect()
+    }
 }
 
 fn with_root(root: &[f32], hinges: &[(usize, f32)]) -> Exchange {
