@@ -9,7 +9,7 @@ use treadmill_actor::{
     worker::{self, WorkerOptions},
 };
 use treadmill_common::{
-    bus::{Bus, BusOptions},
+    bus::{Bus, BusOptions, Role},
     machine, seeds,
     shutdown::Shutdown,
 };
@@ -71,7 +71,7 @@ pub fn run(args: ActorArgs) -> anyhow::Result<()> {
     if let Some(run) = &options.run {
         treadmill_proto::ident::check_ident("run", run).map_err(wrong)?;
     }
-    let bus_options = args.network.options(Vec::new(), args.connect)?;
+    let bus_options = args.network.options(Role::Actor, Vec::new(), args.connect)?;
     let where_to = options.where_to.clone();
     on_the_bus(bus_options, &where_to, args.until_stdin_closes, |bus, shutdown| worker::run(bus, options, shutdown))
 }

@@ -2,6 +2,7 @@
 
 use clap::Args;
 use treadmill_actor::evaluator::{self, EvaluatorOptions};
+use treadmill_common::bus::Role;
 use treadmill_proto::ident::check_ident;
 
 use crate::{actor, outcome::Usage, startup::NetworkArgs};
@@ -37,7 +38,7 @@ pub fn run(args: EvaluatorArgs) -> anyhow::Result<()> {
     if let Some(run) = &options.run {
         check_ident("run", run).map_err(wrong)?;
     }
-    let bus_options = args.network.options(Vec::new(), args.connect)?;
+    let bus_options = args.network.options(Role::Evaluator, Vec::new(), args.connect)?;
     let where_to = options.where_to.clone();
     actor::on_the_bus(bus_options, &where_to, args.until_stdin_closes, |bus, shutdown| {
         evaluator::run(bus, options, shutdown)

@@ -5,7 +5,10 @@ use std::sync::{Arc, atomic::AtomicU64};
 use anyhow::Context;
 use clap::Args;
 use serde_json::json;
-use treadmill_common::{bus::Bus, shutdown::Shutdown};
+use treadmill_common::{
+    bus::{Bus, Credentials, Role},
+    shutdown::Shutdown,
+};
 use treadmill_learner::training::{self, Summary, TrainingOptions};
 
 use crate::{
@@ -41,7 +44,7 @@ pub fn run(args: LearnerArgs) -> anyhow::Result<()> {
     if let Some(run) = &args.run {
         treadmill_proto::ident::check_ident("run", run).map_err(|why| crate::outcome::Usage(why.to_string()))?;
     }
-    let options = args.network.options(args.listen, args.connect)?;
+    let options = args.network.options(Role::Learner, args.listen, args.connect)?;
     let mut prepared = startup::prepare(&args.new, &args.any, &[])?;
     if let Some(run) = args.run {
         prepared.state.run = run;
@@ -76,10 +79,10 @@ async fn host_until_done(
     signals::listen(shutdown.clone(), "stopping after this update; press Ctrl-C again to stop at once")?;
     let (bus, endpoints) = {
         let options = options.clone();
-        tokio::task::spawn_blocking(move || Bus::open_learner(&options)).await??
+        tokio::task::spawn_blocking(move || Bus::open_router(&options)).await??
     };
     std::fs::write(folder.endpoint(), endpoints.join("\n") + "\n").context("the endpoint cannot be written")?;
-    greet(&folder, &state, &endpoints, actors);
+    greet(&folder, &state, &endpoints, options.credentials.as_ref(), actors);
 
     let restarts = Arc::new(AtomicU64::new(0));
     let (run, starts_before) = (state.run.clone(), state.counters.resumes);
@@ -100,7 +103,8 @@ async fn host_until_done(
     let supervisor = actors.map(|actors| {
         let evaluates = config.evaluates();
         let envs = config.rollout.envs;
-        let fleet = Fleet { endpoint: endpoints[0].clone(), run, actors, envs, evaluates, starts_before };
+        let tls = options.credentials.as_ref().map(|credentials| credentials.folder.clone());
+        let fleet = Fleet { endpoint: endpoints[0].clone(), tls, run, actors, envs, evaluates, starts_before };
         Supervisor::start(&fleet, restarts, shutdown)
     });
     let outcome = told.await.context("the training thread panicked");
@@ -120,6 +124,7 @@ fn greet(
     folder: &treadmill_common::run_folder::RunFolder,
     state: &treadmill_learner::checkpoint::TrainingState,
     endpoints: &[String],
+    credentials: Option<&Credentials>,
     actors: Option<u32>,
 ) {
     let root = folder.root().display();
@@ -134,7 +139,7 @@ fn greet(
         Some(actors) => say(&format!("  actors    {actors} processes beside this one")),
         None => say(&format!(
             "  actors    none yet; start some by: treadmill actor --connect {} --run {}",
-            to_dial(&endpoints[0]),
+            to_dial(&endpoints[0], credentials),
             state.run
         )),
     }
@@ -142,11 +147,16 @@ fn greet(
     say("  stop      Ctrl-C once finishes the update and saves");
 }
 
-/// An endpoint as another process dials it: to listen on every address is not to have that address.
-fn to_dial(endpoint: &str) -> String {
+/// An endpoint as another process dials it, with the flag that it needs for that: to listen on every address is not to have
+/// that address.
+fn to_dial(endpoint: &str, credentials: Option<&Credentials>) -> String {
     let host = treadmill_common::machine::host_name();
     let dialled = endpoint.replace("/0.0.0.0:", &format!("/{host}:")).replace("/[::]:", &format!("/{host}:"));
-    if dialled.contains(&host) && dialled != endpoint { format!("{dialled} --insecure") } else { dialled }
+    match credentials {
+        Some(credentials) => format!("{dialled} --tls {}", credentials.folder.display()),
+        None if dialled.contains(&host) && dialled != endpoint => format!("{dialled} --insecure"),
+        None => dialled,
+    }
 }
 
 fn part(folder: &treadmill_common::run_folder::RunFolder, summary: &Summary, command: &str) {

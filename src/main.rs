@@ -1,7 +1,7 @@
 //! Treadmill's command line: one file per subcommand, each thin.
 //!
 //! # Layout
-//! - [`train`], [`learner`], [`actor`], [`evaluator`], [`eval`], [`export`], [`bench`]: the subcommands.
+//! - [`train`], [`learner`], [`actor`], [`evaluator`], [`router`], [`certs`], [`eval`], [`export`], [`bench`]: the subcommands.
 //! - [`saved_policy`]: the policy of a run, a checkpoint or an exported file.
 //! - [`startup`]: from flags to a run that is ready to begin.
 //! - [`supervisor`]: the actor processes of `train`.
@@ -13,6 +13,7 @@
 
 mod actor;
 mod bench;
+mod certs;
 mod eval;
 mod evaluator;
 mod export;
@@ -21,6 +22,7 @@ mod memory;
 mod model;
 mod outcome;
 mod output;
+mod router;
 mod saved_policy;
 mod signals;
 mod startup;
@@ -55,6 +57,10 @@ enum Command {
     Eval(eval::EvalArgs),
     /// Write a trained policy as a file that other programs read.
     Export(export::ExportArgs),
+    /// Hand messages on between machines: actors dial it, it dials the learner.
+    Router(router::RouterArgs),
+    /// Make the certificates that let only your own machines onto the bus.
+    Certs(certs::CertsArgs),
     /// Measure speed.
     Bench(bench::BenchArgs),
 }
@@ -79,6 +85,8 @@ fn main() -> ExitCode {
         Command::Evaluator(args) => evaluator::run(args),
         Command::Eval(args) => eval::run(args),
         Command::Export(args) => export::run(&args),
+        Command::Router(args) => router::run(args),
+        Command::Certs(args) => certs::run(&args),
         Command::Bench(args) => bench::run(args),
     };
     outcome::exit_code(done)

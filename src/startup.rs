@@ -6,7 +6,7 @@ use anyhow::Context;
 use clap::Args;
 use serde_json::json;
 use treadmill_common::{
-    bus::BusOptions,
+    bus::{BusOptions, Credentials, Role},
     config::{Config, ConfigSource, LearnerMode},
     device::{Device, DeviceKind},
     machine,
@@ -72,17 +72,40 @@ pub struct NetworkArgs {
     /// Allow plain tcp beyond loopback, where anybody on the network can read and forge it.
     #[arg(long)]
     pub insecure: bool,
-    /// The bus's own configuration (JSON5), under which ours is laid; for certificates, say.
+    /// Folder of certificates, as `treadmill certs` makes it: links are encrypted, and only its authority's parts get in.
+    #[arg(long, value_name = "DIR")]
+    pub tls: Option<PathBuf>,
+    /// The bus's own configuration (JSON5), under which ours is laid.
     #[arg(long, value_name = "FILE")]
     pub zenoh_config: Option<PathBuf>,
 }
 
 impl NetworkArgs {
     /// How to reach the bus; called before anything is written, so that an endpoint that is refused leaves nothing behind.
-    pub fn options(&self, listen: Vec<String>, connect: Vec<String>) -> anyhow::Result<BusOptions> {
-        let options = BusOptions { listen, connect, insecure: self.insecure, zenoh_config: self.zenoh_config.clone() };
+    pub fn options(&self, role: Role, listen: Vec<String>, connect: Vec<String>) -> anyhow::Result<BusOptions> {
+        let options = BusOptions {
+            listen,
+            connect,
+            insecure: self.insecure,
+            credentials: self.credentials(role)?,
+            zenoh_config: self.zenoh_config.clone(),
+        };
         options.check()?;
         Ok(options)
+    }
+
+    fn credentials(&self, role: Role) -> Result<Option<Credentials>, Usage> {
+        let Some(folder) = &self.tls else { return Ok(None) };
+        let folder = std::path::absolute(folder).unwrap_or_else(|_| folder.clone());
+        let credentials = Credentials { folder, role };
+        match credentials.missing() {
+            None => Ok(Some(credentials)),
+            Some(file) => Err(Usage(format!(
+                "--tls {}: `{}` is not there; make it with `treadmill certs`, or copy it from where that was done",
+                credentials.folder.display(),
+                file.display()
+            ))),
+        }
     }
 }
 

@@ -1,6 +1,7 @@
 //! The processes of `train`, actors and an evaluator: started beside the learner, started again when they die, gone when it is gone.
 
 use std::{
+    path::PathBuf,
     process::Stdio,
     sync::{
         Arc,
@@ -33,6 +34,8 @@ const STOP_PATIENCE: Duration = Duration::from_secs(3);
 pub struct Fleet {
     /// Where the learner listens.
     pub endpoint: String,
+    /// Certificates, where links are encrypted.
+    pub tls: Option<PathBuf>,
     /// The run's name.
     pub run: String,
     /// Actor processes.
@@ -147,6 +150,9 @@ fn spawn(fleet: &Fleet, role: Role, life: u64) -> anyhow::Result<Child> {
             command.args(["--nice", ACTOR_NICE]);
         }
         Role::Evaluator => drop(command.arg("evaluator")),
+    }
+    if let Some(folder) = &fleet.tls {
+        command.arg("--tls").arg(folder);
     }
     command
         .args(["--connect", &fleet.endpoint, "--run", &fleet.run, "--name", &role.to_string()])

@@ -2,7 +2,7 @@
 //! network beyond loopback.
 
 use clap::Args;
-use treadmill_common::machine;
+use treadmill_common::{bus::Role, machine};
 
 use crate::{
     learner,
@@ -34,7 +34,7 @@ pub struct TrainArgs {
 
 /// Trains until the run has its steps.
 pub fn run(args: TrainArgs) -> anyhow::Result<()> {
-    let options = args.network.options(vec![args.listen], Vec::new())?;
+    let options = args.network.options(Role::Learner, vec![args.listen], Vec::new())?;
     let mut changes = startup::changes(&[("rollout.envs", args.envs), ("rollout.actors", args.actors)]);
     if args.deterministic {
         changes.push(("run.deterministic", true.into()));

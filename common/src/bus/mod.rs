@@ -9,12 +9,14 @@ mod evaluation;
 pub mod keys;
 mod learner_side;
 mod observer_side;
+mod security;
 mod session;
 
 pub use actor_side::{Announcements, fetch_policy, publish_dropping, submit, token, watch_announcements};
 pub use evaluation::{Assignment, EvaluationDesk, ask_for_evaluation};
 pub use learner_side::{Alive, Delivery, PolicyShelf, RolloutIntake, StatsFeed};
 pub use observer_side::{Feed, Message, observe};
+pub use security::{Credentials, Role};
 pub use session::{Bus, BusOptions};
 
 /// Why the bus cannot be used.

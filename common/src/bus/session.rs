@@ -1,14 +1,14 @@
 //! Opening and closing a session: the one place that builds the bus's configuration.
 
-use std::{
-    path::{Path, PathBuf},
-    time::Duration,
-};
+use std::{path::PathBuf, time::Duration};
 
 use serde_json::json;
 use zenoh::{Config, Session, Wait};
 
-use super::{BusError, endpoint};
+use super::{
+    BusError, endpoint,
+    security::{self, Credentials},
+};
 
 /// Largest message that is reassembled: above every limit of our own formats.
 const MESSAGE_BYTES_MAX: usize = 32 << 20;
@@ -27,6 +27,8 @@ pub struct BusOptions {
     pub connect: Vec<String>,
     /// Whether plain tcp may leave this machine.
     pub insecure: bool,
+    /// Who we are, where links are encrypted.
+    pub credentials: Option<Credentials>,
     /// The user's own configuration, under which ours is laid.
     pub zenoh_config: Option<PathBuf>,
 }
@@ -45,9 +47,9 @@ pub struct Bus {
 }
 
 impl Bus {
-    /// Opens the learner's session: a router that only listens. Port 0 is replaced by a free one; the endpoints that
-    /// were really opened are returned.
-    pub fn open_learner(options: &BusOptions) -> Result<(Self, Vec<String>), BusError> {
+    /// Opens the session of the learner or of a router: one that others dial, and that may dial further routers. Port 0 is
+    /// replaced by a free one; the endpoints that were really opened are returned.
+    pub fn open_router(options: &BusOptions) -> Result<(Self, Vec<String>), BusError> {
         options.check()?;
         let mut listen = Vec::new();
         for given in &options.listen {
@@ -55,11 +57,14 @@ impl Bus {
             endpoint::check_free(&endpoint)?;
             listen.push(endpoint);
         }
-        let mut settings = base(options.zenoh_config.as_deref())?;
+        let mut settings = base(options)?;
         insert(&mut settings, "mode", json!("router"))?;
+        if options.credentials.is_some() {
+            insert(&mut settings, "access_control", security::access())?;
+        }
         insert(&mut settings, "listen/endpoints", json!(listen))?;
         if !options.connect.is_empty() {
-            insert(&mut settings, "connect/endpoints", json!(options.connect))?;
+            dial(&mut settings, &options.connect)?;
         }
         Ok((Self::open(settings)?, listen))
     }
@@ -67,16 +72,9 @@ impl Bus {
     /// Opens an actor's or observer's session: a client that dials, and keeps dialling until it is let in.
     pub fn open_client(options: &BusOptions) -> Result<Self, BusError> {
         options.check()?;
-        let mut settings = base(options.zenoh_config.as_deref())?;
+        let mut settings = base(options)?;
         insert(&mut settings, "mode", json!("client"))?;
-        insert(&mut settings, "connect/endpoints", json!(options.connect))?;
-        insert(&mut settings, "connect/timeout_ms", json!(-1))?;
-        insert(&mut settings, "connect/exit_on_failure", json!(false))?;
-        insert(
-            &mut settings,
-            "connect/retry",
-            json!({"period_init_ms": 200, "period_max_ms": 2000, "period_increase_factor": 2}),
-        )?;
+        dial(&mut settings, &options.connect)?;
         Self::open(settings)
     }
 
@@ -99,8 +97,21 @@ impl Bus {
     }
 }
 
-fn base(own: Option<&Path>) -> Result<Config, BusError> {
-    let mut settings = match own {
+/// Dials `endpoints` again and again for as long as nobody answers. A client's session is open once somebody did, a router's
+/// at once.
+fn dial(settings: &mut Config, endpoints: &[String]) -> Result<(), BusError> {
+    insert(settings, "connect/endpoints", json!(endpoints))?;
+    insert(settings, "connect/timeout_ms", json!(-1))?;
+    insert(settings, "connect/exit_on_failure", json!(false))?;
+    insert(
+        settings,
+        "connect/retry",
+        json!({"period_init_ms": 200, "period_max_ms": 2000, "period_increase_factor": 2}),
+    )
+}
+
+fn base(options: &BusOptions) -> Result<Config, BusError> {
+    let mut settings = match options.zenoh_config.as_deref() {
         Some(path) => Config::from_file(path).map_err(|why| BusError::Config {
             what: format!("--zenoh-config {}", path.display()),
             why: why.to_string(),
@@ -130,6 +141,9 @@ fn base(own: Option<&Path>) -> Result<Config, BusError> {
     ];
     for (key, value) in ours {
         insert(&mut settings, key, value)?;
+    }
+    if let Some(credentials) = &options.credentials {
+        insert(&mut settings, "transport/link/tls", credentials.transport())?;
     }
     Ok(settings)
 }

@@ -1,0 +1,78 @@
+//! Links with certificates: a fleet trains over them, by way of a router too, and whoever has none stays outside.
+
+mod support;
+
+use std::{fs, os::unix::fs::PermissionsExt, path::Path, process::Command};
+
+use support::*;
+
+fn learner(folder: &Path, run: &Path) -> Command {
+    let mut command = treadmill(folder);
+    command.args(["learner", "--preset", "smoke", "--steps", "1000000000", "--run-dir", run.to_str().unwrap()]);
+    command.args(["--listen", "tls/127.0.0.1:0", "--tls", "certs"]);
+    command
+}
+
+fn certs(folder: &Path, args: &[&str]) {
+    let made = run(folder, &[&["certs"], args].concat());
+    assert!(made.status.success(), "{}", stderr(&made));
+}
+
+#[test]
+fn a_fleet_with_certificates_trains_by_way_of_a_router() {
+    let (folder, run) = folders();
+    certs(folder.path(), &["certs"]);
+    let learner = Running::start(learner(folder.path(), &run));
+    let mut command = treadmill(folder.path());
+    command.args(["router", "--listen", "tls/127.0.0.1:0", "--connect", &endpoint(&run), "--tls", "certs"]);
+    let router = Running::start(command);
+    let listening = router.wait_for("listening");
+    let mut command = treadmill(folder.path());
+    command.args(["actor", "--envs", "4", "--tls", "certs", "--connect", listening.split_whitespace().last().unwrap()]);
+    let actor = Running::start(command);
+    await_steps(&run, 2048);
+    for part in [actor, router, learner] {
+        part.signal(libc::SIGTERM);
+        assert!(part.wait().0.success());
+    }
+}
+
+#[test]
+fn an_actor_of_another_authority_stays_outside() {
+    let (folder, run) = folders();
+    certs(folder.path(), &["certs"]);
+    certs(folder.path(), &["others"]);
+    let _learner = Running::start(learner(folder.path(), &run));
+    let endpoint = endpoint(&run);
+    let mut command = treadmill(folder.path());
+    command.args(["actor", "--envs", "4", "--tls", "others", "--connect", &endpoint]);
+    let stranger = Running::start(command);
+    stranger.wait_for("nobody answers");
+    let mut command = treadmill(folder.path());
+    command.args(["actor", "--envs", "4", "--tls", "certs", "--name", "friend", "--connect", &endpoint]);
+    let _friend = Running::start(command);
+    await_steps(&run, 2048);
+    assert_eq!(last_value(&run, "actors/alive"), Some(1.0));
+}
+
+#[test]
+fn certificates_are_made_once_and_keys_are_for_their_owner_alone() {
+    let (folder, _) = folders();
+    certs(folder.path(), &["certs", "--host", "learner.example"]);
+    let read = |name: &str| fs::read(folder.path().join("certs").join(name)).unwrap();
+    let (authority, actor) = (read("ca.crt"), read("actor.crt"));
+    for key in ["ca.key", "learner.key", "operator.key"] {
+        let mode = fs::metadata(folder.path().join("certs").join(key)).unwrap().permissions().mode();
+        assert_eq!(mode & 0o777, 0o600, "{key}");
+    }
+    certs(folder.path(), &["certs", "--host", "learner.example"]);
+    assert_eq!(read("actor.crt"), actor);
+    certs(folder.path(), &["certs", "--host", "learner.example", "--renew"]);
+    assert_ne!(read("actor.crt"), actor);
+    assert_eq!(read("ca.crt"), authority);
+    fs::remove_file(folder.path().join("certs/ca.key")).unwrap();
+    assert_refused(&run(folder.path(), &["certs", "certs"]), 2, &["only one of ca.crt and ca.key"]);
+    fs::remove_file(folder.path().join("certs/actor.key")).unwrap();
+    let args = ["actor", "--connect", "tls/127.0.0.1:1", "--tls", "certs"];
+    assert_refused(&run(folder.path(), &args), 2, &["actor.key", "treadmill certs"]);
+}
