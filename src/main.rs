@@ -1,7 +1,9 @@
 //! Treadmill's command line: one file per subcommand, each thin.
 //!
 //! # Layout
-//! - [`train`], [`learner`], [`actor`], [`evaluator`], [`router`], [`certs`], [`eval`], [`export`], [`bench`]: the subcommands.
+//! - [`train`], [`learner`], [`actor`], [`evaluator`], [`router`], [`status`], [`control`], [`certs`], [`eval`],
+//!   [`export`], [`bench`]: the subcommands.
+//! - [`operator`]: what `status` and `control` share.
 //! - [`saved_policy`]: the policy of a run, a checkpoint or an exported file.
 //! - [`startup`]: from flags to a run that is ready to begin.
 //! - [`supervisor`]: the actor processes of `train`.
@@ -14,18 +16,21 @@
 mod actor;
 mod bench;
 mod certs;
+mod control;
 mod eval;
 mod evaluator;
 mod export;
 mod learner;
 mod memory;
 mod model;
+mod operator;
 mod outcome;
 mod output;
 mod router;
 mod saved_policy;
 mod signals;
 mod startup;
+mod status;
 mod supervisor;
 mod train;
 
@@ -57,6 +62,10 @@ enum Command {
     Eval(eval::EvalArgs),
     /// Write a trained policy as a file that other programs read.
     Export(export::ExportArgs),
+    /// Tell how runs go, and who takes part.
+    Status(status::StatusArgs),
+    /// Command a learner: pause, resume, checkpoint, stop, or set a key of its configuration.
+    Control(control::ControlArgs),
     /// Hand messages on between machines: actors dial it, it dials the learner.
     Router(router::RouterArgs),
     /// Make the certificates that let only your own machines onto the bus.
@@ -85,6 +94,8 @@ fn main() -> ExitCode {
         Command::Evaluator(args) => evaluator::run(args),
         Command::Eval(args) => eval::run(args),
         Command::Export(args) => export::run(&args),
+        Command::Status(args) => status::run(args),
+        Command::Control(args) => control::run(args),
         Command::Router(args) => router::run(args),
         Command::Certs(args) => certs::run(&args),
         Command::Bench(args) => bench::run(args),

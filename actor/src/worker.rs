@@ -281,5 +281,6 @@ fn stats(
         resent: counts.resent,
         awaiting_durability: counts.awaiting_durability,
         resident_bytes: machine::resident_bytes(),
+        program_version: env!("CARGO_PKG_VERSION").to_string(),
     }
 }

@@ -9,6 +9,7 @@
 //! - [`mirror`]: left and right exchanged.
 //! - [`training`]: the loop: collect, update, save, publish, log.
 //! - [`pace`]: how much of what actors bring is learnt from, and how thoroughly.
+//! - [`control`]: commands to the training thread, and how the run goes.
 //! - [`trial`]: policies that are evaluated while training goes on.
 //! - [`checkpoint`]: everything a run is, in one file.
 //! - [`scalars`]: what is logged after each update.
@@ -18,6 +19,7 @@
 //! The loop runs on a thread of its own; nothing here is async, and nothing depends on the actor's crates.
 
 pub mod checkpoint;
+pub mod control;
 pub mod episodes;
 pub mod experience;
 pub mod gae;

@@ -62,6 +62,16 @@ impl Report {
         })
     }
 
+    /// Prints the table at other intervals from now on.
+    pub fn set_table_every(&mut self, updates: u64) {
+        self.table_every_updates = updates;
+    }
+
+    /// The run ends after another number of steps than it began with.
+    pub fn set_steps(&mut self, steps: u64) {
+        self.console.set_steps(steps);
+    }
+
     /// Logs the scalars of one update.
     pub fn log(&mut self, env_steps: u64, updates: u64, scalars: &[(String, f64)]) -> std::io::Result<()> {
         let time_unix_s = machine::time_unix_s();

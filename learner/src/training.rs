@@ -1,5 +1,7 @@
 //! The loop: collect, update, save, publish, log.
 
+mod commands;
+
 use std::{
     io,
     sync::{
@@ -21,8 +23,9 @@ use treadmill_proto::PolicyAnnouncement;
 
 use crate::{
     checkpoint::{CheckpointError, Saver, TrainingState},
+    control::Control,
     experience,
-    intake::{Accepted, BusMailbox, Expected, Gathered, Intake, Judge},
+    intake::{Accepted, BusMailbox, Collected, Expected, Gathered, Intake, Judge},
     logging::CurveError,
     mirror::Mirror,
     pace::Pace,
@@ -121,6 +124,7 @@ pub fn train(
         let durations = Durations { collect, update: update_time, learn: trainer.learn, checkpoint };
         trainer.log(update.as_ref(), batch, durations, verdict.as_ref())?;
         trainer.pace.heed(&gathered);
+        trainer.tell(shutdown, true);
     }
     trainer.finish()?;
     let state = trainer.state;
@@ -143,6 +147,9 @@ struct Trainer {
     stats: StatsFeed,
     /// Where policies are evaluated while training goes on.
     trial: Option<Trial>,
+    control: Control,
+    /// Whether somebody asked to learn from nothing for now.
+    paused: bool,
     saver: Saver,
     report: Report,
     speed: Speed,
@@ -153,6 +160,9 @@ struct Trainer {
     undone_in_a_row: u32,
     /// How long the last update proper took.
     learn: Duration,
+    /// Environment steps per second, and mean lag of the last batch.
+    env_steps_per_s: f64,
+    lag_mean: f64,
 }
 
 impl Trainer {
@@ -193,7 +203,9 @@ impl Trainer {
         let encoded = bundle.encode().map_err(|why| wrong(why.to_string()))?;
         let report = Report::open(bus, &state, &config, options)?;
         let queue = RolloutIntake::open(bus, &state.run, config.learner.intake_fragments as usize)?;
-        let mailbox = BusMailbox::new(queue, Alive::watch(bus, &state.run)?);
+        let alive = Alive::watch(bus, &state.run)?;
+        let control = Control::open(bus, commands::first_status(&state, config.run.steps), alive.view())?;
+        let mailbox = BusMailbox::new(queue, alive);
         let intake = Intake::new(mailbox, config.learner.mode, judge);
         Ok(Self {
             intake,
@@ -211,6 +223,10 @@ impl Trainer {
             wall_before_s: state.counters.wall_s,
             undone_in_a_row: 0,
             learn: Duration::ZERO,
+            env_steps_per_s: 0.0,
+            lag_mean: 0.0,
+            control,
+            paused: false,
             pace: Pace::new(&config),
             saver,
             report,
@@ -221,7 +237,16 @@ impl Trainer {
     }
 
     fn collect(&mut self, shutdown: &Shutdown) -> Option<Gathered> {
-        self.intake.collect(self.pace.wanted(), &self.state.lineage, shutdown)
+        loop {
+            self.heed_commands(shutdown);
+            let control = &mut self.control;
+            let interrupt = || control.is_asked() || control.since_told() >= commands::TELL_EVERY;
+            match self.intake.collect(self.pace.wanted(), &self.state.lineage, shutdown, interrupt) {
+                Collected::Batch(gathered) => return Some(gathered),
+                Collected::Interrupted => self.tell_if_due(shutdown),
+                Collected::Stopped => return None,
+            }
+        }
     }
 
     fn update(&mut self, accepted: &[Accepted]) -> Result<Option<UpdateStats>, TrainingError> {
@@ -349,12 +374,13 @@ impl Trainer {
     ) -> Result<(), TrainingError> {
         let alive = self.intake.alive();
         let env_steps = self.state.counters.env_steps;
-        let env_steps_per_s = self.speed.mark(env_steps);
+        let (env_steps_per_s, lag) = (self.speed.mark(env_steps), Lag::of(batch));
+        (self.env_steps_per_s, self.lag_mean) = (env_steps_per_s, lag.mean);
         let round = Round {
             state: &self.state,
             config: &self.config,
             update,
-            lag: Lag::of(batch),
+            lag,
             epochs: self.pace.epochs(),
             durations,
             verdict,

@@ -41,6 +41,17 @@ impl Trial {
         Ok(Self { desk: EvaluationDesk::open(bus, run)?, every_steps, due_at_steps, candidates: VecDeque::new() })
     }
 
+    /// Evaluates at other intervals from now on.
+    pub fn set_every(&mut self, every_steps: u64, env_steps: u64) {
+        if every_steps != self.every_steps {
+            self.every_steps = every_steps;
+            self.due_at_steps = match every_steps {
+                0 => u64::MAX,
+                every => (env_steps / every + 1) * every,
+            };
+        }
+    }
+
     /// Whether a policy that has learnt from so many steps is to be put on trial.
     pub fn is_due(&self, env_steps: u64) -> bool {
         env_steps >= self.due_at_steps

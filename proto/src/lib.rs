@@ -8,6 +8,7 @@
 //! - [`receipt`]: the learner's answer to a fragment.
 //! - [`stats`]: what an actor tells about itself.
 //! - [`evaluation`]: what became of a policy in an evaluation.
+//! - [`control`]: what people and scripts ask a learner.
 //! - [`json`]: the objects on the JSON topics.
 //! - [`event_file`]: TensorBoard's messages.
 //! - [`ident`]: names that may stand in a key.
@@ -17,6 +18,7 @@
 
 pub mod actor_state;
 pub mod bundle;
+pub mod control;
 pub mod evaluation;
 pub mod event_file;
 pub mod fragment;
@@ -36,6 +38,7 @@ pub mod wire {
 
 pub use actor_state::ActorState;
 pub use bundle::{PolicyAnnouncement, PolicyBundle, PolicyVersion};
+pub use control::{ActorStatus, Command, ControlReply, ControlRequest, Phase, RunStatus};
 pub use evaluation::EvaluationReport;
 pub use fragment::{EndCause, Episode, Fragment};
 pub use receipt::{Outcome, Receipt};

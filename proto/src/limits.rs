@@ -10,6 +10,10 @@ pub const ACTOR_STATE_BYTES_MAX: usize = 8 << 20;
 pub const MODEL_BYTES_MAX: usize = 4 << 20;
 /// Largest message of any other kind: receipts, statistics, announcements, JSON.
 pub const SMALL_BYTES_MAX: usize = 64 << 10;
+/// Largest status of a run: some hundred bytes for each actor.
+pub const STATUS_BYTES_MAX: usize = 4 << 20;
+/// Longest key or value in a request to change the configuration.
+pub const CONTROL_VALUE_CHARS_MAX: usize = 1024;
 /// Most control steps in one fragment.
 pub const STEPS_MAX: u32 = 4096;
 /// Most environments in one fragment.

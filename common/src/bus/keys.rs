@@ -45,6 +45,16 @@ pub fn metric(run: &str, tag: &str) -> String {
     format!("treadmill/{run}/metrics/{tag}")
 }
 
+/// `treadmill/{run}/control`: commands to the learner.
+pub fn control(run: &str) -> String {
+    format!("treadmill/{run}/control")
+}
+
+/// `treadmill/{run}/status`: how the run goes, for those who may not command.
+pub fn status(run: &str) -> String {
+    format!("treadmill/{run}/status")
+}
+
 /// The part of a key after its last slash.
 pub fn last_part(key: &str) -> &str {
     key.rsplit('/').next().unwrap_or(key)

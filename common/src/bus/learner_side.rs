@@ -222,6 +222,24 @@ impl Alive {
         Ok(Self { actors, _subscriber: subscriber, _token: token })
     }
 
+    /// Lets another thread look, too.
+    pub fn view(&self) -> AliveView {
+        AliveView { actors: self.actors.clone() }
+    }
+
+    /// Names of the actors that are alive.
+    pub fn actors(&self) -> BTreeSet<String> {
+        self.actors.lock().expect("no holder of this lock panics").clone()
+    }
+}
+
+/// Who is alive, as another thread sees it.
+#[derive(Clone)]
+pub struct AliveView {
+    actors: Arc<Mutex<BTreeSet<String>>>,
+}
+
+impl AliveView {
     /// Names of the actors that are alive.
     pub fn actors(&self) -> BTreeSet<String> {
         self.actors.lock().expect("no holder of this lock panics").clone()
@@ -232,6 +250,7 @@ impl Alive {
 pub struct StatsFeed {
     ring: Subscriber<zenoh::handlers::RingChannelHandler<Sample>>,
     newest: HashMap<String, ActorStats>,
+    run: String,
 }
 
 impl StatsFeed {
@@ -243,7 +262,14 @@ impl StatsFeed {
             .with(RingChannel::new(STATS_RING))
             .wait()
             .map_err(BusError::flow("listening to statistics"))?;
-        Ok(Self { ring, newest: HashMap::new() })
+        Ok(Self { ring, newest: HashMap::new(), run: run.to_string() })
+    }
+
+    /// The next statistics, if some come within `patience`, on the key of whoever they are about.
+    pub fn next(&self, patience: Duration) -> Option<ActorStats> {
+        let sample = self.ring.recv_timeout(patience).ok().flatten()?;
+        let stats = ActorStats::decode_checked(&sample.payload().to_bytes()).ok()?;
+        (sample.key_expr().as_str() == keys::stats(&self.run, &stats.actor)).then_some(stats)
     }
 
     /// Takes what came and forgets who is gone.

@@ -4,6 +4,7 @@
 //! statistics and metrics are publications that may be dropped. No callback blocks: each hands over to a bounded queue.
 
 mod actor_side;
+mod control;
 pub mod endpoint;
 mod evaluation;
 pub mod keys;
@@ -13,8 +14,9 @@ mod security;
 mod session;
 
 pub use actor_side::{Announcements, fetch_policy, publish_dropping, submit, token, watch_announcements};
+pub use control::{ControlDesk, Inquiry, command, statuses};
 pub use evaluation::{Assignment, EvaluationDesk, ask_for_evaluation};
-pub use learner_side::{Alive, Delivery, PolicyShelf, RolloutIntake, StatsFeed};
+pub use learner_side::{Alive, AliveView, Delivery, PolicyShelf, RolloutIntake, StatsFeed};
 pub use observer_side::{Feed, Message, observe};
 pub use security::{Credentials, Role};
 pub use session::{Bus, BusOptions};

@@ -147,6 +147,7 @@ const EVERYTHING: &[&str] = &[
 ];
 const POLICY: &[&str] = &["treadmill/*/policy/latest"];
 const ANNOUNCEMENT: &[&str] = &["treadmill/*/policy/version"];
+const STATUS: &[&str] = &["treadmill/*/status"];
 const TOKENS: &[&str] = &["treadmill/*/actors/*", "treadmill/*/learner"];
 /// What anybody who watches may read.
 const PUBLIC: &[&str] =
@@ -164,6 +165,8 @@ fn grants(role: Role) -> Vec<Grant> {
     let watch = || {
         let mut grants = read_policy();
         grants.extend([
+            Grant { flows: IN, messages: &["query"], keys: STATUS },
+            Grant { flows: OUT, messages: &["reply", "declare_queryable"], keys: STATUS },
             Grant { flows: IN, messages: &["declare_subscriber"], keys: PUBLIC },
             Grant { flows: OUT, messages: &["put"], keys: PUBLIC },
             Grant { flows: IN, messages: &["declare_liveliness_subscriber", "liveliness_query"], keys: TOKENS },

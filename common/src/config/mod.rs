@@ -221,6 +221,14 @@ impl Config {
         }
     }
 
+    /// The value of one key in TOML notation; empty where there is no such key.
+    pub fn value_of(&self, key: &str) -> String {
+        let value = key.split_once('.').and_then(|(section, name)| {
+            toml::Value::try_from(self).ok()?.get(section)?.get(name).map(ToString::to_string)
+        });
+        value.unwrap_or_default()
+    }
+
     /// The configuration as TOML, every key named.
     pub fn to_toml(&self) -> String {
         toml::to_string(self).expect("a checked config is plain tables of plain values")

@@ -186,6 +186,20 @@ impl Saver {
         Ok(bytes)
     }
 
+    /// Keeps numbered ones by another rule from now on.
+    pub fn set_rule(&mut self, every_updates: u64, keep: usize) {
+        (self.every_updates, self.keep) = (every_updates, keep);
+    }
+
+    /// Keeps the newest, which is that after so many updates, as a numbered one, too; where it is.
+    pub fn keep_newest(&self, updates: u64) -> Result<PathBuf, CheckpointError> {
+        let latest = self.latest();
+        let bytes =
+            fs::read(&latest).map_err(|source| CheckpointError::Read { path: latest.display().to_string(), source })?;
+        self.write(&numbered(updates), &bytes)?;
+        Ok(self.folder.join(numbered(updates)))
+    }
+
     /// Writes `best`: a checkpoint as it was encoded.
     pub fn save_best(&self, bytes: &[u8]) -> Result<(), CheckpointError> {
         self.write("best.bundle", bytes)

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 use treadmill_common::{
-    config::{Config, ConfigSource},
+    config::{Config, ConfigSource, EvaluationConfig, LearnerConfig, PpoConfig},
     normaliser::{Normaliser, RunningMoments},
     policy::{NetworkShape, init},
     seeds::{self, Stream},
@@ -144,10 +144,14 @@ impl TrainingState {
         self.actor_state.as_ref().map_or(Ok(()), |state| state.check().map_err(|why| why.to_string()))
     }
 
-    /// The hash that every fragment repeats: over the model and the configuration, but for how long the run is.
+    /// The hash that every fragment repeats: over the model and what of the configuration an actor depends on. How long the
+    /// run is and how the learner learns are not part of it, so that they can be changed while actors go on.
     pub fn config_hash(&self) -> Result<u64, String> {
         let mut config = self.config()?;
         config.run.steps = 0;
+        config.ppo = PpoConfig::default();
+        config.eval = EvaluationConfig::default();
+        config.learner = LearnerConfig { mode: config.learner.mode, ..LearnerConfig::default() };
         Ok(seeds::checksum(&[config.to_toml().as_bytes(), self.model_xml.as_bytes()]))
     }
 

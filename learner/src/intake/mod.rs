@@ -37,6 +37,20 @@ pub struct Intake<M: Mailbox> {
     held: Vec<Held<M::Letter>>,
     /// Came when a batch was full already.
     waiting: Option<M::Letter>,
+    /// What the next batch has so far, and the transitions in it.
+    gathered: Vec<Accepted>,
+    transitions: usize,
+}
+
+/// How gathering came to an end.
+#[derive(Debug)]
+pub enum Collected {
+    /// There is a batch.
+    Batch(Gathered),
+    /// Something else is to be done first.
+    Interrupted,
+    /// Somebody asked to stop.
+    Stopped,
 }
 
 /// A fragment that was taken and whose receipt is still owed.
@@ -67,7 +81,7 @@ impl<M: Mailbox> Intake<M> {
     /// An intake that takes its fragments from `mailbox`.
     pub fn new(mailbox: M, mode: LearnerMode, judge: Judge) -> Self {
         let patience = Patience::new(mailbox.now());
-        Self { mailbox, mode, judge, patience, held: Vec::new(), waiting: None }
+        Self { mailbox, mode, judge, patience, held: Vec::new(), waiting: None, gathered: Vec::new(), transitions: 0 }
     }
 
     /// What was dealt with, and the counts.
@@ -80,37 +94,52 @@ impl<M: Mailbox> Intake<M> {
         self.mailbox.actors()
     }
 
-    /// Gathers whole fragments until there are as many transitions as wanted; `None` once somebody asked to stop.
-    pub fn collect(&mut self, wanted: Wanted, lineage: &Lineage, shutdown: &Shutdown) -> Option<Gathered> {
-        let mut fragments: Vec<Accepted> = Vec::new();
-        let mut transitions = 0;
-        while transitions < wanted.transitions {
+    /// Gathers whole fragments until there are as many transitions as wanted, or somebody asked to stop, or `interrupt` says
+    /// so. What was gathered until an interruption is kept, and the next call goes on with it.
+    pub fn collect(
+        &mut self,
+        wanted: Wanted,
+        lineage: &Lineage,
+        shutdown: &Shutdown,
+        mut interrupt: impl FnMut() -> bool,
+    ) -> Collected {
+        while self.transitions < wanted.transitions {
             if shutdown.asked() {
-                return None;
+                return Collected::Stopped;
+            }
+            if interrupt() {
+                return Collected::Interrupted;
             }
             if let Some(accepted) = self.next(TICK, lineage) {
                 self.patience.delivered(&accepted.fragment.actor, self.mailbox.now());
-                transitions += accepted.fragment.transitions();
-                fragments.push(accepted);
+                self.add(accepted);
             }
-            if transitions < wanted.transitions && self.patience.is_over(&self.mailbox.actors(), self.mailbox.now()) {
+            if self.transitions < wanted.transitions
+                && self.patience.is_over(&self.mailbox.actors(), self.mailbox.now())
+            {
                 self.answer_held(lineage);
             }
         }
-        while transitions < wanted.transitions_max
+        while self.transitions < wanted.transitions_max
             && let Some(accepted) = self.next(Duration::ZERO, lineage)
         {
-            transitions += accepted.fragment.transitions();
-            fragments.push(accepted);
+            self.add(accepted);
         }
         if self.waiting.is_none() {
             self.waiting = self.mailbox.next(Duration::ZERO);
         }
+        self.transitions = 0;
+        let mut fragments = std::mem::take(&mut self.gathered);
         fragments.sort_by(|a, b| {
             let key = |accepted: &Accepted| (accepted.fragment.actor_incarnation, accepted.fragment.sequence);
             a.fragment.actor.cmp(&b.fragment.actor).then_with(|| key(a).cmp(&key(b)))
         });
-        Some(Gathered { fragments, more_waited: self.waiting.is_some() })
+        Collected::Batch(Gathered { fragments, more_waited: self.waiting.is_some() })
+    }
+
+    fn add(&mut self, accepted: Accepted) {
+        self.transitions += accepted.fragment.transitions();
+        self.gathered.push(accepted);
     }
 
     fn next(&mut self, patience: Duration, lineage: &Lineage) -> Option<Accepted> {

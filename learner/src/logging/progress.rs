@@ -55,6 +55,14 @@ impl Console {
         console
     }
 
+    /// The run goes to another number of steps than it began with.
+    pub fn set_steps(&mut self, total_steps: u64) {
+        self.total_steps = total_steps;
+        if let Some(bar) = &self.bar {
+            bar.set_length(total_steps);
+        }
+    }
+
     /// Plain lines into `out`.
     fn writing_to(out: Box<dyn Write + Send>, total_steps: u64, start_steps: u64, show_progress: bool) -> Self {
         Self {

@@ -174,6 +174,16 @@ impl Updater {
         self.state.learning_rate
     }
 
+    /// Sets the learning rate; adaptation goes on from there.
+    pub fn set_learning_rate(&mut self, learning_rate: f64) {
+        self.state.learning_rate = learning_rate;
+    }
+
+    /// Learns by these settings from now on; the learning rate stays what adaptation made of it.
+    pub fn set_config(&mut self, config: &PpoConfig) {
+        self.config = config.clone();
+    }
+
     /// The current policy, which evaluates many rows on the threads of the update.
     ///
     /// # Errors

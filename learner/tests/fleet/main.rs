@@ -8,7 +8,7 @@ use std::{collections::BTreeSet, time::Duration};
 use proptest::prelude::*;
 use rand::RngExt;
 use treadmill_common::{config::LearnerMode, seeds};
-use treadmill_learner::intake::{Expected, Intake, Judge, Ledger, Lineage, Tally, Wanted};
+use treadmill_learner::intake::{Collected, Expected, Intake, Judge, Ledger, Lineage, Tally, Wanted};
 use world::{MemoryMailbox, Setting, Shared, World};
 
 /// Longer than this (of the fleet's time) an update never takes, whatever gets lost: many receipts in a row would have to.
@@ -69,7 +69,19 @@ impl Learner {
             world.patient_until = world.now + STUCK;
             world.out_of_patience.clone()
         };
-        let gathered = self.intake.collect(self.case.wanted, &self.lineage, &shutdown);
+        // Every other look is interrupted: what was gathered until then must not be lost.
+        let (case, mut looks) = (self.case.wanted, 0);
+        let gathered = loop {
+            let interrupt = || {
+                looks += 1;
+                looks % 2 == 0
+            };
+            match self.intake.collect(case, &self.lineage, &shutdown, interrupt) {
+                Collected::Batch(gathered) => break Some(gathered),
+                Collected::Interrupted => {}
+                Collected::Stopped => break None,
+            }
+        };
         let Some(gathered) = gathered else {
             return Err(TestCaseError::fail(format!("nothing for {STUCK:?}: {:?}", self.intake.judge().tally)));
         };
