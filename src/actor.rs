@@ -3,10 +3,11 @@
 use std::{io::Read, time::Duration};
 
 use anyhow::Context;
-use clap::Args;
+use clap::{Args, builder::ArgPredicate};
+use serde_json::json;
 use treadmill_actor::{
     ActorError,
-    worker::{self, WorkerOptions},
+    worker::{self, Account, WorkerOptions},
 };
 use treadmill_common::{
     bus::{Bus, BusOptions, Role},
@@ -14,7 +15,7 @@ use treadmill_common::{
     shutdown::Shutdown,
 };
 
-use crate::{outcome::Usage, signals, startup::NetworkArgs};
+use crate::{outcome::Usage, output::say, signals, startup::NetworkArgs};
 
 /// A learner that is just starting is no news.
 const FIRST_COMPLAINT: Duration = Duration::from_secs(1);
@@ -24,7 +25,12 @@ const COMPLAIN_EVERY: Duration = Duration::from_secs(10);
 #[derive(Args)]
 pub struct ActorArgs {
     /// Where the learner or a router listens; may be repeated.
-    #[arg(long, value_name = "ENDPOINT", default_value = "tcp/127.0.0.1:7447")]
+    #[arg(
+        long,
+        value_name = "ENDPOINT",
+        default_value = "tcp/127.0.0.1:7447",
+        default_value_if("discover", ArgPredicate::IsPresent, None)
+    )]
     connect: Vec<String>,
     /// The run to join; may be left out where there is only one.
     #[arg(long, value_name = "NAME")]
@@ -38,6 +44,9 @@ pub struct ActorArgs {
     /// Threads that the environments are spread over, 0 for one per core; by default what the run says.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(0..=256))]
     threads: Option<u32>,
+    /// At the end, print what became of all fragments as one JSON object.
+    #[arg(long)]
+    json: bool,
     #[command(flatten)]
     network: NetworkArgs,
     /// Number of this start, from which its random streams are derived; without it, unlike that of any other start.
@@ -64,7 +73,7 @@ pub fn run(args: ActorArgs) -> anyhow::Result<()> {
         envs: args.envs,
         threads: args.threads,
         start: args.start_number.unwrap_or_else(seeds::unique),
-        where_to: args.connect.join(", "),
+        where_to: args.network.where_to(&args.connect),
     };
     let wrong = |why: treadmill_proto::Malformed| Usage(why.to_string());
     treadmill_proto::ident::check_ident("name", &options.name).map_err(wrong)?;
@@ -73,7 +82,32 @@ pub fn run(args: ActorArgs) -> anyhow::Result<()> {
     }
     let bus_options = args.network.options(Role::Actor, Vec::new(), args.connect)?;
     let where_to = options.where_to.clone();
-    on_the_bus(bus_options, &where_to, args.until_stdin_closes, |bus, shutdown| worker::run(bus, options, shutdown))
+    on_the_bus(bus_options, &where_to, args.until_stdin_closes, |bus, shutdown| async move {
+        let name = options.name.clone();
+        let account = worker::run(bus, options, shutdown).await?;
+        if let Some(account) = account.filter(|_| args.json) {
+            say(&as_json(&name, &account));
+        }
+        Ok(())
+    })
+}
+
+fn as_json(name: &str, account: &Account) -> String {
+    let fragments = account.fragments;
+    json!({
+        "actor": name,
+        // As text: readers that take every number for a double would lose its last digits.
+        "incarnation": account.incarnation.to_string(),
+        "produced": fragments.produced,
+        "accepted": fragments.accepted,
+        "dropped_by_rule": fragments.dropped_by_rule,
+        "in_flight": fragments.in_flight,
+        "resent": fragments.resent,
+        "awaiting_durability": fragments.awaiting_durability,
+        "settled_through": account.settled_through,
+        "env_steps": account.env_steps,
+    })
+    .to_string()
 }
 
 /// Joins the bus as a client and does `work` there until it is done or somebody asks to stop.

@@ -17,8 +17,8 @@ use treadmill_common::bus::{Credentials, Role};
 
 use crate::{outcome::Usage, output::say};
 
-/// Certificates begin a little before they were made: clocks differ.
-const LEEWAY: Duration = Duration::hours(1);
+/// Certificates begin before they were made: clocks differ, and jump.
+const LEEWAY: Duration = Duration::days(1);
 
 /// Flags of `certs`.
 #[derive(Args)]
@@ -36,8 +36,32 @@ pub struct CertsArgs {
     renew: bool,
 }
 
+impl CertsArgs {
+    /// Certificates for processes of this machine alone, soon over.
+    pub fn for_this_machine(folder: &Path) -> Self {
+        Self {
+            folder: folder.to_path_buf(),
+            host: vec!["localhost".to_string(), "127.0.0.1".to_string()],
+            days: 1,
+            renew: false,
+        }
+    }
+}
+
 /// Makes what is not there yet, and tells where it is.
 pub fn run(args: &CertsArgs) -> anyhow::Result<()> {
+    let folder = &args.folder;
+    let made = make(args)?;
+    match made.is_empty() {
+        true => say("nothing to do: all certificates are there; make them anew with --renew"),
+        false => say(&format!("wrote certificates and keys of {} to {}", made.join(", "), folder.display())),
+    }
+    say("give each machine ca.crt and the two files of its part; keep ca.key where nobody else can read it");
+    Ok(())
+}
+
+/// Makes what is not there yet: the parts whose files were made.
+pub fn make(args: &CertsArgs) -> anyhow::Result<Vec<&'static str>> {
     let folder = &args.folder;
     fs::create_dir_all(folder).with_context(|| format!("cannot make the folder `{}`", folder.display()))?;
     let authority = authority(folder, args.days)?;
@@ -53,12 +77,7 @@ pub fn run(args: &CertsArgs) -> anyhow::Result<()> {
         write(&certificate, &text, 0o644)?;
         made.push(role.name());
     }
-    match made.is_empty() {
-        true => say("nothing to do: all certificates are there; make them anew with --renew"),
-        false => say(&format!("wrote certificates and keys of {} to {}", made.join(", "), folder.display())),
-    }
-    say("give each machine ca.crt and the two files of its part; keep ca.key where nobody else can read it");
-    Ok(())
+    Ok(made)
 }
 
 /// The authority that is there, or a new one.

@@ -1,6 +1,6 @@
 //! `treadmill evaluator`: plays deterministic episodes with policies of a run while it trains, and hands in how they did.
 
-use clap::Args;
+use clap::{Args, builder::ArgPredicate};
 use treadmill_actor::evaluator::{self, EvaluatorOptions};
 use treadmill_common::bus::Role;
 use treadmill_proto::ident::check_ident;
@@ -11,7 +11,12 @@ use crate::{actor, outcome::Usage, startup::NetworkArgs};
 #[derive(Args)]
 pub struct EvaluatorArgs {
     /// Where the learner or a router listens; may be repeated.
-    #[arg(long, value_name = "ENDPOINT", default_value = "tcp/127.0.0.1:7447")]
+    #[arg(
+        long,
+        value_name = "ENDPOINT",
+        default_value = "tcp/127.0.0.1:7447",
+        default_value_if("discover", ArgPredicate::IsPresent, None)
+    )]
     connect: Vec<String>,
     /// The run to evaluate; may be left out where there is only one.
     #[arg(long, value_name = "NAME")]
@@ -31,7 +36,7 @@ pub fn run(args: EvaluatorArgs) -> anyhow::Result<()> {
     let options = EvaluatorOptions {
         run: args.run,
         name: args.name.unwrap_or_else(actor::default_name),
-        where_to: args.connect.join(", "),
+        where_to: args.network.where_to(&args.connect),
     };
     let wrong = |why: treadmill_proto::Malformed| Usage(why.to_string());
     check_ident("name", &options.name).map_err(wrong)?;

@@ -25,8 +25,11 @@ pub struct ExportArgs {
 /// Writes the file and tells what is in it.
 pub fn run(args: &ExportArgs) -> anyhow::Result<()> {
     let policy = saved_policy::load(&args.run, args.checkpoint)?;
-    // Nothing is written that `eval` would refuse.
-    saved_policy::environment(&args.run, &policy, &saved_policy::trained_under(&policy))?;
+    let config = saved_policy::trained_under(&policy);
+    if !config.is_external() {
+        // Nothing is written that `eval` would refuse.
+        saved_policy::environment(&args.run, &policy, &config)?;
+    }
     let bytes = policy.to_bytes().with_context(|| format!("the policy of `{}` cannot be exported", args.run))?;
     let path = args.safetensors.display();
     atomic_file::write(&args.safetensors, &bytes)

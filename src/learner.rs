@@ -6,6 +6,7 @@ use anyhow::Context;
 use clap::Args;
 use serde_json::json;
 use treadmill_common::{
+    atomic_file,
     bus::{Bus, Credentials, Role},
     shutdown::Shutdown,
 };
@@ -15,8 +16,9 @@ use crate::{
     memory,
     output::{complain, say},
     signals,
-    startup::{self, AnyRunArgs, NetworkArgs, NewRunArgs, Prepared},
+    startup::{self, AnyRunArgs, Command, NetworkArgs, NewRunArgs, Prepared},
     supervisor::{Fleet, Supervisor},
+    task,
 };
 
 /// Flags of `learner`.
@@ -45,9 +47,9 @@ pub fn run(args: LearnerArgs) -> anyhow::Result<()> {
         treadmill_proto::ident::check_ident("run", run).map_err(|why| crate::outcome::Usage(why.to_string()))?;
     }
     let options = args.network.options(Role::Learner, args.listen, args.connect)?;
-    let mut prepared = startup::prepare(&args.new, &args.any, &[])?;
+    let mut prepared = startup::prepare(Command::Learner, &args.new, &args.any, &[])?;
     if let Some(run) = args.run {
-        prepared.state.run = run;
+        prepared.rename(run);
     }
     host(prepared, &args.any, &options, None)
 }
@@ -69,20 +71,28 @@ pub fn host(
 }
 
 async fn host_until_done(
-    prepared: Prepared,
+    mut prepared: Prepared,
     any: &AnyRunArgs,
     options: &treadmill_common::bus::BusOptions,
     actors: Option<u32>,
 ) -> anyhow::Result<()> {
-    let Prepared { config, folder, device, mirror, state } = prepared;
     let shutdown = Shutdown::default();
     signals::listen(shutdown.clone(), "stopping after this update; press Ctrl-C again to stop at once")?;
     let (bus, endpoints) = {
         let options = options.clone();
         tokio::task::spawn_blocking(move || Bus::open_router(&options)).await??
     };
-    std::fs::write(folder.endpoint(), endpoints.join("\n") + "\n").context("the endpoint cannot be written")?;
-    greet(&folder, &state, &endpoints, options.credentials.as_ref(), actors);
+    let text = endpoints.join("\n") + "\n";
+    atomic_file::write(&prepared.folder.endpoint(), text.as_bytes()).context("the endpoint cannot be written")?;
+    greet(&prepared, &endpoints, options.credentials.as_ref(), actors);
+    // For as long as the run goes on: whoever comes later is told by name whether it may join.
+    let Some(desk) = task::settle(&bus, &mut prepared, &shutdown).await? else {
+        bus.close();
+        say("stopped before any actor registered its task; nothing was trained");
+        return Ok(());
+    };
+    let Prepared { config, folder, device, mirror, run: _, state } = prepared;
+    let state = state.context("the task is settled, and the state is not there")?;
 
     let restarts = Arc::new(AtomicU64::new(0));
     let (run, starts_before) = (state.run.clone(), state.counters.resumes);
@@ -104,13 +114,23 @@ async fn host_until_done(
         let evaluates = config.evaluates();
         let envs = config.rollout.envs;
         let tls = options.credentials.as_ref().map(|credentials| credentials.folder.clone());
-        let fleet = Fleet { endpoint: endpoints[0].clone(), tls, run, actors, envs, evaluates, starts_before };
+        let fleet = Fleet {
+            endpoint: endpoints[0].clone(),
+            tls,
+            shared_memory: options.shared_memory,
+            run,
+            actors,
+            envs,
+            evaluates,
+            starts_before,
+        };
         Supervisor::start(&fleet, restarts, shutdown)
     });
     let outcome = told.await.context("the training thread panicked");
     if let Some(supervisor) = supervisor {
         supervisor.stop().await?;
     }
+    drop(desk);
     bus.close();
     let summary = outcome??;
     part(&folder, &summary, actors.map_or("learner", |_| "train"));
@@ -120,28 +140,28 @@ async fn host_until_done(
     Ok(())
 }
 
-fn greet(
-    folder: &treadmill_common::run_folder::RunFolder,
-    state: &treadmill_learner::checkpoint::TrainingState,
-    endpoints: &[String],
-    credentials: Option<&Credentials>,
-    actors: Option<u32>,
-) {
+fn greet(prepared: &Prepared, endpoints: &[String], credentials: Option<&Credentials>, actors: Option<u32>) {
+    let Prepared { config, folder, state, run, .. } = prepared;
     let root = folder.root().display();
-    let verb = if state.counters.env_steps > 0 {
-        format!("going on at {} env steps", state.counters.env_steps)
-    } else {
-        "training a humanoid to walk".to_string()
+    let steps = state.as_ref().map_or(0, |state| state.counters.env_steps);
+    let verb = match (steps, config.is_external(), &config.task.name[..]) {
+        (1.., ..) => format!("going on at {steps} env steps"),
+        (0, false, _) => "training a humanoid to walk".to_string(),
+        (0, true, "") => "training the task that its first actor registers".to_string(),
+        (0, true, name) => format!("training `{name}`"),
     };
-    say(&format!("run `{}`: {verb}", state.run));
+    say(&format!("run `{run}`: {verb}"));
     say(&format!("  files     {root}  (curves: tensorboard --logdir {root})"));
     match actors {
         Some(actors) => say(&format!("  actors    {actors} processes beside this one")),
-        None => say(&format!(
-            "  actors    none yet; start some by: treadmill actor --connect {} --run {}",
-            to_dial(&endpoints[0], credentials),
-            state.run
-        )),
+        None => {
+            let command = match config.is_external() {
+                true => "python -m treadmill_actor --env NAME",
+                false => "treadmill actor",
+            };
+            let connect = to_dial(&endpoints[0], credentials);
+            say(&format!("  actors    none yet; start some by: {command} --connect {connect} --run {run}"));
+        }
     }
     say(&format!("  listening {}", endpoints.join(", ")));
     say("  stop      Ctrl-C once finishes the update and saves");
@@ -166,6 +186,8 @@ fn part(folder: &treadmill_common::run_folder::RunFolder, summary: &Summary, com
     say(&format!("{what} after {steps} env steps; saved in {root}/checkpoints"));
     if summary.stopped {
         complain(&format!("resume with: treadmill {command} --resume {root}"));
+    } else if summary.state.model_xml.is_empty() {
+        say(&format!("take the policy elsewhere: treadmill export {root} --safetensors FILE"));
     } else {
         say(&format!("see how far it walks: treadmill eval {root}"));
     }

@@ -6,6 +6,7 @@
 //! - [`operator`]: what `status` and `control` share.
 //! - [`saved_policy`]: the policy of a run, a checkpoint or an exported file.
 //! - [`startup`]: from flags to a run that is ready to begin.
+//! - [`task`]: what a run trains where other programs simulate it.
 //! - [`supervisor`]: the actor processes of `train`.
 //! - [`signals`]: Ctrl-C, once and twice.
 //! - [`model`]: the robot, built in or from a file.
@@ -32,6 +33,7 @@ mod signals;
 mod startup;
 mod status;
 mod supervisor;
+mod task;
 mod train;
 
 use std::process::ExitCode;

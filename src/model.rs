@@ -51,6 +51,13 @@ pub fn text(file: Option<&Path>) -> Result<Cow<'static, str>, Usage> {
 
 /// An environment with a model's text, which came from `file` if there is one.
 pub fn environment(config: &Config, text: &str, file: Option<&Path>) -> Result<Environment, Usage> {
+    if config.is_external() {
+        return Err(Usage(
+            "config key `env.task` is \"external\", which has no environment here; allowed here: \
+                          \"humanoid-v5\" or \"humanoid-v4\""
+                .to_string(),
+        ));
+    }
     let environment = Environment::new(&settings::training(config), text).map_err(|why| blame(file, &why))?;
     if let Some(path) = file {
         check_height(&config.env, environment.physics().model().nominal_position()[2], path)?;

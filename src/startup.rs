@@ -6,8 +6,9 @@ use anyhow::Context;
 use clap::Args;
 use serde_json::json;
 use treadmill_common::{
-    bus::{BusOptions, Credentials, Role},
-    config::{Config, ConfigSource, LearnerMode},
+    atomic_file,
+    bus::{BusOptions, Credentials, Role, threads},
+    config::{Config, ConfigSource, EnvTask, LearnerMode},
     device::{Device, DeviceKind},
     machine,
     run_folder::RunFolder,
@@ -17,6 +18,7 @@ use treadmill_learner::{
     checkpoint::{self, TrainingState, Which},
     mirror::Mirror,
 };
+use treadmill_proto::Task;
 
 use crate::{model, outcome::Usage};
 
@@ -32,6 +34,10 @@ pub struct NewRunArgs {
     /// One configuration key, as in ppo.learning_rate=3e-4; may be repeated.
     #[arg(long, value_name = "KEY=VALUE", conflicts_with = "resume")]
     pub set: Vec<String>,
+    /// What is trained: humanoid-v5, humanoid-v4, `external` for whatever the first actor registers, or the name of such a
+    /// task, as in gymnasium/Humanoid-v5 (see docs/actors.md).
+    #[arg(long, value_name = "NAME", conflicts_with = "resume")]
+    pub task: Option<String>,
     /// Seed of every random stream.
     #[arg(long, conflicts_with = "resume")]
     pub seed: Option<u64>,
@@ -72,9 +78,16 @@ pub struct NetworkArgs {
     /// Allow plain tcp beyond loopback, where anybody on the network can read and forge it.
     #[arg(long)]
     pub insecure: bool,
+    /// Be found, or find others, by multicast: learners and routers answer, actors and evaluators ask. Needs --tls, or
+    /// --insecure.
+    #[arg(long)]
+    pub discover: bool,
     /// Folder of certificates, as `treadmill certs` makes it: links are encrypted, and only its authority's parts get in.
     #[arg(long, value_name = "DIR")]
     pub tls: Option<PathBuf>,
+    /// Let large messages between processes of this machine pass through shared memory, where both ends allow it.
+    #[arg(long)]
+    pub shared_memory: bool,
     /// The bus's own configuration (JSON5), under which ours is laid.
     #[arg(long, value_name = "FILE")]
     pub zenoh_config: Option<PathBuf>,
@@ -83,15 +96,35 @@ pub struct NetworkArgs {
 impl NetworkArgs {
     /// How to reach the bus; called before anything is written, so that an endpoint that is refused leaves nothing behind.
     pub fn options(&self, role: Role, listen: Vec<String>, connect: Vec<String>) -> anyhow::Result<BusOptions> {
+        if self.discover && self.tls.is_none() && !self.insecure {
+            return Err(Usage(
+                "--discover: anybody on the network could answer; give --tls DIR (certificates: `treadmill certs DIR`), or \
+                 say --insecure where the network itself is trusted"
+                    .to_string(),
+            )
+            .into());
+        }
         let options = BusOptions {
             listen,
             connect,
+            discover: self.discover,
             insecure: self.insecure,
             credentials: self.credentials(role)?,
+            shared_memory: self.shared_memory,
             zenoh_config: self.zenoh_config.clone(),
         };
         options.check()?;
+        if let Some((name, value)) = threads::one_for_both_directions(&options, role) {
+            // SAFETY: every command asks for its options before it starts a thread, so nobody reads the environment now.
+            unsafe { std::env::set_var(name, value) };
+        }
         Ok(options)
+    }
+
+    /// Where somebody is looked for, for messages.
+    pub fn where_to(&self, connect: &[String]) -> String {
+        let found = self.discover.then(|| "whatever multicast finds".to_string());
+        connect.iter().cloned().chain(found).collect::<Vec<_>>().join(", ")
     }
 
     fn credentials(&self, role: Role) -> Result<Option<Credentials>, Usage> {
@@ -119,23 +152,89 @@ pub struct Prepared {
     pub device: Device,
     /// The mirror that its updates learn with.
     pub mirror: Option<Mirror>,
-    /// Its state.
-    pub state: TrainingState,
+    /// Its name on the bus.
+    pub run: String,
+    /// Its state; none where its sizes are those of a task that no actor has registered yet.
+    pub state: Option<TrainingState>,
+}
+
+impl Prepared {
+    /// Gives the run a name of its own on the bus.
+    pub fn rename(&mut self, run: String) {
+        if let Some(state) = &mut self.state {
+            state.run.clone_from(&run);
+        }
+        self.run = run;
+    }
+
+    /// The state of the run; of a new one of `task` where nothing but that was missing.
+    pub fn settle(&mut self, task: Task) -> anyhow::Result<()> {
+        let (observation, action) = (task.observation_size as usize, task.action_size as usize);
+        self.config.task = task.into();
+        self.config.check()?;
+        let fresh = TrainingState::fresh(&self.run, &self.config, "", observation, action, seeds::unique());
+        self.state = Some(fresh);
+        Ok(fs::write(self.folder.config(), self.config.to_toml())?)
+    }
+}
+
+/// Which command a run is prepared for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Command {
+    /// The learner with actors beside it.
+    Train,
+    /// The learner alone.
+    Learner,
 }
 
 /// Prepares a new run, or one that goes on. `changes` are keys that the command's own flags set.
-pub fn prepare(new: &NewRunArgs, any: &AnyRunArgs, changes: &[(&str, toml::Value)]) -> anyhow::Result<Prepared> {
+pub fn prepare(
+    command: Command,
+    new: &NewRunArgs,
+    any: &AnyRunArgs,
+    changes: &[(&str, toml::Value)],
+) -> anyhow::Result<Prepared> {
     // Before anything is written: a device that is not there leaves nothing behind.
     let device = any.device.open().map_err(|why| Usage(why.to_string()))?;
     let prepared = match &any.resume {
-        Some(run) => resume(run, any, device)?,
-        None => begin(new, any, changes, device)?,
+        Some(run) => resume(command, run, any, device)?,
+        None => begin(command, new, any, changes, device)?,
     };
     write_run_files(&prepared).with_context(|| format!("cannot write to {}", prepared.folder.root().display()))?;
     Ok(prepared)
 }
 
+/// Refuses what makes no sense for a task that is simulated by other programs.
+fn check_external(command: Command, config: &Config, any: &AnyRunArgs) -> Result<(), Usage> {
+    if !config.is_external() {
+        return Ok(());
+    }
+    if command == Command::Train {
+        return Err(Usage(
+            "`train` starts actors of its own, and they simulate the humanoid alone; env.task \"external\" needs \
+             `treadmill learner`, which actors of that task join (see docs/actors.md)"
+                .to_string(),
+        ));
+    }
+    match &any.model {
+        None => Ok(()),
+        Some(file) => Err(Usage(format!(
+            "--model {}: an external task has no model here; leave --model out, or train one of our own tasks",
+            file.display()
+        ))),
+    }
+}
+
+/// The key that `--task NAME` sets, and the task's own name where it is external.
+fn task_keys(name: &str) -> Vec<(&'static str, toml::Value)> {
+    match EnvTask::NAMES.contains(&name) {
+        true => vec![("env.task", name.into())],
+        false => vec![("env.task", EnvTask::External.name().into()), ("task.name", name.into())],
+    }
+}
+
 fn begin(
+    command: Command,
     new: &NewRunArgs,
     any: &AnyRunArgs,
     changes: &[(&str, toml::Value)],
@@ -149,7 +248,7 @@ fn begin(
     for pair in &new.set {
         source.set(pair)?;
     }
-    for (key, value) in changes {
+    for (key, value) in new.task.as_deref().map(task_keys).unwrap_or_default().iter().chain(changes) {
         source.value(key, value.clone())?;
     }
     for (key, value) in [("run.seed", new.seed), ("run.steps", any.steps)] {
@@ -165,22 +264,35 @@ fn begin(
         config.rollout.max_in_flight = 1;
         config.learner.mode = LearnerMode::Sync;
     }
+    check_external(command, &config, any)?;
+    if config.is_external() {
+        let known = config.task.known();
+        if let Some(why) = known.as_ref().and_then(|task| TrainingState::objection(&config, task)) {
+            return Err(Usage(why).into());
+        }
+        let folder = RunFolder::create(new.run_dir.as_deref(), &new.preset)?;
+        let run = folder.name().to_string();
+        let mut prepared = Prepared { config, folder, device, mirror: None, run, state: None };
+        known.map_or(Ok(()), |task| prepared.settle(task))?;
+        return Ok(prepared);
+    }
     let text = model::text(any.model.as_deref())?;
     let environment = model::environment(&config, &text, any.model.as_deref())?;
     let mirror = model::mirror(&config, &text)?;
     let (observation, action) = (environment.observation_size(), environment.action_size());
     let folder = RunFolder::create(new.run_dir.as_deref(), &new.preset)?;
     let state = TrainingState::fresh(folder.name(), &config, &text, observation, action, seeds::unique());
-    Ok(Prepared { config, folder, device, mirror, state })
+    Ok(Prepared { config, folder, device, mirror, run: state.run.clone(), state: Some(state) })
 }
 
-fn resume(run: &str, any: &AnyRunArgs, device: Device) -> anyhow::Result<Prepared> {
+fn resume(command: Command, run: &str, any: &AnyRunArgs, device: Device) -> anyhow::Result<Prepared> {
     let folder = RunFolder::open(run)?;
     let mut state = checkpoint::load(&folder, any.checkpoint.unwrap_or(Which::Latest))?;
+    let mut config = state.config().map_err(anyhow::Error::msg)?;
+    check_external(command, &config, any)?;
     if let Some(file) = &any.model {
         model::check_same(&state.model_xml, file)?;
     }
-    let mut config = state.config().map_err(anyhow::Error::msg)?;
     if let Some(steps) = any.steps {
         config.run.steps = steps;
         config.check()?;
@@ -189,14 +301,18 @@ fn resume(run: &str, any: &AnyRunArgs, device: Device) -> anyhow::Result<Prepare
     state.lineage.resume(seeds::unique());
     state.counters.resumes += 1;
     let mirror = model::mirror(&config, &state.model_xml)?;
-    Ok(Prepared { config, folder, device, mirror, state })
+    Ok(Prepared { config, folder, device, mirror, run: state.run.clone(), state: Some(state) })
 }
 
 fn write_run_files(prepared: &Prepared) -> std::io::Result<()> {
     use std::io::Write;
     let Prepared { config, folder, state, .. } = prepared;
-    fs::write(folder.config(), config.to_toml())?;
-    fs::write(folder.root().join("model.xml"), &state.model_xml)?;
+    // Whole or not at all: on a disk that is full, those of the start before stay.
+    let write = |path: PathBuf, text: &str| atomic_file::write(&path, text.as_bytes());
+    write(folder.config(), &config.to_toml())?;
+    if let Some(text) = state.as_ref().map(|state| &state.model_xml).filter(|text| !text.is_empty()) {
+        write(folder.root().join("model.xml"), text)?;
+    }
     let mut commands = fs::OpenOptions::new().create(true).append(true).open(folder.root().join("command.txt"))?;
     writeln!(commands, "{}", std::env::args().map(|part| quoted(&part)).collect::<Vec<_>>().join(" "))?;
     let versions = json!({
@@ -207,7 +323,7 @@ fn write_run_files(prepared: &Prepared) -> std::io::Result<()> {
         "cpu": machine::cpu_name(),
         "cores": machine::cores(),
     });
-    fs::write(folder.root().join("versions.json"), format!("{versions:#}\n"))
+    write(folder.root().join("versions.json"), &format!("{versions:#}\n"))
 }
 
 /// A part of a command line as a shell would take it.

@@ -36,6 +36,8 @@ pub struct Fleet {
     pub endpoint: String,
     /// Certificates, where links are encrypted.
     pub tls: Option<PathBuf>,
+    /// Whether fragments may pass through shared memory.
+    pub shared_memory: bool,
     /// The run's name.
     pub run: String,
     /// Actor processes.
@@ -153,6 +155,9 @@ fn spawn(fleet: &Fleet, role: Role, life: u64) -> anyhow::Result<Child> {
     }
     if let Some(folder) = &fleet.tls {
         command.arg("--tls").arg(folder);
+    }
+    if fleet.shared_memory {
+        command.arg("--shared-memory");
     }
     command
         .args(["--connect", &fleet.endpoint, "--run", &fleet.run, "--name", &role.to_string()])

@@ -6,7 +6,7 @@ use treadmill_common::{bus::Role, machine};
 
 use crate::{
     learner,
-    startup::{self, AnyRunArgs, NetworkArgs, NewRunArgs},
+    startup::{self, AnyRunArgs, Command, NetworkArgs, NewRunArgs},
 };
 
 /// Flags of `train`.
@@ -39,7 +39,7 @@ pub fn run(args: TrainArgs) -> anyhow::Result<()> {
     if args.deterministic {
         changes.push(("run.deterministic", true.into()));
     }
-    let prepared = startup::prepare(&args.new, &args.any, &changes)?;
+    let prepared = startup::prepare(Command::Train, &args.new, &args.any, &changes)?;
     let rollout = &prepared.config.rollout;
     let wanted = args.actors.filter(|_| !prepared.config.run.deterministic).unwrap_or(rollout.actors);
     let actors = match wanted {

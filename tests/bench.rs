@@ -89,6 +89,60 @@ fn networks_that_make_no_sense_are_refused() {
 }
 
 #[test]
+fn bus_measures_a_learner_among_actors_over_each_transport() {
+    let mut checksums = Vec::new();
+    for (flag, transport) in [(None, "tcp"), (Some("--tls"), "mutual tls"), (Some("--shared-memory"), "shared memory")]
+    {
+        let mut args = vec!["bus", "--actors", "1,3", "--seconds", "1", "--fragment-mb", "0.2", "--broadcasts", "2"];
+        args.extend(flag);
+        let result = bench(&args);
+        assert_eq!((&result["actors"], &result["transport"]), (&3.into(), &transport.into()));
+        for field in ["accepted_mb_per_s", "raw_tcp_mb_per_s", "ratio_to_raw_tcp", "receipt_p50_ms", "policy_p50_ms"] {
+            assert!(result[field].as_f64().unwrap() > 0.0, "{field} over {transport}: {result}");
+        }
+        for field in ["learner_resident_max_mb", "learner_cpu_s_per_gb", "actors_cpu_s_per_gb", "raw_tcp_cpu_s_per_gb"]
+        {
+            assert!(result[field].as_f64().unwrap() > 0.0, "{field} over {transport}: {result}");
+        }
+        for kind in ["receipt", "policy"] {
+            let told = |name: &str| result[format!("{kind}_{name}_ms")].as_f64().unwrap();
+            assert!(told("p50") <= told("p99"), "{result}");
+        }
+        assert_eq!((&result["silent"], &result["refused"]), (&0.0.into(), &0.0.into()), "{result}");
+        assert_eq!(result["policies_fetched"], 6, "two policies to each of three actors: {result}");
+        assert_eq!(result["through_shared_memory"].as_f64().unwrap() > 0.0, transport == "shared memory", "{result}");
+        let steps = result["steps"].as_array().unwrap();
+        assert_eq!(steps.iter().map(|step| step["actors"].as_u64().unwrap()).collect::<Vec<_>>(), [1, 3]);
+        checksums.push(result["checksum"].clone());
+    }
+    assert!(!checksums[0].as_str().unwrap().is_empty());
+    assert!(checksums.iter().all(|checksum| *checksum == checksums[0]), "the same numbers arrive: {checksums:?}");
+}
+
+#[test]
+fn bus_tells_what_a_transition_takes() {
+    let bytes = |precision: &str| {
+        let small = ["--actors", "1", "--seconds", "0.2", "--fragment-mb", "0.2", "--broadcasts", "1"];
+        bench(&[&["bus", "--precision", precision][..], &small].concat())["bytes_per_transition"].as_f64().unwrap()
+    };
+    // 45 observations, 17 actions, log-probability and reward as floats, a byte of flags; the last observation of each
+    // environment falls to 128 transitions. What is left is what a fragment says of itself.
+    let ours = 4.0 * (45.0 + 17.0 + 2.0) + 1.0 + 4.0 * 45.0 / 128.0;
+    let (full, half) = (bytes("f32"), bytes("f16"));
+    assert!((ours..ours + 0.2).contains(&full), "{full}");
+    let ours = ours - 2.0 * 45.0 * (1.0 + 1.0 / 128.0);
+    assert!((ours..ours + 0.2).contains(&half), "{half}");
+}
+
+#[test]
+fn bus_refuses_what_makes_no_sense() {
+    let (folder, _) = folders();
+    for (flag, value) in [("--seconds", "0"), ("--fragment-mb", "31"), ("--actors", "0")] {
+        assert_refused(&self::run(folder.path(), &["bench", "bus", flag, value]), 2, &[flag, value]);
+    }
+}
+
+#[test]
 fn train_measures_the_whole_system() {
     let result = bench(&["train", "--steps", "8192", "--actors", "1"]);
     assert!(result["env_steps_per_s"].as_f64().unwrap() > 0.0);

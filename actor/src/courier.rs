@@ -109,6 +109,7 @@ impl Courier {
         book.produced += 1;
         book.newest = sequence;
         book.in_flight.insert(sequence);
+        tracing::debug!("fragment {sequence} is on its way");
     }
 
     /// Sends one new fragment until it is dealt with, then sees that the newest policy is in use.

@@ -6,7 +6,7 @@ use rayon::{ThreadPool, ThreadPoolBuilder, prelude::*};
 use treadmill_common::{machine, seeds};
 use treadmill_humanoid::{Environment, EnvironmentConfig, ModelError};
 use treadmill_proto::{
-    EndCause, Episode,
+    EndCause, Episode, Precision,
     fragment::{TERMINATED, TRUNCATED},
 };
 
@@ -57,6 +57,7 @@ pub struct Environments {
     observations: Vec<f32>,
     observation_size: usize,
     action_size: usize,
+    precision: Precision,
     /// None where the caller's own thread steps all. Rayon's, because it shares out what is left of a step whenever a
     /// thread runs dry: steps take unlike times, by contacts and resets. On two cores that others kept busy, 64
     /// environments took 5 % more CPU time on two threads than on one.
@@ -67,6 +68,7 @@ pub struct Environments {
 struct Place {
     env: usize,
     environment: Environment,
+    precision: Precision,
     running: Running,
     control: Vec<f32>,
     reward: f32,
@@ -117,6 +119,7 @@ impl Environments {
             observations: vec![0.0; count * observation_size],
             observation_size,
             action_size,
+            precision: Precision::F32,
             pool: None,
         };
         all.begin();
@@ -130,6 +133,19 @@ impl Environments {
             place.running = Running::default();
             place.reset(&self.seeds, observation);
         }
+    }
+
+    /// Rounds every observation to what arrives at the learner, before anybody acts by it.
+    pub fn with_precision(mut self, precision: Precision) -> Self {
+        self.precision = precision;
+        self.places.iter_mut().for_each(|place| place.precision = precision);
+        precision.round(&mut self.observations);
+        self
+    }
+
+    /// How exactly observations travel.
+    pub fn precision(&self) -> Precision {
+        self.precision
     }
 
     /// Spreads the environments over this many threads; 0 means one per core, and more than environments are of no use.
@@ -250,6 +266,7 @@ impl Place {
             flags: 0,
             ended: None,
             last_observation: vec![0.0; environment.observation_size()],
+            precision: Precision::F32,
             environment,
         }
     }
@@ -257,6 +274,7 @@ impl Place {
     fn step(&mut self, action: &[f32], seeds: &ResetSeeds, observation: &mut [f32]) {
         self.environment.action_from_shares(action, &mut self.control);
         let step = self.environment.step(&self.control, observation);
+        self.precision.round(observation);
         let running = &mut self.running;
         running.length += 1;
         // The reward of a step whose physics failed says nothing.
@@ -291,6 +309,7 @@ impl Place {
     fn reset(&mut self, seeds: &ResetSeeds, observation: &mut [f32]) {
         let number = self.running.number;
         self.environment.reset(seeds.of(self.env, number), observation);
+        self.precision.round(observation);
         let x_m = self.environment.physics().position()[0];
         self.running = Running { number: number + 1, start_x_m: x_m, last_x_m: x_m, ..Running::default() };
     }

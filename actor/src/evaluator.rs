@@ -4,7 +4,7 @@ use std::time::Duration;
 
 use treadmill_common::{
     bus::{Assignment, Bus, ask_for_evaluation},
-    config::ConfigSource,
+    config::{Config, ConfigError, ConfigSource},
     shutdown::Shutdown,
 };
 use treadmill_humanoid::Environment;
@@ -32,6 +32,7 @@ pub async fn run(bus: Bus, options: EvaluatorOptions, shutdown: Shutdown) -> Res
     let Some(bundle) = join(&bus, options.run.as_deref(), &options.where_to, &shutdown).await? else {
         return Ok(());
     };
+    settings::check_ours(&bundle.run, &config_of(&bundle)?)?;
     let run = bundle.run;
     let mut report = None;
     while !shutdown.asked() {
@@ -56,11 +57,15 @@ pub async fn run(bus: Bus, options: EvaluatorOptions, shutdown: Shutdown) -> Res
     Ok(())
 }
 
-/// Plays one policy; `None` where somebody asked to stop before the end.
-fn play(bundle: &PolicyBundle, evaluator: String, shutdown: &Shutdown) -> Result<Option<EvaluationReport>, ActorError> {
+fn config_of(bundle: &PolicyBundle) -> Result<Config, ConfigError> {
     let mut source = ConfigSource::default();
     source.text(&bundle.config_toml, "the configuration of the run")?;
-    let config = source.build()?;
+    source.build()
+}
+
+/// Plays one policy; `None` where somebody asked to stop before the end.
+fn play(bundle: &PolicyBundle, evaluator: String, shutdown: &Shutdown) -> Result<Option<EvaluationReport>, ActorError> {
+    let config = config_of(bundle)?;
     let mut environment = Environment::new(&settings::environment(&config.env), &bundle.model_xml)?;
     let mut agent = PolicyAgent::of_bundle(bundle)?;
     let mut evaluations = Vec::new();

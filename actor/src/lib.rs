@@ -45,6 +45,17 @@ pub enum ActorError {
         /// What is wrong.
         why: String,
     },
+    /// The run trains what this program does not simulate.
+    #[error(
+        "run `{run}` trains `{task}`, which this program does not simulate: it trains the humanoid alone; join with an actor \
+         that has that environment, as in `python -m treadmill_actor --run {run} --env NAME` (see python/README.md)"
+    )]
+    OtherTask {
+        /// The run.
+        run: String,
+        /// What it trains.
+        task: String,
+    },
     /// The policy could not be evaluated.
     #[error("the policy cannot be evaluated: {0}")]
     Inference(#[from] candle_core::Error),

@@ -2,7 +2,7 @@
 
 use rand_distr::{Distribution, StandardNormal};
 use treadmill_common::{policy::gaussian, seeds::Stream};
-use treadmill_proto::{ActorState, Fragment};
+use treadmill_proto::{ActorState, Fragment, Precision};
 
 use crate::{
     ActorError,
@@ -78,6 +78,11 @@ impl Collector {
     pub fn go_on(&mut self, state: &ActorState) -> Result<(), String> {
         self.noise = self.environments.go_on(state)?;
         Ok(())
+    }
+
+    /// How exactly the observations of its fragments travel.
+    pub fn precision(&self) -> Precision {
+        self.environments.precision()
     }
 
     /// Transitions of one fragment.

@@ -1,11 +1,30 @@
 //! The run's configuration as the environment takes it.
 
-use treadmill_common::config::{Config, EnvConfig, EnvObservation, EnvTask, RandomisationConfig};
+use treadmill_common::config::{Config, EnvConfig, EnvObservation, EnvTask, ObservationPrecision, RandomisationConfig};
 use treadmill_humanoid::{EnvironmentConfig, ObservationKind, Randomisation, Task};
+use treadmill_proto::Precision;
+
+use crate::ActorError;
+
+/// Refuses a task that is not simulated here.
+pub fn check_ours(run: &str, config: &Config) -> Result<(), ActorError> {
+    match config.is_external() {
+        true => Err(ActorError::OtherTask { run: run.to_string(), task: config.task_name() }),
+        false => Ok(()),
+    }
+}
 
 /// The environment that experience is gathered in: the task, with what the run randomises.
 pub fn training(config: &Config) -> EnvironmentConfig {
     EnvironmentConfig { randomisation: randomisation(&config.randomisation), ..environment(&config.env) }
+}
+
+/// How exactly observations travel.
+pub fn precision(config: &Config) -> Precision {
+    match config.rollout.observation_precision {
+        ObservationPrecision::F32 => Precision::F32,
+        ObservationPrecision::F16 => Precision::F16,
+    }
 }
 
 fn randomisation(config: &RandomisationConfig) -> Randomisation {
@@ -29,7 +48,8 @@ fn randomisation(config: &RandomisationConfig) -> Randomisation {
 pub fn environment(config: &EnvConfig) -> EnvironmentConfig {
     EnvironmentConfig {
         task: match config.task {
-            EnvTask::HumanoidV5 => Task::HumanoidV5,
+            // Refused by `check_ours` wherever an environment is made from a configuration that came from elsewhere.
+            EnvTask::HumanoidV5 | EnvTask::External => Task::HumanoidV5,
             EnvTask::HumanoidV4 => Task::HumanoidV4,
         },
         forward_reward_weight: config.forward_reward_weight,

@@ -17,12 +17,12 @@ use treadmill_common::{
     machine, seeds,
     shutdown::Shutdown,
 };
-use treadmill_proto::{ActorStats, EndCause, Episode, Fragment, PolicyBundle, json::EpisodeReport};
+use treadmill_proto::{ActorStats, EndCause, Episode, Fragment, PolicyBundle, Precision, json::EpisodeReport};
 
 use crate::{
     ActorError,
     acting::ActingPolicy,
-    courier::Courier,
+    courier::{Counts, Courier},
     environments::{Environments, SeedSource},
     policies::{Policies, Refreshed, join},
     rollout::{Collector, Sender},
@@ -51,22 +51,43 @@ pub struct WorkerOptions {
     pub where_to: String,
 }
 
+/// What became of all that one stay in a run produced.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Account {
+    /// Under which its fragments are known.
+    pub incarnation: u64,
+    /// Fragments by what became of them.
+    pub fragments: Counts,
+    /// Fragments up to this number are neither in flight nor kept.
+    pub settled_through: u64,
+    /// Environment steps in all of them.
+    pub env_steps: u64,
+}
+
 /// Why one stay in a run ended.
 enum Ended {
     Asked,
     OtherRun,
 }
 
-/// Runs until somebody asks to stop.
-pub async fn run(bus: Bus, options: WorkerOptions, shutdown: Shutdown) -> Result<(), ActorError> {
+/// Runs until somebody asks to stop; the account of the last stay, if it ever joined.
+pub async fn run(bus: Bus, options: WorkerOptions, shutdown: Shutdown) -> Result<Option<Account>, ActorError> {
+    let mut last = None;
     loop {
         let Some(bundle) = join(&bus, options.run.as_deref(), &options.where_to, &shutdown).await? else {
-            return Ok(());
+            return Ok(last);
         };
         tracing::info!("{} joined run `{}` at version {}", options.name, bundle.run, bundle.version.number);
-        match stay(&bus, &options, &bundle, &shutdown).await? {
-            Ended::Asked => return Ok(()),
-            Ended::OtherRun => tracing::warn!("run `{}` is no longer there as it was; joining again", bundle.run),
+        let (ended, account) = stay(&bus, &options, &bundle, &shutdown).await?;
+        tracing::info!("{} leaves run `{}`: {account:?}", options.name, bundle.run);
+        last = Some(account);
+        match ended {
+            Ended::Asked => return Ok(last),
+            Ended::OtherRun => tracing::warn!(
+                "run `{}` is no longer there as it was; joining again, without the {} fragments that nobody answered for",
+                bundle.run,
+                account.fragments.in_flight
+            ),
         }
     }
 }
@@ -91,11 +112,13 @@ async fn stay(
     options: &WorkerOptions,
     bundle: &PolicyBundle,
     shutdown: &Shutdown,
-) -> Result<Ended, ActorError> {
+) -> Result<(Ended, Account), ActorError> {
     let mut source = ConfigSource::default();
     source.text(&bundle.config_toml, "the configuration of the run")?;
     let config = source.build()?;
+    settings::check_ours(&bundle.run, &config)?;
     let incarnation = seeds::unique();
+    tracing::info!("{} counts its fragments as process {incarnation}", options.name);
     let policies = Arc::new(Policies::new(bus.clone(), options.run.clone(), bundle)?);
     let receipt_timeout = Duration::from_millis(config.bus.receipt_timeout_ms);
     let courier = Arc::new(Courier::new(bus.clone(), &bundle.run, &options.name, receipt_timeout, policies.clone()));
@@ -170,7 +193,13 @@ async fn stay(
         .ok()
         .and_then(Result::ok)
         .ok_or_else(|| ActorError::Physics { why: "it panicked".to_string() })?;
-    Ok(ended)
+    let account = Account {
+        incarnation,
+        fragments: courier.counts(),
+        settled_through: courier.settled_through(),
+        env_steps: progress.env_steps.load(Ordering::Relaxed),
+    };
+    Ok((ended, account))
 }
 
 fn collector(
@@ -184,7 +213,7 @@ fn collector(
     let envs = options.envs as usize;
     let threads = options.threads.unwrap_or(config.rollout.threads) as usize;
     let environments = Environments::new(envs, &settings::training(config), &bundle.model_xml, seeds)?;
-    let environments = environments.with_threads(threads)?;
+    let environments = environments.with_threads(threads)?.with_precision(settings::precision(config));
     let wanted = (bundle.observation_size as usize, bundle.action_size as usize);
     let found = (environments.observation_size(), environments.action_size());
     if wanted != found {
@@ -227,7 +256,7 @@ fn simulate(
         let policy = staleness.choose(newest.version, newest);
         let produced = collector.collect(&policy, courier.settled_through()).and_then(|fragment| {
             courier.produced(fragment.sequence);
-            encode(fragment, progress)
+            encode(fragment, collector.precision(), progress)
         });
         let failed = produced.is_err();
         if outbox.blocking_send(produced).is_err() || failed {
@@ -236,8 +265,8 @@ fn simulate(
     }
 }
 
-fn encode(fragment: Fragment, progress: &Progress) -> Result<Produced, ActorError> {
-    let bytes = fragment.encode().map_err(|why| ActorError::Physics { why: why.to_string() })?;
+fn encode(fragment: Fragment, precision: Precision, progress: &Progress) -> Result<Produced, ActorError> {
+    let bytes = fragment.encode_as(precision).map_err(|why| ActorError::Physics { why: why.to_string() })?;
     progress.env_steps.fetch_add(fragment.transitions() as u64, Ordering::Relaxed);
     progress.episodes.fetch_add(fragment.episodes.len() as u64, Ordering::Relaxed);
     let faults = fragment.episodes.iter().filter(|episode| episode.cause == EndCause::NonFinite).count();

@@ -6,12 +6,12 @@ use treadmill_actor::{
     rollout::{Collector, Sender},
 };
 use treadmill_common::{
-    policy::{NetworkShape, init::initial_parameters, to_safetensors},
+    policy::{NetworkShape, gaussian, init::initial_parameters, to_safetensors},
     seeds,
 };
 use treadmill_humanoid::{EnvironmentConfig, HUMANOID_XML};
 use treadmill_proto::{
-    EndCause, Fragment, PolicyBundle, PolicyVersion,
+    EndCause, Fragment, PolicyBundle, PolicyVersion, Precision,
     fragment::{TERMINATED, TRUNCATED},
 };
 
@@ -51,6 +51,34 @@ fn collector(envs: usize, steps: u32, config: &EnvironmentConfig) -> Collector {
 /// Row `[t][n]` of a plane.
 fn row(plane: &[f32], t: usize, n: usize, envs: usize, width: usize) -> &[f32] {
     &plane[(t * envs + n) * width..][..width]
+}
+
+#[test]
+fn the_learner_has_the_very_numbers_that_the_policy_saw() {
+    let (envs, steps) = (3, 8);
+    let config = EnvironmentConfig { max_episode_steps: 5, ..EnvironmentConfig::default() };
+    for precision in [Precision::F32, Precision::F16] {
+        let sender = Sender { run: "walk".into(), actor: "a".into(), incarnation: 6, config_hash: 5 };
+        let environments = environments(envs, &config).with_precision(precision);
+        let mut collector = Collector::new(environments, seeds::stream(1, "noise", &[]), steps, sender);
+        let (policy, mut normalised, mut means) = (policy(), Vec::new(), vec![0.0; envs * 17]);
+        for _ in 0..2 {
+            let fragment = collector.collect(&policy, 0).unwrap();
+            assert!(fragment.flags.contains(&TRUNCATED));
+            let arrived = Fragment::decode(fragment.encode_as(precision).unwrap()).unwrap();
+            assert!(arrived == fragment);
+            for t in 0..steps as usize {
+                policy
+                    .means(&arrived.observations[t * envs * 45..][..envs * 45], envs, &mut normalised, &mut means)
+                    .unwrap();
+                for (n, mean) in means.chunks_exact(17).enumerate() {
+                    let acted =
+                        gaussian::log_probability(row(&arrived.actions, t, n, envs, 17), mean, policy.log_std());
+                    assert_eq!(acted.to_bits(), arrived.log_probs[t * envs + n].to_bits());
+                }
+            }
+        }
+    }
 }
 
 #[test]

@@ -10,7 +10,7 @@ use treadmill_common::{
     seeds,
 };
 use treadmill_humanoid::{EnvironmentConfig, HUMANOID_XML, ObservationKind, Randomisation};
-use treadmill_proto::{Fragment, PolicyBundle, PolicyVersion, fragment::TRUNCATED};
+use treadmill_proto::{Fragment, PolicyBundle, PolicyVersion, Precision, fragment::TRUNCATED};
 
 /// Episodes that end in all ways within a few steps, with something of everything that is random.
 fn rich() -> EnvironmentConfig {
@@ -56,9 +56,21 @@ fn policy(observation: usize) -> ActingPolicy {
 
 /// An actor process; every start of it draws other random numbers.
 fn collector(envs: usize, config: &EnvironmentConfig, name: &str, start: u64, threads: usize) -> Collector {
+    collector_in(Precision::F32, envs, config, name, start, threads)
+}
+
+fn collector_in(
+    precision: Precision,
+    envs: usize,
+    config: &EnvironmentConfig,
+    name: &str,
+    start: u64,
+    threads: usize,
+) -> Collector {
     let seeds = SeedSource { run_seed: 1, actor: name.into(), start };
     let noise = seeds.noise();
     let environments = Environments::new(envs, config, HUMANOID_XML, seeds).unwrap().with_threads(threads).unwrap();
+    let environments = environments.with_precision(precision);
     let sender = Sender { run: "walk".into(), actor: name.into(), incarnation: 6, config_hash: 5 };
     let mut collector = Collector::new(environments, noise, 16, sender);
     collector.attach_state();
@@ -73,17 +85,22 @@ fn learnt(fragment: Fragment) -> Fragment {
 
 #[test]
 fn a_successor_goes_on_from_the_bytes_of_any_fragment() {
-    for (config, width) in [(EnvironmentConfig::default(), 45), (rich(), 348)] {
+    let cases = [
+        (EnvironmentConfig::default(), 45, Precision::F32),
+        (rich(), 348, Precision::F32),
+        (rich(), 348, Precision::F16),
+    ];
+    for (config, width, precision) in cases {
         let policy = policy(width);
-        let mut original = collector(4, &config, "a", 2, 1);
+        let mut original = collector_in(precision, 4, &config, "a", 2, 1);
         let fragments: Vec<Fragment> = (0..8).map(|_| original.collect(&policy, 0).unwrap()).collect();
         assert!(fragments.iter().filter(|fragment| !fragment.episodes.is_empty()).count() > 2, "episodes end");
         let truncated = fragments.iter().flat_map(|fragment| &fragment.flags).any(|flags| flags & TRUNCATED != 0);
         assert_eq!(truncated, width == 348);
         for (at, threads) in [(0, 1), (3, 2), (5, 1)] {
-            let bytes = fragments[at].encode().unwrap();
+            let bytes = fragments[at].encode_as(precision).unwrap();
             let state = Fragment::decode(bytes).unwrap().actor_state.unwrap();
-            let mut successor = collector(4, &config, "a", 99, threads);
+            let mut successor = collector_in(precision, 4, &config, "a", 99, threads);
             successor.go_on(&state).unwrap();
             for fragment in &fragments[at + 1..] {
                 assert!(learnt(successor.collect(&policy, 0).unwrap()) == learnt(fragment.clone()), "from {at}");

@@ -19,7 +19,7 @@ use serde::{Deserialize, Serialize};
 use treadmill_proto::limits::{BUNDLE_BYTES_MAX, HIDDEN_LAYERS_MAX, WIDTH_MAX};
 
 use crate::{
-    config::{Config, ConfigError, EnvConfig, RandomisationConfig},
+    config::{Config, ConfigError, EnvConfig, EnvTask, RandomisationConfig, TaskConfig},
     normaliser::{Normaliser, RunningMoments, VARIANCE_EPSILON},
     policy::{NetworkShape, ParameterError, check_parameters, column, from_safetensors, to_safetensors_with},
 };
@@ -102,7 +102,9 @@ pub struct ExportedPolicy {
     pub env: EnvConfig,
     /// What was randomised in training.
     pub randomisation: RandomisationConfig,
-    /// The humanoid as MJCF.
+    /// The task where it is none of ours.
+    pub task: TaskConfig,
+    /// The humanoid as MJCF; empty where the task is none of ours.
     pub model_xml: String,
 }
 
@@ -143,6 +145,8 @@ struct Metadata {
     #[serde(with = "crate::open_json")]
     env: EnvConfig,
     randomisation: RandomisationConfig,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    task: Option<TaskConfig>,
     model_xml: String,
 }
 
@@ -193,6 +197,7 @@ impl ExportedPolicy {
             control_step_s: self.control_step_s,
             env: self.env.clone(),
             randomisation: self.randomisation.clone(),
+            task: self.task.known().map(|_| self.task.clone()),
             model_xml: self.model_xml.clone(),
         };
         let text = serde_json::to_string(&metadata).map_err(|why| ExportedError::Metadata { why: why.to_string() })?;
@@ -230,6 +235,7 @@ impl ExportedPolicy {
             control_step_s: metadata.control_step_s,
             env: metadata.env,
             randomisation: metadata.randomisation,
+            task: metadata.task.unwrap_or_default(),
             model_xml: metadata.model_xml,
         };
         policy.check()?;
@@ -267,15 +273,16 @@ impl ExportedPolicy {
                 return Err(entry("action.low", &low, format!("finite and below action.high, which is {high}")));
             }
         }
-        if !(self.control_step_s.is_finite() && self.control_step_s > 0.0) {
+        let unknown = self.env.task == EnvTask::External && self.control_step_s == 0.0;
+        if !(self.control_step_s.is_finite() && self.control_step_s > 0.0 || unknown) {
             return Err(entry("control_step_s", &self.control_step_s, "a number above 0".into()));
         }
         if !self.normaliser().is_valid(inputs) {
             let expected = "means, variances and a clip that give finite numbers".into();
             return Err(entry("observation", &format!("{:?}", self.observation), expected));
         }
-        let (env, randomisation) = (self.env.clone(), self.randomisation.clone());
-        Ok(Config { env, randomisation, ..Config::default() }.check()?)
+        let (env, randomisation, task) = (self.env.clone(), self.randomisation.clone(), self.task.clone());
+        Ok(Config { env, randomisation, task, ..Config::default() }.check()?)
     }
 }
 

@@ -138,6 +138,11 @@ impl RunFolder {
         self.root.join("learning_curve.png")
     }
 
+    /// What became of the fragments of every actor process, one line each.
+    pub fn accounts(&self) -> PathBuf {
+        self.root.join("accounts.jsonl")
+    }
+
     /// Where the learner listens.
     pub fn endpoint(&self) -> PathBuf {
         self.root.join("endpoint.txt")

@@ -38,7 +38,7 @@ pub struct EpisodeMeans {
     pub distance_mean_m: f64,
     /// Mean over episodes of distance over time.
     pub velocity_mean_mps: f64,
-    /// Share of episodes that ended with a fall.
+    /// Share of episodes that ended with a fall, or by whatever rule an external task has.
     pub fall_fraction: f64,
 }
 
@@ -56,7 +56,7 @@ impl EpisodeWindow {
                 length: episode.length.into(),
                 distance_m: episode.distance_m,
                 velocity_mean_mps: episode.velocity_mean_mps,
-                fell: episode.cause == EndCause::Fell,
+                fell: matches!(episode.cause, EndCause::Fell | EndCause::Terminated),
             });
         }
     }

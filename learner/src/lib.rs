@@ -12,12 +12,15 @@
 //! - [`control`]: commands to the training thread, and how the run goes.
 //! - [`trial`]: policies that are evaluated while training goes on.
 //! - [`checkpoint`]: everything a run is, in one file.
+//! - [`room`]: waiting for a disk that is full.
+//! - [`accounts`]: what became of every actor process's fragments, as a file.
 //! - [`scalars`]: what is logged after each update.
 //! - [`report`]: every place it goes to.
 //! - [`logging`]: where it is logged to.
 //!
 //! The loop runs on a thread of its own; nothing here is async, and nothing depends on the actor's crates.
 
+pub mod accounts;
 pub mod checkpoint;
 pub mod control;
 pub mod episodes;
@@ -30,6 +33,7 @@ pub mod optimiser;
 pub mod pace;
 pub mod ppo;
 pub mod report;
+pub mod room;
 pub mod scalars;
 pub mod training;
 pub mod trial;

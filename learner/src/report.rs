@@ -7,12 +7,14 @@ use treadmill_common::{
     config::Config,
     machine,
     run_folder::RunFolder,
+    shutdown::Shutdown,
 };
 use treadmill_proto::json::Metric;
 
 use crate::{
     checkpoint::TrainingState,
     logging::{Console, EventWriter, JsonLines, draw_curve},
+    room::wait_for_room,
     training::{TrainingError, TrainingOptions},
 };
 
@@ -72,8 +74,14 @@ impl Report {
         self.console.set_steps(steps);
     }
 
-    /// Logs the scalars of one update.
-    pub fn log(&mut self, env_steps: u64, updates: u64, scalars: &[(String, f64)]) -> std::io::Result<()> {
+    /// Logs the scalars of one update; where the disk is full, once it is not.
+    pub fn log(
+        &mut self,
+        env_steps: u64,
+        updates: u64,
+        scalars: &[(String, f64)],
+        shutdown: &Shutdown,
+    ) -> std::io::Result<()> {
         let time_unix_s = machine::time_unix_s();
         let metrics: Vec<Metric> = scalars
             .iter()
@@ -86,8 +94,8 @@ impl Report {
                 time_unix_s,
             })
             .collect();
-        self.lines.write(&metrics)?;
-        self.events.scalars(env_steps, time_unix_s, scalars)?;
+        wait_for_room(shutdown, || self.lines.write(&metrics))?;
+        wait_for_room(shutdown, || self.events.scalars(env_steps, time_unix_s, scalars))?;
         for metric in &metrics {
             self.publish(metric);
         }

@@ -181,7 +181,7 @@ impl Round<'_> {
     }
 
     fn bus(&self, out: &mut Vec<(&str, f64)>) {
-        let tally = &self.state.tally;
+        let (tally, account) = (&self.state.tally, self.state.ledger.total());
         out.extend([("bus/policy_lag_mean", self.lag.mean), ("bus/policy_lag_max", self.lag.max)]);
         out.extend(LAG_SHARES.into_iter().zip(self.lag.shares));
         out.extend([
@@ -191,6 +191,8 @@ impl Round<'_> {
             ("bus/fragments_vanished", tally.vanished as f64),
             ("bus/fragments_malformed", tally.malformed as f64),
             ("bus/fragments_quarantined", tally.quarantined as f64),
+            ("bus/fragments_unseen", account.unseen as f64),
+            ("bus/env_steps_dropped", account.env_steps_dropped as f64),
         ]);
     }
 

@@ -12,7 +12,7 @@ use std::{
 };
 
 use treadmill_common::{
-    bus::{Alive, Bus, BusError, PolicyShelf, RolloutIntake, StatsFeed},
+    bus::{Alive, Bus, BusError, PolicyShelf, RolloutCopies, RolloutIntake, StatsFeed},
     config::Config,
     machine,
     normaliser::Normaliser,
@@ -22,6 +22,7 @@ use treadmill_common::{
 use treadmill_proto::PolicyAnnouncement;
 
 use crate::{
+    accounts,
     checkpoint::{CheckpointError, Saver, TrainingState},
     control::Control,
     experience,
@@ -31,6 +32,7 @@ use crate::{
     pace::Pace,
     ppo::{UpdateError, UpdateStats, Updater},
     report::Report,
+    room::wait_for_room,
     scalars::{Durations, Lag, Round, Speed},
     trial::{Trial, Verdict},
 };
@@ -104,7 +106,7 @@ pub fn train(
     shutdown: &Shutdown,
 ) -> Result<Summary, TrainingError> {
     let (begun, steps_before) = (Instant::now(), state.counters.env_steps);
-    let mut trainer = Trainer::start(bus, state, options)?;
+    let mut trainer = Trainer::start(bus, state, options, shutdown)?;
     let mut stopped = false;
     while trainer.state.counters.env_steps < trainer.config.run.steps {
         let round_begun = Instant::now();
@@ -145,6 +147,8 @@ struct Trainer {
     pace: Pace,
     shelf: PolicyShelf,
     stats: StatsFeed,
+    accounts: std::path::PathBuf,
+    shutdown: Shutdown,
     /// Where policies are evaluated while training goes on.
     trial: Option<Trial>,
     control: Control,
@@ -166,7 +170,12 @@ struct Trainer {
 }
 
 impl Trainer {
-    fn start(bus: &Bus, state: TrainingState, options: &TrainingOptions) -> Result<Self, TrainingError> {
+    fn start(
+        bus: &Bus,
+        state: TrainingState,
+        options: &TrainingOptions,
+        shutdown: &Shutdown,
+    ) -> Result<Self, TrainingError> {
         let wrong = |why: String| TrainingError::State { why };
         let config = state.config().map_err(wrong)?;
         let mut bundle = state.bundle().map_err(wrong)?;
@@ -199,18 +208,20 @@ impl Trainer {
             config.learner.keep_checkpoints as usize,
         );
         // Before any actor can hold this version, it is on disk: a learner that dies now is resumed from it.
-        saver.save(&state)?;
+        wait_for_room(shutdown, || saver.save(&state))?;
         let encoded = bundle.encode().map_err(|why| wrong(why.to_string()))?;
         let report = Report::open(bus, &state, &config, options)?;
         let queue = RolloutIntake::open(bus, &state.run, config.learner.intake_fragments as usize)?;
         let alive = Alive::watch(bus, &state.run)?;
         let control = Control::open(bus, commands::first_status(&state, config.run.steps), alive.view())?;
-        let mailbox = BusMailbox::new(queue, alive);
+        let mailbox = BusMailbox::new(queue, alive, RolloutCopies::open(bus, &state.run)?);
         let intake = Intake::new(mailbox, config.learner.mode, judge);
         Ok(Self {
             intake,
             mirror: options.mirror.clone(),
             stats: StatsFeed::open(bus, &state.run)?,
+            accounts: options.folder.accounts(),
+            shutdown: shutdown.clone(),
             trial: match config.evaluates() {
                 false => None,
                 true => Some(Trial::open(bus, &state.run, config.eval.every_steps, state.counters.env_steps)?),
@@ -320,9 +331,9 @@ impl Trainer {
         self.state.ledger.mark_durable();
         let best = self.best_in_training();
         self.state.best_return = best.or(self.state.best_return);
-        let saved = self.saver.save(&self.state)?;
+        let saved = wait_for_room(&self.shutdown, || self.saver.save(&self.state))?;
         if best.is_some() {
-            self.saver.save_best(&saved)?;
+            wait_for_room(&self.shutdown, || self.saver.save_best(&saved))?;
         }
         self.intake.mark_durable();
         Ok(saved)
@@ -360,7 +371,7 @@ impl Trainer {
         let state = &mut self.state;
         if !state.best_is_evaluated || state.best_return.is_none_or(|best| return_mean > best) {
             (state.best_return, state.best_is_evaluated) = (Some(return_mean), true);
-            self.saver.save_best(&verdict.checkpoint)?;
+            wait_for_room(&self.shutdown, || self.saver.save_best(&verdict.checkpoint))?;
         }
         Ok(Some(verdict))
     }
@@ -390,11 +401,13 @@ impl Trainer {
             quarantined: self.intake.judge().quarantined(Instant::now()).len(),
         };
         let scalars = round.scalars();
-        Ok(self.report.log(env_steps, self.state.counters.updates, &scalars)?)
+        Ok(self.report.log(env_steps, self.state.counters.updates, &scalars, &self.shutdown)?)
     }
 
     fn finish(&mut self) -> Result<(), TrainingError> {
         self.intake.stop(&self.state.lineage);
+        // The state's own ledger: what the last checkpoint holds, and not what was taken since.
+        accounts::write(&self.accounts, &self.state.ledger)?;
         self.report.finish()?;
         Ok(())
     }

@@ -4,7 +4,7 @@ use bytes::Bytes;
 use prost::Message;
 
 use crate::{
-    ActorState, Malformed, PolicyVersion,
+    ActorState, Malformed, PolicyVersion, Precision,
     ident::check_ident,
     limits::{ENVS_MAX, FRAGMENT_BYTES_MAX, STEPS_MAX, WIDTH_MAX},
     planes, wire,
@@ -24,6 +24,8 @@ pub enum EndCause {
     TimeLimit,
     /// The physics gave a number that is not finite.
     NonFinite,
+    /// It was over by a rule of an external task.
+    Terminated,
 }
 
 impl EndCause {
@@ -33,6 +35,7 @@ impl EndCause {
             Self::Fell => "fell",
             Self::TimeLimit => "time_limit",
             Self::NonFinite => "non_finite",
+            Self::Terminated => "terminated",
         }
     }
 }
@@ -75,7 +78,7 @@ pub struct Fragment {
     pub observation_size: u32,
     /// Entries of one action.
     pub action_size: u32,
-    /// `[T][N][observation_size]`, as the environment gave them.
+    /// `[T][N][observation_size]`, as the policy saw them before normalisation.
     pub observations: Vec<f32>,
     /// `[T][N][action_size]`, before clipping, in units of the action range.
     pub actions: Vec<f32>,
@@ -170,8 +173,13 @@ impl Fragment {
         Ok(())
     }
 
-    /// Protobuf bytes.
+    /// Protobuf bytes, with observations as they are.
     pub fn encode(&self) -> Result<Vec<u8>, Malformed> {
+        self.encode_as(Precision::F32)
+    }
+
+    /// Protobuf bytes, with observations that are rounded to this precision already.
+    pub fn encode_as(&self, precision: Precision) -> Result<Vec<u8>, Malformed> {
         self.check()?;
         let message = wire::Fragment {
             run: self.run.clone(),
@@ -184,15 +192,16 @@ impl Fragment {
             envs: self.envs,
             observation_size: self.observation_size,
             action_size: self.action_size,
-            observations: planes::to_bytes(&self.observations),
+            observations: precision.to_bytes("observations", &self.observations)?,
             actions: planes::to_bytes(&self.actions),
             log_probs: planes::to_bytes(&self.log_probs),
             rewards: planes::to_bytes(&self.rewards),
             flags: Bytes::copy_from_slice(&self.flags),
-            last_observations: planes::to_bytes(&self.last_observations),
+            last_observations: precision.to_bytes("last_observations", &self.last_observations)?,
             episodes: self.episodes.iter().map(Into::into).collect(),
             settled_through: self.settled_through,
             actor_state: self.actor_state.clone(),
+            observation_precision: wire::Precision::from(precision).into(),
         };
         let bytes = message.encode_to_vec();
         check_size(bytes.len())?;
@@ -211,17 +220,18 @@ impl Fragment {
         in_range("action_size", message.action_size, WIDTH_MAX)?;
         let rows = message.steps as usize * message.envs as usize;
         let (width, action) = (message.observation_size as usize, message.action_size as usize);
+        let precision = Precision::try_from(message.observation_precision)?;
         // Whether the last observations are as many as the flags ask for is checked below, over the whole.
         let fragment = Self {
             version: message.version.ok_or_else(|| Malformed::field("version", "missing", "a policy version"))?.into(),
-            observations: planes::from_bytes("observations", &message.observations, rows * width)?,
+            observations: precision.from_bytes("observations", &message.observations, rows * width)?,
             actions: planes::from_bytes("actions", &message.actions, rows * action)?,
             log_probs: planes::from_bytes("log_probs", &message.log_probs, rows)?,
             rewards: planes::from_bytes("rewards", &message.rewards, rows)?,
-            last_observations: planes::from_bytes(
+            last_observations: precision.from_bytes(
                 "last_observations",
                 &message.last_observations,
-                message.last_observations.len() / 4,
+                message.last_observations.len() / precision.bytes(),
             )?,
             flags: message.flags.to_vec(),
             episodes: message.episodes.iter().map(Episode::try_from).collect::<Result<_, _>>()?,
@@ -281,6 +291,7 @@ impl From<&Episode> for wire::Episode {
             EndCause::Fell => wire::EndCause::Fell,
             EndCause::TimeLimit => wire::EndCause::TimeLimit,
             EndCause::NonFinite => wire::EndCause::NonFinite,
+            EndCause::Terminated => wire::EndCause::Terminated,
         };
         Self {
             return_sum: episode.return_sum,
@@ -300,7 +311,8 @@ impl TryFrom<&wire::Episode> for Episode {
             Ok(wire::EndCause::Fell) => EndCause::Fell,
             Ok(wire::EndCause::TimeLimit) => EndCause::TimeLimit,
             Ok(wire::EndCause::NonFinite) => EndCause::NonFinite,
-            _ => return Err(Malformed::field("episodes.cause", episode.cause, "1, 2 or 3")),
+            Ok(wire::EndCause::Terminated) => EndCause::Terminated,
+            _ => return Err(Malformed::field("episodes.cause", episode.cause, "1 to 4")),
         };
         Ok(Self {
             return_sum: episode.return_sum,
@@ -314,4 +326,4 @@ impl TryFrom<&wire::Episode> for Episode {
 
 #[cfg(test)]
 #[path = "fragment_tests.rs"]
-mod tests;
+pub(crate) mod tests;

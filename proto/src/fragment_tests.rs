@@ -3,7 +3,7 @@ use proptest::prelude::*;
 use super::*;
 use crate::actor_state::tests::sample as state;
 
-fn sample() -> Fragment {
+pub(crate) fn sample() -> Fragment {
     Fragment {
         run: "walk".into(),
         actor: "a1".into(),
@@ -38,6 +38,36 @@ fn sample() -> Fragment {
 fn a_fragment_survives_the_wire() {
     let fragment = sample();
     assert_eq!(Fragment::decode(fragment.encode().unwrap()).unwrap(), fragment);
+}
+
+#[test]
+fn half_precision_survives_the_wire_and_says_what_it_is() {
+    let fragment = sample();
+    let (full, half) = (fragment.encode().unwrap(), fragment.encode_as(Precision::F16).unwrap());
+    assert_eq!(Fragment::decode(half.clone()).unwrap(), fragment);
+    let numbers = fragment.observations.len() + fragment.last_observations.len();
+    // Two bytes less for each number, and three more to say so: a tag of two and a number of one.
+    assert_eq!(half.len(), full.len() - 2 * numbers + 3);
+    let unknown = wire::Fragment { observation_precision: 2, ..wire::Fragment::decode(&full[..]).unwrap() };
+    let refused = Fragment::decode(unknown.encode_to_vec()).unwrap_err().to_string();
+    assert!(refused.contains("`observation_precision` is 2"), "{refused}");
+    let mut odd = wire::Fragment::decode(&half[..]).unwrap();
+    odd.observations = odd.observations.slice(..odd.observations.len() - 1);
+    assert!(Fragment::decode(odd.encode_to_vec()).unwrap_err().to_string().contains("`observations` is 23 bytes long"));
+    let unrounded = Fragment { observations: vec![0.1; 12], ..sample() };
+    assert!(unrounded.encode_as(Precision::F16).unwrap_err().to_string().contains("`observations` is 0.1"));
+}
+
+#[test]
+fn numbers_that_are_not_finite_are_refused_in_either_precision() {
+    for (precision, number) in [(Precision::F32, &[0, 0, 0x80, 0x7f][..]), (Precision::F16, &[0, 0x7c][..])] {
+        let mut message = wire::Fragment::decode(&sample().encode_as(precision).unwrap()[..]).unwrap();
+        let mut plane = message.observations.to_vec();
+        plane[2 * number.len()..][..number.len()].copy_from_slice(number);
+        message.observations = plane.into();
+        let refused = Fragment::decode(message.encode_to_vec()).unwrap_err().to_string();
+        assert!(refused.contains("`observations` holds inf at index 2"), "{refused}");
+    }
 }
 
 #[test]

@@ -1,6 +1,12 @@
 //! Names that may stand in a key of the bus.
 
-use crate::{Malformed, limits::IDENT_CHARS_MAX};
+use crate::{
+    Malformed,
+    limits::{IDENT_CHARS_MAX, TASK_NAME_CHARS_MAX},
+};
+
+/// How names of this program's own tasks begin.
+pub const OWN_TASKS: &str = "treadmill/";
 
 /// Accepts `[a-z0-9_-]{1,64}`: nothing that a key expression would read as structure or a wildcard.
 pub fn check_ident(field: &'static str, name: &str) -> Result<(), Malformed> {
@@ -12,6 +18,20 @@ pub fn check_ident(field: &'static str, name: &str) -> Result<(), Malformed> {
     Err(Malformed::field(field, format!("`{shown}`"), "1 to 64 of the characters a-z, 0-9, _ and -"))
 }
 
+/// Accepts a task's name, as in `gymnasium/Humanoid-v5`. Names that begin with [`OWN_TASKS`] are for this program to give.
+pub fn check_task_name(field: &'static str, name: &str) -> Result<(), Malformed> {
+    let allowed = |c: u8| c.is_ascii_alphanumeric() || b"_-./:".contains(&c);
+    let fits = (1..=TASK_NAME_CHARS_MAX).contains(&name.len()) && name.bytes().all(allowed);
+    if fits && !name.starts_with(OWN_TASKS) {
+        return Ok(());
+    }
+    let shown: String = name.chars().take(IDENT_CHARS_MAX).collect();
+    let wanted = format!(
+        "1 to {TASK_NAME_CHARS_MAX} of the characters a-z, A-Z, 0-9, _ - . : and /, not beginning with {OWN_TASKS}"
+    );
+    Err(Malformed::field(field, format!("`{}`", shown.escape_debug()), wanted))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -21,6 +41,17 @@ mod tests {
         assert!(check_ident("run", "walk-2026_1").is_ok());
         for bad in ["", "a/b", "**", "Walk", "@x", "é", &"x".repeat(65)] {
             assert!(check_ident("run", bad).is_err(), "{bad}");
+        }
+    }
+
+    #[test]
+    fn names_of_tasks_are_plain_and_not_our_own() {
+        for fine in ["gymnasium/Humanoid-v5", "gymnasium/my.module:Walk-v0", "x"] {
+            assert!(check_task_name("name", fine).is_ok(), "{fine}");
+        }
+        for bad in ["", "a b", "treadmill/humanoid-v5", "a\n", "é", "*", &"x".repeat(129)] {
+            let why = check_task_name("name", bad).unwrap_err().to_string();
+            assert!(why.contains("`name`") && !why.contains('\n'), "{why}");
         }
     }
 }

@@ -46,7 +46,7 @@ pub struct EpisodeReport {
     pub distance_m: f64,
     /// Distance over time.
     pub velocity_mean_mps: f64,
-    /// `fell`, `time_limit` or `non_finite`.
+    /// `fell`, `time_limit`, `non_finite` or `terminated`.
     pub cause: String,
 }
 
@@ -87,7 +87,8 @@ mod tests {
 
     #[test]
     fn each_end_of_an_episode_has_the_word_that_is_documented() {
-        let words = [EndCause::Fell, EndCause::TimeLimit, EndCause::NonFinite].map(EndCause::name);
-        assert_eq!(words, ["fell", "time_limit", "non_finite"]);
+        let words =
+            [EndCause::Fell, EndCause::TimeLimit, EndCause::NonFinite, EndCause::Terminated].map(EndCause::name);
+        assert_eq!(words, ["fell", "time_limit", "non_finite", "terminated"]);
     }
 }

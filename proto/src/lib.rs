@@ -3,10 +3,13 @@
 //! # Layout
 //! - [`wire`]: the structures generated from `schema/*.proto`.
 //! - [`fragment`]: rollouts, checked on both sides.
+//! - [`precision`]: how exactly observations travel.
+//! - [`prepared`]: one fragment under many names.
 //! - [`bundle`]: the policy that the learner hands out.
 //! - [`actor_state`]: where an actor is, for deterministic runs.
 //! - [`receipt`]: the learner's answer to a fragment.
 //! - [`stats`]: what an actor tells about itself.
+//! - [`task`]: what an actor of an external task registers.
 //! - [`evaluation`]: what became of a policy in an evaluation.
 //! - [`control`]: what people and scripts ask a learner.
 //! - [`json`]: the objects on the JSON topics.
@@ -25,8 +28,11 @@ pub mod fragment;
 pub mod ident;
 pub mod json;
 pub mod limits;
+pub mod precision;
+pub mod prepared;
 pub mod receipt;
 pub mod stats;
+pub mod task;
 
 mod planes;
 
@@ -41,8 +47,11 @@ pub use bundle::{PolicyAnnouncement, PolicyBundle, PolicyVersion};
 pub use control::{ActorStatus, Command, ControlReply, ControlRequest, Phase, RunStatus};
 pub use evaluation::EvaluationReport;
 pub use fragment::{EndCause, Episode, Fragment};
+pub use precision::Precision;
+pub use prepared::PreparedFragment;
 pub use receipt::{Outcome, Receipt};
 pub use stats::ActorStats;
+pub use task::{Task, TaskReceipt, TaskRegistration};
 
 /// Why a message was refused.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]

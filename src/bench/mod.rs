@@ -1,5 +1,6 @@
 //! `treadmill bench`: the benchmark sheet. Each bench prints its workload and a checksum of its result.
 
+mod bus;
 mod env;
 mod network;
 mod policy;
@@ -28,6 +29,14 @@ enum What {
     Update(update::UpdateArgs),
     /// Microseconds that an actor's policy takes to choose actions.
     Policy(policy::PolicyArgs),
+    /// Fragments that a learner takes from many actors, receipts, policies and memory.
+    Bus(bus::BusArgs),
+    /// The learner of `bus`.
+    #[command(hide = true)]
+    BusHost(bus::host::HostArgs),
+    /// Some of the actors of `bus`.
+    #[command(hide = true)]
+    BusLoad(bus::load::LoadArgs),
     /// Trained environment steps per second of the whole system.
     Train(train::TrainArgs),
 }
@@ -38,6 +47,9 @@ pub fn run(args: BenchArgs) -> anyhow::Result<()> {
         What::Env(args) => env::run(&args),
         What::Update(args) => update::run(&args),
         What::Policy(args) => policy::run(&args),
+        What::Bus(args) => bus::run(&args),
+        What::BusHost(args) => bus::host::run(&args),
+        What::BusLoad(args) => bus::load::run(&args),
         What::Train(args) => train::run(&args),
     }
 }

@@ -74,6 +74,7 @@ impl Environments {
                 streams: generators(row(&state.streams, env, state)),
             };
             place.environment.resume_episode(&episode, observation).map_err(|why| why.to_string())?;
+            place.precision.round(observation);
             let [return_sum, start_x_m, last_x_m] = part::<PROGRESS_NUMBERS, f64>(&state.progress, env);
             place.running = Running { number, length: episode.steps, return_sum, start_x_m, last_x_m };
         }

@@ -15,6 +15,16 @@ pub fn rollouts(run: &str, actor: &str) -> String {
     format!("treadmill/{run}/rollouts/{actor}")
 }
 
+/// `treadmill/{run}/@rollouts/{actor}`: copies of accepted fragments; wildcards do not match `@`.
+pub fn rollout_copies(run: &str, actor: &str) -> String {
+    format!("treadmill/{run}/@rollouts/{actor}")
+}
+
+/// `treadmill/{run}/tasks/{actor}`: what actors of external tasks register.
+pub fn tasks(run: &str, actor: &str) -> String {
+    format!("treadmill/{run}/tasks/{actor}")
+}
+
 /// `treadmill/{run}/evaluations/{evaluator}`: reports handed in, policies to evaluate handed out.
 pub fn evaluations(run: &str, evaluator: &str) -> String {
     format!("treadmill/{run}/evaluations/{evaluator}")

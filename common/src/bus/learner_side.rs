@@ -4,7 +4,7 @@ use std::{
     collections::{BTreeSet, HashMap},
     sync::{
         Arc, Mutex, RwLock,
-        atomic::{AtomicUsize, Ordering},
+        atomic::{AtomicU64, AtomicUsize, Ordering},
         mpsc::{Receiver, SyncSender, TrySendError, sync_channel},
     },
     time::Duration,
@@ -16,6 +16,7 @@ use treadmill_proto::{
 };
 use zenoh::{
     Wait,
+    bytes::ZBytes,
     handlers::RingChannel,
     liveliness::LivelinessToken,
     pubsub::{Publisher, Subscriber},
@@ -28,6 +29,10 @@ use super::{Bus, BusError, keys};
 
 /// Bytes of fragments that may wait for the learner, whatever their number.
 const INTAKE_BYTES_MAX: usize = 128 << 20;
+/// A payload in one piece that is smaller than this came over a socket, and would keep a whole buffer of the bus.
+const IN_PLACE_BYTES_MIN: usize = 64 << 10;
+/// Answers that may wait to be sent to those whose fragments were not taken.
+const REFUSALS_QUEUE: usize = 1024;
 /// Policy requests that may wait for the shelf's thread.
 const SHELF_QUEUE: usize = 4096;
 /// Statistics messages that may wait; older ones give way.
@@ -72,6 +77,7 @@ fn reply(query: &Query, receipt: &Receipt) {
 /// The bounded queue of fragments on their way into the learner.
 pub struct RolloutIntake {
     queue: Receiver<Delivery>,
+    in_place: Arc<AtomicU64>,
     _queryable: Queryable<()>,
 }
 
@@ -79,14 +85,25 @@ impl RolloutIntake {
     /// Begins to take fragments; at most `capacity` wait, the rest is told to come again.
     pub fn open(bus: &Bus, run: &str, capacity: usize) -> Result<Self, BusError> {
         let (sender, queue) = sync_channel(capacity);
-        let queued_bytes = Arc::new(AtomicUsize::new(0));
+        let in_place = Arc::new(AtomicU64::new(0));
+        let door = Door {
+            queue: sender,
+            queued_bytes: Arc::new(AtomicUsize::new(0)),
+            in_place: in_place.clone(),
+            refusals: refusals()?,
+        };
         let queryable = bus
             .session
             .declare_queryable(keys::rollouts(run, "*"))
-            .callback(move |query| take(query, &sender, &queued_bytes))
+            .callback(move |query| door.take(query))
             .wait()
             .map_err(BusError::flow("taking rollouts"))?;
-        Ok(Self { queue, _queryable: queryable })
+        Ok(Self { queue, in_place, _queryable: queryable })
+    }
+
+    /// Counts the fragments that came through shared memory.
+    pub fn in_place(&self) -> Arc<AtomicU64> {
+        self.in_place.clone()
     }
 
     /// The next fragment, if one comes within `patience`.
@@ -96,36 +113,71 @@ impl RolloutIntake {
     }
 }
 
-/// Runs in the bus's receiving thread: checks the header, hands over, returns.
-fn take(query: Query, sender: &SyncSender<Delivery>, queued_bytes: &Arc<AtomicUsize>) {
-    let refuse = |outcome, reason: String| {
-        reply(&query, &Receipt { outcome, reason, version: PolicyVersion::default(), durable_through: 0 });
-    };
-    let actor = keys::last_part(query.key_expr().as_str()).to_string();
-    if let Err(why) = check_ident("actor", &actor) {
-        return refuse(Outcome::Malformed, why.to_string());
+/// Where the bus's receiving thread puts what came.
+struct Door {
+    queue: SyncSender<Delivery>,
+    queued_bytes: Arc<AtomicUsize>,
+    in_place: Arc<AtomicU64>,
+    refusals: SyncSender<(Query, Receipt)>,
+}
+
+impl Door {
+    /// Runs in the bus's receiving thread: checks the header, hands over, returns.
+    fn take(&self, mut query: Query) {
+        // Out of the query, which lives until it is answered: the bus's own buffers are free again at once.
+        let payload = query.payload_mut().map(std::mem::take).unwrap_or_default();
+        let (size, actor) = (payload.len(), keys::last_part(query.key_expr().as_str()).to_string());
+        if let Err(why) = check_ident("actor", &actor) {
+            return self.refuse(query, Outcome::Malformed, why.to_string());
+        }
+        if size == 0 || size > FRAGMENT_BYTES_MAX {
+            let reason = format!("the payload has {size} bytes; a fragment has 1 to {FRAGMENT_BYTES_MAX}");
+            return self.refuse(query, Outcome::Malformed, reason);
+        }
+        if self.queued_bytes.fetch_add(size, Ordering::Relaxed) + size > INTAKE_BYTES_MAX {
+            self.queued_bytes.fetch_sub(size, Ordering::Relaxed);
+            return self.refuse(query, Outcome::Busy, format!("{INTAKE_BYTES_MAX} bytes of fragments wait already"));
+        }
+        let payload = whole(payload, &self.in_place);
+        let delivery = Delivery { actor, payload, query, queued_bytes: self.queued_bytes.clone() };
+        if let Err(TrySendError::Full(delivery) | TrySendError::Disconnected(delivery)) = self.queue.try_send(delivery)
+        {
+            self.refuse(delivery.query.clone(), Outcome::Busy, "the intake is full".to_string());
+        }
     }
-    let size = query.payload().map_or(0, |payload| payload.len());
-    if size == 0 || size > FRAGMENT_BYTES_MAX {
-        return refuse(
-            Outcome::Malformed,
-            format!("the payload has {size} bytes; a fragment has 1 to {FRAGMENT_BYTES_MAX}"),
-        );
+
+    /// Answers from another thread: a sender that does not read its answers must not hold up what others send. Where too
+    /// many wait, there is no answer, and the sender comes again.
+    fn refuse(&self, query: Query, outcome: Outcome, reason: String) {
+        let receipt = Receipt { outcome, reason, version: PolicyVersion::default(), durable_through: 0 };
+        drop(self.refusals.try_send((query, receipt)));
     }
-    if queued_bytes.fetch_add(size, Ordering::Relaxed) + size > INTAKE_BYTES_MAX {
-        queued_bytes.fetch_sub(size, Ordering::Relaxed);
-        return refuse(Outcome::Busy, format!("{INTAKE_BYTES_MAX} bytes of fragments wait already"));
+}
+
+/// A thread that answers what was not taken; it ends with the sender that is returned.
+fn refusals() -> Result<SyncSender<(Query, Receipt)>, BusError> {
+    let (sender, refusals) = sync_channel::<(Query, Receipt)>(REFUSALS_QUEUE);
+    std::thread::Builder::new()
+        .name("refusals".to_string())
+        .spawn(move || refusals.iter().for_each(|(query, receipt)| reply(&query, &receipt)))
+        .map_err(|why| BusError::Flow { what: "starting to answer".to_string(), why: why.to_string() })?;
+    Ok(sender)
+}
+
+/// A payload in one piece. What came over a socket lies in many small buffers of the bus and is copied; what lies in shared
+/// memory stays there until it is decoded.
+fn whole(payload: ZBytes, in_place: &AtomicU64) -> Bytes {
+    struct InPlace(ZBytes);
+    impl AsRef<[u8]> for InPlace {
+        fn as_ref(&self) -> &[u8] {
+            self.0.slices().next().unwrap_or_default()
+        }
     }
-    let payload = query.payload().map_or_else(Bytes::new, |payload| Bytes::from(payload.to_bytes().into_owned()));
-    let delivery = Delivery { actor, payload, query, queued_bytes: queued_bytes.clone() };
-    if let Err(TrySendError::Full(delivery) | TrySendError::Disconnected(delivery)) = sender.try_send(delivery) {
-        delivery.answer(&Receipt {
-            outcome: Outcome::Busy,
-            reason: "the intake is full".to_string(),
-            version: PolicyVersion::default(),
-            durable_through: 0,
-        });
+    if payload.len() >= IN_PLACE_BYTES_MIN && payload.slices().nth(1).is_none() {
+        in_place.fetch_add(1, Ordering::Relaxed);
+        return Bytes::from_owner(InPlace(payload));
     }
+    Bytes::from(payload.to_bytes().into_owned())
 }
 
 /// Serves the newest policy bundle and announces it.

@@ -5,6 +5,8 @@
 
 mod actor_side;
 mod control;
+mod copies;
+mod discovery;
 pub mod endpoint;
 mod evaluation;
 pub mod keys;
@@ -12,14 +14,18 @@ mod learner_side;
 mod observer_side;
 mod security;
 mod session;
+mod tasks;
+pub mod threads;
 
 pub use actor_side::{Announcements, fetch_policy, publish_dropping, submit, token, watch_announcements};
 pub use control::{ControlDesk, Inquiry, command, statuses};
+pub use copies::RolloutCopies;
 pub use evaluation::{Assignment, EvaluationDesk, ask_for_evaluation};
 pub use learner_side::{Alive, AliveView, Delivery, PolicyShelf, RolloutIntake, StatsFeed};
 pub use observer_side::{Feed, Message, observe};
 pub use security::{Credentials, Role};
 pub use session::{Bus, BusOptions};
+pub use tasks::{Objection, TaskDesk, register_task};
 
 /// Why the bus cannot be used.
 #[derive(Debug, thiserror::Error)]

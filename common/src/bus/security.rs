@@ -153,6 +153,11 @@ const TOKENS: &[&str] = &["treadmill/*/actors/*", "treadmill/*/learner"];
 const PUBLIC: &[&str] =
     &["treadmill/*/metrics/**", "treadmill/*/episodes/*", "treadmill/*/actors/*/stats", "treadmill/*/policy/version"];
 
+/// Copies of accepted fragments. No wildcard matches them, so they are named wherever they may go. Whoever watches may read
+/// them: what is in them, every watcher of episodes and statistics knows the gist of, and a link that is too slow loses
+/// copies and costs training nothing.
+const COPIES: &[&str] = &["treadmill/*/@rollouts/*"];
+
 fn grants(role: Role) -> Vec<Grant> {
     let read_policy = || {
         vec![
@@ -169,15 +174,19 @@ fn grants(role: Role) -> Vec<Grant> {
             Grant { flows: OUT, messages: &["reply", "declare_queryable"], keys: STATUS },
             Grant { flows: IN, messages: &["declare_subscriber"], keys: PUBLIC },
             Grant { flows: OUT, messages: &["put"], keys: PUBLIC },
+            Grant { flows: IN, messages: &["declare_subscriber"], keys: COPIES },
+            Grant { flows: OUT, messages: &["put"], keys: COPIES },
             Grant { flows: IN, messages: &["declare_liveliness_subscriber", "liveliness_query"], keys: TOKENS },
             Grant { flows: OUT, messages: &["liveliness_token", "reply"], keys: TOKENS },
         ]);
         grants
     };
     match role {
-        Role::Learner | Role::Router => vec![Grant { flows: BOTH, messages: EVERYTHING, keys: &["treadmill/**"] }],
+        Role::Learner | Role::Router => {
+            vec![Grant { flows: BOTH, messages: EVERYTHING, keys: &["treadmill/**", "treadmill/*/@rollouts/*"] }]
+        }
         Role::Actor => {
-            const ROLLOUTS: &[&str] = &["treadmill/*/rollouts/*"];
+            const ROLLOUTS: &[&str] = &["treadmill/*/rollouts/*", "treadmill/*/tasks/*"];
             const TOLD: &[&str] = &["treadmill/*/actors/*/stats", "treadmill/*/episodes/*"];
             let mut grants = read_policy();
             grants.extend([

@@ -6,7 +6,7 @@ use serde_json::json;
 use zenoh::{Config, Session, Wait};
 
 use super::{
-    BusError, endpoint,
+    BusError, discovery, endpoint,
     security::{self, Credentials},
 };
 
@@ -15,6 +15,10 @@ const MESSAGE_BYTES_MAX: usize = 32 << 20;
 /// Silence after which a peer counts as gone, announced by each side for itself: a client opens its session before it
 /// has the run's configuration, so this is no part of it.
 const LEASE_MS: u64 = 4000;
+/// Smaller messages are not worth the trouble of shared memory.
+const SHARED_BYTES_MIN: usize = 64 << 10;
+/// Shared memory that a process fills: two fragments of 3 MB. What does not fit travels as ever.
+const SHARED_POOL_BYTES: usize = 8 << 20;
 /// Closing can hang on a dead link: after this the process goes on without it.
 const CLOSE_TIMEOUT: Duration = Duration::from_secs(2);
 
@@ -25,10 +29,15 @@ pub struct BusOptions {
     pub listen: Vec<String>,
     /// Endpoints to dial.
     pub connect: Vec<String>,
+    /// Whether those that listen answer who asks by multicast, and those that dial ask.
+    pub discover: bool,
     /// Whether plain tcp may leave this machine.
     pub insecure: bool,
     /// Who we are, where links are encrypted.
     pub credentials: Option<Credentials>,
+    /// Whether large messages between processes of one machine may pass through shared memory. It needs both ends, and
+    /// what does not fit there travels as ever.
+    pub shared_memory: bool,
     /// The user's own configuration, under which ours is laid.
     pub zenoh_config: Option<PathBuf>,
 }
@@ -63,6 +72,12 @@ impl Bus {
             insert(&mut settings, "access_control", security::access())?;
         }
         insert(&mut settings, "listen/endpoints", json!(listen))?;
+        if options.discover {
+            // It answers. That it also dials whom it hears of is not wanted: links between routers are named.
+            insert(&mut settings, "scouting/multicast/enabled", json!(true))?;
+            insert(&mut settings, "scouting/multicast/listen", json!({"router": true}))?;
+            insert(&mut settings, "scouting/multicast/autoconnect", json!({"router": []}))?;
+        }
         if !options.connect.is_empty() {
             dial(&mut settings, &options.connect)?;
         }
@@ -74,7 +89,12 @@ impl Bus {
         options.check()?;
         let mut settings = base(options)?;
         insert(&mut settings, "mode", json!("client"))?;
-        dial(&mut settings, &options.connect)?;
+        let mut endpoints = options.connect.clone();
+        if options.discover {
+            // The bus itself would not dial again what it found: to us these are endpoints like those that were named.
+            endpoints.extend(discovery::find(&settings, options)?);
+        }
+        dial(&mut settings, &endpoints)?;
         Self::open(settings)
     }
 
@@ -137,7 +157,9 @@ fn base(options: &BusOptions) -> Result<Config, BusError> {
         ("transport/link/tx/queue/congestion_control/block/wait_before_close", json!(10_000_000)),
         ("transport/link/rx/buffer_size", json!(1_048_576)),
         ("transport/link/rx/max_message_size", json!(MESSAGE_BYTES_MAX)),
-        ("transport/shared_memory/enabled", json!(false)),
+        ("transport/shared_memory/enabled", json!(options.shared_memory)),
+        ("transport/shared_memory/transport_optimization/message_size_threshold", json!(SHARED_BYTES_MIN)),
+        ("transport/shared_memory/transport_optimization/pool_size", json!(SHARED_POOL_BYTES)),
     ];
     for (key, value) in ours {
         insert(&mut settings, key, value)?;

@@ -30,12 +30,14 @@ macro_rules! choice {
 }
 
 choice! {
-    /// Which of Gymnasium's tasks it is.
+    /// Which of Gymnasium's tasks it is, or that it is none of ours.
     EnvTask {
         /// Humanoid-v5.
         HumanoidV5 = "humanoid-v5",
         /// Humanoid-v4.
         HumanoidV4 = "humanoid-v4",
+        /// What actors of other programs simulate, and register.
+        External = "external",
     }
 }
 
@@ -48,6 +50,16 @@ choice! {
         GymnasiumV5 = "gymnasium-v5",
         /// What Gymnasium's Humanoid-v4 observes.
         GymnasiumV4 = "gymnasium-v4",
+    }
+}
+
+choice! {
+    /// How exactly observations travel, and are seen.
+    ObservationPrecision {
+        /// Single precision.
+        F32 = "f32",
+        /// Half precision.
+        F16 = "f16",
     }
 }
 
@@ -88,6 +100,7 @@ pub(super) fn names(kind: &str) -> Option<&'static [&'static str]> {
     match kind {
         "EnvTask" => Some(EnvTask::NAMES),
         "EnvObservation" => Some(EnvObservation::NAMES),
+        "ObservationPrecision" => Some(ObservationPrecision::NAMES),
         "LearnerMode" => Some(LearnerMode::NAMES),
         "OffPolicy" => Some(OffPolicy::NAMES),
         "Symmetry" => Some(Symmetry::NAMES),

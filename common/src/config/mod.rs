@@ -7,15 +7,16 @@ mod preset;
 mod section;
 mod sections;
 mod source;
+mod task;
 
 use serde::{Deserialize, Serialize};
 
-pub use choices::{EnvObservation, EnvTask, LearnerMode, OffPolicy, Symmetry};
+pub use choices::{EnvObservation, EnvTask, LearnerMode, ObservationPrecision, OffPolicy, Symmetry};
 pub use preset::{PRESETS, preset};
 pub use section::{KeyDoc, Section};
 pub use sections::{
     BusConfig, EnvConfig, EvaluationConfig, LearnerConfig, PolicyConfig, PpoConfig, RandomisationConfig, RolloutConfig,
-    RunConfig,
+    RunConfig, TaskConfig,
 };
 pub use source::ConfigSource;
 
@@ -27,6 +28,10 @@ pub struct Config {
     pub run: RunConfig,
     /// The task.
     pub env: EnvConfig,
+    /// The task where it is none of ours; left out of texts where it says nothing, so that actors which do not know of
+    /// such tasks go on reading them.
+    #[serde(skip_serializing_if = "TaskConfig::is_unset")]
+    pub task: TaskConfig,
     /// What differs from episode to episode.
     pub randomisation: RandomisationConfig,
     /// How experience is gathered.
@@ -112,6 +117,7 @@ impl Config {
         [
             RunConfig::keys(),
             EnvConfig::keys(),
+            TaskConfig::keys(),
             RandomisationConfig::keys(),
             RolloutConfig::keys(),
             PolicyConfig::keys(),
@@ -127,6 +133,7 @@ impl Config {
     pub fn check(&self) -> Result<(), ConfigError> {
         self.run.check()?;
         self.env.check()?;
+        self.task.check()?;
         self.randomisation.check()?;
         self.rollout.check()?;
         self.policy.check()?;
@@ -167,6 +174,7 @@ impl Config {
             return refuse("rollout.stale_versions", show(&self.rollout.stale_versions), why.to_string());
         }
         self.check_observation()?;
+        self.check_task()?;
         if self.rollout.actors > self.rollout.envs {
             return refuse(
                 "rollout.actors",
@@ -208,9 +216,10 @@ impl Config {
         }
     }
 
-    /// Whether policies are evaluated while training goes on: the run must be long enough for one evaluation.
+    /// Whether policies are evaluated while training goes on: the run must be long enough for one evaluation, and its task
+    /// one that our evaluator plays.
     pub fn evaluates(&self) -> bool {
-        (1..=self.run.steps).contains(&self.eval.every_steps)
+        !self.is_external() && (1..=self.run.steps).contains(&self.eval.every_steps)
     }
 
     /// Versions that a fragment's policy may be behind the newest.
@@ -229,7 +238,7 @@ impl Config {
         value.unwrap_or_default()
     }
 
-    /// The configuration as TOML, every key named.
+    /// The configuration as TOML, every key named; those of `[task]` only where they say something.
     pub fn to_toml(&self) -> String {
         toml::to_string(self).expect("a checked config is plain tables of plain values")
     }

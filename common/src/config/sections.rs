@@ -1,7 +1,8 @@
 //! Every key of the configuration, with its default.
 
-use super::choices::{EnvObservation, EnvTask, LearnerMode, OffPolicy, Symmetry};
+use super::choices::{EnvObservation, EnvTask, LearnerMode, ObservationPrecision, OffPolicy, Symmetry};
 use super::section::section;
+use treadmill_proto::{ident::check_task_name, limits::WIDTH_MAX};
 
 section! {
     /// What this run is.
@@ -18,8 +19,8 @@ section! {
 section! {
     /// The humanoid task: Gymnasium's Humanoid-v5 by default, and its arguments under its names.
     EnvConfig as "env" {
-        /// Whose rewards and info; v4 has no contact cost, and pays for health also on the step that ends an episode.
-        task: EnvTask = EnvTask::HumanoidV5, "\"humanoid-v5\" or \"humanoid-v4\"" => |_| true;
+        /// Whose rewards and info; v4 has no contact cost, and pays for health also on the step that ends an episode. "external" is what actors in other languages register.
+        task: EnvTask = EnvTask::HumanoidV5, "\"humanoid-v5\", \"humanoid-v4\" or \"external\"" => |_| true;
         /// Reward per m/s of forward velocity of the whole body's centre of mass.
         forward_reward_weight: f64 = 1.25, "a finite number" => |v| v.is_finite();
         /// Cost per squared unit of control.
@@ -56,6 +57,24 @@ section! {
         solver_iterations: u32 = 1, "1 to 50" => |v| (1..=50).contains(v);
         /// Whether the humanoid's own limbs can touch each other.
         self_collision: bool = true, "true or false" => |_| true;
+    }
+}
+
+section! {
+    /// The task where `env.task` is `"external"`. What is not given here is what the first actor registers; then it is fixed for the run. The other keys of `[env]` and those of `[randomisation]` have no meaning there.
+    TaskConfig as "task" {
+        /// Name of the task, as its actors register it; empty takes what comes first.
+        name: String = String::new(), "at most 128 of the characters a-z, A-Z, 0-9, _ - . : and /, not beginning with treadmill/" => |v| v.is_empty() || check_task_name("task.name", v).is_ok();
+        /// Entries of one observation; 0 means what the first actor registers.
+        observation_size: u32 = 0, "0 to 4096" => |v| *v <= WIDTH_MAX;
+        /// Entries of one action; 0 means what the first actor registers.
+        action_size: u32 = 0, "0 to 4096" => |v| *v <= WIDTH_MAX;
+        /// What an action of -1 means in the environment, for each entry.
+        action_low: Vec<f64> = vec![], "as many finite numbers as task.action_size says" => |v| v.iter().all(|v| v.is_finite());
+        /// What an action of 1 means.
+        action_high: Vec<f64> = vec![], "as many finite numbers, each above that of task.action_low" => |v| v.iter().all(|v| v.is_finite());
+        /// Duration of one control step in seconds; 0 where it is not known.
+        control_step_s: f64 = 0.0, "0 or more" => |v| *v >= 0.0 && v.is_finite();
     }
 }
 
@@ -103,6 +122,8 @@ section! {
         actors: u32 = 0, "0 to 256" => |v| *v <= 256;
         /// Control steps of each environment in one fragment.
         fragment_steps: u32 = 128, "1 to 4096" => |v| (1..=4096).contains(v);
+        /// Precision that observations are rounded to before the policy sees them and they travel; "f16" saves a third of the bytes.
+        observation_precision: ObservationPrecision = ObservationPrecision::F32, "\"f32\" or \"f16\"" => |_| true;
         /// Unanswered fragments that an actor may have on the bus; 0 means 1 in learner.mode "sync" and 2 in "async".
         max_in_flight: u32 = 0, "0 to 2, and not 2 in learner.mode \"sync\"" => |v| *v <= 2;
         /// Versions that actors stay behind on purpose, drawn anew for each fragment; for experiments with lag.

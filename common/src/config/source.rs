@@ -119,6 +119,11 @@ fn fit(value: Value, known: &KeyDoc) -> Result<Value, ConfigError> {
             let part = KeyDoc { kind, ..known.clone() };
             items.iter().map(|item| fit(item.clone(), &part)).collect::<Result<_, _>>().map(Value::Array)
         }
+        ("Vec<f64>", Value::Array(items)) => {
+            let part = KeyDoc { kind: "f64", ..known.clone() };
+            items.iter().map(|item| fit(item.clone(), &part)).collect::<Result<_, _>>().map(Value::Array)
+        }
+        ("String", Value::String(_)) => Ok(value),
         (kind, Value::String(name)) if choices::names(kind).is_some() => {
             if choices::names(kind).is_some_and(|names| names.contains(&name.as_str())) {
                 return Ok(value);
@@ -236,7 +241,7 @@ mod tests {
         assert!(message("ppo.epochs=-1").contains("is -1; allowed: 1 to 100"));
         assert!(
             message("nonsense.key=1")
-                .contains("allowed: run, env, randomisation, rollout, policy, ppo, learner, eval, bus")
+                .contains("allowed: run, env, task, randomisation, rollout, policy, ppo, learner, eval, bus")
         );
         for pair in ["rollout.max_in_flight=2", "rollout.stale_versions=[0, 1]"] {
             assert!(message(pair).contains("where learner.mode is \"sync\""), "{pair}");
@@ -277,7 +282,10 @@ mod tests {
         assert_eq!(set("env.task=humanoid-v4").unwrap().env.task, EnvTask::HumanoidV4);
         assert_eq!(set("env.observation=\"gymnasium-v5\"").unwrap().env.observation, EnvObservation::GymnasiumV5);
         let message = set("env.task=humanoid-v6").unwrap_err().to_string();
-        assert_eq!(message, "config key `env.task` is \"humanoid-v6\"; allowed: \"humanoid-v5\" or \"humanoid-v4\"");
+        assert_eq!(
+            message,
+            "config key `env.task` is \"humanoid-v6\"; allowed: \"humanoid-v5\", \"humanoid-v4\" or \"external\""
+        );
         assert!(set("env.observation=5").unwrap_err().to_string().contains("\"compact\""));
     }
 

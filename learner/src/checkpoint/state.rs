@@ -7,7 +7,7 @@ use treadmill_common::{
     policy::{NetworkShape, init},
     seeds::{self, Stream},
 };
-use treadmill_proto::{ActorState, PolicyBundle};
+use treadmill_proto::{ActorState, PolicyBundle, Task, limits::BUNDLE_BYTES_MAX};
 
 use crate::{
     episodes::EpisodeWindow,
@@ -112,11 +112,44 @@ impl TrainingState {
         }
     }
 
+    /// What this run trains, as actors of external tasks are told.
+    pub fn task(&self) -> Result<Task, String> {
+        let config = self.config()?;
+        let narrow = |size: usize| u32::try_from(size).map_err(|why| why.to_string());
+        let own = Task {
+            name: config.task_name(),
+            observation_size: narrow(self.shape.observation)?,
+            action_size: narrow(self.shape.action)?,
+            ..Task::default()
+        };
+        Ok(config.task.known().unwrap_or(own))
+    }
+
     /// The configuration as used.
     pub fn config(&self) -> Result<Config, String> {
         let mut source = ConfigSource::default();
         source.text(&self.config_toml, "the configuration in the checkpoint").map_err(|why| why.to_string())?;
         source.build().map_err(|why| why.to_string())
+    }
+
+    /// Why no run of this configuration can be of `task`, in words; called before anything is allocated for it.
+    pub fn objection(config: &Config, task: &Task) -> Option<String> {
+        let name = &config.task.name;
+        if !name.is_empty() && *name != task.name {
+            return Some(format!("this run trains `{name}`; you registered {task}"));
+        }
+        let hidden = config.policy.hidden.iter().map(|width| *width as usize).collect();
+        let (observation, action) = (task.observation_size as usize, task.action_size as usize);
+        let parameters = NetworkShape { observation, action, hidden }.parameter_count();
+        // The statistics of observations and the texts take up what is left.
+        let most = BUNDLE_BYTES_MAX / 2 / size_of::<f32>();
+        (parameters > most).then(|| {
+            format!(
+                "networks for {task} have {parameters} parameters with policy.hidden {:?}, and at most {most} can be handed \
+                 out; make policy.hidden narrower",
+                config.policy.hidden
+            )
+        })
     }
 
     /// Whether the parts fit each other.
@@ -134,6 +167,12 @@ impl TrainingState {
             }
         }
         let config = self.config()?;
+        if let Some(task) = config.task.known()
+            && (task.observation_size as usize, task.action_size as usize)
+                != (self.shape.observation, self.shape.action)
+        {
+            return Err(format!("its configuration says that it trains {task}, but its network is {:?}", self.shape));
+        }
         let hidden: Vec<usize> = config.policy.hidden.iter().map(|width| *width as usize).collect();
         if hidden != self.shape.hidden {
             return Err(format!(

@@ -6,7 +6,7 @@ use std::time::Instant;
 use treadmill_proto::{Fragment, Malformed, Outcome, Receipt};
 
 use super::{
-    ledger::Ledger,
+    ledger::{Fate, Ledger, Rule},
     lineage::{Descent, Lineage},
     quarantine::Quarantine,
 };
@@ -101,30 +101,44 @@ impl Judge {
         };
         self.quarantine.succeeded(actor);
         let (incarnation, sequence) = (fragment.actor_incarnation, fragment.sequence);
+        if !self.ledger.knows(actor, incarnation) {
+            tracing::info!("`{actor}` delivers as process {incarnation}");
+        }
         self.ledger.settle(actor, incarnation, fragment.settled_through);
         let durable_through = self.ledger.durable_through(actor, incarnation);
-        if self.ledger.contains(actor, incarnation, sequence) {
+        if let Some(fate) = self.ledger.fate(actor, incarnation, sequence) {
             self.tally.duplicate += 1;
-            return Err(refuse(Outcome::Duplicate, String::new(), durable_through));
+            // Its receipt got lost: the sender is told what became of it then.
+            let (outcome, reason) = match fate {
+                Fate::Accepted => (Outcome::Duplicate, String::new()),
+                Fate::Dropped(Rule::TooOld) => (Outcome::TooOld, "dropped when it first came".to_string()),
+                Fate::Dropped(Rule::Vanished) => (Outcome::Vanished, "dropped when it first came".to_string()),
+            };
+            return Err(refuse(outcome, reason, durable_through));
         }
-        let lag = match lineage.descent(fragment.version) {
+        let env_steps = fragment.transitions() as u64;
+        let dropped = match lineage.descent(fragment.version) {
             Descent::Vanished => {
                 self.tally.vanished += 1;
-                self.ledger.insert(actor, incarnation, sequence);
                 let reason = format!("policy version {:?} is not one of this learner's", fragment.version);
-                return Err(refuse(Outcome::Vanished, reason, durable_through));
+                Err((Rule::Vanished, Outcome::Vanished, reason))
             }
             Descent::Lag(lag) if lag > self.expected.max_policy_lag => {
                 self.tally.too_old += 1;
-                self.ledger.insert(actor, incarnation, sequence);
                 let reason = format!("{lag} versions behind, at most {} are allowed", self.expected.max_policy_lag);
-                return Err(refuse(Outcome::TooOld, reason, durable_through));
+                Err((Rule::TooOld, Outcome::TooOld, reason))
             }
-            Descent::Lag(lag) => lag,
+            Descent::Lag(lag) => Ok(lag),
         };
-        self.tally.accepted += 1;
-        self.ledger.insert(actor, incarnation, sequence);
-        Ok(Accepted { fragment, lag })
+        let fate = dropped.as_ref().map_or_else(|(rule, ..)| Fate::Dropped(*rule), |_| Fate::Accepted);
+        self.ledger.insert(actor, incarnation, sequence, fate, env_steps);
+        match dropped {
+            Ok(lag) => {
+                self.tally.accepted += 1;
+                Ok(Accepted { fragment, lag })
+            }
+            Err((_, outcome, reason)) => Err(refuse(outcome, reason, durable_through)),
+        }
     }
 
     /// Who is in quarantine.

@@ -60,10 +60,12 @@ fn each_outcome_and_its_count() {
 }
 
 #[test]
-fn what_was_dropped_by_rule_is_not_sent_again() {
+fn whoever_sends_again_what_was_dropped_by_rule_is_told_so_again() {
     let (mut judge, lineage) = (judge(), lineage(5));
-    assert_eq!(outcome(&mut judge, &fragment(1, 0), &lineage), Outcome::TooOld);
-    assert_eq!(outcome(&mut judge, &fragment(1, 0), &lineage), Outcome::Duplicate);
+    for duplicates in 0..2 {
+        assert_eq!(outcome(&mut judge, &fragment(1, 0), &lineage), Outcome::TooOld);
+        assert_eq!((judge.tally.too_old, judge.tally.duplicate), (1, duplicates));
+    }
     judge.ledger.mark_durable();
     assert_eq!(judge.ledger.durable_through("a", 2), 1);
 }

@@ -10,12 +10,78 @@ const ACTORS_MAX: usize = 4096;
 /// fewer fragments than that.
 const AHEAD_MAX: usize = 65_536;
 
-impl Watermark {
-    fn close_gap(&mut self) {
-        while self.ahead.remove(&(self.through + 1)) {
-            self.through += 1;
-        }
+/// Rules by which a sound fragment is dropped.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Rule {
+    /// Its policy is further back than is allowed.
+    TooOld,
+    /// Its policy is none of this learner's ancestors.
+    Vanished,
+}
+
+/// What became of a fragment.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Fate {
+    /// Taken.
+    Accepted,
+    /// Dropped.
+    Dropped(Rule),
+}
+
+/// What became of the fragments of one actor process, or of several.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Account {
+    /// Taken.
+    pub accepted: u64,
+    /// Dropped by rule: policy too far back.
+    pub too_old: u64,
+    /// Dropped by rule: policy unknown after a resume.
+    pub vanished: u64,
+    /// Numbers that the sender settled and this learner never dealt with: refused, or dropped by rule by a learner that
+    /// died before it had saved that.
+    pub unseen: u64,
+    /// Environment steps in what was taken.
+    pub env_steps: u64,
+    /// Environment steps in what was dropped.
+    pub env_steps_dropped: u64,
+}
+
+impl Account {
+    fn note(&mut self, fate: Fate, env_steps: u64) {
+        let (count, steps) = match fate {
+            Fate::Accepted => (&mut self.accepted, &mut self.env_steps),
+            Fate::Dropped(Rule::TooOld) => (&mut self.too_old, &mut self.env_steps_dropped),
+            Fate::Dropped(Rule::Vanished) => (&mut self.vanished, &mut self.env_steps_dropped),
+        };
+        *count += 1;
+        *steps += env_steps;
     }
+
+    fn add(&mut self, other: &Self) {
+        self.accepted += other.accepted;
+        self.too_old += other.too_old;
+        self.vanished += other.vanished;
+        self.unseen = self.unseen.saturating_add(other.unseen);
+        self.env_steps += other.env_steps;
+        self.env_steps_dropped += other.env_steps_dropped;
+    }
+}
+
+/// One actor process, as the ledger knows it.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Process {
+    /// The actor's name.
+    pub actor: String,
+    /// Which of its processes.
+    pub incarnation: u64,
+    /// Everything up to this number was dealt with.
+    pub through: u64,
+    /// The highest number that came.
+    pub newest: u64,
+    /// Numbers below that which did not come. Those of a process that is gone are lost with it.
+    pub missing: u64,
+    /// What became of the others.
+    pub account: Account,
 }
 
 /// Watermarks of every actor process.
@@ -23,6 +89,8 @@ impl Watermark {
 pub struct Ledger {
     /// Keyed by actor and incarnation.
     processes: BTreeMap<(String, u64), Watermark>,
+    /// Accounts of processes that gave way to others.
+    forgotten: Account,
     clock: u64,
 }
 
@@ -32,38 +100,81 @@ struct Watermark {
     through: u64,
     /// Numbers beyond a gap that were dealt with.
     ahead: BTreeSet<u64>,
+    /// Numbers that were dropped by rule and may be sent again.
+    dropped: BTreeMap<u64, Rule>,
     /// What `through` was when the last checkpoint was written.
     durable_through: u64,
     last_seen: u64,
+    account: Account,
+}
+
+impl Watermark {
+    fn close_gap(&mut self) {
+        while let Some(next) = self.through.checked_add(1)
+            && self.ahead.remove(&next)
+        {
+            self.through = next;
+        }
+    }
+
+    /// Gives up every number up to `through` that is still missing.
+    fn skip_to(&mut self, through: u64) {
+        if through <= self.through {
+            return;
+        }
+        let beyond = self.ahead.split_off(&through.saturating_add(1));
+        let missing = (through - self.through).saturating_sub(self.ahead.len() as u64);
+        self.account.unseen = self.account.unseen.saturating_add(missing);
+        self.ahead = beyond;
+        self.through = through;
+        self.close_gap();
+    }
 }
 
 impl Ledger {
-    /// Whether this fragment was dealt with before.
-    pub fn contains(&self, actor: &str, incarnation: u64, sequence: u64) -> bool {
-        self.processes
-            .get(&(actor.to_string(), incarnation))
-            .is_some_and(|mark| sequence <= mark.through || mark.ahead.contains(&sequence))
+    /// Whether anything came from this process.
+    pub fn knows(&self, actor: &str, incarnation: u64) -> bool {
+        self.processes.contains_key(&(actor.to_string(), incarnation))
     }
 
-    /// Notes that a fragment was dealt with: taken, or dropped by rule.
-    pub fn insert(&mut self, actor: &str, incarnation: u64, sequence: u64) {
+    /// What became of this fragment, if it was dealt with before.
+    pub fn fate(&self, actor: &str, incarnation: u64, sequence: u64) -> Option<Fate> {
+        let mark = self.processes.get(&(actor.to_string(), incarnation))?;
+        let was_dropped = mark.dropped.get(&sequence).map(|rule| Fate::Dropped(*rule));
+        let is_known = sequence <= mark.through || mark.ahead.contains(&sequence);
+        was_dropped.or(is_known.then_some(Fate::Accepted))
+    }
+
+    /// Notes that a fragment of so many environment steps was dealt with.
+    pub fn insert(&mut self, actor: &str, incarnation: u64, sequence: u64, fate: Fate, env_steps: u64) {
         self.clock += 1;
         let mark = self.processes.entry((actor.to_string(), incarnation)).or_default();
         mark.last_seen = self.clock;
+        mark.account.note(fate, env_steps);
         if sequence > mark.through {
             mark.ahead.insert(sequence);
         }
-        if mark.ahead.len() > AHEAD_MAX {
-            mark.through = mark.ahead.first().map_or(mark.through, |first| first - 1);
+        if let Fate::Dropped(rule) = fate {
+            mark.dropped.insert(sequence, rule);
         }
         mark.close_gap();
+        if mark.ahead.len() > AHEAD_MAX
+            && let Some(first) = mark.ahead.first().copied()
+        {
+            mark.skip_to(first);
+        }
+        if mark.dropped.len() > AHEAD_MAX {
+            mark.dropped.pop_first();
+        }
         self.forget_the_oldest();
     }
 
     fn forget_the_oldest(&mut self) {
         if self.processes.len() > ACTORS_MAX {
             let oldest = self.processes.iter().min_by_key(|(_, mark)| mark.last_seen).map(|(key, _)| key.clone());
-            oldest.map(|key| self.processes.remove(&key));
+            if let Some(mark) = oldest.and_then(|key| self.processes.remove(&key)) {
+                self.forgotten.add(&mark.account);
+            }
         }
     }
 
@@ -73,9 +184,8 @@ impl Ledger {
         self.clock += 1;
         let mark = self.processes.entry((actor.to_string(), incarnation)).or_default();
         mark.last_seen = self.clock;
-        mark.through = mark.through.max(through);
-        mark.ahead = mark.ahead.split_off(&(mark.through + 1));
-        mark.close_gap();
+        mark.skip_to(through);
+        mark.dropped.retain(|sequence, _| *sequence > through);
         self.forget_the_oldest();
     }
 
@@ -88,6 +198,28 @@ impl Ledger {
     pub fn durable_through(&self, actor: &str, incarnation: u64) -> u64 {
         self.processes.get(&(actor.to_string(), incarnation)).map_or(0, |mark| mark.durable_through)
     }
+
+    /// What became of all fragments of this run.
+    pub fn total(&self) -> Account {
+        let mut total = self.forgotten;
+        self.processes.values().for_each(|mark| total.add(&mark.account));
+        total
+    }
+
+    /// Every process that is remembered.
+    pub fn processes(&self) -> impl Iterator<Item = Process> {
+        self.processes.iter().map(|((actor, incarnation), mark)| {
+            let newest = mark.ahead.last().copied().unwrap_or(mark.through);
+            Process {
+                actor: actor.clone(),
+                incarnation: *incarnation,
+                through: mark.through,
+                newest,
+                missing: (newest - mark.through).saturating_sub(mark.ahead.len() as u64),
+                account: mark.account,
+            }
+        })
+    }
 }
 
 #[cfg(test)]
@@ -95,15 +227,25 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
+    impl Ledger {
+        fn take(&mut self, actor: &str, incarnation: u64, sequence: u64) {
+            self.insert(actor, incarnation, sequence, Fate::Accepted, 8);
+        }
+
+        fn contains(&self, actor: &str, incarnation: u64, sequence: u64) -> bool {
+            self.fate(actor, incarnation, sequence).is_some()
+        }
+    }
+
     #[test]
     fn a_gap_holds_the_watermark_back() {
         let mut ledger = Ledger::default();
-        ledger.insert("a", 1, 1);
-        ledger.insert("a", 1, 3);
+        ledger.take("a", 1, 1);
+        ledger.take("a", 1, 3);
         ledger.mark_durable();
         assert_eq!(ledger.durable_through("a", 1), 1);
         assert!(ledger.contains("a", 1, 3) && !ledger.contains("a", 1, 2));
-        ledger.insert("a", 1, 2);
+        ledger.take("a", 1, 2);
         assert_eq!(ledger.durable_through("a", 1), 1, "not before the next checkpoint");
         ledger.mark_durable();
         assert_eq!(ledger.durable_through("a", 1), 3);
@@ -112,8 +254,8 @@ mod tests {
     #[test]
     fn what_the_sender_settled_closes_a_gap() {
         let mut ledger = Ledger::default();
-        ledger.insert("a", 1, 5);
-        ledger.insert("a", 1, 7);
+        ledger.take("a", 1, 5);
+        ledger.take("a", 1, 7);
         ledger.settle("a", 1, 4);
         ledger.mark_durable();
         assert_eq!(ledger.durable_through("a", 1), 5);
@@ -122,19 +264,52 @@ mod tests {
     }
 
     #[test]
+    fn a_drop_is_remembered_as_one_until_the_sender_has_settled_it() {
+        let mut ledger = Ledger::default();
+        ledger.take("a", 1, 1);
+        ledger.insert("a", 1, 2, Fate::Dropped(Rule::Vanished), 8);
+        ledger.insert("a", 1, 3, Fate::Dropped(Rule::TooOld), 8);
+        assert_eq!(ledger.fate("a", 1, 1), Some(Fate::Accepted));
+        assert_eq!(ledger.fate("a", 1, 2), Some(Fate::Dropped(Rule::Vanished)));
+        assert_eq!(ledger.fate("a", 1, 4), None);
+        ledger.settle("a", 1, 2);
+        assert_eq!(ledger.fate("a", 1, 3), Some(Fate::Dropped(Rule::TooOld)));
+        assert_eq!(ledger.processes[&("a".to_string(), 1)].dropped.len(), 1, "only what may come again");
+    }
+
+    #[test]
+    fn every_number_is_accounted_for() {
+        let mut ledger = Ledger::default();
+        ledger.take("a", 1, 1);
+        ledger.insert("a", 1, 2, Fate::Dropped(Rule::TooOld), 8);
+        ledger.take("a", 1, 5);
+        ledger.take("a", 1, 9);
+        let process = ledger.processes().next().unwrap();
+        assert_eq!((process.through, process.newest, process.missing), (2, 9, 5), "3, 4, 6, 7 and 8 are missing");
+        ledger.settle("a", 1, 6);
+        let process = ledger.processes().next().unwrap();
+        assert_eq!((process.through, process.newest, process.missing), (6, 9, 2), "7 and 8 are");
+        let account = Account { accepted: 3, too_old: 1, unseen: 3, env_steps: 24, env_steps_dropped: 8, vanished: 0 };
+        assert_eq!(process.account, account);
+        ledger.settle("a", 1, u64::MAX);
+        assert_eq!(ledger.total().accepted, 3);
+    }
+
+    #[test]
     fn another_incarnation_is_another_sender() {
         let mut ledger = Ledger::default();
-        ledger.insert("a", 1, 1);
+        ledger.take("a", 1, 1);
         assert!(!ledger.contains("a", 2, 1));
     }
 
     #[test]
     fn memory_is_bounded() {
         let mut ledger = Ledger::default();
-        (0..ACTORS_MAX as u64 + 50).for_each(|incarnation| ledger.insert("a", incarnation, 1));
+        (0..ACTORS_MAX as u64 + 50).for_each(|incarnation| ledger.take("a", incarnation, 1));
         assert_eq!(ledger.processes.len(), ACTORS_MAX);
         assert!(!ledger.contains("a", 0, 1), "the oldest gave way");
-        (0..AHEAD_MAX as u64 + 50).for_each(|i| ledger.insert("b", 1, 2 + 2 * i));
+        assert_eq!(ledger.total().accepted, ACTORS_MAX as u64 + 50, "but not what became of its fragments");
+        (0..AHEAD_MAX as u64 + 50).for_each(|i| ledger.take("b", 1, 2 + 2 * i));
         assert!(ledger.processes[&("b".to_string(), 1)].ahead.len() <= AHEAD_MAX);
     }
 
@@ -142,7 +317,7 @@ mod tests {
         #[test]
         fn whatever_the_order_exactly_what_was_put_in_is_contained(numbers in prop::collection::vec(1u64..40, 0..80)) {
             let mut ledger = Ledger::default();
-            numbers.iter().for_each(|number| ledger.insert("a", 1, *number));
+            numbers.iter().for_each(|number| ledger.take("a", 1, *number));
             for number in 1..40 {
                 prop_assert_eq!(ledger.contains("a", 1, number), numbers.contains(&number));
             }

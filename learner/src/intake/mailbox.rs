@@ -6,7 +6,7 @@ use std::{
 };
 
 use bytes::Bytes;
-use treadmill_common::bus::{Alive, Delivery, RolloutIntake};
+use treadmill_common::bus::{Alive, Delivery, RolloutCopies, RolloutIntake};
 use treadmill_proto::Receipt;
 
 /// Fragments as they arrive, who is alive, and what time it is.
@@ -22,6 +22,14 @@ pub trait Mailbox {
 
     /// The present moment.
     fn now(&self) -> Instant;
+
+    /// Whether somebody wants copies of what is taken.
+    fn is_watched(&self) -> bool {
+        false
+    }
+
+    /// Hands on a copy of a fragment that was taken; never waits.
+    fn copy(&self, _actor: &str, _fragment: Bytes) {}
 }
 
 /// A fragment that waits for its receipt. Dropped without one, its sender sends it again.
@@ -40,12 +48,13 @@ pub trait Letter {
 pub struct BusMailbox {
     queue: RolloutIntake,
     alive: Alive,
+    copies: RolloutCopies,
 }
 
 impl BusMailbox {
     /// A mailbox over what is declared on the bus.
-    pub fn new(queue: RolloutIntake, alive: Alive) -> Self {
-        Self { queue, alive }
+    pub fn new(queue: RolloutIntake, alive: Alive, copies: RolloutCopies) -> Self {
+        Self { queue, alive, copies }
     }
 }
 
@@ -62,6 +71,14 @@ impl Mailbox for BusMailbox {
 
     fn now(&self) -> Instant {
         Instant::now()
+    }
+
+    fn is_watched(&self) -> bool {
+        self.copies.is_watched()
+    }
+
+    fn copy(&self, actor: &str, fragment: Bytes) {
+        self.copies.offer(actor, fragment);
     }
 }
 

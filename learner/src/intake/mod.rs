@@ -19,7 +19,7 @@ use treadmill_common::{config::LearnerMode, shutdown::Shutdown};
 use treadmill_proto::{Outcome, Receipt};
 
 pub use judge::{Accepted, Expected, Judge, Tally};
-pub use ledger::Ledger;
+pub use ledger::{Account, Fate, Ledger, Process, Rule};
 pub use lineage::{Descent, Lineage};
 pub use mailbox::{BusMailbox, Letter, Mailbox};
 use patience::Patience;
@@ -40,6 +40,8 @@ pub struct Intake<M: Mailbox> {
     /// What the next batch has so far, and the transitions in it.
     gathered: Vec<Accepted>,
     transitions: usize,
+    /// Who was there when somebody last looked.
+    present: BTreeSet<String>,
 }
 
 /// How gathering came to an end.
@@ -81,7 +83,17 @@ impl<M: Mailbox> Intake<M> {
     /// An intake that takes its fragments from `mailbox`.
     pub fn new(mailbox: M, mode: LearnerMode, judge: Judge) -> Self {
         let patience = Patience::new(mailbox.now());
-        Self { mailbox, mode, judge, patience, held: Vec::new(), waiting: None, gathered: Vec::new(), transitions: 0 }
+        Self {
+            mailbox,
+            mode,
+            judge,
+            patience,
+            held: Vec::new(),
+            waiting: None,
+            gathered: Vec::new(),
+            transitions: 0,
+            present: BTreeSet::new(),
+        }
     }
 
     /// What was dealt with, and the counts.
@@ -114,9 +126,8 @@ impl<M: Mailbox> Intake<M> {
                 self.patience.delivered(&accepted.fragment.actor, self.mailbox.now());
                 self.add(accepted);
             }
-            if self.transitions < wanted.transitions
-                && self.patience.is_over(&self.mailbox.actors(), self.mailbox.now())
-            {
+            let present = self.look_who_is_there();
+            if self.transitions < wanted.transitions && self.patience.is_over(&present, self.mailbox.now()) {
                 self.answer_held(lineage);
             }
         }
@@ -142,6 +153,17 @@ impl<M: Mailbox> Intake<M> {
         self.gathered.push(accepted);
     }
 
+    /// Names of the actors that are alive; who came or went is told.
+    fn look_who_is_there(&mut self) -> BTreeSet<String> {
+        let present = self.mailbox.actors();
+        if present != self.present {
+            present.difference(&self.present).for_each(|actor| tracing::info!("`{actor}` is there"));
+            self.present.difference(&present).for_each(|actor| tracing::info!("`{actor}` is gone"));
+            self.present = present.clone();
+        }
+        present
+    }
+
     fn next(&mut self, patience: Duration, lineage: &Lineage) -> Option<Accepted> {
         let letter = match self.waiting.take() {
             Some(letter) => letter,
@@ -153,8 +175,12 @@ impl<M: Mailbox> Intake<M> {
     fn take(&mut self, mut letter: M::Letter, lineage: &Lineage) -> Option<Accepted> {
         let payload = letter.take_payload();
         let now = self.mailbox.now();
+        let copy = self.mailbox.is_watched().then(|| payload.clone());
         match self.judge.judge(letter.actor(), payload, lineage, now) {
             Ok(accepted) => {
+                if let Some(copy) = copy {
+                    self.mailbox.copy(letter.actor(), copy);
+                }
                 let held = Held { letter, incarnation: accepted.fragment.actor_incarnation };
                 match self.mode {
                     LearnerMode::Sync => self.held.push(held),

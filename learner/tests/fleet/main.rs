@@ -123,8 +123,8 @@ impl Learner {
         self.world.borrow_mut().announce(self.lineage.newest());
     }
 
-    /// Every fragment that a living process produced is somewhere: learnt from for good, dropped by rule, on its way, or
-    /// kept until it is durable.
+    /// Every fragment that a living process produced is somewhere: learnt from for good, dropped by rule and known to be,
+    /// on its way, or kept until it is durable.
     fn account(&self) -> Result<(), TestCaseError> {
         let world = self.world.borrow();
         for actor in &world.actors {
@@ -132,7 +132,8 @@ impl Learner {
                 let name = (actor.name.clone(), actor.incarnation, sequence);
                 let outstanding = actor.in_flight.contains_key(&sequence) || actor.kept.contains_key(&sequence);
                 let (learnt, dropped) = (self.saved.learnt.contains(&name), actor.dropped.contains(&sequence));
-                prop_assert!(learnt || world.refused.contains(&name) || outstanding, "{name:?} is lost");
+                prop_assert!(learnt || dropped || outstanding, "{name:?} is lost");
+                prop_assert!(!dropped || world.refused.contains(&name), "{name:?} was never dropped");
                 prop_assert!(!(learnt && dropped), "{name:?} is learnt from and counted as dropped");
             }
         }

@@ -1,0 +1,258 @@
+//! What policies are trained for, as an actor of an external task registers it.
+
+use prost::Message;
+
+use crate::{
+    Malformed,
+    ident::{check_ident, check_task_name},
+    limits::{TASK_BYTES_MAX, WIDTH_MAX},
+    wire,
+};
+
+/// A task.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Task {
+    /// As in `gymnasium/Humanoid-v5`.
+    pub name: String,
+    /// Entries of one observation.
+    pub observation_size: u32,
+    /// Entries of one action.
+    pub action_size: u32,
+    /// What an action of −1 means.
+    pub action_low: Vec<f64>,
+    /// What an action of 1 means.
+    pub action_high: Vec<f64>,
+    /// Duration of one control step (s); 0 where it is not known.
+    pub control_step_s: f64,
+}
+
+impl std::fmt::Display for Task {
+    fn fmt(&self, to: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(to, "`{}` ({} observations, {} actions)", self.name, self.observation_size, self.action_size)
+    }
+}
+
+impl Task {
+    /// Checks what somebody registers.
+    pub fn check(&self) -> Result<(), Malformed> {
+        check_task_name("task.name", &self.name)?;
+        for (field, size) in [("task.observation_size", self.observation_size), ("task.action_size", self.action_size)]
+        {
+            if !(1..=WIDTH_MAX).contains(&size) {
+                return Err(Malformed::field(field, size, format!("1 to {WIDTH_MAX}")));
+            }
+        }
+        for (field, range) in [("task.action_low", &self.action_low), ("task.action_high", &self.action_high)] {
+            if range.len() != self.action_size as usize {
+                let found = format!("{} numbers long", range.len());
+                return Err(Malformed::field(field, found, format!("{}, as task.action_size says", self.action_size)));
+            }
+            if let Some(index) = range.iter().position(|end| !end.is_finite()) {
+                return Err(Malformed::NotFinite { field, index, value: range[index].to_string() });
+            }
+        }
+        if let Some((low, high)) = self.action_low.iter().zip(&self.action_high).find(|(low, high)| low >= high) {
+            return Err(Malformed::field("task.action_low", low, format!("below task.action_high, which is {high}")));
+        }
+        if !(self.control_step_s.is_finite() && self.control_step_s >= 0.0) {
+            return Err(Malformed::field("task.control_step_s", self.control_step_s, "0 or more"));
+        }
+        Ok(())
+    }
+
+    /// Why an actor of `other` cannot join a run of this task; `None` where it can.
+    pub fn differs_from(&self, other: &Self) -> Option<String> {
+        if self == other {
+            return None;
+        }
+        if (&self.name, self.observation_size, self.action_size)
+            != (&other.name, other.observation_size, other.action_size)
+        {
+            return Some(format!("this run trains {self}; you registered {other}"));
+        }
+        let what = match (self.action_low == other.action_low, self.action_high == other.action_high) {
+            (false, _) => format!("task.action_low {:?}, you registered {:?}", self.action_low, other.action_low),
+            (_, false) => format!("task.action_high {:?}, you registered {:?}", self.action_high, other.action_high),
+            _ => format!("task.control_step_s {}, you registered {}", self.control_step_s, other.control_step_s),
+        };
+        Some(format!("this run trains {self} with {what}"))
+    }
+}
+
+/// What an actor tells the learner before anything else.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TaskRegistration {
+    /// The run that it wants to join.
+    pub run: String,
+    /// Its name.
+    pub actor: String,
+    /// What it simulates.
+    pub task: Task,
+}
+
+/// What the learner answers.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TaskReceipt {
+    /// Whether the actor may join.
+    pub accepted: bool,
+    /// Why not.
+    pub reason: String,
+    /// What the run trains, once that is settled.
+    pub task: Option<Task>,
+}
+
+impl TaskRegistration {
+    /// Protobuf bytes.
+    pub fn encode(&self) -> Result<Vec<u8>, Malformed> {
+        self.check()?;
+        let task = Some(self.task.clone().into());
+        Ok(wire::TaskRegistration { run: self.run.clone(), actor: self.actor.clone(), task }.encode_to_vec())
+    }
+
+    /// Reads and checks protobuf bytes from a stranger.
+    pub fn decode(bytes: &[u8]) -> Result<Self, Malformed> {
+        check_size(bytes.len())?;
+        let message = wire::TaskRegistration::decode(bytes)
+            .map_err(|why| Malformed::Undecodable { what: "task registration", why: why.to_string() })?;
+        let task = message.task.ok_or_else(|| Malformed::field("task", "missing", "a task"))?.into();
+        let registration = Self { run: message.run, actor: message.actor, task };
+        registration.check()?;
+        Ok(registration)
+    }
+
+    fn check(&self) -> Result<(), Malformed> {
+        check_ident("run", &self.run)?;
+        check_ident("actor", &self.actor)?;
+        self.task.check()
+    }
+}
+
+impl TaskReceipt {
+    /// Protobuf bytes.
+    pub fn encode(&self) -> Vec<u8> {
+        let task = self.task.clone().map(Into::into);
+        wire::TaskReceipt { accepted: self.accepted, reason: self.reason.clone(), task }.encode_to_vec()
+    }
+
+    /// Reads protobuf bytes from a stranger.
+    pub fn decode(bytes: &[u8]) -> Result<Self, Malformed> {
+        check_size(bytes.len())?;
+        let message = wire::TaskReceipt::decode(bytes)
+            .map_err(|why| Malformed::Undecodable { what: "task receipt", why: why.to_string() })?;
+        Ok(Self { accepted: message.accepted, reason: message.reason, task: message.task.map(Into::into) })
+    }
+}
+
+fn check_size(bytes: usize) -> Result<(), Malformed> {
+    if bytes > TASK_BYTES_MAX {
+        return Err(Malformed::TooLarge { what: "task", bytes, limit: TASK_BYTES_MAX });
+    }
+    Ok(())
+}
+
+impl From<Task> for wire::Task {
+    fn from(task: Task) -> Self {
+        Self {
+            name: task.name,
+            observation_size: task.observation_size,
+            action_size: task.action_size,
+            action_low: task.action_low,
+            action_high: task.action_high,
+            control_step_s: task.control_step_s,
+        }
+    }
+}
+
+impl From<wire::Task> for Task {
+    fn from(task: wire::Task) -> Self {
+        Self {
+            name: task.name,
+            observation_size: task.observation_size,
+            action_size: task.action_size,
+            action_low: task.action_low,
+            action_high: task.action_high,
+            control_step_s: task.control_step_s,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    fn task() -> Task {
+        Task {
+            name: "gymnasium/Pendulum-v1".into(),
+            observation_size: 3,
+            action_size: 1,
+            action_low: vec![-2.0],
+            action_high: vec![2.0],
+            control_step_s: 0.05,
+        }
+    }
+
+    fn registration(task: Task) -> TaskRegistration {
+        TaskRegistration { run: "run".into(), actor: "gym-1".into(), task }
+    }
+
+    #[test]
+    fn registrations_and_receipts_survive_the_wire() {
+        let registration = registration(task());
+        assert_eq!(TaskRegistration::decode(&registration.encode().unwrap()).unwrap(), registration);
+        for task in [None, Some(task())] {
+            let receipt = TaskReceipt { accepted: task.is_some(), reason: "because".into(), task };
+            assert_eq!(TaskReceipt::decode(&receipt.encode()).unwrap(), receipt);
+        }
+    }
+
+    #[test]
+    fn what_makes_no_sense_is_refused_by_name() {
+        type Spoil = fn(&mut Task);
+        let cases: [(&str, Spoil); 8] = [
+            ("task.name", |task| task.name = "treadmill/humanoid-v5".into()),
+            ("task.observation_size", |task| task.observation_size = 0),
+            ("task.observation_size", |task| task.observation_size = 4097),
+            ("task.action_size", |task| task.action_size = u32::MAX),
+            ("task.action_low", |task| task.action_low = vec![]),
+            ("task.action_high", |task| task.action_high = vec![f64::INFINITY]),
+            ("task.action_low", |task| task.action_low = vec![2.0]),
+            ("task.control_step_s", |task| task.control_step_s = f64::NAN),
+        ];
+        for (field, spoil) in cases {
+            let mut bad = task();
+            spoil(&mut bad);
+            let unchecked = wire::TaskRegistration { run: "run".into(), actor: "a".into(), task: Some(bad.into()) };
+            let why = TaskRegistration::decode(&unchecked.encode_to_vec()).unwrap_err().to_string();
+            assert!(why.contains(&format!("`{field}`")), "{field}: {why}");
+        }
+        let nameless = TaskRegistration { run: "A/B".into(), ..registration(task()) };
+        assert!(nameless.encode().unwrap_err().to_string().contains("`run`"));
+        let huge = vec![0; TASK_BYTES_MAX + 1];
+        assert!(TaskRegistration::decode(&huge).unwrap_err().to_string().contains("more than"));
+    }
+
+    #[test]
+    fn what_differs_is_told() {
+        assert_eq!(task().differs_from(&task()), None);
+        let other = Task { name: "gymnasium/Other-v0".into(), ..task() };
+        let why = task().differs_from(&other).unwrap();
+        assert_eq!(
+            why,
+            "this run trains `gymnasium/Pendulum-v1` (3 observations, 1 actions); you registered `gymnasium/Other-v0` (3 \
+             observations, 1 actions)"
+        );
+        let weak = Task { action_high: vec![1.0], ..task() };
+        assert!(task().differs_from(&weak).unwrap().contains("task.action_high [2.0], you registered [1.0]"));
+        let slow = Task { control_step_s: 0.1, ..task() };
+        assert!(task().differs_from(&slow).unwrap().contains("task.control_step_s 0.05"));
+    }
+
+    proptest! {
+        #[test]
+        fn random_bytes_do_no_harm(bytes in proptest::collection::vec(any::<u8>(), 0..300)) {
+            let _ = TaskRegistration::decode(&bytes);
+            let _ = TaskReceipt::decode(&bytes);
+        }
+    }
+}

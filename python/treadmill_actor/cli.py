@@ -1,0 +1,124 @@
+"""The command line."""
+
+import argparse
+import importlib
+import json
+import logging
+import queue
+import re
+import signal
+import socket
+import sys
+import threading
+
+import gymnasium
+
+from .bus import Bus, BusError, check_endpoint
+from .policies import Refused
+from .rollout import Environments
+from .task import TaskError
+from .worker import Worker, unique
+
+_IDENT = re.compile(r"[a-z0-9_-]{1,64}\Z")
+
+
+def ident(text):
+    """A name that may stand in a key of the bus."""
+    if not _IDENT.match(text):
+        raise argparse.ArgumentTypeError(f"`{text}` is not 1 to 64 of the characters a-z, 0-9, _ and -")
+    return text
+
+
+def parser():
+    """Flags."""
+    flags = argparse.ArgumentParser(prog="treadmill_actor", description=__doc__)
+    flags.description = "Simulates a Gymnasium environment for a Treadmill run."
+    flags.add_argument("--env", required=True, metavar="ID", help="as gymnasium.make takes it, as in Humanoid-v5")
+    flags.add_argument("--run", required=True, type=ident, metavar="NAME", help="the run to join")
+    flags.add_argument("--connect", action="append", metavar="ENDPOINT", help="where the learner or a router listens")
+    flags.add_argument("--envs", type=int, default=8, metavar="N", help="environments of this actor (8)")
+    flags.add_argument("--name", type=ident, help="this actor's name, unlike any other's; made from the host's by default")
+    flags.add_argument(
+        "--import", dest="modules", action="append", default=[], metavar="MODULE", help="registers the environment"
+    )
+    flags.add_argument("--kwargs", type=json.loads, default={}, metavar="JSON", help="for gymnasium.make")
+    flags.add_argument("--task", metavar="NAME", help="the task's name; gymnasium/ID by default")
+    flags.add_argument("--tls", metavar="DIR", help="folder of certificates, as `treadmill certs` makes it")
+    flags.add_argument("--insecure", action="store_true", help="allow plain tcp beyond loopback, where anybody can forge it")
+    flags.add_argument("--seed", type=int, help="of resets and exploration; without it, unlike any other start's")
+    flags.add_argument("--steps", type=int, help="end after so many environment steps")
+    return flags
+
+
+def open_bus(connect, tls, stopping):
+    """A session; dialling goes on until somebody answers, and whoever asks to stop does not wait for that."""
+    opened = queue.Queue()
+
+    def dial():
+        try:
+            opened.put(Bus(connect, tls))
+        except Exception as why:  # noqa: BLE001: handed to whoever waits
+            opened.put(why)
+
+    threading.Thread(target=dial, daemon=True).start()
+    while not stopping.is_set():
+        try:
+            answer = opened.get(timeout=0.1)
+        except queue.Empty:
+            continue
+        if isinstance(answer, Bus):
+            return answer
+        raise BusError(str(answer)) from answer
+    return None
+
+
+def main(arguments=None):
+    """Runs until it is told to stop; the exit code."""
+    args = parser().parse_args(arguments)
+    logging.basicConfig(level=logging.INFO, format="%(asctime)s %(levelname)s %(message)s", stream=sys.stderr)
+    log = logging.getLogger("treadmill_actor")
+    if not 1 <= args.envs <= 65_536:
+        parser().error(f"argument --envs: {args.envs} is not 1 to 65536")
+    name = args.name or re.sub(r"[^a-z0-9]", "-", socket.gethostname().lower())[:40] + f"-py-{unique() & 0xFFFFFFFF:08x}"
+    seed = args.seed if args.seed is not None else unique()
+    stopping = threading.Event()
+    for number in (signal.SIGINT, signal.SIGTERM):
+        signal.signal(number, lambda *_: stopping.set())
+    environments = bus = None
+    connect = args.connect or ["tcp/127.0.0.1:7447"]
+    try:
+        for endpoint in connect:
+            check_endpoint(endpoint, args.insecure)
+    except BusError as why:
+        parser().error(str(why))
+    try:
+        for module in args.modules:
+            importlib.import_module(module)
+        label = args.task or f"gymnasium/{args.env.rsplit(':', 1)[-1]}"
+        environments = Environments(lambda: gymnasium.make(args.env, **args.kwargs), label, args.envs, seed)
+        task = environments.task
+        log.info(
+            "%s has `%s`: %d observations, %d actions; %s",
+            name,
+            task.name,
+            task.observation_size,
+            task.action_size,
+            "distances are those of the info's x_position" if task.has_position else "its info tells no distances",
+        )
+        bus = open_bus(connect, args.tls, stopping)
+        if bus is None:
+            return 0
+        worker = Worker(bus, args.run, name, environments, seed, stopping)
+        worker.work(args.steps)
+        courier = getattr(worker, "courier", None)
+        counts = courier.book.outcomes if courier else {}
+        log.info("%s is done after %d env steps; receipts: %s", name, worker.env_steps, counts)
+        return 0
+    except (Refused, TaskError, BusError, ImportError, gymnasium.error.Error) as why:
+        print(f"error: {why}", file=sys.stderr)
+        return 1
+    finally:
+        if environments is not None:
+            environments.close()
+        if bus is not None:
+            bus.close()

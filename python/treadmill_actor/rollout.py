@@ -1,0 +1,161 @@
+"""Fragments: T steps of N environments under one policy."""
+
+import logging
+import math
+
+import numpy as np
+
+from . import schema
+from .task import TaskError, describe
+
+TERMINATED, TRUNCATED = 1, 2
+FRAGMENT_BYTES_MAX = 30 << 20
+log = logging.getLogger("treadmill_actor")
+
+
+class Environments:
+    """N environments that step one after the other, and their episodes."""
+
+    def __init__(self, make, name, count, seed):
+        self.envs = [make() for _ in range(count)]
+        self.task = describe(self.envs[0], name)
+        self.seeds = np.random.SeedSequence(seed).generate_state(count).tolist()
+        self.observations = np.zeros((count, self.task.observation_size), np.float32)
+        self.returns = [0.0] * count
+        self.lengths = [0] * count
+        self.starts = [0.0] * count
+        self.positions = [None] * count
+        for index in range(count):
+            self._reset(index, self.seeds[index])
+
+    def __len__(self):
+        return len(self.envs)
+
+    def _reset(self, index, seed=None):
+        observation, info = self.envs[index].reset(seed=seed)
+        self.observations[index] = np.ravel(observation)
+        if not np.isfinite(self.observations[index]).all():
+            raise TaskError(f"`{self.task.name}` observes numbers at its start that are not finite")
+        self.returns[index], self.lengths[index] = 0.0, 0
+        position = info.get("x_position")
+        self.task.has_position |= position is not None
+        self.starts[index], self.positions[index] = (position or 0.0), position
+
+    def step(self, actions):
+        """Steps all. Rewards, flags, the true last observations of those that were cut off, and finished episodes."""
+        commands = self.task.to_env(actions)
+        rewards, flags = np.zeros(len(self), np.float32), np.zeros(len(self), np.uint8)
+        cut_off, episodes = {}, []
+        for index, env in enumerate(self.envs):
+            before = self.observations[index].copy()
+            observation, reward, terminated, truncated, info = env.step(
+                commands[index].reshape(env.action_space.shape).astype(env.action_space.dtype, copy=False)
+            )
+            with np.errstate(over="ignore"):
+                self.observations[index] = np.ravel(observation)
+            fault = not (np.isfinite(self.observations[index]).all() and math.isfinite(reward))
+            if fault:
+                # The simulator broke down: the episode ends here, with a reward of nothing and the last sound observation.
+                self.observations[index], reward, terminated = before, 0.0, True
+            rewards[index] = reward
+            self.returns[index] += float(reward)
+            self.lengths[index] += 1
+            self.positions[index] = info.get("x_position", self.positions[index])
+            if not (terminated or truncated):
+                continue
+            # Over by rule and cut off at once is over by rule: nothing comes after it.
+            flags[index] = TERMINATED if terminated else TRUNCATED
+            if not terminated:
+                cut_off[index] = self.observations[index].copy()
+            cause = "non_finite" if fault else "terminated" if terminated else "time_limit"
+            episodes.append(self._episode(index, cause))
+            self._reset(index)
+        return rewards, flags, cut_off, episodes
+
+    def _episode(self, index, cause):
+        """Distance is that of the info's x_position; where an environment tells none, it is 0."""
+        position = self.positions[index]
+        distance = float(position) - float(self.starts[index]) if position is not None else 0.0
+        if not math.isfinite(distance):
+            distance = 0.0
+        duration = self.lengths[index] * self.task.control_step_s
+        return {
+            "return_sum": self.returns[index],
+            "length": self.lengths[index],
+            "distance_m": distance,
+            "velocity_mean_mps": distance / duration if duration > 0 else 0.0,
+            "cause": cause,
+        }
+
+    def close(self):
+        """Lets go of the simulators."""
+        for env in self.envs:
+            env.close()
+
+
+class Collector:
+    """Collects fragments, one after the other; episodes run on from one to the next."""
+
+    def __init__(self, environments, settings, run, actor, incarnation, config_hash, seed):
+        self.environments, self.settings = environments, settings
+        self.header = {"run": run, "actor": actor, "actor_incarnation": incarnation, "config_hash": config_hash}
+        self.random = np.random.default_rng(seed)
+        self.sequence = 0
+        steps, envs, task = settings.fragment_steps, len(environments), environments.task
+        numbers = steps * envs * (task.observation_size + task.action_size + 2) + envs * task.observation_size
+        if 4 * numbers + steps * envs + 4096 > FRAGMENT_BYTES_MAX:
+            raise TaskError(
+                f"a fragment of {steps} steps of {envs} environments has some {4 * numbers >> 20} MiB, and at most "
+                f"{FRAGMENT_BYTES_MAX >> 20} are allowed; use fewer --envs, or set rollout.fragment_steps lower"
+            )
+
+    @property
+    def transitions(self):
+        """Of one fragment."""
+        return self.settings.fragment_steps * len(self.environments)
+
+    def collect(self, policy, version, settled_through):
+        """The next fragment and its episodes."""
+        environments, settings, task = self.environments, self.settings, self.environments.task
+        steps, envs = settings.fragment_steps, len(environments)
+        observations = np.empty((steps, envs, task.observation_size), np.float32)
+        actions = np.empty((steps, envs, task.action_size), np.float32)
+        log_probs, rewards = np.empty((steps, envs), np.float32), np.empty((steps, envs), np.float32)
+        flags = np.empty((steps, envs), np.uint8)
+        last_observations, episodes = [], []
+        normals, kept = None, settings.noise_correlation
+        for t in range(steps):
+            fresh = self.random.standard_normal((envs, task.action_size), dtype=np.float32)
+            normals = fresh if normals is None else kept * normals + math.sqrt(1 - kept * kept) * fresh
+            observations[t] = environments.observations
+            actions[t], log_probs[t] = policy.sample(observations[t], normals)
+            rewards[t], flags[t], cut_off, ended = environments.step(actions[t])
+            episodes.extend(ended)
+            for env in range(envs):
+                if flags[t, env] == TRUNCATED:
+                    last_observations.append(cut_off[env])
+                elif t + 1 == steps and flags[t, env] == 0:
+                    last_observations.append(environments.observations[env].copy())
+        self.sequence += 1
+        planes = {
+            "observations": observations,
+            "actions": actions,
+            "log_probs": log_probs,
+            "rewards": rewards,
+            "last_observations": np.asarray(last_observations, np.float32),
+        }
+        fragment = schema.Fragment(
+            **self.header,
+            sequence=self.sequence,
+            version=version,
+            steps=steps,
+            envs=envs,
+            observation_size=task.observation_size,
+            action_size=task.action_size,
+            flags=flags.tobytes(),
+            settled_through=settled_through,
+            **{name: plane.astype("<f4", copy=False).tobytes() for name, plane in planes.items()},
+        )
+        for episode in episodes:
+            fragment.episodes.add(**{**episode, "cause": schema.END_CAUSES[episode["cause"]]})
+        return fragment.SerializeToString(), episodes

@@ -1,0 +1,40 @@
+"""The messages on the bus, as classes of the protobuf runtime.
+
+`schema.binpb` is proto/schema in compiled form. It is read when this module is imported, so that no generated code has to
+fit the version of protobuf that is installed, and no compiler is needed. A test of the Rust crate `treadmill-proto` compares
+it with the schemas and writes it anew.
+"""
+
+from pathlib import Path
+
+from google.protobuf import descriptor_pb2, descriptor_pool, message_factory
+
+
+def _messages():
+    files = descriptor_pb2.FileDescriptorSet.FromString(Path(__file__).with_name("schema.binpb").read_bytes())
+    # A pool of its own: whoever else reads these schemas in this process is not disturbed.
+    pool = descriptor_pool.DescriptorPool()
+    for file in files.file:
+        pool.Add(file)
+    names = [f"{file.package}.{message.name}" for file in files.file for message in file.message_type]
+    classes = {name.rsplit(".", 1)[1]: message_factory.GetMessageClass(pool.FindMessageTypeByName(name)) for name in names}
+    outcomes = pool.FindEnumTypeByName("treadmill.v1.Outcome").values_by_name
+    causes = pool.FindEnumTypeByName("treadmill.v1.EndCause").values_by_name
+    return (
+        classes,
+        {name.removeprefix("OUTCOME_").lower(): value.number for name, value in outcomes.items()},
+        {name.removeprefix("END_CAUSE_").lower(): value.number for name, value in causes.items()},
+    )
+
+
+MESSAGES, OUTCOMES, END_CAUSES = _messages()
+OUTCOME_NAMES = {number: name for name, number in OUTCOMES.items()}
+
+ActorStats = MESSAGES["ActorStats"]
+Fragment = MESSAGES["Fragment"]
+PolicyAnnouncement = MESSAGES["PolicyAnnouncement"]
+PolicyBundle = MESSAGES["PolicyBundle"]
+PolicyVersion = MESSAGES["PolicyVersion"]
+Receipt = MESSAGES["Receipt"]
+TaskReceipt = MESSAGES["TaskReceipt"]
+TaskRegistration = MESSAGES["TaskRegistration"]
