@@ -2,10 +2,11 @@
 # Makes the two base images of the Dockerfile under their own names, for a machine that reaches a Debian mirror and
 # the crate registry but no container registry. Not needed anywhere else: there Docker pulls them.
 #
-#   sudo deploy/base-images.sh
+#   sudo deploy/base-images.sh            both
+#   sudo deploy/base-images.sh runtime    only what the binary runs on, for an image of a binary that is built already
 #
-# Needs root (debootstrap makes a whole system), docker, debootstrap, and the Rust toolchain that the Dockerfile
-# names. What Docker pulls is larger and is what we run elsewhere; these are for trying the files here.
+# Needs root (debootstrap makes a whole system), docker, debootstrap, and for both the Rust toolchain that the
+# Dockerfile names. What Docker pulls is larger and is what we run elsewhere; these are for trying the files here.
 #
 # TREADMILL_MIRROR   a Debian mirror to take instead of the usual one
 set -eu
@@ -20,7 +21,13 @@ fail() {
 }
 
 [ "$(id -u)" = 0 ] || fail "debootstrap needs root; try sudo"
-for tool in docker debootstrap rustc; do
+what=${1:-both}
+case $what in
+both) tools='docker debootstrap rustc' ;;
+runtime) tools='docker debootstrap' ;;
+*) fail "\`$what\` is neither \`both\` nor \`runtime\`" ;;
+esac
+for tool in $tools; do
     command -v "$tool" >/dev/null || fail "\`$tool\` is missing; install it first"
 done
 
@@ -30,12 +37,14 @@ runtime_image=$(named debian)
 build_image=$(named rust)
 release=${runtime_image#*:}
 release=${release%-slim}
-wanted=${build_image#*:}
-wanted=${wanted%%-*}
-case $(rustc --version) in
-"rustc $wanted"[.\ ]*) ;;
-*) fail "the Dockerfile builds with Rust $wanted, here is $(rustc --version)" ;;
-esac
+if [ "$what" = both ]; then
+    wanted=${build_image#*:}
+    wanted=${wanted%%-*}
+    case $(rustc --version) in
+    "rustc $wanted"[.\ ]*) ;;
+    *) fail "the Dockerfile builds with Rust $wanted, here is $(rustc --version)" ;;
+    esac
+fi
 
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
@@ -46,6 +55,11 @@ say "$runtime_image from $mirror"
 debootstrap --variant=minbase "$release" "$work/runtime" "$mirror" >"$work/log" || { cat "$work/log" >&2; exit 1; }
 rm -rf "$work"/runtime/var/cache/apt/archives/*.deb "$work"/runtime/var/lib/apt/lists/*
 tar -C "$work/runtime" -c . | docker import --change 'CMD ["bash"]' - "$runtime_image"
+
+if [ "$what" = runtime ]; then
+    say "done"
+    exit 0
+fi
 
 say "$build_image: the same with a C compiler and this machine's Rust"
 debootstrap --variant=minbase --include=gcc,libc6-dev,ca-certificates \

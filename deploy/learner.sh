@@ -1,6 +1,7 @@
 #!/bin/sh
 # Starts the run that the environment describes, or goes on with it where its folder already holds a checkpoint: that
-# is what makes a learner's container safe to restart. Arguments go to `treadmill learner` as they are.
+# is what makes a learner's container safe to restart. Arguments go to `treadmill learner` as they are: where to listen,
+# with which certificates, where metrics are served.
 #
 # TREADMILL_PRESET   starting point of the configuration (walk)
 # TREADMILL_RUN      name of the run's folder below /runs (the preset's name)
@@ -13,8 +14,7 @@ preset=${TREADMILL_PRESET:-walk}
 run=${TREADMILL_RUN:-$preset}
 folder=/runs/$run
 
-# Plain tcp to every address of the container: what may reach it is the business of the container's network.
-set -- learner --listen tcp/0.0.0.0:7447 --insecure --no-progress "$@"
+set -- learner --no-progress "$@"
 [ -z "${TREADMILL_STEPS:-}" ] || set -- "$@" --steps "$TREADMILL_STEPS"
 
 if [ -e "$folder/checkpoints/latest.bundle" ]; then

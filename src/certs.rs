@@ -34,6 +34,9 @@ pub struct CertsArgs {
     /// Make the parts' certificates anew, by the authority that is there.
     #[arg(long)]
     renew: bool,
+    /// Also lay out a folder for each part below this one, with the three files that it needs and nothing else.
+    #[arg(long, value_name = "DIR")]
+    bundles: Option<PathBuf>,
 }
 
 impl CertsArgs {
@@ -44,6 +47,7 @@ impl CertsArgs {
             host: vec!["localhost".to_string(), "127.0.0.1".to_string()],
             days: 1,
             renew: false,
+            bundles: None,
         }
     }
 }
@@ -55,6 +59,12 @@ pub fn run(args: &CertsArgs) -> anyhow::Result<()> {
     match made.is_empty() {
         true => say("nothing to do: all certificates are there; make them anew with --renew"),
         false => say(&format!("wrote certificates and keys of {} to {}", made.join(", "), folder.display())),
+    }
+    if let Some(bundles) = &args.bundles {
+        for role in Role::ALL {
+            hand_out(folder, role, &bundles.join(role.name()))?;
+        }
+        say(&format!("laid out a folder for each part below {}", bundles.display()));
     }
     say("give each machine ca.crt and the two files of its part; keep ca.key where nobody else can read it");
     Ok(())
@@ -78,6 +88,20 @@ pub fn make(args: &CertsArgs) -> anyhow::Result<Vec<&'static str>> {
         made.push(role.name());
     }
     Ok(made)
+}
+
+/// What one part needs, in a folder of its own; what is the same already stays as it is.
+fn hand_out(folder: &Path, role: Role, own: &Path) -> anyhow::Result<()> {
+    fs::create_dir_all(own).with_context(|| format!("cannot make the folder `{}`", own.display()))?;
+    let [certificate, key] = Credentials { folder: folder.to_path_buf(), role }.files();
+    for (file, mode) in [(Credentials::authority(folder), 0o644), (key, 0o600), (certificate, 0o644)] {
+        let text = fs::read_to_string(&file).with_context(|| format!("cannot read `{}`", file.display()))?;
+        let copy = own.join(file.file_name().expect("files of a part have names"));
+        if !fs::read_to_string(&copy).is_ok_and(|there| there == text) {
+            write(&copy, &text, mode)?;
+        }
+    }
+    Ok(())
 }
 
 /// The authority that is there, or a new one.

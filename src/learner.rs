@@ -10,16 +10,24 @@ use treadmill_common::{
     bus::{Bus, Credentials, Role},
     shutdown::Shutdown,
 };
-use treadmill_learner::training::{self, Summary, TrainingOptions};
+use treadmill_learner::{
+    logging::Exposition,
+    pulse::Pulse,
+    training::{self, Summary, TrainingOptions},
+};
 
 use crate::{
     memory,
+    metrics_page::{Listening, MetricsArgs},
     output::{complain, say},
     signals,
     startup::{self, AnyRunArgs, Command, NetworkArgs, NewRunArgs, Prepared},
     supervisor::{Fleet, Supervisor},
     task,
 };
+
+/// How often a learner that waits for its first actor shows a sign of life.
+const BEAT_EVERY: std::time::Duration = std::time::Duration::from_secs(1);
 
 /// Flags of `learner`.
 #[derive(Args)]
@@ -30,6 +38,8 @@ pub struct LearnerArgs {
     any: AnyRunArgs,
     #[command(flatten)]
     network: NetworkArgs,
+    #[command(flatten)]
+    metrics: MetricsArgs,
     /// The run's name on the bus; by default the name of its folder.
     #[arg(long, value_name = "NAME", conflicts_with = "resume")]
     run: Option<String>,
@@ -47,11 +57,12 @@ pub fn run(args: LearnerArgs) -> anyhow::Result<()> {
         treadmill_proto::ident::check_ident("run", run).map_err(|why| crate::outcome::Usage(why.to_string()))?;
     }
     let options = args.network.options(Role::Learner, args.listen, args.connect)?;
+    let metrics = args.metrics.listen()?;
     let mut prepared = startup::prepare(Command::Learner, &args.new, &args.any, &[])?;
     if let Some(run) = args.run {
         prepared.rename(run);
     }
-    host(prepared, &args.any, &options, None)
+    host(prepared, &args.any, &options, None, metrics)
 }
 
 /// Hosts a learner, with actor processes beside it where `actors` says so.
@@ -60,11 +71,12 @@ pub fn host(
     any: &AnyRunArgs,
     options: &treadmill_common::bus::BusOptions,
     actors: Option<u32>,
+    metrics: Option<Listening>,
 ) -> anyhow::Result<()> {
     memory::keep_freed();
     let runtime =
         tokio::runtime::Builder::new_multi_thread().worker_threads(2).enable_all().build().context("no runtime")?;
-    let outcome = runtime.block_on(host_until_done(prepared, any, options, actors));
+    let outcome = runtime.block_on(host_until_done(prepared, any, options, actors, metrics));
     // A close that hangs must not keep the process.
     runtime.shutdown_background();
     outcome
@@ -75,6 +87,7 @@ async fn host_until_done(
     any: &AnyRunArgs,
     options: &treadmill_common::bus::BusOptions,
     actors: Option<u32>,
+    metrics: Option<Listening>,
 ) -> anyhow::Result<()> {
     let shutdown = Shutdown::default();
     signals::listen(shutdown.clone(), "stopping after this update; press Ctrl-C again to stop at once")?;
@@ -84,9 +97,23 @@ async fn host_until_done(
     };
     let text = endpoints.join("\n") + "\n";
     atomic_file::write(&prepared.folder.endpoint(), text.as_bytes()).context("the endpoint cannot be written")?;
-    greet(&prepared, &endpoints, options.credentials.as_ref(), actors);
+    let (exposition, pulse) = (Exposition::default(), Pulse::default());
+    let page = metrics.map(|page| page.serve(prepared.run.clone(), exposition.clone(), pulse.clone())).transpose()?;
+    greet(&prepared, &endpoints, options.credentials.as_ref(), actors, page);
     // For as long as the run goes on: whoever comes later is told by name whether it may join.
-    let Some(desk) = task::settle(&bus, &mut prepared, &shutdown).await? else {
+    let desk = {
+        let settled = task::settle(&bus, &mut prepared, &shutdown);
+        tokio::pin!(settled);
+        // A learner that waits for its first actor is well.
+        let mut beat = tokio::time::interval(BEAT_EVERY);
+        loop {
+            tokio::select! {
+                desk = &mut settled => break desk?,
+                _ = beat.tick() => pulse.beat(),
+            }
+        }
+    };
+    let Some(desk) = desk else {
         bus.close();
         say("stopped before any actor registered its task; nothing was trained");
         return Ok(());
@@ -102,6 +129,8 @@ async fn host_until_done(
         mirror,
         show_progress: !any.no_progress,
         restarts: restarts.clone(),
+        exposition,
+        pulse,
     };
     let (tell, told) = tokio::sync::oneshot::channel();
     std::thread::Builder::new().name("training".to_string()).spawn({
@@ -140,7 +169,13 @@ async fn host_until_done(
     Ok(())
 }
 
-fn greet(prepared: &Prepared, endpoints: &[String], credentials: Option<&Credentials>, actors: Option<u32>) {
+fn greet(
+    prepared: &Prepared,
+    endpoints: &[String],
+    credentials: Option<&Credentials>,
+    actors: Option<u32>,
+    page: Option<std::net::SocketAddr>,
+) {
     let Prepared { config, folder, state, run, .. } = prepared;
     let root = folder.root().display();
     let steps = state.as_ref().map_or(0, |state| state.counters.env_steps);
@@ -164,6 +199,9 @@ fn greet(prepared: &Prepared, endpoints: &[String], credentials: Option<&Credent
         }
     }
     say(&format!("  listening {}", endpoints.join(", ")));
+    if let Some(address) = page {
+        say(&format!("  metrics   http://{address}/metrics"));
+    }
     say("  stop      Ctrl-C once finishes the update and saves");
 }
 

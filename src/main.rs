@@ -10,6 +10,7 @@
 //! - [`supervisor`]: the actor processes of `train`.
 //! - [`signals`]: Ctrl-C, once and twice.
 //! - [`model`]: the robot, built in or from a file.
+//! - [`metrics_page`]: metrics for Prometheus, over HTTP.
 //! - [`memory`]: what becomes of memory that was freed.
 //! - [`outcome`]: errors and exit codes.
 //! - [`output`]: standard output that may be closed.
@@ -23,6 +24,7 @@ mod evaluator;
 mod export;
 mod learner;
 mod memory;
+mod metrics_page;
 mod model;
 mod operator;
 mod outcome;
@@ -39,6 +41,7 @@ mod train;
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
+use tracing_subscriber::{Layer, layer::SubscriberExt, util::SubscriberInitExt};
 
 /// Distributed reinforcement learning for humanoid robots.
 ///
@@ -81,15 +84,16 @@ fn main() -> ExitCode {
     // cores from physics and from the update's threads.
     // SAFETY: no other thread is there yet that could read or write the environment.
     unsafe { std::env::set_var("CANDLE_NUM_THREADS", "1") };
+    let command = Cli::parse().command;
     let filter = tracing_subscriber::EnvFilter::try_from_env("TREADMILL_LOG")
         .unwrap_or_else(|_| tracing_subscriber::EnvFilter::new("warn,zenoh=off"));
-    tracing_subscriber::fmt()
-        .with_env_filter(filter)
+    let log = tracing_subscriber::fmt::layer()
         .with_writer(std::io::stderr)
         .with_ansi(std::io::IsTerminal::is_terminal(&std::io::stderr()))
         .with_target(false)
-        .init();
-    let done = match Cli::parse().command {
+        .with_filter(filter);
+    tracing_subscriber::registry().with(log).with(treadmill_common::bus::turned_away()).init();
+    let done = match command {
         Command::Train(args) => train::run(args),
         Command::Learner(args) => learner::run(args),
         Command::Actor(args) => actor::run(args),

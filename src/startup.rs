@@ -114,7 +114,7 @@ impl NetworkArgs {
             zenoh_config: self.zenoh_config.clone(),
         };
         options.check()?;
-        if let Some((name, value)) = threads::one_for_both_directions(&options, role) {
+        if let Some((name, value)) = threads::wanted(&options, role) {
             // SAFETY: every command asks for its options before it starts a thread, so nobody reads the environment now.
             unsafe { std::env::set_var(name, value) };
         }

@@ -6,6 +6,7 @@ use treadmill_common::{bus::Role, machine};
 
 use crate::{
     learner,
+    metrics_page::MetricsArgs,
     startup::{self, AnyRunArgs, Command, NetworkArgs, NewRunArgs},
 };
 
@@ -18,6 +19,8 @@ pub struct TrainArgs {
     any: AnyRunArgs,
     #[command(flatten)]
     network: NetworkArgs,
+    #[command(flatten)]
+    metrics: MetricsArgs,
     /// One actor in lock-step: the same seed gives the same weights bit for bit.
     #[arg(long, conflicts_with = "resume")]
     deterministic: bool,
@@ -35,6 +38,7 @@ pub struct TrainArgs {
 /// Trains until the run has its steps.
 pub fn run(args: TrainArgs) -> anyhow::Result<()> {
     let options = args.network.options(Role::Learner, vec![args.listen], Vec::new())?;
+    let metrics = args.metrics.listen()?;
     let mut changes = startup::changes(&[("rollout.envs", args.envs), ("rollout.actors", args.actors)]);
     if args.deterministic {
         changes.push(("run.deterministic", true.into()));
@@ -46,5 +50,5 @@ pub fn run(args: TrainArgs) -> anyhow::Result<()> {
         0 => (machine::cores() as u32).min(rollout.envs),
         wanted => wanted.min(rollout.envs),
     };
-    learner::host(prepared, &args.any, &options, Some(actors))
+    learner::host(prepared, &args.any, &options, Some(actors), metrics)
 }

@@ -10,6 +10,7 @@
 //! - [`training`]: the loop: collect, update, save, publish, log.
 //! - [`pace`]: how much of what actors bring is learnt from, and how thoroughly.
 //! - [`control`]: commands to the training thread, and how the run goes.
+//! - [`pulse`]: a sign of life from the training thread.
 //! - [`trial`]: policies that are evaluated while training goes on.
 //! - [`checkpoint`]: everything a run is, in one file.
 //! - [`room`]: waiting for a disk that is full.
@@ -32,6 +33,7 @@ pub mod mirror;
 pub mod optimiser;
 pub mod pace;
 pub mod ppo;
+pub mod pulse;
 pub mod report;
 pub mod room;
 pub mod scalars;

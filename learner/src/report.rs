@@ -1,4 +1,4 @@
-//! One scalar, every place it goes to: screen, TensorBoard, `metrics.jsonl`, the bus.
+//! One scalar, every place it goes to: screen, TensorBoard, `metrics.jsonl`, the bus, Prometheus.
 
 use std::collections::HashMap;
 
@@ -13,7 +13,7 @@ use treadmill_proto::json::Metric;
 
 use crate::{
     checkpoint::TrainingState,
-    logging::{Console, EventWriter, JsonLines, draw_curve},
+    logging::{Console, EventWriter, Exposition, JsonLines, draw_curve},
     room::wait_for_room,
     training::{TrainingError, TrainingOptions},
 };
@@ -29,6 +29,7 @@ pub struct Report {
     console: Console,
     lines: JsonLines,
     events: EventWriter,
+    exposition: Exposition,
     publishers: HashMap<String, Publish>,
     table_every_updates: u64,
 }
@@ -59,6 +60,7 @@ impl Report {
             folder,
             lines,
             events,
+            exposition: options.exposition.clone(),
             publishers: HashMap::new(),
             table_every_updates: config.learner.table_every_updates.into(),
         })
@@ -96,6 +98,7 @@ impl Report {
             .collect();
         wait_for_room(shutdown, || self.lines.write(&metrics))?;
         wait_for_room(shutdown, || self.events.scalars(env_steps, time_unix_s, scalars))?;
+        self.exposition.take(metrics.iter().map(|metric| (metric.tag.as_str(), metric.value)));
         for metric in &metrics {
             self.publish(metric);
         }

@@ -61,10 +61,27 @@ impl Lag {
     }
 }
 
-/// Environment steps per second over the last rounds.
+/// Environment steps per second, and how much of the time was spent waiting for them, over the last rounds.
 #[derive(Debug)]
 pub struct Speed {
-    marks: std::collections::VecDeque<(Instant, u64)>,
+    marks: std::collections::VecDeque<Mark>,
+    waited: Duration,
+}
+
+#[derive(Clone, Copy, Debug)]
+struct Mark {
+    at: Instant,
+    env_steps: u64,
+    waited: Duration,
+}
+
+/// What the last rounds were like.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Throughput {
+    /// Environment steps per second.
+    pub env_steps_per_s: f64,
+    /// Share of the time in which the learner waited for rollouts.
+    pub wait_share: f64,
 }
 
 impl Speed {
@@ -73,18 +90,24 @@ impl Speed {
 
     /// Begins to measure.
     pub fn new(env_steps: u64) -> Self {
-        Self { marks: [(Instant::now(), env_steps)].into() }
+        let mark = Mark { at: Instant::now(), env_steps, waited: Duration::ZERO };
+        Self { marks: [mark].into(), waited: Duration::ZERO }
     }
 
-    /// Notes the steps so far; the speed since the oldest mark.
-    pub fn mark(&mut self, env_steps: u64) -> f64 {
-        let now = Instant::now();
-        self.marks.push_back((now, env_steps));
+    /// Notes the steps so far, and for how long the last ones were waited for; the speed since the oldest mark.
+    pub fn mark(&mut self, env_steps: u64, waited: Duration) -> Throughput {
+        let at = Instant::now();
+        self.waited += waited;
+        self.marks.push_back(Mark { at, env_steps, waited: self.waited });
         if self.marks.len() > Self::ROUNDS {
             self.marks.pop_front();
         }
-        let (since, steps) = self.marks.front().copied().expect("a mark was just added");
-        (env_steps - steps) as f64 / now.duration_since(since).as_secs_f64().max(1e-9)
+        let oldest = self.marks.front().copied().expect("a mark was just added");
+        let passed_s = at.duration_since(oldest.at).as_secs_f64().max(1e-9);
+        Throughput {
+            env_steps_per_s: (env_steps - oldest.env_steps) as f64 / passed_s,
+            wait_share: ((self.waited - oldest.waited).as_secs_f64() / passed_s).min(1.0),
+        }
     }
 }
 
@@ -104,14 +127,16 @@ pub struct Round<'a> {
     pub durations: Durations,
     /// What an evaluation gave, where one has just ended.
     pub verdict: Option<&'a Verdict>,
-    /// Environment steps per second.
-    pub env_steps_per_s: f64,
+    /// What the last rounds were like.
+    pub throughput: Throughput,
     /// Who is alive.
     pub alive: &'a BTreeSet<String>,
     /// The newest statistics of each.
     pub stats: &'a HashMap<String, ActorStats>,
     /// How many senders are in quarantine.
     pub quarantined: usize,
+    /// Fragments refused unread for lack of room, since this start.
+    pub turned_away: u64,
 }
 
 impl Round<'_> {
@@ -143,7 +168,7 @@ impl Round<'_> {
     fn time(&self, out: &mut Vec<(&str, f64)>) {
         let counters = &self.state.counters;
         out.extend([
-            ("time/fps", self.env_steps_per_s),
+            ("time/fps", self.throughput.env_steps_per_s),
             ("time/iterations", counters.updates as f64),
             ("time/time_elapsed", counters.wall_s),
             ("time/total_timesteps", counters.env_steps as f64),
@@ -191,6 +216,7 @@ impl Round<'_> {
             ("bus/fragments_vanished", tally.vanished as f64),
             ("bus/fragments_malformed", tally.malformed as f64),
             ("bus/fragments_quarantined", tally.quarantined as f64),
+            ("bus/fragments_turned_away", self.turned_away as f64),
             ("bus/fragments_unseen", account.unseen as f64),
             ("bus/env_steps_dropped", account.env_steps_dropped as f64),
         ]);
@@ -220,6 +246,7 @@ impl Round<'_> {
             ("actors/env_steps_per_s", sum(|stats| stats.env_steps_per_s)),
             ("actors/fragments_resent", sum(|stats| stats.resent as f64)),
             ("actors/memory_max_mb", memory_max as f64 / 1e6),
+            ("learner/wait_share", self.throughput.wait_share),
             ("learner/memory_mb", machine::resident_bytes() as f64 / 1e6),
         ]);
     }

@@ -12,7 +12,7 @@ use std::{
 };
 
 use treadmill_common::{
-    bus::{Alive, Bus, BusError, PolicyShelf, RolloutCopies, RolloutIntake, StatsFeed},
+    bus::{Alive, Bus, BusError, PolicyShelf, RolloutCopies, RolloutIntake, StatsFeed, gate::Gate},
     config::Config,
     machine,
     normaliser::Normaliser,
@@ -27,10 +27,11 @@ use crate::{
     control::Control,
     experience,
     intake::{Accepted, BusMailbox, Collected, Expected, Gathered, Intake, Judge},
-    logging::CurveError,
+    logging::{CurveError, Exposition},
     mirror::Mirror,
     pace::Pace,
     ppo::{UpdateError, UpdateStats, Updater},
+    pulse::Pulse,
     report::Report,
     room::wait_for_room,
     scalars::{Durations, Lag, Round, Speed},
@@ -49,6 +50,10 @@ pub struct TrainingOptions {
     pub show_progress: bool,
     /// Actor processes that were started again, counted by whoever starts them.
     pub restarts: Arc<AtomicU64>,
+    /// Where the newest values are for whoever asks.
+    pub exposition: Exposition,
+    /// Where training shows that it goes on.
+    pub pulse: Pulse,
 }
 
 /// Why training stopped early.
@@ -117,10 +122,12 @@ pub fn train(
         let collect = round_begun.elapsed();
         let batch = &gathered.fragments;
         let update = trainer.update(batch)?;
+        trainer.pulse.beat();
         let update_time = round_begun.elapsed() - collect;
         trainer.account(batch);
         let verdict = trainer.heed_verdict()?;
         let saved = trainer.save()?;
+        trainer.pulse.beat();
         let checkpoint = round_begun.elapsed() - collect - update_time;
         trainer.publish(saved)?;
         let durations = Durations { collect, update: update_time, learn: trainer.learn, checkpoint };
@@ -157,6 +164,10 @@ struct Trainer {
     saver: Saver,
     report: Report,
     speed: Speed,
+    /// For how long the present batch was waited for.
+    waited: Duration,
+    exposition: Exposition,
+    pulse: Pulse,
     restarts: Arc<AtomicU64>,
     restarts_before: u64,
     begun: Instant,
@@ -188,7 +199,9 @@ impl Trainer {
             action_size: bundle.action_size,
             max_policy_lag: config.policy_lag_allowed().into(),
         };
-        let judge = Judge::new(expected, config.learner.quarantine_after, state.ledger.clone(), state.tally);
+        let capacity = config.learner.intake_fragments as usize;
+        let gate = Arc::new(Gate::new(config.learner.quarantine_after, capacity));
+        let judge = Judge::new(expected, gate.clone(), state.ledger.clone(), state.tally);
         let threads = match config.learner.threads {
             0 => machine::cores(),
             threads => threads as usize,
@@ -211,10 +224,10 @@ impl Trainer {
         wait_for_room(shutdown, || saver.save(&state))?;
         let encoded = bundle.encode().map_err(|why| wrong(why.to_string()))?;
         let report = Report::open(bus, &state, &config, options)?;
-        let queue = RolloutIntake::open(bus, &state.run, config.learner.intake_fragments as usize)?;
+        let queue = RolloutIntake::open(bus, &state.run, capacity, gate)?;
         let alive = Alive::watch(bus, &state.run)?;
         let control = Control::open(bus, commands::first_status(&state, config.run.steps), alive.view())?;
-        let mailbox = BusMailbox::new(queue, alive, RolloutCopies::open(bus, &state.run)?);
+        let mailbox = BusMailbox::new(queue, alive, RolloutCopies::open(bus, &state.run)?, options.pulse.clone());
         let intake = Intake::new(mailbox, config.learner.mode, judge);
         Ok(Self {
             intake,
@@ -228,6 +241,9 @@ impl Trainer {
             },
             shelf: PolicyShelf::open(bus, &state.run, encoded.into())?,
             speed: Speed::new(state.counters.env_steps),
+            waited: Duration::ZERO,
+            exposition: options.exposition.clone(),
+            pulse: options.pulse.clone(),
             restarts: options.restarts.clone(),
             restarts_before: state.counters.restarts,
             begun: Instant::now(),
@@ -248,11 +264,16 @@ impl Trainer {
     }
 
     fn collect(&mut self, shutdown: &Shutdown) -> Option<Gathered> {
+        self.waited = Duration::ZERO;
         loop {
             self.heed_commands(shutdown);
+            let begun = Instant::now();
             let control = &mut self.control;
             let interrupt = || control.is_asked() || control.since_told() >= commands::TELL_EVERY;
-            match self.intake.collect(self.pace.wanted(), &self.state.lineage, shutdown, interrupt) {
+            let collected = self.intake.collect(self.pace.wanted(), &self.state.lineage, shutdown, interrupt);
+            // A pause is no demand for rollouts.
+            self.waited += begun.elapsed();
+            match collected {
                 Collected::Batch(gathered) => return Some(gathered),
                 Collected::Interrupted => self.tell_if_due(shutdown),
                 Collected::Stopped => return None,
@@ -324,6 +345,7 @@ impl Trainer {
 
     /// Writes the checkpoint, and returns it as it was written.
     fn save(&mut self) -> Result<Vec<u8>, TrainingError> {
+        self.intake.count_unread();
         let judge = self.intake.judge();
         self.state.tally = judge.tally;
         self.state.ledger = judge.ledger.clone();
@@ -385,8 +407,10 @@ impl Trainer {
     ) -> Result<(), TrainingError> {
         let alive = self.intake.alive();
         let env_steps = self.state.counters.env_steps;
-        let (env_steps_per_s, lag) = (self.speed.mark(env_steps), Lag::of(batch));
-        (self.env_steps_per_s, self.lag_mean) = (env_steps_per_s, lag.mean);
+        let (throughput, lag) = (self.speed.mark(env_steps, self.waited), Lag::of(batch));
+        (self.env_steps_per_s, self.lag_mean) = (throughput.env_steps_per_s, lag.mean);
+        let stats = self.stats.newest(&alive);
+        self.exposition.take_actors(stats, self.state.lineage.newest());
         let round = Round {
             state: &self.state,
             config: &self.config,
@@ -395,10 +419,11 @@ impl Trainer {
             epochs: self.pace.epochs(),
             durations,
             verdict,
-            env_steps_per_s,
-            stats: self.stats.newest(&alive),
+            throughput,
+            stats,
             alive: &alive,
             quarantined: self.intake.judge().quarantined(Instant::now()).len(),
+            turned_away: self.intake.judge().turned_away(),
         };
         let scalars = round.scalars();
         Ok(self.report.log(env_steps, self.state.counters.updates, &scalars, &self.shutdown)?)

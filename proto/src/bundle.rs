@@ -8,7 +8,7 @@ use crate::{
     ActorState, Malformed,
     ident::check_ident,
     limits::{BUNDLE_BYTES_MAX, HIDDEN_LAYERS_MAX, MODEL_BYTES_MAX, SMALL_BYTES_MAX, WIDTH_MAX},
-    planes, wire,
+    planes, scan, wire,
 };
 
 /// Which policy: numbers grow by one with each update, incarnations are drawn anew at each start of a learner.
@@ -145,6 +145,7 @@ impl PolicyBundle {
     pub fn decode(bytes: impl Into<Bytes>) -> Result<Self, Malformed> {
         let bytes = bytes.into();
         check_size(bytes.len())?;
+        check_hidden_count(&bytes)?;
         let message = wire::PolicyBundle::decode(bytes)
             .map_err(|why| Malformed::Undecodable { what: "policy bundle", why: why.to_string() })?;
         width("observation_size", message.observation_size)?;
@@ -181,6 +182,27 @@ pub(crate) fn version(version: Option<wire::PolicyVersion>) -> Result<PolicyVers
 pub(crate) fn check_small(what: &'static str, bytes: usize) -> Result<(), Malformed> {
     if bytes > SMALL_BYTES_MAX {
         return Err(Malformed::TooLarge { what, bytes, limit: SMALL_BYTES_MAX });
+    }
+    Ok(())
+}
+
+/// A width takes one byte here and four once it is decoded, so their number is looked at first.
+fn check_hidden_count(bytes: &[u8]) -> Result<(), Malformed> {
+    const HIDDEN_FIELD: u32 = 5;
+    let mut widths = 0;
+    scan::all("policy bundle", bytes, |field| {
+        if field.number == HIDDEN_FIELD {
+            // Packed, or one by one.
+            widths += field.bytes.len().max(1);
+        }
+    })?;
+    // A width of up to five bytes each.
+    if widths > 5 * HIDDEN_LAYERS_MAX {
+        return Err(Malformed::field(
+            "hidden",
+            format!("{widths} bytes long"),
+            format!("1 to {HIDDEN_LAYERS_MAX} layers"),
+        ));
     }
     Ok(())
 }

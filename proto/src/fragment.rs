@@ -6,8 +6,8 @@ use prost::Message;
 use crate::{
     ActorState, Malformed, PolicyVersion, Precision,
     ident::check_ident,
-    limits::{ENVS_MAX, FRAGMENT_BYTES_MAX, STEPS_MAX, WIDTH_MAX},
-    planes, wire,
+    limits::{ENVS_MAX, FRAGMENT_BYTES_MAX, SEQUENCE_MAX, STEPS_MAX, WIDTH_MAX},
+    planes, scan, wire,
 };
 
 /// Flag bit of a transition after which the episode was over by rule of the task.
@@ -127,8 +127,8 @@ impl Fragment {
         in_range("envs", self.envs, ENVS_MAX)?;
         in_range("observation_size", self.observation_size, WIDTH_MAX)?;
         in_range("action_size", self.action_size, WIDTH_MAX)?;
-        if self.sequence == 0 {
-            return Err(Malformed::field("sequence", 0, "1 or more"));
+        if !(1..=SEQUENCE_MAX).contains(&self.sequence) {
+            return Err(Malformed::field("sequence", self.sequence, format!("1 to {SEQUENCE_MAX}")));
         }
         if self.settled_through >= self.sequence {
             return Err(Malformed::field("settled_through", self.settled_through, "below the fragment's own sequence"));
@@ -212,6 +212,7 @@ impl Fragment {
     pub fn decode(bytes: impl Into<Bytes>) -> Result<Self, Malformed> {
         let bytes = bytes.into();
         check_size(bytes.len())?;
+        check_episode_count(&bytes)?;
         let message = wire::Fragment::decode(bytes)
             .map_err(|why| Malformed::Undecodable { what: "fragment", why: why.to_string() })?;
         in_range("steps", message.steps, STEPS_MAX)?;
@@ -224,11 +225,11 @@ impl Fragment {
         // Whether the last observations are as many as the flags ask for is checked below, over the whole.
         let fragment = Self {
             version: message.version.ok_or_else(|| Malformed::field("version", "missing", "a policy version"))?.into(),
-            observations: precision.from_bytes("observations", &message.observations, rows * width)?,
+            observations: precision.read_bytes("observations", &message.observations, rows * width)?,
             actions: planes::from_bytes("actions", &message.actions, rows * action)?,
             log_probs: planes::from_bytes("log_probs", &message.log_probs, rows)?,
             rewards: planes::from_bytes("rewards", &message.rewards, rows)?,
-            last_observations: precision.from_bytes(
+            last_observations: precision.read_bytes(
                 "last_observations",
                 &message.last_observations,
                 message.last_observations.len() / precision.bytes(),
@@ -250,6 +251,28 @@ impl Fragment {
         fragment.check()?;
         Ok(fragment)
     }
+}
+
+/// The incarnation that an encoded fragment claims to be of, read from its first bytes alone; `None` where they do not say.
+/// Whether it is true is another matter.
+pub fn claimed_incarnation(beginning: &[u8]) -> Option<u64> {
+    scan::leading(beginning).find(|field| field.number == INCARNATION_FIELD)?.varint
+}
+
+const INCARNATION_FIELD: u32 = 3;
+const EPISODES_FIELD: u32 = 17;
+/// What the planes hold of one transition at least: an entry of observation and action each, log-probability, reward, flags.
+const TRANSITION_BYTES_MIN: usize = 17;
+
+/// An episode has a transition at least. Decoded it takes far more bytes than it may take here, so this comes first.
+fn check_episode_count(bytes: &[u8]) -> Result<(), Malformed> {
+    let mut episodes = 0;
+    scan::all("fragment", bytes, |field| episodes += usize::from(field.number == EPISODES_FIELD))?;
+    let most = bytes.len() / TRANSITION_BYTES_MIN;
+    if episodes > most {
+        return Err(Malformed::field("episodes", episodes, format!("at most {most} in {} bytes", bytes.len())));
+    }
+    Ok(())
 }
 
 fn check_size(bytes: usize) -> Result<(), Malformed> {

@@ -89,6 +89,7 @@ fn each_fault_is_named() {
     assert!(refuse(|f| f.run = "a/b".into()).contains("`run`"));
     assert!(refuse(|f| f.steps = 0).contains("`steps` is 0"));
     assert!(refuse(|f| f.sequence = 0).contains("`sequence`"));
+    assert!(refuse(|f| f.sequence = SEQUENCE_MAX + 1).contains("`sequence`"));
     assert!(refuse(|f| f.actor_state = Some(state("a2", 3))).contains("`actor_state.actor` is `a2`"));
     assert!(refuse(|f| f.actor_state = Some(state("a1", 2))).contains("of 2 environments and 4 numbers"));
     assert!(refuse(|f| f.actor_state.as_mut().unwrap().noise.clear()).contains("`actor_state.noise`"));
@@ -103,6 +104,24 @@ fn each_fault_is_named() {
 fn too_large_is_refused_before_decoding() {
     let huge = Bytes::from(vec![0xff; FRAGMENT_BYTES_MAX + 1]);
     assert!(matches!(Fragment::decode(huge), Err(Malformed::TooLarge { .. })));
+}
+
+#[test]
+fn memory_is_not_sold_cheaply() {
+    // Empty episodes: three bytes each, and forty once decoded.
+    let bomb = [0x8a, 1, 0].repeat(FRAGMENT_BYTES_MAX / 3);
+    let why = Fragment::decode(bomb).unwrap_err().to_string();
+    assert!(why.contains("`episodes`") && why.contains("at most"), "{why}");
+}
+
+#[test]
+fn the_incarnation_is_read_from_the_first_bytes() {
+    let bytes = sample().encode().unwrap();
+    assert_eq!(claimed_incarnation(&bytes[..16]), Some(7));
+    assert_eq!(claimed_incarnation(&bytes[..6]), None);
+    assert_eq!(claimed_incarnation(&[0xff; 64]), None);
+    // A text where the number should be.
+    assert_eq!(claimed_incarnation(&[0x1a, 1, b'x']), None);
 }
 
 proptest! {

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::Episode;
+use crate::{Episode, Malformed, bundle::check_small};
 
 /// `treadmill/{run}/metrics/{group}/{name}`, and a line of `metrics.jsonl`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -24,10 +24,20 @@ impl Metric {
     pub fn to_json(&self) -> Vec<u8> {
         to_json(self)
     }
+
+    /// Reads an object from a stranger.
+    pub fn from_json(bytes: &[u8]) -> Result<Self, Malformed> {
+        from_json("metric", bytes)
+    }
 }
 
 fn to_json(object: &impl Serialize) -> Vec<u8> {
     serde_json::to_vec(object).expect("strings and numbers have a JSON form")
+}
+
+fn from_json<T: for<'a> Deserialize<'a>>(what: &'static str, bytes: &[u8]) -> Result<T, Malformed> {
+    check_small(what, bytes.len())?;
+    serde_json::from_slice(bytes).map_err(|why| Malformed::Undecodable { what, why: why.to_string() })
 }
 
 /// `treadmill/{run}/episodes/{actor}`.
@@ -67,6 +77,11 @@ impl EpisodeReport {
     /// The object as it stands on the topic.
     pub fn to_json(&self) -> Vec<u8> {
         to_json(self)
+    }
+
+    /// Reads an object from a stranger.
+    pub fn from_json(bytes: &[u8]) -> Result<Self, Malformed> {
+        from_json("episode", bytes)
     }
 }
 

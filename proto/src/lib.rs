@@ -35,6 +35,7 @@ pub mod stats;
 pub mod task;
 
 mod planes;
+mod scan;
 
 /// Structures generated from `schema/*.proto`.
 #[allow(missing_docs, unreachable_pub, clippy::all)]

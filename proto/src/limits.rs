@@ -10,6 +10,10 @@ pub const ACTOR_STATE_BYTES_MAX: usize = 8 << 20;
 pub const MODEL_BYTES_MAX: usize = 4 << 20;
 /// Largest message of any other kind: receipts, statistics, announcements, JSON.
 pub const SMALL_BYTES_MAX: usize = 64 << 10;
+/// Largest statistics message of an actor.
+pub const STATS_BYTES_MAX: usize = 4 << 10;
+/// Largest sequence number, so that counting on from one never wraps.
+pub const SEQUENCE_MAX: u64 = u64::MAX >> 1;
 /// Largest status of a run: some hundred bytes for each actor.
 pub const STATUS_BYTES_MAX: usize = 4 << 20;
 /// Longest key or value in a request to change the configuration.

@@ -52,7 +52,7 @@ impl Precision {
     }
 
     /// Little-endian bytes as exactly `count` numbers, whatever these are.
-    pub(crate) fn from_bytes(self, field: &'static str, bytes: &[u8], count: usize) -> Result<Vec<f32>, Malformed> {
+    pub(crate) fn read_bytes(self, field: &'static str, bytes: &[u8], count: usize) -> Result<Vec<f32>, Malformed> {
         if self == Self::F32 {
             return planes::from_bytes(field, bytes, count);
         }
@@ -117,7 +117,7 @@ mod tests {
     fn what_is_not_rounded_is_not_sent() {
         let refused = Precision::F16.to_bytes("observations", &[1.0, 0.1]).unwrap_err().to_string();
         assert!(refused.contains("`observations` is 0.1 at index 1"), "{refused}");
-        let refused = Precision::F16.from_bytes("observations", &[0; 3], 2).unwrap_err().to_string();
+        let refused = Precision::F16.read_bytes("observations", &[0; 3], 2).unwrap_err().to_string();
         assert!(refused.contains("3 bytes long") && refused.contains("2 numbers of 2 bytes"), "{refused}");
     }
 
@@ -127,7 +127,7 @@ mod tests {
             Precision::F16.round(&mut numbers);
             let bytes = Precision::F16.to_bytes("x", &numbers).unwrap();
             prop_assert_eq!(bytes.len(), 2 * numbers.len());
-            prop_assert_eq!(Precision::F16.from_bytes("x", &bytes, numbers.len()).unwrap(), numbers);
+            prop_assert_eq!(Precision::F16.read_bytes("x", &bytes, numbers.len()).unwrap(), numbers);
         }
     }
 }

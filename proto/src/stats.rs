@@ -2,14 +2,16 @@
 
 use prost::Message;
 
-use crate::{Malformed, bundle, ident::check_ident, wire};
+use crate::{Malformed, ident::check_ident, limits::STATS_BYTES_MAX, wire};
 
 pub use wire::ActorStats;
 
 impl ActorStats {
     /// Reads and checks protobuf bytes from a stranger.
     pub fn decode_checked(bytes: &[u8]) -> Result<Self, Malformed> {
-        bundle::check_small("statistics", bytes.len())?;
+        if bytes.len() > STATS_BYTES_MAX {
+            return Err(Malformed::TooLarge { what: "statistics", bytes: bytes.len(), limit: STATS_BYTES_MAX });
+        }
         let stats =
             Self::decode(bytes).map_err(|why| Malformed::Undecodable { what: "statistics", why: why.to_string() })?;
         check_ident("actor", &stats.actor)?;

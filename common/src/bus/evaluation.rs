@@ -16,10 +16,12 @@ use zenoh::{
     query::{Query, Queryable},
 };
 
-use super::{Bus, BusError, keys};
+use super::{Bus, BusError, brake::Brake, complaints::Complaints, keys};
 
 /// Requests and reports that may wait; whoever finds no room asks again.
 const QUEUE: usize = 64;
+/// Requests that are read at full speed, each second.
+const REQUESTS_PER_S: f64 = 200.0;
 
 /// The learner's end.
 pub struct EvaluationDesk {
@@ -39,8 +41,9 @@ impl EvaluationDesk {
             .spawn({
                 let (candidate, run) = (candidate.clone(), run.to_string());
                 move || {
+                    let complaints = Complaints::default();
                     for query in requests {
-                        let known = hand_in(&query, &run).map(|handed: EvaluationReport| {
+                        let known = hand_in(&query, &run, &complaints).map(|handed: EvaluationReport| {
                             let version = handed.version;
                             // Where the queue is full the learner has reports enough.
                             drop(report.try_send(handed));
@@ -51,10 +54,14 @@ impl EvaluationDesk {
                 }
             })
             .map_err(|why| BusError::Flow { what: "starting the evaluation desk".to_string(), why: why.to_string() })?;
+        let brake = Brake::new(REQUESTS_PER_S);
         let queryable = bus
             .session
             .declare_queryable(keys::evaluations(run, "*"))
-            .callback(move |query| drop(ask.try_send(query)))
+            .callback(move |query| {
+                brake.press();
+                drop(ask.try_send(query));
+            })
             .wait()
             .map_err(BusError::flow("handing out policies for evaluation"))?;
         Ok(Self { candidate, reports, _queryable: queryable })
@@ -72,18 +79,19 @@ impl EvaluationDesk {
 }
 
 /// The report in a query, if there is a sound one.
-fn hand_in(query: &Query, run: &str) -> Option<EvaluationReport> {
+fn hand_in(query: &Query, run: &str, complaints: &Complaints) -> Option<EvaluationReport> {
     let payload = query.payload().filter(|payload| !payload.is_empty())?;
     let name = keys::last_part(query.key_expr().as_str());
     let report = check_ident("evaluator", name).and_then(|()| EvaluationReport::decode(&payload.to_bytes()));
     match report {
         Ok(report) if report.run == run && report.evaluator == name => Some(report),
         Ok(report) => {
-            tracing::warn!("a report of run `{}` by `{}` came on `{name}`'s key", report.run, report.evaluator);
+            let (run, evaluator) = (report.run, report.evaluator);
+            complaints.warn(|| format!("a report of run `{run}` by `{evaluator}` came on `{name}`'s key"));
             None
         }
         Err(why) => {
-            tracing::warn!("an evaluation report was refused: {why}");
+            complaints.warn(|| format!("an evaluation report was refused: {why}"));
             None
         }
     }

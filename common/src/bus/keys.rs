@@ -45,6 +45,11 @@ pub fn stats(run: &str, actor: &str) -> String {
     format!("treadmill/{run}/actors/{actor}/stats")
 }
 
+/// The actor whose statistics come on a key of [`stats`].
+pub fn stats_actor(key: &str) -> Option<&str> {
+    key.strip_suffix("/stats").map(last_part)
+}
+
 /// `treadmill/{run}/episodes/{actor}`.
 pub fn episodes(run: &str, actor: &str) -> String {
     format!("treadmill/{run}/episodes/{actor}")

@@ -2,22 +2,25 @@
 
 use std::{
     collections::{BTreeSet, HashMap},
+    io::Read,
     sync::{
         Arc, Mutex, RwLock,
         atomic::{AtomicU64, AtomicUsize, Ordering},
         mpsc::{Receiver, SyncSender, TrySendError, sync_channel},
     },
-    time::Duration,
+    time::{Duration, Instant},
 };
 
 use bytes::Bytes;
 use treadmill_proto::{
-    ActorStats, Outcome, PolicyAnnouncement, PolicyVersion, Receipt, ident::check_ident, limits::FRAGMENT_BYTES_MAX,
+    ActorStats, Outcome, PolicyAnnouncement, PolicyVersion, Receipt,
+    fragment::claimed_incarnation,
+    ident::check_ident,
+    limits::{FRAGMENT_BYTES_MAX, STATS_BYTES_MAX},
 };
 use zenoh::{
     Wait,
     bytes::ZBytes,
-    handlers::RingChannel,
     liveliness::LivelinessToken,
     pubsub::{Publisher, Subscriber},
     qos::{CongestionControl, Priority},
@@ -25,7 +28,13 @@ use zenoh::{
     sample::{Sample, SampleKind},
 };
 
-use super::{Bus, BusError, keys};
+use super::{
+    Bus, BusError,
+    brake::Brake,
+    complaints::Complaints,
+    gate::{Gate, Refusal, Ticket},
+    keys,
+};
 
 /// Bytes of fragments that may wait for the learner, whatever their number.
 const INTAKE_BYTES_MAX: usize = 128 << 20;
@@ -35,8 +44,18 @@ const IN_PLACE_BYTES_MIN: usize = 64 << 10;
 const REFUSALS_QUEUE: usize = 1024;
 /// Policy requests that may wait for the shelf's thread.
 const SHELF_QUEUE: usize = 4096;
-/// Statistics messages that may wait; older ones give way.
-const STATS_RING: usize = 1024;
+/// Threads that serve policies: one that waits for a reader who does not read keeps only itself.
+const SHELF_THREADS: usize = 4;
+/// Actors that are known to be alive, and whose statistics are kept; tokens beyond that are passed over.
+const ACTORS_MAX: usize = 4096;
+/// As much of a fragment's beginning as holds run, actor and incarnation.
+const BEGINNING_BYTES: usize = 160;
+/// Fragments that are refused unread, requests for policies, and statistics, each: so many a second at full speed.
+const REFUSALS_PER_S: f64 = 500.0;
+const REQUESTS_PER_S: f64 = 2000.0;
+const STATS_PER_S: f64 = 5000.0;
+/// Stands for every name that is none. No actor can be called that.
+const NO_NAME: &str = "?";
 
 /// A fragment that waits for its receipt. Dropped without one, the sender gets no reply and sends again.
 pub struct Delivery {
@@ -46,6 +65,8 @@ pub struct Delivery {
     pub payload: Bytes,
     query: Query,
     queued_bytes: Arc<AtomicUsize>,
+    /// Room in the queue.
+    ticket: Option<Ticket>,
 }
 
 impl Delivery {
@@ -58,6 +79,7 @@ impl Delivery {
     pub fn release_payload(&mut self) {
         self.queued_bytes.fetch_sub(self.payload.len(), Ordering::Relaxed);
         self.payload = Bytes::new();
+        self.ticket = None;
     }
 }
 
@@ -82,15 +104,19 @@ pub struct RolloutIntake {
 }
 
 impl RolloutIntake {
-    /// Begins to take fragments; at most `capacity` wait, the rest is told to come again.
-    pub fn open(bus: &Bus, run: &str, capacity: usize) -> Result<Self, BusError> {
+    /// Begins to take fragments from whom `gate` lets in; at most `capacity` wait, the rest is told to come again.
+    pub fn open(bus: &Bus, run: &str, capacity: usize, gate: Arc<Gate>) -> Result<Self, BusError> {
         let (sender, queue) = sync_channel(capacity);
         let in_place = Arc::new(AtomicU64::new(0));
         let door = Door {
+            gate,
             queue: sender,
-            queued_bytes: Arc::new(AtomicUsize::new(0)),
+            queued_bytes: Arc::default(),
             in_place: in_place.clone(),
-            refusals: refusals()?,
+            answers: refusals()?,
+            refusals: Complaints::default(),
+            quarantines: Complaints::default(),
+            brake: Brake::new(REFUSALS_PER_S),
         };
         let queryable = bus
             .session
@@ -113,33 +139,70 @@ impl RolloutIntake {
     }
 }
 
-/// Where the bus's receiving thread puts what came.
+/// Where fragments come in.
 struct Door {
+    gate: Arc<Gate>,
     queue: SyncSender<Delivery>,
     queued_bytes: Arc<AtomicUsize>,
     in_place: Arc<AtomicU64>,
-    refusals: SyncSender<(Query, Receipt)>,
+    answers: SyncSender<(Query, Receipt)>,
+    refusals: Complaints,
+    quarantines: Complaints,
+    brake: Brake,
 }
 
 impl Door {
-    /// Runs in the bus's receiving thread: checks the header, hands over, returns.
+    /// Runs in the bus's receiving thread: looks at name, size and first bytes, hands over, returns.
     fn take(&self, mut query: Query) {
         // Out of the query, which lives until it is answered: the bus's own buffers are free again at once.
         let payload = query.payload_mut().map(std::mem::take).unwrap_or_default();
-        let (size, actor) = (payload.len(), keys::last_part(query.key_expr().as_str()).to_string());
-        if let Err(why) = check_ident("actor", &actor) {
-            return self.refuse(query, Outcome::Malformed, why.to_string());
-        }
-        if size == 0 || size > FRAGMENT_BYTES_MAX {
-            let reason = format!("the payload has {size} bytes; a fragment has 1 to {FRAGMENT_BYTES_MAX}");
-            return self.refuse(query, Outcome::Malformed, reason);
+        let key = query.key_expr().clone();
+        let named = check_ident("actor", keys::last_part(key.as_str()));
+        let actor = if named.is_ok() { keys::last_part(key.as_str()) } else { NO_NAME };
+        let size = payload.len();
+        let ticket = match self.gate.admit(actor, claimed(&payload), size, Instant::now()) {
+            Ok(ticket) => ticket,
+            Err(Refusal::Quarantined) => {
+                let reason = format!("too many refused fragments in a row from `{actor}`; wait a minute");
+                return self.refuse(query, Outcome::Quarantined, reason);
+            }
+            Err(Refusal::Busy) => {
+                let reason = format!("as many fragments of `{actor}` as may wait do so already");
+                return self.refuse(query, Outcome::Busy, reason);
+            }
+            Err(Refusal::Flood) => {
+                self.brake.press();
+                return self.refusals.warn(|| {
+                    "senders that have delivered nothing yet send more fragments than are looked at".to_string()
+                });
+            }
+        };
+        let wrong = match named {
+            Err(why) => Some(why.to_string()),
+            Ok(()) if size == 0 || size > FRAGMENT_BYTES_MAX => {
+                Some(format!("the payload has {size} bytes; a fragment has 1 to {FRAGMENT_BYTES_MAX}"))
+            }
+            Ok(()) => None,
+        };
+        if let Some(why) = wrong {
+            self.refusals.warn(|| format!("a fragment from `{actor}` was refused: {why}"));
+            if self.gate.failed_unread(ticket.sender(), Instant::now()) {
+                self.quarantines.warn(|| format!("`{actor}` is put in quarantine"));
+            }
+            return self.refuse(query, Outcome::Malformed, why);
         }
         if self.queued_bytes.fetch_add(size, Ordering::Relaxed) + size > INTAKE_BYTES_MAX {
             self.queued_bytes.fetch_sub(size, Ordering::Relaxed);
             return self.refuse(query, Outcome::Busy, format!("{INTAKE_BYTES_MAX} bytes of fragments wait already"));
         }
         let payload = whole(payload, &self.in_place);
-        let delivery = Delivery { actor, payload, query, queued_bytes: self.queued_bytes.clone() };
+        let delivery = Delivery {
+            actor: actor.to_string(),
+            payload,
+            query,
+            queued_bytes: self.queued_bytes.clone(),
+            ticket: Some(ticket),
+        };
         if let Err(TrySendError::Full(delivery) | TrySendError::Disconnected(delivery)) = self.queue.try_send(delivery)
         {
             self.refuse(delivery.query.clone(), Outcome::Busy, "the intake is full".to_string());
@@ -149,8 +212,9 @@ impl Door {
     /// Answers from another thread: a sender that does not read its answers must not hold up what others send. Where too
     /// many wait, there is no answer, and the sender comes again.
     fn refuse(&self, query: Query, outcome: Outcome, reason: String) {
+        self.brake.press();
         let receipt = Receipt { outcome, reason, version: PolicyVersion::default(), durable_through: 0 };
-        drop(self.refusals.try_send((query, receipt)));
+        drop(self.answers.try_send((query, receipt)));
     }
 }
 
@@ -180,6 +244,13 @@ fn whole(payload: ZBytes, in_place: &AtomicU64) -> Bytes {
     Bytes::from(payload.to_bytes().into_owned())
 }
 
+/// The incarnation that a fragment claims.
+fn claimed(payload: &ZBytes) -> Option<u64> {
+    let mut beginning = Vec::with_capacity(BEGINNING_BYTES);
+    payload.reader().take(BEGINNING_BYTES as u64).read_to_end(&mut beginning).ok()?;
+    claimed_incarnation(&beginning)
+}
+
 /// Serves the newest policy bundle and announces it.
 pub struct PolicyShelf {
     current: Arc<RwLock<Bytes>>,
@@ -192,28 +263,26 @@ impl PolicyShelf {
     pub fn open(bus: &Bus, run: &str, bundle: Bytes) -> Result<Self, BusError> {
         let current = Arc::new(RwLock::new(bundle));
         let (sender, requests) = sync_channel::<Query>(SHELF_QUEUE);
-        let key = keys::policy_latest(run);
-        std::thread::Builder::new()
-            .name("policy-shelf".to_string())
-            .spawn({
-                let (current, key) = (current.clone(), key.clone());
-                move || {
-                    for query in requests {
-                        let bundle = current.read().expect("no holder of this lock panics").clone();
-                        // The answer names the run also where the question left it open.
-                        let answer = query.reply(key.clone(), bundle);
-                        if let Err(why) = answer.wait() {
-                            tracing::debug!("a policy bundle could not be sent: {why}");
-                        }
-                    }
-                }
-            })
-            .map_err(|why| BusError::Flow { what: "starting the policy shelf".to_string(), why: why.to_string() })?;
+        let (key, requests) = (keys::policy_latest(run), Arc::new(Mutex::new(requests)));
+        for number in 0..SHELF_THREADS {
+            let (current, key, requests) = (current.clone(), key.clone(), requests.clone());
+            std::thread::Builder::new()
+                .name(format!("policy-shelf-{number}"))
+                .spawn(move || serve(&current, &key, &requests))
+                .map_err(|why| BusError::Flow {
+                    what: "starting the policy shelf".to_string(),
+                    why: why.to_string(),
+                })?;
+        }
+        let brake = Brake::new(REQUESTS_PER_S);
         let queryable = bus
             .session
             .declare_queryable(key)
             // A request that finds the queue full gets no reply, and its actor asks again.
-            .callback(move |query| drop(sender.try_send(query)))
+            .callback(move |query| {
+                brake.press();
+                drop(sender.try_send(query));
+            })
             .wait()
             .map_err(BusError::flow("serving policies"))?;
         let announcer = bus
@@ -232,6 +301,20 @@ impl PolicyShelf {
         if let Err(why) = self.announcer.put(announcement.encode()).wait() {
             // Actors also hear of it from receipts, and look by themselves now and then.
             tracing::debug!("a policy announcement could not be sent: {why}");
+        }
+    }
+}
+
+/// Hands out policies for as long as somebody can ask.
+fn serve(current: &RwLock<Bytes>, key: &str, requests: &Mutex<Receiver<Query>>) {
+    loop {
+        // Only whoever holds the lock waits for a request; the answer is sent without it.
+        let next = requests.lock().expect("no holder of this lock panics").recv();
+        let Ok(query) = next else { return };
+        let bundle = current.read().expect("no holder of this lock panics").clone();
+        // The answer names the run also where the question left it open.
+        if let Err(why) = query.reply(key, bundle).wait() {
+            tracing::debug!("a policy bundle could not be sent: {why}");
         }
     }
 }
@@ -255,12 +338,15 @@ impl Alive {
             .callback({
                 let actors = actors.clone();
                 move |sample: Sample| {
-                    let actor = keys::last_part(sample.key_expr().as_str()).to_string();
+                    let actor = keys::last_part(sample.key_expr().as_str());
                     let mut actors = actors.lock().expect("no holder of this lock panics");
                     match sample.kind() {
-                        SampleKind::Put => actors.insert(actor),
-                        SampleKind::Delete => actors.remove(&actor),
-                    };
+                        SampleKind::Put if actors.len() < ACTORS_MAX && check_ident("actor", actor).is_ok() => {
+                            actors.insert(actor.to_string());
+                        }
+                        SampleKind::Put => {}
+                        SampleKind::Delete => drop(actors.remove(actor)),
+                    }
                 }
             })
             .wait()
@@ -300,39 +386,76 @@ impl AliveView {
 
 /// The newest statistics of each actor.
 pub struct StatsFeed {
-    ring: Subscriber<zenoh::handlers::RingChannelHandler<Sample>>,
+    /// As they came, so that a flood costs no decoding and pushes nobody else's aside.
+    arrived: Arc<Mutex<HashMap<String, Vec<u8>>>>,
     newest: HashMap<String, ActorStats>,
-    run: String,
+    complaints: Complaints,
+    _subscriber: Subscriber<()>,
 }
 
 impl StatsFeed {
     /// Begins to listen.
     pub fn open(bus: &Bus, run: &str) -> Result<Self, BusError> {
-        let ring = bus
+        let arrived = Arc::new(Mutex::new(HashMap::new()));
+        let subscriber = bus
             .session
             .declare_subscriber(keys::stats(run, "*"))
-            .with(RingChannel::new(STATS_RING))
+            .callback({
+                let (arrived, brake) = (arrived.clone(), Brake::new(STATS_PER_S));
+                move |sample: Sample| {
+                    brake.press();
+                    keep_newest(&sample, &arrived);
+                }
+            })
             .wait()
             .map_err(BusError::flow("listening to statistics"))?;
-        Ok(Self { ring, newest: HashMap::new(), run: run.to_string() })
+        Ok(Self { arrived, newest: HashMap::new(), complaints: Complaints::default(), _subscriber: subscriber })
     }
 
-    /// The next statistics, if some come within `patience`, on the key of whoever they are about.
-    pub fn next(&self, patience: Duration) -> Option<ActorStats> {
-        let sample = self.ring.recv_timeout(patience).ok().flatten()?;
-        let stats = ActorStats::decode_checked(&sample.payload().to_bytes()).ok()?;
-        (sample.key_expr().as_str() == keys::stats(&self.run, &stats.actor)).then_some(stats)
+    /// Statistics that came since, of any actor, on the key of whoever they are about.
+    pub fn next(&self) -> Option<ActorStats> {
+        let mut arrived = self.arrived.lock().expect("no holder of this lock panics");
+        while let Some(actor) = arrived.keys().next().cloned() {
+            let bytes = arrived.remove(&actor).unwrap_or_default();
+            if let Ok(stats) = ActorStats::decode_checked(&bytes)
+                && stats.actor == actor
+            {
+                return Some(stats);
+            }
+        }
+        None
     }
 
     /// Takes what came and forgets who is gone.
     pub fn newest(&mut self, alive: &BTreeSet<String>) -> &HashMap<String, ActorStats> {
-        while let Ok(Some(sample)) = self.ring.try_recv() {
-            match ActorStats::decode_checked(&sample.payload().to_bytes()) {
-                Ok(stats) => drop(self.newest.insert(stats.actor.clone(), stats)),
-                Err(why) => tracing::debug!("statistics refused: {why}"),
+        let arrived = std::mem::take(&mut *self.arrived.lock().expect("no holder of this lock panics"));
+        for (actor, bytes) in arrived.into_iter().filter(|(actor, _)| alive.contains(actor)) {
+            match ActorStats::decode_checked(&bytes) {
+                Ok(stats) if stats.actor == actor => drop(self.newest.insert(actor, stats)),
+                Ok(stats) => self
+                    .complaints
+                    .warn(|| format!("statistics of `{}` came on the key of `{actor}` and were refused", stats.actor)),
+                Err(why) => self.complaints.warn(|| format!("statistics from `{actor}` were refused: {why}")),
             }
         }
         self.newest.retain(|actor, _| alive.contains(actor));
         &self.newest
+    }
+}
+
+/// Runs in the bus's receiving thread.
+fn keep_newest(sample: &Sample, arrived: &Mutex<HashMap<String, Vec<u8>>>) {
+    let actor = keys::stats_actor(sample.key_expr().as_str());
+    let Some(actor) = actor.filter(|actor| check_ident("actor", actor).is_ok()) else { return };
+    if sample.payload().len() > STATS_BYTES_MAX {
+        return;
+    }
+    let bytes = sample.payload().to_bytes();
+    let mut arrived = arrived.lock().expect("no holder of this lock panics");
+    if let Some(kept) = arrived.get_mut(actor) {
+        kept.clear();
+        kept.extend_from_slice(&bytes);
+    } else if arrived.len() < ACTORS_MAX {
+        arrived.insert(actor.to_string(), bytes.into_owned());
     }
 }

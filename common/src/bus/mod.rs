@@ -1,14 +1,19 @@
 //! Sessions, keys and flows of the bus; the only place that names Zenoh.
 //!
 //! Rollouts and policies are queries, because a publication succeeds also when it goes nowhere. Announcements,
-//! statistics and metrics are publications that may be dropped. No callback blocks: each hands over to a bounded queue.
+//! statistics and metrics are publications that may be dropped. No callback waits for anybody: each hands over
+//! to a bounded queue, and a flood is slowed by naps (see `brake`).
 
 mod actor_side;
+mod brake;
+pub mod complaints;
 mod control;
 mod copies;
 mod discovery;
+mod door;
 pub mod endpoint;
 mod evaluation;
+pub mod gate;
 pub mod keys;
 mod learner_side;
 mod observer_side;
@@ -20,6 +25,7 @@ pub mod threads;
 pub use actor_side::{Announcements, fetch_policy, publish_dropping, submit, token, watch_announcements};
 pub use control::{ControlDesk, Inquiry, command, statuses};
 pub use copies::RolloutCopies;
+pub use door::turned_away;
 pub use evaluation::{Assignment, EvaluationDesk, ask_for_evaluation};
 pub use learner_side::{Alive, AliveView, Delivery, PolicyShelf, RolloutIntake, StatsFeed};
 pub use observer_side::{Feed, Message, observe};

@@ -7,6 +7,7 @@
 use std::path::{Path, PathBuf};
 
 use serde_json::{Value, json};
+use treadmill_proto::limits::{FRAGMENT_BYTES_MAX, SMALL_BYTES_MAX, STATS_BYTES_MAX};
 
 /// A part that is played on the bus.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -122,6 +123,19 @@ pub(super) fn access() -> Value {
         "subjects": subjects,
         "policies": policies,
     })
+}
+
+/// Largest messages that the learner's session and routers let in, by key; what is larger is dropped where it comes in.
+pub(super) fn sizes() -> Value {
+    let rule = |id: &str, message: &str, key: &str, bytes: usize| json!({"id": id, "flows": IN, "messages": [message], "key_exprs": [key], "size_limit": bytes});
+    json!([
+        rule("rollouts", "query", "treadmill/*/rollouts/*", FRAGMENT_BYTES_MAX + SMALL_BYTES_MAX),
+        rule("evaluations", "query", "treadmill/*/evaluations/*", SMALL_BYTES_MAX),
+        rule("policies", "query", "treadmill/*/policy/*", SMALL_BYTES_MAX),
+        rule("control", "query", "treadmill/*/control", SMALL_BYTES_MAX),
+        rule("statistics", "put", "treadmill/*/actors/*/stats", STATS_BYTES_MAX),
+        rule("episodes", "put", "treadmill/*/episodes/*", STATS_BYTES_MAX),
+    ])
 }
 
 /// One thing that a part may do.

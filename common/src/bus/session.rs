@@ -22,6 +22,16 @@ const SHARED_POOL_BYTES: usize = 8 << 20;
 /// Closing can hang on a dead link: after this the process goes on without it.
 const CLOSE_TIMEOUT: Duration = Duration::from_secs(2);
 
+/// Sessions at most, as far as the system's limit on open files allows.
+const SESSIONS_MAX: u64 = 4096;
+/// Open files that are kept for everything but the bus: checkpoints and logs must not fail because strangers connect.
+const OTHER_FILES: u64 = 256;
+/// Connections that may be open and have not said yet who they are.
+const ACCEPT_PENDING: u64 = 256;
+/// How long one may take to say who it is; as long as the encryption is not agreed upon, a part of it.
+const ACCEPT_TIMEOUT_MS: u64 = 5000;
+const HANDSHAKE_TIMEOUT_MS: u64 = 3000;
+
 /// How to reach the bus.
 #[derive(Clone, Debug, Default)]
 pub struct BusOptions {
@@ -67,11 +77,16 @@ impl Bus {
             listen.push(endpoint);
         }
         let mut settings = base(options)?;
+        let files = rlimit::increase_nofile_limit(SESSIONS_MAX + ACCEPT_PENDING + OTHER_FILES).unwrap_or(1024);
+        let sessions = files.saturating_sub(ACCEPT_PENDING + OTHER_FILES).clamp(16, SESSIONS_MAX);
+        insert(&mut settings, "transport/unicast/max_sessions", json!(sessions))?;
         insert(&mut settings, "mode", json!("router"))?;
         if options.credentials.is_some() {
             insert(&mut settings, "access_control", security::access())?;
         }
-        insert(&mut settings, "listen/endpoints", json!(listen))?;
+        insert(&mut settings, "low_pass_filter", security::sizes())?;
+        let hasty: Vec<String> = listen.iter().map(|endpoint| impatient(endpoint)).collect();
+        insert(&mut settings, "listen/endpoints", json!(hasty))?;
         if options.discover {
             // It answers. That it also dials whom it hears of is not wanted: links between routers are named.
             insert(&mut settings, "scouting/multicast/enabled", json!(true))?;
@@ -117,6 +132,14 @@ impl Bus {
     }
 }
 
+/// An endpoint where encryption is agreed upon soon or not at all.
+fn impatient(endpoint: &str) -> String {
+    match endpoint.starts_with("tls/") && !endpoint.contains('#') {
+        true => format!("{endpoint}#tls_handshake_timeout_ms={HANDSHAKE_TIMEOUT_MS}"),
+        false => endpoint.to_string(),
+    }
+}
+
 /// Dials `endpoints` again and again for as long as nobody answers. A client's session is open once somebody did, a router's
 /// at once.
 fn dial(settings: &mut Config, endpoints: &[String]) -> Result<(), BusError> {
@@ -142,9 +165,8 @@ fn base(options: &BusOptions) -> Result<Config, BusError> {
         ("scouting/multicast/enabled", json!(false)),
         ("scouting/gossip/enabled", json!(false)),
         ("adminspace/enabled", json!(true)),
-        ("transport/unicast/max_sessions", json!(4096)),
-        ("transport/unicast/accept_pending", json!(1024)),
-        ("transport/unicast/accept_timeout", json!(5000)),
+        ("transport/unicast/accept_pending", json!(ACCEPT_PENDING)),
+        ("transport/unicast/accept_timeout", json!(ACCEPT_TIMEOUT_MS)),
         ("transport/unicast/open_timeout", json!(5000)),
         ("transport/link/tx/lease", json!(LEASE_MS)),
         ("transport/link/tx/keep_alive", json!(4)),

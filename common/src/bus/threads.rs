@@ -4,25 +4,52 @@
 //! directions links break off by that, several times a second, and worse is possible. Where one thread does both, it cannot
 //! happen. A router is the exception: it would wait, in that thread, for what that thread itself must send first.
 
+//!
+//! Where links are not encrypted, the learner and routers read with more threads than the bus would by itself, so that a link
+//! that is read slowly, because it floods (see `brake`), does not hold up others.
+
 use super::{BusOptions, Role};
 
-/// Name and value of the variable that makes one thread read and write all links, where these need it: to be set before any
-/// other thread runs, unless the user has set it.
-pub fn one_for_both_directions(options: &BusOptions, role: Role) -> Option<(&'static str, &'static str)> {
-    const NAME: &str = "ZENOH_RUNTIME";
-    let encrypted = options.listen.iter().chain(&options.connect).any(|endpoint| endpoint.starts_with("tls/"));
-    (encrypted && role != Role::Router && std::env::var_os(NAME).is_none()).then_some((NAME, "(rx:(handover:tx))"))
+const VARIABLE: &str = "ZENOH_RUNTIME";
+/// One thread reads and writes all links.
+const ONE: &str = "(rx:(handover:tx))";
+/// Enough of them that some links may be read slowly.
+const MANY: &str = "(rx:(worker_threads:16))";
+
+/// Name and value of the variable that says on which threads the bus of this process works: to be set before any other thread
+/// runs. `None` where it works as it does by itself, or as the user has said.
+pub fn wanted(options: &BusOptions, role: Role) -> Option<(&'static str, &'static str)> {
+    // Whoever is to find others by multicast names no endpoint, but has certificates.
+    let is_named = options.listen.iter().chain(&options.connect).any(|endpoint| endpoint.starts_with("tls/"));
+    let value = match (is_named || options.credentials.is_some(), role) {
+        (true, Role::Learner | Role::Actor | Role::Evaluator | Role::Observer | Role::Operator) => ONE,
+        (_, Role::Learner | Role::Router) => MANY,
+        (false, _) => return None,
+    };
+    std::env::var_os(VARIABLE).is_none().then_some((VARIABLE, value))
+}
+
+/// Whether the thread that reads a link may pause without holding up all others.
+pub(super) fn may_pause() -> bool {
+    std::env::var(VARIABLE).is_ok_and(|value| !value.contains("handover"))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::bus::Credentials;
 
     #[test]
     fn only_encrypted_links_need_it_and_routers_cannot_have_it() {
         let options = |endpoint: &str| BusOptions { connect: vec![endpoint.to_string()], ..BusOptions::default() };
-        assert!(one_for_both_directions(&options("tls/localhost:1"), Role::Actor).is_some());
-        assert!(one_for_both_directions(&options("tls/localhost:1"), Role::Router).is_none());
-        assert!(one_for_both_directions(&options("tcp/localhost:1"), Role::Learner).is_none());
+        let value = |endpoint, role| wanted(&options(endpoint), role).map(|(_, value)| value);
+        assert_eq!(value("tls/localhost:1", Role::Actor), Some(ONE));
+        assert_eq!(value("tls/localhost:1", Role::Learner), Some(ONE));
+        assert_eq!(value("tls/localhost:1", Role::Router), Some(MANY));
+        assert_eq!(value("tcp/localhost:1", Role::Learner), Some(MANY));
+        assert_eq!(value("tcp/localhost:1", Role::Actor), None);
+        let credentials = Credentials { folder: "certs".into(), role: Role::Actor };
+        let searching = BusOptions { discover: true, credentials: Some(credentials), ..BusOptions::default() };
+        assert_eq!(wanted(&searching, Role::Actor), Some((VARIABLE, ONE)));
     }
 }

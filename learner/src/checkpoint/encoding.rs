@@ -13,7 +13,11 @@ const MAGIC: &[u8; 8] = b"TREADMIL";
 /// Version of the format; raised whenever the state's fields change.
 pub const FORMAT: u32 = 3;
 const HEADER_BYTES: usize = 8 + 4 + 8 + 32;
-/// Checkpoints are read from disk, not from the bus, but a damaged length must not ask for all memory.
+/// Checkpoints are read from disk, not from the bus, but a length inside must not ask for all memory: what is read may take
+/// so many bytes where its content has at most so many. Bincode has its limits at compile time, hence the steps.
+const SMALL: (usize, usize) = (64 << 10, 1 << 20);
+const MEDIUM: (usize, usize) = (1 << 20, 16 << 20);
+const LARGE: (usize, usize) = (16 << 20, 256 << 20);
 const STATE_BYTES_MAX: usize = 4 << 30;
 
 /// Whether bytes begin as a checkpoint's do.
@@ -55,9 +59,19 @@ pub fn decode<T: DeserializeOwned>(path: &str, bytes: &[u8]) -> Result<T, Checkp
     if Sha256::digest(payload).as_slice() != &header[20..] {
         return Err(damaged("its checksum does not match its content".to_string()));
     }
-    bincode::serde::decode_from_slice(payload, bincode::config::standard().with_limit::<STATE_BYTES_MAX>())
+    let read = match payload.len() {
+        length if length <= SMALL.0 => read::<T, { SMALL.1 }>(payload),
+        length if length <= MEDIUM.0 => read::<T, { MEDIUM.1 }>(payload),
+        length if length <= LARGE.0 => read::<T, { LARGE.1 }>(payload),
+        _ => read::<T, STATE_BYTES_MAX>(payload),
+    };
+    read.map_err(damaged)
+}
+
+fn read<T: DeserializeOwned, const BYTES_MAX: usize>(payload: &[u8]) -> Result<T, String> {
+    bincode::serde::decode_from_slice(payload, bincode::config::standard().with_limit::<BYTES_MAX>())
         .map(|(state, _)| state)
-        .map_err(|why| damaged(why.to_string()))
+        .map_err(|why| why.to_string())
 }
 
 #[cfg(test)]

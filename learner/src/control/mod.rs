@@ -65,7 +65,7 @@ impl Control {
                     while !closed.load(Ordering::Relaxed) {
                         let inquiry = desk.next(TICK);
                         let mut board = lock(&board);
-                        while let Some(stats) = feed.next(Duration::ZERO) {
+                        while let Some(stats) = feed.next() {
                             board.roster.heard(stats, Instant::now());
                         }
                         let Some(inquiry) = inquiry else { continue };

@@ -1,14 +1,18 @@
 //! What becomes of a fragment: decided in one place, before anything is learnt from it.
 
+use std::{sync::Arc, time::Instant};
+
 use bytes::Bytes;
 use serde::{Deserialize, Serialize};
-use std::time::Instant;
-use treadmill_proto::{Fragment, Malformed, Outcome, Receipt};
+use treadmill_common::bus::{
+    complaints::Complaints,
+    gate::{Gate, Sender},
+};
+use treadmill_proto::{Fragment, Malformed, Outcome, Receipt, fragment::claimed_incarnation};
 
 use super::{
     ledger::{Fate, Ledger, Rule},
     lineage::{Descent, Lineage},
-    quarantine::Quarantine,
 };
 
 /// What every fragment of a run must agree with.
@@ -56,7 +60,11 @@ pub struct Accepted {
 #[derive(Debug)]
 pub struct Judge {
     expected: Expected,
-    quarantine: Quarantine,
+    gate: Arc<Gate>,
+    refusals: Complaints,
+    quarantines: Complaints,
+    /// Refused unread for lack of room, since this start.
+    turned_away: u64,
     /// What was dealt with.
     pub ledger: Ledger,
     /// Counts.
@@ -64,9 +72,10 @@ pub struct Judge {
 }
 
 impl Judge {
-    /// A judge with what a checkpoint remembers.
-    pub fn new(expected: Expected, quarantine_after: u32, ledger: Ledger, tally: Tally) -> Self {
-        Self { expected, quarantine: Quarantine::new(quarantine_after), ledger, tally }
+    /// A judge with what a checkpoint remembers, who tells `gate` what he thinks of senders.
+    pub fn new(expected: Expected, gate: Arc<Gate>, ledger: Ledger, tally: Tally) -> Self {
+        let (refusals, quarantines) = (Complaints::default(), Complaints::default());
+        Self { expected, gate, refusals, quarantines, turned_away: 0, ledger, tally }
     }
 
     /// Looks at what `actor` sent: the fragment if it is taken, else the receipt that says why not.
@@ -80,26 +89,25 @@ impl Judge {
         let refuse = |outcome, reason: String, durable_through| {
             Box::new(Receipt { outcome, reason, version: lineage.newest(), durable_through })
         };
-        if self.quarantine.holds(actor, now) {
+        // What came through the gate before its sender was put in quarantine.
+        let sender = self.gate.identify(actor, claimed_incarnation(&payload));
+        if self.gate.holds(&sender, now) {
             self.tally.quarantined += 1;
-            return Err(refuse(
-                Outcome::Quarantined,
-                format!("too many refused fragments in a row from `{actor}`; wait a minute"),
-                0,
-            ));
+            let reason = format!("too many refused fragments in a row from `{actor}`; wait a minute");
+            return Err(refuse(Outcome::Quarantined, reason, 0));
         }
-        let fragment = match Fragment::decode(payload).and_then(|fragment| self.fits(actor, fragment)) {
+        let sound = Fragment::decode(payload).and_then(|fragment| self.fits(actor, fragment, lineage));
+        let fragment = match sound {
             Ok(fragment) => fragment,
             Err(why) => {
                 self.tally.malformed += 1;
-                tracing::warn!("a fragment from `{actor}` was refused: {why}");
-                if self.quarantine.failed(actor, now) {
-                    tracing::warn!("`{actor}` is put in quarantine");
+                self.refusals.warn(|| format!("a fragment from `{actor}` was refused: {why}"));
+                if self.gate.failed(&sender, now) {
+                    self.quarantines.warn(|| format!("`{actor}` is put in quarantine"));
                 }
                 return Err(refuse(Outcome::Malformed, why.to_string(), 0));
             }
         };
-        self.quarantine.succeeded(actor);
         let (incarnation, sequence) = (fragment.actor_incarnation, fragment.sequence);
         if !self.ledger.knows(actor, incarnation) {
             tracing::info!("`{actor}` delivers as process {incarnation}");
@@ -108,6 +116,7 @@ impl Judge {
         let durable_through = self.ledger.durable_through(actor, incarnation);
         if let Some(fate) = self.ledger.fate(actor, incarnation, sequence) {
             self.tally.duplicate += 1;
+            self.useless(&sender, now);
             // Its receipt got lost: the sender is told what became of it then.
             let (outcome, reason) = match fate {
                 Fate::Accepted => (Outcome::Duplicate, String::new()),
@@ -118,8 +127,10 @@ impl Judge {
         }
         let env_steps = fragment.transitions() as u64;
         let dropped = match lineage.descent(fragment.version) {
-            Descent::Vanished => {
+            // The future was refused above.
+            Descent::Vanished | Descent::Future => {
                 self.tally.vanished += 1;
+                self.useless(&sender, now);
                 let reason = format!("policy version {:?} is not one of this learner's", fragment.version);
                 Err((Rule::Vanished, Outcome::Vanished, reason))
             }
@@ -134,6 +145,7 @@ impl Judge {
         self.ledger.insert(actor, incarnation, sequence, fate, env_steps);
         match dropped {
             Ok(lag) => {
+                self.gate.taken(actor, incarnation, now);
                 self.tally.accepted += 1;
                 Ok(Accepted { fragment, lag })
             }
@@ -141,12 +153,32 @@ impl Judge {
         }
     }
 
-    /// Who is in quarantine.
-    pub fn quarantined(&self, now: Instant) -> Vec<&str> {
-        self.quarantine.held(now)
+    fn useless(&self, sender: &Sender, now: Instant) {
+        if self.gate.useless(sender, now) {
+            let name = sender.name();
+            self.quarantines.warn(|| format!("`{name}` is put in quarantine: nothing it sent of late was of use"));
+        }
     }
 
-    fn fits(&self, actor: &str, fragment: Fragment) -> Result<Fragment, Malformed> {
+    /// Takes the gate's own counts into the tally.
+    pub fn count_unread(&mut self) {
+        let unread = self.gate.take_unread();
+        self.tally.malformed += unread.malformed;
+        self.tally.quarantined += unread.quarantined;
+        self.turned_away += unread.turned_away;
+    }
+
+    /// Fragments that were refused unread for lack of room, since this start.
+    pub fn turned_away(&self) -> u64 {
+        self.turned_away
+    }
+
+    /// Who is in quarantine.
+    pub fn quarantined(&self, now: Instant) -> Vec<String> {
+        self.gate.held(now)
+    }
+
+    fn fits(&self, actor: &str, fragment: Fragment, lineage: &Lineage) -> Result<Fragment, Malformed> {
         let expected = &self.expected;
         let differ = |field: &'static str, found: String, wanted: String| {
             Err(Malformed::Field { field, value: found, expected: wanted })
@@ -165,6 +197,11 @@ impl Judge {
             if found != wanted {
                 return differ(field, found.to_string(), format!("{wanted}, as the policy bundle says"));
             }
+        }
+        // A version is saved before it is handed out, so nobody can have one that is yet to come.
+        if lineage.descent(fragment.version) == Descent::Future {
+            let newest = lineage.newest().number;
+            return differ("version", fragment.version.number.to_string(), format!("at most {newest}, the newest"));
         }
         Ok(fragment)
     }

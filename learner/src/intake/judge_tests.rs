@@ -5,7 +5,7 @@ use super::*;
 fn judge() -> Judge {
     let expected =
         Expected { run: "walk".into(), config_hash: 5, observation_size: 1, action_size: 1, max_policy_lag: 1 };
-    Judge::new(expected, 3, Ledger::default(), Tally::default())
+    Judge::new(expected, Arc::new(Gate::new(3, 64)), Ledger::default(), Tally::default())
 }
 
 fn fragment(sequence: u64, number: u64) -> Fragment {
@@ -52,7 +52,8 @@ fn each_outcome_and_its_count() {
     assert_eq!(outcome(&mut judge, &fragment(1, 5), &lineage), Outcome::Duplicate);
     assert_eq!(outcome(&mut judge, &fragment(2, 4), &lineage), Outcome::Accepted);
     assert_eq!(outcome(&mut judge, &fragment(3, 3), &lineage), Outcome::TooOld);
-    assert_eq!(outcome(&mut judge, &fragment(4, 6), &lineage), Outcome::Vanished);
+    let vanished = Fragment { version: PolicyVersion { incarnation: 9, number: 5 }, ..fragment(4, 5) };
+    assert_eq!(outcome(&mut judge, &vanished, &lineage), Outcome::Vanished);
     let other_run = Fragment { run: "other".into(), ..fragment(5, 5) };
     assert_eq!(outcome(&mut judge, &other_run, &lineage), Outcome::Malformed);
     let wanted = Tally { accepted: 2, duplicate: 1, too_old: 1, vanished: 1, malformed: 1, quarantined: 0 };
@@ -82,6 +83,26 @@ fn refusals_name_the_field_and_lead_to_quarantine() {
     }
     assert_eq!(outcome(&mut judge, &fragment(1, 0), &lineage), Outcome::Quarantined);
     assert_eq!(judge.quarantined(Instant::now()), ["a"]);
+}
+
+#[test]
+fn a_version_that_is_yet_to_come_is_a_lie() {
+    let (mut judge, lineage) = (judge(), lineage(5));
+    let receipt = judge.judge("a", fragment(1, 6).encode().unwrap().into(), &lineage, Instant::now()).unwrap_err();
+    assert_eq!(receipt.outcome, Outcome::Malformed);
+    assert!(receipt.reason.contains("`version` is 6; expected at most 5"), "{}", receipt.reason);
+}
+
+#[test]
+fn nonsense_under_the_name_of_a_good_actor_does_not_harm_it() {
+    let (mut judge, lineage) = (judge(), lineage(0));
+    assert_eq!(outcome(&mut judge, &fragment(1, 0), &lineage), Outcome::Accepted);
+    let impostor = Fragment { actor_incarnation: 3, run: "other".into(), ..fragment(2, 0) };
+    for _ in 0..3 {
+        assert_eq!(outcome(&mut judge, &impostor, &lineage), Outcome::Malformed);
+    }
+    assert_eq!(outcome(&mut judge, &impostor, &lineage), Outcome::Quarantined);
+    assert_eq!(outcome(&mut judge, &fragment(2, 0), &lineage), Outcome::Accepted);
 }
 
 #[test]

@@ -7,8 +7,10 @@ use serde::{Deserialize, Serialize};
 /// Actor processes that are remembered; the one that was silent longest gives way.
 const ACTORS_MAX: usize = 4096;
 /// Sequence numbers beyond a gap that are remembered for each process; a wider gap is given up, since the sender keeps
-/// fewer fragments than that.
+/// fewer fragments than that: what is in a batch and in flight.
 const AHEAD_MAX: usize = 65_536;
+/// The same over all processes: then the widest gap is given up. Every checkpoint holds them.
+const AHEAD_TOTAL_MAX: usize = 4 * AHEAD_MAX;
 
 /// Rules by which a sound fragment is dropped.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -167,6 +169,20 @@ impl Ledger {
             mark.dropped.pop_first();
         }
         self.forget_the_oldest();
+        self.give_up_the_widest();
+    }
+
+    /// Counting is cheap as long as nobody holds numbers back: only processes with gaps are many where somebody wants that.
+    fn give_up_the_widest(&mut self) {
+        let held = |mark: &Watermark| mark.ahead.len() + mark.dropped.len();
+        let ahead: usize = self.processes.values().map(held).sum();
+        if ahead > AHEAD_TOTAL_MAX
+            && let Some(widest) = self.processes.values_mut().max_by_key(|mark| held(mark))
+        {
+            let last = widest.ahead.last().copied().unwrap_or(widest.through);
+            widest.skip_to(last);
+            widest.dropped.clear();
+        }
     }
 
     fn forget_the_oldest(&mut self) {

@@ -20,6 +20,8 @@ pub enum Descent {
     Lag(u64),
     /// Never made durable, or of no learner of this run.
     Vanished,
+    /// Of this learner, which has not come so far yet.
+    Future,
 }
 
 impl Lineage {
@@ -57,6 +59,7 @@ impl Lineage {
         };
         match last {
             Some(last) if version.number <= last => Descent::Lag(self.newest.number - version.number),
+            _ if version.incarnation == self.newest.incarnation => Descent::Future,
             _ => Descent::Vanished,
         }
     }
@@ -75,7 +78,7 @@ mod tests {
         let mut lineage = Lineage::new(7);
         (0..5).for_each(|_| lineage.advance());
         assert_eq!(lineage.descent(version(7, 3)), Descent::Lag(2));
-        assert_eq!(lineage.descent(version(7, 6)), Descent::Vanished);
+        assert_eq!(lineage.descent(version(7, 6)), Descent::Future);
         // The process went on to version 8, but its successor resumed from the checkpoint of version 5.
         lineage.resume(9);
         lineage.advance();

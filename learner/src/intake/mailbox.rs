@@ -9,6 +9,8 @@ use bytes::Bytes;
 use treadmill_common::bus::{Alive, Delivery, RolloutCopies, RolloutIntake};
 use treadmill_proto::Receipt;
 
+use crate::pulse::Pulse;
+
 /// Fragments as they arrive, who is alive, and what time it is.
 pub trait Mailbox {
     /// A fragment that waits for its receipt.
@@ -49,12 +51,13 @@ pub struct BusMailbox {
     queue: RolloutIntake,
     alive: Alive,
     copies: RolloutCopies,
+    pulse: Pulse,
 }
 
 impl BusMailbox {
-    /// A mailbox over what is declared on the bus.
-    pub fn new(queue: RolloutIntake, alive: Alive, copies: RolloutCopies) -> Self {
-        Self { queue, alive, copies }
+    /// A mailbox over what is declared on the bus; whoever looks into it shows a sign of life.
+    pub fn new(queue: RolloutIntake, alive: Alive, copies: RolloutCopies, pulse: Pulse) -> Self {
+        Self { queue, alive, copies, pulse }
     }
 }
 
@@ -62,6 +65,7 @@ impl Mailbox for BusMailbox {
     type Letter = Delivery;
 
     fn next(&mut self, patience: Duration) -> Option<Delivery> {
+        self.pulse.beat();
         self.queue.next(patience)
     }
 

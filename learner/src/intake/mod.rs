@@ -11,7 +11,6 @@ mod ledger;
 mod lineage;
 mod mailbox;
 mod patience;
-mod quarantine;
 
 use std::{collections::BTreeSet, time::Duration};
 
@@ -23,7 +22,6 @@ pub use ledger::{Account, Fate, Ledger, Process, Rule};
 pub use lineage::{Descent, Lineage};
 pub use mailbox::{BusMailbox, Letter, Mailbox};
 use patience::Patience;
-pub use quarantine::Quarantine;
 
 /// How often the wait for a fragment looks up.
 const TICK: Duration = Duration::from_millis(20);
@@ -99,6 +97,11 @@ impl<M: Mailbox> Intake<M> {
     /// What was dealt with, and the counts.
     pub fn judge(&self) -> &Judge {
         &self.judge
+    }
+
+    /// Takes what was refused before it was read into the counts.
+    pub fn count_unread(&mut self) {
+        self.judge.count_unread();
     }
 
     /// Who is alive.

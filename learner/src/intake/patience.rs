@@ -8,6 +8,12 @@ use std::{
 /// Waiting never ends sooner than this: fragments of equal size do not arrive at the same instant.
 const WAIT_MIN: Duration = Duration::from_millis(50);
 
+/// Rounds in a row that may wait in vain for actors that have never delivered. To say that one is there costs nothing, and
+/// each time under another name it would hold up everybody.
+const IN_VAIN_MAX: u32 = 3;
+/// Actors that have delivered and are remembered for it.
+const KNOWN_MAX: usize = 4096;
+
 /// One round after the other: each actor that is waited for delivers once.
 ///
 /// With `d` of the actors in after a time `t`, the others may take `t / d` longer: a round with one actor more is worth
@@ -19,13 +25,24 @@ pub(super) struct Patience {
     delivered: BTreeSet<String>,
     delivered_before: BTreeSet<String>,
     late: BTreeSet<String>,
+    /// Have delivered at some time.
+    known: BTreeSet<String>,
+    in_vain: u32,
     until: Option<Instant>,
 }
 
 impl Patience {
     pub(super) fn new(now: Instant) -> Self {
         let nobody = BTreeSet::new;
-        Self { begun: now, delivered: nobody(), delivered_before: nobody(), late: nobody(), until: None }
+        Self {
+            begun: now,
+            delivered: nobody(),
+            delivered_before: nobody(),
+            late: nobody(),
+            known: nobody(),
+            in_vain: 0,
+            until: None,
+        }
     }
 
     /// Actors begin to simulate.
@@ -41,6 +58,9 @@ impl Patience {
             self.late.remove(actor);
         }
         self.delivered.insert(actor.to_string());
+        if self.known.len() < KNOWN_MAX && self.known.insert(actor.to_string()) {
+            self.in_vain = 0;
+        }
         let worth = now.duration_since(self.begun) / self.delivered.len() as u32;
         self.until = Some(now + worth.max(WAIT_MIN));
     }
@@ -48,14 +68,24 @@ impl Patience {
     /// Whether the round is over: everybody who is waited for has delivered, or is late.
     pub(super) fn is_over(&mut self, alive: &BTreeSet<String>, now: Instant) -> bool {
         let Some(until) = self.until else { return false };
-        let missing = || alive.iter().filter(|actor| !self.delivered.contains(*actor));
+        let heed_strangers = self.in_vain < IN_VAIN_MAX;
+        let missing = || {
+            let is_heeded = |actor: &&String| heed_strangers || self.known.contains(*actor);
+            alive.iter().filter(|actor| !self.delivered.contains(*actor)).filter(is_heeded)
+        };
         if missing().all(|actor| self.late.contains(actor)) {
             return true;
         }
         if now <= until {
             return false;
         }
+        if missing().any(|actor| !self.known.contains(actor)) {
+            self.in_vain += 1;
+        }
         self.late = missing().cloned().collect();
+        if self.known.len() == KNOWN_MAX {
+            self.known.retain(|actor| alive.contains(actor));
+        }
         true
     }
 }
@@ -79,6 +109,27 @@ mod tests {
         patience.delivered("b", later);
         assert!(patience.is_over(&both, later));
         assert!(patience.is_over(&names(&["a"]), later), "the dead are not waited for");
+    }
+
+    #[test]
+    fn names_that_never_deliver_are_not_waited_for_again_and_again() {
+        let (begun, mut waits) = (Instant::now(), 0);
+        let mut patience = Patience::new(begun);
+        for round in 0..20 {
+            let start = begun + Duration::from_secs(10 * round);
+            let alive = names(&["good", &format!("fake-{round}")]);
+            patience.begin(start);
+            patience.delivered("good", start + Duration::from_secs(1));
+            waits += u32::from(!patience.is_over(&alive, start + Duration::from_secs(1)));
+            assert!(patience.is_over(&alive, start + Duration::from_secs(3)));
+        }
+        assert_eq!(waits, IN_VAIN_MAX);
+        // Somebody new who does deliver is waited for like anybody else.
+        patience.delivered("new", begun + Duration::from_secs(201));
+        let start = begun + Duration::from_secs(210);
+        patience.begin(start);
+        patience.delivered("good", start + Duration::from_secs(1));
+        assert!(!patience.is_over(&names(&["good", "new"]), start + Duration::from_secs(1)));
     }
 
     #[test]

@@ -5,18 +5,21 @@
 //! - [`table`]: scalars as text, pure functions.
 //! - [`jsonl`]: [`JsonLines`], `metrics.jsonl`.
 //! - [`tensorboard`]: [`EventWriter`], `events.out.tfevents.…`.
+//! - [`exposition`]: [`Exposition`], the newest values as Prometheus reads them.
 //! - [`curve`]: [`draw_curve`], the learning curve as a PNG, drawn from `metrics.jsonl`.
 //!
 //! None of these reads the clock for what it writes: the caller says when a scalar was measured. Only [`Console`]
 //! looks at it, for the speed it shows.
 
 pub mod curve;
+pub mod exposition;
 pub mod jsonl;
 pub mod progress;
 pub mod table;
 pub mod tensorboard;
 
 pub use curve::{CurveError, draw_curve};
+pub use exposition::Exposition;
 pub use jsonl::JsonLines;
 pub use progress::Console;
 pub use tensorboard::EventWriter;

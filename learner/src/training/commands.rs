@@ -47,6 +47,7 @@ impl Trainer {
     /// Heeds every command that waits; while paused, waits for more.
     pub(super) fn heed_commands(&mut self, shutdown: &Shutdown) {
         while !shutdown.asked() {
+            self.pulse.beat();
             let patience = if self.paused { TICK } else { Duration::ZERO };
             let Some(inquiry) = self.control.next(patience) else {
                 if self.paused {
@@ -168,7 +169,7 @@ impl Trainer {
             quarantined: tally.quarantined,
             ..first_status(state, self.config.run.steps)
         };
-        let quarantined = judge.quarantined(std::time::Instant::now()).into_iter().map(String::from).collect();
+        let quarantined = judge.quarantined(std::time::Instant::now());
         self.control.tell(status, quarantined, is_update);
     }
 }

@@ -3,11 +3,11 @@
 
 mod world;
 
-use std::{collections::BTreeSet, time::Duration};
+use std::{collections::BTreeSet, sync::Arc, time::Duration};
 
 use proptest::prelude::*;
 use rand::RngExt;
-use treadmill_common::{config::LearnerMode, seeds};
+use treadmill_common::{bus::gate::Gate, config::LearnerMode, seeds};
 use treadmill_learner::intake::{Collected, Expected, Intake, Judge, Ledger, Lineage, Tally, Wanted};
 use world::{MemoryMailbox, Setting, Shared, World};
 
@@ -149,7 +149,7 @@ fn intake(case: &Case, world: &Shared, saved: &Saved) -> Intake<MemoryMailbox> {
         action_size: 1,
         max_policy_lag: if case.mode == LearnerMode::Sync { 0 } else { case.max_policy_lag },
     };
-    let judge = Judge::new(expected, 8, saved.ledger.clone(), saved.tally);
+    let judge = Judge::new(expected, Arc::new(Gate::new(8, 256)), saved.ledger.clone(), saved.tally);
     Intake::new(MemoryMailbox(world.clone()), case.mode, judge)
 }
 

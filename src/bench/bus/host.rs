@@ -10,7 +10,7 @@ use anyhow::Context;
 use clap::Args;
 use serde_json::{Value, json};
 use treadmill_common::{
-    bus::{Alive, Bus, PolicyShelf, Role, RolloutCopies, RolloutIntake},
+    bus::{Alive, Bus, PolicyShelf, Role, RolloutCopies, RolloutIntake, gate::Gate},
     config::{LearnerConfig, LearnerMode},
     machine,
     shutdown::Shutdown,
@@ -18,6 +18,7 @@ use treadmill_common::{
 use treadmill_learner::intake::{
     Accepted, BusMailbox, Collected, Expected, Intake, Judge, Ledger, Lineage, Tally, Wanted,
 };
+use treadmill_learner::pulse::Pulse;
 use treadmill_proto::{Fragment, PolicyAnnouncement};
 
 use super::{usage, workload};
@@ -53,10 +54,13 @@ pub fn run(args: &HostArgs) -> anyhow::Result<()> {
     let bundle_bytes = bundle.len();
     let shelf = PolicyShelf::open(&bus, workload::RUN, bundle.into())?;
     let defaults = LearnerConfig::default();
-    let queue = RolloutIntake::open(&bus, workload::RUN, defaults.intake_fragments as usize)?;
+    let capacity = defaults.intake_fragments as usize;
+    let gate = Arc::new(Gate::new(defaults.quarantine_after, capacity));
+    let queue = RolloutIntake::open(&bus, workload::RUN, capacity, gate.clone())?;
     let in_place = queue.in_place();
-    let mailbox = BusMailbox::new(queue, Alive::watch(&bus, workload::RUN)?, RolloutCopies::open(&bus, workload::RUN)?);
-    let judge = Judge::new(expected(), defaults.quarantine_after, Ledger::default(), Tally::default());
+    let (alive, copies) = (Alive::watch(&bus, workload::RUN)?, RolloutCopies::open(&bus, workload::RUN)?);
+    let mailbox = BusMailbox::new(queue, alive, copies, Pulse::default());
+    let judge = Judge::new(expected(), gate, Ledger::default(), Tally::default());
     let (taken, shutdown) = (Arc::new(Mutex::new(Taken::default())), Shutdown::default());
     let intake = std::thread::Builder::new().name("training".to_string()).spawn({
         let (taken, shutdown) = (taken.clone(), shutdown.clone());

@@ -18,7 +18,7 @@ use tokio::runtime::{Handle, Runtime};
 use treadmill_common::{
     bus::{Announcements, Bus, BusOptions, Role, fetch_policy, submit, token, watch_announcements},
     config::BusConfig,
-    machine, seeds,
+    machine,
 };
 use treadmill_proto::{Outcome, Precision, PreparedFragment};
 
@@ -204,7 +204,7 @@ fn join(
             follow(&bus_too, &announcements, &shared_too, &fetched).await;
             drop(alive);
         });
-        let (sequence, incarnation) = (Arc::new(AtomicU64::new(1)), seeds::unique());
+        let (sequence, incarnation) = (Arc::new(AtomicU64::new(1)), workload::ACTOR_INCARNATION);
         for _ in 0..args.in_flight {
             let (shared, bus, name, sequence) = (shared.clone(), bus.clone(), name.clone(), sequence.clone());
             let handle = runtime.handle().clone();

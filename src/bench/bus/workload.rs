@@ -12,6 +12,8 @@ use crate::bench::network::{self, Widths};
 pub(super) const RUN: &str = "bench";
 /// Stands for configuration and model, which nobody reads here.
 pub(super) const CONFIG_HASH: u64 = 1;
+/// The incarnation of every actor. The learner's gate reads it from the first bytes, where the prepared fragment has it.
+pub(super) const ACTOR_INCARNATION: u64 = 1;
 /// The learner's incarnation in every policy version.
 pub(super) const INCARNATION: u64 = 1;
 /// Entries of an observation and an action: the compact humanoid's.
@@ -38,7 +40,7 @@ pub(super) fn fragment(bytes: usize, precision: Precision) -> Result<(PreparedFr
     let mut fragment = Fragment {
         run: RUN.to_string(),
         actor: "a".to_string(),
-        actor_incarnation: 1,
+        actor_incarnation: ACTOR_INCARNATION,
         sequence: 1,
         version: PolicyVersion { incarnation: INCARNATION, number: 0 },
         config_hash: CONFIG_HASH,

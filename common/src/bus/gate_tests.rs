@@ -1,0 +1,98 @@
+use super::*;
+
+fn gate() -> Arc<Gate> {
+    Arc::new(Gate::new(2, 16))
+}
+
+#[test]
+fn failures_in_a_row_lead_to_quarantine_and_time_leads_out() {
+    let (gate, now) = (gate(), Instant::now());
+    let a = gate.identify("a", None);
+    assert!(!gate.failed(&a, now));
+    gate.taken("a", 1, now);
+    assert!(!gate.failed(&a, now), "not in a row");
+    assert!(gate.failed(&a, now));
+    assert!(gate.holds(&a, now) && !gate.holds(&gate.identify("b", None), now));
+    assert_eq!(gate.held(now), ["a"]);
+    assert_eq!(gate.admit("a", None, 1, now).unwrap_err(), Refusal::Quarantined);
+    assert_eq!(gate.take_unread(), Unread { quarantined: 1, ..Unread::default() });
+    assert_eq!(gate.take_unread(), Unread::default());
+    assert!(!gate.holds(&a, now + QUARANTINE));
+}
+
+#[test]
+fn nonsense_under_a_good_name_shuts_out_who_sends_it_alone() {
+    let (gate, now) = (gate(), Instant::now());
+    gate.taken("good", 7, now);
+    // Without an incarnation, and with one that is made up.
+    for claimed in [None, Some(8)] {
+        gate.failed(&gate.identify("good", claimed), now);
+    }
+    assert_eq!(gate.admit("good", Some(8), 1, now).unwrap_err(), Refusal::Quarantined);
+    assert!(gate.admit("good", Some(7), 1, now).is_ok());
+    // Who has proven himself is judged by what he does himself.
+    let proven = gate.identify("good", Some(7));
+    assert!(!gate.failed(&proven, now) && gate.failed(&proven, now));
+    assert_eq!(gate.admit("good", Some(7), 1, now).unwrap_err(), Refusal::Quarantined);
+}
+
+#[test]
+fn newcomers_share_a_part_of_the_queue_whatever_their_names() {
+    let (gate, now) = (gate(), Instant::now());
+    gate.taken("good", 7, now);
+    let tickets: Vec<_> = (0..100).map(|i| gate.admit(&format!("n{i}"), Some(i), 1, now)).collect();
+    assert_eq!(tickets.iter().filter(|ticket| ticket.is_ok()).count(), 4, "a quarter of 16");
+    assert_eq!(*tickets[99].as_ref().unwrap_err(), Refusal::Busy);
+    let good: Vec<_> = (0..9).map(|_| gate.admit("good", Some(7), 1, now)).collect();
+    assert_eq!(good.iter().filter(|ticket| ticket.is_ok()).count(), WAITING_EACH_MAX);
+    drop((tickets, good));
+    assert!(gate.admit("n", None, 1, now).is_ok(), "room is given back");
+    assert!(gate.admit("good", Some(7), 1, now).is_ok());
+    assert_eq!(gate.admit("n", None, NEWCOMERS_BYTES_MAX + 1, now).unwrap_err(), Refusal::Busy);
+}
+
+#[test]
+fn a_flood_of_newcomers_is_let_in_drop_by_drop() {
+    let (gate, now) = (gate(), Instant::now());
+    let let_in = |count: u32, now| {
+        (0..count).filter(|_| !matches!(gate.admit("n", None, 1, now), Err(Refusal::Flood))).count() as f64
+    };
+    assert_eq!(let_in(100_000, now), NEWCOMERS_BURST);
+    assert_eq!(let_in(100_000, now + Duration::from_secs(1)), NEWCOMERS_PER_S);
+    assert!(gate.take_unread().turned_away > 100_000);
+}
+
+#[test]
+fn what_is_sent_again_and_again_is_a_failure_in_the_end() {
+    let (gate, now) = (gate(), Instant::now());
+    gate.taken("a", 1, now);
+    let sender = gate.identify("a", Some(1));
+    let until = (1..).find(|_| gate.useless(&sender, now)).unwrap();
+    assert_eq!(until, USELESS_MAX);
+    assert!(gate.holds(&sender, now));
+    gate.taken("b", 1, now);
+    let sender = gate.identify("b", Some(1));
+    for _ in 1..USELESS_MAX {
+        assert!(!gate.useless(&sender, now));
+    }
+    gate.taken("b", 1, now);
+    assert!(!gate.useless(&sender, now), "something useful was among them");
+}
+
+#[test]
+fn memory_is_bounded_and_quarantine_cannot_be_crowded_out() {
+    let (gate, now) = (gate(), Instant::now());
+    let bad = gate.identify("bad", None);
+    gate.failed(&bad, now);
+    gate.failed(&bad, now);
+    for i in 0..3 * SENDERS_MAX as u64 {
+        let later = now + Duration::from_micros(i);
+        gate.failed(&gate.identify(&format!("n{i}"), None), later);
+        gate.taken("many", i, later);
+    }
+    let state = gate.state();
+    assert_eq!((state.failures.len(), state.proven.len()), (SENDERS_MAX, SENDERS_MAX));
+    drop(state);
+    assert!(gate.holds(&bad, now));
+    assert!(gate.identify("many", Some(0)).incarnation.is_none(), "the oldest gave way");
+}

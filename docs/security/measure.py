@@ -1,0 +1,200 @@
+"""What a flood costs good actors: a learner and one actor train on one core, and a hostile client has the other for itself.
+
+Needs: cargo build --release --bins --examples; Linux, two cores.
+
+Usage: measure.py [--target target/release] [--pairs 3] [--window-s 8] [--kinds empty,names,...] [--plain] [--million]
+
+For each kind of flood it alternates windows without and with it. From the steps learnt from, by the run's own metrics, and the
+processor time that learner and actor used, follows what a step costs without the flood, and so what the flood costs beside the
+steps: a share of one core. That share is what good actors lose where they and the learner have one core for themselves and use
+all of it; it does not depend on what else runs on the machine, as the rate by the clock does, which stands beside it. Medians
+are over pairs of neighbouring windows. Everything is over mutual TLS, and the hostile client has an actor's certificate, unless
+--plain is given. --million sends a million tiny messages of three kinds and looks at the learner's memory.
+"""
+
+import argparse
+import bisect
+import json
+import os
+import pathlib
+import statistics
+import subprocess
+import sys
+import tempfile
+import time
+
+KINDS = ("empty", "names", "noise", "impostor", "replay", "stats", "evaluations", "idle")
+GOOD, HOSTILE = "0", "1"
+
+
+def on_core(core, command, **options):
+    return subprocess.Popen(["taskset", "-c", core, *map(str, command)], **options)
+
+
+class Fleet:
+    def __init__(self, target, folder, plain):
+        self.target, self.folder, self.run = target, folder, folder / "run"
+        tls = [] if plain else ["--tls", folder / "certs"]
+        if not plain:
+            subprocess.run([target / "treadmill", "certs", folder / "certs"], check=True, stdout=subprocess.DEVNULL)
+        listen = f"{'tcp' if plain else 'tls'}/127.0.0.1:0"
+        self.certificates = [] if plain else [folder / "certs"]
+        self.log = open(folder / "learner.log", "w")
+        settings = ["rollout.fragment_steps=32", "ppo.batch=1024", "ppo.minibatch=512", "eval.every_steps=100000", "learner.threads=1"]
+        self.learner = on_core(
+            GOOD,
+            [target / "treadmill", "learner", "--run-dir", self.run, "--steps", 10**12, "--listen", listen, *tls]
+            + [part for setting in settings for part in ("--set", setting)],
+            stdout=self.log,
+            stderr=self.log,
+        )
+        endpoint = self.run / "endpoint.txt"
+        while not (endpoint.exists() and endpoint.read_text().endswith("\n")):
+            time.sleep(0.05)
+        self.endpoint = endpoint.read_text().strip()
+        self.actor = on_core(
+            GOOD,
+            [target / "treadmill", "actor", "--connect", self.endpoint, "--envs", 32, "--name", "good", *tls],
+            stdout=self.log,
+            stderr=self.log,
+        )
+
+    def attack(self, kind, seconds, count=2**63):
+        return on_core(
+            HOSTILE,
+            [self.target / "examples/hostile_client", self.endpoint, "run", kind, seconds, count, *self.certificates],
+            stdout=subprocess.PIPE,
+            text=True,
+        )
+
+    def marks(self):
+        """(time, steps) after each update."""
+        found = []
+        with open(self.run / "metrics.jsonl") as lines:
+            for line in lines:
+                if '"time/total_timesteps"' in line and line.endswith("\n"):
+                    metric = json.loads(line)
+                    found.append((metric["time_unix_s"], metric["value"]))
+        return found
+
+    def value(self, tag):
+        found = None
+        with open(self.run / "metrics.jsonl") as lines:
+            for line in lines:
+                if f'"{tag}"' in line and line.endswith("\n"):
+                    found = json.loads(line)["value"]
+        return found
+
+    def cpu_s(self):
+        total = 0
+        for process in (self.learner, self.actor):
+            fields = pathlib.Path(f"/proc/{process.pid}/stat").read_text().rsplit(")", 1)[1].split()
+            total += int(fields[11]) + int(fields[12])
+        return total / os.sysconf("SC_CLK_TCK")
+
+    def window(self, seconds):
+        """Steps, processor time and time between the first update and the last one; the learner's memory at most."""
+        samples, memory, begun = [], 0.0, time.time()
+        while time.time() < begun + seconds:
+            samples.append((time.time(), self.cpu_s()))
+            memory = max(memory, self.memory_mb())
+            time.sleep(0.02)
+        within = [mark for mark in self.marks() if samples[0][0] <= mark[0] <= samples[-1][0]]
+        if len(within) < 2:
+            sys.exit(f"only {len(within)} updates in a window: take a longer one by --window-s")
+        cpu_at = lambda when: samples[bisect.bisect_left(samples, (when, 0.0))][1]
+        (first, steps_before), (last, steps_after) = within[0], within[-1]
+        steps = steps_after - steps_before
+        return steps, cpu_at(last) - cpu_at(first), last - first, memory
+
+    def memory_mb(self):
+        pages = int(pathlib.Path(f"/proc/{self.learner.pid}/statm").read_text().split()[1])
+        return pages * os.sysconf("SC_PAGE_SIZE") / 1e6
+
+    def end(self):
+        for process in (self.actor, self.learner):
+            process.terminate()
+        for process in (self.actor, self.learner):
+            process.wait(30)
+        return self.learner.returncode
+
+
+def pairs(fleet, kind, count, window_s):
+    """One dictionary for each pair of windows."""
+    found = []
+    for _ in range(count):
+        quiet_steps, quiet_cpu_s, quiet_s, _ = fleet.window(window_s)
+        hostile = fleet.attack(kind, window_s + 1)
+        # It takes a moment to join.
+        time.sleep(1)
+        steps, cpu_s, seconds, memory = fleet.window(window_s)
+        told = json.loads(hostile.communicate()[0])
+        found.append(
+            {
+                "sent_per_s": told["sent"] / told["wall_s"],
+                "cost": (cpu_s - steps * quiet_cpu_s / quiet_steps) / seconds,
+                "quiet_per_s": quiet_steps / quiet_s,
+                "flooded_per_s": steps / seconds,
+                "memory_mb": memory,
+            }
+        )
+        # What waits still is dealt with before the next window.
+        time.sleep(2)
+    return found
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--target", type=pathlib.Path, default=pathlib.Path("target/release"))
+    parser.add_argument("--pairs", type=int, default=3)
+    parser.add_argument("--window-s", type=float, default=8)
+    parser.add_argument("--kinds", default=",".join(KINDS))
+    parser.add_argument("--plain", action="store_true")
+    parser.add_argument("--million", action="store_true")
+    options = parser.parse_args()
+    target = options.target.resolve()
+    with tempfile.TemporaryDirectory() as folder:
+        fleet = Fleet(target, pathlib.Path(folder), options.plain)
+        try:
+            while len(fleet.marks() if (fleet.run / "metrics.jsonl").exists() else []) < 5:
+                time.sleep(0.2)
+            first = fleet.memory_mb()
+            if options.million:
+                print("| flood | messages | seconds | learner before, MB | most, MB | after, MB |\n|---|---|---|---|---|---|")
+                for kind in ("empty", "names", "stats"):
+                    before, most = fleet.memory_mb(), 0.0
+                    hostile = fleet.attack(kind, 600, 10**6)
+                    while hostile.poll() is None:
+                        most = max(most, fleet.memory_mb())
+                        time.sleep(0.1)
+                    told = json.loads(hostile.communicate()[0])
+                    time.sleep(3)
+                    print(
+                        f"| {kind} | {told['sent']} | {told['wall_s']:.0f} | {before:.0f} | {most:.0f} | "
+                        f"{fleet.memory_mb():.0f} |",
+                        flush=True,
+                    )
+            else:
+                print("| flood | messages/s | cost, share of a core (least to most) | steps/s by the clock, without → with "
+                      "| learner's memory, MB |")
+                print("|---|---|---|---|---|", flush=True)
+                for kind in options.kinds.split(","):
+                    found = pairs(fleet, kind, options.pairs, options.window_s)
+                    middle = {name: statistics.median(pair[name] for pair in found) for name in found[0]}
+                    costs = [pair["cost"] for pair in found]
+                    print(
+                        f"| {kind} | {middle['sent_per_s']:.0f} | {middle['cost']:.1%} ({min(costs):.1%} to {max(costs):.1%}) "
+                        f"| {middle['quiet_per_s']:.0f} → {middle['flooded_per_s']:.0f} | {middle['memory_mb']:.0f} |",
+                        flush=True,
+                    )
+            print(f"memory at the beginning {first:.0f} MB; quarantined {fleet.value('actors/quarantined'):.0f}, "
+                  f"malformed {fleet.value('bus/fragments_malformed'):.0f}, "
+                  f"turned away {fleet.value('bus/fragments_turned_away'):.0f}", file=sys.stderr)
+        finally:
+            code = fleet.end()
+        print(f"the learner ended with {code}; its log has {len(open(fleet.folder / 'learner.log').readlines())} lines",
+              file=sys.stderr)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,25 @@
+#!/usr/bin/env bash
+# Fuzzes decoders with coverage, on the pinned toolchain:  fuzz/run.sh SECONDS [TARGET ...]
+# What was found is kept in fuzz/corpus/TARGET; an input that ends the program is written to fuzz/artifacts/TARGET/.
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+seconds=${1:?how many seconds each decoder is fuzzed}
+shift
+all=$(sed -n 's/^name = "\([a-z_]*\)"$/\1/p' fuzz/Cargo.toml)
+targets=("$@")
+[ ${#targets[@]} -gt 0 ] || mapfile -t targets <<<"$all"
+
+build=(cargo build --release --workspace --features treadmill-fuzz/libfuzzer)
+for target in "${targets[@]}"; do build+=(--bin "$target"); done
+# All of the workspace is chosen so that its dependencies are those of every other build.
+RUSTC_WORKSPACE_WRAPPER=$PWD/fuzz/instrument.sh "${build[@]}"
+cargo build --release --workspace --example seeds
+target/release/examples/seeds fuzz/corpus
+
+for target in "${targets[@]}"; do
+    mkdir -p "fuzz/artifacts/$target"
+    echo "=== $target"
+    "target/release/$target" "fuzz/corpus/$target" -max_total_time="$seconds" -max_len=65536 -rss_limit_mb=1024 \
+        -malloc_limit_mb=512 -timeout=20 -artifact_prefix="fuzz/artifacts/$target/" -print_final_stats=1 2>&1 |
+        grep -v '^#[0-9]*[[:space:]]*\(NEW\|REDUCE\|pulse\|RELOAD\)'
+done

@@ -1,0 +1,205 @@
+//! Sound messages of each kind, small, so that a change of one byte is a change of much.
+
+use bytes::Bytes;
+use treadmill_common::{
+    config::{Config, EnvConfig, RandomisationConfig, TaskConfig},
+    exported::{ActionFacts, ExportedPolicy, ObservationFacts},
+    normaliser::RunningMoments,
+    policy::{NetworkShape, to_safetensors},
+};
+use treadmill_humanoid::HUMANOID_XML;
+use treadmill_learner::checkpoint::{TrainingState, encoding};
+use treadmill_proto::{
+    ActorState, ActorStats, EndCause, Episode, EvaluationReport, Fragment, Outcome, PolicyAnnouncement, PolicyBundle,
+    PolicyVersion, Receipt, json::Metric,
+};
+
+/// The run.
+pub const RUN: &str = "walk";
+/// The actor.
+pub const ACTOR: &str = "a1";
+/// The learner's incarnation.
+pub const INCARNATION: u64 = 9;
+/// Hash over the configuration.
+pub const CONFIG_HASH: u64 = 11;
+/// Entries of an observation.
+pub const WIDTH: u32 = 2;
+
+fn version() -> PolicyVersion {
+    PolicyVersion { incarnation: INCARNATION, number: 1 }
+}
+
+fn state() -> ActorState {
+    ActorState {
+        actor: ACTOR.into(),
+        start: 3,
+        noise: vec![1, 2, 3, 4],
+        episodes: vec![5; 2],
+        lengths: vec![6; 2],
+        progress: vec![0.5; 6],
+        positions: vec![0.25; 4],
+        velocities: vec![-1.0; 4],
+        observations: vec![0.5; 4],
+        past_actions: vec![0.0; 2],
+        steps_to_push: vec![7; 2],
+        streams: vec![8; 24],
+    }
+}
+
+fn plain() -> Fragment {
+    Fragment {
+        run: RUN.into(),
+        actor: ACTOR.into(),
+        actor_incarnation: 7,
+        sequence: 3,
+        version: version(),
+        config_hash: CONFIG_HASH,
+        steps: 2,
+        envs: 2,
+        observation_size: WIDTH,
+        action_size: 1,
+        observations: (0..8).map(|i| i as f32).collect(),
+        actions: vec![0.5; 4],
+        log_probs: vec![-1.0; 4],
+        rewards: vec![5.0; 4],
+        flags: vec![0, 2, 0, 1],
+        last_observations: vec![1.0; 4],
+        episodes: vec![Episode {
+            return_sum: 12.0,
+            length: 2,
+            distance_m: 0.1,
+            velocity_mean_mps: 3.0,
+            cause: EndCause::TimeLimit,
+        }],
+        settled_through: 1,
+        actor_state: None,
+    }
+}
+
+/// A rollout fragment.
+pub fn fragment() -> Vec<u8> {
+    Fragment { actor_state: Some(state()), ..plain() }.encode().expect("it is sound")
+}
+
+/// One without the state of the actor, which is the last field.
+pub fn fragment_without_state() -> Vec<u8> {
+    plain().encode().expect("it is sound")
+}
+
+/// The state of an actor.
+pub fn actor_state() -> Vec<u8> {
+    // Behind the fragment's other fields: two bytes of key, two of length.
+    fragment()[fragment_without_state().len() + 4..].to_vec()
+}
+
+/// A policy bundle.
+pub fn bundle() -> Vec<u8> {
+    PolicyBundle {
+        run: RUN.into(),
+        version: version(),
+        observation_size: WIDTH,
+        action_size: 1,
+        hidden: vec![2],
+        weights: Bytes::from(weights()),
+        observation_mean: vec![0.5, 1.0],
+        observation_inverse_std: vec![1.0, 2.0],
+        observation_clip: 10.0,
+        config_hash: CONFIG_HASH,
+        config_toml: "[run]".into(),
+        model_xml: "<mujoco/>".into(),
+        checksum: 5,
+        actor_state: Some(state()),
+    }
+    .encode()
+    .expect("it is sound")
+}
+
+/// An announcement.
+pub fn announcement() -> Vec<u8> {
+    PolicyAnnouncement { version: version(), checksum: 5 }.encode()
+}
+
+/// A receipt.
+pub fn receipt() -> Vec<u8> {
+    Receipt { outcome: Outcome::TooOld, reason: "because".into(), version: version(), durable_through: 3 }.encode()
+}
+
+/// Statistics of an actor.
+pub fn stats() -> Vec<u8> {
+    ActorStats { actor: ACTOR.into(), host: "here".into(), env_steps_per_s: 0.5, produced: 3, ..Default::default() }
+        .to_bytes()
+}
+
+/// A report of an evaluation.
+pub fn evaluation() -> Vec<u8> {
+    EvaluationReport {
+        run: RUN.into(),
+        evaluator: "e".into(),
+        version: version(),
+        episodes: 10,
+        return_mean: 6000.0,
+        return_std: 3.0,
+        length_mean: 990.0,
+        distance_mean_m: 20.0,
+        velocity_mean_mps: 1.3,
+        falls: 1,
+    }
+    .encode()
+}
+
+/// A scalar.
+pub fn metric() -> Vec<u8> {
+    Metric { run: RUN.into(), tag: "a/b".into(), step: 3, value: 0.1, time_unix_s: 1.5 }.to_json()
+}
+
+/// The content of a checkpoint.
+pub fn checkpoint() -> Vec<u8> {
+    let mut config = Config::default();
+    config.policy.hidden = vec![2];
+    let state = TrainingState::fresh(RUN, &config, "<mujoco/>", WIDTH as usize, 1, INCARNATION);
+    // Without the header, which is made anew for every content.
+    encoding::encode(&state).expect("it is sound")[52..].to_vec()
+}
+
+/// An exported policy.
+pub fn exported() -> Vec<u8> {
+    let shape = shape();
+    let (observation, mean, variance) =
+        ObservationFacts::from_moments("compact", &RunningMoments::new(WIDTH as usize), 10.0);
+    ExportedPolicy {
+        parameters: vec![0.5; shape.parameter_count()],
+        shape,
+        observation,
+        mean,
+        variance,
+        action: ActionFacts { names: vec!["hip".into()], low: vec![-0.4], high: vec![0.4] },
+        control_step_s: 0.015,
+        env: EnvConfig::default(),
+        randomisation: RandomisationConfig::default(),
+        task: TaskConfig::default(),
+        model_xml: "<mujoco/>".into(),
+    }
+    .to_bytes()
+    .expect("it is sound")
+}
+
+/// A network's weights.
+pub fn weights() -> Vec<u8> {
+    let shape = shape();
+    to_safetensors(&shape, &vec![0.5; shape.parameter_count()])
+}
+
+/// A robot.
+pub fn model() -> Vec<u8> {
+    HUMANOID_XML.as_bytes().to_vec()
+}
+
+/// A configuration.
+pub fn config() -> Vec<u8> {
+    Config::default().to_toml().into_bytes()
+}
+
+/// The shape of the samples' network.
+pub fn shape() -> NetworkShape {
+    NetworkShape { observation: WIDTH as usize, action: 1, hidden: vec![2] }
+}

@@ -1,0 +1,237 @@
+//! A client that means ill: raw Zenoh, with none of the limits of our own side.
+
+use std::{
+    path::Path,
+    sync::atomic::{AtomicU64, Ordering},
+    time::{Duration, Instant},
+};
+
+use bytes::Bytes;
+use serde_json::json;
+use treadmill_proto::{ActorStats, Fragment, PolicyBundle, PolicyVersion, Receipt};
+use zenoh::{Config, Session, Wait, qos::CongestionControl};
+
+/// How long a question waits for an answer.
+pub const PATIENCE: Duration = Duration::from_secs(20);
+/// Stands in a sound fragment where a number is spoilt afterwards.
+const MARK: f32 = 1234.5;
+
+/// A client of the bus.
+pub struct Attacker {
+    session: Session,
+    run: String,
+}
+
+/// What is sent in a flood.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Flood {
+    /// Fragments without content, all under one name.
+    Empty,
+    /// One byte that is no fragment, each time under another name.
+    Names,
+    /// 64 KiB of noise under one name.
+    Noise,
+    /// The right schema with a number that is none, under the name of a good actor.
+    Impostor,
+    /// One sound fragment again and again.
+    Replay,
+    /// Statistics, each time of another actor.
+    Stats,
+    /// Requests of an evaluator without a report.
+    Evaluations,
+}
+
+impl Flood {
+    /// Each kind, with the name that it has on a command line.
+    pub const ALL: [(&'static str, Self); 7] = [
+        ("empty", Self::Empty),
+        ("names", Self::Names),
+        ("noise", Self::Noise),
+        ("impostor", Self::Impostor),
+        ("replay", Self::Replay),
+        ("stats", Self::Stats),
+        ("evaluations", Self::Evaluations),
+    ];
+}
+
+impl Attacker {
+    /// Joins the bus of `run`; over TLS where a folder is given, with the certificate of a role that is not empty. `None` where
+    /// nobody lets it in within `patience`.
+    pub fn join(endpoint: &str, run: &str, tls: Option<(&Path, &str)>, patience: Duration) -> Option<Self> {
+        let mut config = Config::default();
+        let mut set = |key: &str, value: serde_json::Value| config.insert_json5(key, &value.to_string()).unwrap();
+        set("mode", json!("client"));
+        set("scouting/multicast/enabled", json!(false));
+        set("connect/endpoints", json!([endpoint]));
+        set("connect/timeout_ms", json!(patience.as_millis() as u64));
+        if let Some((folder, role)) = tls {
+            set("transport/link/tls/root_ca_certificate", json!(folder.join("ca.crt")));
+            if !role.is_empty() {
+                set("transport/link/tls/enable_mtls", json!(true));
+                set("transport/link/tls/connect_certificate", json!(folder.join(format!("{role}.crt"))));
+                set("transport/link/tls/connect_private_key", json!(folder.join(format!("{role}.key"))));
+            }
+        }
+        let session = zenoh::open(config).wait().ok()?;
+        Some(Self { session, run: run.to_string() })
+    }
+
+    /// The session itself.
+    pub fn session(&self) -> &Session {
+        &self.session
+    }
+
+    /// Every answer to a question.
+    pub fn ask(&self, key: &str, payload: impl Into<Bytes>, patience: Duration) -> Vec<Vec<u8>> {
+        let payload: Bytes = payload.into();
+        let asked = self
+            .session
+            .get(key)
+            .payload(payload)
+            .timeout(patience)
+            .congestion_control(CongestionControl::Block)
+            .wait();
+        let Ok(replies) = asked else { return Vec::new() };
+        let until = Instant::now() + patience + Duration::from_secs(1);
+        let mut answers = Vec::new();
+        while let Ok(Some(reply)) = replies.recv_deadline(until) {
+            answers.extend(reply.result().ok().map(|sample| sample.payload().to_bytes().into_owned()));
+        }
+        answers
+    }
+
+    /// The newest policy, as soon as there is one.
+    pub fn policy(&self) -> PolicyBundle {
+        let until = Instant::now() + PATIENCE;
+        loop {
+            let answers = self.ask(&format!("treadmill/{}/policy/latest", self.run), Bytes::new(), PATIENCE);
+            if let Some(bundle) = answers.into_iter().next() {
+                return PolicyBundle::decode(bundle).unwrap();
+            }
+            assert!(Instant::now() < until, "nobody hands out a policy");
+        }
+    }
+
+    /// Hands in a fragment, whatever it is.
+    pub fn send(&self, actor: &str, payload: impl Into<Bytes>) -> Option<Receipt> {
+        let key = format!("treadmill/{}/rollouts/{actor}", self.run);
+        let answer = self.ask(&key, payload, PATIENCE).into_iter().next()?;
+        Some(Receipt::decode(&answer).expect("a receipt"))
+    }
+
+    /// Publishes, whether anybody wants it or not.
+    pub fn put(&self, key: &str, payload: impl Into<Bytes>) {
+        let payload: Bytes = payload.into();
+        let _ = self.session.put(key, payload).congestion_control(CongestionControl::Block).wait();
+    }
+
+    /// Sends as fast as it can until `count` messages are sent or `until` has come; how many were sent.
+    pub fn flood(&self, flood: Flood, victim: &str, count: u64, until: Instant) -> u64 {
+        let bundle = self.policy();
+        let noise: Bytes =
+            (0..64 << 10).map(|i: u32| (i.wrapping_mul(2_654_435_761) >> 24) as u8).collect::<Vec<_>>().into();
+        let sound: Bytes = fragment(&bundle, "replayer", 1).encode().unwrap().into();
+        let nan: Bytes = spoilt(&bundle, victim, f32::NAN).into();
+        static NUMBER: AtomicU64 = AtomicU64::new(0);
+        let mut sent = 0;
+        while sent < count && Instant::now() < until {
+            let number = NUMBER.fetch_add(1, Ordering::Relaxed);
+            let run = &self.run;
+            let rollouts = |actor: &str| format!("treadmill/{run}/rollouts/{actor}");
+            match flood {
+                Flood::Empty => self.ask_and_leave(&rollouts("flooder"), Bytes::new()),
+                Flood::Names => self.ask_and_leave(&rollouts(&format!("f{number}")), Bytes::from_static(&[0xff])),
+                Flood::Noise => self.ask_and_leave(&rollouts("noisy"), noise.clone()),
+                Flood::Impostor => self.ask_and_leave(&rollouts(victim), nan.clone()),
+                Flood::Replay => self.ask_and_leave(&rollouts("replayer"), sound.clone()),
+                Flood::Evaluations => {
+                    self.ask_and_leave(&format!("treadmill/{run}/evaluations/e{number}"), Bytes::from_static(&[0xff]));
+                }
+                Flood::Stats => {
+                    let actor = format!("s{number}");
+                    let stats = ActorStats { actor: actor.clone(), env_steps_per_s: 1e300, ..ActorStats::default() };
+                    self.put(&format!("treadmill/{run}/actors/{actor}/stats"), stats.to_bytes());
+                }
+            }
+            sent += 1;
+        }
+        sent
+    }
+
+    /// Asks and does not wait for the answer.
+    fn ask_and_leave(&self, key: &str, payload: Bytes) {
+        let asked = self.session.get(key).payload(payload).timeout(Duration::from_secs(2));
+        let _ = asked.congestion_control(CongestionControl::Block).callback(drop).wait();
+    }
+}
+
+/// A sound fragment of one transition.
+pub fn fragment(bundle: &PolicyBundle, actor: &str, sequence: u64) -> Fragment {
+    let (width, action) = (bundle.observation_size as usize, bundle.action_size as usize);
+    Fragment {
+        run: bundle.run.clone(),
+        actor: actor.into(),
+        actor_incarnation: 1,
+        sequence,
+        version: bundle.version,
+        config_hash: bundle.config_hash,
+        steps: 1,
+        envs: 1,
+        observation_size: bundle.observation_size,
+        action_size: bundle.action_size,
+        observations: vec![0.0; width],
+        actions: vec![0.0; action],
+        log_probs: vec![-10.0],
+        rewards: vec![5.0],
+        flags: vec![0],
+        last_observations: vec![0.0; width],
+        episodes: vec![],
+        settled_through: 0,
+        actor_state: None,
+    }
+}
+
+/// A fragment that is sound but for one number.
+pub fn spoilt(bundle: &PolicyBundle, actor: &str, number: f32) -> Vec<u8> {
+    let mut marked = fragment(bundle, actor, 1);
+    marked.rewards[0] = MARK;
+    let mut bytes = marked.encode().unwrap();
+    let mark = MARK.to_le_bytes();
+    let at = bytes.windows(4).position(|window| window == mark).expect("the mark is there");
+    bytes[at..at + 4].copy_from_slice(&number.to_le_bytes());
+    bytes
+}
+
+/// Every kind of bad fragment: its name, its bytes, and what the answer says.
+pub fn nonsense(bundle: &PolicyBundle) -> Vec<(&'static str, Vec<u8>, &'static str)> {
+    let encode = |actor: &str, change: &dyn Fn(&mut Fragment)| {
+        let mut fragment = fragment(bundle, actor, 1);
+        change(&mut fragment);
+        fragment.encode().unwrap()
+    };
+    let sound = encode("planes", &|_| ());
+    let wide = |fragment: &mut Fragment| {
+        fragment.observation_size += 1;
+        fragment.observations.push(0.0);
+        fragment.last_observations.push(0.0);
+    };
+    let future = PolicyVersion { number: bundle.version.number + 1_000_000, ..bundle.version };
+    vec![
+        ("empty", vec![], "the payload has 0 bytes"),
+        ("noise", (0..5000u32).map(|i| (i.wrapping_mul(2_654_435_761) >> 13) as u8).collect(), "cannot be decoded"),
+        // A text of 2³⁰ bytes of which one is there.
+        ("lengths", vec![0x0a, 0x80, 0x80, 0x80, 0x80, 0x04, b'x'], "cannot be decoded"),
+        ("bomb", [0x8a, 1, 0].repeat((29 << 20) / 3), "`episodes`"),
+        ("large", vec![0; (30 << 20) + 100], "a fragment has 1 to 31457280"),
+        ("nan", spoilt(bundle, "nan", f32::NAN), "`rewards` holds NaN at index 0"),
+        ("infinity", spoilt(bundle, "infinity", f32::NEG_INFINITY), "`rewards` holds -inf"),
+        ("shapes", encode("shapes", &wide), "`observation_size` is"),
+        // The observations once more, as one number: the last one counts.
+        ("planes", [&sound[..], &[0x5a, 4, 0, 0, 0, 0]].concat(), "`observations` is 4 bytes long"),
+        ("foreign", encode("foreign", &|f| f.run = "other".into()), "`run` is `other`"),
+        ("config", encode("config", &|f| f.config_hash ^= 1), "`config_hash`"),
+        ("masked", encode("someone-else", &|_| ()), "as the key says"),
+        ("future", encode("future", &|f| f.version = future), "the newest"),
+        ("endless", [&sound[..], &[0x20], &[0xff; 9], &[1]].concat(), "`sequence` is 18446744073709551615"),
+    ]
+}
