@@ -2,7 +2,8 @@
 //!
 //! Callbacks run where a link is read. While one naps, nothing more is read from that link, its sender's buffers fill, and
 //! the sender has to wait: what it does not send costs nobody anything. Naps are short, because the next messages of other
-//! links may have to wait for the thread; the learner and routers read with more threads than the bus would by itself.
+//! links may have to wait for the thread; where there is a brake, the bus reads with more threads than it would by itself (see
+//! `threads`), and where one thread must do for all links there are no naps.
 
 use std::{
     sync::Mutex,
