@@ -1,7 +1,6 @@
-//! What the learner declares: the intake of rollouts, the shelf of policies, who is alive, statistics.
+//! What the learner declares: the intake of rollouts, and the shelf of policies.
 
 use std::{
-    collections::{BTreeSet, HashMap},
     io::Read,
     sync::{
         Arc, Mutex, RwLock,
@@ -13,19 +12,15 @@ use std::{
 
 use bytes::Bytes;
 use treadmill_proto::{
-    ActorStats, Outcome, PolicyAnnouncement, PolicyVersion, Receipt,
-    fragment::claimed_incarnation,
-    ident::check_ident,
-    limits::{FRAGMENT_BYTES_MAX, STATS_BYTES_MAX},
+    Outcome, PolicyAnnouncement, PolicyVersion, Receipt, fragment::claimed_incarnation, ident::check_ident,
+    limits::FRAGMENT_BYTES_MAX,
 };
 use zenoh::{
     Wait,
     bytes::ZBytes,
-    liveliness::LivelinessToken,
-    pubsub::{Publisher, Subscriber},
+    pubsub::Publisher,
     qos::{CongestionControl, Priority},
     query::{Query, Queryable},
-    sample::{Sample, SampleKind},
 };
 
 use super::{
@@ -46,14 +41,11 @@ const REFUSALS_QUEUE: usize = 1024;
 const SHELF_QUEUE: usize = 4096;
 /// Threads that serve policies: one that waits for a reader who does not read keeps only itself.
 const SHELF_THREADS: usize = 4;
-/// Actors that are known to be alive, and whose statistics are kept; tokens beyond that are passed over.
-const ACTORS_MAX: usize = 4096;
 /// As much of a fragment's beginning as holds run, actor and incarnation.
 const BEGINNING_BYTES: usize = 160;
-/// Fragments that are refused unread, requests for policies, and statistics, each: so many a second at full speed.
+/// Fragments that are refused unread, and requests for policies: so many a second at full speed.
 const REFUSALS_PER_S: f64 = 500.0;
 const REQUESTS_PER_S: f64 = 2000.0;
-const STATS_PER_S: f64 = 5000.0;
 /// Stands for every name that is none. No actor can be called that.
 const NO_NAME: &str = "?";
 
@@ -316,146 +308,5 @@ fn serve(current: &RwLock<Bytes>, key: &str, requests: &Mutex<Receiver<Query>>) 
         if let Err(why) = query.reply(key, bundle).wait() {
             tracing::debug!("a policy bundle could not be sent: {why}");
         }
-    }
-}
-
-/// Who is alive, by liveliness token.
-pub struct Alive {
-    actors: Arc<Mutex<BTreeSet<String>>>,
-    _subscriber: Subscriber<()>,
-    _token: LivelinessToken,
-}
-
-impl Alive {
-    /// Shows the learner's own token and begins to watch those of actors.
-    pub fn watch(bus: &Bus, run: &str) -> Result<Self, BusError> {
-        let actors = Arc::new(Mutex::new(BTreeSet::new()));
-        let subscriber = bus
-            .session
-            .liveliness()
-            .declare_subscriber(keys::actor(run, "*"))
-            .history(true)
-            .callback({
-                let actors = actors.clone();
-                move |sample: Sample| {
-                    let actor = keys::last_part(sample.key_expr().as_str());
-                    let mut actors = actors.lock().expect("no holder of this lock panics");
-                    match sample.kind() {
-                        SampleKind::Put if actors.len() < ACTORS_MAX && check_ident("actor", actor).is_ok() => {
-                            actors.insert(actor.to_string());
-                        }
-                        SampleKind::Put => {}
-                        SampleKind::Delete => drop(actors.remove(actor)),
-                    }
-                }
-            })
-            .wait()
-            .map_err(BusError::flow("watching actors"))?;
-        let token = bus
-            .session
-            .liveliness()
-            .declare_token(keys::learner(run))
-            .wait()
-            .map_err(BusError::flow("declaring the learner's token"))?;
-        Ok(Self { actors, _subscriber: subscriber, _token: token })
-    }
-
-    /// Lets another thread look, too.
-    pub fn view(&self) -> AliveView {
-        AliveView { actors: self.actors.clone() }
-    }
-
-    /// Names of the actors that are alive.
-    pub fn actors(&self) -> BTreeSet<String> {
-        self.actors.lock().expect("no holder of this lock panics").clone()
-    }
-}
-
-/// Who is alive, as another thread sees it.
-#[derive(Clone)]
-pub struct AliveView {
-    actors: Arc<Mutex<BTreeSet<String>>>,
-}
-
-impl AliveView {
-    /// Names of the actors that are alive.
-    pub fn actors(&self) -> BTreeSet<String> {
-        self.actors.lock().expect("no holder of this lock panics").clone()
-    }
-}
-
-/// The newest statistics of each actor.
-pub struct StatsFeed {
-    /// As they came, so that a flood costs no decoding and pushes nobody else's aside.
-    arrived: Arc<Mutex<HashMap<String, Vec<u8>>>>,
-    newest: HashMap<String, ActorStats>,
-    complaints: Complaints,
-    _subscriber: Subscriber<()>,
-}
-
-impl StatsFeed {
-    /// Begins to listen.
-    pub fn open(bus: &Bus, run: &str) -> Result<Self, BusError> {
-        let arrived = Arc::new(Mutex::new(HashMap::new()));
-        let subscriber = bus
-            .session
-            .declare_subscriber(keys::stats(run, "*"))
-            .callback({
-                let (arrived, brake) = (arrived.clone(), Brake::new(STATS_PER_S));
-                move |sample: Sample| {
-                    brake.press();
-                    keep_newest(&sample, &arrived);
-                }
-            })
-            .wait()
-            .map_err(BusError::flow("listening to statistics"))?;
-        Ok(Self { arrived, newest: HashMap::new(), complaints: Complaints::default(), _subscriber: subscriber })
-    }
-
-    /// Statistics that came since, of any actor, on the key of whoever they are about.
-    pub fn next(&self) -> Option<ActorStats> {
-        let mut arrived = self.arrived.lock().expect("no holder of this lock panics");
-        while let Some(actor) = arrived.keys().next().cloned() {
-            let bytes = arrived.remove(&actor).unwrap_or_default();
-            if let Ok(stats) = ActorStats::decode_checked(&bytes)
-                && stats.actor == actor
-            {
-                return Some(stats);
-            }
-        }
-        None
-    }
-
-    /// Takes what came and forgets who is gone.
-    pub fn newest(&mut self, alive: &BTreeSet<String>) -> &HashMap<String, ActorStats> {
-        let arrived = std::mem::take(&mut *self.arrived.lock().expect("no holder of this lock panics"));
-        for (actor, bytes) in arrived.into_iter().filter(|(actor, _)| alive.contains(actor)) {
-            match ActorStats::decode_checked(&bytes) {
-                Ok(stats) if stats.actor == actor => drop(self.newest.insert(actor, stats)),
-                Ok(stats) => self
-                    .complaints
-                    .warn(|| format!("statistics of `{}` came on the key of `{actor}` and were refused", stats.actor)),
-                Err(why) => self.complaints.warn(|| format!("statistics from `{actor}` were refused: {why}")),
-            }
-        }
-        self.newest.retain(|actor, _| alive.contains(actor));
-        &self.newest
-    }
-}
-
-/// Runs in the bus's receiving thread.
-fn keep_newest(sample: &Sample, arrived: &Mutex<HashMap<String, Vec<u8>>>) {
-    let actor = keys::stats_actor(sample.key_expr().as_str());
-    let Some(actor) = actor.filter(|actor| check_ident("actor", actor).is_ok()) else { return };
-    if sample.payload().len() > STATS_BYTES_MAX {
-        return;
-    }
-    let bytes = sample.payload().to_bytes();
-    let mut arrived = arrived.lock().expect("no holder of this lock panics");
-    if let Some(kept) = arrived.get_mut(actor) {
-        kept.clear();
-        kept.extend_from_slice(&bytes);
-    } else if arrived.len() < ACTORS_MAX {
-        arrived.insert(actor.to_string(), bytes.into_owned());
     }
 }
