@@ -26,6 +26,7 @@ COLUMNS = [
     ("actors_cpu_s_per_gb", "actors, CPU-s/GB", 2),
     ("receipt_p50_ms", "receipt p50, ms", 1),
     ("receipt_p99_ms", "p99, ms", 1),
+    ("first_of_all_s", "until something of all was taken, s", 1),
     ("policy_p50_ms", "policy to all p50, ms", 1),
     ("policy_p99_ms", "p99, ms", 1),
     ("learner_resident_max_mb", "learner's memory at most, MB", 0),

@@ -57,7 +57,10 @@ pub const TARGETS: &[(&str, Target, Sample, usize)] = &[
 /// A rollout fragment.
 pub fn fragment(data: &[u8]) {
     let claimed = claimed_incarnation(data);
-    if let Ok(fragment) = Fragment::decode(Bytes::copy_from_slice(data)) {
+    let decoded = Fragment::decode(data);
+    let (front, back) = data.split_at(data.len() / 3);
+    assert_eq!(Fragment::decode_pieces(&[front, back]), decoded, "it does not matter in how many pieces it came");
+    if let Ok(fragment) = decoded {
         assert!(claimed.is_none_or(|claimed| claimed == fragment.actor_incarnation) || has_two_incarnations(data));
         let again = fragment.encode().expect("what was decoded can be encoded");
         assert_eq!(claimed_incarnation(&again).unwrap_or(0), fragment.actor_incarnation);
@@ -202,7 +205,7 @@ pub fn judge(data: &[u8]) {
     lineage.advance();
     let now = Instant::now();
     for _ in 0..2 {
-        let judged = judge.judge(samples::ACTOR, Bytes::copy_from_slice(data), &lineage, now);
+        let judged = judge.judge(samples::ACTOR, data.into(), &lineage, now);
         if let Err(receipt) = &judged {
             assert_eq!(Receipt::decode(&receipt.encode()).as_ref(), Ok(&**receipt), "its sender can read the answer");
         }

@@ -224,10 +224,11 @@ impl Trainer {
         wait_for_room(shutdown, || saver.save(&state))?;
         let encoded = bundle.encode().map_err(|why| wrong(why.to_string()))?;
         let report = Report::open(bus, &state, &config, options)?;
-        let queue = RolloutIntake::open(bus, &state.run, capacity, gate)?;
+        let copies = RolloutCopies::open(bus, &state.run)?;
+        let queue = RolloutIntake::open(bus, &state.run, capacity, gate, &copies)?;
         let alive = Alive::watch(bus, &state.run)?;
         let control = Control::open(bus, commands::first_status(&state, config.run.steps), alive.view())?;
-        let mailbox = BusMailbox::new(queue, alive, RolloutCopies::open(bus, &state.run)?, options.pulse.clone());
+        let mailbox = BusMailbox::new(queue, alive, copies, options.pulse.clone());
         let intake = Intake::new(mailbox, config.learner.mode, judge);
         Ok(Self {
             intake,

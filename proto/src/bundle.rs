@@ -1,6 +1,6 @@
 //! The policy that the learner hands out, and its announcement.
 
-use bytes::Bytes;
+use bytes::{Buf, Bytes};
 use prost::Message;
 use serde::{Deserialize, Serialize};
 
@@ -8,6 +8,7 @@ use crate::{
     ActorState, Malformed,
     ident::check_ident,
     limits::{BUNDLE_BYTES_MAX, HIDDEN_LAYERS_MAX, MODEL_BYTES_MAX, SMALL_BYTES_MAX, WIDTH_MAX},
+    pieces::Cursor,
     planes, scan, wire,
 };
 
@@ -190,10 +191,10 @@ pub(crate) fn check_small(what: &'static str, bytes: usize) -> Result<(), Malfor
 fn check_hidden_count(bytes: &[u8]) -> Result<(), Malformed> {
     const HIDDEN_FIELD: u32 = 5;
     let mut widths = 0;
-    scan::all("policy bundle", bytes, |field| {
+    scan::all("policy bundle", Cursor::whole(bytes), |field| {
         if field.number == HIDDEN_FIELD {
             // Packed, or one by one.
-            widths += field.bytes.len().max(1);
+            widths += field.bytes.map_or(1, |packed| packed.remaining().max(1));
         }
     })?;
     // A width of up to five bytes each.

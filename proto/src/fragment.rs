@@ -1,12 +1,13 @@
 //! Rollout fragments: T control steps of N environments under one policy version.
 
-use bytes::Bytes;
+use bytes::{Buf, BufMut, Bytes};
 use prost::Message;
 
 use crate::{
     ActorState, Malformed, PolicyVersion, Precision,
     ident::check_ident,
     limits::{ENVS_MAX, FRAGMENT_BYTES_MAX, SEQUENCE_MAX, STEPS_MAX, WIDTH_MAX},
+    pieces::Cursor,
     planes, scan, wire,
 };
 
@@ -209,11 +210,17 @@ impl Fragment {
     }
 
     /// Reads and checks protobuf bytes from a stranger.
-    pub fn decode(bytes: impl Into<Bytes>) -> Result<Self, Malformed> {
-        let bytes = bytes.into();
-        check_size(bytes.len())?;
-        check_episode_count(&bytes)?;
-        let message = wire::Fragment::decode(bytes)
+    pub fn decode(bytes: impl AsRef<[u8]>) -> Result<Self, Malformed> {
+        Self::decode_pieces(&[bytes.as_ref()])
+    }
+
+    /// The same for bytes that lie in several pieces, which are read where they are.
+    pub fn decode_pieces(pieces: &[&[u8]]) -> Result<Self, Malformed> {
+        let bytes = Cursor::new(pieces);
+        check_size(bytes.remaining())?;
+        let Parts { planes: [observations, actions, log_probs, rewards, last_observations], others } =
+            Parts::of(bytes)?;
+        let message = wire::Fragment::decode(Bytes::from(others))
             .map_err(|why| Malformed::Undecodable { what: "fragment", why: why.to_string() })?;
         in_range("steps", message.steps, STEPS_MAX)?;
         in_range("envs", message.envs, ENVS_MAX)?;
@@ -225,14 +232,14 @@ impl Fragment {
         // Whether the last observations are as many as the flags ask for is checked below, over the whole.
         let fragment = Self {
             version: message.version.ok_or_else(|| Malformed::field("version", "missing", "a policy version"))?.into(),
-            observations: precision.read_bytes("observations", &message.observations, rows * width)?,
-            actions: planes::from_bytes("actions", &message.actions, rows * action)?,
-            log_probs: planes::from_bytes("log_probs", &message.log_probs, rows)?,
-            rewards: planes::from_bytes("rewards", &message.rewards, rows)?,
-            last_observations: precision.read_bytes(
+            observations: precision.read("observations", observations, rows * width)?,
+            actions: planes::read("actions", actions, rows * action)?,
+            log_probs: planes::read("log_probs", log_probs, rows)?,
+            rewards: planes::read("rewards", rewards, rows)?,
+            last_observations: precision.read(
                 "last_observations",
-                &message.last_observations,
-                message.last_observations.len() / precision.bytes(),
+                last_observations,
+                last_observations.remaining() / precision.bytes(),
             )?,
             flags: message.flags.to_vec(),
             episodes: message.episodes.iter().map(Episode::try_from).collect::<Result<_, _>>()?,
@@ -261,18 +268,37 @@ pub fn claimed_incarnation(beginning: &[u8]) -> Option<u64> {
 
 const INCARNATION_FIELD: u32 = 3;
 const EPISODES_FIELD: u32 = 17;
+/// Observations, actions, log-probabilities, rewards and last observations.
+const PLANE_FIELDS: [u32; 5] = [11, 12, 13, 14, 16];
 /// What the planes hold of one transition at least: an entry of observation and action each, log-probability, reward, flags.
 const TRANSITION_BYTES_MIN: usize = 17;
 
-/// An episode has a transition at least. Decoded it takes far more bytes than it may take here, so this comes first.
-fn check_episode_count(bytes: &[u8]) -> Result<(), Malformed> {
-    let mut episodes = 0;
-    scan::all("fragment", bytes, |field| episodes += usize::from(field.number == EPISODES_FIELD))?;
-    let most = bytes.len() / TRANSITION_BYTES_MIN;
-    if episodes > most {
-        return Err(Malformed::field("episodes", episodes, format!("at most {most} in {} bytes", bytes.len())));
+/// An encoded fragment's planes, which are nearly all of it and stay where they are, and copies of all other fields.
+struct Parts<'a> {
+    /// In the order of [`PLANE_FIELDS`].
+    planes: [Cursor<'a>; PLANE_FIELDS.len()],
+    others: Vec<u8>,
+}
+
+impl<'a> Parts<'a> {
+    fn of(message: Cursor<'a>) -> Result<Self, Malformed> {
+        let mut parts = Self { planes: [Cursor::whole(&[]); _], others: Vec::new() };
+        let mut episodes = 0;
+        scan::all("fragment", message, |field| {
+            episodes += usize::from(field.number == EPISODES_FIELD);
+            match (PLANE_FIELDS.iter().position(|plane| *plane == field.number), field.bytes) {
+                // Where a field stands twice, the later one counts.
+                (Some(plane), Some(bytes)) => parts.planes[plane] = bytes,
+                _ => parts.others.put(field.encoded),
+            }
+        })?;
+        // An episode has a transition at least. Decoded it takes far more bytes than it may take here.
+        let (bytes, most) = (message.remaining(), message.remaining() / TRANSITION_BYTES_MIN);
+        if episodes > most {
+            return Err(Malformed::field("episodes", episodes, format!("at most {most} in {bytes} bytes")));
+        }
+        Ok(parts)
     }
-    Ok(())
 }
 
 fn check_size(bytes: usize) -> Result<(), Malformed> {

@@ -40,6 +40,39 @@ fn a_fragment_survives_the_wire() {
     assert_eq!(Fragment::decode(fragment.encode().unwrap()).unwrap(), fragment);
 }
 
+proptest! {
+    #[test]
+    fn pieces_make_no_difference(places in prop::collection::vec(any::<usize>(), 0..12), half in any::<bool>()) {
+        let precision = if half { Precision::F16 } else { Precision::F32 };
+        let bytes = sample().encode_as(precision).unwrap();
+        let pieces = crate::pieces::tests::cut(&bytes, places);
+        prop_assert_eq!(Fragment::decode_pieces(&pieces).unwrap(), sample());
+    }
+}
+
+#[test]
+fn planes_are_what_the_schema_calls_them() {
+    let planes = wire::Fragment {
+        observations: vec![1].into(),
+        actions: vec![2].into(),
+        log_probs: vec![3].into(),
+        rewards: vec![4].into(),
+        last_observations: vec![5].into(),
+        ..Default::default()
+    };
+    let encoded = planes.encode_to_vec();
+    let parts = Parts::of(Cursor::whole(&encoded)).unwrap();
+    assert_eq!(parts.planes.map(|plane| plane.numbers(|[byte]| byte)), [[1], [2], [3], [4], [5]]);
+    assert!(parts.others.is_empty());
+}
+
+#[test]
+fn a_plane_that_is_a_number_is_refused() {
+    // Field 11 as an integer.
+    let refused = Fragment::decode([0x58, 7]).unwrap_err().to_string();
+    assert!(refused.contains("cannot be decoded") && refused.contains("observations"), "{refused}");
+}
+
 #[test]
 fn half_precision_survives_the_wire_and_says_what_it_is() {
     let fragment = sample();

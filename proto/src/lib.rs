@@ -34,6 +34,7 @@ pub mod receipt;
 pub mod stats;
 pub mod task;
 
+mod pieces;
 mod planes;
 mod scan;
 

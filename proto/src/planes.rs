@@ -1,8 +1,8 @@
 //! Number planes: raw little-endian bytes. Their length is checked as they are read, their numbers afterwards.
 
-use bytes::Bytes;
+use bytes::{Buf, Bytes};
 
-use crate::Malformed;
+use crate::{Malformed, pieces::Cursor};
 
 /// Numbers as little-endian bytes.
 pub(crate) fn to_bytes(numbers: &[f32]) -> Bytes {
@@ -14,14 +14,19 @@ pub(crate) fn to_bytes(numbers: &[f32]) -> Bytes {
 
 /// Little-endian bytes as exactly `count` numbers, whatever these are.
 pub(crate) fn from_bytes(field: &'static str, bytes: &[u8], count: usize) -> Result<Vec<f32>, Malformed> {
-    if Some(bytes.len()) != count.checked_mul(4) {
+    read(field, Cursor::whole(bytes), count)
+}
+
+/// The same for bytes wherever they lie.
+pub(crate) fn read(field: &'static str, bytes: Cursor<'_>, count: usize) -> Result<Vec<f32>, Malformed> {
+    if Some(bytes.remaining()) != count.checked_mul(4) {
         return Err(Malformed::field(
             field,
-            format!("{} bytes long", bytes.len()),
+            format!("{} bytes long", bytes.remaining()),
             format!("{count} numbers of 4 bytes"),
         ));
     }
-    Ok(bytes.as_chunks::<4>().0.iter().map(|number| f32::from_le_bytes(*number)).collect())
+    Ok(bytes.numbers(f32::from_le_bytes))
 }
 
 /// Refuses infinities and NaN, naming the first.

@@ -1,12 +1,12 @@
 //! How exactly observations travel.
 
-use bytes::Bytes;
+use bytes::{Buf, Bytes};
 use half::{
     f16,
     slice::{HalfBitsSliceExt, HalfFloatSliceExt},
 };
 
-use crate::{Malformed, planes, wire};
+use crate::{Malformed, pieces::Cursor, planes, wire};
 
 /// How exactly observations travel.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -52,17 +52,16 @@ impl Precision {
     }
 
     /// Little-endian bytes as exactly `count` numbers, whatever these are.
-    pub(crate) fn read_bytes(self, field: &'static str, bytes: &[u8], count: usize) -> Result<Vec<f32>, Malformed> {
+    pub(crate) fn read(self, field: &'static str, bytes: Cursor<'_>, count: usize) -> Result<Vec<f32>, Malformed> {
         if self == Self::F32 {
-            return planes::from_bytes(field, bytes, count);
+            return planes::read(field, bytes, count);
         }
-        if Some(bytes.len()) != count.checked_mul(2) {
-            let found = format!("{} bytes long", bytes.len());
+        if Some(bytes.remaining()) != count.checked_mul(2) {
+            let found = format!("{} bytes long", bytes.remaining());
             return Err(Malformed::field(field, found, format!("{count} numbers of 2 bytes")));
         }
-        let bits: Vec<u16> = bytes.as_chunks::<2>().0.iter().map(|half| u16::from_le_bytes(*half)).collect();
         let mut numbers = vec![0.0; count];
-        bits.reinterpret_cast::<f16>().convert_to_f32_slice(&mut numbers);
+        bytes.numbers(u16::from_le_bytes).reinterpret_cast::<f16>().convert_to_f32_slice(&mut numbers);
         Ok(numbers)
     }
 
@@ -117,7 +116,7 @@ mod tests {
     fn what_is_not_rounded_is_not_sent() {
         let refused = Precision::F16.to_bytes("observations", &[1.0, 0.1]).unwrap_err().to_string();
         assert!(refused.contains("`observations` is 0.1 at index 1"), "{refused}");
-        let refused = Precision::F16.read_bytes("observations", &[0; 3], 2).unwrap_err().to_string();
+        let refused = Precision::F16.read("observations", Cursor::whole(&[0; 3]), 2).unwrap_err().to_string();
         assert!(refused.contains("3 bytes long") && refused.contains("2 numbers of 2 bytes"), "{refused}");
     }
 
@@ -127,7 +126,7 @@ mod tests {
             Precision::F16.round(&mut numbers);
             let bytes = Precision::F16.to_bytes("x", &numbers).unwrap();
             prop_assert_eq!(bytes.len(), 2 * numbers.len());
-            prop_assert_eq!(Precision::F16.read_bytes("x", &bytes, numbers.len()).unwrap(), numbers);
+            prop_assert_eq!(Precision::F16.read("x", Cursor::whole(&bytes), numbers.len()).unwrap(), numbers);
         }
     }
 }

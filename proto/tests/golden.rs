@@ -156,7 +156,7 @@ fn written() -> Vec<(&'static str, Vec<u8>)> {
 /// Asserts that `bytes` are read as the message of this name.
 fn assert_read(name: &str, bytes: &[u8]) {
     match name {
-        "fragment" => assert_eq!(Fragment::decode(bytes.to_vec()), Ok(fragment())),
+        "fragment" => assert_eq!(Fragment::decode(bytes), Ok(fragment())),
         "bundle" => assert_eq!(PolicyBundle::decode(bytes.to_vec()), Ok(bundle())),
         "announcement" => {
             assert_eq!(PolicyAnnouncement::decode(bytes), Ok(PolicyAnnouncement { version: VERSION, checksum: 5 }));

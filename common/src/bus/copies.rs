@@ -11,9 +11,9 @@ use std::sync::{
     mpsc::{SyncSender, sync_channel},
 };
 
-use bytes::Bytes;
 use zenoh::{
     Wait,
+    bytes::ZBytes,
     matching::MatchingListener,
     pubsub::Publisher,
     qos::{CongestionControl, Priority},
@@ -30,7 +30,7 @@ const QUEUE_BYTES_MAX: usize = 64 << 20;
 pub struct RolloutCopies {
     is_watched: Arc<AtomicBool>,
     waiting_bytes: Arc<AtomicUsize>,
-    queue: SyncSender<(String, Bytes)>,
+    queue: SyncSender<(String, ZBytes)>,
     // Its only use is to tell whether anybody listens.
     _publisher: Publisher<'static>,
     _listener: MatchingListener<()>,
@@ -57,7 +57,7 @@ impl RolloutCopies {
         if publisher.matching_status().wait().is_ok_and(|status| status.matching()) {
             is_watched.store(true, Ordering::Relaxed);
         }
-        let (queue, waiting) = sync_channel::<(String, Bytes)>(QUEUE);
+        let (queue, waiting) = sync_channel::<(String, ZBytes)>(QUEUE);
         let waiting_bytes = Arc::new(AtomicUsize::new(0));
         std::thread::Builder::new()
             .name("rollout-copies".to_string())
@@ -87,8 +87,14 @@ impl RolloutCopies {
         self.is_watched.load(Ordering::Relaxed)
     }
 
+    /// Tells it from now on.
+    pub(super) fn watch(&self) -> Arc<AtomicBool> {
+        self.is_watched.clone()
+    }
+
     /// Hands a copy over, or leaves it out where too many wait.
-    pub fn offer(&self, actor: &str, fragment: Bytes) {
+    pub fn offer(&self, actor: &str, fragment: impl Into<ZBytes>) {
+        let fragment = fragment.into();
         let size = fragment.len();
         let waiting = self.waiting_bytes.fetch_add(size, Ordering::Relaxed);
         if waiting + size > QUEUE_BYTES_MAX || self.queue.try_send((actor.to_string(), fragment)).is_err() {

@@ -21,11 +21,15 @@ const SENDERS_MAX: usize = 4096;
 const WAITING_EACH_MAX: usize = 8;
 /// Senders that have proven nothing may fill this part of the queue.
 const NEWCOMERS_SHARE: usize = 4;
-/// Bytes of theirs that may wait: one fragment of the largest size.
-const NEWCOMERS_BYTES_MAX: usize = 32 << 20;
+/// Bytes of theirs that may wait: two fragments of the largest size, or one of 3 MB from each thread that reads links, so that
+/// hundreds of actors that begin at once need not send their first ones again and again.
+const NEWCOMERS_BYTES_MAX: usize = 64 << 20;
 /// Fragments of theirs that are looked at: each second, and at once after a silence.
 const NEWCOMERS_PER_S: f64 = 200.0;
 const NEWCOMERS_BURST: f64 = 512.0;
+/// What it takes of these to tell one of them that there is no room: little, so that hundreds that come at once and find none
+/// hear of it, and come again soon.
+const BUSY_COST: f64 = 0.1;
 /// Useless fragments in a row (sent before, or of policies that never were) that are no failure yet: after a restart of
 /// the learner an honest actor sends again whatever it has kept.
 const USELESS_MAX: u32 = 1024;
@@ -132,11 +136,12 @@ impl Gate {
         }
         let newcomer = sender.incarnation.is_none();
         let has_room = if newcomer {
-            if !state.spend(now) {
+            let has_room = state.newcomers < self.newcomers_max && state.newcomers_bytes + bytes <= NEWCOMERS_BYTES_MAX;
+            if !state.spend(if has_room { 1.0 } else { BUSY_COST }, now) {
                 state.unread.turned_away += 1;
                 return Err(Refusal::Flood);
             }
-            state.newcomers < self.newcomers_max && state.newcomers_bytes + bytes <= NEWCOMERS_BYTES_MAX
+            has_room
         } else {
             state.waiting.get(&sender).is_none_or(|waiting| *waiting < WAITING_EACH_MAX)
         };
@@ -251,13 +256,13 @@ impl State {
         self.failures.entry(sender.clone()).or_insert(fresh)
     }
 
-    /// Whether one more newcomer may be looked at.
-    fn spend(&mut self, now: Instant) -> bool {
+    /// Whether one more newcomer may be looked at, or told something, for so much of the budget.
+    fn spend(&mut self, cost: f64, now: Instant) -> bool {
         let (left, since) = self.budget.unwrap_or((NEWCOMERS_BURST, now));
         let earned = now.saturating_duration_since(since).as_secs_f64() * NEWCOMERS_PER_S;
         let left = (left + earned).min(NEWCOMERS_BURST);
-        let enough = left >= 1.0;
-        self.budget = Some((if enough { left - 1.0 } else { left }, now));
+        let enough = left >= cost;
+        self.budget = Some((if enough { left - cost } else { left }, now));
         enough
     }
 }

@@ -63,6 +63,15 @@ fn a_flood_of_newcomers_is_let_in_drop_by_drop() {
 }
 
 #[test]
+fn many_newcomers_hear_that_there_is_no_room() {
+    let (gate, now) = (gate(), Instant::now());
+    let tickets: Vec<_> = (0..4).map(|_| gate.admit("n", None, 1, now).unwrap()).collect();
+    let told = (0..100_000).filter(|_| gate.admit("n", None, 1, now).unwrap_err() == Refusal::Busy).count() as f64;
+    let most = (NEWCOMERS_BURST - tickets.len() as f64) / BUSY_COST;
+    assert!((most - 1.0..=most + 1.0).contains(&told), "{told} of {most}");
+}
+
+#[test]
 fn what_is_sent_again_and_again_is_a_failure_in_the_end() {
     let (gate, now) = (gate(), Instant::now());
     gate.taken("a", 1, now);

@@ -1,10 +1,9 @@
 //! What the learner declares: the intake of rollouts, and the shelf of policies.
 
 use std::{
-    io::Read,
     sync::{
         Arc, Mutex, RwLock,
-        atomic::{AtomicU64, AtomicUsize, Ordering},
+        atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering},
         mpsc::{Receiver, SyncSender, TrySendError, sync_channel},
     },
     time::{Duration, Instant},
@@ -12,8 +11,7 @@ use std::{
 
 use bytes::Bytes;
 use treadmill_proto::{
-    Outcome, PolicyAnnouncement, PolicyVersion, Receipt, fragment::claimed_incarnation, ident::check_ident,
-    limits::FRAGMENT_BYTES_MAX,
+    Outcome, PolicyAnnouncement, PolicyVersion, Receipt, ident::check_ident, limits::FRAGMENT_BYTES_MAX,
 };
 use zenoh::{
     Wait,
@@ -24,25 +22,23 @@ use zenoh::{
 };
 
 use super::{
-    Bus, BusError,
+    Arrival, Bus, BusError, RolloutCopies,
+    arrival::claimed,
     brake::Brake,
     complaints::Complaints,
     gate::{Gate, Refusal, Ticket},
     keys,
 };
 
-/// Bytes of fragments that may wait for the learner, whatever their number.
+/// Bytes of fragments that may wait for the learner, whatever their number. In memory observations that came in half
+/// precision take twice theirs.
 const INTAKE_BYTES_MAX: usize = 128 << 20;
-/// A payload in one piece that is smaller than this came over a socket, and would keep a whole buffer of the bus.
-const IN_PLACE_BYTES_MIN: usize = 64 << 10;
 /// Answers that may wait to be sent to those whose fragments were not taken.
 const REFUSALS_QUEUE: usize = 1024;
 /// Policy requests that may wait for the shelf's thread.
 const SHELF_QUEUE: usize = 4096;
 /// Threads that serve policies: one that waits for a reader who does not read keeps only itself.
 const SHELF_THREADS: usize = 4;
-/// As much of a fragment's beginning as holds run, actor and incarnation.
-const BEGINNING_BYTES: usize = 160;
 /// Fragments that are refused unread, and requests for policies: so many a second at full speed.
 const REFUSALS_PER_S: f64 = 500.0;
 const REQUESTS_PER_S: f64 = 2000.0;
@@ -53,8 +49,10 @@ const NO_NAME: &str = "?";
 pub struct Delivery {
     /// Who sent it, from the key.
     pub actor: String,
-    /// The encoded fragment.
-    pub payload: Bytes,
+    arrival: Option<Arrival>,
+    /// As it came, where somebody wants copies.
+    encoded: Option<ZBytes>,
+    bytes: usize,
     query: Query,
     queued_bytes: Arc<AtomicUsize>,
     /// Room in the queue.
@@ -67,17 +65,28 @@ impl Delivery {
         reply(&self.query, receipt);
     }
 
-    /// Lets go of the payload once it is decoded; the answer is still owed.
-    pub fn release_payload(&mut self) {
-        self.queued_bytes.fetch_sub(self.payload.len(), Ordering::Relaxed);
-        self.payload = Bytes::new();
+    /// The fragment, once, which does not count as waiting any more; the answer is still owed.
+    pub fn take(&mut self) -> Option<Arrival> {
+        self.leave();
         self.ticket = None;
+        self.arrival.take()
+    }
+
+    /// Hands on the fragment as it came, if somebody wanted copies when it did; never waits.
+    pub fn copy_to(&mut self, copies: &RolloutCopies) {
+        if let Some(encoded) = self.encoded.take() {
+            copies.offer(&self.actor, encoded);
+        }
+    }
+
+    fn leave(&mut self) {
+        self.queued_bytes.fetch_sub(std::mem::take(&mut self.bytes), Ordering::Relaxed);
     }
 }
 
 impl Drop for Delivery {
     fn drop(&mut self) {
-        self.queued_bytes.fetch_sub(self.payload.len(), Ordering::Relaxed);
+        self.leave();
     }
 }
 
@@ -91,20 +100,28 @@ fn reply(query: &Query, receipt: &Receipt) {
 /// The bounded queue of fragments on their way into the learner.
 pub struct RolloutIntake {
     queue: Receiver<Delivery>,
-    in_place: Arc<AtomicU64>,
+    shared: Arc<AtomicU64>,
     _queryable: Queryable<()>,
 }
 
 impl RolloutIntake {
-    /// Begins to take fragments from whom `gate` lets in; at most `capacity` wait, the rest is told to come again.
-    pub fn open(bus: &Bus, run: &str, capacity: usize, gate: Arc<Gate>) -> Result<Self, BusError> {
+    /// Begins to take fragments from whom `gate` lets in; at most `capacity` wait, the rest is told to come again. While
+    /// somebody wants `copies`, fragments are also kept as they came.
+    pub fn open(
+        bus: &Bus,
+        run: &str,
+        capacity: usize,
+        gate: Arc<Gate>,
+        copies: &RolloutCopies,
+    ) -> Result<Self, BusError> {
         let (sender, queue) = sync_channel(capacity);
-        let in_place = Arc::new(AtomicU64::new(0));
+        let (shared, is_watched) = (Arc::new(AtomicU64::new(0)), copies.watch());
         let door = Door {
             gate,
             queue: sender,
             queued_bytes: Arc::default(),
-            in_place: in_place.clone(),
+            shared: shared.clone(),
+            is_watched,
             answers: refusals()?,
             refusals: Complaints::default(),
             quarantines: Complaints::default(),
@@ -116,12 +133,12 @@ impl RolloutIntake {
             .callback(move |query| door.take(query))
             .wait()
             .map_err(BusError::flow("taking rollouts"))?;
-        Ok(Self { queue, in_place, _queryable: queryable })
+        Ok(Self { queue, shared, _queryable: queryable })
     }
 
     /// Counts the fragments that came through shared memory.
-    pub fn in_place(&self) -> Arc<AtomicU64> {
-        self.in_place.clone()
+    pub fn shared(&self) -> Arc<AtomicU64> {
+        self.shared.clone()
     }
 
     /// The next fragment, if one comes within `patience`.
@@ -136,7 +153,8 @@ struct Door {
     gate: Arc<Gate>,
     queue: SyncSender<Delivery>,
     queued_bytes: Arc<AtomicUsize>,
-    in_place: Arc<AtomicU64>,
+    shared: Arc<AtomicU64>,
+    is_watched: Arc<AtomicBool>,
     answers: SyncSender<(Query, Receipt)>,
     refusals: Complaints,
     quarantines: Complaints,
@@ -144,7 +162,8 @@ struct Door {
 }
 
 impl Door {
-    /// Runs in the bus's receiving thread: looks at name, size and first bytes, hands over, returns.
+    /// Runs in the bus's receiving thread: looks at name, size and first bytes, and whether there is room, before it reads the
+    /// fragment and hands it over. It is read here because here are several threads, and the learner's has other work.
     fn take(&self, mut query: Query) {
         // Out of the query, which lives until it is answered: the bus's own buffers are free again at once.
         let payload = query.payload_mut().map(std::mem::take).unwrap_or_default();
@@ -187,10 +206,12 @@ impl Door {
             self.queued_bytes.fetch_sub(size, Ordering::Relaxed);
             return self.refuse(query, Outcome::Busy, format!("{INTAKE_BYTES_MAX} bytes of fragments wait already"));
         }
-        let payload = whole(payload, &self.in_place);
+        let arrival = Arrival::read(&payload, &self.shared);
         let delivery = Delivery {
             actor: actor.to_string(),
-            payload,
+            arrival: Some(arrival),
+            encoded: self.is_watched.load(Ordering::Relaxed).then_some(payload),
+            bytes: size,
             query,
             queued_bytes: self.queued_bytes.clone(),
             ticket: Some(ticket),
@@ -218,29 +239,6 @@ fn refusals() -> Result<SyncSender<(Query, Receipt)>, BusError> {
         .spawn(move || refusals.iter().for_each(|(query, receipt)| reply(&query, &receipt)))
         .map_err(|why| BusError::Flow { what: "starting to answer".to_string(), why: why.to_string() })?;
     Ok(sender)
-}
-
-/// A payload in one piece. What came over a socket lies in many small buffers of the bus and is copied; what lies in shared
-/// memory stays there until it is decoded.
-fn whole(payload: ZBytes, in_place: &AtomicU64) -> Bytes {
-    struct InPlace(ZBytes);
-    impl AsRef<[u8]> for InPlace {
-        fn as_ref(&self) -> &[u8] {
-            self.0.slices().next().unwrap_or_default()
-        }
-    }
-    if payload.len() >= IN_PLACE_BYTES_MIN && payload.slices().nth(1).is_none() {
-        in_place.fetch_add(1, Ordering::Relaxed);
-        return Bytes::from_owner(InPlace(payload));
-    }
-    Bytes::from(payload.to_bytes().into_owned())
-}
-
-/// The incarnation that a fragment claims.
-fn claimed(payload: &ZBytes) -> Option<u64> {
-    let mut beginning = Vec::with_capacity(BEGINNING_BYTES);
-    payload.reader().take(BEGINNING_BYTES as u64).read_to_end(&mut beginning).ok()?;
-    claimed_incarnation(&beginning)
 }
 
 /// Serves the newest policy bundle and announces it.

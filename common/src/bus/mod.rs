@@ -5,6 +5,7 @@
 //! to a bounded queue, and a flood is slowed by naps (see `brake`).
 
 mod actor_side;
+mod arrival;
 mod brake;
 pub mod complaints;
 mod control;
@@ -24,6 +25,7 @@ mod tasks;
 pub mod threads;
 
 pub use actor_side::{Announcements, fetch_policy, publish_dropping, submit, token, watch_announcements};
+pub use arrival::Arrival;
 pub use control::{ControlDesk, Inquiry, command, statuses};
 pub use copies::RolloutCopies;
 pub use door::turned_away;

@@ -2,13 +2,13 @@
 
 use std::{sync::Arc, time::Instant};
 
-use bytes::Bytes;
 use serde::{Deserialize, Serialize};
 use treadmill_common::bus::{
+    Arrival,
     complaints::Complaints,
     gate::{Gate, Sender},
 };
-use treadmill_proto::{Fragment, Malformed, Outcome, Receipt, fragment::claimed_incarnation};
+use treadmill_proto::{Fragment, Malformed, Outcome, Receipt};
 
 use super::{
     ledger::{Fate, Ledger, Rule},
@@ -82,7 +82,7 @@ impl Judge {
     pub fn judge(
         &mut self,
         actor: &str,
-        payload: Bytes,
+        arrival: Arrival,
         lineage: &Lineage,
         now: Instant,
     ) -> Result<Accepted, Box<Receipt>> {
@@ -90,13 +90,13 @@ impl Judge {
             Box::new(Receipt { outcome, reason, version: lineage.newest(), durable_through })
         };
         // What came through the gate before its sender was put in quarantine.
-        let sender = self.gate.identify(actor, claimed_incarnation(&payload));
+        let sender = self.gate.identify(actor, arrival.claimed_incarnation);
         if self.gate.holds(&sender, now) {
             self.tally.quarantined += 1;
             let reason = format!("too many refused fragments in a row from `{actor}`; wait a minute");
             return Err(refuse(Outcome::Quarantined, reason, 0));
         }
-        let sound = Fragment::decode(payload).and_then(|fragment| self.fits(actor, fragment, lineage));
+        let sound = arrival.fragment.and_then(|fragment| self.fits(actor, fragment, lineage));
         let fragment = match sound {
             Ok(fragment) => fragment,
             Err(why) => {

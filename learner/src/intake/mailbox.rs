@@ -5,8 +5,7 @@ use std::{
     time::{Duration, Instant},
 };
 
-use bytes::Bytes;
-use treadmill_common::bus::{Alive, Delivery, RolloutCopies, RolloutIntake};
+use treadmill_common::bus::{Alive, Arrival, Delivery, RolloutCopies, RolloutIntake};
 use treadmill_proto::Receipt;
 
 use crate::pulse::Pulse;
@@ -25,13 +24,8 @@ pub trait Mailbox {
     /// The present moment.
     fn now(&self) -> Instant;
 
-    /// Whether somebody wants copies of what is taken.
-    fn is_watched(&self) -> bool {
-        false
-    }
-
-    /// Hands on a copy of a fragment that was taken; never waits.
-    fn copy(&self, _actor: &str, _fragment: Bytes) {}
+    /// Hands on a copy of a fragment that was taken, if somebody wants one; never waits.
+    fn copy(&self, _letter: &mut Self::Letter) {}
 }
 
 /// A fragment that waits for its receipt. Dropped without one, its sender sends it again.
@@ -39,8 +33,8 @@ pub trait Letter {
     /// Who sent it.
     fn actor(&self) -> &str;
 
-    /// The encoded fragment, once; the answer is still owed.
-    fn take_payload(&mut self) -> Bytes;
+    /// The fragment, once; the answer is still owed.
+    fn take(&mut self) -> Option<Arrival>;
 
     /// Answers, which gives the sender its credit back.
     fn answer(self, receipt: &Receipt);
@@ -77,12 +71,8 @@ impl Mailbox for BusMailbox {
         Instant::now()
     }
 
-    fn is_watched(&self) -> bool {
-        self.copies.is_watched()
-    }
-
-    fn copy(&self, actor: &str, fragment: Bytes) {
-        self.copies.offer(actor, fragment);
+    fn copy(&self, letter: &mut Delivery) {
+        letter.copy_to(&self.copies);
     }
 }
 
@@ -91,10 +81,8 @@ impl Letter for Delivery {
         &self.actor
     }
 
-    fn take_payload(&mut self) -> Bytes {
-        let payload = self.payload.clone();
-        self.release_payload();
-        payload
+    fn take(&mut self) -> Option<Arrival> {
+        Delivery::take(self)
     }
 
     fn answer(self, receipt: &Receipt) {

@@ -176,14 +176,11 @@ impl<M: Mailbox> Intake<M> {
     }
 
     fn take(&mut self, mut letter: M::Letter, lineage: &Lineage) -> Option<Accepted> {
-        let payload = letter.take_payload();
+        let arrival = letter.take()?;
         let now = self.mailbox.now();
-        let copy = self.mailbox.is_watched().then(|| payload.clone());
-        match self.judge.judge(letter.actor(), payload, lineage, now) {
+        match self.judge.judge(letter.actor(), arrival, lineage, now) {
             Ok(accepted) => {
-                if let Some(copy) = copy {
-                    self.mailbox.copy(letter.actor(), copy);
-                }
+                self.mailbox.copy(&mut letter);
                 let held = Held { letter, incarnation: accepted.fragment.actor_incarnation };
                 match self.mode {
                     LearnerMode::Sync => self.held.push(held),

@@ -19,7 +19,7 @@ use treadmill_learner::intake::{
     Accepted, BusMailbox, Collected, Expected, Intake, Judge, Ledger, Lineage, Tally, Wanted,
 };
 use treadmill_learner::pulse::Pulse;
-use treadmill_proto::{Fragment, PolicyAnnouncement};
+use treadmill_proto::{Fragment, PolicyAnnouncement, PolicyBundle};
 
 use super::{usage, workload};
 use crate::{bench::network, memory, output::say, startup::NetworkArgs};
@@ -50,15 +50,16 @@ pub fn run(args: &HostArgs) -> anyhow::Result<()> {
     usage::allow_many_connections();
     let options = args.network.options(Role::Learner, vec![args.listen.clone()], Vec::new())?;
     let (bus, endpoints) = Bus::open_router(&options)?;
-    let bundle = workload::bundle(0).encode()?;
-    let bundle_bytes = bundle.len();
-    let shelf = PolicyShelf::open(&bus, workload::RUN, bundle.into())?;
+    let mut bundle = workload::bundle();
+    let encoded = bundle.encode()?;
+    let bundle_bytes = encoded.len();
+    let shelf = PolicyShelf::open(&bus, workload::RUN, encoded.into())?;
     let defaults = LearnerConfig::default();
     let capacity = defaults.intake_fragments as usize;
     let gate = Arc::new(Gate::new(defaults.quarantine_after, capacity));
-    let queue = RolloutIntake::open(&bus, workload::RUN, capacity, gate.clone())?;
-    let in_place = queue.in_place();
     let (alive, copies) = (Alive::watch(&bus, workload::RUN)?, RolloutCopies::open(&bus, workload::RUN)?);
+    let queue = RolloutIntake::open(&bus, workload::RUN, capacity, gate.clone(), &copies)?;
+    let shared = queue.shared();
     let mailbox = BusMailbox::new(queue, alive, copies, Pulse::default());
     let judge = Judge::new(expected(), gate, Ledger::default(), Tally::default());
     let (taken, shutdown) = (Arc::new(Mutex::new(Taken::default())), Shutdown::default());
@@ -73,9 +74,12 @@ pub fn run(args: &HostArgs) -> anyhow::Result<()> {
         let answer = match line.split_once(' ') {
             None if line == "mark" => {
                 let taken = taken.lock().expect("no holder of this lock panics");
-                mark(&taken, begun, in_place.load(Ordering::Relaxed))
+                mark(&taken, begun, shared.load(Ordering::Relaxed))
             }
-            Some(("publish", number)) => publish(&shelf, number.parse().context("a policy has a number")?)?,
+            Some(("publish", number)) => {
+                bundle.version.number = number.parse().context("a policy has a number")?;
+                publish(&shelf, &bundle)?
+            }
             _ => anyhow::bail!("`{line}` is not understood"),
         };
         say(&answer.to_string());
@@ -121,13 +125,13 @@ fn checksum(Accepted { fragment, .. }: &Accepted) -> String {
     network::checksum(&[&observations[..], actions, log_probs, rewards, last_observations].concat())
 }
 
-fn mark(taken: &Taken, begun: Instant, in_place: u64) -> Value {
+fn mark(taken: &Taken, begun: Instant, shared: u64) -> Value {
     let Tally { accepted, duplicate, too_old, vanished, malformed, quarantined } = taken.tally;
     json!({
         "at_s": begun.elapsed().as_secs_f64(),
         "accepted": accepted,
         "not_accepted": duplicate + too_old + vanished + malformed + quarantined,
-        "in_place": in_place,
+        "in_place": shared,
         "cpu_s": usage::cpu_s(),
         "resident_mb": machine::resident_bytes() as f64 / 1e6,
         "resident_max_mb": usage::resident_max_mb(),
@@ -136,11 +140,10 @@ fn mark(taken: &Taken, begun: Instant, in_place: u64) -> Value {
     })
 }
 
-fn publish(shelf: &PolicyShelf, number: u64) -> anyhow::Result<Value> {
-    let bundle = workload::bundle(number);
+fn publish(shelf: &PolicyShelf, bundle: &PolicyBundle) -> anyhow::Result<Value> {
     let announcement = PolicyAnnouncement { version: bundle.version, checksum: bundle.checksum };
     let encoded = bundle.encode()?;
     let time_unix_s = machine::time_unix_s();
     shelf.publish(encoded.into(), &announcement);
-    Ok(json!({"published": number, "time_unix_s": time_unix_s}))
+    Ok(json!({"published": bundle.version.number, "time_unix_s": time_unix_s}))
 }

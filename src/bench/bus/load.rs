@@ -26,6 +26,8 @@ use super::{usage, workload};
 use crate::{memory, output::say, startup::NetworkArgs};
 
 const FETCH_TIMEOUT: Duration = Duration::from_secs(10);
+/// An actor of which nothing was taken by then is not waited for.
+const TAKEN_WITHIN: Duration = Duration::from_secs(60);
 /// A policy that is not there by then is not waited for.
 const FETCHED_WITHIN: Duration = Duration::from_secs(60);
 /// As the courier of an actor does when the learner is busy or silent.
@@ -91,7 +93,8 @@ struct Shared {
     published: AtomicU64,
 }
 
-/// Sends until standard input ends. Lines there: `send`, `measure`, `stop`, and `expect N` before policy N is handed out.
+/// Sends until standard input ends. Lines there: `send`, which is answered once something of every actor was taken, `measure`,
+/// `stop`, and `expect N` before policy N is handed out.
 pub fn run(args: &LoadArgs) -> anyhow::Result<()> {
     memory::keep_freed();
     usage::allow_many_connections();
@@ -108,8 +111,8 @@ pub fn run(args: &LoadArgs) -> anyhow::Result<()> {
         outcomes: Mutex::new(Outcomes::default()),
         published: AtomicU64::new(0),
     });
-    let (fetched, fetches) = channel();
-    let senders = join(args, &options, &runtime, &shared, &fetched)?;
+    let ((fetched, fetches), (taken, firsts)) = (channel(), channel());
+    let senders = join(args, &options, &runtime, &shared, &fetched, &taken)?;
     let fragment_bytes = shared.prepared.under("a", 1, 1).len();
     let bytes_per_transition = fragment_bytes as f64 / transitions as f64;
     let ready = json!({"fragment_bytes": fragment_bytes, "bytes_per_transition": bytes_per_transition});
@@ -118,7 +121,16 @@ pub fn run(args: &LoadArgs) -> anyhow::Result<()> {
     let mut senders = Some(senders);
     for line in std::io::stdin().lock().lines() {
         match line.context("standard input cannot be read")?.as_str() {
-            "send" => shared.enter(Phase::Sending),
+            "send" => {
+                shared.enter(Phase::Sending);
+                // Of every actor: until then it is a newcomer to the learner, who has little room for those.
+                let deadline = Instant::now() + TAKEN_WITHIN;
+                let of_all =
+                    std::iter::from_fn(|| firsts.recv_timeout(deadline.saturating_duration_since(Instant::now())).ok())
+                        .take(args.actors as usize)
+                        .count();
+                say(&json!({"taken_of_actors": of_all}).to_string());
+            }
             "measure" => {
                 cpu_before = usage::cpu_s();
                 shared.enter(Phase::Measuring);
@@ -189,6 +201,7 @@ fn join(
     runtime: &Runtime,
     shared: &Arc<Shared>,
     fetched: &Sender<(u64, f64)>,
+    taken: &Sender<()>,
 ) -> anyhow::Result<Vec<Joined>> {
     let mut senders = Vec::new();
     for index in args.first..args.first + args.actors {
@@ -204,19 +217,27 @@ fn join(
             follow(&bus_too, &announcements, &shared_too, &fetched).await;
             drop(alive);
         });
-        let (sequence, incarnation) = (Arc::new(AtomicU64::new(1)), workload::ACTOR_INCARNATION);
-        for _ in 0..args.in_flight {
+        let sequence = Arc::new(AtomicU64::new(1));
+        for sender in 0..args.in_flight {
             let (shared, bus, name, sequence) = (shared.clone(), bus.clone(), name.clone(), sequence.clone());
-            let handle = runtime.handle().clone();
-            let work = move || deliver(&shared, &bus, &name, incarnation, &sequence, &handle);
+            let (handle, first) = (runtime.handle().clone(), (sender == 0).then(|| taken.clone()));
+            let work = move || deliver(&shared, &bus, &name, &sequence, &handle, first);
             senders.push(std::thread::Builder::new().stack_size(STACK_BYTES).spawn(work)?);
         }
     }
     Ok(senders)
 }
 
-/// One fragment after the other, each until it is taken.
-fn deliver(shared: &Shared, bus: &Bus, name: &str, incarnation: u64, sequence: &AtomicU64, handle: &Handle) {
+/// One fragment after the other, each until it is taken; `first` is told of the first.
+fn deliver(
+    shared: &Shared,
+    bus: &Bus,
+    name: &str,
+    sequence: &AtomicU64,
+    handle: &Handle,
+    mut first: Option<Sender<()>>,
+) {
+    let incarnation = workload::ACTOR_INCARNATION;
     let timeout = Duration::from_millis(BusConfig::default().receipt_timeout_ms);
     let mut own = shared.prepared.under(name, incarnation, 1);
     shared.wait_to_begin();
@@ -228,17 +249,20 @@ fn deliver(shared: &Shared, bus: &Bus, name: &str, incarnation: u64, sequence: &
         loop {
             let receipt = handle.block_on(submit(bus, workload::RUN, name, fragment.clone(), timeout));
             let outcome = receipt.ok().flatten().map(|receipt| receipt.outcome);
-            let mut outcomes = shared.outcomes();
-            match outcome {
-                Some(Outcome::Accepted) if shared.phase() == Phase::Measuring => {
-                    outcomes.receipts_ms.push(begun.elapsed().as_secs_f64() * 1e3);
-                }
-                Some(Outcome::Accepted) => {}
-                Some(Outcome::Busy) => outcomes.busy += 1,
-                None => outcomes.silent += 1,
-                Some(_) => outcomes.refused += 1,
+            if outcome == Some(Outcome::Accepted)
+                && let Some(first) = first.take()
+            {
+                let _ = first.send(());
             }
-            drop(outcomes);
+            if shared.phase() == Phase::Measuring {
+                let mut outcomes = shared.outcomes();
+                match outcome {
+                    Some(Outcome::Accepted) => outcomes.receipts_ms.push(begun.elapsed().as_secs_f64() * 1e3),
+                    Some(Outcome::Busy) => outcomes.busy += 1,
+                    None => outcomes.silent += 1,
+                    Some(_) => outcomes.refused += 1,
+                }
+            }
             match outcome {
                 Some(Outcome::Busy) | None if shared.phase() != Phase::Stopped => std::thread::sleep(RETRY),
                 _ => break,

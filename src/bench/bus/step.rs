@@ -41,6 +41,8 @@ pub(super) struct Measured {
     fragments: f64,
     in_place: f64,
     elapsed_s: f64,
+    /// Until something of every actor was taken, when all begin at once.
+    first_s: f64,
     receipts_ms: Vec<f64>,
     policies_ms: Vec<f64>,
     bytes_per_transition: f64,
@@ -70,14 +72,21 @@ impl Step<'_> {
             bytes_per_transition = number(&ready, "bytes_per_transition")?;
         }
         let all = |loads: &mut [Helper], line: &str| loads.iter_mut().try_for_each(|load| load.tell(line));
-        all(&mut loads, "send")?;
         // Not before every actor's first fragment has gone through, and then two of each or more.
-        let on_the_way = f64::from(self.actors * self.in_flight);
         let begun = host.ask("mark")?;
-        let warm = self.wait_for(&mut host, &begun, on_the_way, 0.0)?;
+        all(&mut loads, "send")?;
+        let mut known = 0.0;
+        for load in &mut loads {
+            known += number(&load.hear()?, "taken_of_actors")?;
+        }
+        anyhow::ensure!(
+            known == f64::from(self.actors),
+            "of {} actors only {known} could deliver anything",
+            self.actors
+        );
+        let before = host.ask("mark")?;
         all(&mut loads, "measure")?;
-        let before = warm;
-        let after = self.wait_for(&mut host, &before, 2.0 * on_the_way, self.seconds)?;
+        let after = self.wait_for(&mut host, &before, 2.0 * f64::from(self.actors * self.in_flight), self.seconds)?;
         all(&mut loads, "stop")?;
         let difference = |field| Ok::<_, anyhow::Error>(number(&after, field)? - number(&before, field)?);
         let mut measured = Measured {
@@ -88,6 +97,7 @@ impl Step<'_> {
             fragments: difference("accepted")?,
             in_place: difference("in_place")?,
             elapsed_s: difference("at_s")?,
+            first_s: number(&before, "at_s")? - number(&begun, "at_s")?,
             receipts_ms: Vec::new(),
             policies_ms: Vec::new(),
             bytes_per_transition,
@@ -182,6 +192,7 @@ impl Measured {
             "accepted_mb_per_s": rounded(self.mb_per_s()),
             "accepted_fragments": self.fragments,
             "measured_s": rounded(self.elapsed_s),
+            "first_of_all_s": share(self.first_s),
             "bytes_per_transition": ms(self.bytes_per_transition),
             "policies_fetched": self.policies_ms.len(),
             "through_shared_memory": self.in_place,

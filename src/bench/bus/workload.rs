@@ -63,13 +63,13 @@ pub(super) fn fragment(bytes: usize, precision: Precision) -> Result<(PreparedFr
     Ok((PreparedFragment::new(&fragment, precision)?, rows))
 }
 
-/// Policies that differ in nothing but their number.
-pub(super) fn bundle(number: u64) -> PolicyBundle {
+/// The first policy; others differ from it in nothing but their number.
+pub(super) fn bundle() -> PolicyBundle {
     let shape = NETWORK.parse::<Widths>().expect("widths").shape();
     let weights = to_safetensors(&shape, &initial_parameters(&shape, -0.5, &mut seeds::stream(1, "bench-bus", &[1])));
     PolicyBundle {
         run: RUN.to_string(),
-        version: PolicyVersion { incarnation: INCARNATION, number },
+        version: PolicyVersion { incarnation: INCARNATION, number: 0 },
         observation_size: WIDTHS.0,
         action_size: WIDTHS.1,
         hidden: shape.hidden.iter().map(|width| *width as u32).collect(),

@@ -6,6 +6,7 @@ use std::{
 };
 
 use bytes::Bytes;
+use treadmill_common::bus::Arrival;
 use treadmill_learner::intake::{Letter, Mailbox};
 use treadmill_proto::{Outcome, Receipt};
 
@@ -59,8 +60,8 @@ impl Letter for MemoryLetter {
         &self.name
     }
 
-    fn take_payload(&mut self) -> Bytes {
-        std::mem::take(&mut self.payload)
+    fn take(&mut self) -> Option<Arrival> {
+        Some(std::mem::take(&mut self.payload).into())
     }
 
     fn answer(self, receipt: &Receipt) {
