@@ -10,5 +10,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         // It is part of a checkpoint, too.
         .type_attribute("treadmill.v1.ActorState", "#[derive(serde::Serialize, serde::Deserialize)]")
         .compile_fds(files)?;
+    println!("cargo:rerun-if-changed=onnx");
+    prost_build::Config::new().bytes(["."]).compile_fds(protox::compile(["onnx.proto"], ["onnx"])?)?;
     Ok(())
 }

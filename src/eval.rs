@@ -22,6 +22,7 @@ use treadmill_humanoid::Environment;
 use treadmill_learner::checkpoint::Which;
 
 use crate::{
+    filming::{FilmArgs, Filming},
     model::{self, ModelArgs},
     outcome::Usage,
     output::say,
@@ -77,6 +78,8 @@ pub struct EvalArgs {
     /// Write each observation and the action chosen for it to a file, one JSON object per line.
     #[arg(long, value_name = "FILE")]
     trace: Option<PathBuf>,
+    #[command(flatten)]
+    film: FilmArgs,
     /// Print one JSON object as the last line of standard output, and nothing else.
     #[arg(long)]
     json: bool,
@@ -96,18 +99,24 @@ pub fn run(args: EvalArgs) -> anyhow::Result<()> {
         (None, _) => 100,
     };
     let quiet = args.json || print_every == 0;
+    let control_step_s = environment.control_step_s();
+    let mut filming = args.film.begin(control_step_s)?;
     let evaluation = evaluate(&mut environment, &mut agent, args.episodes, args.seed, |told| {
+        if let Some(filming) = &mut filming {
+            filming.see(&told);
+        }
         if !quiet && (told.step == 1 || told.step.is_multiple_of(print_every)) {
-            let Told { episode, step, reward, total } = told;
+            let Told { episode, step, reward, total, .. } = told;
             say(&format!("episode {episode:>3}  step {step:>4}  reward {reward:>8.3}  total {total:>9.2}"));
         }
     })?;
     agent.finish()?;
-    let control_step_s = environment.control_step_s();
+    let made = filming.map(Filming::finish).transpose()?;
     if args.json {
         say(&as_json(args.agent, &evaluation, control_step_s));
     } else {
         print_table(args.agent, &evaluation, control_step_s);
+        made.iter().for_each(|made| say(&format!("pictures      {made}")));
     }
     Ok(())
 }

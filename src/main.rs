@@ -5,6 +5,7 @@
 //!   [`export`], [`bench`]: the subcommands.
 //! - [`operator`]: what `status` and `control` share.
 //! - [`saved_policy`]: the policy of a run, a checkpoint or an exported file.
+//! - [`filming`]: pictures of an evaluation.
 //! - [`startup`]: from flags to a run that is ready to begin.
 //! - [`task`]: what a run trains where other programs simulate it.
 //! - [`supervisor`]: the actor processes of `train`.
@@ -22,6 +23,7 @@ mod control;
 mod eval;
 mod evaluator;
 mod export;
+mod filming;
 mod learner;
 mod memory;
 mod metrics_page;

@@ -162,3 +162,47 @@ fn replace(bytes: &[u8], from: &[u8], to: &[u8]) -> Vec<u8> {
     let at = bytes.windows(from.len()).position(|window| window == from).unwrap();
     [&bytes[..at], to, &bytes[at + from.len()..]].concat()
 }
+
+#[test]
+fn onnxruntime_acts_as_we_do() {
+    let (folder, run) = folders();
+    trained(folder.path(), &run);
+    let run = run.to_str().unwrap();
+    let (model, file) = (folder.path().join("policy.onnx"), folder.path().join("policy.safetensors"));
+    let files = ["--onnx", model.to_str().unwrap(), "--safetensors", file.to_str().unwrap()];
+    let output = self::run(folder.path(), &[&["export", run], &files[..]].concat());
+    assert!(output.status.success(), "{}", stderr(&output));
+    assert_eq!(stdout(&output).lines().count(), 2, "{}", stdout(&output));
+    let Some(mut python) = python_with("numpy, onnx, onnxruntime") else { return };
+    let trace = folder.path().join("trace.jsonl");
+    let args =
+        ["eval", run, "--checkpoint", "latest", "--episodes", "80", "--trace", trace.to_str().unwrap(), "--json"];
+    assert!(self::run(folder.path(), &args).status.success());
+    let script = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/python/run_onnx.py");
+    let output = python.arg(script).arg(&model).arg(&trace).output().unwrap();
+    assert!(output.status.success(), "{}", stderr(&output));
+    let facts: Value = {
+        let Tensors { header, .. } = Tensors::parse(&fs::read(&file).unwrap());
+        serde_json::from_str(header["__metadata__"]["treadmill"].as_str().unwrap()).unwrap()
+    };
+    let numbers = |list: &Value| list.as_array().unwrap().iter().map(|x| x.as_f64().unwrap()).collect::<Vec<_>>();
+    let (low, high) = (numbers(&facts["action"]["low"]), numbers(&facts["action"]["high"]));
+    let (mut compared, trace) = (0, fs::read_to_string(trace).unwrap());
+    for (ours, theirs) in trace.lines().zip(stdout(&output).lines()) {
+        let ours: Value = serde_json::from_str(ours).unwrap();
+        let theirs = numbers(&serde_json::from_str(theirs).unwrap());
+        for (motor, share) in numbers(&ours["action"]).into_iter().enumerate() {
+            // A share of -1 is the low end, 1 the high one.
+            let wanted = low[motor] + (share.clamp(-1.0, 1.0) + 1.0) / 2.0 * (high[motor] - low[motor]);
+            assert!((wanted - theirs[motor]).abs() < 1e-5, "motor {motor}: {wanted} and {}", theirs[motor]);
+        }
+        compared += 1;
+    }
+    assert!(compared >= 1000, "{compared} observations");
+}
+
+#[test]
+fn what_to_write_must_be_said() {
+    let (folder, _) = folders();
+    assert_refused(&self::run(folder.path(), &["export", "a"]), 2, &["--safetensors", "--onnx"]);
+}

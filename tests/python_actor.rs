@@ -1,7 +1,5 @@
 //! The actor in Python: its mathematics against ours, and a short run with a real environment.
 
-#![allow(clippy::print_stderr, reason = "a test that was left out must say so")]
-
 mod support;
 
 use std::{path::PathBuf, process::Command};
@@ -93,16 +91,7 @@ fn the_numbers_that_python_is_tested_against_are_ours() {
 
 /// A Python with what the actor needs; `modules` beside it.
 fn python(modules: &str) -> Option<Command> {
-    let Ok(python) = std::env::var("TREADMILL_PYTHON") else {
-        eprintln!("SKIPPED: set TREADMILL_PYTHON to a Python that has eclipse-zenoh, protobuf, gymnasium and mujoco");
-        return None;
-    };
-    let import = format!("import {modules}");
-    if !Command::new(&python).args(["-c", &import]).output().expect("Python starts").status.success() {
-        eprintln!("SKIPPED: {python} lacks one of {modules}");
-        return None;
-    }
-    let mut command = Command::new(python);
+    let mut command = python_with(modules)?;
     command.env("PYTHONPATH", python_folder());
     Some(command)
 }

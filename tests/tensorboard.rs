@@ -1,21 +1,13 @@
 //! The event files, read back by TensorBoard's own reader.
 
-#![allow(clippy::print_stderr, reason = "a test that was left out must say so")]
-
 mod support;
-
-use std::process::Command;
 
 use serde_json::Value;
 use support::*;
 
 #[test]
 fn tensorboard_reads_the_same_scalars_as_metrics_jsonl() {
-    // The only test that wants Python: `.ci/run` makes one with the package `tensorboard` and names it here.
-    let Ok(python) = std::env::var("TREADMILL_PYTHON") else {
-        eprintln!("SKIPPED: set TREADMILL_PYTHON to a Python that has the package tensorboard");
-        return;
-    };
+    let Some(mut python) = python_with("tensorboard") else { return };
     let (folder, run) = folders();
     let run_name = run.to_str().unwrap();
     let train = ["train", "--preset", "smoke", "--steps", "2048", "--run-dir", run_name];
@@ -23,7 +15,7 @@ fn tensorboard_reads_the_same_scalars_as_metrics_jsonl() {
     assert!(self::run(folder.path(), &["train", "--resume", run_name, "--steps", "4096"]).status.success());
 
     let script = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/python/read_events.py");
-    let output = Command::new(python).arg(script).arg(&run).output().expect("Python starts");
+    let output = python.arg(script).arg(&run).output().expect("Python starts");
     assert!(output.status.success(), "{}", stderr(&output));
     let read: Value = serde_json::from_slice(&output.stdout).unwrap();
     let mut compared = 0;

@@ -1,7 +1,7 @@
 //! Episodes without learning, and what came of them.
 
 use treadmill_common::seeds;
-use treadmill_humanoid::{Environment, Step};
+use treadmill_humanoid::{Environment, Physics, Step};
 
 use crate::{ActorError, agent::Agent};
 
@@ -36,8 +36,8 @@ pub struct JointReport {
 }
 
 /// A step as it is told while an episode runs.
-#[derive(Clone, Copy, Debug)]
-pub struct Told {
+#[derive(Clone, Copy)]
+pub struct Told<'a> {
     /// Episode, counted from 1.
     pub episode: u32,
     /// Step within the episode, counted from 1.
@@ -46,6 +46,8 @@ pub struct Told {
     pub reward: f32,
     /// Sum of rewards so far.
     pub total: f64,
+    /// The body after it.
+    pub physics: &'a Physics,
 }
 
 /// What an evaluation gave.
@@ -113,7 +115,13 @@ pub fn evaluate(
                 separations.push(joints.separation_m);
                 overshoots.push(joints.limit_overshoot_rad);
             }
-            tell(Told { episode: episode + 1, step: played.length, reward: step.reward, total: played.return_sum });
+            tell(Told {
+                episode: episode + 1,
+                step: played.length,
+                reward: step.reward,
+                total: played.return_sum,
+                physics: environment.physics(),
+            });
             if step.terminated || step.truncated {
                 played.fell = step.terminated && !step.fault;
                 break;

@@ -6,6 +6,7 @@
 //! - [`policy`]: the networks: shape, parameters, forward pass.
 //! - [`normaliser`]: running statistics of observations and values.
 //! - [`exported`]: a policy with all that is needed to play it, as one safetensors file.
+//! - [`onnx`]: the same as an ONNX model.
 //! - [`bus`]: sessions, keys and flows; the only place that names Zenoh.
 //! - [`seeds`]: named random streams from the run's seed.
 //! - [`run_folder`]: where a run keeps its files.
@@ -21,6 +22,7 @@ pub mod device;
 pub mod exported;
 pub mod machine;
 pub mod normaliser;
+pub mod onnx;
 mod open_json;
 pub mod policy;
 pub mod run_folder;

@@ -1,9 +1,10 @@
 //! The loop: collect, update, save, publish, log.
 
 mod commands;
+mod error;
+mod start;
 
 use std::{
-    io,
     sync::{
         Arc,
         atomic::{AtomicU64, Ordering},
@@ -12,22 +13,22 @@ use std::{
 };
 
 use treadmill_common::{
-    bus::{Alive, Bus, BusError, PolicyShelf, RolloutCopies, RolloutIntake, StatsFeed, gate::Gate},
+    bus::{Bus, PolicyShelf, StatsFeed},
     config::Config,
-    machine,
     normaliser::Normaliser,
     run_folder::RunFolder,
     shutdown::Shutdown,
 };
 use treadmill_proto::PolicyAnnouncement;
 
+pub use self::error::TrainingError;
 use crate::{
     accounts,
-    checkpoint::{CheckpointError, Saver, TrainingState},
+    checkpoint::{Saver, TrainingState},
     control::Control,
     experience,
-    intake::{Accepted, BusMailbox, Collected, Expected, Gathered, Intake, Judge},
-    logging::{CurveError, Exposition},
+    intake::{Accepted, BusMailbox, Collected, Gathered, Intake},
+    logging::Exposition,
     mirror::Mirror,
     pace::Pace,
     ppo::{UpdateError, UpdateStats, Updater},
@@ -54,40 +55,6 @@ pub struct TrainingOptions {
     pub exposition: Exposition,
     /// Where training shows that it goes on.
     pub pulse: Pulse,
-}
-
-/// Why training stopped early.
-#[derive(Debug, thiserror::Error)]
-pub enum TrainingError {
-    /// The bus failed.
-    #[error(transparent)]
-    Bus(#[from] BusError),
-    /// The state could not be saved.
-    #[error(transparent)]
-    Checkpoint(#[from] CheckpointError),
-    /// A log could not be written.
-    #[error("the logs of the run cannot be written: {0}")]
-    Log(#[from] io::Error),
-    /// The networks could not be evaluated.
-    #[error("the networks cannot be evaluated: {0}")]
-    Evaluation(#[from] candle_core::Error),
-    /// Update after update was undone.
-    #[error("{updates} updates in a row were undone, the last because {why}; the last sound checkpoint stays in place")]
-    NotFinite {
-        /// How many.
-        updates: u32,
-        /// What was not finite.
-        why: UpdateError,
-    },
-    /// The state does not fit together.
-    #[error("the state of the run cannot be used: {why}")]
-    State {
-        /// What is wrong.
-        why: String,
-    },
-    /// The picture could not be drawn.
-    #[error("the learning curve cannot be drawn: {0}")]
-    Curve(#[from] CurveError),
 }
 
 /// What came of a run.
@@ -181,89 +148,6 @@ struct Trainer {
 }
 
 impl Trainer {
-    fn start(
-        bus: &Bus,
-        state: TrainingState,
-        options: &TrainingOptions,
-        shutdown: &Shutdown,
-    ) -> Result<Self, TrainingError> {
-        let wrong = |why: String| TrainingError::State { why };
-        let config = state.config().map_err(wrong)?;
-        let mut bundle = state.bundle().map_err(wrong)?;
-        // Only until the next version: an actor that joins later would do once more what was learnt from.
-        bundle.actor_state = state.actor_state.clone();
-        let expected = Expected {
-            run: state.run.clone(),
-            config_hash: bundle.config_hash,
-            observation_size: bundle.observation_size,
-            action_size: bundle.action_size,
-            max_policy_lag: config.policy_lag_allowed().into(),
-        };
-        let capacity = config.learner.intake_fragments as usize;
-        let gate = Arc::new(Gate::new(config.learner.quarantine_after, capacity));
-        let judge = Judge::new(expected, gate.clone(), state.ledger.clone(), state.tally);
-        let threads = match config.learner.threads {
-            0 => machine::cores(),
-            threads => threads as usize,
-        };
-        let pool = rayon::ThreadPoolBuilder::new()
-            .num_threads(threads)
-            .thread_name(|index| format!("update-{index}"))
-            .build()
-            .map_err(|why| wrong(why.to_string()))?;
-        let parameters = state.parameters.clone();
-        let mut updater = Updater::on(&options.device, state.shape.clone(), parameters, &config.ppo, Arc::new(pool))
-            .map_err(|why| wrong(why.to_string()))?;
-        updater.restore(state.optimiser.clone(), state.learning_rate).map_err(|why| wrong(why.to_string()))?;
-        let saver = Saver::new(
-            &options.folder,
-            config.learner.checkpoint_every_updates.into(),
-            config.learner.keep_checkpoints as usize,
-        );
-        // Before any actor can hold this version, it is on disk: a learner that dies now is resumed from it.
-        wait_for_room(shutdown, || saver.save(&state))?;
-        let encoded = bundle.encode().map_err(|why| wrong(why.to_string()))?;
-        let report = Report::open(bus, &state, &config, options)?;
-        let copies = RolloutCopies::open(bus, &state.run)?;
-        let queue = RolloutIntake::open(bus, &state.run, capacity, gate, &copies)?;
-        let alive = Alive::watch(bus, &state.run)?;
-        let control = Control::open(bus, commands::first_status(&state, config.run.steps), alive.view())?;
-        let mailbox = BusMailbox::new(queue, alive, copies, options.pulse.clone());
-        let intake = Intake::new(mailbox, config.learner.mode, judge);
-        Ok(Self {
-            intake,
-            mirror: options.mirror.clone(),
-            stats: StatsFeed::open(bus, &state.run)?,
-            accounts: options.folder.accounts(),
-            shutdown: shutdown.clone(),
-            trial: match config.evaluates() {
-                false => None,
-                true => Some(Trial::open(bus, &state.run, config.eval.every_steps, state.counters.env_steps)?),
-            },
-            shelf: PolicyShelf::open(bus, &state.run, encoded.into())?,
-            speed: Speed::new(state.counters.env_steps),
-            waited: Duration::ZERO,
-            exposition: options.exposition.clone(),
-            pulse: options.pulse.clone(),
-            restarts: options.restarts.clone(),
-            restarts_before: state.counters.restarts,
-            begun: Instant::now(),
-            wall_before_s: state.counters.wall_s,
-            undone_in_a_row: 0,
-            learn: Duration::ZERO,
-            env_steps_per_s: 0.0,
-            lag_mean: 0.0,
-            control,
-            paused: false,
-            pace: Pace::new(&config),
-            saver,
-            report,
-            updater,
-            config,
-            state,
-        })
-    }
-
     fn collect(&mut self, shutdown: &Shutdown) -> Option<Gathered> {
         self.waited = Duration::ZERO;
         loop {

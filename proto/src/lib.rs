@@ -14,6 +14,7 @@
 //! - [`control`]: what people and scripts ask a learner.
 //! - [`json`]: the objects on the JSON topics.
 //! - [`event_file`]: TensorBoard's messages.
+//! - [`onnx`]: a policy as other programs run it.
 //! - [`ident`]: names that may stand in a key.
 //! - [`limits`]: what is refused before it is decoded.
 //!
@@ -28,6 +29,7 @@ pub mod fragment;
 pub mod ident;
 pub mod json;
 pub mod limits;
+pub mod onnx;
 pub mod precision;
 pub mod prepared;
 pub mod receipt;
@@ -42,6 +44,12 @@ mod scan;
 #[allow(missing_docs, unreachable_pub, clippy::all)]
 pub mod wire {
     include!(concat!(env!("OUT_DIR"), "/treadmill.v1.rs"));
+}
+
+/// Structures generated from `onnx/onnx.proto`.
+#[allow(missing_docs, unreachable_pub, clippy::all)]
+mod wire_onnx {
+    include!(concat!(env!("OUT_DIR"), "/treadmill.onnx.rs"));
 }
 
 pub use actor_state::ActorState;

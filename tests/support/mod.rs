@@ -204,3 +204,18 @@ pub fn folders() -> (tempfile::TempDir, PathBuf) {
     let run = folder.path().join("run");
     (folder, run)
 }
+
+/// The Python that TREADMILL_PYTHON names, if it has these modules; without it, tests that need it say so and pass.
+#[allow(clippy::print_stderr, reason = "a test that was left out must say so")]
+pub fn python_with(modules: &str) -> Option<Command> {
+    let Ok(python) = std::env::var("TREADMILL_PYTHON") else {
+        eprintln!("SKIPPED: set TREADMILL_PYTHON to a Python that has {modules}");
+        return None;
+    };
+    let import = format!("import {modules}");
+    if !Command::new(&python).args(["-c", &import]).output().expect("Python starts").status.success() {
+        eprintln!("SKIPPED: {python} lacks one of {modules}");
+        return None;
+    }
+    Some(Command::new(python))
+}

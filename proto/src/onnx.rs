@@ -1,0 +1,155 @@
+//! A policy as an ONNX model: raw observations in, actions in the units of the motors out.
+//!
+//! ```text
+//! observation ─ Sub mean ─ Mul 1/std ─ Clip ─ (Gemm ─ Elu)… ─ Gemm ─ Clip ±1 ─ Mul half ─ Add centre ─ action
+//! ```
+//!
+//! Operators are those of operator set 13, which every runtime of the last years has. The first dimension of both ends is free:
+//! as many observations at once as one likes.
+
+use prost::Message;
+
+use crate::{planes, wire_onnx as wire};
+
+/// Version of the file format that has operator set 13.
+const IR_VERSION: i64 = 7;
+const OPERATORS: i64 = 13;
+const FLOAT32: i32 = 1;
+
+/// One dense layer, `y = W x + b`.
+#[derive(Clone, Copy, Debug)]
+pub struct Layer<'a> {
+    /// `[output][input]`.
+    pub weight: &'a [f32],
+    /// `[output]`.
+    pub bias: &'a [f32],
+}
+
+/// What becomes a model.
+#[derive(Clone, Debug)]
+pub struct OnnxPolicy<'a> {
+    /// `[observation]`, taken off first.
+    pub mean: &'a [f32],
+    /// `[observation]`, multiplied with then.
+    pub inverse_std: &'a [f32],
+    /// Normalised observations are clipped to plus and minus this.
+    pub clip: f32,
+    /// From the observation onwards, with ELU between them.
+    pub layers: Vec<Layer<'a>>,
+    /// `[action]`: what −1 means.
+    pub low: &'a [f32],
+    /// `[action]`: what 1 means.
+    pub high: &'a [f32],
+    /// What else a reader may want to know, as names and values.
+    pub metadata: Vec<(String, String)>,
+}
+
+impl OnnxPolicy<'_> {
+    /// The bytes of the file. The same policy gives the same bytes.
+    #[must_use]
+    pub fn encode(&self) -> Vec<u8> {
+        let mut graph = Graph::default();
+        graph.constant("observation_mean", &[self.mean.len()], self.mean);
+        graph.constant("observation_inverse_std", &[self.inverse_std.len()], self.inverse_std);
+        let x = graph.node("Sub", &["observation", "observation_mean"], "centred", &[]);
+        let x = graph.node("Mul", &[&x, "observation_inverse_std"], "scaled", &[]);
+        let mut x = graph.clip(&x, "normalised", -self.clip, self.clip);
+        for (number, Layer { weight, bias }) in self.layers.iter().enumerate() {
+            let (outputs, inputs) = (bias.len(), weight.len() / bias.len().max(1));
+            let names = [format!("actor.{number}.weight"), format!("actor.{number}.bias")];
+            graph.constant(&names[0], &[outputs, inputs], weight);
+            graph.constant(&names[1], &[outputs], bias);
+            let transposed = wire::AttributeProto {
+                name: "transB".to_string(),
+                i: 1,
+                r#type: wire::attribute_proto::AttributeType::Int.into(),
+                ..Default::default()
+            };
+            x = graph.node("Gemm", &[&x, &names[0], &names[1]], &format!("dense.{number}"), &[transposed]);
+            if number + 1 < self.layers.len() {
+                x = graph.node("Elu", &[&x], &format!("hidden.{number}"), &[]);
+            }
+        }
+        let x = graph.clip(&x, "share", -1.0, 1.0);
+        let ends = || self.low.iter().zip(self.high);
+        let centre: Vec<f32> = ends().map(|(low, high)| f32::midpoint(*low, *high)).collect();
+        let half: Vec<f32> = ends().map(|(low, high)| high / 2.0 - low / 2.0).collect();
+        graph.constant("action_half", &[half.len()], &half);
+        graph.constant("action_centre", &[centre.len()], &centre);
+        let x = graph.node("Mul", &[&x, "action_half"], "stretched", &[]);
+        graph.node("Add", &[&x, "action_centre"], "action", &[]);
+        let model = wire::ModelProto {
+            ir_version: IR_VERSION,
+            producer_name: "treadmill".to_string(),
+            producer_version: env!("CARGO_PKG_VERSION").to_string(),
+            doc_string: "raw observations to actions in the units of the motors".to_string(),
+            opset_import: vec![wire::OperatorSetIdProto { domain: String::new(), version: OPERATORS }],
+            graph: Some(wire::GraphProto {
+                node: graph.nodes,
+                name: "policy".to_string(),
+                initializer: graph.constants,
+                input: vec![end("observation", self.mean.len())],
+                output: vec![end("action", self.low.len())],
+            }),
+            metadata_props: self
+                .metadata
+                .iter()
+                .map(|(key, value)| wire::StringStringEntryProto { key: key.clone(), value: value.clone() })
+                .collect(),
+        };
+        model.encode_to_vec()
+    }
+}
+
+#[derive(Default)]
+struct Graph {
+    nodes: Vec<wire::NodeProto>,
+    constants: Vec<wire::TensorProto>,
+}
+
+impl Graph {
+    fn constant(&mut self, name: &str, shape: &[usize], numbers: &[f32]) {
+        self.constants.push(wire::TensorProto {
+            dims: shape.iter().map(|length| *length as i64).collect(),
+            data_type: FLOAT32,
+            name: name.to_string(),
+            raw_data: planes::to_bytes(numbers),
+        });
+    }
+
+    /// An operation whose result has this name, which is given back.
+    fn node(&mut self, operator: &str, inputs: &[&str], output: &str, attributes: &[wire::AttributeProto]) -> String {
+        self.nodes.push(wire::NodeProto {
+            input: inputs.iter().map(ToString::to_string).collect(),
+            output: vec![output.to_string()],
+            name: output.to_string(),
+            op_type: operator.to_string(),
+            attribute: attributes.to_vec(),
+        });
+        output.to_string()
+    }
+
+    fn clip(&mut self, input: &str, output: &str, low: f32, high: f32) -> String {
+        let names = [format!("{output}_min"), format!("{output}_max")];
+        self.constant(&names[0], &[], &[low]);
+        self.constant(&names[1], &[], &[high]);
+        self.node("Clip", &[input, &names[0], &names[1]], output, &[])
+    }
+}
+
+/// An input or output of `[batch, width]` numbers.
+fn end(name: &str, width: usize) -> wire::ValueInfoProto {
+    use wire::tensor_shape_proto::{Dimension, dimension::Value};
+    let dim = [Value::DimParam("batch".to_string()), Value::DimValue(width as i64)];
+    let shape = wire::TensorShapeProto { dim: dim.map(|value| Dimension { value: Some(value) }).to_vec() };
+    let tensor = wire::type_proto::Tensor { elem_type: FLOAT32, shape: Some(shape) };
+    wire::ValueInfoProto {
+        name: name.to_string(),
+        r#type: Some(wire::TypeProto { tensor_type: Some(tensor) }),
+        doc_string: String::new(),
+    }
+}
+
+#[cfg(test)]
+#[path = "onnx_tests.rs"]
+mod tests;

@@ -1,0 +1,67 @@
+use std::collections::HashMap;
+
+use super::*;
+
+/// What a runtime does with the graph: the seven operators that there are, over one row of numbers.
+fn run(model: &[u8], observation: &[f32]) -> Vec<f32> {
+    let graph = wire::ModelProto::decode(model).unwrap().graph.unwrap();
+    let numbers =
+        |tensor: &wire::TensorProto| planes::from_bytes("x", &tensor.raw_data, tensor.raw_data.len() / 4).unwrap();
+    let mut known: HashMap<String, Vec<f32>> =
+        graph.initializer.iter().map(|tensor| (tensor.name.clone(), numbers(tensor))).collect();
+    for tensor in &graph.initializer {
+        assert_eq!(tensor.dims.iter().product::<i64>() as usize, known[&tensor.name].len(), "{}", tensor.name);
+    }
+    known.insert(graph.input[0].name.clone(), observation.to_vec());
+    for node in &graph.node {
+        let of: Vec<&Vec<f32>> = node.input.iter().map(|name| &known[name]).collect();
+        let both = |f: fn(f32, f32) -> f32| of[0].iter().zip(of[1]).map(|(one, other)| f(*one, *other)).collect();
+        let result: Vec<f32> = match node.op_type.as_str() {
+            "Sub" => both(|one, other| one - other),
+            "Mul" => both(|one, other| one * other),
+            "Add" => both(|one, other| one + other),
+            "Clip" => of[0].iter().map(|x| x.clamp(of[1][0], of[2][0])).collect(),
+            "Elu" => of[0].iter().map(|x| if *x > 0.0 { *x } else { x.exp() - 1.0 }).collect(),
+            "Gemm" => {
+                assert_eq!((node.attribute[0].name.as_str(), node.attribute[0].i), ("transB", 1));
+                let rows = of[1].chunks(of[0].len());
+                rows.zip(of[2])
+                    .map(|(row, bias)| row.iter().zip(of[0]).map(|(w, x)| w * x).sum::<f32>() + bias)
+                    .collect()
+            }
+            other => panic!("{other} is no operator of a policy"),
+        };
+        known.insert(node.output[0].clone(), result);
+    }
+    known.remove(&graph.output[0].name).unwrap()
+}
+
+#[test]
+fn a_model_acts_as_computed_by_hand() {
+    let policy = OnnxPolicy {
+        mean: &[1.0, 2.0],
+        inverse_std: &[0.5, 2.0],
+        clip: 3.0,
+        layers: vec![
+            Layer { weight: &[1.0, 0.0, 0.0, -1.0], bias: &[0.0, 0.5] },
+            Layer { weight: &[0.25, 0.5], bias: &[0.1] },
+        ],
+        low: &[-0.2],
+        high: &[0.6],
+        metadata: vec![("treadmill.a".into(), "b".into())],
+    };
+    let model = policy.encode();
+    assert_eq!(model, policy.encode());
+    // (3 − 1) · 0.5 = 1; (10 − 2) · 2 = 16, clipped to 3. Hidden: 1, and ELU(−3 + 0.5) = e^−2.5 − 1 = −0.917915.
+    // 0.25 − 0.458958 + 0.1 = −0.108958, of a range whose centre is 0.2 and half 0.4.
+    let action = run(&model, &[3.0, 10.0]);
+    assert!((action[0] - (0.2 - 0.108_958 * 0.4)).abs() < 1e-6, "{action:?}");
+    // Far beyond both ends: the clip of shares. Hidden: 3, and 3 + 0.5 = 3.5; 0.75 + 1.75 + 0.1 = 2.6.
+    assert_eq!(run(&model, &[100.0, -100.0]), [0.6]);
+    let read = wire::ModelProto::decode(&model[..]).unwrap();
+    assert_eq!((read.opset_import[0].version, read.metadata_props[0].value.as_str()), (OPERATORS, "b"));
+    let dims = &read.graph.unwrap().input[0].r#type.clone().unwrap().tensor_type.unwrap().shape.unwrap().dim;
+    use wire::tensor_shape_proto::dimension::Value;
+    assert_eq!(dims[0].value, Some(Value::DimParam("batch".into())));
+    assert_eq!(dims[1].value, Some(Value::DimValue(2)));
+}

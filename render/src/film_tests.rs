@@ -1,0 +1,58 @@
+use super::*;
+
+fn picture(of: impl Fn(u32, u32) -> [u8; 3]) -> Picture {
+    let (width, height) = (8, 6);
+    let rgb = (0..width * height).flat_map(|pixel| of(pixel % width, pixel / width)).collect();
+    Picture { width, height, rgb }
+}
+
+#[test]
+fn a_gif_shows_what_was_put_into_it() {
+    let ground = |_, row| [200, 200, if row < 3 { 250 } else { 100 }];
+    let pictures = [0, 1, 1, 5]
+        .map(|place| picture(|column, row| if column == place { [255, 0, 0] } else { ground(column, row) }));
+    let mut bytes = Vec::new();
+    let mut gif = Gif::new(&mut bytes, 30.0);
+    pictures.iter().for_each(|picture| gif.add(picture).unwrap());
+    drop(gif);
+    let mut options = gif::DecodeOptions::new();
+    options.set_color_output(gif::ColorOutput::RGBA);
+    let mut decoder = options.read_info(&bytes[..]).unwrap();
+    assert_eq!((decoder.width(), decoder.height()), (8, 6));
+    let (mut screen, mut delays) = (vec![0; 8 * 6 * 3], Vec::new());
+    for picture in &pictures {
+        let frame = decoder.read_next_frame().unwrap().expect("as many as were put in");
+        delays.push(frame.delay);
+        for (index, rgba) in frame.buffer.as_chunks::<4>().0.iter().enumerate() {
+            let at = (frame.top as usize * 8 + index) * 3;
+            if rgba[3] != 0 {
+                screen[at..at + 3].copy_from_slice(&rgba[..3]);
+            }
+        }
+        let furthest = screen.iter().zip(&picture.rgb).map(|(seen, put)| seen.abs_diff(*put)).max();
+        assert!(furthest <= Some(4), "colours are chosen to be near: {furthest:?}");
+    }
+    assert!(decoder.read_next_frame().unwrap().is_none());
+    // A thirtieth of a second is no whole number of hundredths; the sum stays right.
+    assert_eq!(delays, [3, 4, 3, 3]);
+}
+
+#[test]
+fn pictures_of_unlike_sizes_are_refused() {
+    let mut gif = Gif::new(Vec::new(), 10.0);
+    gif.add(&picture(|_, _| [1, 2, 3])).unwrap();
+    let other = Picture { width: 4, height: 12, ..picture(|_, _| [1, 2, 3]) };
+    assert!(gif.add(&other).unwrap_err().to_string().contains("4 × 12"));
+    let huge = Picture { width: 70_000, height: 1, rgb: vec![0; 210_000] };
+    assert!(Gif::new(Vec::new(), 10.0).add(&huge).unwrap_err().to_string().contains("70000 × 1"));
+}
+
+#[test]
+fn a_png_holds_the_very_pixels() {
+    let picture = picture(|column, row| [column as u8 * 30, row as u8 * 40, 7]);
+    let bytes = png(&picture).unwrap();
+    let mut reader = png::Decoder::new(std::io::Cursor::new(&bytes)).read_info().unwrap();
+    let mut pixels = vec![0; reader.output_buffer_size().unwrap()];
+    reader.next_frame(&mut pixels).unwrap();
+    assert_eq!(pixels, picture.rgb);
+}

@@ -1,0 +1,99 @@
+//! The body's shapes where the physics has them, with a colour each.
+
+use nalgebra::Point3;
+use treadmill_humanoid::Physics;
+
+use crate::solid::{Hit, Ray, Solid};
+
+/// Red, green and blue, each from 0 to 1.
+pub type Colour = [f64; 3];
+
+/// Limbs are told apart by side: it shows which leg is in front.
+const LEFT: Colour = [0.93, 0.55, 0.24];
+const RIGHT: Colour = [0.18, 0.56, 0.60];
+const MIDDLE: Colour = [0.85, 0.83, 0.78];
+
+/// What stands on the floor.
+#[derive(Clone, Debug)]
+pub struct Scene {
+    solids: Vec<(Solid, Colour)>,
+    /// A ball that holds all of it.
+    bound: Option<Bound>,
+}
+
+#[derive(Clone, Copy, Debug)]
+struct Bound {
+    centre: Point3<f64>,
+    radius_m: f64,
+}
+
+impl Scene {
+    /// Nothing.
+    #[must_use]
+    pub fn empty() -> Self {
+        Self { solids: Vec::new(), bound: None }
+    }
+
+    /// The body as it is now.
+    #[must_use]
+    pub fn of(physics: &Physics) -> Self {
+        let model = physics.model();
+        let mut solids = Vec::new();
+        for (index, (body, motion)) in model.bodies.iter().zip(physics.body_motions()).enumerate() {
+            for (number, shape) in body.shapes.iter().enumerate() {
+                let link = model.link_of_shape(index, number).map_or(&body.name, |link| &model.links[link].name);
+                solids.push((Solid::new(&shape.geometry, &motion.pose), colour(link)));
+            }
+        }
+        let bound = bound(&solids);
+        Self { solids, bound }
+    }
+
+    /// What a ray meets first.
+    pub(crate) fn hit(&self, ray: &Ray) -> Option<(Hit, Colour)> {
+        if !self.is_near(ray) {
+            return None;
+        }
+        let mut first: Option<(Hit, Colour)> = None;
+        for (solid, colour) in &self.solids {
+            let before_m = first.map_or(f64::INFINITY, |(hit, _)| hit.distance_m);
+            if solid.may_hit(ray, before_m)
+                && let Some(hit) = solid.hit(ray)
+                && hit.distance_m < before_m
+            {
+                first = Some((hit, *colour));
+            }
+        }
+        first
+    }
+
+    /// Whether a ray meets anything.
+    pub(crate) fn is_hit(&self, ray: &Ray) -> bool {
+        self.is_near(ray)
+            && self.solids.iter().any(|(solid, _)| solid.may_hit(ray, f64::INFINITY) && solid.hit(ray).is_some())
+    }
+
+    fn is_near(&self, ray: &Ray) -> bool {
+        self.bound.is_some_and(|bound| {
+            let towards = bound.centre - ray.origin;
+            let along = towards.dot(&ray.direction);
+            towards.norm_squared() - along * along <= bound.radius_m * bound.radius_m
+        })
+    }
+}
+
+fn bound(solids: &[(Solid, Colour)]) -> Option<Bound> {
+    let sum: nalgebra::Vector3<f64> = solids.iter().map(|(solid, _)| solid.centre.coords).sum();
+    let centre = Point3::from(sum / solids.len().max(1) as f64);
+    let reach = |(solid, _): &(Solid, Colour)| nalgebra::distance(&centre, &solid.centre) + solid.radius_m;
+    let radius_m = solids.iter().map(reach).reduce(f64::max)?;
+    Some(Bound { centre, radius_m })
+}
+
+fn colour(name: &str) -> Colour {
+    match (name.contains("left"), name.contains("right")) {
+        (true, false) => LEFT,
+        (false, true) => RIGHT,
+        _ => MIDDLE,
+    }
+}

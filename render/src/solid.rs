@@ -1,0 +1,193 @@
+//! Where a ray meets a shape.
+
+use nalgebra::{Isometry3, Point3, Vector3};
+use treadmill_humanoid::model::Geometry;
+
+/// A half-line. `direction` has length 1.
+#[derive(Clone, Copy, Debug)]
+pub struct Ray {
+    /// Where it begins (m).
+    pub origin: Point3<f64>,
+    /// Where it goes.
+    pub direction: Vector3<f64>,
+}
+
+impl Ray {
+    /// The point at a distance (m).
+    #[must_use]
+    pub fn at(&self, distance_m: f64) -> Point3<f64> {
+        self.origin + self.direction * distance_m
+    }
+
+    fn seen_from(&self, pose: &Isometry3<f64>) -> Self {
+        Self {
+            origin: pose.inverse_transform_point(&self.origin),
+            direction: pose.inverse_transform_vector(&self.direction),
+        }
+    }
+}
+
+/// Where a ray meets a surface first.
+#[derive(Clone, Copy, Debug)]
+pub struct Hit {
+    /// From the ray's origin (m).
+    pub distance_m: f64,
+    /// Away from the shape, of length 1.
+    pub normal: Vector3<f64>,
+}
+
+/// Where it comes out of a surface again does not count, nor does what lies behind its origin.
+const NEAREST_M: f64 = 1e-9;
+
+/// A shape in the world.
+#[derive(Clone, Copy, Debug)]
+pub struct Solid {
+    form: Form,
+    /// A ball that holds all of it.
+    pub(crate) centre: Point3<f64>,
+    pub(crate) radius_m: f64,
+}
+
+#[derive(Clone, Copy, Debug)]
+enum Form {
+    Sphere,
+    Capsule { from: Point3<f64>, to: Point3<f64>, radius_m: f64 },
+    Cylinder { pose: Isometry3<f64>, radius_m: f64, half_length_m: f64 },
+    Box { pose: Isometry3<f64>, half_m: Vector3<f64> },
+    Ellipsoid { pose: Isometry3<f64>, half_m: Vector3<f64> },
+}
+
+impl Solid {
+    /// A body's shape where the body is.
+    #[must_use]
+    pub fn new(geometry: &Geometry, body: &Isometry3<f64>) -> Self {
+        let (form, radius_m) = match *geometry {
+            Geometry::Sphere { radius_m, .. } => (Form::Sphere, radius_m),
+            Geometry::Capsule { from_m, to_m, radius_m } => {
+                let (from, to) = (body * from_m, body * to_m);
+                (Form::Capsule { from, to, radius_m }, nalgebra::distance(&from, &to) / 2.0 + radius_m)
+            }
+            Geometry::Cylinder { pose, radius_m, half_length_m } => {
+                (Form::Cylinder { pose: body * pose, radius_m, half_length_m }, radius_m.hypot(half_length_m))
+            }
+            Geometry::Box { pose, half_m } => (Form::Box { pose: body * pose, half_m }, half_m.norm()),
+            Geometry::Ellipsoid { pose, half_m } => (Form::Ellipsoid { pose: body * pose, half_m }, half_m.max()),
+        };
+        Self { form, centre: body * geometry.centre_m(), radius_m }
+    }
+
+    /// Whether a ray comes near at all, before a distance.
+    pub(crate) fn may_hit(&self, ray: &Ray, before_m: f64) -> bool {
+        let towards = self.centre - ray.origin;
+        let along = towards.dot(&ray.direction);
+        along + self.radius_m > 0.0
+            && along - self.radius_m < before_m
+            && towards.norm_squared() - along * along <= self.radius_m * self.radius_m
+    }
+
+    /// Where a ray from outside enters it.
+    #[must_use]
+    pub fn hit(&self, ray: &Ray) -> Option<Hit> {
+        match self.form {
+            Form::Sphere => sphere(ray, &self.centre, self.radius_m),
+            Form::Capsule { from, to, radius_m } => capsule(ray, &from, &to, radius_m),
+            Form::Cylinder { pose, radius_m, half_length_m } => {
+                turned(cylinder(&ray.seen_from(&pose), radius_m, half_length_m), &pose)
+            }
+            Form::Box { pose, half_m } => turned(cuboid(&ray.seen_from(&pose), &half_m), &pose),
+            Form::Ellipsoid { pose, half_m } => turned(ellipsoid(&ray.seen_from(&pose), &half_m), &pose),
+        }
+    }
+}
+
+fn turned(hit: Option<Hit>, pose: &Isometry3<f64>) -> Option<Hit> {
+    hit.map(|hit| Hit { normal: pose * hit.normal, ..hit })
+}
+
+fn sphere(ray: &Ray, centre: &Point3<f64>, radius_m: f64) -> Option<Hit> {
+    let from_centre = ray.origin - centre;
+    let half_b = from_centre.dot(&ray.direction);
+    let discriminant = half_b * half_b - from_centre.norm_squared() + radius_m * radius_m;
+    let distance_m = -half_b - discriminant.max(0.0).sqrt();
+    (discriminant >= 0.0 && distance_m > NEAREST_M)
+        .then(|| Hit { distance_m, normal: (ray.at(distance_m) - centre) / radius_m })
+}
+
+/// The wall between two planes through the ends, or the ball at either end.
+fn capsule(ray: &Ray, from: &Point3<f64>, to: &Point3<f64>, radius_m: f64) -> Option<Hit> {
+    let axis = to - from;
+    let length_m = axis.norm();
+    if length_m > 0.0
+        && let Some((distance_m, along_m)) = wall(ray, from, &(axis / length_m), radius_m)
+        && (0.0..=length_m).contains(&along_m)
+    {
+        let nearest = from + axis * (along_m / length_m);
+        return Some(Hit { distance_m, normal: (ray.at(distance_m) - nearest) / radius_m });
+    }
+    let ends = [from, to].map(|end| sphere(ray, end, radius_m));
+    ends.into_iter().flatten().min_by(|one, other| one.distance_m.total_cmp(&other.distance_m))
+}
+
+/// Where a ray enters an endless tube around an axis of length 1, and how far along the axis that is.
+fn wall(ray: &Ray, from: &Point3<f64>, axis: &Vector3<f64>, radius_m: f64) -> Option<(f64, f64)> {
+    let start = ray.origin - from;
+    let (across, start_across) = (ray.direction - axis * ray.direction.dot(axis), start - axis * start.dot(axis));
+    let (a, half_b) = (across.norm_squared(), across.dot(&start_across));
+    let discriminant = half_b * half_b - a * (start_across.norm_squared() - radius_m * radius_m);
+    if a < 1e-18 || discriminant < 0.0 {
+        return None;
+    }
+    let distance_m = (-half_b - discriminant.sqrt()) / a;
+    (distance_m > NEAREST_M).then(|| (distance_m, (start + ray.direction * distance_m).dot(axis)))
+}
+
+fn cylinder(ray: &Ray, radius_m: f64, half_length_m: f64) -> Option<Hit> {
+    if let Some((distance_m, along_m)) = wall(ray, &Point3::origin(), &Vector3::z(), radius_m)
+        && along_m.abs() <= half_length_m
+    {
+        let at = ray.at(distance_m);
+        return Some(Hit { distance_m, normal: Vector3::new(at.x, at.y, 0.0) / radius_m });
+    }
+    // The end that faces the ray.
+    let up = -ray.direction.z.signum();
+    let distance_m = (up * half_length_m - ray.origin.z) / ray.direction.z;
+    let at = ray.at(distance_m);
+    (distance_m > NEAREST_M && at.x.hypot(at.y) <= radius_m)
+        .then(|| Hit { distance_m, normal: Vector3::new(0.0, 0.0, up) })
+}
+
+/// Between three pairs of planes: inside where the last of them is entered before the first is left.
+fn cuboid(ray: &Ray, half_m: &Vector3<f64>) -> Option<Hit> {
+    let (mut enters, mut leaves, mut through) = (f64::NEG_INFINITY, f64::INFINITY, 0);
+    for axis in 0..3 {
+        let (origin, direction) = (ray.origin[axis], ray.direction[axis]);
+        if direction == 0.0 {
+            if origin.abs() > half_m[axis] {
+                return None;
+            }
+            continue;
+        }
+        let near = (-half_m[axis] * direction.signum() - origin) / direction;
+        let far = (half_m[axis] * direction.signum() - origin) / direction;
+        if near > enters {
+            (enters, through) = (near, axis);
+        }
+        leaves = leaves.min(far);
+    }
+    let mut normal = Vector3::zeros();
+    normal[through] = -ray.direction[through].signum();
+    (enters <= leaves && enters > NEAREST_M).then_some(Hit { distance_m: enters, normal })
+}
+
+/// A ball of radius 1 once all lengths are divided by the semi-axes.
+fn ellipsoid(ray: &Ray, half_m: &Vector3<f64>) -> Option<Hit> {
+    let scaled = ray.direction.component_div(half_m);
+    let stretch = scaled.norm();
+    let origin = Point3::from(ray.origin.coords.component_div(half_m));
+    let hit = sphere(&Ray { origin, direction: scaled / stretch }, &Point3::origin(), 1.0)?;
+    Some(Hit { distance_m: hit.distance_m / stretch, normal: hit.normal.component_div(half_m).normalize() })
+}
+
+#[cfg(test)]
+#[path = "solid_tests.rs"]
+mod tests;
