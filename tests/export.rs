@@ -2,7 +2,11 @@
 
 mod support;
 
-use std::{fs, path::Path};
+use std::{
+    fs,
+    path::{Path, PathBuf},
+    process::{Command, Output},
+};
 
 use serde_json::Value;
 use support::*;
@@ -164,7 +168,7 @@ fn replace(bytes: &[u8], from: &[u8], to: &[u8]) -> Vec<u8> {
 }
 
 #[test]
-fn onnxruntime_acts_as_we_do() {
+fn other_programs_act_as_we_do() {
     let (folder, run) = folders();
     trained(folder.path(), &run);
     let run = run.to_str().unwrap();
@@ -173,32 +177,65 @@ fn onnxruntime_acts_as_we_do() {
     let output = self::run(folder.path(), &[&["export", run], &files[..]].concat());
     assert!(output.status.success(), "{}", stderr(&output));
     assert_eq!(stdout(&output).lines().count(), 2, "{}", stdout(&output));
-    let Some(mut python) = python_with("numpy, onnx, onnxruntime") else { return };
     let trace = folder.path().join("trace.jsonl");
     let args =
         ["eval", run, "--checkpoint", "latest", "--episodes", "80", "--trace", trace.to_str().unwrap(), "--json"];
     assert!(self::run(folder.path(), &args).status.success());
+    let wanted = wanted(&file, &trace);
+    assert!(wanted.len() >= 1000, "{} observations", wanted.len());
+
+    // Ours, without anything of ours.
+    let observations = folder.path().join("observations.jsonl");
+    let lines = fs::read_to_string(&trace).unwrap();
+    let of_line = |line: &str| serde_json::from_str::<Value>(line).unwrap()["observation"].to_string() + "\n";
+    fs::write(&observations, lines.lines().map(of_line).collect::<String>()).unwrap();
+    let output = Command::new(example("play_policy")).arg(&file).stdin(fs::File::open(&observations).unwrap()).output();
+    compare(&wanted, &output.unwrap());
+
+    let Some(mut python) = python_with("numpy, onnx, onnxruntime") else { return };
     let script = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/python/run_onnx.py");
-    let output = python.arg(script).arg(&model).arg(&trace).output().unwrap();
-    assert!(output.status.success(), "{}", stderr(&output));
-    let facts: Value = {
-        let Tensors { header, .. } = Tensors::parse(&fs::read(&file).unwrap());
-        serde_json::from_str(header["__metadata__"]["treadmill"].as_str().unwrap()).unwrap()
-    };
-    let numbers = |list: &Value| list.as_array().unwrap().iter().map(|x| x.as_f64().unwrap()).collect::<Vec<_>>();
+    compare(&wanted, &python.arg(script).arg(&model).arg(&trace).output().unwrap());
+}
+
+/// The actions of a trace in the units of the motors, whose ranges an exported policy knows.
+fn wanted(policy: &Path, trace: &Path) -> Vec<Vec<f64>> {
+    let Tensors { header, .. } = Tensors::parse(&fs::read(policy).unwrap());
+    let facts: Value = serde_json::from_str(header["__metadata__"]["treadmill"].as_str().unwrap()).unwrap();
     let (low, high) = (numbers(&facts["action"]["low"]), numbers(&facts["action"]["high"]));
-    let (mut compared, trace) = (0, fs::read_to_string(trace).unwrap());
-    for (ours, theirs) in trace.lines().zip(stdout(&output).lines()) {
-        let ours: Value = serde_json::from_str(ours).unwrap();
-        let theirs = numbers(&serde_json::from_str(theirs).unwrap());
-        for (motor, share) in numbers(&ours["action"]).into_iter().enumerate() {
-            // A share of -1 is the low end, 1 the high one.
-            let wanted = low[motor] + (share.clamp(-1.0, 1.0) + 1.0) / 2.0 * (high[motor] - low[motor]);
-            assert!((wanted - theirs[motor]).abs() < 1e-5, "motor {motor}: {wanted} and {}", theirs[motor]);
-        }
-        compared += 1;
+    let of_line = |line: &str| {
+        let shares = numbers(&serde_json::from_str::<Value>(line).unwrap()["action"]);
+        // A share of -1 is the low end, 1 the high one.
+        let stretch = |(motor, share): (usize, f64)| {
+            low[motor] + (share.clamp(-1.0, 1.0) + 1.0) / 2.0 * (high[motor] - low[motor])
+        };
+        shares.into_iter().enumerate().map(stretch).collect()
+    };
+    fs::read_to_string(trace).unwrap().lines().map(of_line).collect()
+}
+
+fn numbers(list: &Value) -> Vec<f64> {
+    list.as_array().unwrap().iter().map(|number| number.as_f64().unwrap()).collect()
+}
+
+/// Lines of actions that another program wrote.
+fn compare(wanted: &[Vec<f64>], output: &Output) {
+    assert!(output.status.success(), "{}", stderr(output));
+    let found: Vec<_> = stdout(output).lines().map(|line| numbers(&serde_json::from_str(line).unwrap())).collect();
+    assert_eq!(found.len(), wanted.len());
+    for (row, (found, wanted)) in found.iter().zip(wanted).enumerate() {
+        let off = found.iter().zip(wanted).map(|(found, wanted)| (found - wanted).abs()).fold(0.0, f64::max);
+        assert!(off < 1e-5 && found.len() == wanted.len(), "row {row} is off by {off}");
     }
-    assert!(compared >= 1000, "{compared} observations");
+}
+
+/// An example of this package, which is built with its tests.
+fn example(name: &str) -> PathBuf {
+    let program = Path::new(env!("CARGO_BIN_EXE_treadmill")).parent().unwrap().join("examples").join(name);
+    assert!(
+        program.exists(),
+        "`cargo test` builds it unless --test names this file alone; then: cargo build --release --examples"
+    );
+    program
 }
 
 #[test]
