@@ -2,13 +2,14 @@
 //!
 //! # Layout
 //! - [`train`], [`learner`], [`actor`], [`evaluator`], [`router`], [`status`], [`control`], [`certs`], [`eval`],
-//!   [`export`], [`bench`]: the subcommands.
+//!   [`export`], [`runs`], [`bench`]: the subcommands.
 //! - [`operator`]: what `status` and `control` share.
 //! - [`saved_policy`]: the policy of a run, a checkpoint or an exported file.
 //! - [`filming`]: pictures of an evaluation.
 //! - [`startup`]: from flags to a run that is ready to begin.
 //! - [`task`]: what a run trains where other programs simulate it.
 //! - [`supervisor`]: the actor processes of `train`.
+//! - [`one_core`]: why an encrypted router works on one.
 //! - [`signals`]: Ctrl-C, once and twice.
 //! - [`model`]: the robot, built in or from a file.
 //! - [`metrics_page`]: metrics for Prometheus, over HTTP.
@@ -28,10 +29,12 @@ mod learner;
 mod memory;
 mod metrics_page;
 mod model;
+mod one_core;
 mod operator;
 mod outcome;
 mod output;
 mod router;
+mod runs;
 mod saved_policy;
 mod signals;
 mod startup;
@@ -69,6 +72,8 @@ enum Command {
     Eval(eval::EvalArgs),
     /// Write a trained policy as a file that other programs read.
     Export(export::ExportArgs),
+    /// Compare runs: how far they walk, how long they took, and what they were configured otherwise.
+    Runs(runs::RunsArgs),
     /// Tell how runs go, and who takes part.
     Status(status::StatusArgs),
     /// Command a learner: pause, resume, checkpoint, stop, or set a key of its configuration.
@@ -102,6 +107,7 @@ fn main() -> ExitCode {
         Command::Evaluator(args) => evaluator::run(args),
         Command::Eval(args) => eval::run(args),
         Command::Export(args) => export::run(&args),
+        Command::Runs(args) => runs::run(&args),
         Command::Status(args) => status::run(args),
         Command::Control(args) => control::run(args),
         Command::Router(args) => router::run(args),

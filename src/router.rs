@@ -7,7 +7,7 @@ use treadmill_common::{
     shutdown::Shutdown,
 };
 
-use crate::{output::say, signals, startup::NetworkArgs};
+use crate::{one_core, output::say, signals, startup::NetworkArgs};
 
 /// Flags of `router`.
 #[derive(Args)]
@@ -25,6 +25,9 @@ pub struct RouterArgs {
 /// Hands messages on until it is told to stop.
 pub fn run(args: RouterArgs) -> anyhow::Result<()> {
     let options = args.network.options(Role::Router, args.listen, args.connect)?;
+    if options.credentials.is_some() {
+        one_core::keep_to_one_core();
+    }
     let runtime =
         tokio::runtime::Builder::new_multi_thread().worker_threads(2).enable_all().build().context("no runtime")?;
     let outcome = runtime.block_on(async {

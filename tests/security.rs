@@ -38,6 +38,36 @@ fn a_fleet_with_certificates_trains_by_way_of_a_router() {
 }
 
 #[test]
+fn a_router_takes_turns_on_one_core_where_links_are_encrypted() {
+    let (folder, _) = folders();
+    certs(folder.path(), &["certs"]);
+    // Of every thread of the bus, of which those that read and write links are made by the first link: on how many cores it may run, and whether others interrupt it when they wake up (0) or not (3).
+    let threads = |args: &[&str]| {
+        let mut command = treadmill(folder.path());
+        command.arg("router").args(args);
+        let router = Running::start(command);
+        router.wait_for("listening");
+        let tasks = fs::read_dir(format!("/proc/{}/task", router.pid())).unwrap().flatten();
+        let of_the_bus = tasks.filter(|task| {
+            let name = fs::read_to_string(task.path().join("comm")).unwrap();
+            ["acc-", "net-", "rx-", "tx-"].iter().any(|kind| name.starts_with(kind))
+        });
+        let told = of_the_bus.map(|task| {
+            // SAFETY: numbers in, a number out.
+            let policy = unsafe { libc::sched_getscheduler(task.file_name().to_str().unwrap().parse().unwrap()) };
+            let status = fs::read_to_string(task.path().join("status")).unwrap();
+            let cores = status.lines().find_map(|line| line.strip_prefix("Cpus_allowed:")).unwrap().trim();
+            (cores.bytes().filter_map(|digit| char::from(digit).to_digit(16)).map(u32::count_ones).sum::<u32>(), policy)
+        });
+        told.collect::<Vec<_>>()
+    };
+    let encrypted = threads(&["--listen", "tls/127.0.0.1:0", "--tls", "certs"]);
+    assert!(!encrypted.is_empty() && encrypted.iter().all(|told| *told == (1, libc::SCHED_BATCH)), "{encrypted:?}");
+    let plain = threads(&["--listen", "tcp/127.0.0.1:0"]);
+    assert!(!plain.is_empty() && plain.iter().all(|told| told.1 == libc::SCHED_OTHER), "{plain:?}");
+}
+
+#[test]
 fn an_actor_of_another_authority_stays_outside() {
     let (folder, run) = folders();
     certs(folder.path(), &["certs"]);

@@ -2,8 +2,8 @@
 //!
 //! The bus's TLS reads and writes one connection from two threads without a lock (eclipse-zenoh/zenoh#2557). Under load in both
 //! directions links break off by that, several times a second, and worse is possible. Where one thread does both, it cannot
-//! happen. A router is the exception: it would wait, in that thread, for what that thread itself must send first.
-
+//! happen. A router is the exception: it would wait, in that thread, for what that thread itself must send first; its threads take
+//! turns on one core instead (`src/one_core.rs`).
 //!
 //! Where links are not encrypted, the learner and routers read with more threads than the bus would by itself, so that a link
 //! that is read slowly, because it floods (see `brake`), does not hold up others.

@@ -1,0 +1,114 @@
+//! What the files of one run say.
+
+use std::{
+    collections::BTreeMap,
+    fs::{self, File},
+    io::{BufRead, BufReader},
+    path::{Path, PathBuf},
+};
+
+use anyhow::Context;
+use serde_json::Value;
+
+/// One run.
+#[derive(Debug, Default)]
+pub(super) struct Record {
+    pub(super) name: String,
+    pub(super) folder: PathBuf,
+    pub(super) env_steps: u64,
+    pub(super) wall_s: f64,
+    /// Of the evaluation with the greatest mean distance, and after how many environment steps that was.
+    pub(super) best_eval_distance_m: Option<f64>,
+    pub(super) best_eval_at: Option<u64>,
+    /// Means over the last episodes of training.
+    pub(super) training_distance_m: Option<f64>,
+    pub(super) training_return: Option<f64>,
+    pub(super) fall_fraction: Option<f64>,
+    /// `section.key` → value, as TOML.
+    pub(super) config: BTreeMap<String, String>,
+}
+
+/// A key that a run's configuration does not have.
+const ABSENT: &str = "–";
+
+impl Record {
+    /// Reads configuration and metrics.
+    pub(super) fn read(folder: &Path) -> anyhow::Result<Self> {
+        let name =
+            folder.file_name().map_or_else(|| folder.display().to_string(), |name| name.to_string_lossy().into_owned());
+        let path = folder.join("config.toml");
+        let text = fs::read_to_string(&path).with_context(|| format!("cannot read `{}`", path.display()))?;
+        let table: toml::Table = text.parse().with_context(|| format!("`{}` is no configuration", path.display()))?;
+        let mut record = Self { name, folder: folder.to_path_buf(), ..Self::default() };
+        for (section, keys) in &table {
+            for (key, value) in keys.as_table().into_iter().flatten() {
+                record.config.insert(format!("{section}.{key}"), value.to_string());
+            }
+        }
+        let path = folder.join("metrics.jsonl");
+        // A run that is being started has none yet.
+        if let Ok(file) = File::open(&path) {
+            for line in BufReader::new(file).lines() {
+                let line = line.with_context(|| format!("cannot read `{}`", path.display()))?;
+                record.take(&line);
+            }
+        }
+        Ok(record)
+    }
+
+    /// One line of the metrics; one that was cut off in the middle says nothing.
+    fn take(&mut self, line: &str) {
+        let Ok(metric) = serde_json::from_str::<Value>(line) else { return };
+        let (Some(tag), Some(value)) = (metric["tag"].as_str(), metric["value"].as_f64()) else { return };
+        match tag {
+            "time/total_timesteps" => self.env_steps = value as u64,
+            "time/time_elapsed" => self.wall_s = value,
+            "rollout/ep_rew_mean" => self.training_return = Some(value),
+            "rollout/distance_mean_m" => self.training_distance_m = Some(value),
+            "rollout/fall_fraction" => self.fall_fraction = Some(value),
+            "eval/distance_mean_m" if self.best_eval_distance_m.is_none_or(|best| value > best) => {
+                self.best_eval_distance_m = Some(value);
+                self.best_eval_at = metric["step"].as_u64();
+            }
+            _ => {}
+        }
+    }
+
+    /// As far as it walks.
+    pub(super) fn distance_m(&self) -> f64 {
+        self.best_eval_distance_m.or(self.training_distance_m).unwrap_or(f64::NEG_INFINITY)
+    }
+
+    /// Over the whole run.
+    pub(super) fn env_steps_per_s(&self) -> Option<f64> {
+        (self.wall_s > 0.0).then(|| self.env_steps as f64 / self.wall_s)
+    }
+
+    pub(super) fn config_value(&self, key: &str) -> &str {
+        self.config.get(key).map_or(ABSENT, String::as_str)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_best_evaluation_and_the_last_of_all_else_count() {
+        let mut record = Record::default();
+        for (tag, step, value) in [
+            ("time/total_timesteps", 100, 100.0),
+            ("eval/distance_mean_m", 100, 3.0),
+            ("eval/distance_mean_m", 200, 9.5),
+            ("eval/distance_mean_m", 300, 4.0),
+            ("time/total_timesteps", 300, 300.0),
+            ("time/time_elapsed", 300, 2.0),
+        ] {
+            record.take(&serde_json::json!({"tag": tag, "step": step, "value": value}).to_string());
+        }
+        record.take("{\"tag\":\"time/total_times");
+        assert_eq!((record.env_steps, record.best_eval_distance_m, record.best_eval_at), (300, Some(9.5), Some(200)));
+        assert_eq!((record.env_steps_per_s(), record.distance_m()), (Some(150.0), 9.5));
+        assert_eq!((record.training_return, record.config_value("a.b")), (None, ABSENT));
+    }
+}
