@@ -1,5 +1,7 @@
 //! What strangers on the bus can see and do.
 
+#[path = "support/fragment.rs"]
+mod sample;
 mod support;
 
 use bytes::Bytes;
@@ -36,31 +38,6 @@ async fn policy(bus: &Bus) -> PolicyBundle {
     }
 }
 
-fn fragment(bundle: &PolicyBundle, sequence: u64) -> Fragment {
-    let (width, action) = (bundle.observation_size as usize, bundle.action_size as usize);
-    Fragment {
-        run: bundle.run.clone(),
-        actor: "stranger".into(),
-        actor_incarnation: 1,
-        sequence,
-        version: bundle.version,
-        config_hash: bundle.config_hash,
-        steps: 1,
-        envs: 1,
-        observation_size: bundle.observation_size,
-        action_size: bundle.action_size,
-        observations: vec![0.0; width],
-        actions: vec![0.0; action],
-        log_probs: vec![-10.0],
-        rewards: vec![5.0],
-        flags: vec![0],
-        last_observations: vec![0.0; width],
-        episodes: vec![],
-        settled_through: 0,
-        actor_state: None,
-    }
-}
-
 async fn send(bus: &Bus, bytes: impl Into<Bytes>) -> Receipt {
     let bytes = bytes.into();
     loop {
@@ -75,7 +52,7 @@ async fn send(bus: &Bus, bytes: impl Into<Bytes>) -> Receipt {
 async fn a_bad_fragment_gets_a_receipt_that_says_why_and_the_learner_goes_on() {
     let stage = stage();
     let bundle = policy(&stage.bus).await;
-    let good = fragment(&bundle, 1);
+    let good = sample::fragment(&bundle, "stranger", 1);
 
     let receipt = send(&stage.bus, Fragment { run: "other".into(), ..good.clone() }.encode().unwrap()).await;
     assert_eq!(receipt.outcome, Outcome::Malformed);
@@ -100,7 +77,7 @@ async fn a_bad_fragment_gets_a_receipt_that_says_why_and_the_learner_goes_on() {
 
     // A sound one is taken, and taken once.
     let fresh = policy(&stage.bus).await;
-    let sound = fragment(&fresh, 2).encode().unwrap();
+    let sound = sample::fragment(&fresh, "stranger", 2).encode().unwrap();
     let first = send(&stage.bus, sound.clone()).await;
     assert!(matches!(first.outcome, Outcome::Accepted | Outcome::TooOld), "{first:?}");
     assert_eq!(send(&stage.bus, sound).await.outcome, Outcome::Duplicate);

@@ -11,6 +11,11 @@ use serde_json::json;
 use treadmill_proto::{ActorStats, Fragment, PolicyBundle, PolicyVersion, Receipt};
 use zenoh::{Config, Session, Wait, qos::CongestionControl};
 
+#[path = "../support/fragment.rs"]
+mod sample;
+
+pub use self::sample::fragment;
+
 /// How long a question waits for an answer.
 pub const PATIENCE: Duration = Duration::from_secs(20);
 /// Stands in a sound fragment where a number is spoilt afterwards.
@@ -162,32 +167,6 @@ impl Attacker {
     fn ask_and_leave(&self, key: &str, payload: Bytes) {
         let asked = self.session.get(key).payload(payload).timeout(Duration::from_secs(2));
         let _ = asked.congestion_control(CongestionControl::Block).callback(drop).wait();
-    }
-}
-
-/// A sound fragment of one transition.
-pub fn fragment(bundle: &PolicyBundle, actor: &str, sequence: u64) -> Fragment {
-    let (width, action) = (bundle.observation_size as usize, bundle.action_size as usize);
-    Fragment {
-        run: bundle.run.clone(),
-        actor: actor.into(),
-        actor_incarnation: 1,
-        sequence,
-        version: bundle.version,
-        config_hash: bundle.config_hash,
-        steps: 1,
-        envs: 1,
-        observation_size: bundle.observation_size,
-        action_size: bundle.action_size,
-        observations: vec![0.0; width],
-        actions: vec![0.0; action],
-        log_probs: vec![-10.0],
-        rewards: vec![5.0],
-        flags: vec![0],
-        last_observations: vec![0.0; width],
-        episodes: vec![],
-        settled_through: 0,
-        actor_state: None,
     }
 }
 
