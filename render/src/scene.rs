@@ -3,7 +3,7 @@
 use nalgebra::Point3;
 use treadmill_humanoid::Physics;
 
-use crate::solid::{Hit, Ray, Solid};
+use crate::solid::{Ball, Hit, Ray, Solid};
 
 /// Red, green and blue, each from 0 to 1.
 pub type Colour = [f64; 3];
@@ -17,14 +17,7 @@ const MIDDLE: Colour = [0.85, 0.83, 0.78];
 #[derive(Clone, Debug)]
 pub struct Scene {
     solids: Vec<(Solid, Colour)>,
-    /// A ball that holds all of it.
-    bound: Option<Bound>,
-}
-
-#[derive(Clone, Copy, Debug)]
-struct Bound {
-    centre: Point3<f64>,
-    radius_m: f64,
+    bound: Option<Ball>,
 }
 
 impl Scene {
@@ -74,20 +67,16 @@ impl Scene {
     }
 
     fn is_near(&self, ray: &Ray) -> bool {
-        self.bound.is_some_and(|bound| {
-            let towards = bound.centre - ray.origin;
-            let along = towards.dot(&ray.direction);
-            towards.norm_squared() - along * along <= bound.radius_m * bound.radius_m
-        })
+        self.bound.is_some_and(|bound| bound.may_hit(ray, f64::INFINITY))
     }
 }
 
-fn bound(solids: &[(Solid, Colour)]) -> Option<Bound> {
-    let sum: nalgebra::Vector3<f64> = solids.iter().map(|(solid, _)| solid.centre.coords).sum();
+fn bound(solids: &[(Solid, Colour)]) -> Option<Ball> {
+    let sum: nalgebra::Vector3<f64> = solids.iter().map(|(solid, _)| solid.bound.centre.coords).sum();
     let centre = Point3::from(sum / solids.len().max(1) as f64);
-    let reach = |(solid, _): &(Solid, Colour)| nalgebra::distance(&centre, &solid.centre) + solid.radius_m;
+    let reach = |(solid, _): &(Solid, Colour)| nalgebra::distance(&centre, &solid.bound.centre) + solid.bound.radius_m;
     let radius_m = solids.iter().map(reach).reduce(f64::max)?;
-    Some(Bound { centre, radius_m })
+    Some(Ball { centre, radius_m })
 }
 
 fn colour(name: &str) -> Colour {

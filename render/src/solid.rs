@@ -43,9 +43,25 @@ const NEAREST_M: f64 = 1e-9;
 #[derive(Clone, Copy, Debug)]
 pub struct Solid {
     form: Form,
-    /// A ball that holds all of it.
+    pub(crate) bound: Ball,
+}
+
+/// A ball that holds all of something.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Ball {
     pub(crate) centre: Point3<f64>,
     pub(crate) radius_m: f64,
+}
+
+impl Ball {
+    /// Whether a ray comes into it at all, before a distance.
+    pub(crate) fn may_hit(&self, ray: &Ray, before_m: f64) -> bool {
+        let towards = self.centre - ray.origin;
+        let along = towards.dot(&ray.direction);
+        along + self.radius_m > 0.0
+            && along - self.radius_m < before_m
+            && towards.norm_squared() - along * along <= self.radius_m * self.radius_m
+    }
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -73,23 +89,19 @@ impl Solid {
             Geometry::Box { pose, half_m } => (Form::Box { pose: body * pose, half_m }, half_m.norm()),
             Geometry::Ellipsoid { pose, half_m } => (Form::Ellipsoid { pose: body * pose, half_m }, half_m.max()),
         };
-        Self { form, centre: body * geometry.centre_m(), radius_m }
+        Self { form, bound: Ball { centre: body * geometry.centre_m(), radius_m } }
     }
 
     /// Whether a ray comes near at all, before a distance.
     pub(crate) fn may_hit(&self, ray: &Ray, before_m: f64) -> bool {
-        let towards = self.centre - ray.origin;
-        let along = towards.dot(&ray.direction);
-        along + self.radius_m > 0.0
-            && along - self.radius_m < before_m
-            && towards.norm_squared() - along * along <= self.radius_m * self.radius_m
+        self.bound.may_hit(ray, before_m)
     }
 
     /// Where a ray from outside enters it.
     #[must_use]
     pub fn hit(&self, ray: &Ray) -> Option<Hit> {
         match self.form {
-            Form::Sphere => sphere(ray, &self.centre, self.radius_m),
+            Form::Sphere => sphere(ray, &self.bound.centre, self.bound.radius_m),
             Form::Capsule { from, to, radius_m } => capsule(ray, &from, &to, radius_m),
             Form::Cylinder { pose, radius_m, half_length_m } => {
                 turned(cylinder(&ray.seen_from(&pose), radius_m, half_length_m), &pose)
