@@ -47,6 +47,7 @@ use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
 use tracing_subscriber::{Layer, layer::SubscriberExt, util::SubscriberInitExt};
+use treadmill_common::bus;
 
 /// Distributed reinforcement learning for humanoid robots.
 ///
@@ -99,7 +100,7 @@ fn main() -> ExitCode {
         .with_ansi(std::io::IsTerminal::is_terminal(&std::io::stderr()))
         .with_target(false)
         .with_filter(filter);
-    tracing_subscriber::registry().with(log).with(treadmill_common::bus::turned_away()).init();
+    tracing_subscriber::registry().with(log).with(bus::turned_away()).with(bus::brake_forbidden()).init();
     let done = match command {
         Command::Train(args) => train::run(args),
         Command::Learner(args) => learner::run(args),

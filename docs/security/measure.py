@@ -23,7 +23,7 @@ import sys
 import tempfile
 import time
 
-KINDS = ("empty", "names", "noise", "impostor", "replay", "stats", "evaluations", "idle")
+KINDS = ("empty", "names", "noise", "impostor", "replay", "stats", "evaluations", "forbidden", "idle")
 GOOD, HOSTILE = "0", "1"
 
 

@@ -5,7 +5,7 @@ use std::{
     time::{Duration, Instant},
 };
 
-use treadmill_common::{config::Config, machine};
+use treadmill_common::{bus::forbidden_messages, config::Config, machine};
 use treadmill_proto::ActorStats;
 
 use crate::{checkpoint::TrainingState, intake::Accepted, ppo::UpdateStats, trial::Verdict};
@@ -217,6 +217,7 @@ impl Round<'_> {
             ("bus/fragments_malformed", tally.malformed as f64),
             ("bus/fragments_quarantined", tally.quarantined as f64),
             ("bus/fragments_turned_away", self.turned_away as f64),
+            ("bus/messages_forbidden", forbidden_messages() as f64),
             ("bus/fragments_unseen", account.unseen as f64),
             ("bus/env_steps_dropped", account.env_steps_dropped as f64),
         ]);

@@ -294,7 +294,7 @@ impl Trainer {
         let env_steps = self.state.counters.env_steps;
         let (throughput, lag) = (self.speed.mark(env_steps, self.waited), Lag::of(batch));
         (self.env_steps_per_s, self.lag_mean) = (throughput.env_steps_per_s, lag.mean);
-        let stats = self.stats.newest(&alive);
+        let stats = self.stats.newest();
         self.exposition.take_actors(stats, self.state.lineage.newest());
         let round = Round {
             state: &self.state,

@@ -44,11 +44,13 @@ pub enum Flood {
     Stats,
     /// Requests of an evaluator without a report.
     Evaluations,
+    /// Announcements of policies, which only the learner may make.
+    Forbidden,
 }
 
 impl Flood {
     /// Each kind, with the name that it has on a command line.
-    pub const ALL: [(&'static str, Self); 7] = [
+    pub const ALL: [(&'static str, Self); 8] = [
         ("empty", Self::Empty),
         ("names", Self::Names),
         ("noise", Self::Noise),
@@ -56,6 +58,7 @@ impl Flood {
         ("replay", Self::Replay),
         ("stats", Self::Stats),
         ("evaluations", Self::Evaluations),
+        ("forbidden", Self::Forbidden),
     ];
 }
 
@@ -152,6 +155,7 @@ impl Attacker {
                 Flood::Evaluations => {
                     self.ask_and_leave(&format!("treadmill/{run}/evaluations/e{number}"), Bytes::from_static(&[0xff]));
                 }
+                Flood::Forbidden => self.put(&format!("treadmill/{run}/policy/version"), Bytes::new()),
                 Flood::Stats => {
                     let actor = format!("s{number}");
                     let stats = ActorStats { actor: actor.clone(), env_steps_per_s: 1e300, ..ActorStats::default() };

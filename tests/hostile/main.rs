@@ -187,6 +187,11 @@ fn flood(tls: bool) {
     });
     assert!(sent > 1000, "{sent}");
     await_that("it is counted", || last_value(&fleet.run, "bus/fragments_turned_away").filter(|count| *count > 0.0));
+    if tls {
+        await_that("what is forbidden is, too", || {
+            last_value(&fleet.run, "bus/messages_forbidden").filter(|count| *count > 1000.0)
+        });
+    }
     fleet.assert_goes_on();
     let after = resident_bytes(fleet.learner.pid());
     assert!(after < before + GROWTH_BYTES_MAX, "{before} bytes before and {after} after {sent} messages");

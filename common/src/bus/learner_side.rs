@@ -40,8 +40,8 @@ const SHELF_QUEUE: usize = 4096;
 /// Threads that serve policies: one that waits for a reader who does not read keeps only itself.
 const SHELF_THREADS: usize = 4;
 /// Fragments that are refused unread, and requests for policies: so many a second at full speed.
-const REFUSALS_PER_S: f64 = 500.0;
-const REQUESTS_PER_S: f64 = 2000.0;
+const REFUSALS_PER_S: f64 = 100.0;
+const REQUESTS_PER_S: f64 = 1000.0;
 /// Stands for every name that is none. No actor can be called that.
 const NO_NAME: &str = "?";
 

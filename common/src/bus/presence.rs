@@ -18,7 +18,7 @@ use super::{Bus, BusError, brake::Brake, complaints::Complaints, keys};
 /// Actors that are known to be alive, and whose statistics are kept; tokens beyond that are passed over.
 const ACTORS_MAX: usize = 4096;
 /// Statistics: so many a second at full speed.
-const STATS_PER_S: f64 = 5000.0;
+const STATS_PER_S: f64 = 2000.0;
 
 /// Who is alive, by liveliness token.
 pub struct Alive {
@@ -83,11 +83,17 @@ impl AliveView {
     pub fn actors(&self) -> BTreeSet<String> {
         self.actors.lock().expect("no holder of this lock panics").clone()
     }
+
+    /// Whether this one is.
+    pub fn has(&self, actor: &str) -> bool {
+        self.actors.lock().expect("no holder of this lock panics").contains(actor)
+    }
 }
 
-/// The newest statistics of each actor.
+/// The newest statistics of each actor that is alive.
 pub struct StatsFeed {
-    /// As they came, so that a flood costs no decoding and pushes nobody else's aside.
+    alive: AliveView,
+    /// As they came, so that a flood costs no decoding.
     arrived: Arc<Mutex<HashMap<String, Vec<u8>>>>,
     newest: HashMap<String, ActorStats>,
     complaints: Complaints,
@@ -96,67 +102,55 @@ pub struct StatsFeed {
 
 impl StatsFeed {
     /// Begins to listen.
-    pub fn open(bus: &Bus, run: &str) -> Result<Self, BusError> {
+    pub fn open(bus: &Bus, run: &str, alive: AliveView) -> Result<Self, BusError> {
         let arrived = Arc::new(Mutex::new(HashMap::new()));
         let subscriber = bus
             .session
             .declare_subscriber(keys::stats(run, "*"))
             .callback({
-                let (arrived, brake) = (arrived.clone(), Brake::new(STATS_PER_S));
+                let (alive, arrived, brake) = (alive.clone(), arrived.clone(), Brake::new(STATS_PER_S));
                 move |sample: Sample| {
                     brake.press();
-                    keep_newest(&sample, &arrived);
+                    keep_newest(&sample, &alive, &arrived);
                 }
             })
             .wait()
             .map_err(BusError::flow("listening to statistics"))?;
-        Ok(Self { arrived, newest: HashMap::new(), complaints: Complaints::default(), _subscriber: subscriber })
+        Ok(Self { alive, arrived, newest: HashMap::new(), complaints: Complaints::default(), _subscriber: subscriber })
     }
 
-    /// Statistics that came since, of any actor, on the key of whoever they are about.
-    pub fn next(&self) -> Option<ActorStats> {
-        let mut arrived = self.arrived.lock().expect("no holder of this lock panics");
-        while let Some(actor) = arrived.keys().next().cloned() {
-            let bytes = arrived.remove(&actor).unwrap_or_default();
-            if let Ok(stats) = ActorStats::decode_checked(&bytes)
-                && stats.actor == actor
-            {
-                return Some(stats);
-            }
-        }
-        None
+    /// Statistics that came since the last call, or what is wrong with them.
+    pub fn take(&self) -> impl Iterator<Item = Result<ActorStats, String>> {
+        let arrived = std::mem::take(&mut *self.arrived.lock().expect("no holder of this lock panics"));
+        arrived.into_iter().map(|(actor, bytes)| match ActorStats::decode_checked(&bytes) {
+            Ok(stats) if stats.actor == actor => Ok(stats),
+            Ok(stats) => Err(format!("statistics of `{}` came on the key of `{actor}` and were refused", stats.actor)),
+            Err(why) => Err(format!("statistics from `{actor}` were refused: {why}")),
+        })
     }
 
     /// Takes what came and forgets who is gone.
-    pub fn newest(&mut self, alive: &BTreeSet<String>) -> &HashMap<String, ActorStats> {
-        let arrived = std::mem::take(&mut *self.arrived.lock().expect("no holder of this lock panics"));
-        for (actor, bytes) in arrived.into_iter().filter(|(actor, _)| alive.contains(actor)) {
-            match ActorStats::decode_checked(&bytes) {
-                Ok(stats) if stats.actor == actor => drop(self.newest.insert(actor, stats)),
-                Ok(stats) => self
-                    .complaints
-                    .warn(|| format!("statistics of `{}` came on the key of `{actor}` and were refused", stats.actor)),
-                Err(why) => self.complaints.warn(|| format!("statistics from `{actor}` were refused: {why}")),
+    pub fn newest(&mut self) -> &HashMap<String, ActorStats> {
+        let taken: Vec<_> = self.take().collect();
+        for stats in taken {
+            match stats {
+                Ok(stats) => drop(self.newest.insert(stats.actor.clone(), stats)),
+                Err(wrong) => self.complaints.warn(|| wrong),
             }
         }
+        let alive = self.alive.actors();
         self.newest.retain(|actor, _| alive.contains(actor));
         &self.newest
     }
 }
 
 /// Runs in the bus's receiving thread.
-fn keep_newest(sample: &Sample, arrived: &Mutex<HashMap<String, Vec<u8>>>) {
-    let actor = keys::stats_actor(sample.key_expr().as_str());
-    let Some(actor) = actor.filter(|actor| check_ident("actor", actor).is_ok()) else { return };
-    if sample.payload().len() > STATS_BYTES_MAX {
+fn keep_newest(sample: &Sample, alive: &AliveView, arrived: &Mutex<HashMap<String, Vec<u8>>>) {
+    let Some(actor) = keys::stats_actor(sample.key_expr().as_str()) else { return };
+    // Only names of the living, of which there are so many at most: nobody can fill it with others.
+    if sample.payload().len() > STATS_BYTES_MAX || !alive.has(actor) {
         return;
     }
-    let bytes = sample.payload().to_bytes();
-    let mut arrived = arrived.lock().expect("no holder of this lock panics");
-    if let Some(kept) = arrived.get_mut(actor) {
-        kept.clear();
-        kept.extend_from_slice(&bytes);
-    } else if arrived.len() < ACTORS_MAX {
-        arrived.insert(actor.to_string(), bytes.into_owned());
-    }
+    let bytes = sample.payload().to_bytes().into_owned();
+    arrived.lock().expect("no holder of this lock panics").insert(actor.to_string(), bytes);
 }

@@ -5,16 +5,16 @@
 //! happen. A router is the exception: it would wait, in that thread, for what that thread itself must send first; its threads take
 //! turns on one core instead (`src/one_core.rs`).
 //!
-//! Where links are not encrypted, the learner and routers read with more threads than the bus would by itself, so that a link
-//! that is read slowly, because it floods (see `brake`), does not hold up others.
+//! Where links are not encrypted, the learner and routers read with more threads than the bus would by itself: fragments are
+//! decoded there. Links that are read slowly, because they flood (see `brake`), need a thread each for as long as they nap.
 
 use super::{BusOptions, Role};
 
 const VARIABLE: &str = "ZENOH_RUNTIME";
-/// One thread reads and writes all links.
-const ONE: &str = "(rx:(handover:tx))";
-/// Enough of them that some links may be read slowly.
-const MANY: &str = "(rx:(worker_threads:16))";
+/// One thread reads and writes all links; as many others may nap meanwhile.
+const ONE: &str = "(rx:(handover:tx),tx:(max_blocking_threads:256))";
+/// Links are read by several at a time.
+const MANY: &str = "(rx:(worker_threads:16,max_blocking_threads:256))";
 
 /// Name and value of the variable that says on which threads the bus of this process works: to be set before any other thread
 /// runs. `None` where it works as it does by itself, or as the user has said.
@@ -27,11 +27,6 @@ pub fn wanted(options: &BusOptions, role: Role) -> Option<(&'static str, &'stati
         (false, _) => return None,
     };
     std::env::var_os(VARIABLE).is_none().then_some((VARIABLE, value))
-}
-
-/// Whether the thread that reads a link may pause without holding up all others.
-pub(super) fn may_pause() -> bool {
-    std::env::var(VARIABLE).is_ok_and(|value| !value.contains("handover"))
 }
 
 #[cfg(test)]

@@ -51,7 +51,7 @@ impl Control {
     /// If the bus refuses, or the thread cannot be started.
     pub fn open(bus: &Bus, status: RunStatus, alive: AliveView) -> Result<Self, BusError> {
         let run = status.run.clone();
-        let (desk, feed) = (ControlDesk::open(bus, &run)?, StatsFeed::open(bus, &run)?);
+        let (desk, feed) = (ControlDesk::open(bus, &run)?, StatsFeed::open(bus, &run, alive.clone())?);
         let roster = Roster::new(alive);
         let board =
             Arc::new(Mutex::new(Board { run, status, updated: Instant::now(), quarantined: Vec::new(), roster }));
@@ -65,9 +65,7 @@ impl Control {
                     while !closed.load(Ordering::Relaxed) {
                         let inquiry = desk.next(TICK);
                         let mut board = lock(&board);
-                        while let Some(stats) = feed.next() {
-                            board.roster.heard(stats, Instant::now());
-                        }
+                        board.roster.hear(&feed, Instant::now());
                         let Some(inquiry) = inquiry else { continue };
                         if inquiry.request.command() == Command::Status {
                             let reply = board.reply(true, String::new());

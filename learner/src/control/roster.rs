@@ -5,7 +5,7 @@ use std::{
     time::{Duration, Instant},
 };
 
-use treadmill_common::bus::AliveView;
+use treadmill_common::bus::{AliveView, StatsFeed};
 use treadmill_proto::{ActorStats, ActorStatus, wire::PolicyVersion};
 
 /// Somebody who is gone is still told of for so long.
@@ -17,23 +17,28 @@ const ACTORS_MAX: usize = 16_384;
 pub struct Roster {
     alive: AliveView,
     heard: BTreeMap<String, (ActorStats, Instant)>,
+    sorted_out: Instant,
 }
 
 impl Roster {
     /// Nobody was heard yet.
     pub fn new(alive: AliveView) -> Self {
-        Self { alive, heard: BTreeMap::new() }
+        Self { alive, heard: BTreeMap::new(), sorted_out: Instant::now() }
     }
 
-    /// Takes note of what an actor told about itself.
-    pub fn heard(&mut self, stats: ActorStats, now: Instant) {
-        if self.heard.len() >= ACTORS_MAX && !self.heard.contains_key(&stats.actor) {
-            self.heard.retain(|_, (_, at)| now.duration_since(*at) < REMEMBERED);
-            if self.heard.len() >= ACTORS_MAX {
-                return;
+    /// Takes note of what actors told about themselves.
+    pub fn hear(&mut self, feed: &StatsFeed, now: Instant) {
+        // What is wrong with others the training thread says, which hears them, too.
+        for stats in feed.take().flatten() {
+            if self.heard.len() < ACTORS_MAX || self.heard.contains_key(&stats.actor) {
+                self.heard.insert(stats.actor.clone(), (stats, now));
             }
         }
-        self.heard.insert(stats.actor.clone(), (stats, now));
+        // Not each time: it looks at everybody.
+        if now.duration_since(self.sorted_out) > REMEMBERED {
+            self.heard.retain(|_, (_, at)| now.duration_since(*at) < REMEMBERED);
+            self.sorted_out = now;
+        }
     }
 
     /// Everybody who is alive or was heard of lately. `newest` is the policy that lag is counted from.

@@ -72,12 +72,13 @@ impl Trainer {
         let queue = RolloutIntake::open(bus, &state.run, capacity, gate, &copies)?;
         let alive = Alive::watch(bus, &state.run)?;
         let control = Control::open(bus, commands::first_status(&state, config.run.steps), alive.view())?;
+        let stats = StatsFeed::open(bus, &state.run, alive.view())?;
         let mailbox = BusMailbox::new(queue, alive, copies, options.pulse.clone());
         let intake = Intake::new(mailbox, config.learner.mode, judge);
         Ok(Self {
             intake,
             mirror: options.mirror.clone(),
-            stats: StatsFeed::open(bus, &state.run)?,
+            stats,
             accounts: options.folder.accounts(),
             shutdown: shutdown.clone(),
             trial: match config.evaluates() {
