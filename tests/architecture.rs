@@ -94,8 +94,11 @@ fn the_learner_does_not_depend_on_the_actor() {
 fn the_gymnasium_environment_knows_humanoid_and_pictures_alone() {
     let manifest = fs::read_to_string(root().join("python/gym/Cargo.toml")).unwrap();
     let dependencies = manifest.split_once("[dependencies]").unwrap().1;
-    let ours: Vec<_> =
-        dependencies.lines().filter_map(|line| line.split('.').next()).filter(|name| name.starts_with("treadmill-")).collect();
+    let ours: Vec<_> = dependencies
+        .lines()
+        .filter_map(|line| line.split('.').next())
+        .filter(|name| name.starts_with("treadmill-"))
+        .collect();
     assert_eq!(ours, ["treadmill-humanoid", "treadmill-render"]);
     let workspace = fs::read_to_string(root().join("Cargo.toml")).unwrap();
     let default_members = workspace.lines().find(|line| line.starts_with("default-members")).unwrap();

@@ -12,14 +12,14 @@ use treadmill_humanoid::{Environment, Physics, StepInfo};
 use crate::{
     info::{self, FAULT, Moment},
     one::blocks,
-    settings::Settings,
+    settings::{Given, Settings},
     studio::Followed,
 };
 
 /// More than this does not fit into the memory of any machine that one process should fill.
-const ENVIRONMENTS_MAX: usize = 65_536;
+const ENVIRONMENTS_MAX: u32 = 65_536;
 /// More threads than this are a slip of the pen.
-const THREADS_MAX: usize = 1024;
+const THREADS_MAX: u32 = 1024;
 
 /// Several humanoids of the same settings. Arrays are `[N]` or `[N, …]`.
 #[pyclass(module = "treadmill_gym._native")]
@@ -57,14 +57,15 @@ type Stepped<'py> = (
 impl Humanoids {
     /// `max_episode_steps` 0 means no time limit, `threads` 0 one per core.
     #[new]
-    fn new(count: usize, keywords: &Bound<'_, PyDict>, max_episode_steps: u32, threads: usize) -> PyResult<Self> {
-        for (name, value, low, high) in [("num_envs", count, 1, ENVIRONMENTS_MAX), ("threads", threads, 0, THREADS_MAX)]
-        {
-            if !(low..=high).contains(&value) {
-                let why = format!("{name} is {value}, but must be between {low} and {high}");
-                return Err(PyValueError::new_err(why));
-            }
-        }
+    fn new(
+        num_envs: Bound<'_, PyAny>,
+        keywords: &Bound<'_, PyDict>,
+        max_episode_steps: Bound<'_, PyAny>,
+        threads: Bound<'_, PyAny>,
+    ) -> PyResult<Self> {
+        let count = Given { name: "num_envs", value: num_envs }.whole(1..=ENVIRONMENTS_MAX)? as usize;
+        let threads = Given { name: "threads", value: threads }.whole(0..=THREADS_MAX)? as usize;
+        let max_episode_steps = Given { name: "max_episode_steps", value: max_episode_steps }.whole(0..=u32::MAX)?;
         let settings = Settings::read(keywords, max_episode_steps)?;
         let places = (0..count).map(|_| Ok(Place::new(settings.environment()?))).collect::<PyResult<_>>()?;
         Ok(Self { places, pool: pool(threads, count)? })

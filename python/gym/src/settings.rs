@@ -1,6 +1,6 @@
 //! Keyword arguments → settings and model, with an error that names the keyword, its value and what is allowed.
 
-use std::{error::Error, fmt::Write, io, path::Path};
+use std::{error::Error, fmt::Write, io, ops::RangeInclusive, path::Path};
 
 use pyo3::{
     exceptions::{PyFileNotFoundError, PyOSError, PyTypeError, PyValueError},
@@ -22,6 +22,9 @@ const KEYWORDS: &str = "contact_cost_range, contact_cost_weight, ctrl_cost_weigh
 const BUILT_IN: &str = "humanoid.xml";
 /// Gymnasium's number of physics steps in a control step; the only one that means the control step that is simulated here.
 const FRAME_SKIP: u32 = 5;
+
+/// Physics steps in a control step, and passes of the solver in a physics step.
+const REPEATS: RangeInclusive<u32> = 1..=1000;
 
 /// What the keyword arguments ask for.
 pub struct Settings {
@@ -66,8 +69,8 @@ impl Settings {
                 "include_cvel_in_observation" => config.include_cvel_in_observation = given.flag()?,
                 "include_qfrc_actuator_in_observation" => config.include_qfrc_actuator_in_observation = given.flag()?,
                 "include_cfrc_ext_in_observation" => config.include_cfrc_ext_in_observation = given.flag()?,
-                "substeps" => config.substeps = given.count()?,
-                "solver_iterations" => config.solver_iterations = given.count()?,
+                "substeps" => config.substeps = given.whole(REPEATS)?,
+                "solver_iterations" => config.solver_iterations = given.whole(REPEATS)?,
                 "self_collision" => config.self_collision = given.flag()?,
                 "frame_skip" => given.frame_skip()?,
                 "xml_file" => file = given.file()?,
@@ -114,13 +117,16 @@ const OBSERVATIONS: [(&str, ObservationKind); 3] = [
 ];
 
 /// A keyword argument.
-struct Given<'a, 'py> {
-    name: &'a str,
-    value: Bound<'py, PyAny>,
+pub struct Given<'a, 'py> {
+    /// Its name.
+    pub name: &'a str,
+    /// What was given.
+    pub value: Bound<'py, PyAny>,
 }
 
 impl Given<'_, '_> {
-    fn refuse(&self, expected: &str) -> PyErr {
+    /// The error about it.
+    pub fn refuse(&self, expected: &str) -> PyErr {
         let value = self.value.repr().map_or_else(|_| "unprintable".to_owned(), |text| text.to_string());
         PyValueError::new_err(format!("{} is {value}, but must be {expected}", self.name))
     }
@@ -138,9 +144,13 @@ impl Given<'_, '_> {
         self.value.extract().map_err(|_| self.refuse("True or False"))
     }
 
-    fn count(&self) -> PyResult<u32> {
-        let count = (!self.value.is_instance_of::<PyBool>()).then(|| self.value.extract().ok()).flatten();
-        count.ok_or_else(|| self.refuse("a whole number between 1 and 1000"))
+    /// A whole number in a range.
+    pub fn whole(&self, range: RangeInclusive<u32>) -> PyResult<u32> {
+        let number = (!self.value.is_instance_of::<PyBool>()).then(|| self.value.extract().ok()).flatten();
+        let (low, high) = (range.start(), range.end());
+        number
+            .filter(|number| range.contains(number))
+            .ok_or_else(|| self.refuse(&format!("a whole number between {low} and {high}")))
     }
 
     fn choice<T: Copy>(&self, choices: &[(&str, T)]) -> PyResult<T> {
@@ -152,7 +162,7 @@ impl Given<'_, '_> {
     }
 
     fn frame_skip(&self) -> PyResult<()> {
-        match self.count() {
+        match self.whole(REPEATS) {
             Ok(FRAME_SKIP) => Ok(()),
             _ => Err(self.refuse(&format!(
                 "{FRAME_SKIP}: a control step takes {CONTROL_STEP_S} s here, always; `substeps` says in how many steps physics \

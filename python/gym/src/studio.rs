@@ -7,19 +7,19 @@ use numpy::{
     ndarray::{Array3, ShapeError},
 };
 use pyo3::{
-    exceptions::{PyIndexError, PyRuntimeError, PyValueError},
+    exceptions::{PyIndexError, PyRuntimeError},
     prelude::*,
 };
 use rayon::{ThreadPool, ThreadPoolBuilder};
 use treadmill_humanoid::{CONTROL_STEP_S, Physics};
-use treadmill_render::{Camera, Picture, Scene};
+use treadmill_render::{Camera, Picture, Scene, camera::BESIDE_M};
 
-use crate::{many::Humanoids, one::Humanoid};
+use crate::{many::Humanoids, one::Humanoid, settings::Given};
 
 /// Pixels of a side.
 const SIDE: RangeInclusive<u32> = 16..=4096;
-/// The camera is at most so far away (m); behind that, the haze leaves nothing to be seen.
-const AWAY_MAX_M: f64 = 50.0;
+/// From the body to the camera (m); farther away the haze leaves nothing to be seen.
+const AWAY_M: RangeInclusive<f64> = 0.1..=50.0;
 /// How soon the camera follows the torso to the side: after this time (s) it is 1/e of a step aside behind.
 const FOLLOW_S: f64 = 0.5;
 
@@ -55,24 +55,22 @@ pub struct Studio {
 #[pymethods]
 impl Studio {
     #[new]
-    fn new(width: u32, height: u32, camera: Option<[f64; 3]>) -> PyResult<Self> {
-        for (name, side) in [("width", width), ("height", height)] {
-            if !SIDE.contains(&side) {
-                let (low, high) = (SIDE.start(), SIDE.end());
-                let why = format!("{name} is {side}, but must be between {low} and {high} pixels");
-                return Err(PyValueError::new_err(why));
-            }
-        }
-        let camera_m = camera.unwrap_or(treadmill_render::camera::BESIDE_M);
-        let [x, y, z] = camera_m;
-        let away_m = x.hypot(y).hypot(z);
+    fn new(width: Bound<'_, PyAny>, height: Bound<'_, PyAny>, camera: Bound<'_, PyAny>) -> PyResult<Self> {
+        let width = Given { name: "width", value: width }.whole(SIDE)?;
+        let height = Given { name: "height", value: height }.whole(SIDE)?;
+        let given = Given { name: "camera", value: camera };
+        let camera_m = if given.value.is_none() { Some(BESIDE_M) } else { given.value.extract().ok() };
         // NaN is in no range either.
-        if !(0.1..=AWAY_MAX_M).contains(&x.hypot(y)) || !(0.1..=AWAY_MAX_M).contains(&away_m) {
-            return Err(PyValueError::new_err(format!(
-                "camera is ({x}, {y}, {z}), but must be x, y and z from the body to the camera in m: at least 0.1 m aside and \
-                 at most {AWAY_MAX_M} m away"
-            )));
-        }
+        let is_allowed = |&[x, y, z]: &[f64; 3]| {
+            let (aside_m, allowed_m) = (x.hypot(y), AWAY_M);
+            allowed_m.contains(&aside_m) && allowed_m.contains(&aside_m.hypot(z))
+        };
+        let camera_m = camera_m.filter(is_allowed).ok_or_else(|| {
+            let (low_m, high_m) = (AWAY_M.start(), AWAY_M.end());
+            given.refuse(&format!(
+                "None, or x, y and z from the body to the camera in m: at least {low_m} m aside and at most {high_m} m away"
+            ))
+        })?;
         Ok(Self { size: (width, height), camera_m, pool: OnceLock::new() })
     }
 

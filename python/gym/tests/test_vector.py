@@ -79,6 +79,13 @@ class Alike(unittest.TestCase):
 
 
 class Vector(unittest.TestCase):
+    def test_other_processes_find_it_by_the_module_in_its_name(self):
+        name = f"treadmill_gym:{ID}"
+        theirs = gymnasium.make_vec(name, 2, vectorization_mode="async", vector_kwargs={"context": "spawn"})
+        ours = gymnasium.make_vec(name, 2)
+        np.testing.assert_array_equal(ours.reset(seed=1)[0], theirs.reset(seed=1)[0])
+        theirs.close()
+
     def test_threads_change_no_number(self):
         actions = np.random.default_rng(2).uniform(-0.4, 0.4, (60, 7, 17)).astype(np.float32)
         ends = []
@@ -123,10 +130,15 @@ class Vector(unittest.TestCase):
             env.step(np.zeros(17))
         with self.assertRaisesRegex(ValueError, "reset_mask"):
             env.reset(options={"reset_mask": np.zeros(2, bool)})
-        with self.assertRaisesRegex(ValueError, "num_envs is 0"):
-            gymnasium.make_vec(ID, 0)
+        for count in (0, -1, 2.5, "two", 10**6):
+            with self.assertRaisesRegex(ValueError, "num_envs is .*between 1 and 65536"):
+                gymnasium.make_vec(ID, count)
         with self.assertRaisesRegex(ValueError, "threads is 5000"):
             gymnasium.make_vec(ID, 2, threads=5000)
+        with self.assertRaisesRegex(ValueError, "max_episode_steps is -5"):
+            gymnasium.make_vec(ID, 2, max_episode_steps=-5)
+        with self.assertRaisesRegex(ValueError, "Sometimes"):
+            gymnasium.make_vec(ID, 2, autoreset_mode="Sometimes")
         waiting = gymnasium.make_vec(ID, 1, autoreset_mode=AutoresetMode.DISABLED, max_episode_steps=1)
         waiting.reset(seed=1)
         waiting.step(np.zeros((1, 17)))

@@ -49,7 +49,7 @@ class HumanoidEnv(gymnasium.Env, EzPickle):
         """Acts for a control step; `action` is clipped to its range, as MuJoCo does it."""
         action = spaces.as_actions(action, self.action_space.shape, "action")
         observation, reward, terminated, info = self._native.step(action)
-        if self._window is not None:
+        if self._window is not None and self._window.is_due():
             self.render()
         # Time limits are the wrapper's that `gymnasium.make` adds.
         return observation, reward, terminated, False, info
