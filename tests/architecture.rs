@@ -106,6 +106,22 @@ fn the_gymnasium_environment_knows_humanoid_and_pictures_alone() {
 }
 
 #[test]
+fn the_image_has_every_member_of_the_workspace() {
+    let workspace = fs::read_to_string(root().join("Cargo.toml")).unwrap();
+    let members = workspace.lines().find(|line| line.starts_with("members")).unwrap();
+    let ignored = fs::read_to_string(root().join(".dockerignore")).unwrap();
+    let mut checked = 0;
+    for member in members.split('"').skip(1).step_by(2) {
+        checked += 1;
+        let is_line = |folder: &Path| ignored.lines().any(|line| !line.is_empty() && Path::new(line) == folder);
+        let is_left_out = Path::new(member).ancestors().any(is_line);
+        let is_kept = |file: &str| ignored.lines().any(|line| line == format!("!{member}/{file}"));
+        assert!(!is_left_out || is_kept("Cargo.toml") && is_kept("src/lib.rs"), "{member}");
+    }
+    assert!(checked > 5, "{checked}");
+}
+
+#[test]
 fn the_mathematics_does_no_io_and_reads_no_clock() {
     let pure = [
         "learner/src/gae.rs",
