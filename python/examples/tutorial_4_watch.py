@@ -31,7 +31,8 @@ def environment():
             return env, None
         except gymnasium.error.Error as why:
             print(f"{why}\nso an animation is made: humanoid.gif", file=sys.stderr)
-    return gymnasium.make("treadmill/Humanoid-v0", render_mode="rgb_array", width=320, height=240), args.gif or Path("humanoid.gif")
+    env = gymnasium.make("treadmill/Humanoid-v0", render_mode="rgb_array", width=320, height=240)
+    return env, args.gif or Path("humanoid.gif")
 
 
 model = PPO.load(args.model)

@@ -4,8 +4,9 @@ Usage: pip install "./python/gym[train]" "gymnasium[mujoco]"
        bench.py [--rounds N] [--envs N] [--without-ppo]
 
 Random actions are drawn beforehand; resets are part of the time. What runs on one core is measured in processor time, which other
-programs on the machine disturb less; where nothing else runs it is the same as time on the clock. Training is Stable-Baselines3's PPO with "MlpPolicy": as in the
-tutorial with one environment, and with --envs of them. A third environment that does nothing shows what of the time is PPO's own.
+programs on the machine disturb less; where nothing else runs it is the same as time on the clock. Training is Stable-Baselines3's
+PPO with "MlpPolicy": as in the tutorial with one environment, and with --envs of them. A third environment that does nothing
+shows what of the time is PPO's own.
 """
 
 import argparse
@@ -150,12 +151,12 @@ def main():
             f"`make_vec`, {n} of {OURS}, 1 thread": lambda: vector(OURS, n, s, threads=1),
         },
     )
-    cores = os.cpu_count()
+    cores, each_its_own = os.cpu_count(), {"vectorization_mode": "async"}
     compare(
         f"Environments, all {cores} cores, random actions, time on the clock",
         args.rounds,
         {
-            f"`make_vec`, {cores} of {THEIRS} (AsyncVectorEnv)": lambda: vector(THEIRS, cores, s, CLOCK, vectorization_mode="async"),
+            f"`make_vec`, {cores} of {THEIRS} (AsyncVectorEnv)": lambda: vector(THEIRS, cores, s, CLOCK, **each_its_own),
             f"`make_vec`, {n} of {OURS}": lambda: vector(OURS, n, s, CLOCK),
         },
     )

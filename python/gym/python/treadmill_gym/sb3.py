@@ -5,8 +5,8 @@
 
     model = PPO("MlpPolicy", VecMonitor(HumanoidVecEnv(64)))
 
-`gymnasium.make("treadmill/Humanoid-v0")` and `make_vec_env` work with it as they do with any environment; this one steps all humanoids
-in one call.
+`gymnasium.make("treadmill/Humanoid-v0")` and `make_vec_env` work with it as they do with any environment; this one steps all
+humanoids in one call.
 """
 
 import numpy as np
@@ -88,7 +88,7 @@ class HumanoidVecEnv(VecEnv):
 
     def env_method(self, method_name, *method_args, indices=None, **method_kwargs):
         """Refused: there is no environment object for each."""
-        raise AttributeError(f"`{method_name}` cannot be called: humanoids that are stepped in one call have no methods of their own")
+        raise AttributeError(f"`{method_name}` cannot be called: humanoids that are stepped in one call have no methods each")
 
     def env_is_wrapped(self, wrapper_class, indices=None):
         """Nothing is wrapped."""

@@ -13,8 +13,8 @@ class HumanoidVectorEnv(VectorEnv):
     """`num_envs` humanoids that are stepped in one call, which lets go of the interpreter's lock, on `threads` threads.
 
     Gives what a `SyncVectorEnv` of as many `treadmill/Humanoid-v0` gives with the same seeds, number for number, on any number
-    of threads (0 means one per core). `autoreset_mode` is one of Gymnasium's. The other keyword arguments are those of `HumanoidEnv`; of
-    pictures there is `render_mode="rgb_array"` only.
+    of threads (0 means one per core). `autoreset_mode` is one of Gymnasium's. The other keyword arguments are those of
+    `HumanoidEnv`; of pictures there is `render_mode="rgb_array"` only.
     """
 
     metadata = {
