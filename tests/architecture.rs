@@ -14,7 +14,7 @@ fn root() -> &'static Path {
 /// Every Rust source and manifest of the workspace, with its path from the root. Tests at the root see all parts.
 fn sources() -> Vec<(String, String)> {
     let mut found = Vec::new();
-    for folder in ["src", "proto", "common", "actor", "learner", "render"] {
+    for folder in ["src", "proto", "common", "actor", "learner", "render", "python"] {
         collect(&root().join(folder), &mut found);
     }
     found
@@ -88,6 +88,37 @@ fn the_learner_does_not_depend_on_the_actor() {
             assert!(!text.lines().any(|line| line.starts_with(foreign)), "{foreign} in {manifest}");
         }
     }
+}
+
+#[test]
+fn the_gymnasium_environment_knows_humanoid_and_pictures_alone() {
+    let manifest = fs::read_to_string(root().join("python/gym/Cargo.toml")).unwrap();
+    let dependencies = manifest.split_once("[dependencies]").unwrap().1;
+    let ours: Vec<_> = dependencies
+        .lines()
+        .filter_map(|line| line.split('.').next())
+        .filter(|name| name.starts_with("treadmill-"))
+        .collect();
+    assert_eq!(ours, ["treadmill-humanoid", "treadmill-render"]);
+    let workspace = fs::read_to_string(root().join("Cargo.toml")).unwrap();
+    let default_members = workspace.lines().find(|line| line.starts_with("default-members")).unwrap();
+    assert!(!default_members.contains("python/gym"), "building the trainer needs no Python");
+}
+
+#[test]
+fn the_image_has_every_member_of_the_workspace() {
+    let workspace = fs::read_to_string(root().join("Cargo.toml")).unwrap();
+    let members = workspace.lines().find(|line| line.starts_with("members")).unwrap();
+    let ignored = fs::read_to_string(root().join(".dockerignore")).unwrap();
+    let mut checked = 0;
+    for member in members.split('"').skip(1).step_by(2) {
+        checked += 1;
+        let is_line = |folder: &Path| ignored.lines().any(|line| !line.is_empty() && Path::new(line) == folder);
+        let is_left_out = Path::new(member).ancestors().any(is_line);
+        let is_kept = |file: &str| ignored.lines().any(|line| line == format!("!{member}/{file}"));
+        assert!(!is_left_out || is_kept("Cargo.toml") && is_kept("src/lib.rs"), "{member}");
+    }
+    assert!(checked > 5, "{checked}");
 }
 
 #[test]

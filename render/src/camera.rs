@@ -16,7 +16,7 @@ pub struct Camera {
 }
 
 /// From the point that is followed to the camera (m): beside it, a little ahead and above.
-const BESIDE_M: [f64; 3] = [1.3, -3.1, 0.5];
+pub const BESIDE_M: [f64; 3] = [1.3, -3.1, 0.5];
 /// Angle between the picture's upper and lower edge (rad).
 const FIELD_RAD: f64 = 0.72;
 /// Height of the point that is looked at (m): not the torso's own, so that a fall is seen as one.
@@ -37,8 +37,17 @@ impl Camera {
     /// Walks along beside a body whose torso is above this point of the floor.
     #[must_use]
     pub fn beside(x_m: f64, y_m: f64) -> Self {
+        Self::following(x_m, y_m, BESIDE_M)
+    }
+
+    /// Walks along with a body whose torso is above this point of the floor, `away_m` from it.
+    ///
+    /// # Panics
+    /// If that is straight above it.
+    #[must_use]
+    pub fn following(x_m: f64, y_m: f64, away_m: [f64; 3]) -> Self {
         let target = Point3::new(x_m, y_m, HEIGHT_M);
-        Self::looking_at(target + Vector3::from(BESIDE_M), target)
+        Self::looking_at(target + Vector3::from(away_m), target)
     }
 
     /// The ray through a point of a picture of this size, in pixels from its upper left corner.
