@@ -14,7 +14,7 @@ fn root() -> &'static Path {
 /// Every Rust source and manifest of the workspace, with its path from the root. Tests at the root see all parts.
 fn sources() -> Vec<(String, String)> {
     let mut found = Vec::new();
-    for folder in ["src", "proto", "common", "actor", "learner", "render"] {
+    for folder in ["src", "proto", "common", "actor", "learner", "render", "watch"] {
         collect(&root().join(folder), &mut found);
     }
     found
