@@ -73,6 +73,19 @@ fn only_the_humanoid_names_rapier() {
 }
 
 #[test]
+fn only_the_viewer_depends_on_rerun_and_is_not_built_with_the_rest() {
+    assert_eq!(named_outside(&["rerun::"], &["watch/"]), [""; 0]);
+    let manifest = fs::read_to_string(root().join("Cargo.toml")).unwrap();
+    let line = manifest.lines().find(|line| line.starts_with("default-members")).unwrap();
+    assert!(!line.contains("watch"), "{line}");
+    for folder in ["", "proto", "common", "actor", "actor/humanoid", "learner", "render", "fuzz"] {
+        let manifest = fs::read_to_string(root().join(folder).join("Cargo.toml")).unwrap();
+        let own = manifest.split_once("[package]").unwrap().1;
+        assert!(!own.contains("rerun.workspace") && !own.contains("treadmill-watch"), "{folder}");
+    }
+}
+
+#[test]
 fn the_humanoid_knows_nothing_of_bus_runtime_and_tensors() {
     let manifest = fs::read_to_string(root().join("actor/humanoid/Cargo.toml")).unwrap();
     for foreign in ["zenoh", "tokio", "candle", "treadmill-common", "treadmill-proto"] {

@@ -53,15 +53,17 @@ pub enum Pace {
 /// Sends the layout; the camera goes along with `followed`, or stays where it is.
 pub fn send(recording: &RecordingStream, followed: Option<&EntityPath>, pace: Pace) -> RecordingStreamResult<()> {
     let view = ContainerLike::from(Spatial3DView::new("humanoid").with_origin(paths::WORLD));
-    let ContainerLike::View(view) = view else { unreachable!("a view is a view") };
-    let view_path = view.blueprint_path();
+    let view_path = match &view {
+        ContainerLike::View(view) => view.blueprint_path(),
+        _ => EntityPath::root(),
+    };
     let curves = |name: &str, path: &str| ContainerLike::from(TimeSeriesView::new(name).with_origin(path));
     let beside = Vertical::new([
         curves("reward", paths::REWARD),
         curves("velocity and distance", paths::VELOCITY),
         curves("torques (N·m)", paths::TORQUES),
     ]);
-    let root = Horizontal::new([ContainerLike::View(view), beside.into()]).with_column_shares([1.7, 1.0]);
+    let root = Horizontal::new([view, beside.into()]).with_column_shares([1.7, 1.0]);
     let play = if pace == Pace::Live { PlayState::Following } else { PlayState::Playing };
     let blueprint = Blueprint::new(root)
         .with_auto_views(false)

@@ -22,7 +22,7 @@ use std::{
     time::{Duration, Instant},
 };
 
-use clap::Parser;
+use clap::{CommandFactory, FromArgMatches, Parser};
 use treadmill_common::shutdown::Shutdown;
 use treadmill_humanoid::Model;
 use treadmill_learner::checkpoint::Which;
@@ -71,6 +71,10 @@ struct Cli {
     screen: ScreenArgs,
 }
 
+/// The same flag means a little more here than for `status`.
+const RUN_HELP: &str = "A run's folder, its name below runs/, a bundle file, or what `export` wrote; with --live the folder of a run \
+                        that trains on this machine";
+
 fn positive(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
         Ok(number) if number.is_finite() && number > 0.0 => Ok(number),
@@ -79,7 +83,8 @@ fn positive(text: &str) -> Result<f64, String> {
 }
 
 fn main() -> ExitCode {
-    let cli = Cli::parse();
+    let command = Cli::command().mut_arg("folder", |arg| arg.help(RUN_HELP));
+    let cli = Cli::from_arg_matches(&command.get_matches()).unwrap_or_else(|why| why.exit());
     log::begin("");
     outcome::exit_code(if cli.live { live(&cli) } else { play(&cli) })
 }

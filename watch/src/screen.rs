@@ -9,7 +9,7 @@ use anyhow::Context;
 use clap::Args;
 use rerun::{
     MemoryLimit, RecordingStream, RecordingStreamBuilder, ServerOptions, SpawnOptions,
-    external::re_web_viewer_server::WebViewerServer, web_viewer::WebViewerConfig,
+    web_viewer::WebViewerConfig,
 };
 use treadmill_common::{machine, shutdown::Shutdown};
 use treadmill_rl::{outcome::Usage, output::say, signals};
@@ -50,8 +50,7 @@ pub struct Screen {
 enum End {
     File(PathBuf),
     Window,
-    // Serves for as long as it is there.
-    Page(WebViewerServer),
+    Page,
 }
 
 impl ScreenArgs {
@@ -108,9 +107,9 @@ impl ScreenArgs {
             open_browser: false,
             ..WebViewerConfig::default()
         };
-        let page = page.host_web_viewer().context("the page cannot be served")?;
+        page.host_web_viewer().context("the page cannot be served")?.detach();
         say(&format!("watch at http://{host}:{web_port}/?url=rerun%2Bhttp%3A%2F%2F{host}%3A{data_port}%2Fproxy"));
-        Ok(Screen { recording, end: End::Page(page) })
+        Ok(Screen { recording, end: End::Page })
     }
 }
 
@@ -129,8 +128,8 @@ impl Screen {
                 say(&format!("written: {} ({} kB)", file.display(), bytes / 1000));
             }
             End::Window => {}
-            End::Page(_page) if shutdown.asked() => {}
-            End::Page(_page) => {
+            End::Page if shutdown.asked() => {}
+            End::Page => {
                 say("all is shown; Ctrl-C ends");
                 let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build().context("no runtime")?;
                 runtime.block_on(async {
