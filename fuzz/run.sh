@@ -9,11 +9,11 @@ all=$(sed -n 's/^name = "\([a-z_]*\)"$/\1/p' fuzz/Cargo.toml)
 targets=("$@")
 [ ${#targets[@]} -gt 0 ] || mapfile -t targets <<<"$all"
 
-build=(cargo build --release --workspace --features treadmill-fuzz/libfuzzer)
+build=(cargo build --release --features treadmill-fuzz/libfuzzer)
 for target in "${targets[@]}"; do build+=(--bin "$target"); done
 # All of the workspace is chosen so that its dependencies are those of every other build.
 RUSTC_WORKSPACE_WRAPPER=$PWD/fuzz/instrument.sh "${build[@]}"
-cargo build --release --workspace --example seeds
+cargo build --release --example seeds
 target/release/examples/seeds fuzz/corpus
 
 for target in "${targets[@]}"; do

@@ -3,19 +3,15 @@
 //! # Layout
 //! - [`train`], [`learner`], [`actor`], [`evaluator`], [`router`], [`status`], [`control`], [`certs`], [`eval`],
 //!   [`export`], [`runs`], [`bench`]: the subcommands.
-//! - [`operator`]: what `status` and `control` share.
-//! - [`saved_policy`]: the policy of a run, a checkpoint or an exported file.
+//! - [`watch`]: hands over to the viewer. What the two share is a library (`src/lib.rs`).
 //! - [`filming`]: pictures of an evaluation.
 //! - [`startup`]: from flags to a run that is ready to begin.
 //! - [`task`]: what a run trains where other programs simulate it.
 //! - [`supervisor`]: the actor processes of `train`.
 //! - [`one_core`]: why an encrypted router works on one.
-//! - [`signals`]: Ctrl-C, once and twice.
 //! - [`model`]: the robot, built in or from a file.
 //! - [`metrics_page`]: metrics for Prometheus, over HTTP.
 //! - [`memory`]: what becomes of memory that was freed.
-//! - [`outcome`]: errors and exit codes.
-//! - [`output`]: standard output that may be closed.
 
 mod actor;
 mod bench;
@@ -30,24 +26,19 @@ mod memory;
 mod metrics_page;
 mod model;
 mod one_core;
-mod operator;
-mod outcome;
-mod output;
 mod router;
 mod runs;
-mod saved_policy;
-mod signals;
 mod startup;
 mod status;
 mod supervisor;
 mod task;
 mod train;
+mod watch;
 
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
-use tracing_subscriber::{Layer, layer::SubscriberExt, util::SubscriberInitExt};
-use treadmill_common::bus;
+use treadmill_rl::{log, operator, outcome, output, saved_policy, signals};
 
 /// Distributed reinforcement learning for humanoid robots.
 ///
@@ -71,6 +62,8 @@ enum Command {
     Evaluator(evaluator::EvaluatorArgs),
     /// Play deterministic episodes with a trained policy, or with one of the baselines.
     Eval(eval::EvalArgs),
+    /// See the humanoid move, in a browser: a trained policy, or with --live a run while it trains.
+    Watch(watch::WatchArgs),
     /// Write a trained policy as a file that other programs read.
     Export(export::ExportArgs),
     /// Compare runs: how far they walk, how long they took, and what they were configured otherwise.
@@ -93,20 +86,14 @@ fn main() -> ExitCode {
     // SAFETY: no other thread is there yet that could read or write the environment.
     unsafe { std::env::set_var("CANDLE_NUM_THREADS", "1") };
     let command = Cli::parse().command;
-    let filter = tracing_subscriber::EnvFilter::try_from_env("TREADMILL_LOG")
-        .unwrap_or_else(|_| tracing_subscriber::EnvFilter::new("warn,zenoh=off"));
-    let log = tracing_subscriber::fmt::layer()
-        .with_writer(std::io::stderr)
-        .with_ansi(std::io::IsTerminal::is_terminal(&std::io::stderr()))
-        .with_target(false)
-        .with_filter(filter);
-    tracing_subscriber::registry().with(log).with(bus::turned_away()).with(bus::brake_forbidden()).init();
+    log::begin("");
     let done = match command {
         Command::Train(args) => train::run(args),
         Command::Learner(args) => learner::run(args),
         Command::Actor(args) => actor::run(args),
         Command::Evaluator(args) => evaluator::run(args),
         Command::Eval(args) => eval::run(args),
+        Command::Watch(args) => watch::run(&args),
         Command::Export(args) => export::run(&args),
         Command::Runs(args) => runs::run(&args),
         Command::Status(args) => status::run(args),

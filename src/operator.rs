@@ -1,4 +1,4 @@
-//! What `status` and `control` share: where the learner is, and patience until it answers.
+//! What `status`, `control` and the viewer share: where the learner is, and patience until it answers.
 
 use std::time::Duration;
 
@@ -10,7 +10,7 @@ use treadmill_common::{
 };
 use treadmill_proto::{ControlReply, ident::check_ident};
 
-use crate::{outcome::Usage, startup::NetworkArgs};
+use crate::{network::NetworkArgs, outcome::Usage};
 
 /// Where a learner listens unless told otherwise.
 const DEFAULT_ENDPOINT: &str = "tcp/127.0.0.1:7447";
@@ -39,6 +39,18 @@ pub struct ReachArgs {
 }
 
 impl ReachArgs {
+    /// The RUN that was named.
+    #[must_use]
+    pub fn named(&self) -> Option<&str> {
+        self.folder.as_deref()
+    }
+
+    /// Whether plain text beyond this machine is allowed.
+    #[must_use]
+    pub fn is_insecure(&self) -> bool {
+        self.network.insecure
+    }
+
     fn options(&self, role: Role) -> anyhow::Result<BusOptions> {
         let mut connect = self.connect.clone();
         if let Some(folder) = &self.folder {

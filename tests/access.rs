@@ -129,9 +129,12 @@ fn an_actor_says_nothing_in_the_learners_name_and_hears_nothing_of_others() {
     let all = listen(&spy, "treadmill/**");
     let copies = listen(&spy, "treadmill/run/@rollouts/*");
     let told = listen(&spy, "treadmill/run/metrics/**");
+    let poses = listen(&spy, "treadmill/run/poses/*");
+    let poses_seen = listen(&observer, "treadmill/run/poses/*");
     let statistics = listen(&spy, "treadmill/run/actors/*/stats");
-    await_that("an observer reads metrics and announcements", || {
-        (metrics.load(Ordering::Relaxed) > 0 && versions.load(Ordering::Relaxed) > 0).then_some(())
+    await_that("an observer reads metrics, announcements and poses", || {
+        let all = [&metrics, &versions, &poses_seen];
+        all.iter().all(|count| count.load(Ordering::Relaxed) > 0).then_some(())
     });
     for _ in 0..20 {
         actor.put("treadmill/run/metrics/forged/a", "{}");
@@ -153,6 +156,7 @@ fn an_actor_says_nothing_in_the_learners_name_and_hears_nothing_of_others() {
         ("everything", all),
         ("copies of rollouts", copies),
         ("metrics", told),
+        ("poses of others", poses),
         ("statistics of others", statistics),
     ] {
         assert_eq!(count.load(Ordering::Relaxed), 0, "an actor got {what}");

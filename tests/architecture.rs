@@ -14,7 +14,7 @@ fn root() -> &'static Path {
 /// Every Rust source and manifest of the workspace, with its path from the root. Tests at the root see all parts.
 fn sources() -> Vec<(String, String)> {
     let mut found = Vec::new();
-    for folder in ["src", "proto", "common", "actor", "learner", "render", "python"] {
+    for folder in ["src", "proto", "common", "actor", "learner", "render", "watch", "python"] {
         collect(&root().join(folder), &mut found);
     }
     found
@@ -70,6 +70,19 @@ fn only_the_bus_names_zenoh() {
 #[test]
 fn only_the_humanoid_names_rapier() {
     assert_eq!(named_outside(&["rapier3d", "parry3d"], &["actor/humanoid/"]), [""; 0]);
+}
+
+#[test]
+fn only_the_viewer_depends_on_rerun_and_is_not_built_with_the_rest() {
+    assert_eq!(named_outside(&["rerun::"], &["watch/"]), [""; 0]);
+    let manifest = fs::read_to_string(root().join("Cargo.toml")).unwrap();
+    let line = manifest.lines().find(|line| line.starts_with("default-members")).unwrap();
+    assert!(!line.contains("watch"), "{line}");
+    for folder in ["", "proto", "common", "actor", "actor/humanoid", "learner", "render", "fuzz"] {
+        let manifest = fs::read_to_string(root().join(folder).join("Cargo.toml")).unwrap();
+        let own = manifest.split_once("[package]").unwrap().1;
+        assert!(!own.contains("rerun.workspace") && !own.contains("treadmill-watch"), "{folder}");
+    }
 }
 
 #[test]

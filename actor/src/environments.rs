@@ -87,6 +87,18 @@ struct Running {
     last_x_m: f64,
 }
 
+/// One environment as it is now.
+pub struct View<'a> {
+    /// Number of its episode, from 1.
+    pub episode: u64,
+    /// Control steps since that began.
+    pub step: u32,
+    /// Where the torso was then, along x (m).
+    pub start_x_m: f64,
+    /// The environment.
+    pub environment: &'a Environment,
+}
+
 /// What one step of all environments gave. Planes are `[N]`.
 #[derive(Debug, Default)]
 pub struct Stepped {
@@ -190,6 +202,12 @@ impl Environments {
     /// `[N][observation]`: where the environments are now; after an episode's end, the start of the next.
     pub fn observations(&self) -> &[f32] {
         &self.observations
+    }
+
+    /// The first environment, for those who watch.
+    pub fn first(&self) -> Option<View<'_>> {
+        let Place { running, environment, .. } = self.places.first()?;
+        Some(View { episode: running.number, step: running.length, start_x_m: running.start_x_m, environment })
     }
 
     /// Steps all by `actions`, `[N][action]` where −1 is the lower end of a motor's range and 1 its upper one; they are

@@ -1,7 +1,7 @@
 //! Episodes without learning, and what came of them.
 
 use treadmill_common::seeds;
-use treadmill_humanoid::{Environment, Physics, Step};
+use treadmill_humanoid::{Environment, Physics, Step, StepInfo};
 
 use crate::{ActorError, agent::Agent};
 
@@ -46,6 +46,8 @@ pub struct Told<'a> {
     pub reward: f32,
     /// Sum of rewards so far.
     pub total: f64,
+    /// The step in detail.
+    pub info: &'a StepInfo,
     /// The body after it.
     pub physics: &'a Physics,
 }
@@ -120,6 +122,7 @@ pub fn evaluate(
                 step: played.length,
                 reward: step.reward,
                 total: played.return_sum,
+                info: environment.info(),
                 physics: environment.physics(),
             });
             if step.terminated || step.truncated {

@@ -7,6 +7,7 @@
 //! - [`rollout`]: fragments of T control steps.
 //! - [`courier`]: fragments to the learner, with receipts, credit and a window of what may have to be sent again.
 //! - [`policies`]: the newest policy, announced and fetched.
+//! - [`poses`]: what those who watch see.
 //! - [`worker`]: all of it as one process.
 //! - [`agent`]: whoever chooses actions in an evaluation.
 //! - [`evaluation`]: episodes without learning, and their table.
@@ -20,6 +21,7 @@ pub mod environments;
 pub mod evaluation;
 pub mod evaluator;
 pub mod policies;
+pub mod poses;
 pub mod rollout;
 pub mod settings;
 pub mod staleness;

@@ -8,6 +8,7 @@ use crate::{
     ActorError,
     acting::ActingPolicy,
     environments::{Environments, Stepped},
+    poses::Camera,
 };
 
 /// What every fragment of this actor says of itself.
@@ -32,6 +33,7 @@ pub struct Collector {
     sequence: u64,
     is_state_attached: bool,
     stepped: Stepped,
+    camera: Option<Camera>,
     normalised: Vec<f32>,
     means: Vec<f32>,
     /// Correlation of `normals` with those of the step before.
@@ -51,6 +53,7 @@ impl Collector {
             sequence: 0,
             is_state_attached: false,
             stepped: Stepped::default(),
+            camera: None,
             normalised: Vec::new(),
             means: vec![0.0; envs * action],
             correlation: 0.0,
@@ -63,6 +66,12 @@ impl Collector {
     /// fragment.
     pub fn with_noise_correlation(mut self, correlation: f32) -> Self {
         self.correlation = correlation;
+        self
+    }
+
+    /// Lets a camera look after each step.
+    pub fn with_camera(mut self, camera: Camera) -> Self {
+        self.camera = Some(camera);
         self
     }
 
@@ -125,6 +134,9 @@ impl Collector {
             self.draw_noise(t == 0);
             self.act(policy, &mut fragment)?;
             self.environments.step(&fragment.actions[start..], &mut self.stepped);
+            if let Some(camera) = &mut self.camera {
+                camera.see(&self.environments, policy.version);
+            }
             fragment.rewards.extend_from_slice(&self.stepped.rewards);
             fragment.flags.extend_from_slice(&self.stepped.flags);
             fragment.episodes.append(&mut self.stepped.episodes);

@@ -12,7 +12,7 @@ use std::{
 use bytes::Bytes;
 use tokio::sync::mpsc as tokio_mpsc;
 use treadmill_common::{
-    bus::{Bus, keys, publish_dropping, token, watch_announcements},
+    bus::{Bus, PosePublisher, keys, publish_dropping, token, watch_announcements},
     config::{Config, ConfigSource},
     machine, seeds,
     shutdown::Shutdown,
@@ -25,6 +25,7 @@ use crate::{
     courier::{Counts, Courier},
     environments::{Environments, SeedSource},
     policies::{Policies, Refreshed, join},
+    poses::{self, Camera},
     rollout::{Collector, Sender},
     settings,
     staleness::Staleness,
@@ -122,7 +123,15 @@ async fn stay(
     let policies = Arc::new(Policies::new(bus.clone(), options.run.clone(), bundle)?);
     let receipt_timeout = Duration::from_millis(config.bus.receipt_timeout_ms);
     let courier = Arc::new(Courier::new(bus.clone(), &bundle.run, &options.name, receipt_timeout, policies.clone()));
-    let collector = collector(options, bundle, &config, incarnation)?;
+    let publisher = PosePublisher::open(bus, &bundle.run, &options.name)?;
+    let sender = Sender {
+        run: bundle.run.clone(),
+        actor: options.name.clone(),
+        incarnation,
+        config_hash: bundle.config_hash,
+    };
+    let (camera, tape) = Camera::new(publisher.watched(), sender.clone());
+    let collector = collector(options, bundle, &config, sender)?.with_camera(camera);
     let staleness = Staleness::new(&config, &options.name, options.start);
     let progress = Arc::new(Progress::default());
 
@@ -146,6 +155,9 @@ async fn stay(
     // Actors that joined together do not ask together.
     let jitter = 0.8 + 0.4 * (incarnation % 1000) as f64 / 1000.0;
     let mut poll_due = tokio::time::interval(Duration::from_secs_f64(config.bus.policy_poll_ms as f64 / 1e3 * jitter));
+    // Beside the loop, and no longer than it.
+    let mut telling = tokio::task::JoinSet::new();
+    telling.spawn(poses::tell(tape, publisher));
     let mut deliveries = tokio::task::JoinSet::new();
     // Beside the loop: whoever asks for a policy may wait for the answer, and credit and Ctrl-C must not.
     let mut lookups = tokio::task::JoinSet::new();
@@ -206,7 +218,7 @@ fn collector(
     options: &WorkerOptions,
     bundle: &PolicyBundle,
     config: &Config,
-    incarnation: u64,
+    sender: Sender,
 ) -> Result<Collector, ActorError> {
     let seeds = SeedSource { run_seed: config.run.seed, actor: options.name.clone(), start: options.start };
     let noise = seeds.noise();
@@ -220,8 +232,6 @@ fn collector(
         let why = format!("its observation and action sizes are {wanted:?}, the model's are {found:?}");
         return Err(ActorError::Bundle { number: bundle.version.number, why });
     }
-    let sender =
-        Sender { run: bundle.run.clone(), actor: options.name.clone(), incarnation, config_hash: bundle.config_hash };
     let mut collector = Collector::new(environments, noise, config.rollout.fragment_steps, sender)
         .with_noise_correlation(config.rollout.noise_correlation as f32);
     if config.run.deterministic {

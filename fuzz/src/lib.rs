@@ -25,7 +25,7 @@ use treadmill_learner::{
     intake::{Expected, Judge, Ledger, Lineage, Tally},
 };
 use treadmill_proto::{
-    ActorStats, EvaluationReport, Fragment, PolicyAnnouncement, PolicyBundle, Receipt,
+    ActorStats, EvaluationReport, Fragment, PolicyAnnouncement, PolicyBundle, Pose, Receipt,
     fragment::claimed_incarnation,
     json::{EpisodeReport, Metric},
 };
@@ -45,6 +45,7 @@ pub const TARGETS: &[(&str, Target, Sample, usize)] = &[
     ("receipt", receipt, samples::receipt, 16),
     ("stats", stats, samples::stats, 16),
     ("evaluation", evaluation, samples::evaluation, 16),
+    ("pose", pose, samples::pose, 16),
     ("json", json, samples::metric, 16),
     ("checkpoint", checkpoint, samples::checkpoint, 16),
     ("exported", exported, samples::exported, 64),
@@ -120,6 +121,14 @@ pub fn stats(data: &[u8]) {
 pub fn evaluation(data: &[u8]) {
     if let Ok(report) = EvaluationReport::decode(data) {
         assert_eq!(EvaluationReport::decode(&report.encode()), Ok(report));
+    }
+}
+
+/// How a body stands.
+pub fn pose(data: &[u8]) {
+    if let Ok(pose) = Pose::decode_checked(data) {
+        let again = pose.to_bytes().expect("what was decoded can be encoded");
+        assert_eq!(Pose::decode_checked(&again), Ok(pose));
     }
 }
 

@@ -11,7 +11,7 @@ use treadmill_humanoid::HUMANOID_XML;
 use treadmill_learner::checkpoint::{TrainingState, encoding};
 use treadmill_proto::{
     ActorState, ActorStats, EndCause, Episode, EvaluationReport, Fragment, Outcome, PolicyAnnouncement, PolicyBundle,
-    PolicyVersion, Receipt, json::Metric,
+    PolicyVersion, Pose, Receipt, json::Metric,
 };
 
 /// The run.
@@ -128,6 +128,26 @@ pub fn receipt() -> Vec<u8> {
 pub fn stats() -> Vec<u8> {
     ActorStats { actor: ACTOR.into(), host: "here".into(), env_steps_per_s: 0.5, produced: 3, ..Default::default() }
         .to_bytes()
+}
+
+/// How a body of one part stands.
+pub fn pose() -> Vec<u8> {
+    let pose = Pose {
+        run: RUN.into(),
+        actor: ACTOR.into(),
+        actor_incarnation: 7,
+        version: Some(version().into()),
+        config_hash: CONFIG_HASH,
+        episode: 1,
+        step: 2,
+        time_s: 0.03,
+        bodies: vec![0.5, 0.25, 1.25, 1.0, 0.0, 0.0, 0.0],
+        contacts: vec![0.5, 0.25, 0.0, 0.0, 0.0, 400.0],
+        joint_torques_nm: vec![-40.0],
+        reward_survive: 5.0,
+        ..Pose::default()
+    };
+    pose.to_bytes().expect("a sound pose")
 }
 
 /// A report of an evaluation.

@@ -9,6 +9,7 @@
 //! - [`actor_state`]: where an actor is, for deterministic runs.
 //! - [`receipt`]: the learner's answer to a fragment.
 //! - [`stats`]: what an actor tells about itself.
+//! - [`pose`]: how an actor's body stands and moves.
 //! - [`task`]: what an actor of an external task registers.
 //! - [`evaluation`]: what became of a policy in an evaluation.
 //! - [`control`]: what people and scripts ask a learner.
@@ -30,6 +31,7 @@ pub mod ident;
 pub mod json;
 pub mod limits;
 pub mod onnx;
+pub mod pose;
 pub mod precision;
 pub mod prepared;
 pub mod receipt;
@@ -57,6 +59,7 @@ pub use bundle::{PolicyAnnouncement, PolicyBundle, PolicyVersion};
 pub use control::{ActorStatus, Command, ControlReply, ControlRequest, Phase, RunStatus};
 pub use evaluation::EvaluationReport;
 pub use fragment::{EndCause, Episode, Fragment};
+pub use pose::Pose;
 pub use precision::Precision;
 pub use prepared::PreparedFragment;
 pub use receipt::{Outcome, Receipt};

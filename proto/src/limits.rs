@@ -12,6 +12,8 @@ pub const MODEL_BYTES_MAX: usize = 4 << 20;
 pub const SMALL_BYTES_MAX: usize = 64 << 10;
 /// Largest statistics message of an actor.
 pub const STATS_BYTES_MAX: usize = 4 << 10;
+/// Largest pose: room for a thousand bodies and their contacts.
+pub const POSE_BYTES_MAX: usize = 64 << 10;
 /// Largest sequence number, so that counting on from one never wraps.
 pub const SEQUENCE_MAX: u64 = u64::MAX >> 1;
 /// Largest status of a run: some hundred bytes for each actor.

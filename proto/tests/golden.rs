@@ -7,7 +7,7 @@
 use bytes::Bytes;
 use treadmill_proto::{
     ActorState, ActorStats, EndCause, Episode, EvaluationReport, Fragment, Outcome, PolicyAnnouncement, PolicyBundle,
-    PolicyVersion, Receipt,
+    PolicyVersion, Pose, Receipt,
     json::{EpisodeReport, Metric},
 };
 
@@ -129,6 +129,30 @@ fn evaluation() -> EvaluationReport {
     }
 }
 
+#[allow(clippy::needless_update, reason = "fields that are added later have their defaults in old messages")]
+fn pose() -> Pose {
+    Pose {
+        run: "walk-1".into(),
+        actor: "actor-0".into(),
+        actor_incarnation: 1,
+        version: Some(VERSION.into()),
+        config_hash: 0x1112_1314_1516_1718,
+        episode: 3,
+        step: 300,
+        time_s: 4.5,
+        bodies: vec![1.5, -0.25, 1.25, 0.0, 1.0, 0.0, 0.0],
+        contacts: vec![1.5, -0.25, 0.0, 0.5, 0.0, 400.0],
+        joint_torques_nm: vec![-40.0, 0.125],
+        reward_survive: 5.0,
+        reward_forward: 1.875,
+        reward_ctrl: -0.25,
+        reward_contact: -0.5,
+        velocity_mps: 1.5,
+        distance_m: 6.75,
+        ..Pose::default()
+    }
+}
+
 fn metric() -> Metric {
     let (run, tag) = ("walk-1".into(), "rollout/ep_rew_mean".into());
     Metric { run, tag, step: 8192, value: 91.95, time_unix_s: 1_795_229_241.25 }
@@ -146,6 +170,7 @@ fn written() -> Vec<(&'static str, Vec<u8>)> {
         ("announcement", PolicyAnnouncement { version: VERSION, checksum: 5 }.encode()),
         ("stats", stats().to_bytes()),
         ("evaluation", evaluation().encode()),
+        ("pose", pose().to_bytes().unwrap()),
         ("metric", metric().to_json()),
         ("episode", episode().to_json()),
     ];
@@ -163,6 +188,7 @@ fn assert_read(name: &str, bytes: &[u8]) {
         }
         "stats" => assert_eq!(ActorStats::decode_checked(bytes), Ok(stats())),
         "evaluation" => assert_eq!(EvaluationReport::decode(bytes), Ok(evaluation())),
+        "pose" => assert_eq!(Pose::decode_checked(bytes), Ok(pose())),
         "metric" => assert_eq!(Metric::from_json(bytes), Ok(metric())),
         "episode" => assert_eq!(EpisodeReport::from_json(bytes), Ok(episode())),
         _ => {

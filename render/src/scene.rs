@@ -79,7 +79,9 @@ fn bound(solids: &[(Solid, Colour)]) -> Option<Ball> {
     Some(Ball { centre, radius_m })
 }
 
-fn colour(name: &str) -> Colour {
+/// The colour of a part of this name, by its side.
+#[must_use]
+pub fn colour(name: &str) -> Colour {
     match (name.contains("left"), name.contains("right")) {
         (true, false) => LEFT,
         (false, true) => RIGHT,

@@ -179,3 +179,30 @@ fn lengths_from_outside_are_refused_with_both_numbers() {
     assert_eq!(observation, before, "a refusal writes nothing");
     environment.try_step(&IDLE, &mut observation).expect("and the episode goes on");
 }
+
+#[test]
+fn contact_points_carry_the_body() {
+    let mut physics = physics(HUMANOID_XML);
+    assert_eq!(physics.contact_points().count(), 0, "nothing has happened yet");
+    for _ in 0..400 {
+        physics.step_only(&IDLE).expect("sound");
+    }
+    let model = physics.model();
+    let weight_n: f64 = model.bodies.iter().map(|body| body.mass_kg).sum::<f64>() * 9.81;
+    let root = Point3::from_slice(&physics.position()[..3]);
+    let mut lift_n = 0.0;
+    for point in physics.contact_points() {
+        assert!((point.at_m - root).norm() < 1.5, "{point:?} is at the body, which is at {root}");
+        let sign = match point.links {
+            [Some(_), None] => 1.0,
+            [None, Some(_)] => -1.0,
+            _ => continue,
+        };
+        assert!(point.at_m.z.abs() < 0.02, "{point:?}");
+        lift_n += sign * point.force_n.z;
+    }
+    assert!((lift_n / weight_n - 1.0).abs() < 0.2, "lying still, the floor carries {weight_n} N and not {lift_n}");
+    let (position, velocity) = (physics.position().to_vec(), physics.velocity().to_vec());
+    physics.set_state(&position, &velocity);
+    assert_eq!(physics.contact_points().count(), 0, "whoever starts afresh touches nothing yet");
+}

@@ -55,6 +55,11 @@ pub fn episodes(run: &str, actor: &str) -> String {
     format!("treadmill/{run}/episodes/{actor}")
 }
 
+/// `treadmill/{run}/poses/{actor}`: how the body of an actor's first environment moves; `*` for any actor.
+pub fn poses(run: &str, actor: &str) -> String {
+    format!("treadmill/{run}/poses/{actor}")
+}
+
 /// `treadmill/{run}/metrics/{group}/{name}`.
 pub fn metric(run: &str, tag: &str) -> String {
     format!("treadmill/{run}/metrics/{tag}")

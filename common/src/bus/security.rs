@@ -7,7 +7,7 @@
 use std::path::{Path, PathBuf};
 
 use serde_json::{Value, json};
-use treadmill_proto::limits::{FRAGMENT_BYTES_MAX, SMALL_BYTES_MAX, STATS_BYTES_MAX};
+use treadmill_proto::limits::{FRAGMENT_BYTES_MAX, POSE_BYTES_MAX, SMALL_BYTES_MAX, STATS_BYTES_MAX};
 
 /// A part that is played on the bus.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -16,11 +16,11 @@ pub enum Role {
     Learner,
     /// Hands on what others say.
     Router,
-    /// Simulates: sends rollouts, statistics and episodes, reads policies.
+    /// Simulates: sends rollouts, statistics, episodes and poses, reads policies.
     Actor,
     /// Evaluates: hands reports in, takes policies.
     Evaluator,
-    /// Watches: reads metrics, episodes, statistics, policies, and who is there.
+    /// Watches: reads metrics, episodes, poses, statistics, policies, and who is there.
     Observer,
     /// Watches, and commands the learner.
     Operator,
@@ -135,6 +135,7 @@ pub(super) fn sizes() -> Value {
         rule("control", "query", "treadmill/*/control", SMALL_BYTES_MAX),
         rule("statistics", "put", "treadmill/*/actors/*/stats", STATS_BYTES_MAX),
         rule("episodes", "put", "treadmill/*/episodes/*", STATS_BYTES_MAX),
+        rule("poses", "put", "treadmill/*/poses/*", POSE_BYTES_MAX),
     ])
 }
 
@@ -164,8 +165,13 @@ const ANNOUNCEMENT: &[&str] = &["treadmill/*/policy/version"];
 const STATUS: &[&str] = &["treadmill/*/status"];
 const TOKENS: &[&str] = &["treadmill/*/actors/*", "treadmill/*/learner"];
 /// What anybody who watches may read.
-const PUBLIC: &[&str] =
-    &["treadmill/*/metrics/**", "treadmill/*/episodes/*", "treadmill/*/actors/*/stats", "treadmill/*/policy/version"];
+const PUBLIC: &[&str] = &[
+    "treadmill/*/metrics/**",
+    "treadmill/*/episodes/*",
+    "treadmill/*/poses/*",
+    "treadmill/*/actors/*/stats",
+    "treadmill/*/policy/version",
+];
 
 /// Copies of accepted fragments. No wildcard matches them, so they are named wherever they may go. Whoever watches may read
 /// them: what is in them, every watcher of episodes and statistics knows the gist of, and a link that is too slow loses
@@ -201,7 +207,8 @@ fn grants(role: Role) -> Vec<Grant> {
         }
         Role::Actor => {
             const ROLLOUTS: &[&str] = &["treadmill/*/rollouts/*", "treadmill/*/tasks/*"];
-            const TOLD: &[&str] = &["treadmill/*/actors/*/stats", "treadmill/*/episodes/*"];
+            const TOLD: &[&str] =
+                &["treadmill/*/actors/*/stats", "treadmill/*/episodes/*", "treadmill/*/poses/*"];
             let mut grants = read_policy();
             grants.extend([
                 Grant { flows: IN, messages: &["query"], keys: ROLLOUTS },

@@ -64,6 +64,8 @@ pub struct Physics {
     body_velocities: Vec<Motion>,
     motions: Vec<BodyMotion>,
     contacts: Vec<ContactImpulse>,
+    /// Where the root was when `touching` was found (m): its points are relative to that.
+    touching_about_m: Vector3<f64>,
     controls: Vec<f32>,
     hinge_torques_nm: Vec<f64>,
     variable: Variable,
@@ -92,6 +94,7 @@ impl Physics {
             body_velocities: vec![Motion::default(); bodies],
             motions: vec![BodyMotion::still(); bodies],
             contacts: vec![ContactImpulse::default(); model.links.len()],
+            touching_about_m: Vector3::zeros(),
             controls: vec![0.0; model.motors.len()],
             hinge_torques_nm: vec![0.0; model.hinges.len()],
             variable: Variable::new(&model),
@@ -125,6 +128,7 @@ impl Physics {
         self.variable.take_effect(&mut self.model, &mut self.tree, &mut self.world);
         self.world.restore();
         self.contacts.fill(ContactImpulse::default());
+        self.touching.points.clear();
         self.controls.fill(0.0);
         self.pull();
         self.is_faulty = false;
@@ -213,6 +217,7 @@ impl Physics {
             self.is_faulty = true;
             return Err(PhysicsFault);
         }
+        self.touching_about_m = Vector3::from_column_slice(&self.position[..3]);
         contact::collect(world, &self.posture, self.position[2], touching);
         flight.touch_down(tree, touching, &mut self.position, &mut self.velocity, &mut self.posture, step_s);
         contact::accumulate(touching, &flight.start_centre_m(), &mut self.contacts);
@@ -309,6 +314,20 @@ impl Physics {
     pub fn contact_wrench(&self, link: usize) -> (Vector3<f64>, Vector3<f64>) {
         let impulse = &self.contacts[link];
         (impulse.linear_ns / CONTROL_STEP_S, impulse.angular_nms / CONTROL_STEP_S)
+    }
+
+    /// The points that touched and pressed during the last physics step, and with which mean force: for those who watch. What
+    /// task and observation know of contacts is [`Self::contact_wrench`].
+    pub fn contact_points(&self) -> impl Iterator<Item = ContactForce> {
+        let about_m = self.touching_about_m;
+        let step_s = CONTROL_STEP_S / f64::from(self.substeps);
+        let pressing = self.touching.points.iter().filter(|point| point.impulse_ns != Vector3::zeros());
+        pressing.map(move |point| ContactForce {
+            links: point.links,
+            at_m: Point3::from(point.place_m + about_m),
+            // The solver counts what the second one feels.
+            force_n: -point.impulse_ns / step_s,
+        })
     }
 
     /// Sum of squares of all links' contact forces (N²) and moments ((N·m)²) during the last control step.

@@ -1,0 +1,148 @@
+//! How an actor's body stands and moves, for those who watch.
+
+use prost::Message;
+
+use crate::{Malformed, bundle, ident::check_ident, limits::POSE_BYTES_MAX, wire};
+
+pub use wire::Pose;
+
+/// Numbers of one body in [`Pose::bodies`]: a place and a unit quaternion.
+pub const BODY_NUMBERS: usize = 7;
+/// Numbers of one contact in [`Pose::contacts`]: a place and a force.
+pub const CONTACT_NUMBERS: usize = 6;
+/// An episode of this many seconds is eleven days long.
+const TIME_MAX_S: f64 = 1e6;
+/// A quaternion's length may be off by this, which no rounding brings about.
+const LENGTH_TOLERANCE: f32 = 1e-3;
+
+impl Pose {
+    /// Protobuf bytes.
+    ///
+    /// # Errors
+    /// [`Malformed`] where it would be refused when it arrives.
+    pub fn to_bytes(&self) -> Result<Vec<u8>, Malformed> {
+        self.check()?;
+        check_size(self.encoded_len())?;
+        Ok(self.encode_to_vec())
+    }
+
+    /// Reads and checks protobuf bytes from a stranger.
+    ///
+    /// # Errors
+    /// [`Malformed`] names what is wrong.
+    pub fn decode_checked(bytes: &[u8]) -> Result<Self, Malformed> {
+        check_size(bytes.len())?;
+        let pose =
+            Self::decode(bytes).map_err(|why| Malformed::Undecodable { what: "pose", why: why.to_string() })?;
+        pose.check()?;
+        Ok(pose)
+    }
+
+    fn check(&self) -> Result<(), Malformed> {
+        check_ident("run", &self.run)?;
+        check_ident("actor", &self.actor)?;
+        bundle::version(self.version)?;
+        if self.bodies.is_empty() || !self.bodies.len().is_multiple_of(BODY_NUMBERS) {
+            let found = format!("{} numbers long", self.bodies.len());
+            return Err(Malformed::field("bodies", found, format!("{BODY_NUMBERS} numbers for each body")));
+        }
+        if !self.contacts.len().is_multiple_of(CONTACT_NUMBERS) {
+            let found = format!("{} numbers long", self.contacts.len());
+            return Err(Malformed::field("contacts", found, format!("{CONTACT_NUMBERS} numbers for each contact")));
+        }
+        let figures = [
+            ("reward_survive", self.reward_survive),
+            ("reward_forward", self.reward_forward),
+            ("reward_ctrl", self.reward_ctrl),
+            ("reward_contact", self.reward_contact),
+            ("velocity_mps", self.velocity_mps),
+            ("distance_m", self.distance_m),
+        ];
+        figures.iter().try_for_each(|(field, value)| finite(field, std::slice::from_ref(value)))?;
+        finite("bodies", &self.bodies)?;
+        finite("contacts", &self.contacts)?;
+        finite("joint_torques_nm", &self.joint_torques_nm)?;
+        if !(0.0..=TIME_MAX_S).contains(&self.time_s) {
+            return Err(Malformed::field("time_s", self.time_s, format!("0 to {TIME_MAX_S}")));
+        }
+        for (body, numbers) in self.bodies.as_chunks::<BODY_NUMBERS>().0.iter().enumerate() {
+            let length = numbers[3..].iter().map(|part| part * part).sum::<f32>().sqrt();
+            if (length - 1.0).abs() > LENGTH_TOLERANCE {
+                let found = format!("a quaternion of length {length} for body {body}");
+                return Err(Malformed::field("bodies", found, "quaternions of length 1"));
+            }
+        }
+        Ok(())
+    }
+}
+
+fn check_size(bytes: usize) -> Result<(), Malformed> {
+    if bytes > POSE_BYTES_MAX {
+        return Err(Malformed::TooLarge { what: "pose", bytes, limit: POSE_BYTES_MAX });
+    }
+    Ok(())
+}
+
+fn finite(field: &'static str, numbers: &[f32]) -> Result<(), Malformed> {
+    match numbers.iter().position(|number| !number.is_finite()) {
+        Some(index) => Err(Malformed::NotFinite { field, index, value: numbers[index].to_string() }),
+        None => Ok(()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn sample() -> Pose {
+        Pose {
+            run: "walk-1".into(),
+            actor: "actor-0".into(),
+            version: Some(wire::PolicyVersion { incarnation: 3, number: 4 }),
+            episode: 5,
+            step: 6,
+            time_s: 0.09,
+            bodies: vec![1.0, 2.0, 1.4, 1.0, 0.0, 0.0, 0.0, 1.0, 2.0, 1.2, 0.6, 0.0, -0.8, 0.0],
+            contacts: vec![1.0, 2.0, 0.0, 0.0, 0.0, 400.0],
+            joint_torques_nm: vec![-40.0],
+            reward_survive: 5.0,
+            velocity_mps: 1.5,
+            ..Pose::default()
+        }
+    }
+
+    #[test]
+    fn poses_survive() {
+        let pose = sample();
+        assert_eq!(Pose::decode_checked(&pose.to_bytes().unwrap()), Ok(pose));
+    }
+
+    #[test]
+    fn each_fault_is_named_on_both_sides() {
+        type Spoil = fn(&mut Pose);
+        let spoils: [(&str, Spoil); 13] = [
+            ("run", |pose| pose.run = "a/b".into()),
+            ("actor", |pose| pose.actor.clear()),
+            ("version", |pose| pose.version = None),
+            ("`bodies` is 0 numbers", |pose| pose.bodies.clear()),
+            ("`bodies` is 13 numbers", |pose| pose.bodies.truncate(13)),
+            ("length 0 for body 1", |pose| pose.bodies[7..].fill(0.0)),
+            ("`bodies` holds NaN at index 2", |pose| pose.bodies[2] = f32::NAN),
+            ("contacts", |pose| pose.contacts.push(0.0)),
+            ("`contacts` holds inf at index 5", |pose| pose.contacts[5] = f32::INFINITY),
+            ("joint_torques_nm", |pose| pose.joint_torques_nm[0] = f32::NAN),
+            ("reward_ctrl", |pose| pose.reward_ctrl = f32::NEG_INFINITY),
+            ("time_s", |pose| pose.time_s = -1.0),
+            ("pose has", |pose| pose.joint_torques_nm = vec![0.0; POSE_BYTES_MAX / 4]),
+        ];
+        for (part, spoil) in spoils {
+            let mut pose = sample();
+            spoil(&mut pose);
+            let told = pose.to_bytes().expect_err(part).to_string();
+            assert!(told.contains(part), "{told}");
+            let told = Pose::decode_checked(&pose.encode_to_vec()).expect_err(part).to_string();
+            assert!(told.contains(part), "{told}");
+        }
+        assert!(Pose::decode_checked(b"no protobuf").is_err());
+    }
+}

@@ -1,0 +1,120 @@
+//! What stands where in the viewer, and the camera that follows.
+
+use rerun::{
+    AsComponents, EntityPath, RecordingStream, RecordingStreamBuilder, RecordingStreamResult,
+    blueprint::{
+        Blueprint, BlueprintActivation, BlueprintPanel, ContainerLike, Horizontal, SelectionPanel, Spatial3DView, TimePanel,
+        TimeSeriesView, Vertical,
+        components::{Eye3DKind, PanelState, PlayState},
+    },
+    external::{
+        re_log_types::{LogMsg, StoreKind},
+        re_sdk_types::blueprint::archetypes::{EyeControls3D, LineGrid3D},
+    },
+};
+
+/// Entities and timelines, by which stage and layout know each other.
+pub mod paths {
+    /// Everything in space.
+    pub const WORLD: &str = "world";
+    /// The bodies of the robot, below the world.
+    pub const BODY: &str = "body";
+    /// The floor.
+    pub const FLOOR: &str = "world/floor";
+    /// Where the torso was.
+    pub const TRAIL: &str = "world/trail";
+    /// What the contacts do.
+    pub const FORCES: &str = "world/contacts/forces";
+    /// Where they are.
+    pub const POINTS: &str = "world/contacts/points";
+    /// Terms of the reward.
+    pub const REWARD: &str = "reward";
+    /// Velocity and distance.
+    pub const VELOCITY: &str = "velocity";
+    /// Torques of the hinges.
+    pub const TORQUES: &str = "torques";
+    /// Which episode is shown.
+    pub const EPISODES: &str = "episodes";
+    /// Timeline of simulated time.
+    pub const TIME: &str = "time";
+    /// Timeline of control steps.
+    pub const STEP: &str = "control step";
+}
+
+/// How time goes on at first.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub enum Pace {
+    /// From the beginning, as it happened.
+    Played,
+    /// With what comes in.
+    Live,
+}
+
+/// Sends the layout; the camera goes along with `followed`, or stays where it is.
+pub fn send(recording: &RecordingStream, followed: Option<&EntityPath>, pace: Pace) -> RecordingStreamResult<()> {
+    let view = ContainerLike::from(Spatial3DView::new("humanoid").with_origin(paths::WORLD));
+    let view_path = match &view {
+        ContainerLike::View(view) => view.blueprint_path(),
+        _ => EntityPath::root(),
+    };
+    let curves = |name: &str, path: &str| ContainerLike::from(TimeSeriesView::new(name).with_origin(path));
+    let beside = Vertical::new([
+        curves("reward", paths::REWARD),
+        curves("velocity and distance", paths::VELOCITY),
+        curves("torques (N·m)", paths::TORQUES),
+    ]);
+    let root = Horizontal::new([view, beside.into()]).with_column_shares([1.7, 1.0]);
+    let play = if pace == Pace::Live { PlayState::Following } else { PlayState::Playing };
+    let blueprint = Blueprint::new(root)
+        .with_auto_views(false)
+        .with_auto_layout(false)
+        .with_blueprint_panel(BlueprintPanel::from_state(PanelState::Collapsed))
+        .with_selection_panel(SelectionPanel::from_state(PanelState::Collapsed))
+        .with_time_panel(
+            TimePanel::new().with_state(PanelState::Collapsed).with_timeline(paths::TIME).with_play_state(play),
+        );
+    let mut eye = EyeControls3D::new()
+        .with_kind(Eye3DKind::Orbital)
+        .with_position([1.4, -3.6, 1.7])
+        .with_look_target([0.0, 0.0, 0.95])
+        .with_eye_up([0.0, 0.0, 1.0]);
+    if let Some(followed) = followed {
+        eye = eye.with_tracking_entity(followed.to_string());
+    }
+    let grid = LineGrid3D::new().with_visible(false);
+    send_with(recording, &blueprint, &view_path, &[("EyeControls3D", &eye), ("LineGrid3D", &grid)])
+}
+
+/// Rerun's builder of layouts knows nothing of the properties of a view yet, so they are added to the messages that it makes.
+fn send_with(
+    recording: &RecordingStream,
+    blueprint: &Blueprint,
+    view: &EntityPath,
+    properties: &[(&str, &dyn AsComponents)],
+) -> RecordingStreamResult<()> {
+    let application = recording.store_info().map(|info| info.application_id().clone()).unwrap_or_else(|| "treadmill".into());
+    let (made_in, made) = RecordingStreamBuilder::new(application.clone()).memory()?;
+    blueprint.send(&made_in, BlueprintActivation::default())?;
+    let mut messages = Vec::new();
+    let mut activation = None;
+    for message in made.take() {
+        match message {
+            LogMsg::BlueprintActivationCommand(command) => activation = Some(command),
+            message if message.store_id().kind() == StoreKind::Blueprint => messages.push(message),
+            _ => {}
+        }
+    }
+    let Some(activation) = activation else { return Ok(()) };
+    let own = RecordingStreamBuilder::new(application)
+        .recording_id(activation.blueprint_id.recording_id().clone())
+        .blueprint();
+    let (stream, added) = own.memory()?;
+    stream.set_time_sequence("blueprint", 0);
+    for (name, property) in properties {
+        stream.log(format!("{view}/{name}"), *property)?;
+    }
+    // It says once more which store it is; the first message did.
+    messages.extend(added.take().into_iter().filter(|message| !matches!(message, LogMsg::SetStoreInfo(_))));
+    recording.send_blueprint(messages, activation);
+    Ok(())
+}
