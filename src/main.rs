@@ -16,15 +16,20 @@
 //! - [`memory`]: what becomes of memory that was freed.
 //! - [`outcome`]: errors and exit codes.
 //! - [`output`]: standard output that may be closed.
+//! - [`greeting`]: what `train` and `learner` say before and after.
+//! - [`patience`]: long steps that say so.
+//! - [`check`]: what is wrong with a machine.
 
 mod actor;
 mod bench;
 mod certs;
+mod check;
 mod control;
 mod eval;
 mod evaluator;
 mod export;
 mod filming;
+mod greeting;
 mod learner;
 mod memory;
 mod metrics_page;
@@ -33,6 +38,7 @@ mod one_core;
 mod operator;
 mod outcome;
 mod output;
+mod patience;
 mod router;
 mod runs;
 mod saved_policy;
@@ -45,7 +51,7 @@ mod train;
 
 use std::process::ExitCode;
 
-use clap::{Parser, Subcommand};
+use clap::{CommandFactory, Parser, Subcommand};
 use tracing_subscriber::{Layer, layer::SubscriberExt, util::SubscriberInitExt};
 
 /// Distributed reinforcement learning for humanoid robots.
@@ -84,6 +90,13 @@ enum Command {
     Certs(certs::CertsArgs),
     /// Measure speed.
     Bench(bench::BenchArgs),
+    /// Look for what is wrong with this machine, or with the way to a learner, and tell what to do.
+    Check(check::CheckArgs),
+}
+
+/// Whether this build has a subcommand.
+fn has_command(name: &str) -> bool {
+    Cli::command().find_subcommand(name).is_some()
 }
 
 fn main() -> ExitCode {
@@ -113,6 +126,7 @@ fn main() -> ExitCode {
         Command::Router(args) => router::run(args),
         Command::Certs(args) => certs::run(&args),
         Command::Bench(args) => bench::run(args),
+        Command::Check(args) => return check::run(args),
     };
     outcome::exit_code(done)
 }

@@ -10,7 +10,7 @@ use treadmill_common::{
 };
 use treadmill_proto::{ControlReply, ident::check_ident};
 
-use crate::{outcome::Usage, startup::NetworkArgs};
+use crate::{outcome::Usage, patience::Step, startup::NetworkArgs};
 
 /// Where a learner listens unless told otherwise.
 const DEFAULT_ENDPOINT: &str = "tcp/127.0.0.1:7447";
@@ -27,19 +27,20 @@ const RETRY: Duration = Duration::from_millis(100);
 pub struct ReachArgs {
     /// A run's folder, or its name below runs/: its learner runs on this machine, and its endpoint is in there.
     #[arg(value_name = "RUN", conflicts_with = "connect")]
-    folder: Option<String>,
+    pub folder: Option<String>,
     /// Where the learner or a router listens; may be repeated. By default tcp/127.0.0.1:7447.
     #[arg(long, value_name = "ENDPOINT")]
-    connect: Vec<String>,
+    pub connect: Vec<String>,
     /// The run's name on the bus; may be left out where there is only one.
     #[arg(long, value_name = "NAME")]
-    run: Option<String>,
+    pub run: Option<String>,
     #[command(flatten)]
-    network: NetworkArgs,
+    pub network: NetworkArgs,
 }
 
 impl ReachArgs {
-    fn options(&self, role: Role) -> anyhow::Result<BusOptions> {
+    /// The endpoints that were named, or that the run's folder names.
+    pub fn named(&self) -> anyhow::Result<Vec<String>> {
         let mut connect = self.connect.clone();
         if let Some(folder) = &self.folder {
             let folder = RunFolder::open(folder)?;
@@ -50,6 +51,11 @@ impl ReachArgs {
             let here = |line: &str| line.replace("/0.0.0.0:", "/127.0.0.1:").replace("/[::]:", "/[::1]:");
             connect.extend(text.lines().next().map(here));
         }
+        Ok(connect)
+    }
+
+    fn options(&self, role: Role) -> anyhow::Result<BusOptions> {
+        let mut connect = self.named()?;
         if connect.is_empty() {
             connect.push(DEFAULT_ENDPOINT.to_string());
         }
@@ -80,6 +86,7 @@ pub fn on_the_bus(
     let runtime =
         tokio::runtime::Builder::new_multi_thread().worker_threads(2).enable_all().build().context("no runtime")?;
     let outcome = runtime.block_on(async {
+        let step = Step::begin(format!("dialling {where_to}"));
         let opened = tokio::task::spawn_blocking(move || Bus::open_client(&options));
         let Ok(bus) = tokio::time::timeout(DIAL_TIMEOUT, opened).await else {
             anyhow::bail!(
@@ -88,6 +95,7 @@ pub fn on_the_bus(
             );
         };
         let bus = bus??;
+        drop(step);
         let outcome = work(bus.clone(), reach.run.clone()).await;
         bus.close();
         outcome

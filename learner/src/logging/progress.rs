@@ -10,12 +10,24 @@ use std::time::{Duration, Instant};
 
 use console::strip_ansi_codes;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use treadmill_common::machine;
 
-use super::Scalars;
-use super::table::{render_line, render_table};
+use super::table::{format_number, render_line, render_table};
+use super::{History, Scalars, history::Point, sparkline::sparkline};
 
 /// Between two progress lines in a log file.
 const LINE_EVERY: Duration = Duration::from_secs(10);
+
+/// The first picture of learning in a log file; each further one when the run is twice as old, or after the second time.
+const PICTURE_AFTER: Duration = Duration::from_secs(10);
+const PICTURE_EVERY_MAX: Duration = Duration::from_secs(300);
+
+/// Characters of a curve in one line.
+const CURVE_WIDTH: usize = 24;
+
+/// Waiting for experience is worth a word after this; while a run learns, only after the second time.
+const WAITING_AFTER: Duration = Duration::from_secs(2);
+const WAITING_LONG: Duration = Duration::from_secs(30);
 
 /// How far the speed looks back: long enough for several updates, short enough to follow actors that come and go.
 const SPEED_WINDOW: Duration = Duration::from_secs(60);
@@ -27,7 +39,7 @@ const SPEED_EVERY: Duration = Duration::from_secs(2);
 const SPEED_SAMPLES_MAX: usize = 32;
 
 /// The bar on a terminal. No colours, so `NO_COLOR` has nothing to switch off.
-const BAR: &str = "{percent:>3}% [{wide_bar}] {human_pos}/{human_len} steps, {msg}";
+const BAR: &str = "{prefix}{percent:>3}% [{wide_bar}] {human_pos}/{human_len} steps, {msg}";
 
 /// A progress bar and tables on a terminal, plain lines elsewhere.
 pub struct Console {
@@ -41,6 +53,10 @@ pub struct Console {
     total_steps: u64,
     env_steps: u64,
     line_at: Duration,
+    picture_at: Duration,
+    /// How long the batch of the moment was waited for when that was last said.
+    waited: Duration,
+    is_unicode: bool,
     finished: bool,
 }
 
@@ -75,26 +91,63 @@ impl Console {
             total_steps,
             env_steps: start_steps,
             line_at: LINE_EVERY,
+            picture_at: PICTURE_AFTER,
+            waited: Duration::ZERO,
+            is_unicode: machine::is_utf8_locale(),
             finished: false,
         }
     }
 
-    /// Where the run is now; shown with the speed and the time left.
-    pub fn progress(&mut self, env_steps: u64) {
-        self.progress_at(env_steps, self.started.elapsed());
+    /// Where the run is now; shown with the speed, the time left, and now and then a picture of how it learns.
+    pub fn progress(&mut self, env_steps: u64, history: &History) {
+        self.progress_at(env_steps, history, self.started.elapsed());
     }
 
-    fn progress_at(&mut self, env_steps: u64, elapsed: Duration) {
+    fn progress_at(&mut self, env_steps: u64, history: &History, elapsed: Duration) {
+        self.waited = Duration::ZERO;
         self.env_steps = env_steps;
         self.speed.observe(elapsed, env_steps);
         let pace = pace(self.speed.steps_per_s(), self.total_steps.saturating_sub(env_steps));
         if let Some(bar) = &self.bar {
             bar.set_position(env_steps);
             bar.set_message(pace);
+            if let Some(picture) = picture(history, self.is_unicode) {
+                bar.set_prefix(picture + "\n");
+            }
         } else if self.show_progress && !self.terminal && elapsed >= self.line_at {
             self.line_at = elapsed + LINE_EVERY;
             let percent = env_steps as f64 / self.total_steps.max(1) as f64 * 100.0;
             self.write(&format!("steps={env_steps} of {} ({percent:.1}%), {pace}\n", self.total_steps));
+        }
+        if !self.terminal && elapsed >= self.picture_at {
+            self.picture_at = elapsed + elapsed.min(PICTURE_EVERY_MAX);
+            self.show(history, elapsed);
+        }
+    }
+
+    /// A line with a picture of how the run learns, where there is anything to show.
+    fn show(&mut self, history: &History, elapsed: Duration) {
+        if let Some(picture) = picture(history, self.is_unicode).filter(|_| self.show_progress) {
+            self.write(&format!("after {}: {picture}\n", clock(elapsed.as_secs())));
+        }
+    }
+
+    /// Says that experience is waited for, where that takes long, and then less and less often.
+    pub fn waiting(&mut self, waited: Duration, actors: usize) {
+        let patience = if self.speed.is_begun() { WAITING_LONG } else { WAITING_AFTER };
+        if waited < patience.max(self.waited * 2) || !self.show_progress {
+            return;
+        }
+        self.waited = waited;
+        let who = match actors {
+            0 => "no actor is there yet or any more".to_string(),
+            1 => "1 actor is there and simulates".to_string(),
+            actors => format!("{actors} actors are there and simulate"),
+        };
+        let message = format!("waiting for experience since {}: {who}", clock(waited.as_secs()));
+        match &self.bar {
+            Some(bar) => bar.set_message(message),
+            None => self.write(&format!("{message}\n")),
         }
     }
 
@@ -112,9 +165,9 @@ impl Console {
         self.write(&format!("{message}\n"));
     }
 
-    /// Takes the bar away and says how far the run came and how fast it was from start to end. Only the first call
-    /// does anything.
-    pub fn finish(&mut self) {
+    /// Takes the bar away and says how far the run came and how fast it was from start to end, with a last picture. Only the
+    /// first call does anything.
+    pub fn finish(&mut self, history: &History) {
         if std::mem::replace(&mut self.finished, true) {
             return;
         }
@@ -127,6 +180,7 @@ impl Console {
             let speed = steps as f64 / elapsed.as_secs_f64().max(f64::MIN_POSITIVE);
             let (now, total) = (self.env_steps, self.total_steps);
             self.write(&format!("steps={now} of {total}, {} at {speed:.0} steps/s\n", clock(elapsed.as_secs())));
+            self.show(history, elapsed);
         }
     }
 
@@ -158,6 +212,19 @@ fn bar(total_steps: u64, start_steps: u64) -> ProgressBar {
     bar
 }
 
+/// `return 310 ▁▃▆█ 620, distance 0.1 ▁▂▅█ 1.9 m, farthest 1.9 m`; nothing before an episode has ended.
+fn picture(history: &History, is_unicode: bool) -> Option<String> {
+    let curve = |of: fn(&Point) -> f64| {
+        let values: Vec<f64> = history.points().map(|point| of(&point)).collect();
+        let (first, last) = (values.first()?, values.last()?);
+        let line = sparkline(&values, CURVE_WIDTH, is_unicode);
+        Some(format!("{} {line} {}", format_number(*first), format_number(*last)))
+    };
+    let (returns, distances) = (curve(|point| point.return_mean)?, curve(|point| point.distance_m)?);
+    let farthest = history.farthest_m().map(|m| format!(", farthest {} m", format_number(m))).unwrap_or_default();
+    Some(format!("return {returns}, distance {distances} m{farthest}"))
+}
+
 /// Steps per second over the last while. Time is given from outside.
 #[derive(Debug)]
 struct Speed {
@@ -184,6 +251,10 @@ impl Speed {
         while self.samples.len() > SPEED_SAMPLES_MAX || (self.samples.len() > 2 && outside(&self.samples[1])) {
             self.samples.pop_front();
         }
+    }
+
+    fn is_begun(&self) -> bool {
+        self.samples.len() > 1
     }
 
     /// `None` as long as nothing can be said.
@@ -249,7 +320,7 @@ mod tests {
         let mut console = Console::writing_to(Box::new(captured.clone()), 10_000, 1_000, true);
         console.line("\u{1b}[31mactor a-0\u{1b}[0m\u{9b}2J\r\u{7} joined\u{1b}");
         for second in 1..=20 {
-            console.progress_at(1_000 + 100 * second, seconds(second));
+            console.progress_at(1_000 + 100 * second, &History::default(), seconds(second));
         }
         console.table(&[("rollout/ep_rew_mean".to_string(), 1.25)]);
         assert_eq!(
@@ -265,10 +336,10 @@ mod tests {
     fn without_progress_tables_and_messages_stay() {
         let captured = Captured::default();
         let mut console = Console::writing_to(Box::new(captured.clone()), 0, 0, false);
-        console.progress_at(500, seconds(60));
+        console.progress_at(500, &History::default(), seconds(60));
         console.table(&[("train/loss".to_string(), f64::NAN)]);
         console.line("done");
-        console.finish();
+        console.finish(&History::default());
         assert_eq!(captured.text(), "steps=500 train/loss=nan\ndone\n");
     }
 
@@ -276,12 +347,45 @@ mod tests {
     fn a_run_is_finished_once_and_may_have_gone_nowhere() {
         let captured = Captured::default();
         let mut console = Console::writing_to(Box::new(captured.clone()), 0, 7, true);
-        console.progress_at(7, Duration::ZERO);
-        console.finish();
-        console.finish();
+        console.progress_at(7, &History::default(), Duration::ZERO);
+        console.finish(&History::default());
+        console.finish(&History::default());
         let text = captured.text();
         assert!(text.starts_with("steps=7 of 0, ") && text.ends_with(" at 0 steps/s\n"), "{text}");
         assert_eq!(text.lines().count(), 1);
+    }
+
+    #[test]
+    fn learning_is_pictured_now_and_then_and_at_the_end() {
+        let captured = Captured::default();
+        let mut console = Console::writing_to(Box::new(captured.clone()), 10_000, 0, true);
+        (console.is_unicode, console.line_at) = (false, seconds(1_000));
+        let mut history = History::default();
+        for second in 1..=39 {
+            history.take(Some(10.0 * second as f64), Some(0.5), None);
+            console.progress_at(second, &history, seconds(second));
+        }
+        let text = captured.text();
+        let times: Vec<_> = text.lines().map(|line| line.split(':').next().unwrap()).collect();
+        assert_eq!(times, ["after 10s", "after 20s"], "{text}");
+        assert!(text.starts_with("after 10s: return 10 _"), "{text}");
+        assert!(text.contains("# 100, distance 0.5 __________ 0.5 m, farthest 0.5 m\n"), "{text}");
+        console.finish(&history);
+        assert!(captured.text().trim_end().ends_with("farthest 0.5 m"), "{}", captured.text());
+    }
+
+    #[test]
+    fn waiting_is_told_less_and_less_often() {
+        let captured = Captured::default();
+        let mut console = Console::writing_to(Box::new(captured.clone()), 10_000, 0, true);
+        (0..=20).for_each(|second| console.waiting(seconds(second), 0));
+        console.progress_at(100, &History::default(), seconds(21));
+        (0..=40).for_each(|second| console.waiting(seconds(second), 2));
+        let no_actor = |since: &str| format!("waiting for experience since {since}: no actor is there yet or any more\n");
+        let simulating = "waiting for experience since 30s: 2 actors are there and simulate\n";
+        let waited: String = ["2s", "4s", "8s", "16s"].into_iter().map(no_actor).collect();
+        let text: String = captured.text().lines().filter(|line| line.starts_with("waiting")).map(|line| format!("{line}\n")).collect();
+        assert_eq!(text, waited + simulating);
     }
 
     #[test]
@@ -296,10 +400,10 @@ mod tests {
             }
         }
         let mut console = Console::writing_to(Box::new(Closed), 10, 0, true);
-        console.progress_at(5, seconds(60));
+        console.progress_at(5, &History::default(), seconds(60));
         console.table(&[]);
         console.line("a message");
-        console.finish();
+        console.finish(&History::default());
     }
 
     #[test]
