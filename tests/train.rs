@@ -37,7 +37,7 @@ fn a_run_leaves_everything_a_user_looks_for() {
         "watch     treadmill status --watch ",
         "film      treadmill eval ",
         "resume    treadmill train --resume ",
-        "after ",
+        "\nafter ",
         "reached: return ",
         "see how far it walks: treadmill eval ",
     ] {
@@ -116,7 +116,7 @@ fn who_waits_says_for_what_and_who_wants_no_progress_gets_none() {
     assert!(learner.wait().0.success());
     let (quiet_folder, quiet) = folders();
     let output = smoke(quiet_folder.path(), &quiet, &["--no-progress"]);
-    assert!(output.status.success() && !stdout(&output).contains("after "), "{}", stdout(&output));
+    assert!(output.status.success() && !stdout(&output).contains("\nafter "), "{}", stdout(&output));
 }
 
 #[test]

@@ -1,9 +1,6 @@
 //! How actions and lags of a batch are spread, for TensorBoard.
 
-use crate::{
-    intake::Accepted,
-    logging::tensorboard::histogram::Histogram,
-};
+use crate::{intake::Accepted, logging::tensorboard::histogram::Histogram};
 
 /// Updates from one set of histograms to the next: they take a hundred times the room of a scalar.
 pub const EVERY_UPDATES: u64 = 10;

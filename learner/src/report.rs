@@ -12,9 +12,7 @@ use treadmill_proto::json::Metric;
 
 use crate::{
     checkpoint::TrainingState,
-    logging::{
-        Console, CurveArtist, EventWriter, Exposition, Histogram, History, JsonLines, tensorboard::texts,
-    },
+    logging::{Console, CurveArtist, EventWriter, Exposition, Histogram, History, JsonLines, tensorboard::texts},
     room::wait_for_room,
     training::{TrainingError, TrainingOptions},
 };
@@ -149,8 +147,8 @@ impl Report {
 
     /// Notes how the run ended: whether it was stopped before its last step, or nothing where it failed. One that was stopped
     /// may go on, so nothing is said of it.
-    pub fn end(&self, stopped: Option<&bool>) {
-        if stopped == Some(&true) {
+    pub fn end(&self, stopped: Option<bool>) {
+        if stopped == Some(true) {
             return;
         }
         if let Err(why) = self.events.end(stopped.is_some(), machine::time_unix_s()) {

@@ -88,7 +88,7 @@ pub fn train(
     let (begun, steps_before) = (Instant::now(), state.counters.env_steps);
     let mut trainer = Trainer::start(bus, state, options, shutdown)?;
     let outcome = go_on(&mut trainer, shutdown);
-    trainer.report.end(outcome.as_ref().ok());
+    trainer.report.end(outcome.as_ref().ok().copied());
     let stopped = outcome?;
     trainer.finish()?;
     Ok(Summary {
@@ -315,7 +315,8 @@ impl Trainer {
         let stats = self.stats.newest(&alive);
         self.exposition.take_actors(stats, self.state.lineage.newest());
         let means = self.state.episodes.means();
-        let (return_mean, distance_m) = (means.as_ref().map(|m| m.return_mean), means.as_ref().map(|m| m.distance_mean_m));
+        let (return_mean, distance_m) =
+            (means.as_ref().map(|m| m.return_mean), means.as_ref().map(|m| m.distance_mean_m));
         self.history.take(return_mean, distance_m, verdict.map(|verdict| verdict.report.distance_mean_m));
         let round = Round {
             state: &self.state,

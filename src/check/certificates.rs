@@ -101,7 +101,11 @@ fn look_at(folder: &Path, role: Role, roots: &Arc<RootCertStore>, now: OffsetDat
     let common_name = certificate.subject().iter_common_name().next().and_then(|name| name.as_str().ok());
     if common_name != Some(&role.common_name()) {
         return wrong(
-            format!("{shown} is of `{}`, and the bus knows the {part} as `{}`", common_name.unwrap_or(""), role.common_name()),
+            format!(
+                "{shown} is of `{}`, and the bus knows the {part} as `{}`",
+                common_name.unwrap_or(""),
+                role.common_name()
+            ),
             "give each file the name of its part, as `treadmill certs` does",
         );
     }
@@ -130,7 +134,9 @@ pub fn in_words(why: &rustls::Error) -> String {
     let rustls::Error::InvalidCertificate(reason) = why else { return why.to_string() };
     match reason {
         CertificateError::Expired | CertificateError::ExpiredContext { .. } => "it has expired".to_string(),
-        CertificateError::NotValidYet | CertificateError::NotValidYetContext { .. } => "it is not valid yet".to_string(),
+        CertificateError::NotValidYet | CertificateError::NotValidYetContext { .. } => {
+            "it is not valid yet".to_string()
+        }
         CertificateError::UnknownIssuer | CertificateError::BadSignature => "it is of another authority".to_string(),
         CertificateError::NotValidForName | CertificateError::NotValidForNameContext { .. } => {
             format!("it is not for this name: {reason}")

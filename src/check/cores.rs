@@ -46,7 +46,10 @@ mod tests {
         assert_eq!(found.verdict, Verdict::Problem);
         assert!(found.seen.contains("0.50 of a core") && found.remedy.unwrap().contains("--cpus"));
         let found = judge(8, Some(2.5), 8);
-        assert_eq!((found.verdict, found.remedy), (Verdict::Note, Some("start no more actors than that: --actors 2".into())));
+        assert_eq!(
+            (found.verdict, found.remedy),
+            (Verdict::Note, Some("start no more actors than that: --actors 2".into()))
+        );
         assert_eq!(judge(1, None, 1).verdict, Verdict::Note);
         assert_eq!(judge(4, Some(4.0), 4).verdict, Verdict::Ok);
         assert_eq!(judge(4, None, 4), Finding::ok(NAME, "4"));

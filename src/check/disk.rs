@@ -66,12 +66,10 @@ mod tests {
     #[test]
     fn the_room_decides() {
         let verdict = |bytes| judge("runs", bytes).verdict;
-        assert_eq!([0, 199_999_999, 200_000_000, 1_000_000_000].map(verdict), [
-            Verdict::Problem,
-            Verdict::Problem,
-            Verdict::Note,
-            Verdict::Ok
-        ]);
+        assert_eq!(
+            [0, 199_999_999, 200_000_000, 1_000_000_000].map(verdict),
+            [Verdict::Problem, Verdict::Problem, Verdict::Note, Verdict::Ok]
+        );
     }
 
     #[test]

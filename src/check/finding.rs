@@ -54,6 +54,11 @@ impl Finding {
     }
 }
 
+/// `1 actor`, `2 actors`.
+pub fn actors(count: u64) -> String {
+    if count == 1 { "1 actor".to_string() } else { format!("{count} actors") }
+}
+
 /// Some of what is seen was said by strangers: nothing of it moves the cursor or makes a line of its own.
 fn one_line(text: &str) -> String {
     text.chars().map(|c| if c.is_control() { ' ' } else { c }).collect()

@@ -79,26 +79,32 @@ fn failure(why: std::io::Error) -> Failure {
 }
 
 fn objection(host: &str, why: &Failure) -> Finding {
-    let same = "all machines need files that one authority made: copy ca.crt and each part's files from the same folder";
+    let same =
+        "all machines need files that one authority made: copy ca.crt and each part's files from the same folder";
     let (seen, remedy) = match why {
         Failure::Ours(why) => (format!("this machine's files cannot be used: {why}"), "copy them anew"),
         Failure::Tls(why @ Error::InvalidCertificate(_)) => {
             let words = certificates::in_words(why);
             let remedy = match &words[..] {
-                "it has expired" => "make new ones with `treadmill certs DIR --renew` and restart the learner with them",
+                "it has expired" => {
+                    "make new ones with `treadmill certs DIR --renew` and restart the learner with them"
+                }
                 "it is not valid yet" => "compare the clocks of both machines",
                 "it is of another authority" => same,
                 _ => "name the host in its certificate: `treadmill certs DIR --renew --host NAME`",
             };
             (format!("{host}'s certificate is refused: {words}"), remedy)
         }
-        Failure::Tls(Error::AlertReceived(AlertDescription::CertificateExpired)) => {
-            (format!("{host} says that our certificate has expired"), "renew it, or compare the clocks of both machines")
-        }
+        Failure::Tls(Error::AlertReceived(AlertDescription::CertificateExpired)) => (
+            format!("{host} says that our certificate has expired"),
+            "renew it, or compare the clocks of both machines",
+        ),
         Failure::Tls(Error::AlertReceived(alert)) => {
             (format!("{host} does not take our certificate ({alert:?})"), same)
         }
-        Failure::Tls(why) => (format!("{host} does not speak TLS as it should: {why}"), "dial tcp/ if it is not encrypted"),
+        Failure::Tls(why) => {
+            (format!("{host} does not speak TLS as it should: {why}"), "dial tcp/ if it is not encrypted")
+        }
         Failure::Io(why) => (
             format!("the link to {host} broke while encryption was agreed upon: {why}"),
             "see whether its endpoint begins with tls/, and whether its clock and certificates are right",

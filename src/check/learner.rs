@@ -8,7 +8,10 @@ use treadmill_common::{
 };
 use treadmill_proto::{ControlReply, RunStatus};
 
-use super::{finding::Finding, route};
+use super::{
+    finding::{Finding, actors as counted},
+    route,
+};
 use crate::{
     operator::{self, ReachArgs},
     outcome::Usage,
@@ -66,14 +69,18 @@ impl Way {
         let _step = Step::begin("asking the learner");
         let runtime = match tokio::runtime::Builder::new_multi_thread().worker_threads(2).enable_all().build() {
             Ok(runtime) => runtime,
-            Err(why) => return vec![Finding::problem(NAME, why.to_string(), "see how many threads this user may have")],
+            Err(why) => {
+                return vec![Finding::problem(NAME, why.to_string(), "see how many threads this user may have")];
+            }
         };
         let findings = runtime.block_on(async {
             let options = self.options.clone();
             let opened = tokio::task::spawn_blocking(move || Bus::open_client(&options));
             let bus = match tokio::time::timeout(OPEN_PATIENCE, opened).await {
                 Ok(Ok(Ok(bus))) => bus,
-                Ok(Ok(Err(why))) => return vec![Finding::problem(NAME, why.to_string(), "see the flags of the network")],
+                Ok(Ok(Err(why))) => {
+                    return vec![Finding::problem(NAME, why.to_string(), "see the flags of the network")];
+                }
                 _ => return vec![self.silent()],
             };
             let asked = operator::until_answered(async || statuses(&bus, None, operator::ANSWER_TIMEOUT).await).await;
@@ -132,9 +139,8 @@ impl Way {
 /// As whom to ask: as an observer where there are its files, else as whoever this machine is.
 fn role(reach: &ReachArgs) -> Role {
     let Some(folder) = &reach.network.tls else { return Role::Observer };
-    let has_files = |role: &Role| {
-        ["crt", "key"].iter().all(|kind| folder.join(format!("{}.{kind}", role.name())).is_file())
-    };
+    let has_files =
+        |role: &Role| ["crt", "key"].iter().all(|kind| folder.join(format!("{}.{kind}", role.name())).is_file());
     let wanted = [Role::Observer, Role::Operator, Role::Actor, Role::Evaluator, Role::Learner, Role::Router];
     wanted.into_iter().find(has_files).unwrap_or(Role::Observer)
 }
@@ -142,8 +148,12 @@ fn role(reach: &ReachArgs) -> Role {
 fn answers(status: &RunStatus) -> Finding {
     let alive = status.actors.iter().filter(|actor| actor.alive).count();
     let seen = format!(
-        "run `{}` answers from {}: {} of {} steps, {alive} actors",
-        status.run, status.host, status.env_steps, status.env_steps_wanted
+        "run `{}` answers from {}: {} of {} steps, {}",
+        status.run,
+        status.host,
+        status.env_steps,
+        status.env_steps_wanted,
+        counted(alive as u64)
     );
     match alive {
         0 => Finding::note(NAME, seen, format!("start an actor: treadmill actor --run {}", status.run)),

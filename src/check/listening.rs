@@ -16,6 +16,8 @@ pub fn look(given: &str, insecure: bool) -> Finding {
             why.to_string(),
             "see who has it (ss -ltnp), end that, or choose another address or port by --listen",
         ),
-        Err(why) => Finding::problem(NAME, why.to_string(), "write tcp/127.0.0.1:PORT, or tls/HOST:PORT with --tls DIR"),
+        Err(why) => {
+            Finding::problem(NAME, why.to_string(), "write tcp/127.0.0.1:PORT, or tls/HOST:PORT with --tls DIR")
+        }
     }
 }

@@ -1,6 +1,9 @@
 //! Whether learner and actors find room in memory.
 
-use super::{finding::Finding, system::System};
+use super::{
+    finding::{Finding, actors as counted},
+    system::System,
+};
 
 const NAME: &str = "memory";
 
@@ -21,7 +24,7 @@ pub fn look(system: &System, actors: u64) -> Finding {
         (Some(machine), _) => (machine, "available"),
         (None, Some(group)) => (group, "left to its control group"),
     };
-    let seen = format!("{} {whose}; a learner and {actors} actors take about {}", mb(available), mb(needed));
+    let seen = format!("{} {whose}; a learner and {} take about {}", mb(available), counted(actors), mb(needed));
     if available < needed {
         let remedy = match whose {
             "available" => "end other programs, or start fewer actors: --actors N",

@@ -1,6 +1,6 @@
 //! How many files may be open: each link takes one.
 
-use super::finding::Finding;
+use super::finding::{Finding, actors as counted};
 
 const NAME: &str = "open files";
 
@@ -19,7 +19,7 @@ pub fn look(actors: u64) -> Finding {
 
 /// The learner raises the soft limit to the hard one by itself.
 fn judge(soft: u64, hard: u64, actors: u64) -> Finding {
-    let seen = format!("{soft} now and {hard} at most, for {actors} actors");
+    let seen = format!("{soft} now and {hard} at most, for {}", counted(actors));
     let remedy = format!(
         "raise the limit: ulimit -Hn {0}, LimitNOFILE={0} in systemd, or docker run --ulimit nofile={0}",
         (OTHERS + actors).next_power_of_two().max(4096)

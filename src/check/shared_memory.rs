@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use super::finding::Finding;
+use super::finding::{Finding, actors as counted};
 
 const NAME: &str = "shared memory";
 
@@ -28,9 +28,13 @@ fn judge(free_bytes: Option<u64>, actors: u64, is_wanted: bool) -> Finding {
             seen
         }
     };
-    let seen = format!("{seen}; a learner and {actors} actors fill up to {} MB", needed / 1_000_000);
+    let seen = format!("{seen}; a learner and {} fill up to {} MB", counted(actors), needed / 1_000_000);
     match is_wanted {
-        true => Finding::problem(NAME, seen, "give the container more (docker run --shm-size), or leave out --shared-memory"),
+        true => Finding::problem(
+            NAME,
+            seen,
+            "give the container more (docker run --shm-size), or leave out --shared-memory",
+        ),
         false => Finding::note(NAME, seen, "nothing, unless you use --shared-memory; then docker run --shm-size 1g"),
     }
 }

@@ -12,7 +12,7 @@ const STEPS: usize = (1.0 / CONTROL_STEP_S) as usize;
 /// After so many of them rounding, which may differ from machine to machine, has not grown to anything yet.
 const EARLY_STEPS: usize = 10;
 /// Height of the torso then (m), and how far it may be off.
-const EARLY_HEIGHT_M: f64 = 0.0;
+const EARLY_HEIGHT_M: f64 = 1.264_441_130_560;
 const OFF_MAX_M: f64 = 1e-6;
 
 /// What a simulation gives.
@@ -31,7 +31,8 @@ pub fn look() -> Finding {
 
 fn judge(played: Result<(Played, Played), String>) -> Finding {
     let wrong = |seen: String| {
-        let remedy = "this processor or this build computes wrongly: build anew on this machine, test its memory, and report it";
+        let remedy =
+            "this processor or this build computes wrongly: build anew on this machine, test its memory, and report it";
         Finding::problem(NAME, seen, remedy)
     };
     let (one, other) = match played {

@@ -104,12 +104,7 @@ impl EventWriter {
 
     /// Writes histograms of one step as one record. They are tensors of the plugin `histograms` and not the older
     /// `HistogramProto`, which TensorBoard turns into these when it reads it: so it shows the very buckets that were counted.
-    pub fn histograms(
-        &mut self,
-        step: u64,
-        time_unix_s: f64,
-        histograms: &[(String, Histogram)],
-    ) -> io::Result<()> {
+    pub fn histograms(&mut self, step: u64, time_unix_s: f64, histograms: &[(String, Histogram)]) -> io::Result<()> {
         let value = histograms.iter().map(|(tag, Histogram { rows })| Value {
             tag: tag.clone(),
             tensor: Some(Tensor {
