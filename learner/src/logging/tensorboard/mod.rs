@@ -126,7 +126,8 @@ impl EventWriter {
             tag: tag.to_string(),
             tensor: Some(Tensor {
                 dtype: DT_STRING,
-                shape: shape(&[1]),
+                // A single text; TensorBoard shows a list of texts as a table around them.
+                shape: shape(&[]),
                 string_val: vec![text.as_bytes().to_vec().into()],
                 ..Tensor::default()
             }),

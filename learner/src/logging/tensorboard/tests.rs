@@ -135,7 +135,7 @@ fn a_resumed_run_keeps_its_row_and_forgets_that_it_had_ended() {
     let config = Config::default();
     let mut first = EventWriter::create(folder.path(), 1.0, "box").unwrap();
     first.hyperparameters(&config, 1.0).unwrap();
-    first.end(true, 2.0).unwrap();
+    first.end(false, 2.0).unwrap();
     let begun = ["_hparams_/experiment", "_hparams_/session_start_info"];
     assert_eq!(tags(folder.path()), [begun[0], "_hparams_/session_end_info", begun[1]]);
     let mut second = EventWriter::create(folder.path(), 3.0, "box").unwrap();
