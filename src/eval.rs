@@ -26,6 +26,7 @@ use crate::{
     model::{self, ModelArgs},
     outcome::Usage,
     output::say,
+    patience::Step,
     saved_policy,
 };
 
@@ -101,7 +102,11 @@ pub fn run(args: EvalArgs) -> anyhow::Result<()> {
     let quiet = args.json || print_every == 0;
     let control_step_s = environment.control_step_s();
     let mut filming = args.film.begin(control_step_s)?;
+    let step = Step::begin(format!("playing episode 1 of {}", args.episodes));
     let evaluation = evaluate(&mut environment, &mut agent, args.episodes, args.seed, |told| {
+        if told.step == 1 {
+            step.goes_on(format!("playing episode {} of {}", told.episode, args.episodes));
+        }
         if let Some(filming) = &mut filming {
             filming.see(&told);
         }
@@ -111,7 +116,9 @@ pub fn run(args: EvalArgs) -> anyhow::Result<()> {
         }
     })?;
     agent.finish()?;
+    step.goes_on("finishing the pictures".to_string());
     let made = filming.map(Filming::finish).transpose()?;
+    drop(step);
     if args.json {
         say(&as_json(args.agent, &evaluation, control_step_s));
     } else {
@@ -133,6 +140,7 @@ fn prepare(args: &EvalArgs) -> anyhow::Result<(Environment, Box<dyn Agent>)> {
         let action_size = environment.action_size();
         return Ok((environment, baseline(args, action_size)));
     };
+    let _step = Step::begin(format!("loading the policy of {run}"));
     let policy = saved_policy::load(run, args.checkpoint.unwrap_or(Which::BestOrLatest))?;
     let config = configuration(args, saved_policy::trained_under(&policy))?;
     let environment = match args.model.model.as_deref() {

@@ -7,7 +7,7 @@ use clap::Args;
 use serde_json::json;
 use treadmill_common::{
     atomic_file,
-    bus::{Bus, Credentials, Role},
+    bus::{Bus, Role},
     shutdown::Shutdown,
 };
 use treadmill_learner::{
@@ -17,9 +17,11 @@ use treadmill_learner::{
 };
 
 use crate::{
-    memory,
+    greeting, memory,
     metrics_page::{Listening, MetricsArgs},
-    output::{complain, say},
+    model,
+    output::say,
+    patience::Step,
     signals,
     startup::{self, AnyRunArgs, Command, NetworkArgs, NewRunArgs, Prepared},
     supervisor::{Fleet, Supervisor},
@@ -99,7 +101,7 @@ async fn host_until_done(
     atomic_file::write(&prepared.folder.endpoint(), text.as_bytes()).context("the endpoint cannot be written")?;
     let (exposition, pulse) = (Exposition::default(), Pulse::default());
     let page = metrics.map(|page| page.serve(prepared.run.clone(), exposition.clone(), pulse.clone())).transpose()?;
-    greet(&prepared, &endpoints, options.credentials.as_ref(), actors, page);
+    greeting::greet(&prepared, &endpoints, options.credentials.as_ref(), actors, page);
     // For as long as the run goes on: whoever comes later is told by name whether it may join.
     let desk = {
         let settled = task::settle(&bus, &mut prepared, &shutdown);
@@ -131,6 +133,9 @@ async fn host_until_done(
         restarts: restarts.clone(),
         exposition,
         pulse,
+        command: startup::command_line(),
+        versions: startup::versions(&config),
+        action_names: model::action_names(&state.model_xml),
     };
     let (tell, told) = tokio::sync::oneshot::channel();
     std::thread::Builder::new().name("training".to_string()).spawn({
@@ -157,78 +162,17 @@ async fn host_until_done(
     });
     let outcome = told.await.context("the training thread panicked");
     if let Some(supervisor) = supervisor {
+        let _step = Step::begin("waiting for the actors to end");
         supervisor.stop().await?;
     }
     drop(desk);
     bus.close();
     let summary = outcome??;
-    part(&folder, &summary, actors.map_or("learner", |_| "train"));
+    greeting::part(&folder, &summary, actors.map_or("learner", |_| "train"));
     if any.json {
         say(&as_json(&summary));
     }
     Ok(())
-}
-
-fn greet(
-    prepared: &Prepared,
-    endpoints: &[String],
-    credentials: Option<&Credentials>,
-    actors: Option<u32>,
-    page: Option<std::net::SocketAddr>,
-) {
-    let Prepared { config, folder, state, run, .. } = prepared;
-    let root = folder.root().display();
-    let steps = state.as_ref().map_or(0, |state| state.counters.env_steps);
-    let verb = match (steps, config.is_external(), &config.task.name[..]) {
-        (1.., ..) => format!("going on at {steps} env steps"),
-        (0, false, _) => "training a humanoid to walk".to_string(),
-        (0, true, "") => "training the task that its first actor registers".to_string(),
-        (0, true, name) => format!("training `{name}`"),
-    };
-    say(&format!("run `{run}`: {verb}"));
-    say(&format!("  files     {root}  (curves: tensorboard --logdir {root})"));
-    match actors {
-        Some(actors) => say(&format!("  actors    {actors} processes beside this one")),
-        None => {
-            let command = match config.is_external() {
-                true => "python -m treadmill_actor --env NAME",
-                false => "treadmill actor",
-            };
-            let connect = to_dial(&endpoints[0], credentials);
-            say(&format!("  actors    none yet; start some by: {command} --connect {connect} --run {run}"));
-        }
-    }
-    say(&format!("  listening {}", endpoints.join(", ")));
-    if let Some(address) = page {
-        say(&format!("  metrics   http://{address}/metrics"));
-    }
-    say("  stop      Ctrl-C once finishes the update and saves");
-}
-
-/// An endpoint as another process dials it, with the flag that it needs for that: to listen on every address is not to have
-/// that address.
-fn to_dial(endpoint: &str, credentials: Option<&Credentials>) -> String {
-    let host = treadmill_common::machine::host_name();
-    let dialled = endpoint.replace("/0.0.0.0:", &format!("/{host}:")).replace("/[::]:", &format!("/{host}:"));
-    match credentials {
-        Some(credentials) => format!("{dialled} --tls {}", credentials.folder.display()),
-        None if dialled.contains(&host) && dialled != endpoint => format!("{dialled} --insecure"),
-        None => dialled,
-    }
-}
-
-fn part(folder: &treadmill_common::run_folder::RunFolder, summary: &Summary, command: &str) {
-    let root = folder.root().display();
-    let steps = summary.state.counters.env_steps;
-    let what = if summary.stopped { "stopped" } else { "done" };
-    say(&format!("{what} after {steps} env steps; saved in {root}/checkpoints"));
-    if summary.stopped {
-        complain(&format!("resume with: treadmill {command} --resume {root}"));
-    } else if summary.state.model_xml.is_empty() {
-        say(&format!("take the policy elsewhere: treadmill export {root} --safetensors FILE"));
-    } else {
-        say(&format!("see how far it walks: treadmill eval {root}"));
-    }
 }
 
 fn as_json(summary: &Summary) -> String {

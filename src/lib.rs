@@ -8,11 +8,13 @@
 //! - [`log`]: warnings on standard error.
 //! - [`outcome`]: errors and exit codes.
 //! - [`output`]: standard output that may be closed.
+//! - [`patience`]: long steps that say so.
 
 pub mod log;
 pub mod network;
 pub mod operator;
 pub mod outcome;
 pub mod output;
+pub mod patience;
 pub mod saved_policy;
 pub mod signals;

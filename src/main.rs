@@ -12,15 +12,19 @@
 //! - [`model`]: the robot, built in or from a file.
 //! - [`metrics_page`]: metrics for Prometheus, over HTTP.
 //! - [`memory`]: what becomes of memory that was freed.
+//! - [`greeting`]: what `train` and `learner` say before and after.
+//! - [`check`]: what is wrong with a machine.
 
 mod actor;
 mod bench;
 mod certs;
+mod check;
 mod control;
 mod eval;
 mod evaluator;
 mod export;
 mod filming;
+mod greeting;
 mod learner;
 mod memory;
 mod metrics_page;
@@ -37,8 +41,8 @@ mod watch;
 
 use std::process::ExitCode;
 
-use clap::{Parser, Subcommand};
-use treadmill_rl::{log, operator, outcome, output, saved_policy, signals};
+use clap::{CommandFactory, Parser, Subcommand};
+use treadmill_rl::{log, operator, outcome, output, patience, saved_policy, signals};
 
 /// Distributed reinforcement learning for humanoid robots.
 ///
@@ -78,6 +82,13 @@ enum Command {
     Certs(certs::CertsArgs),
     /// Measure speed.
     Bench(bench::BenchArgs),
+    /// Look for what is wrong with this machine, or with the way to a learner, and tell what to do.
+    Check(check::CheckArgs),
+}
+
+/// Whether this build has a subcommand.
+fn has_command(name: &str) -> bool {
+    Cli::command().find_subcommand(name).is_some()
 }
 
 fn main() -> ExitCode {
@@ -101,6 +112,7 @@ fn main() -> ExitCode {
         Command::Router(args) => router::run(args),
         Command::Certs(args) => certs::run(&args),
         Command::Bench(args) => bench::run(args),
+        Command::Check(args) => return check::run(args),
     };
     outcome::exit_code(done)
 }

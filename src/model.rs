@@ -9,7 +9,7 @@ use std::{
 use clap::Args;
 use treadmill_actor::settings;
 use treadmill_common::config::{Config, ConfigSource, EnvConfig, EnvObservation, Symmetry};
-use treadmill_humanoid::{Environment, HUMANOID_XML, ModelError, read_model_file};
+use treadmill_humanoid::{Environment, HUMANOID_XML, Model, ModelError, read_model_file};
 use treadmill_learner::mirror::{Exchange, Mirror};
 
 use crate::outcome::Usage;
@@ -63,6 +63,12 @@ pub fn environment(config: &Config, text: &str, file: Option<&Path>) -> Result<E
         check_height(&config.env, environment.physics().model().nominal_position()[2], path)?;
     }
     Ok(environment)
+}
+
+/// What the entries of an action are called; nothing where no model says.
+pub fn action_names(text: &str) -> Vec<String> {
+    let model = Model::from_mjcf(text).ok();
+    model.map(|model| model.motors.iter().map(|motor| motor.name.clone()).collect()).unwrap_or_default()
 }
 
 /// The mirror that `ppo.symmetry` asks for.

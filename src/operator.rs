@@ -1,6 +1,6 @@
-//! What `status`, `control` and the viewer share: where the learner is, and patience until it answers.
+//! What `status`, `control`, `check` and the viewer share: where the learner is, and patience until it answers.
 
-use std::time::Duration;
+use std::{path::PathBuf, time::Duration};
 
 use anyhow::Context;
 use clap::Args;
@@ -10,7 +10,7 @@ use treadmill_common::{
 };
 use treadmill_proto::{ControlReply, ident::check_ident};
 
-use crate::{network::NetworkArgs, outcome::Usage};
+use crate::{network::NetworkArgs, outcome::Usage, patience::Step};
 
 /// Where a learner listens unless told otherwise.
 const DEFAULT_ENDPOINT: &str = "tcp/127.0.0.1:7447";
@@ -27,31 +27,30 @@ const RETRY: Duration = Duration::from_millis(100);
 pub struct ReachArgs {
     /// A run's folder, or its name below runs/: its learner runs on this machine, and its endpoint is in there.
     #[arg(value_name = "RUN", conflicts_with = "connect")]
-    folder: Option<String>,
+    pub folder: Option<String>,
     /// Where the learner or a router listens; may be repeated. By default tcp/127.0.0.1:7447.
     #[arg(long, value_name = "ENDPOINT")]
-    connect: Vec<String>,
+    pub connect: Vec<String>,
     /// The run's name on the bus; may be left out where there is only one.
     #[arg(long, value_name = "NAME")]
-    run: Option<String>,
+    pub run: Option<String>,
+    /// How links are protected, and how they are found.
     #[command(flatten)]
-    network: NetworkArgs,
+    pub network: NetworkArgs,
 }
 
 impl ReachArgs {
-    /// The RUN that was named.
+    /// The log of the run whose folder was given.
     #[must_use]
-    pub fn named(&self) -> Option<&str> {
-        self.folder.as_deref()
+    pub fn log(&self) -> Option<PathBuf> {
+        RunFolder::open(self.folder.as_ref()?).ok().map(|folder| folder.metrics())
     }
 
-    /// Whether plain text beyond this machine is allowed.
-    #[must_use]
-    pub fn is_insecure(&self) -> bool {
-        self.network.insecure
-    }
-
-    fn options(&self, role: Role) -> anyhow::Result<BusOptions> {
+    /// The endpoints that were named, or that the run's folder names now: a learner that was started anew may listen elsewhere.
+    ///
+    /// # Errors
+    /// If the run's folder is not there or does not say where the run listens.
+    pub fn named_endpoints(&self) -> anyhow::Result<Vec<String>> {
         let mut connect = self.connect.clone();
         if let Some(folder) = &self.folder {
             let folder = RunFolder::open(folder)?;
@@ -62,9 +61,27 @@ impl ReachArgs {
             let here = |line: &str| line.replace("/0.0.0.0:", "/127.0.0.1:").replace("/[::]:", "/[::1]:");
             connect.extend(text.lines().next().map(here));
         }
+        Ok(connect)
+    }
+
+    /// Where to dial.
+    ///
+    /// # Errors
+    /// As [`Self::named_endpoints`].
+    pub fn endpoints(&self) -> anyhow::Result<Vec<String>> {
+        let mut connect = self.named_endpoints()?;
         if connect.is_empty() {
             connect.push(DEFAULT_ENDPOINT.to_string());
         }
+        Ok(connect)
+    }
+
+    /// How to reach the bus. Called before any thread is started, see [`NetworkArgs::options`].
+    ///
+    /// # Errors
+    /// If endpoint, name or certificates are not acceptable.
+    pub fn options(&self, role: Role) -> anyhow::Result<BusOptions> {
+        let connect = self.endpoints()?;
         if let Some(run) = &self.run {
             check_ident("run", run).map_err(|why| Usage(why.to_string()))?;
         }
@@ -82,25 +99,29 @@ impl ReachArgs {
 }
 
 /// Joins the bus as an observer or operator and does `work` there, with the run's name where one was given.
+///
+/// # Errors
+/// If the bus cannot be joined, or the work fails.
 pub fn on_the_bus(
     reach: &ReachArgs,
     role: Role,
     work: impl AsyncFnOnce(Bus, Option<String>) -> anyhow::Result<()>,
 ) -> anyhow::Result<()> {
-    let options = reach.options(role)?;
-    let where_to = options.connect.join(", ");
+    joined(reach.options(role)?, async |bus| work(bus, reach.run.clone()).await)
+}
+
+/// Joins the bus and does `work` there.
+///
+/// # Errors
+/// If the bus cannot be joined, or the work fails.
+pub fn joined(options: BusOptions, work: impl AsyncFnOnce(Bus) -> anyhow::Result<()>) -> anyhow::Result<()> {
     let runtime =
         tokio::runtime::Builder::new_multi_thread().worker_threads(2).enable_all().build().context("no runtime")?;
     let outcome = runtime.block_on(async {
-        let opened = tokio::task::spawn_blocking(move || Bus::open_client(&options));
-        let Ok(bus) = tokio::time::timeout(DIAL_TIMEOUT, opened).await else {
-            anyhow::bail!(
-                "nobody answers at {where_to}; is the learner up? --connect names another endpoint, and the run's folder has \
-                 it in endpoint.txt"
-            );
-        };
-        let bus = bus??;
-        let outcome = work(bus.clone(), reach.run.clone()).await;
+        let step = Step::begin(format!("dialling {}", options.connect.join(", ")));
+        let bus = dial(options).await?;
+        drop(step);
+        let outcome = work(bus.clone()).await;
         bus.close();
         outcome
     });
@@ -109,7 +130,26 @@ pub fn on_the_bus(
     outcome
 }
 
+/// A session on the bus.
+///
+/// # Errors
+/// If nobody answers soon.
+pub async fn dial(options: BusOptions) -> anyhow::Result<Bus> {
+    let where_to = options.connect.join(", ");
+    let opened = tokio::task::spawn_blocking(move || Bus::open_client(&options));
+    let Ok(bus) = tokio::time::timeout(DIAL_TIMEOUT, opened).await else {
+        anyhow::bail!(
+            "nobody answers at {where_to}; is the learner up? --connect names another endpoint, and the run's folder has it \
+             in endpoint.txt"
+        );
+    };
+    Ok(bus??)
+}
+
 /// Asks again for a moment where nobody answers: a router may not know yet who is behind it.
+///
+/// # Errors
+/// If asking fails.
 pub async fn until_answered(
     mut ask: impl AsyncFnMut() -> Result<Vec<ControlReply>, BusError>,
 ) -> anyhow::Result<Vec<ControlReply>> {

@@ -20,7 +20,7 @@ use treadmill_learner::{
 use treadmill_proto::Task;
 pub use treadmill_rl::network::NetworkArgs;
 
-use crate::{model, outcome::Usage};
+use crate::{model, outcome::Usage, patience::Step};
 
 /// Flags that say what a run is; they make no sense together with `--resume`, which has them saved.
 #[derive(Args, Clone, Debug, Default)]
@@ -217,6 +217,7 @@ fn begin(
 
 fn resume(command: Command, run: &str, any: &AnyRunArgs, device: Device) -> anyhow::Result<Prepared> {
     let folder = RunFolder::open(run)?;
+    let _step = Step::begin(format!("loading the checkpoint of {}", folder.root().display()));
     let mut state = checkpoint::load(&folder, any.checkpoint.unwrap_or(Which::Latest))?;
     let mut config = state.config().map_err(anyhow::Error::msg)?;
     check_external(command, &config, any)?;
@@ -244,16 +245,35 @@ fn write_run_files(prepared: &Prepared) -> std::io::Result<()> {
         write(folder.root().join("model.xml"), text)?;
     }
     let mut commands = fs::OpenOptions::new().create(true).append(true).open(folder.root().join("command.txt"))?;
-    writeln!(commands, "{}", std::env::args().map(|part| quoted(&part)).collect::<Vec<_>>().join(" "))?;
-    let versions = json!({
-        "treadmill": env!("CARGO_PKG_VERSION"),
-        "checkpoint_format": checkpoint::encoding::FORMAT,
-        "os": std::env::consts::OS,
-        "architecture": std::env::consts::ARCH,
-        "cpu": machine::cpu_name(),
-        "cores": machine::cores(),
-    });
-    write(folder.root().join("versions.json"), &format!("{versions:#}\n"))
+    writeln!(commands, "{}", command_line())?;
+    let versions: serde_json::Map<_, _> = facts().into_iter().map(|(name, value)| (name.to_string(), value)).collect();
+    write(folder.root().join("versions.json"), &format!("{:#}\n", json!(versions)))
+}
+
+/// This process's command line as a shell would take it.
+pub fn command_line() -> String {
+    std::env::args().map(|part| quoted(&part)).collect::<Vec<_>>().join(" ")
+}
+
+/// What this program and this machine are.
+fn facts() -> [(&'static str, serde_json::Value); 6] {
+    [
+        ("treadmill", env!("CARGO_PKG_VERSION").into()),
+        ("checkpoint_format", checkpoint::encoding::FORMAT.into()),
+        ("os", std::env::consts::OS.into()),
+        ("architecture", std::env::consts::ARCH.into()),
+        ("cpu", machine::cpu_name().into()),
+        ("cores", machine::cores().into()),
+    ]
+}
+
+/// The same as text, with the host and the run's seed.
+pub fn versions(config: &Config) -> Vec<(String, String)> {
+    let plain = |value: serde_json::Value| value.as_str().map_or_else(|| value.to_string(), str::to_string);
+    let mut versions: Vec<_> = facts().into_iter().map(|(name, value)| (name.to_string(), plain(value))).collect();
+    versions.push(("host".to_string(), machine::host_name()));
+    versions.push(("seed".to_string(), config.run.seed.to_string()));
+    versions
 }
 
 /// A part of a command line as a shell would take it.

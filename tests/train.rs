@@ -31,6 +31,18 @@ fn a_run_leaves_everything_a_user_looks_for() {
         (&"run".into(), &8192.into(), &0.into())
     );
     assert_eq!(summary["updates"], 16);
+    let told = stdout(&output);
+    for part in [
+        "learns    to go forward and not to fall, in 8192 env steps (16 updates)",
+        "watch     treadmill status --watch ",
+        "film      treadmill eval ",
+        "resume    treadmill train --resume ",
+        "\nafter ",
+        "reached: return ",
+        "see how far it walks: treadmill eval ",
+    ] {
+        assert!(told.contains(part), "`{part}` is missing in: {told}");
+    }
 
     for file in [
         "config.toml",
@@ -46,9 +58,10 @@ fn a_run_leaves_everything_a_user_looks_for() {
     assert!(fs::read_to_string(run.join("command.txt")).unwrap().contains("train --preset smoke"));
     assert!(fs::read(run.join("learning_curve.png")).unwrap().starts_with(b"\x89PNG"));
     let events = fs::read_dir(&run).unwrap().flatten();
+    // One, and one that says how the run ended.
     assert_eq!(
         events.filter(|entry| entry.file_name().to_string_lossy().starts_with("events.out.tfevents.")).count(),
-        1
+        2
     );
     let metrics = metrics(&run);
     for tag in [
@@ -71,6 +84,39 @@ fn a_run_leaves_everything_a_user_looks_for() {
         assert!(documented.contains(&format!("| `{tag}` |")), "docs/metrics.md does not explain {tag}");
     }
     assert_eq!(last_value(&run, "bus/policy_lag_max"), Some(0.0), "actors keep step with the learner");
+}
+
+#[test]
+fn a_picture_of_learning_is_there_long_before_the_end() {
+    let (folder, run_folder) = folders();
+    let path = run_folder.to_str().unwrap();
+    let mut command = treadmill(folder.path());
+    command.args(["train", "--preset", "smoke", "--steps", "1000000000", "--run-dir", path]).env("LC_ALL", "C.UTF-8");
+    let running = Running::start(command);
+    let line = running.wait_for("after ");
+    for part in ["return ", "distance ", "farthest ", "▁", "█"] {
+        assert!(line.contains(part), "`{part}` is missing in: {line}");
+    }
+    let png = run_folder.join("learning_curve.png");
+    await_that("a picture of the learning curve", || fs::read(&png).ok().filter(|png| png.starts_with(b"\x89PNG")));
+    assert!(is_running(running.pid()), "the run is not over");
+    running.signal(libc::SIGTERM);
+    assert!(running.wait().0.success());
+}
+
+#[test]
+fn who_waits_says_for_what_and_who_wants_no_progress_gets_none() {
+    let (folder, run_folder) = folders();
+    let path = run_folder.to_str().unwrap();
+    let mut command = treadmill(folder.path());
+    command.args(["learner", "--preset", "smoke", "--listen", "tcp/127.0.0.1:0", "--run-dir", path]);
+    let learner = Running::start(command);
+    learner.wait_for("waiting for experience since 2s: no actor is there yet");
+    learner.signal(libc::SIGTERM);
+    assert!(learner.wait().0.success());
+    let (quiet_folder, quiet) = folders();
+    let output = smoke(quiet_folder.path(), &quiet, &["--no-progress"]);
+    assert!(output.status.success() && !stdout(&output).contains("\nafter "), "{}", stdout(&output));
 }
 
 #[test]

@@ -39,8 +39,26 @@ pub fn time_unix_s() -> f64 {
     std::time::SystemTime::now().duration_since(std::time::UNIX_EPOCH).map_or(0.0, |since| since.as_secs_f64())
 }
 
+/// Whether the locale says that text is UTF-8, so that more than ASCII can be shown: the first of these variables that is
+/// set decides, as POSIX has it.
+pub fn is_utf8_locale() -> bool {
+    is_utf8(["LC_ALL", "LC_CTYPE", "LANG"].into_iter().filter_map(|name| std::env::var(name).ok()))
+}
+
+fn is_utf8(mut set: impl Iterator<Item = String>) -> bool {
+    let locale = set.find(|value| !value.is_empty()).unwrap_or_default().to_lowercase();
+    locale.contains("utf-8") || locale.contains("utf8")
+}
+
 #[cfg(test)]
 mod tests {
+    #[test]
+    fn the_first_variable_that_says_something_decides() {
+        let is_utf8 = |set: &[&str]| super::is_utf8(set.iter().map(ToString::to_string));
+        assert!(is_utf8(&["", "de_DE.UTF-8", "C"]) && is_utf8(&["C.utf8"]));
+        assert!(!is_utf8(&[]) && !is_utf8(&["C", "de_DE.UTF-8"]) && !is_utf8(&["POSIX"]));
+    }
+
     #[test]
     fn the_machine_has_a_name_and_a_core() {
         assert!(!super::cpu_name().is_empty());

@@ -16,6 +16,7 @@
 //! - [`room`]: waiting for a disk that is full.
 //! - [`accounts`]: what became of every actor process's fragments, as a file.
 //! - [`scalars`]: what is logged after each update.
+//! - [`histograms`]: how actions and lags are spread.
 //! - [`report`]: every place it goes to.
 //! - [`logging`]: where it is logged to.
 //!
@@ -27,6 +28,7 @@ pub mod control;
 pub mod episodes;
 pub mod experience;
 pub mod gae;
+pub mod histograms;
 pub mod intake;
 pub mod logging;
 pub mod mirror;

@@ -1,19 +1,18 @@
 //! One scalar, every place it goes to: screen, TensorBoard, `metrics.jsonl`, the bus, Prometheus.
 
-use std::collections::HashMap;
+use std::{collections::HashMap, time::Duration};
 
 use treadmill_common::{
     bus::{Bus, keys, publish_dropping},
     config::Config,
     machine,
-    run_folder::RunFolder,
     shutdown::Shutdown,
 };
 use treadmill_proto::json::Metric;
 
 use crate::{
     checkpoint::TrainingState,
-    logging::{Console, EventWriter, Exposition, JsonLines, draw_curve},
+    logging::{Console, CurveArtist, EventWriter, Exposition, Histogram, History, JsonLines, tensorboard::texts},
     room::wait_for_room,
     training::{TrainingError, TrainingOptions},
 };
@@ -25,7 +24,7 @@ type Publish = Box<dyn Fn(Vec<u8>) + Send>;
 pub struct Report {
     run: String,
     bus: Bus,
-    folder: RunFolder,
+    artist: CurveArtist,
     console: Console,
     lines: JsonLines,
     events: EventWriter,
@@ -52,12 +51,20 @@ impl Report {
         if env_steps > 0 {
             events.resume(env_steps + 1, now)?;
         }
-        events.text("config", &format!("```toml\n{}\n```", state.config_toml))?;
+        events.hyperparameters(config, now)?;
+        // What holds from this step on; TensorBoard shows the older ones beside it.
+        for (tag, text) in [
+            ("config", texts::configuration(config)),
+            ("command", texts::command(&options.command)),
+            ("versions", texts::facts(&options.versions)),
+        ] {
+            events.text(env_steps, now, tag, &text)?;
+        }
         Ok(Self {
+            artist: CurveArtist::new(folder.metrics(), folder.learning_curve()),
             run: state.run.clone(),
             bus: bus.clone(),
             console: Console::new(config.run.steps, env_steps, options.show_progress),
-            folder,
             lines,
             events,
             exposition: options.exposition.clone(),
@@ -82,6 +89,7 @@ impl Report {
         env_steps: u64,
         updates: u64,
         scalars: &[(String, f64)],
+        history: &History,
         shutdown: &Shutdown,
     ) -> std::io::Result<()> {
         let time_unix_s = machine::time_unix_s();
@@ -102,11 +110,28 @@ impl Report {
         for metric in &metrics {
             self.publish(metric);
         }
-        self.console.progress(env_steps);
+        self.console.progress(env_steps, history);
+        self.artist.look();
         if updates.is_multiple_of(self.table_every_updates) {
             self.console.table(scalars);
         }
         Ok(())
+    }
+
+    /// Logs histograms, which TensorBoard alone shows.
+    pub fn log_histograms(
+        &mut self,
+        env_steps: u64,
+        histograms: &[(String, Histogram)],
+        shutdown: &Shutdown,
+    ) -> std::io::Result<()> {
+        let time_unix_s = machine::time_unix_s();
+        wait_for_room(shutdown, || self.events.histograms(env_steps, time_unix_s, histograms))
+    }
+
+    /// Says that experience is waited for, where that takes long; `actors` are alive.
+    pub fn waiting(&mut self, waited: Duration, actors: usize) {
+        self.console.waiting(waited, actors);
     }
 
     /// One publisher for each tag, declared once: a declared key costs memory for as long as the session lives.
@@ -120,9 +145,20 @@ impl Report {
         self.publishers[&metric.tag](metric.to_json());
     }
 
+    /// Notes how the run ended: whether it was stopped before its last step, or nothing where it failed. One that was stopped
+    /// may go on, so nothing is said of it.
+    pub fn end(&self, stopped: Option<bool>) {
+        if stopped == Some(true) {
+            return;
+        }
+        if let Err(why) = self.events.end(stopped.is_some(), machine::time_unix_s()) {
+            tracing::warn!("TensorBoard is not told how the run ended: {why}");
+        }
+    }
+
     /// Ends the bar and draws the learning curve.
-    pub fn finish(&mut self) -> Result<(), TrainingError> {
-        self.console.finish();
-        Ok(draw_curve(&self.folder.metrics(), &self.folder.learning_curve())?)
+    pub fn finish(&mut self, history: &History) -> Result<(), TrainingError> {
+        self.console.finish(history);
+        Ok(self.artist.finish()?)
     }
 }

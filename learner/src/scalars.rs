@@ -8,7 +8,7 @@ use std::{
 use treadmill_common::{bus::forbidden_messages, config::Config, machine};
 use treadmill_proto::ActorStats;
 
-use crate::{checkpoint::TrainingState, intake::Accepted, ppo::UpdateStats, trial::Verdict};
+use crate::{checkpoint::TrainingState, intake::Accepted, logging::History, ppo::UpdateStats, trial::Verdict};
 
 /// How long the parts of one round took.
 #[derive(Clone, Copy, Debug, Default)]
@@ -127,6 +127,8 @@ pub struct Round<'a> {
     pub durations: Durations,
     /// What an evaluation gave, where one has just ended.
     pub verdict: Option<&'a Verdict>,
+    /// What the run has reached so far, this round included.
+    pub history: &'a History,
     /// What the last rounds were like.
     pub throughput: Throughput,
     /// Who is alive.
@@ -162,6 +164,7 @@ impl Round<'_> {
                 ("rollout/fall_fraction", means.fall_fraction),
             ]);
         }
+        out.extend(self.history.distance_best_m.map(|best_m| ("rollout/distance_best_m", best_m)));
         out.push(("rollout/episodes", self.state.episodes.finished as f64));
     }
 
@@ -230,6 +233,7 @@ impl Round<'_> {
             ("eval/std_reward", report.return_std),
             ("eval/mean_ep_length", report.length_mean),
             ("eval/distance_mean_m", report.distance_mean_m),
+            ("eval/distance_best_m", self.history.evaluated_best_m.unwrap_or(report.distance_mean_m)),
             ("eval/velocity_mean_mps", report.velocity_mean_mps),
             ("eval/fall_fraction", f64::from(report.falls) / f64::from(report.episodes)),
             ("eval/total_timesteps", *env_steps as f64),

@@ -26,9 +26,9 @@ use crate::{
     accounts,
     checkpoint::{Saver, TrainingState},
     control::Control,
-    experience,
+    experience, histograms,
     intake::{Accepted, BusMailbox, Collected, Gathered, Intake},
-    logging::Exposition,
+    logging::{Exposition, History},
     mirror::Mirror,
     pace::Pace,
     ppo::{UpdateError, UpdateStats, Updater},
@@ -55,6 +55,12 @@ pub struct TrainingOptions {
     pub exposition: Exposition,
     /// Where training shows that it goes on.
     pub pulse: Pulse,
+    /// The command line of this start, and what versions and machine it runs with, for those who look at the run later.
+    pub command: String,
+    /// Names and values.
+    pub versions: Vec<(String, String)>,
+    /// What the entries of an action are called; their numbers where there are too few names.
+    pub action_names: Vec<String>,
 }
 
 /// What came of a run.
@@ -68,6 +74,8 @@ pub struct Summary {
     pub env_steps: u64,
     /// Whether somebody asked to stop before the last step.
     pub stopped: bool,
+    /// The greatest mean distance, of an evaluation or in training, in metres.
+    pub farthest_m: Option<f64>,
 }
 
 /// Trains until the run has its steps or somebody asks to stop. Blocks: give it a thread of its own.
@@ -79,13 +87,24 @@ pub fn train(
 ) -> Result<Summary, TrainingError> {
     let (begun, steps_before) = (Instant::now(), state.counters.env_steps);
     let mut trainer = Trainer::start(bus, state, options, shutdown)?;
-    let mut stopped = false;
+    let outcome = go_on(&mut trainer, shutdown);
+    trainer.report.end(outcome.as_ref().ok().copied());
+    let stopped = outcome?;
+    trainer.finish()?;
+    Ok(Summary {
+        wall_s: begun.elapsed().as_secs_f64(),
+        env_steps: trainer.state.counters.env_steps - steps_before,
+        stopped,
+        farthest_m: trainer.history.farthest_m(),
+        state: trainer.state,
+    })
+}
+
+/// Round after round; whether somebody asked to stop before the last step.
+fn go_on(trainer: &mut Trainer, shutdown: &Shutdown) -> Result<bool, TrainingError> {
     while trainer.state.counters.env_steps < trainer.config.run.steps {
         let round_begun = Instant::now();
-        let Some(gathered) = trainer.collect(shutdown) else {
-            stopped = true;
-            break;
-        };
+        let Some(gathered) = trainer.collect(shutdown) else { return Ok(true) };
         let collect = round_begun.elapsed();
         let batch = &gathered.fragments;
         let update = trainer.update(batch)?;
@@ -102,14 +121,7 @@ pub fn train(
         trainer.pace.heed(&gathered);
         trainer.tell(shutdown, true);
     }
-    trainer.finish()?;
-    let state = trainer.state;
-    Ok(Summary {
-        wall_s: begun.elapsed().as_secs_f64(),
-        env_steps: state.counters.env_steps - steps_before,
-        stopped,
-        state,
-    })
+    Ok(false)
 }
 
 struct Trainer {
@@ -130,6 +142,9 @@ struct Trainer {
     paused: bool,
     saver: Saver,
     report: Report,
+    /// What the run has reached so far.
+    history: History,
+    action_names: Vec<String>,
     speed: Speed,
     /// For how long the present batch was waited for.
     waited: Duration,
@@ -160,7 +175,10 @@ impl Trainer {
             self.waited += begun.elapsed();
             match collected {
                 Collected::Batch(gathered) => return Some(gathered),
-                Collected::Interrupted => self.tell_if_due(shutdown),
+                Collected::Interrupted => {
+                    self.tell_if_due(shutdown);
+                    self.report.waiting(self.waited, self.intake.alive().len());
+                }
                 Collected::Stopped => return None,
             }
         }
@@ -296,6 +314,10 @@ impl Trainer {
         (self.env_steps_per_s, self.lag_mean) = (throughput.env_steps_per_s, lag.mean);
         let stats = self.stats.newest();
         self.exposition.take_actors(stats, self.state.lineage.newest());
+        let means = self.state.episodes.means();
+        let (return_mean, distance_m) =
+            (means.as_ref().map(|m| m.return_mean), means.as_ref().map(|m| m.distance_mean_m));
+        self.history.take(return_mean, distance_m, verdict.map(|verdict| verdict.report.distance_mean_m));
         let round = Round {
             state: &self.state,
             config: &self.config,
@@ -304,6 +326,7 @@ impl Trainer {
             epochs: self.pace.epochs(),
             durations,
             verdict,
+            history: &self.history,
             throughput,
             stats,
             alive: &alive,
@@ -311,14 +334,19 @@ impl Trainer {
             turned_away: self.intake.judge().turned_away(),
         };
         let scalars = round.scalars();
-        Ok(self.report.log(env_steps, self.state.counters.updates, &scalars, &self.shutdown)?)
+        let updates = self.state.counters.updates;
+        if histograms::is_due(updates) {
+            let histograms = histograms::of(batch, &self.action_names);
+            self.report.log_histograms(env_steps, &histograms, &self.shutdown)?;
+        }
+        Ok(self.report.log(env_steps, updates, &scalars, &self.history, &self.shutdown)?)
     }
 
     fn finish(&mut self) -> Result<(), TrainingError> {
         self.intake.stop(&self.state.lineage);
         // The state's own ledger: what the last checkpoint holds, and not what was taken since.
         accounts::write(&self.accounts, &self.state.ledger)?;
-        self.report.finish()?;
+        self.report.finish(&self.history)?;
         Ok(())
     }
 }

@@ -54,6 +54,12 @@ mod wire_onnx {
     include!(concat!(env!("OUT_DIR"), "/treadmill.onnx.rs"));
 }
 
+/// Structures generated from `tensorboard/*.proto`.
+#[allow(missing_docs, unreachable_pub, clippy::all)]
+mod wire_tensorboard {
+    include!(concat!(env!("OUT_DIR"), "/treadmill.tensorboard.rs"));
+}
+
 pub use actor_state::ActorState;
 pub use bundle::{PolicyAnnouncement, PolicyBundle, PolicyVersion};
 pub use control::{ActorStatus, Command, ControlReply, ControlRequest, Phase, RunStatus};

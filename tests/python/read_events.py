@@ -1,44 +1,87 @@
 #!/usr/bin/env python3
-"""Reads a folder's event files as TensorBoard does and prints JSON: {tag: [[step, value], ...]}.
+"""Reads a folder's event files as TensorBoard does and prints JSON.
 
 Usage: read_events.py FOLDER    (needs the PyPI package `tensorboard`)
 
-Scalars have numbers as values, texts have strings. Exit code 2 means wrong usage.
+{"points": {tag: [[step, value], ...]}, "histograms": {tag: [[step, rows], ...]}, "hparams": {...}}: scalars have numbers
+as values, texts have strings, histograms have rows of left edge, right edge and count. "hparams" is what the HPARAMS tab
+shows of the folder as a log directory with this one run: columns, and for each session its values, status and metrics.
+Exit code 2 means wrong usage.
 """
 
 import json
 import sys
 from pathlib import Path
 
-from tensorboard.backend.event_processing import event_accumulator
+from tensorboard.backend.event_processing import data_provider, event_accumulator, plugin_event_multiplexer
+from tensorboard.context import RequestContext
+from tensorboard.plugins import base_plugin
+from tensorboard.plugins.histogram import metadata as histogram_metadata
+from tensorboard.plugins.hparams import api_pb2, backend_context, get_experiment, list_session_groups
+from tensorboard.plugins.text import metadata as text_metadata
+from tensorboard.util import tensor_util
 
 EVERYTHING = 0
 SIZES = {event_accumulator.SCALARS: EVERYTHING, event_accumulator.TENSORS: EVERYTHING}
 
 
-def is_text(accumulator, tag):
-    return accumulator.SummaryMetadata(tag).plugin_data.plugin_name == "text"
-
-
 def read(folder):
-    """Every scalar and text in a folder; several event files count as one run, as in TensorBoard."""
+    """Scalars and texts, and histograms; several event files count as one run, as in TensorBoard."""
     accumulator = event_accumulator.EventAccumulator(str(folder), size_guidance=SIZES)
     accumulator.Reload()
     tags = accumulator.Tags()
-    points = {}
+    points, histograms = {}, {}
     for tag in tags[event_accumulator.SCALARS]:
         points[tag] = [[event.step, event.value] for event in accumulator.Scalars(tag)]
     for tag in tags[event_accumulator.TENSORS]:
-        if is_text(accumulator, tag):
-            points[tag] = [[event.step, event.tensor_proto.string_val[0].decode()] for event in accumulator.Tensors(tag)]
-    return points
+        data = accumulator.SummaryMetadata(tag).plugin_data
+        events = accumulator.Tensors(tag)
+        if data.plugin_name == text_metadata.PLUGIN_NAME:
+            text_metadata.parse_plugin_metadata(data.content)
+            points[tag] = [[event.step, event.tensor_proto.string_val[0].decode()] for event in events]
+        elif data.plugin_name == histogram_metadata.PLUGIN_NAME:
+            histogram_metadata.parse_plugin_metadata(data.content)
+            read_rows = lambda event: tensor_util.make_ndarray(event.tensor_proto).tolist()
+            histograms[tag] = [[event.step, read_rows(event)] for event in events]
+    return points, histograms
+
+
+def hparams(logdir):
+    """What TensorBoard's own HPARAMS tab makes of a log directory."""
+    multiplexer = plugin_event_multiplexer.EventMultiplexer().AddRunsFromDirectory(str(logdir))
+    multiplexer.Reload()
+    provider = data_provider.MultiplexerDataProvider(multiplexer, str(logdir))
+    context = backend_context.Context(base_plugin.TBContext(data_provider=provider, logdir=str(logdir)))
+    experiment = get_experiment.Handler(RequestContext(), context, "", api_pb2.GetExperimentRequest()).run()
+    request = api_pb2.ListSessionGroupsRequest(
+        start_index=0,
+        slice_size=100,
+        allowed_statuses=[api_pb2.STATUS_UNKNOWN, api_pb2.STATUS_SUCCESS, api_pb2.STATUS_FAILURE, api_pb2.STATUS_RUNNING],
+        col_params=[api_pb2.ColParams(metric=info.name) for info in experiment.metric_infos],
+    )
+    groups = list_session_groups.Handler(RequestContext(), context, "", request).run().session_groups
+    value = lambda entry: getattr(entry, entry.WhichOneof("kind"))
+    return {
+        "columns": [info.name for info in experiment.hparam_infos],
+        "metrics": [info.name.tag for info in experiment.metric_infos],
+        "sessions": [
+            {
+                "hparams": {name: value(entry) for name, entry in group.hparams.items()},
+                "status": [api_pb2.Status.Name(session.status) for session in group.sessions],
+                "metrics": {entry.name.tag: entry.value for entry in group.metric_values},
+            }
+            for group in groups
+        ],
+    }
 
 
 def main():
     if len(sys.argv) != 2 or not Path(sys.argv[1]).is_dir():
         print(__doc__, file=sys.stderr)
         sys.exit(2)
-    print(json.dumps(read(Path(sys.argv[1]))))
+    folder = Path(sys.argv[1])
+    points, histograms = read(folder)
+    print(json.dumps({"points": points, "histograms": histograms, "hparams": hparams(folder.parent)}))
 
 
 if __name__ == "__main__":

@@ -90,7 +90,7 @@ fn main() -> ExitCode {
 }
 
 fn play(cli: &Cli) -> anyhow::Result<()> {
-    let Some(run) = cli.reach.named() else {
+    let Some(run) = cli.reach.folder.as_deref() else {
         let why =
             "watch needs a RUN, as in `treadmill watch runs/walk-1`; or --live and, from another machine, --connect";
         return Err(Usage(why.to_string()).into());
@@ -115,7 +115,7 @@ fn live(cli: &Cli) -> anyhow::Result<()> {
 }
 
 fn set_up(cli: &Cli, name: &str, model: Model, pace: Pace) -> anyhow::Result<(Screen, Stage)> {
-    let screen = cli.screen.open(name, cli.reach.is_insecure())?;
+    let screen = cli.screen.open(name, cli.reach.network.insecure)?;
     let stage = Stage::new(screen.recording().clone(), model);
     let followed = (!cli.no_follow).then(|| stage.torso());
     layout::send(screen.recording(), followed, pace)?;

@@ -14,8 +14,10 @@
 //! | `fused` | both networks as one Candle operation with its own gradient |
 //! | `plain` | the same networks from Candle's own operations: the reference for tests, and what runs on a GPU |
 //! | `networks` | [`Networks`]: which of the two runs where |
+//! | `agreement` | whether both say the same on this processor |
 //! | `inference` | [`Policy`]: what an actor evaluates |
 
+pub mod agreement;
 mod elementwise;
 mod fused;
 pub mod gaussian;

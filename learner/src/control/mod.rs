@@ -15,7 +15,10 @@ use std::{
     time::{Duration, Instant},
 };
 
-use treadmill_common::bus::{AliveView, Bus, BusError, ControlDesk, Inquiry, StatsFeed};
+use treadmill_common::{
+    bus::{AliveView, Bus, BusError, ControlDesk, Inquiry, StatsFeed},
+    machine,
+};
 use treadmill_proto::{Command, ControlReply, RunStatus};
 
 use roster::Roster;
@@ -140,6 +143,7 @@ impl Board {
     fn reply(&self, done: bool, text: String) -> ControlReply {
         let newest = self.status.version.unwrap_or_default();
         let status = RunStatus {
+            time_unix_s: machine::time_unix_s(),
             since_update_s: self.updated.elapsed().as_secs_f64(),
             actors: self.roster.actors(newest, &self.quarantined, Instant::now()),
             ..self.status.clone()

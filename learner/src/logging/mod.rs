@@ -5,24 +5,32 @@
 //! - [`table`]: scalars as text, pure functions.
 //! - [`jsonl`]: [`JsonLines`], `metrics.jsonl`.
 //! - [`tensorboard`]: [`EventWriter`], `events.out.tfevents.…`.
+//! - [`history`]: [`History`], how return and distance developed, in few points.
+//! - [`sparkline`]: a curve in one line of text.
 //! - [`exposition`]: [`Exposition`], the newest values as Prometheus reads them.
 //! - [`curve`]: [`draw_curve`], the learning curve as a PNG, drawn from `metrics.jsonl`.
+//! - [`artist`]: [`CurveArtist`], who draws it now and then while training goes on.
 //!
 //! None of these reads the clock for what it writes: the caller says when a scalar was measured. Only [`Console`]
 //! looks at it, for the speed it shows.
 
+pub mod artist;
 pub mod curve;
 pub mod exposition;
+pub mod history;
 pub mod jsonl;
 pub mod progress;
+pub mod sparkline;
 pub mod table;
 pub mod tensorboard;
 
+pub use artist::CurveArtist;
 pub use curve::{CurveError, draw_curve};
 pub use exposition::Exposition;
+pub use history::History;
 pub use jsonl::JsonLines;
 pub use progress::Console;
-pub use tensorboard::EventWriter;
+pub use tensorboard::{EventWriter, Histogram};
 
 use std::fs::File;
 use std::io::{self, Write};
@@ -46,5 +54,3 @@ fn append_whole(file: &mut File, bytes: &[u8]) -> io::Result<()> {
 mod curve_tests;
 #[cfg(test)]
 mod jsonl_tests;
-#[cfg(test)]
-mod tensorboard_tests;

@@ -10,12 +10,24 @@ use std::time::{Duration, Instant};
 
 use console::strip_ansi_codes;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use treadmill_common::machine;
 
-use super::Scalars;
 use super::table::{render_line, render_table};
+use super::{History, Scalars, history::Point, sparkline::sparkline};
 
 /// Between two progress lines in a log file.
 const LINE_EVERY: Duration = Duration::from_secs(10);
+
+/// The first picture of learning in a log file; each further one when the run is twice as old, or after the second time.
+const PICTURE_AFTER: Duration = Duration::from_secs(10);
+const PICTURE_EVERY_MAX: Duration = Duration::from_secs(300);
+
+/// Characters of a curve in one line.
+const CURVE_WIDTH: usize = 16;
+
+/// Waiting for experience is worth a word after this; while a run learns, only after the second time.
+const WAITING_AFTER: Duration = Duration::from_secs(2);
+const WAITING_LONG: Duration = Duration::from_secs(30);
 
 /// How far the speed looks back: long enough for several updates, short enough to follow actors that come and go.
 const SPEED_WINDOW: Duration = Duration::from_secs(60);
@@ -28,6 +40,8 @@ const SPEED_SAMPLES_MAX: usize = 32;
 
 /// The bar on a terminal. No colours, so `NO_COLOR` has nothing to switch off.
 const BAR: &str = "{percent:>3}% [{wide_bar}] {human_pos}/{human_len} steps, {msg}";
+/// The same below a picture of learning, once there is one.
+const PICTURE_AND_BAR: &str = "{prefix}\n{percent:>3}% [{wide_bar}] {human_pos}/{human_len} steps, {msg}";
 
 /// A progress bar and tables on a terminal, plain lines elsewhere.
 pub struct Console {
@@ -41,6 +55,10 @@ pub struct Console {
     total_steps: u64,
     env_steps: u64,
     line_at: Duration,
+    picture_at: Duration,
+    /// How long the batch of the moment was waited for when that was last said.
+    waited: Duration,
+    is_unicode: bool,
     finished: bool,
 }
 
@@ -75,26 +93,66 @@ impl Console {
             total_steps,
             env_steps: start_steps,
             line_at: LINE_EVERY,
+            picture_at: PICTURE_AFTER,
+            waited: Duration::ZERO,
+            is_unicode: machine::is_utf8_locale(),
             finished: false,
         }
     }
 
-    /// Where the run is now; shown with the speed and the time left.
-    pub fn progress(&mut self, env_steps: u64) {
-        self.progress_at(env_steps, self.started.elapsed());
+    /// Where the run is now; shown with the speed, the time left, and now and then a picture of how it learns.
+    pub fn progress(&mut self, env_steps: u64, history: &History) {
+        self.progress_at(env_steps, history, self.started.elapsed());
     }
 
-    fn progress_at(&mut self, env_steps: u64, elapsed: Duration) {
+    fn progress_at(&mut self, env_steps: u64, history: &History, elapsed: Duration) {
+        self.waited = Duration::ZERO;
         self.env_steps = env_steps;
         self.speed.observe(elapsed, env_steps);
         let pace = pace(self.speed.steps_per_s(), self.total_steps.saturating_sub(env_steps));
         if let Some(bar) = &self.bar {
             bar.set_position(env_steps);
             bar.set_message(pace);
+            if let Some(picture) = picture(history, self.is_unicode) {
+                if bar.prefix().is_empty() {
+                    style(bar, PICTURE_AND_BAR);
+                }
+                bar.set_prefix(picture);
+            }
         } else if self.show_progress && !self.terminal && elapsed >= self.line_at {
             self.line_at = elapsed + LINE_EVERY;
             let percent = env_steps as f64 / self.total_steps.max(1) as f64 * 100.0;
             self.write(&format!("steps={env_steps} of {} ({percent:.1}%), {pace}\n", self.total_steps));
+        }
+        if !self.terminal && elapsed >= self.picture_at {
+            self.picture_at = elapsed + elapsed.min(PICTURE_EVERY_MAX);
+            self.show(history, elapsed);
+        }
+    }
+
+    /// A line with a picture of how the run learns, where there is anything to show.
+    fn show(&mut self, history: &History, elapsed: Duration) {
+        if let Some(picture) = picture(history, self.is_unicode).filter(|_| self.show_progress) {
+            self.write(&format!("after {}: {picture}\n", clock(elapsed.as_secs())));
+        }
+    }
+
+    /// Says that experience is waited for, where that takes long, and then less and less often.
+    pub fn waiting(&mut self, waited: Duration, actors: usize) {
+        let patience = if self.speed.is_begun() { WAITING_LONG } else { WAITING_AFTER };
+        if waited < patience.max(self.waited * 2) || !self.show_progress {
+            return;
+        }
+        self.waited = waited;
+        let who = match actors {
+            0 => "no actor is there yet or any more".to_string(),
+            1 => "1 actor is there and simulates".to_string(),
+            actors => format!("{actors} actors are there and simulate"),
+        };
+        let message = format!("waiting for experience since {}: {who}", clock(waited.as_secs()));
+        match &self.bar {
+            Some(bar) => bar.set_message(message),
+            None => self.write(&format!("{message}\n")),
         }
     }
 
@@ -112,9 +170,9 @@ impl Console {
         self.write(&format!("{message}\n"));
     }
 
-    /// Takes the bar away and says how far the run came and how fast it was from start to end. Only the first call
-    /// does anything.
-    pub fn finish(&mut self) {
+    /// Takes the bar away and says how far the run came and how fast it was from start to end, with a last picture. Only the
+    /// first call does anything.
+    pub fn finish(&mut self, history: &History) {
         if std::mem::replace(&mut self.finished, true) {
             return;
         }
@@ -127,6 +185,7 @@ impl Console {
             let speed = steps as f64 / elapsed.as_secs_f64().max(f64::MIN_POSITIVE);
             let (now, total) = (self.env_steps, self.total_steps);
             self.write(&format!("steps={now} of {total}, {} at {speed:.0} steps/s\n", clock(elapsed.as_secs())));
+            self.show(history, elapsed);
         }
     }
 
@@ -150,12 +209,36 @@ impl std::fmt::Debug for Console {
 
 fn bar(total_steps: u64, start_steps: u64) -> ProgressBar {
     let bar = ProgressBar::with_draw_target(Some(total_steps), ProgressDrawTarget::stdout()).with_position(start_steps);
-    // The template is a constant; were it wrong, the default one would do.
-    if let Ok(style) = ProgressStyle::with_template(BAR) {
-        bar.set_style(style.progress_chars("=> "));
-    }
+    style(&bar, BAR);
     bar.set_message("waiting for the first steps");
     bar
+}
+
+/// Both templates are constants; were one wrong, what the bar has would do.
+fn style(bar: &ProgressBar, template: &str) {
+    if let Ok(style) = ProgressStyle::with_template(template) {
+        bar.set_style(style.progress_chars("=> "));
+    }
+}
+
+/// `return 310 ▁▃▆█ 620, distance 0.1 ▁▂▅█ 1.9 m, farthest 1.9 m`; nothing before an episode has ended.
+fn picture(history: &History, is_unicode: bool) -> Option<String> {
+    let curve = |of: fn(&Point) -> f64, decimals| {
+        let values: Vec<f64> = history.points().map(|point| of(&point)).collect();
+        let (first, last) = (values.first()?, values.last()?);
+        let line = sparkline(&values, CURVE_WIDTH, is_unicode);
+        Some(format!("{} {line} {}", rounded(*first, decimals), rounded(*last, decimals)))
+    };
+    let (returns, distances) = (curve(|point| point.return_mean, 0)?, curve(|point| point.distance_m, 1)?);
+    let farthest = history.farthest_m().map(|m| format!(", farthest {} m", rounded(m, 1))).unwrap_or_default();
+    Some(format!("return {returns}, distance {distances} m{farthest}"))
+}
+
+/// Never `-0.0`.
+fn rounded(value: f64, decimals: usize) -> String {
+    let text = format!("{value:.decimals$}");
+    let is_zero = text.bytes().all(|byte| matches!(byte, b'-' | b'0' | b'.'));
+    if is_zero { text.trim_start_matches('-').to_string() } else { text }
 }
 
 /// Steps per second over the last while. Time is given from outside.
@@ -184,6 +267,10 @@ impl Speed {
         while self.samples.len() > SPEED_SAMPLES_MAX || (self.samples.len() > 2 && outside(&self.samples[1])) {
             self.samples.pop_front();
         }
+    }
+
+    fn is_begun(&self) -> bool {
+        self.samples.len() > 1
     }
 
     /// `None` as long as nothing can be said.
@@ -216,122 +303,5 @@ fn clock(seconds: u64) -> String {
 }
 
 #[cfg(test)]
-mod tests {
-    use std::sync::{Arc, Mutex};
-
-    use super::*;
-
-    #[derive(Clone, Default)]
-    struct Captured(Arc<Mutex<Vec<u8>>>);
-
-    impl Write for Captured {
-        fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-            self.0.lock().unwrap().write(bytes)
-        }
-        fn flush(&mut self) -> io::Result<()> {
-            Ok(())
-        }
-    }
-
-    impl Captured {
-        fn text(&self) -> String {
-            String::from_utf8(self.0.lock().unwrap().clone()).unwrap()
-        }
-    }
-
-    fn seconds(seconds: u64) -> Duration {
-        Duration::from_secs(seconds)
-    }
-
-    #[test]
-    fn a_log_file_gets_plain_lines_at_most_one_on_progress_in_ten_seconds() {
-        let captured = Captured::default();
-        let mut console = Console::writing_to(Box::new(captured.clone()), 10_000, 1_000, true);
-        console.line("\u{1b}[31mactor a-0\u{1b}[0m\u{9b}2J\r\u{7} joined\u{1b}");
-        for second in 1..=20 {
-            console.progress_at(1_000 + 100 * second, seconds(second));
-        }
-        console.table(&[("rollout/ep_rew_mean".to_string(), 1.25)]);
-        assert_eq!(
-            captured.text(),
-            "actor a-0 joined\n\
-             steps=2000 of 10000 (20.0%), 100 steps/s, 1m 20s left\n\
-             steps=3000 of 10000 (30.0%), 100 steps/s, 1m 10s left\n\
-             steps=3000 rollout/ep_rew_mean=1.25\n"
-        );
-    }
-
-    #[test]
-    fn without_progress_tables_and_messages_stay() {
-        let captured = Captured::default();
-        let mut console = Console::writing_to(Box::new(captured.clone()), 0, 0, false);
-        console.progress_at(500, seconds(60));
-        console.table(&[("train/loss".to_string(), f64::NAN)]);
-        console.line("done");
-        console.finish();
-        assert_eq!(captured.text(), "steps=500 train/loss=nan\ndone\n");
-    }
-
-    #[test]
-    fn a_run_is_finished_once_and_may_have_gone_nowhere() {
-        let captured = Captured::default();
-        let mut console = Console::writing_to(Box::new(captured.clone()), 0, 7, true);
-        console.progress_at(7, Duration::ZERO);
-        console.finish();
-        console.finish();
-        let text = captured.text();
-        assert!(text.starts_with("steps=7 of 0, ") && text.ends_with(" at 0 steps/s\n"), "{text}");
-        assert_eq!(text.lines().count(), 1);
-    }
-
-    #[test]
-    fn a_closed_pipe_stops_nothing() {
-        struct Closed;
-        impl Write for Closed {
-            fn write(&mut self, _: &[u8]) -> io::Result<usize> {
-                Err(io::ErrorKind::BrokenPipe.into())
-            }
-            fn flush(&mut self) -> io::Result<()> {
-                Err(io::ErrorKind::BrokenPipe.into())
-            }
-        }
-        let mut console = Console::writing_to(Box::new(Closed), 10, 0, true);
-        console.progress_at(5, seconds(60));
-        console.table(&[]);
-        console.line("a message");
-        console.finish();
-    }
-
-    #[test]
-    fn the_speed_looks_back_over_its_window_only() {
-        let mut speed = Speed::new(0);
-        assert_eq!(speed.steps_per_s(), None);
-        let mut steps = 0;
-        for tenth in 1..=6_000u64 {
-            // Ten times as fast after five minutes.
-            steps += if tenth <= 3_000 { 10 } else { 100 };
-            speed.observe(Duration::from_millis(100 * tenth), steps);
-            assert!(speed.samples.len() <= SPEED_SAMPLES_MAX);
-        }
-        assert_eq!(speed.steps_per_s(), Some(1_000.0));
-    }
-
-    #[test]
-    fn rare_updates_still_have_a_speed() {
-        let mut speed = Speed::new(100);
-        speed.observe(seconds(200), 300);
-        speed.observe(seconds(400), 700);
-        assert_eq!(speed.steps_per_s(), Some(2.0));
-        // A clock that stands still and steps that go back do no harm.
-        speed.observe(seconds(400), 0);
-        assert_eq!(speed.steps_per_s(), Some(0.0));
-    }
-
-    #[test]
-    fn times_read_well() {
-        assert_eq!([5, 245, 11_040, 183_600].map(clock), ["5s", "4m 05s", "3h 04m", "2d 03h"]);
-        assert_eq!(pace(None, 5), "0 steps/s");
-        assert_eq!(pace(Some(0.0), 5), "0 steps/s");
-        assert_eq!(pace(Some(f64::MIN_POSITIVE), u64::MAX).split(", ").count(), 2);
-    }
-}
+#[path = "progress_tests.rs"]
+mod tests;

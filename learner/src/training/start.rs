@@ -16,6 +16,7 @@ use crate::{
     checkpoint::{Saver, TrainingState},
     control::Control,
     intake::{BusMailbox, Expected, Intake, Judge},
+    logging::History,
     pace::Pace,
     ppo::Updater,
     report::Report,
@@ -68,6 +69,8 @@ impl Trainer {
         wait_for_room(shutdown, || saver.save(&state))?;
         let encoded = bundle.encode().map_err(|why| wrong(why.to_string()))?;
         let report = Report::open(bus, &state, &config, options)?;
+        // After what lies beyond the checkpoint was taken out.
+        let history = History::read(&options.folder.metrics())?;
         let copies = RolloutCopies::open(bus, &state.run)?;
         let queue = RolloutIntake::open(bus, &state.run, capacity, gate, &copies)?;
         let alive = Alive::watch(bus, &state.run)?;
@@ -103,6 +106,8 @@ impl Trainer {
             pace: Pace::new(&config),
             saver,
             report,
+            history,
+            action_names: options.action_names.clone(),
             updater,
             config,
             state,

@@ -3,10 +3,10 @@
 use std::fs;
 use std::path::Path;
 
-use super::EventWriter;
+use treadmill_common::config::Config;
 use treadmill_proto::event_file::Event;
 
-use super::tensorboard::{framed, masked_crc};
+use super::{EventWriter, Histogram, framed, masked_crc};
 
 /// Every event of a file; each checksum is checked.
 fn read(path: &Path) -> Vec<Event> {
@@ -65,7 +65,7 @@ fn the_first_record_is_the_one_tensorflow_writes() {
 fn scalars_and_text_are_read_back() {
     let folder = tempfile::tempdir().unwrap();
     let mut writer = EventWriter::create(folder.path(), 1_700_000_000.9, "a box/1").unwrap();
-    writer.text("config", "# *ä*").unwrap();
+    writer.text(0, 1_700_000_000.9, "config", "# *ä*").unwrap();
     writer.scalars(8192, 2.5, &scalars(&[("rollout/ep_rew_mean", 0.0), ("train/kl", f64::NAN), ("x", 1e39)])).unwrap();
     writer.scalars(9000, 3.5, &scalars(&[("train/kl", f64::NEG_INFINITY)])).unwrap();
     writer.resume(8193, 4.5).unwrap();
@@ -101,4 +101,44 @@ fn writers_of_the_same_second_get_files_of_their_own_in_order() {
 fn a_folder_that_is_not_there_is_an_error() {
     let folder = tempfile::tempdir().unwrap();
     assert!(EventWriter::create(&folder.path().join("gone"), 1.0, "box").is_err());
+}
+
+#[test]
+fn histograms_are_tensors_of_three_columns() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut writer = EventWriter::create(folder.path(), 1.0, "box").unwrap();
+    let histogram = Histogram { rows: vec![[0.0, 0.5, 3.0], [0.5, 1.0, 4.0]] };
+    writer.histograms(512, 2.0, &[("actions/all".to_string(), histogram)]).unwrap();
+    let events = read(&files(folder.path())[0]);
+    let value = &events[1].summary.as_ref().unwrap().value[0];
+    let tensor = value.tensor.as_ref().unwrap();
+    assert_eq!(tensor.shape.as_ref().unwrap().dim.iter().map(|dim| dim.size).collect::<Vec<_>>(), [2, 3]);
+    let entries = tensor.content.chunks_exact(8).map(|bytes| f64::from_le_bytes(bytes.try_into().unwrap()));
+    assert_eq!(entries.collect::<Vec<_>>(), [0.0, 0.5, 3.0, 0.5, 1.0, 4.0]);
+    assert_eq!(value.metadata.as_ref().unwrap().plugin_data.as_ref().unwrap().plugin_name, "histograms");
+}
+
+#[test]
+fn a_resumed_run_keeps_its_row_and_forgets_that_it_had_ended() {
+    let tags = |folder: &Path| {
+        let mut tags: Vec<String> = files(folder)
+            .iter()
+            .flat_map(|file| read(file))
+            .filter_map(|event| event.summary)
+            .flat_map(|summary| summary.value)
+            .map(|value| value.tag)
+            .collect();
+        tags.sort();
+        tags
+    };
+    let folder = tempfile::tempdir().unwrap();
+    let config = Config::default();
+    let mut first = EventWriter::create(folder.path(), 1.0, "box").unwrap();
+    first.hyperparameters(&config, 1.0).unwrap();
+    first.end(false, 2.0).unwrap();
+    let begun = ["_hparams_/experiment", "_hparams_/session_start_info"];
+    assert_eq!(tags(folder.path()), [begun[0], "_hparams_/session_end_info", begun[1]]);
+    let mut second = EventWriter::create(folder.path(), 3.0, "box").unwrap();
+    second.hyperparameters(&config, 3.0).unwrap();
+    assert_eq!(tags(folder.path()), begun);
 }

@@ -1,0 +1,147 @@
+//! How return and distance of a run developed: few points, however long it is.
+
+use std::{fs::File, io, path::Path};
+
+use super::jsonl::for_each_metric;
+
+/// Points that are kept: more than any line of text shows.
+const POINTS_MAX: usize = 128;
+
+const RETURN_TAG: &str = "rollout/ep_rew_mean";
+const DISTANCE_TAG: &str = "rollout/distance_mean_m";
+const EVALUATED_TAG: &str = "eval/distance_mean_m";
+
+/// Return and mean distance after some update.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Point {
+    /// Mean return of the last episodes.
+    pub return_mean: f64,
+    /// Their mean distance in metres.
+    pub distance_m: f64,
+}
+
+/// What a run has reached so far.
+#[derive(Clone, Debug)]
+pub struct History {
+    points: Vec<Point>,
+    /// Of so many updates one is kept.
+    every: u64,
+    seen: u64,
+    last: Option<Point>,
+    /// The greatest mean distance in training.
+    pub distance_best_m: Option<f64>,
+    /// The greatest mean distance of an evaluation.
+    pub evaluated_best_m: Option<f64>,
+}
+
+impl Default for History {
+    fn default() -> Self {
+        Self { points: Vec::new(), every: 1, seen: 0, last: None, distance_best_m: None, evaluated_best_m: None }
+    }
+}
+
+impl History {
+    /// What the metrics of a run say; nothing where there are none.
+    pub fn read(metrics_jsonl: &Path) -> io::Result<Self> {
+        let mut history = Self::default();
+        let file = match File::open(metrics_jsonl) {
+            Ok(file) => file,
+            Err(why) if why.kind() == io::ErrorKind::NotFound => return Ok(history),
+            Err(why) => return Err(why),
+        };
+        let mut return_mean = None;
+        for_each_metric(file, |metric, _| {
+            match &metric.tag[..] {
+                RETURN_TAG => return_mean = Some(metric.value),
+                // In every round it stands after the return.
+                DISTANCE_TAG => history.take(return_mean.take(), Some(metric.value), None),
+                EVALUATED_TAG => history.take(None, None, Some(metric.value)),
+                _ => {}
+            }
+            Ok(())
+        })?;
+        Ok(history)
+    }
+
+    /// Takes in what is known after an update: mean return and distance of the last episodes, and the mean distance of an
+    /// evaluation that has just ended.
+    pub fn take(&mut self, return_mean: Option<f64>, distance_m: Option<f64>, evaluated_m: Option<f64>) {
+        let greater = |best: Option<f64>, value: Option<f64>| match (best, value.filter(|value| value.is_finite())) {
+            (Some(best), Some(value)) => Some(best.max(value)),
+            (best, value) => best.or(value),
+        };
+        self.distance_best_m = greater(self.distance_best_m, distance_m);
+        self.evaluated_best_m = greater(self.evaluated_best_m, evaluated_m);
+        let (Some(return_mean), Some(distance_m)) = (return_mean, distance_m) else { return };
+        let point = Point { return_mean, distance_m };
+        self.last = Some(point);
+        if self.seen.is_multiple_of(self.every) {
+            if self.points.len() == POINTS_MAX {
+                let mut index = 0;
+                self.points.retain(|_| (index % 2 == 0, index += 1).0);
+                self.every *= 2;
+            }
+            self.points.push(point);
+        }
+        self.seen += 1;
+    }
+
+    /// From first to last; the last update's is always among them.
+    pub fn points(&self) -> impl Iterator<Item = Point> + Clone + '_ {
+        let missing = self.last.filter(|last| self.points.last() != Some(last));
+        self.points.iter().copied().chain(missing)
+    }
+
+    /// As far as it ever came, in metres: by evaluation or in training.
+    pub fn farthest_m(&self) -> Option<f64> {
+        match (self.distance_best_m, self.evaluated_best_m) {
+            (Some(trained), Some(evaluated)) => Some(trained.max(evaluated)),
+            (trained, evaluated) => trained.or(evaluated),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_long_run_has_few_points_with_the_first_and_the_last_among_them() {
+        let mut history = History::default();
+        for update in 0..10_001 {
+            history.take(Some(f64::from(update)), Some(0.5), None);
+        }
+        let points: Vec<_> = history.points().collect();
+        assert!((POINTS_MAX / 2..=POINTS_MAX + 1).contains(&points.len()), "{}", points.len());
+        assert_eq!((points[0].return_mean, points.last().unwrap().return_mean), (0.0, 10_000.0));
+        let gaps: Vec<_> = points.windows(2).map(|pair| pair[1].return_mean - pair[0].return_mean).collect();
+        assert!(gaps[..gaps.len() - 1].windows(2).all(|pair| pair[0] == pair[1]), "{gaps:?}");
+    }
+
+    #[test]
+    fn the_farthest_is_kept() {
+        let mut history = History::default();
+        assert_eq!(history.farthest_m(), None);
+        for distance_m in [1.0, 4.0, 2.0, f64::NAN] {
+            history.take(Some(1.0), Some(distance_m), None);
+        }
+        history.take(None, None, Some(3.0));
+        assert_eq!((history.distance_best_m, history.evaluated_best_m), (Some(4.0), Some(3.0)));
+        assert_eq!(history.farthest_m(), Some(4.0));
+    }
+
+    #[test]
+    fn what_was_logged_is_read_again() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("metrics.jsonl");
+        assert_eq!(History::read(&path).unwrap().points().count(), 0);
+        let line = |tag: &str, step: u64, value: f64| {
+            format!("{{\"run\":\"r\",\"tag\":\"{tag}\",\"step\":{step},\"value\":{value},\"time_unix_s\":1.0}}\n")
+        };
+        let text = line(RETURN_TAG, 1, 5.0) + &line(DISTANCE_TAG, 1, 0.5) + &line(EVALUATED_TAG, 2, 7.5) + "{\"run";
+        std::fs::write(&path, text).unwrap();
+        let history = History::read(&path).unwrap();
+        assert_eq!(history.points().collect::<Vec<_>>(), [Point { return_mean: 5.0, distance_m: 0.5 }]);
+        assert_eq!(history.farthest_m(), Some(7.5));
+    }
+}

@@ -1,0 +1,244 @@
+//! TensorBoard's event files: one protobuf message per record, each record framed with masked checksums.
+//!
+//! The messages are the parts of TensorBoard's schemas that are needed; like everything that is serialised, they stand in
+//! `proto`.
+//!
+//! # Layout
+//! - [`histogram`]: how often which values came.
+//! - [`texts`]: what a run is, as Markdown.
+//! - [`hparams`]: what runs are compared by.
+
+pub mod histogram;
+pub mod hparams;
+pub mod texts;
+
+use std::fs::{self, File, OpenOptions};
+use std::io::{self, Read};
+use std::path::{Path, PathBuf};
+
+use treadmill_common::config::Config;
+use treadmill_proto::event_file::{
+    Dim, Event, HparamsData, Metadata, PluginData, SessionLog, Shape, Summary, Tensor, Value,
+};
+
+pub use histogram::Histogram;
+
+use super::{Scalars, append_whole};
+
+/// What the first record of every event file says.
+const FILE_VERSION: &str = "brain.Event:2";
+
+/// What every event file's name begins with.
+const FILE_PREFIX: &str = "events.out.tfevents.";
+
+/// What the name of a file ends with that says how a run ended.
+const END_SUFFIX: &str = ".end";
+
+/// Hyperparameters stand within so many bytes of a file's beginning.
+const HEAD_BYTES: u64 = 64 << 10;
+
+/// `DT_FLOAT`, `DT_DOUBLE` and `DT_STRING` of TensorBoard's `types.proto`.
+const DT_FLOAT: i32 = 1;
+const DT_DOUBLE: i32 = 2;
+const DT_STRING: i32 = 7;
+
+/// `DATA_CLASS_TENSOR` of `summary.proto`.
+const CLASS_TENSOR: i32 = 2;
+
+/// `SessionLog.START` of `event.proto`.
+const SESSION_START: i32 = 1;
+
+/// How many names are tried until one is free.
+const NAMES_MAX: u32 = 10_000;
+
+/// Writes one event file. A resumed run writes another one into the same folder; TensorBoard shows both as one.
+#[derive(Debug)]
+pub struct EventWriter {
+    file: File,
+    folder: PathBuf,
+    host: String,
+}
+
+impl EventWriter {
+    /// Makes `events.out.tfevents.{seconds}.{host}.{process}.{count}` in `folder`, always a new file. What says there how
+    /// the run ended is taken away: it goes on.
+    pub fn create(folder: &Path, time_unix_s: f64, host: &str) -> io::Result<Self> {
+        for ended in event_files(folder)?.iter().filter(|path| path.to_string_lossy().ends_with(END_SUFFIX)) {
+            fs::remove_file(ended)?;
+        }
+        Self::create_named(folder, time_unix_s, host, "")
+    }
+
+    fn create_named(folder: &Path, time_unix_s: f64, host: &str, suffix: &str) -> io::Result<Self> {
+        let file = create_new(folder, time_unix_s as u64, host, suffix)?;
+        let mut writer = Self { file, folder: folder.to_path_buf(), host: host.to_string() };
+        writer.event(Event {
+            wall_time: time_unix_s,
+            file_version: Some(FILE_VERSION.to_string()),
+            ..Event::default()
+        })?;
+        Ok(writer)
+    }
+
+    /// On resume: TensorBoard forgets what older files of this folder hold from `first_step` on, because the run is
+    /// about to make it again. Give the first step that may be written, the checkpoint's plus one.
+    pub fn resume(&mut self, first_step: u64, time_unix_s: f64) -> io::Result<()> {
+        self.event(Event {
+            wall_time: time_unix_s,
+            step: first_step as i64,
+            session_log: Some(SessionLog { status: SESSION_START }),
+            ..Event::default()
+        })
+    }
+
+    /// Writes all scalars of one step as one record. What is not finite as a 32-bit float, TensorBoard's kind of
+    /// number, is left out.
+    pub fn scalars(&mut self, step: u64, time_unix_s: f64, scalars: &Scalars) -> io::Result<()> {
+        let value: Vec<Value> = scalars
+            .iter()
+            .filter(|(_, value)| (*value as f32).is_finite())
+            .map(|(tag, value)| Value { tag: tag.clone(), simple_value: Some(*value as f32), ..Value::default() })
+            .collect();
+        self.values(step, time_unix_s, value)
+    }
+
+    /// Writes histograms of one step as one record. They are tensors of the plugin `histograms` and not the older
+    /// `HistogramProto`, which TensorBoard turns into these when it reads it: so it shows the very buckets that were counted.
+    pub fn histograms(&mut self, step: u64, time_unix_s: f64, histograms: &[(String, Histogram)]) -> io::Result<()> {
+        let value = histograms.iter().map(|(tag, Histogram { rows })| Value {
+            tag: tag.clone(),
+            tensor: Some(Tensor {
+                dtype: DT_DOUBLE,
+                shape: shape(&[rows.len(), 3]),
+                content: rows.iter().flatten().flat_map(|entry| entry.to_le_bytes()).collect::<Vec<_>>().into(),
+                ..Tensor::default()
+            }),
+            metadata: metadata("histograms", Vec::new()),
+            ..Value::default()
+        });
+        self.values(step, time_unix_s, value.collect())
+    }
+
+    /// Writes a text, such as the run's configuration, for TensorBoard's TEXT tab, which understands Markdown. `step` is
+    /// the one from which on it holds.
+    pub fn text(&mut self, step: u64, time_unix_s: f64, tag: &str, text: &str) -> io::Result<()> {
+        let value = Value {
+            tag: tag.to_string(),
+            tensor: Some(Tensor {
+                dtype: DT_STRING,
+                // A single text; TensorBoard shows a list of texts as a table around them.
+                shape: shape(&[]),
+                string_val: vec![text.as_bytes().to_vec().into()],
+                ..Tensor::default()
+            }),
+            metadata: metadata("text", Vec::new()),
+            ..Value::default()
+        };
+        self.values(step, time_unix_s, vec![value])
+    }
+
+    /// Writes the run's row of the HPARAMS tab, where no file of this folder has it yet: TensorBoard takes the first.
+    pub fn hyperparameters(&mut self, config: &Config, time_unix_s: f64) -> io::Result<()> {
+        for file in event_files(&self.folder)? {
+            if has_in_head(&file, hparams::START_TAG.as_bytes())? {
+                return Ok(());
+            }
+        }
+        let value = vec![
+            hparams_value(hparams::EXPERIMENT_TAG, &hparams::experiment()),
+            hparams_value(hparams::START_TAG, &hparams::session_start(config, time_unix_s)),
+        ];
+        self.values(0, time_unix_s, value)
+    }
+
+    /// Says how the run ended, in a file of its own that is taken away when it goes on.
+    pub fn end(&self, is_success: bool, time_unix_s: f64) -> io::Result<()> {
+        let mut writer = Self::create_named(&self.folder, time_unix_s, &self.host, END_SUFFIX)?;
+        let ended = hparams::session_end(is_success, time_unix_s);
+        writer.values(0, time_unix_s, vec![hparams_value(hparams::END_TAG, &ended)])
+    }
+
+    fn values(&mut self, step: u64, time_unix_s: f64, value: Vec<Value>) -> io::Result<()> {
+        if value.is_empty() {
+            return Ok(());
+        }
+        let summary = Some(Summary { value });
+        self.event(Event { wall_time: time_unix_s, step: step as i64, summary, ..Event::default() })
+    }
+
+    fn event(&mut self, event: Event) -> io::Result<()> {
+        append_whole(&mut self.file, &framed(&event.to_bytes()))
+    }
+}
+
+/// A value whose metadata is all that the HPARAMS tab reads; the tensor is empty.
+fn hparams_value(tag: &str, data: &HparamsData) -> Value {
+    Value {
+        tag: tag.to_string(),
+        tensor: Some(Tensor { dtype: DT_FLOAT, shape: shape(&[0]), ..Tensor::default() }),
+        metadata: metadata("hparams", data.to_bytes()),
+        ..Value::default()
+    }
+}
+
+fn metadata(plugin: &str, content: Vec<u8>) -> Option<Metadata> {
+    let plugin_data = Some(PluginData { plugin_name: plugin.to_string(), content: content.into() });
+    Some(Metadata { plugin_data, data_class: CLASS_TENSOR, ..Metadata::default() })
+}
+
+fn shape(sizes: &[usize]) -> Option<Shape> {
+    Some(Shape { dim: sizes.iter().map(|size| Dim { size: *size as i64 }).collect() })
+}
+
+/// The event files of a folder.
+fn event_files(folder: &Path) -> io::Result<Vec<PathBuf>> {
+    let mut found = Vec::new();
+    for entry in fs::read_dir(folder)? {
+        let entry = entry?;
+        if entry.file_name().to_string_lossy().starts_with(FILE_PREFIX) {
+            found.push(entry.path());
+        }
+    }
+    Ok(found)
+}
+
+fn has_in_head(file: &Path, part: &[u8]) -> io::Result<bool> {
+    let mut head = Vec::new();
+    File::open(file)?.take(HEAD_BYTES).read_to_end(&mut head)?;
+    Ok(head.windows(part.len()).any(|window| window == part))
+}
+
+/// TFRecord: length, checksum of the length, data, checksum of the data; all little-endian.
+pub(super) fn framed(data: &[u8]) -> Vec<u8> {
+    let length = (data.len() as u64).to_le_bytes();
+    let mut record = Vec::with_capacity(data.len() + 16);
+    record.extend_from_slice(&length);
+    record.extend_from_slice(&masked_crc(&length).to_le_bytes());
+    record.extend_from_slice(data);
+    record.extend_from_slice(&masked_crc(data).to_le_bytes());
+    record
+}
+
+/// A CRC-32C, rotated and shifted so that a checksum over data that holds checksums stays a good one.
+pub(super) fn masked_crc(data: &[u8]) -> u32 {
+    crc32c::crc32c(data).rotate_right(15).wrapping_add(0xa282_ead8)
+}
+
+fn create_new(folder: &Path, seconds: u64, host: &str, suffix: &str) -> io::Result<File> {
+    let allowed = |c: char| c.is_ascii_alphanumeric() || matches!(c, '-' | '_' | '.');
+    let host: String = host.chars().map(|c| if allowed(c) { c } else { '_' }).collect();
+    let host = if host.is_empty() { "localhost" } else { &host };
+    let process = std::process::id();
+    // Names sort by time, the order in which TensorBoard reads them; hence the leading zeros.
+    let path = |count: u32| folder.join(format!("{FILE_PREFIX}{seconds:010}.{host}.{process}.{count:04}{suffix}"));
+    for count in 0..NAMES_MAX {
+        match OpenOptions::new().append(true).create_new(true).open(path(count)) {
+            Err(error) if error.kind() == io::ErrorKind::AlreadyExists => {}
+            opened => return opened,
+        }
+    }
+    Err(io::Error::new(io::ErrorKind::AlreadyExists, format!("no free name for an event file in {}", folder.display())))
+}
+
+#[cfg(test)]
+mod tests;
