@@ -105,7 +105,7 @@ fn the_learner_does_not_depend_on_the_actor() {
 
 #[test]
 fn the_gymnasium_environment_knows_humanoid_and_pictures_alone() {
-    let manifest = fs::read_to_string(root().join("python/gym/Cargo.toml")).unwrap();
+    let manifest = fs::read_to_string(root().join("python/treadmill-gym/Cargo.toml")).unwrap();
     let dependencies = manifest.split_once("[dependencies]").unwrap().1;
     let ours: Vec<_> = dependencies
         .lines()
@@ -115,7 +115,7 @@ fn the_gymnasium_environment_knows_humanoid_and_pictures_alone() {
     assert_eq!(ours, ["treadmill-humanoid", "treadmill-render"]);
     let workspace = fs::read_to_string(root().join("Cargo.toml")).unwrap();
     let default_members = workspace.lines().find(|line| line.starts_with("default-members")).unwrap();
-    assert!(!default_members.contains("python/gym"), "building the trainer needs no Python");
+    assert!(!default_members.contains("python/treadmill-gym"), "building the trainer needs no Python");
 }
 
 #[test]

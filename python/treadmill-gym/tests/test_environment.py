@@ -1,4 +1,4 @@
-"""One humanoid: `python -m unittest discover -s python/gym/tests`, with the package installed."""
+"""One humanoid: `python -m unittest discover -s python/treadmill-gym/tests`, with the package installed."""
 
 import pickle
 import subprocess
