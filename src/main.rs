@@ -15,7 +15,7 @@
 //! - [`metrics_page`]: metrics for Prometheus, over HTTP.
 //! - [`memory`]: what becomes of memory that was freed.
 //! - [`outcome`]: errors and exit codes.
-//! - [`output`]: standard output that may be closed.
+//! - [`output`]: standard output that may be closed, and where the log goes.
 
 mod actor;
 mod bench;
@@ -50,7 +50,7 @@ use tracing_subscriber::{Layer, layer::SubscriberExt, util::SubscriberInitExt};
 
 /// Distributed reinforcement learning for humanoid robots.
 ///
-/// Exit codes: 0 done, 1 failed, 2 wrong usage or configuration.
+/// Exit codes: 0 done, 1 failed, 2 wrong usage or configuration, 130 after a second Ctrl-C.
 #[derive(Parser)]
 #[command(name = "treadmill", version, max_term_width = 110)]
 struct Cli {
@@ -95,7 +95,7 @@ fn main() -> ExitCode {
     let filter = tracing_subscriber::EnvFilter::try_from_env("TREADMILL_LOG")
         .unwrap_or_else(|_| tracing_subscriber::EnvFilter::new("warn,zenoh=off"));
     let log = tracing_subscriber::fmt::layer()
-        .with_writer(std::io::stderr)
+        .with_writer(|| output::Log)
         .with_ansi(std::io::IsTerminal::is_terminal(&std::io::stderr()))
         .with_target(false)
         .with_filter(filter);

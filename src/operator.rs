@@ -1,6 +1,6 @@
 //! What `status` and `control` share: where the learner is, and patience until it answers.
 
-use std::time::Duration;
+use std::{path::PathBuf, time::Duration};
 
 use anyhow::Context;
 use clap::Args;
@@ -39,7 +39,21 @@ pub struct ReachArgs {
 }
 
 impl ReachArgs {
-    fn options(&self, role: Role) -> anyhow::Result<BusOptions> {
+    /// The run's name on the bus, where it was given.
+    pub fn run(&self) -> Option<&str> {
+        self.run.as_deref()
+    }
+
+    /// The log of the run whose folder was given.
+    pub fn log(&self) -> Option<PathBuf> {
+        RunFolder::open(self.folder.as_ref()?).ok().map(|folder| folder.metrics())
+    }
+
+    /// Where to dial, as it is now: a learner that was started anew may listen elsewhere.
+    ///
+    /// # Errors
+    /// If the run's folder is not there or does not say where the run listens.
+    pub fn endpoints(&self) -> anyhow::Result<Vec<String>> {
         let mut connect = self.connect.clone();
         if let Some(folder) = &self.folder {
             let folder = RunFolder::open(folder)?;
@@ -53,6 +67,15 @@ impl ReachArgs {
         if connect.is_empty() {
             connect.push(DEFAULT_ENDPOINT.to_string());
         }
+        Ok(connect)
+    }
+
+    /// How to reach the bus. Called before any thread is started, see [`NetworkArgs::options`].
+    ///
+    /// # Errors
+    /// If endpoint, name or certificates are not acceptable.
+    pub fn options(&self, role: Role) -> anyhow::Result<BusOptions> {
+        let connect = self.endpoints()?;
         if let Some(run) = &self.run {
             check_ident("run", run).map_err(|why| Usage(why.to_string()))?;
         }
@@ -75,26 +98,38 @@ pub fn on_the_bus(
     role: Role,
     work: impl AsyncFnOnce(Bus, Option<String>) -> anyhow::Result<()>,
 ) -> anyhow::Result<()> {
-    let options = reach.options(role)?;
-    let where_to = options.connect.join(", ");
+    joined(reach.options(role)?, async |bus| work(bus, reach.run.clone()).await)
+}
+
+/// Joins the bus and does `work` there.
+pub fn joined(options: BusOptions, work: impl AsyncFnOnce(Bus) -> anyhow::Result<()>) -> anyhow::Result<()> {
     let runtime =
         tokio::runtime::Builder::new_multi_thread().worker_threads(2).enable_all().build().context("no runtime")?;
     let outcome = runtime.block_on(async {
-        let opened = tokio::task::spawn_blocking(move || Bus::open_client(&options));
-        let Ok(bus) = tokio::time::timeout(DIAL_TIMEOUT, opened).await else {
-            anyhow::bail!(
-                "nobody answers at {where_to}; is the learner up? --connect names another endpoint, and the run's folder has \
-                 it in endpoint.txt"
-            );
-        };
-        let bus = bus??;
-        let outcome = work(bus.clone(), reach.run.clone()).await;
+        let bus = dial(options).await?;
+        let outcome = work(bus.clone()).await;
         bus.close();
         outcome
     });
     // A dial that goes on must not keep the process.
     runtime.shutdown_background();
     outcome
+}
+
+/// A session on the bus.
+///
+/// # Errors
+/// If nobody answers soon.
+pub async fn dial(options: BusOptions) -> anyhow::Result<Bus> {
+    let where_to = options.connect.join(", ");
+    let opened = tokio::task::spawn_blocking(move || Bus::open_client(&options));
+    let Ok(bus) = tokio::time::timeout(DIAL_TIMEOUT, opened).await else {
+        anyhow::bail!(
+            "nobody answers at {where_to}; is the learner up? --connect names another endpoint, and the run's folder has it \
+             in endpoint.txt"
+        );
+    };
+    Ok(bus??)
 }
 
 /// Asks again for a moment where nobody answers: a router may not know yet who is behind it.

@@ -31,7 +31,7 @@ pub use copies::RolloutCopies;
 pub use door::turned_away;
 pub use evaluation::{Assignment, EvaluationDesk, ask_for_evaluation};
 pub use learner_side::{Delivery, PolicyShelf, RolloutIntake};
-pub use observer_side::{Feed, Message, observe};
+pub use observer_side::{Feed, Message, MetricsFeed, observe};
 pub use presence::{Alive, AliveView, StatsFeed};
 pub use security::{Credentials, Role};
 pub use session::{Bus, BusOptions};
