@@ -15,6 +15,7 @@
 //! - [`metrics_page`]: metrics for Prometheus, over HTTP.
 //! - [`memory`]: what becomes of memory that was freed.
 //! - [`outcome`]: errors and exit codes.
+//! - [`manual`]: completions, manual pages, and the generated part of the reference.
 //! - [`output`]: standard output that may be closed, and where the log goes.
 
 mod actor;
@@ -26,6 +27,7 @@ mod evaluator;
 mod export;
 mod filming;
 mod learner;
+mod manual;
 mod memory;
 mod metrics_page;
 mod model;
@@ -45,7 +47,7 @@ mod train;
 
 use std::process::ExitCode;
 
-use clap::{Parser, Subcommand};
+use clap::{CommandFactory, Parser, Subcommand};
 use tracing_subscriber::{Layer, layer::SubscriberExt, util::SubscriberInitExt};
 
 /// Distributed reinforcement learning for humanoid robots.
@@ -84,6 +86,13 @@ enum Command {
     Certs(certs::CertsArgs),
     /// Measure speed.
     Bench(bench::BenchArgs),
+    /// Print a script by which a shell completes commands and flags.
+    Completions(manual::CompletionsArgs),
+    /// Write manual pages, one for each command.
+    Man(manual::ManArgs),
+    /// Print a generated page of docs/reference/.
+    #[command(hide = true)]
+    Reference(manual::ReferenceArgs),
 }
 
 fn main() -> ExitCode {
@@ -113,6 +122,15 @@ fn main() -> ExitCode {
         Command::Router(args) => router::run(args),
         Command::Certs(args) => certs::run(&args),
         Command::Bench(args) => bench::run(args),
+        Command::Completions(args) => {
+            manual::completions(&args, Cli::command());
+            Ok(())
+        }
+        Command::Man(args) => manual::man(&args, Cli::command()),
+        Command::Reference(args) => {
+            manual::reference(&args, Cli::command());
+            Ok(())
+        }
     };
     outcome::exit_code(done)
 }
