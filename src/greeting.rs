@@ -45,11 +45,10 @@ pub fn greet(
     say(&format!("  listening {}", endpoints.join(", ")));
     let tls = credentials.map(|credentials| format!(" --tls {}", credentials.folder.display())).unwrap_or_default();
     say(&format!("  watch     treadmill status --watch {root}{tls}"));
-    // A command of its own crate, in the builds that have it.
-    if crate::has_command("watch") && !config.is_external() {
-        say(&format!("            treadmill watch {root} replays, treadmill watch --live --run {run} follows"));
-    }
     if !config.is_external() {
+        say(&format!(
+            "            treadmill watch --live {root}{tls}  (the humanoid in a browser; without --live a replay)"
+        ));
         say(&format!("  film      treadmill eval {root} --episodes 1 --gif walk.gif, also while it trains"));
     }
     if let Some(address) = page {

@@ -7,7 +7,7 @@
 //! - [`signals`]: Ctrl-C, once and twice.
 //! - [`log`]: warnings on standard error.
 //! - [`outcome`]: errors and exit codes.
-//! - [`output`]: standard output that may be closed.
+//! - [`output`]: standard output that may be closed, and where the log goes.
 //! - [`patience`]: long steps that say so.
 
 pub mod log;

@@ -14,6 +14,7 @@
 //! - [`memory`]: what becomes of memory that was freed.
 //! - [`greeting`]: what `train` and `learner` say before and after.
 //! - [`check`]: what is wrong with a machine.
+//! - [`manual`]: completions, manual pages, and the generated part of the reference.
 
 mod actor;
 mod bench;
@@ -26,6 +27,7 @@ mod export;
 mod filming;
 mod greeting;
 mod learner;
+mod manual;
 mod memory;
 mod metrics_page;
 mod model;
@@ -46,7 +48,7 @@ use treadmill_rl::{log, operator, outcome, output, patience, saved_policy, signa
 
 /// Distributed reinforcement learning for humanoid robots.
 ///
-/// Exit codes: 0 done, 1 failed, 2 wrong usage or configuration.
+/// Exit codes: 0 done, 1 failed, 2 wrong usage or configuration, 130 after a second Ctrl-C.
 #[derive(Parser)]
 #[command(name = "treadmill", version, max_term_width = 110)]
 struct Cli {
@@ -84,11 +86,13 @@ enum Command {
     Bench(bench::BenchArgs),
     /// Look for what is wrong with this machine, or with the way to a learner, and tell what to do.
     Check(check::CheckArgs),
-}
-
-/// Whether this build has a subcommand.
-fn has_command(name: &str) -> bool {
-    Cli::command().find_subcommand(name).is_some()
+    /// Print a script by which a shell completes commands and flags.
+    Completions(manual::CompletionsArgs),
+    /// Write manual pages, one for each command.
+    Man(manual::ManArgs),
+    /// Print a generated page of docs/reference/.
+    #[command(hide = true)]
+    Reference(manual::ReferenceArgs),
 }
 
 fn main() -> ExitCode {
@@ -113,6 +117,15 @@ fn main() -> ExitCode {
         Command::Certs(args) => certs::run(&args),
         Command::Bench(args) => bench::run(args),
         Command::Check(args) => return check::run(args),
+        Command::Completions(args) => {
+            manual::completions(&args, Cli::command());
+            Ok(())
+        }
+        Command::Man(args) => manual::man(&args, Cli::command()),
+        Command::Reference(args) => {
+            manual::reference(&args, Cli::command());
+            Ok(())
+        }
     };
     outcome::exit_code(done)
 }

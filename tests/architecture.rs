@@ -5,8 +5,6 @@ use std::{
     path::{Path, PathBuf},
 };
 
-use treadmill_common::config::Config;
-
 fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
 }
@@ -171,15 +169,4 @@ fn every_path_that_the_architecture_names_exists() {
         }
     }
     assert!(checked > 20, "{checked}");
-}
-
-#[test]
-fn the_configuration_is_documented_as_it_is() {
-    let text = fs::read_to_string(root().join("docs/configuration.md")).unwrap();
-    let rows: Vec<&str> = text.lines().filter(|line| line.starts_with("| `") && line.contains('.')).collect();
-    let wanted: Vec<String> = Config::keys()
-        .iter()
-        .map(|key| format!("| `{}` | `{}` | {} | {} |", key.key, key.default, key.allowed, key.doc))
-        .collect();
-    assert_eq!(rows, wanted);
 }

@@ -139,6 +139,8 @@ pub struct Round<'a> {
     pub quarantined: usize,
     /// Fragments refused unread for lack of room, since this start.
     pub turned_away: u64,
+    /// Bytes of the fragments that were taken, since this start.
+    pub accepted_bytes: u64,
 }
 
 impl Round<'_> {
@@ -221,6 +223,7 @@ impl Round<'_> {
             ("bus/fragments_quarantined", tally.quarantined as f64),
             ("bus/fragments_turned_away", self.turned_away as f64),
             ("bus/messages_forbidden", forbidden_messages() as f64),
+            ("bus/accepted_mb", self.accepted_bytes as f64 / 1e6),
             ("bus/fragments_unseen", account.unseen as f64),
             ("bus/env_steps_dropped", account.env_steps_dropped as f64),
         ]);

@@ -21,6 +21,7 @@ use treadmill_common::{
 };
 use treadmill_proto::PolicyAnnouncement;
 
+pub use self::commands::is_changeable;
 pub use self::error::TrainingError;
 use crate::{
     accounts,
@@ -332,6 +333,7 @@ impl Trainer {
             alive: &alive,
             quarantined: self.intake.judge().quarantined(Instant::now()).len(),
             turned_away: self.intake.judge().turned_away(),
+            accepted_bytes: self.intake.judge().accepted_bytes(),
         };
         let scalars = round.scalars();
         let updates = self.state.counters.updates;

@@ -18,6 +18,8 @@ const BEGINNING_BYTES: usize = 160;
 pub struct Arrival {
     /// The incarnation that it claims to be of.
     pub claimed_incarnation: Option<u64>,
+    /// Its size on the bus.
+    pub bytes: usize,
     /// Checked by itself; whether it fits the run is another matter.
     pub fragment: Result<Fragment, Malformed>,
 }
@@ -30,13 +32,18 @@ impl Arrival {
         if pieces.len() == 1 && received.len() >= SHARED_BYTES_MIN {
             shared.fetch_add(1, Ordering::Relaxed);
         }
-        Self { claimed_incarnation: claimed(received), fragment: Fragment::decode_pieces(&pieces) }
+        Self {
+            claimed_incarnation: claimed(received),
+            bytes: received.len(),
+            fragment: Fragment::decode_pieces(&pieces),
+        }
     }
 }
 
 impl<T: AsRef<[u8]>> From<T> for Arrival {
     fn from(encoded: T) -> Self {
-        Self { claimed_incarnation: claimed_incarnation(encoded.as_ref()), fragment: Fragment::decode(encoded) }
+        let (claimed_incarnation, bytes) = (claimed_incarnation(encoded.as_ref()), encoded.as_ref().len());
+        Self { claimed_incarnation, bytes, fragment: Fragment::decode(encoded) }
     }
 }
 

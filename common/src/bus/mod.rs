@@ -34,7 +34,7 @@ pub use door::turned_away;
 pub use evaluation::{Assignment, EvaluationDesk, ask_for_evaluation};
 pub use forbidden::{brake_forbidden, forbidden_messages};
 pub use learner_side::{Delivery, PolicyShelf, RolloutIntake};
-pub use observer_side::{Feed, Message, observe};
+pub use observer_side::{Feed, Message, MetricsFeed, observe};
 pub use poses::{PosePublisher, Watched};
 pub use presence::{Alive, AliveView, StatsFeed};
 pub use security::{Credentials, Role};

@@ -13,7 +13,7 @@ use serde::{Deserialize, Serialize};
 
 pub use choices::{EnvObservation, EnvTask, LearnerMode, ObservationPrecision, OffPolicy, Symmetry};
 pub use preset::{PRESETS, preset};
-pub use section::{KeyDoc, Section};
+pub use section::{KeyDoc, Section, SectionDoc};
 pub use sections::{
     BusConfig, EnvConfig, EvaluationConfig, LearnerConfig, PolicyConfig, PpoConfig, RandomisationConfig, RolloutConfig,
     RunConfig, TaskConfig,
@@ -112,21 +112,25 @@ pub enum ConfigError {
 }
 
 impl Config {
+    /// Every section with its keys, in the order of the documentation.
+    pub fn sections() -> Vec<SectionDoc> {
+        vec![
+            RunConfig::describe(),
+            EnvConfig::describe(),
+            TaskConfig::describe(),
+            RandomisationConfig::describe(),
+            RolloutConfig::describe(),
+            PolicyConfig::describe(),
+            PpoConfig::describe(),
+            LearnerConfig::describe(),
+            EvaluationConfig::describe(),
+            BusConfig::describe(),
+        ]
+    }
+
     /// Every key with documentation, default and allowed values.
     pub fn keys() -> Vec<KeyDoc> {
-        [
-            RunConfig::keys(),
-            EnvConfig::keys(),
-            TaskConfig::keys(),
-            RandomisationConfig::keys(),
-            RolloutConfig::keys(),
-            PolicyConfig::keys(),
-            PpoConfig::keys(),
-            LearnerConfig::keys(),
-            EvaluationConfig::keys(),
-            BusConfig::keys(),
-        ]
-        .concat()
+        Self::sections().into_iter().flat_map(|section| section.keys).collect()
     }
 
     /// Checks every value by itself, then those that must fit each other.

@@ -20,12 +20,29 @@ pub struct KeyDoc {
     pub allowed: &'static str,
 }
 
+/// What is known of one section.
+#[derive(Clone, Debug)]
+pub struct SectionDoc {
+    /// The table's name in TOML.
+    pub name: &'static str,
+    /// What it is about.
+    pub about: &'static str,
+    /// Its keys, in the order of their declaration.
+    pub keys: Vec<KeyDoc>,
+}
+
 /// A section of the configuration.
 pub trait Section: Default {
     /// The table's name in TOML.
     const NAME: &'static str;
+    /// What it is about.
+    const ABOUT: &'static str;
     /// Every key of this section.
     fn keys() -> Vec<KeyDoc>;
+    /// All that is known of this section.
+    fn describe() -> SectionDoc {
+        SectionDoc { name: Self::NAME, about: Self::ABOUT, keys: Self::keys() }
+    }
     /// Checks each value by itself.
     fn check(&self) -> Result<(), ConfigError>;
 }
@@ -33,12 +50,12 @@ pub trait Section: Default {
 /// Declares a section: `/// doc` `key: type = default, "allowed values" => check;`.
 macro_rules! section {
     (
-        $(#[$meta:meta])*
+        #[doc = $about:literal]
         $name:ident as $table:literal {
             $( #[doc = $doc:literal] $field:ident : $kind:ty = $default:expr, $allowed:literal => $check:expr; )*
         }
     ) => {
-        $(#[$meta])*
+        #[doc = $about]
         #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
         #[serde(default, deny_unknown_fields)]
         pub struct $name {
@@ -53,6 +70,7 @@ macro_rules! section {
 
         impl $crate::config::Section for $name {
             const NAME: &'static str = $table;
+            const ABOUT: &'static str = $about.trim_ascii();
 
             fn keys() -> Vec<$crate::config::KeyDoc> {
                 let defaults = Self::default();

@@ -65,6 +65,8 @@ pub struct Judge {
     quarantines: Complaints,
     /// Refused unread for lack of room, since this start.
     turned_away: u64,
+    /// Size of the fragments that were taken, since this start.
+    accepted_bytes: u64,
     /// What was dealt with.
     pub ledger: Ledger,
     /// Counts.
@@ -75,7 +77,7 @@ impl Judge {
     /// A judge with what a checkpoint remembers, who tells `gate` what he thinks of senders.
     pub fn new(expected: Expected, gate: Arc<Gate>, ledger: Ledger, tally: Tally) -> Self {
         let (refusals, quarantines) = (Complaints::default(), Complaints::default());
-        Self { expected, gate, refusals, quarantines, turned_away: 0, ledger, tally }
+        Self { expected, gate, refusals, quarantines, turned_away: 0, accepted_bytes: 0, ledger, tally }
     }
 
     /// Looks at what `actor` sent: the fragment if it is taken, else the receipt that says why not.
@@ -147,6 +149,7 @@ impl Judge {
             Ok(lag) => {
                 self.gate.taken(actor, incarnation, now);
                 self.tally.accepted += 1;
+                self.accepted_bytes += arrival.bytes as u64;
                 Ok(Accepted { fragment, lag })
             }
             Err((_, outcome, reason)) => Err(refuse(outcome, reason, durable_through)),
@@ -171,6 +174,11 @@ impl Judge {
     /// Fragments that were refused unread for lack of room, since this start.
     pub fn turned_away(&self) -> u64 {
         self.turned_away
+    }
+
+    /// Bytes of the fragments that were taken, since this start.
+    pub fn accepted_bytes(&self) -> u64 {
+        self.accepted_bytes
     }
 
     /// Who is in quarantine.

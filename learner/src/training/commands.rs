@@ -25,7 +25,8 @@ const CHANGEABLE: &[&str] = &[
 /// Keys of `[ppo]` that are built into what was begun.
 const FIXED: &[&str] = &["ppo.symmetry"];
 
-fn is_changeable(key: &str) -> bool {
+/// Whether a key of the configuration may change while a run goes on.
+pub fn is_changeable(key: &str) -> bool {
     CHANGEABLE.contains(&key) || key.starts_with("ppo.") && !FIXED.contains(&key)
 }
 
@@ -162,6 +163,7 @@ impl Trainer {
             policy_lag_mean: self.lag_mean,
             resident_bytes: machine::resident_bytes(),
             accepted: tally.accepted,
+            accepted_bytes: judge.accepted_bytes(),
             duplicate: tally.duplicate,
             too_old: tally.too_old,
             vanished: tally.vanished,

@@ -1,0 +1,25 @@
+#!/usr/bin/env bash
+# Builds and installs the binary with what belongs to it: manual pages, and completions for bash, zsh and fish. The binary
+# writes these itself, since Cargo has no step after the build.
+#
+#   deploy/install.sh [PREFIX] [BINARY]     PREFIX is /usr/local unless given; a BINARY that is given is not built
+set -euo pipefail
+prefix=${1:-/usr/local}
+binary=${2:-}
+if [ -z "$binary" ]; then
+    cd "$(dirname "${BASH_SOURCE[0]}")/.."
+    cargo build --release --locked --bin treadmill
+    binary=target/release/treadmill
+fi
+
+install -D -m 755 "$binary" "$prefix/bin/treadmill"
+binary=$prefix/bin/treadmill
+"$binary" man "$prefix/share/man/man1"
+completions() {
+    mkdir -p "$(dirname "$prefix/share/$2")"
+    "$binary" completions "$1" >"$prefix/share/$2"
+}
+completions bash bash-completion/completions/treadmill
+completions zsh zsh/site-functions/_treadmill
+completions fish fish/vendor_completions.d/treadmill.fish
+echo "installed $binary, $(find "$prefix/share/man/man1" -name 'treadmill*.1' | wc -l) manual pages, completions for bash, zsh and fish"

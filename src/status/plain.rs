@@ -1,0 +1,135 @@
+//! How runs go, as lines of text.
+
+use std::fmt::Write as _;
+
+use treadmill_proto::{ActorStatus, Phase, RunStatus};
+
+/// A paragraph for each run, with a table of its actors.
+pub fn as_text(runs: &[RunStatus]) -> String {
+    let mut out = String::new();
+    for run in runs {
+        // Writing into a string cannot fail.
+        let _ = describe(&mut out, run);
+    }
+    out
+}
+
+fn describe(out: &mut String, run: &RunStatus) -> std::fmt::Result {
+    let version = run.version.unwrap_or_default();
+    writeln!(
+        out,
+        "run `{}` {} on {} (process {}, version {})",
+        run.run,
+        phase(run),
+        run.host,
+        run.pid,
+        run.program_version
+    )?;
+    writeln!(
+        out,
+        "  steps      {} of {} ({:.0} %), {:.0} per second",
+        run.env_steps,
+        run.env_steps_wanted,
+        100.0 * run.env_steps as f64 / run.env_steps_wanted.max(1) as f64,
+        run.env_steps_per_s
+    )?;
+    writeln!(
+        out,
+        "  updates    {}, the last {} ago; policy {:08x}:{}",
+        run.updates,
+        seconds(run.since_update_s),
+        version.incarnation as u32,
+        version.number
+    )?;
+    if let (Some(return_mean), Some(distance_m), Some(velocity_mps)) =
+        (run.return_mean, run.distance_mean_m, run.velocity_mean_mps)
+    {
+        let length = run.length_mean.unwrap_or_default();
+        writeln!(
+            out,
+            "  episodes   return {return_mean:.0}, {distance_m:.1} m at {velocity_mps:.2} m/s, {length:.0} steps long"
+        )?;
+    }
+    writeln!(
+        out,
+        "  fragments  {} accepted, {} duplicate, {} too old, {} vanished, {} malformed, {} quarantined",
+        run.accepted, run.duplicate, run.too_old, run.vanished, run.malformed, run.quarantined
+    )?;
+    writeln!(
+        out,
+        "  lag        {:.2} versions on average; learner {:.0} MB",
+        run.policy_lag_mean,
+        run.resident_bytes as f64 / 1e6
+    )?;
+    let alive = run.actors.iter().filter(|actor| actor.alive).count();
+    writeln!(out, "  actors     {alive} alive, {:.0} steps per second together", fleet_rate(run))?;
+    if !run.actors.is_empty() {
+        writeln!(
+            out,
+            "    {:<24} {:<16} {:>8} {:>5} {:>4} {:>9} {:>8} {:>8} {:>7}  state",
+            "name", "host", "version", "envs", "lag", "steps/s", "contact", "dropped", "resent"
+        )?;
+        for actor in &run.actors {
+            line(out, actor)?;
+        }
+    }
+    Ok(())
+}
+
+fn line(out: &mut String, actor: &ActorStatus) -> std::fmt::Result {
+    let stats = actor.stats.clone().unwrap_or_default();
+    let known = |text: String| if actor.stats.is_some() { text } else { "–".to_string() };
+    writeln!(
+        out,
+        "    {:<24} {:<16} {:>8} {:>5} {:>4} {:>9} {:>8} {:>8} {:>7}  {}",
+        actor.name,
+        known(plain(&stats.host)),
+        known(plain(&stats.program_version)),
+        known(stats.envs.to_string()),
+        actor.lag_versions.map_or("–".to_string(), |lag| lag.to_string()),
+        known(format!("{:.0}", stats.env_steps_per_s)),
+        actor.since_contact_s.map_or("–".to_string(), seconds),
+        known(stats.dropped_by_rule.to_string()),
+        known(stats.resent.to_string()),
+        state(actor),
+    )
+}
+
+/// What strangers call themselves, without what would move the cursor or turn the direction of writing.
+pub fn plain(text: &str) -> String {
+    let unseen = |c: char| {
+        c.is_control()
+            || matches!(c, '\u{ad}' | '\u{200b}'..='\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2060}'..='\u{206f}' | '\u{feff}')
+    };
+    text.chars().filter(|c| !unseen(*c)).take(24).collect()
+}
+
+/// Whether an actor takes part, in a word.
+pub fn state(actor: &ActorStatus) -> &'static str {
+    match (actor.quarantined, actor.alive) {
+        (true, _) => "quarantined",
+        (false, true) => "alive",
+        (false, false) => "gone",
+    }
+}
+
+fn phase(run: &RunStatus) -> &'static str {
+    match run.phase() {
+        Phase::Paused => "is paused",
+        Phase::Stopping => "is stopping",
+        Phase::Training | Phase::Unspecified => "trains",
+    }
+}
+
+fn seconds(elapsed_s: f64) -> String {
+    if elapsed_s < 100.0 { format!("{elapsed_s:.1} s") } else { format!("{:.0} min", elapsed_s / 60.0) }
+}
+
+/// Steps per second that the living actors report, together.
+pub fn fleet_rate(run: &RunStatus) -> f64 {
+    run.actors
+        .iter()
+        .filter(|actor| actor.alive)
+        .filter_map(|actor| actor.stats.as_ref().map(|stats| stats.env_steps_per_s))
+        .sum()
+}
