@@ -122,7 +122,7 @@ impl Terminal {
     }
 
     /// Waits for the end, and asserts that the terminal is as it was.
-    fn must_be_left_as_it_was(mut self) -> ExitStatus {
+    fn end_as_it_began(mut self) -> ExitStatus {
         let status = await_that("the end", || self.child.try_wait().unwrap());
         await_that("the screen from before", || {
             let screen = self.screen.lock().unwrap();
@@ -184,7 +184,7 @@ fn a_run_is_watched_resized_explained_and_left() {
     terminal.resize(24, 80);
     terminal.shows(&["of 1.00G steps"]);
     terminal.types("q");
-    assert_eq!(terminal.must_be_left_as_it_was().code(), Some(0));
+    assert_eq!(terminal.end_as_it_began().code(), Some(0));
 }
 
 #[test]
@@ -205,7 +205,7 @@ fn a_learner_that_comes_back_elsewhere_is_found() {
     terminal.shows(&["run  training", "actor-0"]);
     // Whoever ends it from outside finds the terminal as it was, too.
     send_signal(terminal.child.id(), libc::SIGTERM);
-    assert_eq!(terminal.must_be_left_as_it_was().code(), Some(0));
+    assert_eq!(terminal.end_as_it_began().code(), Some(0));
 }
 
 #[test]
@@ -223,5 +223,5 @@ fn where_there_is_no_terminal_plain_lines_come_and_errors_leave_it_alone() {
     }
     let nobody = Terminal::start(folder.path(), &["status", "--watch", "--connect", "tcp/127.0.0.1:1"], &[]);
     nobody.shows(&["error: nobody answers at tcp/127.0.0.1:1"]);
-    assert_eq!(nobody.must_be_left_as_it_was().code(), Some(1));
+    assert_eq!(nobody.end_as_it_began().code(), Some(1));
 }
