@@ -124,12 +124,8 @@ async fn stay(
     let receipt_timeout = Duration::from_millis(config.bus.receipt_timeout_ms);
     let courier = Arc::new(Courier::new(bus.clone(), &bundle.run, &options.name, receipt_timeout, policies.clone()));
     let publisher = PosePublisher::open(bus, &bundle.run, &options.name)?;
-    let sender = Sender {
-        run: bundle.run.clone(),
-        actor: options.name.clone(),
-        incarnation,
-        config_hash: bundle.config_hash,
-    };
+    let sender =
+        Sender { run: bundle.run.clone(), actor: options.name.clone(), incarnation, config_hash: bundle.config_hash };
     let (camera, tape) = Camera::new(publisher.watched(), sender.clone());
     let collector = collector(options, bundle, &config, sender)?.with_camera(camera);
     let staleness = Staleness::new(&config, &options.name, options.start);

@@ -32,8 +32,7 @@ impl Pose {
     /// [`Malformed`] names what is wrong.
     pub fn decode_checked(bytes: &[u8]) -> Result<Self, Malformed> {
         check_size(bytes.len())?;
-        let pose =
-            Self::decode(bytes).map_err(|why| Malformed::Undecodable { what: "pose", why: why.to_string() })?;
+        let pose = Self::decode(bytes).map_err(|why| Malformed::Undecodable { what: "pose", why: why.to_string() })?;
         pose.check()?;
         Ok(pose)
     }

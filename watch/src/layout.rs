@@ -3,8 +3,8 @@
 use rerun::{
     AsComponents, EntityPath, RecordingStream, RecordingStreamBuilder, RecordingStreamResult,
     blueprint::{
-        Blueprint, BlueprintActivation, BlueprintPanel, ContainerLike, Horizontal, SelectionPanel, Spatial3DView, TimePanel,
-        TimeSeriesView, Vertical,
+        Blueprint, BlueprintActivation, BlueprintPanel, ContainerLike, Horizontal, SelectionPanel, Spatial3DView,
+        TimePanel, TimeSeriesView, Vertical,
         components::{Eye3DKind, PanelState, PlayState},
     },
     external::{
@@ -92,7 +92,8 @@ fn send_with(
     view: &EntityPath,
     properties: &[(&str, &dyn AsComponents)],
 ) -> RecordingStreamResult<()> {
-    let application = recording.store_info().map(|info| info.application_id().clone()).unwrap_or_else(|| "treadmill".into());
+    let application =
+        recording.store_info().map(|info| info.application_id().clone()).unwrap_or_else(|| "treadmill".into());
     let (made_in, made) = RecordingStreamBuilder::new(application.clone()).memory()?;
     blueprint.send(&made_in, BlueprintActivation::default())?;
     let mut messages = Vec::new();

@@ -53,7 +53,10 @@ pub fn run(wish: &Wish, open: impl FnOnce(&str, Model) -> anyhow::Result<(Screen
         while !shutdown.asked() && wish.for_s.is_none_or(|limit_s| stage.shown_s() < limit_s) {
             let Some(pose) = tokio::task::block_in_place(|| feed.next())? else { continue };
             if pose.config_hash != bundle.config_hash {
-                anyhow::bail!("run `{}` was begun anew with another configuration or model; watch it again", bundle.run);
+                anyhow::bail!(
+                    "run `{}` was begun anew with another configuration or model; watch it again",
+                    bundle.run
+                );
             }
             stage.show(&pose)?;
         }

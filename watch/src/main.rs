@@ -91,7 +91,8 @@ fn main() -> ExitCode {
 
 fn play(cli: &Cli) -> anyhow::Result<()> {
     let Some(run) = cli.reach.named() else {
-        let why = "watch needs a RUN, as in `treadmill watch runs/walk-1`; or --live and, from another machine, --connect";
+        let why =
+            "watch needs a RUN, as in `treadmill watch runs/walk-1`; or --live and, from another machine, --connect";
         return Err(Usage(why.to_string()).into());
     };
     let mut player = player::Player::load(run, cli.checkpoint)?;

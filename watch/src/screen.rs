@@ -8,8 +8,7 @@ use std::{
 use anyhow::Context;
 use clap::Args;
 use rerun::{
-    MemoryLimit, RecordingStream, RecordingStreamBuilder, ServerOptions, SpawnOptions,
-    web_viewer::WebViewerConfig,
+    MemoryLimit, RecordingStream, RecordingStreamBuilder, ServerOptions, SpawnOptions, web_viewer::WebViewerConfig,
 };
 use treadmill_common::{machine, shutdown::Shutdown};
 use treadmill_rl::{outcome::Usage, output::say, signals};
@@ -124,6 +123,8 @@ impl Screen {
         self.recording.flush_blocking().context("not everything could be written")?;
         match &self.end {
             End::File(file) => {
+                // The end of the file is written when it is closed.
+                self.recording.disconnect();
                 let bytes = std::fs::metadata(file).with_context(|| format!("cannot read `{}`", file.display()))?.len();
                 say(&format!("written: {} ({} kB)", file.display(), bytes / 1000));
             }
@@ -131,7 +132,8 @@ impl Screen {
             End::Page if shutdown.asked() => {}
             End::Page => {
                 say("all is shown; Ctrl-C ends");
-                let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build().context("no runtime")?;
+                let runtime =
+                    tokio::runtime::Builder::new_current_thread().enable_all().build().context("no runtime")?;
                 runtime.block_on(async {
                     signals::listen(shutdown.clone(), "").context("signals cannot be caught")?;
                     shutdown.wait().await;
@@ -145,9 +147,10 @@ impl Screen {
 
 /// A port that nobody has: the one that is asked for, or any for 0.
 fn free_port(bind: IpAddr, port: u16, flag: &str) -> anyhow::Result<u16> {
-    let bound = TcpListener::bind(SocketAddr::new(bind, port))
-        .and_then(|listener| listener.local_addr())
-        .map_err(|why| Usage(format!("{flag} {port}: {bind}:{port} cannot be listened on: {why}; choose another, or 0")))?;
+    let bound =
+        TcpListener::bind(SocketAddr::new(bind, port)).and_then(|listener| listener.local_addr()).map_err(|why| {
+            Usage(format!("{flag} {port}: {bind}:{port} cannot be listened on: {why}; choose another, or 0"))
+        })?;
     Ok(bound.port())
 }
 

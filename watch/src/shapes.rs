@@ -2,8 +2,8 @@
 
 use nalgebra::{Isometry3, Point3, UnitQuaternion, Vector3};
 use rerun::{
-    Boxes3D, Capsules3D, Color, Cylinders3D, Ellipsoids3D, EntityPath, EntityPathPart, RecordingStream, RecordingStreamResult,
-    components::FillMode, datatypes::Quaternion,
+    Boxes3D, Capsules3D, Color, Cylinders3D, Ellipsoids3D, EntityPath, EntityPathPart, RecordingStream,
+    RecordingStreamResult, components::FillMode, datatypes::Quaternion,
 };
 use treadmill_humanoid::{Model, model::Geometry};
 use treadmill_render::scene;

@@ -161,8 +161,7 @@ impl Stage {
 
     /// Episodes follow one another on the timelines.
     fn begin_episode(&mut self, pose: &Pose) {
-        let key =
-            Key { actor: pose.actor.clone(), incarnation: pose.actor_incarnation, episode: pose.episode };
+        let key = Key { actor: pose.actor.clone(), incarnation: pose.actor_incarnation, episode: pose.episode };
         if self.episode.as_ref() == Some(&key) {
             return;
         }

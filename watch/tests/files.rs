@@ -37,7 +37,8 @@ fn a_played_episode_is_written_as_a_file() {
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
     let (rows, has_layout) = read(&folder.path().join("walk.rrd"));
     assert!(has_layout);
-    let shapes: usize = Model::from_mjcf(HUMANOID_XML).expect("valid").bodies.iter().map(|body| body.shapes.len()).sum();
+    let shapes: usize =
+        Model::from_mjcf(HUMANOID_XML).expect("valid").bodies.iter().map(|body| body.shapes.len()).sum();
     // 3 s of 15 ms each.
     for path in ["/world/body/torso", "/world/trail", "/world/contacts/forces"] {
         assert_eq!(rows.get(path), Some(&200), "{path} in {rows:#?}");

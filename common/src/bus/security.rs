@@ -207,8 +207,7 @@ fn grants(role: Role) -> Vec<Grant> {
         }
         Role::Actor => {
             const ROLLOUTS: &[&str] = &["treadmill/*/rollouts/*", "treadmill/*/tasks/*"];
-            const TOLD: &[&str] =
-                &["treadmill/*/actors/*/stats", "treadmill/*/episodes/*", "treadmill/*/poses/*"];
+            const TOLD: &[&str] = &["treadmill/*/actors/*/stats", "treadmill/*/episodes/*", "treadmill/*/poses/*"];
             let mut grants = read_policy();
             grants.extend([
                 Grant { flows: IN, messages: &["query"], keys: ROLLOUTS },

@@ -37,7 +37,11 @@ fn program() -> Option<OsString> {
     }
     let names = ["chromium", "chromium-browser", "google-chrome"];
     let folders: Vec<_> = std::env::split_paths(&std::env::var_os("PATH")?).collect();
-    names.iter().flat_map(|name| folders.iter().map(move |folder| folder.join(name))).find(|path| path.is_file()).map(Into::into)
+    names
+        .iter()
+        .flat_map(|name| folders.iter().map(move |folder| folder.join(name)))
+        .find(|path| path.is_file())
+        .map(Into::into)
 }
 
 impl Browser {
@@ -51,7 +55,13 @@ impl Browser {
         let mut command = Command::new("sh");
         // It reads from file 3 and writes to file 4.
         command.args(["-c", r#"exec "$0" "$@" 3<&0 4>&1 </dev/null >/dev/null 2>&1"#]).arg(program);
-        command.args(["--headless=new", "--remote-debugging-pipe", "--no-first-run", "--no-sandbox", "--hide-scrollbars"]);
+        command.args([
+            "--headless=new",
+            "--remote-debugging-pipe",
+            "--no-first-run",
+            "--no-sandbox",
+            "--hide-scrollbars",
+        ]);
         command.arg(format!("--user-data-dir={}", profile.path().display()));
         command.arg(format!("--window-size={},{}", SIZE.0, SIZE.1));
         // A processor draws, so that no GPU is needed.

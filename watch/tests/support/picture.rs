@@ -40,9 +40,8 @@ impl Picture {
     }
 
     fn pixels(&self, part: &Part) -> impl Iterator<Item = [u8; 3]> {
-        let cut = |range: &Range<f64>, size: usize| {
-            (range.start * size as f64) as usize..(range.end * size as f64) as usize
-        };
+        let cut =
+            |range: &Range<f64>, size: usize| (range.start * size as f64) as usize..(range.end * size as f64) as usize;
         let (columns, rows) = (cut(&part.x, self.width), cut(&part.y, self.height));
         rows.flat_map(move |row| columns.clone().map(move |column| self.rgb[row * self.width + column]))
     }
