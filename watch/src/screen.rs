@@ -123,6 +123,8 @@ impl Screen {
         self.recording.flush_blocking().context("not everything could be written")?;
         match &self.end {
             End::File(file) => {
+                // The end of the file is written when it is closed.
+                self.recording.disconnect();
                 let bytes = std::fs::metadata(file).with_context(|| format!("cannot read `{}`", file.display()))?.len();
                 say(&format!("written: {} ({} kB)", file.display(), bytes / 1000));
             }
