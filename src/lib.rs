@@ -4,6 +4,7 @@
 //! - [`saved_policy`]: the policy of a run, a checkpoint or an exported file.
 //! - [`network`]: flags about the network.
 //! - [`operator`]: where a learner is, and patience until it answers.
+//! - [`viewing`]: flags of `watch`.
 //! - [`signals`]: Ctrl-C, once and twice.
 //! - [`log`]: warnings on standard error.
 //! - [`outcome`]: errors and exit codes.
@@ -18,3 +19,4 @@ pub mod output;
 pub mod patience;
 pub mod saved_policy;
 pub mod signals;
+pub mod viewing;

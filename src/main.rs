@@ -44,7 +44,7 @@ mod watch;
 use std::process::ExitCode;
 
 use clap::{CommandFactory, Parser, Subcommand};
-use treadmill_rl::{log, operator, outcome, output, patience, saved_policy, signals};
+use treadmill_rl::{log, operator, outcome, output, patience, saved_policy, signals, viewing};
 
 /// Distributed reinforcement learning for humanoid robots.
 ///
@@ -69,7 +69,8 @@ enum Command {
     /// Play deterministic episodes with a trained policy, or with one of the baselines.
     Eval(eval::EvalArgs),
     /// See the humanoid move, in a browser: a trained policy, or with --live a run while it trains.
-    Watch(watch::WatchArgs),
+    #[command(mut_arg("folder", |arg| arg.help(viewing::RUN_HELP)))]
+    Watch(viewing::ViewArgs),
     /// Write a trained policy as a file that other programs read.
     Export(export::ExportArgs),
     /// Compare runs: how far they walk, how long they took, and what they were configured otherwise.
@@ -108,7 +109,7 @@ fn main() -> ExitCode {
         Command::Actor(args) => actor::run(args),
         Command::Evaluator(args) => evaluator::run(args),
         Command::Eval(args) => eval::run(args),
-        Command::Watch(args) => watch::run(&args),
+        Command::Watch(_) => watch::run(),
         Command::Export(args) => export::run(&args),
         Command::Runs(args) => runs::run(&args),
         Command::Status(args) => status::run(args),

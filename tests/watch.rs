@@ -18,7 +18,7 @@ fn the_viewer_gets_all_arguments_and_where_it_is_missing_it_is_told_how_to_build
     let own = alone.join("treadmill");
     fs::copy(env!("CARGO_BIN_EXE_treadmill"), &own).unwrap();
     let watch = || {
-        Command::new(&own).args(["watch", "runs/walk-1", "--live", "--help"]).env("PATH", &viewers).output().unwrap()
+        Command::new(&own).args(["watch", "runs/walk-1", "--live", "--no-follow"]).env("PATH", &viewers).output().unwrap()
     };
     assert_refused(&watch(), 1, &["`treadmill-watch` is neither", "cargo build --release -p treadmill-watch"]);
     let install = |folder: &std::path::Path, name: &str| {
@@ -28,7 +28,7 @@ fn the_viewer_gets_all_arguments_and_where_it_is_missing_it_is_told_how_to_build
     };
     install(&viewers, "path");
     let output = watch();
-    assert_eq!((stdout(&output).as_str(), output.status.code()), ("path runs/walk-1 --live --help\n", Some(7)));
+    assert_eq!((stdout(&output).as_str(), output.status.code()), ("path runs/walk-1 --live --no-follow\n", Some(7)));
     install(&alone, "beside");
-    assert_eq!(stdout(&watch()), "beside runs/walk-1 --live --help\n");
+    assert_eq!(stdout(&watch()), "beside runs/walk-1 --live --no-follow\n");
 }

@@ -25,14 +25,13 @@ use std::{
 use clap::{CommandFactory, FromArgMatches, Parser};
 use treadmill_common::shutdown::Shutdown;
 use treadmill_humanoid::Model;
-use treadmill_learner::checkpoint::Which;
-use treadmill_rl::{log, operator::ReachArgs, outcome, outcome::Usage};
-
-use crate::{
-    layout::Pace,
-    screen::{Screen, ScreenArgs},
-    stage::Stage,
+use treadmill_rl::{
+    log, outcome,
+    outcome::Usage,
+    viewing::{RUN_HELP, ViewArgs},
 };
+
+use crate::{layout::Pace, screen::Screen, stage::Stage};
 
 /// See the humanoid move.
 ///
@@ -42,82 +41,45 @@ use crate::{
 #[command(name = "treadmill watch", bin_name = "treadmill watch", version, max_term_width = 110)]
 struct Cli {
     #[command(flatten)]
-    reach: ReachArgs,
-    /// Watch an actor of a run that trains now. RUN is its folder on this machine; elsewhere give --connect.
-    #[arg(long)]
-    live: bool,
-    /// The actor to watch; by default the first that shows itself.
-    #[arg(long, value_name = "NAME", requires = "live")]
-    actor: Option<String>,
-    /// End after so many seconds of motion.
-    #[arg(long, value_name = "SECONDS", value_parser = positive)]
-    for_s: Option<f64>,
-    /// Which checkpoint: best, latest, or the number of updates of a kept one; by default best if there is one.
-    #[arg(long, value_name = "WHICH", conflicts_with = "live")]
-    checkpoint: Option<Which>,
-    /// Episodes to play; 0 shows the empty stage.
-    #[arg(long, default_value_t = 3, value_parser = clap::value_parser!(u32).range(..=1000), conflicts_with = "live")]
-    episodes: u32,
-    /// Seed of the resets, as for `eval`.
-    #[arg(long, default_value_t = 1, conflicts_with = "live")]
-    seed: u64,
-    /// Show motion as it happens, at so many times the pace of the clock, rather than all of it at once.
-    #[arg(long, value_name = "TIMES", value_parser = positive, conflicts_with = "live")]
-    speed: Option<f64>,
-    /// Let the camera stand still; it follows the torso otherwise.
-    #[arg(long)]
-    no_follow: bool,
-    #[command(flatten)]
-    screen: ScreenArgs,
-}
-
-/// The same flag means a little more here than for `status`.
-const RUN_HELP: &str = "A run's folder, its name below runs/, a bundle file, or what `export` wrote; with --live the folder of a run \
-                        that trains on this machine";
-
-fn positive(text: &str) -> Result<f64, String> {
-    match text.parse::<f64>() {
-        Ok(number) if number.is_finite() && number > 0.0 => Ok(number),
-        _ => Err("expected a number above 0".to_string()),
-    }
+    view: ViewArgs,
 }
 
 fn main() -> ExitCode {
     let command = Cli::command().mut_arg("folder", |arg| arg.help(RUN_HELP));
-    let cli = Cli::from_arg_matches(&command.get_matches()).unwrap_or_else(|why| why.exit());
+    let Cli { view } = Cli::from_arg_matches(&command.get_matches()).unwrap_or_else(|why| why.exit());
     log::begin("");
-    outcome::exit_code(if cli.live { live(&cli) } else { play(&cli) })
+    outcome::exit_code(if view.live { live(&view) } else { play(&view) })
 }
 
-fn play(cli: &Cli) -> anyhow::Result<()> {
-    let Some(run) = cli.reach.folder.as_deref() else {
+fn play(view: &ViewArgs) -> anyhow::Result<()> {
+    let Some(run) = view.reach.folder.as_deref() else {
         let why =
             "watch needs a RUN, as in `treadmill watch runs/walk-1`; or --live and, from another machine, --connect";
         return Err(Usage(why.to_string()).into());
     };
-    let mut player = player::Player::load(run, cli.checkpoint)?;
-    let (screen, mut stage) = set_up(cli, run, player.model(), Pace::Played)?;
+    let mut player = player::Player::load(run, view.checkpoint)?;
+    let (screen, mut stage) = set_up(view, run, player.model(), Pace::Played)?;
     let begun = Instant::now();
-    player.play(cli.episodes, cli.seed, |pose| {
+    player.play(view.episodes, view.seed, |pose| {
         stage.show(pose)?;
-        if let Some(speed) = cli.speed {
+        if let Some(speed) = view.speed {
             let due = Duration::from_secs_f64(stage.shown_s() / speed);
             std::thread::sleep(due.saturating_sub(begun.elapsed()));
         }
-        Ok(cli.for_s.is_none_or(|limit_s| stage.shown_s() < limit_s))
+        Ok(view.for_s.is_none_or(|limit_s| stage.shown_s() < limit_s))
     })?;
     screen.finish(&Shutdown::default())
 }
 
-fn live(cli: &Cli) -> anyhow::Result<()> {
-    let wish = live::Wish { reach: &cli.reach, actor: cli.actor.as_deref(), for_s: cli.for_s };
-    live::run(&wish, |name, model| set_up(cli, name, model, Pace::Live))
+fn live(view: &ViewArgs) -> anyhow::Result<()> {
+    let wish = live::Wish { reach: &view.reach, actor: view.actor.as_deref(), for_s: view.for_s };
+    live::run(&wish, |name, model| set_up(view, name, model, Pace::Live))
 }
 
-fn set_up(cli: &Cli, name: &str, model: Model, pace: Pace) -> anyhow::Result<(Screen, Stage)> {
-    let screen = cli.screen.open(name, cli.reach.network.insecure)?;
+fn set_up(view: &ViewArgs, name: &str, model: Model, pace: Pace) -> anyhow::Result<(Screen, Stage)> {
+    let screen = Screen::open(&view.screen, name, view.reach.network.insecure)?;
     let stage = Stage::new(screen.recording().clone(), model);
-    let followed = (!cli.no_follow).then(|| stage.torso());
+    let followed = (!view.no_follow).then(|| stage.torso());
     layout::send(screen.recording(), followed, pace)?;
     stage.set_up()?;
     Ok((screen, stage))

@@ -1,44 +1,19 @@
 //! Where it goes: a viewer served to a browser, Rerun's own window, or a file.
 
 use std::{
-    net::{IpAddr, Ipv4Addr, SocketAddr, TcpListener},
+    net::{IpAddr, SocketAddr, TcpListener},
     path::PathBuf,
 };
 
 use anyhow::Context;
-use clap::Args;
 use rerun::{
     MemoryLimit, RecordingStream, RecordingStreamBuilder, ServerOptions, SpawnOptions, web_viewer::WebViewerConfig,
 };
 use treadmill_common::{machine, shutdown::Shutdown};
-use treadmill_rl::{outcome::Usage, output::say, signals};
+use treadmill_rl::{outcome::Usage, output::say, signals, viewing::ScreenArgs};
 
 /// What Rerun tells recordings of different programs apart by; layouts are kept under it.
 const APPLICATION: &str = "treadmill";
-
-/// Where it goes.
-#[derive(Args, Clone, Debug)]
-pub struct ScreenArgs {
-    /// Write a file for Rerun's viewer instead, as in `rerun walk.rrd`.
-    #[arg(long, value_name = "FILE", conflicts_with = "native")]
-    rrd: Option<PathBuf>,
-    /// Open a window of Rerun's own viewer instead; the program `rerun` of the same version must be on the PATH.
-    #[arg(long)]
-    native: bool,
-    /// Address that the viewer is served on. Anybody who reaches another one than this machine's own can watch and draw, so
-    /// it needs --insecure.
-    #[arg(long, value_name = "ADDRESS", default_value_t = IpAddr::V4(Ipv4Addr::LOCALHOST))]
-    bind: IpAddr,
-    /// Port of the page; 0 for any free one.
-    #[arg(long, value_name = "PORT", default_value_t = 9090)]
-    web_port: u16,
-    /// Port of the data that the page shows; 0 for any free one.
-    #[arg(long, value_name = "PORT", default_value_t = 9876)]
-    data_port: u16,
-    /// Motion that is kept for pages that are opened later; the oldest goes first (MiB).
-    #[arg(long, value_name = "MIB", default_value_t = 512, value_parser = clap::value_parser!(u64).range(16..=65_536))]
-    memory_max_mb: u64,
-}
 
 /// A recording on its way.
 pub struct Screen {
@@ -52,16 +27,16 @@ enum End {
     Page,
 }
 
-impl ScreenArgs {
+impl Screen {
     /// Opens it; `name` is what the recording is called.
-    pub fn open(&self, name: &str, is_insecure: bool) -> anyhow::Result<Screen> {
+    pub fn open(args: &ScreenArgs, name: &str, is_insecure: bool) -> anyhow::Result<Self> {
         let builder = RecordingStreamBuilder::new(APPLICATION).recording_name(name);
-        if let Some(file) = &self.rrd {
+        if let Some(file) = &args.rrd {
             let recording =
                 builder.save(file).with_context(|| format!("--rrd {}: the file cannot be written", file.display()))?;
             return Ok(Screen { recording, end: End::File(file.clone()) });
         }
-        if self.native {
+        if args.native {
             check_display()?;
             let options = SpawnOptions { wait_for_bind: true, ..SpawnOptions::default() };
             let recording = builder.spawn_opts(&options).with_context(|| {
@@ -70,11 +45,11 @@ impl ScreenArgs {
             })?;
             return Ok(Screen { recording, end: End::Window });
         }
-        self.serve(builder, is_insecure)
+        Self::serve(args, builder, is_insecure)
     }
 
-    fn serve(&self, builder: RecordingStreamBuilder, is_insecure: bool) -> anyhow::Result<Screen> {
-        let Self { bind, .. } = *self;
+    fn serve(args: &ScreenArgs, builder: RecordingStreamBuilder, is_insecure: bool) -> anyhow::Result<Self> {
+        let bind = args.bind;
         if !bind.is_loopback() && !is_insecure {
             return Err(Usage(format!(
                 "--bind {bind}: neither page nor data are encrypted or ask who comes; forward the ports by ssh instead (see \
@@ -82,15 +57,15 @@ impl ScreenArgs {
             ))
             .into());
         }
-        let web_port = free_port(bind, self.web_port, "--web-port")?;
-        let data_port = free_port(bind, self.data_port, "--data-port")?;
+        let web_port = free_port(bind, args.web_port, "--web-port")?;
+        let data_port = free_port(bind, args.data_port, "--data-port")?;
         let host = match bind {
             bind if bind.is_unspecified() => machine::host_name(),
             IpAddr::V6(bind) => format!("[{bind}]"),
             IpAddr::V4(bind) => bind.to_string(),
         };
         let options = ServerOptions {
-            memory_limit: MemoryLimit::from_bytes(self.memory_max_mb << 20),
+            memory_limit: MemoryLimit::from_bytes(args.memory_max_mb << 20),
             // The page comes from another port than the data.
             cors_allowed_origins: vec![format!("http://{host}:{web_port}"), format!("http://*:{web_port}")],
             ..ServerOptions::default()
@@ -110,9 +85,7 @@ impl ScreenArgs {
         say(&format!("watch at http://{host}:{web_port}/?url=rerun%2Bhttp%3A%2F%2F{host}%3A{data_port}%2Fproxy"));
         Ok(Screen { recording, end: End::Page })
     }
-}
 
-impl Screen {
     /// What is logged into.
     pub fn recording(&self) -> &RecordingStream {
         &self.recording
