@@ -4,11 +4,12 @@ Needs: cargo build --release --bins --examples; Linux, two cores.
 
 Usage: measure.py [--target target/release] [--pairs 3] [--window-s 8] [--kinds empty,names,...] [--plain] [--million]
 
-For each kind of flood it alternates windows without and with it. From the steps learnt from, by the run's own metrics, and the
-processor time that learner and actor used, follows what a step costs without the flood, and so what the flood costs beside the
-steps: a share of one core. That share is what good actors lose where they and the learner have one core for themselves and use
-all of it; it does not depend on what else runs on the machine, as the rate by the clock does, which stands beside it. Medians
-are over pairs of neighbouring windows. Everything is over mutual TLS, and the hostile client has an actor's certificate, unless
+For each kind of flood it alternates windows without and with it. The bus's share is the processor time of all threads of the
+learner but those that train, as a share of one core: what it grows by is what good actors lose where they and the learner have one
+core for themselves and use all of it. The cost by steps is the same by another way, which has the training thread and all
+disturbance in it, and is noisier: from the steps learnt from, by the run's own metrics, and the processor time that learner and
+actor used, follows what a step costs without the flood, and so what the flood costs beside the steps. Medians are over pairs of
+neighbouring windows. Everything is over mutual TLS, and the hostile client has an actor's certificate, unless
 --plain is given. --million sends a million tiny messages of three kinds and looks at the learner's memory.
 """
 
@@ -85,6 +86,17 @@ class Fleet:
                     found = json.loads(line)["value"]
         return found
 
+    def bus_s(self):
+        """Processor time of the learner's threads that serve the bus."""
+        total = 0
+        for thread in pathlib.Path(f"/proc/{self.learner.pid}/task").iterdir():
+            try:
+                trains = (thread / "comm").read_text().startswith(("training", "update", "treadmill"))
+                total += 0 if trains else int((thread / "schedstat").read_text().split()[0])
+            except OSError:
+                pass  # a thread that has ended
+        return total / 1e9
+
     def cpu_s(self):
         total = 0
         for process in (self.learner, self.actor):
@@ -93,19 +105,21 @@ class Fleet:
         return total / os.sysconf("SC_CLK_TCK")
 
     def window(self, seconds):
-        """Steps, processor time and time between the first update and the last one; the learner's memory at most."""
-        samples, memory, begun = [], 0.0, time.time()
+        """Steps, processor time and time between the first update and the last one; the bus's share of a core, and the learner's
+        memory at most."""
+        samples, memory, begun, bus_s = [], 0.0, time.time(), self.bus_s()
         while time.time() < begun + seconds:
             samples.append((time.time(), self.cpu_s()))
             memory = max(memory, self.memory_mb())
             time.sleep(0.02)
+        bus = (self.bus_s() - bus_s) / (time.time() - begun)
         within = [mark for mark in self.marks() if samples[0][0] <= mark[0] <= samples[-1][0]]
         if len(within) < 2:
             sys.exit(f"only {len(within)} updates in a window: take a longer one by --window-s")
         cpu_at = lambda when: samples[bisect.bisect_left(samples, (when, 0.0))][1]
         (first, steps_before), (last, steps_after) = within[0], within[-1]
         steps = steps_after - steps_before
-        return steps, cpu_at(last) - cpu_at(first), last - first, memory
+        return steps, cpu_at(last) - cpu_at(first), last - first, bus, memory
 
     def memory_mb(self):
         pages = int(pathlib.Path(f"/proc/{self.learner.pid}/statm").read_text().split()[1])
@@ -123,15 +137,17 @@ def pairs(fleet, kind, count, window_s):
     """One dictionary for each pair of windows."""
     found = []
     for _ in range(count):
-        quiet_steps, quiet_cpu_s, quiet_s, _ = fleet.window(window_s)
-        hostile = fleet.attack(kind, window_s + 1)
+        quiet_steps, quiet_cpu_s, quiet_s, quiet_bus, _ = fleet.window(window_s)
+        hostile = fleet.attack(kind, window_s + 60)
         # It takes a moment to join.
         time.sleep(1)
-        steps, cpu_s, seconds, memory = fleet.window(window_s)
-        told = json.loads(hostile.communicate()[0])
+        steps, cpu_s, seconds, bus, memory = fleet.window(window_s)
+        hostile.kill()
+        hostile.wait()
         found.append(
             {
-                "sent_per_s": told["sent"] / told["wall_s"],
+                "quiet_bus": quiet_bus,
+                "bus": bus,
                 "cost": (cpu_s - steps * quiet_cpu_s / quiet_steps) / seconds,
                 "quiet_per_s": quiet_steps / quiet_s,
                 "flooded_per_s": steps / seconds,
@@ -175,15 +191,16 @@ def main():
                         flush=True,
                     )
             else:
-                print("| flood | messages/s | cost, share of a core (least to most) | steps/s by the clock, without → with "
-                      "| learner's memory, MB |")
+                print("| flood | bus, share of a core, without → with | cost by steps (least to most) "
+                      "| steps/s by the clock, without → with | learner's memory, MB |")
                 print("|---|---|---|---|---|", flush=True)
                 for kind in options.kinds.split(","):
                     found = pairs(fleet, kind, options.pairs, options.window_s)
                     middle = {name: statistics.median(pair[name] for pair in found) for name in found[0]}
                     costs = [pair["cost"] for pair in found]
                     print(
-                        f"| {kind} | {middle['sent_per_s']:.0f} | {middle['cost']:.1%} ({min(costs):.1%} to {max(costs):.1%}) "
+                        f"| {kind} | {middle['quiet_bus']:.1%} → {middle['bus']:.1%} "
+                        f"| {middle['cost']:.0%} ({min(costs):.0%} to {max(costs):.0%}) "
                         f"| {middle['quiet_per_s']:.0f} → {middle['flooded_per_s']:.0f} | {middle['memory_mb']:.0f} |",
                         flush=True,
                     )

@@ -23,10 +23,10 @@ use tokio::{
 };
 
 /// One nap. A waking thread disturbs others for far longer than a message costs, so naps are few and long.
-const NAP: Duration = Duration::from_millis(10);
+const NAP: Duration = Duration::from_millis(25);
 /// Naps during one read of a link, which may bring a thousand messages: together much shorter than the silence after which
 /// a link is given up, as others behind a router share it.
-const NAPS_PER_READ: u32 = 100;
+const NAPS_PER_READ: u32 = 40;
 
 /// Lets so many messages a second pass at full speed.
 #[derive(Debug)]
