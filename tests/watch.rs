@@ -18,7 +18,11 @@ fn the_viewer_gets_all_arguments_and_where_it_is_missing_it_is_told_how_to_build
     let own = alone.join("treadmill");
     fs::copy(env!("CARGO_BIN_EXE_treadmill"), &own).unwrap();
     let watch = || {
-        Command::new(&own).args(["watch", "runs/walk-1", "--live", "--no-follow"]).env("PATH", &viewers).output().unwrap()
+        Command::new(&own)
+            .args(["watch", "runs/walk-1", "--live", "--no-follow"])
+            .env("PATH", &viewers)
+            .output()
+            .unwrap()
     };
     assert_refused(&watch(), 1, &["`treadmill-watch` is neither", "cargo build --release -p treadmill-watch"]);
     let install = |folder: &std::path::Path, name: &str| {
