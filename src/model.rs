@@ -2,7 +2,6 @@
 
 use std::{
     borrow::Cow,
-    error::Error,
     path::{Path, PathBuf},
 };
 
@@ -12,7 +11,7 @@ use treadmill_common::config::{Config, ConfigSource, EnvConfig, EnvObservation, 
 use treadmill_humanoid::{Environment, HUMANOID_XML, Model, ModelError, read_model_file};
 use treadmill_learner::mirror::{Exchange, Mirror};
 
-use crate::outcome::Usage;
+use crate::outcome::{self, Usage};
 
 /// Flags about robot and task of commands that play without a run.
 #[derive(Args, Clone, Debug, Default)]
@@ -114,12 +113,7 @@ fn check_height(env: &EnvConfig, height_m: f64, path: &Path) -> Result<(), Usage
 }
 
 fn blame(file: Option<&Path>, why: &ModelError) -> Usage {
-    let mut told = why.to_string();
-    let mut cause = why.source();
-    while let Some(why) = cause {
-        told = format!("{told}: {why}");
-        cause = why.source();
-    }
+    let told = outcome::chain(anyhow::Chain::new(why));
     match file {
         Some(path) => Usage(format!("model file `{}`: {told}", path.display())),
         None => Usage(told),

@@ -12,14 +12,14 @@ pub struct Usage(pub String);
 /// Tells the error with all its causes, and what the process exits with.
 pub fn exit_code(done: anyhow::Result<()>) -> ExitCode {
     let Err(why) = done else { return ExitCode::SUCCESS };
-    crate::output::complain(&format!("error: {}", chain(&why)));
+    crate::output::complain(&format!("error: {}", chain(why.chain())));
     if is_usage(&why) { ExitCode::from(2) } else { ExitCode::from(1) }
 }
 
-/// Each message once: a transparent error repeats its cause word for word.
-fn chain(why: &anyhow::Error) -> String {
+/// An error and its causes, each message once: some repeat their cause word for word.
+pub fn chain(causes: anyhow::Chain) -> String {
     let mut messages: Vec<String> = Vec::new();
-    for cause in why.chain() {
+    for cause in causes {
         let message = cause.to_string();
         if !messages.iter().any(|told| told.contains(&message)) {
             messages.push(message);
@@ -45,9 +45,9 @@ mod tests {
     fn usage_is_told_from_failure_and_causes_are_not_repeated() {
         let usage = anyhow::Error::from(ConfigError::SetSyntax { given: "x".into() }).context("while reading flags");
         assert!(is_usage(&usage));
-        assert!(chain(&usage).starts_with("while reading flags: `--set x`"));
+        assert!(chain(usage.chain()).starts_with("while reading flags: `--set x`"));
         assert!(!is_usage(&anyhow::anyhow!("disk full")));
         let repeated = anyhow::anyhow!("disk full").context("cannot save: disk full");
-        assert_eq!(chain(&repeated), "cannot save: disk full");
+        assert_eq!(chain(repeated.chain()), "cannot save: disk full");
     }
 }

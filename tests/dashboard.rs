@@ -2,6 +2,10 @@
 
 mod support;
 
+#[path = "../src/status/screen.rs"]
+#[allow(dead_code, reason = "what asks for a terminal is tried through the binary")]
+mod screen;
+
 use std::{
     fs::File,
     io::{Read, Write},
@@ -11,7 +15,7 @@ use std::{
         unix::process::CommandExt,
     },
     path::Path,
-    process::{Child, ExitStatus},
+    process::{Child, Command, ExitStatus},
     sync::{Arc, Mutex},
 };
 
@@ -45,9 +49,14 @@ struct Terminal {
 impl Terminal {
     /// Starts on 80 × 24 characters.
     fn start(folder: &Path, args: &[&str], variables: &[(&str, &str)]) -> Self {
-        let [outer, inner] = pseudo_terminal();
         let mut command = treadmill(folder);
-        command.args(args).env_remove("NO_COLOR").env("TERM", "xterm-256color").envs(variables.iter().copied());
+        command.args(args).env_remove("NO_COLOR").envs(variables.iter().copied());
+        Self::start_this(command)
+    }
+
+    fn start_this(mut command: Command) -> Self {
+        let [outer, inner] = pseudo_terminal();
+        command.env("TERM", "xterm-256color");
         command.stdin(inner.try_clone().unwrap()).stdout(inner.try_clone().unwrap()).stderr(inner);
         // SAFETY: two calls to the system, which take numbers; the second makes standard input the controlling terminal.
         unsafe {
@@ -224,4 +233,27 @@ fn where_there_is_no_terminal_plain_lines_come_and_errors_leave_it_alone() {
     let nobody = Terminal::start(folder.path(), &["status", "--watch", "--connect", "tcp/127.0.0.1:1"], &[]);
     nobody.shows(&["error: nobody answers at tcp/127.0.0.1:1"]);
     assert_eq!(nobody.end_as_it_began().code(), Some(1));
+}
+
+/// Set where this program is to take the terminal and panic.
+const PANICS: &str = "TREADMILL_TEST_PANICS";
+
+#[test]
+fn a_panic_is_told_on_a_terminal_that_was_given_back() {
+    if std::env::var_os(PANICS).is_some() {
+        let mut screen = screen::Screen::open().expect("a terminal");
+        screen.draw(|frame| frame.render_widget("drawn before", frame.area())).expect("it is drawn");
+        let mut answer = String::new();
+        std::io::stdin().read_line(&mut answer).expect("whoever looks on goes on");
+        panic!("as planned");
+    }
+    let mut command = Command::new(std::env::current_exe().unwrap());
+    command.args(["--exact", "a_panic_is_told_on_a_terminal_that_was_given_back", "--nocapture"]).env(PANICS, "yes");
+    let mut terminal = Terminal::start_this(command);
+    terminal.shows(&["drawn before"]);
+    assert!(terminal.is_raw() && terminal.screen.lock().unwrap().screen().alternate_screen());
+    terminal.types("\n");
+    let seen = terminal.shows(&["as planned"]);
+    assert!(!seen.contains("drawn before"), "{seen}");
+    assert_ne!(terminal.end_as_it_began().code(), Some(0));
 }

@@ -6,7 +6,14 @@ mod support;
 #[allow(dead_code, reason = "the tests of hostile clients use the rest")]
 mod attacks;
 
-use std::{collections::BTreeSet, fs, net::TcpListener, path::Path, sync::LazyLock};
+use std::{
+    collections::BTreeSet,
+    fs,
+    net::TcpListener,
+    path::Path,
+    process::{Command, Output},
+    sync::LazyLock,
+};
 
 use attacks::{Attacker, spoilt};
 use support::*;
@@ -32,9 +39,12 @@ fn is_quoted(heading: &str, line: &str) {
 
 /// Runs to an error, and asserts that the page quotes it.
 fn fails(heading: &str, folder: &Path, args: &[&str], replaced: &[(&str, &str)]) {
-    let output = run(folder, args);
-    assert!(!output.status.success(), "{args:?}");
-    let text = stderr(&output);
+    has_failed(heading, &run(folder, args), replaced);
+}
+
+fn has_failed(heading: &str, output: &Output, replaced: &[(&str, &str)]) {
+    assert!(!output.status.success(), "{heading}: {}", stdout(output));
+    let text = stderr(output);
     let error = text.lines().find(|line| line.starts_with("error: ")).unwrap_or_else(|| panic!("no error in {text}"));
     is_quoted(heading, &with(error, replaced));
 }
@@ -125,6 +135,10 @@ fn it_cannot_begin() {
     fs::write(folder.join("robot.xml"), "robot").unwrap();
     fails("A model that cannot be read", folder, &learner(&["--model", "robot.xml"]), &[]);
     fails("An actor of another task", folder, &["train", "--task", "external"], &[]);
+    let script = format!("ulimit -n 40 && exec {} train --run-dir other", env!("CARGO_BIN_EXE_treadmill"));
+    let output = Command::new("sh").args(["-c", &script]).current_dir(folder).output().expect("there is a shell");
+    has_failed("Too few files may be open", &output, &[]);
+    assert!(!folder.join("other").exists(), "nothing is left behind");
 }
 
 #[test]

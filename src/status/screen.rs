@@ -3,8 +3,7 @@
 use std::io::{self, IsTerminal};
 
 use ratatui::DefaultTerminal;
-
-use crate::output;
+use treadmill_rl::output;
 
 /// The whole terminal, on its alternate screen.
 pub struct Screen {

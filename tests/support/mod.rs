@@ -1,15 +1,16 @@
 //! What the whole-system tests share: the real binary in a folder of its own, and ways to wait for what it does.
 #![allow(dead_code, reason = "each test file uses its own part")]
 
+mod process;
+
 use std::{
     fs,
-    io::{BufRead, BufReader},
     path::{Path, PathBuf},
-    process::{Child, Command, ExitStatus, Output, Stdio},
-    sync::mpsc::{Receiver, RecvTimeoutError, channel},
-    time::{Duration, Instant},
+    process::{Command, Output, Stdio},
+    time::Duration,
 };
 
+pub use process::*;
 use serde_json::Value;
 
 /// Nothing in these tests takes this long unless it is broken.
@@ -52,95 +53,6 @@ pub fn assert_refused(output: &Output, code: i32, parts: &[&str]) {
         assert!(text.contains(part), "`{part}` is missing in: {text}");
     }
     assert!(!text.contains("panicked"), "{text}");
-}
-
-/// A process that is killed when the test is over, however it ends.
-pub struct Running {
-    child: Child,
-    lines: Receiver<String>,
-}
-
-impl Running {
-    /// Starts and follows standard output and standard error.
-    pub fn start(mut command: Command) -> Self {
-        let mut child = command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().expect("the binary starts");
-        let (sender, lines) = channel();
-        let out = child.stdout.take().expect("piped");
-        let err = child.stderr.take().expect("piped");
-        let streams: [Box<dyn std::io::Read + Send>; 2] = [Box::new(out), Box::new(err)];
-        for stream in streams {
-            let sender = sender.clone();
-            std::thread::spawn(move || {
-                for line in BufReader::new(stream).lines().map_while(Result::ok) {
-                    if sender.send(line).is_err() {
-                        return;
-                    }
-                }
-            });
-        }
-        Self { child, lines }
-    }
-
-    /// The process's number.
-    pub fn pid(&self) -> u32 {
-        self.child.id()
-    }
-
-    /// Waits for a line that contains `part`.
-    pub fn wait_for(&self, part: &str) -> String {
-        let until = Instant::now() + PATIENCE;
-        let mut seen = Vec::new();
-        loop {
-            match self.lines.recv_timeout(until.saturating_duration_since(Instant::now())) {
-                Ok(line) if line.contains(part) => return line,
-                Ok(line) => seen.push(line),
-                Err(RecvTimeoutError::Timeout) => panic!("no line with `{part}`; seen: {seen:#?}"),
-                Err(RecvTimeoutError::Disconnected) => panic!("it ended without `{part}`; seen: {seen:#?}"),
-            }
-        }
-    }
-
-    /// Sends a signal.
-    pub fn signal(&self, signal: i32) {
-        send_signal(self.pid(), signal);
-    }
-
-    /// Waits for the end; all lines not read before, and the status.
-    pub fn wait(mut self) -> (ExitStatus, Vec<String>) {
-        let status = await_that("the process ends", || self.child.try_wait().expect("it can be waited for"));
-        // Both streams are closed now, or will be once a killed process's children are gone.
-        let mut lines = Vec::new();
-        while let Ok(line) = self.lines.recv_timeout(Duration::from_secs(5)) {
-            lines.push(line);
-        }
-        (status, lines)
-    }
-}
-
-impl Drop for Running {
-    fn drop(&mut self) {
-        let _ = self.child.kill();
-        let _ = self.child.wait();
-    }
-}
-
-/// Sends a signal to any process.
-pub fn send_signal(pid: u32, signal: i32) {
-    // SAFETY: kill takes two numbers and touches no memory of ours.
-    let sent = unsafe { libc::kill(pid as i32, signal) };
-    assert_eq!(sent, 0, "process {pid} cannot be signalled");
-}
-
-/// Looks until `look` finds something.
-pub fn await_that<T>(what: &str, mut look: impl FnMut() -> Option<T>) -> T {
-    let until = Instant::now() + PATIENCE;
-    loop {
-        if let Some(found) = look() {
-            return found;
-        }
-        assert!(Instant::now() < until, "waited in vain: {what}");
-        std::thread::sleep(Duration::from_millis(10));
-    }
 }
 
 /// Child processes of `parent` whose command line contains `part`.

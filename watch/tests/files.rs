@@ -64,7 +64,7 @@ fn a_run_that_trains_is_watched_live() {
     let live = Running::start(command);
     live.wait_for("watching actor-");
     live.wait_for("written: live.rrd");
-    assert!(live.wait().success());
+    assert!(live.wait().0.success());
     let (rows, has_layout) = read(&folder.path().join("live.rrd"));
     assert!(has_layout);
     // Every other control step of 3 s, less the pauses between episodes.
@@ -77,7 +77,7 @@ fn a_run_that_trains_is_watched_live() {
     let live = Running::start(command);
     live.wait_for("watching actor-");
     live.signal(libc::SIGINT);
-    assert!(live.wait().success());
+    assert!(live.wait().0.success());
     assert!(read(&folder.path().join("asked.rrd")).1);
 }
 

@@ -60,6 +60,17 @@ pub enum BusError {
         /// What the system said.
         why: String,
     },
+    /// The process may open too few files.
+    #[error(
+        "this process may have {limit} files open, and the bus needs {needed}: raise the limit, as by `ulimit -Hn 4096`, \
+         LimitNOFILE=4096 in systemd, or `docker run --ulimit nofile=4096`"
+    )]
+    OpenFiles {
+        /// The limit.
+        limit: u64,
+        /// What is needed at least.
+        needed: u64,
+    },
     /// A setting was refused.
     #[error("{what}: {why}")]
     Config {

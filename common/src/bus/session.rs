@@ -26,6 +26,9 @@ const CLOSE_TIMEOUT: Duration = Duration::from_secs(2);
 const SESSIONS_MAX: u64 = 4096;
 /// Open files that are kept for everything but the bus: checkpoints and logs must not fail because strangers connect.
 const OTHER_FILES: u64 = 256;
+/// Below this the bus's own threads find no file to begin with and panic, and whoever waits for them hangs; 48 were enough
+/// for a run with two actors.
+const OPEN_FILES_MIN: u64 = 64;
 /// Connections that may be open and have not said yet who they are.
 const ACCEPT_PENDING: u64 = 256;
 /// How long one may take to say who it is; as long as the encryption is not agreed upon, a part of it.
@@ -53,9 +56,20 @@ pub struct BusOptions {
 }
 
 impl BusOptions {
-    /// Refuses endpoints that are not acceptable.
+    /// Refuses endpoints that are not acceptable, and a process that may open too few files for any.
     pub fn check(&self) -> Result<(), BusError> {
-        self.listen.iter().chain(&self.connect).try_for_each(|given| endpoint::check(given, self.insecure))
+        self.listen.iter().chain(&self.connect).try_for_each(|given| endpoint::check(given, self.insecure))?;
+        check_open_files()
+    }
+}
+
+/// Raises the limit on open files to what one session needs, where that is allowed.
+fn check_open_files() -> Result<(), BusError> {
+    // Where the limit is not told, there is none to be met.
+    let Ok((soft, _)) = rlimit::Resource::NOFILE.get() else { return Ok(()) };
+    match soft < OPEN_FILES_MIN && rlimit::increase_nofile_limit(OPEN_FILES_MIN).unwrap_or(soft) < OPEN_FILES_MIN {
+        true => Err(BusError::OpenFiles { limit: soft, needed: OPEN_FILES_MIN }),
+        false => Ok(()),
     }
 }
 
