@@ -9,6 +9,6 @@
 //! it does after an update of Rerun, the features of both sides tell what is missing here:
 //!
 //! ```sh
-//! features() { cargo tree --prefix none -e normal,build -f '{p} {f}' "$@" | sed 's/ (\*)$//' | sort -u; }
+//! features() { cargo tree --prefix none -e normal,build -f '{p} {f}' "$@" | sed 's/ (\*)$//' | grep . | sort -u; }
 //! comm -13 <(features) <(features -p treadmill-watch) | grep -Ff <(features | cut -d' ' -f1,2)
 //! ```
