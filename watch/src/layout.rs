@@ -33,6 +33,8 @@ pub mod paths {
     pub const VELOCITY: &str = "velocity";
     /// Torques of the hinges.
     pub const TORQUES: &str = "torques";
+    /// What the camera follows.
+    pub const FOLLOWED: &str = "world/followed";
     /// Which episode is shown.
     pub const EPISODES: &str = "episodes";
     /// Timeline of simulated time.
@@ -50,8 +52,20 @@ pub enum Pace {
     Live,
 }
 
-/// Sends the layout; the camera goes along with `followed`, or stays where it is.
-pub fn send(recording: &RecordingStream, followed: Option<&EntityPath>, pace: Pace) -> RecordingStreamResult<()> {
+/// The camera and what it looks at, before anything has moved, in metres.
+const EYE_M: [f32; 3] = [1.4, -3.6, 1.7];
+const LOOKED_AT_M: [f32; 3] = [0.0, 0.0, 0.95];
+
+/// Two points around which the camera turns where the robot is at (x, y), in metres. Only what is drawn can be followed, and
+/// Rerun puts the camera at one and a half times the radius of the sphere around it, so these are that far from their middle.
+pub fn followed_m([x, y]: [f32; 2]) -> [[f32; 3]; 2] {
+    let [dx, dy, dz] = std::array::from_fn(|axis| EYE_M[axis] - LOOKED_AT_M[axis]);
+    let radius = (dx * dx + dy * dy + dz * dz).sqrt() / 1.5;
+    [-radius, radius].map(|above| [x, y, LOOKED_AT_M[2] + above])
+}
+
+/// Sends the layout; the camera goes along with the robot if it `follows`, or stays where it is.
+pub fn send(recording: &RecordingStream, follows: bool, pace: Pace) -> RecordingStreamResult<()> {
     let view = ContainerLike::from(Spatial3DView::new("humanoid").with_origin(paths::WORLD));
     let view_path = match &view {
         ContainerLike::View(view) => view.blueprint_path(),
@@ -75,11 +89,11 @@ pub fn send(recording: &RecordingStream, followed: Option<&EntityPath>, pace: Pa
         );
     let mut eye = EyeControls3D::new()
         .with_kind(Eye3DKind::Orbital)
-        .with_position([1.4, -3.6, 1.7])
-        .with_look_target([0.0, 0.0, 0.95])
+        .with_position(EYE_M)
+        .with_look_target(LOOKED_AT_M)
         .with_eye_up([0.0, 0.0, 1.0]);
-    if let Some(followed) = followed {
-        eye = eye.with_tracking_entity(followed.to_string());
+    if follows {
+        eye = eye.with_tracking_entity(paths::FOLLOWED);
     }
     let grid = LineGrid3D::new().with_visible(false);
     send_with(recording, &blueprint, &view_path, &[("EyeControls3D", &eye), ("LineGrid3D", &grid)])

@@ -79,8 +79,7 @@ fn live(view: &ViewArgs) -> anyhow::Result<()> {
 fn set_up(view: &ViewArgs, name: &str, model: Model, pace: Pace) -> anyhow::Result<(Screen, Stage)> {
     let screen = Screen::open(&view.screen, name, view.reach.network.insecure)?;
     let stage = Stage::new(screen.recording().clone(), model);
-    let followed = (!view.no_follow).then(|| stage.torso());
-    layout::send(screen.recording(), followed, pace)?;
+    layout::send(screen.recording(), !view.no_follow, pace)?;
     stage.set_up()?;
     Ok((screen, stage))
 }

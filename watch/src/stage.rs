@@ -12,7 +12,10 @@ use treadmill_proto::{
     pose::{BODY_NUMBERS, CONTACT_NUMBERS},
 };
 
-use crate::{layout::paths, shapes};
+use crate::{
+    layout::{self, paths},
+    shapes,
+};
 
 /// Points of the trail, one each [`TRAIL_EVERY_S`]: the last 15 s.
 const TRAIL_POINTS: usize = 100;
@@ -21,8 +24,10 @@ const TRAIL_EVERY_S: f64 = 0.15;
 const PAUSE_S: f64 = 0.5;
 /// An arrow of 1 m is so much force.
 const NEWTONS_PER_M: f32 = 1500.0;
-/// Half sides of the floor that is drawn around the body, in whole squares of a metre.
-const FLOOR_HALF_M: [i32; 2] = [12, 5];
+/// Half sides of the floor that is drawn around the body: so far that its edge is nearly the horizon.
+const FLOOR_HALF_M: f32 = 60.0;
+/// Half sides of what is ruled of it, in whole squares of a metre.
+const RULED_HALF_M: i32 = 20;
 const FLOOR: [u8; 3] = [62, 66, 71];
 const LINES: [u8; 3] = [98, 103, 110];
 const TRAIL: [u8; 3] = [240, 200, 60];
@@ -78,11 +83,6 @@ impl Stage {
         }
     }
 
-    /// The body that everything hangs on.
-    pub fn torso(&self) -> &EntityPath {
-        &self.bodies[0]
-    }
-
     /// Seconds of motion that were shown, on the timeline.
     pub fn shown_s(&self) -> f64 {
         self.shown_s
@@ -92,16 +92,12 @@ impl Stage {
     pub fn set_up(&self) -> RecordingStreamResult<()> {
         let rec = &self.recording;
         rec.log_static(paths::WORLD, &ViewCoordinates::RIGHT_HAND_Z_UP())?;
-        let [half_x, half_y] = FLOOR_HALF_M.map(|half| half as f32);
-        let plate = Boxes3D::from_centers_and_half_sizes([[0.0, 0.0, -0.02]], [[half_x, half_y, 0.018]]);
+        let plate = Boxes3D::from_centers_and_half_sizes([[0.0, 0.0, -0.02]], [[FLOOR_HALF_M, FLOOR_HALF_M, 0.018]]);
         let plate = plate.with_colors([colour(FLOOR)]).with_fill_mode(FillMode::Solid);
         rec.log_static(format!("{}/plate", paths::FLOOR), &plate)?;
-        let along = |y: i32| [[-half_x, y as f32, 0.0], [half_x, y as f32, 0.0]];
-        let across = |x: i32| [[x as f32, -half_y, 0.0], [x as f32, half_y, 0.0]];
-        let lines: Vec<[[f32; 3]; 2]> = (-FLOOR_HALF_M[1]..=FLOOR_HALF_M[1])
-            .map(along)
-            .chain((-FLOOR_HALF_M[0]..=FLOOR_HALF_M[0]).map(across))
-            .collect();
+        let end = RULED_HALF_M as f32;
+        let lines = (-RULED_HALF_M..=RULED_HALF_M).map(|at| at as f32);
+        let lines = lines.flat_map(|at| [[[-end, at, 0.0], [end, at, 0.0]], [[at, -end, 0.0], [at, end, 0.0]]]);
         let lines = LineStrips3D::new(lines).with_colors([colour(LINES)]).with_radii([0.008]);
         rec.log_static(format!("{}/lines", paths::FLOOR), &lines)?;
         rec.log_static(paths::REWARD, &SeriesLines::new().with_names(REWARD_TERMS))?;
@@ -143,6 +139,7 @@ impl Stage {
             rec.log(path.clone(), &Transform3D::from_translation_rotation([*x, *y, *z], turned))?;
         }
         let [x, y, z, ..] = *torso;
+        rec.log(paths::FOLLOWED, &Points3D::new(layout::followed_m([x, y])).with_radii([0.0]))?;
         self.follow(&rec, [x, y])?;
         self.leave_trail(&rec, [x, y, z])?;
         let contacts = pose.contacts.as_chunks::<CONTACT_NUMBERS>().0;

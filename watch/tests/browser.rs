@@ -12,6 +12,9 @@ use support::{
 
 /// Where the body is: the view of space, without its frame.
 const SPACE: Part = Part { x: 0.05..0.58, y: 0.15..0.85 };
+/// Where the body stands in it, and what it leaves behind when the camera goes along.
+const MIDDLE: Part = Part { x: 0.22..0.42, y: 0.35..0.75 };
+const LEFT: Part = Part { x: 0.0..0.03, y: 0.35..0.6 };
 /// Where the curves are.
 const CURVES: Part = Part { x: 0.65..0.98, y: 0.12..0.85 };
 
@@ -65,17 +68,38 @@ fn the_page_shows_the_humanoid() {
     let noise = empty.difference(&again, &SPACE);
     assert!(noise < 0.001, "two pages of the same differ in {noise} of their pixels");
 
-    let (_humanoid, url) = serve(&folder, "1");
+    // So long that it is not over before everything was tried.
+    let (_humanoid, url) = serve(&folder, "4");
     let page = browser.open(&url);
     let walking = browser.look_until(&page, "a humanoid on the floor and curves beside it", |picture| {
         is_drawn(picture) && picture.difference(&empty, &SPACE) > 0.01 && picture.difference(&empty, &CURVES) > 0.01
     });
-    keep(&walking, "watch.png");
     // Legs of two colours: those of the left and those of the right side.
     let orange = |[r, g, b]: [u8; 3]| r > 110 && r > g.saturating_add(25) && g > b.saturating_add(15);
     let green = |[r, g, b]: [u8; 3]| g > r.saturating_add(25) && b > r.saturating_add(25);
     let sides = [walking.share(&SPACE, orange), walking.share(&SPACE, green)];
     assert!(sides.iter().all(|share| *share > 0.001), "shares of the colours of both sides: {sides:?}");
     // It plays by itself: the picture goes on changing.
-    browser.look_until(&page, "motion", |picture| is_drawn(picture) && picture.difference(&walking, &SPACE) > 0.005);
+    let moves = |browser: &mut Browser, what: &str, from: &Picture| {
+        browser.look_until(&page, what, |picture| is_drawn(picture) && picture.difference(from, &SPACE) > 0.005)
+    };
+    moves(&mut browser, "motion", &walking);
+    // The camera goes along: the body is where it was, and its trail leaves the picture behind it.
+    let trail = |[r, g, b]: [u8; 3]| r > 200 && g > 160 && b < 120;
+    browser.look_until(&page, "a runner in the middle and the trail to the border", |picture| {
+        let is_there = |colour: &dyn Fn([u8; 3]) -> bool| picture.share(&MIDDLE, colour) > 0.005;
+        is_drawn(picture) && picture.share(&LEFT, trail) > 0.0 && is_there(&orange) && is_there(&green)
+    });
+    // Keys go to the page once it was clicked, here into the sky.
+    browser.click(&page, (300, 100));
+    browser.press(&page, " ", "Space");
+    let paused = look_until_still(&mut browser, &page, "a humanoid that was stopped");
+    keep(&paused, "watch.png");
+    browser.press(&page, "ArrowRight", "ArrowRight");
+    let stepped = browser
+        .look_until(&page, "the next moment", |picture| is_drawn(picture) && picture.difference(&paused, &SPACE) > 0.0);
+    let stepped_still = look_until_still(&mut browser, &page, "a humanoid that stands still again");
+    assert!(stepped_still.difference(&stepped, &SPACE) < 0.005, "one step, and no more");
+    browser.press(&page, " ", "Space");
+    moves(&mut browser, "motion once more", &stepped_still);
 }

@@ -111,6 +111,22 @@ impl Browser {
         Page { session }
     }
 
+    /// Clicks a place of the page, as (x, y) in pixels.
+    pub fn click(&mut self, page: &Page, (x, y): (u32, u32)) {
+        for kind in ["mousePressed", "mouseReleased"] {
+            let event = json!({"type": kind, "x": x, "y": y, "button": "left", "clickCount": 1});
+            self.ask(Some(&page.session), "Input.dispatchMouseEvent", &event);
+        }
+    }
+
+    /// Presses a key and lets it go; `code` is what browsers call its place on the keyboard.
+    pub fn press(&mut self, page: &Page, key: &str, code: &str) {
+        for kind in ["rawKeyDown", "keyUp"] {
+            let event = json!({"type": kind, "key": key, "code": code});
+            self.ask(Some(&page.session), "Input.dispatchKeyEvent", &event);
+        }
+    }
+
     /// What the page looks like now.
     pub fn look(&mut self, page: &Page) -> Picture {
         let answer = self.ask(Some(&page.session), "Page.captureScreenshot", &json!({"format": "png"}));
