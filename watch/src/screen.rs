@@ -38,7 +38,12 @@ impl Screen {
         }
         if args.native {
             check_display()?;
-            let options = SpawnOptions { wait_for_bind: true, ..SpawnOptions::default() };
+            let options = SpawnOptions {
+                wait_for_bind: true,
+                // By itself the window would take data from whoever reaches this machine.
+                extra_args: vec!["--bind".to_string(), "127.0.0.1".to_string()],
+                ..SpawnOptions::default()
+            };
             let recording = builder.spawn_opts(&options).with_context(|| {
                 let version = rerun::build_info().version;
                 format!("--native needs Rerun's viewer {version}; get it by `pip install rerun-sdk=={version}`")
