@@ -7,11 +7,14 @@ use rerun::{
         TimePanel, TimeSeriesView, Vertical,
         components::{Eye3DKind, PanelState, PlayState},
     },
+    datatypes::{TimeInt, TimeRange, TimeRangeBoundary, VisibleTimeRange},
     external::{
         re_log_types::{LogMsg, StoreKind},
-        re_sdk_types::blueprint::archetypes::{EyeControls3D, LineGrid3D},
+        re_sdk_types::blueprint::archetypes::{EyeControls3D, LineGrid3D, VisibleTimeRanges},
     },
 };
+
+use treadmill_humanoid::CONTROL_STEP_S;
 
 /// Entities and timelines, by which stage and layout know each other.
 pub mod paths {
@@ -64,20 +67,23 @@ pub fn followed_m([x, y]: [f32; 2]) -> [[f32; 3]; 2] {
     [-radius, radius].map(|above| [x, y, LOOKED_AT_M[2] + above])
 }
 
+/// How much of the curves is to be seen, before the moment that is shown and after it.
+const BEFORE_S: i64 = 4;
+const AFTER_S: i64 = 1;
+
 /// Sends the layout; the camera goes along with the robot if it `follows`, or stays where it is.
 pub fn send(recording: &RecordingStream, follows: bool, pace: Pace) -> RecordingStreamResult<()> {
-    let view = ContainerLike::from(Spatial3DView::new("humanoid").with_origin(paths::WORLD));
-    let view_path = match &view {
-        ContainerLike::View(view) => view.blueprint_path(),
-        _ => EntityPath::root(),
-    };
+    let space = ContainerLike::from(Spatial3DView::new("humanoid").with_origin(paths::WORLD));
+    let space_path = path_of(&space);
     let curves = |name: &str, path: &str| ContainerLike::from(TimeSeriesView::new(name).with_origin(path));
-    let beside = Vertical::new([
+    let curves = [
         curves("reward", paths::REWARD),
         curves("velocity and distance", paths::VELOCITY),
         curves("torques (N·m)", paths::TORQUES),
-    ]);
-    let root = Horizontal::new([view, beside.into()]).with_column_shares([1.7, 1.0]);
+    ];
+    let curve_paths = curves.each_ref().map(path_of);
+    let beside = Vertical::new(curves);
+    let root = Horizontal::new([space, beside.into()]).with_column_shares([1.7, 1.0]);
     let play = if pace == Pace::Live { PlayState::Following } else { PlayState::Playing };
     let blueprint = Blueprint::new(root)
         .with_auto_views(false)
@@ -96,15 +102,40 @@ pub fn send(recording: &RecordingStream, follows: bool, pace: Pace) -> Recording
         eye = eye.with_tracking_entity(paths::FOLLOWED);
     }
     let grid = LineGrid3D::new().with_visible(false);
-    send_with(recording, &blueprint, &view_path, &[("EyeControls3D", &eye), ("LineGrid3D", &grid)])
+    let window = window();
+    let mut properties: Vec<(EntityPath, &dyn AsComponents)> =
+        vec![(space_path.clone() / "EyeControls3D", &eye), (space_path / "LineGrid3D", &grid)];
+    properties.extend(curve_paths.into_iter().map(|path| (path / "VisibleTimeRanges", &window as &dyn AsComponents)));
+    send_with(recording, &blueprint, &properties)
+}
+
+/// Where the properties of a view are kept.
+fn path_of(view: &ContainerLike) -> EntityPath {
+    match view {
+        ContainerLike::View(view) => view.blueprint_path(),
+        _ => EntityPath::root(),
+    }
+}
+
+/// Curves show what is around the moment: of all that was ever shown one would see no step.
+fn window() -> VisibleTimeRanges {
+    let range = |timeline: &str, [before, after]: [i64; 2]| VisibleTimeRange {
+        timeline: timeline.into(),
+        range: TimeRange {
+            start: TimeRangeBoundary::CursorRelative(TimeInt(-before)),
+            end: TimeRangeBoundary::CursorRelative(TimeInt(after)),
+        },
+    };
+    let steps = [BEFORE_S, AFTER_S].map(|seconds| (seconds as f64 / CONTROL_STEP_S) as i64);
+    let nanoseconds = [BEFORE_S, AFTER_S].map(|seconds| seconds * 1_000_000_000);
+    VisibleTimeRanges::default().with_ranges([range(paths::TIME, nanoseconds), range(paths::STEP, steps)])
 }
 
 /// Rerun's builder of layouts knows nothing of the properties of a view yet, so they are added to the messages that it makes.
 fn send_with(
     recording: &RecordingStream,
     blueprint: &Blueprint,
-    view: &EntityPath,
-    properties: &[(&str, &dyn AsComponents)],
+    properties: &[(EntityPath, &dyn AsComponents)],
 ) -> RecordingStreamResult<()> {
     let application =
         recording.store_info().map(|info| info.application_id().clone()).unwrap_or_else(|| "treadmill".into());
@@ -125,8 +156,8 @@ fn send_with(
         .blueprint();
     let (stream, added) = own.memory()?;
     stream.set_time_sequence("blueprint", 0);
-    for (name, property) in properties {
-        stream.log(format!("{view}/{name}"), *property)?;
+    for (path, property) in properties {
+        stream.log(path.clone(), *property)?;
     }
     // It says once more which store it is; the first message did.
     messages.extend(added.take().into_iter().filter(|message| !matches!(message, LogMsg::SetStoreInfo(_))));
