@@ -60,10 +60,11 @@ const EYE_M: [f32; 3] = [1.4, -3.6, 1.7];
 const LOOKED_AT_M: [f32; 3] = [0.0, 0.0, 0.95];
 
 /// Two points around which the camera turns where the robot is at (x, y), in metres. Only what is drawn can be followed, and
-/// Rerun puts the camera at one and a half times the radius of the sphere around it, so these are that far from their middle.
+/// where Rerun 0.36.3 begins to follow, it places the camera by the size of that: with these it stays as far off as it is
+/// meant to be. How far apart they are was found by looking.
 pub fn followed_m([x, y]: [f32; 2]) -> [[f32; 3]; 2] {
     let [dx, dy, dz] = std::array::from_fn(|axis| EYE_M[axis] - LOOKED_AT_M[axis]);
-    let radius = (dx * dx + dy * dy + dz * dz).sqrt() / 1.5;
+    let radius = (dx * dx + dy * dy + dz * dz).sqrt() / 3.0;
     [-radius, radius].map(|above| [x, y, LOOKED_AT_M[2] + above])
 }
 
