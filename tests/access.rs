@@ -42,6 +42,7 @@ fn actor(folder: &Path, endpoint: &str, certs: &str) -> Command {
 }
 
 fn fleet() -> Fleet {
+    bus_on_one_thread();
     let (folder, run) = folders();
     assert!(self::run(folder.path(), &["certs", "certs"]).status.success());
     let mut command = treadmill(folder.path());

@@ -118,3 +118,20 @@ fn tensorboard_shows_what_a_run_is_how_its_actions_are_spread_and_compares_it() 
     assert!(self::run(folder.path(), &train).status.success());
     assert_eq!(sessions(&read(&python, &run)).len(), 2);
 }
+
+#[test]
+fn a_run_that_failed_is_told_as_failed() {
+    let Some(python) = python_with("tensorboard") else { return };
+    let (folder, run) = folders();
+    let mut command = treadmill(folder.path());
+    command.args(["train", "--preset", "smoke", "--steps", "1000000000", "--run-dir", "run"]);
+    let training = Running::start(command);
+    await_steps(&run, 512);
+    // From here on nothing can be saved.
+    fs::rename(run.join("checkpoints"), run.join("elsewhere")).unwrap();
+    assert_eq!(training.wait().0.code(), Some(1));
+    let told = read(&python, &run);
+    let sessions = told["hparams"]["sessions"].as_array().unwrap();
+    assert_eq!(sessions.len(), 1);
+    assert_eq!(sessions[0]["status"], serde_json::json!(["STATUS_FAILURE"]));
+}

@@ -7,11 +7,13 @@ use std::{
     fs,
     path::{Path, PathBuf},
     process::{Command, Output, Stdio},
+    sync::Once,
     time::Duration,
 };
 
 pub use process::*;
 use serde_json::Value;
+use treadmill_common::bus::{BusOptions, Role, threads};
 
 /// Nothing in these tests takes this long unless it is broken.
 pub const PATIENCE: Duration = Duration::from_secs(120);
@@ -20,7 +22,26 @@ pub const PATIENCE: Duration = Duration::from_secs(120);
 pub fn treadmill(folder: &Path) -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_treadmill"));
     command.current_dir(folder).env_remove("TREADMILL_LOG").stdin(Stdio::null());
+    // It says by itself how its bus is to work.
+    command.env_remove(BUS_THREADS);
     command
+}
+
+const BUS_THREADS: &str = "ZENOH_RUNTIME";
+
+/// Lets clients that this process opens read and write with one thread, as ours do over TLS: otherwise a flood of messages
+/// may break the memory of whoever sends it, which is this process (`common/src/bus/threads.rs`). To be called before the
+/// first is opened.
+pub fn bus_on_one_thread() {
+    static SAID: Once = Once::new();
+    SAID.call_once(|| {
+        let options = BusOptions { connect: vec!["tls/localhost:1".to_string()], ..BusOptions::default() };
+        if let Some((name, value)) = threads::wanted(&options, Role::Actor) {
+            assert_eq!(name, BUS_THREADS);
+            // SAFETY: whoever reads the environment in these tests does it by Rust's own functions, which take turns.
+            unsafe { std::env::set_var(name, value) };
+        }
+    });
 }
 
 /// Runs to the end.
