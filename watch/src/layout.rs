@@ -13,7 +13,6 @@ use rerun::{
         re_sdk_types::blueprint::archetypes::{EyeControls3D, LineGrid3D, VisibleTimeRanges},
     },
 };
-
 use treadmill_humanoid::CONTROL_STEP_S;
 
 /// Entities and timelines, by which stage and layout know each other.
@@ -58,6 +57,9 @@ pub enum Pace {
 /// The camera and what it looks at, before anything has moved, in metres.
 const EYE_M: [f32; 3] = [1.4, -3.6, 1.7];
 const LOOKED_AT_M: [f32; 3] = [0.0, 0.0, 0.95];
+/// How much of the curves is to be seen, before the moment that is shown and after it.
+const BEFORE_S: i64 = 4;
+const AFTER_S: i64 = 1;
 
 /// Two points around which the camera turns where the robot is at (x, y), in metres. Only what is drawn can be followed, and
 /// where Rerun 0.36.3 begins to follow, it places the camera by the size of that: with these it stays as far off as it is
@@ -67,10 +69,6 @@ pub fn followed_m([x, y]: [f32; 2]) -> [[f32; 3]; 2] {
     let radius = (dx * dx + dy * dy + dz * dz).sqrt() / 3.0;
     [-radius, radius].map(|above| [x, y, LOOKED_AT_M[2] + above])
 }
-
-/// How much of the curves is to be seen, before the moment that is shown and after it.
-const BEFORE_S: i64 = 4;
-const AFTER_S: i64 = 1;
 
 /// Sends the layout; the camera goes along with the robot if it `follows`, or stays where it is.
 pub fn send(recording: &RecordingStream, follows: bool, pace: Pace) -> RecordingStreamResult<()> {
@@ -103,10 +101,11 @@ pub fn send(recording: &RecordingStream, follows: bool, pace: Pace) -> Recording
         eye = eye.with_tracking_entity(paths::FOLLOWED);
     }
     let grid = LineGrid3D::new().with_visible(false);
-    let window = window();
+    let around_now = around_now();
     let mut properties: Vec<(EntityPath, &dyn AsComponents)> =
         vec![(space_path.clone() / "EyeControls3D", &eye), (space_path / "LineGrid3D", &grid)];
-    properties.extend(curve_paths.into_iter().map(|path| (path / "VisibleTimeRanges", &window as &dyn AsComponents)));
+    properties
+        .extend(curve_paths.into_iter().map(|path| (path / "VisibleTimeRanges", &around_now as &dyn AsComponents)));
     send_with(recording, &blueprint, &properties)
 }
 
@@ -119,7 +118,7 @@ fn path_of(view: &ContainerLike) -> EntityPath {
 }
 
 /// Curves show what is around the moment: of all that was ever shown one would see no step.
-fn window() -> VisibleTimeRanges {
+fn around_now() -> VisibleTimeRanges {
     let range = |timeline: &str, [before, after]: [i64; 2]| VisibleTimeRange {
         timeline: timeline.into(),
         range: TimeRange {

@@ -10,7 +10,8 @@
 
 use super::{BusOptions, Role};
 
-const VARIABLE: &str = "ZENOH_RUNTIME";
+/// The variable by which the bus is told.
+pub const VARIABLE: &str = "ZENOH_RUNTIME";
 /// One thread reads and writes all links; as many others may nap meanwhile.
 const ONE: &str = "(rx:(handover:tx),tx:(max_blocking_threads:256))";
 /// Links are read by several at a time.
