@@ -252,8 +252,8 @@ fn print_table(who: Who, evaluation: &Evaluation, control_step_s: f64) {
     say(&format!("distance      {:.2} m", evaluation.mean(|played| played.distance_m)));
     say(&format!("velocity      {:.2} m/s", evaluation.velocity_mean_mps(control_step_s)));
     say(&format!(
-        "joints        separation {:.4} m, limit overshoot {:.3} rad (99.9 % of steps; largest {:.4} m, {:.3} rad)",
-        joints.separation_p999_m, joints.overshoot_p999_rad, joints.separation_max_m, joints.overshoot_max_rad
+        "joints        limit overshoot {:.3} rad (99.9 % of steps; largest {:.3} rad)",
+        joints.overshoot_p999_rad, joints.overshoot_max_rad
     ));
 }
 
@@ -269,8 +269,6 @@ fn as_json(who: Who, evaluation: &Evaluation, control_step_s: f64) -> String {
         "velocity_mean_mps": evaluation.velocity_mean_mps(control_step_s),
         "falls": evaluation.falls(),
         "faults": evaluation.episodes.iter().filter(|played| played.fault).count(),
-        "joint_separation_p999_m": joints.separation_p999_m,
-        "joint_separation_max_m": joints.separation_max_m,
         "limit_overshoot_p999_rad": joints.overshoot_p999_rad,
         "limit_overshoot_max_rad": joints.overshoot_max_rad,
     })

@@ -50,7 +50,6 @@ fn every_agent_gives_the_promised_fields_and_repeats_with_its_seed() {
             "length_mean",
             "distance_mean_m",
             "velocity_mean_mps",
-            "joint_separation_p999_m",
             "limit_overshoot_p999_rad",
         ] {
             assert!(result[field].is_f64(), "{field} in {result}");

@@ -25,10 +25,6 @@ pub struct Played {
 /// How far the joints were from perfect, over every step of every episode.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct JointReport {
-    /// 99.9 % of samples have their largest anchor separation at or below this.
-    pub separation_p999_m: f64,
-    /// The largest separation seen.
-    pub separation_max_m: f64,
     /// 99.9 % of samples overshoot a limit by at most this.
     pub overshoot_p999_rad: f64,
     /// The largest overshoot seen.
@@ -97,7 +93,7 @@ pub fn evaluate(
     let mut observation = vec![0.0; environment.observation_size()];
     let mut action = vec![0.0; environment.action_size()];
     let mut control = action.clone();
-    let (mut separations, mut overshoots) = (Vec::new(), Vec::new());
+    let mut overshoots = Vec::new();
     let mut all = Vec::new();
     for episode in 0..episodes {
         environment.reset(seeds::derive(seed, "evaluation", &[episode.into()]), &mut observation);
@@ -113,9 +109,7 @@ pub fn evaluate(
                 agent.rewarded(step.reward);
                 played.return_sum += f64::from(step.reward);
                 played.distance_m = environment.physics().position()[0] - start_x_m;
-                let joints = environment.joint_quality();
-                separations.push(joints.separation_m);
-                overshoots.push(joints.limit_overshoot_rad);
+                overshoots.push(environment.joint_quality().limit_overshoot_rad);
             }
             tell(Told {
                 episode: episode + 1,
@@ -134,16 +128,11 @@ pub fn evaluate(
         agent.episode_ended();
         all.push(played);
     }
-    Ok(Evaluation { episodes: all, joints: joint_report(&mut separations, &mut overshoots) })
+    Ok(Evaluation { episodes: all, joints: joint_report(&mut overshoots) })
 }
 
-fn joint_report(separations: &mut [f64], overshoots: &mut [f64]) -> JointReport {
-    JointReport {
-        separation_p999_m: percentile(separations, 0.999),
-        separation_max_m: percentile(separations, 1.0),
-        overshoot_p999_rad: percentile(overshoots, 0.999),
-        overshoot_max_rad: percentile(overshoots, 1.0),
-    }
+fn joint_report(overshoots: &mut [f64]) -> JointReport {
+    JointReport { overshoot_p999_rad: percentile(overshoots, 0.999), overshoot_max_rad: percentile(overshoots, 1.0) }
 }
 
 /// The smallest sample that at least this share of samples does not exceed; 0 without samples.

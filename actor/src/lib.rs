@@ -24,7 +24,6 @@ pub mod policies;
 pub mod poses;
 pub mod rollout;
 pub mod settings;
-pub mod staleness;
 pub mod worker;
 
 /// Why an actor cannot go on.

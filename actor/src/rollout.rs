@@ -36,8 +36,6 @@ pub struct Collector {
     camera: Option<Camera>,
     normalised: Vec<f32>,
     means: Vec<f32>,
-    /// Correlation of `normals` with those of the step before.
-    correlation: f32,
     /// `[N][action]`: the exploration noise of the step, in standard deviations.
     normals: Vec<f32>,
 }
@@ -56,17 +54,9 @@ impl Collector {
             camera: None,
             normalised: Vec::new(),
             means: vec![0.0; envs * action],
-            correlation: 0.0,
             normals: vec![0.0; envs * action],
             environments,
         }
-    }
-
-    /// Lets the noise of each step have this correlation, 0 or more and below 1, with that of the step before in the same
-    /// fragment.
-    pub fn with_noise_correlation(mut self, correlation: f32) -> Self {
-        self.correlation = correlation;
-        self
     }
 
     /// Lets a camera look after each step.
@@ -131,7 +121,7 @@ impl Collector {
         for t in 0..self.steps {
             let start = fragment.actions.len();
             fragment.observations.extend_from_slice(self.environments.observations());
-            self.draw_noise(t == 0);
+            self.draw_noise();
             self.act(policy, &mut fragment)?;
             self.environments.step(&fragment.actions[start..], &mut self.stepped);
             if let Some(camera) = &mut self.camera {
@@ -156,16 +146,8 @@ impl Collector {
         Ok(fragment)
     }
 
-    /// A first-order autoregressive process: whatever its correlation, each number by itself is standard normal, so the
-    /// log-probabilities of actions are those of the policy. A fragment begins with noise of its own, so that nothing of it
-    /// is part of an actor's state.
-    fn draw_noise(&mut self, is_first: bool) {
-        let kept = if is_first { 0.0 } else { self.correlation };
-        let fresh = (1.0 - kept * kept).sqrt();
-        for normal in &mut self.normals {
-            let drawn: f32 = StandardNormal.sample(&mut self.noise);
-            *normal = kept * *normal + fresh * drawn;
-        }
+    fn draw_noise(&mut self) {
+        self.normals.fill_with(|| StandardNormal.sample(&mut self.noise));
     }
 
     fn act(&mut self, policy: &ActingPolicy, fragment: &mut Fragment) -> Result<(), ActorError> {

@@ -28,7 +28,6 @@ use crate::{
     poses::{self, Camera},
     rollout::{Collector, Sender},
     settings,
-    staleness::Staleness,
 };
 
 /// Fragments between the physics thread and the courier; credit keeps them at no more than `max_in_flight`, which is 2 at
@@ -128,7 +127,6 @@ async fn stay(
         Sender { run: bundle.run.clone(), actor: options.name.clone(), incarnation, config_hash: bundle.config_hash };
     let (camera, tape) = Camera::new(publisher.watched(), sender.clone());
     let collector = collector(options, bundle, &config, sender)?.with_camera(camera);
-    let staleness = Staleness::new(&config, &options.name, options.start);
     let progress = Arc::new(Progress::default());
 
     // Credit: the physics thread takes one for each fragment; the courier gives it back with the receipt.
@@ -139,7 +137,7 @@ async fn stay(
         .name("physics".to_string())
         .spawn({
             let (policies, courier, progress) = (policies.clone(), courier.clone(), progress.clone());
-            move || simulate(collector, staleness, &policies, &courier, &credit, &outbox, &progress)
+            move || simulate(collector, &policies, &courier, &credit, &outbox, &progress)
         })
         .map_err(|why| ActorError::Physics { why: why.to_string() })?;
 
@@ -228,8 +226,7 @@ fn collector(
         let why = format!("its observation and action sizes are {wanted:?}, the model's are {found:?}");
         return Err(ActorError::Bundle { number: bundle.version.number, why });
     }
-    let mut collector = Collector::new(environments, noise, config.rollout.fragment_steps, sender)
-        .with_noise_correlation(config.rollout.noise_correlation as f32);
+    let mut collector = Collector::new(environments, noise, config.rollout.fragment_steps, sender);
     if config.run.deterministic {
         collector.attach_state();
     }
@@ -246,11 +243,9 @@ fn collector(
     Ok(collector)
 }
 
-/// The physics thread: one fragment for each credit, with the newest policy at its beginning, or an older one where staleness
-/// is asked for.
+/// The physics thread: one fragment for each credit, with the newest policy at its beginning.
 fn simulate(
     mut collector: Collector,
-    mut staleness: Staleness<ActingPolicy>,
     policies: &Policies,
     courier: &Courier,
     credit: &mpsc::Receiver<()>,
@@ -258,8 +253,7 @@ fn simulate(
     progress: &Progress,
 ) {
     while credit.recv().is_ok() {
-        let newest = policies.current();
-        let policy = staleness.choose(newest.version, newest);
+        let policy = policies.current();
         let produced = collector.collect(&policy, courier.settled_through()).and_then(|fragment| {
             courier.produced(fragment.sequence);
             encode(fragment, collector.precision(), progress)

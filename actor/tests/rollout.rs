@@ -153,38 +153,3 @@ fn failed_physics_ends_the_episode_and_never_reaches_the_learner() {
     environments.step(&[0.0; 34], &mut stepped);
     assert_eq!(stepped.flags, [0, 0], "the next episode is sound");
 }
-
-#[test]
-fn noise_is_correlated_in_time_as_asked_for_and_a_fragment_begins_with_its_own() {
-    const ENVS: usize = 4;
-    const STEPS: usize = 250;
-    let (config, policy) = (EnvironmentConfig::default(), policy());
-    // Noise in standard deviations, `[STEPS][ENVS * 17]`, of two fragments.
-    let noise = |correlation: f32| {
-        let mut collector = collector(ENVS, STEPS as u32, &config).with_noise_correlation(correlation);
-        [(); 2].map(|()| {
-            let fragment = collector.collect(&policy, 0).unwrap();
-            let mut means = vec![0.0; fragment.actions.len()];
-            policy.means(&fragment.observations, STEPS * ENVS, &mut Vec::new(), &mut means).unwrap();
-            let std = policy.log_std().iter().map(|log_std| log_std.exp()).collect::<Vec<_>>();
-            let pairs = fragment.actions.iter().zip(&means).enumerate();
-            pairs.map(|(i, (action, mean))| f64::from((action - mean) / std[i % 17])).collect::<Vec<_>>()
-        })
-    };
-    let mean_product = |one: &[f64], other: &[f64]| {
-        let products = one.iter().zip(other).map(|(one, other)| one * other);
-        products.sum::<f64>() / one.len().min(other.len()) as f64
-    };
-    let width = ENVS * 17;
-    for correlation in [0.0, 0.6] {
-        let [first, second] = noise(correlation);
-        assert!((mean_product(&first, &first) - 1.0).abs() < 0.05);
-        for lag in [1, 2] {
-            let found = mean_product(&first, &first[lag * width..]);
-            assert!((found - f64::from(correlation).powi(lag as i32)).abs() < 0.05, "{correlation}, {lag}: {found}");
-        }
-        // 68 products of independent standard normal numbers: 0.12 is one standard deviation of their mean.
-        let over_the_end = mean_product(&first[(STEPS - 1) * width..], &second[..width]);
-        assert!(over_the_end.abs() < 0.4, "{over_the_end}");
-    }
-}

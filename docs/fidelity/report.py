@@ -137,12 +137,10 @@ def _mirror(result, before):
 
 
 def _joints(result, before):
-    header = ["", "joint separation (mm): 50 % · 99 % · 99.9 % · largest", "limit overshoot (rad): 50 % · 99 % · 99.9 % · largest"]
+    header = ["", "limit overshoot (rad): 50 % · 99 % · 99.9 % · largest"]
     rows = []
     for row in _with_before(result, before, "joints"):
-        separation = row["separation_m"]
-        first = " · ".join(number(1000 * value) for value in separation) if separation else "–"
-        rows.append([row["name"], first, " · ".join(number(value) for value in row["overshoot_rad"])])
+        rows.append([row["name"], " · ".join(number(value) for value in row["overshoot_rad"])])
     return f"### Joints under the largest torques\n\n{result['steps']} control steps.\n\n" + table(header, rows)
 
 

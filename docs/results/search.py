@@ -56,7 +56,6 @@ CANDIDATES = {
     "first log std −1": ["policy.init_log_std=-1"],
     "discount 0.98": ["ppo.gamma=0.98"],
     "λ 0.9": ["ppo.gae_lambda=0.9"],
-    "noise correlated 0.5": ["rollout.noise_correlation=0.5"],
     "mirror images": ["ppo.symmetry=mirrored", "ppo.minibatch=4096"],
     "f16, 3 epochs, minibatch 1024": ["ppo.epochs=3", "ppo.minibatch=1024", "rollout.observation_precision=f16"],
     "sees contacts": seeing("cfrc_ext"),

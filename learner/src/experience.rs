@@ -5,7 +5,7 @@
 //! fragment that lags is read with them too, because networks and statistics together are the policy that is improved.
 
 use treadmill_common::{
-    config::{OffPolicy, PpoConfig},
+    config::PpoConfig,
     normaliser::{Normaliser, RunningMoments, ScalarNormaliser},
     policy::{Policy, gaussian},
 };
@@ -44,8 +44,8 @@ pub fn prepare(
         let mut values = policy.values(&observations, fragment.transitions())?;
         let next_values = next_values(fragment, policy, normaliser, &mut values, old_scale.as_ref())?;
         let rewards: Vec<f32> = fragment.rewards.iter().map(|reward| reward * config.reward_scale as f32).collect();
-        let correction = match (lag, config.off_policy) {
-            (0, _) | (_, OffPolicy::Uncorrected) => None,
+        let correction = match lag {
+            0 => None,
             _ => Some(Correction::of(policy, &observations, &fragment.actions, &fragment.log_probs)?),
         };
         let steps = Steps {
@@ -55,21 +55,16 @@ pub fn prepare(
             next_values: &next_values,
             terminated: &flagged(fragment, TERMINATED),
             truncated: &flagged(fragment, TRUNCATED),
-            // Weights along the trace cut it short, which costs more than they correct: docs/learning.md has the runs.
-            weights: match config.off_policy {
-                OffPolicy::VTrace => correction.as_ref().map(|correction| &correction.weights[..]),
-                OffPolicy::Decoupled | OffPolicy::Uncorrected => None,
-            },
         };
         let estimated = gae::estimate(&steps, config.gamma as f32, config.gae_lambda as f32);
         batch.observations.append(&mut observations);
         batch.actions.extend_from_slice(&fragment.actions);
         match correction {
-            Some(Correction { weights, log_probs }) if config.off_policy == OffPolicy::Decoupled => {
+            Some(Correction { weights, log_probs }) => {
                 batch.log_probs.extend(log_probs);
                 batch.weights.extend(weights);
             }
-            _ => {
+            None => {
                 batch.log_probs.extend_from_slice(&fragment.log_probs);
                 batch.weights.resize(batch.log_probs.len(), 1.0);
             }
@@ -104,7 +99,7 @@ pub fn prepare(
 ///
 /// The decoupled objective keeps the newest policy as the one that the update stays near to, and weighs each action by
 /// how much more likely it is than when it was taken (Hilton et al. 2021, "Batch size-invariance for policy optimization",
-/// arXiv:2110.00641, equation 2; the weight is truncated as in V-trace).
+/// arXiv:2110.00641, equation 2; the weight is truncated at 1).
 struct Correction {
     /// `min(1, π(a|s) / μ(a|s))` of each transition, with the newest policy π and the one that acted, μ.
     weights: Vec<f32>,

@@ -54,12 +54,12 @@ fn fragment(acting: &Policy) -> Fragment {
     }
 }
 
-fn prepared(acting: &Policy, newest: &Policy, lag: u64, off_policy: OffPolicy) -> Batch {
-    prepared_with(None, acting, newest, lag, off_policy)
+fn prepared(acting: &Policy, newest: &Policy, lag: u64) -> Batch {
+    prepared_with(None, acting, newest, lag)
 }
 
-fn prepared_with(mirror: Option<&Mirror>, acting: &Policy, newest: &Policy, lag: u64, off_policy: OffPolicy) -> Batch {
-    let config = PpoConfig { off_policy, ..PpoConfig::default() };
+fn prepared_with(mirror: Option<&Mirror>, acting: &Policy, newest: &Policy, lag: u64) -> Batch {
+    let config = PpoConfig::default();
     let accepted = [Accepted { fragment: fragment(acting), lag }];
     let normaliser = Normaliser::identity(3, 10.0);
     prepare(&accepted, newest, &normaliser, &mut RunningMoments::new(1), mirror, &config).expect("candle runs")
@@ -68,29 +68,24 @@ fn prepared_with(mirror: Option<&Mirror>, acting: &Policy, newest: &Policy, lag:
 #[test]
 fn experience_of_the_newest_policy_is_taken_as_it_is() {
     let newest = policy(1);
-    let plain = prepared(&newest, &newest, 0, OffPolicy::Uncorrected);
+    let plain = prepared(&newest, &newest, 0);
     assert!(plain.weights.iter().all(|weight| *weight == 1.0));
-    for correction in [OffPolicy::VTrace, OffPolicy::Decoupled] {
-        assert_eq!(prepared(&newest, &newest, 0, correction), plain);
-        // A version that is no other policy corrects nothing away: rounding at most.
-        let corrected = prepared(&newest, &newest, 1, correction);
-        for (found, wanted) in corrected.advantages.iter().zip(&plain.advantages) {
-            assert!((found - wanted).abs() < 1e-4, "{found} {wanted}");
-        }
+    assert_eq!(plain.log_probs, fragment(&newest).log_probs);
+    // A version that is no other policy corrects nothing away: rounding at most.
+    let corrected = prepared(&newest, &newest, 1);
+    assert_eq!((&corrected.advantages, &corrected.returns), (&plain.advantages, &plain.returns));
+    for (found, wanted) in corrected.weights.iter().zip(&plain.weights) {
+        assert!((found - wanted).abs() < 1e-4, "{found} {wanted}");
     }
 }
 
 #[test]
 fn older_experience_is_weighed_by_how_likely_it_has_become() {
     let (old, newest) = (policy(2), policy(1));
-    let uncorrected = prepared(&old, &newest, 2, OffPolicy::Uncorrected);
-    let traced = prepared(&old, &newest, 2, OffPolicy::VTrace);
-    let decoupled = prepared(&old, &newest, 2, OffPolicy::Decoupled);
+    let uncorrected = prepared(&old, &newest, 0);
+    let decoupled = prepared(&old, &newest, 2);
     let acted = fragment(&old);
     assert_eq!(uncorrected.log_probs, acted.log_probs);
-    assert_eq!(traced.log_probs, acted.log_probs);
-    assert!(traced.weights.iter().all(|weight| *weight == 1.0));
-    assert_ne!(traced.advantages, uncorrected.advantages);
     assert_eq!(decoupled.advantages, uncorrected.advantages);
     assert_eq!(decoupled.returns, uncorrected.returns);
     let mut truncated = 0;
@@ -110,8 +105,8 @@ fn a_mirror_adds_the_image_of_every_transition() {
         action: Exchange(vec![(1, 1.0), (0, 1.0)]),
     };
     let newest = policy(1);
-    let plain = prepared(&newest, &newest, 0, OffPolicy::Decoupled);
-    let both = prepared_with(Some(&mirror), &newest, &newest, 0, OffPolicy::Decoupled);
+    let plain = prepared(&newest, &newest, 0);
+    let both = prepared_with(Some(&mirror), &newest, &newest, 0);
     let rows = plain.len();
     assert_eq!((both.len(), both.values.len(), both.weights.len()), (2 * rows, 2 * rows, 2 * rows));
     for (first, second) in [(&both.advantages, &plain.advantages), (&both.log_probs, &plain.log_probs)] {

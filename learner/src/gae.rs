@@ -22,9 +22,6 @@ pub struct Steps<'a> {
     pub terminated: &'a [bool],
     /// Whether the step was the last only because of a time limit.
     pub truncated: &'a [bool],
-    /// Truncated importance weight of each step's action, in (0, 1]; `None` where the policy that acted is the one that
-    /// is improved, so that all are 1. See [`estimate`].
-    pub weights: Option<&'a [f32]>,
 }
 
 /// What [`estimate`] gives, each plane `[T, N]`.
@@ -36,25 +33,20 @@ pub struct Advantages {
     pub returns: Vec<f32>,
 }
 
-/// `δ = r + γ V' (1 − terminated) − V` and `A = δ + γ λ ρ' A'`, where `A'` is 0 after the end of an episode or fragment.
-/// Value targets are `V + ρ A`.
-///
-/// `ρ = min(1, π(a|s) / μ(a|s))` is the truncated importance weight of a step's action under the policy π that is
-/// improved, with the policy μ that acted; `ρ'` is that of the step after. The targets are those of V-trace with
-/// ρ̄ = c̄ = 1 (Espeholt et al. 2018, "IMPALA", arXiv:1802.01561, equation 1 and remark 2), which for π = μ are λ-returns.
+/// `δ = r + γ V' (1 − terminated) − V` and `A = δ + γ λ A'`, where `A'` is 0 after the end of an episode or fragment.
+/// Value targets are the λ-returns `V + A`.
 ///
 /// # Panics
 /// If the planes differ in length or do not hold whole rows of `envs`.
 pub fn estimate(steps: &Steps, gamma: f32, lambda: f32) -> Advantages {
-    let Steps { envs, rewards, values, next_values, terminated, truncated, weights } = *steps;
+    let Steps { envs, rewards, values, next_values, terminated, truncated } = *steps;
     let count = rewards.len();
     assert!(envs > 0 && count.is_multiple_of(envs), "{count} steps are no whole rows of {envs} environments");
     assert!(values.len() == count && next_values.len() == count, "one value before and after each step");
     assert!(terminated.len() == count && truncated.len() == count, "one flag of each kind per step");
-    assert!(weights.is_none_or(|weights| weights.len() == count), "one weight per step");
 
     let (mut advantages, mut returns) = (vec![0.0; count], vec![0.0; count]);
-    // Weighted advantages of the steps after.
+    // Advantages of the steps after.
     let mut following = vec![0.0; envs];
     for start in (0..count).step_by(envs).rev() {
         for (env, following) in following.iter_mut().enumerate() {
@@ -62,8 +54,8 @@ pub fn estimate(steps: &Steps, gamma: f32, lambda: f32) -> Advantages {
             let future = if terminated[i] { 0.0 } else { gamma * next_values[i] };
             let trace = if terminated[i] || truncated[i] { 0.0 } else { gamma * lambda * *following };
             advantages[i] = rewards[i] + future - values[i] + trace;
-            *following = weights.map_or(advantages[i], |weights| weights[i] * advantages[i]);
-            returns[i] = values[i] + *following;
+            *following = advantages[i];
+            returns[i] = values[i] + advantages[i];
         }
     }
     Advantages { advantages, returns }

@@ -27,7 +27,6 @@ fn run(
         next_values: &next_values,
         terminated: &terminated,
         truncated: &truncated,
-        weights: None,
     };
     estimate(&steps, gamma, lambda)
 }
@@ -137,82 +136,10 @@ proptest! {
             next_values: &reached,
             terminated: &terminated,
             truncated: &truncated,
-            weights: None,
         };
         let result = estimate(&steps, gamma, lambda);
         for (a, e) in result.advantages.iter().zip(by_definition(&steps, gamma.into(), lambda.into())) {
             prop_assert!((f64::from(*a) - e).abs() < 1e-3, "{a} {e}");
         }
     }
-}
-
-/// Targets of V-trace for one environment, step by step as Espeholt et al. 2018 define them: equation 1 with
-/// c = λ · weight, from double precision and without recursion.
-fn v_trace(steps: &Steps, weights: &[f32], gamma: f64, lambda: f64) -> Vec<f64> {
-    let of = |plane: &[f32], i: usize| f64::from(plane[i]);
-    let ended = |i: usize| steps.terminated[i] || steps.truncated[i];
-    let delta = |i: usize| {
-        let future = if steps.terminated[i] { 0.0 } else { gamma * of(steps.next_values, i) };
-        of(weights, i) * (of(steps.rewards, i) + future - of(steps.values, i))
-    };
-    (0..steps.rewards.len())
-        .map(|s| {
-            let (mut target, mut product, mut t) = (of(steps.values, s), 1.0, s);
-            loop {
-                target += product * delta(t);
-                product *= gamma * lambda * of(weights, t);
-                if ended(t) || t + 1 == steps.rewards.len() {
-                    return target;
-                }
-                t += 1;
-            }
-        })
-        .collect()
-}
-
-proptest! {
-    #[test]
-    fn weighted_targets_are_those_of_v_trace(
-        cells in prop::collection::vec((-5.0_f32..5.0, -5.0_f32..5.0, 0.0_f32..1.0, 0_u8..8), 1..60),
-        gamma in 0.0_f32..1.0,
-        lambda in 0.0_f32..1.0,
-    ) {
-        let rewards: Vec<_> = cells.iter().map(|c| c.0).collect();
-        let values: Vec<_> = cells.iter().map(|c| c.1).collect();
-        let weights: Vec<_> = cells.iter().map(|c| c.2).collect();
-        let terminated: Vec<_> = cells.iter().map(|c| c.3 == 0).collect();
-        let truncated: Vec<_> = cells.iter().map(|c| c.3 == 1).collect();
-        let truncated_values: Vec<_> = cells.iter().filter(|c| c.3 == 1).map(|c| c.0 + 1.0).collect();
-        let next_values = next_values(&values, &terminated, &truncated, &truncated_values, &[0.7]);
-        let (rewards, values) = (&rewards[..], &values[..]);
-        let (next_values, terminated, truncated) = (&next_values[..], &terminated[..], &truncated[..]);
-        let plain = Steps { envs: 1, rewards, values, next_values, terminated, truncated, weights: None };
-        let steps = Steps { weights: Some(&weights), ..plain };
-        let result = estimate(&steps, gamma, lambda);
-        for (found, wanted) in result.returns.iter().zip(v_trace(&steps, &weights, gamma.into(), lambda.into())) {
-            prop_assert!((f64::from(*found) - wanted).abs() < 1e-3, "{found} {wanted}");
-        }
-        let ones = vec![1.0; rewards.len()];
-        let own = Steps { weights: Some(&ones), ..plain };
-        prop_assert_eq!(estimate(&own, gamma, lambda), estimate(&plain, gamma, lambda));
-    }
-}
-
-#[test]
-fn weights_are_by_hand() {
-    let next_values = [8.0, 16.0, 100.0];
-    let steps = Steps {
-        envs: 1,
-        rewards: &[1.0, 2.0, 3.0],
-        values: &[4.0, 8.0, 16.0],
-        next_values: &next_values,
-        terminated: &[false; 3],
-        truncated: &[false; 3],
-        weights: Some(&[0.25, 0.5, 1.0]),
-    };
-    let result = estimate(&steps, 0.5, 0.5);
-    // δ2 = 3 + 50 − 16 = 37; A1 = 2 + 8 − 8 + ¼ · 37; A0 = 1 + 4 − 4 + ¼ · ½ · A1.
-    assert_eq!(result.advantages, [2.40625, 11.25, 37.0]);
-    // Values plus the weighted advantages.
-    assert_eq!(result.returns, [4.6015625, 13.625, 53.0]);
 }

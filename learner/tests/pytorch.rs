@@ -49,7 +49,6 @@ impl AdvantagesFile {
             next_values: &next,
             terminated: &self.terminated,
             truncated: &self.truncated,
-            weights: None,
         };
         let found = gae::estimate(&steps, self.gamma, self.lambda);
         compare("advantages", &found.advantages, &self.advantages, 1e-6)?;

@@ -51,8 +51,8 @@ def linear(action=2):
     return Policy(tensors, np.zeros(2), np.ones(2), 10.0)
 
 
-def settings(steps, correlation=0.0):
-    return Settings(steps, 1, correlation, 60.0, 10.0, 2.0, "t")
+def settings(steps):
+    return Settings(steps, 1, 60.0, 10.0, 2.0, "t")
 
 
 class PolicyTest(unittest.TestCase):
@@ -114,9 +114,9 @@ class TaskTest(unittest.TestCase):
 
 
 class RolloutTest(unittest.TestCase):
-    def collect(self, steps, correlation=0.0, **ends):
+    def collect(self, steps, **ends):
         environments = Environments(lambda: Count(**ends), "test/Count-v0", 2, 1)
-        collector = Collector(environments, settings(steps, correlation), "run", "py", 5, 9, 3)
+        collector = Collector(environments, settings(steps), "run", "py", 5, 9, 3)
         fragment, episodes = collector.collect(linear(), schema.PolicyVersion(incarnation=1, number=2), 0)
         return schema.Fragment.FromString(fragment), episodes
 
@@ -157,19 +157,6 @@ class RolloutTest(unittest.TestCase):
         rewards, flags, cut_off, episodes = environments.step(np.zeros((1, 2), np.float32))
         self.assertEqual((rewards[0], flags[0], cut_off, episodes[0]["cause"]), (0.0, 1, {}, "non_finite"))
         self.assertTrue(np.isfinite(environments.observations).all())
-
-    def test_noise_is_correlated_as_the_run_says(self):
-        def lag_one(correlation):
-            fragment, _ = self.collect(2000, correlation)
-            actions = np.frombuffer(fragment.actions, "<f4").reshape(2000, 4)
-            means = np.frombuffer(fragment.observations, "<f4").reshape(2000, 2, 2)[:, :, :1].repeat(2, 2)
-            noise = actions - means.reshape(2000, 4)
-            return np.mean(noise[1:] * noise[:-1])
-
-        # Means beyond the clip of normalised observations are not those of this policy: keep the episodes short.
-        self.collect = lambda steps, correlation: RolloutTest.collect(self, steps, correlation, limit=9)
-        self.assertAlmostEqual(lag_one(0.8), 0.8, delta=0.1)
-        self.assertAlmostEqual(lag_one(0.0), 0.0, delta=0.1)
 
     def test_a_fragment_that_is_too_large_is_refused_early(self):
         environments = Environments(Count, "test/Count-v0", 2, 1)

@@ -123,10 +123,8 @@ class Collector:
         log_probs, rewards = np.empty((steps, envs), np.float32), np.empty((steps, envs), np.float32)
         flags = np.empty((steps, envs), np.uint8)
         last_observations, episodes = [], []
-        normals, kept = None, settings.noise_correlation
         for t in range(steps):
-            fresh = self.random.standard_normal((envs, task.action_size), dtype=np.float32)
-            normals = fresh if normals is None else kept * normals + math.sqrt(1 - kept * kept) * fresh
+            normals = self.random.standard_normal((envs, task.action_size), dtype=np.float32)
             observations[t] = environments.observations
             actions[t], log_probs[t] = policy.sample(observations[t], normals)
             rewards[t], flags[t], cut_off, ended = environments.step(actions[t])

@@ -3,6 +3,8 @@
 import tomllib
 from dataclasses import dataclass
 
+from .task import TaskError
+
 
 @dataclass(frozen=True)
 class Settings:
@@ -10,7 +12,6 @@ class Settings:
 
     fragment_steps: int
     fragments_in_flight: int
-    noise_correlation: float
     receipt_timeout_s: float
     policy_poll_s: float
     stats_every_s: float
@@ -22,10 +23,15 @@ class Settings:
         config = tomllib.loads(bundle.config_toml)
         rollout, bus = config["rollout"], config["bus"]
         in_flight = rollout["max_in_flight"] or (1 if config["learner"]["mode"] == "sync" else 2)
+        correlation = rollout.get("noise_correlation", 0.0)
+        if correlation != 0.0:
+            raise TaskError(
+                f"config key `rollout.noise_correlation` is {correlation}, but the key no longer exists; begin a run "
+                "without it, or use the treadmill_actor of the learner's version"
+            )
         return cls(
             fragment_steps=rollout["fragment_steps"],
             fragments_in_flight=in_flight,
-            noise_correlation=rollout.get("noise_correlation", 0.0),
             receipt_timeout_s=bus["receipt_timeout_ms"] / 1e3,
             policy_poll_s=bus["policy_poll_ms"] / 1e3,
             stats_every_s=bus["stats_every_ms"] / 1e3,

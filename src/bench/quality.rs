@@ -18,7 +18,6 @@ struct Record {
     random: seeds::Stream,
     controls: Vec<f32>,
     steps: u32,
-    separation_m: Quantiles,
     overshoot_rad: Quantiles,
 }
 
@@ -33,7 +32,6 @@ pub fn measure(
         random: seeds::stream(1, "bench-quality", &[index as u64]),
         controls: Vec::new(),
         steps: 0,
-        separation_m: Quantiles::default(),
         overshoot_rad: Quantiles::default(),
     })?;
     for _ in 0..rounds {
@@ -47,29 +45,19 @@ pub fn measure(
             }
         });
     }
-    let (mut separation_m, mut overshoot_rad) = (Quantiles::default(), Quantiles::default());
+    let mut overshoot_rad = Quantiles::default();
     let (mut faults, mut resets) = (0, 0);
     for (world, record) in worlds.iter() {
-        separation_m.merge(&record.separation_m);
         overshoot_rad.merge(&record.overshoot_rad);
         faults += world.faults;
         resets += world.resets;
     }
     let steps = rounds * WORLDS as u64;
-    let told = |quantiles: &Quantiles| [0.5, 0.99, 0.999].map(|share| quantiles.quantile(share));
-    let (separations, overshoots) = (told(&separation_m), told(&overshoot_rad));
-    let numbers: Vec<u8> = [separations, overshoots]
-        .iter()
-        .flatten()
-        .chain(&[separation_m.largest(), overshoot_rad.largest()])
-        .flat_map(|number| number.to_le_bytes())
-        .collect();
+    let overshoots = [0.5, 0.99, 0.999].map(|share| overshoot_rad.quantile(share));
+    let numbers: Vec<u8> =
+        overshoots.iter().chain(&[overshoot_rad.largest()]).flat_map(|number| number.to_le_bytes()).collect();
     Ok(json!({
         "steps": steps,
-        "joint_separation_p50_m": separations[0],
-        "joint_separation_p99_m": separations[1],
-        "joint_separation_p999_m": separations[2],
-        "joint_separation_max_m": separation_m.largest(),
         "limit_overshoot_p50_rad": overshoots[0],
         "limit_overshoot_p99_rad": overshoots[1],
         "limit_overshoot_p999_rad": overshoots[2],
@@ -97,9 +85,7 @@ impl Record {
             world.faults += 1;
             return true;
         }
-        let quality = world.environment.joint_quality();
-        self.separation_m.add(quality.separation_m);
-        self.overshoot_rad.add(quality.limit_overshoot_rad);
+        self.overshoot_rad.add(world.environment.joint_quality().limit_overshoot_rad);
         false
     }
 }

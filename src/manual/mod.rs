@@ -11,7 +11,6 @@ use std::{fs, path::PathBuf};
 
 use anyhow::Context;
 use clap::{Args, Command, ValueEnum};
-use clap_complete::Shell;
 
 use crate::output::say;
 
@@ -20,6 +19,14 @@ use crate::output::say;
 pub struct CompletionsArgs {
     /// Which shell the script is for.
     shell: Shell,
+}
+
+#[derive(Clone, Copy, ValueEnum)]
+enum Shell {
+    Bash,
+    Elvish,
+    Fish,
+    Zsh,
 }
 
 /// Flags of `man`.
@@ -46,7 +53,13 @@ enum Page {
 pub fn completions(args: &CompletionsArgs, mut program: Command) {
     let mut script = Vec::new();
     let name = program.get_name().to_string();
-    clap_complete::generate(args.shell, &mut program, name, &mut script);
+    let shell = match args.shell {
+        Shell::Bash => clap_complete::Shell::Bash,
+        Shell::Elvish => clap_complete::Shell::Elvish,
+        Shell::Fish => clap_complete::Shell::Fish,
+        Shell::Zsh => clap_complete::Shell::Zsh,
+    };
+    clap_complete::generate(shell, &mut program, name, &mut script);
     say(String::from_utf8_lossy(&script).trim_end());
 }
 

@@ -6,8 +6,8 @@
 //! "config": {"substeps": 2, "solver_iterations": 1, "self_collision": true}}`; the last two entries, and each setting,
 //! may be left out. Vectors are MuJoCo's: see `treadmill_humanoid::physics`.
 //!
-//! Output: a JSON list with one list per case, one object per control step: `{"qpos", "qvel", "separation_m",
-//! "limit_overshoot_rad", "bodies_in_contact", "contact_force_n"}`. The force is the sum over bodies of the size of the mean
+//! Output: a JSON list with one list per case, one object per control step: `{"qpos", "qvel", "limit_overshoot_rad",
+//! "bodies_in_contact", "contact_force_n"}`. The force is the sum over bodies of the size of the mean
 //! contact force during the step. A case whose physics is no longer finite ends early.
 
 use std::{
@@ -44,7 +44,6 @@ struct Overrides {
 struct State {
     qpos: Vec<f64>,
     qvel: Vec<f64>,
-    separation_m: f64,
     limit_overshoot_rad: f64,
     bodies_in_contact: usize,
     contact_force_n: f64,
@@ -97,7 +96,6 @@ fn state(physics: &Physics) -> State {
     State {
         qpos: physics.position().to_vec(),
         qvel: physics.velocity().to_vec(),
-        separation_m: joints.separation_m,
         limit_overshoot_rad: joints.limit_overshoot_rad,
         bodies_in_contact: forces.clone().filter(|force_n| *force_n > 0.0).count(),
         contact_force_n: forces.sum(),

@@ -360,5 +360,4 @@ fn hinges_of_one_body_may_be_skew_and_many() {
     let motions = physics.body_motions();
     let found = motions[1].pose.rotation.inverse() * motions[2].pose.rotation;
     assert!(found.angle_to(&turned) < 1e-12, "{found} instead of {turned}");
-    assert!(physics.joint_quality().separation_m < 1e-12);
 }

@@ -74,18 +74,6 @@ choice! {
 }
 
 choice! {
-    /// How experience of older policies is corrected for.
-    OffPolicy {
-        /// Not at all.
-        Uncorrected = "uncorrected",
-        /// By truncated importance weights along the trace.
-        VTrace = "v-trace",
-        /// By a surrogate about the newest policy instead of the one that acted, weighed by truncated importance.
-        Decoupled = "decoupled",
-    }
-}
-
-choice! {
     /// What an update makes of the symmetry of left and right.
     Symmetry {
         /// Nothing.
@@ -102,7 +90,6 @@ pub(super) fn names(kind: &str) -> Option<&'static [&'static str]> {
         "EnvObservation" => Some(EnvObservation::NAMES),
         "ObservationPrecision" => Some(ObservationPrecision::NAMES),
         "LearnerMode" => Some(LearnerMode::NAMES),
-        "OffPolicy" => Some(OffPolicy::NAMES),
         "Symmetry" => Some(Symmetry::NAMES),
         _ => None,
     }

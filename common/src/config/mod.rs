@@ -4,6 +4,7 @@
 
 mod choices;
 mod preset;
+mod retired;
 mod section;
 mod sections;
 mod source;
@@ -11,8 +12,9 @@ mod task;
 
 use serde::{Deserialize, Serialize};
 
-pub use choices::{EnvObservation, EnvTask, LearnerMode, ObservationPrecision, OffPolicy, Symmetry};
+pub use choices::{EnvObservation, EnvTask, LearnerMode, ObservationPrecision, Symmetry};
 pub use preset::{PRESETS, preset};
+pub use retired::is_retired;
 pub use section::{KeyDoc, Section, SectionDoc};
 pub use sections::{
     BusConfig, EnvConfig, EvaluationConfig, LearnerConfig, PolicyConfig, PpoConfig, RandomisationConfig, RolloutConfig,
@@ -78,6 +80,21 @@ pub enum ConfigError {
         value: String,
         /// Allowed values in words.
         allowed: String,
+    },
+    /// The key no longer exists, and its value is not the old default.
+    #[error(
+        "config key `{key}` is {value}, but the key no longer exists: {now}, as with the old default {default}; remove the \
+         key, or continue a run that needs it with the version that began it"
+    )]
+    Retired {
+        /// The key.
+        key: String,
+        /// The value as given.
+        value: String,
+        /// The old default in TOML notation.
+        default: &'static str,
+        /// What the program does now.
+        now: &'static str,
     },
     /// A `--set` argument without `=`.
     #[error("`--set {given}` is not of the form key=value, for instance --set ppo.learning_rate=3e-4")]
@@ -172,10 +189,6 @@ impl Config {
                 "2".to_string(),
                 "0 or 1 where learner.mode is \"sync\"".to_string(),
             );
-        }
-        if self.learner.mode == LearnerMode::Sync && self.rollout.stale_versions[1] > 0 {
-            let why = "[0, 0] where learner.mode is \"sync\", which takes the newest policy's experience only";
-            return refuse("rollout.stale_versions", show(&self.rollout.stale_versions), why.to_string());
         }
         self.check_observation()?;
         self.check_task()?;

@@ -1,6 +1,6 @@
 //! Every key of the configuration, with its default.
 
-use super::choices::{EnvObservation, EnvTask, LearnerMode, ObservationPrecision, OffPolicy, Symmetry};
+use super::choices::{EnvObservation, EnvTask, LearnerMode, ObservationPrecision, Symmetry};
 use super::section::section;
 use treadmill_proto::{ident::check_task_name, limits::WIDTH_MAX};
 
@@ -126,10 +126,6 @@ section! {
         observation_precision: ObservationPrecision = ObservationPrecision::F32, "\"f32\" or \"f16\"" => |_| true;
         /// Unanswered fragments that an actor may have on the bus; 0 means 1 in learner.mode "sync" and 2 in "async".
         max_in_flight: u32 = 0, "0 to 2, and not 2 in learner.mode \"sync\"" => |v| *v <= 2;
-        /// Versions that actors stay behind on purpose, drawn anew for each fragment; for experiments with lag.
-        stale_versions: [u32; 2] = [0, 0], "[fewest, most], 0 to 16; [0, 0] in learner.mode \"sync\"" => |v| v[0] <= v[1] && v[1] <= 16;
-        /// Correlation of an action's exploration noise with that of the control step before it; 0 draws each anew.
-        noise_correlation: f64 = 0.0, "0 or more, below 1" => |v| (0.0..1.0).contains(v);
         /// Threads of each actor process that its environments are spread over; 0 means one per core.
         threads: u32 = 1, "0 to 256" => |v| *v <= 256;
     }
@@ -168,8 +164,6 @@ section! {
         clip_range: f64 = 0.2, "above 0, at most 1" => |v| *v > 0.0 && *v <= 1.0;
         /// Whether an update learns from what was done alone, or from its mirror image, left and right exchanged, as well.
         symmetry: Symmetry = Symmetry::Off, "\"off\" or \"mirrored\"" => |_| true;
-        /// How experience of older policies is corrected for: by nothing, truncated importance weights along the trace, or a decoupled proximal policy.
-        off_policy: OffPolicy = OffPolicy::Decoupled, "\"uncorrected\", \"v-trace\" or \"decoupled\"" => |_| true;
         /// Weight of the value loss.
         value_coefficient: f64 = 1.0, "0 or more" => |v| *v >= 0.0 && v.is_finite();
         /// Weight of the entropy bonus.

@@ -2,7 +2,7 @@
 
 use treadmill_proto::Task;
 
-use super::{Config, ConfigError, EnvTask, LearnerMode, Symmetry, TaskConfig, show};
+use super::{Config, ConfigError, EnvTask, Symmetry, TaskConfig, show};
 
 impl TaskConfig {
     pub(super) fn is_unset(&self) -> bool {
@@ -68,10 +68,6 @@ impl Config {
         if self.ppo.symmetry == Symmetry::Mirrored {
             return refuse("ppo.symmetry", "\"mirrored\"".to_string(), "\"off\" where env.task is \"external\"");
         }
-        if self.learner.mode == LearnerMode::Async && self.rollout.stale_versions[1] > 0 {
-            let why = "[0, 0] where env.task is \"external\"";
-            return refuse("rollout.stale_versions", show(&self.rollout.stale_versions), why);
-        }
         match task.known() {
             Some(known) => known
                 .check()
@@ -125,7 +121,6 @@ mod tests {
         let refused = |more: &[&str]| built(&[&["env.task=external"], more].concat()).unwrap_err();
         assert!(refused(&["run.deterministic=true"]).contains("`run.deterministic`"));
         assert!(refused(&["ppo.symmetry=mirrored"]).contains("`ppo.symmetry`"));
-        assert!(refused(&["learner.mode=async", "rollout.stale_versions=[0, 2]"]).contains("`rollout.stale_versions`"));
         assert!(refused(&["task.action_size=3"]).contains("`task.observation_size`"));
         assert!(refused(&["task.observation_size=3", "task.action_size=1"]).contains("task.name"));
         assert!(refused(&["task.name=treadmill/humanoid-v5"]).contains("`task.name`"));

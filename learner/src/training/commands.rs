@@ -2,7 +2,11 @@
 
 use std::time::Duration;
 
-use treadmill_common::{config::ConfigSource, machine, shutdown::Shutdown};
+use treadmill_common::{
+    config::{self, ConfigSource},
+    machine,
+    shutdown::Shutdown,
+};
 use treadmill_proto::{Command, ControlRequest, Phase, RunStatus};
 
 use super::Trainer;
@@ -99,6 +103,9 @@ impl Trainer {
         source.text(&self.state.config_toml, source_of).map_err(|why| why.to_string())?;
         source.set(&format!("{key}={value}")).map_err(|why| why.to_string())?;
         let changed = source.build().map_err(|why| why.to_string())?;
+        if config::is_retired(key) {
+            return Ok(format!("`{key}` no longer exists; its old default is how every run behaves"));
+        }
         if !is_changeable(key) {
             return Err(format!(
                 "`{key}` cannot be changed while the run goes on, because actors or the state depend on it; changeable are \

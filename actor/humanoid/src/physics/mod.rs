@@ -42,8 +42,6 @@ pub struct PhysicsFault;
 /// How well the joints hold at one moment.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct JointQuality {
-    /// Largest distance (m) between where a hinge sits on its body and where it sits on the parent.
-    pub separation_m: f64,
     /// Largest angle by which a hinge is outside its range (rad).
     pub limit_overshoot_rad: f64,
 }
@@ -344,12 +342,6 @@ impl Physics {
     #[must_use]
     pub fn joint_quality(&self) -> JointQuality {
         let mut quality = JointQuality::default();
-        for (body, motion) in self.model.bodies.iter().zip(&self.motions) {
-            let Some(parent) = body.parent else { continue };
-            let wanted = self.motions[parent].pose * (body.pose * body.anchor_m);
-            quality.separation_m =
-                quality.separation_m.max(nalgebra::distance(&wanted, &(motion.pose * body.anchor_m)));
-        }
         for (hinge, &angle) in self.model.hinges.iter().zip(self.joint_angles()) {
             quality.limit_overshoot_rad = quality.limit_overshoot_rad.max(hinge.overshoot_rad(angle));
         }
