@@ -227,8 +227,9 @@ fn resume(command: Command, run: &str, any: &AnyRunArgs, device: Device) -> anyh
     if let Some(steps) = any.steps {
         config.run.steps = steps;
         config.check()?;
-        state.config_toml = config.to_toml();
     }
+    // Without keys that no longer exist, so that actors need not know them.
+    state.config_toml = config.to_toml();
     state.lineage.resume(seeds::unique());
     state.counters.resumes += 1;
     let mirror = model::mirror(&config, &state.model_xml)?;

@@ -11,7 +11,8 @@ use super::{CheckpointError, TrainingState, load_file};
 /// in a warning which one that is, and why.
 ///
 /// # Errors
-/// As [`load_file`] where the file is sound but of another format, or cannot be read; [`CheckpointError::NoneSound`] where
+/// As [`load_file`] where the file is sound but of another format, holds a configuration that this version refuses, or
+/// cannot be read; [`CheckpointError::NoneSound`] where
 /// nothing else is sound either.
 pub(super) fn load_or_newest_sound(wanted: &Path) -> Result<TrainingState, CheckpointError> {
     let why = match load_file(wanted) {
@@ -162,5 +163,23 @@ mod tests {
         bytes[8] = 1;
         fs::write(path, bytes).unwrap();
         assert!(load(&folder, Which::Latest).unwrap_err().to_string().contains("format 1"));
+    }
+
+    #[test]
+    fn retired_keys_are_read_at_their_old_default_and_refused_otherwise() {
+        let at = tempfile::tempdir().unwrap();
+        let folder = saved(at.path());
+        let save = |key: &str| {
+            let mut state = state(8);
+            state.config_toml = state.config_toml.replacen("[rollout]\n", &format!("[rollout]\n{key}\n"), 1);
+            Saver::new(&folder, 2, 9).save(&state).unwrap();
+            load(&folder, Which::Latest).map_err(|why| why.to_string())
+        };
+        let read = save("noise_correlation = 0.0\nstale_versions = [0, 0]").unwrap();
+        assert!(read.config_toml.contains("stale_versions"));
+        assert_eq!((read.counters.updates, read.config()), (8, Ok(Config::default())));
+        assert_eq!(read.config_hash(), state(8).config_hash());
+        let why = save("noise_correlation = 0.5").unwrap_err();
+        assert!(why.contains("`rollout.noise_correlation` is 0.5") && why.contains("latest.bundle"), "{why}");
     }
 }

@@ -84,6 +84,14 @@ pub enum CheckpointError {
         /// What does not fit.
         why: String,
     },
+    /// Its configuration is one that this version refuses.
+    #[error("checkpoint `{path}` holds a configuration that is refused: {why}")]
+    Configuration {
+        /// Its path.
+        path: String,
+        /// Why, with the key.
+        why: String,
+    },
     /// Neither it nor any other checkpoint of the run is sound.
     #[error("no checkpoint of this run is sound: {tried}; begin a new run, or put back a copy of one of these files")]
     NoneSound {
@@ -138,6 +146,7 @@ pub fn load_file(path: &Path) -> Result<TrainingState, CheckpointError> {
         Err(source) => return Err(CheckpointError::Read { path: shown, source }),
     };
     let state: TrainingState = encoding::decode(&shown, &bytes)?;
+    state.config().map_err(|why| CheckpointError::Configuration { path: shown.clone(), why })?;
     state.check().map_err(|why| CheckpointError::Shape { path: shown, why })?;
     Ok(state)
 }
