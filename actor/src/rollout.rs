@@ -121,7 +121,7 @@ impl Collector {
         for t in 0..self.steps {
             let start = fragment.actions.len();
             fragment.observations.extend_from_slice(self.environments.observations());
-            self.draw_noise();
+            self.normals.fill_with(|| StandardNormal.sample(&mut self.noise));
             self.act(policy, &mut fragment)?;
             self.environments.step(&fragment.actions[start..], &mut self.stepped);
             if let Some(camera) = &mut self.camera {
@@ -144,10 +144,6 @@ impl Collector {
             }
         }
         Ok(fragment)
-    }
-
-    fn draw_noise(&mut self) {
-        self.normals.fill_with(|| StandardNormal.sample(&mut self.noise));
     }
 
     fn act(&mut self, policy: &ActingPolicy, fragment: &mut Fragment) -> Result<(), ActorError> {

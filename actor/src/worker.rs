@@ -21,7 +21,6 @@ use treadmill_proto::{ActorStats, EndCause, Episode, Fragment, PolicyBundle, Pre
 
 use crate::{
     ActorError,
-    acting::ActingPolicy,
     courier::{Counts, Courier},
     environments::{Environments, SeedSource},
     policies::{Policies, Refreshed, join},
