@@ -1,7 +1,7 @@
 //! Floods a learner, to see what it bears: `hostile_client ENDPOINT RUN KIND SECONDS [COUNT] [CERTIFICATES]`.
 //!
 //! KIND is one of those in `tests/hostile/attacks.rs`, or `idle` for connections that say nothing; COUNT bounds the messages.
-//! With a folder of certificates it comes as an actor. Prints one JSON object. `docs/security/measure.py` runs it.
+//! With a folder of certificates it comes as an actor. Prints one JSON object. `experiments/security/measure.py` runs it.
 
 #[path = "../tests/hostile/attacks.rs"]
 #[allow(dead_code, reason = "the tests use the rest")]

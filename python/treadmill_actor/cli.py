@@ -110,8 +110,8 @@ def main(arguments=None):
             return 0
         worker = Worker(bus, args.run, name, environments, seed, stopping)
         worker.work(args.steps)
-        courier = getattr(worker, "courier", None)
-        counts = courier.book.outcomes if courier else {}
+        uploader = getattr(worker, "uploader", None)
+        counts = uploader.book.outcomes if uploader else {}
         log.info("%s is done after %d env steps; receipts: %s", name, worker.env_steps, counts)
         return 0
     except (Refused, TaskError, BusError, ImportError, gymnasium.error.Error) as why:

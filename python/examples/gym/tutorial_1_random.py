@@ -1,6 +1,6 @@
 """First of four: episodes of random actions, printed step by step.
 
-Usage: pip install ./python/treadmill-gym
+Usage: pip install ./python/treadmill_gym
        tutorial_1_random.py [--episodes N] [--steps N] [--env ID]
 """
 

@@ -1,6 +1,6 @@
 """Speed beside Gymnasium's Humanoid-v5 on MuJoCo, in turns, so that whatever else the machine does hits both.
 
-Usage: pip install "./python/treadmill-gym[train]" "gymnasium[mujoco]"
+Usage: pip install "./python/treadmill_gym[train]" "gymnasium[mujoco]"
        bench.py [--rounds N] [--envs N] [--without-ppo]
 
 Random actions are drawn beforehand; resets are part of the time. What runs on one core is measured in processor time, which other

@@ -1,4 +1,4 @@
-"""Rows of the table in docs/faults.md."""
+"""Rows of the table in docs/results/faults.md."""
 
 import json
 

@@ -1,6 +1,6 @@
 """Third of four: Stable-Baselines3's PPO trains the humanoid, with curves for TensorBoard, and saves the model.
 
-Usage: pip install "./python/treadmill-gym[train]"
+Usage: pip install "./python/treadmill_gym[train]"
        tutorial_3_ppo.py [--steps N] [--envs N] [--model FILE]
        tensorboard --logdir tensorboard
 """

@@ -3,7 +3,7 @@
 It has one preferred action, the same for every observation. Whatever it tries beside that and earns more than usual draws the
 preference nearer, and what earns less pushes it away.
 
-Usage: pip install ./python/treadmill-gym
+Usage: pip install ./python/treadmill_gym
        tutorial_2_naive.py [--episodes N] [--env ID]
 """
 

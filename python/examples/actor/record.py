@@ -18,7 +18,7 @@ from pathlib import Path
 import numpy as np
 import zenoh
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
+sys.path.insert(0, str(Path(__file__).resolve().parents[2]))
 
 from treadmill_actor import schema  # noqa: E402
 from treadmill_actor.bus import configuration  # noqa: E402

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""Measures the bus over each transport, in several rounds, and writes the table of docs/scale.md.
+"""Measures the bus over each transport, in several rounds, and writes the table of docs/results/scale.md.
 
     cargo build --release
-    python3 docs/scale/measure.py target/release/treadmill --doc docs/scale.md
+    python3 experiments/scale/measure.py target/release/treadmill --doc docs/results/scale.md
 
 Transports take turns within a round, and `treadmill bench bus` measures raw TCP before and after every number of actors, so
 that what else the machine does falls on all alike. Medians over the rounds are shown, with least and greatest.

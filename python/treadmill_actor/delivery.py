@@ -65,7 +65,7 @@ class Book:
         return again
 
 
-class Courier:
+class Uploader:
     """Sends the fragments of one actor process."""
 
     def __init__(self, bus, run, actor, incarnation, receipt_timeout_s, stopping):

@@ -1,6 +1,6 @@
 """Last of four: the trained humanoid in a window, or as an animation where there is no display.
 
-Usage: pip install "./python/treadmill-gym[train,human]"
+Usage: pip install "./python/treadmill_gym[train,human]"
        tutorial_4_watch.py humanoid_ppo.zip [--episodes N] [--gif FILE]
 """
 

@@ -1,4 +1,4 @@
-"""One humanoid: `python -m unittest discover -s python/treadmill-gym/tests`, with the package installed."""
+"""One humanoid: `python -m unittest discover -s python/treadmill_gym/tests`, with the package installed."""
 
 import pickle
 import subprocess

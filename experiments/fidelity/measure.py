@@ -1,9 +1,9 @@
-"""Measures Treadmill's humanoid against MuJoCo's and writes the tables of docs/fidelity.md.
+"""Measures Treadmill's humanoid against MuJoCo's and writes the tables of docs/results/fidelity.md.
 
 Needs: pip install "gymnasium[mujoco]" numpy
        cargo build --release -p treadmill-humanoid --example open_loop
 
-Usage: measure.py [--json OUT.json] [--compare BASELINE.json] [--doc docs/fidelity.md]
+Usage: measure.py [--json OUT.json] [--compare BASELINE.json] [--doc docs/results/fidelity.md]
 
 Both simulators get the same states and actions. MuJoCo is Gymnasium's Humanoid-v5 file, integrator RK4, 5 steps of 3 ms.
 """
