@@ -135,6 +135,21 @@ pub fn folders() -> (tempfile::TempDir, PathBuf) {
     (folder, run)
 }
 
+/// Text of the page of this name in `docs/`, in whichever folder it stands.
+pub fn page(name: &str) -> String {
+    fn find(folder: &Path, name: &str) -> Option<PathBuf> {
+        let file = folder.join(name).with_extension("md");
+        if file.is_file() {
+            return Some(file);
+        }
+        let entries = fs::read_dir(folder).expect("a folder of pages").flatten();
+        entries.filter(|entry| entry.path().is_dir()).find_map(|entry| find(&entry.path(), name))
+    }
+    let docs = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs");
+    let file = find(&docs, name).unwrap_or_else(|| panic!("docs/ has no page {name}.md"));
+    fs::read_to_string(file).expect("a page is text")
+}
+
 /// The Python that TREADMILL_PYTHON names, if it has these modules; without it, tests that need it say so and pass.
 #[allow(clippy::print_stderr, reason = "a test that was left out must say so")]
 pub fn python_with(modules: &str) -> Option<Command> {
