@@ -31,7 +31,7 @@ fn main() -> Result<(), String> {
         let known = Flood::ALL.iter().find(|(name, _)| *name == kind);
         let (_, flood) = known.ok_or(format!("there is no KIND `{kind}`"))?;
         let tls = certificates.as_deref().map(|folder| (folder, "actor"));
-        let attacker = Attacker::join(&endpoint, &run, tls, PATIENCE).ok_or("nobody lets us in")?;
+        let attacker = Attacker::join(&endpoint, &run, tls, PATIENCE).ok_or("the learner did not let us in")?;
         attacker.flood(*flood, "good", count, until)
     };
     let wall_s = begun.elapsed().as_secs_f64();

@@ -238,14 +238,14 @@ class Fleet:
             found["dropped"] += own["dropped_by_rule"]
             if own["produced"] != own["accepted"] + own["dropped_by_rule"] + own["in_flight"]:
                 found["mistakes"].append(f"{name}: {own}")
-            # What it let go of must have been dealt with; what nobody took must have been dropped to its knowledge.
+            # The learner must have settled what an actor let go of; an actor must know of each fragment that was dropped.
             # What a learner dropped after its last checkpoint, only its sender knows of.
             unsaved = max(0, own["dropped_by_rule"] - dropped)
             found["lost"] += max(0, own["settled_through"] - line["through"] - unsaved)
             found["lost"] += max(0, dropped - own["dropped_by_rule"] - own["in_flight"])
             found["lost"] += max(0, own["accepted"] - own["awaiting_durability"] - line["accepted"])
             found["twice"] += max(0, line["accepted"] - own["accepted"] - own["in_flight"])
-        found["mistakes"] += [f"nobody sent as {line}" for key, line in theirs.items() if key not in known]
+        found["mistakes"] += [f"no actor sent as {line}" for key, line in theirs.items() if key not in known]
         trained = sum(line["env_steps"] for line in theirs.values())
         found["env_steps"], found["trained"] = learner.get("env_steps"), trained
         if learner.get("env_steps") != trained:
@@ -254,7 +254,7 @@ class Fleet:
 
 
 def end_well():
-    """Whoever is told to stop still ends its processes and takes its hosts away."""
+    """A script that is stopped by a signal still ends its processes and takes its hosts away."""
     signal.signal(signal.SIGTERM, lambda *_: sys.exit(1))
 
 

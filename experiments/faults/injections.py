@@ -273,7 +273,7 @@ def restart_of_everything(trial):
             fleet.start(name)
             time.sleep(0.5)
         trial.repair()
-        # Whoever was started first may deliver before the last is started.
+        # The first actor may deliver before the last one starts.
         trial.await_actors(*ACTORS, delivers=True, since=killed)
         slowest = max(slowest, trial.recovered)
         fleet.grow(4 * FRAGMENT)

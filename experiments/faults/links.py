@@ -50,7 +50,7 @@ def small_disk(folder, megabytes):
     try:
         yield folder
     finally:
-        # What is left there is worth keeping, for whoever looks into a run that failed.
+        # The rest stays, for the analysis of a run that failed.
         shutil.copytree(folder, folder.with_name("disk-copy"), dirs_exist_ok=True)
         subprocess.run(["umount", "--lazy", str(folder)], check=True)
 

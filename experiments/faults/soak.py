@@ -59,7 +59,7 @@ class Soak:
         return self.fleet.start(f"actor-{self.count}", host=("actor1", "actor2", "observer")[self.count % 3])
 
     def happen(self):
-        """Somebody goes, somebody comes."""
+        """One actor leaves, another joins."""
         victim = self.actors.pop(self.random.randrange(len(self.actors)))
         what = self.random.choice(("left", "killed", "killed", "frozen"))
         self.events[what] += 1
@@ -129,7 +129,7 @@ def tell(fleet, soak, account, stuck, begun, ended, samples):
         growth = slope([(row[0] / 60, row[memory]) for row in warm])
         rows.append((f"{part}: memory at the end", f"{warm[-1][memory]:.1f} MB", ""))
         rows.append((f"{part}: growth after warm-up", f"{growth:+.2f} MB/min", f"below {SLOPE_MAX_MB_PER_MINUTE:g}"))
-        # Somebody is always about to come or to go: the fewest of a while count.
+        # Some actor is always about to join or to leave: the smallest count of a while is compared.
         half = len(warm) // 2
         first, last = (min(row[files] for row in part_of) for part_of in (warm[:half], warm[half:]))
         rows.append((f"{part}: descriptors, first and second half", f"{first}, {last}", "no more"))

@@ -63,7 +63,7 @@ def run_one(arguments, name, certificates):
         account["mistakes"] += [f"a panic in {path}" for path in panics]
         if options.get("older"):
             # Actors of before say nothing at their end; what they did not settle is all that can be missing.
-            account["mistakes"] = [text for text in account["mistakes"] if "nobody sent" not in text]
+            account["mistakes"] = [text for text in account["mistakes"] if "no actor sent" not in text]
         row = {"name": name, "title": title, "account": account, "note": trial.note, "curve": table.curve(fleet)}
         keys = ("detected", "recovered", "before", "during", "after", "updates_repeated")
         row |= {key: getattr(trial, key) for key in keys}

@@ -4,7 +4,7 @@
 Usage: search.py target/release/treadmill FOLDER [--only NAME ...] [--seeds 1 2 3] [--steps 4000000] [--jobs 2]
        search.py FOLDER --doc docs/results/search.md
 
-The first form trains what is not in FOLDER yet; the second makes the table of all that is. A run is evaluated every 200 000
+The first form trains the runs that FOLDER lacks; the second makes a table of all its runs. A run is evaluated every 200 000
 steps by ten deterministic episodes of at most 15 s. Each run has one actor process and one thread for its update, so that two
 of them side by side keep two cores busy: compare the steps, and not the time, with a run that has the machine to itself.
 Needs Python alone.

@@ -3,7 +3,7 @@
 Needs: pip install torch stable-baselines3 "gymnasium[mujoco]" numpy
        cargo build --release
 
-Usage: speed.py target/release/treadmill [--rounds 5] [--without-training] [--json OUT.json] [--doc docs/results/learning.md]
+Usage: speed.py target/release/treadmill [--rounds 5] [--without-training] [--json OUT.json] [--doc docs/results/README.md]
 
 In every round each comparison runs both sides one after the other, and every other round in the other order; a ratio is that of
 one round. Update and inference run on one core with one thread, the update of two threads and training on two cores. PyTorch's

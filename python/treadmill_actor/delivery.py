@@ -85,7 +85,7 @@ class Uploader:
             return self.book.settled_through()
 
     def deliver(self, sequence, fragment):
-        """Sends one fragment until it is dealt with. Its receipt, or None once somebody asked to stop."""
+        """Sends one fragment until it is settled. Returns its receipt, or None after a request to stop."""
         tries = 0
         while not self.stopping.is_set():
             if tries:

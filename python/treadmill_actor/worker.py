@@ -59,12 +59,12 @@ class Worker:
         )
         over, announced = threading.Event(), threading.Event()
 
-        def heed(version):
+        def apply(version):
             policies.announced_version = version
             announced.set()
 
         token = self.bus.token(self.run, self.actor)
-        subscriber = self.bus.announcements(self.run, heed)
+        subscriber = self.bus.announcements(self.run, apply)
         tell_episode = self.bus.publisher(f"treadmill/{self.run}/episodes/{self.actor}")
         tell_stats = self.bus.publisher(f"treadmill/{self.run}/actors/{self.actor}/stats")
         # Credit: one for each fragment that may be unanswered; the receipt gives it back.

@@ -27,7 +27,7 @@ fn env_measures_steps_with_and_without_observation() {
     assert_eq!((&spread["threads"], &spread["checksum"]), (&2.into(), &first["checksum"]));
     assert_eq!(spread["workload"], first["workload"], "as many resets");
     let finer = bench(&["env", "--steps", "1280", "--set", "env.substeps=4"]);
-    assert_ne!(finer["checksum"], first["checksum"], "keys of the configuration are heeded");
+    assert_ne!(finer["checksum"], first["checksum"], "configuration keys take effect");
 }
 
 #[test]

@@ -84,7 +84,7 @@ fn a_machine_that_is_well_has_no_problem_and_everything_is_said_in_words_too() {
     for name in ["disk", "open files", "clock", "loopback", "simulation", "networks"] {
         assert_ok(&output, name);
     }
-    assert!(of(&output, "learner").0.is_empty(), "nobody was asked for");
+    assert!(of(&output, "learner").0.is_empty(), "no learner was named");
     let output = run(folder.path(), &["check", "--actors", "1"]);
     let text = stdout(&output);
     assert!(text.lines().any(|line| line.starts_with("ok       simulation")), "{text}");
@@ -95,7 +95,7 @@ fn a_machine_that_is_well_has_no_problem_and_everything_is_said_in_words_too() {
 #[test]
 fn a_folder_that_cannot_be_written_to_is_named() {
     let (folder, _) = folders();
-    // Nobody may make files there, not even root.
+    // Not even root can create files there.
     assert_problem(&check(folder.path(), &["--run-dir", "/proc/self/runs"]), "disk", &["/proc/self", "--run-dir"]);
 }
 
@@ -175,7 +175,7 @@ fn nobody_and_somebody_else_are_told_apart() {
     let (folder, _) = folders();
     let taken = TcpListener::bind("127.0.0.1:0").unwrap();
     let endpoint = format!("tcp/{}", taken.local_addr().unwrap());
-    // Whoever holds the port takes links and says nothing.
+    // The listener accepts links and stays silent.
     let output = check(folder.path(), &["--connect", &endpoint]);
     assert_ok(&output, "route");
     assert_problem(&output, "learner", &["does not speak", "ss -ltnp"]);
@@ -205,7 +205,7 @@ fn a_learner_answers_by_its_folder_and_another_runs_name_is_corrected() {
         assert_ok(&output, name);
     }
     let (verdicts, words) = of(&output, "learner");
-    assert!(verdicts == ["note"] && words.contains("treadmill actor --run walk"), "nobody acts yet: {words}");
+    assert!(verdicts == ["note"] && words.contains("treadmill actor --run walk"), "no actor yet: {words}");
     let endpoint = endpoint(&run_folder);
     assert_ok(&check(folder.path(), &["--connect", &endpoint, "--run", "walk"]), "versions");
     let output = check(folder.path(), &["--connect", &endpoint, "--run", "stroll"]);
@@ -312,7 +312,7 @@ fn a_handshake_says_which_side_does_not_trust_which() {
     // Ours are of another authority than the learner trusts, and we trust the learner's.
     fs::copy(folder.path().join("certs/ca.crt"), folder.path().join("others/ca.crt")).unwrap();
     assert_problem(&look("others", &endpoint), "handshake", &["does not take our certificate"]);
-    // Whoever has an actor's certificate alone learns that the link works.
+    // With an actor's certificate alone, the check still shows that the link works.
     for part in ["learner", "router", "evaluator", "observer", "operator"] {
         fs::remove_file(folder.path().join(format!("certs/{part}.crt"))).unwrap();
     }

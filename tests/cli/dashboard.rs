@@ -25,12 +25,12 @@ fn length(characters: u16) -> NonZeroU16 {
     NonZeroU16::new(characters).expect("a terminal has characters")
 }
 
-/// Both ends of a new pseudo-terminal of 80 × 24 characters: whoever looks at it, and the program.
+/// Both ends of a new pseudo-terminal of 80 × 24 characters: the viewer's and the program's.
 fn pseudo_terminal() -> [OwnedFd; 2] {
     let (mut outer, mut inner) = (-1, -1);
     let size = libc::winsize { ws_row: 24, ws_col: 80, ws_xpixel: 0, ws_ypixel: 0 };
     let (no_name, usual) = (std::ptr::null_mut(), std::ptr::null());
-    // SAFETY: two numbers are written and a structure is read; what comes back are open descriptors that nobody else has.
+    // SAFETY: two numbers are written and a structure is read; both descriptors that come back are open and ours alone.
     unsafe {
         assert_eq!(libc::openpty(&mut outer, &mut inner, no_name, usual, &size), 0);
         [outer, inner].map(|descriptor| OwnedFd::from_raw_fd(descriptor))
@@ -72,7 +72,7 @@ impl Terminal {
             let (mut output, screen) = (keyboard.try_clone().unwrap(), screen.clone());
             move || {
                 let mut bytes = [0; 4096];
-                // An error is how a terminal ends that nobody has open any more.
+                // A read from a terminal that no process has open any more ends with an error.
                 while let Ok(count @ 1..) = output.read(&mut bytes) {
                     screen.lock().unwrap().process(&bytes[..count]);
                 }
@@ -210,7 +210,7 @@ fn a_learner_that_comes_back_elsewhere_is_found() {
     let _resumed = train(folder.path(), &["--resume", "run"]);
     await_that("another endpoint", || (endpoint(&run) != first).then_some(()));
     terminal.shows(&["run  training", "actor-0"]);
-    // Whoever ends it from outside finds the terminal as it was, too.
+    // A signal from outside also restores the terminal.
     send_signal(terminal.child.id(), libc::SIGTERM);
     assert_eq!(terminal.end_as_it_began().code(), Some(0));
 }
@@ -228,9 +228,9 @@ fn where_there_is_no_terminal_plain_lines_come_and_errors_leave_it_alone() {
         assert!(!line.contains('\u{1b}'), "{line:?}");
         piped.wait_for("actor-0");
     }
-    let nobody = Terminal::start(folder.path(), &["status", "--watch", "--connect", "tcp/127.0.0.1:1"], &[]);
-    nobody.shows(&["error: nobody answers at tcp/127.0.0.1:1"]);
-    assert_eq!(nobody.end_as_it_began().code(), Some(1));
+    let unanswered = Terminal::start(folder.path(), &["status", "--watch", "--connect", "tcp/127.0.0.1:1"], &[]);
+    unanswered.shows(&["error: nobody answers at tcp/127.0.0.1:1"]);
+    assert_eq!(unanswered.end_as_it_began().code(), Some(1));
 }
 
 /// Set where this program is to take the terminal and panic.
@@ -242,7 +242,7 @@ fn a_panic_is_told_on_a_terminal_that_was_given_back() {
         let mut screen = screen::Screen::open().expect("a terminal");
         screen.draw(|frame| frame.render_widget("drawn before", frame.area())).expect("it is drawn");
         let mut answer = String::new();
-        std::io::stdin().read_line(&mut answer).expect("whoever looks on goes on");
+        std::io::stdin().read_line(&mut answer).expect("the test types a line");
         panic!("as planned");
     }
     let mut command = Command::new(std::env::current_exe().unwrap());

@@ -83,7 +83,7 @@ fn plain_text_beyond_loopback_must_be_asked_for() {
     assert!(!run.exists(), "an endpoint that is refused leaves no folder behind");
     let args = ["actor", "--connect", "tcp/192.0.2.1:7447"];
     assert_refused(&self::run(folder.path(), &args), 2, &["tcp/192.0.2.1:7447", "--insecure"]);
-    // Whoever asks everybody on the network must know whom to believe.
+    // Discovery asks the whole network, so answers must be verifiable.
     assert_refused(&self::run(folder.path(), &["actor", "--discover"]), 2, &["--discover", "--tls DIR", "--insecure"]);
     let args = ["learner", "--preset", "smoke", "--run", "A/B", "--run-dir", run.to_str().unwrap()];
     assert_refused(&self::run(folder.path(), &args), 2, &["`run` is `A/B`", "a-z"]);

@@ -34,7 +34,7 @@ fn the_guide_to_several_machines_works_as_printed() {
     // Hosts of its own, so that two of these tests may run at once; they are gone also where a command fails.
     let prefix = format!("tm{}", std::process::id());
     let script = commands(&page)
-        // Machines that test have more to do than those of whoever reads.
+        // Test machines are busier than a reader's.
         .replace("sleep 10", "sleep 20")
         .replace("tm-", &format!("{prefix}-"))
         .replace("hosts.sh up", &format!("hosts.sh up {prefix}"))

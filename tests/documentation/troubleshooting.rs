@@ -58,7 +58,7 @@ fn start(folder: &Path, args: &[&str]) -> Running {
     Running::start(command)
 }
 
-/// An endpoint where nobody listens.
+/// An endpoint without a listener.
 fn deserted() -> String {
     format!("tcp/{}", TcpListener::bind("127.0.0.1:0").unwrap().local_addr().unwrap())
 }

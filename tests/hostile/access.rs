@@ -136,7 +136,7 @@ fn an_actor_says_nothing_in_the_learners_name_and_hears_nothing_of_others() {
         actor.put("treadmill/run/metrics/forged/a", "{}");
         actor.put("treadmill/run/policy/version", "forged");
     }
-    // Somebody else who asks for a policy gets the learner's.
+    // Another actor that asks for a policy gets the learner's.
     fleet.join_as("actor").policy();
     fleet.goes_on();
     assert_eq!(forged.load(Ordering::Relaxed), 0);
@@ -201,7 +201,7 @@ fn expired(folder: &Path) {
 fn without_a_good_certificate_there_is_nothing_and_the_learner_says_so() {
     let fleet = fleet();
     let folder = fleet.folder.path();
-    // Somebody who does not even speak the language of encryption.
+    // A client that does not speak TLS.
     let address = fleet.endpoint.split_once('/').unwrap().1;
     let mut plain = TcpStream::connect(address).unwrap();
     std::io::Write::write_all(&mut plain, &[0; 64]).unwrap();
@@ -261,7 +261,7 @@ fn certificates_are_refused_where_they_cannot_be() {
     assert_refused(&run(path, &["certs", "certs", "--renew"]), 1, &["ca.key", "no private key"]);
     let args = ["learner", "--listen", "tls/127.0.0.1:0", "--tls", "nowhere"];
     assert_refused(&run(path, &args), 2, &["nowhere/ca.crt", "treadmill certs"]);
-    // Beyond this machine nothing goes in plain text unless somebody says so.
+    // Beyond this machine, plain text needs `--insecure`.
     let args = ["learner", "--preset", "smoke", "--listen", "tcp/0.0.0.0:0"];
     assert_refused(&run(path, &args), 2, &["tls/HOST:PORT", "--insecure"]);
 }

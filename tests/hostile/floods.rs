@@ -191,7 +191,7 @@ fn flood(tls: bool) {
     fleet.assert_goes_on();
     let after = resident_bytes(fleet.learner.pid());
     assert!(after < before + GROWTH_BYTES_MAX, "{before} bytes before and {after} after {sent} messages");
-    // Statistics of actors that are not there are nobody's.
+    // Statistics of unknown actors are dropped.
     assert!(fleet.value("actors/env_steps_per_s") < 1e12);
     // A new actor still finds its way in.
     let newcomer = Running::start(actor(fleet.folder.path(), &fleet.endpoint, tls, "newcomer"));

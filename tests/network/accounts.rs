@@ -9,7 +9,7 @@ use treadmill_learner::checkpoint::load_file;
 
 /// More steps than any of these tests waits for.
 const ENDLESS: &str = "1000000000";
-/// What actors say once nobody answers.
+/// Part of the message of an actor that gets no answer.
 const UNANSWERED: &str = "keeping fragments";
 
 /// A learner, a router and two actors that reach it only through that.
@@ -116,7 +116,7 @@ fn compare_one(actor: &Value, account: &Value) {
     // What it knows to be durable is; what was taken is no more than what it gave.
     assert!(said("accepted") - said("awaiting_durability") <= known("accepted"), "{told}");
     assert!(known("accepted") <= said("accepted") + said("in_flight"), "{told}");
-    // What nobody learnt from was dropped to its sender's knowledge.
+    // The sender knows of each fragment that was dropped.
     assert!(dropped <= said("dropped_by_rule") + said("in_flight"), "{told}");
 }
 

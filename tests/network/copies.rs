@@ -1,4 +1,4 @@
-//! Copies of accepted fragments: for whoever asks for exactly them, and for nobody else.
+//! Copies of accepted fragments: sent to subscribers that ask for exactly them, and to no others.
 
 use crate::support::*;
 use bytes::Bytes;
@@ -69,14 +69,14 @@ fn copies_are_made_only_while_somebody_wants_them() {
     let other = observe(&client, "treadmill/other-run/@rollouts/*", 16).unwrap();
     assert!(!copies.is_watched());
     let one = observe(&client, "treadmill/run/@rollouts/actor-1", 16).unwrap();
-    await_that("somebody listens", || copies.is_watched().then_some(()));
-    copies.offer("actor-2", Bytes::from_static(b"for nobody"));
+    await_that("a subscriber", || copies.is_watched().then_some(()));
+    copies.offer("actor-2", Bytes::from_static(b"unwanted"));
     copies.offer("actor-1", Bytes::from_static(b"a fragment"));
     let message = one.next(PATIENCE).expect("the copy");
     assert_eq!((&message.key[..], &message.payload[..]), ("treadmill/run/@rollouts/actor-1", &b"a fragment"[..]));
     drop(one);
-    await_that("nobody listens", || (!copies.is_watched()).then_some(()));
-    // Whoever does not take them away cannot make them pile up.
+    await_that("no subscriber", || (!copies.is_watched()).then_some(()));
+    // A subscriber that does not take its copies cannot make them pile up.
     for _ in 0..1000 {
         copies.offer("actor-1", Bytes::from(vec![0; 1 << 20]));
     }

@@ -168,7 +168,7 @@ async fn the_first_registration_makes_the_run_and_all_others_are_held_against_it
     let played = self::run(folder.path(), &["eval", file.to_str().unwrap()]);
     assert_refused(&played, 2, &["`test/Count-v0`"]);
 
-    // Resumed, nobody has to register.
+    // A resumed run needs no registration.
     fs::remove_file(run.join("endpoint.txt")).unwrap();
     let training = learner(folder.path(), &run, &["--resume", path, "--steps", "1536"]);
     let bus = join(&run);

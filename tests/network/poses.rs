@@ -1,4 +1,4 @@
-//! Poses of an actor: for whoever watches, and made for nobody else.
+//! Poses of an actor: made and sent only while an observer is subscribed.
 
 use std::time::Duration;
 
@@ -97,11 +97,11 @@ fn an_actor_knows_whether_anybody_watches_it() {
     let watched = publisher.watched();
     assert!(!watched.now());
     let feed = observe(&viewer, "treadmill/run/poses/legs", RING).unwrap();
-    await_that("somebody watches", || watched.now().then_some(()));
+    await_that("an observer", || watched.now().then_some(()));
     assert!(!other.watched().now(), "the other one is not watched");
     publisher.tell(b"a pose".to_vec());
     assert_eq!(feed.next(PATIENCE).expect("the pose").payload, b"a pose");
     drop(feed);
-    await_that("nobody watches", || (!watched.now()).then_some(()));
+    await_that("no observer", || (!watched.now()).then_some(()));
     [viewer, actor, router].iter().for_each(Bus::close);
 }

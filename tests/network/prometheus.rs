@@ -121,7 +121,7 @@ fn slow_clients_hold_up_neither_others_nor_training() {
     let slow: Vec<TcpStream> = (0..200)
         .map(|_| {
             let mut stream = TcpStream::connect(&address).expect("the port is open");
-            // Whoever is turned away at once sees that here.
+            // A connection that is refused at once ends here.
             let _ = stream.write_all(b"GET /metrics HTTP/1.1\r\nHost:");
             stream
         })

@@ -1,4 +1,4 @@
-//! Links with certificates: a fleet trains over them, by way of a router too, and whoever has none stays outside.
+//! Links with certificates: a fleet trains over them, also through a router, and clients without one are refused.
 
 use std::{fs, os::unix::fs::PermissionsExt, path::Path, process::Command};
 

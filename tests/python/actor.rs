@@ -134,7 +134,7 @@ fn a_python_actor_trains_through_our_learner_and_outlives_it() {
     python.args(["--envs", "4", "--name", "gym-1", "--seed", "1"]);
     let actor = Running::start(python);
     actor.wait_for("joined run `run`");
-    // Whoever records gets its experience as arrays.
+    // The recording example writes the experience as arrays.
     let recorded = folder.path().join("recorded");
     let mut record = self::python("google.protobuf, numpy, zenoh").expect("it is there, as above");
     record.arg(python_folder().join("examples/actor/record.py")).arg(&recorded).args([

@@ -28,14 +28,14 @@ pub fn treadmill(folder: &Path) -> Command {
 }
 
 /// Lets clients that this process opens read and write with one thread, as ours do over TLS: otherwise a flood of messages
-/// may break the memory of whoever sends it, which is this process (`common/src/bus/threads.rs`). To be called before the
+/// may break the memory of the sender, which is this process (`common/src/bus/threads.rs`). To be called before the
 /// first is opened.
 pub fn bus_on_one_thread() {
     static SAID: Once = Once::new();
     SAID.call_once(|| {
         let options = BusOptions { connect: vec!["tls/localhost:1".to_string()], ..BusOptions::default() };
         if let Some((name, value)) = threads::wanted(&options, Role::Actor) {
-            // SAFETY: whoever reads the environment in these tests does it by Rust's own functions, which take turns.
+            // SAFETY: these tests read the environment only by Rust's own functions, which take turns.
             unsafe { std::env::set_var(name, value) };
         }
     });

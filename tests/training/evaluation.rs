@@ -67,7 +67,7 @@ fn forged_reports_are_not_believed() {
             falls: 0,
         };
         let timeout = std::time::Duration::from_secs(10);
-        for evaluator in ["liar", "somebody-else"] {
+        for evaluator in ["liar", "other-liar"] {
             let answer = ask_for_evaluation(&bus, &report.run, evaluator, Some(&report), timeout).await;
             assert!(matches!(answer, Ok(Assignment::Nothing)), "{answer:?}");
         }

@@ -83,7 +83,7 @@ fn tensorboard_shows_what_a_run_is_how_its_actions_are_spread_and_compares_it() 
         of_joints.clone().for_each(|tag| assert_eq!(count(tag, index), 512.0, "{tag}"));
     }
     let lags = &first["histograms"]["bus/policy_lag"][0][1];
-    assert_eq!(*lags, serde_json::json!([[-0.5, 0.5, 512.0]]), "nobody lags in lock-step");
+    assert_eq!(*lags, serde_json::json!([[-0.5, 0.5, 512.0]]), "no fragment lags in lock-step");
     let documented = page("metrics");
     for tag in ["actions/all", "actions/{name}", "bus/policy_lag", "config", "command", "versions"] {
         assert!(documented.contains(&format!("| `{tag}` |")), "the page `metrics` does not explain {tag}");

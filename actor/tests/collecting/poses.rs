@@ -1,4 +1,4 @@
-//! What a camera records: whole episodes, while somebody watches.
+//! Poses that a camera records: whole episodes, while an observer is subscribed.
 
 use treadmill_actor::{
     environments::{Environments, SeedSource, Stepped},
@@ -52,7 +52,7 @@ fn nothing_is_recorded_while_nobody_watches() {
     let mut filmed = Filmed::begin(&EnvironmentConfig { max_episode_steps: 7, ..EnvironmentConfig::default() });
     filmed.step(20);
     assert!(filmed.recorded().is_empty());
-    // In the middle of the third episode somebody comes, and sees the fourth from its start.
+    // An observer that subscribes in the middle of the third episode gets the fourth from its start.
     filmed.watched.set(true);
     filmed.step(7);
     assert_eq!(moments(&filmed.recorded()), [(4, 0), (4, 2), (4, 4), (4, 6)]);

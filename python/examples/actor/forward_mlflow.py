@@ -56,7 +56,7 @@ def forward(metrics, idle_s, client, experiment):
 
 
 def taken(metrics, idle_s, most=1000):
-    """What waits, at least one; nothing when nothing came for too long or somebody wants to stop."""
+    """All waiting metrics, at least one; none after a long silence or a request to stop."""
     try:
         batch = [metrics.get(timeout=idle_s)]
     except (queue.Empty, KeyboardInterrupt):

@@ -2,7 +2,7 @@
 
 Usage: record.py FOLDER [--connect ENDPOINT] [--run NAME] [--actor NAME] [--tls DIR] [--count N]
 
-The learner copies fragments to `treadmill/{run}/@rollouts/{actor}` while somebody subscribes to exactly that. A link that is
+The learner copies fragments to `treadmill/{run}/@rollouts/{actor}` while a subscriber asks for exactly that key. A link that is
 too slow loses copies: `sequence` tells which. Each file, ACTOR-INCARNATION-SEQUENCE.npz, holds
 
     observations [T, N, observation], actions [T, N, action], log_probs [T, N], rewards [T, N],

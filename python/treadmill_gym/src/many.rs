@@ -12,8 +12,8 @@ use treadmill_humanoid::{Environment, Physics, StepInfo};
 use crate::{
     info::{self, FAULT, Moment},
     one::blocks,
-    settings::{Given, Settings},
-    studio::Followed,
+    renderer::Followed,
+    settings::{EnvironmentSettings, Given},
 };
 
 /// More than this does not fit into the memory of any machine that one process should fill.
@@ -66,7 +66,7 @@ impl Humanoids {
         let count = Given { name: "num_envs", value: num_envs }.whole(1..=ENVIRONMENTS_MAX)? as usize;
         let threads = Given { name: "threads", value: threads }.whole(0..=THREADS_MAX)? as usize;
         let max_episode_steps = Given { name: "max_episode_steps", value: max_episode_steps }.whole(0..=u32::MAX)?;
-        let settings = Settings::read(keywords, max_episode_steps)?;
+        let settings = EnvironmentSettings::read(keywords, max_episode_steps)?;
         let places = (0..count).map(|_| Ok(Place::new(settings.environment()?))).collect::<PyResult<_>>()?;
         Ok(Self { places, pool: pool(threads, count)? })
     }

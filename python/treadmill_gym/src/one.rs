@@ -6,8 +6,8 @@ use treadmill_humanoid::{Environment, Physics};
 
 use crate::{
     info::{self, FAULT, Moment},
-    settings::Settings,
-    studio::Followed,
+    renderer::Followed,
+    settings::EnvironmentSettings,
 };
 
 /// Name and size of each block of an observation.
@@ -26,7 +26,7 @@ pub struct Humanoid {
 impl Humanoid {
     #[new]
     fn new(keywords: &Bound<'_, PyDict>) -> PyResult<Self> {
-        let environment = Settings::read(keywords, 0)?.environment()?;
+        let environment = EnvironmentSettings::read(keywords, 0)?.environment()?;
         Ok(Self { observation: vec![0.0; environment.observation_size()], followed: Followed::default(), environment })
     }
 

@@ -27,15 +27,15 @@ const FRAME_SKIP: u32 = 5;
 const REPEATS: RangeInclusive<u32> = 1..=1000;
 
 /// What the keyword arguments ask for.
-pub struct Settings {
+pub struct EnvironmentSettings {
     config: EnvironmentConfig,
     model_xml: String,
     /// Where the model came from, if not with us.
     file: Option<String>,
 }
 
-impl Settings {
-    /// Reads keyword arguments; what is not among them has its default. After `max_episode_steps` an episode is truncated;
+impl EnvironmentSettings {
+    /// Reads keyword arguments; missing ones have their defaults. After `max_episode_steps` an episode is truncated;
     /// 0 means never.
     ///
     /// # Errors

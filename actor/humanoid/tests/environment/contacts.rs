@@ -204,5 +204,5 @@ fn contact_points_carry_the_body() {
     assert!((lift_n / weight_n - 1.0).abs() < 0.2, "lying still, the floor carries {weight_n} N and not {lift_n}");
     let (position, velocity) = (physics.position().to_vec(), physics.velocity().to_vec());
     physics.set_state(&position, &velocity);
-    assert_eq!(physics.contact_points().count(), 0, "whoever starts afresh touches nothing yet");
+    assert_eq!(physics.contact_points().count(), 0, "a fresh episode has no contacts");
 }

@@ -4,7 +4,7 @@ import gymnasium
 from gymnasium.utils import EzPickle
 
 from . import spaces
-from ._native import Humanoid, Studio
+from ._native import Humanoid, Renderer
 from .window import Window
 
 
@@ -25,7 +25,7 @@ class HumanoidEnv(gymnasium.Env, EzPickle):
         spaces.check_render_mode(render_mode, self.metadata["render_modes"])
         self.render_mode = render_mode
         self._native = Humanoid(settings)
-        self._studio = Studio(width, height, camera)
+        self._renderer = Renderer(width, height, camera)
         self._window = Window(width, height, self.metadata["render_fps"]) if render_mode == "human" else None
         self.observation_space = spaces.observation_space(self._native)
         self.action_space = spaces.action_space(self._native)
@@ -59,7 +59,7 @@ class HumanoidEnv(gymnasium.Env, EzPickle):
         if self.render_mode is None:
             gymnasium.logger.warn('nothing is rendered without a render mode, as in make(..., render_mode="rgb_array")')
             return None
-        picture = self._studio.picture(self._native)
+        picture = self._renderer.picture(self._native)
         if self._window is None:
             return picture
         self._window.show(picture)

@@ -17,8 +17,8 @@ from .vector import HumanoidVectorEnv
 
 
 class HumanoidVecEnv(VecEnv):
-    """`n_envs` humanoids; the keyword arguments are those of `HumanoidVectorEnv`. Without Stable-Baselines3's `VecMonitor`
-    around it nobody knows the returns of episodes."""
+    """`n_envs` humanoids; the keyword arguments are those of `HumanoidVectorEnv`. Wrap it in Stable-Baselines3's
+    `VecMonitor` to get the returns of episodes."""
 
     def __init__(self, n_envs, **settings):
         self.env = HumanoidVectorEnv(n_envs, autoreset_mode=AutoresetMode.SAME_STEP, **settings)

@@ -29,7 +29,7 @@ def observation_structure(native, exclude_current_positions_from_observation=Tru
 
 
 def check_render_mode(render_mode, modes):
-    """Refuses what nobody renders."""
+    """Refuses an unknown render mode."""
     if render_mode is not None and render_mode not in modes:
         allowed = ", ".join(repr(mode) for mode in modes)
         raise ValueError(f"render_mode is {render_mode!r}, but must be None or one of {allowed}")

@@ -6,7 +6,7 @@ from gymnasium.vector import AutoresetMode, VectorEnv
 from gymnasium.vector.utils import batch_space
 
 from . import spaces
-from ._native import Humanoids, Studio
+from ._native import Humanoids, Renderer
 
 
 class HumanoidVectorEnv(VectorEnv):
@@ -42,7 +42,7 @@ class HumanoidVectorEnv(VectorEnv):
         # -1 and None are Gymnasium's words for no limit.
         limit = max_episode_steps if max_episode_steps not in (None, -1) else 0
         self._native = Humanoids(num_envs, settings, limit, threads)
-        self._studio = Studio(width, height, camera)
+        self._renderer = Renderer(width, height, camera)
         self.single_observation_space = spaces.observation_space(self._native)
         self.single_action_space = spaces.action_space(self._native)
         self.observation_space = batch_space(self.single_observation_space, num_envs)
@@ -161,4 +161,4 @@ class HumanoidVectorEnv(VectorEnv):
         """A picture of each as an array, `[height, width, 3]`."""
         if self.render_mode is None:
             raise ValueError('nothing is rendered without a render mode, as in make_vec(..., render_mode="rgb_array")')
-        return tuple(self._studio.picture_of(self._native, index) for index in range(self.num_envs))
+        return tuple(self._renderer.picture_of(self._native, index) for index in range(self.num_envs))

@@ -13,7 +13,7 @@ LEFT_OUT_MAX = 4
 
 
 class WindowClosed(Error):
-    """Somebody closed the window."""
+    """The user closed the window."""
 
 
 class Window:

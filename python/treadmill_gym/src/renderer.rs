@@ -36,7 +36,7 @@ impl Followed {
     /// The body did a step.
     pub fn walk(&mut self, physics: &Physics) {
         let share = 1.0 - (-CONTROL_STEP_S / FOLLOW_S).exp();
-        // Ahead at once: whoever runs would be out of the picture otherwise.
+        // Ahead at once: a running body would leave the picture otherwise.
         self.0[0] = physics.position()[0];
         self.0[1] += (physics.position()[1] - self.0[1]) * share;
     }
@@ -44,7 +44,7 @@ impl Followed {
 
 /// Takes pictures of one size from one side.
 #[pyclass(frozen, module = "treadmill_gym._native")]
-pub struct Studio {
+pub struct Renderer {
     size: (u32, u32),
     /// From the point that is looked at to the camera (m).
     camera_m: [f64; 3],
@@ -53,7 +53,7 @@ pub struct Studio {
 }
 
 #[pymethods]
-impl Studio {
+impl Renderer {
     #[new]
     fn new(width: Bound<'_, PyAny>, height: Bound<'_, PyAny>, camera: Bound<'_, PyAny>) -> PyResult<Self> {
         let width = Given { name: "width", value: width }.whole(SIDE)?;
@@ -95,7 +95,7 @@ impl Studio {
     }
 }
 
-impl Studio {
+impl Renderer {
     fn take<'py>(&self, py: Python<'py>, scene: &Scene, followed: Followed) -> PyResult<Bound<'py, PyArray3<u8>>> {
         let pool = self.pool()?;
         let [x_m, y_m] = followed.0;
