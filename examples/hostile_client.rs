@@ -1,7 +1,7 @@
 //! Floods a learner, to see what it bears: `hostile_client ENDPOINT RUN KIND SECONDS [COUNT] [CERTIFICATES]`.
 //!
 //! KIND is one of those in `tests/hostile/attacks.rs`, or `idle` for connections that say nothing; COUNT bounds the messages.
-//! With a folder of certificates it comes as an actor. Prints one JSON object. `docs/security/measure.py` runs it.
+//! With a folder of certificates it comes as an actor. Prints one JSON object. `experiments/security/measure.py` runs it.
 
 #[path = "../tests/hostile/attacks.rs"]
 #[allow(dead_code, reason = "the tests use the rest")]
@@ -31,7 +31,7 @@ fn main() -> Result<(), String> {
         let known = Flood::ALL.iter().find(|(name, _)| *name == kind);
         let (_, flood) = known.ok_or(format!("there is no KIND `{kind}`"))?;
         let tls = certificates.as_deref().map(|folder| (folder, "actor"));
-        let attacker = Attacker::join(&endpoint, &run, tls, PATIENCE).ok_or("nobody lets us in")?;
+        let attacker = Attacker::join(&endpoint, &run, tls, PATIENCE).ok_or("the learner did not let us in")?;
         attacker.flood(*flood, "good", count, until)
     };
     let wall_s = begun.elapsed().as_secs_f64();

@@ -13,7 +13,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 
 from treadmill_actor import schema  # noqa: E402
 from treadmill_actor.bus import BusError, check_endpoint  # noqa: E402
-from treadmill_actor.courier import Book, Courier  # noqa: E402
+from treadmill_actor.delivery import Book, Uploader  # noqa: E402
 from treadmill_actor.policies import Policies  # noqa: E402
 from treadmill_actor.policy import HALF_LN_TAU, Policy, PolicyError, checksum, read_safetensors  # noqa: E402
 from treadmill_actor.rollout import Collector, Environments  # noqa: E402
@@ -168,7 +168,7 @@ def receipt(outcome, durable_through=0):
     return schema.Receipt(outcome=schema.OUTCOMES[outcome], durable_through=durable_through)
 
 
-class CourierTest(unittest.TestCase):
+class DeliveryTest(unittest.TestCase):
     def test_what_is_taken_is_kept_until_it_is_durable(self):
         book = Book(incarnation=1)
         for sequence in (1, 2, 3):
@@ -194,10 +194,10 @@ class CourierTest(unittest.TestCase):
         bus = SimpleNamespace(submit=lambda *_: answers.pop(0))
         waits = []
         stopping = SimpleNamespace(is_set=lambda: False, wait=waits.append)
-        courier = Courier(bus, "run", "py", 1, 60.0, stopping)
-        courier.produced(1)
-        self.assertEqual(courier.deliver(1, b"1").outcome, schema.OUTCOMES["malformed"])
-        self.assertEqual((waits, courier.book.resent, courier.book.dropped_by_rule), ([0.2, 0.2, 0.2, 10.0], 4, 1))
+        uploader = Uploader(bus, "run", "py", 1, 60.0, stopping)
+        uploader.produced(1)
+        self.assertEqual(uploader.deliver(1, b"1").outcome, schema.OUTCOMES["malformed"])
+        self.assertEqual((waits, uploader.book.resent, uploader.book.dropped_by_rule), ([0.2, 0.2, 0.2, 10.0], 4, 1))
 
 
 class JoiningTest(unittest.TestCase):

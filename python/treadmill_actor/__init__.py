@@ -4,7 +4,7 @@ Layout, in the order of the data:
     task       what an environment is to the learner: sizes, and what actions mean
     policy     the policy of a bundle in numpy
     rollout    fragments of T steps of N environments
-    courier    fragments to the learner, kept until they are durable
+    delivery   fragments to the learner, kept until they are durable
     worker     all of it as one process
     bus        the flows over Zenoh
     schema     the messages, as proto/schema says

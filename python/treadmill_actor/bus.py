@@ -78,7 +78,7 @@ class Bus:
         self.session.close()
 
     def ask(self, key, payload=None, timeout_s=FETCH_TIMEOUT_S, priority=None):
-        """The first answer to a query, as bytes; None where nobody answered in time."""
+        """The first answer to a query, as bytes; None if none came in time."""
         replies = self.session.get(
             key,
             payload=payload,
@@ -92,14 +92,14 @@ class Bus:
         return None
 
     def register(self, run, actor, task):
-        """Registers a task. The receipt, or None where nobody answered."""
+        """Registers a task. The receipt, or None if no learner answered."""
         registration = schema.TaskRegistration(run=run, actor=actor)
         task.fill(registration.task)
         answer = self.ask(f"treadmill/{run}/tasks/{actor}", registration.SerializeToString())
         return None if answer is None else schema.TaskReceipt.FromString(answer)
 
     def fetch_policy(self, run):
-        """The newest policy bundle, or None where nobody answered."""
+        """The newest policy bundle, or None if no learner answered."""
         answer = self.ask(f"treadmill/{run}/policy/latest", priority=zenoh.Priority.DATA_HIGH)
         return None if answer is None else schema.PolicyBundle.FromString(answer)
 
@@ -108,11 +108,11 @@ class Bus:
         answer = self.ask(f"treadmill/{run}/rollouts/{actor}", fragment, timeout_s)
         return None if answer is None else schema.Receipt.FromString(answer)
 
-    def announcements(self, run, heed):
-        """Calls `heed` with each announced version, in a thread of Zenoh's: it must not wait."""
+    def announcements(self, run, apply):
+        """Calls `apply` with each announced version, in a thread of Zenoh's: it must not wait."""
 
         def take(sample):
-            heed(schema.PolicyAnnouncement.FromString(sample.payload.to_bytes()).version)
+            apply(schema.PolicyAnnouncement.FromString(sample.payload.to_bytes()).version)
 
         return self.session.declare_subscriber(f"treadmill/{run}/policy/version", take)
 

@@ -51,13 +51,13 @@ def parser():
 
 
 def open_bus(connect, tls, stopping):
-    """A session; dialling goes on until somebody answers, and whoever asks to stop does not wait for that."""
+    """Opens a session. Dials until a learner or router answers, or until a request to stop."""
     opened = queue.Queue()
 
     def dial():
         try:
             opened.put(Bus(connect, tls))
-        except Exception as why:  # noqa: BLE001: handed to whoever waits
+        except Exception as why:  # noqa: BLE001: handed to the caller
             opened.put(why)
 
     threading.Thread(target=dial, daemon=True).start()
@@ -110,8 +110,8 @@ def main(arguments=None):
             return 0
         worker = Worker(bus, args.run, name, environments, seed, stopping)
         worker.work(args.steps)
-        courier = getattr(worker, "courier", None)
-        counts = courier.book.outcomes if courier else {}
+        uploader = getattr(worker, "uploader", None)
+        counts = uploader.book.outcomes if uploader else {}
         log.info("%s is done after %d env steps; receipts: %s", name, worker.env_steps, counts)
         return 0
     except (Refused, TaskError, BusError, ImportError, gymnasium.error.Error) as why:

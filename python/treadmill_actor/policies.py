@@ -16,7 +16,7 @@ class Refused(Exception):
 
 
 def until_answered(ask, what, stopping):
-    """What `ask` returns once it is not None; None once somebody asked to stop."""
+    """Calls `ask` until it returns an answer. None after a request to stop."""
     tries = 0
     while not stopping.is_set():
         answer = ask()
@@ -24,21 +24,21 @@ def until_answered(ask, what, stopping):
             return answer
         # Not at once: a learner that is just starting is no news.
         if tries % 50 == 5:
-            log.warning("%s; trying on until somebody does", what)
+            log.warning("%s; retrying", what)
         tries += 1
         stopping.wait(RETRY_S)
     return None
 
 
 def join(bus, run, actor, task, stopping):
-    """Registers the task, then fetches the policy. The bundle, or None once somebody asked to stop."""
-    nobody = f"nobody answers for run `{run}`"
-    receipt = until_answered(lambda: bus.register(run, actor, task), nobody, stopping)
+    """Registers the task, then fetches the policy. Returns the bundle, or None after a request to stop."""
+    unanswered = f"no learner answers for run `{run}`"
+    receipt = until_answered(lambda: bus.register(run, actor, task), unanswered, stopping)
     if receipt is None:
         return None
     if not receipt.accepted:
         raise Refused(f"run `{run}` refuses this actor: {receipt.reason}")
-    bundle = until_answered(lambda: bus.fetch_policy(run), nobody, stopping)
+    bundle = until_answered(lambda: bus.fetch_policy(run), unanswered, stopping)
     if bundle is None:
         return None
     trained = Settings.of(bundle).task
@@ -70,7 +70,7 @@ class Policies:
         return self.held
 
     def refresh(self, known=None):
-        """Fetches the newest policy unless `known`, a version that somebody spoke of, is in use already."""
+        """Fetches the newest policy unless `known`, a version that was announced or named in a receipt, is in use already."""
         # An announcement and a receipt speak of the same version at nearly the same time: one of them fetches.
         with self.fetching:
             if known is not None and known == self.held[1]:

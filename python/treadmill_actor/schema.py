@@ -12,7 +12,7 @@ from google.protobuf import descriptor_pb2, descriptor_pool, message_factory
 
 def _messages():
     files = descriptor_pb2.FileDescriptorSet.FromString(Path(__file__).with_name("schema.binpb").read_bytes())
-    # A pool of its own: whoever else reads these schemas in this process is not disturbed.
+    # A pool of its own, so that it does not collide with other users of these schemas in this process.
     pool = descriptor_pool.DescriptorPool()
     for file in files.file:
         pool.Add(file)

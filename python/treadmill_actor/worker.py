@@ -10,7 +10,7 @@ import threading
 import time
 
 from . import __version__, schema
-from .courier import Courier
+from .delivery import Uploader
 from .policies import Policies, join
 from .rollout import Collector
 from .settings import Settings
@@ -51,7 +51,7 @@ class Worker:
         policies = Policies(self.bus, bundle, self.actor, self.environments.task)
         # Set once what is still under way is given up.
         leaving = threading.Event()
-        self.courier = Courier(
+        self.uploader = Uploader(
             self.bus, self.run, self.actor, bundle.version.incarnation, settings.receipt_timeout_s, leaving
         )
         collector = Collector(
@@ -59,12 +59,12 @@ class Worker:
         )
         over, announced = threading.Event(), threading.Event()
 
-        def heed(version):
+        def apply(version):
             policies.announced_version = version
             announced.set()
 
         token = self.bus.token(self.run, self.actor)
-        subscriber = self.bus.announcements(self.run, heed)
+        subscriber = self.bus.announcements(self.run, apply)
         tell_episode = self.bus.publisher(f"treadmill/{self.run}/episodes/{self.actor}")
         tell_stats = self.bus.publisher(f"treadmill/{self.run}/actors/{self.actor}/stats")
         # Credit: one for each fragment that may be unanswered; the receipt gives it back.
@@ -112,8 +112,8 @@ class Worker:
             if not credit.acquire(timeout=0.1):
                 continue
             policy, version = policies.current
-            fragment, episodes = collector.collect(policy, version, self.courier.settled_through())
-            self.courier.produced(collector.sequence)
+            fragment, episodes = collector.collect(policy, version, self.uploader.settled_through())
+            self.uploader.produced(collector.sequence)
             outbox.put((collector.sequence, fragment))
             self.env_steps += collector.transitions
             self.episodes += len(episodes)
@@ -130,11 +130,11 @@ class Worker:
         """Runs in as many threads as fragments may be unanswered."""
         try:
             while (item := outbox.get()) is not None:
-                receipt = self.courier.deliver(*item)
+                receipt = self.uploader.deliver(*item)
                 if receipt is None:
                     return
                 policies.refresh(receipt.version)
-                self.courier.send_again(policies.current[1].incarnation)
+                self.uploader.send_again(policies.current[1].incarnation)
                 credit.release()
         except Exception as why:  # noqa: BLE001: whatever it is, the simulating thread must not wait for ever
             self.failure = why
@@ -142,7 +142,7 @@ class Worker:
     def _tell(self, publisher, policies, incarnation, every_s, over):
         steps_before, since = self.env_steps, time.monotonic()
         while not over.wait(every_s):
-            now, book = time.monotonic(), self.courier.book
+            now, book = time.monotonic(), self.uploader.book
             rate, since = (self.env_steps - steps_before) / max(now - since, 1e-9), now
             steps_before = self.env_steps
             stats = schema.ActorStats(

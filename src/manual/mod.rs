@@ -84,7 +84,7 @@ pub fn reference(args: &ReferenceArgs, program: Command) {
 fn heading(title: &str, made_from: &str) -> String {
     format!(
         "# {title}\n\n<!-- Made from {made_from}; do not edit. Write it anew with\n     \
-         TREADMILL_WRITE_REFERENCE=1 cargo test --release --test reference -->\n"
+         TREADMILL_WRITE_REFERENCE=1 cargo test --release --test documentation reference -->\n"
     )
 }
 

@@ -64,7 +64,7 @@ impl Flood {
 
 impl Attacker {
     /// Joins the bus of `run`; over TLS where a folder is given, with the certificate of a role that is not empty. `None` where
-    /// nobody lets it in within `patience`.
+    /// it is not let in within `patience`.
     pub fn join(endpoint: &str, run: &str, tls: Option<(&Path, &str)>, patience: Duration) -> Option<Self> {
         let mut config = Config::default();
         let mut set = |key: &str, value: serde_json::Value| config.insert_json5(key, &value.to_string()).unwrap();
@@ -116,7 +116,7 @@ impl Attacker {
             if let Some(bundle) = answers.into_iter().next() {
                 return PolicyBundle::decode(bundle).unwrap();
             }
-            assert!(Instant::now() < until, "nobody hands out a policy");
+            assert!(Instant::now() < until, "no learner hands out a policy");
         }
     }
 

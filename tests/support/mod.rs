@@ -28,14 +28,14 @@ pub fn treadmill(folder: &Path) -> Command {
 }
 
 /// Lets clients that this process opens read and write with one thread, as ours do over TLS: otherwise a flood of messages
-/// may break the memory of whoever sends it, which is this process (`common/src/bus/threads.rs`). To be called before the
+/// may break the memory of the sender, which is this process (`common/src/bus/threads.rs`). To be called before the
 /// first is opened.
 pub fn bus_on_one_thread() {
     static SAID: Once = Once::new();
     SAID.call_once(|| {
         let options = BusOptions { connect: vec!["tls/localhost:1".to_string()], ..BusOptions::default() };
         if let Some((name, value)) = threads::wanted(&options, Role::Actor) {
-            // SAFETY: whoever reads the environment in these tests does it by Rust's own functions, which take turns.
+            // SAFETY: these tests read the environment only by Rust's own functions, which take turns.
             unsafe { std::env::set_var(name, value) };
         }
     });
@@ -133,6 +133,21 @@ pub fn folders() -> (tempfile::TempDir, PathBuf) {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let run = folder.path().join("run");
     (folder, run)
+}
+
+/// Text of the page of this name in `docs/`, in whichever folder it stands.
+pub fn page(name: &str) -> String {
+    fn find(folder: &Path, name: &str) -> Option<PathBuf> {
+        let file = folder.join(name).with_extension("md");
+        if file.is_file() {
+            return Some(file);
+        }
+        let entries = fs::read_dir(folder).expect("a folder of pages").flatten();
+        entries.filter(|entry| entry.path().is_dir()).find_map(|entry| find(&entry.path(), name))
+    }
+    let docs = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs");
+    let file = find(&docs, name).unwrap_or_else(|| panic!("docs/ has no page {name}.md"));
+    fs::read_to_string(file).expect("a page is text")
 }
 
 /// The Python that TREADMILL_PYTHON names, if it has these modules; without it, tests that need it say so and pass.

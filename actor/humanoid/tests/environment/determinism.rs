@@ -1,0 +1,120 @@
+//! The same seed and the same actions give the same episode, to the last bit, wherever and after whatever it runs.
+
+use std::{env, fs, path::Path, process::Command, thread};
+
+use treadmill_humanoid::{Environment, EnvironmentConfig, HUMANOID_XML, ObservationKind};
+
+const STEPS: u32 = 500;
+/// Tells the process that a test starts where to leave its checksum.
+const CHECKSUM_FILE: &str = "TREADMILL_TEST_CHECKSUM_FILE";
+
+fn environment() -> Environment {
+    let config = EnvironmentConfig {
+        observation: ObservationKind::GymnasiumV5,
+        terminate_when_unhealthy: false,
+        ..EnvironmentConfig::default()
+    };
+    Environment::new(&config, HUMANOID_XML).expect("valid")
+}
+
+/// An episode that falls and flails on the floor; it can be gone through step by step.
+struct Episode {
+    environment: Environment,
+    observation: Vec<f32>,
+    steps: u32,
+    touched: u32,
+    checksum: u64,
+}
+
+impl Episode {
+    fn begin(mut environment: Environment, seed: u64) -> Self {
+        let mut observation = vec![0.0; environment.observation_size()];
+        environment.reset(seed, &mut observation);
+        let mut episode = Self { environment, observation, steps: 0, touched: 0, checksum: 0xcbf2_9ce4_8422_2325 };
+        episode.add(0.0);
+        episode
+    }
+
+    fn step(&mut self) {
+        let action: [f32; 17] = std::array::from_fn(|motor| 0.4 * ((self.steps * 29 + motor as u32 * 13) as f32).sin());
+        let step = self.environment.step(&action, &mut self.observation);
+        assert!(!step.fault);
+        self.steps += 1;
+        self.touched += u32::from(self.environment.physics().squared_contact_wrenches() > 0.0);
+        self.add(step.reward);
+    }
+
+    /// Fowler, Noll and Vo's hash, over numbers instead of bytes.
+    fn add(&mut self, reward: f32) {
+        for number in self.observation.iter().chain([&reward]) {
+            self.checksum = (self.checksum ^ u64::from(number.to_bits())).wrapping_mul(0x0100_0000_01b3);
+        }
+    }
+
+    fn checksum(mut self) -> u64 {
+        while self.steps < STEPS {
+            self.step();
+        }
+        assert!(self.touched > STEPS / 2, "it hardly touched anything");
+        self.checksum
+    }
+}
+
+fn checksum() -> u64 {
+    Episode::begin(environment(), 21).checksum()
+}
+
+#[test]
+fn after_another_episode_and_between_other_environments() {
+    let wanted = checksum();
+    assert_ne!(wanted, Episode::begin(environment(), 22).checksum(), "the checksum does not see the episode");
+
+    let mut used = Episode::begin(environment(), 3);
+    (0..90).for_each(|_| used.step());
+    assert_eq!(wanted, Episode::begin(used.environment, 21).checksum());
+
+    let mut episodes = [21, 4, 21, 5].map(|seed| Episode::begin(environment(), seed));
+    for step in 0..STEPS as usize {
+        // Others are ahead or behind, and take turns.
+        episodes[step % 2].step();
+        episodes[3 - step % 2].step();
+        if step % 3 == 0 {
+            episodes[1].step();
+        }
+    }
+    let [first, _, second, _] = episodes;
+    assert_eq!([wanted; 2], [first.checksum(), second.checksum()]);
+}
+
+#[test]
+fn on_other_threads() {
+    let wanted = checksum();
+    thread::scope(|scope| {
+        let runs = [(); 2].map(|()| scope.spawn(checksum));
+        for run in runs {
+            assert_eq!(wanted, run.join().expect("no panic"));
+        }
+    });
+    // Also where an environment moves from one thread to another in the middle of an episode.
+    let mut begun = Episode::begin(environment(), 21);
+    (0..200).for_each(|_| begun.step());
+    assert_eq!(wanted, thread::spawn(move || begun.checksum()).join().expect("no panic"));
+}
+
+#[test]
+fn in_another_process() {
+    if let Ok(file) = env::var(CHECKSUM_FILE) {
+        fs::write(file, checksum().to_string()).expect("the parent made the place");
+        return;
+    }
+    let file = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("checksum-{}", std::process::id()));
+    let status = Command::new(env::current_exe().expect("a file"))
+        .args(["--exact", "determinism::in_another_process", "--test-threads", "1", "--quiet"])
+        .env(CHECKSUM_FILE, &file)
+        .status()
+        .expect("it can be started");
+    assert!(status.success());
+    let found = fs::read_to_string(&file).expect("the other process wrote it");
+    fs::remove_file(&file).expect("it is there");
+    assert_eq!(found, checksum().to_string());
+}

@@ -1,0 +1,12 @@
+//! Episodes and observations of the humanoid.
+
+mod bad_input;
+mod contacts;
+mod determinism;
+mod episode_states;
+mod episodes;
+#[path = "../golden/mod.rs"]
+mod golden;
+mod observations;
+mod randomisation;
+mod snapshots;

@@ -1,0 +1,229 @@
+//! Observations, contact cost and tendons against what Gymnasium's environments say of the same states.
+
+use crate::golden::{State, compare, states};
+use treadmill_humanoid::{
+    Environment, EnvironmentConfig, HUMANOID_XML, Model, Observation, ObservationKind, Physics, Task, task,
+};
+
+const V5: ObservationKind = ObservationKind::GymnasiumV5;
+const V4: ObservationKind = ObservationKind::GymnasiumV4;
+
+fn config(observation: ObservationKind) -> EnvironmentConfig {
+    EnvironmentConfig { observation, ..EnvironmentConfig::default() }
+}
+
+fn physics() -> Physics {
+    let model = Model::from_mjcf(HUMANOID_XML).expect("valid");
+    Physics::new(model, &EnvironmentConfig::default()).expect("valid")
+}
+
+fn put(physics: &mut Physics, state: &State) {
+    physics.set_state(&state.position, &state.velocity);
+    physics.set_controls(&state.controls).expect("finite");
+    physics.set_contacts(&state.contacts);
+}
+
+/// What we see in every golden state.
+fn seen(config: &EnvironmentConfig, states: &[State]) -> Vec<Vec<f32>> {
+    let mut physics = physics();
+    let observation = Observation::new(config, physics.model());
+    let rows = states.iter().map(|state| {
+        put(&mut physics, state);
+        let mut row = vec![f32::NAN; observation.size()];
+        observation.write(&physics, &mut row);
+        row
+    });
+    rows.collect()
+}
+
+fn expected(kind: ObservationKind, states: &[State]) -> Vec<&[f32]> {
+    states.iter().map(|state| if kind == V4 { &state.v4[..] } else { &state.v5[..] }).collect()
+}
+
+fn block(observation: &Observation, name: &str) -> std::ops::Range<usize> {
+    observation.blocks().iter().find(|block| block.name == name).expect("the block is there").range.clone()
+}
+
+#[test]
+fn every_entry_is_that_of_gymnasium() {
+    let states = states();
+    assert_eq!(states.len(), 200);
+    for kind in [V5, V4] {
+        compare(&seen(&config(kind), &states), &expected(kind, &states))
+            .unwrap_or_else(|mismatch| panic!("{kind:?}: {mismatch:?}"));
+    }
+}
+
+#[test]
+fn the_golden_states_leave_no_block_untouched() {
+    let states = states();
+    let observation = Observation::new(&config(V5), physics().model());
+    for entry in 0..observation.size() {
+        assert!(states.iter().any(|state| state.v5[entry] != 0.0), "entry {entry} is always zero");
+    }
+    assert!(states.iter().filter(|state| state.contacts.is_empty()).count() > 100);
+    assert!(states.iter().flat_map(|state| &state.contacts).any(|contact| contact.links.contains(&None)));
+}
+
+/// Were the comparison blind to a sign or an order, it would prove nothing.
+#[test]
+fn a_flipped_sign_and_a_swapped_axis_are_noticed_in_every_block() {
+    let states = states();
+    for kind in [V5, V4] {
+        let right = seen(&config(kind), &states);
+        let expected = expected(kind, &states);
+        let observation = Observation::new(&config(kind), physics().model());
+        let names: Vec<&str> = observation.blocks().iter().map(|block| block.name).collect();
+        assert_eq!(names, ["qpos", "qvel", "cinert", "cvel", "qfrc_actuator", "cfrc_ext"]);
+        for block in observation.blocks() {
+            let mut tried = 0;
+            for entry in block.range.clone() {
+                // The rows that v4 has for the world hold nothing whose sign or order could be wrong.
+                if expected.iter().all(|row| row[entry] == 0.0) {
+                    assert_eq!(kind, V4);
+                    continue;
+                }
+                let mut flipped = right.clone();
+                flipped.iter_mut().for_each(|row| row[entry] = -row[entry]);
+                assert!(compare(&flipped, &expected).is_err(), "{} {entry}: sign", block.name);
+                let next = entry + 1;
+                if block.range.contains(&next) {
+                    let mut swapped = right.clone();
+                    swapped.iter_mut().for_each(|row| row.swap(entry, next));
+                    assert!(compare(&swapped, &expected).is_err(), "{} {entry}: order", block.name);
+                }
+                tried += 1;
+            }
+            assert!(tried >= 17, "{}", block.name);
+        }
+    }
+}
+
+#[test]
+fn contact_cost_and_tendons_are_those_of_gymnasium() {
+    let states = states();
+    let mut physics = physics();
+    let mut charged = 0;
+    for state in &states {
+        put(&mut physics, state);
+        let cost = task::contact_cost(&EnvironmentConfig::default(), physics.squared_contact_wrenches());
+        assert!((cost - state.contact_cost).abs() <= 1e-3 * state.contact_cost, "{cost}, {}", state.contact_cost);
+        charged += u32::from(cost > 0.0);
+        for (index, tendon) in physics.model().tendons.iter().enumerate() {
+            let length = tendon.sum_over(physics.joint_angles());
+            let velocity = tendon.sum_over(physics.joint_rates());
+            assert!((length - state.tendon_length_rad[index]).abs() < 1e-4, "{}", tendon.name);
+            assert!((velocity - state.tendon_velocity_radps[index]).abs() < 1e-2, "{}", tendon.name);
+        }
+    }
+    assert!(charged > 50);
+    assert_eq!(physics.model().tendons.len(), 2);
+}
+
+#[test]
+fn sizes_are_those_of_gymnasium() {
+    let model = Model::from_mjcf(HUMANOID_XML).expect("valid");
+    let size = |config: &EnvironmentConfig| Observation::new(config, &model).size();
+    let with_place = |kind| EnvironmentConfig { exclude_current_positions_from_observation: false, ..config(kind) };
+    for (kind, expected) in [(ObservationKind::Compact, 45), (V5, 348), (V4, 376)] {
+        assert_eq!(size(&config(kind)), expected);
+        assert_eq!(size(&with_place(kind)), expected + 2);
+        let environment = Environment::new(&config(kind), HUMANOID_XML).expect("valid");
+        assert_eq!(environment.observation_size(), expected);
+    }
+}
+
+#[test]
+fn each_flag_takes_out_its_block_and_nothing_else() {
+    type Switch = fn(&mut EnvironmentConfig);
+    let cases: [(&str, usize, Switch); 4] = [
+        ("cinert", 130, |c| c.include_cinert_in_observation = false),
+        ("cvel", 78, |c| c.include_cvel_in_observation = false),
+        ("qfrc_actuator", 17, |c| c.include_qfrc_actuator_in_observation = false),
+        ("cfrc_ext", 78, |c| c.include_cfrc_ext_in_observation = false),
+    ];
+    let states = states();
+    let model = Model::from_mjcf(HUMANOID_XML).expect("valid");
+    let whole = seen(&config(V5), &states);
+    for (name, size, switch) in cases {
+        let mut without = config(V5);
+        switch(&mut without);
+        let out = block(&Observation::new(&config(V5), &model), name);
+        assert_eq!(out.len(), size);
+        assert!(Observation::new(&without, &model).blocks().iter().all(|block| block.name != name));
+        for (whole, part) in whole.iter().zip(seen(&without, &states)) {
+            assert_eq!(part, [&whole[..out.start], &whole[out.end..]].concat(), "{name}");
+        }
+    }
+    let place = EnvironmentConfig { exclude_current_positions_from_observation: false, ..config(V5) };
+    for ((state, whole), placed) in states.iter().zip(&whole).zip(seen(&place, &states)) {
+        assert!((f64::from(placed[0]) - state.position[0]).abs() < 1e-5);
+        assert!((f64::from(placed[1]) - state.position[1]).abs() < 1e-5);
+        assert_eq!(placed[2..], whole[..]);
+    }
+}
+
+#[test]
+fn compact_is_the_front_of_the_whole() {
+    let states = states();
+    for (compact, whole) in seen(&config(ObservationKind::Compact), &states).iter().zip(seen(&config(V5), &states)) {
+        assert_eq!(compact[..], whole[..45]);
+    }
+}
+
+#[test]
+fn a_reset_forgets_torques_and_contacts() {
+    let config = config(V5);
+    let mut environment = Environment::new(&config, HUMANOID_XML).expect("valid");
+    let range = block(environment.observation(), "qfrc_actuator").start..environment.observation_size();
+    let mut observation = vec![0.0; environment.observation_size()];
+    environment.reset(1, &mut observation);
+    for _ in 0..100 {
+        environment.step(&[0.4; 17], &mut observation);
+    }
+    let changed = observation[range.clone()].iter().filter(|number| **number != 0.0).count();
+    assert!(changed > 17, "torques act and something touches: {changed}");
+    environment.reset(2, &mut observation);
+    assert!(observation[range].iter().all(|number| *number == 0.0));
+}
+
+#[test]
+fn what_is_observed_without_a_step_is_what_a_step_writes() {
+    let mut environment = Environment::new(&config(V4), HUMANOID_XML).expect("valid");
+    let mut observation = vec![0.0; environment.observation_size()];
+    environment.reset(3, &mut observation);
+    environment.step(&[0.3; 17], &mut observation);
+    let mut again = vec![f32::NAN; observation.len()];
+    environment.observe(&mut again).expect("the length is right");
+    assert_eq!(observation, again);
+    let error = environment.observe(&mut again[1..]).expect_err("one too few").to_string();
+    assert!(error.contains("375 instead of 376"), "{error}");
+}
+
+#[test]
+fn each_task_tells_its_own_info() {
+    for (task, names, on_reset) in [(Task::HumanoidV5, 11, 5), (Task::HumanoidV4, 9, 0)] {
+        let config = EnvironmentConfig { task, ..EnvironmentConfig::default() };
+        let mut environment = Environment::new(&config, HUMANOID_XML).expect("valid");
+        let mut observation = vec![0.0; environment.observation_size()];
+        environment.reset(4, &mut observation);
+        assert_eq!(environment.info().reset_entries(task).count(), on_reset);
+        let step = environment.step(&[0.1; 17], &mut observation);
+        assert_eq!(step.info, *environment.info());
+        assert_eq!(step.info.entries(task).count(), names);
+        let (position, centre) = (environment.physics().position(), environment.physics().centre_of_mass());
+        let x_m = if task == Task::HumanoidV5 { position[0] } else { centre.x };
+        assert_eq!(step.info.x_position_m, x_m);
+        // −1 × hip + 1 × knee, left before right.
+        let hinge = |name: &str| {
+            let model = environment.physics().model();
+            let index = model.hinges.iter().position(|hinge| hinge.name == name).expect("is a hinge");
+            (position[7 + index], environment.physics().velocity()[6 + index])
+        };
+        for (index, side) in ["left", "right"].into_iter().enumerate() {
+            let (hip, knee) = (hinge(&format!("{side}_hip_y")), hinge(&format!("{side}_knee")));
+            assert!((step.info.tendon_length_rad.as_slice()[index] - (knee.0 - hip.0)).abs() < 1e-12);
+            assert!((step.info.tendon_velocity_radps.as_slice()[index] - (knee.1 - hip.1)).abs() < 1e-12);
+        }
+    }
+}

@@ -1,0 +1,227 @@
+//! What is read out of model texts, against MuJoCo's figures for the same texts.
+
+use nalgebra::{Matrix3, Point3};
+use treadmill_humanoid::model::{Body, Geometry};
+use treadmill_humanoid::{HUMANOID_XML, Model, read_model_file};
+
+const G1_LIKE_XML: &str = include_str!("../../assets/g1-like.xml");
+
+/// Nearly everything that a text may hold: classes, frames, all ways to turn, all shapes, both kinds of inertia.
+const ODD: &str = r#"
+<mujoco model="odd">
+  <compiler angle="radian" eulerseq="zyx" inertiagrouprange="0 3" balanceinertia="true"/>
+  <default class="main">
+    <geom pos="0 0 0.1" density="500" friction="0.7"/>
+    <joint damping="2"/>
+    <default class="turned">
+      <geom quat="0.5 0.5 0.5 0.5" size="0.1 0.05 0.02"/>
+      <default class="case"><geom type="box" mass="0.3"/></default>
+    </default>
+    <position kp="50" kv="2" ctrlrange="-1 0.5"/>
+  </default>
+  <worldbody>
+    <geom name="floor" type="plane" size="5 5 0.1" pos="0 0 0"/>
+    <body name="base" pos="0.1 0.2 1" euler="0.3 0.2 0.1" childclass="turned">
+      <freejoint/>
+      <geom type="box"/>
+      <geom type="ellipsoid" contype="0" conaffinity="0" pos="0 0.3 0" size="0.2"/>
+      <geom type="cylinder" class="main" pos="0 0 0" fromto="0 0 -0.1 0.1 0.2 -0.4" size="0.03" mass="0.7"/>
+      <geom type="box" class="main" pos="0 0 0" fromto="0 0.1 -0.1 0.1 0.2 -0.4" size="0.03"/>
+      <geom type="ellipsoid" class="main" pos="0 0 0" fromto="0 0.1 0.1 0.1 0.2 -0.4" size="0.03"
+            contype="0" conaffinity="0"/>
+      <geom class="case" group="4" mass="100" contype="0" conaffinity="0"/>
+      <frame pos="0.5 0 0" zaxis="1 0 1">
+        <geom class="case"/>
+        <body name="pod" pos="0 0.2 0" xyaxes="0 1 0 -1 0 0.2">
+          <geom class="main" type="sphere" size="0.07"/>
+          <body name="tip" axisangle="0 1 1 0.5" pos="0 0 0.3">
+            <inertial pos="0.01 0.02 0.03" quat="0.9 0.1 0.2 0.3" mass="0.5" diaginertia="0.002 0.001 0.0015"/>
+            <geom class="case"/>
+          </body>
+        </body>
+        <body name="arm" pos="0 0 -0.4">
+          <joint name="a1" axis="1 2 0" pos="0 0 0.1" range="-1 0.4" stiffness="3" springref="0.2"/>
+          <joint name="a2" axis="-2 1 0" pos="0 0 0.1" armature="0.1"/>
+          <joint name="a3" axis="0 0 -3" pos="0 0 0.1"/>
+          <inertial pos="0 0 -0.1" mass="2" fullinertia="0.02 0.03 0.04 0.001 0.002 -0.003"/>
+          <geom class="main" type="capsule" size="0.05 0.2" pos="0 0 -0.2" euler="0.1 0.2 0.3"/>
+          <body name="flat" pos="0 0 -0.5">
+            <joint name="f" type="hinge" axis="0 1 0"/>
+            <inertial pos="0 0 0" mass="1" diaginertia="0.01 0.01 0.05"/>
+          </body>
+        </body>
+      </frame>
+    </body>
+  </worldbody>
+  <actuator>
+    <position name="p" joint="a1" gear="2"/>
+    <position joint="f" ctrlrange="-2 2" forcerange="-5 5"/>
+  </actuator>
+</mujoco>"#;
+
+fn body<'a>(model: &'a Model, name: &str) -> &'a Body {
+    model.bodies.iter().find(|body| body.name == name).expect(name)
+}
+
+/// Mass, centre, and inertia as xx, yy, zz, xy, xz, yz.
+fn assert_weighs(body: &Body, mass_kg: f64, centre_m: [f64; 3], [xx, yy, zz, xy, xz, yz]: [f64; 6]) {
+    let inertia = Matrix3::new(xx, xy, xz, xy, yy, yz, xz, yz, zz);
+    assert!((body.mass_kg - mass_kg).abs() < 1e-8, "{}: {} kg", body.name, body.mass_kg);
+    assert!((body.centre_of_mass_m - Point3::from(centre_m)).norm() < 1e-8, "{}: {}", body.name, body.centre_of_mass_m);
+    assert!((body.inertia_kgm2 - inertia).norm() < 1e-8, "{}: {}", body.name, body.inertia_kgm2);
+}
+
+#[test]
+fn an_odd_text_has_the_figures_that_mujoco_finds() {
+    let model = Model::from_mjcf(ODD).expect("valid");
+    assert_eq!(model.bodies.len(), 3, "what is welded to the base is part of it");
+    // MuJoCo 4.0's bodies `base`, `pod` and `tip`, summed up in the base's frame.
+    let inertia = [0.170268958, 0.494041838, 0.406460223, -0.021655906, -0.137874378, -0.000930685];
+    let centre = [0.256664227, 0.147534822, -0.047586212];
+    assert_weighs(body(&model, "base"), 4.123974831, centre, inertia);
+    assert_weighs(body(&model, "arm"), 2.0, [0.0, 0.0, -0.1], [0.02, 0.03, 0.04, 0.001, 0.002, -0.003]);
+    assert_weighs(body(&model, "flat"), 1.0, [0.0; 3], [0.07 / 3.0, 0.07 / 3.0, 0.07 / 3.0, 0.0, 0.0, 0.0]);
+
+    let arm = &body(&model, "arm").pose;
+    let (place, turn) = (arm.translation.vector, arm.rotation.quaternion());
+    assert!((place.x - 0.217157288).abs() < 1e-8 && (place.z + 0.282842712).abs() < 1e-8);
+    assert!((turn.w - 0.923879533).abs() < 1e-8 && (turn.j - 0.382683432).abs() < 1e-8);
+    let base = body(&model, "base").pose.rotation;
+    let wanted = [0.983347443, 0.034270799, 0.106020511, 0.143572175];
+    let found = [base.w, base.i, base.j, base.k];
+    assert!(found.iter().zip(wanted).all(|(found, wanted)| (found - wanted).abs() < 1e-8), "{found:?}");
+
+    let first = &model.hinges[0];
+    assert_eq!((first.name.as_str(), first.min_rad, first.max_rad), ("a1", -1.0, 0.4));
+    assert_eq!((first.stiffness_nmprad, first.rest_rad, first.damping_nmsprad), (3.0, 0.2, 2.0));
+    assert!((first.axis.y - 0.894427191).abs() < 1e-8);
+    assert_eq!(model.hinges[1].armature_kgm2, 0.1);
+    assert_eq!(model.motors[0].control, [-1.0, 0.5]);
+    assert_eq!((model.motors[1].control, model.motors[1].force), ([-2.0, 2.0], [-5.0, 5.0]));
+}
+
+#[test]
+fn the_compilers_rules_about_mass_are_those_of_mujoco() {
+    let with = |change: &str| {
+        let text = ODD.replacen("balanceinertia=\"true\"", &format!("balanceinertia=\"true\" {change}"), 1);
+        Model::from_mjcf(&text).expect(change)
+    };
+    // Bounds first, then balance: (0.02 + 0.02 + 0.05) / 3. The capsule of 0.05 m and 0.4 m weighs 500 × 0.0036652 m³.
+    let bound = with("boundmass=\"3\" boundinertia=\"0.02\"");
+    assert_weighs(body(&bound, "flat"), 3.0, [0.0; 3], [0.03, 0.03, 0.03, 0.0, 0.0, 0.0]);
+    assert_eq!(body(&bound, "arm").mass_kg, 3.0);
+    let scaled = with("settotalmass=\"20\"");
+    let factor = 20.0 / 7.123974831206716;
+    assert!((scaled.mass_kg() - 20.0).abs() < 1e-9);
+    assert!((body(&scaled, "flat").inertia_kgm2[(0, 0)] - factor * 0.07 / 3.0).abs() < 1e-8);
+    let by_shapes = with("inertiafromgeom=\"true\"");
+    assert!((body(&by_shapes, "arm").mass_kg - 1.832_595_714_594).abs() < 1e-9);
+    assert_eq!(body(&by_shapes, "flat").mass_kg, 1.0, "without shapes its <inertial> stands");
+    let never = ODD.replacen("angle=\"radian\"", "angle=\"radian\" inertiafromgeom=\"false\"", 1);
+    assert!((Model::from_mjcf(&never).expect("valid").bodies[0].mass_kg - 0.5).abs() < 1e-12, "the tip's alone");
+}
+
+/// The built-in humanoid written as Gymnasium writes its own: other defaults, looks, inert tendons.
+fn written_otherwise() -> String {
+    [
+        ("<joint type=\"hinge\" limited=\"true\" damping=\"1\" armature=\"1\"/>", "<joint armature=\"1\" damping=\"1\" limited=\"true\"/>"),
+        (
+            "<geom type=\"capsule\" density=\"1000\" condim=\"1\" margin=\"0.001\"/>",
+            "<geom conaffinity=\"1\" condim=\"1\" contype=\"1\" margin=\"0.001\" material=\"skin\" rgba=\"0.8 0.6 .4 1\" type=\"capsule\"/>",
+        ),
+        ("ctrlrange=\"-0.4 0.4\"", "ctrlrange=\"-.4 .4\""),
+        (
+            "<option timestep=\"0.003\"/>",
+            "<option integrator=\"RK4\" iterations=\"50\" solver=\"PGS\" timestep=\"0.003\"><!-- no flags --></option>\
+             <size nkey=\"5\" nuser_geom=\"1\"/><visual><map fogend=\"5\" fogstart=\"3\"/></visual>\
+             <asset><texture builtin=\"gradient\" height=\"10\" width=\"10\" type=\"skybox\"/>\
+             <material name=\"skin\" reflectance=\"0.5\" texuniform=\"true\"/></asset>",
+        ),
+        ("<joint name=\"root\" type=\"free\" limited=\"false\"", "<joint name=\"root\" pos=\"0 0 0\" stiffness=\"0\" type=\"free\" limited=\"false\""),
+        ("<geom name=\"head\"", "<camera mode=\"trackcom\" name=\"track\" pos=\"0 -4 0\" xyaxes=\"1 0 0 0 0 1\"/><geom user=\"258\" name=\"head\""),
+    ]
+    .into_iter()
+    .fold(HUMANOID_XML.to_owned(), |text, (from, to)| {
+        assert!(text.contains(from), "the model no longer contains {from}");
+        text.replacen(from, to, 1)
+    })
+}
+
+#[test]
+fn the_humanoid_in_gymnasiums_way_of_writing_is_the_built_in_one() {
+    let built_in = Model::from_mjcf(HUMANOID_XML).expect("valid");
+    let other = Model::from_mjcf(&written_otherwise()).expect("valid");
+    assert_eq!(format!("{built_in:?}"), format!("{other:?}"));
+    // MuJoCo 4.0's figures for Gymnasium's own file.
+    let chest = [0.173148828, 0.154010141, 0.041211852, 0.0, -0.003498385, 0.0];
+    assert_weighs(body(&other, "torso"), 8.907462370, [-0.002539384, 0.0, 0.034662591], chest);
+    let thigh = [0.074951654, 0.074893984, 0.008285101, 0.0, 0.0, 0.001960781];
+    assert_weighs(body(&other, "right_thigh"), 4.751750929, [0.0, 0.005, -0.17], thigh);
+    let lower_arm = [0.009318673, 0.009318673, 0.009318673, 0.004348556, -0.004348556, 0.004348556];
+    assert_weighs(body(&other, "left_lower_arm"), 1.229540193, [0.109623134, -0.109623134, 0.109623134], lower_arm);
+}
+
+#[test]
+fn the_robot_of_29_hinges_is_as_its_text_says() {
+    let model = Model::from_mjcf(G1_LIKE_XML).expect("valid");
+    assert_eq!((model.bodies.len(), model.hinges.len(), model.motors.len()), (30, 29, 29));
+    assert!((model.mass_kg() - 34.3).abs() < 1e-9);
+    // MuJoCo 4.0's figures.
+    let chest = [0.103119241, 0.090472690, 0.039705448, 0.0, -0.001862069, 0.0];
+    assert_weighs(body(&model, "torso"), 8.7, [0.001379310, 0.0, 0.184827586], chest);
+    let shin = [0.013608806, 0.013608806, 0.001462776, 0.0, 0.0, 0.0];
+    assert_weighs(body(&model, "left_shin"), 1.9, [0.0, 0.0, -0.125], shin);
+    let hip = [0.001188958, 0.001316250, 0.001188958, 0.0, 0.0, 0.0];
+    assert_weighs(body(&model, "right_hip_pitch"), 1.3, [0.0, -0.015, 0.0], hip);
+    for left in model.hinges.iter().filter(|hinge| hinge.name.starts_with("left_")) {
+        let name = left.name.replace("left_", "right_");
+        let right = model.hinges.iter().find(|hinge| hinge.name == name).expect("each left hinge has a right one");
+        let mirrored = left.axis.x != 0.0 || left.axis.z != 0.0;
+        let range = if mirrored { [-left.max_rad, -left.min_rad] } else { [left.min_rad, left.max_rad] };
+        assert_eq!([right.min_rad, right.max_rad], range, "{name}");
+    }
+    let soles = model.bodies.iter().filter(|body| body.name.ends_with("_foot"));
+    assert!(soles.flat_map(|foot| &foot.shapes).all(|shape| matches!(shape.geometry, Geometry::Box { .. })));
+}
+
+#[test]
+fn a_motor_without_control_range_uses_what_it_can_give() {
+    let range_of = |motor: &str, joint: &str| {
+        let text = format!(
+            r#"<mujoco><worldbody><geom type="plane" size="1 1 1"/><body pos="0 0 1"><freejoint/><geom size="0.1"/>
+               <body><joint name="hinge" {joint}/><geom size="0.1"/></body></body></worldbody>
+               <actuator><motor joint="hinge" {motor}/></actuator></mujoco>"#
+        );
+        Model::from_mjcf(&text).expect("valid").motors[0].control
+    };
+    assert_eq!(range_of("ctrlrange=\"-0.1 3\"", ""), [-0.1, 3.0]);
+    assert_eq!(range_of("ctrlrange=\"-0.1 3\" ctrllimited=\"false\"", ""), [-1.0, 1.0]);
+    assert_eq!(range_of("forcerange=\"-20 30\"", ""), [-20.0, 30.0]);
+    assert_eq!(range_of("gear=\"-10\"", "actuatorfrcrange=\"-20 30\""), [-3.0, 2.0]);
+    assert_eq!(range_of("gear=\"10\"", ""), [-1.0, 1.0]);
+}
+
+#[test]
+fn included_files_become_part_of_the_text() {
+    let folder = std::env::temp_dir().join(format!("treadmill-models-{}", std::process::id()));
+    std::fs::create_dir_all(folder.join("parts")).expect("a folder");
+    let write = |name: &str, text: &str| std::fs::write(folder.join(name), text).expect("a file");
+    let (before, worldbody) = HUMANOID_XML.split_once("<worldbody>").expect("a worldbody");
+    let (worldbody, motors) = worldbody.split_once("</worldbody>").expect("its end");
+    write("robot.xml", &format!("{before}<include file=\"parts/world.xml\"/>{motors}"));
+    // Names start from the outermost file's folder.
+    write(
+        "parts/world.xml",
+        "<mujocoinclude><worldbody><include file=\"parts/body.xml\"/></worldbody></mujocoinclude>",
+    );
+    write("parts/body.xml", &format!("<mujoco>{worldbody}</mujoco>"));
+    let read = || read_model_file(&folder.join("robot.xml"));
+    let model = Model::from_mjcf(&read().expect("all there")).expect("valid");
+    assert_eq!(format!("{model:?}"), format!("{:?}", Model::from_mjcf(HUMANOID_XML).expect("valid")));
+
+    write("parts/body.xml", "<mujoco><include file=\"robot.xml\"/></mujoco>");
+    assert!(read().expect_err("a circle").to_string().contains("`robot.xml` is included twice"));
+    std::fs::remove_file(folder.join("parts/body.xml")).expect("it was there");
+    assert!(read().expect_err("missing").to_string().contains("parts/body.xml"));
+    std::fs::remove_dir_all(&folder).expect("it was there");
+}

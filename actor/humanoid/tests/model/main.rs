@@ -1,0 +1,4 @@
+//! Model texts: what is read out of them, and which are refused.
+
+mod figures;
+mod refusals;

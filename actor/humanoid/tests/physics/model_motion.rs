@@ -1,0 +1,324 @@
+//! How bodies of other texts move: contacts by their rules, motors by their ranges, servos.
+
+use treadmill_humanoid::{CONTROL_STEP_S, Environment, EnvironmentConfig, Model, Physics, Variation};
+
+const G1_LIKE_XML: &str = include_str!("../../assets/g1-like.xml");
+
+/// A trunk with two arms, whose hands overlap; attributes for each hand and the floor, and more sections.
+fn crossed(left: &str, right: &str, floor: &str, more: &str) -> Physics {
+    let arm = |name: &str, shape: &str| {
+        format!(
+            r#"<body name="{name}" pos="0 0 -0.5"><joint name="{name}" axis="0 1 0"/>
+               <geom type="box" size="0.05 0.05 0.05" {shape}/></body>"#
+        )
+    };
+    let text = format!(
+        r#"<mujoco><option gravity="0 0 0"/><worldbody><geom name="floor" type="plane" size="1 1 1" {floor}/>
+           <body name="trunk" pos="0 0 0.52"><freejoint/><geom type="cylinder" size="0.1 0.1"/>
+           {}{}</body></worldbody>{more}<actuator><motor joint="left" gear="1"/></actuator></mujoco>"#,
+        arm("left", left),
+        arm("right", right)
+    );
+    Physics::new(Model::from_mjcf(&text).expect("valid"), &EnvironmentConfig::default()).expect("valid")
+}
+
+/// Whether the hands push each other in the air, and whether the floor, in which they are 3 cm deep, lifts the body.
+fn touches(left: &str, right: &str, floor: &str, more: &str) -> (bool, bool) {
+    let step_at = |height_m: f64| {
+        let mut physics = crossed(left, right, floor, more);
+        let mut position = physics.model().nominal_position();
+        position[2] = height_m;
+        physics.set_state(&position, &[0.0; 8]);
+        physics.step_only(&[0.0]).expect("finite");
+        physics
+    };
+    let lift_n: f64 = (0..3).map(|body| step_at(0.52).contact_wrench(body).0.z).sum();
+    (step_at(5.0).contact_wrench(1).0.norm() > 0.0, lift_n > 1.0)
+}
+
+#[test]
+fn shapes_touch_by_types_affinities_and_exclusions() {
+    assert_eq!(touches("", "", "", ""), (true, true));
+    let ghost = "contype=\"0\" conaffinity=\"0\"";
+    assert_eq!(touches(ghost, "", "", ""), (false, true));
+    assert_eq!(touches(ghost, ghost, "", ""), (false, false));
+    // The floor has affinity to hands, but hands not to each other.
+    let hand = "contype=\"1\" conaffinity=\"0\"";
+    assert_eq!(touches(hand, hand, "contype=\"0\" conaffinity=\"1\"", ""), (false, true));
+    // One side's affinity is enough.
+    assert_eq!(touches(hand, "contype=\"4\" conaffinity=\"1\"", "contype=\"2\" conaffinity=\"2\"", ""), (true, false));
+    let part = |one: &str, other: &str| format!("<contact><exclude body1=\"{one}\" body2=\"{other}\"/></contact>");
+    assert_eq!(touches("", "", "", &part("right", "left")), (false, true));
+    assert_eq!(touches("", "", "", &(part("left", "world") + &part("world", "right"))), (true, false));
+    assert_eq!(touches("", "", "", &part("left", "world")), (true, true));
+    assert_eq!(touches("", "", "", &part("trunk", "right")), (true, true));
+}
+
+/// How fast a box of 1 kg still slides after 0.15 s on the floor, having started at 2 m/s.
+fn speed_left(shape: &str, floor: &str) -> f64 {
+    let text = format!(
+        r#"<mujoco><worldbody><geom type="plane" size="1 1 1" {floor}/><body pos="0 0 0.1"><freejoint/>
+           <geom type="box" size="0.3 0.3 0.1" mass="1" {shape}/>
+           <body pos="0 0 0"><joint name="j"/><geom size="0.01" mass="0.001" contype="0" conaffinity="0"/></body>
+           </body></worldbody><actuator><motor joint="j"/></actuator></mujoco>"#
+    );
+    let mut physics =
+        Physics::new(Model::from_mjcf(&text).expect("valid"), &EnvironmentConfig::default()).expect("valid");
+    let position = physics.model().nominal_position();
+    physics.set_state(&position, &[2.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]);
+    for _ in 0..10 {
+        physics.step_only(&[0.0]).expect("finite");
+    }
+    physics.centre_of_mass_velocity().x
+}
+
+#[test]
+fn the_greater_friction_of_a_pair_brakes() {
+    // Friction µ takes µ·g from the speed each second: 2 − µ × 9.81 × 0.15.
+    for (shape, floor, friction) in [
+        ("friction=\"0.2\"", "friction=\"0.6\"", 0.6),
+        ("friction=\"0.9\"", "friction=\"0.6\"", 0.9),
+        ("friction=\"0.5\" condim=\"1\"", "friction=\"0.5\"", 0.5),
+        ("friction=\"0.5\"", "friction=\"0.5\" condim=\"1\"", 0.5),
+        ("friction=\"0.5\" condim=\"1\"", "friction=\"0.5\" condim=\"1\"", 0.0),
+    ] {
+        let (found, wanted) = (speed_left(shape, floor), 2.0 - friction * 9.81 * 0.15);
+        assert!((found - wanted).abs() < 0.05, "{shape} on {floor}: {found} m/s instead of {wanted} m/s");
+    }
+}
+
+/// Distance between a ball and the floor (m) when it has come to rest.
+fn resting_gap_m(ball: &str, floor: &str) -> f64 {
+    let text = format!(
+        r#"<mujoco><worldbody><geom type="plane" size="1 1 1" {floor}/><body pos="0 0 0.125"><freejoint/>
+           <geom type="sphere" size="0.1" {ball}/><body pos="0 0 0.1"><joint name="turn" axis="0 0 1"/>
+           <geom type="sphere" size="0.01"/></body></body></worldbody>
+           <actuator><motor joint="turn" ctrlrange="-1 1"/></actuator></mujoco>"#
+    );
+    let model = Model::from_mjcf(&text).expect("valid");
+    let mut physics = Physics::new(model, &EnvironmentConfig::default()).expect("valid");
+    for _ in 0..100 {
+        physics.step_only(&[0.0]).expect("finite");
+    }
+    physics.torso_height_m() - 0.1
+}
+
+#[test]
+fn the_margins_of_a_pair_keep_them_apart() {
+    // A contact as soft as MuJoCo's gives way by g · (1 − impedance) · (impedance × time constant)²: 0.18 mm.
+    let give_m = 9.81 * 0.05 * (0.95 * 0.02f64).powi(2);
+    for (ball, floor, margin_m) in [
+        ("", "", 0.0),
+        ("margin=\"0.004\"", "", 0.004),
+        ("", "margin=\"0.01\"", 0.01),
+        ("margin=\"0.004\"", "margin=\"0.006\"", 0.01),
+        ("margin=\"0.01\"", "margin=\"0.01\"", 0.02),
+    ] {
+        let gap_m = resting_gap_m(ball, floor);
+        assert!((gap_m + give_m - margin_m).abs() < 1e-4, "`{ball}` on `{floor}`: {gap_m} m");
+    }
+}
+
+#[test]
+fn solid_shapes_rest_on_their_surfaces() {
+    for (shape, height_m) in [
+        ("type=\"box\" size=\"0.1 0.2 0.3\"", 0.3),
+        ("type=\"box\" size=\"0.1 0.2 0.3\" axisangle=\"1 0 0 90\"", 0.2),
+        ("type=\"cylinder\" size=\"0.2 0.1\"", 0.1),
+        ("type=\"cylinder\" size=\"0.2 0.15\" axisangle=\"1 0 0 90\"", 0.2),
+        ("type=\"cylinder\" fromto=\"-0.2 0 0 0.2 0 0\" size=\"0.15\"", 0.15),
+        ("type=\"sphere\" size=\"0.2\"", 0.2),
+    ] {
+        let text = format!(
+            r#"<mujoco><worldbody><geom type="plane" size="1 1 1"/><body pos="0 0 {height_m}"><freejoint/>
+               <geom {shape}/><body pos="0 0 0"><joint name="j"/><geom size="0.01" contype="0" conaffinity="0"/></body>
+               </body></worldbody><actuator><motor joint="j"/></actuator></mujoco>"#
+        );
+        let mut physics =
+            Physics::new(Model::from_mjcf(&text).expect("valid"), &EnvironmentConfig::default()).expect("valid");
+        for _ in 0..20 {
+            physics.step_only(&[0.0]).expect("finite");
+        }
+        let sunk = height_m - physics.torso_height_m();
+        assert!(sunk.abs() < 0.005, "{shape} sank by {sunk} m");
+    }
+}
+
+/// A trunk with one driven hinge; the motor's element, and attributes of the joint.
+fn driven(motor: &str, joint: &str) -> Environment {
+    let text = format!(
+        r#"<mujoco><compiler angle="radian"/><option gravity="0 0 0"/><worldbody><geom type="plane" size="1 1 1"/>
+           <body pos="0 0 1.5"><freejoint/><geom size="0.3"/>
+           <body pos="0 0 0.5"><joint name="j" axis="0 1 0" {joint}/><geom type="box" size="0.1 0.1 0.1"/></body></body>
+           </worldbody><actuator>{motor}</actuator></mujoco>"#
+    );
+    Environment::new(&EnvironmentConfig::default(), &text).expect("valid")
+}
+
+/// Torque (N·m) on the hinge at its beginning, for a share of the motor's range.
+fn torque_nm(environment: &mut Environment, share: f32, angle_rad: f64, rate_radps: f64) -> f64 {
+    let (mut action, config) =
+        (vec![0.0; environment.action_size()], EnvironmentConfig { substeps: 1, ..Default::default() });
+    environment.action_from_shares(&vec![share; action.len()], &mut action);
+    let mut physics = Physics::new(environment.physics().model().clone(), &config).expect("valid");
+    let mut position = physics.model().nominal_position();
+    position[7] = angle_rad;
+    physics.set_state(&position, &[0.0, 0.0, 0.0, 0.0, 0.0, 0.0, rate_radps]);
+    physics.step_only(&action).expect("finite");
+    physics.joint_torques_nm()[0]
+}
+
+#[test]
+fn shares_of_an_uneven_range_reach_both_its_ends() {
+    let mut one = driven("<motor joint=\"j\" gear=\"10\" ctrlrange=\"-0.25 0.75\"/>", "");
+    assert_eq!(one.action_ranges(), [[-0.25, 0.75]]);
+    for (share, torque) in [(-1.0, -2.5), (0.0, 2.5), (1.0, 7.5), (0.5, 5.0), (7.0, 7.5), (-7.0, -2.5)] {
+        assert_eq!(torque_nm(&mut one, share, 0.0, 0.0), torque);
+    }
+    // Two motors on one hinge add up, until the hinge's own limit.
+    let both = "<motor joint=\"j\" gear=\"10\" ctrlrange=\"-1 1\"/><motor joint=\"j\" gear=\"5\" ctrlrange=\"-2 1\"/>";
+    let mut limited = driven(both, "actuatorfrcrange=\"-12 100\"");
+    assert_eq!(torque_nm(&mut limited, 1.0, 0.0, 0.0), 15.0);
+    assert_eq!(torque_nm(&mut limited, -1.0, 0.0, 0.0), -12.0);
+    let mut weak = driven("<motor joint=\"j\" gear=\"10\" ctrlrange=\"-1 1\" forcerange=\"-0.5 0.5\"/>", "");
+    assert_eq!(torque_nm(&mut weak, 1.0, 0.0, 0.0), 5.0);
+}
+
+#[test]
+fn servos_pull_with_the_torques_that_mujoco_finds() {
+    // MuJoCo 4.0: control 0.4, angle 0.1, rate 0.3 and gear 2 give a force of 8.8.
+    let heavy = "armature=\"1\"";
+    let servo = "<position joint=\"j\" kp=\"50\" kv=\"2\" gear=\"2\" ctrlrange=\"-0.4 0.4\"/>";
+    assert!((torque_nm(&mut driven(servo, heavy), 1.0, 0.1, 0.3) - 17.6).abs() < 1e-5);
+    let general =
+        "<general joint=\"j\" gainprm=\"50\" biastype=\"affine\" biasprm=\"1 -50 -2\" ctrlrange=\"-0.4 0.4\"/>";
+    assert!((torque_nm(&mut driven(general, heavy), 1.0, 0.1, 0.3) - (20.0 + 1.0 - 5.0 - 0.6)).abs() < 1e-5);
+    let speed = "<velocity joint=\"j\" kv=\"3\" ctrlrange=\"-1 1\"/>";
+    assert!((torque_nm(&mut driven(speed, ""), 1.0, 0.1, 0.3) - 3.0 * 0.7).abs() < 1e-5);
+    let strong = "<position joint=\"j\" kp=\"500\" ctrlrange=\"-1 1\" forcerange=\"-5 5\"/>";
+    assert_eq!(torque_nm(&mut driven(strong, heavy), 1.0, -3.0, 0.0), 5.0);
+}
+
+#[test]
+fn a_weaker_servo_still_knows_where_it_is() {
+    let servo = driven("<position joint=\"j\" kp=\"50\" gear=\"2\" ctrlrange=\"-0.4 0.4\"/>", "armature=\"1\"");
+    let mut physics = Physics::new(servo.physics().model().clone(), &EnvironmentConfig::default()).expect("valid");
+    let mut position = physics.model().nominal_position();
+    position[7] = 0.1;
+    let mut variation = Variation::none(physics.model());
+    variation.motor_scale[0] = 0.5;
+    physics.set_variation(&variation);
+    physics.set_state(&position, &[0.0; 7]);
+    // Before the first step a servo holds control 0, and pulls back: half of 2 × 50 × −0.2.
+    assert!((physics.joint_torques_nm()[0] + 10.0).abs() < 1e-9, "{} N·m", physics.joint_torques_nm()[0]);
+    let control = 0.2;
+    physics.step_only(&[control]).expect("finite");
+    // Gear 2 at 0.1 rad is a length of 0.2: where it is to be, so that nothing pulls, however strong it is.
+    assert!(physics.joint_torques_nm()[0].abs() < 1e-4, "{} N·m", physics.joint_torques_nm()[0]);
+    position[7] = 0.0;
+    physics.set_state(&position, &[0.0; 7]);
+    physics.step_only(&[control]).expect("finite");
+    // Half of 2 × 50 × 0.2 at first; the hinge has hardly moved by the second physics step.
+    assert!((physics.joint_torques_nm()[0] - 10.0).abs() < 0.1, "{} N·m", physics.joint_torques_nm()[0]);
+}
+
+#[test]
+fn varied_friction_is_also_that_of_shapes_that_rub() {
+    let text = r#"<mujoco><worldbody><geom type="plane" size="1 1 1" friction="0.8"/><body pos="0 0 0.1"><freejoint/>
+        <geom type="box" size="0.3 0.3 0.1" mass="1" friction="0.8"/>
+        <body><joint name="j"/><geom size="0.01" mass="0.001" contype="0" conaffinity="0"/></body></body></worldbody>
+        <actuator><motor joint="j"/></actuator></mujoco>"#;
+    let mut physics =
+        Physics::new(Model::from_mjcf(text).expect("valid"), &EnvironmentConfig::default()).expect("valid");
+    let mut variation = Variation::none(physics.model());
+    variation.floor_friction_scale = 0.25;
+    physics.set_variation(&variation);
+    physics.set_state(&physics.model().nominal_position(), &[2.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]);
+    for _ in 0..10 {
+        physics.step_only(&[0.0]).expect("finite");
+    }
+    let (found, wanted) = (physics.centre_of_mass_velocity().x, 2.0 - 0.2 * 9.81 * 0.15);
+    assert!((found - wanted).abs() < 0.05, "{found} m/s instead of {wanted} m/s");
+}
+
+#[test]
+fn a_servo_reaches_its_target_and_stays() {
+    let mut environment = driven("<position joint=\"j\" kp=\"30\" kv=\"3\" ctrlrange=\"-1 1\"/>", "");
+    let mut observation = vec![0.0; environment.observation_size()];
+    environment.reset(1, &mut observation);
+    for _ in 0..200 {
+        assert!(!environment.step(&[0.6], &mut observation).fault);
+    }
+    let angle_rad = environment.physics().joint_angles()[0];
+    assert!((angle_rad - 0.6).abs() < 0.01, "{angle_rad} rad");
+    assert!(environment.physics().joint_rates()[0].abs() < 0.05);
+}
+
+#[test]
+fn a_servo_too_stiff_for_the_physics_step_is_refused_by_name() {
+    let model = |kv: f64| {
+        let servo = format!("<position name=\"stiff\" joint=\"j\" kp=\"0.1\" kv=\"{kv}\" ctrlrange=\"-1 1\"/>");
+        driven_model(&servo)
+    };
+    let config = EnvironmentConfig::default();
+    // A cube of 8 kg and 0.2 m side has 8 × 0.04 / 6 kg·m² about its middle; divided by the step, that is the bound.
+    let bound = 8.0 * 0.04 / 6.0 / (CONTROL_STEP_S / 2.0);
+    assert!(Physics::new(model(bound * 0.99), &config).is_ok());
+    let told = Physics::new(model(bound * 1.01), &config).err().expect("too stiff").to_string();
+    assert!(told.contains("stiff") && told.contains("env.substeps"), "{told}");
+    let finer = EnvironmentConfig { substeps: 4, ..config };
+    assert!(Physics::new(model(bound * 1.01), &finer).is_ok());
+}
+
+fn driven_model(motor: &str) -> Model {
+    let text = format!(
+        r#"<mujoco><worldbody><geom type="plane" size="1 1 1"/><body pos="0 0 1.5"><freejoint/><geom size="0.3"/>
+           <body pos="0 0 0.5"><joint name="j" axis="0 1 0"/><geom type="box" size="0.1 0.1 0.1"/></body></body>
+           </worldbody><actuator>{motor}</actuator></mujoco>"#
+    );
+    Model::from_mjcf(&text).expect("valid")
+}
+
+#[test]
+fn another_body_has_its_own_sizes() {
+    let mut environment = driven("<motor joint=\"j\" gear=\"2\" ctrlrange=\"-1 1\"/>", "");
+    assert_eq!((environment.observation_size(), environment.action_size()), (13, 1));
+    let mut observation = [0.0; 13];
+    environment.reset(0, &mut observation);
+    let before = observation[12];
+    assert!(!environment.step(&[1.0], &mut observation).fault);
+    // 2 N·m for 15 ms on at most 0.06 kg·m².
+    assert!(observation[12] > before + (2.0 * CONTROL_STEP_S / 0.06) as f32);
+}
+
+#[test]
+fn the_robot_of_29_hinges_stands_on_its_soles_and_obeys_its_ranges() {
+    let config = EnvironmentConfig { healthy_z_range: [0.5, 1.1], ..EnvironmentConfig::default() };
+    let mut environment = Environment::new(&config, G1_LIKE_XML).expect("valid");
+    assert_eq!((environment.observation_size(), environment.action_size()), (69, 29));
+    let mut observation = vec![0.0; environment.observation_size()];
+    environment.reset(3, &mut observation);
+    let mass_kg = environment.physics().model().mass_kg();
+    let (start_mps, steps) = (environment.physics().centre_of_mass_velocity().z, 20);
+    let mut impulse_ns = 0.0;
+    for _ in 0..steps {
+        assert!(!environment.step(&[0.0; 29], &mut observation).terminated);
+        let physics = environment.physics();
+        let force_n: f64 = (0..physics.model().links.len()).map(|link| physics.contact_wrench(link).0.z).sum();
+        impulse_ns += force_n * CONTROL_STEP_S;
+    }
+    // What the floor gives is what gravity takes, and the change of momentum.
+    let change_mps = environment.physics().centre_of_mass_velocity().z - start_mps;
+    let wanted_ns = mass_kg * (change_mps + 9.81 * f64::from(steps) * CONTROL_STEP_S);
+    assert!((impulse_ns / wanted_ns - 1.0).abs() < 0.02, "the floor gives {impulse_ns} N·s instead of {wanted_ns} N·s");
+    assert!(wanted_ns > 0.5 * mass_kg * 9.81 * f64::from(steps) * CONTROL_STEP_S, "it hardly stands at all");
+    // Wild actions end episodes, and never the physics.
+    for step in 0..300u32 {
+        let action: Vec<f32> = (0..29).map(|motor| if (step / 7 + motor) % 3 == 0 { 1.0 } else { -1.0 }).collect();
+        let result = environment.step(&action, &mut observation);
+        assert!(!result.fault, "step {step}");
+        if result.terminated {
+            environment.reset(u64::from(step), &mut observation);
+        }
+    }
+}

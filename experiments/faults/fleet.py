@@ -1,0 +1,268 @@
+"""A fleet over several hosts, which are network namespaces (hosts.sh): what the suite and the soak test have in common.
+
+Processes are the real binary, their links are encrypted, and each writes what it says to a file of its own. Needs root.
+"""
+
+import json
+import os
+import pathlib
+import re
+import signal
+import subprocess
+import sys
+import threading
+import time
+
+HERE = pathlib.Path(__file__).resolve().parent
+ADDRESSES = {"learner": "10.77.0.1", "router": "10.77.0.2"}
+PORT = 7447
+FRAGMENT_STEPS, ENVS = 64, 16
+FRAGMENT = FRAGMENT_STEPS * ENVS
+# Rounds of a fraction of a second, so that times can be told; the networks are those of the preset that walks.
+SETTINGS = {
+    "rollout.fragment_steps": FRAGMENT_STEPS,
+    "ppo.batch": 2 * FRAGMENT,
+    "ppo.minibatch": 512,
+    "eval.every_steps": 0,
+    "learner.table_every_updates": 1_000_000,
+    "bus.stats_every_ms": 1000,
+}
+ENDLESS = 1_000_000_000
+SAMPLE_S = 0.05
+STAMP = re.compile(r"^(\d{4}-\d\d-\d\dT[\d:.]+)Z\s+(\w+) (.*)$")
+
+
+def endpoint(host):
+    return f"tls/{ADDRESSES[host]}:{PORT}"
+
+
+class Process:
+    """One start of one part."""
+
+    def __init__(self, name, host, child, out, err):
+        self.name, self.host, self.child, self.out, self.err = name, host, child, out, err
+        self.begun, self.frozen = time.time(), False
+
+    def kill(self):
+        self.child.kill()
+        self.child.wait()
+
+    def freeze(self):
+        self.child.send_signal(signal.SIGSTOP)
+        self.frozen = True
+
+    def thaw(self):
+        self.child.send_signal(signal.SIGCONT)
+        self.frozen = False
+
+    def stop(self, patience_s=20):
+        """Asks it to stop; whether it did."""
+        if self.child.poll() is not None:
+            return True
+        self.thaw()
+        self.child.terminate()
+        try:
+            self.child.wait(patience_s)
+        except subprocess.TimeoutExpired:
+            self.kill()
+            return False
+        return True
+
+    def is_running(self):
+        return self.child.poll() is None
+
+    def said(self, what, since=0.0):
+        """When it first said so after that moment, by its own clock; None where it did not."""
+        for line in self.err.read_text(encoding="utf-8", errors="replace").splitlines():
+            found = STAMP.match(line)
+            if found and what in found[3] and (at := seconds(found[1])) >= since:
+                return at
+        return None
+
+    def last_json(self):
+        for line in reversed(self.out.read_text(encoding="utf-8", errors="replace").splitlines()):
+            if line.startswith("{"):
+                return json.loads(line)
+        return None
+
+
+def seconds(stamp):
+    whole, _, fraction = stamp.partition(".")
+    return time.mktime(time.strptime(whole + "UTC", "%Y-%m-%dT%H:%M:%S%Z")) - time.timezone + float("0." + (fraction or "0"))
+
+
+class Fleet:
+    """A learner, a router and actors, each on its host."""
+
+    def __init__(self, binary, folder, prefix, certificates, settings=None, run=None):
+        self.binary, self.folder, self.prefix, self.certificates = binary, folder, prefix, certificates
+        self.settings = SETTINGS | (settings or {})
+        self.run = run or folder / "run"
+        self.older = None
+        self.processes, self.current = [], {}
+        self.samples, self.is_over = [], threading.Event()
+        folder.mkdir(parents=True)
+        self.sampler = threading.Thread(target=self.sample, daemon=True)
+        self.sampler.start()
+
+    # Starting and stopping.
+
+    def start(self, name, wrapper=(), via=None, binary=None, host=None):
+        """Starts a part; an actor dials the router, or what `via` says."""
+        tls = ["--tls", str(self.certificates)]
+        if name == "learner":
+            arguments = ["learner", "--listen", endpoint("learner"), "--json", "--no-progress"]
+            if (self.run / "checkpoints" / "latest.bundle").exists():
+                arguments += ["--resume", str(self.run)]
+            else:
+                arguments += ["--preset", "walk", "--run", "walk", "--run-dir", str(self.run), "--steps", str(ENDLESS)]
+                for key, value in self.settings.items():
+                    arguments += ["--set", f"{key}={json.dumps(value)}"]
+        elif name == "router":
+            arguments = ["router", "--listen", endpoint("router"), "--connect", endpoint("learner")]
+        else:
+            arguments = ["actor", "--name", name, "--envs", str(ENVS)]
+            for where in via or [endpoint("router")]:
+                arguments += ["--connect", where]
+            if binary is None:
+                arguments.append("--json")
+        command = [str(binary or self.binary), *arguments, *tls]
+        host = host or name.replace("-", "")
+        number = sum(process.name == name for process in self.processes)
+        out, err = (self.folder / f"{name}-{number}.{kind}" for kind in ("out", "err"))
+        environment = os.environ | {"TREADMILL_LOG": "info,treadmill_actor=debug,zenoh=off"}
+        with out.open("wb") as out_file, err.open("wb") as err_file:
+            child = subprocess.Popen(
+                ["ip", "netns", "exec", f"{self.prefix}-{host}", *wrapper, *command],
+                stdout=out_file, stderr=err_file, stdin=subprocess.DEVNULL, env=environment,
+            )  # fmt: skip
+        process = Process(name, host, child, out, err)
+        self.processes.append(process)
+        self.current[name] = process
+        return process
+
+    def stop(self):
+        """Ends the learner first, so that what it holds is known; then actors, which then know what they still hold."""
+        in_order = sorted(self.current.values(), key=lambda process: (process.name != "learner", process.name == "router"))
+        stuck = [process.name for process in in_order if not process.stop()]
+        self.is_over.set()
+        self.sampler.join()
+        return stuck
+
+    # Looking.
+
+    def sample(self):
+        while not self.is_over.wait(SAMPLE_S):
+            if (newest := self.newest()) and (not self.samples or self.samples[-1][1] != newest):
+                self.samples.append((time.time(), newest))
+
+    def newest(self):
+        """Environment steps and updates so far, by the last lines of metrics.jsonl."""
+        try:
+            with (self.run / "metrics.jsonl").open("rb") as file:
+                file.seek(0, os.SEEK_END)
+                file.seek(max(0, file.tell() - 32_768))
+                tail = file.read().decode("utf-8", errors="replace")
+        except OSError:
+            return None
+        updates = re.findall(r'"tag":"time/iterations","step":(\d+),"value":(\d+)', tail)
+        return tuple(map(int, updates[-1])) if updates else None
+
+    def steps(self):
+        return self.samples[-1][1][0] if self.samples else 0
+
+    def wait(self, what, look, patience_s=60):
+        until = time.time() + patience_s
+        while time.time() < until:
+            if found := look():
+                return found
+            time.sleep(0.02)
+        raise RuntimeError(f"waited {patience_s} s in vain: {what}; see {self.folder}")
+
+    def grow(self, steps, patience_s=60):
+        """Waits until so many more steps were learnt from; when that was."""
+        wanted = self.steps() + steps
+        self.wait(f"{steps} more steps", lambda: self.steps() >= wanted, patience_s)
+        return time.time()
+
+    def speed(self, since, until):
+        """Steps per second between two moments."""
+        def at(moment):
+            before = [newest[0] for when, newest in self.samples if when <= moment]
+            return before[-1] if before else 0
+
+        return (at(until) - at(since)) / (until - since)
+
+    def learner_said(self, what, since):
+        times = [at for process in self.processes if process.name == "learner" and (at := process.said(what, since))]
+        return min(times, default=None)
+
+    def delivers(self, name, since=0.0):
+        return self.learner_said(f"`{name}` delivers as", since)
+
+    # Accounts.
+
+    def spans(self):
+        """Actor processes: name, incarnation, what they said at their end, and the last fragment that they began to send."""
+        for process in self.processes:
+            if not process.name.startswith("actor"):
+                continue
+            text = process.err.read_text(encoding="utf-8", errors="replace")
+            last = process.last_json()
+            # One process may have stayed in several runs, of which each has numbers of its own.
+            for part in text.split("counts its fragments as process ")[1:]:
+                incarnation = re.match(r"\d+", part)[0]
+                produced = [int(number) for number in re.findall(r"fragment (\d+) is on its way", part)]
+                own = last if last and last["incarnation"] == incarnation else None
+                yield process.name, incarnation, own, max(produced, default=0)
+
+    def account(self):
+        """Compares what actors produced with what the learner did with it."""
+        lines = (self.run / "accounts.jsonl").read_text(encoding="utf-8").splitlines()
+        theirs = {line["incarnation"]: line for line in map(json.loads, lines)}
+        learner = self.current["learner"].last_json() or {}
+        found = {"lost_with_process": 0, "lost": 0, "twice": 0, "dropped": 0, "sent_again": 0, "mistakes": []}
+        known = set()
+        for name, incarnation, own, produced in self.spans():
+            known.add(incarnation)
+            line = theirs.get(incarnation)
+            if line is None:
+                line = dict.fromkeys(("through", "newest", "missing", "accepted", "too_old", "vanished", "unseen"), 0)
+            dropped = line["too_old"] + line["vanished"] + line["unseen"]
+            if own is None:
+                # Killed: what the learner never got is gone with the process.
+                found["lost_with_process"] += max(0, produced - line["accepted"] - dropped)
+                found["twice"] += max(0, line["accepted"] + dropped - produced)
+                continue
+            found["sent_again"] += own["resent"]
+            found["dropped"] += own["dropped_by_rule"]
+            if own["produced"] != own["accepted"] + own["dropped_by_rule"] + own["in_flight"]:
+                found["mistakes"].append(f"{name}: {own}")
+            # The learner must have settled what an actor let go of; an actor must know of each fragment that was dropped.
+            # What a learner dropped after its last checkpoint, only its sender knows of.
+            unsaved = max(0, own["dropped_by_rule"] - dropped)
+            found["lost"] += max(0, own["settled_through"] - line["through"] - unsaved)
+            found["lost"] += max(0, dropped - own["dropped_by_rule"] - own["in_flight"])
+            found["lost"] += max(0, own["accepted"] - own["awaiting_durability"] - line["accepted"])
+            found["twice"] += max(0, line["accepted"] - own["accepted"] - own["in_flight"])
+        found["mistakes"] += [f"no actor sent as {line}" for key, line in theirs.items() if key not in known]
+        trained = sum(line["env_steps"] for line in theirs.values())
+        found["env_steps"], found["trained"] = learner.get("env_steps"), trained
+        if learner.get("env_steps") != trained:
+            found["mistakes"].append(f"{learner.get('env_steps')} env steps were learnt from, {trained} were taken")
+        return found
+
+
+def end_well():
+    """A script that is stopped by a signal still ends its processes and takes its hosts away."""
+    signal.signal(signal.SIGTERM, lambda *_: sys.exit(1))
+
+
+def hosts(command, prefix):
+    subprocess.run([str(HERE / "hosts.sh"), command, prefix], check=True)
+
+
+def certify(binary, folder):
+    names = [part for host in (*ADDRESSES.values(), "127.0.0.1") for part in ("--host", host)]
+    subprocess.run([str(binary), "certs", str(folder), *names], check=True, stdout=subprocess.DEVNULL)
+    return folder.resolve()

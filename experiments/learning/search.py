@@ -1,0 +1,189 @@
+#!/usr/bin/env python3
+"""What learns to walk sooner: trains each candidate on several seeds and puts the results into a table.
+
+Usage: search.py target/release/treadmill FOLDER [--only NAME ...] [--seeds 1 2 3] [--steps 4000000] [--jobs 2]
+       search.py FOLDER --doc docs/results/search.md
+
+The first form trains the runs that FOLDER lacks; the second makes a table of all its runs. A run is evaluated every 200 000
+steps by ten deterministic episodes of at most 15 s. Each run has one actor process and one thread for its update, so that two
+of them side by side keep two cores busy: compare the steps, and not the time, with a run that has the machine to itself.
+Needs Python alone.
+"""
+
+import argparse
+import concurrent.futures
+import json
+import pathlib
+import statistics
+import subprocess
+import sys
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "fidelity"))
+
+import report
+
+SEE = ["env.observation=gymnasium-v5"]
+HIDE = {name: f"env.include_{name}_in_observation=false" for name in ("cinert", "cvel", "qfrc_actuator", "cfrc_ext")}
+
+
+def seeing(*names):
+    """Positions and velocities, and these blocks of what Gymnasium's v5 observes."""
+    return SEE + [flag for name, flag in HIDE.items() if name not in names]
+
+
+# What `walk` was like when the search began.
+BASE = ["ppo.epochs=5", "ppo.minibatch=2048"]
+
+# What each candidate changes in that.
+CANDIDATES = {
+    "as it was": [],
+    "network 128–128": ["policy.hidden=[128, 128]"],
+    "network 128–128, 3 epochs": ["policy.hidden=[128, 128]", "ppo.epochs=3"],
+    "network 64–64": ["policy.hidden=[64, 64]"],
+    "network 512–256–128": ["policy.hidden=[512, 256, 128]"],
+    "batch 4096": ["ppo.batch=4096", "rollout.fragment_steps=64", "ppo.minibatch=1024"],
+    "batch 16384": ["ppo.batch=16384", "rollout.fragment_steps=256", "ppo.minibatch=4096"],
+    "minibatch 1024": ["ppo.minibatch=1024"],
+    "minibatch 4096": ["ppo.minibatch=4096"],
+    "3 epochs": ["ppo.epochs=3"],
+    "3 epochs, minibatch 1024": ["ppo.epochs=3", "ppo.minibatch=1024"],
+    "2 epochs, minibatch 512": ["ppo.epochs=2", "ppo.minibatch=512"],
+    "8 epochs": ["ppo.epochs=8"],
+    "reward × 1": ["ppo.reward_scale=1"],
+    "target KL 0.008": ["ppo.target_kl=0.008"],
+    "target KL 0.032": ["ppo.target_kl=0.032"],
+    "learning rate fixed": ["ppo.target_kl=0"],
+    "first log std −1": ["policy.init_log_std=-1"],
+    "discount 0.98": ["ppo.gamma=0.98"],
+    "λ 0.9": ["ppo.gae_lambda=0.9"],
+    "mirror images": ["ppo.symmetry=mirrored", "ppo.minibatch=4096"],
+    "f16, 3 epochs, minibatch 1024": ["ppo.epochs=3", "ppo.minibatch=1024", "rollout.observation_precision=f16"],
+    "sees contacts": seeing("cfrc_ext"),
+    "sees torques": seeing("qfrc_actuator"),
+    "sees link velocities": seeing("cvel"),
+    "sees all of v5": SEE,
+}
+
+
+def folder_of(root, name, seed):
+    """Where a run is; its name goes into keys of the bus."""
+    plain = name.replace("λ", "lambda").replace("×", "x").replace("–", "-").replace("−", "minus-")
+    plain = plain.replace(",", "").replace(".", "-").replace(" ", "-")
+    return root / f"{plain}-{seed}"
+
+
+def note_of(folder):
+    """The file that says that a run is whole."""
+    return folder.parent / f"{folder.name}.json"
+
+
+def train(binary, root, name, seed, steps):
+    """One run, unless it is there; a run that was cut off is begun again."""
+    folder = folder_of(root, name, seed)
+    done = note_of(folder)
+    if done.exists():
+        return
+    if folder.exists():
+        subprocess.run(["rm", "-r", str(folder)], check=True)
+    command = [str(binary), "train", "--seed", str(seed), "--steps", str(steps), "--run-dir", str(folder), "--json"]
+    for change in ["rollout.actors=1", "learner.threads=1", *BASE, *CANDIDATES[name]]:
+        command += ["--set", change]
+    run = subprocess.run([*command, "--no-progress"], capture_output=True, text=True)
+    if run.returncode != 0:
+        sys.exit(f"{' '.join(command)} failed: {run.stderr.strip()}")
+    done.write_text(json.dumps({"name": name, "seed": seed, "steps": steps}) + "\n", encoding="utf-8")
+    print(f"{name}, seed {seed}: {told(measure(folder))}", file=sys.stderr)
+
+
+def measure(folder):
+    """What the evaluations of a run say."""
+    by_step = {}
+    with open(folder / "metrics.jsonl", encoding="utf-8") as lines:
+        for line in lines:
+            metric = json.loads(line)
+            by_step.setdefault(metric["step"], {})[metric["tag"]] = metric["value"]
+    trials = {}
+    for values in by_step.values():
+        if "eval/distance_mean_m" in values:
+            trials[values["eval/total_timesteps"]] = values
+    last = [trials[step] for step in sorted(trials)[-3:]]
+
+    def reached(distance_m):
+        return next((step for step in sorted(trials) if trials[step]["eval/distance_mean_m"] >= distance_m), None)
+
+    def late(tag):
+        return statistics.mean(values[tag] for values in last)
+
+    return {
+        "to_5_m": reached(5),
+        "to_10_m": reached(10),
+        "to_20_m": reached(20),
+        "distance_m": late("eval/distance_mean_m"),
+        "return": late("eval/mean_reward"),
+        "falls": late("eval/fall_fraction"),
+        "training_return": by_step[max(by_step)]["rollout/ep_rew_mean"],
+    }
+
+
+def told(found):
+    """One run in one line."""
+    steps = [f"{metres} m after {million(found[f'to_{metres}_m'])}" for metres in (5, 10, 20)]
+    return f"{', '.join(steps)}; at the end {found['distance_m']:.1f} m, {100 * found['falls']:.0f} % fall"
+
+
+def million(steps):
+    return "–" if steps is None else f"{steps / 1e6:.1f} M"
+
+
+def median(values):
+    """The middle one, of two the later; what was never reached counts as last."""
+    ordered = sorted(values, key=lambda value: float("inf") if value is None else value)
+    return ordered[len(ordered) // 2]
+
+
+def table(root):
+    """A row for each candidate that was trained: medians, and each seed's distance at the end."""
+    rows = []
+    for name, changes in CANDIDATES.items():
+        notes = [json.loads(path.read_text(encoding="utf-8")) for path in root.glob("*.json")]
+        trained = sorted(note["seed"] for note in notes if note["name"] == name)
+        found = [measure(folder_of(root, name, seed)) for seed in trained]
+        if not found:
+            continue
+        seeds = ", ".join(map(str, trained))
+        steps = [million(median([one[f"to_{metres}_m"] for one in found])) for metres in (5, 10, 20)]
+        ends = ", ".join(f"{one['distance_m']:.1f}" for one in found)
+        middle = f"{statistics.median(one['distance_m'] for one in found):.1f} m"
+        falls = f"{100 * statistics.mean(one['falls'] for one in found):.0f} %"
+        training = f"{statistics.median(one['training_return'] for one in found):.0f}"
+        settings = "<br>".join(f"`{change}`" for change in changes) or "–"
+        rows.append([name, settings, seeds, *steps, middle, ends, falls, training])
+    header = ["", "`--set`", "seeds", "5 m after", "10 m after", "20 m after", "distance at the end", "each seed's (m)"]
+    return report.table([*header, "falls", "return in training"], rows)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("paths", nargs="+", type=pathlib.Path, metavar="PATH", help="the binary, if any, and the folder")
+    parser.add_argument("--only", nargs="+", choices=CANDIDATES, default=list(CANDIDATES), metavar="NAME")
+    parser.add_argument("--seeds", nargs="+", type=int, default=[1, 2, 3])
+    parser.add_argument("--steps", type=int, default=4_000_000)
+    parser.add_argument("--jobs", type=int, default=2, help="runs side by side")
+    parser.add_argument("--doc", type=pathlib.Path, help="page whose generated part is replaced")
+    arguments = parser.parse_args()
+    *binary, root = arguments.paths
+    if binary:
+        root.mkdir(parents=True, exist_ok=True)
+        runs = [(name, seed) for name in arguments.only for seed in arguments.seeds]
+        with concurrent.futures.ThreadPoolExecutor(arguments.jobs) as pool:
+            jobs = [pool.submit(train, binary[0], root, name, seed, arguments.steps) for name, seed in runs]
+            for job in jobs:
+                job.result()
+    text = table(root)
+    print(text)
+    if arguments.doc:
+        report.replace(arguments.doc, "search.py", text)
+
+
+if __name__ == "__main__":
+    main()

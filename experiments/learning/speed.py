@@ -1,0 +1,183 @@
+"""Speed of Treadmill's learning beside PyTorch's and Stable-Baselines3's, on the same cores, in turn.
+
+Needs: pip install torch stable-baselines3 "gymnasium[mujoco]" numpy
+       cargo build --release
+
+Usage: speed.py target/release/treadmill [--rounds 5] [--without-training] [--json OUT.json] [--doc docs/results/README.md]
+
+In every round each comparison runs both sides one after the other, and every other round in the other order; a ratio is that of
+one round. Update and inference run on one core with one thread, the update of two threads and training on two cores. PyTorch's
+side is in torch_ppo.py. Stable-Baselines3 is measured with one thread and with one for each core, and the faster counts. Five
+rounds take about a quarter of an hour; run it with nothing beside it.
+"""
+
+import argparse
+import json
+import os
+import pathlib
+import statistics
+import subprocess
+import sys
+import time
+
+HERE = pathlib.Path(__file__).resolve().parent
+REPOSITORY = HERE.parents[1]
+sys.path.insert(0, str(HERE.parent / "fidelity"))
+
+import gymnasium
+import stable_baselines3
+import torch
+
+import report
+import torch_ppo
+
+SMALL, LARGE = (45, 256, 128), (348, 512, 256)
+MINIBATCH, ROWS = 2048, 64
+HAND_MADE = torch_ppo.HandMadeElu
+PACKAGES = ("torch", "stable-baselines3", "gymnasium", "mujoco", "numpy")
+SOURCES = ("src", "common/src", "learner/src", "actor", "Cargo.lock")
+
+COMPARISONS = {
+    "update": ("Update, 45–256–128, samples/s", "PyTorch, one thread each", "at least 1.2"),
+    "update_hand_made": ("Update, 45–256–128, samples/s", "PyTorch with a hand-made ELU", "–"),
+    "update_large": ("Update, 348–512–256, samples/s", "PyTorch, one thread each", "at least 1.0"),
+    "two_threads": ("Update on two threads, 45–256–128, samples/s", "Treadmill on one thread", "at least 1.6"),
+    "inference": ("Actions for 64 observations, 45–256–128, µs", "PyTorch, one thread each", "at most 0.7"),
+    "inference_hand_made": ("Actions for 64 observations, 45–256–128, µs", "PyTorch with a hand-made ELU", "–"),
+    "training": ("Training on two cores, environment steps/s", "Stable-Baselines3's PPO", "at least 18"),
+}
+
+
+def treadmill(binary, cores, *arguments):
+    """What a bench says when it is pinned to these cores."""
+    command = [str(binary), "bench", *map(str, arguments), "--json"]
+    run = subprocess.run(command, capture_output=True, text=True, preexec_fn=lambda: os.sched_setaffinity(0, cores))
+    if run.returncode != 0:
+        sys.exit(f"{' '.join(command)} failed: {run.stderr.strip()}")
+    return json.loads(run.stdout.strip().splitlines()[-1])
+
+
+def pinned(cores, threads, measure):
+    """The measurement with this process pinned to these cores, and so many threads of PyTorch."""
+    before = os.sched_getaffinity(0)
+    os.sched_setaffinity(0, cores)
+    torch.set_num_threads(threads)
+    try:
+        return measure()
+    finally:
+        os.sched_setaffinity(0, before)
+
+
+def stable_baselines(steps):
+    """Environment steps per second of the script that Stable-Baselines3's tutorials have."""
+    environment = gymnasium.make("Humanoid-v5")
+    model = stable_baselines3.PPO("MlpPolicy", environment, device="cpu")
+    begun = time.perf_counter()
+    model.learn(total_timesteps=steps)
+    rate = model.num_timesteps / (time.perf_counter() - begun)
+    environment.close()
+    return rate
+
+
+def update(arguments, cores, widths, threads=1):
+    """Treadmill's samples per second."""
+    options = ["--network", "-".join(map(str, widths)), "--threads", threads, "--updates", arguments.updates]
+    return treadmill(arguments.treadmill, cores, "update", "--minibatch", MINIBATCH, *options)["samples_per_s"]
+
+
+def sides(arguments, one, two):
+    """For each comparison, how to measure Treadmill and what it is compared with."""
+
+    def torch_update(widths, **options):
+        return pinned(one, 1, lambda: torch_ppo.samples_per_s(widths, MINIBATCH, arguments.updates, **options))
+
+    def torch_inference(**options):
+        return pinned(one, 1, lambda: torch_ppo.call_us(SMALL, ROWS, arguments.calls, **options))
+
+    def other_training():
+        # PyTorch's default is a thread for each core, which networks this small do not always gain by.
+        rates = [pinned(two, threads, lambda: stable_baselines(arguments.sb3_steps)) for threads in (1, len(two))]
+        return max(rates)
+
+    def inference():
+        return treadmill(arguments.treadmill, one, "policy", "--rows", ROWS, "--calls", arguments.calls)["call_us"]
+
+    def training():
+        return treadmill(arguments.treadmill, two, "train", "--steps", arguments.train_steps)["env_steps_per_s"]
+
+    found = {
+        "update": (lambda: update(arguments, one, SMALL), lambda: torch_update(SMALL)),
+        "update_hand_made": (lambda: update(arguments, one, SMALL), lambda: torch_update(SMALL, elu=HAND_MADE)),
+        "update_large": (lambda: update(arguments, one, LARGE), lambda: torch_update(LARGE)),
+        "two_threads": (lambda: update(arguments, two, SMALL, threads=2), lambda: update(arguments, one, SMALL)),
+        "inference": (inference, torch_inference),
+        "inference_hand_made": (inference, lambda: torch_inference(elu=HAND_MADE)),
+        "training": (training, other_training),
+    }
+    if arguments.without_training:
+        del found["training"]
+    if len(two) < 2:
+        print("one core only: the update on two threads is left out", file=sys.stderr)
+        del found["two_threads"]
+    return found
+
+
+def one_round(measures, number):
+    """Both sides of every comparison."""
+    found = {}
+    for name, both in measures.items():
+        order = (0, 1) if number % 2 == 0 else (1, 0)
+        values = {side: both[side]() for side in order}
+        found[name] = [values[0], values[1]]
+        print(f"round {number + 1}, {name}: {values[0]:.1f} against {values[1]:.1f}", file=sys.stderr)
+    return found
+
+
+def table(rounds):
+    """Medians of both sides, and median and range of the ratio within each round."""
+
+    def rounded(value):
+        return f"{value:.0f}" if value >= 1000 else f"{value:.3g}"
+
+    rows = []
+    for name in rounds[0]:
+        ours, theirs = zip(*(found[name] for found in rounds))
+        ratios = [mine / other for mine, other in zip(ours, theirs)]
+        what, against, wanted = COMPARISONS[name]
+        spread = f"{min(ratios):.2f} to {max(ratios):.2f}"
+        medians = [rounded(statistics.median(values)) for values in (ours, theirs)]
+        rows.append([what, medians[0], f"{against}: {medians[1]}", f"{statistics.median(ratios):.2f}", spread, wanted])
+    header = ["", "Treadmill", "compared with", "Treadmill ÷ that", "least to greatest", "wanted"]
+    return report.table(header, rows)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("treadmill", type=pathlib.Path, help="the built binary")
+    parser.add_argument("--rounds", type=int, default=5)
+    parser.add_argument("--updates", type=int, default=5, help="updates per candidate and round")
+    parser.add_argument("--calls", type=int, default=10_000, help="calls of the policy per candidate and round")
+    parser.add_argument("--train-steps", type=int, default=500_000, help="of Treadmill, per round")
+    parser.add_argument("--sb3-steps", type=int, default=20_480, help="of Stable-Baselines3, per round")
+    parser.add_argument("--without-training", action="store_true", help="only update and inference")
+    parser.add_argument("--cores", help="the two cores to use, as in 0,1; by default the first that are allowed")
+    parser.add_argument("--json", type=pathlib.Path, help="write all numbers here")
+    parser.add_argument("--doc", type=pathlib.Path, help="page whose generated part is replaced")
+    arguments = parser.parse_args()
+    allowed = sorted(os.sched_getaffinity(0))
+    cores = [int(core) for core in arguments.cores.split(",")] if arguments.cores else allowed
+    load = os.getloadavg()[0]
+    measures = sides(arguments, set(cores[:1]), set(cores[:2]))
+    rounds = [one_round(measures, number) for number in range(arguments.rounds)]
+    made = report.circumstances(REPOSITORY, PACKAGES, SOURCES)
+    lead = f"{report.made_by(made, PACKAGES)} {len(rounds)} rounds; load of the machine before: {load:.1f}."
+    text = f"{lead}\n\n{table(rounds)}"
+    print(text)
+    if arguments.json:
+        report.write_json(arguments.json, {"made": made, "load": load, "rounds": rounds})
+    if arguments.doc:
+        report.replace(arguments.doc, "speed.py", text)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,51 @@
+"""Plays an exported policy, without exploration, in the Gymnasium environment that it was trained for.
+
+Usage: treadmill export RUN --safetensors policy.safetensors
+       play.py policy.safetensors --env Humanoid-v5 [--kwargs JSON] [--episodes N] [--render]
+"""
+
+import argparse
+import json
+import sys
+from pathlib import Path
+
+import gymnasium
+import numpy as np
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[2]))
+
+from treadmill_actor.policy import Policy  # noqa: E402
+from treadmill_actor.task import describe  # noqa: E402
+
+flags = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+flags.add_argument("policy", type=Path)
+flags.add_argument("--env", required=True, help="as gymnasium.make takes it, with the module that registers it: MODULE:ID")
+flags.add_argument("--kwargs", type=json.loads, default={}, help="for gymnasium.make")
+flags.add_argument("--episodes", type=int, default=10)
+flags.add_argument("--seed", type=int, default=1)
+flags.add_argument("--render", action="store_true")
+args = flags.parse_args()
+policy, facts = Policy.from_export(args.policy.read_bytes())
+env = gymnasium.make(args.env, render_mode="human" if args.render else None, **args.kwargs)
+task = describe(env, facts.get("task", {}).get("name", "unknown"))
+if (task.observation_size, task.action_size) != (policy.observation_size, policy.action_size):
+    sys.exit(
+        f"error: the policy was trained for {policy.observation_size} observations and {policy.action_size} actions, and "
+        f"`{args.env}` has {task.observation_size} and {task.action_size}"
+    )
+returns, lengths, distances = [], [], []
+for episode in range(args.episodes):
+    observation, info = env.reset(seed=args.seed + episode)
+    start = info.get("x_position", 0.0)
+    total, length, over = 0.0, 0, False
+    while not over:
+        actions = task.to_env(policy.means(np.float32(observation).reshape(1, -1)))
+        observation, reward, terminated, truncated, info = env.step(actions[0].reshape(env.action_space.shape))
+        total, length, over = total + float(reward), length + 1, terminated or truncated
+    returns.append(total)
+    lengths.append(length)
+    distances.append(info.get("x_position", 0.0) - start)
+print(
+    f"return {np.mean(returns):.1f} ± {np.std(returns):.1f}, length {np.mean(lengths):.1f}, "
+    f"distance {np.mean(distances):.2f} m, {args.episodes} episodes"
+)

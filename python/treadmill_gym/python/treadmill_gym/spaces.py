@@ -1,0 +1,54 @@
+"""Spaces, and what else one humanoid and several have in common."""
+
+import numpy as np
+from gymnasium.spaces import Box
+
+#: Control steps per second, rounded as Gymnasium does it.
+RENDER_FPS = 67
+
+#: Episode seeds are drawn below this.
+SEEDS = 2**63
+
+
+def observation_space(native):
+    """No bounds, and 64 bits although 32 are calculated: equal to Gymnasium's, so that models fit both."""
+    size = sum(size for _, size in native.blocks)
+    return Box(-np.inf, np.inf, (size,), np.float64)
+
+
+def action_space(native):
+    """The controls of the motors."""
+    low, high = np.array(native.action_ranges, np.float32).reshape(-1, 2).T.copy()
+    return Box(low, high, dtype=np.float32)
+
+
+def observation_structure(native, exclude_current_positions_from_observation=True, **_):
+    """Sizes of the blocks of an observation, as Gymnasium's attribute of that name has them."""
+    sizes = dict.fromkeys(("qpos", "qvel", "cinert", "cvel", "qfrc_actuator", "cfrc_ext", "ten_length", "ten_velocity"), 0)
+    return {"skipped_qpos": 2 * bool(exclude_current_positions_from_observation)} | sizes | dict(native.blocks)
+
+
+def check_render_mode(render_mode, modes):
+    """Refuses an unknown render mode."""
+    if render_mode is not None and render_mode not in modes:
+        allowed = ", ".join(repr(mode) for mode in modes)
+        raise ValueError(f"render_mode is {render_mode!r}, but must be None or one of {allowed}")
+
+
+def check_options(options, known=()):
+    """Refuses options of `reset` that nothing would look at."""
+    for name in options or {}:
+        if name not in known:
+            allowed = ", ".join(known) or "none"
+            raise ValueError(f"reset option `{name}` is not known; known options: {allowed}")
+
+
+def as_actions(actions, shape, name):
+    """Actions as the native part takes them; what is no number in it is refused there."""
+    try:
+        array = np.ascontiguousarray(actions, np.float32)
+    except (TypeError, ValueError) as why:
+        raise ValueError(f"{name} cannot be read as numbers: {why}") from why
+    if array.shape != shape:
+        raise ValueError(f"{name} has the shape {np.shape(actions)}, but must have {shape}")
+    return array

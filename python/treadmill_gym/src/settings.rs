@@ -1,0 +1,202 @@
+//! Keyword arguments → settings and model, with an error that names the keyword, its value and what is allowed.
+
+use std::{error::Error, fmt::Write, io, ops::RangeInclusive, path::Path};
+
+use pyo3::{
+    exceptions::{PyFileNotFoundError, PyOSError, PyTypeError, PyValueError},
+    prelude::*,
+    types::{PyBool, PyDict},
+};
+use treadmill_humanoid::{
+    CONTROL_STEP_S, Environment, EnvironmentConfig, HUMANOID_XML, ModelError, ObservationKind, Task, read_model_file,
+};
+
+/// Every keyword, for the error about one that is not known.
+const KEYWORDS: &str = "contact_cost_range, contact_cost_weight, ctrl_cost_weight, \
+    exclude_current_positions_from_observation, forward_reward_weight, frame_skip, healthy_reward, healthy_z_range, \
+    include_cfrc_ext_in_observation, include_cinert_in_observation, include_cvel_in_observation, \
+    include_qfrc_actuator_in_observation, observation, reset_noise_scale, self_collision, solver_iterations, substeps, \
+    task, terminate_when_unhealthy, xml_file";
+
+/// Gymnasium's name of the file that comes along: the built-in model has the same body.
+const BUILT_IN: &str = "humanoid.xml";
+/// Gymnasium's number of physics steps in a control step; the only one that means the control step that is simulated here.
+const FRAME_SKIP: u32 = 5;
+
+/// Physics steps in a control step, and passes of the solver in a physics step.
+const REPEATS: RangeInclusive<u32> = 1..=1000;
+
+/// What the keyword arguments ask for.
+pub struct EnvironmentSettings {
+    config: EnvironmentConfig,
+    model_xml: String,
+    /// Where the model came from, if not with us.
+    file: Option<String>,
+}
+
+impl EnvironmentSettings {
+    /// Reads keyword arguments; missing ones have their defaults. After `max_episode_steps` an episode is truncated;
+    /// 0 means never.
+    ///
+    /// # Errors
+    /// `TypeError` for a keyword that is not known, `ValueError` for a value that is not allowed, `OSError` for a model
+    /// file that cannot be read.
+    pub fn read(keywords: &Bound<'_, PyDict>, max_episode_steps: u32) -> PyResult<Self> {
+        let mut config = EnvironmentConfig {
+            observation: ObservationKind::GymnasiumV5,
+            max_episode_steps,
+            ..EnvironmentConfig::default()
+        };
+        let mut file = None;
+        for (name, value) in keywords.iter() {
+            let name: String = name.extract()?;
+            let given = Given { name: &name, value };
+            match name.as_str() {
+                "task" => config.task = given.choice(&TASKS)?,
+                "observation" => config.observation = given.choice(&OBSERVATIONS)?,
+                "forward_reward_weight" => config.forward_reward_weight = given.number()?,
+                "ctrl_cost_weight" => config.ctrl_cost_weight = given.number()?,
+                "contact_cost_weight" => config.contact_cost_weight = given.number()?,
+                "contact_cost_range" => config.contact_cost_range = given.range()?,
+                "healthy_reward" => config.healthy_reward = given.number()?,
+                "terminate_when_unhealthy" => config.terminate_when_unhealthy = given.flag()?,
+                "healthy_z_range" => config.healthy_z_range = given.range()?,
+                "reset_noise_scale" => config.reset_noise_scale = given.number()?,
+                "exclude_current_positions_from_observation" => {
+                    config.exclude_current_positions_from_observation = given.flag()?;
+                }
+                "include_cinert_in_observation" => config.include_cinert_in_observation = given.flag()?,
+                "include_cvel_in_observation" => config.include_cvel_in_observation = given.flag()?,
+                "include_qfrc_actuator_in_observation" => config.include_qfrc_actuator_in_observation = given.flag()?,
+                "include_cfrc_ext_in_observation" => config.include_cfrc_ext_in_observation = given.flag()?,
+                "substeps" => config.substeps = given.whole(REPEATS)?,
+                "solver_iterations" => config.solver_iterations = given.whole(REPEATS)?,
+                "self_collision" => config.self_collision = given.flag()?,
+                "frame_skip" => given.frame_skip()?,
+                "xml_file" => file = given.file()?,
+                _ => {
+                    let why =
+                        format!("unknown keyword argument `{name}`; allowed beside those of pictures: {KEYWORDS}");
+                    return Err(PyTypeError::new_err(why));
+                }
+            }
+        }
+        let model_xml = match &file {
+            Some(path) => read_model_file(Path::new(path)).map_err(|why| refusal(&why, Some(path)))?,
+            None => HUMANOID_XML.to_owned(),
+        };
+        Ok(Self { config, model_xml, file })
+    }
+
+    /// Builds one environment.
+    ///
+    /// # Errors
+    /// `ValueError` for settings or a model that cannot be simulated, or under which every episode would end at once.
+    pub fn environment(&self) -> PyResult<Environment> {
+        let file = self.file.as_deref();
+        let environment = Environment::new(&self.config, &self.model_xml).map_err(|why| refusal(&why, file))?;
+        let height_m = environment.physics().model().nominal_position()[2];
+        let [low_m, high_m] = self.config.healthy_z_range;
+        if self.config.terminate_when_unhealthy && !(low_m < height_m && height_m < high_m) {
+            return Err(PyValueError::new_err(format!(
+                "healthy_z_range is ({low_m}, {high_m}), but the robot starts with its root at {height_m} m, so that every \
+                 episode would end at once; say healthy_z_range=({:.2}, {:.2}), for example",
+                0.7 * height_m,
+                1.4 * height_m
+            )));
+        }
+        Ok(environment)
+    }
+}
+
+const TASKS: [(&str, Task); 2] = [("humanoid-v5", Task::HumanoidV5), ("humanoid-v4", Task::HumanoidV4)];
+const OBSERVATIONS: [(&str, ObservationKind); 3] = [
+    ("gymnasium-v5", ObservationKind::GymnasiumV5),
+    ("gymnasium-v4", ObservationKind::GymnasiumV4),
+    ("compact", ObservationKind::Compact),
+];
+
+/// A keyword argument.
+pub struct Given<'a, 'py> {
+    /// Its name.
+    pub name: &'a str,
+    /// What was given.
+    pub value: Bound<'py, PyAny>,
+}
+
+impl Given<'_, '_> {
+    /// The error about it.
+    pub fn refuse(&self, expected: &str) -> PyErr {
+        let value = self.value.repr().map_or_else(|_| "unprintable".to_owned(), |text| text.to_string());
+        PyValueError::new_err(format!("{} is {value}, but must be {expected}", self.name))
+    }
+
+    fn number(&self) -> PyResult<f64> {
+        let number = (!self.value.is_instance_of::<PyBool>()).then(|| self.value.extract().ok()).flatten();
+        number.ok_or_else(|| self.refuse("a number"))
+    }
+
+    fn range(&self) -> PyResult<[f64; 2]> {
+        self.value.extract().map_err(|_| self.refuse("two numbers, the lowest and the highest"))
+    }
+
+    fn flag(&self) -> PyResult<bool> {
+        self.value.extract().map_err(|_| self.refuse("True or False"))
+    }
+
+    /// A whole number in a range.
+    pub fn whole(&self, range: RangeInclusive<u32>) -> PyResult<u32> {
+        let number = (!self.value.is_instance_of::<PyBool>()).then(|| self.value.extract().ok()).flatten();
+        let (low, high) = (range.start(), range.end());
+        number
+            .filter(|number| range.contains(number))
+            .ok_or_else(|| self.refuse(&format!("a whole number between {low} and {high}")))
+    }
+
+    fn choice<T: Copy>(&self, choices: &[(&str, T)]) -> PyResult<T> {
+        let text: Option<String> = self.value.extract().ok();
+        choices.iter().find(|(name, _)| text.as_deref() == Some(*name)).map(|(_, choice)| *choice).ok_or_else(|| {
+            let names: Vec<_> = choices.iter().map(|(name, _)| format!("'{name}'")).collect();
+            self.refuse(&format!("one of {}", names.join(", ")))
+        })
+    }
+
+    fn frame_skip(&self) -> PyResult<()> {
+        match self.whole(REPEATS) {
+            Ok(FRAME_SKIP) => Ok(()),
+            _ => Err(self.refuse(&format!(
+                "{FRAME_SKIP}: a control step takes {CONTROL_STEP_S} s here, always; `substeps` says in how many steps physics \
+                 does that"
+            ))),
+        }
+    }
+
+    /// The path of a model file; `None` for the built-in model.
+    fn file(&self) -> PyResult<Option<String>> {
+        let path = self.value.py().import("os")?.call_method1("fspath", (&self.value,));
+        let path: Option<String> = path.and_then(|path| path.extract()).ok();
+        let path = path.ok_or_else(|| self.refuse("the path of an MJCF file"))?;
+        Ok((path != BUILT_IN).then_some(path))
+    }
+}
+
+/// The error with its causes, as Python raises it.
+fn refusal(why: &ModelError, file: Option<&str>) -> PyErr {
+    let mut told = match file {
+        Some(path) => format!("xml_file `{path}`: {why}"),
+        None => why.to_string(),
+    };
+    let mut cause = why.source();
+    while let Some(why) = cause {
+        // Writing to a string cannot fail.
+        let _ = write!(told, ": {why}");
+        cause = why.source();
+    }
+    match why {
+        ModelError::File { source, .. } if source.kind() == io::ErrorKind::NotFound => {
+            PyFileNotFoundError::new_err(told)
+        }
+        ModelError::File { .. } => PyOSError::new_err(told),
+        _ => PyValueError::new_err(told),
+    }
+}

@@ -1,0 +1,259 @@
+//! `treadmill status --watch` on a terminal of its own: what is to be seen there, and what is left of it.
+
+#[path = "../../src/status/screen.rs"]
+#[allow(dead_code, reason = "what asks for a terminal is tried through the binary")]
+mod screen;
+
+use std::{
+    fs::File,
+    io::{Read, Write},
+    num::NonZeroU16,
+    os::{
+        fd::{AsRawFd, FromRawFd, OwnedFd},
+        unix::process::CommandExt,
+    },
+    path::Path,
+    process::{Child, Command, ExitStatus},
+    sync::{Arc, Mutex},
+};
+
+use crate::support::*;
+
+const ENDLESS: &str = "1000000000";
+
+fn length(characters: u16) -> NonZeroU16 {
+    NonZeroU16::new(characters).expect("a terminal has characters")
+}
+
+/// Both ends of a new pseudo-terminal of 80 × 24 characters: the viewer's and the program's.
+fn pseudo_terminal() -> [OwnedFd; 2] {
+    let (mut outer, mut inner) = (-1, -1);
+    let size = libc::winsize { ws_row: 24, ws_col: 80, ws_xpixel: 0, ws_ypixel: 0 };
+    let (no_name, usual) = (std::ptr::null_mut(), std::ptr::null());
+    // SAFETY: two numbers are written and a structure is read; both descriptors that come back are open and ours alone.
+    unsafe {
+        assert_eq!(libc::openpty(&mut outer, &mut inner, no_name, usual, &size), 0);
+        [outer, inner].map(|descriptor| OwnedFd::from_raw_fd(descriptor))
+    }
+}
+
+/// A terminal with our program on it.
+struct Terminal {
+    keyboard: File,
+    screen: Arc<Mutex<vt100::Parser>>,
+    child: Child,
+}
+
+impl Terminal {
+    /// Starts on 80 × 24 characters.
+    fn start(folder: &Path, args: &[&str], variables: &[(&str, &str)]) -> Self {
+        let mut command = treadmill(folder);
+        command.args(args).env_remove("NO_COLOR").envs(variables.iter().copied());
+        Self::start_this(command)
+    }
+
+    fn start_this(mut command: Command) -> Self {
+        let [outer, inner] = pseudo_terminal();
+        command.env("TERM", "xterm-256color");
+        command.stdin(inner.try_clone().unwrap()).stdout(inner.try_clone().unwrap()).stderr(inner);
+        // SAFETY: two calls to the system, which take numbers; the second makes standard input the controlling terminal.
+        unsafe {
+            command.pre_exec(|| match libc::setsid() < 0 || libc::ioctl(0, libc::TIOCSCTTY, 0) < 0 {
+                true => Err(std::io::Error::last_os_error()),
+                false => Ok(()),
+            });
+        }
+        let child = command.spawn().expect("the binary starts");
+        // What the command still holds of the terminal would keep it open.
+        drop(command);
+        let keyboard = File::from(outer);
+        let screen = Arc::new(Mutex::new(vt100::Parser::new(length(24), length(80), 0)));
+        std::thread::spawn({
+            let (mut output, screen) = (keyboard.try_clone().unwrap(), screen.clone());
+            move || {
+                let mut bytes = [0; 4096];
+                // A read from a terminal that no process has open any more ends with an error.
+                while let Ok(count @ 1..) = output.read(&mut bytes) {
+                    screen.lock().unwrap().process(&bytes[..count]);
+                }
+            }
+        });
+        Self { keyboard, screen, child }
+    }
+
+    fn types(&mut self, keys: &str) {
+        self.keyboard.write_all(keys.as_bytes()).unwrap();
+    }
+
+    /// Another size, of which the program is told by a signal.
+    fn resize(&self, rows: u16, columns: u16) {
+        self.screen.lock().unwrap().screen_mut().set_size(length(rows), length(columns));
+        let size = libc::winsize { ws_row: rows, ws_col: columns, ws_xpixel: 0, ws_ypixel: 0 };
+        // SAFETY: the descriptor is open, and the kernel reads one structure.
+        assert_eq!(unsafe { libc::ioctl(self.keyboard.as_raw_fd(), libc::TIOCSWINSZ, &raw const size) }, 0);
+    }
+
+    fn text(&self) -> String {
+        self.screen.lock().unwrap().screen().contents()
+    }
+
+    /// Waits until all of this is to be seen.
+    fn shows(&self, parts: &[&str]) -> String {
+        let mut seen = String::new();
+        let found = || {
+            seen = self.text();
+            parts.iter().all(|part| seen.contains(part)).then_some(())
+        };
+        let waited =
+            std::panic::catch_unwind(std::panic::AssertUnwindSafe(|| await_that(&format!("{parts:?}"), found)));
+        assert!(waited.is_ok(), "{parts:?} are not all in\n{seen}");
+        seen
+    }
+
+    fn is_coloured(&self) -> bool {
+        let screen = self.screen.lock().unwrap();
+        let mut cells = (0..24).flat_map(|row| (0..80).map(move |column| (row, column)));
+        cells.any(|(row, column)| {
+            screen.screen().cell(row, column).is_some_and(|cell| cell.fgcolor() != vt100::Color::Default)
+        })
+    }
+
+    fn is_raw(&self) -> bool {
+        let mut settings = std::mem::MaybeUninit::<libc::termios>::uninit();
+        // SAFETY: the descriptor is open, and the structure is filled where the call succeeds.
+        let settings = unsafe {
+            assert_eq!(libc::tcgetattr(self.keyboard.as_raw_fd(), settings.as_mut_ptr()), 0);
+            settings.assume_init()
+        };
+        settings.c_lflag & (libc::ICANON | libc::ECHO) == 0
+    }
+
+    /// Waits for the end, and asserts that the terminal is as it was.
+    fn end_as_it_began(mut self) -> ExitStatus {
+        let status = await_that("the end", || self.child.try_wait().unwrap());
+        await_that("the screen from before", || {
+            let screen = self.screen.lock().unwrap();
+            (!screen.screen().alternate_screen() && !screen.screen().hide_cursor()).then_some(())
+        });
+        assert!(!self.is_raw(), "what is typed is echoed again");
+        status
+    }
+}
+
+impl Drop for Terminal {
+    fn drop(&mut self) {
+        let _ = self.child.kill();
+        let _ = self.child.wait();
+    }
+}
+
+fn train(folder: &Path, args: &[&str]) -> Running {
+    let mut command = treadmill(folder);
+    command.args(["train", "--steps", ENDLESS]).args(args);
+    Running::start(command)
+}
+
+#[test]
+fn a_run_is_watched_resized_explained_and_left() {
+    let (folder, run) = folders();
+    let _training = train(folder.path(), &["--preset", "smoke", "--run-dir", "run"]);
+    await_steps(&run, 512);
+    let mut terminal = Terminal::start(folder.path(), &["status", "run", "--watch"], &[]);
+    // The second time it is told how many fragments came in between.
+    let seen = terminal.shows(&[
+        "run  training",
+        "of 1.00G steps",
+        "actor-0",
+        "actor-1",
+        "alive",
+        "return ",
+        "lag 0.00 mean  0 █100%",
+    ]);
+    assert!(terminal.is_coloured() && terminal.is_raw() && terminal.screen.lock().unwrap().screen().alternate_screen());
+    let steps = |seen: &str| -> u64 {
+        let (before, _) = seen.split_once(" of 1.00G steps").expect("the steps");
+        let figures = before.rsplit_once("%  ").expect("the share before them").1;
+        figures.replace(' ', "").parse().unwrap()
+    };
+    let before = steps(&seen);
+    await_that("steps that grow", || (steps(&terminal.text()) > before).then_some(()));
+    let seen = terminal.shows(&[" MB/s", " fragments/s"]);
+    assert!(!seen.contains('\u{1b}') && seen.lines().count() <= 24, "{seen}");
+
+    terminal.types("?");
+    terminal.shows(&["leave; the runs go on"]);
+    terminal.types("\u{1b}");
+    await_that("the explanation is gone", || (!terminal.text().contains("leave; the runs")).then_some(()));
+    terminal.resize(10, 40);
+    terminal.shows(&["run  training", "of 1.00G", "actor-0", "frag/s"]);
+    terminal.resize(5, 30);
+    terminal.shows(&["This needs 40×10 characters;", "30×5"]);
+    terminal.resize(24, 80);
+    terminal.shows(&["of 1.00G steps"]);
+    terminal.types("q");
+    assert_eq!(terminal.end_as_it_began().code(), Some(0));
+}
+
+#[test]
+fn a_learner_that_comes_back_elsewhere_is_found() {
+    let (folder, run) = folders();
+    let training = train(folder.path(), &["--preset", "smoke", "--run-dir", "run"]);
+    await_steps(&run, 512);
+    let terminal = Terminal::start(folder.path(), &["status", "run", "--watch"], &[("NO_COLOR", "1")]);
+    let seen = terminal.shows(&["run  training", "actor-0"]);
+    assert!(!seen.contains("gone"), "{seen}");
+    assert!(!terminal.is_coloured());
+    let first = endpoint(&run);
+    training.signal(libc::SIGTERM);
+    assert!(training.wait().0.success());
+    terminal.shows(&["run  learner gone, silent for"]);
+    let _resumed = train(folder.path(), &["--resume", "run"]);
+    await_that("another endpoint", || (endpoint(&run) != first).then_some(()));
+    terminal.shows(&["run  training", "actor-0"]);
+    // A signal from outside also restores the terminal.
+    send_signal(terminal.child.id(), libc::SIGTERM);
+    assert_eq!(terminal.end_as_it_began().code(), Some(0));
+}
+
+#[test]
+fn where_there_is_no_terminal_plain_lines_come_and_errors_leave_it_alone() {
+    let (folder, run) = folders();
+    let _training = train(folder.path(), &["--preset", "smoke", "--run-dir", "run"]);
+    await_steps(&run, 512);
+    let mut command = treadmill(folder.path());
+    command.args(["status", "run", "--watch"]);
+    let piped = Running::start(command);
+    for _ in 0..2 {
+        let line = piped.wait_for("run `run` trains on");
+        assert!(!line.contains('\u{1b}'), "{line:?}");
+        piped.wait_for("actor-0");
+    }
+    let unanswered = Terminal::start(folder.path(), &["status", "--watch", "--connect", "tcp/127.0.0.1:1"], &[]);
+    unanswered.shows(&["error: nobody answers at tcp/127.0.0.1:1"]);
+    assert_eq!(unanswered.end_as_it_began().code(), Some(1));
+}
+
+/// Set where this program is to take the terminal and panic.
+const PANICS: &str = "TREADMILL_TEST_PANICS";
+
+#[test]
+fn a_panic_is_told_on_a_terminal_that_was_given_back() {
+    if std::env::var_os(PANICS).is_some() {
+        let mut screen = screen::Screen::open().expect("a terminal");
+        screen.draw(|frame| frame.render_widget("drawn before", frame.area())).expect("it is drawn");
+        let mut answer = String::new();
+        std::io::stdin().read_line(&mut answer).expect("the test types a line");
+        panic!("as planned");
+    }
+    let mut command = Command::new(std::env::current_exe().unwrap());
+    command
+        .args(["--exact", "dashboard::a_panic_is_told_on_a_terminal_that_was_given_back", "--nocapture"])
+        .env(PANICS, "yes");
+    let mut terminal = Terminal::start_this(command);
+    terminal.shows(&["drawn before"]);
+    assert!(terminal.is_raw() && terminal.screen.lock().unwrap().screen().alternate_screen());
+    terminal.types("\n");
+    let seen = terminal.shows(&["as planned"]);
+    assert!(!seen.contains("drawn before"), "{seen}");
+    assert_ne!(terminal.end_as_it_began().code(), Some(0));
+}

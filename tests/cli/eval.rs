@@ -1,0 +1,129 @@
+//! `eval`: the policy, the baselines, and checkpoints that cannot be used.
+
+use std::{fs, path::Path};
+
+use crate::support::*;
+use treadmill_learner::checkpoint::{encoding, load_file};
+
+fn trained(folder: &Path, run: &Path) {
+    let args = ["train", "--preset", "smoke", "--steps", "1024", "--run-dir", run.to_str().unwrap()];
+    assert!(self::run(folder, &args).status.success());
+}
+
+#[test]
+fn random_actions_are_told_as_the_first_and_every_hundredth_step() {
+    let (folder, _) = folders();
+    let output = self::run(folder.path(), &["eval", "--agent", "random", "--episodes", "2", "--print-every", "5"]);
+    assert!(output.status.success(), "{}", stderr(&output));
+    let text = stdout(&output);
+    let told: Vec<&str> = text.lines().filter(|line| line.starts_with("episode   1")).collect();
+    assert!(told[0].contains("step    1") && told[1].contains("step    5") && told[2].contains("step   10"), "{text}");
+    assert!(told[0].contains("reward") && told[0].contains("total"));
+    assert!(text.contains("distance") && text.contains("limit overshoot"), "{text}");
+    let default = stdout(&self::run(folder.path(), &["eval", "--agent", "random", "--episodes", "1"]));
+    assert_eq!(
+        default.lines().filter(|line| line.starts_with("episode   1")).count(),
+        1,
+        "random actions fall before step 100"
+    );
+}
+
+#[test]
+fn every_agent_gives_the_promised_fields_and_repeats_with_its_seed() {
+    let (folder, run) = folders();
+    trained(folder.path(), &run);
+    let run_name = run.to_str().unwrap();
+    for agent in ["policy", "random", "preferred-action"] {
+        let play = |seed: &str| {
+            let args = ["eval", run_name, "--agent", agent, "--episodes", "3", "--seed", seed, "--json"];
+            let output = self::run(folder.path(), &args);
+            assert_eq!(stdout(&output).lines().count(), 1, "{}", stderr(&output));
+            last_json(&output)
+        };
+        let result = play("1");
+        assert_eq!((&result["agent"], &result["episodes"]), (&agent.into(), &3.into()));
+        for field in [
+            "return_mean",
+            "return_std",
+            "length_mean",
+            "distance_mean_m",
+            "velocity_mean_mps",
+            "limit_overshoot_p999_rad",
+        ] {
+            assert!(result[field].is_f64(), "{field} in {result}");
+        }
+        assert!(result["falls"].is_u64());
+        assert!(result["length_mean"].as_f64().unwrap() > 5.0);
+        assert_eq!(result, play("1"));
+        assert_ne!(result["return_mean"], play("2")["return_mean"]);
+    }
+}
+
+#[test]
+fn episodes_are_randomised_only_where_that_is_asked_for() {
+    let (folder, run) = folders();
+    let run_name = run.to_str().unwrap();
+    let train = ["train", "--preset", "smoke", "--steps", "1024", "--run-dir", run_name];
+    let pushes = ["--set", "randomisation.push_mps=[2, 3]", "--set", "randomisation.push_interval_s=[0.1, 0.2]"];
+    let trained = self::run(folder.path(), &[&train[..], &pushes[..]].concat());
+    assert!(trained.status.success(), "{}", stderr(&trained));
+    let play = |more: &[&str]| {
+        let output = self::run(folder.path(), &[&["eval", run_name, "--episodes", "2", "--json"], more].concat());
+        assert!(output.status.success(), "{}", stderr(&output));
+        last_json(&output)
+    };
+    let (plain, pushed) = (play(&[]), play(&["--randomised"]));
+    assert_ne!(plain["return_mean"], pushed["return_mean"]);
+    assert_eq!(pushed, play(&["--randomised"]), "the same seed gives the same pushes");
+    assert_eq!(pushed, play(&pushes), "the same ranges give the same episodes");
+    assert_eq!(plain, play(&["--set", "randomisation.push_mps=[0, 0]"]));
+    assert_eq!(play(&["--set", "env.max_episode_steps=3"])["length_mean"], 3.0);
+
+    let refused = |args: &[&str], parts: &[&str]| assert_refused(&self::run(folder.path(), args), 2, parts);
+    refused(&["eval", "--agent", "random", "--randomised"], &["--randomised", "randomised nothing", "--set"]);
+    refused(&["eval", run_name, "--set", "ppo.gamma=0.5"], &["ppo.gamma=0.5", "[env] and [randomisation]"]);
+    refused(&["eval", run_name, "--set", "randomisation.push_mps=[3, 2]"], &["push_mps", "[smallest, largest]"]);
+}
+
+#[test]
+fn a_bundle_file_can_be_played_by_itself() {
+    let (folder, run) = folders();
+    trained(folder.path(), &run);
+    let file = run.join("checkpoints/latest.bundle");
+    let output = self::run(folder.path(), &["eval", file.to_str().unwrap(), "--episodes", "1", "--json"]);
+    assert_eq!(last_json(&output)["episodes"], 1);
+}
+
+#[test]
+fn unusable_checkpoints_are_named_with_what_is_wrong() {
+    let (folder, run) = folders();
+    trained(folder.path(), &run);
+    let run_name = run.to_str().unwrap();
+    let latest = run.join("checkpoints/latest.bundle");
+    let sound = fs::read(&latest).unwrap();
+    let eval = || self::run(folder.path(), &["eval", run_name, "--checkpoint", "latest"]);
+    let resume = || self::run(folder.path(), &["train", "--resume", run_name, "--steps", "2048"]);
+
+    fs::write(&latest, &sound[..sound.len() / 2]).unwrap();
+    assert_refused(&eval(), 1, &["latest.bundle", "truncated"]);
+    assert_refused(&resume(), 1, &["latest.bundle", "truncated"]);
+
+    let mut other = {
+        fs::write(&latest, &sound).unwrap();
+        load_file(&latest).unwrap()
+    };
+    other.shape.hidden = vec![16, 16];
+    fs::write(&latest, encoding::encode(&other).unwrap()).unwrap();
+    assert_refused(&eval(), 1, &["latest.bundle", "does not fit its network", "parameters"]);
+    assert_refused(&resume(), 1, &["latest.bundle", "does not fit its network"]);
+
+    fs::remove_file(&latest).unwrap();
+    assert_refused(&eval(), 1, &["no checkpoint", "latest.bundle"]);
+    let numbered = self::run(folder.path(), &["eval", run_name, "--checkpoint", "99"]);
+    assert_refused(&numbered, 1, &["no checkpoint", "00000099.bundle"]);
+    assert_refused(
+        &self::run(folder.path(), &["eval", run_name, "--checkpoint", "newest"]),
+        2,
+        &["newest", "best, latest"],
+    );
+}

@@ -1,0 +1,243 @@
+//! `export`: the file can be played with the same result, read without this program, and is refused when it is bad.
+
+use std::{
+    fs,
+    path::{Path, PathBuf},
+    process::{Command, Output},
+};
+
+use crate::support::*;
+use serde_json::Value;
+
+fn trained(folder: &Path, run: &Path) {
+    let args = ["train", "--preset", "smoke", "--steps", "2048", "--run-dir", run.to_str().unwrap()];
+    assert!(self::run(folder, &args).status.success());
+}
+
+fn export(folder: &Path, run: &str, file: &Path) -> Vec<u8> {
+    let output = self::run(folder, &["export", run, "--safetensors", file.to_str().unwrap()]);
+    assert!(output.status.success(), "{}", stderr(&output));
+    assert!(stdout(&output).contains(file.to_str().unwrap()));
+    fs::read(file).unwrap()
+}
+
+/// A safetensors file as its header says: first the header's length, then the header, then the numbers.
+struct Tensors {
+    header: Value,
+    data: Vec<u8>,
+}
+
+impl Tensors {
+    fn parse(bytes: &[u8]) -> Self {
+        let length = u64::from_le_bytes(bytes[..8].try_into().unwrap()) as usize;
+        Self { header: serde_json::from_slice(&bytes[8..8 + length]).unwrap(), data: bytes[8 + length..].to_vec() }
+    }
+
+    fn numbers(&self, name: &str) -> Vec<f64> {
+        let place = &self.header[name]["data_offsets"];
+        let bytes = &self.data[place[0].as_u64().unwrap() as usize..place[1].as_u64().unwrap() as usize];
+        match self.header[name]["dtype"].as_str().unwrap() {
+            "F32" => bytes.as_chunks::<4>().0.iter().map(|number| f64::from(f32::from_le_bytes(*number))).collect(),
+            _ => bytes.as_chunks::<8>().0.iter().map(|number| f64::from_le_bytes(*number)).collect(),
+        }
+    }
+
+    /// The action means for a raw observation, as the file's documentation says.
+    fn act(&self, facts: &Value, observation: &[f64]) -> Vec<f64> {
+        let clip = facts["observation"]["clip"].as_f64().unwrap();
+        let epsilon = facts["observation"]["variance_epsilon"].as_f64().unwrap();
+        let (mean, variance) = (self.numbers("observation.mean"), self.numbers("observation.variance"));
+        let mut row: Vec<f64> = observation
+            .iter()
+            .zip(mean.iter().zip(&variance))
+            .map(|(x, (mean, variance))| ((x - mean) / (variance + epsilon).sqrt()).clamp(-clip, clip))
+            .collect();
+        let layers = facts["network"]["hidden"].as_array().unwrap().len() + 1;
+        for layer in 0..layers {
+            let weight = self.numbers(&format!("actor.{layer}.weight"));
+            let bias = self.numbers(&format!("actor.{layer}.bias"));
+            let inputs = row.len();
+            row = weight
+                .chunks(inputs)
+                .zip(bias)
+                .map(|(weights, bias)| bias + weights.iter().zip(&row).map(|(w, x)| w * x).sum::<f64>())
+                .map(|x| if layer + 1 < layers && x < 0.0 { x.exp_m1() } else { x })
+                .collect();
+        }
+        row
+    }
+}
+
+#[test]
+fn an_exported_policy_plays_the_episodes_of_its_run_and_is_the_same_file_every_time() {
+    let (folder, run) = folders();
+    trained(folder.path(), &run);
+    let (one, two) = (folder.path().join("one.safetensors"), folder.path().join("elsewhere.bin"));
+    let bytes = export(folder.path(), run.to_str().unwrap(), &one);
+    assert_eq!(export(folder.path(), run.to_str().unwrap(), &two), bytes);
+    let bundle = run.join("checkpoints/latest.bundle");
+    assert_eq!(export(folder.path(), bundle.to_str().unwrap(), &two), bytes);
+    assert_eq!(export(folder.path(), one.to_str().unwrap(), &two), bytes);
+
+    // The same policy in a run of another name, at another time.
+    let moved = folder.path().join("another-name");
+    fs::rename(&run, &moved).unwrap();
+    assert_eq!(export(folder.path(), "another-name", &two), bytes);
+
+    let play = |what: &str, more: &[&str]| {
+        let args = [&["eval", what, "--episodes", "3", "--seed", "5", "--json"], more].concat();
+        let output = self::run(folder.path(), &args);
+        assert!(output.status.success(), "{}", stderr(&output));
+        last_json(&output)
+    };
+    let result = play("another-name", &["--checkpoint", "latest"]);
+    assert_eq!(play(one.to_str().unwrap(), &[]), result);
+    assert_eq!(play(two.to_str().unwrap(), &[]), result);
+}
+
+#[test]
+fn the_file_alone_gives_the_actions_of_the_policy() {
+    let (folder, run) = folders();
+    trained(folder.path(), &run);
+    let (file, trace) = (folder.path().join("policy.safetensors"), folder.path().join("trace.jsonl"));
+    let tensors = Tensors::parse(&export(folder.path(), run.to_str().unwrap(), &file));
+    let text = tensors.header["__metadata__"]["treadmill"].as_str().unwrap();
+    let facts: Value = serde_json::from_str(text).unwrap();
+    assert_eq!(facts["action"]["names"][0], "abdomen_y");
+    assert_eq!(facts["action"]["high"][16], 0.4);
+    assert_eq!(facts["env"]["healthy_reward"], 5.0);
+
+    let args = ["eval", file.to_str().unwrap(), "--episodes", "1", "--trace", trace.to_str().unwrap()];
+    assert!(self::run(folder.path(), &args).status.success());
+    let numbers =
+        |value: &Value| -> Vec<f64> { value.as_array().unwrap().iter().map(|x| x.as_f64().unwrap()).collect() };
+    let lines = fs::read_to_string(&trace).unwrap();
+    let mut largest = 0.0f64;
+    for line in lines.lines() {
+        let step: Value = serde_json::from_str(line).unwrap();
+        let expected = tensors.act(&facts, &numbers(&step["observation"]));
+        for (found, expected) in numbers(&step["action"]).iter().zip(&expected) {
+            assert!((found - expected).abs() < 1e-5, "{found} is not {expected}");
+            largest = largest.max(found.abs());
+        }
+    }
+    assert!(lines.lines().count() > 5 && largest > 1e-3, "{largest}");
+}
+
+#[test]
+fn unusable_files_are_named_with_what_is_wrong() {
+    let (folder, run) = folders();
+    trained(folder.path(), &run);
+    let file = folder.path().join("policy.safetensors");
+    let sound = export(folder.path(), run.to_str().unwrap(), &file);
+    let eval = |bytes: &[u8]| {
+        fs::write(&file, bytes).unwrap();
+        self::run(folder.path(), &["eval", file.to_str().unwrap(), "--episodes", "1"])
+    };
+    assert_refused(&eval(&sound[..sound.len() / 2]), 1, &["policy.safetensors", "truncated"]);
+    assert_refused(&eval(b""), 1, &["policy.safetensors", "truncated"]);
+    assert_refused(&eval(b"\x02\0\0\0\0\0\0\0{}"), 1, &["`treadmill export` did not write it"]);
+
+    // The numbers of the first tensor begin where the header ends: there a NaN is put.
+    let mut broken = sound.clone();
+    let place = Tensors::parse(&sound).header["log_std"]["data_offsets"][0].as_u64().unwrap() as usize;
+    let at = sound.len() - Tensors::parse(&sound).data.len() + place;
+    broken[at..at + 4].copy_from_slice(&f32::NAN.to_le_bytes());
+    assert_refused(&eval(&broken), 1, &["policy.safetensors", "log_std", "NaN", "index 0"]);
+
+    // The model of another robot: what fits the network no longer fits the body.
+    let header = String::from_utf8_lossy(&sound).into_owned();
+    assert!(header.contains("-0.4 0.4"));
+    let replaced = replace(&sound, b"-0.4 0.4", b"-0.5 0.5");
+    assert_refused(&eval(&replaced), 1, &["policy.safetensors", "`abdomen_y`", "action.low -0.4", "-0.5 to 0.5"]);
+
+    let nowhere = folder.path().join("no/such/folder/x.safetensors");
+    let output =
+        self::run(folder.path(), &["export", run.to_str().unwrap(), "--safetensors", nowhere.to_str().unwrap()]);
+    assert_refused(&output, 1, &["no/such/folder/x.safetensors", "its folder"]);
+    assert_refused(&self::run(folder.path(), &["export", "nowhere", "--safetensors", "x"]), 2, &["nowhere"]);
+    assert_refused(&self::run(folder.path(), &["export", run.to_str().unwrap()]), 2, &["--safetensors"]);
+}
+
+/// The bytes with the first `from` made `to`, which is as long.
+fn replace(bytes: &[u8], from: &[u8], to: &[u8]) -> Vec<u8> {
+    let at = bytes.windows(from.len()).position(|window| window == from).unwrap();
+    [&bytes[..at], to, &bytes[at + from.len()..]].concat()
+}
+
+#[test]
+fn other_programs_act_as_we_do() {
+    let (folder, run) = folders();
+    trained(folder.path(), &run);
+    let run = run.to_str().unwrap();
+    let (model, file) = (folder.path().join("policy.onnx"), folder.path().join("policy.safetensors"));
+    let files = ["--onnx", model.to_str().unwrap(), "--safetensors", file.to_str().unwrap()];
+    let output = self::run(folder.path(), &[&["export", run], &files[..]].concat());
+    assert!(output.status.success(), "{}", stderr(&output));
+    assert_eq!(stdout(&output).lines().count(), 2, "{}", stdout(&output));
+    let trace = folder.path().join("trace.jsonl");
+    let args =
+        ["eval", run, "--checkpoint", "latest", "--episodes", "80", "--trace", trace.to_str().unwrap(), "--json"];
+    assert!(self::run(folder.path(), &args).status.success());
+    let wanted = wanted(&file, &trace);
+    assert!(wanted.len() >= 1000, "{} observations", wanted.len());
+
+    // Ours, without anything of ours.
+    let observations = folder.path().join("observations.jsonl");
+    let lines = fs::read_to_string(&trace).unwrap();
+    let of_line = |line: &str| serde_json::from_str::<Value>(line).unwrap()["observation"].to_string() + "\n";
+    fs::write(&observations, lines.lines().map(of_line).collect::<String>()).unwrap();
+    let output = Command::new(example("play_policy")).arg(&file).stdin(fs::File::open(&observations).unwrap()).output();
+    compare(&wanted, &output.unwrap());
+
+    let Some(mut python) = python_with("numpy, onnx, onnxruntime") else { return };
+    let script = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/python/run_onnx.py");
+    compare(&wanted, &python.arg(script).arg(&model).arg(&trace).output().unwrap());
+}
+
+/// The actions of a trace in the units of the motors, whose ranges an exported policy knows.
+fn wanted(policy: &Path, trace: &Path) -> Vec<Vec<f64>> {
+    let Tensors { header, .. } = Tensors::parse(&fs::read(policy).unwrap());
+    let facts: Value = serde_json::from_str(header["__metadata__"]["treadmill"].as_str().unwrap()).unwrap();
+    let (low, high) = (numbers(&facts["action"]["low"]), numbers(&facts["action"]["high"]));
+    let of_line = |line: &str| {
+        let shares = numbers(&serde_json::from_str::<Value>(line).unwrap()["action"]);
+        // A share of -1 is the low end, 1 the high one.
+        let stretch = |(motor, share): (usize, f64)| {
+            low[motor] + (share.clamp(-1.0, 1.0) + 1.0) / 2.0 * (high[motor] - low[motor])
+        };
+        shares.into_iter().enumerate().map(stretch).collect()
+    };
+    fs::read_to_string(trace).unwrap().lines().map(of_line).collect()
+}
+
+fn numbers(list: &Value) -> Vec<f64> {
+    list.as_array().unwrap().iter().map(|number| number.as_f64().unwrap()).collect()
+}
+
+/// Lines of actions that another program wrote.
+fn compare(wanted: &[Vec<f64>], output: &Output) {
+    assert!(output.status.success(), "{}", stderr(output));
+    let found: Vec<_> = stdout(output).lines().map(|line| numbers(&serde_json::from_str(line).unwrap())).collect();
+    assert_eq!(found.len(), wanted.len());
+    for (row, (found, wanted)) in found.iter().zip(wanted).enumerate() {
+        let off = found.iter().zip(wanted).map(|(found, wanted)| (found - wanted).abs()).fold(0.0, f64::max);
+        assert!(off < 1e-5 && found.len() == wanted.len(), "row {row} is off by {off}");
+    }
+}
+
+/// An example of this package, which is built with its tests.
+fn example(name: &str) -> PathBuf {
+    let program = Path::new(env!("CARGO_BIN_EXE_treadmill")).parent().unwrap().join("examples").join(name);
+    assert!(
+        program.exists(),
+        "`cargo test` builds it, but not `cargo test --test cli`: run `cargo build --release --examples` first"
+    );
+    program
+}
+
+#[test]
+fn what_to_write_must_be_said() {
+    let (folder, _) = folders();
+    assert_refused(&self::run(folder.path(), &["export", "a"]), 2, &["--safetensors", "--onnx"]);
+}

@@ -1,0 +1,94 @@
+//! `eval --gif` and `--png`: pictures without a window.
+
+use std::{fs, path::Path};
+
+use crate::support::*;
+
+/// Frames of a GIF, each as the whole screen shows it.
+fn screens(path: &Path) -> Vec<Vec<u8>> {
+    let mut options = gif::DecodeOptions::new();
+    options.set_color_output(gif::ColorOutput::RGBA);
+    let mut decoder = options.read_info(fs::File::open(path).unwrap()).unwrap();
+    let (width, height) = (usize::from(decoder.width()), usize::from(decoder.height()));
+    let (mut screen, mut screens) = (vec![0; width * height * 3], Vec::new());
+    while let Some(frame) = decoder.read_next_frame().unwrap() {
+        assert_eq!((frame.left, usize::from(frame.width)), (0, width));
+        for (index, rgba) in frame.buffer.as_chunks::<4>().0.iter().enumerate() {
+            if rgba[3] != 0 {
+                let at = (usize::from(frame.top) * width + index) * 3;
+                screen[at..at + 3].copy_from_slice(&rgba[..3]);
+            }
+        }
+        screens.push(screen.clone());
+    }
+    screens
+}
+
+fn pixels(path: &Path) -> (u32, u32, Vec<u8>) {
+    let file = std::io::BufReader::new(fs::File::open(path).unwrap());
+    let mut reader = png::Decoder::new(file).read_info().unwrap();
+    let mut pixels = vec![0; reader.output_buffer_size().unwrap()];
+    let info = reader.next_frame(&mut pixels).unwrap();
+    (info.width, info.height, pixels)
+}
+
+#[test]
+fn an_episode_becomes_an_animation_and_single_pictures() {
+    let (folder, _) = folders();
+    let args = ["eval", "--agent", "random", "--episodes", "2", "--gif", "a.gif", "--png", "frames", "--size", "96x64"];
+    let output = run(folder.path(), &[&args[..], &["--fps", "20", "--json"]].concat());
+    assert!(output.status.success(), "{}", stderr(&output));
+    assert_eq!(stdout(&output).lines().count(), 1, "--json is one line");
+    let screens = screens(&folder.path().join("a.gif"));
+    assert!(screens.len() > 3, "random actions stand for a moment: {}", screens.len());
+    for (number, pair) in screens.windows(2).enumerate() {
+        assert_ne!(pair[0], pair[1], "something moved before picture {}", number + 1);
+    }
+    for (number, screen) in screens.iter().enumerate() {
+        let (width, height, single) = pixels(&folder.path().join(format!("frames/{number:05}.png")));
+        assert_eq!((width, height), (96, 64));
+        // A GIF has 255 colours: near, and not the same.
+        let off: u64 = screen.iter().zip(&single).map(|(one, other)| u64::from(one.abs_diff(*other))).sum();
+        assert!(
+            off < 4 * single.len() as u64,
+            "picture {number} is off by {} a byte",
+            off as f64 / single.len() as f64
+        );
+    }
+    assert_eq!(fs::read_dir(folder.path().join("frames")).unwrap().count(), screens.len());
+    assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 2, "no temporary file stays");
+}
+
+#[test]
+fn pictures_can_begin_later_and_end_earlier() {
+    let (folder, _) = folders();
+    let film = |name: &str, more: &[&str]| {
+        let args = ["eval", "--agent", "random", "--episodes", "1", "--size", "64x48", "--fps", "50", "--gif", name];
+        let output = run(folder.path(), &[&args[..], more].concat());
+        assert!(output.status.success(), "{}", stderr(&output));
+        assert!(stdout(&output).contains("pictures of 64 × 48"), "{}", stdout(&output));
+        screens(&folder.path().join(name))
+    };
+    let whole = film("whole.gif", &[]);
+    assert_eq!(film("short.gif", &["--seconds", "0.1"]).len(), 5);
+    let late = film("late.gif", &["--from-s", "0.1"]);
+    assert!(late.len() < whole.len() && late.len() + 6 >= whole.len(), "{} of {}", late.len(), whole.len());
+}
+
+#[test]
+fn what_cannot_be_written_is_named() {
+    let (folder, _) = folders();
+    let refused = |more: &[&str], exit: i32, wanted: &[&str]| {
+        let output = run(folder.path(), &[&["eval", "--agent", "random", "--episodes", "1"], more].concat());
+        assert_refused(&output, exit, wanted);
+    };
+    fs::create_dir(folder.path().join("full")).unwrap();
+    fs::write(folder.path().join("full/a"), "x").unwrap();
+    refused(&["--png", "full"], 2, &["--png full", "empty folder"]);
+    refused(&["--gif", "absent/a.gif"], 1, &["--gif absent/a.gif"]);
+    refused(&["--gif", "a.gif", "--size", "9x9"], 2, &["--size", "320x240"]);
+    refused(&["--gif", "a.gif", "--fps", "0"], 2, &["--fps"]);
+    refused(&["--fps", "10"], 2, &["--gif"]);
+    refused(&["--gif", "a.gif", "--from-s", "3000"], 2, &["--from-s 3000", "over by then"]);
+    assert!(!folder.path().join("a.gif").exists());
+}

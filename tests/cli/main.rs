@@ -1,0 +1,14 @@
+//! Commands as a user runs them: arguments, checks, benchmarks, saved runs, exports, pictures, the dashboard.
+
+mod bench;
+mod check;
+mod dashboard;
+mod eval;
+mod export;
+mod film;
+mod model;
+mod runs;
+#[path = "../support/mod.rs"]
+mod support;
+mod usage;
+mod watch;

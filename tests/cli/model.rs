@@ -1,0 +1,120 @@
+//! `--model`: robots from files, from the command line to the actors and back through checkpoints.
+
+use std::{
+    fs,
+    path::{Path, PathBuf},
+};
+
+use crate::support::*;
+
+/// A trunk on one driven leg: 13 numbers to see, one to act with.
+const HOPPER: &str = r#"
+<mujoco>
+  <compiler angle="radian"/>
+  <worldbody>
+    <geom name="floor" type="plane" size="1 1 1"/>
+    <body name="trunk" pos="0 0 0.9">
+      <freejoint/>
+      <geom name="chest" type="box" size="0.1 0.1 0.2"/>
+      <body name="leg" pos="0 0 -0.2">
+        <joint name="hip" axis="0 1 0" range="-1 1" damping="1" armature="0.1"/>
+        <geom name="leg" type="capsule" fromto="0 0 0 0 0 -0.6" size="0.05"/>
+      </body>
+    </body>
+  </worldbody>
+  <actuator><motor name="hip" joint="hip" gear="20" ctrlrange="-0.5 1"/></actuator>
+</mujoco>"#;
+
+const HEALTHY: [&str; 2] = ["--set", "env.healthy_z_range=[0.5, 1.2]"];
+
+fn write(folder: &Path, name: &str, text: &str) -> PathBuf {
+    let path = folder.join(name);
+    fs::write(&path, text).unwrap();
+    path
+}
+
+fn train(folder: &Path, run: &Path, model: &str, more: &[&str]) -> std::process::Output {
+    let args = ["train", "--preset", "smoke", "--steps", "1024", "--run-dir", run.to_str().unwrap(), "--model", model];
+    self::run(folder, &[&args[..], more].concat())
+}
+
+#[test]
+fn a_model_that_cannot_be_used_is_blamed_on_its_file_by_every_command() {
+    let (folder, run) = folders();
+    let bent = HOPPER.replace("<geom name=\"chest\"", "<geom name=\"chest\" solref=\"0.01 1\"");
+    write(folder.path(), "bent.xml", &bent);
+    write(folder.path(), "notes.xml", "remember the milk");
+    write(folder.path(), "empty.xml", "");
+    write(folder.path(), "huge.xml", &" ".repeat((4 << 20) + 1));
+    write(folder.path(), "parts.xml", "<mujoco><include file=\"legs.xml\"/></mujoco>");
+    let cases: [(&str, &[&str]); 6] = [
+        ("missing.xml", &["missing.xml", "cannot be read", "No such file"]),
+        ("bent.xml", &["bent.xml", "`chest`", "solref", "0.01 1", "0.02 1"]),
+        ("notes.xml", &["notes.xml", "not valid MJCF"]),
+        ("empty.xml", &["empty.xml", "empty"]),
+        ("huge.xml", &["huge.xml", "4194305 bytes", "4194304"]),
+        ("parts.xml", &["parts.xml", "legs.xml", "No such file"]),
+    ];
+    for (file, parts) in cases {
+        assert_refused(&train(folder.path(), &run, file, &[]), 2, parts);
+        assert_refused(&self::run(folder.path(), &["eval", "--agent", "random", "--model", file]), 2, parts);
+    }
+    let args = ["learner", "--run-dir", run.to_str().unwrap(), "--model", "bent.xml", "--listen", "tcp/127.0.0.1:0"];
+    assert_refused(&self::run(folder.path(), &args), 2, cases[1].1);
+    assert_refused(&self::run(folder.path(), &["bench", "env", "--model", "bent.xml"]), 2, cases[1].1);
+    assert!(!run.exists(), "nothing is left behind");
+}
+
+#[test]
+fn a_robot_that_starts_unhealthy_is_refused_with_the_settings_that_it_needs() {
+    let (folder, run) = folders();
+    write(folder.path(), "hopper.xml", HOPPER);
+    let parts = ["hopper.xml", "0.9 m", "1 m to 2 m", "env.healthy_z_range=[0.63, 1.26]"];
+    assert_refused(&train(folder.path(), &run, "hopper.xml", &[]), 2, &parts);
+    assert_refused(&self::run(folder.path(), &["bench", "env", "--model", "hopper.xml"]), 2, &parts);
+    let args = ["eval", "--agent", "random", "--set", "ppo.gamma=0.9"];
+    assert_refused(&self::run(folder.path(), &args), 2, &["ppo.gamma", "[env]"]);
+}
+
+#[test]
+fn a_robot_trains_is_evaluated_and_goes_on_as_itself() {
+    let (folder, run) = folders();
+    let file = write(folder.path(), "hopper.xml", HOPPER);
+    let trained = train(folder.path(), &run, "hopper.xml", &HEALTHY);
+    assert!(trained.status.success(), "{}", stderr(&trained));
+    assert_eq!(fs::read_to_string(run.join("model.xml")).unwrap(), HOPPER);
+    // The file is needed no more: the run has its model, and so had the actors.
+    fs::remove_file(&file).unwrap();
+    let run_name = run.to_str().unwrap();
+    let eval =
+        |more: &[&str]| self::run(folder.path(), &[&["eval", run_name, "--episodes", "2", "--json"], more].concat());
+    assert_eq!(last_json(&eval(&[]))["episodes"], 2);
+    let resume = |more: &[&str]| {
+        let args = ["train", "--resume", run_name, "--steps", "2048", "--no-progress"];
+        self::run(folder.path(), &[&args[..], more].concat())
+    };
+    assert_refused(&resume(&["--model", "hopper.xml"]), 2, &["hopper.xml", "cannot be read"]);
+    write(folder.path(), "other.xml", &HOPPER.replace("gear=\"20\"", "gear=\"30\""));
+    assert_refused(&resume(&["--model", "other.xml"]), 2, &["other.xml", "begun with", "begin a new run"]);
+    write(folder.path(), "same.xml", HOPPER);
+    let resumed = resume(&["--model", "same.xml"]);
+    assert!(resumed.status.success(), "{}", stderr(&resumed));
+
+    // A stronger hopper can be moved by the same policy, a body of other sizes cannot.
+    assert_ne!(last_json(&eval(&["--model", "other.xml"]))["return_mean"], last_json(&eval(&[]))["return_mean"]);
+    let two = HOPPER.replace("</actuator>", "<motor joint=\"hip\"/></actuator>");
+    write(folder.path(), "two.xml", &two);
+    assert_refused(&eval(&["--model", "two.xml"]), 2, &["two.xml", "13 and 2", "13 and 1"]);
+}
+
+#[test]
+fn a_robot_plays_and_is_timed_without_a_run() {
+    let (folder, _) = folders();
+    write(folder.path(), "hopper.xml", HOPPER);
+    let args = ["eval", "--agent", "random", "--episodes", "2", "--json", "--model", "hopper.xml"];
+    let played = self::run(folder.path(), &[&args[..], &HEALTHY].concat());
+    assert!(last_json(&played)["length_mean"].as_f64().unwrap() > 1.0);
+    let args = ["bench", "env", "--steps", "640", "--json", "--model", "hopper.xml"];
+    let timed = last_json(&self::run(folder.path(), &[&args[..], &HEALTHY].concat()));
+    assert_eq!((&timed["observation"], &timed["faults"]), (&13.into(), &0.into()));
+}

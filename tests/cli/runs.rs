@@ -1,0 +1,47 @@
+//! `runs`: runs side by side.
+
+use std::fs;
+
+use crate::support::*;
+use serde_json::Value;
+
+#[test]
+fn runs_are_compared_by_what_they_came_to_and_what_differs() {
+    let (folder, _) = folders();
+    let train = |name: &str, more: &[&str]| {
+        let dir = format!("runs/{name}");
+        let args = ["train", "--preset", "smoke", "--steps", "1024", "--run-dir", &dir];
+        assert!(run(folder.path(), &[&args[..], more].concat()).status.success());
+    };
+    train("plain", &[]);
+    train("other", &["--seed", "7", "--set", "ppo.learning_rate=0.001"]);
+    let table = run(folder.path(), &["runs"]);
+    let text = stdout(&table);
+    assert!(table.status.success(), "{}", stderr(&table));
+    for part in ["env steps", "plain", "other", "1 024", "ppo.learning_rate=0.001", "run.seed=7", "run.seed=1"] {
+        assert!(text.contains(part), "`{part}` is missing in: {text}");
+    }
+    assert!(!text.contains("ppo.gamma"), "what they have in common is left out: {text}");
+
+    let output = run(folder.path(), &["runs", "--json", "runs/other", "runs/plain"]);
+    let lines: Vec<Value> = stdout(&output).lines().map(|line| serde_json::from_str(line).unwrap()).collect();
+    assert_eq!(lines.len(), 2);
+    let distance = |record: &Value| {
+        record["best_eval_distance_m"].as_f64().or(record["training_distance_m"].as_f64()).unwrap_or(f64::NEG_INFINITY)
+    };
+    assert!(distance(&lines[0]) >= distance(&lines[1]), "who walks furthest comes first: {lines:?}");
+    let other = lines.iter().find(|record| record["run"] == "other").unwrap();
+    assert_eq!((&other["env_steps"], &other["config_differences"]["run.seed"]), (&1024.into(), &"7".into()));
+    assert!(other["wall_s"].as_f64().unwrap() > 0.0);
+}
+
+#[test]
+fn where_there_is_none_it_says_so() {
+    let (folder, _) = folders();
+    assert_refused(&run(folder.path(), &["runs"]), 1, &["`runs`"]);
+    fs::create_dir(folder.path().join("runs")).unwrap();
+    assert_refused(&run(folder.path(), &["runs"]), 2, &["no run in `runs`"]);
+    fs::create_dir(folder.path().join("runs/bad")).unwrap();
+    fs::write(folder.path().join("runs/bad/config.toml"), "[").unwrap();
+    assert_refused(&run(folder.path(), &["runs"]), 1, &["runs/bad/config.toml", "no configuration"]);
+}

@@ -1,0 +1,124 @@
+//! Bad input: a clear error that names the field, the value and the remedy, and exit code 2.
+
+use std::{fs, net::TcpListener};
+
+use crate::support::*;
+
+fn train(args: &[&str]) -> std::process::Output {
+    let (folder, run) = folders();
+    let mut all = vec!["train", "--preset", "smoke", "--run-dir", run.to_str().unwrap()];
+    all.extend(args);
+    let output = self::run(folder.path(), &all);
+    assert!(!run.exists(), "nothing is left behind by {args:?}");
+    output
+}
+
+#[test]
+fn impossible_configuration_is_refused_with_key_value_and_what_is_allowed() {
+    assert_refused(&train(&["--envs", "0"]), 2, &["rollout.envs", "is 0", "1 to 65536"]);
+    assert_refused(&train(&["--set", "rollout.envs=0"]), 2, &["rollout.envs", "is 0", "1 to 65536"]);
+    assert_refused(&train(&["--set", "ppo.minibatch=1000"]), 2, &["ppo.minibatch", "1000", "ppo.batch, which is 512"]);
+    assert_refused(&train(&["--set", "ppo.epoch=3"]), 2, &["unknown config key `ppo.epoch`", "`ppo.epochs`"]);
+    assert_refused(&train(&["--set", "ppo.epochs=few"]), 2, &["ppo.epochs", "few", "1 to 100"]);
+    assert_refused(&train(&["--set", "ppo.epochs"]), 2, &["ppo.epochs", "key=value"]);
+    let replaced = train(&["--set", "env.healthy_z_min_m=0.8"]);
+    assert_refused(&replaced, 2, &["env.healthy_z_min_m", "`env.healthy_z_range`"]);
+    let range = train(&["--set", "env.contact_cost_range=[3, 1]"]);
+    assert_refused(&range, 2, &["env.contact_cost_range", "[3.0, 1.0]", "the first not above the second"]);
+    assert_refused(&train(&["--set", "env.task=humanoid-v3"]), 2, &["env.task", "humanoid-v3", "\"humanoid-v4\""]);
+    assert_refused(
+        &train(&["--set", "rollout.noise_correlation=1"]),
+        2,
+        &["rollout.noise_correlation", "is 1", "remove the key"],
+    );
+    let mirrored = train(&["--set", "ppo.symmetry=mirrored", "--set", "env.observation=gymnasium-v5"]);
+    assert_refused(&mirrored, 2, &["`ppo.symmetry`", "\"mirrored\"", "\"compact\"", "\"off\""]);
+    assert_refused(&train(&["--steps", "0"]), 2, &["run.steps", "is 0"]);
+    assert_refused(&train(&["--actors", "9"]), 2, &["rollout.actors", "is 9", "rollout.envs, which is 8"]);
+    assert_refused(&train(&["--steps", "many"]), 2, &["--steps", "many"]);
+    assert_refused(&train(&["--nonsense"]), 2, &["--nonsense"]);
+}
+
+#[test]
+fn a_configuration_file_is_checked_like_everything_else() {
+    let (folder, _) = folders();
+    let file = folder.path().join("mine.toml");
+    let with = |text: &str| {
+        fs::write(&file, text).unwrap();
+        train(&["--config", file.to_str().unwrap()])
+    };
+    assert_refused(&with("[ppo]\ngama = 0.9\n"), 2, &["ppo.gama", "ppo.gamma"]);
+    assert_refused(&with("[ppo]\ngamma = \"high\"\n"), 2, &["ppo.gamma", "high", "0 to 1"]);
+    assert_refused(&with("[ppo\n"), 2, &["not valid TOML", "mine.toml"]);
+    assert_refused(&train(&["--config", "no-such-file.toml"]), 2, &["no-such-file.toml"]);
+    let output = self::run(folder.path(), &["train", "--preset", "stroll"]);
+    assert_refused(&output, 2, &["stroll", "walk, walk-v5obs, walk-v4obs, smoke, sim2sim"]);
+}
+
+#[test]
+fn an_unknown_run_is_named_with_those_that_exist() {
+    let (folder, _) = folders();
+    fs::create_dir_all(folder.path().join("runs/walk-7/checkpoints")).unwrap();
+    assert_refused(&self::run(folder.path(), &["eval", "nowhere"]), 2, &["nowhere", "runs/walk-7"]);
+    assert_refused(&self::run(folder.path(), &["train", "--resume", "nowhere"]), 2, &["nowhere", "runs/walk-7"]);
+    assert_refused(&self::run(folder.path(), &["eval"]), 2, &["RUN", "--agent random"]);
+    assert_refused(&self::run(folder.path(), &["eval", "walk-7"]), 1, &["no checkpoint", "saved none yet"]);
+    let both = self::run(folder.path(), &["train", "--resume", "walk-7", "--seed", "3"]);
+    assert_refused(&both, 2, &["--seed", "--resume"]);
+}
+
+#[test]
+fn a_taken_port_is_named() {
+    let taken = TcpListener::bind("127.0.0.1:0").unwrap();
+    let endpoint = format!("tcp/{}", taken.local_addr().unwrap());
+    let (folder, run) = folders();
+    let output = self::run(
+        folder.path(),
+        &["train", "--preset", "smoke", "--run-dir", run.to_str().unwrap(), "--listen", &endpoint],
+    );
+    assert_refused(&output, 1, &[&endpoint, "choose another port"]);
+}
+
+#[test]
+fn plain_text_beyond_loopback_must_be_asked_for() {
+    let (folder, run) = folders();
+    let args = ["train", "--preset", "smoke", "--run-dir", run.to_str().unwrap(), "--listen", "tcp/0.0.0.0:0"];
+    assert_refused(&self::run(folder.path(), &args), 2, &["tcp/0.0.0.0:0", "--insecure"]);
+    assert!(!run.exists(), "an endpoint that is refused leaves no folder behind");
+    let args = ["actor", "--connect", "tcp/192.0.2.1:7447"];
+    assert_refused(&self::run(folder.path(), &args), 2, &["tcp/192.0.2.1:7447", "--insecure"]);
+    // Discovery asks the whole network, so answers must be verifiable.
+    assert_refused(&self::run(folder.path(), &["actor", "--discover"]), 2, &["--discover", "--tls DIR", "--insecure"]);
+    let args = ["learner", "--preset", "smoke", "--run", "A/B", "--run-dir", run.to_str().unwrap()];
+    assert_refused(&self::run(folder.path(), &args), 2, &["`run` is `A/B`", "a-z"]);
+    assert!(!run.exists(), "a name that is refused leaves no folder behind");
+    let args = ["actor", "--threads", "many"];
+    assert_refused(&self::run(folder.path(), &args), 2, &["--threads", "many"]);
+    let args = ["actor", "--name", "A/B"];
+    assert_refused(&self::run(folder.path(), &args), 2, &["A/B", "a-z"]);
+}
+
+#[test]
+fn help_and_version_are_there() {
+    let (folder, _) = folders();
+    for command in ["train", "learner", "actor", "eval", "export", "bench"] {
+        let output = self::run(folder.path(), &[command, "--help"]);
+        assert!(output.status.success() && stdout(&output).contains("Usage: treadmill"), "{command}");
+    }
+    assert!(stdout(&self::run(folder.path(), &["--version"])).contains(env!("CARGO_PKG_VERSION")));
+}
+
+#[test]
+#[cfg(not(feature = "cuda"))]
+fn a_device_that_is_not_there_is_refused_before_anything_is_written() {
+    let (folder, run_folder) = folders();
+    let path = run_folder.to_str().unwrap();
+    let parts = ["without CUDA", "--features cuda", "--device cpu"];
+    for command in ["train", "learner"] {
+        let output = run(folder.path(), &[command, "--preset", "smoke", "--run-dir", path, "--device", "cuda"]);
+        assert_refused(&output, 2, &parts);
+    }
+    assert!(!run_folder.exists());
+    assert_refused(&run(folder.path(), &["bench", "update", "--device", "cuda"]), 2, &parts);
+    assert_refused(&run(folder.path(), &["train", "--device", "tpu"]), 2, &["tpu", "cpu, cuda"]);
+}

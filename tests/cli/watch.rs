@@ -1,0 +1,36 @@
+//! `treadmill watch` hands over to the viewer. Alone in its file: it starts programs that it has just written.
+
+use std::{fs, os::unix::fs::PermissionsExt, process::Command};
+
+use crate::support::*;
+
+#[test]
+fn the_viewer_gets_all_arguments_and_where_it_is_missing_it_is_told_how_to_build_it() {
+    let (folder, _) = folders();
+    let [alone, viewers] = ["alone", "viewers"].map(|name| {
+        let folder = folder.path().join(name);
+        fs::create_dir(&folder).unwrap();
+        folder
+    });
+    // Elsewhere than where it was built, so that no viewer is beside it.
+    let own = alone.join("treadmill");
+    fs::copy(env!("CARGO_BIN_EXE_treadmill"), &own).unwrap();
+    let watch = || {
+        Command::new(&own)
+            .args(["watch", "runs/walk-1", "--live", "--no-follow"])
+            .env("PATH", &viewers)
+            .output()
+            .unwrap()
+    };
+    assert_refused(&watch(), 1, &["`treadmill-watch` is neither", "cargo build --release -p treadmill-watch"]);
+    let install = |folder: &std::path::Path, name: &str| {
+        let program = folder.join("treadmill-watch");
+        fs::write(&program, format!("#!/bin/sh\necho {name} \"$@\"\nexit 7\n")).unwrap();
+        fs::set_permissions(&program, fs::Permissions::from_mode(0o755)).unwrap();
+    };
+    install(&viewers, "path");
+    let output = watch();
+    assert_eq!((stdout(&output).as_str(), output.status.code()), ("path runs/walk-1 --live --no-follow\n", Some(7)));
+    install(&alone, "beside");
+    assert_eq!(stdout(&watch()), "beside runs/walk-1 --live --no-follow\n");
+}

@@ -1,0 +1,157 @@
+//! The reference is what the program says of itself; so are completions and manual pages.
+//!
+//! `TREADMILL_WRITE_REFERENCE=1 cargo test --release --test documentation reference` writes the pages anew.
+
+use std::{collections::BTreeSet, fs, path::PathBuf, process::Command};
+
+use crate::support::*;
+use treadmill_common::config::Config;
+
+fn file(name: &str) -> PathBuf {
+    PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("docs/reference").join(name).with_extension("md")
+}
+
+/// What the program prints.
+fn told(args: &[&str]) -> String {
+    let (folder, _) = folders();
+    let output = run(folder.path(), args);
+    assert!(output.status.success(), "{}", stderr(&output));
+    stdout(&output)
+}
+
+fn is_as_the_program_says(name: &str) -> String {
+    let wanted = told(&["reference", name]);
+    if std::env::var_os("TREADMILL_WRITE_REFERENCE").is_some() {
+        fs::write(file(name), &wanted).unwrap();
+    }
+    let found = fs::read_to_string(file(name)).unwrap_or_default();
+    assert!(
+        found == wanted,
+        "docs/reference/{name}.md is not what the program says; write it anew with \
+         TREADMILL_WRITE_REFERENCE=1 cargo test --release --test documentation reference"
+    );
+    wanted
+}
+
+#[test]
+fn every_configuration_key_is_in_the_reference() {
+    let page = is_as_the_program_says("configuration");
+    for key in Config::keys() {
+        let row = page.lines().find(|line| line.starts_with(&format!("| `{}` |", key.key))).expect(&key.key);
+        assert!(row.contains(&key.default) && row.contains(key.allowed) && row.contains(key.doc), "{row}");
+    }
+    assert!(page.contains("| `ppo.target_kl` | number | `0.016` | 0 or more | yes |"), "{page}");
+    assert!(page.contains("| `bus.stats_every_ms` | whole number, ms | `2000` | 100 to 600000 | no |"), "{page}");
+}
+
+/// Commands that `--help` lists, below this one, with all of theirs.
+fn commands(command: &[&str]) -> Vec<String> {
+    let help = told(&[command, &["--help"]].concat());
+    let Some((_, list)) = help.split_once("\nCommands:\n") else { return Vec::new() };
+    let names = list.lines().take_while(|line| !line.is_empty()).filter(|line| !line.starts_with("   "));
+    let names: Vec<&str> =
+        names.filter_map(|line| line.split_whitespace().next()).filter(|name| *name != "help").collect();
+    names
+        .into_iter()
+        .flat_map(|name| {
+            let below = [command, &[name]].concat();
+            [vec![below.join(" ")], commands(&below)].concat()
+        })
+        .collect()
+}
+
+#[test]
+fn every_command_and_flag_is_in_the_reference() {
+    let page = is_as_the_program_says("commands");
+    let commands = commands(&[]);
+    assert!(commands.len() > 20, "{commands:?}");
+    for command in commands {
+        let heading = format!("\n## treadmill {command}\n");
+        let (_, section) = page.split_once(&heading).unwrap_or_else(|| panic!("no section for {command}"));
+        let section = section.split("\n## ").next().unwrap();
+        let help = told(&[&command.split(' ').collect::<Vec<_>>()[..], &["--help"]].concat());
+        let flags =
+            help.lines().filter_map(|line| line.trim().split_once("--").filter(|(before, _)| before.len() <= 4));
+        for (_, flag) in flags {
+            let name: String = flag.chars().take_while(|c| c.is_ascii_alphanumeric() || *c == '-').collect();
+            assert!(name == "help" || section.contains(&format!("`--{name}")), "--{name} of {command}");
+        }
+    }
+}
+
+#[test]
+fn every_tag_that_is_logged_is_explained_and_no_other() {
+    let source = |path: &str| fs::read_to_string(PathBuf::from(env!("CARGO_MANIFEST_DIR")).join(path)).unwrap();
+    let is_tag = |text: &&str| {
+        let parts: Vec<&str> = text.split('/').collect();
+        parts.len() == 2
+            && parts.iter().all(|part| !part.is_empty() && part.chars().all(|c| c.is_ascii_alphanumeric() || c == '_'))
+    };
+    let scalars = source("learner/src/scalars.rs");
+    let logged: BTreeSet<&str> = scalars.split('"').skip(1).step_by(2).filter(is_tag).collect();
+    let metrics = page("metrics");
+    let explained: BTreeSet<&str> = metrics
+        .lines()
+        .filter_map(|line| line.strip_prefix("| `")?.split_once('`').map(|(tag, _)| tag))
+        .filter(is_tag)
+        .collect();
+    assert!(logged.len() > 50, "{logged:?}");
+    assert_eq!(logged, explained, "the page `metrics` explains what learner/src/scalars.rs logs");
+}
+
+#[test]
+fn a_shell_completes_commands_and_flags() {
+    for shell in ["bash", "zsh", "fish", "elvish"] {
+        assert!(told(&["completions", shell]).contains("status"), "{shell}");
+    }
+    let (folder, _) = folders();
+    for other in ["tcsh", "powershell"] {
+        let output = run(folder.path(), &["completions", other]);
+        assert_refused(&output, 2, &[other, "bash"]);
+    }
+    let script = folder.path().join("treadmill.bash");
+    fs::write(&script, told(&["completions", "bash"])).unwrap();
+    let asked = r#"source "$0" && complete -p treadmill
+        COMP_WORDS=(treadmill sta); COMP_CWORD=1; _treadmill treadmill sta treadmill; echo "${COMPREPLY[@]}"
+        COMP_WORDS=(treadmill status --wa); COMP_CWORD=2; _treadmill treadmill --wa status; echo "${COMPREPLY[@]}""#;
+    let bash = Command::new("bash").args(["--norc", "-c", asked]).arg(&script).output().expect("bash is there");
+    let text = stdout(&bash);
+    let lines: Vec<&str> = text.lines().collect();
+    assert!(lines[0].contains("-F _treadmill") && lines[0].ends_with(" treadmill"), "{text}");
+    assert_eq!(lines[1..], ["status", "--watch"], "{}", stderr(&bash));
+}
+
+#[test]
+fn every_command_has_a_manual_page() {
+    let (folder, _) = folders();
+    let pages = folder.path().join("share/man1");
+    let output = run(folder.path(), &["man", pages.to_str().unwrap()]);
+    assert!(output.status.success(), "{}", stderr(&output));
+    for command in commands(&[]).into_iter().chain(["".to_string()]) {
+        let name = format!("treadmill {command}").trim().replace(' ', "-");
+        let page = fs::read_to_string(pages.join(format!("{name}.1"))).unwrap_or_else(|why| panic!("{name}: {why}"));
+        for part in [".SH NAME", ".SH SYNOPSIS", ".SH OPTIONS"] {
+            assert!(page.contains(part), "{part} is missing in {name}.1");
+        }
+    }
+    assert!(!pages.join("treadmill-reference.1").exists(), "what is hidden is not told of");
+    fs::write(folder.path().join("file"), "").unwrap();
+    assert_refused(&run(folder.path(), &["man", "file"]), 1, &["cannot be written to `file`"]);
+}
+
+#[test]
+fn installing_brings_the_pages_and_completions_along() {
+    let (folder, _) = folders();
+    let script = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("deploy/install.sh");
+    let installed = Command::new(script).arg(folder.path()).arg(env!("CARGO_BIN_EXE_treadmill")).output().unwrap();
+    assert!(installed.status.success(), "{}", stderr(&installed));
+    for file in [
+        "bin/treadmill",
+        "share/man/man1/treadmill-control-set.1",
+        "share/bash-completion/completions/treadmill",
+        "share/zsh/site-functions/_treadmill",
+        "share/fish/vendor_completions.d/treadmill.fish",
+    ] {
+        assert!(fs::metadata(folder.path().join(file)).is_ok_and(|file| file.len() > 100), "{file}");
+    }
+}

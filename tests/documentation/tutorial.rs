@@ -1,0 +1,34 @@
+//! The tutorial's commands are run as they are printed, but for shorter trainings. What it does in Python, on several hosts and in
+//! the viewer has tests of its own.
+
+use std::{fs, path::Path};
+
+use crate::support::*;
+
+/// Every `treadmill` command on a page that needs nothing but the program.
+fn commands(page: &str) -> Vec<String> {
+    let blocks = page.split("```sh\n").skip(1).map(|rest| rest.split("```").next().unwrap());
+    let alone = blocks.filter(|block| !block.contains("ip netns"));
+    let lines = alone.flat_map(str::lines).filter(|line| line.starts_with("treadmill "));
+    lines.filter(|line| !line.contains("treadmill watch")).map(str::to_string).collect()
+}
+
+#[test]
+fn the_tutorial_works_as_printed() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let commands = commands(&page("tutorial"));
+    assert!(commands.len() >= 8, "{commands:?}");
+    let (folder, _) = folders();
+    std::os::unix::fs::symlink(root.join("docs"), folder.path().join("docs")).unwrap();
+    for command in commands {
+        let shorter = command.replace("--steps 1000000", "--steps 10000").replace("--steps 4000000", "--steps 20000");
+        let args: Vec<&str> = shorter.split_whitespace().skip(1).collect();
+        let output = run(folder.path(), &args);
+        // Whether this machine is well is not the tutorial's to say.
+        let is_well = output.status.success() || args == ["check"];
+        assert!(is_well && !stdout(&output).is_empty(), "{command}\n{}\n{}", stdout(&output), stderr(&output));
+    }
+    for made in ["runs/first/learning_curve.png", "walk.gif", "policy.onnx"] {
+        assert!(folder.path().join(made).metadata().is_ok_and(|file| file.len() > 1000), "{made}");
+    }
+}

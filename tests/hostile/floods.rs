@@ -1,0 +1,231 @@
+//! Clients that mean ill against a real learner: it neither ends nor grows, names the sender and shuts it out, and goes on
+//! learning from its good actor.
+
+use std::{
+    io::Write,
+    net::TcpStream,
+    path::{Path, PathBuf},
+    process::Command,
+    time::{Duration, Instant},
+};
+
+use crate::attacks::{Attacker, Flood, fragment, nonsense};
+use crate::support::*;
+use treadmill_proto::Outcome;
+
+/// More than the largest messages that wait for a moment while they are refused.
+const GROWTH_BYTES_MAX: u64 = 250 << 20;
+
+/// A learner with one good actor.
+struct Fleet {
+    learner: Running,
+    actor: Running,
+    endpoint: String,
+    folder: tempfile::TempDir,
+    run: PathBuf,
+    tls: bool,
+}
+
+fn fleet(tls: bool, settings: &[&str]) -> Fleet {
+    bus_on_one_thread();
+    let (folder, run) = folders();
+    let mut command = treadmill(folder.path());
+    command.args(["learner", "--preset", "smoke", "--steps", "1000000000", "--run-dir", run.to_str().unwrap()]);
+    for setting in settings {
+        command.args(["--set", setting]);
+    }
+    if tls {
+        assert!(self::run(folder.path(), &["certs", "certs"]).status.success());
+        command.args(["--listen", "tls/127.0.0.1:0", "--tls", "certs"]);
+    } else {
+        command.args(["--listen", "tcp/127.0.0.1:0"]);
+    }
+    let learner = Running::start(command);
+    let endpoint = endpoint(&run);
+    let actor = Running::start(actor(folder.path(), &endpoint, tls, "good"));
+    await_steps(&run, 1024);
+    Fleet { learner, actor, endpoint, folder, run, tls }
+}
+
+fn actor(folder: &Path, endpoint: &str, tls: bool, name: &str) -> Command {
+    let mut command = treadmill(folder);
+    command.args(["actor", "--connect", endpoint, "--envs", "8", "--name", name]);
+    if tls {
+        command.args(["--tls", "certs"]);
+    }
+    command
+}
+
+impl Fleet {
+    fn attacker(&self) -> Attacker {
+        let certs = self.folder.path().join("certs");
+        let tls = self.tls.then_some((certs.as_path(), "actor"));
+        Attacker::join(&self.endpoint, "run", tls, PATIENCE).expect("it is let in")
+    }
+
+    fn value(&self, tag: &str) -> f64 {
+        last_value(&self.run, tag).expect("it is logged after every update")
+    }
+
+    /// What was accepted grows by what the good actor sends.
+    fn assert_goes_on(&self) {
+        let steps = metrics(&self.run).last().unwrap().1;
+        await_steps(&self.run, steps + 4096);
+        assert!(is_running(self.learner.pid()) && is_running(self.actor.pid()));
+    }
+
+    /// Ends as it should: nothing in it was broken.
+    fn end(self) {
+        self.actor.signal(libc::SIGTERM);
+        self.learner.signal(libc::SIGINT);
+        let (status, lines) = self.learner.wait();
+        assert!(status.success(), "{lines:#?}");
+        assert!(!lines.iter().any(|line| line.contains("panicked")), "{lines:#?}");
+    }
+}
+
+fn resident_bytes(pid: u32) -> u64 {
+    let statm = std::fs::read_to_string(format!("/proc/{pid}/statm")).unwrap();
+    statm.split_whitespace().nth(1).unwrap().parse::<u64>().unwrap() * 4096
+}
+
+fn every_kind_of_nonsense(tls: bool) {
+    let fleet = fleet(tls, &[]);
+    let before = resident_bytes(fleet.learner.pid());
+    let attacker = fleet.attacker();
+    let kinds = nonsense(&attacker.policy());
+    for (kind, bytes, reason) in &kinds {
+        for _ in 0..8 {
+            let receipt = attacker.send(kind, bytes.clone()).expect("an answer");
+            assert_eq!(receipt.outcome, Outcome::Malformed, "{kind}: {receipt:?}");
+            assert!(receipt.reason.contains(reason), "{kind}: {receipt:?}");
+        }
+        let receipt = attacker.send(kind, bytes.clone()).expect("an answer");
+        assert_eq!(receipt.outcome, Outcome::Quarantined, "{kind}: {receipt:?}");
+        fleet.learner.wait_for(&format!("`{kind}` is put in quarantine"));
+    }
+    // Names that are none, one of them as long as a key may be.
+    for name in ["Capitals".to_string(), "a".repeat(60_000)] {
+        let receipt = attacker.send(&name, vec![1]).expect("an answer");
+        assert!(matches!(receipt.outcome, Outcome::Malformed), "{receipt:?}");
+    }
+    await_that("they are counted", || last_value(&fleet.run, "actors/quarantined").filter(|count| *count >= 1.0));
+    // Larger than a message may be at all: it never arrives.
+    assert_eq!(attacker.send("huge", vec![0; 40 << 20]), None);
+    assert!(fleet.value("bus/fragments_malformed") >= 8.0 * kinds.len() as f64);
+    assert!(fleet.value("bus/fragments_quarantined") >= kinds.len() as f64);
+    fleet.assert_goes_on();
+    let after = resident_bytes(fleet.learner.pid());
+    assert!(after < before + GROWTH_BYTES_MAX, "{before} bytes before and {after} after");
+    fleet.end();
+}
+
+#[test]
+fn every_kind_of_nonsense_is_answered_named_and_shut_out() {
+    every_kind_of_nonsense(false);
+}
+
+#[test]
+fn a_certificate_entitles_to_no_nonsense() {
+    every_kind_of_nonsense(true);
+}
+
+#[test]
+fn nonsense_under_a_good_actors_name_does_not_stop_it() {
+    let fleet = fleet(true, &[]);
+    let attacker = fleet.attacker();
+    let nan = attacks::spoilt(&attacker.policy(), "good", f32::NAN);
+    for _ in 0..8 {
+        assert_eq!(attacker.send("good", nan.clone()).unwrap().outcome, Outcome::Malformed);
+    }
+    assert_eq!(attacker.send("good", nan).unwrap().outcome, Outcome::Quarantined);
+    fleet.assert_goes_on();
+    fleet.end();
+}
+
+#[test]
+fn what_is_replayed_is_not_learnt_from_and_shuts_out_who_does_it() {
+    // With lag allowed, so that a fragment that was made by hand is never too old.
+    let fleet = fleet(true, &["learner.mode=async", "learner.max_policy_lag=16"]);
+    let attacker = fleet.attacker();
+    let sound = await_that("a fragment is taken", || {
+        let fragment = fragment(&attacker.policy(), "replayer", 1).encode().unwrap();
+        let outcome = attacker.send("replayer", fragment.clone()).expect("an answer").outcome;
+        (outcome == Outcome::Accepted).then_some(fragment)
+    });
+    let mut duplicates = 0;
+    let end = await_that("it is shut out", || match attacker.send("replayer", sound.clone())?.outcome {
+        Outcome::Duplicate => {
+            duplicates += 1;
+            None
+        }
+        Outcome::Busy => None,
+        other => Some(other),
+    });
+    assert_eq!(end, Outcome::Quarantined);
+    assert!(duplicates > 100, "an honest actor may send again what it kept: {duplicates}");
+    fleet.learner.wait_for("`replayer` is put in quarantine");
+    fleet.assert_goes_on();
+    fleet.end();
+}
+
+/// Tiny messages as fast as they can be sent, of every kind at once.
+fn flood(tls: bool) {
+    let fleet = fleet(tls, &["eval.every_steps=4096"]);
+    let before = resident_bytes(fleet.learner.pid());
+    let until = Instant::now() + Duration::from_secs(3);
+    let sent: u64 = std::thread::scope(|scope| {
+        let threads = Flood::ALL.map(|(_, kind)| {
+            let attacker = fleet.attacker();
+            scope.spawn(move || attacker.flood(kind, "good", 200_000, until))
+        });
+        threads.map(|thread| thread.join().unwrap()).iter().sum()
+    });
+    assert!(sent > 1000, "{sent}");
+    await_that("it is counted", || last_value(&fleet.run, "bus/fragments_turned_away").filter(|count| *count > 0.0));
+    if tls {
+        await_that("what is forbidden is, too", || {
+            last_value(&fleet.run, "bus/messages_forbidden").filter(|count| *count > 1000.0)
+        });
+    }
+    fleet.assert_goes_on();
+    let after = resident_bytes(fleet.learner.pid());
+    assert!(after < before + GROWTH_BYTES_MAX, "{before} bytes before and {after} after {sent} messages");
+    // Statistics of unknown actors are dropped.
+    assert!(fleet.value("actors/env_steps_per_s") < 1e12);
+    // A new actor still finds its way in.
+    let newcomer = Running::start(actor(fleet.folder.path(), &fleet.endpoint, tls, "newcomer"));
+    await_that("the newcomer is alive", || last_value(&fleet.run, "actors/alive").filter(|alive| *alive == 2.0));
+    drop(newcomer);
+    fleet.end();
+}
+
+#[test]
+fn floods_leave_the_learner_as_it_was() {
+    flood(false);
+}
+
+#[test]
+fn floods_with_a_certificate_leave_the_learner_as_it_was() {
+    flood(true);
+}
+
+#[test]
+fn connections_that_say_nothing_or_nonsense_keep_nobody_out() {
+    for tls in [false, true] {
+        let fleet = fleet(tls, &[]);
+        let address = fleet.endpoint.split_once('/').unwrap().1.to_string();
+        let mut idle: Vec<TcpStream> = (0..600).filter_map(|_| TcpStream::connect(&address).ok()).collect();
+        assert!(idle.len() > 300, "{}", idle.len());
+        for (number, stream) in idle.iter_mut().enumerate().take(100) {
+            // Frames whose length is as large as it can be, and noise.
+            let byte = if number % 2 == 0 { 0xff } else { number as u8 };
+            let _ = stream.write_all(&[byte; 4000]);
+        }
+        let newcomer = Running::start(actor(fleet.folder.path(), &fleet.endpoint, tls, "newcomer"));
+        await_that("the newcomer is alive", || last_value(&fleet.run, "actors/alive").filter(|alive| *alive == 2.0));
+        fleet.assert_goes_on();
+        drop((idle, newcomer));
+        fleet.end();
+    }
+}

@@ -1,0 +1,103 @@
+//! A run that is asked how it goes, paused, changed and stopped from outside.
+
+use std::path::Path;
+
+use crate::support::*;
+use serde_json::Value;
+use treadmill_learner::checkpoint::load_file;
+
+const ENDLESS: &str = "1000000000";
+
+fn control(folder: &Path, args: &[&str]) -> std::process::Output {
+    run(folder, &[&["control"], args].concat())
+}
+
+/// Does what is asked and tells so.
+fn done(folder: &Path, args: &[&str]) -> String {
+    let output = control(folder, args);
+    assert!(output.status.success(), "{args:?}: {}", stderr(&output));
+    stdout(&output)
+}
+
+fn status(folder: &Path) -> Value {
+    last_json(&run(folder, &["status", "run", "--json"]))
+}
+
+#[test]
+fn a_run_is_paused_changed_kept_and_stopped() {
+    let (folder, run) = folders();
+    let folder = folder.path();
+    let mut command = treadmill(folder);
+    command.args(["train", "--preset", "smoke", "--steps", ENDLESS, "--run-dir", run.to_str().unwrap()]);
+    let training = Running::start(command);
+    await_steps(&run, 1024);
+
+    assert!(done(folder, &["pause", "run"]).starts_with("paused after update"));
+    assert!(done(folder, &["pause", "run"]).contains("paused already"));
+    let paused = status(folder);
+    assert_eq!(paused["phase"], "paused");
+    let text = stdout(&support::run(folder, &["status", "run"]));
+    assert!(text.contains("run `run` is paused") && text.contains("actor-0"), "{text}");
+
+    // Nothing is learnt while other things are done.
+    let kept = done(folder, &["checkpoint", "run"]);
+    let updates = paused["updates"].as_u64().unwrap();
+    let path = run.join(format!("checkpoints/{updates:08}.bundle"));
+    assert!(kept.contains(path.file_name().unwrap().to_str().unwrap()), "{kept}");
+    assert_eq!(load_file(&path).unwrap().counters.updates, updates);
+    let changed = done(folder, &["set", "ppo.learning_rate", "1e-4", "run"]);
+    assert!(changed.contains("ppo.learning_rate is 0.0001, was 0.0003"), "{changed}");
+    assert_refused(&control(folder, &["set", "rollout.envs", "3", "run"]), 2, &["`rollout.envs`", "ppo"]);
+    assert_refused(&control(folder, &["set", "ppo.clip_range", "-1", "run"]), 2, &["`ppo.clip_range`", "-1"]);
+    assert_refused(&control(folder, &["set", "ppo.clip", "1", "run"]), 2, &["`ppo.clip`"]);
+    assert_eq!(status(folder)["updates"], paused["updates"]);
+
+    assert!(done(folder, &["resume", "run"]).starts_with("going on after update"));
+    let steps = paused["env_steps"].as_u64().unwrap();
+    await_steps(&run, steps + 2048);
+    let going = await_that("actors that are at work", || {
+        let status = status(folder);
+        let actors = status["actors"].as_array().unwrap();
+        let at_work = |actor: &Value| actor["state"] == "alive" && actor["accepted"].as_u64() > Some(0);
+        (actors.len() == 2 && actors.iter().all(at_work)).then_some(status.clone())
+    });
+    assert_eq!(going["phase"], "training");
+
+    assert!(done(folder, &["stop", "run"]).starts_with("stopping"));
+    let (ended, _) = training.wait();
+    assert!(ended.success());
+    let state = load_file(&run.join("checkpoints/latest.bundle")).unwrap();
+    assert_eq!(state.config().unwrap().ppo.learning_rate, 1e-4);
+    assert_refused(&support::run(folder, &["status", "run"]), 1, &["nobody answers", "endpoint.txt"]);
+}
+
+#[test]
+fn an_observer_may_ask_and_only_the_operator_may_command() {
+    let (folder, run) = folders();
+    let folder = folder.path();
+    assert!(support::run(folder, &["certs", "certs"]).status.success());
+    let mut command = treadmill(folder);
+    command.args(["train", "--preset", "smoke", "--steps", ENDLESS, "--run-dir", run.to_str().unwrap()]);
+    command.args(["--listen", "tls/127.0.0.1:0", "--tls", "certs"]);
+    let training = Running::start(command);
+    await_steps(&run, 512);
+    // What an observer's machine has, who would call itself an operator.
+    let theirs = folder.join("theirs");
+    std::fs::create_dir(&theirs).unwrap();
+    for (from, to) in [("ca.crt", "ca.crt"), ("observer.crt", "operator.crt"), ("observer.key", "operator.key")] {
+        std::fs::copy(folder.join("certs").join(from), theirs.join(to)).unwrap();
+    }
+    let asked = support::run(folder, &["status", "run", "--tls", "theirs", "--json"]);
+    assert_eq!(last_json(&asked)["run"], "run");
+    let args = ["pause", "run", "--run", "run", "--tls", "theirs"];
+    assert_refused(&control(folder, &args), 1, &["no learner of run `run` takes commands"]);
+    assert_eq!(status_over(folder, "certs")["phase"], "training");
+    assert!(done(folder, &["pause", "run", "--tls", "certs"]).starts_with("paused"));
+    assert_eq!(status_over(folder, "certs")["phase"], "paused");
+    assert!(done(folder, &["stop", "run", "--tls", "certs"]).starts_with("stopping"));
+    assert!(training.wait().0.success());
+}
+
+fn status_over(folder: &Path, certs: &str) -> Value {
+    last_json(&run(folder, &["status", "run", "--tls", certs, "--json"]))
+}

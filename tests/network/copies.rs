@@ -1,0 +1,86 @@
+//! Copies of accepted fragments: sent to subscribers that ask for exactly them, and to no others.
+
+use crate::support::*;
+use bytes::Bytes;
+use treadmill_common::bus::{Bus, BusOptions, Credentials, Role, RolloutCopies, observe};
+use treadmill_proto::Fragment;
+
+/// A subscriber must not lose any to a slow test machine.
+const RING: usize = 65_536;
+
+#[test]
+fn who_subscribes_to_the_copies_gets_them_and_who_watches_everything_does_not() {
+    let (folder, run) = folders();
+    let mut command = treadmill(folder.path());
+    command.args(["train", "--preset", "smoke", "--steps", "1000000000", "--run-dir", run.to_str().unwrap()]);
+    let training = Running::start(command);
+    let bus = Bus::open_client(&BusOptions { connect: vec![endpoint(&run)], ..BusOptions::default() }).unwrap();
+    let everything = observe(&bus, "treadmill/**", RING).unwrap();
+    let copies = observe(&bus, "treadmill/run/@rollouts/*", RING).unwrap();
+    let mut bytes = 0;
+    for _ in 0..20 {
+        let copy = copies.next(PATIENCE).expect("a copy");
+        bytes += copy.payload.len();
+        let fragment = Fragment::decode(Bytes::from(copy.payload)).unwrap();
+        assert_eq!(copy.key, format!("treadmill/run/@rollouts/{}", fragment.actor));
+        assert_eq!(fragment.transitions(), 256);
+    }
+    assert!(bytes > 20 * 256 * 45 * 4);
+    training.signal(libc::SIGINT);
+    assert!(training.wait().0.success());
+    let mut seen = 0;
+    while let Some(message) = everything.next(std::time::Duration::ZERO) {
+        assert!(!message.key.contains('@'), "{}", message.key);
+        seen += 1;
+    }
+    assert!(seen > 20, "metrics, episodes and statistics of as many updates: {seen}");
+}
+
+#[test]
+fn observers_may_read_the_copies_and_actors_may_not() {
+    let (folder, run) = folders();
+    assert!(self::run(folder.path(), &["certs", "certs"]).status.success());
+    let mut command = treadmill(folder.path());
+    command.args(["train", "--preset", "smoke", "--steps", "1000000000", "--run-dir", run.to_str().unwrap()]);
+    command.args(["--listen", "tls/127.0.0.1:0", "--tls", "certs"]);
+    let _training = Running::start(command);
+    let connect = vec![endpoint(&run)];
+    let watch = |role| {
+        let credentials = Some(Credentials { folder: folder.path().join("certs"), role });
+        let options = BusOptions { connect: connect.clone(), credentials, ..BusOptions::default() };
+        let bus = Bus::open_client(&options).unwrap();
+        (observe(&bus, "treadmill/run/@rollouts/*", RING).unwrap(), bus)
+    };
+    let (actors, _actor) = watch(Role::Actor);
+    let (observers, _observer) = watch(Role::Observer);
+    for _ in 0..10 {
+        Fragment::decode(Bytes::from(observers.next(PATIENCE).expect("a copy").payload)).unwrap();
+    }
+    assert_eq!(actors.next(std::time::Duration::ZERO), None);
+}
+
+#[test]
+fn copies_are_made_only_while_somebody_wants_them() {
+    let listen = vec!["tcp/127.0.0.1:0".to_string()];
+    let (router, endpoints) = Bus::open_router(&BusOptions { listen, ..BusOptions::default() }).unwrap();
+    let copies = RolloutCopies::open(&router, "run").unwrap();
+    let client = Bus::open_client(&BusOptions { connect: endpoints, ..BusOptions::default() }).unwrap();
+    let _everything = observe(&client, "treadmill/**", 16).unwrap();
+    let other = observe(&client, "treadmill/other-run/@rollouts/*", 16).unwrap();
+    assert!(!copies.is_watched());
+    let one = observe(&client, "treadmill/run/@rollouts/actor-1", 16).unwrap();
+    await_that("a subscriber", || copies.is_watched().then_some(()));
+    copies.offer("actor-2", Bytes::from_static(b"unwanted"));
+    copies.offer("actor-1", Bytes::from_static(b"a fragment"));
+    let message = one.next(PATIENCE).expect("the copy");
+    assert_eq!((&message.key[..], &message.payload[..]), ("treadmill/run/@rollouts/actor-1", &b"a fragment"[..]));
+    drop(one);
+    await_that("no subscriber", || (!copies.is_watched()).then_some(()));
+    // A subscriber that does not take its copies cannot make them pile up.
+    for _ in 0..1000 {
+        copies.offer("actor-1", Bytes::from(vec![0; 1 << 20]));
+    }
+    assert!(other.next(std::time::Duration::ZERO).is_none());
+    client.close();
+    router.close();
+}

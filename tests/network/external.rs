@@ -1,0 +1,253 @@
+//! Tasks that other programs simulate: registered by their actors, trained here, refused by name where they are others.
+
+use std::{fs, path::Path, process::Command};
+
+use crate::support::*;
+use bytes::Bytes;
+use treadmill_common::{
+    bus::{Bus, BusOptions, Credentials, Role, fetch_policy, register_task, submit},
+    config::ConfigSource,
+};
+use treadmill_proto::{
+    EndCause, Episode, Fragment, Outcome, PolicyBundle, Receipt, Task, TaskReceipt, TaskRegistration,
+    fragment::TERMINATED,
+};
+
+fn task() -> Task {
+    Task {
+        name: "test/Count-v0".into(),
+        observation_size: 3,
+        action_size: 2,
+        action_low: vec![-3.0, 0.0],
+        action_high: vec![1.0, 2.0],
+        control_step_s: 0.5,
+    }
+}
+
+fn learner(folder: &Path, run: &Path, more: &[&str]) -> Running {
+    let mut command: Command = treadmill(folder);
+    command.args(["learner", "--listen", "tcp/127.0.0.1:0"]).args(more);
+    if !more.contains(&"--resume") {
+        command.args(["--preset", "smoke", "--run-dir", run.to_str().unwrap()]);
+    }
+    Running::start(command)
+}
+
+fn join(run: &Path) -> Bus {
+    Bus::open_client(&BusOptions { connect: vec![endpoint(run)], ..BusOptions::default() }).unwrap()
+}
+
+async fn register(bus: &Bus, actor: &str, task: &Task) -> TaskReceipt {
+    let registration = TaskRegistration { run: "run".into(), actor: actor.into(), task: task.clone() };
+    loop {
+        // No reply at once means only that the learner is not known yet.
+        if let Some(receipt) = register_task(bus, &registration, PATIENCE).await.unwrap() {
+            return receipt;
+        }
+        tokio::task::yield_now().await;
+    }
+}
+
+async fn policy(bus: &Bus) -> PolicyBundle {
+    loop {
+        if let Some(bundle) = fetch_policy(bus, Some("run"), PATIENCE).await.unwrap() {
+            return bundle;
+        }
+        tokio::task::yield_now().await;
+    }
+}
+
+/// A whole batch of the preset `smoke`: 512 episodes of one step, which were over by rule.
+fn fragment(bundle: &PolicyBundle, sequence: u64) -> Fragment {
+    let (steps, envs) = (64, 8);
+    let rows = (steps * envs) as usize;
+    let wavy = |count: usize| (0..count).map(|index| (index as f32 * 0.7).sin()).collect::<Vec<f32>>();
+    let episode =
+        Episode { return_sum: 1.0, length: 1, distance_m: 0.0, velocity_mean_mps: 0.0, cause: EndCause::Terminated };
+    Fragment {
+        run: bundle.run.clone(),
+        actor: "count-1".into(),
+        actor_incarnation: 7,
+        sequence,
+        version: bundle.version,
+        config_hash: bundle.config_hash,
+        steps,
+        envs,
+        observation_size: bundle.observation_size,
+        action_size: bundle.action_size,
+        observations: wavy(rows * bundle.observation_size as usize),
+        actions: wavy(rows * bundle.action_size as usize),
+        log_probs: vec![-2.0; rows],
+        rewards: vec![1.0; rows],
+        flags: vec![TERMINATED; rows],
+        last_observations: vec![],
+        episodes: vec![episode; rows],
+        settled_through: 0,
+        actor_state: None,
+    }
+}
+
+async fn send(bus: &Bus, fragment: &Fragment) -> Receipt {
+    let bytes = Bytes::from(fragment.encode().unwrap());
+    loop {
+        if let Some(receipt) = submit(bus, "run", &fragment.actor, bytes.clone(), PATIENCE).await.unwrap() {
+            return receipt;
+        }
+        tokio::task::yield_now().await;
+    }
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn the_first_registration_makes_the_run_and_all_others_are_held_against_it() {
+    let (folder, run) = folders();
+    let training = learner(folder.path(), &run, &["--task", "external", "--steps", "1024"]);
+    training.wait_for("python -m treadmill_actor");
+    let bus = join(&run);
+
+    let nonsense = Task { name: "no\nname".into(), ..task() };
+    let unchecked = TaskRegistration { run: "run".into(), actor: "count-1".into(), task: nonsense };
+    assert!(unchecked.encode().is_err(), "our own side does not send it");
+    let huge = register(&bus, "count-1", &Task { observation_size: 4096, ..task() }).await;
+    assert!(huge.accepted, "4096 observations go with the networks of `smoke`: {}", huge.reason);
+    drop((training, bus));
+
+    let (folder, run) = folders();
+    let training = learner(folder.path(), &run, &["--task", "test/Count-v0", "--steps", "1024"]);
+    let bus = join(&run);
+    let other = Task { name: "test/Other-v0".into(), ..task() };
+    let refused = register(&bus, "other-1", &other).await;
+    assert!(!refused.accepted && refused.task.is_none(), "the run waits for the task that was named");
+    assert!(refused.reason.contains("this run trains `test/Count-v0`"), "{}", refused.reason);
+    assert!(register(&bus, "count-1", &task()).await.accepted);
+    training.wait_for("`test/Count-v0` (3 observations, 2 actions)");
+    let refused = register(&bus, "other-1", &Task { observation_size: 5, ..other }).await;
+    assert_eq!(
+        refused.reason,
+        "this run trains `test/Count-v0` (3 observations, 2 actions); you registered `test/Other-v0` (5 observations, 2 \
+         actions)"
+    );
+    let refused = register(&bus, "count-2", &Task { action_high: vec![1.0, 3.0], ..task() }).await;
+    assert!(refused.reason.contains("task.action_high"), "{}", refused.reason);
+    assert!(register(&bus, "count-2", &task()).await.accepted);
+
+    let bundle = policy(&bus).await;
+    assert_eq!((bundle.observation_size, bundle.action_size, &bundle.model_xml[..]), (3, 2, ""));
+    let mut config = ConfigSource::default();
+    config.text(&bundle.config_toml, "the bundle").unwrap();
+    assert_eq!(config.build().unwrap().task.known(), Some(task()));
+
+    // An actor of ours is refused by name.
+    let endpoint = endpoint(&run);
+    let ours = self::run(folder.path(), &["actor", "--connect", &endpoint, "--run", "run", "--envs", "1"]);
+    assert_refused(&ours, 1, &["`test/Count-v0`", "treadmill_actor", "--run run"]);
+    let evaluator = self::run(folder.path(), &["evaluator", "--connect", &endpoint, "--run", "run"]);
+    assert_refused(&evaluator, 1, &["`test/Count-v0`"]);
+
+    // Trained, saved, and to its end.
+    let wrong = Fragment { config_hash: bundle.config_hash ^ 1, ..fragment(&bundle, 1) };
+    assert_eq!(send(&bus, &wrong).await.outcome, Outcome::Malformed);
+    assert_eq!(send(&bus, &fragment(&bundle, 1)).await.outcome, Outcome::Accepted);
+    let bundle = policy(&bus).await;
+    assert_eq!(bundle.version.number, 1);
+    assert_eq!(send(&bus, &fragment(&bundle, 2)).await.outcome, Outcome::Accepted);
+    let (status, lines) = training.wait();
+    assert!(status.success(), "{lines:#?}");
+    assert!(lines.iter().any(|line| line.contains("treadmill export")), "{lines:#?}");
+    assert_eq!(last_value(&run, "rollout/ep_rew_mean"), Some(1.0));
+    assert!(run.join("checkpoints/best.bundle").is_file(), "the best by return in training");
+    assert!(!run.join("model.xml").exists());
+    assert!(fs::read_to_string(run.join("config.toml")).unwrap().contains("name = \"test/Count-v0\""));
+
+    // What plays the humanoid says so; what only needs the weights works.
+    let path = run.to_str().unwrap();
+    assert_refused(&self::run(folder.path(), &["eval", path]), 2, &["`test/Count-v0`", "treadmill export"]);
+    assert_refused(&self::run(folder.path(), &["train", "--resume", path]), 2, &["external", "treadmill learner"]);
+    let file = folder.path().join("policy.safetensors");
+    let exported = self::run(folder.path(), &["export", path, "--safetensors", file.to_str().unwrap()]);
+    assert!(exported.status.success(), "{}", stderr(&exported));
+    let played = self::run(folder.path(), &["eval", file.to_str().unwrap()]);
+    assert_refused(&played, 2, &["`test/Count-v0`"]);
+
+    // A resumed run needs no registration.
+    fs::remove_file(run.join("endpoint.txt")).unwrap();
+    let training = learner(folder.path(), &run, &["--resume", path, "--steps", "1536"]);
+    let bus = join(&run);
+    let again = policy(&bus).await;
+    assert_eq!((again.config_hash, again.version.number), (bundle.config_hash, 2));
+    assert!(!register(&bus, "other-1", &Task { name: "test/Other-v0".into(), ..task() }).await.accepted);
+    assert_eq!(send(&bus, &fragment(&again, 3)).await.outcome, Outcome::Accepted);
+    assert!(training.wait().0.success());
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn a_run_of_ours_refuses_other_tasks_by_name() {
+    let (folder, run) = folders();
+    let _training = learner(folder.path(), &run, &[]);
+    let bus = join(&run);
+    let refused = register(&bus, "gym-1", &Task { observation_size: 45, ..task() }).await;
+    assert!(!refused.accepted);
+    assert_eq!(
+        refused.reason,
+        "this run trains `treadmill/humanoid-v5` (45 observations, 17 actions); you registered `test/Count-v0` (45 \
+         observations, 2 actions)"
+    );
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn with_certificates_an_actor_registers_and_an_observer_does_not() {
+    let (folder, run) = folders();
+    assert!(self::run(folder.path(), &["certs", "certs"]).status.success());
+    let mut command: Command = treadmill(folder.path());
+    command.args(["learner", "--listen", "tls/127.0.0.1:0", "--tls", "certs", "--task", "external"]);
+    command.args(["--preset", "smoke", "--run-dir", run.to_str().unwrap()]);
+    let training = Running::start(command);
+    let connect = vec![endpoint(&run)];
+    let join = |role| {
+        let credentials = Some(Credentials { folder: folder.path().join("certs"), role });
+        Bus::open_client(&BusOptions { connect: connect.clone(), credentials, ..BusOptions::default() }).unwrap()
+    };
+    let stranger = TaskRegistration {
+        run: "run".into(),
+        actor: "watcher".into(),
+        task: Task { name: "test/Other-v0".into(), ..task() },
+    };
+    let patience = std::time::Duration::from_secs(1);
+    assert_eq!(register_task(&join(Role::Observer), &stranger, patience).await.unwrap(), None);
+    assert!(register(&join(Role::Actor), "count-1", &task()).await.accepted, "the observer's did not arrive");
+    training.wait_for("`test/Count-v0`");
+}
+
+#[test]
+fn what_makes_no_sense_with_an_external_task_is_refused_before_anything_is_written() {
+    let (folder, run) = folders();
+    let path = run.to_str().unwrap();
+    let with = |command: &str, more: &[&str]| {
+        let args = [&[command, "--preset", "smoke", "--run-dir", path, "--listen", "tcp/127.0.0.1:0"], more].concat();
+        let output = self::run(folder.path(), &args);
+        assert!(!run.exists(), "{args:?}");
+        output
+    };
+    assert_refused(&with("train", &["--task", "external"]), 2, &["`treadmill learner`"]);
+    assert_refused(&with("learner", &["--task", "a b"]), 2, &["`task.name`", "\"a b\"", "128"]);
+    assert_refused(&with("learner", &["--task", "external", "--model", "my.xml"]), 2, &["my.xml", "external"]);
+    let huge = ["--task", "a", "--set", "task.observation_size=4096", "--set", "task.action_size=1"];
+    let ranges = ["--set", "task.action_low=[-1]", "--set", "task.action_high=[1]", "--set", "policy.hidden=[4096]"];
+    assert_refused(&with("learner", &[&huge[..], &ranges[..]].concat()), 2, &["parameters", "policy.hidden"]);
+    assert_refused(&self::run(folder.path(), &["bench", "env", "--set", "env.task=external"]), 2, &["env.task"]);
+    assert_refused(
+        &self::run(folder.path(), &["eval", "--agent", "random", "--set", "env.task=external"]),
+        2,
+        &["env.task"],
+    );
+}
+
+#[test]
+fn a_learner_that_waits_for_a_task_can_be_stopped() {
+    let (folder, run) = folders();
+    let training = learner(folder.path(), &run, &["--task", "external"]);
+    training.wait_for("first actor registers");
+    endpoint(&run);
+    training.signal(libc::SIGINT);
+    let (status, lines) = training.wait();
+    assert!(status.success() && lines.iter().any(|line| line.contains("before any actor registered")), "{lines:#?}");
+}

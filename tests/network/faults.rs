@@ -1,0 +1,158 @@
+//! Real processes killed for real: nothing stops that need not, and nothing is lost silently.
+
+use std::{
+    fs,
+    os::unix::process::CommandExt,
+    path::Path,
+    process::{Command, Stdio},
+};
+
+use crate::support::*;
+use treadmill_common::bus::{Bus, BusOptions, observe};
+use treadmill_learner::checkpoint::load_file;
+use treadmill_proto::ActorStats;
+
+/// More steps than any of these tests waits for.
+const ENDLESS: &str = "1000000000";
+
+fn endless(folder: &Path, run: &Path, command: &str) -> Command {
+    let mut started = treadmill(folder);
+    started.args([command, "--preset", "smoke", "--steps", ENDLESS, "--run-dir", run.to_str().unwrap()]);
+    started
+}
+
+fn actor(folder: &Path, endpoint: &str, name: &str) -> Running {
+    let mut command = treadmill(folder);
+    command.args(["actor", "--connect", endpoint, "--envs", "4", "--name", name]);
+    Running::start(command)
+}
+
+#[test]
+fn an_actor_that_is_killed_is_started_again_and_counted() {
+    let (folder, run) = folders();
+    let training = Running::start(endless(folder.path(), &run, "train"));
+    await_steps(&run, 1024);
+    let killed = children(training.pid(), "actor-0");
+    assert_eq!(killed.len(), 1);
+    send_signal(killed[0], libc::SIGKILL);
+    training.wait_for("actor-0 ended");
+    await_that("another actor-0", || {
+        children(training.pid(), "actor-0").first().copied().filter(|pid| *pid != killed[0])
+    });
+    await_that("the restart is counted", || last_value(&run, "actors/restarts").filter(|restarts| *restarts == 1.0));
+    await_that("both are alive", || last_value(&run, "actors/alive").filter(|alive| *alive == 2.0));
+    training.signal(libc::SIGINT);
+    assert!(training.wait().0.success());
+}
+
+#[test]
+fn actors_of_a_killed_train_end_by_themselves() {
+    let (folder, run) = folders();
+    let training = Running::start(endless(folder.path(), &run, "train"));
+    await_steps(&run, 512);
+    let orphans = children(training.pid(), "actor");
+    assert_eq!(orphans.len(), 2);
+    training.signal(libc::SIGKILL);
+    await_that("the orphans are gone", || orphans.iter().all(|pid| !is_running(*pid)).then_some(()));
+}
+
+#[test]
+fn an_actor_without_a_learner_says_so_and_keeps_trying() {
+    let (folder, run) = folders();
+    let port = std::net::TcpListener::bind("127.0.0.1:0").unwrap().local_addr().unwrap().port();
+    let endpoint = format!("tcp/127.0.0.1:{port}");
+    let waiting = actor(folder.path(), &endpoint, "early");
+    waiting.wait_for(&endpoint);
+    assert!(is_running(waiting.pid()));
+    let mut command = endless(folder.path(), &run, "learner");
+    command.args(["--listen", &endpoint]);
+    let learner = Running::start(command);
+    await_steps(&run, 512);
+    drop((learner, waiting));
+}
+
+#[test]
+fn a_learner_that_is_killed_is_resumed_while_its_actors_wait() {
+    let (folder, run) = folders();
+    let mut command = endless(folder.path(), &run, "learner");
+    command.args(["--listen", "tcp/127.0.0.1:0"]);
+    let learner = Running::start(command);
+    let endpoint = endpoint(&run);
+    let actors = [actor(folder.path(), &endpoint, "a"), actor(folder.path(), &endpoint, "b")];
+    await_steps(&run, 2048);
+    learner.signal(libc::SIGKILL);
+    learner.wait();
+    let saved = load_file(&run.join("checkpoints/latest.bundle")).unwrap();
+
+    let mut command = treadmill(folder.path());
+    command.args(["learner", "--resume", run.to_str().unwrap(), "--steps", ENDLESS, "--listen", &endpoint]);
+    let learner = Running::start(command);
+    await_steps(&run, saved.counters.env_steps + 4096);
+    assert!(actors.iter().all(|actor| is_running(actor.pid())), "actors outlive the learner");
+
+    // What the actors count: produced = accepted + dropped by rule + in flight, and nothing piles up.
+    let bus = Bus::open_client(&BusOptions { connect: vec![endpoint], ..BusOptions::default() }).unwrap();
+    let feed = observe(&bus, "treadmill/run/actors/*/stats", 16).unwrap();
+    for _ in 0..4 {
+        let message = feed.next(PATIENCE).expect("statistics come by themselves");
+        let stats = ActorStats::decode_checked(&message.payload).unwrap();
+        assert_eq!(stats.produced, stats.accepted + stats.dropped_by_rule + stats.in_flight, "{stats:?}");
+        assert!(stats.accepted > 0, "{stats:?}");
+        assert!(stats.awaiting_durability <= 3, "a batch is two fragments: {stats:?}");
+    }
+    bus.close();
+    learner.signal(libc::SIGINT);
+    assert!(learner.wait().0.success());
+
+    let after = load_file(&run.join("checkpoints/latest.bundle")).unwrap();
+    assert!(after.counters.env_steps >= saved.counters.env_steps + 4096);
+    assert_eq!(after.optimiser.step, after.counters.gradient_steps, "no gradient step is counted and lost");
+    // Every accepted fragment of 4 environments and 64 steps was learnt from, exactly once.
+    assert_eq!(after.counters.env_steps, after.tally.accepted * 4 * 64);
+    assert_eq!(after.tally.malformed, 0);
+}
+
+#[test]
+fn a_disk_that_takes_no_more_ends_the_run_with_the_last_checkpoint_intact() {
+    let (folder, run) = folders();
+    let first = ["train", "--preset", "smoke", "--steps", "1024", "--run-dir", run.to_str().unwrap()];
+    assert!(self::run(folder.path(), &first).status.success());
+    let latest = run.join("checkpoints/latest.bundle");
+    let sound = fs::read(&latest).unwrap();
+
+    let mut command = treadmill(folder.path());
+    command.args(["train", "--resume", run.to_str().unwrap(), "--steps", ENDLESS]).stdin(Stdio::null());
+    let limit = (sound.len() / 2) as u64;
+    // SAFETY: both calls only change limits and signals of the child before it becomes another program.
+    unsafe {
+        command.pre_exec(move || {
+            // Files may not grow beyond half a checkpoint, as on a disk that is nearly full.
+            let limit = libc::rlimit { rlim_cur: limit, rlim_max: limit };
+            libc::signal(libc::SIGXFSZ, libc::SIG_IGN);
+            if libc::setrlimit(libc::RLIMIT_FSIZE, &limit) == 0 { Ok(()) } else { Err(std::io::Error::last_os_error()) }
+        });
+    }
+    let output = command.output().unwrap();
+    assert_refused(&output, 1, &["cannot save checkpoint", "latest.bundle", "the one before it is untouched"]);
+    assert_eq!(fs::read(&latest).unwrap(), sound);
+    let left: Vec<_> =
+        fs::read_dir(run.join("checkpoints")).unwrap().flatten().map(|entry| entry.file_name()).collect();
+    assert!(!left.iter().any(|name| name.to_string_lossy().ends_with(".tmp")), "{left:?}");
+}
+
+#[test]
+fn a_frozen_actor_does_not_hold_up_the_others() {
+    let (folder, run) = folders();
+    let training = Running::start(endless(folder.path(), &run, "train"));
+    await_steps(&run, 1024);
+    let frozen = children(training.pid(), "actor-0");
+    send_signal(frozen[0], libc::SIGSTOP);
+    let before = metrics(&run).last().unwrap().1;
+    await_steps(&run, before + 10 * 512);
+    send_signal(frozen[0], libc::SIGCONT);
+    let thawed = metrics(&run).last().unwrap().1;
+    await_steps(&run, thawed + 10 * 512);
+    training.signal(libc::SIGINT);
+    assert!(training.wait().0.success());
+    assert_eq!(last_value(&run, "bus/fragments_malformed"), Some(0.0));
+}

@@ -1,0 +1,170 @@
+//! The metrics page: everything that is logged, under the names that dashboard, alarms and autoscaling ask for.
+
+use std::{
+    collections::BTreeSet,
+    fs,
+    io::{Read, Write},
+    net::{TcpListener, TcpStream},
+    path::Path,
+};
+
+use crate::support::*;
+
+/// Status and body of one request.
+fn ask(address: &str, method: &str, path: &str) -> Option<(u16, String)> {
+    let mut stream = TcpStream::connect(address).ok()?;
+    stream.set_read_timeout(Some(PATIENCE)).expect("a timeout is set");
+    write!(stream, "{method} {path} HTTP/1.1\r\nHost: {address}\r\n\r\n").ok()?;
+    let mut answer = String::new();
+    stream.read_to_string(&mut answer).ok()?;
+    let (head, body) = answer.split_once("\r\n\r\n")?;
+    Some((head.split(' ').nth(1)?.parse().ok()?, body.to_string()))
+}
+
+fn get(address: &str, path: &str) -> Option<(u16, String)> {
+    ask(address, "GET", path)
+}
+
+/// A training with its page, and the page's address.
+fn train(folder: &Path, run: &Path, more: &[&str]) -> (Running, String) {
+    let mut command = treadmill(folder);
+    command.args(["train", "--preset", "smoke", "--steps", "100000000", "--no-progress", "--run-dir"]);
+    command.arg(run).args(["--prometheus", "127.0.0.1:0"]).args(more);
+    let training = Running::start(command);
+    let line = training.wait_for("  metrics   ");
+    let address = line.split("http://").nth(1).and_then(|rest| rest.strip_suffix("/metrics")).expect("an address");
+    (training, address.to_string())
+}
+
+/// Names of the gauges on a page.
+fn gauges(page: &str) -> BTreeSet<String> {
+    let type_line = |line: &str| line.strip_prefix("# TYPE ")?.strip_suffix(" gauge").map(str::to_string);
+    page.lines().filter_map(type_line).collect()
+}
+
+/// Everything in `text` that looks like the name of a gauge.
+fn names_in(text: &str) -> BTreeSet<String> {
+    let is_part = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '_';
+    let words = text.split(|c: char| !is_part(c)).filter(|word| word.starts_with("treadmill_"));
+    words.map(str::to_string).collect()
+}
+
+fn repository(path: &str) -> String {
+    fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join(path)).unwrap_or_else(|why| panic!("{path}: {why}"))
+}
+
+#[test]
+fn the_page_has_every_metric_and_nobody_asks_for_another() {
+    let (folder, run) = folders();
+    let often = ["--set", "eval.every_steps=5000", "--set", "eval.episodes=1"];
+    let (_training, address) = train(folder.path(), &run, &often);
+    let page = await_that("a page with an evaluation and an actor", || {
+        let (status, page) = get(&address, "/metrics")?;
+        assert_eq!(status, 200);
+        let is_full = ["treadmill_eval_mean_reward{", "treadmill_rollout_ep_rew_mean{", "treadmill_actor_policy_lag{"];
+        is_full.iter().all(|part| page.contains(part)).then_some(page)
+    });
+    let exported = gauges(&page);
+
+    // What is on the page is what is logged.
+    let logged: Vec<(String, u64, f64)> = metrics(&run);
+    for (tag, ..) in &logged {
+        assert!(exported.contains(&format!("treadmill_{}", tag.replace('/', "_"))), "{tag} is logged only");
+    }
+    let row = page.lines().find(|line| line.starts_with("treadmill_time_total_timesteps{")).expect("the row");
+    let (labels, value) = row.rsplit_once(' ').expect("a value");
+    assert_eq!(labels, "treadmill_time_total_timesteps{run=\"run\"}");
+    let value: f64 = value.parse().expect("a number");
+    let step =
+        await_that("the same in the log", || metrics(&run).into_iter().find(|(_, step, _)| *step as f64 == value));
+    assert!(step.1 > 0);
+
+    // What is documented is what is on the page, and each gauge has its help.
+    let text = page("metrics");
+    let documented: BTreeSet<String> = text
+        .lines()
+        .filter_map(|line| line.strip_prefix("| `")?.split_once("` |").map(|(name, _)| name))
+        .filter(|name| name.contains('/') || name.starts_with("treadmill_"))
+        .map(|name| if name.contains('/') { format!("treadmill_{}", name.replace('/', "_")) } else { name.to_string() })
+        .collect();
+    assert_eq!(documented, exported);
+    assert!(!page.contains("A metric of Treadmill"), "a help is missing");
+
+    // What dashboard, alarms and autoscaling ask for is on the page.
+    let mut asked = BTreeSet::new();
+    for path in [
+        "deploy/observability/grafana/dashboards/treadmill.json",
+        "deploy/observability/alarms.yml",
+        "deploy/kubernetes/autoscaling.yaml",
+        "deploy/kubernetes/prometheus-adapter.yaml",
+    ] {
+        let names = names_in(&repository(path));
+        assert!(!names.is_empty(), "{path} asks for something");
+        asked.extend(names);
+    }
+    assert_eq!(asked.difference(&exported).collect::<Vec<_>>(), [""; 0].iter().collect::<Vec<_>>());
+    let dashboard: serde_json::Value =
+        serde_json::from_str(&repository("deploy/observability/grafana/dashboards/treadmill.json")).expect("JSON");
+    for panel in dashboard["panels"].as_array().expect("panels") {
+        for target in panel["targets"].as_array().into_iter().flatten() {
+            let question = target["expr"].as_str().expect("an expression");
+            assert!(!names_in(question).is_empty(), "`{question}` asks for none of ours");
+        }
+    }
+}
+
+#[test]
+fn slow_clients_hold_up_neither_others_nor_training() {
+    let (folder, run) = folders();
+    let (_training, address) = train(folder.path(), &run, &[]);
+    // More than are served at a time, and none of them ever finishes its question.
+    let slow: Vec<TcpStream> = (0..200)
+        .map(|_| {
+            let mut stream = TcpStream::connect(&address).expect("the port is open");
+            // A connection that is refused at once ends here.
+            let _ = stream.write_all(b"GET /metrics HTTP/1.1\r\nHost:");
+            stream
+        })
+        .collect();
+    let before = last_value(&run, "time/total_timesteps").unwrap_or(0.0) as u64;
+    await_steps(&run, before + 2000);
+    let (_, health) = await_that("an answer", || get(&address, "/healthz").filter(|(status, _)| *status == 200));
+    assert_eq!(health, "ok\n");
+    drop(slow);
+    assert_eq!(ask(&address, "POST", "/metrics").map(|(status, _)| status), Some(405));
+    assert_eq!(get(&address, "/").map(|(status, _)| status), Some(404));
+    // A question that never ends is cut off, and the next one is answered.
+    let _ = get(&address, &format!("/{}", "x".repeat(1_000_000)));
+    assert_eq!(get(&address, "/healthz").map(|(status, _)| status), Some(200));
+}
+
+#[test]
+fn a_training_thread_without_progress_is_told() {
+    let (folder, run) = folders();
+    // One update takes seconds, and the page is told to find that too long.
+    let long = ["ppo.batch=32768", "ppo.minibatch=512", "ppo.epochs=100", "ppo.target_kl=0"];
+    let mut more = vec!["--stalled-after-s", "1"];
+    more.extend(long.iter().flat_map(|pair| ["--set", pair]));
+    let (_training, address) = train(folder.path(), &run, &more);
+    let health =
+        |wanted: u16| await_that("its health", || get(&address, "/healthz").filter(|(status, _)| *status == wanted));
+    health(200);
+    let (_, why) = health(503);
+    assert!(why.starts_with("no progress for "), "{why}");
+    health(200);
+}
+
+#[test]
+fn an_address_that_cannot_be_is_refused_before_anything_is_written() {
+    let (folder, run) = folders();
+    let refused = |address: &str, code, parts: &[&str]| {
+        let args = ["train", "--preset", "smoke", "--prometheus", address, "--run-dir", run.to_str().unwrap()];
+        assert_refused(&self::run(folder.path(), &args), code, parts);
+        assert!(!run.exists(), "nothing is left behind by {address}");
+    };
+    refused("0.0.0.0:0", 2, &["--prometheus 0.0.0.0:0", "--prometheus-open", "127.0.0.1"]);
+    refused("localhost", 2, &["--prometheus", "localhost"]);
+    let taken = TcpListener::bind("127.0.0.1:0").unwrap();
+    let address = taken.local_addr().unwrap().to_string();
+    refused(&address, 1, &[&address, "choose another port"]);
+}

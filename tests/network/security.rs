@@ -1,0 +1,106 @@
+//! Links with certificates: a fleet trains over them, also through a router, and clients without one are refused.
+
+use std::{fs, os::unix::fs::PermissionsExt, path::Path, process::Command};
+
+use crate::support::*;
+
+fn learner(folder: &Path, run: &Path) -> Command {
+    let mut command = treadmill(folder);
+    command.args(["learner", "--preset", "smoke", "--steps", "1000000000", "--run-dir", run.to_str().unwrap()]);
+    command.args(["--listen", "tls/127.0.0.1:0", "--tls", "certs"]);
+    command
+}
+
+fn certs(folder: &Path, args: &[&str]) {
+    let made = run(folder, &[&["certs"], args].concat());
+    assert!(made.status.success(), "{}", stderr(&made));
+}
+
+#[test]
+fn a_fleet_with_certificates_trains_by_way_of_a_router() {
+    let (folder, run) = folders();
+    certs(folder.path(), &["certs"]);
+    let learner = Running::start(learner(folder.path(), &run));
+    let mut command = treadmill(folder.path());
+    command.args(["router", "--listen", "tls/127.0.0.1:0", "--connect", &endpoint(&run), "--tls", "certs"]);
+    let router = Running::start(command);
+    let listening = router.wait_for("listening");
+    let mut command = treadmill(folder.path());
+    command.args(["actor", "--envs", "4", "--tls", "certs", "--connect", listening.split_whitespace().last().unwrap()]);
+    let actor = Running::start(command);
+    await_steps(&run, 2048);
+    for part in [actor, router, learner] {
+        part.signal(libc::SIGTERM);
+        assert!(part.wait().0.success());
+    }
+}
+
+#[test]
+fn a_router_takes_turns_on_one_core_where_links_are_encrypted() {
+    let (folder, _) = folders();
+    certs(folder.path(), &["certs"]);
+    // Of every thread of the bus, of which those that read and write links are made by the first link: on how many cores it may run, and whether others interrupt it when they wake up (0) or not (3).
+    let threads = |args: &[&str]| {
+        let mut command = treadmill(folder.path());
+        command.arg("router").args(args);
+        let router = Running::start(command);
+        router.wait_for("listening");
+        let tasks = fs::read_dir(format!("/proc/{}/task", router.pid())).unwrap().flatten();
+        let of_the_bus = tasks.filter(|task| {
+            let name = fs::read_to_string(task.path().join("comm")).unwrap();
+            ["acc-", "net-", "rx-", "tx-"].iter().any(|kind| name.starts_with(kind))
+        });
+        let told = of_the_bus.map(|task| {
+            // SAFETY: numbers in, a number out.
+            let policy = unsafe { libc::sched_getscheduler(task.file_name().to_str().unwrap().parse().unwrap()) };
+            let status = fs::read_to_string(task.path().join("status")).unwrap();
+            let cores = status.lines().find_map(|line| line.strip_prefix("Cpus_allowed:")).unwrap().trim();
+            (cores.bytes().filter_map(|digit| char::from(digit).to_digit(16)).map(u32::count_ones).sum::<u32>(), policy)
+        });
+        told.collect::<Vec<_>>()
+    };
+    let encrypted = threads(&["--listen", "tls/127.0.0.1:0", "--tls", "certs"]);
+    assert!(!encrypted.is_empty() && encrypted.iter().all(|told| *told == (1, libc::SCHED_BATCH)), "{encrypted:?}");
+    let plain = threads(&["--listen", "tcp/127.0.0.1:0"]);
+    assert!(!plain.is_empty() && plain.iter().all(|told| told.1 == libc::SCHED_OTHER), "{plain:?}");
+}
+
+#[test]
+fn an_actor_of_another_authority_stays_outside() {
+    let (folder, run) = folders();
+    certs(folder.path(), &["certs"]);
+    certs(folder.path(), &["others"]);
+    let _learner = Running::start(learner(folder.path(), &run));
+    let endpoint = endpoint(&run);
+    let mut command = treadmill(folder.path());
+    command.args(["actor", "--envs", "4", "--tls", "others", "--connect", &endpoint]);
+    let stranger = Running::start(command);
+    stranger.wait_for("nobody answers");
+    let mut command = treadmill(folder.path());
+    command.args(["actor", "--envs", "4", "--tls", "certs", "--name", "friend", "--connect", &endpoint]);
+    let _friend = Running::start(command);
+    await_steps(&run, 2048);
+    assert_eq!(last_value(&run, "actors/alive"), Some(1.0));
+}
+
+#[test]
+fn certificates_are_made_once_and_keys_are_for_their_owner_alone() {
+    let (folder, _) = folders();
+    certs(folder.path(), &["certs", "--host", "learner.example"]);
+    let read = |name: &str| fs::read(folder.path().join("certs").join(name)).unwrap();
+    let (authority, actor) = (read("ca.crt"), read("actor.crt"));
+    for key in ["ca.key", "learner.key", "operator.key"] {
+        let mode = fs::metadata(folder.path().join("certs").join(key)).unwrap().permissions().mode();
+        assert_eq!(mode & 0o777, 0o600, "{key}");
+    }
+    certs(folder.path(), &["certs", "--host", "learner.example"]);
+    assert_eq!(read("actor.crt"), actor);
+    certs(folder.path(), &["certs", "--host", "learner.example", "--renew"]);
+    assert_ne!(read("actor.crt"), actor);
+    assert_eq!(read("ca.crt"), authority);
+    fs::remove_file(folder.path().join("certs/ca.key")).unwrap();
+    assert_refused(&run(folder.path(), &["certs", "certs"]), 2, &["only one of ca.crt and ca.key"]);
+    fs::remove_file(folder.path().join("certs/actor.key")).unwrap();
+    let args = ["actor", "--connect", "tls/127.0.0.1:1", "--tls", "certs"];
+    assert_refused(&run(folder.path(), &args), 2, &["actor.key", "treadmill certs"]);
+}

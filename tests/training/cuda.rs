@@ -1,0 +1,100 @@
+//! On a GPU everything comes out as on the processor. Built with `--features cuda` alone; without a GPU the message that says
+//! so is looked at instead.
+
+use std::sync::Arc;
+
+use rand_distr::{Distribution, StandardNormal};
+use treadmill_common::{
+    config::PpoConfig,
+    device::{Device, DeviceKind},
+    policy::{NetworkShape, Policy, gaussian, init::initial_parameters},
+    seeds,
+};
+use treadmill_learner::ppo::{Batch, Updater};
+
+const ROWS: usize = 4096;
+
+/// The GPU, or nothing where the machine has none and says so clearly.
+fn gpu() -> Option<Device> {
+    match DeviceKind::Cuda.open() {
+        Ok(device) => Some(device),
+        Err(why) => {
+            let told = why.to_string();
+            assert!(told.starts_with("no CUDA device can be used") && told.ends_with("or use --device cpu"), "{told}");
+            eprintln!("!!! LEFT OUT: {told}");
+            None
+        }
+    }
+}
+
+fn shape() -> NetworkShape {
+    NetworkShape { observation: 45, action: 17, hidden: vec![256, 128] }
+}
+
+fn pool() -> Arc<rayon::ThreadPool> {
+    Arc::new(rayon::ThreadPoolBuilder::new().num_threads(2).build().unwrap())
+}
+
+fn normals(count: usize, random: &mut seeds::Stream) -> Vec<f32> {
+    (0..count).map(|_| StandardNormal.sample(random)).collect()
+}
+
+fn batch(random: &mut seeds::Stream) -> Batch {
+    let actions = normals(ROWS * 17, random);
+    let log_probs = actions.chunks_exact(17).map(|a| gaussian::log_probability(a, &[0.0; 17], &[-0.5; 17])).collect();
+    Batch {
+        observations: normals(ROWS * 45, random),
+        log_probs,
+        actions,
+        weights: vec![1.0; ROWS],
+        advantages: normals(ROWS, random),
+        returns: normals(ROWS, random),
+        values: normals(ROWS, random),
+    }
+}
+
+/// Relative to the root mean square of what is expected.
+fn largest_error(found: &[f32], expected: &[f32]) -> f32 {
+    let square = expected.iter().map(|e| e * e).sum::<f32>() / expected.len() as f32;
+    found.iter().zip(expected).map(|(f, e)| (f - e).abs()).fold(0.0, f32::max) / square.sqrt()
+}
+
+#[test]
+fn a_gpu_gives_the_means_and_values_of_the_processor() {
+    let Some(device) = gpu() else { return };
+    let mut random = seeds::stream(1, "cuda", &[]);
+    let parameters = initial_parameters(&shape(), -0.5, &mut random).iter().map(|p| p * 2.0).collect::<Vec<_>>();
+    let observations = normals(ROWS * 45, &mut random);
+    let [there, here] = [&device, &Device::Cpu].map(|device| {
+        let policy = Policy::with_pool(shape(), parameters.clone(), pool(), device).unwrap();
+        let mut means = vec![0.0; ROWS * 17];
+        policy.means(&observations, ROWS, &mut means).unwrap();
+        (means, policy.values(&observations, ROWS).unwrap())
+    });
+    assert!(largest_error(&there.0, &here.0) < 1e-4);
+    assert!(largest_error(&there.1, &here.1) < 1e-4);
+}
+
+#[test]
+fn an_update_on_a_gpu_is_that_of_the_processor() {
+    let Some(device) = gpu() else { return };
+    let mut random = seeds::stream(2, "cuda", &[]);
+    let parameters = initial_parameters(&shape(), -0.5, &mut random);
+    let batch = batch(&mut random);
+    let config = PpoConfig { batch: ROWS as u32, ..PpoConfig::default() };
+    let [there, here] = [&device, &Device::Cpu].map(|device| {
+        let mut updater = Updater::on(device, shape(), parameters.clone(), &config, pool()).unwrap();
+        let stats = updater.update(&batch, &mut seeds::stream(3, "order", &[])).unwrap();
+        (updater.parameters(), stats)
+    });
+    assert!(largest_error(&here.0, &parameters) > 1e-2, "something was learnt");
+    assert!(largest_error(&there.0, &here.0) < 1e-3);
+    for (found, expected) in [
+        (there.1.value_loss, here.1.value_loss),
+        (there.1.approx_kl, here.1.approx_kl),
+        (there.1.grad_norm, here.1.grad_norm),
+        (there.1.std, here.1.std),
+    ] {
+        assert!((found - expected).abs() < 1e-3 * expected.abs().max(1e-3), "{found} {expected}");
+    }
+}

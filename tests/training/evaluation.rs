@@ -1,0 +1,81 @@
+//! Policies are evaluated while training goes on, and the best by evaluation is kept.
+
+use crate::support::*;
+use treadmill_common::bus::{Assignment, Bus, BusOptions, ask_for_evaluation};
+use treadmill_learner::checkpoint::load_file;
+
+#[test]
+fn policies_are_evaluated_while_training_goes_on() {
+    let (folder, run) = folders();
+    let mut command = treadmill(folder.path());
+    command.args(["train", "--preset", "smoke", "--steps", "1000000000", "--run-dir", run.to_str().unwrap()]);
+    command.args(["--set", "eval.every_steps=2048", "--set", "eval.episodes=3"]);
+    let training = Running::start(command);
+    let told = |tag: &str| -> Vec<(u64, f64)> {
+        metrics(&run).into_iter().filter(|(name, ..)| name == tag).map(|(_, step, value)| (step, value)).collect()
+    };
+    await_that("three evaluations", || (told("eval/mean_reward").len() >= 3).then_some(()));
+    training.signal(libc::SIGINT);
+    assert!(training.wait().0.success());
+
+    // One evaluation tells all of its figures, of a policy that is older than the step at which it is told.
+    let returns = told("eval/mean_reward");
+    for tag in ["eval/std_reward", "eval/mean_ep_length", "eval/distance_mean_m", "eval/velocity_mean_mps"] {
+        assert_eq!(told(tag).len(), returns.len(), "{tag}");
+    }
+    for ((_, length), (_, fallen)) in told("eval/mean_ep_length").iter().zip(told("eval/fall_fraction")) {
+        assert!((1.0..1000.0).contains(length) && fallen == 1.0, "an untrained humanoid falls: {length} {fallen}");
+    }
+    let evaluated = told("eval/total_timesteps");
+    for (told_at, steps) in &evaluated {
+        assert!(*steps >= 2048.0 && *steps <= *told_at as f64, "{steps} {told_at}");
+    }
+
+    // The best checkpoint is the one with the best evaluation, and holds that very policy.
+    let best = returns.iter().map(|(_, value)| *value).fold(f64::MIN, f64::max);
+    let latest = load_file(&run.join("checkpoints/latest.bundle")).unwrap();
+    assert!(latest.best_is_evaluated);
+    assert!((latest.best_return.unwrap() - best).abs() < 1e-9);
+    let at = returns.iter().position(|(_, value)| *value == best).unwrap();
+    let kept = load_file(&run.join("checkpoints/best.bundle")).unwrap();
+    assert_eq!(kept.counters.env_steps as f64, evaluated[at].1);
+}
+
+#[test]
+fn forged_reports_are_not_believed() {
+    let (folder, run) = folders();
+    let mut command = treadmill(folder.path());
+    command.args(["train", "--preset", "smoke", "--steps", "1000000000", "--run-dir", run.to_str().unwrap()]);
+    command.args(["--set", "eval.every_steps=500000000"]);
+    let training = Running::start(command);
+    await_steps(&run, 1024);
+    let endpoint = endpoint(&run);
+    let runtime = tokio::runtime::Builder::new_multi_thread().enable_all().build().unwrap();
+    runtime.block_on(async {
+        let options = BusOptions { connect: vec![endpoint], insecure: true, ..BusOptions::default() };
+        let bus = tokio::task::spawn_blocking(move || Bus::open_client(&options)).await.unwrap().unwrap();
+        let report = treadmill_proto::EvaluationReport {
+            run: run.file_name().unwrap().to_str().unwrap().into(),
+            evaluator: "liar".into(),
+            version: treadmill_proto::PolicyVersion { incarnation: 1, number: 1 },
+            episodes: 10,
+            return_mean: 1e9,
+            return_std: 0.0,
+            length_mean: 1000.0,
+            distance_mean_m: 100.0,
+            velocity_mean_mps: 10.0,
+            falls: 0,
+        };
+        let timeout = std::time::Duration::from_secs(10);
+        for evaluator in ["liar", "other-liar"] {
+            let answer = ask_for_evaluation(&bus, &report.run, evaluator, Some(&report), timeout).await;
+            assert!(matches!(answer, Ok(Assignment::Nothing)), "{answer:?}");
+        }
+    });
+    await_steps(&run, 8192);
+    training.signal(libc::SIGINT);
+    assert!(training.wait().0.success());
+    let latest = load_file(&run.join("checkpoints/latest.bundle")).unwrap();
+    assert!(!latest.best_is_evaluated && latest.best_return.is_none_or(|best| best < 1e8));
+    assert!(metrics(&run).iter().all(|(tag, ..)| !tag.starts_with("eval/")));
+}

@@ -1,0 +1,10 @@
+//! Trainings from start to end: determinism, resumption, evaluation, TensorBoard, GPUs.
+
+#[cfg(feature = "cuda")]
+mod cuda;
+mod evaluation;
+mod resume;
+#[path = "../support/mod.rs"]
+mod support;
+mod tensorboard;
+mod train;

@@ -1,0 +1,185 @@
+//! Deterministic runs that were stopped, killed or damaged: they end with the bits of one that ran through.
+
+use std::{fs, path::Path};
+
+use crate::support::*;
+use treadmill_learner::checkpoint::{TrainingState, load_file};
+
+/// Transitions of one update.
+const BATCH: u64 = 512;
+/// Four fragments make a batch.
+const SMALL: [&str; 8] = [
+    "train",
+    "--preset",
+    "smoke",
+    "--deterministic",
+    "--set",
+    "rollout.fragment_steps=16",
+    "--set",
+    "learner.checkpoint_every_updates=2",
+];
+/// What the preset sim2sim randomises, pushed more often, under all that Gymnasium's environment observes.
+const RANDOMISED: [&str; 18] = [
+    "--set",
+    "env.observation=gymnasium-v5",
+    "--set",
+    "randomisation.mass_scale=[0.85, 1.15]",
+    "--set",
+    "randomisation.floor_friction_scale=[0.5, 1.5]",
+    "--set",
+    "randomisation.motor_scale=[0.85, 1.15]",
+    "--set",
+    "randomisation.damping_scale=[0.6, 1.5]",
+    "--set",
+    "randomisation.sensor_noise_position=0.005",
+    "--set",
+    "randomisation.action_delay_steps=[0, 1]",
+    "--set",
+    "randomisation.push_interval_s=[0.1, 0.3]",
+    "--set",
+    "randomisation.push_mps=[0.0, 0.5]",
+];
+
+fn latest(run: &Path) -> TrainingState {
+    load_file(&run.join("checkpoints/latest.bundle")).unwrap()
+}
+
+fn begin(folder: &Path, run: &Path, updates: u64, more: &[&str]) -> TrainingState {
+    let steps = (updates * BATCH).to_string();
+    let args = [&SMALL[..], &["--steps", &steps, "--run-dir", run.to_str().unwrap()], more].concat();
+    let output = self::run(folder, &args);
+    assert!(output.status.success(), "{}", stderr(&output));
+    latest(run)
+}
+
+fn resume(folder: &Path, run: &Path, updates: u64, more: &[&str]) -> (TrainingState, String) {
+    let steps = (updates * BATCH).to_string();
+    let args = [&["train", "--resume", run.to_str().unwrap(), "--steps", &steps], more].concat();
+    let output = self::run(folder, &args);
+    assert!(output.status.success(), "{}", stderr(&output));
+    (latest(run), stderr(&output))
+}
+
+/// Bit for bit the same, but for what names processes and tells the time.
+fn assert_same(found: &TrainingState, wanted: &TrainingState) {
+    let bits = |numbers: &[f32]| numbers.iter().map(|number| number.to_bits()).collect::<Vec<_>>();
+    assert!(bits(&found.parameters) == bits(&wanted.parameters), "other parameters");
+    assert!(found.optimiser == wanted.optimiser, "other moments of the optimiser");
+    assert_eq!(found.learning_rate.to_bits(), wanted.learning_rate.to_bits());
+    assert!(found.observation_moments == wanted.observation_moments, "other statistics of observations");
+    assert_eq!(found.value_moments, wanted.value_moments);
+    assert_eq!(found.shuffle, wanted.shuffle);
+    assert_eq!(found.episodes, wanted.episodes);
+    assert_eq!(found.best_return, wanted.best_return);
+    assert_eq!(found.tally, wanted.tally);
+    assert!(found.actor_state.is_some());
+    assert!(found.actor_state == wanted.actor_state, "the actor is somewhere else");
+    let counts = |state: &TrainingState| {
+        let counters = state.counters;
+        (counters.env_steps, counters.updates, counters.gradient_steps, counters.undone_updates, counters.restarts)
+    };
+    assert_eq!(counts(found), counts(wanted));
+}
+
+#[test]
+fn five_updates_and_five_more_are_ten() {
+    for more in [&[][..], &RANDOMISED[..]] {
+        let (folder, whole) = folders();
+        let wanted = begin(folder.path(), &whole, 10, more);
+        assert_eq!(wanted.counters.updates, 10);
+        assert!(wanted.episodes.finished > 0);
+        let halves = folder.path().join("halves");
+        let half = begin(folder.path(), &halves, 5, more);
+        assert_ne!(half.parameters, wanted.parameters);
+        let (found, _) = resume(folder.path(), &halves, 10, &[]);
+        assert_same(&found, &wanted);
+        // Once more from the middle, by a kept checkpoint: the actor's state is in each of them.
+        let (found, _) = resume(folder.path(), &halves, 10, &["--checkpoint", "8"]);
+        assert_eq!(found.counters.resumes, 2);
+        assert_same(&found, &wanted);
+    }
+}
+
+#[test]
+fn neither_ctrl_c_nor_a_kill_at_any_moment_changes_a_bit() {
+    let (folder, run) = folders();
+    let endless = (1_000_000 * BATCH).to_string();
+    let name = run.to_str().unwrap();
+    let mut updates = 0;
+    for signal in [libc::SIGKILL, libc::SIGINT, libc::SIGKILL] {
+        let mut command = treadmill(folder.path());
+        if updates == 0 {
+            // Most of the time goes into the updates, so that most signals come in the middle of one.
+            command.args(SMALL).args(["--run-dir", name, "--set", "ppo.epochs=10"]);
+        } else {
+            command.args(["train", "--resume", name]);
+        }
+        let training = Running::start({
+            command.args(["--steps", &endless]);
+            command
+        });
+        await_steps(&run, (updates + 2) * BATCH);
+        let actors = children(training.pid(), "actor");
+        training.signal(signal);
+        training.wait();
+        await_that("the actor is gone", || actors.iter().all(|pid| !is_running(*pid)).then_some(()));
+        updates = latest(&run).counters.updates;
+    }
+    let (found, told) = resume(folder.path(), &run, updates + 2, &[]);
+    assert!(!told.contains("begins new episodes"), "{told}");
+    let whole = folder.path().join("whole");
+    let wanted = begin(folder.path(), &whole, updates + 2, &["--set", "ppo.epochs=10"]);
+    assert_same(&found, &wanted);
+}
+
+#[test]
+fn a_damaged_latest_checkpoint_is_reported_and_the_newest_sound_one_used() {
+    let (folder, run) = folders();
+    let wanted = begin(folder.path(), &run, 6, &["--set", "learner.keep_checkpoints=2"]);
+    let latest = run.join("checkpoints/latest.bundle");
+    let sound = fs::read(&latest).unwrap();
+    let mut flipped = sound.clone();
+    *flipped.last_mut().unwrap() ^= 1;
+    let numbered = run.join("checkpoints/00000006.bundle");
+    for (damaged, why) in [(&flipped[..], "checksum"), (&sound[..sound.len() / 2], "truncated"), (&[], "header")] {
+        fs::write(&latest, damaged).unwrap();
+        fs::write(&numbered, damaged).unwrap();
+        // It is as new.
+        fs::remove_file(run.join("checkpoints/best.bundle")).unwrap();
+        let eval =
+            self::run(folder.path(), &["eval", run.to_str().unwrap(), "--checkpoint", "latest", "--episodes", "1"]);
+        assert!(eval.status.success(), "{}", stderr(&eval));
+        assert!(stderr(&eval).contains("00000004.bundle"), "{}", stderr(&eval));
+        assert_eq!(fs::read(&latest).unwrap(), damaged, "who only reads leaves it as it is");
+        let named = self::run(folder.path(), &["train", "--resume", run.to_str().unwrap(), "--checkpoint", "6"]);
+        assert_refused(&named, 1, &["00000006.bundle", why, "--checkpoint"]);
+
+        let (found, told) = resume(folder.path(), &run, 6, &[]);
+        for part in
+            ["latest.bundle` is damaged", "00000006.bundle` is damaged", why, "00000004.bundle`, after 4 updates"]
+        {
+            assert!(told.contains(part), "`{part}` is missing in: {told}");
+        }
+        assert_same(&found, &wanted);
+    }
+}
+
+#[test]
+fn an_actor_that_the_saved_state_does_not_fit_says_so_and_begins_anew() {
+    let (folder, run) = folders();
+    begin(folder.path(), &run, 2, &[]);
+    let mut command = treadmill(folder.path());
+    let steps = (4 * BATCH).to_string();
+    fs::remove_file(run.join("endpoint.txt")).unwrap();
+    command.args(["learner", "--resume", run.to_str().unwrap(), "--steps", &steps, "--listen", "tcp/127.0.0.1:0"]);
+    let learner = Running::start(command);
+    let mut command = treadmill(folder.path());
+    command.args(["actor", "--connect", &endpoint(&run), "--envs", "4", "--name", "actor-0"]);
+    let actor = Running::start(command);
+    let told = actor.wait_for("begins new episodes");
+    assert!(told.contains("it has 8 environments, and here are 4"), "{told}");
+    assert!(learner.wait().0.success());
+    let state = latest(&run);
+    assert_eq!(state.counters.updates, 4);
+    assert_eq!(state.actor_state.unwrap().envs(), 4);
+}

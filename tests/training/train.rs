@@ -1,0 +1,279 @@
+//! `train` as a user sees it: runs to its end, stops when asked, goes on where it was.
+
+use std::fs;
+
+use crate::support::*;
+use treadmill_learner::checkpoint::load_file;
+
+const SMOKE: [&str; 4] = ["train", "--preset", "smoke", "--json"];
+
+fn smoke(folder: &std::path::Path, run: &std::path::Path, more: &[&str]) -> std::process::Output {
+    let mut args = SMOKE.to_vec();
+    args.extend(["--run-dir", run.to_str().unwrap()]);
+    args.extend(more);
+    self::run(folder, &args)
+}
+
+#[test]
+fn a_run_leaves_everything_a_user_looks_for() {
+    let (folder, run) = folders();
+    let output = smoke(folder.path(), &run, &[]);
+    assert!(output.status.success(), "{}", stderr(&output));
+    assert!(!stdout(&output).contains('\u{1b}'), "no escape codes without a terminal");
+    let summary = last_json(&output);
+    for field in ["wall_s", "env_steps_per_s", "return_mean", "length_mean", "distance_mean_m", "velocity_mean_mps"] {
+        assert!(summary[field].is_f64(), "{field} in {summary}");
+    }
+    assert_eq!(
+        (&summary["run"], &summary["env_steps"], &summary["restarts"]),
+        (&"run".into(), &8192.into(), &0.into())
+    );
+    assert_eq!(summary["updates"], 16);
+    let told = stdout(&output);
+    for part in [
+        "learns    to go forward and not to fall, in 8192 env steps (16 updates)",
+        "watch     treadmill status --watch ",
+        "film      treadmill eval ",
+        "resume    treadmill train --resume ",
+        "\nafter ",
+        "reached: return ",
+        "see how far it walks: treadmill eval ",
+    ] {
+        assert!(told.contains(part), "`{part}` is missing in: {told}");
+    }
+
+    for file in [
+        "config.toml",
+        "command.txt",
+        "versions.json",
+        "model.xml",
+        "endpoint.txt",
+        "checkpoints/latest.bundle",
+        "checkpoints/best.bundle",
+    ] {
+        assert!(run.join(file).is_file(), "{file}");
+    }
+    assert!(fs::read_to_string(run.join("command.txt")).unwrap().contains("train --preset smoke"));
+    assert!(fs::read(run.join("learning_curve.png")).unwrap().starts_with(b"\x89PNG"));
+    let events = fs::read_dir(&run).unwrap().flatten();
+    // One, and one that says how the run ended.
+    assert_eq!(
+        events.filter(|entry| entry.file_name().to_string_lossy().starts_with("events.out.tfevents.")).count(),
+        2
+    );
+    let metrics = metrics(&run);
+    for tag in [
+        "rollout/ep_rew_mean",
+        "time/fps",
+        "train/approx_kl",
+        "train/explained_variance",
+        "bus/policy_lag_mean",
+        "actors/alive",
+    ] {
+        assert!(metrics.iter().any(|(name, ..)| name == tag), "{tag}");
+    }
+    assert_eq!(
+        metrics.iter().filter(|(name, ..)| name == "train/learning_rate").count(),
+        16,
+        "one line for each update"
+    );
+    let documented = page("metrics");
+    for (tag, ..) in &metrics {
+        assert!(documented.contains(&format!("| `{tag}` |")), "the page `metrics` does not explain {tag}");
+    }
+    assert_eq!(last_value(&run, "bus/policy_lag_max"), Some(0.0), "actors keep step with the learner");
+}
+
+#[test]
+fn a_picture_of_learning_is_there_long_before_the_end() {
+    let (folder, run_folder) = folders();
+    let path = run_folder.to_str().unwrap();
+    let mut command = treadmill(folder.path());
+    command.args(["train", "--preset", "smoke", "--steps", "1000000000", "--run-dir", path]).env("LC_ALL", "C.UTF-8");
+    let running = Running::start(command);
+    let line = running.wait_for("after ");
+    for part in ["return ", "distance ", "farthest ", "▁", "█"] {
+        assert!(line.contains(part), "`{part}` is missing in: {line}");
+    }
+    let png = run_folder.join("learning_curve.png");
+    await_that("a picture of the learning curve", || fs::read(&png).ok().filter(|png| png.starts_with(b"\x89PNG")));
+    assert!(is_running(running.pid()), "the run is not over");
+    running.signal(libc::SIGTERM);
+    assert!(running.wait().0.success());
+}
+
+#[test]
+fn who_waits_says_for_what_and_who_wants_no_progress_gets_none() {
+    let (folder, run_folder) = folders();
+    let path = run_folder.to_str().unwrap();
+    let mut command = treadmill(folder.path());
+    command.args(["learner", "--preset", "smoke", "--listen", "tcp/127.0.0.1:0", "--run-dir", path]);
+    let learner = Running::start(command);
+    learner.wait_for("waiting for experience since 2s: no actor is there yet");
+    learner.signal(libc::SIGTERM);
+    assert!(learner.wait().0.success());
+    let (quiet_folder, quiet) = folders();
+    let output = smoke(quiet_folder.path(), &quiet, &["--no-progress"]);
+    assert!(output.status.success() && !stdout(&output).contains("\nafter "), "{}", stdout(&output));
+}
+
+#[test]
+fn the_full_observations_of_gymnasium_can_be_learnt_from() {
+    for (preset, size, task) in [("walk-v5obs", 348, "humanoid-v5"), ("walk-v4obs", 376, "humanoid-v4")] {
+        let (folder, run) = folders();
+        let small = ["ppo.batch=512", "ppo.minibatch=256", "ppo.epochs=2", "policy.hidden=[16]", "rollout.envs=8"];
+        let mut args = vec!["train", "--preset", preset, "--steps", "3072", "--run-dir", run.to_str().unwrap()];
+        args.extend(["--actors", "1", "--set", "rollout.fragment_steps=64"]);
+        small.iter().for_each(|pair| args.extend(["--set", pair]));
+        let output = self::run(folder.path(), &args);
+        assert!(output.status.success(), "{preset}: {}", stderr(&output));
+        let state = load_file(&run.join("checkpoints/latest.bundle")).unwrap();
+        assert_eq!(state.shape.observation, size);
+        assert!(state.config_toml.contains(&format!("task = \"{task}\"")));
+        assert_eq!(state.counters.updates, 6);
+        assert!(state.parameters.iter().all(|parameter| parameter.is_finite()));
+        for tag in ["train/value_loss", "train/approx_kl", "rollout/ep_rew_mean"] {
+            assert!(last_value(&run, tag).unwrap().is_finite(), "{preset} {tag}");
+        }
+        assert_eq!(last_value(&run, "train/undone_updates"), Some(0.0), "{preset}");
+        // Masses and the world's rows never change; the statistics know that, and nothing is made of it.
+        let variances = state.observation_moments.variance();
+        assert!(variances.iter().filter(|variance| **variance < 1e-12).count() >= 13, "{preset}");
+        assert!(variances.iter().all(|variance| variance.is_finite()));
+        let output = self::run(folder.path(), &["eval", run.to_str().unwrap(), "--episodes", "1", "--json"]);
+        assert_eq!(last_json(&output)["episodes"], 1, "{}", stderr(&output));
+        // Open ranges and the kind of observation go with the exported policy.
+        let exported = folder.path().join("policy.safetensors");
+        let args = ["export", run.to_str().unwrap(), "--safetensors", exported.to_str().unwrap()];
+        assert!(self::run(folder.path(), &args).status.success());
+        let again = self::run(folder.path(), &["eval", exported.to_str().unwrap(), "--episodes", "1", "--json"]);
+        assert_eq!(last_json(&again), last_json(&output), "{}", stderr(&again));
+    }
+}
+
+#[test]
+fn mirror_images_are_learnt_with_also_after_a_resume() {
+    let (folder, run) = folders();
+    let output = smoke(folder.path(), &run, &["--set", "ppo.symmetry=mirrored"]);
+    assert!(output.status.success(), "{}", stderr(&output));
+    let args = ["train", "--resume", run.to_str().unwrap(), "--steps", "12288", "--json"];
+    let resumed = self::run(folder.path(), &args);
+    assert!(resumed.status.success(), "{}", stderr(&resumed));
+    assert_eq!(last_json(&resumed)["updates"], 24);
+    // A step is taken per minibatch, and there are twice as many of them as without images.
+    let steps =
+        |run: &std::path::Path| load_file(&run.join("checkpoints/latest.bundle")).unwrap().counters.gradient_steps;
+    let (plain_folder, plain) = folders();
+    assert!(smoke(plain_folder.path(), &plain, &["--steps", "12288"]).status.success());
+    assert_eq!(steps(&run), 2 * steps(&plain));
+}
+
+#[test]
+fn the_same_seed_gives_the_same_weights_bit_for_bit() {
+    let weights = |seed: &str, more: &[&str]| {
+        let (folder, run) = folders();
+        let args = [&["--deterministic", "--seed", seed, "--steps", "2048"], more].concat();
+        let output = smoke(folder.path(), &run, &args);
+        assert!(output.status.success(), "{}", stderr(&output));
+        load_file(&run.join("checkpoints/latest.bundle")).unwrap().parameters
+    };
+    let first = weights("7", &[]);
+    assert_eq!(first, weights("7", &[]));
+    assert_eq!(first, weights("7", &["--set", "rollout.threads=2"]), "threads change no result");
+    assert_ne!(first, weights("8", &[]));
+    let randomised = ["--set", "randomisation.mass_scale=[0.8, 1.2]", "--set", "randomisation.control_noise=0.1"];
+    let other = weights("7", &randomised);
+    assert_ne!(first, other);
+    assert_eq!(other, weights("7", &randomised));
+}
+
+#[test]
+fn resume_goes_on_with_everything() {
+    let (folder, run) = folders();
+    assert!(smoke(folder.path(), &run, &["--steps", "4096"]).status.success());
+    let before = load_file(&run.join("checkpoints/latest.bundle")).unwrap();
+    let run_name = run.to_str().unwrap();
+    let output = self::run(folder.path(), &["train", "--resume", run_name, "--steps", "8192", "--json"]);
+    assert!(output.status.success(), "{}", stderr(&output));
+    let after = load_file(&run.join("checkpoints/latest.bundle")).unwrap();
+    assert_eq!((before.counters.env_steps, after.counters.env_steps), (4096, 8192));
+    assert_eq!(after.optimiser.step, 2 * before.optimiser.step);
+    assert_eq!(after.observation_moments.count, 2.0 * before.observation_moments.count);
+    assert_eq!(after.counters.updates, 16);
+    assert_eq!(after.tally.accepted, 2 * before.tally.accepted);
+    assert!(after.episodes.finished > before.episodes.finished);
+    assert_ne!(after.lineage.newest().incarnation, before.lineage.newest().incarnation);
+    let steps: Vec<u64> =
+        metrics(&run).iter().filter(|(tag, ..)| tag == "train/std").map(|(_, step, _)| *step).collect();
+    assert_eq!(steps, (1..=16).map(|update| update * 512).collect::<Vec<u64>>(), "no step is missing or told twice");
+    assert_eq!(last_json(&output)["env_steps"], 8192);
+}
+
+#[test]
+fn the_first_ctrl_c_saves_and_says_how_to_go_on() {
+    let (folder, run) = folders();
+    let mut command = treadmill(folder.path());
+    command.args(["train", "--preset", "smoke", "--steps", "100000000", "--run-dir", run.to_str().unwrap()]);
+    let training = Running::start(command);
+    await_steps(&run, 1024);
+    let actors = children(training.pid(), "actor");
+    assert_eq!(actors.len(), 2);
+    training.signal(libc::SIGINT);
+    let resume = training.wait_for("resume with:");
+    let (status, _) = training.wait();
+    assert!(status.success(), "{status}");
+    assert!(resume.contains(&format!("treadmill train --resume {}", run.display())));
+    await_that("the actors are gone", || actors.iter().all(|pid| !is_running(*pid)).then_some(()));
+    let saved = load_file(&run.join("checkpoints/latest.bundle")).unwrap().counters.env_steps;
+    assert_eq!(last_value(&run, "time/total_timesteps"), Some(saved as f64));
+    let steps = (saved + 512).to_string();
+    let output = self::run(folder.path(), &["train", "--resume", run.to_str().unwrap(), "--steps", &steps, "--json"]);
+    assert_eq!(last_json(&output)["env_steps"], saved + 512);
+}
+
+#[test]
+fn the_second_ctrl_c_ends_it_at_once() {
+    let (folder, run) = folders();
+    let mut command = treadmill(folder.path());
+    command.args(["train", "--preset", "smoke", "--run-dir", run.to_str().unwrap()]);
+    command.args(["--set", "ppo.epochs=100", "--set", "ppo.batch=65536", "--set", "ppo.minibatch=16"]);
+    command.args(["--steps", "100000000"]);
+    let training = Running::start(command);
+    // The first update takes long, a hundred epochs of four thousand gradient steps: Ctrl-C finds the learner in it.
+    await_that("the training thread is busy", || {
+        let threads = fs::read_dir(format!("/proc/{}/task", training.pid())).ok()?;
+        let busy = threads.flatten().any(|thread| {
+            let name = fs::read_to_string(thread.path().join("comm")).unwrap_or_default();
+            let stat = fs::read_to_string(thread.path().join("stat")).unwrap_or_default();
+            let ticks = stat
+                .rsplit(')')
+                .next()
+                .and_then(|rest| rest.split_whitespace().nth(11))
+                .and_then(|t| t.parse::<u64>().ok());
+            name.starts_with("training") && ticks.is_some_and(|ticks| ticks > 20)
+        });
+        busy.then_some(())
+    });
+    training.signal(libc::SIGINT);
+    training.wait_for("press Ctrl-C again");
+    training.signal(libc::SIGINT);
+    let (status, _) = training.wait();
+    assert_eq!(status.code(), Some(130));
+}
+
+#[test]
+fn a_run_folder_is_not_overwritten() {
+    let (folder, run) = folders();
+    assert!(smoke(folder.path(), &run, &["--steps", "512"]).status.success());
+    assert_refused(&smoke(folder.path(), &run, &[]), 2, &["already holds a run", "--resume"]);
+}
+
+#[test]
+fn runs_get_the_first_free_name() {
+    let (folder, _) = folders();
+    for name in ["smoke-1", "smoke-2"] {
+        let output = self::run(folder.path(), &["train", "--preset", "smoke", "--steps", "512", "--json"]);
+        assert_eq!(last_json(&output)["run"], name);
+        assert!(folder.path().join("runs").join(name).join("metrics.jsonl").is_file());
+    }
+}
