@@ -2,10 +2,6 @@
 
 mod support;
 
-#[path = "../src/status/screen.rs"]
-#[allow(dead_code, reason = "what asks for a terminal is tried through the binary")]
-mod screen;
-
 use std::{
     fs::File,
     io::{Read, Write},
@@ -20,6 +16,7 @@ use std::{
 };
 
 use support::*;
+use treadmill_rl::launch::terminal_screen::TerminalScreen;
 
 const ENDLESS: &str = "1000000000";
 
@@ -241,7 +238,7 @@ const PANICS: &str = "TREADMILL_TEST_PANICS";
 #[test]
 fn a_panic_is_told_on_a_terminal_that_was_given_back() {
     if std::env::var_os(PANICS).is_some() {
-        let mut screen = screen::Screen::open().expect("a terminal");
+        let mut screen = TerminalScreen::open().expect("a terminal");
         screen.draw(|frame| frame.render_widget("drawn before", frame.area())).expect("it is drawn");
         let mut answer = String::new();
         std::io::stdin().read_line(&mut answer).expect("whoever looks on goes on");
