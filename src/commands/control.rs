@@ -60,12 +60,12 @@ impl Order {
 /// Sends the command and tells what the learner did.
 pub fn run(args: ControlArgs) -> anyhow::Result<()> {
     let (request, reach) = args.order.split();
-    learner_address::on_the_bus(&reach, Role::Operator, async |bus, run| {
+    learner_address::connect(&reach, Role::Operator, async |bus, run| {
         let run = match run {
             Some(run) => run,
             None => only_run(&bus).await?,
         };
-        let reply = learner_address::until_answered(async || {
+        let reply = learner_address::retry_until_answered(async || {
             Ok(command(&bus, &run, &request, DONE_TIMEOUT).await?.into_iter().collect())
         })
         .await?
@@ -86,7 +86,8 @@ pub fn run(args: ControlArgs) -> anyhow::Result<()> {
 /// A command is for one run.
 async fn only_run(bus: &Bus) -> anyhow::Result<String> {
     let replies =
-        learner_address::until_answered(async || statuses(bus, None, learner_address::ANSWER_TIMEOUT).await).await?;
+        learner_address::retry_until_answered(async || statuses(bus, None, learner_address::ANSWER_TIMEOUT).await)
+            .await?;
     let mut runs: Vec<String> = replies.into_iter().filter_map(|reply| Some(reply.status?.run)).collect();
     runs.sort();
     match &runs[..] {

@@ -9,7 +9,7 @@ use crate::{
         exit_code::Usage,
         host::{self, HostOptions},
         metrics_page::MetricsArgs,
-        startup::{self, AnyRunArgs, Command, NewRunArgs},
+        startup::{self, AnyRunArgs, NewRunArgs, RunCommand},
     },
     shared::network_args::NetworkArgs,
 };
@@ -43,7 +43,7 @@ pub fn run(args: LearnerArgs) -> anyhow::Result<()> {
     }
     let options = args.network.options(Role::Learner, args.listen, args.connect)?;
     let metrics = args.metrics.listen()?;
-    let mut prepared = startup::prepare(Command::Learner, &args.new, &args.any, &[])?;
+    let mut prepared = startup::prepare(RunCommand::Learner, &args.new, &args.any, &[])?;
     if let Some(run) = args.run {
         prepared.rename(run);
     }

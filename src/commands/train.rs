@@ -8,7 +8,7 @@ use crate::{
     launch::{
         host::{self, HostOptions},
         metrics_page::MetricsArgs,
-        startup::{self, AnyRunArgs, Command, NewRunArgs},
+        startup::{self, AnyRunArgs, NewRunArgs, RunCommand},
     },
     shared::network_args::NetworkArgs,
 };
@@ -46,7 +46,7 @@ pub fn run(args: TrainArgs) -> anyhow::Result<()> {
     if args.deterministic {
         changes.push(("run.deterministic", true.into()));
     }
-    let prepared = startup::prepare(Command::Train, &args.new, &args.any, &changes)?;
+    let prepared = startup::prepare(RunCommand::Train, &args.new, &args.any, &changes)?;
     let rollout = &prepared.config.rollout;
     let wanted = args.actors.filter(|_| !prepared.config.run.deterministic).unwrap_or(rollout.actors);
     let actors = match wanted {

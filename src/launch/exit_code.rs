@@ -1,4 +1,4 @@
-//! Errors and exit codes: 0 done, 1 failed, 2 wrong usage or configuration.
+//! Error messages and exit codes: 0 done, 1 failed, 2 wrong usage or configuration.
 
 use std::process::ExitCode;
 

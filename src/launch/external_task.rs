@@ -1,4 +1,4 @@
-//! What a run trains where other programs simulate it: settled by the first actor that registers.
+//! Task of a run that other programs simulate: the first actor that registers determines it.
 
 use std::time::Duration;
 

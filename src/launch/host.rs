@@ -23,7 +23,7 @@ use treadmill_learner::{
 
 use super::{
     banner, external_task, memory,
-    metrics_page::Listening,
+    metrics_page::MetricsListener,
     model,
     output::say,
     signals,
@@ -44,7 +44,7 @@ pub struct HostOptions<'a> {
     /// Number of actor processes to start beside the learner; `None` where actors join by themselves.
     pub actors: Option<u32>,
     /// Socket of the metrics page.
-    pub metrics: Option<Listening>,
+    pub metrics: Option<MetricsListener>,
 }
 
 /// Hosts a learner until its run has its steps or is stopped.

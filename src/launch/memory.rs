@@ -1,4 +1,4 @@
-//! What becomes of memory that was freed.
+//! Settings of the memory allocator.
 
 /// Keeps what is freed for the next allocation instead of giving it back to the system.
 ///

@@ -1,4 +1,4 @@
-//! `--prometheus`: the newest metrics and whether training goes on, over HTTP.
+//! `--prometheus`: serves metrics and health over HTTP.
 
 use std::{
     convert::Infallible,
@@ -47,7 +47,7 @@ pub struct MetricsArgs {
 
 impl MetricsArgs {
     /// Begins to listen where that is asked for; called before anything is written.
-    pub fn listen(&self) -> anyhow::Result<Option<Listening>> {
+    pub fn listen(&self) -> anyhow::Result<Option<MetricsListener>> {
         let Some(address) = self.prometheus else { return Ok(None) };
         if !address.ip().is_loopback() && !self.prometheus_open {
             return Err(Usage(format!(
@@ -60,12 +60,12 @@ impl MetricsArgs {
         let listener = TcpListener::bind(address)
             .with_context(|| format!("--prometheus {address}: nobody can listen there; choose another port"))?;
         listener.set_nonblocking(true)?;
-        Ok(Some(Listening { listener, stalled_after: Duration::from_secs(self.stalled_after_s) }))
+        Ok(Some(MetricsListener { listener, stalled_after: Duration::from_secs(self.stalled_after_s) }))
     }
 }
 
-/// A page that nobody serves yet.
-pub struct Listening {
+/// Socket of the page, before the runtime that serves it.
+pub struct MetricsListener {
     listener: TcpListener,
     stalled_after: Duration,
 }
@@ -78,7 +78,7 @@ struct Page {
     stalled_after: Duration,
 }
 
-impl Listening {
+impl MetricsListener {
     /// Serves it for as long as the runtime lives; its address.
     pub fn serve(self, run: String, exposition: Exposition, pulse: Pulse) -> anyhow::Result<SocketAddr> {
         let address = self.listener.local_addr()?;

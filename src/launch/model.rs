@@ -1,4 +1,4 @@
-//! The robot: the built-in humanoid, or the one that `--model FILE` describes.
+//! Model of the robot: built in, or from `--model FILE`.
 
 use std::{
     borrow::Cow,

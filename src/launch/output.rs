@@ -1,5 +1,5 @@
-//! Standard output that may be closed: a reader that goes away must not stop training. The log, which waits while a
-//! dashboard has the terminal.
+//! Lines on standard output and standard error, which may be closed: a reader that goes away must not stop training. Also
+//! the log's writer, which buffers while a dashboard uses the terminal.
 
 use std::{
     io::{self, IsTerminal, Write},

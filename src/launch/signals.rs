@@ -1,4 +1,4 @@
-//! Ctrl-C, once and twice; a container's stop counts as once.
+//! Ctrl-C and SIGTERM: the first asks to stop, the second ends the process.
 
 use tokio::signal::unix::{SignalKind, signal};
 use treadmill_common::shutdown::Shutdown;

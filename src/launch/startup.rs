@@ -1,4 +1,4 @@
-//! From flags to a run that is ready to begin: configuration, folder, first state.
+//! Prepares a run from its flags: configuration, folder, first or resumed state.
 
 use std::{fs, path::PathBuf};
 
@@ -109,7 +109,7 @@ impl Prepared {
 
 /// Which command a run is prepared for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Command {
+pub enum RunCommand {
     /// The learner with actors beside it.
     Train,
     /// The learner alone.
@@ -118,7 +118,7 @@ pub enum Command {
 
 /// Prepares a new run, or one that goes on. `changes` are keys that the command's own flags set.
 pub fn prepare(
-    command: Command,
+    command: RunCommand,
     new: &NewRunArgs,
     any: &AnyRunArgs,
     changes: &[(&str, toml::Value)],
@@ -134,11 +134,11 @@ pub fn prepare(
 }
 
 /// Refuses what makes no sense for a task that is simulated by other programs.
-fn check_external(command: Command, config: &Config, any: &AnyRunArgs) -> Result<(), Usage> {
+fn check_external(command: RunCommand, config: &Config, any: &AnyRunArgs) -> Result<(), Usage> {
     if !config.is_external() {
         return Ok(());
     }
-    if command == Command::Train {
+    if command == RunCommand::Train {
         return Err(Usage(
             "`train` starts actors of its own, and they simulate the humanoid alone; env.task \"external\" needs \
              `treadmill learner`, which actors of that task join (see docs/actors.md)"
@@ -163,7 +163,7 @@ fn task_keys(name: &str) -> Vec<(&'static str, toml::Value)> {
 }
 
 fn begin(
-    command: Command,
+    command: RunCommand,
     new: &NewRunArgs,
     any: &AnyRunArgs,
     changes: &[(&str, toml::Value)],
@@ -214,7 +214,7 @@ fn begin(
     Ok(Prepared { config, folder, device, mirror, run: state.run.clone(), state: Some(state) })
 }
 
-fn resume(command: Command, run: &str, any: &AnyRunArgs, device: Device) -> anyhow::Result<Prepared> {
+fn resume(command: RunCommand, run: &str, any: &AnyRunArgs, device: Device) -> anyhow::Result<Prepared> {
     let folder = RunFolder::open(run)?;
     let _step = SlowStepNotice::begin(format!("loading the checkpoint of {}", folder.root().display()));
     let mut state = checkpoint::load(&folder, any.checkpoint.unwrap_or(Which::Latest))?;

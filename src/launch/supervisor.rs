@@ -1,4 +1,4 @@
-//! The processes of `train`, actors and an evaluator: started beside the learner, started again when they die, gone when it is gone.
+//! Actor and evaluator processes of `train`: started beside the learner, restarted when they die, ended with it.
 
 use std::{
     path::PathBuf,

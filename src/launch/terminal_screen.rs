@@ -1,4 +1,4 @@
-//! The terminal while the dashboard has it: taken at the start, given back however that ends.
+//! Terminal of the dashboard: taken when it opens, restored however it ends.
 
 use std::io::{self, IsTerminal};
 

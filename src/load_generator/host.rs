@@ -1,4 +1,4 @@
-//! The learner's process: its real intake and its real shelf; what it takes is checked, counted and let go.
+//! Process of the learner: its real intake and policy server. Fragments are checked, counted and dropped.
 
 use std::{
     io::BufRead,

@@ -19,24 +19,24 @@ const LONGER_MAX: f64 = 6.0;
 const LOOK: Duration = Duration::from_millis(50);
 
 /// What to measure.
-pub(super) struct LoadStep<'a> {
-    pub(super) actors: u32,
-    pub(super) seconds: f64,
-    pub(super) fragment_bytes: usize,
-    pub(super) in_flight: u32,
-    pub(super) pause_ms: u64,
-    pub(super) precision: &'a str,
-    pub(super) broadcasts: u32,
-    pub(super) endpoint: &'a str,
-    pub(super) network: &'a [String],
+pub(crate) struct LoadStep<'a> {
+    pub(crate) actors: u32,
+    pub(crate) seconds: f64,
+    pub(crate) fragment_bytes: usize,
+    pub(crate) in_flight: u32,
+    pub(crate) pause_ms: u64,
+    pub(crate) precision: &'a str,
+    pub(crate) broadcasts: u32,
+    pub(crate) endpoint: &'a str,
+    pub(crate) network: &'a [String],
 }
 
 /// What was measured.
-pub(super) struct Measured {
+pub(crate) struct Measured {
     actors: u32,
-    pub(super) fragment_bytes: u64,
-    pub(super) bundle_bytes: u64,
-    pub(super) checksum: String,
+    pub(crate) fragment_bytes: u64,
+    pub(crate) bundle_bytes: u64,
+    pub(crate) checksum: String,
     fragments: f64,
     in_place: f64,
     elapsed_s: f64,
@@ -57,7 +57,7 @@ pub(super) struct Measured {
 
 impl LoadStep<'_> {
     /// Measures with processes of its own.
-    pub(super) fn measure(&self) -> anyhow::Result<Measured> {
+    pub(crate) fn measure(&self) -> anyhow::Result<Measured> {
         let strings = |args: &[&str]| args.iter().map(|arg| (*arg).to_string()).collect::<Vec<_>>();
         let mut host =
             Helper::start(&[strings(&["bus-host", "--listen", self.endpoint]), self.network.to_vec()].concat())?;
@@ -183,7 +183,7 @@ impl Measured {
     }
 
     /// Everything by name.
-    pub(super) fn fields(&self, raw: Raw) -> Value {
+    pub(crate) fn fields(&self, raw: Raw) -> Value {
         let (fragments, gb) = (self.fragments.max(1.0), (self.megabytes() / 1e3).max(1e-9));
         let cpu_s_per_gb = (self.learner_cpu_s + self.actors_cpu_s) / gb;
         json!({
@@ -217,7 +217,7 @@ impl Measured {
     }
 
     /// A line of the table.
-    pub(super) fn row(&self, raw: Raw) -> String {
+    pub(crate) fn row(&self, raw: Raw) -> String {
         let fields = self.fields(raw);
         COLUMNS.map(|(field, _, width)| format!("{:>width$}", fields[field].to_string())).join(" ")
     }
@@ -239,7 +239,7 @@ const COLUMNS: [(&str, &str, usize); 11] = [
 ];
 
 /// The head of the table.
-pub(super) fn heading() -> String {
+pub(crate) fn heading() -> String {
     COLUMNS.map(|(_, heading, width)| format!("{heading:>width$}")).join(" ")
 }
 

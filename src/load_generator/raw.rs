@@ -12,15 +12,15 @@ use super::usage;
 
 /// One measurement.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Raw {
-    pub(super) mb_per_s: f64,
+pub(crate) struct Raw {
+    pub(crate) mb_per_s: f64,
     /// Both ends together.
-    pub(super) cpu_s_per_gb: f64,
+    pub(crate) cpu_s_per_gb: f64,
 }
 
 impl Raw {
     /// The mean of what was measured before and after something else.
-    pub(super) fn mean(self, other: Self) -> Self {
+    pub(crate) fn mean(self, other: Self) -> Self {
         Self {
             mb_per_s: (self.mb_per_s + other.mb_per_s) / 2.0,
             cpu_s_per_gb: (self.cpu_s_per_gb + other.cpu_s_per_gb) / 2.0,
@@ -29,7 +29,7 @@ impl Raw {
 }
 
 /// Sends messages of this size for so long; each is read whole into memory that is there already.
-pub(super) fn measure(message_bytes: usize, duration: Duration) -> anyhow::Result<Raw> {
+pub(crate) fn measure(message_bytes: usize, duration: Duration) -> anyhow::Result<Raw> {
     let listener = TcpListener::bind("127.0.0.1:0").context("no port on loopback")?;
     let address = listener.local_addr().context("no address on loopback")?;
     let (cpu_before, begun) = (usage::cpu_s(), Instant::now());

@@ -1,4 +1,4 @@
-//! What `status`, `control`, `check` and the viewer share: where the learner is, and patience until it answers.
+//! Flags that say where a learner is, and a session with it: used by `status`, `control`, `check` and the viewer.
 
 use std::{path::PathBuf, time::Duration};
 
@@ -105,19 +105,19 @@ impl ReachArgs {
 ///
 /// # Errors
 /// If the bus cannot be joined, or the work fails.
-pub fn on_the_bus(
+pub fn connect(
     reach: &ReachArgs,
     role: Role,
     work: impl AsyncFnOnce(Bus, Option<String>) -> anyhow::Result<()>,
 ) -> anyhow::Result<()> {
-    joined(reach.options(role)?, async |bus| work(bus, reach.run.clone()).await)
+    connect_with(reach.options(role)?, async |bus| work(bus, reach.run.clone()).await)
 }
 
 /// Joins the bus and does `work` there.
 ///
 /// # Errors
 /// If the bus cannot be joined, or the work fails.
-pub fn joined(options: BusOptions, work: impl AsyncFnOnce(Bus) -> anyhow::Result<()>) -> anyhow::Result<()> {
+pub fn connect_with(options: BusOptions, work: impl AsyncFnOnce(Bus) -> anyhow::Result<()>) -> anyhow::Result<()> {
     let runtime =
         tokio::runtime::Builder::new_multi_thread().worker_threads(2).enable_all().build().context("no runtime")?;
     let outcome = runtime.block_on(async {
@@ -153,7 +153,7 @@ pub async fn dial(options: BusOptions) -> anyhow::Result<Bus> {
 ///
 /// # Errors
 /// If asking fails.
-pub async fn until_answered(
+pub async fn retry_until_answered(
     mut ask: impl AsyncFnMut() -> Result<Vec<ControlReply>, BusError>,
 ) -> anyhow::Result<Vec<ControlReply>> {
     let begun = std::time::Instant::now();

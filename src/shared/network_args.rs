@@ -1,4 +1,4 @@
-//! Flags about the network, and how the bus is reached by them.
+//! Flags about the network, and the bus options that they mean.
 
 use std::path::PathBuf;
 

@@ -1,5 +1,4 @@
-//! Flags of `watch`: read by the command line, which knows and completes them also where the viewer was not built, and by the
-//! viewer (`watch/`).
+//! Flags of `watch`. The command line parses and completes them even where the viewer (`watch/`) is not built.
 
 use std::{
     net::{IpAddr, Ipv4Addr},

@@ -43,7 +43,7 @@ pub fn run(
     if let Some(actor) = options.actor {
         check_ident("--actor", actor).map_err(|why| Usage(why.to_string()))?;
     }
-    learner_address::on_the_bus(options.reach, Role::Observer, async |bus, run| {
+    learner_address::connect(options.reach, Role::Observer, async |bus, run| {
         let shutdown = Shutdown::default();
         signals::listen(shutdown.clone(), "").context("signals cannot be caught")?;
         let bundle = ask(&bus, run.as_deref()).await?;

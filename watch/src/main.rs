@@ -4,11 +4,11 @@
 //!
 //! # Layout, in the order of the data
 //! - [`player`]: poses of a saved policy that plays episodes here.
-//! - [`live`]: poses of an actor that trains somewhere, from the bus.
-//! - [`scene_recorder`]: a pose as what Rerun draws: body, floor, trail, contacts, curves.
-//! - [`shapes`]: the model's shapes.
-//! - [`layout`]: what stands where in the viewer, and the camera that follows.
-//! - [`viewer_output`]: where it goes: a browser, a window, a file.
+//! - [`live`]: poses of an actor that trains, from the bus.
+//! - [`scene_recorder`]: logs a pose to Rerun: body, floor, trail, contacts, curves.
+//! - [`shapes`]: shapes of the model.
+//! - [`layout`]: views of the viewer, and the camera.
+//! - [`viewer_output`]: browser, window or file.
 
 mod layout;
 mod live;

@@ -1,4 +1,11 @@
-//! `treadmill bench`: the benchmark sheet. Each bench prints its workload and a checksum of its result.
+//! `treadmill bench`: measures speed. Each benchmark prints its workload and a checksum of its result.
+//!
+//! # Layout
+//! - [`env`]: environment steps; [`quality`]: errors of joints and limits instead, counted by [`quantiles`].
+//! - [`update`], [`policy`]: learner's update and actor's inference; [`network`]: their networks and inputs.
+//! - [`bus`]: fragments from many actors (see `load_generator`).
+//! - [`train`]: a whole training run.
+//! - [`bench_worlds`]: humanoids that are stepped on several threads.
 
 mod bench_worlds;
 mod bus;

@@ -12,7 +12,7 @@ use time::OffsetDateTime;
 use treadmill_common::bus::{Credentials, Role};
 use x509_parser::prelude::{FromDer, GeneralName, X509Certificate};
 
-use super::{clock::told, finding::Finding};
+use super::{clock::date_text, finding::Finding};
 
 const NAME: &str = "certificates";
 
@@ -67,13 +67,17 @@ fn look_at(folder: &Path, role: Role, roots: &Arc<RootCertStore>, now: OffsetDat
         (certificate.validity().not_before.to_datetime(), certificate.validity().not_after.to_datetime());
     if now < from {
         return wrong(
-            format!("the {part}'s certificate is not valid before {} UTC, and it is {} here", told(from), told(now)),
+            format!(
+                "the {part}'s certificate is not valid before {} UTC, and it is {} here",
+                date_text(from),
+                date_text(now)
+            ),
             "set this machine's clock, or wait",
         );
     }
     if now > until {
         return wrong(
-            format!("the {part}'s certificate expired at {} UTC", told(until)),
+            format!("the {part}'s certificate expired at {} UTC", date_text(until)),
             "make new ones with `treadmill certs DIR --renew`, and copy them to each machine; if it should be valid, set the clock",
         );
     }
@@ -112,7 +116,7 @@ fn look_at(folder: &Path, role: Role, roots: &Arc<RootCertStore>, now: OffsetDat
     let days = (until - now).whole_days();
     let hosts = names(&certificate);
     let named = if hosts.is_empty() { String::new() } else { format!(", for {}", hosts.join(" ")) };
-    let seen = format!("the {part}'s is valid until {} UTC, {days} days more{named}", told(until));
+    let seen = format!("the {part}'s is valid until {} UTC, {days} days more{named}", date_text(until));
     match days {
         ..SOON_DAYS => Finding::note(NAME, seen, "renew them soon: `treadmill certs DIR --renew`"),
         _ => Finding::ok(NAME, seen),

@@ -13,7 +13,7 @@ const YEAR_MAX: i32 = 2100;
 /// Of this machine, which says that it is so many seconds after 1970.
 pub fn diagnose(now_unix_s: f64) -> Finding {
     let now = OffsetDateTime::from_unix_timestamp(now_unix_s as i64).unwrap_or(OffsetDateTime::UNIX_EPOCH);
-    let seen = format!("{} UTC", told(now));
+    let seen = format!("{} UTC", date_text(now));
     match now.year() {
         YEAR_MIN..YEAR_MAX => Finding::ok(NAME, seen),
         _ => Finding::problem(
@@ -25,7 +25,7 @@ pub fn diagnose(now_unix_s: f64) -> Finding {
 }
 
 /// `2026-05-01 13:05`.
-pub fn told(at: OffsetDateTime) -> String {
+pub fn date_text(at: OffsetDateTime) -> String {
     let month = u8::from(at.month());
     format!("{:04}-{month:02}-{:02} {:02}:{:02}", at.year(), at.day(), at.hour(), at.minute())
 }

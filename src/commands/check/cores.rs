@@ -8,7 +8,7 @@ const NAME: &str = "cores";
 
 /// Of this machine.
 pub fn diagnose(system: &System) -> Finding {
-    judge(std::thread::available_parallelism().map_or(1, Into::into), system.cpu_quota(), machine::cores())
+    assess(std::thread::available_parallelism().map_or(1, Into::into), system.cpu_quota(), machine::cores())
 }
 
 /// `usable` are the cores that this process may run on; `quota` is how much of them it may take in all.
@@ -45,13 +45,13 @@ mod tests {
         let found = diagnose(&System::at(root.path()));
         assert_eq!(found.severity, Severity::Problem);
         assert!(found.seen.contains("0.50 of a core") && found.remedy.unwrap().contains("--cpus"));
-        let found = judge(8, Some(2.5), 8);
+        let found = assess(8, Some(2.5), 8);
         assert_eq!(
             (found.severity, found.remedy),
             (Severity::Note, Some("start no more actors than that: --actors 2".into()))
         );
-        assert_eq!(judge(1, None, 1).severity, Severity::Note);
-        assert_eq!(judge(4, Some(4.0), 4).severity, Severity::Ok);
-        assert_eq!(judge(4, None, 4), Finding::ok(NAME, "4"));
+        assert_eq!(assess(1, None, 1).severity, Severity::Note);
+        assert_eq!(assess(4, Some(4.0), 4).severity, Severity::Ok);
+        assert_eq!(assess(4, None, 4), Finding::ok(NAME, "4"));
     }
 }

@@ -16,7 +16,7 @@ struct Features {
 
 /// Of this processor.
 pub fn diagnose() -> Finding {
-    judge(features(), &machine::cpu_name())
+    assess(features(), &machine::cpu_name())
 }
 
 /// The same sets that the kernels are compiled for (`common/src/policy/elementwise.rs`).
@@ -59,7 +59,7 @@ mod tests {
 
     #[test]
     fn the_widest_kernels_are_named_and_their_lack_is_noted() {
-        let seen = |avx2_fma, avx512| judge(Features { is_x86: true, avx2_fma, avx512 }, "box");
+        let seen = |avx2_fma, avx512| assess(Features { is_x86: true, avx2_fma, avx512 }, "box");
         assert!(seen(true, true).seen.contains("AVX-512"));
         assert_eq!(seen(true, false).seen, "box: kernels for AVX2 and FMA");
         let old = seen(false, false);

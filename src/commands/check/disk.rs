@@ -31,11 +31,11 @@ pub fn diagnose(run_dir: &Path) -> Finding {
             "make room there or give this user the right to write, or choose another folder by --run-dir",
         );
     }
-    let room = match rustix::fs::statvfs(&folder) {
-        Ok(room) => room,
+    let space = match rustix::fs::statvfs(&folder) {
+        Ok(space) => space,
         Err(why) => return Finding::note(NAME, format!("{shown} does not tell its room: {why}"), "watch it yourself"),
     };
-    judge(&shown.to_string(), room.f_bavail.saturating_mul(room.f_frsize))
+    assess(&shown.to_string(), space.f_bavail.saturating_mul(space.f_frsize))
 }
 
 fn assess(folder: &str, free_bytes: u64) -> Finding {
@@ -65,7 +65,7 @@ mod tests {
 
     #[test]
     fn the_room_decides() {
-        let severity = |bytes| judge("runs", bytes).severity;
+        let severity = |bytes| assess("runs", bytes).severity;
         assert_eq!(
             [0, 199_999_999, 200_000_000, 1_000_000_000].map(severity),
             [Severity::Problem, Severity::Problem, Severity::Note, Severity::Ok]

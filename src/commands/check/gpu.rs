@@ -8,7 +8,7 @@ const NAME: &str = "gpu";
 
 /// Of this build and this machine.
 pub fn diagnose() -> Finding {
-    judge(DeviceKind::Cuda.open().map(drop))
+    assess(DeviceKind::Cuda.open().map(drop))
 }
 
 fn assess(opened: Result<(), DeviceError>) -> Finding {
@@ -26,9 +26,9 @@ mod tests {
 
     #[test]
     fn a_build_with_cuda_tells_of_a_missing_device() {
-        assert_eq!(judge(Ok(())).severity, Severity::Ok);
-        assert_eq!(judge(Err(DeviceError::NotBuilt)).severity, Severity::Ok);
-        let found = judge(Err(DeviceError::Absent { why: "no driver".to_string() }));
+        assert_eq!(assess(Ok(())).severity, Severity::Ok);
+        assert_eq!(assess(Err(DeviceError::NotBuilt)).severity, Severity::Ok);
+        let found = assess(Err(DeviceError::Absent { why: "no driver".to_string() }));
         assert!(found.severity == Severity::Note && found.seen.contains("no driver"));
     }
 }

@@ -82,9 +82,10 @@ impl LearnerRoute {
                 }
                 _ => return vec![self.silent()],
             };
-            let asked =
-                learner_address::until_answered(async || statuses(&bus, None, learner_address::ANSWER_TIMEOUT).await)
-                    .await;
+            let asked = learner_address::retry_until_answered(async || {
+                statuses(&bus, None, learner_address::ANSWER_TIMEOUT).await
+            })
+            .await;
             let now_unix_s = machine::time_unix_s();
             bus.close();
             match asked {

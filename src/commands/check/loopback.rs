@@ -14,7 +14,7 @@ const PATIENCE: Duration = Duration::from_secs(3);
 
 /// Talks to itself.
 pub fn diagnose() -> Finding {
-    judge(talk())
+    assess(talk())
 }
 
 fn assess(talked: io::Result<SocketAddr>) -> Finding {
@@ -50,7 +50,7 @@ mod tests {
 
     #[test]
     fn a_machine_that_does_not_reach_itself_is_told_how_to() {
-        let found = judge(Err(io::ErrorKind::AddrNotAvailable.into()));
+        let found = assess(Err(io::ErrorKind::AddrNotAvailable.into()));
         assert!(found.severity == Severity::Problem && found.remedy.unwrap().contains("ip link set lo up"));
     }
 }

@@ -1,13 +1,13 @@
-//! `treadmill check`: what is wrong with a machine, or with the way to a learner, and what to do about it.
+//! `treadmill check`: diagnoses of this machine, its network and the route to a learner, each with a remedy.
 //!
 //! # Layout
-//! - [`finding`]: what a diagnosis says.
-//! - Of this machine: [`cpu`], [`cores`], [`memory`], [`disk`], [`open_files`], [`clock`], [`shared_memory`],
-//!   [`terminal`], [`gpu`].
-//! - Of its network: [`loopback`], [`listening`], [`multicast`].
-//! - Of what it computes: [`simulation`], [`networks`].
-//! - Of the way to a learner: [`certificates`], [`route`], [`handshake`], [`learner`].
-//! - [`system`]: what the system tells of itself, and a container's limits.
+//! - [`finding`]: result of one diagnosis, with its severity.
+//! - This machine: [`cpu`], [`cores`], [`memory`], [`disk`], [`open_files`], [`clock`], [`shared_memory`], [`terminal`],
+//!   [`gpu`].
+//! - Its network: [`loopback`], [`listening`], [`multicast`].
+//! - What it computes: [`simulation`], [`networks`].
+//! - Route to a learner: [`certificates`], [`route`], [`handshake`], [`learner`].
+//! - [`system`]: facts from the operating system, and limits of a container.
 
 mod certificates;
 mod clock;

@@ -16,7 +16,7 @@ const PATIENCE: Duration = Duration::from_millis(500);
 
 /// Asks itself; `is_wanted` where `--discover` was given.
 pub fn diagnose(is_wanted: bool) -> Finding {
-    judge(hear(), is_wanted)
+    assess(hear(), is_wanted)
 }
 
 fn assess(heard: io::Result<()>, is_wanted: bool) -> Finding {
@@ -60,9 +60,9 @@ mod tests {
     #[test]
     fn silence_matters_to_those_who_want_to_be_found() {
         let silence = || Err(io::ErrorKind::WouldBlock.into());
-        assert_eq!(judge(Ok(()), true).severity, Severity::Ok);
-        assert_eq!(judge(silence(), false).severity, Severity::Note);
-        let found = judge(silence(), true);
+        assert_eq!(assess(Ok(()), true).severity, Severity::Ok);
+        assert_eq!(assess(silence(), false).severity, Severity::Note);
+        let found = assess(silence(), true);
         assert!(found.severity == Severity::Problem && found.remedy.unwrap().contains("--connect"));
     }
 }

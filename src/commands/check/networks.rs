@@ -12,7 +12,7 @@ const OFF_MAX: f32 = 1e-4;
 /// Computes the default networks both ways.
 pub fn diagnose() -> Finding {
     let shape = NetworkShape { observation: 45, action: 17, hidden: vec![256, 128] };
-    judge(agreement::largest_difference(&shape).map_err(|why| why.to_string()))
+    assess(agreement::largest_difference(&shape).map_err(|why| why.to_string()))
 }
 
 fn assess(off: Result<f32, String>) -> Finding {
@@ -34,10 +34,10 @@ mod tests {
 
     #[test]
     fn more_than_rounding_is_a_problem() {
-        assert_eq!(judge(Ok(1e-6)).severity, Severity::Ok);
+        assert_eq!(assess(Ok(1e-6)).severity, Severity::Ok);
         for off in [0.01, f32::INFINITY, f32::NAN] {
-            assert_eq!(judge(Ok(off)).severity, Severity::Problem, "{off}");
+            assert_eq!(assess(Ok(off)).severity, Severity::Problem, "{off}");
         }
-        assert!(judge(Err("no memory".to_string())).seen.contains("no memory"));
+        assert!(assess(Err("no memory".to_string())).seen.contains("no memory"));
     }
 }

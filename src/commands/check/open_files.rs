@@ -12,7 +12,7 @@ const OWN: u64 = 128;
 /// Of this process.
 pub fn diagnose(actors: u64) -> Finding {
     match rlimit::Resource::NOFILE.get() {
-        Ok((soft, hard)) => judge(soft, hard, actors),
+        Ok((soft, hard)) => assess(soft, hard, actors),
         Err(why) => Finding::note(NAME, format!("the limit is not told: {why}"), "none, where nothing else is wrong"),
     }
 }
@@ -38,11 +38,11 @@ mod tests {
 
     #[test]
     fn every_actor_needs_one() {
-        let severity = |hard, actors| judge(64, hard, actors).severity;
+        let severity = |hard, actors| assess(64, hard, actors).severity;
         assert_eq!(severity(4096, 2), Severity::Ok);
         assert_eq!(severity(300, 2), Severity::Note);
         assert_eq!(severity(64, 2), Severity::Problem);
         assert_eq!(severity(1024, 2000), Severity::Problem);
-        assert!(judge(64, 1024, 5000).remedy.unwrap().contains("ulimit -Hn 8192"));
+        assert!(assess(64, 1024, 5000).remedy.unwrap().contains("ulimit -Hn 8192"));
     }
 }

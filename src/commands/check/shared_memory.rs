@@ -13,7 +13,7 @@ const POOL_BYTES: u64 = 8 << 20;
 /// Of this machine; `is_wanted` where `--shared-memory` was given.
 pub fn diagnose(actors: u64, is_wanted: bool) -> Finding {
     let free = rustix::fs::statvfs(Path::new(FOLDER)).map(|room| room.f_bavail.saturating_mul(room.f_frsize));
-    judge(free.ok(), actors, is_wanted)
+    assess(free.ok(), actors, is_wanted)
 }
 
 fn assess(free_bytes: Option<u64>, actors: u64, is_wanted: bool) -> Finding {
@@ -46,7 +46,7 @@ mod tests {
 
     #[test]
     fn too_little_of_it_matters_to_those_who_want_it() {
-        let severity = |free, is_wanted| judge(free, 9, is_wanted).severity;
+        let severity = |free, is_wanted| assess(free, 9, is_wanted).severity;
         assert_eq!(severity(Some(64 << 20), true), Severity::Problem);
         assert_eq!(severity(Some(64 << 20), false), Severity::Note);
         assert_eq!(severity(Some(80 << 20), true), Severity::Ok);

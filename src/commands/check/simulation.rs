@@ -26,7 +26,7 @@ struct Played {
 /// Simulates.
 pub fn diagnose() -> Finding {
     let played = play().and_then(|one| Ok((one, play()?)));
-    judge(played.map_err(|why| why.to_string()))
+    assess(played.map_err(|why| why.to_string()))
 }
 
 fn assess(played: Result<(Played, Played), String>) -> Finding {
@@ -81,9 +81,9 @@ mod tests {
     #[test]
     fn wrong_numbers_are_told_by_how_they_are_wrong() {
         let sound = play().unwrap();
-        assert_eq!(judge(Ok((sound, sound))).severity, Severity::Ok, "{sound:?}");
+        assert_eq!(assess(Ok((sound, sound))).severity, Severity::Ok, "{sound:?}");
         let seen = |one, other| {
-            let found = judge(Ok((one, other)));
+            let found = assess(Ok((one, other)));
             assert_eq!(found.severity, Severity::Problem);
             found.seen
         };
@@ -93,6 +93,6 @@ mod tests {
         assert!(seen(sound, other).contains("and then"));
         let lower = Played { early_height_m: sound.early_height_m - 0.001, ..sound };
         assert!(seen(lower, lower).contains("m off"));
-        assert!(judge(Err("no model".to_string())).seen.contains("no model"));
+        assert!(assess(Err("no model".to_string())).seen.contains("no model"));
     }
 }

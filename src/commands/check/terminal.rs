@@ -11,7 +11,7 @@ const NAME: &str = "terminal";
 /// Of standard output.
 pub fn diagnose() -> Finding {
     let is_dumb = std::env::var_os("TERM").is_some_and(|term| term == "dumb");
-    judge(std::io::stdout().is_terminal() && !is_dumb, machine::is_utf8_locale())
+    assess(std::io::stdout().is_terminal() && !is_dumb, machine::is_utf8_locale())
 }
 
 fn assess(is_terminal: bool, is_utf8: bool) -> Finding {
@@ -33,8 +33,8 @@ mod tests {
 
     #[test]
     fn ascii_is_noted() {
-        assert_eq!(judge(true, true).severity, Severity::Ok);
-        assert!(judge(false, true).seen.contains("plain lines"));
-        assert!(judge(true, false).remedy.unwrap().contains("C.UTF-8"));
+        assert_eq!(assess(true, true).severity, Severity::Ok);
+        assert!(assess(false, true).seen.contains("plain lines"));
+        assert!(assess(true, false).remedy.unwrap().contains("C.UTF-8"));
     }
 }

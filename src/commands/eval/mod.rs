@@ -1,4 +1,4 @@
-//! `treadmill eval`: episodes without learning, by a trained policy or by one of the baselines.
+//! `treadmill eval`: plays episodes with a trained policy or a baseline; [`filming`] writes pictures of them.
 
 use std::{
     fs::File,

@@ -1,8 +1,8 @@
-//! What is told of the program by the program: completions, manual pages, and the generated part of `docs/reference/`.
+//! `treadmill completions`, `man` and the hidden `reference`: text generated from the definitions of commands and keys.
 //!
 //! # Layout
-//! - [`commands`]: every command and flag as a page, from clap's own definitions.
-//! - [`configuration`]: every configuration key as a page, from their declarations.
+//! - [`commands`]: page of all commands and flags.
+//! - [`configuration`]: page of all configuration keys.
 
 mod commands;
 mod configuration;

@@ -16,8 +16,10 @@ use super::{
     follow::{Follower, NEWS_WAITING, News},
     keys::{self, Action},
 };
-use crate::launch::terminal_screen::TerminalScreen;
-use crate::shared::learner_address::{self, ReachArgs};
+use crate::{
+    launch::terminal_screen::TerminalScreen,
+    shared::learner_address::{self, ReachArgs},
+};
 
 /// Between two drawings where nobody types: what changes on the screen is sent, and nothing else.
 const TICK: Duration = Duration::from_millis(250);
@@ -25,7 +27,7 @@ const TICK: Duration = Duration::from_millis(250);
 /// Shows how the runs go until it is left, by a key or by a signal.
 pub fn run(reach: &ReachArgs) -> anyhow::Result<()> {
     let options = reach.options(Role::Observer)?;
-    learner_address::joined(options.clone(), async |bus| {
+    learner_address::connect_with(options.clone(), async |bus| {
         let (sender, news) = sync_channel(NEWS_WAITING);
         let follower = Follower::new(reach.clone(), options, bus, sender)?;
         let shutdown = Shutdown::default();

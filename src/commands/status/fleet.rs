@@ -187,7 +187,7 @@ impl Fleet {
             runs: Vec::new(),
             selected: 0,
             scroll: 0,
-            room: 1,
+            visible_rows: 1,
             order: Order::default(),
             helps: false,
             silence: None,
@@ -250,7 +250,7 @@ impl Fleet {
         (self.selected, self.scroll) = (run, 0);
     }
 
-    /// Says that there is room for so many actors; the first that is to be shown.
+    /// Sets how many actors fit on the screen, and returns the index of the first one to show.
     pub fn show(&mut self, visible_rows: usize) -> usize {
         let actors = self.selected().map_or(0, |(run, ..)| run.status.actors.len());
         self.visible_rows = visible_rows;

@@ -1,12 +1,12 @@
-//! `treadmill status`: how runs go, and who takes part.
+//! `treadmill status`: progress and participants of runs.
 //!
 //! # Layout
 //! - [`plain`], [`json`]: the answer as text and as JSON.
-//! - [`dashboard`]: the same on a terminal, again and again; [`keys`] are its keys.
-//! - [`follow`]: asks the learners and listens to metrics, beside the dashboard.
-//! - [`past`]: what a run has logged before.
-//! - [`fleet`], [`history`]: what is known, within bounds.
-//! - [`draw`]: how it looks.
+//! - [`dashboard`]: draws the answers on a terminal, again and again; [`keys`] has its keys.
+//! - [`follow`]: polls the learners and receives metrics for the dashboard.
+//! - [`past`]: reads metrics that a run on this machine logged before.
+//! - [`fleet`], [`history`]: the dashboard's state, of bounded size.
+//! - [`draw`]: draws that state.
 
 mod dashboard;
 mod draw;
@@ -53,7 +53,7 @@ pub fn run(args: StatusArgs) -> anyhow::Result<()> {
     if watch && !json && terminal_screen::is_there() {
         return dashboard::run(&reach);
     }
-    learner_address::on_the_bus(&reach, Role::Observer, async |bus, run| {
+    learner_address::connect(&reach, Role::Observer, async |bus, run| {
         loop {
             let replies = ask(&bus, run.as_deref()).await?;
             let text = if json { json::as_json(&replies) } else { plain::as_text(&replies) };
@@ -69,7 +69,8 @@ pub fn run(args: StatusArgs) -> anyhow::Result<()> {
 /// How every run goes that answers; an error where none does.
 async fn ask(bus: &Bus, run: Option<&str>) -> anyhow::Result<Vec<RunStatus>> {
     let replies =
-        learner_address::until_answered(async || statuses(bus, run, learner_address::ANSWER_TIMEOUT).await).await?;
+        learner_address::retry_until_answered(async || statuses(bus, run, learner_address::ANSWER_TIMEOUT).await)
+            .await?;
     let mut told: Vec<RunStatus> = replies.into_iter().filter_map(|reply| reply.status).collect();
     if told.is_empty() {
         let whose = run.map_or("no run".to_string(), |run| format!("no run `{run}`"));

@@ -73,13 +73,13 @@ const COLUMNS: [Column; 11] = [
 
 /// Columns that fit beside a name of this width.
 fn fitting(width: u16, name_width: u16) -> Vec<&'static Column> {
-    let mut room = width.saturating_sub(name_width);
+    let mut width_left = width.saturating_sub(name_width);
     let mut by_rank: Vec<usize> = (0..COLUMNS.len()).collect();
     by_rank.sort_by_key(|column| COLUMNS[*column].rank);
     let mut fitting: Vec<usize> = Vec::new();
     for column in by_rank {
-        let Some(left) = room.checked_sub(COLUMNS[column].width + 1) else { break };
-        room = left;
+        let Some(left) = width_left.checked_sub(COLUMNS[column].width + 1) else { break };
+        width_left = left;
         fitting.push(column);
     }
     fitting.sort_unstable();
@@ -89,8 +89,8 @@ fn fitting(width: u16, name_width: u16) -> Vec<&'static Column> {
 /// Draws the table, and in `keys` which part of it this is.
 pub fn draw(frame: &mut Frame, area: Rect, keys: Rect, fleet: &mut Fleet, has_heading: bool, theme: &Theme) {
     let [heading, table] = Layout::vertical([Constraint::Length(has_heading.into()), Constraint::Fill(1)]).areas(area);
-    let room = usize::from(table.height.saturating_sub(1));
-    let first = fleet.show(room);
+    let visible_rows = usize::from(table.height.saturating_sub(1));
+    let first = fleet.show(visible_rows);
     let actors = fleet.actors();
     let Some((run, ..)) = fleet.selected() else { return };
     if has_heading {
@@ -108,7 +108,7 @@ pub fn draw(frame: &mut Frame, area: Rect, keys: Rect, fleet: &mut Fleet, has_he
     if actors.is_empty() {
         return frame.render_widget(Paragraph::new("no actor is there yet").style(theme.quiet()), table);
     }
-    let shown = &actors[first..actors.len().min(first + room)];
+    let shown = &actors[first..actors.len().min(first + visible_rows)];
     let longest = shown.iter().map(|actor| actor.name.chars().count()).max().unwrap_or_default();
     let longest = u16::try_from(longest).unwrap_or(u16::MAX).max(4);
     let columns = fitting(table.width, longest.min(NAME_WIDTH).min(table.width / 3));

@@ -52,8 +52,8 @@ fn title_line(width: u16, run: &Run, place: (usize, usize), silent_for: Option<D
         (None, Phase::Stopping) => ("stopping".to_string(), theme.warning()),
         (None, Phase::Training | Phase::Unspecified) => ("training".to_string(), theme.good()),
     };
-    let room = usize::from(width).saturating_sub(phase.chars().count() + 2);
-    pieces.push(shorten(&status.run, room), theme.strong());
+    let width_left = usize::from(width).saturating_sub(phase.chars().count() + 2);
+    pieces.push(shorten(&status.run, width_left), theme.strong());
     pieces.push(phase, style);
     if place.1 > 1 {
         pieces.push(format!("run {} of {}", place.0, place.1), theme.quiet());

@@ -1,10 +1,10 @@
-//! How the dashboard looks: from the state to the screen, and nothing else.
+//! Draws the dashboard's state and does nothing else.
 //!
 //! # Layout
-//! - [`header`]: the run, how far it is, how fast.
+//! - [`header`]: name of the run, progress and speed.
 //! - [`curves`]: return, distance, velocity and speed over environment steps.
-//! - [`lag`]: how old the experience is that is learnt from.
-//! - [`actors`]: who takes part.
+//! - [`lag`]: histogram of policy lag in the last batch.
+//! - [`actors`]: table of actors.
 //! - [`figures`], [`pieces`], [`theme`]: numbers, lines and colours.
 
 mod actors;

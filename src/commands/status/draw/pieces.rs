@@ -12,24 +12,24 @@ const GAP: &str = "  ";
 #[derive(Debug)]
 pub struct Pieces {
     pieces: Vec<Span<'static>>,
-    room: usize,
+    width_left: usize,
 }
 
 impl Pieces {
     /// An empty line of this width.
     pub fn new(width: u16) -> Self {
-        Self { pieces: Vec::new(), room: width.into() }
+        Self { pieces: Vec::new(), width_left: width.into() }
     }
 
     /// Adds a piece if it fits; columns that are left after it.
     pub fn push(&mut self, text: impl Into<String>, style: Style) -> usize {
         let piece = Span::styled(text.into(), style);
         let needed = piece.width() + if self.pieces.is_empty() { 0 } else { GAP.len() };
-        if piece.width() > 0 && needed <= self.room {
-            self.room -= needed;
+        if piece.width() > 0 && needed <= self.width_left {
+            self.width_left -= needed;
             self.pieces.push(piece);
         }
-        self.room
+        self.width_left
     }
 
     /// The line.
