@@ -5,7 +5,7 @@ use std::{
     sync::{
         Arc, Condvar, Mutex,
         atomic::{AtomicU64, Ordering},
-        mpsc::{Sender, channel},
+        mpsc::{Receiver, Sender, channel},
     },
     time::{Duration, Instant},
 };
@@ -13,7 +13,7 @@ use std::{
 use anyhow::Context;
 use bytes::Bytes;
 use clap::Args;
-use serde_json::json;
+use serde_json::{Value, json};
 use tokio::runtime::{Handle, Runtime};
 use treadmill_common::{
     bus::{Announcements, Bus, BusOptions, Role, fetch_policy, submit, token, watch_announcements},
@@ -96,8 +96,8 @@ struct Shared {
     published: AtomicU64,
 }
 
-/// Sends until standard input ends. Lines there: `send`, which is answered once something of every actor was taken, `measure`,
-/// `stop`, and `expect N` before policy N is handed out.
+/// Sends until standard input ends. Lines there: `send`, which is answered once a fragment of every actor was accepted,
+/// `measure`, `stop`, and `expect N` before policy N is published.
 pub fn run(args: &LoadArgs) -> anyhow::Result<()> {
     memory::keep_freed();
     usage::allow_many_connections();
@@ -120,57 +120,86 @@ pub fn run(args: &LoadArgs) -> anyhow::Result<()> {
     let bytes_per_transition = fragment_bytes as f64 / transitions as f64;
     let ready = json!({"fragment_bytes": fragment_bytes, "bytes_per_transition": bytes_per_transition});
     say(&ready.to_string());
-    let mut cpu_before = 0.0;
-    let mut senders = Some(senders);
+    let mut load = Load { actors: args.actors as usize, shared, senders, fetches, firsts, cpu_before_s: 0.0 };
     for line in std::io::stdin().lock().lines() {
-        match line.context("standard input cannot be read")?.as_str() {
-            "send" => {
-                shared.enter(Phase::Sending);
-                // Of every actor: until then it is a newcomer to the learner, who has little room for those.
-                let deadline = Instant::now() + TAKEN_WITHIN;
-                let of_all =
-                    std::iter::from_fn(|| firsts.recv_timeout(deadline.saturating_duration_since(Instant::now())).ok())
-                        .take(args.actors as usize)
-                        .count();
-                say(&json!({"taken_of_actors": of_all}).to_string());
-            }
-            "measure" => {
-                cpu_before = usage::cpu_s();
-                shared.enter(Phase::Measuring);
-            }
-            "stop" => {
-                let cpu_s = usage::cpu_s() - cpu_before;
-                shared.enter(Phase::Stopped);
-                for sender in senders.take().into_iter().flatten() {
-                    sender.join().map_err(|_| anyhow::anyhow!("a sender panicked"))?;
-                }
-                let Outcomes { receipts_ms, busy, silent, refused } = std::mem::take(&mut *shared.outcomes());
-                let told = json!({
-                    "receipts_ms": receipts_ms, "busy": busy, "silent": silent, "refused": refused, "cpu_s": cpu_s,
-                });
-                say(&told.to_string());
-            }
-            line => {
-                let number = line.strip_prefix("expect ").and_then(|number| number.parse().ok());
-                let number: u64 = number.with_context(|| format!("`{line}` is not understood"))?;
-                shared.published.store(number, Ordering::Relaxed);
-                let deadline = Instant::now() + FETCHED_WITHIN;
-                let mut times = Vec::new();
-                while times.len() < args.actors as usize
-                    && let Ok((of, time_unix_s)) =
-                        fetches.recv_timeout(deadline.saturating_duration_since(Instant::now()))
-                {
-                    if of == number {
-                        times.push(time_unix_s);
-                    }
-                }
-                say(&json!({"fetched": number, "times_unix_s": times}).to_string());
-            }
+        if let Some(answer) = load.execute(&line.context("standard input cannot be read")?)? {
+            say(&answer.to_string());
         }
     }
     runtime.shutdown_background();
     // Hundreds of sessions close one after the other; their end is the process's.
     std::process::exit(0);
+}
+
+/// Actors of this process, and what they report.
+struct Load {
+    actors: usize,
+    shared: Arc<Shared>,
+    senders: Vec<Joined>,
+    /// Number of each policy that an actor has fetched, and when (Unix time in seconds).
+    fetches: Receiver<(u64, f64)>,
+    /// One message for the first accepted fragment of each actor.
+    firsts: Receiver<()>,
+    cpu_before_s: f64,
+}
+
+impl Load {
+    /// Runs the command of one line; returns the answer to commands that have one.
+    fn execute(&mut self, line: &str) -> anyhow::Result<Option<Value>> {
+        match line {
+            "send" => {
+                self.shared.enter(Phase::Sending);
+                Ok(Some(self.wait_for_first_fragments()))
+            }
+            "measure" => {
+                self.cpu_before_s = usage::cpu_s();
+                self.shared.enter(Phase::Measuring);
+                Ok(None)
+            }
+            "stop" => self.stop().map(Some),
+            line => {
+                let number = line.strip_prefix("expect ").and_then(|number| number.parse().ok());
+                let number = number.with_context(|| format!("`{line}` is not understood"))?;
+                Ok(Some(self.wait_for_policy(number)))
+            }
+        }
+    }
+
+    /// Until its first fragment is accepted, an actor is a newcomer, and the learner admits few of those.
+    fn wait_for_first_fragments(&self) -> Value {
+        let deadline = Instant::now() + TAKEN_WITHIN;
+        let of_all =
+            std::iter::from_fn(|| self.firsts.recv_timeout(deadline.saturating_duration_since(Instant::now())).ok())
+                .take(self.actors)
+                .count();
+        json!({"taken_of_actors": of_all})
+    }
+
+    fn stop(&mut self) -> anyhow::Result<Value> {
+        let cpu_s = usage::cpu_s() - self.cpu_before_s;
+        self.shared.enter(Phase::Stopped);
+        for sender in self.senders.drain(..) {
+            sender.join().map_err(|_| anyhow::anyhow!("a sender panicked"))?;
+        }
+        let Outcomes { receipts_ms, busy, silent, refused } = std::mem::take(&mut *self.shared.outcomes());
+        Ok(json!({
+            "receipts_ms": receipts_ms, "busy": busy, "silent": silent, "refused": refused, "cpu_s": cpu_s,
+        }))
+    }
+
+    fn wait_for_policy(&self, number: u64) -> Value {
+        self.shared.published.store(number, Ordering::Relaxed);
+        let deadline = Instant::now() + FETCHED_WITHIN;
+        let mut times = Vec::new();
+        while times.len() < self.actors
+            && let Ok((of, time_unix_s)) = self.fetches.recv_timeout(deadline.saturating_duration_since(Instant::now()))
+        {
+            if of == number {
+                times.push(time_unix_s);
+            }
+        }
+        json!({"fetched": number, "times_unix_s": times})
+    }
 }
 
 impl Shared {

@@ -70,10 +70,9 @@ impl LoadStep<'_> {
             fragment_bytes = number(&ready, "fragment_bytes")? as u64;
             bytes_per_transition = number(&ready, "bytes_per_transition")?;
         }
-        let all = |loads: &mut [Helper], line: &str| loads.iter_mut().try_for_each(|load| load.send(line));
         // Not before every actor's first fragment has gone through, and then two of each or more.
         let begun = host.ask("mark")?;
-        all(&mut loads, "send")?;
+        send_to_all(&mut loads, "send")?;
         let mut known = 0.0;
         for load in &mut loads {
             known += number(&load.receive()?, "taken_of_actors")?;
@@ -84,9 +83,9 @@ impl LoadStep<'_> {
             self.actors
         );
         let before = host.ask("mark")?;
-        all(&mut loads, "measure")?;
+        send_to_all(&mut loads, "measure")?;
         let after = self.wait_for(&mut host, &before, 2.0 * f64::from(self.actors * self.in_flight), self.seconds)?;
-        all(&mut loads, "stop")?;
+        send_to_all(&mut loads, "stop")?;
         let difference = |field| Ok::<_, anyhow::Error>(number(&after, field)? - number(&before, field)?);
         let mut measured = Measured {
             actors: self.actors,
@@ -109,22 +108,8 @@ impl LoadStep<'_> {
             resident_max_mb: 0.0,
             shared_mb: 0.0,
         };
-        for load in &mut loads {
-            let told = load.receive()?;
-            measured.receipts_ms.extend(numbers(&told["receipts_ms"]));
-            measured.busy += number(&told, "busy")?;
-            measured.silent += number(&told, "silent")?;
-            measured.refused += number(&told, "refused")?;
-            measured.actors_cpu_s += number(&told, "cpu_s")?;
-        }
-        for policy in 1..=self.broadcasts {
-            all(&mut loads, &format!("expect {policy}"))?;
-            let published_s = number(&host.ask(&format!("publish {policy}"))?, "time_unix_s")?;
-            for load in &mut loads {
-                let times = load.receive()?;
-                measured.policies_ms.extend(numbers(&times["times_unix_s"]).map(|time_s| (time_s - published_s) * 1e3));
-            }
-        }
+        measured.add_outcomes(&mut loads)?;
+        self.broadcast(&mut host, &mut loads, &mut measured)?;
         let end = host.ask("mark")?;
         measured.checksum = end["checksum"].as_str().unwrap_or_default().to_string();
         measured.resident_mb = number(&end, "resident_mb")?;
@@ -133,6 +118,19 @@ impl LoadStep<'_> {
         measured.receipts_ms.sort_by(f64::total_cmp);
         measured.policies_ms.sort_by(f64::total_cmp);
         Ok(measured)
+    }
+
+    /// Publishes policies and measures how long each actor takes to fetch them.
+    fn broadcast(&self, host: &mut Helper, loads: &mut [Helper], measured: &mut Measured) -> anyhow::Result<()> {
+        for policy in 1..=self.broadcasts {
+            send_to_all(loads, &format!("expect {policy}"))?;
+            let published_s = number(&host.ask(&format!("publish {policy}"))?, "time_unix_s")?;
+            for load in &mut *loads {
+                let times = load.receive()?;
+                measured.policies_ms.extend(numbers(&times["times_unix_s"]).map(|time_s| (time_s - published_s) * 1e3));
+            }
+        }
+        Ok(())
     }
 
     /// Waits until so many fragments more are taken and so long has passed; not for ever.
@@ -173,7 +171,24 @@ impl LoadStep<'_> {
     }
 }
 
+fn send_to_all(loads: &mut [Helper], line: &str) -> anyhow::Result<()> {
+    loads.iter_mut().try_for_each(|load| load.send(line))
+}
+
 impl Measured {
+    /// Adds what the processes answer to `stop`.
+    fn add_outcomes(&mut self, loads: &mut [Helper]) -> anyhow::Result<()> {
+        for load in loads {
+            let outcomes = load.receive()?;
+            self.receipts_ms.extend(numbers(&outcomes["receipts_ms"]));
+            self.busy += number(&outcomes, "busy")?;
+            self.silent += number(&outcomes, "silent")?;
+            self.refused += number(&outcomes, "refused")?;
+            self.actors_cpu_s += number(&outcomes, "cpu_s")?;
+        }
+        Ok(())
+    }
+
     fn megabytes(&self) -> f64 {
         self.fragments * self.fragment_bytes as f64 / 1e6
     }
