@@ -1,8 +1,5 @@
 //! `treadmill status --watch` on a terminal of its own: what is to be seen there, and what is left of it.
 
-#[path = "../../src/status/screen.rs"]
-#[allow(dead_code, reason = "what asks for a terminal is tried through the binary")]
-mod screen;
 
 use std::{
     fs::File,
@@ -16,6 +13,8 @@ use std::{
     process::{Child, Command, ExitStatus},
     sync::{Arc, Mutex},
 };
+
+use treadmill_rl::launch::terminal_screen::TerminalScreen;
 
 use crate::support::*;
 
@@ -239,7 +238,7 @@ const PANICS: &str = "TREADMILL_TEST_PANICS";
 #[test]
 fn a_panic_is_told_on_a_terminal_that_was_given_back() {
     if std::env::var_os(PANICS).is_some() {
-        let mut screen = screen::Screen::open().expect("a terminal");
+        let mut screen = TerminalScreen::open().expect("a terminal");
         screen.draw(|frame| frame.render_widget("drawn before", frame.area())).expect("it is drawn");
         let mut answer = String::new();
         std::io::stdin().read_line(&mut answer).expect("the test types a line");

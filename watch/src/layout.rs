@@ -15,7 +15,7 @@ use rerun::{
 };
 use treadmill_humanoid::CONTROL_STEP_S;
 
-/// Entities and timelines, by which stage and layout know each other.
+/// Entities and timelines, by which recorder and layout know each other.
 pub mod paths {
     /// Everything in space.
     pub const WORLD: &str = "world";
@@ -47,7 +47,7 @@ pub mod paths {
 
 /// How time goes on at first.
 #[derive(Clone, Copy, PartialEq, Eq)]
-pub enum Pace {
+pub enum PlaybackSpeed {
     /// From the beginning, as it happened.
     Played,
     /// With what comes in.
@@ -71,7 +71,7 @@ pub fn followed_m([x, y]: [f32; 2]) -> [[f32; 3]; 2] {
 }
 
 /// Sends the layout; the camera goes along with the robot if it `follows`, or stays where it is.
-pub fn send(recording: &RecordingStream, follows: bool, pace: Pace) -> RecordingStreamResult<()> {
+pub fn send(recording: &RecordingStream, follows: bool, speed: PlaybackSpeed) -> RecordingStreamResult<()> {
     let space = ContainerLike::from(Spatial3DView::new("humanoid").with_origin(paths::WORLD));
     let space_path = path_of(&space);
     let curves = |name: &str, path: &str| ContainerLike::from(TimeSeriesView::new(name).with_origin(path));
@@ -83,7 +83,7 @@ pub fn send(recording: &RecordingStream, follows: bool, pace: Pace) -> Recording
     let curve_paths = curves.each_ref().map(path_of);
     let beside = Vertical::new(curves);
     let root = Horizontal::new([space, beside.into()]).with_column_shares([1.7, 1.0]);
-    let play = if pace == Pace::Live { PlayState::Following } else { PlayState::Playing };
+    let play = if speed == PlaybackSpeed::Live { PlayState::Following } else { PlayState::Playing };
     let blueprint = Blueprint::new(root)
         .with_auto_views(false)
         .with_auto_layout(false)

@@ -12,23 +12,21 @@ use treadmill_common::{
 use treadmill_humanoid::Model;
 use treadmill_proto::{PolicyBundle, Pose, ident::check_ident};
 use treadmill_rl::{
-    operator::{self, ReachArgs},
-    outcome::Usage,
-    output::say,
-    signals,
+    launch::{exit_code::Usage, output::say, signals},
+    shared::learner_address::{self, ReachArgs},
 };
 
-use crate::{screen::Screen, stage::Stage};
+use crate::{scene_recorder::SceneRecorder, viewer_output::ViewerOutput};
 
 /// Poses that may wait to be drawn: two seconds of them.
 const WAITING_POSES: usize = 64;
 /// How often it is asked whether to stop.
 const LOOK_EVERY: Duration = Duration::from_millis(200);
 /// An actor that says nothing for so long is given up for another.
-const SILENCE: Duration = Duration::from_secs(20);
+const SILENCE_TIMEOUT: Duration = Duration::from_secs(20);
 
 /// What is to be watched.
-pub struct Wish<'a> {
+pub struct LiveOptions<'a> {
     /// The learner or router to ask.
     pub reach: &'a ReachArgs,
     /// The actor, if not any.
@@ -37,20 +35,23 @@ pub struct Wish<'a> {
     pub for_s: Option<f64>,
 }
 
-/// Joins the bus and draws what comes, until Ctrl-C; `open` makes screen and stage once the robot is known.
-pub fn run(wish: &Wish, open: impl FnOnce(&str, Model) -> anyhow::Result<(Screen, Stage)>) -> anyhow::Result<()> {
-    if let Some(actor) = wish.actor {
+/// Joins the bus and draws what comes, until Ctrl-C; `open` makes output and recorder once the robot is known.
+pub fn run(
+    options: &LiveOptions,
+    open: impl FnOnce(&str, Model) -> anyhow::Result<(ViewerOutput, SceneRecorder)>,
+) -> anyhow::Result<()> {
+    if let Some(actor) = options.actor {
         check_ident("--actor", actor).map_err(|why| Usage(why.to_string()))?;
     }
-    operator::on_the_bus(wish.reach, Role::Observer, async |bus, run| {
+    learner_address::connect(options.reach, Role::Observer, async |bus, run| {
         let shutdown = Shutdown::default();
         signals::listen(shutdown.clone(), "").context("signals cannot be caught")?;
         let bundle = ask(&bus, run.as_deref()).await?;
         check_ours(&bundle)?;
-        let (screen, mut stage) = open(&format!("{}, live", bundle.run), Model::from_mjcf(&bundle.model_xml)?)?;
-        let mut feed = ActorFeed::open(&bus, &bundle.run, wish.actor)?;
-        say(&format!("waiting for an episode of {} to begin", wish.actor.unwrap_or("an actor")));
-        while !shutdown.asked() && wish.for_s.is_none_or(|limit_s| stage.shown_s() < limit_s) {
+        let (output, mut recorder) = open(&format!("{}, live", bundle.run), Model::from_mjcf(&bundle.model_xml)?)?;
+        let mut feed = ActorFeed::open(&bus, &bundle.run, options.actor)?;
+        say(&format!("waiting for an episode of {} to begin", options.actor.unwrap_or("an actor")));
+        while !shutdown.asked() && options.for_s.is_none_or(|limit_s| recorder.shown_s() < limit_s) {
             let Some(pose) = tokio::task::block_in_place(|| feed.next())? else { continue };
             if pose.config_hash != bundle.config_hash {
                 anyhow::bail!(
@@ -58,21 +59,21 @@ pub fn run(wish: &Wish, open: impl FnOnce(&str, Model) -> anyhow::Result<(Screen
                     bundle.run
                 );
             }
-            stage.show(&pose)?;
+            recorder.show(&pose)?;
         }
         // Whoever asked for so many seconds may look at them for as long as they like.
         drop(feed);
-        tokio::task::block_in_place(|| screen.finish(&shutdown))
+        tokio::task::block_in_place(|| output.finish(&shutdown))
     })
 }
 
 async fn ask(bus: &Bus, run: Option<&str>) -> anyhow::Result<PolicyBundle> {
     let begun = Instant::now();
     loop {
-        if let Some(bundle) = fetch_policy(bus, run, operator::ANSWER_TIMEOUT).await? {
+        if let Some(bundle) = fetch_policy(bus, run, learner_address::ANSWER_TIMEOUT).await? {
             return Ok(bundle);
         }
-        if begun.elapsed() >= operator::ANSWER_TIMEOUT {
+        if begun.elapsed() >= learner_address::ANSWER_TIMEOUT {
             let whose = run.map_or("no run".to_string(), |run| format!("no run `{run}`"));
             anyhow::bail!("{whose} answers there; is its learner up, and does your certificate let you ask?");
         }
@@ -118,7 +119,7 @@ impl<'a> ActorFeed<'a> {
     /// The next pose, if one comes before it is time to look around.
     fn next(&mut self) -> anyhow::Result<Option<Pose>> {
         let Some(message) = self.feed.next(LOOK_EVERY) else {
-            if self.wanted.is_none() && self.chosen.is_some() && self.heard.elapsed() >= SILENCE {
+            if self.wanted.is_none() && self.chosen.is_some() && self.heard.elapsed() >= SILENCE_TIMEOUT {
                 say("it is silent; waiting for an actor");
                 self.choose(None)?;
             }

@@ -4,18 +4,18 @@
 //!
 //! # Layout, in the order of the data
 //! - [`player`]: poses of a saved policy that plays episodes here.
-//! - [`live`]: poses of an actor that trains somewhere, from the bus.
-//! - [`stage`]: a pose as what Rerun draws: body, floor, trail, contacts, curves.
-//! - [`shapes`]: the model's shapes.
-//! - [`layout`]: what stands where in the viewer, and the camera that follows.
-//! - [`screen`]: where it goes: a browser, a window, a file.
+//! - [`live`]: poses of an actor that trains, from the bus.
+//! - [`scene_recorder`]: logs a pose to Rerun: body, floor, trail, contacts, curves.
+//! - [`shapes`]: shapes of the model.
+//! - [`layout`]: views of the viewer, and the camera.
+//! - [`viewer_output`]: browser, window or file.
 
 mod layout;
 mod live;
 mod player;
-mod screen;
+mod scene_recorder;
 mod shapes;
-mod stage;
+mod viewer_output;
 
 use std::{
     process::ExitCode,
@@ -26,12 +26,11 @@ use clap::{CommandFactory, FromArgMatches, Parser};
 use treadmill_common::shutdown::Shutdown;
 use treadmill_humanoid::Model;
 use treadmill_rl::{
-    log, outcome,
-    outcome::Usage,
-    viewing::{RUN_HELP, ViewArgs},
+    launch::{exit_code, exit_code::Usage, log},
+    shared::viewer_args::{RUN_HELP, ViewerArgs},
 };
 
-use crate::{layout::Pace, screen::Screen, stage::Stage};
+use crate::{layout::PlaybackSpeed, scene_recorder::SceneRecorder, viewer_output::ViewerOutput};
 
 /// See the humanoid move.
 ///
@@ -41,45 +40,50 @@ use crate::{layout::Pace, screen::Screen, stage::Stage};
 #[command(name = "treadmill watch", bin_name = "treadmill watch", version, max_term_width = 110)]
 struct Cli {
     #[command(flatten)]
-    view: ViewArgs,
+    view: ViewerArgs,
 }
 
 fn main() -> ExitCode {
     let command = Cli::command().mut_arg("folder", |arg| arg.help(RUN_HELP));
     let Cli { view } = Cli::from_arg_matches(&command.get_matches()).unwrap_or_else(|why| why.exit());
     log::begin("");
-    outcome::exit_code(if view.live { live(&view) } else { play(&view) })
+    exit_code::exit_code(if view.live { live(&view) } else { play(&view) })
 }
 
-fn play(view: &ViewArgs) -> anyhow::Result<()> {
+fn play(view: &ViewerArgs) -> anyhow::Result<()> {
     let Some(run) = view.reach.folder.as_deref() else {
         let why =
             "watch needs a RUN, as in `treadmill watch runs/walk-1`; or --live and, from another machine, --connect";
         return Err(Usage(why.to_string()).into());
     };
     let mut player = player::Player::load(run, view.checkpoint)?;
-    let (screen, mut stage) = set_up(view, run, player.model(), Pace::Played)?;
+    let (output, mut recorder) = set_up(view, run, player.model(), PlaybackSpeed::Played)?;
     let begun = Instant::now();
     player.play(view.episodes, view.seed, |pose| {
-        stage.show(pose)?;
+        recorder.show(pose)?;
         if let Some(speed) = view.speed {
-            let due = Duration::from_secs_f64(stage.shown_s() / speed);
+            let due = Duration::from_secs_f64(recorder.shown_s() / speed);
             std::thread::sleep(due.saturating_sub(begun.elapsed()));
         }
-        Ok(view.for_s.is_none_or(|limit_s| stage.shown_s() < limit_s))
+        Ok(view.for_s.is_none_or(|limit_s| recorder.shown_s() < limit_s))
     })?;
-    screen.finish(&Shutdown::default())
+    output.finish(&Shutdown::default())
 }
 
-fn live(view: &ViewArgs) -> anyhow::Result<()> {
-    let wish = live::Wish { reach: &view.reach, actor: view.actor.as_deref(), for_s: view.for_s };
-    live::run(&wish, |name, model| set_up(view, name, model, Pace::Live))
+fn live(view: &ViewerArgs) -> anyhow::Result<()> {
+    let options = live::LiveOptions { reach: &view.reach, actor: view.actor.as_deref(), for_s: view.for_s };
+    live::run(&options, |name, model| set_up(view, name, model, PlaybackSpeed::Live))
 }
 
-fn set_up(view: &ViewArgs, name: &str, model: Model, pace: Pace) -> anyhow::Result<(Screen, Stage)> {
-    let screen = Screen::open(&view.screen, name, view.reach.network.insecure)?;
-    let stage = Stage::new(screen.recording().clone(), model);
-    layout::send(screen.recording(), !view.no_follow, pace)?;
-    stage.set_up()?;
-    Ok((screen, stage))
+fn set_up(
+    view: &ViewerArgs,
+    name: &str,
+    model: Model,
+    speed: PlaybackSpeed,
+) -> anyhow::Result<(ViewerOutput, SceneRecorder)> {
+    let output = ViewerOutput::open(&view.output, name, view.reach.network.insecure)?;
+    let recorder = SceneRecorder::new(output.recording().clone(), model);
+    layout::send(output.recording(), !view.no_follow, speed)?;
+    recorder.set_up()?;
+    Ok((output, recorder))
 }

@@ -9,7 +9,7 @@ use treadmill_common::config::RandomisationConfig;
 use treadmill_humanoid::{CONTROL_STEP_S, Environment, Model};
 use treadmill_learner::checkpoint::Which;
 use treadmill_proto::Pose;
-use treadmill_rl::saved_policy;
+use treadmill_rl::shared::saved_policy;
 
 /// A policy and its environment.
 pub struct Player {

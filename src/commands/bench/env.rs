@@ -1,0 +1,134 @@
+//! 64 worlds, random actions, resets included: with task and observation, and physics alone.
+
+use std::time::Instant;
+
+use clap::Args;
+use rand::RngExt;
+use serde_json::json;
+use treadmill_actor::{
+    environments::{Environments, SeedSource, Stepped},
+    settings,
+};
+use treadmill_common::{config::Config, machine, seeds};
+use treadmill_humanoid::{EnvironmentConfig, task};
+
+use super::{
+    bench_worlds::{self, BenchWorlds, WORLDS},
+    print_result, quality, rounded,
+};
+use crate::launch::model::{self, ModelArgs};
+
+/// Random actions that the worlds are stepped with, over and over; a multiple of their number.
+const ACTIONS: usize = 64 * WORLDS;
+
+/// Flags of `bench env`.
+#[derive(Args)]
+pub struct EnvArgs {
+    /// Environment steps to measure over.
+    #[arg(long, default_value_t = 100_000)]
+    pub steps: u64,
+    /// Threads that the worlds are spread over; 0 means one per core.
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u16).range(0..=256))]
+    threads: u16,
+    /// What the policy is to see, short for --set env.observation=KIND.
+    #[arg(long, value_name = "KIND")]
+    observation: Option<String>,
+    #[command(flatten)]
+    model: ModelArgs,
+    /// Instead of speed, measure how well joints and limits hold under the largest torques in random directions.
+    #[arg(long)]
+    quality: bool,
+    /// Print one JSON object.
+    #[arg(long)]
+    json: bool,
+}
+
+impl EnvArgs {
+    fn config(&self) -> anyhow::Result<Config> {
+        let mut given = self.model.clone();
+        given.set.extend(self.observation.iter().map(|kind| format!("env.observation={kind}")));
+        given.config(&Config::default())
+    }
+}
+
+/// Runs the measurement and prints its result.
+pub fn run(args: &EnvArgs) -> anyhow::Result<()> {
+    let config = args.config()?;
+    let file = args.model.model.as_deref();
+    let text = model::text(file)?;
+    // Says what is wrong with the file, where anything is.
+    model::environment(&config, &text, file)?;
+    let environment = settings::training(&config);
+    let threads = bench_worlds::threads(args.threads.into());
+    let rounds = args.steps.div_ceil(WORLDS as u64).max(1);
+    let result = if args.quality {
+        quality::measure(&environment, &text, threads, rounds)?
+    } else {
+        measure(&environment, &text, config.env.observation.name(), threads, rounds)?
+    };
+    print_result(&result, args.json);
+    Ok(())
+}
+
+fn measure(
+    config: &EnvironmentConfig,
+    model_xml: &str,
+    observation_kind: &str,
+    threads: usize,
+    rounds: u64,
+) -> anyhow::Result<serde_json::Value> {
+    let seeds = SeedSource { run_seed: 1, actor: "bench".to_string(), start: 0 };
+    let mut environments = Environments::new(WORLDS, config, model_xml, seeds)?.with_threads(threads)?;
+    let mut random = seeds::stream(1, "bench-actions", &[]);
+    let size = environments.action_size();
+    let actions: Vec<f32> = (0..ACTIONS * size).map(|_| random.random_range(-1.0..1.0)).collect();
+    let actions_of = |round: u64| {
+        let first = round as usize * WORLDS % ACTIONS;
+        &actions[first * size..][..WORLDS * size]
+    };
+
+    let (mut stepped, mut sum, mut resets) = (Stepped::default(), 0.0f64, 0u64);
+    let begun = Instant::now();
+    for round in 0..rounds {
+        environments.step(actions_of(round), &mut stepped);
+        sum += stepped.rewards.iter().map(|reward| f64::from(*reward)).sum::<f64>();
+        resets += stepped.episodes.len() as u64;
+    }
+    let steps = rounds * WORLDS as u64;
+    let env_steps_per_s = steps as f64 / begun.elapsed().as_secs_f64();
+    let observations: Vec<u8> = environments.observations().iter().flat_map(|entry| entry.to_le_bytes()).collect();
+
+    // The same bodies under the same actions, without observation and reward; a body on the ground costs more than one that
+    // stands, so those that fell stand up again here too.
+    let mut worlds = BenchWorlds::new(config, model_xml, threads, |_| vec![0.0f32; size])?;
+    let begun = Instant::now();
+    for round in 0..rounds {
+        let actions = actions_of(round);
+        worlds.each(|world, controls| {
+            let action = &actions[world.index * size..][..size];
+            world.environment.action_from_shares(action, controls);
+            let failed = world.environment.physics_mut().step_only(controls).is_err();
+            world.faults += u64::from(failed);
+            if failed || !task::is_healthy(config, world.environment.physics().torso_height_m()) {
+                world.reset();
+            }
+        });
+    }
+    let physics_only_steps_per_s = steps as f64 / begun.elapsed().as_secs_f64();
+    let faults: u64 = worlds.iter().map(|(world, _)| world.faults).sum();
+    // Each world was put on its feet once before the first step.
+    let resets = resets + worlds.iter().map(|(world, _)| world.resets - 1).sum::<u64>();
+
+    Ok(json!({
+        "env_steps_per_s": rounded(env_steps_per_s),
+        "physics_only_steps_per_s": rounded(physics_only_steps_per_s),
+        "observation": environments.observation_size(),
+        "observation_kind": observation_kind,
+        "control_step_s": treadmill_humanoid::CONTROL_STEP_S,
+        "threads": threads,
+        "cpu": machine::cpu_name(),
+        "workload": format!("{WORLDS} humanoids, uniformly random actions, {steps} steps each way, {resets} resets"),
+        "faults": faults,
+        "checksum": format!("{:016x}", seeds::checksum(&[&sum.to_le_bytes(), &observations])),
+    }))
+}

@@ -1,0 +1,96 @@
+//! The update on made-up experience: forward, loss, backward, gradient clipping, Adam.
+
+use std::{sync::Arc, time::Instant};
+
+use clap::Args;
+use serde_json::json;
+use treadmill_common::{
+    config::PpoConfig,
+    device::DeviceKind,
+    machine,
+    policy::{NetworkShape, gaussian, init::initial_parameters},
+    seeds,
+};
+use treadmill_learner::ppo::{Batch, Updater};
+
+use crate::launch::{exit_code::Usage, memory};
+
+use super::{
+    bench_worlds,
+    network::{self, Widths},
+    print_result, rounded,
+};
+
+/// Flags of `bench update`.
+#[derive(Args)]
+pub struct UpdateArgs {
+    /// Updates to measure over, after one that warms up.
+    #[arg(long, default_value_t = 10)]
+    updates: u32,
+    /// Threads; 0 means one per core.
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u16).range(0..=256))]
+    threads: u16,
+    /// Transitions of one gradient step.
+    #[arg(long, default_value_t = 2048)]
+    minibatch: u32,
+    /// Widths of actor and critic: observation, then hidden layers.
+    #[arg(long, value_name = "WIDTHS", default_value = "45-256-128")]
+    network: Widths,
+    /// Where the networks are computed: cpu, or cuda in a build with that feature.
+    #[arg(long, value_name = "DEVICE", default_value = "cpu")]
+    device: DeviceKind,
+    /// Print one JSON object.
+    #[arg(long)]
+    json: bool,
+}
+
+/// Runs the measurement and prints its result.
+pub fn run(args: &UpdateArgs) -> anyhow::Result<()> {
+    memory::keep_freed();
+    let device = args.device.open().map_err(|why| Usage(why.to_string()))?;
+    let shape = args.network.shape();
+    let minibatch = args.minibatch.max(1);
+    let config = PpoConfig { minibatch, batch: minibatch.saturating_mul(4), ..PpoConfig::default() };
+    let mut random = seeds::stream(1, "bench-update", &[]);
+    let parameters = initial_parameters(&shape, -0.5, &mut random);
+    let batch = made_up(&shape, config.batch as usize, &mut random);
+    let threads = bench_worlds::threads(args.threads.into());
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build()?;
+    let mut updater = Updater::on(&device, shape, parameters, &config, Arc::new(pool))?;
+    updater.update(&batch, &mut random)?;
+    let begun = Instant::now();
+    let mut samples = 0;
+    for _ in 0..args.updates.max(1) {
+        samples += updater.update(&batch, &mut random)?.samples;
+    }
+    let samples_per_s = samples as f64 / begun.elapsed().as_secs_f64();
+    let result = json!({
+        "samples_per_s": rounded(samples_per_s),
+        "minibatch": minibatch,
+        "network": format!("{} actor and critic", args.network),
+        "threads": threads,
+        "cpu": machine::cpu_name(),
+        "workload": format!("{samples} samples: forward, loss, backward, gradient clipping, Adam"),
+        "checksum": network::checksum(&updater.parameters()),
+    });
+    print_result(&result, args.json);
+    Ok(())
+}
+
+fn made_up(shape: &NetworkShape, rows: usize, random: &mut seeds::Stream) -> Batch {
+    let mut normals = |count: usize| network::normals(count, random);
+    let actions = normals(rows * shape.action);
+    let (mean, log_std) = (vec![0.0; shape.action], vec![-0.5; shape.action]);
+    Batch {
+        observations: normals(rows * shape.observation),
+        log_probs: actions
+            .chunks_exact(shape.action)
+            .map(|action| gaussian::log_probability(action, &mean, &log_std))
+            .collect(),
+        actions,
+        weights: vec![1.0; rows],
+        advantages: normals(rows),
+        returns: normals(rows),
+        values: normals(rows),
+    }
+}

@@ -1,0 +1,178 @@
+//! `treadmill certs`: an authority and a certificate for each part, so that nobody else gets in.
+
+use std::{
+    fs,
+    io::Write,
+    os::unix::fs::OpenOptionsExt,
+    path::{Path, PathBuf},
+};
+
+use anyhow::Context;
+use clap::Args;
+use rcgen::{
+    BasicConstraints, CertificateParams, DnType, ExtendedKeyUsagePurpose, IsCa, Issuer, KeyPair, KeyUsagePurpose,
+};
+use time::{Duration, OffsetDateTime};
+use treadmill_common::bus::{Credentials, Role};
+
+use crate::launch::{exit_code::Usage, output::say};
+
+/// Certificates begin before they were made: clocks differ, and jump.
+const LEEWAY: Duration = Duration::days(1);
+
+/// Flags of `certs`.
+#[derive(Args)]
+pub struct CertsArgs {
+    /// Folder to write to.
+    folder: PathBuf,
+    /// Name or address under which learner or router are dialled; may be repeated.
+    #[arg(long, value_name = "HOST", default_values = ["localhost", "127.0.0.1", "::1"])]
+    host: Vec<String>,
+    /// Days until the certificates of the parts expire; the authority's own lasts ten times as long.
+    #[arg(long, default_value_t = 365, value_parser = clap::value_parser!(u32).range(1..=3650))]
+    days: u32,
+    /// Make the parts' certificates anew, by the authority that is there.
+    #[arg(long)]
+    renew: bool,
+    /// Also lay out a folder for each part below this one, with the three files that it needs and nothing else.
+    #[arg(long, value_name = "DIR")]
+    bundles: Option<PathBuf>,
+}
+
+impl CertsArgs {
+    /// Certificates for processes of this machine alone, soon over.
+    pub fn for_this_machine(folder: &Path) -> Self {
+        Self {
+            folder: folder.to_path_buf(),
+            host: vec!["localhost".to_string(), "127.0.0.1".to_string()],
+            days: 1,
+            renew: false,
+            bundles: None,
+        }
+    }
+}
+
+/// Makes what is not there yet, and tells where it is.
+pub fn run(args: &CertsArgs) -> anyhow::Result<()> {
+    let folder = &args.folder;
+    let made = make(args)?;
+    match made.is_empty() {
+        true => say("nothing to do: all certificates are there; make them anew with --renew"),
+        false => say(&format!("wrote certificates and keys of {} to {}", made.join(", "), folder.display())),
+    }
+    if let Some(bundles) = &args.bundles {
+        for role in Role::ALL {
+            hand_out(folder, role, &bundles.join(role.name()))?;
+        }
+        say(&format!("laid out a folder for each part below {}", bundles.display()));
+    }
+    say("give each machine ca.crt and the two files of its part; keep ca.key where nobody else can read it");
+    Ok(())
+}
+
+/// Makes what is not there yet: the parts whose files were made.
+pub fn make(args: &CertsArgs) -> anyhow::Result<Vec<&'static str>> {
+    let folder = &args.folder;
+    fs::create_dir_all(folder).with_context(|| format!("cannot make the folder `{}`", folder.display()))?;
+    let authority = authority(folder, args.days)?;
+    let mut made = Vec::new();
+    for role in Role::ALL {
+        let credentials = Credentials { folder: folder.clone(), role };
+        let [certificate, key] = credentials.files();
+        if !args.renew && certificate.exists() && key.exists() {
+            continue;
+        }
+        let (text, private) = issue(role, &args.host, args.days, &authority)?;
+        write(&key, &private, 0o600)?;
+        write(&certificate, &text, 0o644)?;
+        made.push(role.name());
+    }
+    Ok(made)
+}
+
+/// What one part needs, in a folder of its own; what is the same already stays as it is.
+fn hand_out(folder: &Path, role: Role, own: &Path) -> anyhow::Result<()> {
+    fs::create_dir_all(own).with_context(|| format!("cannot make the folder `{}`", own.display()))?;
+    let [certificate, key] = Credentials { folder: folder.to_path_buf(), role }.files();
+    for (file, mode) in [(Credentials::authority(folder), 0o644), (key, 0o600), (certificate, 0o644)] {
+        let text = fs::read_to_string(&file).with_context(|| format!("cannot read `{}`", file.display()))?;
+        let copy = own.join(file.file_name().expect("files of a part have names"));
+        if !fs::read_to_string(&copy).is_ok_and(|there| there == text) {
+            write(&copy, &text, mode)?;
+        }
+    }
+    Ok(())
+}
+
+/// The authority that is there, or a new one.
+fn authority(folder: &Path, days: u32) -> anyhow::Result<Issuer<'static, KeyPair>> {
+    let (certificate, key) = (Credentials::authority(folder), folder.join("ca.key"));
+    match (certificate.exists(), key.exists()) {
+        (true, true) => {
+            let read =
+                |path: &Path| fs::read_to_string(path).with_context(|| format!("cannot read `{}`", path.display()));
+            let pair =
+                KeyPair::from_pem(&read(&key)?).with_context(|| format!("`{}` is no private key", key.display()))?;
+            Issuer::from_ca_cert_pem(&read(&certificate)?, pair)
+                .with_context(|| format!("`{}` is no authority's certificate", certificate.display()))
+        }
+        (false, false) => {
+            let pair = KeyPair::generate()?;
+            let mut params = CertificateParams::default();
+            params.distinguished_name.push(DnType::CommonName, "treadmill-ca");
+            params.is_ca = IsCa::Ca(BasicConstraints::Constrained(0));
+            params.key_usages = vec![KeyUsagePurpose::KeyCertSign, KeyUsagePurpose::CrlSign];
+            lasting(&mut params, days.saturating_mul(10));
+            let text = params.self_signed(&pair)?.pem();
+            write(&key, &pair.serialize_pem(), 0o600)?;
+            write(&certificate, &text, 0o644)?;
+            Ok(Issuer::new(params, pair))
+        }
+        _ => Err(Usage(format!(
+            "folder `{}` has only one of ca.crt and ca.key; put the other one back, or choose an empty folder",
+            folder.display()
+        ))
+        .into()),
+    }
+}
+
+/// Certificate and private key of a part.
+fn issue(
+    role: Role,
+    hosts: &[String],
+    days: u32,
+    authority: &Issuer<'static, KeyPair>,
+) -> anyhow::Result<(String, String)> {
+    let names = if role.listens() { hosts.to_vec() } else { Vec::new() };
+    let mut params = CertificateParams::new(names).map_err(|why| Usage(format!("--host: {why}")))?;
+    params.distinguished_name.push(DnType::CommonName, role.common_name());
+    params.key_usages = vec![KeyUsagePurpose::DigitalSignature];
+    params.extended_key_usages = vec![ExtendedKeyUsagePurpose::ClientAuth];
+    if role.listens() {
+        params.extended_key_usages.push(ExtendedKeyUsagePurpose::ServerAuth);
+    }
+    lasting(&mut params, days);
+    let pair = KeyPair::generate()?;
+    let text = params.signed_by(&pair, authority)?.pem();
+    Ok((text, pair.serialize_pem()))
+}
+
+fn lasting(params: &mut CertificateParams, days: u32) {
+    let now = OffsetDateTime::now_utc();
+    params.not_before = now - LEEWAY;
+    params.not_after = now + Duration::days(days.into());
+}
+
+/// Written beside its place first; a private key is never readable by others, not for a moment.
+fn write(path: &Path, text: &str, mode: u32) -> anyhow::Result<()> {
+    let beside = path.with_extension("new");
+    let _ = fs::remove_file(&beside);
+    let written = fs::OpenOptions::new()
+        .write(true)
+        .create_new(true)
+        .mode(mode)
+        .open(&beside)
+        .and_then(|mut file| file.write_all(text.as_bytes()).and_then(|()| file.sync_all()))
+        .and_then(|()| fs::rename(&beside, path));
+    written.with_context(|| format!("cannot write `{}`", path.display()))
+}

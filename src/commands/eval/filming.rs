@@ -1,0 +1,218 @@
+//! Pictures of an evaluation: `eval --gif` and `eval --png`.
+
+use std::{
+    fs,
+    io::BufWriter,
+    path::{Path, PathBuf},
+    str::FromStr,
+};
+
+use anyhow::Context;
+use clap::{ArgGroup, Args};
+use tempfile::NamedTempFile;
+use treadmill_actor::evaluation::Told;
+use treadmill_common::atomic_file;
+use treadmill_render::{Camera, Gif, Picture, Scene, film};
+
+use crate::launch::exit_code::Usage;
+
+/// Flags of pictures.
+#[derive(Args)]
+#[command(group(ArgGroup::new("pictures").args(["gif", "png"]).multiple(true)))]
+pub struct FilmArgs {
+    /// Write the first episode as an animation; needs no window and no GPU.
+    #[arg(long, value_name = "FILE")]
+    gif: Option<PathBuf>,
+    /// Write the pictures of the first episode into a folder, as 00000.png, 00001.png, ...
+    #[arg(long, value_name = "FOLDER")]
+    png: Option<PathBuf>,
+    /// Width and height of the pictures, in pixels.
+    #[arg(long, value_name = "WxH", default_value = "320x240", requires = "pictures")]
+    size: Size,
+    /// Pictures per second.
+    #[arg(long, value_name = "N", default_value_t = 20, requires = "pictures", value_parser = clap::value_parser!(u32).range(1..=50))]
+    fps: u32,
+    /// Leave out the beginning, so many seconds of it.
+    #[arg(long, value_name = "S", default_value_t = 0.0, requires = "pictures", value_parser = seconds)]
+    from_s: f64,
+    /// End after so many seconds; by default with the episode.
+    #[arg(long, value_name = "S", requires = "pictures", value_parser = seconds)]
+    seconds: Option<f64>,
+}
+
+/// Pixels of a picture.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+struct Size {
+    width: u32,
+    height: u32,
+}
+
+impl FromStr for Size {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let sides = text
+            .split_once(['x', 'X', '×'])
+            .and_then(|(width, height)| Some((width.parse().ok()?, height.parse().ok()?)));
+        match sides {
+            Some((width, height)) if (16..=4096).contains(&width) && (16..=4096).contains(&height) => {
+                Ok(Self { width, height })
+            }
+            _ => Err("expected width and height of 16 to 4096 pixels each, as in 320x240".to_string()),
+        }
+    }
+}
+
+fn seconds(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(seconds) if (0.0..=3600.0).contains(&seconds) => Ok(seconds),
+        _ => Err("expected 0 to 3600 seconds".to_string()),
+    }
+}
+
+/// How soon the camera follows the torso to the side: after this time (s) it is 1/e of a step aside behind.
+const FOLLOW_S: f64 = 0.5;
+
+/// Takes the pictures of one episode.
+pub struct Filming {
+    gif: Option<(Gif<BufWriter<NamedTempFile>>, PathBuf)>,
+    png: Option<PathBuf>,
+    size: (u32, u32),
+    fps: u32,
+    from_s: f64,
+    until_s: f64,
+    control_step_s: f64,
+    taken: u32,
+    /// The point of the floor above which the torso is, and that the camera follows.
+    followed_m: Option<[f64; 2]>,
+    failed: Option<anyhow::Error>,
+}
+
+impl FilmArgs {
+    /// Opens what is written to; `None` where no pictures are wanted.
+    pub fn begin(&self, control_step_s: f64) -> anyhow::Result<Option<Filming>> {
+        if self.gif.is_none() && self.png.is_none() {
+            return Ok(None);
+        }
+        let gif = self.gif.as_deref().map(|path| self.open(path)).transpose()?;
+        if let Some(folder) = &self.png {
+            make_empty(folder)?;
+        }
+        Ok(Some(Filming {
+            gif,
+            png: self.png.clone(),
+            size: (self.size.width, self.size.height),
+            fps: self.fps,
+            from_s: self.from_s,
+            until_s: self.seconds.map_or(f64::INFINITY, |seconds| self.from_s + seconds),
+            control_step_s,
+            taken: 0,
+            followed_m: None,
+            failed: None,
+        }))
+    }
+
+    /// A temporary file beside the place, which gets its name once it is whole.
+    fn open(&self, path: &Path) -> anyhow::Result<(Gif<BufWriter<NamedTempFile>>, PathBuf)> {
+        let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+        let file = NamedTempFile::new_in(folder)
+            .with_context(|| format!("--gif {}: nothing can be written there", path.display()))?;
+        Ok((Gif::new(BufWriter::new(file), f64::from(self.fps)), path.to_path_buf()))
+    }
+}
+
+fn make_empty(folder: &Path) -> anyhow::Result<()> {
+    fs::create_dir_all(folder).with_context(|| format!("--png {}: no such folder can be made", folder.display()))?;
+    let mut there = fs::read_dir(folder).with_context(|| format!("--png {}: it cannot be read", folder.display()))?;
+    if there.next().is_some() {
+        let why =
+            format!("--png {}: there is something in it already; name a new or an empty folder", folder.display());
+        return Err(Usage(why).into());
+    }
+    Ok(())
+}
+
+impl Filming {
+    /// A step of an evaluation; those of its first episode are seen.
+    pub fn record(&mut self, told: &Told) {
+        if told.episode == 1
+            && self.failed.is_none()
+            && let Err(why) = self.take_picture(told)
+        {
+            self.failed = Some(why);
+        }
+    }
+
+    fn take_picture(&mut self, told: &Told) -> anyhow::Result<()> {
+        let position = told.physics.position();
+        let share = 1.0 - (-self.control_step_s / FOLLOW_S).exp();
+        let followed_m = self.followed_m.get_or_insert([position[0], position[1]]);
+        // Ahead at once: whoever runs would be out of the picture otherwise.
+        followed_m[0] = position[0];
+        followed_m[1] += (position[1] - followed_m[1]) * share;
+        let time_s = f64::from(told.step) * self.control_step_s;
+        let due_s = self.from_s + f64::from(self.taken) / f64::from(self.fps);
+        // The step that is nearest to when the picture is due.
+        if time_s + self.control_step_s / 2.0 < due_s || due_s >= self.until_s {
+            return Ok(());
+        }
+        let camera = Camera::beside(followed_m[0], followed_m[1]);
+        let picture = Picture::of(&Scene::of(told.physics), &camera, self.size);
+        if let Some((gif, path)) = &mut self.gif {
+            gif.add(&picture).with_context(|| format!("--gif {}", path.display()))?;
+        }
+        if let Some(folder) = &self.png {
+            let path = folder.join(format!("{:05}.png", self.taken));
+            atomic_file::write(&path, &film::png(&picture)?)
+                .with_context(|| format!("cannot write `{}`", path.display()))?;
+        }
+        self.taken += 1;
+        Ok(())
+    }
+
+    /// Puts everything in its place and says what was made.
+    pub fn finish(self) -> anyhow::Result<String> {
+        if let Some(why) = self.failed {
+            return Err(why);
+        }
+        if self.taken == 0 {
+            let why = format!("--from-s {}: the first episode was over by then", self.from_s);
+            return Err(Usage(why).into());
+        }
+        let mut made = Vec::new();
+        if let Some((gif, path)) = self.gif {
+            let place = || format!("--gif {}", path.display());
+            let file =
+                gif.finish().with_context(place)?.into_inner().map_err(|why| why.into_error()).with_context(place)?;
+            let bytes = file.as_file().metadata().with_context(place)?.len();
+            keep(file, &path).with_context(place)?;
+            made.push(format!("{} ({:.1} MB)", path.display(), bytes as f64 / 1e6));
+        }
+        made.extend(self.png.map(|folder| folder.display().to_string()));
+        Ok(format!("{} pictures of {} × {}: {}", self.taken, self.size.0, self.size.1, made.join(", ")))
+    }
+}
+
+/// Gives a temporary file its name, and the permissions of any other file.
+fn keep(file: NamedTempFile, path: &Path) -> anyhow::Result<()> {
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::PermissionsExt;
+        file.as_file().set_permissions(fs::Permissions::from_mode(0o644))?;
+    }
+    file.persist(path)?;
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn sizes_are_two_numbers_in_bounds() {
+        assert_eq!("640x480".parse(), Ok(Size { width: 640, height: 480 }));
+        for wrong in ["640", "640x", "x480", "0x100", "5000x100", "-1x100", "640x480x3", "1e2x100"] {
+            assert!(wrong.parse::<Size>().unwrap_err().contains("320x240"), "{wrong}");
+        }
+    }
+}

@@ -1,0 +1,57 @@
+//! `treadmill evaluator`: plays deterministic episodes with policies of a run while it trains, and hands in how they did.
+
+use clap::{Args, builder::ArgPredicate};
+use treadmill_actor::evaluator::{self, EvaluatorOptions};
+use treadmill_common::bus::Role;
+use treadmill_proto::{Malformed, ident::check_ident};
+
+use crate::{
+    launch::{
+        bus_client::{default_name, with_session},
+        exit_code::Usage,
+    },
+    shared::network_args::NetworkArgs,
+};
+
+/// Flags of `evaluator`.
+#[derive(Args)]
+pub struct EvaluatorArgs {
+    /// Where the learner or a router listens; may be repeated.
+    #[arg(
+        long,
+        value_name = "ENDPOINT",
+        default_value = "tcp/127.0.0.1:7447",
+        default_value_if("discover", ArgPredicate::IsPresent, None)
+    )]
+    connect: Vec<String>,
+    /// The run to evaluate; may be left out where there is only one.
+    #[arg(long, value_name = "NAME")]
+    run: Option<String>,
+    /// This evaluator's name, unlike that of any other; by default made from the host's name.
+    #[arg(long, value_name = "NAME")]
+    name: Option<String>,
+    #[command(flatten)]
+    network: NetworkArgs,
+    /// End when standard input closes, which it does when the parent process is gone.
+    #[arg(long, hide = true)]
+    until_stdin_closes: bool,
+}
+
+/// Evaluates until it is told to stop.
+pub fn run(args: EvaluatorArgs) -> anyhow::Result<()> {
+    let options = EvaluatorOptions {
+        run: args.run,
+        name: args.name.unwrap_or_else(default_name),
+        where_to: args.network.where_to(&args.connect),
+    };
+    let wrong = |why: Malformed| Usage(why.to_string());
+    check_ident("name", &options.name).map_err(wrong)?;
+    if let Some(run) = &options.run {
+        check_ident("run", run).map_err(wrong)?;
+    }
+    let bus_options = args.network.options(Role::Evaluator, Vec::new(), args.connect)?;
+    let where_to = options.where_to.clone();
+    with_session(bus_options, &where_to, args.until_stdin_closes, |bus, shutdown| {
+        evaluator::run(bus, options, shutdown)
+    })
+}

@@ -1,0 +1,51 @@
+//! `treadmill learner`: only the learner.
+
+use clap::Args;
+use treadmill_common::bus::Role;
+use treadmill_proto::ident::check_ident;
+
+use crate::{
+    launch::{
+        exit_code::Usage,
+        host::{self, HostOptions},
+        metrics_page::MetricsArgs,
+        startup::{self, AnyRunArgs, NewRunArgs, RunCommand},
+    },
+    shared::network_args::NetworkArgs,
+};
+
+/// Flags of `learner`.
+#[derive(Args)]
+pub struct LearnerArgs {
+    #[command(flatten)]
+    new: NewRunArgs,
+    #[command(flatten)]
+    any: AnyRunArgs,
+    #[command(flatten)]
+    network: NetworkArgs,
+    #[command(flatten)]
+    metrics: MetricsArgs,
+    /// The run's name on the bus; by default the name of its folder.
+    #[arg(long, value_name = "NAME", conflicts_with = "resume")]
+    run: Option<String>,
+    /// Where to listen; may be repeated.
+    #[arg(long, value_name = "ENDPOINT", default_value = "tcp/127.0.0.1:7447")]
+    listen: Vec<String>,
+    /// Other routers to join; may be repeated.
+    #[arg(long, value_name = "ENDPOINT")]
+    connect: Vec<String>,
+}
+
+/// Runs the learner until the run has its steps.
+pub fn run(args: LearnerArgs) -> anyhow::Result<()> {
+    if let Some(run) = &args.run {
+        check_ident("run", run).map_err(|why| Usage(why.to_string()))?;
+    }
+    let options = args.network.options(Role::Learner, args.listen, args.connect)?;
+    let metrics = args.metrics.listen()?;
+    let mut prepared = startup::prepare(RunCommand::Learner, &args.new, &args.any, &[])?;
+    if let Some(run) = args.run {
+        prepared.rename(run);
+    }
+    host::run(prepared, HostOptions { any: &args.any, bus: &options, actors: None, metrics })
+}

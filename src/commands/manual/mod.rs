@@ -1,0 +1,105 @@
+//! `treadmill completions`, `man` and the hidden `reference`: text generated from the definitions of commands and keys.
+//!
+//! # Layout
+//! - [`commands`]: page of all commands and flags.
+//! - [`configuration`]: page of all configuration keys.
+
+mod commands;
+mod configuration;
+
+use std::{fs, path::PathBuf};
+
+use anyhow::Context;
+use clap::{Args, Command, ValueEnum};
+
+use crate::launch::output::say;
+
+/// Flags of `completions`.
+#[derive(Args)]
+pub struct CompletionsArgs {
+    /// Which shell the script is for.
+    shell: Shell,
+}
+
+#[derive(Clone, Copy, ValueEnum)]
+enum Shell {
+    Bash,
+    Elvish,
+    Fish,
+    Zsh,
+}
+
+/// Flags of `man`.
+#[derive(Args)]
+pub struct ManArgs {
+    /// Folder for the pages, as /usr/local/share/man/man1; made where it is missing.
+    folder: PathBuf,
+}
+
+/// Flags of `reference`.
+#[derive(Args)]
+pub struct ReferenceArgs {
+    /// Which page.
+    page: Page,
+}
+
+#[derive(Clone, Copy, ValueEnum)]
+enum Page {
+    Commands,
+    Configuration,
+}
+
+/// Prints the script.
+pub fn completions(args: &CompletionsArgs, mut program: Command) {
+    let mut script = Vec::new();
+    let name = program.get_name().to_string();
+    let shell = match args.shell {
+        Shell::Bash => clap_complete::Shell::Bash,
+        Shell::Elvish => clap_complete::Shell::Elvish,
+        Shell::Fish => clap_complete::Shell::Fish,
+        Shell::Zsh => clap_complete::Shell::Zsh,
+    };
+    clap_complete::generate(shell, &mut program, name, &mut script);
+    say(String::from_utf8_lossy(&script).trim_end());
+}
+
+/// Writes the pages.
+pub fn man(args: &ManArgs, program: Command) -> anyhow::Result<()> {
+    let folder = &args.folder;
+    fs::create_dir_all(folder)
+        .and_then(|()| clap_mangen::generate_to(program, folder))
+        .with_context(|| format!("manual pages cannot be written to `{}`", folder.display()))
+}
+
+/// Prints a page of `docs/reference/`.
+pub fn reference(args: &ReferenceArgs, program: Command) {
+    let page = match args.page {
+        Page::Commands => commands::page(program),
+        Page::Configuration => configuration::page(),
+    };
+    say(page.trim_end());
+}
+
+/// The beginning of a generated page.
+fn heading(title: &str, made_from: &str) -> String {
+    format!(
+        "# {title}\n\n<!-- Made from {made_from}; do not edit. Write it anew with\n     \
+         TREADMILL_WRITE_REFERENCE=1 cargo test --release --test documentation reference -->\n"
+    )
+}
+
+/// Text in a cell of a Markdown table: on one line, and without what would end the cell or begin a tag.
+fn cell(text: &str) -> String {
+    let words: Vec<&str> = text.split_whitespace().collect();
+    words.join(" ").replace('|', "\\|").replace('<', "\\<")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_cell_stays_one_cell() {
+        assert_eq!(cell("a | b\n  c <d>"), "a \\| b c \\<d>");
+    }
+}

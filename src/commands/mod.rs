@@ -1,0 +1,23 @@
+//! The subcommands: each module has the flags of its command and a function `run`.
+//!
+//! # Layout
+//! - Training: [`train`], [`learner`], [`actor`], [`evaluator`], [`router`], [`certs`].
+//! - While a run trains: [`status`], [`control`].
+//! - Trained policies: [`eval`], [`watch`], [`export`], [`runs`].
+//! - Machine and program: [`check`], [`bench`], [`manual`] (`completions`, `man`, `reference`).
+
+pub(crate) mod actor;
+pub(crate) mod bench;
+pub(crate) mod certs;
+pub(crate) mod check;
+pub(crate) mod control;
+pub(crate) mod eval;
+pub(crate) mod evaluator;
+pub(crate) mod export;
+pub(crate) mod learner;
+pub(crate) mod manual;
+pub(crate) mod router;
+pub(crate) mod runs;
+pub(crate) mod status;
+pub(crate) mod train;
+pub(crate) mod watch;

@@ -1,0 +1,52 @@
+//! `treadmill router`: hands messages on, for a site with many machines.
+
+use anyhow::Context;
+use clap::Args;
+use treadmill_common::{
+    bus::{Bus, Role},
+    shutdown::Shutdown,
+};
+
+use crate::{
+    launch::{one_core, output::say, signals},
+    shared::network_args::NetworkArgs,
+};
+
+/// Flags of `router`.
+#[derive(Args)]
+pub struct RouterArgs {
+    /// Where to listen; may be repeated.
+    #[arg(long, value_name = "ENDPOINT", default_value = "tcp/127.0.0.1:7447")]
+    listen: Vec<String>,
+    /// The learner, or a router on the way to it; may be repeated.
+    #[arg(long, value_name = "ENDPOINT")]
+    connect: Vec<String>,
+    #[command(flatten)]
+    network: NetworkArgs,
+}
+
+/// Hands messages on until it is told to stop.
+pub fn run(args: RouterArgs) -> anyhow::Result<()> {
+    let options = args.network.options(Role::Router, args.listen, args.connect)?;
+    if options.credentials.is_some() {
+        one_core::keep_to_one_core();
+    }
+    let runtime =
+        tokio::runtime::Builder::new_multi_thread().worker_threads(2).enable_all().build().context("no runtime")?;
+    let outcome = runtime.block_on(async {
+        let shutdown = Shutdown::default();
+        signals::listen(shutdown.clone(), "")?;
+        let dialled = options.connect.join(", ");
+        let (bus, endpoints) = tokio::task::spawn_blocking(move || Bus::open_router(&options)).await??;
+        say(&format!("listening {}", endpoints.join(", ")));
+        if !dialled.is_empty() {
+            say(&format!("dialling  {dialled}, again whenever that is gone"));
+        }
+        shutdown.wait().await;
+        bus.close();
+        Ok(())
+    });
+    // A close that hangs must not keep the process.
+    runtime.shutdown_background();
+    outcome
+}

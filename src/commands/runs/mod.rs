@@ -1,0 +1,166 @@
+//! `treadmill runs`: what trained runs came to, side by side, and what they were configured otherwise.
+
+mod record;
+
+use std::{
+    collections::{BTreeMap, BTreeSet},
+    fs,
+    path::{Path, PathBuf},
+};
+
+use anyhow::Context;
+use clap::Args;
+use serde_json::json;
+
+use self::record::Record;
+use crate::launch::{exit_code::Usage, output::say};
+
+/// Flags of `runs`.
+#[derive(Args)]
+pub struct RunsArgs {
+    /// Folders of runs, or folders that hold some.
+    #[arg(default_value = "runs")]
+    paths: Vec<PathBuf>,
+    /// Print one JSON object per run and nothing else.
+    #[arg(long)]
+    json: bool,
+}
+
+/// Reads what is there and tells it, the run that walks furthest first.
+pub fn run(args: &RunsArgs) -> anyhow::Result<()> {
+    let mut records = Vec::new();
+    for path in &args.paths {
+        for folder in runs_in(path)? {
+            records.push(Record::read(&folder)?);
+        }
+    }
+    if records.is_empty() {
+        let shown: Vec<_> = args.paths.iter().map(|path| format!("`{}`", path.display())).collect();
+        return Err(Usage(format!("there is no run in {}; name a folder that holds some", shown.join(", "))).into());
+    }
+    records.sort_by(|one, other| other.distance_m().total_cmp(&one.distance_m()));
+    let differences = differences(&records);
+    if args.json {
+        records.iter().zip(&differences).for_each(|(record, changes)| say(&as_json(record, changes)));
+    } else {
+        print_table(&records, &differences);
+    }
+    Ok(())
+}
+
+/// The folder itself if it is a run's, else the runs directly in it, by name.
+fn runs_in(path: &Path) -> anyhow::Result<Vec<PathBuf>> {
+    let is_run = |folder: &Path| folder.join("config.toml").is_file();
+    if is_run(path) {
+        return Ok(vec![path.to_path_buf()]);
+    }
+    let entries = fs::read_dir(path).with_context(|| format!("cannot read the folder `{}`", path.display()))?;
+    let mut found: Vec<_> = entries.flatten().map(|entry| entry.path()).filter(|folder| is_run(folder)).collect();
+    found.sort();
+    Ok(found)
+}
+
+/// Of each run, the keys that not all of them have in common, with its values.
+fn differences(records: &[Record]) -> Vec<BTreeMap<&str, &str>> {
+    let keys: BTreeSet<&str> = records.iter().flat_map(|record| record.config.keys().map(String::as_str)).collect();
+    let differs = |key: &&str| records.iter().any(|record| record.config.get(*key) != records[0].config.get(*key));
+    let differing: Vec<&str> = keys.into_iter().filter(differs).collect();
+    let value = |record, key: &str| Record::config_value(record, key);
+    records.iter().map(|record| differing.iter().map(|key| (*key, value(record, key))).collect()).collect()
+}
+
+fn as_json(record: &Record, changes: &BTreeMap<&str, &str>) -> String {
+    json!({
+        "run": record.name,
+        "folder": record.folder,
+        "env_steps": record.env_steps,
+        "wall_s": record.wall_s,
+        "env_steps_per_s": record.env_steps_per_s(),
+        "best_eval_distance_m": record.best_eval_distance_m,
+        "best_eval_at_env_steps": record.best_eval_at,
+        "training_distance_m": record.training_distance_m,
+        "training_return": record.training_return,
+        "fall_fraction": record.fall_fraction,
+        "config_differences": changes,
+    })
+    .to_string()
+}
+
+const HEADINGS: [&str; 8] = ["run", "env steps", "wall time", "steps/s", "best m", "at step", "return", "falls"];
+
+fn print_table(records: &[Record], differences: &[BTreeMap<&str, &str>]) {
+    let or_none = |text: Option<String>| text.unwrap_or_else(|| "–".to_string());
+    let rows: Vec<[String; 8]> = records
+        .iter()
+        .map(|record| {
+            // Without an evaluation, what training itself saw; marked, since exploration stumbles.
+            let evaluated = record.best_eval_distance_m.map(|metres| format!("{metres:.1}"));
+            let distance = evaluated.or_else(|| record.training_distance_m.map(|metres| format!("({metres:.1})")));
+            [
+                record.name.clone(),
+                thousands(record.env_steps),
+                duration(record.wall_s),
+                or_none(record.env_steps_per_s().map(|speed| thousands(speed as u64))),
+                or_none(distance),
+                or_none(record.best_eval_at.map(thousands)),
+                or_none(record.training_return.map(|sum| format!("{sum:.0}"))),
+                or_none(record.fall_fraction.map(|share| format!("{:.0} %", share * 100.0))),
+            ]
+        })
+        .collect();
+    let width = |column: usize| {
+        rows.iter().map(|row| row[column].chars().count()).chain([HEADINGS[column].len()]).max().unwrap_or(0)
+    };
+    let widths: Vec<usize> = (0..HEADINGS.len()).map(width).collect();
+    let line = |cells: [&str; 8]| {
+        let first = format!("{:<1$}", cells[0], widths[0]);
+        let others = cells.iter().zip(&widths).skip(1).map(|(cell, width)| format!("  {cell:>width$}"));
+        first + &others.collect::<String>()
+    };
+    say(&line(HEADINGS));
+    for (row, changes) in rows.iter().zip(differences) {
+        say(&line(row.each_ref().map(String::as_str)));
+        let told: Vec<String> = changes.iter().map(|(key, value)| format!("{key}={value}")).collect();
+        if !told.is_empty() {
+            say(&format!("    {}", told.join(" ")));
+        }
+    }
+    say("");
+    say(
+        "best m: mean distance of the best evaluation; in brackets: of the last episodes of training, where there was none.",
+    );
+    say(
+        "return, falls: of the last episodes of training. Below each run: the configuration keys that not all have in common.",
+    );
+}
+
+/// 1234567 → 1 234 567.
+fn thousands(number: u64) -> String {
+    let digits = number.to_string();
+    let groups: Vec<&str> =
+        digits.as_bytes().rchunks(3).rev().map(|group| str::from_utf8(group).unwrap_or("")).collect();
+    groups.join(" ")
+}
+
+fn duration(seconds: f64) -> String {
+    let whole = seconds.round() as u64;
+    match (whole / 3600, whole / 60 % 60, whole % 60) {
+        (0, 0, seconds) => format!("{seconds} s"),
+        (0, minutes, seconds) => format!("{minutes} min {seconds:02} s"),
+        (hours, minutes, _) => format!("{hours} h {minutes:02} min"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_are_easy_to_read() {
+        assert_eq!([0, 999, 1000, 1_234_567].map(thousands), ["0", "999", "1 000", "1 234 567"]);
+        assert_eq!(
+            [4.2, 59.6, 61.0, 3599.0, 3660.0].map(duration),
+            ["4 s", "1 min 00 s", "1 min 01 s", "59 min 59 s", "1 h 01 min"]
+        );
+    }
+}

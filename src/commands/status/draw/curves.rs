@@ -1,0 +1,93 @@
+//! Return, distance, velocity and speed over environment steps.
+
+use ratatui::{
+    Frame,
+    layout::{Constraint, Layout, Rect},
+    symbols::Marker,
+    text::Line,
+    widgets::{Axis, Block, Chart, Dataset, GraphType, Paragraph},
+};
+
+use super::{
+    Theme,
+    figures::{known, number, short},
+    lag,
+    pieces::Pieces,
+};
+use crate::commands::status::{
+    fleet::{DISTANCE, RETURN, Run, SPEED, VELOCITY},
+    history::Curve,
+};
+
+/// From here on velocity has a picture of its own, and so has lag.
+const WIDE: u16 = 120;
+
+/// Draws them side by side.
+pub fn draw(frame: &mut Frame, area: Rect, run: &Run, theme: &Theme) {
+    let status = &run.status;
+    let (metres, mps) = (known(status.distance_mean_m), known(status.velocity_mean_mps));
+    let is_wide = area.width >= WIDE;
+    let distance = if is_wide { format!("distance {metres} m") } else { format!("{metres} m at {mps} m/s") };
+    let mut pictures = vec![
+        (RETURN, format!("return {}", known(status.return_mean))),
+        (DISTANCE, distance),
+        (SPEED, format!("{} steps/s", number(status.env_steps_per_s))),
+    ];
+    if is_wide {
+        pictures.insert(2, (VELOCITY, format!("velocity {mps} m/s")));
+    }
+    let count = pictures.len() + usize::from(is_wide);
+    let areas = Layout::horizontal(vec![Constraint::Fill(1); count]).spacing(1).split(area);
+    for ((tag, title), area) in pictures.into_iter().zip(areas.iter()) {
+        curve(frame, *area, &run.curve(tag), title, theme);
+    }
+    if is_wide {
+        lag::picture(frame, areas[count - 1], run, theme);
+    }
+}
+
+fn curve(frame: &mut Frame, area: Rect, curve: &Curve, title: String, theme: &Theme) {
+    let block = Block::new().title(Line::styled(title, theme.strong()));
+    let points: Vec<(f64, f64)> = curve.points().collect();
+    let Some([x_bounds, y_bounds]) = bounds(&points) else {
+        let nothing = Paragraph::new("nothing yet").style(theme.quiet());
+        return frame.render_widget(nothing.block(block), area);
+    };
+    let axis =
+        |bounds: [f64; 2], labels: [String; 2]| Axis::default().bounds(bounds).labels(labels).style(theme.quiet());
+    let (first, last) = (points[0].0, points[points.len() - 1].0);
+    let data =
+        Dataset::default().marker(Marker::Braille).graph_type(GraphType::Line).style(theme.curve()).data(&points);
+    let chart = Chart::new(vec![data])
+        .block(block)
+        .legend_position(None)
+        .x_axis(axis(x_bounds, [first, last].map(|step| short(step as u64))))
+        .y_axis(axis(y_bounds, y_bounds.map(number)));
+    frame.render_widget(chart, area);
+}
+
+/// The smallest ranges that have all points in them, and some width.
+fn bounds(points: &[(f64, f64)]) -> Option<[[f64; 2]; 2]> {
+    let (first, last) = (points.first()?.0, points.last()?.0);
+    let range = |values: &mut dyn Iterator<Item = f64>| {
+        values.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], value| [low.min(value), high.max(value)])
+    };
+    let [low, high] = range(&mut points.iter().map(|(_, value)| *value));
+    let widened = |low: f64, high: f64| {
+        // A part of the value itself, or a difference could be too small to count.
+        let least = (low.abs().max(high.abs()) * 1e-6).max(1e-6);
+        if high - low < least { [low - least, high + least] } else { [low, high] }
+    };
+    Some([widened(first, last), widened(low, high)])
+}
+
+/// The same in one line, where there is no room for pictures.
+pub fn in_words(frame: &mut Frame, area: Rect, run: &Run, theme: &Theme) {
+    let status = &run.status;
+    let mut pieces = Pieces::new(area.width);
+    pieces.push(format!("return {}", known(status.return_mean)), theme.strong());
+    pieces.push(format!("{} m", known(status.distance_mean_m)), theme.strong());
+    pieces.push(format!("{} m/s", known(status.velocity_mean_mps)), theme.strong());
+    pieces.push(format!("{} steps long", known(status.length_mean)), theme.quiet());
+    frame.render_widget(pieces.line(), area);
+}

@@ -1,0 +1,122 @@
+//! The run, how far it is, and how fast.
+
+use std::time::{Duration, Instant};
+
+use ratatui::{
+    Frame,
+    layout::{Constraint, Layout, Rect},
+};
+use treadmill_proto::{Phase, RunStatus};
+
+use super::{
+    Theme,
+    figures::{count, duration, known, number, percent, plain, short},
+    pieces::{Pieces, shorten},
+};
+use crate::commands::status::fleet::Run;
+
+/// A run that did not answer for so long is told of as silent.
+const SILENT_AFTER: Duration = Duration::from_secs(6);
+/// Below this width words are shortened.
+const NARROW: u16 = 60;
+/// Columns of the progress bar at most and at least.
+const BAR_MAX: usize = 40;
+const BAR_MIN: usize = 4;
+
+/// Draws three lines.
+pub fn draw(
+    frame: &mut Frame,
+    area: Rect,
+    run: &Run,
+    place: (usize, usize),
+    silent: bool,
+    theme: &Theme,
+    now: Instant,
+) {
+    let [title, progress, traffic] = Layout::vertical([Constraint::Length(1); 3]).areas(area);
+    let silent_for = now.saturating_duration_since(run.answered);
+    let silent_for = (silent || silent_for >= SILENT_AFTER).then_some(silent_for);
+    frame.render_widget(title_line(title.width, run, place, silent_for, theme).line(), title);
+    frame.render_widget(progress_line(progress.width, &run.status, theme).line(), progress);
+    frame.render_widget(traffic_line(traffic.width, run, theme).line(), traffic);
+}
+
+fn title_line(width: u16, run: &Run, place: (usize, usize), silent_for: Option<Duration>, theme: &Theme) -> Pieces {
+    let status = &run.status;
+    let mut pieces = Pieces::new(width);
+    let (phase, style) = match (silent_for, status.phase()) {
+        (Some(silent_for), _) => {
+            (format!("learner gone, silent for {}", duration(silent_for.as_secs_f64())), theme.bad())
+        }
+        (None, Phase::Paused) => ("paused".to_string(), theme.warning()),
+        (None, Phase::Stopping) => ("stopping".to_string(), theme.warning()),
+        (None, Phase::Training | Phase::Unspecified) => ("training".to_string(), theme.good()),
+    };
+    let width_left = usize::from(width).saturating_sub(phase.chars().count() + 2);
+    pieces.push(shorten(&status.run, width_left), theme.strong());
+    pieces.push(phase, style);
+    if place.1 > 1 {
+        pieces.push(format!("run {} of {}", place.0, place.1), theme.quiet());
+    }
+    pieces.push(format!("on {}", plain(&status.host)), theme.quiet());
+    pieces.push(format!("process {}", status.pid), theme.quiet());
+    pieces.push(format!("version {}", plain(&status.program_version)), theme.quiet());
+    pieces
+}
+
+fn progress_line(width: u16, status: &RunStatus, theme: &Theme) -> Pieces {
+    let share = status.env_steps as f64 / status.env_steps_wanted.max(1) as f64;
+    let left_s = status.env_steps_wanted.saturating_sub(status.env_steps) as f64 / status.env_steps_per_s;
+    let how = if width < NARROW { short } else { count };
+    let mut words = vec![percent(share), format!("{} of {}", how(status.env_steps), how(status.env_steps_wanted))];
+    if width >= NARROW {
+        words[1] += " steps";
+        words.push(format!("{} elapsed", duration(status.wall_s)));
+    }
+    words.push(format!("{} to go", duration(left_s)));
+    let needed: usize = words.iter().map(|word| word.chars().count() + 2).sum();
+    let bar = usize::from(width).saturating_sub(needed).min(BAR_MAX);
+    let mut pieces = Pieces::new(width);
+    if bar >= BAR_MIN {
+        let done = (share.clamp(0.0, 1.0) * bar as f64).round() as usize;
+        pieces.push("█".repeat(done) + &"░".repeat(bar - done), theme.curve());
+    }
+    for word in words {
+        pieces.push(word, theme.strong());
+    }
+    pieces
+}
+
+fn traffic_line(width: u16, run: &Run, theme: &Theme) -> Pieces {
+    let status = &run.status;
+    let fragments = if width < NARROW { "frag" } else { "fragments" };
+    let mut pieces = Pieces::new(width);
+    pieces.push(format!("{} steps/s", number(status.env_steps_per_s)), theme.strong());
+    pieces.push(format!("{} {fragments}/s", known(run.fragments.per_s())), theme.strong());
+    let mb_per_s = (status.accepted_bytes > 0).then(|| run.bytes.per_s()).flatten().map(|bytes| bytes / 1e6);
+    pieces.push(format!("{} MB/s", known(mb_per_s)), theme.strong());
+    pieces.push(format!("{} updates", count(status.updates)), theme.quiet());
+    pieces.push(format!("the last {} ago", duration(status.since_update_s)), theme.quiet());
+    pieces.push(format!("learner {} MB", number(status.resident_bytes as f64 / 1e6)), theme.quiet());
+    pieces
+}
+
+/// What became of fragments: the accepted, and of the others those that there were.
+pub fn fragments(frame: &mut Frame, area: Rect, run: &Run, theme: &Theme) {
+    let status = &run.status;
+    let mut pieces = Pieces::new(area.width);
+    pieces.push("fragments", theme.quiet());
+    pieces.push(format!("{} accepted", count(status.accepted)), theme.quiet());
+    for (name, fragments, style) in [
+        ("malformed", status.malformed, theme.bad()),
+        ("quarantined", status.quarantined, theme.bad()),
+        ("too old", status.too_old, theme.warning()),
+        ("vanished", status.vanished, theme.warning()),
+        ("duplicate", status.duplicate, theme.quiet()),
+    ] {
+        if fragments > 0 {
+            pieces.push(format!("{} {name}", count(fragments)), style);
+        }
+    }
+    frame.render_widget(pieces.line(), area);
+}

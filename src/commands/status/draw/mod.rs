@@ -1,0 +1,120 @@
+//! Draws the dashboard's state and does nothing else.
+//!
+//! # Layout
+//! - [`header`]: name of the run, progress and speed.
+//! - [`curves`]: return, distance, velocity and speed over environment steps.
+//! - [`lag`]: histogram of policy lag in the last batch.
+//! - [`actors`]: table of actors.
+//! - [`figures`], [`pieces`], [`theme`]: numbers, lines and colours.
+
+mod actors;
+mod curves;
+mod figures;
+mod header;
+mod lag;
+mod pieces;
+#[cfg(test)]
+mod tests;
+mod theme;
+
+use std::time::Instant;
+
+use ratatui::{
+    Frame,
+    layout::{Constraint, Layout, Rect},
+    text::Line,
+    widgets::{Block, Clear, Paragraph, Wrap},
+};
+
+use self::pieces::Pieces;
+pub use self::theme::Theme;
+use super::{
+    fleet::{Fleet, Run},
+    keys::HELP,
+};
+
+/// The smallest terminal that there is a use in.
+const WIDTH_MIN: u16 = 40;
+const HEIGHT_MIN: u16 = 10;
+/// From here on there is room for curves.
+const CURVES_WIDTH_MIN: u16 = 70;
+const CURVES_HEIGHT_MIN: u16 = 18;
+const CURVES_HEIGHT_MAX: u16 = 24;
+/// From here on there is room for a line above the table, and for one about fragments.
+const HEADINGS_HEIGHT_MIN: u16 = 14;
+
+/// Draws all of it.
+pub fn draw(frame: &mut Frame, fleet: &mut Fleet, theme: &Theme, now: Instant) {
+    let area = frame.area();
+    if area.width < WIDTH_MIN || area.height < HEIGHT_MIN {
+        let needed =
+            format!("This needs {WIDTH_MIN}×{HEIGHT_MIN} characters; here are {}×{}.", area.width, area.height);
+        return frame.render_widget(Paragraph::new(needed).wrap(Wrap { trim: true }), area);
+    }
+    let [body, keys] = Layout::vertical([Constraint::Fill(1), Constraint::Length(1)]).areas(area);
+    match fleet.selected() {
+        Some((run, which, of)) => {
+            let rest = about_run(frame, body, run, (which, of), fleet.silence.is_some(), theme, now);
+            actors::draw(frame, rest, keys, fleet, area.height >= HEADINGS_HEIGHT_MIN, theme);
+        }
+        None => {
+            let text = fleet.silence.as_deref().unwrap_or("asking how it goes");
+            frame.render_widget(Paragraph::new(figures::plain(text)).wrap(Wrap { trim: true }), body);
+        }
+    }
+    let mut pieces = Pieces::new(keys.width);
+    for (key, what) in [("q", "quit"), ("?", "help"), ("↑↓", "scroll"), ("s", "order"), ("Tab", "run")] {
+        pieces.push(format!("{key} {what}"), theme.quiet());
+    }
+    // Whatever stands at its right end is more than the last of the keys.
+    let left = Rect { width: keys.width.saturating_sub(actors::RANGE_WIDTH), ..keys };
+    frame.render_widget(pieces.fitted(left.width), left);
+    if fleet.helps {
+        help(frame, area, theme);
+    }
+}
+
+/// Everything about the run itself; what is left of the area.
+fn about_run(
+    frame: &mut Frame,
+    area: Rect,
+    run: &Run,
+    place: (usize, usize),
+    silent: bool,
+    theme: &Theme,
+    now: Instant,
+) -> Rect {
+    let has_curves = area.width >= CURVES_WIDTH_MIN && area.height + 1 >= CURVES_HEIGHT_MIN;
+    let has_fragments = area.height + 1 >= HEADINGS_HEIGHT_MIN;
+    let curves_height = if has_curves { ((area.height - 5) / 2).clamp(6, CURVES_HEIGHT_MAX) } else { 1 };
+    let [head, curves_area, lag_area, fragments, rest] = Layout::vertical([
+        Constraint::Length(3),
+        Constraint::Length(curves_height),
+        Constraint::Length(1),
+        Constraint::Length(has_fragments.into()),
+        Constraint::Fill(1),
+    ])
+    .areas(area);
+    header::draw(frame, head, run, place, silent, theme, now);
+    match has_curves {
+        true => curves::draw(frame, curves_area, run, theme),
+        false => curves::in_words(frame, curves_area, run, theme),
+    }
+    lag::draw(frame, lag_area, run, theme);
+    if has_fragments {
+        header::fragments(frame, fragments, run, theme);
+    }
+    rest
+}
+
+fn help(frame: &mut Frame, area: Rect, theme: &Theme) {
+    let lines: Vec<Line> = HELP.iter().map(|(keys, what)| Line::from(format!("{keys:<15} {what}"))).collect();
+    let height = (lines.len() as u16 + 2).min(area.height);
+    let width = WIDTH_MIN.min(area.width);
+    let place = Rect { x: area.x + (area.width - width) / 2, y: area.y + (area.height - height) / 2, width, height };
+    frame.render_widget(Clear, place);
+    frame.render_widget(
+        Paragraph::new(lines).block(Block::bordered().title(Line::styled("keys", theme.strong()))),
+        place,
+    );
+}

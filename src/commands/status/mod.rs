@@ -1,0 +1,81 @@
+//! `treadmill status`: progress and participants of runs.
+//!
+//! # Layout
+//! - [`plain`], [`json`]: the answer as text and as JSON.
+//! - [`dashboard`]: draws the answers on a terminal, again and again; [`keys`] has its keys.
+//! - [`follow`]: polls the learners and receives metrics for the dashboard.
+//! - [`past`]: reads metrics that a run on this machine logged before.
+//! - [`fleet`], [`history`]: the dashboard's state, of bounded size.
+//! - [`draw`]: draws that state.
+
+mod dashboard;
+mod draw;
+mod fleet;
+mod follow;
+mod history;
+mod json;
+mod keys;
+mod past;
+mod plain;
+#[cfg(test)]
+mod samples;
+
+use std::time::Duration;
+
+use clap::Args;
+use treadmill_common::bus::{Bus, Role, statuses};
+use treadmill_proto::RunStatus;
+
+use crate::{
+    launch::{output::say, terminal_screen},
+    shared::learner_address::{self, ReachArgs},
+};
+
+/// How often `--watch` looks.
+const WATCH_EVERY: Duration = Duration::from_secs(2);
+
+/// Flags of `status`.
+#[derive(Args)]
+pub struct StatusArgs {
+    #[command(flatten)]
+    reach: ReachArgs,
+    /// Look again every two seconds: a dashboard on a terminal (`q` quits, `?` explains), plain text elsewhere.
+    #[arg(long)]
+    watch: bool,
+    /// Print one JSON object per line.
+    #[arg(long)]
+    json: bool,
+}
+
+/// Tells how it goes, once or again and again.
+pub fn run(args: StatusArgs) -> anyhow::Result<()> {
+    let StatusArgs { reach, watch, json } = args;
+    if watch && !json && terminal_screen::is_there() {
+        return dashboard::run(&reach);
+    }
+    learner_address::connect(&reach, Role::Observer, async |bus, run| {
+        loop {
+            let replies = ask(&bus, run.as_deref()).await?;
+            let text = if json { json::as_json(&replies) } else { plain::as_text(&replies) };
+            say(text.trim_end());
+            if !watch {
+                return Ok(());
+            }
+            tokio::time::sleep(WATCH_EVERY).await;
+        }
+    })
+}
+
+/// How every run goes that answers; an error where none does.
+async fn ask(bus: &Bus, run: Option<&str>) -> anyhow::Result<Vec<RunStatus>> {
+    let replies =
+        learner_address::retry_until_answered(async || statuses(bus, run, learner_address::ANSWER_TIMEOUT).await)
+            .await?;
+    let mut told: Vec<RunStatus> = replies.into_iter().filter_map(|reply| reply.status).collect();
+    if told.is_empty() {
+        let whose = run.map_or("no run".to_string(), |run| format!("no run `{run}`"));
+        anyhow::bail!("{whose} answers there; is its learner up, and does your certificate let you ask?");
+    }
+    told.sort_by(|a, b| a.run.cmp(&b.run));
+    Ok(told)
+}

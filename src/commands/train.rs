@@ -1,0 +1,57 @@
+//! `treadmill train`: a learner in this process, actor processes started beside it; no router, no container, no
+//! network beyond loopback.
+
+use clap::Args;
+use treadmill_common::{bus::Role, machine};
+
+use crate::{
+    launch::{
+        host::{self, HostOptions},
+        metrics_page::MetricsArgs,
+        startup::{self, AnyRunArgs, NewRunArgs, RunCommand},
+    },
+    shared::network_args::NetworkArgs,
+};
+
+/// Flags of `train`.
+#[derive(Args)]
+pub struct TrainArgs {
+    #[command(flatten)]
+    new: NewRunArgs,
+    #[command(flatten)]
+    any: AnyRunArgs,
+    #[command(flatten)]
+    network: NetworkArgs,
+    #[command(flatten)]
+    metrics: MetricsArgs,
+    /// One actor in lock-step: the same seed gives the same weights bit for bit.
+    #[arg(long, conflicts_with = "resume")]
+    deterministic: bool,
+    /// Actor processes; by default one per core.
+    #[arg(long)]
+    actors: Option<u32>,
+    /// Environments in total, split over the actors.
+    #[arg(long, conflicts_with = "resume")]
+    envs: Option<u32>,
+    /// Where to listen; by default a free port on loopback, which is written to the run's folder.
+    #[arg(long, value_name = "ENDPOINT", default_value = "tcp/127.0.0.1:0")]
+    listen: String,
+}
+
+/// Trains until the run has its steps.
+pub fn run(args: TrainArgs) -> anyhow::Result<()> {
+    let options = args.network.options(Role::Learner, vec![args.listen], Vec::new())?;
+    let metrics = args.metrics.listen()?;
+    let mut changes = startup::changes(&[("rollout.envs", args.envs), ("rollout.actors", args.actors)]);
+    if args.deterministic {
+        changes.push(("run.deterministic", true.into()));
+    }
+    let prepared = startup::prepare(RunCommand::Train, &args.new, &args.any, &changes)?;
+    let rollout = &prepared.config.rollout;
+    let wanted = args.actors.filter(|_| !prepared.config.run.deterministic).unwrap_or(rollout.actors);
+    let actors = match wanted {
+        0 => (machine::cores() as u32).min(rollout.envs),
+        wanted => wanted.min(rollout.envs),
+    };
+    host::run(prepared, HostOptions { any: &args.any, bus: &options, actors: Some(actors), metrics })
+}

@@ -1,0 +1,110 @@
+//! Text that `train` and `learner` print before and after a run: what is learnt and for how long, where the files are, how to watch,
+//! stop and go on, and what to do next.
+
+use std::net::SocketAddr;
+
+use treadmill_common::{bus::Credentials, config::Config, run_folder::RunFolder};
+use treadmill_learner::training::Summary;
+
+use crate::launch::{
+    output::{complain, say},
+    startup::Prepared,
+};
+
+/// Prints what begins; `actors` are started beside this process, if any are.
+pub fn print_start(
+    prepared: &Prepared,
+    endpoints: &[String],
+    credentials: Option<&Credentials>,
+    actors: Option<u32>,
+    page: Option<SocketAddr>,
+) {
+    let Prepared { config, folder, state, run, .. } = prepared;
+    let root = folder.root().display();
+    let steps = state.as_ref().map_or(0, |state| state.counters.env_steps);
+    let verb = match (steps, config.is_external(), &config.task.name[..]) {
+        (1.., ..) => format!("going on at {steps} env steps"),
+        (0, false, _) => "training a humanoid to walk".to_string(),
+        (0, true, "") => "training the task that its first actor registers".to_string(),
+        (0, true, name) => format!("training `{name}`"),
+    };
+    say(&format!("run `{run}`: {verb}"));
+    say(&format!("  learns    {}", what_is_learnt(config, steps)));
+    say(&format!("  files     {root}  (curves: tensorboard --logdir {root}, or {root}/learning_curve.png)"));
+    match actors {
+        Some(actors) => say(&format!("  actors    {actors} processes beside this one")),
+        None => {
+            let command = match config.is_external() {
+                true => "python -m treadmill_actor --env NAME",
+                false => "treadmill actor",
+            };
+            let connect = to_dial(&endpoints[0], credentials);
+            say(&format!("  actors    none yet; start some by: {command} --connect {connect} --run {run}"));
+        }
+    }
+    say(&format!("  listening {}", endpoints.join(", ")));
+    let tls = credentials.map(|credentials| format!(" --tls {}", credentials.folder.display())).unwrap_or_default();
+    say(&format!("  watch     treadmill status --watch {root}{tls}"));
+    if !config.is_external() {
+        say(&format!(
+            "            treadmill watch --live {root}{tls}  (the humanoid in a browser; without --live a replay)"
+        ));
+        say(&format!("  film      treadmill eval {root} --episodes 1 --gif walk.gif, also while it trains"));
+    }
+    if let Some(address) = page {
+        say(&format!("  metrics   http://{address}/metrics"));
+    }
+    let command = actors.map_or("learner", |_| "train");
+    say("  stop      Ctrl-C once finishes the update and saves");
+    say(&format!("  resume    treadmill {command} --resume {root}"));
+}
+
+/// What is learnt in how many steps; how long that takes is known once it goes on.
+fn what_is_learnt(config: &Config, steps: u64) -> String {
+    let (wanted, batch) = (config.run.steps, u64::from(config.ppo.batch));
+    let left = wanted.saturating_sub(steps);
+    let goal = match config.is_external() {
+        true => "to earn the task's rewards",
+        false => "to go forward and not to fall",
+    };
+    let updates = left.div_ceil(batch.max(1));
+    format!("{goal}, in {left} env steps ({updates} updates); the time left is told with its speed")
+}
+
+/// An endpoint as another process dials it, with the flag that it needs for that: to listen on every address is not to have
+/// that address.
+fn to_dial(endpoint: &str, credentials: Option<&Credentials>) -> String {
+    let host = treadmill_common::machine::host_name();
+    let dialled = endpoint.replace("/0.0.0.0:", &format!("/{host}:")).replace("/[::]:", &format!("/{host}:"));
+    match credentials {
+        Some(credentials) => format!("{dialled} --tls {}", credentials.folder.display()),
+        None if dialled.contains(&host) && dialled != endpoint => format!("{dialled} --insecure"),
+        None => dialled,
+    }
+}
+
+/// Prints what the run reached and what can be done with its policy.
+pub fn print_end(folder: &RunFolder, summary: &Summary, command: &str) {
+    let root = folder.root().display();
+    let steps = summary.state.counters.env_steps;
+    let what = if summary.stopped { "stopped" } else { "done" };
+    say(&format!("{what} after {steps} env steps; saved in {root}/checkpoints"));
+    if let Some(means) = summary.state.episodes.means() {
+        let farthest = summary.farthest_m.map(|m| format!("; farthest so far {m:.1} m")).unwrap_or_default();
+        say(&format!(
+            "reached: return {:.0}, {:.1} m at {:.2} m/s, {:.0} steps until the end of an episode{farthest}",
+            means.return_mean, means.distance_mean_m, means.velocity_mean_mps, means.length_mean
+        ));
+    }
+    if summary.stopped {
+        complain(&format!("resume with: treadmill {command} --resume {root}"));
+    } else {
+        say(&format!("train it further: treadmill {command} --resume {root} --steps {}", steps.saturating_mul(2)));
+    }
+    if summary.state.model_xml.is_empty() {
+        say(&format!("take the policy elsewhere: treadmill export {root} --safetensors FILE"));
+    } else {
+        say(&format!("see how far it walks: treadmill eval {root} --gif walk.gif"));
+    }
+    say("compare it with other runs: treadmill runs");
+}

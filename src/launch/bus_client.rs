@@ -1,0 +1,75 @@
+//! Session of an actor or an evaluator on the bus: dialling, stopping, and its default name.
+
+use std::{io::Read, time::Duration};
+
+use anyhow::Context;
+use treadmill_actor::ActorError;
+use treadmill_common::{
+    bus::{Bus, BusOptions},
+    machine, seeds,
+    shutdown::Shutdown,
+};
+
+use super::signals;
+
+/// Time without an answer after which the first warning is logged: a learner may just be starting.
+const FIRST_WARNING: Duration = Duration::from_secs(1);
+const WARN_EVERY: Duration = Duration::from_secs(10);
+
+/// Joins the bus as a client and runs `work` with the session, until it is done or the process is asked to stop.
+pub fn with_session<W: Future<Output = Result<(), ActorError>>>(
+    bus_options: BusOptions,
+    where_to: &str,
+    until_stdin_closes: bool,
+    work: impl FnOnce(Bus, Shutdown) -> W,
+) -> anyhow::Result<()> {
+    let runtime =
+        tokio::runtime::Builder::new_multi_thread().worker_threads(2).enable_all().build().context("no runtime")?;
+    let outcome = runtime.block_on(async {
+        let shutdown = Shutdown::default();
+        signals::listen(shutdown.clone(), "")?;
+        if until_stdin_closes {
+            stop_when_stdin_closes(shutdown.clone())?;
+        }
+        let opened = tokio::task::spawn_blocking(move || Bus::open_client(&bus_options));
+        tokio::pin!(opened);
+        // Dialling lasts until a peer answers; a request to stop does not wait for that.
+        let mut warning = tokio::time::interval_at(tokio::time::Instant::now() + FIRST_WARNING, WARN_EVERY);
+        let bus = loop {
+            tokio::select! {
+                bus = &mut opened => break bus??,
+                () = shutdown.wait() => return Ok(()),
+                _ = warning.tick() => tracing::warn!("nobody answers at {where_to}; trying on until somebody does"),
+            }
+        };
+        let outcome = work(bus.clone(), shutdown).await;
+        bus.close();
+        Ok(outcome?)
+    });
+    runtime.shutdown_background();
+    outcome
+}
+
+/// Name made from the host's name, with a random ending that makes it unique.
+pub fn default_name() -> String {
+    let host: String = machine::host_name()
+        .to_lowercase()
+        .chars()
+        .map(|c| if c.is_ascii_lowercase() || c.is_ascii_digit() { c } else { '-' })
+        .take(40)
+        .collect();
+    format!("{host}-{:08x}", seeds::unique() as u32)
+}
+
+/// Asks to stop once standard input closes: the parent holds its other end open and sends nothing.
+fn stop_when_stdin_closes(shutdown: Shutdown) -> std::io::Result<()> {
+    std::thread::Builder::new().name("parent-watch".to_string()).spawn(move || {
+        let mut bytes = [0; 64];
+        while matches!(std::io::stdin().read(&mut bytes), Ok(count) if count > 0) {}
+        shutdown.ask();
+        // The parent is gone, so a process that does not end in time is ended.
+        std::thread::sleep(Duration::from_secs(5));
+        std::process::exit(1);
+    })?;
+    Ok(())
+}

@@ -1,0 +1,205 @@
+//! Hosts a learner in this process, with actor processes beside it where `train` asks for them.
+
+use std::{
+    sync::{Arc, atomic::AtomicU64},
+    time::Duration,
+};
+
+use anyhow::Context;
+use serde_json::json;
+use tokio::sync::oneshot;
+use treadmill_common::{
+    atomic_file,
+    bus::{Bus, BusOptions, TaskDesk},
+    run_folder::RunFolder,
+    shutdown::Shutdown,
+};
+use treadmill_learner::{
+    checkpoint::TrainingState,
+    logging::Exposition,
+    pulse::Pulse,
+    training::{self, Summary, TrainingError, TrainingOptions},
+};
+
+use super::{
+    banner, external_task, memory,
+    metrics_page::MetricsListener,
+    model,
+    output::say,
+    signals,
+    slow_step::SlowStepNotice,
+    startup::{self, AnyRunArgs, Prepared},
+    supervisor::{FleetOptions, Supervisor},
+};
+
+/// Interval of the heartbeat while a learner waits for its first actor.
+const HEARTBEAT_EVERY: Duration = Duration::from_secs(1);
+
+/// How a learner is hosted.
+pub struct HostOptions<'a> {
+    /// Flags of new and resumed runs.
+    pub any: &'a AnyRunArgs,
+    /// How the bus is opened.
+    pub bus: &'a BusOptions,
+    /// Number of actor processes to start beside the learner; `None` where actors join by themselves.
+    pub actors: Option<u32>,
+    /// Socket of the metrics page.
+    pub metrics: Option<MetricsListener>,
+}
+
+/// Hosts a learner until its run has its steps or is stopped.
+pub fn run(prepared: Prepared, options: HostOptions) -> anyhow::Result<()> {
+    memory::keep_freed();
+    let runtime =
+        tokio::runtime::Builder::new_multi_thread().worker_threads(2).enable_all().build().context("no runtime")?;
+    let outcome = runtime.block_on(run_until_done(prepared, options));
+    // A close that hangs must not keep the process.
+    runtime.shutdown_background();
+    outcome
+}
+
+async fn run_until_done(mut prepared: Prepared, options: HostOptions<'_>) -> anyhow::Result<()> {
+    let HostOptions { any, bus: bus_options, actors, metrics } = options;
+    let shutdown = Shutdown::default();
+    signals::listen(shutdown.clone(), "stopping after this update; press Ctrl-C again to stop at once")?;
+    let (bus, endpoints) = open_bus(bus_options, &prepared.folder).await?;
+    let (exposition, pulse) = (Exposition::default(), Pulse::default());
+    let page = metrics.map(|page| page.serve(prepared.run.clone(), exposition.clone(), pulse.clone())).transpose()?;
+    banner::print_start(&prepared, &endpoints, bus_options.credentials.as_ref(), actors, page);
+    // Stays open while the run trains: actors that join later register their task, too.
+    let Some(task_server) = wait_for_task(&bus, &mut prepared, &shutdown, &pulse).await? else {
+        bus.close();
+        say("stopped before any actor registered its task; nothing was trained");
+        return Ok(());
+    };
+
+    let restarts = Arc::new(AtomicU64::new(0));
+    let fleet = actors.map(|actors| fleet_options(&prepared, bus_options, &endpoints[0], actors)).transpose()?;
+    let folder = prepared.folder.clone();
+    let (state, training_options) = training_options(prepared, any, restarts.clone(), exposition, pulse)?;
+    let trained = spawn_training(&bus, state, training_options, &shutdown)?;
+    let supervisor = fleet.map(|fleet| Supervisor::start(&fleet, restarts, shutdown));
+    let outcome = trained.await.context("the training thread panicked");
+    if let Some(supervisor) = supervisor {
+        let _step = SlowStepNotice::begin("waiting for the actors to end");
+        supervisor.stop().await?;
+    }
+    drop(task_server);
+    bus.close();
+    let summary = outcome??;
+    banner::print_end(&folder, &summary, actors.map_or("learner", |_| "train"));
+    if any.json {
+        say(&as_json(&summary));
+    }
+    Ok(())
+}
+
+/// Opens the bus and writes where it listens into the run's folder.
+async fn open_bus(options: &BusOptions, folder: &RunFolder) -> anyhow::Result<(Bus, Vec<String>)> {
+    let options = options.clone();
+    let (bus, endpoints) = tokio::task::spawn_blocking(move || Bus::open_router(&options)).await??;
+    let text = endpoints.join("\n") + "\n";
+    atomic_file::write(&folder.endpoint(), text.as_bytes()).context("the endpoint cannot be written")?;
+    Ok((bus, endpoints))
+}
+
+/// Waits until the run's task is known, with a heartbeat: a learner that waits for its first actor is healthy. Returns `None`
+/// after a request to stop.
+async fn wait_for_task(
+    bus: &Bus,
+    prepared: &mut Prepared,
+    shutdown: &Shutdown,
+    pulse: &Pulse,
+) -> anyhow::Result<Option<TaskDesk>> {
+    let settled = external_task::settle(bus, prepared, shutdown);
+    tokio::pin!(settled);
+    let mut heartbeat = tokio::time::interval(HEARTBEAT_EVERY);
+    loop {
+        tokio::select! {
+            task_server = &mut settled => return task_server,
+            _ = heartbeat.tick() => pulse.beat(),
+        }
+    }
+}
+
+/// The state to train from, and how.
+fn training_options(
+    prepared: Prepared,
+    any: &AnyRunArgs,
+    restarts: Arc<AtomicU64>,
+    exposition: Exposition,
+    pulse: Pulse,
+) -> anyhow::Result<(TrainingState, TrainingOptions)> {
+    let Prepared { config, folder, device, mirror, run: _, state } = prepared;
+    let state = state.context(NO_STATE)?;
+    let options = TrainingOptions {
+        folder,
+        device,
+        mirror,
+        show_progress: !any.no_progress,
+        restarts,
+        exposition,
+        pulse,
+        command: startup::command_line(),
+        versions: startup::versions(&config),
+        action_names: model::action_names(&state.model_xml),
+    };
+    Ok((state, options))
+}
+
+/// What the actor processes are started with.
+fn fleet_options(
+    prepared: &Prepared,
+    bus_options: &BusOptions,
+    endpoint: &str,
+    actors: u32,
+) -> anyhow::Result<FleetOptions> {
+    let state = prepared.state.as_ref().context(NO_STATE)?;
+    Ok(FleetOptions {
+        endpoint: endpoint.to_string(),
+        tls: bus_options.credentials.as_ref().map(|credentials| credentials.folder.clone()),
+        shared_memory: bus_options.shared_memory,
+        run: state.run.clone(),
+        actors,
+        envs: prepared.config.rollout.envs,
+        evaluates: prepared.config.evaluates(),
+        starts_before: state.counters.resumes,
+    })
+}
+
+const NO_STATE: &str = "the task is settled, and the state is not there";
+
+/// Starts the training thread; its result arrives in the channel, which closes early if the thread panics.
+fn spawn_training(
+    bus: &Bus,
+    state: TrainingState,
+    options: TrainingOptions,
+    shutdown: &Shutdown,
+) -> std::io::Result<oneshot::Receiver<Result<Summary, TrainingError>>> {
+    let (sender, receiver) = oneshot::channel();
+    let (bus, shutdown) = (bus.clone(), shutdown.clone());
+    std::thread::Builder::new().name("training".to_string()).spawn(move || {
+        let _ = sender.send(training::train(&bus, state, &options, &shutdown));
+    })?;
+    Ok(receiver)
+}
+
+fn as_json(summary: &Summary) -> String {
+    let state = &summary.state;
+    let means = state.episodes.means();
+    let number = |of: fn(&treadmill_learner::episodes::EpisodeMeans) -> f64| means.as_ref().map(of);
+    json!({
+        "run": state.run,
+        "env_steps": state.counters.env_steps,
+        "updates": state.counters.updates,
+        "wall_s": summary.wall_s,
+        "env_steps_per_s": summary.env_steps as f64 / summary.wall_s.max(1e-9),
+        "return_mean": number(|means| means.return_mean),
+        "length_mean": number(|means| means.length_mean),
+        "distance_mean_m": number(|means| means.distance_mean_m),
+        "velocity_mean_mps": number(|means| means.velocity_mean_mps),
+        "restarts": state.counters.restarts,
+        "stopped": summary.stopped,
+    })
+    .to_string()
+}

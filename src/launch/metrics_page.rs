@@ -1,0 +1,150 @@
+//! `--prometheus`: serves metrics and health over HTTP.
+
+use std::{
+    convert::Infallible,
+    net::{SocketAddr, TcpListener},
+    sync::Arc,
+    time::Duration,
+};
+
+use anyhow::Context;
+use bytes::Bytes;
+use clap::Args;
+use http_body_util::Full;
+use hyper::{Method, Request, Response, StatusCode, header::CONTENT_TYPE, server::conn::http1, service::service_fn};
+use hyper_util::rt::TokioIo;
+use tokio::sync::Semaphore;
+use treadmill_learner::{
+    logging::{Exposition, exposition},
+    pulse::Pulse,
+};
+
+use crate::launch::exit_code::Usage;
+
+/// Requests that are answered at a time; whoever comes on top is turned away.
+const CONNECTIONS_MAX: usize = 64;
+/// After this a client that is too slow to ask or to read is let go.
+const CONNECTION_TIMEOUT: Duration = Duration::from_secs(5);
+/// Longest request that is read.
+const REQUEST_BYTES_MAX: usize = 16 << 10;
+/// Pause after a connection could not be taken, as where the process has too many files open.
+const ACCEPT_PAUSE: Duration = Duration::from_millis(200);
+
+/// Flags about the metrics page.
+#[derive(Args, Clone, Debug, Default)]
+pub struct MetricsArgs {
+    /// Serve metrics for Prometheus here, as in 127.0.0.1:9464: /metrics, and /healthz for whether training goes on.
+    #[arg(long, value_name = "ADDRESS")]
+    prometheus: Option<SocketAddr>,
+    /// Allow --prometheus beyond loopback, where whoever reaches the address can read the metrics.
+    #[arg(long, requires = "prometheus")]
+    prometheus_open: bool,
+    /// Seconds without any progress after which /healthz says no.
+    #[arg(long, value_name = "SECONDS", requires = "prometheus", default_value_t = 120,
+          value_parser = clap::value_parser!(u64).range(1..=86_400))]
+    stalled_after_s: u64,
+}
+
+impl MetricsArgs {
+    /// Begins to listen where that is asked for; called before anything is written.
+    pub fn listen(&self) -> anyhow::Result<Option<MetricsListener>> {
+        let Some(address) = self.prometheus else { return Ok(None) };
+        if !address.ip().is_loopback() && !self.prometheus_open {
+            return Err(Usage(format!(
+                "--prometheus {address}: plain HTTP beyond loopback can be read by anybody on the network; listen on \
+                 127.0.0.1:{}, or say --prometheus-open where the network itself is trusted",
+                address.port()
+            ))
+            .into());
+        }
+        let listener = TcpListener::bind(address)
+            .with_context(|| format!("--prometheus {address}: nobody can listen there; choose another port"))?;
+        listener.set_nonblocking(true)?;
+        Ok(Some(MetricsListener { listener, stalled_after: Duration::from_secs(self.stalled_after_s) }))
+    }
+}
+
+/// Socket of the page, before the runtime that serves it.
+pub struct MetricsListener {
+    listener: TcpListener,
+    stalled_after: Duration,
+}
+
+/// What the page shows.
+struct Page {
+    run: String,
+    exposition: Exposition,
+    pulse: Pulse,
+    stalled_after: Duration,
+}
+
+impl MetricsListener {
+    /// Serves it for as long as the runtime lives; its address.
+    pub fn serve(self, run: String, exposition: Exposition, pulse: Pulse) -> anyhow::Result<SocketAddr> {
+        let address = self.listener.local_addr()?;
+        let listener = tokio::net::TcpListener::from_std(self.listener)?;
+        let page = Arc::new(Page { run, exposition, pulse, stalled_after: self.stalled_after });
+        tokio::spawn(serve(listener, page));
+        Ok(address)
+    }
+}
+
+async fn serve(listener: tokio::net::TcpListener, page: Arc<Page>) {
+    let places = Arc::new(Semaphore::new(CONNECTIONS_MAX));
+    loop {
+        let Ok((stream, _)) = listener.accept().await else {
+            tokio::time::sleep(ACCEPT_PAUSE).await;
+            continue;
+        };
+        let Ok(place) = places.clone().try_acquire_owned() else { continue };
+        let page = page.clone();
+        tokio::spawn(async move {
+            let answer = service_fn(|request| {
+                let page = page.clone();
+                async move { Ok::<_, Infallible>(page.answer(&request)) }
+            });
+            let connection = http1::Builder::new()
+                .keep_alive(false)
+                .max_buf_size(REQUEST_BYTES_MAX)
+                .serve_connection(TokioIo::new(stream), answer);
+            // Whatever goes wrong with it is the client's business.
+            let _ = tokio::time::timeout(CONNECTION_TIMEOUT, connection).await;
+            drop(place);
+        });
+    }
+}
+
+impl Page {
+    fn answer<B>(&self, request: &Request<B>) -> Response<Full<Bytes>> {
+        if request.method() != Method::GET {
+            return text(StatusCode::METHOD_NOT_ALLOWED, "only GET\n".to_string());
+        }
+        match request.uri().path() {
+            "/metrics" => self.metrics(),
+            "/healthz" => self.health(),
+            _ => text(StatusCode::NOT_FOUND, "there are /metrics and /healthz\n".to_string()),
+        }
+    }
+
+    fn metrics(&self) -> Response<Full<Bytes>> {
+        let silence_s = self.pulse.silence().as_secs_f64();
+        let page = self.exposition.page(&self.run, &[("learner/silence_s", silence_s)]);
+        let mut response = text(StatusCode::OK, page);
+        response.headers_mut().insert(CONTENT_TYPE, hyper::header::HeaderValue::from_static(exposition::CONTENT_TYPE));
+        response
+    }
+
+    fn health(&self) -> Response<Full<Bytes>> {
+        let silence = self.pulse.silence();
+        if silence <= self.stalled_after {
+            return text(StatusCode::OK, "ok\n".to_string());
+        }
+        text(StatusCode::SERVICE_UNAVAILABLE, format!("no progress for {} s\n", silence.as_secs()))
+    }
+}
+
+fn text(status: StatusCode, body: String) -> Response<Full<Bytes>> {
+    let mut response = Response::new(Full::new(Bytes::from(body)));
+    *response.status_mut() = status;
+    response
+}

@@ -1,0 +1,26 @@
+//! Starts and hosts a run, and what every command needs from its process.
+//!
+//! # Layout
+//! - Before a run: `startup` (flags to configuration, run folder and first state), `model` (the robot), `external_task`
+//!   (waits for the task that the first actor registers), `banner` (text printed before and after).
+//! - During a run: `host` (a learner with actors beside it), `supervisor` (restarts actor processes), `bus_client` (session of
+//!   an actor or evaluator), `metrics_page` (metrics over HTTP).
+//! - The process: [`exit_code`], [`signals`], [`log`], [`output`], [`slow_step`], [`terminal_screen`], `memory`
+//!   (allocator settings), `one_core` (threads of an encrypted router).
+
+pub(crate) mod banner;
+pub(crate) mod bus_client;
+pub mod exit_code;
+pub(crate) mod external_task;
+pub(crate) mod host;
+pub mod log;
+pub(crate) mod memory;
+pub(crate) mod metrics_page;
+pub(crate) mod model;
+pub(crate) mod one_core;
+pub mod output;
+pub mod signals;
+pub mod slow_step;
+pub(crate) mod startup;
+pub(crate) mod supervisor;
+pub mod terminal_screen;

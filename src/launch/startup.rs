@@ -1,0 +1,303 @@
+//! Prepares a run from its flags: configuration, folder, first or resumed state.
+
+use std::{fs, path::PathBuf};
+
+use anyhow::Context;
+use clap::Args;
+use serde_json::json;
+use treadmill_common::{
+    atomic_file,
+    config::{Config, ConfigSource, EnvTask, LearnerMode},
+    device::{Device, DeviceKind},
+    machine,
+    run_folder::RunFolder,
+    seeds,
+};
+use treadmill_learner::{
+    checkpoint::{self, TrainingState, Which},
+    mirror::Mirror,
+};
+use treadmill_proto::Task;
+
+use crate::launch::{exit_code::Usage, model, slow_step::SlowStepNotice};
+
+/// Flags that say what a run is; they make no sense together with `--resume`, which has them saved.
+#[derive(Args, Clone, Debug, Default)]
+pub struct NewRunArgs {
+    /// Starting point of the configuration: walk, walk-v5obs, walk-v4obs, smoke or sim2sim.
+    #[arg(long, value_name = "NAME", default_value = "walk")]
+    pub preset: String,
+    /// Configuration file (TOML) laid over the preset.
+    #[arg(long, value_name = "FILE", conflicts_with = "resume")]
+    pub config: Option<PathBuf>,
+    /// One configuration key, as in ppo.learning_rate=3e-4; may be repeated.
+    #[arg(long, value_name = "KEY=VALUE", conflicts_with = "resume")]
+    pub set: Vec<String>,
+    /// What is trained: humanoid-v5, humanoid-v4, `external` for whatever the first actor registers, or the name of such a
+    /// task, as in gymnasium/Humanoid-v5 (see docs/actors.md).
+    #[arg(long, value_name = "NAME", conflicts_with = "resume")]
+    pub task: Option<String>,
+    /// Seed of every random stream.
+    #[arg(long, conflicts_with = "resume")]
+    pub seed: Option<u64>,
+    /// Folder of this run; by default runs/PRESET-N with the first free N.
+    #[arg(long, value_name = "DIR", conflicts_with = "resume")]
+    pub run_dir: Option<PathBuf>,
+}
+
+/// Flags that make sense for a new run and for a resumed one.
+#[derive(Args, Clone, Debug, Default)]
+pub struct AnyRunArgs {
+    /// Environment steps of the run in total.
+    #[arg(long)]
+    pub steps: Option<u64>,
+    /// Go on with this run: its folder, or its name below runs/.
+    #[arg(long, value_name = "RUN", conflicts_with = "preset")]
+    pub resume: Option<String>,
+    /// Another robot than the built-in humanoid, as MJCF (see docs/models.md); a resumed run keeps its own.
+    #[arg(long, value_name = "FILE")]
+    pub model: Option<PathBuf>,
+    /// Which checkpoint to resume from: latest, best, or the number of updates of a kept one.
+    #[arg(long, value_name = "WHICH", requires = "resume")]
+    pub checkpoint: Option<Which>,
+    /// Where the networks are computed: cpu, or cuda in a build with that feature.
+    #[arg(long, value_name = "DEVICE", default_value = "cpu")]
+    pub device: DeviceKind,
+    /// Do not draw a progress bar.
+    #[arg(long)]
+    pub no_progress: bool,
+    /// Print one JSON summary as the last line of standard output.
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// A run that is ready to begin.
+pub struct Prepared {
+    /// Its configuration.
+    pub config: Config,
+    /// Its folder.
+    pub folder: RunFolder,
+    /// Where its networks are computed.
+    pub device: Device,
+    /// The mirror that its updates learn with.
+    pub mirror: Option<Mirror>,
+    /// Its name on the bus.
+    pub run: String,
+    /// Its state; none where its sizes are those of a task that no actor has registered yet.
+    pub state: Option<TrainingState>,
+}
+
+impl Prepared {
+    /// Gives the run a name of its own on the bus.
+    pub fn rename(&mut self, run: String) {
+        if let Some(state) = &mut self.state {
+            state.run.clone_from(&run);
+        }
+        self.run = run;
+    }
+
+    /// The state of the run; of a new one of `task` where nothing but that was missing.
+    pub fn settle(&mut self, task: Task) -> anyhow::Result<()> {
+        let (observation, action) = (task.observation_size as usize, task.action_size as usize);
+        self.config.task = task.into();
+        self.config.check()?;
+        let fresh = TrainingState::fresh(&self.run, &self.config, "", observation, action, seeds::unique());
+        self.state = Some(fresh);
+        Ok(fs::write(self.folder.config(), self.config.to_toml())?)
+    }
+}
+
+/// Which command a run is prepared for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum RunCommand {
+    /// The learner with actors beside it.
+    Train,
+    /// The learner alone.
+    Learner,
+}
+
+/// Prepares a new run, or one that goes on. `changes` are keys that the command's own flags set.
+pub fn prepare(
+    command: RunCommand,
+    new: &NewRunArgs,
+    any: &AnyRunArgs,
+    changes: &[(&str, toml::Value)],
+) -> anyhow::Result<Prepared> {
+    // Before anything is written: a device that is not there leaves nothing behind.
+    let device = any.device.open().map_err(|why| Usage(why.to_string()))?;
+    let prepared = match &any.resume {
+        Some(run) => resume(command, run, any, device)?,
+        None => begin(command, new, any, changes, device)?,
+    };
+    write_run_files(&prepared).with_context(|| format!("cannot write to {}", prepared.folder.root().display()))?;
+    Ok(prepared)
+}
+
+/// Refuses what makes no sense for a task that is simulated by other programs.
+fn check_external(command: RunCommand, config: &Config, any: &AnyRunArgs) -> Result<(), Usage> {
+    if !config.is_external() {
+        return Ok(());
+    }
+    if command == RunCommand::Train {
+        return Err(Usage(
+            "`train` starts actors of its own, and they simulate the humanoid alone; env.task \"external\" needs \
+             `treadmill learner`, which actors of that task join (see docs/actors.md)"
+                .to_string(),
+        ));
+    }
+    match &any.model {
+        None => Ok(()),
+        Some(file) => Err(Usage(format!(
+            "--model {}: an external task has no model here; leave --model out, or train one of our own tasks",
+            file.display()
+        ))),
+    }
+}
+
+/// The key that `--task NAME` sets, and the task's own name where it is external.
+fn task_keys(name: &str) -> Vec<(&'static str, toml::Value)> {
+    match EnvTask::NAMES.contains(&name) {
+        true => vec![("env.task", name.into())],
+        false => vec![("env.task", EnvTask::External.name().into()), ("task.name", name.into())],
+    }
+}
+
+fn begin(
+    command: RunCommand,
+    new: &NewRunArgs,
+    any: &AnyRunArgs,
+    changes: &[(&str, toml::Value)],
+    device: Device,
+) -> anyhow::Result<Prepared> {
+    let mut source = ConfigSource::default();
+    source.preset(&new.preset)?;
+    if let Some(file) = &new.config {
+        source.file(file)?;
+    }
+    for pair in &new.set {
+        source.set(pair)?;
+    }
+    for (key, value) in new.task.as_deref().map(task_keys).unwrap_or_default().iter().chain(changes) {
+        source.value(key, value.clone())?;
+    }
+    for (key, value) in [("run.seed", new.seed), ("run.steps", any.steps)] {
+        if let Some(value) = value {
+            let value = i64::try_from(value)
+                .map_err(|_| Usage(format!("`{key}` is {value}; allowed: at most {}", i64::MAX)))?;
+            source.value(key, value)?;
+        }
+    }
+    let mut config = source.build()?;
+    if config.run.deterministic {
+        config.rollout.actors = 1;
+        config.rollout.max_in_flight = 1;
+        config.learner.mode = LearnerMode::Sync;
+    }
+    check_external(command, &config, any)?;
+    if config.is_external() {
+        let known = config.task.known();
+        if let Some(why) = known.as_ref().and_then(|task| TrainingState::objection(&config, task)) {
+            return Err(Usage(why).into());
+        }
+        let folder = RunFolder::create(new.run_dir.as_deref(), &new.preset)?;
+        let run = folder.name().to_string();
+        let mut prepared = Prepared { config, folder, device, mirror: None, run, state: None };
+        known.map_or(Ok(()), |task| prepared.settle(task))?;
+        return Ok(prepared);
+    }
+    let text = model::text(any.model.as_deref())?;
+    let environment = model::environment(&config, &text, any.model.as_deref())?;
+    let mirror = model::mirror(&config, &text)?;
+    let (observation, action) = (environment.observation_size(), environment.action_size());
+    let folder = RunFolder::create(new.run_dir.as_deref(), &new.preset)?;
+    let state = TrainingState::fresh(folder.name(), &config, &text, observation, action, seeds::unique());
+    Ok(Prepared { config, folder, device, mirror, run: state.run.clone(), state: Some(state) })
+}
+
+fn resume(command: RunCommand, run: &str, any: &AnyRunArgs, device: Device) -> anyhow::Result<Prepared> {
+    let folder = RunFolder::open(run)?;
+    let _step = SlowStepNotice::begin(format!("loading the checkpoint of {}", folder.root().display()));
+    let mut state = checkpoint::load(&folder, any.checkpoint.unwrap_or(Which::Latest))?;
+    let mut config = state.config().map_err(anyhow::Error::msg)?;
+    check_external(command, &config, any)?;
+    if let Some(file) = &any.model {
+        model::check_same(&state.model_xml, file)?;
+    }
+    if let Some(steps) = any.steps {
+        config.run.steps = steps;
+        config.check()?;
+    }
+    // Without keys that no longer exist, so that actors need not know them.
+    state.config_toml = config.to_toml();
+    state.lineage.resume(seeds::unique());
+    state.counters.resumes += 1;
+    let mirror = model::mirror(&config, &state.model_xml)?;
+    Ok(Prepared { config, folder, device, mirror, run: state.run.clone(), state: Some(state) })
+}
+
+fn write_run_files(prepared: &Prepared) -> std::io::Result<()> {
+    use std::io::Write;
+    let Prepared { config, folder, state, .. } = prepared;
+    // Whole or not at all: on a disk that is full, those of the start before stay.
+    let write = |path: PathBuf, text: &str| atomic_file::write(&path, text.as_bytes());
+    write(folder.config(), &config.to_toml())?;
+    if let Some(text) = state.as_ref().map(|state| &state.model_xml).filter(|text| !text.is_empty()) {
+        write(folder.root().join("model.xml"), text)?;
+    }
+    let mut commands = fs::OpenOptions::new().create(true).append(true).open(folder.root().join("command.txt"))?;
+    writeln!(commands, "{}", command_line())?;
+    let versions: serde_json::Map<_, _> = facts().into_iter().map(|(name, value)| (name.to_string(), value)).collect();
+    write(folder.root().join("versions.json"), &format!("{:#}\n", json!(versions)))
+}
+
+/// This process's command line as a shell would take it.
+pub fn command_line() -> String {
+    std::env::args().map(|part| quoted(&part)).collect::<Vec<_>>().join(" ")
+}
+
+/// What this program and this machine are.
+fn facts() -> [(&'static str, serde_json::Value); 6] {
+    [
+        ("treadmill", env!("CARGO_PKG_VERSION").into()),
+        ("checkpoint_format", checkpoint::encoding::FORMAT.into()),
+        ("os", std::env::consts::OS.into()),
+        ("architecture", std::env::consts::ARCH.into()),
+        ("cpu", machine::cpu_name().into()),
+        ("cores", machine::cores().into()),
+    ]
+}
+
+/// The same as text, with the host and the run's seed.
+pub fn versions(config: &Config) -> Vec<(String, String)> {
+    let plain = |value: serde_json::Value| value.as_str().map_or_else(|| value.to_string(), str::to_string);
+    let mut versions: Vec<_> = facts().into_iter().map(|(name, value)| (name.to_string(), plain(value))).collect();
+    versions.push(("host".to_string(), machine::host_name()));
+    versions.push(("seed".to_string(), config.run.seed.to_string()));
+    versions
+}
+
+/// A part of a command line as a shell would take it.
+fn quoted(part: &str) -> String {
+    let plain = |c: char| c.is_ascii_alphanumeric() || "-_./=:,+".contains(c);
+    if !part.is_empty() && part.chars().all(plain) {
+        return part.to_string();
+    }
+    format!("'{}'", part.replace('\'', r"'\''"))
+}
+
+/// Command-line flags as configuration keys, where they were given.
+pub fn changes(flags: &[(&'static str, Option<u32>)]) -> Vec<(&'static str, toml::Value)> {
+    flags.iter().filter_map(|(key, value)| value.map(|value| (*key, i64::from(value).into()))).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_command_line_can_be_pasted_into_a_shell() {
+        assert_eq!(quoted("--set"), "--set");
+        assert_eq!(quoted("policy.hidden=[8, 8]"), "'policy.hidden=[8, 8]'");
+        assert_eq!(quoted("it's"), r"'it'\''s'");
+    }
+}

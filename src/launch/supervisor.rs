@@ -1,0 +1,181 @@
+//! Actor and evaluator processes of `train`: started beside the learner, restarted when they die, ended with it.
+
+use std::{
+    path::PathBuf,
+    process::Stdio,
+    sync::{
+        Arc,
+        atomic::{AtomicU64, Ordering},
+    },
+    time::{Duration, Instant},
+};
+
+use anyhow::Context;
+use tokio::{
+    process::{Child, ChildStdin, Command},
+    task::JoinSet,
+};
+use treadmill_common::shutdown::Shutdown;
+
+use crate::launch::output::complain;
+
+/// An actor that lived shorter than this did not do anything useful.
+const TOO_SHORT: Duration = Duration::from_secs(5);
+/// So many useless lives in a row mean that starting it again does not help.
+const TOO_SHORT_MAX: u32 = 8;
+/// How much less urgent than the learner an actor on the same machine is.
+const ACTOR_NICE: &str = "10";
+const BACKOFF_MAX: Duration = Duration::from_secs(5);
+/// An actor ends within this once its standard input is closed; then it is killed.
+const STOP_TIMEOUT: Duration = Duration::from_secs(3);
+
+/// Options of the processes of a run.
+#[derive(Clone, Debug)]
+pub struct FleetOptions {
+    /// Where the learner listens.
+    pub endpoint: String,
+    /// Certificates, where links are encrypted.
+    pub tls: Option<PathBuf>,
+    /// Whether fragments may pass through shared memory.
+    pub shared_memory: bool,
+    /// The run's name.
+    pub run: String,
+    /// Actor processes.
+    pub actors: u32,
+    /// Environments in total.
+    pub envs: u32,
+    /// Whether policies are evaluated while training goes on.
+    pub evaluates: bool,
+    /// Starts of the learner before this one: a resumed run draws other random numbers than its first start.
+    pub starts_before: u64,
+}
+
+/// Runs actor processes.
+pub struct Supervisor {
+    tasks: JoinSet<anyhow::Result<()>>,
+    stopping: Shutdown,
+}
+
+impl Supervisor {
+    /// Starts all; each life after the first is counted in `restarts`. An actor that cannot live asks `shutdown`.
+    pub fn start(fleet: &FleetOptions, restarts: Arc<AtomicU64>, shutdown: Shutdown) -> Self {
+        let stopping = Shutdown::default();
+        let mut tasks = JoinSet::new();
+        for index in 0..fleet.actors {
+            let (fleet, restarts, shutdown, stopping) =
+                (fleet.clone(), restarts.clone(), shutdown.clone(), stopping.clone());
+            tasks.spawn(async move {
+                let ended = keep_alive(&fleet, Role::Actor { index }, &restarts, &stopping).await;
+                if ended.is_err() {
+                    shutdown.ask();
+                }
+                ended
+            });
+        }
+        if fleet.evaluates {
+            let (fleet, stopping) = (fleet.clone(), stopping.clone());
+            tasks.spawn(async move {
+                // Training goes on without evaluation, so what is wrong with it is said and no more.
+                if let Err(why) = keep_alive(&fleet, Role::Evaluator, &AtomicU64::new(0), &stopping).await {
+                    complain(&format!("policies are no longer evaluated: {why}"));
+                }
+                Ok(())
+            });
+        }
+        Self { tasks, stopping }
+    }
+
+    /// Ends every actor; the first reason why one could not live, if there was one.
+    pub async fn stop(mut self) -> anyhow::Result<()> {
+        self.stopping.ask();
+        let mut outcome = Ok(());
+        while let Some(ended) = self.tasks.join_next().await {
+            let ended = ended.context("an actor's supervisor failed").and_then(|ended| ended);
+            outcome = outcome.and(ended);
+        }
+        outcome
+    }
+}
+
+/// What a process is there for.
+#[derive(Clone, Copy, Debug)]
+enum Role {
+    Actor { index: u32 },
+    Evaluator,
+}
+
+impl std::fmt::Display for Role {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::Actor { index } => write!(f, "actor-{index}"),
+            Self::Evaluator => write!(f, "evaluator"),
+        }
+    }
+}
+
+async fn keep_alive(fleet: &FleetOptions, role: Role, restarts: &AtomicU64, stopping: &Shutdown) -> anyhow::Result<()> {
+    let mut short_lives = 0;
+    for life in 0u64.. {
+        let begun = Instant::now();
+        let mut child = spawn(fleet, role, life)?;
+        // Taken out, because waiting for a child closes what it still holds of its standard input.
+        let stdin = child.stdin.take();
+        let status = tokio::select! {
+            status = child.wait() => status.context("an actor cannot be waited for")?,
+            () = stopping.wait() => return end(child, stdin).await,
+        };
+        short_lives = if begun.elapsed() < TOO_SHORT { short_lives + 1 } else { 0 };
+        if short_lives >= TOO_SHORT_MAX {
+            anyhow::bail!("{role} ended {short_lives} times in a row right after its start, last with {status}");
+        }
+        restarts.fetch_add(1, Ordering::Relaxed);
+        complain(&format!("{role} ended with {status}; starting it again"));
+        let pause = (Duration::from_millis(100) * 2u32.saturating_pow(short_lives)).min(BACKOFF_MAX);
+        tokio::select! {
+            () = tokio::time::sleep(pause) => {}
+            () = stopping.wait() => return Ok(()),
+        }
+    }
+    Ok(())
+}
+
+fn spawn(fleet: &FleetOptions, role: Role, life: u64) -> anyhow::Result<Child> {
+    let program = std::env::current_exe().context("this program's own path is unknown")?;
+    let mut command = Command::new(program);
+    match role {
+        Role::Actor { index } => {
+            // The first actors take what does not divide evenly.
+            let envs = fleet.envs / fleet.actors + u32::from(index < fleet.envs % fleet.actors);
+            let start = (fleet.starts_before << 32) + life;
+            command.args(["actor", "--envs", &envs.to_string(), "--start-number", &start.to_string()]);
+            // Where both want the cores, the learner goes first: the sooner a policy is out, the newer is what it learns from.
+            command.args(["--nice", ACTOR_NICE]);
+        }
+        Role::Evaluator => drop(command.arg("evaluator")),
+    }
+    if let Some(folder) = &fleet.tls {
+        command.arg("--tls").arg(folder);
+    }
+    if fleet.shared_memory {
+        command.arg("--shared-memory");
+    }
+    command
+        .args(["--connect", &fleet.endpoint, "--run", &fleet.run, "--name", &role.to_string()])
+        .args(["--until-stdin-closes", "--insecure"])
+        // Held open by this process alone: it closes by itself when this process is gone, however it went.
+        .stdin(Stdio::piped())
+        .stdout(Stdio::null())
+        // Its own group, so that Ctrl-C reaches only the learner, which then ends its actors in order.
+        .process_group(0)
+        .kill_on_drop(true)
+        .spawn()
+        .with_context(|| format!("{role} cannot be started"))
+}
+
+async fn end(mut child: Child, stdin: Option<ChildStdin>) -> anyhow::Result<()> {
+    drop(stdin);
+    if tokio::time::timeout(STOP_TIMEOUT, child.wait()).await.is_err() {
+        child.kill().await.context("an actor cannot be killed")?;
+    }
+    Ok(())
+}

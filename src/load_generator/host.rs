@@ -1,0 +1,153 @@
+//! Process of the learner: its real intake and policy server. Fragments are checked, counted and dropped.
+
+use std::{
+    io::BufRead,
+    sync::{Arc, Mutex, atomic::Ordering},
+    time::Instant,
+};
+
+use anyhow::Context;
+use clap::Args;
+use serde_json::{Value, json};
+use treadmill_common::{
+    bus::{Alive, Bus, PolicyShelf, Role, RolloutCopies, RolloutIntake, gate::Gate},
+    config::{LearnerConfig, LearnerMode},
+    machine,
+    shutdown::Shutdown,
+};
+use treadmill_learner::intake::{
+    Accepted, BusMailbox, Collected, Expected, Intake, Judge, Ledger, Lineage, Tally, Wanted,
+};
+use treadmill_learner::pulse::Pulse;
+use treadmill_proto::{Fragment, PolicyAnnouncement, PolicyBundle};
+
+use super::{usage, workload};
+use crate::{
+    commands::bench::network,
+    launch::{memory, output::say},
+    shared::network_args::NetworkArgs,
+};
+
+/// Fragments after which they count as part of a checkpoint.
+const DURABLE_EVERY: u64 = 64;
+
+/// Flags of `bench bus-host`.
+#[derive(Args)]
+pub struct HostArgs {
+    /// Where to listen.
+    #[arg(long, value_name = "ENDPOINT")]
+    listen: String,
+    #[command(flatten)]
+    network: NetworkArgs,
+}
+
+/// What was taken.
+#[derive(Default)]
+struct Taken {
+    tally: Tally,
+    checksum: String,
+}
+
+/// Takes fragments until standard input ends. Lines there: `mark` asks for the counts, `publish N` hands out policy N.
+pub fn run(args: &HostArgs) -> anyhow::Result<()> {
+    memory::keep_freed();
+    usage::allow_many_connections();
+    let options = args.network.options(Role::Learner, vec![args.listen.clone()], Vec::new())?;
+    let (bus, endpoints) = Bus::open_router(&options)?;
+    let mut bundle = workload::bundle();
+    let encoded = bundle.encode()?;
+    let bundle_bytes = encoded.len();
+    let shelf = PolicyShelf::open(&bus, workload::RUN, encoded.into())?;
+    let defaults = LearnerConfig::default();
+    let capacity = defaults.intake_fragments as usize;
+    let gate = Arc::new(Gate::new(defaults.quarantine_after, capacity));
+    let (alive, copies) = (Alive::watch(&bus, workload::RUN)?, RolloutCopies::open(&bus, workload::RUN)?);
+    let queue = RolloutIntake::open(&bus, workload::RUN, capacity, gate.clone(), &copies)?;
+    let shared = queue.shared();
+    let mailbox = BusMailbox::new(queue, alive, copies, Pulse::default());
+    let judge = Judge::new(expected(), gate, Ledger::default(), Tally::default());
+    let (taken, shutdown) = (Arc::new(Mutex::new(Taken::default())), Shutdown::default());
+    let intake = std::thread::Builder::new().name("training".to_string()).spawn({
+        let (taken, shutdown) = (taken.clone(), shutdown.clone());
+        move || take(Intake::new(mailbox, LearnerMode::Async, judge), &taken, &shutdown)
+    })?;
+    say(&json!({"endpoint": endpoints[0], "bundle_bytes": bundle_bytes}).to_string());
+    let begun = Instant::now();
+    for line in std::io::stdin().lock().lines() {
+        let line = line.context("standard input cannot be read")?;
+        let answer = match line.split_once(' ') {
+            None if line == "mark" => {
+                let taken = taken.lock().expect("no holder of this lock panics");
+                mark(&taken, begun, shared.load(Ordering::Relaxed))
+            }
+            Some(("publish", number)) => {
+                bundle.version.number = number.parse().context("a policy has a number")?;
+                publish(&shelf, &bundle)?
+            }
+            _ => anyhow::bail!("`{line}` is not understood"),
+        };
+        say(&answer.to_string());
+    }
+    shutdown.ask();
+    let _ = intake.join();
+    bus.close();
+    Ok(())
+}
+
+fn expected() -> Expected {
+    Expected {
+        run: workload::RUN.to_string(),
+        config_hash: workload::CONFIG_HASH,
+        observation_size: workload::WIDTHS.0,
+        action_size: workload::WIDTHS.1,
+        max_policy_lag: 0,
+    }
+}
+
+/// What the training thread does without the training: each fragment is answered as soon as it is taken.
+fn take(mut intake: Intake<BusMailbox>, taken: &Mutex<Taken>, shutdown: &Shutdown) {
+    let lineage = Lineage::new(workload::INCARNATION);
+    let one = Wanted { transitions: 1, transitions_max: 1 };
+    let mut durable = 0;
+    while let Collected::Batch(gathered) = intake.collect(one, &lineage, shutdown, || false) {
+        let tally = intake.judge().tally;
+        if tally.accepted >= durable + DURABLE_EVERY {
+            intake.mark_durable();
+            durable = tally.accepted;
+        }
+        let mut taken = taken.lock().expect("no holder of this lock panics");
+        taken.tally = tally;
+        if taken.checksum.is_empty() {
+            taken.checksum = gathered.fragments.first().map(checksum).unwrap_or_default();
+        }
+    }
+    intake.stop(&lineage);
+}
+
+fn checksum(Accepted { fragment, .. }: &Accepted) -> String {
+    let Fragment { observations, actions, log_probs, rewards, last_observations, .. } = fragment;
+    network::checksum(&[&observations[..], actions, log_probs, rewards, last_observations].concat())
+}
+
+fn mark(taken: &Taken, begun: Instant, shared: u64) -> Value {
+    let Tally { accepted, duplicate, too_old, vanished, malformed, quarantined } = taken.tally;
+    json!({
+        "at_s": begun.elapsed().as_secs_f64(),
+        "accepted": accepted,
+        "not_accepted": duplicate + too_old + vanished + malformed + quarantined,
+        "in_place": shared,
+        "cpu_s": usage::cpu_s(),
+        "resident_mb": machine::resident_bytes() as f64 / 1e6,
+        "resident_max_mb": usage::resident_max_mb(),
+        "shared_mb": usage::shared_mb(),
+        "checksum": taken.checksum,
+    })
+}
+
+fn publish(shelf: &PolicyShelf, bundle: &PolicyBundle) -> anyhow::Result<Value> {
+    let announcement = PolicyAnnouncement { version: bundle.version, checksum: bundle.checksum };
+    let encoded = bundle.encode()?;
+    let time_unix_s = machine::time_unix_s();
+    shelf.publish(encoded.into(), &announcement);
+    Ok(json!({"published": bundle.version.number, "time_unix_s": time_unix_s}))
+}

@@ -1,0 +1,327 @@
+//! Many actors in one process: each has its own session and connection, sends prepared fragments and fetches policies.
+
+use std::{
+    io::BufRead,
+    sync::{
+        Arc, Condvar, Mutex,
+        atomic::{AtomicU64, Ordering},
+        mpsc::{Receiver, Sender, channel},
+    },
+    time::{Duration, Instant},
+};
+
+use anyhow::Context;
+use bytes::Bytes;
+use clap::Args;
+use serde_json::{Value, json};
+use tokio::runtime::{Handle, Runtime};
+use treadmill_common::{
+    bus::{Announcements, Bus, BusOptions, Role, fetch_policy, submit, token, watch_announcements},
+    config::BusConfig,
+    machine,
+};
+use treadmill_proto::{Outcome, Precision, PreparedFragment};
+
+use super::{usage, workload};
+use crate::{
+    launch::{memory, output::say},
+    shared::network_args::NetworkArgs,
+};
+
+const FETCH_TIMEOUT: Duration = Duration::from_secs(10);
+/// An actor of which nothing was taken by then is not waited for.
+const TAKEN_WITHIN: Duration = Duration::from_secs(60);
+/// A policy that is not there by then is not waited for.
+const FETCHED_WITHIN: Duration = Duration::from_secs(60);
+/// As an actor retries when the learner is busy or silent.
+const RETRY: Duration = Duration::from_millis(200);
+/// Its threads do little, and there are two for each actor.
+const STACK_BYTES: usize = 512 << 10;
+
+/// Flags of `bench bus-load`.
+#[derive(Args)]
+pub struct LoadArgs {
+    /// Where the learner listens.
+    #[arg(long, value_name = "ENDPOINT")]
+    connect: String,
+    /// Number of the first actor.
+    #[arg(long)]
+    first: u32,
+    /// Actors.
+    #[arg(long)]
+    actors: u32,
+    /// Fragments that each has on its way.
+    #[arg(long)]
+    in_flight: u32,
+    /// Bytes of a fragment.
+    #[arg(long)]
+    fragment_bytes: usize,
+    /// Pause after each receipt, as if something were simulated.
+    #[arg(long)]
+    pause_ms: u64,
+    /// How exactly observations travel.
+    #[arg(long, value_parser = ["f32", "f16"])]
+    precision: String,
+    #[command(flatten)]
+    network: NetworkArgs,
+}
+
+/// What the senders do at present.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Phase {
+    Waiting,
+    Sending,
+    Measuring,
+    Stopped,
+}
+
+/// What came of the fragments.
+#[derive(Default)]
+struct Outcomes {
+    receipts_ms: Vec<f64>,
+    /// Told to come again.
+    busy: u64,
+    /// Without any receipt.
+    silent: u64,
+    refused: u64,
+}
+
+struct Shared {
+    prepared: PreparedFragment,
+    pause: Duration,
+    phase: Mutex<Phase>,
+    changed: Condvar,
+    outcomes: Mutex<Outcomes>,
+    /// The newest policy that there is.
+    published: AtomicU64,
+}
+
+/// Sends until standard input ends. Lines there: `send`, which is answered once a fragment of every actor was accepted,
+/// `measure`, `stop`, and `expect N` before policy N is published.
+pub fn run(args: &LoadArgs) -> anyhow::Result<()> {
+    memory::keep_freed();
+    usage::allow_many_connections();
+    let options = args.network.options(Role::Actor, Vec::new(), vec![args.connect.clone()])?;
+    let runtime =
+        tokio::runtime::Builder::new_multi_thread().worker_threads(2).enable_all().build().context("no runtime")?;
+    let precision = if args.precision == "f16" { Precision::F16 } else { Precision::F32 };
+    let (prepared, transitions) = workload::fragment(args.fragment_bytes, precision)?;
+    let shared = Arc::new(Shared {
+        prepared,
+        pause: Duration::from_millis(args.pause_ms),
+        phase: Mutex::new(Phase::Waiting),
+        changed: Condvar::new(),
+        outcomes: Mutex::new(Outcomes::default()),
+        published: AtomicU64::new(0),
+    });
+    let ((fetched, fetches), (taken, firsts)) = (channel(), channel());
+    let senders = join(args, &options, &runtime, &shared, &fetched, &taken)?;
+    let fragment_bytes = shared.prepared.under("a", 1, 1).len();
+    let bytes_per_transition = fragment_bytes as f64 / transitions as f64;
+    let ready = json!({"fragment_bytes": fragment_bytes, "bytes_per_transition": bytes_per_transition});
+    say(&ready.to_string());
+    let mut load = Load { actors: args.actors as usize, shared, senders, fetches, firsts, cpu_before_s: 0.0 };
+    for line in std::io::stdin().lock().lines() {
+        if let Some(answer) = load.execute(&line.context("standard input cannot be read")?)? {
+            say(&answer.to_string());
+        }
+    }
+    runtime.shutdown_background();
+    // Hundreds of sessions close one after the other; their end is the process's.
+    std::process::exit(0);
+}
+
+/// Actors of this process, and what they report.
+struct Load {
+    actors: usize,
+    shared: Arc<Shared>,
+    senders: Vec<Joined>,
+    /// Number of each policy that an actor has fetched, and when (Unix time in seconds).
+    fetches: Receiver<(u64, f64)>,
+    /// One message for the first accepted fragment of each actor.
+    firsts: Receiver<()>,
+    cpu_before_s: f64,
+}
+
+impl Load {
+    /// Runs the command of one line; returns the answer to commands that have one.
+    fn execute(&mut self, line: &str) -> anyhow::Result<Option<Value>> {
+        match line {
+            "send" => {
+                self.shared.enter(Phase::Sending);
+                Ok(Some(self.wait_for_first_fragments()))
+            }
+            "measure" => {
+                self.cpu_before_s = usage::cpu_s();
+                self.shared.enter(Phase::Measuring);
+                Ok(None)
+            }
+            "stop" => self.stop().map(Some),
+            line => {
+                let number = line.strip_prefix("expect ").and_then(|number| number.parse().ok());
+                let number = number.with_context(|| format!("`{line}` is not understood"))?;
+                Ok(Some(self.wait_for_policy(number)))
+            }
+        }
+    }
+
+    /// Until its first fragment is accepted, an actor is a newcomer, and the learner admits few of those.
+    fn wait_for_first_fragments(&self) -> Value {
+        let deadline = Instant::now() + TAKEN_WITHIN;
+        let of_all =
+            std::iter::from_fn(|| self.firsts.recv_timeout(deadline.saturating_duration_since(Instant::now())).ok())
+                .take(self.actors)
+                .count();
+        json!({"taken_of_actors": of_all})
+    }
+
+    fn stop(&mut self) -> anyhow::Result<Value> {
+        let cpu_s = usage::cpu_s() - self.cpu_before_s;
+        self.shared.enter(Phase::Stopped);
+        for sender in self.senders.drain(..) {
+            sender.join().map_err(|_| anyhow::anyhow!("a sender panicked"))?;
+        }
+        let Outcomes { receipts_ms, busy, silent, refused } = std::mem::take(&mut *self.shared.outcomes());
+        Ok(json!({
+            "receipts_ms": receipts_ms, "busy": busy, "silent": silent, "refused": refused, "cpu_s": cpu_s,
+        }))
+    }
+
+    fn wait_for_policy(&self, number: u64) -> Value {
+        self.shared.published.store(number, Ordering::Relaxed);
+        let deadline = Instant::now() + FETCHED_WITHIN;
+        let mut times = Vec::new();
+        while times.len() < self.actors
+            && let Ok((of, time_unix_s)) = self.fetches.recv_timeout(deadline.saturating_duration_since(Instant::now()))
+        {
+            if of == number {
+                times.push(time_unix_s);
+            }
+        }
+        json!({"fetched": number, "times_unix_s": times})
+    }
+}
+
+impl Shared {
+    fn enter(&self, phase: Phase) {
+        *self.phase.lock().expect("no holder of this lock panics") = phase;
+        self.changed.notify_all();
+    }
+
+    fn phase(&self) -> Phase {
+        *self.phase.lock().expect("no holder of this lock panics")
+    }
+
+    fn outcomes(&self) -> std::sync::MutexGuard<'_, Outcomes> {
+        self.outcomes.lock().expect("no holder of this lock panics")
+    }
+
+    fn wait_to_begin(&self) {
+        let mut phase = self.phase.lock().expect("no holder of this lock panics");
+        while *phase == Phase::Waiting {
+            phase = self.changed.wait(phase).expect("no holder of this lock panics");
+        }
+    }
+}
+
+type Joined = std::thread::JoinHandle<()>;
+
+/// Lets every actor join as an actor does: session, token, announcements, first policy.
+fn join(
+    args: &LoadArgs,
+    options: &BusOptions,
+    runtime: &Runtime,
+    shared: &Arc<Shared>,
+    fetched: &Sender<(u64, f64)>,
+    taken: &Sender<()>,
+) -> anyhow::Result<Vec<Joined>> {
+    let mut senders = Vec::new();
+    for index in args.first..args.first + args.actors {
+        let name = format!("actor-{index}");
+        let bus = Bus::open_client(options)?;
+        let alive = token(&bus, workload::RUN, &name)?;
+        let announcements = watch_announcements(&bus, workload::RUN)?;
+        while runtime.block_on(fetch_policy(&bus, Some(workload::RUN), FETCH_TIMEOUT))?.is_none() {
+            std::thread::sleep(RETRY);
+        }
+        let (shared_too, fetched, bus_too) = (shared.clone(), fetched.clone(), bus.clone());
+        runtime.spawn(async move {
+            follow(&bus_too, &announcements, &shared_too, &fetched).await;
+            drop(alive);
+        });
+        let sequence = Arc::new(AtomicU64::new(1));
+        for sender in 0..args.in_flight {
+            let (shared, bus, name, sequence) = (shared.clone(), bus.clone(), name.clone(), sequence.clone());
+            let (handle, first) = (runtime.handle().clone(), (sender == 0).then(|| taken.clone()));
+            let work = move || deliver(&shared, &bus, &name, &sequence, &handle, first);
+            senders.push(std::thread::Builder::new().stack_size(STACK_BYTES).spawn(work)?);
+        }
+    }
+    Ok(senders)
+}
+
+/// One fragment after the other, each until it is taken; `first` is told of the first.
+fn deliver(
+    shared: &Shared,
+    bus: &Bus,
+    name: &str,
+    sequence: &AtomicU64,
+    handle: &Handle,
+    mut first: Option<Sender<()>>,
+) {
+    let incarnation = workload::ACTOR_INCARNATION;
+    let timeout = Duration::from_millis(BusConfig::default().receipt_timeout_ms);
+    let mut own = shared.prepared.under(name, incarnation, 1);
+    shared.wait_to_begin();
+    while shared.phase() != Phase::Stopped {
+        let number = sequence.fetch_add(1, Ordering::Relaxed);
+        shared.prepared.rename(&mut own, name, incarnation, number);
+        let fragment = Bytes::from(own);
+        let begun = Instant::now();
+        loop {
+            let receipt = handle.block_on(submit(bus, workload::RUN, name, fragment.clone(), timeout));
+            let outcome = receipt.ok().flatten().map(|receipt| receipt.outcome);
+            if outcome == Some(Outcome::Accepted)
+                && let Some(first) = first.take()
+            {
+                let _ = first.send(());
+            }
+            if shared.phase() == Phase::Measuring {
+                let mut outcomes = shared.outcomes();
+                match outcome {
+                    Some(Outcome::Accepted) => outcomes.receipts_ms.push(begun.elapsed().as_secs_f64() * 1e3),
+                    Some(Outcome::Busy) => outcomes.busy += 1,
+                    None => outcomes.silent += 1,
+                    Some(_) => outcomes.refused += 1,
+                }
+            }
+            match outcome {
+                Some(Outcome::Busy) | None if shared.phase() != Phase::Stopped => std::thread::sleep(RETRY),
+                _ => break,
+            }
+        }
+        // The same memory again, unless the bus still holds on to it.
+        own = Vec::from(fragment);
+        if !shared.pause.is_zero() {
+            std::thread::sleep(shared.pause);
+        }
+    }
+}
+
+/// Fetches each policy that is announced, or that was not announced to us for too long; tells when it is there.
+async fn follow(bus: &Bus, announcements: &Announcements, shared: &Shared, fetched: &Sender<(u64, f64)>) {
+    let poll_interval = Duration::from_millis(BusConfig::default().policy_poll_ms);
+    let mut known = 0;
+    loop {
+        let announced = tokio::time::timeout(poll_interval, announcements.next()).await;
+        if announced.is_err() && shared.published.load(Ordering::Relaxed) == known {
+            continue;
+        }
+        if let Ok(Some(bundle)) = fetch_policy(bus, Some(workload::RUN), FETCH_TIMEOUT).await {
+            known = bundle.version.number;
+            if fetched.send((known, machine::time_unix_s())).is_err() {
+                return;
+            }
+        }
+    }
+}

@@ -1,0 +1,57 @@
+//! What TCP itself does here: the same messages over one loopback connection, without any bus.
+
+use std::{
+    io::{ErrorKind, Read, Write},
+    net::{TcpListener, TcpStream},
+    time::{Duration, Instant},
+};
+
+use anyhow::Context;
+
+use super::usage;
+
+/// One measurement.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Raw {
+    pub(crate) mb_per_s: f64,
+    /// Both ends together.
+    pub(crate) cpu_s_per_gb: f64,
+}
+
+impl Raw {
+    /// The mean of what was measured before and after something else.
+    pub(crate) fn mean(self, other: Self) -> Self {
+        Self {
+            mb_per_s: (self.mb_per_s + other.mb_per_s) / 2.0,
+            cpu_s_per_gb: (self.cpu_s_per_gb + other.cpu_s_per_gb) / 2.0,
+        }
+    }
+}
+
+/// Sends messages of this size for so long; each is read whole into memory that is there already.
+pub(crate) fn measure(message_bytes: usize, duration: Duration) -> anyhow::Result<Raw> {
+    let listener = TcpListener::bind("127.0.0.1:0").context("no port on loopback")?;
+    let address = listener.local_addr().context("no address on loopback")?;
+    let (cpu_before, begun) = (usage::cpu_s(), Instant::now());
+    let sender = std::thread::spawn(move || -> std::io::Result<()> {
+        let mut stream = TcpStream::connect(address)?;
+        let message = vec![1; message_bytes];
+        while begun.elapsed() < duration {
+            stream.write_all(&message)?;
+        }
+        Ok(())
+    });
+    let (mut stream, _) = listener.accept().context("no connection on loopback")?;
+    let (mut message, mut messages) = (vec![0; message_bytes], 0u64);
+    loop {
+        match stream.read_exact(&mut message) {
+            Ok(()) => messages += 1,
+            Err(why) if why.kind() == ErrorKind::UnexpectedEof => break,
+            Err(why) => return Err(why).context("loopback cannot be read"),
+        }
+    }
+    let (elapsed_s, cpu_s) = (begun.elapsed().as_secs_f64(), usage::cpu_s() - cpu_before);
+    sender.join().map_err(|_| anyhow::anyhow!("the sender panicked"))?.context("loopback cannot be written")?;
+    let bytes = (messages * message_bytes as u64) as f64;
+    Ok(Raw { mb_per_s: bytes / 1e6 / elapsed_s, cpu_s_per_gb: cpu_s / (bytes / 1e9).max(1e-9) })
+}

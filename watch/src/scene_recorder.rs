@@ -1,0 +1,198 @@
+//! A pose as what Rerun draws: body, floor, trail, contacts, and curves beside them.
+
+use std::collections::VecDeque;
+
+use rerun::{
+    Arrows3D, Boxes3D, Color, EntityPath, LineStrips3D, Points3D, RecordingStream, RecordingStreamResult, Scalars,
+    SeriesLines, TextLog, Transform3D, ViewCoordinates, components::FillMode, datatypes::Quaternion,
+};
+use treadmill_humanoid::Model;
+use treadmill_proto::{
+    Pose,
+    pose::{BODY_NUMBERS, CONTACT_NUMBERS},
+};
+
+use crate::{
+    layout::{self, paths},
+    shapes,
+};
+
+/// Points of the trail, one each [`TRAIL_EVERY_S`]: the last 15 s.
+const TRAIL_POINTS: usize = 100;
+const TRAIL_EVERY_S: f64 = 0.15;
+/// Between the end of an episode and the next one on the timeline.
+const PAUSE_S: f64 = 0.5;
+/// An arrow of 1 m is so much force.
+const NEWTONS_PER_M: f32 = 1500.0;
+/// Half sides of the floor that is drawn around the body: so far that its edge is nearly the horizon.
+const FLOOR_HALF_M: f32 = 60.0;
+/// Half sides of what is ruled of it, in whole squares of a metre.
+const RULED_HALF_M: i32 = 20;
+const FLOOR: [u8; 3] = [62, 66, 71];
+const LINES: [u8; 3] = [98, 103, 110];
+const TRAIL: [u8; 3] = [240, 200, 60];
+const CONTACT: [u8; 3] = [235, 70, 70];
+/// Names of the curves of one step's reward.
+const REWARD_TERMS: [&str; 5] = ["reward", "forward", "healthy", "control", "contact"];
+
+/// Logs poses to Rerun and keeps what its timelines need.
+pub struct SceneRecorder {
+    recording: RecordingStream,
+    model: Model,
+    bodies: Vec<EntityPath>,
+    is_body_there: bool,
+    episode: Option<Key>,
+    /// Where the episode begins on the timelines.
+    begun_s: f64,
+    begun_step: i64,
+    shown_s: f64,
+    shown_step: i64,
+    trail: VecDeque<[f32; 3]>,
+    trail_s: f64,
+    square: Option<[i32; 2]>,
+}
+
+/// Which episode of whom.
+#[derive(Clone, PartialEq)]
+struct Key {
+    actor: String,
+    incarnation: u64,
+    episode: u64,
+}
+
+impl SceneRecorder {
+    /// Recorder for a robot, without any pose yet.
+    pub fn new(recording: RecordingStream, model: Model) -> Self {
+        let name = |(index, body): (usize, &treadmill_humanoid::model::Body)| {
+            let name = if body.name.is_empty() { format!("body {index}") } else { body.name.clone() };
+            EntityPath::from(vec![paths::WORLD.into(), paths::BODY.into(), name.into()])
+        };
+        Self {
+            bodies: model.bodies.iter().enumerate().map(name).collect(),
+            recording,
+            model,
+            is_body_there: false,
+            episode: None,
+            begun_s: 0.0,
+            begun_step: 0,
+            shown_s: 0.0,
+            shown_step: 0,
+            trail: VecDeque::new(),
+            trail_s: 0.0,
+            square: None,
+        }
+    }
+
+    /// Seconds of motion that were shown, on the timeline.
+    pub fn shown_s(&self) -> f64 {
+        self.shown_s
+    }
+
+    /// Floor, and what the curves are called.
+    pub fn set_up(&self) -> RecordingStreamResult<()> {
+        let rec = &self.recording;
+        rec.log_static(paths::WORLD, &ViewCoordinates::RIGHT_HAND_Z_UP())?;
+        let plate = Boxes3D::from_centers_and_half_sizes([[0.0, 0.0, -0.02]], [[FLOOR_HALF_M, FLOOR_HALF_M, 0.018]]);
+        let plate = plate.with_colors([colour(FLOOR)]).with_fill_mode(FillMode::Solid);
+        rec.log_static(format!("{}/plate", paths::FLOOR), &plate)?;
+        let end = RULED_HALF_M as f32;
+        let lines = (-RULED_HALF_M..=RULED_HALF_M).map(|at| at as f32);
+        let lines = lines.flat_map(|at| [[[-end, at, 0.0], [end, at, 0.0]], [[at, -end, 0.0], [at, end, 0.0]]]);
+        let lines = LineStrips3D::new(lines).with_colors([colour(LINES)]).with_radii([0.008]);
+        rec.log_static(format!("{}/lines", paths::FLOOR), &lines)?;
+        rec.log_static(paths::REWARD, &SeriesLines::new().with_names(REWARD_TERMS))?;
+        rec.log_static(paths::VELOCITY, &SeriesLines::new().with_names(["forward m/s", "distance / 10 m"]))?;
+        let hinges = self.model.hinges.iter().map(|hinge| hinge.name.as_str());
+        rec.log_static(paths::TORQUES, &SeriesLines::new().with_names(hinges))
+    }
+
+    /// Draws the body as it is at one moment; poses of another number of bodies than the model's are left out.
+    pub fn show(&mut self, pose: &Pose) -> RecordingStreamResult<()> {
+        let places = pose.bodies.as_chunks::<BODY_NUMBERS>().0;
+        let [torso, ..] = places else { return Ok(()) };
+        if places.len() != self.bodies.len() || pose.joint_torques_nm.len() != self.model.hinges.len() {
+            return Ok(());
+        }
+        self.begin_episode(pose);
+        self.shown_s = self.begun_s + pose.time_s;
+        self.shown_step = self.begun_step + i64::from(pose.step);
+        let rec = self.recording.clone();
+        rec.set_duration_secs(paths::TIME, self.shown_s);
+        rec.set_time_sequence(paths::STEP, self.shown_step);
+        if !self.is_body_there {
+            for (body, path) in self.bodies.iter().enumerate() {
+                shapes::log(&rec, path, &self.model, body)?;
+            }
+            self.is_body_there = true;
+        }
+        if self.trail.is_empty() {
+            let number = pose.version.map_or(0, |version| version.number);
+            let text = match pose.actor.as_str() {
+                "" => format!("episode {}", pose.episode),
+                actor => format!("episode {} of {actor}, policy {number}", pose.episode),
+            };
+            rec.log(paths::EPISODES, &TextLog::new(text))?;
+        }
+        for (path, [x, y, z, turned @ ..]) in self.bodies.iter().zip(places) {
+            let [w, i, j, k] = *turned;
+            let turned = Quaternion::from_xyzw([i, j, k, w]);
+            rec.log(path.clone(), &Transform3D::from_translation_rotation([*x, *y, *z], turned))?;
+        }
+        let [x, y, z, ..] = *torso;
+        rec.log(paths::FOLLOWED, &Points3D::new(layout::followed_m([x, y])).with_radii([0.0]))?;
+        self.follow(&rec, [x, y])?;
+        self.leave_trail(&rec, [x, y, z])?;
+        let contacts = pose.contacts.as_chunks::<CONTACT_NUMBERS>().0;
+        let points: Vec<[f32; 3]> = contacts.iter().map(|[x, y, z, ..]| [*x, *y, *z]).collect();
+        let forces: Vec<[f32; 3]> =
+            contacts.iter().map(|[.., x, y, z]| [x / NEWTONS_PER_M, y / NEWTONS_PER_M, z / NEWTONS_PER_M]).collect();
+        let arrows = Arrows3D::from_vectors(forces).with_origins(points.clone());
+        rec.log(paths::FORCES, &arrows.with_colors([colour(CONTACT)]).with_radii([0.012]))?;
+        rec.log(paths::POINTS, &Points3D::new(points).with_colors([colour(CONTACT)]).with_radii([0.025]))?;
+        let terms = [pose.reward_forward, pose.reward_survive, pose.reward_ctrl, pose.reward_contact];
+        let rewards = std::iter::once(terms.iter().sum()).chain(terms).map(f64::from);
+        rec.log(paths::REWARD, &Scalars::new(rewards))?;
+        rec.log(paths::VELOCITY, &Scalars::new([pose.velocity_mps, pose.distance_m / 10.0].map(f64::from)))?;
+        rec.log(paths::TORQUES, &Scalars::new(pose.joint_torques_nm.iter().copied().map(f64::from)))
+    }
+
+    /// Episodes follow one another on the timelines.
+    fn begin_episode(&mut self, pose: &Pose) {
+        let key = Key { actor: pose.actor.clone(), incarnation: pose.actor_incarnation, episode: pose.episode };
+        if self.episode.as_ref() == Some(&key) {
+            return;
+        }
+        if self.episode.is_some() {
+            self.begun_s = self.shown_s + PAUSE_S - pose.time_s;
+            self.begun_step = self.shown_step + 1 - i64::from(pose.step);
+        }
+        self.episode = Some(key);
+        self.trail.clear();
+    }
+
+    /// The floor comes along, in whole metres, so that its lines seem to stay.
+    fn follow(&mut self, rec: &RecordingStream, at_m: [f32; 2]) -> RecordingStreamResult<()> {
+        let square = at_m.map(|at| at.round() as i32);
+        if self.square == Some(square) {
+            return Ok(());
+        }
+        self.square = Some(square);
+        rec.log(paths::FLOOR, &Transform3D::from_translation([square[0] as f32, square[1] as f32, 0.0]))
+    }
+
+    fn leave_trail(&mut self, rec: &RecordingStream, torso_m: [f32; 3]) -> RecordingStreamResult<()> {
+        if self.trail.is_empty() || self.shown_s - self.trail_s >= TRAIL_EVERY_S {
+            self.trail.push_back(torso_m);
+            self.trail_s = self.shown_s;
+            if self.trail.len() > TRAIL_POINTS {
+                self.trail.pop_front();
+            }
+        }
+        let strip: Vec<[f32; 3]> = self.trail.iter().copied().chain([torso_m]).collect();
+        rec.log(paths::TRAIL, &LineStrips3D::new([strip]).with_colors([colour(TRAIL)]).with_radii([0.01]))
+    }
+}
+
+fn colour([red, green, blue]: [u8; 3]) -> Color {
+    Color::from_rgb(red, green, blue)
+}

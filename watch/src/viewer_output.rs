@@ -1,0 +1,145 @@
+//! Output of the viewer: a viewer served to a browser, Rerun's own window, or a file.
+
+use std::{
+    net::{IpAddr, SocketAddr, TcpListener},
+    path::PathBuf,
+};
+
+use anyhow::Context;
+use rerun::{
+    MemoryLimit, RecordingStream, RecordingStreamBuilder, ServerOptions, SpawnOptions, web_viewer::WebViewerConfig,
+};
+use treadmill_common::{machine, shutdown::Shutdown};
+use treadmill_rl::{
+    launch::{exit_code::Usage, output::say, signals},
+    shared::viewer_args::ViewerOutputArgs,
+};
+
+/// What Rerun tells recordings of different programs apart by; layouts are kept under it.
+const APPLICATION: &str = "treadmill";
+
+/// A recording on its way.
+pub struct ViewerOutput {
+    recording: RecordingStream,
+    destination: Destination,
+}
+
+enum Destination {
+    File(PathBuf),
+    Window,
+    Page,
+}
+
+impl ViewerOutput {
+    /// Opens it; `name` is what the recording is called.
+    pub fn open(args: &ViewerOutputArgs, name: &str, is_insecure: bool) -> anyhow::Result<Self> {
+        let builder = RecordingStreamBuilder::new(APPLICATION).recording_name(name);
+        if let Some(file) = &args.rrd {
+            let recording =
+                builder.save(file).with_context(|| format!("--rrd {}: the file cannot be written", file.display()))?;
+            return Ok(ViewerOutput { recording, destination: Destination::File(file.clone()) });
+        }
+        if args.native {
+            check_display()?;
+            let options = SpawnOptions {
+                wait_for_bind: true,
+                // By itself the window would take data from whoever reaches this machine.
+                extra_args: vec!["--bind".to_string(), "127.0.0.1".to_string()],
+                ..SpawnOptions::default()
+            };
+            let recording = builder.spawn_opts(&options).with_context(|| {
+                let version = rerun::build_info().version;
+                format!("--native needs Rerun's viewer {version}; get it by `pip install rerun-sdk=={version}`")
+            })?;
+            return Ok(ViewerOutput { recording, destination: Destination::Window });
+        }
+        Self::serve(args, builder, is_insecure)
+    }
+
+    fn serve(args: &ViewerOutputArgs, builder: RecordingStreamBuilder, is_insecure: bool) -> anyhow::Result<Self> {
+        let bind = args.bind;
+        if !bind.is_loopback() && !is_insecure {
+            return Err(Usage(format!(
+                "--bind {bind}: neither page nor data are encrypted or ask who comes; forward the ports by ssh instead (see \
+                 docs/watch.md), or say --insecure where the network itself is trusted"
+            ))
+            .into());
+        }
+        let web_port = free_port(bind, args.web_port, "--web-port")?;
+        let data_port = free_port(bind, args.data_port, "--data-port")?;
+        let host = match bind {
+            bind if bind.is_unspecified() => machine::host_name(),
+            IpAddr::V6(bind) => format!("[{bind}]"),
+            IpAddr::V4(bind) => bind.to_string(),
+        };
+        let options = ServerOptions {
+            memory_limit: MemoryLimit::from_bytes(args.memory_max_mb << 20),
+            // The page comes from another port than the data.
+            cors_allowed_origins: vec![format!("http://{host}:{web_port}"), format!("http://*:{web_port}")],
+            ..ServerOptions::default()
+        };
+        let address = match bind {
+            IpAddr::V6(bind) => format!("[{bind}]"),
+            IpAddr::V4(bind) => bind.to_string(),
+        };
+        let recording = builder.serve_grpc_opts(&address, data_port, options).context("the data cannot be served")?;
+        let page = WebViewerConfig {
+            bind_ip: bind.to_string(),
+            web_port: web_port.into(),
+            open_browser: false,
+            ..WebViewerConfig::default()
+        };
+        page.host_web_viewer().context("the page cannot be served")?.detach();
+        say(&format!("watch at http://{host}:{web_port}/?url=rerun%2Bhttp%3A%2F%2F{host}%3A{data_port}%2Fproxy"));
+        Ok(ViewerOutput { recording, destination: Destination::Page })
+    }
+
+    /// What is logged into.
+    pub fn recording(&self) -> &RecordingStream {
+        &self.recording
+    }
+
+    /// Waits until everything is written, and serves until Ctrl-C where somebody may still look.
+    pub fn finish(self, shutdown: &Shutdown) -> anyhow::Result<()> {
+        self.recording.flush_blocking().context("not everything could be written")?;
+        match &self.destination {
+            Destination::File(file) => {
+                // The end of the file is written when it is closed.
+                self.recording.disconnect();
+                let bytes = std::fs::metadata(file).with_context(|| format!("cannot read `{}`", file.display()))?.len();
+                say(&format!("written: {} ({} kB)", file.display(), bytes / 1000));
+            }
+            Destination::Window => {}
+            Destination::Page if shutdown.asked() => {}
+            Destination::Page => {
+                say("all is shown; Ctrl-C ends");
+                let runtime =
+                    tokio::runtime::Builder::new_current_thread().enable_all().build().context("no runtime")?;
+                runtime.block_on(async {
+                    signals::listen(shutdown.clone(), "").context("signals cannot be caught")?;
+                    shutdown.wait().await;
+                    anyhow::Ok(())
+                })?;
+            }
+        }
+        Ok(())
+    }
+}
+
+/// A port that nobody has: the one that is asked for, or any for 0.
+fn free_port(bind: IpAddr, port: u16, flag: &str) -> anyhow::Result<u16> {
+    let bound =
+        TcpListener::bind(SocketAddr::new(bind, port)).and_then(|listener| listener.local_addr()).map_err(|why| {
+            Usage(format!("{flag} {port}: {bind}:{port} cannot be listened on: {why}; choose another, or 0"))
+        })?;
+    Ok(bound.port())
+}
+
+fn check_display() -> Result<(), Usage> {
+    if ["DISPLAY", "WAYLAND_DISPLAY"].iter().any(|name| std::env::var_os(name).is_some_and(|value| !value.is_empty())) {
+        return Ok(());
+    }
+    let why = "--native: there is no display here (neither DISPLAY nor WAYLAND_DISPLAY is set); leave it out and open the page \
+               in a browser, from another machine through ssh (see docs/watch.md), or write a file with --rrd";
+    Err(Usage(why.to_string()))
+}
