@@ -24,15 +24,13 @@ fn hosts_can_be_made() -> bool {
 #[test]
 fn the_guide_to_several_machines_works_as_printed() {
     if !hosts_can_be_made() {
-        eprintln!(
-            "SKIPPED: docs/operations/several-machines.md needs root and `ip netns`, which this machine does not grant"
-        );
+        eprintln!("SKIPPED: docs/several-machines.md needs root and `ip netns`, which this machine does not grant");
         return;
     }
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
-    let page = fs::read_to_string(root.join("docs/operations/several-machines.md")).unwrap();
+    let page = fs::read_to_string(root.join("docs/several-machines.md")).unwrap();
     let (folder, _) = folders();
-    std::os::unix::fs::symlink(root.join("experiments"), folder.path().join("experiments")).unwrap();
+    std::os::unix::fs::symlink(root.join("docs"), folder.path().join("docs")).unwrap();
     // Hosts of its own, so that two of these tests may run at once; they are gone also where a command fails.
     let prefix = format!("tm{}", std::process::id());
     let script = commands(&page)
@@ -42,7 +40,7 @@ fn the_guide_to_several_machines_works_as_printed() {
         .replace("hosts.sh up", &format!("hosts.sh up {prefix}"))
         .replace("hosts.sh down", &format!("hosts.sh down {prefix}"));
     let script = format!(
-        "trap 'kill $(jobs -p) 2>/dev/null || true; experiments/faults/hosts.sh down {prefix}' EXIT\nset -eu\n{script}"
+        "trap 'kill $(jobs -p) 2>/dev/null || true; docs/faults/hosts.sh down {prefix}' EXIT\nset -eu\n{script}"
     );
     let binary = Path::new(env!("CARGO_BIN_EXE_treadmill")).parent().unwrap();
     let path = format!("{}:{}", binary.display(), std::env::var("PATH").unwrap());

@@ -1,4 +1,4 @@
-//! Mistakes and mishaps, caused on purpose: what is told of each is what `docs/operations/troubleshooting.md` quotes.
+//! Mistakes and mishaps, caused on purpose: what is told of each is what `docs/troubleshooting.md` quotes.
 
 mod support;
 
@@ -20,7 +20,7 @@ use support::*;
 
 /// The page's headings that are marked as tested, with the lines that are quoted below each.
 static PAGE: LazyLock<Vec<(String, BTreeSet<String>)>> = LazyLock::new(|| {
-    let page = fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/docs/operations/troubleshooting.md")).unwrap();
+    let page = fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/docs/troubleshooting.md")).unwrap();
     let mut told: Vec<(String, BTreeSet<String>)> = Vec::new();
     for section in page.split("\n### ").skip(1).filter_map(|section| section.strip_prefix("● ")) {
         let (heading, rest) = section.split_once('\n').unwrap();
@@ -34,7 +34,7 @@ static PAGE: LazyLock<Vec<(String, BTreeSet<String>)>> = LazyLock::new(|| {
 fn is_quoted(heading: &str, line: &str) {
     let (_, quoted) = PAGE.iter().find(|(known, _)| known == heading).unwrap_or_else(|| panic!("no heading {heading}"));
     let line = line.split_once(" WARN ").map_or(line.to_string(), |(_, text)| format!("WARN {text}"));
-    assert!(quoted.contains(&line), "docs/operations/troubleshooting.md does not quote\n{line}\nbut\n{quoted:#?}");
+    assert!(quoted.contains(&line), "docs/troubleshooting.md does not quote\n{line}\nbut\n{quoted:#?}");
 }
 
 /// Runs to an error, and asserts that the page quotes it.

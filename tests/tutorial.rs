@@ -18,7 +18,7 @@ fn commands(page: &str) -> Vec<String> {
 #[test]
 fn the_tutorial_works_as_printed() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
-    let commands = commands(&fs::read_to_string(root.join("docs/guide/tutorial.md")).unwrap());
+    let commands = commands(&fs::read_to_string(root.join("docs/tutorial.md")).unwrap());
     assert!(commands.len() >= 8, "{commands:?}");
     let (folder, _) = folders();
     std::os::unix::fs::symlink(root.join("docs"), folder.path().join("docs")).unwrap();
