@@ -1,4 +1,4 @@
-"""The flows of an actor over Zenoh: the only module that names it. See docs/actors.md for each of them."""
+"""The flows of an actor over Zenoh: the only module that names it. See docs/guide/external-tasks.md for each of them."""
 
 import ipaddress
 import json

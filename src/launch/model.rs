@@ -16,7 +16,7 @@ use crate::launch::exit_code::{self, Usage};
 /// Flags about robot and task of commands that play without a run.
 #[derive(Args, Clone, Debug, Default)]
 pub struct ModelArgs {
-    /// Another robot than the built-in humanoid, as MJCF; see docs/models.md.
+    /// Another robot than the built-in humanoid, as MJCF; see docs/guide/robots.md.
     #[arg(long, value_name = "FILE")]
     pub model: Option<PathBuf>,
     /// One key of [env] or [randomisation], as in env.substeps=5; may be repeated.

@@ -34,7 +34,7 @@ pub struct NewRunArgs {
     #[arg(long, value_name = "KEY=VALUE", conflicts_with = "resume")]
     pub set: Vec<String>,
     /// What is trained: humanoid-v5, humanoid-v4, `external` for whatever the first actor registers, or the name of such a
-    /// task, as in gymnasium/Humanoid-v5 (see docs/actors.md).
+    /// task, as in gymnasium/Humanoid-v5 (see docs/guide/external-tasks.md).
     #[arg(long, value_name = "NAME", conflicts_with = "resume")]
     pub task: Option<String>,
     /// Seed of every random stream.
@@ -54,7 +54,7 @@ pub struct AnyRunArgs {
     /// Go on with this run: its folder, or its name below runs/.
     #[arg(long, value_name = "RUN", conflicts_with = "preset")]
     pub resume: Option<String>,
-    /// Another robot than the built-in humanoid, as MJCF (see docs/models.md); a resumed run keeps its own.
+    /// Another robot than the built-in humanoid, as MJCF (see docs/guide/robots.md); a resumed run keeps its own.
     #[arg(long, value_name = "FILE")]
     pub model: Option<PathBuf>,
     /// Which checkpoint to resume from: latest, best, or the number of updates of a kept one.
@@ -141,7 +141,7 @@ fn check_external(command: RunCommand, config: &Config, any: &AnyRunArgs) -> Res
     if command == RunCommand::Train {
         return Err(Usage(
             "`train` starts actors of its own, and they simulate the humanoid alone; env.task \"external\" needs \
-             `treadmill learner`, which actors of that task join (see docs/actors.md)"
+             `treadmill learner`, which actors of that task join (see docs/guide/external-tasks.md)"
                 .to_string(),
         ));
     }

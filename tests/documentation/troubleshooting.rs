@@ -201,5 +201,5 @@ fn somebody_is_turned_away() {
         fs::copy(folder.join("certs").join(from), folder.join("theirs").join(to)).unwrap();
     }
     let args = ["control", "pause", "run", "--run", "run", "--tls", "theirs"];
-    fails("A command for the learner finds nobody who obeys", folder, &args, &[]);
+    fails("The learner takes no command", folder, &args, &[]);
 }

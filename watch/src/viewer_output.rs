@@ -61,7 +61,7 @@ impl ViewerOutput {
         if !bind.is_loopback() && !is_insecure {
             return Err(Usage(format!(
                 "--bind {bind}: neither page nor data are encrypted or ask who comes; forward the ports by ssh instead (see \
-                 docs/watch.md), or say --insecure where the network itself is trusted"
+                 docs/guide/watch.md), or say --insecure where the network itself is trusted"
             ))
             .into());
         }
@@ -140,6 +140,6 @@ fn check_display() -> Result<(), Usage> {
         return Ok(());
     }
     let why = "--native: there is no display here (neither DISPLAY nor WAYLAND_DISPLAY is set); leave it out and open the page \
-               in a browser, from another machine through ssh (see docs/watch.md), or write a file with --rrd";
+               in a browser, from another machine through ssh (see docs/guide/watch.md), or write a file with --rrd";
     Err(Usage(why.to_string()))
 }

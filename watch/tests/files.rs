@@ -97,7 +97,7 @@ fn what_cannot_be_shown_is_refused_by_name() {
     let policy = policy.to_str().expect("a plain path");
     refused(&[], 2, &["treadmill watch runs/walk-1", "--live"]);
     refused(&["absent"], 2, &["absent"]);
-    refused(&[policy, "--native"], 2, &["no display", "docs/watch.md"]);
+    refused(&[policy, "--native"], 2, &["no display", "docs/guide/watch.md"]);
     refused(&[policy, "--bind", "0.0.0.0"], 2, &["--bind 0.0.0.0", "--insecure", "ssh"]);
     refused(&[policy, "--rrd", "absent/a.rrd"], 1, &["--rrd absent/a.rrd"]);
     refused(&[policy, "--speed", "0"], 2, &["--speed"]);

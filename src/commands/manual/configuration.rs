@@ -10,7 +10,7 @@ use super::{cell, heading};
 /// The page.
 pub fn page() -> String {
     let mut page = heading("Configuration keys", "their declarations in `common/src/config/sections.rs`");
-    page += "\n[configuration.md](../configuration.md) says where values come from and what is checked. *Live*: whether `treadmill\n";
+    page += "\n[configuration.md](../guide/configuration.md) says where values come from and what is checked. *Live*: whether `treadmill\n";
     page += "control set KEY VALUE` changes the key of a run that goes on.\n";
     for section in Config::sections() {
         // Writing into a string cannot fail.

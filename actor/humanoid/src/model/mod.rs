@@ -256,7 +256,7 @@ pub struct Motor {
 impl Model {
     /// Reads a model from MJCF text.
     ///
-    /// docs/models.md tells what is accepted. Whatever MJCF has beyond that is refused by name, unless no motion depends
+    /// docs/guide/robots.md lists what is accepted. All other MJCF is refused by name, unless no motion depends
     /// on it. Files are never opened: [`read_model_file`] makes one text of a file and those that it includes.
     ///
     /// # Errors
