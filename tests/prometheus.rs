@@ -82,7 +82,7 @@ fn the_page_has_every_metric_and_nobody_asks_for_another() {
     assert!(step.1 > 0);
 
     // What is documented is what is on the page, and each gauge has its help.
-    let text = repository("docs/metrics.md");
+    let text = repository("docs/reference/metrics.md");
     let documented: BTreeSet<String> = text
         .lines()
         .filter_map(|line| line.strip_prefix("| `")?.split_once("` |").map(|(name, _)| name))

@@ -79,9 +79,9 @@ fn a_run_leaves_everything_a_user_looks_for() {
         16,
         "one line for each update"
     );
-    let documented = fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/docs/metrics.md")).unwrap();
+    let documented = fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/docs/reference/metrics.md")).unwrap();
     for (tag, ..) in &metrics {
-        assert!(documented.contains(&format!("| `{tag}` |")), "docs/metrics.md does not explain {tag}");
+        assert!(documented.contains(&format!("| `{tag}` |")), "docs/reference/metrics.md does not explain {tag}");
     }
     assert_eq!(last_value(&run, "bus/policy_lag_max"), Some(0.0), "actors keep step with the learner");
 }

@@ -1,9 +1,9 @@
-"""Measures Treadmill's humanoid against MuJoCo's and writes the tables of docs/fidelity.md.
+"""Measures Treadmill's humanoid against MuJoCo's and writes the tables of docs/results/fidelity.md.
 
 Needs: pip install "gymnasium[mujoco]" numpy
        cargo build --release -p treadmill-humanoid --example open_loop
 
-Usage: measure.py [--json OUT.json] [--compare BASELINE.json] [--doc docs/fidelity.md]
+Usage: measure.py [--json OUT.json] [--compare BASELINE.json] [--doc docs/results/fidelity.md]
 
 Both simulators get the same states and actions. MuJoCo is Gymnasium's Humanoid-v5 file, integrator RK4, 5 steps of 3 ms.
 """
@@ -151,17 +151,16 @@ def mirror(treadmill):
 
 
 def joints(treadmill):
-    """Joint separation and limit overshoot under torques that are always at their largest, with random signs."""
+    """Overshoot of joint limits under torques that are always at their largest, with random signs."""
     played = cases.thrashing(np.random.default_rng(SEED), 10, 1000)
     model = body.load()
     rows = []
     for name, config in TREADMILL:
         states = treadmill(played, config)
-        separation = np.concatenate([s["separation_m"] for s in states])
         overshoot = np.concatenate([s["limit_overshoot_rad"] for s in states])
-        rows.append({"name": name, "separation_m": quantiles(separation), "overshoot_rad": quantiles(overshoot)})
+        rows.append({"name": name, "overshoot_rad": quantiles(overshoot)})
     overshoot = np.concatenate([body.overshoot_rad(model, body.simulate(model, case)[0]) for case in played])
-    rows.append({"name": "MuJoCo, RK4, 5 × 3 ms", "separation_m": None, "overshoot_rad": quantiles(overshoot)})
+    rows.append({"name": "MuJoCo, RK4, 5 × 3 ms", "overshoot_rad": quantiles(overshoot)})
     return {"steps": 10_000, "rows": rows}
 
 

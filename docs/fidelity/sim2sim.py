@@ -4,7 +4,7 @@ Needs: pip install "gymnasium[mujoco]" numpy
        treadmill export RUN --safetensors policy.safetensors
 
 Usage: sim2sim.py policy.safetensors [--episodes 20] [--seed 0] [--json OUT.json] [--trace OUT.jsonl]
-                  [--treadmill target/release/treadmill] [--doc docs/fidelity.md]
+                  [--treadmill target/release/treadmill] [--doc docs/results/fidelity.md]
        sim2sim.py policy.safetensors --check TRACE.jsonl     # made by `treadmill eval policy.safetensors --trace TRACE.jsonl`
 
 --random plays uniformly random actions instead; --check compares this script's actions with Treadmill's own for the same
@@ -155,7 +155,7 @@ def main():
     made = report.circumstances(REPOSITORY)
     count = policy.facts["observation"]["count"]
     origin = f"Observation `{policy.kind}`, statistics over {count / 1e6:.1f} M environment steps. {report.made_by(made)}"
-    text = f"{origin} Mean over {arguments.episodes} episodes (least to greatest).\n\n{table(results)}"
+    text = f"{origin} Mean over {arguments.episodes} episodes (minimum to maximum).\n\n{table(results)}"
     print(text)
     if arguments.json:
         report.write_json(arguments.json, {"made": made, "results": results})

@@ -3,7 +3,7 @@
 Needs: pip install "gymnasium[mujoco]" numpy
        cargo build --release
 
-Usage: taskset -c 0 speed.py target/release/treadmill [--rounds 5] [--seconds 3] [--json OUT.json] [--doc docs/fidelity.md]
+Usage: taskset -c 0 speed.py target/release/treadmill [--rounds 5] [--seconds 3] [--json OUT.json] [--doc docs/results/fidelity.md]
 
 Every candidate runs once in every round, so that a machine that becomes slower does so for all of them. Actions are random,
 resets are included, and a step is always one control step of 15 ms. Treadmill steps 64 humanoids in turn, as an actor has
@@ -111,7 +111,7 @@ def table(rounds):
         rates = [found[name] for found in rounds]
         spread = f"{min(rates):.0f} to {max(rates):.0f}"
         rows.append([name, f"{median(name):.0f}", spread, ratio(name, GYMNASIUM), ratio(name, RAW["RK4"])])
-    return report.table(["", "control steps/s", "least to greatest", "× Gymnasium", "× MuJoCo, RK4"], rows)
+    return report.table(["", "control steps/s", "range", "× Gymnasium", "× MuJoCo, RK4"], rows)
 
 
 def main():

@@ -3,7 +3,7 @@
 Needs: pip install torch stable-baselines3 "gymnasium[mujoco]" numpy
        cargo build --release
 
-Usage: speed.py target/release/treadmill [--rounds 5] [--without-training] [--json OUT.json] [--doc docs/learning.md]
+Usage: speed.py target/release/treadmill [--rounds 5] [--without-training] [--json OUT.json] [--doc docs/results/README.md]
 
 In every round each comparison runs both sides one after the other, and every other round in the other order; a ratio is that of
 one round. Update and inference run on one core with one thread, the update of two threads and training on two cores. PyTorch's
@@ -147,7 +147,7 @@ def table(rounds):
         spread = f"{min(ratios):.2f} to {max(ratios):.2f}"
         medians = [rounded(statistics.median(values)) for values in (ours, theirs)]
         rows.append([what, medians[0], f"{against}: {medians[1]}", f"{statistics.median(ratios):.2f}", spread, wanted])
-    header = ["", "Treadmill", "compared with", "Treadmill ÷ that", "least to greatest", "wanted"]
+    header = ["", "Treadmill", "compared with", "Treadmill ÷ that", "range", "target"]
     return report.table(header, rows)
 
 

@@ -36,7 +36,7 @@ BASE = ["ppo.epochs=5", "ppo.minibatch=2048"]
 
 # What each candidate changes in that.
 CANDIDATES = {
-    "as it was": [],
+    "baseline": [],
     "network 128–128": ["policy.hidden=[128, 128]"],
     "network 128–128, 3 epochs": ["policy.hidden=[128, 128]", "ppo.epochs=3"],
     "network 64–64": ["policy.hidden=[64, 64]"],
@@ -56,7 +56,6 @@ CANDIDATES = {
     "first log std −1": ["policy.init_log_std=-1"],
     "discount 0.98": ["ppo.gamma=0.98"],
     "λ 0.9": ["ppo.gae_lambda=0.9"],
-    "noise correlated 0.5": ["rollout.noise_correlation=0.5"],
     "mirror images": ["ppo.symmetry=mirrored", "ppo.minibatch=4096"],
     "f16, 3 epochs, minibatch 1024": ["ppo.epochs=3", "ppo.minibatch=1024", "rollout.observation_precision=f16"],
     "sees contacts": seeing("cfrc_ext"),
