@@ -56,8 +56,9 @@ during / after, of before | return / undisturbed |
 
 
 def put(file, text):
-    """Between the markers of a page."""
+    """Replaces what is between the markers of a page."""
+    begin, end = "<!-- begin generated: table.py -->", "<!-- end generated: table.py -->"
     page = file.read_text(encoding="utf-8")
-    head, _, rest = page.partition("<!-- table -->")
-    _, _, tail = rest.partition("<!-- end of table -->")
-    file.write_text(f"{head}<!-- table -->\n{text}<!-- end of table -->{tail}", encoding="utf-8")
+    head, _, rest = page.partition(begin)
+    _, _, tail = rest.partition(end)
+    file.write_text(f"{head}{begin}\n\n{text}\n{end}{tail}", encoding="utf-8")

@@ -151,7 +151,7 @@ def mirror(treadmill):
 
 
 def joints(treadmill):
-    """Limit overshoot under torques that are always at their largest, with random signs."""
+    """Overshoot of joint limits under torques that are always at their largest, with random signs."""
     played = cases.thrashing(np.random.default_rng(SEED), 10, 1000)
     model = body.load()
     rows = []

@@ -155,7 +155,7 @@ def main():
     made = report.circumstances(REPOSITORY)
     count = policy.facts["observation"]["count"]
     origin = f"Observation `{policy.kind}`, statistics over {count / 1e6:.1f} M environment steps. {report.made_by(made)}"
-    text = f"{origin} Mean over {arguments.episodes} episodes (least to greatest).\n\n{table(results)}"
+    text = f"{origin} Mean over {arguments.episodes} episodes (minimum to maximum).\n\n{table(results)}"
     print(text)
     if arguments.json:
         report.write_json(arguments.json, {"made": made, "results": results})

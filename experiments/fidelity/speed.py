@@ -111,7 +111,7 @@ def table(rounds):
         rates = [found[name] for found in rounds]
         spread = f"{min(rates):.0f} to {max(rates):.0f}"
         rows.append([name, f"{median(name):.0f}", spread, ratio(name, GYMNASIUM), ratio(name, RAW["RK4"])])
-    return report.table(["", "control steps/s", "least to greatest", "× Gymnasium", "× MuJoCo, RK4"], rows)
+    return report.table(["", "control steps/s", "range", "× Gymnasium", "× MuJoCo, RK4"], rows)
 
 
 def main():

@@ -36,7 +36,7 @@ BASE = ["ppo.epochs=5", "ppo.minibatch=2048"]
 
 # What each candidate changes in that.
 CANDIDATES = {
-    "as it was": [],
+    "baseline": [],
     "network 128–128": ["policy.hidden=[128, 128]"],
     "network 128–128, 3 epochs": ["policy.hidden=[128, 128]", "ppo.epochs=3"],
     "network 64–64": ["policy.hidden=[64, 64]"],

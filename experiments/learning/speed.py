@@ -147,7 +147,7 @@ def table(rounds):
         spread = f"{min(ratios):.2f} to {max(ratios):.2f}"
         medians = [rounded(statistics.median(values)) for values in (ours, theirs)]
         rows.append([what, medians[0], f"{against}: {medians[1]}", f"{statistics.median(ratios):.2f}", spread, wanted])
-    header = ["", "Treadmill", "compared with", "Treadmill ÷ that", "least to greatest", "wanted"]
+    header = ["", "Treadmill", "compared with", "Treadmill ÷ that", "range", "target"]
     return report.table(header, rows)
 
 

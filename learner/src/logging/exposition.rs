@@ -1,7 +1,7 @@
 //! The newest value of every metric, as Prometheus reads it.
 //!
 //! A tag `group/name` becomes the gauge `treadmill_group_name` with the run as its label. What the help says is the row of
-//! that tag in `docs/metrics.md`.
+//! that tag in `docs/reference/metrics.md`.
 
 use std::{
     collections::{BTreeMap, HashMap},
@@ -120,7 +120,7 @@ fn gauge(tag: &str) -> String {
 /// What a gauge means, from the page that users read.
 fn help(gauge: &str) -> &'static str {
     static HELP: LazyLock<HashMap<String, String>> =
-        LazyLock::new(|| include_str!("../../../docs/metrics.md").lines().filter_map(row).collect());
+        LazyLock::new(|| include_str!("../../../docs/reference/metrics.md").lines().filter_map(row).collect());
     HELP.get(gauge).map_or("A metric of Treadmill", String::as_str)
 }
 

@@ -7,8 +7,8 @@ use super::{
 
 const NAME: &str = "memory";
 
-/// What a learner takes at the default sizes, and what an actor takes, each with some air (docs/metrics.md has measurements:
-/// `learner/memory_mb`, `actors/memory_max_mb`).
+/// What a learner takes at the default sizes, and what an actor takes, each with some air. docs/reference/metrics.md has
+/// measurements: `learner/memory_mb`, `actors/memory_max_mb`.
 const LEARNER_BYTES: u64 = 128 << 20;
 const ACTOR_BYTES: u64 = 64 << 20;
 
