@@ -4,7 +4,7 @@
 use std::net::SocketAddr;
 
 use treadmill_common::{bus::Credentials, config::Config, run_folder::RunFolder};
-use treadmill_learner::training::Summary;
+use treadmill_learner::training::TrainingSummary;
 
 use crate::{
     output::{complain, say},
@@ -84,7 +84,7 @@ fn to_dial(endpoint: &str, credentials: Option<&Credentials>) -> String {
 }
 
 /// Says what was reached and what can be done with it.
-pub fn part(folder: &RunFolder, summary: &Summary, command: &str) {
+pub fn part(folder: &RunFolder, summary: &TrainingSummary, command: &str) {
     let root = folder.root().display();
     let steps = summary.state.counters.env_steps;
     let what = if summary.stopped { "stopped" } else { "done" };

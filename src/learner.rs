@@ -11,9 +11,8 @@ use treadmill_common::{
     shutdown::Shutdown,
 };
 use treadmill_learner::{
-    logging::Exposition,
-    pulse::Pulse,
-    training::{self, Summary, TrainingOptions},
+    metrics::{PrometheusMetrics, episodes::EpisodeMeans},
+    training::{self, Heartbeat, TrainingOptions, TrainingSummary},
 };
 
 use crate::{
@@ -99,8 +98,9 @@ async fn host_until_done(
     };
     let text = endpoints.join("\n") + "\n";
     atomic_file::write(&prepared.folder.endpoint(), text.as_bytes()).context("the endpoint cannot be written")?;
-    let (exposition, pulse) = (Exposition::default(), Pulse::default());
-    let page = metrics.map(|page| page.serve(prepared.run.clone(), exposition.clone(), pulse.clone())).transpose()?;
+    let (prometheus, heartbeat) = (PrometheusMetrics::default(), Heartbeat::default());
+    let page =
+        metrics.map(|page| page.serve(prepared.run.clone(), prometheus.clone(), heartbeat.clone())).transpose()?;
     greeting::greet(&prepared, &endpoints, options.credentials.as_ref(), actors, page);
     // For as long as the run goes on: whoever comes later is told by name whether it may join.
     let desk = {
@@ -111,7 +111,7 @@ async fn host_until_done(
         loop {
             tokio::select! {
                 desk = &mut settled => break desk?,
-                _ = beat.tick() => pulse.beat(),
+                _ = beat.tick() => heartbeat.beat(),
             }
         }
     };
@@ -131,8 +131,8 @@ async fn host_until_done(
         mirror,
         show_progress: !any.no_progress,
         restarts: restarts.clone(),
-        exposition,
-        pulse,
+        prometheus,
+        heartbeat,
         command: startup::command_line(),
         versions: startup::versions(&config),
         action_names: model::action_names(&state.model_xml),
@@ -175,10 +175,10 @@ async fn host_until_done(
     Ok(())
 }
 
-fn as_json(summary: &Summary) -> String {
+fn as_json(summary: &TrainingSummary) -> String {
     let state = &summary.state;
     let means = state.episodes.means();
-    let number = |of: fn(&treadmill_learner::episodes::EpisodeMeans) -> f64| means.as_ref().map(of);
+    let number = |of: fn(&EpisodeMeans) -> f64| means.as_ref().map(of);
     json!({
         "run": state.run,
         "env_steps": state.counters.env_steps,
