@@ -22,7 +22,7 @@ use treadmill_common::{
 use treadmill_humanoid::Model;
 use treadmill_learner::{
     checkpoint::{TrainingState, encoding},
-    intake::{Expected, Judge, Ledger, Lineage, Tally},
+    intake::{ExpectedFragment, FragmentCounts, FragmentValidator, Ledger, Lineage},
 };
 use treadmill_proto::{
     ActorStats, EvaluationReport, Fragment, PolicyAnnouncement, PolicyBundle, Pose, Receipt,
@@ -52,7 +52,7 @@ pub const TARGETS: &[(&str, Target, Sample, usize)] = &[
     ("weights", weights, samples::weights, 64),
     ("model", model, samples::model, 256),
     ("config", config, samples::config, 256),
-    ("judge", judge, samples::fragment, 16),
+    ("fragment_validator", fragment_validator, samples::fragment, 16),
 ];
 
 /// A rollout fragment.
@@ -199,9 +199,9 @@ fn read_config(text: &str) -> Result<Config, String> {
     source.build().map_err(|why| why.to_string())
 }
 
-/// What the learner makes of a fragment.
-pub fn judge(data: &[u8]) {
-    let expected = Expected {
+/// The learner's validation of a fragment.
+pub fn fragment_validator(data: &[u8]) {
+    let expected = ExpectedFragment {
         run: samples::RUN.into(),
         config_hash: samples::CONFIG_HASH,
         observation_size: samples::WIDTH,
@@ -209,17 +209,21 @@ pub fn judge(data: &[u8]) {
         max_policy_lag: 1,
     };
     let gate = Arc::new(Gate::new(8, 64));
-    let mut judge = Judge::new(expected, gate, Ledger::default(), Tally::default());
+    let mut validator = FragmentValidator::new(expected, gate, Ledger::default(), FragmentCounts::default());
     let mut lineage = Lineage::new(samples::INCARNATION);
     lineage.advance();
     let now = Instant::now();
     for _ in 0..2 {
-        let judged = judge.judge(samples::ACTOR, data.into(), &lineage, now);
-        if let Err(receipt) = &judged {
+        let validated = validator.validate(samples::ACTOR, data.into(), &lineage, now);
+        if let Err(receipt) = &validated {
             assert_eq!(Receipt::decode(&receipt.encode()).as_ref(), Ok(&**receipt), "its sender can read the answer");
         }
     }
-    assert!(judge.tally.accepted <= 1, "nothing is learnt from twice");
-    let tally = judge.tally;
-    assert_eq!(tally.accepted + tally.duplicate + tally.too_old + tally.vanished + tally.malformed, 2, "{tally:?}");
+    assert!(validator.counts.accepted <= 1, "nothing is learnt from twice");
+    let counts = validator.counts;
+    assert_eq!(
+        counts.accepted + counts.duplicate + counts.too_old + counts.vanished + counts.malformed,
+        2,
+        "{counts:?}"
+    );
 }

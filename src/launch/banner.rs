@@ -4,7 +4,7 @@
 use std::net::SocketAddr;
 
 use treadmill_common::{bus::Credentials, config::Config, run_folder::RunFolder};
-use treadmill_learner::training::Summary;
+use treadmill_learner::training::TrainingSummary;
 
 use crate::launch::{
     output::{complain, say},
@@ -84,7 +84,7 @@ fn to_dial(endpoint: &str, credentials: Option<&Credentials>) -> String {
 }
 
 /// Prints what the run reached and what can be done with its policy.
-pub fn print_end(folder: &RunFolder, summary: &Summary, command: &str) {
+pub fn print_end(folder: &RunFolder, summary: &TrainingSummary, command: &str) {
     let root = folder.root().display();
     let steps = summary.state.counters.env_steps;
     let what = if summary.stopped { "stopped" } else { "done" };

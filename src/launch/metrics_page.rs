@@ -15,8 +15,8 @@ use hyper::{Method, Request, Response, StatusCode, header::CONTENT_TYPE, server:
 use hyper_util::rt::TokioIo;
 use tokio::sync::Semaphore;
 use treadmill_learner::{
-    logging::{Exposition, exposition},
-    pulse::Pulse,
+    metrics::{PrometheusMetrics, prometheus},
+    training::Heartbeat,
 };
 
 use crate::launch::exit_code::Usage;
@@ -73,17 +73,17 @@ pub struct MetricsListener {
 /// What the page shows.
 struct Page {
     run: String,
-    exposition: Exposition,
-    pulse: Pulse,
+    metrics: PrometheusMetrics,
+    heartbeat: Heartbeat,
     stalled_after: Duration,
 }
 
 impl MetricsListener {
     /// Serves it for as long as the runtime lives; its address.
-    pub fn serve(self, run: String, exposition: Exposition, pulse: Pulse) -> anyhow::Result<SocketAddr> {
+    pub fn serve(self, run: String, metrics: PrometheusMetrics, heartbeat: Heartbeat) -> anyhow::Result<SocketAddr> {
         let address = self.listener.local_addr()?;
         let listener = tokio::net::TcpListener::from_std(self.listener)?;
-        let page = Arc::new(Page { run, exposition, pulse, stalled_after: self.stalled_after });
+        let page = Arc::new(Page { run, metrics, heartbeat, stalled_after: self.stalled_after });
         tokio::spawn(serve(listener, page));
         Ok(address)
     }
@@ -127,15 +127,15 @@ impl Page {
     }
 
     fn metrics(&self) -> Response<Full<Bytes>> {
-        let silence_s = self.pulse.silence().as_secs_f64();
-        let page = self.exposition.page(&self.run, &[("learner/silence_s", silence_s)]);
+        let silence_s = self.heartbeat.silence().as_secs_f64();
+        let page = self.metrics.page(&self.run, &[("learner/silence_s", silence_s)]);
         let mut response = text(StatusCode::OK, page);
-        response.headers_mut().insert(CONTENT_TYPE, hyper::header::HeaderValue::from_static(exposition::CONTENT_TYPE));
+        response.headers_mut().insert(CONTENT_TYPE, hyper::header::HeaderValue::from_static(prometheus::CONTENT_TYPE));
         response
     }
 
     fn health(&self) -> Response<Full<Bytes>> {
-        let silence = self.pulse.silence();
+        let silence = self.heartbeat.silence();
         if silence <= self.stalled_after {
             return text(StatusCode::OK, "ok\n".to_string());
         }

@@ -9,7 +9,7 @@ use clap::Args;
 use treadmill_actor::settings;
 use treadmill_common::config::{Config, ConfigSource, EnvConfig, EnvObservation, Symmetry};
 use treadmill_humanoid::{Environment, HUMANOID_XML, Model, ModelError, read_model_file};
-use treadmill_learner::mirror::{Exchange, Mirror};
+use treadmill_ppo::{BatchMirror, IndexSwap};
 
 use crate::launch::exit_code::{self, Usage};
 
@@ -71,7 +71,7 @@ pub fn action_names(text: &str) -> Vec<String> {
 }
 
 /// The mirror that `ppo.symmetry` asks for.
-pub fn mirror(config: &Config, text: &str) -> Result<Option<Mirror>, Usage> {
+pub fn mirror(config: &Config, text: &str) -> Result<Option<BatchMirror>, Usage> {
     if config.ppo.symmetry == Symmetry::Off {
         return Ok(None);
     }
@@ -81,8 +81,8 @@ pub fn mirror(config: &Config, text: &str) -> Result<Option<Mirror>, Usage> {
     }
     let environment = environment(config, text, None)?;
     let of_body = treadmill_humanoid::Mirror::of(environment.physics().model()).map_err(refuse)?;
-    let observation = Exchange(of_body.observation(environment.observation_size()));
-    Ok(Some(Mirror { observation, action: Exchange(of_body.action) }))
+    let observation = IndexSwap(of_body.observation(environment.observation_size()));
+    Ok(Some(BatchMirror { observation, action: IndexSwap(of_body.action) }))
 }
 
 /// Refuses another model than the one that a run was begun with.

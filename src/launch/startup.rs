@@ -13,10 +13,8 @@ use treadmill_common::{
     run_folder::RunFolder,
     seeds,
 };
-use treadmill_learner::{
-    checkpoint::{self, TrainingState, Which},
-    mirror::Mirror,
-};
+use treadmill_learner::checkpoint::{self, TrainingState, Which};
+use treadmill_ppo::BatchMirror;
 use treadmill_proto::Task;
 
 use crate::launch::{exit_code::Usage, model, slow_step::SlowStepNotice};
@@ -80,7 +78,7 @@ pub struct Prepared {
     /// Where its networks are computed.
     pub device: Device,
     /// The mirror that its updates learn with.
-    pub mirror: Option<Mirror>,
+    pub mirror: Option<BatchMirror>,
     /// Its name on the bus.
     pub run: String,
     /// Its state; none where its sizes are those of a task that no actor has registered yet.

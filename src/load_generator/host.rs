@@ -16,9 +16,11 @@ use treadmill_common::{
     shutdown::Shutdown,
 };
 use treadmill_learner::intake::{
-    Accepted, BusMailbox, Collected, Expected, Intake, Judge, Ledger, Lineage, Tally, Wanted,
+    BatchSize, BusFragmentSource, Collected, ExpectedFragment, FragmentCounts, FragmentValidator, Intake, Ledger,
+    Lineage,
 };
-use treadmill_learner::pulse::Pulse;
+use treadmill_learner::training::Heartbeat;
+use treadmill_ppo::AcceptedFragment;
 use treadmill_proto::{Fragment, PolicyAnnouncement, PolicyBundle};
 
 use super::{usage, workload};
@@ -44,7 +46,7 @@ pub struct HostArgs {
 /// What was taken.
 #[derive(Default)]
 struct Taken {
-    tally: Tally,
+    counts: FragmentCounts,
     checksum: String,
 }
 
@@ -64,12 +66,12 @@ pub fn run(args: &HostArgs) -> anyhow::Result<()> {
     let (alive, copies) = (Alive::watch(&bus, workload::RUN)?, RolloutCopies::open(&bus, workload::RUN)?);
     let queue = RolloutIntake::open(&bus, workload::RUN, capacity, gate.clone(), &copies)?;
     let shared = queue.shared();
-    let mailbox = BusMailbox::new(queue, alive, copies, Pulse::default());
-    let judge = Judge::new(expected(), gate, Ledger::default(), Tally::default());
+    let source = BusFragmentSource::new(queue, alive, copies, Heartbeat::default());
+    let validator = FragmentValidator::new(expected(), gate, Ledger::default(), FragmentCounts::default());
     let (taken, shutdown) = (Arc::new(Mutex::new(Taken::default())), Shutdown::default());
     let intake = std::thread::Builder::new().name("training".to_string()).spawn({
         let (taken, shutdown) = (taken.clone(), shutdown.clone());
-        move || take(Intake::new(mailbox, LearnerMode::Async, judge), &taken, &shutdown)
+        move || take(Intake::new(source, LearnerMode::Async, validator), &taken, &shutdown)
     })?;
     say(&json!({"endpoint": endpoints[0], "bundle_bytes": bundle_bytes}).to_string());
     let begun = Instant::now();
@@ -94,8 +96,8 @@ pub fn run(args: &HostArgs) -> anyhow::Result<()> {
     Ok(())
 }
 
-fn expected() -> Expected {
-    Expected {
+fn expected() -> ExpectedFragment {
+    ExpectedFragment {
         run: workload::RUN.to_string(),
         config_hash: workload::CONFIG_HASH,
         observation_size: workload::WIDTHS.0,
@@ -105,32 +107,32 @@ fn expected() -> Expected {
 }
 
 /// What the training thread does without the training: each fragment is answered as soon as it is taken.
-fn take(mut intake: Intake<BusMailbox>, taken: &Mutex<Taken>, shutdown: &Shutdown) {
+fn take(mut intake: Intake<BusFragmentSource>, taken: &Mutex<Taken>, shutdown: &Shutdown) {
     let lineage = Lineage::new(workload::INCARNATION);
-    let one = Wanted { transitions: 1, transitions_max: 1 };
+    let one = BatchSize { transitions: 1, transitions_max: 1 };
     let mut durable = 0;
-    while let Collected::Batch(gathered) = intake.collect(one, &lineage, shutdown, || false) {
-        let tally = intake.judge().tally;
-        if tally.accepted >= durable + DURABLE_EVERY {
+    while let Collected::Batch(batch) = intake.collect(one, &lineage, shutdown, || false) {
+        let counts = intake.validator().counts;
+        if counts.accepted >= durable + DURABLE_EVERY {
             intake.mark_durable();
-            durable = tally.accepted;
+            durable = counts.accepted;
         }
         let mut taken = taken.lock().expect("no holder of this lock panics");
-        taken.tally = tally;
+        taken.counts = counts;
         if taken.checksum.is_empty() {
-            taken.checksum = gathered.fragments.first().map(checksum).unwrap_or_default();
+            taken.checksum = batch.fragments.first().map(checksum).unwrap_or_default();
         }
     }
     intake.stop(&lineage);
 }
 
-fn checksum(Accepted { fragment, .. }: &Accepted) -> String {
+fn checksum(AcceptedFragment { fragment, .. }: &Accepted) -> String {
     let Fragment { observations, actions, log_probs, rewards, last_observations, .. } = fragment;
     network::checksum(&[&observations[..], actions, log_probs, rewards, last_observations].concat())
 }
 
 fn mark(taken: &Taken, begun: Instant, shared: u64) -> Value {
-    let Tally { accepted, duplicate, too_old, vanished, malformed, quarantined } = taken.tally;
+    let FragmentCounts { accepted, duplicate, too_old, vanished, malformed, quarantined } = taken.counts;
     json!({
         "at_s": begun.elapsed().as_secs_f64(),
         "accepted": accepted,

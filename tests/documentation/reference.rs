@@ -87,7 +87,7 @@ fn every_tag_that_is_logged_is_explained_and_no_other() {
         parts.len() == 2
             && parts.iter().all(|part| !part.is_empty() && part.chars().all(|c| c.is_ascii_alphanumeric() || c == '_'))
     };
-    let scalars = source("learner/src/scalars.rs");
+    let scalars = source("learner/src/metrics/scalars.rs");
     let logged: BTreeSet<&str> = scalars.split('"').skip(1).step_by(2).filter(is_tag).collect();
     let metrics = page("metrics");
     let explained: BTreeSet<&str> = metrics
@@ -96,7 +96,7 @@ fn every_tag_that_is_logged_is_explained_and_no_other() {
         .filter(is_tag)
         .collect();
     assert!(logged.len() > 50, "{logged:?}");
-    assert_eq!(logged, explained, "the page `metrics` explains what learner/src/scalars.rs logs");
+    assert_eq!(logged, explained, "the page `metrics` explains what learner/src/metrics/scalars.rs logs");
 }
 
 #[test]

@@ -83,7 +83,7 @@ impl Fleet {
         let taken: u64 = accounts.iter().map(|account| number(account, "env_steps")).sum();
         let state = load_file(&self.run.join("checkpoints/latest.bundle")).unwrap();
         assert_eq!(state.counters.env_steps, taken);
-        assert_eq!(state.tally.malformed, 0);
+        assert_eq!(state.fragment_counts.malformed, 0);
     }
 }
 

@@ -108,8 +108,8 @@ fn a_learner_that_is_killed_is_resumed_while_its_actors_wait() {
     assert!(after.counters.env_steps >= saved.counters.env_steps + 4096);
     assert_eq!(after.optimiser.step, after.counters.gradient_steps, "no gradient step is counted and lost");
     // Every accepted fragment of 4 environments and 64 steps was learnt from, exactly once.
-    assert_eq!(after.counters.env_steps, after.tally.accepted * 4 * 64);
-    assert_eq!(after.tally.malformed, 0);
+    assert_eq!(after.counters.env_steps, after.fragment_counts.accepted * 4 * 64);
+    assert_eq!(after.fragment_counts.malformed, 0);
 }
 
 #[test]

@@ -10,7 +10,7 @@ use treadmill_common::{
     policy::{NetworkShape, Policy, gaussian, init::initial_parameters},
     seeds,
 };
-use treadmill_learner::ppo::{Batch, Updater};
+use treadmill_ppo::{Batch, Updater};
 
 const ROWS: usize = 4096;
 

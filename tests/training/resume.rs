@@ -71,7 +71,7 @@ fn assert_same(found: &TrainingState, wanted: &TrainingState) {
     assert_eq!(found.shuffle, wanted.shuffle);
     assert_eq!(found.episodes, wanted.episodes);
     assert_eq!(found.best_return, wanted.best_return);
-    assert_eq!(found.tally, wanted.tally);
+    assert_eq!(found.fragment_counts, wanted.fragment_counts);
     assert!(found.actor_state.is_some());
     assert!(found.actor_state == wanted.actor_state, "the actor is somewhere else");
     let counts = |state: &TrainingState| {

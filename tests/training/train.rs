@@ -200,7 +200,7 @@ fn resume_goes_on_with_everything() {
     assert_eq!(after.optimiser.step, 2 * before.optimiser.step);
     assert_eq!(after.observation_moments.count, 2.0 * before.observation_moments.count);
     assert_eq!(after.counters.updates, 16);
-    assert_eq!(after.tally.accepted, 2 * before.tally.accepted);
+    assert_eq!(after.fragment_counts.accepted, 2 * before.fragment_counts.accepted);
     assert!(after.episodes.finished > before.episodes.finished);
     assert_ne!(after.lineage.newest().incarnation, before.lineage.newest().incarnation);
     let steps: Vec<u64> =

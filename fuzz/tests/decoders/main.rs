@@ -162,8 +162,8 @@ fn few_bytes_do_not_buy_much_memory() {
     widths.extend(vec![1; count]);
     try_on("bundle", bundle, factor, &widths);
     try_on("bundle", bundle, factor, &[0x28, 1].repeat(count / 2));
-    let (judge, factor) = named("judge");
-    try_on("judge", judge, factor, &vec![0; FRAGMENT_BYTES_MAX]);
+    let (validator, factor) = named("fragment_validator");
+    try_on("fragment_validator", validator, factor, &vec![0; FRAGMENT_BYTES_MAX]);
 }
 
 #[test]

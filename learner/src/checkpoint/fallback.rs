@@ -79,7 +79,7 @@ mod tests {
     use treadmill_common::{config::Config, run_folder::RunFolder};
 
     use super::*;
-    use crate::checkpoint::{Saver, Which, load};
+    use crate::checkpoint::{CheckpointWriter, Which, load};
 
     fn state(updates: u64) -> TrainingState {
         let mut state = TrainingState::fresh("run", &Config::default(), "<mujoco/>", 2, 1, 1);
@@ -90,7 +90,7 @@ mod tests {
     /// `latest` after 7 updates, 2, 4 and 6 kept, `best` at 3.
     fn saved(at: &Path) -> RunFolder {
         let folder = RunFolder::create(Some(&at.join("run")), "x").unwrap();
-        let saver = Saver::new(&folder, 2, 9);
+        let saver = CheckpointWriter::new(&folder, 2, 9);
         for updates in 1..=7 {
             let saved = saver.save(&state(updates)).unwrap();
             if updates == 3 {

@@ -171,13 +171,13 @@ fn numbered(number: u64) -> String {
 
 /// Writes the checkpoints of one run.
 #[derive(Debug)]
-pub struct Saver {
+pub struct CheckpointWriter {
     folder: PathBuf,
     every_updates: u64,
     keep: usize,
 }
 
-impl Saver {
+impl CheckpointWriter {
     /// Writes into the run's folder; every so many updates a numbered one, of which the last `keep` stay.
     pub fn new(folder: &RunFolder, every_updates: u64, keep: usize) -> Self {
         Self { folder: folder.checkpoints(), every_updates, keep }

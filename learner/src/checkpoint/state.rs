@@ -7,12 +7,12 @@ use treadmill_common::{
     policy::{NetworkShape, init},
     seeds::{self, Stream},
 };
+use treadmill_ppo::optimiser::OptimiserState;
 use treadmill_proto::{ActorState, PolicyBundle, Task, limits::BUNDLE_BYTES_MAX};
 
 use crate::{
-    episodes::EpisodeWindow,
-    intake::{Ledger, Lineage, Tally},
-    optimiser::OptimiserState,
+    intake::{FragmentCounts, Ledger, Lineage},
+    metrics::episodes::EpisodeWindow,
 };
 
 /// Everything a run is. A field that is added or removed raises [`super::encoding::FORMAT`].
@@ -43,7 +43,7 @@ pub struct TrainingState {
     /// Which fragments were dealt with.
     pub ledger: Ledger,
     /// Counts of fragments by outcome.
-    pub tally: Tally,
+    pub fragment_counts: FragmentCounts,
     /// The last finished episodes.
     pub episodes: EpisodeWindow,
     /// Counters of the run.
@@ -101,7 +101,7 @@ impl TrainingState {
             value_moments: RunningMoments::new(1),
             shuffle: seeds::stream(seed, "shuffle", &[]),
             ledger: Ledger::default(),
-            tally: Tally::default(),
+            fragment_counts: FragmentCounts::default(),
             episodes: EpisodeWindow::default(),
             counters: Counters::default(),
             best_return: None,

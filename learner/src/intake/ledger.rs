@@ -12,22 +12,22 @@ const AHEAD_MAX: usize = 65_536;
 /// The same over all processes: then the widest gap is given up. Every checkpoint holds them.
 const AHEAD_TOTAL_MAX: usize = 4 * AHEAD_MAX;
 
-/// Rules by which a sound fragment is dropped.
+/// Rules by which a well-formed fragment is dropped.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub enum Rule {
+pub enum DropRule {
     /// Its policy is further back than is allowed.
     TooOld,
     /// Its policy is none of this learner's ancestors.
     Vanished,
 }
 
-/// What became of a fragment.
+/// Outcome of a fragment that was dealt with.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Fate {
-    /// Taken.
+pub enum LedgerEntry {
+    /// Accepted.
     Accepted,
     /// Dropped.
-    Dropped(Rule),
+    Dropped(DropRule),
 }
 
 /// What became of the fragments of one actor process, or of several.
@@ -49,11 +49,11 @@ pub struct Account {
 }
 
 impl Account {
-    fn note(&mut self, fate: Fate, env_steps: u64) {
-        let (count, steps) = match fate {
-            Fate::Accepted => (&mut self.accepted, &mut self.env_steps),
-            Fate::Dropped(Rule::TooOld) => (&mut self.too_old, &mut self.env_steps_dropped),
-            Fate::Dropped(Rule::Vanished) => (&mut self.vanished, &mut self.env_steps_dropped),
+    fn note(&mut self, entry: LedgerEntry, env_steps: u64) {
+        let (count, steps) = match entry {
+            LedgerEntry::Accepted => (&mut self.accepted, &mut self.env_steps),
+            LedgerEntry::Dropped(DropRule::TooOld) => (&mut self.too_old, &mut self.env_steps_dropped),
+            LedgerEntry::Dropped(DropRule::Vanished) => (&mut self.vanished, &mut self.env_steps_dropped),
         };
         *count += 1;
         *steps += env_steps;
@@ -71,7 +71,7 @@ impl Account {
 
 /// One actor process, as the ledger knows it.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Process {
+pub struct ActorProcess {
     /// The actor's name.
     pub actor: String,
     /// Which of its processes.
@@ -103,7 +103,7 @@ struct Watermark {
     /// Numbers beyond a gap that were dealt with.
     ahead: BTreeSet<u64>,
     /// Numbers that were dropped by rule and may be sent again.
-    dropped: BTreeMap<u64, Rule>,
+    dropped: BTreeMap<u64, DropRule>,
     /// What `through` was when the last checkpoint was written.
     durable_through: u64,
     last_seen: u64,
@@ -140,23 +140,23 @@ impl Ledger {
     }
 
     /// What became of this fragment, if it was dealt with before.
-    pub fn fate(&self, actor: &str, incarnation: u64, sequence: u64) -> Option<Fate> {
+    pub fn entry(&self, actor: &str, incarnation: u64, sequence: u64) -> Option<LedgerEntry> {
         let mark = self.processes.get(&(actor.to_string(), incarnation))?;
-        let was_dropped = mark.dropped.get(&sequence).map(|rule| Fate::Dropped(*rule));
+        let was_dropped = mark.dropped.get(&sequence).map(|rule| LedgerEntry::Dropped(*rule));
         let is_known = sequence <= mark.through || mark.ahead.contains(&sequence);
-        was_dropped.or(is_known.then_some(Fate::Accepted))
+        was_dropped.or(is_known.then_some(LedgerEntry::Accepted))
     }
 
     /// Notes that a fragment of so many environment steps was dealt with.
-    pub fn insert(&mut self, actor: &str, incarnation: u64, sequence: u64, fate: Fate, env_steps: u64) {
+    pub fn insert(&mut self, actor: &str, incarnation: u64, sequence: u64, entry: LedgerEntry, env_steps: u64) {
         self.clock += 1;
         let mark = self.processes.entry((actor.to_string(), incarnation)).or_default();
         mark.last_seen = self.clock;
-        mark.account.note(fate, env_steps);
+        mark.account.note(entry, env_steps);
         if sequence > mark.through {
             mark.ahead.insert(sequence);
         }
-        if let Fate::Dropped(rule) = fate {
+        if let LedgerEntry::Dropped(rule) = entry {
             mark.dropped.insert(sequence, rule);
         }
         mark.close_gap();
@@ -223,10 +223,10 @@ impl Ledger {
     }
 
     /// Every process that is remembered.
-    pub fn processes(&self) -> impl Iterator<Item = Process> {
+    pub fn processes(&self) -> impl Iterator<Item = ActorProcess> {
         self.processes.iter().map(|((actor, incarnation), mark)| {
             let newest = mark.ahead.last().copied().unwrap_or(mark.through);
-            Process {
+            ActorProcess {
                 actor: actor.clone(),
                 incarnation: *incarnation,
                 through: mark.through,
@@ -245,11 +245,11 @@ mod tests {
 
     impl Ledger {
         fn take(&mut self, actor: &str, incarnation: u64, sequence: u64) {
-            self.insert(actor, incarnation, sequence, Fate::Accepted, 8);
+            self.insert(actor, incarnation, sequence, LedgerEntry::Accepted, 8);
         }
 
         fn contains(&self, actor: &str, incarnation: u64, sequence: u64) -> bool {
-            self.fate(actor, incarnation, sequence).is_some()
+            self.entry(actor, incarnation, sequence).is_some()
         }
     }
 
@@ -283,13 +283,13 @@ mod tests {
     fn a_drop_is_remembered_as_one_until_the_sender_has_settled_it() {
         let mut ledger = Ledger::default();
         ledger.take("a", 1, 1);
-        ledger.insert("a", 1, 2, Fate::Dropped(Rule::Vanished), 8);
-        ledger.insert("a", 1, 3, Fate::Dropped(Rule::TooOld), 8);
-        assert_eq!(ledger.fate("a", 1, 1), Some(Fate::Accepted));
-        assert_eq!(ledger.fate("a", 1, 2), Some(Fate::Dropped(Rule::Vanished)));
-        assert_eq!(ledger.fate("a", 1, 4), None);
+        ledger.insert("a", 1, 2, LedgerEntry::Dropped(DropRule::Vanished), 8);
+        ledger.insert("a", 1, 3, LedgerEntry::Dropped(DropRule::TooOld), 8);
+        assert_eq!(ledger.entry("a", 1, 1), Some(LedgerEntry::Accepted));
+        assert_eq!(ledger.entry("a", 1, 2), Some(LedgerEntry::Dropped(DropRule::Vanished)));
+        assert_eq!(ledger.entry("a", 1, 4), None);
         ledger.settle("a", 1, 2);
-        assert_eq!(ledger.fate("a", 1, 3), Some(Fate::Dropped(Rule::TooOld)));
+        assert_eq!(ledger.entry("a", 1, 3), Some(LedgerEntry::Dropped(DropRule::TooOld)));
         assert_eq!(ledger.processes[&("a".to_string(), 1)].dropped.len(), 1, "only what may come again");
     }
 
@@ -297,7 +297,7 @@ mod tests {
     fn every_number_is_accounted_for() {
         let mut ledger = Ledger::default();
         ledger.take("a", 1, 1);
-        ledger.insert("a", 1, 2, Fate::Dropped(Rule::TooOld), 8);
+        ledger.insert("a", 1, 2, LedgerEntry::Dropped(DropRule::TooOld), 8);
         ledger.take("a", 1, 5);
         ledger.take("a", 1, 9);
         let process = ledger.processes().next().unwrap();

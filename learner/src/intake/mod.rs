@@ -1,124 +1,135 @@
-//! Fragments from the bus: judged, answered, gathered into a batch.
+//! Fragments from the bus: validated, answered, collected into a batch.
 //!
-//! A receipt is the sender's credit. Where a batch is to be of the newest policy alone ([`LearnerMode::Sync`]), receipts
-//! are held back until the batch is learnt from and the next policy is out, so that the sender goes on with the newest.
-//! The learner never waits for one particular actor: once everybody has delivered, or patience with the missing ones ran
-//! out, the receipts go out and the others fill the batch. Where older policies may take part ([`LearnerMode::Async`]),
-//! a fragment is answered as soon as it is taken.
+//! A receipt is the sender's credit. Where a batch is to be of the newest policy alone ([`LearnerMode::Sync`]), the
+//! learner owes receipts until it has learnt from the batch and published the next policy, so that senders continue with
+//! the newest. It never waits for one particular actor: once every actor has delivered, or the stragglers' time is up, it
+//! sends the receipts and the other actors fill the batch. Where older policies may take part ([`LearnerMode::Async`]), a
+//! fragment is answered as soon as it is accepted.
+//!
+//! # Layout
+//! - Here: [`Intake`], which collects batches.
+//! - `source`: [`FragmentSource`], where fragments come from.
+//! - `validator`: [`FragmentValidator`], which accepts or rejects a fragment.
+//! - `ledger`: [`Ledger`], which fragments of every actor process were dealt with.
+//! - [`ledger_report`]: the ledger as a file.
+//! - `lineage`: [`Lineage`], which policy versions this learner descends from.
+//! - `straggler`: how long the other actors wait for a straggler.
 
-mod judge;
 mod ledger;
+pub mod ledger_report;
 mod lineage;
-mod mailbox;
-mod patience;
+mod source;
+mod straggler;
+mod validator;
 
 use std::{collections::BTreeSet, time::Duration};
 
 use treadmill_common::{config::LearnerMode, shutdown::Shutdown};
+use treadmill_ppo::AcceptedFragment;
 use treadmill_proto::{Outcome, Receipt};
 
-pub use judge::{Accepted, Expected, Judge, Tally};
-pub use ledger::{Account, Fate, Ledger, Process, Rule};
+pub use ledger::{Account, ActorProcess, DropRule, Ledger, LedgerEntry};
 pub use lineage::{Descent, Lineage};
-pub use mailbox::{BusMailbox, Letter, Mailbox};
-use patience::Patience;
+pub use source::{BusFragmentSource, FragmentMessage, FragmentSource};
+use straggler::StragglerPolicy;
+pub use validator::{ExpectedFragment, FragmentCounts, FragmentValidator};
 
-/// How often the wait for a fragment looks up.
+/// Longest wait for a fragment between two checks for shutdown and interruption.
 const TICK: Duration = Duration::from_millis(20);
 
-/// Gathers batches.
-pub struct Intake<M: Mailbox> {
-    mailbox: M,
+/// Collects batches.
+pub struct Intake<S: FragmentSource> {
+    source: S,
     mode: LearnerMode,
-    judge: Judge,
-    patience: Patience,
-    held: Vec<Held<M::Letter>>,
-    /// Came when a batch was full already.
-    waiting: Option<M::Letter>,
-    /// What the next batch has so far, and the transitions in it.
-    gathered: Vec<Accepted>,
+    validator: FragmentValidator,
+    stragglers: StragglerPolicy,
+    owed: Vec<OwedReceipt<S::Message>>,
+    /// Fragment that came when a batch was full already.
+    queued: Option<S::Message>,
+    /// Fragments of the next batch so far, and their transitions.
+    accepted: Vec<AcceptedFragment>,
     transitions: usize,
-    /// Who was there when somebody last looked.
+    /// Actors that were alive at the last poll.
     present: BTreeSet<String>,
 }
 
-/// How gathering came to an end.
+/// How collecting ended.
 #[derive(Debug)]
 pub enum Collected {
     /// There is a batch.
-    Batch(Gathered),
-    /// Something else is to be done first.
+    Batch(CollectedBatch),
+    /// The caller interrupted it.
     Interrupted,
-    /// Somebody asked to stop.
+    /// Shutdown was requested.
     Stopped,
 }
 
-/// A fragment that was taken and whose receipt is still owed.
-struct Held<L> {
-    letter: L,
+/// Accepted fragment whose receipt is still owed.
+struct OwedReceipt<M> {
+    message: M,
     incarnation: u64,
 }
 
-/// How much a batch is to have.
+/// Size of a batch.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Wanted {
-    /// Transitions that are waited for.
+pub struct BatchSize {
+    /// Transitions that the intake waits for.
     pub transitions: usize,
-    /// Transitions that are taken as long as nobody has to be waited for.
+    /// Transitions that it takes while fragments are queued, without waiting.
     pub transitions_max: usize,
 }
 
-/// What an update is to learn from.
+/// Fragments of one update.
 #[derive(Debug)]
-pub struct Gathered {
-    /// Whole fragments, ordered by sender and sequence number, so that what is learnt does not depend on who came first.
-    pub fragments: Vec<Accepted>,
-    /// Whether more of them waited than the batch takes.
-    pub more_waited: bool,
+pub struct CollectedBatch {
+    /// Whole fragments, ordered by sender and sequence number, so that the result does not depend on their arrival order.
+    pub fragments: Vec<AcceptedFragment>,
+    /// Whether more fragments are queued than the batch takes.
+    pub has_backlog: bool,
 }
 
-impl<M: Mailbox> Intake<M> {
-    /// An intake that takes its fragments from `mailbox`.
-    pub fn new(mailbox: M, mode: LearnerMode, judge: Judge) -> Self {
-        let patience = Patience::new(mailbox.now());
+impl<S: FragmentSource> Intake<S> {
+    /// Intake that takes its fragments from `source`.
+    pub fn new(source: S, mode: LearnerMode, validator: FragmentValidator) -> Self {
+        let stragglers = StragglerPolicy::new(source.now());
         Self {
-            mailbox,
+            source,
             mode,
-            judge,
-            patience,
-            held: Vec::new(),
-            waiting: None,
-            gathered: Vec::new(),
+            validator,
+            stragglers,
+            owed: Vec::new(),
+            queued: None,
+            accepted: Vec::new(),
             transitions: 0,
             present: BTreeSet::new(),
         }
     }
 
-    /// What was dealt with, and the counts.
-    pub fn judge(&self) -> &Judge {
-        &self.judge
+    /// The validator, with its ledger and counts.
+    pub fn validator(&self) -> &FragmentValidator {
+        &self.validator
     }
 
-    /// Takes what was refused before it was read into the counts.
+    /// Adds fragments that were rejected unread to the counts.
     pub fn count_unread(&mut self) {
-        self.judge.count_unread();
+        self.validator.count_unread();
     }
 
-    /// Who is alive.
+    /// Names of the actors that are alive.
     pub fn alive(&self) -> BTreeSet<String> {
-        self.mailbox.actors()
+        self.source.actors()
     }
 
-    /// Gathers whole fragments until there are as many transitions as wanted, or somebody asked to stop, or `interrupt` says
-    /// so. What was gathered until an interruption is kept, and the next call goes on with it.
+    /// Collects whole fragments until there are as many transitions as `size` asks for, or shutdown is requested, or
+    /// `interrupt` returns true. After an interruption, the next call continues with the fragments collected so far.
     pub fn collect(
         &mut self,
-        wanted: Wanted,
+        size: BatchSize,
         lineage: &Lineage,
         shutdown: &Shutdown,
         mut interrupt: impl FnMut() -> bool,
     ) -> Collected {
-        while self.transitions < wanted.transitions {
+        while self.transitions < size.transitions {
             if shutdown.asked() {
                 return Collected::Stopped;
             }
@@ -126,39 +137,39 @@ impl<M: Mailbox> Intake<M> {
                 return Collected::Interrupted;
             }
             if let Some(accepted) = self.next(TICK, lineage) {
-                self.patience.delivered(&accepted.fragment.actor, self.mailbox.now());
+                self.stragglers.delivered(&accepted.fragment.actor, self.source.now());
                 self.add(accepted);
             }
-            let present = self.look_who_is_there();
-            if self.transitions < wanted.transitions && self.patience.is_over(&present, self.mailbox.now()) {
-                self.answer_held(lineage);
+            let present = self.poll_actors();
+            if self.transitions < size.transitions && self.stragglers.is_over(&present, self.source.now()) {
+                self.send_owed_receipts(lineage);
             }
         }
-        while self.transitions < wanted.transitions_max
+        while self.transitions < size.transitions_max
             && let Some(accepted) = self.next(Duration::ZERO, lineage)
         {
             self.add(accepted);
         }
-        if self.waiting.is_none() {
-            self.waiting = self.mailbox.next(Duration::ZERO);
+        if self.queued.is_none() {
+            self.queued = self.source.next(Duration::ZERO);
         }
         self.transitions = 0;
-        let mut fragments = std::mem::take(&mut self.gathered);
+        let mut fragments = std::mem::take(&mut self.accepted);
         fragments.sort_by(|a, b| {
-            let key = |accepted: &Accepted| (accepted.fragment.actor_incarnation, accepted.fragment.sequence);
+            let key = |accepted: &AcceptedFragment| (accepted.fragment.actor_incarnation, accepted.fragment.sequence);
             a.fragment.actor.cmp(&b.fragment.actor).then_with(|| key(a).cmp(&key(b)))
         });
-        Collected::Batch(Gathered { fragments, more_waited: self.waiting.is_some() })
+        Collected::Batch(CollectedBatch { fragments, has_backlog: self.queued.is_some() })
     }
 
-    fn add(&mut self, accepted: Accepted) {
+    fn add(&mut self, accepted: AcceptedFragment) {
         self.transitions += accepted.fragment.transitions();
-        self.gathered.push(accepted);
+        self.accepted.push(accepted);
     }
 
-    /// Names of the actors that are alive; who came or went is told.
-    fn look_who_is_there(&mut self) -> BTreeSet<String> {
-        let present = self.mailbox.actors();
+    /// Returns the names of the actors that are alive; logs those that came or went.
+    fn poll_actors(&mut self) -> BTreeSet<String> {
+        let present = self.source.actors();
         if present != self.present {
             present.difference(&self.present).for_each(|actor| tracing::info!("`{actor}` is there"));
             self.present.difference(&present).for_each(|actor| tracing::info!("`{actor}` is gone"));
@@ -167,45 +178,46 @@ impl<M: Mailbox> Intake<M> {
         present
     }
 
-    fn next(&mut self, patience: Duration, lineage: &Lineage) -> Option<Accepted> {
-        let letter = match self.waiting.take() {
-            Some(letter) => letter,
-            None => self.mailbox.next(patience)?,
+    fn next(&mut self, timeout: Duration, lineage: &Lineage) -> Option<AcceptedFragment> {
+        let message = match self.queued.take() {
+            Some(message) => message,
+            None => self.source.next(timeout)?,
         };
-        self.take(letter, lineage)
+        self.receive(message, lineage)
     }
 
-    fn take(&mut self, mut letter: M::Letter, lineage: &Lineage) -> Option<Accepted> {
-        let arrival = letter.take()?;
-        let now = self.mailbox.now();
-        match self.judge.judge(letter.actor(), arrival, lineage, now) {
+    /// Validates one fragment; answers it at once if it is rejected, or accepted in asynchronous mode.
+    fn receive(&mut self, mut message: S::Message, lineage: &Lineage) -> Option<AcceptedFragment> {
+        let received = message.take()?;
+        let now = self.source.now();
+        match self.validator.validate(message.actor(), received, lineage, now) {
             Ok(accepted) => {
-                self.mailbox.copy(&mut letter);
-                let held = Held { letter, incarnation: accepted.fragment.actor_incarnation };
+                self.source.copy(&mut message);
+                let owed = OwedReceipt { message, incarnation: accepted.fragment.actor_incarnation };
                 match self.mode {
-                    LearnerMode::Sync => self.held.push(held),
-                    LearnerMode::Async => self.answer(held, lineage),
+                    LearnerMode::Sync => self.owed.push(owed),
+                    LearnerMode::Async => self.answer(owed, lineage),
                 }
                 Some(accepted)
             }
             Err(receipt) => {
-                letter.answer(&receipt);
+                message.answer(&receipt);
                 None
             }
         }
     }
 
-    /// Answers every fragment that was taken: its sender may go on, with the newest policy.
-    pub fn answer_held(&mut self, lineage: &Lineage) {
-        for held in std::mem::take(&mut self.held) {
-            self.answer(held, lineage);
+    /// Sends every receipt that is owed: the senders continue, with the newest policy.
+    pub fn send_owed_receipts(&mut self, lineage: &Lineage) {
+        for owed in std::mem::take(&mut self.owed) {
+            self.answer(owed, lineage);
         }
-        self.patience.begin(self.mailbox.now());
+        self.stragglers.begin(self.source.now());
     }
 
-    fn answer(&self, Held { letter, incarnation }: Held<M::Letter>, lineage: &Lineage) {
-        let durable_through = self.judge.ledger.durable_through(letter.actor(), incarnation);
-        letter.answer(&Receipt {
+    fn answer(&self, OwedReceipt { message, incarnation }: OwedReceipt<S::Message>, lineage: &Lineage) {
+        let durable_through = self.validator.ledger.durable_through(message.actor(), incarnation);
+        message.answer(&Receipt {
             outcome: Outcome::Accepted,
             reason: String::new(),
             version: lineage.newest(),
@@ -213,19 +225,19 @@ impl<M: Mailbox> Intake<M> {
         });
     }
 
-    /// Notes that everything taken so far is part of a checkpoint on disk.
+    /// Notes that a checkpoint on disk holds everything accepted so far.
     pub fn mark_durable(&mut self) {
-        self.judge.ledger.mark_durable();
+        self.validator.ledger.mark_durable();
     }
 
-    /// Tells everybody who waits that the learner stops: what they sent is not part of any checkpoint, so they keep it
-    /// for a successor.
+    /// Answers every waiting sender that the learner stops. No checkpoint holds those fragments, so the senders keep them
+    /// for the next learner.
     pub fn stop(&mut self, lineage: &Lineage) {
-        let held = std::mem::take(&mut self.held).into_iter().map(|held| held.letter);
-        let mut letters: Vec<M::Letter> = held.chain(self.waiting.take()).collect();
-        letters.extend(std::iter::from_fn(|| self.mailbox.next(Duration::ZERO)));
-        for letter in letters {
-            letter.answer(&Receipt {
+        let owed = std::mem::take(&mut self.owed).into_iter().map(|owed| owed.message);
+        let mut messages: Vec<S::Message> = owed.chain(self.queued.take()).collect();
+        messages.extend(std::iter::from_fn(|| self.source.next(Duration::ZERO)));
+        for message in messages {
+            message.answer(&Receipt {
                 outcome: Outcome::Stopping,
                 reason: "the learner is stopping".to_string(),
                 version: lineage.newest(),

@@ -1,21 +1,20 @@
-//! What the training thread does when it is told to.
+//! Applies control commands, and publishes the run's status.
 
 use std::time::Duration;
 
 use treadmill_common::{
-    config::{self, ConfigSource},
+    config::{self, ConfigSource, LearnerConfig},
     machine,
-    shutdown::Shutdown,
 };
 use treadmill_proto::{Command, ControlRequest, Phase, RunStatus};
 
-use super::Trainer;
-use crate::{checkpoint::TrainingState, pace::Pace};
+use super::{Trainer, load_adaptation::LoadAdaptation};
+use crate::checkpoint::TrainingState;
 
-/// How often a paused learner looks whether it is to stop.
+/// Longest wait of a paused learner between two checks for shutdown.
 const TICK: Duration = Duration::from_millis(50);
-/// Status is told anew at least this often, also while no update comes to an end.
-pub(super) const TELL_EVERY: Duration = Duration::from_secs(1);
+/// Status is published at least this often, also during a long update or wait.
+pub(super) const STATUS_EVERY: Duration = Duration::from_secs(1);
 
 /// Keys that may change while a run goes on, beside all of `[ppo]` but those below: no actor depends on them.
 const CHANGEABLE: &[&str] = &[
@@ -34,7 +33,7 @@ pub fn is_changeable(key: &str) -> bool {
     CHANGEABLE.contains(&key) || key.starts_with("ppo.") && !FIXED.contains(&key)
 }
 
-/// What is told of a run before its first update.
+/// Status of a run before its first update.
 pub(super) fn first_status(state: &TrainingState, env_steps_wanted: u64) -> RunStatus {
     RunStatus {
         run: state.run.clone(),
@@ -49,46 +48,46 @@ pub(super) fn first_status(state: &TrainingState, env_steps_wanted: u64) -> RunS
 }
 
 impl Trainer {
-    /// Heeds every command that waits; while paused, waits for more.
-    pub(super) fn heed_commands(&mut self, shutdown: &Shutdown) {
-        while !shutdown.asked() {
-            self.pulse.beat();
-            let patience = if self.paused { TICK } else { Duration::ZERO };
-            let Some(inquiry) = self.control.next(patience) else {
-                if self.paused {
-                    self.tell_if_due(shutdown);
+    /// Applies every queued command; while paused, waits for more.
+    pub(super) fn apply_commands(&mut self) {
+        while !self.shutdown.asked() {
+            self.serving.heartbeat.beat();
+            let timeout = if self.serving.paused { TICK } else { Duration::ZERO };
+            let Some(inquiry) = self.serving.control.next(timeout) else {
+                if self.serving.paused {
+                    self.publish_status_if_due();
                     continue;
                 }
                 break;
             };
-            let outcome = self.obey(&inquiry.request, shutdown);
+            let outcome = self.apply(&inquiry.request);
             if let Ok(text) = &outcome {
                 tracing::info!("on request: {text}");
             }
-            self.tell(shutdown, false);
-            self.control.answer(inquiry, outcome);
+            self.publish_status(false);
+            self.serving.control.answer(inquiry, outcome);
         }
     }
 
-    fn obey(&mut self, request: &ControlRequest, shutdown: &Shutdown) -> Result<String, String> {
+    fn apply(&mut self, request: &ControlRequest) -> Result<String, String> {
         let (updates, env_steps) = (self.state.counters.updates, self.state.counters.env_steps);
         match request.command() {
-            Command::Pause if self.paused => Ok(format!("it is paused already, after update {updates}")),
+            Command::Pause if self.serving.paused => Ok(format!("it is paused already, after update {updates}")),
             Command::Pause => {
-                self.paused = true;
+                self.serving.paused = true;
                 Ok(format!("paused after update {updates} ({env_steps} env steps); actors keep what they have"))
             }
-            Command::Resume if !self.paused => Ok("it is not paused".to_string()),
+            Command::Resume if !self.serving.paused => Ok("it is not paused".to_string()),
             Command::Resume => {
-                self.paused = false;
+                self.serving.paused = false;
                 Ok(format!("going on after update {updates} ({env_steps} env steps)"))
             }
             Command::Checkpoint => {
-                let path = self.saver.keep_newest(updates).map_err(|why| why.to_string())?;
+                let path = self.serving.checkpoints.keep_newest(updates).map_err(|why| why.to_string())?;
                 Ok(format!("the state after update {updates} ({env_steps} env steps) is kept as {}", path.display()))
             }
             Command::Stop => {
-                shutdown.ask();
+                self.shutdown.ask();
                 Ok(format!("stopping; saved after update {updates} ({env_steps} env steps)"))
             }
             Command::Set => self.set(&request.key, &request.value),
@@ -96,7 +95,7 @@ impl Trainer {
         }
     }
 
-    /// Changes one key, and all that is made from it.
+    /// Changes one key, and every part that depends on it.
     fn set(&mut self, key: &str, value: &str) -> Result<String, String> {
         let mut source = ConfigSource::default();
         let source_of = "the configuration of the run";
@@ -114,7 +113,7 @@ impl Trainer {
                 FIXED.join(", ")
             ));
         }
-        if self.trial.is_none() && changed.evaluates() {
+        if self.serving.evaluation.is_none() && changed.evaluates() {
             return Err(
                 "`eval.every_steps` cannot be set where the run began without evaluation; resume it with the value \
                         you want"
@@ -123,16 +122,17 @@ impl Trainer {
         }
         let before = self.config.value_of(key);
         if key == "ppo.learning_rate" {
-            // What adaptation has made of it gives way, too.
-            self.updater.set_learning_rate(changed.ppo.learning_rate);
+            // This replaces the adapted rate, too.
+            self.learning.updater.set_learning_rate(changed.ppo.learning_rate);
         }
-        self.updater.set_config(&changed.ppo);
-        self.pace = Pace::new(&changed);
-        self.saver.set_rule(changed.learner.checkpoint_every_updates.into(), changed.learner.keep_checkpoints as usize);
-        self.report.set_table_every(changed.learner.table_every_updates.into());
-        self.report.set_steps(changed.run.steps);
-        if let Some(trial) = &mut self.trial {
-            trial.set_every(changed.eval.every_steps, self.state.counters.env_steps);
+        self.learning.updater.set_config(&changed.ppo);
+        self.learning.load = LoadAdaptation::new(&changed);
+        let LearnerConfig { checkpoint_every_updates, keep_checkpoints, .. } = changed.learner;
+        self.serving.checkpoints.set_rule(checkpoint_every_updates.into(), keep_checkpoints as usize);
+        self.reporting.report.set_table_every(changed.learner.table_every_updates.into());
+        self.reporting.report.set_steps(changed.run.steps);
+        if let Some(evaluation) = &mut self.serving.evaluation {
+            evaluation.set_every(changed.eval.every_steps, self.state.counters.env_steps);
         }
         self.state.config_toml = changed.to_toml();
         self.config = changed;
@@ -141,18 +141,18 @@ impl Trainer {
         Ok(format!("{key} is {after}, was {before}, from update {from} on"))
     }
 
-    /// Tells anew how it goes where that was not done for a while.
-    pub(super) fn tell_if_due(&mut self, shutdown: &Shutdown) {
-        if self.control.since_told() >= TELL_EVERY {
-            self.tell(shutdown, false);
+    /// Publishes the status if the last time is [`STATUS_EVERY`] ago.
+    pub(super) fn publish_status_if_due(&mut self) {
+        if self.serving.control.since_status() >= STATUS_EVERY {
+            self.publish_status(false);
         }
     }
 
-    /// Tells how it goes; `is_update` right after an update.
-    pub(super) fn tell(&mut self, shutdown: &Shutdown, is_update: bool) {
-        let (state, judge) = (&self.state, self.intake.judge());
-        let (means, tally) = (state.episodes.means(), judge.tally);
-        let phase = match (shutdown.asked(), self.paused) {
+    /// Publishes the status; `is_update` right after an update.
+    pub(super) fn publish_status(&mut self, is_update: bool) {
+        let (state, validator) = (&self.state, self.serving.intake.validator());
+        let (means, counts) = (state.episodes.means(), validator.counts);
+        let phase = match (self.shutdown.asked(), self.serving.paused) {
             (true, _) => Phase::Stopping,
             (false, true) => Phase::Paused,
             (false, false) => Phase::Training,
@@ -162,23 +162,23 @@ impl Trainer {
             env_steps: state.counters.env_steps,
             updates: state.counters.updates,
             wall_s: state.counters.wall_s,
-            env_steps_per_s: self.env_steps_per_s,
+            env_steps_per_s: self.reporting.env_steps_per_s,
             return_mean: means.map(|means| means.return_mean),
             length_mean: means.map(|means| means.length_mean),
             distance_mean_m: means.map(|means| means.distance_mean_m),
             velocity_mean_mps: means.map(|means| means.velocity_mean_mps),
-            policy_lag_mean: self.lag_mean,
+            policy_lag_mean: self.reporting.lag_mean,
             resident_bytes: machine::resident_bytes(),
-            accepted: tally.accepted,
-            accepted_bytes: judge.accepted_bytes(),
-            duplicate: tally.duplicate,
-            too_old: tally.too_old,
-            vanished: tally.vanished,
-            malformed: tally.malformed,
-            quarantined: tally.quarantined,
+            accepted: counts.accepted,
+            accepted_bytes: validator.accepted_bytes(),
+            duplicate: counts.duplicate,
+            too_old: counts.too_old,
+            vanished: counts.vanished,
+            malformed: counts.malformed,
+            quarantined: counts.quarantined,
             ..first_status(state, self.config.run.steps)
         };
-        let quarantined = judge.quarantined(std::time::Instant::now());
-        self.control.tell(status, quarantined, is_update);
+        let quarantined = validator.quarantined(std::time::Instant::now());
+        self.serving.control.set_status(status, quarantined, is_update);
     }
 }

@@ -3,8 +3,9 @@
 use std::io;
 
 use treadmill_common::bus::BusError;
+use treadmill_ppo::UpdateError;
 
-use crate::{checkpoint::CheckpointError, logging::CurveError, ppo::UpdateError};
+use crate::{checkpoint::CheckpointError, metrics::CurveError};
 
 /// Why training stopped early.
 #[derive(Debug, thiserror::Error)]

@@ -8,8 +8,10 @@ use std::{collections::BTreeSet, sync::Arc, time::Duration};
 use proptest::prelude::*;
 use rand::RngExt;
 use treadmill_common::{bus::gate::Gate, config::LearnerMode, seeds};
-use treadmill_learner::intake::{Collected, Expected, Intake, Judge, Ledger, Lineage, Tally, Wanted};
-use world::{MemoryMailbox, Setting, Shared, World};
+use treadmill_learner::intake::{
+    BatchSize, Collected, ExpectedFragment, FragmentCounts, FragmentValidator, Intake, Ledger, Lineage,
+};
+use world::{MemoryFragmentSource, Setting, Shared, World};
 
 /// Longer than this (of the fleet's time) an update never takes, whatever gets lost: many receipts in a row would have to.
 const STUCK: Duration = Duration::from_secs(3 * 3600);
@@ -20,7 +22,7 @@ struct Case {
     fleet: Setting,
     mode: LearnerMode,
     max_policy_lag: u64,
-    wanted: Wanted,
+    size: BatchSize,
     /// Rounds of a hundred in which the learner dies before it has saved.
     learner_deaths_percent: u32,
     actor_deaths_percent: u32,
@@ -34,14 +36,14 @@ type Name = (String, u64, u64);
 struct Saved {
     lineage: Lineage,
     ledger: Ledger,
-    tally: Tally,
+    counts: FragmentCounts,
     learnt: BTreeSet<Name>,
 }
 
 struct Learner {
     case: Case,
     world: Shared,
-    intake: Intake<MemoryMailbox>,
+    intake: Intake<MemoryFragmentSource>,
     lineage: Lineage,
     /// What the present weights are made of.
     learnt: BTreeSet<Name>,
@@ -56,7 +58,7 @@ impl Learner {
         let saved = Saved {
             lineage: lineage.clone(),
             ledger: Ledger::default(),
-            tally: Tally::default(),
+            counts: FragmentCounts::default(),
             learnt: BTreeSet::new(),
         };
         let intake = intake(case, &world, &saved);
@@ -69,26 +71,26 @@ impl Learner {
             world.patient_until = world.now + STUCK;
             world.out_of_patience.clone()
         };
-        // Every other look is interrupted: what was gathered until then must not be lost.
-        let (case, mut looks) = (self.case.wanted, 0);
-        let gathered = loop {
+        // Every other look is interrupted: what was batch until then must not be lost.
+        let (case, mut looks) = (self.case.size, 0);
+        let batch = loop {
             let interrupt = || {
                 looks += 1;
                 looks % 2 == 0
             };
             match self.intake.collect(case, &self.lineage, &shutdown, interrupt) {
-                Collected::Batch(gathered) => break Some(gathered),
+                Collected::Batch(batch) => break Some(batch),
                 Collected::Interrupted => {}
                 Collected::Stopped => break None,
             }
         };
-        let Some(gathered) = gathered else {
-            return Err(TestCaseError::fail(format!("nothing for {STUCK:?}: {:?}", self.intake.judge().tally)));
+        let Some(batch) = batch else {
+            return Err(TestCaseError::fail(format!("nothing for {STUCK:?}: {:?}", self.intake.validator().counts)));
         };
-        prop_assert!(gathered.fragments.len() >= self.case.wanted.transitions);
-        prop_assert!(gathered.fragments.len() <= self.case.wanted.transitions_max.max(self.case.wanted.transitions));
+        prop_assert!(batch.fragments.len() >= self.case.size.transitions);
+        prop_assert!(batch.fragments.len() <= self.case.size.transitions_max.max(self.case.size.transitions));
         let allowed = if self.case.mode == LearnerMode::Sync { 0 } else { self.case.max_policy_lag };
-        for accepted in &gathered.fragments {
+        for accepted in &batch.fragments {
             prop_assert!(accepted.lag <= allowed);
             let fragment = &accepted.fragment;
             let name = (fragment.actor.clone(), fragment.actor_incarnation, fragment.sequence);
@@ -100,13 +102,13 @@ impl Learner {
             return Ok(());
         }
         self.lineage.advance();
-        let mut ledger = self.intake.judge().ledger.clone();
+        let mut ledger = self.intake.validator().ledger.clone();
         ledger.mark_durable();
-        let tally = self.intake.judge().tally;
-        self.saved = Saved { lineage: self.lineage.clone(), ledger, tally, learnt: self.learnt.clone() };
+        let counts = self.intake.validator().counts;
+        self.saved = Saved { lineage: self.lineage.clone(), ledger, counts, learnt: self.learnt.clone() };
         self.intake.mark_durable();
         self.world.borrow_mut().announce(self.lineage.newest());
-        self.intake.answer_held(&self.lineage);
+        self.intake.send_owed_receipts(&self.lineage);
         Ok(())
     }
 
@@ -141,16 +143,16 @@ impl Learner {
     }
 }
 
-fn intake(case: &Case, world: &Shared, saved: &Saved) -> Intake<MemoryMailbox> {
-    let expected = Expected {
+fn intake(case: &Case, world: &Shared, saved: &Saved) -> Intake<MemoryFragmentSource> {
+    let expected = ExpectedFragment {
         run: "walk".into(),
         config_hash: 5,
         observation_size: 1,
         action_size: 1,
         max_policy_lag: if case.mode == LearnerMode::Sync { 0 } else { case.max_policy_lag },
     };
-    let judge = Judge::new(expected, Arc::new(Gate::new(8, 256)), saved.ledger.clone(), saved.tally);
-    Intake::new(MemoryMailbox(world.clone()), case.mode, judge)
+    let validator = FragmentValidator::new(expected, Arc::new(Gate::new(8, 256)), saved.ledger.clone(), saved.counts);
+    Intake::new(MemoryFragmentSource(world.clone()), case.mode, validator)
 }
 
 fn cases() -> impl Strategy<Value = Case> {
@@ -170,7 +172,7 @@ fn cases() -> impl Strategy<Value = Case> {
             fleet: Setting { seed, fragment_ms, in_flight, loss_percent, delay_ms },
             mode: if is_sync { LearnerMode::Sync } else { LearnerMode::Async },
             max_policy_lag,
-            wanted: Wanted { transitions, transitions_max: transitions + more },
+            size: BatchSize { transitions, transitions_max: transitions + more },
             learner_deaths_percent: deaths.0,
             actor_deaths_percent: deaths.1,
         }
@@ -196,12 +198,12 @@ proptest! {
 }
 
 /// Fragments that a fleet without failures has learnt from in a minute.
-fn learnt_in_a_minute(mode: LearnerMode, fragment_ms: &[u64], wanted: usize) -> f64 {
+fn learnt_in_a_minute(mode: LearnerMode, fragment_ms: &[u64], size: usize) -> f64 {
     let case = Case {
         fleet: Setting { seed: 1, fragment_ms: fragment_ms.to_vec(), in_flight: 1, loss_percent: 0, delay_ms: 4 },
         mode,
         max_policy_lag: 4,
-        wanted: Wanted { transitions: wanted, transitions_max: wanted },
+        size: BatchSize { transitions: size, transitions_max: size },
         learner_deaths_percent: 0,
         actor_deaths_percent: 0,
     };

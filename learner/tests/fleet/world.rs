@@ -3,7 +3,7 @@
 //! The learner's intake is the real one. Actors follow the protocol of the actor process: credit, fragments sent until
 //! they are dealt with, those taken kept until they are durable and sent again to a new learner.
 
-mod mailbox;
+mod source;
 
 use std::{
     cell::RefCell,
@@ -21,7 +21,7 @@ use treadmill_common::{
 };
 use treadmill_proto::{Fragment, Outcome, PolicyVersion, Receipt};
 
-pub use mailbox::{MemoryLetter, MemoryMailbox};
+pub use source::{MemoryFragmentSource, MemoryMessage};
 
 const RECEIPT_TIMEOUT: Duration = Duration::from_secs(60);
 const RETRY: Duration = Duration::from_millis(200);
@@ -98,7 +98,7 @@ pub struct World {
     counter: u64,
     random: Stream,
     pub actors: Vec<Actor>,
-    queue: VecDeque<MemoryLetter>,
+    queue: VecDeque<MemoryMessage>,
     /// What a learner dropped by rule, whether or not its receipt came through: (actor, incarnation, sequence).
     pub refused: BTreeSet<(String, u64, u64)>,
     /// Whether a learner listens.
@@ -229,9 +229,9 @@ impl World {
             }
             Event::Request { actor, incarnation, sequence, payload } if world.is_learner_up => {
                 let name = world.actors[actor].name.clone();
-                let world_of_letter = shared.clone();
-                world.queue.push_back(MemoryLetter {
-                    world: world_of_letter,
+                let world_of_message = shared.clone();
+                world.queue.push_back(MemoryMessage {
+                    world: world_of_message,
                     actor,
                     name,
                     incarnation,

@@ -11,7 +11,7 @@ use treadmill_common::{
     policy::{NetworkShape, gaussian, init::initial_parameters},
     seeds,
 };
-use treadmill_learner::ppo::{Batch, Updater};
+use treadmill_ppo::{Batch, Updater};
 
 use crate::launch::{exit_code::Usage, memory};
 

@@ -1,0 +1,203 @@
+//! What an update learns from, and how it is cut into minibatches.
+
+use std::ops::Range;
+
+use candle_core::{Device, Result, Tensor};
+use rand::{Rng, RngExt};
+use treadmill_common::policy::NetworkShape;
+
+use crate::{gae::Advantages, loss::Minibatch};
+
+/// `S` transitions, in any order.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Batch {
+    /// Normalised observations, `[S, observation]`.
+    pub observations: Vec<f32>,
+    /// Actions before clipping to their range, `[S, action]`.
+    pub actions: Vec<f32>,
+    /// Log-probabilities of the actions under the policy that ratios are taken to, `[S]`.
+    pub log_probs: Vec<f32>,
+    /// Factors on the normalised advantages, `[S]`: 1, or less where another policy acted.
+    pub weights: Vec<f32>,
+    /// Advantages as estimated, `[S]`; the update normalises them.
+    pub advantages: Vec<f32>,
+    /// Value targets, normalised, `[S]`.
+    pub returns: Vec<f32>,
+    /// Values before the update in the same units, `[S]`; only for the explained variance.
+    pub values: Vec<f32>,
+}
+
+impl Batch {
+    /// Transitions, `S`.
+    pub fn len(&self) -> usize {
+        self.returns.len()
+    }
+
+    /// Whether there are none.
+    pub fn is_empty(&self) -> bool {
+        self.returns.is_empty()
+    }
+
+    /// Appends value targets, values and advantages of one fragment.
+    pub(crate) fn extend_targets(&mut self, estimated: &Advantages, values: &[f32]) {
+        self.advantages.extend_from_slice(&estimated.advantages);
+        self.returns.extend_from_slice(&estimated.returns);
+        self.values.extend_from_slice(values);
+    }
+
+    /// The first field whose length does not fit, with the length it has and the one it should have.
+    pub(crate) fn misfit(&self, shape: &NetworkShape) -> Option<(&'static str, usize, usize)> {
+        let rows = self.len();
+        [
+            ("observations", self.observations.len(), rows * shape.observation),
+            ("actions", self.actions.len(), rows * shape.action),
+            ("log_probs", self.log_probs.len(), rows),
+            ("weights", self.weights.len(), rows),
+            ("advantages", self.advantages.len(), rows),
+            ("values", self.values.len(), rows),
+        ]
+        .into_iter()
+        .find(|(_, found, expected)| found != expected)
+    }
+
+    /// Observations, `[B, observation]`, and all else of the given rows, on a device. `advantages` are the normalised ones.
+    pub(crate) fn gather(
+        &self,
+        rows: &[u32],
+        advantages: &[f32],
+        shape: &NetworkShape,
+        device: &Device,
+    ) -> Result<(Tensor, Minibatch)> {
+        let pick = |plane: &[f32], width: usize| {
+            let mut picked = Vec::with_capacity(rows.len() * width);
+            for row in rows.iter().map(|r| *r as usize) {
+                picked.extend_from_slice(&plane[row * width..(row + 1) * width]);
+            }
+            picked
+        };
+        let matrix = |plane, width| Tensor::from_vec(pick(plane, width), (rows.len(), width), device);
+        let column = |plane| Tensor::from_vec(pick(plane, 1), rows.len(), device);
+        let minibatch = Minibatch {
+            actions: matrix(&self.actions, shape.action)?,
+            log_probs: column(&self.log_probs)?,
+            advantages: column(advantages)?,
+            returns: column(&self.returns)?,
+        };
+        Ok((matrix(&self.observations, shape.observation)?, minibatch))
+    }
+}
+
+/// Advantages with mean 0 and standard deviation 1 over the whole batch, times their weights.
+pub(crate) fn weighted(batch: &Batch) -> Vec<f32> {
+    let mut advantages = normalised(&batch.advantages);
+    advantages.iter_mut().zip(&batch.weights).for_each(|(advantage, weight)| *advantage *= weight);
+    advantages
+}
+
+/// Advantages with mean 0 and standard deviation 1; 1e-8 is added to the deviation.
+pub(crate) fn normalised(advantages: &[f32]) -> Vec<f32> {
+    let count = advantages.len() as f64;
+    let mean = advantages.iter().map(|a| f64::from(*a)).sum::<f64>() / count;
+    let variance = advantages.iter().map(|a| (f64::from(*a) - mean).powi(2)).sum::<f64>() / count;
+    let scale = 1.0 / (variance.sqrt() + 1e-8);
+    advantages.iter().map(|a| ((f64::from(*a) - mean) * scale) as f32).collect()
+}
+
+/// Cuts `rows` into as many minibatches as come closest to `size` rows each.
+///
+/// Every row is used; the sizes differ by at most one row and are below 1.5 · `size`.
+pub(crate) fn minibatches(rows: usize, size: usize) -> impl Iterator<Item = Range<usize>> {
+    let count = ((rows + size / 2) / size.max(1)).max(1);
+    (0..count).map(move |i| rows * i / count..rows * (i + 1) / count)
+}
+
+/// Shuffles in place: Durstenfeld 1964, algorithm 235 (Fisher–Yates).
+pub(crate) fn shuffle(order: &mut [u32], rng: &mut impl Rng) {
+    for i in (1..order.len()).rev() {
+        order.swap(i, rng.random_range(0..=i));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use rand_xoshiro::{Xoshiro256PlusPlus, rand_core::SeedableRng};
+
+    #[test]
+    fn every_row_is_in_one_minibatch_and_sizes_are_balanced() {
+        for (rows, size) in [(8192, 2048), (8200, 2048), (10, 4), (3, 4), (1, 100), (11, 4), (1000, 7), (5, 1)] {
+            let mut next = 0;
+            let mut sizes = Vec::new();
+            for range in minibatches(rows, size) {
+                assert_eq!(range.start, next);
+                next = range.end;
+                sizes.push(range.len());
+            }
+            assert_eq!(next, rows);
+            let (least, most) = (sizes.iter().min().expect("one"), sizes.iter().max().expect("one"));
+            assert!(most - least <= 1 && *most < size + size.div_ceil(2) + 1, "{rows} {size}: {sizes:?}");
+        }
+        assert_eq!(minibatches(8192, 2048).count(), 4);
+    }
+
+    #[test]
+    fn shuffling_keeps_every_row_and_follows_the_seed() {
+        let shuffled = |seed| {
+            let mut order: Vec<u32> = (0..100).collect();
+            shuffle(&mut order, &mut Xoshiro256PlusPlus::seed_from_u64(seed));
+            order
+        };
+        assert_eq!(shuffled(1), shuffled(1));
+        assert_ne!(shuffled(1), shuffled(2));
+        let mut sorted = shuffled(1);
+        sorted.sort_unstable();
+        assert_eq!(sorted, (0..100).collect::<Vec<_>>());
+    }
+
+    #[test]
+    fn shuffling_reaches_every_order_about_equally_often() {
+        let mut rng = Xoshiro256PlusPlus::seed_from_u64(5);
+        let mut counts = std::collections::BTreeMap::new();
+        for _ in 0..6000 {
+            let mut order = [0, 1, 2];
+            shuffle(&mut order, &mut rng);
+            *counts.entry(order).or_insert(0) += 1;
+        }
+        assert_eq!(counts.len(), 6);
+        assert!(counts.values().all(|c| (850..1150).contains(c)), "{counts:?}");
+    }
+
+    #[test]
+    fn advantages_are_normalised_by_hand() {
+        let result = normalised(&[1.0, 3.0, 5.0]);
+        let unit = (8.0_f32 / 3.0).sqrt();
+        for (a, e) in result.iter().zip([-2.0 / unit, 0.0, 2.0 / unit]) {
+            assert!((a - e).abs() < 1e-6);
+        }
+        assert_eq!(normalised(&[4.0, 4.0]), [0.0, 0.0]);
+    }
+
+    #[test]
+    fn gathered_rows_are_the_ones_asked_for() -> Result<()> {
+        let shape = NetworkShape { observation: 2, action: 1, hidden: vec![] };
+        let batch = Batch {
+            observations: vec![0.0, 1.0, 10.0, 11.0, 20.0, 21.0],
+            actions: vec![0.5, 1.5, 2.5],
+            log_probs: vec![-1.0, -2.0, -3.0],
+            weights: vec![1.0; 3],
+            advantages: vec![0.0; 3],
+            returns: vec![7.0, 8.0, 9.0],
+            values: vec![0.0; 3],
+        };
+        assert_eq!(batch.misfit(&shape), None);
+        let (observations, minibatch) = batch.gather(&[2, 0], &[4.0, 5.0, 6.0], &shape, &Device::Cpu)?;
+        assert_eq!(observations.to_vec2::<f32>()?, [[20.0, 21.0], [0.0, 1.0]]);
+        assert_eq!(minibatch.actions.to_vec2::<f32>()?, [[2.5], [0.5]]);
+        assert_eq!(minibatch.log_probs.to_vec1::<f32>()?, [-3.0, -1.0]);
+        assert_eq!(minibatch.advantages.to_vec1::<f32>()?, [6.0, 4.0]);
+        assert_eq!(minibatch.returns.to_vec1::<f32>()?, [9.0, 7.0]);
+        let short = Batch { actions: vec![0.5], ..batch };
+        assert_eq!(short.misfit(&shape), Some(("actions", 1, 3)));
+        Ok(())
+    }
+}

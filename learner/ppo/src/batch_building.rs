@@ -1,0 +1,211 @@
+//! Turns accepted fragments into the batch of one update: normalises observations, estimates returns and advantages, and
+//! corrects for fragments of older policies.
+//!
+//! All observations are normalised by the statistics of the newest policy, also those of a fragment that lags: networks
+//! and statistics together are the policy that the update improves.
+
+use treadmill_common::{
+    config::PpoConfig,
+    normaliser::{Normaliser, RunningMoments, ScalarNormaliser},
+    policy::{Policy, gaussian},
+};
+use treadmill_proto::{
+    Fragment,
+    fragment::{TERMINATED, TRUNCATED},
+};
+
+use crate::{
+    batch::Batch,
+    gae::{self, Advantages, Steps},
+    mirror::BatchMirror,
+};
+
+/// Fragment that the learner accepted, and its lag.
+#[derive(Debug)]
+pub struct AcceptedFragment {
+    /// The fragment.
+    pub fragment: Fragment,
+    /// Versions between its policy and the newest.
+    pub lag: u64,
+}
+
+/// Builds the batch of one update from whole fragments.
+///
+/// `policy` is the newest, which the update improves. `value_moments` take in the new returns before returns and values
+/// are normalised by them. With a `mirror`, the batch also has the mirror image of every transition.
+///
+/// # Errors
+/// If the networks cannot be evaluated.
+pub fn build_batch(
+    accepted: &[AcceptedFragment],
+    policy: &Policy,
+    normaliser: &Normaliser,
+    value_moments: &mut RunningMoments,
+    mirror: Option<&BatchMirror>,
+    config: &PpoConfig,
+) -> Result<Batch, candle_core::Error> {
+    // Before the first return, the units of returns are unknown, so the critic's output is not used.
+    let old_scale = (value_moments.count > 0.0).then(|| ScalarNormaliser::from_moments(value_moments));
+    let builder = BatchBuilder { policy, normaliser, value_scale: old_scale.as_ref(), config };
+    let mut batch = Batch::default();
+    for accepted in accepted {
+        builder.add(accepted, mirror, &mut batch)?;
+    }
+    value_moments.update(&batch.returns, 1);
+    let new_scale = ScalarNormaliser::from_moments(value_moments);
+    new_scale.normalise(&mut batch.returns);
+    new_scale.normalise(&mut batch.values);
+    Ok(batch)
+}
+
+/// Inputs that are the same for every fragment of a batch.
+struct BatchBuilder<'a> {
+    policy: &'a Policy,
+    normaliser: &'a Normaliser,
+    /// Units of returns before this batch, if known.
+    value_scale: Option<&'a ScalarNormaliser>,
+    config: &'a PpoConfig,
+}
+
+impl BatchBuilder<'_> {
+    /// Appends the transitions of one fragment, and with a mirror their mirror images.
+    fn add(
+        &self,
+        AcceptedFragment { fragment, lag }: &AcceptedFragment,
+        mirror: Option<&BatchMirror>,
+        batch: &mut Batch,
+    ) -> Result<(), candle_core::Error> {
+        let mut observations = fragment.observations.clone();
+        self.normaliser.apply(&mut observations);
+        let mut values = self.policy.values(&observations, fragment.transitions())?;
+        let next_values = next_values(fragment, self.policy, self.normaliser, &mut values, self.value_scale)?;
+        let correction = match lag {
+            0 => None,
+            _ => Some(Correction::of(self.policy, &observations, &fragment.actions, &fragment.log_probs)?),
+        };
+        let estimated = self.advantages(fragment, &values, &next_values);
+        batch.observations.append(&mut observations);
+        batch.actions.extend_from_slice(&fragment.actions);
+        match correction {
+            Some(Correction { weights, log_probs }) => {
+                batch.log_probs.extend(log_probs);
+                batch.weights.extend(weights);
+            }
+            None => {
+                batch.log_probs.extend_from_slice(&fragment.log_probs);
+                batch.weights.resize(batch.log_probs.len(), 1.0);
+            }
+        }
+        batch.extend_targets(&estimated, &values);
+        if let Some(mirror) = mirror {
+            self.add_mirror_image(fragment, mirror, batch)?;
+            batch.extend_targets(&estimated, &values);
+        }
+        Ok(())
+    }
+
+    /// Advantages and returns of one fragment, in units of scaled rewards.
+    fn advantages(&self, fragment: &Fragment, values: &[f32], next_values: &[f32]) -> Advantages {
+        let config = self.config;
+        let rewards: Vec<f32> = fragment.rewards.iter().map(|reward| reward * config.reward_scale as f32).collect();
+        let steps = Steps {
+            envs: fragment.envs as usize,
+            rewards: &rewards,
+            values,
+            next_values,
+            terminated: &flagged(fragment, TERMINATED),
+            truncated: &flagged(fragment, TRUNCATED),
+        };
+        gae::estimate(&steps, config.gamma as f32, config.gae_lambda as f32)
+    }
+
+    /// Appends observations, actions, log-probabilities and weights of the mirror image of a fragment.
+    fn add_mirror_image(
+        &self,
+        fragment: &Fragment,
+        mirror: &BatchMirror,
+        batch: &mut Batch,
+    ) -> Result<(), candle_core::Error> {
+        let mut observations = mirror.observation.apply(&fragment.observations);
+        self.normaliser.apply(&mut observations);
+        let mut actions = mirror.action.apply(&fragment.actions);
+        // No policy took the mirrored actions. The policy that would have is the mirror image of the one that acted.
+        let Correction { weights, log_probs } =
+            Correction::of(self.policy, &observations, &actions, &fragment.log_probs)?;
+        batch.observations.append(&mut observations);
+        batch.actions.append(&mut actions);
+        batch.log_probs.extend(log_probs);
+        batch.weights.extend(weights);
+        Ok(())
+    }
+}
+
+/// Correction of a fragment that an older policy acted.
+///
+/// The decoupled objective keeps the newest policy as the one that the update stays near to, and weighs each action by
+/// how much more likely it is than when it was taken (Hilton et al. 2021, "Batch size-invariance for policy optimization",
+/// arXiv:2110.00641, equation 2; the weight is truncated at 1).
+struct Correction {
+    /// `min(1, π(a|s) / μ(a|s))` of each transition, with the newest policy π and the one that acted, μ.
+    weights: Vec<f32>,
+    /// `ln π(a|s)`.
+    log_probs: Vec<f32>,
+}
+
+impl Correction {
+    /// `old` are the log-probabilities of the actions under the policy that acted, `[rows]`.
+    fn of(policy: &Policy, observations: &[f32], actions: &[f32], old: &[f32]) -> Result<Self, candle_core::Error> {
+        let mut means = vec![0.0; actions.len()];
+        policy.means(observations, old.len(), &mut means)?;
+        let log_std = policy.log_std();
+        let pairs = actions.chunks_exact(log_std.len()).zip(means.chunks_exact(log_std.len()));
+        let log_probs: Vec<f32> =
+            pairs.map(|(action, mean)| gaussian::log_probability(action, mean, log_std)).collect();
+        let weights = log_probs.iter().zip(old).map(|(new, old)| (new - old).exp().min(1.0)).collect();
+        Ok(Self { weights, log_probs })
+    }
+}
+
+/// Values of the observations truly reached; brings `values` to the units of returns on the way, where they are known.
+fn next_values(
+    fragment: &Fragment,
+    policy: &Policy,
+    normaliser: &Normaliser,
+    values: &mut [f32],
+    scale: Option<&ScalarNormaliser>,
+) -> Result<Vec<f32>, candle_core::Error> {
+    let mut last = fragment.last_observations.clone();
+    normaliser.apply(&mut last);
+    let rows = last.len() / fragment.observation_size as usize;
+    let mut last_values = if rows > 0 { policy.values(&last, rows)? } else { Vec::new() };
+    for values in [&mut last_values[..], &mut *values] {
+        match scale {
+            Some(scale) => scale.denormalise(values),
+            None => values.fill(0.0),
+        }
+    }
+    // The fragment's last observations mix both kinds, ordered by step and environment.
+    let (envs, mut last_values) = (fragment.envs as usize, last_values.into_iter());
+    let (mut truncated_values, mut final_values) = (Vec::new(), vec![0.0; envs]);
+    for (index, flags) in fragment.flags.iter().enumerate() {
+        if !Fragment::needs_last_observation(*flags, (index / envs) as u32, fragment.steps) {
+            continue;
+        }
+        let value = last_values.next().expect("a checked fragment has one last observation for each that is needed");
+        if flags & TRUNCATED != 0 {
+            truncated_values.push(value);
+        } else {
+            final_values[index % envs] = value;
+        }
+    }
+    let (terminated, truncated) = (flagged(fragment, TERMINATED), flagged(fragment, TRUNCATED));
+    Ok(gae::next_values(values, &terminated, &truncated, &truncated_values, &final_values))
+}
+
+fn flagged(fragment: &Fragment, flag: u8) -> Vec<bool> {
+    fragment.flags.iter().map(|flags| flags & flag != 0).collect()
+}
+
+#[cfg(test)]
+#[path = "batch_building_tests.rs"]
+mod tests;

@@ -1,0 +1,132 @@
+//! What lag changes in a batch, and what it does not.
+
+use treadmill_common::policy::{NetworkShape, init};
+use treadmill_common::seeds;
+use treadmill_proto::PolicyVersion;
+
+use super::*;
+
+const STEPS: u32 = 6;
+const ENVS: u32 = 2;
+
+fn shape() -> NetworkShape {
+    NetworkShape { observation: 3, action: 2, hidden: vec![8] }
+}
+
+fn policy(seed: u64) -> Policy {
+    let parameters = init::initial_parameters(&shape(), -0.5, &mut seeds::stream(seed, "parameters", &[]));
+    // Initial action means are next to nothing; larger weights make them tell policies apart.
+    Policy::new(shape(), parameters.iter().map(|p| p * 3.0).collect()).expect("they fit")
+}
+
+/// A fragment acted by `acting`, with actions of fixed offsets from its means.
+fn fragment(acting: &Policy) -> Fragment {
+    let rows = (STEPS * ENVS) as usize;
+    let observations: Vec<f32> = (0..rows * 3).map(|i| ((i * 37 % 19) as f32 - 9.0) / 9.0).collect();
+    let mut actions = vec![0.0; rows * 2];
+    acting.means(&observations, rows, &mut actions).expect("candle runs");
+    let means = actions.clone();
+    actions.iter_mut().enumerate().for_each(|(i, action)| *action += ((i % 5) as f32 - 2.0) * 0.3);
+    let log_probs = actions.chunks(2).zip(means.chunks(2));
+    let log_probs = log_probs.map(|(a, m)| gaussian::log_probability(a, m, acting.log_std())).collect();
+    let mut flags = vec![0; rows];
+    flags[3] = TERMINATED;
+    Fragment {
+        run: "walk".into(),
+        actor: "a".into(),
+        actor_incarnation: 1,
+        sequence: 1,
+        version: PolicyVersion::default(),
+        config_hash: 0,
+        steps: STEPS,
+        envs: ENVS,
+        observation_size: 3,
+        action_size: 2,
+        observations,
+        actions,
+        log_probs,
+        rewards: (0..rows).map(|i| i as f32).collect(),
+        flags,
+        last_observations: vec![0.5; 6],
+        episodes: vec![],
+        settled_through: 0,
+        actor_state: None,
+    }
+}
+
+fn prepared(acting: &Policy, newest: &Policy, lag: u64) -> Batch {
+    prepared_with(None, acting, newest, lag)
+}
+
+fn prepared_with(mirror: Option<&BatchMirror>, acting: &Policy, newest: &Policy, lag: u64) -> Batch {
+    let config = PpoConfig::default();
+    let accepted = [AcceptedFragment { fragment: fragment(acting), lag }];
+    let normaliser = Normaliser::identity(3, 10.0);
+    build_batch(&accepted, newest, &normaliser, &mut RunningMoments::new(1), mirror, &config).expect("candle runs")
+}
+
+#[test]
+fn experience_of_the_newest_policy_is_taken_as_it_is() {
+    let newest = policy(1);
+    let plain = prepared(&newest, &newest, 0);
+    assert!(plain.weights.iter().all(|weight| *weight == 1.0));
+    assert_eq!(plain.log_probs, fragment(&newest).log_probs);
+    // A version that is no other policy corrects nothing away: rounding at most.
+    let corrected = prepared(&newest, &newest, 1);
+    assert_eq!((&corrected.advantages, &corrected.returns), (&plain.advantages, &plain.returns));
+    for (found, wanted) in corrected.weights.iter().zip(&plain.weights) {
+        assert!((found - wanted).abs() < 1e-4, "{found} {wanted}");
+    }
+}
+
+#[test]
+fn older_experience_is_weighed_by_how_likely_it_has_become() {
+    let (old, newest) = (policy(2), policy(1));
+    let uncorrected = prepared(&old, &newest, 0);
+    let decoupled = prepared(&old, &newest, 2);
+    let acted = fragment(&old);
+    assert_eq!(uncorrected.log_probs, acted.log_probs);
+    assert_eq!(decoupled.advantages, uncorrected.advantages);
+    assert_eq!(decoupled.returns, uncorrected.returns);
+    let mut truncated = 0;
+    for (row, weight) in decoupled.weights.iter().enumerate() {
+        let ratio = (decoupled.log_probs[row] - acted.log_probs[row]).exp();
+        assert!((weight - ratio.min(1.0)).abs() < 1e-6 && *weight > 0.0);
+        truncated += usize::from(ratio > 1.0);
+    }
+    assert!((1..decoupled.weights.len()).contains(&truncated), "{truncated} ratios above 1");
+}
+
+#[test]
+fn a_mirror_adds_the_image_of_every_transition() {
+    use crate::mirror::IndexSwap;
+    let mirror = BatchMirror {
+        observation: IndexSwap(vec![(1, -1.0), (0, -1.0), (2, 1.0)]),
+        action: IndexSwap(vec![(1, 1.0), (0, 1.0)]),
+    };
+    let newest = policy(1);
+    let plain = prepared(&newest, &newest, 0);
+    let both = prepared_with(Some(&mirror), &newest, &newest, 0);
+    let rows = plain.len();
+    assert_eq!((both.len(), both.values.len(), both.weights.len()), (2 * rows, 2 * rows, 2 * rows));
+    for (first, second) in [(&both.advantages, &plain.advantages), (&both.log_probs, &plain.log_probs)] {
+        assert_eq!(first[..rows], second[..]);
+    }
+    assert_eq!(both.advantages[rows..], plain.advantages);
+    assert_eq!(both.returns[rows..], both.returns[..rows]);
+    let mut truncated = 0;
+    for row in 0..rows {
+        let (seen, image) = (&both.observations[row * 3..][..3], &both.observations[(rows + row) * 3..][..3]);
+        assert_eq!(image, [-seen[1], -seen[0], seen[2]]);
+        let (done, other) = (&both.actions[row * 2..][..2], &both.actions[(rows + row) * 2..][..2]);
+        assert_eq!(other, [done[1], done[0]]);
+        let mut mean = [0.0; 2];
+        newest.means(image, 1, &mut mean).expect("candle runs");
+        let log_prob = gaussian::log_probability(other, &mean, newest.log_std());
+        assert!((both.log_probs[rows + row] - log_prob).abs() < 1e-5);
+        let ratio = (log_prob - plain.log_probs[row]).exp();
+        assert!((both.weights[rows + row] - ratio.min(1.0)).abs() < 1e-5);
+        truncated += usize::from(ratio > 1.0);
+    }
+    assert!((1..rows).contains(&truncated), "{truncated} ratios above 1");
+}

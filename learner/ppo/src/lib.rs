@@ -1,0 +1,28 @@
+//! Proximal policy optimisation: accepted fragments in, improved parameters out.
+//!
+//! Pure mathematics: no network, no files, no clock.
+//!
+//! # Layout, to be read in this order
+//! - [`gae`]: generalised advantage estimation, a pure function.
+//! - [`batch_building`]: turns accepted fragments into the batch of one update.
+//! - [`batch`]: the batch itself, and its minibatches.
+//! - [`loss`]: the loss, from top to bottom, in Candle's operations.
+//! - [`update`]: [`Updater`] runs epochs of gradient steps, and restores the old parameters when one fails.
+//! - [`optimiser`]: Adam and gradient clipping over one flat slice.
+//! - [`measures`]: KL divergence, clip fraction, explained variance, and the adaptive learning rate.
+//! - [`mirror`]: swaps left and right in observations and actions.
+
+pub mod batch;
+pub mod batch_building;
+pub mod gae;
+pub mod loss;
+pub mod measures;
+pub mod mirror;
+pub mod optimiser;
+pub mod update;
+
+pub use batch::Batch;
+pub use batch_building::{AcceptedFragment, build_batch};
+pub use measures::{adapt_learning_rate, explained_variance};
+pub use mirror::{BatchMirror, IndexSwap};
+pub use update::{UpdateError, UpdateStats, Updater, UpdaterError};

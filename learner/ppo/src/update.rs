@@ -1,0 +1,316 @@
+//! One update: several epochs of gradient steps over one batch, undone as a whole if a number is not finite.
+
+use std::sync::Arc;
+
+use candle_core::{Device, Tensor, Var};
+use rand::Rng;
+use rayon::ThreadPool;
+use treadmill_common::config::PpoConfig;
+use treadmill_common::policy::gaussian::clamp_log_std;
+use treadmill_common::policy::{NetworkShape, Networks, ParameterError, Part, Policy, check_parameters};
+
+use crate::{
+    batch::{Batch, minibatches, shuffle, weighted},
+    loss::ppo_loss,
+    measures::{PolicyShift, adapt_learning_rate, explained_variance},
+    optimiser::{OptimiserState, clip_factor, global_norm},
+};
+
+/// Improves the parameters, batch after batch.
+#[derive(Debug)]
+pub struct Updater {
+    shape: NetworkShape,
+    config: PpoConfig,
+    networks: Networks,
+    device: Device,
+    pool: Arc<ThreadPool>,
+    state: State,
+}
+
+/// What an update changes, and what is put back when it fails.
+#[derive(Clone, Debug)]
+struct State {
+    parameters: Vec<f32>,
+    optimiser: OptimiserState,
+    learning_rate: f64,
+}
+
+/// Means over all gradient steps of an update, weighted by rows, unless said otherwise.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct UpdateStats {
+    /// The clipped surrogate; negative where the policy improves.
+    pub policy_loss: f64,
+    /// Half the mean squared error of the normalised values.
+    pub value_loss: f64,
+    /// Entropy of the policy in nats, summed over actions.
+    pub entropy: f64,
+    /// Squared excess of action means over the limit, summed over actions.
+    pub bounds_loss: f64,
+    /// Estimated KL divergence from the old policy in nats, mean over the last epoch.
+    pub approx_kl: f64,
+    /// Share of rows whose probability ratio left the clip range.
+    pub clip_fraction: f64,
+    /// Share of the variance of the returns that the values before the update explain.
+    pub explained_variance: f64,
+    /// Euclidean norm of the gradient before clipping.
+    pub grad_norm: f64,
+    /// Learning rate after the update.
+    pub learning_rate: f64,
+    /// Standard deviation of the actions after the update, mean over actions.
+    pub std: f64,
+    /// Gradient steps taken.
+    pub minibatches: u64,
+    /// Rows that went through the networks, forward and back: batch times epochs.
+    pub samples: u64,
+}
+
+/// Why an update did not take place. The updater is as it was before; the random stream is not.
+#[derive(Debug, thiserror::Error)]
+pub enum UpdateError {
+    /// The batch holds no transition.
+    #[error("the batch is empty")]
+    Empty,
+    /// A field of the batch has the wrong length.
+    #[error("{field} of the batch has {found} numbers, expected {expected}")]
+    Length {
+        /// Which one.
+        field: &'static str,
+        /// Its length.
+        found: usize,
+        /// The length that fits the network and the other fields.
+        expected: usize,
+    },
+    /// A number became infinite or not a number.
+    #[error("the {what} is not finite; the update was undone")]
+    NonFinite {
+        /// What was not finite: loss, gradient or parameters.
+        what: &'static str,
+    },
+    /// Candle failed.
+    #[error("the tensor library failed; the update was undone")]
+    Tensor(#[from] candle_core::Error),
+}
+
+/// Why an updater cannot begin with what it was given.
+#[derive(Debug, thiserror::Error)]
+pub enum UpdaterError {
+    /// The parameters do not fit the network.
+    #[error("the parameters cannot be used")]
+    Parameters(#[from] ParameterError),
+    /// The optimiser's state does not fit the network.
+    #[error("the optimiser's state holds {found} numbers, the network has {expected} parameters")]
+    Optimiser {
+        /// Length of the moments.
+        found: usize,
+        /// Parameters of the network.
+        expected: usize,
+    },
+}
+
+impl Updater {
+    /// A fresh optimiser for `parameters`. The update runs on the threads of `pool`, on the calling one where `pool` has
+    /// a single thread; the results do not depend on how many there are.
+    ///
+    /// # Errors
+    /// If the parameters do not fit the shape or are not finite.
+    pub fn new(
+        shape: NetworkShape,
+        parameters: Vec<f32>,
+        config: &PpoConfig,
+        pool: Arc<ThreadPool>,
+    ) -> Result<Self, UpdaterError> {
+        Self::on(&Device::Cpu, shape, parameters, config, pool)
+    }
+
+    /// As [`Self::new`], with networks and loss on `device`; advantages, clipping and Adam stay on the CPU.
+    ///
+    /// # Errors
+    /// As there.
+    pub fn on(
+        device: &Device,
+        shape: NetworkShape,
+        mut parameters: Vec<f32>,
+        config: &PpoConfig,
+        pool: Arc<ThreadPool>,
+    ) -> Result<Self, UpdaterError> {
+        check_parameters(&shape, &parameters)?;
+        clamp_log_std(&mut parameters[shape.log_std()]);
+        let optimiser = OptimiserState::new(parameters.len());
+        let networks = Networks::on(device, &shape, Part::ActorCritic, Some(pool.clone()));
+        let state = State { parameters, optimiser, learning_rate: config.learning_rate };
+        Ok(Self { shape, config: config.clone(), networks, device: device.clone(), pool, state })
+    }
+
+    /// Goes on exactly where `optimiser` and the current `learning_rate` were taken from an updater.
+    ///
+    /// # Errors
+    /// If the optimiser's state does not fit the shape; then nothing has changed.
+    pub fn restore(&mut self, optimiser: OptimiserState, learning_rate: f64) -> Result<(), UpdaterError> {
+        let expected = self.state.parameters.len();
+        for moment in [&optimiser.first_moment, &optimiser.second_moment] {
+            if moment.len() != expected {
+                return Err(UpdaterError::Optimiser { found: moment.len(), expected });
+            }
+        }
+        (self.state.optimiser, self.state.learning_rate) = (optimiser, learning_rate);
+        Ok(())
+    }
+
+    /// The shape of the networks.
+    pub fn shape(&self) -> &NetworkShape {
+        &self.shape
+    }
+
+    /// The flat parameter vector.
+    pub fn parameters(&self) -> Vec<f32> {
+        self.state.parameters.clone()
+    }
+
+    /// All that Adam remembers.
+    pub fn optimiser(&self) -> &OptimiserState {
+        &self.state.optimiser
+    }
+
+    /// The current learning rate.
+    pub fn learning_rate(&self) -> f64 {
+        self.state.learning_rate
+    }
+
+    /// Sets the learning rate; adaptation goes on from there.
+    pub fn set_learning_rate(&mut self, learning_rate: f64) {
+        self.state.learning_rate = learning_rate;
+    }
+
+    /// Learns by these settings from now on; the learning rate stays what adaptation made of it.
+    pub fn set_config(&mut self, config: &PpoConfig) {
+        self.config = config.clone();
+    }
+
+    /// The current policy, which evaluates many rows on the threads of the update.
+    ///
+    /// # Errors
+    /// If Candle fails.
+    pub fn policy(&self) -> Result<Policy, ParameterError> {
+        Policy::with_pool(self.shape.clone(), self.parameters(), self.pool.clone(), &self.device)
+    }
+
+    /// Takes `epochs` passes over the batch, in an order drawn from `rng`.
+    ///
+    /// # Errors
+    /// If the batch does not fit, or a loss, gradient or parameter is not finite; then nothing has changed.
+    pub fn update(&mut self, batch: &Batch, rng: &mut impl Rng) -> Result<UpdateStats, UpdateError> {
+        self.update_in(self.config.epochs, batch, rng)
+    }
+
+    /// As [`Self::update`], with another number of passes.
+    ///
+    /// # Errors
+    /// As there.
+    pub fn update_in(&mut self, epochs: u32, batch: &Batch, rng: &mut impl Rng) -> Result<UpdateStats, UpdateError> {
+        if batch.is_empty() {
+            return Err(UpdateError::Empty);
+        }
+        if let Some((field, found, expected)) = batch.misfit(&self.shape) {
+            return Err(UpdateError::Length { field, found, expected });
+        }
+        let before = self.state.clone();
+        let result = self.run_epochs(epochs, batch, rng);
+        if result.is_err() {
+            self.state = before;
+        }
+        result
+    }
+
+    fn run_epochs(&mut self, epochs: u32, batch: &Batch, rng: &mut impl Rng) -> Result<UpdateStats, UpdateError> {
+        let advantages = weighted(batch);
+        let mut order: Vec<u32> = (0..batch.len() as u32).collect();
+        let mut stats = UpdateStats {
+            explained_variance: explained_variance(&batch.values, &batch.returns),
+            ..UpdateStats::default()
+        };
+        for _ in 0..epochs {
+            shuffle(&mut order, rng);
+            let mut shift = PolicyShift::default();
+            for range in minibatches(batch.len(), self.config.minibatch as usize) {
+                self.gradient_step(batch, &order[range], &advantages, &mut stats, &mut shift)?;
+            }
+            stats.approx_kl = shift.approx_kl();
+            stats.clip_fraction += shift.clip_fraction() / f64::from(epochs);
+            self.state.learning_rate = adapt_learning_rate(self.state.learning_rate, stats.approx_kl, &self.config);
+        }
+        finite(self.state.parameters.iter().all(|p| p.is_finite()), "parameter vector")?;
+
+        let samples = stats.samples as f64;
+        for sum in [
+            &mut stats.policy_loss,
+            &mut stats.value_loss,
+            &mut stats.entropy,
+            &mut stats.bounds_loss,
+            &mut stats.grad_norm,
+        ] {
+            *sum /= samples;
+        }
+        let log_std = &self.state.parameters[self.shape.log_std()];
+        stats.std = log_std.iter().map(|l| f64::from(*l).exp()).sum::<f64>() / log_std.len() as f64;
+        stats.learning_rate = self.state.learning_rate;
+        Ok(stats)
+    }
+
+    /// Forward, loss, backward, clipping, Adam. Adds to the sums in `stats` what the rows contribute.
+    fn gradient_step(
+        &mut self,
+        batch: &Batch,
+        rows: &[u32],
+        advantages: &[f32],
+        stats: &mut UpdateStats,
+        shift: &mut PolicyShift,
+    ) -> Result<(), UpdateError> {
+        let (observations, minibatch) = batch.gather(rows, advantages, &self.shape, &self.device)?;
+        // A leaf of its own: Candle's gradient of a slice of the flat vector would be as long as the vector.
+        let log_std_range = self.shape.log_std();
+        let log_std = leaf(&self.state.parameters[log_std_range.clone()], &self.device)?;
+        let parameters = leaf(&self.state.parameters, &self.device)?;
+
+        let output = self.networks.forward(&parameters, &observations)?;
+        let loss = ppo_loss(&output, &log_std, &minibatch, &self.config)?;
+        finite(scalar(&loss.total)?.is_finite(), "loss")?;
+
+        let gradients = loss.total.backward()?;
+        let of = |leaf: &Var| gradients.get(leaf).expect("the loss depends on every leaf").to_vec1::<f32>();
+        let mut gradient = of(&parameters)?;
+        gradient[log_std_range.clone()].copy_from_slice(&of(&log_std)?);
+        let norm = global_norm(&gradient);
+        finite(norm.is_finite(), "gradient")?;
+
+        let State { parameters, optimiser, learning_rate } = &mut self.state;
+        optimiser.apply(parameters, &gradient, clip_factor(norm, self.config.max_grad_norm), *learning_rate);
+        clamp_log_std(&mut parameters[log_std_range]);
+
+        let weight = rows.len() as f64;
+        stats.policy_loss += weight * scalar(&loss.policy)?;
+        stats.value_loss += weight * scalar(&loss.value)?;
+        stats.entropy += weight * scalar(&loss.entropy)?;
+        stats.bounds_loss += weight * scalar(&loss.bounds)?;
+        stats.grad_norm += weight * norm;
+        stats.minibatches += 1;
+        stats.samples += rows.len() as u64;
+        shift.add(&loss.log_ratio.to_vec1()?, self.config.clip_range);
+        Ok(())
+    }
+}
+
+fn finite(is_finite: bool, what: &'static str) -> Result<(), UpdateError> {
+    if is_finite { Ok(()) } else { Err(UpdateError::NonFinite { what }) }
+}
+
+fn leaf(numbers: &[f32], device: &Device) -> candle_core::Result<Var> {
+    Var::from_slice(numbers, numbers.len(), device)
+}
+
+fn scalar(tensor: &Tensor) -> candle_core::Result<f64> {
+    Ok(f64::from(tensor.to_scalar::<f32>()?))
+}
+
+#[cfg(test)]
+#[path = "update_tests.rs"]
+mod tests;

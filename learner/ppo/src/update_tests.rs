@@ -1,0 +1,267 @@
+//! Whole updates on small problems.
+
+use rand_distr::{Distribution, StandardNormal};
+use rand_xoshiro::{Xoshiro256PlusPlus, rand_core::SeedableRng};
+use treadmill_common::policy::gaussian::{LOG_STD_MAX, log_probability, sample};
+use treadmill_common::policy::init::initial_parameters;
+use treadmill_common::policy::plain;
+
+use super::*;
+use crate::batch::normalised;
+
+fn rng(seed: u64) -> Xoshiro256PlusPlus {
+    Xoshiro256PlusPlus::seed_from_u64(seed)
+}
+
+fn shape() -> NetworkShape {
+    NetworkShape { observation: 4, action: 2, hidden: vec![16, 8] }
+}
+
+fn config() -> PpoConfig {
+    PpoConfig { minibatch: 300, epochs: 3, ..PpoConfig::default() }
+}
+
+fn updater(config: &PpoConfig, threads: usize) -> Updater {
+    let parameters = initial_parameters(&shape(), -0.5, &mut rng(1));
+    Updater::new(shape(), parameters, config, pool(threads)).expect("fresh parameters fit")
+}
+
+fn pool(threads: usize) -> Arc<ThreadPool> {
+    Arc::new(rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads start"))
+}
+
+/// A new updater with all that a checkpoint keeps of another.
+fn restored(other: &Updater, learning_rate: f64) -> Updater {
+    let mut updater = Updater::new(shape(), other.parameters(), &other.config, pool(1)).expect("its parameters fit");
+    updater.restore(other.optimiser().clone(), learning_rate).expect("its state fits");
+    updater
+}
+
+/// Actions drawn from the updater's policy; the best action is the first two observations, the return their sum.
+fn batch(updater: &Updater, rows: usize, seed: u64) -> Batch {
+    let (shape, mut rng) = (updater.shape(), rng(seed));
+    let policy = updater.policy().expect("its own parameters fit");
+    let mut normals = |count: usize| (0..count).map(|_| StandardNormal.sample(&mut rng)).collect::<Vec<f32>>();
+    let observations = normals(rows * shape.observation);
+    let noise = normals(rows * shape.action);
+    let mut means = vec![0.0; rows * shape.action];
+    policy.means(&observations, rows, &mut means).expect("candle runs");
+    let values = policy.values(&observations, rows).expect("candle runs");
+    let mut batch = Batch { actions: vec![0.0; noise.len()], values, ..Batch::default() };
+    for row in 0..rows {
+        let range = row * shape.action..(row + 1) * shape.action;
+        let action = &mut batch.actions[range.clone()];
+        sample(&means[range.clone()], policy.log_std(), &noise[range.clone()], action);
+        batch.weights.push(1.0);
+        batch.log_probs.push(log_probability(action, &means[range], policy.log_std()));
+        let seen = &observations[row * shape.observation..];
+        batch.advantages.push(-(0..shape.action).map(|i| (action[i] - seen[i]).powi(2)).sum::<f32>());
+        batch.returns.push(seen[0] + seen[1]);
+    }
+    batch.observations = observations;
+    batch
+}
+
+/// Policy loss, value loss and total of the whole batch under the updater's parameters.
+fn losses(updater: &Updater, batch: &Batch) -> candle_core::Result<[f64; 3]> {
+    let rows: Vec<u32> = (0..batch.len() as u32).collect();
+    let (observations, minibatch) =
+        batch.gather(&rows, &normalised(&batch.advantages), &updater.shape, &Device::Cpu)?;
+    let parameters = leaf(&updater.state.parameters, &Device::Cpu)?;
+    let log_std = leaf(&updater.state.parameters[updater.shape.log_std()], &Device::Cpu)?;
+    let output = plain::actor_critic(&updater.shape, &parameters, &observations)?;
+    let loss = ppo_loss(&output, &log_std, &minibatch, &updater.config)?;
+    Ok([scalar(&loss.policy)?, scalar(&loss.value)?, scalar(&loss.total)?])
+}
+
+fn assert_same(a: &Updater, b: &Updater) {
+    assert_eq!(a.parameters(), b.parameters());
+    assert_eq!(a.optimiser(), b.optimiser());
+    assert_eq!(a.learning_rate(), b.learning_rate());
+}
+
+#[test]
+fn an_update_lowers_both_losses_and_reports_what_it_did() {
+    let mut updater = updater(&config(), 1);
+    let batch = batch(&updater, 1000, 2);
+    let before = losses(&updater, &batch).expect("candle runs");
+    let stats = updater.update(&batch, &mut rng(3)).expect("a sound batch");
+    let after = losses(&updater, &batch).expect("candle runs");
+    for (before, after) in before.iter().zip(after) {
+        assert!(after < before - 0.005, "{before} {after}");
+    }
+    assert!(before[0].abs() < 1e-5, "advantages of mean 0 under ratios of 1");
+    assert_eq!((stats.minibatches, stats.samples), (9, 3000));
+    assert!(stats.value_loss < before[1] && stats.value_loss > after[1], "the mean lies between first and last");
+    assert!(stats.approx_kl > 0.0 && stats.grad_norm > 0.0 && stats.entropy > 1.0);
+    assert!((0.0..1.0).contains(&stats.clip_fraction));
+    assert!(stats.explained_variance < 0.5, "a fresh critic explains little: {}", stats.explained_variance);
+    assert!((stats.std - 0.6).abs() < 0.1);
+    assert_eq!(stats.learning_rate, updater.learning_rate());
+    assert_eq!(updater.optimiser().step, 9);
+}
+
+#[test]
+fn many_updates_solve_the_problem() {
+    let mut updater = updater(&PpoConfig { minibatch: 250, ..config() }, 1);
+    let mut stats = UpdateStats::default();
+    for i in 0..60 {
+        let batch = batch(&updater, 1000, 100 + i);
+        stats = updater.update(&batch, &mut rng(i)).expect("a sound batch");
+    }
+    assert!(stats.explained_variance > 0.9, "{stats:?}");
+    let policy = updater.policy().expect("its own parameters fit");
+    let mut means = [0.0; 4];
+    policy.means(&[0.8, -0.5, 0.0, 0.0, -0.6, 0.7, 0.0, 0.0], 2, &mut means).expect("candle runs");
+    for (mean, best) in means.iter().zip([0.8, -0.5, -0.6, 0.7]) {
+        assert!((mean - best).abs() < 0.25, "{means:?}");
+    }
+}
+
+#[test]
+fn one_gradient_step_is_the_one_of_candles_own_operations() -> candle_core::Result<()> {
+    let config = PpoConfig { minibatch: 600, epochs: 1, target_kl: 0.0, max_grad_norm: 0.1, ..PpoConfig::default() };
+    let mut updater = updater(&config, 1);
+    let batch = batch(&updater, 600, 2);
+
+    let rows: Vec<u32> = (0..600).collect();
+    let (observations, minibatch) = batch.gather(&rows, &normalised(&batch.advantages), &shape(), &Device::Cpu)?;
+    let start = updater.parameters();
+    let parameters = leaf(&start, &Device::Cpu)?;
+    let log_std = parameters.narrow(0, shape().log_std().start, 2)?;
+    let output = plain::actor_critic(&shape(), &parameters, &observations)?;
+    let gradients = ppo_loss(&output, &log_std, &minibatch, &config)?.total.backward()?;
+    let gradient = gradients.get(&parameters).expect("takes part").to_vec1::<f32>()?;
+    let norm = gradient.iter().map(|g| f64::from(*g).powi(2)).sum::<f64>().sqrt();
+
+    let stats = updater.update(&batch, &mut rng(3)).expect("a sound batch");
+    assert!((stats.grad_norm - norm).abs() < 1e-4 * norm && norm > 0.1, "{} {norm}", stats.grad_norm);
+    // After one step from zero the first moment is a tenth of the clipped gradient.
+    for (moment, gradient) in updater.optimiser().first_moment.iter().zip(&gradient) {
+        let expected = 0.1 * gradient * (0.1 / norm) as f32;
+        assert!((moment - expected).abs() < 1e-6, "{moment} {expected}");
+    }
+    let moved = updater.parameters().iter().zip(&start).filter(|(new, old)| new != old).count();
+    assert!(moved > start.len() * 9 / 10, "{moved} of {} parameters moved", start.len());
+    Ok(())
+}
+
+#[test]
+fn the_number_of_threads_does_not_change_one_bit() {
+    let config = PpoConfig { minibatch: 1500, epochs: 2, ..PpoConfig::default() };
+    let mut alone = updater(&config, 1);
+    let batch = batch(&alone, 3001, 5);
+    let stats = alone.update(&batch, &mut rng(6)).expect("a sound batch");
+    for threads in [2, 3] {
+        let mut together = updater(&config, threads);
+        assert_eq!(together.update(&batch, &mut rng(6)).expect("a sound batch"), stats);
+        assert_same(&together, &alone);
+    }
+}
+
+#[test]
+fn a_restored_updater_goes_on_with_the_same_bits() {
+    let mut whole = updater(&config(), 1);
+    let first = batch(&whole, 700, 8);
+    whole.update(&first, &mut rng(9)).expect("a sound batch");
+    let mut restored = restored(&whole, whole.learning_rate());
+    let second = batch(&whole, 700, 10);
+    for updater in [&mut whole, &mut restored] {
+        updater.update(&second, &mut rng(11)).expect("a sound batch");
+    }
+    assert_same(&restored, &whole);
+}
+
+#[test]
+fn an_update_with_a_number_that_is_not_finite_is_undone() {
+    let mut updater = updater(&config(), 1);
+    let good = batch(&updater, 700, 8);
+    updater.update(&good, &mut rng(9)).expect("a sound batch");
+    let mut untouched = restored(&updater, updater.learning_rate());
+
+    let spoil: [fn(&mut Batch); 5] = [
+        |batch| batch.observations[1234] = f32::NAN,
+        |batch| batch.actions[77] = f32::INFINITY,
+        |batch| batch.log_probs[699] = f32::NAN,
+        |batch| batch.advantages[3] = f32::NAN,
+        |batch| batch.returns[0] = f32::INFINITY,
+    ];
+    for spoil in spoil {
+        let mut bad = good.clone();
+        spoil(&mut bad);
+        let error = updater.update(&bad, &mut rng(9)).expect_err("not finite");
+        assert!(matches!(error, UpdateError::NonFinite { .. }), "{error}");
+        assert_same(&updater, &untouched);
+    }
+    for updater in [&mut updater, &mut untouched] {
+        updater.update(&good, &mut rng(12)).expect("a sound batch");
+    }
+    assert_same(&updater, &untouched);
+}
+
+#[test]
+fn parameters_that_overflow_are_undone() {
+    let config = PpoConfig { minibatch: 700, epochs: 1, ..config() };
+    let fresh = updater(&config, 1);
+    let mut updater = restored(&fresh, 1e300);
+    let batch = batch(&updater, 700, 8);
+    let error = updater.update(&batch, &mut rng(9)).expect_err("a step without end");
+    assert!(matches!(error, UpdateError::NonFinite { what: "parameter vector" }), "{error}");
+    assert_eq!(updater.parameters(), fresh.parameters());
+    assert_eq!(updater.optimiser(), fresh.optimiser());
+    assert_eq!(updater.learning_rate(), 1e300);
+}
+
+#[test]
+fn the_standard_deviation_never_leaves_its_range() {
+    let config = PpoConfig { entropy_coefficient: 100.0, learning_rate: 1.0, target_kl: 0.0, ..config() };
+    let mut updater = updater(&config, 1);
+    let batch = batch(&updater, 700, 8);
+    updater.update(&batch, &mut rng(9)).expect("a sound batch");
+    assert_eq!(updater.policy().expect("fits").log_std(), [LOG_STD_MAX; 2]);
+}
+
+#[test]
+fn the_learning_rate_adapts_once_per_epoch() {
+    let still = PpoConfig { learning_rate: 1e-9, learning_rate_min: 1e-9, target_kl: 0.01, ..config() };
+    let mut updater = updater(&still, 1);
+    let batch = batch(&updater, 700, 8);
+    let stats = updater.update(&batch, &mut rng(9)).expect("a sound batch");
+    assert!((stats.learning_rate / 1e-9 - 1.5_f64.powi(3)).abs() < 1e-9, "{}", stats.learning_rate);
+}
+
+#[test]
+fn batches_that_do_not_fit_are_refused() {
+    let mut updater = updater(&config(), 1);
+    let good = batch(&updater, 10, 8);
+    assert!(matches!(updater.update(&Batch::default(), &mut rng(1)), Err(UpdateError::Empty)));
+    let bad = Batch { observations: vec![0.0; 39], ..good };
+    let error = updater.update(&bad, &mut rng(1)).expect_err("a number is missing");
+    assert_eq!(error.to_string(), "observations of the batch has 39 numbers, expected 40");
+}
+
+#[test]
+fn state_that_does_not_fit_is_refused() {
+    let mut updater = updater(&config(), 1);
+    let error = updater.restore(OptimiserState::new(3), 1e-3).expect_err("three parameters");
+    assert!(matches!(error, UpdaterError::Optimiser { found: 3, .. }), "{error}");
+    assert_eq!(updater.learning_rate(), config().learning_rate);
+    let bad = vec![f32::NAN; shape().parameter_count()];
+    let error = Updater::new(shape(), bad, &config(), pool(1)).expect_err("not a number");
+    assert!(matches!(error, UpdaterError::Parameters(_)), "{error}");
+}
+
+#[test]
+fn plain_operations_learn_what_the_fused_ones_learn() {
+    // What runs on a GPU, on the CPU: the same update within rounding.
+    let mut fused = updater(&config(), 1);
+    let batch = batch(&fused, 700, 8);
+    let mut plain = restored(&fused, fused.learning_rate());
+    plain.networks = Networks::Plain(shape(), Part::ActorCritic);
+    let stats = [&mut fused, &mut plain].map(|updater| updater.update(&batch, &mut rng(9)).expect("a sound batch"));
+    assert!((stats[0].approx_kl - stats[1].approx_kl).abs() < 1e-5);
+    assert_eq!(stats[0].learning_rate, stats[1].learning_rate);
+    for (a, b) in fused.parameters().iter().zip(plain.parameters()) {
+        assert!((a - b).abs() < 1e-4, "{a} {b}");
+    }
+}

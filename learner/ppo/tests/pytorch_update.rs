@@ -1,0 +1,179 @@
+//! Whole PPO updates against PyTorch's, by `golden/update.json`.
+//!
+//! Each comparison is also shown to find one wrong sign.
+
+mod golden;
+
+use std::{collections::BTreeMap, sync::Arc};
+
+use golden::{Mismatch, compare, config, flipped, narrow, read};
+use rand::RngExt;
+use rand_xoshiro::{Xoshiro256PlusPlus, rand_core::SeedableRng};
+use serde::Deserialize;
+use treadmill_common::policy::NetworkShape;
+use treadmill_ppo::{Batch, UpdateStats, Updater};
+
+/// Of the parameters' root mean square, 0.3, or of their own size. Each gradient step moves them by about 1e-3.
+const PARAMETER_TOLERANCE: f64 = 1e-5;
+
+/// The order of rows in each epoch, which PyTorch is given.
+#[derive(Deserialize)]
+struct OrderFile {
+    seed: u64,
+    rows: u32,
+    orders: Vec<Vec<u32>>,
+}
+
+#[test]
+fn pytorch_took_the_rows_in_the_order_of_the_shuffle() {
+    let file: OrderFile = read(include_str!("golden/order.json"));
+    let mut random = Xoshiro256PlusPlus::seed_from_u64(file.seed);
+    let mut order: Vec<u32> = (0..file.rows).collect();
+    let orders: Vec<Vec<u32>> = (0..4)
+        .map(|_| {
+            (1..order.len()).rev().for_each(|i| order.swap(i, random.random_range(0..=i)));
+            order.clone()
+        })
+        .collect();
+    assert_eq!(file.orders, orders, "let \"orders\" in order.json be {orders:?}, and run make.py again");
+}
+
+#[derive(Clone, Deserialize)]
+struct UpdateFile {
+    observation: usize,
+    action: usize,
+    hidden: Vec<usize>,
+    parameters: Vec<f64>,
+    batch: BatchFile,
+    one_step: UpdateCase,
+    whole: UpdateCase,
+    rising: UpdateCase,
+}
+
+#[derive(Clone, Deserialize)]
+struct BatchFile {
+    observations: Vec<f64>,
+    actions: Vec<f64>,
+    log_probs: Vec<f64>,
+    advantages: Vec<f64>,
+    returns: Vec<f64>,
+    values: Vec<f64>,
+}
+
+#[derive(Clone, Deserialize)]
+struct UpdateCase {
+    config: BTreeMap<String, f64>,
+    seed: u64,
+    gradient_steps: u64,
+    stats: BTreeMap<String, f64>,
+    parameters: Vec<f64>,
+    first_moment: Vec<f64>,
+    second_moment: Vec<f64>,
+}
+
+impl UpdateFile {
+    fn read() -> Self {
+        read(include_str!("golden/update.json"))
+    }
+
+    /// Our own update of the same parameters by the same batch.
+    fn run(&self, case: &UpdateCase) -> (Updater, UpdateStats) {
+        let shape = NetworkShape { observation: self.observation, action: self.action, hidden: self.hidden.clone() };
+        let batch = Batch {
+            observations: narrow(&self.batch.observations),
+            actions: narrow(&self.batch.actions),
+            log_probs: narrow(&self.batch.log_probs),
+            weights: vec![1.0; self.batch.log_probs.len()],
+            advantages: narrow(&self.batch.advantages),
+            returns: narrow(&self.batch.returns),
+            values: narrow(&self.batch.values),
+        };
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("a thread starts");
+        let mut updater = Updater::new(shape, narrow(&self.parameters), &config(&case.config), Arc::new(pool))
+            .expect("the parameters fit");
+        let stats =
+            updater.update(&batch, &mut Xoshiro256PlusPlus::seed_from_u64(case.seed)).expect("the batch is sound");
+        (updater, stats)
+    }
+
+    fn compare(&self, case: &UpdateCase) -> std::result::Result<(), Mismatch> {
+        let (updater, stats) = self.run(case);
+        assert_eq!(stats.minibatches, case.gradient_steps);
+        compare("parameters", &updater.parameters(), &case.parameters, PARAMETER_TOLERANCE)?;
+        compare("first moment", &updater.optimiser().first_moment, &case.first_moment, 1e-4)?;
+        compare("second moment", &updater.optimiser().second_moment, &case.second_moment, 1e-4)?;
+        for (what, found) in [
+            ("policy_loss", stats.policy_loss),
+            ("value_loss", stats.value_loss),
+            ("entropy", stats.entropy),
+            ("bounds_loss", stats.bounds_loss),
+            ("grad_norm", stats.grad_norm),
+            ("approx_kl", stats.approx_kl),
+            ("clip_fraction", stats.clip_fraction),
+            ("learning_rate", stats.learning_rate),
+            ("explained_variance", stats.explained_variance),
+            ("std", stats.std),
+        ] {
+            // Gains and losses nearly cancel in the policy loss, so that little is left to be relative to.
+            let tolerance = if what == "policy_loss" { 1e-2 } else { 1e-4 };
+            compare(what, &[found], &[case.stats[what]], tolerance)?;
+        }
+        Ok(())
+    }
+
+    /// The same with another batch.
+    fn with(&self, change: impl FnOnce(&mut BatchFile)) -> Self {
+        let mut changed = self.clone();
+        change(&mut changed.batch);
+        changed
+    }
+}
+
+#[test]
+fn one_gradient_step_is_that_of_pytorch() {
+    let file = UpdateFile::read();
+    let case = &file.one_step;
+    assert_eq!(case.gradient_steps, 1);
+    file.compare(case).expect("the same step");
+    // The first moment is a tenth of the clipped gradient.
+    let wrong = UpdateCase { first_moment: flipped(&case.first_moment), ..case.clone() };
+    assert_eq!(file.compare(&wrong).expect_err("the sign of a gradient is wrong").what, "first moment");
+}
+
+#[test]
+fn a_whole_update_is_that_of_pytorch() {
+    let file = UpdateFile::read();
+    let case = &file.whole;
+    file.compare(case).expect("the same update");
+    // It has everything in it that an update can have.
+    let stats = &case.stats;
+    assert!(case.gradient_steps > 10 && stats["clip_fraction"] > 0.1 && stats["bounds_loss"] > 0.01, "{stats:?}");
+    assert!(stats["grad_norm"] > case.config["max_grad_norm"], "gradients are clipped: {stats:?}");
+    assert!(stats["learning_rate"] < case.config["learning_rate"] / 2.0, "it was divided by 1.5 twice: {stats:?}");
+
+    for (what, wrong) in [
+        ("parameter", UpdateFile { parameters: flipped(&file.parameters), ..file.clone() }),
+        ("advantage", file.with(|batch| batch.advantages = flipped(&batch.advantages))),
+        ("return", file.with(|batch| batch.returns = flipped(&batch.returns))),
+        ("action", file.with(|batch| batch.actions = flipped(&batch.actions))),
+        ("observation", file.with(|batch| batch.observations = flipped(&batch.observations))),
+    ] {
+        let mismatch = wrong.compare(case).expect_err(what);
+        assert_eq!(mismatch.what, "parameters", "the wrong sign of one {what}");
+    }
+    for (name, number) in &case.stats {
+        let mut wrong = case.clone();
+        wrong.stats.insert(name.clone(), -number);
+        assert_eq!(file.compare(&wrong).expect_err("a wrong sign").what, name);
+    }
+}
+
+#[test]
+fn an_update_whose_learning_rate_rises_is_that_of_pytorch() {
+    let file = UpdateFile::read();
+    let case = &file.rising;
+    assert_eq!(case.stats["learning_rate"], case.config["learning_rate_max"]);
+    file.compare(case).expect("the same update");
+    // The rate of the whole update is another, and so is what it leads to.
+    file.compare(&UpdateCase { config: file.whole.config.clone(), ..case.clone() }).expect_err("another learning rate");
+}

@@ -1,0 +1,86 @@
+//! Learning is the same in whatever units rewards are paid.
+
+use std::sync::Arc;
+
+use rand_distr::{Distribution, StandardNormal};
+use treadmill_common::{
+    config::PpoConfig,
+    normaliser::{Normaliser, RunningMoments},
+    policy::{NetworkShape, gaussian, init},
+    seeds,
+};
+use treadmill_ppo::{AcceptedFragment, Updater, build_batch};
+use treadmill_proto::{Fragment, PolicyVersion};
+
+const STEPS: u32 = 32;
+const ENVS: u32 = 8;
+
+/// Parameters after some updates where every reward is `scale` times as large, and the explained variance of the last.
+fn learnt(scale: f32) -> (Vec<f32>, f64) {
+    let shape = NetworkShape { observation: 3, action: 2, hidden: vec![16, 8] };
+    let config = PpoConfig { batch: STEPS * ENVS, minibatch: 64, ..PpoConfig::default() };
+    let parameters = init::initial_parameters(&shape, -0.5, &mut seeds::stream(1, "parameters", &[]));
+    let pool = Arc::new(rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("a thread starts"));
+    let mut updater = Updater::new(shape, parameters, &config, pool).expect("they fit");
+    let (mut random, mut shuffle) = (seeds::stream(1, "noise", &[]), seeds::stream(1, "shuffle", &[]));
+    let mut value_moments = RunningMoments::new(1);
+    let mut explained = 0.0;
+    for sequence in 1..=20 {
+        let policy = updater.policy().expect("its own parameters fit");
+        let rows = (STEPS * ENVS) as usize;
+        let mut normals =
+            |count: usize| -> Vec<f32> { (0..count).map(|_| StandardNormal.sample(&mut random)).collect() };
+        let (observations, noise) = (normals(rows * 3), normals(rows * 2));
+        let (mut means, mut actions) = (vec![0.0; rows * 2], vec![0.0; rows * 2]);
+        policy.means(&observations, rows, &mut means).expect("candle runs");
+        for row in 0..rows {
+            let span = row * 2..row * 2 + 2;
+            gaussian::sample(&means[span.clone()], policy.log_std(), &noise[span.clone()], &mut actions[span]);
+        }
+        let log_probs = (0..rows)
+            .map(|row| gaussian::log_probability(&actions[row * 2..][..2], &means[row * 2..][..2], policy.log_std()))
+            .collect();
+        // Reward for doing what is seen; each step is an episode of its own, so that there is something to explain.
+        let rewards = (0..rows)
+            .map(|row| scale * (observations[row * 3] - (actions[row * 2] - observations[row * 3 + 1]).powi(2)))
+            .collect();
+        let fragment = Fragment {
+            run: "walk".into(),
+            actor: "a".into(),
+            actor_incarnation: 1,
+            sequence,
+            version: PolicyVersion::default(),
+            config_hash: 0,
+            steps: STEPS,
+            envs: ENVS,
+            observation_size: 3,
+            action_size: 2,
+            observations,
+            actions,
+            log_probs,
+            rewards,
+            flags: vec![treadmill_proto::fragment::TERMINATED; rows],
+            last_observations: vec![],
+            episodes: vec![],
+            settled_through: 0,
+            actor_state: None,
+        };
+        let accepted = [AcceptedFragment { fragment, lag: 0 }];
+        let normaliser = Normaliser::identity(3, 10.0);
+        let batch = build_batch(&accepted, &policy, &normaliser, &mut value_moments, None, &config).expect("it fits");
+        explained = updater.update(&batch, &mut shuffle).expect("finite").explained_variance;
+    }
+    (updater.parameters(), explained)
+}
+
+#[test]
+fn rewards_a_thousand_times_smaller_or_larger_teach_the_same() {
+    let (wanted, explained) = learnt(1.0);
+    assert!(explained > 0.3, "the critic learnt nothing: {explained}");
+    for scale in [1e-3, 0.1, 1e3] {
+        let (found, explained_here) = learnt(scale);
+        let off = found.iter().zip(&wanted).map(|(a, b)| (a - b).abs()).fold(0.0, f32::max);
+        assert!(off < 2e-3, "at {scale} parameters are off by {off}");
+        assert!((explained_here - explained).abs() < 0.01, "{explained_here} and {explained}");
+    }
+}

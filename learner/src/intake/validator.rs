@@ -1,0 +1,243 @@
+//! Accepts or rejects each fragment, before anything is learnt from it.
+
+use std::{sync::Arc, time::Instant};
+
+use serde::{Deserialize, Serialize};
+use treadmill_common::bus::{
+    Arrival,
+    complaints::Complaints,
+    gate::{Gate, Sender},
+};
+use treadmill_ppo::AcceptedFragment;
+use treadmill_proto::{Fragment, Malformed, Outcome, Receipt};
+
+use super::{
+    ledger::{DropRule, Ledger, LedgerEntry},
+    lineage::{Descent, Lineage},
+};
+
+/// Properties that every fragment of a run must have.
+#[derive(Clone, Debug)]
+pub struct ExpectedFragment {
+    /// The run's name.
+    pub run: String,
+    /// Hash over the configuration and the model.
+    pub config_hash: u64,
+    /// Entries of one observation.
+    pub observation_size: u32,
+    /// Entries of one action.
+    pub action_size: u32,
+    /// Versions that a fragment may be behind.
+    pub max_policy_lag: u64,
+}
+
+/// Number of fragments by outcome, over the whole run.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct FragmentCounts {
+    /// Accepted.
+    pub accepted: u64,
+    /// Accepted before.
+    pub duplicate: u64,
+    /// Dropped by rule: policy too far back.
+    pub too_old: u64,
+    /// Dropped by rule: policy unknown after a resume.
+    pub vanished: u64,
+    /// Refused.
+    pub malformed: u64,
+    /// Rejected unread, because the sender is in quarantine.
+    pub quarantined: u64,
+}
+
+/// Validates fragments against the checkpoint's ledger, and reports bad senders to admission control.
+#[derive(Debug)]
+pub struct FragmentValidator {
+    expected: ExpectedFragment,
+    gate: Arc<Gate>,
+    refusals: Complaints,
+    quarantines: Complaints,
+    /// Rejected unread because the queue was full, since this start.
+    turned_away: u64,
+    /// Bytes of the accepted fragments, since this start.
+    accepted_bytes: u64,
+    /// Fragments that were dealt with.
+    pub ledger: Ledger,
+    /// Fragments by outcome.
+    pub counts: FragmentCounts,
+}
+
+/// Fragment that is not accepted: what its receipt says.
+struct Rejection {
+    outcome: Outcome,
+    reason: String,
+    durable_through: u64,
+}
+
+impl FragmentValidator {
+    /// Validator that continues with a checkpoint's ledger and counts.
+    pub fn new(expected: ExpectedFragment, gate: Arc<Gate>, ledger: Ledger, counts: FragmentCounts) -> Self {
+        let (refusals, quarantines) = (Complaints::default(), Complaints::default());
+        Self { expected, gate, refusals, quarantines, turned_away: 0, accepted_bytes: 0, ledger, counts }
+    }
+
+    /// Validates a fragment that `actor` sent. Returns it if it is accepted, else the receipt that says why not.
+    pub fn validate(
+        &mut self,
+        actor: &str,
+        received: Arrival,
+        lineage: &Lineage,
+        now: Instant,
+    ) -> Result<AcceptedFragment, Box<Receipt>> {
+        self.decide(actor, received, lineage, now).map_err(|rejection| {
+            let Rejection { outcome, reason, durable_through } = rejection;
+            Box::new(Receipt { outcome, reason, version: lineage.newest(), durable_through })
+        })
+    }
+
+    fn decide(
+        &mut self,
+        actor: &str,
+        received: Arrival,
+        lineage: &Lineage,
+        now: Instant,
+    ) -> Result<AcceptedFragment, Rejection> {
+        // Fragments can be queued before their sender is put in quarantine.
+        let sender = self.gate.identify(actor, received.claimed_incarnation);
+        if self.gate.holds(&sender, now) {
+            self.counts.quarantined += 1;
+            let reason = format!("too many refused fragments in a row from `{actor}`; wait a minute");
+            return Err(Rejection { outcome: Outcome::Quarantined, reason, durable_through: 0 });
+        }
+        let checked = received.fragment.and_then(|fragment| self.check(actor, fragment, lineage));
+        let fragment = checked.map_err(|why| self.refuse(actor, &sender, &why, now))?;
+        let (incarnation, sequence) = (fragment.actor_incarnation, fragment.sequence);
+        if !self.ledger.knows(actor, incarnation) {
+            tracing::info!("`{actor}` delivers as process {incarnation}");
+        }
+        self.ledger.settle(actor, incarnation, fragment.settled_through);
+        let durable_through = self.ledger.durable_through(actor, incarnation);
+        if let Some(entry) = self.ledger.entry(actor, incarnation, sequence) {
+            self.counts.duplicate += 1;
+            self.report_useless(&sender, now);
+            // The receipt was lost: the sender gets the same outcome again.
+            let (outcome, reason) = match entry {
+                LedgerEntry::Accepted => (Outcome::Duplicate, String::new()),
+                LedgerEntry::Dropped(DropRule::TooOld) => (Outcome::TooOld, "dropped when it first came".to_string()),
+                LedgerEntry::Dropped(DropRule::Vanished) => {
+                    (Outcome::Vanished, "dropped when it first came".to_string())
+                }
+            };
+            return Err(Rejection { outcome, reason, durable_through });
+        }
+        let env_steps = fragment.transitions() as u64;
+        let lag = self.check_lag(&fragment, lineage, &sender, now);
+        let entry = lag.as_ref().map_or_else(|(rule, ..)| LedgerEntry::Dropped(*rule), |_| LedgerEntry::Accepted);
+        self.ledger.insert(actor, incarnation, sequence, entry, env_steps);
+        match lag {
+            Ok(lag) => {
+                self.gate.taken(actor, incarnation, now);
+                self.counts.accepted += 1;
+                self.accepted_bytes += received.bytes as u64;
+                Ok(AcceptedFragment { fragment, lag })
+            }
+            Err((_, outcome, reason)) => Err(Rejection { outcome, reason, durable_through }),
+        }
+    }
+
+    /// Counts a malformed fragment, which may put its sender in quarantine.
+    fn refuse(&mut self, actor: &str, sender: &Sender, why: &Malformed, now: Instant) -> Rejection {
+        self.counts.malformed += 1;
+        self.refusals.warn(|| format!("a fragment from `{actor}` was refused: {why}"));
+        if self.gate.failed(sender, now) {
+            self.quarantines.warn(|| format!("`{actor}` is put in quarantine"));
+        }
+        Rejection { outcome: Outcome::Malformed, reason: why.to_string(), durable_through: 0 }
+    }
+
+    /// Returns the lag of a well-formed fragment, or the rule by which it is dropped.
+    fn check_lag(
+        &mut self,
+        fragment: &Fragment,
+        lineage: &Lineage,
+        sender: &Sender,
+        now: Instant,
+    ) -> Result<u64, (DropRule, Outcome, String)> {
+        match lineage.descent(fragment.version) {
+            // `check` has refused versions of the future.
+            Descent::Vanished | Descent::Future => {
+                self.counts.vanished += 1;
+                self.report_useless(sender, now);
+                let reason = format!("policy version {:?} is not one of this learner's", fragment.version);
+                Err((DropRule::Vanished, Outcome::Vanished, reason))
+            }
+            Descent::Lag(lag) if lag > self.expected.max_policy_lag => {
+                self.counts.too_old += 1;
+                let reason = format!("{lag} versions behind, at most {} are allowed", self.expected.max_policy_lag);
+                Err((DropRule::TooOld, Outcome::TooOld, reason))
+            }
+            Descent::Lag(lag) => Ok(lag),
+        }
+    }
+
+    /// Reports a fragment without use to admission control, which may put its sender in quarantine.
+    fn report_useless(&self, sender: &Sender, now: Instant) {
+        if self.gate.useless(sender, now) {
+            let name = sender.name();
+            self.quarantines.warn(|| format!("`{name}` is put in quarantine: nothing it sent of late was of use"));
+        }
+    }
+
+    /// Adds the fragments that admission control rejected unread to the counts.
+    pub fn count_unread(&mut self) {
+        let unread = self.gate.take_unread();
+        self.counts.malformed += unread.malformed;
+        self.counts.quarantined += unread.quarantined;
+        self.turned_away += unread.turned_away;
+    }
+
+    /// Fragments rejected unread because the queue was full, since this start.
+    pub fn turned_away(&self) -> u64 {
+        self.turned_away
+    }
+
+    /// Bytes of the accepted fragments, since this start.
+    pub fn accepted_bytes(&self) -> u64 {
+        self.accepted_bytes
+    }
+
+    /// Senders in quarantine.
+    pub fn quarantined(&self, now: Instant) -> Vec<String> {
+        self.gate.held(now)
+    }
+
+    fn check(&self, actor: &str, fragment: Fragment, lineage: &Lineage) -> Result<Fragment, Malformed> {
+        let expected = &self.expected;
+        let differ = |field: &'static str, found: String, wanted: String| {
+            Err(Malformed::Field { field, value: found, expected: wanted })
+        };
+        if fragment.run != expected.run {
+            return differ("run", format!("`{}`", fragment.run), format!("`{}`", expected.run));
+        }
+        if fragment.actor != actor {
+            return differ("actor", format!("`{}`", fragment.actor), format!("`{actor}`, as the key says"));
+        }
+        for (field, found, wanted) in [
+            ("config_hash", fragment.config_hash, expected.config_hash),
+            ("observation_size", fragment.observation_size.into(), expected.observation_size.into()),
+            ("action_size", fragment.action_size.into(), expected.action_size.into()),
+        ] {
+            if found != wanted {
+                return differ(field, found.to_string(), format!("{wanted}, as the policy bundle says"));
+            }
+        }
+        // A version is saved before it is published, so no actor can have a later one.
+        if lineage.descent(fragment.version) == Descent::Future {
+            let newest = lineage.newest().number;
+            return differ("version", fragment.version.number.to_string(), format!("at most {newest}, the newest"));
+        }
+        Ok(fragment)
+    }
+}
+
+#[cfg(test)]
+#[path = "validator_tests.rs"]
+mod tests;

@@ -1,0 +1,115 @@
+use treadmill_proto::PolicyVersion;
+
+use super::*;
+
+fn validator() -> FragmentValidator {
+    let expected =
+        ExpectedFragment { run: "walk".into(), config_hash: 5, observation_size: 1, action_size: 1, max_policy_lag: 1 };
+    FragmentValidator::new(expected, Arc::new(Gate::new(3, 64)), Ledger::default(), FragmentCounts::default())
+}
+
+fn fragment(sequence: u64, number: u64) -> Fragment {
+    Fragment {
+        run: "walk".into(),
+        actor: "a".into(),
+        actor_incarnation: 2,
+        sequence,
+        version: PolicyVersion { incarnation: 1, number },
+        config_hash: 5,
+        steps: 1,
+        envs: 1,
+        observation_size: 1,
+        action_size: 1,
+        observations: vec![0.0],
+        actions: vec![0.0],
+        log_probs: vec![0.0],
+        rewards: vec![1.0],
+        flags: vec![0],
+        last_observations: vec![0.0],
+        episodes: vec![],
+        settled_through: 0,
+        actor_state: None,
+    }
+}
+
+fn lineage(number: u64) -> Lineage {
+    let mut lineage = Lineage::new(1);
+    (0..number).for_each(|_| lineage.advance());
+    lineage
+}
+
+fn outcome(validator: &mut FragmentValidator, fragment: &Fragment, lineage: &Lineage) -> Outcome {
+    match validator.validate("a", fragment.encode().unwrap().into(), lineage, Instant::now()) {
+        Ok(_) => Outcome::Accepted,
+        Err(receipt) => receipt.outcome,
+    }
+}
+
+#[test]
+fn each_outcome_and_its_count() {
+    let (mut validator, lineage) = (validator(), lineage(5));
+    assert_eq!(outcome(&mut validator, &fragment(1, 5), &lineage), Outcome::Accepted);
+    assert_eq!(outcome(&mut validator, &fragment(1, 5), &lineage), Outcome::Duplicate);
+    assert_eq!(outcome(&mut validator, &fragment(2, 4), &lineage), Outcome::Accepted);
+    assert_eq!(outcome(&mut validator, &fragment(3, 3), &lineage), Outcome::TooOld);
+    let vanished = Fragment { version: PolicyVersion { incarnation: 9, number: 5 }, ..fragment(4, 5) };
+    assert_eq!(outcome(&mut validator, &vanished, &lineage), Outcome::Vanished);
+    let other_run = Fragment { run: "other".into(), ..fragment(5, 5) };
+    assert_eq!(outcome(&mut validator, &other_run, &lineage), Outcome::Malformed);
+    let wanted = FragmentCounts { accepted: 2, duplicate: 1, too_old: 1, vanished: 1, malformed: 1, quarantined: 0 };
+    assert_eq!(validator.counts, wanted);
+}
+
+#[test]
+fn a_fragment_dropped_by_rule_gets_the_same_outcome_when_it_is_sent_again() {
+    let (mut validator, lineage) = (validator(), lineage(5));
+    for duplicates in 0..2 {
+        assert_eq!(outcome(&mut validator, &fragment(1, 0), &lineage), Outcome::TooOld);
+        assert_eq!((validator.counts.too_old, validator.counts.duplicate), (1, duplicates));
+    }
+    validator.ledger.mark_durable();
+    assert_eq!(validator.ledger.durable_through("a", 2), 1);
+}
+
+#[test]
+fn refusals_name_the_field_and_lead_to_quarantine() {
+    let (mut validator, lineage) = (validator(), lineage(0));
+    let wrong =
+        Fragment { observation_size: 2, observations: vec![0.0; 2], last_observations: vec![0.0; 2], ..fragment(1, 0) };
+    for _ in 0..3 {
+        let receipt = validator.validate("a", wrong.encode().unwrap().into(), &lineage, Instant::now()).unwrap_err();
+        assert_eq!(receipt.outcome, Outcome::Malformed);
+        assert!(receipt.reason.contains("`observation_size` is 2; expected 1"), "{}", receipt.reason);
+    }
+    assert_eq!(outcome(&mut validator, &fragment(1, 0), &lineage), Outcome::Quarantined);
+    assert_eq!(validator.quarantined(Instant::now()), ["a"]);
+}
+
+#[test]
+fn a_version_of_the_future_is_malformed() {
+    let (mut validator, lineage) = (validator(), lineage(5));
+    let receipt =
+        validator.validate("a", fragment(1, 6).encode().unwrap().into(), &lineage, Instant::now()).unwrap_err();
+    assert_eq!(receipt.outcome, Outcome::Malformed);
+    assert!(receipt.reason.contains("`version` is 6; expected at most 5"), "{}", receipt.reason);
+}
+
+#[test]
+fn nonsense_under_the_name_of_a_good_actor_does_not_harm_it() {
+    let (mut validator, lineage) = (validator(), lineage(0));
+    assert_eq!(outcome(&mut validator, &fragment(1, 0), &lineage), Outcome::Accepted);
+    let impostor = Fragment { actor_incarnation: 3, run: "other".into(), ..fragment(2, 0) };
+    for _ in 0..3 {
+        assert_eq!(outcome(&mut validator, &impostor, &lineage), Outcome::Malformed);
+    }
+    assert_eq!(outcome(&mut validator, &impostor, &lineage), Outcome::Quarantined);
+    assert_eq!(outcome(&mut validator, &fragment(2, 0), &lineage), Outcome::Accepted);
+}
+
+#[test]
+fn a_sender_cannot_speak_for_another() {
+    let (mut validator, lineage) = (validator(), lineage(0));
+    let receipt =
+        validator.validate("b", fragment(1, 0).encode().unwrap().into(), &lineage, Instant::now()).unwrap_err();
+    assert!(receipt.reason.contains("as the key says"), "{}", receipt.reason);
+}

@@ -1,0 +1,163 @@
+//! Writes each scalar to every output: screen, TensorBoard, `metrics.jsonl`, the bus, Prometheus.
+
+use std::{collections::HashMap, time::Duration};
+
+use treadmill_common::{
+    bus::{Bus, keys, publish_dropping},
+    config::Config,
+    machine,
+    shutdown::Shutdown,
+};
+use treadmill_proto::json::Metric;
+
+use super::{Console, CurveThread, EventWriter, Histogram, History, JsonLines, PrometheusMetrics, tensorboard::texts};
+use crate::{
+    checkpoint::TrainingState,
+    training::{TrainingError, TrainingOptions, disk_full::wait_for_disk_space},
+};
+
+/// Sends a JSON object under one tag.
+type Publish = Box<dyn Fn(Vec<u8>) + Send>;
+
+/// Every output of scalars and histograms.
+pub struct MetricsReport {
+    run: String,
+    bus: Bus,
+    curve: CurveThread,
+    console: Console,
+    lines: JsonLines,
+    events: EventWriter,
+    prometheus: PrometheusMetrics,
+    publishers: HashMap<String, Publish>,
+    table_every_updates: u64,
+}
+
+impl MetricsReport {
+    /// Opens the logs; on a resumed run, removes lines that are newer than the checkpoint.
+    pub fn open(
+        bus: &Bus,
+        state: &TrainingState,
+        config: &Config,
+        options: &TrainingOptions,
+    ) -> Result<Self, TrainingError> {
+        let folder = options.folder.clone();
+        let (now, env_steps) = (machine::time_unix_s(), state.counters.env_steps);
+        if folder.metrics().exists() {
+            JsonLines::truncate_after(&folder.metrics(), env_steps)?;
+        }
+        let lines = JsonLines::append(&folder.metrics())?;
+        let mut events = EventWriter::create(folder.root(), now, &machine::host_name())?;
+        if env_steps > 0 {
+            events.resume(env_steps + 1, now)?;
+        }
+        events.hyperparameters(config, now)?;
+        // What holds from this step on; TensorBoard shows the older ones beside it.
+        for (tag, text) in [
+            ("config", texts::configuration(config)),
+            ("command", texts::command(&options.command)),
+            ("versions", texts::facts(&options.versions)),
+        ] {
+            events.text(env_steps, now, tag, &text)?;
+        }
+        Ok(Self {
+            curve: CurveThread::new(folder.metrics(), folder.learning_curve()),
+            run: state.run.clone(),
+            bus: bus.clone(),
+            console: Console::new(config.run.steps, env_steps, options.show_progress),
+            lines,
+            events,
+            prometheus: options.prometheus.clone(),
+            publishers: HashMap::new(),
+            table_every_updates: config.learner.table_every_updates.into(),
+        })
+    }
+
+    /// Prints the table at other intervals from now on.
+    pub fn set_table_every(&mut self, updates: u64) {
+        self.table_every_updates = updates;
+    }
+
+    /// The run ends after another number of steps than it began with.
+    pub fn set_steps(&mut self, steps: u64) {
+        self.console.set_steps(steps);
+    }
+
+    /// Logs the scalars of one update; where the disk is full, once it is not.
+    pub fn log(
+        &mut self,
+        env_steps: u64,
+        updates: u64,
+        scalars: &[(String, f64)],
+        history: &History,
+        shutdown: &Shutdown,
+    ) -> std::io::Result<()> {
+        let time_unix_s = machine::time_unix_s();
+        let metrics: Vec<Metric> = scalars
+            .iter()
+            .filter(|(_, value)| value.is_finite())
+            .map(|(tag, value)| Metric {
+                run: self.run.clone(),
+                tag: tag.clone(),
+                step: env_steps,
+                value: *value,
+                time_unix_s,
+            })
+            .collect();
+        wait_for_disk_space(shutdown, || self.lines.write(&metrics))?;
+        wait_for_disk_space(shutdown, || self.events.scalars(env_steps, time_unix_s, scalars))?;
+        self.prometheus.take(metrics.iter().map(|metric| (metric.tag.as_str(), metric.value)));
+        for metric in &metrics {
+            self.publish(metric);
+        }
+        self.console.progress(env_steps, history);
+        self.curve.poll();
+        if updates.is_multiple_of(self.table_every_updates) {
+            self.console.table(scalars);
+        }
+        Ok(())
+    }
+
+    /// Logs histograms, which TensorBoard alone shows.
+    pub fn log_histograms(
+        &mut self,
+        env_steps: u64,
+        histograms: &[(String, Histogram)],
+        shutdown: &Shutdown,
+    ) -> std::io::Result<()> {
+        let time_unix_s = machine::time_unix_s();
+        wait_for_disk_space(shutdown, || self.events.histograms(env_steps, time_unix_s, histograms))
+    }
+
+    /// Says that experience is waited for, where that takes long; `actors` are alive.
+    pub fn waiting(&mut self, waited: Duration, actors: usize) {
+        self.console.waiting(waited, actors);
+    }
+
+    /// One publisher for each tag, declared once: a declared key costs memory for as long as the session lives.
+    fn publish(&mut self, metric: &Metric) {
+        if !self.publishers.contains_key(&metric.tag) {
+            match publish_dropping(&self.bus, keys::metric(&self.run, &metric.tag)) {
+                Ok(publish) => drop(self.publishers.insert(metric.tag.clone(), Box::new(publish))),
+                Err(why) => return tracing::warn!("{why}"),
+            }
+        }
+        self.publishers[&metric.tag](metric.to_json());
+    }
+
+    /// Notes how the run ended: whether it was stopped before its last step, or nothing where it failed. One that was stopped
+    /// may go on, so nothing is said of it.
+    pub fn end(&self, stopped: Option<bool>) {
+        if stopped == Some(true) {
+            return;
+        }
+        if let Err(why) = self.events.end(stopped.is_some(), machine::time_unix_s()) {
+            tracing::warn!("TensorBoard is not told how the run ended: {why}");
+        }
+    }
+
+    /// Ends the bar and draws the learning curve.
+    pub fn finish(&mut self, history: &History) -> Result<(), TrainingError> {
+        self.console.finish(history);
+        Ok(self.curve.finish()?)
+    }
+}

@@ -1,0 +1,263 @@
+//! Scalars of each update: one tag and one number each.
+
+use std::{
+    collections::{BTreeSet, HashMap},
+    time::{Duration, Instant},
+};
+
+use treadmill_common::{bus::forbidden_messages, config::Config, machine};
+use treadmill_ppo::{AcceptedFragment, UpdateStats};
+use treadmill_proto::ActorStats;
+
+use super::History;
+use crate::{checkpoint::TrainingState, training::evaluation::EvaluationResult};
+
+/// How long the phases of one update took.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct PhaseDurations {
+    /// Waiting for fragments and validating them.
+    pub collect: Duration,
+    /// Estimating advantages and learning.
+    pub update: Duration,
+    /// Learning alone: minibatches forward and back.
+    pub learn: Duration,
+    /// Writing the checkpoint.
+    pub checkpoint: Duration,
+}
+
+/// Lag of the batch, over transitions.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct PolicyLag {
+    /// Mean number of versions behind.
+    pub mean: f64,
+    /// The largest.
+    pub max: f64,
+    /// Share of transitions that are 0, 1, 2, 3, 4, and 5 or more versions behind.
+    pub shares: [f64; LAG_SHARES.len()],
+    /// Transitions.
+    pub transitions: f64,
+}
+
+/// The histogram of lags, tag by tag.
+const LAG_SHARES: [&str; 6] = [
+    "bus/policy_lag_0_share",
+    "bus/policy_lag_1_share",
+    "bus/policy_lag_2_share",
+    "bus/policy_lag_3_share",
+    "bus/policy_lag_4_share",
+    "bus/policy_lag_5_up_share",
+];
+
+impl PolicyLag {
+    /// Over every transition of a batch.
+    pub fn of(batch: &[AcceptedFragment]) -> Self {
+        let transitions: f64 = batch.iter().map(|accepted| accepted.fragment.transitions() as f64).sum();
+        let mut lag = Self { transitions, ..Self::default() };
+        for accepted in batch {
+            let share = accepted.fragment.transitions() as f64 / transitions.max(1.0);
+            lag.mean += share * accepted.lag as f64;
+            lag.max = lag.max.max(accepted.lag as f64);
+            lag.shares[(accepted.lag as usize).min(LAG_SHARES.len() - 1)] += share;
+        }
+        lag
+    }
+}
+
+/// Environment steps per second, and how much of the time was spent waiting for them, over the last updates.
+#[derive(Debug)]
+pub struct ThroughputMeter {
+    marks: std::collections::VecDeque<Mark>,
+    waited: Duration,
+}
+
+#[derive(Clone, Copy, Debug)]
+struct Mark {
+    at: Instant,
+    env_steps: u64,
+    waited: Duration,
+}
+
+/// Throughput of the last updates.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Throughput {
+    /// Environment steps per second.
+    pub env_steps_per_s: f64,
+    /// Share of the time in which the learner waited for rollouts.
+    pub wait_share: f64,
+}
+
+impl ThroughputMeter {
+    /// Updates that the throughput is taken over.
+    const UPDATES: usize = 20;
+
+    /// Starts to measure.
+    pub fn new(env_steps: u64) -> Self {
+        let mark = Mark { at: Instant::now(), env_steps, waited: Duration::ZERO };
+        Self { marks: [mark].into(), waited: Duration::ZERO }
+    }
+
+    /// Notes the steps so far, and for how long the last ones were waited for; the speed since the oldest mark.
+    pub fn mark(&mut self, env_steps: u64, waited: Duration) -> Throughput {
+        let at = Instant::now();
+        self.waited += waited;
+        self.marks.push_back(Mark { at, env_steps, waited: self.waited });
+        if self.marks.len() > Self::UPDATES {
+            self.marks.pop_front();
+        }
+        let oldest = self.marks.front().copied().expect("a mark was just added");
+        let passed_s = at.duration_since(oldest.at).as_secs_f64().max(1e-9);
+        Throughput {
+            env_steps_per_s: (env_steps - oldest.env_steps) as f64 / passed_s,
+            wait_share: ((self.waited - oldest.waited).as_secs_f64() / passed_s).min(1.0),
+        }
+    }
+}
+
+/// Everything that the scalars of one update are taken from.
+pub struct UpdateRecord<'a> {
+    /// The state after it.
+    pub state: &'a TrainingState,
+    /// The configuration.
+    pub config: &'a Config,
+    /// What the update did; `None` where it was undone.
+    pub update: Option<&'a UpdateStats>,
+    /// Lag of the batch.
+    pub lag: PolicyLag,
+    /// Passes over it.
+    pub epochs: u32,
+    /// How long its parts took.
+    pub durations: PhaseDurations,
+    /// Result of an evaluation that has just ended.
+    pub evaluation: Option<&'a EvaluationResult>,
+    /// What the run has reached so far, this update included.
+    pub history: &'a History,
+    /// Throughput of the last updates.
+    pub throughput: Throughput,
+    /// Actors that are alive.
+    pub alive: &'a BTreeSet<String>,
+    /// The newest statistics of each.
+    pub stats: &'a HashMap<String, ActorStats>,
+    /// Senders in quarantine.
+    pub quarantined: usize,
+    /// Fragments rejected unread because the queue was full, since this start.
+    pub turned_away: u64,
+    /// Bytes of the accepted fragments, since this start.
+    pub accepted_bytes: u64,
+}
+
+impl UpdateRecord<'_> {
+    /// Every tag with its number.
+    pub fn scalars(&self) -> Vec<(String, f64)> {
+        let mut out: Vec<(&str, f64)> = Vec::with_capacity(64);
+        self.rollout(&mut out);
+        self.time(&mut out);
+        self.train(&mut out);
+        self.bus(&mut out);
+        self.actors(&mut out);
+        self.eval(&mut out);
+        out.into_iter().map(|(tag, value)| (tag.to_string(), value)).collect()
+    }
+
+    fn rollout(&self, out: &mut Vec<(&str, f64)>) {
+        if let Some(means) = self.state.episodes.means() {
+            out.extend([
+                ("rollout/ep_rew_mean", means.return_mean),
+                ("rollout/ep_len_mean", means.length_mean),
+                ("rollout/distance_mean_m", means.distance_mean_m),
+                ("rollout/velocity_mean_mps", means.velocity_mean_mps),
+                ("rollout/fall_fraction", means.fall_fraction),
+            ]);
+        }
+        out.extend(self.history.distance_best_m.map(|best_m| ("rollout/distance_best_m", best_m)));
+        out.push(("rollout/episodes", self.state.episodes.finished as f64));
+    }
+
+    fn time(&self, out: &mut Vec<(&str, f64)>) {
+        let counters = &self.state.counters;
+        out.extend([
+            ("time/fps", self.throughput.env_steps_per_s),
+            ("time/iterations", counters.updates as f64),
+            ("time/time_elapsed", counters.wall_s),
+            ("time/total_timesteps", counters.env_steps as f64),
+            ("time/collect_s", self.durations.collect.as_secs_f64()),
+            ("time/update_s", self.durations.update.as_secs_f64()),
+            ("time/checkpoint_s", self.durations.checkpoint.as_secs_f64()),
+        ]);
+    }
+
+    fn train(&self, out: &mut Vec<(&str, f64)>) {
+        if let Some(update) = self.update {
+            out.extend([
+                ("train/approx_kl", update.approx_kl),
+                ("train/clip_fraction", update.clip_fraction),
+                // Stable-Baselines3 logs the loss, which is minus the entropy.
+                ("train/entropy_loss", -update.entropy),
+                ("train/explained_variance", update.explained_variance),
+                ("train/policy_gradient_loss", update.policy_loss),
+                ("train/value_loss", update.value_loss),
+                ("train/bounds_loss", update.bounds_loss),
+                ("train/grad_norm", update.grad_norm),
+                ("train/std", update.std),
+                ("train/samples_per_s", update.samples as f64 / self.durations.learn.as_secs_f64().max(1e-9)),
+            ]);
+        }
+        let counters = &self.state.counters;
+        out.extend([
+            ("train/clip_range", self.config.ppo.clip_range),
+            ("train/batch", self.lag.transitions),
+            ("train/epochs", f64::from(self.epochs)),
+            ("train/learning_rate", self.state.learning_rate),
+            ("train/n_updates", counters.gradient_steps as f64),
+            ("train/undone_updates", counters.undone_updates as f64),
+        ]);
+    }
+
+    fn bus(&self, out: &mut Vec<(&str, f64)>) {
+        let (counts, account) = (&self.state.fragment_counts, self.state.ledger.total());
+        out.extend([("bus/policy_lag_mean", self.lag.mean), ("bus/policy_lag_max", self.lag.max)]);
+        out.extend(LAG_SHARES.into_iter().zip(self.lag.shares));
+        out.extend([
+            ("bus/fragments_accepted", counts.accepted as f64),
+            ("bus/fragments_duplicate", counts.duplicate as f64),
+            ("bus/fragments_too_old", counts.too_old as f64),
+            ("bus/fragments_vanished", counts.vanished as f64),
+            ("bus/fragments_malformed", counts.malformed as f64),
+            ("bus/fragments_quarantined", counts.quarantined as f64),
+            ("bus/fragments_turned_away", self.turned_away as f64),
+            ("bus/messages_forbidden", forbidden_messages() as f64),
+            ("bus/accepted_mb", self.accepted_bytes as f64 / 1e6),
+            ("bus/fragments_unseen", account.unseen as f64),
+            ("bus/env_steps_dropped", account.env_steps_dropped as f64),
+        ]);
+    }
+
+    fn eval(&self, out: &mut Vec<(&str, f64)>) {
+        let Some(EvaluationResult { report, env_steps, .. }) = self.evaluation else { return };
+        out.extend([
+            ("eval/mean_reward", report.return_mean),
+            ("eval/std_reward", report.return_std),
+            ("eval/mean_ep_length", report.length_mean),
+            ("eval/distance_mean_m", report.distance_mean_m),
+            ("eval/distance_best_m", self.history.evaluated_best_m.unwrap_or(report.distance_mean_m)),
+            ("eval/velocity_mean_mps", report.velocity_mean_mps),
+            ("eval/fall_fraction", f64::from(report.falls) / f64::from(report.episodes)),
+            ("eval/total_timesteps", *env_steps as f64),
+        ]);
+    }
+
+    fn actors(&self, out: &mut Vec<(&str, f64)>) {
+        let sum = |of: fn(&ActorStats) -> f64| self.stats.values().map(of).sum::<f64>();
+        let memory_max = self.stats.values().map(|stats| stats.resident_bytes).max().unwrap_or(0);
+        out.extend([
+            ("actors/alive", self.alive.len() as f64),
+            ("actors/restarts", self.state.counters.restarts as f64),
+            ("actors/quarantined", self.quarantined as f64),
+            ("actors/physics_faults", self.state.episodes.faults as f64),
+            ("actors/env_steps_per_s", sum(|stats| stats.env_steps_per_s)),
+            ("actors/fragments_resent", sum(|stats| stats.resent as f64)),
+            ("actors/memory_max_mb", memory_max as f64 / 1e6),
+            ("learner/wait_share", self.throughput.wait_share),
+            ("learner/memory_mb", machine::resident_bytes() as f64 / 1e6),
+        ]);
+    }
+}

@@ -1,0 +1,153 @@
+//! Status of a run, and commands to it.
+//!
+//! A separate thread answers status requests at once. Commands are queued for the training thread, which applies them
+//! several times a second, also while it waits for fragments.
+
+mod roster;
+
+use std::{
+    io,
+    sync::{
+        Arc, Mutex, MutexGuard,
+        atomic::{AtomicBool, Ordering},
+        mpsc::{Receiver, TrySendError, sync_channel},
+    },
+    time::{Duration, Instant},
+};
+
+use treadmill_common::{
+    bus::{AliveView, Bus, BusError, ControlDesk, Inquiry, StatsFeed},
+    machine,
+};
+use treadmill_proto::{Command, ControlReply, RunStatus};
+
+use roster::Roster;
+
+/// Commands that may be queued for the training thread.
+const COMMANDS_MAX: usize = 16;
+/// Longest wait for a request between two checks for the end of the run.
+const TICK: Duration = Duration::from_millis(50);
+
+/// Newest status of the training thread, and the actors' statistics.
+struct StatusBoard {
+    run: String,
+    status: RunStatus,
+    updated: Instant,
+    quarantined: Vec<String>,
+    roster: Roster,
+}
+
+/// The training thread's end of the control flow.
+pub struct ControlChannel {
+    board: Arc<Mutex<StatusBoard>>,
+    commands: Receiver<Inquiry>,
+    /// Command that [`Self::has_command`] has taken from the queue.
+    next: Option<Inquiry>,
+    closed: Arc<AtomicBool>,
+    status_set: Instant,
+}
+
+impl ControlChannel {
+    /// Starts the thread that answers requests.
+    ///
+    /// # Errors
+    /// If the bus refuses, or the thread cannot be started.
+    pub fn open(bus: &Bus, status: RunStatus, alive: AliveView) -> Result<Self, BusError> {
+        let run = status.run.clone();
+        let (server, feed) = (ControlDesk::open(bus, &run)?, StatsFeed::open(bus, &run, alive.clone())?);
+        let roster = Roster::new(alive);
+        let board =
+            Arc::new(Mutex::new(StatusBoard { run, status, updated: Instant::now(), quarantined: Vec::new(), roster }));
+        let (sender, commands) = sync_channel(COMMANDS_MAX);
+        let closed = Arc::new(AtomicBool::new(false));
+        std::thread::Builder::new()
+            .name("control-desk".to_string())
+            .spawn({
+                let (board, closed) = (board.clone(), closed.clone());
+                move || {
+                    while !closed.load(Ordering::Relaxed) {
+                        let inquiry = server.next(TICK);
+                        let mut board = lock(&board);
+                        board.roster.hear(&feed, Instant::now());
+                        let Some(inquiry) = inquiry else { continue };
+                        if inquiry.request.command() == Command::Status {
+                            let reply = board.reply(true, String::new());
+                            inquiry.answer(&board.run, &reply);
+                        } else if let Err(TrySendError::Full(inquiry) | TrySendError::Disconnected(inquiry)) =
+                            sender.try_send(inquiry)
+                        {
+                            let why = format!("{COMMANDS_MAX} commands wait already; ask again");
+                            let reply = board.reply(false, why);
+                            inquiry.answer(&board.run, &reply);
+                        }
+                    }
+                }
+            })
+            .map_err(|why: io::Error| BusError::Flow {
+                what: "starting the control desk".into(),
+                why: why.to_string(),
+            })?;
+        Ok(Self { board, commands, next: None, closed, status_set: Instant::now() })
+    }
+
+    /// Whether a command is queued.
+    pub fn has_command(&mut self) -> bool {
+        if self.next.is_none() {
+            self.next = self.commands.try_recv().ok();
+        }
+        self.next.is_some()
+    }
+
+    /// The next command, if one comes within `timeout`.
+    pub fn next(&mut self, timeout: Duration) -> Option<Inquiry> {
+        self.next.take().or_else(|| self.commands.recv_timeout(timeout).ok())
+    }
+
+    /// Answers a command: what was done, or why it failed.
+    pub fn answer(&self, inquiry: Inquiry, outcome: Result<String, String>) {
+        let board = lock(&self.board);
+        let reply = match outcome {
+            Ok(text) => board.reply(true, text),
+            Err(text) => board.reply(false, text),
+        };
+        inquiry.answer(&board.run, &reply);
+    }
+
+    /// Time since [`Self::set_status`] was called.
+    pub fn since_status(&self) -> Duration {
+        self.status_set.elapsed()
+    }
+
+    /// Sets the status that requests are answered with; `is_update` right after an update.
+    pub fn set_status(&mut self, status: RunStatus, quarantined: Vec<String>, is_update: bool) {
+        self.status_set = Instant::now();
+        let mut board = lock(&self.board);
+        if is_update {
+            board.updated = self.status_set;
+        }
+        (board.status, board.quarantined) = (status, quarantined);
+    }
+}
+
+impl Drop for ControlChannel {
+    fn drop(&mut self) {
+        self.closed.store(true, Ordering::Relaxed);
+    }
+}
+
+fn lock(board: &Mutex<StatusBoard>) -> MutexGuard<'_, StatusBoard> {
+    board.lock().expect("no holder of this lock panics")
+}
+
+impl StatusBoard {
+    fn reply(&self, done: bool, text: String) -> ControlReply {
+        let newest = self.status.version.unwrap_or_default();
+        let status = RunStatus {
+            time_unix_s: machine::time_unix_s(),
+            since_update_s: self.updated.elapsed().as_secs_f64(),
+            actors: self.roster.actors(newest, &self.quarantined, Instant::now()),
+            ..self.status.clone()
+        };
+        ControlReply { done, text, status: Some(status) }
+    }
+}

@@ -1,0 +1,80 @@
+//! Schedules evaluations: after every `eval.every_steps` environment steps, one policy goes to the evaluation actors.
+
+use std::collections::VecDeque;
+
+use bytes::Bytes;
+use treadmill_common::bus::{Bus, BusError, EvaluationDesk};
+use treadmill_proto::{EvaluationReport, PolicyVersion};
+
+/// Policies that may still get a result; older ones are forgotten.
+const CANDIDATES_MAX: usize = 4;
+
+/// Result of an evaluation.
+#[derive(Debug)]
+pub struct EvaluationResult {
+    /// The evaluation actor's report.
+    pub report: EvaluationReport,
+    /// Environment steps that the policy had learnt from.
+    pub env_steps: u64,
+    /// The checkpoint with that policy, encoded.
+    pub checkpoint: Vec<u8>,
+}
+
+struct Candidate {
+    version: PolicyVersion,
+    env_steps: u64,
+    checkpoint: Vec<u8>,
+}
+
+/// Submits policies for evaluation and matches results to them.
+pub struct EvaluationScheduler {
+    server: EvaluationDesk,
+    every_steps: u64,
+    due_at_steps: u64,
+    candidates: VecDeque<Candidate>,
+}
+
+impl EvaluationScheduler {
+    /// Evaluates one policy after every `every_steps` environment steps; the run has `env_steps` already.
+    pub fn open(bus: &Bus, run: &str, every_steps: u64, env_steps: u64) -> Result<Self, BusError> {
+        let due_at_steps = (env_steps / every_steps + 1) * every_steps;
+        Ok(Self { server: EvaluationDesk::open(bus, run)?, every_steps, due_at_steps, candidates: VecDeque::new() })
+    }
+
+    /// Changes the interval.
+    pub fn set_every(&mut self, every_steps: u64, env_steps: u64) {
+        if every_steps != self.every_steps {
+            self.every_steps = every_steps;
+            self.due_at_steps = match every_steps {
+                0 => u64::MAX,
+                every => (env_steps / every + 1) * every,
+            };
+        }
+    }
+
+    /// Whether a policy that has learnt from `env_steps` is to be evaluated.
+    pub fn is_due(&self, env_steps: u64) -> bool {
+        env_steps >= self.due_at_steps
+    }
+
+    /// Submits a policy for evaluation, with the checkpoint that it is part of.
+    pub fn submit(&mut self, version: PolicyVersion, bundle: Bytes, env_steps: u64, checkpoint: Vec<u8>) {
+        self.due_at_steps = (env_steps / self.every_steps + 1) * self.every_steps;
+        if self.candidates.len() == CANDIDATES_MAX {
+            self.candidates.pop_front();
+        }
+        self.candidates.push_back(Candidate { version, env_steps, checkpoint });
+        self.server.put(version, bundle);
+    }
+
+    /// The next result of a submitted policy; each policy has one.
+    pub fn next_result(&mut self) -> Option<EvaluationResult> {
+        while let Some(report) = self.server.next_report() {
+            let known = self.candidates.iter().position(|candidate| candidate.version == report.version);
+            if let Some(Candidate { env_steps, checkpoint, .. }) = known.and_then(|at| self.candidates.remove(at)) {
+                return Some(EvaluationResult { report, env_steps, checkpoint });
+            }
+        }
+        None
+    }
+}

@@ -1,0 +1,49 @@
+//! Heartbeat of the training thread, which other threads watch.
+
+use std::{
+    sync::{
+        Arc,
+        atomic::{AtomicU64, Ordering},
+    },
+    time::{Duration, Instant},
+};
+
+/// Heartbeat of the training thread: it beats while it waits for fragments, and after each part of an update.
+#[derive(Clone, Debug)]
+pub struct Heartbeat {
+    begun: Instant,
+    /// Milliseconds from `begun` to the last beat.
+    beaten_ms: Arc<AtomicU64>,
+}
+
+impl Default for Heartbeat {
+    fn default() -> Self {
+        Self { begun: Instant::now(), beaten_ms: Arc::default() }
+    }
+}
+
+impl Heartbeat {
+    /// Records a beat.
+    pub fn beat(&self) {
+        self.beaten_ms.store(self.begun.elapsed().as_millis() as u64, Ordering::Relaxed);
+    }
+
+    /// Time since the last beat.
+    pub fn silence(&self) -> Duration {
+        self.begun.elapsed().saturating_sub(Duration::from_millis(self.beaten_ms.load(Ordering::Relaxed)))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn silence_lasts_until_the_next_beat() {
+        let heartbeat = Heartbeat { begun: Instant::now() - Duration::from_secs(1000), beaten_ms: Arc::default() };
+        let watched = heartbeat.clone();
+        assert!(watched.silence() >= Duration::from_secs(1000));
+        heartbeat.beat();
+        assert!(watched.silence() < Duration::from_secs(1000));
+    }
+}

@@ -1,0 +1,114 @@
+//! Turns a batch into improved parameters.
+
+use std::{
+    sync::Arc,
+    time::{Duration, Instant},
+};
+
+use treadmill_common::{config::Config, machine, normaliser::Normaliser};
+use treadmill_ppo::{AcceptedFragment, BatchMirror, UpdateError, UpdateStats, Updater, build_batch};
+
+use super::{Trainer, TrainingError, TrainingOptions, load_adaptation::LoadAdaptation};
+use crate::checkpoint::TrainingState;
+
+/// The learning part of a [`Trainer`].
+pub(super) struct Learning {
+    pub(super) updater: Updater,
+    mirror: Option<BatchMirror>,
+    pub(super) load: LoadAdaptation,
+    undone_in_a_row: u32,
+    /// How long the gradient steps of the last update took.
+    pub(super) learn: Duration,
+}
+
+impl Learning {
+    /// Continues with the parameters and the optimiser of `state`.
+    pub(super) fn new(
+        state: &TrainingState,
+        config: &Config,
+        options: &TrainingOptions,
+    ) -> Result<Self, TrainingError> {
+        let wrong = |why: String| TrainingError::State { why };
+        let threads = match config.learner.threads {
+            0 => machine::cores(),
+            threads => threads as usize,
+        };
+        let pool = rayon::ThreadPoolBuilder::new()
+            .num_threads(threads)
+            .thread_name(|index| format!("update-{index}"))
+            .build()
+            .map_err(|why| wrong(why.to_string()))?;
+        let parameters = state.parameters.clone();
+        let mut updater = Updater::on(&options.device, state.shape.clone(), parameters, &config.ppo, Arc::new(pool))
+            .map_err(|why| wrong(why.to_string()))?;
+        updater.restore(state.optimiser.clone(), state.learning_rate).map_err(|why| wrong(why.to_string()))?;
+        Ok(Self {
+            updater,
+            mirror: options.mirror.clone(),
+            load: LoadAdaptation::new(config),
+            undone_in_a_row: 0,
+            learn: Duration::ZERO,
+        })
+    }
+}
+
+impl Trainer {
+    /// Learns from a batch. Returns `None` if the update was undone because a number was not finite.
+    pub(super) fn update(&mut self, accepted: &[AcceptedFragment]) -> Result<Option<UpdateStats>, TrainingError> {
+        let Self { state, learning, config, .. } = self;
+        let policy = learning.updater.policy().map_err(|why| TrainingError::State { why: why.to_string() })?;
+        let clip = config.policy.observation_clip as f32;
+        let normaliser = Normaliser::from_moments(&state.observation_moments, clip);
+        let mut value_moments = state.value_moments.clone();
+        let mirror = learning.mirror.as_ref();
+        let batch = build_batch(accepted, &policy, &normaliser, &mut value_moments, mirror, &config.ppo)?;
+        let mut observation_moments = state.observation_moments.clone();
+        for AcceptedFragment { fragment, .. } in accepted {
+            observation_moments.update(&fragment.observations, state.shape.observation);
+        }
+        let begun = Instant::now();
+        let updated = if observation_moments.is_finite() && value_moments.is_finite() {
+            learning.updater.update_in(learning.load.epochs(), &batch, &mut state.shuffle)
+        } else {
+            Err(UpdateError::NonFinite { what: "running statistic" })
+        };
+        learning.learn = begun.elapsed();
+        let stats = match updated {
+            Ok(stats) => {
+                learning.undone_in_a_row = 0;
+                state.value_moments = value_moments;
+                state.observation_moments = observation_moments;
+                state.counters.gradient_steps += stats.minibatches;
+                Some(stats)
+            }
+            Err(why) => {
+                tracing::warn!("an update was undone: {why}");
+                learning.undone_in_a_row += 1;
+                state.counters.undone_updates += 1;
+                if learning.undone_in_a_row >= config.learner.undone_max {
+                    return Err(TrainingError::NotFinite { updates: learning.undone_in_a_row, why });
+                }
+                None
+            }
+        };
+        self.serving.heartbeat.beat();
+        Ok(stats)
+    }
+
+    /// Advances the state by one update from `batch`.
+    pub(super) fn advance(&mut self, batch: &[AcceptedFragment]) {
+        let (state, updater) = (&mut self.state, &self.learning.updater);
+        state.parameters = updater.parameters();
+        state.optimiser = updater.optimiser().clone();
+        state.learning_rate = updater.learning_rate();
+        state.lineage.advance();
+        state.counters.updates += 1;
+        for AcceptedFragment { fragment, .. } in batch {
+            state.counters.env_steps += fragment.transitions() as u64;
+            state.episodes.extend(&fragment.episodes);
+        }
+        state.actor_state = batch.last().and_then(|accepted| accepted.fragment.actor_state.clone());
+        state.counters.wall_s = self.reporting.wall_s();
+        state.counters.restarts = self.reporting.restarts();
+    }
+}

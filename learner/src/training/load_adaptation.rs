@@ -1,0 +1,89 @@
+//! Adapts the size of batches and the passes over them to the load.
+//!
+//! Where fragments queue although the learner never waits, it first takes larger batches, then makes fewer passes over
+//! each. Only after that do actors wait for their receipts.
+
+use treadmill_common::config::{Config, LearnerMode};
+
+use crate::intake::{BatchSize, CollectedBatch};
+
+/// Size of the next batch and passes over it.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct LoadAdaptation {
+    batch_size: BatchSize,
+    epochs: u32,
+    epochs_min: u32,
+    epochs_max: u32,
+}
+
+impl LoadAdaptation {
+    /// As configured; in mode `sync`, where actors wait by design, size and passes are fixed.
+    pub fn new(config: &Config) -> Self {
+        let (transitions, epochs) = (config.ppo.batch as usize, config.ppo.epochs);
+        let (most, fewest) = match config.learner.mode {
+            LearnerMode::Sync => (transitions, epochs),
+            LearnerMode::Async => (transitions.max(config.ppo.batch_max as usize), epochs.min(config.ppo.epochs_min)),
+        };
+        Self {
+            batch_size: BatchSize { transitions, transitions_max: most },
+            epochs,
+            epochs_min: fewest,
+            epochs_max: epochs,
+        }
+    }
+
+    /// Size of the next batch.
+    pub fn batch_size(&self) -> BatchSize {
+        self.batch_size
+    }
+
+    /// Passes over the present batch.
+    pub fn epochs(&self) -> u32 {
+        self.epochs
+    }
+
+    /// Adapts to a batch: one pass less if it left a backlog, else one more, within the bounds.
+    pub fn adapt(&mut self, batch: &CollectedBatch) {
+        self.epochs = match batch.has_backlog {
+            true => self.epochs - 1,
+            false => self.epochs + 1,
+        }
+        .clamp(self.epochs_min, self.epochs_max);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn load(mode: LearnerMode, epochs_min: u32) -> LoadAdaptation {
+        let mut config = Config::default();
+        config.learner.mode = mode;
+        (config.ppo.batch, config.ppo.batch_max) = (100, 250);
+        (config.ppo.epochs, config.ppo.epochs_min) = (5, epochs_min);
+        LoadAdaptation::new(&config)
+    }
+
+    fn adapt(load: &mut LoadAdaptation, has_backlog: bool) -> u32 {
+        load.adapt(&CollectedBatch { fragments: Vec::new(), has_backlog });
+        load.epochs()
+    }
+
+    #[test]
+    fn passes_go_down_to_their_bound_and_back() {
+        let mut load = load(LearnerMode::Async, 3);
+        assert_eq!(load.batch_size(), BatchSize { transitions: 100, transitions_max: 250 });
+        assert_eq!(load.epochs(), 5);
+        let passes = [true, true, true, false, false, false].map(|more| adapt(&mut load, more));
+        assert_eq!(passes, [4, 3, 3, 4, 5, 5]);
+    }
+
+    #[test]
+    fn bounds_that_say_nothing_change_nothing() {
+        let mut strict = load(LearnerMode::Async, 9);
+        assert_eq!(adapt(&mut strict, true), 5);
+        let mut sync = load(LearnerMode::Sync, 1);
+        assert_eq!(sync.batch_size(), BatchSize { transitions: 100, transitions_max: 100 });
+        assert_eq!(adapt(&mut sync, true), 5);
+    }
+}

@@ -1,0 +1,92 @@
+//! The training loop: collect, update, save, publish, log.
+//!
+//! # Layout
+//! - Here: [`train`] and the loop. `Trainer` has three parts, each with the steps of the loop that it is for.
+//! - `options`: [`TrainingOptions`] and [`TrainingSummary`]; `error`: [`TrainingError`].
+//! - `start`: prepares a `Trainer` for its first batch.
+//! - `learning`: turns a batch into improved parameters.
+//! - `serving`: fragments in; checkpoint, policy and evaluations out.
+//! - `reporting`: logs each update.
+//! - `commands`: applies control commands, publishes the run's status.
+//! - [`control`]: queues commands for the training thread, answers status requests.
+//! - [`evaluation`]: schedules evaluations while training continues.
+//! - [`load_adaptation`]: adapts batch size and passes to the load.
+//! - [`heartbeat`]: heartbeat of the training thread.
+//! - [`disk_full`]: waits while the disk is full.
+
+mod commands;
+pub mod control;
+pub mod disk_full;
+mod error;
+pub mod evaluation;
+pub mod heartbeat;
+mod learning;
+pub mod load_adaptation;
+mod options;
+mod reporting;
+mod serving;
+mod start;
+
+use std::time::Instant;
+
+use treadmill_common::{bus::Bus, config::Config, shutdown::Shutdown};
+
+pub use self::commands::is_changeable;
+pub use self::error::TrainingError;
+pub use self::heartbeat::Heartbeat;
+pub use self::options::{TrainingOptions, TrainingSummary};
+use self::{learning::Learning, reporting::Reporting, serving::Serving};
+use crate::{checkpoint::TrainingState, metrics::scalars::PhaseDurations};
+
+/// Trains until the run has all its steps or shutdown is requested. Blocks: give it its own thread.
+pub fn train(
+    bus: &Bus,
+    state: TrainingState,
+    options: &TrainingOptions,
+    shutdown: &Shutdown,
+) -> Result<TrainingSummary, TrainingError> {
+    let (begun, steps_before) = (Instant::now(), state.counters.env_steps);
+    let mut trainer = Trainer::start(bus, state, options, shutdown)?;
+    let outcome = run(&mut trainer);
+    trainer.reporting.report.end(outcome.as_ref().ok().copied());
+    let stopped = outcome?;
+    trainer.finish()?;
+    Ok(TrainingSummary {
+        wall_s: begun.elapsed().as_secs_f64(),
+        env_steps: trainer.state.counters.env_steps - steps_before,
+        stopped,
+        farthest_m: trainer.reporting.history.farthest_m(),
+        state: trainer.state,
+    })
+}
+
+/// Runs update after update. Returns whether shutdown was requested before the last step.
+fn run(trainer: &mut Trainer) -> Result<bool, TrainingError> {
+    while trainer.state.counters.env_steps < trainer.config.run.steps {
+        let begun = Instant::now();
+        let Some(batch) = trainer.collect() else { return Ok(true) };
+        let collect = begun.elapsed();
+        let stats = trainer.update(&batch.fragments)?;
+        let update = begun.elapsed() - collect;
+        trainer.advance(&batch.fragments);
+        let evaluation = trainer.take_evaluation()?;
+        let saved = trainer.save()?;
+        let checkpoint = begun.elapsed() - collect - update;
+        trainer.publish(saved)?;
+        let durations = PhaseDurations { collect, update, learn: trainer.learning.learn, checkpoint };
+        trainer.log(stats.as_ref(), &batch.fragments, durations, evaluation.as_ref())?;
+        trainer.learning.load.adapt(&batch);
+        trainer.publish_status(true);
+    }
+    Ok(false)
+}
+
+/// One run in progress.
+struct Trainer {
+    state: TrainingState,
+    config: Config,
+    shutdown: Shutdown,
+    learning: Learning,
+    serving: Serving,
+    reporting: Reporting,
+}

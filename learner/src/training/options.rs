@@ -1,0 +1,48 @@
+//! Inputs and result of a training run.
+
+use std::sync::{Arc, atomic::AtomicU64};
+
+use treadmill_common::run_folder::RunFolder;
+use treadmill_ppo::BatchMirror;
+
+use super::heartbeat::Heartbeat;
+use crate::{checkpoint::TrainingState, metrics::PrometheusMetrics};
+
+/// Inputs of training beside the state that it begins with.
+pub struct TrainingOptions {
+    /// Folder of the run.
+    pub folder: RunFolder,
+    /// Device that computes the networks.
+    pub device: candle_core::Device,
+    /// Mirror for `ppo.symmetry`.
+    pub mirror: Option<BatchMirror>,
+    /// Whether a progress bar is drawn on a terminal.
+    pub show_progress: bool,
+    /// Actor processes that the supervisor has restarted.
+    pub restarts: Arc<AtomicU64>,
+    /// Newest values for Prometheus.
+    pub prometheus: PrometheusMetrics,
+    /// Heartbeat of the training thread.
+    pub heartbeat: Heartbeat,
+    /// Command line of this start, for TensorBoard.
+    pub command: String,
+    /// Names and values of versions and machine, for TensorBoard.
+    pub versions: Vec<(String, String)>,
+    /// Names of the entries of an action; entries without a name are shown by their number.
+    pub action_names: Vec<String>,
+}
+
+/// Result of a training run.
+#[derive(Clone, Debug)]
+pub struct TrainingSummary {
+    /// The state at the end.
+    pub state: TrainingState,
+    /// Seconds of this start.
+    pub wall_s: f64,
+    /// Environment steps of this start.
+    pub env_steps: u64,
+    /// Whether shutdown was requested before the last step.
+    pub stopped: bool,
+    /// The greatest mean distance, of an evaluation or in training, in metres.
+    pub farthest_m: Option<f64>,
+}

@@ -1,0 +1,134 @@
+//! Logs each update.
+
+use std::{
+    path::PathBuf,
+    sync::{
+        Arc,
+        atomic::{AtomicU64, Ordering},
+    },
+    time::Instant,
+};
+
+use treadmill_common::bus::StatsFeed;
+use treadmill_ppo::{AcceptedFragment, UpdateStats};
+
+use super::{Trainer, TrainingError, TrainingOptions, evaluation::EvaluationResult};
+use crate::{
+    checkpoint::TrainingState,
+    intake::ledger_report,
+    metrics::{
+        History, MetricsReport, PrometheusMetrics, histograms,
+        scalars::{PhaseDurations, PolicyLag, ThroughputMeter, UpdateRecord},
+    },
+};
+
+/// The reporting part of a [`Trainer`].
+pub(super) struct Reporting {
+    pub(super) report: MetricsReport,
+    /// Return and distance over the run.
+    pub(super) history: History,
+    stats: StatsFeed,
+    prometheus: PrometheusMetrics,
+    ledger_report: PathBuf,
+    action_names: Vec<String>,
+    throughput: ThroughputMeter,
+    restarts: Arc<AtomicU64>,
+    restarts_before: u64,
+    begun: Instant,
+    wall_before_s: f64,
+    /// Environment steps per second, and mean lag of the last batch.
+    pub(super) env_steps_per_s: f64,
+    pub(super) lag_mean: f64,
+}
+
+impl Reporting {
+    pub(super) fn new(
+        report: MetricsReport,
+        history: History,
+        stats: StatsFeed,
+        state: &TrainingState,
+        options: &TrainingOptions,
+    ) -> Self {
+        Self {
+            report,
+            history,
+            stats,
+            prometheus: options.prometheus.clone(),
+            ledger_report: options.folder.accounts(),
+            action_names: options.action_names.clone(),
+            throughput: ThroughputMeter::new(state.counters.env_steps),
+            restarts: options.restarts.clone(),
+            restarts_before: state.counters.restarts,
+            begun: Instant::now(),
+            wall_before_s: state.counters.wall_s,
+            env_steps_per_s: 0.0,
+            lag_mean: 0.0,
+        }
+    }
+
+    /// Seconds of training over the whole run.
+    pub(super) fn wall_s(&self) -> f64 {
+        self.wall_before_s + self.begun.elapsed().as_secs_f64()
+    }
+
+    /// Restarts of actor processes over the whole run.
+    pub(super) fn restarts(&self) -> u64 {
+        self.restarts_before + self.restarts.load(Ordering::Relaxed)
+    }
+}
+
+impl Trainer {
+    /// Logs one update.
+    pub(super) fn log(
+        &mut self,
+        update: Option<&UpdateStats>,
+        batch: &[AcceptedFragment],
+        durations: PhaseDurations,
+        evaluation: Option<&EvaluationResult>,
+    ) -> Result<(), TrainingError> {
+        let Self { state, config, shutdown, learning, serving, reporting } = self;
+        let alive = serving.intake.alive();
+        let env_steps = state.counters.env_steps;
+        let (throughput, lag) = (reporting.throughput.mark(env_steps, serving.waited), PolicyLag::of(batch));
+        (reporting.env_steps_per_s, reporting.lag_mean) = (throughput.env_steps_per_s, lag.mean);
+        let stats = reporting.stats.newest();
+        reporting.prometheus.take_actors(stats, state.lineage.newest());
+        let means = state.episodes.means();
+        let (return_mean, distance_m) =
+            (means.as_ref().map(|m| m.return_mean), means.as_ref().map(|m| m.distance_mean_m));
+        reporting.history.take(return_mean, distance_m, evaluation.map(|result| result.report.distance_mean_m));
+        let validator = serving.intake.validator();
+        let record = UpdateRecord {
+            state,
+            config,
+            update,
+            lag,
+            epochs: learning.load.epochs(),
+            durations,
+            evaluation,
+            history: &reporting.history,
+            throughput,
+            stats,
+            alive: &alive,
+            quarantined: validator.quarantined(Instant::now()).len(),
+            turned_away: validator.turned_away(),
+            accepted_bytes: validator.accepted_bytes(),
+        };
+        let scalars = record.scalars();
+        let updates = state.counters.updates;
+        if histograms::is_due(updates) {
+            let histograms = histograms::of(batch, &reporting.action_names);
+            reporting.report.log_histograms(env_steps, &histograms, shutdown)?;
+        }
+        Ok(reporting.report.log(env_steps, updates, &scalars, &reporting.history, shutdown)?)
+    }
+
+    /// Answers waiting senders, and writes the last logs.
+    pub(super) fn finish(&mut self) -> Result<(), TrainingError> {
+        self.serving.intake.stop(&self.state.lineage);
+        // The ledger of the last checkpoint, without fragments accepted since.
+        ledger_report::write(&self.reporting.ledger_report, &self.state.ledger)?;
+        self.reporting.report.finish(&self.reporting.history)?;
+        Ok(())
+    }
+}

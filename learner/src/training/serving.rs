@@ -1,0 +1,117 @@
+//! Fragments in; checkpoint, policy and evaluations out.
+
+use std::time::{Duration, Instant};
+
+use treadmill_common::bus::PolicyShelf;
+use treadmill_proto::PolicyAnnouncement;
+
+use super::{
+    Trainer, TrainingError, commands,
+    control::ControlChannel,
+    disk_full::wait_for_disk_space,
+    evaluation::{EvaluationResult, EvaluationScheduler},
+    heartbeat::Heartbeat,
+};
+use crate::{
+    checkpoint::CheckpointWriter,
+    intake::{BusFragmentSource, Collected, CollectedBatch, Intake},
+};
+
+/// The part of a [`Trainer`] that serves actors, evaluators and operators.
+pub(super) struct Serving {
+    pub(super) intake: Intake<BusFragmentSource>,
+    pub(super) policies: PolicyShelf,
+    /// Evaluation while training continues, if it is configured.
+    pub(super) evaluation: Option<EvaluationScheduler>,
+    pub(super) control: ControlChannel,
+    /// Whether an operator has paused the run.
+    pub(super) paused: bool,
+    pub(super) checkpoints: CheckpointWriter,
+    pub(super) heartbeat: Heartbeat,
+    /// How long the learner waited for the present batch.
+    pub(super) waited: Duration,
+}
+
+impl Trainer {
+    /// Collects a batch, and applies commands meanwhile. Returns `None` if shutdown is requested.
+    pub(super) fn collect(&mut self) -> Option<CollectedBatch> {
+        self.serving.waited = Duration::ZERO;
+        loop {
+            self.apply_commands();
+            let begun = Instant::now();
+            let Serving { intake, control, .. } = &mut self.serving;
+            let interrupt = || control.has_command() || control.since_status() >= commands::STATUS_EVERY;
+            let size = self.learning.load.batch_size();
+            let collected = intake.collect(size, &self.state.lineage, &self.shutdown, interrupt);
+            // Time in a pause does not count.
+            self.serving.waited += begun.elapsed();
+            match collected {
+                Collected::Batch(batch) => return Some(batch),
+                Collected::Interrupted => {
+                    self.publish_status_if_due();
+                    self.reporting.report.waiting(self.serving.waited, self.serving.intake.alive().len());
+                }
+                Collected::Stopped => return None,
+            }
+        }
+    }
+
+    /// Takes the next evaluation result; a policy that is the best so far is saved as `best`.
+    pub(super) fn take_evaluation(&mut self) -> Result<Option<EvaluationResult>, TrainingError> {
+        let Some(result) = self.serving.evaluation.as_mut().and_then(EvaluationScheduler::next_result) else {
+            return Ok(None);
+        };
+        let return_mean = result.report.return_mean;
+        let state = &mut self.state;
+        if !state.best_is_evaluated || state.best_return.is_none_or(|best| return_mean > best) {
+            (state.best_return, state.best_is_evaluated) = (Some(return_mean), true);
+            wait_for_disk_space(&self.shutdown, || self.serving.checkpoints.save_best(&result.checkpoint))?;
+        }
+        Ok(Some(result))
+    }
+
+    /// Writes the checkpoint, and returns its bytes.
+    pub(super) fn save(&mut self) -> Result<Vec<u8>, TrainingError> {
+        self.serving.intake.count_unread();
+        let validator = self.serving.intake.validator();
+        self.state.fragment_counts = validator.counts;
+        self.state.ledger = validator.ledger.clone();
+        // Writing the state makes everything accepted so far durable, so the written ledger says so.
+        self.state.ledger.mark_durable();
+        let best = self.best_in_training();
+        self.state.best_return = best.or(self.state.best_return);
+        let checkpoints = &self.serving.checkpoints;
+        let saved = wait_for_disk_space(&self.shutdown, || checkpoints.save(&self.state))?;
+        if best.is_some() {
+            wait_for_disk_space(&self.shutdown, || checkpoints.save_best(&saved))?;
+        }
+        self.serving.intake.mark_durable();
+        self.serving.heartbeat.beat();
+        Ok(saved)
+    }
+
+    /// The mean return in training, if it is the best so far and no policy was evaluated yet.
+    fn best_in_training(&self) -> Option<f64> {
+        let is_known = self.state.best_is_evaluated;
+        let episodes = (!is_known).then_some(&self.state.episodes).filter(|episodes| episodes.is_full())?;
+        let return_mean = episodes.means()?.return_mean;
+        self.state.best_return.is_none_or(|best| return_mean > best).then_some(return_mean)
+    }
+
+    /// Publishes the new policy, and submits it for evaluation if one is due. `saved` is its checkpoint.
+    pub(super) fn publish(&mut self, saved: Vec<u8>) -> Result<(), TrainingError> {
+        let wrong = |why: String| TrainingError::State { why };
+        let bundle = self.state.bundle().map_err(wrong)?;
+        let announcement = PolicyAnnouncement { version: bundle.version, checksum: bundle.checksum };
+        let encoded: bytes::Bytes = bundle.encode().map_err(|why| wrong(why.to_string()))?.into();
+        self.serving.policies.publish(encoded.clone(), &announcement);
+        self.serving.intake.send_owed_receipts(&self.state.lineage);
+        let env_steps = self.state.counters.env_steps;
+        if let Some(evaluation) = &mut self.serving.evaluation
+            && evaluation.is_due(env_steps)
+        {
+            evaluation.submit(bundle.version, encoded, env_steps, saved);
+        }
+        Ok(())
+    }
+}
