@@ -9,11 +9,8 @@ use treadmill_actor::{
     ActorError,
     worker::{self, Account, WorkerOptions},
 };
-use treadmill_common::{
-    bus::{Bus, BusOptions, Role},
-    machine, seeds,
-    shutdown::Shutdown,
-};
+use treadmill_bus::{Bus, BusOptions, Role};
+use treadmill_runtime::{machine, seeds, shutdown::Shutdown};
 
 use crate::{outcome::Usage, output::say, signals, startup::NetworkArgs};
 

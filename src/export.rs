@@ -4,7 +4,8 @@ use std::path::{Path, PathBuf};
 
 use anyhow::Context;
 use clap::{ArgGroup, Args};
-use treadmill_common::{atomic_file, onnx::to_onnx};
+use treadmill_policy::onnx::to_onnx;
+use treadmill_runtime::atomic_file;
 use treadmill_learner::checkpoint::Which;
 
 use crate::{output::say, saved_policy};

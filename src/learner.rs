@@ -5,11 +5,8 @@ use std::sync::{Arc, atomic::AtomicU64};
 use anyhow::Context;
 use clap::Args;
 use serde_json::json;
-use treadmill_common::{
-    atomic_file,
-    bus::{Bus, Role},
-    shutdown::Shutdown,
-};
+use treadmill_bus::{Bus, Role};
+use treadmill_runtime::{atomic_file, shutdown::Shutdown};
 use treadmill_learner::{
     logging::Exposition,
     pulse::Pulse,
@@ -71,7 +68,7 @@ pub fn run(args: LearnerArgs) -> anyhow::Result<()> {
 pub fn host(
     prepared: Prepared,
     any: &AnyRunArgs,
-    options: &treadmill_common::bus::BusOptions,
+    options: &treadmill_bus::BusOptions,
     actors: Option<u32>,
     metrics: Option<Listening>,
 ) -> anyhow::Result<()> {
@@ -87,7 +84,7 @@ pub fn host(
 async fn host_until_done(
     mut prepared: Prepared,
     any: &AnyRunArgs,
-    options: &treadmill_common::bus::BusOptions,
+    options: &treadmill_bus::BusOptions,
     actors: Option<u32>,
     metrics: Option<Listening>,
 ) -> anyhow::Result<()> {

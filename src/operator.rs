@@ -4,10 +4,8 @@ use std::{path::PathBuf, time::Duration};
 
 use anyhow::Context;
 use clap::Args;
-use treadmill_common::{
-    bus::{Bus, BusError, BusOptions, Role},
-    run_folder::RunFolder,
-};
+use treadmill_bus::{Bus, BusError, BusOptions, Role};
+use treadmill_runtime::run_folder::RunFolder;
 use treadmill_proto::{ControlReply, ident::check_ident};
 
 use crate::{network::NetworkArgs, outcome::Usage, patience::Step};

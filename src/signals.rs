@@ -1,7 +1,7 @@
 //! Ctrl-C, once and twice; a container's stop counts as once.
 
 use tokio::signal::unix::{SignalKind, signal};
-use treadmill_common::shutdown::Shutdown;
+use treadmill_runtime::shutdown::Shutdown;
 
 use crate::output::complain;
 

@@ -4,7 +4,7 @@ mod support;
 
 use bytes::Bytes;
 use support::*;
-use treadmill_common::bus::{Bus, BusOptions, Credentials, Role, RolloutCopies, observe};
+use treadmill_bus::{Bus, BusOptions, Credentials, Role, RolloutCopies, observe};
 use treadmill_proto::Fragment;
 
 /// A subscriber must not lose any to a slow test machine.

@@ -5,12 +5,9 @@
 use std::sync::Arc;
 
 use rand_distr::{Distribution, StandardNormal};
-use treadmill_common::{
-    config::PpoConfig,
-    device::{Device, DeviceKind},
-    policy::{NetworkShape, Policy, gaussian, init::initial_parameters},
-    seeds,
-};
+use treadmill_config::PpoConfig;
+use treadmill_policy::{device::{Device, DeviceKind}, NetworkShape, Policy, gaussian, init::initial_parameters};
+use treadmill_runtime::seeds;
 use treadmill_learner::ppo::{Batch, Updater};
 
 const ROWS: usize = 4096;

@@ -3,7 +3,7 @@
 mod support;
 
 use support::*;
-use treadmill_common::bus::{Assignment, Bus, BusOptions, ask_for_evaluation};
+use treadmill_bus::{Assignment, Bus, BusOptions, ask_for_evaluation};
 use treadmill_learner::checkpoint::load_file;
 
 #[test]

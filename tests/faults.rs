@@ -10,7 +10,7 @@ use std::{
 };
 
 use support::*;
-use treadmill_common::bus::{Bus, BusOptions, observe};
+use treadmill_bus::{Bus, BusOptions, observe};
 use treadmill_learner::checkpoint::load_file;
 use treadmill_proto::ActorStats;
 

@@ -6,13 +6,9 @@ use std::{path::PathBuf, process::Command};
 
 use serde_json::json;
 use support::*;
-use treadmill_common::{
-    config::{EnvConfig, RandomisationConfig, TaskConfig},
-    exported::{ActionFacts, ExportedPolicy, ObservationFacts},
-    normaliser::RunningMoments,
-    policy::{NetworkShape, Policy, gaussian},
-    seeds,
-};
+use treadmill_config::{EnvConfig, RandomisationConfig, TaskConfig};
+use treadmill_policy::{exported::{ActionFacts, ExportedPolicy, ObservationFacts}, normaliser::RunningMoments, NetworkShape, Policy, gaussian};
+use treadmill_runtime::seeds;
 
 fn python_folder() -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("python")

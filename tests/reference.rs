@@ -7,7 +7,7 @@ mod support;
 use std::{collections::BTreeSet, fs, path::PathBuf, process::Command};
 
 use support::*;
-use treadmill_common::config::Config;
+use treadmill_config::Config;
 
 fn page(name: &str) -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("docs/reference").join(name).with_extension("md")

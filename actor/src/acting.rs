@@ -1,11 +1,7 @@
 //! The policy in use: networks, statistics and version of one bundle.
 
-use treadmill_common::{
-    exported::ExportedPolicy,
-    normaliser::Normaliser,
-    policy::{NetworkShape, Policy, from_safetensors},
-    seeds,
-};
+use treadmill_policy::{exported::ExportedPolicy, normaliser::Normaliser, NetworkShape, Policy, from_safetensors};
+use treadmill_runtime::seeds;
 use treadmill_proto::{PolicyBundle, PolicyVersion};
 
 use crate::ActorError;

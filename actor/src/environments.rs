@@ -3,7 +3,7 @@
 mod saved;
 
 use rayon::{ThreadPool, ThreadPoolBuilder, prelude::*};
-use treadmill_common::{machine, seeds};
+use treadmill_runtime::{machine, seeds};
 use treadmill_humanoid::{Environment, EnvironmentConfig, ModelError};
 use treadmill_proto::{
     EndCause, Episode, Precision,

@@ -1,6 +1,6 @@
 //! Episodes without learning, and what came of them.
 
-use treadmill_common::seeds;
+use treadmill_runtime::seeds;
 use treadmill_humanoid::{Environment, Physics, Step, StepInfo};
 
 use crate::{ActorError, agent::Agent};

@@ -2,11 +2,9 @@
 
 use std::time::Duration;
 
-use treadmill_common::{
-    bus::{Assignment, Bus, ask_for_evaluation},
-    config::{Config, ConfigError, ConfigSource},
-    shutdown::Shutdown,
-};
+use treadmill_bus::{Assignment, Bus, ask_for_evaluation};
+use treadmill_config::{Config, ConfigError, ConfigSource};
+use treadmill_runtime::shutdown::Shutdown;
 use treadmill_humanoid::Environment;
 use treadmill_proto::{EvaluationReport, PolicyBundle};
 

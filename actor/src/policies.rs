@@ -6,10 +6,8 @@ use std::{
 };
 
 use tokio::sync::Mutex;
-use treadmill_common::{
-    bus::{Bus, BusError, fetch_policy},
-    shutdown::Shutdown,
-};
+use treadmill_bus::{Bus, BusError, fetch_policy};
+use treadmill_runtime::shutdown::Shutdown;
 use treadmill_proto::{PolicyBundle, PolicyVersion};
 
 use crate::{ActorError, acting::ActingPolicy};

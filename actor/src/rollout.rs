@@ -1,7 +1,8 @@
 //! Fragments: T control steps of N environments under one policy.
 
 use rand_distr::{Distribution, StandardNormal};
-use treadmill_common::{policy::gaussian, seeds::Stream};
+use treadmill_policy::gaussian;
+use treadmill_runtime::seeds::Stream;
 use treadmill_proto::{ActorState, Fragment, Precision};
 
 use crate::{

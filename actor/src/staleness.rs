@@ -3,10 +3,8 @@
 use std::{collections::VecDeque, sync::Arc};
 
 use rand::RngExt;
-use treadmill_common::{
-    config::Config,
-    seeds::{self, Stream},
-};
+use treadmill_config::Config;
+use treadmill_runtime::seeds::{self, Stream};
 use treadmill_proto::PolicyVersion;
 
 /// The policies in use so far, as many as may be asked for.

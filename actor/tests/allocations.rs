@@ -8,7 +8,7 @@ use std::{
 };
 
 use treadmill_actor::environments::{Environments, SeedSource, Stepped};
-use treadmill_common::seeds;
+use treadmill_runtime::seeds;
 use treadmill_humanoid::{Environment, EnvironmentConfig, HUMANOID_XML};
 
 struct Counting;

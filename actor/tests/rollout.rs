@@ -5,10 +5,8 @@ use treadmill_actor::{
     environments::{Environments, SeedSource, Stepped},
     rollout::{Collector, Sender},
 };
-use treadmill_common::{
-    policy::{NetworkShape, gaussian, init::initial_parameters, to_safetensors},
-    seeds,
-};
+use treadmill_policy::{NetworkShape, gaussian, init::initial_parameters, to_safetensors};
+use treadmill_runtime::seeds;
 use treadmill_humanoid::{EnvironmentConfig, HUMANOID_XML};
 use treadmill_proto::{
     EndCause, Fragment, PolicyBundle, PolicyVersion, Precision,

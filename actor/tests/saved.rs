@@ -5,10 +5,8 @@ use treadmill_actor::{
     environments::{Environments, SeedSource},
     rollout::{Collector, Sender},
 };
-use treadmill_common::{
-    policy::{NetworkShape, init::initial_parameters, to_safetensors},
-    seeds,
-};
+use treadmill_policy::{NetworkShape, init::initial_parameters, to_safetensors};
+use treadmill_runtime::seeds;
 use treadmill_humanoid::{EnvironmentConfig, HUMANOID_XML, ObservationKind, Randomisation};
 use treadmill_proto::{Fragment, PolicyBundle, PolicyVersion, Precision, fragment::TRUNCATED};
 

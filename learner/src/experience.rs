@@ -4,11 +4,8 @@
 //! Observations are normalised by the statistics of the newest policy, which are those its fragments were acted by; a
 //! fragment that lags is read with them too, because networks and statistics together are the policy that is improved.
 
-use treadmill_common::{
-    config::{OffPolicy, PpoConfig},
-    normaliser::{Normaliser, RunningMoments, ScalarNormaliser},
-    policy::{Policy, gaussian},
-};
+use treadmill_config::{OffPolicy, PpoConfig};
+use treadmill_policy::{normaliser::{Normaliser, RunningMoments, ScalarNormaliser}, Policy, gaussian};
 use treadmill_proto::{
     Fragment,
     fragment::{TERMINATED, TRUNCATED},

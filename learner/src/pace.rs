@@ -3,7 +3,7 @@
 //! Where experience waits although the learner works all the time, it first takes larger batches, and where that is not
 //! enough, fewer passes over each; only then do actors wait for their receipts.
 
-use treadmill_common::config::{Config, LearnerMode};
+use treadmill_config::{Config, LearnerMode};
 
 use crate::intake::{Gathered, Wanted};
 

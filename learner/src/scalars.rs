@@ -5,7 +5,9 @@ use std::{
     time::{Duration, Instant},
 };
 
-use treadmill_common::{bus::forbidden_messages, config::Config, machine};
+use treadmill_bus::dropped_messages;
+use treadmill_config::Config;
+use treadmill_runtime::machine;
 use treadmill_proto::ActorStats;
 
 use crate::{checkpoint::TrainingState, intake::Accepted, logging::History, ppo::UpdateStats, trial::Verdict};
@@ -222,7 +224,7 @@ impl Round<'_> {
             ("bus/fragments_malformed", tally.malformed as f64),
             ("bus/fragments_quarantined", tally.quarantined as f64),
             ("bus/fragments_turned_away", self.turned_away as f64),
-            ("bus/messages_forbidden", forbidden_messages() as f64),
+            ("bus/messages_forbidden", dropped_messages() as f64),
             ("bus/accepted_mb", self.accepted_bytes as f64 / 1e6),
             ("bus/fragments_unseen", account.unseen as f64),
             ("bus/env_steps_dropped", account.env_steps_dropped as f64),

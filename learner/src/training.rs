@@ -12,13 +12,10 @@ use std::{
     time::{Duration, Instant},
 };
 
-use treadmill_common::{
-    bus::{Bus, PolicyShelf, StatsFeed},
-    config::Config,
-    normaliser::Normaliser,
-    run_folder::RunFolder,
-    shutdown::Shutdown,
-};
+use treadmill_bus::{Bus, PolicyServer, StatsFeed};
+use treadmill_config::Config;
+use treadmill_policy::normaliser::Normaliser;
+use treadmill_runtime::{run_folder::RunFolder, shutdown::Shutdown};
 use treadmill_proto::PolicyAnnouncement;
 
 pub use self::commands::is_changeable;
@@ -132,7 +129,7 @@ struct Trainer {
     mirror: Option<Mirror>,
     intake: Intake<BusMailbox>,
     pace: Pace,
-    shelf: PolicyShelf,
+    shelf: PolicyServer,
     stats: StatsFeed,
     accounts: std::path::PathBuf,
     shutdown: Shutdown,

@@ -3,12 +3,9 @@
 use std::sync::Arc;
 
 use rand_distr::{Distribution, StandardNormal};
-use treadmill_common::{
-    config::PpoConfig,
-    normaliser::{Normaliser, RunningMoments},
-    policy::{NetworkShape, gaussian, init},
-    seeds,
-};
+use treadmill_config::PpoConfig;
+use treadmill_policy::{normaliser::{Normaliser, RunningMoments}, NetworkShape, gaussian, init};
+use treadmill_runtime::seeds;
 use treadmill_learner::{experience, intake::Accepted, ppo::Updater};
 use treadmill_proto::{Fragment, PolicyVersion};
 

@@ -9,7 +9,8 @@ use treadmill_actor::{
     environments::{Environments, SeedSource, Stepped},
     settings,
 };
-use treadmill_common::{config::Config, machine, seeds};
+use treadmill_config::Config;
+use treadmill_runtime::{machine, seeds};
 use treadmill_humanoid::{EnvironmentConfig, task};
 
 use super::{

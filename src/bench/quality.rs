@@ -2,7 +2,7 @@
 
 use rand::RngExt;
 use serde_json::json;
-use treadmill_common::{machine, seeds};
+use treadmill_runtime::{machine, seeds};
 use treadmill_humanoid::{EnvironmentConfig, task};
 
 use super::{

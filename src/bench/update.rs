@@ -4,13 +4,9 @@ use std::{sync::Arc, time::Instant};
 
 use clap::Args;
 use serde_json::json;
-use treadmill_common::{
-    config::PpoConfig,
-    device::DeviceKind,
-    machine,
-    policy::{NetworkShape, gaussian, init::initial_parameters},
-    seeds,
-};
+use treadmill_config::PpoConfig;
+use treadmill_policy::{device::DeviceKind, NetworkShape, gaussian, init::initial_parameters};
+use treadmill_runtime::{machine, seeds};
 use treadmill_learner::ppo::{Batch, Updater};
 
 use crate::{memory, outcome::Usage};

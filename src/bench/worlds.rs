@@ -1,7 +1,7 @@
 //! Humanoids by themselves, spread over threads.
 
 use rayon::{ThreadPool, ThreadPoolBuilder, prelude::*};
-use treadmill_common::{machine, seeds};
+use treadmill_runtime::{machine, seeds};
 use treadmill_humanoid::{Environment, EnvironmentConfig};
 
 /// Worlds that are stepped in turn, as an actor has them: one alone would stay in the cache.

@@ -2,10 +2,8 @@
 
 use std::time::Duration;
 
-use treadmill_common::{
-    bus::{Bus, BusOptions, Role, statuses},
-    machine,
-};
+use treadmill_bus::{Bus, BusOptions, Role, statuses};
+use treadmill_runtime::machine;
 use treadmill_proto::{ControlReply, RunStatus};
 
 use super::{

@@ -24,7 +24,7 @@ mod screen;
 use std::time::Duration;
 
 use clap::Args;
-use treadmill_common::bus::{Bus, Role, statuses};
+use treadmill_bus::{Bus, Role, statuses};
 use treadmill_proto::RunStatus;
 
 use crate::{

@@ -23,7 +23,7 @@ use std::{
 };
 
 use clap::{CommandFactory, FromArgMatches, Parser};
-use treadmill_common::shutdown::Shutdown;
+use treadmill_runtime::shutdown::Shutdown;
 use treadmill_humanoid::Model;
 use treadmill_rl::{
     log, outcome,

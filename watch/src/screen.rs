@@ -9,7 +9,7 @@ use anyhow::Context;
 use rerun::{
     MemoryLimit, RecordingStream, RecordingStreamBuilder, ServerOptions, SpawnOptions, web_viewer::WebViewerConfig,
 };
-use treadmill_common::{machine, shutdown::Shutdown};
+use treadmill_runtime::{machine, shutdown::Shutdown};
 use treadmill_rl::{outcome::Usage, output::say, signals, viewing::ScreenArgs};
 
 /// What Rerun tells recordings of different programs apart by; layouts are kept under it.

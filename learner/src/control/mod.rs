@@ -15,10 +15,8 @@ use std::{
     time::{Duration, Instant},
 };
 
-use treadmill_common::{
-    bus::{AliveView, Bus, BusError, ControlDesk, Inquiry, StatsFeed},
-    machine,
-};
+use treadmill_bus::{AliveView, Bus, BusError, ControlServer, PendingRequest, StatsFeed};
+use treadmill_runtime::machine;
 use treadmill_proto::{Command, ControlReply, RunStatus};
 
 use roster::Roster;
@@ -40,9 +38,9 @@ struct Board {
 /// The training thread's end.
 pub struct Control {
     board: Arc<Mutex<Board>>,
-    commands: Receiver<Inquiry>,
+    commands: Receiver<PendingRequest>,
     /// One that was seen to wait.
-    next: Option<Inquiry>,
+    next: Option<PendingRequest>,
     closed: Arc<AtomicBool>,
     told: Instant,
 }
@@ -54,7 +52,7 @@ impl Control {
     /// If the bus refuses, or the thread cannot be started.
     pub fn open(bus: &Bus, status: RunStatus, alive: AliveView) -> Result<Self, BusError> {
         let run = status.run.clone();
-        let (desk, feed) = (ControlDesk::open(bus, &run)?, StatsFeed::open(bus, &run, alive.clone())?);
+        let (desk, feed) = (ControlServer::open(bus, &run)?, StatsFeed::open(bus, &run, alive.clone())?);
         let roster = Roster::new(alive);
         let board =
             Arc::new(Mutex::new(Board { run, status, updated: Instant::now(), quarantined: Vec::new(), roster }));
@@ -99,12 +97,12 @@ impl Control {
     }
 
     /// The next command, if one comes within `patience`.
-    pub fn next(&mut self, patience: Duration) -> Option<Inquiry> {
+    pub fn next(&mut self, patience: Duration) -> Option<PendingRequest> {
         self.next.take().or_else(|| self.commands.recv_timeout(patience).ok())
     }
 
     /// Tells what was done about a command, or why nothing was.
-    pub fn answer(&self, inquiry: Inquiry, outcome: Result<String, String>) {
+    pub fn answer(&self, inquiry: PendingRequest, outcome: Result<String, String>) {
         let board = lock(&self.board);
         let reply = match outcome {
             Ok(text) => board.reply(true, text),

@@ -3,10 +3,10 @@
 use std::{sync::Arc, time::Instant};
 
 use serde::{Deserialize, Serialize};
-use treadmill_common::bus::{
-    Arrival,
-    complaints::Complaints,
-    gate::{Gate, Sender},
+use treadmill_bus::{
+    ReceivedFragment,
+    admission::rate_limited_log::RateLimitedLog,
+    admission::{Admission, Sender},
 };
 use treadmill_proto::{Fragment, Malformed, Outcome, Receipt};
 
@@ -60,7 +60,7 @@ pub struct Accepted {
 #[derive(Debug)]
 pub struct Judge {
     expected: Expected,
-    gate: Arc<Gate>,
+    gate: Arc<Admission>,
     refusals: Complaints,
     quarantines: Complaints,
     /// Refused unread for lack of room, since this start.
@@ -75,7 +75,7 @@ pub struct Judge {
 
 impl Judge {
     /// A judge with what a checkpoint remembers, who tells `gate` what he thinks of senders.
-    pub fn new(expected: Expected, gate: Arc<Gate>, ledger: Ledger, tally: Tally) -> Self {
+    pub fn new(expected: Expected, gate: Arc<Admission>, ledger: Ledger, tally: Tally) -> Self {
         let (refusals, quarantines) = (Complaints::default(), Complaints::default());
         Self { expected, gate, refusals, quarantines, turned_away: 0, accepted_bytes: 0, ledger, tally }
     }
@@ -84,7 +84,7 @@ impl Judge {
     pub fn judge(
         &mut self,
         actor: &str,
-        arrival: Arrival,
+        arrival: ReceivedFragment,
         lineage: &Lineage,
         now: Instant,
     ) -> Result<Accepted, Box<Receipt>> {

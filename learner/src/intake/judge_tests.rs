@@ -5,7 +5,7 @@ use super::*;
 fn judge() -> Judge {
     let expected =
         Expected { run: "walk".into(), config_hash: 5, observation_size: 1, action_size: 1, max_policy_lag: 1 };
-    Judge::new(expected, Arc::new(Gate::new(3, 64)), Ledger::default(), Tally::default())
+    Judge::new(expected, Arc::new(Admission::new(3, 64)), Ledger::default(), Tally::default())
 }
 
 fn fragment(sequence: u64, number: u64) -> Fragment {

@@ -5,7 +5,7 @@ use std::{
     time::{Duration, Instant},
 };
 
-use treadmill_common::bus::{Alive, Arrival, Delivery, RolloutCopies, RolloutIntake};
+use treadmill_bus::{Alive, ReceivedFragment, IncomingFragment, RolloutCopies, RolloutIntake};
 use treadmill_proto::Receipt;
 
 use crate::pulse::Pulse;
@@ -34,7 +34,7 @@ pub trait Letter {
     fn actor(&self) -> &str;
 
     /// The fragment, once; the answer is still owed.
-    fn take(&mut self) -> Option<Arrival>;
+    fn take(&mut self) -> Option<ReceivedFragment>;
 
     /// Answers, which gives the sender its credit back.
     fn answer(self, receipt: &Receipt);
@@ -56,9 +56,9 @@ impl BusMailbox {
 }
 
 impl Mailbox for BusMailbox {
-    type Letter = Delivery;
+    type Letter = IncomingFragment;
 
-    fn next(&mut self, patience: Duration) -> Option<Delivery> {
+    fn next(&mut self, patience: Duration) -> Option<IncomingFragment> {
         self.pulse.beat();
         self.queue.next(patience)
     }
@@ -71,21 +71,21 @@ impl Mailbox for BusMailbox {
         Instant::now()
     }
 
-    fn copy(&self, letter: &mut Delivery) {
+    fn copy(&self, letter: &mut IncomingFragment) {
         letter.copy_to(&self.copies);
     }
 }
 
-impl Letter for Delivery {
+impl Letter for IncomingFragment {
     fn actor(&self) -> &str {
         &self.actor
     }
 
-    fn take(&mut self) -> Option<Arrival> {
-        Delivery::take(self)
+    fn take(&mut self) -> Option<ReceivedFragment> {
+        IncomingFragment::take(self)
     }
 
     fn answer(self, receipt: &Receipt) {
-        Delivery::answer(self, receipt);
+        IncomingFragment::answer(self, receipt);
     }
 }

@@ -14,7 +14,8 @@ mod patience;
 
 use std::{collections::BTreeSet, time::Duration};
 
-use treadmill_common::{config::LearnerMode, shutdown::Shutdown};
+use treadmill_config::LearnerMode;
+use treadmill_runtime::shutdown::Shutdown;
 use treadmill_proto::{Outcome, Receipt};
 
 pub use judge::{Accepted, Expected, Judge, Tally};

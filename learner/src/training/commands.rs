@@ -2,7 +2,8 @@
 
 use std::time::Duration;
 
-use treadmill_common::{config::ConfigSource, machine, shutdown::Shutdown};
+use treadmill_config::ConfigSource;
+use treadmill_runtime::{machine, shutdown::Shutdown};
 use treadmill_proto::{Command, ControlRequest, Phase, RunStatus};
 
 use super::Trainer;

@@ -5,11 +5,8 @@ use std::{
     time::{Duration, Instant},
 };
 
-use treadmill_common::{
-    bus::{Alive, Bus, PolicyShelf, RolloutCopies, RolloutIntake, StatsFeed, gate::Gate},
-    machine,
-    shutdown::Shutdown,
-};
+use treadmill_bus::{Alive, Bus, PolicyServer, RolloutCopies, RolloutIntake, StatsFeed, admission::Admission};
+use treadmill_runtime::{machine, shutdown::Shutdown};
 
 use super::{Trainer, TrainingError, TrainingOptions, commands};
 use crate::{
@@ -45,7 +42,7 @@ impl Trainer {
             max_policy_lag: config.policy_lag_allowed().into(),
         };
         let capacity = config.learner.intake_fragments as usize;
-        let gate = Arc::new(Gate::new(config.learner.quarantine_after, capacity));
+        let gate = Arc::new(Admission::new(config.learner.quarantine_after, capacity));
         let judge = Judge::new(expected, gate.clone(), state.ledger.clone(), state.tally);
         let threads = match config.learner.threads {
             0 => machine::cores(),
@@ -88,7 +85,7 @@ impl Trainer {
                 false => None,
                 true => Some(Trial::open(bus, &state.run, config.eval.every_steps, state.counters.env_steps)?),
             },
-            shelf: PolicyShelf::open(bus, &state.run, encoded.into())?,
+            shelf: PolicyServer::open(bus, &state.run, encoded.into())?,
             speed: Speed::new(state.counters.env_steps),
             waited: Duration::ZERO,
             exposition: options.exposition.clone(),

@@ -7,7 +7,9 @@ use std::{collections::BTreeSet, sync::Arc, time::Duration};
 
 use proptest::prelude::*;
 use rand::RngExt;
-use treadmill_common::{bus::gate::Gate, config::LearnerMode, seeds};
+use treadmill_bus::admission::Admission;
+use treadmill_config::LearnerMode;
+use treadmill_runtime::seeds;
 use treadmill_learner::intake::{Collected, Expected, Intake, Judge, Ledger, Lineage, Tally, Wanted};
 use world::{MemoryMailbox, Setting, Shared, World};
 
@@ -149,7 +151,7 @@ fn intake(case: &Case, world: &Shared, saved: &Saved) -> Intake<MemoryMailbox> {
         action_size: 1,
         max_policy_lag: if case.mode == LearnerMode::Sync { 0 } else { case.max_policy_lag },
     };
-    let judge = Judge::new(expected, Arc::new(Gate::new(8, 256)), saved.ledger.clone(), saved.tally);
+    let judge = Judge::new(expected, Arc::new(Admission::new(8, 256)), saved.ledger.clone(), saved.tally);
     Intake::new(MemoryMailbox(world.clone()), case.mode, judge)
 }
 

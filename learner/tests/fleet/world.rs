@@ -15,10 +15,7 @@ use std::{
 
 use bytes::Bytes;
 use rand::RngExt;
-use treadmill_common::{
-    seeds::{self, Stream},
-    shutdown::Shutdown,
-};
+use treadmill_runtime::{seeds::{self, Stream}, shutdown::Shutdown};
 use treadmill_proto::{Fragment, Outcome, PolicyVersion, Receipt};
 
 pub use mailbox::{MemoryLetter, MemoryMailbox};

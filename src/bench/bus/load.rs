@@ -15,11 +15,9 @@ use bytes::Bytes;
 use clap::Args;
 use serde_json::json;
 use tokio::runtime::{Handle, Runtime};
-use treadmill_common::{
-    bus::{Announcements, Bus, BusOptions, Role, fetch_policy, submit, token, watch_announcements},
-    config::BusConfig,
-    machine,
-};
+use treadmill_bus::{Announcements, Bus, BusOptions, Role, fetch_policy, submit, token, watch_announcements};
+use treadmill_config::BusConfig;
+use treadmill_runtime::machine;
 use treadmill_proto::{Outcome, Precision, PreparedFragment};
 
 use super::{usage, workload};

@@ -18,7 +18,7 @@ use std::{path::Path, time::Duration};
 use anyhow::Context;
 use clap::Args;
 use serde_json::{Value, json};
-use treadmill_common::machine;
+use treadmill_runtime::machine;
 
 use super::{rounded, tell};
 use crate::{certs, outcome::Usage, output::say};
