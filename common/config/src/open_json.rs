@@ -4,12 +4,12 @@
 use serde::{Deserialize, Deserializer, Serialize, Serializer, de::DeserializeOwned, de::Error as _, ser::Error as _};
 
 /// Writes a section with its keys in alphabetical order.
-pub(crate) fn serialize<T: Serialize, S: Serializer>(section: &T, serializer: S) -> Result<S::Ok, S::Error> {
+pub fn serialize<T: Serialize, S: Serializer>(section: &T, serializer: S) -> Result<S::Ok, S::Error> {
     to_json(toml::Value::try_from(section).map_err(S::Error::custom)?).serialize(serializer)
 }
 
 /// Reads a section.
-pub(crate) fn deserialize<'de, T: DeserializeOwned, D: Deserializer<'de>>(deserializer: D) -> Result<T, D::Error> {
+pub fn deserialize<'de, T: DeserializeOwned, D: Deserializer<'de>>(deserializer: D) -> Result<T, D::Error> {
     let json = serde_json::Value::deserialize(deserializer)?;
     let open = to_toml(json).ok_or_else(|| D::Error::custom("a section has no null and no number beyond 64 bits"))?;
     open.try_into().map_err(|why: toml::de::Error| D::Error::custom(why.message()))

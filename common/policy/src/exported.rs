@@ -18,10 +18,12 @@ use safetensors::tensor::SafeTensors;
 use serde::{Deserialize, Serialize};
 use treadmill_proto::limits::{BUNDLE_BYTES_MAX, HIDDEN_LAYERS_MAX, WIDTH_MAX};
 
+use treadmill_config::{Config, ConfigError, EnvConfig, EnvTask, RandomisationConfig, TaskConfig};
+
 use crate::{
-    config::{Config, ConfigError, EnvConfig, EnvTask, RandomisationConfig, TaskConfig},
+    NetworkShape, ParameterError, check_parameters, column, from_safetensors,
     normaliser::{Normaliser, RunningMoments, VARIANCE_EPSILON},
-    policy::{NetworkShape, ParameterError, check_parameters, column, from_safetensors, to_safetensors_with},
+    to_safetensors_with,
 };
 
 /// Version of the file's layout; raised whenever an old reader would misunderstand a new file.

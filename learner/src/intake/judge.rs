@@ -61,8 +61,8 @@ pub struct Accepted {
 pub struct Judge {
     expected: Expected,
     gate: Arc<Admission>,
-    refusals: Complaints,
-    quarantines: Complaints,
+    refusals: RateLimitedLog,
+    quarantines: RateLimitedLog,
     /// Refused unread for lack of room, since this start.
     turned_away: u64,
     /// Size of the fragments that were taken, since this start.
@@ -76,7 +76,7 @@ pub struct Judge {
 impl Judge {
     /// A judge with what a checkpoint remembers, who tells `gate` what he thinks of senders.
     pub fn new(expected: Expected, gate: Arc<Admission>, ledger: Ledger, tally: Tally) -> Self {
-        let (refusals, quarantines) = (Complaints::default(), Complaints::default());
+        let (refusals, quarantines) = (RateLimitedLog::default(), RateLimitedLog::default());
         Self { expected, gate, refusals, quarantines, turned_away: 0, accepted_bytes: 0, ledger, tally }
     }
 

@@ -30,19 +30,19 @@ const NAPS_PER_READ: u32 = 40;
 
 /// Lets so many messages a second pass at full speed.
 #[derive(Debug)]
-pub(super) struct ReadThrottle {
+pub(crate) struct ReadThrottle {
     per_s: f64,
     state: Mutex<Option<(f64, Instant)>>,
 }
 
 impl ReadThrottle {
     /// So many a second, and as many at once after a silence of a second.
-    pub(super) fn new(per_s: f64) -> Self {
+    pub(crate) fn new(per_s: f64) -> Self {
         Self { per_s, state: Mutex::default() }
     }
 
     /// One message more: naps where they are too many.
-    pub(super) fn pass(&self) {
+    pub(crate) fn pass(&self) {
         if !self.spend(Instant::now()) {
             nap();
         }

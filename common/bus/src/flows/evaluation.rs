@@ -16,7 +16,7 @@ use zenoh::{
     query::{Query, Queryable},
 };
 
-use crate::{Bus, BusError, admission::read_throttle::ReadThrottle, admission::rate_limited_log::RateLimitedLog, keys};
+use crate::{Bus, BusError, admission::rate_limited_log::RateLimitedLog, admission::read_throttle::ReadThrottle, keys};
 
 /// Requests and reports that may wait; whoever finds no room asks again.
 const QUEUE: usize = 64;

@@ -13,7 +13,7 @@ use zenoh::{
     sample::{Sample, SampleKind},
 };
 
-use crate::{Bus, BusError, admission::read_throttle::ReadThrottle, admission::rate_limited_log::RateLimitedLog, keys};
+use crate::{Bus, BusError, admission::rate_limited_log::RateLimitedLog, admission::read_throttle::ReadThrottle, keys};
 
 /// Actors that are known to be alive, and whose statistics are kept; tokens beyond that are passed over.
 const ACTORS_MAX: usize = 4096;
@@ -116,7 +116,13 @@ impl StatsFeed {
             })
             .wait()
             .map_err(BusError::flow("listening to statistics"))?;
-        Ok(Self { alive, arrived, newest: HashMap::new(), complaints: RateLimitedLog::default(), _subscriber: subscriber })
+        Ok(Self {
+            alive,
+            arrived,
+            newest: HashMap::new(),
+            complaints: RateLimitedLog::default(),
+            _subscriber: subscriber,
+        })
     }
 
     /// Statistics that came since the last call, or what is wrong with them.

@@ -9,10 +9,7 @@ use std::{
     time::{Duration, Instant},
 };
 
-use bytes::Bytes;
-use treadmill_proto::{
-    Outcome, PolicyVersion, Receipt, ident::check_ident, limits::FRAGMENT_BYTES_MAX,
-};
+use treadmill_proto::{Outcome, PolicyVersion, Receipt, ident::check_ident, limits::FRAGMENT_BYTES_MAX};
 use zenoh::{
     Wait,
     bytes::ZBytes,
@@ -21,7 +18,7 @@ use zenoh::{
 
 use super::received::claimed;
 use crate::{
-    ReceivedFragment, Bus, BusError, RolloutCopies,
+    Bus, BusError, ReceivedFragment, RolloutCopies,
     admission::{Admission, AdmissionPermit, Refusal, rate_limited_log::RateLimitedLog, read_throttle::ReadThrottle},
     keys,
 };
