@@ -1,12 +1,8 @@
 //! The policy in use: networks, statistics and version of one bundle.
 
-use treadmill_common::{
-    exported::ExportedPolicy,
-    normaliser::Normaliser,
-    policy::{NetworkShape, Policy, from_safetensors},
-    seeds,
-};
+use treadmill_policy::{NetworkShape, Policy, exported::ExportedPolicy, from_safetensors, normaliser::Normaliser};
 use treadmill_proto::{PolicyBundle, PolicyVersion};
+use treadmill_runtime::seeds;
 
 use crate::ActorError;
 

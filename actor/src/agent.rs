@@ -1,10 +1,8 @@
 //! Whoever chooses actions in an evaluation: the trained policy, or one of the baselines.
 
 use rand::RngExt;
-use treadmill_common::{
-    exported::ExportedPolicy,
-    seeds::{self, Stream},
-};
+use treadmill_policy::exported::ExportedPolicy;
+use treadmill_runtime::seeds::{self, Stream};
 
 use treadmill_proto::PolicyBundle;
 

@@ -7,7 +7,7 @@ use std::{
 };
 
 use bytes::Bytes;
-use treadmill_common::bus::{Bus, BusError, submit};
+use treadmill_bus::{Bus, BusError, submit};
 use treadmill_proto::{Outcome, Receipt};
 
 use crate::policies::{Policies, Refreshed};

@@ -3,12 +3,12 @@
 mod saved;
 
 use rayon::{ThreadPool, ThreadPoolBuilder, prelude::*};
-use treadmill_common::{machine, seeds};
 use treadmill_humanoid::{Environment, EnvironmentConfig, ModelError};
 use treadmill_proto::{
     EndCause, Episode, Precision,
     fragment::{TERMINATED, TRUNCATED},
 };
+use treadmill_runtime::{machine, seeds};
 
 use crate::ActorError;
 

@@ -1,7 +1,7 @@
 //! Episodes without learning, and what came of them.
 
-use treadmill_common::seeds;
 use treadmill_humanoid::{Environment, Physics, Step, StepInfo};
+use treadmill_runtime::seeds;
 
 use crate::{ActorError, agent::Agent};
 

@@ -2,13 +2,11 @@
 
 use std::time::Duration;
 
-use treadmill_common::{
-    bus::{Assignment, Bus, ask_for_evaluation},
-    config::{Config, ConfigError, ConfigSource},
-    shutdown::Shutdown,
-};
+use treadmill_bus::{Assignment, Bus, ask_for_evaluation};
+use treadmill_config::{Config, ConfigError, ConfigSource};
 use treadmill_humanoid::Environment;
 use treadmill_proto::{EvaluationReport, PolicyBundle};
+use treadmill_runtime::shutdown::Shutdown;
 
 use crate::{ActorError, agent::PolicyAgent, evaluation::evaluate, policies::join, settings};
 

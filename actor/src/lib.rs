@@ -31,13 +31,13 @@ pub mod worker;
 pub enum ActorError {
     /// The bus failed.
     #[error(transparent)]
-    Bus(#[from] treadmill_common::bus::BusError),
+    Bus(#[from] treadmill_bus::BusError),
     /// The model cannot be simulated.
     #[error("the humanoid model cannot be used: {0}")]
     Model(#[from] treadmill_humanoid::ModelError),
     /// The configuration in the policy bundle cannot be used.
     #[error("the configuration in the policy bundle cannot be used: {0}")]
-    Config(#[from] treadmill_common::config::ConfigError),
+    Config(#[from] treadmill_config::ConfigError),
     /// The policy bundle does not fit.
     #[error("the policy bundle of version {number} cannot be used: {why}")]
     Bundle {

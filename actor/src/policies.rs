@@ -6,11 +6,9 @@ use std::{
 };
 
 use tokio::sync::Mutex;
-use treadmill_common::{
-    bus::{Bus, BusError, fetch_policy},
-    shutdown::Shutdown,
-};
+use treadmill_bus::{Bus, BusError, fetch_policy};
 use treadmill_proto::{PolicyBundle, PolicyVersion};
+use treadmill_runtime::shutdown::Shutdown;
 
 use crate::{ActorError, acting::ActingPolicy};
 

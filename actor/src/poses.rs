@@ -6,7 +6,7 @@
 use std::time::Duration;
 
 use tokio::{sync::mpsc, time::MissedTickBehavior};
-use treadmill_common::bus::{PosePublisher, Watched};
+use treadmill_bus::{PosePublisher, Watched};
 use treadmill_humanoid::{CONTROL_STEP_S, Physics, StepInfo, physics::BodyMotion};
 use treadmill_proto::{PolicyVersion, Pose, pose::BODY_NUMBERS};
 

@@ -1,8 +1,9 @@
 //! Fragments: T control steps of N environments under one policy.
 
 use rand_distr::{Distribution, StandardNormal};
-use treadmill_common::{policy::gaussian, seeds::Stream};
+use treadmill_policy::gaussian;
 use treadmill_proto::{ActorState, Fragment, Precision};
+use treadmill_runtime::seeds::Stream;
 
 use crate::{
     ActorError,

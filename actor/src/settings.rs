@@ -1,6 +1,6 @@
 //! The run's configuration as the environment takes it.
 
-use treadmill_common::config::{Config, EnvConfig, EnvObservation, EnvTask, ObservationPrecision, RandomisationConfig};
+use treadmill_config::{Config, EnvConfig, EnvObservation, EnvTask, ObservationPrecision, RandomisationConfig};
 use treadmill_humanoid::{EnvironmentConfig, ObservationKind, Randomisation, Task};
 use treadmill_proto::Precision;
 

@@ -11,13 +11,10 @@ use std::{
 
 use bytes::Bytes;
 use tokio::sync::mpsc as tokio_mpsc;
-use treadmill_common::{
-    bus::{Bus, PosePublisher, keys, publish_dropping, token, watch_announcements},
-    config::{Config, ConfigSource},
-    machine, seeds,
-    shutdown::Shutdown,
-};
+use treadmill_bus::{Bus, PosePublisher, keys, publish_dropping, token, watch_announcements};
+use treadmill_config::{Config, ConfigSource};
 use treadmill_proto::{ActorStats, EndCause, Episode, Fragment, PolicyBundle, Precision, json::EpisodeReport};
+use treadmill_runtime::{machine, seeds, shutdown::Shutdown};
 
 use crate::{
     ActorError,

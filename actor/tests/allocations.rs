@@ -8,8 +8,8 @@ use std::{
 };
 
 use treadmill_actor::environments::{Environments, SeedSource, Stepped};
-use treadmill_common::seeds;
 use treadmill_humanoid::{Environment, EnvironmentConfig, HUMANOID_XML};
+use treadmill_runtime::seeds;
 
 struct Counting;
 

@@ -13,17 +13,14 @@ use std::{sync::Arc, time::Instant};
 
 use bytes::Bytes;
 use sha2::{Digest, Sha256};
-use treadmill_common::{
-    bus::gate::Gate,
-    config::{Config, ConfigSource},
-    exported::ExportedPolicy,
-    policy::{from_safetensors, to_safetensors},
-};
+use treadmill_bus::admission::Admission;
+use treadmill_config::{Config, ConfigSource};
 use treadmill_humanoid::Model;
 use treadmill_learner::{
     checkpoint::{TrainingState, encoding},
     intake::{ExpectedFragment, FragmentCounts, FragmentValidator, Ledger, Lineage},
 };
+use treadmill_policy::{exported::ExportedPolicy, from_safetensors, to_safetensors};
 use treadmill_proto::{
     ActorStats, EvaluationReport, Fragment, PolicyAnnouncement, PolicyBundle, Pose, Receipt,
     fragment::claimed_incarnation,
@@ -208,7 +205,7 @@ pub fn fragment_validator(data: &[u8]) {
         action_size: 1,
         max_policy_lag: 1,
     };
-    let gate = Arc::new(Gate::new(8, 64));
+    let gate = Arc::new(Admission::new(8, 64));
     let mut validator = FragmentValidator::new(expected, gate, Ledger::default(), FragmentCounts::default());
     let mut lineage = Lineage::new(samples::INCARNATION);
     lineage.advance();

@@ -1,14 +1,15 @@
 //! Sound messages of each kind, small, so that a change of one byte is a change of much.
 
 use bytes::Bytes;
-use treadmill_common::{
-    config::{Config, EnvConfig, RandomisationConfig, TaskConfig},
-    exported::{ActionFacts, ExportedPolicy, ObservationFacts},
-    normaliser::RunningMoments,
-    policy::{NetworkShape, to_safetensors},
-};
+use treadmill_config::{Config, EnvConfig, RandomisationConfig, TaskConfig};
 use treadmill_humanoid::HUMANOID_XML;
 use treadmill_learner::checkpoint::{TrainingState, encoding};
+use treadmill_policy::{
+    NetworkShape,
+    exported::{ActionFacts, ExportedPolicy, ObservationFacts},
+    normaliser::RunningMoments,
+    to_safetensors,
+};
 use treadmill_proto::{
     ActorState, ActorStats, EndCause, Episode, EvaluationReport, Fragment, Outcome, PolicyAnnouncement, PolicyBundle,
     PolicyVersion, Pose, Receipt, json::Metric,

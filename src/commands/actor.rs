@@ -3,8 +3,9 @@
 use clap::{Args, builder::ArgPredicate};
 use serde_json::json;
 use treadmill_actor::worker::{self, Account, WorkerOptions};
-use treadmill_common::{bus::Role, seeds};
+use treadmill_bus::Role;
 use treadmill_proto::{Malformed, ident::check_ident};
+use treadmill_runtime::seeds;
 
 use crate::{
     launch::{

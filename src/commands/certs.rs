@@ -13,7 +13,7 @@ use rcgen::{
     BasicConstraints, CertificateParams, DnType, ExtendedKeyUsagePurpose, IsCa, Issuer, KeyPair, KeyUsagePurpose,
 };
 use time::{Duration, OffsetDateTime};
-use treadmill_common::bus::{Credentials, Role};
+use treadmill_bus::{Credentials, Role};
 
 use crate::launch::{exit_code::Usage, output::say};
 

@@ -4,7 +4,7 @@ use std::time::Duration;
 
 use anyhow::Context;
 use clap::{Args, Subcommand};
-use treadmill_common::bus::{Bus, Role, command, statuses};
+use treadmill_bus::{Bus, Role, command, statuses};
 use treadmill_proto::{Command, ControlReply, ControlRequest};
 
 use crate::{

@@ -2,7 +2,7 @@
 
 use clap::{Args, builder::ArgPredicate};
 use treadmill_actor::evaluator::{self, EvaluatorOptions};
-use treadmill_common::bus::Role;
+use treadmill_bus::Role;
 use treadmill_proto::{Malformed, ident::check_ident};
 
 use crate::{

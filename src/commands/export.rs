@@ -4,8 +4,9 @@ use std::path::{Path, PathBuf};
 
 use anyhow::Context;
 use clap::{ArgGroup, Args};
-use treadmill_common::{atomic_file, onnx::to_onnx};
 use treadmill_learner::checkpoint::Which;
+use treadmill_policy::onnx::to_onnx;
+use treadmill_runtime::atomic_file;
 
 use crate::{launch::output::say, shared::saved_policy};
 

@@ -1,7 +1,7 @@
 //! `treadmill learner`: only the learner.
 
 use clap::Args;
-use treadmill_common::bus::Role;
+use treadmill_bus::Role;
 use treadmill_proto::ident::check_ident;
 
 use crate::{

@@ -2,10 +2,8 @@
 
 use anyhow::Context;
 use clap::Args;
-use treadmill_common::{
-    bus::{Bus, Role},
-    shutdown::Shutdown,
-};
+use treadmill_bus::{Bus, Role};
+use treadmill_runtime::shutdown::Shutdown;
 
 use crate::{
     launch::{one_core, output::say, signals},

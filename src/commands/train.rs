@@ -2,7 +2,8 @@
 //! network beyond loopback.
 
 use clap::Args;
-use treadmill_common::{bus::Role, machine};
+use treadmill_bus::Role;
+use treadmill_runtime::machine;
 
 use crate::{
     launch::{

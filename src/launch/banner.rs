@@ -3,8 +3,10 @@
 
 use std::net::SocketAddr;
 
-use treadmill_common::{bus::Credentials, config::Config, run_folder::RunFolder};
+use treadmill_bus::Credentials;
+use treadmill_config::Config;
 use treadmill_learner::training::TrainingSummary;
+use treadmill_runtime::run_folder::RunFolder;
 
 use crate::launch::{
     output::{complain, say},
@@ -74,7 +76,7 @@ fn what_is_learnt(config: &Config, steps: u64) -> String {
 /// An endpoint as another process dials it, with the flag that it needs for that: to listen on every address is not to have
 /// that address.
 fn to_dial(endpoint: &str, credentials: Option<&Credentials>) -> String {
-    let host = treadmill_common::machine::host_name();
+    let host = treadmill_runtime::machine::host_name();
     let dialled = endpoint.replace("/0.0.0.0:", &format!("/{host}:")).replace("/[::]:", &format!("/{host}:"));
     match credentials {
         Some(credentials) => format!("{dialled} --tls {}", credentials.folder.display()),

@@ -4,11 +4,8 @@ use std::{io::Read, time::Duration};
 
 use anyhow::Context;
 use treadmill_actor::ActorError;
-use treadmill_common::{
-    bus::{Bus, BusOptions},
-    machine, seeds,
-    shutdown::Shutdown,
-};
+use treadmill_bus::{Bus, BusOptions};
+use treadmill_runtime::{machine, seeds, shutdown::Shutdown};
 
 use super::signals;
 

@@ -2,7 +2,9 @@
 
 use std::process::ExitCode;
 
-use treadmill_common::{bus::BusError, config::ConfigError, run_folder::RunFolderError};
+use treadmill_bus::BusError;
+use treadmill_config::ConfigError;
+use treadmill_runtime::run_folder::RunFolderError;
 
 /// A mistake in what the user asked for.
 #[derive(Debug, thiserror::Error)]

@@ -2,12 +2,10 @@
 
 use std::time::Duration;
 
-use treadmill_common::{
-    bus::{Bus, TaskDesk},
-    shutdown::Shutdown,
-};
+use treadmill_bus::{Bus, TaskServer};
 use treadmill_learner::checkpoint::TrainingState;
 use treadmill_proto::Task;
+use treadmill_runtime::shutdown::Shutdown;
 
 use crate::launch::{output::say, startup::Prepared};
 
@@ -16,11 +14,11 @@ const TICK: Duration = Duration::from_millis(100);
 
 /// Opens the desk where actors register, and waits, where the run's task is not known yet, until one of them did; `None` once
 /// somebody asked to stop.
-pub async fn settle(bus: &Bus, prepared: &mut Prepared, shutdown: &Shutdown) -> anyhow::Result<Option<TaskDesk>> {
+pub async fn settle(bus: &Bus, prepared: &mut Prepared, shutdown: &Shutdown) -> anyhow::Result<Option<TaskServer>> {
     let known = prepared.state.as_ref().map(TrainingState::task).transpose().map_err(anyhow::Error::msg)?;
     let config = prepared.config.clone();
     let objection = Box::new(move |task: &Task| TrainingState::objection(&config, task));
-    let desk = TaskDesk::open(bus, &prepared.run, known, objection)?;
+    let desk = TaskServer::open(bus, &prepared.run, known, objection)?;
     if prepared.state.is_some() {
         return Ok(Some(desk));
     }

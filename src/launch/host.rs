@@ -8,18 +8,13 @@ use std::{
 use anyhow::Context;
 use serde_json::json;
 use tokio::sync::oneshot;
-use treadmill_common::{
-    atomic_file,
-    bus::{Bus, BusOptions, TaskDesk},
-    run_folder::RunFolder,
-    shutdown::Shutdown,
-};
+use treadmill_bus::{Bus, BusOptions, TaskServer};
 use treadmill_learner::{
     checkpoint::TrainingState,
-    logging::Exposition,
-    pulse::Pulse,
-    training::{self, Summary, TrainingError, TrainingOptions},
+    metrics::{PrometheusMetrics, episodes::EpisodeMeans},
+    training::{self, Heartbeat, TrainingError, TrainingOptions, TrainingSummary},
 };
+use treadmill_runtime::{atomic_file, run_folder::RunFolder, shutdown::Shutdown};
 
 use super::{
     banner, external_task, memory,
@@ -63,11 +58,12 @@ async fn run_until_done(mut prepared: Prepared, options: HostOptions<'_>) -> any
     let shutdown = Shutdown::default();
     signals::listen(shutdown.clone(), "stopping after this update; press Ctrl-C again to stop at once")?;
     let (bus, endpoints) = open_bus(bus_options, &prepared.folder).await?;
-    let (exposition, pulse) = (Exposition::default(), Pulse::default());
-    let page = metrics.map(|page| page.serve(prepared.run.clone(), exposition.clone(), pulse.clone())).transpose()?;
+    let (prometheus, heartbeat) = (PrometheusMetrics::default(), Heartbeat::default());
+    let page =
+        metrics.map(|page| page.serve(prepared.run.clone(), prometheus.clone(), heartbeat.clone())).transpose()?;
     banner::print_start(&prepared, &endpoints, bus_options.credentials.as_ref(), actors, page);
     // Stays open while the run trains: actors that join later register their task, too.
-    let Some(task_server) = wait_for_task(&bus, &mut prepared, &shutdown, &pulse).await? else {
+    let Some(task_server) = wait_for_task(&bus, &mut prepared, &shutdown, &heartbeat).await? else {
         bus.close();
         say("stopped before any actor registered its task; nothing was trained");
         return Ok(());
@@ -76,7 +72,7 @@ async fn run_until_done(mut prepared: Prepared, options: HostOptions<'_>) -> any
     let restarts = Arc::new(AtomicU64::new(0));
     let fleet = actors.map(|actors| fleet_options(&prepared, bus_options, &endpoints[0], actors)).transpose()?;
     let folder = prepared.folder.clone();
-    let (state, training_options) = training_options(prepared, any, restarts.clone(), exposition, pulse)?;
+    let (state, training_options) = training_options(prepared, any, restarts.clone(), prometheus, heartbeat)?;
     let trained = spawn_training(&bus, state, training_options, &shutdown)?;
     let supervisor = fleet.map(|fleet| Supervisor::start(&fleet, restarts, shutdown));
     let outcome = trained.await.context("the training thread panicked");
@@ -109,15 +105,15 @@ async fn wait_for_task(
     bus: &Bus,
     prepared: &mut Prepared,
     shutdown: &Shutdown,
-    pulse: &Pulse,
-) -> anyhow::Result<Option<TaskDesk>> {
+    heartbeat: &Heartbeat,
+) -> anyhow::Result<Option<TaskServer>> {
     let settled = external_task::settle(bus, prepared, shutdown);
     tokio::pin!(settled);
-    let mut heartbeat = tokio::time::interval(HEARTBEAT_EVERY);
+    let mut beat = tokio::time::interval(HEARTBEAT_EVERY);
     loop {
         tokio::select! {
             task_server = &mut settled => return task_server,
-            _ = heartbeat.tick() => pulse.beat(),
+            _ = beat.tick() => heartbeat.beat(),
         }
     }
 }
@@ -127,8 +123,8 @@ fn training_options(
     prepared: Prepared,
     any: &AnyRunArgs,
     restarts: Arc<AtomicU64>,
-    exposition: Exposition,
-    pulse: Pulse,
+    prometheus: PrometheusMetrics,
+    heartbeat: Heartbeat,
 ) -> anyhow::Result<(TrainingState, TrainingOptions)> {
     let Prepared { config, folder, device, mirror, run: _, state } = prepared;
     let state = state.context(NO_STATE)?;
@@ -138,8 +134,8 @@ fn training_options(
         mirror,
         show_progress: !any.no_progress,
         restarts,
-        exposition,
-        pulse,
+        prometheus,
+        heartbeat,
         command: startup::command_line(),
         versions: startup::versions(&config),
         action_names: model::action_names(&state.model_xml),
@@ -175,7 +171,7 @@ fn spawn_training(
     state: TrainingState,
     options: TrainingOptions,
     shutdown: &Shutdown,
-) -> std::io::Result<oneshot::Receiver<Result<Summary, TrainingError>>> {
+) -> std::io::Result<oneshot::Receiver<Result<TrainingSummary, TrainingError>>> {
     let (sender, receiver) = oneshot::channel();
     let (bus, shutdown) = (bus.clone(), shutdown.clone());
     std::thread::Builder::new().name("training".to_string()).spawn(move || {
@@ -184,10 +180,10 @@ fn spawn_training(
     Ok(receiver)
 }
 
-fn as_json(summary: &Summary) -> String {
+fn as_json(summary: &TrainingSummary) -> String {
     let state = &summary.state;
     let means = state.episodes.means();
-    let number = |of: fn(&treadmill_learner::episodes::EpisodeMeans) -> f64| means.as_ref().map(of);
+    let number = |of: fn(&EpisodeMeans) -> f64| means.as_ref().map(of);
     json!({
         "run": state.run,
         "env_steps": state.counters.env_steps,

@@ -1,7 +1,7 @@
 //! Warnings on standard error; `TREADMILL_LOG` asks for more.
 
 use tracing_subscriber::{Layer, layer::SubscriberExt, util::SubscriberInitExt};
-use treadmill_common::bus;
+use treadmill_bus as bus;
 
 use crate::launch::output;
 
@@ -14,5 +14,5 @@ pub fn begin(more: &str) {
         .with_ansi(std::io::IsTerminal::is_terminal(&std::io::stderr()))
         .with_target(false)
         .with_filter(filter);
-    tracing_subscriber::registry().with(log).with(bus::turned_away()).with(bus::brake_forbidden()).init();
+    tracing_subscriber::registry().with(log).with(bus::log_tls_rejections()).with(bus::throttle_drops()).init();
 }

@@ -7,7 +7,7 @@ use std::{
 
 use clap::Args;
 use treadmill_actor::settings;
-use treadmill_common::config::{Config, ConfigSource, EnvConfig, EnvObservation, Symmetry};
+use treadmill_config::{Config, ConfigSource, EnvConfig, EnvObservation, Symmetry};
 use treadmill_humanoid::{Environment, HUMANOID_XML, Model, ModelError, read_model_file};
 use treadmill_ppo::{BatchMirror, IndexSwap};
 

@@ -1,7 +1,7 @@
 //! Ctrl-C and SIGTERM: the first asks to stop, the second ends the process.
 
 use tokio::signal::unix::{SignalKind, signal};
-use treadmill_common::shutdown::Shutdown;
+use treadmill_runtime::shutdown::Shutdown;
 
 use crate::launch::output::complain;
 

@@ -5,17 +5,12 @@ use std::{fs, path::PathBuf};
 use anyhow::Context;
 use clap::Args;
 use serde_json::json;
-use treadmill_common::{
-    atomic_file,
-    config::{Config, ConfigSource, EnvTask, LearnerMode},
-    device::{Device, DeviceKind},
-    machine,
-    run_folder::RunFolder,
-    seeds,
-};
+use treadmill_config::{Config, ConfigSource, EnvTask, LearnerMode};
 use treadmill_learner::checkpoint::{self, TrainingState, Which};
+use treadmill_policy::device::{Device, DeviceKind};
 use treadmill_ppo::BatchMirror;
 use treadmill_proto::Task;
+use treadmill_runtime::{atomic_file, machine, run_folder::RunFolder, seeds};
 
 use crate::launch::{exit_code::Usage, model, slow_step::SlowStepNotice};
 

@@ -15,7 +15,7 @@ use tokio::{
     process::{Child, ChildStdin, Command},
     task::JoinSet,
 };
-use treadmill_common::shutdown::Shutdown;
+use treadmill_runtime::shutdown::Shutdown;
 
 use crate::launch::output::complain;
 

@@ -9,12 +9,8 @@ use std::{
 use anyhow::Context;
 use clap::Args;
 use serde_json::{Value, json};
-use treadmill_common::{
-    bus::{Alive, Bus, PolicyShelf, Role, RolloutCopies, RolloutIntake, gate::Gate},
-    config::{LearnerConfig, LearnerMode},
-    machine,
-    shutdown::Shutdown,
-};
+use treadmill_bus::{Alive, Bus, PolicyServer, Role, RolloutCopies, RolloutIntake, admission::Admission};
+use treadmill_config::{LearnerConfig, LearnerMode};
 use treadmill_learner::intake::{
     BatchSize, BusFragmentSource, Collected, ExpectedFragment, FragmentCounts, FragmentValidator, Intake, Ledger,
     Lineage,
@@ -22,6 +18,7 @@ use treadmill_learner::intake::{
 use treadmill_learner::training::Heartbeat;
 use treadmill_ppo::AcceptedFragment;
 use treadmill_proto::{Fragment, PolicyAnnouncement, PolicyBundle};
+use treadmill_runtime::{machine, shutdown::Shutdown};
 
 use super::{usage, workload};
 use crate::{
@@ -59,10 +56,10 @@ pub fn run(args: &HostArgs) -> anyhow::Result<()> {
     let mut bundle = workload::bundle();
     let encoded = bundle.encode()?;
     let bundle_bytes = encoded.len();
-    let shelf = PolicyShelf::open(&bus, workload::RUN, encoded.into())?;
+    let shelf = PolicyServer::open(&bus, workload::RUN, encoded.into())?;
     let defaults = LearnerConfig::default();
     let capacity = defaults.intake_fragments as usize;
-    let gate = Arc::new(Gate::new(defaults.quarantine_after, capacity));
+    let gate = Arc::new(Admission::new(defaults.quarantine_after, capacity));
     let (alive, copies) = (Alive::watch(&bus, workload::RUN)?, RolloutCopies::open(&bus, workload::RUN)?);
     let queue = RolloutIntake::open(&bus, workload::RUN, capacity, gate.clone(), &copies)?;
     let shared = queue.shared();
@@ -146,7 +143,7 @@ fn mark(taken: &Taken, begun: Instant, shared: u64) -> Value {
     })
 }
 
-fn publish(shelf: &PolicyShelf, bundle: &PolicyBundle) -> anyhow::Result<Value> {
+fn publish(shelf: &PolicyServer, bundle: &PolicyBundle) -> anyhow::Result<Value> {
     let announcement = PolicyAnnouncement { version: bundle.version, checksum: bundle.checksum };
     let encoded = bundle.encode()?;
     let time_unix_s = machine::time_unix_s();

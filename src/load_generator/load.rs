@@ -15,12 +15,10 @@ use bytes::Bytes;
 use clap::Args;
 use serde_json::{Value, json};
 use tokio::runtime::{Handle, Runtime};
-use treadmill_common::{
-    bus::{Announcements, Bus, BusOptions, Role, fetch_policy, submit, token, watch_announcements},
-    config::BusConfig,
-    machine,
-};
+use treadmill_bus::{Announcements, Bus, BusOptions, Role, fetch_policy, submit, token, watch_announcements};
+use treadmill_config::BusConfig;
 use treadmill_proto::{Outcome, Precision, PreparedFragment};
+use treadmill_runtime::machine;
 
 use super::{usage, workload};
 use crate::{

@@ -1,10 +1,8 @@
 //! What is sent: one fragment of random numbers under every actor's name, and policies of a given size.
 
-use treadmill_common::{
-    policy::{init::initial_parameters, to_safetensors},
-    seeds,
-};
+use treadmill_policy::{init::initial_parameters, to_safetensors};
 use treadmill_proto::{Fragment, Malformed, PolicyBundle, PolicyVersion, Precision, PreparedFragment};
+use treadmill_runtime::seeds;
 
 use crate::commands::bench::network::{self, Widths};
 

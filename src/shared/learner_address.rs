@@ -4,11 +4,9 @@ use std::{path::PathBuf, time::Duration};
 
 use anyhow::Context;
 use clap::Args;
-use treadmill_common::{
-    bus::{Bus, BusError, BusOptions, Role},
-    run_folder::RunFolder,
-};
+use treadmill_bus::{Bus, BusError, BusOptions, Role};
 use treadmill_proto::{ControlReply, ident::check_ident};
+use treadmill_runtime::run_folder::RunFolder;
 
 use crate::{
     launch::{exit_code::Usage, slow_step::SlowStepNotice},

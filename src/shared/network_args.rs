@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use treadmill_common::bus::{BusOptions, Credentials, Role, threads};
+use treadmill_bus::{BusOptions, Credentials, Role, workarounds::threads};
 
 use crate::launch::exit_code::Usage;
 

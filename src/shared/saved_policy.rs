@@ -4,14 +4,12 @@ use std::{fs, path::Path};
 
 use anyhow::Context;
 use treadmill_actor::settings;
-use treadmill_common::{
-    config::{Config, EnvTask},
-    exported::{ActionFacts, ExportedPolicy, ObservationFacts},
-    run_folder::RunFolder,
-};
+use treadmill_config::{Config, EnvTask};
 use treadmill_humanoid::{CONTROL_STEP_S, Environment, Model};
 use treadmill_learner::checkpoint::{self, TrainingState, Which, encoding};
+use treadmill_policy::exported::{ActionFacts, ExportedPolicy, ObservationFacts};
 use treadmill_proto::Task;
+use treadmill_runtime::run_folder::RunFolder;
 
 use crate::launch::exit_code::Usage;
 

@@ -13,11 +13,9 @@ use crate::support::*;
 use rcgen::{CertificateParams, DnType, ExtendedKeyUsagePurpose, Issuer, KeyPair};
 use serde_json::Value;
 use time::OffsetDateTime;
-use treadmill_common::{
-    bus::{Bus, BusOptions, ControlDesk},
-    machine,
-};
+use treadmill_bus::{Bus, BusOptions, ControlServer};
 use treadmill_proto::{ControlReply, RunStatus};
+use treadmill_runtime::machine;
 
 /// What the check says of one thing: its verdicts, and all that it says.
 fn of(output: &Output, name: &str) -> (Vec<String>, String) {
@@ -217,7 +215,7 @@ fn a_learner_of_another_version_and_another_time_is_told() {
     let (folder, _) = folders();
     let options = BusOptions { listen: vec!["tcp/127.0.0.1:0".to_string()], ..BusOptions::default() };
     let (bus, endpoints) = Bus::open_router(&options).unwrap();
-    let desk = ControlDesk::open(&bus, "old").unwrap();
+    let desk = ControlServer::open(&bus, "old").unwrap();
     std::thread::spawn(move || {
         loop {
             let Some(inquiry) = desk.next(Duration::from_millis(100)) else { continue };

@@ -1,6 +1,5 @@
 //! `treadmill status --watch` on a terminal of its own: what is to be seen there, and what is left of it.
 
-
 use std::{
     fs::File,
     io::{Read, Write},

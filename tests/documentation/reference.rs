@@ -5,7 +5,7 @@
 use std::{collections::BTreeSet, fs, path::PathBuf, process::Command};
 
 use crate::support::*;
-use treadmill_common::config::Config;
+use treadmill_config::Config;
 
 fn file(name: &str) -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("docs/reference").join(name).with_extension("md")

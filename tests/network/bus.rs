@@ -6,7 +6,7 @@ mod sample;
 use crate::support::*;
 use bytes::Bytes;
 use serde_json::Value;
-use treadmill_common::bus::{Bus, BusOptions, fetch_policy, observe, submit};
+use treadmill_bus::{Bus, BusOptions, fetch_policy, observe, submit};
 use treadmill_proto::{Fragment, Outcome, PolicyBundle, Receipt};
 
 /// A run that goes on until the test is over, and a client of its bus.

@@ -2,7 +2,7 @@
 
 use crate::support::*;
 use bytes::Bytes;
-use treadmill_common::bus::{Bus, BusOptions, Credentials, Role, RolloutCopies, observe};
+use treadmill_bus::{Bus, BusOptions, Credentials, Role, RolloutCopies, observe};
 use treadmill_proto::Fragment;
 
 /// A subscriber must not lose any to a slow test machine.

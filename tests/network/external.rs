@@ -4,10 +4,8 @@ use std::{fs, path::Path, process::Command};
 
 use crate::support::*;
 use bytes::Bytes;
-use treadmill_common::{
-    bus::{Bus, BusOptions, Credentials, Role, fetch_policy, register_task, submit},
-    config::ConfigSource,
-};
+use treadmill_bus::{Bus, BusOptions, Credentials, Role, fetch_policy, register_task, submit};
+use treadmill_config::ConfigSource;
 use treadmill_proto::{
     EndCause, Episode, Fragment, Outcome, PolicyBundle, Receipt, Task, TaskReceipt, TaskRegistration,
     fragment::TERMINATED,

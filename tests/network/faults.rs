@@ -8,7 +8,7 @@ use std::{
 };
 
 use crate::support::*;
-use treadmill_common::bus::{Bus, BusOptions, observe};
+use treadmill_bus::{Bus, BusOptions, observe};
 use treadmill_learner::checkpoint::load_file;
 use treadmill_proto::ActorStats;
 

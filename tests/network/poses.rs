@@ -3,7 +3,7 @@
 use std::time::Duration;
 
 use crate::support::*;
-use treadmill_common::bus::{Bus, BusOptions, Credentials, Feed, Message, PosePublisher, Role, fetch_policy, observe};
+use treadmill_bus::{Bus, BusOptions, Credentials, Feed, Message, PosePublisher, Role, fetch_policy, observe};
 use treadmill_humanoid::Model;
 use treadmill_proto::{PolicyBundle, Pose};
 

@@ -4,13 +4,14 @@ use std::{path::PathBuf, process::Command};
 
 use crate::support::*;
 use serde_json::json;
-use treadmill_common::{
-    config::{EnvConfig, RandomisationConfig, TaskConfig},
+use treadmill_config::{EnvConfig, RandomisationConfig, TaskConfig};
+use treadmill_policy::{
+    NetworkShape, Policy,
     exported::{ActionFacts, ExportedPolicy, ObservationFacts},
+    gaussian,
     normaliser::RunningMoments,
-    policy::{NetworkShape, Policy, gaussian},
-    seeds,
 };
+use treadmill_runtime::seeds;
 
 fn python_folder() -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("python")

@@ -13,7 +13,7 @@ use std::{
 
 pub use process::*;
 use serde_json::Value;
-use treadmill_common::bus::{BusOptions, Role, threads};
+use treadmill_bus::{BusOptions, Role, workarounds::threads};
 
 /// Nothing in these tests takes this long unless it is broken.
 pub const PATIENCE: Duration = Duration::from_secs(120);

@@ -4,13 +4,15 @@
 use std::sync::Arc;
 
 use rand_distr::{Distribution, StandardNormal};
-use treadmill_common::{
-    config::PpoConfig,
+use treadmill_config::PpoConfig;
+use treadmill_policy::{
+    NetworkShape, Policy,
     device::{Device, DeviceKind},
-    policy::{NetworkShape, Policy, gaussian, init::initial_parameters},
-    seeds,
+    gaussian,
+    init::initial_parameters,
 };
 use treadmill_ppo::{Batch, Updater};
+use treadmill_runtime::seeds;
 
 const ROWS: usize = 4096;
 

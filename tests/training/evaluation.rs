@@ -1,7 +1,7 @@
 //! Policies are evaluated while training goes on, and the best by evaluation is kept.
 
 use crate::support::*;
-use treadmill_common::bus::{Assignment, Bus, BusOptions, ask_for_evaluation};
+use treadmill_bus::{Assignment, Bus, BusOptions, ask_for_evaluation};
 use treadmill_learner::checkpoint::load_file;
 
 #[test]

@@ -4,17 +4,15 @@ use std::time::{Duration, Instant};
 
 use anyhow::Context;
 use treadmill_actor::settings;
-use treadmill_common::{
-    bus::{Bus, Feed, Role, fetch_policy, keys, observe},
-    config::ConfigSource,
-    shutdown::Shutdown,
-};
+use treadmill_bus::{Bus, Feed, Role, fetch_policy, keys, observe};
+use treadmill_config::ConfigSource;
 use treadmill_humanoid::Model;
 use treadmill_proto::{PolicyBundle, Pose, ident::check_ident};
 use treadmill_rl::{
     launch::{exit_code::Usage, output::say, signals},
     shared::learner_address::{self, ReachArgs},
 };
+use treadmill_runtime::shutdown::Shutdown;
 
 use crate::{scene_recorder::SceneRecorder, viewer_output::ViewerOutput};
 

@@ -23,12 +23,12 @@ use std::{
 };
 
 use clap::{CommandFactory, FromArgMatches, Parser};
-use treadmill_common::shutdown::Shutdown;
 use treadmill_humanoid::Model;
 use treadmill_rl::{
     launch::{exit_code, exit_code::Usage, log},
     shared::viewer_args::{RUN_HELP, ViewerArgs},
 };
+use treadmill_runtime::shutdown::Shutdown;
 
 use crate::{layout::PlaybackSpeed, scene_recorder::SceneRecorder, viewer_output::ViewerOutput};
 

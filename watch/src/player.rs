@@ -5,7 +5,7 @@ use treadmill_actor::{
     evaluation::{Told, evaluate},
     poses,
 };
-use treadmill_common::config::RandomisationConfig;
+use treadmill_config::RandomisationConfig;
 use treadmill_humanoid::{CONTROL_STEP_S, Environment, Model};
 use treadmill_learner::checkpoint::Which;
 use treadmill_proto::Pose;

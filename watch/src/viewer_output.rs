@@ -9,11 +9,11 @@ use anyhow::Context;
 use rerun::{
     MemoryLimit, RecordingStream, RecordingStreamBuilder, ServerOptions, SpawnOptions, web_viewer::WebViewerConfig,
 };
-use treadmill_common::{machine, shutdown::Shutdown};
 use treadmill_rl::{
     launch::{exit_code::Usage, output::say, signals},
     shared::viewer_args::ViewerOutputArgs,
 };
+use treadmill_runtime::{machine, shutdown::Shutdown};
 
 /// What Rerun tells recordings of different programs apart by; layouts are kept under it.
 const APPLICATION: &str = "treadmill";

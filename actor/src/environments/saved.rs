@@ -1,9 +1,9 @@
 //! Environments as plain numbers, to be gone on with by another process.
 
-use treadmill_common::seeds;
 use treadmill_humanoid::EpisodeState;
 use treadmill_proto::ActorState;
 use treadmill_proto::actor_state::{ENVIRONMENT_GENERATORS, GENERATOR_NUMBERS, PROGRESS_NUMBERS};
+use treadmill_runtime::seeds;
 
 use super::{Environments, Running};
 

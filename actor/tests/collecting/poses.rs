@@ -5,7 +5,7 @@ use treadmill_actor::{
     poses::{Camera, STRIDE, Tape},
     rollout::Sender,
 };
-use treadmill_common::bus::Watched;
+use treadmill_bus::Watched;
 use treadmill_humanoid::{CONTROL_STEP_S, EnvironmentConfig, HUMANOID_XML, Model};
 use treadmill_proto::{PolicyVersion, Pose};
 

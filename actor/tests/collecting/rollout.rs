@@ -5,15 +5,13 @@ use treadmill_actor::{
     environments::{Environments, SeedSource, Stepped},
     rollout::{Collector, Sender},
 };
-use treadmill_common::{
-    policy::{NetworkShape, gaussian, init::initial_parameters, to_safetensors},
-    seeds,
-};
 use treadmill_humanoid::{EnvironmentConfig, HUMANOID_XML};
+use treadmill_policy::{NetworkShape, gaussian, init::initial_parameters, to_safetensors};
 use treadmill_proto::{
     EndCause, Fragment, PolicyBundle, PolicyVersion, Precision,
     fragment::{TERMINATED, TRUNCATED},
 };
+use treadmill_runtime::seeds;
 
 fn environments(count: usize, config: &EnvironmentConfig) -> Environments {
     let seeds = SeedSource { run_seed: 1, actor: "a".into(), start: 0 };

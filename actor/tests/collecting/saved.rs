@@ -5,12 +5,10 @@ use treadmill_actor::{
     environments::{Environments, SeedSource},
     rollout::{Collector, Sender},
 };
-use treadmill_common::{
-    policy::{NetworkShape, init::initial_parameters, to_safetensors},
-    seeds,
-};
 use treadmill_humanoid::{EnvironmentConfig, HUMANOID_XML, ObservationKind, Randomisation};
+use treadmill_policy::{NetworkShape, init::initial_parameters, to_safetensors};
 use treadmill_proto::{Fragment, PolicyBundle, PolicyVersion, Precision, fragment::TRUNCATED};
+use treadmill_runtime::seeds;
 
 /// Episodes that end in all ways within a few steps, with something of everything that is random.
 fn rich() -> EnvironmentConfig {

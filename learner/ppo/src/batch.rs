@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use candle_core::{Device, Result, Tensor};
 use rand::{Rng, RngExt};
-use treadmill_common::policy::NetworkShape;
+use treadmill_policy::NetworkShape;
 
 use crate::{gae::Advantages, loss::Minibatch};
 

@@ -4,10 +4,10 @@
 //! All observations are normalised by the statistics of the newest policy, also those of a fragment that lags: networks
 //! and statistics together are the policy that the update improves.
 
-use treadmill_common::{
-    config::PpoConfig,
+use treadmill_config::PpoConfig;
+use treadmill_policy::{
+    Policy, gaussian,
     normaliser::{Normaliser, RunningMoments, ScalarNormaliser},
-    policy::{Policy, gaussian},
 };
 use treadmill_proto::{
     Fragment,

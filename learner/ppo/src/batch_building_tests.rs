@@ -1,8 +1,8 @@
 //! What lag changes in a batch, and what it does not.
 
-use treadmill_common::policy::{NetworkShape, init};
-use treadmill_common::seeds;
+use treadmill_policy::{NetworkShape, init};
 use treadmill_proto::PolicyVersion;
+use treadmill_runtime::seeds;
 
 use super::*;
 

@@ -4,8 +4,8 @@
 
 use candle_core::{Result, Tensor};
 use candle_nn::loss::mse;
-use treadmill_common::config::PpoConfig;
-use treadmill_common::policy::gaussian::HALF_LN_TAU;
+use treadmill_config::PpoConfig;
+use treadmill_policy::gaussian::HALF_LN_TAU;
 
 /// Transitions of one gradient step; the observations went into the networks already.
 #[derive(Clone, Debug)]

@@ -1,6 +1,6 @@
 //! Measures of an update, and the learning rate that follows from them.
 
-use treadmill_common::config::PpoConfig;
+use treadmill_config::PpoConfig;
 
 /// How far the policy has moved from the one that gathered the data, summed over rows.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

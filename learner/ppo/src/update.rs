@@ -5,9 +5,9 @@ use std::sync::Arc;
 use candle_core::{Device, Tensor, Var};
 use rand::Rng;
 use rayon::ThreadPool;
-use treadmill_common::config::PpoConfig;
-use treadmill_common::policy::gaussian::clamp_log_std;
-use treadmill_common::policy::{NetworkShape, Networks, ParameterError, Part, Policy, check_parameters};
+use treadmill_config::PpoConfig;
+use treadmill_policy::gaussian::clamp_log_std;
+use treadmill_policy::{NetworkShape, Networks, ParameterError, Part, Policy, check_parameters};
 
 use crate::{
     batch::{Batch, minibatches, shuffle, weighted},

@@ -2,9 +2,9 @@
 
 use rand_distr::{Distribution, StandardNormal};
 use rand_xoshiro::{Xoshiro256PlusPlus, rand_core::SeedableRng};
-use treadmill_common::policy::gaussian::{LOG_STD_MAX, log_probability, sample};
-use treadmill_common::policy::init::initial_parameters;
-use treadmill_common::policy::plain;
+use treadmill_policy::gaussian::{LOG_STD_MAX, log_probability, sample};
+use treadmill_policy::init::initial_parameters;
+use treadmill_policy::plain;
 
 use super::*;
 use crate::batch::normalised;

@@ -9,7 +9,7 @@ use std::collections::BTreeMap;
 use candle_core::{Device, Result, Tensor, Var};
 use golden::{Mismatch, compare, config, flipped, narrow, read};
 use serde::Deserialize;
-use treadmill_common::normaliser::{Normaliser, RunningMoments, ScalarNormaliser};
+use treadmill_policy::normaliser::{Normaliser, RunningMoments, ScalarNormaliser};
 use treadmill_ppo::{
     gae::{self, Steps},
     loss::{Minibatch, ppo_loss},

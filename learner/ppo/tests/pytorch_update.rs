@@ -10,7 +10,7 @@ use golden::{Mismatch, compare, config, flipped, narrow, read};
 use rand::RngExt;
 use rand_xoshiro::{Xoshiro256PlusPlus, rand_core::SeedableRng};
 use serde::Deserialize;
-use treadmill_common::policy::NetworkShape;
+use treadmill_policy::NetworkShape;
 use treadmill_ppo::{Batch, UpdateStats, Updater};
 
 /// Of the parameters' root mean square, 0.3, or of their own size. Each gradient step moves them by about 1e-3.

@@ -3,14 +3,14 @@
 use std::sync::Arc;
 
 use rand_distr::{Distribution, StandardNormal};
-use treadmill_common::{
-    config::PpoConfig,
+use treadmill_config::PpoConfig;
+use treadmill_policy::{
+    NetworkShape, gaussian, init,
     normaliser::{Normaliser, RunningMoments},
-    policy::{NetworkShape, gaussian, init},
-    seeds,
 };
 use treadmill_ppo::{AcceptedFragment, Updater, build_batch};
 use treadmill_proto::{Fragment, PolicyVersion};
+use treadmill_runtime::seeds;
 
 const STEPS: u32 = 32;
 const ENVS: u32 = 8;

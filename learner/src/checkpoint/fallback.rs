@@ -76,7 +76,8 @@ pub(super) fn bundles(folder: &Path) -> Vec<PathBuf> {
 
 #[cfg(test)]
 mod tests {
-    use treadmill_common::{config::Config, run_folder::RunFolder};
+    use treadmill_config::Config;
+    use treadmill_runtime::run_folder::RunFolder;
 
     use super::*;
     use crate::checkpoint::{CheckpointWriter, Which, load};

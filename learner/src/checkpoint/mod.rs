@@ -13,7 +13,7 @@ use std::{
     path::{Path, PathBuf},
 };
 
-use treadmill_common::{atomic_file, run_folder::RunFolder};
+use treadmill_runtime::{atomic_file, run_folder::RunFolder};
 
 pub use state::{Counters, TrainingState};
 

@@ -1,14 +1,14 @@
 //! What a checkpoint holds.
 
 use serde::{Deserialize, Serialize};
-use treadmill_common::{
-    config::{Config, ConfigSource, EvaluationConfig, LearnerConfig, PpoConfig},
+use treadmill_config::{Config, ConfigSource, EvaluationConfig, LearnerConfig, PpoConfig};
+use treadmill_policy::{
+    NetworkShape, init,
     normaliser::{Normaliser, RunningMoments},
-    policy::{NetworkShape, init},
-    seeds::{self, Stream},
 };
 use treadmill_ppo::optimiser::OptimiserState;
 use treadmill_proto::{ActorState, PolicyBundle, Task, limits::BUNDLE_BYTES_MAX};
+use treadmill_runtime::seeds::{self, Stream};
 
 use crate::{
     intake::{FragmentCounts, Ledger, Lineage},
@@ -197,7 +197,7 @@ impl TrainingState {
     /// What actors get of this state. Its [`Self::actor_state`] is added where it is resumed.
     pub fn bundle(&self) -> Result<PolicyBundle, String> {
         let config = self.config()?;
-        let weights = treadmill_common::policy::to_safetensors(&self.shape, &self.parameters);
+        let weights = treadmill_policy::to_safetensors(&self.shape, &self.parameters);
         let normaliser = Normaliser::from_moments(&self.observation_moments, config.policy.observation_clip as f32);
         let narrow = |size: usize| u32::try_from(size).map_err(|why| why.to_string());
         Ok(PolicyBundle {

@@ -3,7 +3,7 @@
 use std::{fmt::Write, io, path::Path};
 
 use serde_json::json;
-use treadmill_common::atomic_file;
+use treadmill_runtime::atomic_file;
 
 use super::{ActorProcess, Ledger};
 

@@ -24,9 +24,10 @@ mod validator;
 
 use std::{collections::BTreeSet, time::Duration};
 
-use treadmill_common::{config::LearnerMode, shutdown::Shutdown};
+use treadmill_config::LearnerMode;
 use treadmill_ppo::AcceptedFragment;
 use treadmill_proto::{Outcome, Receipt};
+use treadmill_runtime::shutdown::Shutdown;
 
 pub use ledger::{Account, ActorProcess, DropRule, Ledger, LedgerEntry};
 pub use lineage::{Descent, Lineage};

@@ -5,7 +5,7 @@ use std::{
     time::{Duration, Instant},
 };
 
-use treadmill_common::bus::{Alive, Arrival, Delivery, RolloutCopies, RolloutIntake};
+use treadmill_bus::{Alive, IncomingFragment, ReceivedFragment, RolloutCopies, RolloutIntake};
 use treadmill_proto::Receipt;
 
 use crate::training::Heartbeat;
@@ -34,7 +34,7 @@ pub trait FragmentMessage {
     fn actor(&self) -> &str;
 
     /// Takes the fragment out, once; the receipt is still owed.
-    fn take(&mut self) -> Option<Arrival>;
+    fn take(&mut self) -> Option<ReceivedFragment>;
 
     /// Sends the receipt, which returns the sender's credit.
     fn answer(self, receipt: &Receipt);
@@ -56,9 +56,9 @@ impl BusFragmentSource {
 }
 
 impl FragmentSource for BusFragmentSource {
-    type Message = Delivery;
+    type Message = IncomingFragment;
 
-    fn next(&mut self, timeout: Duration) -> Option<Delivery> {
+    fn next(&mut self, timeout: Duration) -> Option<IncomingFragment> {
         self.heartbeat.beat();
         self.queue.next(timeout)
     }
@@ -71,21 +71,21 @@ impl FragmentSource for BusFragmentSource {
         Instant::now()
     }
 
-    fn copy(&self, message: &mut Delivery) {
+    fn copy(&self, message: &mut IncomingFragment) {
         message.copy_to(&self.copies);
     }
 }
 
-impl FragmentMessage for Delivery {
+impl FragmentMessage for IncomingFragment {
     fn actor(&self) -> &str {
         &self.actor
     }
 
-    fn take(&mut self) -> Option<Arrival> {
-        Delivery::take(self)
+    fn take(&mut self) -> Option<ReceivedFragment> {
+        IncomingFragment::take(self)
     }
 
     fn answer(self, receipt: &Receipt) {
-        Delivery::answer(self, receipt);
+        IncomingFragment::answer(self, receipt);
     }
 }

@@ -3,10 +3,10 @@
 use std::{sync::Arc, time::Instant};
 
 use serde::{Deserialize, Serialize};
-use treadmill_common::bus::{
-    Arrival,
-    complaints::Complaints,
-    gate::{Gate, Sender},
+use treadmill_bus::{
+    ReceivedFragment,
+    admission::{Admission, Sender},
+    complaints::RateLimitedLog,
 };
 use treadmill_ppo::AcceptedFragment;
 use treadmill_proto::{Fragment, Malformed, Outcome, Receipt};
@@ -52,9 +52,9 @@ pub struct FragmentCounts {
 #[derive(Debug)]
 pub struct FragmentValidator {
     expected: ExpectedFragment,
-    gate: Arc<Gate>,
-    refusals: Complaints,
-    quarantines: Complaints,
+    gate: Arc<Admission>,
+    refusals: RateLimitedLog,
+    quarantines: RateLimitedLog,
     /// Rejected unread because the queue was full, since this start.
     turned_away: u64,
     /// Bytes of the accepted fragments, since this start.
@@ -74,8 +74,8 @@ struct Rejection {
 
 impl FragmentValidator {
     /// Validator that continues with a checkpoint's ledger and counts.
-    pub fn new(expected: ExpectedFragment, gate: Arc<Gate>, ledger: Ledger, counts: FragmentCounts) -> Self {
-        let (refusals, quarantines) = (Complaints::default(), Complaints::default());
+    pub fn new(expected: ExpectedFragment, gate: Arc<Admission>, ledger: Ledger, counts: FragmentCounts) -> Self {
+        let (refusals, quarantines) = (RateLimitedLog::default(), RateLimitedLog::default());
         Self { expected, gate, refusals, quarantines, turned_away: 0, accepted_bytes: 0, ledger, counts }
     }
 
@@ -83,7 +83,7 @@ impl FragmentValidator {
     pub fn validate(
         &mut self,
         actor: &str,
-        received: Arrival,
+        received: ReceivedFragment,
         lineage: &Lineage,
         now: Instant,
     ) -> Result<AcceptedFragment, Box<Receipt>> {
@@ -96,7 +96,7 @@ impl FragmentValidator {
     fn decide(
         &mut self,
         actor: &str,
-        received: Arrival,
+        received: ReceivedFragment,
         lineage: &Lineage,
         now: Instant,
     ) -> Result<AcceptedFragment, Rejection> {

@@ -5,7 +5,7 @@ use super::*;
 fn validator() -> FragmentValidator {
     let expected =
         ExpectedFragment { run: "walk".into(), config_hash: 5, observation_size: 1, action_size: 1, max_policy_lag: 1 };
-    FragmentValidator::new(expected, Arc::new(Gate::new(3, 64)), Ledger::default(), FragmentCounts::default())
+    FragmentValidator::new(expected, Arc::new(Admission::new(3, 64)), Ledger::default(), FragmentCounts::default())
 }
 
 fn fragment(sequence: u64, number: u64) -> Fragment {

@@ -10,7 +10,7 @@ use std::time::{Duration, Instant};
 
 use console::strip_ansi_codes;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
-use treadmill_common::machine;
+use treadmill_runtime::machine;
 
 use super::table::{render_line, render_table};
 use super::{History, Scalars, history::Point, sparkline::sparkline};

@@ -2,13 +2,10 @@
 
 use std::{collections::HashMap, time::Duration};
 
-use treadmill_common::{
-    bus::{Bus, keys, publish_dropping},
-    config::Config,
-    machine,
-    shutdown::Shutdown,
-};
+use treadmill_bus::{Bus, keys, publish_dropping};
+use treadmill_config::Config;
 use treadmill_proto::json::Metric;
+use treadmill_runtime::{machine, shutdown::Shutdown};
 
 use super::{Console, CurveThread, EventWriter, Histogram, History, JsonLines, PrometheusMetrics, tensorboard::texts};
 use crate::{

@@ -2,11 +2,9 @@
 
 use std::time::Duration;
 
-use treadmill_common::{
-    config::{self, ConfigSource, LearnerConfig},
-    machine,
-};
+use treadmill_config::{self, ConfigSource, LearnerConfig};
 use treadmill_proto::{Command, ControlRequest, Phase, RunStatus};
+use treadmill_runtime::machine;
 
 use super::{Trainer, load_adaptation::LoadAdaptation};
 use crate::checkpoint::TrainingState;

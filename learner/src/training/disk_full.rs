@@ -5,7 +5,7 @@ use std::{
     time::{Duration, Instant},
 };
 
-use treadmill_common::shutdown::Shutdown;
+use treadmill_runtime::shutdown::Shutdown;
 
 use crate::checkpoint::CheckpointError;
 

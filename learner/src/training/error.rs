@@ -2,7 +2,7 @@
 
 use std::io;
 
-use treadmill_common::bus::BusError;
+use treadmill_bus::BusError;
 use treadmill_ppo::UpdateError;
 
 use crate::{checkpoint::CheckpointError, metrics::CurveError};

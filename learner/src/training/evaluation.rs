@@ -3,7 +3,7 @@
 use std::collections::VecDeque;
 
 use bytes::Bytes;
-use treadmill_common::bus::{Bus, BusError, EvaluationDesk};
+use treadmill_bus::{Bus, BusError, EvaluationServer};
 use treadmill_proto::{EvaluationReport, PolicyVersion};
 
 /// Policies that may still get a result; older ones are forgotten.
@@ -28,7 +28,7 @@ struct Candidate {
 
 /// Submits policies for evaluation and matches results to them.
 pub struct EvaluationScheduler {
-    server: EvaluationDesk,
+    server: EvaluationServer,
     every_steps: u64,
     due_at_steps: u64,
     candidates: VecDeque<Candidate>,
@@ -38,7 +38,7 @@ impl EvaluationScheduler {
     /// Evaluates one policy after every `every_steps` environment steps; the run has `env_steps` already.
     pub fn open(bus: &Bus, run: &str, every_steps: u64, env_steps: u64) -> Result<Self, BusError> {
         let due_at_steps = (env_steps / every_steps + 1) * every_steps;
-        Ok(Self { server: EvaluationDesk::open(bus, run)?, every_steps, due_at_steps, candidates: VecDeque::new() })
+        Ok(Self { server: EvaluationServer::open(bus, run)?, every_steps, due_at_steps, candidates: VecDeque::new() })
     }
 
     /// Changes the interval.

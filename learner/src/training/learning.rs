@@ -5,8 +5,10 @@ use std::{
     time::{Duration, Instant},
 };
 
-use treadmill_common::{config::Config, machine, normaliser::Normaliser};
+use treadmill_config::Config;
+use treadmill_policy::normaliser::Normaliser;
 use treadmill_ppo::{AcceptedFragment, BatchMirror, UpdateError, UpdateStats, Updater, build_batch};
+use treadmill_runtime::machine;
 
 use super::{Trainer, TrainingError, TrainingOptions, load_adaptation::LoadAdaptation};
 use crate::checkpoint::TrainingState;

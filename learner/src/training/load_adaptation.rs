@@ -3,7 +3,7 @@
 //! Where fragments queue although the learner never waits, it first takes larger batches, then makes fewer passes over
 //! each. Only after that do actors wait for their receipts.
 
-use treadmill_common::config::{Config, LearnerMode};
+use treadmill_config::{Config, LearnerMode};
 
 use crate::intake::{BatchSize, CollectedBatch};
 

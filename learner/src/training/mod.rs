@@ -29,7 +29,9 @@ mod start;
 
 use std::time::Instant;
 
-use treadmill_common::{bus::Bus, config::Config, shutdown::Shutdown};
+use treadmill_bus::Bus;
+use treadmill_config::Config;
+use treadmill_runtime::shutdown::Shutdown;
 
 pub use self::commands::is_changeable;
 pub use self::error::TrainingError;

@@ -2,8 +2,8 @@
 
 use std::sync::{Arc, atomic::AtomicU64};
 
-use treadmill_common::run_folder::RunFolder;
 use treadmill_ppo::BatchMirror;
+use treadmill_runtime::run_folder::RunFolder;
 
 use super::heartbeat::Heartbeat;
 use crate::{checkpoint::TrainingState, metrics::PrometheusMetrics};

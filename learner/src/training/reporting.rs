@@ -9,7 +9,7 @@ use std::{
     time::Instant,
 };
 
-use treadmill_common::bus::StatsFeed;
+use treadmill_bus::StatsFeed;
 use treadmill_ppo::{AcceptedFragment, UpdateStats};
 
 use super::{Trainer, TrainingError, TrainingOptions, evaluation::EvaluationResult};

@@ -2,7 +2,7 @@
 
 use std::time::{Duration, Instant};
 
-use treadmill_common::bus::PolicyShelf;
+use treadmill_bus::PolicyServer;
 use treadmill_proto::PolicyAnnouncement;
 
 use super::{
@@ -20,7 +20,7 @@ use crate::{
 /// The part of a [`Trainer`] that serves actors, evaluators and operators.
 pub(super) struct Serving {
     pub(super) intake: Intake<BusFragmentSource>,
-    pub(super) policies: PolicyShelf,
+    pub(super) policies: PolicyServer,
     /// Evaluation while training continues, if it is configured.
     pub(super) evaluation: Option<EvaluationScheduler>,
     pub(super) control: ControlChannel,

@@ -2,11 +2,11 @@
 
 use std::{sync::Arc, time::Duration};
 
-use treadmill_common::{
-    bus::{Alive, AliveView, Bus, BusError, PolicyShelf, RolloutCopies, RolloutIntake, StatsFeed, gate::Gate},
-    config::Config,
-    shutdown::Shutdown,
+use treadmill_bus::{
+    Alive, AliveView, Bus, BusError, PolicyServer, RolloutCopies, RolloutIntake, StatsFeed, admission::Admission,
 };
+use treadmill_config::Config;
+use treadmill_runtime::shutdown::Shutdown;
 
 use super::{
     Trainer, TrainingError, TrainingOptions, commands, control::ControlChannel, disk_full::wait_for_disk_space,
@@ -61,7 +61,7 @@ impl Trainer {
                 Some(EvaluationScheduler::open(bus, &state.run, every_steps, env_steps)?)
             }
         };
-        let policies = PolicyShelf::open(bus, &state.run, encoded.into())?;
+        let policies = PolicyServer::open(bus, &state.run, encoded.into())?;
         let serving = Serving {
             intake,
             policies,
@@ -86,7 +86,7 @@ fn open_intake(
     expected: ExpectedFragment,
 ) -> Result<(Intake<BusFragmentSource>, AliveView), BusError> {
     let capacity = config.learner.intake_fragments as usize;
-    let gate = Arc::new(Gate::new(config.learner.quarantine_after, capacity));
+    let gate = Arc::new(Admission::new(config.learner.quarantine_after, capacity));
     let validator = FragmentValidator::new(expected, gate.clone(), state.ledger.clone(), state.fragment_counts);
     let copies = RolloutCopies::open(bus, &state.run)?;
     let queue = RolloutIntake::open(bus, &state.run, capacity, gate, &copies)?;

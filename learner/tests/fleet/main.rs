@@ -7,10 +7,12 @@ use std::{collections::BTreeSet, sync::Arc, time::Duration};
 
 use proptest::prelude::*;
 use rand::RngExt;
-use treadmill_common::{bus::gate::Gate, config::LearnerMode, seeds};
+use treadmill_bus::admission::Admission;
+use treadmill_config::LearnerMode;
 use treadmill_learner::intake::{
     BatchSize, Collected, ExpectedFragment, FragmentCounts, FragmentValidator, Intake, Ledger, Lineage,
 };
+use treadmill_runtime::seeds;
 use world::{MemoryFragmentSource, Setting, Shared, World};
 
 /// Longer than this (of the fleet's time) an update never takes, whatever gets lost: many receipts in a row would have to.
@@ -151,7 +153,8 @@ fn intake(case: &Case, world: &Shared, saved: &Saved) -> Intake<MemoryFragmentSo
         action_size: 1,
         max_policy_lag: if case.mode == LearnerMode::Sync { 0 } else { case.max_policy_lag },
     };
-    let validator = FragmentValidator::new(expected, Arc::new(Gate::new(8, 256)), saved.ledger.clone(), saved.counts);
+    let validator =
+        FragmentValidator::new(expected, Arc::new(Admission::new(8, 256)), saved.ledger.clone(), saved.counts);
     Intake::new(MemoryFragmentSource(world.clone()), case.mode, validator)
 }
 

@@ -15,11 +15,11 @@ use std::{
 
 use bytes::Bytes;
 use rand::RngExt;
-use treadmill_common::{
+use treadmill_proto::{Fragment, Outcome, PolicyVersion, Receipt};
+use treadmill_runtime::{
     seeds::{self, Stream},
     shutdown::Shutdown,
 };
-use treadmill_proto::{Fragment, Outcome, PolicyVersion, Receipt};
 
 pub use source::{MemoryFragmentSource, MemoryMessage};
 

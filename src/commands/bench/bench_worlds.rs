@@ -1,8 +1,8 @@
 //! Humanoids by themselves, spread over threads.
 
 use rayon::{ThreadPool, ThreadPoolBuilder, prelude::*};
-use treadmill_common::{machine, seeds};
 use treadmill_humanoid::{Environment, EnvironmentConfig};
+use treadmill_runtime::{machine, seeds};
 
 /// Humanoids that are stepped in turn, as an actor has them: one alone would stay in the cache.
 pub const WORLDS: usize = 64;

@@ -9,8 +9,9 @@ use treadmill_actor::{
     environments::{Environments, SeedSource, Stepped},
     settings,
 };
-use treadmill_common::{config::Config, machine, seeds};
+use treadmill_config::Config;
 use treadmill_humanoid::{EnvironmentConfig, task};
+use treadmill_runtime::{machine, seeds};
 
 use super::{
     bench_worlds::{self, BenchWorlds, WORLDS},

@@ -3,7 +3,8 @@
 use std::str::FromStr;
 
 use rand_distr::{Distribution, StandardNormal};
-use treadmill_common::{policy::NetworkShape, seeds};
+use treadmill_policy::NetworkShape;
+use treadmill_runtime::seeds;
 
 /// Actions of the humanoid.
 const ACTIONS: usize = 17;

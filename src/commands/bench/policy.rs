@@ -4,11 +4,8 @@ use std::time::Instant;
 
 use clap::Args;
 use serde_json::json;
-use treadmill_common::{
-    machine,
-    policy::{Policy, init::initial_parameters},
-    seeds,
-};
+use treadmill_policy::{Policy, init::initial_parameters};
+use treadmill_runtime::{machine, seeds};
 
 use super::{
     network::{self, Widths},

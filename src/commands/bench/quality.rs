@@ -2,8 +2,8 @@
 
 use rand::RngExt;
 use serde_json::json;
-use treadmill_common::{machine, seeds};
 use treadmill_humanoid::{EnvironmentConfig, task};
+use treadmill_runtime::{machine, seeds};
 
 use super::{
     bench_worlds::{BenchWorld, BenchWorlds, WORLDS},

@@ -5,7 +5,7 @@ use std::process::{Command, Stdio};
 use anyhow::Context;
 use clap::Args;
 use serde_json::{Value, json};
-use treadmill_common::machine;
+use treadmill_runtime::machine;
 
 use super::{print_result, rounded};
 

@@ -4,14 +4,10 @@ use std::{sync::Arc, time::Instant};
 
 use clap::Args;
 use serde_json::json;
-use treadmill_common::{
-    config::PpoConfig,
-    device::DeviceKind,
-    machine,
-    policy::{NetworkShape, gaussian, init::initial_parameters},
-    seeds,
-};
+use treadmill_config::PpoConfig;
+use treadmill_policy::{NetworkShape, device::DeviceKind, gaussian, init::initial_parameters};
 use treadmill_ppo::{Batch, Updater};
+use treadmill_runtime::{machine, seeds};
 
 use crate::launch::{exit_code::Usage, memory};
 

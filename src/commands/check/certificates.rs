@@ -9,7 +9,7 @@ use rustls::{
     sign::CertifiedKey,
 };
 use time::OffsetDateTime;
-use treadmill_common::bus::{Credentials, Role};
+use treadmill_bus::{Credentials, Role};
 use x509_parser::prelude::{FromDer, GeneralName, X509Certificate};
 
 use super::{clock::date_text, finding::Finding};

@@ -1,6 +1,6 @@
 //! How many cores there are, and how much of them a container may use.
 
-use treadmill_common::machine;
+use treadmill_runtime::machine;
 
 use super::{finding::Finding, system::System};
 

@@ -1,6 +1,6 @@
 //! Which vector instructions there are, and so which kernels compute the networks.
 
-use treadmill_common::machine;
+use treadmill_runtime::machine;
 
 use super::finding::Finding;
 

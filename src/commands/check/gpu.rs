@@ -1,6 +1,6 @@
 //! Whether there is a GPU, in builds that could use one.
 
-use treadmill_common::device::{DeviceError, DeviceKind};
+use treadmill_policy::device::{DeviceError, DeviceKind};
 
 use super::finding::Finding;
 

@@ -7,7 +7,7 @@ use rustls::{
     AlertDescription, ClientConfig, ClientConnection, Error, StreamOwned,
     pki_types::{CertificateDer, PrivateKeyDer, ServerName, pem::PemObject},
 };
-use treadmill_common::bus::Credentials;
+use treadmill_bus::Credentials;
 
 use super::{certificates, finding::Finding};
 

@@ -2,11 +2,9 @@
 
 use std::time::Duration;
 
-use treadmill_common::{
-    bus::{Bus, BusOptions, Role, statuses},
-    machine,
-};
+use treadmill_bus::{Bus, BusOptions, Role, statuses};
 use treadmill_proto::{ControlReply, RunStatus};
+use treadmill_runtime::machine;
 
 use super::{
     finding::{Finding, actors as counted},

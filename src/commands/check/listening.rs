@@ -1,6 +1,6 @@
 //! Whether a learner could listen where it is to.
 
-use treadmill_common::bus::{BusError, endpoint};
+use treadmill_bus::{BusError, endpoint};
 
 use super::finding::Finding;
 

@@ -34,7 +34,7 @@ use std::{path::PathBuf, process::ExitCode};
 
 use clap::Args;
 use serde_json::json;
-use treadmill_common::machine;
+use treadmill_runtime::machine;
 
 use crate::{
     launch::{exit_code, output::say, slow_step::SlowStepNotice},

@@ -1,6 +1,6 @@
 //! Whether the fast kernels compute on this processor what plain operations do.
 
-use treadmill_common::policy::{NetworkShape, agreement};
+use treadmill_policy::{NetworkShape, agreement};
 
 use super::finding::Finding;
 

@@ -6,7 +6,7 @@ use std::{
     time::Duration,
 };
 
-use treadmill_common::bus::Credentials;
+use treadmill_bus::Credentials;
 
 use super::{finding::Finding, handshake};
 

@@ -1,7 +1,7 @@
 //! Whether physics computes on this machine what it does elsewhere: a second of a falling humanoid, twice.
 
-use treadmill_common::seeds;
 use treadmill_humanoid::{CONTROL_STEP_S, Environment, EnvironmentConfig, HUMANOID_XML};
+use treadmill_runtime::seeds;
 
 use super::finding::Finding;
 

@@ -2,7 +2,7 @@
 
 use std::io::IsTerminal;
 
-use treadmill_common::machine;
+use treadmill_runtime::machine;
 
 use super::finding::Finding;
 

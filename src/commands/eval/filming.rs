@@ -11,8 +11,8 @@ use anyhow::Context;
 use clap::{ArgGroup, Args};
 use tempfile::NamedTempFile;
 use treadmill_actor::evaluation::Told;
-use treadmill_common::atomic_file;
 use treadmill_render::{Camera, Gif, Picture, Scene, film};
+use treadmill_runtime::atomic_file;
 
 use crate::launch::exit_code::Usage;
 

@@ -14,12 +14,10 @@ use treadmill_actor::{
     agent::{Agent, PolicyAgent, PreferredActionAgent, RandomAgent},
     evaluation::{Evaluation, Told, evaluate},
 };
-use treadmill_common::{
-    config::{Config, RandomisationConfig},
-    exported::ExportedPolicy,
-};
+use treadmill_config::{Config, RandomisationConfig};
 use treadmill_humanoid::Environment;
 use treadmill_learner::checkpoint::Which;
+use treadmill_policy::exported::ExportedPolicy;
 
 mod filming;
 

@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use treadmill_common::config::{Config, KeyDoc};
+use treadmill_config::{Config, KeyDoc};
 use treadmill_learner::training::is_changeable;
 
 use super::{cell, heading};

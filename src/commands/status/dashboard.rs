@@ -8,7 +8,8 @@ use std::{
 use anyhow::Context;
 use ratatui::crossterm::event;
 use tokio::signal::unix::{SignalKind, signal};
-use treadmill_common::{bus::Role, shutdown::Shutdown};
+use treadmill_bus::Role;
+use treadmill_runtime::shutdown::Shutdown;
 
 use super::{
     draw::{self, Theme},

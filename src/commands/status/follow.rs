@@ -6,7 +6,7 @@ use std::{
     time::{Duration, Instant},
 };
 
-use treadmill_common::bus::{Bus, BusOptions, MetricsFeed, statuses};
+use treadmill_bus::{Bus, BusOptions, MetricsFeed, statuses};
 use treadmill_proto::{RunStatus, json::Metric};
 
 use super::{WATCH_EVERY, fleet, past};

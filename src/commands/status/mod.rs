@@ -23,7 +23,7 @@ mod samples;
 use std::time::Duration;
 
 use clap::Args;
-use treadmill_common::bus::{Bus, Role, statuses};
+use treadmill_bus::{Bus, Role, statuses};
 use treadmill_proto::RunStatus;
 
 use crate::{

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use serde::de::DeserializeOwned;
-use treadmill_common::config::PpoConfig;
+use treadmill_config::PpoConfig;
 
 /// The content of one of the files.
 pub fn read<T: DeserializeOwned>(text: &str) -> T {

@@ -5,7 +5,7 @@
 //! are part of the hash that fragments repeat or are left alone by a resume, and how a run ended stands in a file of its
 //! own, which is taken away when it goes on.
 
-use treadmill_common::config::Config;
+use treadmill_config::Config;
 use treadmill_proto::event_file::{
     Experiment, HparamInfo, HparamValue, HparamsData, MetricInfo, MetricName, SessionEnd, SessionStart,
     hparam_value::Kind, hparams_data::Data,

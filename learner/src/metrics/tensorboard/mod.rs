@@ -16,7 +16,7 @@ use std::fs::{self, File, OpenOptions};
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
-use treadmill_common::config::Config;
+use treadmill_config::Config;
 use treadmill_proto::event_file::{
     Dim, Event, HparamsData, Metadata, PluginData, SessionLog, Shape, Summary, Tensor, Value,
 };

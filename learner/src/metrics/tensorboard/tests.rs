@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::Path;
 
-use treadmill_common::config::Config;
+use treadmill_config::Config;
 use treadmill_proto::event_file::Event;
 
 use super::{EventWriter, Histogram, framed, masked_crc};

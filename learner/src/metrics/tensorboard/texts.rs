@@ -1,6 +1,6 @@
 //! What a run is, as Markdown for TensorBoard's TEXT tab.
 
-use treadmill_common::config::Config;
+use treadmill_config::Config;
 
 /// The configuration as a table: every key with its value and its default; what was changed is set in bold.
 pub fn configuration(config: &Config) -> String {

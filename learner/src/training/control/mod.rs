@@ -15,11 +15,9 @@ use std::{
     time::{Duration, Instant},
 };
 
-use treadmill_common::{
-    bus::{AliveView, Bus, BusError, ControlDesk, Inquiry, StatsFeed},
-    machine,
-};
+use treadmill_bus::{AliveView, Bus, BusError, ControlServer, PendingRequest, StatsFeed};
 use treadmill_proto::{Command, ControlReply, RunStatus};
+use treadmill_runtime::machine;
 
 use roster::Roster;
 
@@ -40,9 +38,9 @@ struct StatusBoard {
 /// The training thread's end of the control flow.
 pub struct ControlChannel {
     board: Arc<Mutex<StatusBoard>>,
-    commands: Receiver<Inquiry>,
+    commands: Receiver<PendingRequest>,
     /// Command that [`Self::has_command`] has taken from the queue.
-    next: Option<Inquiry>,
+    next: Option<PendingRequest>,
     closed: Arc<AtomicBool>,
     status_set: Instant,
 }
@@ -54,7 +52,7 @@ impl ControlChannel {
     /// If the bus refuses, or the thread cannot be started.
     pub fn open(bus: &Bus, status: RunStatus, alive: AliveView) -> Result<Self, BusError> {
         let run = status.run.clone();
-        let (server, feed) = (ControlDesk::open(bus, &run)?, StatsFeed::open(bus, &run, alive.clone())?);
+        let (server, feed) = (ControlServer::open(bus, &run)?, StatsFeed::open(bus, &run, alive.clone())?);
         let roster = Roster::new(alive);
         let board =
             Arc::new(Mutex::new(StatusBoard { run, status, updated: Instant::now(), quarantined: Vec::new(), roster }));
@@ -99,12 +97,12 @@ impl ControlChannel {
     }
 
     /// The next command, if one comes within `timeout`.
-    pub fn next(&mut self, timeout: Duration) -> Option<Inquiry> {
+    pub fn next(&mut self, timeout: Duration) -> Option<PendingRequest> {
         self.next.take().or_else(|| self.commands.recv_timeout(timeout).ok())
     }
 
     /// Answers a command: what was done, or why it failed.
-    pub fn answer(&self, inquiry: Inquiry, outcome: Result<String, String>) {
+    pub fn answer(&self, inquiry: PendingRequest, outcome: Result<String, String>) {
         let board = lock(&self.board);
         let reply = match outcome {
             Ok(text) => board.reply(true, text),

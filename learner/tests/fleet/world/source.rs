@@ -6,7 +6,7 @@ use std::{
 };
 
 use bytes::Bytes;
-use treadmill_common::bus::Arrival;
+use treadmill_bus::ReceivedFragment;
 use treadmill_learner::intake::{FragmentMessage, FragmentSource};
 use treadmill_proto::{Outcome, Receipt};
 
@@ -60,7 +60,7 @@ impl FragmentMessage for MemoryMessage {
         &self.name
     }
 
-    fn take(&mut self) -> Option<Arrival> {
+    fn take(&mut self) -> Option<ReceivedFragment> {
         Some(std::mem::take(&mut self.payload).into())
     }
 

@@ -1,0 +1,85 @@
+//! Endpoints as the user gives them: checked before the bus sees them.
+
+use std::net::{IpAddr, TcpListener};
+
+use crate::BusError;
+
+/// Refuses an endpoint that would carry plain text beyond this machine, unless that was asked for.
+pub fn check(endpoint: &str, insecure: bool) -> Result<(), BusError> {
+    let refuse = |why: &str| Err(BusError::Endpoint { endpoint: endpoint.to_string(), why: why.to_string() });
+    let Some((protocol, rest)) = endpoint.split_once('/') else {
+        return refuse("it has no protocol; write tcp/HOST:PORT");
+    };
+    let address = rest.split(['?', '#']).next().unwrap_or(rest);
+    let Some((host, port)) = address.rsplit_once(':') else {
+        return refuse("it has no port; write tcp/HOST:PORT");
+    };
+    if host.is_empty() || port.parse::<u16>().is_err() {
+        return refuse("host or port is not valid; write tcp/HOST:PORT with a port from 0 to 65535");
+    }
+    match protocol {
+        "tls" => Ok(()),
+        "tcp" if insecure || is_loopback(host) => Ok(()),
+        "tcp" => refuse(
+            "plain tcp beyond loopback can be read and forged by anybody on the network; use tls/HOST:PORT with \
+             --tls DIR (certificates: `treadmill certs DIR`), or say --insecure where the network itself is trusted",
+        ),
+        _ => refuse("the protocol must be tcp or tls"),
+    }
+}
+
+fn is_loopback(host: &str) -> bool {
+    let bare = host.trim_start_matches('[').trim_end_matches(']');
+    bare == "localhost" || bare.parse::<IpAddr>().is_ok_and(|address| address.is_loopback())
+}
+
+/// Replaces port 0 by a port that is free now, since the bus does not tell which one it was given.
+pub fn with_port(endpoint: &str) -> Result<String, BusError> {
+    let Some(prefix) = endpoint.strip_suffix(":0") else {
+        return Ok(endpoint.to_string());
+    };
+    let host = prefix.split_once('/').map_or(prefix, |(_, host)| host);
+    let port = TcpListener::bind(format!("{host}:0"))
+        .and_then(|listener| listener.local_addr())
+        .map_err(|why| BusError::Endpoint { endpoint: endpoint.to_string(), why: why.to_string() })?
+        .port();
+    Ok(format!("{prefix}:{port}"))
+}
+
+/// Says early and clearly that a port is taken.
+pub fn check_free(endpoint: &str) -> Result<(), BusError> {
+    let address = endpoint.split_once('/').map_or(endpoint, |(_, address)| address);
+    match TcpListener::bind(address) {
+        Ok(_) => Ok(()),
+        Err(why) => Err(BusError::Listen { endpoint: endpoint.to_string(), why: why.to_string() }),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn plain_text_stays_on_this_machine() {
+        for fine in ["tcp/127.0.0.1:7447", "tcp/localhost:0", "tcp/[::1]:7447", "tls/learner:7447"] {
+            assert!(check(fine, false).is_ok(), "{fine}");
+        }
+        let refused = check("tcp/0.0.0.0:7447", false).unwrap_err().to_string();
+        assert!(refused.contains("--insecure"), "{refused}");
+        assert!(check("tcp/0.0.0.0:7447", true).is_ok());
+        for bad in ["learner:7447", "tcp/learner", "tcp/:1", "tcp/h:99999", "udp/127.0.0.1:1"] {
+            assert!(check(bad, true).is_err(), "{bad}");
+        }
+    }
+
+    #[test]
+    fn a_taken_port_is_named() {
+        let taken = TcpListener::bind("127.0.0.1:0").unwrap();
+        let endpoint = format!("tcp/{}", taken.local_addr().unwrap());
+        let why = check_free(&endpoint).unwrap_err().to_string();
+        assert!(why.contains(&endpoint) && why.contains("--listen"), "{why}");
+        let free = with_port("tcp/127.0.0.1:0").unwrap();
+        assert!(!free.ends_with(":0"));
+        check_free(&free).unwrap();
+    }
+}

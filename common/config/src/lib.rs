@@ -1,0 +1,268 @@
+//! Configuration in two stages: TOML text and `--set` pairs as given, then a [`Config`] in which every value is checked.
+//!
+//! Order of precedence, lowest first: defaults in code, the preset, the file, `--set`, the command's own flags.
+
+mod choices;
+pub mod open_json;
+mod preset;
+mod retired;
+mod section;
+mod sections;
+mod source;
+mod task;
+
+use serde::{Deserialize, Serialize};
+
+pub use choices::{EnvObservation, EnvTask, LearnerMode, ObservationPrecision, Symmetry};
+pub use preset::{PRESETS, preset};
+pub use retired::is_retired;
+pub use section::{KeyDoc, Section, SectionDoc};
+pub use sections::{
+    BusConfig, EnvConfig, EvaluationConfig, LearnerConfig, PolicyConfig, PpoConfig, RandomisationConfig, RolloutConfig,
+    RunConfig, TaskConfig,
+};
+pub use source::ConfigSource;
+
+/// Everything that can be configured, checked.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Config {
+    /// What this run is.
+    pub run: RunConfig,
+    /// The task.
+    pub env: EnvConfig,
+    /// The task where it is none of ours; left out of texts where it says nothing, so that actors which do not know of
+    /// such tasks go on reading them.
+    #[serde(skip_serializing_if = "TaskConfig::is_unset")]
+    pub task: TaskConfig,
+    /// What differs from episode to episode.
+    pub randomisation: RandomisationConfig,
+    /// How experience is gathered.
+    pub rollout: RolloutConfig,
+    /// The networks.
+    pub policy: PolicyConfig,
+    /// The algorithm.
+    pub ppo: PpoConfig,
+    /// The learner's side of the fleet.
+    pub learner: LearnerConfig,
+    /// Evaluation while training.
+    pub eval: EvaluationConfig,
+    /// The message bus.
+    pub bus: BusConfig,
+}
+
+/// Why a configuration is refused.
+#[derive(Debug, thiserror::Error, PartialEq)]
+pub enum ConfigError {
+    /// The key does not exist.
+    #[error("unknown config key `{key}`; {hint}")]
+    UnknownKey {
+        /// The key as given.
+        key: String,
+        /// What is there instead.
+        hint: String,
+    },
+    /// The value's type is not the key's.
+    #[error("config key `{key}` is {value}, which is not of the right type; allowed: {allowed}")]
+    Type {
+        /// The key.
+        key: String,
+        /// The value as given.
+        value: String,
+        /// Allowed values in words.
+        allowed: String,
+    },
+    /// The value is out of range.
+    #[error("config key `{key}` is {value}; allowed: {allowed}")]
+    Value {
+        /// The key.
+        key: String,
+        /// The value as given.
+        value: String,
+        /// Allowed values in words.
+        allowed: String,
+    },
+    /// The key no longer exists, and its value is not the old default.
+    #[error(
+        "config key `{key}` is {value}, but the key no longer exists: {now}, as with the old default {default}; remove the \
+         key, or continue a run that needs it with the version that began it"
+    )]
+    Retired {
+        /// The key.
+        key: String,
+        /// The value as given.
+        value: String,
+        /// The old default in TOML notation.
+        default: &'static str,
+        /// What the program does now.
+        now: &'static str,
+    },
+    /// A `--set` argument without `=`.
+    #[error("`--set {given}` is not of the form key=value, for instance --set ppo.learning_rate=3e-4")]
+    SetSyntax {
+        /// The argument as given.
+        given: String,
+    },
+    /// The preset does not exist.
+    #[error("unknown preset `{given}`; allowed: {allowed}")]
+    Preset {
+        /// The name as given.
+        given: String,
+        /// Names that exist.
+        allowed: String,
+    },
+    /// The file could not be read.
+    #[error("config file `{path}` cannot be read: {why}; give an existing TOML file")]
+    File {
+        /// Its path.
+        path: String,
+        /// What the system said.
+        why: String,
+    },
+    /// The text is no TOML.
+    #[error("{origin} is not valid TOML: {why}")]
+    Syntax {
+        /// Where the text came from.
+        origin: String,
+        /// What the parser said.
+        why: String,
+    },
+}
+
+impl Config {
+    /// Every section with its keys, in the order of the documentation.
+    pub fn sections() -> Vec<SectionDoc> {
+        vec![
+            RunConfig::describe(),
+            EnvConfig::describe(),
+            TaskConfig::describe(),
+            RandomisationConfig::describe(),
+            RolloutConfig::describe(),
+            PolicyConfig::describe(),
+            PpoConfig::describe(),
+            LearnerConfig::describe(),
+            EvaluationConfig::describe(),
+            BusConfig::describe(),
+        ]
+    }
+
+    /// Every key with documentation, default and allowed values.
+    pub fn keys() -> Vec<KeyDoc> {
+        Self::sections().into_iter().flat_map(|section| section.keys).collect()
+    }
+
+    /// Checks every value by itself, then those that must fit each other.
+    pub fn check(&self) -> Result<(), ConfigError> {
+        self.run.check()?;
+        self.env.check()?;
+        self.task.check()?;
+        self.randomisation.check()?;
+        self.rollout.check()?;
+        self.policy.check()?;
+        self.ppo.check()?;
+        self.learner.check()?;
+        self.eval.check()?;
+        self.bus.check()?;
+        self.check_together()
+    }
+
+    fn check_together(&self) -> Result<(), ConfigError> {
+        let refuse = |key: &str, value: String, allowed: String| {
+            Err(ConfigError::Value { key: key.to_string(), value, allowed })
+        };
+        if self.ppo.minibatch > self.ppo.batch {
+            return refuse(
+                "ppo.minibatch",
+                self.ppo.minibatch.to_string(),
+                format!("1 to ppo.batch, which is {}", self.ppo.batch),
+            );
+        }
+        if self.ppo.learning_rate_min > self.ppo.learning_rate_max {
+            return refuse(
+                "ppo.learning_rate_min",
+                show(&self.ppo.learning_rate_min),
+                format!("at most ppo.learning_rate_max, which is {}", show(&self.ppo.learning_rate_max)),
+            );
+        }
+        if self.learner.mode == LearnerMode::Sync && self.rollout.max_in_flight == 2 {
+            return refuse(
+                "rollout.max_in_flight",
+                "2".to_string(),
+                "0 or 1 where learner.mode is \"sync\"".to_string(),
+            );
+        }
+        self.check_observation()?;
+        self.check_task()?;
+        if self.rollout.actors > self.rollout.envs {
+            return refuse(
+                "rollout.actors",
+                self.rollout.actors.to_string(),
+                format!("0 to rollout.envs, which is {}", self.rollout.envs),
+            );
+        }
+        Ok(())
+    }
+
+    /// What Gymnasium's Humanoid-v4 observes has no blocks that can be left out.
+    fn check_observation(&self) -> Result<(), ConfigError> {
+        let env = &self.env;
+        let included = [
+            ("env.include_cinert_in_observation", env.include_cinert_in_observation),
+            ("env.include_cvel_in_observation", env.include_cvel_in_observation),
+            ("env.include_qfrc_actuator_in_observation", env.include_qfrc_actuator_in_observation),
+            ("env.include_cfrc_ext_in_observation", env.include_cfrc_ext_in_observation),
+        ];
+        for (key, included) in included {
+            if env.observation == EnvObservation::GymnasiumV4 && !included {
+                return Err(ConfigError::Value {
+                    key: key.to_string(),
+                    value: "false".to_string(),
+                    allowed: "true where env.observation is \"gymnasium-v4\"; \"gymnasium-v5\" can leave blocks out"
+                        .to_string(),
+                });
+            }
+        }
+        Ok(())
+    }
+
+    /// Unanswered fragments that an actor may have on the bus.
+    pub fn fragments_in_flight(&self) -> u32 {
+        match (self.rollout.max_in_flight, self.learner.mode) {
+            (0, LearnerMode::Sync) => 1,
+            (0, LearnerMode::Async) => 2,
+            (chosen, _) => chosen,
+        }
+    }
+
+    /// Whether policies are evaluated while training goes on: the run must be long enough for one evaluation, and its task
+    /// one that our evaluator plays.
+    pub fn evaluates(&self) -> bool {
+        !self.is_external() && (1..=self.run.steps).contains(&self.eval.every_steps)
+    }
+
+    /// Versions that a fragment's policy may be behind the newest.
+    pub fn policy_lag_allowed(&self) -> u32 {
+        match self.learner.mode {
+            LearnerMode::Sync => 0,
+            LearnerMode::Async => self.learner.max_policy_lag,
+        }
+    }
+
+    /// The value of one key in TOML notation; empty where there is no such key.
+    pub fn value_of(&self, key: &str) -> String {
+        let value = key.split_once('.').and_then(|(section, name)| {
+            toml::Value::try_from(self).ok()?.get(section)?.get(name).map(ToString::to_string)
+        });
+        value.unwrap_or_default()
+    }
+
+    /// The configuration as TOML, every key named; those of `[task]` only where they say something.
+    pub fn to_toml(&self) -> String {
+        toml::to_string(self).expect("a checked config is plain tables of plain values")
+    }
+}
+
+/// A value in TOML notation.
+pub(crate) fn show<T: Serialize>(value: &T) -> String {
+    toml::Value::try_from(value).map_or_else(|why| why.to_string(), |value| value.to_string())
+}

@@ -1,0 +1,127 @@
+//! Keys of earlier versions that no longer exist. Saved configurations may hold them: the old default is ignored with a
+//! notice, because the program still behaves that way; any other value is refused.
+
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use toml::{Table, Value};
+
+use super::ConfigError;
+
+/// A key that no longer exists.
+struct Retired {
+    key: &'static str,
+    /// Its old default in TOML notation, which is how the program behaves now.
+    default: &'static str,
+    /// What the program does now.
+    now: &'static str,
+    is_noticed: AtomicBool,
+}
+
+impl Retired {
+    const fn new(key: &'static str, default: &'static str, now: &'static str) -> Self {
+        Self { key, default, now, is_noticed: AtomicBool::new(false) }
+    }
+}
+
+static RETIRED: [Retired; 3] = [
+    Retired::new("rollout.noise_correlation", "0.0", "exploration noise is drawn anew at each control step"),
+    Retired::new("rollout.stale_versions", "[0, 0]", "an actor always acts by the newest policy that it has"),
+    Retired::new(
+        "ppo.off_policy",
+        "\"decoupled\"",
+        "lagging experience is always corrected by the decoupled objective",
+    ),
+];
+
+/// Returns whether `key` existed in an earlier version and no longer does.
+pub fn is_retired(key: &str) -> bool {
+    RETIRED.iter().any(|retired| retired.key == key)
+}
+
+/// Returns whether `key` is retired and `value` its old default, so that it can be ignored. Logs that once per process.
+///
+/// # Errors
+/// [`ConfigError::Retired`] if the value is another one.
+pub(super) fn ignores(key: &str, value: &Value) -> Result<bool, ConfigError> {
+    let Some(retired) = RETIRED.iter().find(|retired| retired.key == key) else { return Ok(false) };
+    let default = format!("v = {}", retired.default).parse::<Table>().expect("defaults are TOML")["v"].clone();
+    if !is_same(value, &default) {
+        return Err(ConfigError::Retired {
+            key: key.to_string(),
+            value: value.to_string(),
+            default: retired.default,
+            now: retired.now,
+        });
+    }
+    if !retired.is_noticed.swap(true, Ordering::Relaxed) {
+        tracing::warn!(key, %value, now = retired.now, "ignored a retired config key at its old default");
+    }
+    Ok(true)
+}
+
+/// Compares whole and fractional numbers by value, as earlier versions did.
+fn is_same(found: &Value, wanted: &Value) -> bool {
+    let number = |value: &Value| value.as_float().or_else(|| value.as_integer().map(|whole| whole as f64));
+    match (found, wanted) {
+        (Value::Array(found), Value::Array(wanted)) => {
+            found.len() == wanted.len() && found.iter().zip(wanted).all(|(found, wanted)| is_same(found, wanted))
+        }
+        _ => found == wanted || number(found).is_some() && number(found) == number(wanted),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Config, ConfigSource};
+
+    fn set(pair: &str) -> Result<Config, ConfigError> {
+        let mut source = ConfigSource::default();
+        source.set(pair)?;
+        source.build()
+    }
+
+    #[test]
+    fn old_defaults_are_ignored() {
+        let saved = "[rollout]\nstale_versions = [0, 0]\nnoise_correlation = 0.0\n[ppo]\noff_policy = \"decoupled\"\n";
+        let mut source = ConfigSource::default();
+        source.text(saved, "saved").unwrap();
+        assert_eq!(source.build().unwrap(), Config::default());
+        for pair in ["rollout.noise_correlation=0", "rollout.stale_versions=[0.0, 0]", "ppo.off_policy=decoupled"] {
+            assert_eq!(set(pair).unwrap(), Config::default(), "{pair}");
+        }
+    }
+
+    #[test]
+    fn other_values_are_refused_with_key_value_and_remedy() {
+        assert_eq!(
+            set("rollout.noise_correlation=0.5").unwrap_err().to_string(),
+            "config key `rollout.noise_correlation` is 0.5, but the key no longer exists: exploration noise is drawn anew \
+             at each control step, as with the old default 0.0; remove the key, or continue a run that needs it with the \
+             version that began it"
+        );
+        for (pair, value) in [
+            ("rollout.stale_versions=[0, 1]", "[0, 1]"),
+            ("rollout.stale_versions=[0]", "[0]"),
+            ("rollout.stale_versions=0", "0"),
+            ("ppo.off_policy=v-trace", "\"v-trace\""),
+            ("ppo.off_policy=uncorrected", "\"uncorrected\""),
+            ("ppo.off_policy=nonsense", "\"nonsense\""),
+            ("rollout.noise_correlation=true", "true"),
+        ] {
+            let (key, message) = (pair.split('=').next().unwrap(), set(pair).unwrap_err().to_string());
+            assert!(
+                message.contains(&format!("`{key}` is {value}, ")) && message.contains("remove the key"),
+                "{message}"
+            );
+        }
+    }
+
+    #[test]
+    fn no_retired_key_exists() {
+        for retired in &RETIRED {
+            assert!(is_retired(retired.key) && Config::keys().iter().all(|known| known.key != retired.key));
+        }
+        assert!(!is_retired("ppo.epochs"));
+    }
+}

@@ -1,0 +1,349 @@
+//! The first stage: tables as the user gave them, laid over each other, names and types checked one by one.
+
+use std::path::Path;
+
+use toml::{Table, Value};
+
+use super::{Config, ConfigError, KeyDoc, choices, preset, retired};
+
+/// Collects configuration from its sources, later ones winning.
+#[derive(Clone, Debug, Default)]
+pub struct ConfigSource {
+    table: Table,
+}
+
+impl ConfigSource {
+    /// Lays a preset over what is there.
+    pub fn preset(&mut self, name: &str) -> Result<(), ConfigError> {
+        self.text(preset(name)?, &format!("preset {name}"))
+    }
+
+    /// Lays a TOML file over what is there.
+    pub fn file(&mut self, path: &Path) -> Result<(), ConfigError> {
+        let shown = path.display().to_string();
+        let text = std::fs::read_to_string(path)
+            .map_err(|why| ConfigError::File { path: shown.clone(), why: why.to_string() })?;
+        self.text(&text, &format!("config file `{shown}`"))
+    }
+
+    /// Lays TOML text over what is there; `origin` names it in errors.
+    pub fn text(&mut self, text: &str, origin: &str) -> Result<(), ConfigError> {
+        let table: Table = text
+            .parse()
+            .map_err(|why: toml::de::Error| ConfigError::Syntax { origin: origin.to_string(), why: why.to_string() })?;
+        let keys = Config::keys();
+        for (section, value) in table {
+            let Value::Table(entries) = value else {
+                return Err(unknown(&section, &keys));
+            };
+            if entries.is_empty() && !keys.iter().any(|known| section_of(known) == section) {
+                return Err(unknown(&section, &keys));
+            }
+            for (name, value) in entries {
+                self.put(&format!("{section}.{name}"), value, &keys)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Lays one `key=value` over what is there; a value that is no TOML is taken as text.
+    pub fn set(&mut self, pair: &str) -> Result<(), ConfigError> {
+        let (key, text) = pair.split_once('=').ok_or_else(|| ConfigError::SetSyntax { given: pair.to_string() })?;
+        let value = format!("v = {text}")
+            .parse::<Table>()
+            .ok()
+            .and_then(|mut table| table.remove("v"))
+            .unwrap_or_else(|| Value::String(text.to_string()));
+        self.put(key.trim(), value, &Config::keys())
+    }
+
+    /// Lays one typed value over what is there.
+    pub fn value(&mut self, key: &str, value: impl Into<Value>) -> Result<(), ConfigError> {
+        self.put(key, value.into(), &Config::keys())
+    }
+
+    /// The second stage: a configuration in which every value is checked.
+    pub fn build(&self) -> Result<Config, ConfigError> {
+        let config: Config = self.table.clone().try_into().map_err(|why: toml::de::Error| ConfigError::Syntax {
+            origin: "the configuration".to_string(),
+            why: why.to_string(),
+        })?;
+        config.check()?;
+        Ok(config)
+    }
+
+    fn put(&mut self, key: &str, value: Value, keys: &[KeyDoc]) -> Result<(), ConfigError> {
+        if retired::ignores(key, &value)? {
+            return Ok(());
+        }
+        let known = keys.iter().find(|known| known.key == key).ok_or_else(|| unknown(key, keys))?;
+        let value = fit(value, known)?;
+        let (section, name) = key.split_once('.').expect("every known key has a section");
+        self.table
+            .entry(section)
+            .or_insert_with(|| Value::Table(Table::new()))
+            .as_table_mut()
+            .expect("sections are tables")
+            .insert(name.to_string(), value);
+        Ok(())
+    }
+}
+
+/// Turns a value into the key's type where that loses nothing, as `1` for `1.0` and `8e6` for `8000000`.
+fn fit(value: Value, known: &KeyDoc) -> Result<Value, ConfigError> {
+    let refuse = |value: &Value| ConfigError::Type {
+        key: known.key.clone(),
+        value: value.to_string(),
+        allowed: known.allowed.to_string(),
+    };
+    let whole = |number: f64| number.fract() == 0.0 && number.abs() < 9e15;
+    match (known.kind, &value) {
+        ("bool", Value::Boolean(_)) | ("f64", Value::Float(_)) => Ok(value),
+        ("f64", Value::Integer(number)) => Ok(Value::Float(*number as f64)),
+        ("u32" | "u64", Value::Float(number)) if whole(*number) => fit(Value::Integer(*number as i64), known),
+        ("u32", Value::Integer(number)) if u32::try_from(*number).is_err() => Err(ConfigError::Value {
+            key: known.key.clone(),
+            value: number.to_string(),
+            allowed: known.allowed.to_string(),
+        }),
+        ("u64", Value::Integer(number)) if *number < 0 => Err(ConfigError::Value {
+            key: known.key.clone(),
+            value: number.to_string(),
+            allowed: known.allowed.to_string(),
+        }),
+        ("u32" | "u64", Value::Integer(_)) => Ok(value),
+        ("Vec<u32>", Value::Array(items))
+            if items.iter().all(|item| item.as_integer().is_some_and(|item| u32::try_from(item).is_ok())) =>
+        {
+            Ok(value)
+        }
+        ("[f64; 2]" | "[u32; 2]", Value::Array(items)) if items.len() == 2 => {
+            let kind = if known.kind == "[f64; 2]" { "f64" } else { "u32" };
+            let part = KeyDoc { kind, ..known.clone() };
+            items.iter().map(|item| fit(item.clone(), &part)).collect::<Result<_, _>>().map(Value::Array)
+        }
+        ("Vec<f64>", Value::Array(items)) => {
+            let part = KeyDoc { kind: "f64", ..known.clone() };
+            items.iter().map(|item| fit(item.clone(), &part)).collect::<Result<_, _>>().map(Value::Array)
+        }
+        ("String", Value::String(_)) => Ok(value),
+        (kind, Value::String(name)) if choices::names(kind).is_some() => {
+            if choices::names(kind).is_some_and(|names| names.contains(&name.as_str())) {
+                return Ok(value);
+            }
+            Err(ConfigError::Value {
+                key: known.key.clone(),
+                value: value.to_string(),
+                allowed: known.allowed.to_string(),
+            })
+        }
+        _ => Err(refuse(&value)),
+    }
+}
+
+fn section_of(known: &KeyDoc) -> &str {
+    known.key.split('.').next().unwrap_or_default()
+}
+
+/// Keys that there once were, and what takes their place.
+const REPLACED: &[(&str, &str)] = &[
+    ("env.contact_cost_max", "`env.contact_cost_range`, as in contact_cost_range = [-inf, 10.0]"),
+    ("env.healthy_z_min_m", "`env.healthy_z_range`, as in healthy_z_range = [1.0, 2.0]"),
+    ("env.healthy_z_max_m", "`env.healthy_z_range`, as in healthy_z_range = [1.0, 2.0]"),
+];
+
+fn unknown(key: &str, keys: &[KeyDoc]) -> ConfigError {
+    if let Some((_, successor)) = REPLACED.iter().find(|(old, _)| *old == key) {
+        return ConfigError::UnknownKey { key: key.to_string(), hint: format!("it is now part of {successor}") };
+    }
+    let wanted = key.rsplit('.').next().unwrap_or(key);
+    let nearest = keys
+        .iter()
+        .map(|known| {
+            (distance(key, &known.key).min(distance(wanted, known.key.rsplit('.').next().unwrap_or(""))), known)
+        })
+        .min_by_key(|(distance, _)| *distance);
+    let hint = match nearest {
+        // A third of the letters wrong is a slip; more is another word.
+        Some((distance, known)) if distance <= wanted.len() / 3 => format!("did you mean `{}`?", known.key),
+        _ => {
+            let section = key.split('.').next().unwrap_or(key);
+            let mut allowed: Vec<&str> =
+                keys.iter().filter(|known| section_of(known) == section).map(|known| known.key.as_str()).collect();
+            if allowed.is_empty() {
+                allowed = keys.iter().map(section_of).collect();
+                allowed.dedup();
+            }
+            format!("allowed: {}", allowed.join(", "))
+        }
+    };
+    ConfigError::UnknownKey { key: key.to_string(), hint }
+}
+
+/// Levenshtein distance of two short names.
+fn distance(left: &str, right: &str) -> usize {
+    let right: Vec<char> = right.chars().collect();
+    let mut row: Vec<usize> = (0..=right.len()).collect();
+    for (i, a) in left.chars().enumerate() {
+        let mut diagonal = row[0];
+        row[0] = i + 1;
+        for (j, b) in right.iter().enumerate() {
+            let substitution = diagonal + usize::from(a != *b);
+            diagonal = row[j + 1];
+            row[j + 1] = substitution.min(row[j] + 1).min(diagonal + 1);
+        }
+    }
+    row[right.len()]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    fn set(pair: &str) -> Result<Config, ConfigError> {
+        let mut source = ConfigSource::default();
+        source.set(pair)?;
+        source.build()
+    }
+
+    #[test]
+    fn defaults_pass_their_own_checks_and_survive_toml() {
+        let config = ConfigSource::default().build().unwrap();
+        let mut again = ConfigSource::default();
+        again.text(&config.to_toml(), "saved").unwrap();
+        assert_eq!(again.build().unwrap(), config);
+    }
+
+    #[test]
+    fn every_preset_builds() {
+        for (name, _) in crate::PRESETS {
+            let mut source = ConfigSource::default();
+            source.preset(name).unwrap();
+            source.build().unwrap();
+        }
+    }
+
+    #[test]
+    fn later_sources_win() {
+        let mut source = ConfigSource::default();
+        source.preset("smoke").unwrap();
+        source.text("[ppo]\nepochs = 7\n", "file").unwrap();
+        source.set("ppo.epochs=9").unwrap();
+        let config = source.build().unwrap();
+        assert_eq!((config.ppo.epochs, config.rollout.envs), (9, 8));
+    }
+
+    #[test]
+    fn refusals_name_key_value_and_what_is_allowed() {
+        let message = |pair: &str| set(pair).unwrap_err().to_string();
+        assert_eq!(message("rollout.envs=0"), "config key `rollout.envs` is 0; allowed: 1 to 65536");
+        assert!(message("ppo.learning_rat=1").contains("did you mean `ppo.learning_rate`?"));
+        assert!(message("ppo.minibatch=9000").contains("1 to ppo.batch, which is 8192"));
+        assert!(message("ppo.epochs=many").contains("`ppo.epochs` is \"many\""));
+        assert!(message("ppo.epochs=-1").contains("is -1; allowed: 1 to 100"));
+        assert!(
+            message("nonsense.key=1")
+                .contains("allowed: run, env, task, randomisation, rollout, policy, ppo, learner, eval, bus")
+        );
+        assert!(message("rollout.max_in_flight=2").contains("where learner.mode is \"sync\""));
+        assert!(message("ppo.gamma=nan").contains("allowed: 0 to 1"));
+        assert!(message("seed").contains("key=value"));
+    }
+
+    #[test]
+    fn replaced_keys_name_their_successor() {
+        for (old, _) in REPLACED {
+            let message = set(&format!("{old}=1.5")).unwrap_err().to_string();
+            assert!(message.contains(old) && message.contains("_range = ["), "{message}");
+        }
+        assert!(set("env.healthy_z_min_m=1").unwrap_err().to_string().contains("`env.healthy_z_range`"));
+        assert!(set("env.contact_cost_max=1").unwrap_err().to_string().contains("`env.contact_cost_range`"));
+    }
+
+    #[test]
+    fn ranges_are_pairs_that_may_be_open() {
+        let range =
+            |text: &str| set(&format!("env.contact_cost_range={text}")).map(|config| config.env.contact_cost_range);
+        assert_eq!(range("[0, 5]").unwrap(), [0.0, 5.0]);
+        assert_eq!(range("[-inf, inf]").unwrap(), [f64::NEG_INFINITY, f64::INFINITY]);
+        let open = ConfigSource::default().build().unwrap();
+        assert_eq!(open.env.contact_cost_range[0], f64::NEG_INFINITY, "the default survives TOML: see above");
+        for bad in ["[5, 0]", "[nan, 1]", "[0, nan]", "[-inf, -inf]", "[inf, inf]", "[1]", "[1, 2, 3]", "7", "[a, b]"] {
+            let message = range(bad).unwrap_err().to_string();
+            assert!(message.contains("env.contact_cost_range") && message.contains("[lowest, highest]"), "{message}");
+        }
+        assert!(set("env.healthy_z_range=[2, 2]").unwrap_err().to_string().contains("the first below the second"));
+        assert_eq!(set("env.healthy_z_range=[0.8, inf]").unwrap().env.healthy_z_range, [0.8, f64::INFINITY]);
+    }
+
+    #[test]
+    fn names_are_chosen_from_those_there_are() {
+        use crate::{EnvObservation, EnvTask};
+        assert_eq!(set("env.task=humanoid-v4").unwrap().env.task, EnvTask::HumanoidV4);
+        assert_eq!(set("env.observation=\"gymnasium-v5\"").unwrap().env.observation, EnvObservation::GymnasiumV5);
+        let message = set("env.task=humanoid-v6").unwrap_err().to_string();
+        assert_eq!(
+            message,
+            "config key `env.task` is \"humanoid-v6\"; allowed: \"humanoid-v5\", \"humanoid-v4\" or \"external\""
+        );
+        assert!(set("env.observation=5").unwrap_err().to_string().contains("\"compact\""));
+    }
+
+    #[test]
+    fn the_observation_of_v4_is_whole() {
+        let mut source = ConfigSource::default();
+        source.set("env.observation=gymnasium-v4").unwrap();
+        source.build().unwrap();
+        source.set("env.include_cvel_in_observation=false").unwrap();
+        let message = source.build().unwrap_err().to_string();
+        assert!(message.contains("env.include_cvel_in_observation") && message.contains("gymnasium-v5"), "{message}");
+        source.set("env.observation=gymnasium-v5").unwrap();
+        source.build().unwrap();
+    }
+
+    #[test]
+    fn whole_floats_serve_as_integers() {
+        assert_eq!(set("run.steps=8e6").unwrap().run.steps, 8_000_000);
+        assert_eq!(set("ppo.gamma=1").unwrap().ppo.gamma, 1.0);
+    }
+
+    #[test]
+    fn ranges_are_two_numbers_in_order() {
+        assert_eq!(set("randomisation.mass_scale=[0.9, 2]").unwrap().randomisation.mass_scale, [0.9, 2.0]);
+        assert_eq!(set("randomisation.action_delay_steps=[0, 1]").unwrap().randomisation.action_delay_steps, [0, 1]);
+        let message = |pair: &str| set(pair).unwrap_err().to_string();
+        assert_eq!(
+            message("randomisation.mass_scale=[1.5, 0.5]"),
+            "config key `randomisation.mass_scale` is [1.5, 0.5]; allowed: [smallest, largest], 0.1 to 10"
+        );
+        for wrong in ["1", "[1]", "[1, 1, 1]", "[\"a\", 1]", "[nan, 1]", "[0, 1]"] {
+            assert!(message(&format!("randomisation.mass_scale={wrong}")).contains("0.1 to 10"), "{wrong}");
+        }
+        for wrong in ["[0, 4]", "[0.5, 1]", "[-1, 1]", "[2, 1]"] {
+            assert!(message(&format!("randomisation.action_delay_steps={wrong}")).contains("0 to 3"), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn a_preset_of_randomisation_differs_from_the_recipe_in_nothing_else() {
+        let mut source = ConfigSource::default();
+        source.preset("sim2sim").unwrap();
+        let config = source.build().unwrap();
+        assert_ne!(config.randomisation, Config::default().randomisation);
+        assert_eq!(Config { randomisation: Config::default().randomisation, ..config }, Config::default());
+    }
+
+    proptest! {
+        #[test]
+        fn no_pair_panics(pair in ".{0,40}") {
+            let _ = set(&pair);
+        }
+
+        #[test]
+        fn distance_is_a_metric(a in "[a-d]{0,6}", b in "[a-d]{0,6}") {
+            prop_assert_eq!(distance(&a, &b), distance(&b, &a));
+            prop_assert_eq!(distance(&a, &b) == 0, a == b);
+        }
+    }
+}

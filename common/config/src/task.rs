@@ -1,0 +1,129 @@
+//! Tasks that are simulated by other programs: what a configuration says of them.
+
+use treadmill_proto::Task;
+
+use super::{Config, ConfigError, EnvTask, Symmetry, TaskConfig, show};
+
+impl TaskConfig {
+    pub(super) fn is_unset(&self) -> bool {
+        *self == Self::default()
+    }
+
+    /// The task, once it is known.
+    pub fn known(&self) -> Option<Task> {
+        (self.observation_size > 0).then(|| Task {
+            name: self.name.clone(),
+            observation_size: self.observation_size,
+            action_size: self.action_size,
+            action_low: self.action_low.clone(),
+            action_high: self.action_high.clone(),
+            control_step_s: self.control_step_s,
+        })
+    }
+}
+
+impl From<Task> for TaskConfig {
+    fn from(task: Task) -> Self {
+        Self {
+            name: task.name,
+            observation_size: task.observation_size,
+            action_size: task.action_size,
+            action_low: task.action_low,
+            action_high: task.action_high,
+            control_step_s: task.control_step_s,
+        }
+    }
+}
+
+impl Config {
+    /// Whether the task is simulated by other programs.
+    pub fn is_external(&self) -> bool {
+        self.env.task == EnvTask::External
+    }
+
+    /// What is trained, in words: one of our own tasks, or the external one by its name.
+    pub fn task_name(&self) -> String {
+        match self.is_external() {
+            true => self.task.name.clone(),
+            false => format!("treadmill/{}", self.env.task.name()),
+        }
+    }
+
+    pub(super) fn check_task(&self) -> Result<(), ConfigError> {
+        let refuse = |key: &str, value: String, allowed: &str| {
+            Err(ConfigError::Value { key: key.to_string(), value, allowed: allowed.to_string() })
+        };
+        let task = &self.task;
+        if !self.is_external() {
+            if !task.is_unset() {
+                let why = "nothing in [task] where env.task is not \"external\"";
+                return refuse("task.name", show(&task.name), why);
+            }
+            return Ok(());
+        }
+        if self.run.deterministic {
+            let why = "false where env.task is \"external\": what its actors draw is not drawn from the run's seed";
+            return refuse("run.deterministic", "true".to_string(), why);
+        }
+        if self.ppo.symmetry == Symmetry::Mirrored {
+            return refuse("ppo.symmetry", "\"mirrored\"".to_string(), "\"off\" where env.task is \"external\"");
+        }
+        match task.known() {
+            Some(known) => known
+                .check()
+                .or_else(|why| refuse("task", known.name.clone(), &format!("a task that fits together, but {why}"))),
+            None if TaskConfig { name: String::new(), ..task.clone() }.is_unset() => Ok(()),
+            None => refuse("task.observation_size", "0".to_string(), "1 to 4096 where another key of [task] is given"),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::ConfigSource;
+
+    fn built(pairs: &[&str]) -> Result<Config, String> {
+        let mut source = ConfigSource::default();
+        pairs.iter().try_for_each(|pair| source.set(pair)).and_then(|()| source.build()).map_err(|why| why.to_string())
+    }
+
+    #[test]
+    fn a_task_becomes_known_and_survives_toml() {
+        let open = built(&["env.task=external", "task.name=gymnasium/Pendulum-v1"]).unwrap();
+        assert_eq!((open.task.known(), open.task_name()), (None, "gymnasium/Pendulum-v1".to_string()));
+        let task = Task {
+            name: "gymnasium/Pendulum-v1".into(),
+            observation_size: 3,
+            action_size: 1,
+            action_low: vec![-2.0],
+            action_high: vec![2.0],
+            control_step_s: 0.05,
+        };
+        let fixed = Config { task: task.clone().into(), ..open };
+        fixed.check().unwrap();
+        let mut again = ConfigSource::default();
+        again.text(&fixed.to_toml(), "saved").unwrap();
+        assert_eq!(again.build().unwrap().task.known(), Some(task));
+        assert!(!fixed.evaluates() && Config::default().evaluates());
+    }
+
+    #[test]
+    fn our_own_tasks_say_nothing_of_external_ones() {
+        let text = Config::default().to_toml();
+        assert!(!text.contains("[task]"), "{text}");
+        assert_eq!(Config::default().task_name(), "treadmill/humanoid-v5");
+        assert!(built(&["task.name=gymnasium/X-v0"]).unwrap_err().contains("`task.name`"));
+    }
+
+    #[test]
+    fn what_an_external_task_cannot_have_is_named() {
+        let refused = |more: &[&str]| built(&[&["env.task=external"], more].concat()).unwrap_err();
+        assert!(refused(&["run.deterministic=true"]).contains("`run.deterministic`"));
+        assert!(refused(&["ppo.symmetry=mirrored"]).contains("`ppo.symmetry`"));
+        assert!(refused(&["task.action_size=3"]).contains("`task.observation_size`"));
+        assert!(refused(&["task.observation_size=3", "task.action_size=1"]).contains("task.name"));
+        assert!(refused(&["task.name=treadmill/humanoid-v5"]).contains("`task.name`"));
+        assert!(refused(&["task.action_low=[a]"]).contains("`task.action_low`"));
+    }
+}

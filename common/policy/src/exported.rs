@@ -1,0 +1,325 @@
+//! A policy with all that is needed to play it, as one safetensors file.
+//!
+//! | tensor | number type, shape | holds |
+//! |---|---|---|
+//! | `actor.N.weight`, `actor.N.bias` | F32, `[output, input]`, `[output]` | the actor's layers; the last gives action means |
+//! | `critic.N.weight`, `critic.N.bias` | F32, the same | the critic's layers |
+//! | `log_std` | F32, `[action]` | logarithms of the standard deviations of exploration |
+//! | `observation.mean`, `observation.variance` | F64, `[observation]` | of the raw observations |
+//!
+//! Everything else stands as one JSON object under the metadata key `treadmill`, its keys in a fixed order. Neither time nor
+//! place nor name of the run is in the file, so equal policies are equal byte for byte. Ends of a range that are infinite are
+//! the texts `"inf"` and `"-inf"`, since JSON has no such numbers.
+//!
+//! To act: `x = clip((observation − mean) / √(variance + variance_epsilon), ± clip)`; the actor's layers with ELU between
+//! them; `action = clip(mean, ± 1)`, stretched from [−1, 1] to [low, high].
+
+use safetensors::tensor::SafeTensors;
+use serde::{Deserialize, Serialize};
+use treadmill_proto::limits::{BUNDLE_BYTES_MAX, HIDDEN_LAYERS_MAX, WIDTH_MAX};
+
+use treadmill_config::{Config, ConfigError, EnvConfig, EnvTask, RandomisationConfig, TaskConfig};
+
+use crate::{
+    NetworkShape, ParameterError, check_parameters, column, from_safetensors,
+    normaliser::{Normaliser, RunningMoments, VARIANCE_EPSILON},
+    to_safetensors_with,
+};
+
+/// Version of the file's layout; raised whenever an old reader would misunderstand a new file.
+pub const FORMAT: u32 = 1;
+const METADATA_KEY: &str = "treadmill";
+const MEAN: &str = "observation.mean";
+const VARIANCE: &str = "observation.variance";
+const ACTIVATION: &str = "elu";
+
+/// Why a file is not a policy that can be played.
+#[derive(Debug, thiserror::Error)]
+pub enum ExportedError {
+    /// It is larger than any policy of this program.
+    #[error("it has {bytes} bytes, more than the {limit} that an exported policy can have")]
+    TooLarge {
+        /// Its size.
+        bytes: usize,
+        /// The largest size.
+        limit: usize,
+    },
+    /// It is damaged or no safetensors file at all.
+    #[error("it is damaged or truncated, or no safetensors file ({why}); export the policy again")]
+    Damaged {
+        /// What the reader said.
+        why: String,
+    },
+    /// It is a safetensors file of some other program.
+    #[error("it is a safetensors file, but has no metadata `{METADATA_KEY}`: `treadmill export` did not write it")]
+    Foreign,
+    /// The metadata cannot be understood.
+    #[error("its metadata `{METADATA_KEY}` cannot be read ({why}); export the policy again")]
+    Metadata {
+        /// What the reader said.
+        why: String,
+    },
+    /// It was written by another version of this program.
+    #[error("it has format {found}; this program reads format {FORMAT}: export it again with this version")]
+    Format {
+        /// Its format.
+        found: u32,
+    },
+    /// One entry of the metadata makes no sense.
+    #[error("its metadata entry `{entry}` is {value}; expected {expected}")]
+    Entry {
+        /// Where in the metadata.
+        entry: &'static str,
+        /// What stands there.
+        value: String,
+        /// What would be accepted.
+        expected: String,
+    },
+    /// The environment's settings are refused.
+    #[error("its environment settings cannot be used")]
+    Config(#[from] ConfigError),
+    /// A tensor is missing, misshapen or not finite.
+    #[error("its tensors cannot be used")]
+    Parameters(#[from] ParameterError),
+}
+
+/// A policy and the task that it was trained for.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ExportedPolicy {
+    /// Shape of the networks.
+    pub shape: NetworkShape,
+    /// Actor, log standard deviations and critic, in [`NetworkShape`]'s order.
+    pub parameters: Vec<f32>,
+    /// What the policy sees, and how it is normalised.
+    pub observation: ObservationFacts,
+    /// Mean of each entry of the raw observation.
+    pub mean: Vec<f64>,
+    /// Variance of each entry of the raw observation.
+    pub variance: Vec<f64>,
+    /// What its actions mean.
+    pub action: ActionFacts,
+    /// Duration of one control step (s).
+    pub control_step_s: f64,
+    /// The task's settings.
+    pub env: EnvConfig,
+    /// What was randomised in training.
+    pub randomisation: RandomisationConfig,
+    /// The task where it is none of ours.
+    pub task: TaskConfig,
+    /// The humanoid as MJCF; empty where the task is none of ours.
+    pub model_xml: String,
+}
+
+/// What the policy sees, and how it is normalised.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ObservationFacts {
+    /// Which numbers an observation holds.
+    pub kind: String,
+    /// How many.
+    pub size: usize,
+    /// Observations that the statistics are taken over; without any, mean and variance stand for no normalisation.
+    pub count: f64,
+    /// Added to a variance before its root is taken.
+    pub variance_epsilon: f64,
+    /// Normalised observations are clipped to plus and minus this.
+    pub clip: f32,
+}
+
+/// What actions mean: −1 is `low`, 1 is `high`.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ActionFacts {
+    /// The motors, in the order of the action.
+    pub names: Vec<String>,
+    /// Smallest control of each motor.
+    pub low: Vec<f32>,
+    /// Largest control of each motor.
+    pub high: Vec<f32>,
+}
+
+/// The metadata, its fields in the order in which they are written.
+#[derive(Serialize, Deserialize)]
+struct Metadata {
+    format: u32,
+    network: Network,
+    observation: ObservationFacts,
+    action: ActionFacts,
+    control_step_s: f64,
+    #[serde(with = "treadmill_config::open_json")]
+    env: EnvConfig,
+    randomisation: RandomisationConfig,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    task: Option<TaskConfig>,
+    model_xml: String,
+}
+
+#[derive(Serialize, Deserialize)]
+struct Network {
+    observation: usize,
+    hidden: Vec<usize>,
+    action: usize,
+    activation: String,
+}
+
+/// Only the format, which is read first: another format may have other fields.
+#[derive(Deserialize)]
+struct FormatOnly {
+    format: u32,
+}
+
+impl ObservationFacts {
+    /// Statistics as the file holds them: the facts, the means and the variances.
+    pub fn from_moments(kind: &str, moments: &RunningMoments, clip: f32) -> (Self, Vec<f64>, Vec<f64>) {
+        let size = moments.mean.len();
+        let facts =
+            Self { kind: kind.to_string(), size, count: moments.count, variance_epsilon: VARIANCE_EPSILON, clip };
+        // Before any observation nothing is scaled; readers need no special case where the variance says so.
+        let unseen = moments.count == 0.0;
+        let variance = if unseen { vec![1.0 - VARIANCE_EPSILON; size] } else { moments.variance() };
+        (facts, moments.mean.clone(), variance)
+    }
+}
+
+impl ExportedPolicy {
+    /// The bytes of the file.
+    ///
+    /// # Errors
+    /// If the parts do not fit each other or are not finite; such a policy could not be read again.
+    pub fn to_bytes(&self) -> Result<Vec<u8>, ExportedError> {
+        self.check()?;
+        let metadata = Metadata {
+            format: FORMAT,
+            network: Network {
+                observation: self.shape.observation,
+                hidden: self.shape.hidden.clone(),
+                action: self.shape.action,
+                activation: ACTIVATION.to_string(),
+            },
+            observation: self.observation.clone(),
+            action: self.action.clone(),
+            control_step_s: self.control_step_s,
+            env: self.env.clone(),
+            randomisation: self.randomisation.clone(),
+            task: self.task.known().map(|_| self.task.clone()),
+            model_xml: self.model_xml.clone(),
+        };
+        let text = serde_json::to_string(&metadata).map_err(|why| ExportedError::Metadata { why: why.to_string() })?;
+        let columns = [(MEAN, &self.mean[..]), (VARIANCE, &self.variance[..])];
+        Ok(to_safetensors_with(&self.shape, &self.parameters, &columns, Some((METADATA_KEY, text))))
+    }
+
+    /// Reads and checks the bytes of a file.
+    ///
+    /// # Errors
+    /// [`ExportedError`] names the first thing that is wrong.
+    pub fn from_bytes(bytes: &[u8]) -> Result<Self, ExportedError> {
+        if bytes.len() > BUNDLE_BYTES_MAX {
+            return Err(ExportedError::TooLarge { bytes: bytes.len(), limit: BUNDLE_BYTES_MAX });
+        }
+        let damaged = |why: String| ExportedError::Damaged { why };
+        let (_, header) = SafeTensors::read_metadata(bytes).map_err(|why| damaged(why.to_string()))?;
+        let file = SafeTensors::deserialize(bytes).map_err(|why| damaged(why.to_string()))?;
+        let text = header.metadata().as_ref().and_then(|entries| entries.get(METADATA_KEY));
+        let metadata = read_metadata(text.ok_or(ExportedError::Foreign)?)?;
+        let network = &metadata.network;
+        if network.activation != ACTIVATION {
+            return Err(entry("network.activation", &network.activation, format!("\"{ACTIVATION}\"")));
+        }
+        let shape =
+            NetworkShape { observation: network.observation, action: network.action, hidden: network.hidden.clone() };
+        check_widths(&shape)?;
+        let policy = Self {
+            parameters: from_safetensors(bytes, &shape)?,
+            mean: column(&file, MEAN, shape.observation)?,
+            variance: column(&file, VARIANCE, shape.observation)?,
+            shape,
+            observation: metadata.observation,
+            action: metadata.action,
+            control_step_s: metadata.control_step_s,
+            env: metadata.env,
+            randomisation: metadata.randomisation,
+            task: metadata.task.unwrap_or_default(),
+            model_xml: metadata.model_xml,
+        };
+        policy.check()?;
+        Ok(policy)
+    }
+
+    /// The normalisation of observations.
+    pub fn normaliser(&self) -> Normaliser {
+        let epsilon = self.observation.variance_epsilon;
+        Normaliser {
+            mean: self.mean.iter().map(|mean| *mean as f32).collect(),
+            inverse_std: self.variance.iter().map(|variance| (1.0 / (variance + epsilon).sqrt()) as f32).collect(),
+            clip: self.observation.clip,
+        }
+    }
+
+    /// Whether the parts fit each other and are usable numbers.
+    fn check(&self) -> Result<(), ExportedError> {
+        check_widths(&self.shape)?;
+        check_parameters(&self.shape, &self.parameters)?;
+        let (inputs, outputs) = (self.shape.observation, self.shape.action);
+        if self.observation.size != inputs {
+            return Err(entry("observation.size", &self.observation.size, format!("{inputs}, as the network takes")));
+        }
+        let action = &self.action;
+        for (name, length) in
+            [("action.names", action.names.len()), ("action.low", action.low.len()), ("action.high", action.high.len())]
+        {
+            if length != outputs {
+                return Err(entry(name, &format!("{length} long"), format!("{outputs}, as the network gives")));
+            }
+        }
+        for (low, high) in action.low.iter().zip(&action.high) {
+            if !(low.is_finite() && high.is_finite() && low < high) {
+                return Err(entry("action.low", &low, format!("finite and below action.high, which is {high}")));
+            }
+        }
+        let unknown = self.env.task == EnvTask::External && self.control_step_s == 0.0;
+        if !(self.control_step_s.is_finite() && self.control_step_s > 0.0 || unknown) {
+            return Err(entry("control_step_s", &self.control_step_s, "a number above 0".into()));
+        }
+        if !self.normaliser().is_valid(inputs) {
+            let expected = "means, variances and a clip that give finite numbers".into();
+            return Err(entry("observation", &format!("{:?}", self.observation), expected));
+        }
+        let (env, randomisation, task) = (self.env.clone(), self.randomisation.clone(), self.task.clone());
+        Ok(Config { env, randomisation, task, ..Config::default() }.check()?)
+    }
+}
+
+fn read_metadata(text: &str) -> Result<Metadata, ExportedError> {
+    let unreadable = |why: serde_json::Error| ExportedError::Metadata { why: why.to_string() };
+    let FormatOnly { format: found } = serde_json::from_str(text).map_err(unreadable)?;
+    if found != FORMAT {
+        return Err(ExportedError::Format { found });
+    }
+    serde_json::from_str(text).map_err(unreadable)
+}
+
+/// Refuses widths for which nothing should be allocated.
+fn check_widths(shape: &NetworkShape) -> Result<(), ExportedError> {
+    let layers = shape.hidden.len();
+    if layers > HIDDEN_LAYERS_MAX {
+        return Err(entry("network.hidden", &format!("{layers} layers"), format!("at most {HIDDEN_LAYERS_MAX}")));
+    }
+    let widths = [shape.observation, shape.action].into_iter().chain(shape.hidden.iter().copied());
+    for width in widths {
+        if !(1..=WIDTH_MAX as usize).contains(&width) {
+            return Err(entry("network", &format!("a width of {width}"), format!("1 to {WIDTH_MAX}")));
+        }
+    }
+    if shape.parameter_count() > BUNDLE_BYTES_MAX / size_of::<f32>() {
+        let count = format!("{} parameters", shape.parameter_count());
+        return Err(entry("network", &count, format!("what fits into {BUNDLE_BYTES_MAX} bytes")));
+    }
+    Ok(())
+}
+
+fn entry(entry: &'static str, value: &impl ToString, expected: String) -> ExportedError {
+    ExportedError::Entry { entry, value: value.to_string(), expected }
+}
+
+#[cfg(test)]
+#[path = "exported_tests.rs"]
+mod tests;

@@ -1,0 +1,195 @@
+//! Tests of the fused operation against Candle's own operations and autograd.
+
+use candle_core::{Device, Var};
+
+use super::*;
+use crate::{Dense, plain};
+
+fn wave(count: usize, step: f64) -> Vec<f32> {
+    (0..count).map(|i| ((i as f64 + 1.0) * step).sin() as f32 * 0.6).collect()
+}
+
+fn pool(threads: usize) -> Option<Arc<ThreadPool>> {
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads start");
+    Some(Arc::new(pool))
+}
+
+/// Parameters that keep the numbers of wide layers, too, at the size of one.
+fn parameters(shape: &NetworkShape) -> Vec<f32> {
+    let widest = shape.hidden.iter().copied().max().unwrap_or(1).max(shape.observation);
+    let scale = (16.0 / widest as f32).sqrt().min(1.0);
+    wave(shape.parameter_count(), 0.71).iter().map(|p| p * scale).collect()
+}
+
+/// The networks of the presets: the compact observation, and Gymnasium's.
+fn shapes_in_use() -> [NetworkShape; 2] {
+    [(45, vec![256, 128]), (348, vec![512, 256])].map(|(observation, hidden)| NetworkShape {
+        observation,
+        action: 17,
+        hidden,
+    })
+}
+
+/// Output and parameter gradient of `Σ output · c + Σ output²` with `c` different for every element.
+fn run(forward: impl Fn(&Tensor, &Tensor) -> Result<Tensor>, shape: &NetworkShape, rows: usize) -> [Vec<f32>; 2] {
+    let inner = || -> Result<[Vec<f32>; 2]> {
+        let parameters = Var::from_vec(parameters(shape), shape.parameter_count(), &Device::Cpu)?;
+        let observations =
+            Tensor::from_vec(wave(rows * shape.observation, 1.37), (rows, shape.observation), &Device::Cpu)?;
+        let output = forward(&parameters, &observations)?;
+        let weights = Tensor::from_vec(wave(output.elem_count(), 0.3), output.shape(), &Device::Cpu)?;
+        let loss = ((&output * weights)? + output.sqr()?)?.mean_all()?;
+        let gradients = loss.backward()?;
+        let gradient = gradients.get(&parameters).expect("the parameters take part");
+        Ok([output.flatten_all()?.to_vec1()?, gradient.to_vec1()?])
+    };
+    inner().expect("candle runs")
+}
+
+#[test]
+fn output_and_gradient_are_those_of_candles_own_operations() {
+    let small = [(vec![16, 8], 33), (vec![4], 700), (vec![], 5), (vec![8, 8, 8], CHUNK_ROWS * LANES + 300)]
+        .map(|(hidden, rows)| (NetworkShape { observation: 7, action: 3, hidden }, rows));
+    for (shape, rows) in small.into_iter().chain(shapes_in_use().map(|shape| (shape, CHUNK_ROWS + 30))) {
+        let networks = FusedNetworks::actor_critic(&shape, None);
+        let fused = run(|p, x| networks.forward(p, x), &shape, rows);
+        let plain = run(|p, x| plain::actor_critic(&shape, p, x), &shape, rows);
+        for (fused, plain) in fused.iter().zip(&plain) {
+            assert_eq!(fused.len(), plain.len());
+            for (i, (a, b)) in fused.iter().zip(plain).enumerate() {
+                assert!((a - b).abs() < 3e-5 * (1.0 + b.abs()), "{shape:?} {i}: {a} {b}");
+            }
+        }
+        assert!(fused[1][shape.log_std()].iter().all(|g| *g == 0.0));
+    }
+}
+
+/// `Σ c · output` of both networks in f64, straight from the definition.
+fn weighted_output(shape: &NetworkShape, parameters: &[f64], observations: &[f64], weights: &[f64]) -> f64 {
+    let apply = |layers: &[Dense], row: &[f64]| {
+        let mut row = row.to_vec();
+        for (i, layer) in layers.iter().enumerate() {
+            let (weight, bias) = (&parameters[layer.weight()], &parameters[layer.bias()]);
+            let sums = weight.chunks_exact(layer.input).zip(bias);
+            let sums = sums.map(|(weight, bias)| bias + weight.iter().zip(&row).map(|(w, x)| w * x).sum::<f64>());
+            row = sums.map(|z| if i + 1 == layers.len() || z > 0.0 { z } else { z.exp_m1() }).collect();
+        }
+        row
+    };
+    let rows = observations.chunks_exact(shape.observation);
+    let outputs = rows.flat_map(|row| [apply(&shape.actor(), row), apply(&shape.critic(), row)].concat());
+    outputs.zip(weights).map(|(output, weight)| output * weight).sum()
+}
+
+#[test]
+fn the_gradient_of_actor_and_critic_agrees_with_finite_differences() -> Result<()> {
+    const ROWS: usize = 3;
+    for shape in shapes_in_use() {
+        let (numbers, seen) = (parameters(&shape), wave(ROWS * shape.observation, 1.37));
+        let weights = wave(ROWS * (shape.action + 1), 2.1);
+        let leaf = Var::from_slice(&numbers, numbers.len(), &Device::Cpu)?;
+        let observations = Tensor::from_slice(&seen, (ROWS, shape.observation), &Device::Cpu)?;
+        let output = FusedNetworks::actor_critic(&shape, None).forward(&leaf, &observations)?;
+        let loss = (output * Tensor::from_slice(&weights, (ROWS, shape.action + 1), &Device::Cpu)?)?.sum_all()?;
+        let gradient = loss.backward()?.get(&leaf).expect("the parameters take part").to_vec1::<f32>()?;
+
+        let wide = |numbers: &[f32]| numbers.iter().map(|x| f64::from(*x)).collect::<Vec<_>>();
+        let (mut p, x, c) = (wide(&numbers), wide(&seen), wide(&weights));
+        let exact = weighted_output(&shape, &p, &x, &c);
+        assert!((f64::from(loss.to_scalar::<f32>()?) - exact).abs() < 1e-4, "{shape:?}");
+        for tensor in shape.tensors() {
+            let (range, mut largest) = (tensor.range(), 0.0_f64);
+            for i in [range.start, range.start + range.len() / 2, range.end - 1] {
+                let centre = p[i];
+                p[i] = centre + 1e-5;
+                let above = weighted_output(&shape, &p, &x, &c);
+                p[i] = centre - 1e-5;
+                let below = weighted_output(&shape, &p, &x, &c);
+                p[i] = centre;
+                let (found, expected) = (f64::from(gradient[i]), (above - below) / 2e-5);
+                assert!(
+                    (found - expected).abs() < 1e-4 * expected.abs().max(0.1),
+                    "{}: {found} {expected}",
+                    tensor.name
+                );
+                largest = largest.max(expected.abs());
+            }
+            assert!(tensor.name == "log_std" || largest > 1e-4, "{} takes part: {largest}", tensor.name);
+        }
+    }
+    Ok(())
+}
+
+#[test]
+fn each_network_alone_gives_its_part_of_both() -> Result<()> {
+    for shape in shapes_in_use() {
+        let rows = CHUNK_ROWS + 5;
+        let numbers = Tensor::new(parameters(&shape), &Device::Cpu)?;
+        let observations =
+            Tensor::from_vec(wave(rows * shape.observation, 1.37), (rows, shape.observation), &Device::Cpu)?;
+        let both = FusedNetworks::actor_critic(&shape, None).forward(&numbers, &observations)?;
+        let actor = FusedNetworks::actor(&shape, None).forward(&numbers, &observations)?;
+        let critic = FusedNetworks::critic(&shape, None).forward(&numbers, &observations)?;
+        for (alone, start) in [(actor, 0), (critic, shape.action)] {
+            let part = both.narrow(1, start, alone.dim(1)?)?;
+            let largest = (part - alone)?.abs()?.max_all()?.to_scalar::<f32>()?;
+            assert!(largest < 1e-5, "{shape:?}: {largest}");
+        }
+    }
+    Ok(())
+}
+
+#[test]
+fn the_number_of_threads_does_not_change_one_bit() {
+    let shape = NetworkShape { observation: 9, action: 4, hidden: vec![32, 16] };
+    let rows = CHUNK_ROWS * (LANES + 3) + 17;
+    let alone = FusedNetworks::actor_critic(&shape, None);
+    let expected = run(|p, x| alone.forward(p, x), &shape, rows);
+    for threads in [1, 2, 3, 7] {
+        let networks = FusedNetworks::actor_critic(&shape, pool(threads));
+        assert_eq!(run(|p, x| networks.forward(p, x), &shape, rows), expected, "{threads} threads");
+    }
+}
+
+#[test]
+fn reused_buffers_of_another_size_leave_no_trace() {
+    let shape = NetworkShape { observation: 5, action: 2, hidden: vec![8] };
+    let networks = FusedNetworks::actor_critic(&shape, None);
+    let fresh = |rows| {
+        let networks = FusedNetworks::actor_critic(&shape, None);
+        run(|p, x| networks.forward(p, x), &shape, rows)
+    };
+    for rows in [3000, 10, 600, 1] {
+        assert_eq!(run(|p, x| networks.forward(p, x), &shape, rows), fresh(rows), "{rows} rows");
+    }
+    assert_eq!(lock(&networks.inner.spare).len(), 1);
+}
+
+#[test]
+fn two_forward_passes_before_one_backward_pass_do_not_disturb_each_other() -> Result<()> {
+    let shape = NetworkShape { observation: 5, action: 2, hidden: vec![8] };
+    let networks = FusedNetworks::actor_critic(&shape, None);
+    let expected = run(|p, x| networks.forward(p, x), &shape, 20);
+    let twice = run(
+        |p, x| {
+            let output = networks.forward(p, x)?;
+            networks.forward(p, &(x * 3.0)?)?;
+            Ok(output)
+        },
+        &shape,
+        20,
+    );
+    assert_eq!(twice, expected);
+    Ok(())
+}
+
+#[test]
+fn tensors_of_another_shape_are_refused() -> Result<()> {
+    let shape = NetworkShape { observation: 5, action: 2, hidden: vec![8] };
+    let networks = FusedNetworks::actor_critic(&shape, None);
+    let parameters = Tensor::zeros(shape.parameter_count(), candle_core::DType::F32, &Device::Cpu)?;
+    let wrong = Tensor::zeros((4, 6), candle_core::DType::F32, &Device::Cpu)?;
+    let text = networks.forward(&parameters, &wrong).expect_err("six numbers per row").to_string();
+    assert!(text.contains("5 observations") && text.contains('6'), "{text}");
+    Ok(())
+}

@@ -1,0 +1,14 @@
+//! What every Treadmill process needs from its machine.
+//!
+//! # Layout
+//! - [`seeds`]: named random streams, derived from the run's seed.
+//! - [`run_folder`]: where a run keeps its files.
+//! - [`atomic_file`]: writes a file whole or not at all.
+//! - [`shutdown`]: asks every part of a process to stop.
+//! - [`machine`]: hardware facts for benchmark sheets.
+
+pub mod atomic_file;
+pub mod machine;
+pub mod run_folder;
+pub mod seeds;
+pub mod shutdown;
