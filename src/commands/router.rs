@@ -6,7 +6,7 @@ use treadmill_bus::{Bus, Role};
 use treadmill_runtime::shutdown::Shutdown;
 
 use crate::{
-    launch::{one_core, output::say, signals},
+    launch::{output::say, signals},
     shared::network_args::NetworkArgs,
 };
 
@@ -27,7 +27,7 @@ pub struct RouterArgs {
 pub fn run(args: RouterArgs) -> anyhow::Result<()> {
     let options = args.network.options(Role::Router, args.listen, args.connect)?;
     if options.credentials.is_some() {
-        one_core::keep_to_one_core();
+        treadmill_bus::workarounds::one_core::keep_to_one_core();
     }
     let runtime =
         tokio::runtime::Builder::new_multi_thread().worker_threads(2).enable_all().build().context("no runtime")?;

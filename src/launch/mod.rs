@@ -6,7 +6,7 @@
 //! - During a run: `host` (a learner with actors beside it), `supervisor` (restarts actor processes), `bus_client` (session of
 //!   an actor or evaluator), `metrics_page` (metrics over HTTP).
 //! - The process: [`exit_code`], [`signals`], [`log`], [`output`], [`slow_step`], [`terminal_screen`], `memory`
-//!   (allocator settings), `one_core` (threads of an encrypted router).
+//!   (allocator settings).
 
 pub(crate) mod banner;
 pub(crate) mod bus_client;
@@ -17,7 +17,6 @@ pub mod log;
 pub(crate) mod memory;
 pub(crate) mod metrics_page;
 pub(crate) mod model;
-pub(crate) mod one_core;
 pub mod output;
 pub mod signals;
 pub mod slow_step;

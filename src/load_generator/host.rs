@@ -123,7 +123,7 @@ fn take(mut intake: Intake<BusFragmentSource>, taken: &Mutex<Taken>, shutdown: &
     intake.stop(&lineage);
 }
 
-fn checksum(AcceptedFragment { fragment, .. }: &Accepted) -> String {
+fn checksum(AcceptedFragment { fragment, .. }: &AcceptedFragment) -> String {
     let Fragment { observations, actions, log_probs, rewards, last_observations, .. } = fragment;
     network::checksum(&[&observations[..], actions, log_probs, rewards, last_observations].concat())
 }

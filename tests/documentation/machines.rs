@@ -1,7 +1,7 @@
 //! The guide to several machines, followed as it is printed, on hosts that are network namespaces.
 #![allow(clippy::print_stderr, reason = "a test that was left out must say so")]
 
-use std::{fs, path::Path, process::Command};
+use std::{path::Path, process::Command};
 
 use crate::support::*;
 
@@ -28,7 +28,7 @@ fn the_guide_to_several_machines_works_as_printed() {
         return;
     }
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
-    let page = page("several-machines");
+    let page = page("operations/several-machines");
     let (folder, _) = folders();
     std::os::unix::fs::symlink(root.join("experiments"), folder.path().join("experiments")).unwrap();
     // Hosts of its own, so that two of these tests may run at once; they are gone also where a command fails.

@@ -89,14 +89,14 @@ fn every_tag_that_is_logged_is_explained_and_no_other() {
     };
     let scalars = source("learner/src/metrics/scalars.rs");
     let logged: BTreeSet<&str> = scalars.split('"').skip(1).step_by(2).filter(is_tag).collect();
-    let metrics = page("metrics");
+    let metrics = page("reference/metrics");
     let explained: BTreeSet<&str> = metrics
         .lines()
         .filter_map(|line| line.strip_prefix("| `")?.split_once('`').map(|(tag, _)| tag))
         .filter(is_tag)
         .collect();
     assert!(logged.len() > 50, "{logged:?}");
-    assert_eq!(logged, explained, "the page `metrics` explains what learner/src/metrics/scalars.rs logs");
+    assert_eq!(logged, explained, "docs/reference/metrics.md explains what learner/src/metrics/scalars.rs logs");
 }
 
 #[test]

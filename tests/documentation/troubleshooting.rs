@@ -14,7 +14,7 @@ use crate::support::*;
 
 /// The page's headings that are marked as tested, with the lines that are quoted below each.
 static PAGE: LazyLock<Vec<(String, BTreeSet<String>)>> = LazyLock::new(|| {
-    let page = page("troubleshooting");
+    let page = page("operations/troubleshooting");
     let mut told: Vec<(String, BTreeSet<String>)> = Vec::new();
     for section in page.split("\n### ").skip(1).filter_map(|section| section.strip_prefix("● ")) {
         let (heading, rest) = section.split_once('\n').unwrap();
@@ -99,7 +99,7 @@ fn another_run_is_there_and_somebody_sends_nonsense() {
     fails(heading, folder.path(), &["status", "--connect", &endpoint, "--run", "wlk"], &replaced);
     fails("The port is in use", folder.path(), &["learner", "--preset", "smoke", "--listen", &endpoint], &replaced);
 
-    let liar = Attacker::join(&endpoint, "run", None, attacks::PATIENCE).unwrap();
+    let liar = Attacker::join(&endpoint, "run", None, crate::attacks::PATIENCE).unwrap();
     let nonsense = spoilt(&liar.policy(), "liar", f32::NAN);
     for _ in 0..8 {
         liar.send("liar", nonsense.clone());
@@ -140,7 +140,7 @@ fn it_stops_or_cannot_go_on() {
     let (folder, run) = folders();
     let folder = folder.path();
     let train = ["train", "--preset", "smoke", "--run-dir", "run", "--no-progress"];
-    assert!(support::run(folder, &train).status.success());
+    assert!(crate::support::run(folder, &train).status.success());
     fails("The folder holds another run", folder, &train, &[]);
     let args = ["train", "--resume", "run", "--set", "ppo.epochs=2"];
     fails("A resumed run is given another configuration", folder, &args, &[]);
@@ -153,7 +153,7 @@ fn it_stops_or_cannot_go_on() {
     fails("The checkpoint is of another version", folder, &["train", "--resume", "run"], &[]);
     let heading = "A checkpoint is damaged";
     fs::write(checkpoint("latest.bundle"), "garbage").unwrap();
-    let exported = support::run(folder, &["export", "run", "--safetensors", "policy"]);
+    let exported = crate::support::run(folder, &["export", "run", "--safetensors", "policy"]);
     let text = stderr(&exported);
     assert!(exported.status.success(), "{text}");
     let warning = text.lines().find(|line| line.contains("WARN")).expect("a warning");
@@ -184,7 +184,7 @@ fn somebody_is_turned_away() {
     let (folder, run) = folders();
     let folder = folder.path();
     for authority in ["certs", "others"] {
-        assert!(support::run(folder, &["certs", authority]).status.success());
+        assert!(crate::support::run(folder, &["certs", authority]).status.success());
     }
     let listen = ["--listen", "tls/127.0.0.1:0", "--tls", "certs"];
     let learner = start(folder, &[&["learner", "--preset", "smoke", "--run-dir", "run"][..], &listen].concat());

@@ -1,7 +1,7 @@
 //! The tutorial's commands are run as they are printed, but for shorter trainings. What it does in Python, on several hosts and in
 //! the viewer has tests of its own.
 
-use std::{fs, path::Path};
+use std::path::Path;
 
 use crate::support::*;
 
@@ -16,7 +16,7 @@ fn commands(page: &str) -> Vec<String> {
 #[test]
 fn the_tutorial_works_as_printed() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
-    let commands = commands(&page("tutorial"));
+    let commands = commands(&page("guide/tutorial"));
     assert!(commands.len() >= 8, "{commands:?}");
     let (folder, _) = folders();
     std::os::unix::fs::symlink(root.join("docs"), folder.path().join("docs")).unwrap();

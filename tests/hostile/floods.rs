@@ -9,7 +9,7 @@ use std::{
     time::{Duration, Instant},
 };
 
-use crate::attacks::{Attacker, Flood, fragment, nonsense};
+use crate::attacks::{Attacker, Flood, fragment, nonsense, spoilt};
 use crate::support::*;
 use treadmill_proto::Outcome;
 
@@ -134,7 +134,7 @@ fn a_certificate_entitles_to_no_nonsense() {
 fn nonsense_under_a_good_actors_name_does_not_stop_it() {
     let fleet = fleet(true, &[]);
     let attacker = fleet.attacker();
-    let nan = attacks::spoilt(&attacker.policy(), "good", f32::NAN);
+    let nan = spoilt(&attacker.policy(), "good", f32::NAN);
     for _ in 0..8 {
         assert_eq!(attacker.send("good", nan.clone()).unwrap().outcome, Outcome::Malformed);
     }

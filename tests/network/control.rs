@@ -36,7 +36,7 @@ fn a_run_is_paused_changed_kept_and_stopped() {
     assert!(done(folder, &["pause", "run"]).contains("paused already"));
     let paused = status(folder);
     assert_eq!(paused["phase"], "paused");
-    let text = stdout(&support::run(folder, &["status", "run"]));
+    let text = stdout(&crate::support::run(folder, &["status", "run"]));
     assert!(text.contains("run `run` is paused") && text.contains("actor-0"), "{text}");
 
     // Nothing is learnt while other things are done.
@@ -68,14 +68,14 @@ fn a_run_is_paused_changed_kept_and_stopped() {
     assert!(ended.success());
     let state = load_file(&run.join("checkpoints/latest.bundle")).unwrap();
     assert_eq!(state.config().unwrap().ppo.learning_rate, 1e-4);
-    assert_refused(&support::run(folder, &["status", "run"]), 1, &["nobody answers", "endpoint.txt"]);
+    assert_refused(&crate::support::run(folder, &["status", "run"]), 1, &["nobody answers", "endpoint.txt"]);
 }
 
 #[test]
 fn an_observer_may_ask_and_only_the_operator_may_command() {
     let (folder, run) = folders();
     let folder = folder.path();
-    assert!(support::run(folder, &["certs", "certs"]).status.success());
+    assert!(crate::support::run(folder, &["certs", "certs"]).status.success());
     let mut command = treadmill(folder);
     command.args(["train", "--preset", "smoke", "--steps", ENDLESS, "--run-dir", run.to_str().unwrap()]);
     command.args(["--listen", "tls/127.0.0.1:0", "--tls", "certs"]);
@@ -87,7 +87,7 @@ fn an_observer_may_ask_and_only_the_operator_may_command() {
     for (from, to) in [("ca.crt", "ca.crt"), ("observer.crt", "operator.crt"), ("observer.key", "operator.key")] {
         std::fs::copy(folder.join("certs").join(from), theirs.join(to)).unwrap();
     }
-    let asked = support::run(folder, &["status", "run", "--tls", "theirs", "--json"]);
+    let asked = crate::support::run(folder, &["status", "run", "--tls", "theirs", "--json"]);
     assert_eq!(last_json(&asked)["run"], "run");
     let args = ["pause", "run", "--run", "run", "--tls", "theirs"];
     assert_refused(&control(folder, &args), 1, &["no learner of run `run` takes commands"]);

@@ -80,7 +80,7 @@ fn the_page_has_every_metric_and_nobody_asks_for_another() {
     assert!(step.1 > 0);
 
     // What is documented is what is on the page, and each gauge has its help.
-    let text = page("metrics");
+    let text = crate::support::page("reference/metrics");
     let documented: BTreeSet<String> = text
         .lines()
         .filter_map(|line| line.strip_prefix("| `")?.split_once("` |").map(|(name, _)| name))

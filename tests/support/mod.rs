@@ -135,19 +135,10 @@ pub fn folders() -> (tempfile::TempDir, PathBuf) {
     (folder, run)
 }
 
-/// Text of the page of this name in `docs/`, in whichever folder it stands.
-pub fn page(name: &str) -> String {
-    fn find(folder: &Path, name: &str) -> Option<PathBuf> {
-        let file = folder.join(name).with_extension("md");
-        if file.is_file() {
-            return Some(file);
-        }
-        let entries = fs::read_dir(folder).expect("a folder of pages").flatten();
-        entries.filter(|entry| entry.path().is_dir()).find_map(|entry| find(&entry.path(), name))
-    }
-    let docs = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs");
-    let file = find(&docs, name).unwrap_or_else(|| panic!("docs/ has no page {name}.md"));
-    fs::read_to_string(file).expect("a page is text")
+/// Text of a page below `docs/`, by its path without `.md`.
+pub fn page(path: &str) -> String {
+    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs").join(path).with_extension("md");
+    fs::read_to_string(&file).unwrap_or_else(|why| panic!("{}: {why}", file.display()))
 }
 
 /// The Python that TREADMILL_PYTHON names, if it has these modules; without it, tests that need it say so and pass.

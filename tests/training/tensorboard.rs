@@ -84,9 +84,9 @@ fn tensorboard_shows_what_a_run_is_how_its_actions_are_spread_and_compares_it() 
     }
     let lags = &first["histograms"]["bus/policy_lag"][0][1];
     assert_eq!(*lags, serde_json::json!([[-0.5, 0.5, 512.0]]), "no fragment lags in lock-step");
-    let documented = page("metrics");
+    let documented = page("reference/metrics");
     for tag in ["actions/all", "actions/{name}", "bus/policy_lag", "config", "command", "versions"] {
-        assert!(documented.contains(&format!("| `{tag}` |")), "the page `metrics` does not explain {tag}");
+        assert!(documented.contains(&format!("| `{tag}` |")), "docs/reference/metrics.md does not explain {tag}");
     }
 
     // One row of the HPARAMS tab.

@@ -77,9 +77,9 @@ fn a_run_leaves_everything_a_user_looks_for() {
         16,
         "one line for each update"
     );
-    let documented = page("metrics");
+    let documented = page("reference/metrics");
     for (tag, ..) in &metrics {
-        assert!(documented.contains(&format!("| `{tag}` |")), "the page `metrics` does not explain {tag}");
+        assert!(documented.contains(&format!("| `{tag}` |")), "docs/reference/metrics.md does not explain {tag}");
     }
     assert_eq!(last_value(&run, "bus/policy_lag_max"), Some(0.0), "actors keep step with the learner");
 }

@@ -7,7 +7,7 @@ mod golden;
 use std::collections::BTreeMap;
 
 use candle_core::{Device, Result, Tensor, Var};
-use golden::{Mismatch, compare, config, flipped, narrow, read};
+use golden::{GoldenMismatch, compare, config, flipped, narrow, read};
 use serde::Deserialize;
 use treadmill_policy::normaliser::{Normaliser, RunningMoments, ScalarNormaliser};
 use treadmill_ppo::{
@@ -37,7 +37,7 @@ impl AdvantagesFile {
         read(include_str!("golden/advantages.json"))
     }
 
-    fn compare(&self) -> std::result::Result<(), Mismatch> {
+    fn compare(&self) -> std::result::Result<(), GoldenMismatch> {
         let values = narrow(&self.values);
         let (truncated_values, final_values) = (narrow(&self.truncated_values), narrow(&self.final_values));
         let next = gae::next_values(&values, &self.terminated, &self.truncated, &truncated_values, &final_values);
@@ -100,7 +100,7 @@ impl LossFile {
         read(include_str!("golden/loss.json"))
     }
 
-    fn compare(&self) -> std::result::Result<(), Mismatch> {
+    fn compare(&self) -> std::result::Result<(), GoldenMismatch> {
         let (rows, actions) = (self.returns.len(), self.log_std.len());
         let inner = || -> Result<_> {
             let tensor = |numbers: &[f64]| Tensor::new(narrow(numbers), &Device::Cpu);
@@ -173,7 +173,7 @@ struct AdamStep {
 }
 
 impl AdamFile {
-    fn compare(&self) -> std::result::Result<(), Mismatch> {
+    fn compare(&self) -> std::result::Result<(), GoldenMismatch> {
         let mut parameters = narrow(&self.start);
         let mut state = OptimiserState::new(parameters.len());
         for step in &self.steps {
@@ -221,7 +221,7 @@ impl MomentsFile {
         moments
     }
 
-    fn compare(&self) -> std::result::Result<(), Mismatch> {
+    fn compare(&self) -> std::result::Result<(), GoldenMismatch> {
         let one_by_one = self.moments_of(&self.parts);
         let (front, back) = self.parts.split_at(2);
         let mut merged = self.moments_of(front);

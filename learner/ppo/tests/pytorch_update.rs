@@ -6,7 +6,7 @@ mod golden;
 
 use std::{collections::BTreeMap, sync::Arc};
 
-use golden::{Mismatch, compare, config, flipped, narrow, read};
+use golden::{GoldenMismatch, compare, config, flipped, narrow, read};
 use rand::RngExt;
 use rand_xoshiro::{Xoshiro256PlusPlus, rand_core::SeedableRng};
 use serde::Deserialize;
@@ -96,7 +96,7 @@ impl UpdateFile {
         (updater, stats)
     }
 
-    fn compare(&self, case: &UpdateCase) -> std::result::Result<(), Mismatch> {
+    fn compare(&self, case: &UpdateCase) -> std::result::Result<(), GoldenMismatch> {
         let (updater, stats) = self.run(case);
         assert_eq!(stats.minibatches, case.gradient_steps);
         compare("parameters", &updater.parameters(), &case.parameters, PARAMETER_TOLERANCE)?;

@@ -173,7 +173,7 @@ mod tests {
         let save = |key: &str| {
             let mut state = state(8);
             state.config_toml = state.config_toml.replacen("[rollout]\n", &format!("[rollout]\n{key}\n"), 1);
-            Saver::new(&folder, 2, 9).save(&state).unwrap();
+            CheckpointWriter::new(&folder, 2, 9).save(&state).unwrap();
             load(&folder, Which::Latest).map_err(|why| why.to_string())
         };
         let read = save("noise_correlation = 0.0\nstale_versions = [0, 0]").unwrap();

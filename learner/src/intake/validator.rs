@@ -5,8 +5,7 @@ use std::{sync::Arc, time::Instant};
 use serde::{Deserialize, Serialize};
 use treadmill_bus::{
     ReceivedFragment,
-    admission::{Admission, Sender},
-    complaints::RateLimitedLog,
+    admission::{Admission, Sender, rate_limited_log::RateLimitedLog},
 };
 use treadmill_ppo::AcceptedFragment;
 use treadmill_proto::{Fragment, Malformed, Outcome, Receipt};

@@ -2,7 +2,7 @@
 
 use std::time::Duration;
 
-use treadmill_config::{self, ConfigSource, LearnerConfig};
+use treadmill_config::{ConfigSource, LearnerConfig, is_retired};
 use treadmill_proto::{Command, ControlRequest, Phase, RunStatus};
 use treadmill_runtime::machine;
 
@@ -100,7 +100,7 @@ impl Trainer {
         source.text(&self.state.config_toml, source_of).map_err(|why| why.to_string())?;
         source.set(&format!("{key}={value}")).map_err(|why| why.to_string())?;
         let changed = source.build().map_err(|why| why.to_string())?;
-        if config::is_retired(key) {
+        if is_retired(key) {
             return Ok(format!("`{key}` no longer exists; its old default is how every run behaves"));
         }
         if !is_changeable(key) {

@@ -13,7 +13,7 @@ use treadmill_learner::intake::{
     BatchSize, Collected, ExpectedFragment, FragmentCounts, FragmentValidator, Intake, Ledger, Lineage,
 };
 use treadmill_runtime::seeds;
-use world::{MemoryFragmentSource, Setting, Shared, World};
+use world::{FleetWorld, MemoryFragmentSource, Setting, Shared};
 
 /// Longer than this (of the fleet's time) an update never takes, whatever gets lost: many receipts in a row would have to.
 const STUCK: Duration = Duration::from_secs(3 * 3600);
@@ -56,7 +56,7 @@ struct Learner {
 impl Learner {
     fn new(case: &Case) -> Self {
         let lineage = Lineage::new(1000);
-        let world = World::new(&case.fleet, lineage.newest());
+        let world = FleetWorld::new(&case.fleet, lineage.newest());
         let saved = Saved {
             lineage: lineage.clone(),
             ledger: Ledger::default(),
@@ -98,7 +98,7 @@ impl Learner {
             let name = (fragment.actor.clone(), fragment.actor_incarnation, fragment.sequence);
             prop_assert!(self.learnt.insert(name.clone()), "{name:?} is learnt from twice");
         }
-        World::pass(&self.world, UPDATE);
+        FleetWorld::pass(&self.world, UPDATE);
         if dies {
             self.die();
             return Ok(());
@@ -118,7 +118,7 @@ impl Learner {
     fn die(&mut self) {
         self.starts += 1;
         self.world.borrow_mut().kill_learner();
-        World::pass(&self.world, Duration::from_secs(2));
+        FleetWorld::pass(&self.world, Duration::from_secs(2));
         self.world.borrow_mut().is_learner_up = true;
         self.lineage = self.saved.lineage.clone();
         self.lineage.resume(1000 * self.starts);

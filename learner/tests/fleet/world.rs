@@ -89,7 +89,7 @@ pub struct Actor {
 }
 
 /// Everything but the learner.
-pub struct World {
+pub struct FleetWorld {
     setting: Setting,
     begun: Instant,
     pub now: Duration,
@@ -108,9 +108,9 @@ pub struct World {
     pub out_of_patience: Shutdown,
 }
 
-pub type Shared = Rc<RefCell<World>>;
+pub type Shared = Rc<RefCell<FleetWorld>>;
 
-impl World {
+impl FleetWorld {
     pub fn new(setting: &Setting, version: PolicyVersion) -> Shared {
         let mut world = Self {
             setting: setting.clone(),

@@ -3,7 +3,7 @@
 //! The bus's TLS reads and writes one connection from two threads without a lock (eclipse-zenoh/zenoh#2557). Under load in both
 //! directions links break off by that, several times a second, and worse is possible. Where one thread does both, it cannot
 //! happen. A router is the exception: it would wait, in that thread, for what that thread itself must send first; its threads take
-//! turns on one core instead (`src/one_core.rs`).
+//! turns on one core instead (`one_core.rs`).
 //!
 //! Where links are not encrypted, the learner and routers read with more threads than the bus would by itself: fragments are
 //! decoded there. Links that are read slowly, because they flood (see `brake`), need a thread each for as long as they nap.

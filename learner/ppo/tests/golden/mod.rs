@@ -27,7 +27,7 @@ pub fn flipped(numbers: &[f64]) -> Vec<f64> {
 /// A number that is not what it should be.
 #[derive(Debug)]
 #[expect(dead_code, reason = "read where a failed assertion prints it")]
-pub struct Mismatch {
+pub struct GoldenMismatch {
     pub what: &'static str,
     pub index: usize,
     pub found: f64,
@@ -42,7 +42,7 @@ pub fn compare<N: Copy + Into<f64>>(
     found: &[N],
     expected: &[f64],
     tolerance: f64,
-) -> Result<(), Mismatch> {
+) -> Result<(), GoldenMismatch> {
     assert_eq!(found.len(), expected.len(), "{what}");
     let squares: f64 = expected.iter().map(|number| number * number).sum();
     let scale = (squares / expected.len() as f64).sqrt();
@@ -51,7 +51,7 @@ pub fn compare<N: Copy + Into<f64>>(
         let allowed = tolerance * scale.max(expected.abs());
         let is_close = (found - expected).abs() <= allowed;
         if !is_close {
-            return Err(Mismatch { what, index, found, expected, allowed });
+            return Err(GoldenMismatch { what, index, found, expected, allowed });
         }
     }
     Ok(())

@@ -10,7 +10,7 @@ use treadmill_bus::ReceivedFragment;
 use treadmill_learner::intake::{FragmentMessage, FragmentSource};
 use treadmill_proto::{Outcome, Receipt};
 
-use super::{Event, Shared, World};
+use super::{Event, FleetWorld, Shared};
 
 /// The learner's end.
 pub struct MemoryFragmentSource(pub Shared);
@@ -24,7 +24,7 @@ impl FragmentSource for MemoryFragmentSource {
             if let Some(message) = self.0.borrow_mut().queue.pop_front() {
                 return Some(message);
             }
-            if !World::step(&self.0, until) {
+            if !FleetWorld::step(&self.0, until) {
                 let mut world = self.0.borrow_mut();
                 world.now = until;
                 if world.now > world.patient_until {
