@@ -5,8 +5,8 @@ use std::{error::Error, iter::successors};
 /// Joins the message of `error` and of each of its causes with colons.
 #[must_use]
 pub fn error_chain(error: &dyn Error) -> String {
-    let messages: Vec<String> = successors(Some(error), |error| error.source()).map(ToString::to_string).collect();
-    messages.join(": ")
+    let causes = successors(error.source(), |cause| cause.source());
+    causes.fold(error.to_string(), |text, cause| format!("{text}: {cause}"))
 }
 
 #[cfg(test)]
