@@ -5,7 +5,7 @@ use std::{error::Error, iter::successors};
 /// Joins the message of `error` and of each of its causes with colons.
 #[must_use]
 pub fn error_chain(error: &dyn Error) -> String {
-    let causes = successors(error.source(), |cause| cause.source());
+    let causes = successors(error.source(), |&cause| cause.source());
     causes.fold(error.to_string(), |text, cause| format!("{text}: {cause}"))
 }
 
