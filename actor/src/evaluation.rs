@@ -1,6 +1,6 @@
 //! Episodes without learning, and what came of them.
 
-use treadmill_humanoid::{Environment, Physics, Step, StepInfo};
+use treadmill_humanoid::{Environment, Physics, StepInfo, StepOutcome};
 use treadmill_runtime::seeds;
 
 use crate::{ActorError, agent::Agent};
@@ -102,7 +102,7 @@ pub fn evaluate(
         loop {
             agent.act(&observation, &mut action)?;
             environment.action_from_shares(&action, &mut control);
-            let step: Step = environment.step(&control, &mut observation);
+            let step: StepOutcome = environment.step(&control, &mut observation);
             played.length += 1;
             played.fault = step.fault;
             if !step.fault {

@@ -1,7 +1,7 @@
 //! The run's configuration as the environment takes it.
 
 use treadmill_config::{Config, EnvConfig, EnvObservation, EnvTask, ObservationPrecision, RandomisationConfig};
-use treadmill_humanoid::{EnvironmentConfig, ObservationKind, Randomisation, Task};
+use treadmill_humanoid::{EnvironmentConfig, ObservationKind, Randomisation, RewardTask};
 use treadmill_proto::Precision;
 
 use crate::ActorError;
@@ -49,8 +49,8 @@ pub fn environment(config: &EnvConfig) -> EnvironmentConfig {
     EnvironmentConfig {
         task: match config.task {
             // Refused by `check_ours` wherever an environment is made from a configuration that came from elsewhere.
-            EnvTask::HumanoidV5 | EnvTask::External => Task::HumanoidV5,
-            EnvTask::HumanoidV4 => Task::HumanoidV4,
+            EnvTask::HumanoidV5 | EnvTask::External => RewardTask::HumanoidV5,
+            EnvTask::HumanoidV4 => RewardTask::HumanoidV4,
         },
         forward_reward_weight: config.forward_reward_weight,
         ctrl_cost_weight: config.ctrl_cost_weight,

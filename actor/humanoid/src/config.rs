@@ -1,24 +1,29 @@
-//! What can be set about the environment, with the figures of Humanoid-v5 as defaults.
+//! Settings of the environment, its physics and its randomisation; defaults are those of Humanoid-v5.
 //!
 //! Weights, ranges and flags carry the names of the arguments of Gymnasium's environments.
 
+use std::fmt::Debug;
+
 use crate::error::ModelError;
-use crate::randomisation::Randomisation;
 
 /// Duration of one control step (s): one action, one observation, one reward.
 pub const CONTROL_STEP_S: f64 = 0.015;
 
-/// Whose rewards and info: see [`crate::task`].
+/// How far outside its range a hinge may be set (rad). In the nominal pose of Humanoid-v5 the knees are 2° beyond the end
+/// of their range, and limits are soft.
+pub const HINGE_TOLERANCE_RAD: f64 = 0.1;
+
+/// Gymnasium task that determines rewards and info; [`crate::task`] lists the differences.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Task {
-    /// Gymnasium's Humanoid-v5.
+pub enum RewardTask {
+    /// Humanoid-v5.
     #[default]
     HumanoidV5,
-    /// Gymnasium's Humanoid-v4: no cost of contact, and the reward for health also on the step that ends an episode.
+    /// Humanoid-v4: no contact cost, and the reward for health also on the step that ends an episode.
     HumanoidV4,
 }
 
-/// Which numbers the policy sees: see [`crate::observation`].
+/// Selection of numbers that the policy observes; [`crate::observation`] describes them.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum ObservationKind {
     /// Positions and velocities only.
@@ -30,18 +35,18 @@ pub enum ObservationKind {
     GymnasiumV4,
 }
 
-/// Settings of one humanoid environment: task, weights and limits, observation, and how finely physics is stepped.
+/// Settings of one humanoid environment: task, weights and limits, observation, physics and randomisation.
 #[derive(Clone, Debug, PartialEq)]
 pub struct EnvironmentConfig {
-    /// Whose rewards and info.
-    pub task: Task,
+    /// Task that determines rewards and info.
+    pub task: RewardTask,
     /// Reward per m/s of forward speed of the centre of mass.
     pub forward_reward_weight: f64,
     /// Cost per unit of the sum of squared controls.
     pub ctrl_cost_weight: f64,
     /// Cost per unit of the sum of squared contact forces (N²) and moments ((N·m)²). Humanoid-v4 has no such cost.
     pub contact_cost_weight: f64,
-    /// The contact cost of a step is brought into this range, lowest and highest; −∞ and ∞ are allowed.
+    /// Lower and upper bound to which a step's contact cost is clamped; −∞ and ∞ are allowed.
     pub contact_cost_range: [f64; 2],
     /// Reward of each step that ends with a healthy posture.
     pub healthy_reward: f64,
@@ -51,7 +56,7 @@ pub struct EnvironmentConfig {
     pub healthy_z_range: [f64; 2],
     /// Every position and velocity starts within ± this of its nominal value (m, rad, m/s, rad/s).
     pub reset_noise_scale: f64,
-    /// Which numbers the policy sees.
+    /// Selection of numbers that the policy observes.
     pub observation: ObservationKind,
     /// Whether the observation leaves out x and y of the torso.
     pub exclude_current_positions_from_observation: bool,
@@ -65,20 +70,21 @@ pub struct EnvironmentConfig {
     pub include_cfrc_ext_in_observation: bool,
     /// An episode is truncated after this many control steps; 0 means never.
     pub max_episode_steps: u32,
-    /// Physics steps per control step, at least 1.
+    /// See [`PhysicsSettings::substeps`].
     pub substeps: u32,
-    /// Iterations of Rapier's constraint solver per physics step, at least 1; its result is then refined in joint coordinates.
+    /// See [`PhysicsSettings::solver_iterations`].
     pub solver_iterations: u32,
-    /// Whether parts of the body that are not neighbours collide with each other.
+    /// See [`PhysicsSettings::self_collision`].
     pub self_collision: bool,
-    /// What differs from episode to episode beside the start; nothing by default.
+    /// What varies between episodes besides the initial state; nothing by default.
     pub randomisation: Randomisation,
 }
 
 impl Default for EnvironmentConfig {
     fn default() -> Self {
+        let PhysicsSettings { substeps, solver_iterations, self_collision } = PhysicsSettings::default();
         Self {
-            task: Task::HumanoidV5,
+            task: RewardTask::HumanoidV5,
             forward_reward_weight: 1.25,
             ctrl_cost_weight: 0.1,
             contact_cost_weight: 5e-7,
@@ -94,28 +100,108 @@ impl Default for EnvironmentConfig {
             include_qfrc_actuator_in_observation: true,
             include_cfrc_ext_in_observation: true,
             max_episode_steps: 1000,
-            substeps: 2,
-            solver_iterations: 1,
-            self_collision: true,
+            substeps,
+            solver_iterations,
+            self_collision,
             randomisation: Randomisation::default(),
         }
     }
 }
 
-/// More physics steps or solver passes than this are a slip of the pen.
-const REPEATS_MAX: u32 = 1000;
+/// Settings that the motion depends on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct PhysicsSettings {
+    /// Physics steps per control step, 1 to 1000.
+    pub substeps: u32,
+    /// Iterations of Rapier's constraint solver per physics step, 1 to 1000; its result is then refined in joint coordinates.
+    pub solver_iterations: u32,
+    /// Whether bodies that are not neighbours in the tree collide with each other.
+    pub self_collision: bool,
+}
+
+impl Default for PhysicsSettings {
+    fn default() -> Self {
+        Self { substeps: 2, solver_iterations: 1, self_collision: true }
+    }
+}
+
+impl From<&EnvironmentConfig> for PhysicsSettings {
+    fn from(config: &EnvironmentConfig) -> Self {
+        let EnvironmentConfig { substeps, solver_iterations, self_collision, .. } = *config;
+        Self { substeps, solver_iterations, self_collision }
+    }
+}
+
+/// Randomisation of each episode: `[smallest, largest]` of uniform distributions, and noise. Off by default.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Randomisation {
+    /// Factor on the mass and inertia of each body.
+    pub mass_scale: [f64; 2],
+    /// Factor on the friction coefficient of the floor.
+    pub floor_friction_scale: [f64; 2],
+    /// Factor on the torque of each motor.
+    pub motor_scale: [f64; 2],
+    /// Factor on the viscous friction of each hinge.
+    pub damping_scale: [f64; 2],
+    /// Factor on the rotor inertia of each hinge.
+    pub armature_scale: [f64; 2],
+    /// Factor on gravity.
+    pub gravity_scale: [f64; 2],
+    /// Standard deviation of the noise on observed height (m), orientation (rad about each axis) and hinge angles (rad).
+    pub sensor_noise_position: f64,
+    /// Standard deviation of the noise on observed velocities (m/s, rad/s).
+    pub sensor_noise_velocity: f64,
+    /// Standard deviation of the noise on each control, as a share of the largest control.
+    pub control_noise: f64,
+    /// Control steps after which an action reaches the motors; constant throughout an episode.
+    pub action_delay_steps: [u32; 2],
+    /// Time from one push to the next, and from the start to the first (s).
+    pub push_interval_s: [f64; 2],
+    /// Velocity that a push adds to the whole humanoid, in any horizontal direction (m/s); 0 means no pushes.
+    pub push_mps: [f64; 2],
+}
+
+impl Default for Randomisation {
+    fn default() -> Self {
+        const SAME: [f64; 2] = [1.0, 1.0];
+        Self {
+            mass_scale: SAME,
+            floor_friction_scale: SAME,
+            motor_scale: SAME,
+            damping_scale: SAME,
+            armature_scale: SAME,
+            gravity_scale: SAME,
+            sensor_noise_position: 0.0,
+            sensor_noise_velocity: 0.0,
+            control_noise: 0.0,
+            action_delay_steps: [0, 0],
+            push_interval_s: [2.0, 5.0],
+            push_mps: [0.0, 0.0],
+        }
+    }
+}
+
+/// Returns the first field that differs between two values of a type: name, value on the left, value on the right.
+///
+/// It must be given all fields: the compiler rejects a list that lacks one.
+macro_rules! first_difference {
+    ($type:ident, $left:expr, $right:expr, [$($field:ident),* $(,)?]) => {{
+        let $type { $($field),* } = $left;
+        $(if *$field != $right.$field {
+            return Some((stringify!($field), format!("{:?}", $field), format!("{:?}", $right.$field)));
+        })*
+        None
+    }};
+}
+
+fn refuse(setting: &'static str, value: &dyn Debug, expected: &'static str) -> Result<(), ModelError> {
+    Err(ModelError::Setting { setting, value: format!("{value:?}"), expected })
+}
 
 impl EnvironmentConfig {
-    /// Refuses settings that cannot be simulated or make no sense as a task.
+    /// Rejects settings that cannot be simulated or make no sense as a task.
     pub(crate) fn check(&self) -> Result<(), ModelError> {
-        let refuse = |setting, value: &dyn std::fmt::Debug, expected| {
-            Err(ModelError::Setting { setting, value: format!("{value:?}"), expected })
-        };
-        for (setting, value) in [("substeps", self.substeps), ("solver_iterations", self.solver_iterations)] {
-            if !(1..=REPEATS_MAX).contains(&value) {
-                return refuse(setting, &value, "between 1 and 1000");
-            }
-        }
+        PhysicsSettings::from(self).check()?;
         for (setting, value) in [
             ("forward_reward_weight", self.forward_reward_weight),
             ("ctrl_cost_weight", self.ctrl_cost_weight),
@@ -126,7 +212,7 @@ impl EnvironmentConfig {
                 return refuse(setting, &value, "finite");
             }
         }
-        // A cost that is infinite whatever happens would make every reward so.
+        // A bound that is infinite on the wrong side would make every reward infinite.
         let [low, high] = self.contact_cost_range;
         if low.is_nan() || high.is_nan() || low > high || low == f64::INFINITY || high == f64::NEG_INFINITY {
             return refuse(
@@ -152,43 +238,38 @@ impl EnvironmentConfig {
         self.randomisation.check()
     }
 
-    /// The first setting that is not the same in another configuration: its name, its value here and its value there.
+    /// Returns the first setting that differs from another configuration's: name, value here, value there.
     pub(crate) fn difference(&self, other: &Self) -> Option<(&'static str, String, String)> {
-        // Naming all fields makes the compiler ask for new ones here.
-        macro_rules! compare {
-            ($($field:ident),* $(,)?) => {{
-                let Self { $($field),* } = self;
-                $(if *$field != other.$field {
-                    return Some((stringify!($field), format!("{:?}", $field), format!("{:?}", other.$field)));
-                })*
-                None
-            }};
-        }
-        compare!(
-            task,
-            forward_reward_weight,
-            ctrl_cost_weight,
-            contact_cost_weight,
-            contact_cost_range,
-            healthy_reward,
-            terminate_when_unhealthy,
-            healthy_z_range,
-            reset_noise_scale,
-            observation,
-            exclude_current_positions_from_observation,
-            include_cinert_in_observation,
-            include_cvel_in_observation,
-            include_qfrc_actuator_in_observation,
-            include_cfrc_ext_in_observation,
-            max_episode_steps,
-            substeps,
-            solver_iterations,
-            self_collision,
-            randomisation,
+        first_difference!(
+            EnvironmentConfig,
+            self,
+            other,
+            [
+                task,
+                forward_reward_weight,
+                ctrl_cost_weight,
+                contact_cost_weight,
+                contact_cost_range,
+                healthy_reward,
+                terminate_when_unhealthy,
+                healthy_z_range,
+                reset_noise_scale,
+                observation,
+                exclude_current_positions_from_observation,
+                include_cinert_in_observation,
+                include_cvel_in_observation,
+                include_qfrc_actuator_in_observation,
+                include_cfrc_ext_in_observation,
+                max_episode_steps,
+                substeps,
+                solver_iterations,
+                self_collision,
+                randomisation,
+            ]
         )
     }
 
-    /// The flags of the blocks that can be left out.
+    /// Flags of the optional blocks of [`ObservationKind::GymnasiumV5`].
     fn inclusions(&self) -> [(&'static str, bool); 4] {
         [
             ("include_cinert_in_observation", self.include_cinert_in_observation),
@@ -199,43 +280,77 @@ impl EnvironmentConfig {
     }
 }
 
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn defaults_are_accepted_and_each_nonsense_is_named() {
-        assert!(EnvironmentConfig::default().check().is_ok());
-        type Spoil = fn(&mut EnvironmentConfig);
-        let broken: [(&str, Spoil); 11] = [
-            ("substeps", |c| c.substeps = 0),
-            ("solver_iterations", |c| c.solver_iterations = 0),
-            ("healthy_reward", |c| c.healthy_reward = f64::NAN),
-            ("healthy_z_range", |c| c.healthy_z_range = [2.0, 2.0]),
-            ("healthy_z_range", |c| c.healthy_z_range = [f64::NAN, 2.0]),
-            ("contact_cost_range", |c| c.contact_cost_range = [1.0, 0.5]),
-            ("contact_cost_range", |c| c.contact_cost_range = [0.0, f64::NAN]),
-            ("contact_cost_range", |c| c.contact_cost_range = [f64::NEG_INFINITY; 2]),
-            ("contact_cost_range", |c| c.contact_cost_range = [f64::INFINITY; 2]),
-            ("reset_noise_scale", |c| c.reset_noise_scale = -0.01),
-            ("include_cvel_in_observation", |c| {
-                c.observation = ObservationKind::GymnasiumV4;
-                c.include_cvel_in_observation = false;
-            }),
-        ];
-        for (name, spoil) in broken {
-            let mut config = EnvironmentConfig::default();
-            spoil(&mut config);
-            let error = config.check().expect_err(name).to_string();
-            assert!(error.contains(name), "{error}");
+impl PhysicsSettings {
+    /// Rejects counts that are zero or absurdly large.
+    pub(crate) fn check(&self) -> Result<(), ModelError> {
+        for (setting, value) in [("substeps", self.substeps), ("solver_iterations", self.solver_iterations)] {
+            if !(1..=1000).contains(&value) {
+                return refuse(setting, &value, "between 1 and 1000");
+            }
         }
+        Ok(())
     }
 
-    #[test]
-    fn ranges_may_be_open() {
-        let open = [f64::NEG_INFINITY, f64::INFINITY];
-        let config =
-            EnvironmentConfig { contact_cost_range: open, healthy_z_range: open, ..EnvironmentConfig::default() };
-        assert!(config.check().is_ok());
+    /// Returns the first setting that differs from `other`: name, value here, value there.
+    pub(crate) fn difference(&self, other: &Self) -> Option<(&'static str, String, String)> {
+        first_difference!(PhysicsSettings, self, other, [substeps, solver_iterations, self_collision])
     }
 }
+
+impl Randomisation {
+    /// Longest delay of an action (control steps).
+    pub const DELAY_MAX_STEPS: u32 = 3;
+
+    /// Returns whether anything is randomised.
+    #[must_use]
+    pub fn is_on(&self) -> bool {
+        let off = Self { push_interval_s: self.push_interval_s, ..Self::default() };
+        *self != off
+    }
+
+    /// Rejects ranges that are empty or exceed their bounds.
+    pub(crate) fn check(&self) -> Result<(), ModelError> {
+        let refuse =
+            |setting, value: f64, expected| Err(ModelError::Setting { setting, value: value.to_string(), expected });
+        let factors = "between 0 and 10, and the first of the range not above the second";
+        let delays = self.action_delay_steps.map(f64::from);
+        for (setting, [low, high], [min, max], expected) in [
+            // A body without mass would have no inertia.
+            ("mass_scale", self.mass_scale, [0.1, 10.0], "between 0.1 and 10, the first not above the second"),
+            ("floor_friction_scale", self.floor_friction_scale, [0.0, 10.0], factors),
+            ("motor_scale", self.motor_scale, [0.0, 10.0], factors),
+            ("damping_scale", self.damping_scale, [0.0, 10.0], factors),
+            ("armature_scale", self.armature_scale, [0.0, 10.0], factors),
+            ("gravity_scale", self.gravity_scale, [0.0, 10.0], factors),
+            ("action_delay_steps", delays, [0.0, 3.0], "between 0 and 3, the first not above the second"),
+            (
+                "push_interval_s",
+                self.push_interval_s,
+                [CONTROL_STEP_S, 1000.0],
+                "between one control step and 1000 s, the first not above the second",
+            ),
+            ("push_mps", self.push_mps, [0.0, 10.0], factors),
+        ] {
+            let allowed = min..=max;
+            if !allowed.contains(&low) {
+                return refuse(setting, low, expected);
+            }
+            if !allowed.contains(&high) || high < low {
+                return refuse(setting, high, expected);
+            }
+        }
+        for (setting, value) in [
+            ("sensor_noise_position", self.sensor_noise_position),
+            ("sensor_noise_velocity", self.sensor_noise_velocity),
+            ("control_noise", self.control_noise),
+        ] {
+            if !(0.0..=1.0).contains(&value) {
+                return refuse(setting, value, "between 0 and 1");
+            }
+        }
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests;

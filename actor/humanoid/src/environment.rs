@@ -1,4 +1,4 @@
-//! One humanoid with its clock: episodes, resets, faults.
+//! One humanoid's episodes: reset, step, observation, faults.
 
 mod saved;
 mod snapshot;
@@ -14,29 +14,28 @@ use crate::info::{PerTendon, StepInfo};
 use crate::model::{Model, Tendon};
 use crate::observation::Observation;
 use crate::physics::{JointQuality, Physics};
-use crate::randomisation::Disturber;
-use crate::task::{self, Step, Transition};
+use crate::randomisation::Randomiser;
+use crate::task::{self, StepOutcome, Transition};
 
-/// A humanoid that is reset, acts, is observed and rewarded.
+/// Reinforcement-learning environment of one humanoid.
 ///
-/// The same seed and the same actions give the same observations and rewards, bit for bit, whatever the environment
-/// did before: that holds for everything [`EnvironmentConfig::randomisation`] adds, too. It allocates in [`Self::reset`]
-/// only.
+/// The same seed and actions give the same observations and rewards, bit for bit, regardless of earlier episodes. That
+/// includes [`EnvironmentConfig::randomisation`]. Only [`Self::reset`] allocates.
 pub struct Environment {
     config: EnvironmentConfig,
     physics: Physics,
     observation: Observation,
-    disturber: Disturber,
-    /// Of the episode; none before the first reset.
+    randomiser: Randomiser,
+    /// Seed of the episode; none before the first reset.
     seed: Option<u64>,
     nominal_position: Vec<f64>,
-    /// Buffers of the reset: positions and velocities with noise.
+    /// Buffers of the reset: position and velocity vectors with noise.
     start_position: Vec<f64>,
     start_velocity: Vec<f64>,
     controls: Vec<f32>,
-    /// Least and greatest control of each motor.
-    ranges: Vec<[f32; 2]>,
-    /// The last observation handed out, which is handed out again on a fault.
+    /// Lowest and highest control of each motor.
+    action_ranges: Vec<[f32; 2]>,
+    /// Last observation; a fault returns it again.
     last_observation: Vec<f32>,
     last_info: StepInfo,
     episode_steps: u32,
@@ -44,13 +43,14 @@ pub struct Environment {
 }
 
 impl Environment {
-    /// Builds an environment for a model text (see [`Model::from_mjcf`]); it stands at the nominal pose,
-    /// as after a reset without noise.
+    /// Builds an environment for a model text (see [`Model::from_mjcf`]), in the nominal pose.
     ///
     /// # Errors
     /// [`ModelError`] if the model or a setting cannot be simulated.
     pub fn new(config: &EnvironmentConfig, model_xml: &str) -> Result<Self, ModelError> {
-        let physics = Physics::new(Model::from_mjcf(model_xml)?, config)?;
+        let model = Model::from_mjcf(model_xml)?;
+        config.check()?;
+        let physics = Physics::new(model, config)?;
         let nominal_position = physics.model().nominal_position();
         let observation = Observation::new(config, physics.model());
         let mut last_observation = vec![0.0; observation.size()];
@@ -58,12 +58,12 @@ impl Environment {
         Ok(Self {
             config: config.clone(),
             seed: None,
-            disturber: Disturber::new(&config.randomisation, physics.model(), &observation),
+            randomiser: Randomiser::new(&config.randomisation, physics.model(), &observation),
             start_position: nominal_position.clone(),
             start_velocity: vec![0.0; physics.model().velocity_size()],
             controls: vec![0.0; physics.model().motors.len()],
-            ranges: physics.model().motors.iter().map(|motor| motor.control.map(|end| end as f32)).collect(),
-            last_info: standing_info(config, &physics),
+            action_ranges: physics.model().motors.iter().map(|motor| motor.control.map(|end| end as f32)).collect(),
+            last_info: reset_info(config, &physics),
             observation,
             nominal_position,
             last_observation,
@@ -73,45 +73,44 @@ impl Environment {
         })
     }
 
-    /// Length of an observation.
+    /// Returns the length of an observation.
     #[must_use]
     pub fn observation_size(&self) -> usize {
         self.last_observation.len()
     }
 
-    /// Length of an action.
+    /// Returns the length of an action.
     #[must_use]
     pub fn action_size(&self) -> usize {
         self.controls.len()
     }
 
-    /// Duration of one step (s).
+    /// Returns the duration of one step (s).
     #[must_use]
     pub fn control_step_s(&self) -> f64 {
         CONTROL_STEP_S
     }
 
-    /// Least and greatest value of each entry of an action, which is clamped to them (units of control).
+    /// Returns the lowest and highest value of each entry of an action (units of control); actions are clamped to them.
     #[must_use]
     pub fn action_ranges(&self) -> &[[f32; 2]] {
-        &self.ranges
+        &self.action_ranges
     }
 
-    /// Writes the action that stands at `share` of each motor's range: −1 is its lower end, 1 its upper one. Shares
-    /// beyond are clamped.
+    /// Maps shares of each motor's control range to an action: −1 is the lower end, 1 the upper one. Clamps the shares.
     ///
     /// # Panics
     /// If a slice does not have length [`Self::action_size`].
     pub fn action_from_shares(&self, shares: &[f32], action: &mut [f32]) {
-        assert_eq!(shares.len(), self.ranges.len(), "there must be one share per motor");
-        assert_eq!(action.len(), self.ranges.len(), "action has the wrong length");
-        for (action, (share, [low, high])) in action.iter_mut().zip(shares.iter().zip(&self.ranges)) {
+        assert_eq!(shares.len(), self.action_ranges.len(), "there must be one share per motor");
+        assert_eq!(action.len(), self.action_ranges.len(), "action has the wrong length");
+        for (action, (share, [low, high])) in action.iter_mut().zip(shares.iter().zip(&self.action_ranges)) {
             let (centre, half) = (f32::midpoint(*low, *high), high / 2.0 - low / 2.0);
             *action = (centre + share.clamp(-1.0, 1.0) * half).clamp(*low, *high);
         }
     }
 
-    /// Starts a new episode of which everything random comes from `seed`, and writes its first observation.
+    /// Starts a new episode and writes its first observation; `seed` determines all its random numbers.
     ///
     /// # Panics
     /// If `observation` does not have length [`Self::observation_size`].
@@ -122,71 +121,72 @@ impl Environment {
     /// As [`Self::reset`], for buffers from outside.
     ///
     /// # Errors
-    /// [`InputError`] if `observation` has the wrong length; nothing has happened then.
+    /// [`InputError`] if `observation` has the wrong length; the episode then continues.
     pub fn try_reset(&mut self, seed: u64, observation: &mut [f32]) -> Result<(), InputError> {
         self.check_observation(observation)?;
         let mut random = Xoshiro256PlusPlus::seed_from_u64(seed);
         let scale = self.config.reset_noise_scale;
         for (start, nominal) in self.start_position.iter_mut().zip(&self.nominal_position) {
-            *start = nominal + symmetric(&mut random, scale);
+            *start = nominal + uniform_noise(&mut random, scale);
         }
         for start in &mut self.start_velocity {
-            *start = symmetric(&mut random, scale);
+            *start = uniform_noise(&mut random, scale);
         }
         self.seed = Some(seed);
-        self.disturber.begin_episode(seed, &mut self.physics);
-        // The noisy quaternion is made a unit again where the bodies are placed.
+        self.randomiser.begin_episode(seed, &mut self.physics);
+        // `set_state` normalises the noisy quaternion.
         self.physics.set_state(&self.start_position, &self.start_velocity);
         self.episode_steps = 0;
-        self.last_info = standing_info(&self.config, &self.physics);
-        self.record(observation);
+        self.last_info = reset_info(&self.config, &self.physics);
+        self.write_observation(observation);
         Ok(())
     }
 
-    /// Acts for one control step and writes what is seen afterwards.
+    /// Simulates one control step and writes the observation after it.
     ///
-    /// `action` has one control per motor, in actuator order, and is clamped to [`Self::action_ranges`].
-    /// If the action or the physics is not finite the step is a fault: terminated, reward 0, and the observation
-    /// and `info` are those of the step before. So is every further step until [`Self::reset`].
-    /// Where actions are delayed or disturbed on their way to the motors, the step is charged for the action given here.
+    /// `action` has one control per motor, in actuator order, and is clamped to [`Self::action_ranges`]. If randomisation
+    /// delays or disturbs it, the control cost is still that of `action`.
+    ///
+    /// If the action or the physics is not finite, the step is a fault: terminated, reward 0, observation and `info` as
+    /// before. Every further step until [`Self::reset`] is a fault too.
     ///
     /// # Panics
     /// If `action` or `observation` has the wrong length.
-    pub fn step(&mut self, action: &[f32], observation: &mut [f32]) -> Step {
+    pub fn step(&mut self, action: &[f32], observation: &mut [f32]) -> StepOutcome {
         self.check_lengths(action, observation).unwrap_or_else(|why| panic!("{why}"));
         self.advance(action, observation)
     }
 
-    /// As [`Self::step`], for actions from outside: one that is not finite is refused, and ends no episode.
+    /// As [`Self::step`], for actions from outside: a non-finite action is an error and does not end the episode.
     ///
     /// # Errors
-    /// [`InputError`] if `action` or `observation` has the wrong length, or an entry of `action` is not finite; nothing
-    /// has happened then.
-    pub fn try_step(&mut self, action: &[f32], observation: &mut [f32]) -> Result<Step, InputError> {
+    /// [`InputError`] if `action` or `observation` has the wrong length, or an entry of `action` is not finite; the episode
+    /// is then unchanged.
+    pub fn try_step(&mut self, action: &[f32], observation: &mut [f32]) -> Result<StepOutcome, InputError> {
         self.check_lengths(action, observation)?;
         InputError::check_finite("action", action)?;
         Ok(self.advance(action, observation))
     }
 
-    /// One control step with slices of the right lengths.
-    fn advance(&mut self, action: &[f32], observation: &mut [f32]) -> Step {
-        for (control, (action, [low, high])) in self.controls.iter_mut().zip(action.iter().zip(&self.ranges)) {
+    /// Simulates one control step; the slices have the right lengths.
+    fn advance(&mut self, action: &[f32], observation: &mut [f32]) -> StepOutcome {
+        for (control, (action, [low, high])) in self.controls.iter_mut().zip(action.iter().zip(&self.action_ranges)) {
             *control = action.clamp(*low, *high);
         }
-        if let Some(velocity_mps) = self.disturber.due_push() {
+        if let Some(velocity_mps) = self.randomiser.due_push() {
             self.physics.push(velocity_mps);
         }
         let before = self.physics.centre_of_mass();
         self.episode_steps = self.episode_steps.saturating_add(1);
-        // An action that is not finite is physics' to refuse: it must not be clamped, or be lost in a delay.
+        // Physics rejects a non-finite action, which neither clamping nor a delay may hide.
         let is_finite = action.iter().all(|control| control.is_finite());
-        let acting = if is_finite { self.disturber.act(&self.controls) } else { action };
-        if self.physics.step_only(acting).is_err() {
+        let controls = if is_finite { self.randomiser.controls_reaching_motors(&self.controls) } else { action };
+        if self.physics.step_only(controls).is_err() {
             return self.fault(observation);
         }
         let after = self.physics.centre_of_mass();
         let position = self.physics.position();
-        let step = task::judge(
+        let step = task::evaluate_step(
             &self.config,
             &Transition {
                 centre_before_m: [before.x, before.y],
@@ -194,17 +194,17 @@ impl Environment {
                 torso_m: [position[0], position[1], position[2]],
                 controls: &self.controls,
                 squared_contact_wrenches: self.physics.squared_contact_wrenches(),
-                tendon_length_rad: over_tendons(&self.physics, self.physics.joint_angles()),
-                tendon_velocity_radps: over_tendons(&self.physics, self.physics.joint_rates()),
+                tendon_length_rad: tendon_values(&self.physics, self.physics.joint_angles()),
+                tendon_velocity_radps: tendon_values(&self.physics, self.physics.joint_rates()),
                 episode_steps: self.episode_steps,
             },
         );
         self.last_info = step.info;
-        self.record(observation);
+        self.write_observation(observation);
         step
     }
 
-    /// Writes what is seen now, without sensor noise, whichever way the body got into its state.
+    /// Writes an observation of the present state, without sensor noise.
     ///
     /// # Errors
     /// [`InputError`] if `observation` has the wrong length.
@@ -214,20 +214,19 @@ impl Environment {
         Ok(())
     }
 
-    /// Of what an observation consists.
+    /// Returns the layout of an observation.
     #[must_use]
     pub fn observation(&self) -> &Observation {
         &self.observation
     }
 
-    /// What was last told: by the last step, or by the last reset if there was none since. See
-    /// [`StepInfo::entries`] for Gymnasium's names.
+    /// Returns the info of the last step or reset; see [`StepInfo::entries`] for Gymnasium's names.
     #[must_use]
     pub fn info(&self) -> &StepInfo {
         &self.last_info
     }
 
-    /// The settings.
+    /// Returns the settings.
     #[must_use]
     pub fn config(&self) -> &EnvironmentConfig {
         &self.config
@@ -242,63 +241,63 @@ impl Environment {
         InputError::check_length("observation buffer", observation.len(), self.observation_size())
     }
 
-    fn record(&mut self, observation: &mut [f32]) {
+    fn write_observation(&mut self, observation: &mut [f32]) {
         self.observation.write(&self.physics, observation);
-        self.disturber.corrupt(observation);
+        self.randomiser.add_sensor_noise(observation);
         self.last_observation.copy_from_slice(observation);
     }
 
-    fn fault(&mut self, observation: &mut [f32]) -> Step {
+    fn fault(&mut self, observation: &mut [f32]) -> StepOutcome {
         self.faults += 1;
         observation.copy_from_slice(&self.last_observation);
-        Step { reward: 0.0, terminated: true, truncated: false, fault: true, info: self.last_info }
+        StepOutcome { reward: 0.0, terminated: true, truncated: false, fault: true, info: self.last_info }
     }
 
-    /// How many steps ended in a fault since the environment was built.
+    /// Returns the number of faults since the environment was built.
     #[must_use]
     pub fn fault_count(&self) -> u64 {
         self.faults
     }
 
-    /// The simulated body.
+    /// Returns the simulation.
     #[must_use]
     pub fn physics(&self) -> &Physics {
         &self.physics
     }
 
-    /// The simulated body, to be stepped without task and observation or set to a state of choice.
+    /// Returns the simulation, to step it without task and observation or to set its state.
     #[must_use]
     pub fn physics_mut(&mut self) -> &mut Physics {
         &mut self.physics
     }
 
-    /// How well the joints hold after the last step.
+    /// Returns the error of the joints after the last step.
     #[must_use]
     pub fn joint_quality(&self) -> JointQuality {
         self.physics.joint_quality()
     }
 }
 
-/// A number from [−scale, scale).
-fn symmetric(random: &mut impl Rng, scale: f64) -> f64 {
+/// Draws a number from [−scale, scale).
+fn uniform_noise(random: &mut impl Rng, scale: f64) -> f64 {
     (2.0 * random.random::<f64>() - 1.0) * scale
 }
 
-fn over_tendons(physics: &Physics, hinges: &[f64]) -> PerTendon {
+fn tendon_values(physics: &Physics, hinges: &[f64]) -> PerTendon {
     physics.model().tendons.iter().map(|tendon: &Tendon| tendon.sum_over(hinges)).collect()
 }
 
-/// What is known of an episode before its first step.
-fn standing_info(config: &EnvironmentConfig, physics: &Physics) -> StepInfo {
+/// Returns the info before an episode's first step.
+fn reset_info(config: &EnvironmentConfig, physics: &Physics) -> StepInfo {
     let (position, centre) = (physics.position(), physics.centre_of_mass());
-    let [x_m, y_m] = task::place_m(config.task, [position[0], position[1]], [centre.x, centre.y]);
+    let [x_m, y_m] = task::info_position_m(config.task, [position[0], position[1]], [centre.x, centre.y]);
     StepInfo {
         x_position_m: x_m,
         y_position_m: y_m,
         distance_from_origin_m: x_m.hypot(y_m),
         torso_height_m: position[2],
-        tendon_length_rad: over_tendons(physics, physics.joint_angles()),
-        tendon_velocity_radps: over_tendons(physics, physics.joint_rates()),
+        tendon_length_rad: tendon_values(physics, physics.joint_angles()),
+        tendon_velocity_radps: tendon_values(physics, physics.joint_rates()),
         ..StepInfo::default()
     }
 }

@@ -144,8 +144,7 @@ pub enum StateError {
     /// A hinge is far outside its range.
     #[error(
         "position[{index}], the angle of hinge `{hinge}`, is {value_rad} rad, but must lie between {min_rad} rad and \
-         {max_rad} rad, or at most {} rad beyond",
-        crate::physics::HINGE_TOLERANCE_RAD
+         {max_rad} rad, or at most {tolerance_rad} rad beyond"
     )]
     Hinge {
         /// Which entry.
@@ -158,6 +157,8 @@ pub enum StateError {
         min_rad: f64,
         /// Upper end of its range (rad).
         max_rad: f64,
+        /// How far beyond its range it may be (rad).
+        tolerance_rad: f64,
     },
 }
 

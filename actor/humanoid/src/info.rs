@@ -1,11 +1,11 @@
-//! One control step in detail, under Gymnasium's names.
+//! Details of one control step, under Gymnasium's names.
 
 use std::fmt;
 
-use crate::config::Task;
+use crate::config::RewardTask;
 use crate::model::TENDONS_MAX;
 
-/// One number for each tendon of a model, without allocation.
+/// One number per tendon of a model, without allocation.
 #[derive(Clone, Copy, Default, PartialEq)]
 pub struct PerTendon {
     numbers: [f64; TENDONS_MAX],
@@ -13,7 +13,7 @@ pub struct PerTendon {
 }
 
 impl PerTendon {
-    /// The numbers.
+    /// Returns the numbers.
     #[must_use]
     pub fn as_slice(&self) -> &[f64] {
         &self.numbers[..self.count]
@@ -38,41 +38,41 @@ impl fmt::Debug for PerTendon {
     }
 }
 
-/// One control step in detail.
+/// Details of one control step.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct StepInfo {
-    /// Position along x (m): of the torso, or with [`Task::HumanoidV4`] of the whole body's centre of mass.
+    /// Position along x (m): of the torso, or with [`RewardTask::HumanoidV4`] of the whole humanoid's centre of mass.
     pub x_position_m: f64,
     /// Position along y (m), of the same point.
     pub y_position_m: f64,
     /// Horizontal distance of that point from the world's origin (m).
     pub distance_from_origin_m: f64,
-    /// Mean velocity of the whole body's centre of mass along x during the step (m/s).
+    /// Mean velocity of the whole humanoid's centre of mass along x during the step (m/s).
     pub x_velocity_mps: f64,
-    /// Mean velocity of the whole body's centre of mass along y during the step (m/s).
+    /// Mean velocity of the whole humanoid's centre of mass along y during the step (m/s).
     pub y_velocity_mps: f64,
     /// Length of each tendon (rad): weighted sum of hinge angles.
     pub tendon_length_rad: PerTendon,
     /// Velocity of each tendon (rad/s).
     pub tendon_velocity_radps: PerTendon,
-    /// Part of the reward paid for being healthy.
+    /// Reward for a healthy posture.
     pub reward_survive: f64,
-    /// Part of the reward paid for moving forward.
+    /// Reward for forward motion.
     pub reward_forward: f64,
-    /// Part of the reward charged for control (0 or negative).
+    /// Negative cost of the controls.
     pub reward_ctrl: f64,
-    /// Part of the reward charged for contact; always 0 with [`Task::HumanoidV4`].
+    /// Negative cost of contacts; always 0 with [`RewardTask::HumanoidV4`].
     pub reward_contact: f64,
-    /// Height of the torso (m). Gymnasium's info does not have it, and neither have the entries.
+    /// Height of the torso (m). Neither Gymnasium's info nor [`Self::entries`] has it.
     pub torso_height_m: f64,
 }
 
-/// Value of one entry of an info.
+/// Value of one entry of Gymnasium's `info`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum InfoValue<'a> {
     /// One number.
     Number(f64),
-    /// One number for each tendon.
+    /// One number per tendon.
     Numbers(&'a [f64]),
 }
 
@@ -86,7 +86,7 @@ const DISTANCE: Entry = ("distance_from_origin", |info| InfoValue::Number(info.d
 const X_VELOCITY: Entry = ("x_velocity", |info| InfoValue::Number(info.x_velocity_mps));
 const Y_VELOCITY: Entry = ("y_velocity", |info| InfoValue::Number(info.y_velocity_mps));
 
-/// `humanoid_v5.py`: what `step` returns; `reset` returns the first five.
+/// Entries that `step` of `humanoid_v5.py` returns; `reset` returns the first five.
 const V5: [Entry; 11] = [
     X_POSITION,
     Y_POSITION,
@@ -102,7 +102,7 @@ const V5: [Entry; 11] = [
 ];
 const V5_RESET: usize = 5;
 
-/// `humanoid_v4.py`: what `step` returns; `reset` returns nothing.
+/// Entries that `step` of `humanoid_v4.py` returns; `reset` returns none.
 const V4: [Entry; 9] = [
     ("reward_linvel", |info| InfoValue::Number(info.reward_forward)),
     ("reward_quadctrl", |info| InfoValue::Number(info.reward_ctrl)),
@@ -116,23 +116,23 @@ const V4: [Entry; 9] = [
 ];
 
 impl StepInfo {
-    /// What Gymnasium's environment of this task returns as `info` from `step`: its names, in its order.
-    pub fn entries(&self, task: Task) -> impl Iterator<Item = (&'static str, InfoValue<'_>)> {
-        self.told(match task {
-            Task::HumanoidV5 => &V5,
-            Task::HumanoidV4 => &V4,
+    /// Returns the `info` of Gymnasium's `step` for this task, in Gymnasium's order.
+    pub fn entries(&self, task: RewardTask) -> impl Iterator<Item = (&'static str, InfoValue<'_>)> {
+        self.select(match task {
+            RewardTask::HumanoidV5 => &V5,
+            RewardTask::HumanoidV4 => &V4,
         })
     }
 
-    /// What Gymnasium's environment of this task returns as `info` from `reset`.
-    pub fn reset_entries(&self, task: Task) -> impl Iterator<Item = (&'static str, InfoValue<'_>)> {
-        self.told(match task {
-            Task::HumanoidV5 => &V5[..V5_RESET],
-            Task::HumanoidV4 => &[],
+    /// Returns the `info` of Gymnasium's `reset` for this task.
+    pub fn reset_entries(&self, task: RewardTask) -> impl Iterator<Item = (&'static str, InfoValue<'_>)> {
+        self.select(match task {
+            RewardTask::HumanoidV5 => &V5[..V5_RESET],
+            RewardTask::HumanoidV4 => &[],
         })
     }
 
-    fn told(&self, entries: &'static [Entry]) -> impl Iterator<Item = (&'static str, InfoValue<'_>)> {
+    fn select(&self, entries: &'static [Entry]) -> impl Iterator<Item = (&'static str, InfoValue<'_>)> {
         entries.iter().map(|(name, value)| (*name, value(self)))
     }
 }
@@ -159,7 +159,7 @@ mod tests {
     }
 
     #[test]
-    fn v5_tells_what_gymnasium_tells() {
+    fn v5_entries_are_gymnasiums() {
         use InfoValue::{Number, Numbers};
         let info = info();
         let expected = [
@@ -175,14 +175,14 @@ mod tests {
             ("reward_ctrl", Number(12.0)),
             ("reward_contact", Number(13.0)),
         ];
-        assert_eq!(info.entries(Task::HumanoidV5).collect::<Vec<_>>(), expected);
-        assert_eq!(info.reset_entries(Task::HumanoidV5).collect::<Vec<_>>(), expected[..5]);
+        assert_eq!(info.entries(RewardTask::HumanoidV5).collect::<Vec<_>>(), expected);
+        assert_eq!(info.reset_entries(RewardTask::HumanoidV5).collect::<Vec<_>>(), expected[..5]);
     }
 
     #[test]
-    fn v4_has_names_of_its_own_and_tells_nothing_on_reset() {
+    fn v4_entries_are_gymnasiums_with_none_on_reset() {
         let info = info();
-        let names: Vec<_> = info.entries(Task::HumanoidV4).collect();
+        let names: Vec<_> = info.entries(RewardTask::HumanoidV4).collect();
         let number = |name| (name, InfoValue::Number(info.reward_forward));
         assert_eq!(names[0], number("reward_linvel"));
         assert_eq!(names[1], ("reward_quadctrl", InfoValue::Number(12.0)));
@@ -190,11 +190,11 @@ mod tests {
         assert_eq!(names[8], number("forward_reward"));
         let rest: Vec<_> = names[3..8].iter().map(|(name, _)| *name).collect();
         assert_eq!(rest, ["x_position", "y_position", "distance_from_origin", "x_velocity", "y_velocity"]);
-        assert_eq!(info.reset_entries(Task::HumanoidV4).count(), 0);
+        assert_eq!(info.reset_entries(RewardTask::HumanoidV4).count(), 0);
     }
 
     #[test]
-    fn more_numbers_than_tendons_are_cut_off() {
+    fn per_tendon_ignores_excess_numbers() {
         let many: PerTendon = (0..100).map(f64::from).collect();
         assert_eq!(many.as_slice().len(), TENDONS_MAX);
         assert_eq!(PerTendon::default().as_slice(), &[] as &[f64]);

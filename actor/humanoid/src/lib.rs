@@ -1,19 +1,23 @@
 //! Treadmill: the humanoid environment.
 //!
-//! A humanoid on a floor, simulated by Rapier with the tasks of Gymnasium's Humanoid-v5 and -v4: the built-in one with 17
-//! joints, or any that an MJCF text describes.
-//! No Zenoh, no tokio, no Candle: evaluation, benchmarks and the Python package use this crate too.
+//! Rapier simulates a humanoid on a floor with the tasks of Gymnasium's Humanoid-v5 and -v4: the built-in one with 17
+//! joints, or any that an MJCF text describes. This crate depends on neither Zenoh, tokio nor Candle, so that evaluation,
+//! benchmarks and the Python package can use it too.
 //!
 //! # Layout
-//! - [`environment`]: owns time. Episodes, resets, faults; the entry point.
+//! - [`environment`]: the entry point; episodes, resets, faults.
 //! - [`task`]: reward and end of an episode, as pure functions.
 //! - [`info`]: a step in detail, under Gymnasium's names.
-//! - [`observation`]: what the policy sees.
-//! - [`physics`]: named quantities of the simulated body; the only place in the project that names Rapier.
+//! - [`observation`]: numbers that the policy observes.
+//! - [`physics`]: named quantities of the simulated humanoid; the only place in the project that names Rapier.
 //! - [`model`]: MJCF text → bodies, hinge chains, motors.
-//! - `dynamics`: how an articulated body moves between contacts.
-//! - [`randomisation`]: what differs from episode to episode, so that a policy depends on none of it.
-//! - [`config`], [`error`]: what can be set, and what is refused.
+//! - `dynamics`: motion of the articulated body between contacts.
+//! - `randomisation`: draws each episode's model, sensor noise, delays and pushes from its seed.
+//! - [`config`], [`error`]: settings and errors.
+//!
+//! # Links and bodies
+//! A *link* is a `<body>` of the model text (a link in URDF). A *body* is a rigid body: one link, or several that are welded
+//! together because no joint lies between them.
 
 pub mod config;
 pub mod environment;
@@ -22,17 +26,16 @@ pub mod info;
 pub mod model;
 pub mod observation;
 pub mod physics;
-pub mod randomisation;
 pub mod task;
 
 mod dynamics;
+mod randomisation;
 
-pub use config::{CONTROL_STEP_S, EnvironmentConfig, ObservationKind, Task};
+pub use config::{CONTROL_STEP_S, EnvironmentConfig, ObservationKind, PhysicsSettings, Randomisation, RewardTask};
 pub use environment::{Environment, EnvironmentSnapshot, EpisodeState};
 pub use error::{InputError, ModelError, SnapshotError, StateError};
 pub use info::{InfoValue, StepInfo};
 pub use model::{HUMANOID_XML, Model, mirror::Mirror, read_model_file};
 pub use observation::{OBSERVATION_SIZE_COMPACT, Observation};
 pub use physics::{ContactForce, JointQuality, Physics, PhysicsFault, PhysicsSnapshot, Variation};
-pub use randomisation::Randomisation;
-pub use task::Step;
+pub use task::StepOutcome;

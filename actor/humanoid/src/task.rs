@@ -1,13 +1,13 @@
-//! The tasks of Humanoid-v5 and -v4: what a step is worth and when an episode is over. Pure functions, no state.
+//! Reward and termination of Humanoid-v5 and -v4, as pure functions.
 //!
-//! Formulas are those of Gymnasium's `humanoid_v5.py` and `humanoid_v4.py`. They differ in three points: v4 charges
-//! nothing for contact; it pays for health on every step while unhealthy steps end the episode, so also on the last one;
-//! and its info tells where the centre of mass is, and not the torso.
+//! Formulas are those of Gymnasium's `humanoid_v5.py` and `humanoid_v4.py`. Version 4 differs in three points: it has no
+//! contact cost; if unhealthy steps end the episode, it pays for health on every step, including the last; its info has the
+//! position of the centre of mass instead of the torso's.
 
-use crate::config::{CONTROL_STEP_S, EnvironmentConfig, Task};
+use crate::config::{CONTROL_STEP_S, EnvironmentConfig, RewardTask};
 use crate::info::{PerTendon, StepInfo};
 
-/// What the task needs to know about one control step.
+/// Quantities of one control step that reward and termination depend on.
 #[derive(Clone, Copy, Debug)]
 pub struct Transition<'a> {
     /// Whole-body centre of mass before the step: x and y (m).
@@ -16,7 +16,7 @@ pub struct Transition<'a> {
     pub centre_after_m: [f64; 2],
     /// Torso position after the step: x, y, z (m).
     pub torso_m: [f64; 3],
-    /// The controls that acted, one per motor, already clamped.
+    /// Clamped action, one control per motor.
     pub controls: &'a [f32],
     /// Sum of squared contact forces (N²) and moments ((N·m)²) over all links.
     pub squared_contact_wrenches: f64,
@@ -30,67 +30,67 @@ pub struct Transition<'a> {
 
 /// Result of one control step.
 #[derive(Clone, Copy, Debug)]
-pub struct Step {
+pub struct StepOutcome {
     /// Reward of the step.
     pub reward: f32,
-    /// The episode ended, and the state it ended in has no future worth.
+    /// Whether the task ended the episode: the value of its last state is 0.
     pub terminated: bool,
-    /// The episode was cut off by its time limit; the state it was cut in does have a future. Never with `terminated`.
+    /// Whether the time limit ended the episode: its last state keeps its value. Never together with `terminated`.
     pub truncated: bool,
-    /// The physics or the action was not finite; implies `terminated`.
+    /// Whether the physics or the action was not finite; implies `terminated`.
     pub fault: bool,
-    /// The step in detail.
+    /// Details of the step.
     pub info: StepInfo,
 }
 
-/// Whether a torso height (m) is healthy: strictly between the two bounds.
+/// Returns whether a torso height (m) is healthy: strictly between the two bounds.
 #[must_use]
 pub fn is_healthy(config: &EnvironmentConfig, torso_height_m: f64) -> bool {
     let [low, high] = config.healthy_z_range;
     low < torso_height_m && torso_height_m < high
 }
 
-/// Cost of a control vector: weight × Σ control².
+/// Returns the cost of a control vector: weight × Σ control².
 #[must_use]
 pub fn control_cost(config: &EnvironmentConfig, controls: &[f32]) -> f64 {
     let sum: f64 = controls.iter().map(|&control| f64::from(control).powi(2)).sum();
     config.ctrl_cost_weight * sum
 }
 
-/// Cost of the contact forces of a step: weight × Σ (force² + moment²), brought into its range; 0 in Humanoid-v4.
+/// Returns the cost of a step's contact forces: weight × Σ (force² + moment²), clamped to its range; 0 in Humanoid-v4.
 #[must_use]
 pub fn contact_cost(config: &EnvironmentConfig, squared_contact_wrenches: f64) -> f64 {
     let [low, high] = config.contact_cost_range;
     match config.task {
-        Task::HumanoidV5 => (config.contact_cost_weight * squared_contact_wrenches).max(low).min(high),
-        Task::HumanoidV4 => 0.0,
+        RewardTask::HumanoidV5 => (config.contact_cost_weight * squared_contact_wrenches).max(low).min(high),
+        RewardTask::HumanoidV4 => 0.0,
     }
 }
 
-/// Reward for the posture that a step ended with.
+/// Returns the reward for the posture at the end of a step.
 #[must_use]
 pub fn health_reward(config: &EnvironmentConfig, healthy: bool) -> f64 {
-    let paid = match config.task {
-        Task::HumanoidV5 => healthy,
-        Task::HumanoidV4 => healthy || config.terminate_when_unhealthy,
+    let rewarded = match config.task {
+        RewardTask::HumanoidV5 => healthy,
+        RewardTask::HumanoidV4 => healthy || config.terminate_when_unhealthy,
     };
-    if paid { config.healthy_reward } else { 0.0 }
+    if rewarded { config.healthy_reward } else { 0.0 }
 }
 
-/// Where the info says the body is: x and y (m) of the torso, or in Humanoid-v4 of the centre of mass.
+/// Returns the position in the info: x and y (m) of the torso, or in Humanoid-v4 of the centre of mass.
 #[must_use]
-pub fn place_m(task: Task, torso_m: [f64; 2], centre_m: [f64; 2]) -> [f64; 2] {
+pub fn info_position_m(task: RewardTask, torso_m: [f64; 2], centre_m: [f64; 2]) -> [f64; 2] {
     match task {
-        Task::HumanoidV5 => torso_m,
-        Task::HumanoidV4 => centre_m,
+        RewardTask::HumanoidV5 => torso_m,
+        RewardTask::HumanoidV4 => centre_m,
     }
 }
 
-/// Judges one control step.
+/// Computes reward, termination and info of one control step.
 #[must_use]
-pub fn judge(config: &EnvironmentConfig, transition: &Transition<'_>) -> Step {
+pub fn evaluate_step(config: &EnvironmentConfig, transition: &Transition<'_>) -> StepOutcome {
     let [torso_x_m, torso_y_m, height_m] = transition.torso_m;
-    let [x_m, y_m] = place_m(config.task, [torso_x_m, torso_y_m], transition.centre_after_m);
+    let [x_m, y_m] = info_position_m(config.task, [torso_x_m, torso_y_m], transition.centre_after_m);
     let [x_velocity_mps, y_velocity_mps] =
         [0, 1].map(|axis| (transition.centre_after_m[axis] - transition.centre_before_m[axis]) / CONTROL_STEP_S);
     let healthy = is_healthy(config, height_m);
@@ -110,7 +110,7 @@ pub fn judge(config: &EnvironmentConfig, transition: &Transition<'_>) -> Step {
     };
     let terminated = config.terminate_when_unhealthy && !healthy;
     let out_of_time = config.max_episode_steps > 0 && transition.episode_steps >= config.max_episode_steps;
-    Step {
+    StepOutcome {
         reward: (info.reward_survive + info.reward_forward + info.reward_ctrl + info.reward_contact) as f32,
         terminated,
         truncated: out_of_time && !terminated,
@@ -139,8 +139,8 @@ mod tests {
     }
 
     #[test]
-    fn reward_is_the_sum_worked_out_by_hand() {
-        let step = judge(&EnvironmentConfig::default(), &transition(1.4, 1));
+    fn reward_matches_the_sum_computed_by_hand() {
+        let step = evaluate_step(&EnvironmentConfig::default(), &transition(1.4, 1));
         // 0.03 m in 0.015 s = 2 m/s; × 1.25 = 2.5. 0.1 × (0.25 + 0.0625) = 0.03125. 5e-7 × 2e6 = 1.
         assert!((step.info.x_velocity_mps - 2.0).abs() < 1e-9);
         assert!((step.info.y_velocity_mps + 1.0).abs() < 1e-9);
@@ -153,9 +153,9 @@ mod tests {
     }
 
     #[test]
-    fn the_step_that_ends_unhealthy_is_not_paid_for_health() {
+    fn v5_does_not_pay_for_health_on_an_unhealthy_last_step() {
         for height in [1.0, 0.9, 2.0, 2.5] {
-            let step = judge(&EnvironmentConfig::default(), &transition(height, 7));
+            let step = evaluate_step(&EnvironmentConfig::default(), &transition(height, 7));
             assert!(step.terminated && !step.truncated, "height {height}");
             assert_eq!(step.info.reward_survive, 0.0);
             assert!((f64::from(step.reward) - 1.468_75).abs() < 1e-6);
@@ -163,33 +163,33 @@ mod tests {
     }
 
     #[test]
-    fn without_termination_health_still_decides_the_pay() {
+    fn without_termination_an_unhealthy_step_has_no_health_reward() {
         let config = EnvironmentConfig { terminate_when_unhealthy: false, ..EnvironmentConfig::default() };
-        let step = judge(&config, &transition(0.5, 7));
+        let step = evaluate_step(&config, &transition(0.5, 7));
         assert!(!step.terminated);
         assert_eq!(step.info.reward_survive, 0.0);
     }
 
     #[test]
-    fn time_runs_out_on_the_last_step_and_not_before() {
+    fn the_time_limit_truncates_the_last_step_and_none_before() {
         let config = EnvironmentConfig { max_episode_steps: 10, ..EnvironmentConfig::default() };
-        assert!(!judge(&config, &transition(1.4, 9)).truncated);
-        let last = judge(&config, &transition(1.4, 10));
+        assert!(!evaluate_step(&config, &transition(1.4, 9)).truncated);
+        let last = evaluate_step(&config, &transition(1.4, 10));
         assert!(last.truncated && !last.terminated);
         assert_eq!(last.info.reward_survive, 5.0);
     }
 
     #[test]
-    fn falling_on_the_last_step_is_a_fall_and_not_a_time_limit() {
+    fn a_fall_on_the_last_step_terminates_and_does_not_truncate() {
         let config = EnvironmentConfig { max_episode_steps: 10, ..EnvironmentConfig::default() };
-        let step = judge(&config, &transition(0.9, 10));
+        let step = evaluate_step(&config, &transition(0.9, 10));
         assert!(step.terminated && !step.truncated);
     }
 
     #[test]
     fn no_time_limit_means_no_truncation() {
         let config = EnvironmentConfig { max_episode_steps: 0, ..EnvironmentConfig::default() };
-        assert!(!judge(&config, &transition(1.4, u32::MAX)).truncated);
+        assert!(!evaluate_step(&config, &transition(1.4, u32::MAX)).truncated);
     }
 
     #[test]
@@ -207,9 +207,9 @@ mod tests {
     }
 
     #[test]
-    fn v4_pays_for_health_on_the_last_step_and_charges_nothing_for_contact() {
-        let config = EnvironmentConfig { task: Task::HumanoidV4, ..EnvironmentConfig::default() };
-        let step = judge(&config, &transition(0.9, 7));
+    fn v4_pays_for_health_on_the_last_step_and_has_no_contact_cost() {
+        let config = EnvironmentConfig { task: RewardTask::HumanoidV4, ..EnvironmentConfig::default() };
+        let step = evaluate_step(&config, &transition(0.9, 7));
         assert!(step.terminated);
         assert_eq!(step.info.reward_survive, 5.0);
         assert_eq!(step.info.reward_contact, 0.0);
@@ -217,23 +217,24 @@ mod tests {
         assert!((f64::from(step.reward) - 7.468_75).abs() < 1e-6);
 
         let lenient = EnvironmentConfig { terminate_when_unhealthy: false, ..config };
-        assert_eq!(judge(&lenient, &transition(0.9, 7)).info.reward_survive, 0.0);
-        assert_eq!(judge(&lenient, &transition(1.4, 7)).info.reward_survive, 5.0);
+        assert_eq!(evaluate_step(&lenient, &transition(0.9, 7)).info.reward_survive, 0.0);
+        assert_eq!(evaluate_step(&lenient, &transition(1.4, 7)).info.reward_survive, 5.0);
     }
 
     #[test]
-    fn v5_tells_where_the_torso_is_and_v4_where_the_centre_of_mass_is() {
-        let place = |task| {
-            let info = judge(&EnvironmentConfig { task, ..EnvironmentConfig::default() }, &transition(1.4, 7)).info;
+    fn v5_reports_the_torso_and_v4_the_centre_of_mass() {
+        let position = |task| {
+            let info =
+                evaluate_step(&EnvironmentConfig { task, ..EnvironmentConfig::default() }, &transition(1.4, 7)).info;
             [info.x_position_m, info.y_position_m, info.distance_from_origin_m]
         };
-        assert_eq!(place(Task::HumanoidV5), [3.0, 4.0, 5.0]);
-        assert_eq!(place(Task::HumanoidV4), [1.03, 1.985, 1.03f64.hypot(1.985)]);
+        assert_eq!(position(RewardTask::HumanoidV5), [3.0, 4.0, 5.0]);
+        assert_eq!(position(RewardTask::HumanoidV4), [1.03, 1.985, 1.03f64.hypot(1.985)]);
     }
 
     #[test]
-    fn tendons_are_passed_on() {
-        let info = judge(&EnvironmentConfig::default(), &transition(1.4, 7)).info;
+    fn info_has_the_tendons() {
+        let info = evaluate_step(&EnvironmentConfig::default(), &transition(1.4, 7)).info;
         assert_eq!(info.tendon_length_rad.as_slice(), [0.5, -0.5]);
         assert_eq!(info.tendon_velocity_radps.as_slice(), [1.5, -1.5]);
     }

@@ -8,7 +8,7 @@ use std::{
 };
 
 use treadmill_humanoid::{
-    Environment, EnvironmentConfig, HUMANOID_XML, ObservationKind, Randomisation, Task, Variation,
+    Environment, EnvironmentConfig, HUMANOID_XML, ObservationKind, Randomisation, RewardTask, Variation,
 };
 
 struct Counting;
@@ -98,7 +98,7 @@ fn whole(randomisation: Randomisation) -> [u64; 2] {
     let steps = counted(|| {
         for step in 0..STEPS {
             let step = environment.step(&action(step), &mut observation);
-            assert!(!step.fault && step.info.entries(Task::HumanoidV5).count() == 11);
+            assert!(!step.fault && step.info.entries(RewardTask::HumanoidV5).count() == 11);
         }
     });
     [reset, steps]

@@ -2,7 +2,7 @@
 
 use numpy::{PyArray1, PyArray2, ndarray::Array2};
 use pyo3::{prelude::*, types::PyDict};
-use treadmill_humanoid::{InfoValue, StepInfo, Task};
+use treadmill_humanoid::{InfoValue, RewardTask, StepInfo};
 
 /// Gymnasium has no name for a step that could not be simulated; the key is there on such steps only.
 pub const FAULT: &str = "fault";
@@ -17,7 +17,7 @@ pub enum Moment {
 }
 
 /// The info of one environment.
-pub fn dictionary<'py>(py: Python<'py>, info: &StepInfo, task: Task, moment: Moment) -> PyResult<Bound<'py, PyDict>> {
+pub fn dictionary<'py>(py: Python<'py>, info: &StepInfo, task: RewardTask, moment: Moment) -> PyResult<Bound<'py, PyDict>> {
     let told = PyDict::new(py);
     for (name, value) in info.entries(task).take(count(info, task, moment)) {
         match value {
@@ -30,7 +30,7 @@ pub fn dictionary<'py>(py: Python<'py>, info: &StepInfo, task: Task, moment: Mom
 
 /// The infos of several environments: for each name an array with a row per environment, and under `_name` which rows are
 /// told; those that are not hold zeros. `None` stands for an environment that nothing is told of.
-pub fn columns<'py>(py: Python<'py>, rows: &[Option<(&StepInfo, Moment)>], task: Task) -> PyResult<Bound<'py, PyDict>> {
+pub fn columns<'py>(py: Python<'py>, rows: &[Option<(&StepInfo, Moment)>], task: RewardTask) -> PyResult<Bound<'py, PyDict>> {
     let told = PyDict::new(py);
     // What names there are, and of how many numbers each, is the same for all.
     let Some((any, _)) = rows.iter().flatten().next() else { return Ok(told) };
@@ -66,7 +66,7 @@ pub fn columns<'py>(py: Python<'py>, rows: &[Option<(&StepInfo, Moment)>], task:
 }
 
 /// How many of the entries of a step are told; those of a reset are the first ones.
-fn count(info: &StepInfo, task: Task, moment: Moment) -> usize {
+fn count(info: &StepInfo, task: RewardTask, moment: Moment) -> usize {
     match moment {
         Moment::Reset => info.reset_entries(task).count(),
         Moment::Step => usize::MAX,

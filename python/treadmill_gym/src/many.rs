@@ -178,7 +178,7 @@ impl Humanoids {
         self.places[0].observation.len()
     }
 
-    fn task(&self) -> treadmill_humanoid::Task {
+    fn task(&self) -> treadmill_humanoid::RewardTask {
         self.places[0].environment.config().task
     }
 }

@@ -1,50 +1,50 @@
-//! Contact impulses in joint coordinates: from a first solution to what the body as a whole answers with.
+//! Contact impulses in joint coordinates, refined from a first guess by projected Gauss-Seidel sweeps.
 //!
-//! Contacts are as soft as [`super::softness`] says; friction lets sliding decay at the same pace, within a circular cone.
-//! The impulses are found by projected Gauss-Seidel sweeps.
+//! Contacts are soft (see [`super::softness`]). Friction makes sliding decay with the same time constant, within a circular
+//! cone.
 
 use nalgebra::Vector3;
 
 use super::limits::Limits;
 use super::mass_matrix::MassMatrix;
 use super::posture::Posture;
-use super::rows::{add, dot, stride};
-use super::softness::{IMPEDANCE, settle, slide};
+use super::rows::{add_scaled, dot, stride};
+use super::softness::{IMPEDANCE, damped_rate, sliding_rate};
 use super::spatial::{Force, Motion};
 use super::tree::{ROOT_DOFS, Tree};
 
 /// Sweeps over all contacts and limits.
 const SWEEPS: usize = 12;
-/// Contacts considered at once; a humanoid lying on the floor has about twenty.
+/// Upper bound of the contacts per step; a humanoid lying on the floor has about twenty.
 const CONTACTS_MAX: usize = 64;
-/// A direction that answers less than this to an impulse (1/kg) is one in which nothing can move.
+/// Response to an impulse (1/kg) below which a direction counts as immovable.
 const RESPONSE_MIN: f64 = 1e-9;
-/// Directions of a contact: normal, and two across.
+/// Directions of a contact: the normal and two tangents.
 const DIRECTIONS: usize = 3;
 
-/// One point at which two bodies, or a body and the floor, touch or are about to.
+/// Point at which two bodies, or a body and the floor, touch or are about to.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct ContactPoint {
     /// The bodies; `None` is the floor.
     pub(crate) bodies: [Option<usize>; 2],
-    /// The links that touch, in the same order: what the contact is told under. They do not matter to the motion.
+    /// Their links, in the same order; for reports only.
     pub(crate) links: [Option<usize>; 2],
-    /// Where (m, relative to O).
-    pub(crate) place_m: Vector3<f64>,
+    /// Relative to O (m).
+    pub(crate) position_m: Vector3<f64>,
     /// Unit vector from the first body to the second.
     pub(crate) normal: Vector3<f64>,
     /// Distance between the surfaces (m); negative where they overlap.
     pub(crate) gap_m: f64,
     pub(crate) friction: f64,
-    /// Impulse on the second body (N·s): a guess before, the solution afterwards.
+    /// Impulse on the second body (N·s): first a guess, then the solution.
     pub(crate) impulse_ns: Vector3<f64>,
 }
 
-/// The contacts of one step, and workspace to solve them.
+/// Contacts of one step, and workspace of the solver.
 #[derive(Clone, Debug)]
 pub(crate) struct Contacts {
     pub(crate) points: Vec<ContactPoint>,
-    solved: Vec<Solved>,
+    constraints: Vec<ContactConstraint>,
     /// `[contact][direction][stride]`: whitened rows, see [`super::mass_matrix`].
     rows: Vec<f64>,
     /// Velocity at the end of the step, whitened.
@@ -53,11 +53,11 @@ pub(crate) struct Contacts {
 }
 
 #[derive(Clone, Copy, Debug, Default)]
-struct Solved {
+struct ContactConstraint {
     directions: [Vector3<f64>; DIRECTIONS],
     impulses: [f64; DIRECTIONS],
     targets: [f64; DIRECTIONS],
-    /// Own response of each direction, with the contact's softness.
+    /// Response of each direction to its own impulse, plus its softness.
     softened: [f64; DIRECTIONS],
     softness: [f64; DIRECTIONS],
 }
@@ -67,24 +67,24 @@ impl Contacts {
         let (stride, still) = (stride(tree.dofs()), vec![Motion::default(); tree.nodes.len()]);
         Self {
             points: Vec::with_capacity(CONTACTS_MAX),
-            solved: Vec::with_capacity(CONTACTS_MAX),
+            constraints: Vec::with_capacity(CONTACTS_MAX),
             rows: vec![0.0; CONTACTS_MAX * DIRECTIONS * stride],
             whitened: vec![0.0; stride],
             velocities: [still.clone(), still],
         }
     }
 
-    /// Adds a point to this step's; beyond a bound that no posture of a body with a few parts reaches, it is left out.
+    /// Adds a point; discards it when there are already [`CONTACTS_MAX`].
     pub(crate) fn push(&mut self, point: ContactPoint) {
         if self.points.len() < CONTACTS_MAX {
             self.points.push(point);
         }
     }
 
-    /// Changes the velocity at the end of a step so that contacts and limits act on it.
+    /// Applies contacts and limits to the velocity at the end of a step; returns whether any contact was within reach.
     ///
-    /// `before` is the velocity at its start, `after` that of the flight. Returns whether anything was in reach.
-    #[expect(clippy::too_many_arguments, reason = "the state of a step is of many parts")]
+    /// `before` is the velocity at the start of the step, `after` that at the end of the flight.
+    #[expect(clippy::too_many_arguments, reason = "the state of a step has many parts")]
     pub(crate) fn solve(
         &mut self,
         tree: &Tree,
@@ -103,16 +103,17 @@ impl Contacts {
         if self.points.is_empty() {
             return false;
         }
-        self.solved.clear();
+        self.constraints.clear();
         for index in 0..self.points.len() {
             self.prepare(tree, posture, matrix, index, step_s);
         }
         let dofs = tree.dofs();
         self.whitened[..dofs].copy_from_slice(after);
         matrix.whiten(tree, &mut self.whitened);
-        for (solved, rows) in self.solved.iter().zip(self.rows.chunks_exact(DIRECTIONS * self.whitened.len())) {
-            for (impulse, row) in solved.impulses.iter().zip(rows.chunks_exact(self.whitened.len())) {
-                add(&mut self.whitened, row, *impulse);
+        for (constraint, rows) in self.constraints.iter().zip(self.rows.chunks_exact(DIRECTIONS * self.whitened.len()))
+        {
+            for (impulse, row) in constraint.impulses.iter().zip(rows.chunks_exact(self.whitened.len())) {
+                add_scaled(&mut self.whitened, row, *impulse);
             }
         }
         after.copy_from_slice(&self.whitened[..dofs]);
@@ -124,17 +125,18 @@ impl Contacts {
         }
         matrix.unwhiten(tree, &mut self.whitened);
         after.copy_from_slice(&self.whitened[..dofs]);
-        for (point, solved) in self.points.iter_mut().zip(&self.solved) {
-            point.impulse_ns = solved.directions.iter().zip(solved.impulses).map(|(d, impulse)| d * impulse).sum();
+        for (point, constraint) in self.points.iter_mut().zip(&self.constraints) {
+            point.impulse_ns =
+                constraint.directions.iter().zip(constraint.impulses).map(|(d, impulse)| d * impulse).sum();
         }
         true
     }
 
-    /// Momentum that the floor gave, with the moment about a place (m, relative to O).
+    /// Returns the floor's total impulse, with the moment about a point (m, relative to O).
     pub(crate) fn momentum(&self, about_m: &Vector3<f64>) -> Force {
         let mut sum = Force::default();
         for point in &self.points {
-            let given = Force::at(&(point.place_m - about_m), point.impulse_ns, Vector3::zeros());
+            let given = Force::at(&(point.position_m - about_m), point.impulse_ns, Vector3::zeros());
             match point.bodies {
                 [None, Some(_)] => sum += given,
                 [Some(_), None] => sum -= given,
@@ -144,7 +146,7 @@ impl Contacts {
         sum
     }
 
-    /// Keeps the points that are reached within the step.
+    /// Keeps the points at which the surfaces meet within the step, or that have a guess.
     fn select(&mut self, step_s: f64) {
         let [at_start, at_end] = &self.velocities;
         self.points.retain(|point| {
@@ -157,84 +159,85 @@ impl Contacts {
         let stride = self.whitened.len();
         let point = &self.points[index];
         let rows = &mut self.rows[index * DIRECTIONS * stride..][..DIRECTIONS * stride];
-        let mut solved = Solved { directions: directions(&point.normal), ..Solved::default() };
-        write_jacobians(tree, posture, point, &solved.directions, rows);
+        let mut constraint =
+            ContactConstraint { directions: directions(&point.normal), ..ContactConstraint::default() };
+        write_jacobians(tree, posture, point, &constraint.directions, rows);
         let rate_mps = separation(point, &self.velocities[0]);
         for (direction, row) in rows.chunks_exact_mut(stride).enumerate() {
             matrix.whiten_row(tree, row);
             let own = dot(row, row);
             if own <= RESPONSE_MIN {
-                // No joint moves the bodies against each other in this direction.
+                // No joint moves the bodies relative to each other in this direction.
                 row.fill(0.0);
-                solved.softened[direction] = f64::INFINITY;
+                constraint.softened[direction] = f64::INFINITY;
                 continue;
             }
-            solved.softness[direction] = own * (1.0 - IMPEDANCE) / IMPEDANCE;
-            solved.softened[direction] = own + solved.softness[direction];
-            solved.impulses[direction] = solved.directions[direction].dot(&point.impulse_ns);
-            let rate = solved.directions[direction].dot(&rate_mps);
-            solved.targets[direction] =
-                if direction == 0 { approach(rate, point.gap_m, step_s) } else { slide(rate, step_s) };
+            constraint.softness[direction] = own * (1.0 - IMPEDANCE) / IMPEDANCE;
+            constraint.softened[direction] = own + constraint.softness[direction];
+            constraint.impulses[direction] = constraint.directions[direction].dot(&point.impulse_ns);
+            let rate = constraint.directions[direction].dot(&rate_mps);
+            constraint.targets[direction] =
+                if direction == 0 { target_rate(rate, point.gap_m, step_s) } else { sliding_rate(rate, step_s) };
         }
-        self.solved.push(solved);
+        self.constraints.push(constraint);
     }
 
     fn sweep(&mut self) {
         let stride = self.whitened.len();
         let velocity = &mut self.whitened[..];
-        for ((rows, solved), point) in
-            self.rows.chunks_exact(DIRECTIONS * stride).zip(&mut self.solved).zip(&self.points)
+        for ((rows, constraint), point) in
+            self.rows.chunks_exact(DIRECTIONS * stride).zip(&mut self.constraints).zip(&self.points)
         {
             let row = |direction: usize| &rows[direction * stride..][..stride];
-            let wanted = |solved: &Solved, direction: usize, velocity: &[f64]| {
-                let missing = solved.targets[direction]
+            let updated = |constraint: &ContactConstraint, direction: usize, velocity: &[f64]| {
+                let missing = constraint.targets[direction]
                     - dot(row(direction), velocity)
-                    - solved.softness[direction] * solved.impulses[direction];
-                solved.impulses[direction] + missing / solved.softened[direction]
+                    - constraint.softness[direction] * constraint.impulses[direction];
+                constraint.impulses[direction] + missing / constraint.softened[direction]
             };
-            let normal = wanted(solved, 0, velocity).max(0.0);
-            add(velocity, row(0), normal - solved.impulses[0]);
-            solved.impulses[0] = normal;
-            let mut across = [wanted(solved, 1, velocity), wanted(solved, 2, velocity)];
-            let size = (across[0] * across[0] + across[1] * across[1]).sqrt();
-            let most = point.friction * normal;
-            if size > most {
-                across = across.map(|part| if size > 0.0 { part * most / size } else { 0.0 });
+            let normal = updated(constraint, 0, velocity).max(0.0);
+            add_scaled(velocity, row(0), normal - constraint.impulses[0]);
+            constraint.impulses[0] = normal;
+            let mut tangential = [updated(constraint, 1, velocity), updated(constraint, 2, velocity)];
+            let size = (tangential[0] * tangential[0] + tangential[1] * tangential[1]).sqrt();
+            let size_max = point.friction * normal;
+            if size > size_max {
+                tangential = tangential.map(|part| if size > 0.0 { part * size_max / size } else { 0.0 });
             }
-            for (direction, impulse) in [1, 2].into_iter().zip(across) {
-                add(velocity, row(direction), impulse - solved.impulses[direction]);
-                solved.impulses[direction] = impulse;
+            for (direction, impulse) in [1, 2].into_iter().zip(tangential) {
+                add_scaled(velocity, row(direction), impulse - constraint.impulses[direction]);
+                constraint.impulses[direction] = impulse;
             }
         }
     }
 }
 
-/// Velocity (m/s) with which the second body's point moves away from the first one's.
+/// Returns the velocity of the second body's point relative to the first one's (m/s).
 fn separation(point: &ContactPoint, velocities: &[Motion]) -> Vector3<f64> {
     let [first, second] =
-        point.bodies.map(|body| body.map_or(Vector3::zeros(), |body| velocities[body].at(&point.place_m)));
+        point.bodies.map(|body| body.map_or(Vector3::zeros(), |body| velocities[body].at(&point.position_m)));
     second - first
 }
 
-/// Rate of separation (m/s) that a contact aims at.
-fn approach(rate_mps: f64, gap_m: f64, step_s: f64) -> f64 {
+/// Returns a contact's target rate of separation (m/s).
+fn target_rate(rate_mps: f64, gap_m: f64, step_s: f64) -> f64 {
     if gap_m <= 0.0 {
-        return settle(rate_mps, gap_m, step_s);
+        return damped_rate(rate_mps, gap_m, step_s);
     }
-    // Only the part of the step after the surfaces have met counts.
+    // The contact acts only after the surfaces have met.
     let end_m = gap_m + step_s * rate_mps;
     let active_s = if end_m < 0.0 { step_s * end_m / (end_m - gap_m) } else { 0.0 };
-    settle(rate_mps, 0.0, active_s)
+    damped_rate(rate_mps, 0.0, active_s)
 }
 
-/// The normal and two unit vectors across it.
+/// Returns the normal and two unit vectors perpendicular to it.
 fn directions(normal: &Vector3<f64>) -> [Vector3<f64>; DIRECTIONS] {
     let along = if normal.z.abs() < 0.7 { Vector3::z() } else { Vector3::x() };
     let first = (along - normal * normal.dot(&along)).normalize();
     [*normal, first, normal.cross(&first)]
 }
 
-/// Writes rates of separation per rate of each degree of freedom, a row for each direction.
+/// Writes the rates of separation per rate of each degree of freedom, a row for each direction.
 fn write_jacobians(
     tree: &Tree,
     posture: &Posture,
@@ -247,14 +250,14 @@ fn write_jacobians(
     for (body, sign) in point.bodies.iter().zip([-1.0, 1.0]) {
         let Some(body) = body else { continue };
         for dof in tree.path_of_body(*body) {
-            let moved = posture.axes[*dof as usize].at(&point.place_m) * sign;
+            let moved = posture.axes[*dof as usize].at(&point.position_m) * sign;
             for (row, direction) in directions.iter().enumerate() {
                 rows[row * stride + *dof as usize] += moved.dot(direction);
             }
         }
     }
     if point.bodies.iter().all(Option::is_some) {
-        // Contacts within the body do not move it as a whole; rounding must not either.
+        // Contacts between two bodies do not move the humanoid as a whole; neither must rounding.
         for row in rows.chunks_exact_mut(stride) {
             row[..ROOT_DOFS].fill(0.0);
         }

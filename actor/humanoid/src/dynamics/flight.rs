@@ -1,8 +1,8 @@
-//! The body between contacts: motors, springs, friction, rotors, gravity, gyroscopic forces, limits.
+//! Motion without contacts: motors, springs, friction, rotors, gravity, gyroscopic forces, limits.
 //!
-//! The implicit midpoint rule, of second order: forces are those of the step's middle. Spring and friction of the
-//! hinges enter the matrix, so that the step is stable however stiff they are; gyroscopic forces are found by one
-//! fixed-point pass. Contacts then change the velocity at the end ([`Flight::touch_down`]).
+//! The integrator is the implicit midpoint rule, of second order: forces are those of the step's middle. The hinges' springs
+//! and friction enter the matrix, so that the step is stable at any stiffness. One fixed-point pass finds the gyroscopic
+//! forces. Contacts then change the final velocity ([`Flight::solve_constraints`]).
 
 use nalgebra::Vector3;
 
@@ -14,22 +14,22 @@ use super::posture::{Posture, integrate};
 use super::spatial::{Force, Motion};
 use super::tree::{ROOT_DOFS, ROOT_POSITIONS, Tree};
 
-/// Steps that a flight is made of: two make it as exact as MuJoCo's implicit integrators at 3 ms.
-const LEGS: u32 = 2;
+/// Integration steps per flight: two are as accurate as MuJoCo's implicit integrators at 3 ms.
+const HALF_STEPS: u32 = 2;
 
-/// Workspace and results of a flight.
+/// Results and workspace of a flight.
 #[derive(Clone, Debug)]
 pub(crate) struct Flight {
-    /// Posture in the middle of the last leg, which stands for the whole step where things touch.
-    pub(crate) late: Posture,
-    /// Mass matrix there, with rotors and implicit friction, factored.
+    /// Posture in the middle of the last half-step; contacts use it for the whole step.
+    pub(crate) middle: Posture,
+    /// Factored mass matrix at `middle`, with rotors and implicit friction.
     matrix: MassMatrix,
     /// Position at the end.
     pub(crate) position: Vec<f64>,
     /// Velocity at the end.
     pub(crate) velocity: Vec<f64>,
     /// Momentum at the start.
-    before: Momentum,
+    start_momentum: Momentum,
     limits: Limits,
     diagonal: Vec<f64>,
     middle_position: Vec<f64>,
@@ -47,11 +47,11 @@ impl Flight {
         let (dofs, bodies) = (tree.dofs(), tree.nodes.len());
         let positions = ROOT_POSITIONS + tree.hinges.len();
         Self {
-            late: Posture::new(tree),
+            middle: Posture::new(tree),
             matrix: MassMatrix::new(tree),
             position: vec![0.0; positions],
             velocity: vec![0.0; dofs],
-            before: Momentum::default(),
+            start_momentum: Momentum::default(),
             limits: Limits::new(tree),
             diagonal: vec![0.0; dofs],
             middle_position: vec![0.0; positions],
@@ -65,11 +65,11 @@ impl Flight {
         }
     }
 
-    /// Carries (`position`, `velocity`) over `time_s` under the motors' torques (N·m, one per hinge).
+    /// Integrates (`position`, `velocity`) over `time_s` under the motors' torques (N·m, one per hinge).
     ///
-    /// The result is in [`Self::position`] and [`Self::velocity`]; [`Self::touch_down`] is to follow.
-    /// `start` must be the posture at `position`, weighed.
-    pub(crate) fn fly(
+    /// The result is in [`Self::position`] and [`Self::velocity`]; [`Self::solve_constraints`] must follow.
+    /// `start` must be the posture at `position`, with inertia.
+    pub(crate) fn advance(
         &mut self,
         tree: &Tree,
         start: &Posture,
@@ -79,21 +79,22 @@ impl Flight {
         time_s: f64,
     ) {
         start.velocities(tree, velocity, &mut self.velocities);
-        self.before = Momentum::of(start, &self.velocities);
+        self.start_momentum = Momentum::of(start, &self.velocities);
         self.position.copy_from_slice(position);
         self.velocity.copy_from_slice(velocity);
-        for leg in 0..LEGS {
-            self.step(tree, torques_nm, time_s / f64::from(LEGS), leg == 0);
+        for half_step in 0..HALF_STEPS {
+            self.half_step(tree, torques_nm, time_s / f64::from(HALF_STEPS), half_step == 0);
         }
     }
 
-    /// Centre of mass at the start (m, relative to the root there).
+    /// Returns the centre of mass at the start (m, relative to the root there).
     pub(crate) fn start_centre_m(&self) -> Vector3<f64> {
-        self.before.centre_m
+        self.start_momentum.centre_m
     }
 
-    /// Lets contacts act: writes what becomes of the state at the start of the flight, and its posture, weighed.
-    pub(crate) fn touch_down(
+    /// Applies contacts: replaces the state at the start of the flight by that at its end, and updates its posture with
+    /// inertia.
+    pub(crate) fn solve_constraints(
         &mut self,
         tree: &Tree,
         contacts: &mut Contacts,
@@ -103,10 +104,10 @@ impl Flight {
         time_s: f64,
     ) {
         self.end_velocity.copy_from_slice(&self.velocity);
-        let (late, limits) = (&self.late, &mut self.limits);
+        let (middle, limits) = (&self.middle, &mut self.limits);
         let start_m = Vector3::from_column_slice(&position[..3]);
         let touched =
-            contacts.solve(tree, late, &self.matrix, limits, position, velocity, &mut self.end_velocity, time_s);
+            contacts.solve(tree, middle, &self.matrix, limits, position, velocity, &mut self.end_velocity, time_s);
         if touched {
             for (mean, (new, flown)) in self.mean_velocity.iter_mut().zip(self.end_velocity.iter().zip(&self.velocity))
             {
@@ -117,23 +118,27 @@ impl Flight {
             position.copy_from_slice(&self.position);
         }
         velocity.copy_from_slice(&self.end_velocity);
-        posture.lay(tree, position);
-        posture.weigh(tree);
+        posture.update_kinematics(tree, position);
+        posture.update_inertia(tree);
         posture.velocities(tree, velocity, &mut self.velocities);
         let after = Momentum::of(posture, &self.velocities);
-        let wanted = self.before.later(&tree.gravity_mps2, time_s, &contacts.momentum(&self.before.centre_m));
+        let wanted = self.start_momentum.expected_after(
+            &tree.gravity_mps2,
+            time_s,
+            &contacts.momentum(&self.start_momentum.centre_m),
+        );
         after.restore(posture, &wanted.about_centre, velocity);
-        // The centre of mass follows the momentum, whatever the limbs do: without contacts, along a parabola.
-        let moved = (self.before.velocity_mps() + wanted.velocity_mps()) * (time_s / 2.0);
-        let root_m = start_m + self.before.centre_m + moved - after.centre_m;
+        // The centre of mass follows the momentum alone: without contacts, along a parabola.
+        let moved = (self.start_momentum.velocity_mps() + wanted.velocity_mps()) * (time_s / 2.0);
+        let root_m = start_m + self.start_momentum.centre_m + moved - after.centre_m;
         position[..3].copy_from_slice(root_m.as_slice());
     }
 
-    fn step(&mut self, tree: &Tree, torques_nm: &[f64], step_s: f64, is_first: bool) {
+    fn half_step(&mut self, tree: &Tree, torques_nm: &[f64], step_s: f64, is_first: bool) {
         integrate(&self.position, &self.velocity, step_s / 2.0, &mut self.middle_position);
-        self.late.lay(tree, &self.middle_position);
-        self.late.weigh(tree);
-        self.matrix.assemble(tree, &self.late);
+        self.middle.update_kinematics(tree, &self.middle_position);
+        self.middle.update_inertia(tree);
+        self.matrix.assemble(tree, &self.middle);
         for (hinge, node) in tree.hinges.iter().enumerate() {
             self.diagonal[ROOT_DOFS + hinge] = node.armature_kgm2
                 + node.damping_nmsprad * step_s / 2.0
@@ -142,23 +147,23 @@ impl Flight {
         self.matrix.add_diagonal(tree, &self.diagonal);
         self.matrix.factor(tree);
 
-        // Gyroscopic forces are those at the velocity of the middle. The acceleration until there is guessed from the leg
-        // before, or found with the gyroscopic forces of the start.
+        // Gyroscopic forces are those at the velocity of the middle. The acceleration up to the middle is that of the previous
+        // half-step, or in the first one that with the gyroscopic forces of the start.
         if is_first {
             self.mean_velocity.copy_from_slice(&self.velocity);
-            self.accelerate(tree, torques_nm, step_s);
+            self.solve_acceleration(tree, torques_nm, step_s);
         }
         for (mean, (old, acceleration)) in
             self.mean_velocity.iter_mut().zip(self.velocity.iter().zip(&self.acceleration))
         {
             *mean = old + acceleration * step_s / 2.0;
         }
-        self.accelerate(tree, torques_nm, step_s);
+        self.solve_acceleration(tree, torques_nm, step_s);
         for (new, (old, acceleration)) in self.end_velocity.iter_mut().zip(self.velocity.iter().zip(&self.acceleration))
         {
             *new = old + acceleration * step_s;
         }
-        self.limits.hold(tree, &self.matrix, &self.position, &self.velocity, &mut self.end_velocity, step_s);
+        self.limits.solve(tree, &self.matrix, &self.position, &self.velocity, &mut self.end_velocity, step_s);
         for (mean, (old, new)) in self.mean_velocity.iter_mut().zip(self.velocity.iter().zip(&self.end_velocity)) {
             *mean = (old + new) / 2.0;
         }
@@ -167,9 +172,9 @@ impl Flight {
         std::mem::swap(&mut self.velocity, &mut self.end_velocity);
     }
 
-    /// Acceleration for gyroscopic forces at `mean_velocity`.
-    fn accelerate(&mut self, tree: &Tree, torques_nm: &[f64], step_s: f64) {
-        self.bias(tree);
+    /// Solves for the acceleration with the gyroscopic forces at `mean_velocity`.
+    fn solve_acceleration(&mut self, tree: &Tree, torques_nm: &[f64], step_s: f64) {
+        self.bias_forces(tree);
         for (hinge, node) in tree.hinges.iter().enumerate() {
             let dof = ROOT_DOFS + hinge;
             let turned = self.position[ROOT_POSITIONS + hinge] + self.velocity[dof] * step_s / 2.0 - node.rest_rad;
@@ -180,17 +185,16 @@ impl Flight {
         self.matrix.solve(tree, &mut self.acceleration);
     }
 
-    /// Writes minus the forces that would be needed for no acceleration: Newton and Euler, outwards and back
-    /// (Featherstone 2008, table 5.1).
-    fn bias(&mut self, tree: &Tree) {
-        let (posture, rates) = (&self.late, &self.mean_velocity);
+    /// Writes the negative bias forces, by the recursive Newton-Euler algorithm (Featherstone 2008, table 5.1).
+    fn bias_forces(&mut self, tree: &Tree) {
+        let (posture, rates) = (&self.middle, &self.mean_velocity);
         let linear = Vector3::new(rates[0], rates[1], rates[2]);
         let mut root = Motion::default();
         for (axis, rate) in posture.axes.iter().zip(rates).take(ROOT_DOFS) {
             root += *axis * *rate;
         }
         self.velocities[0] = root;
-        // The rotation axes travel with the root; its coordinates are the velocity of its origin.
+        // The rotation axes move with the root; its linear coordinates are the velocity of its origin.
         self.accelerations[0] = Motion::new(Vector3::zeros(), linear.cross(&root.angular) - tree.gravity_mps2);
         for (index, node) in tree.nodes.iter().enumerate().skip(1) {
             let (mut velocity, mut acceleration) = (self.velocities[node.parent], self.accelerations[node.parent]);

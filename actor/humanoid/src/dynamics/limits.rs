@@ -1,25 +1,25 @@
-//! Hinges at the ends of their ranges, within a step without contacts.
+//! Hinge limits within a step without contacts.
 //!
-//! A limit is soft (see [`super::softness`]) for a stretch, and then hard.
+//! A limit is soft (see [`super::softness`]) up to [`STOP_RAD`] beyond its end, and then hard.
 
 use super::mass_matrix::MassMatrix;
-use super::rows::{add, dot, stride};
-use super::softness::{IMPEDANCE, settle};
+use super::rows::{add_scaled, dot, stride};
+use super::softness::{IMPEDANCE, damped_rate};
 use super::tree::{ROOT_DOFS, ROOT_POSITIONS, Tree};
 
-/// How far beyond its end a hinge may be flung (rad). MuJoCo's own limits let a knee go 0.33 rad too far (99.9 % of
-/// control steps under maximal random torques); up to here they are the same.
+/// Excess of a hinge beyond its range at which the limit becomes hard (rad). MuJoCo's limits are soft throughout: there a
+/// knee exceeds its range by up to 0.33 rad (99.9 % of control steps under maximal random torques).
 const STOP_RAD: f64 = 0.1;
-/// Passes over all limits that are reached, at most.
+/// Upper bound of the passes over all active limits.
 const SWEEPS_MAX: usize = 50;
-/// Passes end when none of them changed a hinge's own rate by more than this (rad/s).
+/// The passes end when one changes no hinge's rate by more than this (rad/s).
 const SETTLED_RADPS: f64 = 1e-7;
 
 /// Workspace for the limits of a tree.
 #[derive(Clone, Debug)]
 pub(crate) struct Limits {
-    reached: Vec<Reached>,
-    /// `[reached][stride]`: whitened row of the hinge, see [`super::mass_matrix`].
+    active: Vec<ActiveLimit>,
+    /// `[active][stride]`: whitened row of the hinge, see [`super::mass_matrix`].
     rows: Vec<f64>,
     /// Velocity at the end of the step, whitened.
     whitened: Vec<f64>,
@@ -27,11 +27,11 @@ pub(crate) struct Limits {
 }
 
 #[derive(Clone, Copy, Debug)]
-struct Reached {
+struct ActiveLimit {
     dof: usize,
     /// +1 at the upper end, −1 at the lower one.
     outwards: f64,
-    /// Outward rate aimed at (rad/s).
+    /// Target outward rate (rad/s).
     target_radps: f64,
     /// Velocity change of the hinge itself per unit of impulse.
     response: f64,
@@ -43,15 +43,15 @@ impl Limits {
     pub(crate) fn new(tree: &Tree) -> Self {
         let (dofs, stride) = (tree.dofs(), stride(tree.dofs()));
         Self {
-            reached: Vec::with_capacity(tree.hinges.len()),
+            active: Vec::with_capacity(tree.hinges.len()),
             rows: vec![0.0; tree.hinges.len() * stride],
             whitened: vec![0.0; stride],
             dofs,
         }
     }
 
-    /// Changes the velocity at the end of a step so that limits act on it.
-    pub(crate) fn hold(
+    /// Applies limits to the velocity `after` at the end of a step; `before` is that at its start.
+    pub(crate) fn solve(
         &mut self,
         tree: &Tree,
         matrix: &MassMatrix,
@@ -61,7 +61,7 @@ impl Limits {
         step_s: f64,
     ) {
         self.prepare(tree, matrix, position, before, after, step_s);
-        if self.reached.is_empty() {
+        if self.active.is_empty() {
             return;
         }
         let mut whitened = std::mem::take(&mut self.whitened);
@@ -77,7 +77,7 @@ impl Limits {
         self.whitened = whitened;
     }
 
-    /// Finds the limits that are reached, and what an impulse of each does.
+    /// Finds the active limits and their responses to an impulse.
     pub(super) fn prepare(
         &mut self,
         tree: &Tree,
@@ -87,9 +87,9 @@ impl Limits {
         after: &[f64],
         step_s: f64,
     ) {
-        self.find(tree, position, before, after, step_s);
+        self.find_active(tree, position, before, after, step_s);
         let stride = stride(self.dofs);
-        for (limit, row) in self.reached.iter_mut().zip(self.rows.chunks_exact_mut(stride)) {
+        for (limit, row) in self.active.iter_mut().zip(self.rows.chunks_exact_mut(stride)) {
             row.fill(0.0);
             row[limit.dof] = limit.outwards;
             matrix.whiten_row(tree, row);
@@ -98,24 +98,24 @@ impl Limits {
         }
     }
 
-    /// One pass over all limits that are reached; returns by how much it changed a hinge's rate (rad/s) at most.
+    /// Makes one pass over all active limits; returns its largest change of a hinge's rate (rad/s).
     pub(super) fn sweep(&mut self, whitened: &mut [f64]) -> f64 {
         let stride = stride(self.dofs);
-        let mut most_radps: f64 = 0.0;
-        for (limit, row) in self.reached.iter_mut().zip(self.rows.chunks_exact(stride)) {
+        let mut largest_radps: f64 = 0.0;
+        for (limit, row) in self.active.iter_mut().zip(self.rows.chunks_exact(stride)) {
             let missing = limit.target_radps - dot(row, whitened) + limit.softness * limit.impulse_nms;
-            // The impulse is counted inwards: it can only be positive.
+            // The impulse acts inwards and cannot be negative.
             let impulse = (limit.impulse_nms - missing / (limit.response + limit.softness)).max(0.0);
             let change = impulse - limit.impulse_nms;
             limit.impulse_nms = impulse;
-            add(whitened, row, -change);
-            most_radps = most_radps.max(change.abs() * limit.response);
+            add_scaled(whitened, row, -change);
+            largest_radps = largest_radps.max(change.abs() * limit.response);
         }
-        most_radps
+        largest_radps
     }
 
-    fn find(&mut self, tree: &Tree, position: &[f64], before: &[f64], after: &[f64], step_s: f64) {
-        self.reached.clear();
+    fn find_active(&mut self, tree: &Tree, position: &[f64], before: &[f64], after: &[f64], step_s: f64) {
+        self.active.clear();
         for (hinge, node) in tree.hinges.iter().enumerate() {
             let dof = ROOT_DOFS + hinge;
             let angle = position[ROOT_POSITIONS + hinge];
@@ -129,11 +129,18 @@ impl Limits {
             if beyond <= 0.0 && end <= 0.0 {
                 continue;
             }
-            // Part of the step that is spent beyond the limit.
+            // Time of the step beyond the limit.
             let active_s = if beyond >= 0.0 { step_s } else { step_s * end / (end - beyond) };
             let (rate, start) = (before[dof] * outwards, beyond.max(0.0));
-            let target_radps = settle(rate, start, active_s).min((STOP_RAD - start).max(0.0) / active_s);
-            self.reached.push(Reached { dof, outwards, target_radps, response: 0.0, softness: 0.0, impulse_nms: 0.0 });
+            let target_radps = damped_rate(rate, start, active_s).min((STOP_RAD - start).max(0.0) / active_s);
+            self.active.push(ActiveLimit {
+                dof,
+                outwards,
+                target_radps,
+                response: 0.0,
+                softness: 0.0,
+                impulse_nms: 0.0,
+            });
         }
     }
 }

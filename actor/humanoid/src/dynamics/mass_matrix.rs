@@ -1,24 +1,24 @@
-//! The joint-space mass matrix: assembled by composite rigid bodies, factored along the tree.
+//! Joint-space mass matrix: assembled from composite rigid bodies, factored along the tree.
 //!
 //! Formulas: Featherstone 2008, tables 6.2 (composite rigid bodies) and 6.3, 6.5 (LᵀDL factorisation, which keeps the
-//! zeros of branches that do not move each other).
+//! zeros of independent branches).
 //!
-//! *Whitened* velocities u = D^½ L v are those in which the kinetic energy is |u|²/2. An impulse along a direction with
-//! Jacobian J changes u by the whitened row D^−½ L^−ᵀ Jᵀ, and the product of that row with u is again the rate along the
-//! direction: one row says both, and needs only half of a solution.
+//! *Whitened* velocities are u = D^½ L v; the kinetic energy is |u|²/2. An impulse along a direction with Jacobian J changes
+//! u by the whitened row D^−½ L^−ᵀ Jᵀ. The product of that row with u is the rate along the direction. So one row serves both
+//! purposes and needs only half of a solution.
 
 use super::posture::Posture;
 use super::spatial::Inertia;
 use super::tree::{ROOT_DOFS, Tree};
 
-/// A symmetric matrix over the degrees of freedom with the zeros of a tree.
+/// Symmetric matrix over the degrees of freedom with the zeros of a tree.
 ///
-/// Row k holds what couples k to its path, from the first degree of freedom down to k itself. The path of a degree of
-/// freedom on it is the beginning of that path, so rows are aligned: inner loops run over slices without indices.
+/// Row k holds the entries of k and its path, from the root to k. The path of each of these degrees of freedom is a prefix of
+/// k's path, so inner loops run over aligned slices without indices.
 #[derive(Clone, Debug)]
 pub(crate) struct MassMatrix {
     entries: Vec<f64>,
-    /// D^−½, once factored.
+    /// D^−½, after [`Self::factor`].
     pivot_roots: Vec<f64>,
     composites: Vec<Inertia>,
 }
@@ -32,7 +32,7 @@ impl MassMatrix {
         }
     }
 
-    /// Assembles the matrix of the bodies alone, without rotors, for a posture that has been weighed.
+    /// Assembles the matrix of the bodies, without rotors, for a posture with inertia.
     pub(crate) fn assemble(&mut self, tree: &Tree, posture: &Posture) {
         self.composites.copy_from_slice(&posture.inertias);
         for (index, node) in tree.nodes.iter().enumerate().skip(1).rev() {
@@ -51,7 +51,7 @@ impl MassMatrix {
     fn fill_row(&mut self, tree: &Tree, posture: &Posture, dof: usize, composite: &Inertia) {
         let force = composite.times(&posture.axes[dof]);
         let row = &mut self.entries[tree.row(dof)];
-        // The first three degrees of freedom are translations along the world's axes: they feel the force itself.
+        // The first three degrees of freedom are translations along the world's axes: their entries are the force itself.
         for (entry, part) in row.iter_mut().zip(force.force.iter()) {
             *entry = *part;
         }
@@ -67,14 +67,13 @@ impl MassMatrix {
         }
     }
 
-    /// Factors in place; from then on [`Self::solve`] works and the entries are those of the factors, with the inverse
-    /// of D on the diagonal.
+    /// Factors in place: the entries become those of L, with the inverse of D on the diagonal.
     pub(crate) fn factor(&mut self, tree: &Tree) {
         for k in (0..tree.dofs()).rev() {
-            let place = tree.row(k);
-            // Rows of the path of k lie before it.
-            let (before, from) = self.entries.split_at_mut(place.start);
-            let Some((own, row)) = from[..place.len()].split_last_mut() else { continue };
+            let range = tree.row(k);
+            // The rows of k's path precede row k.
+            let (before, from) = self.entries.split_at_mut(range.start);
+            let Some((own, row)) = from[..range.len()].split_last_mut() else { continue };
             let pivot = 1.0 / *own;
             *own = pivot;
             self.pivot_roots[k] = pivot.sqrt();
@@ -88,42 +87,42 @@ impl MassMatrix {
                 }
                 hinges[position] = factor;
             }
-            // The root's degrees of freedom are on every path, and their rows are the first ones.
-            eliminate(before, root, pivot);
+            // The root's degrees of freedom are on every path, and their rows come first.
+            eliminate_root(before, root, pivot);
         }
     }
 
-    /// Replaces a right-hand side by the solution; the matrix must have been factored.
+    /// Replaces a right-hand side by the solution; requires [`Self::factor`].
     pub(crate) fn solve(&self, tree: &Tree, x: &mut [f64]) {
-        self.climb(tree, x);
-        self.descend(tree, x, |dof, value| {
+        self.solve_lower_transposed(tree, x);
+        self.solve_lower(tree, x, |dof, value| {
             let pivot = self.pivot_roots[dof];
             value * pivot * pivot
         });
     }
 
-    /// Replaces velocities by whitened ones; the matrix must have been factored.
+    /// Replaces velocities by whitened ones; requires [`Self::factor`].
     pub(super) fn whiten(&self, tree: &Tree, velocity: &mut [f64]) {
         for i in (0..tree.dofs()).rev() {
-            velocity[i] = (velocity[i] + self.coupled(tree, i, velocity)) / self.pivot_roots[i];
+            velocity[i] = (velocity[i] + self.off_diagonal_product(tree, i, velocity)) / self.pivot_roots[i];
         }
     }
 
-    /// Takes [`Self::whiten`] back.
+    /// Inverts [`Self::whiten`].
     pub(super) fn unwhiten(&self, tree: &Tree, velocity: &mut [f64]) {
-        self.descend(tree, velocity, |dof, value| value * self.pivot_roots[dof]);
+        self.solve_lower(tree, velocity, |dof, value| value * self.pivot_roots[dof]);
     }
 
-    /// Replaces the Jacobian of a direction by its whitened row; the matrix must have been factored.
+    /// Replaces the Jacobian of a direction by its whitened row; requires [`Self::factor`].
     pub(super) fn whiten_row(&self, tree: &Tree, row: &mut [f64]) {
-        self.climb(tree, row);
+        self.solve_lower_transposed(tree, row);
         for (entry, root) in row.iter_mut().zip(&self.pivot_roots) {
             *entry *= root;
         }
     }
 
     /// Multiplies by the inverse of Lᵀ.
-    fn climb(&self, tree: &Tree, x: &mut [f64]) {
+    fn solve_lower_transposed(&self, tree: &Tree, x: &mut [f64]) {
         for i in (0..tree.dofs()).rev() {
             let value = x[i];
             if value == 0.0 {
@@ -140,16 +139,16 @@ impl MassMatrix {
         }
     }
 
-    /// Scales each number and multiplies by the inverse of L.
-    fn descend(&self, tree: &Tree, x: &mut [f64], scaled: impl Fn(usize, f64) -> f64) {
+    /// Scales each entry and multiplies by the inverse of L.
+    fn solve_lower(&self, tree: &Tree, x: &mut [f64], scaled: impl Fn(usize, f64) -> f64) {
         for i in 0..tree.dofs() {
-            x[i] = scaled(i, x[i]) - self.coupled(tree, i, x);
+            x[i] = scaled(i, x[i]) - self.off_diagonal_product(tree, i, x);
         }
     }
 
-    /// Row i of L without its diagonal, times a vector.
+    /// Returns the product of row i of L, without its diagonal, and a vector.
     #[inline]
-    fn coupled(&self, tree: &Tree, i: usize, x: &[f64]) -> f64 {
+    fn off_diagonal_product(&self, tree: &Tree, i: usize, x: &[f64]) -> f64 {
         let row = &self.entries[tree.row(i)];
         let (root, hinges) = row[..row.len() - 1].split_at((row.len() - 1).min(ROOT_DOFS));
         let mut sum = 0.0;
@@ -163,8 +162,8 @@ impl MassMatrix {
     }
 }
 
-/// Takes a row out of the rows of the root's degrees of freedom and divides it by its pivot.
-fn eliminate(rows: &mut [f64], row: &mut [f64], pivot: f64) {
+/// Eliminates a row from the rows of the root's degrees of freedom, and divides it by its pivot.
+fn eliminate_root(rows: &mut [f64], row: &mut [f64], pivot: f64) {
     for position in (0..row.len()).rev() {
         let factor = row[position] * pivot;
         let start = position * (position + 1) / 2;

@@ -1,17 +1,17 @@
 //! Joint-space dynamics of the articulated body.
 //!
-//! State: a position vector (root place, root quaternion w x y z, one angle per hinge) and a velocity vector (root
-//! velocity in world axes, root angular velocity in the root's axes, one rate per hinge), the coordinates of MJCF.
+//! The state has the coordinates of MJCF: a position vector (root position, root quaternion w x y z, one angle per hinge)
+//! and a velocity vector (root velocity in world axes, root angular velocity in the root's axes, one rate per hinge).
 //!
 //! - `tree`: bodies and degrees of freedom.
 //! - `spatial`: spatial vectors and inertias.
 //! - `posture`: forward kinematics.
 //! - `mass_matrix`: assembly and factorisation.
 //! - `flight`: one time step without contacts.
-//! - `momentum`: what a flight conserves.
+//! - `momentum`: conservation of momentum in that step.
 //! - `limits`: the hinges' ranges within that step.
-//! - `softness`: how limits and contacts give way.
-//! - `contacts`: impulses at the points that touch.
+//! - `softness`: compliance of limits and contacts.
+//! - `contacts`: impulses at contact points.
 //! - `rows`: products of rows over the degrees of freedom.
 
 mod contacts;

@@ -1,14 +1,14 @@
-//! Linear and angular momentum of the whole body, which nothing but gravity changes in flight.
+//! Linear and angular momentum of the whole humanoid, which only gravity changes in flight.
 //!
-//! The time stepping keeps it only nearly. What it lost is given back through the root: exact conservation costs less
-//! than the finer steps that would come as close.
+//! Time stepping conserves momentum only approximately. A correction of the root's velocity restores it exactly, which costs
+//! less than finer steps.
 
 use nalgebra::{Matrix3, Vector3};
 
 use super::posture::Posture;
 use super::spatial::{Force, Inertia, Motion};
 
-/// Momentum of the whole body with the inertia that carries it.
+/// Momentum and inertia of the whole humanoid.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Momentum {
     /// Moment of momentum about the centre of mass (N·m·s) and linear momentum (N·s).
@@ -19,7 +19,7 @@ pub(crate) struct Momentum {
 }
 
 impl Momentum {
-    /// Of a posture that has been weighed, moving with the given body velocities.
+    /// Sums over the bodies of a posture with inertia, moving at the given velocities.
     pub(crate) fn of(posture: &Posture, velocities: &[Motion]) -> Self {
         let (mut inertia, mut sum) = (Inertia::default(), Force::default());
         for (part, velocity) in posture.inertias.iter().zip(velocities) {
@@ -31,21 +31,21 @@ impl Momentum {
         Self { about_centre, centre_m, inertia }
     }
 
-    /// What gravity and the floor make of it; `given` has its moment about the centre of mass. Only the momentum is that
-    /// of later.
-    pub(crate) fn later(&self, gravity_mps2: &Vector3<f64>, time_s: f64, given: &Force) -> Self {
-        let mut later = *self;
-        later.about_centre += *given;
-        later.about_centre.force += gravity_mps2 * (self.inertia.mass_kg * time_s);
-        later
+    /// Returns a copy with the momentum after `time_s` of gravity and the impulse `given` (moment about the centre of mass).
+    /// Centre and inertia stay the same.
+    pub(crate) fn expected_after(&self, gravity_mps2: &Vector3<f64>, time_s: f64, given: &Force) -> Self {
+        let mut expected = *self;
+        expected.about_centre += *given;
+        expected.about_centre.force += gravity_mps2 * (self.inertia.mass_kg * time_s);
+        expected
     }
 
-    /// Velocity of the centre of mass (m/s).
+    /// Returns the velocity of the centre of mass (m/s).
     pub(crate) fn velocity_mps(&self) -> Vector3<f64> {
         self.about_centre.force / self.inertia.mass_kg
     }
 
-    /// Changes the root's part of a velocity vector so that this momentum becomes `wanted` (moment about the centre).
+    /// Corrects the root's part of a velocity vector so that this momentum becomes `wanted` (moment about the centre).
     pub(crate) fn restore(&self, posture: &Posture, wanted: &Force, velocity: &mut [f64]) {
         let missing_moment = wanted.moment - self.about_centre.moment;
         let missing = wanted.force - self.about_centre.force;

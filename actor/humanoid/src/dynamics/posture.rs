@@ -1,11 +1,11 @@
-//! Where everything is and how it moves, for one (position, velocity): forward kinematics.
+//! Forward kinematics: poses and velocities of all bodies for one position and velocity vector.
 //!
-//! Places are relative to O, the root's origin, so that figures stay exact far away from the world's origin.
+//! Points are relative to O, the root's origin, so that they stay precise far from the world's origin.
 
 use nalgebra::{Matrix3, Quaternion, UnitQuaternion, Vector3};
 
 use super::spatial::{Inertia, Motion};
-use super::tree::{ROOT_DOFS, ROOT_POSITIONS, Tree, matrix};
+use super::tree::{ROOT_DOFS, ROOT_POSITIONS, Tree, rotation_matrix};
 
 /// Poses, joint axes and inertias of a tree at one position.
 #[derive(Clone, Debug)]
@@ -16,9 +16,9 @@ pub(crate) struct Posture {
     pub(crate) origins_m: Vec<Vector3<f64>>,
     /// Centre of mass of each body (m, relative to O).
     pub(crate) centres_m: Vec<Vector3<f64>>,
-    /// Motion that each degree of freedom makes at unit rate.
+    /// Motion of each degree of freedom at unit rate.
     pub(crate) axes: Vec<Motion>,
-    /// Inertia of each body; filled by [`Self::weigh`].
+    /// Inertia of each body; filled by [`Self::update_inertia`].
     pub(crate) inertias: Vec<Inertia>,
 }
 
@@ -34,9 +34,9 @@ impl Posture {
         }
     }
 
-    /// Lays the tree out at a position vector. The root's quaternion need not be a unit one.
-    pub(crate) fn lay(&mut self, tree: &Tree, position: &[f64]) {
-        let root = matrix(&root_rotation(position));
+    /// Computes poses and axes at a position vector. The root's quaternion need not be normalised.
+    pub(crate) fn update_kinematics(&mut self, tree: &Tree, position: &[f64]) {
+        let root = rotation_matrix(&root_rotation(position));
         self.rotations[0] = root;
         self.origins_m[0] = Vector3::zeros();
         self.centres_m[0] = root * tree.nodes[0].centre_m;
@@ -52,7 +52,7 @@ impl Posture {
                 let local = &tree.hinges[hinge].axis;
                 let axis = rotation * local;
                 self.axes[ROOT_DOFS + hinge] = Motion::new(axis, anchor.cross(&axis));
-                rotation *= turn(local, position[ROOT_POSITIONS + hinge]);
+                rotation *= axis_rotation(local, position[ROOT_POSITIONS + hinge]);
             }
             let origin = anchor - rotation * node.anchor_m;
             self.centres_m[index] = origin + rotation * node.centre_m;
@@ -61,8 +61,8 @@ impl Posture {
         }
     }
 
-    /// Fills in the inertias of the posture laid last.
-    pub(crate) fn weigh(&mut self, tree: &Tree) {
+    /// Computes the inertias at the present poses.
+    pub(crate) fn update_inertia(&mut self, tree: &Tree) {
         for (index, node) in tree.nodes.iter().enumerate() {
             let rotation = &self.rotations[index];
             let about_centre = rotation * node.inertia_kgm2 * rotation.transpose();
@@ -70,16 +70,16 @@ impl Posture {
         }
     }
 
-    /// Writes each body's velocity for a velocity vector.
+    /// Writes each body's velocity for a velocity vector into `out`.
     pub(crate) fn velocities(&self, tree: &Tree, velocity: &[f64], out: &mut [Motion]) {
-        out[0] = self.span(0..ROOT_DOFS, velocity);
+        out[0] = self.sum_of_axes(0..ROOT_DOFS, velocity);
         for (index, node) in tree.nodes.iter().enumerate().skip(1) {
             let dofs = ROOT_DOFS + node.hinges.start..ROOT_DOFS + node.hinges.end;
-            out[index] = out[node.parent] + self.span(dofs, velocity);
+            out[index] = out[node.parent] + self.sum_of_axes(dofs, velocity);
         }
     }
 
-    fn span(&self, dofs: std::ops::Range<usize>, velocity: &[f64]) -> Motion {
+    fn sum_of_axes(&self, dofs: std::ops::Range<usize>, velocity: &[f64]) -> Motion {
         let mut sum = Motion::default();
         for dof in dofs {
             sum += self.axes[dof] * velocity[dof];
@@ -88,19 +88,19 @@ impl Posture {
     }
 }
 
-/// The root's orientation in a position vector, made a unit quaternion.
+/// Returns the root's normalised orientation in a position vector.
 pub(crate) fn root_rotation(position: &[f64]) -> UnitQuaternion<f64> {
     UnitQuaternion::new_normalize(Quaternion::new(position[3], position[4], position[5], position[6]))
 }
 
-/// Moves a position vector along a velocity vector for a time (s); `from` and `to` are position vectors.
+/// Integrates the position vector `from` over `time_s` at a constant velocity vector; writes the result to `to`.
 pub(crate) fn integrate(from: &[f64], velocity: &[f64], time_s: f64, to: &mut [f64]) {
     for axis in 0..3 {
         to[axis] = from[axis] + time_s * velocity[axis];
     }
     let turned = Vector3::new(velocity[3], velocity[4], velocity[5]) * time_s;
     let rotation = root_rotation(from) * UnitQuaternion::from_scaled_axis(turned);
-    // Keep the unit norm: errors of repeated products would pile up.
+    // Errors of repeated products would accumulate in the norm.
     let quaternion = rotation.quaternion() / rotation.quaternion().norm();
     to[3..ROOT_POSITIONS].copy_from_slice(&[quaternion.w, quaternion.i, quaternion.j, quaternion.k]);
     for (hinge, angle) in to[ROOT_POSITIONS..].iter_mut().enumerate() {
@@ -108,8 +108,8 @@ pub(crate) fn integrate(from: &[f64], velocity: &[f64], time_s: f64, to: &mut [f
     }
 }
 
-/// Rotation about a unit axis (Rodrigues' formula).
-fn turn(axis: &Vector3<f64>, angle_rad: f64) -> Matrix3<f64> {
+/// Returns the rotation about a unit axis (Rodrigues' formula).
+fn axis_rotation(axis: &Vector3<f64>, angle_rad: f64) -> Matrix3<f64> {
     let (sin, cos) = angle_rad.sin_cos();
     let rest = 1.0 - cos;
     let (x, y, z) = (axis.x, axis.y, axis.z);

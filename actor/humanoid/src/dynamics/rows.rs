@@ -1,16 +1,16 @@
-//! Dense rows over the degrees of freedom, padded so that loops run over whole blocks.
+//! Dense rows over the degrees of freedom, padded to whole blocks.
 
-/// Numbers that a block has.
+/// Length of a block.
 const LANES: usize = 4;
 
-/// Length of a row.
+/// Returns the padded length of a row.
 pub(super) fn stride(dofs: usize) -> usize {
     dofs.next_multiple_of(LANES)
 }
 
-/// Scalar product of two rows.
+/// Returns the scalar product of two rows.
 ///
-/// Four sums side by side: one sum would have to wait for each addition before the next.
+/// It adds four independent sums, so that one addition need not wait for the one before.
 #[inline]
 pub(super) fn dot(a: &[f64], b: &[f64]) -> f64 {
     let mut sums = [0.0; LANES];
@@ -22,9 +22,9 @@ pub(super) fn dot(a: &[f64], b: &[f64]) -> f64 {
     (sums[0] + sums[1]) + (sums[2] + sums[3])
 }
 
-/// Adds a multiple of a row to another.
+/// Adds `factor` times the row `what` to the row `to`.
 #[inline]
-pub(super) fn add(to: &mut [f64], what: &[f64], factor: f64) {
+pub(super) fn add_scaled(to: &mut [f64], what: &[f64], factor: f64) {
     for (to, what) in to.iter_mut().zip(what) {
         *to += what * factor;
     }
@@ -35,7 +35,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn products_take_every_number_once() {
+    fn dot_and_add_scaled_use_every_entry_once() {
         for dofs in [1, 4, 23, 35] {
             let mut a = vec![0.0; stride(dofs)];
             let mut b = a.clone();
@@ -44,7 +44,7 @@ mod tests {
                 b[index] = 2.0;
             }
             assert_eq!(dot(&a, &b), (dofs * (dofs + 1)) as f64);
-            add(&mut b, &a, -3.0);
+            add_scaled(&mut b, &a, -3.0);
             assert_eq!(b[dofs - 1], 2.0 - 3.0 * dofs as f64);
         }
         assert_eq!((stride(23), stride(24), stride(25)), (24, 24, 28));

@@ -1,20 +1,20 @@
-//! Spatial vectors and inertias, all in world axes and about one common point O.
+//! Spatial vectors and inertias, in world axes and about one common point O.
 //!
-//! A motion is (angular velocity, velocity of the body's point at O); a force is (moment about O, force).
+//! A motion is (angular velocity, velocity of the body's point at O). A force is (moment about O, force).
 //! Formulas: R. Featherstone, *Rigid Body Dynamics Algorithms*, 2008, chapter 2.
 
 use std::ops::{Add, AddAssign, Mul, SubAssign};
 
 use nalgebra::{Matrix3, Vector3};
 
-/// A motion vector: angular part (rad/s or rad/s²) and linear part at O (m/s or m/s²).
+/// Motion vector: angular part (rad/s or rad/s²) and linear part at O (m/s or m/s²).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct Motion {
     pub(crate) angular: Vector3<f64>,
     pub(crate) linear: Vector3<f64>,
 }
 
-/// A force vector: moment about O (N·m) and force (N), or their time integrals.
+/// Force vector: moment about O (N·m) and force (N), or their time integrals.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct Force {
     pub(crate) moment: Vector3<f64>,
@@ -25,7 +25,7 @@ pub(crate) struct Force {
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct Inertia {
     pub(crate) mass_kg: f64,
-    /// Mass × place of the centre of mass (kg·m).
+    /// Mass × position of the centre of mass (kg·m).
     pub(crate) first_moment: Vector3<f64>,
     /// Moment of inertia about O (kg·m²).
     pub(crate) about_origin: Matrix3<f64>,
@@ -36,7 +36,7 @@ impl Motion {
         Self { angular, linear }
     }
 
-    /// Rate of change of a motion vector that moves along with this velocity.
+    /// Returns the rate of change of a motion vector that moves with this velocity.
     #[inline]
     pub(crate) fn cross(&self, other: &Self) -> Self {
         Self {
@@ -45,7 +45,7 @@ impl Motion {
         }
     }
 
-    /// Rate of change of a force vector that moves along with this velocity.
+    /// Returns the rate of change of a force vector that moves with this velocity.
     #[inline]
     pub(crate) fn cross_force(&self, force: &Force) -> Force {
         Force {
@@ -54,29 +54,29 @@ impl Motion {
         }
     }
 
-    /// Power of a force, or the part of a force that a joint axis feels.
+    /// Returns the power of a force, or its component along a joint axis.
     #[inline]
     pub(crate) fn dot(&self, force: &Force) -> f64 {
         self.angular.dot(&force.moment) + self.linear.dot(&force.force)
     }
 
-    /// Velocity of the body's point at `place` (m, relative to O).
+    /// Returns the velocity of the body's point at `point_m` (relative to O).
     #[inline]
-    pub(crate) fn at(&self, place: &Vector3<f64>) -> Vector3<f64> {
-        self.linear + self.angular.cross(place)
+    pub(crate) fn at(&self, point_m: &Vector3<f64>) -> Vector3<f64> {
+        self.linear + self.angular.cross(point_m)
     }
 }
 
 impl Force {
-    /// A force (N) at a place (m, relative to O) together with a moment (N·m).
+    /// Returns the force vector of a force (N) at a point (relative to O) together with a moment (N·m).
     #[inline]
-    pub(crate) fn at(place: &Vector3<f64>, force: Vector3<f64>, moment: Vector3<f64>) -> Self {
-        Self { moment: moment + place.cross(&force), force }
+    pub(crate) fn at(point_m: &Vector3<f64>, force: Vector3<f64>, moment: Vector3<f64>) -> Self {
+        Self { moment: moment + point_m.cross(&force), force }
     }
 }
 
 impl Inertia {
-    /// From mass, centre (m, relative to O) and inertia about the centre (kg·m², world axes).
+    /// Combines mass, centre (m, relative to O) and inertia about the centre (kg·m², world axes).
     #[inline]
     pub(crate) fn new(mass_kg: f64, centre_m: &Vector3<f64>, about_centre: &Matrix3<f64>) -> Self {
         let first_moment = centre_m * mass_kg;
@@ -87,7 +87,7 @@ impl Inertia {
         Self { mass_kg, first_moment, about_origin }
     }
 
-    /// Momentum of a velocity, or force of an acceleration.
+    /// Returns the momentum of a velocity, or the force of an acceleration.
     #[inline]
     pub(crate) fn times(&self, motion: &Motion) -> Force {
         Force {

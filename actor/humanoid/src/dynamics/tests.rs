@@ -1,4 +1,4 @@
-//! Parts of the dynamics against independent ways to the same numbers.
+//! Tests of the dynamics against independent computations.
 
 use nalgebra::{DMatrix, DVector, Rotation3, UnitQuaternion, Vector3};
 use rand::{RngExt, SeedableRng};
@@ -11,24 +11,23 @@ use super::{ContactPoint, Contacts, Flight, ROOT_DOFS, ROOT_POSITIONS, Tree};
 use crate::model::{HUMANOID_XML, Model};
 
 /// A body's centre (m) and orientation.
-type Place = (Vector3<f64>, Rotation3<f64>);
+type CentrePose = (Vector3<f64>, Rotation3<f64>);
 
-/// Where each body is at a position vector.
-fn bodies(tree: &Tree, position: &[f64]) -> Vec<Place> {
+/// Returns each body's centre and orientation at a position vector.
+fn bodies(tree: &Tree, position: &[f64]) -> Vec<CentrePose> {
     let mut posture = Posture::new(tree);
-    posture.lay(tree, position);
+    posture.update_kinematics(tree, position);
     let root = Vector3::from_column_slice(&position[..3]);
     let turned = posture.rotations.iter().map(|rotation| Rotation3::from_matrix_unchecked(*rotation));
     posture.centres_m.iter().map(|centre| root + centre).zip(turned).collect()
 }
 
-/// The mass matrix from nothing but places and orientations: Σ m JᵀJ + J_ωᵀ I J_ω + rotors, with Jacobians by central
-/// differences.
+/// Computes the mass matrix Σ m JᵀJ + J_ωᵀ I J_ω + rotors, with Jacobians from central differences.
 fn mass_matrix_by_differences(tree: &Tree, position: &[f64]) -> DMatrix<f64> {
     const STEP: f64 = 1e-5;
     let dofs = tree.dofs();
     let now = bodies(tree, position);
-    let shifted: Vec<[Vec<Place>; 2]> = (0..dofs)
+    let shifted: Vec<[Vec<CentrePose>; 2]> = (0..dofs)
         .map(|dof| {
             [-STEP, STEP].map(|by| {
                 let (mut direction, mut to) = (vec![0.0; dofs], position.to_vec());
@@ -55,15 +54,15 @@ fn mass_matrix_by_differences(tree: &Tree, position: &[f64]) -> DMatrix<f64> {
     matrix
 }
 
-/// The factored mass matrix at a position, rotors included.
+/// Returns the factored mass matrix at a position, with rotors.
 fn factored(tree: &Tree, position: &[f64]) -> MassMatrix {
     let (mut posture, mut matrix) = (Posture::new(tree), MassMatrix::new(tree));
     let mut rotors = vec![0.0; tree.dofs()];
     for (rotor, hinge) in rotors[ROOT_DOFS..].iter_mut().zip(&tree.hinges) {
         *rotor = hinge.armature_kgm2;
     }
-    posture.lay(tree, position);
-    posture.weigh(tree);
+    posture.update_kinematics(tree, position);
+    posture.update_inertia(tree);
     matrix.assemble(tree, &posture);
     matrix.add_diagonal(tree, &rotors);
     matrix.factor(tree);
@@ -80,23 +79,23 @@ fn random_position(model: &Model, random: &mut Xoshiro256PlusPlus) -> Vec<f64> {
 }
 
 #[test]
-fn torques_accelerate_about_the_true_axes_of_the_moment() {
+fn acceleration_from_torques_matches_the_mass_matrix_by_differences() {
     let xml = HUMANOID_XML.replace("<option ", "<option gravity=\"0 0 0\" ");
     let model = Model::from_mjcf(&xml).expect("valid");
     let tree = Tree::new(&model);
     let (mut flight, mut start) = (Flight::new(&tree), Posture::new(&tree));
     let mut random = Xoshiro256PlusPlus::seed_from_u64(2);
-    // So short that the acceleration stays what it is; velocities are still of twelve digits.
+    // So short that the acceleration is constant; velocities still have twelve digits.
     let time_s = 1e-7;
     for _ in 0..6 {
         let position = random_position(&model, &mut random);
         let inverse = mass_matrix_by_differences(&tree, &position).try_inverse().expect("positive definite");
-        start.lay(&tree, &position);
-        start.weigh(&tree);
-        for pulled in 0..model.hinges.len() {
+        start.update_kinematics(&tree, &position);
+        start.update_inertia(&tree);
+        for driven in 0..model.hinges.len() {
             let mut torques = vec![0.0; model.hinges.len()];
-            torques[pulled] = 30.0;
-            flight.fly(&tree, &start, &position, &vec![0.0; tree.dofs()], &torques, time_s);
+            torques[driven] = 30.0;
+            flight.advance(&tree, &start, &position, &vec![0.0; tree.dofs()], &torques, time_s);
             let mut forces = DVector::zeros(tree.dofs());
             for (hinge, node) in tree.hinges.iter().enumerate() {
                 let spring = -node.stiffness_nmprad * (position[ROOT_POSITIONS + hinge] - node.rest_rad);
@@ -105,13 +104,13 @@ fn torques_accelerate_about_the_true_axes_of_the_moment() {
             let wanted = &inverse * forces;
             let found = DVector::from_column_slice(&flight.velocity) / time_s;
             let off = (&found - &wanted).norm() / wanted.norm();
-            assert!(off < 1e-4, "{}: off by {off}", model.hinges[pulled].name);
+            assert!(off < 1e-4, "{}: relative error {off}", model.hinges[driven].name);
         }
     }
 }
 
 #[test]
-fn the_factored_mass_matrix_is_that_of_the_bodies() {
+fn solving_with_the_factored_mass_matrix_inverts_the_dense_one() {
     let model = Model::from_mjcf(HUMANOID_XML).expect("valid");
     let tree = Tree::new(&model);
     let mut random = Xoshiro256PlusPlus::seed_from_u64(4);
@@ -123,13 +122,13 @@ fn the_factored_mass_matrix_is_that_of_the_bodies() {
         let mut found = (&dense * &wanted).as_slice().to_vec();
         matrix.solve(&tree, &mut found);
         let off = (DVector::from_vec(found) - &wanted).norm();
-        // What differences lose is magnified by the matrix' condition.
-        assert!(off < 1e-4, "off by {off}");
+        // The matrix' condition number magnifies the error of the differences.
+        assert!(off < 1e-4, "error {off}");
     }
 }
 
 #[test]
-fn whitened_velocities_carry_the_energy_and_whitened_rows_the_rates() {
+fn whitened_velocities_give_the_energy_and_whitened_rows_the_rates() {
     let model = Model::from_mjcf(HUMANOID_XML).expect("valid");
     let tree = Tree::new(&model);
     let mut random = Xoshiro256PlusPlus::seed_from_u64(5);
@@ -148,13 +147,13 @@ fn whitened_velocities_carry_the_energy_and_whitened_rows_the_rates() {
         assert!((of(&whitened, &whitened) / energy - 1.0).abs() < 1e-6, "the energy is twice {energy}");
         assert!((of(&row, &whitened) - jacobian.dot(&velocity)).abs() < 1e-9, "the rate along the direction");
         let response = jacobian.dot(&dense.lu().solve(&jacobian).expect("positive definite"));
-        assert!((of(&row, &row) / response - 1.0).abs() < 1e-4, "the direction answers with {response}");
+        assert!((of(&row, &row) / response - 1.0).abs() < 1e-4, "the direction's response is {response}");
         matrix.unwhiten(&tree, &mut whitened);
         assert!((DVector::from_vec(whitened) - velocity).norm() < 1e-12);
     }
 }
 
-/// A box of 2 kg with a small part on a hinge that is far away from any contact's line.
+/// Box of 2 kg with a small body on a hinge.
 const BOX: &str = r#"<mujoco><option gravity="0 0 0"/><worldbody><geom type="plane" size="1 1 1"/>
     <body pos="0 0 0.1"><freejoint/><geom type="box" size="0.2 0.3 0.1" mass="2" contype="0" conaffinity="0"/>
     <body><joint name="j" axis="0 0 1"/><geom size="0.01" mass="1e-6" contype="0" conaffinity="0"/></body>
@@ -164,7 +163,7 @@ fn on_the_floor(x_m: f64, y_m: f64, friction: f64) -> ContactPoint {
     ContactPoint {
         bodies: [None, Some(0)],
         links: [None, Some(0)],
-        place_m: Vector3::new(x_m, y_m, -0.1),
+        position_m: Vector3::new(x_m, y_m, -0.1),
         normal: Vector3::z(),
         gap_m: -1e-4,
         friction,
@@ -172,14 +171,14 @@ fn on_the_floor(x_m: f64, y_m: f64, friction: f64) -> ContactPoint {
     }
 }
 
-/// Velocity of the box and impulses of its contacts after one step in which nothing else acts.
-fn touch(points: &[ContactPoint], velocity: [f64; 3]) -> (Vec<f64>, Vec<Vector3<f64>>) {
+/// Returns the box's velocity and its contacts' impulses after one step without other forces.
+fn solve_contacts(points: &[ContactPoint], velocity: [f64; 3]) -> (Vec<f64>, Vec<Vector3<f64>>) {
     let model = Model::from_mjcf(BOX).expect("valid");
     let tree = Tree::new(&model);
     let position = model.nominal_position();
     let (mut posture, mut matrix) = (Posture::new(&tree), MassMatrix::new(&tree));
-    posture.lay(&tree, &position);
-    posture.weigh(&tree);
+    posture.update_kinematics(&tree, &position);
+    posture.update_inertia(&tree);
     matrix.assemble(&tree, &posture);
     matrix.factor(&tree);
     let mut before = vec![0.0; tree.dofs()];
@@ -193,24 +192,24 @@ fn touch(points: &[ContactPoint], velocity: [f64; 3]) -> (Vec<f64>, Vec<Vector3<
 }
 
 #[test]
-fn contact_impulses_stay_in_their_cones_and_are_what_changes_the_momentum() {
+fn contact_impulses_stay_in_their_cones_and_equal_the_change_of_momentum() {
     let corners = [(0.2, 0.3), (0.2, -0.3), (-0.2, 0.3), (-0.2, -0.3)];
     for friction in [0.0, 0.3, 1.0, 5.0] {
         for velocity in [[0.0, 0.0, -1.0], [2.0, 0.0, -1.0], [-0.5, 3.0, -0.2], [0.1, 0.1, -2.0]] {
             let points = corners.map(|(x_m, y_m)| on_the_floor(x_m, y_m, friction));
-            let (after, impulses) = touch(&points, velocity);
+            let (after, impulses) = solve_contacts(&points, velocity);
             let mut sum = Vector3::zeros();
             for impulse in &impulses {
                 assert!(impulse.z >= 0.0, "contacts must not pull: {impulse}");
-                let across = impulse.x.hypot(impulse.y);
+                let tangential = impulse.x.hypot(impulse.y);
                 assert!(
-                    across <= friction * impulse.z * (1.0 + 1e-12),
-                    "{across} N·s at friction {friction}: {impulse}"
+                    tangential <= friction * impulse.z * (1.0 + 1e-12),
+                    "{tangential} N·s at friction {friction}: {impulse}"
                 );
                 sum += impulse;
             }
-            assert!(sum.z > 0.1, "it must be stopped");
-            // What rubs takes speed away and does not turn it round.
+            assert!(sum.z > 0.1, "the contacts must stop the box");
+            // Friction reduces speed and does not reverse it.
             for axis in 0..2 {
                 assert!(
                     sum[axis] * velocity[axis] <= 1e-9 && after[axis] * velocity[axis] >= -1e-9,
@@ -225,16 +224,16 @@ fn contact_impulses_stay_in_their_cones_and_are_what_changes_the_momentum() {
 }
 
 #[test]
-fn points_that_say_the_same_share_what_one_would_carry() {
-    // Below the centre, so that nothing turns: with friction the box would tip, so there is none.
+fn identical_contact_points_share_the_impulse_of_one() {
+    // Below the centre and without friction, so that the box does not rotate.
     let one = on_the_floor(0.0, 0.0, 0.0);
     let velocity = [1.0, 0.5, -1.0];
-    let (alone, single) = touch(&[one], velocity);
+    let (alone, single) = solve_contacts(&[one], velocity);
     for copies in [2, 4] {
-        let (together, shared) = touch(&vec![one; copies], velocity);
+        let (together, shared) = solve_contacts(&vec![one; copies], velocity);
         let sum: Vector3<f64> = shared.iter().sum();
         assert!(shared.iter().all(|impulse| impulse.z >= 0.0));
-        // Each is soft by itself, so several take over a little more: at most all instead of 95 %.
+        // Each is soft by itself, so several resist a little more: at most all of the force instead of 95 %.
         let ratio = sum.z / single[0].z;
         assert!((1.0..1.06).contains(&ratio), "{copies} carry {ratio} times as much");
         assert!((together[2] - alone[2]).abs() < 0.06, "{together:?}");
@@ -243,12 +242,12 @@ fn points_that_say_the_same_share_what_one_would_carry() {
 }
 
 #[test]
-fn a_contact_between_parts_that_cannot_move_apart_does_nothing() {
+fn a_contact_in_an_immovable_direction_has_no_impulse() {
     let stuck = ContactPoint { bodies: [Some(0), Some(0)], links: [Some(0), Some(0)], ..on_the_floor(0.1, 0.0, 1.0) };
     let velocity = [1.0, 0.0, -1.0];
     let floor = on_the_floor(0.0, 0.0, 0.0);
-    let (after, impulses) = touch(&[stuck, floor], velocity);
+    let (after, impulses) = solve_contacts(&[stuck, floor], velocity);
     assert_eq!(impulses[0], Vector3::zeros());
-    let (alone, single) = touch(&[floor], velocity);
+    let (alone, single) = solve_contacts(&[floor], velocity);
     assert_eq!((after, impulses[1]), (alone, single[0]));
 }

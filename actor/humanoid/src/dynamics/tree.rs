@@ -1,4 +1,4 @@
-//! The articulated body as the dynamics see it: nodes with inertia, degrees of freedom with parents.
+//! Kinematic tree: bodies with inertia, and degrees of freedom with their paths to the root.
 
 use nalgebra::{Matrix3, UnitQuaternion, Vector3};
 
@@ -6,50 +6,50 @@ use crate::model::Model;
 
 /// Degrees of freedom of the floating root: three translations (world axes), three rotations (root's axes).
 pub(crate) const ROOT_DOFS: usize = 6;
-/// Numbers of the position vector that belong to the root: place and quaternion.
+/// Numbers of the position vector that belong to the root: position and quaternion.
 pub(crate) const ROOT_POSITIONS: usize = 7;
 
-/// A floating tree of rigid bodies, joined by hinges.
+/// Floating tree of rigid bodies, joined by hinges.
 #[derive(Clone, Debug)]
 pub(crate) struct Tree {
     /// Bodies, parents first; the first is the root.
     pub(crate) nodes: Vec<Node>,
     /// One per hinge, in position order.
     pub(crate) hinges: Vec<HingeNode>,
-    /// For each body the degree of freedom nearest to it.
+    /// Last degree of freedom that moves each body.
     innermost_dofs: Vec<u32>,
-    /// The paths of all degrees of freedom, one after the other.
+    /// Concatenated paths of all degrees of freedom.
     paths: Vec<u32>,
-    /// Where the path of each degree of freedom starts in `paths`, and where the last one ends.
+    /// Start of each degree of freedom's path in `paths`, and the end of the last one.
     path_starts: Vec<usize>,
     /// Acceleration of gravity (m/s²).
     pub(crate) gravity_mps2: Vector3<f64>,
 }
 
-/// One rigid body.
+/// Rigid body.
 #[derive(Clone, Debug)]
 pub(crate) struct Node {
-    /// Index of the parent; the root is its own.
+    /// Index of the parent; the root is its own parent.
     pub(crate) parent: usize,
     /// Orientation in the parent with all hinges at zero.
     pub(crate) rotation: Matrix3<f64>,
-    /// Where the hinges sit, in the parent's frame (m).
+    /// Point on all hinges' axes, in the parent's frame (m).
     pub(crate) parent_anchor_m: Vector3<f64>,
-    /// Where the hinges sit, in this body's frame (m).
+    /// Point on all hinges' axes, in this body's frame (m).
     pub(crate) anchor_m: Vector3<f64>,
-    /// First hinge and one past the last.
+    /// Hinges that join it to its parent, parent's side first.
     pub(crate) hinges: std::ops::Range<usize>,
     pub(crate) mass_kg: f64,
-    /// In this body's frame (m).
+    /// Centre of mass in this body's frame (m).
     pub(crate) centre_m: Vector3<f64>,
-    /// About the centre, in this body's axes (kg·m²).
+    /// Inertia about the centre, in this body's axes (kg·m²).
     pub(crate) inertia_kgm2: Matrix3<f64>,
 }
 
-/// One hinge.
+/// Hinge.
 #[derive(Clone, Debug)]
 pub(crate) struct HingeNode {
-    /// In the frame of its body (unit vector).
+    /// Unit vector in the frame of its body.
     pub(crate) axis: Vector3<f64>,
     pub(crate) armature_kgm2: f64,
     pub(crate) damping_nmsprad: f64,
@@ -66,7 +66,7 @@ impl Tree {
             .iter()
             .map(|body| Node {
                 parent: body.parent.unwrap_or(0),
-                rotation: matrix(&body.pose.rotation),
+                rotation: rotation_matrix(&body.pose.rotation),
                 parent_anchor_m: (body.pose * body.anchor_m).coords,
                 anchor_m: body.anchor_m.coords,
                 hinges: body.hinges.clone(),
@@ -88,12 +88,12 @@ impl Tree {
                 max_rad: hinge.max_rad,
             })
             .collect();
-        let (paths, path_starts, innermost_dofs) = connect(&nodes, model.hinges.len());
+        let (paths, path_starts, innermost_dofs) = build_paths(&nodes, model.hinges.len());
         Self { nodes, hinges, innermost_dofs, paths, path_starts, gravity_mps2: model.gravity_mps2 }
     }
 
-    /// Takes over masses, friction, rotors and gravity of a model of the same build; allocates nothing.
-    pub(crate) fn vary(&mut self, model: &Model) {
+    /// Copies masses, friction, rotor inertias and gravity of a model with the same structure; allocates nothing.
+    pub(crate) fn apply_variation(&mut self, model: &Model) {
         for (node, body) in self.nodes.iter_mut().zip(&model.bodies) {
             node.mass_kg = body.mass_kg;
             node.inertia_kgm2 = body.inertia_kgm2;
@@ -105,41 +105,41 @@ impl Tree {
         self.gravity_mps2 = model.gravity_mps2;
     }
 
-    /// Degrees of freedom that move a body, from the first one to the nearest.
+    /// Returns the degrees of freedom that move a body, root first.
     pub(crate) fn path_of_body(&self, body: usize) -> &[u32] {
         self.path(self.innermost_dofs[body] as usize)
     }
 
-    /// The degrees of freedom from the first one to this one, along the tree.
+    /// Returns the degrees of freedom from the root to this one, inclusive.
     #[inline]
     pub(crate) fn path(&self, dof: usize) -> &[u32] {
         &self.paths[self.row(dof)]
     }
 
-    /// Where [`Self::path`] lies when all paths are laid one after the other.
+    /// Returns the range of [`Self::path`] in the concatenated paths.
     #[inline]
     pub(crate) fn row(&self, dof: usize) -> std::ops::Range<usize> {
         self.path_starts[dof]..self.path_starts[dof + 1]
     }
 
-    /// Lengths of all paths together.
+    /// Returns the sum of all paths' lengths.
     pub(crate) fn path_entries(&self) -> usize {
         self.paths.len()
     }
 
-    /// Length of the velocity vector.
+    /// Returns the length of the velocity vector.
     pub(crate) fn dofs(&self) -> usize {
         self.path_starts.len() - 1
     }
 
-    /// Mass of all bodies (kg).
+    /// Returns the mass of all bodies (kg).
     pub(crate) fn mass_kg(&self) -> f64 {
         self.nodes.iter().map(|node| node.mass_kg).sum()
     }
 }
 
-/// Paths of all degrees of freedom, where each starts, and the innermost degree of freedom of each body.
-fn connect(nodes: &[Node], hinges: usize) -> (Vec<u32>, Vec<usize>, Vec<u32>) {
+/// Returns the paths of all degrees of freedom, the start of each, and the innermost degree of freedom of each body.
+fn build_paths(nodes: &[Node], hinges: usize) -> (Vec<u32>, Vec<usize>, Vec<u32>) {
     let root: Vec<u32> = (0..ROOT_DOFS as u32).collect();
     let mut paths: Vec<Vec<u32>> = (0..ROOT_DOFS).map(|dof| root[..=dof].to_vec()).collect();
     paths.resize(ROOT_DOFS + hinges, Vec::new());
@@ -161,6 +161,6 @@ fn connect(nodes: &[Node], hinges: usize) -> (Vec<u32>, Vec<usize>, Vec<u32>) {
     (paths.concat(), starts, innermost)
 }
 
-pub(crate) fn matrix(rotation: &UnitQuaternion<f64>) -> Matrix3<f64> {
+pub(crate) fn rotation_matrix(rotation: &UnitQuaternion<f64>) -> Matrix3<f64> {
     rotation.to_rotation_matrix().into_inner()
 }

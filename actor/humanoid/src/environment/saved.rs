@@ -1,48 +1,48 @@
-//! An episode as plain numbers, to be gone on with in another process.
+//! State of an episode as plain numbers, to continue it in another process.
 
 use rand_xoshiro::Xoshiro256PlusPlus;
 
-use super::{Environment, standing_info};
+use super::{Environment, reset_info};
 use crate::error::StateError;
 
-/// What the rest of an episode depends on beside model and settings, between two control steps.
+/// State of an episode between two control steps, apart from model and settings.
 ///
-/// Less than an [`super::EnvironmentSnapshot`] holds: what the episode drew at its start comes from its seed once more, and
-/// Rapier's world is renewed.
+/// It holds less than an [`super::EnvironmentSnapshot`]: the seed reproduces what the episode drew at its start, and Rapier's
+/// world starts afresh.
 #[derive(Clone, Debug, PartialEq)]
 pub struct EpisodeState {
     /// Seed of the episode.
     pub seed: u64,
     /// Control steps since the reset.
     pub steps: u32,
-    /// See [`crate::Physics::position`].
+    /// Position vector, see [`crate::Physics::position`].
     pub position: Vec<f64>,
-    /// See [`crate::Physics::velocity`].
+    /// Velocity vector, see [`crate::Physics::velocity`].
     pub velocity: Vec<f64>,
-    /// What was last observed, with sensor noise.
+    /// Last observation, with sensor noise.
     pub observation: Vec<f32>,
-    /// Actions that may yet arrive at the motors, `[delay + 1][motor]`, the newest last.
+    /// Actions that may not have reached the motors yet, `[delay + 1][motor]`, newest last.
     pub past_actions: Vec<f32>,
-    /// Control steps to the next push.
+    /// Control steps until the next push.
     pub steps_to_push: u32,
-    /// Random numbers to come: of the sensors, of the motors, of the pushes.
+    /// Random streams of sensors, motors and pushes.
     pub streams: [Xoshiro256PlusPlus; 3],
 }
 
 impl Environment {
-    /// Puts a fresh Rapier world below the body; see [`crate::Physics::renew_world`].
+    /// Replaces the Rapier world by a fresh one; see [`crate::Physics::renew_world`].
     pub fn renew_world(&mut self) {
         self.physics.renew_world();
     }
 
-    /// The episode as plain numbers; `None` before the first reset, and after a fault.
+    /// Returns the episode's state; `None` before the first reset, and after a fault.
     ///
-    /// Where [`Self::renew_world`] follows, [`Self::resume_episode`] goes on bit for bit as this environment does.
-    /// A variation or state that somebody set through [`Self::physics_mut`] is no part of it.
+    /// If [`Self::renew_world`] follows, [`Self::resume_episode`] continues bit for bit as this environment does. The state
+    /// does not include a variation or state set through [`Self::physics_mut`].
     #[must_use]
     pub fn episode_state(&self) -> Option<EpisodeState> {
         let seed = self.seed.filter(|_| !self.physics.is_faulty())?;
-        let (past_actions, steps_to_push, streams) = self.disturber.progress();
+        let (past_actions, steps_to_push, streams) = self.randomiser.progress();
         Some(EpisodeState {
             seed,
             steps: self.episode_steps,
@@ -55,27 +55,27 @@ impl Environment {
         })
     }
 
-    /// Goes on with an episode of an environment with the same model and settings, and writes what it last observed.
+    /// Continues an episode of an environment with the same model and settings, and writes its last observation.
     ///
-    /// From there the same actions give the same observations and rewards, bit for bit. Contact forces, torques and
-    /// [`Self::info`] are told from the next step on; until then they are those of a body that was just placed.
+    /// From there the same actions give the same observations and rewards, bit for bit. Until the next step, contact forces,
+    /// torques and [`Self::info`] are those after a reset.
     ///
     /// # Errors
-    /// [`StateError`] if a size does not fit or a number cannot be; nothing has happened then.
+    /// [`StateError`] if a length is wrong or a number is invalid; the environment is then unchanged.
     ///
     /// # Panics
     /// If `observation` does not have length [`Self::observation_size`].
     pub fn resume_episode(&mut self, state: &EpisodeState, observation: &mut [f32]) -> Result<(), StateError> {
-        self.physics.check_exact(&state.position, &state.velocity)?;
+        self.physics.check_without_ranges(&state.position, &state.velocity)?;
         check("observation", &state.observation, self.observation_size())?;
-        check("past actions", &state.past_actions, self.disturber.past_size())?;
+        check("past actions", &state.past_actions, self.randomiser.past_size())?;
         self.seed = Some(state.seed);
-        self.disturber.begin_episode(state.seed, &mut self.physics);
-        self.disturber.go_on(&state.past_actions, state.steps_to_push, &state.streams);
-        self.physics.go_on_from(&state.position, &state.velocity);
+        self.randomiser.begin_episode(state.seed, &mut self.physics);
+        self.randomiser.resume(&state.past_actions, state.steps_to_push, &state.streams);
+        self.physics.resume_from(&state.position, &state.velocity);
         self.episode_steps = state.steps;
         self.last_observation.copy_from_slice(&state.observation);
-        self.last_info = standing_info(&self.config, &self.physics);
+        self.last_info = reset_info(&self.config, &self.physics);
         observation.copy_from_slice(&state.observation);
         Ok(())
     }

@@ -1,29 +1,28 @@
-//! What the policy sees: blocks of numbers in Gymnasium's order, under Gymnasium's names.
+//! Observations: blocks of numbers in Gymnasium's order, under Gymnasium's names.
 //!
-//! | block | numbers | what, with units |
+//! | block | numbers | content, with units |
 //! |---|---|---|
-//! | `qpos` | 7 + hinges, less x and y where they are left out | root x, y, z (m), root quaternion w, x, y, z, hinge angles (rad) |
+//! | `qpos` | 7 + hinges, minus x and y if excluded | root x, y, z (m), root quaternion w, x, y, z, hinge angles (rad) |
 //! | `qvel` | 6 + hinges | root velocity in the world frame (m/s), root angular velocity in the root's frame (rad/s), hinge rates (rad/s) |
 //! | `cinert` | 10 per link | inertia xx, yy, zz, xy, xz, yz (kg·m²), mass × offset x, y, z (kg·m), mass (kg) |
 //! | `cvel` | 6 per link | angular velocity x, y, z (rad/s), velocity x, y, z (m/s) |
 //! | `qfrc_actuator` | one per hinge | torque of the hinge's motors (N·m) |
-//! | `cfrc_ext` | 6 per link | moment x, y, z (N·m), force x, y, z (N) of what touches the link |
+//! | `cfrc_ext` | 6 per link | moment x, y, z (N·m), force x, y, z (N) of the link's contacts |
 //!
-//! Links are the bodies of the model text in its order, also where they are welded together: 13 for the humanoid.
-//! The last four blocks are in world axes and about the *centre*: the centre of mass of the whole body. Inertia is that
-//! about the centre, the offset is the link's centre of mass as seen from there, and the velocity is that of the
-//! point of the link which is at the centre.
+//! Links are in the model text's order: 13 for the built-in humanoid. `cinert`, `cvel` and `cfrc_ext` are in world axes and
+//! about the *centre*, the whole humanoid's centre of mass: the inertia is about the centre, the offset is that of the link's
+//! centre of mass from it, and the velocity is that of the link's point at it.
 //!
 //! | [`ObservationKind`] | blocks | humanoid |
 //! |---|---|---|
 //! | `Compact` | `qpos`, `qvel` | 45 |
-//! | `GymnasiumV5` | all; each of the last four can be left out | 348 |
+//! | `GymnasiumV5` | all; each of the last four can be excluded | 348 |
 //! | `GymnasiumV4` | all, with a row of zeros for the world before the links' rows and six zeros for the root before the torques | 376 |
 //!
 //! Formulas and order are MuJoCo's (`mj_comPos`, `mj_comVel`, `mj_rnePostConstraint`) and Gymnasium's
-//! (`humanoid_v5.py`, `humanoid_v4.py`). Two readings differ by nature: everything here belongs to the end of the
-//! control step, while MuJoCo's derived quantities are those of the last stage of its integrator; and contact forces
-//! are means over the control step, while MuJoCo's are those of its last moment.
+//! (`humanoid_v5.py`, `humanoid_v4.py`). Two points differ. Everything here belongs to the end of the control step, while
+//! MuJoCo's derived quantities are those of its integrator's last stage. Contact forces are means over the control step,
+//! while MuJoCo's are those at its end.
 
 mod spatial;
 
@@ -37,7 +36,7 @@ use crate::physics::Physics;
 /// Length of the compact observation of [`crate::HUMANOID_XML`]: 22 position and 23 velocity numbers.
 pub const OBSERVATION_SIZE_COMPACT: usize = 45;
 
-/// Numbers of the position vector that are left out: x and y, since walking must not depend on the place.
+/// Numbers of the position vector that can be excluded: x and y, because walking must not depend on them.
 const HIDDEN: usize = 2;
 /// Degrees of freedom of the root.
 const ROOT_FREEDOMS: usize = 6;
@@ -46,12 +45,12 @@ const INERTIA_SIZE: usize = 10;
 /// Numbers of a link's velocity, and of the wrench on it.
 const SPATIAL_SIZE: usize = 6;
 
-/// Consecutive numbers of an observation that say one thing.
+/// Consecutive numbers of an observation with one meaning.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Block {
-    /// Gymnasium's name of it, as in its `observation_structure`.
+    /// Name in Gymnasium's `observation_structure`.
     pub name: &'static str,
-    /// Where it is in the observation.
+    /// Position in the observation.
     pub range: Range<usize>,
     part: Part,
 }
@@ -66,18 +65,18 @@ enum Part {
     Contacts,
 }
 
-/// Which numbers an observation consists of, for one model.
+/// Layout of an observation for one model.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Observation {
     blocks: Vec<Block>,
-    /// Whether world and root, whose numbers are always zero, have their rows.
+    /// Whether the blocks include zeros for the world and the root.
     has_world: bool,
-    /// Numbers before the height of the torso.
-    skips: usize,
+    /// Index of the torso's height.
+    height_index: usize,
 }
 
 impl Observation {
-    /// The observation that a configuration asks for.
+    /// Returns the layout that a configuration selects.
     #[must_use]
     pub fn new(config: &EnvironmentConfig, model: &Model) -> Self {
         let has_world = config.observation == ObservationKind::GymnasiumV4;
@@ -103,27 +102,27 @@ impl Observation {
                 Block { name, range: start..end, part }
             })
             .collect();
-        Self { blocks, has_world, skips: HIDDEN - hidden }
+        Self { blocks, has_world, height_index: HIDDEN - hidden }
     }
 
-    /// Length of the observation.
+    /// Returns the length of the observation.
     #[must_use]
     pub fn size(&self) -> usize {
         self.blocks.last().map_or(0, |block| block.range.end)
     }
 
-    /// Its blocks, in order.
+    /// Returns the blocks, in order.
     #[must_use]
     pub fn blocks(&self) -> &[Block] {
         &self.blocks
     }
 
-    /// Where the height of the torso is: after x and y where they are seen. The rest of positions and velocities follows.
-    pub(crate) fn height_at(&self) -> usize {
-        self.skips
+    /// Returns the index of the torso's height; the other positions and the velocities follow it.
+    pub(crate) fn height_index(&self) -> usize {
+        self.height_index
     }
 
-    /// Writes what is seen of a body as it is now. Allocates nothing.
+    /// Writes an observation of the present state. Allocates nothing.
     ///
     /// # Panics
     /// If `observation` does not have length [`Self::size`], or `physics` simulates another model.
@@ -145,7 +144,7 @@ impl Observation {
         }
     }
 
-    /// Fills the world's numbers with zeros, where there are any, and hands out the rest.
+    /// Sets the world's numbers to zero, if there are any, and returns the rest.
     fn after_world<'a>(&self, target: &'a mut [f32], size: usize) -> &'a mut [f32] {
         let (world, rest) = target.split_at_mut(if self.has_world { size } else { 0 });
         world.fill(0.0);

@@ -1,40 +1,40 @@
-//! Inertia and velocity of one body about a point away from it.
+//! Inertia and velocity of one link about any point.
 
 use nalgebra::{Isometry3, Matrix3, Point3, Vector3, Vector6};
 
 use crate::model::{Body, Link};
 use crate::physics::BodyMotion;
 
-/// What a body weighs and how it resists turning, about one point, in world axes.
+/// Spatial inertia about one point, in world axes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct SpatialInertia {
     /// Inertia about the point (kg·m²).
     inertia_kgm2: Matrix3<f64>,
-    /// Mass × offset of the body's centre of mass from the point (kg·m).
+    /// Mass × offset of the centre of mass from the point (kg·m).
     moment_kgm: Vector3<f64>,
     /// Mass (kg).
     mass_kg: f64,
 }
 
 impl SpatialInertia {
-    /// Of a link whose rigid body is at `pose`, about `point` (m, world frame).
+    /// Computes that of a link whose body is at `pose`, about `point` (m, world frame).
     pub(super) fn of_link(link: &Link, pose: &Isometry3<f64>, point: &Point3<f64>) -> Self {
         let turn = pose.rotation.to_rotation_matrix();
         let own = turn.matrix() * link.inertia_kgm2 * turn.matrix().transpose();
         let offset = pose * link.centre_of_mass_m - point;
-        // Parallel axes: a point mass at the offset is added.
+        // Parallel axis theorem.
         let moved = (Matrix3::identity() * offset.norm_squared() - offset * offset.transpose()) * link.mass_kg;
         Self { inertia_kgm2: own + moved, moment_kgm: offset * link.mass_kg, mass_kg: link.mass_kg }
     }
 
-    /// xx, yy, zz, xy, xz, yz of the inertia, then mass × offset, then mass: MuJoCo's order in `cinert`.
+    /// Returns xx, yy, zz, xy, xz, yz of the inertia, then mass × offset, then mass: MuJoCo's order in `cinert`.
     pub(super) fn numbers(&self) -> [f64; 10] {
         let (i, m) = (&self.inertia_kgm2, &self.moment_kgm);
         [i[(0, 0)], i[(1, 1)], i[(2, 2)], i[(0, 1)], i[(0, 2)], i[(1, 2)], m.x, m.y, m.z, self.mass_kg]
     }
 }
 
-/// Angular velocity (rad/s), then the velocity (m/s) of the point of the body that is at `point`; world frame.
+/// Returns the angular velocity (rad/s), then the velocity (m/s) of the body's point at `point`; world frame.
 pub(super) fn velocity_about(point: &Point3<f64>, body: &Body, motion: &BodyMotion) -> Vector6<f64> {
     let arm = point - motion.pose * body.centre_of_mass_m;
     let linear = motion.linear_mps + motion.angular_radps.cross(&arm);
@@ -62,15 +62,15 @@ mod tests {
     }
 
     #[test]
-    fn inertia_of_a_turned_and_shifted_body_by_hand() {
-        // Centre at (1, 0, 0) in a frame that is turned by 90° about z and moved to (0, 0, 3): (0, 1, 3) in the world.
+    fn inertia_of_a_rotated_and_shifted_link_matches_the_one_by_hand() {
+        // Centre at (1, 0, 0) in a frame rotated by 90° about z and shifted to (0, 0, 3): (0, 1, 3) in the world.
         let pose = Isometry3::from_parts(
             Translation3::new(0.0, 0.0, 3.0),
             UnitQuaternion::from_axis_angle(&Vector3::z_axis(), std::f64::consts::FRAC_PI_2),
         );
         let link = link(2.0, Matrix3::from_diagonal(&Vector3::new(0.1, 0.2, 0.3)));
         let found = SpatialInertia::of_link(&link, &pose, &Point3::new(-1.0, -1.0, 1.0)).numbers();
-        // The offset is (1, 2, 2); the turn swaps the first two principal axes; then 2 kg × (|d|² 1 − d dᵀ).
+        // The offset is (1, 2, 2); the rotation swaps the first two principal axes; then 2 kg × (|d|² 1 − d dᵀ).
         let expected =
             [0.2 + 2.0 * 8.0, 0.1 + 2.0 * 5.0, 0.3 + 2.0 * 5.0, -2.0 * 2.0, -2.0 * 2.0, -2.0 * 4.0, 2.0, 4.0, 4.0, 2.0];
         for (found, expected) in found.iter().zip(expected) {
@@ -79,7 +79,7 @@ mod tests {
     }
 
     #[test]
-    fn velocity_at_a_point_away_from_the_body_by_hand() {
+    fn velocity_at_a_point_outside_the_body_matches_the_one_by_hand() {
         let model = Model::from_mjcf(HUMANOID_XML).expect("valid");
         let body = Body { centre_of_mass_m: Point3::new(0.0, 0.0, 1.0), ..model.bodies[0].clone() };
         let motion = BodyMotion {

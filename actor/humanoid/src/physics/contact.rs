@@ -1,21 +1,21 @@
-//! Contacts: found by Rapier, with its solution as a first guess; and what they do to each link.
+//! Contacts that Rapier detects, with its solution as a first guess, and their impulses on the links.
 
 use nalgebra::{Point3, Vector3};
 use rapier3d::prelude::*;
 
 use super::convert::{from_vector, to_vector};
 use super::exchange::pose;
-use super::world::{Tag, World};
+use super::world::{RapierWorld, Tag};
 use crate::dynamics::{ContactPoint, Contacts, Posture};
 
-/// A force between two links, or between a link and the floor.
+/// Force between two links, or between a link and the floor.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ContactForce {
-    /// The two links, as indices into [`crate::Model::links`]; `None` is the floor.
+    /// Indices into [`crate::Model::links`]; `None` is the floor.
     pub links: [Option<usize>; 2],
-    /// Where it acts (m, world frame).
+    /// Point at which it acts (m, world frame).
     pub at_m: Point3<f64>,
-    /// What the first link feels (N, world frame); the second one feels the opposite.
+    /// Force on the first link (N, world frame); the opposite acts on the second.
     pub force_n: Vector3<f64>,
 }
 
@@ -26,9 +26,9 @@ pub(super) struct ContactImpulse {
     pub(super) angular_nms: Vector3<f64>,
 }
 
-/// Collects the contacts of the physics step that Rapier has just done; `start` is the posture that it began with and
-/// `root_height_m` how high its root was.
-pub(super) fn collect(world: &World, start: &Posture, root_height_m: f64, contacts: &mut Contacts) {
+/// Collects the contacts of Rapier's last step into `contacts`; `start` and `root_height_m` are the posture and root height
+/// at the start of that step.
+pub(super) fn collect(world: &RapierWorld, start: &Posture, root_height_m: f64, contacts: &mut Contacts) {
     contacts.points.clear();
     let root = Vector3::new(0.0, 0.0, root_height_m);
     for pair in world.rapier.narrow_phase.contact_pairs() {
@@ -40,7 +40,7 @@ pub(super) fn collect(world: &World, start: &Posture, root_height_m: f64, contac
         let links = tags.map(|tag| tag.link);
         let margin_m = tags[0].margin_m + tags[1].margin_m;
         let bodies = links.map(|link| link.map(|link| world.link_bodies[link]));
-        // Colliders have moved on since the contact was found.
+        // Colliders have moved since Rapier detected the contact.
         let at_start = match (bodies[0], first.position_wrt_parent()) {
             (Some(body), Some(place)) => pose(start, body, &root) * *place,
             _ => *first.position(),
@@ -53,16 +53,15 @@ pub(super) fn collect(world: &World, start: &Posture, root_height_m: f64, contac
             }
             for contact in &manifold.points {
                 let data = &contact.data;
-                // Rapier solves friction once per manifold and keeps the last solver pass only. Taking it to be in
-                // proportion to the normal impulse, of which both the sum and the last pass are known, is near enough
-                // for a guess.
+                // Rapier keeps the sum of the normal impulses, but the friction impulse of the last solver pass only. The
+                // guess scales friction like the normal impulse.
                 let share = if pressed_last > 0.0 { data.impulse / pressed_last } else { 0.0 };
                 let rubbing = if pressed > 0.0 { data.warmstart_tangent_world * -share } else { Vector::ZERO };
                 let middle = at_start.transform_point(contact.local_p1) + manifold.data.normal * (contact.dist / 2.0);
                 contacts.push(ContactPoint {
                     bodies,
                     links,
-                    place_m: from_vector(middle - to_vector(&root)),
+                    position_m: from_vector(middle - to_vector(&root)),
                     normal: from_vector(manifold.data.normal).normalize(),
                     gap_m: f64::from(contact.dist) - margin_m,
                     friction: f64::from(manifold.data.friction),
@@ -73,17 +72,17 @@ pub(super) fn collect(world: &World, start: &Posture, root_height_m: f64, contac
     }
 }
 
-/// Adds the contacts' impulses, with moments about `about_m` (relative to O).
+/// Adds the contacts' impulses to their links, with moments about `about_m` (relative to O).
 pub(super) fn accumulate(contacts: &Contacts, about_m: &Vector3<f64>, impulses: &mut [ContactImpulse]) {
     for point in &contacts.points {
-        // The solver counts what the second one feels.
-        push(point.links, &point.place_m, &-point.impulse_ns, about_m, impulses);
+        // The solver's impulse acts on the second link.
+        add_impulse(point.links, &point.position_m, &-point.impulse_ns, about_m, impulses);
     }
 }
 
-/// Gives an impulse (N·s) at a point (m) to the first link and its opposite to the second; `None` is the floor. Moments
-/// are about `about_m`.
-pub(super) fn push(
+/// Adds an impulse (N·s) at a point (m) to the first link and its opposite to the second; `None` is the floor. Moments are
+/// about `about_m`.
+pub(super) fn add_impulse(
     links: [Option<usize>; 2],
     at_m: &Vector3<f64>,
     linear_ns: &Vector3<f64>,

@@ -1,4 +1,4 @@
-//! Between nalgebra in double precision, which the model and the task use, and Rapier's own types.
+//! Conversion between nalgebra in double precision, which model and task use, and Rapier's types.
 
 use nalgebra::{Matrix3, Point3, UnitQuaternion, Vector3};
 use rapier3d::math::{Matrix, Rotation, Vector};
@@ -13,7 +13,7 @@ pub(super) fn to_point(p: &Point3<f64>) -> Vector {
 
 pub(super) fn to_rotation(r: &UnitQuaternion<f64>) -> Rotation {
     let q = r.quaternion();
-    // Rounding to single precision leaves a norm that is off by 1e-7: without this, errors would pile up in products.
+    // Rounding to single precision changes the norm by 1e-7, which would accumulate in products.
     Rotation::from_xyzw(q.i as f32, q.j as f32, q.k as f32, q.w as f32).normalize()
 }
 

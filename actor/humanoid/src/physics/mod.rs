@@ -1,13 +1,15 @@
 //! One humanoid in one Rapier world, as named quantities.
 //!
-//! Its state is in joint coordinates (see `dynamics`). A physics step has three parts. The *flight* carries the state
-//! over the step as if nothing touched. Then Rapier steps the bodies, as free rigid bodies with the velocities that the
-//! flight leads to: it finds the contacts and solves them. From there the contact impulses are refined in joint coordinates
-//! until the body as a whole answers to them, limits included, and what they do to the state is exact. So the body moves as
-//! an articulated body does, and joints never come apart. Rapier's world has no joints: they would cost a third more time,
-//! and with this refinement the motion is as near to MuJoCo's without them.
+//! The state is in joint coordinates (see `dynamics`). A physics step has three parts:
 //!
-//! Nothing here knows about rewards or episodes. Rapier is named in this module only.
+//! 1. The *flight* integrates the state over the step without contacts.
+//! 2. Rapier steps the bodies as free rigid bodies at the flight's final velocities. It detects the contacts and solves them.
+//! 3. The contact impulses are refined in joint coordinates, together with the hinge limits, and applied to the state.
+//!
+//! So joints cannot come apart. Rapier's world has no joints: they would cost a third more time, and with the refinement the
+//! motion is as close to MuJoCo's without them.
+//!
+//! This module does not depend on rewards or episodes. Only this module names Rapier.
 
 mod contact;
 mod convert;
@@ -24,22 +26,20 @@ pub use self::contact::ContactForce;
 use self::contact::ContactImpulse;
 pub use self::motion::BodyMotion;
 pub use self::snapshot::PhysicsSnapshot;
-use self::snapshot::Settings;
-pub use self::state::HINGE_TOLERANCE_RAD;
-use self::variation::Variable;
+use self::variation::VariableModel;
 pub use self::variation::Variation;
-use self::world::World;
-use crate::config::{CONTROL_STEP_S, EnvironmentConfig};
+use self::world::RapierWorld;
+use crate::config::{CONTROL_STEP_S, PhysicsSettings};
 use crate::dynamics::{Contacts, Flight, Motion, Posture, ROOT_DOFS, ROOT_POSITIONS, Tree};
 use crate::error::ModelError;
 use crate::model::Model;
 
-/// The simulation produced a number that is not finite; only [`Physics::set_state`] makes it usable again.
+/// Error of a simulation that produced a non-finite number; [`Physics::set_state`] recovers from it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("the physics state is not finite")]
 pub struct PhysicsFault;
 
-/// How well the joints hold at one moment.
+/// Error of the joints at one moment.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct JointQuality {
     /// Largest angle by which a hinge is outside its range (rad).
@@ -50,52 +50,51 @@ pub struct JointQuality {
 pub struct Physics {
     model: Model,
     tree: Tree,
-    world: World,
+    world: RapierWorld,
     flight: Flight,
-    touching: Contacts,
-    substeps: u32,
-    settings: Settings,
+    contacts: Contacts,
+    settings: PhysicsSettings,
     position: Vec<f64>,
     velocity: Vec<f64>,
     /// Posture at `position`.
     posture: Posture,
     body_velocities: Vec<Motion>,
     motions: Vec<BodyMotion>,
-    contacts: Vec<ContactImpulse>,
-    /// Where the root was when `touching` was found (m): its points are relative to that.
-    touching_about_m: Vector3<f64>,
+    link_impulses: Vec<ContactImpulse>,
+    /// Root position when `contacts` were detected (m); their points are relative to it.
+    contacts_origin_m: Vector3<f64>,
     controls: Vec<f32>,
     hinge_torques_nm: Vec<f64>,
-    variable: Variable,
+    variable: VariableModel,
     is_faulty: bool,
 }
 
 impl Physics {
-    /// Builds a world for a model, at rest in its nominal pose.
+    /// Builds a world for a model, at rest in its nominal pose; `settings` may be an [`crate::EnvironmentConfig`].
     ///
     /// # Errors
     /// [`ModelError`] if a setting is out of range, or a servo too stiff for the physics step.
-    pub fn new(model: Model, config: &EnvironmentConfig) -> Result<Self, ModelError> {
-        config.check()?;
-        model.check_servos(CONTROL_STEP_S / f64::from(config.substeps))?;
+    pub fn new(model: Model, settings: impl Into<PhysicsSettings>) -> Result<Self, ModelError> {
+        let settings = settings.into();
+        settings.check()?;
+        model.check_servos(CONTROL_STEP_S / f64::from(settings.substeps))?;
         let bodies = model.bodies.len();
         let tree = Tree::new(&model);
         let mut physics = Self {
-            world: World::new(&model, config),
+            world: RapierWorld::new(&model, &settings),
             flight: Flight::new(&tree),
-            touching: Contacts::new(&tree),
-            substeps: config.substeps,
-            settings: Settings::of(config),
+            contacts: Contacts::new(&tree),
+            settings,
             position: vec![0.0; model.position_size()],
             velocity: vec![0.0; model.velocity_size()],
             posture: Posture::new(&tree),
             body_velocities: vec![Motion::default(); bodies],
-            motions: vec![BodyMotion::still(); bodies],
-            contacts: vec![ContactImpulse::default(); model.links.len()],
-            touching_about_m: Vector3::zeros(),
+            motions: vec![BodyMotion::at_rest(); bodies],
+            link_impulses: vec![ContactImpulse::default(); model.links.len()],
+            contacts_origin_m: Vector3::zeros(),
             controls: vec![0.0; model.motors.len()],
             hinge_torques_nm: vec![0.0; model.hinges.len()],
-            variable: Variable::new(&model),
+            variable: VariableModel::new(&model),
             is_faulty: false,
             tree,
             model,
@@ -105,9 +104,9 @@ impl Physics {
         Ok(physics)
     }
 
-    /// Starts afresh from a position and a velocity vector (see [`Self::position`] and [`Self::velocity`]).
+    /// Restarts from a position and a velocity vector (see [`Self::position`] and [`Self::velocity`]).
     ///
-    /// Nothing of what was simulated before has any influence on what follows.
+    /// Earlier simulation does not influence what follows.
     ///
     /// # Panics
     /// If a vector has the wrong length.
@@ -118,33 +117,54 @@ impl Physics {
         self.velocity.copy_from_slice(velocity);
         let norm = position[3..ROOT_POSITIONS].iter().map(|part| part * part).sum::<f64>().sqrt();
         self.position[3..ROOT_POSITIONS].iter_mut().for_each(|part| *part /= norm);
-        self.begin();
+        self.restart();
     }
 
-    /// Starts afresh from `position` and `velocity` as they are now.
-    fn begin(&mut self) {
-        self.variable.take_effect(&mut self.model, &mut self.tree, &mut self.world);
-        self.world.restore();
-        self.contacts.fill(ContactImpulse::default());
-        self.touching.points.clear();
+    /// Restarts from the present `position` and `velocity`.
+    fn restart(&mut self) {
+        self.variable.apply_if_due(&mut self.model, &mut self.tree, &mut self.world);
+        self.world.reset();
+        self.link_impulses.fill(ContactImpulse::default());
+        self.contacts.points.clear();
         self.controls.fill(0.0);
-        self.pull();
+        self.update_torques();
         self.is_faulty = false;
-        self.posture.lay(&self.tree, &self.position);
-        self.posture.weigh(&self.tree);
-        self.describe();
+        self.posture.update_kinematics(&self.tree, &self.position);
+        self.posture.update_inertia(&self.tree);
+        self.update_body_motions();
     }
 
-    /// Puts a fresh Rapier world below the present state; nothing that can be observed changes.
+    /// Replaces the Rapier world by a fresh one; no observable quantity changes.
     ///
-    /// Rapier keeps the impulses of the last physics step and where everything was, as first guesses for the next one:
-    /// without them the next steps differ in their last digits. From here on, the motion depends on position, velocity,
-    /// variation and controls alone, so that it can be gone on with where nothing else was kept.
+    /// Rapier keeps impulses and poses of the last physics step as first guesses; without them the next steps differ in their
+    /// last digits. After this call, the motion depends on position, velocity, variation and controls alone: these are enough
+    /// to continue it elsewhere.
     pub fn renew_world(&mut self) {
-        self.world.restore();
+        self.world.reset();
     }
 
-    /// Holds the motors' controls, one number per motor: see [`Self::joint_torques_nm`]. No time passes.
+    /// Varies the model that this simulation was built from, from the next [`Self::set_state`] until the next variation.
+    ///
+    /// From then on, [`Self::model`] returns the varied model.
+    ///
+    /// # Panics
+    /// If the variation does not have the model's size.
+    pub fn set_variation(&mut self, variation: &Variation) {
+        self.variable.set(variation);
+    }
+
+    /// Adds a velocity (m/s, world frame) to all bodies at once, without any rotation.
+    pub fn push(&mut self, velocity_mps: Vector3<f64>) {
+        if self.is_faulty {
+            return;
+        }
+        for (rate, change) in self.velocity.iter_mut().zip(velocity_mps.iter()) {
+            *rate += change;
+        }
+        self.update_body_motions();
+    }
+
+    /// Sets the motors' controls, one number per motor, and updates [`Self::joint_torques_nm`]. No time passes.
     ///
     /// Controls are clamped to each motor's [`crate::model::Motor::control`].
     ///
@@ -160,65 +180,64 @@ impl Physics {
             return Err(PhysicsFault);
         }
         self.controls.copy_from_slice(controls);
-        self.pull();
+        self.update_torques();
         Ok(())
     }
 
-    /// Replaces the contact forces of the last control step by others, for observations of a state of choice.
+    /// Replaces the contact forces of the last control step, to observe a state of choice.
     ///
     /// # Panics
     /// If a link does not exist.
     pub fn set_contacts(&mut self, forces: &[ContactForce]) {
-        self.contacts.fill(ContactImpulse::default());
+        self.link_impulses.fill(ContactImpulse::default());
         let about = self.centre_of_mass();
         for force in forces {
             let impulse = force.force_n * CONTROL_STEP_S;
-            contact::push(force.links, &force.at_m.coords, &impulse, &about.coords, &mut self.contacts);
+            contact::add_impulse(force.links, &force.at_m.coords, &impulse, &about.coords, &mut self.link_impulses);
         }
     }
 
-    /// Simulates one control step of [`CONTROL_STEP_S`] with the motors' controls held, one number per motor.
+    /// Simulates one control step of [`CONTROL_STEP_S`] with constant controls, one number per motor.
     ///
     /// Controls are clamped to each motor's [`crate::model::Motor::control`]. A servo's torque follows its hinge from
     /// one physics step to the next.
     ///
     /// # Errors
-    /// [`PhysicsFault`] if anything is not finite; the named quantities then keep their values of the last control
-    /// step that was.
+    /// [`PhysicsFault`] if a number is not finite; body motions then keep their values of the last finite control step.
     ///
     /// # Panics
     /// If there are not as many controls as motors.
     pub fn step_only(&mut self, controls: &[f32]) -> Result<(), PhysicsFault> {
         self.set_controls(controls)?;
-        self.contacts.fill(ContactImpulse::default());
-        for _ in 0..self.substeps {
+        self.link_impulses.fill(ContactImpulse::default());
+        for _ in 0..self.settings.substeps {
             self.substep()?;
         }
-        self.describe();
+        self.update_body_motions();
         Ok(())
     }
 
-    /// Brings the torques of the motors up to date with controls and state.
-    fn pull(&mut self) {
+    /// Updates the motors' torques from controls and state.
+    fn update_torques(&mut self) {
         let (angles_rad, rates_radps) = (&self.position[ROOT_POSITIONS..], &self.velocity[ROOT_DOFS..]);
         self.model.motor_torques(&self.controls, angles_rad, rates_radps, &mut self.hinge_torques_nm);
     }
 
     fn substep(&mut self) -> Result<(), PhysicsFault> {
-        self.pull();
-        let step_s = CONTROL_STEP_S / f64::from(self.substeps);
-        let Self { tree, world, flight, touching, .. } = self;
-        flight.fly(tree, &self.posture, &self.position, &self.velocity, &self.hinge_torques_nm, step_s);
+        self.update_torques();
+        let step_s = self.step_s();
+        let Self { tree, world, flight, contacts, .. } = self;
+        flight.advance(tree, &self.posture, &self.position, &self.velocity, &self.hinge_torques_nm, step_s);
         exchange::send(world, tree, &self.posture, self.position[2], flight, &mut self.body_velocities);
         world.rapier.step();
-        if !world.is_sound() {
+        if !world.is_finite() {
             self.is_faulty = true;
             return Err(PhysicsFault);
         }
-        self.touching_about_m = Vector3::from_column_slice(&self.position[..3]);
-        contact::collect(world, &self.posture, self.position[2], touching);
-        flight.touch_down(tree, touching, &mut self.position, &mut self.velocity, &mut self.posture, step_s);
-        contact::accumulate(touching, &flight.start_centre_m(), &mut self.contacts);
+        self.contacts_origin_m = Vector3::from_column_slice(&self.position[..3]);
+        contact::collect(world, &self.posture, self.position[2], contacts);
+        flight.solve_constraints(tree, contacts, &mut self.position, &mut self.velocity, &mut self.posture, step_s);
+        contact::accumulate(contacts, &flight.start_centre_m(), &mut self.link_impulses);
         if !self.position.iter().chain(&self.velocity).all(|number| number.is_finite()) {
             self.is_faulty = true;
             return Err(PhysicsFault);
@@ -226,10 +245,15 @@ impl Physics {
         Ok(())
     }
 
-    /// Brings the bodies' motion up to date with the state.
-    fn describe(&mut self) {
+    /// Duration of one physics step (s).
+    fn step_s(&self) -> f64 {
+        CONTROL_STEP_S / f64::from(self.settings.substeps)
+    }
+
+    /// Updates the bodies' motion from the state.
+    fn update_body_motions(&mut self) {
         let root = Vector3::from_column_slice(&self.position[..3]);
-        motion::describe(
+        motion::write_motions(
             &self.tree,
             &self.posture,
             &root,
@@ -239,63 +263,63 @@ impl Physics {
         );
     }
 
-    /// The model that is simulated.
+    /// Returns the simulated model, with the present variation.
     #[must_use]
     pub fn model(&self) -> &Model {
         &self.model
     }
 
-    /// Position vector: root x, y, z (m), root quaternion w, x, y, z, one angle per hinge (rad).
+    /// Returns the position vector: root x, y, z (m), root quaternion w, x, y, z, one angle per hinge (rad).
     #[must_use]
     pub fn position(&self) -> &[f64] {
         &self.position
     }
 
-    /// Velocity vector: root velocity in the world frame (m/s), root angular velocity in the torso's frame (rad/s),
-    /// one rate per hinge (rad/s).
+    /// Returns the velocity vector: root velocity in the world frame (m/s), root angular velocity in the torso's frame
+    /// (rad/s), one rate per hinge (rad/s).
     #[must_use]
     pub fn velocity(&self) -> &[f64] {
         &self.velocity
     }
 
-    /// Angle of each hinge (rad), in position order.
+    /// Returns the angle of each hinge (rad), in position order.
     #[must_use]
     pub fn joint_angles(&self) -> &[f64] {
         &self.position[ROOT_POSITIONS..]
     }
 
-    /// Rate of each hinge (rad/s), in position order.
+    /// Returns the rate of each hinge (rad/s), in position order.
     #[must_use]
     pub fn joint_rates(&self) -> &[f64] {
         &self.velocity[ROOT_DOFS..]
     }
 
-    /// Torque of each hinge's motors during the last physics step (N·m), in position order.
+    /// Returns the torque of each hinge's motors during the last physics step (N·m), in position order.
     #[must_use]
     pub fn joint_torques_nm(&self) -> &[f64] {
         &self.hinge_torques_nm
     }
 
-    /// Height of the torso's frame above the floor (m).
+    /// Returns the height of the torso's frame above the floor (m).
     #[must_use]
     pub fn torso_height_m(&self) -> f64 {
         self.position[2]
     }
 
-    /// Pose and velocity of every body, in the order of [`Model::bodies`].
+    /// Returns pose and velocity of every body, in the order of [`Model::bodies`].
     #[must_use]
     pub fn body_motions(&self) -> &[BodyMotion] {
         &self.motions
     }
 
-    /// Centre of mass of the whole body (m, world frame).
+    /// Returns the centre of mass of the whole humanoid (m, world frame).
     #[must_use]
     pub fn centre_of_mass(&self) -> Point3<f64> {
         let root = Vector3::from_column_slice(&self.position[..3]);
         Point3::from(root + centre_of_mass(&self.tree, &self.posture))
     }
 
-    /// Velocity of the centre of mass of the whole body (m/s, world frame).
+    /// Returns the velocity of the whole humanoid's centre of mass (m/s, world frame).
     #[must_use]
     pub fn centre_of_mass_velocity(&self) -> Vector3<f64> {
         let sum: Vector3<f64> =
@@ -303,42 +327,43 @@ impl Physics {
         sum / self.tree.mass_kg()
     }
 
-    /// Mean contact force (N) and moment about the whole body's centre of mass (N·m) on one link during the last
-    /// control step, world frame: what its surroundings do to it.
+    /// Returns the mean contact force (N) on one link during the last control step, and its moment about the whole humanoid's
+    /// centre of mass (N·m), in the world frame.
     ///
     /// # Panics
     /// If there is no such link.
     #[must_use]
     pub fn contact_wrench(&self, link: usize) -> (Vector3<f64>, Vector3<f64>) {
-        let impulse = &self.contacts[link];
+        let impulse = &self.link_impulses[link];
         (impulse.linear_ns / CONTROL_STEP_S, impulse.angular_nms / CONTROL_STEP_S)
     }
 
-    /// The points that touched and pressed during the last physics step, and with which mean force: for those who watch. What
-    /// task and observation know of contacts is [`Self::contact_wrench`].
+    /// Returns the points with a contact impulse in the last physics step and their mean forces, for display.
+    ///
+    /// Task and observation use [`Self::contact_wrench`] instead.
     pub fn contact_points(&self) -> impl Iterator<Item = ContactForce> {
-        let about_m = self.touching_about_m;
-        let step_s = CONTROL_STEP_S / f64::from(self.substeps);
-        let pressing = self.touching.points.iter().filter(|point| point.impulse_ns != Vector3::zeros());
+        let about_m = self.contacts_origin_m;
+        let step_s = self.step_s();
+        let pressing = self.contacts.points.iter().filter(|point| point.impulse_ns != Vector3::zeros());
         pressing.map(move |point| ContactForce {
             links: point.links,
-            at_m: Point3::from(point.place_m + about_m),
-            // The solver counts what the second one feels.
+            at_m: Point3::from(point.position_m + about_m),
+            // The solver's impulse acts on the second link.
             force_n: -point.impulse_ns / step_s,
         })
     }
 
-    /// Sum of squares of all links' contact forces (N²) and moments ((N·m)²) during the last control step.
+    /// Returns the sum of squares of all links' contact forces (N²) and moments ((N·m)²) during the last control step.
     #[must_use]
     pub fn squared_contact_wrenches(&self) -> f64 {
-        self.contacts
+        self.link_impulses
             .iter()
             .map(|impulse| impulse.linear_ns.norm_squared() + impulse.angular_nms.norm_squared())
             .sum::<f64>()
             / (CONTROL_STEP_S * CONTROL_STEP_S)
     }
 
-    /// How well the joints hold now.
+    /// Returns the present error of the joints.
     #[must_use]
     pub fn joint_quality(&self) -> JointQuality {
         let mut quality = JointQuality::default();
@@ -348,20 +373,20 @@ impl Physics {
         quality
     }
 
-    /// Whether a control step produced a number that is not finite, or was given one, since the body was placed.
+    /// Returns whether a control step received or produced a non-finite number since the last [`Self::set_state`].
     #[must_use]
     pub fn is_faulty(&self) -> bool {
         self.is_faulty
     }
 
-    /// Makes the root's velocity NaN, so that the next step faults; for tests of fault handling.
+    /// Makes the root's velocity NaN, so that the next step faults; for tests.
     #[doc(hidden)]
     pub fn poison(&mut self) {
         self.velocity[0] = f64::NAN;
     }
 }
 
-/// Centre of mass of the whole body (m, relative to the root's origin).
+/// Returns the centre of mass of the whole humanoid (m, relative to the root's origin).
 fn centre_of_mass(tree: &Tree, posture: &Posture) -> Vector3<f64> {
     let sum: Vector3<f64> = tree.nodes.iter().zip(&posture.centres_m).map(|(node, centre)| centre * node.mass_kg).sum();
     sum / tree.mass_kg()

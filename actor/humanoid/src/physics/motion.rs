@@ -1,4 +1,4 @@
-//! Motion of the rigid bodies, made from joint coordinates.
+//! Motion of the rigid bodies, computed from joint coordinates.
 
 use nalgebra::{Isometry3, Rotation3, Translation3, UnitQuaternion, Vector3};
 
@@ -16,13 +16,13 @@ pub struct BodyMotion {
 }
 
 impl BodyMotion {
-    pub(crate) fn still() -> Self {
+    pub(crate) fn at_rest() -> Self {
         Self { pose: Isometry3::identity(), linear_mps: Vector3::zeros(), angular_radps: Vector3::zeros() }
     }
 }
 
-/// Writes the motion of all bodies for a posture whose root is at `root_m`, moving at `velocity`.
-pub(super) fn describe(
+/// Writes the motion of all bodies for a posture with the root at `root_m` and a velocity vector.
+pub(super) fn write_motions(
     tree: &Tree,
     posture: &Posture,
     root_m: &Vector3<f64>,

@@ -1,4 +1,4 @@
-//! A body put aside in the middle of its motion.
+//! Copies of the simulation's state.
 
 use std::sync::Arc;
 
@@ -7,63 +7,33 @@ use rapier3d::prelude::*;
 use super::Physics;
 use super::contact::ContactImpulse;
 use super::motion::BodyMotion;
-use super::variation::Variable;
-use super::world::World;
-use crate::config::EnvironmentConfig;
+use super::variation::VariableModel;
+use super::world::RapierWorld;
+use crate::config::PhysicsSettings;
 use crate::dynamics::{Motion, Posture};
 use crate::error::SnapshotError;
 use crate::model::Model;
 
-/// Settings that the motion of a body depends on.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Settings {
-    substeps: u32,
-    solver_iterations: u32,
-    self_collision: bool,
-}
-
-impl Settings {
-    pub(super) fn of(config: &EnvironmentConfig) -> Self {
-        Self {
-            substeps: config.substeps,
-            solver_iterations: config.solver_iterations,
-            self_collision: config.self_collision,
-        }
-    }
-
-    fn check(&self, here: &Self) -> Result<(), SnapshotError> {
-        let pairs = [
-            ("substeps", self.substeps.to_string(), here.substeps.to_string()),
-            ("solver_iterations", self.solver_iterations.to_string(), here.solver_iterations.to_string()),
-            ("self_collision", self.self_collision.to_string(), here.self_collision.to_string()),
-        ];
-        match pairs.into_iter().find(|(_, taken, found)| taken != found) {
-            Some((setting, taken, found)) => Err(SnapshotError::Setting { setting, taken, found }),
-            None => Ok(()),
-        }
-    }
-}
-
-/// All that the further motion of a body depends on, as [`Physics::snapshot`] took it.
+/// Everything that the further motion depends on; from [`Physics::snapshot`].
 #[derive(Clone)]
 pub struct PhysicsSnapshot {
-    settings: Settings,
+    settings: PhysicsSettings,
     /// The model with its variation.
     model: Model,
-    variable: Variable,
+    variable: VariableModel,
     rapier: RapierState,
     position: Vec<f64>,
     velocity: Vec<f64>,
     posture: Posture,
     body_velocities: Vec<Motion>,
     motions: Vec<BodyMotion>,
-    contacts: Vec<ContactImpulse>,
+    link_impulses: Vec<ContactImpulse>,
     controls: Vec<f32>,
     hinge_torques_nm: Vec<f64>,
     is_faulty: bool,
 }
 
-/// What Rapier keeps from one step to the next; its pipeline is workspace only.
+/// State that Rapier keeps from one step to the next; its pipeline is only workspace.
 #[derive(Clone)]
 struct RapierState {
     bodies: RigidBodySet,
@@ -74,7 +44,7 @@ struct RapierState {
 }
 
 impl Physics {
-    /// Puts the body aside as it is now, contacts and a variation to come included.
+    /// Copies the present state, including contacts and a variation that is not yet in effect.
     #[must_use]
     pub fn snapshot(&self) -> PhysicsSnapshot {
         PhysicsSnapshot {
@@ -87,38 +57,41 @@ impl Physics {
             posture: self.posture.clone(),
             body_velocities: self.body_velocities.clone(),
             motions: self.motions.clone(),
-            contacts: self.contacts.clone(),
+            link_impulses: self.link_impulses.clone(),
             controls: self.controls.clone(),
             hinge_torques_nm: self.hinge_torques_nm.clone(),
             is_faulty: self.is_faulty,
         }
     }
 
-    /// Goes back to a snapshot, be it one of this body or of another one that was built from the same model with the same
-    /// settings. From there the same controls give the same motion, bit for bit.
+    /// Restores a snapshot of this simulation, or of another one with the same model and settings.
+    ///
+    /// From there the same controls give the same motion, bit for bit.
     ///
     /// # Errors
-    /// [`SnapshotError`] if the model, or a setting that motion depends on, is another one; nothing has happened then.
+    /// [`SnapshotError`] if the model or the settings differ; the state is then unchanged.
     pub fn restore(&mut self, snapshot: &PhysicsSnapshot) -> Result<(), SnapshotError> {
-        snapshot.settings.check(&self.settings)?;
-        let (taken, here) = (&snapshot.variable.nominal, &self.variable.nominal);
-        if !Arc::ptr_eq(taken, here)
-            && let Some(part) = taken.difference(here)
+        if let Some((setting, taken, found)) = snapshot.settings.difference(&self.settings) {
+            return Err(SnapshotError::Setting { setting, taken, found });
+        }
+        let (taken, found) = (&snapshot.variable.nominal, &self.variable.nominal);
+        if !Arc::ptr_eq(taken, found)
+            && let Some(part) = taken.difference(found)
         {
             return Err(SnapshotError::Model { part });
         }
         self.model.clone_from(&snapshot.model);
         self.variable.clone_from(&snapshot.variable);
-        // Tree and template follow the model as it is varied now: the next start changes them only if a variation is due.
-        self.tree.vary(&self.model);
-        self.world.vary(&self.model);
-        self.world.go_back(&snapshot.rapier);
+        // The next restart updates tree and template only if a variation is due.
+        self.tree.apply_variation(&self.model);
+        self.world.apply_variation(&self.model);
+        self.world.restore(&snapshot.rapier);
         self.position.clone_from(&snapshot.position);
         self.velocity.clone_from(&snapshot.velocity);
         self.posture.clone_from(&snapshot.posture);
         self.body_velocities.clone_from(&snapshot.body_velocities);
         self.motions.clone_from(&snapshot.motions);
-        self.contacts.clone_from(&snapshot.contacts);
+        self.link_impulses.clone_from(&snapshot.link_impulses);
         self.controls.clone_from(&snapshot.controls);
         self.hinge_torques_nm.clone_from(&snapshot.hinge_torques_nm);
         self.is_faulty = snapshot.is_faulty;
@@ -126,7 +99,7 @@ impl Physics {
     }
 }
 
-impl World {
+impl RapierWorld {
     fn state(&self) -> RapierState {
         RapierState {
             bodies: self.rapier.bodies.clone(),
@@ -137,7 +110,7 @@ impl World {
         }
     }
 
-    fn go_back(&mut self, state: &RapierState) {
+    fn restore(&mut self, state: &RapierState) {
         let world = &mut self.rapier;
         world.bodies.clone_from(&state.bodies);
         world.colliders.clone_from(&state.colliders);

@@ -1,14 +1,12 @@
-//! States from outside: checked before they are taken.
+//! Checks of states that come from outside.
 
 use super::Physics;
+use crate::config::HINGE_TOLERANCE_RAD;
 use crate::dynamics::{ROOT_DOFS, ROOT_POSITIONS};
 use crate::error::StateError;
 use crate::model::Model;
 
-/// How far outside its range a hinge may be set (rad). It cannot be nothing: in the nominal pose of Humanoid-v5 itself
-/// the knees are straight, 2° beyond the end of their range, and limits are soft.
-pub const HINGE_TOLERANCE_RAD: f64 = 0.1;
-/// Lengths of a quaternion that still says a rotation; it is made a unit one.
+/// Accepted norms of the root's quaternion, which is then normalised.
 const QUATERNION_NORMS: std::ops::RangeInclusive<f64> = 1e-6..=1e6;
 
 const ROOT_POSITION_NAMES: [&str; ROOT_POSITIONS] =
@@ -23,29 +21,28 @@ const ROOT_VELOCITY_NAMES: [&str; ROOT_DOFS] = [
 ];
 
 impl Physics {
-    /// As [`Self::set_state`], for states from outside.
+    /// Checks a state from outside and passes it to [`Self::set_state`].
     ///
-    /// Hinges may be up to [`HINGE_TOLERANCE_RAD`] outside their ranges. The quaternion need not be a unit one.
+    /// Hinges may be up to [`HINGE_TOLERANCE_RAD`] outside their ranges. The quaternion need not be normalised.
     ///
     /// # Errors
-    /// [`StateError`] names the first entry that no body can have, what stands there and what would be accepted; nothing
-    /// has happened then.
+    /// [`StateError`] names the first invalid entry, its value and what is accepted; the state is then unchanged.
     pub fn try_set_state(&mut self, position: &[f64], velocity: &[f64]) -> Result<(), StateError> {
         check(&self.model, position, velocity)?;
         self.set_state(position, velocity);
         Ok(())
     }
 
-    /// Whether [`Self::go_on_from`] takes a state. Hinges may be anywhere: a simulated body's can be.
-    pub(crate) fn check_exact(&self, position: &[f64], velocity: &[f64]) -> Result<(), StateError> {
+    /// Checks a state for [`Self::resume_from`]. Hinges may have any angle, because the limits are soft.
+    pub(crate) fn check_without_ranges(&self, position: &[f64], velocity: &[f64]) -> Result<(), StateError> {
         check_numbers(&self.model, position, velocity)
     }
 
-    /// As [`Self::set_state`], but to the last bit where a body was: its quaternion is not made a unit one again.
-    pub(crate) fn go_on_from(&mut self, position: &[f64], velocity: &[f64]) {
+    /// Restarts from exactly this state: unlike [`Self::set_state`], it does not normalise the quaternion.
+    pub(crate) fn resume_from(&mut self, position: &[f64], velocity: &[f64]) {
         self.position.copy_from_slice(position);
         self.velocity.copy_from_slice(velocity);
-        self.begin();
+        self.restart();
     }
 }
 
@@ -59,13 +56,14 @@ fn check(model: &Model, position: &[f64], velocity: &[f64]) -> Result<(), StateE
                 value_rad,
                 min_rad: hinge.min_rad,
                 max_rad: hinge.max_rad,
+                tolerance_rad: HINGE_TOLERANCE_RAD,
             });
         }
     }
     Ok(())
 }
 
-/// Lengths, numbers that are none, and the quaternion.
+/// Checks lengths, finiteness, and the quaternion's norm.
 fn check_numbers(model: &Model, position: &[f64], velocity: &[f64]) -> Result<(), StateError> {
     for (what, numbers, expected, root, kind) in [
         ("position", position, model.position_size(), &ROOT_POSITION_NAMES[..], "angle"),

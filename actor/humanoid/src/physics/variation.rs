@@ -1,16 +1,12 @@
-//! Bodies that differ from their model, and pushes: what an episode can be made harder with.
+//! Variation of the simulated model.
 
 use std::sync::Arc;
 
-use nalgebra::Vector3;
-use rapier3d::prelude::*;
-
-use super::Physics;
-use super::world::{World, mass_properties, own_friction};
+use super::world::{RapierWorld, mass_properties, own_friction};
 use crate::dynamics::Tree;
 use crate::model::Model;
 
-/// How the simulated body and its surroundings differ from the model: factors, 1 where nothing differs.
+/// Factors by which humanoid, floor and gravity differ from the model text.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Variation {
     /// On mass and inertia, one per body; above 0.
@@ -21,14 +17,14 @@ pub struct Variation {
     pub armature_scale: Vec<f64>,
     /// On the torque of each motor.
     pub motor_scale: Vec<f64>,
-    /// On the friction coefficient between body and floor, and on that of limbs that rub.
+    /// On the friction coefficients of the floor and of the links.
     pub floor_friction_scale: f64,
     /// On gravity.
     pub gravity_scale: f64,
 }
 
 impl Variation {
-    /// The variation that changes nothing.
+    /// Returns the variation that changes nothing.
     #[must_use]
     pub fn none(model: &Model) -> Self {
         Self {
@@ -41,12 +37,12 @@ impl Variation {
         }
     }
 
-    /// Writes the figures of `nominal`, varied, into `model`, which is a copy of it; allocates nothing.
+    /// Writes the varied quantities of `nominal` into `model`, a copy of it; allocates nothing.
     fn apply(&self, nominal: &Model, model: &mut Model) {
         for ((body, nominal), scale) in model.bodies.iter_mut().zip(&nominal.bodies).zip(&self.mass_scale) {
             body.mass_kg = nominal.mass_kg * scale;
             body.inertia_kgm2 = nominal.inertia_kgm2 * *scale;
-            // The greater friction of a pair counts, so that of the floor alone would change nothing.
+            // A pair has the greater of both frictions, so scaling that of the floor alone could change nothing.
             for (shape, nominal) in body.shapes.iter_mut().zip(&nominal.shapes) {
                 shape.friction = nominal.friction * self.floor_friction_scale;
             }
@@ -68,60 +64,46 @@ impl Variation {
     }
 }
 
-/// The model as it was read, and the variation that takes effect at the next start.
+/// Model as it was read, and the variation that takes effect at the next restart.
 #[derive(Clone)]
-pub(super) struct Variable {
+pub(super) struct VariableModel {
     pub(super) nominal: Arc<Model>,
-    pub(super) variation: Variation,
-    pub(super) is_due: bool,
+    variation: Variation,
+    is_due: bool,
 }
 
-impl Variable {
+impl VariableModel {
     pub(super) fn new(model: &Model) -> Self {
         Self { nominal: Arc::new(model.clone()), variation: Variation::none(model), is_due: false }
     }
 
-    /// Brings model, tree and world up to date with the variation; what is simulated must be placed anew afterwards.
-    pub(super) fn take_effect(&mut self, model: &mut Model, tree: &mut Tree, world: &mut World) {
-        if std::mem::take(&mut self.is_due) {
-            self.variation.apply(&self.nominal, model);
-            tree.vary(model);
-            world.vary(model);
-        }
-    }
-}
-
-impl Physics {
-    /// Varies the body, from the next [`Self::set_state`] until another variation: always relative to the model that
-    /// this was built from. [`Self::model`] then tells the varied figures.
+    /// Sets the variation of the next restart.
     ///
     /// # Panics
-    /// If the variation is not of the model's size.
-    pub fn set_variation(&mut self, variation: &Variation) {
-        let model = &self.model;
+    /// If the variation does not have the model's size.
+    pub(super) fn set(&mut self, variation: &Variation) {
+        let model = &self.nominal;
         assert_eq!(variation.mass_scale.len(), model.bodies.len(), "one mass scale per body is needed");
         assert_eq!(variation.damping_scale.len(), model.hinges.len(), "one damping scale per hinge is needed");
         assert_eq!(variation.armature_scale.len(), model.hinges.len(), "one armature scale per hinge is needed");
         assert_eq!(variation.motor_scale.len(), model.motors.len(), "one motor scale per motor is needed");
-        self.variable.variation.clone_from(variation);
-        self.variable.is_due = true;
+        self.variation.clone_from(variation);
+        self.is_due = true;
     }
 
-    /// Adds a velocity (m/s, world frame) to the whole body at once, as a blow that turns nothing would.
-    pub fn push(&mut self, velocity_mps: Vector3<f64>) {
-        if self.is_faulty {
-            return;
+    /// Applies a new variation to model, tree and world; the simulation must restart afterwards.
+    pub(super) fn apply_if_due(&mut self, model: &mut Model, tree: &mut Tree, world: &mut RapierWorld) {
+        if std::mem::take(&mut self.is_due) {
+            self.variation.apply(&self.nominal, model);
+            tree.apply_variation(model);
+            world.apply_variation(model);
         }
-        for (rate, change) in self.velocity.iter_mut().zip(velocity_mps.iter()) {
-            *rate += change;
-        }
-        self.describe();
     }
 }
 
-impl World {
-    /// Lays a model's masses and floor over the template, from which the next episode starts.
-    pub(super) fn vary(&mut self, model: &Model) {
+impl RapierWorld {
+    /// Copies a model's masses and frictions into the template of the next restart.
+    pub(super) fn apply_variation(&mut self, model: &Model) {
         for (handle, body) in self.bodies.iter().zip(&model.bodies) {
             if let Some(rigid) = self.template.bodies.get_mut(*handle) {
                 rigid.set_additional_mass_properties(mass_properties(body), false);
@@ -130,9 +112,9 @@ impl World {
         if let Some(floor) = self.template.colliders.get_mut(self.floor) {
             floor.set_friction(model.floor_friction as f32);
         }
-        for (handle, body, place) in &self.limbs {
-            if let Some(limb) = self.template.colliders.get_mut(*handle) {
-                limb.set_friction(own_friction(&model.bodies[*body].shapes[*place]));
+        for (handle, body, shape) in &self.shape_colliders {
+            if let Some(collider) = self.template.colliders.get_mut(*handle) {
+                collider.set_friction(own_friction(&model.bodies[*body].shapes[*shape]));
             }
         }
     }

@@ -3,7 +3,7 @@
 use rand::{RngExt, SeedableRng};
 use rand_xoshiro::Xoshiro256PlusPlus;
 use treadmill_humanoid::{
-    CONTROL_STEP_S, Environment, EnvironmentConfig, HUMANOID_XML, OBSERVATION_SIZE_COMPACT, Step,
+    CONTROL_STEP_S, Environment, EnvironmentConfig, HUMANOID_XML, OBSERVATION_SIZE_COMPACT, StepOutcome,
 };
 
 fn environment(config: &EnvironmentConfig) -> Environment {
@@ -108,7 +108,7 @@ fn a_fall_terminates_and_a_time_limit_truncates() {
     let mut falling = environment(&EnvironmentConfig::default());
     falling.reset(0, &mut observation);
     let mut steps = 0;
-    let last: Step = loop {
+    let last: StepOutcome = loop {
         let step = falling.step(&[0.0; 17], &mut observation);
         steps += 1;
         if step.terminated || steps == 200 {

@@ -2,7 +2,7 @@
 
 use crate::golden::{State, compare, states};
 use treadmill_humanoid::{
-    Environment, EnvironmentConfig, HUMANOID_XML, Model, Observation, ObservationKind, Physics, Task, task,
+    Environment, EnvironmentConfig, HUMANOID_XML, Model, Observation, ObservationKind, Physics, RewardTask, task,
 };
 
 const V5: ObservationKind = ObservationKind::GymnasiumV5;
@@ -202,7 +202,7 @@ fn what_is_observed_without_a_step_is_what_a_step_writes() {
 
 #[test]
 fn each_task_tells_its_own_info() {
-    for (task, names, on_reset) in [(Task::HumanoidV5, 11, 5), (Task::HumanoidV4, 9, 0)] {
+    for (task, names, on_reset) in [(RewardTask::HumanoidV5, 11, 5), (RewardTask::HumanoidV4, 9, 0)] {
         let config = EnvironmentConfig { task, ..EnvironmentConfig::default() };
         let mut environment = Environment::new(&config, HUMANOID_XML).expect("valid");
         let mut observation = vec![0.0; environment.observation_size()];
@@ -212,7 +212,7 @@ fn each_task_tells_its_own_info() {
         assert_eq!(step.info, *environment.info());
         assert_eq!(step.info.entries(task).count(), names);
         let (position, centre) = (environment.physics().position(), environment.physics().centre_of_mass());
-        let x_m = if task == Task::HumanoidV5 { position[0] } else { centre.x };
+        let x_m = if task == RewardTask::HumanoidV5 { position[0] } else { centre.x };
         assert_eq!(step.info.x_position_m, x_m);
         // −1 × hip + 1 × knee, left before right.
         let hinge = |name: &str| {
