@@ -1,14 +1,14 @@
-//! Plays given actions from given states and prints every state that follows, for comparison with other simulators.
+//! Simulates given actions from given states and prints every following state, for comparison with other simulators.
 //!
 //! Usage: `open_loop [CASES.json]`; without a file, the cases come from standard input.
 //!
 //! Input: a JSON list of cases, each `{"qpos": [24], "qvel": [23], "actions": [[17], …], "model_file": "x.xml",
-//! "config": {"substeps": 2, "solver_iterations": 1, "self_collision": true}}`; the last two entries, and each setting,
-//! may be left out. Vectors are MuJoCo's: see `treadmill_humanoid::physics`.
+//! "config": {"substeps": 2, "solver_iterations": 1, "self_collision": true}}`. The last two entries and each setting are
+//! optional. Vectors are MuJoCo's: see `treadmill_humanoid::physics`.
 //!
 //! Output: a JSON list with one list per case, one object per control step: `{"qpos", "qvel", "limit_overshoot_rad",
-//! "bodies_in_contact", "contact_force_n"}`. The force is the sum over bodies of the size of the mean
-//! contact force during the step. A case whose physics is no longer finite ends early.
+//! "bodies_in_contact", "contact_force_n"}`. The force is the sum over links of the magnitude of the mean contact force
+//! during the step. A case ends early when its physics is not finite.
 
 use std::{
     error::Error,
@@ -17,7 +17,7 @@ use std::{
 };
 
 use serde::{Deserialize, Serialize};
-use treadmill_humanoid::{EnvironmentConfig, HUMANOID_XML, Model, Physics};
+use treadmill_humanoid::{HUMANOID_XML, Model, Physics, PhysicsSettings};
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -31,7 +31,7 @@ struct Case {
     config: Overrides,
 }
 
-/// Settings of the environment that may be other than its defaults.
+/// Settings that replace the defaults.
 #[derive(Default, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Overrides {
@@ -59,35 +59,35 @@ fn main() -> Result<(), Box<dyn Error>> {
         }
     };
     let cases: Vec<Case> = serde_json::from_str(&text).map_err(|why| format!("the cases are unreadable: {why}"))?;
-    let played = cases
+    let states = cases
         .iter()
         .enumerate()
-        .map(|(index, case)| play(case).map_err(|why| format!("case {index}: {why}").into()))
+        .map(|(index, case)| simulate(case).map_err(|why| format!("case {index}: {why}").into()))
         .collect::<Result<Vec<_>, Box<dyn Error>>>()?;
     let mut out = BufWriter::new(io::stdout().lock());
-    serde_json::to_writer(&mut out, &played)?;
+    serde_json::to_writer(&mut out, &states)?;
     writeln!(out)?;
     Ok(out.flush()?)
 }
 
-fn play(case: &Case) -> Result<Vec<State>, Box<dyn Error>> {
+fn simulate(case: &Case) -> Result<Vec<State>, Box<dyn Error>> {
     let xml = match &case.model_file {
         Some(path) => fs::read_to_string(path).map_err(|why| format!("cannot read `{path}`: {why}"))?,
         None => HUMANOID_XML.to_string(),
     };
-    let mut physics = Physics::new(Model::from_mjcf(&xml)?, &case.config.apply())?;
+    let mut physics = Physics::new(Model::from_mjcf(&xml)?, case.config.settings())?;
     let model = physics.model();
     let (positions, velocities, motors) = (model.position_size(), model.velocity_size(), model.motors.len());
-    length("qpos", case.qpos.len(), positions)?;
-    length("qvel", case.qvel.len(), velocities)?;
-    case.actions.iter().try_for_each(|action| length("an action", action.len(), motors))?;
+    check_length("qpos", case.qpos.len(), positions)?;
+    check_length("qvel", case.qvel.len(), velocities)?;
+    case.actions.iter().try_for_each(|action| check_length("an action", action.len(), motors))?;
     physics.set_state(&case.qpos, &case.qvel);
     let states = case.actions.iter().map_while(|action| physics.step_only(action).is_ok().then(|| state(&physics)));
     Ok(states.collect())
 }
 
-fn length(what: &str, found: usize, wanted: usize) -> Result<(), String> {
-    if found == wanted { Ok(()) } else { Err(format!("{what} has {found} numbers; the model needs {wanted}")) }
+fn check_length(what: &str, found: usize, expected: usize) -> Result<(), String> {
+    if found == expected { Ok(()) } else { Err(format!("{what} has {found} numbers; the model needs {expected}")) }
 }
 
 fn state(physics: &Physics) -> State {
@@ -103,13 +103,12 @@ fn state(physics: &Physics) -> State {
 }
 
 impl Overrides {
-    fn apply(&self) -> EnvironmentConfig {
-        let defaults = EnvironmentConfig::default();
-        EnvironmentConfig {
+    fn settings(&self) -> PhysicsSettings {
+        let defaults = PhysicsSettings::default();
+        PhysicsSettings {
             substeps: self.substeps.unwrap_or(defaults.substeps),
             solver_iterations: self.solver_iterations.unwrap_or(defaults.solver_iterations),
             self_collision: self.self_collision.unwrap_or(defaults.self_collision),
-            ..defaults
         }
     }
 }

@@ -13,7 +13,7 @@ pub const CONTROL_STEP_S: f64 = 0.015;
 /// of their range, and limits are soft.
 pub const HINGE_TOLERANCE_RAD: f64 = 0.1;
 
-/// Gymnasium task that determines rewards and info; [`crate::task`] lists the differences.
+/// Gymnasium task that determines rewards and info.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum RewardTask {
     /// Humanoid-v5.
@@ -23,7 +23,7 @@ pub enum RewardTask {
     HumanoidV4,
 }
 
-/// Selection of numbers that the policy observes; [`crate::observation`] describes them.
+/// Selection of numbers that the policy observes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum ObservationKind {
     /// Positions and velocities only.

@@ -20,7 +20,7 @@ use crate::task::{self, StepOutcome, Transition};
 /// Reinforcement-learning environment of one humanoid.
 ///
 /// The same seed and actions give the same observations and rewards, bit for bit, regardless of earlier episodes. That
-/// includes [`EnvironmentConfig::randomisation`]. Only [`Self::reset`] allocates.
+/// includes [`EnvironmentConfig::randomisation`]. [`Self::step`] does not allocate.
 pub struct Environment {
     config: EnvironmentConfig,
     physics: Physics,
@@ -265,7 +265,7 @@ impl Environment {
         &self.physics
     }
 
-    /// Returns the simulation, to step it without task and observation or to set its state.
+    /// Returns the simulation, mutable, to step it without task and observation or to set its state.
     #[must_use]
     pub fn physics_mut(&mut self) -> &mut Physics {
         &mut self.physics

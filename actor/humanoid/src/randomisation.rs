@@ -168,8 +168,8 @@ impl Randomiser {
             for index in height.chain(QUATERNION.end..self.positions) {
                 observation[index] += (std * normal(&mut self.sensors)) as f32;
             }
-            let turn = Vector3::from_fn(|_, _| std * normal(&mut self.sensors));
-            rotate(&mut observation[QUATERNION], turn);
+            let rotation = Vector3::from_fn(|_, _| std * normal(&mut self.sensors));
+            rotate(&mut observation[QUATERNION], rotation);
         }
         let std = self.settings.sensor_noise_velocity;
         if std > 0.0 {
@@ -181,10 +181,10 @@ impl Randomiser {
 }
 
 /// Rotates a quaternion w, x, y, z by a rotation vector (rad) in the body's frame, without changing its sign.
-fn rotate(entries: &mut [f32], turn_rad: Vector3<f64>) {
+fn rotate(entries: &mut [f32], rotation_rad: Vector3<f64>) {
     let [w, x, y, z] = [0, 1, 2, 3].map(|index| f64::from(entries[index]));
-    let turned = Quaternion::new(w, x, y, z) * UnitQuaternion::from_scaled_axis(turn_rad).into_inner();
-    for (entry, part) in entries.iter_mut().zip([turned.w, turned.i, turned.j, turned.k]) {
+    let rotated = Quaternion::new(w, x, y, z) * UnitQuaternion::from_scaled_axis(rotation_rad).into_inner();
+    for (entry, part) in entries.iter_mut().zip([rotated.w, rotated.i, rotated.j, rotated.k]) {
         *entry = part as f32;
     }
 }

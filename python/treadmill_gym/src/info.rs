@@ -17,7 +17,12 @@ pub enum Moment {
 }
 
 /// The info of one environment.
-pub fn dictionary<'py>(py: Python<'py>, info: &StepInfo, task: RewardTask, moment: Moment) -> PyResult<Bound<'py, PyDict>> {
+pub fn dictionary<'py>(
+    py: Python<'py>,
+    info: &StepInfo,
+    task: RewardTask,
+    moment: Moment,
+) -> PyResult<Bound<'py, PyDict>> {
     let told = PyDict::new(py);
     for (name, value) in info.entries(task).take(count(info, task, moment)) {
         match value {
@@ -30,7 +35,11 @@ pub fn dictionary<'py>(py: Python<'py>, info: &StepInfo, task: RewardTask, momen
 
 /// The infos of several environments: for each name an array with a row per environment, and under `_name` which rows are
 /// told; those that are not hold zeros. `None` stands for an environment that nothing is told of.
-pub fn columns<'py>(py: Python<'py>, rows: &[Option<(&StepInfo, Moment)>], task: RewardTask) -> PyResult<Bound<'py, PyDict>> {
+pub fn columns<'py>(
+    py: Python<'py>,
+    rows: &[Option<(&StepInfo, Moment)>],
+    task: RewardTask,
+) -> PyResult<Bound<'py, PyDict>> {
     let told = PyDict::new(py);
     // What names there are, and of how many numbers each, is the same for all.
     let Some((any, _)) = rows.iter().flatten().next() else { return Ok(told) };

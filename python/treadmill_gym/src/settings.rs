@@ -8,7 +8,8 @@ use pyo3::{
     types::{PyBool, PyDict},
 };
 use treadmill_humanoid::{
-    CONTROL_STEP_S, Environment, EnvironmentConfig, HUMANOID_XML, ModelError, ObservationKind, RewardTask, read_model_file,
+    CONTROL_STEP_S, Environment, EnvironmentConfig, HUMANOID_XML, ModelError, ObservationKind, RewardTask,
+    read_model_file,
 };
 
 /// Every keyword, for the error about one that is not known.
@@ -109,7 +110,8 @@ impl EnvironmentSettings {
     }
 }
 
-const TASKS: [(&str, RewardTask); 2] = [("humanoid-v5", RewardTask::HumanoidV5), ("humanoid-v4", RewardTask::HumanoidV4)];
+const TASKS: [(&str, RewardTask); 2] =
+    [("humanoid-v5", RewardTask::HumanoidV5), ("humanoid-v4", RewardTask::HumanoidV4)];
 const OBSERVATIONS: [(&str, ObservationKind); 3] = [
     ("gymnasium-v5", ObservationKind::GymnasiumV5),
     ("gymnasium-v4", ObservationKind::GymnasiumV4),

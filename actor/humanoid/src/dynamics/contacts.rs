@@ -44,7 +44,7 @@ pub(crate) struct ContactPoint {
 #[derive(Clone, Debug)]
 pub(crate) struct Contacts {
     pub(crate) points: Vec<ContactPoint>,
-    constraints: Vec<ContactConstraint>,
+    constraints: Vec<Constraint>,
     /// `[contact][direction][stride]`: whitened rows, see [`super::mass_matrix`].
     rows: Vec<f64>,
     /// Velocity at the end of the step, whitened.
@@ -53,7 +53,7 @@ pub(crate) struct Contacts {
 }
 
 #[derive(Clone, Copy, Debug, Default)]
-struct ContactConstraint {
+struct Constraint {
     directions: [Vector3<f64>; DIRECTIONS],
     impulses: [f64; DIRECTIONS],
     targets: [f64; DIRECTIONS],
@@ -159,8 +159,7 @@ impl Contacts {
         let stride = self.whitened.len();
         let point = &self.points[index];
         let rows = &mut self.rows[index * DIRECTIONS * stride..][..DIRECTIONS * stride];
-        let mut constraint =
-            ContactConstraint { directions: directions(&point.normal), ..ContactConstraint::default() };
+        let mut constraint = Constraint { directions: directions(&point.normal), ..Constraint::default() };
         write_jacobians(tree, posture, point, &constraint.directions, rows);
         let rate_mps = separation(point, &self.velocities[0]);
         for (direction, row) in rows.chunks_exact_mut(stride).enumerate() {
@@ -189,7 +188,7 @@ impl Contacts {
             self.rows.chunks_exact(DIRECTIONS * stride).zip(&mut self.constraints).zip(&self.points)
         {
             let row = |direction: usize| &rows[direction * stride..][..stride];
-            let updated = |constraint: &ContactConstraint, direction: usize, velocity: &[f64]| {
+            let updated = |constraint: &Constraint, direction: usize, velocity: &[f64]| {
                 let missing = constraint.targets[direction]
                     - dot(row(direction), velocity)
                     - constraint.softness[direction] * constraint.impulses[direction];

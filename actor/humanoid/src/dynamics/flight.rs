@@ -106,12 +106,11 @@ impl Flight {
         self.end_velocity.copy_from_slice(&self.velocity);
         let (middle, limits) = (&self.middle, &mut self.limits);
         let start_m = Vector3::from_column_slice(&position[..3]);
-        let touched =
+        let has_contacts =
             contacts.solve(tree, middle, &self.matrix, limits, position, velocity, &mut self.end_velocity, time_s);
-        if touched {
-            for (mean, (new, flown)) in self.mean_velocity.iter_mut().zip(self.end_velocity.iter().zip(&self.velocity))
-            {
-                *mean = (new - flown) / 2.0;
+        if has_contacts {
+            for (mean, (new, free)) in self.mean_velocity.iter_mut().zip(self.end_velocity.iter().zip(&self.velocity)) {
+                *mean = (new - free) / 2.0;
             }
             integrate(&self.position, &self.mean_velocity, time_s, position);
         } else {
@@ -122,15 +121,12 @@ impl Flight {
         posture.update_inertia(tree);
         posture.velocities(tree, velocity, &mut self.velocities);
         let after = Momentum::of(posture, &self.velocities);
-        let wanted = self.start_momentum.expected_after(
-            &tree.gravity_mps2,
-            time_s,
-            &contacts.momentum(&self.start_momentum.centre_m),
-        );
-        after.restore(posture, &wanted.about_centre, velocity);
+        let before = &self.start_momentum;
+        let target = before.expected_after(&tree.gravity_mps2, time_s, &contacts.momentum(&before.centre_m));
+        after.restore(posture, &target.about_centre, velocity);
         // The centre of mass follows the momentum alone: without contacts, along a parabola.
-        let moved = (self.start_momentum.velocity_mps() + wanted.velocity_mps()) * (time_s / 2.0);
-        let root_m = start_m + self.start_momentum.centre_m + moved - after.centre_m;
+        let moved = (before.velocity_mps() + target.velocity_mps()) * (time_s / 2.0);
+        let root_m = start_m + before.centre_m + moved - after.centre_m;
         position[..3].copy_from_slice(root_m.as_slice());
     }
 
@@ -177,9 +173,9 @@ impl Flight {
         self.bias_forces(tree);
         for (hinge, node) in tree.hinges.iter().enumerate() {
             let dof = ROOT_DOFS + hinge;
-            let turned = self.position[ROOT_POSITIONS + hinge] + self.velocity[dof] * step_s / 2.0 - node.rest_rad;
+            let deflection = self.position[ROOT_POSITIONS + hinge] + self.velocity[dof] * step_s / 2.0 - node.rest_rad;
             self.forces[dof] +=
-                torques_nm[hinge] - node.damping_nmsprad * self.velocity[dof] - node.stiffness_nmprad * turned;
+                torques_nm[hinge] - node.damping_nmsprad * self.velocity[dof] - node.stiffness_nmprad * deflection;
         }
         self.acceleration.copy_from_slice(&self.forces);
         self.matrix.solve(tree, &mut self.acceleration);
@@ -199,9 +195,9 @@ impl Flight {
         for (index, node) in tree.nodes.iter().enumerate().skip(1) {
             let (mut velocity, mut acceleration) = (self.velocities[node.parent], self.accelerations[node.parent]);
             for hinge in node.hinges.clone() {
-                let turning = posture.axes[ROOT_DOFS + hinge] * rates[ROOT_DOFS + hinge];
-                acceleration += velocity.cross(&turning);
-                velocity += turning;
+                let joint_velocity = posture.axes[ROOT_DOFS + hinge] * rates[ROOT_DOFS + hinge];
+                acceleration += velocity.cross(&joint_velocity);
+                velocity += joint_velocity;
             }
             self.velocities[index] = velocity;
             self.accelerations[index] = acceleration;

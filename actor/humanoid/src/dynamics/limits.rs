@@ -26,7 +26,7 @@ pub(crate) struct Limits {
     dofs: usize,
 }
 
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 struct ActiveLimit {
     dof: usize,
     /// +1 at the upper end, −1 at the lower one.
@@ -133,14 +133,7 @@ impl Limits {
             let active_s = if beyond >= 0.0 { step_s } else { step_s * end / (end - beyond) };
             let (rate, start) = (before[dof] * outwards, beyond.max(0.0));
             let target_radps = damped_rate(rate, start, active_s).min((STOP_RAD - start).max(0.0) / active_s);
-            self.active.push(ActiveLimit {
-                dof,
-                outwards,
-                target_radps,
-                response: 0.0,
-                softness: 0.0,
-                impulse_nms: 0.0,
-            });
+            self.active.push(ActiveLimit { dof, outwards, target_radps, ..ActiveLimit::default() });
         }
     }
 }

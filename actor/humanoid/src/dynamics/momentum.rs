@@ -51,9 +51,9 @@ impl Momentum {
         let missing = wanted.force - self.about_centre.force;
         let about_centre = self.about_centre_inertia();
         let Some(inverse) = about_centre.try_inverse() else { return };
-        let turning = inverse * missing_moment;
-        let linear = missing / self.inertia.mass_kg - turning.cross(&self.centre_m);
-        let local = posture.rotations[0].transpose() * turning;
+        let angular = inverse * missing_moment;
+        let linear = missing / self.inertia.mass_kg - angular.cross(&self.centre_m);
+        let local = posture.rotations[0].transpose() * angular;
         for axis in 0..3 {
             velocity[axis] += linear[axis];
             velocity[3 + axis] += local[axis];

@@ -98,8 +98,8 @@ pub(crate) fn integrate(from: &[f64], velocity: &[f64], time_s: f64, to: &mut [f
     for axis in 0..3 {
         to[axis] = from[axis] + time_s * velocity[axis];
     }
-    let turned = Vector3::new(velocity[3], velocity[4], velocity[5]) * time_s;
-    let rotation = root_rotation(from) * UnitQuaternion::from_scaled_axis(turned);
+    let rotation_vector = Vector3::new(velocity[3], velocity[4], velocity[5]) * time_s;
+    let rotation = root_rotation(from) * UnitQuaternion::from_scaled_axis(rotation_vector);
     // Errors of repeated products would accumulate in the norm.
     let quaternion = rotation.quaternion() / rotation.quaternion().norm();
     to[3..ROOT_POSITIONS].copy_from_slice(&[quaternion.w, quaternion.i, quaternion.j, quaternion.k]);

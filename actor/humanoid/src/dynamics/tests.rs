@@ -18,8 +18,8 @@ fn bodies(tree: &Tree, position: &[f64]) -> Vec<CentrePose> {
     let mut posture = Posture::new(tree);
     posture.update_kinematics(tree, position);
     let root = Vector3::from_column_slice(&position[..3]);
-    let turned = posture.rotations.iter().map(|rotation| Rotation3::from_matrix_unchecked(*rotation));
-    posture.centres_m.iter().map(|centre| root + centre).zip(turned).collect()
+    let rotations = posture.rotations.iter().map(|rotation| Rotation3::from_matrix_unchecked(*rotation));
+    posture.centres_m.iter().map(|centre| root + centre).zip(rotations).collect()
 }
 
 /// Computes the mass matrix Σ m JᵀJ + J_ωᵀ I J_ω + rotors, with Jacobians from central differences.

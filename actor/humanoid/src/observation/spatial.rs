@@ -19,8 +19,8 @@ pub(super) struct SpatialInertia {
 impl SpatialInertia {
     /// Computes that of a link whose body is at `pose`, about `point` (m, world frame).
     pub(super) fn of_link(link: &Link, pose: &Isometry3<f64>, point: &Point3<f64>) -> Self {
-        let turn = pose.rotation.to_rotation_matrix();
-        let own = turn.matrix() * link.inertia_kgm2 * turn.matrix().transpose();
+        let rotation = pose.rotation.to_rotation_matrix();
+        let own = rotation.matrix() * link.inertia_kgm2 * rotation.matrix().transpose();
         let offset = pose * link.centre_of_mass_m - point;
         // Parallel axis theorem.
         let moved = (Matrix3::identity() * offset.norm_squared() - offset * offset.transpose()) * link.mass_kg;

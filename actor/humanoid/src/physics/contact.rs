@@ -42,21 +42,21 @@ pub(super) fn collect(world: &RapierWorld, start: &Posture, root_height_m: f64, 
         let bodies = links.map(|link| link.map(|link| world.link_bodies[link]));
         // Colliders have moved since Rapier detected the contact.
         let at_start = match (bodies[0], first.position_wrt_parent()) {
-            (Some(body), Some(place)) => pose(start, body, &root) * *place,
+            (Some(body), Some(in_body)) => pose(start, body, &root) * *in_body,
             _ => *first.position(),
         };
         for manifold in pair.solver_manifolds() {
-            let (mut pressed, mut pressed_last) = (0.0, 0.0);
+            let (mut normal_sum, mut normal_last) = (0.0, 0.0);
             for contact in &manifold.points {
-                pressed += contact.data.impulse;
-                pressed_last += contact.data.warmstart_impulse;
+                normal_sum += contact.data.impulse;
+                normal_last += contact.data.warmstart_impulse;
             }
             for contact in &manifold.points {
                 let data = &contact.data;
                 // Rapier keeps the sum of the normal impulses, but the friction impulse of the last solver pass only. The
                 // guess scales friction like the normal impulse.
-                let share = if pressed_last > 0.0 { data.impulse / pressed_last } else { 0.0 };
-                let rubbing = if pressed > 0.0 { data.warmstart_tangent_world * -share } else { Vector::ZERO };
+                let share = if normal_last > 0.0 { data.impulse / normal_last } else { 0.0 };
+                let friction = if normal_sum > 0.0 { data.warmstart_tangent_world * -share } else { Vector::ZERO };
                 let middle = at_start.transform_point(contact.local_p1) + manifold.data.normal * (contact.dist / 2.0);
                 contacts.push(ContactPoint {
                     bodies,
@@ -65,7 +65,7 @@ pub(super) fn collect(world: &RapierWorld, start: &Posture, root_height_m: f64, 
                     normal: from_vector(manifold.data.normal).normalize(),
                     gap_m: f64::from(contact.dist) - margin_m,
                     friction: f64::from(manifold.data.friction),
-                    impulse_ns: from_vector(manifold.data.normal * data.impulse + rubbing),
+                    impulse_ns: from_vector(manifold.data.normal * data.impulse + friction),
                 });
             }
         }

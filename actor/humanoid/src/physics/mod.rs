@@ -46,7 +46,7 @@ pub struct JointQuality {
     pub limit_overshoot_rad: f64,
 }
 
-/// A simulated humanoid.
+/// Simulated humanoid.
 pub struct Physics {
     model: Model,
     tree: Tree,
@@ -70,7 +70,8 @@ pub struct Physics {
 }
 
 impl Physics {
-    /// Builds a world for a model, at rest in its nominal pose; `settings` may be an [`crate::EnvironmentConfig`].
+    /// Builds a world for a model, at rest in its nominal pose. `settings` may be a reference to an environment's
+    /// configuration.
     ///
     /// # Errors
     /// [`ModelError`] if a setting is out of range, or a servo too stiff for the physics step.
@@ -253,14 +254,8 @@ impl Physics {
     /// Updates the bodies' motion from the state.
     fn update_body_motions(&mut self) {
         let root = Vector3::from_column_slice(&self.position[..3]);
-        motion::write_motions(
-            &self.tree,
-            &self.posture,
-            &root,
-            &self.velocity,
-            &mut self.body_velocities,
-            &mut self.motions,
-        );
+        let Self { tree, posture, velocity, body_velocities, motions, .. } = self;
+        motion::write_motions(tree, posture, &root, velocity, body_velocities, motions);
     }
 
     /// Returns the simulated model, with the present variation.
@@ -342,12 +337,12 @@ impl Physics {
     ///
     /// Task and observation use [`Self::contact_wrench`] instead.
     pub fn contact_points(&self) -> impl Iterator<Item = ContactForce> {
-        let about_m = self.contacts_origin_m;
+        let origin_m = self.contacts_origin_m;
         let step_s = self.step_s();
-        let pressing = self.contacts.points.iter().filter(|point| point.impulse_ns != Vector3::zeros());
-        pressing.map(move |point| ContactForce {
+        let loaded = self.contacts.points.iter().filter(|point| point.impulse_ns != Vector3::zeros());
+        loaded.map(move |point| ContactForce {
             links: point.links,
-            at_m: Point3::from(point.position_m + about_m),
+            at_m: Point3::from(point.position_m + origin_m),
             // The solver's impulse acts on the second link.
             force_n: -point.impulse_ns / step_s,
         })
