@@ -146,7 +146,7 @@ impl Contacts {
         sum
     }
 
-    /// Keeps the points at which the surfaces meet within the step, or that have a guess.
+    /// Keeps the points at which the surfaces meet within the step, or that have a guess other than zero.
     fn select(&mut self, step_s: f64) {
         let [at_start, at_end] = &self.velocities;
         self.points.retain(|point| {

@@ -52,11 +52,11 @@ pub struct Block {
     pub name: &'static str,
     /// Position in the observation.
     pub range: Range<usize>,
-    part: Part,
+    quantity: Quantity,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Part {
+enum Quantity {
     Position,
     Velocity,
     Inertias,
@@ -84,22 +84,22 @@ impl Observation {
         let rows = model.links.len() + usize::from(has_world);
         let hidden = if config.exclude_current_positions_from_observation { HIDDEN } else { 0 };
         let torques = model.hinges.len() + if has_world { ROOT_FREEDOMS } else { 0 };
-        let parts = [
-            ("qpos", Part::Position, model.position_size() - hidden, true),
-            ("qvel", Part::Velocity, model.velocity_size(), true),
-            ("cinert", Part::Inertias, rows * INERTIA_SIZE, all && config.include_cinert_in_observation),
-            ("cvel", Part::Velocities, rows * SPATIAL_SIZE, all && config.include_cvel_in_observation),
-            ("qfrc_actuator", Part::Torques, torques, all && config.include_qfrc_actuator_in_observation),
-            ("cfrc_ext", Part::Contacts, rows * SPATIAL_SIZE, all && config.include_cfrc_ext_in_observation),
+        let quantities = [
+            ("qpos", Quantity::Position, model.position_size() - hidden, true),
+            ("qvel", Quantity::Velocity, model.velocity_size(), true),
+            ("cinert", Quantity::Inertias, rows * INERTIA_SIZE, all && config.include_cinert_in_observation),
+            ("cvel", Quantity::Velocities, rows * SPATIAL_SIZE, all && config.include_cvel_in_observation),
+            ("qfrc_actuator", Quantity::Torques, torques, all && config.include_qfrc_actuator_in_observation),
+            ("cfrc_ext", Quantity::Contacts, rows * SPATIAL_SIZE, all && config.include_cfrc_ext_in_observation),
         ];
         let mut end = 0;
-        let blocks = parts
+        let blocks = quantities
             .into_iter()
             .filter(|(.., included)| *included)
-            .map(|(name, part, size, _)| {
+            .map(|(name, quantity, size, _)| {
                 let start = end;
                 end += size;
-                Block { name, range: start..end, part }
+                Block { name, range: start..end, quantity }
             })
             .collect();
         Self { blocks, has_world, height_index: HIDDEN - hidden }
@@ -130,16 +130,16 @@ impl Observation {
         assert_eq!(observation.len(), self.size(), "observation buffer has the wrong length");
         for block in &self.blocks {
             let target = &mut observation[block.range.clone()];
-            match block.part {
-                Part::Position => {
+            match block.quantity {
+                Quantity::Position => {
                     let position = physics.position();
                     copy(&position[position.len() - target.len()..], target);
                 }
-                Part::Velocity => copy(physics.velocity(), target),
-                Part::Torques => copy(physics.joint_torques_nm(), self.after_world(target, ROOT_FREEDOMS)),
-                Part::Inertias => self.write_inertias(physics, target),
-                Part::Velocities => self.write_velocities(physics, target),
-                Part::Contacts => self.write_contacts(physics, target),
+                Quantity::Velocity => copy(physics.velocity(), target),
+                Quantity::Torques => copy(physics.joint_torques_nm(), self.after_world(target, ROOT_FREEDOMS)),
+                Quantity::Inertias => self.write_inertias(physics, target),
+                Quantity::Velocities => self.write_velocities(physics, target),
+                Quantity::Contacts => self.write_contacts(physics, target),
             }
         }
     }
