@@ -227,7 +227,7 @@ fn where_there_is_no_terminal_plain_lines_come_and_errors_leave_it_alone() {
         piped.wait_for("actor-0");
     }
     let unanswered = Terminal::start(folder.path(), &["status", "--watch", "--connect", "tcp/127.0.0.1:1"], &[]);
-    unanswered.shows(&["error: nobody answers at tcp/127.0.0.1:1"]);
+    unanswered.shows(&["error: no answer from tcp/127.0.0.1:1"]);
     assert_eq!(unanswered.end_as_it_began().code(), Some(1));
 }
 

@@ -95,7 +95,7 @@ fn a_robot_trains_is_evaluated_and_goes_on_as_itself() {
     };
     assert_refused(&resume(&["--model", "hopper.xml"]), 2, &["hopper.xml", "cannot be read"]);
     write(folder.path(), "other.xml", &HOPPER.replace("gear=\"20\"", "gear=\"30\""));
-    assert_refused(&resume(&["--model", "other.xml"]), 2, &["other.xml", "begun with", "begin a new run"]);
+    assert_refused(&resume(&["--model", "other.xml"]), 2, &["other.xml", "keeps its model", "begin a new run"]);
     write(folder.path(), "same.xml", HOPPER);
     let resumed = resume(&["--model", "same.xml"]);
     assert!(resumed.status.success(), "{}", stderr(&resumed));

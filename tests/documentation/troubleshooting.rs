@@ -82,7 +82,7 @@ fn nobody_answers() {
     let replaced = [(&endpoint[..], USUAL)];
     let actor = start(folder.path(), &["actor", "--connect", &endpoint]);
     fails("Asking a learner that is not up", folder.path(), &["status", "--connect", &endpoint], &replaced);
-    tells("An actor that waits for its learner", &actor, "nobody answers", &replaced);
+    tells("An actor that waits for its learner", &actor, "no answer; retrying", &replaced);
     fails("There is no such run", folder.path(), &["status", "nowhere"], &[]);
 }
 

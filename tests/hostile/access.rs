@@ -220,7 +220,7 @@ fn without_a_good_certificate_there_is_nothing_and_the_learner_says_so() {
     fleet.learner.wait_for("it has no certificate");
     for (certs, why) in [("others", "is of another authority"), ("expired", "has expired")] {
         let stranger = Running::start(actor(folder, &fleet.endpoint, certs));
-        stranger.wait_for("nobody answers");
+        stranger.wait_for("no answer; retrying");
         let line = fleet.learner.wait_for(why);
         assert!(line.contains("a connection was refused"), "{line}");
         let as_actor = Attacker::join(&fleet.endpoint, "run", Some((&folder.join(certs), "actor")), SILENCE);
@@ -245,7 +245,7 @@ fn a_renewed_certificate_is_let_in_and_a_name_that_is_not_the_learners_is_not_tr
     command.args(["--listen", "tls/127.0.0.1:0", "--tls", "elsewhere"]);
     let _elsewhere = Running::start(command);
     let stranger = Running::start(actor(folder, &endpoint(&other), "elsewhere"));
-    stranger.wait_for("nobody answers");
+    stranger.wait_for("no answer; retrying");
 }
 
 #[test]

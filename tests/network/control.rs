@@ -68,7 +68,7 @@ fn a_run_is_paused_changed_kept_and_stopped() {
     assert!(ended.success());
     let state = load_file(&run.join("checkpoints/latest.bundle")).unwrap();
     assert_eq!(state.config().unwrap().ppo.learning_rate, 1e-4);
-    assert_refused(&crate::support::run(folder, &["status", "run"]), 1, &["nobody answers", "endpoint.txt"]);
+    assert_refused(&crate::support::run(folder, &["status", "run"]), 1, &["no answer from", "endpoint.txt"]);
 }
 
 #[test]

@@ -75,7 +75,7 @@ fn an_actor_of_another_authority_stays_outside() {
     let mut command = treadmill(folder.path());
     command.args(["actor", "--envs", "4", "--tls", "others", "--connect", &endpoint]);
     let stranger = Running::start(command);
-    stranger.wait_for("nobody answers");
+    stranger.wait_for("no answer; retrying");
     let mut command = treadmill(folder.path());
     command.args(["actor", "--envs", "4", "--tls", "certs", "--name", "friend", "--connect", &endpoint]);
     let _friend = Running::start(command);
