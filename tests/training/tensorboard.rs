@@ -39,17 +39,8 @@ fn tensorboard_reads_the_same_scalars_as_metrics_jsonl() {
     assert!(compared > 8 * 30, "eight updates of some thirty tags each, {compared} compared");
 }
 
-#[test]
-fn tensorboard_shows_configuration_histograms_and_hyperparameters() {
-    let Some(python) = python_with("tensorboard") else { return };
-    let (folder, run) = folders();
-    let run_name = run.to_str().unwrap();
-    let train = ["train", "--preset", "smoke", "--steps", "6144", "--run-dir", run_name, "--set", "ppo.gamma=0.97"];
-    assert!(self::run(folder.path(), &train).status.success());
-    let first = read(&python, &run);
-
-    // Every key of the saved configuration, changed ones in bold.
-    let text = first["points"]["config"][0][1].as_str().unwrap();
+/// Asserts that the table of the configuration has every key of the saved one, changed keys in bold.
+fn assert_configuration(text: &str, run: &Path) {
     assert!(text.contains("| ppo.gamma | **0.97** | 0.99 |"), "{text}");
     let config: toml::Table = fs::read_to_string(run.join("config.toml")).unwrap().parse().unwrap();
     let mut compared = 0;
@@ -62,6 +53,18 @@ fn tensorboard_shows_configuration_histograms_and_hyperparameters() {
         }
     }
     assert!(compared > 60 && text.lines().count() == compared + 2, "{compared} keys");
+}
+
+#[test]
+fn tensorboard_shows_configuration_histograms_and_hyperparameters() {
+    let Some(python) = python_with("tensorboard") else { return };
+    let (folder, run) = folders();
+    let run_name = run.to_str().unwrap();
+    let train = ["train", "--preset", "smoke", "--steps", "6144", "--run-dir", run_name, "--set", "ppo.gamma=0.97"];
+    assert!(self::run(folder.path(), &train).status.success());
+    let first = read(&python, &run);
+
+    assert_configuration(first["points"]["config"][0][1].as_str().unwrap(), &run);
     assert!(first["points"]["command"][0][1].as_str().unwrap().contains("train --preset smoke --steps 6144"));
     assert!(first["points"]["versions"][0][1].as_str().unwrap().contains(env!("CARGO_PKG_VERSION")));
 
@@ -100,7 +103,7 @@ fn tensorboard_shows_configuration_histograms_and_hyperparameters() {
     let best = last_value(&run, "rollout/distance_best_m").unwrap();
     assert!((session["metrics"]["rollout/distance_best_m"].as_f64().unwrap() - best).abs() < 1e-6);
 
-    // A run that goes on has one row still, and says from where on which configuration holds.
+    // A resumed run still has one row, and its text shows each configuration from its first step.
     assert!(self::run(folder.path(), &["train", "--resume", run_name, "--steps", "8192"]).status.success());
     let second = read(&python, &run);
     assert_eq!(steps(&second["points"]["config"]), [0, 6144]);

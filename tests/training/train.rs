@@ -14,6 +14,16 @@ fn smoke(folder: &std::path::Path, run: &std::path::Path, more: &[&str]) -> std:
     self::run(folder, &args)
 }
 
+/// Asserts that the banner has the lines of its sample in README.md.
+fn assert_lines_of_readme(output: &str) {
+    let readme = fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/README.md")).unwrap();
+    let sample = readme.split("```text\n").nth(1).and_then(|rest| rest.split("```").next()).unwrap();
+    let (before, _) = output.split_once("  resume    ").unwrap();
+    let label = |line: &str| line.chars().take("  learns    ".len()).collect::<String>();
+    let labels = |banner: &str| banner.lines().skip(1).map(label).collect::<Vec<_>>();
+    assert_eq!(labels(sample), labels(&format!("{before}  resume    ")));
+}
+
 #[test]
 fn a_run_prints_its_banner_and_leaves_all_files() {
     let (folder, run) = folders();
@@ -31,7 +41,7 @@ fn a_run_prints_its_banner_and_leaves_all_files() {
     assert_eq!(summary["updates"], 16);
     let text = stdout(&output);
     for part in [
-        "learns    to go forward and not to fall, in 8192 env steps (16 updates); the remaining time appears once the speed is known",
+        "to go forward and not to fall, in 8192 env steps (16 updates); the remaining time appears once the speed is known",
         "watch     treadmill status --watch ",
         "film      treadmill eval ",
         "resume    treadmill train --resume ",
@@ -41,6 +51,7 @@ fn a_run_prints_its_banner_and_leaves_all_files() {
     ] {
         assert!(text.contains(part), "`{part}` is missing in: {text}");
     }
+    assert_lines_of_readme(&text);
 
     for file in [
         "config.toml",
@@ -72,11 +83,8 @@ fn a_run_prints_its_banner_and_leaves_all_files() {
     ] {
         assert!(metrics.iter().any(|(name, ..)| name == tag), "{tag}");
     }
-    assert_eq!(
-        metrics.iter().filter(|(name, ..)| name == "train/learning_rate").count(),
-        16,
-        "one line for each update"
-    );
+    let updates = metrics.iter().filter(|(name, ..)| name == "train/learning_rate").count();
+    assert_eq!(updates, 16, "one line for each update");
     let documented = page("reference/metrics");
     for (tag, ..) in &metrics {
         assert!(documented.contains(&format!("| `{tag}` |")), "docs/reference/metrics.md does not explain {tag}");
