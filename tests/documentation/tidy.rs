@@ -30,7 +30,7 @@ const FORBIDDEN: [&str; 11] = [
     "what is not",
 ];
 /// Extensions of files that are searched for forbidden words.
-const READ: [&str; 4] = ["rs", "md", "py", "sh"];
+const READ: [&str; 7] = ["rs", "md", "py", "sh", "proto", "yml", "yaml"];
 /// Most lines of a Rust file.
 const FILE_LINES_MAX: usize = 400;
 /// Rust files that may be longer, with the reason.

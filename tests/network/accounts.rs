@@ -1,5 +1,5 @@
-//! Accounting under failures: whichever process dies or freezes, every produced fragment is learnt from once or dropped by rule, and
-//! training continues. The tests compare the final counts of actors with the learner's accounts.
+//! Accounting under failures: whichever process dies or freezes, every produced fragment is learnt from once or dropped
+//! by rule, and training continues. The tests compare the final counts of actors with the learner's accounts.
 
 use std::{fs, net::TcpListener, path::Path};
 

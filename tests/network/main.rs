@@ -1,7 +1,7 @@
 //! Runs of several processes: messages on the bus, and failures of single processes.
 //!
-//! Hostile clients are in `tests/hostile`: they need a bus on one thread, which a router in the same process cannot have, and some
-//! tests here open a router.
+//! Hostile clients are in `tests/hostile`: they need a bus on one thread, which a router in the same process cannot have,
+//! and some tests here open a router.
 
 mod accounts;
 mod bus;

@@ -1,5 +1,5 @@
-//! Results on a GPU equal those on the processor. Built only with `--features cuda`; without a GPU, the tests only check the error
-//! message.
+//! Results on a GPU equal those on the processor. Built only with `--features cuda`; without a GPU, the tests only check
+//! the error message.
 
 use std::sync::Arc;
 
