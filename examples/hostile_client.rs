@@ -1,7 +1,7 @@
-//! Floods a learner, to see what it bears: `hostile_client ENDPOINT RUN KIND SECONDS [COUNT] [CERTIFICATES]`.
+//! Floods a learner to measure its resistance: `hostile_client ENDPOINT RUN KIND SECONDS [COUNT] [CERTIFICATES]`.
 //!
-//! KIND is one of those in `tests/hostile/attacks.rs`, or `idle` for connections that say nothing; COUNT bounds the messages.
-//! With a folder of certificates it comes as an actor. Prints one JSON object. `experiments/security/measure.py` runs it.
+//! KIND is one of those in `tests/hostile/attacks.rs`, or `idle` for silent connections; COUNT bounds the messages. With a
+//! folder of certificates the client is an actor. Prints one JSON object. `experiments/security/measure.py` runs it.
 
 #[path = "../tests/hostile/attacks.rs"]
 #[allow(dead_code, reason = "the tests use the rest")]
@@ -14,24 +14,24 @@ use std::{
     time::{Duration, Instant},
 };
 
-use attacks::{Attacker, Flood, PATIENCE};
+use attacks::{Attacker, Flood, TIMEOUT};
 
 fn main() -> Result<(), String> {
     let mut args = std::env::args().skip(1);
     let mut next = |what: &str| args.next().ok_or(format!("{what} is missing"));
     let (endpoint, run, kind, seconds) = (next("ENDPOINT")?, next("RUN")?, next("KIND")?, next("SECONDS")?);
-    let count: u64 = next("COUNT").map_or(Ok(u64::MAX), |text| text.parse()).map_err(|_| "COUNT is no number")?;
+    let count: u64 = next("COUNT").map_or(Ok(u64::MAX), |text| text.parse()).map_err(|_| "COUNT is not a number")?;
     let certificates = next("CERTIFICATES").ok().map(PathBuf::from);
-    let seconds: f64 = seconds.parse().map_err(|_| "SECONDS is no number")?;
+    let seconds: f64 = seconds.parse().map_err(|_| "SECONDS is not a number")?;
     let begun = Instant::now();
     let until = begun + Duration::from_secs_f64(seconds);
     let sent = if kind == "idle" {
         idle(&endpoint, count, until)
     } else {
         let known = Flood::ALL.iter().find(|(name, _)| *name == kind);
-        let (_, flood) = known.ok_or(format!("there is no KIND `{kind}`"))?;
+        let (_, flood) = known.ok_or(format!("unknown KIND `{kind}`"))?;
         let tls = certificates.as_deref().map(|folder| (folder, "actor"));
-        let attacker = Attacker::join(&endpoint, &run, tls, PATIENCE).ok_or("the learner did not let us in")?;
+        let attacker = Attacker::join(&endpoint, &run, tls, TIMEOUT).ok_or("the learner refused the connection")?;
         attacker.flood(*flood, "good", count, until)
     };
     let wall_s = begun.elapsed().as_secs_f64();
@@ -39,7 +39,7 @@ fn main() -> Result<(), String> {
     std::io::stdout().write_all(line.as_bytes()).map_err(|why| why.to_string())
 }
 
-/// Opens connections and says nothing, again and again.
+/// Opens connections that stay silent. Returns their number.
 fn idle(endpoint: &str, count: u64, until: Instant) -> u64 {
     let address = endpoint.split_once('/').map_or(endpoint, |(_, address)| address);
     let (mut opened, mut held) = (0, std::collections::VecDeque::new());

@@ -1,11 +1,11 @@
-//! Acts by an exported policy with nothing of this project: an observation a line comes in, an action a line goes out, both as
-//! JSON lists.
+//! Plays an exported policy without any code of this project: reads one observation per line and writes one action per line,
+//! both as JSON lists.
 //!
 //! ```sh
 //! treadmill export runs/walk-1 --safetensors policy.safetensors
 //! cargo run --release --example play_policy policy.safetensors < observations.jsonl
 //! ```
-#![allow(clippy::print_stdout, reason = "it is a program")]
+#![allow(clippy::print_stdout, reason = "the program's output")]
 
 use std::{env, error::Error, fs, io};
 
@@ -24,7 +24,7 @@ fn main() -> Result<(), Box<dyn Error>> {
             _ => tensor.data().as_chunks().0.iter().map(|number| f32::from_le_bytes(*number).into()).collect(),
         })
     };
-    let fact = |name: &str| facts["observation"][name].as_f64().ok_or("metadata that are not ours");
+    let fact = |name: &str| facts["observation"][name].as_f64().ok_or("incomplete metadata");
     let (clip, epsilon) = (fact("clip")?, fact("variance_epsilon")?);
     let (mean, variance) = (numbers("observation.mean")?, numbers("observation.variance")?);
     let hidden = facts["network"]["hidden"].as_array().map_or(0, Vec::len);

@@ -1,10 +1,10 @@
-//! Treadmill's command line: `treadmill` is [`main`], and the viewer (`watch/`) uses what is public here.
+//! Command line of Treadmill: the program `treadmill` calls [`main`], and the viewer (`watch/`) uses the public modules.
 //!
 //! # Layout
 //! - `commands`: a file or folder for each subcommand.
-//! - [`launch`]: starts and hosts a run; exit codes, signals, log and output of every command.
-//! - [`shared`]: policies, and flags that several commands and the viewer have.
-//! - `load_generator`: the processes of `bench bus`, which play a learner and many actors.
+//! - [`launch`]: starting and hosting a run; exit codes, signals, log and output of every command.
+//! - [`shared`]: saved policies, and flags common to several commands and the viewer.
+//! - `load_generator`: processes of `bench bus`, which simulate a learner and many actors.
 
 mod commands;
 pub mod launch;
@@ -36,51 +36,51 @@ struct Cli {
 
 #[derive(Subcommand)]
 enum Command {
-    /// Train: a learner in this process, and actor processes beside it.
+    /// Train: run a learner in this process and start actor processes beside it.
     Train(train::TrainArgs),
     /// Run only the learner; actors join from other terminals or machines.
     Learner(learner::LearnerArgs),
-    /// Run only an actor; task and settings come from the learner.
+    /// Run only an actor; the learner sends task and settings.
     Actor(actor::ActorArgs),
-    /// Evaluate the policies of a run while it trains; `train` starts one by itself.
+    /// Evaluate the policies of a run while it trains; `train` starts an evaluator itself.
     Evaluator(evaluator::EvaluatorArgs),
-    /// Play deterministic episodes with a trained policy, or with one of the baselines.
+    /// Play deterministic episodes with a trained policy or a baseline.
     Eval(eval::EvalArgs),
-    /// See the humanoid move, in a browser: a trained policy, or with --live a run while it trains.
+    /// Show the humanoid in a browser: a trained policy, or with --live a run while it trains.
     #[command(mut_arg("folder", |arg| arg.help(viewer_args::RUN_HELP)))]
     Watch(viewer_args::ViewerArgs),
     /// Write a trained policy as a file that other programs read.
     Export(export::ExportArgs),
-    /// Compare runs: how far they walk, how long they took, and what they were configured otherwise.
+    /// Compare runs: distance walked, training time, and differences in configuration.
     Runs(runs::RunsArgs),
-    /// Tell how runs go, and who takes part.
+    /// Show the state of runs and of their actors.
     Status(status::StatusArgs),
-    /// Command a learner: pause, resume, checkpoint, stop, or set a key of its configuration.
+    /// Command a learner: pause, resume, checkpoint, stop, or set a configuration key.
     Control(control::ControlArgs),
-    /// Hand messages on between machines: actors dial it, it dials the learner.
+    /// Forward messages between machines: actors dial the router, the router dials the learner.
     Router(router::RouterArgs),
-    /// Make the certificates that let only your own machines onto the bus.
+    /// Create certificates that admit only your own machines to the bus.
     Certs(certs::CertsArgs),
     /// Measure speed.
     Bench(bench::BenchArgs),
-    /// Look for what is wrong with this machine, or with the way to a learner, and tell what to do.
+    /// Examine this machine and the route to a learner; name problems and remedies.
     Check(check::CheckArgs),
-    /// Print a script by which a shell completes commands and flags.
+    /// Print the script that completes commands and flags in a shell.
     Completions(manual::CompletionsArgs),
-    /// Write manual pages, one for each command.
+    /// Write one manual page per command.
     Man(manual::ManArgs),
     /// Print a generated page of docs/reference/.
     #[command(hide = true)]
     Reference(manual::ReferenceArgs),
 }
 
-/// Runs the command that the process's arguments name, and returns the exit code of the process.
+/// Runs the command named by the process's arguments, and returns the exit code.
 ///
-/// Call it first in `main`: it changes the environment, which is allowed only before other threads run.
+/// Call it first in `main`: it sets an environment variable, which is sound only while no other thread runs.
 pub fn main() -> ExitCode {
-    // Candle would spread its larger element-wise operations over threads of its own, which wait by spinning and take the
-    // cores from physics and from the update's threads.
-    // SAFETY: no other thread is there yet that could read or write the environment.
+    // By default, Candle runs larger element-wise operations on threads of its own. They spin while waiting and take cores
+    // from physics and update.
+    // SAFETY: no other thread runs yet, so none accesses the environment.
     unsafe { std::env::set_var("CANDLE_NUM_THREADS", "1") };
     let command = Cli::parse().command;
     log::begin("");

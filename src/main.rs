@@ -1,4 +1,4 @@
-//! The program `treadmill`; the library beside it has everything.
+//! Program `treadmill`; the code is in the library `treadmill_rl`.
 
 use std::process::ExitCode;
 

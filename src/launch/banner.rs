@@ -1,5 +1,5 @@
-//! Text that `train` and `learner` print before and after a run: what is learnt and for how long, where the files are, how to watch,
-//! stop and go on, and what to do next.
+//! Text that `train` and `learner` print: before a run its goal, files and commands to watch, stop and resume it; after a run its
+//! result and the next commands.
 
 use std::net::SocketAddr;
 
@@ -9,11 +9,11 @@ use treadmill_learner::training::TrainingSummary;
 use treadmill_runtime::run_folder::RunFolder;
 
 use crate::launch::{
-    output::{complain, say},
+    output::{say, say_error},
     startup::Prepared,
 };
 
-/// Prints what begins; `actors` are started beside this process, if any are.
+/// Prints the banner of a run. `actors` is the number of actor processes that this process starts, `page` the metrics page.
 pub fn print_start(
     prepared: &Prepared,
     endpoints: &[String],
@@ -31,7 +31,7 @@ pub fn print_start(
         (0, true, name) => format!("training `{name}`"),
     };
     say(&format!("run `{run}`: {verb}"));
-    say(&format!("  learns    {}", what_is_learnt(config, steps)));
+    say(&format!("  learns    {}", goal(config, steps)));
     say(&format!("  files     {root}  (curves: tensorboard --logdir {root}, or {root}/learning_curve.png)"));
     match actors {
         Some(actors) => say(&format!("  actors    {actors} processes beside this one")),
@@ -40,7 +40,7 @@ pub fn print_start(
                 true => "python -m treadmill_actor --env NAME",
                 false => "treadmill actor",
             };
-            let connect = to_dial(&endpoints[0], credentials);
+            let connect = connect_flags(&endpoints[0], credentials);
             say(&format!("  actors    none yet; start some by: {command} --connect {connect} --run {run}"));
         }
     }
@@ -61,8 +61,8 @@ pub fn print_start(
     say(&format!("  resume    treadmill {command} --resume {root}"));
 }
 
-/// What is learnt in how many steps; how long that takes is known once it goes on.
-fn what_is_learnt(config: &Config, steps: u64) -> String {
+/// Returns the goal and the number of steps to it. The progress display adds the remaining time.
+fn goal(config: &Config, steps: u64) -> String {
     let (wanted, batch) = (config.run.steps, u64::from(config.ppo.batch));
     let left = wanted.saturating_sub(steps);
     let goal = match config.is_external() {
@@ -70,12 +70,12 @@ fn what_is_learnt(config: &Config, steps: u64) -> String {
         false => "to go forward and not to fall",
     };
     let updates = left.div_ceil(batch.max(1));
-    format!("{goal}, in {left} env steps ({updates} updates); the time left is told with its speed")
+    format!("{goal}, in {left} env steps ({updates} updates); the remaining time appears once the speed is known")
 }
 
-/// An endpoint as another process dials it, with the flag that it needs for that: to listen on every address is not to have
-/// that address.
-fn to_dial(endpoint: &str, credentials: Option<&Credentials>) -> String {
+/// Returns the value of `--connect` for other processes, with further flags that they need. An address that means "all
+/// interfaces" becomes the host's name.
+fn connect_flags(endpoint: &str, credentials: Option<&Credentials>) -> String {
     let host = treadmill_runtime::machine::host_name();
     let dialled = endpoint.replace("/0.0.0.0:", &format!("/{host}:")).replace("/[::]:", &format!("/{host}:"));
     match credentials {
@@ -85,7 +85,7 @@ fn to_dial(endpoint: &str, credentials: Option<&Credentials>) -> String {
     }
 }
 
-/// Prints what the run reached and what can be done with its policy.
+/// Prints the result of the run and the commands to use next.
 pub fn print_end(folder: &RunFolder, summary: &TrainingSummary, command: &str) {
     let root = folder.root().display();
     let steps = summary.state.counters.env_steps;
@@ -99,7 +99,7 @@ pub fn print_end(folder: &RunFolder, summary: &TrainingSummary, command: &str) {
         ));
     }
     if summary.stopped {
-        complain(&format!("resume with: treadmill {command} --resume {root}"));
+        say_error(&format!("resume with: treadmill {command} --resume {root}"));
     } else {
         say(&format!("train it further: treadmill {command} --resume {root} --steps {}", steps.saturating_mul(2)));
     }

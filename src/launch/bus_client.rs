@@ -1,4 +1,4 @@
-//! Session of an actor or an evaluator on the bus: dialling, stopping, and its default name.
+//! Bus session of an actor or an evaluator: dialling, stopping, default name.
 
 use std::{io::Read, time::Duration};
 
@@ -9,11 +9,11 @@ use treadmill_runtime::{machine, seeds, shutdown::Shutdown};
 
 use super::signals;
 
-/// Time without an answer after which the first warning is logged: a learner may just be starting.
+/// Time without an answer before the first warning: the learner may still be starting.
 const FIRST_WARNING: Duration = Duration::from_secs(1);
 const WARN_EVERY: Duration = Duration::from_secs(10);
 
-/// Joins the bus as a client and runs `work` with the session, until it is done or the process is asked to stop.
+/// Joins the bus as a client and runs `work` with the session. Returns early if the process is asked to stop while dialling.
 pub fn with_session<W: Future<Output = Result<(), ActorError>>>(
     bus_options: BusOptions,
     where_to: &str,
@@ -30,13 +30,13 @@ pub fn with_session<W: Future<Output = Result<(), ActorError>>>(
         }
         let opened = tokio::task::spawn_blocking(move || Bus::open_client(&bus_options));
         tokio::pin!(opened);
-        // Dialling lasts until a peer answers; a request to stop does not wait for that.
+        // Dialling lasts until a peer answers, which may be never.
         let mut warning = tokio::time::interval_at(tokio::time::Instant::now() + FIRST_WARNING, WARN_EVERY);
         let bus = loop {
             tokio::select! {
                 bus = &mut opened => break bus??,
                 () = shutdown.wait() => return Ok(()),
-                _ = warning.tick() => tracing::warn!("nobody answers at {where_to}; trying on until somebody does"),
+                _ = warning.tick() => tracing::warn!(endpoints = %where_to, "no answer; retrying"),
             }
         };
         let outcome = work(bus.clone(), shutdown).await;
@@ -47,7 +47,7 @@ pub fn with_session<W: Future<Output = Result<(), ActorError>>>(
     outcome
 }
 
-/// Name made from the host's name, with a random ending that makes it unique.
+/// Returns the host's name with a random ending that makes it unique.
 pub fn default_name() -> String {
     let host: String = machine::host_name()
         .to_lowercase()
@@ -58,13 +58,13 @@ pub fn default_name() -> String {
     format!("{host}-{:08x}", seeds::unique() as u32)
 }
 
-/// Asks to stop once standard input closes: the parent holds its other end open and sends nothing.
+/// Requests a stop when standard input closes: the parent holds the other end open and sends nothing.
 fn stop_when_stdin_closes(shutdown: Shutdown) -> std::io::Result<()> {
     std::thread::Builder::new().name("parent-watch".to_string()).spawn(move || {
         let mut bytes = [0; 64];
         while matches!(std::io::stdin().read(&mut bytes), Ok(count) if count > 0) {}
         shutdown.ask();
-        // The parent is gone, so a process that does not end in time is ended.
+        // The parent is gone, so this process must not outlive it even if stopping hangs.
         std::thread::sleep(Duration::from_secs(5));
         std::process::exit(1);
     })?;

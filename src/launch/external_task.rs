@@ -1,4 +1,4 @@
-//! Task of a run that other programs simulate: the first actor that registers determines it.
+//! Task of a run that other programs simulate. The first actor to register defines it.
 
 use std::time::Duration;
 
@@ -9,32 +9,32 @@ use treadmill_runtime::shutdown::Shutdown;
 
 use crate::launch::{output::say, startup::Prepared};
 
-/// How often the wait for a task looks up.
-const TICK: Duration = Duration::from_millis(100);
+/// Interval at which the wait for a task checks for a request to stop.
+const POLL_INTERVAL: Duration = Duration::from_millis(100);
 
-/// Opens the desk where actors register, and waits, where the run's task is not known yet, until one of them did; `None` once
-/// somebody asked to stop.
+/// Opens the server where actors register. If the run's task is unknown, waits until an actor registers it. Returns `None` after
+/// a request to stop.
 pub async fn settle(bus: &Bus, prepared: &mut Prepared, shutdown: &Shutdown) -> anyhow::Result<Option<TaskServer>> {
     let known = prepared.state.as_ref().map(TrainingState::task).transpose().map_err(anyhow::Error::msg)?;
     let config = prepared.config.clone();
     let objection = Box::new(move |task: &Task| TrainingState::objection(&config, task));
-    let desk = TaskServer::open(bus, &prepared.run, known, objection)?;
+    let server = TaskServer::open(bus, &prepared.run, known, objection)?;
     if prepared.state.is_some() {
-        return Ok(Some(desk));
+        return Ok(Some(server));
     }
     let waiting = tokio::task::spawn_blocking({
         let shutdown = shutdown.clone();
         move || {
             while !shutdown.asked() {
-                if let Some(task) = desk.settled(TICK) {
-                    return Some((desk, task));
+                if let Some(task) = server.settled(POLL_INTERVAL) {
+                    return Some((server, task));
                 }
             }
             None
         }
     });
-    let Some((desk, task)) = waiting.await? else { return Ok(None) };
+    let Some((server, task)) = waiting.await? else { return Ok(None) };
     say(&format!("  task      {task}, as its first actor registered it"));
     prepared.settle(task)?;
-    Ok(Some(desk))
+    Ok(Some(server))
 }

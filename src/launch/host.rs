@@ -1,4 +1,4 @@
-//! Hosts a learner in this process, with actor processes beside it where `train` asks for them.
+//! Hosts a learner in this process; for `train`, also starts actor processes.
 
 use std::{
     sync::{Arc, atomic::AtomicU64},
@@ -27,28 +27,28 @@ use super::{
     supervisor::{FleetOptions, Supervisor},
 };
 
-/// Interval of the heartbeat while a learner waits for its first actor.
+/// Interval of heartbeats while a learner waits for its first actor.
 const HEARTBEAT_EVERY: Duration = Duration::from_secs(1);
 
-/// How a learner is hosted.
+/// Options of a hosted learner.
 pub struct HostOptions<'a> {
     /// Flags of new and resumed runs.
     pub any: &'a AnyRunArgs,
-    /// How the bus is opened.
+    /// Options of the bus.
     pub bus: &'a BusOptions,
-    /// Number of actor processes to start beside the learner; `None` where actors join by themselves.
+    /// Number of actor processes to start; `None` for `learner`, whose actors join by themselves.
     pub actors: Option<u32>,
     /// Socket of the metrics page.
     pub metrics: Option<MetricsListener>,
 }
 
-/// Hosts a learner until its run has its steps or is stopped.
+/// Hosts a learner until its run is complete or stopped.
 pub fn run(prepared: Prepared, options: HostOptions) -> anyhow::Result<()> {
     memory::keep_freed();
     let runtime =
         tokio::runtime::Builder::new_multi_thread().worker_threads(2).enable_all().build().context("no runtime")?;
     let outcome = runtime.block_on(run_until_done(prepared, options));
-    // A close that hangs must not keep the process.
+    // A hanging close must not keep the process alive.
     runtime.shutdown_background();
     outcome
 }
@@ -62,7 +62,7 @@ async fn run_until_done(mut prepared: Prepared, options: HostOptions<'_>) -> any
     let page =
         metrics.map(|page| page.serve(prepared.run.clone(), prometheus.clone(), heartbeat.clone())).transpose()?;
     banner::print_start(&prepared, &endpoints, bus_options.credentials.as_ref(), actors, page);
-    // Stays open while the run trains: actors that join later register their task, too.
+    // Stays open during training, because actors that join later register their task too.
     let Some(task_server) = wait_for_task(&bus, &mut prepared, &shutdown, &heartbeat).await? else {
         bus.close();
         say("stopped before any actor registered its task; nothing was trained");
@@ -90,7 +90,7 @@ async fn run_until_done(mut prepared: Prepared, options: HostOptions<'_>) -> any
     Ok(())
 }
 
-/// Opens the bus and writes where it listens into the run's folder.
+/// Opens the bus and writes its endpoints into the run folder.
 async fn open_bus(options: &BusOptions, folder: &RunFolder) -> anyhow::Result<(Bus, Vec<String>)> {
     let options = options.clone();
     let (bus, endpoints) = tokio::task::spawn_blocking(move || Bus::open_router(&options)).await??;
@@ -99,8 +99,8 @@ async fn open_bus(options: &BusOptions, folder: &RunFolder) -> anyhow::Result<(B
     Ok((bus, endpoints))
 }
 
-/// Waits until the run's task is known, with a heartbeat: a learner that waits for its first actor is healthy. Returns `None`
-/// after a request to stop.
+/// Waits until the run's task is known, with heartbeats, because a learner that waits for its first actor is healthy. Returns
+/// `None` after a request to stop.
 async fn wait_for_task(
     bus: &Bus,
     prepared: &mut Prepared,
@@ -118,7 +118,7 @@ async fn wait_for_task(
     }
 }
 
-/// The state to train from, and how.
+/// Returns the state to train from and the options of the training.
 fn training_options(
     prepared: Prepared,
     any: &AnyRunArgs,
@@ -143,7 +143,7 @@ fn training_options(
     Ok((state, options))
 }
 
-/// What the actor processes are started with.
+/// Returns the options of the actor processes.
 fn fleet_options(
     prepared: &Prepared,
     bus_options: &BusOptions,
@@ -163,9 +163,9 @@ fn fleet_options(
     })
 }
 
-const NO_STATE: &str = "the task is settled, and the state is not there";
+const NO_STATE: &str = "the task is known, but the run has no state";
 
-/// Starts the training thread; its result arrives in the channel, which closes early if the thread panics.
+/// Starts the training thread. Its result arrives in the channel, which closes early if the thread panics.
 fn spawn_training(
     bus: &Bus,
     state: TrainingState,

@@ -1,11 +1,11 @@
-//! Warnings on standard error; `TREADMILL_LOG` asks for more.
+//! Log on standard error: warnings, or the levels that `TREADMILL_LOG` sets.
 
 use tracing_subscriber::{Layer, layer::SubscriberExt, util::SubscriberInitExt};
 use treadmill_bus as bus;
 
 use crate::launch::output;
 
-/// From now on. `more` is added to what is said where `TREADMILL_LOG` is not set, as in `,wgpu=off`.
+/// Starts the log. Appends `more`, such as `,wgpu=off`, to the default filter, which applies unless `TREADMILL_LOG` is set.
 pub fn begin(more: &str) {
     let filter = tracing_subscriber::EnvFilter::try_from_env("TREADMILL_LOG")
         .unwrap_or_else(|_| tracing_subscriber::EnvFilter::new(format!("warn,zenoh=off{more}")));

@@ -1,4 +1,4 @@
-//! `--prometheus`: serves metrics and health over HTTP.
+//! `--prometheus`: metrics and health over HTTP.
 
 use std::{
     convert::Infallible,
@@ -21,56 +21,59 @@ use treadmill_learner::{
 
 use crate::launch::exit_code::Usage;
 
-/// Requests that are answered at a time; whoever comes on top is turned away.
+/// Most connections at a time; further ones are closed.
 const CONNECTIONS_MAX: usize = 64;
-/// After this a client that is too slow to ask or to read is let go.
+/// Time limit of a connection, against slow clients.
 const CONNECTION_TIMEOUT: Duration = Duration::from_secs(5);
-/// Longest request that is read.
+/// Longest request.
 const REQUEST_BYTES_MAX: usize = 16 << 10;
-/// Pause after a connection could not be taken, as where the process has too many files open.
+/// Pause after a failed accept, for instance with too many open files.
 const ACCEPT_PAUSE: Duration = Duration::from_millis(200);
 
 /// Flags about the metrics page.
 #[derive(Args, Clone, Debug, Default)]
 pub struct MetricsArgs {
-    /// Serve metrics for Prometheus here, as in 127.0.0.1:9464: /metrics, and /healthz for whether training goes on.
+    /// Serve /metrics for Prometheus and /healthz at this address, for instance 127.0.0.1:9464.
     #[arg(long, value_name = "ADDRESS")]
     prometheus: Option<SocketAddr>,
-    /// Allow --prometheus beyond loopback, where whoever reaches the address can read the metrics.
+    /// Allow --prometheus beyond loopback, where anyone on the network can read the metrics.
     #[arg(long, requires = "prometheus")]
     prometheus_open: bool,
-    /// Seconds without any progress after which /healthz says no.
+    /// Seconds without progress after which /healthz answers 503.
     #[arg(long, value_name = "SECONDS", requires = "prometheus", default_value_t = 120,
           value_parser = clap::value_parser!(u64).range(1..=86_400))]
     stalled_after_s: u64,
 }
 
 impl MetricsArgs {
-    /// Begins to listen where that is asked for; called before anything is written.
+    /// Opens the socket if `--prometheus` was given. Called before anything is written.
+    ///
+    /// # Errors
+    /// If the address is refused or in use.
     pub fn listen(&self) -> anyhow::Result<Option<MetricsListener>> {
         let Some(address) = self.prometheus else { return Ok(None) };
         if !address.ip().is_loopback() && !self.prometheus_open {
             return Err(Usage(format!(
-                "--prometheus {address}: plain HTTP beyond loopback can be read by anybody on the network; listen on \
-                 127.0.0.1:{}, or say --prometheus-open where the network itself is trusted",
+                "--prometheus {address}: anyone on the network can read plain HTTP beyond loopback; listen on \
+                 127.0.0.1:{}, or pass --prometheus-open if the network is trusted",
                 address.port()
             ))
             .into());
         }
         let listener = TcpListener::bind(address)
-            .with_context(|| format!("--prometheus {address}: nobody can listen there; choose another port"))?;
+            .with_context(|| format!("--prometheus {address}: cannot listen on this address; choose another port"))?;
         listener.set_nonblocking(true)?;
         Ok(Some(MetricsListener { listener, stalled_after: Duration::from_secs(self.stalled_after_s) }))
     }
 }
 
-/// Socket of the page, before the runtime that serves it.
+/// Socket of the page, opened before the runtime that serves it.
 pub struct MetricsListener {
     listener: TcpListener,
     stalled_after: Duration,
 }
 
-/// What the page shows.
+/// Content of the page.
 struct Page {
     run: String,
     metrics: PrometheusMetrics,
@@ -79,7 +82,7 @@ struct Page {
 }
 
 impl MetricsListener {
-    /// Serves it for as long as the runtime lives; its address.
+    /// Serves the page for as long as the runtime lives, and returns its address.
     pub fn serve(self, run: String, metrics: PrometheusMetrics, heartbeat: Heartbeat) -> anyhow::Result<SocketAddr> {
         let address = self.listener.local_addr()?;
         let listener = tokio::net::TcpListener::from_std(self.listener)?;
@@ -90,13 +93,13 @@ impl MetricsListener {
 }
 
 async fn serve(listener: tokio::net::TcpListener, page: Arc<Page>) {
-    let places = Arc::new(Semaphore::new(CONNECTIONS_MAX));
+    let permits = Arc::new(Semaphore::new(CONNECTIONS_MAX));
     loop {
         let Ok((stream, _)) = listener.accept().await else {
             tokio::time::sleep(ACCEPT_PAUSE).await;
             continue;
         };
-        let Ok(place) = places.clone().try_acquire_owned() else { continue };
+        let Ok(permit) = permits.clone().try_acquire_owned() else { continue };
         let page = page.clone();
         tokio::spawn(async move {
             let answer = service_fn(|request| {
@@ -107,9 +110,9 @@ async fn serve(listener: tokio::net::TcpListener, page: Arc<Page>) {
                 .keep_alive(false)
                 .max_buf_size(REQUEST_BYTES_MAX)
                 .serve_connection(TokioIo::new(stream), answer);
-            // Whatever goes wrong with it is the client's business.
+            // A failed connection concerns only its client.
             let _ = tokio::time::timeout(CONNECTION_TIMEOUT, connection).await;
-            drop(place);
+            drop(permit);
         });
     }
 }
@@ -122,7 +125,7 @@ impl Page {
         match request.uri().path() {
             "/metrics" => self.metrics(),
             "/healthz" => self.health(),
-            _ => text(StatusCode::NOT_FOUND, "there are /metrics and /healthz\n".to_string()),
+            _ => text(StatusCode::NOT_FOUND, "only /metrics and /healthz\n".to_string()),
         }
     }
 

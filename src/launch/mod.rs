@@ -1,8 +1,8 @@
-//! Starts and hosts a run, and what every command needs from its process.
+//! Starting and hosting a run, and process-wide services of every command.
 //!
 //! # Layout
 //! - Before a run: `startup` (flags to configuration, run folder and first state), `model` (the robot), `external_task`
-//!   (waits for the task that the first actor registers), `banner` (text printed before and after).
+//!   (waits for the task that the first actor registers), `banner` (text printed before and after a run).
 //! - During a run: `host` (a learner with actors beside it), `supervisor` (restarts actor processes), `bus_client` (session of
 //!   an actor or evaluator), `metrics_page` (metrics over HTTP).
 //! - The process: [`exit_code`], [`signals`], [`log`], [`output`], [`slow_step`], [`terminal_screen`], `memory`

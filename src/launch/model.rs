@@ -10,22 +10,23 @@ use treadmill_actor::settings;
 use treadmill_config::{Config, ConfigSource, EnvConfig, EnvObservation, Symmetry};
 use treadmill_humanoid::{Environment, HUMANOID_XML, Model, ModelError, read_model_file};
 use treadmill_ppo::{BatchMirror, IndexSwap};
+use treadmill_runtime::error_chain;
 
-use crate::launch::exit_code::{self, Usage};
+use crate::launch::exit_code::Usage;
 
 /// Flags about robot and task of commands that play without a run.
 #[derive(Args, Clone, Debug, Default)]
 pub struct ModelArgs {
-    /// Another robot than the built-in humanoid, as MJCF; see docs/guide/robots.md.
+    /// MJCF file of a robot other than the built-in humanoid; see docs/guide/robots.md.
     #[arg(long, value_name = "FILE")]
     pub model: Option<PathBuf>,
-    /// One key of [env] or [randomisation], as in env.substeps=5; may be repeated.
+    /// Set a key of [env] or [randomisation], as in env.substeps=5; may be repeated.
     #[arg(long, value_name = "KEY=VALUE")]
     pub set: Vec<String>,
 }
 
 impl ModelArgs {
-    /// A configuration with the given keys laid over it.
+    /// Returns `base` with the given keys set.
     pub fn config(&self, base: &Config) -> anyhow::Result<Config> {
         let mut source = ConfigSource::default();
         source.text(&base.to_toml(), "the run's configuration")?;
@@ -40,37 +41,37 @@ impl ModelArgs {
     }
 }
 
-/// The text of a model file, or of the built-in humanoid where there is none.
+/// Returns the text of a model file, or by default of the built-in humanoid.
 pub fn text(file: Option<&Path>) -> Result<Cow<'static, str>, Usage> {
     match file {
         None => Ok(Cow::Borrowed(HUMANOID_XML)),
-        Some(path) => Ok(Cow::Owned(read_model_file(path).map_err(|why| blame(Some(path), &why))?)),
+        Some(path) => Ok(Cow::Owned(read_model_file(path).map_err(|why| in_file(Some(path), &why))?)),
     }
 }
 
-/// An environment with a model's text, which came from `file` if there is one.
+/// Builds the environment of a model text, which was read from `file` if given.
 pub fn environment(config: &Config, text: &str, file: Option<&Path>) -> Result<Environment, Usage> {
     if config.is_external() {
         return Err(Usage(
-            "config key `env.task` is \"external\", which has no environment here; allowed here: \
-                          \"humanoid-v5\" or \"humanoid-v4\""
+            "config key `env.task` is \"external\", which this program does not simulate; allowed here: \"humanoid-v5\" or \
+             \"humanoid-v4\""
                 .to_string(),
         ));
     }
-    let environment = Environment::new(&settings::training(config), text).map_err(|why| blame(file, &why))?;
+    let environment = Environment::new(&settings::training(config), text).map_err(|why| in_file(file, &why))?;
     if let Some(path) = file {
         check_height(&config.env, environment.physics().model().nominal_position()[2], path)?;
     }
     Ok(environment)
 }
 
-/// What the entries of an action are called; nothing where no model says.
+/// Returns the motor names, one for each entry of an action; empty without a model.
 pub fn action_names(text: &str) -> Vec<String> {
     let model = Model::from_mjcf(text).ok();
     model.map(|model| model.motors.iter().map(|motor| motor.name.clone()).collect()).unwrap_or_default()
 }
 
-/// The mirror that `ppo.symmetry` asks for.
+/// Returns the mirror for `ppo.symmetry`.
 pub fn mirror(config: &Config, text: &str) -> Result<Option<BatchMirror>, Usage> {
     if config.ppo.symmetry == Symmetry::Off {
         return Ok(None);
@@ -85,19 +86,18 @@ pub fn mirror(config: &Config, text: &str) -> Result<Option<BatchMirror>, Usage>
     Ok(Some(BatchMirror { observation, action: IndexSwap(of_body.action) }))
 }
 
-/// Refuses another model than the one that a run was begun with.
+/// Checks that `file` is the model of the resumed run.
 pub fn check_same(run_text: &str, file: &Path) -> Result<(), Usage> {
     if text(Some(file))? == run_text {
         return Ok(());
     }
     Err(Usage(format!(
-        "--model {}: the run goes on with the model that it was begun with, and this is another one; leave --model out, \
-         or begin a new run with it",
+        "--model {}: a resumed run keeps its model, and this one differs; leave --model out, or begin a new run",
         file.display()
     )))
 }
 
-/// A robot that starts outside the healthy range would end every episode at once.
+/// Checks that the robot starts within the healthy range; otherwise every episode would end at once.
 fn check_height(env: &EnvConfig, height_m: f64, path: &Path) -> Result<(), Usage> {
     let [low_m, high_m] = env.healthy_z_range;
     if !env.terminate_when_unhealthy || (low_m < height_m && height_m < high_m) {
@@ -105,17 +105,17 @@ fn check_height(env: &EnvConfig, height_m: f64, path: &Path) -> Result<(), Usage
     }
     Err(Usage(format!(
         "model file `{}`: its root starts at a height of {height_m} m, but only {low_m} m to {high_m} m is healthy, so that \
-         every episode would end at once; say what is, as in --set 'env.healthy_z_range=[{:.2}, {:.2}]'",
+         every episode would end at once; set another range, as in --set 'env.healthy_z_range=[{:.2}, {:.2}]'",
         path.display(),
         0.7 * height_m,
         1.4 * height_m
     )))
 }
 
-fn blame(file: Option<&Path>, why: &ModelError) -> Usage {
-    let told = exit_code::chain(anyhow::Chain::new(why));
+fn in_file(file: Option<&Path>, why: &ModelError) -> Usage {
+    let why = error_chain(why);
     match file {
-        Some(path) => Usage(format!("model file `{}`: {told}", path.display())),
-        None => Usage(told),
+        Some(path) => Usage(format!("model file `{}`: {why}", path.display())),
+        None => Usage(why),
     }
 }

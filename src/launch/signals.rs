@@ -1,14 +1,14 @@
-//! Ctrl-C and SIGTERM: the first asks to stop, the second ends the process.
+//! Ctrl-C and SIGTERM: the first requests a stop, the second ends the process.
 
 use tokio::signal::unix::{SignalKind, signal};
 use treadmill_runtime::shutdown::Shutdown;
 
-use crate::launch::output::complain;
+use crate::launch::output::say_error;
 
-/// Exit code after the second Ctrl-C: 128 + SIGINT, as shells have it.
+/// Exit code after the second signal: 128 + SIGINT, the convention of shells.
 const EXIT_AT_ONCE: i32 = 130;
 
-/// Asks to stop at the first signal and ends the process at the second.
+/// Requests a stop at the first signal, and prints `first` unless it is empty. Ends the process at the second signal.
 pub fn listen(shutdown: Shutdown, first: &'static str) -> std::io::Result<()> {
     let mut interrupt = signal(SignalKind::interrupt())?;
     let mut terminate = signal(SignalKind::terminate())?;
@@ -24,7 +24,7 @@ pub fn listen(shutdown: Shutdown, first: &'static str) -> std::io::Result<()> {
             }
             asked = true;
             if !first.is_empty() {
-                complain(first);
+                say_error(first);
             }
             shutdown.ask();
         }

@@ -1,4 +1,4 @@
-//! Notices on standard error about a step that takes long; short steps stay silent.
+//! Notices on standard error about a step that takes long.
 
 use std::{
     sync::{
@@ -9,14 +9,14 @@ use std::{
     time::{Duration, Instant},
 };
 
-use crate::launch::output::complain;
+use crate::launch::output::say_error;
 
 /// Time after which the first notice is printed.
 const FIRST_AFTER: Duration = Duration::from_secs(2);
 /// Time between two notices.
 const EVERY: Duration = Duration::from_secs(10);
 
-/// Step under way, which ends when this is dropped.
+/// Step in progress, which ends when this is dropped.
 pub struct SlowStepNotice {
     what: Arc<Mutex<String>>,
     done: Option<Sender<()>>,
@@ -24,9 +24,9 @@ pub struct SlowStepNotice {
 }
 
 impl SlowStepNotice {
-    /// Begins a step; `what` describes it, as in "loading the checkpoint".
+    /// Begins a step. `what` describes it, for instance "loading the checkpoint".
     pub fn begin(what: impl Into<String>) -> Self {
-        Self::with_output(what.into(), [FIRST_AFTER, EVERY], complain)
+        Self::with_output(what.into(), [FIRST_AFTER, EVERY], say_error)
     }
 
     /// Changes the description of the step.
@@ -37,13 +37,13 @@ impl SlowStepNotice {
     fn with_output(what: String, [first, every]: [Duration; 2], print: impl Fn(&str) + Send + 'static) -> Self {
         let what = Arc::new(Mutex::new(what));
         let (done, ended) = channel::<()>();
-        let words = what.clone();
-        // Without its thread a step is silent, which does no harm.
+        let description = what.clone();
+        // If the thread cannot be started, the step stays silent, which does no harm.
         let thread = std::thread::Builder::new().name("slow-step".to_string()).spawn(move || {
             let (begun, mut pause) = (Instant::now(), first);
             while ended.recv_timeout(pause) == Err(RecvTimeoutError::Timeout) {
-                let words = words.lock().unwrap_or_else(PoisonError::into_inner).clone();
-                print(&format!("{words}; {} s so far", begun.elapsed().as_secs()));
+                let what = description.lock().unwrap_or_else(PoisonError::into_inner).clone();
+                print(&format!("{what}; {} s so far", begun.elapsed().as_secs()));
                 pause = every;
             }
         });
@@ -77,7 +77,6 @@ mod tests {
         step.update("playing episode 2".to_string());
         while printed.recv().unwrap() != "playing episode 2; 0 s so far" {}
         drop(step);
-        // The thread ended with the step.
         assert!(printed.iter().all(|line| line.starts_with("playing episode 2")));
     }
 

@@ -1,4 +1,4 @@
-//! Prepares a run from its flags: configuration, folder, first or resumed state.
+//! Preparation of a run from its flags: configuration, folder, first or resumed state.
 
 use std::{fs, path::PathBuf};
 
@@ -10,53 +10,53 @@ use treadmill_learner::checkpoint::{self, TrainingState, Which};
 use treadmill_policy::device::{Device, DeviceKind};
 use treadmill_ppo::BatchMirror;
 use treadmill_proto::Task;
-use treadmill_runtime::{atomic_file, machine, run_folder::RunFolder, seeds};
+use treadmill_runtime::{atomic_file, error_chain, machine, run_folder::RunFolder, seeds};
 
 use crate::launch::{exit_code::Usage, model, slow_step::SlowStepNotice};
 
-/// Flags that say what a run is; they make no sense together with `--resume`, which has them saved.
+/// Flags of a new run. They conflict with `--resume`, because a resumed run has them saved.
 #[derive(Args, Clone, Debug, Default)]
 pub struct NewRunArgs {
-    /// Starting point of the configuration: walk, walk-v5obs, walk-v4obs, smoke or sim2sim.
+    /// Preset to start the configuration from: walk, walk-v5obs, walk-v4obs, smoke or sim2sim.
     #[arg(long, value_name = "NAME", default_value = "walk")]
     pub preset: String,
-    /// Configuration file (TOML) laid over the preset.
+    /// Configuration file (TOML), applied over the preset.
     #[arg(long, value_name = "FILE", conflicts_with = "resume")]
     pub config: Option<PathBuf>,
-    /// One configuration key, as in ppo.learning_rate=3e-4; may be repeated.
+    /// Set a configuration key, as in ppo.learning_rate=3e-4; may be repeated.
     #[arg(long, value_name = "KEY=VALUE", conflicts_with = "resume")]
     pub set: Vec<String>,
-    /// What is trained: humanoid-v5, humanoid-v4, `external` for whatever the first actor registers, or the name of such a
-    /// task, as in gymnasium/Humanoid-v5 (see docs/guide/external-tasks.md).
+    /// Task: humanoid-v5, humanoid-v4, `external` for the task that the first actor registers, or the name of such a task,
+    /// as in gymnasium/Humanoid-v5 (see docs/guide/external-tasks.md).
     #[arg(long, value_name = "NAME", conflicts_with = "resume")]
     pub task: Option<String>,
     /// Seed of every random stream.
     #[arg(long, conflicts_with = "resume")]
     pub seed: Option<u64>,
-    /// Folder of this run; by default runs/PRESET-N with the first free N.
+    /// Folder of the run; by default runs/PRESET-N with the first free N.
     #[arg(long, value_name = "DIR", conflicts_with = "resume")]
     pub run_dir: Option<PathBuf>,
 }
 
-/// Flags that make sense for a new run and for a resumed one.
+/// Flags of new and resumed runs.
 #[derive(Args, Clone, Debug, Default)]
 pub struct AnyRunArgs {
-    /// Environment steps of the run in total.
+    /// Total number of environment steps of the run.
     #[arg(long)]
     pub steps: Option<u64>,
-    /// Go on with this run: its folder, or its name below runs/.
+    /// Resume this run: its folder, or its name below runs/.
     #[arg(long, value_name = "RUN", conflicts_with = "preset")]
     pub resume: Option<String>,
-    /// Another robot than the built-in humanoid, as MJCF (see docs/guide/robots.md); a resumed run keeps its own.
+    /// MJCF file of a robot other than the built-in humanoid (see docs/guide/robots.md); a resumed run keeps its own.
     #[arg(long, value_name = "FILE")]
     pub model: Option<PathBuf>,
-    /// Which checkpoint to resume from: latest, best, or the number of updates of a kept one.
+    /// Checkpoint to resume from: latest, best, or the number of updates of a kept one.
     #[arg(long, value_name = "WHICH", requires = "resume")]
     pub checkpoint: Option<Which>,
-    /// Where the networks are computed: cpu, or cuda in a build with that feature.
+    /// Device for the networks: cpu, or cuda in a build with that feature.
     #[arg(long, value_name = "DEVICE", default_value = "cpu")]
     pub device: DeviceKind,
-    /// Do not draw a progress bar.
+    /// Do not show progress.
     #[arg(long)]
     pub no_progress: bool,
     /// Print one JSON summary as the last line of standard output.
@@ -64,24 +64,24 @@ pub struct AnyRunArgs {
     pub json: bool,
 }
 
-/// A run that is ready to begin.
+/// Run that is ready to begin.
 pub struct Prepared {
     /// Its configuration.
     pub config: Config,
     /// Its folder.
     pub folder: RunFolder,
-    /// Where its networks are computed.
+    /// Device of its networks.
     pub device: Device,
-    /// The mirror that its updates learn with.
+    /// Mirror for its updates, with `ppo.symmetry`.
     pub mirror: Option<BatchMirror>,
     /// Its name on the bus.
     pub run: String,
-    /// Its state; none where its sizes are those of a task that no actor has registered yet.
+    /// Its state; `None` until an actor has registered the external task, which defines the sizes.
     pub state: Option<TrainingState>,
 }
 
 impl Prepared {
-    /// Gives the run a name of its own on the bus.
+    /// Changes the name of the run on the bus.
     pub fn rename(&mut self, run: String) {
         if let Some(state) = &mut self.state {
             state.run.clone_from(&run);
@@ -89,7 +89,7 @@ impl Prepared {
         self.run = run;
     }
 
-    /// The state of the run; of a new one of `task` where nothing but that was missing.
+    /// Sets the task of a new run and creates its state.
     pub fn settle(&mut self, task: Task) -> anyhow::Result<()> {
         let (observation, action) = (task.observation_size as usize, task.action_size as usize);
         self.config.task = task.into();
@@ -100,24 +100,27 @@ impl Prepared {
     }
 }
 
-/// Which command a run is prepared for.
+/// Command that a run is prepared for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum RunCommand {
-    /// The learner with actors beside it.
+    /// Learner with actor processes beside it.
     Train,
-    /// The learner alone.
+    /// Learner alone.
     Learner,
 }
 
-/// Prepares a new run, or one that goes on. `changes` are keys that the command's own flags set.
+/// Prepares a new or resumed run. `changes` are keys set by flags of the command.
+///
+/// # Errors
+/// If flags or configuration are refused, or the run folder cannot be read or written.
 pub fn prepare(
     command: RunCommand,
     new: &NewRunArgs,
     any: &AnyRunArgs,
     changes: &[(&str, toml::Value)],
 ) -> anyhow::Result<Prepared> {
-    // Before anything is written: a device that is not there leaves nothing behind.
-    let device = any.device.open().map_err(|why| Usage(why.to_string()))?;
+    // Before anything is written, so that a missing device leaves nothing behind.
+    let device = any.device.open().map_err(|why| Usage(error_chain(&why)))?;
     let prepared = match &any.resume {
         Some(run) => resume(command, run, any, device)?,
         None => begin(command, new, any, changes, device)?,
@@ -126,14 +129,14 @@ pub fn prepare(
     Ok(prepared)
 }
 
-/// Refuses what makes no sense for a task that is simulated by other programs.
+/// Refuses commands and flags that make no sense for a task that other programs simulate.
 fn check_external(command: RunCommand, config: &Config, any: &AnyRunArgs) -> Result<(), Usage> {
     if !config.is_external() {
         return Ok(());
     }
     if command == RunCommand::Train {
         return Err(Usage(
-            "`train` starts actors of its own, and they simulate the humanoid alone; env.task \"external\" needs \
+            "the actors that `train` starts simulate only the humanoid; env.task \"external\" needs \
              `treadmill learner`, which actors of that task join (see docs/guide/external-tasks.md)"
                 .to_string(),
         ));
@@ -141,13 +144,13 @@ fn check_external(command: RunCommand, config: &Config, any: &AnyRunArgs) -> Res
     match &any.model {
         None => Ok(()),
         Some(file) => Err(Usage(format!(
-            "--model {}: an external task has no model here; leave --model out, or train one of our own tasks",
+            "--model {}: an external task has no model; leave --model out, or train a built-in task",
             file.display()
         ))),
     }
 }
 
-/// The key that `--task NAME` sets, and the task's own name where it is external.
+/// Returns the keys that `--task NAME` sets: the task, and its name if it is external.
 fn task_keys(name: &str) -> Vec<(&'static str, toml::Value)> {
     match EnvTask::NAMES.contains(&name) {
         true => vec![("env.task", name.into())],
@@ -220,7 +223,7 @@ fn resume(command: RunCommand, run: &str, any: &AnyRunArgs, device: Device) -> a
         config.run.steps = steps;
         config.check()?;
     }
-    // Without keys that no longer exist, so that actors need not know them.
+    // Without retired keys, so that actors need not know them.
     state.config_toml = config.to_toml();
     state.lineage.resume(seeds::unique());
     state.counters.resumes += 1;
@@ -231,7 +234,7 @@ fn resume(command: RunCommand, run: &str, any: &AnyRunArgs, device: Device) -> a
 fn write_run_files(prepared: &Prepared) -> std::io::Result<()> {
     use std::io::Write;
     let Prepared { config, folder, state, .. } = prepared;
-    // Whole or not at all: on a disk that is full, those of the start before stay.
+    // Atomically: on a full disk, the files of the previous start remain.
     let write = |path: PathBuf, text: &str| atomic_file::write(&path, text.as_bytes());
     write(folder.config(), &config.to_toml())?;
     if let Some(text) = state.as_ref().map(|state| &state.model_xml).filter(|text| !text.is_empty()) {
@@ -243,12 +246,12 @@ fn write_run_files(prepared: &Prepared) -> std::io::Result<()> {
     write(folder.root().join("versions.json"), &format!("{:#}\n", json!(versions)))
 }
 
-/// This process's command line as a shell would take it.
+/// Returns this process's command line, quoted for a shell.
 pub fn command_line() -> String {
     std::env::args().map(|part| quoted(&part)).collect::<Vec<_>>().join(" ")
 }
 
-/// What this program and this machine are.
+/// Returns facts about this program and this machine.
 fn facts() -> [(&'static str, serde_json::Value); 6] {
     [
         ("treadmill", env!("CARGO_PKG_VERSION").into()),
@@ -260,7 +263,7 @@ fn facts() -> [(&'static str, serde_json::Value); 6] {
     ]
 }
 
-/// The same as text, with the host and the run's seed.
+/// Returns facts about program and machine as text, with the host and the run's seed.
 pub fn versions(config: &Config) -> Vec<(String, String)> {
     let plain = |value: serde_json::Value| value.as_str().map_or_else(|| value.to_string(), str::to_string);
     let mut versions: Vec<_> = facts().into_iter().map(|(name, value)| (name.to_string(), plain(value))).collect();
@@ -269,7 +272,7 @@ pub fn versions(config: &Config) -> Vec<(String, String)> {
     versions
 }
 
-/// A part of a command line as a shell would take it.
+/// Quotes an argument for a shell.
 fn quoted(part: &str) -> String {
     let plain = |c: char| c.is_ascii_alphanumeric() || "-_./=:,+".contains(c);
     if !part.is_empty() && part.chars().all(plain) {
@@ -278,7 +281,7 @@ fn quoted(part: &str) -> String {
     format!("'{}'", part.replace('\'', r"'\''"))
 }
 
-/// Command-line flags as configuration keys, where they were given.
+/// Returns the configuration keys of the flags that were given.
 pub fn changes(flags: &[(&'static str, Option<u32>)]) -> Vec<(&'static str, toml::Value)> {
     flags.iter().filter_map(|(key, value)| value.map(|value| (*key, i64::from(value).into()))).collect()
 }
@@ -288,7 +291,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_command_line_can_be_pasted_into_a_shell() {
+    fn arguments_are_quoted_for_a_shell() {
         assert_eq!(quoted("--set"), "--set");
         assert_eq!(quoted("policy.hidden=[8, 8]"), "'policy.hidden=[8, 8]'");
         assert_eq!(quoted("it's"), r"'it'\''s'");

@@ -1,4 +1,4 @@
-//! Actor and evaluator processes of `train`: started beside the learner, restarted when they die, ended with it.
+//! Actor and evaluator processes of `train`: starts them beside the learner, restarts those that die, ends them with it.
 
 use std::{
     path::PathBuf,
@@ -17,47 +17,47 @@ use tokio::{
 };
 use treadmill_runtime::shutdown::Shutdown;
 
-use crate::launch::output::complain;
+use crate::launch::output::say_error;
 
-/// An actor that lived shorter than this did not do anything useful.
+/// A life shorter than this counts as useless.
 const TOO_SHORT: Duration = Duration::from_secs(5);
-/// So many useless lives in a row mean that starting it again does not help.
+/// Useless lives in a row after which a process is given up.
 const TOO_SHORT_MAX: u32 = 8;
-/// How much less urgent than the learner an actor on the same machine is.
+/// Nice value of actors on the learner's machine.
 const ACTOR_NICE: &str = "10";
 const BACKOFF_MAX: Duration = Duration::from_secs(5);
-/// An actor ends within this once its standard input is closed; then it is killed.
+/// Time from closing an actor's standard input to killing it.
 const STOP_TIMEOUT: Duration = Duration::from_secs(3);
 
-/// Options of the processes of a run.
+/// Options of a run's processes.
 #[derive(Clone, Debug)]
 pub struct FleetOptions {
-    /// Where the learner listens.
+    /// Endpoint of the learner.
     pub endpoint: String,
-    /// Certificates, where links are encrypted.
+    /// Folder of certificates, if links are encrypted.
     pub tls: Option<PathBuf>,
     /// Whether fragments may pass through shared memory.
     pub shared_memory: bool,
     /// The run's name.
     pub run: String,
-    /// Actor processes.
+    /// Number of actor processes.
     pub actors: u32,
-    /// Environments in total.
+    /// Total number of environments.
     pub envs: u32,
-    /// Whether policies are evaluated while training goes on.
+    /// Whether policies are evaluated during training.
     pub evaluates: bool,
-    /// Starts of the learner before this one: a resumed run draws other random numbers than its first start.
+    /// Earlier starts of the learner; they select the random streams of this start.
     pub starts_before: u64,
 }
 
-/// Runs actor processes.
+/// Runs actor and evaluator processes.
 pub struct Supervisor {
     tasks: JoinSet<anyhow::Result<()>>,
     stopping: Shutdown,
 }
 
 impl Supervisor {
-    /// Starts all; each life after the first is counted in `restarts`. An actor that cannot live asks `shutdown`.
+    /// Starts all processes. Counts restarts of actors in `restarts`. Requests `shutdown` when an actor is given up.
     pub fn start(fleet: &FleetOptions, restarts: Arc<AtomicU64>, shutdown: Shutdown) -> Self {
         let stopping = Shutdown::default();
         let mut tasks = JoinSet::new();
@@ -75,9 +75,9 @@ impl Supervisor {
         if fleet.evaluates {
             let (fleet, stopping) = (fleet.clone(), stopping.clone());
             tasks.spawn(async move {
-                // Training goes on without evaluation, so what is wrong with it is said and no more.
+                // Training continues without evaluation, so a failure is only reported.
                 if let Err(why) = keep_alive(&fleet, Role::Evaluator, &AtomicU64::new(0), &stopping).await {
-                    complain(&format!("policies are no longer evaluated: {why}"));
+                    say_error(&format!("policies are no longer evaluated: {why:#}"));
                 }
                 Ok(())
             });
@@ -85,7 +85,7 @@ impl Supervisor {
         Self { tasks, stopping }
     }
 
-    /// Ends every actor; the first reason why one could not live, if there was one.
+    /// Ends all processes. Returns the first error of an actor that was given up.
     pub async fn stop(mut self) -> anyhow::Result<()> {
         self.stopping.ask();
         let mut outcome = Ok(());
@@ -97,7 +97,7 @@ impl Supervisor {
     }
 }
 
-/// What a process is there for.
+/// Purpose of a process.
 #[derive(Clone, Copy, Debug)]
 enum Role {
     Actor { index: u32 },
@@ -118,7 +118,7 @@ async fn keep_alive(fleet: &FleetOptions, role: Role, restarts: &AtomicU64, stop
     for life in 0u64.. {
         let begun = Instant::now();
         let mut child = spawn(fleet, role, life)?;
-        // Taken out, because waiting for a child closes what it still holds of its standard input.
+        // Taken out, because waiting for a child closes its standard input.
         let stdin = child.stdin.take();
         let status = tokio::select! {
             status = child.wait() => status.context("an actor cannot be waited for")?,
@@ -129,7 +129,7 @@ async fn keep_alive(fleet: &FleetOptions, role: Role, restarts: &AtomicU64, stop
             anyhow::bail!("{role} ended {short_lives} times in a row right after its start, last with {status}");
         }
         restarts.fetch_add(1, Ordering::Relaxed);
-        complain(&format!("{role} ended with {status}; starting it again"));
+        say_error(&format!("{role} ended with {status}; starting it again"));
         let pause = (Duration::from_millis(100) * 2u32.saturating_pow(short_lives)).min(BACKOFF_MAX);
         tokio::select! {
             () = tokio::time::sleep(pause) => {}
@@ -144,11 +144,11 @@ fn spawn(fleet: &FleetOptions, role: Role, life: u64) -> anyhow::Result<Child> {
     let mut command = Command::new(program);
     match role {
         Role::Actor { index } => {
-            // The first actors take what does not divide evenly.
+            // The first actors take the remainder.
             let envs = fleet.envs / fleet.actors + u32::from(index < fleet.envs % fleet.actors);
             let start = (fleet.starts_before << 32) + life;
             command.args(["actor", "--envs", &envs.to_string(), "--start-number", &start.to_string()]);
-            // Where both want the cores, the learner goes first: the sooner a policy is out, the newer is what it learns from.
+            // The learner goes first: the sooner it publishes a policy, the fresher the experience.
             command.args(["--nice", ACTOR_NICE]);
         }
         Role::Evaluator => drop(command.arg("evaluator")),
@@ -162,10 +162,10 @@ fn spawn(fleet: &FleetOptions, role: Role, life: u64) -> anyhow::Result<Child> {
     command
         .args(["--connect", &fleet.endpoint, "--run", &fleet.run, "--name", &role.to_string()])
         .args(["--until-stdin-closes", "--insecure"])
-        // Held open by this process alone: it closes by itself when this process is gone, however it went.
+        // Only this process holds it open, so it closes when this process ends for any reason.
         .stdin(Stdio::piped())
         .stdout(Stdio::null())
-        // Its own group, so that Ctrl-C reaches only the learner, which then ends its actors in order.
+        // A process group of its own, so that Ctrl-C reaches only the learner, which then ends its actors in order.
         .process_group(0)
         .kill_on_drop(true)
         .spawn()

@@ -1,29 +1,29 @@
-//! Terminal of the dashboard: taken when it opens, restored however it ends.
+//! Terminal of the dashboard, restored after it, also after a panic.
 
 use std::io::{self, IsTerminal};
 
 use crate::launch::output;
 use ratatui::DefaultTerminal;
 
-/// The whole terminal, on its alternate screen.
+/// Alternate screen of the terminal.
 pub struct TerminalScreen {
     terminal: DefaultTerminal,
 }
 
-/// Whether there is a terminal that a dashboard can be drawn on.
+/// Returns whether standard output is a terminal that can show a dashboard.
 pub fn is_there() -> bool {
     io::stdout().is_terminal() && std::env::var_os("TERM").is_none_or(|term| term != "dumb")
 }
 
 impl TerminalScreen {
-    /// Takes the terminal. A panic gives it back before it tells what happened.
+    /// Switches to the alternate screen. A panic restores the terminal before it prints its message.
     pub fn open() -> io::Result<Self> {
         output::hold_log(true);
-        let terminal = ratatui::try_init().inspect_err(|_| give_back())?;
+        let terminal = ratatui::try_init().inspect_err(|_| restore())?;
         Ok(Self { terminal })
     }
 
-    /// Draws what differs from what is there.
+    /// Draws a frame; only cells that differ are written.
     pub fn draw(&mut self, draw: impl FnOnce(&mut ratatui::Frame)) -> io::Result<()> {
         self.terminal.draw(draw).map(drop)
     }
@@ -31,13 +31,13 @@ impl TerminalScreen {
 
 impl Drop for TerminalScreen {
     fn drop(&mut self) {
-        // A terminal that is gone needs nothing given back.
+        // Fails only if the terminal is gone.
         let _ = self.terminal.show_cursor();
-        give_back();
+        restore();
     }
 }
 
-fn give_back() {
+fn restore() {
     let _ = ratatui::try_restore();
     output::hold_log(false);
 }

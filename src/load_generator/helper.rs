@@ -1,4 +1,4 @@
-//! Process of the load generator: it reads commands line by line and answers with one JSON object a line.
+//! Child process of the load generator. It reads commands line by line and answers each with a JSON object on one line.
 
 use std::{
     io::{BufRead, BufReader, Write},
@@ -10,10 +10,10 @@ use std::{
 use anyhow::Context;
 use serde_json::Value;
 
-/// An answer that takes longer means that the process is broken.
+/// Longest wait for an answer; a process that takes longer is broken.
 const ANSWER_TIMEOUT: Duration = Duration::from_secs(240);
 
-/// A process of this binary that ends when this one does.
+/// Child process of this binary, which ends with this one.
 pub(super) struct Helper {
     name: String,
     child: Child,
@@ -22,14 +22,14 @@ pub(super) struct Helper {
 }
 
 impl Helper {
-    /// Starts `treadmill bench` with these arguments.
+    /// Starts `treadmill bench` with `args`.
     pub(super) fn start(args: &[String]) -> anyhow::Result<Self> {
         let program = std::env::current_exe().context("this program's own path is unknown")?;
         let name = args.first().cloned().unwrap_or_default();
         let mut child = Command::new(program)
             .arg("bench")
             .args(args)
-            // It ends when this closes, which it does by itself when this process is gone.
+            // The child ends when this closes, also if this process dies.
             .stdin(Stdio::piped())
             .stdout(Stdio::piped())
             .spawn()
@@ -52,10 +52,10 @@ impl Helper {
         writeln!(input, "{line}").and_then(|()| input.flush()).with_context(|| format!("{} is gone", self.name))
     }
 
-    /// Next answer.
+    /// Returns the next answer.
     pub(super) fn receive(&mut self) -> anyhow::Result<Value> {
-        let line = self.lines.recv_timeout(ANSWER_TIMEOUT).with_context(|| format!("{} says nothing", self.name))?;
-        serde_json::from_str(&line).with_context(|| format!("{} said `{line}`", self.name))
+        let line = self.lines.recv_timeout(ANSWER_TIMEOUT).with_context(|| format!("{} does not answer", self.name))?;
+        serde_json::from_str(&line).with_context(|| format!("{} answered `{line}`", self.name))
     }
 
     /// Sends a command and returns the answer.
@@ -80,7 +80,7 @@ impl Drop for Helper {
     }
 }
 
-/// A number in what a helper said.
-pub(super) fn number(said: &Value, field: &str) -> anyhow::Result<f64> {
-    said[field].as_f64().with_context(|| format!("`{field}` is missing in {said}"))
+/// Returns a number of an answer.
+pub(super) fn number(answer: &Value, field: &str) -> anyhow::Result<f64> {
+    answer[field].as_f64().with_context(|| format!("`{field}` is missing in {answer}"))
 }

@@ -1,4 +1,4 @@
-//! Process of the learner: its real intake and policy server. Fragments are checked, counted and dropped.
+//! Process with the learner's real intake and policy server. It checks, counts and drops fragments.
 
 use std::{
     io::BufRead,
@@ -27,27 +27,27 @@ use crate::{
     shared::network_args::NetworkArgs,
 };
 
-/// Fragments after which they count as part of a checkpoint.
+/// Accepted fragments between two marks of durability, which stand for checkpoints.
 const DURABLE_EVERY: u64 = 64;
 
 /// Flags of `bench bus-host`.
 #[derive(Args)]
 pub struct HostArgs {
-    /// Where to listen.
+    /// Endpoint to listen on.
     #[arg(long, value_name = "ENDPOINT")]
     listen: String,
     #[command(flatten)]
     network: NetworkArgs,
 }
 
-/// What was taken.
+/// Accepted fragments.
 #[derive(Default)]
 struct Taken {
     counts: FragmentCounts,
     checksum: String,
 }
 
-/// Takes fragments until standard input ends. Lines there: `mark` asks for the counts, `publish N` hands out policy N.
+/// Accepts fragments until standard input ends. Commands: `mark` returns the counts, `publish N` publishes policy N.
 pub fn run(args: &HostArgs) -> anyhow::Result<()> {
     memory::keep_freed();
     usage::allow_many_connections();
@@ -56,15 +56,15 @@ pub fn run(args: &HostArgs) -> anyhow::Result<()> {
     let mut bundle = workload::bundle();
     let encoded = bundle.encode()?;
     let bundle_bytes = encoded.len();
-    let shelf = PolicyServer::open(&bus, workload::RUN, encoded.into())?;
+    let policies = PolicyServer::open(&bus, workload::RUN, encoded.into())?;
     let defaults = LearnerConfig::default();
     let capacity = defaults.intake_fragments as usize;
-    let gate = Arc::new(Admission::new(defaults.quarantine_after, capacity));
+    let admission = Arc::new(Admission::new(defaults.quarantine_after, capacity));
     let (alive, copies) = (Alive::watch(&bus, workload::RUN)?, RolloutCopies::open(&bus, workload::RUN)?);
-    let queue = RolloutIntake::open(&bus, workload::RUN, capacity, gate.clone(), &copies)?;
+    let queue = RolloutIntake::open(&bus, workload::RUN, capacity, admission.clone(), &copies)?;
     let shared = queue.shared();
     let source = BusFragmentSource::new(queue, alive, copies, Heartbeat::default());
-    let validator = FragmentValidator::new(expected(), gate, Ledger::default(), FragmentCounts::default());
+    let validator = FragmentValidator::new(expected(), admission, Ledger::default(), FragmentCounts::default());
     let (taken, shutdown) = (Arc::new(Mutex::new(Taken::default())), Shutdown::default());
     let intake = std::thread::Builder::new().name("training".to_string()).spawn({
         let (taken, shutdown) = (taken.clone(), shutdown.clone());
@@ -81,9 +81,9 @@ pub fn run(args: &HostArgs) -> anyhow::Result<()> {
             }
             Some(("publish", number)) => {
                 bundle.version.number = number.parse().context("a policy has a number")?;
-                publish(&shelf, &bundle)?
+                publish(&policies, &bundle)?
             }
-            _ => anyhow::bail!("`{line}` is not understood"),
+            _ => anyhow::bail!("unknown command `{line}`"),
         };
         say(&answer.to_string());
     }
@@ -103,7 +103,7 @@ fn expected() -> ExpectedFragment {
     }
 }
 
-/// What the training thread does without the training: each fragment is answered as soon as it is taken.
+/// Body of the training thread without training: answers each fragment as soon as it is accepted.
 fn take(mut intake: Intake<BusFragmentSource>, taken: &Mutex<Taken>, shutdown: &Shutdown) {
     let lineage = Lineage::new(workload::INCARNATION);
     let one = BatchSize { transitions: 1, transitions_max: 1 };
@@ -143,10 +143,10 @@ fn mark(taken: &Taken, begun: Instant, shared: u64) -> Value {
     })
 }
 
-fn publish(shelf: &PolicyServer, bundle: &PolicyBundle) -> anyhow::Result<Value> {
+fn publish(policies: &PolicyServer, bundle: &PolicyBundle) -> anyhow::Result<Value> {
     let announcement = PolicyAnnouncement { version: bundle.version, checksum: bundle.checksum };
     let encoded = bundle.encode()?;
     let time_unix_s = machine::time_unix_s();
-    shelf.publish(encoded.into(), &announcement);
+    policies.publish(encoded.into(), &announcement);
     Ok(json!({"published": bundle.version.number, "time_unix_s": time_unix_s}))
 }

@@ -1,4 +1,4 @@
-//! Many actors in one process: each has its own session and connection, sends prepared fragments and fetches policies.
+//! Many simulated actors in one process. Each has its own session and connection, sends prepared fragments and fetches policies.
 
 use std::{
     io::BufRead,
@@ -27,44 +27,44 @@ use crate::{
 };
 
 const FETCH_TIMEOUT: Duration = Duration::from_secs(10);
-/// An actor of which nothing was taken by then is not waited for.
-const TAKEN_WITHIN: Duration = Duration::from_secs(60);
-/// A policy that is not there by then is not waited for.
-const FETCHED_WITHIN: Duration = Duration::from_secs(60);
-/// As an actor retries when the learner is busy or silent.
+/// Longest wait for the first accepted fragment of every actor.
+const FIRST_FRAGMENTS_TIMEOUT: Duration = Duration::from_secs(60);
+/// Longest wait until every actor has fetched a policy.
+const ALL_FETCHED_TIMEOUT: Duration = Duration::from_secs(60);
+/// Pause before a retry when the learner is busy or silent, as in an actor.
 const RETRY: Duration = Duration::from_millis(200);
-/// Its threads do little, and there are two for each actor.
+/// Small, because each actor has several threads, which do little.
 const STACK_BYTES: usize = 512 << 10;
 
 /// Flags of `bench bus-load`.
 #[derive(Args)]
 pub struct LoadArgs {
-    /// Where the learner listens.
+    /// Endpoint of the learner.
     #[arg(long, value_name = "ENDPOINT")]
     connect: String,
     /// Number of the first actor.
     #[arg(long)]
     first: u32,
-    /// Actors.
+    /// Number of actors.
     #[arg(long)]
     actors: u32,
-    /// Fragments that each has on its way.
+    /// Fragments that each actor keeps in flight.
     #[arg(long)]
     in_flight: u32,
     /// Bytes of a fragment.
     #[arg(long)]
     fragment_bytes: usize,
-    /// Pause after each receipt, as if something were simulated.
+    /// Pause after each receipt, which stands for simulation.
     #[arg(long)]
     pause_ms: u64,
-    /// How exactly observations travel.
+    /// Precision of observations on the wire.
     #[arg(long, value_parser = ["f32", "f16"])]
     precision: String,
     #[command(flatten)]
     network: NetworkArgs,
 }
 
-/// What the senders do at present.
+/// Current activity of the senders.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Phase {
     Waiting,
@@ -73,13 +73,13 @@ enum Phase {
     Stopped,
 }
 
-/// What came of the fragments.
+/// Outcomes of the fragments.
 #[derive(Default)]
 struct Outcomes {
     receipts_ms: Vec<f64>,
-    /// Told to come again.
+    /// Receipts "busy".
     busy: u64,
-    /// Without any receipt.
+    /// Sends without a receipt.
     silent: u64,
     refused: u64,
 }
@@ -90,12 +90,12 @@ struct Shared {
     phase: Mutex<Phase>,
     changed: Condvar,
     outcomes: Mutex<Outcomes>,
-    /// The newest policy that there is.
+    /// Number of the newest policy.
     published: AtomicU64,
 }
 
-/// Sends until standard input ends. Lines there: `send`, which is answered once a fragment of every actor was accepted,
-/// `measure`, `stop`, and `expect N` before policy N is published.
+/// Sends fragments until standard input ends. Commands: `send`, answered once a fragment of every actor was accepted; `measure`;
+/// `stop`; and `expect N` before policy N is published.
 pub fn run(args: &LoadArgs) -> anyhow::Result<()> {
     memory::keep_freed();
     usage::allow_many_connections();
@@ -125,16 +125,16 @@ pub fn run(args: &LoadArgs) -> anyhow::Result<()> {
         }
     }
     runtime.shutdown_background();
-    // Hundreds of sessions close one after the other; their end is the process's.
+    // Exits without closing hundreds of sessions one by one.
     std::process::exit(0);
 }
 
-/// Actors of this process, and what they report.
+/// Actors of this process and their reports.
 struct Load {
     actors: usize,
     shared: Arc<Shared>,
     senders: Vec<Joined>,
-    /// Number of each policy that an actor has fetched, and when (Unix time in seconds).
+    /// Number of each policy that an actor fetched, with the Unix time in seconds.
     fetches: Receiver<(u64, f64)>,
     /// One message for the first accepted fragment of each actor.
     firsts: Receiver<()>,
@@ -157,20 +157,20 @@ impl Load {
             "stop" => self.stop().map(Some),
             line => {
                 let number = line.strip_prefix("expect ").and_then(|number| number.parse().ok());
-                let number = number.with_context(|| format!("`{line}` is not understood"))?;
+                let number = number.with_context(|| format!("unknown command `{line}`"))?;
                 Ok(Some(self.wait_for_policy(number)))
             }
         }
     }
 
-    /// Until its first fragment is accepted, an actor is a newcomer, and the learner admits few of those.
+    /// Waits until a fragment of every actor was accepted: before that an actor is a newcomer, which admission control limits.
     fn wait_for_first_fragments(&self) -> Value {
-        let deadline = Instant::now() + TAKEN_WITHIN;
-        let of_all =
+        let deadline = Instant::now() + FIRST_FRAGMENTS_TIMEOUT;
+        let actors =
             std::iter::from_fn(|| self.firsts.recv_timeout(deadline.saturating_duration_since(Instant::now())).ok())
                 .take(self.actors)
                 .count();
-        json!({"taken_of_actors": of_all})
+        json!({"taken_of_actors": actors})
     }
 
     fn stop(&mut self) -> anyhow::Result<Value> {
@@ -187,7 +187,7 @@ impl Load {
 
     fn wait_for_policy(&self, number: u64) -> Value {
         self.shared.published.store(number, Ordering::Relaxed);
-        let deadline = Instant::now() + FETCHED_WITHIN;
+        let deadline = Instant::now() + ALL_FETCHED_TIMEOUT;
         let mut times = Vec::new();
         while times.len() < self.actors
             && let Ok((of, time_unix_s)) = self.fetches.recv_timeout(deadline.saturating_duration_since(Instant::now()))
@@ -224,7 +224,7 @@ impl Shared {
 
 type Joined = std::thread::JoinHandle<()>;
 
-/// Lets every actor join as an actor does: session, token, announcements, first policy.
+/// Joins the run with every actor: session, token, announcements, first policy. Starts the senders.
 fn join(
     args: &LoadArgs,
     options: &BusOptions,
@@ -258,7 +258,7 @@ fn join(
     Ok(senders)
 }
 
-/// One fragment after the other, each until it is taken; `first` is told of the first.
+/// Sends one fragment after the other, each until it is answered. `first` gets a message at the first accepted one.
 fn deliver(
     shared: &Shared,
     bus: &Bus,
@@ -298,7 +298,7 @@ fn deliver(
                 _ => break,
             }
         }
-        // The same memory again, unless the bus still holds on to it.
+        // Reuses the memory, unless the bus still holds it.
         own = Vec::from(fragment);
         if !shared.pause.is_zero() {
             std::thread::sleep(shared.pause);
@@ -306,7 +306,7 @@ fn deliver(
     }
 }
 
-/// Fetches each policy that is announced, or that was not announced to us for too long; tells when it is there.
+/// Fetches each announced policy, and published ones whose announcement was lost. Reports the time of each.
 async fn follow(bus: &Bus, announcements: &Announcements, shared: &Shared, fetched: &Sender<(u64, f64)>) {
     let poll_interval = Duration::from_millis(BusConfig::default().policy_poll_ms);
     let mut known = 0;

@@ -1,4 +1,4 @@
-//! Measures one number of actors, with processes of its own.
+//! Measurement with one number of actors, in processes of its own.
 
 use std::time::Duration;
 
@@ -11,14 +11,14 @@ use super::{
 };
 use crate::commands::bench::rounded;
 
-/// Processes that actors are spread over.
+/// Most processes that the actors are spread over.
 const LOAD_PROCESSES: u32 = 4;
-/// Many actors on a busy machine need longer than asked for: so many times as long at most.
-const LONGER_MAX: f64 = 6.0;
-/// Pause between two looks at what was taken.
-const LOOK: Duration = Duration::from_millis(50);
+/// Most times that a measurement may exceed its duration: many actors on a busy machine need longer.
+const EXTENSION_MAX: f64 = 6.0;
+/// Interval at which the number of accepted fragments is polled.
+const POLL_INTERVAL: Duration = Duration::from_millis(50);
 
-/// What to measure.
+/// Parameters of a measurement.
 pub(crate) struct LoadStep<'a> {
     pub(crate) actors: u32,
     pub(crate) seconds: f64,
@@ -31,7 +31,7 @@ pub(crate) struct LoadStep<'a> {
     pub(crate) network: &'a [String],
 }
 
-/// What was measured.
+/// Result of a measurement.
 pub(crate) struct Measured {
     actors: u32,
     pub(crate) fragment_bytes: u64,
@@ -40,7 +40,7 @@ pub(crate) struct Measured {
     fragments: f64,
     in_place: f64,
     elapsed_s: f64,
-    /// Until something of every actor was taken, when all begin at once.
+    /// Time until a fragment of every actor was accepted, if all begin at once.
     first_s: f64,
     receipts_ms: Vec<f64>,
     policies_ms: Vec<f64>,
@@ -56,7 +56,7 @@ pub(crate) struct Measured {
 }
 
 impl LoadStep<'_> {
-    /// Measures with processes of its own.
+    /// Starts the processes and measures.
     pub(crate) fn measure(&self) -> anyhow::Result<Measured> {
         let strings = |args: &[&str]| args.iter().map(|arg| (*arg).to_string()).collect::<Vec<_>>();
         let mut host =
@@ -70,7 +70,7 @@ impl LoadStep<'_> {
             fragment_bytes = number(&ready, "fragment_bytes")? as u64;
             bytes_per_transition = number(&ready, "bytes_per_transition")?;
         }
-        // Not before every actor's first fragment has gone through, and then two of each or more.
+        // Measures after the first fragment of every actor was accepted, and then at least two of each.
         let begun = host.ask("mark")?;
         send_to_all(&mut loads, "send")?;
         let mut known = 0.0;
@@ -79,7 +79,7 @@ impl LoadStep<'_> {
         }
         anyhow::ensure!(
             known == f64::from(self.actors),
-            "of {} actors only {known} could deliver anything",
+            "only {known} of {} actors could deliver a fragment",
             self.actors
         );
         let before = host.ask("mark")?;
@@ -133,16 +133,16 @@ impl LoadStep<'_> {
         Ok(())
     }
 
-    /// Waits until so many fragments more are taken and so long has passed; not for ever.
+    /// Waits until `fragments` more were accepted and `seconds` have passed, with a limit.
     fn wait_for(&self, host: &mut Helper, since: &Value, fragments: f64, seconds: f64) -> anyhow::Result<Value> {
         loop {
             let now = host.ask("mark")?;
             let passed_s = number(&now, "at_s")? - number(since, "at_s")?;
-            let taken = number(&now, "accepted")? - number(since, "accepted")?;
-            if passed_s >= seconds && (taken >= fragments || passed_s >= self.seconds * LONGER_MAX) {
+            let accepted = number(&now, "accepted")? - number(since, "accepted")?;
+            if passed_s >= seconds && (accepted >= fragments || passed_s >= self.seconds * EXTENSION_MAX) {
                 return Ok(now);
             }
-            std::thread::sleep(LOOK);
+            std::thread::sleep(POLL_INTERVAL);
         }
     }
 
@@ -176,7 +176,7 @@ fn send_to_all(loads: &mut [Helper], line: &str) -> anyhow::Result<()> {
 }
 
 impl Measured {
-    /// Adds what the processes answer to `stop`.
+    /// Adds the answers to `stop`.
     fn add_outcomes(&mut self, loads: &mut [Helper]) -> anyhow::Result<()> {
         for load in loads {
             let outcomes = load.receive()?;
@@ -197,7 +197,7 @@ impl Measured {
         self.megabytes() / self.elapsed_s
     }
 
-    /// Everything by name.
+    /// Returns all figures by name.
     pub(crate) fn fields(&self, raw: Raw) -> Value {
         let (fragments, gb) = (self.fragments.max(1.0), (self.megabytes() / 1e3).max(1e-9));
         let cpu_s_per_gb = (self.learner_cpu_s + self.actors_cpu_s) / gb;
@@ -231,7 +231,7 @@ impl Measured {
         })
     }
 
-    /// A line of the table.
+    /// Returns the row of the table.
     pub(crate) fn row(&self, raw: Raw) -> String {
         let fields = self.fields(raw);
         COLUMNS.map(|(field, _, width)| format!("{:>width$}", fields[field].to_string())).join(" ")
@@ -253,17 +253,17 @@ const COLUMNS: [(&str, &str, usize); 11] = [
     ("cpu_ratio_to_raw_tcp", "CPU ratio", 9),
 ];
 
-/// The head of the table.
+/// Returns the head of the table.
 pub(crate) fn heading() -> String {
     COLUMNS.map(|(_, heading, width)| format!("{heading:>width$}")).join(" ")
 }
 
-/// Milliseconds with two decimals.
+/// Rounds milliseconds to two decimals.
 fn ms(value: f64) -> f64 {
     (value * 100.0).round() / 100.0
 }
 
-/// Ratios and costs with three decimals.
+/// Rounds ratios and costs to three decimals.
 fn share(value: f64) -> f64 {
     (value * 1000.0).round() / 1000.0
 }
@@ -272,7 +272,7 @@ fn numbers(list: &Value) -> impl Iterator<Item = f64> + '_ {
     list.as_array().into_iter().flatten().filter_map(Value::as_f64)
 }
 
-/// Of sorted numbers; zero where there are none.
+/// Returns a quantile of sorted numbers by rank; zero if there are none.
 fn quantile(sorted: &[f64], share: f64) -> f64 {
     let rank = (share * sorted.len() as f64).ceil() as usize;
     sorted.get(rank.max(1) - 1).copied().unwrap_or(0.0)

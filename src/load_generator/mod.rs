@@ -1,11 +1,11 @@
-//! Load generator of `bench bus`: real connections into the learner's real intake, which accepts without training.
+//! Load generator of `bench bus`: real connections into the learner's real intake, without training.
 //!
 //! # Layout
 //! - [`load_step`]: starts the processes for one number of actors and measures them.
-//! - [`host`]: process with the learner's intake. [`load`]: processes that play actors.
-//! - [`helper`]: starts such a process and exchanges lines with it.
+//! - [`host`]: process with the learner's intake. [`load`]: processes that simulate actors.
+//! - [`helper`]: starts these processes and exchanges lines with them.
 //! - [`workload`]: the fragment and the policies that are sent.
-//! - [`raw`]: TCP without a bus, for comparison. [`usage`]: processor time and memory of this process.
+//! - [`raw`]: plain TCP for comparison. [`usage`]: processor time and memory of this process.
 
 mod helper;
 pub(crate) mod host;

@@ -1,4 +1,4 @@
-//! What TCP itself does here: the same messages over one loopback connection, without any bus.
+//! Throughput of plain TCP: the same messages over one loopback connection.
 
 use std::{
     io::{ErrorKind, Read, Write},
@@ -10,16 +10,16 @@ use anyhow::Context;
 
 use super::usage;
 
-/// One measurement.
+/// Measurement of plain TCP.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Raw {
     pub(crate) mb_per_s: f64,
-    /// Both ends together.
+    /// Of both ends together.
     pub(crate) cpu_s_per_gb: f64,
 }
 
 impl Raw {
-    /// The mean of what was measured before and after something else.
+    /// Returns the mean of two measurements.
     pub(crate) fn mean(self, other: Self) -> Self {
         Self {
             mb_per_s: (self.mb_per_s + other.mb_per_s) / 2.0,
@@ -28,7 +28,7 @@ impl Raw {
     }
 }
 
-/// Sends messages of this size for so long; each is read whole into memory that is there already.
+/// Sends messages of this size for `duration`. The receiver reads each into the same buffer.
 pub(crate) fn measure(message_bytes: usize, duration: Duration) -> anyhow::Result<Raw> {
     let listener = TcpListener::bind("127.0.0.1:0").context("no port on loopback")?;
     let address = listener.local_addr().context("no address on loopback")?;

@@ -1,4 +1,4 @@
-//! What is sent: one fragment of random numbers under every actor's name, and policies of a given size.
+//! Messages to send: one fragment of random numbers under every actor's name, and policies of a given size.
 
 use treadmill_policy::{init::initial_parameters, to_safetensors};
 use treadmill_proto::{Fragment, Malformed, PolicyBundle, PolicyVersion, Precision, PreparedFragment};
@@ -6,26 +6,26 @@ use treadmill_runtime::seeds;
 
 use crate::commands::bench::network::{self, Widths};
 
-/// The run's name on the bus.
+/// Name of the run on the bus.
 pub(super) const RUN: &str = "bench";
-/// Stands for configuration and model, which nobody reads here.
+/// Hash in place of that of a configuration, which does not matter here.
 pub(super) const CONFIG_HASH: u64 = 1;
-/// The incarnation of every actor. The learner's gate reads it from the first bytes, where the prepared fragment has it.
+/// Incarnation of every actor. Admission control reads it from the first bytes, where the prepared fragment has it.
 pub(super) const ACTOR_INCARNATION: u64 = 1;
-/// The learner's incarnation in every policy version.
+/// Incarnation of the learner in every policy version.
 pub(super) const INCARNATION: u64 = 1;
-/// Entries of an observation and an action: the compact humanoid's.
+/// Sizes of an observation and an action of the compact humanoid.
 pub(super) const WIDTHS: (u32, u32) = (45, 17);
-/// Networks whose bundle has one megabyte.
+/// Widths of networks whose bundle takes one megabyte.
 const NETWORK: &str = "45-448-224";
-/// Control steps of a fragment, as configured by default.
+/// Control steps of a fragment, the default.
 const STEPS: u32 = 128;
-/// Bytes of one transition, and of the last observation that each environment adds.
+/// Bytes of one transition, and of the last observation of each environment.
 const BYTES: (usize, usize) = (257, 180);
-/// The same where observations travel in half precision.
+/// The same with observations in half precision.
 const HALF_BYTES: (usize, usize) = (167, 90);
 
-/// A fragment of about so many bytes, and its transitions.
+/// Returns a fragment of about `bytes` bytes, and its number of transitions.
 pub(super) fn fragment(bytes: usize, precision: Precision) -> Result<(PreparedFragment, usize), Malformed> {
     let (transition, last) = match precision {
         Precision::F32 => BYTES,
@@ -61,7 +61,7 @@ pub(super) fn fragment(bytes: usize, precision: Precision) -> Result<(PreparedFr
     Ok((PreparedFragment::new(&fragment, precision)?, rows))
 }
 
-/// The first policy; others differ from it in nothing but their number.
+/// Returns the first policy; others differ only in their number.
 pub(super) fn bundle() -> PolicyBundle {
     let shape = NETWORK.parse::<Widths>().expect("widths").shape();
     let weights = to_safetensors(&shape, &initial_parameters(&shape, -0.5, &mut seeds::stream(1, "bench-bus", &[1])));

@@ -1,4 +1,4 @@
-//! Flags that say where a learner is, and a session with it: used by `status`, `control`, `check` and the viewer.
+//! Flags that locate a learner, and a session with it: for `status`, `control`, `check` and the viewer.
 
 use std::{path::PathBuf, time::Duration};
 
@@ -13,59 +13,59 @@ use crate::{
     shared::network_args::NetworkArgs,
 };
 
-/// Where a learner listens unless told otherwise.
+/// Endpoint of a learner by default.
 const DEFAULT_ENDPOINT: &str = "tcp/127.0.0.1:7447";
-/// How long nobody may answer a dial.
+/// Longest dial.
 const DIAL_TIMEOUT: Duration = Duration::from_secs(5);
-/// How long an answer may take once a learner was asked.
+/// Longest wait for an answer of a learner.
 pub const ANSWER_TIMEOUT: Duration = Duration::from_secs(5);
-/// For so long, no answer may mean that the learner is not known yet where we asked.
-const INTRODUCTION: Duration = Duration::from_secs(2);
+/// Time after joining during which a router may not know the learner yet.
+const ROUTES_SETTLE_TIMEOUT: Duration = Duration::from_secs(2);
 const RETRY: Duration = Duration::from_millis(100);
 
-/// How to reach a learner.
+/// Flags that locate a learner.
 #[derive(Args, Clone, Debug)]
 pub struct ReachArgs {
-    /// A run's folder, or its name below runs/: its learner runs on this machine, and its endpoint is in there.
+    /// Folder of a run on this machine, or its name below runs/; the folder holds the learner's endpoint.
     #[arg(value_name = "RUN", conflicts_with = "connect")]
     pub folder: Option<String>,
-    /// Where the learner or a router listens; may be repeated. By default tcp/127.0.0.1:7447.
+    /// Endpoint of the learner or of a router; may be repeated. By default tcp/127.0.0.1:7447.
     #[arg(long, value_name = "ENDPOINT")]
     pub connect: Vec<String>,
-    /// The run's name on the bus; may be left out where there is only one.
+    /// Name of the run on the bus; may be left out if there is only one.
     #[arg(long, value_name = "NAME")]
     pub run: Option<String>,
-    /// How links are protected, and how they are found.
+    /// Flags of the network.
     #[command(flatten)]
     pub network: NetworkArgs,
 }
 
 impl ReachArgs {
-    /// The log of the run whose folder was given.
+    /// Returns the metrics file of the run whose folder was given.
     #[must_use]
     pub fn log(&self) -> Option<PathBuf> {
         RunFolder::open(self.folder.as_ref()?).ok().map(|folder| folder.metrics())
     }
 
-    /// The endpoints that were named, or that the run's folder names now: a learner that was started anew may listen elsewhere.
+    /// Returns the endpoints given, or the one that the run's folder holds now: a restarted learner may listen elsewhere.
     ///
     /// # Errors
-    /// If the run's folder is not there or does not say where the run listens.
+    /// If the run's folder or its endpoint file is missing.
     pub fn named_endpoints(&self) -> anyhow::Result<Vec<String>> {
         let mut connect = self.connect.clone();
         if let Some(folder) = &self.folder {
             let folder = RunFolder::open(folder)?;
             let file = folder.endpoint();
             let text = std::fs::read_to_string(&file)
-                .with_context(|| format!("`{}` cannot be read, which says where the run listens", file.display()))?;
-            // A learner that listens everywhere listens here, too.
+                .with_context(|| format!("cannot read the endpoint of the run in `{}`", file.display()))?;
+            // A learner that listens on all interfaces also listens on loopback.
             let here = |line: &str| line.replace("/0.0.0.0:", "/127.0.0.1:").replace("/[::]:", "/[::1]:");
             connect.extend(text.lines().next().map(here));
         }
         Ok(connect)
     }
 
-    /// Where to dial.
+    /// Returns the endpoints to dial: those named, or the default.
     ///
     /// # Errors
     /// As [`Self::named_endpoints`].
@@ -77,20 +77,20 @@ impl ReachArgs {
         Ok(connect)
     }
 
-    /// How to reach the bus. Called before any thread is started, see [`NetworkArgs::options`].
+    /// Returns the options of the bus. Called before any thread starts, see [`NetworkArgs::options`].
     ///
     /// # Errors
-    /// If endpoint, name or certificates are not acceptable.
+    /// If endpoint, name or certificates are refused.
     pub fn options(&self, role: Role) -> anyhow::Result<BusOptions> {
         let connect = self.endpoints()?;
         if let Some(run) = &self.run {
             check_ident("run", run).map_err(|why| Usage(why.to_string()))?;
         }
         match self.network.options(role, Vec::new(), connect.clone()) {
-            // Whoever may command may also ask.
+            // An operator has the rights of an observer.
             Err(_) if role == Role::Observer => {
                 self.network.options(Role::Operator, Vec::new(), connect.clone()).or_else(|_| {
-                    // The first refusal is the one that helps.
+                    // The first error is the useful one.
                     self.network.options(role, Vec::new(), connect)
                 })
             }
@@ -99,7 +99,7 @@ impl ReachArgs {
     }
 }
 
-/// Joins the bus as an observer or operator and does `work` there, with the run's name where one was given.
+/// Joins the bus as an observer or operator and runs `work` with the session and the run's name, if given.
 ///
 /// # Errors
 /// If the bus cannot be joined, or the work fails.
@@ -111,7 +111,7 @@ pub fn connect(
     connect_with(reach.options(role)?, async |bus| work(bus, reach.run.clone()).await)
 }
 
-/// Joins the bus and does `work` there.
+/// Joins the bus and runs `work` with the session.
 ///
 /// # Errors
 /// If the bus cannot be joined, or the work fails.
@@ -126,38 +126,38 @@ pub fn connect_with(options: BusOptions, work: impl AsyncFnOnce(Bus) -> anyhow::
         bus.close();
         outcome
     });
-    // A dial that goes on must not keep the process.
+    // A dial in progress must not keep the process alive.
     runtime.shutdown_background();
     outcome
 }
 
-/// A session on the bus.
+/// Opens a session on the bus.
 ///
 /// # Errors
-/// If nobody answers soon.
+/// If no peer answers within five seconds.
 pub async fn dial(options: BusOptions) -> anyhow::Result<Bus> {
     let where_to = options.connect.join(", ");
     let opened = tokio::task::spawn_blocking(move || Bus::open_client(&options));
     let Ok(bus) = tokio::time::timeout(DIAL_TIMEOUT, opened).await else {
         anyhow::bail!(
-            "nobody answers at {where_to}; is the learner up? --connect names another endpoint, and the run's folder has it \
-             in endpoint.txt"
+            "no answer from {where_to}; is the learner running? --connect names another endpoint; the run folder has it in \
+             endpoint.txt"
         );
     };
     Ok(bus??)
 }
 
-/// Asks again for a moment where nobody answers: a router may not know yet who is behind it.
+/// Repeats a request for a moment until it is answered: a router may not know the learner yet.
 ///
 /// # Errors
-/// If asking fails.
+/// If the request fails.
 pub async fn retry_until_answered(
     mut ask: impl AsyncFnMut() -> Result<Vec<ControlReply>, BusError>,
 ) -> anyhow::Result<Vec<ControlReply>> {
     let begun = std::time::Instant::now();
     loop {
         let replies = ask().await?;
-        if !replies.is_empty() || begun.elapsed() >= INTRODUCTION {
+        if !replies.is_empty() || begun.elapsed() >= ROUTES_SETTLE_TIMEOUT {
             return Ok(replies);
         }
         tokio::time::sleep(RETRY).await;

@@ -1,4 +1,4 @@
-//! Flags about the network, and the bus options that they mean.
+//! Flags of the network, and the bus options made from them.
 
 use std::path::PathBuf;
 
@@ -7,34 +7,38 @@ use treadmill_bus::{BusOptions, Credentials, Role, workarounds::threads};
 
 use crate::launch::exit_code::Usage;
 
-/// Flags about the network.
+/// Flags of the network.
 #[derive(Args, Clone, Debug, Default)]
 pub struct NetworkArgs {
-    /// Allow plain tcp beyond loopback, where anybody on the network can read and forge it.
+    /// Allow plain tcp beyond loopback, where anyone on the network can read and forge it.
     #[arg(long)]
     pub insecure: bool,
-    /// Be found, or find others, by multicast: learners and routers answer, actors and evaluators ask. Needs --tls, or
+    /// Discover learners and routers by multicast: actors and evaluators ask, learners and routers answer. Needs --tls or
     /// --insecure.
     #[arg(long)]
     pub discover: bool,
-    /// Folder of certificates, as `treadmill certs` makes it: links are encrypted, and only its authority's parts get in.
+    /// Folder of certificates made by `treadmill certs`: encrypts links and admits only certificates of the same authority.
     #[arg(long, value_name = "DIR")]
     pub tls: Option<PathBuf>,
-    /// Let large messages between processes of this machine pass through shared memory, where both ends allow it.
+    /// Send large messages between processes of this machine through shared memory, if both ends allow it.
     #[arg(long)]
     pub shared_memory: bool,
-    /// The bus's own configuration (JSON5), under which ours is laid.
+    /// Zenoh configuration file (JSON5); Treadmill's own settings take precedence.
     #[arg(long, value_name = "FILE")]
     pub zenoh_config: Option<PathBuf>,
 }
 
 impl NetworkArgs {
-    /// How to reach the bus; called before anything is written, so that an endpoint that is refused leaves nothing behind.
+    /// Returns the options of the bus. Called before anything is written, so that a refused endpoint leaves nothing behind, and
+    /// before any thread starts, because it may set an environment variable.
+    ///
+    /// # Errors
+    /// If an endpoint is refused or certificates are missing.
     pub fn options(&self, role: Role, listen: Vec<String>, connect: Vec<String>) -> anyhow::Result<BusOptions> {
         if self.discover && self.tls.is_none() && !self.insecure {
             return Err(Usage(
-                "--discover: anybody on the network could answer; give --tls DIR (certificates: `treadmill certs DIR`), or \
-                 say --insecure where the network itself is trusted"
+                "--discover: anyone on the network could answer; pass --tls DIR (certificates: `treadmill certs DIR`), or \
+                 --insecure if the network is trusted"
                     .to_string(),
             )
             .into());
@@ -50,15 +54,15 @@ impl NetworkArgs {
         };
         options.check()?;
         if let Some((name, value)) = threads::wanted(&options, role) {
-            // SAFETY: every command asks for its options before it starts a thread, so nobody reads the environment now.
+            // SAFETY: every command calls this before it starts a thread, so no other thread accesses the environment.
             unsafe { std::env::set_var(name, value) };
         }
         Ok(options)
     }
 
-    /// Where somebody is looked for, for messages.
+    /// Returns the endpoints and discovery as text for messages.
     pub fn where_to(&self, connect: &[String]) -> String {
-        let found = self.discover.then(|| "whatever multicast finds".to_string());
+        let found = self.discover.then(|| "multicast discovery".to_string());
         connect.iter().cloned().chain(found).collect::<Vec<_>>().join(", ")
     }
 
@@ -69,7 +73,7 @@ impl NetworkArgs {
         match credentials.missing() {
             None => Ok(Some(credentials)),
             Some(file) => Err(Usage(format!(
-                "--tls {}: `{}` is not there; make it with `treadmill certs`, or copy it from where that was done",
+                "--tls {}: `{}` does not exist; create it with `treadmill certs`, or copy it from the machine where that was run",
                 credentials.folder.display(),
                 file.display()
             ))),

@@ -1,4 +1,4 @@
-//! The policy that a RUN argument names: of a run's folder, of a bundle file, or of a file that `export` wrote.
+//! Policy named by a RUN argument: of a run's folder, of a bundle file, or of a file written by `export`.
 
 use std::{fs, path::Path};
 
@@ -14,11 +14,14 @@ use treadmill_runtime::run_folder::RunFolder;
 use crate::launch::exit_code::Usage;
 
 /// Reads the policy of a run's folder (its checkpoint `which`), of a bundle file or of an exported file.
+///
+/// # Errors
+/// If there is no such run or file, or its policy cannot be used.
 pub fn load(run: &str, which: Which) -> anyhow::Result<ExportedPolicy> {
     let path = Path::new(run);
     if !path.is_file() {
         let state = checkpoint::load(&RunFolder::open(run)?, which)?;
-        return from_state(&state).with_context(|| format!("the policy of `{run}` cannot be used"));
+        return from_state(&state).with_context(|| format!("cannot use the policy of `{run}`"));
     }
     let bytes = fs::read(path).with_context(|| format!("cannot read `{run}`"))?;
     let policy = if encoding::is_checkpoint(&bytes) || path.extension().is_some_and(|end| end == "bundle") {
@@ -26,10 +29,10 @@ pub fn load(run: &str, which: Which) -> anyhow::Result<ExportedPolicy> {
     } else {
         ExportedPolicy::from_bytes(&bytes).map_err(anyhow::Error::from)
     };
-    policy.with_context(|| format!("`{run}` is no policy that can be used"))
+    policy.with_context(|| format!("`{run}` is not a usable policy"))
 }
 
-/// The configuration that a policy was trained under, as far as episodes depend on it.
+/// Returns the configuration that a policy was trained under, as far as episodes depend on it.
 pub fn trained_under(policy: &ExportedPolicy) -> Config {
     Config {
         env: policy.env.clone(),
@@ -39,23 +42,26 @@ pub fn trained_under(policy: &ExportedPolicy) -> Config {
     }
 }
 
-/// The environment for a policy, under a configuration made from the one that it was trained with.
+/// Builds the environment of a policy under `config`, which was made from [`trained_under`].
+///
+/// # Errors
+/// If the task is external, or the model does not fit the policy.
 pub fn environment(run: &str, policy: &ExportedPolicy, config: &Config) -> anyhow::Result<Environment> {
     if config.is_external() {
         return Err(Usage(format!(
-            "`{run}` was trained for the task `{}`, which this program does not simulate; write the policy out with \
-             `treadmill export {run} --safetensors FILE` and play it where that environment is (see python/README.md)",
+            "`{run}` was trained for the task `{}`, which this program does not simulate; export the policy with \
+             `treadmill export {run} --safetensors FILE` and play it in that environment (see python/README.md)",
             config.task_name()
         ))
         .into());
     }
     let environment = Environment::new(&settings::training(config), &policy.model_xml)
-        .with_context(|| format!("the environment of `{run}` cannot be built"))?;
+        .with_context(|| format!("cannot build the environment of `{run}`"))?;
     let found = environment.observation_size();
     let sizes = (policy.shape.observation, policy.shape.action);
     if sizes != (found, environment.action_size()) {
         anyhow::bail!(
-            "`{run}` has a policy for {} observations and {} actions, but its model gives {found} and takes {}",
+            "`{run}` has a policy for {} observations and {} actions, but its model has {found} and {}",
             sizes.0,
             sizes.1,
             environment.action_size()
@@ -66,13 +72,15 @@ pub fn environment(run: &str, policy: &ExportedPolicy, config: &Config) -> anyho
         if found != [*low, *high] {
             let [found_low, found_high] = found;
             anyhow::bail!(
-                "`{run}` drives `{name}` from action.low {found_low} to action.high {found_high}, but its model from {low} to \
-                 {high}"
+                "`{run}` drives `{name}` from action.low {found_low} to action.high {found_high}, its model from {low} to {high}"
             );
         }
     }
     if policy.control_step_s != CONTROL_STEP_S {
-        anyhow::bail!("`{run}` has a control_step_s of {}, this program only {CONTROL_STEP_S}", policy.control_step_s);
+        anyhow::bail!(
+            "control_step_s of `{run}` is {}; this program simulates only {CONTROL_STEP_S}",
+            policy.control_step_s
+        );
     }
     Ok(environment)
 }
@@ -83,7 +91,6 @@ fn from_state(state: &TrainingState) -> anyhow::Result<ExportedPolicy> {
         Some(task) => (external_action(&task), task.control_step_s),
         None => (motors(&Model::from_mjcf(&state.model_xml)?), CONTROL_STEP_S),
     };
-    // What an external task observes is its own affair.
     let kind = if config.is_external() { EnvTask::External.name() } else { config.env.observation.name() };
     let (observation, mean, variance) =
         ObservationFacts::from_moments(kind, &state.observation_moments, config.policy.observation_clip as f32);
@@ -110,7 +117,7 @@ fn motors(model: &Model) -> ActionFacts {
     }
 }
 
-/// Entries of the action of an external task have no names but their numbers.
+/// Returns the action facts of an external task, whose entries are named by their numbers.
 fn external_action(task: &Task) -> ActionFacts {
     let narrow = |range: &[f64]| range.iter().map(|end| *end as f32).collect();
     ActionFacts {

@@ -1,4 +1,4 @@
-//! `bench`: every promised field is there and is a measurement. Speed itself is never asserted.
+//! `bench`: every documented field is present and measured. No test asserts a speed.
 
 use crate::support::*;
 use serde_json::Value;
@@ -31,10 +31,10 @@ fn env_measures_steps_with_and_without_observation() {
 }
 
 #[test]
-fn env_measures_how_well_the_joints_hold() {
+fn env_measures_how_far_joints_exceed_their_limits() {
     let one = bench(&["env", "--quality", "--steps", "6400"]);
-    let told = |name: &str| one[format!("limit_overshoot_{name}_rad")].as_f64().expect("a number");
-    let ordered = [told("p50"), told("p99"), told("p999"), told("max")];
+    let overshoot = |name: &str| one[format!("limit_overshoot_{name}_rad")].as_f64().expect("a number");
+    let ordered = [overshoot("p50"), overshoot("p99"), overshoot("p999"), overshoot("max")];
     assert!(ordered.is_sorted() && ordered[0] >= 0.0 && ordered[3].is_finite(), "{ordered:?}");
     assert_eq!((&one["faults"], &one["steps"]), (&0.into(), &6400.into()));
     let two = bench(&["env", "--quality", "--steps", "6400", "--threads", "2"]);
@@ -76,7 +76,7 @@ fn policy_measures_calls_and_does_the_same_work_each_time() {
 }
 
 #[test]
-fn networks_that_make_no_sense_are_refused() {
+fn invalid_networks_are_refused() {
     let (folder, _) = folders();
     for bench in ["update", "policy"] {
         let output = self::run(folder.path(), &["bench", bench, "--network", "45-0"]);
@@ -101,8 +101,8 @@ fn bus_measures_a_learner_among_actors_over_each_transport() {
             assert!(result[field].as_f64().unwrap() > 0.0, "{field} over {transport}: {result}");
         }
         for kind in ["receipt", "policy"] {
-            let told = |name: &str| result[format!("{kind}_{name}_ms")].as_f64().unwrap();
-            assert!(told("p50") <= told("p99"), "{result}");
+            let time_ms = |name: &str| result[format!("{kind}_{name}_ms")].as_f64().unwrap();
+            assert!(time_ms("p50") <= time_ms("p99"), "{result}");
         }
         assert_eq!((&result["silent"], &result["refused"]), (&0.0.into(), &0.0.into()), "{result}");
         assert_eq!(result["policies_fetched"], 6, "two policies to each of three actors: {result}");
@@ -116,13 +116,13 @@ fn bus_measures_a_learner_among_actors_over_each_transport() {
 }
 
 #[test]
-fn bus_tells_what_a_transition_takes() {
+fn bus_reports_the_bytes_of_a_transition() {
     let bytes = |precision: &str| {
         let small = ["--actors", "1", "--seconds", "0.2", "--fragment-mb", "0.2", "--broadcasts", "1"];
         bench(&[&["bus", "--precision", precision][..], &small].concat())["bytes_per_transition"].as_f64().unwrap()
     };
-    // 45 observations, 17 actions, log-probability and reward as floats, a byte of flags; the last observation of each
-    // environment falls to 128 transitions. What is left is what a fragment says of itself.
+    // 45 observations, 17 actions, log-probability and reward as floats, a byte of flags, and 1/128 of the last observation of
+    // each environment. The rest is the fragment's header.
     let ours = 4.0 * (45.0 + 17.0 + 2.0) + 1.0 + 4.0 * 45.0 / 128.0;
     let (full, half) = (bytes("f32"), bytes("f16"));
     assert!((ours..ours + 0.2).contains(&full), "{full}");
@@ -131,7 +131,7 @@ fn bus_tells_what_a_transition_takes() {
 }
 
 #[test]
-fn bus_refuses_what_makes_no_sense() {
+fn bus_refuses_invalid_flags() {
     let (folder, _) = folders();
     for (flag, value) in [("--seconds", "0"), ("--fragment-mb", "31"), ("--actors", "0")] {
         assert_refused(&self::run(folder.path(), &["bench", "bus", flag, value]), 2, &[flag, value]);

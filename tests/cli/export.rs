@@ -1,4 +1,4 @@
-//! `export`: the file can be played with the same result, read without this program, and is refused when it is bad.
+//! `export`: exported files play the same episodes, are readable without this program, and are refused if malformed.
 
 use std::{
     fs,
@@ -21,7 +21,7 @@ fn export(folder: &Path, run: &str, file: &Path) -> Vec<u8> {
     fs::read(file).unwrap()
 }
 
-/// A safetensors file as its header says: first the header's length, then the header, then the numbers.
+/// Safetensors file: length of the header, header, numbers.
 struct Tensors {
     header: Value,
     data: Vec<u8>,
@@ -42,7 +42,7 @@ impl Tensors {
         }
     }
 
-    /// The action means for a raw observation, as the file's documentation says.
+    /// Returns the action means for a raw observation, computed as the format's documentation describes.
     fn act(&self, facts: &Value, observation: &[f64]) -> Vec<f64> {
         let clip = facts["observation"]["clip"].as_f64().unwrap();
         let epsilon = facts["observation"]["variance_epsilon"].as_f64().unwrap();
@@ -69,7 +69,7 @@ impl Tensors {
 }
 
 #[test]
-fn an_exported_policy_plays_the_episodes_of_its_run_and_is_the_same_file_every_time() {
+fn an_exported_policy_plays_the_episodes_of_its_run_and_every_export_is_identical() {
     let (folder, run) = folders();
     trained(folder.path(), &run);
     let (one, two) = (folder.path().join("one.safetensors"), folder.path().join("elsewhere.bin"));
@@ -96,7 +96,7 @@ fn an_exported_policy_plays_the_episodes_of_its_run_and_is_the_same_file_every_t
 }
 
 #[test]
-fn the_file_alone_gives_the_actions_of_the_policy() {
+fn the_file_alone_determines_the_actions() {
     let (folder, run) = folders();
     trained(folder.path(), &run);
     let (file, trace) = (folder.path().join("policy.safetensors"), folder.path().join("trace.jsonl"));
@@ -125,30 +125,30 @@ fn the_file_alone_gives_the_actions_of_the_policy() {
 }
 
 #[test]
-fn unusable_files_are_named_with_what_is_wrong() {
+fn unusable_files_are_refused_by_name_and_reason() {
     let (folder, run) = folders();
     trained(folder.path(), &run);
     let file = folder.path().join("policy.safetensors");
-    let sound = export(folder.path(), run.to_str().unwrap(), &file);
+    let valid = export(folder.path(), run.to_str().unwrap(), &file);
     let eval = |bytes: &[u8]| {
         fs::write(&file, bytes).unwrap();
         self::run(folder.path(), &["eval", file.to_str().unwrap(), "--episodes", "1"])
     };
-    assert_refused(&eval(&sound[..sound.len() / 2]), 1, &["policy.safetensors", "truncated"]);
+    assert_refused(&eval(&valid[..valid.len() / 2]), 1, &["policy.safetensors", "truncated"]);
     assert_refused(&eval(b""), 1, &["policy.safetensors", "truncated"]);
     assert_refused(&eval(b"\x02\0\0\0\0\0\0\0{}"), 1, &["`treadmill export` did not write it"]);
 
-    // The numbers of the first tensor begin where the header ends: there a NaN is put.
-    let mut broken = sound.clone();
-    let place = Tensors::parse(&sound).header["log_std"]["data_offsets"][0].as_u64().unwrap() as usize;
-    let at = sound.len() - Tensors::parse(&sound).data.len() + place;
+    // A NaN in the first number of the first tensor.
+    let mut broken = valid.clone();
+    let place = Tensors::parse(&valid).header["log_std"]["data_offsets"][0].as_u64().unwrap() as usize;
+    let at = valid.len() - Tensors::parse(&valid).data.len() + place;
     broken[at..at + 4].copy_from_slice(&f32::NAN.to_le_bytes());
     assert_refused(&eval(&broken), 1, &["policy.safetensors", "log_std", "NaN", "index 0"]);
 
-    // The model of another robot: what fits the network no longer fits the body.
-    let header = String::from_utf8_lossy(&sound).into_owned();
+    // The model of another robot, to which the network does not fit.
+    let header = String::from_utf8_lossy(&valid).into_owned();
     assert!(header.contains("-0.4 0.4"));
-    let replaced = replace(&sound, b"-0.4 0.4", b"-0.5 0.5");
+    let replaced = replace(&valid, b"-0.4 0.4", b"-0.5 0.5");
     assert_refused(&eval(&replaced), 1, &["policy.safetensors", "`abdomen_y`", "action.low -0.4", "-0.5 to 0.5"]);
 
     let nowhere = folder.path().join("no/such/folder/x.safetensors");
@@ -159,14 +159,14 @@ fn unusable_files_are_named_with_what_is_wrong() {
     assert_refused(&self::run(folder.path(), &["export", run.to_str().unwrap()]), 2, &["--safetensors"]);
 }
 
-/// The bytes with the first `from` made `to`, which is as long.
+/// Replaces the first `from` by `to` of the same length.
 fn replace(bytes: &[u8], from: &[u8], to: &[u8]) -> Vec<u8> {
     let at = bytes.windows(from.len()).position(|window| window == from).unwrap();
     [&bytes[..at], to, &bytes[at + from.len()..]].concat()
 }
 
 #[test]
-fn other_programs_act_as_we_do() {
+fn other_programs_compute_the_same_actions() {
     let (folder, run) = folders();
     trained(folder.path(), &run);
     let run = run.to_str().unwrap();
@@ -182,7 +182,7 @@ fn other_programs_act_as_we_do() {
     let wanted = wanted(&file, &trace);
     assert!(wanted.len() >= 1000, "{} observations", wanted.len());
 
-    // Ours, without anything of ours.
+    // The example, which uses no code of this project.
     let observations = folder.path().join("observations.jsonl");
     let lines = fs::read_to_string(&trace).unwrap();
     let of_line = |line: &str| serde_json::from_str::<Value>(line).unwrap()["observation"].to_string() + "\n";
@@ -195,7 +195,7 @@ fn other_programs_act_as_we_do() {
     compare(&wanted, &python.arg(script).arg(&model).arg(&trace).output().unwrap());
 }
 
-/// The actions of a trace in the units of the motors, whose ranges an exported policy knows.
+/// Returns the actions of a trace in the units of the motors, with the ranges of the exported policy.
 fn wanted(policy: &Path, trace: &Path) -> Vec<Vec<f64>> {
     let Tensors { header, .. } = Tensors::parse(&fs::read(policy).unwrap());
     let facts: Value = serde_json::from_str(header["__metadata__"]["treadmill"].as_str().unwrap()).unwrap();
@@ -215,7 +215,7 @@ fn numbers(list: &Value) -> Vec<f64> {
     list.as_array().unwrap().iter().map(|number| number.as_f64().unwrap()).collect()
 }
 
-/// Lines of actions that another program wrote.
+/// Compares lines of actions that another program wrote.
 fn compare(wanted: &[Vec<f64>], output: &Output) {
     assert!(output.status.success(), "{}", stderr(output));
     let found: Vec<_> = stdout(output).lines().map(|line| numbers(&serde_json::from_str(line).unwrap())).collect();
@@ -226,7 +226,7 @@ fn compare(wanted: &[Vec<f64>], output: &Output) {
     }
 }
 
-/// An example of this package, which is built with its tests.
+/// Returns the path of an example, which is built with the tests.
 fn example(name: &str) -> PathBuf {
     let program = Path::new(env!("CARGO_BIN_EXE_treadmill")).parent().unwrap().join("examples").join(name);
     assert!(
@@ -237,7 +237,7 @@ fn example(name: &str) -> PathBuf {
 }
 
 #[test]
-fn what_to_write_must_be_said() {
+fn an_output_flag_is_required() {
     let (folder, _) = folders();
     assert_refused(&self::run(folder.path(), &["export", "a"]), 2, &["--safetensors", "--onnx"]);
 }

@@ -4,7 +4,7 @@ use std::{fs, path::Path};
 
 use crate::support::*;
 
-/// Frames of a GIF, each as the whole screen shows it.
+/// Returns the frames of a GIF, each as the whole picture.
 fn screens(path: &Path) -> Vec<Vec<u8>> {
     let mut options = gif::DecodeOptions::new();
     options.set_color_output(gif::ColorOutput::RGBA);
@@ -56,11 +56,11 @@ fn an_episode_becomes_an_animation_and_single_pictures() {
         );
     }
     assert_eq!(fs::read_dir(folder.path().join("frames")).unwrap().count(), screens.len());
-    assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 2, "no temporary file stays");
+    assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 2, "no temporary file remains");
 }
 
 #[test]
-fn pictures_can_begin_later_and_end_earlier() {
+fn the_film_can_start_later_and_end_earlier() {
     let (folder, _) = folders();
     let film = |name: &str, more: &[&str]| {
         let args = ["eval", "--agent", "random", "--episodes", "1", "--size", "64x48", "--fps", "50", "--gif", name];
@@ -76,7 +76,7 @@ fn pictures_can_begin_later_and_end_earlier() {
 }
 
 #[test]
-fn what_cannot_be_written_is_named() {
+fn unwritable_outputs_and_invalid_flags_are_refused() {
     let (folder, _) = folders();
     let refused = |more: &[&str], exit: i32, wanted: &[&str]| {
         let output = run(folder.path(), &[&["eval", "--agent", "random", "--episodes", "1"], more].concat());

@@ -1,4 +1,4 @@
-//! Commands as a user runs them: arguments, checks, benchmarks, saved runs, exports, pictures, the dashboard.
+//! Commands as users run them: arguments, checks, benchmarks, saved runs, exports, pictures, dashboard.
 
 mod bench;
 mod check;

@@ -1,4 +1,4 @@
-//! `--model`: robots from files, from the command line to the actors and back through checkpoints.
+//! `--model`: robots from files, from the command line through actors to checkpoints.
 
 use std::{
     fs,
@@ -7,7 +7,7 @@ use std::{
 
 use crate::support::*;
 
-/// A trunk on one driven leg: 13 numbers to see, one to act with.
+/// Trunk on one driven leg: observations have 13 entries, actions one.
 const HOPPER: &str = r#"
 <mujoco>
   <compiler angle="radian"/>
@@ -39,7 +39,7 @@ fn train(folder: &Path, run: &Path, model: &str, more: &[&str]) -> std::process:
 }
 
 #[test]
-fn a_model_that_cannot_be_used_is_blamed_on_its_file_by_every_command() {
+fn every_command_names_the_file_of_an_unusable_model() {
     let (folder, run) = folders();
     let bent = HOPPER.replace("<geom name=\"chest\"", "<geom name=\"chest\" solref=\"0.01 1\"");
     write(folder.path(), "bent.xml", &bent);
@@ -62,11 +62,11 @@ fn a_model_that_cannot_be_used_is_blamed_on_its_file_by_every_command() {
     let args = ["learner", "--run-dir", run.to_str().unwrap(), "--model", "bent.xml", "--listen", "tcp/127.0.0.1:0"];
     assert_refused(&self::run(folder.path(), &args), 2, cases[1].1);
     assert_refused(&self::run(folder.path(), &["bench", "env", "--model", "bent.xml"]), 2, cases[1].1);
-    assert!(!run.exists(), "nothing is left behind");
+    assert!(!run.exists(), "no folder is left behind");
 }
 
 #[test]
-fn a_robot_that_starts_unhealthy_is_refused_with_the_settings_that_it_needs() {
+fn a_robot_that_starts_unhealthy_is_refused_with_a_suitable_range() {
     let (folder, run) = folders();
     write(folder.path(), "hopper.xml", HOPPER);
     let parts = ["hopper.xml", "0.9 m", "1 m to 2 m", "env.healthy_z_range=[0.63, 1.26]"];
@@ -77,13 +77,13 @@ fn a_robot_that_starts_unhealthy_is_refused_with_the_settings_that_it_needs() {
 }
 
 #[test]
-fn a_robot_trains_is_evaluated_and_goes_on_as_itself() {
+fn a_robot_trains_is_evaluated_and_keeps_its_model_when_resumed() {
     let (folder, run) = folders();
     let file = write(folder.path(), "hopper.xml", HOPPER);
     let trained = train(folder.path(), &run, "hopper.xml", &HEALTHY);
     assert!(trained.status.success(), "{}", stderr(&trained));
     assert_eq!(fs::read_to_string(run.join("model.xml")).unwrap(), HOPPER);
-    // The file is needed no more: the run has its model, and so had the actors.
+    // The run holds the model, so the file is no longer needed.
     fs::remove_file(&file).unwrap();
     let run_name = run.to_str().unwrap();
     let eval =
@@ -95,12 +95,12 @@ fn a_robot_trains_is_evaluated_and_goes_on_as_itself() {
     };
     assert_refused(&resume(&["--model", "hopper.xml"]), 2, &["hopper.xml", "cannot be read"]);
     write(folder.path(), "other.xml", &HOPPER.replace("gear=\"20\"", "gear=\"30\""));
-    assert_refused(&resume(&["--model", "other.xml"]), 2, &["other.xml", "begun with", "begin a new run"]);
+    assert_refused(&resume(&["--model", "other.xml"]), 2, &["other.xml", "keeps its model", "begin a new run"]);
     write(folder.path(), "same.xml", HOPPER);
     let resumed = resume(&["--model", "same.xml"]);
     assert!(resumed.status.success(), "{}", stderr(&resumed));
 
-    // A stronger hopper can be moved by the same policy, a body of other sizes cannot.
+    // The policy fits a stronger motor, but not a body with other sizes.
     assert_ne!(last_json(&eval(&["--model", "other.xml"]))["return_mean"], last_json(&eval(&[]))["return_mean"]);
     let two = HOPPER.replace("</actuator>", "<motor joint=\"hip\"/></actuator>");
     write(folder.path(), "two.xml", &two);
@@ -108,7 +108,7 @@ fn a_robot_trains_is_evaluated_and_goes_on_as_itself() {
 }
 
 #[test]
-fn a_robot_plays_and_is_timed_without_a_run() {
+fn a_robot_can_be_played_and_timed_without_a_run() {
     let (folder, _) = folders();
     write(folder.path(), "hopper.xml", HOPPER);
     let args = ["eval", "--agent", "random", "--episodes", "2", "--json", "--model", "hopper.xml"];

@@ -1,4 +1,4 @@
-//! `runs`: runs side by side.
+//! `runs`: comparison of runs.
 
 use std::fs;
 
@@ -6,7 +6,7 @@ use crate::support::*;
 use serde_json::Value;
 
 #[test]
-fn runs_are_compared_by_what_they_came_to_and_what_differs() {
+fn runs_are_compared_by_results_and_configuration() {
     let (folder, _) = folders();
     let train = |name: &str, more: &[&str]| {
         let dir = format!("runs/{name}");
@@ -21,7 +21,7 @@ fn runs_are_compared_by_what_they_came_to_and_what_differs() {
     for part in ["env steps", "plain", "other", "1 024", "ppo.learning_rate=0.001", "run.seed=7", "run.seed=1"] {
         assert!(text.contains(part), "`{part}` is missing in: {text}");
     }
-    assert!(!text.contains("ppo.gamma"), "what they have in common is left out: {text}");
+    assert!(!text.contains("ppo.gamma"), "common keys are omitted: {text}");
 
     let output = run(folder.path(), &["runs", "--json", "runs/other", "runs/plain"]);
     let lines: Vec<Value> = stdout(&output).lines().map(|line| serde_json::from_str(line).unwrap()).collect();
@@ -29,14 +29,14 @@ fn runs_are_compared_by_what_they_came_to_and_what_differs() {
     let distance = |record: &Value| {
         record["best_eval_distance_m"].as_f64().or(record["training_distance_m"].as_f64()).unwrap_or(f64::NEG_INFINITY)
     };
-    assert!(distance(&lines[0]) >= distance(&lines[1]), "who walks furthest comes first: {lines:?}");
+    assert!(distance(&lines[0]) >= distance(&lines[1]), "sorted by distance, farthest first: {lines:?}");
     let other = lines.iter().find(|record| record["run"] == "other").unwrap();
     assert_eq!((&other["env_steps"], &other["config_differences"]["run.seed"]), (&1024.into(), &"7".into()));
     assert!(other["wall_s"].as_f64().unwrap() > 0.0);
 }
 
 #[test]
-fn where_there_is_none_it_says_so() {
+fn missing_runs_and_invalid_configurations_are_reported() {
     let (folder, _) = folders();
     assert_refused(&run(folder.path(), &["runs"]), 1, &["`runs`"]);
     fs::create_dir(folder.path().join("runs")).unwrap();

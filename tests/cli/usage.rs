@@ -1,4 +1,4 @@
-//! Bad input: a clear error that names the field, the value and the remedy, and exit code 2.
+//! Invalid input: an error that names field, value and remedy, and exit code 2.
 
 use std::{fs, net::TcpListener};
 
@@ -9,12 +9,12 @@ fn train(args: &[&str]) -> std::process::Output {
     let mut all = vec!["train", "--preset", "smoke", "--run-dir", run.to_str().unwrap()];
     all.extend(args);
     let output = self::run(folder.path(), &all);
-    assert!(!run.exists(), "nothing is left behind by {args:?}");
+    assert!(!run.exists(), "no folder is left behind by {args:?}");
     output
 }
 
 #[test]
-fn impossible_configuration_is_refused_with_key_value_and_what_is_allowed() {
+fn invalid_configuration_is_refused_with_key_value_and_allowed_values() {
     assert_refused(&train(&["--envs", "0"]), 2, &["rollout.envs", "is 0", "1 to 65536"]);
     assert_refused(&train(&["--set", "rollout.envs=0"]), 2, &["rollout.envs", "is 0", "1 to 65536"]);
     assert_refused(&train(&["--set", "ppo.minibatch=1000"]), 2, &["ppo.minibatch", "1000", "ppo.batch, which is 512"]);
@@ -40,7 +40,7 @@ fn impossible_configuration_is_refused_with_key_value_and_what_is_allowed() {
 }
 
 #[test]
-fn a_configuration_file_is_checked_like_everything_else() {
+fn configuration_files_are_checked() {
     let (folder, _) = folders();
     let file = folder.path().join("mine.toml");
     let with = |text: &str| {
@@ -56,7 +56,7 @@ fn a_configuration_file_is_checked_like_everything_else() {
 }
 
 #[test]
-fn an_unknown_run_is_named_with_those_that_exist() {
+fn an_unknown_run_is_refused_with_the_existing_ones() {
     let (folder, _) = folders();
     fs::create_dir_all(folder.path().join("runs/walk-7/checkpoints")).unwrap();
     assert_refused(&self::run(folder.path(), &["eval", "nowhere"]), 2, &["nowhere", "runs/walk-7"]);
@@ -68,7 +68,7 @@ fn an_unknown_run_is_named_with_those_that_exist() {
 }
 
 #[test]
-fn a_taken_port_is_named() {
+fn a_port_in_use_is_refused_by_name() {
     let taken = TcpListener::bind("127.0.0.1:0").unwrap();
     let endpoint = format!("tcp/{}", taken.local_addr().unwrap());
     let (folder, run) = folders();
@@ -80,18 +80,18 @@ fn a_taken_port_is_named() {
 }
 
 #[test]
-fn plain_text_beyond_loopback_must_be_asked_for() {
+fn plain_text_beyond_loopback_needs_a_flag() {
     let (folder, run) = folders();
     let args = ["train", "--preset", "smoke", "--run-dir", run.to_str().unwrap(), "--listen", "tcp/0.0.0.0:0"];
     assert_refused(&self::run(folder.path(), &args), 2, &["tcp/0.0.0.0:0", "--insecure"]);
-    assert!(!run.exists(), "an endpoint that is refused leaves no folder behind");
+    assert!(!run.exists(), "a refused endpoint leaves no folder behind");
     let args = ["actor", "--connect", "tcp/192.0.2.1:7447"];
     assert_refused(&self::run(folder.path(), &args), 2, &["tcp/192.0.2.1:7447", "--insecure"]);
     // Discovery asks the whole network, so answers must be verifiable.
     assert_refused(&self::run(folder.path(), &["actor", "--discover"]), 2, &["--discover", "--tls DIR", "--insecure"]);
     let args = ["learner", "--preset", "smoke", "--run", "A/B", "--run-dir", run.to_str().unwrap()];
     assert_refused(&self::run(folder.path(), &args), 2, &["`run` is `A/B`", "a-z"]);
-    assert!(!run.exists(), "a name that is refused leaves no folder behind");
+    assert!(!run.exists(), "a refused name leaves no folder behind");
     let args = ["actor", "--threads", "many"];
     assert_refused(&self::run(folder.path(), &args), 2, &["--threads", "many"]);
     let args = ["actor", "--name", "A/B"];
@@ -99,7 +99,7 @@ fn plain_text_beyond_loopback_must_be_asked_for() {
 }
 
 #[test]
-fn help_and_version_are_there() {
+fn help_and_version_are_printed() {
     let (folder, _) = folders();
     for command in ["train", "learner", "actor", "eval", "export", "bench"] {
         let output = self::run(folder.path(), &[command, "--help"]);
@@ -110,7 +110,7 @@ fn help_and_version_are_there() {
 
 #[test]
 #[cfg(not(feature = "cuda"))]
-fn a_device_that_is_not_there_is_refused_before_anything_is_written() {
+fn a_missing_device_is_refused_before_anything_is_written() {
     let (folder, run_folder) = folders();
     let path = run_folder.to_str().unwrap();
     let parts = ["without CUDA", "--features cuda", "--device cpu"];

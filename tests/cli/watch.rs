@@ -1,18 +1,18 @@
-//! `treadmill watch` hands over to the viewer. Alone in its file: it starts programs that it has just written.
+//! `treadmill watch` starts the viewer.
 
 use std::{fs, os::unix::fs::PermissionsExt, process::Command};
 
 use crate::support::*;
 
 #[test]
-fn the_viewer_gets_all_arguments_and_where_it_is_missing_it_is_told_how_to_build_it() {
+fn watch_passes_all_arguments_to_the_viewer_or_explains_how_to_build_it() {
     let (folder, _) = folders();
     let [alone, viewers] = ["alone", "viewers"].map(|name| {
         let folder = folder.path().join(name);
         fs::create_dir(&folder).unwrap();
         folder
     });
-    // Elsewhere than where it was built, so that no viewer is beside it.
+    // Copied to another folder, so that no viewer is beside it.
     let own = alone.join("treadmill");
     fs::copy(env!("CARGO_BIN_EXE_treadmill"), &own).unwrap();
     let watch = || {

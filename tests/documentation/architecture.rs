@@ -1,27 +1,120 @@
-//! The architecture's invariants, checked over the sources.
+//! Statements of ARCHITECTURE.md, checked against manifests and sources.
 
 use std::{
+    collections::{BTreeMap, BTreeSet},
     fs,
     path::{Path, PathBuf},
 };
+
+/// Third-party crates, and the only folders whose packages may depend on them; "(dev)" marks dev-dependencies. The tests of
+/// hostile clients need Zenoh itself.
+const DEPENDENTS: [(&str, &[&str]); 17] = [
+    ("bincode", &["learner"]),
+    ("candle-core", &["actor", "common/policy", "learner", "learner/ppo"]),
+    ("candle-nn", &["common/policy", "learner/ppo"]),
+    ("gemm", &["common/policy"]),
+    ("libfuzzer-sys", &["fuzz"]),
+    ("mjcf-rs", &["actor/humanoid"]),
+    ("numpy", &["python/treadmill_gym"]),
+    ("prometheus-client", &["learner"]),
+    ("prost", &["proto"]),
+    ("prost-build", &["proto"]),
+    ("protox", &["proto"]),
+    ("pyo3", &["python/treadmill_gym"]),
+    ("rapier3d", &["actor/humanoid"]),
+    ("ratatui", &["."]),
+    ("rerun", &["watch"]),
+    ("toml", &[".", "common/config"]),
+    ("zenoh", &[". (dev)", "common/bus"]),
+];
+/// Packages of the workspace on which no other depends, and those on which only one does.
+const OWN_DEPENDENTS: [(&str, &[&str]); 4] =
+    [("treadmill-fuzz", &[]), ("treadmill-gym", &[]), ("treadmill-rl", &["watch"]), ("treadmill-watch", &[])];
+/// This file names what it searches for.
+const THIS_FILE: &str = "tests/documentation/architecture.rs";
 
 fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
 }
 
-/// Every Rust source and manifest of the workspace, with its path from the root. Tests at the root see all parts.
-fn sources() -> Vec<(String, String)> {
-    let mut found = Vec::new();
-    for folder in ["src", "proto", "common", "actor", "learner", "render", "watch", "python"] {
-        collect(&root().join(folder), &mut found);
+fn read(path: &str) -> String {
+    fs::read_to_string(root().join(path)).unwrap_or_else(|why| panic!("{path}: {why}"))
+}
+
+/// Package of the workspace.
+struct Package {
+    folder: String,
+    name: String,
+    /// Names in `dependencies` and `build-dependencies`.
+    dependencies: BTreeSet<String>,
+    dev_dependencies: BTreeSet<String>,
+}
+
+impl Package {
+    fn read(folder: &str) -> Self {
+        let manifest: toml::Table = read(&format!("{folder}/Cargo.toml")).parse().unwrap();
+        let names = |section: &str| -> BTreeSet<String> {
+            let section = manifest.get(section).and_then(toml::Value::as_table);
+            section.into_iter().flat_map(|table| table.keys().cloned()).collect()
+        };
+        let (mut dependencies, dev_dependencies) = (names("dependencies"), names("dev-dependencies"));
+        dependencies.append(&mut names("build-dependencies"));
+        let name = manifest["package"]["name"].as_str().unwrap().to_string();
+        Self { folder: folder.to_string(), name, dependencies, dev_dependencies }
+    }
+}
+
+/// Folders of the workspace's list `key`, which is `members` or `default-members`.
+fn members(key: &str) -> Vec<String> {
+    let workspace: toml::Table = read("Cargo.toml").parse().unwrap();
+    let members = workspace["workspace"][key].as_array().unwrap().iter();
+    members.map(|member| member.as_str().unwrap().to_string()).collect()
+}
+
+/// All packages by name.
+fn packages() -> BTreeMap<String, Package> {
+    let folders = members("members").into_iter().chain([".".to_string()]);
+    folders.map(|folder| Package::read(&folder)).map(|package| (package.name.clone(), package)).collect()
+}
+
+/// Folders of the packages that depend on `name`.
+fn dependents(packages: &BTreeMap<String, Package>, name: &str) -> BTreeSet<String> {
+    let found = packages.values().filter_map(|Package { folder, dependencies, dev_dependencies, .. }| {
+        match (dependencies.contains(name), dev_dependencies.contains(name)) {
+            (true, _) => Some(folder.clone()),
+            (false, true) => Some(format!("{folder} (dev)")),
+            (false, false) => None,
+        }
+    });
+    found.collect()
+}
+
+/// Every crate that `package` depends on: its own dependencies of all kinds, and those of the workspace's packages among them.
+fn all_dependencies(packages: &BTreeMap<String, Package>, package: &str) -> BTreeSet<String> {
+    let mut pending: Vec<&String> =
+        packages[package].dependencies.iter().chain(&packages[package].dev_dependencies).collect();
+    let mut found = BTreeSet::new();
+    while let Some(name) = pending.pop() {
+        if found.insert(name.clone()) {
+            pending.extend(packages.get(name).into_iter().flat_map(|package| &package.dependencies));
+        }
     }
     found
-        .into_iter()
-        .map(|path| {
-            let name = path.strip_prefix(root()).unwrap().to_string_lossy().into_owned();
-            (name, fs::read_to_string(&path).unwrap())
-        })
-        .collect()
+}
+
+/// Every Rust source but this one, with its path from the root.
+fn sources() -> Vec<(String, String)> {
+    let mut found = Vec::new();
+    for folder in
+        ["src", "proto", "common", "actor", "learner", "render", "watch", "python", "fuzz", "tests", "examples"]
+    {
+        collect(&root().join(folder), &mut found);
+    }
+    let named = found.into_iter().map(|path| {
+        let name = path.strip_prefix(root()).unwrap().to_string_lossy().into_owned();
+        (name, fs::read_to_string(&path).unwrap())
+    });
+    named.filter(|(name, _)| name != THIS_FILE).collect()
 }
 
 fn collect(folder: &Path, found: &mut Vec<PathBuf>) {
@@ -35,132 +128,162 @@ fn collect(folder: &Path, found: &mut Vec<PathBuf>) {
     }
 }
 
-/// Code lines, without comments.
+/// Lines without those of comments.
 fn code(text: &str) -> impl Iterator<Item = &str> {
     text.lines().map(str::trim).filter(|line| !line.starts_with("//"))
 }
 
-/// Files outside `allowed` whose code contains one of `words`.
-fn named_outside(words: &[&str], allowed: &[&str]) -> Vec<String> {
-    sources()
+/// Asserts that only sources with a prefix of `allowed` name one of `words`, and that each prefix is needed.
+#[track_caller]
+fn assert_named_only_in(words: &[&str], allowed: &[&str]) {
+    let naming: Vec<String> = sources()
         .into_iter()
-        .filter(|(name, _)| !allowed.iter().any(|prefix| name.starts_with(prefix)))
         .filter(|(_, text)| code(text).any(|line| words.iter().any(|word| line.contains(word))))
         .map(|(name, _)| name)
-        .collect()
-}
-
-#[test]
-fn wire_serialisers_are_named_only_in_proto() {
-    assert_eq!(named_outside(&["prost::", "prost_build", "protox::"], &["proto/"]), [""; 0]);
-}
-
-#[test]
-fn bincode_is_named_in_one_file() {
-    assert_eq!(named_outside(&["bincode::"], &["learner/src/checkpoint/encoding.rs"]), [""; 0]);
-}
-
-#[test]
-fn only_the_bus_names_zenoh() {
-    assert_eq!(named_outside(&["zenoh::"], &["common/src/bus/"]), [""; 0]);
-}
-
-#[test]
-fn only_the_humanoid_names_rapier() {
-    assert_eq!(named_outside(&["rapier3d", "parry3d"], &["actor/humanoid/"]), [""; 0]);
-}
-
-#[test]
-fn only_the_viewer_depends_on_rerun_and_is_not_built_with_the_rest() {
-    assert_eq!(named_outside(&["rerun::"], &["watch/"]), [""; 0]);
-    let manifest = fs::read_to_string(root().join("Cargo.toml")).unwrap();
-    let line = manifest.lines().find(|line| line.starts_with("default-members")).unwrap();
-    assert!(!line.contains("\"watch\""), "{line}");
-    for folder in ["", "proto", "common", "actor", "actor/humanoid", "learner", "learner/ppo", "render", "fuzz"] {
-        let manifest = fs::read_to_string(root().join(folder).join("Cargo.toml")).unwrap();
-        let own = manifest.split_once("[package]").unwrap().1;
-        assert!(!own.contains("rerun.workspace") && !own.contains("treadmill-watch"), "{folder}");
+        .collect();
+    let others: Vec<&String> =
+        naming.iter().filter(|name| !allowed.iter().any(|prefix| name.starts_with(prefix))).collect();
+    assert!(others.is_empty(), "{words:?} in {others:?}");
+    for prefix in allowed {
+        assert!(naming.iter().any(|name| name.starts_with(prefix)), "{words:?} is not in {prefix}");
     }
 }
 
 #[test]
-fn the_humanoid_knows_nothing_of_bus_runtime_and_tensors() {
-    let manifest = fs::read_to_string(root().join("actor/humanoid/Cargo.toml")).unwrap();
-    for foreign in ["zenoh", "tokio", "candle", "treadmill-common", "treadmill-proto"] {
-        assert!(!manifest.lines().any(|line| line.starts_with(foreign)), "{foreign}");
+fn only_the_listed_packages_depend_on_a_crate() {
+    let packages = packages();
+    for (name, folders) in DEPENDENTS.iter().chain(&OWN_DEPENDENTS) {
+        let folders: BTreeSet<String> = folders.iter().map(|folder| (*folder).to_string()).collect();
+        assert_eq!(dependents(&packages, name), folders, "dependents of {name}");
     }
 }
 
 #[test]
-fn the_learner_does_not_depend_on_the_actor() {
-    for manifest in ["learner/Cargo.toml", "learner/ppo/Cargo.toml", "common/Cargo.toml", "proto/Cargo.toml"] {
-        let text = fs::read_to_string(root().join(manifest)).unwrap();
-        for foreign in ["treadmill-actor", "treadmill-humanoid", "rapier3d"] {
-            assert!(!text.lines().any(|line| line.starts_with(foreign)), "{foreign} in {manifest}");
+fn crates_are_named_only_in_their_folder() {
+    assert_named_only_in(&["prost::", "prost_build", "protox::"], &["proto/"]);
+    assert_named_only_in(&["bincode::"], &["learner/src/checkpoint/encoding.rs"]);
+    assert_named_only_in(&["zenoh::"], &["common/bus/", "tests/hostile/"]);
+    assert_named_only_in(&["rapier3d::", "parry3d::"], &["actor/humanoid/src/physics"]);
+    assert_named_only_in(&["rerun::"], &["watch/"]);
+}
+
+#[test]
+fn ppo_does_not_depend_on_zenoh_and_does_not_name_tokio() {
+    let packages = packages();
+    let all = all_dependencies(&packages, "treadmill-ppo");
+    assert!(all.contains("treadmill-policy") && all.contains("candle-core"), "{all:?}");
+    assert!(!all.contains("zenoh"), "{all:?}");
+    assert!(all_dependencies(&packages, "treadmill-learner").contains("zenoh"), "indirect dependencies are found");
+    assert!(!packages["treadmill-ppo"].dependencies.contains("tokio"));
+}
+
+#[test]
+fn the_humanoid_depends_on_no_package_of_the_workspace_and_not_on_zenoh_tokio_or_candle() {
+    let packages = packages();
+    for name in all_dependencies(&packages, "treadmill-humanoid") {
+        let is_foreign = ["zenoh", "tokio", "candle"].iter().any(|foreign| name.starts_with(foreign));
+        assert!(!packages.contains_key(&name) && !is_foreign, "{name}");
+    }
+}
+
+#[test]
+fn learner_and_actor_do_not_depend_on_each_other() {
+    let packages = packages();
+    let [learning, acting] = [["treadmill-learner", "treadmill-ppo"], ["treadmill-actor", "treadmill-humanoid"]];
+    for (packages_of_one, others) in [(learning, acting), (acting, learning)] {
+        for package in packages_of_one {
+            let all = all_dependencies(&packages, package);
+            assert!(!others.iter().any(|other| all.contains(*other)), "{package} depends on {all:?}");
         }
     }
 }
 
 #[test]
-fn the_gymnasium_environment_knows_humanoid_and_pictures_alone() {
-    let manifest = fs::read_to_string(root().join("python/treadmill_gym/Cargo.toml")).unwrap();
-    let dependencies = manifest.split_once("[dependencies]").unwrap().1;
-    let ours: Vec<_> = dependencies
-        .lines()
-        .filter_map(|line| line.split('.').next())
-        .filter(|name| name.starts_with("treadmill-"))
-        .collect();
-    assert_eq!(ours, ["treadmill-humanoid", "treadmill-render"]);
-    let workspace = fs::read_to_string(root().join("Cargo.toml")).unwrap();
-    let default_members = workspace.lines().find(|line| line.starts_with("default-members")).unwrap();
-    assert!(!default_members.contains("python/treadmill_gym"), "building the trainer needs no Python");
+fn the_gymnasium_environment_depends_only_on_humanoid_and_render() {
+    let packages = packages();
+    let ours = packages["treadmill-gym"].dependencies.iter().filter(|name| packages.contains_key(*name));
+    assert_eq!(ours.collect::<Vec<_>>(), ["treadmill-humanoid", "treadmill-render"]);
+}
+
+#[test]
+fn viewer_fuzz_targets_and_python_package_are_not_default_members() {
+    let mut expected = members("members");
+    expected.retain(|member| !["watch", "fuzz", "python/treadmill_gym"].contains(&&**member));
+    let mut found = members("default-members");
+    found.retain(|member| member != ".");
+    assert_eq!(found, expected);
 }
 
 #[test]
 fn the_image_has_every_member_of_the_workspace() {
-    let workspace = fs::read_to_string(root().join("Cargo.toml")).unwrap();
-    let members = workspace.lines().find(|line| line.starts_with("members")).unwrap();
-    let ignored = fs::read_to_string(root().join(".dockerignore")).unwrap();
-    let mut checked = 0;
-    for member in members.split('"').skip(1).step_by(2) {
-        checked += 1;
+    let ignored = read(".dockerignore");
+    let members = members("members");
+    assert!(members.len() > 5, "{members:?}");
+    for member in members {
         let is_line = |folder: &Path| ignored.lines().any(|line| !line.is_empty() && Path::new(line) == folder);
-        let is_left_out = Path::new(member).ancestors().any(is_line);
+        let is_ignored = Path::new(&member).ancestors().any(is_line);
         let is_kept = |file: &str| ignored.lines().any(|line| line == format!("!{member}/{file}"));
-        assert!(!is_left_out || is_kept("Cargo.toml") && is_kept("src/lib.rs"), "{member}");
+        assert!(!is_ignored || is_kept("Cargo.toml") && is_kept("src/lib.rs"), "{member}");
     }
-    assert!(checked > 5, "{checked}");
 }
 
 #[test]
 fn the_mathematics_does_no_io_and_reads_no_clock() {
-    let pure = ["learner/ppo/src/", "actor/humanoid/src/task.rs", "common/src/policy/gaussian.rs"];
     let impure = ["std::fs", "std::io", "std::net", "Instant", "SystemTime", "tokio::", "rand::rng"];
-    let mut checked = 0;
-    for (name, text) in sources().into_iter().filter(|(name, _)| pure.iter().any(|prefix| name.starts_with(prefix))) {
-        checked += 1;
-        for word in impure {
-            assert!(!code(&text).any(|line| line.contains(word)), "{word} in {name}");
+    let sources = sources();
+    for prefix in ["learner/ppo/src/", "actor/humanoid/src/task.rs", "common/policy/src/gaussian.rs"] {
+        let mut pure = sources.iter().filter(|(name, _)| name.starts_with(prefix)).peekable();
+        assert!(pure.peek().is_some(), "{prefix} does not exist");
+        for (name, text) in pure {
+            for word in impure {
+                assert!(!code(text).any(|line| line.contains(word)), "{word} in {name}");
+            }
         }
     }
-    assert!(checked >= pure.len(), "the files that this test is about are there");
+}
+
+/// Name of a thread without the number of a pool's thread: `update-` for `update-0` and for `update-{index}`.
+fn without_number(name: &str) -> String {
+    let name = name.split('{').next().unwrap();
+    name.trim_end_matches(|c: char| c.is_ascii_digit()).to_string()
 }
 
 #[test]
-fn every_path_that_the_architecture_names_exists() {
-    let text = fs::read_to_string(root().join("ARCHITECTURE.md")).unwrap();
+fn the_table_of_threads_has_every_thread_that_is_started() {
+    let text = read("ARCHITECTURE.md");
+    let section = text.split("\n## ").find(|section| section.starts_with("Threads\n")).expect("the section");
+    let rows = section.lines().filter(|line| line.starts_with("| ")).skip(1);
+    let cells = rows.map(|row| row.split('|').nth(2).expect("the column of threads"));
+    let documented: BTreeSet<String> = cells
+        .flat_map(|cell| cell.split('`').skip(1).step_by(2))
+        .filter(|name| *name != "main")
+        .map(without_number)
+        .collect();
+
+    let mut started = BTreeSet::new();
+    for (_, text) in sources().iter().filter(|(name, _)| !name.contains("tests/") && !name.contains("examples/")) {
+        for begin in [".name(\"", ".name(format!(\"", "thread_name(|index| format!(\""] {
+            started.extend(text.split(begin).skip(1).map(|rest| without_number(rest.split('"').next().unwrap())));
+        }
+    }
+    assert!(started.len() > 10, "{started:?}");
+    assert_eq!(documented, started, "threads in ARCHITECTURE.md and in the sources");
+}
+
+#[test]
+fn every_path_in_the_architecture_exists_and_the_code_map_has_every_member() {
+    let text = read("ARCHITECTURE.md");
     let mut checked = 0;
     for path in text.split('`').skip(1).step_by(2) {
-        let looks_like_a_path =
-            path.contains('/') && !path.contains([' ', '*', '{', '<', ':']) && !path.starts_with("treadmill/");
-        if looks_like_a_path
-            && !path.starts_with("runs/")
-            && !path.starts_with("tcp/")
-            && !path.starts_with("checkpoints/")
-        {
+        let is_other =
+            ["treadmill/", "runs/", "tcp/", "tls/", "checkpoints/"].iter().any(|begin| path.starts_with(begin));
+        if path.contains('/') && !path.contains([' ', '*', '{', '<', ':']) && !is_other {
             checked += 1;
             assert!(root().join(path).exists(), "{path}");
         }
     }
     assert!(checked > 20, "{checked}");
+    for member in members("members") {
+        assert!(text.contains(&format!("| `{member}/")), "{member} is missing in the code map");
+    }
 }

@@ -1,18 +1,18 @@
-//! The guide to several machines, followed as it is printed, on hosts that are network namespaces.
-#![allow(clippy::print_stderr, reason = "a test that was left out must say so")]
+//! The page `several-machines`: its commands run as printed, on network namespaces as hosts.
+#![allow(clippy::print_stderr, reason = "reports a skipped test")]
 
 use std::{path::Path, process::Command};
 
 use crate::support::*;
 
-/// Every block of shell commands on a page.
+/// Returns the shell commands of a page.
 fn commands(page: &str) -> String {
     let blocks = page.split("```sh\n").skip(1).map(|rest| rest.split("```").next().unwrap());
     blocks.collect::<Vec<_>>().join("\n")
 }
 
-/// Whether this machine lets us make hosts.
-fn hosts_can_be_made() -> bool {
+/// Returns whether this machine allows network namespaces.
+fn namespaces_are_allowed() -> bool {
     let name = format!("tm{}-try", std::process::id());
     let netns =
         |verb: &str| Command::new("ip").args(["netns", verb, &name]).output().is_ok_and(|out| out.status.success());
@@ -21,7 +21,7 @@ fn hosts_can_be_made() -> bool {
 
 #[test]
 fn the_guide_to_several_machines_works_as_printed() {
-    if !hosts_can_be_made() {
+    if !namespaces_are_allowed() {
         eprintln!(
             "SKIPPED: the guide to several machines needs root and `ip netns`, which this machine does not grant"
         );
@@ -31,10 +31,10 @@ fn the_guide_to_several_machines_works_as_printed() {
     let page = page("operations/several-machines");
     let (folder, _) = folders();
     std::os::unix::fs::symlink(root.join("experiments"), folder.path().join("experiments")).unwrap();
-    // Hosts of its own, so that two of these tests may run at once; they are gone also where a command fails.
+    // Names of hosts are unique, so that two of these tests can run at once. The trap removes them if a command fails.
     let prefix = format!("tm{}", std::process::id());
     let script = commands(&page)
-        // Test machines are busier than a reader's.
+        // A test machine is busier than a reader's.
         .replace("sleep 10", "sleep 20")
         .replace("tm-", &format!("{prefix}-"))
         .replace("hosts.sh up", &format!("hosts.sh up {prefix}"))
@@ -46,9 +46,9 @@ fn the_guide_to_several_machines_works_as_printed() {
     let path = format!("{}:{}", binary.display(), std::env::var("PATH").unwrap());
     let done =
         Command::new("bash").args(["-c", &script]).env("PATH", path).current_dir(folder.path()).output().unwrap();
-    let (said, complained) = (stdout(&done), stderr(&done));
-    assert!(done.status.success(), "{said}\n{complained}");
-    let alive: Vec<&str> = said.lines().filter(|line| line.contains("actors/alive")).collect();
-    assert_eq!(alive.len(), 2, "with endpoints, and with discovery: {said}\n{complained}");
+    let (output, errors) = (stdout(&done), stderr(&done));
+    assert!(done.status.success(), "{output}\n{errors}");
+    let alive: Vec<&str> = output.lines().filter(|line| line.contains("actors/alive")).collect();
+    assert_eq!(alive.len(), 2, "with endpoints, and with discovery: {output}\n{errors}");
     assert!(alive.iter().all(|line| line.contains("\"value\":2.0")), "{alive:?}");
 }

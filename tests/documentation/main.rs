@@ -1,4 +1,4 @@
-//! Pages and sources against each other and against the program: what they state is true, and style has limits.
+//! Pages and sources, checked against each other and against the program; limits of style.
 
 mod architecture;
 #[path = "../hostile/attacks.rs"]

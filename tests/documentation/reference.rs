@@ -1,6 +1,6 @@
-//! The reference is what the program says of itself; so are completions and manual pages.
+//! Pages of the reference, completions and manual pages, compared with the program.
 //!
-//! `TREADMILL_WRITE_REFERENCE=1 cargo test --release --test documentation reference` writes the pages anew.
+//! `TREADMILL_WRITE_REFERENCE=1 cargo test --release --test documentation reference` writes the pages.
 
 use std::{collections::BTreeSet, fs, path::PathBuf, process::Command};
 
@@ -11,23 +11,24 @@ fn file(name: &str) -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("docs/reference").join(name).with_extension("md")
 }
 
-/// What the program prints.
-fn told(args: &[&str]) -> String {
+/// Runs the program and returns its output.
+fn output_of(args: &[&str]) -> String {
     let (folder, _) = folders();
     let output = run(folder.path(), args);
     assert!(output.status.success(), "{}", stderr(&output));
     stdout(&output)
 }
 
-fn is_as_the_program_says(name: &str) -> String {
-    let wanted = told(&["reference", name]);
+/// Asserts that a page is what the program prints, or writes it. Returns the page.
+fn assert_generated(name: &str) -> String {
+    let wanted = output_of(&["reference", name]);
     if std::env::var_os("TREADMILL_WRITE_REFERENCE").is_some() {
         fs::write(file(name), &wanted).unwrap();
     }
     let found = fs::read_to_string(file(name)).unwrap_or_default();
     assert!(
         found == wanted,
-        "docs/reference/{name}.md is not what the program says; write it anew with \
+        "docs/reference/{name}.md is out of date; write it with \
          TREADMILL_WRITE_REFERENCE=1 cargo test --release --test documentation reference"
     );
     wanted
@@ -35,7 +36,7 @@ fn is_as_the_program_says(name: &str) -> String {
 
 #[test]
 fn every_configuration_key_is_in_the_reference() {
-    let page = is_as_the_program_says("configuration");
+    let page = assert_generated("configuration");
     for key in Config::keys() {
         let row = page.lines().find(|line| line.starts_with(&format!("| `{}` |", key.key))).expect(&key.key);
         assert!(row.contains(&key.default) && row.contains(key.allowed) && row.contains(key.doc), "{row}");
@@ -44,9 +45,9 @@ fn every_configuration_key_is_in_the_reference() {
     assert!(page.contains("| `bus.stats_every_ms` | whole number, ms | `2000` | 100 to 600000 | no |"), "{page}");
 }
 
-/// Commands that `--help` lists, below this one, with all of theirs.
+/// Returns the subcommands that `--help` of `command` lists, recursively.
 fn commands(command: &[&str]) -> Vec<String> {
-    let help = told(&[command, &["--help"]].concat());
+    let help = output_of(&[command, &["--help"]].concat());
     let Some((_, list)) = help.split_once("\nCommands:\n") else { return Vec::new() };
     let names = list.lines().take_while(|line| !line.is_empty()).filter(|line| !line.starts_with("   "));
     let names: Vec<&str> =
@@ -62,14 +63,14 @@ fn commands(command: &[&str]) -> Vec<String> {
 
 #[test]
 fn every_command_and_flag_is_in_the_reference() {
-    let page = is_as_the_program_says("commands");
+    let page = assert_generated("commands");
     let commands = commands(&[]);
     assert!(commands.len() > 20, "{commands:?}");
     for command in commands {
         let heading = format!("\n## treadmill {command}\n");
         let (_, section) = page.split_once(&heading).unwrap_or_else(|| panic!("no section for {command}"));
         let section = section.split("\n## ").next().unwrap();
-        let help = told(&[&command.split(' ').collect::<Vec<_>>()[..], &["--help"]].concat());
+        let help = output_of(&[&command.split(' ').collect::<Vec<_>>()[..], &["--help"]].concat());
         let flags =
             help.lines().filter_map(|line| line.trim().split_once("--").filter(|(before, _)| before.len() <= 4));
         for (_, flag) in flags {
@@ -80,7 +81,7 @@ fn every_command_and_flag_is_in_the_reference() {
 }
 
 #[test]
-fn every_tag_that_is_logged_is_explained_and_no_other() {
+fn the_page_of_metrics_explains_exactly_the_logged_tags() {
     let source = |path: &str| fs::read_to_string(PathBuf::from(env!("CARGO_MANIFEST_DIR")).join(path)).unwrap();
     let is_tag = |text: &&str| {
         let parts: Vec<&str> = text.split('/').collect();
@@ -102,7 +103,7 @@ fn every_tag_that_is_logged_is_explained_and_no_other() {
 #[test]
 fn a_shell_completes_commands_and_flags() {
     for shell in ["bash", "zsh", "fish", "elvish"] {
-        assert!(told(&["completions", shell]).contains("status"), "{shell}");
+        assert!(output_of(&["completions", shell]).contains("status"), "{shell}");
     }
     let (folder, _) = folders();
     for other in ["tcsh", "powershell"] {
@@ -110,11 +111,11 @@ fn a_shell_completes_commands_and_flags() {
         assert_refused(&output, 2, &[other, "bash"]);
     }
     let script = folder.path().join("treadmill.bash");
-    fs::write(&script, told(&["completions", "bash"])).unwrap();
-    let asked = r#"source "$0" && complete -p treadmill
+    fs::write(&script, output_of(&["completions", "bash"])).unwrap();
+    let commands = r#"source "$0" && complete -p treadmill
         COMP_WORDS=(treadmill sta); COMP_CWORD=1; _treadmill treadmill sta treadmill; echo "${COMPREPLY[@]}"
         COMP_WORDS=(treadmill status --wa); COMP_CWORD=2; _treadmill treadmill --wa status; echo "${COMPREPLY[@]}""#;
-    let bash = Command::new("bash").args(["--norc", "-c", asked]).arg(&script).output().expect("bash is there");
+    let bash = Command::new("bash").args(["--norc", "-c", commands]).arg(&script).output().expect("bash");
     let text = stdout(&bash);
     let lines: Vec<&str> = text.lines().collect();
     assert!(lines[0].contains("-F _treadmill") && lines[0].ends_with(" treadmill"), "{text}");
@@ -134,13 +135,13 @@ fn every_command_has_a_manual_page() {
             assert!(page.contains(part), "{part} is missing in {name}.1");
         }
     }
-    assert!(!pages.join("treadmill-reference.1").exists(), "what is hidden is not told of");
+    assert!(!pages.join("treadmill-reference.1").exists(), "a hidden command has no page");
     fs::write(folder.path().join("file"), "").unwrap();
     assert_refused(&run(folder.path(), &["man", "file"]), 1, &["cannot be written to `file`"]);
 }
 
 #[test]
-fn installing_brings_the_pages_and_completions_along() {
+fn the_installation_includes_pages_and_completions() {
     let (folder, _) = folders();
     let script = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("deploy/install.sh");
     let installed = Command::new(script).arg(folder.path()).arg(env!("CARGO_BIN_EXE_treadmill")).output().unwrap();

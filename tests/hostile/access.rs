@@ -1,4 +1,4 @@
-//! What each certificate entitles to, and that without a good one there is nothing.
+//! Rights of each certificate, and refusal of clients without a valid one.
 
 use std::{
     fs,
@@ -18,10 +18,10 @@ use rcgen::{CertificateParams, DnType, ExtendedKeyUsagePurpose, Issuer, KeyPair}
 use treadmill_proto::Outcome;
 use zenoh::Wait;
 
-/// Longer than anything that is allowed takes.
+/// Longer than an allowed request takes.
 const SILENCE: Duration = Duration::from_secs(2);
 
-/// A learner over TLS with one actor.
+/// Learner over TLS with one actor.
 struct Fleet {
     learner: Running,
     _actor: Running,
@@ -56,16 +56,16 @@ impl Fleet {
     }
 
     fn join_as(&self, role: &str) -> Attacker {
-        Attacker::join(&self.endpoint, "run", Some((&self.certs(), role)), PATIENCE).expect("it is let in")
+        Attacker::join(&self.endpoint, "run", Some((&self.certs(), role)), TIMEOUT).expect("a session")
     }
 
-    fn goes_on(&self) {
+    fn assert_trains(&self) {
         let steps = metrics(&self.run).last().unwrap().1;
         await_steps(&self.run, steps + 2048);
     }
 }
 
-/// Counts what comes to a subscriber.
+/// Subscribes and counts messages.
 fn listen(client: &Attacker, key: &'static str) -> Arc<AtomicU64> {
     let count = Arc::new(AtomicU64::new(0));
     let counted = count.clone();
@@ -76,7 +76,7 @@ fn listen(client: &Attacker, key: &'static str) -> Arc<AtomicU64> {
     count
 }
 
-/// Answers questions, and counts them.
+/// Answers queries with a forged reply and counts them.
 fn answer(client: &Attacker, key: &'static str) -> Arc<AtomicU64> {
     let count = Arc::new(AtomicU64::new(0));
     let counted = count.clone();
@@ -89,42 +89,42 @@ fn answer(client: &Attacker, key: &'static str) -> Arc<AtomicU64> {
 }
 
 #[test]
-fn only_an_operator_commands() {
+fn only_an_operator_can_send_commands() {
     let fleet = fleet();
-    // Something that listens to commands is there in any case: here it is another of the learner's sessions.
+    // Another session with the learner's certificate, which counts commands.
     let learner = fleet.join_as("learner");
     let commands = answer(&learner, "treadmill/run/control");
     let operator = fleet.join_as("operator");
-    await_that("an operator is heard", || {
+    await_that("a command of the operator", || {
         (!operator.ask("treadmill/run/control", vec![1], SILENCE).is_empty()).then_some(())
     });
     let heard = commands.load(Ordering::Relaxed);
     for role in ["actor", "evaluator", "observer"] {
         let other = fleet.join_as(role);
-        // It is on the bus: what it may ask is answered.
+        // It is on the bus: allowed queries are answered.
         other.policy();
         for key in ["treadmill/run/control", "treadmill/*/control", "treadmill/run/*", "treadmill/**"] {
             assert_eq!(other.ask(key, vec![1], SILENCE), Vec::<Vec<u8>>::new(), "{role} on {key}");
         }
     }
     assert_eq!(commands.load(Ordering::Relaxed), heard);
-    fleet.goes_on();
+    fleet.assert_trains();
 }
 
 #[test]
-fn an_actor_says_nothing_in_the_learners_name_and_hears_nothing_of_others() {
+fn an_actor_can_neither_forge_the_learners_messages_nor_read_those_of_other_actors() {
     let fleet = fleet();
     let observer = fleet.join_as("observer");
     let metrics = listen(&observer, "treadmill/run/metrics/**");
     let versions = listen(&observer, "treadmill/run/policy/version");
     let forged = listen(&observer, "treadmill/run/metrics/forged/*");
-    // One that listens and one that speaks: a session hears what it says itself.
+    // One session that listens and one that sends, because a session receives its own messages.
     let (spy, actor) = (fleet.join_as("actor"), fleet.join_as("actor"));
     let rollouts = answer(&spy, "treadmill/run/rollouts/*");
     let policies = answer(&spy, "treadmill/run/policy/latest");
     let all = listen(&spy, "treadmill/**");
     let copies = listen(&spy, "treadmill/run/@rollouts/*");
-    let told = listen(&spy, "treadmill/run/metrics/**");
+    let spied_metrics = listen(&spy, "treadmill/run/metrics/**");
     let poses = listen(&spy, "treadmill/run/poses/*");
     let poses_seen = listen(&observer, "treadmill/run/poses/*");
     let statistics = listen(&spy, "treadmill/run/actors/*/stats");
@@ -136,31 +136,31 @@ fn an_actor_says_nothing_in_the_learners_name_and_hears_nothing_of_others() {
         actor.put("treadmill/run/metrics/forged/a", "{}");
         actor.put("treadmill/run/policy/version", "forged");
     }
-    // Another actor that asks for a policy gets the learner's.
+    // Another actor gets the learner's policy, not the spy's.
     fleet.join_as("actor").policy();
-    fleet.goes_on();
+    fleet.assert_trains();
     assert_eq!(forged.load(Ordering::Relaxed), 0);
-    // The same from the learner's own certificate arrives, so the observer would have heard it.
+    // The same message with the learner's certificate arrives, so the observer would have received a forged one.
     let learner = fleet.join_as("learner");
-    await_that("the learner is heard", || {
+    await_that("a message with the learner's certificate", || {
         learner.put("treadmill/run/metrics/forged/a", "{}");
         (forged.load(Ordering::Relaxed) > 0).then_some(())
     });
-    for (what, count) in [
+    for (kind, count) in [
         ("rollouts of others", rollouts),
         ("questions for policies", policies),
         ("everything", all),
         ("copies of rollouts", copies),
-        ("metrics", told),
+        ("metrics", spied_metrics),
         ("poses of others", poses),
         ("statistics of others", statistics),
     ] {
-        assert_eq!(count.load(Ordering::Relaxed), 0, "an actor got {what}");
+        assert_eq!(count.load(Ordering::Relaxed), 0, "an actor got {kind}");
     }
 }
 
 #[test]
-fn an_observer_watches_and_hands_nothing_in() {
+fn an_observer_can_read_but_not_send_fragments_or_reports() {
     let fleet = fleet();
     let observer = fleet.join_as("observer");
     let episodes = listen(&observer, "treadmill/run/episodes/*");
@@ -170,18 +170,18 @@ fn an_observer_watches_and_hands_nothing_in() {
         (episodes.load(Ordering::Relaxed) > 0 && statistics.load(Ordering::Relaxed) > 0).then_some(())
     });
     let key = "treadmill/run/rollouts/spy";
-    let sound = fragment(&bundle, "spy", 1).encode().unwrap();
-    assert_eq!(observer.ask(key, sound.clone(), SILENCE), Vec::<Vec<u8>>::new());
+    let valid = fragment(&bundle, "spy", 1).encode().unwrap();
+    assert_eq!(observer.ask(key, valid.clone(), SILENCE), Vec::<Vec<u8>>::new());
     assert_eq!(observer.ask("treadmill/run/evaluations/spy", vec![], SILENCE), Vec::<Vec<u8>>::new());
-    fleet.goes_on();
+    fleet.assert_trains();
     assert_eq!(last_value(&fleet.run, "bus/fragments_malformed"), Some(0.0));
-    // The same from an actor is looked at.
-    let receipt = fleet.join_as("actor").send("spy", sound).expect("an actor is answered");
+    // The same fragment from an actor is answered.
+    let receipt = fleet.join_as("actor").send("spy", valid).expect("a receipt");
     assert!(matches!(receipt.outcome, Outcome::Accepted | Outcome::TooOld), "{receipt:?}");
 }
 
-/// A certificate for an actor by the authority in `certs` that ran out yesterday, in a folder of its own.
-fn expired(folder: &Path) {
+/// Issues an actor's certificate that expired yesterday, by the authority in `certs`, into the folder `expired`.
+fn issue_expired(folder: &Path) {
     let (certs, out) = (folder.join("certs"), folder.join("expired"));
     let read = |name: &str| fs::read_to_string(certs.join(name)).unwrap();
     let authority = Issuer::from_ca_cert_pem(&read("ca.crt"), KeyPair::from_pem(&read("ca.key")).unwrap()).unwrap();
@@ -198,7 +198,7 @@ fn expired(folder: &Path) {
 }
 
 #[test]
-fn without_a_good_certificate_there_is_nothing_and_the_learner_says_so() {
+fn clients_without_a_valid_certificate_are_refused_and_logged() {
     let fleet = fleet();
     let folder = fleet.folder.path();
     // A client that does not speak TLS.
@@ -207,37 +207,37 @@ fn without_a_good_certificate_there_is_nothing_and_the_learner_says_so() {
     std::io::Write::write_all(&mut plain, &[0; 64]).unwrap();
     fleet.learner.wait_for("a connection was refused, since it did not prove who it is");
     let without_tls = fleet.endpoint.replace("tls/", "tcp/");
-    assert!(Attacker::join(&without_tls, "run", None, SILENCE).is_none(), "plain tcp is not let in");
+    assert!(Attacker::join(&without_tls, "run", None, SILENCE).is_none(), "plain tcp is refused");
 
     assert!(run(folder, &["certs", "others"]).status.success());
-    // Its certificate is of another authority, but it trusts the learner's.
+    // A certificate of another authority, with trust in the learner's.
     fs::copy(folder.join("certs/ca.crt"), folder.join("others/ca.crt")).unwrap();
-    expired(folder);
-    // It speaks TLS and trusts the learner, but shows nothing itself.
+    issue_expired(folder);
+    // TLS without a client certificate.
     let nameless = Attacker::join(&fleet.endpoint, "run", Some((&fleet.certs(), "")), SILENCE);
     let answers = nameless.map(|client| client.ask("treadmill/run/policy/latest", vec![], SILENCE));
     assert!(answers.is_none_or(|answers| answers.is_empty()));
     fleet.learner.wait_for("it has no certificate");
     for (certs, why) in [("others", "is of another authority"), ("expired", "has expired")] {
         let stranger = Running::start(actor(folder, &fleet.endpoint, certs));
-        stranger.wait_for("nobody answers");
+        stranger.wait_for("no answer; retrying");
         let line = fleet.learner.wait_for(why);
         assert!(line.contains("a connection was refused"), "{line}");
         let as_actor = Attacker::join(&fleet.endpoint, "run", Some((&folder.join(certs), "actor")), SILENCE);
         let answers = as_actor.map(|client| client.ask("treadmill/run/policy/latest", vec![], SILENCE));
         assert!(answers.is_none_or(|answers| answers.is_empty()), "{certs}");
     }
-    fleet.goes_on();
+    fleet.assert_trains();
     assert_eq!(last_value(&fleet.run, "actors/alive"), Some(1.0));
 }
 
 #[test]
-fn a_renewed_certificate_is_let_in_and_a_name_that_is_not_the_learners_is_not_trusted() {
+fn a_renewed_certificate_is_accepted_and_a_certificate_for_another_host_is_not() {
     let fleet = fleet();
     let folder = fleet.folder.path();
     assert!(run(folder, &["certs", "certs", "--renew"]).status.success());
     fleet.join_as("actor").policy();
-    // A learner whose certificate names another host is not taken for it.
+    // An actor does not trust a learner whose certificate names another host.
     assert!(run(folder, &["certs", "elsewhere", "--host", "learner.example"]).status.success());
     let mut command = treadmill(folder);
     let other = folder.join("other");
@@ -245,11 +245,11 @@ fn a_renewed_certificate_is_let_in_and_a_name_that_is_not_the_learners_is_not_tr
     command.args(["--listen", "tls/127.0.0.1:0", "--tls", "elsewhere"]);
     let _elsewhere = Running::start(command);
     let stranger = Running::start(actor(folder, &endpoint(&other), "elsewhere"));
-    stranger.wait_for("nobody answers");
+    stranger.wait_for("no answer; retrying");
 }
 
 #[test]
-fn certificates_are_refused_where_they_cannot_be() {
+fn invalid_arguments_and_folders_of_certificates_are_refused() {
     let (folder, _) = folders();
     let path = folder.path();
     fs::write(path.join("file"), "").unwrap();

@@ -1,4 +1,4 @@
-//! A client that means ill: raw Zenoh, with none of the limits of our own side.
+//! Hostile client: raw Zenoh, without the limits of Treadmill's own clients.
 
 use std::{
     path::Path,
@@ -16,40 +16,40 @@ mod sample;
 
 pub use self::sample::fragment;
 
-/// How long a question waits for an answer.
-pub const PATIENCE: Duration = Duration::from_secs(20);
-/// Stands in a sound fragment where a number is spoilt afterwards.
+/// Longest wait for an answer.
+pub const TIMEOUT: Duration = Duration::from_secs(20);
+/// Number in a valid fragment that is replaced after encoding.
 const MARK: f32 = 1234.5;
 
-/// A client of the bus.
+/// Client of the bus.
 pub struct Attacker {
     session: Session,
     run: String,
 }
 
-/// What is sent in a flood.
+/// Messages of a flood.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Flood {
-    /// Fragments without content, all under one name.
+    /// Empty fragments, all under one name.
     Empty,
-    /// One byte that is no fragment, each time under another name.
+    /// One invalid byte, each time under another name.
     Names,
     /// 64 KiB of noise under one name.
     Noise,
-    /// The right schema with a number that is none, under the name of a good actor.
+    /// Fragments with a NaN, under the name of a good actor.
     Impostor,
-    /// One sound fragment again and again.
+    /// One valid fragment again and again.
     Replay,
     /// Statistics, each time of another actor.
     Stats,
-    /// Requests of an evaluator without a report.
+    /// Requests of evaluators with an invalid report.
     Evaluations,
     /// Announcements of policies, which only the learner may make.
     Forbidden,
 }
 
 impl Flood {
-    /// Each kind, with the name that it has on a command line.
+    /// All kinds, with their names on the command line.
     pub const ALL: [(&'static str, Self); 8] = [
         ("empty", Self::Empty),
         ("names", Self::Names),
@@ -63,15 +63,15 @@ impl Flood {
 }
 
 impl Attacker {
-    /// Joins the bus of `run`; over TLS where a folder is given, with the certificate of a role that is not empty. `None` where
-    /// it is not let in within `patience`.
-    pub fn join(endpoint: &str, run: &str, tls: Option<(&Path, &str)>, patience: Duration) -> Option<Self> {
+    /// Joins the bus of `run`. Uses TLS if given a folder of certificates and a role; an empty role shows no certificate. Returns
+    /// `None` if the session is not open within `timeout`.
+    pub fn join(endpoint: &str, run: &str, tls: Option<(&Path, &str)>, timeout: Duration) -> Option<Self> {
         let mut config = Config::default();
         let mut set = |key: &str, value: serde_json::Value| config.insert_json5(key, &value.to_string()).unwrap();
         set("mode", json!("client"));
         set("scouting/multicast/enabled", json!(false));
         set("connect/endpoints", json!([endpoint]));
-        set("connect/timeout_ms", json!(patience.as_millis() as u64));
+        set("connect/timeout_ms", json!(timeout.as_millis() as u64));
         if let Some((folder, role)) = tls {
             set("transport/link/tls/root_ca_certificate", json!(folder.join("ca.crt")));
             if !role.is_empty() {
@@ -84,23 +84,18 @@ impl Attacker {
         Some(Self { session, run: run.to_string() })
     }
 
-    /// The session itself.
+    /// Returns the session.
     pub fn session(&self) -> &Session {
         &self.session
     }
 
-    /// Every answer to a question.
-    pub fn ask(&self, key: &str, payload: impl Into<Bytes>, patience: Duration) -> Vec<Vec<u8>> {
+    /// Returns all answers to a query.
+    pub fn ask(&self, key: &str, payload: impl Into<Bytes>, timeout: Duration) -> Vec<Vec<u8>> {
         let payload: Bytes = payload.into();
-        let asked = self
-            .session
-            .get(key)
-            .payload(payload)
-            .timeout(patience)
-            .congestion_control(CongestionControl::Block)
-            .wait();
+        let asked =
+            self.session.get(key).payload(payload).timeout(timeout).congestion_control(CongestionControl::Block).wait();
         let Ok(replies) = asked else { return Vec::new() };
-        let until = Instant::now() + patience + Duration::from_secs(1);
+        let until = Instant::now() + timeout + Duration::from_secs(1);
         let mut answers = Vec::new();
         while let Ok(Some(reply)) = replies.recv_deadline(until) {
             answers.extend(reply.result().ok().map(|sample| sample.payload().to_bytes().into_owned()));
@@ -108,38 +103,38 @@ impl Attacker {
         answers
     }
 
-    /// The newest policy, as soon as there is one.
+    /// Waits for the newest policy.
     pub fn policy(&self) -> PolicyBundle {
-        let until = Instant::now() + PATIENCE;
+        let until = Instant::now() + TIMEOUT;
         loop {
-            let answers = self.ask(&format!("treadmill/{}/policy/latest", self.run), Bytes::new(), PATIENCE);
+            let answers = self.ask(&format!("treadmill/{}/policy/latest", self.run), Bytes::new(), TIMEOUT);
             if let Some(bundle) = answers.into_iter().next() {
                 return PolicyBundle::decode(bundle).unwrap();
             }
-            assert!(Instant::now() < until, "no learner hands out a policy");
+            assert!(Instant::now() < until, "no learner sends a policy");
         }
     }
 
-    /// Hands in a fragment, whatever it is.
+    /// Sends a payload as a fragment of `actor`.
     pub fn send(&self, actor: &str, payload: impl Into<Bytes>) -> Option<Receipt> {
         let key = format!("treadmill/{}/rollouts/{actor}", self.run);
-        let answer = self.ask(&key, payload, PATIENCE).into_iter().next()?;
+        let answer = self.ask(&key, payload, TIMEOUT).into_iter().next()?;
         Some(Receipt::decode(&answer).expect("a receipt"))
     }
 
-    /// Publishes, whether anybody wants it or not.
+    /// Publishes a payload.
     pub fn put(&self, key: &str, payload: impl Into<Bytes>) {
         let payload: Bytes = payload.into();
         let _ = self.session.put(key, payload).congestion_control(CongestionControl::Block).wait();
     }
 
-    /// Sends as fast as it can until `count` messages are sent or `until` has come; how many were sent.
+    /// Sends messages as fast as possible, at most `count` and only before `until`. Returns their number.
     pub fn flood(&self, flood: Flood, victim: &str, count: u64, until: Instant) -> u64 {
         let bundle = self.policy();
         let noise: Bytes =
             (0..64 << 10).map(|i: u32| (i.wrapping_mul(2_654_435_761) >> 24) as u8).collect::<Vec<_>>().into();
-        let sound: Bytes = fragment(&bundle, "replayer", 1).encode().unwrap().into();
-        let nan: Bytes = spoilt(&bundle, victim, f32::NAN).into();
+        let valid: Bytes = fragment(&bundle, "replayer", 1).encode().unwrap().into();
+        let nan: Bytes = corrupted(&bundle, victim, f32::NAN).into();
         static NUMBER: AtomicU64 = AtomicU64::new(0);
         let mut sent = 0;
         while sent < count && Instant::now() < until {
@@ -151,7 +146,7 @@ impl Attacker {
                 Flood::Names => self.ask_and_leave(&rollouts(&format!("f{number}")), Bytes::from_static(&[0xff])),
                 Flood::Noise => self.ask_and_leave(&rollouts("noisy"), noise.clone()),
                 Flood::Impostor => self.ask_and_leave(&rollouts(victim), nan.clone()),
-                Flood::Replay => self.ask_and_leave(&rollouts("replayer"), sound.clone()),
+                Flood::Replay => self.ask_and_leave(&rollouts("replayer"), valid.clone()),
                 Flood::Evaluations => {
                     self.ask_and_leave(&format!("treadmill/{run}/evaluations/e{number}"), Bytes::from_static(&[0xff]));
                 }
@@ -167,15 +162,15 @@ impl Attacker {
         sent
     }
 
-    /// Asks and does not wait for the answer.
+    /// Sends a query without waiting for the answer.
     fn ask_and_leave(&self, key: &str, payload: Bytes) {
         let asked = self.session.get(key).payload(payload).timeout(Duration::from_secs(2));
         let _ = asked.congestion_control(CongestionControl::Block).callback(drop).wait();
     }
 }
 
-/// A fragment that is sound but for one number.
-pub fn spoilt(bundle: &PolicyBundle, actor: &str, number: f32) -> Vec<u8> {
+/// Returns a fragment that is valid but for `number` as its reward.
+pub fn corrupted(bundle: &PolicyBundle, actor: &str, number: f32) -> Vec<u8> {
     let mut marked = fragment(bundle, actor, 1);
     marked.rewards[0] = MARK;
     let mut bytes = marked.encode().unwrap();
@@ -185,14 +180,14 @@ pub fn spoilt(bundle: &PolicyBundle, actor: &str, number: f32) -> Vec<u8> {
     bytes
 }
 
-/// Every kind of bad fragment: its name, its bytes, and what the answer says.
-pub fn nonsense(bundle: &PolicyBundle) -> Vec<(&'static str, Vec<u8>, &'static str)> {
+/// Returns every kind of malformed fragment: its name, its bytes, and a part of the receipt's reason.
+pub fn malformed_fragments(bundle: &PolicyBundle) -> Vec<(&'static str, Vec<u8>, &'static str)> {
     let encode = |actor: &str, change: &dyn Fn(&mut Fragment)| {
         let mut fragment = fragment(bundle, actor, 1);
         change(&mut fragment);
         fragment.encode().unwrap()
     };
-    let sound = encode("planes", &|_| ());
+    let valid = encode("planes", &|_| ());
     let wide = |fragment: &mut Fragment| {
         fragment.observation_size += 1;
         fragment.observations.push(0.0);
@@ -202,19 +197,19 @@ pub fn nonsense(bundle: &PolicyBundle) -> Vec<(&'static str, Vec<u8>, &'static s
     vec![
         ("empty", vec![], "the payload has 0 bytes"),
         ("noise", (0..5000u32).map(|i| (i.wrapping_mul(2_654_435_761) >> 13) as u8).collect(), "cannot be decoded"),
-        // A text of 2³⁰ bytes of which one is there.
+        // A text with a length of 2³⁰ bytes, of which one is present.
         ("lengths", vec![0x0a, 0x80, 0x80, 0x80, 0x80, 0x04, b'x'], "cannot be decoded"),
         ("bomb", [0x8a, 1, 0].repeat((29 << 20) / 3), "`episodes`"),
         ("large", vec![0; (30 << 20) + 100], "a fragment has 1 to 31457280"),
-        ("nan", spoilt(bundle, "nan", f32::NAN), "`rewards` holds NaN at index 0"),
-        ("infinity", spoilt(bundle, "infinity", f32::NEG_INFINITY), "`rewards` holds -inf"),
+        ("nan", corrupted(bundle, "nan", f32::NAN), "`rewards` holds NaN at index 0"),
+        ("infinity", corrupted(bundle, "infinity", f32::NEG_INFINITY), "`rewards` holds -inf"),
         ("shapes", encode("shapes", &wide), "`observation_size` is"),
-        // The observations once more, as one number: the last one counts.
-        ("planes", [&sound[..], &[0x5a, 4, 0, 0, 0, 0]].concat(), "`observations` is 4 bytes long"),
+        // The observations a second time, as one number: the last occurrence counts.
+        ("planes", [&valid[..], &[0x5a, 4, 0, 0, 0, 0]].concat(), "`observations` is 4 bytes long"),
         ("foreign", encode("foreign", &|f| f.run = "other".into()), "`run` is `other`"),
         ("config", encode("config", &|f| f.config_hash ^= 1), "`config_hash`"),
         ("masked", encode("someone-else", &|_| ()), "as the key says"),
         ("future", encode("future", &|f| f.version = future), "the newest"),
-        ("endless", [&sound[..], &[0x20], &[0xff; 9], &[1]].concat(), "`sequence` is 18446744073709551615"),
+        ("endless", [&valid[..], &[0x20], &[0xff; 9], &[1]].concat(), "`sequence` is 18446744073709551615"),
     ]
 }

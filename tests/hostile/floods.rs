@@ -1,4 +1,4 @@
-//! Clients that mean ill against a real learner: it neither ends nor grows, names the sender and shuts it out, and goes on
+//! Hostile clients against a real learner: it keeps running within its memory, quarantines the sender by name, and keeps
 //! learning from its good actor.
 
 use std::{
@@ -9,14 +9,14 @@ use std::{
     time::{Duration, Instant},
 };
 
-use crate::attacks::{Attacker, Flood, fragment, nonsense, spoilt};
+use crate::attacks::{Attacker, Flood, corrupted, fragment, malformed_fragments};
 use crate::support::*;
 use treadmill_proto::Outcome;
 
-/// More than the largest messages that wait for a moment while they are refused.
+/// More than the largest messages that are in memory while they are refused.
 const GROWTH_BYTES_MAX: u64 = 250 << 20;
 
-/// A learner with one good actor.
+/// Learner with one good actor.
 struct Fleet {
     learner: Running,
     actor: Running,
@@ -60,21 +60,21 @@ impl Fleet {
     fn attacker(&self) -> Attacker {
         let certs = self.folder.path().join("certs");
         let tls = self.tls.then_some((certs.as_path(), "actor"));
-        Attacker::join(&self.endpoint, "run", tls, PATIENCE).expect("it is let in")
+        Attacker::join(&self.endpoint, "run", tls, TIMEOUT).expect("a session")
     }
 
     fn value(&self, tag: &str) -> f64 {
-        last_value(&self.run, tag).expect("it is logged after every update")
+        last_value(&self.run, tag).expect("a value after every update")
     }
 
-    /// What was accepted grows by what the good actor sends.
-    fn assert_goes_on(&self) {
+    /// Asserts that the learner keeps learning from the good actor.
+    fn assert_trains(&self) {
         let steps = metrics(&self.run).last().unwrap().1;
         await_steps(&self.run, steps + 4096);
         assert!(is_running(self.learner.pid()) && is_running(self.actor.pid()));
     }
 
-    /// Ends as it should: nothing in it was broken.
+    /// Stops the learner and asserts that it did not fail.
     fn end(self) {
         self.actor.signal(libc::SIGTERM);
         self.learner.signal(libc::SIGINT);
@@ -89,11 +89,11 @@ fn resident_bytes(pid: u32) -> u64 {
     statm.split_whitespace().nth(1).unwrap().parse::<u64>().unwrap() * 4096
 }
 
-fn every_kind_of_nonsense(tls: bool) {
+fn assert_quarantine_of_malformed_fragments(tls: bool) {
     let fleet = fleet(tls, &[]);
     let before = resident_bytes(fleet.learner.pid());
     let attacker = fleet.attacker();
-    let kinds = nonsense(&attacker.policy());
+    let kinds = malformed_fragments(&attacker.policy());
     for (kind, bytes, reason) in &kinds {
         for _ in 0..8 {
             let receipt = attacker.send(kind, bytes.clone()).expect("an answer");
@@ -104,57 +104,59 @@ fn every_kind_of_nonsense(tls: bool) {
         assert_eq!(receipt.outcome, Outcome::Quarantined, "{kind}: {receipt:?}");
         fleet.learner.wait_for(&format!("`{kind}` is put in quarantine"));
     }
-    // Names that are none, one of them as long as a key may be.
+    // Invalid names, one of them as long as a key may be.
     for name in ["Capitals".to_string(), "a".repeat(60_000)] {
         let receipt = attacker.send(&name, vec![1]).expect("an answer");
         assert!(matches!(receipt.outcome, Outcome::Malformed), "{receipt:?}");
     }
-    await_that("they are counted", || last_value(&fleet.run, "actors/quarantined").filter(|count| *count >= 1.0));
-    // Larger than a message may be at all: it never arrives.
+    await_that("the count of quarantined senders", || {
+        last_value(&fleet.run, "actors/quarantined").filter(|count| *count >= 1.0)
+    });
+    // Larger than the largest message of the bus: it never arrives.
     assert_eq!(attacker.send("huge", vec![0; 40 << 20]), None);
     assert!(fleet.value("bus/fragments_malformed") >= 8.0 * kinds.len() as f64);
     assert!(fleet.value("bus/fragments_quarantined") >= kinds.len() as f64);
-    fleet.assert_goes_on();
+    fleet.assert_trains();
     let after = resident_bytes(fleet.learner.pid());
     assert!(after < before + GROWTH_BYTES_MAX, "{before} bytes before and {after} after");
     fleet.end();
 }
 
 #[test]
-fn every_kind_of_nonsense_is_answered_named_and_shut_out() {
-    every_kind_of_nonsense(false);
+fn malformed_fragments_are_answered_and_their_sender_is_quarantined() {
+    assert_quarantine_of_malformed_fragments(false);
 }
 
 #[test]
-fn a_certificate_entitles_to_no_nonsense() {
-    every_kind_of_nonsense(true);
+fn a_certificate_does_not_prevent_quarantine() {
+    assert_quarantine_of_malformed_fragments(true);
 }
 
 #[test]
-fn nonsense_under_a_good_actors_name_does_not_stop_it() {
+fn malformed_fragments_under_a_good_actors_name_do_not_stop_it() {
     let fleet = fleet(true, &[]);
     let attacker = fleet.attacker();
-    let nan = spoilt(&attacker.policy(), "good", f32::NAN);
+    let nan = corrupted(&attacker.policy(), "good", f32::NAN);
     for _ in 0..8 {
         assert_eq!(attacker.send("good", nan.clone()).unwrap().outcome, Outcome::Malformed);
     }
     assert_eq!(attacker.send("good", nan).unwrap().outcome, Outcome::Quarantined);
-    fleet.assert_goes_on();
+    fleet.assert_trains();
     fleet.end();
 }
 
 #[test]
-fn what_is_replayed_is_not_learnt_from_and_shuts_out_who_does_it() {
-    // With lag allowed, so that a fragment that was made by hand is never too old.
+fn replayed_fragments_are_not_learnt_from_and_quarantine_their_sender() {
+    // With lag allowed, so that the fragment of this test is never too old.
     let fleet = fleet(true, &["learner.mode=async", "learner.max_policy_lag=16"]);
     let attacker = fleet.attacker();
-    let sound = await_that("a fragment is taken", || {
+    let accepted = await_that("an accepted fragment", || {
         let fragment = fragment(&attacker.policy(), "replayer", 1).encode().unwrap();
         let outcome = attacker.send("replayer", fragment.clone()).expect("an answer").outcome;
         (outcome == Outcome::Accepted).then_some(fragment)
     });
     let mut duplicates = 0;
-    let end = await_that("it is shut out", || match attacker.send("replayer", sound.clone())?.outcome {
+    let end = await_that("the quarantine", || match attacker.send("replayer", accepted.clone())?.outcome {
         Outcome::Duplicate => {
             duplicates += 1;
             None
@@ -163,13 +165,13 @@ fn what_is_replayed_is_not_learnt_from_and_shuts_out_who_does_it() {
         other => Some(other),
     });
     assert_eq!(end, Outcome::Quarantined);
-    assert!(duplicates > 100, "an honest actor may send again what it kept: {duplicates}");
+    assert!(duplicates > 100, "an honest actor may resend fragments: {duplicates}");
     fleet.learner.wait_for("`replayer` is put in quarantine");
-    fleet.assert_goes_on();
+    fleet.assert_trains();
     fleet.end();
 }
 
-/// Tiny messages as fast as they can be sent, of every kind at once.
+/// Sends small messages of every kind at once, as fast as possible.
 fn flood(tls: bool) {
     let fleet = fleet(tls, &["eval.every_steps=4096"]);
     let before = resident_bytes(fleet.learner.pid());
@@ -182,18 +184,20 @@ fn flood(tls: bool) {
         threads.map(|thread| thread.join().unwrap()).iter().sum()
     });
     assert!(sent > 1000, "{sent}");
-    await_that("it is counted", || last_value(&fleet.run, "bus/fragments_turned_away").filter(|count| *count > 0.0));
+    await_that("the count of rejected fragments", || {
+        last_value(&fleet.run, "bus/fragments_turned_away").filter(|count| *count > 0.0)
+    });
     if tls {
-        await_that("what is forbidden is, too", || {
+        await_that("the count of forbidden messages", || {
             last_value(&fleet.run, "bus/messages_forbidden").filter(|count| *count > 1000.0)
         });
     }
-    fleet.assert_goes_on();
+    fleet.assert_trains();
     let after = resident_bytes(fleet.learner.pid());
     assert!(after < before + GROWTH_BYTES_MAX, "{before} bytes before and {after} after {sent} messages");
-    // Statistics of unknown actors are dropped.
+    // The learner drops statistics of unknown actors.
     assert!(fleet.value("actors/env_steps_per_s") < 1e12);
-    // A new actor still finds its way in.
+    // A new actor can still join.
     let newcomer = Running::start(actor(fleet.folder.path(), &fleet.endpoint, tls, "newcomer"));
     await_that("the newcomer is alive", || last_value(&fleet.run, "actors/alive").filter(|alive| *alive == 2.0));
     drop(newcomer);
@@ -201,30 +205,30 @@ fn flood(tls: bool) {
 }
 
 #[test]
-fn floods_leave_the_learner_as_it_was() {
+fn floods_do_not_stop_the_learner() {
     flood(false);
 }
 
 #[test]
-fn floods_with_a_certificate_leave_the_learner_as_it_was() {
+fn floods_with_a_certificate_do_not_stop_the_learner() {
     flood(true);
 }
 
 #[test]
-fn connections_that_say_nothing_or_nonsense_keep_nobody_out() {
+fn silent_and_malformed_connections_do_not_keep_actors_out() {
     for tls in [false, true] {
         let fleet = fleet(tls, &[]);
         let address = fleet.endpoint.split_once('/').unwrap().1.to_string();
         let mut idle: Vec<TcpStream> = (0..600).filter_map(|_| TcpStream::connect(&address).ok()).collect();
         assert!(idle.len() > 300, "{}", idle.len());
         for (number, stream) in idle.iter_mut().enumerate().take(100) {
-            // Frames whose length is as large as it can be, and noise.
+            // Frames of the largest length, and noise.
             let byte = if number % 2 == 0 { 0xff } else { number as u8 };
             let _ = stream.write_all(&[byte; 4000]);
         }
         let newcomer = Running::start(actor(fleet.folder.path(), &fleet.endpoint, tls, "newcomer"));
         await_that("the newcomer is alive", || last_value(&fleet.run, "actors/alive").filter(|alive| *alive == 2.0));
-        fleet.assert_goes_on();
+        fleet.assert_trains();
         drop((idle, newcomer));
         fleet.end();
     }

@@ -1,8 +1,8 @@
-//! Hostile clients against a real learner. They are raw Zenoh, without the limits of our own side of the bus.
+//! Hostile clients against a real learner. They use raw Zenoh, without the limits of Treadmill's own clients.
 //!
-//! This is a process of its own for two reasons. Clients that flood over TLS need the bus on one thread
-//! (`support::bus_on_one_thread`), and the bus reads that setting once in a process. Floods would also delay messages that
-//! other tests count.
+//! These tests are a program of their own for two reasons. Clients that flood over TLS need the bus on one thread
+//! (`support::bus_on_one_thread`), and Zenoh reads that setting once per process. Floods would also delay messages that other
+//! tests count.
 
 mod access;
 #[allow(dead_code, reason = "the example and other tests use the rest")]

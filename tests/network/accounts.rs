@@ -1,5 +1,5 @@
-//! Whatever dies or freezes, every fragment that an actor produced is learnt from once or dropped by rule, and training goes
-//! on: what actors say at their end is compared with the learner's own account of them.
+//! Accounting under failures: whichever process dies or freezes, every produced fragment is learnt from once or dropped
+//! by rule, and training continues. The tests compare the final counts of actors with the learner's accounts.
 
 use std::{fs, net::TcpListener, path::Path};
 
@@ -7,12 +7,12 @@ use crate::support::*;
 use serde_json::Value;
 use treadmill_learner::checkpoint::load_file;
 
-/// More steps than any of these tests waits for.
+/// More steps than any test waits for.
 const ENDLESS: &str = "1000000000";
 /// Part of the message of an actor that gets no answer.
 const UNANSWERED: &str = "keeping fragments";
 
-/// A learner, a router and two actors that reach it only through that.
+/// Learner, router, and two actors that reach the learner only through the router.
 struct Fleet {
     folder: tempfile::TempDir,
     run: std::path::PathBuf,
@@ -26,7 +26,7 @@ struct Fleet {
 impl Fleet {
     fn start() -> Self {
         let (folder, run) = folders();
-        // Both are held before either is let go, so that they differ.
+        // Both listeners exist at the same time, so that the ports differ.
         let free = [(); 2].map(|()| TcpListener::bind("127.0.0.1:0").unwrap());
         let [learner_at, router_at] = free.map(|listener| format!("tcp/{}", listener.local_addr().unwrap()));
         let mut fleet = Self { folder, run, learner_at, router_at, learner: None, router: None, actors: Vec::new() };
@@ -62,32 +62,33 @@ impl Fleet {
         }
     }
 
-    /// Waits for so many updates from now on.
-    fn go_on(&self) {
+    /// Waits for ten further updates.
+    fn assert_trains(&self) {
         let newest = metrics(&self.run).last().map_or(0, |(_, step, _)| *step);
         await_steps(&self.run, newest + 10 * 512);
     }
 
-    /// Stops everybody, and compares what they say.
+    /// Stops all processes and compares their counts.
     fn compare(mut self) {
         let learner = self.learner.take().unwrap();
         learner.signal(libc::SIGINT);
         assert!(learner.wait().0.success());
-        let actors: Vec<Value> = self.actors.drain(..).map(last_words).collect();
+        let actors: Vec<Value> = self.actors.drain(..).map(stop_actor).collect();
         let accounts = accounts(&self.run);
         for actor in &actors {
             let account = accounts.iter().find(|account| account["incarnation"] == actor["incarnation"]);
             compare_one(actor, account.unwrap_or_else(|| panic!("{actor} in {accounts:?}")));
         }
-        // Two counts that are made in different places: as fragments are judged, and as they are learnt from.
-        let taken: u64 = accounts.iter().map(|account| number(account, "env_steps")).sum();
+        // Two independent counts: of validated fragments, and of transitions learnt from.
+        let accepted: u64 = accounts.iter().map(|account| number(account, "env_steps")).sum();
         let state = load_file(&self.run.join("checkpoints/latest.bundle")).unwrap();
-        assert_eq!(state.counters.env_steps, taken);
+        assert_eq!(state.counters.env_steps, accepted);
         assert_eq!(state.fragment_counts.malformed, 0);
     }
 }
 
-fn last_words(actor: Running) -> Value {
+/// Stops an actor and returns the JSON object that it prints.
+fn stop_actor(actor: Running) -> Value {
     actor.signal(libc::SIGTERM);
     let (status, lines) = actor.wait();
     assert!(status.success(), "{lines:?}");
@@ -105,54 +106,54 @@ fn number(object: &Value, key: &str) -> u64 {
 }
 
 fn compare_one(actor: &Value, account: &Value) {
-    let (said, known) = (|key| number(actor, key), |key| number(account, key));
-    let told = format!("{actor}\n{account}");
-    assert_eq!(said("produced"), said("accepted") + said("dropped_by_rule") + said("in_flight"), "{told}");
-    assert!(said("accepted") > 0, "{told}");
+    let (sent, known) = (|key| number(actor, key), |key| number(account, key));
+    let both = format!("{actor}\n{account}");
+    assert_eq!(sent("produced"), sent("accepted") + sent("dropped_by_rule") + sent("in_flight"), "{both}");
+    assert!(sent("accepted") > 0, "{both}");
     let dropped = known("too_old") + known("vanished") + known("unseen");
-    // What the actor let go of was dealt with; what a learner dropped after its last checkpoint, only its sender knows of.
-    let unsaved = said("dropped_by_rule").saturating_sub(dropped);
-    assert!(said("settled_through") <= known("through") + unsaved, "{told}");
-    // What it knows to be durable is; what was taken is no more than what it gave.
-    assert!(said("accepted") - said("awaiting_durability") <= known("accepted"), "{told}");
-    assert!(known("accepted") <= said("accepted") + said("in_flight"), "{told}");
-    // The sender knows of each fragment that was dropped.
-    assert!(dropped <= said("dropped_by_rule") + said("in_flight"), "{told}");
+    // Settled fragments are in the account. Those that a learner dropped after its last checkpoint only the actor counts.
+    let unsaved = sent("dropped_by_rule").saturating_sub(dropped);
+    assert!(sent("settled_through") <= known("through") + unsaved, "{both}");
+    // Durable fragments are in the account, and the account has no more than were sent.
+    assert!(sent("accepted") - sent("awaiting_durability") <= known("accepted"), "{both}");
+    assert!(known("accepted") <= sent("accepted") + sent("in_flight"), "{both}");
+    // The actor counts every dropped fragment.
+    assert!(dropped <= sent("dropped_by_rule") + sent("in_flight"), "{both}");
 }
 
 #[test]
-fn a_frozen_learner_is_found_again() {
+fn actors_continue_after_a_frozen_learner() {
     let fleet = Fleet::start();
     let learner = fleet.learner.as_ref().unwrap();
     learner.signal(libc::SIGSTOP);
     fleet.actors.iter().for_each(|actor| drop(actor.wait_for(UNANSWERED)));
     learner.signal(libc::SIGCONT);
-    fleet.go_on();
+    fleet.assert_trains();
     fleet.compare();
 }
 
 #[test]
-fn a_router_that_was_killed_is_found_again() {
+fn actors_continue_after_a_killed_router() {
     let mut fleet = Fleet::start();
     fleet.router = None;
     fleet.actors.iter().for_each(|actor| drop(actor.wait_for(UNANSWERED)));
     fleet.start_router();
-    fleet.go_on();
+    fleet.assert_trains();
     fleet.compare();
 }
 
 #[test]
-fn a_killed_learner_is_resumed_behind_its_router() {
+fn actors_continue_after_a_killed_learner_behind_a_router() {
     let mut fleet = Fleet::start();
     fleet.learner = None;
     fleet.actors.iter().for_each(|actor| drop(actor.wait_for(UNANSWERED)));
     fleet.start_learner();
-    fleet.go_on();
+    fleet.assert_trains();
     fleet.compare();
 }
 
 #[test]
-fn everything_is_killed_and_started_with_the_learner_last() {
+fn a_fleet_restarts_after_all_processes_are_killed() {
     let mut fleet = Fleet::start();
     fleet.learner = None;
     fleet.router = None;
@@ -160,6 +161,6 @@ fn everything_is_killed_and_started_with_the_learner_last() {
     fleet.start_actors();
     fleet.start_router();
     fleet.start_learner();
-    fleet.go_on();
+    fleet.assert_trains();
     fleet.compare();
 }

@@ -1,4 +1,4 @@
-//! What strangers on the bus can see and do.
+//! Other clients of the bus: receipts for their fragments, and subscriptions.
 
 #[path = "../support/fragment.rs"]
 mod sample;
@@ -9,28 +9,28 @@ use serde_json::Value;
 use treadmill_bus::{Bus, BusOptions, fetch_policy, observe, submit};
 use treadmill_proto::{Fragment, Outcome, PolicyBundle, Receipt};
 
-/// A run that goes on until the test is over, and a client of its bus.
-struct Stage {
+/// Run that trains until the end of the test, and a client of its bus.
+struct Fixture {
     training: Running,
     bus: Bus,
     _folder: tempfile::TempDir,
     run: std::path::PathBuf,
 }
 
-fn stage() -> Stage {
+fn start() -> Fixture {
     let (folder, run) = folders();
     let mut command = treadmill(folder.path());
     command.args(["train", "--preset", "smoke", "--steps", "1000000000", "--run-dir", run.to_str().unwrap()]);
     let training = Running::start(command);
     let connect = vec![endpoint(&run)];
     let bus = Bus::open_client(&BusOptions { connect, ..BusOptions::default() }).unwrap();
-    Stage { training, bus, _folder: folder, run }
+    Fixture { training, bus, _folder: folder, run }
 }
 
 async fn policy(bus: &Bus) -> PolicyBundle {
     loop {
-        // No reply at once means only that the learner is not known yet.
-        if let Some(bundle) = fetch_policy(bus, Some("run"), PATIENCE).await.unwrap() {
+        // Without a reply, the client does not know the learner yet.
+        if let Some(bundle) = fetch_policy(bus, Some("run"), TIMEOUT).await.unwrap() {
             return bundle;
         }
         tokio::task::yield_now().await;
@@ -40,7 +40,7 @@ async fn policy(bus: &Bus) -> PolicyBundle {
 async fn send(bus: &Bus, bytes: impl Into<Bytes>) -> Receipt {
     let bytes = bytes.into();
     loop {
-        if let Some(receipt) = submit(bus, "run", "stranger", bytes.clone(), PATIENCE).await.unwrap() {
+        if let Some(receipt) = submit(bus, "run", "stranger", bytes.clone(), TIMEOUT).await.unwrap() {
             return receipt;
         }
         tokio::task::yield_now().await;
@@ -48,12 +48,12 @@ async fn send(bus: &Bus, bytes: impl Into<Bytes>) -> Receipt {
 }
 
 #[tokio::test(flavor = "multi_thread")]
-async fn a_bad_fragment_gets_a_receipt_that_says_why_and_the_learner_goes_on() {
-    let stage = stage();
-    let bundle = policy(&stage.bus).await;
+async fn a_refused_fragment_gets_a_receipt_with_the_reason_and_training_continues() {
+    let fixture = start();
+    let bundle = policy(&fixture.bus).await;
     let good = sample::fragment(&bundle, "stranger", 1);
 
-    let receipt = send(&stage.bus, Fragment { run: "other".into(), ..good.clone() }.encode().unwrap()).await;
+    let receipt = send(&fixture.bus, Fragment { run: "other".into(), ..good.clone() }.encode().unwrap()).await;
     assert_eq!(receipt.outcome, Outcome::Malformed);
     assert!(receipt.reason.contains("`run` is `other`; expected `run`"), "{}", receipt.reason);
 
@@ -63,62 +63,64 @@ async fn a_bad_fragment_gets_a_receipt_that_says_why_and_the_learner_goes_on() {
         last_observations: vec![0.0; 46],
         ..good.clone()
     };
-    let receipt = send(&stage.bus, wide.encode().unwrap()).await;
+    let receipt = send(&fixture.bus, wide.encode().unwrap()).await;
     assert!(receipt.reason.contains("`observation_size` is 46; expected 45"), "{}", receipt.reason);
 
     let mut torn = good.encode().unwrap();
     torn.truncate(torn.len() / 2);
-    assert_eq!(send(&stage.bus, torn).await.outcome, Outcome::Malformed);
+    assert_eq!(send(&fixture.bus, torn).await.outcome, Outcome::Malformed);
 
     let vanished = treadmill_proto::PolicyVersion { incarnation: 99, number: 1 };
-    let receipt = send(&stage.bus, Fragment { version: vanished, ..good.clone() }.encode().unwrap()).await;
+    let receipt = send(&fixture.bus, Fragment { version: vanished, ..good.clone() }.encode().unwrap()).await;
     assert_eq!(receipt.outcome, Outcome::Vanished);
 
-    // A sound one is taken, and taken once.
-    let fresh = policy(&stage.bus).await;
-    let sound = sample::fragment(&fresh, "stranger", 2).encode().unwrap();
-    let first = send(&stage.bus, sound.clone()).await;
+    // A valid fragment is accepted once.
+    let fresh = policy(&fixture.bus).await;
+    let valid = sample::fragment(&fresh, "stranger", 2).encode().unwrap();
+    let first = send(&fixture.bus, valid.clone()).await;
     assert!(matches!(first.outcome, Outcome::Accepted | Outcome::TooOld), "{first:?}");
-    assert_eq!(send(&stage.bus, sound).await.outcome, Outcome::Duplicate);
+    assert_eq!(send(&fixture.bus, valid).await.outcome, Outcome::Duplicate);
 
-    await_that("the refusals are counted", || {
-        last_value(&stage.run, "bus/fragments_malformed").filter(|count| *count == 3.0)
+    await_that("the count of malformed fragments", || {
+        last_value(&fixture.run, "bus/fragments_malformed").filter(|count| *count == 3.0)
     });
-    let steps = metrics(&stage.run).last().unwrap().1;
-    await_steps(&stage.run, steps + 2048);
-    stage.training.signal(libc::SIGINT);
-    assert!(stage.training.wait().0.success());
+    let steps = metrics(&fixture.run).last().unwrap().1;
+    await_steps(&fixture.run, steps + 2048);
+    fixture.training.signal(libc::SIGINT);
+    assert!(fixture.training.wait().0.success());
 }
 
 #[tokio::test(flavor = "multi_thread")]
-async fn a_sender_that_keeps_failing_is_put_in_quarantine() {
-    let stage = stage();
+async fn a_sender_of_malformed_fragments_is_quarantined() {
+    let fixture = start();
     for _ in 0..8 {
-        assert_eq!(send(&stage.bus, vec![0xff; 100]).await.outcome, Outcome::Malformed);
+        assert_eq!(send(&fixture.bus, vec![0xff; 100]).await.outcome, Outcome::Malformed);
     }
-    let receipt = send(&stage.bus, vec![0xff; 100]).await;
+    let receipt = send(&fixture.bus, vec![0xff; 100]).await;
     assert_eq!(receipt.outcome, Outcome::Quarantined);
     assert!(receipt.reason.contains("stranger"));
-    await_that("it is a metric", || last_value(&stage.run, "actors/quarantined").filter(|count| *count == 1.0));
+    await_that("the metric of quarantined senders", || {
+        last_value(&fixture.run, "actors/quarantined").filter(|count| *count == 1.0)
+    });
 }
 
 #[tokio::test(flavor = "multi_thread")]
-async fn every_scalar_and_every_episode_can_be_subscribed_to() {
-    let stage = stage();
-    let metrics_feed = observe(&stage.bus, "treadmill/*/metrics/**", 4096).unwrap();
-    let one = observe(&stage.bus, "treadmill/run/metrics/rollout/ep_rew_mean", 16).unwrap();
-    let episodes = observe(&stage.bus, "treadmill/run/episodes/*", 4096).unwrap();
+async fn clients_can_subscribe_to_every_scalar_and_episode() {
+    let fixture = start();
+    let metrics_feed = observe(&fixture.bus, "treadmill/*/metrics/**", 4096).unwrap();
+    let one = observe(&fixture.bus, "treadmill/run/metrics/rollout/ep_rew_mean", 16).unwrap();
+    let episodes = observe(&fixture.bus, "treadmill/run/episodes/*", 4096).unwrap();
 
-    let message = metrics_feed.next(PATIENCE).expect("a metric");
+    let message = metrics_feed.next(TIMEOUT).expect("a metric");
     let metric: Value = serde_json::from_slice(&message.payload).unwrap();
     assert_eq!(message.key, format!("treadmill/run/metrics/{}", metric["tag"].as_str().unwrap()));
     assert_eq!(metric["run"], "run");
     assert!(metric["step"].is_u64() && metric["value"].is_number() && metric["time_unix_s"].is_f64(), "{metric}");
 
-    let reward: Value = serde_json::from_slice(&one.next(PATIENCE).expect("the reward").payload).unwrap();
+    let reward: Value = serde_json::from_slice(&one.next(TIMEOUT).expect("the reward").payload).unwrap();
     assert_eq!(reward["tag"], "rollout/ep_rew_mean");
 
-    let episode: Value = serde_json::from_slice(&episodes.next(PATIENCE).expect("an episode").payload).unwrap();
+    let episode: Value = serde_json::from_slice(&episodes.next(TIMEOUT).expect("an episode").payload).unwrap();
     for field in ["return", "length", "distance_m", "velocity_mean_mps"] {
         assert!(episode[field].is_number(), "{field} in {episode}");
     }

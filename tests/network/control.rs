@@ -1,4 +1,4 @@
-//! A run that is asked how it goes, paused, changed and stopped from outside.
+//! `status` and `control`: a run is queried, paused, changed and stopped from outside.
 
 use std::path::Path;
 
@@ -12,7 +12,7 @@ fn control(folder: &Path, args: &[&str]) -> std::process::Output {
     run(folder, &[&["control"], args].concat())
 }
 
-/// Does what is asked and tells so.
+/// Sends a command that succeeds, and returns its output.
 fn done(folder: &Path, args: &[&str]) -> String {
     let output = control(folder, args);
     assert!(output.status.success(), "{args:?}: {}", stderr(&output));
@@ -24,7 +24,7 @@ fn status(folder: &Path) -> Value {
 }
 
 #[test]
-fn a_run_is_paused_changed_kept_and_stopped() {
+fn a_run_can_be_paused_saved_changed_and_stopped() {
     let (folder, run) = folders();
     let folder = folder.path();
     let mut command = treadmill(folder);
@@ -39,7 +39,7 @@ fn a_run_is_paused_changed_kept_and_stopped() {
     let text = stdout(&crate::support::run(folder, &["status", "run"]));
     assert!(text.contains("run `run` is paused") && text.contains("actor-0"), "{text}");
 
-    // Nothing is learnt while other things are done.
+    // While paused, other commands work and nothing is learnt.
     let kept = done(folder, &["checkpoint", "run"]);
     let updates = paused["updates"].as_u64().unwrap();
     let path = run.join(format!("checkpoints/{updates:08}.bundle"));
@@ -55,11 +55,11 @@ fn a_run_is_paused_changed_kept_and_stopped() {
     assert!(done(folder, &["resume", "run"]).starts_with("going on after update"));
     let steps = paused["env_steps"].as_u64().unwrap();
     await_steps(&run, steps + 2048);
-    let going = await_that("actors that are at work", || {
+    let going = await_that("two actors with accepted fragments", || {
         let status = status(folder);
         let actors = status["actors"].as_array().unwrap();
-        let at_work = |actor: &Value| actor["state"] == "alive" && actor["accepted"].as_u64() > Some(0);
-        (actors.len() == 2 && actors.iter().all(at_work)).then_some(status.clone())
+        let is_working = |actor: &Value| actor["state"] == "alive" && actor["accepted"].as_u64() > Some(0);
+        (actors.len() == 2 && actors.iter().all(is_working)).then_some(status.clone())
     });
     assert_eq!(going["phase"], "training");
 
@@ -68,11 +68,11 @@ fn a_run_is_paused_changed_kept_and_stopped() {
     assert!(ended.success());
     let state = load_file(&run.join("checkpoints/latest.bundle")).unwrap();
     assert_eq!(state.config().unwrap().ppo.learning_rate, 1e-4);
-    assert_refused(&crate::support::run(folder, &["status", "run"]), 1, &["nobody answers", "endpoint.txt"]);
+    assert_refused(&crate::support::run(folder, &["status", "run"]), 1, &["no answer from", "endpoint.txt"]);
 }
 
 #[test]
-fn an_observer_may_ask_and_only_the_operator_may_command() {
+fn an_observer_can_query_status_and_only_the_operator_can_send_commands() {
     let (folder, run) = folders();
     let folder = folder.path();
     assert!(crate::support::run(folder, &["certs", "certs"]).status.success());
@@ -81,7 +81,7 @@ fn an_observer_may_ask_and_only_the_operator_may_command() {
     command.args(["--listen", "tls/127.0.0.1:0", "--tls", "certs"]);
     let training = Running::start(command);
     await_steps(&run, 512);
-    // What an observer's machine has, who would call itself an operator.
+    // An observer's certificate under an operator's file names.
     let theirs = folder.join("theirs");
     std::fs::create_dir(&theirs).unwrap();
     for (from, to) in [("ca.crt", "ca.crt"), ("observer.crt", "operator.crt"), ("observer.key", "operator.key")] {

@@ -1,15 +1,15 @@
-//! Copies of accepted fragments: sent to subscribers that ask for exactly them, and to no others.
+//! Copies of accepted fragments: sent only to subscribers of exactly these keys.
 
 use crate::support::*;
 use bytes::Bytes;
 use treadmill_bus::{Bus, BusOptions, Credentials, Role, RolloutCopies, observe};
 use treadmill_proto::Fragment;
 
-/// A subscriber must not lose any to a slow test machine.
+/// Capacity of a subscriber that loses nothing on a slow machine.
 const RING: usize = 65_536;
 
 #[test]
-fn who_subscribes_to_the_copies_gets_them_and_who_watches_everything_does_not() {
+fn subscribers_of_the_copies_get_them_and_subscribers_of_everything_do_not() {
     let (folder, run) = folders();
     let mut command = treadmill(folder.path());
     command.args(["train", "--preset", "smoke", "--steps", "1000000000", "--run-dir", run.to_str().unwrap()]);
@@ -19,7 +19,7 @@ fn who_subscribes_to_the_copies_gets_them_and_who_watches_everything_does_not() 
     let copies = observe(&bus, "treadmill/run/@rollouts/*", RING).unwrap();
     let mut bytes = 0;
     for _ in 0..20 {
-        let copy = copies.next(PATIENCE).expect("a copy");
+        let copy = copies.next(TIMEOUT).expect("a copy");
         bytes += copy.payload.len();
         let fragment = Fragment::decode(Bytes::from(copy.payload)).unwrap();
         assert_eq!(copy.key, format!("treadmill/run/@rollouts/{}", fragment.actor));
@@ -37,7 +37,7 @@ fn who_subscribes_to_the_copies_gets_them_and_who_watches_everything_does_not() 
 }
 
 #[test]
-fn observers_may_read_the_copies_and_actors_may_not() {
+fn observers_can_read_the_copies_and_actors_cannot() {
     let (folder, run) = folders();
     assert!(self::run(folder.path(), &["certs", "certs"]).status.success());
     let mut command = treadmill(folder.path());
@@ -54,13 +54,13 @@ fn observers_may_read_the_copies_and_actors_may_not() {
     let (actors, _actor) = watch(Role::Actor);
     let (observers, _observer) = watch(Role::Observer);
     for _ in 0..10 {
-        Fragment::decode(Bytes::from(observers.next(PATIENCE).expect("a copy").payload)).unwrap();
+        Fragment::decode(Bytes::from(observers.next(TIMEOUT).expect("a copy").payload)).unwrap();
     }
     assert_eq!(actors.next(std::time::Duration::ZERO), None);
 }
 
 #[test]
-fn copies_are_made_only_while_somebody_wants_them() {
+fn copies_are_made_only_while_subscribed() {
     let listen = vec!["tcp/127.0.0.1:0".to_string()];
     let (router, endpoints) = Bus::open_router(&BusOptions { listen, ..BusOptions::default() }).unwrap();
     let copies = RolloutCopies::open(&router, "run").unwrap();
@@ -72,11 +72,11 @@ fn copies_are_made_only_while_somebody_wants_them() {
     await_that("a subscriber", || copies.is_watched().then_some(()));
     copies.offer("actor-2", Bytes::from_static(b"unwanted"));
     copies.offer("actor-1", Bytes::from_static(b"a fragment"));
-    let message = one.next(PATIENCE).expect("the copy");
+    let message = one.next(TIMEOUT).expect("the copy");
     assert_eq!((&message.key[..], &message.payload[..]), ("treadmill/run/@rollouts/actor-1", &b"a fragment"[..]));
     drop(one);
     await_that("no subscriber", || (!copies.is_watched()).then_some(()));
-    // A subscriber that does not take its copies cannot make them pile up.
+    // Unread copies do not pile up.
     for _ in 0..1000 {
         copies.offer("actor-1", Bytes::from(vec![0; 1 << 20]));
     }

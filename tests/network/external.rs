@@ -1,4 +1,4 @@
-//! Tasks that other programs simulate: registered by their actors, trained here, refused by name where they are others.
+//! External tasks: actors register them, the learner trains them, other tasks are refused by name.
 
 use std::{fs, path::Path, process::Command};
 
@@ -38,8 +38,8 @@ fn join(run: &Path) -> Bus {
 async fn register(bus: &Bus, actor: &str, task: &Task) -> TaskReceipt {
     let registration = TaskRegistration { run: "run".into(), actor: actor.into(), task: task.clone() };
     loop {
-        // No reply at once means only that the learner is not known yet.
-        if let Some(receipt) = register_task(bus, &registration, PATIENCE).await.unwrap() {
+        // Without a reply, the client does not know the learner yet.
+        if let Some(receipt) = register_task(bus, &registration, TIMEOUT).await.unwrap() {
             return receipt;
         }
         tokio::task::yield_now().await;
@@ -48,14 +48,14 @@ async fn register(bus: &Bus, actor: &str, task: &Task) -> TaskReceipt {
 
 async fn policy(bus: &Bus) -> PolicyBundle {
     loop {
-        if let Some(bundle) = fetch_policy(bus, Some("run"), PATIENCE).await.unwrap() {
+        if let Some(bundle) = fetch_policy(bus, Some("run"), TIMEOUT).await.unwrap() {
             return bundle;
         }
         tokio::task::yield_now().await;
     }
 }
 
-/// A whole batch of the preset `smoke`: 512 episodes of one step, which were over by rule.
+/// Returns a whole batch of the preset `smoke`: 512 terminated episodes of one step.
 fn fragment(bundle: &PolicyBundle, sequence: u64) -> Fragment {
     let (steps, envs) = (64, 8);
     let rows = (steps * envs) as usize;
@@ -88,7 +88,7 @@ fn fragment(bundle: &PolicyBundle, sequence: u64) -> Fragment {
 async fn send(bus: &Bus, fragment: &Fragment) -> Receipt {
     let bytes = Bytes::from(fragment.encode().unwrap());
     loop {
-        if let Some(receipt) = submit(bus, "run", &fragment.actor, bytes.clone(), PATIENCE).await.unwrap() {
+        if let Some(receipt) = submit(bus, "run", &fragment.actor, bytes.clone(), TIMEOUT).await.unwrap() {
             return receipt;
         }
         tokio::task::yield_now().await;
@@ -96,19 +96,21 @@ async fn send(bus: &Bus, fragment: &Fragment) -> Receipt {
 }
 
 #[tokio::test(flavor = "multi_thread")]
-async fn the_first_registration_makes_the_run_and_all_others_are_held_against_it() {
+async fn a_task_needs_a_valid_name_and_may_be_as_large_as_the_networks_allow() {
     let (folder, run) = folders();
     let training = learner(folder.path(), &run, &["--task", "external", "--steps", "1024"]);
     training.wait_for("python -m treadmill_actor");
     let bus = join(&run);
 
-    let nonsense = Task { name: "no\nname".into(), ..task() };
-    let unchecked = TaskRegistration { run: "run".into(), actor: "count-1".into(), task: nonsense };
-    assert!(unchecked.encode().is_err(), "our own side does not send it");
+    let invalid = Task { name: "no\nname".into(), ..task() };
+    let unchecked = TaskRegistration { run: "run".into(), actor: "count-1".into(), task: invalid };
+    assert!(unchecked.encode().is_err(), "it cannot be sent");
     let huge = register(&bus, "count-1", &Task { observation_size: 4096, ..task() }).await;
-    assert!(huge.accepted, "4096 observations go with the networks of `smoke`: {}", huge.reason);
-    drop((training, bus));
+    assert!(huge.accepted, "4096 observations fit the networks of `smoke`: {}", huge.reason);
+}
 
+#[tokio::test(flavor = "multi_thread")]
+async fn the_first_registration_defines_the_task_and_others_must_match_it() {
     let (folder, run) = folders();
     let training = learner(folder.path(), &run, &["--task", "test/Count-v0", "--steps", "1024"]);
     let bus = join(&run);
@@ -134,14 +136,14 @@ async fn the_first_registration_makes_the_run_and_all_others_are_held_against_it
     config.text(&bundle.config_toml, "the bundle").unwrap();
     assert_eq!(config.build().unwrap().task.known(), Some(task()));
 
-    // An actor of ours is refused by name.
+    // An actor that simulates the humanoid is refused by name.
     let endpoint = endpoint(&run);
     let ours = self::run(folder.path(), &["actor", "--connect", &endpoint, "--run", "run", "--envs", "1"]);
     assert_refused(&ours, 1, &["`test/Count-v0`", "treadmill_actor", "--run run"]);
     let evaluator = self::run(folder.path(), &["evaluator", "--connect", &endpoint, "--run", "run"]);
     assert_refused(&evaluator, 1, &["`test/Count-v0`"]);
 
-    // Trained, saved, and to its end.
+    // Training to the end, and saving.
     let wrong = Fragment { config_hash: bundle.config_hash ^ 1, ..fragment(&bundle, 1) };
     assert_eq!(send(&bus, &wrong).await.outcome, Outcome::Malformed);
     assert_eq!(send(&bus, &fragment(&bundle, 1)).await.outcome, Outcome::Accepted);
@@ -156,7 +158,7 @@ async fn the_first_registration_makes_the_run_and_all_others_are_held_against_it
     assert!(!run.join("model.xml").exists());
     assert!(fs::read_to_string(run.join("config.toml")).unwrap().contains("name = \"test/Count-v0\""));
 
-    // What plays the humanoid says so; what only needs the weights works.
+    // Commands that play the humanoid refuse; `export` works.
     let path = run.to_str().unwrap();
     assert_refused(&self::run(folder.path(), &["eval", path]), 2, &["`test/Count-v0`", "treadmill export"]);
     assert_refused(&self::run(folder.path(), &["train", "--resume", path]), 2, &["external", "treadmill learner"]);
@@ -178,7 +180,7 @@ async fn the_first_registration_makes_the_run_and_all_others_are_held_against_it
 }
 
 #[tokio::test(flavor = "multi_thread")]
-async fn a_run_of_ours_refuses_other_tasks_by_name() {
+async fn a_humanoid_run_refuses_other_tasks_by_name() {
     let (folder, run) = folders();
     let _training = learner(folder.path(), &run, &[]);
     let bus = join(&run);
@@ -192,7 +194,7 @@ async fn a_run_of_ours_refuses_other_tasks_by_name() {
 }
 
 #[tokio::test(flavor = "multi_thread")]
-async fn with_certificates_an_actor_registers_and_an_observer_does_not() {
+async fn with_certificates_actors_can_register_tasks_and_observers_cannot() {
     let (folder, run) = folders();
     assert!(self::run(folder.path(), &["certs", "certs"]).status.success());
     let mut command: Command = treadmill(folder.path());
@@ -209,14 +211,17 @@ async fn with_certificates_an_actor_registers_and_an_observer_does_not() {
         actor: "watcher".into(),
         task: Task { name: "test/Other-v0".into(), ..task() },
     };
-    let patience = std::time::Duration::from_secs(1);
-    assert_eq!(register_task(&join(Role::Observer), &stranger, patience).await.unwrap(), None);
-    assert!(register(&join(Role::Actor), "count-1", &task()).await.accepted, "the observer's did not arrive");
+    let timeout = std::time::Duration::from_secs(1);
+    assert_eq!(register_task(&join(Role::Observer), &stranger, timeout).await.unwrap(), None);
+    assert!(
+        register(&join(Role::Actor), "count-1", &task()).await.accepted,
+        "the registration of the observer did not arrive"
+    );
     training.wait_for("`test/Count-v0`");
 }
 
 #[test]
-fn what_makes_no_sense_with_an_external_task_is_refused_before_anything_is_written() {
+fn flags_that_contradict_an_external_task_are_refused_before_anything_is_written() {
     let (folder, run) = folders();
     let path = run.to_str().unwrap();
     let with = |command: &str, more: &[&str]| {

@@ -1,4 +1,4 @@
-//! Real processes killed for real: nothing stops that need not, and nothing is lost silently.
+//! Killed and frozen processes: the others continue, and no loss goes unreported.
 
 use std::{
     fs,
@@ -12,7 +12,7 @@ use treadmill_bus::{Bus, BusOptions, observe};
 use treadmill_learner::checkpoint::load_file;
 use treadmill_proto::ActorStats;
 
-/// More steps than any of these tests waits for.
+/// More steps than any test waits for.
 const ENDLESS: &str = "1000000000";
 
 fn endless(folder: &Path, run: &Path, command: &str) -> Command {
@@ -28,7 +28,7 @@ fn actor(folder: &Path, endpoint: &str, name: &str) -> Running {
 }
 
 #[test]
-fn an_actor_that_is_killed_is_started_again_and_counted() {
+fn a_killed_actor_is_restarted_and_counted() {
     let (folder, run) = folders();
     let training = Running::start(endless(folder.path(), &run, "train"));
     await_steps(&run, 1024);
@@ -39,25 +39,25 @@ fn an_actor_that_is_killed_is_started_again_and_counted() {
     await_that("another actor-0", || {
         children(training.pid(), "actor-0").first().copied().filter(|pid| *pid != killed[0])
     });
-    await_that("the restart is counted", || last_value(&run, "actors/restarts").filter(|restarts| *restarts == 1.0));
-    await_that("both are alive", || last_value(&run, "actors/alive").filter(|alive| *alive == 2.0));
+    await_that("the count of restarts", || last_value(&run, "actors/restarts").filter(|restarts| *restarts == 1.0));
+    await_that("two actors", || last_value(&run, "actors/alive").filter(|alive| *alive == 2.0));
     training.signal(libc::SIGINT);
     assert!(training.wait().0.success());
 }
 
 #[test]
-fn actors_of_a_killed_train_end_by_themselves() {
+fn actors_of_a_killed_train_exit() {
     let (folder, run) = folders();
     let training = Running::start(endless(folder.path(), &run, "train"));
     await_steps(&run, 512);
     let orphans = children(training.pid(), "actor");
     assert_eq!(orphans.len(), 2);
     training.signal(libc::SIGKILL);
-    await_that("the orphans are gone", || orphans.iter().all(|pid| !is_running(*pid)).then_some(()));
+    await_that("the end of the orphans", || orphans.iter().all(|pid| !is_running(*pid)).then_some(()));
 }
 
 #[test]
-fn an_actor_without_a_learner_says_so_and_keeps_trying() {
+fn an_actor_without_a_learner_warns_and_retries() {
     let (folder, run) = folders();
     let port = std::net::TcpListener::bind("127.0.0.1:0").unwrap().local_addr().unwrap().port();
     let endpoint = format!("tcp/127.0.0.1:{port}");
@@ -72,7 +72,7 @@ fn an_actor_without_a_learner_says_so_and_keeps_trying() {
 }
 
 #[test]
-fn a_learner_that_is_killed_is_resumed_while_its_actors_wait() {
+fn a_killed_learner_is_resumed_while_its_actors_wait() {
     let (folder, run) = folders();
     let mut command = endless(folder.path(), &run, "learner");
     command.args(["--listen", "tcp/127.0.0.1:0"]);
@@ -90,11 +90,11 @@ fn a_learner_that_is_killed_is_resumed_while_its_actors_wait() {
     await_steps(&run, saved.counters.env_steps + 4096);
     assert!(actors.iter().all(|actor| is_running(actor.pid())), "actors outlive the learner");
 
-    // What the actors count: produced = accepted + dropped by rule + in flight, and nothing piles up.
+    // In the actors' counts, produced = accepted + dropped by rule + in flight, and nothing piles up.
     let bus = Bus::open_client(&BusOptions { connect: vec![endpoint], ..BusOptions::default() }).unwrap();
     let feed = observe(&bus, "treadmill/run/actors/*/stats", 16).unwrap();
     for _ in 0..4 {
-        let message = feed.next(PATIENCE).expect("statistics come by themselves");
+        let message = feed.next(TIMEOUT).expect("statistics");
         let stats = ActorStats::decode_checked(&message.payload).unwrap();
         assert_eq!(stats.produced, stats.accepted + stats.dropped_by_rule + stats.in_flight, "{stats:?}");
         assert!(stats.accepted > 0, "{stats:?}");
@@ -106,27 +106,27 @@ fn a_learner_that_is_killed_is_resumed_while_its_actors_wait() {
 
     let after = load_file(&run.join("checkpoints/latest.bundle")).unwrap();
     assert!(after.counters.env_steps >= saved.counters.env_steps + 4096);
-    assert_eq!(after.optimiser.step, after.counters.gradient_steps, "no gradient step is counted and lost");
+    assert_eq!(after.optimiser.step, after.counters.gradient_steps, "no gradient step is lost");
     // Every accepted fragment of 4 environments and 64 steps was learnt from, exactly once.
     assert_eq!(after.counters.env_steps, after.fragment_counts.accepted * 4 * 64);
     assert_eq!(after.fragment_counts.malformed, 0);
 }
 
 #[test]
-fn a_disk_that_takes_no_more_ends_the_run_with_the_last_checkpoint_intact() {
+fn a_failed_save_ends_the_run_with_the_last_checkpoint_intact() {
     let (folder, run) = folders();
     let first = ["train", "--preset", "smoke", "--steps", "1024", "--run-dir", run.to_str().unwrap()];
     assert!(self::run(folder.path(), &first).status.success());
     let latest = run.join("checkpoints/latest.bundle");
-    let sound = fs::read(&latest).unwrap();
+    let valid = fs::read(&latest).unwrap();
 
     let mut command = treadmill(folder.path());
     command.args(["train", "--resume", run.to_str().unwrap(), "--steps", ENDLESS]).stdin(Stdio::null());
-    let limit = (sound.len() / 2) as u64;
-    // SAFETY: both calls only change limits and signals of the child before it becomes another program.
+    let limit = (valid.len() / 2) as u64;
+    // SAFETY: both calls only change limits and signals of the child before it executes the program.
     unsafe {
         command.pre_exec(move || {
-            // Files may not grow beyond half a checkpoint, as on a disk that is nearly full.
+            // Files cannot exceed half a checkpoint, as on a nearly full disk.
             let limit = libc::rlimit { rlim_cur: limit, rlim_max: limit };
             libc::signal(libc::SIGXFSZ, libc::SIG_IGN);
             if libc::setrlimit(libc::RLIMIT_FSIZE, &limit) == 0 { Ok(()) } else { Err(std::io::Error::last_os_error()) }
@@ -134,14 +134,14 @@ fn a_disk_that_takes_no_more_ends_the_run_with_the_last_checkpoint_intact() {
     }
     let output = command.output().unwrap();
     assert_refused(&output, 1, &["cannot save checkpoint", "latest.bundle", "the one before it is untouched"]);
-    assert_eq!(fs::read(&latest).unwrap(), sound);
+    assert_eq!(fs::read(&latest).unwrap(), valid);
     let left: Vec<_> =
         fs::read_dir(run.join("checkpoints")).unwrap().flatten().map(|entry| entry.file_name()).collect();
     assert!(!left.iter().any(|name| name.to_string_lossy().ends_with(".tmp")), "{left:?}");
 }
 
 #[test]
-fn a_frozen_actor_does_not_hold_up_the_others() {
+fn a_frozen_actor_does_not_delay_the_others() {
     let (folder, run) = folders();
     let training = Running::start(endless(folder.path(), &run, "train"));
     await_steps(&run, 1024);

@@ -1,7 +1,7 @@
-//! Runs over several processes: what goes over the bus, and what happens when a part of a run fails.
+//! Runs of several processes: messages on the bus, and failures of single processes.
 //!
-//! Hostile clients are in `tests/hostile`: they need the bus of their process on one thread, which routers cannot have, and
-//! some of the tests here open a router in this process.
+//! Hostile clients are in `tests/hostile`: they need a bus on one thread, which a router in the same process cannot have,
+//! and some tests here open a router.
 
 mod accounts;
 mod bus;

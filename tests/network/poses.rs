@@ -1,4 +1,4 @@
-//! Poses of an actor: made and sent only while an observer is subscribed.
+//! Poses of an actor: made and sent only while an observer subscribes.
 
 use std::time::Duration;
 
@@ -7,13 +7,13 @@ use treadmill_bus::{Bus, BusOptions, Credentials, Feed, Message, PosePublisher, 
 use treadmill_humanoid::Model;
 use treadmill_proto::{PolicyBundle, Pose};
 
-/// A subscriber must not lose any to a slow test machine.
+/// Capacity of a subscriber that loses nothing on a slow machine.
 const RING: usize = 4096;
-/// Of the poses of an actor, every other control step is told.
+/// Control steps from one pose of an actor to the next.
 const STRIDE: u32 = 2;
 
 fn next(feed: &Feed) -> Pose {
-    let Message { key, payload } = feed.next(PATIENCE).expect("a pose");
+    let Message { key, payload } = feed.next(TIMEOUT).expect("a pose");
     let pose = Pose::decode_checked(&payload).unwrap();
     assert_eq!(key, format!("treadmill/run/poses/{}", pose.actor));
     pose
@@ -21,11 +21,11 @@ fn next(feed: &Feed) -> Pose {
 
 fn bundle(bus: &Bus) -> PolicyBundle {
     let runtime = tokio::runtime::Builder::new_multi_thread().enable_all().build().unwrap();
-    await_that("the policy", || runtime.block_on(fetch_policy(bus, Some("run"), PATIENCE)).unwrap())
+    await_that("the policy", || runtime.block_on(fetch_policy(bus, Some("run"), TIMEOUT)).unwrap())
 }
 
 #[test]
-fn whoever_watches_sees_episodes_from_their_start() {
+fn observers_see_episodes_from_their_start() {
     let (folder, run) = folders();
     let mut command = treadmill(folder.path());
     command.args(["learner", "--preset", "smoke", "--steps", "1000000000", "--run-dir", run.to_str().unwrap()]);
@@ -40,7 +40,7 @@ fn whoever_watches_sees_episodes_from_their_start() {
     let bundle = bundle(&bus);
     let model = Model::from_mjcf(&bundle.model_xml).unwrap();
     let feed = observe(&bus, "treadmill/run/poses/*", RING).unwrap();
-    // It has simulated for long, and begins to tell with the start of an episode: nothing was on its way before.
+    // The actor has simulated many episodes; its poses begin with the start of one, because it sent none before.
     let mut last = next(&feed);
     assert_eq!(last.step, 0);
     assert!(last.episode > 1);
@@ -52,7 +52,7 @@ fn whoever_watches_sees_episodes_from_their_start() {
         assert_eq!(pose.bodies.len(), 7 * model.bodies.len());
         assert_eq!(pose.joint_torques_nm.len(), model.hinges.len());
         if pose.episode == last.episode {
-            assert_eq!(pose.step, last.step + STRIDE, "none is left out");
+            assert_eq!(pose.step, last.step + STRIDE, "no pose is missing");
         } else {
             assert!(pose.episode > last.episode);
             assert_eq!(pose.step, 0);
@@ -64,7 +64,7 @@ fn whoever_watches_sees_episodes_from_their_start() {
 }
 
 #[test]
-fn observers_may_watch_and_actors_may_not() {
+fn observers_can_read_poses_and_actors_cannot() {
     let (folder, run) = folders();
     assert!(self::run(folder.path(), &["certs", "certs"]).status.success());
     let mut command = treadmill(folder.path());
@@ -87,7 +87,7 @@ fn observers_may_watch_and_actors_may_not() {
 }
 
 #[test]
-fn an_actor_knows_whether_anybody_watches_it() {
+fn an_actor_knows_whether_it_is_watched() {
     let listen = vec!["tcp/127.0.0.1:0".to_string()];
     let (router, endpoints) = Bus::open_router(&BusOptions { listen, ..BusOptions::default() }).unwrap();
     let join = || Bus::open_client(&BusOptions { connect: endpoints.clone(), ..BusOptions::default() }).unwrap();
@@ -100,7 +100,7 @@ fn an_actor_knows_whether_anybody_watches_it() {
     await_that("an observer", || watched.now().then_some(()));
     assert!(!other.watched().now(), "the other one is not watched");
     publisher.tell(b"a pose".to_vec());
-    assert_eq!(feed.next(PATIENCE).expect("the pose").payload, b"a pose");
+    assert_eq!(feed.next(TIMEOUT).expect("the pose").payload, b"a pose");
     drop(feed);
     await_that("no observer", || (!watched.now()).then_some(()));
     [viewer, actor, router].iter().for_each(Bus::close);

@@ -1,4 +1,4 @@
-//! The metrics page: everything that is logged, under the names that dashboard, alarms and autoscaling ask for.
+//! The metrics page: all logged metrics, under the names that dashboard, alarms and autoscaling use.
 
 use std::{
     collections::BTreeSet,
@@ -10,10 +10,10 @@ use std::{
 
 use crate::support::*;
 
-/// Status and body of one request.
+/// Sends a request, and returns status and body.
 fn ask(address: &str, method: &str, path: &str) -> Option<(u16, String)> {
     let mut stream = TcpStream::connect(address).ok()?;
-    stream.set_read_timeout(Some(PATIENCE)).expect("a timeout is set");
+    stream.set_read_timeout(Some(TIMEOUT)).expect("a timeout is set");
     write!(stream, "{method} {path} HTTP/1.1\r\nHost: {address}\r\n\r\n").ok()?;
     let mut answer = String::new();
     stream.read_to_string(&mut answer).ok()?;
@@ -25,7 +25,7 @@ fn get(address: &str, path: &str) -> Option<(u16, String)> {
     ask(address, "GET", path)
 }
 
-/// A training with its page, and the page's address.
+/// Starts a run with a metrics page, and returns the page's address.
 fn train(folder: &Path, run: &Path, more: &[&str]) -> (Running, String) {
     let mut command = treadmill(folder);
     command.args(["train", "--preset", "smoke", "--steps", "100000000", "--no-progress", "--run-dir"]);
@@ -36,13 +36,13 @@ fn train(folder: &Path, run: &Path, more: &[&str]) -> (Running, String) {
     (training, address.to_string())
 }
 
-/// Names of the gauges on a page.
+/// Returns the names of the gauges on a page.
 fn gauges(page: &str) -> BTreeSet<String> {
     let type_line = |line: &str| line.strip_prefix("# TYPE ")?.strip_suffix(" gauge").map(str::to_string);
     page.lines().filter_map(type_line).collect()
 }
 
-/// Everything in `text` that looks like the name of a gauge.
+/// Returns all words of `text` that look like the name of a gauge.
 fn names_in(text: &str) -> BTreeSet<String> {
     let is_part = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '_';
     let words = text.split(|c: char| !is_part(c)).filter(|word| word.starts_with("treadmill_"));
@@ -54,7 +54,7 @@ fn repository(path: &str) -> String {
 }
 
 #[test]
-fn the_page_has_every_metric_and_nobody_asks_for_another() {
+fn the_page_has_every_metric_that_is_logged_documented_or_queried() {
     let (folder, run) = folders();
     let often = ["--set", "eval.every_steps=5000", "--set", "eval.episodes=1"];
     let (_training, address) = train(folder.path(), &run, &often);
@@ -66,10 +66,10 @@ fn the_page_has_every_metric_and_nobody_asks_for_another() {
     });
     let exported = gauges(&page);
 
-    // What is on the page is what is logged.
+    // All logged metrics are on the page.
     let logged: Vec<(String, u64, f64)> = metrics(&run);
     for (tag, ..) in &logged {
-        assert!(exported.contains(&format!("treadmill_{}", tag.replace('/', "_"))), "{tag} is logged only");
+        assert!(exported.contains(&format!("treadmill_{}", tag.replace('/', "_"))), "{tag} is not on the page");
     }
     let row = page.lines().find(|line| line.starts_with("treadmill_time_total_timesteps{")).expect("the row");
     let (labels, value) = row.rsplit_once(' ').expect("a value");
@@ -79,7 +79,7 @@ fn the_page_has_every_metric_and_nobody_asks_for_another() {
         await_that("the same in the log", || metrics(&run).into_iter().find(|(_, step, _)| *step as f64 == value));
     assert!(step.1 > 0);
 
-    // What is documented is what is on the page, and each gauge has its help.
+    // The page's gauges are those documented, each with its help.
     let text = crate::support::page("reference/metrics");
     let documented: BTreeSet<String> = text
         .lines()
@@ -88,10 +88,10 @@ fn the_page_has_every_metric_and_nobody_asks_for_another() {
         .map(|name| if name.contains('/') { format!("treadmill_{}", name.replace('/', "_")) } else { name.to_string() })
         .collect();
     assert_eq!(documented, exported);
-    assert!(!page.contains("A metric of Treadmill"), "a help is missing");
+    assert!(!page.contains("A metric of Treadmill"), "a help text is missing");
 
-    // What dashboard, alarms and autoscaling ask for is on the page.
-    let mut asked = BTreeSet::new();
+    // Metrics that dashboard, alarms and autoscaling query are on the page.
+    let mut queried = BTreeSet::new();
     for path in [
         "deploy/observability/grafana/dashboards/treadmill.json",
         "deploy/observability/alarms.yml",
@@ -99,29 +99,29 @@ fn the_page_has_every_metric_and_nobody_asks_for_another() {
         "deploy/kubernetes/prometheus-adapter.yaml",
     ] {
         let names = names_in(&repository(path));
-        assert!(!names.is_empty(), "{path} asks for something");
-        asked.extend(names);
+        assert!(!names.is_empty(), "{path} queries no metric");
+        queried.extend(names);
     }
-    assert_eq!(asked.difference(&exported).collect::<Vec<_>>(), [""; 0].iter().collect::<Vec<_>>());
+    assert_eq!(queried.difference(&exported).collect::<Vec<_>>(), [""; 0].iter().collect::<Vec<_>>());
     let dashboard: serde_json::Value =
         serde_json::from_str(&repository("deploy/observability/grafana/dashboards/treadmill.json")).expect("JSON");
     for panel in dashboard["panels"].as_array().expect("panels") {
         for target in panel["targets"].as_array().into_iter().flatten() {
-            let question = target["expr"].as_str().expect("an expression");
-            assert!(!names_in(question).is_empty(), "`{question}` asks for none of ours");
+            let expression = target["expr"].as_str().expect("an expression");
+            assert!(!names_in(expression).is_empty(), "`{expression}` queries no metric of Treadmill");
         }
     }
 }
 
 #[test]
-fn slow_clients_hold_up_neither_others_nor_training() {
+fn slow_clients_delay_neither_others_nor_training() {
     let (folder, run) = folders();
     let (_training, address) = train(folder.path(), &run, &[]);
-    // More than are served at a time, and none of them ever finishes its question.
+    // More connections than are served at a time, none of which completes its request.
     let slow: Vec<TcpStream> = (0..200)
         .map(|_| {
             let mut stream = TcpStream::connect(&address).expect("the port is open");
-            // A connection that is refused at once ends here.
+            // Fails if the connection was refused at once.
             let _ = stream.write_all(b"GET /metrics HTTP/1.1\r\nHost:");
             stream
         })
@@ -133,15 +133,15 @@ fn slow_clients_hold_up_neither_others_nor_training() {
     drop(slow);
     assert_eq!(ask(&address, "POST", "/metrics").map(|(status, _)| status), Some(405));
     assert_eq!(get(&address, "/").map(|(status, _)| status), Some(404));
-    // A question that never ends is cut off, and the next one is answered.
+    // An overlong request is cut off, and the next one is answered.
     let _ = get(&address, &format!("/{}", "x".repeat(1_000_000)));
     assert_eq!(get(&address, "/healthz").map(|(status, _)| status), Some(200));
 }
 
 #[test]
-fn a_training_thread_without_progress_is_told() {
+fn a_stalled_training_thread_is_reported() {
     let (folder, run) = folders();
-    // One update takes seconds, and the page is told to find that too long.
+    // One update takes seconds, longer than the limit set for the page.
     let long = ["ppo.batch=32768", "ppo.minibatch=512", "ppo.epochs=100", "ppo.target_kl=0"];
     let mut more = vec!["--stalled-after-s", "1"];
     more.extend(long.iter().flat_map(|pair| ["--set", pair]));
@@ -155,12 +155,12 @@ fn a_training_thread_without_progress_is_told() {
 }
 
 #[test]
-fn an_address_that_cannot_be_is_refused_before_anything_is_written() {
+fn an_unusable_address_is_refused_before_anything_is_written() {
     let (folder, run) = folders();
     let refused = |address: &str, code, parts: &[&str]| {
         let args = ["train", "--preset", "smoke", "--prometheus", address, "--run-dir", run.to_str().unwrap()];
         assert_refused(&self::run(folder.path(), &args), code, parts);
-        assert!(!run.exists(), "nothing is left behind by {address}");
+        assert!(!run.exists(), "{address} left a folder behind");
     };
     refused("0.0.0.0:0", 2, &["--prometheus 0.0.0.0:0", "--prometheus-open", "127.0.0.1"]);
     refused("localhost", 2, &["--prometheus", "localhost"]);

@@ -1,4 +1,4 @@
-//! Links with certificates: a fleet trains over them, also through a router, and clients without one are refused.
+//! Links with certificates: a fleet trains over them, also through a router, and clients of another authority are refused.
 
 use std::{fs, os::unix::fs::PermissionsExt, path::Path, process::Command};
 
@@ -17,7 +17,7 @@ fn certs(folder: &Path, args: &[&str]) {
 }
 
 #[test]
-fn a_fleet_with_certificates_trains_by_way_of_a_router() {
+fn a_fleet_with_certificates_trains_through_a_router() {
     let (folder, run) = folders();
     certs(folder.path(), &["certs"]);
     let learner = Running::start(learner(folder.path(), &run));
@@ -36,10 +36,11 @@ fn a_fleet_with_certificates_trains_by_way_of_a_router() {
 }
 
 #[test]
-fn a_router_takes_turns_on_one_core_where_links_are_encrypted() {
+fn an_encrypted_router_runs_on_one_core() {
     let (folder, _) = folders();
     certs(folder.path(), &["certs"]);
-    // Of every thread of the bus, of which those that read and write links are made by the first link: on how many cores it may run, and whether others interrupt it when they wake up (0) or not (3).
+    // Returns for every thread of the bus the number of its cores and its scheduling policy. Threads that read and write links
+    // exist after the first link.
     let threads = |args: &[&str]| {
         let mut command = treadmill(folder.path());
         command.arg("router").args(args);
@@ -50,23 +51,23 @@ fn a_router_takes_turns_on_one_core_where_links_are_encrypted() {
             let name = fs::read_to_string(task.path().join("comm")).unwrap();
             ["acc-", "net-", "rx-", "tx-"].iter().any(|kind| name.starts_with(kind))
         });
-        let told = of_the_bus.map(|task| {
-            // SAFETY: numbers in, a number out.
+        let facts = of_the_bus.map(|task| {
+            // SAFETY: takes and returns numbers.
             let policy = unsafe { libc::sched_getscheduler(task.file_name().to_str().unwrap().parse().unwrap()) };
             let status = fs::read_to_string(task.path().join("status")).unwrap();
             let cores = status.lines().find_map(|line| line.strip_prefix("Cpus_allowed:")).unwrap().trim();
             (cores.bytes().filter_map(|digit| char::from(digit).to_digit(16)).map(u32::count_ones).sum::<u32>(), policy)
         });
-        told.collect::<Vec<_>>()
+        facts.collect::<Vec<_>>()
     };
     let encrypted = threads(&["--listen", "tls/127.0.0.1:0", "--tls", "certs"]);
-    assert!(!encrypted.is_empty() && encrypted.iter().all(|told| *told == (1, libc::SCHED_BATCH)), "{encrypted:?}");
+    assert!(!encrypted.is_empty() && encrypted.iter().all(|facts| *facts == (1, libc::SCHED_BATCH)), "{encrypted:?}");
     let plain = threads(&["--listen", "tcp/127.0.0.1:0"]);
-    assert!(!plain.is_empty() && plain.iter().all(|told| told.1 == libc::SCHED_OTHER), "{plain:?}");
+    assert!(!plain.is_empty() && plain.iter().all(|(_, policy)| *policy == libc::SCHED_OTHER), "{plain:?}");
 }
 
 #[test]
-fn an_actor_of_another_authority_stays_outside() {
+fn an_actor_of_another_authority_is_refused() {
     let (folder, run) = folders();
     certs(folder.path(), &["certs"]);
     certs(folder.path(), &["others"]);
@@ -75,7 +76,7 @@ fn an_actor_of_another_authority_stays_outside() {
     let mut command = treadmill(folder.path());
     command.args(["actor", "--envs", "4", "--tls", "others", "--connect", &endpoint]);
     let stranger = Running::start(command);
-    stranger.wait_for("nobody answers");
+    stranger.wait_for("no answer; retrying");
     let mut command = treadmill(folder.path());
     command.args(["actor", "--envs", "4", "--tls", "certs", "--name", "friend", "--connect", &endpoint]);
     let _friend = Running::start(command);
@@ -84,7 +85,7 @@ fn an_actor_of_another_authority_stays_outside() {
 }
 
 #[test]
-fn certificates_are_made_once_and_keys_are_for_their_owner_alone() {
+fn certificates_are_created_once_and_only_the_owner_can_read_keys() {
     let (folder, _) = folders();
     certs(folder.path(), &["certs", "--host", "learner.example"]);
     let read = |name: &str| fs::read(folder.path().join("certs").join(name)).unwrap();

@@ -1,4 +1,4 @@
-//! The actor in Python: its mathematics against ours, and a short run with a real environment.
+//! The Python actor: its mathematics compared with the Rust code, and short runs with a real environment.
 
 use std::{path::PathBuf, process::Command};
 
@@ -17,12 +17,12 @@ fn python_folder() -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("python")
 }
 
-/// What python/tests/golden.json must hold: a small policy, and what we make of some observations with it.
+/// Returns the expected content of python/tests/golden.json: a small policy and its results for some observations.
 fn golden() -> serde_json::Value {
     let wavy = |count: usize, step: f32| (0..count).map(|i| (i as f32 * step).sin()).collect::<Vec<f32>>();
     let shape = NetworkShape { observation: 4, action: 2, hidden: vec![5, 3] };
     let mut parameters = wavy(shape.parameter_count(), 0.7);
-    // One deviation within the range that it is kept in, one beyond.
+    // One standard deviation within the allowed range, one beyond.
     parameters[shape.log_std()].copy_from_slice(&[-0.5, 2.5]);
     let mut moments = RunningMoments::new(4);
     moments.update(&wavy(40, 1.3).iter().map(|x| x * 30.0 + 2.0).collect::<Vec<_>>(), 4);
@@ -66,7 +66,7 @@ fn golden() -> serde_json::Value {
 }
 
 #[test]
-fn the_numbers_that_python_is_tested_against_are_ours() {
+fn the_golden_numbers_of_the_python_tests_are_up_to_date() {
     let path = python_folder().join("tests/golden.json");
     let now = golden();
     if std::env::var_os("TREADMILL_WRITE_GOLDEN").is_some() {
@@ -83,12 +83,12 @@ fn the_numbers_that_python_is_tested_against_are_ours() {
         };
         let (kept, now) = (numbers(&kept), numbers(&now));
         assert_eq!(kept.len(), now.len());
-        // Another processor's products may be summed in another order.
+        // Other processors may sum products in another order.
         assert!(kept.iter().zip(&now).all(|(kept, now)| (kept - now).abs() < 1e-5), "{field}: {kept:?} {now:?}");
     }
 }
 
-/// A Python with what the actor needs; `modules` beside it.
+/// Returns a Python with `modules` and the package of the actor.
 fn python(modules: &str) -> Option<Command> {
     let mut command = python_with(modules)?;
     command.env("PYTHONPATH", python_folder());
@@ -105,7 +105,7 @@ fn the_python_package_passes_its_own_tests() {
 }
 
 #[test]
-fn a_python_actor_trains_through_our_learner_and_outlives_it() {
+fn a_python_actor_trains_and_outlives_its_learner() {
     let Some(mut python) = python("gymnasium, google.protobuf, mujoco, numpy, zenoh") else { return };
     let (folder, run) = folders();
     let path = run.to_str().unwrap().to_string();
@@ -113,7 +113,7 @@ fn a_python_actor_trains_through_our_learner_and_outlives_it() {
         let free = std::net::TcpListener::bind("127.0.0.1:0").unwrap();
         free.local_addr().unwrap().port()
     };
-    // The same port for the second learner, which the actor must find.
+    // The second learner uses the same port, so that the actor finds it.
     let listen = format!("tcp/127.0.0.1:{port}");
     let learner = |more: &[&str]| {
         let mut command = treadmill(folder.path());
@@ -137,7 +137,7 @@ fn a_python_actor_trains_through_our_learner_and_outlives_it() {
     actor.wait_for("joined run `run`");
     // The recording example writes the experience as arrays.
     let recorded = folder.path().join("recorded");
-    let mut record = self::python("google.protobuf, numpy, zenoh").expect("it is there, as above");
+    let mut record = self::python("google.protobuf, numpy, zenoh").expect("a Python, as above");
     record.arg(python_folder().join("examples/actor/record.py")).arg(&recorded).args([
         "--connect",
         &listen,

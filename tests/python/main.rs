@@ -1,4 +1,4 @@
-//! The actor in Python. The scripts beside this file are for other tests, which let Python read what Treadmill wrote.
+//! The Python actor. Other tests use the scripts beside this file to read Treadmill's files in Python.
 
 mod actor;
 #[path = "../support/mod.rs"]

@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-"""Reads a folder's event files as TensorBoard does and prints JSON.
+"""Reads the event files of a folder with TensorBoard's code and prints JSON.
 
 Usage: read_events.py FOLDER    (needs the PyPI package `tensorboard`)
 
 {"points": {tag: [[step, value], ...]}, "histograms": {tag: [[step, rows], ...]}, "hparams": {...}}: scalars have numbers
-as values, texts have strings, histograms have rows of left edge, right edge and count. "hparams" is what the HPARAMS tab
-shows of the folder as a log directory with this one run: columns, and for each session its values, status and metrics.
+as values, texts have strings, histograms have rows of left edge, right edge and count. "hparams" is the content of the
+HPARAMS tab for the parent folder: columns, and for each session its values, status and metrics.
 Exit code 2 means wrong usage.
 """
 
@@ -26,7 +26,7 @@ SIZES = {event_accumulator.SCALARS: EVERYTHING, event_accumulator.TENSORS: EVERY
 
 
 def read(folder):
-    """Scalars and texts, and histograms; several event files count as one run, as in TensorBoard."""
+    """Returns scalars and texts, and histograms. Several event files count as one run, as in TensorBoard."""
     accumulator = event_accumulator.EventAccumulator(str(folder), size_guidance=SIZES)
     accumulator.Reload()
     tags = accumulator.Tags()
@@ -47,7 +47,7 @@ def read(folder):
 
 
 def hparams(logdir):
-    """What TensorBoard's own HPARAMS tab makes of a log directory."""
+    """Returns the content of TensorBoard's HPARAMS tab for a log directory."""
     multiplexer = plugin_event_multiplexer.EventMultiplexer().AddRunsFromDirectory(str(logdir))
     multiplexer.Reload()
     provider = data_provider.MultiplexerDataProvider(multiplexer, str(logdir))

@@ -1,5 +1,5 @@
-"""Checks an ONNX model with ONNX's own checker, runs it in onnxruntime on the observations of a trace, all at once and the first
-one alone, and prints the actions as JSON, one list each.
+"""Checks an ONNX model with ONNX's checker and runs it in onnxruntime on the observations of a trace, all at once and the
+first one alone. Prints each action as a JSON list.
 
 Usage: run_onnx.py MODEL TRACE
 """

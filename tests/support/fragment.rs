@@ -1,8 +1,8 @@
-//! A fragment for those who send one themselves.
+//! Valid fragment for tests that send one themselves.
 
 use treadmill_proto::{Fragment, PolicyBundle};
 
-/// A sound fragment of one transition.
+/// Returns a valid fragment of one transition.
 pub fn fragment(bundle: &PolicyBundle, actor: &str, sequence: u64) -> Fragment {
     let (width, action) = (bundle.observation_size as usize, bundle.action_size as usize);
     Fragment {

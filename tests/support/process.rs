@@ -1,4 +1,4 @@
-//! Processes under test, and waiting for what they do. The viewer's tests use this file, too.
+//! Processes under test, and waiting for conditions. The viewer's tests use this file too.
 
 use std::{
     io::{BufRead, BufReader},
@@ -7,16 +7,16 @@ use std::{
     time::{Duration, Instant},
 };
 
-use super::PATIENCE;
+use super::TIMEOUT;
 
-/// A process that is killed when the test is over, however it ends.
+/// Process that is killed when it is dropped.
 pub struct Running {
     child: Child,
     lines: Receiver<String>,
 }
 
 impl Running {
-    /// Starts and follows standard output and standard error.
+    /// Starts a process and reads its standard output and standard error.
     pub fn start(mut command: Command) -> Self {
         let mut child = command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().expect("the binary starts");
         let (sender, lines) = channel();
@@ -36,21 +36,21 @@ impl Running {
         Self { child, lines }
     }
 
-    /// The process's number.
+    /// Returns the process ID.
     pub fn pid(&self) -> u32 {
         self.child.id()
     }
 
-    /// Waits for a line that contains `part`.
+    /// Waits for a line that contains `part`, and returns it.
     pub fn wait_for(&self, part: &str) -> String {
-        let until = Instant::now() + PATIENCE;
+        let until = Instant::now() + TIMEOUT;
         let mut seen = Vec::new();
         loop {
             match self.lines.recv_timeout(until.saturating_duration_since(Instant::now())) {
                 Ok(line) if line.contains(part) => return line,
                 Ok(line) => seen.push(line),
                 Err(RecvTimeoutError::Timeout) => panic!("no line with `{part}`; seen: {seen:#?}"),
-                Err(RecvTimeoutError::Disconnected) => panic!("it ended without `{part}`; seen: {seen:#?}"),
+                Err(RecvTimeoutError::Disconnected) => panic!("the process ended without `{part}`; seen: {seen:#?}"),
             }
         }
     }
@@ -60,10 +60,10 @@ impl Running {
         send_signal(self.pid(), signal);
     }
 
-    /// Waits for the end; all lines not read before, and the status.
+    /// Waits for the end. Returns the status and all lines not read before.
     pub fn wait(mut self) -> (ExitStatus, Vec<String>) {
-        let status = await_that("the process ends", || self.child.try_wait().expect("it can be waited for"));
-        // Both streams are closed now, or will be once a killed process's children are gone.
+        let status = await_that("the end of the process", || self.child.try_wait().expect("a child"));
+        // The streams stay open until the children of a killed process are gone.
         let mut lines = Vec::new();
         while let Ok(line) = self.lines.recv_timeout(Duration::from_secs(5)) {
             lines.push(line);
@@ -81,19 +81,19 @@ impl Drop for Running {
 
 /// Sends a signal to any process.
 pub fn send_signal(pid: u32, signal: i32) {
-    // SAFETY: kill takes two numbers and touches no memory of ours.
+    // SAFETY: kill takes two numbers and accesses no memory.
     let sent = unsafe { libc::kill(pid as i32, signal) };
     assert_eq!(sent, 0, "process {pid} cannot be signalled");
 }
 
-/// Looks until `look` finds something.
-pub fn await_that<T>(what: &str, mut look: impl FnMut() -> Option<T>) -> T {
-    let until = Instant::now() + PATIENCE;
+/// Polls until `poll` returns something. `what` describes it.
+pub fn await_that<T>(what: &str, mut poll: impl FnMut() -> Option<T>) -> T {
+    let until = Instant::now() + TIMEOUT;
     loop {
-        if let Some(found) = look() {
+        if let Some(found) = poll() {
             return found;
         }
-        assert!(Instant::now() < until, "waited in vain: {what}");
+        assert!(Instant::now() < until, "timed out waiting for {what}");
         std::thread::sleep(Duration::from_millis(10));
     }
 }

@@ -1,37 +1,37 @@
-//! Policies are evaluated while training goes on, and the best by evaluation is kept.
+//! Evaluation during training, and the best checkpoint chosen by it.
 
 use crate::support::*;
 use treadmill_bus::{Assignment, Bus, BusOptions, ask_for_evaluation};
 use treadmill_learner::checkpoint::load_file;
 
 #[test]
-fn policies_are_evaluated_while_training_goes_on() {
+fn policies_are_evaluated_during_training() {
     let (folder, run) = folders();
     let mut command = treadmill(folder.path());
     command.args(["train", "--preset", "smoke", "--steps", "1000000000", "--run-dir", run.to_str().unwrap()]);
     command.args(["--set", "eval.every_steps=2048", "--set", "eval.episodes=3"]);
     let training = Running::start(command);
-    let told = |tag: &str| -> Vec<(u64, f64)> {
+    let values = |tag: &str| -> Vec<(u64, f64)> {
         metrics(&run).into_iter().filter(|(name, ..)| name == tag).map(|(_, step, value)| (step, value)).collect()
     };
-    await_that("three evaluations", || (told("eval/mean_reward").len() >= 3).then_some(()));
+    await_that("three evaluations", || (values("eval/mean_reward").len() >= 3).then_some(()));
     training.signal(libc::SIGINT);
     assert!(training.wait().0.success());
 
-    // One evaluation tells all of its figures, of a policy that is older than the step at which it is told.
-    let returns = told("eval/mean_reward");
+    // Every evaluation logs all its figures, of a policy older than the step at which it is logged.
+    let returns = values("eval/mean_reward");
     for tag in ["eval/std_reward", "eval/mean_ep_length", "eval/distance_mean_m", "eval/velocity_mean_mps"] {
-        assert_eq!(told(tag).len(), returns.len(), "{tag}");
+        assert_eq!(values(tag).len(), returns.len(), "{tag}");
     }
-    for ((_, length), (_, fallen)) in told("eval/mean_ep_length").iter().zip(told("eval/fall_fraction")) {
+    for ((_, length), (_, fallen)) in values("eval/mean_ep_length").iter().zip(values("eval/fall_fraction")) {
         assert!((1.0..1000.0).contains(length) && fallen == 1.0, "an untrained humanoid falls: {length} {fallen}");
     }
-    let evaluated = told("eval/total_timesteps");
-    for (told_at, steps) in &evaluated {
-        assert!(*steps >= 2048.0 && *steps <= *told_at as f64, "{steps} {told_at}");
+    let evaluated = values("eval/total_timesteps");
+    for (logged_at, steps) in &evaluated {
+        assert!(*steps >= 2048.0 && *steps <= *logged_at as f64, "{steps} {logged_at}");
     }
 
-    // The best checkpoint is the one with the best evaluation, and holds that very policy.
+    // The best checkpoint holds the policy with the best evaluation.
     let best = returns.iter().map(|(_, value)| *value).fold(f64::MIN, f64::max);
     let latest = load_file(&run.join("checkpoints/latest.bundle")).unwrap();
     assert!(latest.best_is_evaluated);
@@ -42,7 +42,7 @@ fn policies_are_evaluated_while_training_goes_on() {
 }
 
 #[test]
-fn forged_reports_are_not_believed() {
+fn forged_reports_are_ignored() {
     let (folder, run) = folders();
     let mut command = treadmill(folder.path());
     command.args(["train", "--preset", "smoke", "--steps", "1000000000", "--run-dir", run.to_str().unwrap()]);

@@ -1,4 +1,4 @@
-//! Trainings from start to end: determinism, resumption, evaluation, TensorBoard, GPUs.
+//! Training runs from start to end: determinism, resuming, evaluation, TensorBoard, GPUs.
 
 #[cfg(feature = "cuda")]
 mod cuda;

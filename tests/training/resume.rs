@@ -1,4 +1,4 @@
-//! Deterministic runs that were stopped, killed or damaged: they end with the bits of one that ran through.
+//! Deterministic runs that were stopped, killed or damaged end bit-identical to an uninterrupted run.
 
 use std::{fs, path::Path};
 
@@ -18,7 +18,7 @@ const SMALL: [&str; 8] = [
     "--set",
     "learner.checkpoint_every_updates=2",
 ];
-/// What the preset sim2sim randomises, pushed more often, under all that Gymnasium's environment observes.
+/// Randomisation of the preset sim2sim with more pushes, and the observation of Gymnasium's environment.
 const RANDOMISED: [&str; 18] = [
     "--set",
     "env.observation=gymnasium-v5",
@@ -60,7 +60,7 @@ fn resume(folder: &Path, run: &Path, updates: u64, more: &[&str]) -> (TrainingSt
     (latest(run), stderr(&output))
 }
 
-/// Bit for bit the same, but for what names processes and tells the time.
+/// Asserts bit-identical states, apart from names of processes and times.
 fn assert_same(found: &TrainingState, wanted: &TrainingState) {
     let bits = |numbers: &[f32]| numbers.iter().map(|number| number.to_bits()).collect::<Vec<_>>();
     assert!(bits(&found.parameters) == bits(&wanted.parameters), "other parameters");
@@ -82,7 +82,7 @@ fn assert_same(found: &TrainingState, wanted: &TrainingState) {
 }
 
 #[test]
-fn five_updates_and_five_more_are_ten() {
+fn five_updates_and_five_resumed_updates_equal_ten() {
     for more in [&[][..], &RANDOMISED[..]] {
         let (folder, whole) = folders();
         let wanted = begin(folder.path(), &whole, 10, more);
@@ -93,7 +93,7 @@ fn five_updates_and_five_more_are_ten() {
         assert_ne!(half.parameters, wanted.parameters);
         let (found, _) = resume(folder.path(), &halves, 10, &[]);
         assert_same(&found, &wanted);
-        // Once more from the middle, by a kept checkpoint: the actor's state is in each of them.
+        // Again from a kept checkpoint: each holds the actor's state.
         let (found, _) = resume(folder.path(), &halves, 10, &["--checkpoint", "8"]);
         assert_eq!(found.counters.resumes, 2);
         assert_same(&found, &wanted);
@@ -101,7 +101,7 @@ fn five_updates_and_five_more_are_ten() {
 }
 
 #[test]
-fn neither_ctrl_c_nor_a_kill_at_any_moment_changes_a_bit() {
+fn neither_ctrl_c_nor_a_kill_changes_a_bit() {
     let (folder, run) = folders();
     let endless = (1_000_000 * BATCH).to_string();
     let name = run.to_str().unwrap();
@@ -109,7 +109,7 @@ fn neither_ctrl_c_nor_a_kill_at_any_moment_changes_a_bit() {
     for signal in [libc::SIGKILL, libc::SIGINT, libc::SIGKILL] {
         let mut command = treadmill(folder.path());
         if updates == 0 {
-            // Most of the time goes into the updates, so that most signals come in the middle of one.
+            // Updates take most of the time, so that most signals arrive during one.
             command.args(SMALL).args(["--run-dir", name, "--set", "ppo.epochs=10"]);
         } else {
             command.args(["train", "--resume", name]);
@@ -122,11 +122,11 @@ fn neither_ctrl_c_nor_a_kill_at_any_moment_changes_a_bit() {
         let actors = children(training.pid(), "actor");
         training.signal(signal);
         training.wait();
-        await_that("the actor is gone", || actors.iter().all(|pid| !is_running(*pid)).then_some(()));
+        await_that("the end of the actor", || actors.iter().all(|pid| !is_running(*pid)).then_some(()));
         updates = latest(&run).counters.updates;
     }
-    let (found, told) = resume(folder.path(), &run, updates + 2, &[]);
-    assert!(!told.contains("begins new episodes"), "{told}");
+    let (found, errors) = resume(folder.path(), &run, updates + 2, &[]);
+    assert!(!errors.contains("begins new episodes"), "{errors}");
     let whole = folder.path().join("whole");
     let wanted = begin(folder.path(), &whole, updates + 2, &["--set", "ppo.epochs=10"]);
     assert_same(&found, &wanted);
@@ -137,35 +137,35 @@ fn a_damaged_latest_checkpoint_is_reported_and_the_newest_sound_one_used() {
     let (folder, run) = folders();
     let wanted = begin(folder.path(), &run, 6, &["--set", "learner.keep_checkpoints=2"]);
     let latest = run.join("checkpoints/latest.bundle");
-    let sound = fs::read(&latest).unwrap();
-    let mut flipped = sound.clone();
+    let valid = fs::read(&latest).unwrap();
+    let mut flipped = valid.clone();
     *flipped.last_mut().unwrap() ^= 1;
     let numbered = run.join("checkpoints/00000006.bundle");
-    for (damaged, why) in [(&flipped[..], "checksum"), (&sound[..sound.len() / 2], "truncated"), (&[], "header")] {
+    for (damaged, why) in [(&flipped[..], "checksum"), (&valid[..valid.len() / 2], "truncated"), (&[], "header")] {
         fs::write(&latest, damaged).unwrap();
         fs::write(&numbered, damaged).unwrap();
-        // It is as new.
+        // It is as new as the latest.
         fs::remove_file(run.join("checkpoints/best.bundle")).unwrap();
         let eval =
             self::run(folder.path(), &["eval", run.to_str().unwrap(), "--checkpoint", "latest", "--episodes", "1"]);
         assert!(eval.status.success(), "{}", stderr(&eval));
         assert!(stderr(&eval).contains("00000004.bundle"), "{}", stderr(&eval));
-        assert_eq!(fs::read(&latest).unwrap(), damaged, "who only reads leaves it as it is");
+        assert_eq!(fs::read(&latest).unwrap(), damaged, "`eval` does not change it");
         let named = self::run(folder.path(), &["train", "--resume", run.to_str().unwrap(), "--checkpoint", "6"]);
         assert_refused(&named, 1, &["00000006.bundle", why, "--checkpoint"]);
 
-        let (found, told) = resume(folder.path(), &run, 6, &[]);
+        let (found, errors) = resume(folder.path(), &run, 6, &[]);
         for part in
             ["latest.bundle` is damaged", "00000006.bundle` is damaged", why, "00000004.bundle`, after 4 updates"]
         {
-            assert!(told.contains(part), "`{part}` is missing in: {told}");
+            assert!(errors.contains(part), "`{part}` is missing in: {errors}");
         }
         assert_same(&found, &wanted);
     }
 }
 
 #[test]
-fn an_actor_that_the_saved_state_does_not_fit_says_so_and_begins_anew() {
+fn an_actor_that_does_not_fit_the_saved_state_warns_and_begins_new_episodes() {
     let (folder, run) = folders();
     begin(folder.path(), &run, 2, &[]);
     let mut command = treadmill(folder.path());
@@ -176,8 +176,8 @@ fn an_actor_that_the_saved_state_does_not_fit_says_so_and_begins_anew() {
     let mut command = treadmill(folder.path());
     command.args(["actor", "--connect", &endpoint(&run), "--envs", "4", "--name", "actor-0"]);
     let actor = Running::start(command);
-    let told = actor.wait_for("begins new episodes");
-    assert!(told.contains("it has 8 environments, and here are 4"), "{told}");
+    let warning = actor.wait_for("begins new episodes");
+    assert!(warning.contains("it has 8 environments, and here are 4"), "{warning}");
     assert!(learner.wait().0.success());
     let state = latest(&run);
     assert_eq!(state.counters.updates, 4);

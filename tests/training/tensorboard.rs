@@ -1,11 +1,11 @@
-//! The event files, read back by TensorBoard's own readers.
+//! Event files, read by TensorBoard itself.
 
 use std::{fs, path::Path, process::Command};
 
 use crate::support::*;
 use serde_json::Value;
 
-/// What TensorBoard reads in a run's folder.
+/// Returns what TensorBoard reads in a run folder.
 fn read(python: &Command, run: &Path) -> Value {
     let script = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/python/read_events.py");
     let output = Command::new(python.get_program()).arg(script).arg(run).output().expect("Python starts");
@@ -39,17 +39,8 @@ fn tensorboard_reads_the_same_scalars_as_metrics_jsonl() {
     assert!(compared > 8 * 30, "eight updates of some thirty tags each, {compared} compared");
 }
 
-#[test]
-fn tensorboard_shows_what_a_run_is_how_its_actions_are_spread_and_compares_it() {
-    let Some(python) = python_with("tensorboard") else { return };
-    let (folder, run) = folders();
-    let run_name = run.to_str().unwrap();
-    let train = ["train", "--preset", "smoke", "--steps", "6144", "--run-dir", run_name, "--set", "ppo.gamma=0.97"];
-    assert!(self::run(folder.path(), &train).status.success());
-    let first = read(&python, &run);
-
-    // Every key of the configuration as it is in the run's folder, and what was changed in bold.
-    let text = first["points"]["config"][0][1].as_str().unwrap();
+/// Asserts that the table of the configuration has every key of the saved one, changed keys in bold.
+fn assert_configuration(text: &str, run: &Path) {
     assert!(text.contains("| ppo.gamma | **0.97** | 0.99 |"), "{text}");
     let config: toml::Table = fs::read_to_string(run.join("config.toml")).unwrap().parse().unwrap();
     let mut compared = 0;
@@ -62,6 +53,18 @@ fn tensorboard_shows_what_a_run_is_how_its_actions_are_spread_and_compares_it() 
         }
     }
     assert!(compared > 60 && text.lines().count() == compared + 2, "{compared} keys");
+}
+
+#[test]
+fn tensorboard_shows_configuration_histograms_and_hyperparameters() {
+    let Some(python) = python_with("tensorboard") else { return };
+    let (folder, run) = folders();
+    let run_name = run.to_str().unwrap();
+    let train = ["train", "--preset", "smoke", "--steps", "6144", "--run-dir", run_name, "--set", "ppo.gamma=0.97"];
+    assert!(self::run(folder.path(), &train).status.success());
+    let first = read(&python, &run);
+
+    assert_configuration(first["points"]["config"][0][1].as_str().unwrap(), &run);
     assert!(first["points"]["command"][0][1].as_str().unwrap().contains("train --preset smoke --steps 6144"));
     assert!(first["points"]["versions"][0][1].as_str().unwrap().contains(env!("CARGO_PKG_VERSION")));
 
@@ -100,7 +103,7 @@ fn tensorboard_shows_what_a_run_is_how_its_actions_are_spread_and_compares_it() 
     let best = last_value(&run, "rollout/distance_best_m").unwrap();
     assert!((session["metrics"]["rollout/distance_best_m"].as_f64().unwrap() - best).abs() < 1e-6);
 
-    // A run that goes on has one row still, and says from where on which configuration holds.
+    // A resumed run still has one row, and its text shows each configuration from its first step.
     assert!(self::run(folder.path(), &["train", "--resume", run_name, "--steps", "8192"]).status.success());
     let second = read(&python, &run);
     assert_eq!(steps(&second["points"]["config"]), [0, 6144]);
@@ -118,18 +121,18 @@ fn tensorboard_shows_what_a_run_is_how_its_actions_are_spread_and_compares_it() 
 }
 
 #[test]
-fn a_run_that_failed_is_told_as_failed() {
+fn a_failed_run_has_the_status_failure() {
     let Some(python) = python_with("tensorboard") else { return };
     let (folder, run) = folders();
     let mut command = treadmill(folder.path());
     command.args(["train", "--preset", "smoke", "--steps", "1000000000", "--run-dir", "run"]);
     let training = Running::start(command);
     await_steps(&run, 512);
-    // From here on nothing can be saved.
+    // From now on, saving fails.
     fs::rename(run.join("checkpoints"), run.join("elsewhere")).unwrap();
     assert_eq!(training.wait().0.code(), Some(1));
-    let told = read(&python, &run);
-    let sessions = told["hparams"]["sessions"].as_array().unwrap();
+    let events = read(&python, &run);
+    let sessions = events["hparams"]["sessions"].as_array().unwrap();
     assert_eq!(sessions.len(), 1);
     assert_eq!(sessions[0]["status"], serde_json::json!(["STATUS_FAILURE"]));
 }

@@ -1,4 +1,4 @@
-//! `train` as a user sees it: runs to its end, stops when asked, goes on where it was.
+//! `train` as users see it: runs to the end, stops on request, resumes.
 
 use std::fs;
 
@@ -14,8 +14,18 @@ fn smoke(folder: &std::path::Path, run: &std::path::Path, more: &[&str]) -> std:
     self::run(folder, &args)
 }
 
+/// Asserts that the banner has the lines of its sample in README.md.
+fn assert_lines_of_readme(output: &str) {
+    let readme = fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/README.md")).unwrap();
+    let sample = readme.split("```text\n").nth(1).and_then(|rest| rest.split("```").next()).unwrap();
+    let (before, _) = output.split_once("  resume    ").unwrap();
+    let label = |line: &str| line.chars().take("  learns    ".len()).collect::<String>();
+    let labels = |banner: &str| banner.lines().skip(1).map(label).collect::<Vec<_>>();
+    assert_eq!(labels(sample), labels(&format!("{before}  resume    ")));
+}
+
 #[test]
-fn a_run_leaves_everything_a_user_looks_for() {
+fn a_run_prints_its_banner_and_leaves_all_files() {
     let (folder, run) = folders();
     let output = smoke(folder.path(), &run, &[]);
     assert!(output.status.success(), "{}", stderr(&output));
@@ -29,9 +39,9 @@ fn a_run_leaves_everything_a_user_looks_for() {
         (&"run".into(), &8192.into(), &0.into())
     );
     assert_eq!(summary["updates"], 16);
-    let told = stdout(&output);
+    let text = stdout(&output);
     for part in [
-        "learns    to go forward and not to fall, in 8192 env steps (16 updates)",
+        "to go forward and not to fall, in 8192 env steps (16 updates); the remaining time appears once the speed is known",
         "watch     treadmill status --watch ",
         "film      treadmill eval ",
         "resume    treadmill train --resume ",
@@ -39,8 +49,9 @@ fn a_run_leaves_everything_a_user_looks_for() {
         "reached: return ",
         "see how far it walks: treadmill eval ",
     ] {
-        assert!(told.contains(part), "`{part}` is missing in: {told}");
+        assert!(text.contains(part), "`{part}` is missing in: {text}");
     }
+    assert_lines_of_readme(&text);
 
     for file in [
         "config.toml",
@@ -56,7 +67,7 @@ fn a_run_leaves_everything_a_user_looks_for() {
     assert!(fs::read_to_string(run.join("command.txt")).unwrap().contains("train --preset smoke"));
     assert!(fs::read(run.join("learning_curve.png")).unwrap().starts_with(b"\x89PNG"));
     let events = fs::read_dir(&run).unwrap().flatten();
-    // One, and one that says how the run ended.
+    // One for the metrics and one for the final status.
     assert_eq!(
         events.filter(|entry| entry.file_name().to_string_lossy().starts_with("events.out.tfevents.")).count(),
         2
@@ -72,20 +83,17 @@ fn a_run_leaves_everything_a_user_looks_for() {
     ] {
         assert!(metrics.iter().any(|(name, ..)| name == tag), "{tag}");
     }
-    assert_eq!(
-        metrics.iter().filter(|(name, ..)| name == "train/learning_rate").count(),
-        16,
-        "one line for each update"
-    );
+    let updates = metrics.iter().filter(|(name, ..)| name == "train/learning_rate").count();
+    assert_eq!(updates, 16, "one line for each update");
     let documented = page("reference/metrics");
     for (tag, ..) in &metrics {
         assert!(documented.contains(&format!("| `{tag}` |")), "docs/reference/metrics.md does not explain {tag}");
     }
-    assert_eq!(last_value(&run, "bus/policy_lag_max"), Some(0.0), "actors keep step with the learner");
+    assert_eq!(last_value(&run, "bus/policy_lag_max"), Some(0.0), "actors work in lock-step with the learner");
 }
 
 #[test]
-fn a_picture_of_learning_is_there_long_before_the_end() {
+fn the_learning_curve_appears_during_the_run() {
     let (folder, run_folder) = folders();
     let path = run_folder.to_str().unwrap();
     let mut command = treadmill(folder.path());
@@ -103,7 +111,7 @@ fn a_picture_of_learning_is_there_long_before_the_end() {
 }
 
 #[test]
-fn who_waits_says_for_what_and_who_wants_no_progress_gets_none() {
+fn a_waiting_learner_reports_the_reason_and_progress_can_be_turned_off() {
     let (folder, run_folder) = folders();
     let path = run_folder.to_str().unwrap();
     let mut command = treadmill(folder.path());
@@ -118,7 +126,7 @@ fn who_waits_says_for_what_and_who_wants_no_progress_gets_none() {
 }
 
 #[test]
-fn the_full_observations_of_gymnasium_can_be_learnt_from() {
+fn training_works_with_the_full_observations_of_gymnasium() {
     for (preset, size, task) in [("walk-v5obs", 348, "humanoid-v5"), ("walk-v4obs", 376, "humanoid-v4")] {
         let (folder, run) = folders();
         let small = ["ppo.batch=512", "ppo.minibatch=256", "ppo.epochs=2", "policy.hidden=[16]", "rollout.envs=8"];
@@ -136,13 +144,13 @@ fn the_full_observations_of_gymnasium_can_be_learnt_from() {
             assert!(last_value(&run, tag).unwrap().is_finite(), "{preset} {tag}");
         }
         assert_eq!(last_value(&run, "train/undone_updates"), Some(0.0), "{preset}");
-        // Masses and the world's rows never change; the statistics know that, and nothing is made of it.
+        // Masses and the world's rows are constant; their variance is zero, and the normaliser handles that.
         let variances = state.observation_moments.variance();
         assert!(variances.iter().filter(|variance| **variance < 1e-12).count() >= 13, "{preset}");
         assert!(variances.iter().all(|variance| variance.is_finite()));
         let output = self::run(folder.path(), &["eval", run.to_str().unwrap(), "--episodes", "1", "--json"]);
         assert_eq!(last_json(&output)["episodes"], 1, "{}", stderr(&output));
-        // Open ranges and the kind of observation go with the exported policy.
+        // The exported policy holds open ranges and the kind of observation.
         let exported = folder.path().join("policy.safetensors");
         let args = ["export", run.to_str().unwrap(), "--safetensors", exported.to_str().unwrap()];
         assert!(self::run(folder.path(), &args).status.success());
@@ -152,7 +160,7 @@ fn the_full_observations_of_gymnasium_can_be_learnt_from() {
 }
 
 #[test]
-fn mirror_images_are_learnt_with_also_after_a_resume() {
+fn training_with_mirror_images_continues_after_a_resume() {
     let (folder, run) = folders();
     let output = smoke(folder.path(), &run, &["--set", "ppo.symmetry=mirrored"]);
     assert!(output.status.success(), "{}", stderr(&output));
@@ -160,7 +168,7 @@ fn mirror_images_are_learnt_with_also_after_a_resume() {
     let resumed = self::run(folder.path(), &args);
     assert!(resumed.status.success(), "{}", stderr(&resumed));
     assert_eq!(last_json(&resumed)["updates"], 24);
-    // A step is taken per minibatch, and there are twice as many of them as without images.
+    // One gradient step per minibatch, and mirror images double the number of minibatches.
     let steps =
         |run: &std::path::Path| load_file(&run.join("checkpoints/latest.bundle")).unwrap().counters.gradient_steps;
     let (plain_folder, plain) = folders();
@@ -188,7 +196,7 @@ fn the_same_seed_gives_the_same_weights_bit_for_bit() {
 }
 
 #[test]
-fn resume_goes_on_with_everything() {
+fn resume_restores_all_state() {
     let (folder, run) = folders();
     assert!(smoke(folder.path(), &run, &["--steps", "4096"]).status.success());
     let before = load_file(&run.join("checkpoints/latest.bundle")).unwrap();
@@ -205,12 +213,12 @@ fn resume_goes_on_with_everything() {
     assert_ne!(after.lineage.newest().incarnation, before.lineage.newest().incarnation);
     let steps: Vec<u64> =
         metrics(&run).iter().filter(|(tag, ..)| tag == "train/std").map(|(_, step, _)| *step).collect();
-    assert_eq!(steps, (1..=16).map(|update| update * 512).collect::<Vec<u64>>(), "no step is missing or told twice");
+    assert_eq!(steps, (1..=16).map(|update| update * 512).collect::<Vec<u64>>(), "no step is missing or logged twice");
     assert_eq!(last_json(&output)["env_steps"], 8192);
 }
 
 #[test]
-fn the_first_ctrl_c_saves_and_says_how_to_go_on() {
+fn the_first_ctrl_c_saves_and_prints_the_resume_command() {
     let (folder, run) = folders();
     let mut command = treadmill(folder.path());
     command.args(["train", "--preset", "smoke", "--steps", "100000000", "--run-dir", run.to_str().unwrap()]);
@@ -223,7 +231,7 @@ fn the_first_ctrl_c_saves_and_says_how_to_go_on() {
     let (status, _) = training.wait();
     assert!(status.success(), "{status}");
     assert!(resume.contains(&format!("treadmill train --resume {}", run.display())));
-    await_that("the actors are gone", || actors.iter().all(|pid| !is_running(*pid)).then_some(()));
+    await_that("the end of the actors", || actors.iter().all(|pid| !is_running(*pid)).then_some(()));
     let saved = load_file(&run.join("checkpoints/latest.bundle")).unwrap().counters.env_steps;
     assert_eq!(last_value(&run, "time/total_timesteps"), Some(saved as f64));
     let steps = (saved + 512).to_string();
@@ -232,15 +240,15 @@ fn the_first_ctrl_c_saves_and_says_how_to_go_on() {
 }
 
 #[test]
-fn the_second_ctrl_c_ends_it_at_once() {
+fn the_second_ctrl_c_ends_the_process_at_once() {
     let (folder, run) = folders();
     let mut command = treadmill(folder.path());
     command.args(["train", "--preset", "smoke", "--run-dir", run.to_str().unwrap()]);
     command.args(["--set", "ppo.epochs=100", "--set", "ppo.batch=65536", "--set", "ppo.minibatch=16"]);
     command.args(["--steps", "100000000"]);
     let training = Running::start(command);
-    // The first update takes long, a hundred epochs of four thousand gradient steps: Ctrl-C finds the learner in it.
-    await_that("the training thread is busy", || {
+    // The first update is long: a hundred epochs of four thousand gradient steps. Ctrl-C arrives during it.
+    await_that("a busy training thread", || {
         let threads = fs::read_dir(format!("/proc/{}/task", training.pid())).ok()?;
         let busy = threads.flatten().any(|thread| {
             let name = fs::read_to_string(thread.path().join("comm")).unwrap_or_default();

@@ -7,8 +7,9 @@ use std::path::PathBuf;
 #[non_exhaustive]
 pub enum ModelError {
     /// The text is not readable MJCF.
-    #[error("the model text is not valid MJCF")]
-    Parse(#[source] mjcf_rs::ParseError),
+    // Not a `#[source]`: its message repeats its own cause.
+    #[error("the model text is not valid MJCF: {0}")]
+    Parse(mjcf_rs::ParseError),
     /// The text is MJCF, but uses something this environment does not simulate.
     #[error("model element `{element}`: {problem}")]
     Unsupported {

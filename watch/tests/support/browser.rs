@@ -11,7 +11,7 @@ use std::{
 use base64::prelude::{BASE64_STANDARD, Engine};
 use serde_json::{Value, json};
 
-use super::{PATIENCE, picture::Picture, skip};
+use super::{TIMEOUT, picture::Picture, skip};
 
 /// Width and height of the page.
 pub const SIZE: (u32, u32) = (1280, 720);
@@ -88,7 +88,7 @@ impl Browser {
         }
         let text = format!("{message}\0");
         self.input.write_all(text.as_bytes()).expect("the browser listens");
-        let until = Instant::now() + PATIENCE;
+        let until = Instant::now() + TIMEOUT;
         loop {
             let left = until.saturating_duration_since(Instant::now());
             let answer = self.messages.recv_timeout(left).unwrap_or_else(|why| panic!("no answer to {method}: {why}"));
@@ -136,7 +136,7 @@ impl Browser {
 
     /// Looks until the page looks as it should.
     pub fn look_until(&mut self, page: &Page, what: &str, mut is_right: impl FnMut(&Picture) -> bool) -> Picture {
-        let until = Instant::now() + PATIENCE;
+        let until = Instant::now() + TIMEOUT;
         loop {
             let picture = self.look(page);
             if is_right(&picture) {

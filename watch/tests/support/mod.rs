@@ -15,7 +15,7 @@ use std::{
 pub use process::*;
 
 /// Nothing in these tests takes this long unless it is broken; a browser without a GPU takes a while for its first picture.
-pub const PATIENCE: Duration = Duration::from_secs(300);
+pub const TIMEOUT: Duration = Duration::from_secs(300);
 
 /// The root of the repository.
 pub fn root() -> &'static Path {
