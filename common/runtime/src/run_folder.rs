@@ -40,7 +40,7 @@ pub enum RunFolderError {
         known: String,
     },
     /// The folder already holds a run.
-    #[error("`{path}` already holds a run; go on with it by `--resume {path}`, or choose another --run-dir")]
+    #[error("`{path}` already holds a run; continue it with `--resume {path}`, or choose another --run-dir")]
     Taken {
         /// The folder.
         path: String,

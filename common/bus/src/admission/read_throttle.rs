@@ -1,7 +1,7 @@
 //! Throttle on floods: reads a link more slowly while it brings more messages than an honest peer sends.
 //!
 //! Callbacks run on the thread that reads a link. While a callback sleeps, nothing is read from that link, the sender's
-//! buffers fill, and the sender must wait. Other links go on: the runtime moves them to another thread first.
+//! buffers fill, and the sender must wait. Other links continue, because the runtime first moves them to another thread.
 
 use std::{
     cell::Cell,

@@ -127,16 +127,19 @@ pub(super) fn access() -> Value {
 
 /// Returns the size limits of messages to learners and routers, by key; larger messages are dropped on arrival.
 pub(super) fn sizes() -> Value {
-    let rule = |id: &str, message: &str, key: &str, bytes: usize| json!({"id": id, "flows": IN, "messages": [message], "key_exprs": [key], "size_limit": bytes});
     json!([
-        rule("rollouts", "query", "treadmill/*/rollouts/*", FRAGMENT_BYTES_MAX + SMALL_BYTES_MAX),
-        rule("evaluations", "query", "treadmill/*/evaluations/*", SMALL_BYTES_MAX),
-        rule("policies", "query", "treadmill/*/policy/*", SMALL_BYTES_MAX),
-        rule("control", "query", "treadmill/*/control", SMALL_BYTES_MAX),
-        rule("statistics", "put", "treadmill/*/actors/*/stats", STATS_BYTES_MAX),
-        rule("episodes", "put", "treadmill/*/episodes/*", STATS_BYTES_MAX),
-        rule("poses", "put", "treadmill/*/poses/*", POSE_BYTES_MAX),
+        size_limit("rollouts", "query", "treadmill/*/rollouts/*", FRAGMENT_BYTES_MAX + SMALL_BYTES_MAX),
+        size_limit("evaluations", "query", "treadmill/*/evaluations/*", SMALL_BYTES_MAX),
+        size_limit("policies", "query", "treadmill/*/policy/*", SMALL_BYTES_MAX),
+        size_limit("control", "query", "treadmill/*/control", SMALL_BYTES_MAX),
+        size_limit("statistics", "put", "treadmill/*/actors/*/stats", STATS_BYTES_MAX),
+        size_limit("episodes", "put", "treadmill/*/episodes/*", STATS_BYTES_MAX),
+        size_limit("poses", "put", "treadmill/*/poses/*", POSE_BYTES_MAX),
     ])
+}
+
+fn size_limit(id: &str, message: &str, key: &str, bytes: usize) -> Value {
+    json!({"id": id, "flows": IN, "messages": [message], "key_exprs": [key], "size_limit": bytes})
 }
 
 /// One permission of a role.

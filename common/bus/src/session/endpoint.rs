@@ -21,8 +21,8 @@ pub fn check(endpoint: &str, insecure: bool) -> Result<(), BusError> {
         "tls" => Ok(()),
         "tcp" if insecure || is_loopback(host) => Ok(()),
         "tcp" => refuse(
-            "plain tcp beyond loopback can be read and forged by anybody on the network; use tls/HOST:PORT with \
-             --tls DIR (certificates: `treadmill certs DIR`), or say --insecure where the network itself is trusted",
+            "plain tcp beyond loopback can be read and forged by any host on the network; use tls/HOST:PORT with \
+             --tls DIR (certificates: `treadmill certs DIR`), or --insecure on a trusted network",
         ),
         _ => refuse("the protocol must be tcp or tls"),
     }

@@ -7,7 +7,7 @@ use std::time::Duration;
 
 use zenoh::{Session, Wait};
 
-/// Time after which the process goes on without the session being closed.
+/// Time to wait for the session to close.
 const CLOSE_TIMEOUT: Duration = Duration::from_secs(2);
 
 /// Closes the session, or abandons the attempt after [`CLOSE_TIMEOUT`].
