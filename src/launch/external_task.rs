@@ -26,7 +26,7 @@ pub async fn settle(bus: &Bus, prepared: &mut Prepared, shutdown: &Shutdown) -> 
         let shutdown = shutdown.clone();
         move || {
             while !shutdown.asked() {
-                if let Some(task) = server.settled(POLL_INTERVAL) {
+                if let Some(task) = server.accepted(POLL_INTERVAL) {
                     return Some((server, task));
                 }
             }

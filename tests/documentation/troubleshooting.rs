@@ -112,8 +112,8 @@ fn another_run_answers_and_an_actor_sends_malformed_fragments() {
         liar.send("liar", malformed.clone());
     }
     let heading = "An actor is in quarantine";
-    assert_line(heading, &learner, "was refused", &[]);
-    assert_line(heading, &learner, "quarantine", &[]);
+    assert_line(heading, &learner, "fragment rejected", &[]);
+    assert_line(heading, &learner, "sender quarantined", &[]);
 }
 
 #[test]
@@ -197,7 +197,7 @@ fn clients_without_the_right_certificate_are_refused() {
     let learner = start(folder, &[&["learner", "--preset", "smoke", "--run-dir", "run"][..], &listen].concat());
     let endpoint = endpoint(&run);
     let stranger = start(folder, &["actor", "--tls", "others", "--connect", &endpoint]);
-    assert_line("A certificate of another authority", &learner, "a connection was refused", &[]);
+    assert_line("A certificate of another authority", &learner, "connection rejected", &[]);
     drop(stranger);
     let _plain = start(folder, &["actor", "--connect", &endpoint.replace("tls/", "tcp/")]);
     assert_line("Plain text where TLS is spoken", &learner, "does not speak TLS", &[]);

@@ -102,7 +102,7 @@ fn assert_quarantine_of_malformed_fragments(tls: bool) {
         }
         let receipt = attacker.send(kind, bytes.clone()).expect("an answer");
         assert_eq!(receipt.outcome, Outcome::Quarantined, "{kind}: {receipt:?}");
-        fleet.learner.wait_for(&format!("`{kind}` is put in quarantine"));
+        fleet.learner.wait_for(&format!("sender quarantined actor={kind}"));
     }
     // Invalid names, one of them as long as a key may be.
     for name in ["Capitals".to_string(), "a".repeat(60_000)] {
@@ -166,7 +166,7 @@ fn replayed_fragments_are_not_learnt_from_and_quarantine_their_sender() {
     });
     assert_eq!(end, Outcome::Quarantined);
     assert!(duplicates > 100, "an honest actor may resend fragments: {duplicates}");
-    fleet.learner.wait_for("`replayer` is put in quarantine");
+    fleet.learner.wait_for("sender quarantined: too many duplicate or vanished fragments actor=replayer");
     fleet.assert_trains();
     fleet.end();
 }

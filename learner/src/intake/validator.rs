@@ -101,9 +101,9 @@ impl FragmentValidator {
     ) -> Result<AcceptedFragment, Rejection> {
         // Fragments can be queued before their sender is put in quarantine.
         let sender = self.gate.identify(actor, received.claimed_incarnation);
-        if self.gate.holds(&sender, now) {
+        if self.gate.is_quarantined(&sender, now) {
             self.counts.quarantined += 1;
-            let reason = format!("too many refused fragments in a row from `{actor}`; wait a minute");
+            let reason = format!("`{actor}` is in quarantine for up to 60 s");
             return Err(Rejection { outcome: Outcome::Quarantined, reason, durable_through: 0 });
         }
         let checked = received.fragment.and_then(|fragment| self.check(actor, fragment, lineage));
@@ -133,7 +133,7 @@ impl FragmentValidator {
         self.ledger.insert(actor, incarnation, sequence, entry, env_steps);
         match lag {
             Ok(lag) => {
-                self.gate.taken(actor, incarnation, now);
+                self.gate.record_accepted(actor, incarnation, now);
                 self.counts.accepted += 1;
                 self.accepted_bytes += received.bytes as u64;
                 Ok(AcceptedFragment { fragment, lag })
@@ -145,9 +145,9 @@ impl FragmentValidator {
     /// Counts a malformed fragment, which may put its sender in quarantine.
     fn refuse(&mut self, actor: &str, sender: &Sender, why: &Malformed, now: Instant) -> Rejection {
         self.counts.malformed += 1;
-        self.refusals.warn(|| format!("a fragment from `{actor}` was refused: {why}"));
-        if self.gate.failed(sender, now) {
-            self.quarantines.warn(|| format!("`{actor}` is put in quarantine"));
+        self.refusals.emit(|| tracing::warn!(%actor, error = %why, "fragment rejected"));
+        if self.gate.record_malformed(sender, now) {
+            self.quarantines.emit(|| tracing::warn!(%actor, "sender quarantined"));
         }
         Rejection { outcome: Outcome::Malformed, reason: why.to_string(), durable_through: 0 }
     }
@@ -179,9 +179,10 @@ impl FragmentValidator {
 
     /// Reports a fragment without use to admission control, which may put its sender in quarantine.
     fn report_useless(&self, sender: &Sender, now: Instant) {
-        if self.gate.useless(sender, now) {
-            let name = sender.name();
-            self.quarantines.warn(|| format!("`{name}` is put in quarantine: nothing it sent of late was of use"));
+        if self.gate.record_useless(sender, now) {
+            self.quarantines.emit(|| {
+                tracing::warn!(actor = %sender.name(), "sender quarantined: too many duplicate or vanished fragments");
+            });
         }
     }
 
@@ -205,7 +206,7 @@ impl FragmentValidator {
 
     /// Senders in quarantine.
     pub fn quarantined(&self, now: Instant) -> Vec<String> {
-        self.gate.held(now)
+        self.gate.quarantined(now)
     }
 
     fn check(&self, actor: &str, fragment: Fragment, lineage: &Lineage) -> Result<Fragment, Malformed> {
