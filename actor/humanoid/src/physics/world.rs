@@ -172,7 +172,7 @@ fn at(pose: &Isometry3<f64>) -> Pose {
 }
 
 fn collider(form: ColliderBuilder, model: &Model, config: &EnvironmentConfig, shape: &Shape) -> ColliderBuilder {
-    let touches = Group::from_bits_truncate(model.touches[shape.group]);
+    let touches = Group::from_bits_truncate(model.collision_masks[shape.group]);
     let filter = if config.self_collision { touches } else { touches & group(FLOOR_GROUP) };
     form
         // Masses are the body's: it was summed up in double precision, with overlaps as the model means them.
@@ -184,7 +184,7 @@ fn collider(form: ColliderBuilder, model: &Model, config: &EnvironmentConfig, sh
 }
 
 pub(super) fn own_friction(shape: &Shape) -> f32 {
-    if shape.rubs { shape.friction as f32 } else { 0.0 }
+    if shape.has_friction { shape.friction as f32 } else { 0.0 }
 }
 
 fn group(index: usize) -> Group {
