@@ -63,14 +63,14 @@ impl Classes {
             // Defaults of elements that are refused at every occurrence have no effect.
             if INERT.contains(&tag) || matches!(tag, "equality" | "pair" | "tendon") {
                 if tag == "tendon" {
-                    class.insert("fixed".to_owned(), own_attributes(child));
+                    class.insert("fixed".to_owned(), attributes_of(child));
                 }
                 continue;
             }
             if vocabulary::rules(tag).is_none() {
                 return Err(ModelError::unsupported(&label, format!("<{tag}> is not supported")));
             }
-            let attributes = own_attributes(child);
+            let attributes = attributes_of(child);
             for (attribute, value) in &attributes {
                 let rule = vocabulary::rule(tag, attribute).ok_or_else(|| {
                     ModelError::unsupported(&label, format!("attribute `{attribute}` of <{tag}> is not supported"))
@@ -114,7 +114,7 @@ impl Classes {
             Some(attributes) => attributes.clone(),
             None => Vec::new(),
         };
-        Ok(merge(tag, under, own_attributes(node)))
+        Ok(merge(tag, under, attributes_of(node)))
     }
 
     /// Returns the class of a name; `None` for [`MAIN`] in a text without defaults.
@@ -129,7 +129,7 @@ impl Classes {
 }
 
 /// Returns an element's attributes without defaults.
-pub(super) fn own_attributes(node: Node<'_, '_>) -> Vec<Attribute> {
+pub(super) fn attributes_of(node: Node<'_, '_>) -> Vec<Attribute> {
     node.attributes().map(|attribute| (attribute.name().to_owned(), attribute.value().to_owned())).collect()
 }
 

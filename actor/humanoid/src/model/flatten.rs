@@ -7,7 +7,7 @@ use std::fmt::Write;
 
 use roxmltree::Node;
 
-use super::defaults::{ACTUATORS, Attribute, Classes, get, own_attributes};
+use super::defaults::{ACTUATORS, Attribute, Classes, attributes_of, get};
 use super::vocabulary::{self, INERT, numbers};
 use super::xml;
 use crate::error::ModelError;
@@ -31,7 +31,7 @@ pub(super) fn flatten(text: &str) -> Result<Flat, ModelError> {
     writer.open("mujoco", &[]);
     for tag in ["compiler", "option"] {
         for node in sections(root, tag) {
-            writer.open(tag, &own_attributes(node));
+            writer.open(tag, &attributes_of(node));
             writer.close(tag);
         }
     }
@@ -78,7 +78,7 @@ struct Writer {
 impl Writer {
     /// Reads everything but the robot: settings and defaults. Refuses unknown sections.
     fn read_settings(&mut self, root: Node<'_, '_>) -> Result<(), ModelError> {
-        vocabulary::check("mujoco", "mujoco", &own_attributes(root))?;
+        vocabulary::check("mujoco", "mujoco", &attributes_of(root))?;
         if let Some(include) = root.descendants().find(|node| node.has_tag_name("include")) {
             let file = include.attribute("file").unwrap_or_default();
             let problem = format!("`{file}` must be pasted in: a model is sent as one text");
@@ -92,30 +92,27 @@ impl Writer {
                         let kind = constraint.tag_name().name();
                         let coupled = ["name", "body1", "joint1", "tendon1"];
                         let name = coupled.iter().find_map(|name| constraint.attribute(*name)).unwrap_or(kind);
-                        let problem =
-                            format!("<equality><{kind}> closes a kinematic loop or couples joints; remove it");
+                        let problem = format!("<equality><{kind}> makes a kinematic loop or couples joints; remove it");
                         return Err(ModelError::unsupported(name, problem));
                     }
                 }
                 "default" => {
-                    vocabulary::check("default", tag, &own_attributes(node))?;
+                    vocabulary::check("default", tag, &attributes_of(node))?;
                     self.classes.read_main(node)?;
                 }
                 "compiler" => self.read_compiler(node)?,
                 "asset" | "option" => {
-                    vocabulary::check(tag, tag, &own_attributes(node))?;
+                    vocabulary::check(tag, tag, &attributes_of(node))?;
                     for child in elements(node) {
                         let kind = child.tag_name().name();
                         match kind {
                             _ if tag == "asset" && INERT.contains(&kind) => {}
-                            "flag" if tag == "option" => {
-                                vocabulary::check("option flag", kind, &own_attributes(child))?
-                            }
+                            "flag" if tag == "option" => vocabulary::check("option flag", kind, &attributes_of(child))?,
                             _ => return Err(ModelError::unsupported(tag, format!("<{kind}> is not supported"))),
                         }
                     }
                 }
-                "worldbody" | "contact" | "tendon" | "actuator" => vocabulary::check(tag, tag, &own_attributes(node))?,
+                "worldbody" | "contact" | "tendon" | "actuator" => vocabulary::check(tag, tag, &attributes_of(node))?,
                 _ if INERT.contains(&tag) => {}
                 _ => return Err(ModelError::unsupported("mujoco", format!("<{tag}> is not supported"))),
             }
@@ -124,7 +121,7 @@ impl Writer {
     }
 
     fn read_compiler(&mut self, node: Node<'_, '_>) -> Result<(), ModelError> {
-        let attributes = own_attributes(node);
+        let attributes = attributes_of(node);
         vocabulary::check("compiler", "compiler", &attributes)?;
         if let Some(sequence) = get(&attributes, "eulerseq")
             && (sequence.len() != 3 || !sequence.bytes().all(|axis| b"xyzXYZ".contains(&axis)))
@@ -164,13 +161,13 @@ impl Writer {
                         None => format!("body {}", self.bodies + 1),
                     };
                     self.bodies += 1;
-                    let attributes = self.check_and_name("body", &label, own_attributes(child), "body")?;
+                    let attributes = self.checked("body", &label, attributes_of(child), "body")?;
                     self.open(tag, &attributes);
                     self.write_tree(child, child.attribute("childclass").or(class), &label, &mut Counts::default())?;
                     self.close(tag);
                 }
                 "frame" => {
-                    let attributes = own_attributes(child);
+                    let attributes = attributes_of(child);
                     vocabulary::check(&format!("frame in {owner}"), tag, &attributes)?;
                     self.open(tag, &attributes);
                     self.write_tree(child, child.attribute("childclass").or(class), owner, counts)?;
@@ -185,7 +182,7 @@ impl Writer {
                 "joint" | "freejoint" => {
                     let label = label_of(child, "joint", owner, counts);
                     let attributes = self.classes.with_defaults(child, class, &label)?;
-                    let attributes = self.check_and_name(tag, &label, attributes, "joint")?;
+                    let attributes = self.checked(tag, &label, attributes, "joint")?;
                     self.record_torque_range(&label, &attributes)?;
                     self.open(tag, &attributes);
                     self.close(tag);
@@ -197,7 +194,7 @@ impl Writer {
                         return Err(ModelError::unsupported(&label, problem));
                     }
                     let attributes = self.classes.with_defaults(child, class, &label)?;
-                    let attributes = self.check_and_name(tag, &label, attributes, "geom")?;
+                    let attributes = self.checked(tag, &label, attributes, "geom")?;
                     self.open(tag, &attributes);
                     self.close(tag);
                 }
@@ -209,7 +206,7 @@ impl Writer {
     }
 
     fn write_inertial(&mut self, node: Node<'_, '_>, owner: &str) -> Result<(), ModelError> {
-        let attributes = own_attributes(node);
+        let attributes = attributes_of(node);
         let label = format!("inertial of {owner}");
         vocabulary::check(&label, "inertial", &attributes)?;
         for needed in ["pos", "mass"] {
@@ -221,10 +218,7 @@ impl Writer {
             (Some(_), None) => {}
             (None, Some(_)) if vocabulary::ORIENTATIONS.iter().all(|turn| get(&attributes, turn).is_none()) => {}
             (None, Some(_)) => {
-                return Err(ModelError::unsupported(
-                    &label,
-                    "`fullinertia` is in the body's axes; remove the orientation",
-                ));
+                return Err(ModelError::unsupported(&label, "`fullinertia` allows no orientation"));
             }
             _ => return Err(ModelError::unsupported(&label, "give either `diaginertia` or `fullinertia`")),
         }
@@ -244,20 +238,15 @@ impl Writer {
             if section == "actuator" {
                 // MuJoCo keeps one set of defaults for all actuators, `mjcf-rs` one for each kind.
                 if let Some(other) = self.classes.actuators.iter().find(|other| *other != tag) {
-                    let problem = format!(
-                        "defaults of <{other}> apply to it; with actuator defaults, all actuators must be of one kind"
-                    );
+                    let problem = format!("defaults of <{other}> apply to it: all actuators must be of one kind");
                     return Err(ModelError::unsupported(&label, problem));
                 }
             }
             let attributes = self.classes.with_defaults(child, None, &label)?;
             let attributes = match own_name(child) {
-                Some(_) => self.check_and_name(
-                    kind,
-                    &label,
-                    attributes,
-                    if section == "actuator" { "actuator" } else { kind },
-                )?,
+                Some(_) => {
+                    self.checked(kind, &label, attributes, if section == "actuator" { "actuator" } else { kind })?
+                }
                 None => {
                     vocabulary::check(&label, kind, &attributes)?;
                     without_class(attributes)
@@ -284,7 +273,7 @@ impl Writer {
             if !term.has_tag_name("joint") {
                 return Err(ModelError::unsupported(label, format!("<{}> is not supported", term.tag_name().name())));
             }
-            let attributes = own_attributes(term);
+            let attributes = attributes_of(term);
             vocabulary::check(label, "term", &attributes)?;
             let joint = get(&attributes, "joint").unwrap_or_default();
             if !self.names.contains(&("joint", joint.to_owned())) {
@@ -297,7 +286,7 @@ impl Writer {
     }
 
     /// Checks an element's attributes and sets its name, which must be unique among elements of its `kind`.
-    fn check_and_name(
+    fn checked(
         &mut self,
         tag: &str,
         label: &str,

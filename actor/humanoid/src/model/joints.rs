@@ -29,10 +29,7 @@ pub(super) fn read_hinge(joint: &Joint, autolimits: bool, torque_nm: Option<[f64
     match joint.type_ {
         JointType::Hinge => {}
         JointType::Free => {
-            return Err(ModelError::unsupported(
-                &name,
-                "only the root, directly below the world, may have a free joint",
-            ));
+            return Err(ModelError::unsupported(&name, "only the root may have a free joint"));
         }
         JointType::Ball | JointType::Slide => {
             let kind = format!("{:?}", joint.type_).to_lowercase();

@@ -28,7 +28,7 @@ fn read_one(actuator: &Actuator, hinges: &[Hinge], autolimits: bool) -> Result<M
     let hinge = hinges
         .iter()
         .position(|hinge| Some(hinge.name.as_str()) == actuator.joint.as_deref())
-        .ok_or_else(|| ModelError::unsupported(&name, "its `joint` is not a hinge of this model"))?;
+        .ok_or_else(|| ModelError::unsupported(&name, "its `joint` is not a hinge of the model"))?;
     let gear = actuator.gear[0];
     if gear == 0.0 {
         return Err(ModelError::figure(&name, "gear", gear, "other than 0"));

@@ -65,11 +65,7 @@ fn impossible_states_are_refused_by_name_and_change_nothing() {
         (&spoilt(2, f64::NAN), &still, "position[2], the root z, is NaN, but must be a finite number"),
         (&spoilt(13, f64::INFINITY), &still, "position[13], the angle of hinge `right_knee`, is inf"),
         (&nominal, &fast, "velocity[9], the rate of hinge `right_hip_x`, is -inf"),
-        (
-            &spoilt(3, 0.0),
-            &still,
-            "the root quaternion position[3..7] is [0.0, 0.0, 0.0, 0.0], which is not a rotation",
-        ),
+        (&spoilt(3, 0.0), &still, "the root quaternion position[3..7] is [0.0, 0.0, 0.0, 0.0], which is not"),
         (&spoilt(3, 1e300), &still, "which is not a rotation: give w, x, y, z of length 1"),
         (
             &spoilt(8, 0.7),

@@ -118,10 +118,7 @@ fn the_compilers_mass_rules_are_mujocos() {
     assert!((body(&by_shapes, "arm").mass_kg - 1.832_595_714_594).abs() < 1e-9);
     assert_eq!(body(&by_shapes, "flat").mass_kg, 1.0, "without geoms its <inertial> counts");
     let never = ODD.replacen("angle=\"radian\"", "angle=\"radian\" inertiafromgeom=\"false\"", 1);
-    assert!(
-        (Model::from_mjcf(&never).expect("valid").bodies[0].mass_kg - 0.5).abs() < 1e-12,
-        "only the tip has an <inertial>"
-    );
+    assert!((Model::from_mjcf(&never).expect("valid").bodies[0].mass_kg - 0.5).abs() < 1e-12, "only the tip's counts");
 }
 
 /// Built-in humanoid in the notation of Gymnasium's file: other defaults, visual elements, inert tendons.

@@ -319,8 +319,7 @@ fn tendons_that_exert_force_are_refused_by_name() {
 #[test]
 fn tendons_that_only_measure_are_accepted() {
     let harmless = "<fixed name=\"left_hipknee\" limited=\"false\" range=\"-1 1\" stiffness=\"0\" damping=\"0.0\">";
-    let model = Model::from_mjcf(&changed(HUMANOID_XML, "<fixed name=\"left_hipknee\">", harmless))
-        .expect("it exerts no force");
+    let model = Model::from_mjcf(&changed(HUMANOID_XML, "<fixed name=\"left_hipknee\">", harmless)).expect("no force");
     let names: Vec<&str> = model.tendons.iter().map(|tendon| tendon.name.as_str()).collect();
     assert_eq!(names, ["left_hipknee", "right_hipknee"]);
     let hinge = |name: &str| model.hinges.iter().position(|hinge| hinge.name == name).expect("is a hinge");
