@@ -1,12 +1,11 @@
-"""Speed beside Gymnasium's Humanoid-v5 on MuJoCo, in turns, so that whatever else the machine does hits both.
+"""Compares the speed with Gymnasium's Humanoid-v5 on MuJoCo, in alternating rounds, so that other load affects both.
 
 Usage: pip install "./python/treadmill_gym[train]" "gymnasium[mujoco]"
        bench.py [--rounds N] [--envs N] [--without-ppo]
 
-Random actions are drawn beforehand; resets are part of the time. What runs on one core is measured in processor time, which other
-programs on the machine disturb less; where nothing else runs it is the same as time on the clock. Training is Stable-Baselines3's
-PPO with "MlpPolicy": as in the tutorial with one environment, and with --envs of them. A third environment that does nothing
-shows what of the time is PPO's own.
+Random actions are drawn in advance; resets count. Workloads on one core are measured in processor time, which other programs
+disturb less than wall-clock time. Training is Stable-Baselines3's PPO with "MlpPolicy": with one environment as in the
+tutorial, and with --envs of them. An environment that does nothing shows PPO's share of the time.
 """
 
 import argparse
@@ -26,7 +25,7 @@ OURS, THEIRS = "treadmill/Humanoid-v0", "Humanoid-v5"
 
 
 class Idle(gymnasium.Env):
-    """The spaces of the humanoid, episodes of 25 steps, and nothing behind them."""
+    """Environment with the humanoid's spaces and episodes of 25 steps that computes nothing."""
 
     observation_space = gymnasium.spaces.Box(-np.inf, np.inf, (348,), np.float64)
     action_space = gymnasium.spaces.Box(-0.4, 0.4, (17,), np.float32)
@@ -41,12 +40,12 @@ class Idle(gymnasium.Env):
         return np.zeros(348), 5.0, self.left == 0, False, {}
 
 
-#: Time of this process's threads together.
+#: Processor time of all threads of this process, and wall-clock time.
 CPU, CLOCK = time.process_time, time.perf_counter
 
 
 def single(name, seconds, **keywords):
-    """Steps per second of one environment."""
+    """Returns the steps per second of one environment."""
     env = gymnasium.make(name, **keywords)
     actions = np.random.default_rng(1).uniform(-0.4, 0.4, (1000, 17)).astype(np.float32)
     env.reset(seed=1)
@@ -62,7 +61,7 @@ def single(name, seconds, **keywords):
 
 
 def vector(name, count, seconds, now=CPU, **keywords):
-    """Steps per second of several environments together."""
+    """Returns the steps per second of several environments together."""
     env = gymnasium.make_vec(name, count, **keywords)
     actions = np.random.default_rng(1).uniform(-0.4, 0.4, (50, count, 17)).astype(np.float32)
     env.reset(seed=1)
@@ -76,12 +75,12 @@ def vector(name, count, seconds, now=CPU, **keywords):
 
 
 def ppo(make, count, total):
-    """Steps per second of PPO's whole work: environments, policy, updates."""
+    """Returns the steps per second of PPO: environments, policy and updates."""
     from stable_baselines3 import PPO
 
-    # As many steps between two updates as in tutorial_3_ppo.py.
-    more = {} if count == 1 else {"n_steps": max(1, 8192 // count), "batch_size": 512}
-    model = PPO("MlpPolicy", make(), seed=1, device="cpu", **more)
+    # The same number of steps between updates as in tutorial_3_ppo.py.
+    options = {} if count == 1 else {"n_steps": max(1, 8192 // count), "batch_size": 512}
+    model = PPO("MlpPolicy", make(), seed=1, device="cpu", **options)
     started = CPU()
     model.learn(total_timesteps=total)
     taken = CPU() - started
@@ -90,14 +89,14 @@ def ppo(make, count, total):
 
 
 def dummies(make, count):
-    """The environments of Stable-Baselines3 around `count` of Gymnasium's."""
+    """Wraps `count` Gymnasium environments for Stable-Baselines3."""
     from stable_baselines3.common.vec_env import DummyVecEnv, VecMonitor
 
     return VecMonitor(DummyVecEnv([make] * count))
 
 
-def ours_at_once(count):
-    """All in one call."""
+def humanoids(count):
+    """Returns `count` humanoids that are stepped in one call."""
     from stable_baselines3.common.vec_env import VecMonitor
 
     from treadmill_gym.sb3 import HumanoidVecEnv
@@ -106,13 +105,13 @@ def ours_at_once(count):
 
 
 def processor():
-    """Its name, as Linux tells it."""
+    """Returns the processor's name, from Linux where possible."""
     lines = Path("/proc/cpuinfo").read_text().splitlines() if Path("/proc/cpuinfo").exists() else []
     return next((line.split(":")[1].strip() for line in lines if line.startswith("model name")), platform.processor())
 
 
 def compare(title, rounds, sides):
-    """Runs all sides in turn; prints medians, and the ratios of each round to the first side. Returns the medians."""
+    """Runs all sides in alternating rounds. Prints and returns medians; also prints each round's ratio to the first side."""
     rates = {name: [] for name in sides}
     for _ in range(rounds):
         for name, run in sides.items():
@@ -127,18 +126,18 @@ def compare(title, rounds, sides):
 
 
 def main():
-    """Everything."""
+    """Runs all comparisons."""
     flags = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     flags.add_argument("--rounds", type=int, default=7)
-    flags.add_argument("--seconds", type=float, default=1.0, help="of each environment in each round")
+    flags.add_argument("--seconds", type=float, default=1.0, help="duration of each environment in each round")
     flags.add_argument("--envs", type=int, default=64)
-    flags.add_argument("--ppo-steps", type=int, default=4096, help="with one environment; four times as many with several")
+    flags.add_argument("--ppo-steps", type=int, default=4096, help="steps with one environment; four times as many with several")
     flags.add_argument("--without-ppo", action="store_true")
     args = flags.parse_args()
     packages = ["gymnasium", "mujoco", "numpy"] + ([] if args.without_ppo else ["torch", "stable_baselines3"])
-    told = ", ".join(f"{name} {version(name)}" for name in packages)
-    print(f"{processor()}, {os.cpu_count()} cores, load {os.getloadavg()[0]:.1f}; Python {platform.python_version()}, {told}")
-    print(f"{args.rounds} rounds in turn; medians. × is to the first row of each table, round by round.")
+    versions = ", ".join(f"{name} {version(name)}" for name in packages)
+    print(f"{processor()}, {os.cpu_count()} cores, load {os.getloadavg()[0]:.1f}; Python {platform.python_version()}, {versions}")
+    print(f"{args.rounds} alternating rounds; medians. × is the ratio to the first row of each table, round by round.")
     n, s = args.envs, args.seconds
     compare(
         "Environment, one core, random actions, processor time",
@@ -153,7 +152,7 @@ def main():
     )
     cores, each_its_own = os.cpu_count(), {"vectorization_mode": "async"}
     compare(
-        f"Environments, all {cores} cores, random actions, time on the clock",
+        f"Environments, all {cores} cores, random actions, wall-clock time",
         args.rounds,
         {
             f"`make_vec`, {cores} of {THEIRS} (AsyncVectorEnv)": lambda: vector(THEIRS, cores, s, CLOCK, **each_its_own),
@@ -164,7 +163,7 @@ def main():
         return
     import torch
 
-    # So that its threads do not wait for each other in a time that is counted.
+    # With one thread, waiting does not count as processor time.
     torch.set_num_threads(1)
     tutorial = compare(
         "Training as in the tutorial: PPO, one environment, one core, processor time",
@@ -181,7 +180,7 @@ def main():
         {
             f"{THEIRS}, DummyVecEnv": lambda: ppo(lambda: dummies(lambda: gymnasium.make(THEIRS), n), n, 4 * args.ppo_steps),
             f"{OURS}, DummyVecEnv": lambda: ppo(lambda: dummies(lambda: gymnasium.make(OURS), n), n, 4 * args.ppo_steps),
-            f"{OURS}, HumanoidVecEnv": lambda: ppo(lambda: ours_at_once(n), n, 4 * args.ppo_steps),
+            f"{OURS}, HumanoidVecEnv": lambda: ppo(lambda: humanoids(n), n, 4 * args.ppo_steps),
             "nothing, DummyVecEnv": lambda: ppo(lambda: dummies(Idle, n), n, 4 * args.ppo_steps),
         },
     )

@@ -7,7 +7,7 @@ fn picture(of: impl Fn(u32, u32) -> [u8; 3]) -> Picture {
 }
 
 #[test]
-fn a_gif_shows_what_was_put_into_it() {
+fn a_decoded_gif_shows_its_pictures_with_the_right_delays() {
     let ground = |_, row| [200, 200, if row < 3 { 250 } else { 100 }];
     let pictures = [0, 1, 1, 5]
         .map(|place| picture(|column, row| if column == place { [255, 0, 0] } else { ground(column, row) }));
@@ -19,26 +19,26 @@ fn a_gif_shows_what_was_put_into_it() {
     options.set_color_output(gif::ColorOutput::RGBA);
     let mut decoder = options.read_info(&bytes[..]).unwrap();
     assert_eq!((decoder.width(), decoder.height()), (8, 6));
-    let (mut screen, mut delays) = (vec![0; 8 * 6 * 3], Vec::new());
+    let (mut shown, mut delays) = (vec![0; 8 * 6 * 3], Vec::new());
     for picture in &pictures {
-        let frame = decoder.read_next_frame().unwrap().expect("as many as were put in");
+        let frame = decoder.read_next_frame().unwrap().expect("one frame per picture");
         delays.push(frame.delay);
         for (index, rgba) in frame.buffer.as_chunks::<4>().0.iter().enumerate() {
             let at = (frame.top as usize * 8 + index) * 3;
             if rgba[3] != 0 {
-                screen[at..at + 3].copy_from_slice(&rgba[..3]);
+                shown[at..at + 3].copy_from_slice(&rgba[..3]);
             }
         }
-        let furthest = screen.iter().zip(&picture.rgb).map(|(seen, put)| seen.abs_diff(*put)).max();
-        assert!(furthest <= Some(4), "colours are chosen to be near: {furthest:?}");
+        let largest = shown.iter().zip(&picture.rgb).map(|(shown, original)| shown.abs_diff(*original)).max();
+        assert!(largest <= Some(4), "colours differ by {largest:?}");
     }
     assert!(decoder.read_next_frame().unwrap().is_none());
-    // A thirtieth of a second is no whole number of hundredths; the sum stays right.
+    // A thirtieth of a second is not a whole number of hundredths; the sum of delays is right.
     assert_eq!(delays, [3, 4, 3, 3]);
 }
 
 #[test]
-fn pictures_of_unlike_sizes_are_refused() {
+fn pictures_of_another_size_and_huge_ones_are_refused() {
     let mut gif = Gif::new(Vec::new(), 10.0);
     gif.add(&picture(|_, _| [1, 2, 3])).unwrap();
     let other = Picture { width: 4, height: 12, ..picture(|_, _| [1, 2, 3]) };
@@ -48,7 +48,7 @@ fn pictures_of_unlike_sizes_are_refused() {
 }
 
 #[test]
-fn a_png_holds_the_very_pixels() {
+fn a_png_holds_the_exact_pixels() {
     let picture = picture(|column, row| [column as u8 * 30, row as u8 * 40, 7]);
     let bytes = png(&picture).unwrap();
     let mut reader = png::Decoder::new(std::io::Cursor::new(&bytes)).read_info().unwrap();

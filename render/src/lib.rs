@@ -1,14 +1,14 @@
-//! Treadmill: pictures of a humanoid, without a window or a GPU.
+//! Ray-cast pictures of a humanoid, without a window or a GPU.
 //!
-//! Every pixel asks which shape the ray through it hits first. There are two dozen shapes and one light, so that a picture of
-//! 320 × 240 takes some milliseconds, and it is the same on every machine.
+//! Each pixel shows the first shape that its rays hit. A scene has two dozen shapes and one light, so a picture of 320 × 240
+//! pixels takes a few milliseconds. Pictures are the same on every machine.
 //!
 //! # Layout
-//! - [`scene`]: the body's shapes where the physics has them, with a colour each.
-//! - [`camera`]: from where they are seen.
-//! - [`solid`]: where a ray meets a shape.
-//! - [`picture`]: light, shadow and floor; pixels.
-//! - [`film`]: many pictures as one GIF, or as PNG files.
+//! - [`scene`]: coloured shapes of a body, at their poses.
+//! - [`camera`]: rays of a pinhole camera.
+//! - [`solid`]: intersection of a ray with a shape.
+//! - [`picture`]: light, shadow, floor and pixels.
+//! - [`film`]: encoding as GIF and PNG.
 
 pub mod camera;
 pub mod film;

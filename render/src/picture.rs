@@ -1,4 +1,4 @@
-//! Light, shadow and floor; pixels.
+//! Rendering: light, shadow, floor and pixels.
 
 use nalgebra::Vector3;
 use rayon::prelude::*;
@@ -9,44 +9,44 @@ use crate::{
     solid::Ray,
 };
 
-/// Rays through each pixel, in both directions.
+/// Rays per pixel in each direction.
 const RAYS: u32 = 2;
 const SKY: Colour = [0.80, 0.88, 0.95];
-/// The floor's squares, of one metre.
+/// Colours of the floor's squares of 1 m.
 const SQUARES: [Colour; 2] = [[0.62, 0.66, 0.70], [0.54, 0.58, 0.62]];
-/// Every so many metres there is a line across the way ahead, so that one sees how far it is.
+/// Distance of lines across the x axis (m), which show the distance walked.
 const LINE_EVERY_M: f64 = 5.0;
 const LINE_HALF_WIDTH_M: f64 = 0.04;
 const LINE: Colour = [0.95, 0.93, 0.85];
-/// The floor fades into the sky at about this distance (m).
+/// Distance at which the floor fades into the sky (m).
 const HAZE_M: f64 = 16.0;
-/// Brightness in the shade, where light comes from below and from above.
-const SHADE: [f64; 2] = [0.30, 0.52];
-/// What the lamp adds where it shines straight down on a surface.
+/// Ambient brightness of surfaces that face down and up.
+const AMBIENT: [f64; 2] = [0.30, 0.52];
+/// Brightness that the lamp adds at perpendicular incidence.
 const LAMP: f64 = 0.62;
-/// Shadows begin this far from a surface (m), which would be in its own otherwise.
+/// Distance of shadow rays' origins from the surface (m), which avoids self-shadowing.
 const LIFT_M: f64 = 1e-6;
 
-/// Pixels, three bytes each (red, green, blue), in rows from the upper left corner.
+/// RGB pixels, three bytes each, in rows from the upper left corner.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Picture {
-    /// Pixels in a row.
+    /// Width in pixels.
     pub width: u32,
-    /// Rows.
+    /// Height in pixels.
     pub height: u32,
-    /// `[height][width][3]`.
+    /// Pixels as `[height][width][3]`.
     pub rgb: Vec<u8>,
 }
 
 impl Picture {
-    /// A scene as a camera sees it, `size` = width and height. Rows are spread over rayon's threads; no pixel depends on how.
+    /// Renders a scene; `size` is width and height. Uses rayon's threads, whose number does not affect the pixels.
     ///
     /// # Panics
-    /// If a side has no pixels.
+    /// If width or height is 0.
     #[must_use]
     pub fn of(scene: &Scene, camera: &Camera, size: (u32, u32)) -> Self {
         let (width, height) = size;
-        assert!(width > 0 && height > 0, "a picture has pixels");
+        assert!(width > 0 && height > 0, "width and height must be positive");
         let mut rgb = vec![0; width as usize * height as usize * 3];
         let light = Vector3::new(0.35, -0.55, 0.95).normalize();
         rgb.par_chunks_exact_mut(width as usize * 3).enumerate().for_each(|(row, pixels)| {
@@ -66,10 +66,10 @@ impl Picture {
         Self { width, height, rgb }
     }
 
-    /// Red, green and blue of a pixel.
+    /// Returns red, green and blue of a pixel.
     ///
     /// # Panics
-    /// If there is no such pixel.
+    /// If the pixel is outside the picture.
     #[must_use]
     pub fn pixel(&self, column: u32, row: u32) -> [u8; 3] {
         let at = (row as usize * self.width as usize + column as usize) * 3;
@@ -77,13 +77,13 @@ impl Picture {
     }
 }
 
-/// What is seen along a ray.
+/// Returns the colour along a ray.
 fn colour(scene: &Scene, ray: &Ray, light: &Vector3<f64>) -> Colour {
     if let Some((hit, colour)) = scene.hit(ray) {
         let from = Ray { origin: ray.at(hit.distance_m) + hit.normal * LIFT_M, direction: *light };
         let lamp = hit.normal.dot(light).max(0.0);
         let is_lit = lamp > 0.0 && !scene.is_hit(&from);
-        return scaled(colour, shade(hit.normal.z) + if is_lit { LAMP * lamp } else { 0.0 });
+        return scaled(colour, ambient(hit.normal.z) + if is_lit { LAMP * lamp } else { 0.0 });
     }
     // The floor is the plane z = 0.
     let distance_m = -ray.origin.z / ray.direction.z;
@@ -94,12 +94,12 @@ fn colour(scene: &Scene, ray: &Ray, light: &Vector3<f64>) -> Colour {
     let from = Ray { origin: at + Vector3::z() * LIFT_M, direction: *light };
     let lamp = if scene.is_hit(&from) { 0.0 } else { LAMP * light.z };
     let haze = 1.0 - (-(distance_m / HAZE_M).powi(2)).exp();
-    mixed(scaled(floor(at.x, at.y), shade(1.0) + lamp), SKY, haze)
+    mixed(scaled(floor(at.x, at.y), ambient(1.0) + lamp), SKY, haze)
 }
 
-/// Brightness in the shade of a surface whose normal has this z.
-fn shade(up: f64) -> f64 {
-    SHADE[0] + (SHADE[1] - SHADE[0]) * (up + 1.0) / 2.0
+/// Returns the ambient brightness of a surface whose normal has this z.
+fn ambient(up: f64) -> f64 {
+    AMBIENT[0] + (AMBIENT[1] - AMBIENT[0]) * (up + 1.0) / 2.0
 }
 
 fn floor(x_m: f64, y_m: f64) -> Colour {

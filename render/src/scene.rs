@@ -1,4 +1,4 @@
-//! The body's shapes where the physics has them, with a colour each.
+//! Coloured shapes of a body, at their poses.
 
 use nalgebra::Point3;
 use treadmill_humanoid::Physics;
@@ -8,12 +8,12 @@ use crate::solid::{Ball, Hit, Ray, Solid};
 /// Red, green and blue, each from 0 to 1.
 pub type Colour = [f64; 3];
 
-/// Limbs are told apart by side: it shows which leg is in front.
+/// Limbs are coloured by side, which shows which leg is in front.
 const LEFT: Colour = [0.93, 0.55, 0.24];
 const RIGHT: Colour = [0.18, 0.56, 0.60];
 const MIDDLE: Colour = [0.85, 0.83, 0.78];
 
-/// What stands on the floor.
+/// Coloured shapes above the floor.
 #[derive(Clone, Debug)]
 pub struct Scene {
     solids: Vec<(Solid, Colour)>,
@@ -21,13 +21,13 @@ pub struct Scene {
 }
 
 impl Scene {
-    /// Nothing.
+    /// Returns a scene without shapes.
     #[must_use]
     pub fn empty() -> Self {
         Self { solids: Vec::new(), bound: None }
     }
 
-    /// The body as it is now.
+    /// Returns the shapes of a body at their current poses.
     #[must_use]
     pub fn of(physics: &Physics) -> Self {
         let model = physics.model();
@@ -42,17 +42,17 @@ impl Scene {
         Self { solids, bound }
     }
 
-    /// What a ray meets first.
+    /// Returns the first hit of a ray.
     pub(crate) fn hit(&self, ray: &Ray) -> Option<(Hit, Colour)> {
         if !self.is_near(ray) {
             return None;
         }
         let mut first: Option<(Hit, Colour)> = None;
         for (solid, colour) in &self.solids {
-            let before_m = first.map_or(f64::INFINITY, |(hit, _)| hit.distance_m);
-            if solid.may_hit(ray, before_m)
+            let nearest_m = first.map_or(f64::INFINITY, |(hit, _)| hit.distance_m);
+            if solid.may_hit(ray, nearest_m)
                 && let Some(hit) = solid.hit(ray)
-                && hit.distance_m < before_m
+                && hit.distance_m < nearest_m
             {
                 first = Some((hit, *colour));
             }
@@ -60,7 +60,7 @@ impl Scene {
         first
     }
 
-    /// Whether a ray meets anything.
+    /// Whether a ray hits any shape.
     pub(crate) fn is_hit(&self, ray: &Ray) -> bool {
         self.is_near(ray)
             && self.solids.iter().any(|(solid, _)| solid.may_hit(ray, f64::INFINITY) && solid.hit(ray).is_some())
@@ -79,7 +79,7 @@ fn bound(solids: &[(Solid, Colour)]) -> Option<Ball> {
     Some(Ball { centre, radius_m })
 }
 
-/// The colour of a part of this name, by its side.
+/// Returns the colour of a link by the side in its name.
 #[must_use]
 pub fn colour(name: &str) -> Colour {
     match (name.contains("left"), name.contains("right")) {

@@ -1,25 +1,25 @@
-//! Where a ray meets a shape.
+//! Intersection of a ray with a shape.
 
 use nalgebra::{Isometry3, Point3, Vector3};
 use treadmill_humanoid::model::Geometry;
 
-/// A half-line. `direction` has length 1.
+/// Half-line.
 #[derive(Clone, Copy, Debug)]
 pub struct Ray {
-    /// Where it begins (m).
+    /// Start (m).
     pub origin: Point3<f64>,
-    /// Where it goes.
+    /// Direction, of length 1.
     pub direction: Vector3<f64>,
 }
 
 impl Ray {
-    /// The point at a distance (m).
+    /// Returns the point at a distance (m).
     #[must_use]
     pub fn at(&self, distance_m: f64) -> Point3<f64> {
         self.origin + self.direction * distance_m
     }
 
-    fn seen_from(&self, pose: &Isometry3<f64>) -> Self {
+    fn in_frame_of(&self, pose: &Isometry3<f64>) -> Self {
         Self {
             origin: pose.inverse_transform_point(&self.origin),
             direction: pose.inverse_transform_vector(&self.direction),
@@ -27,26 +27,26 @@ impl Ray {
     }
 }
 
-/// Where a ray meets a surface first.
+/// First intersection of a ray with a surface.
 #[derive(Clone, Copy, Debug)]
 pub struct Hit {
-    /// From the ray's origin (m).
+    /// Distance from the ray's origin (m).
     pub distance_m: f64,
-    /// Away from the shape, of length 1.
+    /// Outward normal, of length 1.
     pub normal: Vector3<f64>,
 }
 
-/// Where it comes out of a surface again does not count, nor does what lies behind its origin.
+/// Smallest distance of a hit (m); excludes hits at and behind the ray's origin.
 const NEAREST_M: f64 = 1e-9;
 
-/// A shape in the world.
+/// Shape in the world.
 #[derive(Clone, Copy, Debug)]
 pub struct Solid {
     form: Form,
     pub(crate) bound: Ball,
 }
 
-/// A ball that holds all of something.
+/// Bounding sphere.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Ball {
     pub(crate) centre: Point3<f64>,
@@ -54,7 +54,7 @@ pub(crate) struct Ball {
 }
 
 impl Ball {
-    /// Whether a ray comes into it at all, before a distance.
+    /// Whether a ray enters the sphere before a distance (m).
     pub(crate) fn may_hit(&self, ray: &Ray, before_m: f64) -> bool {
         let towards = self.centre - ray.origin;
         let along = towards.dot(&ray.direction);
@@ -74,7 +74,7 @@ enum Form {
 }
 
 impl Solid {
-    /// A body's shape where the body is.
+    /// Returns a shape of a body whose pose is `body`.
     #[must_use]
     pub fn new(geometry: &Geometry, body: &Isometry3<f64>) -> Self {
         let (form, radius_m) = match *geometry {
@@ -92,27 +92,27 @@ impl Solid {
         Self { form, bound: Ball { centre: body * geometry.centre_m(), radius_m } }
     }
 
-    /// Whether a ray comes near at all, before a distance.
+    /// Whether a ray may hit the shape before a distance (m), judged by its bounding sphere.
     pub(crate) fn may_hit(&self, ray: &Ray, before_m: f64) -> bool {
         self.bound.may_hit(ray, before_m)
     }
 
-    /// Where a ray from outside enters it.
+    /// Returns where a ray from outside enters the shape.
     #[must_use]
     pub fn hit(&self, ray: &Ray) -> Option<Hit> {
         match self.form {
             Form::Sphere => sphere(ray, &self.bound.centre, self.bound.radius_m),
             Form::Capsule { from, to, radius_m } => capsule(ray, &from, &to, radius_m),
             Form::Cylinder { pose, radius_m, half_length_m } => {
-                turned(cylinder(&ray.seen_from(&pose), radius_m, half_length_m), &pose)
+                to_world(cylinder(&ray.in_frame_of(&pose), radius_m, half_length_m), &pose)
             }
-            Form::Box { pose, half_m } => turned(cuboid(&ray.seen_from(&pose), &half_m), &pose),
-            Form::Ellipsoid { pose, half_m } => turned(ellipsoid(&ray.seen_from(&pose), &half_m), &pose),
+            Form::Box { pose, half_m } => to_world(cuboid(&ray.in_frame_of(&pose), &half_m), &pose),
+            Form::Ellipsoid { pose, half_m } => to_world(ellipsoid(&ray.in_frame_of(&pose), &half_m), &pose),
         }
     }
 }
 
-fn turned(hit: Option<Hit>, pose: &Isometry3<f64>) -> Option<Hit> {
+fn to_world(hit: Option<Hit>, pose: &Isometry3<f64>) -> Option<Hit> {
     hit.map(|hit| Hit { normal: pose * hit.normal, ..hit })
 }
 
@@ -125,7 +125,7 @@ fn sphere(ray: &Ray, centre: &Point3<f64>, radius_m: f64) -> Option<Hit> {
         .then(|| Hit { distance_m, normal: (ray.at(distance_m) - centre) / radius_m })
 }
 
-/// The wall between two planes through the ends, or the ball at either end.
+/// The wall between the end planes, or the ball at either end.
 fn capsule(ray: &Ray, from: &Point3<f64>, to: &Point3<f64>, radius_m: f64) -> Option<Hit> {
     let axis = to - from;
     let length_m = axis.norm();
@@ -140,7 +140,7 @@ fn capsule(ray: &Ray, from: &Point3<f64>, to: &Point3<f64>, radius_m: f64) -> Op
     ends.into_iter().flatten().min_by(|one, other| one.distance_m.total_cmp(&other.distance_m))
 }
 
-/// Where a ray enters an endless tube around an axis of length 1, and how far along the axis that is.
+/// Returns the distance at which a ray enters an infinite tube, and the position along the axis, which has length 1.
 fn wall(ray: &Ray, from: &Point3<f64>, axis: &Vector3<f64>, radius_m: f64) -> Option<(f64, f64)> {
     let start = ray.origin - from;
     let (across, start_across) = (ray.direction - axis * ray.direction.dot(axis), start - axis * start.dot(axis));
@@ -160,7 +160,7 @@ fn cylinder(ray: &Ray, radius_m: f64, half_length_m: f64) -> Option<Hit> {
         let at = ray.at(distance_m);
         return Some(Hit { distance_m, normal: Vector3::new(at.x, at.y, 0.0) / radius_m });
     }
-    // The end that faces the ray.
+    // The end plane that faces the ray.
     let up = -ray.direction.z.signum();
     let distance_m = (up * half_length_m - ray.origin.z) / ray.direction.z;
     let at = ray.at(distance_m);
@@ -168,7 +168,7 @@ fn cylinder(ray: &Ray, radius_m: f64, half_length_m: f64) -> Option<Hit> {
         .then(|| Hit { distance_m, normal: Vector3::new(0.0, 0.0, up) })
 }
 
-/// Between three pairs of planes: inside where the last of them is entered before the first is left.
+/// Slab method: a ray hits the box if it enters the last pair of planes before it leaves the first.
 fn cuboid(ray: &Ray, half_m: &Vector3<f64>) -> Option<Hit> {
     let (mut enters, mut leaves, mut through) = (f64::NEG_INFINITY, f64::INFINITY, 0);
     for axis in 0..3 {
@@ -191,7 +191,7 @@ fn cuboid(ray: &Ray, half_m: &Vector3<f64>) -> Option<Hit> {
     (enters <= leaves && enters > NEAREST_M).then_some(Hit { distance_m: enters, normal })
 }
 
-/// A ball of radius 1 once all lengths are divided by the semi-axes.
+/// Becomes a unit sphere when all lengths are divided by the semi-axes.
 fn ellipsoid(ray: &Ray, half_m: &Vector3<f64>) -> Option<Hit> {
     let scaled = ray.direction.component_div(half_m);
     let stretch = scaled.norm();

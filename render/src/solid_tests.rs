@@ -18,8 +18,8 @@ fn forms() -> [Geometry; 5] {
     ]
 }
 
-/// Below 0 inside of a shape, above 0 outside, 0 on its surface: from what the shape is, without any ray.
-fn outside(geometry: &Geometry, at: Point3<f64>) -> f64 {
+/// Returns a number below 0 inside a shape, 0 on its surface and above 0 outside, computed without rays.
+fn level(geometry: &Geometry, at: Point3<f64>) -> f64 {
     match *geometry {
         Geometry::Sphere { centre_m, radius_m } => nalgebra::distance(&centre_m, &at) - radius_m,
         Geometry::Capsule { from_m, to_m, radius_m } => {
@@ -40,7 +40,7 @@ fn outside(geometry: &Geometry, at: Point3<f64>) -> f64 {
 
 proptest! {
     #[test]
-    fn a_ray_meets_a_shape_where_it_first_comes_inside(
+    fn a_ray_hits_a_shape_where_it_first_enters_it(
         form in 0usize..5,
         origin in prop::array::uniform3(-2.0f64..2.0),
         target in prop::array::uniform3(-0.5f64..0.5),
@@ -48,20 +48,20 @@ proptest! {
         let (geometry, body) = (forms()[form], pose());
         let solid = Solid::new(&geometry, &body);
         let (origin, target) = (Point3::from(origin), Point3::from(target));
-        let away = |at: Point3<f64>| outside(&geometry, body.inverse_transform_point(&at));
-        prop_assume!(away(origin) > 0.01 && nalgebra::distance(&origin, &target) > 0.1);
+        let level_at = |at: Point3<f64>| level(&geometry, body.inverse_transform_point(&at));
+        prop_assume!(level_at(origin) > 0.01 && nalgebra::distance(&origin, &target) > 0.1);
         let ray = Ray { origin, direction: (target - origin).normalize() };
-        // Small steps along the ray, which miss nothing but grazing hits.
-        let first = (0..4000).map(|step| f64::from(step) * 1e-3).find(|&distance| away(ray.at(distance)) < 0.0);
+        // Small steps along the ray miss only grazing hits.
+        let first = (0..4000).map(|step| f64::from(step) * 1e-3).find(|&distance| level_at(ray.at(distance)) < 0.0);
         match solid.hit(&ray) {
             Some(hit) => {
                 prop_assert!(solid.may_hit(&ray, f64::INFINITY));
                 prop_assert!(solid.may_hit(&ray, hit.distance_m + 1e-6));
-                prop_assert!(away(ray.at(hit.distance_m)).abs() < 1e-9);
+                prop_assert!(level_at(ray.at(hit.distance_m)).abs() < 1e-9);
                 prop_assert!((hit.normal.norm() - 1.0).abs() < 1e-9);
-                prop_assert!(hit.normal.dot(&ray.direction) <= 1e-9, "it faces the ray");
-                // The way out of the shape is the way along the normal.
-                prop_assert!(away(ray.at(hit.distance_m) + hit.normal * 1e-4) > 0.0);
+                prop_assert!(hit.normal.dot(&ray.direction) <= 1e-9, "the normal must face the ray");
+                // The normal points out of the shape.
+                prop_assert!(level_at(ray.at(hit.distance_m) + hit.normal * 1e-4) > 0.0);
                 if let Some(first) = first {
                     prop_assert!(hit.distance_m <= first && hit.distance_m > first - 0.1, "{hit:?} {first}");
                 }
@@ -72,7 +72,7 @@ proptest! {
 }
 
 #[test]
-fn what_lies_behind_is_not_met() {
+fn shapes_behind_the_ray_are_not_hit() {
     for geometry in forms() {
         let solid = Solid::new(&geometry, &Isometry3::identity());
         let ray = Ray { origin: Point3::new(3.0, 0.0, 0.0), direction: Vector3::x() };

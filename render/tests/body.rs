@@ -1,4 +1,4 @@
-//! The picture against the physics.
+//! Pictures compared with the physics.
 
 use nalgebra::Point3;
 use treadmill_humanoid::{EnvironmentConfig, HUMANOID_XML, Model, Physics};
@@ -10,14 +10,14 @@ fn physics() -> Physics {
     Physics::new(Model::from_mjcf(HUMANOID_XML).unwrap(), &EnvironmentConfig::default()).unwrap()
 }
 
-/// The middle of every shape, where the physics says.
-fn middles(physics: &Physics) -> Vec<Point3<f64>> {
+/// Returns the centre of every shape in the world.
+fn centres(physics: &Physics) -> Vec<Point3<f64>> {
     let bodies = physics.model().bodies.iter().zip(physics.body_motions());
     bodies.flat_map(|(body, motion)| body.shapes.iter().map(|shape| motion.pose * shape.geometry.centre_m())).collect()
 }
 
 #[test]
-fn the_body_is_where_the_physics_says() {
+fn the_picture_shows_the_body_at_its_position() {
     let mut physics = physics();
     let mut position = physics.position().to_vec();
     (position[0], position[1]) = (12.0, -3.0);
@@ -29,41 +29,41 @@ fn the_body_is_where_the_physics_says() {
         let camera = Camera::beside(12.0, -3.0);
         let (with, without) =
             (Picture::of(&Scene::of(&physics), &camera, SIZE), Picture::of(&Scene::empty(), &camera, SIZE));
-        for middle in middles(&physics) {
-            let (column, row) = camera.project(&middle, SIZE).unwrap();
+        for centre in centres(&physics) {
+            let (column, row) = camera.project(&centre, SIZE).unwrap();
             let (column, row) = (column as u32, row as u32);
-            assert_ne!(with.pixel(column, row), without.pixel(column, row), "{step}: nothing is at {middle}");
+            assert_ne!(with.pixel(column, row), without.pixel(column, row), "{step}: nothing is drawn at {centre}");
         }
-        // It is nowhere else: what differs is near it, or in the shadow, which falls away from the camera.
-        let seen =
+        // All other differences are near it or in its shadow, which falls away from the camera.
+        let changed =
             (0..SIZE.0).filter(|column| (0..SIZE.1).any(|row| with.pixel(*column, row) != without.pixel(*column, row)));
-        assert!(seen.clone().count() < SIZE.0 as usize / 2, "{step}: {:?}", seen.collect::<Vec<_>>());
+        assert!(changed.clone().count() < SIZE.0 as usize / 2, "{step}: {:?}", changed.collect::<Vec<_>>());
     }
 }
 
 #[test]
-fn pictures_repeat_and_a_step_changes_them() {
+fn pictures_are_reproducible_and_change_with_a_step() {
     let mut physics = physics();
     let camera = Camera::beside(0.0, 0.0);
     let picture = |physics: &Physics| Picture::of(&Scene::of(physics), &camera, SIZE);
     let first = picture(&physics);
     assert_eq!(first, picture(&physics));
-    let alone = rayon_alone(|| picture(&physics));
-    assert_eq!(first, alone, "the number of threads changes nothing");
+    let single = on_one_thread(|| picture(&physics));
+    assert_eq!(first, single, "the number of threads must not matter");
     physics.step_only(&vec![0.4; physics.model().motors.len()]).unwrap();
     physics.step_only(&vec![0.4; physics.model().motors.len()]).unwrap();
     assert_ne!(first, picture(&physics));
 }
 
-fn rayon_alone<T: Send>(work: impl FnOnce() -> T + Send) -> T {
+fn on_one_thread<T: Send>(work: impl FnOnce() -> T + Send) -> T {
     rayon::ThreadPoolBuilder::new().num_threads(1).build().unwrap().install(work)
 }
 
 #[test]
-fn the_floor_passes_by() {
+fn the_floor_moves_with_the_camera() {
     let seen = |x_m: f64| Picture::of(&Scene::empty(), &Camera::beside(x_m, 0.0), SIZE);
     assert_ne!(seen(0.0), seen(0.3));
-    // Squares of a metre and a line every five: after ten metres all is as before.
+    // With squares of 1 m and a line every 5 m, the pattern repeats after 10 m.
     assert_eq!(seen(1.0), seen(11.0));
 }
 
@@ -72,7 +72,7 @@ fn shadows_lie_on_the_floor() {
     let (physics, camera) = (physics(), Camera::beside(0.0, 0.0));
     let (with, without) =
         (Picture::of(&Scene::of(&physics), &camera, SIZE), Picture::of(&Scene::empty(), &camera, SIZE));
-    // Of the points on the floor around the body some are darker for it, and none is brighter.
+    // The body darkens some points on the floor around it.
     let mut darker = 0;
     for step in 0..40 {
         let at = Point3::new(-1.0 + f64::from(step % 8) * 0.15, 0.1 + f64::from(step / 8) * 0.25, 0.0);

@@ -1,4 +1,4 @@
-//! What stands where in the viewer, and the camera that follows.
+//! Layout of the viewer, and its camera.
 
 use rerun::{
     AsComponents, EntityPath, RecordingStream, RecordingStreamBuilder, RecordingStreamResult,
@@ -15,29 +15,29 @@ use rerun::{
 };
 use treadmill_humanoid::CONTROL_STEP_S;
 
-/// Entities and timelines, by which recorder and layout know each other.
+/// Paths of entities and names of timelines, shared by recorder and layout.
 pub mod paths {
-    /// Everything in space.
+    /// Root of all spatial entities.
     pub const WORLD: &str = "world";
-    /// The bodies of the robot, below the world.
+    /// Parent of the robot's bodies, below the world.
     pub const BODY: &str = "body";
-    /// The floor.
+    /// Floor.
     pub const FLOOR: &str = "world/floor";
-    /// Where the torso was.
+    /// Past positions of the torso.
     pub const TRAIL: &str = "world/trail";
-    /// What the contacts do.
+    /// Contact forces.
     pub const FORCES: &str = "world/contacts/forces";
-    /// Where they are.
+    /// Contact points.
     pub const POINTS: &str = "world/contacts/points";
     /// Terms of the reward.
     pub const REWARD: &str = "reward";
     /// Velocity and distance.
     pub const VELOCITY: &str = "velocity";
-    /// Torques of the hinges.
+    /// Hinge torques.
     pub const TORQUES: &str = "torques";
-    /// What the camera follows.
+    /// Entity that the camera follows.
     pub const FOLLOWED: &str = "world/followed";
-    /// Which episode is shown.
+    /// Log of shown episodes.
     pub const EPISODES: &str = "episodes";
     /// Timeline of simulated time.
     pub const TIME: &str = "time";
@@ -45,32 +45,33 @@ pub mod paths {
     pub const STEP: &str = "control step";
 }
 
-/// How time goes on at first.
+/// Initial state of the timeline.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub enum PlaybackSpeed {
-    /// From the beginning, as it happened.
+    /// Plays from the beginning in real time.
     Played,
-    /// With what comes in.
+    /// Follows the latest data.
     Live,
 }
 
-/// The camera and what it looks at, before anything has moved, in metres.
+/// Initial camera position and target (m).
 const EYE_M: [f32; 3] = [1.4, -3.6, 1.7];
-const LOOKED_AT_M: [f32; 3] = [0.0, 0.0, 0.95];
-/// How much of the curves is to be seen, before the moment that is shown and after it.
+const TARGET_M: [f32; 3] = [0.0, 0.0, 0.95];
+/// Visible range of the curves before and after the current moment (s).
 const BEFORE_S: i64 = 4;
 const AFTER_S: i64 = 1;
 
-/// Two points around which the camera turns where the robot is at (x, y), in metres. Only what is drawn can be followed, and
-/// where Rerun 0.36.3 begins to follow, it places the camera by the size of that: with these it stays as far off as it is
-/// meant to be. How far apart they are was found by looking.
+/// Returns the two points that the camera follows when the robot is at (x, y), in metres.
+///
+/// Rerun can only follow a drawn entity, and version 0.36.3 sets the camera's distance by the entity's size. The distance of
+/// these points keeps the camera at its distance; it was found by trial.
 pub fn followed_m([x, y]: [f32; 2]) -> [[f32; 3]; 2] {
-    let [dx, dy, dz] = std::array::from_fn(|axis| EYE_M[axis] - LOOKED_AT_M[axis]);
+    let [dx, dy, dz] = std::array::from_fn(|axis| EYE_M[axis] - TARGET_M[axis]);
     let radius = (dx * dx + dy * dy + dz * dz).sqrt() / 3.0;
-    [-radius, radius].map(|above| [x, y, LOOKED_AT_M[2] + above])
+    [-radius, radius].map(|dz| [x, y, TARGET_M[2] + dz])
 }
 
-/// Sends the layout; the camera goes along with the robot if it `follows`, or stays where it is.
+/// Sends the layout; if `follows`, the camera follows the robot.
 pub fn send(recording: &RecordingStream, follows: bool, speed: PlaybackSpeed) -> RecordingStreamResult<()> {
     let space = ContainerLike::from(Spatial3DView::new("humanoid").with_origin(paths::WORLD));
     let space_path = path_of(&space);
@@ -81,8 +82,8 @@ pub fn send(recording: &RecordingStream, follows: bool, speed: PlaybackSpeed) ->
         curves("torques (N·m)", paths::TORQUES),
     ];
     let curve_paths = curves.each_ref().map(path_of);
-    let beside = Vertical::new(curves);
-    let root = Horizontal::new([space, beside.into()]).with_column_shares([1.7, 1.0]);
+    let curves = Vertical::new(curves);
+    let root = Horizontal::new([space, curves.into()]).with_column_shares([1.7, 1.0]);
     let play = if speed == PlaybackSpeed::Live { PlayState::Following } else { PlayState::Playing };
     let blueprint = Blueprint::new(root)
         .with_auto_views(false)
@@ -95,21 +96,21 @@ pub fn send(recording: &RecordingStream, follows: bool, speed: PlaybackSpeed) ->
     let mut eye = EyeControls3D::new()
         .with_kind(Eye3DKind::Orbital)
         .with_position(EYE_M)
-        .with_look_target(LOOKED_AT_M)
+        .with_look_target(TARGET_M)
         .with_eye_up([0.0, 0.0, 1.0]);
     if follows {
         eye = eye.with_tracking_entity(paths::FOLLOWED);
     }
     let grid = LineGrid3D::new().with_visible(false);
-    let around_now = around_now();
+    let visible_range = visible_range();
     let mut properties: Vec<(EntityPath, &dyn AsComponents)> =
         vec![(space_path.clone() / "EyeControls3D", &eye), (space_path / "LineGrid3D", &grid)];
     properties
-        .extend(curve_paths.into_iter().map(|path| (path / "VisibleTimeRanges", &around_now as &dyn AsComponents)));
+        .extend(curve_paths.into_iter().map(|path| (path / "VisibleTimeRanges", &visible_range as &dyn AsComponents)));
     send_with(recording, &blueprint, &properties)
 }
 
-/// Where the properties of a view are kept.
+/// Returns the path of a view's properties.
 fn path_of(view: &ContainerLike) -> EntityPath {
     match view {
         ContainerLike::View(view) => view.blueprint_path(),
@@ -117,8 +118,8 @@ fn path_of(view: &ContainerLike) -> EntityPath {
     }
 }
 
-/// Curves show what is around the moment: of all that was ever shown one would see no step.
-fn around_now() -> VisibleTimeRanges {
+/// Limits curves to a few seconds around the current moment, so that single steps are visible.
+fn visible_range() -> VisibleTimeRanges {
     let range = |timeline: &str, [before, after]: [i64; 2]| VisibleTimeRange {
         timeline: timeline.into(),
         range: TimeRange {
@@ -131,7 +132,7 @@ fn around_now() -> VisibleTimeRanges {
     VisibleTimeRanges::default().with_ranges([range(paths::TIME, nanoseconds), range(paths::STEP, steps)])
 }
 
-/// Rerun's builder of layouts knows nothing of the properties of a view yet, so they are added to the messages that it makes.
+/// Sends a blueprint with properties of views, which Rerun's blueprint builder cannot set: they are added to its messages.
 fn send_with(
     recording: &RecordingStream,
     blueprint: &Blueprint,
@@ -139,11 +140,11 @@ fn send_with(
 ) -> RecordingStreamResult<()> {
     let application =
         recording.store_info().map(|info| info.application_id().clone()).unwrap_or_else(|| "treadmill".into());
-    let (made_in, made) = RecordingStreamBuilder::new(application.clone()).memory()?;
-    blueprint.send(&made_in, BlueprintActivation::default())?;
+    let (buffer, storage) = RecordingStreamBuilder::new(application.clone()).memory()?;
+    blueprint.send(&buffer, BlueprintActivation::default())?;
     let mut messages = Vec::new();
     let mut activation = None;
-    for message in made.take() {
+    for message in storage.take() {
         match message {
             LogMsg::BlueprintActivationCommand(command) => activation = Some(command),
             message if message.store_id().kind() == StoreKind::Blueprint => messages.push(message),
@@ -151,15 +152,15 @@ fn send_with(
         }
     }
     let Some(activation) = activation else { return Ok(()) };
-    let own = RecordingStreamBuilder::new(application)
+    let builder = RecordingStreamBuilder::new(application)
         .recording_id(activation.blueprint_id.recording_id().clone())
         .blueprint();
-    let (stream, added) = own.memory()?;
+    let (stream, added) = builder.memory()?;
     stream.set_time_sequence("blueprint", 0);
     for (path, property) in properties {
         stream.log(path.clone(), *property)?;
     }
-    // It says once more which store it is; the first message did.
+    // The blueprint's first message already holds the store info.
     messages.extend(added.take().into_iter().filter(|message| !matches!(message, LogMsg::SetStoreInfo(_))));
     recording.send_blueprint(messages, activation);
     Ok(())

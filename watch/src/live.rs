@@ -1,4 +1,4 @@
-//! An actor that trains somewhere, as it tells its poses on the bus.
+//! Live view of a training actor, from the poses that it publishes on the bus.
 
 use std::time::{Duration, Instant};
 
@@ -12,28 +12,28 @@ use treadmill_rl::{
     launch::{exit_code::Usage, output::say, signals},
     shared::learner_address::{self, ReachArgs},
 };
-use treadmill_runtime::shutdown::Shutdown;
+use treadmill_runtime::{error_chain, shutdown::Shutdown};
 
 use crate::{scene_recorder::SceneRecorder, viewer_output::ViewerOutput};
 
-/// Poses that may wait to be drawn: two seconds of them.
-const WAITING_POSES: usize = 64;
-/// How often it is asked whether to stop.
-const LOOK_EVERY: Duration = Duration::from_millis(200);
-/// An actor that says nothing for so long is given up for another.
+/// Most poses that wait to be drawn: those of 2 s.
+const POSE_QUEUE: usize = 64;
+/// Interval of checks for shutdown.
+const POLL_INTERVAL: Duration = Duration::from_millis(200);
+/// Time without poses after which another actor is chosen.
 const SILENCE_TIMEOUT: Duration = Duration::from_secs(20);
 
-/// What is to be watched.
+/// Options of the live view.
 pub struct LiveOptions<'a> {
-    /// The learner or router to ask.
+    /// Learner or router to connect to.
     pub reach: &'a ReachArgs,
-    /// The actor, if not any.
+    /// Name of the actor; any actor if `None`.
     pub actor: Option<&'a str>,
-    /// Seconds of motion after which it ends.
+    /// Duration of motion after which the view ends (s).
     pub for_s: Option<f64>,
 }
 
-/// Joins the bus and draws what comes, until Ctrl-C; `open` makes output and recorder once the robot is known.
+/// Connects to the bus and records poses until Ctrl-C; `open` creates output and recorder for the run's robot.
 pub fn run(
     options: &LiveOptions,
     open: impl FnOnce(&str, Model) -> anyhow::Result<(ViewerOutput, SceneRecorder)>,
@@ -44,106 +44,107 @@ pub fn run(
     learner_address::connect(options.reach, Role::Observer, async |bus, run| {
         let shutdown = Shutdown::default();
         signals::listen(shutdown.clone(), "").context("signals cannot be caught")?;
-        let bundle = ask(&bus, run.as_deref()).await?;
-        check_ours(&bundle)?;
+        let bundle = fetch_bundle(&bus, run.as_deref()).await?;
+        check_task(&bundle)?;
         let (output, mut recorder) = open(&format!("{}, live", bundle.run), Model::from_mjcf(&bundle.model_xml)?)?;
-        let mut feed = ActorFeed::open(&bus, &bundle.run, options.actor)?;
+        let mut poses = ActorPoses::open(&bus, &bundle.run, options.actor)?;
         say(&format!("waiting for an episode of {} to begin", options.actor.unwrap_or("an actor")));
         while !shutdown.asked() && options.for_s.is_none_or(|limit_s| recorder.shown_s() < limit_s) {
-            let Some(pose) = tokio::task::block_in_place(|| feed.next())? else { continue };
+            let Some(pose) = tokio::task::block_in_place(|| poses.next())? else { continue };
             if pose.config_hash != bundle.config_hash {
                 anyhow::bail!(
-                    "run `{}` was begun anew with another configuration or model; watch it again",
+                    "run `{}` was restarted with another configuration or model; start the viewer again",
                     bundle.run
                 );
             }
             recorder.show(&pose)?;
         }
-        // Whoever asked for so many seconds may look at them for as long as they like.
-        drop(feed);
+        // With --for-s the viewer stays open; it needs no further poses.
+        drop(poses);
         tokio::task::block_in_place(|| output.finish(&shutdown))
     })
 }
 
-async fn ask(bus: &Bus, run: Option<&str>) -> anyhow::Result<PolicyBundle> {
-    let begun = Instant::now();
+async fn fetch_bundle(bus: &Bus, run: Option<&str>) -> anyhow::Result<PolicyBundle> {
+    let start = Instant::now();
     loop {
         if let Some(bundle) = fetch_policy(bus, run, learner_address::ANSWER_TIMEOUT).await? {
             return Ok(bundle);
         }
-        if begun.elapsed() >= learner_address::ANSWER_TIMEOUT {
+        if start.elapsed() >= learner_address::ANSWER_TIMEOUT {
             let whose = run.map_or("no run".to_string(), |run| format!("no run `{run}`"));
             anyhow::bail!("{whose} answers there; is its learner up, and does your certificate let you ask?");
         }
-        tokio::time::sleep(LOOK_EVERY).await;
+        tokio::time::sleep(POLL_INTERVAL).await;
     }
 }
 
-/// Only what this program simulates has a body that it knows.
-fn check_ours(bundle: &PolicyBundle) -> anyhow::Result<()> {
+/// Refuses a run of a task that this program does not simulate.
+fn check_task(bundle: &PolicyBundle) -> anyhow::Result<()> {
     let mut source = ConfigSource::default();
     source.text(&bundle.config_toml, "the configuration of the run")?;
     settings::check_ours(&bundle.run, &source.build()?).context("it cannot be watched")
 }
 
-/// The poses of one actor at a time.
-struct ActorFeed<'a> {
+/// Poses of one actor at a time.
+struct ActorPoses<'a> {
     bus: &'a Bus,
     run: String,
-    /// The one that was asked for.
-    wanted: Option<String>,
-    /// The one that is listened to.
-    chosen: Option<String>,
+    /// Requested actor.
+    requested: Option<String>,
+    /// Current actor.
+    current: Option<String>,
     feed: Feed,
-    heard: Instant,
+    last_pose: Instant,
     refused: u64,
 }
 
-impl<'a> ActorFeed<'a> {
-    fn open(bus: &'a Bus, run: &str, wanted: Option<&str>) -> anyhow::Result<Self> {
-        let feed = observe(bus, &keys::poses(run, wanted.unwrap_or("*")), WAITING_POSES)?;
-        let wanted = wanted.map(str::to_string);
-        Ok(Self { bus, run: run.to_string(), chosen: wanted.clone(), wanted, feed, heard: Instant::now(), refused: 0 })
+impl<'a> ActorPoses<'a> {
+    fn open(bus: &'a Bus, run: &str, requested: Option<&str>) -> anyhow::Result<Self> {
+        let feed = observe(bus, &keys::poses(run, requested.unwrap_or("*")), POSE_QUEUE)?;
+        let (requested, last_pose) = (requested.map(str::to_string), Instant::now());
+        Ok(Self { bus, run: run.to_string(), current: requested.clone(), requested, feed, last_pose, refused: 0 })
     }
 
-    fn choose(&mut self, actor: Option<String>) -> anyhow::Result<()> {
-        // Before the old feed goes, so that an actor that is chosen out of all sees no moment without anybody watching.
-        self.feed = observe(self.bus, &keys::poses(&self.run, actor.as_deref().unwrap_or("*")), WAITING_POSES)?;
-        self.chosen = actor;
-        self.heard = Instant::now();
+    /// Subscribes to one actor, or to all if `None`.
+    fn subscribe(&mut self, actor: Option<String>) -> anyhow::Result<()> {
+        // The old subscription ends after the new one began, so that the actor always has a subscriber.
+        self.feed = observe(self.bus, &keys::poses(&self.run, actor.as_deref().unwrap_or("*")), POSE_QUEUE)?;
+        self.current = actor;
+        self.last_pose = Instant::now();
         Ok(())
     }
 
-    /// The next pose, if one comes before it is time to look around.
+    /// Returns the next pose of the current actor; `None` if there is none within [`POLL_INTERVAL`].
     fn next(&mut self) -> anyhow::Result<Option<Pose>> {
-        let Some(message) = self.feed.next(LOOK_EVERY) else {
-            if self.wanted.is_none() && self.chosen.is_some() && self.heard.elapsed() >= SILENCE_TIMEOUT {
-                say("it is silent; waiting for an actor");
-                self.choose(None)?;
+        let Some(message) = self.feed.next(POLL_INTERVAL) else {
+            if self.requested.is_none() && self.current.is_some() && self.last_pose.elapsed() >= SILENCE_TIMEOUT {
+                say("the actor sends no poses; waiting for another one");
+                self.subscribe(None)?;
             }
             return Ok(None);
         };
         let pose = match Pose::decode_checked(&message.payload) {
             Ok(pose) if pose.run == self.run && keys::last_part(&message.key) == pose.actor => pose,
-            Ok(pose) => return Ok(self.refuse(&format!("`{}` speaks for `{}`", message.key, pose.actor))),
-            Err(why) => return Ok(self.refuse(&why.to_string())),
+            Ok(pose) => return Ok(self.refuse(&format!("key `{}` with actor `{}`", message.key, pose.actor))),
+            Err(why) => return Ok(self.refuse(&error_chain(&why))),
         };
-        if self.chosen.is_none() {
+        if self.current.is_none() {
             say(&format!("watching {} of run `{}`", pose.actor, self.run));
-            self.choose(Some(pose.actor.clone()))?;
+            self.subscribe(Some(pose.actor.clone()))?;
         }
-        if self.chosen.as_ref() != Some(&pose.actor) {
+        if self.current.as_ref() != Some(&pose.actor) {
             return Ok(None);
         }
-        self.heard = Instant::now();
+        self.last_pose = Instant::now();
         Ok(Some(pose))
     }
 
-    /// Says so once: a stranger must not fill the log.
+    /// Counts a refused pose and logs the first one.
     fn refuse(&mut self, why: &str) -> Option<Pose> {
         self.refused += 1;
         if self.refused == 1 {
-            tracing::warn!("a pose was refused, and others may be without a word: {why}");
+            tracing::warn!(reason = why, "pose refused; further refusals are not logged");
         }
         None
     }

@@ -1,13 +1,13 @@
 //! Treadmill's viewer: the humanoid in [Rerun](https://rerun.io), in a browser, in Rerun's own window or as a file.
 //!
-//! A program of its own, so that building the trainer does not build it; `treadmill watch` starts it.
+//! `treadmill watch` starts this program. It is separate so that building the trainer does not build Rerun.
 //!
 //! # Layout, in the order of the data
-//! - [`player`]: poses of a saved policy that plays episodes here.
-//! - [`live`]: poses of an actor that trains, from the bus.
+//! - [`player`]: poses of a saved policy, from episodes played here.
+//! - [`live`]: poses of a training actor, from the bus.
 //! - [`scene_recorder`]: logs a pose to Rerun: body, floor, trail, contacts, curves.
-//! - [`shapes`]: shapes of the model.
-//! - [`layout`]: views of the viewer, and the camera.
+//! - [`shapes`]: logs the model's shapes.
+//! - [`layout`]: views and camera.
 //! - [`viewer_output`]: browser, window or file.
 
 mod layout;
@@ -34,7 +34,7 @@ use crate::{layout::PlaybackSpeed, scene_recorder::SceneRecorder, viewer_output:
 
 /// See the humanoid move.
 ///
-/// Plays episodes with a saved policy, or with --live shows an actor while it trains. By default a viewer is served to a
+/// Plays episodes with a saved policy, or with --live shows an actor while it trains. By default the viewer is a page for a
 /// browser on this machine; play, pause, step and speed are below its timeline.
 #[derive(Parser)]
 #[command(name = "treadmill watch", bin_name = "treadmill watch", version, max_term_width = 110)]
@@ -58,12 +58,12 @@ fn play(view: &ViewerArgs) -> anyhow::Result<()> {
     };
     let mut player = player::Player::load(run, view.checkpoint)?;
     let (output, mut recorder) = set_up(view, run, player.model(), PlaybackSpeed::Played)?;
-    let begun = Instant::now();
+    let start = Instant::now();
     player.play(view.episodes, view.seed, |pose| {
         recorder.show(pose)?;
         if let Some(speed) = view.speed {
             let due = Duration::from_secs_f64(recorder.shown_s() / speed);
-            std::thread::sleep(due.saturating_sub(begun.elapsed()));
+            std::thread::sleep(due.saturating_sub(start.elapsed()));
         }
         Ok(view.for_s.is_none_or(|limit_s| recorder.shown_s() < limit_s))
     })?;

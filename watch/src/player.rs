@@ -1,4 +1,4 @@
-//! A saved policy that plays episodes here, as `eval` does: by its mean action, without randomisation.
+//! Episodes of a saved policy, played as by `eval`: with its mean action, without randomisation.
 
 use treadmill_actor::{
     agent::PolicyAgent,
@@ -18,7 +18,7 @@ pub struct Player {
 }
 
 impl Player {
-    /// What RUN names.
+    /// Loads the policy that RUN names.
     pub fn load(run: &str, which: Option<Which>) -> anyhow::Result<Self> {
         let policy = saved_policy::load(run, which.unwrap_or(Which::BestOrLatest))?;
         let mut config = saved_policy::trained_under(&policy);
@@ -27,12 +27,12 @@ impl Player {
         Ok(Self { environment, agent: PolicyAgent::new(&policy)? })
     }
 
-    /// The robot.
+    /// Returns the robot's model.
     pub fn model(&self) -> Model {
         self.environment.physics().model().clone()
     }
 
-    /// Plays, and hands every step to `show`, until that wants no more.
+    /// Plays episodes and passes the pose of each step to `show`, until it returns false or an error.
     pub fn play(
         &mut self,
         episodes: u32,
@@ -40,7 +40,7 @@ impl Player {
         mut show: impl FnMut(&Pose) -> anyhow::Result<bool>,
     ) -> anyhow::Result<()> {
         let mut start_x_m = 0.0;
-        // One after the other, so that it can end in between: seeds depend on an episode's number alone.
+        // `evaluate` cannot stop early, so the remaining steps are not shown.
         let mut shown = Ok(true);
         evaluate(&mut self.environment, &mut self.agent, episodes, seed, |told| {
             if told.step == 1 {

@@ -1,4 +1,4 @@
-//! A pose as what Rerun draws: body, floor, trail, contacts, and curves beside them.
+//! Records poses in Rerun: body, floor, trail, contacts and curves.
 
 use std::collections::VecDeque;
 
@@ -17,34 +17,34 @@ use crate::{
     shapes,
 };
 
-/// Points of the trail, one each [`TRAIL_EVERY_S`]: the last 15 s.
+/// Most points of the trail, one each [`TRAIL_EVERY_S`]: those of 15 s.
 const TRAIL_POINTS: usize = 100;
 const TRAIL_EVERY_S: f64 = 0.15;
-/// Between the end of an episode and the next one on the timeline.
+/// Gap between two episodes on the timeline.
 const PAUSE_S: f64 = 0.5;
-/// An arrow of 1 m is so much force.
+/// Force of an arrow of 1 m.
 const NEWTONS_PER_M: f32 = 1500.0;
-/// Half sides of the floor that is drawn around the body: so far that its edge is nearly the horizon.
+/// Half side of the drawn floor around the body, whose edge is close to the horizon.
 const FLOOR_HALF_M: f32 = 60.0;
-/// Half sides of what is ruled of it, in whole squares of a metre.
-const RULED_HALF_M: i32 = 20;
+/// Half side of the floor's grid of 1 m squares.
+const GRID_HALF_M: i32 = 20;
 const FLOOR: [u8; 3] = [62, 66, 71];
 const LINES: [u8; 3] = [98, 103, 110];
 const TRAIL: [u8; 3] = [240, 200, 60];
 const CONTACT: [u8; 3] = [235, 70, 70];
-/// Names of the curves of one step's reward.
+/// Names of the reward's curves.
 const REWARD_TERMS: [&str; 5] = ["reward", "forward", "healthy", "control", "contact"];
 
-/// Logs poses to Rerun and keeps what its timelines need.
+/// Logs poses to Rerun and keeps the state of its timelines.
 pub struct SceneRecorder {
     recording: RecordingStream,
     model: Model,
     bodies: Vec<EntityPath>,
-    is_body_there: bool,
-    episode: Option<Key>,
-    /// Where the episode begins on the timelines.
-    begun_s: f64,
-    begun_step: i64,
+    is_body_logged: bool,
+    episode: Option<EpisodeKey>,
+    /// Start of the episode on the timelines.
+    start_s: f64,
+    start_step: i64,
     shown_s: f64,
     shown_step: i64,
     trail: VecDeque<[f32; 3]>,
@@ -52,16 +52,16 @@ pub struct SceneRecorder {
     square: Option<[i32; 2]>,
 }
 
-/// Which episode of whom.
+/// Identity of an episode.
 #[derive(Clone, PartialEq)]
-struct Key {
+struct EpisodeKey {
     actor: String,
     incarnation: u64,
     episode: u64,
 }
 
 impl SceneRecorder {
-    /// Recorder for a robot, without any pose yet.
+    /// Creates a recorder for a robot.
     pub fn new(recording: RecordingStream, model: Model) -> Self {
         let name = |(index, body): (usize, &treadmill_humanoid::model::Body)| {
             let name = if body.name.is_empty() { format!("body {index}") } else { body.name.clone() };
@@ -71,10 +71,10 @@ impl SceneRecorder {
             bodies: model.bodies.iter().enumerate().map(name).collect(),
             recording,
             model,
-            is_body_there: false,
+            is_body_logged: false,
             episode: None,
-            begun_s: 0.0,
-            begun_step: 0,
+            start_s: 0.0,
+            start_step: 0,
             shown_s: 0.0,
             shown_step: 0,
             trail: VecDeque::new(),
@@ -83,20 +83,20 @@ impl SceneRecorder {
         }
     }
 
-    /// Seconds of motion that were shown, on the timeline.
+    /// Returns the duration of the recorded motion on the timeline (s).
     pub fn shown_s(&self) -> f64 {
         self.shown_s
     }
 
-    /// Floor, and what the curves are called.
+    /// Logs the floor and the names of the curves.
     pub fn set_up(&self) -> RecordingStreamResult<()> {
         let rec = &self.recording;
         rec.log_static(paths::WORLD, &ViewCoordinates::RIGHT_HAND_Z_UP())?;
         let plate = Boxes3D::from_centers_and_half_sizes([[0.0, 0.0, -0.02]], [[FLOOR_HALF_M, FLOOR_HALF_M, 0.018]]);
         let plate = plate.with_colors([colour(FLOOR)]).with_fill_mode(FillMode::Solid);
         rec.log_static(format!("{}/plate", paths::FLOOR), &plate)?;
-        let end = RULED_HALF_M as f32;
-        let lines = (-RULED_HALF_M..=RULED_HALF_M).map(|at| at as f32);
+        let end = GRID_HALF_M as f32;
+        let lines = (-GRID_HALF_M..=GRID_HALF_M).map(|at| at as f32);
         let lines = lines.flat_map(|at| [[[-end, at, 0.0], [end, at, 0.0]], [[at, -end, 0.0], [at, end, 0.0]]]);
         let lines = LineStrips3D::new(lines).with_colors([colour(LINES)]).with_radii([0.008]);
         rec.log_static(format!("{}/lines", paths::FLOOR), &lines)?;
@@ -106,7 +106,7 @@ impl SceneRecorder {
         rec.log_static(paths::TORQUES, &SeriesLines::new().with_names(hinges))
     }
 
-    /// Draws the body as it is at one moment; poses of another number of bodies than the model's are left out.
+    /// Logs one pose; ignores poses that do not fit the model.
     pub fn show(&mut self, pose: &Pose) -> RecordingStreamResult<()> {
         let places = pose.bodies.as_chunks::<BODY_NUMBERS>().0;
         let [torso, ..] = places else { return Ok(()) };
@@ -114,16 +114,16 @@ impl SceneRecorder {
             return Ok(());
         }
         self.begin_episode(pose);
-        self.shown_s = self.begun_s + pose.time_s;
-        self.shown_step = self.begun_step + i64::from(pose.step);
+        self.shown_s = self.start_s + pose.time_s;
+        self.shown_step = self.start_step + i64::from(pose.step);
         let rec = self.recording.clone();
         rec.set_duration_secs(paths::TIME, self.shown_s);
         rec.set_time_sequence(paths::STEP, self.shown_step);
-        if !self.is_body_there {
+        if !self.is_body_logged {
             for (body, path) in self.bodies.iter().enumerate() {
                 shapes::log(&rec, path, &self.model, body)?;
             }
-            self.is_body_there = true;
+            self.is_body_logged = true;
         }
         if self.trail.is_empty() {
             let number = pose.version.map_or(0, |version| version.number);
@@ -133,15 +133,14 @@ impl SceneRecorder {
             };
             rec.log(paths::EPISODES, &TextLog::new(text))?;
         }
-        for (path, [x, y, z, turned @ ..]) in self.bodies.iter().zip(places) {
-            let [w, i, j, k] = *turned;
-            let turned = Quaternion::from_xyzw([i, j, k, w]);
-            rec.log(path.clone(), &Transform3D::from_translation_rotation([*x, *y, *z], turned))?;
+        for (path, [x, y, z, w, i, j, k]) in self.bodies.iter().zip(places) {
+            let rotation = Quaternion::from_xyzw([*i, *j, *k, *w]);
+            rec.log(path.clone(), &Transform3D::from_translation_rotation([*x, *y, *z], rotation))?;
         }
         let [x, y, z, ..] = *torso;
         rec.log(paths::FOLLOWED, &Points3D::new(layout::followed_m([x, y])).with_radii([0.0]))?;
-        self.follow(&rec, [x, y])?;
-        self.leave_trail(&rec, [x, y, z])?;
+        self.move_floor(&rec, [x, y])?;
+        self.log_trail(&rec, [x, y, z])?;
         let contacts = pose.contacts.as_chunks::<CONTACT_NUMBERS>().0;
         let points: Vec<[f32; 3]> = contacts.iter().map(|[x, y, z, ..]| [*x, *y, *z]).collect();
         let forces: Vec<[f32; 3]> =
@@ -156,22 +155,22 @@ impl SceneRecorder {
         rec.log(paths::TORQUES, &Scalars::new(pose.joint_torques_nm.iter().copied().map(f64::from)))
     }
 
-    /// Episodes follow one another on the timelines.
+    /// Starts a new episode after the previous one on the timelines.
     fn begin_episode(&mut self, pose: &Pose) {
-        let key = Key { actor: pose.actor.clone(), incarnation: pose.actor_incarnation, episode: pose.episode };
+        let key = EpisodeKey { actor: pose.actor.clone(), incarnation: pose.actor_incarnation, episode: pose.episode };
         if self.episode.as_ref() == Some(&key) {
             return;
         }
         if self.episode.is_some() {
-            self.begun_s = self.shown_s + PAUSE_S - pose.time_s;
-            self.begun_step = self.shown_step + 1 - i64::from(pose.step);
+            self.start_s = self.shown_s + PAUSE_S - pose.time_s;
+            self.start_step = self.shown_step + 1 - i64::from(pose.step);
         }
         self.episode = Some(key);
         self.trail.clear();
     }
 
-    /// The floor comes along, in whole metres, so that its lines seem to stay.
-    fn follow(&mut self, rec: &RecordingStream, at_m: [f32; 2]) -> RecordingStreamResult<()> {
+    /// Moves the floor with the body by whole metres, so that its lines seem fixed.
+    fn move_floor(&mut self, rec: &RecordingStream, at_m: [f32; 2]) -> RecordingStreamResult<()> {
         let square = at_m.map(|at| at.round() as i32);
         if self.square == Some(square) {
             return Ok(());
@@ -180,7 +179,7 @@ impl SceneRecorder {
         rec.log(paths::FLOOR, &Transform3D::from_translation([square[0] as f32, square[1] as f32, 0.0]))
     }
 
-    fn leave_trail(&mut self, rec: &RecordingStream, torso_m: [f32; 3]) -> RecordingStreamResult<()> {
+    fn log_trail(&mut self, rec: &RecordingStream, torso_m: [f32; 3]) -> RecordingStreamResult<()> {
         if self.trail.is_empty() || self.shown_s - self.trail_s >= TRAIL_EVERY_S {
             self.trail.push_back(torso_m);
             self.trail_s = self.shown_s;

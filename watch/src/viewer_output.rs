@@ -1,4 +1,4 @@
-//! Output of the viewer: a viewer served to a browser, Rerun's own window, or a file.
+//! Output of the viewer: a page for a browser, Rerun's own window, or a file.
 
 use std::{
     net::{IpAddr, SocketAddr, TcpListener},
@@ -15,10 +15,10 @@ use treadmill_rl::{
 };
 use treadmill_runtime::{machine, shutdown::Shutdown};
 
-/// What Rerun tells recordings of different programs apart by; layouts are kept under it.
+/// Rerun's application id, under which it keeps recordings and layouts.
 const APPLICATION: &str = "treadmill";
 
-/// A recording on its way.
+/// Recording and its destination.
 pub struct ViewerOutput {
     recording: RecordingStream,
     destination: Destination,
@@ -31,7 +31,7 @@ enum Destination {
 }
 
 impl ViewerOutput {
-    /// Opens it; `name` is what the recording is called.
+    /// Opens the output; `name` is the name of the recording.
     pub fn open(args: &ViewerOutputArgs, name: &str, is_insecure: bool) -> anyhow::Result<Self> {
         let builder = RecordingStreamBuilder::new(APPLICATION).recording_name(name);
         if let Some(file) = &args.rrd {
@@ -43,13 +43,13 @@ impl ViewerOutput {
             check_display()?;
             let options = SpawnOptions {
                 wait_for_bind: true,
-                // By itself the window would take data from whoever reaches this machine.
+                // By default the window accepts data from any host.
                 extra_args: vec!["--bind".to_string(), "127.0.0.1".to_string()],
                 ..SpawnOptions::default()
             };
             let recording = builder.spawn_opts(&options).with_context(|| {
                 let version = rerun::build_info().version;
-                format!("--native needs Rerun's viewer {version}; get it by `pip install rerun-sdk=={version}`")
+                format!("--native needs Rerun's viewer {version}: `pip install rerun-sdk=={version}`")
             })?;
             return Ok(ViewerOutput { recording, destination: Destination::Window });
         }
@@ -60,8 +60,8 @@ impl ViewerOutput {
         let bind = args.bind;
         if !bind.is_loopback() && !is_insecure {
             return Err(Usage(format!(
-                "--bind {bind}: neither page nor data are encrypted or ask who comes; forward the ports by ssh instead (see \
-                 docs/guide/watch.md), or say --insecure where the network itself is trusted"
+                "--bind {bind}: page and data have neither encryption nor authentication; forward the ports by ssh instead \
+                 (see docs/guide/watch.md), or pass --insecure in a trusted network"
             ))
             .into());
         }
@@ -74,7 +74,7 @@ impl ViewerOutput {
         };
         let options = ServerOptions {
             memory_limit: MemoryLimit::from_bytes(args.memory_max_mb << 20),
-            // The page comes from another port than the data.
+            // Page and data have different ports.
             cors_allowed_origins: vec![format!("http://{host}:{web_port}"), format!("http://*:{web_port}")],
             ..ServerOptions::default()
         };
@@ -94,17 +94,17 @@ impl ViewerOutput {
         Ok(ViewerOutput { recording, destination: Destination::Page })
     }
 
-    /// What is logged into.
+    /// Returns the stream to log to.
     pub fn recording(&self) -> &RecordingStream {
         &self.recording
     }
 
-    /// Waits until everything is written, and serves until Ctrl-C where somebody may still look.
+    /// Waits until everything is written. Serves a page until Ctrl-C.
     pub fn finish(self, shutdown: &Shutdown) -> anyhow::Result<()> {
-        self.recording.flush_blocking().context("not everything could be written")?;
+        self.recording.flush_blocking().context("the recording could not be written completely")?;
         match &self.destination {
             Destination::File(file) => {
-                // The end of the file is written when it is closed.
+                // Closing the file writes its end.
                 self.recording.disconnect();
                 let bytes = std::fs::metadata(file).with_context(|| format!("cannot read `{}`", file.display()))?.len();
                 say(&format!("written: {} ({} kB)", file.display(), bytes / 1000));
@@ -112,7 +112,7 @@ impl ViewerOutput {
             Destination::Window => {}
             Destination::Page if shutdown.asked() => {}
             Destination::Page => {
-                say("all is shown; Ctrl-C ends");
+                say("all is shown; press Ctrl-C to end");
                 let runtime =
                     tokio::runtime::Builder::new_current_thread().enable_all().build().context("no runtime")?;
                 runtime.block_on(async {
@@ -126,11 +126,11 @@ impl ViewerOutput {
     }
 }
 
-/// A port that nobody has: the one that is asked for, or any for 0.
+/// Returns the given port if it is free, or any free port for 0.
 fn free_port(bind: IpAddr, port: u16, flag: &str) -> anyhow::Result<u16> {
     let bound =
         TcpListener::bind(SocketAddr::new(bind, port)).and_then(|listener| listener.local_addr()).map_err(|why| {
-            Usage(format!("{flag} {port}: {bind}:{port} cannot be listened on: {why}; choose another, or 0"))
+            Usage(format!("{flag} {port}: cannot listen on {bind}:{port}: {why}; choose another port, or 0"))
         })?;
     Ok(bound.port())
 }
@@ -139,7 +139,7 @@ fn check_display() -> Result<(), Usage> {
     if ["DISPLAY", "WAYLAND_DISPLAY"].iter().any(|name| std::env::var_os(name).is_some_and(|value| !value.is_empty())) {
         return Ok(());
     }
-    let why = "--native: there is no display here (neither DISPLAY nor WAYLAND_DISPLAY is set); leave it out and open the page \
-               in a browser, from another machine through ssh (see docs/guide/watch.md), or write a file with --rrd";
+    let why = "--native: no display (neither DISPLAY nor WAYLAND_DISPLAY is set); omit it and open the page in a browser, \
+               from another machine through ssh (see docs/guide/watch.md), or write a file with --rrd";
     Err(Usage(why.to_string()))
 }

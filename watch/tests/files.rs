@@ -1,4 +1,4 @@
-//! Files for Rerun's viewer, of a policy that plays and of a run while it trains; and what is refused.
+//! Recordings of a saved policy and of a training run, and refused arguments.
 
 mod support;
 
@@ -11,7 +11,7 @@ use rerun::{
 use support::*;
 use treadmill_humanoid::{HUMANOID_XML, Model};
 
-/// Rows of each entity of a recording, and whether a layout comes with it.
+/// Returns the rows of each entity of a recording, and whether it has a layout.
 fn read(file: &Path) -> (BTreeMap<String, usize>, bool) {
     let mut rows = BTreeMap::new();
     let mut has_layout = false;
@@ -39,21 +39,21 @@ fn a_played_episode_is_written_as_a_file() {
     assert!(has_layout);
     let shapes: usize =
         Model::from_mjcf(HUMANOID_XML).expect("valid").bodies.iter().map(|body| body.shapes.len()).sum();
-    // 3 s of 15 ms each.
+    // 3 s in steps of 15 ms.
     for path in ["/world/body/torso", "/world/trail", "/world/contacts/forces"] {
         assert_eq!(rows.get(path), Some(&200), "{path} in {rows:#?}");
     }
-    // One more has the names of the curves.
+    // One more row has the names of the curves.
     for path in ["/reward", "/velocity", "/torques"] {
         assert_eq!(rows.get(path), Some(&201), "{path} in {rows:#?}");
     }
     assert_eq!(rows.get("/world/floor/lines"), Some(&1));
     assert_eq!(rows.keys().filter(|path| path.contains("/shape-")).count(), shapes);
-    assert!(rows["/world/floor"] > 3, "the floor comes along");
+    assert!(rows["/world/floor"] > 3, "the floor must follow");
 }
 
 #[test]
-fn a_run_that_trains_is_watched_live() {
+fn a_training_run_is_watched_live() {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let Some(mut command) = treadmill(folder.path()) else { return };
     command.args(["train", "--preset", "smoke", "--steps", "1000000000", "--run-dir", "run", "--no-progress"]);
@@ -67,11 +67,11 @@ fn a_run_that_trains_is_watched_live() {
     assert!(live.wait().0.success());
     let (rows, has_layout) = read(&folder.path().join("live.rrd"));
     assert!(has_layout);
-    // Every other control step of 3 s, less the pauses between episodes.
+    // Every other control step of 3 s, minus the gaps between episodes.
     assert!((50..=101).contains(&rows["/world/body/torso"]), "{rows:#?}");
     assert_eq!(rows["/world/body/torso"], rows["/reward"] - 1);
-    assert!(rows["/episodes"] > 1, "a body that has learnt nothing falls soon");
-    // Somebody who asks it to stop is heard.
+    assert!(rows["/episodes"] > 1, "an untrained body falls soon");
+    // Ctrl-C ends it.
     let mut command = treadmill(folder.path()).expect("as before");
     command.args(["watch", "--live", "run", "--rrd", "asked.rrd"]);
     let live = Running::start(command);
@@ -82,7 +82,7 @@ fn a_run_that_trains_is_watched_live() {
 }
 
 #[test]
-fn what_cannot_be_shown_is_refused_by_name() {
+fn invalid_arguments_are_refused_by_name() {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let refused = |args: &[&str], code: i32, parts: &[&str]| {
         let mut command = viewer(folder.path());

@@ -1,62 +1,62 @@
-//! Why an environment could not be built, or does not take what it is given.
+//! Errors of models, settings, actions, states and snapshots.
 
 use std::path::PathBuf;
 
-/// A model text or a setting that cannot be simulated, with what to change.
+/// Model or setting that cannot be simulated.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum ModelError {
-    /// The text is not readable MJCF.
+    /// The text is not valid MJCF.
     // Not a `#[source]`: its message repeats its own cause.
     #[error("the model text is not valid MJCF: {0}")]
     Parse(mjcf_rs::ParseError),
-    /// The text is MJCF, but uses something this environment does not simulate.
+    /// The MJCF uses a feature that this environment does not simulate.
     #[error("model element `{element}`: {problem}")]
     Unsupported {
-        /// Name of the body, joint, shape or motor.
+        /// Name of the body, joint, geom or motor.
         element: String,
-        /// What is wrong with it, and what would be accepted.
+        /// The problem, and what would be accepted.
         problem: String,
     },
-    /// An attribute holds something that cannot be read, or that would change the physics in a way not simulated.
+    /// An attribute is unreadable, or asks for physics that is not simulated.
     #[error("model element `{element}`: `{attribute}` is \"{value}\", but must be {expected}")]
     Attribute {
-        /// Name of the body, joint, shape or motor.
+        /// Name of the body, joint, geom or motor.
         element: String,
         /// Name of the attribute.
         attribute: String,
-        /// What stands there, with defaults filled in.
+        /// Value, with defaults filled in.
         value: String,
-        /// What would be accepted.
+        /// Accepted values.
         expected: String,
     },
-    /// The text is longer than any model.
-    #[error("the model text has {bytes} bytes, but at most {limit} are read")]
+    /// The text exceeds [`crate::model::MODEL_BYTES_MAX`].
+    #[error("the model text has {bytes} bytes, but the limit is {limit}")]
     TooLarge {
-        /// Its length.
+        /// Length of the text.
         bytes: u64,
-        /// [`crate::model::MODEL_BYTES_MAX`].
+        /// Longest accepted text.
         limit: u64,
     },
     /// A file of the model cannot be read.
     #[error("`{}` cannot be read", path.display())]
     File {
-        /// Which file.
+        /// Path of the file.
         path: PathBuf,
-        /// Why.
+        /// Cause.
         #[source]
         source: std::io::Error,
     },
-    /// A figure of the model makes no physical sense.
+    /// A quantity of the model is physically impossible.
     #[error("model element `{element}`: {figure} is {value}, but must be {expected}")]
     Figure {
-        /// Name of the body, joint, shape or motor.
+        /// Name of the body, joint, geom or motor.
         element: String,
-        /// Which figure, with its unit.
+        /// Quantity, with its unit.
         figure: &'static str,
-        /// The value found.
+        /// Value found.
         value: f64,
-        /// What would be accepted.
+        /// Accepted values.
         expected: &'static str,
     },
     /// A setting of the environment is out of range.
@@ -64,35 +64,35 @@ pub enum ModelError {
     Setting {
         /// Field of [`crate::EnvironmentConfig`].
         setting: &'static str,
-        /// The value found.
+        /// Value found.
         value: String,
-        /// What would be accepted.
+        /// Accepted values.
         expected: &'static str,
     },
 }
 
-/// An action or a buffer that an environment cannot take; nothing has happened then.
+/// Rejected action or buffer; the environment is unchanged.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum InputError {
-    /// It does not have the environment's size.
+    /// Length differs from the environment's.
     #[error("{what} has the wrong length: {found} instead of {expected}")]
     Length {
-        /// The action, or the buffer of the observation.
+        /// "action" or "observation buffer".
         what: &'static str,
-        /// Its length.
+        /// Length found.
         found: usize,
-        /// The length it should have.
+        /// Required length.
         expected: usize,
     },
-    /// It holds a number that is none.
+    /// An entry is not a finite number.
     #[error("{what}[{index}] is {value}, but every entry must be a finite number")]
     NotFinite {
-        /// The action.
+        /// Name of the vector.
         what: &'static str,
-        /// Which entry.
+        /// Index of the entry.
         index: usize,
-        /// What stands there.
+        /// Value found.
         value: f32,
     },
 }
@@ -110,49 +110,49 @@ impl InputError {
     }
 }
 
-/// A position or velocity vector that no body can have, or another vector that fits no episode here; nothing has happened then.
+/// Rejected position, velocity or other vector of an episode's state; the simulation is unchanged.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum StateError {
-    /// A vector does not have the model's size.
+    /// Length differs from the model's.
     #[error("{what} vector has the wrong length: {found} instead of {expected}")]
     Length {
-        /// Which vector.
+        /// Name of the vector.
         what: &'static str,
-        /// Its length.
+        /// Length found.
         found: usize,
-        /// The length it should have.
+        /// Required length.
         expected: usize,
     },
-    /// A number is infinite or none.
+    /// An entry is not a finite number.
     #[error("{what}[{index}], the {name}, is {value}, but must be a finite number")]
     NotFinite {
-        /// Which vector.
+        /// Name of the vector.
         what: &'static str,
-        /// Which entry.
+        /// Index of the entry.
         index: usize,
-        /// What it means, with the name of its hinge if it belongs to one.
+        /// Meaning of the entry, with the name of its hinge if it belongs to one.
         name: String,
-        /// What stands there.
+        /// Value found.
         value: f64,
     },
-    /// The root's quaternion is too short or too long to say a rotation.
-    #[error("the root quaternion position[3..7] is {value:?}, which is no rotation: give w, x, y, z of length 1")]
+    /// The root's quaternion is too short or too long to normalise.
+    #[error("the root quaternion position[3..7] is {value:?}, which is not a rotation: give w, x, y, z of length 1")]
     Quaternion {
-        /// What stands there: w, x, y, z.
+        /// Value found: w, x, y, z.
         value: [f64; 4],
     },
-    /// A hinge is far outside its range.
+    /// A hinge is outside its range by more than the tolerance.
     #[error(
         "position[{index}], the angle of hinge `{hinge}`, is {value_rad} rad, but must lie between {min_rad} rad and \
          {max_rad} rad, or at most {tolerance_rad} rad beyond"
     )]
     Hinge {
-        /// Which entry.
+        /// Index of the entry.
         index: usize,
         /// Name of the hinge.
         hinge: String,
-        /// What stands there (rad).
+        /// Value found (rad).
         value_rad: f64,
         /// Lower end of its range (rad).
         min_rad: f64,
@@ -163,26 +163,26 @@ pub enum StateError {
     },
 }
 
-/// A snapshot was taken of something else than what it is to be laid over; nothing has happened then.
+/// Snapshot of another model or of other settings; the simulation is unchanged.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum SnapshotError {
-    /// It is of another model.
-    #[error("the snapshot is of another model: {part} differs; restore it where the same model text was read")]
+    /// The models differ.
+    #[error("the snapshot belongs to another model: {part} differs; restore it with the same model text")]
     Model {
-        /// The first part that differs.
+        /// First part that differs.
         part: String,
     },
-    /// It was taken under other settings.
+    /// A setting differs.
     #[error(
         "the snapshot was taken with `{setting}` = {taken}, but here it is {found}; restore it under the same settings"
     )]
     Setting {
         /// Field of [`crate::EnvironmentConfig`].
         setting: &'static str,
-        /// Its value where the snapshot was taken.
+        /// Value in the snapshot.
         taken: String,
-        /// Its value here.
+        /// Value here.
         found: String,
     },
 }

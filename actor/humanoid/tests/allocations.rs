@@ -1,6 +1,6 @@
-//! The environment adds no allocation to those of the physics engine, neither in a step nor in a reset.
+//! Steps and resets of the environment allocate no more than the physics engine alone.
 //!
-//! One test alone in its process: the count is over all threads.
+//! The count covers all threads, so this test has a process of its own.
 
 use std::{
     alloc::{GlobalAlloc, Layout, System},
@@ -11,15 +11,15 @@ use treadmill_humanoid::{
     Environment, EnvironmentConfig, HUMANOID_XML, ObservationKind, Randomisation, RewardTask, Variation,
 };
 
-struct Counting;
+struct CountingAllocator;
 
 static COUNT: AtomicU64 = AtomicU64::new(0);
 
-// SAFETY: everything is handed to the system's allocator unchanged.
-unsafe impl GlobalAlloc for Counting {
+// SAFETY: every call is passed to the system's allocator unchanged.
+unsafe impl GlobalAlloc for CountingAllocator {
     unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
         COUNT.fetch_add(1, Ordering::Relaxed);
-        // SAFETY: the caller's promises are those that the system's allocator asks for.
+        // SAFETY: the caller upholds the same contract.
         unsafe { System.alloc(layout) }
     }
 
@@ -36,7 +36,7 @@ unsafe impl GlobalAlloc for Counting {
 }
 
 #[global_allocator]
-static ALLOCATOR: Counting = Counting;
+static ALLOCATOR: CountingAllocator = CountingAllocator;
 
 fn counted(work: impl FnOnce()) -> u64 {
     let before = COUNT.load(Ordering::Relaxed);
@@ -51,7 +51,7 @@ fn action(step: u64) -> [f32; 17] {
     std::array::from_fn(|motor| 0.4 * ((step * 31 + motor as u64 * 17) as f32).sin())
 }
 
-/// Allocations of physics alone: of a start, with a variation where there is one, and of the steps after it.
+/// Allocations of physics alone in a reset, with a variation if the episode is randomised, and in [`STEPS`] steps.
 fn physics_alone(randomisation: Randomisation) -> [u64; 2] {
     let is_varied = randomisation.is_on();
     let mut environment = environment(Randomisation::default());
@@ -66,7 +66,7 @@ fn physics_alone(randomisation: Randomisation) -> [u64; 2] {
         }
         physics.set_state(&position, &[0.0; 23]);
     });
-    // The steps begin where those of the whole environment do.
+    // Step from the same state as the whole environment.
     environment.reset(SEED, &mut observation);
     let physics = environment.physics_mut();
     let steps = counted(|| {
@@ -82,15 +82,15 @@ fn environment(randomisation: Randomisation) -> Environment {
     let config = EnvironmentConfig {
         terminate_when_unhealthy: false,
         randomisation,
-        // The observation that has most to compute.
+        // The most expensive observation.
         observation: ObservationKind::GymnasiumV4,
         ..EnvironmentConfig::default()
     };
     Environment::new(&config, HUMANOID_XML).expect("valid")
 }
 
-/// The same, of the environment around it.
-fn whole(randomisation: Randomisation) -> [u64; 2] {
+/// Allocations of the whole environment in a reset and in [`STEPS`] steps.
+fn whole_environment(randomisation: Randomisation) -> [u64; 2] {
     let mut environment = environment(randomisation);
     let mut observation = vec![0.0; environment.observation_size()];
     environment.step(&[0.0; 17], &mut observation);
@@ -106,7 +106,7 @@ fn whole(randomisation: Randomisation) -> [u64; 2] {
 
 #[test]
 fn the_environment_allocates_no_more_than_its_physics() {
-    // What is disturbed in the second case leaves the motion as it is, or known, so that physics does the same work.
+    // These settings leave the motion unchanged but for a known delay, so that physics does the same work.
     let disturbed = Randomisation {
         sensor_noise_position: 0.01,
         sensor_noise_velocity: 0.01,
@@ -117,12 +117,12 @@ fn the_environment_allocates_no_more_than_its_physics() {
     };
     assert!(counted(|| drop(environment(disturbed.clone()))) > 0, "allocations are counted");
     for randomisation in [Randomisation::default(), disturbed] {
-        let [alone, found] = [physics_alone(randomisation.clone()), whole(randomisation)];
-        // Rapier's own buffers grow a little differently from one world to the next.
+        let [alone, found] = [physics_alone(randomisation.clone()), whole_environment(randomisation)];
+        // Rapier's buffers grow slightly differently in each world.
         let more = found.iter().zip(alone).map(|(found, alone)| found.saturating_sub(alone)).max();
         assert!(
             more < Some(STEPS / 20),
-            "{found:?} allocations of a reset and of {STEPS} steps, {alone:?} without task"
+            "{found:?} allocations in a reset and in {STEPS} steps, {alone:?} of them in physics alone"
         );
     }
 }

@@ -1,13 +1,12 @@
-//! Treadmill: the humanoid as a Gymnasium environment, native part.
+//! Native part of the Gymnasium package `treadmill_gym`, which imports it as `treadmill_gym._native`.
 //!
-//! Python imports this as `treadmill_gym._native`. Only the package beside it uses it, `python/treadmill_gym`, which has spaces,
-//! seeds, wrappers and Gymnasium's rules about resets.
+//! The Python part adds spaces, seeds, wrappers and Gymnasium's reset rules.
 //!
 //! # Layout
-//! - `settings`: keyword arguments → settings and model.
+//! - `settings`: settings and model from keyword arguments.
 //! - `one`: one humanoid, stepped on the caller's thread.
-//! - `many`: several, stepped in one call and on several threads.
-//! - `info`: what is told of a step, as dictionaries.
+//! - `many`: several humanoids, stepped in one call on several threads.
+//! - `info`: infos of a step as dictionaries.
 //! - `renderer`: pictures.
 
 mod info;

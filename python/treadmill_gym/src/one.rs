@@ -30,33 +30,33 @@ impl Humanoid {
         Ok(Self { observation: vec![0.0; environment.observation_size()], followed: Followed::default(), environment })
     }
 
-    /// Name and size of each block of an observation, in order.
+    /// Returns name and size of each block of an observation, in order.
     #[getter]
     fn blocks(&self) -> Blocks {
         blocks(&self.environment)
     }
 
-    /// Least and greatest control of each motor.
+    /// Returns the smallest and largest control of each motor.
     #[getter]
     fn action_ranges(&self) -> Vec<[f32; 2]> {
         self.environment.action_ranges().to_vec()
     }
 
-    /// Duration of a step (s).
+    /// Returns the duration of a step (s).
     #[getter]
     fn control_step_s(&self) -> f64 {
         self.environment.control_step_s()
     }
 
-    /// Starts the episode that belongs to a seed: observation and info.
+    /// Starts the episode of a seed. Returns observation and info.
     fn reset<'py>(&mut self, py: Python<'py>, seed: u64) -> PyResult<(Observed<'py>, Bound<'py, PyDict>)> {
         let Self { environment, observation, .. } = self;
         py.detach(|| environment.reset(seed, observation));
-        self.followed.jump(self.environment.physics());
+        self.followed.reset(self.environment.physics());
         Ok((self.observed(py), self.info(py, Moment::Reset)?))
     }
 
-    /// A control step: observation, reward, whether the episode is over, info.
+    /// Does a control step. Returns observation, reward, whether the episode terminated, and info.
     fn step<'py>(
         &mut self,
         py: Python<'py>,
@@ -66,7 +66,7 @@ impl Humanoid {
         let Self { environment, observation, .. } = self;
         let step = py.detach(|| environment.try_step(action, observation));
         let step = step.map_err(|why| PyValueError::new_err(why.to_string()))?;
-        self.followed.walk(self.environment.physics());
+        self.followed.update(self.environment.physics());
         let info = self.info(py, Moment::Step)?;
         if step.fault {
             info.set_item(FAULT, true)?;
@@ -76,12 +76,12 @@ impl Humanoid {
 }
 
 impl Humanoid {
-    /// The body, to be looked at.
+    /// Returns the body.
     pub fn physics(&self) -> &Physics {
         self.environment.physics()
     }
 
-    /// Where the camera looks.
+    /// Returns the point that the camera follows.
     pub fn followed(&self) -> Followed {
         self.followed
     }
@@ -95,7 +95,7 @@ impl Humanoid {
     }
 }
 
-/// Name and size of each block of an observation, in order.
+/// Returns name and size of each block of an observation, in order.
 pub fn blocks(environment: &Environment) -> Blocks {
     environment.observation().blocks().iter().map(|block| (block.name, block.range.len())).collect()
 }

@@ -14,41 +14,41 @@ use rayon::{ThreadPool, ThreadPoolBuilder};
 use treadmill_humanoid::{CONTROL_STEP_S, Physics};
 use treadmill_render::{Camera, Picture, Scene, camera::BESIDE_M};
 
-use crate::{many::Humanoids, one::Humanoid, settings::Given};
+use crate::{many::Humanoids, one::Humanoid, settings::Keyword};
 
-/// Pixels of a side.
+/// Accepted width and height in pixels.
 const SIDE: RangeInclusive<u32> = 16..=4096;
-/// From the body to the camera (m); farther away the haze leaves nothing to be seen.
-const AWAY_M: RangeInclusive<f64> = 0.1..=50.0;
-/// How soon the camera follows the torso to the side: after this time (s) it is 1/e of a step aside behind.
-const FOLLOW_S: f64 = 0.5;
+/// Accepted distance from the body to the camera (m); haze hides a body that is farther away.
+const CAMERA_DISTANCE_M: RangeInclusive<f64> = 0.1..=50.0;
+/// Time constant with which the camera follows sideways motion (s).
+const FOLLOW_TIME_S: f64 = 0.5;
 
-/// The point of the floor that the camera follows, x and y (m): below the torso, with calm to the side.
+/// Point of the floor that the camera follows, x and y (m): below the torso, smoothed sideways.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Followed([f64; 2]);
 
 impl Followed {
-    /// The body was put elsewhere.
-    pub fn jump(&mut self, physics: &Physics) {
+    /// Moves the point to the body after a reset.
+    pub fn reset(&mut self, physics: &Physics) {
         self.0 = [physics.position()[0], physics.position()[1]];
     }
 
-    /// The body did a step.
-    pub fn walk(&mut self, physics: &Physics) {
-        let share = 1.0 - (-CONTROL_STEP_S / FOLLOW_S).exp();
-        // Ahead at once: a running body would leave the picture otherwise.
+    /// Follows the body after a step.
+    pub fn update(&mut self, physics: &Physics) {
+        let share = 1.0 - (-CONTROL_STEP_S / FOLLOW_TIME_S).exp();
+        // Forward motion is not smoothed, as a running body would leave the picture.
         self.0[0] = physics.position()[0];
         self.0[1] += (physics.position()[1] - self.0[1]) * share;
     }
 }
 
-/// Takes pictures of one size from one side.
+/// Renders pictures of one size from one direction.
 #[pyclass(frozen, module = "treadmill_gym._native")]
 pub struct Renderer {
     size: (u32, u32),
-    /// From the point that is looked at to the camera (m).
+    /// Offset of the camera from the followed point (m).
     camera_m: [f64; 3],
-    /// Of its own, made with the first picture: threads of a pool that all share would be missing in a forked process.
+    /// Started with the first picture. Rayon's global pool would have no threads in a forked process.
     pool: OnceLock<ThreadPool>,
 }
 
@@ -56,47 +56,48 @@ pub struct Renderer {
 impl Renderer {
     #[new]
     fn new(width: Bound<'_, PyAny>, height: Bound<'_, PyAny>, camera: Bound<'_, PyAny>) -> PyResult<Self> {
-        let width = Given { name: "width", value: width }.whole(SIDE)?;
-        let height = Given { name: "height", value: height }.whole(SIDE)?;
-        let given = Given { name: "camera", value: camera };
-        let camera_m = if given.value.is_none() { Some(BESIDE_M) } else { given.value.extract().ok() };
-        // NaN is in no range either.
+        let width = Keyword { name: "width", value: width }.whole(SIDE)?;
+        let height = Keyword { name: "height", value: height }.whole(SIDE)?;
+        let keyword = Keyword { name: "camera", value: camera };
+        let camera_m = if keyword.value.is_none() { Some(BESIDE_M) } else { keyword.value.extract().ok() };
+        // No range contains NaN.
         let is_allowed = |&[x, y, z]: &[f64; 3]| {
-            let (aside_m, allowed_m) = (x.hypot(y), AWAY_M);
-            allowed_m.contains(&aside_m) && allowed_m.contains(&aside_m.hypot(z))
+            let horizontal_m = x.hypot(y);
+            CAMERA_DISTANCE_M.contains(&horizontal_m) && CAMERA_DISTANCE_M.contains(&horizontal_m.hypot(z))
         };
         let camera_m = camera_m.filter(is_allowed).ok_or_else(|| {
-            let (low_m, high_m) = (AWAY_M.start(), AWAY_M.end());
-            given.refuse(&format!(
-                "None, or x, y and z from the body to the camera in m: at least {low_m} m aside and at most {high_m} m away"
+            let (low_m, high_m) = (CAMERA_DISTANCE_M.start(), CAMERA_DISTANCE_M.end());
+            keyword.refuse(&format!(
+                "None, or x, y and z from the body to the camera in m: horizontal distance at least {low_m} m, \
+                 distance at most {high_m} m"
             ))
         })?;
         Ok(Self { size: (width, height), camera_m, pool: OnceLock::new() })
     }
 
-    /// A picture of a humanoid, `[height, width, 3]`.
+    /// Renders a humanoid as `[height, width, 3]`.
     fn picture<'py>(&self, py: Python<'py>, humanoid: PyRef<'_, Humanoid>) -> PyResult<Bound<'py, PyArray3<u8>>> {
         let (scene, followed) = (Scene::of(humanoid.physics()), humanoid.followed());
         drop(humanoid);
-        self.take(py, &scene, followed)
+        self.render(py, &scene, followed)
     }
 
-    /// A picture of one of several humanoids, `[height, width, 3]`.
+    /// Renders one of several humanoids as `[height, width, 3]`.
     fn picture_of<'py>(
         &self,
         py: Python<'py>,
         humanoids: PyRef<'_, Humanoids>,
         index: usize,
     ) -> PyResult<Bound<'py, PyArray3<u8>>> {
-        let (physics, followed) = humanoids.seen(index).ok_or_else(|| PyIndexError::new_err(index))?;
+        let (physics, followed) = humanoids.view(index).ok_or_else(|| PyIndexError::new_err(index))?;
         let scene = Scene::of(physics);
         drop(humanoids);
-        self.take(py, &scene, followed)
+        self.render(py, &scene, followed)
     }
 }
 
 impl Renderer {
-    fn take<'py>(&self, py: Python<'py>, scene: &Scene, followed: Followed) -> PyResult<Bound<'py, PyArray3<u8>>> {
+    fn render<'py>(&self, py: Python<'py>, scene: &Scene, followed: Followed) -> PyResult<Bound<'py, PyArray3<u8>>> {
         let pool = self.pool()?;
         let [x_m, y_m] = followed.0;
         let camera = Camera::following(x_m, y_m, self.camera_m);

@@ -1,6 +1,6 @@
-//! Keyword arguments → settings and model, with an error that names the keyword, its value and what is allowed.
+//! Settings and model from keyword arguments. Errors name the keyword, its value and the accepted values.
 
-use std::{error::Error, fmt::Write, io, ops::RangeInclusive, path::Path};
+use std::{io, ops::RangeInclusive, path::Path};
 
 use pyo3::{
     exceptions::{PyFileNotFoundError, PyOSError, PyTypeError, PyValueError},
@@ -11,37 +11,36 @@ use treadmill_humanoid::{
     CONTROL_STEP_S, Environment, EnvironmentConfig, HUMANOID_XML, ModelError, ObservationKind, RewardTask,
     read_model_file,
 };
+use treadmill_runtime::error_chain;
 
-/// Every keyword, for the error about one that is not known.
+/// All keywords, for the error about an unknown one.
 const KEYWORDS: &str = "contact_cost_range, contact_cost_weight, ctrl_cost_weight, \
     exclude_current_positions_from_observation, forward_reward_weight, frame_skip, healthy_reward, healthy_z_range, \
     include_cfrc_ext_in_observation, include_cinert_in_observation, include_cvel_in_observation, \
     include_qfrc_actuator_in_observation, observation, reset_noise_scale, self_collision, solver_iterations, substeps, \
     task, terminate_when_unhealthy, xml_file";
 
-/// Gymnasium's name of the file that comes along: the built-in model has the same body.
+/// Gymnasium's name of its own model file, which stands for the built-in model here.
 const BUILT_IN: &str = "humanoid.xml";
-/// Gymnasium's number of physics steps in a control step; the only one that means the control step that is simulated here.
+/// Accepted `frame_skip`: with Gymnasium's time step, it gives the control step that is simulated here.
 const FRAME_SKIP: u32 = 5;
 
-/// Physics steps in a control step, and passes of the solver in a physics step.
+/// Accepted `substeps` and `solver_iterations`.
 const REPEATS: RangeInclusive<u32> = 1..=1000;
 
-/// What the keyword arguments ask for.
+/// Settings and model of an environment.
 pub struct EnvironmentSettings {
     config: EnvironmentConfig,
     model_xml: String,
-    /// Where the model came from, if not with us.
+    /// Path of the model file; `None` for the built-in model.
     file: Option<String>,
 }
 
 impl EnvironmentSettings {
-    /// Reads keyword arguments; missing ones have their defaults. After `max_episode_steps` an episode is truncated;
-    /// 0 means never.
+    /// Reads keyword arguments. Episodes are truncated after `max_episode_steps`; 0 means never.
     ///
     /// # Errors
-    /// `TypeError` for a keyword that is not known, `ValueError` for a value that is not allowed, `OSError` for a model
-    /// file that cannot be read.
+    /// `TypeError` for an unknown keyword, `ValueError` for an invalid value, `OSError` for an unreadable model file.
     pub fn read(keywords: &Bound<'_, PyDict>, max_episode_steps: u32) -> PyResult<Self> {
         let mut config = EnvironmentConfig {
             observation: ObservationKind::GymnasiumV5,
@@ -51,33 +50,35 @@ impl EnvironmentSettings {
         let mut file = None;
         for (name, value) in keywords.iter() {
             let name: String = name.extract()?;
-            let given = Given { name: &name, value };
+            let keyword = Keyword { name: &name, value };
             match name.as_str() {
-                "task" => config.task = given.choice(&TASKS)?,
-                "observation" => config.observation = given.choice(&OBSERVATIONS)?,
-                "forward_reward_weight" => config.forward_reward_weight = given.number()?,
-                "ctrl_cost_weight" => config.ctrl_cost_weight = given.number()?,
-                "contact_cost_weight" => config.contact_cost_weight = given.number()?,
-                "contact_cost_range" => config.contact_cost_range = given.range()?,
-                "healthy_reward" => config.healthy_reward = given.number()?,
-                "terminate_when_unhealthy" => config.terminate_when_unhealthy = given.flag()?,
-                "healthy_z_range" => config.healthy_z_range = given.range()?,
-                "reset_noise_scale" => config.reset_noise_scale = given.number()?,
+                "task" => config.task = keyword.choice(&TASKS)?,
+                "observation" => config.observation = keyword.choice(&OBSERVATIONS)?,
+                "forward_reward_weight" => config.forward_reward_weight = keyword.number()?,
+                "ctrl_cost_weight" => config.ctrl_cost_weight = keyword.number()?,
+                "contact_cost_weight" => config.contact_cost_weight = keyword.number()?,
+                "contact_cost_range" => config.contact_cost_range = keyword.range()?,
+                "healthy_reward" => config.healthy_reward = keyword.number()?,
+                "terminate_when_unhealthy" => config.terminate_when_unhealthy = keyword.flag()?,
+                "healthy_z_range" => config.healthy_z_range = keyword.range()?,
+                "reset_noise_scale" => config.reset_noise_scale = keyword.number()?,
                 "exclude_current_positions_from_observation" => {
-                    config.exclude_current_positions_from_observation = given.flag()?;
+                    config.exclude_current_positions_from_observation = keyword.flag()?;
                 }
-                "include_cinert_in_observation" => config.include_cinert_in_observation = given.flag()?,
-                "include_cvel_in_observation" => config.include_cvel_in_observation = given.flag()?,
-                "include_qfrc_actuator_in_observation" => config.include_qfrc_actuator_in_observation = given.flag()?,
-                "include_cfrc_ext_in_observation" => config.include_cfrc_ext_in_observation = given.flag()?,
-                "substeps" => config.substeps = given.whole(REPEATS)?,
-                "solver_iterations" => config.solver_iterations = given.whole(REPEATS)?,
-                "self_collision" => config.self_collision = given.flag()?,
-                "frame_skip" => given.frame_skip()?,
-                "xml_file" => file = given.file()?,
+                "include_cinert_in_observation" => config.include_cinert_in_observation = keyword.flag()?,
+                "include_cvel_in_observation" => config.include_cvel_in_observation = keyword.flag()?,
+                "include_qfrc_actuator_in_observation" => {
+                    config.include_qfrc_actuator_in_observation = keyword.flag()?
+                }
+                "include_cfrc_ext_in_observation" => config.include_cfrc_ext_in_observation = keyword.flag()?,
+                "substeps" => config.substeps = keyword.whole(REPEATS)?,
+                "solver_iterations" => config.solver_iterations = keyword.whole(REPEATS)?,
+                "self_collision" => config.self_collision = keyword.flag()?,
+                "frame_skip" => keyword.frame_skip()?,
+                "xml_file" => file = keyword.file()?,
                 _ => {
                     let why =
-                        format!("unknown keyword argument `{name}`; allowed beside those of pictures: {KEYWORDS}");
+                        format!("unknown keyword argument `{name}`; accepted, besides those of pictures: {KEYWORDS}");
                     return Err(PyTypeError::new_err(why));
                 }
             }
@@ -92,7 +93,7 @@ impl EnvironmentSettings {
     /// Builds one environment.
     ///
     /// # Errors
-    /// `ValueError` for settings or a model that cannot be simulated, or under which every episode would end at once.
+    /// `ValueError` for settings or a model that cannot be simulated, or with which every episode would end at once.
     pub fn environment(&self) -> PyResult<Environment> {
         let file = self.file.as_deref();
         let environment = Environment::new(&self.config, &self.model_xml).map_err(|why| refusal(&why, file))?;
@@ -100,8 +101,8 @@ impl EnvironmentSettings {
         let [low_m, high_m] = self.config.healthy_z_range;
         if self.config.terminate_when_unhealthy && !(low_m < height_m && height_m < high_m) {
             return Err(PyValueError::new_err(format!(
-                "healthy_z_range is ({low_m}, {high_m}), but the robot starts with its root at {height_m} m, so that every \
-                 episode would end at once; say healthy_z_range=({:.2}, {:.2}), for example",
+                "healthy_z_range is ({low_m}, {high_m}), but the robot starts with its root at {height_m} m, so every \
+                 episode would end at once; use healthy_z_range=({:.2}, {:.2}), for example",
                 0.7 * height_m,
                 1.4 * height_m
             )));
@@ -118,16 +119,16 @@ const OBSERVATIONS: [(&str, ObservationKind); 3] = [
     ("compact", ObservationKind::Compact),
 ];
 
-/// A keyword argument.
-pub struct Given<'a, 'py> {
-    /// Its name.
+/// Keyword argument.
+pub struct Keyword<'a, 'py> {
+    /// Name.
     pub name: &'a str,
-    /// What was given.
+    /// Value.
     pub value: Bound<'py, PyAny>,
 }
 
-impl Given<'_, '_> {
-    /// The error about it.
+impl Keyword<'_, '_> {
+    /// Returns the error about an invalid value.
     pub fn refuse(&self, expected: &str) -> PyErr {
         let value = self.value.repr().map_or_else(|_| "unprintable".to_owned(), |text| text.to_string());
         PyValueError::new_err(format!("{} is {value}, but must be {expected}", self.name))
@@ -139,14 +140,14 @@ impl Given<'_, '_> {
     }
 
     fn range(&self) -> PyResult<[f64; 2]> {
-        self.value.extract().map_err(|_| self.refuse("two numbers, the lowest and the highest"))
+        self.value.extract().map_err(|_| self.refuse("two numbers, the lower and the upper limit"))
     }
 
     fn flag(&self) -> PyResult<bool> {
         self.value.extract().map_err(|_| self.refuse("True or False"))
     }
 
-    /// A whole number in a range.
+    /// Returns a whole number in a range.
     pub fn whole(&self, range: RangeInclusive<u32>) -> PyResult<u32> {
         let number = (!self.value.is_instance_of::<PyBool>()).then(|| self.value.extract().ok()).flatten();
         let (low, high) = (range.start(), range.end());
@@ -167,13 +168,12 @@ impl Given<'_, '_> {
         match self.whole(REPEATS) {
             Ok(FRAME_SKIP) => Ok(()),
             _ => Err(self.refuse(&format!(
-                "{FRAME_SKIP}: a control step takes {CONTROL_STEP_S} s here, always; `substeps` says in how many steps physics \
-                 does that"
+                "{FRAME_SKIP}: a control step is always {CONTROL_STEP_S} s; `substeps` sets its number of physics steps"
             ))),
         }
     }
 
-    /// The path of a model file; `None` for the built-in model.
+    /// Returns the path of a model file; `None` for the built-in model.
     fn file(&self) -> PyResult<Option<String>> {
         let path = self.value.py().import("os")?.call_method1("fspath", (&self.value,));
         let path: Option<String> = path.and_then(|path| path.extract()).ok();
@@ -182,23 +182,17 @@ impl Given<'_, '_> {
     }
 }
 
-/// The error with its causes, as Python raises it.
+/// Returns the Python exception for a model error, with its causes.
 fn refusal(why: &ModelError, file: Option<&str>) -> PyErr {
-    let mut told = match file {
-        Some(path) => format!("xml_file `{path}`: {why}"),
-        None => why.to_string(),
+    let message = match file {
+        Some(path) => format!("xml_file `{path}`: {}", error_chain(why)),
+        None => error_chain(why),
     };
-    let mut cause = why.source();
-    while let Some(why) = cause {
-        // Writing to a string cannot fail.
-        let _ = write!(told, ": {why}");
-        cause = why.source();
-    }
     match why {
         ModelError::File { source, .. } if source.kind() == io::ErrorKind::NotFound => {
-            PyFileNotFoundError::new_err(told)
+            PyFileNotFoundError::new_err(message)
         }
-        ModelError::File { .. } => PyOSError::new_err(told),
-        _ => PyValueError::new_err(told),
+        ModelError::File { .. } => PyOSError::new_err(message),
+        _ => PyValueError::new_err(message),
     }
 }

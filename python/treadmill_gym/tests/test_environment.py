@@ -16,7 +16,7 @@ import treadmill_gym  # noqa: F401  registers the environment
 
 ID = "treadmill/Humanoid-v0"
 
-#: A trunk on one driven leg, as short as can be.
+#: Minimal trunk on one driven leg.
 HOPPER = """
 <mujoco>
   <compiler angle="radian"/>
@@ -36,15 +36,15 @@ HOPPER = """
 
 
 def play(env, steps, seed):
-    """What happens under the same random actions: observations, rewards, ends."""
+    """Plays fixed random actions and returns observations, rewards, terminations and infos."""
     random = np.random.default_rng(7)
     observation, info = env.reset(seed=seed)
-    told = [(observation, 0.0, False, info)]
+    results = [(observation, 0.0, False, info)]
     for _ in range(steps):
         action = random.uniform(-0.4, 0.4, env.action_space.shape).astype(np.float32)
         observation, reward, terminated, _, info = env.step(action)
-        told.append((observation, reward, terminated, info))
-    return told
+        results.append((observation, reward, terminated, info))
+    return results
 
 
 class Registered(unittest.TestCase):
@@ -68,15 +68,15 @@ class Registered(unittest.TestCase):
 
 class Checked(unittest.TestCase):
     def check(self, **keywords):
-        with warnings.catch_warnings(record=True) as told:
+        with warnings.catch_warnings(record=True) as caught:
             warnings.simplefilter("always")
             check_env(gymnasium.make(ID, **keywords).unwrapped)
-        # Observations have no bounds, and actions have the humanoid's: Gymnasium's own humanoid is told the same.
-        told = [str(warning.message) for warning in told]
-        self.assertEqual([text for text in told if "infinity" not in text and "normalized" not in text], [])
+        # Gymnasium's own humanoid gets these warnings too: about unbounded observations and the range of actions.
+        texts = [str(warning.message) for warning in caught]
+        self.assertEqual([text for text in texts if "infinity" not in text and "normalized" not in text], [])
 
-    def test_gymnasiums_checker_has_nothing_to_say(self):
-        # Its windows are drawn nowhere.
+    def test_gymnasiums_checker_has_no_other_warnings(self):
+        # The dummy driver draws nothing.
         with unittest.mock.patch.dict("os.environ", SDL_VIDEODRIVER="dummy"):
             self.check()
             self.check(observation="compact", task="humanoid-v4")
@@ -94,15 +94,15 @@ class Spaces(unittest.TestCase):
         self.assertEqual(env.observation_space.shape, (348 - 78 + 2,))
 
     @unittest.skipUnless(find_spec("mujoco"), "LEFT OUT: MuJoCo is not installed")
-    def test_all_is_as_gymnasiums_own_humanoid_has_it(self):
+    def test_spaces_and_infos_equal_those_of_gymnasiums_humanoid(self):
         theirs, ours = gymnasium.make("Humanoid-v5"), gymnasium.make(ID)
         self.assertEqual(ours.observation_space, theirs.observation_space)
         self.assertEqual(ours.action_space, theirs.action_space)
         self.assertEqual(ours.unwrapped.observation_structure, theirs.unwrapped.observation_structure)
         self.assertAlmostEqual(ours.unwrapped.dt, theirs.unwrapped.dt)
         self.assertEqual(ours.metadata["render_fps"], theirs.metadata["render_fps"])
-        (one, one_told), (other, other_told) = ours.reset(seed=1), theirs.reset(seed=1)
-        self.assertEqual(list(one_told), list(other_told))
+        (one, one_info), (other, other_info) = ours.reset(seed=1), theirs.reset(seed=1)
+        self.assertEqual(list(one_info), list(other_info))
         self.assertEqual(one.dtype, other.dtype)
         # Both start within 0.01 of the same pose; masses and inertias are the same.
         np.testing.assert_allclose(one[:45], other[:45], atol=0.021)
@@ -115,7 +115,7 @@ class Spaces(unittest.TestCase):
 
 
 class Seeded(unittest.TestCase):
-    def test_equal_seeds_give_equal_numbers_whatever_was_before(self):
+    def test_equal_seeds_give_equal_episodes(self):
         env, other = gymnasium.make(ID), gymnasium.make(ID)
         play(other, 5, seed=9)
         for one, two in zip(play(env, 40, seed=3), play(other, 40, seed=3), strict=True):
@@ -171,7 +171,7 @@ class Stepped(unittest.TestCase):
             ends.append(env.step(np.full(17, size, np.float32))[0])
         np.testing.assert_array_equal(*ends)
 
-    def test_bad_actions_are_refused_and_nothing_has_happened(self):
+    def test_bad_actions_are_refused_and_change_nothing(self):
         env, other = gymnasium.make(ID), gymnasium.make(ID)
         env.reset(seed=1)
         other.reset(seed=1)
@@ -190,11 +190,11 @@ class Stepped(unittest.TestCase):
                 env.unwrapped.step(action)
         np.testing.assert_array_equal(env.step(np.zeros(17))[0], other.step(np.zeros(17))[0])
 
-    def test_observations_belong_to_whoever_got_them(self):
-        told = play(gymnasium.make(ID), 3, seed=1)
-        kept = told[1][0].copy()
-        told[2][0][:] = 0
-        np.testing.assert_array_equal(told[1][0], kept)
+    def test_returned_observations_are_copies(self):
+        results = play(gymnasium.make(ID), 3, seed=1)
+        kept = results[1][0].copy()
+        results[2][0][:] = 0
+        np.testing.assert_array_equal(results[1][0], kept)
 
 
 class Keywords(unittest.TestCase):
@@ -226,7 +226,7 @@ class Keywords(unittest.TestCase):
         self.refuse("nowhere.xml", FileNotFoundError, xml_file="nowhere.xml")
         self.refuse("xml_file is 3", xml_file=3)
 
-    def test_gymnasiums_own_words_are_taken(self):
+    def test_gymnasiums_own_values_are_accepted(self):
         env = gymnasium.make(ID, xml_file="humanoid.xml", frame_skip=5, contact_cost_range=(-np.inf, 10.0))
         self.assertEqual(env.observation_space.shape, (348,))
 

@@ -1,4 +1,4 @@
-"""Pictures and the window."""
+"""Tests of pictures and of the window."""
 
 import os
 import subprocess
@@ -22,27 +22,27 @@ ID = "treadmill/Humanoid-v0"
 
 
 def fall(env, steps=60):
-    """The humanoid without any strength, which falls."""
+    """Steps with zero actions, so that the humanoid falls."""
     for _ in range(steps):
         env.step(np.zeros(17, np.float32))
 
 
 def right_side(picture):
-    """How many pixels show the limbs of the body's right side, the only green there is."""
+    """Returns the number of pixels that show right limbs, the only green ones."""
     red, green = (picture[..., channel].astype(int) for channel in (0, 1))
     return int((green - red > 40).sum())
 
 
 class Pictures(unittest.TestCase):
-    def test_a_picture_has_the_size_that_was_asked_for(self):
+    def test_a_picture_has_the_requested_size(self):
         env = gymnasium.make(ID, render_mode="rgb_array", width=160, height=120)
         env.reset(seed=1)
         picture = env.render()
         self.assertEqual((picture.shape, picture.dtype), ((120, 160, 3), np.uint8))
-        # Sky above, floor below, and a body between.
+        # Sky, floor and body.
         self.assertGreater(len(np.unique(picture.reshape(-1, 3), axis=0)), 100)
 
-    def test_the_picture_changes_with_the_body_and_is_the_same_for_the_same(self):
+    def test_the_picture_depends_on_the_body_only(self):
         env = gymnasium.make(ID, render_mode="rgb_array", width=80, height=60)
         env.reset(seed=1)
         first, again = env.render(), env.render()
@@ -50,7 +50,7 @@ class Pictures(unittest.TestCase):
         fall(env)
         self.assertGreater((env.render() != first).any(axis=2).sum(), 80 * 60 // 20)
 
-    def test_the_camera_follows_whoever_runs_off(self):
+    def test_the_camera_follows_a_runner(self):
         env = gymnasium.make(ID, observation="compact", render_mode="rgb_array", width=80, height=60)
         observation, info = env.reset(seed=1)
         before = right_side(env.render())
@@ -64,7 +64,7 @@ class Pictures(unittest.TestCase):
         self.assertGreater(before, 50)
         self.assertGreater(right_side(env.render()), before // 2)
 
-    def test_another_side(self):
+    def test_another_camera_gives_another_picture(self):
         pictures = []
         for camera in (None, (-3.0, 0.0, 1.0)):
             env = gymnasium.make(ID, render_mode="rgb_array", width=80, height=60, camera=camera)
@@ -98,14 +98,14 @@ if child == 0:
     os._exit(0 if picture() == expected else 1)
 raise SystemExit(os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]))
 """
-        # A pool without threads would wait for ever.
+        # A pool without threads would wait forever.
         self.assertEqual(subprocess.run([sys.executable, "-W", "ignore", "-c", code], timeout=120, check=False).returncode, 0)
 
 
 @unittest.skipUnless(find_spec("pygame"), "LEFT OUT: pygame is not installed")
 class Windows(unittest.TestCase):
     def setUp(self):
-        # A display that draws nowhere.
+        # The dummy driver draws nothing.
         patch = unittest.mock.patch.dict("os.environ", SDL_VIDEODRIVER="dummy")
         patch.start()
         self.addCleanup(patch.stop)
@@ -119,7 +119,7 @@ class Windows(unittest.TestCase):
         like = gymnasium.make(ID, render_mode="rgb_array", width=64, height=48)
         like.reset(seed=1)
         np.testing.assert_array_equal(shown, like.render())
-        # Some may be left out, but not all of them.
+        # Some steps may be skipped, but not all.
         fall(env, 10)
         self.assertFalse(np.array_equal(pygame.surfarray.array3d(pygame.display.get_surface()).swapaxes(0, 1), shown))
         env.close()
@@ -135,7 +135,7 @@ class Windows(unittest.TestCase):
         with self.assertRaises(treadmill_gym.WindowClosed):
             fall(env, 10)
 
-    def test_no_display_is_an_error_that_says_what_helps(self):
+    def test_a_missing_display_is_an_error_with_advice(self):
         hidden = {"DISPLAY", "WAYLAND_DISPLAY", "SDL_VIDEODRIVER", "SDL_VIDEO_DRIVER", "XDG_RUNTIME_DIR"}
         environment = {name: value for name, value in os.environ.items() if name not in hidden}
         code = f'import gymnasium, treadmill_gym; gymnasium.make("{ID}", render_mode="human").reset(seed=1)'
@@ -143,7 +143,7 @@ class Windows(unittest.TestCase):
         self.assertNotEqual(out.returncode, 0)
         self.assertIn("needs a display", out.stderr.splitlines()[-1])
 
-    def test_no_pygame_is_an_error_that_says_how_to_get_it(self):
+    def test_missing_pygame_is_an_error_with_advice(self):
         with unittest.mock.patch.dict("sys.modules", pygame=None):
             with self.assertRaisesRegex(gymnasium.error.DependencyNotInstalled, r"treadmill-gym\[human\]"):
                 gymnasium.make(ID, render_mode="human")

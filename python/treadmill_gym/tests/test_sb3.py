@@ -1,4 +1,4 @@
-"""Stable-Baselines3's PPO on the humanoid, and the tutorial's scripts as they stand."""
+"""Tests of Stable-Baselines3's PPO on the humanoid, and of the tutorial's scripts."""
 
 import subprocess
 import sys
@@ -52,24 +52,24 @@ class Tutorial(unittest.TestCase):
         return out.stdout
 
     def test_the_four_scripts(self):
-        told = self.script("tutorial_1_random.py", "--episodes", "2")
-        self.assertIn("episode 2: return", told)
-        self.assertGreater(told.count("reward"), 20)
-        told = self.script("tutorial_2_naive.py", "--episodes", "20")
-        self.assertIn("preferred action", told)
-        told = self.script("tutorial_3_ppo.py", "--steps", "2048", "--model", "one.zip")
-        self.assertIn("saved one.zip", told)
-        told = self.script("tutorial_3_ppo.py", "--steps", "2048", "--envs", "16", "--model", "many.zip")
-        self.assertIn("ep_rew_mean", told)
+        output = self.script("tutorial_1_random.py", "--episodes", "2")
+        self.assertIn("episode 2: return", output)
+        self.assertGreater(output.count("reward"), 20)
+        output = self.script("tutorial_2_naive.py", "--episodes", "20")
+        self.assertIn("preferred action", output)
+        output = self.script("tutorial_3_ppo.py", "--steps", "2048", "--model", "one.zip")
+        self.assertIn("saved one.zip", output)
+        output = self.script("tutorial_3_ppo.py", "--steps", "2048", "--envs", "16", "--model", "many.zip")
+        self.assertIn("ep_rew_mean", output)
         for model in ("one.zip", "many.zip"):
-            told = self.script("tutorial_4_watch.py", model, "--episodes", "1", "--gif", "walk.gif")
-            self.assertIn("wrote walk.gif", told)
+            output = self.script("tutorial_4_watch.py", model, "--episodes", "1", "--gif", "walk.gif")
+            self.assertIn("wrote walk.gif", output)
             self.assertEqual((self.folder / "walk.gif").read_bytes()[:6], b"GIF89a")
 
 
 @NEEDS_SB3
 class Vectorised(unittest.TestCase):
-    def test_all_in_one_call_gives_what_single_ones_give(self):
+    def test_results_equal_those_of_single_environments(self):
         from stable_baselines3.common.vec_env import DummyVecEnv
 
         from treadmill_gym.sb3 import HumanoidVecEnv
@@ -83,11 +83,11 @@ class Vectorised(unittest.TestCase):
         ends = set()
         for _ in range(80):
             actions = random.uniform(-0.4, 0.4, (count, 17)).astype(np.float32)
-            told, expected = ours.step(actions), theirs.step(actions)
-            for one, other in zip(told[:3], expected[:3], strict=True):
+            results, expected = ours.step(actions), theirs.step(actions)
+            for one, other in zip(results[:3], expected[:3], strict=True):
                 np.testing.assert_array_equal(one, other)
                 self.assertEqual(one.dtype, other.dtype)
-            for one, other in zip(told[3], expected[3], strict=True):
+            for one, other in zip(results[3], expected[3], strict=True):
                 self.assertEqual(sorted(one), sorted(other))
                 for name, value in other.items():
                     np.testing.assert_array_equal(one[name], value, name)

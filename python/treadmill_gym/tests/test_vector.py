@@ -1,4 +1,4 @@
-"""Several humanoids at once, held against Gymnasium's SyncVectorEnv of single ones."""
+"""Tests of several humanoids at once, compared with Gymnasium's SyncVectorEnv of single ones."""
 
 import unittest
 
@@ -12,7 +12,7 @@ ID = "treadmill/Humanoid-v0"
 
 
 def both(count, mode=AutoresetMode.NEXT_STEP, threads=2, **keywords):
-    """Ours, and Gymnasium's around single environments."""
+    """Returns our vector environment and Gymnasium's, which wraps single environments."""
     ours = gymnasium.make_vec(ID, count, autoreset_mode=mode, threads=threads, **keywords)
     theirs = gymnasium.make_vec(ID, count, vectorization_mode="sync", vector_kwargs={"autoreset_mode": mode}, **keywords)
     return ours, theirs
@@ -42,12 +42,12 @@ class Alike(unittest.TestCase):
         ends = 0
         for _ in range(steps):
             actions = random.uniform(-0.4, 0.4, ours.action_space.shape).astype(np.float32)
-            told, expected = ours.step(actions), theirs.step(actions)
-            for one, other in zip(told[:4], expected[:4], strict=True):
+            results, expected = ours.step(actions), theirs.step(actions)
+            for one, other in zip(results[:4], expected[:4], strict=True):
                 np.testing.assert_array_equal(one, other)
                 self.assertEqual(one.dtype, other.dtype)
-            self.assert_alike(told[4], expected[4])
-            over = told[2] | told[3]
+            self.assert_alike(results[4], expected[4])
+            over = results[2] | results[3]
             ends += over.sum()
             if mode is AutoresetMode.DISABLED and over.any():
                 observations, infos = ours.reset(options={"reset_mask": over})
@@ -57,7 +57,7 @@ class Alike(unittest.TestCase):
         self.assertGreater(ends, 10)
         self.assertEqual(ours.np_random_seed, theirs.np_random_seed)
 
-    def test_in_every_mode_of_resetting(self):
+    def test_in_every_autoreset_mode(self):
         for mode in AutoresetMode:
             with self.subTest(mode=mode):
                 self.play(mode, 120)
@@ -65,7 +65,7 @@ class Alike(unittest.TestCase):
     def test_with_other_settings(self):
         self.play(AutoresetMode.SAME_STEP, 120, observation="compact", task="humanoid-v4", max_episode_steps=15)
         self.play(AutoresetMode.NEXT_STEP, 120, observation="gymnasium-v4", max_episode_steps=7)
-        # All at once.
+        # All episodes end at once.
         self.play(AutoresetMode.NEXT_STEP, 30, terminate_when_unhealthy=False, max_episode_steps=5)
         self.play(AutoresetMode.SAME_STEP, 30, terminate_when_unhealthy=False, max_episode_steps=5)
 
@@ -79,14 +79,14 @@ class Alike(unittest.TestCase):
 
 
 class Vector(unittest.TestCase):
-    def test_other_processes_find_it_by_the_module_in_its_name(self):
+    def test_the_module_in_the_name_works_in_other_processes(self):
         name = f"treadmill_gym:{ID}"
         theirs = gymnasium.make_vec(name, 2, vectorization_mode="async", vector_kwargs={"context": "spawn"})
         ours = gymnasium.make_vec(name, 2)
         np.testing.assert_array_equal(ours.reset(seed=1)[0], theirs.reset(seed=1)[0])
         theirs.close()
 
-    def test_threads_change_no_number(self):
+    def test_results_do_not_depend_on_threads(self):
         actions = np.random.default_rng(2).uniform(-0.4, 0.4, (60, 7, 17)).astype(np.float32)
         ends = []
         for threads in (1, 2, 3):
@@ -105,7 +105,7 @@ class Vector(unittest.TestCase):
         with self.assertRaisesRegex(ValueError, "2 entries.*3 environments"):
             env.reset(seed=[1, 2])
 
-    def test_a_time_limit_is_told_from_a_fall(self):
+    def test_a_time_limit_truncates(self):
         env = gymnasium.make_vec(ID, 2, max_episode_steps=4)
         env.reset(seed=1)
         for step in range(1, 5):
@@ -118,7 +118,7 @@ class Vector(unittest.TestCase):
             env.reset(seed=1)
             self.assertFalse(any(env.step(np.zeros((1, 17)))[3].any() for _ in range(1002)))
 
-    def test_what_is_refused(self):
+    def test_invalid_arguments_are_refused(self):
         env = gymnasium.make_vec(ID, 2)
         env.reset(seed=1)
         before, _ = env.reset(seed=1)

@@ -1,4 +1,4 @@
-//! A headless Chromium, spoken to in its DevTools protocol through a pipe.
+//! A headless Chromium, driven by the DevTools protocol through a pipe.
 
 use std::{
     ffi::OsString,
@@ -11,12 +11,12 @@ use std::{
 use base64::prelude::{BASE64_STANDARD, Engine};
 use serde_json::{Value, json};
 
-use super::{TIMEOUT, picture::Picture, skip};
+use super::{TIMEOUT, picture::Screenshot, skip};
 
-/// Width and height of the page.
+/// Width and height of the page in pixels.
 pub const SIZE: (u32, u32) = (1280, 720);
 
-/// A running browser.
+/// Running browser.
 pub struct Browser {
     child: Child,
     input: ChildStdin,
@@ -25,12 +25,12 @@ pub struct Browser {
     _profile: tempfile::TempDir,
 }
 
-/// One page in it.
+/// Page in a browser.
 pub struct Page {
     session: String,
 }
 
-/// What TREADMILL_CHROMIUM names, or a Chromium on the PATH.
+/// Returns TREADMILL_CHROMIUM, or a Chromium on the PATH.
 fn program() -> Option<OsString> {
     if let Some(named) = std::env::var_os("TREADMILL_CHROMIUM") {
         return Some(named);
@@ -45,15 +45,15 @@ fn program() -> Option<OsString> {
 }
 
 impl Browser {
-    /// Starts one; where there is none, says so loudly.
+    /// Starts a browser; skips the test if there is none.
     pub fn start() -> Option<Self> {
         let Some(program) = program() else {
-            skip("no Chromium: install the package `chromium`, or name one by TREADMILL_CHROMIUM");
+            skip("no Chromium: install the package `chromium`, or set TREADMILL_CHROMIUM");
             return None;
         };
         let profile = tempfile::tempdir().expect("a temporary folder");
         let mut command = Command::new("sh");
-        // It reads from file 3 and writes to file 4.
+        // Chromium reads from file descriptor 3 and writes to 4.
         command.args(["-c", r#"exec "$0" "$@" 3<&0 4>&1 </dev/null >/dev/null 2>&1"#]).arg(program);
         command.args([
             "--headless=new",
@@ -64,9 +64,9 @@ impl Browser {
         ]);
         command.arg(format!("--user-data-dir={}", profile.path().display()));
         command.arg(format!("--window-size={},{}", SIZE.0, SIZE.1));
-        // A processor draws, so that no GPU is needed.
+        // Render on the CPU, so that no GPU is needed.
         command.args(["--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--disable-dev-shm-usage"]);
-        // Nothing but this machine is there for the page: what it needs must come from our binary.
+        // Without other hosts, everything that the page needs must come from our binary.
         command.arg("--host-resolver-rules=MAP * ~NOTFOUND, EXCLUDE 127.0.0.1, EXCLUDE localhost");
         let mut child = command.stdin(Stdio::piped()).stdout(Stdio::piped()).spawn().expect("the browser starts");
         let (sender, messages) = channel();
@@ -80,14 +80,14 @@ impl Browser {
         Some(Self { child, input, messages, sent: 0, _profile: profile })
     }
 
-    fn ask(&mut self, session: Option<&str>, method: &str, params: &Value) -> Value {
+    fn call(&mut self, session: Option<&str>, method: &str, params: &Value) -> Value {
         self.sent += 1;
         let mut message = json!({"id": self.sent, "method": method, "params": params});
         if let Some(session) = session {
             message["sessionId"] = session.into();
         }
         let text = format!("{message}\0");
-        self.input.write_all(text.as_bytes()).expect("the browser listens");
+        self.input.write_all(text.as_bytes()).expect("the browser reads its commands");
         let until = Instant::now() + TIMEOUT;
         loop {
             let left = until.saturating_duration_since(Instant::now());
@@ -101,51 +101,51 @@ impl Browser {
 
     /// Opens a page.
     pub fn open(&mut self, url: &str) -> Page {
-        let target = self.ask(None, "Target.createTarget", &json!({"url": url}));
+        let target = self.call(None, "Target.createTarget", &json!({"url": url}));
         let attached =
-            self.ask(None, "Target.attachToTarget", &json!({"targetId": target["targetId"], "flatten": true}));
+            self.call(None, "Target.attachToTarget", &json!({"targetId": target["targetId"], "flatten": true}));
         let session = attached["sessionId"].as_str().expect("a session").to_string();
         let (width, height) = SIZE;
         let size = json!({"width": width, "height": height, "deviceScaleFactor": 1, "mobile": false});
-        self.ask(Some(&session), "Emulation.setDeviceMetricsOverride", &size);
+        self.call(Some(&session), "Emulation.setDeviceMetricsOverride", &size);
         Page { session }
     }
 
-    /// Clicks a place of the page, as (x, y) in pixels.
+    /// Clicks a point of the page, as (x, y) in pixels.
     pub fn click(&mut self, page: &Page, (x, y): (u32, u32)) {
         for kind in ["mousePressed", "mouseReleased"] {
             let event = json!({"type": kind, "x": x, "y": y, "button": "left", "clickCount": 1});
-            self.ask(Some(&page.session), "Input.dispatchMouseEvent", &event);
+            self.call(Some(&page.session), "Input.dispatchMouseEvent", &event);
         }
     }
 
-    /// Presses a key and lets it go; `code` is what browsers call its place on the keyboard.
+    /// Presses and releases a key; `code` is the browser's name of its position on the keyboard.
     pub fn press(&mut self, page: &Page, key: &str, code: &str) {
         for kind in ["rawKeyDown", "keyUp"] {
             let event = json!({"type": kind, "key": key, "code": code});
-            self.ask(Some(&page.session), "Input.dispatchKeyEvent", &event);
+            self.call(Some(&page.session), "Input.dispatchKeyEvent", &event);
         }
     }
 
-    /// What the page looks like now.
-    pub fn look(&mut self, page: &Page) -> Picture {
-        let answer = self.ask(Some(&page.session), "Page.captureScreenshot", &json!({"format": "png"}));
+    /// Takes a screenshot.
+    pub fn screenshot(&mut self, page: &Page) -> Screenshot {
+        let answer = self.call(Some(&page.session), "Page.captureScreenshot", &json!({"format": "png"}));
         let png = BASE64_STANDARD.decode(answer["data"].as_str().expect("a picture")).expect("base64");
-        Picture::decode(&png)
+        Screenshot::decode(&png)
     }
 
-    /// Looks until the page looks as it should.
-    pub fn look_until(&mut self, page: &Page, what: &str, mut is_right: impl FnMut(&Picture) -> bool) -> Picture {
+    /// Takes screenshots until one satisfies a condition, and returns it.
+    pub fn wait_until(&mut self, page: &Page, what: &str, mut is_right: impl FnMut(&Screenshot) -> bool) -> Screenshot {
         let until = Instant::now() + TIMEOUT;
         loop {
-            let picture = self.look(page);
+            let picture = self.screenshot(page);
             if is_right(&picture) {
                 return picture;
             }
             if Instant::now() >= until {
                 let file = std::env::temp_dir().join("treadmill-watch-failed.png");
                 picture.save(&file);
-                panic!("the page never showed {what}; its last picture is {}", file.display());
+                panic!("the page never showed {what}; the last screenshot is {}", file.display());
             }
         }
     }

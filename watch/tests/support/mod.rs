@@ -1,4 +1,4 @@
-//! What the viewer's tests share: its real binary, and a real browser.
+//! Shared by the viewer's tests: its binary and a browser.
 #![allow(dead_code, reason = "each test file uses its own part")]
 
 pub mod browser;
@@ -14,27 +14,27 @@ use std::{
 
 pub use process::*;
 
-/// Nothing in these tests takes this long unless it is broken; a browser without a GPU takes a while for its first picture.
+/// Timeout of every wait; a browser without a GPU needs long for its first picture.
 pub const TIMEOUT: Duration = Duration::from_secs(300);
 
-/// The root of the repository.
+/// Returns the root of the repository.
 pub fn root() -> &'static Path {
     Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/.."))
 }
 
-/// The policy that comes along.
+/// Returns the path of the included policy.
 pub fn policy() -> PathBuf {
     root().join("docs/results/policy.safetensors")
 }
 
-/// The viewer.
+/// Returns a command that runs the viewer.
 pub fn viewer(folder: &Path) -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_treadmill-watch"));
     command.current_dir(folder).env_remove("TREADMILL_LOG").stdin(Stdio::null());
     command
 }
 
-/// The trainer's binary of the same build, which these tests do not build.
+/// Returns a command that runs the trainer of the same build; skips the test if it is not built.
 pub fn treadmill(folder: &Path) -> Option<Command> {
     let program = Path::new(env!("CARGO_BIN_EXE_treadmill-watch")).with_file_name("treadmill");
     if !program.is_file() {
@@ -46,8 +46,8 @@ pub fn treadmill(folder: &Path) -> Option<Command> {
     Some(command)
 }
 
-/// Says loudly that a test was left out; with TREADMILL_STRICT=yes none may be.
-#[allow(clippy::print_stderr, reason = "a test that was left out must say so")]
+/// Reports a skipped test; panics with TREADMILL_STRICT=yes.
+#[allow(clippy::print_stderr, reason = "skipped tests are reported")]
 pub fn skip(why: &str) {
     assert!(std::env::var("TREADMILL_STRICT").as_deref() != Ok("yes"), "{why}");
     eprintln!("SKIPPED: {why}");

@@ -1,110 +1,110 @@
-//! Who may touch whom.
+//! Collision groups: which shapes may touch each other.
 //!
-//! Rapier tells pairs apart by 32 groups, MuJoCo by bits of each shape, by exclusions between bodies of the text, and by
-//! neighbourhood in the tree. So shapes about which all of these say the same share a group.
+//! Rapier filters pairs by 32 groups. MuJoCo filters them by bits of each shape, by exclusions between bodies, and by
+//! parenthood. Shapes for which all of these agree share a group.
 
 use super::{Body, Shape};
 use crate::error::ModelError;
 
-/// The floor's group.
+/// Group of the floor.
 pub(crate) const FLOOR_GROUP: usize = 31;
-/// Groups of shapes that move.
+/// Most groups of moving shapes.
 const GROUPS_MAX: usize = FLOOR_GROUP;
 
-/// Two bodies of the text that never touch; `None` is the world.
+/// Two MJCF bodies that never touch; `None` is the world.
 pub(super) type Exclusion = [Option<usize>; 2];
 
-/// What the rules know about the shapes of one group.
+/// Collision rules that the shapes of one group share.
 #[derive(Clone, Debug, PartialEq)]
-struct Kind {
+struct GroupRules {
     body: usize,
     contype: u32,
     conaffinity: u32,
-    /// Exclusions that one of its sides takes part in: for each, which side.
+    /// Index of each [`Exclusion`] that names the shapes' MJCF body, and the side that names it.
     excluded: Vec<(usize, usize)>,
 }
 
-/// Sorts the bodies' shapes into groups, and returns for each group the bits of those it may touch.
+/// Assigns the bodies' shapes to groups. Returns for each group the bits of the groups that it may touch.
 ///
-/// `links` gives for each shape, in order of the bodies, the body of the text that it was written in.
-pub(super) fn sort(
+/// `origins` holds the MJCF body of each shape, as `[body][shape]`.
+pub(super) fn assign_groups(
     bodies: &mut [Body],
-    links: &[Vec<usize>],
+    origins: &[Vec<usize>],
     floor: &Shape,
     exclusions: &[Exclusion],
 ) -> Result<Vec<u32>, ModelError> {
-    let mut kinds: Vec<Kind> = Vec::new();
+    let mut groups: Vec<GroupRules> = Vec::new();
     for (index, body) in bodies.iter_mut().enumerate() {
-        for (shape, link) in body.shapes.iter_mut().zip(&links[index]) {
-            let kind = Kind {
+        for (shape, origin) in body.shapes.iter_mut().zip(&origins[index]) {
+            let rules = GroupRules {
                 body: index,
                 contype: shape.contype,
                 conaffinity: shape.conaffinity,
-                excluded: sides(exclusions, Some(*link)),
+                excluded: exclusion_sides(exclusions, Some(*origin)),
             };
-            shape.group = kinds.iter().position(|known| *known == kind).unwrap_or(kinds.len());
-            if shape.group == kinds.len() {
-                if kinds.len() == GROUPS_MAX {
+            shape.group = groups.iter().position(|known| *known == rules).unwrap_or(groups.len());
+            if shape.group == groups.len() {
+                if groups.len() == GROUPS_MAX {
                     let problem = format!(
-                        "there are more than {GROUPS_MAX} kinds of colliding shapes; give those of one body the same \
-                         contype, conaffinity and exclusions"
+                        "colliding shapes need more than {GROUPS_MAX} collision groups; give the shapes of one body \
+                         the same contype, conaffinity and exclusions"
                     );
                     return Err(ModelError::unsupported(&shape.name, problem));
                 }
-                kinds.push(kind);
+                groups.push(rules);
             }
         }
     }
-    let world = sides(exclusions, None);
-    let masks = kinds.iter().map(|kind| {
-        let touches = |other: &&(usize, &Kind)| {
-            let other = other.1;
-            let (mine, theirs) = (bodies[kind.body].parent, bodies[other.body].parent);
-            kind.body != other.body
-                && mine != Some(other.body)
-                && theirs != Some(kind.body)
-                && meet([kind.contype, kind.conaffinity], [other.contype, other.conaffinity])
-                && !faces(&kind.excluded, &other.excluded)
+    let world = exclusion_sides(exclusions, None);
+    let masks = groups.iter().map(|own| {
+        let may_touch = |(_, other): &(usize, &GroupRules)| {
+            let (own_parent, other_parent) = (bodies[own.body].parent, bodies[other.body].parent);
+            own.body != other.body
+                && own_parent != Some(other.body)
+                && other_parent != Some(own.body)
+                && filters_match([own.contype, own.conaffinity], [other.contype, other.conaffinity])
+                && !is_excluded(&own.excluded, &other.excluded)
         };
-        let others: Vec<(usize, &Kind)> = kinds.iter().enumerate().collect();
-        let limbs = others.iter().filter(touches).fold(0, |mask, (group, _)| mask | 1 << group);
-        let on_floor = meet([kind.contype, kind.conaffinity], [floor.contype, floor.conaffinity])
-            && !faces(&kind.excluded, &world);
-        limbs | u32::from(on_floor) << FLOOR_GROUP
+        let others = groups.iter().enumerate().filter(may_touch).fold(0, |mask, (group, _)| mask | 1 << group);
+        let on_floor = filters_match([own.contype, own.conaffinity], [floor.contype, floor.conaffinity])
+            && !is_excluded(&own.excluded, &world);
+        others | u32::from(on_floor) << FLOOR_GROUP
     });
     let masks: Vec<u32> = masks.collect();
     check_friction(bodies, floor, &masks)?;
     Ok(masks)
 }
 
-/// MuJoCo's rule: the type of one must be among what the other has affinity to.
-fn meet([contype, conaffinity]: [u32; 2], [other_type, other_affinity]: [u32; 2]) -> bool {
+/// MuJoCo's rule: the `contype` of one shape shares a bit with the `conaffinity` of the other.
+fn filters_match([contype, conaffinity]: [u32; 2], [other_type, other_affinity]: [u32; 2]) -> bool {
     contype & other_affinity != 0 || other_type & conaffinity != 0
 }
 
-fn sides(exclusions: &[Exclusion], body: Option<usize>) -> Vec<(usize, usize)> {
-    let takes_part = |(index, exclusion): (usize, &Exclusion)| {
+fn exclusion_sides(exclusions: &[Exclusion], body: Option<usize>) -> Vec<(usize, usize)> {
+    let sides_of = |(index, exclusion): (usize, &Exclusion)| {
         (0..2).filter(|side| exclusion[*side] == body).map(|side| (index, side)).collect::<Vec<_>>()
     };
-    exclusions.iter().enumerate().flat_map(takes_part).collect()
+    exclusions.iter().enumerate().flat_map(sides_of).collect()
 }
 
-/// Whether two stand on opposite sides of one exclusion.
-fn faces(one: &[(usize, usize)], other: &[(usize, usize)]) -> bool {
+/// Whether two lists of exclusion sides hold opposite sides of one exclusion.
+fn is_excluded(one: &[(usize, usize)], other: &[(usize, usize)]) -> bool {
     one.iter().any(|(index, side)| other.contains(&(*index, 1 - side)))
 }
 
-/// In MuJoCo a pair rubs if one of its shapes does, with the greater friction of the two, also where that is the one of
-/// a shape that does not rub by itself. Rapier is given no friction for such a shape, which must come to the same.
+/// Refuses a frictionless shape (`condim` 1) whose coefficient would count against a shape with friction.
+///
+/// In MuJoCo a pair has friction if one of its shapes has it, with the greater coefficient of the two. Rapier gets
+/// coefficient 0 for a frictionless shape, which is the same only if the partner's coefficient is the greater one.
 fn check_friction(bodies: &[Body], floor: &Shape, masks: &[u32]) -> Result<(), ModelError> {
     let all: Vec<&Shape> = bodies.iter().flat_map(|body| &body.shapes).collect();
-    for smooth in all.iter().filter(|shape| !shape.rubs) {
-        let limbs = all.iter().filter(|other| masks[smooth.group] & 1 << other.group != 0).copied();
+    for smooth in all.iter().filter(|shape| !shape.has_friction) {
+        let moving = all.iter().filter(|other| masks[smooth.group] & 1 << other.group != 0).copied();
         let below = (masks[smooth.group] & 1 << FLOOR_GROUP != 0).then_some(floor);
-        let mut partners = limbs.chain(below).filter(|other| other.rubs);
+        let mut partners = moving.chain(below).filter(|other| other.has_friction);
         if let Some(other) = partners.find(|other| other.friction < smooth.friction) {
             let problem = format!(
-                "its friction of {} counts against `{}`, which has only {}; give both the same, or both condim=\"3\"",
+                "its friction of {} counts against `{}`, which has only {}; give both the same friction, or both condim=\"3\"",
                 smooth.friction, other.name, other.friction
             );
             return Err(ModelError::unsupported(&smooth.name, problem));
@@ -118,21 +118,21 @@ mod tests {
     use super::*;
 
     #[test]
-    fn pairs_meet_by_either_ones_affinity() {
-        assert!(meet([1, 1], [1, 1]));
-        assert!(meet([1, 0], [0, 1]) && meet([0, 1], [1, 0]));
-        assert!(!meet([1, 0], [1, 0]));
-        assert!(!meet([0, 0], [3, 3]));
-        assert!(meet([2, 1], [4, 6]));
+    fn either_shapes_affinity_is_enough() {
+        assert!(filters_match([1, 1], [1, 1]));
+        assert!(filters_match([1, 0], [0, 1]) && filters_match([0, 1], [1, 0]));
+        assert!(!filters_match([1, 0], [1, 0]));
+        assert!(!filters_match([0, 0], [3, 3]));
+        assert!(filters_match([2, 1], [4, 6]));
     }
 
     #[test]
-    fn exclusions_part_opposite_sides_only() {
+    fn an_exclusion_separates_only_its_two_sides() {
         let exclusions = [[Some(1), Some(2)], [Some(2), None]];
-        let of = |body| sides(&exclusions, body);
-        assert!(faces(&of(Some(1)), &of(Some(2))) && faces(&of(Some(2)), &of(Some(1))));
-        assert!(faces(&of(Some(2)), &of(None)));
-        assert!(!faces(&of(Some(1)), &of(None)));
-        assert!(!faces(&of(Some(2)), &of(Some(2))));
+        let of = |body| exclusion_sides(&exclusions, body);
+        assert!(is_excluded(&of(Some(1)), &of(Some(2))) && is_excluded(&of(Some(2)), &of(Some(1))));
+        assert!(is_excluded(&of(Some(2)), &of(None)));
+        assert!(!is_excluded(&of(Some(1)), &of(None)));
+        assert!(!is_excluded(&of(Some(2)), &of(Some(2))));
     }
 }

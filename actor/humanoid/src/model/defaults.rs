@@ -1,41 +1,41 @@
-//! Classes of defaults, laid under the attributes of each element the way MuJoCo does it.
+//! Default classes, merged into the attributes of each element as in MuJoCo.
 //!
-//! `mjcf-rs` resolves classes too, but overlooks unknown classes, and takes a default
-//! position away from an element that gives only its orientation. So it is handed a text without defaults.
+//! `mjcf-rs` ignores unknown classes, and drops a default position from an element that gives only its orientation.
+//! It therefore reads a text in which defaults are already filled in.
 
 use std::collections::{BTreeMap, BTreeSet};
 
 use roxmltree::Node;
 
-use super::vocabulary::{self, INERT, Rule};
+use super::vocabulary::{self, AttributeRule, INERT};
 use crate::error::ModelError;
 
-/// Name and value.
+/// Name and value of an attribute.
 pub(super) type Attribute = (String, String);
 
-/// Value of an attribute.
+/// Returns the value of an attribute.
 pub(super) fn get<'a>(attributes: &'a [Attribute], name: &str) -> Option<&'a str> {
     attributes.iter().find(|(found, _)| found == name).map(|(_, value)| value.as_str())
 }
 
-/// The class of elements that name none.
+/// Class of elements that name none.
 const MAIN: &str = "main";
-/// Elements that are actuators.
+/// Tags of supported actuators.
 pub(super) const ACTUATORS: [&str; 4] = ["motor", "position", "velocity", "general"];
 
-/// Defaults of one class, those of its parents included: attributes for each kind of element.
+/// Defaults of one class, including those of its parents: attributes by tag.
 type Class = BTreeMap<String, Vec<Attribute>>;
 
 /// All classes of a model.
 #[derive(Debug, Default)]
 pub(super) struct Classes {
     classes: BTreeMap<String, Class>,
-    /// Kinds of actuators that have defaults.
+    /// Actuator tags that have defaults.
     pub(super) actuators: BTreeSet<String>,
 }
 
 impl Classes {
-    /// Reads the outermost <default>; it may be repeated.
+    /// Reads an outermost `<default>`; there may be several.
     pub(super) fn read_main(&mut self, node: Node<'_, '_>) -> Result<(), ModelError> {
         if let Some(name) = node.attribute("class")
             && name != MAIN
@@ -44,7 +44,7 @@ impl Classes {
                 "default",
                 "class",
                 name,
-                "main, or left out, for the outermost <default>",
+                "main, or omitted, for the outermost <default>",
             ));
         }
         let class = self.classes.remove(MAIN).unwrap_or_default();
@@ -60,23 +60,23 @@ impl Classes {
                 nested.push(child);
                 continue;
             }
-            // Defaults of elements that are refused wherever they occur do no harm.
+            // Defaults of elements that are refused at every occurrence have no effect.
             if INERT.contains(&tag) || matches!(tag, "equality" | "pair" | "tendon") {
                 if tag == "tendon" {
-                    class.insert("fixed".to_owned(), own(child));
+                    class.insert("fixed".to_owned(), attributes_of(child));
                 }
                 continue;
             }
             if vocabulary::rules(tag).is_none() {
                 return Err(ModelError::unsupported(&label, format!("<{tag}> is not supported")));
             }
-            let attributes = own(child);
+            let attributes = attributes_of(child);
             for (attribute, value) in &attributes {
                 let rule = vocabulary::rule(tag, attribute).ok_or_else(|| {
                     ModelError::unsupported(&label, format!("attribute `{attribute}` of <{tag}> is not supported"))
                 })?;
-                // What has an effect that is not simulated is refused at the element that it reaches, if there is one.
-                if !matches!(rule, Rule::Only(_))
+                // A value that is not simulated is refused at the elements that inherit it, if any.
+                if !matches!(rule, AttributeRule::Only(_))
                     && let Err(expected) = vocabulary::allowed(rule, value)
                 {
                     return Err(ModelError::attribute(&label, attribute, value, expected));
@@ -86,7 +86,7 @@ impl Classes {
                 self.actuators.insert(tag.to_owned());
             }
             let before = class.remove(tag).unwrap_or_default();
-            class.insert(tag.to_owned(), lay_over(tag, before, attributes));
+            class.insert(tag.to_owned(), merge(tag, before, attributes));
         }
         for child in nested {
             let name = child
@@ -101,8 +101,8 @@ impl Classes {
         Ok(())
     }
 
-    /// Attributes of an element with its class's defaults under them; `ambient` is the class that its body gives.
-    pub(super) fn complete(
+    /// Returns an element's attributes merged over its class's defaults; `ambient` is its body's `childclass`.
+    pub(super) fn with_defaults(
         &self,
         node: Node<'_, '_>,
         ambient: Option<&str>,
@@ -114,10 +114,10 @@ impl Classes {
             Some(attributes) => attributes.clone(),
             None => Vec::new(),
         };
-        Ok(lay_over(tag, under, own(node)))
+        Ok(merge(tag, under, attributes_of(node)))
     }
 
-    /// The class of a name, which is [`None`] for [`MAIN`] where nothing has defaults.
+    /// Returns the class of a name; `None` for [`MAIN`] in a text without defaults.
     pub(super) fn class(&self, name: &str, label: &str) -> Result<Option<&Class>, ModelError> {
         match self.classes.get(name) {
             None if name != MAIN => {
@@ -128,19 +128,20 @@ impl Classes {
     }
 }
 
-/// Attributes as they stand in the text.
-pub(super) fn own(node: Node<'_, '_>) -> Vec<Attribute> {
+/// Returns an element's attributes without defaults.
+pub(super) fn attributes_of(node: Node<'_, '_>) -> Vec<Attribute> {
     node.attributes().map(|attribute| (attribute.name().to_owned(), attribute.value().to_owned())).collect()
 }
 
-/// Lays attributes over others. A list that may be short keeps the rest of the one below it.
-fn lay_over(tag: &str, mut under: Vec<Attribute>, over: Vec<Attribute>) -> Vec<Attribute> {
+/// Merges `over` into `under`. A list that may be shorter keeps the remaining numbers of the one under it.
+fn merge(tag: &str, mut under: Vec<Attribute>, over: Vec<Attribute>) -> Vec<Attribute> {
     for (name, mut value) in over {
-        let open = matches!(vocabulary::rule(tag, &name), Some(Rule::Numbers(least, most)) if least < most);
+        let may_be_shorter =
+            matches!(vocabulary::rule(tag, &name), Some(AttributeRule::Numbers(least, most)) if least < most);
         match under.iter_mut().find(|(found, _)| *found == name) {
             Some((_, below)) => {
                 let given = value.split_whitespace().count();
-                if open && given > 0 {
+                if may_be_shorter && given > 0 {
                     for rest in below.split_whitespace().skip(given) {
                         value.push(' ');
                         value.push_str(rest);
@@ -159,37 +160,37 @@ mod tests {
     use super::*;
     use roxmltree::Document;
 
-    /// The attributes of the element named `part` in a text, defaults included.
-    fn completed(text: &str) -> Result<Vec<Attribute>, ModelError> {
+    /// Returns the attributes of the element named `part` in a text, defaults included.
+    fn attributes_of_part(text: &str) -> Result<Vec<Attribute>, ModelError> {
         let document = Document::parse(text).expect("well-formed");
         let mut classes = Classes::default();
         for node in document.root_element().children().filter(|node| node.has_tag_name("default")) {
             classes.read_main(node)?;
         }
         let part = document.descendants().find(|node| node.attribute("name") == Some("part")).expect("a part");
-        classes.complete(part, Some("leg"), "part")
+        classes.with_defaults(part, Some("leg"), "part")
     }
 
     #[test]
-    fn a_class_inherits_from_the_one_around_it_attribute_by_attribute() {
+    fn a_class_inherits_each_attribute_from_the_class_around_it() {
         let text = r#"<mujoco>
             <default>
               <default class="leg"><geom quat="0 1 0 0"/><default class="foot"><geom mass="2"/></default></default>
               <geom pos="1 2 3" size="0.1 0.2 0.3" friction="0.5"/>
             </default>
             <geom name="part" size="0.4"/></mujoco>"#;
-        let part = completed(text).expect("valid");
-        // The instance gives one size of three; position and orientation come from different classes.
+        let part = attributes_of_part(text).expect("valid");
+        // The element gives one size of three; position and orientation come from different classes.
         assert_eq!(get(&part, "size"), Some("0.4 0.2 0.3"));
         assert_eq!((get(&part, "pos"), get(&part, "quat")), (Some("1 2 3"), Some("0 1 0 0")));
         assert_eq!(get(&part, "mass"), None);
-        let foot = completed(&text.replace("name=\"part\"", "name=\"part\" class=\"foot\"")).expect("valid");
+        let foot = attributes_of_part(&text.replace("name=\"part\"", "name=\"part\" class=\"foot\"")).expect("valid");
         assert_eq!((get(&foot, "mass"), get(&foot, "pos")), (Some("2"), Some("1 2 3")));
     }
 
     #[test]
-    fn classes_that_are_missing_doubled_or_nameless_are_refused() {
-        let problem = |text: &str| completed(text).expect_err("refused").to_string();
+    fn missing_duplicate_and_nameless_classes_are_refused() {
+        let problem = |text: &str| attributes_of_part(text).expect_err("refused").to_string();
         assert!(problem("<mujoco><geom name='part'/></mujoco>").contains("class=\"leg\""));
         let twice =
             "<mujoco><default><default class='leg'/><default class='leg'/></default><geom name='part'/></mujoco>";

@@ -1,4 +1,4 @@
-//! Model files: one text of a file and of those that it includes.
+//! Model files, with their `<include>`s inserted.
 
 use std::fs::File;
 use std::io::Read;
@@ -7,10 +7,10 @@ use std::path::{Path, PathBuf};
 use super::xml::{self, MODEL_BYTES_MAX};
 use crate::error::ModelError;
 
-/// Reads a model file and puts the files that it includes in their places, so that the text stands for itself.
+/// Reads a model file and replaces each `<include>` by the content of its file.
 ///
-/// As in MuJoCo, the names of included files start from the folder of the outermost file, and no file is included twice.
-/// Meshes and textures are not looked for.
+/// As in MuJoCo, paths of included files are relative to the outermost file, and no file is included twice. Mesh and
+/// texture files are not read.
 ///
 /// # Errors
 /// [`ModelError`] names the file that is missing or too long, or the text that is not XML.
@@ -27,7 +27,7 @@ struct Reader {
 impl Reader {
     fn read(&mut self, path: PathBuf) -> Result<String, ModelError> {
         let text = read_text(&path)?;
-        // Nothing else needs a look, and its errors are told better by the whole model's reader.
+        // The reader of the whole model reports other errors better.
         if !text.contains("<include") {
             return Ok(text);
         }
@@ -47,7 +47,7 @@ impl Reader {
         Ok(whole)
     }
 
-    /// What the outermost element of an included file holds.
+    /// Returns the content of an included file's outermost element.
     fn read_included(&mut self, name: &str) -> Result<String, ModelError> {
         let path = self.folder.join(name);
         if name.is_empty() {
@@ -73,7 +73,7 @@ fn read_text(path: &Path) -> Result<String, ModelError> {
     let file = File::open(path).map_err(failed)?;
     check_length(file.metadata().map_err(failed)?.len())?;
     let mut text = String::new();
-    // A pipe has no length before it is read.
+    // The length of a pipe is unknown before it is read.
     file.take(MODEL_BYTES_MAX as u64 + 1).read_to_string(&mut text).map_err(failed)?;
     check_length(text.len() as u64)?;
     Ok(text)

@@ -1,28 +1,28 @@
-//! A model text made plain: every element checked, defaults filled in, names given, and what moves nothing left out.
+//! Checks a model text and writes it as plain MJCF: defaults filled in, every element named, inert elements omitted.
 //!
-//! The result is again MJCF, which `mjcf-rs` reads.
+//! `mjcf-rs` reads the result.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
 
 use roxmltree::Node;
 
-use super::defaults::{ACTUATORS, Attribute, Classes, get, own};
+use super::defaults::{ACTUATORS, Attribute, Classes, attributes_of, get};
 use super::vocabulary::{self, INERT, numbers};
 use super::xml;
 use crate::error::ModelError;
 
-/// A plain model text, and what `mjcf-rs` has no place for.
+/// Plain model text, and settings that `mjcf-rs` does not read.
 #[derive(Default)]
 pub(super) struct Flat {
     pub(super) text: String,
-    /// By joint: where the torque of all its motors together ends (N·m), if it does.
+    /// Limits of the total motor torque by joint (N·m), for joints that have them.
     pub(super) torque_ranges: BTreeMap<String, [f64; 2]>,
-    /// Groups of shapes that count for masses, first and last.
+    /// First and last group of geoms that count for masses.
     pub(super) inertia_groups: [i32; 2],
 }
 
-/// Makes a text plain, or names the first element that cannot be simulated.
+/// Returns the plain text, or an error for the first element that cannot be simulated.
 pub(super) fn flatten(text: &str) -> Result<Flat, ModelError> {
     let document = xml::parse_model(text)?;
     let root = document.root_element();
@@ -31,13 +31,13 @@ pub(super) fn flatten(text: &str) -> Result<Flat, ModelError> {
     writer.open("mujoco", &[]);
     for tag in ["compiler", "option"] {
         for node in sections(root, tag) {
-            writer.open(tag, &own(node));
+            writer.open(tag, &attributes_of(node));
             writer.close(tag);
         }
     }
     for node in sections(root, "worldbody") {
         writer.open("worldbody", &[]);
-        writer.write_tree(node, None, "world", &mut Count::default())?;
+        writer.write_tree(node, None, "world", &mut Counts::default())?;
         writer.close("worldbody");
     }
     for (section, kinds) in [("contact", &["exclude"][..]), ("tendon", &["fixed"]), ("actuator", &ACTUATORS)] {
@@ -60,9 +60,9 @@ fn elements<'a, 'text>(node: Node<'a, 'text>) -> impl Iterator<Item = Node<'a, '
     node.children().filter(Node::is_element)
 }
 
-/// How many elements of each kind a body has so far, to tell those without a name apart.
+/// Number of elements of each kind in a body so far; numbers elements without a name.
 #[derive(Default)]
-struct Count(BTreeMap<&'static str, usize>);
+struct Counts(BTreeMap<&'static str, usize>);
 
 #[derive(Default)]
 struct Writer {
@@ -76,12 +76,12 @@ struct Writer {
 }
 
 impl Writer {
-    /// Everything but the robot: known sections, settings, defaults, assets.
+    /// Reads everything but the robot: settings and defaults. Refuses unknown sections.
     fn read_settings(&mut self, root: Node<'_, '_>) -> Result<(), ModelError> {
-        vocabulary::check("mujoco", "mujoco", &own(root))?;
+        vocabulary::check("mujoco", "mujoco", &attributes_of(root))?;
         if let Some(include) = root.descendants().find(|node| node.has_tag_name("include")) {
             let file = include.attribute("file").unwrap_or_default();
-            let problem = format!("`{file}` must be pasted in: a model travels as one text");
+            let problem = format!("`{file}` must be pasted in: a model is sent as one text");
             return Err(ModelError::unsupported("include", problem));
         }
         for node in elements(root) {
@@ -97,22 +97,22 @@ impl Writer {
                     }
                 }
                 "default" => {
-                    vocabulary::check("default", tag, &own(node))?;
+                    vocabulary::check("default", tag, &attributes_of(node))?;
                     self.classes.read_main(node)?;
                 }
                 "compiler" => self.read_compiler(node)?,
                 "asset" | "option" => {
-                    vocabulary::check(tag, tag, &own(node))?;
+                    vocabulary::check(tag, tag, &attributes_of(node))?;
                     for child in elements(node) {
                         let kind = child.tag_name().name();
                         match kind {
                             _ if tag == "asset" && INERT.contains(&kind) => {}
-                            "flag" if tag == "option" => vocabulary::check("option flag", kind, &own(child))?,
+                            "flag" if tag == "option" => vocabulary::check("option flag", kind, &attributes_of(child))?,
                             _ => return Err(ModelError::unsupported(tag, format!("<{kind}> is not supported"))),
                         }
                     }
                 }
-                "worldbody" | "contact" | "tendon" | "actuator" => vocabulary::check(tag, tag, &own(node))?,
+                "worldbody" | "contact" | "tendon" | "actuator" => vocabulary::check(tag, tag, &attributes_of(node))?,
                 _ if INERT.contains(&tag) => {}
                 _ => return Err(ModelError::unsupported("mujoco", format!("<{tag}> is not supported"))),
             }
@@ -121,7 +121,7 @@ impl Writer {
     }
 
     fn read_compiler(&mut self, node: Node<'_, '_>) -> Result<(), ModelError> {
-        let attributes = own(node);
+        let attributes = attributes_of(node);
         vocabulary::check("compiler", "compiler", &attributes)?;
         if let Some(sequence) = get(&attributes, "eulerseq")
             && (sequence.len() != 3 || !sequence.bytes().all(|axis| b"xyzXYZ".contains(&axis)))
@@ -140,13 +140,13 @@ impl Writer {
         Ok(())
     }
 
-    /// Writes what a body, a frame or the world holds.
+    /// Writes the content of a body, a frame or the world.
     fn write_tree(
         &mut self,
         node: Node<'_, '_>,
         class: Option<&str>,
         owner: &str,
-        count: &mut Count,
+        counts: &mut Counts,
     ) -> Result<(), ModelError> {
         if let Some(class) = class {
             self.classes.class(class, owner)?;
@@ -161,40 +161,40 @@ impl Writer {
                         None => format!("body {}", self.bodies + 1),
                     };
                     self.bodies += 1;
-                    let attributes = self.named("body", &label, own(child), "body")?;
+                    let attributes = self.checked("body", &label, attributes_of(child), "body")?;
                     self.open(tag, &attributes);
-                    self.write_tree(child, child.attribute("childclass").or(class), &label, &mut Count::default())?;
+                    self.write_tree(child, child.attribute("childclass").or(class), &label, &mut Counts::default())?;
                     self.close(tag);
                 }
                 "frame" => {
-                    let attributes = own(child);
+                    let attributes = attributes_of(child);
                     vocabulary::check(&format!("frame in {owner}"), tag, &attributes)?;
                     self.open(tag, &attributes);
-                    self.write_tree(child, child.attribute("childclass").or(class), owner, count)?;
+                    self.write_tree(child, child.attribute("childclass").or(class), owner, counts)?;
                     self.close(tag);
                 }
-                // `mjcf-rs` would pass over these in a frame.
+                // `mjcf-rs` ignores these in a frame.
                 "inertial" | "joint" | "freejoint" if in_frame => {
                     let problem = format!("<{tag}> within <frame> is not supported; move it into the body");
                     return Err(ModelError::unsupported(owner, problem));
                 }
                 "inertial" => self.write_inertial(child, owner)?,
                 "joint" | "freejoint" => {
-                    let label = label_of(child, "joint", owner, count);
-                    let attributes = self.classes.complete(child, class, &label)?;
-                    let attributes = self.named(tag, &label, attributes, "joint")?;
-                    self.note_torque_range(&label, &attributes)?;
+                    let label = label_of(child, "joint", owner, counts);
+                    let attributes = self.classes.with_defaults(child, class, &label)?;
+                    let attributes = self.checked(tag, &label, attributes, "joint")?;
+                    self.record_torque_range(&label, &attributes)?;
                     self.open(tag, &attributes);
                     self.close(tag);
                 }
                 "geom" => {
-                    let label = label_of(child, "geom", owner, count);
+                    let label = label_of(child, "geom", owner, counts);
                     if let Some(inner) = elements(child).next() {
                         let problem = format!("<{}> is not supported", inner.tag_name().name());
                         return Err(ModelError::unsupported(&label, problem));
                     }
-                    let attributes = self.classes.complete(child, class, &label)?;
-                    let attributes = self.named(tag, &label, attributes, "geom")?;
+                    let attributes = self.classes.with_defaults(child, class, &label)?;
+                    let attributes = self.checked(tag, &label, attributes, "geom")?;
                     self.open(tag, &attributes);
                     self.close(tag);
                 }
@@ -206,7 +206,7 @@ impl Writer {
     }
 
     fn write_inertial(&mut self, node: Node<'_, '_>, owner: &str) -> Result<(), ModelError> {
-        let attributes = own(node);
+        let attributes = attributes_of(node);
         let label = format!("inertial of {owner}");
         vocabulary::check(&label, "inertial", &attributes)?;
         for needed in ["pos", "mass"] {
@@ -218,7 +218,7 @@ impl Writer {
             (Some(_), None) => {}
             (None, Some(_)) if vocabulary::ORIENTATIONS.iter().all(|turn| get(&attributes, turn).is_none()) => {}
             (None, Some(_)) => {
-                return Err(ModelError::unsupported(&label, "`fullinertia` is along the body's axes: no orientation"));
+                return Err(ModelError::unsupported(&label, "`fullinertia` allows no orientation"));
             }
             _ => return Err(ModelError::unsupported(&label, "give either `diaginertia` or `fullinertia`")),
         }
@@ -232,20 +232,20 @@ impl Writer {
             let tag = child.tag_name().name();
             let label = own_name(child).or(child.attribute("joint")).unwrap_or(tag).to_owned();
             let Some(kind) = kinds.iter().find(|kind| **kind == tag) else {
-                let problem = format!("<{section}><{tag}> is not supported; there may be {}", kinds.join(", "));
+                let problem = format!("<{section}><{tag}> is not supported; accepted: {}", kinds.join(", "));
                 return Err(ModelError::unsupported(&label, problem));
             };
             if section == "actuator" {
-                // MuJoCo keeps one set of defaults for all kinds, `mjcf-rs` one for each.
+                // MuJoCo keeps one set of defaults for all actuators, `mjcf-rs` one for each kind.
                 if let Some(other) = self.classes.actuators.iter().find(|other| *other != tag) {
-                    let problem = format!("defaults of <{other}> reach it; all actuators must be of one kind then");
+                    let problem = format!("defaults of <{other}> apply to it: all actuators must be of one kind");
                     return Err(ModelError::unsupported(&label, problem));
                 }
             }
-            let attributes = self.classes.complete(child, None, &label)?;
+            let attributes = self.classes.with_defaults(child, None, &label)?;
             let attributes = match own_name(child) {
                 Some(_) => {
-                    self.named(kind, &label, attributes, if section == "actuator" { "actuator" } else { kind })?
+                    self.checked(kind, &label, attributes, if section == "actuator" { "actuator" } else { kind })?
                 }
                 None => {
                     vocabulary::check(&label, kind, &attributes)?;
@@ -273,7 +273,7 @@ impl Writer {
             if !term.has_tag_name("joint") {
                 return Err(ModelError::unsupported(label, format!("<{}> is not supported", term.tag_name().name())));
             }
-            let attributes = own(term);
+            let attributes = attributes_of(term);
             vocabulary::check(label, "term", &attributes)?;
             let joint = get(&attributes, "joint").unwrap_or_default();
             if !self.names.contains(&("joint", joint.to_owned())) {
@@ -285,8 +285,8 @@ impl Writer {
         Ok(())
     }
 
-    /// Checks the attributes of an element whose name must be unlike that of others of its kind; gives it one.
-    fn named(
+    /// Checks an element's attributes and sets its name, which must be unique among elements of its `kind`.
+    fn checked(
         &mut self,
         tag: &str,
         label: &str,
@@ -302,7 +302,7 @@ impl Writer {
         Ok(without_class(attributes))
     }
 
-    fn note_torque_range(&mut self, joint: &str, attributes: &[Attribute]) -> Result<(), ModelError> {
+    fn record_torque_range(&mut self, joint: &str, attributes: &[Attribute]) -> Result<(), ModelError> {
         let range = get(attributes, "actuatorfrcrange").and_then(numbers);
         let limited = match get(attributes, "actuatorfrclimited") {
             Some("true") => true,
@@ -319,7 +319,7 @@ impl Writer {
                 self.torque_ranges.insert(joint.to_owned(), [*low, *high]);
             }
             _ => {
-                return Err(ModelError::unsupported(joint, "`actuatorfrcrange` must be a lower and a higher torque"));
+                return Err(ModelError::unsupported(joint, "`actuatorfrcrange` must be a lower and an upper torque"));
             }
         }
         Ok(())
@@ -351,15 +351,15 @@ fn own_name<'a>(node: Node<'a, '_>) -> Option<&'a str> {
     node.attribute("name").filter(|name| !name.is_empty())
 }
 
-/// Defaults are filled in, so classes have done their work.
+/// Removes class names, which are unused once defaults are filled in.
 fn without_class(mut attributes: Vec<Attribute>) -> Vec<Attribute> {
     attributes.retain(|(name, _)| name != "class" && name != "childclass");
     attributes
 }
 
-/// An element's name, or what to call it in messages.
-fn label_of(node: Node<'_, '_>, kind: &'static str, owner: &str, count: &mut Count) -> String {
-    let number = count.0.entry(kind).or_default();
+/// Returns an element's name, or a label for messages.
+fn label_of(node: Node<'_, '_>, kind: &'static str, owner: &str, counts: &mut Counts) -> String {
+    let number = counts.0.entry(kind).or_default();
     *number += 1;
     own_name(node).map_or_else(|| format!("{kind} {number} of {owner}"), str::to_owned)
 }

@@ -1,4 +1,4 @@
-//! Shapes: what of them weighs, and what of them collides.
+//! Geoms: their masses and their collision shapes.
 
 use mjcf_rs::body::{Geom, GeomType};
 use nalgebra::{Isometry3, Point3, Rotation3, UnitQuaternion, Vector3};
@@ -8,12 +8,12 @@ use super::mjcf::isometry;
 use super::{Geometry, Shape};
 use crate::error::ModelError;
 
-/// A greater margin (m) would be a visible gap.
+/// Largest margin (m); a greater one would be a visible gap.
 const MARGIN_MAX_M: f64 = 0.01;
 
-/// Reads a shape of a body: its mass, and its surface where it can touch anything.
+/// Reads a geom of a body: its mass if it has one, and its shape if it can collide.
 ///
-/// `offset` is the pose of the MJCF body within the rigid body that it belongs to.
+/// `offset` is the pose of the MJCF body within its rigid body.
 pub(super) fn read(
     geom: &Geom,
     offset: &Isometry3<f64>,
@@ -26,15 +26,14 @@ pub(super) fn read(
     let weightless = mass_kg.map_or(density_kgpm3 == 0.0, |mass_kg| mass_kg == 0.0) || !counts_for_mass;
     let Some(geometry) = geometry(name, geom, offset)? else {
         if collides {
-            let what = mesh_of(geom);
-            let problem =
-                format!("{what} cannot collide here; use primitive shapes, or contype=\"0\" conaffinity=\"0\"");
+            let what = describe(geom);
+            let problem = format!("{what} cannot collide; use primitive shapes, or contype=\"0\" conaffinity=\"0\"");
             return Err(ModelError::unsupported(name, problem));
         }
         if weightless {
             return Ok((None, None));
         }
-        let problem = format!("the mass of {} is not known; give the body an <inertial>", mesh_of(geom));
+        let problem = format!("the mass of {} is unknown; give the body an <inertial>", describe(geom));
         return Err(ModelError::unsupported(name, problem));
     };
     let mass = (!weightless).then(|| match mass_kg {
@@ -45,17 +44,17 @@ pub(super) fn read(
         return Ok((mass, None));
     }
     if matches!(geometry, Geometry::Ellipsoid { .. }) {
-        return Err(ModelError::unsupported(name, "ellipsoids cannot collide here; use a capsule or a box"));
+        return Err(ModelError::unsupported(name, "ellipsoids cannot collide; use a capsule or a box"));
     }
-    Ok((mass, Some(surface(name, geom, geometry)?)))
+    Ok((mass, Some(collision_shape(name, geom, geometry)?)))
 }
 
-/// A shape as a surface.
-pub(super) fn surface(name: &str, geom: &Geom, geometry: Geometry) -> Result<Shape, ModelError> {
+/// Reads the collision shape of a geom.
+pub(super) fn collision_shape(name: &str, geom: &Geom, geometry: Geometry) -> Result<Shape, ModelError> {
     if !(0.0..=MARGIN_MAX_M).contains(&geom.margin) {
         return Err(ModelError::figure(name, "margin (m)", geom.margin, "between 0 and 0.01"));
     }
-    let rubs = match geom.condim {
+    let has_friction = match geom.condim {
         1 => false,
         3 => true,
         other => {
@@ -68,7 +67,7 @@ pub(super) fn surface(name: &str, geom: &Geom, geometry: Geometry) -> Result<Sha
         name: name.to_owned(),
         geometry,
         friction,
-        rubs,
+        has_friction,
         margin_m: geom.margin,
         contype: geom.contype,
         conaffinity: geom.conaffinity,
@@ -76,22 +75,22 @@ pub(super) fn surface(name: &str, geom: &Geom, geometry: Geometry) -> Result<Sha
     })
 }
 
-fn mesh_of(geom: &Geom) -> String {
+fn describe(geom: &Geom) -> String {
     match (&geom.type_, &geom.mesh, &geom.hfield) {
         (GeomType::Hfield, _, Some(name)) => format!("height field `{name}`"),
         (_, Some(name), _) => format!("mesh `{name}`"),
-        (kind, ..) => format!("a shape of type {}", format!("{kind:?}").to_lowercase()),
+        (kind, ..) => format!("a geom of type {}", format!("{kind:?}").to_lowercase()),
     }
 }
 
-/// The shape in the rigid body's frame; `None` for what has no formula.
+/// Returns the geometry in the rigid body's frame; `None` for meshes, height fields and distance fields.
 fn geometry(name: &str, geom: &Geom, offset: &Isometry3<f64>) -> Result<Option<Geometry>, ModelError> {
     if matches!(geom.type_, GeomType::Mesh | GeomType::Hfield | GeomType::Sdf) || geom.mesh.is_some() {
         return Ok(None);
     }
     let size = |index: usize, what: &'static str| positive(name, what, geom.size[index]);
     if let Some(ends) = geom.fromto {
-        return along(name, geom, &ends, offset).map(Some);
+        return between_ends(name, geom, &ends, offset).map(Some);
     }
     let pose = offset * isometry(&geom.pose);
     let on_axis = |z_m: f64| pose * Point3::new(0.0, 0.0, z_m);
@@ -109,14 +108,14 @@ fn geometry(name: &str, geom: &Geom, offset: &Isometry3<f64>) -> Result<Option<G
             let half_m = Vector3::new(size(0, what[0])?, size(1, what[1])?, size(2, what[2])?);
             solid(&geom.type_, pose, half_m)
         }
-        _ => return Err(ModelError::unsupported(name, "a plane may stand in the world only")),
+        _ => return Err(ModelError::unsupported(name, "only the world may have a plane")),
     }))
 }
 
-/// A shape between two points.
-fn along(name: &str, geom: &Geom, ends: &[f64; 6], offset: &Isometry3<f64>) -> Result<Geometry, ModelError> {
+/// Returns the geometry of a geom with `fromto`.
+fn between_ends(name: &str, geom: &Geom, ends: &[f64; 6], offset: &Isometry3<f64>) -> Result<Geometry, ModelError> {
     if isometry(&geom.pose) != Isometry3::identity() {
-        let problem = "`fromto` is in the body's frame: it goes with no position, orientation or <frame>";
+        let problem = "`fromto` is in the body's frame: remove position, orientation and <frame>";
         return Err(ModelError::unsupported(name, problem));
     }
     let radius_m = positive(name, "radius (m)", geom.size[0])?;

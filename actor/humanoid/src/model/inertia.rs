@@ -1,6 +1,6 @@
-//! Mass, centre and inertia of bodies made of overlapping shapes.
+//! Mass, centre of mass and inertia of bodies made of shapes.
 //!
-//! Overlaps count twice, as in MuJoCo: the figures are sums over the shapes.
+//! As in MuJoCo, all are sums over the shapes, so that overlaps count twice.
 
 use std::f64::consts::PI;
 
@@ -8,10 +8,10 @@ use nalgebra::{Isometry3, Matrix3, Point3, Rotation3, Vector3};
 
 use super::Geometry;
 
-/// Density of a shape whose text gives none (kg/m³).
+/// Default density (kg/m³).
 pub(super) const WATER_KGPM3: f64 = 1000.0;
 
-/// Mass properties of a body or a part of it, in the body's frame.
+/// Mass properties of a rigid body or of a part of it, in the rigid body's frame.
 #[derive(Clone, Debug)]
 pub(crate) struct MassProperties {
     /// Mass (kg).
@@ -22,7 +22,7 @@ pub(crate) struct MassProperties {
     pub(crate) inertia_kgm2: Matrix3<f64>,
 }
 
-/// Adds up the parts of one body; `None` if they weigh nothing.
+/// Returns the mass properties of several parts together; `None` if they have no mass.
 pub(crate) fn sum(parts: &[MassProperties]) -> Option<MassProperties> {
     let mass_kg: f64 = parts.iter().map(|part| part.mass_kg).sum();
     if mass_kg <= 0.0 {
@@ -35,45 +35,45 @@ pub(crate) fn sum(parts: &[MassProperties]) -> Option<MassProperties> {
     Some(MassProperties { mass_kg, centre_m, inertia_kgm2 })
 }
 
-/// Inertia of a point mass (kg) about the point that lies `offset` (m) away from it.
+/// Returns the inertia of a point mass (kg) about a point at distance `offset` (m).
 fn point_inertia(mass_kg: f64, offset: Vector3<f64>) -> Matrix3<f64> {
     (Matrix3::identity() * offset.norm_squared() - offset * offset.transpose()) * mass_kg
 }
 
-/// Volume (m³).
+/// Returns the volume (m³).
 pub(crate) fn volume_m3(geometry: &Geometry) -> f64 {
     of_geometry(geometry, 1.0).mass_kg
 }
 
-/// Mass properties of a solid of even density (kg/m³).
+/// Returns the mass properties of a solid of uniform density (kg/m³).
 pub(crate) fn of_geometry(geometry: &Geometry, density_kgpm3: f64) -> MassProperties {
     match *geometry {
-        Geometry::Sphere { centre_m, radius_m } => of_round(&centre_m, &centre_m, radius_m, density_kgpm3),
-        Geometry::Capsule { from_m, to_m, radius_m } => of_round(&from_m, &to_m, radius_m, density_kgpm3),
+        Geometry::Sphere { centre_m, radius_m } => of_capsule(&centre_m, &centre_m, radius_m, density_kgpm3),
+        Geometry::Capsule { from_m, to_m, radius_m } => of_capsule(&from_m, &to_m, radius_m, density_kgpm3),
         Geometry::Cylinder { pose, radius_m, half_length_m } => {
             let mass_kg = density_kgpm3 * PI * radius_m.powi(2) * 2.0 * half_length_m;
             let across = mass_kg * (radius_m.powi(2) / 4.0 + half_length_m.powi(2) / 3.0);
-            at(&pose, mass_kg, Vector3::new(across, across, mass_kg * radius_m.powi(2) / 2.0))
+            from_principal(&pose, mass_kg, Vector3::new(across, across, mass_kg * radius_m.powi(2) / 2.0))
         }
         Geometry::Box { pose, half_m } => {
             let mass_kg = density_kgpm3 * 8.0 * half_m.product();
-            at(&pose, mass_kg, squares(&half_m) * (mass_kg / 3.0))
+            from_principal(&pose, mass_kg, sums_of_squares(&half_m) * (mass_kg / 3.0))
         }
         Geometry::Ellipsoid { pose, half_m } => {
             let mass_kg = density_kgpm3 * 4.0 / 3.0 * PI * half_m.product();
-            at(&pose, mass_kg, squares(&half_m) * (mass_kg / 5.0))
+            from_principal(&pose, mass_kg, sums_of_squares(&half_m) * (mass_kg / 5.0))
         }
     }
 }
 
-/// For each axis, the sum of squares of the other two.
-fn squares(half_m: &Vector3<f64>) -> Vector3<f64> {
+/// Returns for each axis the sum of the squares of the other two.
+fn sums_of_squares(half_m: &Vector3<f64>) -> Vector3<f64> {
     let [x, y, z] = [half_m.x, half_m.y, half_m.z].map(|half_m| half_m * half_m);
     Vector3::new(y + z, z + x, x + y)
 }
 
-/// A part whose principal axes are those of a pose.
-pub(crate) fn at(pose: &Isometry3<f64>, mass_kg: f64, principal_kgm2: Vector3<f64>) -> MassProperties {
+/// Returns mass properties with the centre and the principal axes of a pose.
+pub(crate) fn from_principal(pose: &Isometry3<f64>, mass_kg: f64, principal_kgm2: Vector3<f64>) -> MassProperties {
     let turn = pose.rotation.to_rotation_matrix();
     MassProperties {
         mass_kg,
@@ -82,14 +82,13 @@ pub(crate) fn at(pose: &Isometry3<f64>, mass_kg: f64, principal_kgm2: Vector3<f6
     }
 }
 
-fn of_round(from_m: &Point3<f64>, to_m: &Point3<f64>, radius: f64, density_kgpm3: f64) -> MassProperties {
+fn of_capsule(from_m: &Point3<f64>, to_m: &Point3<f64>, radius: f64, density_kgpm3: f64) -> MassProperties {
     let axis = to_m - from_m;
     let length = axis.norm();
     let cylinder_kg = density_kgpm3 * PI * radius.powi(2) * length;
     let ball_kg = density_kgpm3 * 4.0 / 3.0 * PI * radius.powi(3);
 
-    // Along the axis, and across it. Each half ball's centre lies 3/8 r beyond the cylinder's end,
-    // which is where the mixed term comes from.
+    // The mixed term of `across`: the centre of each half ball lies 3/8 r beyond the cylinder's end.
     let along = cylinder_kg * radius.powi(2) / 2.0 + ball_kg * radius.powi(2) * 2.0 / 5.0;
     let across = cylinder_kg * (radius.powi(2) / 4.0 + length.powi(2) / 12.0)
         + ball_kg * (radius.powi(2) * 2.0 / 5.0 + length.powi(2) / 4.0 + length * radius * 3.0 / 8.0);
@@ -126,7 +125,7 @@ mod tests {
     }
 
     #[test]
-    fn two_spheres_balance_in_the_middle_and_resist_turning_across_their_line() {
+    fn two_spheres_have_their_centre_of_mass_in_the_middle() {
         let body = sum(&[sphere([0.0, -0.5, 0.0], 0.1), sphere([0.0, 0.5, 0.0], 0.1)]).expect("mass");
         let one = 4.188_790_204_786_391;
         assert!(body.centre_m.coords.norm() < TOLERANCE);
@@ -159,7 +158,7 @@ mod tests {
     }
 
     #[test]
-    fn nothing_and_weightless_parts_weigh_nothing() {
+    fn parts_without_mass_have_no_mass_properties() {
         let hollow = of_geometry(&Geometry::Sphere { centre_m: Point3::origin(), radius_m: 0.1 }, 0.0);
         assert!(sum(&[hollow]).is_none());
         assert!(sum(&[]).is_none());

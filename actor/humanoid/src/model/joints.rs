@@ -1,4 +1,4 @@
-//! Hinges.
+//! Joints: the root's free joint, and hinges.
 
 use mjcf_rs::body::{Joint, JointType};
 use mjcf_rs::types::Tristate;
@@ -8,7 +8,7 @@ use super::Hinge;
 use super::geoms::not_negative;
 use crate::error::ModelError;
 
-/// Refuses a free joint that does more than let the root move freely.
+/// Refuses a free joint with stiffness, damping or armature.
 pub(super) fn check_free(joint: &Joint) -> Result<(), ModelError> {
     let name = joint.name.as_deref().unwrap_or("free joint");
     for (what, value) in [
@@ -17,18 +17,20 @@ pub(super) fn check_free(joint: &Joint) -> Result<(), ModelError> {
         ("armature of a free joint", joint.armature),
     ] {
         if value != 0.0 {
-            return Err(ModelError::figure(name, what, value, "0: nothing holds the root"));
+            return Err(ModelError::figure(name, what, value, "0: the root must move freely"));
         }
     }
     Ok(())
 }
 
-/// Reads a hinge; `torque_nm` is where the torque of its motors ends, if it does.
+/// Reads a hinge; `torque_nm` limits the total torque of its motors.
 pub(super) fn read_hinge(joint: &Joint, autolimits: bool, torque_nm: Option<[f64; 2]>) -> Result<Hinge, ModelError> {
     let name = joint.name.clone().unwrap_or_default();
     match joint.type_ {
         JointType::Hinge => {}
-        JointType::Free => return Err(ModelError::unsupported(&name, "only the root, below the world, may be free")),
+        JointType::Free => {
+            return Err(ModelError::unsupported(&name, "only the root may have a free joint"));
+        }
         JointType::Ball | JointType::Slide => {
             let kind = format!("{:?}", joint.type_).to_lowercase();
             return Err(ModelError::unsupported(&name, format!("joints must be hinges, not of type {kind}")));
@@ -63,7 +65,7 @@ fn range(name: &str, joint: &Joint, autolimits: bool) -> Result<(f64, f64), Mode
         return Ok((f64::NEG_INFINITY, f64::INFINITY));
     }
     let [min_rad, max_rad] =
-        joint.range.ok_or_else(|| ModelError::unsupported(name, "it is limited, but has no range"))?;
+        joint.range.ok_or_else(|| ModelError::unsupported(name, "`limited` is true, but there is no range"))?;
     if min_rad.is_nan() || max_rad.is_nan() || min_rad >= max_rad {
         return Err(ModelError::figure(name, "lower end of the range (rad)", min_rad, "below the upper end"));
     }

@@ -1,4 +1,4 @@
-//! What a body of the text weighs: by its `<inertial>` element or by its shapes, and the compiler's rules about it.
+//! Mass of an MJCF body: from its `<inertial>` element or its geoms, by the rules of `<compiler>`.
 
 use mjcf_rs::body::{InertiaSpec, Inertial};
 use mjcf_rs::compiler::{Compiler, InertiaFromGeom};
@@ -8,12 +8,12 @@ use super::inertia::{self, MassProperties};
 use super::mjcf::isometry;
 use crate::error::ModelError;
 
-/// How far (as a share) principal inertias may miss being those of a real body: figures in texts are rounded.
+/// Relative tolerance of the triangle inequality of principal inertias, since numbers in texts are rounded.
 const TRIANGLE_TOLERANCE: f64 = 1e-3;
 
-/// Parts that make up the mass of one body of the text, in the frame of the rigid body that it belongs to.
+/// Returns the mass properties of one MJCF body's parts, in the frame of its rigid body.
 ///
-/// `shapes` are the mass properties of the body's shapes that count.
+/// `shapes` are those of the body's geoms that count for its mass.
 pub(super) fn parts_of_body(
     name: &str,
     shapes: Vec<MassProperties>,
@@ -35,7 +35,7 @@ pub(super) fn parts_of_body(
     Ok(vec![bounded(inertia::sum(&parts), offset, compiler)])
 }
 
-/// Whether shapes are asked for their masses at all.
+/// Whether geoms may count for the mass of a body.
 pub(super) fn needs_shapes(inertial: Option<&Inertial>, compiler: &Compiler) -> bool {
     match compiler.inertia_from_geom {
         InertiaFromGeom::True => true,
@@ -67,11 +67,11 @@ fn read_inertial(
     let slack = 2.0 * principal.max() - principal.sum();
     if slack > TRIANGLE_TOLERANCE * principal.max() {
         if !compiler.balance_inertia {
-            let problem = "one principal inertia is larger than the other two together, which no body has; \
+            let problem = "one principal inertia is larger than the sum of the other two, which is physically impossible; \
                            correct it, or set balanceinertia=\"true\" in <compiler>";
             return Err(ModelError::unsupported(name, problem));
         }
-        // MuJoCo's remedy: as if the mass were spread evenly over all directions.
+        // As in MuJoCo: all three become their mean.
         principal = Vector3::repeat(principal.sum() / 3.0);
     }
     let turn = pose.rotation.to_rotation_matrix();
@@ -83,9 +83,9 @@ fn read_inertial(
     })
 }
 
-/// Raises mass and principal inertias of a body made of shapes to the compiler's bounds.
+/// Raises mass and principal inertias to the compiler's lower bounds.
 fn bounded(found: Option<MassProperties>, offset: &Isometry3<f64>, compiler: &Compiler) -> MassProperties {
-    let found = found.unwrap_or_else(|| inertia::at(offset, 0.0, Vector3::zeros()));
+    let found = found.unwrap_or_else(|| inertia::from_principal(offset, 0.0, Vector3::zeros()));
     let mut principal = SymmetricEigen::new(found.inertia_kgm2);
     principal.eigenvalues.apply(|value| *value = value.max(compiler.bound_inertia));
     MassProperties { mass_kg: found.mass_kg.max(compiler.bound_mass), inertia_kgm2: principal.recompose(), ..found }

@@ -1,4 +1,4 @@
-//! From MJCF text to a [`Model`]: what is read, what is merged, what is refused.
+//! Conversion of MJCF text to a [`Model`]; welded bodies are merged into rigid bodies.
 
 use std::ops::Range;
 
@@ -10,7 +10,7 @@ use super::inertia::MassProperties;
 use super::{Body, Geometry, Hinge, Link, Model, Shape, collision, geoms, inertia, joints, mass, motors, tendon};
 use crate::error::ModelError;
 
-/// More moving bodies than this do not fit the collision groups: one bit each, and one for the floor.
+/// Most rigid bodies: the collision groups have one bit for each, and one for the floor.
 const BODIES_MAX: usize = 31;
 
 /// Reads and checks a model text.
@@ -21,7 +21,7 @@ pub(super) fn read(text: &str) -> Result<Model, ModelError> {
     for (index, entry) in source.bodies.iter().enumerate() {
         match entry.parent {
             None => {
-                reader.places.push(Place { body: None, offset: Isometry3::identity() });
+                reader.placements.push(Placement { body: None, offset: Isometry3::identity() });
                 reader.read_world("the world", &entry.body.geoms, &Isometry3::identity())?;
             }
             Some(parent) => reader.read_body(index, parent, &entry.body, &source.compiler)?,
@@ -30,9 +30,9 @@ pub(super) fn read(text: &str) -> Result<Model, ModelError> {
     reader.finish(&source)
 }
 
-/// Where a body of the text ended up: in which of our bodies, and at which pose inside it; no body is the world.
+/// Rigid body that an MJCF body belongs to, and its pose in that body; `None` is the world.
 #[derive(Clone, Copy)]
-struct Place {
+struct Placement {
     body: Option<usize>,
     offset: Isometry3<f64>,
 }
@@ -40,21 +40,21 @@ struct Place {
 #[derive(Default)]
 struct Reader {
     flat: Flat,
-    /// For each body of the text.
-    places: Vec<Place>,
+    /// Placement of each MJCF body.
+    placements: Vec<Placement>,
     bodies: Vec<Body>,
     hinges: Vec<Hinge>,
     floor: Option<Shape>,
-    /// For each of our bodies, the parts that make up its mass.
+    /// Parts of each rigid body's mass.
     parts: Vec<Vec<MassProperties>>,
-    /// For each of our bodies and each of its shapes, the body of the text that it was written in.
+    /// MJCF body of each shape, as `[body][shape]`.
     origins: Vec<Vec<usize>>,
-    /// The bodies of the text that move.
+    /// MJCF bodies that move.
     links: Vec<Link>,
 }
 
 impl Reader {
-    /// Reads what stands still. Only a level floor may be touched.
+    /// Reads the geoms of a static body. Only a level floor may collide.
     fn read_world(&mut self, body: &str, geoms: &[Geom], offset: &Isometry3<f64>) -> Result<(), ModelError> {
         for geom in geoms.iter().filter(|geom| geom.contype != 0 || geom.conaffinity != 0) {
             let name = geom.name.as_deref().unwrap_or("geom");
@@ -62,7 +62,7 @@ impl Reader {
             let up = pose.rotation * Vector3::z();
             if !matches!(geom.type_, GeomType::Plane) || pose.translation.z.abs() > 1e-9 || up.z < 1.0 - 1e-9 {
                 let problem = format!(
-                    "it is part of {body}, which stands still, and there may be only a level plane at z = 0; a robot's \
+                    "it belongs to {body}, which is static, but only a level plane at z = 0 may collide there; a robot's \
                      root needs a free joint"
                 );
                 return Err(ModelError::unsupported(name, problem));
@@ -70,8 +70,8 @@ impl Reader {
             if self.floor.is_some() {
                 return Err(ModelError::unsupported(name, "there may be only one floor"));
             }
-            let below = Geometry::Sphere { centre_m: Point3::origin(), radius_m: 0.0 };
-            self.floor = Some(geoms::surface(name, geom, below)?);
+            let point = Geometry::Sphere { centre_m: Point3::origin(), radius_m: 0.0 };
+            self.floor = Some(geoms::collision_shape(name, geom, point)?);
         }
         Ok(())
     }
@@ -84,10 +84,10 @@ impl Reader {
         compiler: &mjcf_rs::compiler::Compiler,
     ) -> Result<(), ModelError> {
         let name = body.name.clone().unwrap_or_default();
-        let Place { body: owner, offset } = self.places[parent];
+        let Placement { body: owner, offset } = self.placements[parent];
         let pose = offset * isometry(&body.pose);
-        let place = if body.joints.is_empty() {
-            Place { body: owner, offset: pose }
+        let placement = if body.joints.is_empty() {
+            Placement { body: owner, offset: pose }
         } else {
             if owner.is_none() {
                 self.check_root(&name, parent, &body.joints)?;
@@ -96,52 +96,52 @@ impl Reader {
             self.bodies.push(jointed);
             self.parts.push(Vec::new());
             self.origins.push(Vec::new());
-            Place { body: Some(self.bodies.len() - 1), offset: Isometry3::identity() }
+            Placement { body: Some(self.bodies.len() - 1), offset: Isometry3::identity() }
         };
-        self.places.push(place);
-        let Some(owner) = place.body else {
-            // MuJoCo would count it.
+        self.placements.push(placement);
+        let Some(owner) = placement.body else {
+            // MuJoCo would include it in the total.
             if compiler.set_total_mass > 0.0 && !(body.geoms.is_empty() && body.inertial.is_none()) {
-                return Err(ModelError::unsupported(&name, "with settotalmass there may be no body that stands still"));
+                return Err(ModelError::unsupported(&name, "with settotalmass there may be no static body"));
             }
-            return self.read_world(&format!("`{name}`"), &body.geoms, &place.offset);
+            return self.read_world(&format!("`{name}`"), &body.geoms, &placement.offset);
         };
         let first_shape = self.bodies[owner].shapes.len();
-        let mut weights = Vec::new();
+        let mut geom_masses = Vec::new();
         for geom in &body.geoms {
             let [first, last] = self.flat.inertia_groups;
             let counts = (first..=last).contains(&geom.group) && mass::needs_shapes(body.inertial.as_ref(), compiler);
-            let (weight, shape) = geoms::read(geom, &place.offset, counts)?;
-            weights.extend(weight);
+            let (mass, shape) = geoms::read(geom, &placement.offset, counts)?;
+            geom_masses.extend(mass);
             if let Some(shape) = shape {
                 self.bodies[owner].shapes.push(shape);
                 self.origins[owner].push(index);
             }
         }
-        let parts = mass::parts_of_body(&name, weights, body.inertial.as_ref(), &place.offset, compiler)?;
+        let parts = mass::parts_of_body(&name, geom_masses, body.inertial.as_ref(), &placement.offset, compiler)?;
         let shapes = first_shape..self.bodies[owner].shapes.len();
-        self.links.push(link(name, owner, place.offset, shapes, &parts));
+        self.links.push(link(name, owner, placement.offset, shapes, &parts));
         self.parts[owner].extend(parts);
         Ok(())
     }
 
     fn check_root(&self, body: &str, parent: usize, joints: &[Joint]) -> Result<(), ModelError> {
         let [joint] = joints else {
-            return Err(ModelError::unsupported(
-                body,
-                "the root moves freely: it must have one free joint and no other",
-            ));
+            return Err(ModelError::unsupported(body, "the root must have one free joint and no other joint"));
         };
         if !matches!(joint.type_, JointType::Free) || parent != 0 {
             return Err(ModelError::unsupported(body, "the root, directly below the world, must have a free joint"));
         }
         if !self.bodies.is_empty() {
-            return Err(ModelError::unsupported(body, "there must be one root only: everything else hangs on it"));
+            return Err(ModelError::unsupported(
+                body,
+                "there may be only one root, and all other bodies must be below it",
+            ));
         }
         joints::check_free(joint)
     }
 
-    /// Adds a body's hinges and returns the body without shapes and mass.
+    /// Adds a body's hinges. Returns the body without shapes and mass.
     fn read_joints(
         &mut self,
         name: String,
@@ -181,16 +181,16 @@ impl Reader {
         }
         if self.bodies.len() > BODIES_MAX {
             let problem =
-                format!("there are {} moving bodies, but at most {BODIES_MAX} are possible", self.bodies.len());
+                format!("there are {} moving bodies, but at most {BODIES_MAX} are supported", self.bodies.len());
             return Err(ModelError::unsupported(&self.bodies[BODIES_MAX].name, problem));
         }
-        self.weigh(source.compiler.set_total_mass)?;
+        self.compute_masses(source.compiler.set_total_mass)?;
         let floor = self
             .floor
             .take()
             .ok_or_else(|| ModelError::unsupported("worldbody", "a floor is needed: a plane at z = 0 that collides"))?;
         let exclusions = self.read_exclusions(source)?;
-        let touches = collision::sort(&mut self.bodies, &self.origins, &floor, &exclusions)?;
+        let collision_masks = collision::assign_groups(&mut self.bodies, &self.origins, &floor, &exclusions)?;
         let tendons = tendon::read(&source.tendons, &self.hinges)?;
         let motors = motors::read(&source.actuators, &self.hinges, &source.compiler)?;
         Ok(Model {
@@ -199,17 +199,17 @@ impl Reader {
             motors,
             links: self.links,
             tendons,
-            touches,
-            floor_friction: if floor.rubs { floor.friction } else { 0.0 },
+            collision_masks,
+            floor_friction: if floor.has_friction { floor.friction } else { 0.0 },
             floor_margin_m: floor.margin_m,
             gravity_mps2: Vector3::from(source.option.gravity),
         })
     }
 
-    fn weigh(&mut self, total_kg: f64) -> Result<(), ModelError> {
+    fn compute_masses(&mut self, total_kg: f64) -> Result<(), ModelError> {
         for (body, parts) in self.bodies.iter_mut().zip(&self.parts) {
-            let mass = inertia::sum(parts)
-                .ok_or_else(|| ModelError::unsupported(&body.name, "a body that moves needs mass"))?;
+            let mass =
+                inertia::sum(parts).ok_or_else(|| ModelError::unsupported(&body.name, "a moving body needs mass"))?;
             body.mass_kg = mass.mass_kg;
             body.centre_of_mass_m = mass.centre_m;
             body.inertia_kgm2 = mass.inertia_kgm2;
@@ -233,11 +233,11 @@ impl Reader {
         Ok(())
     }
 
-    /// Pairs of bodies of the text that never touch.
+    /// Returns pairs of MJCF bodies that never touch.
     fn read_exclusions(&self, source: &mjcf_rs::Model) -> Result<Vec<collision::Exclusion>, ModelError> {
         let find = |exclusion: &str, name: &str| match source.body_id_by_name(name) {
-            // What does not move touches no more than the world does.
-            Some(index) => Ok(self.places[index].body.map(|_| index)),
+            // A static body counts as the world.
+            Some(index) => Ok(self.placements[index].body.map(|_| index)),
             None if name == "world" => Ok(None),
             None => Err(ModelError::unsupported(exclusion, format!("there is no body `{name}`"))),
         };
@@ -251,7 +251,7 @@ impl Reader {
     }
 }
 
-/// The part of a rigid body that one body of the text makes, with the parts of its mass.
+/// Returns the part of a rigid body that one MJCF body makes; `parts` are those of its mass.
 fn link(name: String, body: usize, pose: Isometry3<f64>, shapes: Range<usize>, parts: &[MassProperties]) -> Link {
     let mass = inertia::sum(parts).unwrap_or(MassProperties {
         mass_kg: 0.0,

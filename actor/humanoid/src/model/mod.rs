@@ -1,6 +1,6 @@
-//! The robot as data: bodies, hinge chains and motors, free of any physics engine.
+//! Robot as data: bodies, hinges and motors, independent of the physics engine.
 //!
-//! [`Model::from_mjcf`] reads the text; [`crate::physics`] builds a world from the result.
+//! [`Model::from_mjcf`] reads MJCF text; [`crate::physics`] builds a world from the model.
 //! Lengths are metres, angles radians, masses kilograms.
 
 mod collision;
@@ -28,45 +28,44 @@ pub use self::tendon::TENDONS_MAX;
 pub use self::xml::MODEL_BYTES_MAX;
 use crate::error::ModelError;
 
-/// The humanoid of this project, as MJCF text: 17 hinges, about 42 kg, the figures of Humanoid-v5.
+/// MJCF text of the built-in humanoid: 17 hinges, about 42 kg, masses and sizes of Humanoid-v5.
 pub const HUMANOID_XML: &str = include_str!("../../assets/humanoid.xml");
 
-/// A tree of rigid bodies on a floating root, moved by motors at its hinges.
+/// Tree of rigid bodies on a floating root, moved by motors at its hinges.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Model {
     /// Bodies, parents before children; the first one is the floating root.
     pub bodies: Vec<Body>,
-    /// Hinges in position order: as they stand in the text, body by body.
+    /// Hinges in the order of the position vector: that of the text, body by body.
     pub hinges: Vec<Hinge>,
     /// Motors in action order.
     pub motors: Vec<Motor>,
-    /// The bodies as they stand in the text, in its order and without the world and what stands still; those that are
-    /// welded together share one of `bodies`.
+    /// Moving MJCF bodies in the order of the text; those that are welded together share one of `bodies`.
     pub links: Vec<Link>,
     /// Fixed tendons, in the order of the text; at most [`TENDONS_MAX`].
     pub tendons: Vec<Tendon>,
-    /// For each [`Shape::group`], bits of the groups that its shapes may touch; the highest bit is the floor.
-    pub touches: Vec<u32>,
-    /// Friction coefficient of the floor; the greater one of two shapes counts.
+    /// Bits of the groups that the shapes of each [`Shape::group`] may touch; the highest bit is the floor.
+    pub collision_masks: Vec<u32>,
+    /// Friction coefficient of the floor; the greater coefficient of a pair counts.
     pub floor_friction: f64,
-    /// Distance (m) from which on the floor pushes; those of two shapes add up.
+    /// Distance (m) below which the floor pushes; the margins of a pair add up.
     pub floor_margin_m: f64,
     /// Acceleration of gravity (m/s²), world frame.
     pub gravity_mps2: Vector3<f64>,
 }
 
-/// One rigid body; parts welded to it in the text are merged into it.
+/// Rigid body: an MJCF body with joints, and all bodies without joints that are welded to it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Body {
     /// Name in the text.
     pub name: String,
-    /// Index of the body it hangs on; `None` for the root.
+    /// Index of the parent body; `None` for the root.
     pub parent: Option<usize>,
     /// Pose in the parent's frame (root: in the world) with all hinges at zero.
     pub pose: Isometry3<f64>,
-    /// Where all hinges to the parent sit, in this body's frame (m).
+    /// Position of all hinges to the parent, in this body's frame (m).
     pub anchor_m: Point3<f64>,
-    /// Which hinges join it to its parent, in chain order, parent's side first.
+    /// Hinges between the parent and this body, from the parent on.
     pub hinges: Range<usize>,
     /// Collision shapes, in this body's frame.
     pub shapes: Vec<Shape>,
@@ -78,99 +77,99 @@ pub struct Body {
     pub inertia_kgm2: Matrix3<f64>,
 }
 
-/// A body of the text: a rigid body of its own, or a welded part of one.
+/// An MJCF body, or a link in terms of URDF: a rigid body of its own, or a welded part of one.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Link {
     /// Name in the text.
     pub name: String,
-    /// Which rigid body it is part of: an index into [`Model::bodies`].
+    /// Index of its rigid body in [`Model::bodies`].
     pub body: usize,
     /// Pose of its frame in the rigid body's frame (m).
     pub pose: Isometry3<f64>,
-    /// Which of the rigid body's shapes are its own.
+    /// Indices of its shapes in [`Body::shapes`].
     pub shapes: Range<usize>,
-    /// Mass (kg); 0 for a part without shapes.
+    /// Mass (kg); may be 0 for a welded part.
     pub mass_kg: f64,
-    /// Centre of mass in the rigid body's frame (m); the origin of its own frame if it weighs nothing.
+    /// Centre of mass in the rigid body's frame (m); the origin of its own frame if it has no mass.
     pub centre_of_mass_m: Point3<f64>,
     /// Inertia about its centre of mass, in the rigid body's axes (kg·m²).
     pub inertia_kgm2: Matrix3<f64>,
 }
 
-/// A fixed tendon: a weighted sum of hinge angles. It exerts no force.
+/// Fixed tendon: a weighted sum of hinge angles that exerts no force.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Tendon {
     /// Name in the text.
     pub name: String,
-    /// Hinges, as indices into [`Model::hinges`], with their weights.
+    /// Indices into [`Model::hinges`], with weights.
     pub terms: Vec<(usize, f64)>,
 }
 
 impl Tendon {
-    /// Length or velocity of the tendon: Σ weight × angle or rate, one for each hinge of the model.
+    /// Returns the tendon's length for the angles, or its velocity for the rates, of all hinges: Σ weight × entry.
     #[must_use]
     pub fn sum_over(&self, hinges: &[f64]) -> f64 {
         self.terms.iter().map(|&(hinge, weight)| weight * hinges[hinge]).sum()
     }
 }
 
-/// A collision shape.
+/// Collision shape.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Shape {
     /// Name in the text.
     pub name: String,
-    /// Form and place, in its body's frame.
+    /// Geometry in its body's frame.
     pub geometry: Geometry,
-    /// Friction coefficient; between two shapes the greater one counts, if at least one of them rubs.
+    /// Friction coefficient; the greater one of a pair counts, if at least one shape has friction.
     pub friction: f64,
-    /// Whether contacts with it resist sliding by themselves (MJCF's `condim` 3) or not (1).
-    pub rubs: bool,
-    /// Distance (m) from which on it pushes what comes near; those of two shapes add up.
+    /// Whether it has friction by itself: MJCF's `condim` is 3, not 1.
+    pub has_friction: bool,
+    /// Distance (m) below which contacts push; the margins of a pair add up.
     pub margin_m: f64,
-    /// Bits that say what it is: it touches what has affinity to one of them.
+    /// MJCF's `contype`: touches shapes whose `conaffinity` shares a bit.
     pub contype: u32,
-    /// Bits of what it has affinity to.
+    /// MJCF's `conaffinity`.
     pub conaffinity: u32,
-    /// Group of shapes to which the same rules of collision apply: an index into [`Model::touches`].
+    /// Collision group: an index into [`Model::collision_masks`].
     pub group: usize,
 }
 
-/// Form and place of a shape; lengths in metres.
+/// Form and position of a shape; lengths in metres.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Geometry {
-    /// A ball.
+    /// Sphere.
     Sphere {
-        /// Its centre.
+        /// Centre.
         centre_m: Point3<f64>,
-        /// Its radius.
+        /// Radius.
         radius_m: f64,
     },
-    /// All points within a radius of a line.
+    /// All points within a radius of a line segment.
     Capsule {
-        /// One end of the line.
+        /// One end of the segment.
         from_m: Point3<f64>,
-        /// The other end.
+        /// Other end.
         to_m: Point3<f64>,
-        /// The radius.
+        /// Radius.
         radius_m: f64,
     },
-    /// A cylinder along the z axis of its pose.
+    /// Cylinder along the z axis of its pose.
     Cylinder {
         /// Centre and orientation.
         pose: Isometry3<f64>,
-        /// Its radius.
+        /// Radius.
         radius_m: f64,
-        /// From the centre to either end.
+        /// Distance from the centre to either end.
         half_length_m: f64,
     },
-    /// A box.
+    /// Box.
     Box {
         /// Centre and orientation.
         pose: Isometry3<f64>,
-        /// From the centre to the sides.
+        /// Half of each side.
         half_m: Vector3<f64>,
     },
-    /// An ellipsoid; it has mass, but cannot collide.
+    /// Ellipsoid; has mass, but cannot collide.
     Ellipsoid {
         /// Centre and orientation.
         pose: Isometry3<f64>,
@@ -180,7 +179,7 @@ pub enum Geometry {
 }
 
 impl Geometry {
-    /// Its middle, in its body's frame (m).
+    /// Returns the centre in the body's frame (m).
     #[must_use]
     pub fn centre_m(&self) -> Point3<f64> {
         match self {
@@ -193,71 +192,72 @@ impl Geometry {
     }
 }
 
-/// One hinge of a chain between a body and its parent.
+/// One hinge of the chain between a body and its parent.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Hinge {
     /// Name in the text.
     pub name: String,
-    /// Axis in the frame of the body that it moves, with all hinges at zero.
+    /// Axis in the frame of the moved body, with all hinges at zero.
     pub axis: Unit<Vector3<f64>>,
     /// Smallest allowed angle (rad); −∞ without a limit.
     pub min_rad: f64,
     /// Largest allowed angle (rad); +∞ without a limit.
     pub max_rad: f64,
-    /// Spring towards `rest_rad` (N·m/rad).
+    /// Stiffness of the spring towards `rest_rad` (N·m/rad).
     pub stiffness_nmprad: f64,
-    /// Angle at which the spring is slack (rad).
+    /// Rest angle of the spring (rad).
     pub rest_rad: f64,
     /// Viscous friction (N·m·s/rad).
     pub damping_nmsprad: f64,
-    /// Inertia of the motor's rotor, seen at the hinge (kg·m²).
+    /// Rotor inertia, as seen at the hinge (kg·m²).
     pub armature_kgm2: f64,
-    /// Least and greatest torque of all its motors together (N·m); infinite without limits.
+    /// Smallest and largest total torque of its motors (N·m); infinite without limits.
     pub torque_nm: [f64; 2],
 }
 
 impl Hinge {
-    /// Middle of the allowed range (rad); 0 without a limit.
+    /// Returns the middle of the range (rad); 0 without limits.
     #[must_use]
     pub fn centre_rad(&self) -> f64 {
         let centre = f64::midpoint(self.min_rad, self.max_rad);
         if centre.is_finite() { centre } else { 0.0 }
     }
 
-    /// How far an angle (rad) lies outside the allowed range, 0 inside.
+    /// Returns the distance of an angle (rad) from the range; 0 inside.
     #[must_use]
     pub fn overshoot_rad(&self, angle_rad: f64) -> f64 {
         (self.min_rad - angle_rad).max(angle_rad - self.max_rad).max(0.0)
     }
 }
 
-/// A motor or a servo: torque = gear × force, where force = gain × control + bias · (1, length, velocity), and length
-/// and velocity are those of the hinge times [`Motor::length_per_rad`]. A plain motor has gain 1 and no bias.
+/// Motor or servo: torque = gear × force, force = gain × control + bias · (1, length, velocity).
+///
+/// Length and velocity are angle and rate of the hinge times [`Motor::length_per_rad`]. A plain motor has gain 1 and no bias.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Motor {
     /// Name in the text.
     pub name: String,
-    /// Which hinge it turns: an index into [`Model::hinges`].
+    /// Index of its hinge in [`Model::hinges`].
     pub hinge: usize,
     /// Torque per unit of force (N·m).
     pub gear_nm: f64,
-    /// What a servo measures per angle of the hinge: the gear again, also where a motor is stronger or weaker than it.
+    /// Length that a servo measures per angle of the hinge: the text's gear, which randomised motor strength does not scale.
     pub length_per_rad: f64,
-    /// Least and greatest control; others are clamped.
+    /// Smallest and largest control; other values are clamped.
     pub control: [f64; 2],
     /// Force per unit of control.
     pub gain: f64,
-    /// Force, force per length and force per velocity.
+    /// Constant force, force per length and force per velocity.
     pub bias: [f64; 3],
-    /// Least and greatest force; infinite without limits.
+    /// Smallest and largest force; infinite without limits.
     pub force: [f64; 2],
 }
 
 impl Model {
     /// Reads a model from MJCF text.
     ///
-    /// docs/guide/robots.md lists what is accepted. All other MJCF is refused by name, unless no motion depends
-    /// on it. Files are never opened: [`read_model_file`] makes one text of a file and those that it includes.
+    /// docs/guide/robots.md lists the accepted MJCF. Any other element or attribute that motion depends on is refused.
+    /// No file is opened; [`read_model_file`] inserts included files.
     ///
     /// # Errors
     /// [`ModelError`] names the first element that cannot be simulated.
@@ -265,47 +265,52 @@ impl Model {
         mjcf::read(text)
     }
 
-    /// The first part that is not the same in another model.
+    /// Returns a description of the first part that differs from another model.
     pub(crate) fn difference(&self, other: &Self) -> Option<String> {
-        fn among<T: PartialEq>(kind: &str, ours: &[T], theirs: &[T], name: fn(&T) -> &str) -> Option<String> {
+        fn first_difference<T: PartialEq>(
+            kind: &str,
+            ours: &[T],
+            theirs: &[T],
+            name: fn(&T) -> &str,
+        ) -> Option<String> {
             if ours.len() != theirs.len() {
                 return Some(format!("{kind} count ({} and {})", ours.len(), theirs.len()));
             }
             ours.iter().zip(theirs).find(|(one, other)| one != other).map(|(one, _)| format!("{kind} `{}`", name(one)))
         }
-        among("body part", &self.links, &other.links, |link| &link.name)
-            .or_else(|| among("rigid body", &self.bodies, &other.bodies, |body| &body.name))
-            .or_else(|| among("hinge", &self.hinges, &other.hinges, |hinge| &hinge.name))
-            .or_else(|| among("motor", &self.motors, &other.motors, |motor| &motor.name))
-            .or_else(|| among("tendon", &self.tendons, &other.tendons, |tendon| &tendon.name))
-            .or_else(|| (self != other).then(|| "the floor, gravity or who touches whom".to_owned()))
+        first_difference("body part", &self.links, &other.links, |link| &link.name)
+            .or_else(|| first_difference("rigid body", &self.bodies, &other.bodies, |body| &body.name))
+            .or_else(|| first_difference("hinge", &self.hinges, &other.hinges, |hinge| &hinge.name))
+            .or_else(|| first_difference("motor", &self.motors, &other.motors, |motor| &motor.name))
+            .or_else(|| first_difference("tendon", &self.tendons, &other.tendons, |tendon| &tendon.name))
+            .or_else(|| (self != other).then(|| "floor, gravity or collision rules".to_owned()))
     }
 
-    /// Which link a shape of a rigid body belongs to.
+    /// Returns the index in [`Model::links`] of the link that a shape of a rigid body belongs to.
     #[must_use]
     pub fn link_of_shape(&self, body: usize, shape: usize) -> Option<usize> {
         self.links.iter().position(|link| link.body == body && link.shapes.contains(&shape))
     }
 
-    /// Mass of the whole robot (kg).
+    /// Returns the mass of the whole robot (kg).
     #[must_use]
     pub fn mass_kg(&self) -> f64 {
         self.bodies.iter().map(|body| body.mass_kg).sum()
     }
 
-    /// Length of the position vector: 3 for the root's position, 4 for its quaternion, 1 per hinge.
+    /// Returns the length of the position vector: 3 for the root's position, 4 for its quaternion, 1 per hinge.
     #[must_use]
     pub fn position_size(&self) -> usize {
         7 + self.hinges.len()
     }
 
-    /// Length of the velocity vector: 6 for the root, 1 per hinge.
+    /// Returns the length of the velocity vector: 6 for the root, 1 per hinge.
     #[must_use]
     pub fn velocity_size(&self) -> usize {
         6 + self.hinges.len()
     }
 
-    /// Position vector of the pose in which the text describes the robot: all hinges at zero.
+    /// Returns the position vector of the text's pose, with all hinges at zero.
     #[must_use]
     pub fn nominal_position(&self) -> Vec<f64> {
         let root = &self.bodies[0].pose;

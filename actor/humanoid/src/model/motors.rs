@@ -1,4 +1,4 @@
-//! Motors and servos: from controls to torques.
+//! Motors and servos, and their torques.
 
 use mjcf_rs::extras::{Actuator, ActuatorKind};
 use mjcf_rs::types::Tristate;
@@ -7,18 +7,18 @@ use nalgebra::Isometry3;
 use super::{Hinge, Model, Motor};
 use crate::error::ModelError;
 
-/// Range of controls of a motor whose text gives neither a control range nor an end to its force.
+/// Control range of a motor without control range, force limits and joint torque limits.
 const UNIT_RANGE: [f64; 2] = [-1.0, 1.0];
 const UNLIMITED: [f64; 2] = [f64::NEG_INFINITY, f64::INFINITY];
 
-/// Reads all motors.
+/// Reads all actuators.
 pub(super) fn read(
     actuators: &[Actuator],
     hinges: &[Hinge],
     compiler: &mjcf_rs::compiler::Compiler,
 ) -> Result<Vec<Motor>, ModelError> {
     if actuators.is_empty() {
-        return Err(ModelError::unsupported("actuator", "at least one motor is needed"));
+        return Err(ModelError::unsupported("actuator", "the model needs at least one motor"));
     }
     actuators.iter().map(|actuator| read_one(actuator, hinges, compiler.autolimits)).collect()
 }
@@ -28,12 +28,12 @@ fn read_one(actuator: &Actuator, hinges: &[Hinge], autolimits: bool) -> Result<M
     let hinge = hinges
         .iter()
         .position(|hinge| Some(hinge.name.as_str()) == actuator.joint.as_deref())
-        .ok_or_else(|| ModelError::unsupported(&name, "the motor names no hinge of this model"))?;
+        .ok_or_else(|| ModelError::unsupported(&name, "its `joint` is not a hinge of the model"))?;
     let gear = actuator.gear[0];
     if gear == 0.0 {
         return Err(ModelError::figure(&name, "gear", gear, "other than 0"));
     }
-    let (gain, bias) = law(&name, actuator)?;
+    let (gain, bias) = gain_and_bias(&name, actuator)?;
     let force = limits(&name, "forcerange", actuator.force_range, actuator.force_limited, autolimits)?;
     let control = limits(&name, "ctrlrange", actuator.ctrl_range, actuator.ctrl_limited, autolimits)?;
     let is_servo = bias != [0.0; 3];
@@ -42,10 +42,10 @@ fn read_one(actuator: &Actuator, hinges: &[Hinge], autolimits: bool) -> Result<M
         (None, _) if is_servo => {
             return Err(ModelError::unsupported(&name, "a servo needs a `ctrlrange`: the range of its targets"));
         }
-        // The action range must come from somewhere: from what the motor or its joint can do.
-        (None, Some([low, high])) => in_order(low / gain, high / gain),
+        // Derive the action range from the limits of the motor or its joint.
+        (None, Some([low, high])) => sorted(low / gain, high / gain),
         (None, None) => match hinges[hinge].torque_nm {
-            [low, high] if low.is_finite() => in_order(low / (gain * gear), high / (gain * gear)),
+            [low, high] if low.is_finite() => sorted(low / (gain * gear), high / (gain * gear)),
             _ => UNIT_RANGE,
         },
     };
@@ -61,12 +61,12 @@ fn read_one(actuator: &Actuator, hinges: &[Hinge], autolimits: bool) -> Result<M
     })
 }
 
-fn in_order(one: f64, other: f64) -> [f64; 2] {
+fn sorted(one: f64, other: f64) -> [f64; 2] {
     [one.min(other), one.max(other)]
 }
 
-/// Gain and bias of an actuator: force = gain × control + bias · (1, length, velocity).
-fn law(name: &str, actuator: &Actuator) -> Result<(f64, [f64; 3]), ModelError> {
+/// Returns gain and bias of an actuator: force = gain × control + bias · (1, length, velocity).
+fn gain_and_bias(name: &str, actuator: &Actuator) -> Result<(f64, [f64; 3]), ModelError> {
     let parameter = |list: &[f64], index: usize| list.get(index).copied().unwrap_or(0.0);
     let (gain, bias) = match actuator.kind {
         ActuatorKind::Motor => (1.0, [0.0; 3]),
@@ -92,7 +92,7 @@ fn law(name: &str, actuator: &Actuator) -> Result<(f64, [f64; 3]), ModelError> {
     }
     for (what, value) in [("stiffness of the servo", -bias[1]), ("damping of the servo", -bias[2])] {
         if value < 0.0 {
-            return Err(ModelError::figure(name, what, value, "not negative: it would run away"));
+            return Err(ModelError::figure(name, what, value, "at least 0, so that the servo is stable"));
         }
     }
     Ok((gain, bias))
@@ -112,14 +112,16 @@ fn limits(
         }
         (_, Some([low, high])) if low < high => Ok(Some([low, high])),
         (_, Some([low, high])) => {
-            Err(ModelError::attribute(name, attribute, &format!("{low} {high}"), "a lower and a higher number"))
+            Err(ModelError::attribute(name, attribute, &format!("{low} {high}"), "a lower and an upper limit"))
         }
-        (_, None) => Err(ModelError::unsupported(name, format!("it is limited, but has no `{attribute}`"))),
+        (_, None) => {
+            Err(ModelError::unsupported(name, format!("its `limited` flag is true, but there is no `{attribute}`")))
+        }
     }
 }
 
 impl Motor {
-    /// Force at a control, for a hinge at `angle_rad` and `rate_radps`; torque is gear × force (N·m).
+    /// Returns the force for a control and the hinge's angle and rate; torque is gear × force (N·m).
     fn force(&self, control: f64, angle_rad: f64, rate_radps: f64) -> f64 {
         let [constant, per_length, per_velocity] = self.bias;
         let (length, velocity) = (self.length_per_rad * angle_rad, self.length_per_rad * rate_radps);
@@ -132,8 +134,8 @@ impl Motor {
 }
 
 impl Model {
-    /// Writes the torque of all motors on each hinge (N·m), for one control per motor and the hinges' angles (rad) and
-    /// rates (rad/s). Controls are clamped to [`Motor::control`].
+    /// Writes the total motor torque on each hinge (N·m), for one control per motor and the hinges' angles (rad) and
+    /// rates (rad/s). Clamps controls to [`Motor::control`].
     pub(crate) fn motor_torques(
         &self,
         controls: &[f32],
@@ -151,8 +153,8 @@ impl Model {
         }
     }
 
-    /// Refuses servos that physics steps of `step_s` cannot follow: their torque is found before each step, so what they
-    /// damp and hold must not swing beyond its target within one.
+    /// Refuses servos that are unstable with physics steps of `step_s`: their torque is computed before each step, so it
+    /// must not carry the hinge past its target within one.
     ///
     /// # Errors
     /// [`ModelError`] names the servo.
@@ -161,11 +163,11 @@ impl Model {
             let [_, per_length, per_velocity] = motor.bias;
             let squared = motor.gear_nm * motor.gear_nm;
             let inertia_kgm2 = self.hinges[motor.hinge].armature_kgm2 + self.carried_inertia_kgm2(motor.hinge);
-            let most = inertia_kgm2 / (squared * step_s);
-            if -per_velocity - per_length * step_s > most {
+            let limit = inertia_kgm2 / (squared * step_s);
+            if -per_velocity - per_length * step_s > limit {
                 let problem = format!(
-                    "its damping of {} and stiffness of {} need physics steps shorter than {} ms: raise env.substeps, \
-                     the joint's armature, or use the joint's own `damping`, which has no such bound",
+                    "its damping of {} and stiffness of {} need physics steps shorter than {} ms: raise env.substeps \
+                     or the joint's armature, or use the joint's `damping`, which has no such limit",
                     -per_velocity,
                     -per_length,
                     step_s * 1e3
@@ -176,7 +178,7 @@ impl Model {
         Ok(())
     }
 
-    /// Inertia about a hinge's axis of all that it carries, with all hinges at zero (kg·m²).
+    /// Returns the inertia about a hinge's axis of all bodies that it moves, with all hinges at zero (kg·m²).
     fn carried_inertia_kgm2(&self, hinge: usize) -> f64 {
         let Some(carrier) = self.bodies.iter().position(|body| body.hinges.contains(&hinge)) else { return 0.0 };
         let axis = self.hinges[hinge].axis.into_inner();

@@ -1,19 +1,19 @@
-//! Fixed tendons: sums over hinge angles that are told about and exert no force.
+//! Fixed tendons, which only measure: weighted sums of hinge angles.
 //!
-//! Tendons that would act on the body were refused when the text was made plain.
+//! [`super::flatten`] refuses tendons that exert force.
 
 use mjcf_rs::tendon::FixedTendon;
 
 use super::{Hinge, Tendon};
 use crate::error::ModelError;
 
-/// More tendons than this are refused: their lengths are part of what every step tells, which allocates nothing.
+/// Most tendons: every step's info holds their lengths without allocating.
 pub const TENDONS_MAX: usize = 16;
 
 /// Reads the tendons of a plain model text.
 pub(super) fn read(tendons: &[FixedTendon], hinges: &[Hinge]) -> Result<Vec<Tendon>, ModelError> {
     if let Some(beyond) = tendons.get(TENDONS_MAX) {
-        let problem = format!("there are {} tendons, but at most {TENDONS_MAX} are told about", tendons.len());
+        let problem = format!("there are {} tendons, but at most {TENDONS_MAX} are supported", tendons.len());
         return Err(ModelError::unsupported(beyond.name.as_deref().unwrap_or("tendon"), problem));
     }
     tendons.iter().map(|tendon| read_fixed(tendon, hinges)).collect()
@@ -25,10 +25,9 @@ fn read_fixed(tendon: &FixedTendon, hinges: &[Hinge]) -> Result<Tendon, ModelErr
         .joints
         .iter()
         .map(|term| {
-            let hinge = hinges
-                .iter()
-                .position(|hinge| hinge.name == term.joint)
-                .ok_or_else(|| ModelError::unsupported(&name, format!("`{}` is no hinge of this model", term.joint)))?;
+            let hinge = hinges.iter().position(|hinge| hinge.name == term.joint).ok_or_else(|| {
+                ModelError::unsupported(&name, format!("`{}` is not a hinge of this model", term.joint))
+            })?;
             if !term.coef.is_finite() {
                 return Err(ModelError::figure(&name, "coef", term.coef, "finite"));
             }

@@ -1,31 +1,31 @@
-//! Every element and attribute of MJCF that is understood, and what each may hold.
+//! Supported MJCF elements and attributes, and the values that each may have.
 //!
-//! What is not listed here is refused: MJCF grows, and `mjcf-rs` passes over what it does not know in silence. Names and
-//! defaults are those of MuJoCo's XML reference (<https://mujoco.readthedocs.io/en/stable/XMLreference.html>).
+//! Everything else is refused, because `mjcf-rs` silently ignores unknown names. Names and defaults are those of MuJoCo's
+//! XML reference (<https://mujoco.readthedocs.io/en/stable/XMLreference.html>).
 
 use super::defaults::{Attribute, get};
 use crate::error::ModelError;
 
-/// What an attribute may hold.
+/// Values that an attribute may have.
 #[derive(Clone, Copy, Debug)]
-pub(super) enum Rule {
+pub(super) enum AttributeRule {
     /// Anything: no motion depends on it.
     Inert,
     /// A name or keyword, checked where it is used.
     Word,
-    /// From so many to so many finite numbers.
+    /// Finite numbers; smallest and largest count.
     Numbers(usize, usize),
-    /// From so many to so many whole numbers.
+    /// Whole numbers; smallest and largest count.
     Whole(usize, usize),
-    /// One of these, separated by `|`, which mean that it has no effect: everything else is not simulated.
+    /// One of these values, separated by `|`, under which it has no effect; others are not simulated.
     Only(&'static str),
 }
 
-use Rule::{Inert, Numbers, Only, Whole, Word};
+use AttributeRule::{Inert, Numbers, Only, Whole, Word};
 
-type Rules = [(&'static str, Rule)];
+type Rules = [(&'static str, AttributeRule)];
 
-/// The ways to write an orientation; at most one may be used.
+/// Attributes that give an orientation; an element may have at most one.
 pub(super) const ORIENTATIONS: [&str; 5] = ["quat", "axisangle", "xyaxes", "zaxis", "euler"];
 
 const PLACE: &Rules = &[
@@ -64,7 +64,7 @@ const COMPILER: &Rules = &[
     ("convexhull", Inert),
 ];
 
-/// Apart from what acts on the robot, how MuJoCo computes: Rapier and this crate have their own ways.
+/// Solver settings of MuJoCo are inert: they do not apply to Rapier and this crate.
 const OPTION: &Rules = &[
     ("gravity", Numbers(3, 3)),
     ("wind", Only("0 0 0")),
@@ -145,7 +145,7 @@ const JOINT: &Rules = &[
     ("actuatorgravcomp", Only("false")),
     ("solreflimit", Only("0.02 1")),
     ("solimplimit", Only("0.9 0.95 0.001 0.5 2")),
-    // Of no effect without frictionloss.
+    // No effect without frictionloss.
     ("solreffriction", Inert),
     ("solimpfriction", Inert),
     ("frictionloss", Only("0")),
@@ -175,7 +175,7 @@ const GEOM: &Rules = &[
     ("gap", Only("0")),
     ("solref", Only("0.02 1")),
     ("solimp", Only("0.9 0.95 0.001 0.5 2")),
-    // Of no effect where all shapes have the same softness, and where there is no fluid.
+    // No effect where all shapes have the same softness and there is no fluid.
     ("solmix", Inert),
     ("fluidshape", Inert),
     ("fluidcoef", Inert),
@@ -211,7 +211,7 @@ const GENERAL: &Rules = &[
     ("dynprm", Inert),
 ];
 
-/// A tendon without stiffness, friction, limit and motor moves nothing.
+/// Only tendons without stiffness, friction, limit and motor are accepted: they exert no force.
 const FIXED: &Rules = &[
     ("limited", Only("false|auto")),
     ("stiffness", Only("0")),
@@ -232,7 +232,7 @@ const FIXED: &Rules = &[
     ("rgba", Inert),
 ];
 
-/// Attributes of an element; `None` where the element itself is not supported.
+/// Returns the rules of an element's attributes; `None` for an unsupported element.
 pub(super) fn rules(tag: &str) -> Option<&'static [&'static Rules]> {
     Some(match tag {
         "mujoco" => &[&[("model", Inert)]],
@@ -258,7 +258,7 @@ pub(super) fn rules(tag: &str) -> Option<&'static [&'static Rules]> {
     })
 }
 
-/// Elements that move nothing, with all that they hold, wherever they stand.
+/// Elements that, with their content, never affect motion.
 pub(super) const INERT: [&str; 16] = [
     "size",
     "visual",
@@ -278,12 +278,12 @@ pub(super) const INERT: [&str; 16] = [
     "text",
 ];
 
-/// The rule of one attribute.
-pub(super) fn rule(tag: &str, attribute: &str) -> Option<Rule> {
+/// Returns the rule of one attribute.
+pub(super) fn rule(tag: &str, attribute: &str) -> Option<AttributeRule> {
     rules(tag)?.iter().copied().flatten().find(|(name, _)| *name == attribute).map(|(_, rule)| *rule)
 }
 
-/// Refuses attributes that are not understood or do not hold what they must.
+/// Refuses unknown attributes, invalid values, and several orientations.
 pub(super) fn check(label: &str, tag: &str, attributes: &[Attribute]) -> Result<(), ModelError> {
     for (name, value) in attributes {
         let rule = rule(tag, name)
@@ -297,20 +297,23 @@ pub(super) fn check(label: &str, tag: &str, attributes: &[Attribute]) -> Result<
         return Err(ModelError::unsupported(label, format!("give either `{first}` or `{second}`, not both")));
     }
     for name in ["quat", "axisangle", "xyaxes", "zaxis", "axis"] {
-        // Of an axis and an angle, the axis is the one that must not vanish.
+        // The first three numbers of `axisangle` are the axis.
         let vanishes = |value: &str| numbers(value).is_some_and(|all| all[..3].iter().all(|number| *number == 0.0));
         if let Some(value) = get(attributes, name)
             && vanishes(value)
             && (name != "quat" || numbers(value).is_some_and(|all| all[3] == 0.0))
         {
-            return Err(ModelError::attribute(label, name, value, "a direction, not zero"));
+            return Err(ModelError::attribute(label, name, value, "a direction other than zero"));
         }
     }
     Ok(())
 }
 
-/// Whether a value obeys a rule; if not, what would.
-pub(super) fn allowed(rule: Rule, value: &str) -> Result<(), String> {
+/// Checks a value against a rule.
+///
+/// # Errors
+/// The accepted values, for a message.
+pub(super) fn allowed(rule: AttributeRule, value: &str) -> Result<(), String> {
     let several = |least: usize, most: usize, what: &str| {
         let count = if least == most { least.to_string() } else { format!("{least} to {most}") };
         format!("{count} {what} number{}", if most == 1 { "" } else { "s" })
@@ -333,12 +336,12 @@ pub(super) fn allowed(rule: Rule, value: &str) -> Result<(), String> {
     }
 }
 
-/// Finite numbers of a list, or `None` if there is anything else in it.
+/// Returns the numbers of a list; `None` if an entry is not a finite number.
 pub(super) fn numbers(value: &str) -> Option<Vec<f64>> {
     value.split_whitespace().map(|token| token.parse::<f64>().ok().filter(|number| number.is_finite())).collect()
 }
 
-/// Whether two texts say the same: as numbers where they are, the ends of a shorter list left at their defaults.
+/// Whether two values are equal: as numbers if they are numbers, where `found` may omit the last ones.
 fn same(wanted: &str, found: &str) -> bool {
     match (numbers(wanted), numbers(found)) {
         (Some(wanted), Some(found)) if !found.is_empty() => found.len() <= wanted.len() && wanted.starts_with(&found),
@@ -351,7 +354,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn values_are_held_against_their_rules() {
+    fn values_are_checked_against_their_rules() {
         assert!(allowed(Numbers(1, 3), "0.1 -2e3").is_ok());
         for wrong in ["", "a", "1 2 3 4", "nan", "1 inf"] {
             assert_eq!(allowed(Numbers(1, 3), wrong).unwrap_err(), "1 to 3 finite numbers", "{wrong}");
@@ -367,7 +370,7 @@ mod tests {
     }
 
     #[test]
-    fn an_element_has_one_orientation_and_it_has_a_direction() {
+    fn an_element_has_at_most_one_orientation_and_no_zero_axis() {
         let check = |pairs: &[(&str, &str)]| {
             let attributes: Vec<Attribute> =
                 pairs.iter().map(|(name, value)| ((*name).to_owned(), (*value).to_owned())).collect();

@@ -1,15 +1,15 @@
-//! XML text to a tree that is safe to walk: bounded in length and depth.
+//! XML parsing with bounds on length and depth.
 
 use roxmltree::Document;
 
 use crate::error::ModelError;
 
-/// Longest model text (bytes); a humanoid of primitive shapes takes a few thousand.
+/// Longest model text (bytes); a humanoid of primitive shapes takes a few thousand bytes.
 pub const MODEL_BYTES_MAX: usize = 4 << 20;
-/// Deepest nesting of elements: readers of XML descend by recursion, and a stack is finite.
+/// Deepest nesting of elements: XML readers recurse, and the stack is finite.
 const DEPTH_MAX: usize = 100;
 
-/// Reads a model text, or says why it is none.
+/// Parses a model text, whose outermost element must be `<mujoco>`.
 pub(super) fn parse_model(text: &str) -> Result<Document<'_>, ModelError> {
     let document = parse(text)?;
     let root = document.root_element().tag_name().name();
@@ -19,7 +19,7 @@ pub(super) fn parse_model(text: &str) -> Result<Document<'_>, ModelError> {
     Ok(document)
 }
 
-/// Reads any XML text.
+/// Parses any XML text.
 pub(super) fn parse(text: &str) -> Result<Document<'_>, ModelError> {
     if text.len() > MODEL_BYTES_MAX {
         return Err(ModelError::TooLarge { bytes: text.len() as u64, limit: MODEL_BYTES_MAX as u64 });
@@ -33,7 +33,7 @@ pub(super) fn parse(text: &str) -> Result<Document<'_>, ModelError> {
     Document::parse(text).map_err(|why| ModelError::Parse(why.into()))
 }
 
-/// How deep elements are nested; in a text that is not well-formed, a figure that need not mean anything.
+/// Returns the nesting depth of elements; meaningless for a text that is not well-formed.
 fn nesting(text: &str) -> usize {
     let (mut rest, mut depth, mut deepest) = (text, 0usize, 0);
     while let Some(start) = rest.find('<') {
@@ -58,7 +58,7 @@ fn nesting(text: &str) -> usize {
     deepest
 }
 
-/// Length of the tag at the beginning of a text; a `>` within quotes does not end it.
+/// Returns the length of the tag at the beginning of a text; a `>` within quotes does not end it.
 fn tag_end(text: &str) -> usize {
     let mut quote = None;
     for (index, byte) in text.bytes().enumerate() {
@@ -85,7 +85,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_model_is_told_apart() {
+    fn texts_that_are_not_models_are_refused() {
         let problem = |text: &str| parse_model(text).expect_err("no model").to_string();
         assert!(problem(" \n").contains("empty"));
         assert!(problem("<robot/>").contains("`robot`"));

@@ -172,7 +172,7 @@ fn to_pose(pose: &Isometry3<f64>) -> Pose {
 
 /// Adds friction and collision groups to a collider.
 fn collider(builder: ColliderBuilder, model: &Model, settings: &PhysicsSettings, shape: &Shape) -> ColliderBuilder {
-    let touches = Group::from_bits_truncate(model.touches[shape.group]);
+    let touches = Group::from_bits_truncate(model.collision_masks[shape.group]);
     let filter = if settings.self_collision { touches } else { touches & group(FLOOR_GROUP) };
     builder
         // The body has the mass, which the model sums in double precision.
@@ -184,7 +184,7 @@ fn collider(builder: ColliderBuilder, model: &Model, settings: &PhysicsSettings,
 }
 
 pub(super) fn own_friction(shape: &Shape) -> f32 {
-    if shape.rubs { shape.friction as f32 } else { 0.0 }
+    if shape.has_friction { shape.friction as f32 } else { 0.0 }
 }
 
 fn group(index: usize) -> Group {

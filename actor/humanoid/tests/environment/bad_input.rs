@@ -1,4 +1,4 @@
-//! Actions and states from outside that make no sense: refused by name, and without effect.
+//! Invalid actions and states are refused by name and change nothing.
 
 use treadmill_humanoid::{Environment, EnvironmentConfig, HUMANOID_XML, InputError, Model, Physics, StateError};
 
@@ -11,7 +11,7 @@ fn physics() -> Physics {
 }
 
 #[test]
-fn an_action_that_is_not_finite_is_refused_and_the_episode_goes_on() {
+fn an_action_that_is_not_finite_is_refused_and_the_episode_continues() {
     let (mut tried, mut plain) = (environment(), environment());
     let (mut seen, mut wanted) = (vec![0.0; tried.observation_size()], vec![0.0; tried.observation_size()]);
     tried.reset(1, &mut seen);
@@ -22,7 +22,7 @@ fn an_action_that_is_not_finite_is_refused_and_the_episode_goes_on() {
         let refusal = tried.try_step(&action, &mut seen).expect_err("not finite");
         assert!(matches!(refusal, InputError::NotFinite { what: "action", index: 11, value } if !value.is_finite()));
         assert_eq!(refusal.to_string(), format!("action[11] is {bad}, but every entry must be a finite number"));
-        assert_eq!(seen, wanted, "nothing must have happened");
+        assert_eq!(seen, wanted, "a refused action must change nothing");
     }
     let step = tried.try_step(&[0.1; 17], &mut seen).expect("finite");
     assert!(!step.fault);
@@ -32,7 +32,7 @@ fn an_action_that_is_not_finite_is_refused_and_the_episode_goes_on() {
 }
 
 #[test]
-fn lengths_are_told_with_what_they_should_be() {
+fn wrong_lengths_are_refused_with_the_expected_length() {
     let mut environment = environment();
     let size = environment.observation_size();
     let mut seen = vec![0.0; size];
@@ -46,7 +46,7 @@ fn lengths_are_told_with_what_they_should_be() {
 }
 
 #[test]
-fn states_that_no_body_can_have_are_refused_by_name_and_change_nothing() {
+fn impossible_states_are_refused_by_name_and_change_nothing() {
     let mut physics = physics();
     let nominal = physics.model().nominal_position();
     physics.step_only(&[0.1; 17]).expect("finite");
@@ -65,8 +65,8 @@ fn states_that_no_body_can_have_are_refused_by_name_and_change_nothing() {
         (&spoilt(2, f64::NAN), &still, "position[2], the root z, is NaN, but must be a finite number"),
         (&spoilt(13, f64::INFINITY), &still, "position[13], the angle of hinge `right_knee`, is inf"),
         (&nominal, &fast, "velocity[9], the rate of hinge `right_hip_x`, is -inf"),
-        (&spoilt(3, 0.0), &still, "the root quaternion position[3..7] is [0.0, 0.0, 0.0, 0.0], which is no rotation"),
-        (&spoilt(3, 1e300), &still, "which is no rotation: give w, x, y, z of length 1"),
+        (&spoilt(3, 0.0), &still, "the root quaternion position[3..7] is [0.0, 0.0, 0.0, 0.0], which is not"),
+        (&spoilt(3, 1e300), &still, "which is not a rotation: give w, x, y, z of length 1"),
         (
             &spoilt(8, 0.7),
             &still,
@@ -83,9 +83,9 @@ fn states_that_no_body_can_have_are_refused_by_name_and_change_nothing() {
 }
 
 #[test]
-fn states_at_the_edge_are_taken_as_set_state_takes_them() {
+fn states_within_the_tolerance_are_set_as_by_set_state() {
     let (mut tried, mut plain) = (physics(), physics());
-    // The straight knees of the nominal pose are outside their range.
+    // In the nominal pose the straight knees are outside their range.
     let mut position = tried.model().nominal_position();
     assert!(tried.joint_quality().limit_overshoot_rad > 0.03);
     tried.try_set_state(&position, &[0.0; 23]).expect("the nominal pose");
@@ -101,7 +101,7 @@ fn states_at_the_edge_are_taken_as_set_state_takes_them() {
     assert_eq!((tried.position(), tried.velocity()), (plain.position(), plain.velocity()));
     position[7] = hinges[0].max_rad + 0.101;
     assert!(tried.try_set_state(&position, &[0.5; 23]).is_err());
-    // `set_state` itself takes what it always took.
+    // `set_state` itself checks no range.
     plain.set_state(&position, &[0.5; 23]);
     assert_eq!(plain.position()[7], position[7]);
 }

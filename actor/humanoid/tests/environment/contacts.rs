@@ -26,7 +26,7 @@ fn contact_rows(physics: &Physics) -> Vec<(Vector3<f64>, Vector3<f64>)> {
 }
 
 #[test]
-fn links_are_the_bodies_of_the_text_and_make_up_the_rigid_bodies() {
+fn links_are_the_mjcf_bodies_and_make_up_the_rigid_bodies() {
     let model = Model::from_mjcf(HUMANOID_XML).expect("valid");
     let names: Vec<&str> = model.links.iter().map(|link| link.name.as_str()).collect();
     let expected = [
@@ -53,7 +53,7 @@ fn links_are_the_bodies_of_the_text_and_make_up_the_rigid_bodies() {
         assert!((moment / mass_kg - body.centre_of_mass_m.coords).norm() < 1e-12, "{}", body.name);
         assert_eq!(own().map(|link| link.shapes.len()).sum::<usize>(), body.shapes.len());
         for shape in 0..body.shapes.len() {
-            let link = model.link_of_shape(index, shape).expect("every shape is some link's");
+            let link = model.link_of_shape(index, shape).expect("every shape belongs to a link");
             assert_eq!(model.links[link].body, index);
         }
     }
@@ -65,7 +65,7 @@ fn links_are_the_bodies_of_the_text_and_make_up_the_rigid_bodies() {
 }
 
 #[test]
-fn a_known_force_at_a_known_point_has_the_moment_worked_out_by_hand() {
+fn a_known_force_at_a_known_point_has_the_moment_computed_by_hand() {
     let mut physics = physics(HUMANOID_XML);
     let centre = physics.centre_of_mass();
     let (foot, hand) = (5, 12);
@@ -114,8 +114,8 @@ fn the_floor_carries_the_weight_of_a_body_at_rest() {
 }
 
 #[test]
-fn what_lies_on_the_floor_is_turned_about_the_centre_of_mass_by_the_force_from_below() {
-    // A ball with a heavy arm that sticks out along x; the ball rests on the floor before the arm's end comes down.
+fn the_floors_force_turns_a_body_about_its_centre_of_mass() {
+    // A ball with a heavy arm along x; the ball touches the floor before the end of the arm does.
     let text = r#"
         <mujoco>
           <worldbody>
@@ -139,10 +139,10 @@ fn what_lies_on_the_floor_is_turned_about_the_centre_of_mass_by_the_force_from_b
     let rows = contact_rows(&physics);
     let (moment, force) = rows[0];
     assert!(force.z > 10.0, "the floor pushes the ball upwards: {force}");
-    assert_eq!(rows[1].1.norm(), 0.0, "the arm touches nothing, though it is welded to the ball");
+    assert_eq!(rows[1].1.norm(), 0.0, "the arm, welded to the ball, touches nothing");
     // The contact point is below the ball's centre, at the origin.
     let arm = Point3::origin() - physics.centre_of_mass();
-    assert!(arm.x < -0.04, "the arm's weight lies in front of the ball");
+    assert!(arm.x < -0.04, "the centre of mass lies in front of the ball's centre");
     let expected = arm.cross(&force);
     assert!((moment - expected).norm() < 0.05 * expected.norm(), "{moment} instead of {expected}");
     assert!(expected.y > 0.4, "pushed up behind its centre of mass, it pitches forward");
@@ -183,16 +183,16 @@ fn lengths_from_outside_are_refused_with_both_numbers() {
 #[test]
 fn contact_points_carry_the_body() {
     let mut physics = physics(HUMANOID_XML);
-    assert_eq!(physics.contact_points().count(), 0, "nothing has happened yet");
+    assert_eq!(physics.contact_points().count(), 0, "no contact before the first step");
     for _ in 0..400 {
-        physics.step_only(&IDLE).expect("sound");
+        physics.step_only(&IDLE).expect("finite");
     }
     let model = physics.model();
     let weight_n: f64 = model.bodies.iter().map(|body| body.mass_kg).sum::<f64>() * 9.81;
     let root = Point3::from_slice(&physics.position()[..3]);
     let mut lift_n = 0.0;
     for point in physics.contact_points() {
-        assert!((point.at_m - root).norm() < 1.5, "{point:?} is at the body, which is at {root}");
+        assert!((point.at_m - root).norm() < 1.5, "{point:?} is far from the body at {root}");
         let sign = match point.links {
             [Some(_), None] => 1.0,
             [None, Some(_)] => -1.0,
@@ -201,7 +201,7 @@ fn contact_points_carry_the_body() {
         assert!(point.at_m.z.abs() < 0.02, "{point:?}");
         lift_n += sign * point.force_n.z;
     }
-    assert!((lift_n / weight_n - 1.0).abs() < 0.2, "lying still, the floor carries {weight_n} N and not {lift_n}");
+    assert!((lift_n / weight_n - 1.0).abs() < 0.2, "the floor carries {lift_n} N of {weight_n} N");
     let (position, velocity) = (physics.position().to_vec(), physics.velocity().to_vec());
     physics.set_state(&position, &velocity);
     assert_eq!(physics.contact_points().count(), 0, "a fresh episode has no contacts");

@@ -1,11 +1,11 @@
-//! The same seed and the same actions give the same episode, to the last bit, wherever and after whatever it runs.
+//! The same seed and actions give the same episode bit for bit, on any thread, in any process, after any other episode.
 
 use std::{env, fs, path::Path, process::Command, thread};
 
 use treadmill_humanoid::{Environment, EnvironmentConfig, HUMANOID_XML, ObservationKind};
 
 const STEPS: u32 = 500;
-/// Tells the process that a test starts where to leave its checksum.
+/// File to which the child process of a test writes its checksum.
 const CHECKSUM_FILE: &str = "TREADMILL_TEST_CHECKSUM_FILE";
 
 fn environment() -> Environment {
@@ -17,12 +17,12 @@ fn environment() -> Environment {
     Environment::new(&config, HUMANOID_XML).expect("valid")
 }
 
-/// An episode that falls and flails on the floor; it can be gone through step by step.
+/// Episode that falls and flails on the floor, one step at a time.
 struct Episode {
     environment: Environment,
     observation: Vec<f32>,
     steps: u32,
-    touched: u32,
+    contact_steps: u32,
     checksum: u64,
 }
 
@@ -30,7 +30,8 @@ impl Episode {
     fn begin(mut environment: Environment, seed: u64) -> Self {
         let mut observation = vec![0.0; environment.observation_size()];
         environment.reset(seed, &mut observation);
-        let mut episode = Self { environment, observation, steps: 0, touched: 0, checksum: 0xcbf2_9ce4_8422_2325 };
+        let mut episode =
+            Self { environment, observation, steps: 0, contact_steps: 0, checksum: 0xcbf2_9ce4_8422_2325 };
         episode.add(0.0);
         episode
     }
@@ -40,11 +41,11 @@ impl Episode {
         let step = self.environment.step(&action, &mut self.observation);
         assert!(!step.fault);
         self.steps += 1;
-        self.touched += u32::from(self.environment.physics().squared_contact_wrenches() > 0.0);
+        self.contact_steps += u32::from(self.environment.physics().squared_contact_wrenches() > 0.0);
         self.add(step.reward);
     }
 
-    /// Fowler, Noll and Vo's hash, over numbers instead of bytes.
+    /// Updates the FNV-1a hash, over numbers instead of bytes.
     fn add(&mut self, reward: f32) {
         for number in self.observation.iter().chain([&reward]) {
             self.checksum = (self.checksum ^ u64::from(number.to_bits())).wrapping_mul(0x0100_0000_01b3);
@@ -55,7 +56,7 @@ impl Episode {
         while self.steps < STEPS {
             self.step();
         }
-        assert!(self.touched > STEPS / 2, "it hardly touched anything");
+        assert!(self.contact_steps > STEPS / 2, "too few steps with contacts");
         self.checksum
     }
 }
@@ -67,7 +68,7 @@ fn checksum() -> u64 {
 #[test]
 fn after_another_episode_and_between_other_environments() {
     let wanted = checksum();
-    assert_ne!(wanted, Episode::begin(environment(), 22).checksum(), "the checksum does not see the episode");
+    assert_ne!(wanted, Episode::begin(environment(), 22).checksum(), "the checksum must depend on the episode");
 
     let mut used = Episode::begin(environment(), 3);
     (0..90).for_each(|_| used.step());
@@ -75,7 +76,7 @@ fn after_another_episode_and_between_other_environments() {
 
     let mut episodes = [21, 4, 21, 5].map(|seed| Episode::begin(environment(), seed));
     for step in 0..STEPS as usize {
-        // Others are ahead or behind, and take turns.
+        // The environments advance in turn, some ahead of others.
         episodes[step % 2].step();
         episodes[3 - step % 2].step();
         if step % 3 == 0 {
@@ -95,7 +96,7 @@ fn on_other_threads() {
             assert_eq!(wanted, run.join().expect("no panic"));
         }
     });
-    // Also where an environment moves from one thread to another in the middle of an episode.
+    // An environment may move to another thread in the middle of an episode.
     let mut begun = Episode::begin(environment(), 21);
     (0..200).for_each(|_| begun.step());
     assert_eq!(wanted, thread::spawn(move || begun.checksum()).join().expect("no panic"));
@@ -104,17 +105,17 @@ fn on_other_threads() {
 #[test]
 fn in_another_process() {
     if let Ok(file) = env::var(CHECKSUM_FILE) {
-        fs::write(file, checksum().to_string()).expect("the parent made the place");
+        fs::write(file, checksum().to_string()).expect("the folder exists");
         return;
     }
     let file = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("checksum-{}", std::process::id()));
-    let status = Command::new(env::current_exe().expect("a file"))
+    let status = Command::new(env::current_exe().expect("the path of this test"))
         .args(["--exact", "determinism::in_another_process", "--test-threads", "1", "--quiet"])
         .env(CHECKSUM_FILE, &file)
         .status()
-        .expect("it can be started");
+        .expect("the child process starts");
     assert!(status.success());
-    let found = fs::read_to_string(&file).expect("the other process wrote it");
-    fs::remove_file(&file).expect("it is there");
+    let found = fs::read_to_string(&file).expect("the child process wrote it");
+    fs::remove_file(&file).expect("the file exists");
     assert_eq!(found, checksum().to_string());
 }

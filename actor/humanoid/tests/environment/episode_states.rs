@@ -1,10 +1,10 @@
-//! Episodes as plain numbers: gone on with bit for bit, and refused where they do not fit.
+//! Saved episode states: an episode resumes bit for bit, and states that do not fit are refused.
 
 use treadmill_humanoid::{
     Environment, EnvironmentConfig, EpisodeState, HUMANOID_XML, ObservationKind, Randomisation, StateError,
 };
 
-/// Everything that an episode can have: contact forces in the observation, and all randomisation.
+/// Settings with contact forces in the observation and all randomisation.
 fn rich() -> EnvironmentConfig {
     EnvironmentConfig {
         observation: ObservationKind::GymnasiumV5,
@@ -42,8 +42,8 @@ fn reset(environment: &mut Environment, seed: u64) -> Vec<f32> {
     observation
 }
 
-/// Bits of all that steps `from..to` of an episode tell.
-fn go_on(environment: &mut Environment, from: u32, to: u32) -> Vec<u64> {
+/// Plays steps `from..to` of an episode and returns the bits of all their results.
+fn play(environment: &mut Environment, from: u32, to: u32) -> Vec<u64> {
     let mut observation = vec![0.0; environment.observation_size()];
     let mut bits = Vec::new();
     for step in from..to {
@@ -58,8 +58,8 @@ fn go_on(environment: &mut Environment, from: u32, to: u32) -> Vec<u64> {
     bits
 }
 
-/// What can be seen without a step.
-fn seen(environment: &Environment) -> String {
+/// Returns everything that can be read without a step.
+fn visible_state(environment: &Environment) -> String {
     let mut observation = vec![0.0; environment.observation_size()];
     environment.observe(&mut observation).expect("the right length");
     let physics = environment.physics();
@@ -75,45 +75,45 @@ fn seen(environment: &Environment) -> String {
 }
 
 #[test]
-fn a_renewed_world_looks_the_same_and_has_forgotten_its_first_guesses() {
+fn a_renewed_world_looks_the_same_without_its_warm_starts() {
     let (mut renewed, mut other) = (environment(&rich()), environment(&rich()));
     for environment in [&mut renewed, &mut other] {
         reset(environment, 3);
-        go_on(environment, 0, 120);
+        play(environment, 0, 120);
     }
-    assert!(renewed.physics().squared_contact_wrenches() > 0.0, "something touches");
-    let before = seen(&renewed);
+    assert!(renewed.physics().squared_contact_wrenches() > 0.0, "there are no contacts");
+    let before = visible_state(&renewed);
     renewed.renew_world();
-    assert_eq!(before, seen(&renewed));
-    // Otherwise there would be no need for it.
-    assert_ne!(go_on(&mut renewed, 120, 160), go_on(&mut other, 120, 160));
+    assert_eq!(before, visible_state(&renewed));
+    // Warm starts change the motion, which is why `renew_world` exists.
+    assert_ne!(play(&mut renewed, 120, 160), play(&mut other, 120, 160));
 }
 
 #[test]
-fn an_episode_goes_on_from_its_state_bit_for_bit() {
+fn an_episode_resumes_from_its_state_bit_for_bit() {
     for config in [plain(), rich()] {
         let mut original = environment(&config);
         let mut busy = environment(&config);
         reset(&mut busy, 99);
-        go_on(&mut busy, 0, 70);
-        // Just reset, at the first contacts, while it falls, and among many contacts on the floor.
+        play(&mut busy, 0, 70);
+        // Just after a reset, at the first contacts, during the fall, and with many contacts on the floor.
         for at in [0, 2, 60, 150] {
             let mut last = reset(&mut original, 5);
-            go_on(&mut original, 0, at);
-            let state = original.episode_state().expect("it was reset");
+            play(&mut original, 0, at);
+            let state = original.episode_state().expect("the environment was reset");
             original.renew_world();
-            let wanted = go_on(&mut original, at, at + 250);
+            let wanted = play(&mut original, at, at + 250);
 
             let mut fresh = environment(&config);
             for other in [&mut fresh, &mut busy] {
                 other.resume_episode(&state, &mut last).expect("of the same build");
                 assert_eq!(last, state.observation);
-                assert_eq!(Some(&state), other.episode_state().as_ref(), "what was restored can be saved again");
-                assert_eq!(wanted, go_on(other, at, at + 250), "from {at}");
+                assert_eq!(Some(&state), other.episode_state().as_ref(), "a restored state can be saved again");
+                assert_eq!(wanted, play(other, at, at + 250), "from {at}");
             }
-            // The episode after it owes nothing to it.
+            // The next episode does not depend on it.
             assert_eq!(reset(&mut original, 6), reset(&mut fresh, 6));
-            assert_eq!(go_on(&mut original, 0, 60), go_on(&mut fresh, 0, 60));
+            assert_eq!(play(&mut original, 0, 60), play(&mut fresh, 0, 60));
         }
     }
 }
@@ -123,7 +123,7 @@ fn there_is_no_state_before_the_first_reset_nor_after_a_fault() {
     let mut environment = environment(&plain());
     assert_eq!(environment.episode_state(), None);
     let mut observation = reset(&mut environment, 1);
-    let state = environment.episode_state().expect("it was reset");
+    let state = environment.episode_state().expect("the environment was reset");
     environment.physics_mut().poison();
     assert!(environment.step(&[0.0; 17], &mut observation).fault);
     assert_eq!(environment.episode_state(), None);
@@ -135,7 +135,7 @@ fn there_is_no_state_before_the_first_reset_nor_after_a_fault() {
 fn a_snapshot_carries_the_state_of_its_episode() {
     let (mut original, mut other) = (environment(&rich()), environment(&rich()));
     reset(&mut original, 4);
-    go_on(&mut original, 0, 30);
+    play(&mut original, 0, 30);
     other.restore(&original.snapshot()).expect("of the same build");
     assert_eq!(original.episode_state(), other.episode_state());
 }
@@ -144,12 +144,12 @@ fn a_snapshot_carries_the_state_of_its_episode() {
 fn states_that_do_not_fit_are_refused_by_name_and_change_nothing() {
     let mut environment = environment(&rich());
     reset(&mut environment, 2);
-    go_on(&mut environment, 0, 20);
-    let sound = environment.episode_state().expect("it was reset");
-    go_on(&mut environment, 20, 25);
-    let untouched = seen(&environment);
-    type Spoil = fn(&mut EpisodeState);
-    let spoils: [(&str, Spoil); 7] = [
+    play(&mut environment, 0, 20);
+    let sound = environment.episode_state().expect("the environment was reset");
+    play(&mut environment, 20, 25);
+    let untouched = visible_state(&environment);
+    type Change = fn(&mut EpisodeState);
+    let changes: [(&str, Change); 7] = [
         ("position vector has the wrong length: 1 ", |s| s.position.truncate(1)),
         ("velocity vector has the wrong length: 24", |s| s.velocity.push(0.0)),
         ("observation vector has the wrong length", |s| s.observation.clear()),
@@ -159,12 +159,12 @@ fn states_that_do_not_fit_are_refused_by_name_and_change_nothing() {
         ("past actions[0]", |s| s.past_actions[0] = f32::INFINITY),
     ];
     let mut observation = vec![7.0; environment.observation_size()];
-    for (part, spoil) in spoils {
+    for (part, change) in changes {
         let mut state = sound.clone();
-        spoil(&mut state);
+        change(&mut state);
         let refusal: StateError = environment.resume_episode(&state, &mut observation).expect_err(part);
         assert!(refusal.to_string().contains(part), "{refusal}");
-        assert_eq!(untouched, seen(&environment));
+        assert_eq!(untouched, visible_state(&environment));
     }
     assert!(observation.iter().all(|entry| *entry == 7.0));
 }

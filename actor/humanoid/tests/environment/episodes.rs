@@ -1,4 +1,4 @@
-//! Episodes of the environment: determinism, resets, faults, limits of time.
+//! Episodes: determinism, resets, rewards, faults, time limits.
 
 use rand::{RngExt, SeedableRng};
 use rand_xoshiro::Xoshiro256PlusPlus;
@@ -14,7 +14,7 @@ fn random_action(random: &mut Xoshiro256PlusPlus) -> [f32; 17] {
     std::array::from_fn(|_| random.random_range(-0.4..0.4))
 }
 
-/// Bits of all observations and rewards of an episode of random actions that goes on after falls.
+/// Bits of all observations and rewards of an episode of random actions, which continues after falls.
 fn episode_bits(environment: &mut Environment, seed: u64, steps: u32) -> Vec<u32> {
     let mut random = Xoshiro256PlusPlus::seed_from_u64(seed);
     let mut observation = [0.0; OBSERVATION_SIZE_COMPACT];
@@ -38,7 +38,7 @@ fn sizes_are_those_of_the_humanoid() {
 }
 
 #[test]
-fn nothing_of_an_earlier_episode_reaches_a_later_one() {
+fn an_episode_does_not_depend_on_earlier_ones() {
     let config = EnvironmentConfig::default();
     let fresh = episode_bits(&mut environment(&config), 7, 200);
     let mut used = environment(&config);
@@ -52,7 +52,7 @@ fn nothing_of_an_earlier_episode_reaches_a_later_one() {
 }
 
 #[test]
-fn resets_stay_within_the_noise_and_use_all_of_it() {
+fn resets_use_the_whole_range_of_the_noise() {
     let mut environment = environment(&EnvironmentConfig::default());
     let mut observation = [0.0; OBSERVATION_SIZE_COMPACT];
     let mut largest = [0.0f32; OBSERVATION_SIZE_COMPACT];
@@ -74,7 +74,7 @@ fn resets_stay_within_the_noise_and_use_all_of_it() {
 }
 
 #[test]
-fn velocity_in_the_reward_is_that_of_the_centre_of_mass() {
+fn the_reward_uses_the_velocity_of_the_centre_of_mass() {
     let mut environment = environment(&EnvironmentConfig { reset_noise_scale: 0.0, ..EnvironmentConfig::default() });
     let mut observation = [0.0; OBSERVATION_SIZE_COMPACT];
     environment.reset(0, &mut observation);
@@ -93,7 +93,7 @@ fn velocity_in_the_reward_is_that_of_the_centre_of_mass() {
 }
 
 #[test]
-fn control_is_charged_after_clamping() {
+fn the_control_cost_uses_clamped_actions() {
     let mut environment = environment(&EnvironmentConfig::default());
     let mut observation = [0.0; OBSERVATION_SIZE_COMPACT];
     environment.reset(0, &mut observation);
@@ -130,7 +130,7 @@ fn a_fall_terminates_and_a_time_limit_truncates() {
 }
 
 #[test]
-fn a_poisoned_body_is_a_fault_with_the_last_finite_observation() {
+fn a_fault_repeats_the_last_finite_observation() {
     let mut environment = environment(&EnvironmentConfig::default());
     let mut observation = [0.0; OBSERVATION_SIZE_COMPACT];
     environment.reset(5, &mut observation);
@@ -161,7 +161,7 @@ fn an_action_that_is_not_finite_is_a_fault() {
         let mut action = [0.0; 17];
         action[3] = bad;
         let step = environment.step(&action, &mut observation);
-        assert!(step.fault && step.terminated, "{bad} was taken for an action");
+        assert!(step.fault && step.terminated, "{bad} was accepted");
         assert!(observation.iter().all(|number| number.is_finite()));
     }
 }
@@ -184,7 +184,7 @@ fn the_environment_can_move_to_another_thread() {
     assert_send::<Environment>();
 }
 
-/// Value below which a fraction of the sorted samples lies.
+/// Sorts the samples and returns their quantile.
 fn quantile(samples: &mut [f64], fraction: f64) -> f64 {
     samples.sort_by(f64::total_cmp);
     samples[((samples.len() - 1) as f64 * fraction) as usize]
@@ -206,7 +206,7 @@ fn joints_hold_under_maximal_random_torques() {
         let step = environment.step(&action, &mut observation);
         assert!(!step.fault && observation.iter().all(|number| number.is_finite()));
         overshoots.push(environment.joint_quality().limit_overshoot_rad);
-        // Half of the time it starts standing again, half of the time it flails on the floor.
+        // In the second half it restarts after each fall; in the first half it flails on the floor.
         if count > 6000 && step.info.torso_height_m < 1.0 {
             environment.reset(count, &mut observation);
         }

@@ -1,4 +1,4 @@
-//! Observations, contact cost and tendons against what Gymnasium's environments say of the same states.
+//! Observations, contact cost and tendons, compared with Gymnasium's environments in the same states.
 
 use crate::golden::{State, compare, states};
 use treadmill_humanoid::{
@@ -17,18 +17,18 @@ fn physics() -> Physics {
     Physics::new(model, &EnvironmentConfig::default()).expect("valid")
 }
 
-fn put(physics: &mut Physics, state: &State) {
+fn set_state(physics: &mut Physics, state: &State) {
     physics.set_state(&state.position, &state.velocity);
     physics.set_controls(&state.controls).expect("finite");
     physics.set_contacts(&state.contacts);
 }
 
-/// What we see in every golden state.
-fn seen(config: &EnvironmentConfig, states: &[State]) -> Vec<Vec<f32>> {
+/// Returns our observation of every golden state.
+fn observations(config: &EnvironmentConfig, states: &[State]) -> Vec<Vec<f32>> {
     let mut physics = physics();
     let observation = Observation::new(config, physics.model());
     let rows = states.iter().map(|state| {
-        put(&mut physics, state);
+        set_state(&mut physics, state);
         let mut row = vec![f32::NAN; observation.size()];
         observation.write(&physics, &mut row);
         row
@@ -45,17 +45,17 @@ fn block(observation: &Observation, name: &str) -> std::ops::Range<usize> {
 }
 
 #[test]
-fn every_entry_is_that_of_gymnasium() {
+fn every_entry_equals_gymnasiums() {
     let states = states();
     assert_eq!(states.len(), 200);
     for kind in [V5, V4] {
-        compare(&seen(&config(kind), &states), &expected(kind, &states))
+        compare(&observations(&config(kind), &states), &expected(kind, &states))
             .unwrap_or_else(|mismatch| panic!("{kind:?}: {mismatch:?}"));
     }
 }
 
 #[test]
-fn the_golden_states_leave_no_block_untouched() {
+fn no_entry_is_zero_in_all_golden_states() {
     let states = states();
     let observation = Observation::new(&config(V5), physics().model());
     for entry in 0..observation.size() {
@@ -65,12 +65,12 @@ fn the_golden_states_leave_no_block_untouched() {
     assert!(states.iter().flat_map(|state| &state.contacts).any(|contact| contact.links.contains(&None)));
 }
 
-/// Were the comparison blind to a sign or an order, it would prove nothing.
+/// Shows that the comparison detects wrong signs and orders.
 #[test]
-fn a_flipped_sign_and_a_swapped_axis_are_noticed_in_every_block() {
+fn the_comparison_detects_flipped_signs_and_swapped_axes_in_every_block() {
     let states = states();
     for kind in [V5, V4] {
-        let right = seen(&config(kind), &states);
+        let right = observations(&config(kind), &states);
         let expected = expected(kind, &states);
         let observation = Observation::new(&config(kind), physics().model());
         let names: Vec<&str> = observation.blocks().iter().map(|block| block.name).collect();
@@ -78,7 +78,7 @@ fn a_flipped_sign_and_a_swapped_axis_are_noticed_in_every_block() {
         for block in observation.blocks() {
             let mut tried = 0;
             for entry in block.range.clone() {
-                // The rows that v4 has for the world hold nothing whose sign or order could be wrong.
+                // The world's rows of v4 are zero.
                 if expected.iter().all(|row| row[entry] == 0.0) {
                     assert_eq!(kind, V4);
                     continue;
@@ -100,12 +100,12 @@ fn a_flipped_sign_and_a_swapped_axis_are_noticed_in_every_block() {
 }
 
 #[test]
-fn contact_cost_and_tendons_are_those_of_gymnasium() {
+fn contact_cost_and_tendons_equal_gymnasiums() {
     let states = states();
     let mut physics = physics();
     let mut charged = 0;
     for state in &states {
-        put(&mut physics, state);
+        set_state(&mut physics, state);
         let cost = task::contact_cost(&EnvironmentConfig::default(), physics.squared_contact_wrenches());
         assert!((cost - state.contact_cost).abs() <= 1e-3 * state.contact_cost, "{cost}, {}", state.contact_cost);
         charged += u32::from(cost > 0.0);
@@ -121,7 +121,7 @@ fn contact_cost_and_tendons_are_those_of_gymnasium() {
 }
 
 #[test]
-fn sizes_are_those_of_gymnasium() {
+fn sizes_equal_gymnasiums() {
     let model = Model::from_mjcf(HUMANOID_XML).expect("valid");
     let size = |config: &EnvironmentConfig| Observation::new(config, &model).size();
     let with_place = |kind| EnvironmentConfig { exclude_current_positions_from_observation: false, ..config(kind) };
@@ -134,7 +134,7 @@ fn sizes_are_those_of_gymnasium() {
 }
 
 #[test]
-fn each_flag_takes_out_its_block_and_nothing_else() {
+fn each_flag_removes_only_its_block() {
     type Switch = fn(&mut EnvironmentConfig);
     let cases: [(&str, usize, Switch); 4] = [
         ("cinert", 130, |c| c.include_cinert_in_observation = false),
@@ -144,19 +144,19 @@ fn each_flag_takes_out_its_block_and_nothing_else() {
     ];
     let states = states();
     let model = Model::from_mjcf(HUMANOID_XML).expect("valid");
-    let whole = seen(&config(V5), &states);
+    let whole = observations(&config(V5), &states);
     for (name, size, switch) in cases {
         let mut without = config(V5);
         switch(&mut without);
         let out = block(&Observation::new(&config(V5), &model), name);
         assert_eq!(out.len(), size);
         assert!(Observation::new(&without, &model).blocks().iter().all(|block| block.name != name));
-        for (whole, part) in whole.iter().zip(seen(&without, &states)) {
+        for (whole, part) in whole.iter().zip(observations(&without, &states)) {
             assert_eq!(part, [&whole[..out.start], &whole[out.end..]].concat(), "{name}");
         }
     }
     let place = EnvironmentConfig { exclude_current_positions_from_observation: false, ..config(V5) };
-    for ((state, whole), placed) in states.iter().zip(&whole).zip(seen(&place, &states)) {
+    for ((state, whole), placed) in states.iter().zip(&whole).zip(observations(&place, &states)) {
         assert!((f64::from(placed[0]) - state.position[0]).abs() < 1e-5);
         assert!((f64::from(placed[1]) - state.position[1]).abs() < 1e-5);
         assert_eq!(placed[2..], whole[..]);
@@ -164,15 +164,17 @@ fn each_flag_takes_out_its_block_and_nothing_else() {
 }
 
 #[test]
-fn compact_is_the_front_of_the_whole() {
+fn compact_is_the_beginning_of_v5() {
     let states = states();
-    for (compact, whole) in seen(&config(ObservationKind::Compact), &states).iter().zip(seen(&config(V5), &states)) {
+    for (compact, whole) in
+        observations(&config(ObservationKind::Compact), &states).iter().zip(observations(&config(V5), &states))
+    {
         assert_eq!(compact[..], whole[..45]);
     }
 }
 
 #[test]
-fn a_reset_forgets_torques_and_contacts() {
+fn a_reset_clears_torques_and_contacts() {
     let config = config(V5);
     let mut environment = Environment::new(&config, HUMANOID_XML).expect("valid");
     let range = block(environment.observation(), "qfrc_actuator").start..environment.observation_size();
@@ -182,13 +184,13 @@ fn a_reset_forgets_torques_and_contacts() {
         environment.step(&[0.4; 17], &mut observation);
     }
     let changed = observation[range.clone()].iter().filter(|number| **number != 0.0).count();
-    assert!(changed > 17, "torques act and something touches: {changed}");
+    assert!(changed > 17, "torques and contacts must be present: {changed}");
     environment.reset(2, &mut observation);
     assert!(observation[range].iter().all(|number| *number == 0.0));
 }
 
 #[test]
-fn what_is_observed_without_a_step_is_what_a_step_writes() {
+fn observe_repeats_the_observation_of_the_last_step() {
     let mut environment = Environment::new(&config(V4), HUMANOID_XML).expect("valid");
     let mut observation = vec![0.0; environment.observation_size()];
     environment.reset(3, &mut observation);

@@ -1,4 +1,4 @@
-//! Randomised episodes: what is drawn, and what it does to actions and observations.
+//! Randomised episodes: the ranges of drawn quantities, and their effects on motion, actions and observations.
 
 use rand::{RngExt, SeedableRng};
 use rand_xoshiro::Xoshiro256PlusPlus;
@@ -11,7 +11,7 @@ fn environment(randomisation: Randomisation) -> Environment {
     Environment::new(&config, HUMANOID_XML).expect("valid")
 }
 
-/// Without gravity, noise at the start, contacts or an end: only what is randomised happens.
+/// Environment without gravity, start noise, contacts or end, in which only randomisation acts.
 fn floating(randomisation: Randomisation) -> Environment {
     let config = EnvironmentConfig {
         randomisation,
@@ -41,7 +41,7 @@ fn everything() -> Randomisation {
     }
 }
 
-/// Bits of all observations and rewards of an episode of random actions that goes on after falls.
+/// Bits of all observations and rewards of an episode of random actions, which continues after falls.
 fn episode_bits(environment: &mut Environment, seed: u64, steps: u32) -> Vec<u32> {
     let mut random = Xoshiro256PlusPlus::seed_from_u64(seed);
     let mut observation = [0.0; SIZE];
@@ -68,7 +68,7 @@ fn standard_deviation(samples: &[f64]) -> f64 {
 }
 
 #[test]
-fn a_seed_is_an_episode_and_nothing_of_it_reaches_the_next() {
+fn an_episode_depends_on_its_seed_only() {
     let fresh = episode_bits(&mut environment(everything()), 7, 120);
     let mut used = environment(everything());
     for (seed, steps) in [(1, 100), (2, 1), (3, 57)] {
@@ -82,7 +82,7 @@ fn a_seed_is_an_episode_and_nothing_of_it_reaches_the_next() {
 }
 
 #[test]
-fn what_is_on_but_changes_nothing_leaves_every_bit() {
+fn randomisation_without_effect_leaves_every_bit_unchanged() {
     let plain = episode_bits(&mut environment(Randomisation::default()), 7, 100);
     let never = Randomisation { push_interval_s: [1000.0, 1000.0], push_mps: [1.0, 1.0], ..Randomisation::default() };
     assert!(never.is_on());
@@ -90,7 +90,7 @@ fn what_is_on_but_changes_nothing_leaves_every_bit() {
 }
 
 #[test]
-fn a_quantity_is_drawn_alike_whatever_else_is_randomised() {
+fn a_drawn_quantity_does_not_depend_on_other_randomisation() {
     let noise = || Randomisation { sensor_noise_position: 0.01, ..Randomisation::default() };
     let plain = first_observation(noise(), 3);
     let beside = Randomisation { sensor_noise_velocity: 0.0, ..everything() };
@@ -105,7 +105,7 @@ fn a_quantity_is_drawn_alike_whatever_else_is_randomised() {
 }
 
 #[test]
-fn the_body_is_drawn_from_all_of_its_ranges_anew_for_each_episode() {
+fn each_episode_draws_a_new_body_from_the_whole_ranges() {
     let mut environment = environment(everything());
     let nominal = environment.physics().model().clone();
     let mut reached = [[f64::INFINITY, f64::NEG_INFINITY]; 6];
@@ -151,7 +151,7 @@ fn the_body_is_drawn_from_all_of_its_ranges_anew_for_each_episode() {
 }
 
 #[test]
-fn a_delayed_action_acts_that_many_steps_later_and_is_charged_at_once() {
+fn a_delayed_action_acts_later_but_its_cost_counts_at_once() {
     for delay in 0..=Randomisation::DELAY_MAX_STEPS {
         let mut delayed = environment(Randomisation { action_delay_steps: [delay, delay], ..Randomisation::default() });
         let mut plain = environment(Randomisation::default());
@@ -182,13 +182,13 @@ fn delays_are_drawn_from_the_whole_range() {
             environment.step(&[0.4; 17], &mut [0.0; SIZE]);
             environment.physics().joint_torques_nm().iter().any(|torque| *torque != 0.0)
         });
-        count[arrives.expect("an action arrives at last")] += 1;
+        count[arrives.expect("an action arrives within 5 steps")] += 1;
     }
     assert!(count[0] == 0 && count[4] == 0 && count[1..4].iter().all(|&times| times > 8), "{count:?}");
 }
 
 #[test]
-fn a_bad_action_is_a_fault_at_once_also_where_actions_are_delayed() {
+fn a_bad_action_is_an_immediate_fault_despite_a_delay() {
     let mut environment = environment(Randomisation { action_delay_steps: [3, 3], ..Randomisation::default() });
     let mut observation = [0.0; SIZE];
     environment.reset(1, &mut observation);
@@ -196,14 +196,14 @@ fn a_bad_action_is_a_fault_at_once_also_where_actions_are_delayed() {
         let mut action = [0.0; 17];
         action[4] = bad;
         assert!(environment.step(&action, &mut observation).fault);
-        assert!(environment.step(&[0.0; 17], &mut observation).fault, "until it is reset");
+        assert!(environment.step(&[0.0; 17], &mut observation).fault, "a fault lasts until the reset");
         environment.reset(2, &mut observation);
         assert!(!environment.step(&[0.0; 17], &mut observation).fault);
     }
 }
 
 #[test]
-fn sensor_noise_has_its_width_and_stays_in_the_observation() {
+fn sensor_noise_has_its_width_and_affects_observations_only() {
     let noise = Randomisation { sensor_noise_position: 0.02, sensor_noise_velocity: 0.3, ..Randomisation::default() };
     let (mut noisy, mut plain) = (floating(noise), floating(Randomisation::default()));
     let (mut seen, mut truth) = ([0.0; SIZE], [0.0; SIZE]);
@@ -218,12 +218,12 @@ fn sensor_noise_has_its_width_and_stays_in_the_observation() {
             let norm: f32 = seen[1..5].iter().map(|part| part * part).sum();
             assert!((norm - 1.0).abs() < 1e-5, "a quaternion of norm {norm}");
             let (step, same) = (noisy.step(&[0.1; 17], &mut seen), plain.step(&[0.1; 17], &mut truth));
-            assert_eq!((step.reward, step.info), (same.reward, same.info), "what is simulated is the same");
+            assert_eq!((step.reward, step.info), (same.reward, same.info), "the simulation is the same");
         }
     }
     for (index, samples) in samples.iter().enumerate() {
         let expected = match index {
-            // w of an upright torso hardly changes; x, y, z are half the angle.
+            // w of an upright torso hardly changes; x, y, z change by half the angle.
             1 => continue,
             2..5 => 0.01,
             0 | 5..22 => 0.02,
@@ -235,7 +235,7 @@ fn sensor_noise_has_its_width_and_stays_in_the_observation() {
 }
 
 #[test]
-fn a_fault_hands_out_what_was_seen_last() {
+fn a_fault_repeats_the_last_noisy_observation() {
     let mut environment = environment(everything());
     let mut observation = [0.0; SIZE];
     environment.reset(5, &mut observation);
@@ -248,7 +248,7 @@ fn a_fault_hands_out_what_was_seen_last() {
 }
 
 #[test]
-fn sensor_noise_falls_on_positions_and_velocities_wherever_they_stand() {
+fn every_observation_kind_has_the_same_noise_on_positions_and_velocities() {
     use treadmill_humanoid::ObservationKind::{Compact, GymnasiumV4, GymnasiumV5};
     let noise = Randomisation { sensor_noise_position: 0.02, sensor_noise_velocity: 0.3, ..Randomisation::default() };
     let seen = |observation, exclude_current_positions_from_observation, randomisation| {
@@ -267,15 +267,15 @@ fn sensor_noise_falls_on_positions_and_velocities_wherever_they_stand() {
     for kind in [Compact, GymnasiumV5, GymnasiumV4] {
         for (skipped, excluded) in [(0, true), (2, false)] {
             let (noisy, plain) = (seen(kind, excluded, noise.clone()), seen(kind, excluded, Randomisation::default()));
-            assert_eq!(noisy[..skipped], plain[..skipped], "x and y are told as they are");
+            assert_eq!(noisy[..skipped], plain[..skipped], "x and y have no noise");
             assert_eq!(noisy[skipped..skipped + SIZE], expected[..], "{kind:?}: the same noise on the same numbers");
-            assert_eq!(noisy[skipped + SIZE..], plain[skipped + SIZE..], "{kind:?}: nothing beyond");
+            assert_eq!(noisy[skipped + SIZE..], plain[skipped + SIZE..], "{kind:?}: no noise beyond");
         }
     }
 }
 
 #[test]
-fn control_noise_has_its_width_at_the_motors_and_costs_nothing() {
+fn control_noise_has_its_width_at_the_motors_and_no_cost() {
     let mut environment = floating(Randomisation { control_noise: 0.1, ..Randomisation::default() });
     environment.reset(1, &mut [0.0; SIZE]);
     let motors = environment.physics().model().motors.clone();
@@ -324,7 +324,7 @@ fn pushes_come_at_their_interval_with_their_speed_in_any_direction() {
 }
 
 #[test]
-fn ranges_that_are_none_are_refused_with_the_environment() {
+fn invalid_ranges_are_refused() {
     let config = EnvironmentConfig {
         randomisation: Randomisation { damping_scale: [2.0, 1.0], ..Randomisation::default() },
         ..EnvironmentConfig::default()

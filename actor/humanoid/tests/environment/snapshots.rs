@@ -1,4 +1,4 @@
-//! Episodes put aside and gone on with: to the last bit what they would have been.
+//! Snapshots: a restored episode continues bit for bit, and snapshots of other models or settings are refused.
 
 use rand::{RngExt, SeedableRng};
 use rand_xoshiro::Xoshiro256PlusPlus;
@@ -6,7 +6,7 @@ use treadmill_humanoid::{
     Environment, EnvironmentConfig, HUMANOID_XML, Model, ObservationKind, Physics, Randomisation, SnapshotError,
 };
 
-/// Everything that an episode can have: contact forces in the observation, and all randomisation.
+/// Settings with contact forces in the observation and all randomisation.
 fn rich() -> EnvironmentConfig {
     EnvironmentConfig {
         observation: ObservationKind::GymnasiumV5,
@@ -34,8 +34,8 @@ fn environment(config: &EnvironmentConfig) -> Environment {
     Environment::new(config, HUMANOID_XML).expect("valid")
 }
 
-/// Bits of all that steps `from..to` of an episode tell.
-fn go_on(environment: &mut Environment, from: u32, to: u32) -> Vec<u64> {
+/// Plays steps `from..to` of an episode and returns the bits of all their results.
+fn play(environment: &mut Environment, from: u32, to: u32) -> Vec<u64> {
     let mut observation = vec![0.0; environment.observation_size()];
     let mut bits = Vec::new();
     for step in from..to {
@@ -57,51 +57,51 @@ fn reset(environment: &mut Environment, seed: u64) -> Vec<f32> {
 }
 
 #[test]
-fn an_episode_goes_on_from_a_snapshot_bit_for_bit() {
+fn an_episode_continues_from_a_snapshot_bit_for_bit() {
     for config in [EnvironmentConfig { terminate_when_unhealthy: false, ..EnvironmentConfig::default() }, rich()] {
         let mut original = environment(&config);
         let mut other = environment(&config);
         reset(&mut other, 99);
-        go_on(&mut other, 0, 70);
-        // Just reset, at the first contacts, while it falls, and among many contacts on the floor.
+        play(&mut other, 0, 70);
+        // Just after a reset, at the first contacts, during the fall, and with many contacts on the floor.
         for at in [0, 2, 60, 150] {
             reset(&mut original, 5);
-            go_on(&mut original, 0, at);
+            play(&mut original, 0, at);
             if at == 150 {
-                assert!(original.physics().squared_contact_wrenches() > 0.0, "nothing touches at {at}");
+                assert!(original.physics().squared_contact_wrenches() > 0.0, "there are no contacts at {at}");
             }
             let snapshot = original.snapshot();
-            let wanted = go_on(&mut original, at, at + 250);
+            let wanted = play(&mut original, at, at + 250);
 
             original.restore(&snapshot).expect("its own");
-            assert_eq!(wanted, go_on(&mut original, at, at + 250), "in the same environment, from {at}");
+            assert_eq!(wanted, play(&mut original, at, at + 250), "in the same environment, from {at}");
             for seed in 0..3 {
                 reset(&mut original, seed);
-                go_on(&mut original, 0, 30);
+                play(&mut original, 0, 30);
             }
             original.restore(&snapshot).expect("its own");
-            assert_eq!(wanted, go_on(&mut original, at, at + 250), "after resets, from {at}");
+            assert_eq!(wanted, play(&mut original, at, at + 250), "after resets, from {at}");
             other.restore(&snapshot).expect("of the same build");
-            assert_eq!(wanted, go_on(&mut other, at, at + 250), "in another environment, from {at}");
+            assert_eq!(wanted, play(&mut other, at, at + 250), "in another environment, from {at}");
         }
     }
 }
 
 #[test]
-fn a_snapshot_changes_nothing_and_holds_what_was_last_told() {
+fn a_snapshot_changes_nothing_and_holds_the_last_results() {
     let mut plain = environment(&rich());
     let mut watched = environment(&rich());
     reset(&mut plain, 8);
     reset(&mut watched, 8);
-    let wanted = go_on(&mut plain, 0, 60);
+    let wanted = play(&mut plain, 0, 60);
     let mut found = Vec::new();
     for step in 0..60 {
         let _ = watched.snapshot();
-        found.extend(go_on(&mut watched, step, step + 1));
+        found.extend(play(&mut watched, step, step + 1));
     }
     assert_eq!(wanted, found);
 
-    let told = format!("{:?} {:?}", watched.info(), watched.joint_quality());
+    let expected = format!("{:?} {:?}", watched.info(), watched.joint_quality());
     let (mut seen, mut seen_again) = (vec![0.0; watched.observation_size()], vec![0.0; watched.observation_size()]);
     watched.observe(&mut seen).expect("the right length");
     let snapshot = watched.snapshot();
@@ -109,8 +109,8 @@ fn a_snapshot_changes_nothing_and_holds_what_was_last_told() {
     watched.restore(&snapshot).expect("its own");
     watched.observe(&mut seen_again).expect("the right length");
     assert_eq!(seen, seen_again);
-    assert_eq!(told, format!("{:?} {:?}", watched.info(), watched.joint_quality()));
-    // A fault hands out the observation of the step before, also after a restore.
+    assert_eq!(expected, format!("{:?} {:?}", watched.info(), watched.joint_quality()));
+    // A fault repeats the observation of the previous step, also after a restore.
     let mut last = vec![0.0; seen.len()];
     watched.step(&[0.1; 17], &mut last);
     let snapshot = watched.snapshot();
@@ -123,26 +123,26 @@ fn a_snapshot_changes_nothing_and_holds_what_was_last_told() {
 }
 
 #[test]
-fn the_episode_after_a_restored_one_is_as_always() {
+fn the_episode_after_a_restored_one_is_unchanged() {
     let config = rich();
     let mut original = environment(&config);
     reset(&mut original, 1);
-    go_on(&mut original, 0, 80);
+    play(&mut original, 0, 80);
     let snapshot = original.snapshot();
-    // A start at a state of choice keeps the body of the episode, varied as it is.
+    // `set_state` keeps the episode's randomised body.
     let from_nominal = |environment: &mut Environment| {
         let position = environment.physics().model().nominal_position();
         environment.physics_mut().set_state(&position, &[0.0; 23]);
-        go_on(environment, 0, 100)
+        play(environment, 0, 100)
     };
     let varied = from_nominal(&mut original);
     let first = reset(&mut original, 2);
-    let wanted = go_on(&mut original, 0, 80);
+    let wanted = play(&mut original, 0, 80);
 
     let mut other = environment(&config);
     other.restore(&snapshot).expect("of the same build");
     assert_eq!(first, reset(&mut other, 2));
-    assert_eq!(wanted, go_on(&mut other, 0, 80));
+    assert_eq!(wanted, play(&mut other, 0, 80));
     for environment in [&mut original, &mut other] {
         environment.restore(&snapshot).expect("of the same build");
         assert_eq!(varied, from_nominal(environment));
@@ -150,7 +150,7 @@ fn the_episode_after_a_restored_one_is_as_always() {
 }
 
 #[test]
-fn a_body_alone_goes_on_from_a_snapshot_and_keeps_its_fault() {
+fn physics_alone_continues_from_a_snapshot_and_keeps_its_fault() {
     let build =
         || Physics::new(Model::from_mjcf(HUMANOID_XML).expect("valid"), &EnvironmentConfig::default()).expect("valid");
     let run = |physics: &mut Physics, seed: u64| {
@@ -185,11 +185,11 @@ fn a_body_alone_goes_on_from_a_snapshot_and_keeps_its_fault() {
 }
 
 #[test]
-fn snapshots_of_something_else_are_refused_by_name() {
+fn snapshots_of_other_models_and_settings_are_refused_by_name() {
     let config = EnvironmentConfig::default();
     let mut original = environment(&config);
     reset(&mut original, 3);
-    go_on(&mut original, 0, 10);
+    play(&mut original, 0, 10);
     let snapshot = original.snapshot();
 
     let mut finer = environment(&EnvironmentConfig { substeps: 3, ..config.clone() });
@@ -203,8 +203,8 @@ fn snapshots_of_something_else_are_refused_by_name() {
     assert_eq!(seen, untouched, "a refusal must change nothing");
 
     let randomisation = Randomisation { push_mps: [0.0, 1.0], ..Randomisation::default() };
-    let told = environment(&EnvironmentConfig { randomisation, ..config.clone() }).restore(&snapshot);
-    assert!(told.expect_err("other pushes").to_string().contains("`randomisation`"));
+    let result = environment(&EnvironmentConfig { randomisation, ..config.clone() }).restore(&snapshot);
+    assert!(result.expect_err("other pushes").to_string().contains("`randomisation`"));
 
     for (from, to, part) in [
         ("gear=\"300\"", "gear=\"301\"", "motor `right_hip_y`"),
@@ -214,8 +214,8 @@ fn snapshots_of_something_else_are_refused_by_name() {
     ] {
         let xml = HUMANOID_XML.replace(from, to);
         assert_ne!(xml, HUMANOID_XML);
-        let told = Environment::new(&config, &xml).expect("valid").restore(&snapshot).expect_err(part).to_string();
-        assert!(told.contains(part), "{told}");
+        let refusal = Environment::new(&config, &xml).expect("valid").restore(&snapshot).expect_err(part).to_string();
+        assert!(refusal.contains(part), "{refusal}");
     }
 
     let model = Model::from_mjcf(HUMANOID_XML).expect("valid");
@@ -232,7 +232,7 @@ fn snapshots_of_something_else_are_refused_by_name() {
         let refusal = Physics::new(model.clone(), &changed).expect("valid").restore(&plain).expect_err(name);
         assert!(refusal.to_string().contains(name), "{refusal}");
     }
-    // What no motion depends on is none of the body's business.
+    // Physics ignores settings that motion does not depend on.
     let other_task = EnvironmentConfig { healthy_reward: 1.0, ..config };
     assert!(Physics::new(model, &other_task).expect("valid").restore(&plain).is_ok());
 }

@@ -1,14 +1,14 @@
 #!/usr/bin/env python3
-"""Writes states.bin: what Gymnasium's Humanoid-v5 and -v4 observe in random states of this project's humanoid.
+"""Writes states.bin: observations of Gymnasium's Humanoid-v5 and -v4 in random states of this project's humanoid.
 
     pip install "gymnasium[mujoco]"
     python3 actor/humanoid/tests/golden/make_states.py            # writes states.bin beside this script
     python3 actor/humanoid/tests/golden/make_states.py --check    # only compares the model with Gymnasium's own
 
-Physics quantities are MuJoCo's after mj_forward and mj_rnePostConstraint, observations and contact cost those of
-Gymnasium's own classes. `--model gymnasium` takes Gymnasium's humanoid.xml instead of the project's: the file written
-is the same within single precision, since both describe one robot. The script says how far they are apart and fails
-if that is more than rounding.
+Physics quantities come from MuJoCo after mj_forward and mj_rnePostConstraint, observations and contact cost from
+Gymnasium's classes. `--model gymnasium` uses Gymnasium's humanoid.xml instead of the project's. Both describe the same
+robot, so the file is the same within single precision. The script prints the largest difference of the two models and
+fails if it exceeds rounding.
 
 Format, little-endian: the eight bytes "TMSTATES", then u32 numbers: states, nq, nv, nu, size of the v5 observation,
 size of the v4 observation, tendons. Then for each state, as f32: qpos, qvel, ctrl, observation v5, observation v4,
@@ -30,12 +30,12 @@ HERE = pathlib.Path(__file__).resolve().parent
 ASSET = HERE.parent.parent / "assets" / "humanoid.xml"
 GYMNASIUM = pathlib.Path(humanoid_v5.__file__).parent / "assets" / "humanoid.xml"
 STATES = 200
-"""States in all; the last quarter is near the floor."""
+"""Number of states; the last quarter is near the floor."""
 SEED = 20240615
 
 
 def environments(xml):
-    """Gymnasium's two environments on one MuJoCo model and its data; v4 takes no file, so it is given the model."""
+    """Gymnasium's two environments on one MuJoCo model and its data; v4 accepts no file, so its model is replaced."""
     v5 = humanoid_v5.HumanoidEnv(xml_file=str(xml))
     v4 = humanoid_v4.HumanoidEnv()
     v4.model, v4.data = v5.model, v5.data
@@ -43,7 +43,7 @@ def environments(xml):
 
 
 def random_states(model, random):
-    """Yields qpos, qvel and ctrl, rounded to single precision so that every reader has the same numbers."""
+    """Yields qpos, qvel and ctrl, rounded to single precision so that every reader gets the same numbers."""
     low, high = model.jnt_range[1:].T
     for number in range(STATES):
         height = random.uniform(2.5, 4.0) if number < STATES * 3 // 4 else random.uniform(0.1, 1.4)
@@ -56,8 +56,8 @@ def random_states(model, random):
         yield tuple(part.astype(np.float32).astype(np.float64) for part in (qpos, qvel, ctrl))
 
 
-def put(environment, qpos, qvel, ctrl):
-    """Brings MuJoCo into a state, with everything that is derived from it."""
+def set_state(environment, qpos, qvel, ctrl):
+    """Sets MuJoCo's state and computes all derived quantities."""
     model, data = environment.model, environment.data
     mujoco.mj_resetData(model, data)
     data.qpos[:], data.qvel[:], data.ctrl[:] = qpos, qvel, ctrl
@@ -66,7 +66,7 @@ def put(environment, qpos, qvel, ctrl):
 
 
 def contacts(model, data):
-    """Rows of first link, second link, point, force on the first link, of the contacts that push."""
+    """Rows of first link, second link, point and force on the first link, for each active contact."""
     rows = []
     for number in range(data.ncon):
         contact = data.contact[number]
@@ -82,7 +82,7 @@ def contacts(model, data):
 
 
 def inertias(model):
-    """Inertia of each body about its centre of mass, in the body's axes."""
+    """Returns the inertia of each body about its centre of mass, in the body's axes."""
     matrices = []
     for body in range(model.nbody):
         turn = np.zeros(9)
@@ -93,7 +93,7 @@ def inertias(model):
 
 
 def compare_models():
-    """Prints how far the project's model is from Gymnasium's; returns whether that is no more than rounding."""
+    """Prints the largest differences from Gymnasium's model; returns whether they are only rounding."""
     ours, theirs = (mujoco.MjModel.from_xml_path(str(path)) for path in (ASSET, GYMNASIUM))
     same = True
     quantities = {name: [getattr(model, name) for model in (ours, theirs)] for name in (
@@ -128,23 +128,23 @@ def main():
     paths = (ASSET, GYMNASIUM) if options.model == "ours" else (GYMNASIUM, ASSET)
     (v5, v4), (other, _) = (environments(path) for path in paths)
     model, data = v5.model, v5.data
-    body, furthest, touching = b"", 0.0, 0
+    body, largest, touching = b"", 0.0, 0
     for qpos, qvel, ctrl in random_states(model, np.random.default_rng(SEED)):
-        put(v5, qpos, qvel, ctrl)
-        put(other, qpos, qvel, ctrl)
+        set_state(v5, qpos, qvel, ctrl)
+        set_state(other, qpos, qvel, ctrl)
         seen, rows = v5._get_obs(), contacts(model, data)
-        # Contact forces are left out here: the two files ask for different solvers.
+        # Contact forces are excluded: the two files set different solvers.
         forces = 6 * (model.nbody - 1)
-        furthest = max(furthest, np.abs(seen[:-forces] - other._get_obs()[:-forces]).max())
+        largest = max(largest, np.abs(seen[:-forces] - other._get_obs()[:-forces]).max())
         touching += bool(rows)
         numbers = [qpos, qvel, ctrl, seen, v4._get_obs(), data.ten_length, data.ten_velocity]
         numbers += [[v5.contact_cost, len(rows)], *rows]
         body += np.concatenate(numbers).astype("<f4").tobytes()
     sizes = (STATES, model.nq, model.nv, model.nu, len(seen), len(v4._get_obs()), model.ntendon)
     options.output.write_bytes(b"TMSTATES" + struct.pack("<7I", *sizes) + body)
-    print(f"{STATES} states, {touching} with contacts; observations of the two models differ by {furthest:.3g}")
+    print(f"{STATES} states, {touching} with contacts; observations of the two models differ by {largest:.3g}")
     print(f"wrote {options.output}: {options.output.stat().st_size} bytes")
-    sys.exit(0 if same and furthest < 1e-6 else 1)
+    sys.exit(0 if same and largest < 1e-6 else 1)
 
 
 if __name__ == "__main__":

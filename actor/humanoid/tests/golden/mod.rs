@@ -1,4 +1,4 @@
-//! States with the observations of Gymnasium's environments in them: see `make_states.py`, which wrote the file.
+//! Golden states with the observations of Gymnasium's environments, written by `make_states.py`.
 
 use nalgebra::{Point3, Vector3};
 use treadmill_humanoid::ContactForce;
@@ -6,7 +6,7 @@ use treadmill_humanoid::ContactForce;
 const FILE: &[u8] = include_bytes!("states.bin");
 const HEADER: usize = 8 + 7 * 4;
 
-/// One state of the body, and what MuJoCo and Gymnasium make of it.
+/// State of the body, with the observations and contacts of MuJoCo and Gymnasium.
 pub struct State {
     pub position: Vec<f64>,
     pub velocity: Vec<f64>,
@@ -19,7 +19,7 @@ pub struct State {
     pub contacts: Vec<ContactForce>,
 }
 
-/// Takes numbers off the front.
+/// Reads numbers in order.
 struct Reader(std::slice::Iter<'static, [u8; 4]>);
 
 impl Reader {
@@ -42,7 +42,7 @@ impl Reader {
     }
 }
 
-/// All states of the file.
+/// Returns all states of the file.
 pub fn states() -> Vec<State> {
     assert_eq!(&FILE[..8], b"TMSTATES");
     let (words, rest) = FILE[8..].as_chunks::<4>();
@@ -66,13 +66,13 @@ pub fn states() -> Vec<State> {
             },
         })
         .collect();
-    assert_eq!(reader.0.len(), 0, "the file holds more than its header says");
+    assert_eq!(reader.0.len(), 0, "the file is longer than its header says");
     all
 }
 
-/// An entry that is not what it should be.
+/// Entry outside its tolerance.
 #[derive(Debug)]
-#[expect(dead_code, reason = "read where a failed assertion prints it")]
+#[expect(dead_code, reason = "printed by failed assertions")]
 pub struct Mismatch {
     pub state: usize,
     pub entry: usize,
@@ -81,8 +81,8 @@ pub struct Mismatch {
     pub tolerance: f32,
 }
 
-/// Compares rows entry by entry, to within 1e-3 of the entry's root mean square over all rows or of its own size,
-/// whichever is larger; an entry that is always zero must be zero.
+/// Compares rows entry by entry. The tolerance is 1e-3 of the entry's root mean square over all rows, or of its own size if
+/// that is larger. An entry that is always zero must be zero.
 pub fn compare(found: &[Vec<f32>], expected: &[&[f32]]) -> Result<(), Mismatch> {
     assert_eq!(found.len(), expected.len());
     let width = expected[0].len();

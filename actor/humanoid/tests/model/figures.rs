@@ -1,4 +1,4 @@
-//! What is read out of model texts, against MuJoCo's figures for the same texts.
+//! Masses, poses, hinges and motors of model texts, compared with MuJoCo's values for the same texts.
 
 use nalgebra::{Matrix3, Point3};
 use treadmill_humanoid::model::{Body, Geometry};
@@ -6,7 +6,7 @@ use treadmill_humanoid::{HUMANOID_XML, Model, read_model_file};
 
 const G1_LIKE_XML: &str = include_str!("../../assets/g1-like.xml");
 
-/// Nearly everything that a text may hold: classes, frames, all ways to turn, all shapes, both kinds of inertia.
+/// Text with classes, frames, all kinds of orientation, all shapes and both kinds of inertia.
 const ODD: &str = r#"
 <mujoco model="odd">
   <compiler angle="radian" eulerseq="zyx" inertiagrouprange="0 3" balanceinertia="true"/>
@@ -63,8 +63,8 @@ fn body<'a>(model: &'a Model, name: &str) -> &'a Body {
     model.bodies.iter().find(|body| body.name == name).expect(name)
 }
 
-/// Mass, centre, and inertia as xx, yy, zz, xy, xz, yz.
-fn assert_weighs(body: &Body, mass_kg: f64, centre_m: [f64; 3], [xx, yy, zz, xy, xz, yz]: [f64; 6]) {
+/// Asserts mass, centre of mass, and inertia as xx, yy, zz, xy, xz, yz.
+fn assert_mass(body: &Body, mass_kg: f64, centre_m: [f64; 3], [xx, yy, zz, xy, xz, yz]: [f64; 6]) {
     let inertia = Matrix3::new(xx, xy, xz, xy, yy, yz, xz, yz, zz);
     assert!((body.mass_kg - mass_kg).abs() < 1e-8, "{}: {} kg", body.name, body.mass_kg);
     assert!((body.centre_of_mass_m - Point3::from(centre_m)).norm() < 1e-8, "{}: {}", body.name, body.centre_of_mass_m);
@@ -72,15 +72,15 @@ fn assert_weighs(body: &Body, mass_kg: f64, centre_m: [f64; 3], [xx, yy, zz, xy,
 }
 
 #[test]
-fn an_odd_text_has_the_figures_that_mujoco_finds() {
+fn an_unusual_text_has_mujocos_values() {
     let model = Model::from_mjcf(ODD).expect("valid");
-    assert_eq!(model.bodies.len(), 3, "what is welded to the base is part of it");
+    assert_eq!(model.bodies.len(), 3, "welded bodies are part of the base");
     // MuJoCo 4.0's bodies `base`, `pod` and `tip`, summed up in the base's frame.
     let inertia = [0.170268958, 0.494041838, 0.406460223, -0.021655906, -0.137874378, -0.000930685];
     let centre = [0.256664227, 0.147534822, -0.047586212];
-    assert_weighs(body(&model, "base"), 4.123974831, centre, inertia);
-    assert_weighs(body(&model, "arm"), 2.0, [0.0, 0.0, -0.1], [0.02, 0.03, 0.04, 0.001, 0.002, -0.003]);
-    assert_weighs(body(&model, "flat"), 1.0, [0.0; 3], [0.07 / 3.0, 0.07 / 3.0, 0.07 / 3.0, 0.0, 0.0, 0.0]);
+    assert_mass(body(&model, "base"), 4.123974831, centre, inertia);
+    assert_mass(body(&model, "arm"), 2.0, [0.0, 0.0, -0.1], [0.02, 0.03, 0.04, 0.001, 0.002, -0.003]);
+    assert_mass(body(&model, "flat"), 1.0, [0.0; 3], [0.07 / 3.0, 0.07 / 3.0, 0.07 / 3.0, 0.0, 0.0, 0.0]);
 
     let arm = &body(&model, "arm").pose;
     let (place, turn) = (arm.translation.vector, arm.rotation.quaternion());
@@ -101,14 +101,14 @@ fn an_odd_text_has_the_figures_that_mujoco_finds() {
 }
 
 #[test]
-fn the_compilers_rules_about_mass_are_those_of_mujoco() {
+fn the_compilers_mass_rules_are_mujocos() {
     let with = |change: &str| {
         let text = ODD.replacen("balanceinertia=\"true\"", &format!("balanceinertia=\"true\" {change}"), 1);
         Model::from_mjcf(&text).expect(change)
     };
     // Bounds first, then balance: (0.02 + 0.02 + 0.05) / 3. The capsule of 0.05 m and 0.4 m weighs 500 × 0.0036652 m³.
     let bound = with("boundmass=\"3\" boundinertia=\"0.02\"");
-    assert_weighs(body(&bound, "flat"), 3.0, [0.0; 3], [0.03, 0.03, 0.03, 0.0, 0.0, 0.0]);
+    assert_mass(body(&bound, "flat"), 3.0, [0.0; 3], [0.03, 0.03, 0.03, 0.0, 0.0, 0.0]);
     assert_eq!(body(&bound, "arm").mass_kg, 3.0);
     let scaled = with("settotalmass=\"20\"");
     let factor = 20.0 / 7.123974831206716;
@@ -116,13 +116,13 @@ fn the_compilers_rules_about_mass_are_those_of_mujoco() {
     assert!((body(&scaled, "flat").inertia_kgm2[(0, 0)] - factor * 0.07 / 3.0).abs() < 1e-8);
     let by_shapes = with("inertiafromgeom=\"true\"");
     assert!((body(&by_shapes, "arm").mass_kg - 1.832_595_714_594).abs() < 1e-9);
-    assert_eq!(body(&by_shapes, "flat").mass_kg, 1.0, "without shapes its <inertial> stands");
+    assert_eq!(body(&by_shapes, "flat").mass_kg, 1.0, "without geoms its <inertial> counts");
     let never = ODD.replacen("angle=\"radian\"", "angle=\"radian\" inertiafromgeom=\"false\"", 1);
-    assert!((Model::from_mjcf(&never).expect("valid").bodies[0].mass_kg - 0.5).abs() < 1e-12, "the tip's alone");
+    assert!((Model::from_mjcf(&never).expect("valid").bodies[0].mass_kg - 0.5).abs() < 1e-12, "only the tip's counts");
 }
 
-/// The built-in humanoid written as Gymnasium writes its own: other defaults, looks, inert tendons.
-fn written_otherwise() -> String {
+/// Built-in humanoid in the notation of Gymnasium's file: other defaults, visual elements, inert tendons.
+fn in_gymnasiums_notation() -> String {
     [
         ("<joint type=\"hinge\" limited=\"true\" damping=\"1\" armature=\"1\"/>", "<joint armature=\"1\" damping=\"1\" limited=\"true\"/>"),
         (
@@ -148,31 +148,31 @@ fn written_otherwise() -> String {
 }
 
 #[test]
-fn the_humanoid_in_gymnasiums_way_of_writing_is_the_built_in_one() {
+fn gymnasiums_notation_gives_the_built_in_humanoid() {
     let built_in = Model::from_mjcf(HUMANOID_XML).expect("valid");
-    let other = Model::from_mjcf(&written_otherwise()).expect("valid");
+    let other = Model::from_mjcf(&in_gymnasiums_notation()).expect("valid");
     assert_eq!(format!("{built_in:?}"), format!("{other:?}"));
-    // MuJoCo 4.0's figures for Gymnasium's own file.
+    // MuJoCo 4.0's values for Gymnasium's own file.
     let chest = [0.173148828, 0.154010141, 0.041211852, 0.0, -0.003498385, 0.0];
-    assert_weighs(body(&other, "torso"), 8.907462370, [-0.002539384, 0.0, 0.034662591], chest);
+    assert_mass(body(&other, "torso"), 8.907462370, [-0.002539384, 0.0, 0.034662591], chest);
     let thigh = [0.074951654, 0.074893984, 0.008285101, 0.0, 0.0, 0.001960781];
-    assert_weighs(body(&other, "right_thigh"), 4.751750929, [0.0, 0.005, -0.17], thigh);
+    assert_mass(body(&other, "right_thigh"), 4.751750929, [0.0, 0.005, -0.17], thigh);
     let lower_arm = [0.009318673, 0.009318673, 0.009318673, 0.004348556, -0.004348556, 0.004348556];
-    assert_weighs(body(&other, "left_lower_arm"), 1.229540193, [0.109623134, -0.109623134, 0.109623134], lower_arm);
+    assert_mass(body(&other, "left_lower_arm"), 1.229540193, [0.109623134, -0.109623134, 0.109623134], lower_arm);
 }
 
 #[test]
-fn the_robot_of_29_hinges_is_as_its_text_says() {
+fn the_robot_of_29_hinges_has_mujocos_values() {
     let model = Model::from_mjcf(G1_LIKE_XML).expect("valid");
     assert_eq!((model.bodies.len(), model.hinges.len(), model.motors.len()), (30, 29, 29));
     assert!((model.mass_kg() - 34.3).abs() < 1e-9);
-    // MuJoCo 4.0's figures.
+    // MuJoCo 4.0's values.
     let chest = [0.103119241, 0.090472690, 0.039705448, 0.0, -0.001862069, 0.0];
-    assert_weighs(body(&model, "torso"), 8.7, [0.001379310, 0.0, 0.184827586], chest);
+    assert_mass(body(&model, "torso"), 8.7, [0.001379310, 0.0, 0.184827586], chest);
     let shin = [0.013608806, 0.013608806, 0.001462776, 0.0, 0.0, 0.0];
-    assert_weighs(body(&model, "left_shin"), 1.9, [0.0, 0.0, -0.125], shin);
+    assert_mass(body(&model, "left_shin"), 1.9, [0.0, 0.0, -0.125], shin);
     let hip = [0.001188958, 0.001316250, 0.001188958, 0.0, 0.0, 0.0];
-    assert_weighs(body(&model, "right_hip_pitch"), 1.3, [0.0, -0.015, 0.0], hip);
+    assert_mass(body(&model, "right_hip_pitch"), 1.3, [0.0, -0.015, 0.0], hip);
     for left in model.hinges.iter().filter(|hinge| hinge.name.starts_with("left_")) {
         let name = left.name.replace("left_", "right_");
         let right = model.hinges.iter().find(|hinge| hinge.name == name).expect("each left hinge has a right one");
@@ -185,7 +185,7 @@ fn the_robot_of_29_hinges_is_as_its_text_says() {
 }
 
 #[test]
-fn a_motor_without_control_range_uses_what_it_can_give() {
+fn a_motor_without_control_range_derives_it_from_its_limits() {
     let range_of = |motor: &str, joint: &str| {
         let text = format!(
             r#"<mujoco><worldbody><geom type="plane" size="1 1 1"/><body pos="0 0 1"><freejoint/><geom size="0.1"/>
@@ -202,14 +202,14 @@ fn a_motor_without_control_range_uses_what_it_can_give() {
 }
 
 #[test]
-fn included_files_become_part_of_the_text() {
+fn included_files_are_inserted() {
     let folder = std::env::temp_dir().join(format!("treadmill-models-{}", std::process::id()));
     std::fs::create_dir_all(folder.join("parts")).expect("a folder");
     let write = |name: &str, text: &str| std::fs::write(folder.join(name), text).expect("a file");
     let (before, worldbody) = HUMANOID_XML.split_once("<worldbody>").expect("a worldbody");
     let (worldbody, motors) = worldbody.split_once("</worldbody>").expect("its end");
     write("robot.xml", &format!("{before}<include file=\"parts/world.xml\"/>{motors}"));
-    // Names start from the outermost file's folder.
+    // Paths are relative to the outermost file.
     write(
         "parts/world.xml",
         "<mujocoinclude><worldbody><include file=\"parts/body.xml\"/></worldbody></mujocoinclude>",
@@ -221,7 +221,7 @@ fn included_files_become_part_of_the_text() {
 
     write("parts/body.xml", "<mujoco><include file=\"robot.xml\"/></mujoco>");
     assert!(read().expect_err("a circle").to_string().contains("`robot.xml` is included twice"));
-    std::fs::remove_file(folder.join("parts/body.xml")).expect("it was there");
+    std::fs::remove_file(folder.join("parts/body.xml")).expect("it exists");
     assert!(read().expect_err("missing").to_string().contains("parts/body.xml"));
-    std::fs::remove_dir_all(&folder).expect("it was there");
+    std::fs::remove_dir_all(&folder).expect("it exists");
 }

@@ -1,4 +1,4 @@
-//! Model texts: what is read out of them, and which are refused.
+//! Model texts: values read from them, and refusals.
 
 mod figures;
 mod refusals;

@@ -1,10 +1,10 @@
-//! Model texts that are refused, and what the refusal names.
+//! Model texts that are refused, and the names in the refusals.
 
 use nalgebra::{Unit, UnitQuaternion, Vector3};
 use proptest::prelude::*;
 use treadmill_humanoid::{Environment, EnvironmentConfig, HUMANOID_XML, Model, Physics};
 
-/// A body with an arm on a floor; each test changes one spot.
+/// Body with an arm above a floor; each test changes one place.
 const ARM: &str = r#"
 <mujoco>
   <compiler angle="radian"/>
@@ -29,7 +29,7 @@ const ARM: &str = r#"
   <actuator><motor name="biceps" joint="elbow" gear="2" ctrlrange="-1 1"/></actuator>
 </mujoco>"#;
 
-/// What a text is refused with, causes included.
+/// Returns the error of a text, with its cause.
 fn problem(text: &str) -> String {
     let error = Model::from_mjcf(text).expect_err(text);
     match std::error::Error::source(&error) {
@@ -38,25 +38,25 @@ fn problem(text: &str) -> String {
     }
 }
 
-/// A text with one spot changed.
+/// Returns a text with one place changed.
 fn changed(text: &str, from: &str, to: &str) -> String {
     assert!(text.contains(from), "there is no {from}");
     text.replacen(from, to, 1)
 }
 
-/// Each change of [`ARM`], and parts of what it must be refused with.
+/// Asserts that each change of [`ARM`] is refused with a message that contains all parts.
 fn assert_refused(cases: &[(&str, &str, &[&str])]) {
     assert!(Model::from_mjcf(ARM).is_ok());
     for (from, to, parts) in cases {
-        let told = problem(&changed(ARM, from, to));
+        let message = problem(&changed(ARM, from, to));
         for part in *parts {
-            assert!(told.contains(part), "`{to}`: `{part}` is missing in: {told}");
+            assert!(message.contains(part), "`{to}`: `{part}` is missing in: {message}");
         }
     }
 }
 
 #[test]
-fn spots_of_the_built_in_text_that_make_it_impossible() {
+fn errors_in_the_built_in_text_name_the_element() {
     let cases = [
         ("<worldbody>", "<worldbody><include file=\"/etc/passwd\"/>", "include"),
         ("<joint name=\"root\" type=\"free\"", "<joint name=\"root\" type=\"ball\"", "torso"),
@@ -69,8 +69,8 @@ fn spots_of_the_built_in_text_that_make_it_impossible() {
         ("stiffness=\"20\"", "stiffness=\"-20\"", "abdomen_z"),
     ];
     for (from, to, element) in cases {
-        let told = problem(&changed(HUMANOID_XML, from, to));
-        assert!(told.contains(element), "`{to}` is blamed on: {told}");
+        let message = problem(&changed(HUMANOID_XML, from, to));
+        assert!(message.contains(element), "`{to}`: `{element}` is missing in: {message}");
     }
 }
 
@@ -103,7 +103,7 @@ fn the_tree_must_be_one_robot_on_a_floor() {
             "<joint name=\"root\" type=\"free\" damping=\"1\"/>",
             &["root", "damping", "is 1"],
         ),
-        ("<worldbody>", second, &["base", "one root only"]),
+        ("<worldbody>", second, &["base", "only one root"]),
         ("<joint name=\"elbow\" axis=\"0 1 0\"/>", "<freejoint name=\"elbow\"/>", &["elbow", "only the root"]),
         ("<geom name=\"floor\" type=\"plane\" size=\"1 1 1\"/>", "", &["worldbody", "floor"]),
         ("type=\"plane\"", "type=\"plane\" contype=\"0\" conaffinity=\"0\"", &["worldbody", "collides"]),
@@ -133,12 +133,12 @@ fn more_bodies_than_collision_groups_are_refused_with_their_number() {
     let chain = |count| (1..=count).map(link).collect::<String>() + &"</body>".repeat(count);
     let with = |count| changed(ARM, "<body name=\"upper\"", &format!("{}<body name=\"upper\"", chain(count)));
     assert!(Model::from_mjcf(&with(28)).is_ok());
-    let told = problem(&with(29));
-    assert!(told.contains("32 moving bodies") && told.contains("31"), "{told}");
+    let message = problem(&with(29));
+    assert!(message.contains("32 moving bodies") && message.contains("31"), "{message}");
 }
 
 #[test]
-fn masses_and_figures_must_make_sense() {
+fn masses_and_sizes_must_be_physically_possible() {
     assert_refused(&[
         ("mass=\"0.5\"", "mass=\"-0.5\"", &["lower", "mass", "-0.5"]),
         ("mass=\"0.5\"", "mass=\"0\"", &["lower", "needs mass"]),
@@ -164,7 +164,7 @@ fn masses_and_figures_must_make_sense() {
 }
 
 #[test]
-fn physics_that_is_not_simulated_is_refused_by_name() {
+fn unsupported_physics_is_refused_by_name() {
     assert_refused(&[
         ("axis=\"0 1 0\" range", "type=\"slide\" axis=\"0 1 0\" range", &["shoulder", "slide"]),
         ("axis=\"0 1 0\" range", "type=\"ball\" range", &["shoulder", "ball"]),
@@ -209,7 +209,7 @@ fn physics_that_is_not_simulated_is_refused_by_name() {
 }
 
 #[test]
-fn motors_must_be_there_and_say_how_strong_they_are() {
+fn motors_must_exist_and_have_a_strength() {
     assert_refused(&[
         ("<motor name=\"biceps\" joint=\"elbow\" gear=\"2\" ctrlrange=\"-1 1\"/>", "", &["actuator", "at least one"]),
         ("joint=\"elbow\" gear", "joint=\"knee\" gear", &["biceps", "hinge"]),
@@ -231,7 +231,7 @@ fn motors_must_be_there_and_say_how_strong_they_are() {
 }
 
 #[test]
-fn what_is_only_seen_is_accepted() {
+fn visual_elements_are_accepted() {
     let dressed = [
         ("<tendon>", "<visual><map fogend=\"5\"/></visual><statistic extent=\"2\"/><size nkey=\"5\"/><tendon>"),
         ("<tendon>", "<sensor><gyro site=\"imu\"/></sensor><keyframe><key qpos=\"0\"/></keyframe><custom/><tendon>"),
@@ -243,11 +243,11 @@ fn what_is_only_seen_is_accepted() {
     ];
     let plain = Model::from_mjcf(ARM).expect("valid");
     let text = dressed.iter().fold(ARM.to_owned(), |text, (from, to)| changed(&text, from, to));
-    let dressed = Model::from_mjcf(&text).expect("only looks were added");
+    let dressed = Model::from_mjcf(&text).expect("only visual elements were added");
     assert_eq!(format!("{plain:?}"), format!("{dressed:?}"));
 }
 
-/// Where each attribute's value lies in a text.
+/// Returns the range of each attribute's value in a text.
 fn values(text: &str) -> Vec<std::ops::Range<usize>> {
     let quotes: Vec<usize> = text.match_indices('"').map(|(index, _)| index).collect();
     quotes.chunks_exact(2).map(|pair| pair[0] + 1..pair[1]).collect()
@@ -255,17 +255,17 @@ fn values(text: &str) -> Vec<std::ops::Range<usize>> {
 
 proptest! {
     #[test]
-    fn no_text_however_spoilt_does_more_than_be_refused(
-        spot in any::<prop::sample::Index>(), value in r#"-?[0-9]{0,3}(\.[0-9]{1,9})?(e[0-9]{1,3})?|nan|inf|true|free|[ -~&&[^"<]]{0,9}"#,
+    fn a_corrupted_text_never_panics(
+        place in any::<prop::sample::Index>(), value in r#"-?[0-9]{0,3}(\.[0-9]{1,9})?(e[0-9]{1,3})?|nan|inf|true|free|[ -~&&[^"<]]{0,9}"#,
         cut in any::<prop::sample::Index>(), length in 0..60usize,
     ) {
         let config = EnvironmentConfig::default();
         for text in [ARM, HUMANOID_XML] {
             let all = values(text);
-            let mut spoilt = text.to_owned();
-            spoilt.replace_range(all[spot.index(all.len())].clone(), &value);
-            // What is accepted must also be able to move.
-            if let Ok(mut environment) = Environment::new(&config, &spoilt) {
+            let mut corrupted = text.to_owned();
+            corrupted.replace_range(all[place.index(all.len())].clone(), &value);
+            // An accepted model must also step.
+            if let Ok(mut environment) = Environment::new(&config, &corrupted) {
                 let mut observation = vec![0.0; environment.observation_size()];
                 let action = vec![1.0; environment.action_size()];
                 environment.reset(1, &mut observation);
@@ -280,7 +280,7 @@ proptest! {
 }
 
 #[test]
-fn tendons_that_would_act_are_refused_by_name() {
+fn tendons_that_exert_force_are_refused_by_name() {
     let fixed = "<fixed name=\"left_hipknee\">";
     let with = |attributes: &str| fixed.replace('>', &format!(" {attributes}>"));
     let cases = [
@@ -310,7 +310,7 @@ fn tendons_that_would_act_are_refused_by_name() {
     ];
     for (from, to, words) in cases {
         let error = Model::from_mjcf(&changed(HUMANOID_XML, from, &to)).expect_err(&to).to_string();
-        assert!(words.iter().all(|word| error.contains(word)), "`{to}` is refused with: {error}");
+        assert!(words.iter().all(|word| error.contains(word)), "`{to}`: {words:?} are missing in: {error}");
     }
     let crowd: String = (0..17).map(|_| "<fixed><joint joint=\"left_knee\"/></fixed>").collect();
     assert!(Model::from_mjcf(&changed(HUMANOID_XML, "<tendon>", &format!("<tendon>{crowd}"))).is_err());
@@ -319,8 +319,7 @@ fn tendons_that_would_act_are_refused_by_name() {
 #[test]
 fn tendons_that_only_measure_are_accepted() {
     let harmless = "<fixed name=\"left_hipknee\" limited=\"false\" range=\"-1 1\" stiffness=\"0\" damping=\"0.0\">";
-    let model =
-        Model::from_mjcf(&changed(HUMANOID_XML, "<fixed name=\"left_hipknee\">", harmless)).expect("it does nothing");
+    let model = Model::from_mjcf(&changed(HUMANOID_XML, "<fixed name=\"left_hipknee\">", harmless)).expect("no force");
     let names: Vec<&str> = model.tendons.iter().map(|tendon| tendon.name.as_str()).collect();
     assert_eq!(names, ["left_hipknee", "right_hipknee"]);
     let hinge = |name: &str| model.hinges.iter().position(|hinge| hinge.name == name).expect("is a hinge");
@@ -341,7 +340,7 @@ fn settings_out_of_range_are_refused() {
 }
 
 #[test]
-fn hinges_of_one_body_may_be_skew_and_many() {
+fn a_body_may_have_many_skew_hinges() {
     let axes = [[0.0, 1.0, 0.0], [0.0, 1.0, 0.5], [1.0, 0.0, 0.0], [0.3, 0.2, 1.0]];
     let more: String = axes[..3].iter().map(|[x, y, z]| format!("<joint axis=\"{x} {y} {z}\"/>")).collect();
     let last = format!("{more}<joint name=\"elbow\" axis=\"0.3 0.2 1\"");
@@ -353,7 +352,7 @@ fn hinges_of_one_body_may_be_skew_and_many() {
     position[8..].copy_from_slice(&angles);
     let velocity = vec![0.0; physics.velocity().len()];
     physics.set_state(&position, &velocity);
-    // Each hinge turns what comes after it: the product of all turns, from the parent's side on.
+    // Each hinge turns the following ones: the product of all rotations, from the parent on.
     let turned = axes.iter().zip(angles).fold(UnitQuaternion::identity(), |turned, (axis, angle_rad)| {
         turned * UnitQuaternion::from_axis_angle(&Unit::new_normalize(Vector3::from(*axis)), angle_rad)
     });

@@ -1,4 +1,4 @@
-//! The humanoid as a physical body: mass, falling, contacts, motors.
+//! Physics of the humanoid: mass, fall, contacts, motors.
 
 use nalgebra::Vector3;
 use treadmill_humanoid::{CONTROL_STEP_S, EnvironmentConfig, HUMANOID_XML, Model, Physics};
@@ -16,7 +16,7 @@ fn weightless_xml() -> String {
 }
 
 #[test]
-fn mass_is_that_of_the_original() {
+fn the_mass_is_that_of_humanoid_v5() {
     let model = Model::from_mjcf(HUMANOID_XML).expect("valid");
     // MuJoCo's sum of body masses for Humanoid-v5.
     assert!((model.mass_kg() - 42.116_030_492).abs() < 1e-6, "{}", model.mass_kg());
@@ -65,7 +65,7 @@ fn the_centre_of_mass_falls_freely_before_it_lands() {
 }
 
 #[test]
-fn a_passive_body_falls_and_the_floor_then_carries_its_weight() {
+fn a_passive_body_falls_and_the_floor_carries_its_weight() {
     let mut physics = physics(HUMANOID_XML, &EnvironmentConfig::default());
     for _ in 0..400 {
         physics.step_only(&IDLE).expect("finite");
@@ -86,7 +86,7 @@ fn a_passive_body_falls_and_the_floor_then_carries_its_weight() {
 }
 
 #[test]
-fn contact_forces_account_for_the_change_of_vertical_momentum() {
+fn contact_forces_explain_the_change_of_vertical_momentum() {
     let mut physics = physics(HUMANOID_XML, &EnvironmentConfig::default());
     let mass_kg = physics.model().mass_kg();
     let mut touched = 0;
@@ -109,8 +109,8 @@ fn nothing_touches_at_the_start() {
     assert_eq!(physics.squared_contact_wrenches(), 0.0);
 }
 
-/// A posture away from all limits, and how much faster each motor's hinge turns after one control step at control 0.2,
-/// compared with an idle motor: measured in MuJoCo 3 on Humanoid-v5 without gravity and contacts.
+/// A posture away from all limits, and the rate (rad/s) that each motor at control 0.2 adds to its hinge in one control step:
+/// measured with MuJoCo 3 on Humanoid-v5 without gravity and contacts.
 const POSTURE: [f64; 17] =
     [0.1, -0.2, 0.1, -0.1, -0.2, -0.5, -0.6, -0.1, -0.2, -0.5, -0.6, 0.1, -0.2, -0.3, 0.1, -0.2, -0.3];
 const MUJOCO_RATE_CHANGE: [f64; 17] = [
@@ -118,7 +118,7 @@ const MUJOCO_RATE_CHANGE: [f64; 17] = [
     1.574,
 ];
 
-/// How much each motor at control 0.2 adds to the rate of its own hinge within one control step (rad/s).
+/// Rate that each motor at control 0.2 adds to its hinge in one control step (rad/s).
 fn rate_changes(config: &EnvironmentConfig) -> Vec<f64> {
     let mut physics = physics(&weightless_xml(), config);
     let mut position = physics.model().nominal_position();
@@ -142,17 +142,17 @@ fn rate_changes(config: &EnvironmentConfig) -> Vec<f64> {
 }
 
 #[test]
-fn every_motor_turns_its_hinge_the_right_way() {
+fn every_motor_turns_its_hinge_in_the_right_direction() {
     let changes = rate_changes(&EnvironmentConfig::default());
     for (motor, (change, reference)) in changes.iter().zip(MUJOCO_RATE_CHANGE).enumerate() {
         let ratio = change / reference;
-        // Two coarse steps leave the waist, a light body between heavy ones, behind the rest.
+        // With two coarse steps the waist, a light body between heavy ones, lags behind.
         assert!((0.5..1.15).contains(&ratio), "motor {motor}: {change} rad/s, {ratio} of MuJoCo's");
     }
 }
 
 #[test]
-fn with_fine_steps_the_dynamics_are_those_of_mujoco() {
+fn with_fine_steps_the_dynamics_match_mujoco() {
     let config = EnvironmentConfig { substeps: 15, solver_iterations: 8, ..EnvironmentConfig::default() };
     for (motor, (change, reference)) in rate_changes(&config).iter().zip(MUJOCO_RATE_CHANGE).enumerate() {
         let ratio = change / reference;
@@ -161,7 +161,7 @@ fn with_fine_steps_the_dynamics_are_those_of_mujoco() {
 }
 
 #[test]
-fn torques_are_inner_forces() {
+fn motors_do_not_accelerate_the_centre_of_mass() {
     let mut physics = physics(&weightless_xml(), &EnvironmentConfig::default());
     let mut position = physics.model().nominal_position();
     position[2] = 5.0;
@@ -172,7 +172,7 @@ fn torques_are_inner_forces() {
     }
     assert!(physics.joint_rates().iter().any(|rate| rate.abs() > 1.0));
     let drift_mps = physics.centre_of_mass_velocity().norm();
-    assert!(drift_mps < 0.01, "motors pushed the body through empty space: {drift_mps} m/s");
+    assert!(drift_mps < 0.01, "motors moved the centre of mass at {drift_mps} m/s");
 }
 
 #[test]

@@ -1,4 +1,4 @@
-//! A box on the floor: what every contact solver must get right.
+//! A box on the floor: basic checks of the contact solver.
 
 use nalgebra::{UnitQuaternion, Vector3};
 use treadmill_humanoid::{CONTROL_STEP_S, EnvironmentConfig, Model, Physics};
@@ -6,7 +6,7 @@ use treadmill_humanoid::{CONTROL_STEP_S, EnvironmentConfig, Model, Physics};
 const GRAVITY_MPS2: f64 = 9.81;
 const MASS_KG: f64 = 3.0;
 
-/// A flat box, 0.4 m × 0.6 m × 0.2 m; the model needs a hinge and a motor, which move next to nothing.
+/// A flat box, 0.4 m × 0.6 m × 0.2 m; the required hinge and motor are negligible.
 fn flat_box(friction: f64, substeps: u32) -> Physics {
     let text = format!(
         r#"<mujoco><worldbody><geom type="plane" size="1 1 1" friction="{friction}"/><body pos="0 0 0.1"><freejoint/>
@@ -24,7 +24,7 @@ fn step(body: &mut Physics) {
 }
 
 #[test]
-fn at_rest_the_floor_carries_the_weight_and_nothing_else_happens() {
+fn a_box_at_rest_stays_and_the_floor_carries_its_weight() {
     let mut body = flat_box(1.0, 2);
     for _ in 0..100 {
         step(&mut body);
@@ -38,16 +38,16 @@ fn at_rest_the_floor_carries_the_weight_and_nothing_else_happens() {
         assert!(moment_nm.norm() < 0.05, "{moment_nm} N·m");
     }
     let moved = place.iter().zip(body.position()).take(7).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
-    // The sweeps leave a creep of 0.4 mm/s behind.
+    // The solver's sweeps leave a creep of 0.4 mm/s.
     assert!(moved < 1.5e-3, "it crept by {moved} m or rad in 1.5 s");
 }
 
 #[test]
-fn sliding_takes_friction_times_gravity_from_the_speed() {
+fn a_sliding_box_decelerates_by_friction_times_gravity() {
     for friction in [0.2, 0.5, 0.8] {
         let mut body = flat_box(friction, 2);
         let mut position = body.model().nominal_position();
-        // It lies as deep as it does at rest, so that it neither lands nor jumps.
+        // Start at the depth of rest, so that the box neither lands nor jumps.
         for _ in 0..60 {
             step(&mut body);
         }
@@ -64,7 +64,7 @@ fn sliding_takes_friction_times_gravity_from_the_speed() {
         }
         let slowed = (start - body.centre_of_mass_velocity().y) / (f64::from(steps) * CONTROL_STEP_S);
         assert!((slowed / (friction * GRAVITY_MPS2) - 1.0).abs() < 0.03, "{slowed} m/s² at friction {friction}");
-        // In the end it stops and stays.
+        // Finally it stops.
         for _ in 0..200 {
             step(&mut body);
         }
@@ -80,7 +80,7 @@ fn energy_j(body: &Physics) -> f64 {
 }
 
 #[test]
-fn no_impact_gives_energy() {
+fn no_impact_adds_energy() {
     for (index, tilt) in [(0.3, 0.2, 0.0), (0.8, 0.1, 0.5), (1.2, 0.7, 0.0), (0.0, 0.0, 0.0)].into_iter().enumerate() {
         let mut body = flat_box(0.7, 2);
         let rotation = UnitQuaternion::from_euler_angles(tilt.0, tilt.1, tilt.2);
@@ -97,10 +97,10 @@ fn no_impact_gives_energy() {
             gained = gained.max(now - start);
             last = now;
         }
-        assert!(gained <= 1e-3 * start, "drop {index}: {gained} J more than the {start} J it began with");
-        // What a soft floor has taken up it gives back, to the part of a joule.
+        assert!(gained <= 1e-3 * start, "drop {index}: {gained} J more than the {start} J at the start");
+        // A soft floor returns the energy that it has absorbed.
         assert!(at_once < 0.02 * start, "drop {index}: {at_once} J within one step");
-        // It comes to rest, on some side.
+        // It comes to rest.
         assert!(last < 0.7 * start, "drop {index}: {last} J left of {start} J");
     }
 }

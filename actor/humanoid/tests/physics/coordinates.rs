@@ -1,4 +1,4 @@
-//! Any position and velocity can be set, and is read back.
+//! Positions and velocities are read back as they were set.
 
 use nalgebra::Vector3;
 use proptest::prelude::*;
@@ -13,7 +13,7 @@ proptest! {
     #![proptest_config(ProptestConfig::with_cases(200))]
 
     #[test]
-    fn what_is_set_is_read_back(
+    fn a_state_is_read_back_as_it_was_set(
         place in prop::array::uniform3(-5.0..5.0f64),
         turn in prop::array::uniform4(-1.0..1.0f64).prop_filter("a rotation", |q| q.iter().map(|x| x * x).sum::<f64>() > 0.1),
         fractions in prop::collection::vec(0.0..1.0f64, 17),
@@ -27,14 +27,14 @@ proptest! {
             position.push(hinge.min_rad + fraction * (hinge.max_rad - hinge.min_rad));
         }
         physics.try_set_state(&position, &velocity).expect("within all ranges");
-        // Only the quaternion is touched: it is made a unit one.
+        // Only the quaternion may change, by normalisation.
         for (index, (found, set)) in physics.position().iter().zip(&position).enumerate() {
             prop_assert!((found - set).abs() < 1e-12, "position {index}: {found} instead of {set}");
         }
         for (index, (found, set)) in physics.velocity().iter().zip(&velocity).enumerate() {
             prop_assert!((found - set).abs() < 1e-12, "velocity {index}: {found} instead of {set}");
         }
-        // The root's body moves with these numbers, too: turned into the world where they are in its own axes.
+        // The root's body has the same motion; its angular velocity is set in the root's axes.
         let root = physics.body_motions()[0];
         let spin = root.pose.rotation * Vector3::new(velocity[3], velocity[4], velocity[5]);
         prop_assert!((root.angular_radps - spin).norm() < 1e-12);
@@ -44,7 +44,7 @@ proptest! {
 }
 
 #[test]
-fn the_root_moves_with_its_frame_and_not_with_its_centre_of_mass() {
+fn the_root_velocity_is_that_of_its_frame_not_its_centre_of_mass() {
     let mut physics = physics();
     let mut position = physics.model().nominal_position();
     position[2] = 3.0;
@@ -52,14 +52,14 @@ fn the_root_moves_with_its_frame_and_not_with_its_centre_of_mass() {
     velocity[..6].copy_from_slice(&[1.0, 0.0, 0.0, 0.0, 2.0, 0.0]);
     physics.set_state(&position, &velocity);
     let (torso, motion) = (&physics.model().bodies[0], &physics.body_motions()[0]);
-    // Turning forward at 2 rad/s carries a centre that lies d above the frame forward at 2d.
+    // At 2 rad/s forward, a centre of mass d above the frame moves forward at 2d.
     let expected = 1.0 + 2.0 * torso.centre_of_mass_m.z;
     assert!(torso.centre_of_mass_m.z.abs() > 0.01);
     assert!((motion.linear_mps.x - expected).abs() < 1e-12);
 }
 
 #[test]
-fn bending_the_knee_lifts_the_foot_backwards() {
+fn bending_the_knee_moves_the_foot_up_and_back() {
     let mut physics = physics();
     let mut position = physics.model().nominal_position();
     let knee = physics.model().hinges.iter().position(|hinge| hinge.name == "right_knee").expect("has a knee");

@@ -1,4 +1,4 @@
-//! How exact the articulated body is between contacts: symmetry, conservation, limits, springs.
+//! Accuracy of the articulated body without contacts: symmetry, conservation laws, limits, springs.
 
 use nalgebra::{UnitQuaternion, Vector3};
 use rand::{RngExt, SeedableRng};
@@ -7,7 +7,7 @@ use treadmill_humanoid::{CONTROL_STEP_S, EnvironmentConfig, HUMANOID_XML, Mirror
 
 const GRAVITY_MPS2: f64 = 9.81;
 
-/// A text with some of its figures changed, each of which must be there.
+/// Returns the built-in text with all changes applied; each must match.
 fn changed(changes: &[(&str, &str)]) -> String {
     changes.iter().fold(HUMANOID_XML.to_owned(), |text, (from, to)| {
         assert!(text.contains(from), "{from}");
@@ -19,13 +19,13 @@ const WEIGHTLESS: (&str, &str) = ("<option ", "<option gravity=\"0 0 0\" ");
 const WITHOUT_LIMITS: (&str, &str) = ("limited=\"true\" damping", "limited=\"false\" damping");
 const WITHOUT_FRICTION: [(&str, &str); 2] = [("damping=\"5\"", "damping=\"0\""), ("damping=\"1\"", "damping=\"0\"")];
 
-/// One in which nothing touches: far above the floor, and limbs may pass through each other.
+/// Physics without self-collision, for states far above the floor.
 fn flying(xml: &str, substeps: u32) -> Physics {
     let config = EnvironmentConfig { substeps, self_collision: false, ..EnvironmentConfig::default() };
     Physics::new(Model::from_mjcf(xml).expect("valid"), &config).expect("valid")
 }
 
-/// A state 100 m up with any orientation, hinges in the inner part of their ranges, and rates of up to `rate`.
+/// Random state 100 m up with any orientation, hinges in the inner part of their ranges, and rates up to `rate`.
 fn random_state(model: &Model, random: &mut Xoshiro256PlusPlus, rate: f64) -> (Vec<f64>, Vec<f64>) {
     let mut position = vec![random.random_range(-5.0..5.0), random.random_range(-5.0..5.0), 100.0];
     let turn = Vector3::from_fn(|_, _| random.random_range(-3.0..3.0));
@@ -35,7 +35,7 @@ fn random_state(model: &Model, random: &mut Xoshiro256PlusPlus, rate: f64) -> (V
         let share = random.random_range(0.2..0.8);
         position.push(hinge.min_rad + share * (hinge.max_rad - hinge.min_rad));
     }
-    // The pose without limits has no ranges; any angle will do.
+    // Hinges without limits get any angle.
     for angle in &mut position[7..] {
         if !angle.is_finite() {
             *angle = random.random_range(-1.0..1.0);
@@ -45,20 +45,20 @@ fn random_state(model: &Model, random: &mut Xoshiro256PlusPlus, rate: f64) -> (V
     (position, velocity)
 }
 
-/// The numbers in their mirror image's place.
-fn exchanged(numbers: &[f64], exchange: &[(usize, f32)]) -> Vec<f64> {
-    exchange.iter().map(|(at, sign)| numbers[*at] * f64::from(*sign)).collect()
+/// Applies a signed permutation.
+fn permuted(numbers: &[f64], permutation: &[(usize, f32)]) -> Vec<f64> {
+    permutation.iter().map(|(at, sign)| numbers[*at] * f64::from(*sign)).collect()
 }
 
 fn mirrored(state: &(Vec<f64>, Vec<f64>), mirror: &Mirror) -> (Vec<f64>, Vec<f64>) {
-    (exchanged(&state.0, &mirror.position), exchanged(&state.1, &mirror.velocity))
+    (permuted(&state.0, &mirror.position), permuted(&state.1, &mirror.velocity))
 }
 
 fn largest_difference(one: &[f64], other: &[f64]) -> f64 {
     one.iter().zip(other).map(|(one, other)| (one - other).abs()).fold(0.0, f64::max)
 }
 
-/// A body and its mirror image. Left and right differ in two figures of Humanoid-v5 itself, which are made equal here.
+/// Body and its mirror image. Two values that differ between left and right in Humanoid-v5 are made equal here.
 struct Twins {
     body: Physics,
     image: Physics,
@@ -73,9 +73,9 @@ impl Twins {
         let xml = changed(&[&equal[..], changes].concat());
         let body = flying(&xml, 2);
         let model = body.model().clone();
-        let mirror = Mirror::of(&model).expect("left and right are alike");
+        let mirror = Mirror::of(&model).expect("left and right are symmetric");
         let own: Vec<usize> = (0..17).filter(|motor| mirror.action[*motor].0 == *motor).collect();
-        assert_eq!(own.len(), 3, "those of the abdomen");
+        assert_eq!(own.len(), 3, "only the abdomen's motors are their own image");
         assert!(mirror.action.iter().any(|(_, sign)| *sign < 0.0) && mirror.action.iter().any(|(_, sign)| *sign > 0.0));
         Self { body, image: flying(&xml, 2), model, mirror }
     }
@@ -86,7 +86,7 @@ impl Twins {
         self.image.set_state(&position, &velocity);
     }
 
-    /// Steps both, and tells by how much they differ afterwards in any coordinate or rate.
+    /// Steps both and returns their largest difference in any coordinate or rate.
     fn step(&mut self, controls: &[f32; 17]) -> f64 {
         let others: Vec<f32> = self.mirror.action.iter().map(|(at, sign)| controls[*at] * sign).collect();
         self.body.step_only(controls).expect("finite");
@@ -101,14 +101,14 @@ impl Twins {
             .max(largest_difference(&velocity, self.image.velocity()))
     }
 
-    fn limits_reached(&self) -> usize {
+    fn exceeded_limits(&self) -> usize {
         let pairs = self.model.hinges.iter().zip(self.body.joint_angles());
         pairs.filter(|(hinge, angle)| hinge.overshoot_rad(**angle) > 0.0).count()
     }
 }
 
 #[test]
-fn a_mirrored_body_moves_as_in_a_mirror() {
+fn a_mirrored_body_has_the_mirrored_motion() {
     let mut twins = Twins::new(&[WITHOUT_LIMITS]);
     let mut random = Xoshiro256PlusPlus::seed_from_u64(5);
     for _ in 0..8 {
@@ -122,18 +122,18 @@ fn a_mirrored_body_moves_as_in_a_mirror() {
 }
 
 #[test]
-fn an_observation_in_the_mirror_is_that_of_the_mirrored_body() {
+fn a_mirrored_observation_is_that_of_the_mirrored_body() {
     let twins = Twins::new(&[]);
     let state = random_state(&twins.model, &mut Xoshiro256PlusPlus::seed_from_u64(7), 3.0);
     let seen = |(position, velocity): &(Vec<f64>, Vec<f64>), skipped: usize| [&position[skipped..], velocity].concat();
     for skipped in [0, 2] {
-        let exchange = twins.mirror.observation(45 + 2 - skipped);
-        assert_eq!(exchanged(&seen(&state, skipped), &exchange), seen(&mirrored(&state, &twins.mirror), skipped));
+        let permutation = twins.mirror.observation(45 + 2 - skipped);
+        assert_eq!(permuted(&seen(&state, skipped), &permutation), seen(&mirrored(&state, &twins.mirror), skipped));
     }
 }
 
 #[test]
-fn what_has_no_mirror_image_is_named() {
+fn hinges_and_motors_without_a_mirror_image_are_named() {
     let limping = changed(&[("joint=\"left_hip_x\" gear=\"100\"", "joint=\"left_hip_x\" gear=\"90\"")]);
     let why = Mirror::of(flying(&limping, 2).model()).expect_err("one motor is weaker");
     assert!(why.contains("motor `right_hip_x`"), "{why}");
@@ -144,11 +144,11 @@ fn what_has_no_mirror_image_is_named() {
 }
 
 #[test]
-fn limits_act_as_in_a_mirror() {
+fn limits_act_symmetrically() {
     let mut twins = Twins::new(&[]);
     let model = twins.model.clone();
     let mut random = Xoshiro256PlusPlus::seed_from_u64(6);
-    // One limit at a time: each hinge is flung against either end.
+    // One limit at a time: each hinge swings into either end.
     let (mut reached, mut worst) = (0, 0.0f64);
     for (hinge, limits) in model.hinges.iter().enumerate() {
         for (end, outwards) in [(limits.min_rad, -1.0), (limits.max_rad, 1.0)] {
@@ -158,7 +158,7 @@ fn limits_act_as_in_a_mirror() {
             twins.set_state(&state);
             for _ in 0..4 {
                 let off = twins.step(&[0.0; 17]);
-                match twins.limits_reached() {
+                match twins.exceeded_limits() {
                     0 => {}
                     1 => reached += 1,
                     _ => break,
@@ -170,7 +170,7 @@ fn limits_act_as_in_a_mirror() {
     assert!(reached > 50, "{reached}");
     assert!(worst < 1e-9, "off by {worst}");
 
-    // Several at once act on each other. They are solved one after the other, and not to the end: a step leaves this.
+    // Several limits at once affect each other. The solver sweeps over them without converging, which leaves a difference.
     let mut several = 0;
     let mut worst = 0.0f64;
     for _ in 0..40 {
@@ -178,7 +178,7 @@ fn limits_act_as_in_a_mirror() {
         for _ in 0..20 {
             twins.set_state(&state);
             worst = worst.max(twins.step(&std::array::from_fn(|_| random.random_range(-0.4..0.4))));
-            several += u32::from(twins.limits_reached() > 1);
+            several += u32::from(twins.exceeded_limits() > 1);
             state = (twins.body.position().to_vec(), twins.body.velocity().to_vec());
         }
     }
@@ -187,7 +187,7 @@ fn limits_act_as_in_a_mirror() {
 }
 
 #[test]
-fn a_chain_of_hinges_turns_one_after_the_other() {
+fn a_chain_of_hinges_composes_in_order() {
     let mut body = flying(HUMANOID_XML, 2);
     let model = body.model().clone();
     let mut random = Xoshiro256PlusPlus::seed_from_u64(9);
@@ -206,14 +206,14 @@ fn a_chain_of_hinges_turns_one_after_the_other() {
             }
             assert!(own.pose.rotation.angle_to(&rotation) < 1e-7, "{}", part.name);
             assert!((own.angular_radps - spin).norm() < 1e-12, "{}", part.name);
-            // Both ends of the joint are in one place.
+            // Both sides of the joint have the same anchor.
             let apart = own.pose * part.anchor_m - above.pose * (part.pose * part.anchor_m);
             assert!(apart.norm() < 1e-12, "{}", part.name);
         }
     }
 }
 
-/// Kinetic energy of bodies and rotors, energy of the springs, and of the height (J).
+/// Kinetic energy of bodies and rotors, spring energy and potential energy (J).
 fn energy_j(body: &Physics) -> f64 {
     let model = body.model();
     let mut sum = 0.0;
@@ -229,7 +229,7 @@ fn energy_j(body: &Physics) -> f64 {
     sum
 }
 
-/// Greatest change (J) of the energy of a passive body without friction and limits within 1 s of fall.
+/// Largest energy change (J) of a passive body without friction and limits in 1 s of fall.
 fn energy_drift_j(substeps: u32) -> f64 {
     let mut body = flying(&changed(&[&WITHOUT_FRICTION[..], &[WITHOUT_LIMITS]].concat()), substeps);
     let model = body.model().clone();
@@ -248,13 +248,16 @@ fn energy_drift_j(substeps: u32) -> f64 {
 }
 
 #[test]
-fn energy_of_a_passive_body_stays_and_the_better_the_finer_the_steps() {
+fn a_passive_body_conserves_energy_to_second_order() {
     let (coarse, fine) = (energy_drift_j(2), energy_drift_j(8));
     assert!(coarse < 0.5, "{coarse} J");
-    assert!(fine < coarse / 9.0, "of second order, steps of a quarter leave a sixteenth: {fine} J of {coarse} J");
+    assert!(
+        fine < coarse / 9.0,
+        "second order: a quarter of the step should leave a sixteenth: {fine} J of {coarse} J"
+    );
 }
 
-/// Momentum (N·s) and angular momentum about the centre of mass (N·m·s), from the bodies' motion alone.
+/// Momentum (N·s) and angular momentum about the centre of mass (N·m·s), from the bodies' motion.
 fn momentum(body: &Physics) -> (Vector3<f64>, Vector3<f64>) {
     let centre = body.centre_of_mass();
     let (mut linear, mut angular) = (Vector3::zeros(), Vector3::zeros());
@@ -269,7 +272,7 @@ fn momentum(body: &Physics) -> (Vector3<f64>, Vector3<f64>) {
 }
 
 #[test]
-fn motors_limits_and_gravity_change_no_momentum_but_that_of_falling() {
+fn only_gravity_changes_the_momentum_of_a_flying_body() {
     let mut body = flying(HUMANOID_XML, 2);
     let model = body.model().clone();
     let mut random = Xoshiro256PlusPlus::seed_from_u64(17);
@@ -289,12 +292,12 @@ fn motors_limits_and_gravity_change_no_momentum_but_that_of_falling() {
             let wanted = linear + fallen * model.mass_kg();
             worst = worst.max((linear_now - wanted).norm() / linear.norm());
             worst = worst.max((angular_now - angular).norm() / angular.norm());
-            // The centre of mass is on its parabola.
+            // The centre of mass follows its parabola.
             let place = start + linear / model.mass_kg() * time_s + fallen * (time_s / 2.0);
             worst = worst.max((body.centre_of_mass() - place).norm());
         }
     }
-    assert!(reached > 100, "limits were hardly reached");
+    assert!(reached > 100, "too few steps with exceeded limits");
     assert!(worst < 1e-11, "off by {worst}");
 }
 
@@ -318,7 +321,7 @@ fn a_hinge_driven_against_an_end_stops_there_and_comes_back() {
                 body.step_only(&controls).expect("finite");
                 beyond = beyond.max((body.joint_angles()[hinge] - end_rad) * f64::from(control).signum());
             }
-            // Knees are flung furthest: 80 N·m push a shin by 0.17 rad too far.
+            // Knees exceed their range most: 80 N·m push a shin 0.17 rad beyond it.
             assert!((0.0..0.2).contains(&beyond), "{} goes {beyond} rad beyond {end_rad} rad", limits.name);
             for _ in 0..100 {
                 body.step_only(&[0.0; 17]).expect("finite");

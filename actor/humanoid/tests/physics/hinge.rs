@@ -1,13 +1,13 @@
-//! One hinge between two bodies, against the closed form of its motion.
+//! One hinge between two bodies, compared with the closed form of its motion.
 
 use treadmill_humanoid::{CONTROL_STEP_S, EnvironmentConfig, Model, Physics};
 
 const ROOT_INERTIA_KGM2: f64 = 0.3;
 const LINK_INERTIA_KGM2: f64 = 0.02;
-/// Two bodies turn against each other on one axis through both their centres of mass: what counts is 1 / Σ 1/inertia.
+/// Effective inertia of two bodies that turn about one axis through both centres of mass: 1 / Σ 1/inertia.
 const REDUCED_KGM2: f64 = ROOT_INERTIA_KGM2 * LINK_INERTIA_KGM2 / (ROOT_INERTIA_KGM2 + LINK_INERTIA_KGM2);
 
-/// Two weightless bodies on one hinge about y with the given attributes, and a motor of 1 N·m per unit of control.
+/// Two bodies without gravity on one hinge about y with the given attributes, and a motor of 1 N·m per unit of control.
 fn pair(joint: &str, substeps: u32) -> Physics {
     let text = format!(
         r#"<mujoco><compiler angle="degree"/><option gravity="0 0 0"/>
@@ -61,10 +61,10 @@ fn errors(substeps: u32) -> [f64; 2] {
 }
 
 #[test]
-fn a_driven_damped_sprung_hinge_swings_as_in_the_closed_form() {
+fn a_driven_damped_spring_hinge_follows_the_closed_form() {
     let all: Vec<[f64; 2]> = [1, 2, 4, 8, 16].into_iter().map(errors).collect();
     for pair in all.windows(2) {
-        // Of second order: half the step leaves a quarter of the error.
+        // Second order: half the step gives a quarter of the error.
         for (coarse, fine) in pair[0].iter().zip(&pair[1]) {
             assert!((3.5..4.5).contains(&(coarse / fine)), "{all:?}");
         }
@@ -74,7 +74,7 @@ fn a_driven_damped_sprung_hinge_swings_as_in_the_closed_form() {
 }
 
 #[test]
-fn a_rotor_adds_its_inertia_to_the_hinge_and_nothing_else() {
+fn armature_adds_inertia_to_the_hinge_only() {
     for armature in [0.0, 0.05, 1.0] {
         let mut body = pair(&format!("armature=\"{armature}\""), 2);
         start(&mut body, 0.3, 0.0);
@@ -82,7 +82,7 @@ fn a_rotor_adds_its_inertia_to_the_hinge_and_nothing_else() {
             body.step_only(&[2.0]).expect("finite");
             let rate = 2.0 / (REDUCED_KGM2 + armature) * f64::from(step) * CONTROL_STEP_S;
             assert!((body.joint_rates()[0] / rate - 1.0).abs() < 1e-12, "armature {armature}");
-            // The bodies' own turning adds up to nothing, however heavy the rotor is.
+            // The bodies' angular momenta sum to zero for any armature.
             let spin = [0, 1].map(|index| body.body_motions()[index].angular_radps.y);
             let sum = ROOT_INERTIA_KGM2 * spin[0] + LINK_INERTIA_KGM2 * spin[1];
             assert!(sum.abs() < 1e-12 && spin[1] > 0.0 && spin[0] < 0.0, "armature {armature}: {spin:?}");
@@ -91,7 +91,7 @@ fn a_rotor_adds_its_inertia_to_the_hinge_and_nothing_else() {
 }
 
 #[test]
-fn friction_of_a_hinge_slows_both_bodies_exponentially() {
+fn hinge_damping_slows_both_bodies_exponentially() {
     let mut body = pair("armature=\"0.01\" damping=\"0.3\"", 64);
     start(&mut body, 0.0, 3.0);
     for step in 1..=10 {
@@ -103,7 +103,7 @@ fn friction_of_a_hinge_slows_both_bodies_exponentially() {
 }
 
 #[test]
-fn a_spring_comes_to_rest_where_it_is_slack_within_and_without_the_range() {
+fn a_spring_comes_to_rest_at_its_rest_angle_with_and_without_a_range() {
     for (joint, wanted) in [
         ("stiffness=\"5\" damping=\"0.3\" springref=\"-35\"", -35f64),
         ("stiffness=\"5\" damping=\"0.3\" springref=\"15\" range=\"-10 20\"", 15.0),

@@ -1,4 +1,4 @@
-//! Motion of bodies: the humanoid, small bodies with a closed form, bodies of other texts.
+//! Motion of the humanoid, of small bodies with a closed form, and of other models.
 
 mod body;
 mod boxes;

@@ -1,10 +1,10 @@
-//! How bodies of other texts move: contacts by their rules, motors by their ranges, servos.
+//! Motion of other models: collision rules, friction, margins, motor ranges, servos.
 
 use treadmill_humanoid::{CONTROL_STEP_S, Environment, EnvironmentConfig, Model, Physics, Variation};
 
 const G1_LIKE_XML: &str = include_str!("../../assets/g1-like.xml");
 
-/// A trunk with two arms, whose hands overlap; attributes for each hand and the floor, and more sections.
+/// Trunk with two arms whose hands overlap; with attributes of each hand and the floor, and more sections.
 fn crossed(left: &str, right: &str, floor: &str, more: &str) -> Physics {
     let arm = |name: &str, shape: &str| {
         format!(
@@ -22,7 +22,7 @@ fn crossed(left: &str, right: &str, floor: &str, more: &str) -> Physics {
     Physics::new(Model::from_mjcf(&text).expect("valid"), &EnvironmentConfig::default()).expect("valid")
 }
 
-/// Whether the hands push each other in the air, and whether the floor, in which they are 3 cm deep, lifts the body.
+/// Whether the hands push each other in the air, and whether the floor lifts the body when they are 3 cm below it.
 fn touches(left: &str, right: &str, floor: &str, more: &str) -> (bool, bool) {
     let step_at = |height_m: f64| {
         let mut physics = crossed(left, right, floor, more);
@@ -37,12 +37,12 @@ fn touches(left: &str, right: &str, floor: &str, more: &str) -> (bool, bool) {
 }
 
 #[test]
-fn shapes_touch_by_types_affinities_and_exclusions() {
+fn contype_conaffinity_and_exclusions_decide_contacts() {
     assert_eq!(touches("", "", "", ""), (true, true));
     let ghost = "contype=\"0\" conaffinity=\"0\"";
     assert_eq!(touches(ghost, "", "", ""), (false, true));
     assert_eq!(touches(ghost, ghost, "", ""), (false, false));
-    // The floor has affinity to hands, but hands not to each other.
+    // The floor has affinity to the hands, but the hands do not have it to each other.
     let hand = "contype=\"1\" conaffinity=\"0\"";
     assert_eq!(touches(hand, hand, "contype=\"0\" conaffinity=\"1\"", ""), (false, true));
     // One side's affinity is enough.
@@ -54,7 +54,7 @@ fn shapes_touch_by_types_affinities_and_exclusions() {
     assert_eq!(touches("", "", "", &part("trunk", "right")), (true, true));
 }
 
-/// How fast a box of 1 kg still slides after 0.15 s on the floor, having started at 2 m/s.
+/// Speed of a box of 1 kg after sliding on the floor for 0.15 s from 2 m/s.
 fn speed_left(shape: &str, floor: &str) -> f64 {
     let text = format!(
         r#"<mujoco><worldbody><geom type="plane" size="1 1 1" {floor}/><body pos="0 0 0.1"><freejoint/>
@@ -73,8 +73,8 @@ fn speed_left(shape: &str, floor: &str) -> f64 {
 }
 
 #[test]
-fn the_greater_friction_of_a_pair_brakes() {
-    // Friction µ takes µ·g from the speed each second: 2 − µ × 9.81 × 0.15.
+fn the_greater_friction_of_a_pair_counts() {
+    // Friction µ decelerates by µ·g: 2 − µ × 9.81 × 0.15.
     for (shape, floor, friction) in [
         ("friction=\"0.2\"", "friction=\"0.6\"", 0.6),
         ("friction=\"0.9\"", "friction=\"0.6\"", 0.9),
@@ -87,7 +87,7 @@ fn the_greater_friction_of_a_pair_brakes() {
     }
 }
 
-/// Distance between a ball and the floor (m) when it has come to rest.
+/// Distance (m) between a ball at rest and the floor.
 fn resting_gap_m(ball: &str, floor: &str) -> f64 {
     let text = format!(
         r#"<mujoco><worldbody><geom type="plane" size="1 1 1" {floor}/><body pos="0 0 0.125"><freejoint/>
@@ -104,8 +104,8 @@ fn resting_gap_m(ball: &str, floor: &str) -> f64 {
 }
 
 #[test]
-fn the_margins_of_a_pair_keep_them_apart() {
-    // A contact as soft as MuJoCo's gives way by g · (1 − impedance) · (impedance × time constant)²: 0.18 mm.
+fn the_margins_of_a_pair_add_up() {
+    // A contact as soft as MuJoCo's yields by g · (1 − impedance) · (impedance × time constant)²: 0.18 mm.
     let give_m = 9.81 * 0.05 * (0.95 * 0.02f64).powi(2);
     for (ball, floor, margin_m) in [
         ("", "", 0.0),
@@ -144,7 +144,7 @@ fn solid_shapes_rest_on_their_surfaces() {
     }
 }
 
-/// A trunk with one driven hinge; the motor's element, and attributes of the joint.
+/// Trunk with one driven hinge; with the motor's element and attributes of the joint.
 fn driven(motor: &str, joint: &str) -> Environment {
     let text = format!(
         r#"<mujoco><compiler angle="radian"/><option gravity="0 0 0"/><worldbody><geom type="plane" size="1 1 1"/>
@@ -155,7 +155,7 @@ fn driven(motor: &str, joint: &str) -> Environment {
     Environment::new(&EnvironmentConfig::default(), &text).expect("valid")
 }
 
-/// Torque (N·m) on the hinge at its beginning, for a share of the motor's range.
+/// Torque (N·m) on the hinge in the first step, for a share of the motor's range.
 fn torque_nm(environment: &mut Environment, share: f32, angle_rad: f64, rate_radps: f64) -> f64 {
     let (mut action, config) =
         (vec![0.0; environment.action_size()], EnvironmentConfig { substeps: 1, ..Default::default() });
@@ -169,13 +169,13 @@ fn torque_nm(environment: &mut Environment, share: f32, angle_rad: f64, rate_rad
 }
 
 #[test]
-fn shares_of_an_uneven_range_reach_both_its_ends() {
+fn shares_of_an_asymmetric_range_reach_both_ends() {
     let mut one = driven("<motor joint=\"j\" gear=\"10\" ctrlrange=\"-0.25 0.75\"/>", "");
     assert_eq!(one.action_ranges(), [[-0.25, 0.75]]);
     for (share, torque) in [(-1.0, -2.5), (0.0, 2.5), (1.0, 7.5), (0.5, 5.0), (7.0, 7.5), (-7.0, -2.5)] {
         assert_eq!(torque_nm(&mut one, share, 0.0, 0.0), torque);
     }
-    // Two motors on one hinge add up, until the hinge's own limit.
+    // The torques of two motors on one hinge add up to the hinge's limit.
     let both = "<motor joint=\"j\" gear=\"10\" ctrlrange=\"-1 1\"/><motor joint=\"j\" gear=\"5\" ctrlrange=\"-2 1\"/>";
     let mut limited = driven(both, "actuatorfrcrange=\"-12 100\"");
     assert_eq!(torque_nm(&mut limited, 1.0, 0.0, 0.0), 15.0);
@@ -185,7 +185,7 @@ fn shares_of_an_uneven_range_reach_both_its_ends() {
 }
 
 #[test]
-fn servos_pull_with_the_torques_that_mujoco_finds() {
+fn servo_torques_equal_mujocos() {
     // MuJoCo 4.0: control 0.4, angle 0.1, rate 0.3 and gear 2 give a force of 8.8.
     let heavy = "armature=\"1\"";
     let servo = "<position joint=\"j\" kp=\"50\" kv=\"2\" gear=\"2\" ctrlrange=\"-0.4 0.4\"/>";
@@ -200,7 +200,7 @@ fn servos_pull_with_the_torques_that_mujoco_finds() {
 }
 
 #[test]
-fn a_weaker_servo_still_knows_where_it_is() {
+fn a_weaker_servo_measures_the_same_length() {
     let servo = driven("<position joint=\"j\" kp=\"50\" gear=\"2\" ctrlrange=\"-0.4 0.4\"/>", "armature=\"1\"");
     let mut physics = Physics::new(servo.physics().model().clone(), &EnvironmentConfig::default()).expect("valid");
     let mut position = physics.model().nominal_position();
@@ -209,11 +209,11 @@ fn a_weaker_servo_still_knows_where_it_is() {
     variation.motor_scale[0] = 0.5;
     physics.set_variation(&variation);
     physics.set_state(&position, &[0.0; 7]);
-    // Before the first step a servo holds control 0, and pulls back: half of 2 × 50 × −0.2.
+    // Before the first step a servo's control is 0: half of 2 × 50 × −0.2.
     assert!((physics.joint_torques_nm()[0] + 10.0).abs() < 1e-9, "{} N·m", physics.joint_torques_nm()[0]);
     let control = 0.2;
     physics.step_only(&[control]).expect("finite");
-    // Gear 2 at 0.1 rad is a length of 0.2: where it is to be, so that nothing pulls, however strong it is.
+    // Gear 2 at 0.1 rad is a length of 0.2, the target, so the torque is 0 at any strength.
     assert!(physics.joint_torques_nm()[0].abs() < 1e-4, "{} N·m", physics.joint_torques_nm()[0]);
     position[7] = 0.0;
     physics.set_state(&position, &[0.0; 7]);
@@ -223,7 +223,7 @@ fn a_weaker_servo_still_knows_where_it_is() {
 }
 
 #[test]
-fn varied_friction_is_also_that_of_shapes_that_rub() {
+fn randomised_floor_friction_also_scales_the_shapes() {
     let text = r#"<mujoco><worldbody><geom type="plane" size="1 1 1" friction="0.8"/><body pos="0 0 0.1"><freejoint/>
         <geom type="box" size="0.3 0.3 0.1" mass="1" friction="0.8"/>
         <body><joint name="j"/><geom size="0.01" mass="0.001" contype="0" conaffinity="0"/></body></body></worldbody>
@@ -242,7 +242,7 @@ fn varied_friction_is_also_that_of_shapes_that_rub() {
 }
 
 #[test]
-fn a_servo_reaches_its_target_and_stays() {
+fn a_servo_reaches_and_keeps_its_target() {
     let mut environment = driven("<position joint=\"j\" kp=\"30\" kv=\"3\" ctrlrange=\"-1 1\"/>", "");
     let mut observation = vec![0.0; environment.observation_size()];
     environment.reset(1, &mut observation);
@@ -264,8 +264,8 @@ fn a_servo_too_stiff_for_the_physics_step_is_refused_by_name() {
     // A cube of 8 kg and 0.2 m side has 8 × 0.04 / 6 kg·m² about its middle; divided by the step, that is the bound.
     let bound = 8.0 * 0.04 / 6.0 / (CONTROL_STEP_S / 2.0);
     assert!(Physics::new(model(bound * 0.99), &config).is_ok());
-    let told = Physics::new(model(bound * 1.01), &config).err().expect("too stiff").to_string();
-    assert!(told.contains("stiff") && told.contains("env.substeps"), "{told}");
+    let message = Physics::new(model(bound * 1.01), &config).err().expect("too stiff").to_string();
+    assert!(message.contains("stiff") && message.contains("env.substeps"), "{message}");
     let finer = EnvironmentConfig { substeps: 4, ..config };
     assert!(Physics::new(model(bound * 1.01), &finer).is_ok());
 }
@@ -292,7 +292,7 @@ fn another_body_has_its_own_sizes() {
 }
 
 #[test]
-fn the_robot_of_29_hinges_stands_on_its_soles_and_obeys_its_ranges() {
+fn the_robot_of_29_hinges_stands_and_survives_random_actions() {
     let config = EnvironmentConfig { healthy_z_range: [0.5, 1.1], ..EnvironmentConfig::default() };
     let mut environment = Environment::new(&config, G1_LIKE_XML).expect("valid");
     assert_eq!((environment.observation_size(), environment.action_size()), (69, 29));
@@ -307,12 +307,12 @@ fn the_robot_of_29_hinges_stands_on_its_soles_and_obeys_its_ranges() {
         let force_n: f64 = (0..physics.model().links.len()).map(|link| physics.contact_wrench(link).0.z).sum();
         impulse_ns += force_n * CONTROL_STEP_S;
     }
-    // What the floor gives is what gravity takes, and the change of momentum.
+    // The floor's impulse compensates gravity and changes the momentum.
     let change_mps = environment.physics().centre_of_mass_velocity().z - start_mps;
     let wanted_ns = mass_kg * (change_mps + 9.81 * f64::from(steps) * CONTROL_STEP_S);
-    assert!((impulse_ns / wanted_ns - 1.0).abs() < 0.02, "the floor gives {impulse_ns} N·s instead of {wanted_ns} N·s");
-    assert!(wanted_ns > 0.5 * mass_kg * 9.81 * f64::from(steps) * CONTROL_STEP_S, "it hardly stands at all");
-    // Wild actions end episodes, and never the physics.
+    assert!((impulse_ns / wanted_ns - 1.0).abs() < 0.02, "the floor gives {impulse_ns} N·s, not {wanted_ns} N·s");
+    assert!(wanted_ns > 0.5 * mass_kg * 9.81 * f64::from(steps) * CONTROL_STEP_S, "it hardly stands");
+    // Extreme actions may end episodes, but never cause a fault.
     for step in 0..300u32 {
         let action: Vec<f32> = (0..29).map(|motor| if (step / 7 + motor) % 3 == 0 { 1.0 } else { -1.0 }).collect();
         let result = environment.step(&action, &mut observation);

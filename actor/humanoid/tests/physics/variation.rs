@@ -1,4 +1,4 @@
-//! Bodies that differ from their model, and pushes, seen from outside.
+//! Randomised bodies and pushes.
 
 use nalgebra::Vector3;
 use treadmill_humanoid::{CONTROL_STEP_S, EnvironmentConfig, HUMANOID_XML, Model, Physics, Variation};
@@ -14,7 +14,7 @@ fn weightless() -> Physics {
     physics(&HUMANOID_XML.replace("<option ", "<option gravity=\"0 0 0\" "))
 }
 
-/// A position far above the floor, without a hinge at the end of its range.
+/// Position far above the floor, with all hinges in the middle of their ranges.
 fn in_the_air(physics: &Physics) -> Vec<f64> {
     let mut position = physics.model().nominal_position();
     position[2] = 3.0;
@@ -30,7 +30,7 @@ fn varied(physics: &mut Physics, change: impl FnOnce(&mut Variation)) {
     physics.set_variation(&variation);
 }
 
-/// Position and velocity after a few steps with the motors at work, from the nominal pose.
+/// Position and velocity after 40 driven steps from the nominal pose.
 fn outcome(physics: &mut Physics) -> Vec<f64> {
     let position = physics.model().nominal_position();
     physics.set_state(&position, &STILL);
@@ -42,7 +42,7 @@ fn outcome(physics: &mut Physics) -> Vec<f64> {
 }
 
 #[test]
-fn no_variation_is_the_model_bit_for_bit_whatever_was_before() {
+fn resetting_the_variation_restores_the_model_bit_for_bit() {
     let plain = outcome(&mut physics(HUMANOID_XML));
     let mut body = physics(HUMANOID_XML);
     varied(&mut body, |_| {});
@@ -76,11 +76,11 @@ fn the_floor_carries_the_varied_mass() {
     body.set_state(&position, &STILL);
     let expected_kg: f64 = nominal_kg.iter().enumerate().map(|(index, mass_kg)| mass_kg * scale(index)).sum();
     assert!((body.model().mass_kg() - expected_kg).abs() < 1e-9);
-    assert!((expected_kg / nominal_kg.iter().sum::<f64>() - 1.0).abs() > 0.03, "the sum is another");
+    assert!((expected_kg / nominal_kg.iter().sum::<f64>() - 1.0).abs() > 0.03, "the total mass must differ");
     for (index, part) in body.model().bodies.iter().enumerate() {
         let links = || body.model().links.iter().filter(|link| link.body == index);
         let mass_kg: f64 = links().map(|link| link.mass_kg).sum();
-        assert!((mass_kg - part.mass_kg).abs() < 1e-9, "what is observed of {} varies with it", part.name);
+        assert!((mass_kg - part.mass_kg).abs() < 1e-9, "the links of {} must vary with it", part.name);
     }
     (0..400).for_each(|_| body.step_only(&IDLE).expect("finite"));
     let samples = 200;
@@ -96,8 +96,7 @@ fn the_floor_carries_the_varied_mass() {
 
 #[test]
 fn a_heavier_body_is_harder_to_turn() {
-    // The same torque on the same joint: where every mass and inertia is twice as large, and rotors are, the motion is
-    // half as fast.
+    // The same torque on twice the mass, inertia and armature gives half the acceleration.
     let mut body = weightless();
     let position = in_the_air(&body);
     let mut action = IDLE;
@@ -108,7 +107,7 @@ fn a_heavier_body_is_harder_to_turn() {
             variation.armature_scale.fill(scale);
             variation.damping_scale.fill(0.0);
         });
-        // What springs do is taken off: they do not scale.
+        // Subtract the effect of springs, which do not scale.
         let mut after = |action: &[f32]| {
             body.set_state(&position, &STILL);
             body.step_only(action).expect("finite");
@@ -121,7 +120,7 @@ fn a_heavier_body_is_harder_to_turn() {
 }
 
 #[test]
-fn twice_the_motor_is_twice_the_control() {
+fn twice_the_motor_strength_equals_twice_the_control() {
     let mut body = weightless();
     let position = in_the_air(&body);
     let mut velocity = |scale: f64, control: f32| {
@@ -135,7 +134,7 @@ fn twice_the_motor_is_twice_the_control() {
     assert_eq!(velocity(2.0, 0.1), velocity(1.0, 0.2));
     assert_ne!(velocity(1.0, 0.1), velocity(1.0, 0.2));
     let [weak, nominal, strong] = [0.5, 1.0, 2.0].map(|scale| velocity(scale, 0.1)[6 + 6]);
-    // A knee's motor of 200 N·m: what differs between the three is proportional to the strength.
+    // The effect of a knee motor of 200 N·m is proportional to its strength.
     assert!(((strong - nominal) / (nominal - weak) - 2.0).abs() < 0.05, "{weak}, {nominal}, {strong}");
 }
 
@@ -158,7 +157,7 @@ fn damping_slows_a_swinging_hinge() {
 }
 
 #[test]
-fn a_larger_rotor_speeds_up_more_slowly() {
+fn a_larger_armature_accelerates_more_slowly() {
     let mut body = weightless();
     let position = in_the_air(&body);
     let elbow = body.model().hinges.iter().position(|hinge| hinge.name == "right_elbow").expect("has an elbow");
@@ -207,7 +206,7 @@ fn gravity_scales_free_fall() {
 }
 
 #[test]
-fn a_push_changes_the_velocity_of_the_whole_body_and_nothing_else() {
+fn a_push_changes_only_the_velocity_of_the_whole_body() {
     let mut body = physics(HUMANOID_XML);
     (0..7).for_each(|_| body.step_only(&[0.2; 17]).expect("finite"));
     let (position, velocity) = (body.position().to_vec(), body.velocity().to_vec());

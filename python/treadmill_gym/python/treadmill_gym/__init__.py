@@ -1,7 +1,7 @@
 """Treadmill's humanoid as a Gymnasium environment.
 
-Importing this registers `treadmill/Humanoid-v0`, for `gymnasium.make` and for `gymnasium.make_vec`, which gives a vector
-environment that steps all humanoids in one call.
+The import registers `treadmill/Humanoid-v0` for `gymnasium.make` and `gymnasium.make_vec`. The vector environment steps all
+humanoids in one call.
 """
 
 from gymnasium.envs.registration import register

@@ -9,13 +9,13 @@ from .window import Window
 
 
 class HumanoidEnv(gymnasium.Env, EzPickle):
-    """The task of Gymnasium's Humanoid-v5, simulated by Treadmill.
+    """Task of Gymnasium's Humanoid-v5, simulated by Treadmill.
 
-    Keyword arguments, beside `render_mode` (`"rgb_array"` or `"human"`), `width` and `height` of pictures in pixels, and
-    `camera`, x, y and z from the body to the camera in m: `observation`, `task`, `xml_file`, weights, ranges and flags under
-    the names that Gymnasium's Humanoid-v5 gives them, `substeps`, `solver_iterations`, `self_collision`. README.md has a table.
+    `render_mode` is `"rgb_array"` or `"human"`; `width` and `height` are in pixels; `camera` is x, y and z from the body to the
+    camera in m. Other keyword arguments: `observation`, `task`, `xml_file`, `substeps`, `solver_iterations`, `self_collision`,
+    and the weights, ranges and flags of Gymnasium's Humanoid-v5. README.md has a table.
 
-    Raises `TypeError` for a keyword that is not known, and `ValueError` for a value that is not allowed.
+    Raises `TypeError` for an unknown keyword and `ValueError` for an invalid value.
     """
 
     metadata = {"render_modes": ["human", "rgb_array"], "render_fps": spaces.RENDER_FPS}
@@ -46,16 +46,16 @@ class HumanoidEnv(gymnasium.Env, EzPickle):
         return observation, info
 
     def step(self, action):
-        """Acts for a control step; `action` is clipped to its range, as MuJoCo does it."""
+        """Does a control step; `action` is clipped to its range, as in MuJoCo."""
         action = spaces.as_actions(action, self.action_space.shape, "action")
         observation, reward, terminated, info = self._native.step(action)
         if self._window is not None and self._window.is_due():
             self.render()
-        # Time limits are the wrapper's that `gymnasium.make` adds.
+        # `gymnasium.make` adds a wrapper for time limits.
         return observation, reward, terminated, False, info
 
     def render(self):
-        """A picture as an array, `[height, width, 3]`; with `render_mode="human"` it is shown, and nothing returned."""
+        """Returns a picture `[height, width, 3]`; with `render_mode="human"`, shows it and returns None."""
         if self.render_mode is None:
             gymnasium.logger.warn('nothing is rendered without a render mode, as in make(..., render_mode="rgb_array")')
             return None
@@ -67,6 +67,6 @@ class HumanoidEnv(gymnasium.Env, EzPickle):
 
     def close(self):
         """Closes the window, if there is one."""
-        # May be called for an environment that could not be built.
+        # Gymnasium also closes environments whose constructor failed.
         if getattr(self, "_window", None) is not None:
             self._window.close()

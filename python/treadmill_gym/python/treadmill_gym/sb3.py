@@ -1,12 +1,12 @@
-"""Several humanoids for Stable-Baselines3, which has an interface of its own for that:
+"""Several humanoids as a vector environment of Stable-Baselines3:
 
     from stable_baselines3.common.vec_env import VecMonitor
     from treadmill_gym.sb3 import HumanoidVecEnv
 
     model = PPO("MlpPolicy", VecMonitor(HumanoidVecEnv(64)))
 
-`gymnasium.make("treadmill/Humanoid-v0")` and `make_vec_env` work with it as they do with any environment; this one steps all
-humanoids in one call.
+Stable-Baselines3 also works with `gymnasium.make("treadmill/Humanoid-v0")` and `make_vec_env`; this class steps all humanoids
+in one call.
 """
 
 import numpy as np
@@ -17,8 +17,7 @@ from .vector import HumanoidVectorEnv
 
 
 class HumanoidVecEnv(VecEnv):
-    """`n_envs` humanoids; the keyword arguments are those of `HumanoidVectorEnv`. Wrap it in Stable-Baselines3's
-    `VecMonitor` to get the returns of episodes."""
+    """`n_envs` humanoids; keyword arguments are those of `HumanoidVectorEnv`. Wrap it in `VecMonitor` to get episode returns."""
 
     def __init__(self, n_envs, **settings):
         self.env = HumanoidVectorEnv(n_envs, autoreset_mode=AutoresetMode.SAME_STEP, **settings)
@@ -27,10 +26,10 @@ class HumanoidVecEnv(VecEnv):
         self._actions = None
 
     def reset(self):
-        """Starts an episode in each; the seeds given to `seed` are used once."""
+        """Starts an episode in each environment; seeds given to `seed` are used once."""
         for options in self._options:
             if options:
-                raise ValueError(f"reset options {options} are not known; there are none")
+                raise ValueError(f"unknown reset options {options}; there are none")
         observations, infos = self.env.reset(seed=self._seeds)
         self.reset_infos = self._rows(infos)
         self._reset_seeds()
@@ -42,7 +41,7 @@ class HumanoidVecEnv(VecEnv):
         self._actions = actions
 
     def step_wait(self):
-        """A control step of each; where an episode ends the next one begins at once."""
+        """Steps all environments; where an episode ends, the next one starts at once."""
         observations, rewards, terminations, truncations, infos = self.env.step(self._actions)
         over = terminations | truncations
         rows = self._rows(infos)
@@ -56,40 +55,40 @@ class HumanoidVecEnv(VecEnv):
         return observations, rewards.astype(np.float32), over, rows
 
     def _rows(self, infos):
-        """A dictionary for each environment, of what is told of it."""
+        """Returns the info of each environment as a dictionary."""
         rows = [{} for _ in range(self.num_envs)]
         for name in infos:
             if name.startswith("_") or name in ("final_obs", "final_info"):
                 continue
             values = infos[name]
-            # Numbers as Python's own, and rows of several as arrays.
+            # Single numbers as Python numbers, several as arrays.
             values = values.tolist() if values.ndim == 1 else values
-            for row, value, told in zip(rows, values, infos[f"_{name}"].tolist(), strict=True):
-                if told:
+            for row, value, has_entry in zip(rows, values, infos[f"_{name}"].tolist(), strict=True):
+                if has_entry:
                     row[name] = value
         return rows
 
     def get_images(self):
-        """A picture of each, with `render_mode="rgb_array"`."""
+        """Returns a picture of each environment, with `render_mode="rgb_array"`."""
         return list(self.env.render())
 
     def close(self):
-        """Nothing is held but memory."""
+        """Closes the environments."""
         self.env.close()
 
     def get_attr(self, attr_name, indices=None):
-        """The attribute, which is the same for all."""
+        """Returns the attribute, which is the same for all environments."""
         value = getattr(self.env, attr_name)
         return [value for _ in self._get_indices(indices)]
 
     def set_attr(self, attr_name, value, indices=None):
-        """Refused: what can be set is set when they are made."""
-        raise AttributeError(f"`{attr_name}` cannot be set here: give it to HumanoidVecEnv as a keyword argument")
+        """Raises an error: settings are fixed at construction."""
+        raise AttributeError(f"`{attr_name}` cannot be set: pass it to HumanoidVecEnv as a keyword argument")
 
     def env_method(self, method_name, *method_args, indices=None, **method_kwargs):
-        """Refused: there is no environment object for each."""
-        raise AttributeError(f"`{method_name}` cannot be called: humanoids that are stepped in one call have no methods each")
+        """Raises an error: single environments are not objects."""
+        raise AttributeError(f"`{method_name}` cannot be called: single humanoids of a HumanoidVecEnv have no methods")
 
     def env_is_wrapped(self, wrapper_class, indices=None):
-        """Nothing is wrapped."""
+        """Returns False: no environment is wrapped."""
         return [False for _ in self._get_indices(indices)]

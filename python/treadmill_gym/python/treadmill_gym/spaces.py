@@ -1,29 +1,29 @@
-"""Spaces, and what else one humanoid and several have in common."""
+"""Spaces and checks shared by one humanoid and several."""
 
 import numpy as np
 from gymnasium.spaces import Box
 
-#: Control steps per second, rounded as Gymnasium does it.
+#: Control steps per second, rounded as in Gymnasium.
 RENDER_FPS = 67
 
-#: Episode seeds are drawn below this.
+#: Exclusive upper limit of episode seeds.
 SEEDS = 2**63
 
 
 def observation_space(native):
-    """No bounds, and 64 bits although 32 are calculated: equal to Gymnasium's, so that models fit both."""
+    """Returns Gymnasium's observation space, so that models fit both: unbounded, 64 bits although 32 are computed."""
     size = sum(size for _, size in native.blocks)
     return Box(-np.inf, np.inf, (size,), np.float64)
 
 
 def action_space(native):
-    """The controls of the motors."""
+    """Returns the space of motor controls."""
     low, high = np.array(native.action_ranges, np.float32).reshape(-1, 2).T.copy()
     return Box(low, high, dtype=np.float32)
 
 
 def observation_structure(native, exclude_current_positions_from_observation=True, **_):
-    """Sizes of the blocks of an observation, as Gymnasium's attribute of that name has them."""
+    """Returns the sizes of an observation's blocks, as in Gymnasium's attribute of that name."""
     sizes = dict.fromkeys(("qpos", "qvel", "cinert", "cvel", "qfrc_actuator", "cfrc_ext", "ten_length", "ten_velocity"), 0)
     return {"skipped_qpos": 2 * bool(exclude_current_positions_from_observation)} | sizes | dict(native.blocks)
 
@@ -36,7 +36,7 @@ def check_render_mode(render_mode, modes):
 
 
 def check_options(options, known=()):
-    """Refuses options of `reset` that nothing would look at."""
+    """Refuses unknown options of `reset`."""
     for name in options or {}:
         if name not in known:
             allowed = ", ".join(known) or "none"
@@ -44,7 +44,7 @@ def check_options(options, known=()):
 
 
 def as_actions(actions, shape, name):
-    """Actions as the native part takes them; what is no number in it is refused there."""
+    """Returns actions as an array for the native part, which refuses entries that are not finite."""
     try:
         array = np.ascontiguousarray(actions, np.float32)
     except (TypeError, ValueError) as why:

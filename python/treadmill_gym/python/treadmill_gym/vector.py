@@ -10,11 +10,11 @@ from ._native import Humanoids, Renderer
 
 
 class HumanoidVectorEnv(VectorEnv):
-    """`num_envs` humanoids that are stepped in one call, which lets go of the interpreter's lock, on `threads` threads.
+    """`num_envs` humanoids, stepped in one call on `threads` threads (0: one per core) without the interpreter lock.
 
-    Gives what a `SyncVectorEnv` of as many `treadmill/Humanoid-v0` gives with the same seeds, number for number, on any number
-    of threads (0 means one per core). `autoreset_mode` is one of Gymnasium's. The other keyword arguments are those of
-    `HumanoidEnv`; of pictures there is `render_mode="rgb_array"` only.
+    With the same seeds, results equal those of a `SyncVectorEnv` of `treadmill/Humanoid-v0` bit for bit, for any number of
+    threads. `autoreset_mode` is one of Gymnasium's. Other keyword arguments are those of `HumanoidEnv`; the only render mode
+    is `"rgb_array"`.
     """
 
     metadata = {
@@ -39,7 +39,7 @@ class HumanoidVectorEnv(VectorEnv):
         self.num_envs, self.render_mode = num_envs, render_mode
         self.autoreset_mode = AutoresetMode(autoreset_mode)
         self.metadata = self.metadata | {"autoreset_mode": self.autoreset_mode}
-        # -1 and None are Gymnasium's words for no limit.
+        # In Gymnasium, -1 and None mean no limit.
         limit = max_episode_steps if max_episode_steps not in (None, -1) else 0
         self._native = Humanoids(num_envs, settings, limit, threads)
         self._renderer = Renderer(width, height, camera)
@@ -56,7 +56,7 @@ class HumanoidVectorEnv(VectorEnv):
 
     @property
     def threads(self):
-        """How many threads step the environments."""
+        """Number of threads that step the environments."""
         return self._native.threads
 
     @property
@@ -66,12 +66,12 @@ class HumanoidVectorEnv(VectorEnv):
 
     @property
     def np_random(self):
-        """The random number generators of all environments."""
+        """Random number generators of all environments."""
         return tuple(self._generator(index) for index in range(self.num_envs))
 
     @property
     def np_random_seed(self):
-        """What they were seeded with."""
+        """Seeds of the random number generators."""
         return tuple(self._generator_seeds[index] for index, _ in enumerate(self.np_random))
 
     def _generator(self, index, seed=None):
@@ -84,10 +84,11 @@ class HumanoidVectorEnv(VectorEnv):
             self._seeds[index] = self._generator(index).integers(spaces.SEEDS)
 
     def reset(self, *, seed=None, options=None):
-        """Starts episodes in all environments, or in those that `options["reset_mask"]` says. A whole number as `seed` seeds the
-        first environment, and each further one with one more; a list has a seed or `None` for each."""
+        """Starts episodes in all environments, or where `options["reset_mask"]` is true.
+
+        A number as `seed` seeds environment i with `seed + i`; a list has a seed or `None` for each."""
         spaces.check_options(options, known=("reset_mask",))
-        seeds = self._listed(seed)
+        seeds = self._seed_list(seed)
         mask = self._mask((options or {}).get("reset_mask"))
         for index in np.flatnonzero(mask):
             self._generator(index, seeds[index])
@@ -97,28 +98,27 @@ class HumanoidVectorEnv(VectorEnv):
         return self._observations.copy(), infos
 
     def step(self, actions):
-        """A control step of each. What happens with episodes that are over is said by `autoreset_mode`: begin anew with the next
-        step, whose action is not used; begin anew in the same one, with `final_obs` and `final_info` in the infos; or nothing,
-        and `reset` has to be called for them first."""
+        """Steps all environments. `autoreset_mode` decides how finished episodes restart: in the next step, which ignores their
+        action; in the same step, with `final_obs` and `final_info` in the infos; or only by `reset`."""
         actions = spaces.as_actions(actions, self.action_space.shape, "actions")
         resets = self._over
         if self.autoreset_mode is AutoresetMode.NEXT_STEP:
             self._draw_seeds(resets)
         elif resets.any():
             waiting = np.flatnonzero(resets).tolist()
-            raise ValueError(f'episodes {waiting} are over: reset(options={{"reset_mask": ...}}) starts them anew')
+            raise ValueError(f'episodes {waiting} are over: restart them with reset(options={{"reset_mask": ...}})')
         observations, rewards, terminations, truncations, infos = self._native.step(actions, resets, self._seeds)
         over = terminations | truncations
         if self.autoreset_mode is AutoresetMode.SAME_STEP and over.any():
-            self._begin_anew(over, observations, infos)
+            self._restart(over, observations, infos)
             over = np.zeros_like(over)
         self._over = over
-        # Ours to write to at the next `reset`; theirs to keep.
+        # The next `reset` writes to this array, so the caller gets a copy.
         self._observations = observations
         return observations.copy(), rewards, terminations, truncations, infos
 
-    def _begin_anew(self, over, observations, infos):
-        """Starts new episodes where they are over, and says as Gymnasium does how the old ones ended."""
+    def _restart(self, over, observations, infos):
+        """Restarts finished episodes and adds their last observations and infos, as Gymnasium does."""
         final_obs = np.full(self.num_envs, None, object)
         for index in np.flatnonzero(over):
             final_obs[index] = observations[index].copy()
@@ -132,15 +132,15 @@ class HumanoidVectorEnv(VectorEnv):
                 final_info[f"_{name}"] = ends
             values[over], mask[over] = 0, False
         self._draw_seeds(over)
-        begun = self._native.reset(over, self._seeds, observations)
-        for name in [name for name in begun if not name.startswith("_")]:
-            infos[name][over], infos[f"_{name}"][over] = begun[name][over], True
-        # Where all are over nothing may be left to tell of.
+        restarted = self._native.reset(over, self._seeds, observations)
+        for name in [name for name in restarted if not name.startswith("_")]:
+            infos[name][over], infos[f"_{name}"][over] = restarted[name][over], True
+        # If all episodes are over, some entries may have no rows left.
         for name in [name for name in infos if not name.startswith("_") and not infos[f"_{name}"].any()]:
             del infos[name], infos[f"_{name}"]
         infos |= {"final_obs": final_obs, "_final_obs": over.copy(), "final_info": final_info, "_final_info": over.copy()}
 
-    def _listed(self, seed):
+    def _seed_list(self, seed):
         if seed is None:
             return [None] * self.num_envs
         if isinstance(seed, (int, np.integer)):
@@ -158,7 +158,7 @@ class HumanoidVectorEnv(VectorEnv):
         return np.ascontiguousarray(mask)
 
     def render(self):
-        """A picture of each as an array, `[height, width, 3]`."""
+        """Returns a picture `[height, width, 3]` of each environment."""
         if self.render_mode is None:
             raise ValueError('nothing is rendered without a render mode, as in make_vec(..., render_mode="rgb_array")')
         return tuple(self._renderer.picture_of(self._native, index) for index in range(self.num_envs))

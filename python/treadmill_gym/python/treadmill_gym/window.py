@@ -1,15 +1,15 @@
-"""The window of `render_mode="human"`, by pygame."""
+"""Pygame window of `render_mode="human"`."""
 
 import os
 import time
 
 from gymnasium.error import DependencyNotInstalled, Error
 
-#: What SDL falls back to where it finds no display: they draw nowhere.
-UNSEEN = {"dummy", "offscreen"}
+#: SDL's fallback drivers without a display, which draw nothing.
+HEADLESS_DRIVERS = {"dummy", "offscreen"}
 
-#: Where drawing takes longer than a step, so many steps are left out between two pictures at most.
-LEFT_OUT_MAX = 4
+#: Most steps skipped between two pictures when drawing is slower than real time.
+SKIPPED_MAX = 4
 
 
 class WindowClosed(Error):
@@ -17,32 +17,32 @@ class WindowClosed(Error):
 
 
 class Window:
-    """A window that is opened with the first picture, and shows pictures in real time."""
+    """Window that opens with the first picture and shows pictures in real time."""
 
     def __init__(self, width, height, fps):
-        # Said now, and not in the middle of an episode.
+        # Fail at construction, not in the middle of an episode.
         try:
             import pygame
         except ImportError as why:
             raise DependencyNotInstalled(
-                'render_mode="human" needs pygame: pip install "treadmill-gym[human]" or pygame-ce; "rgb_array" does without'
+                'render_mode="human" needs pygame: pip install "treadmill-gym[human]" or pygame-ce; "rgb_array" does not'
             ) from why
         self._pygame = pygame
         self._size, self._step_s = (width, height), 1 / fps
         self._surface = None
-        self._due_s, self._left_out = 0.0, 0
+        self._due_s, self._skipped = 0.0, 0
 
     def is_due(self):
-        """Whether a step is to be shown: all are where there is time, which goes on as it does for the body."""
+        """Whether to show this step: steps are skipped when the window lags behind real time."""
         now_s = time.perf_counter()
-        # What was lost in a pause is not caught up with.
-        self._due_s = max(self._due_s, now_s - LEFT_OUT_MAX * self._step_s) + self._step_s
+        # After a pause, do not catch up.
+        self._due_s = max(self._due_s, now_s - SKIPPED_MAX * self._step_s) + self._step_s
         is_late = now_s > self._due_s
-        self._left_out = self._left_out + 1 if is_late and self._left_out < LEFT_OUT_MAX else 0
-        return self._left_out == 0
+        self._skipped = self._skipped + 1 if is_late and self._skipped < SKIPPED_MAX else 0
+        return self._skipped == 0
 
     def show(self, picture):
-        """Shows `[height, width, 3]`, and waits until the step is over."""
+        """Shows a picture `[height, width, 3]` and waits until the step is over."""
         pygame = self._pygame
         if self._surface is None:
             self._open()
@@ -58,21 +58,21 @@ class Window:
         pygame = self._pygame
         try:
             pygame.display.init()
-            wanted = os.environ.get("SDL_VIDEODRIVER") or os.environ.get("SDL_VIDEO_DRIVER")
-            if pygame.display.get_driver() in UNSEEN and not wanted:
+            requested = os.environ.get("SDL_VIDEODRIVER") or os.environ.get("SDL_VIDEO_DRIVER")
+            if pygame.display.get_driver() in HEADLESS_DRIVERS and not requested:
                 raise pygame.error("there is no display")
             surface = pygame.display.set_mode(self._size)
         except pygame.error as why:
             pygame.display.quit()
             raise Error(
-                f'render_mode="human" needs a display, and no window could be opened: {why}; use "rgb_array" without one, or '
+                f'render_mode="human" needs a display, but no window could be opened: {why}; use "rgb_array" or '
                 "a virtual display such as xvfb-run"
             ) from why
         pygame.display.set_caption("Treadmill")
         self._surface = surface
 
     def close(self):
-        """Closes it; the next picture would open it again."""
+        """Closes the window; another picture would reopen it."""
         if self._surface is not None:
             self._surface = None
             self._pygame.display.quit()
