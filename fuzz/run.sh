@@ -9,11 +9,12 @@ all=$(sed -n 's/^name = "\([a-z_]*\)"$/\1/p' fuzz/Cargo.toml)
 targets=("$@")
 [ ${#targets[@]} -gt 0 ] || mapfile -t targets <<<"$all"
 
-build=(cargo build --release --features treadmill-fuzz/libfuzzer)
-for target in "${targets[@]}"; do build+=(--bin "$target"); done
-# Building in the whole workspace shares dependencies with every other build.
-RUSTC_WORKSPACE_WRAPPER=$PWD/fuzz/instrument.sh "${build[@]}"
-cargo build --release --example seeds
+# The selection of CI, so that dependencies are shared with other builds.
+build=(cargo build --release --workspace --exclude treadmill-watch --exclude treadmill-gym)
+coverage=("${build[@]}" --features treadmill-fuzz/libfuzzer)
+for target in "${targets[@]}"; do coverage+=(--bin "$target"); done
+RUSTC_WORKSPACE_WRAPPER=$PWD/fuzz/instrument.sh "${coverage[@]}"
+"${build[@]}" --example seeds
 target/release/examples/seeds fuzz/corpus
 
 for target in "${targets[@]}"; do
