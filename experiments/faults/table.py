@@ -1,13 +1,14 @@
-"""Rows of the table in docs/results/faults.md."""
+"""Makes the table in docs/results/faults.md."""
 
 import json
+import sys
 
 from fleet import FRAGMENT
 from injections import FAULTS
 
 
 def curve(fleet):
-    """Mean return in training by environment steps."""
+    """Returns (environment steps, mean training return) of each update."""
     points = []
     with (fleet.run / "metrics.jsonl").open(encoding="utf-8") as lines:
         for line in lines:
@@ -41,7 +42,7 @@ def as_row(row, baseline):
 
 
 def results(folder):
-    """A row of the table for every fault that there are results of."""
+    """Returns the table's row of each fault that has results, by name."""
     files = {name: folder / f"{name}.json" for name in FAULTS}
     rows = {name: json.loads(file.read_text(encoding="utf-8")) for name, file in files.items() if file.exists()}
     baseline = rows["undisturbed"]["curve"] if "undisturbed" in rows else None
@@ -49,16 +50,18 @@ def results(folder):
 
 
 HEAD = """\
-| fault | detected after | recovered after | env steps lost | trained twice | fragments dropped by rule / sent again | steps/s \
-during / after, of before | return / undisturbed |
+| fault | detected after | recovered after | env steps lost | trained twice | fragments dropped by rule / resent | steps/s during \
+/ after, relative to before | return / undisturbed |
 |---|---|---|---|---|---|---|---|
 """
 
 
 def put(file, text):
-    """Replaces what is between the markers of a page."""
+    """Replaces the text between the markers of a page."""
     begin, end = "<!-- begin generated: table.py -->", "<!-- end generated: table.py -->"
     page = file.read_text(encoding="utf-8")
+    if begin not in page or end not in page:
+        sys.exit(f"{file} lacks the markers `{begin}` and `{end}`")
     head, _, rest = page.partition(begin)
     _, _, tail = rest.partition(end)
     file.write_text(f"{head}{begin}\n\n{text}\n{end}{tail}", encoding="utf-8")
