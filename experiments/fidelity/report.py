@@ -1,4 +1,4 @@
-"""Numbers as Markdown tables, and their place in a page: what measure.py, sim2sim.py and speed.py print and write."""
+"""Formats results as Markdown tables and writes them into pages, for the scripts in fidelity/ and learning/."""
 
 import importlib.metadata
 import json
@@ -6,13 +6,12 @@ import platform
 import subprocess
 import sys
 
-
 PACKAGES = ("mujoco", "gymnasium", "numpy")
 SOURCES = ("actor/humanoid/src", "actor/humanoid/assets")
 
 
 def circumstances(repository, packages=PACKAGES, sources=SOURCES):
-    """Commit, machine and versions; `sources` are the paths whose changes since the commit are told."""
+    """Returns commit, machine and versions; marks the commit if files in `sources` have changed since."""
 
     def git(*arguments):
         run = subprocess.run(["git", *arguments], cwd=repository, capture_output=True, text=True)
@@ -29,20 +28,20 @@ def circumstances(repository, packages=PACKAGES, sources=SOURCES):
 
 
 def cpu_model():
-    """The processor's name as Linux tells it."""
+    """Returns the processor's name."""
     with open("/proc/cpuinfo", encoding="utf-8") as lines:
         names = [line.split(":", 1)[1].strip() for line in lines if line.startswith("model name")]
     return f"{names[0]}, {len(names)} cores" if names else platform.processor()
 
 
 def made_by(made, packages=PACKAGES):
-    """The circumstances as one line."""
+    """Formats the circumstances as one line."""
     keys = (*packages, "python")
     return f"Treadmill {made['commit']}; " + ", ".join(f"{key} {made[key]}" for key in keys) + f"; {made['cpu']}."
 
 
 def write_json(path, result):
-    """All digits that a number needs to be told from its neighbours at a glance, one entry a line."""
+    """Writes JSON with five significant digits, one entry per line."""
 
     def shorten(value):
         if isinstance(value, dict):
@@ -59,20 +58,20 @@ def replace(path, script, text):
     page = path.read_text(encoding="utf-8")
     begin, end = f"<!-- begin generated: {script} -->", f"<!-- end generated: {script} -->"
     if page.count(begin) != 1 or page.count(end) != 1:
-        sys.exit(f"{path} must have one line `{begin}` and after it one line `{end}`")
+        sys.exit(f"{path} must have one line `{begin}` followed by one line `{end}`")
     head, rest = page.split(begin)
     tail = rest.split(end)[1]
     path.write_text(f"{head}{begin}\n\n{text.strip()}\n\n{end}{tail}", encoding="utf-8")
 
 
 def table(header, rows):
-    """A Markdown table of strings."""
+    """Formats strings as a Markdown table."""
     lines = [header, ["---"] * len(header), *rows]
     return "\n".join("| " + " | ".join(line) + " |" for line in lines) + "\n"
 
 
 def number(value, digits=2):
-    """A number with so many significant digits, without exponent where that stays short."""
+    """Formats a number with this many significant digits, without an exponent from 1e-4 on."""
     if value is None:
         return "–"
     if value == 0:
@@ -99,7 +98,7 @@ def _rollouts(title, result, before, key):
 
 
 def _with_before(result, before, key):
-    """The rows, the product's own first, and after it the one of the earlier version that is compared with."""
+    """Returns the rows, with the earlier version's default row inserted after the first one."""
     rows = list(result["rows"])
     if before:
         old = before[key]["rows"][0]
@@ -112,7 +111,7 @@ def _name_before(before):
 
 
 def _energy(result, before):
-    header = ["", "energy without the centre of mass's (J): mean", "the same: largest", "total energy (J): mean"]
+    header = ["", "energy without the centre of mass's (J): mean", "the same: maximum", "total energy (J): mean"]
     header.append("angular momentum: mean relative change")
     rows = []
     for row in _with_before(result, before, "energy"):
@@ -121,8 +120,8 @@ def _energy(result, before):
     times = " · ".join(f"{time:g} s" for time in result["times_s"])
     start = number(result["internal_kinetic_start_j"], 3)
     return (
-        f"### Energy of a passive body in flight\n\n{result['cases']} cases; change after {times}. At the start the motion about "
-        f"the centre of mass holds {start} J on average.\n\n" + table(header, rows)
+        f"### Energy of a passive body in flight\n\n{result['cases']} cases; change after {times}. At the start, the motion about "
+        f"the centre of mass has {start} J on average.\n\n" + table(header, rows)
     )
 
 
@@ -132,20 +131,20 @@ def _mirror(result, before):
         old = [row for row in before["mirror"]["rows"] if row["name"].startswith("Treadmill")]
         name = _name_before(before)
         rows += [[name, row["what"], number(row["median_rad"]), number(row["max_rad"])] for row in old]
-    header = ["", "", "median (rad)", "largest (rad)"]
+    header = ["", "", "median (rad)", "maximum (rad)"]
     return f"### Mirror symmetry\n\n{result['cases']} cases each.\n\n" + table(header, rows)
 
 
 def _joints(result, before):
-    header = ["", "limit overshoot (rad): 50 % · 99 % · 99.9 % · largest"]
+    header = ["", "limit overshoot (rad): 50 % · 99 % · 99.9 % · maximum"]
     rows = []
     for row in _with_before(result, before, "joints"):
         rows.append([row["name"], " · ".join(number(value) for value in row["overshoot_rad"])])
-    return f"### Joint limits under the largest torques\n\n{result['steps']} control steps.\n\n" + table(header, rows)
+    return f"### Joint limits under full torques\n\n{result['steps']} control steps.\n\n" + table(header, rows)
 
 
 def fidelity(result, before):
-    """Everything that measure.py found, as Markdown."""
+    """Formats the results of measure.py as Markdown."""
     titles = {
         "flight_free": "In flight, random actions, no joint limits",
         "flight_limits": "In flight, random actions",

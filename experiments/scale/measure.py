@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-"""Measures the bus over each transport, in several rounds, and writes the table of docs/results/scale.md.
+"""Measures the bus over each transport and writes the table of docs/results/scale.md.
 
     cargo build --release
     python3 experiments/scale/measure.py target/release/treadmill --doc docs/results/scale.md
 
-Transports take turns within a round, and `treadmill bench bus` measures raw TCP before and after every number of actors, so
-that what else the machine does falls on all alike. Medians over the rounds are shown, with minimum and maximum.
+Transports take turns within a round, and `treadmill bench bus` measures raw TCP before and after each number of actors, so that
+other load affects all alike. The table shows the median over rounds, with minimum and maximum.
 """
 
 import argparse
@@ -17,7 +17,7 @@ import subprocess
 
 BEGIN, END = "<!-- begin generated: measure.py -->", "<!-- end generated: measure.py -->"
 TRANSPORTS = {"TCP": [], "mutual TLS": ["--tls"], "shared memory": ["--shared-memory"]}
-# Field, heading, digits after the point.
+# Field, heading, decimals.
 COLUMNS = [
     ("accepted_mb_per_s", "accepted, MB/s", 0),
     ("ratio_to_raw_tcp", "÷ raw TCP", 2),
@@ -30,7 +30,7 @@ COLUMNS = [
     ("policy_p50_ms", "policy at all actors p50, ms", 1),
     ("policy_p99_ms", "p99, ms", 1),
     ("learner_resident_max_mb", "learner's peak memory, MB", 0),
-    ("learner_shared_mb", "of it shared, MB", 0),
+    ("learner_shared_mb", "shared part, MB", 0),
 ]
 
 
@@ -60,13 +60,13 @@ def table(results, actors):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("binary")
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("binary", help="the built binary")
     parser.add_argument("--rounds", type=int, default=3)
     parser.add_argument("--actors", default="1,10,50,100,200")
     parser.add_argument("--seconds", type=float, default=5.0)
     parser.add_argument("--pause-ms", type=int, default=0)
-    parser.add_argument("--doc", type=pathlib.Path, help="the page whose generated part is written anew")
+    parser.add_argument("--doc", type=pathlib.Path, help="page whose generated part is replaced")
     arguments = parser.parse_args()
     load_before, results = os.getloadavg()[0], {transport: [] for transport in TRANSPORTS}
     for number in range(arguments.rounds):
@@ -84,7 +84,7 @@ def main():
         f"Treadmill {commit}; {one['cpu']}, {one['cores']} cores; load of the machine before: {load_before:.1f}. "
         f"{arguments.rounds} rounds of {arguments.seconds:g} s; fragments of {one['fragment_bytes']} bytes, policies of "
         f"{one['policy_bytes']} bytes. Raw TCP: {raw} MB/s, {raw_cpu} CPU-s/GB. Answered busy: {lost['busy']}; "
-        f"without a receipt: {lost['silent']}; refused for another reason: {lost['refused']}.",
+        f"without a receipt: {lost['silent']}; rejected for another reason: {lost['refused']}.",
         "",
         *table(results, arguments.actors.split(",")),
     ]
