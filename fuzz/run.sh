@@ -9,7 +9,7 @@ all=$(sed -n 's/^name = "\([a-z_]*\)"$/\1/p' fuzz/Cargo.toml)
 targets=("$@")
 [ ${#targets[@]} -gt 0 ] || mapfile -t targets <<<"$all"
 
-# The selection of CI, so that dependencies are shared with other builds.
+# Default members and `fuzz`, so that other builds share dependencies.
 build=(cargo build --release --workspace --exclude treadmill-watch --exclude treadmill-gym)
 coverage=("${build[@]}" --features treadmill-fuzz/libfuzzer)
 for target in "${targets[@]}"; do coverage+=(--bin "$target"); done

@@ -3,9 +3,10 @@
 
 Usage: read_events.py FOLDER    (needs the PyPI package `tensorboard`)
 
-Output: {"points": {tag: [[step, value], ...]}, "histograms": {tag: [[step, rows], ...]}, "hparams": {...}}. A scalar's value is a
-number, a text's a string; a histogram row is left edge, right edge and count. "hparams" is the content of the HPARAMS tab:
-columns, and each session's values, status and metrics. Exit code 2 means wrong usage.
+{"points": {tag: [[step, value], ...]}, "histograms": {tag: [[step, rows], ...]}, "hparams": {...}}: scalars have numbers
+as values, texts have strings, histograms have rows of left edge, right edge and count. "hparams" is what the HPARAMS tab
+shows of the folder as a log directory with this one run: columns, and for each session its values, status and metrics.
+Exit code 2 means wrong usage.
 """
 
 import json
@@ -20,12 +21,12 @@ from tensorboard.plugins.hparams import api_pb2, backend_context, get_experiment
 from tensorboard.plugins.text import metadata as text_metadata
 from tensorboard.util import tensor_util
 
-NO_LIMIT = 0
-SIZES = {event_accumulator.SCALARS: NO_LIMIT, event_accumulator.TENSORS: NO_LIMIT}
+EVERYTHING = 0
+SIZES = {event_accumulator.SCALARS: EVERYTHING, event_accumulator.TENSORS: EVERYTHING}
 
 
 def read(folder):
-    """Returns points (scalars and texts) and histograms; event files of one folder count as one run."""
+    """Scalars and texts, and histograms; several event files count as one run, as in TensorBoard."""
     accumulator = event_accumulator.EventAccumulator(str(folder), size_guidance=SIZES)
     accumulator.Reload()
     tags = accumulator.Tags()
@@ -46,7 +47,7 @@ def read(folder):
 
 
 def hparams(logdir):
-    """Returns the content of TensorBoard's HPARAMS tab for a log directory."""
+    """What TensorBoard's own HPARAMS tab makes of a log directory."""
     multiplexer = plugin_event_multiplexer.EventMultiplexer().AddRunsFromDirectory(str(logdir))
     multiplexer.Reload()
     provider = data_provider.MultiplexerDataProvider(multiplexer, str(logdir))

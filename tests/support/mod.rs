@@ -28,7 +28,7 @@ pub fn treadmill(folder: &Path) -> Command {
 }
 
 /// Lets clients that this process opens read and write with one thread, as ours do over TLS: otherwise a flood of messages
-/// may break the memory of the sender, which is this process (`common/bus/src/workarounds/threads.rs`). To be called before the
+/// may break the memory of the sender, which is this process (`common/src/bus/threads.rs`). To be called before the
 /// first is opened.
 pub fn bus_on_one_thread() {
     static SAID: Once = Once::new();
