@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""Asks a running stack, with an independent client, who may do what.
+"""Checks the access rules of a running stack with an independent client.
 
-    python3 access.py tls/127.0.0.1:7447 CERTS RUN
+Usage: access.py tls/127.0.0.1:7447 CERTS RUN
 
-CERTS is the folder of `treadmill certs --bundles`, RUN the run's name. Needs the PyPI package eclipse-zenoh. Every refusal
-stands beside the same request by somebody who may, so that silence is known to be a refusal.
+CERTS is the folder of `treadmill certs --bundles`, RUN the run's name. Needs the PyPI package eclipse-zenoh. For each denied
+request, a role with permission sends the same request, so that silence proves the denial.
 """
 
 import json
@@ -19,21 +19,24 @@ import traceback
 
 import zenoh
 
+if len(sys.argv) != 4:
+    print(__doc__)
+    sys.exit(0 if sys.argv[1:] == ["--help"] else 2)
 
 
-def give_up(kind, why, where):
-    """Sessions that are still open would keep the process."""
+def exit_now(kind, why, where):
+    """Ends the process despite open sessions."""
     traceback.print_exception(kind, why, where)
     sys.stderr.flush()
     os._exit(1)
 
 
-sys.excepthook = give_up
+sys.excepthook = exit_now
 endpoint, certs, run = sys.argv[1], pathlib.Path(sys.argv[2]).resolve(), sys.argv[3]
 port = endpoint.rsplit(":", 1)[1]
-PATIENCE_S = 40
-# What is refused is never answered, so it can only be given a fair chance.
-CHANCE_S = 3
+WAIT_S = 40
+# A denied query gets no answer, so each query waits this long.
+QUERY_TIMEOUT_S = 3
 
 
 def config(where, authority=None, own=None):
@@ -59,98 +62,97 @@ def session(role):
 
 
 class Listener:
-    """What comes on a key."""
+    """Records the keys of received samples."""
 
     def __init__(self, opened, key):
         self.keys = []
-        self.bell = threading.Event()
-        self.subscriber = opened.declare_subscriber(key, self.take)
+        self.received = threading.Event()
+        self.subscriber = opened.declare_subscriber(key, self.receive)
 
-    def take(self, sample):
+    def receive(self, sample):
         self.keys.append(str(sample.key_expr))
-        self.bell.set()
+        self.received.set()
 
-    def await_that(self, what, found):
-        until = time.monotonic() + PATIENCE_S
+    def wait_until(self, what, found):
+        until = time.monotonic() + WAIT_S
         while not found(self.keys):
-            self.bell.clear()
-            assert self.bell.wait(max(0, until - time.monotonic())), f"waited in vain: {what}"
+            self.received.clear()
+            assert self.received.wait(max(0, until - time.monotonic())), f"not within {WAIT_S} s: {what}"
 
 
 def answers(opened, key, payload=None):
-    return [reply for reply in opened.get(key, payload=payload, timeout=CHANCE_S) if reply.ok is not None]
+    return [reply for reply in opened.get(key, payload=payload, timeout=QUERY_TIMEOUT_S) if reply.ok is not None]
 
 
-def refused_at_the_door(what, settings):
+def expect_rejected(what, settings):
     try:
         zenoh.open(settings).close()
     except zenoh.ZError:
-        print(f"refused: {what}")
+        print(f"rejected: {what}")
     else:
-        raise SystemError(f"let in: {what}")
+        raise SystemError(f"accepted: {what}")
 
 
-# Without a certificate of this authority nobody gets in.
+# Connections need a certificate of this authority.
 authority = certs / "observer" / "ca.crt"
-refused_at_the_door("plain text", config(f"tcp/127.0.0.1:{port}"))
-refused_at_the_door("no certificate", config(endpoint, authority))
-with tempfile.TemporaryDirectory() as stranger:
-    key, certificate = f"{stranger}/k.pem", f"{stranger}/c.pem"
+expect_rejected("plain text", config(f"tcp/127.0.0.1:{port}"))
+expect_rejected("no certificate", config(endpoint, authority))
+with tempfile.TemporaryDirectory() as folder:
+    key, certificate = f"{folder}/k.pem", f"{folder}/c.pem"
     subprocess.run(
         ["openssl", "req", "-x509", "-newkey", "ec", "-pkeyopt", "ec_paramgen_curve:prime256v1", "-nodes", "-days", "1",
          "-subj", "/CN=treadmill-operator", "-keyout", key, "-out", certificate],
         check=True, capture_output=True,
     )  # fmt: skip
-    refused_at_the_door("an operator of another authority", config(endpoint, authority, (certificate, key)))
+    expect_rejected("operator certificate of another authority", config(endpoint, authority, (certificate, key)))
 
 observer, actor, evaluator = session("observer"), session("actor"), session("evaluator")
 
-# Everybody listens to the same keys; only the observer hears.
+# All roles subscribe to metrics; only the observer receives them.
 metrics = {name: Listener(opened, f"treadmill/{run}/metrics/**")
            for name, opened in [("observer", observer), ("actor", actor), ("evaluator", evaluator)]}  # fmt: skip
 episodes = Listener(observer, f"treadmill/{run}/episodes/*")
-# In a session of its own: what a session sends or gets for one of its keys, it hands to all of its own that match.
+# Another session, because a session delivers each sample to all of its own matching subscribers.
 second = session("observer")
 wide = Listener(second, "treadmill/**")
-metrics["observer"].await_that("metrics", lambda keys: len(keys) > 50)
+metrics["observer"].wait_until("metrics", lambda keys: len(keys) > 50)
 for name in ["actor", "evaluator"]:
     assert not metrics[name].keys, f"an {name} reads metrics: {metrics[name].keys[:3]}"
 print("reads metrics: observer; not: actor, evaluator")
-# One key wider than what may be read is nothing.
+# A wildcard beyond the permitted keys receives nothing.
 assert not wide.keys, wide.keys[:3]
 
-# An actor may tell of episodes and may not speak for the learner, nor an observer for anybody.
+# Actors may publish episodes, but not the learner's keys. Observers may publish nothing.
 actor.put(f"treadmill/{run}/metrics/forged/number", b"{}")
 actor.put(f"treadmill/{run}/policy/version", b"forged")
 second.put(f"treadmill/{run}/episodes/forged-observer", b"{}")
 actor.put(f"treadmill/{run}/episodes/forged-actor", b"{}")
-episodes.await_that("the actor's episode", lambda keys: any("forged-actor" in key for key in keys))
+episodes.wait_until("the actor's episode", lambda keys: any("forged-actor" in key for key in keys))
 seen = len(metrics["observer"].keys)
-metrics["observer"].await_that("metrics of another update", lambda keys: len(keys) > seen + 50)
+metrics["observer"].wait_until("metrics of another update", lambda keys: len(keys) > seen + 50)
 heard = metrics["observer"].keys + episodes.keys
-assert not any("forged/number" in key or "forged-observer" in key for key in heard), "somebody speaks for others"
-print("tells of episodes: actor; not: observer. Metrics: not: actor")
+assert not any("forged/number" in key or "forged-observer" in key for key in heard), "a forged sample was delivered"
+print("publishes episodes: actor; not: observer. Publishes metrics: not: actor")
 
-# Rollouts are taken from actors alone, policies are given to all who act or watch, trials to evaluators.
-asked = f"treadmill/{run}/rollouts/stranger"
-assert answers(actor, asked, b"nonsense"), "an actor's rollout, nonsense as it is, gets a receipt"
+# Only actors may send rollouts. Actors, observers and evaluators may fetch the policy.
+rollouts = f"treadmill/{run}/rollouts/stranger"
+assert answers(actor, rollouts, b"malformed"), "an actor gets a receipt even for a malformed fragment"
 for opened in [observer, evaluator]:
-    assert not answers(opened, asked, b"nonsense")
-print("answered about rollouts: actor; not: observer, evaluator")
+    assert not answers(opened, rollouts, b"malformed")
+print("sends rollouts: actor; not: observer, evaluator")
 for opened in [actor, observer, evaluator]:
-    assert answers(opened, f"treadmill/{run}/policy/latest"), "the policy"
+    assert answers(opened, f"treadmill/{run}/policy/latest"), "no policy"
 print("reads the policy: actor, observer, evaluator")
 
-# The learner is commanded by operators alone, and tells how it goes to whoever watches. The messages are those of
-# proto/schema/control.proto: field 1 is the command.
-TELL, CHECKPOINT = b"\x08\x01", b"\x08\x04"
+# Only operators may send commands; observers may read the status. In proto/schema/control.proto, field 1 is the command.
+STATUS, CHECKPOINT = b"\x08\x01", b"\x08\x04"
 assert answers(session("operator"), f"treadmill/{run}/control", CHECKPOINT), "an operator gets a receipt"
 for opened in [actor, observer, evaluator]:
     assert not answers(opened, f"treadmill/{run}/control", CHECKPOINT)
-print("commands: operator; not: actor, observer, evaluator")
-assert answers(observer, f"treadmill/{run}/status", TELL), "an observer is told how it goes"
+print("sends commands: operator; not: actor, observer, evaluator")
+assert answers(observer, f"treadmill/{run}/status", STATUS), "an observer gets the status"
 for opened in [actor, evaluator]:
-    assert not answers(opened, f"treadmill/{run}/status", TELL)
-print("asks how it goes: observer; not: actor, evaluator")
+    assert not answers(opened, f"treadmill/{run}/status", STATUS)
+print("reads the status: observer; not: actor, evaluator")
 sys.stdout.flush()
 os._exit(0)

@@ -1,14 +1,13 @@
 #!/bin/sh
-# Makes the two base images of the Dockerfile under their own names, for a machine that reaches a Debian mirror and
-# the crate registry but no container registry. Not needed anywhere else: there Docker pulls them.
+# Builds the Dockerfile's two base images on a machine that reaches a Debian mirror and the crate registry but no container
+# registry. Elsewhere, Docker pulls them.
 #
-#   sudo deploy/base-images.sh            both
-#   sudo deploy/base-images.sh runtime    only what the binary runs on, for an image of a binary that is built already
+#   sudo deploy/base-images.sh            both images
+#   sudo deploy/base-images.sh runtime    only the runtime image, for a binary that is already built
 #
-# Needs root (debootstrap makes a whole system), docker, debootstrap, and for both the Rust toolchain that the
-# Dockerfile names. What Docker pulls is larger and is what we run elsewhere; these are for trying the files here.
+# Needs root, docker and debootstrap; the build image also needs the Rust version that the Dockerfile names.
 #
-# TREADMILL_MIRROR   a Debian mirror to take instead of the usual one
+# TREADMILL_MIRROR   Debian mirror; default http://deb.debian.org/debian
 set -eu
 
 here=$(cd "$(dirname "$0")" && pwd)
@@ -25,13 +24,13 @@ what=${1:-both}
 case $what in
 both) tools='docker debootstrap rustc' ;;
 runtime) tools='docker debootstrap' ;;
-*) fail "\`$what\` is neither \`both\` nor \`runtime\`" ;;
+*) fail "unknown argument \`$what\`; allowed: both, runtime" ;;
 esac
 for tool in $tools; do
-    command -v "$tool" >/dev/null || fail "\`$tool\` is missing; install it first"
+    command -v "$tool" >/dev/null || fail "\`$tool\` is missing; install it"
 done
 
-# The names stand in one place, the Dockerfile.
+# The Dockerfile names the images.
 named() { sed -n "s/^FROM \($1:[^ ]*\).*/\1/p" "$here/Dockerfile" | sort -u; }
 runtime_image=$(named debian)
 build_image=$(named rust)
@@ -42,13 +41,13 @@ if [ "$what" = both ]; then
     wanted=${wanted%%-*}
     case $(rustc --version) in
     "rustc $wanted"[.\ ]*) ;;
-    *) fail "the Dockerfile builds with Rust $wanted, here is $(rustc --version)" ;;
+    *) fail "the Dockerfile needs Rust $wanted; found $(rustc --version)" ;;
     esac
 fi
 
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
-# debootstrap hands its folder to the system inside, which is not root's alone.
+# The new system needs access to this folder as other users than root.
 chmod 755 "$work"
 
 say "$runtime_image from $mirror"
@@ -61,19 +60,18 @@ if [ "$what" = runtime ]; then
     exit 0
 fi
 
-say "$build_image: the same with a C compiler and this machine's Rust"
+say "$build_image: the runtime image with a C compiler and this machine's Rust"
 debootstrap --variant=minbase --include=gcc,libc6-dev,ca-certificates \
     "$release" "$work/build" "$mirror" >"$work/log" || { cat "$work/log" >&2; exit 1; }
 rm -rf "$work"/build/var/cache/apt/archives/*.deb "$work"/build/var/lib/apt/lists/*
-# The toolchain itself, not rustup's stand-ins, without what a build never reads.
+# The toolchain itself instead of rustup's proxies, without files that builds do not read.
 tar -C "$(rustc --print sysroot)" --exclude=./share --exclude='./lib/rustlib/src' --exclude='./lib/rustlib/rustc-src' \
     -c ./bin ./lib | tar -C "$work/build/usr/local" -x
-# Where a proxy or a company's own authority stands between this machine and the crate registry, its certificate has
-# to be known inside too.
+# A proxy between this machine and the crate registry may use its own certificate authority.
 if [ -r /etc/ssl/certs/ca-certificates.crt ]; then
     cp /etc/ssl/certs/ca-certificates.crt "$work/build/etc/ssl/certs/ca-certificates.crt"
 fi
 tar -C "$work/build" -c . | docker import \
     --change 'ENV PATH=/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin' --change 'CMD ["bash"]' \
     - "$build_image"
-say "done; now \`docker compose -f deploy/docker-compose.yml build\` finds both"
+say "done; \`docker compose -f deploy/docker-compose.yml build\` now finds both images"

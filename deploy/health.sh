@@ -1,11 +1,11 @@
 #!/bin/bash
-# Tells whether a part of Treadmill in this container is well, by its exit code.
+# Health check of a container; exits with 0 if its part of Treadmill is healthy.
 #
-#   treadmill-health trains     a learner: its own page says that training goes on
-#   treadmill-health listens    a router: it listens, and nobody who dialled still waits to be let in
-#   treadmill-health dials      an actor or an evaluator: its link stands
+#   treadmill-health trains     learner: /healthz reports progress
+#   treadmill-health listens    router: it listens and accepts connections
+#   treadmill-health dials      actor or evaluator: its connection is established
 #
-# Ports are those of the files beside this one: 7447 for the bus (hexadecimal 1D17), 9464 for metrics.
+# Ports: 7447 (hexadecimal 1D17) for the bus, 9464 for metrics.
 set -eu
 
 case ${1:-} in
@@ -16,16 +16,15 @@ trains)
     [[ $status == *" 200 "* ]]
     ;;
 listens)
-    # State 0A is listening; the last eight zeros count those who wait. A process that stands still keeps its port open
-    # but lets nobody in.
+    # State 0A is LISTEN; the last eight digits count connections not yet accepted. A frozen process accepts none.
     grep -q ':1D17 00000000:0000 0A 00000000:00000000 ' /proc/net/tcp
     ;;
 dials)
-    # State 01 is established; a router that heard nothing for a while has closed the link, which is state 08.
+    # State 01 is ESTABLISHED. A router closes a silent link, which is then in state 08.
     grep -Eq ' [0-9A-F]+:[0-9A-F]+ [0-9A-F]+:1D17 01 ' /proc/net/tcp
     ;;
 *)
-    echo 'treadmill-health: say trains, listens or dials' >&2
+    echo 'usage: treadmill-health trains|listens|dials' >&2
     exit 2
     ;;
 esac

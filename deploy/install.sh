@@ -1,8 +1,7 @@
 #!/usr/bin/env bash
-# Builds and installs the binary with what belongs to it: manual pages, and completions for bash, zsh and fish. The binary
-# writes these itself, since Cargo has no step after the build.
+# Builds and installs the binary, its manual pages and its completions for bash, zsh and fish.
 #
-#   deploy/install.sh [PREFIX] [BINARY]     PREFIX is /usr/local unless given; a BINARY that is given is not built
+#   deploy/install.sh [PREFIX] [BINARY]     PREFIX defaults to /usr/local; with BINARY, nothing is built
 set -euo pipefail
 prefix=${1:-/usr/local}
 binary=${2:-}

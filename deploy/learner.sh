@@ -1,13 +1,12 @@
 #!/bin/sh
-# Starts the run that the environment describes, or goes on with it where its folder already holds a checkpoint: that
-# is what makes a learner's container safe to restart. Arguments go to `treadmill learner` as they are: where to listen,
-# with which certificates, where metrics are served.
+# Starts or resumes the run that the environment describes, so that a learner's container can restart at any time. Passes its
+# arguments to `treadmill learner`.
 #
-# TREADMILL_PRESET   starting point of the configuration (walk)
-# TREADMILL_RUN      name of the run's folder below /runs (the preset's name)
-# TREADMILL_STEPS    environment steps in total; a finished run goes on when this is raised
+# TREADMILL_PRESET   preset; default walk
+# TREADMILL_RUN      name of the run's folder below /runs; default: the preset
+# TREADMILL_STEPS    environment steps in total; a higher value continues a finished run
 # TREADMILL_SEED     seed of every random stream
-# TREADMILL_SET      configuration keys, as in "ppo.batch=4096 learner.threads=2"
+# TREADMILL_SET      configuration keys, for example "ppo.batch=4096 learner.threads=2"
 set -eu
 
 preset=${TREADMILL_PRESET:-walk}
@@ -18,17 +17,17 @@ set -- learner --no-progress "$@"
 [ -z "${TREADMILL_STEPS:-}" ] || set -- "$@" --steps "$TREADMILL_STEPS"
 
 if [ -e "$folder/checkpoints/latest.bundle" ]; then
-    echo "going on with $folder; its preset, seed and settings are the saved ones" >&2
+    echo "resuming $folder with its saved preset, seed and settings" >&2
     exec treadmill "$@" --resume "$folder"
 fi
 
-# A start that was killed before its first checkpoint left an empty folder behind, which would be taken for a run.
-# Anything else in there is the user's, and then the learner refuses.
+# A start that was killed before its first checkpoint leaves an empty folder, which the learner would take for a run. The learner
+# refuses a folder with any other file.
 rm -f "$folder"/checkpoints/.latest.bundle.*.tmp
 rmdir "$folder/checkpoints" 2>/dev/null || true
 
 [ -z "${TREADMILL_SEED:-}" ] || set -- "$@" --seed "$TREADMILL_SEED"
-# Split at blanks and nowhere else: brackets in a value are not a file name pattern.
+# Split at blanks only, without file name patterns: values may contain brackets.
 set -f
 for pair in ${TREADMILL_SET:-}; do
     set -- "$@" --set "$pair"

@@ -1,19 +1,20 @@
 #!/usr/bin/env bash
 # Fuzzes decoders with coverage, on the pinned toolchain:  fuzz/run.sh SECONDS [TARGET ...]
-# What was found is kept in fuzz/corpus/TARGET; an input that ends the program is written to fuzz/artifacts/TARGET/.
+# New inputs go to fuzz/corpus/TARGET, inputs that crash to fuzz/artifacts/TARGET/.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
-seconds=${1:?how many seconds each decoder is fuzzed}
+seconds=${1:?usage: fuzz/run.sh SECONDS [TARGET ...]}
 shift
 all=$(sed -n 's/^name = "\([a-z_]*\)"$/\1/p' fuzz/Cargo.toml)
 targets=("$@")
 [ ${#targets[@]} -gt 0 ] || mapfile -t targets <<<"$all"
 
-build=(cargo build --release --features treadmill-fuzz/libfuzzer)
-for target in "${targets[@]}"; do build+=(--bin "$target"); done
-# All of the workspace is chosen so that its dependencies are those of every other build.
-RUSTC_WORKSPACE_WRAPPER=$PWD/fuzz/instrument.sh "${build[@]}"
-cargo build --release --example seeds
+# Default members and `fuzz`, so that other builds share dependencies.
+build=(cargo build --release --workspace --exclude treadmill-watch --exclude treadmill-gym)
+coverage=("${build[@]}" --features treadmill-fuzz/libfuzzer)
+for target in "${targets[@]}"; do coverage+=(--bin "$target"); done
+RUSTC_WORKSPACE_WRAPPER=$PWD/fuzz/instrument.sh "${coverage[@]}"
+"${build[@]}" --example seeds
 target/release/examples/seeds fuzz/corpus
 
 for target in "${targets[@]}"; do

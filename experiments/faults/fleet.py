@@ -1,6 +1,6 @@
-"""A fleet over several hosts, which are network namespaces (hosts.sh): what the suite and the soak test have in common.
+"""Runs a fleet over several hosts, for the fault suite and the soak test.
 
-Processes are the real binary, their links are encrypted, and each writes what it says to a file of its own. Needs root.
+Hosts are network namespaces (hosts.sh). Each process runs the real binary over TLS and writes its output to files. Needs root.
 """
 
 import json
@@ -18,7 +18,7 @@ ADDRESSES = {"learner": "10.77.0.1", "router": "10.77.0.2"}
 PORT = 7447
 FRAGMENT_STEPS, ENVS = 64, 16
 FRAGMENT = FRAGMENT_STEPS * ENVS
-# Rounds of a fraction of a second, so that times can be told; the networks are those of the preset that walks.
+# Rounds take a fraction of a second, so that times are precise. Networks are those of the preset `walk`.
 SETTINGS = {
     "rollout.fragment_steps": FRAGMENT_STEPS,
     "ppo.batch": 2 * FRAGMENT,
@@ -37,7 +37,7 @@ def endpoint(host):
 
 
 class Process:
-    """One start of one part."""
+    """One start of one process of the fleet."""
 
     def __init__(self, name, host, child, out, err):
         self.name, self.host, self.child, self.out, self.err = name, host, child, out, err
@@ -55,14 +55,14 @@ class Process:
         self.child.send_signal(signal.SIGCONT)
         self.frozen = False
 
-    def stop(self, patience_s=20):
-        """Asks it to stop; whether it did."""
+    def stop(self, timeout_s=20):
+        """Sends SIGTERM. Returns False, and kills the process, if it has not ended after the timeout."""
         if self.child.poll() is not None:
             return True
         self.thaw()
         self.child.terminate()
         try:
-            self.child.wait(patience_s)
+            self.child.wait(timeout_s)
         except subprocess.TimeoutExpired:
             self.kill()
             return False
@@ -71,11 +71,11 @@ class Process:
     def is_running(self):
         return self.child.poll() is None
 
-    def said(self, what, since=0.0):
-        """When it first said so after that moment, by its own clock; None where it did not."""
+    def logged(self, text, since=0.0):
+        """Returns the time, by the process's clock, of the first log line with `text` after `since`, or None."""
         for line in self.err.read_text(encoding="utf-8", errors="replace").splitlines():
             found = STAMP.match(line)
-            if found and what in found[3] and (at := seconds(found[1])) >= since:
+            if found and text in found[3] and (at := seconds(found[1])) >= since:
                 return at
         return None
 
@@ -92,7 +92,7 @@ def seconds(stamp):
 
 
 class Fleet:
-    """A learner, a router and actors, each on its host."""
+    """A learner, a router and actors, each on its own host."""
 
     def __init__(self, binary, folder, prefix, certificates, settings=None, run=None):
         self.binary, self.folder, self.prefix, self.certificates = binary, folder, prefix, certificates
@@ -105,10 +105,8 @@ class Fleet:
         self.sampler = threading.Thread(target=self.sample, daemon=True)
         self.sampler.start()
 
-    # Starting and stopping.
-
     def start(self, name, wrapper=(), via=None, binary=None, host=None):
-        """Starts a part; an actor dials the router, or what `via` says."""
+        """Starts a process. An actor connects to the router, or to the endpoints in `via`."""
         tls = ["--tls", str(self.certificates)]
         if name == "learner":
             arguments = ["learner", "--listen", endpoint("learner"), "--json", "--no-progress"]
@@ -142,14 +140,12 @@ class Fleet:
         return process
 
     def stop(self):
-        """Ends the learner first, so that what it holds is known; then actors, which then know what they still hold."""
+        """Stops the learner first, then actors, then the router, so that all counts are final. Returns who did not stop."""
         in_order = sorted(self.current.values(), key=lambda process: (process.name != "learner", process.name == "router"))
         stuck = [process.name for process in in_order if not process.stop()]
         self.is_over.set()
         self.sampler.join()
         return stuck
-
-    # Looking.
 
     def sample(self):
         while not self.is_over.wait(SAMPLE_S):
@@ -157,7 +153,7 @@ class Fleet:
                 self.samples.append((time.time(), newest))
 
     def newest(self):
-        """Environment steps and updates so far, by the last lines of metrics.jsonl."""
+        """Returns environment steps and updates so far, from the end of metrics.jsonl."""
         try:
             with (self.run / "metrics.jsonl").open("rb") as file:
                 file.seek(0, os.SEEK_END)
@@ -171,39 +167,37 @@ class Fleet:
     def steps(self):
         return self.samples[-1][1][0] if self.samples else 0
 
-    def wait(self, what, look, patience_s=60):
-        until = time.time() + patience_s
+    def wait(self, what, poll, timeout_s=60):
+        until = time.time() + timeout_s
         while time.time() < until:
-            if found := look():
+            if found := poll():
                 return found
             time.sleep(0.02)
-        raise RuntimeError(f"waited {patience_s} s in vain: {what}; see {self.folder}")
+        raise RuntimeError(f"not within {timeout_s} s: {what}; see {self.folder}")
 
-    def grow(self, steps, patience_s=60):
-        """Waits until so many more steps were learnt from; when that was."""
+    def grow(self, steps, timeout_s=60):
+        """Waits until the learner has trained on `steps` more steps. Returns the time."""
         wanted = self.steps() + steps
-        self.wait(f"{steps} more steps", lambda: self.steps() >= wanted, patience_s)
+        self.wait(f"{steps} more steps", lambda: self.steps() >= wanted, timeout_s)
         return time.time()
 
     def speed(self, since, until):
-        """Steps per second between two moments."""
+        """Returns steps per second between two times."""
         def at(moment):
             before = [newest[0] for when, newest in self.samples if when <= moment]
             return before[-1] if before else 0
 
         return (at(until) - at(since)) / (until - since)
 
-    def learner_said(self, what, since):
-        times = [at for process in self.processes if process.name == "learner" and (at := process.said(what, since))]
+    def learner_logged(self, text, since):
+        times = [at for process in self.processes if process.name == "learner" and (at := process.logged(text, since))]
         return min(times, default=None)
 
     def delivers(self, name, since=0.0):
-        return self.learner_said(f"`{name}` delivers as", since)
-
-    # Accounts.
+        return self.learner_logged(f"`{name}` delivers as", since)
 
     def spans(self):
-        """Actor processes: name, incarnation, what they said at their end, and the last fragment that they began to send."""
+        """Yields for each incarnation of an actor: name, incarnation, final JSON, and the last fragment that it produced."""
         for process in self.processes:
             if not process.name.startswith("actor"):
                 continue
@@ -217,7 +211,7 @@ class Fleet:
                 yield process.name, incarnation, own, max(produced, default=0)
 
     def account(self):
-        """Compares what actors produced with what the learner did with it."""
+        """Compares the actors' counts with the learner's accounts.jsonl."""
         lines = (self.run / "accounts.jsonl").read_text(encoding="utf-8").splitlines()
         theirs = {line["incarnation"]: line for line in map(json.loads, lines)}
         learner = self.current["learner"].last_json() or {}
@@ -230,7 +224,7 @@ class Fleet:
                 line = dict.fromkeys(("through", "newest", "missing", "accepted", "too_old", "vanished", "unseen"), 0)
             dropped = line["too_old"] + line["vanished"] + line["unseen"]
             if own is None:
-                # Killed: what the learner never got is gone with the process.
+                # A killed actor loses what the learner never received.
                 found["lost_with_process"] += max(0, produced - line["accepted"] - dropped)
                 found["twice"] += max(0, line["accepted"] + dropped - produced)
                 continue
@@ -238,23 +232,23 @@ class Fleet:
             found["dropped"] += own["dropped_by_rule"]
             if own["produced"] != own["accepted"] + own["dropped_by_rule"] + own["in_flight"]:
                 found["mistakes"].append(f"{name}: {own}")
-            # The learner must have settled what an actor let go of; an actor must know of each fragment that was dropped.
-            # What a learner dropped after its last checkpoint, only its sender knows of.
+            # The learner must have settled every fragment that the actor forgot, and the actor must know of each drop. Only the
+            # actor knows of drops that a learner made after its last checkpoint.
             unsaved = max(0, own["dropped_by_rule"] - dropped)
             found["lost"] += max(0, own["settled_through"] - line["through"] - unsaved)
             found["lost"] += max(0, dropped - own["dropped_by_rule"] - own["in_flight"])
             found["lost"] += max(0, own["accepted"] - own["awaiting_durability"] - line["accepted"])
             found["twice"] += max(0, line["accepted"] - own["accepted"] - own["in_flight"])
-        found["mistakes"] += [f"no actor sent as {line}" for key, line in theirs.items() if key not in known]
+        found["mistakes"] += [f"no actor has the incarnation of {line}" for key, line in theirs.items() if key not in known]
         trained = sum(line["env_steps"] for line in theirs.values())
         found["env_steps"], found["trained"] = learner.get("env_steps"), trained
         if learner.get("env_steps") != trained:
-            found["mistakes"].append(f"{learner.get('env_steps')} env steps were learnt from, {trained} were taken")
+            found["mistakes"].append(f"the learner reports {learner.get('env_steps')} env steps, accounts.jsonl {trained}")
         return found
 
 
-def end_well():
-    """A script that is stopped by a signal still ends its processes and takes its hosts away."""
+def clean_up_on_signal():
+    """Turns SIGTERM into an exit that ends processes and removes hosts."""
     signal.signal(signal.SIGTERM, lambda *_: sys.exit(1))
 
 

@@ -1,10 +1,10 @@
 #!/bin/sh
-# Hosts on one machine: network namespaces, each with one link to a bridge that stands in a namespace of its own. Needs root
-# and iproute2; nothing outside the namespaces is touched.
+# Creates hosts on one machine: network namespaces, linked to a bridge in its own namespace. Needs root and iproute2. Changes
+# nothing outside the namespaces.
 #
 # Usage: hosts.sh up [PREFIX] | hosts.sh down [PREFIX]
 #
-# A program runs on a host by: ip netns exec PREFIX-HOST PROGRAM. The prefix is `tm` where none is given.
+# To run a program on a host: ip netns exec PREFIX-HOST PROGRAM. PREFIX defaults to `tm`.
 set -eu
 prefix=${2:-tm}
 hosts="learner=10.77.0.1 router=10.77.0.2 actor1=10.77.0.11 actor2=10.77.0.12 observer=10.77.0.20"
@@ -16,7 +16,7 @@ down() {
 
 up() {
     ip netns add "$prefix-net"
-    # Without snooping the bridge hands multicast to every host, as a switch of a small network does.
+    # Without snooping, the bridge forwards multicast to every host, as a small switch does.
     ip -n "$prefix-net" link add bridge type bridge mcast_snooping 0
     ip -n "$prefix-net" link set bridge up
     for host in $hosts; do
@@ -34,5 +34,6 @@ up() {
 case "${1:-}" in
     up) down; up ;;
     down) down ;;
+    --help) echo "usage: hosts.sh up|down [PREFIX]" ;;
     *) echo "usage: hosts.sh up|down [PREFIX]" >&2; exit 2 ;;
 esac

@@ -1,4 +1,4 @@
-"""What can be wrong with a host: its links, its disk, its clock."""
+"""Disturbs a host: its links, its disk, its clock. Run as a script, it is a relay that delays TCP data."""
 
 import argparse
 import asyncio
@@ -11,7 +11,7 @@ import sys
 
 from fleet import ADDRESSES, PORT
 
-PIECE_BYTES, PIECES_UNDER_WAY = 1 << 16, 4096
+CHUNK_BYTES, CHUNKS_IN_FLIGHT = 1 << 16, 4096
 FAKETIME = sorted(pathlib.Path("/usr/lib").glob("*/faketime/libfaketimeMT.so.1"))
 
 
@@ -21,7 +21,7 @@ def on(prefix, host, *command):
 
 @contextlib.contextmanager
 def dropped(prefix, host, chains, probability=None):
-    """Drops all packets that come to or leave a host, or a share of them."""
+    """Drops packets of a host, all or with the given probability."""
     share = [] if probability is None else ["-m", "statistic", "--mode", "random", "--probability", str(probability)]
     for chain in chains:
         on(prefix, host, "iptables", "-w", "-A", chain, *share, "-j", "DROP")
@@ -34,7 +34,7 @@ def dropped(prefix, host, chains, probability=None):
 
 @contextlib.contextmanager
 def narrowed(prefix, host, rate):
-    """Lets a host send no faster."""
+    """Limits a host's sending rate."""
     on(prefix, host, *f"tc qdisc add dev eth0 root tbf rate {rate} burst 64kb latency 400ms".split())
     try:
         yield
@@ -44,19 +44,19 @@ def narrowed(prefix, host, rate):
 
 @contextlib.contextmanager
 def small_disk(folder, megabytes):
-    """A file system of its own."""
+    """Mounts a small file system."""
     folder.mkdir()
     subprocess.run(["mount", "-t", "tmpfs", "-o", f"size={megabytes}m", "tmpfs", str(folder)], check=True)
     try:
         yield folder
     finally:
-        # The rest stays, for the analysis of a run that failed.
+        # Keeps a copy for analysing failures.
         shutil.copytree(folder, folder.with_name("disk-copy"), dirs_exist_ok=True)
         subprocess.run(["umount", "--lazy", str(folder)], check=True)
 
 
 def fill(folder):
-    """Takes all the room that is left; the file to remove."""
+    """Fills the disk. Returns the file to remove."""
     filler = folder / "filler"
     with filler.open("wb", buffering=0) as file, contextlib.suppress(OSError):
         for size in (1 << 20, 1 << 12, 1):
@@ -67,15 +67,15 @@ def fill(folder):
 
 
 def faked_clock(folder):
-    """The words before a command whose clock can be set."""
+    """Returns a command prefix that makes the clock adjustable by `set_clock`."""
     if not FAKETIME:
-        sys.exit("clock jumps need libfaketime: apt-get install faketime, or leave them out with --only")
+        sys.exit("clock jumps need libfaketime: apt-get install faketime, or skip them with --only")
     set_clock(folder, "+0")
     settings = {
         "LD_PRELOAD": FAKETIME[0],
         "FAKETIME_TIMESTAMP_FILE": folder / "clock",
         "FAKETIME_CACHE_DURATION": 1,
-        # Kernels do not let the monotonic clock jump.
+        # A real monotonic clock never jumps.
         "FAKETIME_DONT_FAKE_MONOTONIC": 1,
         "DONT_FAKE_MONOTONIC": 1,
     }
@@ -87,15 +87,14 @@ def set_clock(folder, offset):
 
 
 def set_delay(folder, seconds):
-    beside = folder / "delay.new"
-    beside.write_text(str(seconds), encoding="ascii")
-    beside.replace(folder / "delay")
+    temporary = folder / "delay.new"
+    temporary.write_text(str(seconds), encoding="ascii")
+    temporary.replace(folder / "delay")
 
 
 @contextlib.contextmanager
 def relays(fleet):
-    """On each actor's host, a relay to the router that holds everything back for as long as set_delay said; where it
-    listens."""
+    """Starts a relay to the router on each actor's host, with the delay of `set_delay`. Yields its endpoint."""
     set_delay(fleet.folder, 0)
     started = []
     for host in ("actor1", "actor2"):
@@ -109,29 +108,29 @@ def relays(fleet):
             child.wait()
 
 
-async def pass_on(reader, writer, delay_of):
-    """Passes on what arrives in its order, each piece later, and the end of it too."""
-    loop, pieces = asyncio.get_running_loop(), asyncio.Queue(PIECES_UNDER_WAY)
+async def forward(reader, writer, delay_of):
+    """Forwards data and the end of the stream in order, delayed."""
+    loop, chunks = asyncio.get_running_loop(), asyncio.Queue(CHUNKS_IN_FLIGHT)
 
-    async def take():
-        piece = True
-        while piece:
+    async def receive():
+        chunk = True
+        while chunk:
             try:
-                piece = await reader.read(PIECE_BYTES)
+                chunk = await reader.read(CHUNK_BYTES)
             except ConnectionError:
-                piece = b""
-            await pieces.put((loop.time() + delay_of(), piece))
+                chunk = b""
+            await chunks.put((loop.time() + delay_of(), chunk))
 
-    taking = asyncio.create_task(take())
+    receiving = asyncio.create_task(receive())
     with contextlib.suppress(ConnectionError):
         while True:
-            due, piece = await pieces.get()
+            due, chunk = await chunks.get()
             await asyncio.sleep(due - loop.time())
-            if not piece:
+            if not chunk:
                 break
-            writer.write(piece)
+            writer.write(chunk)
             await writer.drain()
-    taking.cancel()
+    receiving.cancel()
     writer.close()
 
 
@@ -146,18 +145,18 @@ async def relay(file, address, port):
 
     async def accept(reader, writer):
         try:
-            there, back = await asyncio.open_connection(address, port)
+            replies, upstream = await asyncio.open_connection(address, port)
         except OSError:
             writer.close()
             return
-        await asyncio.gather(pass_on(reader, back, delay_of), pass_on(there, writer, delay_of))
+        await asyncio.gather(forward(reader, upstream, delay_of), forward(replies, writer, delay_of))
 
     server = await asyncio.start_server(accept, "127.0.0.1", port)
     await server.serve_forever()
 
 
 if __name__ == "__main__":
-    parser = argparse.ArgumentParser(description="The relay that the suite starts on an actor's host.")
+    parser = argparse.ArgumentParser(description="Relays TCP with a delay; the suite starts it on each actor's host.")
     parser.add_argument("file", help="file with the delay in seconds")
     parser.add_argument("address")
     parser.add_argument("port", type=int)

@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
-"""Trains for a long time with actors that join, leave and are killed at random, and looks for what grows.
+"""Trains for a long time while actors join, leave and are killed at random; checks memory, descriptors and speed.
 
 Usage: soak.py TREADMILL FOLDER [--minutes 30] [--actors 3] [--seed 1]
 
-There are always so many actors, but now and then one of them leaves, or is killed, or freezes for longer than its lease and is
-killed then; another takes its place. Prints a table: how fast the learner's and the router's memory grow after a warm-up of a
-fifth of the time, their descriptors, and how fast training was in the last third and in the first. Exits with 1 where one of
-these is out of bounds or a fragment is unaccounted for. Needs root, iproute2, and Python alone.
+The number of actors is constant: every few seconds one leaves, is killed, or freezes beyond its lease and is killed, and a new
+one replaces it. Prints a table: memory growth of learner and router after a warm-up of a fifth of the time, their descriptors, and
+the speed of the last third against the first. Exits with 1 if a value is out of bounds or a fragment is unaccounted for. Needs
+root and iproute2, no Python packages.
 """
 
 import argparse
@@ -17,11 +17,11 @@ import random
 import sys
 import time
 
-from fleet import FRAGMENT, Fleet, certify, end_well, hosts
+from fleet import FRAGMENT, Fleet, certify, clean_up_on_signal, hosts
 
 SAMPLE_S = 2
 EVENT_S = (4, 12)
-SLOPE_MAX_MB_PER_MINUTE, SLOWER_MAX = 1.0, 0.05
+GROWTH_MAX_MB_PER_MINUTE, SLOWDOWN_MAX = 1.0, 0.05
 PARTS = ("learner", "router")
 
 
@@ -37,7 +37,7 @@ def descriptors(process):
 
 
 def slope(points):
-    """Least squares."""
+    """Returns the least-squares slope."""
     mean_x = sum(x for x, _ in points) / len(points)
     mean_y = sum(y for _, y in points) / len(points)
     spread = sum((x - mean_x) ** 2 for x, _ in points)
@@ -58,14 +58,14 @@ class Soak:
         self.events["joined"] += 1
         return self.fleet.start(f"actor-{self.count}", host=("actor1", "actor2", "observer")[self.count % 3])
 
-    def happen(self):
-        """One actor leaves, another joins."""
+    def replace_actor(self):
+        """Removes a random actor in a random way and starts another one."""
         victim = self.actors.pop(self.random.randrange(len(self.actors)))
         what = self.random.choice(("left", "killed", "killed", "frozen"))
         self.events[what] += 1
         if what == "left":
             if not victim.stop():
-                raise RuntimeError(f"{victim.name} did not stop when it was asked to; see {victim.err}")
+                raise RuntimeError(f"{victim.name} did not stop after SIGTERM; see {victim.err}")
         else:
             if what == "frozen":
                 victim.freeze()
@@ -74,8 +74,8 @@ class Soak:
         del self.fleet.current[victim.name]
         self.actors.append(self.join())
 
-    def go_on(self, minutes):
-        """Samples of time, and for each part memory and descriptors."""
+    def run(self, minutes):
+        """Returns the start time and samples: seconds, memory and descriptors of each part, environment steps."""
         begun = time.time()
         samples, event_due = [], begun
         while (now := time.time()) < begun + 60 * minutes:
@@ -85,7 +85,7 @@ class Soak:
                 row += [memory_mb(process), descriptors(process)]
             samples.append((*row, self.fleet.steps()))
             if now >= event_due:
-                self.happen()
+                self.replace_actor()
                 event_due = time.time() + self.random.uniform(*EVENT_S)
             time.sleep(SAMPLE_S)
         return begun, samples
@@ -99,7 +99,7 @@ def main():
     parser.add_argument("--actors", type=int, default=3)
     parser.add_argument("--seed", type=int, default=1)
     arguments = parser.parse_args()
-    end_well()
+    clean_up_on_signal()
     binary, folder, prefix = arguments.treadmill.resolve(), arguments.folder.resolve(), f"tms{os.getpid()}"
     folder.mkdir(parents=True)
     certificates = certify(binary, folder / "certs")
@@ -109,18 +109,18 @@ def main():
         fleet = Fleet(binary, folder / "fleet", prefix, certificates)
         stack.callback(lambda: [process.kill() for process in fleet.processes if process.is_running()])
         soak = Soak(fleet, arguments.actors, arguments.seed)
-        begun, samples = soak.go_on(arguments.minutes)
+        begun, samples = soak.run(arguments.minutes)
         ended = time.time()
         stuck = fleet.stop()
         account = fleet.account()
     header = "seconds," + ",".join(f"{part}_mb,{part}_descriptors" for part in PARTS) + ",env_steps\n"
     lines = (",".join(f"{value:.2f}" for value in row) + "\n" for row in samples)
     (folder / "samples.csv").write_text(header + "".join(lines), encoding="ascii")
-    sys.exit(tell(fleet, soak, account, stuck, begun, ended, samples))
+    sys.exit(report(fleet, soak, account, stuck, begun, ended, samples))
 
 
-def tell(fleet, soak, account, stuck, begun, ended, samples):
-    """Prints the table; 1 where something is out of bounds."""
+def report(fleet, soak, account, stuck, begun, ended, samples):
+    """Prints the table. Returns 1 if a value is out of bounds."""
     warm = [row for row in samples if row[0] >= samples[-1][0] / 5]
     rows, wrong = [("minutes", f"{(ended - begun) / 60:.1f}", "")], []
     rows += [(f"actors {what}", str(count), "") for what, count in soak.events.items()]
@@ -128,29 +128,29 @@ def tell(fleet, soak, account, stuck, begun, ended, samples):
         memory, files = 1 + 2 * number, 2 + 2 * number
         growth = slope([(row[0] / 60, row[memory]) for row in warm])
         rows.append((f"{part}: memory at the end", f"{warm[-1][memory]:.1f} MB", ""))
-        rows.append((f"{part}: growth after warm-up", f"{growth:+.2f} MB/min", f"below {SLOPE_MAX_MB_PER_MINUTE:g}"))
-        # Some actor is always about to join or to leave: the smallest count of a while is compared.
+        rows.append((f"{part}: growth after warm-up", f"{growth:+.2f} MB/min", f"below {GROWTH_MAX_MB_PER_MINUTE:g}"))
+        # Actors join and leave all the time, so compare minima.
         half = len(warm) // 2
         first, last = (min(row[files] for row in part_of) for part_of in (warm[:half], warm[half:]))
         rows.append((f"{part}: descriptors, first and second half", f"{first}, {last}", "no more"))
-        if growth >= SLOPE_MAX_MB_PER_MINUTE:
+        if growth >= GROWTH_MAX_MB_PER_MINUTE:
             wrong.append(f"the {part}'s memory grows")
         if last > first:
             wrong.append(f"the {part}'s descriptors grow")
     third = (ended - begun) / 3
     early, late = fleet.speed(begun, begun + third), fleet.speed(ended - third, ended)
-    rows.append(("env steps/s in the first and the last third", f"{early:.0f}, {late:.0f}", f"within {SLOWER_MAX:.0%}"))
-    if late < (1 - SLOWER_MAX) * early:
-        wrong.append(f"training became slower, by {1 - late / early:.1%}")
+    rows.append(("env steps/s in the first and the last third", f"{early:.0f}, {late:.0f}", f"within {SLOWDOWN_MAX:.0%}"))
+    if late < (1 - SLOWDOWN_MAX) * early:
+        wrong.append(f"training slowed down by {1 - late / early:.1%}")
     for what in ("lost", "twice"):
         rows.append((f"fragments {what}", str(account[what]), "0"))
         wrong += [f"fragments {what}"] * bool(account[what])
     rows.append(("fragments dropped by rule", str(account["dropped"]), ""))
-    rows.append(("fragments gone with killed actors", str(account["lost_with_process"]), ""))
+    rows.append(("fragments lost with killed actors", str(account["lost_with_process"]), ""))
     print("| what | measured | bound |\n|---|---|---|")
     for row in rows:
         print("| " + " | ".join(row) + " |")
-    wrong += account["mistakes"] + [f"{name} did not stop when it was asked to" for name in stuck]
+    wrong += account["mistakes"] + [f"{name} did not stop after SIGTERM" for name in stuck]
     for text in wrong:
         print(text, file=sys.stderr)
     return 1 if wrong else 0

@@ -1,14 +1,13 @@
 #!/usr/bin/env python3
-"""Injects one fault after another into a fleet that trains, and measures what it costs.
+"""Injects one fault after another into a training fleet and measures the cost.
 
 Usage: suite.py TREADMILL FOLDER [--only NAME...] [--older TREADMILL] [--mode sync|async] [--table FILE]
 
-Hosts are network namespaces joined by a bridge (hosts.sh), links are mutually authenticated TLS, and actors reach the learner
-through a router. Each fault has a run of its own: it trains, is disturbed, recovers without anybody's help but that processes
-which ended are started again, and is stopped; then what the actors produced is compared with what the learner did with it.
-Prints a row for each. With --table, those of all faults that FOLDER has results of are put into FILE between its two markers, so
-that --only may repeat some. Exits with 1 where anything was lost silently, trained on twice, or did not recover. Needs root,
-iproute2, iptables, and for clock jumps Debian's `faketime`. Needs Python alone.
+Hosts are network namespaces on a bridge (hosts.sh), links use mutual TLS, and actors connect through a router. Each fault has its
+own run: the fleet trains, is disturbed, recovers with no help except restarts of ended processes, and stops. Then the script
+compares the actors' counts with the learner's. Prints a row per fault. --table writes the rows of all results in FOLDER between
+the markers of FILE; with --only, some faults can be repeated. Exits with 1 if a fragment was lost silently or trained on twice, or
+if the fleet did not recover. Needs root, iproute2, iptables and, for clock jumps, Debian's `faketime`; no Python packages.
 """
 
 import argparse
@@ -21,9 +20,9 @@ import sys
 
 import links
 import table
-from fleet import FRAGMENT, Fleet, certify, end_well, endpoint, hosts
+from fleet import FRAGMENT, Fleet, certify, clean_up_on_signal, endpoint, hosts
 from injections import FAULTS
-from trial import ACTORS, Cannot, Trial
+from experiment import ACTORS, Experiment, NotPossible
 
 
 def run_one(arguments, name, certificates):
@@ -31,7 +30,7 @@ def run_one(arguments, name, certificates):
     folder = arguments.folder / name
     shutil.rmtree(folder, ignore_errors=True)
     if options.get("older") and not arguments.older:
-        raise Cannot("--older names no binary")
+        raise NotPossible("it needs --older BINARY")
     with contextlib.ExitStack() as stack:
         prefix = f"tm{os.getpid()}"
         hosts("up", prefix)
@@ -51,22 +50,22 @@ def run_one(arguments, name, certificates):
             actor_options["binary"] = arguments.older
         wrapped = {options["clock"]: links.faked_clock(folder)} if "clock" in options else {}
         begin(fleet, wrapped, actor_options)
-        trial = Trial(fleet)
-        function(trial)
-        trial.finish()
+        experiment = Experiment(fleet)
+        function(experiment)
+        experiment.finish()
         ended = {process.name for process in fleet.current.values() if not process.is_running()}
         stuck = fleet.stop()
         account = fleet.account()
-        account["mistakes"] += [f"{name} ended by itself" for name in ended]
-        account["mistakes"] += [f"{name} did not stop when it was asked to" for name in stuck]
+        account["mistakes"] += [f"{name} ended unexpectedly" for name in ended]
+        account["mistakes"] += [f"{name} did not stop after SIGTERM" for name in stuck]
         panics = [process.err for process in fleet.processes if "panicked" in process.err.read_text(errors="replace")]
         account["mistakes"] += [f"a panic in {path}" for path in panics]
         if options.get("older"):
-            # Actors of before say nothing at their end; what they did not settle is all that can be missing.
-            account["mistakes"] = [text for text in account["mistakes"] if "no actor sent" not in text]
-        row = {"name": name, "title": title, "account": account, "note": trial.note, "curve": table.curve(fleet)}
+            # Older actors print no final JSON, so their incarnations are unknown.
+            account["mistakes"] = [text for text in account["mistakes"] if "no actor has the incarnation" not in text]
+        row = {"name": name, "title": title, "account": account, "note": experiment.note, "curve": table.curve(fleet)}
         keys = ("detected", "recovered", "before", "during", "after", "updates_repeated")
-        row |= {key: getattr(trial, key) for key in keys}
+        row |= {key: getattr(experiment, key) for key in keys}
         return row
 
 
@@ -74,21 +73,20 @@ def begin(fleet, wrapped, actor_options):
     for name in ("learner", "router", *ACTORS):
         options = actor_options if name in ACTORS else {}
         fleet.start(name, wrapper=wrapped.get(name, ()), **options)
-    patience = "both actors are there"
-    fleet.wait(patience, lambda: all(fleet.learner_said(f"`{name}` is there", 0.0) for name in ACTORS))
+    fleet.wait("both actors joined", lambda: all(fleet.learner_logged(f"`{name}` is there", 0.0) for name in ACTORS))
     fleet.grow(6 * FRAGMENT)
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("treadmill", type=pathlib.Path, help="the built binary")
-    parser.add_argument("folder", type=pathlib.Path, help="where the runs go")
+    parser.add_argument("folder", type=pathlib.Path, help="folder for the runs")
     parser.add_argument("--only", nargs="+", choices=sorted(FAULTS), default=list(FAULTS))
-    parser.add_argument("--older", type=lambda path: pathlib.Path(path).resolve(), help="binary of the version before")
-    parser.add_argument("--mode", choices=("sync", "async"), default="sync", help="of the learner")
-    parser.add_argument("--table", type=pathlib.Path, help="page that the table is put into")
+    parser.add_argument("--older", type=lambda path: pathlib.Path(path).resolve(), help="binary of the previous version")
+    parser.add_argument("--mode", choices=("sync", "async"), default="sync", help="mode of the learner")
+    parser.add_argument("--table", type=pathlib.Path, help="page whose generated part is replaced")
     arguments = parser.parse_args()
-    end_well()
+    clean_up_on_signal()
     arguments.treadmill, arguments.folder = arguments.treadmill.resolve(), arguments.folder.resolve()
     arguments.folder.mkdir(parents=True, exist_ok=True)
     certificates = certify(arguments.treadmill, arguments.folder / "certs")
@@ -96,10 +94,10 @@ def main():
     for name in arguments.only:
         try:
             row = run_one(arguments, name, certificates)
-        except Cannot as why:
-            print(f"{name}: CANNOT BE INJECTED HERE: {why}", file=sys.stderr, flush=True)
+        except NotPossible as why:
+            print(f"{name}: SKIPPED: {why}", file=sys.stderr, flush=True)
             continue
-        except Exception as why:  # noqa: BLE001: the other faults are still worth their time.
+        except Exception as why:  # noqa: BLE001: the other faults still run
             print(f"{name}: FAILED: {why!r}", file=sys.stderr, flush=True)
             failed = True
             continue

@@ -1,4 +1,4 @@
-"""The humanoid in MuJoCo, and the ways in which measure.py changes it: on MuJoCo's side and on Treadmill's alike.
+"""Loads and simulates the humanoid in MuJoCo, with the variants that measure.py compares in both simulators.
 
 Needs: pip install "gymnasium[mujoco]" numpy
 """
@@ -24,8 +24,9 @@ INTEGRATORS = {
 
 
 def variant_xml(path, limits=True, damping=True, symmetric=False):
-    """The text of a model file without joint limits, without joint damping, or with what is unlike on left and right made
-    alike (the right hip's armature and the right knee's spring differ in Gymnasium's figures)."""
+    """Returns the XML of a variant: without joint limits, without joint damping, or symmetric.
+
+    In Gymnasium's file, the right hip's armature and the right knee's spring differ from the left ones."""
     root = ElementTree.parse(path).getroot()
     for joint in root.iter("joint"):
         if joint.get("type") == "free" or joint.get("joint") is not None:
@@ -42,7 +43,7 @@ def variant_xml(path, limits=True, damping=True, symmetric=False):
 
 
 def load(contact=True, **changes):
-    """MuJoCo's model of Gymnasium's file, changed as in variant_xml; contact=False lets everything pass through everything."""
+    """Returns MuJoCo's model of Gymnasium's file with the changes of variant_xml; contact=False disables all contacts."""
     model = mujoco.MjModel.from_xml_string(variant_xml(GYMNASIUM_XML, **changes))
     if not contact:
         model.opt.disableflags |= mujoco.mjtDisableBit.mjDSBL_CONTACT
@@ -50,7 +51,7 @@ def load(contact=True, **changes):
 
 
 def simulate(model, case, integrator="RK4", timestep_s=0.003):
-    """States after each control step, (qpos [T, 24], qvel [T, 23]), in MuJoCo; the model's own integrator is put back."""
+    """Returns the states after each control step in MuJoCo: qpos [T, 24], qvel [T, 23]. Restores the model's options."""
     before = model.opt.integrator, model.opt.timestep
     model.opt.integrator, model.opt.timestep = INTEGRATORS[integrator], timestep_s
     substeps = round(CONTROL_STEP_S / timestep_s)
@@ -69,14 +70,14 @@ def simulate(model, case, integrator="RK4", timestep_s=0.003):
 
 
 def overshoot_rad(model, qpos):
-    """How far the worst hinge of each state is beyond its range, [T]."""
+    """Returns how far the worst hinge of each state is beyond its range, [T]."""
     low, high = model.jnt_range[1:].T
     angles = qpos[:, 7:]
     return np.maximum(np.maximum(low - angles, angles - high), 0.0).max(axis=1)
 
 
 def mechanics(model, qpos, qvel):
-    """For one state: total energy (J), energy without that of the centre of mass (J), and angular momentum about the
+    """Returns for one state: total energy (J), energy without the centre of mass's (J), and angular momentum about the
     centre of mass (kg m²/s, [3])."""
     data = mujoco.MjData(model)
     data.qpos[:], data.qvel[:] = qpos, qvel
@@ -92,28 +93,28 @@ def mechanics(model, qpos, qvel):
     return total_j, total_j - flight_j, data.subtree_angmom[0].copy()
 
 
-# Left and right change places; what turns about x or z, and the shoulders, whose axes are not mirror images, also changes sign.
+# Mirroring swaps left and right. Rotations about x and z change sign; so do shoulders, whose axes are not mirror images.
 _PAIRS = [(3, 7), (4, 8), (5, 9), (6, 10), (11, 14), (12, 15), (13, 16)]
 _HINGE_SIGNS = np.array([-1, 1, -1, 1, 1, 1, 1, 1, 1, 1, 1, -1, -1, 1, -1, -1, 1], float)
 _SWAP = np.arange(17)
 for _right, _left in _PAIRS:
     _SWAP[_right], _SWAP[_left] = _left, _right
-# Actions are in the order of the motors, in which abdomen_y comes before abdomen_z.
+# Actions are in motor order: abdomen_y before abdomen_z.
 _MOTOR_SIGNS = _HINGE_SIGNS[[1, 0, *range(2, 17)]]
 
 
 def mirror_qpos(qpos):
-    """The state's mirror image in the plane between left and right; works on the last axis."""
+    """Mirrors the state in the plane between left and right, along the last axis."""
     root = qpos[..., :7] * [1, -1, 1, 1, -1, 1, -1]
     return np.concatenate([root, (qpos[..., 7:] * _HINGE_SIGNS)[..., _SWAP]], axis=-1)
 
 
 def mirror_qvel(qvel):
-    """As mirror_qpos, for velocities."""
+    """Mirrors velocities like mirror_qpos."""
     root = qvel[..., :6] * [1, -1, 1, -1, 1, -1]
     return np.concatenate([root, (qvel[..., 6:] * _HINGE_SIGNS)[..., _SWAP]], axis=-1)
 
 
 def mirror_actions(actions):
-    """As mirror_qpos, for actions in actuator order."""
+    """Mirrors actions, in actuator order, like mirror_qpos."""
     return (actions * _MOTOR_SIGNS)[..., _SWAP]

@@ -1,6 +1,6 @@
-"""Starting states and actions that both simulators are given.
+"""Starting states and actions for both simulators.
 
-A case is {"qpos": [24], "qvel": [23], "actions": [T, 17]}, in MuJoCo's conventions; actions are single precision.
+A case is {"qpos": [24], "qvel": [23], "actions": [T, 17]} in MuJoCo's conventions; actions have single precision.
 """
 
 import numpy as np
@@ -26,7 +26,7 @@ def _posture(rng, share):
 
 
 def flights(rng, count, steps, limit):
-    """High above the floor: any orientation, angles in the inner 80 % of their ranges, brisk motion, random actions."""
+    """Starts high above the floor: random orientation, angles in the inner 80 % of their ranges, fast motion, random actions."""
     made = []
     for _ in range(count):
         qpos = np.concatenate([[0, 0, 5], _rotation(rng), _posture(rng, 0.8)])
@@ -36,7 +36,7 @@ def flights(rng, count, steps, limit):
 
 
 def passive_flights(rng, count, steps):
-    """So high that it never lands; every joint turns and no motor acts."""
+    """Starts too high to land: every joint moves, and no motor acts."""
     made = []
     for _ in range(count):
         qpos = np.concatenate([[0, 0, 40], _rotation(rng), _posture(rng, 0.5)])
@@ -46,7 +46,7 @@ def passive_flights(rng, count, steps):
 
 
 def drops(rng, count, steps, limit):
-    """Episode starts: the nominal pose with the task's reset noise. The feet hang 11 cm above the floor, so they land after 0.15 s."""
+    """Episode starts: nominal pose with the task's reset noise. The feet are 11 cm above the floor and land after 0.15 s."""
     made = []
     for _ in range(count):
         qpos = _MODEL.qpos0 + rng.uniform(-0.01, 0.01, 24)
@@ -56,7 +56,7 @@ def drops(rng, count, steps, limit):
 
 
 def thrashing(rng, count, steps):
-    """Episode starts, then every motor at its largest torque with a random sign, also when the body lies on the floor."""
+    """Episode starts, then full torque of every motor with random signs, even when the body lies on the floor."""
     made = drops(rng, count, steps, 0.0)
     for case in made:
         signs = rng.choice([-1.0, 1.0], (steps, 17))
@@ -65,7 +65,7 @@ def thrashing(rng, count, steps):
 
 
 def perturbed(cases, size, seed):
-    """The same cases with every number of the start changed by up to `size`."""
+    """Returns the cases with each number of the start changed by up to `size`."""
     rng = np.random.default_rng(seed)
     made = []
     for case in cases:
@@ -75,7 +75,7 @@ def perturbed(cases, size, seed):
 
 
 def mirrored(cases):
-    """The mirror image of each case."""
+    """Returns the mirror image of each case."""
     return [
         {
             "qpos": body.mirror_qpos(case["qpos"]),

@@ -5,7 +5,7 @@ Needs: pip install "gymnasium[mujoco]" numpy
 
 Usage: measure.py [--json OUT.json] [--compare BASELINE.json] [--doc docs/results/fidelity.md]
 
-Both simulators get the same states and actions. MuJoCo is Gymnasium's Humanoid-v5 file, integrator RK4, 5 steps of 3 ms.
+Both simulators get the same states and actions. MuJoCo simulates Gymnasium's Humanoid-v5 file by RK4, 5 steps of 3 ms.
 """
 
 import argparse
@@ -24,15 +24,15 @@ import report
 SEED = 1
 STEPS = {0.15: 10, 0.3: 20, 0.5: 33}
 
-# Name in the tables, settings of the environment. The first row is the product as it comes: 2 physics steps of 7.5 ms for each
-# control step, one iteration of Rapier's solver in each. The others have more steps and as many iterations in each.
+# Name in the tables, settings of the environment. The first row is the default: 2 physics steps of 7.5 ms per control step, each
+# with one iteration of Rapier's solver.
 TREADMILL = [
     ("Treadmill, defaults", {}),
     ("Treadmill, 3 × 5 ms", {"substeps": 3}),
     ("Treadmill, 5 × 3 ms", {"substeps": 5}),
 ]
 # Name in the tables, integrator, time step (s).
-YARDSTICKS = [
+REFERENCES = [
     ("MuJoCo, RK4, 30 × 0.5 ms", "RK4", 0.0005),
     ("MuJoCo, Euler, 5 × 3 ms", "Euler", 0.003),
     ("MuJoCo, Euler, 3 × 5 ms", "Euler", 0.005),
@@ -44,13 +44,13 @@ PERTURBED = "MuJoCo, RK4, 5 × 3 ms, start changed by up to 1e-4"
 
 
 class Treadmill:
-    """The example `open_loop` as a function."""
+    """Runs the example `open_loop`."""
 
     def __init__(self, binary, folder):
         self.binary, self.folder = binary, folder
 
     def __call__(self, given, config=None, **changes):
-        """Plays the given cases; one dictionary of arrays, [T, …] each, for every case."""
+        """Plays cases. Returns for each a dictionary of arrays [T, …]."""
         path = self.folder / "model.xml"
         path.write_text(body.variant_xml(body.TREADMILL_XML, **changes), encoding="utf-8")
         extra = {"model_file": str(path), "config": config or {}}
@@ -61,12 +61,12 @@ class Treadmill:
         played = json.loads(run.stdout)
         for case, states in zip(given, played):
             if len(states) != len(case["actions"]):
-                sys.exit(f"Treadmill's physics broke down after {len(states)} of {len(case['actions'])} steps")
+                sys.exit(f"Treadmill's state was not finite after {len(states)} of {len(case['actions'])} steps")
         return [{key: np.array([state[key] for state in states]) for key in states[0]} for states in played]
 
 
 def errors(reference, found, times_s):
-    """Joint-angle error (rad) and torso-height error (m) against the reference: mean and 95th percentile at each time."""
+    """Returns joint-angle (rad) and torso-height (m) errors: mean and 95th percentile at each time."""
     row = {"angle_mean_rad": [], "angle_p95_rad": [], "height_mean_m": [], "height_p95_m": []}
     for time_s in times_s:
         at = STEPS[time_s] - 1
@@ -80,7 +80,7 @@ def errors(reference, found, times_s):
 
 
 def rollouts(treadmill, played, times_s, contact, limits):
-    """Every simulator's open-loop error against MuJoCo's RK4 with 3 ms."""
+    """Returns each simulator's open-loop error against MuJoCo's RK4 with 3 ms."""
     model = body.load(contact=contact, limits=limits)
     reference = [body.simulate(model, case)[0] for case in played]
     rows = []
@@ -88,7 +88,7 @@ def rollouts(treadmill, played, times_s, contact, limits):
         config = config | ({} if contact else {"self_collision": False})
         found = [states["qpos"] for states in treadmill(played, config, limits=limits)]
         rows.append({"name": name, **errors(reference, found, times_s)})
-    for name, integrator, timestep_s in YARDSTICKS:
+    for name, integrator, timestep_s in REFERENCES:
         found = [body.simulate(model, case, integrator, timestep_s)[0] for case in played]
         rows.append({"name": name, **errors(reference, found, times_s)})
     found = [body.simulate(model, case)[0] for case in cases.perturbed(played, 1e-4, SEED)]
@@ -97,7 +97,7 @@ def rollouts(treadmill, played, times_s, contact, limits):
 
 
 def energy(treadmill):
-    """What happens to the energy of a body that nothing acts on but gravity and its own springs."""
+    """Returns the energy drift of a body under gravity and its own springs only."""
     played = cases.passive_flights(np.random.default_rng(SEED), 20, 134)
     changes = {"limits": False, "damping": False}
     model = body.load(contact=False, **changes)
@@ -124,14 +124,14 @@ def energy(treadmill):
     for name, config in TREADMILL:
         states = treadmill(played, config | {"self_collision": False}, **changes)
         rows.append(row(name, [(s["qpos"], s["qvel"]) for s in states]))
-    for name, integrator, timestep_s in [("MuJoCo, RK4, 5 × 3 ms", "RK4", 0.003), *YARDSTICKS[1:]]:
+    for name, integrator, timestep_s in [("MuJoCo, RK4, 5 × 3 ms", "RK4", 0.003), *REFERENCES[1:]]:
         rows.append(row(name, [body.simulate(model, case, integrator, timestep_s) for case in played]))
     moving_j = float(np.mean([moving[1] - still for moving, still in zip(start, still_j)]))
     return {"cases": len(played), "times_s": list(steps), "internal_kinetic_start_j": moving_j, "rows": rows}
 
 
 def mirror(treadmill):
-    """How far a mirrored start and mirrored actions lead away from the mirrored path (rad, over joints and cases)."""
+    """Returns how far the mirrored case deviates from the mirrored path (rad, over joints and cases)."""
     rng = np.random.default_rng(SEED)
     result = {"cases": 50, "rows": []}
     for what, played, contact in [
@@ -151,7 +151,7 @@ def mirror(treadmill):
 
 
 def joints(treadmill):
-    """Overshoot of joint limits under torques that are always at their largest, with random signs."""
+    """Returns the overshoot of joint limits under full torques with random signs."""
     played = cases.thrashing(np.random.default_rng(SEED), 10, 1000)
     model = body.load()
     rows = []
@@ -165,12 +165,12 @@ def joints(treadmill):
 
 
 def quantiles(numbers):
-    """50 %, 99 %, 99.9 % and the largest."""
+    """Returns the 50 %, 99 % and 99.9 % quantiles and the maximum."""
     return [float(np.percentile(numbers, share)) for share in (50, 99, 99.9, 100)]
 
 
 def measure(treadmill):
-    """Everything, as one JSON object."""
+    """Runs all measurements. Returns one JSON object."""
     rng = np.random.default_rng(SEED)
     flights = cases.flights(rng, 200, 10, body.CONTROL_LIMIT)
     drops_zero = cases.drops(rng, 100, 33, 0.0)
@@ -192,12 +192,12 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     binary = body.REPOSITORY / "target/release/examples/open_loop"
     parser.add_argument("--open-loop", type=pathlib.Path, default=binary, help="the built example")
-    parser.add_argument("--json", type=pathlib.Path, help="write all numbers here")
-    parser.add_argument("--compare", type=pathlib.Path, help="numbers of an earlier version, for rows 'before'")
+    parser.add_argument("--json", type=pathlib.Path, help="file for all numbers")
+    parser.add_argument("--compare", type=pathlib.Path, help="numbers of an earlier version, shown in rows 'before'")
     parser.add_argument("--doc", type=pathlib.Path, help="page whose generated part is replaced")
     arguments = parser.parse_args()
     if not arguments.open_loop.exists():
-        sys.exit(f"{arguments.open_loop} is not there: cargo build --release -p treadmill-humanoid --example open_loop")
+        sys.exit(f"{arguments.open_loop} does not exist; run: cargo build --release -p treadmill-humanoid --example open_loop")
     before = json.loads(arguments.compare.read_text(encoding="utf-8")) if arguments.compare else None
     with tempfile.TemporaryDirectory() as folder:
         result = measure(Treadmill(arguments.open_loop, pathlib.Path(folder)))

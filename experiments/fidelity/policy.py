@@ -1,4 +1,4 @@
-"""A policy that `treadmill export --safetensors` wrote, read and evaluated with numpy alone.
+"""Reads and evaluates a policy of `treadmill export --safetensors` with numpy only.
 
 Needs: pip install numpy
 """
@@ -8,17 +8,17 @@ import struct
 
 import numpy as np
 
-# First body and first degree of freedom that a kind of observation has rows for, 0 being the world and the root.
+# First body and first degree of freedom in an observation kind; 0 is the world and the root.
 FIRST_ROWS = {"compact": None, "gymnasium-v5": (1, 6), "gymnasium-v4": (0, 0)}
 
 
 def read_safetensors(path):
-    """Tensors by name, and the metadata: eight bytes of header length, the header as JSON, then the numbers."""
+    """Returns tensors by name and the metadata. Format: header length (8 bytes), JSON header, numbers."""
     with open(path, "rb") as file:
         content = file.read()
     (length,) = struct.unpack_from("<Q", content)
     if 8 + length > len(content):
-        raise ValueError("it is truncated, or no safetensors file")
+        raise ValueError("not a complete safetensors file")
     header, data = json.loads(content[8 : 8 + length]), content[8 + length :]
     metadata = header.pop("__metadata__", {})
     kinds = {"F32": "<f4", "F64": "<f8"}
@@ -30,13 +30,13 @@ def read_safetensors(path):
 
 
 class Policy:
-    """Chooses actions by their mean, without exploration."""
+    """Deterministic policy: actions are the means."""
 
     def __init__(self, path):
         tensors, metadata = read_safetensors(path)
         self.facts = json.loads(metadata["treadmill"])
         if self.facts["format"] != 1 or self.facts["network"]["activation"] != "elu":
-            raise ValueError(f"{path} has format {self.facts['format']}; this script reads format 1 with ELU only")
+            raise ValueError(f"{path} has format {self.facts['format']}; this script reads only format 1 with ELU")
         self.kind = self.facts["observation"]["kind"]
         self.env = self.facts.get("env", {})
         self.clip = np.float32(self.facts["observation"]["clip"])
@@ -47,7 +47,7 @@ class Policy:
         self.low, self.high = (np.array(self.facts["action"][end], np.float32) for end in ("low", "high"))
 
     def means(self, observation):
-        """The network's output for one raw observation, in units of the action range."""
+        """Returns the network's output for one raw observation, in units of the action range."""
         x = np.clip((np.asarray(observation, np.float32) - self.mean) * self.scale, -self.clip, self.clip)
         for index, (weight, bias) in enumerate(self.layers):
             x = weight @ x + bias
@@ -56,28 +56,28 @@ class Policy:
         return x
 
     def observe(self, data):
-        """What this policy sees of MuJoCo's state."""
+        """Returns the policy's observation of MuJoCo's state."""
         observation = observe(self.kind, data, self.env)
         if len(observation) != len(self.mean):
-            raise ValueError(f"the policy sees {len(self.mean)} numbers, but this body has {len(observation)}")
+            raise ValueError(f"the policy observes {len(self.mean)} numbers, but this body has {len(observation)}")
         return observation
 
     def controls(self, observation):
-        """What the motors are set to: the means clipped to ±1 and stretched to [low, high]."""
+        """Returns motor controls: means clipped to ±1 and scaled to [low, high]."""
         share = (np.clip(self.means(observation), -1, 1) + 1) / 2
         return self.low + share * (self.high - self.low)
 
 
 def observe(kind, data, env=None):
-    """The observation of Treadmill's `kind` from MuJoCo's state, single precision.
+    """Returns Treadmill's observation `kind` of MuJoCo's state, in single precision.
 
-    `env` is the table of that name in an exported file: which parts are left out, and whether x and y of the torso are. What
-    it does not say is as Gymnasium's environments have it."""
+    `env` is the table of that name in an exported file. It says which parts are left out; missing keys have Gymnasium's
+    defaults."""
     env = env or {}
     hidden = 2 if env.get("exclude_current_positions_from_observation", True) else 0
     parts = [data.qpos[hidden:], data.qvel]
     if kind not in FIRST_ROWS:
-        raise ValueError(f"observations of kind {kind!r} are not known here: {', '.join(FIRST_ROWS)} are")
+        raise ValueError(f"unknown observation kind {kind!r}; known: {', '.join(FIRST_ROWS)}")
     if kind != "compact":
         first_body, first_dof = FIRST_ROWS[kind]
         derived = {

@@ -1,4 +1,4 @@
-"""Plays an exported policy, unchanged, in Gymnasium's Humanoid-v5 as it comes, which MuJoCo simulates.
+"""Plays an exported policy, unchanged, in Gymnasium's Humanoid-v5 (MuJoCo).
 
 Needs: pip install "gymnasium[mujoco]" numpy
        treadmill export RUN --safetensors policy.safetensors
@@ -7,11 +7,11 @@ Usage: sim2sim.py policy.safetensors [--episodes 20] [--seed 0] [--json OUT.json
                   [--treadmill target/release/treadmill] [--doc docs/results/fidelity.md]
        sim2sim.py policy.safetensors --check TRACE.jsonl     # made by `treadmill eval policy.safetensors --trace TRACE.jsonl`
 
---random plays uniformly random actions instead; --check compares this script's actions with Treadmill's own for the same
-observations; --treadmill also plays policy and random actions in Treadmill, and in MuJoCo, and prints one table of all four.
+--random plays uniformly random actions instead. --check compares this script's actions with Treadmill's for the same
+observations. --treadmill plays the policy and random actions in both simulators and prints one table.
 
-The observation is the one that the policy was trained with; reward and end of an episode are Humanoid-v5's. Treadmill's rows are
-of the policy's own task, so that returns can be compared only where that is Humanoid-v5 with its defaults too.
+The observation is the policy's own; reward and end of an episode are Humanoid-v5's. Treadmill's rows use the policy's own task, so
+returns are comparable only if that is Humanoid-v5 with its defaults.
 """
 
 import argparse
@@ -32,7 +32,7 @@ TOLERANCE = 1e-5
 
 
 def play(choose, episodes, seed, trace=None):
-    """One dictionary per episode. `choose(data)` gives an observation, or None, and the controls."""
+    """Returns one dictionary per episode. `choose(data)` returns an observation, or None, and the controls."""
     environment = gymnasium.make("Humanoid-v5", disable_env_checker=True)
     data = environment.unwrapped.data
     played = []
@@ -57,7 +57,7 @@ def play(choose, episodes, seed, trace=None):
 
 
 def summary(agent, played):
-    """Mean, least and greatest over episodes; the mean velocity is total distance over total time, as in `treadmill eval`."""
+    """Returns mean, minimum and maximum over episodes. As in `treadmill eval`, mean velocity is total distance / total time."""
     result = {"agent": agent, "simulator": "MuJoCo", "episodes": len(played), "falls": sum(e["fell"] for e in played)}
     for key in ("return", "length", "distance_m", "velocity_mps"):
         values = [episode[key] for episode in played]
@@ -68,7 +68,7 @@ def summary(agent, played):
 
 
 def in_treadmill(binary, policy, agent, episodes, seed):
-    """The same from `treadmill eval`."""
+    """Returns the summary of `treadmill eval`."""
     command = [str(binary), "eval", str(policy), "--agent", agent, "--json"]
     run = subprocess.run([*command, "--episodes", str(episodes), "--seed", str(seed)], capture_output=True, text=True)
     if run.returncode != 0:
@@ -90,11 +90,11 @@ def check(policy, path):
             largest, steps = max(largest, float(difference.max())), steps + 1
     print(f"{steps} observations: actions differ by at most {largest:.2g}, in units of the action range")
     if steps == 0 or not largest <= TOLERANCE:
-        sys.exit(f"that is no agreement: up to {TOLERANCE} is, over at least one observation")
+        sys.exit(f"actions differ: the tolerance is {TOLERANCE}, and at least one observation is needed")
 
 
 def table(results):
-    """The results as Markdown."""
+    """Formats the results as Markdown."""
 
     def spread(result, key, digits):
         text = f"{result[f'{key}_mean']:.{digits}f}"
@@ -117,31 +117,31 @@ def main():
     parser.add_argument("--episodes", type=int, default=20)
     parser.add_argument("--seed", type=int, default=0)
     parser.add_argument("--random", action="store_true", help="uniformly random actions instead")
-    parser.add_argument("--check", type=pathlib.Path, help="a trace of `treadmill eval` to compare actions with")
-    parser.add_argument("--trace", type=pathlib.Path, help="write each step here, one JSON object per line")
-    parser.add_argument("--json", type=pathlib.Path, help="write the results here")
-    parser.add_argument("--treadmill", type=pathlib.Path, help="the binary, to play the same in Treadmill")
+    parser.add_argument("--check", type=pathlib.Path, help="trace of `treadmill eval` for comparing actions")
+    parser.add_argument("--trace", type=pathlib.Path, help="file for all steps, one JSON object per line")
+    parser.add_argument("--json", type=pathlib.Path, help="file for the results")
+    parser.add_argument("--treadmill", type=pathlib.Path, help="the binary, to play in Treadmill too")
     parser.add_argument("--doc", type=pathlib.Path, help="page whose generated part is replaced")
     arguments = parser.parse_args()
     try:
         policy = Policy(arguments.policy)
     except (OSError, ValueError, KeyError, struct.error) as why:
-        sys.exit(f"{arguments.policy} is no policy that `treadmill export --safetensors` wrote: {why!r}")
+        sys.exit(f"{arguments.policy} is not a policy of `treadmill export --safetensors`: {why!r}")
     if arguments.check:
         check(policy, arguments.check)
         return
     if len(policy.low) != 17:
-        sys.exit(f"{arguments.policy} moves a body of {len(policy.low)} motors, but Humanoid-v5 has 17")
+        sys.exit(f"{arguments.policy} controls {len(policy.low)} motors, but Humanoid-v5 has 17")
     rng = np.random.default_rng(arguments.seed)
 
     def by_policy(data):
         observation = policy.observe(data)
         return observation, policy.controls(observation)
 
-    def by_chance(_):
+    def at_random(_):
         return None, rng.uniform(policy.low, policy.high).astype(np.float32)
 
-    agents = {"policy": by_policy, "random": by_chance}
+    agents = {"policy": by_policy, "random": at_random}
     chosen = list(agents) if arguments.treadmill else ["random" if arguments.random else "policy"]
     trace = open(arguments.trace, "w", encoding="utf-8") if arguments.trace else None
     results = []

@@ -1,13 +1,13 @@
-"""Speed of Treadmill's environment beside Gymnasium's Humanoid-v5 and plain MuJoCo, on one and the same core, in turn.
+"""Compares the speed of Treadmill's environment with Gymnasium's Humanoid-v5 and plain MuJoCo, in turn on one core.
 
 Needs: pip install "gymnasium[mujoco]" numpy
        cargo build --release
 
 Usage: taskset -c 0 speed.py target/release/treadmill [--rounds 5] [--seconds 3] [--json OUT.json] [--doc docs/results/fidelity.md]
 
-Every candidate runs once in every round, so that a machine that becomes slower does so for all of them. Actions are random,
-resets are included, and a step is always one control step of 15 ms. Treadmill steps 64 humanoids in turn, as an actor has
-them; MuJoCo steps one, which stays in the processor's cache. Run it with nothing beside it.
+Each candidate runs once per round, so that changes of the machine's speed affect all. Actions are random, resets are included, and
+a step is one control step of 15 ms. Treadmill steps 64 humanoids in turn, like an actor; MuJoCo steps one, which stays in the
+processor's cache. Run it on an idle machine.
 """
 
 import argparse
@@ -39,7 +39,7 @@ def actions(seed):
 
 
 def treadmill(binary, steps, observation):
-    """What `bench env` says, or None where it does not know the observation."""
+    """Returns the output of `bench env`, or None if the binary lacks --observation."""
     command = [str(binary), "bench", "env", "--steps", str(steps), "--json"]
     if observation != "compact":
         command += ["--observation", observation]
@@ -52,7 +52,7 @@ def treadmill(binary, steps, observation):
 
 
 def gymnasium_speed(seconds, seed):
-    """Control steps per second of the environment as it is commonly used."""
+    """Returns control steps per second of the environment in its usual loop."""
     environment = gymnasium.make("Humanoid-v5", disable_env_checker=True)
     environment.reset(seed=seed)
     steps, given, begun = 0, actions(seed), time.perf_counter()
@@ -66,7 +66,7 @@ def gymnasium_speed(seconds, seed):
 
 
 def raw_speed(integrator, seconds, seed):
-    """Control steps per second of MuJoCo's own loop: no observation, no reward."""
+    """Returns control steps per second of plain MuJoCo: no observation, no reward."""
     model = body.load()
     model.opt.integrator = body.INTEGRATORS[integrator]
     data, rng, given = mujoco.MjData(model), np.random.default_rng(seed), actions(seed)
@@ -84,7 +84,7 @@ def raw_speed(integrator, seconds, seed):
 
 
 def one_round(arguments, number):
-    """Control steps per second of every candidate."""
+    """Returns control steps per second of each candidate."""
     found = {}
     compact = treadmill(arguments.treadmill, arguments.steps, "compact")
     found[COMPACT], found[PHYSICS] = compact["env_steps_per_s"], compact["physics_only_steps_per_s"]
@@ -98,7 +98,7 @@ def one_round(arguments, number):
 
 
 def table(rounds):
-    """Median, range and ratios; a ratio is taken within each round, and its median is shown."""
+    """Formats median, range and median ratios; each ratio is taken within one round."""
 
     def median(name):
         return statistics.median(found[name] for found in rounds)
@@ -120,8 +120,8 @@ def main():
     parser.add_argument("--rounds", type=int, default=5)
     parser.add_argument("--seconds", type=float, default=3.0, help="per MuJoCo candidate and round")
     parser.add_argument("--steps", type=int, default=20_000, help="per Treadmill candidate and round")
-    parser.add_argument("--core", type=int, help="pin to this core; by default the first that is allowed")
-    parser.add_argument("--json", type=pathlib.Path, help="write all numbers here")
+    parser.add_argument("--core", type=int, help="core to pin to; default: the first allowed one")
+    parser.add_argument("--json", type=pathlib.Path, help="file for all numbers")
     parser.add_argument("--doc", type=pathlib.Path, help="page whose generated part is replaced")
     arguments = parser.parse_args()
     core = min(os.sched_getaffinity(0)) if arguments.core is None else arguments.core

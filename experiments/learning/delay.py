@@ -1,11 +1,10 @@
 #!/usr/bin/env python3
-"""Trains in both modes of the learner with actors behind links that are as slow as those between continents.
+"""Trains in both modes of the learner with intercontinental delays between learner and actors.
 
 Usage: delay.py target/release/treadmill FOLDER [--modes sync async] [--seeds 1 2 3] [--steps 4000000] [--delay-ms 150]
 
-Between the learner and its two actors stands a relay that keeps everything back for --delay-ms, in either direction. The
-evaluator is not delayed. Prints a line for each run: how fast it was, how old experience was when it was learnt from, and what
-was learnt. Needs Python alone.
+A relay between the learner and its two actors delays data by --delay-ms in each direction. The evaluator is not delayed. Prints
+speed, policy lag, return and distance of each run. Needs no Python packages.
 """
 
 import argparse
@@ -16,48 +15,48 @@ import pathlib
 import signal
 import statistics
 
-PIECE_BYTES = 1 << 16
-# Long links hold much; what is under way is bounded by the fragments that actors may have in flight.
-PIECES_UNDER_WAY = 4096
+CHUNK_BYTES = 1 << 16
+# Large enough for all fragments that actors may have in flight.
+CHUNKS_IN_FLIGHT = 4096
 
 
 async def relay(reader, writer, delay_s):
-    """Passes on what arrives, each piece so much later, and the end of it too."""
-    loop, pieces = asyncio.get_running_loop(), asyncio.Queue(PIECES_UNDER_WAY)
+    """Forwards data and the end of the stream in order, delayed."""
+    loop, chunks = asyncio.get_running_loop(), asyncio.Queue(CHUNKS_IN_FLIGHT)
 
-    async def take():
-        piece = True
-        while piece:
+    async def receive():
+        chunk = True
+        while chunk:
             with contextlib.suppress(ConnectionError):
-                piece = await reader.read(PIECE_BYTES)
-            await pieces.put((loop.time() + delay_s, piece))
+                chunk = await reader.read(CHUNK_BYTES)
+            await chunks.put((loop.time() + delay_s, chunk))
 
-    taking = asyncio.create_task(take())
+    receiving = asyncio.create_task(receive())
     with contextlib.suppress(ConnectionError):
         while True:
-            due, piece = await pieces.get()
+            due, chunk = await chunks.get()
             await asyncio.sleep(due - loop.time())
-            if not piece:
+            if not chunk:
                 break
-            writer.write(piece)
+            writer.write(chunk)
             await writer.drain()
-    taking.cancel()
+    receiving.cancel()
     writer.close()
 
 
 async def listen(port, delay_s):
-    """A port of its own from which everything goes to `port`, and back, late; and what is to be awaited at the end."""
+    """Starts a delaying relay to `port`. Returns its server, its port, and the tasks to await at the end."""
     links = []
 
     async def accept(reader, writer):
         links.append(asyncio.current_task())
         try:
-            there, back = await asyncio.open_connection("127.0.0.1", port)
+            replies, upstream = await asyncio.open_connection("127.0.0.1", port)
         except ConnectionError:
-            # The learner is gone already; actors find that out a little later.
+            # The learner has ended before the actors.
             writer.close()
             return
-        await asyncio.gather(relay(reader, back, delay_s), relay(there, writer, delay_s))
+        await asyncio.gather(relay(reader, upstream, delay_s), relay(replies, writer, delay_s))
 
     server = await asyncio.start_server(accept, "127.0.0.1", 0)
     return server, server.sockets[0].getsockname()[1], links
@@ -69,9 +68,9 @@ async def start(binary, *arguments):
 
 
 async def train(arguments, mode, seed):
-    """One run from its first step to its last."""
+    """Trains one run and prints its line."""
     folder = arguments.folder / f"{mode}-{seed}"
-    # A thread for each core while actors wait, one while they do not.
+    # In mode `sync`, actors wait during the update, so it may use all cores.
     changes = {"learner.mode": mode, "learner.threads": 0 if mode == "sync" else 1}
     changes["learner.max_policy_lag"] = arguments.max_policy_lag
     settings = [part for key, value in changes.items() for part in ("--set", f"{key}={value}")]
@@ -90,11 +89,11 @@ async def train(arguments, mode, seed):
         await other.communicate()
     server.close()
     await asyncio.gather(*links)
-    tell(mode, seed, folder, json.loads(out.decode().strip().splitlines()[-1]))
+    report(mode, seed, folder, json.loads(out.decode().strip().splitlines()[-1]))
 
 
-def tell(mode, seed, folder, summary):
-    lags, trials, last = [], [], {}
+def report(mode, seed, folder, summary):
+    lags, evaluations, last = [], [], {}
     with open(folder / "metrics.jsonl", encoding="utf-8") as lines:
         for line in lines:
             metric = json.loads(line)
@@ -102,16 +101,16 @@ def tell(mode, seed, folder, summary):
             if metric["tag"] == "bus/policy_lag_mean":
                 lags.append(metric["value"])
             if metric["tag"] == "eval/distance_mean_m":
-                trials.append(metric["value"])
-    lag = f"lag {statistics.mean(lags):.1f} (median {statistics.median(lags):.1f}, at most {max(lags):.1f})"
+                evaluations.append(metric["value"])
+    lag = f"lag {statistics.mean(lags):.1f} (median {statistics.median(lags):.1f}, maximum {max(lags):.1f})"
     speed = f"{summary['env_steps_per_s']:.0f} steps/s, {summary['wall_s']:.0f} s"
-    learnt = f"return {last.get('rollout/ep_rew_mean', 0):.0f}, distance {last.get('rollout/distance_mean_m', 0):.1f} m"
-    trial = f"evaluated {statistics.mean(trials[-3:]):.1f} m" if trials else "not evaluated"
-    dropped = f"{last['bus/fragments_too_old']:.0f} fragments too old of {last['bus/fragments_accepted']:.0f}"
-    print(f"{mode}, seed {seed}: {speed}; {lag}; {learnt}; {trial}; {dropped}", flush=True)
+    result = f"return {last.get('rollout/ep_rew_mean', 0):.0f}, distance {last.get('rollout/distance_mean_m', 0):.1f} m"
+    evaluated = f"evaluated {statistics.mean(evaluations[-3:]):.1f} m" if evaluations else "not evaluated"
+    dropped = f"{last['bus/fragments_too_old']:.0f} fragments too old, {last['bus/fragments_accepted']:.0f} accepted"
+    print(f"{mode}, seed {seed}: {speed}; {lag}; {result}; {evaluated}; {dropped}", flush=True)
 
 
-async def all_of_them(arguments):
+async def train_all(arguments):
     arguments.folder.mkdir(parents=True, exist_ok=True)
     for seed in arguments.seeds:
         for mode in arguments.modes:
@@ -121,13 +120,13 @@ async def all_of_them(arguments):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("treadmill", type=pathlib.Path, help="the built binary")
-    parser.add_argument("folder", type=pathlib.Path, help="where the runs go")
+    parser.add_argument("folder", type=pathlib.Path, help="folder for the runs")
     parser.add_argument("--modes", nargs="+", choices=("sync", "async"), default=["sync", "async"])
     parser.add_argument("--seeds", nargs="+", type=int, default=[1, 2, 3])
     parser.add_argument("--steps", type=int, default=4_000_000)
     parser.add_argument("--delay-ms", type=float, default=150)
     parser.add_argument("--max-policy-lag", type=int, default=4)
-    asyncio.run(all_of_them(parser.parse_args()))
+    asyncio.run(train_all(parser.parse_args()))
 
 
 if __name__ == "__main__":

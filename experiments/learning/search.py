@@ -1,13 +1,12 @@
 #!/usr/bin/env python3
-"""What learns to walk sooner: trains each candidate on several seeds and puts the results into a table.
+"""Searches for settings that learn to walk sooner: trains each candidate on several seeds and tabulates the results.
 
 Usage: search.py target/release/treadmill FOLDER [--only NAME ...] [--seeds 1 2 3] [--steps 4000000] [--jobs 2]
        search.py FOLDER --doc docs/results/search.md
 
-The first form trains the runs that FOLDER lacks; the second makes a table of all its runs. A run is evaluated every 200 000
-steps by ten deterministic episodes of at most 15 s. Each run has one actor process and one thread for its update, so that two
-of them side by side keep two cores busy: compare the steps, and not the time, with a run that has the machine to itself.
-Needs Python alone.
+The first form trains the runs that FOLDER lacks; the second tabulates all its runs. Every 200 000 steps, a run is evaluated on ten
+deterministic episodes of at most 15 s. Each run has one actor process and one update thread, so two parallel runs use two cores.
+Compare steps, not times, with a run that has the machine to itself. Needs no Python packages.
 """
 
 import argparse
@@ -22,19 +21,19 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "fidelity")
 
 import report
 
-SEE = ["env.observation=gymnasium-v5"]
-HIDE = {name: f"env.include_{name}_in_observation=false" for name in ("cinert", "cvel", "qfrc_actuator", "cfrc_ext")}
+OBSERVE_V5 = ["env.observation=gymnasium-v5"]
+LEAVE_OUT = {name: f"env.include_{name}_in_observation=false" for name in ("cinert", "cvel", "qfrc_actuator", "cfrc_ext")}
 
 
-def seeing(*names):
-    """Positions and velocities, and these blocks of what Gymnasium's v5 observes."""
-    return SEE + [flag for name, flag in HIDE.items() if name not in names]
+def observing(*names):
+    """Returns settings that observe positions, velocities and these blocks of Gymnasium's v5 observation."""
+    return OBSERVE_V5 + [flag for name, flag in LEAVE_OUT.items() if name not in names]
 
 
-# What `walk` was like when the search began.
+# Settings of `walk` when the search began.
 BASE = ["ppo.epochs=5", "ppo.minibatch=2048"]
 
-# What each candidate changes in that.
+# Changes of each candidate.
 CANDIDATES = {
     "baseline": [],
     "network 128–128": ["policy.hidden=[128, 128]"],
@@ -58,27 +57,27 @@ CANDIDATES = {
     "λ 0.9": ["ppo.gae_lambda=0.9"],
     "mirror images": ["ppo.symmetry=mirrored", "ppo.minibatch=4096"],
     "f16, 3 epochs, minibatch 1024": ["ppo.epochs=3", "ppo.minibatch=1024", "rollout.observation_precision=f16"],
-    "sees contacts": seeing("cfrc_ext"),
-    "sees torques": seeing("qfrc_actuator"),
-    "sees link velocities": seeing("cvel"),
-    "sees all of v5": SEE,
+    "sees contacts": observing("cfrc_ext"),
+    "sees torques": observing("qfrc_actuator"),
+    "sees link velocities": observing("cvel"),
+    "sees all of v5": OBSERVE_V5,
 }
 
 
 def folder_of(root, name, seed):
-    """Where a run is; its name goes into keys of the bus."""
+    """Returns the run's folder, whose name must be valid in bus keys."""
     plain = name.replace("λ", "lambda").replace("×", "x").replace("–", "-").replace("−", "minus-")
     plain = plain.replace(",", "").replace(".", "-").replace(" ", "-")
     return root / f"{plain}-{seed}"
 
 
 def note_of(folder):
-    """The file that says that a run is whole."""
+    """Returns the file that marks a run as complete."""
     return folder.parent / f"{folder.name}.json"
 
 
 def train(binary, root, name, seed, steps):
-    """One run, unless it is there; a run that was cut off is begun again."""
+    """Trains one run unless it is complete. Restarts an incomplete run."""
     folder = folder_of(root, name, seed)
     done = note_of(folder)
     if done.exists():
@@ -92,24 +91,24 @@ def train(binary, root, name, seed, steps):
     if run.returncode != 0:
         sys.exit(f"{' '.join(command)} failed: {run.stderr.strip()}")
     done.write_text(json.dumps({"name": name, "seed": seed, "steps": steps}) + "\n", encoding="utf-8")
-    print(f"{name}, seed {seed}: {told(measure(folder))}", file=sys.stderr)
+    print(f"{name}, seed {seed}: {summary(measure(folder))}", file=sys.stderr)
 
 
 def measure(folder):
-    """What the evaluations of a run say."""
+    """Returns the results of a run's evaluations."""
     by_step = {}
     with open(folder / "metrics.jsonl", encoding="utf-8") as lines:
         for line in lines:
             metric = json.loads(line)
             by_step.setdefault(metric["step"], {})[metric["tag"]] = metric["value"]
-    trials = {}
+    evaluations = {}
     for values in by_step.values():
         if "eval/distance_mean_m" in values:
-            trials[values["eval/total_timesteps"]] = values
-    last = [trials[step] for step in sorted(trials)[-3:]]
+            evaluations[values["eval/total_timesteps"]] = values
+    last = [evaluations[step] for step in sorted(evaluations)[-3:]]
 
     def reached(distance_m):
-        return next((step for step in sorted(trials) if trials[step]["eval/distance_mean_m"] >= distance_m), None)
+        return next((step for step in sorted(evaluations) if evaluations[step]["eval/distance_mean_m"] >= distance_m), None)
 
     def late(tag):
         return statistics.mean(values[tag] for values in last)
@@ -125,8 +124,8 @@ def measure(folder):
     }
 
 
-def told(found):
-    """One run in one line."""
+def summary(found):
+    """Formats one run as one line."""
     steps = [f"{metres} m after {million(found[f'to_{metres}_m'])}" for metres in (5, 10, 20)]
     return f"{', '.join(steps)}; at the end {found['distance_m']:.1f} m, {100 * found['falls']:.0f} % fall"
 
@@ -136,13 +135,13 @@ def million(steps):
 
 
 def median(values):
-    """The middle one, of two the later; what was never reached counts as last."""
+    """Returns the upper median; None (never reached) counts as the largest."""
     ordered = sorted(values, key=lambda value: float("inf") if value is None else value)
     return ordered[len(ordered) // 2]
 
 
 def table(root):
-    """A row for each candidate that was trained: medians, and each seed's distance at the end."""
+    """Formats a row per trained candidate: medians, and each seed's final distance."""
     rows = []
     for name, changes in CANDIDATES.items():
         notes = [json.loads(path.read_text(encoding="utf-8")) for path in root.glob("*.json")]
@@ -168,7 +167,7 @@ def main():
     parser.add_argument("--only", nargs="+", choices=CANDIDATES, default=list(CANDIDATES), metavar="NAME")
     parser.add_argument("--seeds", nargs="+", type=int, default=[1, 2, 3])
     parser.add_argument("--steps", type=int, default=4_000_000)
-    parser.add_argument("--jobs", type=int, default=2, help="runs side by side")
+    parser.add_argument("--jobs", type=int, default=2, help="parallel runs")
     parser.add_argument("--doc", type=pathlib.Path, help="page whose generated part is replaced")
     arguments = parser.parse_args()
     *binary, root = arguments.paths

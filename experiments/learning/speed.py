@@ -1,14 +1,14 @@
-"""Speed of Treadmill's learning beside PyTorch's and Stable-Baselines3's, on the same cores, in turn.
+"""Compares the speed of Treadmill's learning with PyTorch and Stable-Baselines3, in turn on the same cores.
 
 Needs: pip install torch stable-baselines3 "gymnasium[mujoco]" numpy
        cargo build --release
 
 Usage: speed.py target/release/treadmill [--rounds 5] [--without-training] [--json OUT.json] [--doc docs/results/README.md]
 
-In every round each comparison runs both sides one after the other, and every other round in the other order; a ratio is that of
-one round. Update and inference run on one core with one thread, the update of two threads and training on two cores. PyTorch's
-side is in torch_ppo.py. Stable-Baselines3 is measured with one thread and with one for each core, and the faster counts. Five
-rounds take about a quarter of an hour; run it with nothing beside it.
+Each round runs both sides of every comparison; odd rounds reverse the order, and a ratio belongs to one round. Update and
+inference use one core and thread; the two-thread update and training use two cores. torch_ppo.py has PyTorch's side.
+Stable-Baselines3 runs with one thread and with one per core, and the faster one counts. Five rounds take about a quarter of an
+hour. Run it on an idle machine.
 """
 
 import argparse
@@ -35,7 +35,7 @@ SMALL, LARGE = (45, 256, 128), (348, 512, 256)
 MINIBATCH, ROWS = 2048, 64
 HAND_MADE = torch_ppo.HandMadeElu
 PACKAGES = ("torch", "stable-baselines3", "gymnasium", "mujoco", "numpy")
-SOURCES = ("src", "common/src", "learner/src", "actor", "Cargo.lock")
+SOURCES = ("src", "common", "learner", "actor", "Cargo.lock")
 
 COMPARISONS = {
     "update": ("Update, 45–256–128, samples/s", "PyTorch, one thread each", "at least 1.2"),
@@ -49,7 +49,7 @@ COMPARISONS = {
 
 
 def treadmill(binary, cores, *arguments):
-    """What a bench says when it is pinned to these cores."""
+    """Returns the output of `treadmill bench`, pinned to these cores."""
     command = [str(binary), "bench", *map(str, arguments), "--json"]
     run = subprocess.run(command, capture_output=True, text=True, preexec_fn=lambda: os.sched_setaffinity(0, cores))
     if run.returncode != 0:
@@ -58,7 +58,7 @@ def treadmill(binary, cores, *arguments):
 
 
 def pinned(cores, threads, measure):
-    """The measurement with this process pinned to these cores, and so many threads of PyTorch."""
+    """Runs `measure` pinned to these cores, with this many PyTorch threads."""
     before = os.sched_getaffinity(0)
     os.sched_setaffinity(0, cores)
     torch.set_num_threads(threads)
@@ -69,7 +69,7 @@ def pinned(cores, threads, measure):
 
 
 def stable_baselines(steps):
-    """Environment steps per second of the script that Stable-Baselines3's tutorials have."""
+    """Returns environment steps per second of Stable-Baselines3's tutorial script."""
     environment = gymnasium.make("Humanoid-v5")
     model = stable_baselines3.PPO("MlpPolicy", environment, device="cpu")
     begun = time.perf_counter()
@@ -80,13 +80,13 @@ def stable_baselines(steps):
 
 
 def update(arguments, cores, widths, threads=1):
-    """Treadmill's samples per second."""
+    """Returns Treadmill's samples per second."""
     options = ["--network", "-".join(map(str, widths)), "--threads", threads, "--updates", arguments.updates]
     return treadmill(arguments.treadmill, cores, "update", "--minibatch", MINIBATCH, *options)["samples_per_s"]
 
 
 def sides(arguments, one, two):
-    """For each comparison, how to measure Treadmill and what it is compared with."""
+    """Returns the two measurements of each comparison, Treadmill's first."""
 
     def torch_update(widths, **options):
         return pinned(one, 1, lambda: torch_ppo.samples_per_s(widths, MINIBATCH, arguments.updates, **options))
@@ -95,7 +95,7 @@ def sides(arguments, one, two):
         return pinned(one, 1, lambda: torch_ppo.call_us(SMALL, ROWS, arguments.calls, **options))
 
     def other_training():
-        # PyTorch's default is a thread for each core, which networks this small do not always gain by.
+        # PyTorch defaults to one thread per core, which can be slower for networks this small.
         rates = [pinned(two, threads, lambda: stable_baselines(arguments.sb3_steps)) for threads in (1, len(two))]
         return max(rates)
 
@@ -117,13 +117,13 @@ def sides(arguments, one, two):
     if arguments.without_training:
         del found["training"]
     if len(two) < 2:
-        print("one core only: the update on two threads is left out", file=sys.stderr)
+        print("only one core: skipping the update on two threads", file=sys.stderr)
         del found["two_threads"]
     return found
 
 
 def one_round(measures, number):
-    """Both sides of every comparison."""
+    """Measures both sides of each comparison."""
     found = {}
     for name, both in measures.items():
         order = (0, 1) if number % 2 == 0 else (1, 0)
@@ -134,7 +134,7 @@ def one_round(measures, number):
 
 
 def table(rounds):
-    """Medians of both sides, and median and range of the ratio within each round."""
+    """Formats medians of both sides, and median and range of their ratio within rounds."""
 
     def rounded(value):
         return f"{value:.0f}" if value >= 1000 else f"{value:.3g}"
@@ -147,7 +147,7 @@ def table(rounds):
         spread = f"{min(ratios):.2f} to {max(ratios):.2f}"
         medians = [rounded(statistics.median(values)) for values in (ours, theirs)]
         rows.append([what, medians[0], f"{against}: {medians[1]}", f"{statistics.median(ratios):.2f}", spread, wanted])
-    header = ["", "Treadmill", "compared with", "Treadmill ÷ that", "range", "target"]
+    header = ["", "Treadmill", "compared with", "ratio", "range", "target"]
     return report.table(header, rows)
 
 
@@ -159,9 +159,9 @@ def main():
     parser.add_argument("--calls", type=int, default=10_000, help="calls of the policy per candidate and round")
     parser.add_argument("--train-steps", type=int, default=500_000, help="of Treadmill, per round")
     parser.add_argument("--sb3-steps", type=int, default=20_480, help="of Stable-Baselines3, per round")
-    parser.add_argument("--without-training", action="store_true", help="only update and inference")
-    parser.add_argument("--cores", help="the two cores to use, as in 0,1; by default the first that are allowed")
-    parser.add_argument("--json", type=pathlib.Path, help="write all numbers here")
+    parser.add_argument("--without-training", action="store_true", help="measure only update and inference")
+    parser.add_argument("--cores", help="two cores to use, for example 0,1; default: the first allowed ones")
+    parser.add_argument("--json", type=pathlib.Path, help="file for all numbers")
     parser.add_argument("--doc", type=pathlib.Path, help="page whose generated part is replaced")
     arguments = parser.parse_args()
     allowed = sorted(os.sched_getaffinity(0))

@@ -1,9 +1,7 @@
 #!/usr/bin/env python3
-"""Turns a run's metrics.jsonl into a CSV table: one row per update, or one in N and those with an evaluation.
+"""Converts a run's metrics.jsonl to a CSV table on standard output."""
 
-Usage: to_csv.py RUN/metrics.jsonl [N] > table.csv
-"""
-
+import argparse
 import csv
 import json
 import sys
@@ -36,19 +34,19 @@ TAGS = [
 
 
 def main():
-    if len(sys.argv) not in (2, 3):
-        print(__doc__, file=sys.stderr)
-        sys.exit(2)
-    every = int(sys.argv[2]) if len(sys.argv) == 3 else 1
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("metrics", help="RUN/metrics.jsonl")
+    parser.add_argument("every", nargs="?", type=int, default=1, help="write every N-th update, and those with an evaluation")
+    arguments = parser.parse_args()
     rows = {}
-    with open(sys.argv[1], encoding="utf-8") as lines:
+    with open(arguments.metrics, encoding="utf-8") as lines:
         for line in lines:
             metric = json.loads(line)
             rows.setdefault(metric["step"], {})[metric["tag"]] = metric["value"]
     writer = csv.writer(sys.stdout, lineterminator="\n")
     writer.writerow(["env_steps", *TAGS])
     for index, step in enumerate(sorted(rows), 1):
-        if index % every and "eval/mean_reward" not in rows[step]:
+        if index % arguments.every and "eval/mean_reward" not in rows[step]:
             continue
         writer.writerow([step, *(f"{rows[step][tag]:.6g}" if tag in rows[step] else "" for tag in TAGS)])
 

@@ -1,4 +1,4 @@
-"""The PPO update and the policy in PyTorch, written to be fast on a processor: what speed.py compares with.
+"""PPO update and policy in PyTorch, optimised for CPUs; speed.py compares Treadmill with them.
 
 Needs: pip install torch
 """
@@ -17,7 +17,7 @@ BOUNDS_COEFFICIENT, MAX_GRAD_NORM, LEARNING_RATE = 5e-4, 1.0, 3e-4
 
 
 class ExpElu(torch.autograd.Function):
-    """ELU from exp, which PyTorch vectorises better than the expm1 of its own: less exact near 0, and faster."""
+    """ELU by exp, which PyTorch vectorises better than expm1: faster, but less exact near 0."""
 
     @staticmethod
     def forward(context, x):
@@ -33,20 +33,20 @@ class ExpElu(torch.autograd.Function):
 
 
 class HandMadeElu(nn.Module):
-    """The same as a module."""
+    """Module of ExpElu."""
 
     def forward(self, x):
         return ExpElu.apply(x)
 
 
 def mlp(widths, outputs, elu):
-    """Layers of these widths, the first of which is the input's, each with an activation, and a linear one."""
+    """Returns an MLP; `widths` holds the input and hidden sizes."""
     layers = [[nn.Linear(before, after), elu()] for before, after in itertools.pairwise(widths)]
     return nn.Sequential(*itertools.chain(*layers), nn.Linear(widths[-1], outputs))
 
 
-def made_up(observation, rows):
-    """A batch of random numbers, as `treadmill bench update` has it."""
+def random_batch(observation, rows):
+    """Returns a batch of random numbers, like the one of `treadmill bench update`."""
     actions, log_std = torch.randn(rows, ACTIONS), torch.full((ACTIONS,), -0.5)
     return {
         "observations": torch.randn(rows, observation),
@@ -58,7 +58,7 @@ def made_up(observation, rows):
 
 
 class Learner:
-    """Separate actor and critic, Adam in its fused form."""
+    """Separate actor and critic with fused Adam."""
 
     def __init__(self, widths, elu):
         self.actor, self.critic = mlp(widths, ACTIONS, elu), mlp(widths, 1, elu)
@@ -67,9 +67,9 @@ class Learner:
         self.optimiser = torch.optim.Adam(self.parameters, lr=LEARNING_RATE, fused=True)
 
     def loss(self, observations, actions, log_probs, advantages, returns):
-        """The total loss, and the sum of the KL estimate over the rows."""
+        """Returns the total loss, and the KL estimate summed over rows."""
         means, values = self.actor(observations), self.critic(observations).squeeze(1)
-        # By hand: torch.distributions would be slower.
+        # torch.distributions would be slower.
         distance = (actions - means) * torch.exp(-self.log_std)
         constant = self.log_std.sum() + 0.5 * math.log(2 * math.pi) * ACTIONS
         log_ratio = -0.5 * distance.square().sum(1) - constant - log_probs
@@ -83,7 +83,7 @@ class Learner:
         return policy + value + BOUNDS_COEFFICIENT * bounds, kl
 
     def update(self, batch, minibatch):
-        """Several passes over the batch in random order; returns how many rows went through the networks."""
+        """Makes EPOCHS passes over the batch in random order. Returns the number of processed rows."""
         rows = len(batch["returns"])
         given = batch["advantages"]
         planes = {**batch, "advantages": (given - given.mean()) / (given.std() + 1e-8)}
@@ -96,14 +96,14 @@ class Learner:
                 loss.backward()
                 nn.utils.clip_grad_norm_(self.parameters, MAX_GRAD_NORM, foreach=True)
                 self.optimiser.step()
-            # Where a learning rate that follows the KL divergence would be set.
+            # An adaptive learning rate would read the KL divergence here.
             kl.item()
         return rows * EPOCHS
 
 
 def samples_per_s(widths, minibatch, updates, elu=nn.ELU):
-    """Minibatch samples per second of the whole update, after one update that warms up."""
-    learner, batch = Learner(widths, elu), made_up(widths[0], 4 * minibatch)
+    """Returns samples per second of the update, after one warm-up update."""
+    learner, batch = Learner(widths, elu), random_batch(widths[0], 4 * minibatch)
     learner.update(batch, minibatch)
     begun = time.perf_counter()
     samples = sum(learner.update(batch, minibatch) for _ in range(updates))
@@ -112,7 +112,7 @@ def samples_per_s(widths, minibatch, updates, elu=nn.ELU):
 
 @torch.inference_mode()
 def call_us(widths, rows, calls, elu=nn.ELU):
-    """Microseconds that the actor takes for so many rows; conversions from and to numpy are not counted."""
+    """Returns microseconds per actor call with `rows` rows, without conversions from and to numpy."""
     actor, observations = mlp(widths, ACTIONS, elu), torch.randn(rows, widths[0])
     for _ in range(100):
         actor(observations)

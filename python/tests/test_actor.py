@@ -1,4 +1,4 @@
-"""Tests that need neither a learner nor a simulator: `python -m unittest discover python/tests`."""
+"""Tests without a learner or a simulator: `python -m unittest discover -s python/tests`."""
 
 import json
 import sys
@@ -13,7 +13,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 
 from treadmill_actor import schema  # noqa: E402
 from treadmill_actor.bus import BusError, check_endpoint  # noqa: E402
-from treadmill_actor.delivery import Book, Uploader  # noqa: E402
+from treadmill_actor.delivery import DeliveryLedger, Uploader  # noqa: E402
 from treadmill_actor.policies import Policies  # noqa: E402
 from treadmill_actor.policy import HALF_LN_TAU, Policy, PolicyError, checksum, read_safetensors  # noqa: E402
 from treadmill_actor.rollout import Collector, Environments  # noqa: E402
@@ -24,7 +24,7 @@ GOLDEN = Path(__file__).with_name("golden.json")
 
 
 class Count(gymnasium.Env):
-    """Observes its step and a constant; ends by rule at `fall`, or is cut off at `limit`."""
+    """Observes its step count and a constant; terminates at step `fall`, is truncated at step `limit`."""
 
     def __init__(self, fall=None, limit=None):
         self.observation_space = gymnasium.spaces.Box(-np.inf, np.inf, (2,))
@@ -44,7 +44,7 @@ class Count(gymnasium.Env):
 
 
 def linear(action=2):
-    """A policy whose mean is the first entry of the observation, for each action."""
+    """Returns a policy whose mean is the first observation entry, for each action."""
     weight = np.zeros((action, 2), np.float32)
     weight[:, 0] = 1.0
     tensors = {"actor.0.weight": weight, "actor.0.bias": np.zeros(action, np.float32), "log_std": np.zeros(action, np.float32)}
@@ -56,7 +56,7 @@ def settings(steps):
 
 
 class PolicyTest(unittest.TestCase):
-    def test_one_layer_by_hand(self):
+    def test_mean_and_log_prob_of_one_layer(self):
         # mean = clip((3 - 1) * 2, 3) = 3; log p(4 | 3, 1) = -1/2 - ln 2 pi / 2 for each of two actions.
         policy = linear()
         policy.mean, policy.inverse_std, policy.clip = np.float32([1, 0]), np.float32([2, 1]), np.float32(3)
@@ -64,13 +64,13 @@ class PolicyTest(unittest.TestCase):
         np.testing.assert_allclose(means, [[3, 3]])
         np.testing.assert_allclose(policy.log_prob(np.float32([[4, 4]]), means), [-1 - 2 * HALF_LN_TAU], rtol=1e-6)
 
-    def test_the_deviation_stays_sane(self):
+    def test_log_std_is_clipped(self):
         policy = linear()
         tensors = {"actor.0.weight": policy.layers[0][0].T, "actor.0.bias": np.zeros(2, np.float32)}
         wild = Policy({**tensors, "log_std": np.float32([-50, 50])}, np.zeros(2), np.ones(2), 10.0)
         np.testing.assert_allclose(wild.std, np.exp([-5, 2]), rtol=1e-6)
 
-    def test_the_same_as_in_rust(self):
+    def test_policy_matches_rust(self):
         golden = json.loads(GOLDEN.read_text())
         policy, facts = Policy.from_export(bytes.fromhex(golden["export"]))
         observations, normals = np.float32(golden["observations"]), np.float32(golden["normals"])
@@ -81,7 +81,7 @@ class PolicyTest(unittest.TestCase):
         self.assertEqual(checksum(b"treadmill"), golden["checksum"])
         self.assertEqual(len(facts["action"]["low"]), policy.action_size)
 
-    def test_what_is_no_policy_is_refused(self):
+    def test_invalid_weights_raise(self):
         for bad in (b"", b"12345678", b"\xff" * 64):
             with self.assertRaises(PolicyError):
                 read_safetensors(bad)
@@ -90,7 +90,7 @@ class PolicyTest(unittest.TestCase):
 
 
 class TaskTest(unittest.TestCase):
-    def test_actions_are_in_units_of_the_range(self):
+    def test_actions_are_scaled_to_the_box(self):
         task = describe(Count(), "test/Count-v0")
         commands = task.to_env(np.float32([[-1, -1], [0, 0], [1, 1], [5, -5]]))
         np.testing.assert_allclose(commands, [[-3, 0], [-1, 1], [1, 2], [1, 0]])
@@ -98,15 +98,15 @@ class TaskTest(unittest.TestCase):
         task.fill(message.task)
         self.assertEqual((list(message.task.action_low), message.task.observation_size), ([-3.0, 0.0], 2))
 
-    def test_what_cannot_be_learnt_from_is_refused(self):
+    def test_unsupported_space_and_name_raise(self):
         env = Count()
         env.action_space = gymnasium.spaces.Discrete(3)
         with self.assertRaisesRegex(TaskError, "action space"):
             describe(env, "test/Count-v0")
-        with self.assertRaisesRegex(TaskError, "no name"):
+        with self.assertRaisesRegex(TaskError, "not a task name"):
             describe(Count(), "a b")
 
-    def test_entries_without_bounds_get_some(self):
+    def test_unbounded_entries_use_plus_minus_one(self):
         env = Count()
         env.action_space = gymnasium.spaces.Box(-np.inf, np.inf, (2,))
         task = describe(env, "test/Count-v0")
@@ -120,45 +120,45 @@ class RolloutTest(unittest.TestCase):
         fragment, episodes = collector.collect(linear(), schema.PolicyVersion(incarnation=1, number=2), 0)
         return schema.Fragment.FromString(fragment), episodes
 
-    def test_planes_are_time_major_and_complete(self):
+    def test_arrays_are_time_major(self):
         fragment, _ = self.collect(3)
         self.assertEqual((fragment.sequence, fragment.actor_incarnation, fragment.version.number), (1, 5, 2))
         observations = np.frombuffer(fragment.observations, "<f4").reshape(3, 2, 2)
         np.testing.assert_allclose(observations[:, 0, 0], [0, 1, 2])
         self.assertEqual(len(fragment.actions), 4 * 3 * 2 * 2)
         self.assertEqual((fragment.flags, len(fragment.rewards)), (bytes(6), 24))
-        # Nothing ended: the last observation of each environment stands at the fragment's end.
+        # No episode ended, so each environment has a last observation.
         np.testing.assert_allclose(np.frombuffer(fragment.last_observations, "<f4"), [3, 7, 3, 7])
 
-    def test_log_probabilities_are_of_the_unclipped_actions(self):
+    def test_log_probs_use_unclipped_actions(self):
         fragment, _ = self.collect(2)
         actions = np.frombuffer(fragment.actions, "<f4").reshape(4, 2)
         means = np.frombuffer(fragment.observations, "<f4").reshape(4, 2)[:, :1]
         expected = np.sum(-0.5 * (actions - means) ** 2 - HALF_LN_TAU, axis=1)
         np.testing.assert_allclose(np.frombuffer(fragment.log_probs, "<f4"), expected, atol=1e-5)
 
-    def test_what_ends_by_rule_has_no_last_observation(self):
+    def test_terminated_episode_has_no_last_observation(self):
         fragment, episodes = self.collect(3, fall=3)
         self.assertEqual(fragment.flags, bytes([0, 0, 0, 0, 1, 1]))
         self.assertEqual(fragment.last_observations, b"")
         self.assertEqual([episode["cause"] for episode in episodes], ["terminated"] * 2)
         self.assertEqual((fragment.episodes[0].return_sum, fragment.episodes[0].distance_m), (6.0, 3.0))
 
-    def test_what_is_cut_off_has_its_true_last_observation(self):
+    def test_truncated_episode_keeps_its_last_observation(self):
         fragment, episodes = self.collect(3, limit=2)
         self.assertEqual(fragment.flags, bytes([0, 0, 2, 2, 0, 0]))
         last = np.frombuffer(fragment.last_observations, "<f4").reshape(4, 2)[:, 0]
         np.testing.assert_allclose(last, [2, 2, 1, 1])
         self.assertEqual([episode["cause"] for episode in episodes], ["time_limit"] * 2)
 
-    def test_a_simulator_that_breaks_down_ends_the_episode(self):
+    def test_non_finite_observation_ends_the_episode(self):
         environments = Environments(Count, "test/Count-v0", 1, 1)
         environments.envs[0].step = lambda action: (np.array([np.nan, 7.0]), 1.0, False, False, {})
         rewards, flags, cut_off, episodes = environments.step(np.zeros((1, 2), np.float32))
         self.assertEqual((rewards[0], flags[0], cut_off, episodes[0]["cause"]), (0.0, 1, {}, "non_finite"))
         self.assertTrue(np.isfinite(environments.observations).all())
 
-    def test_a_fragment_that_is_too_large_is_refused_early(self):
+    def test_too_large_fragment_raises(self):
         environments = Environments(Count, "test/Count-v0", 2, 1)
         with self.assertRaisesRegex(TaskError, "fewer --envs"):
             Collector(environments, settings(4_000_000), "run", "py", 5, 9, 3)
@@ -169,27 +169,27 @@ def receipt(outcome, durable_through=0):
 
 
 class DeliveryTest(unittest.TestCase):
-    def test_what_is_taken_is_kept_until_it_is_durable(self):
-        book = Book(incarnation=1)
+    def test_accepted_fragment_is_kept_until_durable(self):
+        ledger = DeliveryLedger(incarnation=1)
         for sequence in (1, 2, 3):
-            book.note_produced(sequence)
-        book.settle(2, b"2", receipt("accepted"))
-        book.settle(1, b"1", receipt("too_old"))
-        self.assertEqual((list(book.kept), book.settled_through()), ([2], 1))
-        book.settle(3, b"3", receipt("duplicate", 2))
-        self.assertEqual((list(book.kept), book.settled_through()), ([3], 2))
-        self.assertEqual((book.produced, book.accepted, book.dropped_by_rule, len(book.in_flight)), (3, 2, 1, 0))
+            ledger.note_produced(sequence)
+        ledger.settle(2, b"2", receipt("accepted"))
+        ledger.settle(1, b"1", receipt("too_old"))
+        self.assertEqual((list(ledger.kept), ledger.settled_through()), ([2], 1))
+        ledger.settle(3, b"3", receipt("duplicate", 2))
+        self.assertEqual((list(ledger.kept), ledger.settled_through()), ([3], 2))
+        self.assertEqual((ledger.produced, ledger.accepted, ledger.dropped_by_rule, len(ledger.in_flight)), (3, 2, 1, 0))
 
-    def test_another_learner_gets_what_was_not_durable(self):
-        book = Book(incarnation=1)
-        book.note_produced(1)
-        book.settle(1, b"1", receipt("accepted"))
-        self.assertEqual(book.take_for(1), {})
-        self.assertEqual(book.take_for(2), {1: b"1"})
-        self.assertEqual((book.accepted, book.resent, book.in_flight, book.settled_through()), (0, 1, {1}, 0))
-        self.assertEqual(book.take_for(2), {})
+    def test_new_incarnation_gets_unsaved_fragments(self):
+        ledger = DeliveryLedger(incarnation=1)
+        ledger.note_produced(1)
+        ledger.settle(1, b"1", receipt("accepted"))
+        self.assertEqual(ledger.take_unsaved(1), {})
+        self.assertEqual(ledger.take_unsaved(2), {1: b"1"})
+        self.assertEqual((ledger.accepted, ledger.resent, ledger.in_flight, ledger.settled_through()), (0, 1, {1}, 0))
+        self.assertEqual(ledger.take_unsaved(2), {})
 
-    def test_only_a_verdict_ends_the_sending(self):
+    def test_fragment_is_resent_until_settled(self):
         answers = [None, receipt("busy"), receipt("stopping"), receipt("quarantined"), receipt("malformed")]
         bus = SimpleNamespace(submit=lambda *_: answers.pop(0))
         waits = []
@@ -197,7 +197,7 @@ class DeliveryTest(unittest.TestCase):
         uploader = Uploader(bus, "run", "py", 1, 60.0, stopping)
         uploader.produced(1)
         self.assertEqual(uploader.deliver(1, b"1").outcome, schema.OUTCOMES["malformed"])
-        self.assertEqual((waits, uploader.book.resent, uploader.book.dropped_by_rule), ([0.2, 0.2, 0.2, 10.0], 4, 1))
+        self.assertEqual((waits, uploader.ledger.resent, uploader.ledger.dropped_by_rule), ([0.2, 0.2, 0.2, 10.0], 4, 1))
 
 
 class JoiningTest(unittest.TestCase):
@@ -219,27 +219,27 @@ class JoiningTest(unittest.TestCase):
         bus = SimpleNamespace(fetch_policy=lambda _: answers.pop(0), register=lambda *_: receipt)
         return Policies(bus, self.bundle(), "py", None)
 
-    def test_a_run_that_was_begun_anew_is_noticed(self):
+    def test_new_configuration_sets_run_changed(self):
         policies = self.policies([self.bundle(config_hash=8)])
         policies.refresh()
-        self.assertTrue(policies.other_run.is_set())
+        self.assertTrue(policies.run_changed.is_set())
 
-    def test_weights_that_were_damaged_on_the_way_are_not_used(self):
+    def test_damaged_weights_are_ignored(self):
         damaged = self.bundle()
         damaged.version.number, damaged.checksum = 5, 1
         policies = self.policies([damaged])
         policies.refresh()
-        self.assertEqual((policies.current[1].number, policies.other_run.is_set()), (0, False))
+        self.assertEqual((policies.current[1].number, policies.run_changed.is_set()), (0, False))
 
-    def test_where_nobody_has_a_policy_the_task_is_registered_again(self):
+    def test_task_is_registered_again_without_a_policy(self):
         refused = self.policies([None], schema.TaskReceipt(accepted=False, reason="another task"))
         refused.refresh()
-        self.assertTrue(refused.other_run.is_set())
+        self.assertTrue(refused.run_changed.is_set())
         accepted = self.policies([None], schema.TaskReceipt(accepted=True))
         accepted.refresh()
-        self.assertFalse(accepted.other_run.is_set())
+        self.assertFalse(accepted.run_changed.is_set())
 
-    def test_plain_text_stays_on_this_machine(self):
+    def test_plain_tcp_beyond_loopback_raises(self):
         for fine in ("tcp/127.0.0.1:7447", "tcp/[::1]:1", "tcp/localhost:1", "tls/learner:7447"):
             check_endpoint(fine, insecure=False)
         check_endpoint("tcp/learner:7447", insecure=True)

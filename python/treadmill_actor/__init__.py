@@ -1,14 +1,16 @@
-"""An actor for Treadmill in Python: Gymnasium environments that a Treadmill learner learns from.
+"""A Treadmill actor in Python: runs Gymnasium environments for a Treadmill learner.
 
-Layout, in the order of the data:
-    task       what an environment is to the learner: sizes, and what actions mean
-    policy     the policy of a bundle in numpy
-    rollout    fragments of T steps of N environments
-    delivery   fragments to the learner, kept until they are durable
-    worker     all of it as one process
-    bus        the flows over Zenoh
-    schema     the messages, as proto/schema says
-    settings   the part of a run's configuration that an actor needs
+Modules, in the order of the data:
+    task       describes an environment to the learner: name, sizes, action ranges
+    policy     evaluates a policy bundle in numpy
+    policies   joins the run and fetches new policies
+    rollout    collects fragments: T steps of N environments
+    delivery   uploads fragments and keeps them until they are durable
+    worker     one actor process: collects, uploads, reports statistics
+    bus        Zenoh session, queries and publishers
+    schema     protobuf messages of proto/schema
+    settings   configuration keys that an actor needs
+    cli        command line
 """
 
 __version__ = "0.1.0"

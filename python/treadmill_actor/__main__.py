@@ -1,4 +1,4 @@
-"""`python -m treadmill_actor`: simulates a Gymnasium environment for a run."""
+"""`python -m treadmill_actor`: starts an actor."""
 
 from .cli import main
 

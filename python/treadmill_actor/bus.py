@@ -1,4 +1,4 @@
-"""The flows of an actor over Zenoh: the only module that names it. See docs/guide/external-tasks.md for each of them."""
+"""Zenoh session of an actor; no other module imports zenoh. docs/guide/external-tasks.md describes each key."""
 
 import ipaddress
 import json
@@ -13,28 +13,28 @@ MESSAGE_BYTES_MAX = 32 << 20
 
 
 class BusError(Exception):
-    """The bus cannot be used."""
+    """An endpoint, a certificate or the session is unusable."""
 
 
 def check_endpoint(endpoint, insecure):
-    """Refuses plain text beyond this machine unless that is asked for, as the Rust side does."""
+    """Raises BusError for a malformed endpoint, and for plain tcp beyond loopback without `insecure`."""
     protocol, _, address = endpoint.partition("/")
     host = address.rpartition(":")[0].strip("[]")
     if protocol not in ("tcp", "tls") or not host:
-        raise BusError(f"endpoint `{endpoint}` is none; write tcp/HOST:PORT or tls/HOST:PORT")
+        raise BusError(f"endpoint `{endpoint}` is not valid; write tcp/HOST:PORT or tls/HOST:PORT")
     try:
         is_loopback = host == "localhost" or ipaddress.ip_address(host).is_loopback
     except ValueError:
         is_loopback = False
     if protocol == "tcp" and not (is_loopback or insecure):
         raise BusError(
-            f"endpoint `{endpoint}`: plain tcp beyond loopback can be read and forged by anybody on the network; use "
-            "tls/HOST:PORT with --tls DIR, or say --insecure where the network itself is trusted"
+            f"endpoint `{endpoint}`: any host on the network can read and forge plain tcp; use tls/HOST:PORT with --tls DIR, "
+            "or --insecure on a trusted network"
         )
 
 
 def configuration(connect, tls=None, role="actor"):
-    """Zenoh's configuration of a client; with `tls`, the folder that `treadmill certs` made."""
+    """Returns Zenoh's client configuration; `tls` is a folder made by `treadmill certs`."""
     config = zenoh.Config()
     settings = {
         "mode": "client",
@@ -53,7 +53,7 @@ def configuration(connect, tls=None, role="actor"):
         certificate, key, authority = folder / f"{role}.crt", folder / f"{role}.key", folder / "ca.crt"
         for file in (certificate, key, authority):
             if not file.is_file():
-                raise BusError(f"--tls {folder}: `{file}` is not there; make it with `treadmill certs`")
+                raise BusError(f"--tls {folder}: `{file}` does not exist; make it with `treadmill certs`")
         settings["transport/link/tls"] = {
             "root_ca_certificate": str(authority),
             "enable_mtls": True,
@@ -67,18 +67,18 @@ def configuration(connect, tls=None, role="actor"):
 
 
 class Bus:
-    """A session, and what an actor does with it."""
+    """Zenoh session with the queries and publications of an actor."""
 
     def __init__(self, connect, tls=None):
         zenoh.init_log_from_env_or("error")
         self.session = zenoh.open(configuration(connect, tls))
 
     def close(self):
-        """Ends the session."""
+        """Closes the session."""
         self.session.close()
 
     def ask(self, key, payload=None, timeout_s=FETCH_TIMEOUT_S, priority=None):
-        """The first answer to a query, as bytes; None if none came in time."""
+        """Returns the first answer to a query as bytes, or None after the timeout."""
         replies = self.session.get(
             key,
             payload=payload,
@@ -92,36 +92,36 @@ class Bus:
         return None
 
     def register(self, run, actor, task):
-        """Registers a task. The receipt, or None if no learner answered."""
+        """Registers a task. Returns the receipt, or None if no learner answered."""
         registration = schema.TaskRegistration(run=run, actor=actor)
         task.fill(registration.task)
         answer = self.ask(f"treadmill/{run}/tasks/{actor}", registration.SerializeToString())
         return None if answer is None else schema.TaskReceipt.FromString(answer)
 
     def fetch_policy(self, run):
-        """The newest policy bundle, or None if no learner answered."""
+        """Returns the newest policy bundle, or None if no learner answered."""
         answer = self.ask(f"treadmill/{run}/policy/latest", priority=zenoh.Priority.DATA_HIGH)
         return None if answer is None else schema.PolicyBundle.FromString(answer)
 
     def submit(self, run, actor, fragment, timeout_s):
-        """Sends a fragment. The receipt, or None where none came: it may or may not have arrived."""
+        """Sends a fragment. Returns the receipt, or None without one: the fragment may or may not have arrived."""
         answer = self.ask(f"treadmill/{run}/rollouts/{actor}", fragment, timeout_s)
         return None if answer is None else schema.Receipt.FromString(answer)
 
     def announcements(self, run, apply):
-        """Calls `apply` with each announced version, in a thread of Zenoh's: it must not wait."""
+        """Calls `apply` with each announced version, on a Zenoh thread: `apply` must not block."""
 
-        def take(sample):
+        def receive(sample):
             apply(schema.PolicyAnnouncement.FromString(sample.payload.to_bytes()).version)
 
-        return self.session.declare_subscriber(f"treadmill/{run}/policy/version", take)
+        return self.session.declare_subscriber(f"treadmill/{run}/policy/version", receive)
 
     def token(self, run, actor):
-        """Shows that the actor is there, until it is undeclared."""
+        """Declares the liveliness token of the actor."""
         return self.session.liveliness().declare_token(f"treadmill/{run}/actors/{actor}")
 
     def publisher(self, key):
-        """For small messages that may be lost when the link is busy."""
+        """Returns a publisher for small messages that Zenoh may drop on a busy link."""
         return self.session.declare_publisher(
             key, congestion_control=zenoh.CongestionControl.DROP, priority=zenoh.Priority.DATA_LOW
         )

@@ -1,4 +1,4 @@
-"""The command line."""
+"""Command line of `python -m treadmill_actor`."""
 
 import argparse
 import importlib
@@ -14,7 +14,7 @@ import threading
 import gymnasium
 
 from .bus import Bus, BusError, check_endpoint
-from .policies import Refused
+from .policies import JoinRefused
 from .rollout import Environments
 from .task import TaskError
 from .worker import Worker, unique
@@ -23,41 +23,42 @@ _IDENT = re.compile(r"[a-z0-9_-]{1,64}\Z")
 
 
 def ident(text):
-    """A name that may stand in a key of the bus."""
+    """Returns `text` if it is valid as one part of a bus key."""
     if not _IDENT.match(text):
         raise argparse.ArgumentTypeError(f"`{text}` is not 1 to 64 of the characters a-z, 0-9, _ and -")
     return text
 
 
 def parser():
-    """Flags."""
-    flags = argparse.ArgumentParser(prog="treadmill_actor", description=__doc__)
-    flags.description = "Simulates a Gymnasium environment for a Treadmill run."
-    flags.add_argument("--env", required=True, metavar="ID", help="as gymnasium.make takes it, as in Humanoid-v5")
-    flags.add_argument("--run", required=True, type=ident, metavar="NAME", help="the run to join")
-    flags.add_argument("--connect", action="append", metavar="ENDPOINT", help="where the learner or a router listens")
-    flags.add_argument("--envs", type=int, default=8, metavar="N", help="environments of this actor (8)")
-    flags.add_argument("--name", type=ident, help="this actor's name, unlike any other's; made from the host's by default")
+    """Returns the argument parser."""
+    flags = argparse.ArgumentParser(prog="treadmill_actor", description="Runs a Gymnasium environment for a Treadmill run.")
+    flags.add_argument("--env", required=True, metavar="ID", help="Gymnasium ID, for example Humanoid-v5")
+    flags.add_argument("--run", required=True, type=ident, metavar="NAME", help="run to join")
     flags.add_argument(
-        "--import", dest="modules", action="append", default=[], metavar="MODULE", help="registers the environment"
+        "--connect", action="append", metavar="ENDPOINT", help="learner or router; default tcp/127.0.0.1:7447; repeatable"
     )
-    flags.add_argument("--kwargs", type=json.loads, default={}, metavar="JSON", help="for gymnasium.make")
-    flags.add_argument("--task", metavar="NAME", help="the task's name; gymnasium/ID by default")
-    flags.add_argument("--tls", metavar="DIR", help="folder of certificates, as `treadmill certs` makes it")
-    flags.add_argument("--insecure", action="store_true", help="allow plain tcp beyond loopback, where anybody can forge it")
-    flags.add_argument("--seed", type=int, help="of resets and exploration; without it, unlike any other start's")
-    flags.add_argument("--steps", type=int, help="end after so many environment steps")
+    flags.add_argument("--envs", type=int, default=8, metavar="N", help="environments of this actor; default 8")
+    flags.add_argument("--name", type=ident, help="unique actor name; default: host name and a random number")
+    flags.add_argument(
+        "--import", dest="modules", action="append", default=[], metavar="MODULE", help="imported first; registers the environment"
+    )
+    flags.add_argument("--kwargs", type=json.loads, default={}, metavar="JSON", help="arguments for gymnasium.make")
+    flags.add_argument("--task", metavar="NAME", help="task name; default gymnasium/ID")
+    flags.add_argument("--tls", metavar="DIR", help="certificate folder made by `treadmill certs`")
+    flags.add_argument("--insecure", action="store_true", help="allow plain tcp beyond loopback; any host can forge it")
+    flags.add_argument("--seed", type=int, help="seed of resets and exploration; default: random")
+    flags.add_argument("--steps", type=int, help="end after this many environment steps")
     return flags
 
 
 def open_bus(connect, tls, stopping):
-    """Opens a session. Dials until a learner or router answers, or until a request to stop."""
+    """Opens a session; retries until a learner or router answers. Returns None after a request to stop."""
     opened = queue.Queue()
 
     def dial():
         try:
             opened.put(Bus(connect, tls))
-        except Exception as why:  # noqa: BLE001: handed to the caller
+        except Exception as why:  # noqa: BLE001: raised again in the calling thread
             opened.put(why)
 
     threading.Thread(target=dial, daemon=True).start()
@@ -73,7 +74,7 @@ def open_bus(connect, tls, stopping):
 
 
 def main(arguments=None):
-    """Runs until it is told to stop; the exit code."""
+    """Runs the actor until a signal or --steps ends it. Returns the exit code."""
     args = parser().parse_args(arguments)
     logging.basicConfig(level=logging.INFO, format="%(asctime)s %(levelname)s %(message)s", stream=sys.stderr)
     log = logging.getLogger("treadmill_actor")
@@ -98,12 +99,12 @@ def main(arguments=None):
         environments = Environments(lambda: gymnasium.make(args.env, **args.kwargs), label, args.envs, seed)
         task = environments.task
         log.info(
-            "%s has `%s`: %d observations, %d actions; %s",
+            "%s runs `%s`: %d observations, %d actions; %s",
             name,
             task.name,
             task.observation_size,
             task.action_size,
-            "distances are those of the info's x_position" if task.has_position else "its info tells no distances",
+            "distance from x_position" if task.has_position else "no x_position in info, so distance is 0",
         )
         bus = open_bus(connect, args.tls, stopping)
         if bus is None:
@@ -111,10 +112,10 @@ def main(arguments=None):
         worker = Worker(bus, args.run, name, environments, seed, stopping)
         worker.work(args.steps)
         uploader = getattr(worker, "uploader", None)
-        counts = uploader.book.outcomes if uploader else {}
-        log.info("%s is done after %d env steps; receipts: %s", name, worker.env_steps, counts)
+        counts = uploader.ledger.outcomes if uploader else {}
+        log.info("%s ended after %d env steps; receipts: %s", name, worker.env_steps, counts)
         return 0
-    except (Refused, TaskError, BusError, ImportError, gymnasium.error.Error) as why:
+    except (JoinRefused, TaskError, BusError, ImportError, gymnasium.error.Error) as why:
         print(f"error: {why}", file=sys.stderr)
         return 1
     finally:

@@ -1,4 +1,4 @@
-"""Fragments to the learner: sent until a receipt says what became of them, and kept until they are durable."""
+"""Uploads fragments: resends each until the learner settles it, and keeps it until a checkpoint holds it."""
 
 import logging
 import threading
@@ -8,16 +8,16 @@ from . import schema
 
 RETRY_S = 0.2
 QUARANTINE_RETRY_S = 10.0
-#: Answers after which a fragment is sent again, and how much later.
-AGAIN_AFTER_S = {"busy": RETRY_S, "stopping": RETRY_S, "quarantined": QUARANTINE_RETRY_S}
+#: Pause before a fragment is resent, by outcome. Other outcomes settle the fragment.
+RETRY_AFTER_S = {"busy": RETRY_S, "stopping": RETRY_S, "quarantined": QUARANTINE_RETRY_S}
 log = logging.getLogger("treadmill_actor")
 
 
 @dataclass
-class Book:
-    """Where every fragment is: produced = accepted + dropped_by_rule + in_flight."""
+class DeliveryLedger:
+    """Accounts for every fragment: produced = accepted + dropped_by_rule + in_flight."""
 
-    #: The learner that `kept` was given to.
+    #: Incarnation of the learner that accepted the fragments in `kept`.
     incarnation: int
     produced: int = 0
     accepted: int = 0
@@ -25,18 +25,18 @@ class Book:
     resent: int = 0
     newest: int = 0
     in_flight: set = field(default_factory=set)
-    #: Taken, but not yet part of a checkpoint.
+    #: Accepted fragments that no checkpoint holds yet, by sequence.
     kept: dict = field(default_factory=dict)
     outcomes: dict = field(default_factory=dict)
 
     def note_produced(self, sequence):
-        """A fragment that is about to be delivered."""
+        """Adds a fragment that is about to be sent."""
         self.produced += 1
         self.newest = sequence
         self.in_flight.add(sequence)
 
     def settle(self, sequence, fragment, receipt):
-        """Notes what became of a fragment, and lets go of what is durable."""
+        """Records the outcome of a fragment and forgets fragments that are durable."""
         outcome = schema.OUTCOME_NAMES.get(receipt.outcome, "unspecified")
         self.outcomes[outcome] = self.outcomes.get(outcome, 0) + 1
         self.in_flight.discard(sequence)
@@ -48,68 +48,68 @@ class Book:
         self.kept = {number: kept for number, kept in self.kept.items() if number > receipt.durable_through}
 
     def settled_through(self):
-        """Every fragment up to this number is dealt with for good: neither in flight nor kept."""
-        still = [*self.in_flight, *self.kept]
-        return min(still) - 1 if still else self.newest
+        """Returns the last sequence up to which no fragment is in flight or kept."""
+        open_fragments = [*self.in_flight, *self.kept]
+        return min(open_fragments) - 1 if open_fragments else self.newest
 
-    def take_for(self, incarnation):
-        """What must go to another learner once more: one that was restarted knows only what was durable."""
+    def take_unsaved(self, incarnation):
+        """Returns the kept fragments if the learner's incarnation changed: a restarted learner has only durable ones."""
         if incarnation == self.incarnation:
             return {}
         self.incarnation = incarnation
-        again, self.kept = self.kept, {}
-        # A learner that is gone took them; what becomes of them is open again.
-        self.accepted -= len(again)
-        self.resent += len(again)
-        self.in_flight |= set(again)
-        return again
+        resend, self.kept = self.kept, {}
+        # The previous learner accepted them; the new one decides again.
+        self.accepted -= len(resend)
+        self.resent += len(resend)
+        self.in_flight |= set(resend)
+        return resend
 
 
 class Uploader:
-    """Sends the fragments of one actor process."""
+    """Uploads the fragments of one actor process; thread-safe."""
 
     def __init__(self, bus, run, actor, incarnation, receipt_timeout_s, stopping):
         self.bus, self.run, self.actor = bus, run, actor
         self.receipt_timeout_s, self.stopping = receipt_timeout_s, stopping
         self.lock = threading.Lock()
-        self.book = Book(incarnation)
+        self.ledger = DeliveryLedger(incarnation)
 
     def produced(self, sequence):
-        """See Book.note_produced."""
+        """See DeliveryLedger.note_produced."""
         with self.lock:
-            self.book.note_produced(sequence)
+            self.ledger.note_produced(sequence)
 
     def settled_through(self):
-        """See Book.settled_through."""
+        """See DeliveryLedger.settled_through."""
         with self.lock:
-            return self.book.settled_through()
+            return self.ledger.settled_through()
 
     def deliver(self, sequence, fragment):
-        """Sends one fragment until it is settled. Returns its receipt, or None after a request to stop."""
+        """Sends one fragment until a receipt settles it. Returns the receipt, or None after a request to stop."""
         tries = 0
         while not self.stopping.is_set():
             if tries:
                 with self.lock:
-                    self.book.resent += 1
+                    self.ledger.resent += 1
             receipt = self.bus.submit(self.run, self.actor, fragment, self.receipt_timeout_s)
             outcome = "no receipt" if receipt is None else schema.OUTCOME_NAMES.get(receipt.outcome, "unspecified")
-            pause_s = RETRY_S if receipt is None else AGAIN_AFTER_S.get(outcome)
+            pause_s = RETRY_S if receipt is None else RETRY_AFTER_S.get(outcome)
             if pause_s is None:
                 if outcome == "malformed":
-                    log.error("the learner refused fragment %d: %s", sequence, receipt.reason)
+                    log.error("learner rejected fragment %d: %s", sequence, receipt.reason)
                 with self.lock:
-                    self.book.settle(sequence, fragment, receipt)
+                    self.ledger.settle(sequence, fragment, receipt)
                 return receipt
             if tries % 50 == 5:
                 why = "no learner answers" if receipt is None else receipt.reason
-                log.warning("%s: %s; keeping fragments and trying on", self.actor, why)
+                log.warning("%s: %s; keeping fragments and retrying", self.actor, why)
             tries += 1
             self.stopping.wait(pause_s)
         return None
 
-    def send_again(self, incarnation):
-        """Sends what another learner than this took and may not have saved once more; idempotent by sequence number."""
+    def resend_unsaved(self, incarnation):
+        """Resends what a previous incarnation accepted but may not have saved; the learner drops duplicates."""
         with self.lock:
-            again = self.book.take_for(incarnation)
-        for sequence, fragment in sorted(again.items()):
+            resend = self.ledger.take_unsaved(incarnation)
+        for sequence, fragment in sorted(resend.items()):
             self.deliver(sequence, fragment)

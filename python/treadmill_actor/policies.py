@@ -1,4 +1,4 @@
-"""The newest policy: announced by the learner, fetched by us, on joining too."""
+"""Joins a run and keeps its newest policy: the learner announces a version, the actor fetches it."""
 
 import logging
 import threading
@@ -11,20 +11,20 @@ RETRY_S = 0.2
 log = logging.getLogger("treadmill_actor")
 
 
-class Refused(Exception):
-    """The learner does not let this actor in, and says why."""
+class JoinRefused(Exception):
+    """The learner refused this actor; the message has the reason."""
 
 
-def until_answered(ask, what, stopping):
-    """Calls `ask` until it returns an answer. None after a request to stop."""
+def until_answered(ask, problem, stopping):
+    """Calls `ask` until it returns an answer. Returns None after a request to stop."""
     tries = 0
     while not stopping.is_set():
         answer = ask()
         if answer is not None:
             return answer
-        # Not at once: a learner that is just starting is no news.
+        # Waits a second first: a starting learner is normal.
         if tries % 50 == 5:
-            log.warning("%s; retrying", what)
+            log.warning("%s; retrying", problem)
         tries += 1
         stopping.wait(RETRY_S)
     return None
@@ -37,67 +37,67 @@ def join(bus, run, actor, task, stopping):
     if receipt is None:
         return None
     if not receipt.accepted:
-        raise Refused(f"run `{run}` refuses this actor: {receipt.reason}")
+        raise JoinRefused(f"run `{run}` refused this actor: {receipt.reason}")
     bundle = until_answered(lambda: bus.fetch_policy(run), unanswered, stopping)
     if bundle is None:
         return None
     trained = Settings.of(bundle).task
     sizes = (bundle.observation_size, bundle.action_size)
-    # The desk said the same; a learner that was begun anew in between may have another task.
+    # A new learner may have replaced the one that accepted the registration.
     if trained != task.name or sizes != (task.observation_size, task.action_size):
-        raise Refused(
-            f"run `{run}` trains `{trained or 'a task of its own'}` ({sizes[0]} observations, {sizes[1]} actions), and this "
-            f"actor has `{task.name}` ({task.observation_size}, {task.action_size})"
+        raise JoinRefused(
+            f"run `{run}` trains `{trained or 'the built-in humanoid'}` ({sizes[0]} observations, {sizes[1]} actions), but "
+            f"this actor runs `{task.name}` ({task.observation_size}, {task.action_size})"
         )
     return bundle
 
 
 class Policies:
-    """Holds the policy in use and replaces it."""
+    """Holds the current policy and replaces it."""
 
     def __init__(self, bus, bundle, actor, task):
         self.bus, self.actor, self.task = bus, actor, task
         self.run, self.config_hash = bundle.run, bundle.config_hash
-        #: Set once the run is another one, or the same begun anew: everything begins again.
-        self.other_run = threading.Event()
+        #: Set once the learner serves another run or a new start of this one: the actor must join again.
+        self.run_changed = threading.Event()
         self.fetching = threading.Lock()
-        self.held = (Policy.from_bundle(bundle), bundle.version)
+        self._current = (Policy.from_bundle(bundle), bundle.version)
         self.announced_version = None
 
     @property
     def current(self):
-        """The policy in use and its version."""
-        return self.held
+        """Current policy and its version."""
+        return self._current
 
     def refresh(self, known=None):
-        """Fetches the newest policy unless `known`, a version that was announced or named in a receipt, is in use already."""
-        # An announcement and a receipt speak of the same version at nearly the same time: one of them fetches.
+        """Fetches the newest policy, unless `known` (from an announcement or a receipt) is already current."""
+        # An announcement and a receipt often name the same version at once: only one of them fetches.
         with self.fetching:
-            if known is not None and known == self.held[1]:
+            if known is not None and known == self._current[1]:
                 return
             bundle = self.bus.fetch_policy(self.run)
             if bundle is None:
-                # A learner that was begun anew may be waiting for a registration before it has any policy.
+                # A new learner has no policy before the first registration.
                 receipt = self.bus.register(self.run, self.actor, self.task)
                 if receipt is not None and not receipt.accepted:
-                    self.other_run.set()
+                    self.run_changed.set()
                 return
             if bundle.run != self.run or bundle.config_hash != self.config_hash:
-                self.other_run.set()
+                self.run_changed.set()
                 return
-            if bundle.version == self.held[1]:
+            if bundle.version == self._current[1]:
                 return
             try:
-                self.held = (Policy.from_bundle(bundle), bundle.version)
+                self._current = (Policy.from_bundle(bundle), bundle.version)
             except PolicyError as why:
-                log.warning("%s; the policy before it stays in use", why)
+                log.warning("%s; keeping the previous policy", why)
 
     def follow(self, announced, poll_s, stopping):
-        """Looks whenever a version is announced, and unprompted now and then; runs in a thread of its own."""
+        """Refreshes after each announcement and every `poll_s`; runs on its own thread."""
         due = time.monotonic() + poll_s
-        while not (stopping.is_set() or self.other_run.is_set()):
-            heard = announced.wait(min(1.0, max(0.0, due - time.monotonic())))
+        while not (stopping.is_set() or self.run_changed.is_set()):
+            was_announced = announced.wait(min(1.0, max(0.0, due - time.monotonic())))
             announced.clear()
-            if heard or time.monotonic() >= due:
+            if was_announced or time.monotonic() >= due:
                 due = time.monotonic() + poll_s
-                self.refresh(self.announced_version if heard else None)
+                self.refresh(self.announced_version if was_announced else None)

@@ -1,4 +1,4 @@
-"""The policy of a bundle, or of an exported file, in numpy: as common/src/policy and common/src/normaliser.rs have it."""
+"""Evaluates a policy bundle or an exported policy in numpy, as the Rust crate common/policy does."""
 
 import hashlib
 import json
@@ -11,11 +11,11 @@ _DTYPES = {"F32": np.dtype("<f4"), "F64": np.dtype("<f8")}
 
 
 class PolicyError(Exception):
-    """A bundle or a file that cannot be used."""
+    """A policy bundle or file is unusable."""
 
 
 def read_safetensors(data):
-    """Tensors by name, and the metadata: eight bytes of length, a JSON header, then the numbers."""
+    """Returns tensors by name and the metadata. Format: header length (8 bytes), JSON header, numbers."""
     try:
         length = int.from_bytes(data[:8], "little")
         header = json.loads(bytes(data[8 : 8 + length]))
@@ -26,23 +26,23 @@ def read_safetensors(data):
             start, end = entry["data_offsets"]
             tensors[name] = np.frombuffer(numbers[start:end], _DTYPES[entry["dtype"]]).reshape(entry["shape"])
     except (ValueError, KeyError, TypeError) as why:
-        raise PolicyError(f"the weights are no safetensors data: {why}") from why
+        raise PolicyError(f"the weights are not safetensors data: {why}") from why
     return tensors, metadata
 
 
 def checksum(data):
-    """Of weights, as announcements and bundles give it: the first eight bytes of SHA-256 over length and data."""
+    """Returns the checksum of weights in a bundle: the first eight bytes of SHA-256 over length and data."""
     return int.from_bytes(hashlib.sha256(len(data).to_bytes(8, "little") + data).digest()[:8], "little")
 
 
 class Policy:
-    """A diagonal Gaussian over actions whose means an actor network gives."""
+    """Diagonal Gaussian over actions; the actor network computes the means."""
 
     def __init__(self, tensors, mean, inverse_std, clip):
         count = sum(1 for name in tensors if name.startswith("actor.") and name.endswith(".weight"))
         if count == 0 or "log_std" not in tensors:
             raise PolicyError("the weights have no tensors actor.N.weight and log_std")
-        # Transposed once, so that rows of a batch multiply from the left.
+        # Transposed once: observations are rows.
         self.layers = [
             (np.ascontiguousarray(tensors[f"actor.{index}.weight"].T), tensors[f"actor.{index}.bias"])
             for index in range(count)
@@ -60,9 +60,9 @@ class Policy:
 
     @classmethod
     def from_bundle(cls, bundle):
-        """Of a PolicyBundle, whose checksum is looked at."""
+        """Reads a PolicyBundle. Raises PolicyError if the checksum differs."""
         if checksum(bundle.weights) != bundle.checksum:
-            raise PolicyError("the weights do not have the checksum that the bundle gives")
+            raise PolicyError("checksum of the weights differs from the bundle's")
         tensors, _ = read_safetensors(bundle.weights)
         mean = np.frombuffer(bundle.observation_mean, "<f4")
         inverse_std = np.frombuffer(bundle.observation_inverse_std, "<f4")
@@ -70,32 +70,32 @@ class Policy:
 
     @classmethod
     def from_export(cls, data):
-        """Of a file that `treadmill export --safetensors` wrote; also its facts: task, ranges of actions, and more."""
+        """Reads a file of `treadmill export --safetensors`. Returns the policy and its metadata (task, action ranges, …)."""
         tensors, metadata = read_safetensors(data)
         if "treadmill" not in metadata:
-            raise PolicyError("`treadmill export` did not write this file: it has no metadata `treadmill`")
+            raise PolicyError("the file has no `treadmill` metadata; make it with `treadmill export --safetensors`")
         facts = json.loads(metadata["treadmill"])
         observation = facts["observation"]
         deviation = np.sqrt(tensors["observation.variance"] + observation["variance_epsilon"])
         return cls(tensors, tensors["observation.mean"], 1.0 / deviation, observation["clip"]), facts
 
     def means(self, observations):
-        """Action means, [rows, action], of raw observations, [rows, observation]."""
+        """Returns action means [rows, action] of raw observations [rows, observation]."""
         x = np.clip((observations - self.mean) * self.inverse_std, -self.clip, self.clip)
         for index, (weight, bias) in enumerate(self.layers):
             x = x @ weight + bias
             if index + 1 < len(self.layers):
-                # ELU; the exponential of what is positive is not used, and must not overflow.
+                # ELU; np.where evaluates both branches, so minimum() prevents overflow.
                 x = np.where(x > 0, x, np.expm1(np.minimum(x, 0)))
         return x
 
     def log_prob(self, actions, means):
-        """Log-probability densities, [rows], of unclipped actions."""
+        """Returns log-probability densities [rows] of unclipped actions."""
         z = (actions - means) / self.std
         return np.sum(-0.5 * z * z - self.log_std - HALF_LN_TAU, axis=1, dtype=np.float32)
 
     def sample(self, observations, normals):
-        """Actions and their log-probabilities; `normals` are standard normal, [rows, action]."""
+        """Returns actions and their log-probabilities; `normals` are standard normal, [rows, action]."""
         means = self.means(observations)
         actions = (means + self.std * normals).astype(np.float32)
         return actions, self.log_prob(actions, means)

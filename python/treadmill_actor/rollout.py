@@ -1,4 +1,4 @@
-"""Fragments: T steps of N environments under one policy."""
+"""Collects fragments: T steps of N environments under one policy."""
 
 import logging
 import math
@@ -14,7 +14,7 @@ log = logging.getLogger("treadmill_actor")
 
 
 class Environments:
-    """N environments that step one after the other, and their episodes."""
+    """N environments, stepped one after the other, and their episodes."""
 
     def __init__(self, make, name, count, seed):
         self.envs = [make() for _ in range(count)]
@@ -35,14 +35,14 @@ class Environments:
         observation, info = self.envs[index].reset(seed=seed)
         self.observations[index] = np.ravel(observation)
         if not np.isfinite(self.observations[index]).all():
-            raise TaskError(f"`{self.task.name}` observes numbers at its start that are not finite")
+            raise TaskError(f"the first observation of `{self.task.name}` is not finite")
         self.returns[index], self.lengths[index] = 0.0, 0
         position = info.get("x_position")
         self.task.has_position |= position is not None
         self.starts[index], self.positions[index] = (position or 0.0), position
 
     def step(self, actions):
-        """Steps all. Rewards, flags, the true last observations of those that were cut off, and finished episodes."""
+        """Steps all environments. Returns rewards, flags, last observations of truncated episodes, and finished episodes."""
         commands = self.task.to_env(actions)
         rewards, flags = np.zeros(len(self), np.float32), np.zeros(len(self), np.uint8)
         cut_off, episodes = {}, []
@@ -55,7 +55,7 @@ class Environments:
                 self.observations[index] = np.ravel(observation)
             fault = not (np.isfinite(self.observations[index]).all() and math.isfinite(reward))
             if fault:
-                # The simulator broke down: the episode ends here, with a reward of nothing and the last sound observation.
+                # A numerical fault ends the episode with the last finite observation and reward 0.
                 self.observations[index], reward, terminated = before, 0.0, True
             rewards[index] = reward
             self.returns[index] += float(reward)
@@ -63,7 +63,7 @@ class Environments:
             self.positions[index] = info.get("x_position", self.positions[index])
             if not (terminated or truncated):
                 continue
-            # Over by rule and cut off at once is over by rule: nothing comes after it.
+            # Terminated takes precedence: there is no next state to bootstrap from.
             flags[index] = TERMINATED if terminated else TRUNCATED
             if not terminated:
                 cut_off[index] = self.observations[index].copy()
@@ -73,7 +73,7 @@ class Environments:
         return rewards, flags, cut_off, episodes
 
     def _episode(self, index, cause):
-        """Distance is that of the info's x_position; where an environment tells none, it is 0."""
+        """Returns the episode's summary. Distance comes from x_position in info, and is 0 without it."""
         position = self.positions[index]
         distance = float(position) - float(self.starts[index]) if position is not None else 0.0
         if not math.isfinite(distance):
@@ -88,13 +88,13 @@ class Environments:
         }
 
     def close(self):
-        """Lets go of the simulators."""
+        """Closes the environments."""
         for env in self.envs:
             env.close()
 
 
 class Collector:
-    """Collects fragments, one after the other; episodes run on from one to the next."""
+    """Collects one fragment after the other; episodes continue across fragments."""
 
     def __init__(self, environments, settings, run, actor, incarnation, config_hash, seed):
         self.environments, self.settings = environments, settings
@@ -105,17 +105,17 @@ class Collector:
         numbers = steps * envs * (task.observation_size + task.action_size + 2) + envs * task.observation_size
         if 4 * numbers + steps * envs + 4096 > FRAGMENT_BYTES_MAX:
             raise TaskError(
-                f"a fragment of {steps} steps of {envs} environments has some {4 * numbers >> 20} MiB, and at most "
-                f"{FRAGMENT_BYTES_MAX >> 20} are allowed; use fewer --envs, or set rollout.fragment_steps lower"
+                f"a fragment of {steps} steps of {envs} environments has about {4 * numbers >> 20} MiB; the limit is "
+                f"{FRAGMENT_BYTES_MAX >> 20} MiB; use fewer --envs, or a lower rollout.fragment_steps"
             )
 
     @property
     def transitions(self):
-        """Of one fragment."""
+        """Environment steps in one fragment."""
         return self.settings.fragment_steps * len(self.environments)
 
     def collect(self, policy, version, settled_through):
-        """The next fragment and its episodes."""
+        """Returns the next fragment, encoded, and its finished episodes."""
         environments, settings, task = self.environments, self.settings, self.environments.task
         steps, envs = settings.fragment_steps, len(environments)
         observations = np.empty((steps, envs, task.observation_size), np.float32)

@@ -1,8 +1,7 @@
-"""The messages on the bus, as classes of the protobuf runtime.
+"""Message classes of the bus.
 
-`schema.binpb` is proto/schema in compiled form. It is read when this module is imported, so that no generated code has to
-fit the version of protobuf that is installed, and no compiler is needed. A test of the Rust crate `treadmill-proto` compares
-it with the schemas and writes it anew.
+`schema.binpb` holds proto/schema in compiled form and is read at import. Generated code would have to match the installed
+version of protobuf. A test of the Rust crate `treadmill-proto` compares the file with the schemas and can rewrite it.
 """
 
 from pathlib import Path
@@ -12,7 +11,7 @@ from google.protobuf import descriptor_pb2, descriptor_pool, message_factory
 
 def _messages():
     files = descriptor_pb2.FileDescriptorSet.FromString(Path(__file__).with_name("schema.binpb").read_bytes())
-    # A pool of its own, so that it does not collide with other users of these schemas in this process.
+    # A separate pool cannot collide with other users of these schemas in this process.
     pool = descriptor_pool.DescriptorPool()
     for file in files.file:
         pool.Add(file)

@@ -1,4 +1,4 @@
-"""The part of a run's configuration that an actor needs, out of the bundle's TOML."""
+"""Configuration keys that an actor needs, from the TOML in a policy bundle."""
 
 import tomllib
 from dataclasses import dataclass
@@ -8,7 +8,7 @@ from .task import TaskError
 
 @dataclass(frozen=True)
 class Settings:
-    """Settings with the learner's names."""
+    """Settings of one run."""
 
     fragment_steps: int
     fragments_in_flight: int
@@ -19,15 +19,15 @@ class Settings:
 
     @classmethod
     def of(cls, bundle):
-        """Of a PolicyBundle."""
+        """Reads a PolicyBundle. Raises TaskError for a retired key that has an effect."""
         config = tomllib.loads(bundle.config_toml)
         rollout, bus = config["rollout"], config["bus"]
         in_flight = rollout["max_in_flight"] or (1 if config["learner"]["mode"] == "sync" else 2)
         correlation = rollout.get("noise_correlation", 0.0)
         if correlation != 0.0:
             raise TaskError(
-                f"config key `rollout.noise_correlation` is {correlation}, but the key no longer exists; begin a run "
-                "without it, or use the treadmill_actor of the learner's version"
+                f"config key `rollout.noise_correlation` is {correlation}, but the key no longer exists; start a run "
+                "without it, or use the learner's version of treadmill_actor"
             )
         return cls(
             fragment_steps=rollout["fragment_steps"],

@@ -1,4 +1,4 @@
-"""One actor process: joins, collects, delivers, tells about itself, and outlives the learner."""
+"""One actor process: joins a run, collects and uploads fragments, reports statistics, survives learner restarts."""
 
 import json
 import logging
@@ -15,18 +15,18 @@ from .policies import Policies, join
 from .rollout import Collector
 from .settings import Settings
 
-#: After this, a thread that waits for an answer is left behind: closing the session ends its wait.
-STOP_PATIENCE_S = 2.0
+#: How long to wait for each thread at the end. Closing the session ends the others.
+STOP_TIMEOUT_S = 2.0
 log = logging.getLogger("treadmill_actor")
 
 
 def unique():
-    """A number that no other process has."""
+    """Returns a random 63-bit number from the operating system."""
     return random.SystemRandom().getrandbits(63)
 
 
 class Worker:
-    """Simulates for one run until it is asked to stop."""
+    """Collects fragments for one run until a request to stop."""
 
     def __init__(self, bus, run, actor, environments, seed, stopping):
         self.bus, self.run, self.actor = bus, run, actor
@@ -35,21 +35,21 @@ class Worker:
         self.failure = None
 
     def work(self, steps=None):
-        """Joins, again where the run was begun anew, and simulates; after `steps` environment steps it is enough."""
+        """Joins and simulates for `steps` environment steps; joins again if the run changes."""
         while not self.stopping.is_set():
             bundle = join(self.bus, self.run, self.actor, self.environments.task, self.stopping)
             if bundle is None:
                 return
             log.info("%s joined run `%s` at version %d", self.actor, self.run, bundle.version.number)
-            if self._stay(bundle, steps):
+            if self._simulate_run(bundle, steps):
                 return
-            log.warning("run `%s` is no longer there as it was; joining again", self.run)
+            log.warning("run `%s` changed; joining again", self.run)
 
-    def _stay(self, bundle, steps):
-        """True where it was enough, False where the run is another one now."""
+    def _simulate_run(self, bundle, steps):
+        """Simulates until the end or until the run changes. Returns False if the run changed."""
         settings, incarnation = Settings.of(bundle), unique()
         policies = Policies(self.bus, bundle, self.actor, self.environments.task)
-        # Set once what is still under way is given up.
+        # Ends the upload threads.
         leaving = threading.Event()
         self.uploader = Uploader(
             self.bus, self.run, self.actor, bundle.version.incarnation, settings.receipt_timeout_s, leaving
@@ -57,7 +57,7 @@ class Worker:
         collector = Collector(
             self.environments, settings, self.run, self.actor, incarnation, bundle.config_hash, (self.seed, incarnation)
         )
-        over, announced = threading.Event(), threading.Event()
+        ended, announced = threading.Event(), threading.Event()
 
         def apply(version):
             policies.announced_version = version
@@ -65,15 +65,15 @@ class Worker:
 
         token = self.bus.token(self.run, self.actor)
         subscriber = self.bus.announcements(self.run, apply)
-        tell_episode = self.bus.publisher(f"treadmill/{self.run}/episodes/{self.actor}")
-        tell_stats = self.bus.publisher(f"treadmill/{self.run}/actors/{self.actor}/stats")
-        # Credit: one for each fragment that may be unanswered; the receipt gives it back.
+        episode_publisher = self.bus.publisher(f"treadmill/{self.run}/episodes/{self.actor}")
+        stats_publisher = self.bus.publisher(f"treadmill/{self.run}/actors/{self.actor}/stats")
+        # One credit for each unanswered fragment; the receipt returns it.
         credit, outbox = threading.Semaphore(settings.fragments_in_flight), queue.Queue()
         jitter = random.uniform(0.8, 1.2)
         threads = [
-            threading.Thread(target=policies.follow, args=(announced, settings.policy_poll_s * jitter, over)),
+            threading.Thread(target=policies.follow, args=(announced, settings.policy_poll_s * jitter, ended)),
             threading.Thread(
-                target=self._tell, args=(tell_stats, policies, incarnation, settings.stats_every_s, over)
+                target=self._report, args=(stats_publisher, policies, incarnation, settings.stats_every_s, ended)
             ),
             *(
                 threading.Thread(target=self._deliver, args=(outbox, credit, policies))
@@ -85,29 +85,29 @@ class Worker:
             thread.start()
         done = False
         try:
-            done = self._simulate(collector, policies, credit, outbox, tell_episode, steps)
+            done = self._simulate(collector, policies, credit, outbox, episode_publisher, steps)
         finally:
             for _ in range(settings.fragments_in_flight):
                 outbox.put(None)
-            # Who has done enough waits for the last receipts; who is asked to stop, failed or has no run any more does not.
+            # After all steps, wait for the last receipts; after a stop, a failure or a changed run, do not.
             while done and not self.stopping.is_set() and any(thread.is_alive() for thread in threads[2:]):
                 self.stopping.wait(0.1)
             leaving.set()
             for thread in threads[2:]:
-                thread.join(STOP_PATIENCE_S)
-            over.set()
+                thread.join(STOP_TIMEOUT_S)
+            ended.set()
             announced.set()
             for thread in threads[:2]:
-                thread.join(STOP_PATIENCE_S)
-            for declared in (subscriber, token, tell_episode, tell_stats):
+                thread.join(STOP_TIMEOUT_S)
+            for declared in (subscriber, token, episode_publisher, stats_publisher):
                 declared.undeclare()
         if self.failure is not None:
             raise self.failure
         return done
 
-    def _simulate(self, collector, policies, credit, outbox, tell_episode, steps):
+    def _simulate(self, collector, policies, credit, outbox, episode_publisher, steps):
         while not self.stopping.is_set() and self.failure is None:
-            if policies.other_run.is_set():
+            if policies.run_changed.is_set():
                 return False
             if not credit.acquire(timeout=0.1):
                 continue
@@ -121,28 +121,28 @@ class Worker:
                 self.faults += episode["cause"] == "non_finite"
                 report = {"run": self.run, "actor": self.actor, "return": episode["return_sum"], **episode}
                 del report["return_sum"]
-                tell_episode.put(json.dumps(report))
+                episode_publisher.put(json.dumps(report))
             if steps is not None and self.env_steps >= steps:
                 return True
         return True
 
     def _deliver(self, outbox, credit, policies):
-        """Runs in as many threads as fragments may be unanswered."""
+        """Uploads fragments; runs on one thread per credit."""
         try:
             while (item := outbox.get()) is not None:
                 receipt = self.uploader.deliver(*item)
                 if receipt is None:
                     return
                 policies.refresh(receipt.version)
-                self.uploader.send_again(policies.current[1].incarnation)
+                self.uploader.resend_unsaved(policies.current[1].incarnation)
                 credit.release()
-        except Exception as why:  # noqa: BLE001: whatever it is, the simulating thread must not wait for ever
+        except Exception as why:  # noqa: BLE001: the simulating thread raises it
             self.failure = why
 
-    def _tell(self, publisher, policies, incarnation, every_s, over):
+    def _report(self, publisher, policies, incarnation, every_s, ended):
         steps_before, since = self.env_steps, time.monotonic()
-        while not over.wait(every_s):
-            now, book = time.monotonic(), self.uploader.book
+        while not ended.wait(every_s):
+            now, ledger = time.monotonic(), self.uploader.ledger
             rate, since = (self.env_steps - steps_before) / max(now - since, 1e-9), now
             steps_before = self.env_steps
             stats = schema.ActorStats(
@@ -156,12 +156,12 @@ class Worker:
                 env_steps=self.env_steps,
                 episodes=self.episodes,
                 faults=self.faults,
-                produced=book.produced,
-                accepted=book.accepted,
-                dropped_by_rule=book.dropped_by_rule,
-                in_flight=len(book.in_flight),
-                resent=book.resent,
-                awaiting_durability=len(book.kept),
+                produced=ledger.produced,
+                accepted=ledger.accepted,
+                dropped_by_rule=ledger.dropped_by_rule,
+                in_flight=len(ledger.in_flight),
+                resent=ledger.resent,
+                awaiting_durability=len(ledger.kept),
                 resident_bytes=resident_bytes(),
                 program_version=f"python {__version__}",
             )
@@ -169,7 +169,7 @@ class Worker:
 
 
 def resident_bytes():
-    """Memory of this process that is in RAM, where the system tells it."""
+    """Returns the resident memory of this process in bytes, or 0 outside Linux."""
     try:
         with open("/proc/self/statm", encoding="ascii") as statm:
             return int(statm.read().split()[1]) * os.sysconf("SC_PAGE_SIZE")

@@ -1,4 +1,4 @@
-"""Plays an exported policy, without exploration, in the Gymnasium environment that it was trained for.
+"""Plays an exported policy without exploration in its Gymnasium environment.
 
 Usage: treadmill export RUN --safetensors policy.safetensors
        play.py policy.safetensors --env Humanoid-v5 [--kwargs JSON] [--episodes N] [--render]
@@ -19,8 +19,8 @@ from treadmill_actor.task import describe  # noqa: E402
 
 flags = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
 flags.add_argument("policy", type=Path)
-flags.add_argument("--env", required=True, help="as gymnasium.make takes it, with the module that registers it: MODULE:ID")
-flags.add_argument("--kwargs", type=json.loads, default={}, help="for gymnasium.make")
+flags.add_argument("--env", required=True, help="Gymnasium ID; MODULE:ID imports the module that registers it")
+flags.add_argument("--kwargs", type=json.loads, default={}, help="arguments for gymnasium.make")
 flags.add_argument("--episodes", type=int, default=10)
 flags.add_argument("--seed", type=int, default=1)
 flags.add_argument("--render", action="store_true")
@@ -30,7 +30,7 @@ env = gymnasium.make(args.env, render_mode="human" if args.render else None, **a
 task = describe(env, facts.get("task", {}).get("name", "unknown"))
 if (task.observation_size, task.action_size) != (policy.observation_size, policy.action_size):
     sys.exit(
-        f"error: the policy was trained for {policy.observation_size} observations and {policy.action_size} actions, and "
+        f"error: the policy has {policy.observation_size} observations and {policy.action_size} actions, but "
         f"`{args.env}` has {task.observation_size} and {task.action_size}"
     )
 returns, lengths, distances = [], [], []

@@ -5,7 +5,7 @@ import zenoh
 flags = argparse.ArgumentParser()
 flags.add_argument("endpoint", nargs="?", default="tcp/127.0.0.1:7447")
 flags.add_argument("run", nargs="?", default="*")
-flags.add_argument("--png", help="write a picture every second instead of opening a window")
+flags.add_argument("--png", help="write an image every second instead of opening a window")
 flags.add_argument("--tls", help="folder with ca.crt, observer.crt and observer.key")
 args, points, config = flags.parse_args(), [], zenoh.Config()
 files = {"root_ca_certificate": "ca.crt", "connect_certificate": "observer.crt", "connect_private_key": "observer.key"}

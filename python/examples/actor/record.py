@@ -1,12 +1,12 @@
-"""Writes accepted fragments of a run to NumPy files, one for each fragment.
+"""Writes each accepted fragment of a run to a NumPy file.
 
 Usage: record.py FOLDER [--connect ENDPOINT] [--run NAME] [--actor NAME] [--tls DIR] [--count N]
 
-The learner copies fragments to `treadmill/{run}/@rollouts/{actor}` while a subscriber asks for exactly that key. A link that is
-too slow loses copies: `sequence` tells which. Each file, ACTOR-INCARNATION-SEQUENCE.npz, holds
+The learner publishes copies on `treadmill/{run}/@rollouts/{actor}` while that key has a subscriber. A slow link drops copies;
+gaps in `sequence` show it. Each file, ACTOR-INCARNATION-SEQUENCE.npz, holds
 
     observations [T, N, observation], actions [T, N, action], log_probs [T, N], rewards [T, N],
-    terminated [T, N], truncated [T, N], last_observations [K, observation], last_at [K, 2] (step and environment of each),
+    terminated [T, N], truncated [T, N], last_observations [K, observation], last_at [K, 2] (its step and environment),
     episode_returns, episode_lengths, version (incarnation and number), sequence
 """
 
@@ -25,21 +25,21 @@ from treadmill_actor.bus import configuration  # noqa: E402
 
 
 def arrays(fragment):
-    """A fragment's planes as arrays."""
+    """Decodes a fragment into arrays."""
     shape = (fragment.steps, fragment.envs)
     flags = np.frombuffer(fragment.flags, np.uint8).reshape(shape)
     terminated, truncated = flags & 1 != 0, flags & 2 != 0
     needs_last = truncated.copy()
     needs_last[-1] |= ~terminated[-1]
 
-    def plane(name, *width):
+    def array(name, *width):
         return np.frombuffer(getattr(fragment, name), "<f4").reshape(*shape, *width)
 
     return {
-        "observations": plane("observations", fragment.observation_size),
-        "actions": plane("actions", fragment.action_size),
-        "log_probs": plane("log_probs"),
-        "rewards": plane("rewards"),
+        "observations": array("observations", fragment.observation_size),
+        "actions": array("actions", fragment.action_size),
+        "log_probs": array("log_probs"),
+        "rewards": array("rewards"),
         "terminated": terminated,
         "truncated": truncated,
         "last_observations": np.frombuffer(fragment.last_observations, "<f4").reshape(-1, fragment.observation_size),
@@ -57,21 +57,21 @@ def main():
     flags.add_argument("--connect", action="append")
     flags.add_argument("--run", default="*")
     flags.add_argument("--actor", default="*")
-    flags.add_argument("--tls", metavar="DIR", help="folder of certificates with observer.crt and observer.key")
-    flags.add_argument("--count", type=int, help="end after so many fragments")
+    flags.add_argument("--tls", metavar="DIR", help="folder with ca.crt, observer.crt and observer.key")
+    flags.add_argument("--count", type=int, help="end after this many fragments")
     args = flags.parse_args()
     args.folder.mkdir(parents=True, exist_ok=True)
     config = configuration(args.connect or ["tcp/127.0.0.1:7447"], args.tls, role="observer")
-    written, enough = 0, threading.Event()
+    written, done = 0, threading.Event()
     with zenoh.open(config) as session:
-        # A ring: where the disk is slower than the run, the oldest copies give way.
+        # If the disk is slower than the run, the ring drops the oldest copies.
         copies = session.declare_subscriber(
             f"treadmill/{args.run}/@rollouts/{args.actor}", zenoh.handlers.RingChannel(64)
         )
-        while not enough.is_set():
+        while not done.is_set():
             sample = copies.try_recv()
             if sample is None:
-                enough.wait(0.02)
+                done.wait(0.02)
                 continue
             fragment = schema.Fragment.FromString(sample.payload.to_bytes())
             name = f"{fragment.actor}-{fragment.actor_incarnation:016x}-{fragment.sequence:08d}.npz"
@@ -79,7 +79,7 @@ def main():
             written += 1
             print(f"{name}: {fragment.steps} steps of {fragment.envs} environments", flush=True)
             if args.count is not None and written >= args.count:
-                enough.set()
+                done.set()
 
 
 if __name__ == "__main__":

@@ -1,4 +1,4 @@
-"""First of four: episodes of random actions, printed step by step.
+"""Tutorial 1 of 4: runs episodes with random actions and prints each step.
 
 Usage: pip install ./python/treadmill_gym
        tutorial_1_random.py [--episodes N] [--steps N] [--env ID]
@@ -12,7 +12,7 @@ import treadmill_gym  # noqa: F401  registers treadmill/Humanoid-v0
 
 flags = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
 flags.add_argument("--episodes", type=int, default=3)
-flags.add_argument("--steps", type=int, default=1000, help="at most so many of an episode")
+flags.add_argument("--steps", type=int, default=1000, help="limit per episode")
 flags.add_argument("--env", default="treadmill/Humanoid-v0")
 flags.add_argument("--seed", type=int, default=1)
 args = flags.parse_args()

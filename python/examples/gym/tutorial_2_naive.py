@@ -1,7 +1,7 @@
-"""Second of four: a learner that has no idea, to see what there is to gain.
+"""Tutorial 2 of 4: a naive learner as a baseline.
 
-It has one preferred action, the same for every observation. Whatever it tries beside that and earns more than usual draws the
-preference nearer, and what earns less pushes it away.
+It has one preferred action for all observations and adds noise to it. A reward above the average moves the preference towards
+the tried action; a lower reward moves it away.
 
 Usage: pip install ./python/treadmill_gym
        tutorial_2_naive.py [--episodes N] [--env ID]
@@ -16,8 +16,8 @@ import treadmill_gym  # noqa: F401  registers treadmill/Humanoid-v0
 
 flags = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
 flags.add_argument("--episodes", type=int, default=300)
-flags.add_argument("--rate", type=float, default=0.01, help="how far a reward draws the preference")
-flags.add_argument("--spread", type=float, default=0.1, help="standard deviation of what is tried")
+flags.add_argument("--rate", type=float, default=0.01, help="step size of the preference")
+flags.add_argument("--spread", type=float, default=0.1, help="standard deviation of the noise")
 flags.add_argument("--env", default="treadmill/Humanoid-v0")
 flags.add_argument("--seed", type=int, default=1)
 args = flags.parse_args()
@@ -26,18 +26,18 @@ env = gymnasium.make(args.env)
 random = np.random.default_rng(args.seed)
 low, high = env.action_space.low, env.action_space.high
 preferred = np.zeros(env.action_space.shape)
-usual = 0.0
+average = 0.0
 returns = []
 for episode in range(args.episodes):
     env.reset(seed=args.seed + episode)
-    total, over = 0.0, False
-    while not over:
+    total, ended = 0.0, False
+    while not ended:
         tried = np.clip(random.normal(preferred, args.spread), low, high)
         _, reward, terminated, truncated, _ = env.step(tried.astype(np.float32))
-        surprise = reward - usual
+        surprise = reward - average
         preferred = np.clip(preferred + args.rate * surprise * (tried - preferred), low, high)
-        usual += 0.01 * surprise
-        total, over = total + reward, terminated or truncated
+        average += 0.01 * surprise
+        total, ended = total + reward, terminated or truncated
     returns.append(total)
     if (episode + 1) % max(1, args.episodes // 10) == 0:
         recent = returns[-max(1, args.episodes // 10) :]

@@ -1,4 +1,4 @@
-"""Third of four: Stable-Baselines3's PPO trains the humanoid, with curves for TensorBoard, and saves the model.
+"""Tutorial 3 of 4: trains the humanoid with Stable-Baselines3's PPO, logs to TensorBoard and saves the model.
 
 Usage: pip install "./python/treadmill_gym[train]"
        tutorial_3_ppo.py [--steps N] [--envs N] [--model FILE]
@@ -16,7 +16,7 @@ from treadmill_gym.sb3 import HumanoidVecEnv
 
 flags = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
 flags.add_argument("--steps", type=int, default=2_000_000)
-flags.add_argument("--envs", type=int, default=1, help="1 is the tutorial as it is; 32 learn from as many humanoids at once")
+flags.add_argument("--envs", type=int, default=1, help="humanoids simulated at once; 32 is faster")
 flags.add_argument("--model", default="humanoid_ppo.zip")
 flags.add_argument("--logs", default="tensorboard")
 flags.add_argument("--seed", type=int)
@@ -26,11 +26,11 @@ if args.envs == 1:
     env = gymnasium.make("treadmill/Humanoid-v0")
     model = PPO("MlpPolicy", env, verbose=1, tensorboard_log=args.logs, seed=args.seed)
 else:
-    # As many steps between two updates as with one, from all together; larger minibatches, which cost less per step.
+    # 8192 steps per update in total, and larger minibatches, which cost less per step.
     env = VecMonitor(HumanoidVecEnv(args.envs))
     steps = max(1, 8192 // args.envs)
     model = PPO("MlpPolicy", env, n_steps=steps, batch_size=512, verbose=1, tensorboard_log=args.logs, seed=args.seed)
 model.learn(total_timesteps=args.steps)
 model.save(args.model)
-print(f"saved {args.model}; tutorial_4_watch.py {args.model} shows it, tensorboard --logdir {args.logs} how it learnt")
+print(f"saved {args.model}; to watch it: tutorial_4_watch.py {args.model}; curves: tensorboard --logdir {args.logs}")
 env.close()

@@ -1,4 +1,4 @@
-"""One fault: what was done to a fleet, and what was seen of it."""
+"""Measures one fault: when it was injected, detected and repaired, and when training recovered."""
 
 import time
 
@@ -9,12 +9,12 @@ BEFORE_S, AFTER_S = 10, 12
 RECOVERY_S = 60
 
 
-class Cannot(Exception):
-    """This machine cannot inject it."""
+class NotPossible(Exception):
+    """This machine cannot inject the fault."""
 
 
-class Trial:
-    """One fault and what was seen of it."""
+class Experiment:
+    """One fault and its measurements."""
 
     def __init__(self, fleet):
         self.fleet, self.injected, self.repaired, self.ended = fleet, None, None, None
@@ -26,32 +26,32 @@ class Trial:
         self.before = self.fleet.speed(time.time() - BEFORE_S, time.time())
         self.injected = time.time()
 
-    def gone(self, *names):
-        """Waits until the learner knows that these actors are gone, and notes how long that took."""
+    def await_gone(self, *names):
+        """Waits until the learner logs that these actors are gone; sets `detected`."""
         def all_gone():
-            times = [self.fleet.learner_said(f"`{name}` is gone", self.injected) for name in names]
+            times = [self.fleet.learner_logged(f"`{name}` is gone", self.injected) for name in names]
             return all(times) and max(times)
 
-        self.detected = self.fleet.wait("the learner notices", all_gone, 30) - self.injected
+        self.detected = self.fleet.wait("the learner notices the loss", all_gone, 30) - self.injected
 
-    def unanswered(self, names=ACTORS):
-        """The same, for actors whose learner is gone."""
+    def await_unanswered(self, names=ACTORS):
+        """Waits until these actors log that the learner does not answer; sets `detected`."""
         def all_know():
-            times = [self.fleet.current[name].said("keeping fragments", self.injected) for name in names]
+            times = [self.fleet.current[name].logged("keeping fragments", self.injected) for name in names]
             return all(times) and max(times)
 
-        self.detected = self.fleet.wait("the actors notice", all_know, 30) - self.injected
+        self.detected = self.fleet.wait("the actors notice the loss", all_know, 30) - self.injected
 
     def repair(self):
         self.repaired = time.time()
 
     def await_actors(self, *names, delivers=False, since=None):
-        """Waits until these are back, from a moment on or since the repair, and training goes on."""
+        """Waits until these actors are back after `since` or the repair, and training continues; sets `recovered`."""
         since = since or self.repaired
 
         def all_back():
-            said = self.fleet.delivers if delivers else lambda name, at: self.fleet.learner_said(f"`{name}` is there", at)
-            times = [said(name, since) for name in names]
+            logged = self.fleet.delivers if delivers else lambda name, at: self.fleet.learner_logged(f"`{name}` is there", at)
+            times = [logged(name, since) for name in names]
             return all(times) and max(times)
 
         back = self.fleet.wait("the actors are back", all_back, RECOVERY_S)
