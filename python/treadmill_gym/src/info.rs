@@ -17,7 +17,12 @@ pub enum Moment {
 }
 
 /// Returns the info of one environment.
-pub fn dictionary<'py>(py: Python<'py>, info: &StepInfo, task: RewardTask, moment: Moment) -> PyResult<Bound<'py, PyDict>> {
+pub fn dictionary<'py>(
+    py: Python<'py>,
+    info: &StepInfo,
+    task: RewardTask,
+    moment: Moment,
+) -> PyResult<Bound<'py, PyDict>> {
     let dictionary = PyDict::new(py);
     for (name, value) in info.entries(task).take(count(info, task, moment)) {
         match value {
@@ -30,7 +35,11 @@ pub fn dictionary<'py>(py: Python<'py>, info: &StepInfo, task: RewardTask, momen
 
 /// Returns the infos of several environments: for each name an array with a row per environment, and under `_name` a mask of
 /// the rows that have the entry. Other rows are zero. `None` is an environment without info.
-pub fn columns<'py>(py: Python<'py>, rows: &[Option<(&StepInfo, Moment)>], task: RewardTask) -> PyResult<Bound<'py, PyDict>> {
+pub fn columns<'py>(
+    py: Python<'py>,
+    rows: &[Option<(&StepInfo, Moment)>],
+    task: RewardTask,
+) -> PyResult<Bound<'py, PyDict>> {
     let columns = PyDict::new(py);
     // Names and sizes are the same for all environments.
     let Some((any, _)) = rows.iter().flatten().next() else { return Ok(columns) };
