@@ -198,7 +198,7 @@ class Fleet:
         return min(times, default=None)
 
     def delivers(self, name, since=0.0):
-        return self.learner_said(f"`{name}` delivers as", since)
+        return self.learner_said(f"first fragment of an actor process actor={name} ", since)
 
     # Accounts.
 

@@ -75,7 +75,7 @@ def begin(fleet, wrapped, actor_options):
         options = actor_options if name in ACTORS else {}
         fleet.start(name, wrapper=wrapped.get(name, ()), **options)
     patience = "both actors are there"
-    fleet.wait(patience, lambda: all(fleet.learner_said(f"`{name}` is there", 0.0) for name in ACTORS))
+    fleet.wait(patience, lambda: all(fleet.learner_said(f"actor joined actor={name}", 0.0) for name in ACTORS))
     fleet.grow(6 * FRAGMENT)
 
 

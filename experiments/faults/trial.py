@@ -29,7 +29,7 @@ class Trial:
     def gone(self, *names):
         """Waits until the learner knows that these actors are gone, and notes how long that took."""
         def all_gone():
-            times = [self.fleet.learner_said(f"`{name}` is gone", self.injected) for name in names]
+            times = [self.fleet.learner_said(f"actor left actor={name}", self.injected) for name in names]
             return all(times) and max(times)
 
         self.detected = self.fleet.wait("the learner notices", all_gone, 30) - self.injected
@@ -50,7 +50,8 @@ class Trial:
         since = since or self.repaired
 
         def all_back():
-            said = self.fleet.delivers if delivers else lambda name, at: self.fleet.learner_said(f"`{name}` is there", at)
+            joined = lambda name, at: self.fleet.learner_said(f"actor joined actor={name}", at)
+            said = self.fleet.delivers if delivers else joined
             times = [said(name, since) for name in names]
             return all(times) and max(times)
 
