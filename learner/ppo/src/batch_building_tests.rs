@@ -8,6 +8,9 @@ use super::*;
 
 const STEPS: u32 = 6;
 const ENVS: u32 = 2;
+/// Seeds of the parameters of two policies.
+const NEWEST: u64 = 0x5e31_645e_38a6_c541;
+const OLD: u64 = 0x00ea_63de_0efd_875e;
 
 fn shape() -> NetworkShape {
     NetworkShape { observation: 3, action: 2, hidden: vec![8] }
@@ -67,7 +70,7 @@ fn batch_with(mirror: Option<&BatchMirror>, acting: &Policy, newest: &Policy, la
 
 #[test]
 fn experience_of_the_newest_policy_is_not_corrected() {
-    let newest = policy(1);
+    let newest = policy(NEWEST);
     let plain = batch_of(&newest, &newest, 0);
     assert!(plain.weights.iter().all(|weight| *weight == 1.0));
     assert_eq!(plain.log_probs, fragment(&newest).log_probs);
@@ -81,7 +84,7 @@ fn experience_of_the_newest_policy_is_not_corrected() {
 
 #[test]
 fn older_experience_is_weighted_by_its_probability_ratio() {
-    let (old, newest) = (policy(2), policy(1));
+    let (old, newest) = (policy(OLD), policy(NEWEST));
     let uncorrected = batch_of(&old, &newest, 0);
     let decoupled = batch_of(&old, &newest, 2);
     let acted = fragment(&old);
@@ -104,7 +107,7 @@ fn a_mirror_adds_the_image_of_every_transition() {
         observation: IndexSwap(vec![(1, -1.0), (0, -1.0), (2, 1.0)]),
         action: IndexSwap(vec![(1, 1.0), (0, 1.0)]),
     };
-    let newest = policy(1);
+    let newest = policy(NEWEST);
     let plain = batch_of(&newest, &newest, 0);
     let both = batch_with(Some(&mirror), &newest, &newest, 0);
     let rows = plain.len();

@@ -111,11 +111,8 @@ impl Trainer {
             ));
         }
         if self.serving.evaluation.is_none() && changed.evaluates() {
-            return Err(
-                "the run was started without evaluation; to set `eval.every_steps`, stop it and resume it with the \
-                        value"
-                    .to_string(),
-            );
+            let why = "`eval.every_steps` cannot be set, because the run was started without evaluation; start a new run with it";
+            return Err(why.to_string());
         }
         let before = self.config.value_of(key);
         if key == "ppo.learning_rate" {

@@ -1,4 +1,4 @@
-//! Turns a batch into improved parameters.
+//! Updates the parameters from a batch.
 
 use std::{
     error::Error,
@@ -14,7 +14,7 @@ use treadmill_runtime::{error_chain, machine};
 use super::{Trainer, TrainingError, TrainingOptions, load_adaptation::LoadAdaptation};
 use crate::checkpoint::TrainingState;
 
-/// The learning part of a [`Trainer`].
+/// Learning part of a [`Trainer`].
 pub(super) struct Learning {
     pub(super) updater: Updater,
     mirror: Option<BatchMirror>,
@@ -56,7 +56,7 @@ impl Learning {
 }
 
 impl Trainer {
-    /// Updates the parameters from a batch. Returns `None` if the update was undone because a number was not finite.
+    /// Updates the parameters from a batch. Returns `None` if the update was undone.
     pub(super) fn update(&mut self, accepted: &[AcceptedFragment]) -> Result<Option<UpdateStats>, TrainingError> {
         let Self { state, learning, config, .. } = self;
         let policy = learning.updater.policy().map_err(|why| TrainingError::State { why: error_chain(&why) })?;

@@ -4,12 +4,12 @@
 //! - Here: [`train`] and its loop. `Trainer` has three parts: learning, serving and reporting.
 //! - `options`: [`TrainingOptions`] and [`TrainingSummary`]; `error`: [`TrainingError`].
 //! - `start`: prepares a `Trainer` for its first batch.
-//! - `learning`: turns a batch into improved parameters.
-//! - `serving`: fragments in; checkpoint, policy and evaluations out.
+//! - `learning`: updates the parameters from a batch.
+//! - `serving`: collects batches, saves checkpoints, publishes policies, takes evaluation results.
 //! - `reporting`: logs each update.
 //! - `commands`: applies control commands and publishes the run's status.
 //! - [`control`]: queues commands for the training thread and answers status requests.
-//! - [`evaluation`]: schedules evaluations while training continues.
+//! - [`evaluation`]: schedules evaluations during training.
 //! - [`load_adaptation`]: adapts batch size and passes to the load.
 //! - [`heartbeat`]: heartbeat of the training thread.
 //! - [`disk_full`]: waits while the disk is full.

@@ -22,7 +22,7 @@ use crate::{
     },
 };
 
-/// The reporting part of a [`Trainer`].
+/// Reporting part of a [`Trainer`].
 pub(super) struct Reporting {
     pub(super) report: MetricsReport,
     /// Return and distance over the run.

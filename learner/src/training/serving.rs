@@ -1,4 +1,4 @@
-//! Collects batches; saves checkpoints; publishes policies; takes evaluation results.
+//! Collects batches, saves checkpoints, publishes policies, and takes evaluation results.
 
 use std::time::{Duration, Instant};
 
@@ -18,7 +18,7 @@ use crate::{
     intake::{BusFragmentSource, Collected, CollectedBatch, Intake},
 };
 
-/// The part of a [`Trainer`] that serves actors, evaluators and operators.
+/// Serving part of a [`Trainer`]: actors, evaluators and operators.
 pub(super) struct Serving {
     pub(super) intake: Intake<BusFragmentSource>,
     pub(super) policies: PolicyServer,
