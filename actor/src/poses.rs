@@ -83,7 +83,7 @@ pub async fn tell(mut tape: Tape, publisher: PosePublisher) {
         }
         due.tick().await;
         match pose.to_bytes() {
-            Ok(bytes) => publisher.tell(bytes),
+            Ok(bytes) => publisher.publish(bytes),
             Err(why) => tracing::debug!("a pose cannot be told: {why}"),
         }
     }

@@ -66,7 +66,7 @@ pub fn fragment(data: &[u8]) {
     }
 }
 
-/// A sender may write a field twice; the last one counts, and the gate sees the first.
+/// A sender may write a field twice; the last one counts, but admission reads the first.
 fn has_two_incarnations(data: &[u8]) -> bool {
     data.iter().filter(|byte| **byte == 0x18).count() >= 2
 }
@@ -205,8 +205,8 @@ pub fn fragment_validator(data: &[u8]) {
         action_size: 1,
         max_policy_lag: 1,
     };
-    let gate = Arc::new(Admission::new(8, 64));
-    let mut validator = FragmentValidator::new(expected, gate, Ledger::default(), FragmentCounts::default());
+    let admission = Arc::new(Admission::new(8, 64));
+    let mut validator = FragmentValidator::new(expected, admission, Ledger::default(), FragmentCounts::default());
     let mut lineage = Lineage::new(samples::INCARNATION);
     lineage.advance();
     let now = Instant::now();

@@ -26,7 +26,7 @@ pub async fn settle(bus: &Bus, prepared: &mut Prepared, shutdown: &Shutdown) -> 
         let shutdown = shutdown.clone();
         move || {
             while !shutdown.asked() {
-                if let Some(task) = desk.settled(TICK) {
+                if let Some(task) = desk.accepted(TICK) {
                     return Some((desk, task));
                 }
             }

@@ -59,12 +59,12 @@ pub fn run(args: &HostArgs) -> anyhow::Result<()> {
     let shelf = PolicyServer::open(&bus, workload::RUN, encoded.into())?;
     let defaults = LearnerConfig::default();
     let capacity = defaults.intake_fragments as usize;
-    let gate = Arc::new(Admission::new(defaults.quarantine_after, capacity));
+    let admission = Arc::new(Admission::new(defaults.quarantine_after, capacity));
     let (alive, copies) = (Alive::watch(&bus, workload::RUN)?, RolloutCopies::open(&bus, workload::RUN)?);
-    let queue = RolloutIntake::open(&bus, workload::RUN, capacity, gate.clone(), &copies)?;
+    let queue = RolloutIntake::open(&bus, workload::RUN, capacity, admission.clone(), &copies)?;
     let shared = queue.shared();
     let source = BusFragmentSource::new(queue, alive, copies, Heartbeat::default());
-    let validator = FragmentValidator::new(expected(), gate, Ledger::default(), FragmentCounts::default());
+    let validator = FragmentValidator::new(expected(), admission, Ledger::default(), FragmentCounts::default());
     let (taken, shutdown) = (Arc::new(Mutex::new(Taken::default())), Shutdown::default());
     let intake = std::thread::Builder::new().name("training".to_string()).spawn({
         let (taken, shutdown) = (taken.clone(), shutdown.clone());

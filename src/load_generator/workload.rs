@@ -10,7 +10,7 @@ use crate::commands::bench::network::{self, Widths};
 pub(super) const RUN: &str = "bench";
 /// Stands for configuration and model, which nobody reads here.
 pub(super) const CONFIG_HASH: u64 = 1;
-/// The incarnation of every actor. The learner's gate reads it from the first bytes, where the prepared fragment has it.
+/// Incarnation of every actor. Admission reads it from the first bytes, where the prepared fragment has it.
 pub(super) const ACTOR_INCARNATION: u64 = 1;
 /// The learner's incarnation in every policy version.
 pub(super) const INCARNATION: u64 = 1;

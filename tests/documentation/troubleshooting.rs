@@ -105,8 +105,8 @@ fn another_run_is_there_and_somebody_sends_nonsense() {
         liar.send("liar", nonsense.clone());
     }
     let heading = "An actor is in quarantine";
-    tells(heading, &learner, "was refused", &[]);
-    tells(heading, &learner, "quarantine", &[]);
+    tells(heading, &learner, "fragment rejected", &[]);
+    tells(heading, &learner, "sender quarantined", &[]);
 }
 
 #[test]
@@ -190,7 +190,7 @@ fn somebody_is_turned_away() {
     let learner = start(folder, &[&["learner", "--preset", "smoke", "--run-dir", "run"][..], &listen].concat());
     let endpoint = endpoint(&run);
     let stranger = start(folder, &["actor", "--tls", "others", "--connect", &endpoint]);
-    tells("A certificate of another authority", &learner, "a connection was refused", &[]);
+    tells("A certificate of another authority", &learner, "connection rejected", &[]);
     drop(stranger);
     let _plain = start(folder, &["actor", "--connect", &endpoint.replace("tls/", "tcp/")]);
     tells("Plain text where TLS is spoken", &learner, "does not speak TLS", &[]);

@@ -102,7 +102,7 @@ fn every_kind_of_nonsense(tls: bool) {
         }
         let receipt = attacker.send(kind, bytes.clone()).expect("an answer");
         assert_eq!(receipt.outcome, Outcome::Quarantined, "{kind}: {receipt:?}");
-        fleet.learner.wait_for(&format!("`{kind}` is put in quarantine"));
+        fleet.learner.wait_for(&format!("sender quarantined actor={kind}"));
     }
     // Names that are none, one of them as long as a key may be.
     for name in ["Capitals".to_string(), "a".repeat(60_000)] {
@@ -164,7 +164,7 @@ fn what_is_replayed_is_not_learnt_from_and_shuts_out_who_does_it() {
     });
     assert_eq!(end, Outcome::Quarantined);
     assert!(duplicates > 100, "an honest actor may send again what it kept: {duplicates}");
-    fleet.learner.wait_for("`replayer` is put in quarantine");
+    fleet.learner.wait_for("sender quarantined: too many duplicate or vanished fragments actor=replayer");
     fleet.assert_goes_on();
     fleet.end();
 }

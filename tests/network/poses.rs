@@ -99,7 +99,7 @@ fn an_actor_knows_whether_anybody_watches_it() {
     let feed = observe(&viewer, "treadmill/run/poses/legs", RING).unwrap();
     await_that("an observer", || watched.now().then_some(()));
     assert!(!other.watched().now(), "the other one is not watched");
-    publisher.tell(b"a pose".to_vec());
+    publisher.publish(b"a pose".to_vec());
     assert_eq!(feed.next(PATIENCE).expect("the pose").payload, b"a pose");
     drop(feed);
     await_that("no observer", || (!watched.now()).then_some(()));

@@ -1,55 +1,55 @@
 //! Errors of the bus.
 
-/// Why the bus cannot be used.
+/// Error of the bus.
 #[derive(Debug, thiserror::Error)]
 pub enum BusError {
-    /// An endpoint is not acceptable.
+    /// An endpoint is refused.
     #[error("endpoint `{endpoint}`: {why}")]
     Endpoint {
-        /// As given.
+        /// The endpoint as given.
         endpoint: String,
-        /// What is wrong and what to do.
+        /// Cause and remedy.
         why: String,
     },
     /// An endpoint cannot be listened on.
     #[error("cannot listen on `{endpoint}`: {why}; choose another port with --listen, or port 0 for any free one")]
     Listen {
-        /// As given.
+        /// The endpoint as given.
         endpoint: String,
-        /// What the system said.
+        /// The system's error.
         why: String,
     },
     /// The process may open too few files.
     #[error(
-        "this process may have {limit} files open, and the bus needs {needed}: raise the limit, as by `ulimit -Hn 4096`, \
+        "this process may open {limit} files, but the bus needs {needed}; raise the limit with `ulimit -Hn 4096`, \
          LimitNOFILE=4096 in systemd, or `docker run --ulimit nofile=4096`"
     )]
     OpenFiles {
         /// The limit.
         limit: u64,
-        /// What is needed at least.
+        /// The smallest limit that suffices.
         needed: u64,
     },
-    /// A setting was refused.
+    /// Zenoh refused a setting.
     #[error("{what}: {why}")]
     Config {
-        /// Which setting.
+        /// The setting.
         what: String,
-        /// What the bus said.
+        /// Zenoh's error.
         why: String,
     },
     /// The session could not be opened.
-    #[error("the bus cannot be opened: {why}")]
+    #[error("cannot open the bus: {why}")]
     Open {
-        /// What the bus said.
+        /// Zenoh's error.
         why: String,
     },
     /// A declaration, query or publication failed.
     #[error("{what} failed on the bus: {why}")]
     Flow {
-        /// What was tried.
+        /// The operation.
         what: String,
-        /// What the bus said.
+        /// Zenoh's error.
         why: String,
     },
 }
@@ -57,6 +57,12 @@ pub enum BusError {
 impl BusError {
     pub(crate) fn flow(what: impl Into<String>) -> impl FnOnce(zenoh::Error) -> Self {
         let what = what.into();
-        move |why| Self::Flow { what, why: why.to_string() }
+        move |error| Self::Flow { what, why: error.to_string() }
+    }
+
+    /// Returns the error of a thread that could not be started.
+    pub(crate) fn thread(name: &str) -> impl FnOnce(std::io::Error) -> Self {
+        let what = format!("starting thread {name}");
+        move |error| Self::Flow { what, why: error.to_string() }
     }
 }

@@ -1,13 +1,13 @@
-//! Sessions and flows of the message bus. No other crate names Zenoh.
+//! Sessions and flows of the message bus. No other crate depends on Zenoh.
 //!
 //! Rollouts and policies are queries, because a publication also succeeds when no subscriber receives it. Announcements,
-//! statistics and metrics are publications, which the bus may drop. Callbacks never block on a receiver: each one hands over to
-//! a bounded queue, and [`admission`] slows down links that send too much.
+//! statistics and metrics are publications, which the bus may drop. Callbacks never wait for a receiver: each one puts its
+//! message into a bounded queue, and [`admission`] throttles links that send too much.
 //!
 //! # Layout
 //! - [`session`]: opens sessions; builds Zenoh's configuration, keys, endpoints and access rules.
-//! - [`admission`]: which senders may deliver fragments now, and what limits a flood.
-//! - `flows`: one file for each kind of message.
+//! - [`admission`]: decides which fragments are admitted, and throttles floods.
+//! - `flows`: sends and receives; one file for each kind of message.
 //! - [`workarounds`]: code that exists only because of a fault in Zenoh.
 
 pub mod admission;
@@ -22,16 +22,17 @@ pub use admission::{
 };
 pub use error::BusError;
 pub use flows::{
-    actor::{Announcements, fetch_policy, publish_dropping, submit, token, watch_announcements},
     control::{ControlServer, PendingRequest, command, statuses},
     copies::RolloutCopies,
     evaluation::{Assignment, EvaluationServer, ask_for_evaluation},
     observer::{Feed, Message, MetricsFeed, observe},
-    policies::PolicyServer,
+    policies::{Announcements, PolicyServer, fetch_policy, watch_announcements},
     poses::{PosePublisher, Watched},
-    presence::{Alive, AliveView, StatsFeed},
+    presence::{Alive, AliveView, token},
+    publications::publish_dropping,
     received::ReceivedFragment,
-    rollouts::{IncomingFragment, RolloutIntake},
+    rollouts::{IncomingFragment, RolloutIntake, submit},
+    stats::StatsFeed,
     tasks::{Objection, TaskServer, register_task},
 };
 pub use session::{

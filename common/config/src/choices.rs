@@ -1,8 +1,8 @@
-//! Keys whose value is one of a few names.
+//! Values that are one of a few names.
 
 use serde::{Deserialize, Serialize};
 
-/// Declares an enum that is written by name, and the list of its names.
+/// Declares an enum whose variants are written as names, and the list of these names.
 macro_rules! choice {
     (
         $(#[$meta:meta])*
@@ -15,10 +15,10 @@ macro_rules! choice {
         }
 
         impl $name {
-            /// The names, as a configuration gives them.
+            /// Names of the variants in a configuration.
             pub const NAMES: &[&str] = &[$($text),*];
 
-            /// Its name.
+            /// Returns the name of this variant.
             #[must_use]
             pub fn name(self) -> &'static str {
                 match self {
@@ -30,31 +30,31 @@ macro_rules! choice {
 }
 
 choice! {
-    /// Which of Gymnasium's tasks it is, or that it is none of ours.
+    /// Task: one of Gymnasium's, or an external one.
     EnvTask {
         /// Humanoid-v5.
         HumanoidV5 = "humanoid-v5",
         /// Humanoid-v4.
         HumanoidV4 = "humanoid-v4",
-        /// What actors of other programs simulate, and register.
+        /// Task that other programs simulate and register.
         External = "external",
     }
 }
 
 choice! {
-    /// Which numbers the policy sees.
+    /// Observation of the policy.
     EnvObservation {
         /// Positions and velocities.
         Compact = "compact",
-        /// What Gymnasium's Humanoid-v5 observes.
+        /// Observation of Gymnasium's Humanoid-v5.
         GymnasiumV5 = "gymnasium-v5",
-        /// What Gymnasium's Humanoid-v4 observes.
+        /// Observation of Gymnasium's Humanoid-v4.
         GymnasiumV4 = "gymnasium-v4",
     }
 }
 
 choice! {
-    /// How exactly observations travel, and are seen.
+    /// Precision of observations.
     ObservationPrecision {
         /// Single precision.
         F32 = "f32",
@@ -64,26 +64,26 @@ choice! {
 }
 
 choice! {
-    /// Which policy versions a batch is made of.
+    /// Policy versions whose experience a batch may hold.
     LearnerMode {
-        /// The newest alone: actors wait while it is improved.
+        /// The newest only; actors wait during an update.
         Sync = "sync",
-        /// Also somewhat older ones: actors go on while it is improved.
+        /// Older ones, too; actors continue during an update.
         Async = "async",
     }
 }
 
 choice! {
-    /// What an update makes of the symmetry of left and right.
+    /// Use of the symmetry of left and right in an update.
     Symmetry {
-        /// Nothing.
+        /// Unused.
         Off = "off",
-        /// A mirror image of each transition.
+        /// Adds the mirror image of each transition.
         Mirrored = "mirrored",
     }
 }
 
-/// The names that a key of this type (as [`super::KeyDoc::kind`] has it) may take; `None` for other types.
+/// Returns the names allowed for a type as in [`super::KeyDoc::kind`]; `None` if it is no choice.
 pub(super) fn names(kind: &str) -> Option<&'static [&'static str]> {
     match kind {
         "EnvTask" => Some(EnvTask::NAMES),

@@ -1,6 +1,6 @@
-//! Configuration in two stages: TOML text and `--set` pairs as given, then a [`Config`] in which every value is checked.
+//! Configuration in two stages: a [`ConfigSource`] collects what the user gives, then builds a checked [`Config`].
 //!
-//! Order of precedence, lowest first: defaults in code, the preset, the file, `--set`, the command's own flags.
+//! Precedence, lowest first: defaults in code, preset, file, `--set`, the command's own flags.
 
 mod choices;
 pub mod open_json;
@@ -23,35 +23,34 @@ pub use sections::{
 };
 pub use source::ConfigSource;
 
-/// Everything that can be configured, checked.
+/// Whole configuration, checked.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Config {
-    /// What this run is.
+    /// The run.
     pub run: RunConfig,
-    /// The task.
+    /// Humanoid task.
     pub env: EnvConfig,
-    /// The task where it is none of ours; left out of texts where it says nothing, so that actors which do not know of
-    /// such tasks go on reading them.
+    /// External task. Omitted from TOML if unset, so that actors of versions without external tasks can read it.
     #[serde(skip_serializing_if = "TaskConfig::is_unset")]
     pub task: TaskConfig,
-    /// What differs from episode to episode.
+    /// Randomisation from episode to episode.
     pub randomisation: RandomisationConfig,
-    /// How experience is gathered.
+    /// Collection of experience.
     pub rollout: RolloutConfig,
-    /// The networks.
+    /// Networks.
     pub policy: PolicyConfig,
-    /// The algorithm.
+    /// Algorithm.
     pub ppo: PpoConfig,
-    /// The learner's side of the fleet.
+    /// Learner.
     pub learner: LearnerConfig,
-    /// Evaluation while training.
+    /// Evaluation during training.
     pub eval: EvaluationConfig,
-    /// The message bus.
+    /// Message bus.
     pub bus: BusConfig,
 }
 
-/// Why a configuration is refused.
+/// Error of a configuration.
 #[derive(Debug, thiserror::Error, PartialEq)]
 pub enum ConfigError {
     /// The key does not exist.
@@ -59,17 +58,17 @@ pub enum ConfigError {
     UnknownKey {
         /// The key as given.
         key: String,
-        /// What is there instead.
+        /// Keys that exist instead.
         hint: String,
     },
-    /// The value's type is not the key's.
+    /// The value has the wrong type.
     #[error("config key `{key}` is {value}, which is not of the right type; allowed: {allowed}")]
     Type {
         /// The key.
         key: String,
         /// The value as given.
         value: String,
-        /// Allowed values in words.
+        /// Allowed values.
         allowed: String,
     },
     /// The value is out of range.
@@ -79,7 +78,7 @@ pub enum ConfigError {
         key: String,
         /// The value as given.
         value: String,
-        /// Allowed values in words.
+        /// Allowed values.
         allowed: String,
     },
     /// The key no longer exists, and its value is not the old default.
@@ -108,29 +107,29 @@ pub enum ConfigError {
     Preset {
         /// The name as given.
         given: String,
-        /// Names that exist.
+        /// Existing names.
         allowed: String,
     },
     /// The file could not be read.
     #[error("config file `{path}` cannot be read: {why}; give an existing TOML file")]
     File {
-        /// Its path.
+        /// Path of the file.
         path: String,
-        /// What the system said.
+        /// The system's error.
         why: String,
     },
-    /// The text is no TOML.
+    /// The text is not TOML.
     #[error("{origin} is not valid TOML: {why}")]
     Syntax {
-        /// Where the text came from.
+        /// Source of the text.
         origin: String,
-        /// What the parser said.
+        /// The parser's error.
         why: String,
     },
 }
 
 impl Config {
-    /// Every section with its keys, in the order of the documentation.
+    /// Returns every section with its keys, in the order of the documentation.
     pub fn sections() -> Vec<SectionDoc> {
         vec![
             RunConfig::describe(),
@@ -146,12 +145,15 @@ impl Config {
         ]
     }
 
-    /// Every key with documentation, default and allowed values.
+    /// Returns every key with documentation, default and allowed values.
     pub fn keys() -> Vec<KeyDoc> {
         Self::sections().into_iter().flat_map(|section| section.keys).collect()
     }
 
-    /// Checks every value by itself, then those that must fit each other.
+    /// Checks every value by itself, then values that depend on each other.
+    ///
+    /// # Errors
+    /// [`ConfigError::Value`] for the first value out of range.
     pub fn check(&self) -> Result<(), ConfigError> {
         self.run.check()?;
         self.env.check()?;
@@ -203,7 +205,7 @@ impl Config {
         Ok(())
     }
 
-    /// What Gymnasium's Humanoid-v4 observes has no blocks that can be left out.
+    /// Checks that no block is left out of the observation of Humanoid-v4, which has no optional blocks.
     fn check_observation(&self) -> Result<(), ConfigError> {
         let env = &self.env;
         let included = [
@@ -225,7 +227,7 @@ impl Config {
         Ok(())
     }
 
-    /// Unanswered fragments that an actor may have on the bus.
+    /// Returns how many fragments without a receipt an actor may have.
     pub fn fragments_in_flight(&self) -> u32 {
         match (self.rollout.max_in_flight, self.learner.mode) {
             (0, LearnerMode::Sync) => 1,
@@ -234,13 +236,13 @@ impl Config {
         }
     }
 
-    /// Whether policies are evaluated while training goes on: the run must be long enough for one evaluation, and its task
-    /// one that our evaluator plays.
+    /// Returns whether policies are evaluated during training: the run must last for one evaluation, and the task must not be
+    /// external.
     pub fn evaluates(&self) -> bool {
         !self.is_external() && (1..=self.run.steps).contains(&self.eval.every_steps)
     }
 
-    /// Versions that a fragment's policy may be behind the newest.
+    /// Returns how many versions a fragment's policy may lag behind the newest.
     pub fn policy_lag_allowed(&self) -> u32 {
         match self.learner.mode {
             LearnerMode::Sync => 0,
@@ -248,7 +250,7 @@ impl Config {
         }
     }
 
-    /// The value of one key in TOML notation; empty where there is no such key.
+    /// Returns the value of a key in TOML notation; empty if the key does not exist.
     pub fn value_of(&self, key: &str) -> String {
         let value = key.split_once('.').and_then(|(section, name)| {
             toml::Value::try_from(self).ok()?.get(section)?.get(name).map(ToString::to_string)
@@ -256,13 +258,13 @@ impl Config {
         value.unwrap_or_default()
     }
 
-    /// The configuration as TOML, every key named; those of `[task]` only where they say something.
+    /// Returns the configuration as TOML with every key; `[task]` only if it is set.
     pub fn to_toml(&self) -> String {
         toml::to_string(self).expect("a checked config is plain tables of plain values")
     }
 }
 
-/// A value in TOML notation.
+/// Returns a value in TOML notation.
 pub(crate) fn show<T: Serialize>(value: &T) -> String {
-    toml::Value::try_from(value).map_or_else(|why| why.to_string(), |value| value.to_string())
+    toml::Value::try_from(value).map_or_else(|error| error.to_string(), |value| value.to_string())
 }

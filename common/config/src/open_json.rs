@@ -1,5 +1,4 @@
-//! For serde's `with`: numbers of a section that are infinite stand as `"inf"` and `"-inf"`, since JSON has no such
-//! numbers and would drop them.
+//! Module for serde's `with`: writes the infinite numbers of a section as `"inf"` and `"-inf"`, because JSON has none.
 
 use serde::{Deserialize, Deserializer, Serialize, Serializer, de::DeserializeOwned, de::Error as _, ser::Error as _};
 
@@ -12,7 +11,7 @@ pub fn serialize<T: Serialize, S: Serializer>(section: &T, serializer: S) -> Res
 pub fn deserialize<'de, T: DeserializeOwned, D: Deserializer<'de>>(deserializer: D) -> Result<T, D::Error> {
     let json = serde_json::Value::deserialize(deserializer)?;
     let open = to_toml(json).ok_or_else(|| D::Error::custom("a section has no null and no number beyond 64 bits"))?;
-    open.try_into().map_err(|why: toml::de::Error| D::Error::custom(why.message()))
+    open.try_into().map_err(|error: toml::de::Error| D::Error::custom(error.message()))
 }
 
 fn to_json(value: toml::Value) -> serde_json::Value {
@@ -61,7 +60,7 @@ mod tests {
     }
 
     #[test]
-    fn open_ranges_survive_json() {
+    fn infinite_bounds_survive_json() {
         let env = EnvConfig { healthy_z_range: [0.5, f64::INFINITY], ..EnvConfig::default() };
         assert_eq!(env.contact_cost_range[0], f64::NEG_INFINITY);
         let text = serde_json::to_string(&Holder { env: env.clone() }).unwrap();
@@ -71,7 +70,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_section_is_refused() {
+    fn malformed_sections_are_refused() {
         let refused = |text: &str| serde_json::from_str::<Holder>(text).err().expect("it is refused").to_string();
         assert!(refused(r#"{"env": {"substeps": null}}"#).contains("null"));
         assert!(refused(r#"{"env": {"substep": 2}}"#).contains("substep"));

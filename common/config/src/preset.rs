@@ -1,30 +1,30 @@
-//! Named starting points.
+//! Presets: named configurations to start from.
 
 use super::ConfigError;
 
 /// Names and TOML text of the presets.
 pub const PRESETS: &[(&str, &str)] = &[
-    // The defaults are the recipe that walks.
+    // The defaults.
     ("walk", ""),
-    // Everything that Gymnasium's environments observe, and more passes over it, with which they were measured.
+    // Gymnasium's observations, with more passes over the batch; as measured in docs/results.
     ("walk-v5obs", "[env]\nobservation = \"gymnasium-v5\"\n[ppo]\nepochs = 5\nepochs_min = 3\nminibatch = 2048\n"),
     (
         "walk-v4obs",
         "[env]\ntask = \"humanoid-v4\"\nobservation = \"gymnasium-v4\"\n\
          [ppo]\nepochs = 5\nepochs_min = 3\nminibatch = 2048\n",
     ),
-    // Small enough to end within seconds, on a laptop or in a test.
+    // Ends within seconds, for a laptop or a test.
     (
         "smoke",
         "[run]\nsteps = 8192\n[rollout]\nenvs = 8\nactors = 2\nfragment_steps = 64\n\
          [policy]\nhidden = [32, 32]\n[ppo]\nbatch = 512\nminibatch = 256\nepochs = 2\n\
          [learner]\ntable_every_updates = 4\n[bus]\nstats_every_ms = 500\n",
     ),
-    // The recipe on a body and a floor that are never quite the same, for policies that are to walk in another simulator.
+    // The defaults with a randomised body and floor, for policies that must walk in another simulator.
     ("sim2sim", SIM2SIM),
 ];
 
-/// How far apart two simulators of the same humanoid may be taken to be.
+/// Assumed differences between two simulators of the same humanoid.
 const SIM2SIM: &str = "\
 [randomisation]
 mass_scale = [0.85, 1.15]
@@ -38,7 +38,10 @@ push_interval_s = [2.0, 5.0]
 push_mps = [0.0, 0.5]
 ";
 
-/// The text of one preset.
+/// Returns the text of a preset.
+///
+/// # Errors
+/// [`ConfigError::Preset`] if it does not exist.
 pub fn preset(name: &str) -> Result<&'static str, ConfigError> {
     PRESETS.iter().find(|(known, _)| *known == name).map(|(_, text)| *text).ok_or_else(|| ConfigError::Preset {
         given: name.to_string(),

@@ -7,7 +7,7 @@ use toml::{Table, Value};
 
 use super::ConfigError;
 
-/// A key that no longer exists.
+/// Key that no longer exists.
 struct Retired {
     key: &'static str,
     /// Its old default in TOML notation, which is how the program behaves now.

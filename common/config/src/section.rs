@@ -1,49 +1,51 @@
-//! One declaration per key: its documentation, type, default and allowed values stand side by side.
+//! Macro that declares a section: documentation, type, default and allowed values of each key in one place.
 //!
-//! The macro turns that declaration into the struct, its `Default`, the table of keys that error messages and
-//! documentation are made from, and the check of every value.
+//! It generates the struct, its `Default`, the key table for error messages and documentation, and the check of every value.
 
 use super::ConfigError;
 
-/// What is known of one configuration key.
+/// Description of a configuration key.
 #[derive(Clone, Debug)]
 pub struct KeyDoc {
-    /// Dotted name, as `--set` takes it.
+    /// Dotted name, as in `--set`.
     pub key: String,
     /// One line of documentation.
     pub doc: &'static str,
     /// Rust name of the value's type.
     pub kind: &'static str,
-    /// The default in TOML notation.
+    /// Default in TOML notation.
     pub default: String,
-    /// Allowed values, in words.
+    /// Allowed values.
     pub allowed: &'static str,
 }
 
-/// What is known of one section.
+/// Description of a section.
 #[derive(Clone, Debug)]
 pub struct SectionDoc {
-    /// The table's name in TOML.
+    /// Name of the TOML table.
     pub name: &'static str,
-    /// What it is about.
+    /// Subject of the section.
     pub about: &'static str,
-    /// Its keys, in the order of their declaration.
+    /// Keys, in order of declaration.
     pub keys: Vec<KeyDoc>,
 }
 
-/// A section of the configuration.
+/// Section of the configuration.
 pub trait Section: Default {
-    /// The table's name in TOML.
+    /// Name of the TOML table.
     const NAME: &'static str;
-    /// What it is about.
+    /// Subject of the section.
     const ABOUT: &'static str;
-    /// Every key of this section.
+    /// Returns the keys of this section.
     fn keys() -> Vec<KeyDoc>;
-    /// All that is known of this section.
+    /// Returns the description of this section.
     fn describe() -> SectionDoc {
         SectionDoc { name: Self::NAME, about: Self::ABOUT, keys: Self::keys() }
     }
     /// Checks each value by itself.
+    ///
+    /// # Errors
+    /// [`ConfigError::Value`] for the first value out of range.
     fn check(&self) -> Result<(), ConfigError>;
 }
 

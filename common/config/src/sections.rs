@@ -1,25 +1,25 @@
-//! Every key of the configuration, with its default.
+//! Keys of the configuration. The doc texts are the reference page and `--help`.
 
 use super::choices::{EnvObservation, EnvTask, LearnerMode, ObservationPrecision, Symmetry};
 use super::section::section;
 use treadmill_proto::{ident::check_task_name, limits::WIDTH_MAX};
 
 section! {
-    /// What this run is.
+    /// Seed, length and determinism of the run.
     RunConfig as "run" {
-        /// Seed from which every random stream of the run is derived.
+        /// Seed of all random streams of the run.
         seed: u64 = 1, "0 to 9223372036854775807" => |v| *v <= i64::MAX as u64;
-        /// Total environment steps of the run; no schedule depends on it.
+        /// Environment steps of the run in total; no schedule depends on it.
         steps: u64 = 8_000_000, "1 to 1000000000000" => |v| (1..=1_000_000_000_000).contains(v);
-        /// One actor in lock-step with the learner, so that the same seed gives the same weights bit for bit.
+        /// Run one actor in lock-step with the learner: the same seed then gives the same weights, bit for bit.
         deterministic: bool = false, "true or false" => |_| true;
     }
 }
 
 section! {
-    /// The humanoid task: Gymnasium's Humanoid-v5 by default, and its arguments under its names.
+    /// Humanoid task, by default Gymnasium's Humanoid-v5. Keys have the names of Gymnasium's arguments.
     EnvConfig as "env" {
-        /// Whose rewards and info; v4 has no contact cost, and pays for health also on the step that ends an episode. "external" is what actors in other languages register.
+        /// Task, which sets rewards and info. v4 has no contact cost, and adds the healthy reward also on the step that ends an episode. "external" is a task that actors in other languages register.
         task: EnvTask = EnvTask::HumanoidV5, "\"humanoid-v5\", \"humanoid-v4\" or \"external\"" => |_| true;
         /// Reward per m/s of forward velocity of the whole body's centre of mass.
         forward_reward_weight: f64 = 1.25, "a finite number" => |v| v.is_finite();
@@ -27,63 +27,63 @@ section! {
         ctrl_cost_weight: f64 = 0.1, "0 or more" => |v| *v >= 0.0 && v.is_finite();
         /// Cost per squared newton (or newton metre) of external contact force.
         contact_cost_weight: f64 = 5e-7, "0 or more" => |v| *v >= 0.0 && v.is_finite();
-        /// The contact cost of one step is brought into this range.
+        /// Range to which the contact cost of one step is clipped.
         contact_cost_range: [f64; 2] = [f64::NEG_INFINITY, 10.0], "[lowest, highest], the first not above the second; -inf and inf are allowed" => |[low, high]| low <= high && *low < f64::INFINITY && *high > f64::NEG_INFINITY;
-        /// Reward of each step on which the humanoid is healthy.
+        /// Reward for each step on which the humanoid is healthy.
         healthy_reward: f64 = 5.0, "a finite number" => |v| v.is_finite();
-        /// Whether leaving the healthy range of torso height ends the episode.
+        /// Whether an unhealthy torso height ends the episode.
         terminate_when_unhealthy: bool = true, "true or false" => |_| true;
-        /// Torso heights in metres between which, and not at which, the humanoid is healthy.
+        /// Range of torso heights in metres, without its ends, in which the humanoid is healthy.
         healthy_z_range: [f64; 2] = [1.0, 2.0], "[lowest, highest], the first below the second; -inf and inf are allowed" => |[low, high]| low < high;
-        /// Half width of the uniform noise on every position and velocity entry at reset.
+        /// Half width of the uniform noise on each position and velocity at reset.
         reset_noise_scale: f64 = 0.01, "0 to 1" => |v| (0.0..=1.0).contains(v);
-        /// What the policy sees: positions and velocities (45 numbers), or all that Gymnasium's v5 (348) or v4 (376) observes.
+        /// Observation of the policy: positions and velocities (45 numbers), or that of Gymnasium's v5 (348) or v4 (376).
         observation: EnvObservation = EnvObservation::Compact, "\"compact\", \"gymnasium-v5\" or \"gymnasium-v4\"" => |_| true;
-        /// Whether the observation leaves out x and y of the torso.
+        /// Whether the observation omits x and y of the torso.
         exclude_current_positions_from_observation: bool = true, "true or false" => |_| true;
-        /// Whether the observation `gymnasium-v5` has the inertias of the body's parts.
+        /// Whether the observation `gymnasium-v5` includes the inertias of the bodies.
         include_cinert_in_observation: bool = true, "true or false" => |_| true;
-        /// Whether the observation `gymnasium-v5` has the velocities of the body's parts.
+        /// Whether the observation `gymnasium-v5` includes the velocities of the bodies.
         include_cvel_in_observation: bool = true, "true or false" => |_| true;
-        /// Whether the observation `gymnasium-v5` has the motors' torques.
+        /// Whether the observation `gymnasium-v5` includes the motors' torques.
         include_qfrc_actuator_in_observation: bool = true, "true or false" => |_| true;
-        /// Whether the observation `gymnasium-v5` has the contact forces.
+        /// Whether the observation `gymnasium-v5` includes the contact forces.
         include_cfrc_ext_in_observation: bool = true, "true or false" => |_| true;
         /// Control steps after which an episode is truncated.
         max_episode_steps: u32 = 1000, "1 to 1000000" => |v| (1..=1_000_000).contains(v);
         /// Physics steps per control step of 15 ms.
         substeps: u32 = 2, "1 to 50" => |v| (1..=50).contains(v);
-        /// Iterations of Rapier's solver per physics step; its result is then refined in joint coordinates.
+        /// Iterations of Rapier's solver per physics step. Its result is then refined in joint coordinates.
         solver_iterations: u32 = 1, "1 to 50" => |v| (1..=50).contains(v);
-        /// Whether the humanoid's own limbs can touch each other.
+        /// Whether the humanoid's limbs collide with each other.
         self_collision: bool = true, "true or false" => |_| true;
     }
 }
 
 section! {
-    /// The task where `env.task` is `"external"`. What is not given here is what the first actor registers; then it is fixed for the run. The other keys of `[env]` and those of `[randomisation]` have no meaning there.
+    /// External task, if `env.task` is `"external"`. Keys left at their defaults take the values that the first actor registers, and are then fixed for the run. The other keys of `[env]` and those of `[randomisation]` have no effect.
     TaskConfig as "task" {
-        /// Name of the task, as its actors register it; empty takes what comes first.
+        /// Name of the task, as its actors register it; empty takes the first registered one.
         name: String = String::new(), "at most 128 of the characters a-z, A-Z, 0-9, _ - . : and /, not beginning with treadmill/" => |v| v.is_empty() || check_task_name("task.name", v).is_ok();
-        /// Entries of one observation; 0 means what the first actor registers.
+        /// Entries of one observation; 0 takes what the first actor registers.
         observation_size: u32 = 0, "0 to 4096" => |v| *v <= WIDTH_MAX;
-        /// Entries of one action; 0 means what the first actor registers.
+        /// Entries of one action; 0 takes what the first actor registers.
         action_size: u32 = 0, "0 to 4096" => |v| *v <= WIDTH_MAX;
-        /// What an action of -1 means in the environment, for each entry.
+        /// Environment's value for an action of -1, for each entry.
         action_low: Vec<f64> = vec![], "as many finite numbers as task.action_size says" => |v| v.iter().all(|v| v.is_finite());
-        /// What an action of 1 means.
+        /// Environment's value for an action of 1, for each entry.
         action_high: Vec<f64> = vec![], "as many finite numbers, each above that of task.action_low" => |v| v.iter().all(|v| v.is_finite());
-        /// Duration of one control step in seconds; 0 where it is not known.
+        /// Duration of one control step in seconds; 0 means unknown.
         control_step_s: f64 = 0.0, "0 or more" => |v| *v >= 0.0 && v.is_finite();
     }
 }
 
 section! {
-    /// What differs from episode to episode while training, so that the policy depends on none of it. Ranges are smallest and largest value; by default nothing is randomised.
+    /// Randomisation of training episodes, so that the policy does not depend on exact values. A range is [smallest, largest]; by default nothing is randomised.
     RandomisationConfig as "randomisation" {
         /// Factor on the mass and inertia of each body.
         mass_scale: [f64; 2] = [1.0, 1.0], "[smallest, largest], 0.1 to 10" => |v| is_range(v, 0.1, 10.0);
-        /// Factor on the friction coefficients of the floor and of limbs that rub.
+        /// Factor on the friction coefficients of the floor and between limbs.
         floor_friction_scale: [f64; 2] = [1.0, 1.0], "[smallest, largest], 0 to 10" => |v| is_range(v, 0.0, 10.0);
         /// Factor on the torque of each motor.
         motor_scale: [f64; 2] = [1.0, 1.0], "[smallest, largest], 0 to 10" => |v| is_range(v, 0.0, 10.0);
@@ -97,48 +97,48 @@ section! {
         sensor_noise_position: f64 = 0.0, "0 to 1" => |v| (0.0..=1.0).contains(v);
         /// Standard deviation of the noise on observed velocities (m/s, rad/s).
         sensor_noise_velocity: f64 = 0.0, "0 to 1" => |v| (0.0..=1.0).contains(v);
-        /// Standard deviation of the noise on each control, as a share of the largest control.
+        /// Standard deviation of the noise on each control, as a fraction of the largest control.
         control_noise: f64 = 0.0, "0 to 1" => |v| (0.0..=1.0).contains(v);
-        /// Control steps after which an action reaches the motors, the same throughout an episode.
+        /// Control steps until an action reaches the motors; constant during an episode.
         action_delay_steps: [u32; 2] = [0, 0], "[smallest, largest], 0 to 3" => |v| v[0] <= v[1] && v[1] <= 3;
-        /// Seconds from one push to the next, and from the start of an episode to the first.
+        /// Seconds between two pushes, and before the first of an episode.
         push_interval_s: [f64; 2] = [2.0, 5.0], "[smallest, largest], 0.015 to 1000" => |v| is_range(v, 0.015, 1000.0);
-        /// Velocity in m/s that a push adds to the whole body, in any horizontal direction; 0 means no pushes.
+        /// Velocity in m/s that a push adds to the whole body in a random horizontal direction; 0 disables pushes.
         push_mps: [f64; 2] = [0.0, 0.0], "[smallest, largest], 0 to 10" => |v| is_range(v, 0.0, 10.0);
     }
 }
 
-/// Whether these are a smallest and a largest value within bounds.
+/// Returns whether `range` is ordered and within `min` to `max`.
 fn is_range(range: &[f64; 2], min: f64, max: f64) -> bool {
     min <= range[0] && range[0] <= range[1] && range[1] <= max
 }
 
 section! {
-    /// How experience is gathered.
+    /// Collection of experience.
     RolloutConfig as "rollout" {
-        /// Environments in total, split over the actors of `train`.
+        /// Environments in total, divided among the actors of `train`.
         envs: u32 = 64, "1 to 65536" => |v| (1..=65_536).contains(v);
         /// Actor processes that `train` starts; 0 means one per core.
         actors: u32 = 0, "0 to 256" => |v| *v <= 256;
         /// Control steps of each environment in one fragment.
         fragment_steps: u32 = 128, "1 to 4096" => |v| (1..=4096).contains(v);
-        /// Precision that observations are rounded to before the policy sees them and they travel; "f16" saves a third of the bytes.
+        /// Precision to which observations are rounded before the policy and the learner receive them; "f16" saves a third of the bytes.
         observation_precision: ObservationPrecision = ObservationPrecision::F32, "\"f32\" or \"f16\"" => |_| true;
-        /// Unanswered fragments that an actor may have on the bus; 0 means 1 in learner.mode "sync" and 2 in "async".
+        /// Fragments without a receipt that an actor may have on the bus; 0 means 1 in learner.mode "sync" and 2 in "async".
         max_in_flight: u32 = 0, "0 to 2, and not 2 in learner.mode \"sync\"" => |v| *v <= 2;
-        /// Threads of each actor process that its environments are spread over; 0 means one per core.
+        /// Threads of each actor process, which divide its environments; 0 means one per core.
         threads: u32 = 1, "0 to 256" => |v| *v <= 256;
     }
 }
 
 section! {
-    /// The actor and critic networks.
+    /// Actor and critic networks.
     PolicyConfig as "policy" {
         /// Widths of the hidden layers of both networks.
         hidden: Vec<u32> = vec![256, 128], "1 to 8 widths, each 1 to 4096" => |v| (1..=8).contains(&v.len()) && v.iter().all(|w| (1..=4096).contains(w));
         /// Natural logarithm of the initial standard deviation of each action.
         init_log_std: f64 = -0.5, "-5 to 2" => |v| (-5.0..=2.0).contains(v);
-        /// Normalised observations are clipped to plus and minus this.
+        /// Limit to which normalised observations are clipped, in both directions.
         observation_clip: f64 = 10.0, "above 0" => |v| *v > 0.0 && v.is_finite();
     }
 }
@@ -146,15 +146,15 @@ section! {
 section! {
     /// Proximal policy optimisation.
     PpoConfig as "ppo" {
-        /// Transitions gathered for one update.
+        /// Transitions of one update.
         batch: u32 = 8192, "1 to 16777216" => |v| (1..=16_777_216).contains(v);
-        /// Transitions that an update may take in learner.mode "async" when more of them wait.
+        /// Most transitions of one update in learner.mode "async", used when more transitions wait.
         batch_max: u32 = 8192, "0 to 16777216; less than ppo.batch counts as ppo.batch" => |v| *v <= 16_777_216;
         /// Transitions of one gradient step.
         minibatch: u32 = 1024, "1 to ppo.batch" => |v| *v >= 1;
         /// Passes over the batch in one update.
         epochs: u32 = 3, "1 to 100" => |v| (1..=100).contains(v);
-        /// Passes that remain in learner.mode "async" when experience keeps waiting although batches are as large as they may be.
+        /// Fewest passes in learner.mode "async", used when experience waits although batches have their largest size.
         epochs_min: u32 = 2, "1 to ppo.epochs; more than that counts as ppo.epochs" => |v| (1..=100).contains(v);
         /// Discount of future reward per control step.
         gamma: f64 = 0.99, "0 to 1" => |v| (0.0..=1.0).contains(v);
@@ -162,7 +162,7 @@ section! {
         gae_lambda: f64 = 0.95, "0 to 1" => |v| (0.0..=1.0).contains(v);
         /// Range around 1 to which the probability ratio is clipped.
         clip_range: f64 = 0.2, "above 0, at most 1" => |v| *v > 0.0 && *v <= 1.0;
-        /// Whether an update learns from what was done alone, or from its mirror image, left and right exchanged, as well.
+        /// Whether an update also learns from the mirror image of each transition, with left and right exchanged.
         symmetry: Symmetry = Symmetry::Off, "\"off\" or \"mirrored\"" => |_| true;
         /// Weight of the value loss.
         value_coefficient: f64 = 1.0, "0 or more" => |v| *v >= 0.0 && v.is_finite();
@@ -170,7 +170,7 @@ section! {
         entropy_coefficient: f64 = 0.0, "0 or more" => |v| *v >= 0.0 && v.is_finite();
         /// Weight of the squared excess of action means over ppo.bounds_limit.
         bounds_coefficient: f64 = 5e-4, "0 or more" => |v| *v >= 0.0 && v.is_finite();
-        /// Action mean beyond which the bounds loss begins, in units of the action range.
+        /// Absolute action mean above which the bounds loss applies, in units of the action range.
         bounds_limit: f64 = 1.1, "above 0" => |v| *v > 0.0 && v.is_finite();
         /// Largest Euclidean norm of the gradient.
         max_grad_norm: f64 = 1.0, "above 0" => |v| *v > 0.0 && v.is_finite();
@@ -180,7 +180,7 @@ section! {
         learning_rate_min: f64 = 1e-5, "above 0, at most ppo.learning_rate_max" => |v| *v > 0.0 && v.is_finite();
         /// Highest learning rate that adaptation may reach.
         learning_rate_max: f64 = 1e-3, "at least ppo.learning_rate_min, at most 1" => |v| *v > 0.0 && *v <= 1.0;
-        /// KL divergence aimed at: over twice this the learning rate is divided by 1.5, under half of it multiplied; 0 keeps it fixed.
+        /// Target KL divergence. Above twice this value the learning rate is divided by 1.5, below half of it multiplied by 1.5; 0 keeps it fixed.
         target_kl: f64 = 0.016, "0 or more" => |v| *v >= 0.0 && v.is_finite();
         /// Factor on rewards before returns are computed.
         reward_scale: f64 = 0.1, "above 0" => |v| *v > 0.0 && v.is_finite();
@@ -188,45 +188,45 @@ section! {
 }
 
 section! {
-    /// The learner's side of the fleet.
+    /// Learner: mode, intake and checkpoints.
     LearnerConfig as "learner" {
         /// Threads of the update; 0 means one per core.
         threads: u32 = 0, "0 to 256" => |v| *v <= 256;
-        /// Whether a batch takes the newest policy's experience only and actors wait for it, or older ones' too and they never idle.
+        /// Whether a batch holds only experience of the newest policy and actors wait ("sync"), or also of older ones and actors never idle ("async").
         mode: LearnerMode = LearnerMode::Sync, "\"sync\" or \"async\"" => |_| true;
-        /// Versions that a fragment's policy may be behind the newest in mode "async"; older ones are dropped and counted.
+        /// Versions that a fragment's policy may lag behind the newest in mode "async"; older fragments are dropped and counted.
         max_policy_lag: u32 = 4, "0 to 100" => |v| *v <= 100;
-        /// Fragments that may wait, unanswered, for the learner to take them.
+        /// Fragments that may wait in the learner's queue.
         intake_fragments: u32 = 256, "1 to 65536" => |v| (1..=65_536).contains(v);
-        /// Rejected fragments in a row after which a sender is put in quarantine.
+        /// Malformed fragments in a row after which a sender is put in quarantine for 60 s.
         quarantine_after: u32 = 8, "1 to 1000" => |v| (1..=1000).contains(v);
-        /// Updates in a row that may be undone, because a number was not finite, before the run stops.
+        /// Updates in a row that may be undone, because a number is not finite, before the run stops.
         undone_max: u32 = 10, "1 to 1000" => |v| (1..=1000).contains(v);
-        /// Numbered checkpoints that are kept beside `latest` and `best`.
+        /// Numbered checkpoints kept beside `latest` and `best`.
         keep_checkpoints: u32 = 3, "0 to 1000" => |v| *v <= 1000;
         /// Updates between two numbered checkpoints.
         checkpoint_every_updates: u32 = 50, "1 to 1000000" => |v| (1..=1_000_000).contains(v);
-        /// Updates between two tables on the screen.
+        /// Updates between two tables on the terminal.
         table_every_updates: u32 = 10, "1 to 1000000" => |v| (1..=1_000_000).contains(v);
     }
 }
 
 section! {
-    /// Evaluation while training.
+    /// Evaluation during training.
     EvaluationConfig as "eval" {
-        /// Environment steps after which the policy of the moment is evaluated, again and again; 0 means never.
+        /// Environment steps between two evaluations of the current policy; 0 disables them.
         every_steps: u64 = 200_000, "0 to 1000000000000" => |v| *v <= 1_000_000_000_000;
-        /// Deterministic episodes of one evaluation, without randomisation and from the same starts each time.
+        /// Deterministic episodes of one evaluation, without randomisation and always from the same initial states.
         episodes: u32 = 10, "1 to 1000" => |v| (1..=1000).contains(v);
     }
 }
 
 section! {
-    /// The message bus.
+    /// Message bus.
     BusConfig as "bus" {
-        /// Milliseconds an actor waits for the receipt of a fragment before it sends it again.
+        /// Milliseconds that an actor waits for the receipt of a fragment before it sends the fragment again.
         receipt_timeout_ms: u64 = 60_000, "1000 to 3600000" => |v| (1000..=3_600_000).contains(v);
-        /// Milliseconds between two unprompted looks for a newer policy, jittered.
+        /// Milliseconds between two polls for a newer policy without an announcement, jittered.
         policy_poll_ms: u64 = 10_000, "100 to 600000" => |v| (100..=600_000).contains(v);
         /// Milliseconds between two statistics messages of an actor.
         stats_every_ms: u64 = 2000, "100 to 600000" => |v| (100..=600_000).contains(v);

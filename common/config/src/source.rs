@@ -1,4 +1,4 @@
-//! The first stage: tables as the user gave them, laid over each other, names and types checked one by one.
+//! First stage: merges the tables that the user gives and checks each name and type.
 
 use std::path::Path;
 
@@ -6,31 +6,32 @@ use toml::{Table, Value};
 
 use super::{Config, ConfigError, KeyDoc, choices, preset, retired};
 
-/// Collects configuration from its sources, later ones winning.
+/// Collects configuration; later sources override earlier ones.
 #[derive(Clone, Debug, Default)]
 pub struct ConfigSource {
     table: Table,
 }
 
 impl ConfigSource {
-    /// Lays a preset over what is there.
+    /// Adds a preset.
     pub fn preset(&mut self, name: &str) -> Result<(), ConfigError> {
         self.text(preset(name)?, &format!("preset {name}"))
     }
 
-    /// Lays a TOML file over what is there.
+    /// Adds a TOML file.
     pub fn file(&mut self, path: &Path) -> Result<(), ConfigError> {
         let shown = path.display().to_string();
         let text = std::fs::read_to_string(path)
-            .map_err(|why| ConfigError::File { path: shown.clone(), why: why.to_string() })?;
+            .map_err(|error| ConfigError::File { path: shown.clone(), why: error.to_string() })?;
         self.text(&text, &format!("config file `{shown}`"))
     }
 
-    /// Lays TOML text over what is there; `origin` names it in errors.
+    /// Adds TOML text; `origin` names it in errors.
     pub fn text(&mut self, text: &str, origin: &str) -> Result<(), ConfigError> {
-        let table: Table = text
-            .parse()
-            .map_err(|why: toml::de::Error| ConfigError::Syntax { origin: origin.to_string(), why: why.to_string() })?;
+        let table: Table = text.parse().map_err(|error: toml::de::Error| ConfigError::Syntax {
+            origin: origin.to_string(),
+            why: error.to_string(),
+        })?;
         let keys = Config::keys();
         for (section, value) in table {
             let Value::Table(entries) = value else {
@@ -46,7 +47,7 @@ impl ConfigSource {
         Ok(())
     }
 
-    /// Lays one `key=value` over what is there; a value that is no TOML is taken as text.
+    /// Adds one `key=value`; a value that is not TOML is a string.
     pub fn set(&mut self, pair: &str) -> Result<(), ConfigError> {
         let (key, text) = pair.split_once('=').ok_or_else(|| ConfigError::SetSyntax { given: pair.to_string() })?;
         let value = format!("v = {text}")
@@ -57,16 +58,16 @@ impl ConfigSource {
         self.put(key.trim(), value, &Config::keys())
     }
 
-    /// Lays one typed value over what is there.
+    /// Adds one typed value.
     pub fn value(&mut self, key: &str, value: impl Into<Value>) -> Result<(), ConfigError> {
         self.put(key, value.into(), &Config::keys())
     }
 
-    /// The second stage: a configuration in which every value is checked.
+    /// Builds the configuration and checks every value.
     pub fn build(&self) -> Result<Config, ConfigError> {
-        let config: Config = self.table.clone().try_into().map_err(|why: toml::de::Error| ConfigError::Syntax {
+        let config: Config = self.table.clone().try_into().map_err(|error: toml::de::Error| ConfigError::Syntax {
             origin: "the configuration".to_string(),
-            why: why.to_string(),
+            why: error.to_string(),
         })?;
         config.check()?;
         Ok(config)
@@ -77,7 +78,7 @@ impl ConfigSource {
             return Ok(());
         }
         let known = keys.iter().find(|known| known.key == key).ok_or_else(|| unknown(key, keys))?;
-        let value = fit(value, known)?;
+        let value = convert(value, known)?;
         let (section, name) = key.split_once('.').expect("every known key has a section");
         self.table
             .entry(section)
@@ -89,28 +90,17 @@ impl ConfigSource {
     }
 }
 
-/// Turns a value into the key's type where that loses nothing, as `1` for `1.0` and `8e6` for `8000000`.
-fn fit(value: Value, known: &KeyDoc) -> Result<Value, ConfigError> {
-    let refuse = |value: &Value| ConfigError::Type {
-        key: known.key.clone(),
-        value: value.to_string(),
-        allowed: known.allowed.to_string(),
-    };
+/// Converts a value to the key's type if that loses nothing, such as `1` to `1.0` and `8e6` to `8000000`.
+fn convert(value: Value, known: &KeyDoc) -> Result<Value, ConfigError> {
+    let (key, allowed) = (known.key.clone(), known.allowed.to_string());
+    let out_of_range = |value: String| Err(ConfigError::Value { key: key.clone(), value, allowed: allowed.clone() });
     let whole = |number: f64| number.fract() == 0.0 && number.abs() < 9e15;
     match (known.kind, &value) {
         ("bool", Value::Boolean(_)) | ("f64", Value::Float(_)) => Ok(value),
         ("f64", Value::Integer(number)) => Ok(Value::Float(*number as f64)),
-        ("u32" | "u64", Value::Float(number)) if whole(*number) => fit(Value::Integer(*number as i64), known),
-        ("u32", Value::Integer(number)) if u32::try_from(*number).is_err() => Err(ConfigError::Value {
-            key: known.key.clone(),
-            value: number.to_string(),
-            allowed: known.allowed.to_string(),
-        }),
-        ("u64", Value::Integer(number)) if *number < 0 => Err(ConfigError::Value {
-            key: known.key.clone(),
-            value: number.to_string(),
-            allowed: known.allowed.to_string(),
-        }),
+        ("u32" | "u64", Value::Float(number)) if whole(*number) => convert(Value::Integer(*number as i64), known),
+        ("u32", Value::Integer(number)) if u32::try_from(*number).is_err() => out_of_range(number.to_string()),
+        ("u64", Value::Integer(number)) if *number < 0 => out_of_range(number.to_string()),
         ("u32" | "u64", Value::Integer(_)) => Ok(value),
         ("Vec<u32>", Value::Array(items))
             if items.iter().all(|item| item.as_integer().is_some_and(|item| u32::try_from(item).is_ok())) =>
@@ -119,33 +109,30 @@ fn fit(value: Value, known: &KeyDoc) -> Result<Value, ConfigError> {
         }
         ("[f64; 2]" | "[u32; 2]", Value::Array(items)) if items.len() == 2 => {
             let kind = if known.kind == "[f64; 2]" { "f64" } else { "u32" };
-            let part = KeyDoc { kind, ..known.clone() };
-            items.iter().map(|item| fit(item.clone(), &part)).collect::<Result<_, _>>().map(Value::Array)
+            convert_items(items, kind, known)
         }
-        ("Vec<f64>", Value::Array(items)) => {
-            let part = KeyDoc { kind: "f64", ..known.clone() };
-            items.iter().map(|item| fit(item.clone(), &part)).collect::<Result<_, _>>().map(Value::Array)
-        }
+        ("Vec<f64>", Value::Array(items)) => convert_items(items, "f64", known),
         ("String", Value::String(_)) => Ok(value),
         (kind, Value::String(name)) if choices::names(kind).is_some() => {
-            if choices::names(kind).is_some_and(|names| names.contains(&name.as_str())) {
-                return Ok(value);
+            match choices::names(kind).is_some_and(|names| names.contains(&name.as_str())) {
+                true => Ok(value),
+                false => out_of_range(value.to_string()),
             }
-            Err(ConfigError::Value {
-                key: known.key.clone(),
-                value: value.to_string(),
-                allowed: known.allowed.to_string(),
-            })
         }
-        _ => Err(refuse(&value)),
+        _ => Err(ConfigError::Type { key, value: value.to_string(), allowed }),
     }
+}
+
+fn convert_items(items: &[Value], kind: &'static str, known: &KeyDoc) -> Result<Value, ConfigError> {
+    let known = KeyDoc { kind, ..known.clone() };
+    items.iter().map(|item| convert(item.clone(), &known)).collect::<Result<_, _>>().map(Value::Array)
 }
 
 fn section_of(known: &KeyDoc) -> &str {
     known.key.split('.').next().unwrap_or_default()
 }
 
-/// Keys that there once were, and what takes their place.
+/// Keys of earlier versions, with their successors.
 const REPLACED: &[(&str, &str)] = &[
     ("env.contact_cost_max", "`env.contact_cost_range`, as in contact_cost_range = [-inf, 10.0]"),
     ("env.healthy_z_min_m", "`env.healthy_z_range`, as in healthy_z_range = [1.0, 2.0]"),
@@ -164,7 +151,7 @@ fn unknown(key: &str, keys: &[KeyDoc]) -> ConfigError {
         })
         .min_by_key(|(distance, _)| *distance);
     let hint = match nearest {
-        // A third of the letters wrong is a slip; more is another word.
+        // Up to a third of the letters wrong counts as a misspelling.
         Some((distance, known)) if distance <= wanted.len() / 3 => format!("did you mean `{}`?", known.key),
         _ => {
             let section = key.split('.').next().unwrap_or(key);
@@ -180,7 +167,7 @@ fn unknown(key: &str, keys: &[KeyDoc]) -> ConfigError {
     ConfigError::UnknownKey { key: key.to_string(), hint }
 }
 
-/// Levenshtein distance of two short names.
+/// Returns the Levenshtein distance of two short names.
 fn distance(left: &str, right: &str) -> usize {
     let right: Vec<char> = right.chars().collect();
     let mut row: Vec<usize> = (0..=right.len()).collect();
@@ -235,7 +222,7 @@ mod tests {
     }
 
     #[test]
-    fn refusals_name_key_value_and_what_is_allowed() {
+    fn errors_name_key_value_and_allowed_values() {
         let message = |pair: &str| set(pair).unwrap_err().to_string();
         assert_eq!(message("rollout.envs=0"), "config key `rollout.envs` is 0; allowed: 1 to 65536");
         assert!(message("ppo.learning_rat=1").contains("did you mean `ppo.learning_rate`?"));
@@ -262,7 +249,7 @@ mod tests {
     }
 
     #[test]
-    fn ranges_are_pairs_that_may_be_open() {
+    fn ranges_are_pairs_with_possibly_infinite_bounds() {
         let range =
             |text: &str| set(&format!("env.contact_cost_range={text}")).map(|config| config.env.contact_cost_range);
         assert_eq!(range("[0, 5]").unwrap(), [0.0, 5.0]);
@@ -278,7 +265,7 @@ mod tests {
     }
 
     #[test]
-    fn names_are_chosen_from_those_there_are() {
+    fn choices_take_only_their_names() {
         use crate::{EnvObservation, EnvTask};
         assert_eq!(set("env.task=humanoid-v4").unwrap().env.task, EnvTask::HumanoidV4);
         assert_eq!(set("env.observation=\"gymnasium-v5\"").unwrap().env.observation, EnvObservation::GymnasiumV5);
@@ -291,7 +278,7 @@ mod tests {
     }
 
     #[test]
-    fn the_observation_of_v4_is_whole() {
+    fn the_v4_observation_has_no_optional_blocks() {
         let mut source = ConfigSource::default();
         source.set("env.observation=gymnasium-v4").unwrap();
         source.build().unwrap();
@@ -303,7 +290,7 @@ mod tests {
     }
 
     #[test]
-    fn whole_floats_serve_as_integers() {
+    fn whole_floats_are_accepted_as_integers() {
         assert_eq!(set("run.steps=8e6").unwrap().run.steps, 8_000_000);
         assert_eq!(set("ppo.gamma=1").unwrap().ppo.gamma, 1.0);
     }
@@ -326,7 +313,7 @@ mod tests {
     }
 
     #[test]
-    fn a_preset_of_randomisation_differs_from_the_recipe_in_nothing_else() {
+    fn preset_sim2sim_changes_only_the_randomisation() {
         let mut source = ConfigSource::default();
         source.preset("sim2sim").unwrap();
         let config = source.build().unwrap();

@@ -1,4 +1,4 @@
-//! Tasks that are simulated by other programs: what a configuration says of them.
+//! External tasks, which other programs simulate.
 
 use treadmill_proto::Task;
 
@@ -9,7 +9,7 @@ impl TaskConfig {
         *self == Self::default()
     }
 
-    /// The task, once it is known.
+    /// Returns the task if it is known.
     pub fn known(&self) -> Option<Task> {
         (self.observation_size > 0).then(|| Task {
             name: self.name.clone(),
@@ -36,12 +36,12 @@ impl From<Task> for TaskConfig {
 }
 
 impl Config {
-    /// Whether the task is simulated by other programs.
+    /// Returns whether other programs simulate the task.
     pub fn is_external(&self) -> bool {
         self.env.task == EnvTask::External
     }
 
-    /// What is trained, in words: one of our own tasks, or the external one by its name.
+    /// Returns the name of the task; our own tasks begin with `treadmill/`.
     pub fn task_name(&self) -> String {
         match self.is_external() {
             true => self.task.name.clone(),
@@ -62,7 +62,7 @@ impl Config {
             return Ok(());
         }
         if self.run.deterministic {
-            let why = "false where env.task is \"external\": what its actors draw is not drawn from the run's seed";
+            let why = "false where env.task is \"external\": its actors do not draw from the run's seed";
             return refuse("run.deterministic", "true".to_string(), why);
         }
         if self.ppo.symmetry == Symmetry::Mirrored {
@@ -71,7 +71,7 @@ impl Config {
         match task.known() {
             Some(known) => known
                 .check()
-                .or_else(|why| refuse("task", known.name.clone(), &format!("a task that fits together, but {why}"))),
+                .or_else(|error| refuse("task", known.name.clone(), &format!("a consistent task, but {error}"))),
             None if TaskConfig { name: String::new(), ..task.clone() }.is_unset() => Ok(()),
             None => refuse("task.observation_size", "0".to_string(), "1 to 4096 where another key of [task] is given"),
         }
@@ -109,7 +109,7 @@ mod tests {
     }
 
     #[test]
-    fn our_own_tasks_say_nothing_of_external_ones() {
+    fn our_own_tasks_omit_the_task_section() {
         let text = Config::default().to_toml();
         assert!(!text.contains("[task]"), "{text}");
         assert_eq!(Config::default().task_name(), "treadmill/humanoid-v5");
@@ -117,7 +117,7 @@ mod tests {
     }
 
     #[test]
-    fn what_an_external_task_cannot_have_is_named() {
+    fn settings_that_an_external_task_excludes_are_named() {
         let refused = |more: &[&str]| built(&[&["env.task=external"], more].concat()).unwrap_err();
         assert!(refused(&["run.deterministic=true"]).contains("`run.deterministic`"));
         assert!(refused(&["ppo.symmetry=mirrored"]).contains("`ppo.symmetry`"));

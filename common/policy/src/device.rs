@@ -1,8 +1,8 @@
-//! Where the networks are computed.
+//! Device on which the networks are computed.
 
 pub use candle_core::Device;
 
-/// A kind of device, as a user names it.
+/// Kind of device, as a user names it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum DeviceKind {
     /// The processor.
@@ -12,19 +12,19 @@ pub enum DeviceKind {
     Cuda,
 }
 
-/// Why there is no such device.
+/// Error of opening a device.
 #[derive(Debug, thiserror::Error)]
 pub enum DeviceError {
-    /// This program cannot use it.
+    /// The program was built without CUDA.
     #[error(
-        "this treadmill was built without CUDA, so --device cuda is not there; build it where nvcc is installed by \
-         `cargo build --release --features cuda`, or use --device cpu"
+        "this treadmill was built without CUDA, which --device cuda needs; build it with `cargo build --release \
+         --features cuda` where nvcc is installed, or use --device cpu"
     )]
     NotBuilt,
-    /// The machine does not have it.
+    /// The machine has no usable CUDA device.
     #[error("no CUDA device can be used: {why}; check `nvidia-smi`, or use --device cpu")]
     Absent {
-        /// What the driver said.
+        /// The driver's error.
         why: String,
     },
 }
@@ -36,21 +36,21 @@ impl std::str::FromStr for DeviceKind {
         match text {
             "cpu" => Ok(Self::Cpu),
             "cuda" => Ok(Self::Cuda),
-            _ => Err(format!("`{text}` is no device; allowed: cpu, cuda")),
+            _ => Err(format!("unknown device `{text}`; allowed: cpu, cuda")),
         }
     }
 }
 
 impl DeviceKind {
-    /// The device itself.
+    /// Opens the device.
     ///
     /// # Errors
-    /// [`DeviceError`] says what is missing.
+    /// [`DeviceError`] if the program or the machine lacks it.
     pub fn open(self) -> Result<Device, DeviceError> {
         match self {
             Self::Cpu => Ok(Device::Cpu),
             Self::Cuda if cfg!(feature = "cuda") => {
-                Device::new_cuda(0).map_err(|why| DeviceError::Absent { why: why.to_string() })
+                Device::new_cuda(0).map_err(|error| DeviceError::Absent { why: error.to_string() })
             }
             Self::Cuda => Err(DeviceError::NotBuilt),
         }

@@ -1,7 +1,7 @@
-//! The element-wise loops of the networks, written so that the compiler vectorises them.
+//! Element-wise loops of the networks, written so that the compiler vectorises them.
 //!
-//! Each loop is compiled for AVX-512, for AVX2 and for the plain target, and the best one is chosen at run time. No
-//! fused multiply-add is used, so all of them give the same bits.
+//! Each loop is compiled for AVX-512, AVX2 and the baseline target; the best version is chosen at run time. No version uses
+//! fused multiply-add, so all give the same bits.
 
 use multiversion::multiversion;
 
@@ -45,7 +45,7 @@ dispatched! {
 }
 
 dispatched! {
-    /// Turns the gradient of ELU's output into that of its input, and adds its column sums to `bias_gradient`.
+    /// Converts the gradient of ELU's output to that of its input, and adds its column sums to `bias_gradient`.
     ///
     /// `gradient` and `activation` (ELU's output) are `[n, width]`, `bias_gradient` is `[width]`.
     fn elu_backward / elu_backward_portable(gradient: &mut [f32], activation: &[f32], bias_gradient: &mut [f32]) {
@@ -72,21 +72,21 @@ dispatched! {
     }
 }
 
-/// The exponential linear unit with α = 1: Clevert, Unterthiner & Hochreiter 2016, arXiv:1511.07289.
+/// Exponential linear unit with α = 1: Clevert, Unterthiner & Hochreiter 2016, arXiv:1511.07289.
 #[inline(always)]
 fn elu(x: f32) -> f32 {
-    // Both sides are evaluated, so that the choice is a blend and not a branch.
+    // Both sides are evaluated so that the choice compiles to a blend, not a branch.
     let below = exp_nonpositive(x) - 1.0;
     if x > 0.0 { x } else { below }
 }
 
-/// `exp(x)` for `x ≤ 0` within 2e-7; what is not a number stays so. For `x > 0` the result means nothing.
+/// Returns `exp(x)` for `x ≤ 0` within 2e-7; NaN stays NaN. For `x > 0` the result is meaningless.
 ///
 /// `x = n ln 2 + r` with `|r| ≤ ½ ln 2`, then `exp(x) = 2ⁿ exp(r)` with Taylor's polynomial of degree 7 for `exp(r)`,
 /// whose remainder is below `(½ ln 2)⁸ / 8! = 5e-9`.
 #[inline(always)]
 fn exp_nonpositive(x: f32) -> f32 {
-    /// Adding this rounds to an integer, which then stands in the lowest bits of the mantissa.
+    /// Adding this rounds to an integer, in the lowest bits of the mantissa.
     const ROUND: f32 = 12_582_912.0;
     /// `ln 2` in two parts; the product of `n` and the first is exact.
     const LN_2_HIGH: f32 = 0.693_359_4;
@@ -106,7 +106,7 @@ fn exp_nonpositive(x: f32) -> f32 {
     polynomial = polynomial * r + 0.5;
     polynomial = polynomial * r + 1.0;
     polynomial = polynomial * r + 1.0;
-    // A product, not an addition to the exponent's bits: that could turn what is not a number into one.
+    // A product, because an addition to the exponent's bits could turn NaN into a number.
     polynomial * f32::from_bits((shifted.to_bits() << 23).wrapping_add(127 << 23))
 }
 
@@ -147,7 +147,7 @@ mod tests {
 
     proptest! {
         #[test]
-        fn the_vectorised_loops_give_the_bits_of_the_portable_ones(
+        fn vectorised_and_portable_loops_give_the_same_bits(
             width in 1_usize..40,
             numbers in prop::collection::vec(-30.0_f32..5.0, 200),
         ) {

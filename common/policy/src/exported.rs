@@ -1,18 +1,18 @@
-//! A policy with all that is needed to play it, as one safetensors file.
+//! A policy with everything needed to play it, as one safetensors file.
 //!
 //! | tensor | number type, shape | holds |
 //! |---|---|---|
-//! | `actor.N.weight`, `actor.N.bias` | F32, `[output, input]`, `[output]` | the actor's layers; the last gives action means |
+//! | `actor.N.weight`, `actor.N.bias` | F32, `[output, input]`, `[output]` | the actor's layers; the last outputs action means |
 //! | `critic.N.weight`, `critic.N.bias` | F32, the same | the critic's layers |
-//! | `log_std` | F32, `[action]` | logarithms of the standard deviations of exploration |
-//! | `observation.mean`, `observation.variance` | F64, `[observation]` | of the raw observations |
+//! | `log_std` | F32, `[action]` | logarithms of the standard deviations of actions |
+//! | `observation.mean`, `observation.variance` | F64, `[observation]` | moments of the raw observations |
 //!
-//! Everything else stands as one JSON object under the metadata key `treadmill`, its keys in a fixed order. Neither time nor
-//! place nor name of the run is in the file, so equal policies are equal byte for byte. Ends of a range that are infinite are
-//! the texts `"inf"` and `"-inf"`, since JSON has no such numbers.
+//! The metadata key `treadmill` holds everything else as one JSON object with keys in a fixed order. The file holds no time,
+//! path or name of the run, so equal policies give equal bytes. Infinite ends of a range are the strings `"inf"` and `"-inf"`,
+//! because JSON has no such numbers.
 //!
 //! To act: `x = clip((observation − mean) / √(variance + variance_epsilon), ± clip)`; the actor's layers with ELU between
-//! them; `action = clip(mean, ± 1)`, stretched from [−1, 1] to [low, high].
+//! them; `action = clip(mean, ± 1)`, scaled from [−1, 1] to [low, high].
 
 use safetensors::tensor::SafeTensors;
 use serde::{Deserialize, Serialize};
@@ -26,56 +26,56 @@ use crate::{
     to_safetensors_with,
 };
 
-/// Version of the file's layout; raised whenever an old reader would misunderstand a new file.
+/// Version of the file's layout; raised if an old reader would misunderstand a new file.
 pub const FORMAT: u32 = 1;
 const METADATA_KEY: &str = "treadmill";
 const MEAN: &str = "observation.mean";
 const VARIANCE: &str = "observation.variance";
 const ACTIVATION: &str = "elu";
 
-/// Why a file is not a policy that can be played.
+/// Error of reading or writing an exported policy.
 #[derive(Debug, thiserror::Error)]
 pub enum ExportedError {
-    /// It is larger than any policy of this program.
+    /// The file is larger than any exported policy.
     #[error("it has {bytes} bytes, more than the {limit} that an exported policy can have")]
     TooLarge {
-        /// Its size.
+        /// Size of the file.
         bytes: usize,
-        /// The largest size.
+        /// Largest size.
         limit: usize,
     },
-    /// It is damaged or no safetensors file at all.
-    #[error("it is damaged or truncated, or no safetensors file ({why}); export the policy again")]
+    /// The file is damaged or not a safetensors file.
+    #[error("it is damaged or truncated, or not a safetensors file ({why}); export the policy again")]
     Damaged {
-        /// What the reader said.
+        /// The reader's error.
         why: String,
     },
-    /// It is a safetensors file of some other program.
+    /// The file is a safetensors file of another program.
     #[error("it is a safetensors file, but has no metadata `{METADATA_KEY}`: `treadmill export` did not write it")]
     Foreign,
-    /// The metadata cannot be understood.
+    /// The metadata cannot be read.
     #[error("its metadata `{METADATA_KEY}` cannot be read ({why}); export the policy again")]
     Metadata {
-        /// What the reader said.
+        /// The reader's error.
         why: String,
     },
-    /// It was written by another version of this program.
+    /// Another version of this program wrote the file.
     #[error("it has format {found}; this program reads format {FORMAT}: export it again with this version")]
     Format {
-        /// Its format.
+        /// Format of the file.
         found: u32,
     },
-    /// One entry of the metadata makes no sense.
+    /// An entry of the metadata is invalid.
     #[error("its metadata entry `{entry}` is {value}; expected {expected}")]
     Entry {
-        /// Where in the metadata.
+        /// Path in the metadata.
         entry: &'static str,
-        /// What stands there.
+        /// The value.
         value: String,
-        /// What would be accepted.
+        /// Accepted values.
         expected: String,
     },
-    /// The environment's settings are refused.
+    /// The environment's settings are invalid.
     #[error("its environment settings cannot be used")]
     Config(#[from] ConfigError),
     /// A tensor is missing, misshapen or not finite.
@@ -83,52 +83,52 @@ pub enum ExportedError {
     Parameters(#[from] ParameterError),
 }
 
-/// A policy and the task that it was trained for.
+/// A policy and the task it was trained for.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ExportedPolicy {
     /// Shape of the networks.
     pub shape: NetworkShape,
     /// Actor, log standard deviations and critic, in [`NetworkShape`]'s order.
     pub parameters: Vec<f32>,
-    /// What the policy sees, and how it is normalised.
+    /// Observation and its normalisation.
     pub observation: ObservationFacts,
     /// Mean of each entry of the raw observation.
     pub mean: Vec<f64>,
     /// Variance of each entry of the raw observation.
     pub variance: Vec<f64>,
-    /// What its actions mean.
+    /// Meaning of actions.
     pub action: ActionFacts,
     /// Duration of one control step (s).
     pub control_step_s: f64,
-    /// The task's settings.
+    /// Settings of the humanoid task.
     pub env: EnvConfig,
-    /// What was randomised in training.
+    /// Randomisation in training.
     pub randomisation: RandomisationConfig,
-    /// The task where it is none of ours.
+    /// External task, if it is one.
     pub task: TaskConfig,
-    /// The humanoid as MJCF; empty where the task is none of ours.
+    /// Humanoid as MJCF; empty for an external task.
     pub model_xml: String,
 }
 
-/// What the policy sees, and how it is normalised.
+/// Observation of a policy and its normalisation.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ObservationFacts {
-    /// Which numbers an observation holds.
+    /// Kind of observation.
     pub kind: String,
-    /// How many.
+    /// Width of an observation.
     pub size: usize,
-    /// Observations that the statistics are taken over; without any, mean and variance stand for no normalisation.
+    /// Observations in the statistics; with none, mean and variance mean no normalisation.
     pub count: f64,
     /// Added to a variance before its root is taken.
     pub variance_epsilon: f64,
-    /// Normalised observations are clipped to plus and minus this.
+    /// Limit to which normalised observations are clipped, in both directions.
     pub clip: f32,
 }
 
-/// What actions mean: −1 is `low`, 1 is `high`.
+/// Meaning of actions: −1 is `low`, 1 is `high`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ActionFacts {
-    /// The motors, in the order of the action.
+    /// Motors, in the order of the action.
     pub names: Vec<String>,
     /// Smallest control of each motor.
     pub low: Vec<f32>,
@@ -136,7 +136,7 @@ pub struct ActionFacts {
     pub high: Vec<f32>,
 }
 
-/// The metadata, its fields in the order in which they are written.
+/// Metadata; its fields are in the order in which they are written.
 #[derive(Serialize, Deserialize)]
 struct Metadata {
     format: u32,
@@ -160,19 +160,19 @@ struct Network {
     activation: String,
 }
 
-/// Only the format, which is read first: another format may have other fields.
+/// The format alone, which is read first because another format may have other fields.
 #[derive(Deserialize)]
 struct FormatOnly {
     format: u32,
 }
 
 impl ObservationFacts {
-    /// Statistics as the file holds them: the facts, the means and the variances.
+    /// Returns the statistics for the file: the facts, the means and the variances.
     pub fn from_moments(kind: &str, moments: &RunningMoments, clip: f32) -> (Self, Vec<f64>, Vec<f64>) {
         let size = moments.mean.len();
         let facts =
             Self { kind: kind.to_string(), size, count: moments.count, variance_epsilon: VARIANCE_EPSILON, clip };
-        // Before any observation nothing is scaled; readers need no special case where the variance says so.
+        // Before the first observation nothing is scaled; this variance says so without a special case for readers.
         let unseen = moments.count == 0.0;
         let variance = if unseen { vec![1.0 - VARIANCE_EPSILON; size] } else { moments.variance() };
         (facts, moments.mean.clone(), variance)
@@ -180,10 +180,10 @@ impl ObservationFacts {
 }
 
 impl ExportedPolicy {
-    /// The bytes of the file.
+    /// Returns the bytes of the file.
     ///
     /// # Errors
-    /// If the parts do not fit each other or are not finite; such a policy could not be read again.
+    /// If the parts are inconsistent or not finite, so that the file could not be read again.
     pub fn to_bytes(&self) -> Result<Vec<u8>, ExportedError> {
         self.check()?;
         let metadata = Metadata {
@@ -202,7 +202,8 @@ impl ExportedPolicy {
             task: self.task.known().map(|_| self.task.clone()),
             model_xml: self.model_xml.clone(),
         };
-        let text = serde_json::to_string(&metadata).map_err(|why| ExportedError::Metadata { why: why.to_string() })?;
+        let text =
+            serde_json::to_string(&metadata).map_err(|error| ExportedError::Metadata { why: error.to_string() })?;
         let columns = [(MEAN, &self.mean[..]), (VARIANCE, &self.variance[..])];
         Ok(to_safetensors_with(&self.shape, &self.parameters, &columns, Some((METADATA_KEY, text))))
     }
@@ -210,14 +211,14 @@ impl ExportedPolicy {
     /// Reads and checks the bytes of a file.
     ///
     /// # Errors
-    /// [`ExportedError`] names the first thing that is wrong.
+    /// [`ExportedError`] names the first fault.
     pub fn from_bytes(bytes: &[u8]) -> Result<Self, ExportedError> {
         if bytes.len() > BUNDLE_BYTES_MAX {
             return Err(ExportedError::TooLarge { bytes: bytes.len(), limit: BUNDLE_BYTES_MAX });
         }
         let damaged = |why: String| ExportedError::Damaged { why };
-        let (_, header) = SafeTensors::read_metadata(bytes).map_err(|why| damaged(why.to_string()))?;
-        let file = SafeTensors::deserialize(bytes).map_err(|why| damaged(why.to_string()))?;
+        let (_, header) = SafeTensors::read_metadata(bytes).map_err(|error| damaged(error.to_string()))?;
+        let file = SafeTensors::deserialize(bytes).map_err(|error| damaged(error.to_string()))?;
         let text = header.metadata().as_ref().and_then(|entries| entries.get(METADATA_KEY));
         let metadata = read_metadata(text.ok_or(ExportedError::Foreign)?)?;
         let network = &metadata.network;
@@ -244,7 +245,7 @@ impl ExportedPolicy {
         Ok(policy)
     }
 
-    /// The normalisation of observations.
+    /// Returns the normalisation of observations.
     pub fn normaliser(&self) -> Normaliser {
         let epsilon = self.observation.variance_epsilon;
         Normaliser {
@@ -254,7 +255,7 @@ impl ExportedPolicy {
         }
     }
 
-    /// Whether the parts fit each other and are usable numbers.
+    /// Checks that the parts are consistent and the numbers usable.
     fn check(&self) -> Result<(), ExportedError> {
         check_widths(&self.shape)?;
         check_parameters(&self.shape, &self.parameters)?;
@@ -289,7 +290,7 @@ impl ExportedPolicy {
 }
 
 fn read_metadata(text: &str) -> Result<Metadata, ExportedError> {
-    let unreadable = |why: serde_json::Error| ExportedError::Metadata { why: why.to_string() };
+    let unreadable = |error: serde_json::Error| ExportedError::Metadata { why: error.to_string() };
     let FormatOnly { format: found } = serde_json::from_str(text).map_err(unreadable)?;
     if found != FORMAT {
         return Err(ExportedError::Format { found });
@@ -297,7 +298,7 @@ fn read_metadata(text: &str) -> Result<Metadata, ExportedError> {
     serde_json::from_str(text).map_err(unreadable)
 }
 
-/// Refuses widths for which nothing should be allocated.
+/// Checks the widths before anything is allocated for them.
 fn check_widths(shape: &NetworkShape) -> Result<(), ExportedError> {
     let layers = shape.hidden.len();
     if layers > HIDDEN_LAYERS_MAX {

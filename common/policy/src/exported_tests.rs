@@ -1,4 +1,4 @@
-//! Tests of exported policies: what survives, what is refused.
+//! Tests of exported policies.
 
 use std::collections::HashMap;
 
@@ -27,7 +27,7 @@ fn sample() -> ExportedPolicy {
     }
 }
 
-/// The sample's file with its metadata changed.
+/// Returns the sample's file with changed metadata.
 fn with_metadata(change: impl Fn(&mut serde_json::Value)) -> Vec<u8> {
     let policy = sample();
     let bytes = policy.to_bytes().unwrap();
@@ -38,16 +38,9 @@ fn with_metadata(change: impl Fn(&mut serde_json::Value)) -> Vec<u8> {
     to_safetensors_with(&policy.shape, &policy.parameters, &columns, Some((METADATA_KEY, json.to_string())))
 }
 
-/// The whole chain of messages of the error that some bytes are refused with.
+/// Returns the error of unusable bytes, with its causes.
 fn refusal(bytes: &[u8]) -> String {
-    let error = ExportedPolicy::from_bytes(bytes).expect_err("these bytes are unusable");
-    let mut text = error.to_string();
-    let mut source = std::error::Error::source(&error);
-    while let Some(cause) = source {
-        text += &format!(": {cause}");
-        source = cause.source();
-    }
-    text
+    treadmill_runtime::error_chain(&ExportedPolicy::from_bytes(bytes).expect_err("these bytes are unusable"))
 }
 
 #[test]
@@ -86,7 +79,7 @@ fn the_file_is_plain_safetensors_with_the_promised_names_and_shapes() {
 }
 
 #[test]
-fn the_normalisation_is_that_of_the_run_bit_for_bit() {
+fn the_normalisation_equals_that_of_the_run_bit_for_bit() {
     for rows in [300, 0] {
         let mut moments = RunningMoments::new(3);
         let numbers: Vec<f32> = (0..rows * 3).map(|i| (i as f32 * 0.37).sin() * 5.0 + 2.0).collect();
@@ -98,7 +91,7 @@ fn the_normalisation_is_that_of_the_run_bit_for_bit() {
 }
 
 #[test]
-fn what_is_no_exported_policy_is_told_apart() {
+fn other_files_are_refused_with_their_kind() {
     let sound = sample().to_bytes().unwrap();
     for length in [0, 5, 40, sound.len() - 1] {
         assert!(refusal(&sound[..length]).contains("damaged or truncated"), "{length}");
@@ -112,7 +105,7 @@ fn what_is_no_exported_policy_is_told_apart() {
 }
 
 #[test]
-fn metadata_that_makes_no_sense_is_named() {
+fn invalid_metadata_is_named() {
     type Change = fn(&mut serde_json::Value);
     let cases: [(Change, &[&str]); 12] = [
         (|m| m["format"] = 2.into(), &["format 2", "reads format 1"]),

@@ -1,10 +1,10 @@
 //! Several networks over the same observations as one Candle operation with its own gradient.
 //!
-//! Candle's graph then has one node where plain operations would make thirty, its element-wise loops are the
-//! vectorised ones of `elementwise`, and all memory is reused. The operation has no GPU version; `plain` has.
+//! Candle's graph has one node instead of thirty, the element-wise loops are vectorised, and memory is reused. The operation
+//! runs on a CPU only; `plain` runs on a GPU.
 //!
-//! **Results do not depend on the number of threads.** Rows are cut into chunks of [`CHUNK_ROWS`]. Chunk `c` adds its
-//! gradient to lane `c mod LANES`, each lane takes its chunks in order, and lanes are summed in order.
+//! **Results do not depend on the number of threads.** Rows are divided into chunks of [`CHUNK_ROWS`]. Chunk `c` adds its
+//! gradient to lane `c mod LANES`. Each lane processes its chunks in order, and lanes are summed in order.
 
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
@@ -15,16 +15,16 @@ use rayon::prelude::*;
 use super::NetworkShape;
 use super::kernel::{Mlp, Scratch};
 
-/// Rows that are processed together: activations of one layer then stay in the second-level cache.
+/// Rows that are processed together, so that the activations of one layer stay in the second-level cache.
 const CHUNK_ROWS: usize = 256;
-/// Partial gradients; bounds the memory, and the parallelism to this times the number of networks.
+/// Partial gradients per network; bounds memory and parallelism.
 const LANES: usize = 8;
-/// Sets of buffers that are kept for reuse.
+/// Sets of buffers kept for reuse.
 const SPARE_BUFFERS: usize = 2;
 
-/// Networks that share one flat parameter vector and one input, ready to be applied.
+/// Networks that share one flat parameter vector and one input.
 ///
-/// They run on the threads of a pool, or on the calling thread where there is none or it has a single thread.
+/// They run on the threads of a pool, or on the calling thread if there is no pool or it has a single thread.
 #[derive(Clone, Debug)]
 pub struct FusedNetworks {
     inner: Arc<Inner>,
@@ -39,7 +39,7 @@ struct Inner {
     spare: Mutex<Vec<Vec<Buffers>>>,
 }
 
-/// What one network keeps from the forward to the backward pass, and its memory for the latter.
+/// One network's results of the forward pass, and its memory for the backward pass.
 #[derive(Debug, Default)]
 struct Buffers {
     activations: Vec<f32>,
@@ -56,17 +56,17 @@ struct Lane {
 }
 
 impl FusedNetworks {
-    /// Actor and critic: the output is `[rows, action + 1]`, action means and then the value.
+    /// Returns actor and critic; the output is `[rows, action + 1]`: action means, then the value.
     pub fn actor_critic(shape: &NetworkShape, pool: Option<Arc<ThreadPool>>) -> Self {
         Self::new(shape, vec![Mlp::new(shape.actor()), Mlp::new(shape.critic())], pool)
     }
 
-    /// The actor alone: the output is `[rows, action]`.
+    /// Returns the actor; the output is `[rows, action]`.
     pub fn actor(shape: &NetworkShape, pool: Option<Arc<ThreadPool>>) -> Self {
         Self::new(shape, vec![Mlp::new(shape.actor())], pool)
     }
 
-    /// The critic alone: the output is `[rows, 1]`.
+    /// Returns the critic; the output is `[rows, 1]`.
     pub fn critic(shape: &NetworkShape, pool: Option<Arc<ThreadPool>>) -> Self {
         Self::new(shape, vec![Mlp::new(shape.critic())], pool)
     }
@@ -84,17 +84,17 @@ impl FusedNetworks {
 
     /// Applies the networks to `observations`, `[rows, observation]`; `parameters` is the whole flat vector.
     ///
-    /// The gradient with respect to the parameters is defined, that with respect to the observations is not.
+    /// The gradient is defined with respect to the parameters, not to the observations.
     ///
     /// # Errors
-    /// If a tensor has another shape, is not `f32`, or does not live on the CPU.
+    /// If a tensor has the wrong shape, is not `f32`, or is not on the CPU.
     pub fn forward(&self, parameters: &Tensor, observations: &Tensor) -> Result<Tensor> {
         let operation = Operation { inner: self.inner.clone(), buffers: Mutex::default() };
         parameters.contiguous()?.apply_op2(&observations.contiguous()?, operation)
     }
 }
 
-/// One application: it owns its buffers until Candle drops the graph.
+/// One application; owns its buffers until Candle drops the graph.
 struct Operation {
     inner: Arc<Inner>,
     buffers: Mutex<Vec<Buffers>>,
@@ -176,11 +176,11 @@ impl Inner {
             let rows = input.len() / self.observation;
             network.forward(&parameters[network.range.clone()], input, rows, activations, output);
         });
-        self.side_by_side(rows, buffers)
+        self.join_outputs(rows, buffers)
     }
 
-    /// The outputs of all networks, row by row.
-    fn side_by_side(&self, rows: usize, buffers: &[Buffers]) -> Vec<f32> {
+    /// Returns the outputs of all networks, joined row by row.
+    fn join_outputs(&self, rows: usize, buffers: &[Buffers]) -> Vec<f32> {
         let total = self.output();
         let mut joined = vec![0.0; rows * total];
         let mut column = 0;
@@ -203,7 +203,7 @@ impl Inner {
         buffers: &mut [Buffers],
     ) -> Result<Vec<f32>> {
         if buffers.len() != self.networks.len() {
-            bail!("the backward pass came without a forward pass");
+            bail!("the backward pass needs a forward pass first");
         }
         let total = self.output();
         let chunks = rows.div_ceil(CHUNK_ROWS);
@@ -240,7 +240,7 @@ impl Inner {
         Ok(self.sum_lanes(buffers))
     }
 
-    /// The whole flat gradient; parameters of no network here have none.
+    /// Returns the flat gradient, with zeros for parameters outside these networks.
     fn sum_lanes(&self, buffers: &[Buffers]) -> Vec<f32> {
         let mut gradient = vec![0.0; self.parameter_count];
         for (network, buffers) in self.networks.iter().zip(buffers) {
@@ -278,7 +278,7 @@ fn with_slice<T>(tensor: &Tensor, work: impl FnOnce(&[f32]) -> Result<T>) -> Res
     }
 }
 
-/// Buffers are overwritten before they are read, so what a panic left in them does no harm.
+/// Locks a mutex even if poisoned: buffers are overwritten before they are read.
 fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }

@@ -14,14 +14,14 @@ fn pool(threads: usize) -> Option<Arc<ThreadPool>> {
     Some(Arc::new(pool))
 }
 
-/// Parameters that keep the numbers of wide layers, too, at the size of one.
+/// Parameters that keep the outputs of wide layers near 1.
 fn parameters(shape: &NetworkShape) -> Vec<f32> {
     let widest = shape.hidden.iter().copied().max().unwrap_or(1).max(shape.observation);
     let scale = (16.0 / widest as f32).sqrt().min(1.0);
     wave(shape.parameter_count(), 0.71).iter().map(|p| p * scale).collect()
 }
 
-/// The networks of the presets: the compact observation, and Gymnasium's.
+/// Networks of the presets, for the compact and Gymnasium's observation.
 fn shapes_in_use() -> [NetworkShape; 2] {
     [(45, vec![256, 128]), (348, vec![512, 256])].map(|(observation, hidden)| NetworkShape {
         observation,
@@ -30,7 +30,7 @@ fn shapes_in_use() -> [NetworkShape; 2] {
     })
 }
 
-/// Output and parameter gradient of `Σ output · c + Σ output²` with `c` different for every element.
+/// Returns output and parameter gradient of `Σ output · c + Σ output²` with `c` different for every element.
 fn run(forward: impl Fn(&Tensor, &Tensor) -> Result<Tensor>, shape: &NetworkShape, rows: usize) -> [Vec<f32>; 2] {
     let inner = || -> Result<[Vec<f32>; 2]> {
         let parameters = Var::from_vec(parameters(shape), shape.parameter_count(), &Device::Cpu)?;
@@ -47,7 +47,7 @@ fn run(forward: impl Fn(&Tensor, &Tensor) -> Result<Tensor>, shape: &NetworkShap
 }
 
 #[test]
-fn output_and_gradient_are_those_of_candles_own_operations() {
+fn output_and_gradient_agree_with_candles_operations() {
     let small = [(vec![16, 8], 33), (vec![4], 700), (vec![], 5), (vec![8, 8, 8], CHUNK_ROWS * LANES + 300)]
         .map(|(hidden, rows)| (NetworkShape { observation: 7, action: 3, hidden }, rows));
     for (shape, rows) in small.into_iter().chain(shapes_in_use().map(|shape| (shape, CHUNK_ROWS + 30))) {
@@ -64,7 +64,7 @@ fn output_and_gradient_are_those_of_candles_own_operations() {
     }
 }
 
-/// `Σ c · output` of both networks in f64, straight from the definition.
+/// Returns `Σ c · output` of both networks in f64, straight from the definition.
 fn weighted_output(shape: &NetworkShape, parameters: &[f64], observations: &[f64], weights: &[f64]) -> f64 {
     let apply = |layers: &[Dense], row: &[f64]| {
         let mut row = row.to_vec();
@@ -121,7 +121,7 @@ fn the_gradient_of_actor_and_critic_agrees_with_finite_differences() -> Result<(
 }
 
 #[test]
-fn each_network_alone_gives_its_part_of_both() -> Result<()> {
+fn actor_and_critic_alone_agree_with_both_together() -> Result<()> {
     for shape in shapes_in_use() {
         let rows = CHUNK_ROWS + 5;
         let numbers = Tensor::new(parameters(&shape), &Device::Cpu)?;
@@ -152,7 +152,7 @@ fn the_number_of_threads_does_not_change_one_bit() {
 }
 
 #[test]
-fn reused_buffers_of_another_size_leave_no_trace() {
+fn reused_buffers_of_another_size_do_not_change_results() {
     let shape = NetworkShape { observation: 5, action: 2, hidden: vec![8] };
     let networks = FusedNetworks::actor_critic(&shape, None);
     let fresh = |rows| {

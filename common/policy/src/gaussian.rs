@@ -1,17 +1,16 @@
-//! The diagonal Gaussian over actions: one free `log_std` per action, independent of the observation.
+//! Diagonal Gaussian over actions, with one `log_std` per action that does not depend on the observation.
 //!
-//! The standard deviation is `exp(log_std)` with `log_std` kept in [[`LOG_STD_MIN`], [`LOG_STD_MAX`]]; it can become
-//! neither zero nor negative nor huge. Every function here applies that range itself.
+//! The standard deviation is `exp(log_std)`. Every function clamps `log_std` to [[`LOG_STD_MIN`], [`LOG_STD_MAX`]].
 
 /// Least `log_std`: a standard deviation of 0.0067 in units of the action range.
 pub const LOG_STD_MIN: f32 = -5.0;
 /// Greatest `log_std`: a standard deviation of 7.4, far beyond the range that actions are clipped to.
 pub const LOG_STD_MAX: f32 = 2.0;
 
-/// `½ ln 2π`, the part of a Gaussian's log-density that depends on nothing.
+/// `½ ln 2π`, the constant part of a Gaussian's log-density.
 pub const HALF_LN_TAU: f32 = 0.918_938_5;
 
-/// Brings each `log_std` into the sane range; what is not a number stays so, and is found by the checks for it.
+/// Clamps each `log_std` to its range; NaN stays NaN, and the checks for finite numbers find it.
 pub fn clamp_log_std(log_std: &mut [f32]) {
     log_std.iter_mut().for_each(|l| *l = l.clamp(LOG_STD_MIN, LOG_STD_MAX));
 }
@@ -27,7 +26,7 @@ pub fn standard_deviations(log_std: &[f32], std: &mut [f32]) {
     }
 }
 
-/// Writes `mean + std · normal`, a sample of one row; `normals` are independent standard normal numbers, `[action]`.
+/// Writes a sample of one row, `mean + std · normal`; `normals` are independent standard normal numbers, `[action]`.
 ///
 /// # Panics
 /// If the lengths differ.
@@ -38,7 +37,7 @@ pub fn sample(mean: &[f32], log_std: &[f32], normals: &[f32], action: &mut [f32]
     }
 }
 
-/// The log-probability density of one action row: `Σ −½ ((a − μ)/σ)² − ln σ − ½ ln 2π`
+/// Returns the log-density of one action row: `Σ −½ ((a − μ)/σ)² − ln σ − ½ ln 2π`
 /// (Bishop, Pattern Recognition and Machine Learning, 2006, equation 1.46, summed over independent dimensions).
 ///
 /// # Panics
@@ -54,7 +53,7 @@ pub fn log_probability(action: &[f32], mean: &[f32], log_std: &[f32]) -> f32 {
     sum
 }
 
-/// The differential entropy in nats: `Σ ½ + ½ ln 2π + ln σ` (Bishop 2006, equation 1.110).
+/// Returns the differential entropy in nats: `Σ ½ + ½ ln 2π + ln σ` (Bishop 2006, equation 1.110).
 pub fn entropy(log_std: &[f32]) -> f32 {
     log_std.iter().map(|l| 0.5 + HALF_LN_TAU + l.clamp(LOG_STD_MIN, LOG_STD_MAX)).sum()
 }
@@ -68,7 +67,7 @@ mod tests {
     }
 
     #[test]
-    fn log_probability_is_that_of_a_table() {
+    fn log_probability_agrees_with_a_table() {
         // ln φ(0) = −0.9189385, ln φ(1) = −1.4189385; σ = 2 shifts by −ln 2.
         close(log_probability(&[0.0], &[0.0], &[0.0]), -0.918_938_5);
         close(
@@ -105,7 +104,7 @@ mod tests {
     }
 
     #[test]
-    fn the_standard_deviation_stays_sane_whatever_log_std_is() {
+    fn log_std_is_clamped_to_its_range() {
         let mut std = [0.0; 3];
         standard_deviations(&[-1e30, 0.0, 1e30], &mut std);
         assert_eq!(std, [LOG_STD_MIN.exp(), 1.0, LOG_STD_MAX.exp()]);

@@ -1,16 +1,16 @@
-//! What an actor evaluates: action means for a few rows, and values for many.
+//! Evaluation of a policy: action means and values.
 
 use std::sync::Arc;
 
 use candle_core::{Device, Result, Storage, Tensor};
 use rayon::ThreadPool;
 
-use super::{NetworkShape, Networks, ParameterError, Part, check_parameters};
+use super::{NetworkPart, NetworkShape, Networks, ParameterError, check_parameters};
 
-/// Rows of one application of the networks; bounds the memory for activations.
+/// Rows per application of the networks; bounds the memory for activations.
 const ROWS_AT_ONCE: usize = 4096;
 
-/// A network with its parameters, for evaluation only.
+/// Networks with their parameters, for evaluation only.
 #[derive(Clone, Debug)]
 pub struct Policy {
     shape: NetworkShape,
@@ -22,7 +22,7 @@ pub struct Policy {
 }
 
 impl Policy {
-    /// A policy that runs on the calling thread.
+    /// Returns a policy that runs on the calling thread.
     ///
     /// # Errors
     /// If the parameters do not fit the shape or are not finite.
@@ -30,7 +30,7 @@ impl Policy {
         Self::build(shape, parameters, None, &Device::Cpu)
     }
 
-    /// A policy on `device`; on a CPU it spreads many rows over the threads of `pool`, with the same results.
+    /// Returns a policy on `device`. On a CPU, the threads of `pool` share many rows, with the same results.
     ///
     /// # Errors
     /// If the parameters do not fit the shape or are not finite.
@@ -51,22 +51,22 @@ impl Policy {
     ) -> std::result::Result<Self, ParameterError> {
         check_parameters(&shape, &parameters)?;
         let tensor = Tensor::from_slice(&parameters, parameters.len(), device)?;
-        let actor = Networks::on(device, &shape, Part::Actor, pool.clone());
-        let critic = Networks::on(device, &shape, Part::Critic, pool);
+        let actor = Networks::on(device, &shape, NetworkPart::Actor, pool.clone());
+        let critic = Networks::on(device, &shape, NetworkPart::Critic, pool);
         Ok(Self { shape, parameters, tensor, device: device.clone(), actor, critic })
     }
 
-    /// The shape of the networks.
+    /// Returns the shape of the networks.
     pub fn shape(&self) -> &NetworkShape {
         &self.shape
     }
 
-    /// The flat parameter vector.
+    /// Returns the flat parameter vector.
     pub fn parameters(&self) -> &[f32] {
         &self.parameters
     }
 
-    /// The logarithm of the standard deviation of each action, `[action]`.
+    /// Returns the logarithm of the standard deviation of each action, `[action]`.
     pub fn log_std(&self) -> &[f32] {
         &self.parameters[self.shape.log_std()]
     }
@@ -82,7 +82,7 @@ impl Policy {
         self.apply(&self.actor, self.shape.action, observations, rows, means)
     }
 
-    /// The critic's values, `[rows]`, for normalised `observations`, `[rows, observation]`.
+    /// Returns the critic's values, `[rows]`, for normalised `observations`, `[rows, observation]`.
     ///
     /// # Errors
     /// If Candle fails.
@@ -130,7 +130,7 @@ mod tests {
     use rand_xoshiro::{Xoshiro256PlusPlus, rand_core::SeedableRng};
 
     #[test]
-    fn means_and_values_are_those_of_the_plain_networks_for_any_number_of_rows() -> Result<()> {
+    fn means_and_values_agree_with_the_plain_networks_for_any_number_of_rows() -> Result<()> {
         let shape = NetworkShape { observation: 3, action: 2, hidden: vec![8, 4] };
         let parameters = initial_parameters(&shape, -0.5, &mut Xoshiro256PlusPlus::seed_from_u64(3));
         let policy = Policy::new(shape.clone(), parameters.clone()).expect("fresh parameters fit");

@@ -1,7 +1,7 @@
 //! Orthogonal initialisation of the networks.
 //!
-//! Saxe, McClelland & Ganguli 2014, arXiv:1312.6120; the gains are those of Engstrom et al. 2020, arXiv:2005.12729,
-//! with a last actor layer of 0.01 (Andrychowicz et al. 2021, arXiv:2006.05990), so that the first actions are near 0.
+//! Saxe, McClelland & Ganguli 2014, arXiv:1312.6120, with the gains of Engstrom et al. 2020, arXiv:2005.12729. The last actor
+//! layer has a gain of 0.01 (Andrychowicz et al. 2021, arXiv:2006.05990), so that the first actions are near 0.
 
 use rand::Rng;
 use rand_distr::{Distribution, StandardNormal};
@@ -12,7 +12,7 @@ const HIDDEN_GAIN: f64 = std::f64::consts::SQRT_2;
 const LAST_ACTOR_GAIN: f64 = 0.01;
 const LAST_CRITIC_GAIN: f64 = 1.0;
 
-/// Fresh parameters: orthogonal weights, zero biases, every `log_std` at `init_log_std`.
+/// Returns initial parameters: orthogonal weights, zero biases, every `log_std` at `init_log_std`.
 pub fn initial_parameters(shape: &NetworkShape, init_log_std: f32, rng: &mut impl Rng) -> Vec<f32> {
     let mut parameters = vec![0.0; shape.parameter_count()];
     fill_network(&shape.actor(), LAST_ACTOR_GAIN, &mut parameters, rng);
@@ -32,7 +32,7 @@ fn fill_network(layers: &[Dense], last_gain: f64, parameters: &mut [f32], rng: &
     }
 }
 
-/// A random `[rows, columns]` matrix, row-major, whose rows are orthonormal, or whose columns are where those are fewer.
+/// Returns a random `[rows, columns]` matrix, row-major. Its rows are orthonormal, or its columns if there are fewer of them.
 fn orthogonal(rows: usize, columns: usize, rng: &mut impl Rng) -> Vec<f64> {
     let (count, length) = (rows.min(columns), rows.max(columns));
     let mut basis: Vec<Vec<f64>> = Vec::with_capacity(count);
@@ -46,7 +46,7 @@ fn orthogonal(rows: usize, columns: usize, rng: &mut impl Rng) -> Vec<f64> {
             }
         }
         let norm = dot(&vector, &vector).sqrt();
-        // A draw that almost lies in the span of the others would only be rounding noise: draw again.
+        // A vector almost in the span of the others would be rounding noise, so another one is drawn.
         if norm > 1e-6 {
             vector.iter_mut().for_each(|v| *v /= norm);
             basis.push(vector);
@@ -65,7 +65,7 @@ mod tests {
     use super::*;
     use rand_xoshiro::{Xoshiro256PlusPlus, rand_core::SeedableRng};
 
-    /// How far the Gram matrix of the shorter side is from `gain²` times the identity.
+    /// Returns the largest deviation of the Gram matrix of the shorter side from `gain²` times the identity.
     fn misfit(weight: &[f32], layer: &Dense, gain: f64) -> f64 {
         let (rows, columns) = (layer.output, layer.input);
         let at = |r: usize, c: usize| f64::from(weight[r * columns + c]);

@@ -10,12 +10,12 @@ use gemm::{Parallelism, gemm};
 use super::Dense;
 use super::elementwise::{add_bias, add_bias_elu, add_column_sums, elu_backward};
 
-/// A network whose parameters are the contiguous part `range` of the flat vector.
+/// Network whose parameters are the part `range` of the flat vector.
 #[derive(Debug)]
 pub(super) struct Mlp {
-    /// Where its parameters stand in the flat vector.
+    /// Its part of the flat vector.
     pub(super) range: Range<usize>,
-    /// Its layers, with offsets relative to `range.start`.
+    /// Layers, with offsets relative to `range.start`.
     layers: Vec<Dense>,
 }
 
@@ -34,12 +34,12 @@ impl Mlp {
         Self { range: start..end, layers }
     }
 
-    /// Numbers in one output row.
+    /// Returns the width of the output.
     pub(super) fn output(&self) -> usize {
         self.layers.last().map_or(0, |layer| layer.output)
     }
 
-    /// Numbers that all hidden layers together give per row.
+    /// Returns the sum of the widths of the hidden layers.
     pub(super) fn hidden(&self) -> usize {
         let (_, hidden) = self.layers.split_last().expect("a network has at least one layer");
         hidden.iter().map(|layer| layer.output).sum()
@@ -72,9 +72,9 @@ impl Mlp {
 
     /// Computes the gradient of the parameters from that of the output, `[rows, output]`.
     ///
-    /// `activations` are those of the forward pass over the same rows. With `accumulate` the result is added to what
-    /// `gradient` holds, otherwise it replaces it.
-    #[expect(clippy::too_many_arguments, reason = "plain slices, each of them a different thing")]
+    /// `activations` are those of the forward pass over the same rows. With `accumulate` the result is added to `gradient`,
+    /// otherwise it replaces it.
+    #[expect(clippy::too_many_arguments, reason = "slices of different meaning")]
     pub(super) fn backward(
         &self,
         parameters: &[f32],
@@ -126,7 +126,7 @@ impl Mlp {
     }
 }
 
-/// A view of a matrix: element `(i, j)` stands at `i · row_stride + j · column_stride`.
+/// View of a matrix: element `(i, j)` is at `i · row_stride + j · column_stride`.
 #[derive(Clone, Copy)]
 struct Matrix<'a> {
     data: &'a [f32],
@@ -143,18 +143,18 @@ impl<'a> Matrix<'a> {
         Self { data: self.data, row_stride: self.column_stride, column_stride: self.row_stride }
     }
 
-    /// Whether all of `rows × columns` lies inside the data.
+    /// Returns whether all of `rows × columns` is inside the data.
     fn covers(&self, rows: usize, columns: usize) -> bool {
         rows == 0 || columns == 0 || (rows - 1) * self.row_stride + (columns - 1) * self.column_stride < self.data.len()
     }
 }
 
-/// `product = left · right`, or `product += left · right`; `[m, k] · [k, n]` into row-major `[m, n]`.
+/// Computes `product = left · right`, or `product += left · right`: `[m, k] · [k, n]` into row-major `[m, n]`.
 fn multiply([m, n, k]: [usize; 3], left: Matrix, right: Matrix, product: &mut [f32], accumulate: bool) {
     assert!(left.covers(m, k) && right.covers(k, n) && product.len() == m * n, "matrix sizes do not fit");
     let kept = if accumulate { 1.0 } else { 0.0 };
-    // SAFETY: the assertion keeps every index that the sizes and strides reach inside the three slices, and the
-    // mutable one cannot overlap the others.
+    // SAFETY: by the assertion, sizes and strides reach only indices inside the three slices, and the mutable slice cannot
+    // overlap the others.
     unsafe {
         gemm(
             m,
@@ -203,7 +203,7 @@ mod tests {
         multiply([2, 1, 3], Matrix::row_major(&data, 3), Matrix::row_major(&data, 1), &mut [0.0; 2], false);
     }
 
-    /// `Σ c · output` in f64, straight from the definition: what the gradient is checked against.
+    /// Returns `Σ c · output` in f64, straight from the definition.
     fn weighted_output(layers: &[Dense], parameters: &[f64], input: &[f64], weights: &[f64]) -> f64 {
         let columns = layers[0].input;
         let outputs = input.chunks_exact(columns).flat_map(|row| {

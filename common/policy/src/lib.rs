@@ -1,21 +1,23 @@
-//! The policy network: its shape, its parameters as one flat vector, and how it is evaluated.
+//! Policy networks: shape, parameters, evaluation, normalisation and export.
 //!
-//! All parameters of actor and critic stand in **one** flat `f32` vector, in the order of [`NetworkShape::tensors`], so
-//! that the forward pass, Adam, gradient clipping, checksums and the broadcast each run over one slice.
+//! All parameters of actor and critic are in **one** flat `f32` vector, in the order of [`NetworkShape::tensors`]. So the
+//! forward pass, Adam, gradient clipping, checksums and publishing each use one slice.
 //!
-//! | file | holds |
-//! |---|---|
-//! | `shape` | [`NetworkShape`]: widths, offsets, names |
-//! | `tensors` | the flat vector as safetensors bytes, and checks of what comes from outside |
-//! | `init` | orthogonal initialisation |
-//! | `gaussian` | log-probability, sampling, entropy of actions |
-//! | `elementwise` | the vectorised loops: ELU and its derivative |
-//! | `kernel` | forward and backward pass of one network over one chunk of rows |
-//! | `fused` | both networks as one Candle operation with its own gradient |
-//! | `plain` | the same networks from Candle's own operations: the reference for tests, and what runs on a GPU |
-//! | `networks` | [`Networks`]: which of the two runs where |
-//! | `agreement` | whether both say the same on this processor |
-//! | `inference` | [`Policy`]: what an actor evaluates |
+//! # Layout
+//! - `shape`: [`NetworkShape`] with widths, offsets and names.
+//! - `tensors`: the flat vector as safetensors bytes; checks of external data.
+//! - `init`: orthogonal initialisation.
+//! - `gaussian`: log-probability, sampling and entropy of actions.
+//! - `elementwise`: vectorised loops for biases and ELU.
+//! - `kernel`: forward and backward pass of one network over one chunk of rows.
+//! - `fused`: both networks as one Candle operation with its own gradient, for CPUs.
+//! - `plain`: the same networks from Candle's operations, for GPUs and as the reference of tests.
+//! - `networks`: [`Networks`], which chooses between the two.
+//! - `agreement`: compares the two on this processor.
+//! - `inference`: [`Policy`], which actors evaluate.
+//! - `normaliser`: running moments and normalisation of observations and returns.
+//! - `exported`, `onnx`: a policy as a safetensors or ONNX file.
+//! - `device`: choice of CPU or GPU.
 
 pub mod agreement;
 pub mod device;
@@ -35,7 +37,7 @@ mod tensors;
 
 pub use fused::FusedNetworks;
 pub use inference::Policy;
-pub use networks::{Networks, Part};
+pub use networks::{NetworkPart, Networks};
 pub use shape::{Dense, NamedTensor, NetworkShape};
 pub use tensors::{ParameterError, check_parameters, from_safetensors, to_safetensors};
 pub(crate) use tensors::{column, to_safetensors_with};

@@ -1,4 +1,4 @@
-//! Which implementation of the networks runs: the fused one on a CPU, plain operations on anything else.
+//! Chooses the implementation of the networks: fused on a CPU, plain elsewhere.
 
 use std::sync::Arc;
 
@@ -7,49 +7,49 @@ use rayon::ThreadPool;
 
 use super::{FusedNetworks, NetworkShape, plain};
 
-/// Which of the networks a computation needs.
+/// Networks that a computation needs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Part {
-    /// Both: the output is `[rows, action + 1]`, action means and then the value.
+pub enum NetworkPart {
+    /// Both; the output is `[rows, action + 1]`: action means, then the value.
     ActorCritic,
-    /// The output is `[rows, action]`.
+    /// Actor; the output is `[rows, action]`.
     Actor,
-    /// The output is `[rows, 1]`.
+    /// Critic; the output is `[rows, 1]`.
     Critic,
 }
 
-/// Networks over one flat parameter vector, for one kind of device.
+/// Networks over one flat parameter vector, on one device.
 #[derive(Clone, Debug)]
 pub enum Networks {
     /// One operation with its own gradient; CPU only.
     Fused(FusedNetworks),
-    /// Candle's own operations and gradients, on any device.
-    Plain(NetworkShape, Part),
+    /// Candle's operations and gradients; any device.
+    Plain(NetworkShape, NetworkPart),
 }
 
 impl Networks {
-    /// The fastest that `device` runs; the threads of `pool` are for a CPU.
-    pub fn on(device: &Device, shape: &NetworkShape, part: Part, pool: Option<Arc<ThreadPool>>) -> Self {
+    /// Returns the fastest implementation for `device`. A CPU uses the threads of `pool`.
+    pub fn on(device: &Device, shape: &NetworkShape, part: NetworkPart, pool: Option<Arc<ThreadPool>>) -> Self {
         if !device.is_cpu() {
             return Self::Plain(shape.clone(), part);
         }
         Self::Fused(match part {
-            Part::ActorCritic => FusedNetworks::actor_critic(shape, pool),
-            Part::Actor => FusedNetworks::actor(shape, pool),
-            Part::Critic => FusedNetworks::critic(shape, pool),
+            NetworkPart::ActorCritic => FusedNetworks::actor_critic(shape, pool),
+            NetworkPart::Actor => FusedNetworks::actor(shape, pool),
+            NetworkPart::Critic => FusedNetworks::critic(shape, pool),
         })
     }
 
-    /// Applies them to `observations`, `[rows, observation]`; `parameters` is the flat vector, on the same device.
+    /// Applies the networks to `observations`, `[rows, observation]`; `parameters` is the flat vector, on the same device.
     ///
     /// # Errors
-    /// If a tensor has another shape or is on another device.
+    /// If a tensor has the wrong shape or device.
     pub fn forward(&self, parameters: &Tensor, observations: &Tensor) -> Result<Tensor> {
         match self {
             Self::Fused(networks) => networks.forward(parameters, observations),
-            Self::Plain(shape, Part::ActorCritic) => plain::actor_critic(shape, parameters, observations),
-            Self::Plain(shape, Part::Actor) => plain::network(&shape.actor(), parameters, observations),
-            Self::Plain(shape, Part::Critic) => plain::network(&shape.critic(), parameters, observations),
+            Self::Plain(shape, NetworkPart::ActorCritic) => plain::actor_critic(shape, parameters, observations),
+            Self::Plain(shape, NetworkPart::Actor) => plain::network(&shape.actor(), parameters, observations),
+            Self::Plain(shape, NetworkPart::Critic) => plain::network(&shape.critic(), parameters, observations),
         }
     }
 }
@@ -62,12 +62,12 @@ mod tests {
     use crate::init::initial_parameters;
 
     #[test]
-    fn a_cpu_gets_the_fused_networks_and_plain_ones_say_the_same() -> Result<()> {
+    fn a_cpu_uses_the_fused_networks_and_they_agree_with_the_plain_ones() -> Result<()> {
         let shape = NetworkShape { observation: 5, action: 3, hidden: vec![16, 8] };
         let parameters = initial_parameters(&shape, -0.5, &mut Xoshiro256PlusPlus::seed_from_u64(3));
         let parameters = Tensor::new(&parameters[..], &Device::Cpu)?;
         let observations = Tensor::from_vec((0..35).map(|i| (i as f32).sin()).collect(), (7, 5), &Device::Cpu)?;
-        for (part, width) in [(Part::ActorCritic, 4), (Part::Actor, 3), (Part::Critic, 1)] {
+        for (part, width) in [(NetworkPart::ActorCritic, 4), (NetworkPart::Actor, 3), (NetworkPart::Critic, 1)] {
             let chosen = Networks::on(&Device::Cpu, &shape, part, None);
             assert!(matches!(chosen, Networks::Fused(_)));
             let fused = chosen.forward(&parameters, &observations)?;

@@ -1,18 +1,18 @@
-//! Running mean and variance of numbers, and the normalisation made from them.
+//! Running mean and variance, and normalisation by them.
 //!
-//! The statistics used for a rollout are the ones that travel with that version's weights: [`RunningMoments`] is the
-//! learner's running state, [`Normaliser`] the fixed function that it sends out with the policy.
+//! [`RunningMoments`] is the learner's running state. [`Normaliser`] is the fixed function that is published with each policy
+//! version, so that a rollout uses the statistics of its version.
 
 use serde::{Deserialize, Serialize};
 
-/// Added to a variance before its root is taken, so that a column that never changes is not divided by zero.
+/// Added to a variance before its root is taken, so that a constant column is not divided by zero.
 pub const VARIANCE_EPSILON: f64 = 1e-5;
 /// See [`ScalarNormaliser::from_moments`].
 const STD_FLOOR: f64 = 1e-4;
 /// See [`ScalarNormaliser::from_moments`].
 const STD_MIN: f64 = 1e-12;
 
-/// Count, mean and sum of squared deviations of each column.
+/// Running count, mean and sum of squared deviations of each column.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct RunningMoments {
     /// Rows seen.
@@ -24,22 +24,22 @@ pub struct RunningMoments {
 }
 
 impl RunningMoments {
-    /// Moments of no rows of `width` columns.
+    /// Returns the moments of zero rows with `width` columns.
     pub fn new(width: usize) -> Self {
         Self { count: 0.0, mean: vec![0.0; width], m2: vec![0.0; width] }
     }
 
-    /// Adds rows, `[n, width]`. The rows must be finite: one number that is not would stay in the moments for ever.
+    /// Adds rows, `[n, width]`. They must be finite, because the moments would keep NaN and infinity for ever.
     ///
     /// # Panics
-    /// If `width` is not that of the moments, or `rows` does not hold whole rows.
+    /// If `width` differs from that of the moments, or `rows` does not hold whole rows.
     pub fn update(&mut self, rows: &[f32], width: usize) {
         assert_eq!(width, self.mean.len(), "the moments have another width");
         if rows.is_empty() {
             return;
         }
         assert!(rows.len().is_multiple_of(width), "{} numbers are no whole rows of {width}", rows.len());
-        // Two passes: the textbook one-pass sum of squares loses all digits where the mean is large.
+        // Two passes, because a one-pass sum of squares loses all digits if the mean is large.
         let count = (rows.len() / width) as f64;
         let mut batch = Self { count, ..Self::new(width) };
         for row in rows.chunks_exact(width) {
@@ -55,7 +55,7 @@ impl RunningMoments {
         self.merge(&batch);
     }
 
-    /// Adds the rows that `other` has seen: Chan, Golub & LeVeque 1979, "Updating formulae and a pairwise algorithm
+    /// Merges the moments of other rows: Chan, Golub & LeVeque 1979, "Updating formulae and a pairwise algorithm
     /// for computing sample variances", equation 2.1.
     ///
     /// # Panics
@@ -75,33 +75,33 @@ impl RunningMoments {
         self.count = total;
     }
 
-    /// The population variance of each column; 1 before any row was seen.
+    /// Returns the population variance of each column; 1 before the first row.
     pub fn variance(&self) -> Vec<f64> {
         let divide = |m2: &f64| if self.count > 0.0 { m2 / self.count } else { 1.0 };
         self.m2.iter().map(divide).collect()
     }
 }
 
-/// `(x − mean) / √(variance + ε)`, clipped; ε is [`VARIANCE_EPSILON`].
+/// Normalisation `(x − mean) / √(variance + ε)`, clipped; ε is [`VARIANCE_EPSILON`].
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Normaliser {
     /// Mean of each column.
     pub mean: Vec<f32>,
     /// `1 / √(variance + ε)` of each column.
     pub inverse_std: Vec<f32>,
-    /// Results are kept within plus and minus this.
+    /// Limit to which results are clipped, in both directions.
     pub clip: f32,
 }
 
 impl RunningMoments {
-    /// Whether nothing has overflowed.
+    /// Returns whether all moments are finite.
     pub fn is_finite(&self) -> bool {
         self.count.is_finite() && self.mean.iter().chain(&self.m2).all(|number| number.is_finite())
     }
 }
 
 impl Normaliser {
-    /// The normalisation of the rows seen so far; before any, it only clips.
+    /// Returns the normalisation by these moments; before the first row it only clips.
     pub fn from_moments(moments: &RunningMoments, clip: f32) -> Self {
         if moments.count == 0.0 {
             return Self::identity(moments.mean.len(), clip);
@@ -114,17 +114,17 @@ impl Normaliser {
         }
     }
 
-    /// Leaves rows of `width` columns as they are, except for the clipping.
+    /// Returns a normalisation of `width` columns that only clips.
     pub fn identity(width: usize, clip: f32) -> Self {
         Self { mean: vec![0.0; width], inverse_std: vec![1.0; width], clip }
     }
 
-    /// Columns of a row.
+    /// Returns the number of columns.
     pub fn width(&self) -> usize {
         self.mean.len()
     }
 
-    /// Whether these are usable numbers for rows of `width` columns; to be asked of what came from outside.
+    /// Returns whether the numbers are usable for rows of `width` columns; checks external data.
     pub fn is_valid(&self, width: usize) -> bool {
         self.mean.len() == width
             && self.inverse_std.len() == width
@@ -134,7 +134,7 @@ impl Normaliser {
             && self.clip > 0.0
     }
 
-    /// Normalises rows, `[n, width]`, in place; what is not a number stays so.
+    /// Normalises rows, `[n, width]`, in place; NaN stays NaN.
     ///
     /// # Panics
     /// If `rows` does not hold whole rows.
@@ -147,7 +147,7 @@ impl Normaliser {
         }
     }
 
-    /// Writes the normalised `rows` to `target`, whose former content and length do not matter.
+    /// Replaces `target` by the normalised `rows`.
     ///
     /// # Panics
     /// If `rows` does not hold whole rows.
@@ -158,7 +158,7 @@ impl Normaliser {
     }
 }
 
-/// The normalisation of one quantity in both directions, for value targets: the critic learns normalised returns.
+/// Normalisation of one quantity in both directions, for value targets: the critic learns normalised returns.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ScalarNormaliser {
     /// Mean of the quantity.
@@ -168,11 +168,10 @@ pub struct ScalarNormaliser {
 }
 
 impl ScalarNormaliser {
-    /// The normalisation of the numbers seen so far; before any, it is the identity.
+    /// Returns the normalisation by these moments; before the first number it is the identity.
     ///
-    /// The standard deviation never falls below 1e-4 of the mean's size, so that the rounding of numbers that hardly differ
-    /// is not blown up, nor below 1e-12. A floor in proportion to the numbers keeps the normalisation the same in whatever
-    /// units rewards are paid.
+    /// The standard deviation has a floor of 1e-4 of the mean's absolute value, so that rounding is not amplified if numbers
+    /// hardly differ, and of 1e-12. The relative floor makes the normalisation independent of the unit of rewards.
     ///
     /// # Panics
     /// If the moments are not those of one column.
@@ -189,12 +188,12 @@ impl ScalarNormaliser {
         (moments.variance()[0] + floor * floor).sqrt() as f32
     }
 
-    /// In units of the quantity's standard deviation, in place.
+    /// Normalises numbers in place.
     pub fn normalise(&self, numbers: &mut [f32]) {
         numbers.iter_mut().for_each(|x| *x = (*x - self.mean) / self.std);
     }
 
-    /// Back in the quantity's own units, in place.
+    /// Converts normalised numbers back, in place.
     pub fn denormalise(&self, numbers: &mut [f32]) {
         numbers.iter_mut().for_each(|x| *x = *x * self.std + self.mean);
     }
@@ -210,7 +209,7 @@ mod tests {
     }
 
     #[test]
-    fn moments_are_those_computed_by_hand() {
+    fn moments_agree_with_a_calculation_by_hand() {
         let mut moments = RunningMoments::new(2);
         moments.update(&[1.0, 10.0, 2.0, 10.0], 2);
         moments.update(&[6.0, 40.0], 2);
@@ -231,7 +230,7 @@ mod tests {
     }
 
     #[test]
-    fn normalised_rows_are_those_computed_by_hand() {
+    fn normalised_rows_agree_with_a_calculation_by_hand() {
         let moments = RunningMoments { count: 2.0, mean: vec![1.0, -1.0], m2: vec![8.0, 0.0] };
         let normaliser = Normaliser::from_moments(&moments, 10.0);
         let mut rows = Vec::new();
@@ -243,8 +242,8 @@ mod tests {
     }
 
     #[test]
-    fn columns_that_never_change_become_zero_and_stay_bounded_when_they_do() {
-        // A mass, a row of zeros, and a moving column, in as many parts as a run has updates.
+    fn constant_columns_become_zero_and_stay_bounded_when_they_change() {
+        // A mass, zeros and a moving column, in as many batches as a run has updates.
         let mut moments = RunningMoments::new(3);
         for update in 0..500 {
             let rows: Vec<f32> = (0..64).flat_map(|row| [8.907_463_f32, 0.0, (update * row) as f32]).collect();
@@ -269,7 +268,7 @@ mod tests {
     }
 
     #[test]
-    fn a_scalar_goes_there_and_back() {
+    fn denormalising_reverses_normalising() {
         let scalar = ScalarNormaliser::from_moments(&RunningMoments { count: 4.0, mean: vec![5.0], m2: vec![16.0] });
         let mut numbers = [7.0, 5.0];
         scalar.normalise(&mut numbers);
@@ -279,7 +278,7 @@ mod tests {
     }
 
     #[test]
-    fn numbers_from_outside_are_judged() {
+    fn unusable_numbers_are_invalid() {
         let good = Normaliser::identity(3, 10.0);
         assert!(good.is_valid(3));
         assert!(!good.is_valid(4));

@@ -1,17 +1,17 @@
-//! A policy as an ONNX model, for programs that know nothing of ours.
+//! A policy as an ONNX model, for other programs.
 
 use treadmill_proto::onnx::{Layer, OnnxPolicy};
 
 use crate::exported::ExportedPolicy;
 
-/// The bytes of the file: normalisation, the actor's layers and the range of each motor. Metadata entries that begin with
-/// `treadmill.` name the motors, the numbers of an observation and the duration of a control step.
+/// Returns the bytes of an ONNX file: normalisation, the actor's layers and the range of each motor. Metadata entries
+/// `treadmill.*` name the observation, the motors and the duration of a control step.
 #[must_use]
 pub fn to_onnx(policy: &ExportedPolicy) -> Vec<u8> {
     let normaliser = policy.normaliser();
     let layer = |range: std::ops::Range<usize>| &policy.parameters[range];
     let layers = policy.shape.actor();
-    let told = [
+    let metadata = [
         ("observation", policy.observation.kind.clone()),
         ("action", policy.action.names.join(",")),
         ("control_step_s", policy.control_step_s.to_string()),
@@ -23,7 +23,7 @@ pub fn to_onnx(policy: &ExportedPolicy) -> Vec<u8> {
         layers: layers.iter().map(|dense| Layer { weight: layer(dense.weight()), bias: layer(dense.bias()) }).collect(),
         low: &policy.action.low,
         high: &policy.action.high,
-        metadata: told.map(|(key, value)| (format!("treadmill.{key}"), value)).to_vec(),
+        metadata: metadata.map(|(key, value)| (format!("treadmill.{key}"), value)).to_vec(),
     }
     .encode()
 }

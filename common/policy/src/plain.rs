@@ -1,27 +1,27 @@
-//! The same networks from Candle's own operations and gradients.
+//! Networks from Candle's own operations and gradients, for any device.
 //!
-//! Several times slower than `fused` on a CPU; it is the reference that `fused` is tested against, and runs on any device.
+//! Several times slower than `fused` on a CPU; the tests of `fused` use it as the reference.
 
 use candle_core::{Result, Tensor};
 use candle_nn::{Activation, Linear, Module};
 
 use super::{Dense, NetworkShape};
 
-/// Applies actor and critic to `observations`, `[rows, observation]`: action means and then the value,
-/// `[rows, action + 1]`. `parameters` is the flat vector.
+/// Applies actor and critic to `observations`, `[rows, observation]`. Returns `[rows, action + 1]`: action means, then the
+/// value. `parameters` is the flat vector.
 ///
 /// # Errors
-/// If a tensor has another shape.
+/// If a tensor has the wrong shape.
 pub fn actor_critic(shape: &NetworkShape, parameters: &Tensor, observations: &Tensor) -> Result<Tensor> {
     let means = network(&shape.actor(), parameters, observations)?;
     let values = network(&shape.critic(), parameters, observations)?;
     Tensor::cat(&[means, values], 1)
 }
 
-/// Applies one network to `observations`: `[rows, outputs of the last layer]`.
+/// Applies one network to `observations`. Returns `[rows, outputs of the last layer]`.
 ///
 /// # Errors
-/// If a tensor has another shape.
+/// If a tensor has the wrong shape.
 pub fn network(layers: &[Dense], parameters: &Tensor, observations: &Tensor) -> Result<Tensor> {
     let mut rows = observations.clone();
     for (i, layer) in layers.iter().enumerate() {

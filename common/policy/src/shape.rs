@@ -1,15 +1,15 @@
-//! The shape of the networks and the place of every tensor in the flat parameter vector.
+//! Shape of the networks and offset of each tensor in the flat parameter vector.
 
 use serde::{Deserialize, Serialize};
 
 /// Widths of the separate actor and critic networks, which share their hidden widths.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct NetworkShape {
-    /// Numbers in one observation.
+    /// Width of an observation.
     pub observation: usize,
-    /// Numbers in one action.
+    /// Width of an action.
     pub action: usize,
-    /// Widths of the hidden layers of either network, from the observation onwards.
+    /// Widths of the hidden layers of each network, from the first.
     pub hidden: Vec<usize>,
 }
 
@@ -20,45 +20,45 @@ pub struct NamedTensor {
     pub name: String,
     /// Index of its first number in the flat vector.
     pub offset: usize,
-    /// Its dimensions, row-major; a weight is `[output, input]`, as in PyTorch.
+    /// Dimensions, row-major; a weight is `[output, input]`, as in PyTorch.
     pub shape: Vec<usize>,
 }
 
 impl NamedTensor {
-    /// How many numbers the tensor holds.
+    /// Returns the number of elements.
     pub fn len(&self) -> usize {
         self.shape.iter().product()
     }
 
-    /// Whether it holds none.
+    /// Returns whether there are no elements.
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }
 
-    /// Its place in the flat vector.
+    /// Returns the range in the flat vector.
     pub fn range(&self) -> std::ops::Range<usize> {
         self.offset..self.offset + self.len()
     }
 }
 
-/// One dense layer, `y = W x + b`, by its place in the flat parameter vector.
+/// One dense layer, `y = W x + b`, in the flat parameter vector.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Dense {
-    /// Numbers that go in.
+    /// Width of the input.
     pub input: usize,
-    /// Numbers that come out.
+    /// Width of the output.
     pub output: usize,
     /// Offset of the weight, `[output, input]`; the bias, `[output]`, follows it.
     pub offset: usize,
 }
 
 impl Dense {
-    /// The place of the weight.
+    /// Returns the range of the weight.
     pub fn weight(&self) -> std::ops::Range<usize> {
         self.offset..self.offset + self.output * self.input
     }
 
-    /// The place of the bias.
+    /// Returns the range of the bias.
     pub fn bias(&self) -> std::ops::Range<usize> {
         let start = self.offset + self.output * self.input;
         start..start + self.output
@@ -66,28 +66,28 @@ impl Dense {
 }
 
 impl NetworkShape {
-    /// The layers of the actor, whose last one gives the action means.
+    /// Returns the layers of the actor; the last one outputs the action means.
     pub fn actor(&self) -> Vec<Dense> {
         self.dense_layers(0, self.action)
     }
 
-    /// The layers of the critic, whose last one gives the value.
+    /// Returns the layers of the critic; the last one outputs the value.
     pub fn critic(&self) -> Vec<Dense> {
         self.dense_layers(self.log_std().end, 1)
     }
 
-    /// The place of the logarithms of the standard deviations, `[action]`, between the two networks.
+    /// Returns the range of the logarithms of the standard deviations, `[action]`, between the two networks.
     pub fn log_std(&self) -> std::ops::Range<usize> {
         let start = end_of(&self.actor());
         start..start + self.action
     }
 
-    /// How many numbers the flat parameter vector holds.
+    /// Returns the length of the flat parameter vector.
     pub fn parameter_count(&self) -> usize {
         end_of(&self.critic())
     }
 
-    /// Every tensor in the order of the flat vector: the actor's layers, `log_std`, the critic's layers.
+    /// Returns every tensor in the order of the flat vector: the actor's layers, `log_std`, the critic's layers.
     pub fn tensors(&self) -> Vec<NamedTensor> {
         let log_std = self.log_std();
         let mut tensors = named("actor", &self.actor());
@@ -138,7 +138,7 @@ mod tests {
     }
 
     #[test]
-    fn parameters_are_counted_by_hand() {
+    fn the_parameter_count_agrees_with_a_count_by_hand() {
         let actor = 4 * 3 + 4 + 5 * 4 + 5 + 2 * 5 + 2;
         let critic = 4 * 3 + 4 + 5 * 4 + 5 + 5 + 1;
         assert_eq!(shape().parameter_count(), actor + 2 + critic);

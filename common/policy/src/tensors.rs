@@ -1,6 +1,6 @@
-//! Parameters as safetensors bytes: plain f32 under the names of [`NetworkShape::tensors`].
+//! Parameters as safetensors bytes: f32 under the names of [`NetworkShape::tensors`].
 //!
-//! Equal parameters give equal bytes: nothing but the tensors is written, in an order that safetensors fixes.
+//! Equal parameters give equal bytes: only the tensors are written, in safetensors' fixed order.
 
 use std::collections::HashMap;
 
@@ -8,48 +8,48 @@ use safetensors::tensor::{Dtype, SafeTensorError, SafeTensors, TensorView, seria
 
 use super::{NamedTensor, NetworkShape};
 
-/// Why bytes are not the parameters of a network of the expected shape.
+/// Error of reading parameters for a network.
 #[derive(Debug, thiserror::Error)]
 pub enum ParameterError {
     /// The bytes are not in the safetensors format.
     #[error("the weights are not valid safetensors data")]
     Format(#[from] SafeTensorError),
-    /// A tensor of the network is not there.
+    /// A tensor of the network is missing.
     #[error("the weights have no tensor {name:?} of shape {expected:?}")]
     Missing {
-        /// Its name.
+        /// Name of the tensor.
         name: String,
-        /// The shape that the network gives it.
+        /// Shape in the network.
         expected: Vec<usize>,
     },
     /// A tensor does not fit the network.
     #[error("tensor {name:?} has shape {found:?}, expected {expected:?}: these weights belong to another network")]
     Shape {
-        /// Its name.
+        /// Name of the tensor.
         name: String,
-        /// The shape in the bytes.
+        /// Shape in the bytes.
         found: Vec<usize>,
-        /// The shape that the network gives it.
+        /// Shape in the network.
         expected: Vec<usize>,
     },
-    /// A tensor is of another number type.
+    /// A tensor has the wrong number type.
     #[error("tensor {name:?} holds {found}, expected {expected}")]
     Dtype {
-        /// Its name.
+        /// Name of the tensor.
         name: String,
-        /// The type that is read.
+        /// Expected type.
         expected: &'static str,
-        /// The type in the bytes.
+        /// Type in the bytes.
         found: String,
     },
     /// A number is infinite or not a number.
     #[error("tensor {name:?} holds {value} at index {index}; every parameter must be finite")]
     NonFinite {
-        /// The tensor's name.
+        /// Name of the tensor.
         name: String,
         /// Index within the tensor, row-major.
         index: usize,
-        /// What stands there.
+        /// The number.
         value: f64,
     },
     /// A flat vector has the wrong length.
@@ -57,7 +57,7 @@ pub enum ParameterError {
     Count {
         /// Length of the vector.
         found: usize,
-        /// Length that the network needs.
+        /// Length in the network.
         expected: usize,
     },
     /// The tensor library refused an operation.
@@ -65,7 +65,7 @@ pub enum ParameterError {
     Tensor(#[from] candle_core::Error),
 }
 
-/// Refuses a flat parameter vector of the wrong length or with a number that is not finite.
+/// Checks the length of a flat parameter vector, and that all numbers are finite.
 pub fn check_parameters(shape: &NetworkShape, parameters: &[f32]) -> Result<(), ParameterError> {
     let expected = shape.parameter_count();
     if parameters.len() != expected {
@@ -74,7 +74,7 @@ pub fn check_parameters(shape: &NetworkShape, parameters: &[f32]) -> Result<(), 
     shape.tensors().iter().try_for_each(|tensor| check_finite(tensor, &parameters[tensor.range()]))
 }
 
-/// The parameters as safetensors bytes.
+/// Returns the parameters as safetensors bytes.
 ///
 /// # Panics
 /// If `parameters` does not have the length of `shape`.
@@ -82,9 +82,9 @@ pub fn to_safetensors(shape: &NetworkShape, parameters: &[f32]) -> Vec<u8> {
     to_safetensors_with(shape, parameters, &[], None)
 }
 
-/// The parameters, named columns of f64 and one entry of metadata as safetensors bytes.
+/// Returns the parameters, named columns of f64 and one entry of metadata as safetensors bytes.
 ///
-/// One entry and no more: several would be written in an order that changes from call to call.
+/// Only one entry, because several would be written in random order.
 ///
 /// # Panics
 /// If `parameters` does not have the length of `shape`.
@@ -113,10 +113,10 @@ fn view(dtype: Dtype, shape: Vec<usize>, bytes: &[u8]) -> TensorView<'_> {
     TensorView::new(dtype, shape, bytes).expect("the slice has the length of the shape")
 }
 
-/// The flat parameter vector out of safetensors bytes; tensors that the network does not name are ignored.
+/// Reads the flat parameter vector from safetensors bytes; ignores tensors that are not part of the network.
 ///
 /// # Errors
-/// If a tensor is missing, has another shape or number type, or holds a number that is not finite.
+/// If a tensor is missing, has the wrong shape or number type, or holds a number that is not finite.
 pub fn from_safetensors(bytes: &[u8], shape: &NetworkShape) -> Result<Vec<f32>, ParameterError> {
     let file = SafeTensors::deserialize(bytes)?;
     let mut parameters = vec![0.0; shape.parameter_count()];
@@ -131,10 +131,10 @@ pub fn from_safetensors(bytes: &[u8], shape: &NetworkShape) -> Result<Vec<f32>, 
     Ok(parameters)
 }
 
-/// A column of f64 out of a safetensors file.
+/// Reads a column of f64 from a safetensors file.
 ///
 /// # Errors
-/// If it is missing, has another length or number type, or holds a number that is not finite.
+/// If it is missing, has the wrong length or number type, or holds a number that is not finite.
 pub(crate) fn column(file: &SafeTensors<'_>, name: &str, length: usize) -> Result<Vec<f64>, ParameterError> {
     let data = data_of(file, name, &[length], Dtype::F64, "F64")?;
     let numbers: Vec<f64> = data.as_chunks::<8>().0.iter().map(|bytes| f64::from_le_bytes(*bytes)).collect();
@@ -144,7 +144,7 @@ pub(crate) fn column(file: &SafeTensors<'_>, name: &str, length: usize) -> Resul
     }
 }
 
-/// The bytes of one tensor, if it is of the wanted shape and number type.
+/// Returns the bytes of one tensor after checking its shape and number type.
 fn data_of<'a>(
     file: &SafeTensors<'a>,
     name: &str,
@@ -190,7 +190,7 @@ mod tests {
     }
 
     #[test]
-    fn parameters_come_back_and_bytes_are_the_same_every_time() {
+    fn parameters_survive_and_give_the_same_bytes_every_time() {
         let bytes = to_safetensors(&shape(), &numbers());
         assert_eq!(from_safetensors(&bytes, &shape()).expect("own bytes"), numbers());
         assert_eq!(to_safetensors(&shape(), &numbers()), bytes);

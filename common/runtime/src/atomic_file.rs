@@ -1,4 +1,4 @@
-//! Files that are either whole or absent: written beside their place, synced, then renamed into it.
+//! Writes a file atomically: to a temporary file that is synced, then renamed.
 
 use std::{
     fs::{self, File},
@@ -6,10 +6,10 @@ use std::{
     path::Path,
 };
 
-/// Writes `bytes` to `path` so that a crash at any moment leaves the old file or the new one.
+/// Writes `bytes` to `path`. A crash at any moment leaves either the old file or the new one.
 ///
 /// # Errors
-/// What the system says, a full disk for instance; the old file is untouched and the temporary one removed.
+/// The system's error, such as a full disk. The old file is untouched and the temporary one removed.
 pub fn write(path: &Path, bytes: &[u8]) -> io::Result<()> {
     let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
     let name = path.file_name().ok_or_else(|| io::Error::new(io::ErrorKind::InvalidInput, "the path names no file"))?;
@@ -23,7 +23,7 @@ pub fn write(path: &Path, bytes: &[u8]) -> io::Result<()> {
         File::open(folder)?.sync_all()
     })();
     if written.is_err() {
-        // The first error is the one worth telling.
+        // The first error is the one to report.
         let _ = fs::remove_file(&temporary);
     }
     written
@@ -34,7 +34,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_new_content_replaces_the_old_and_no_other_file_stays() {
+    fn a_write_replaces_the_file_and_leaves_no_other() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("state");
         write(&path, b"one").unwrap();
@@ -44,9 +44,9 @@ mod tests {
     }
 
     #[test]
-    fn a_failed_write_leaves_the_folder_as_it_was() {
+    fn a_failed_write_leaves_the_folder_unchanged() {
         let folder = tempfile::tempdir().unwrap();
-        // A folder stands in the file's place, so that the rename fails after the write succeeded.
+        // A folder with the file's name makes the rename fail after the write succeeded.
         let path = folder.path().join("state");
         fs::create_dir(&path).unwrap();
         assert!(write(&path, b"one").is_err());

@@ -1,10 +1,10 @@
-//! What every Treadmill process needs from its machine.
+//! Basics of every Treadmill process.
 //!
 //! # Layout
 //! - [`seeds`]: named random streams, derived from the run's seed.
-//! - [`run_folder`]: where a run keeps its files.
-//! - [`atomic_file`]: writes a file whole or not at all.
-//! - [`shutdown`]: asks every part of a process to stop.
+//! - [`run_folder`]: the folder with a run's files.
+//! - [`atomic_file`]: writes a file atomically.
+//! - [`shutdown`]: stops every part of a process.
 //! - [`error_chain`]: an error's message with its causes.
 //! - [`machine`]: hardware facts for benchmark sheets.
 

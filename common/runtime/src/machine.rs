@@ -1,6 +1,6 @@
-//! What hardware this is, for benchmark sheets and the fleet's overview.
+//! Facts about this machine, for benchmarks and status reports.
 
-/// The CPU's name as the system tells it.
+/// Returns the CPU's name, or the architecture if the system does not report one.
 pub fn cpu_name() -> String {
     let named = std::fs::read_to_string("/proc/cpuinfo").ok().and_then(|text| {
         text.lines()
@@ -11,12 +11,12 @@ pub fn cpu_name() -> String {
     named.unwrap_or_else(|| format!("{} ({})", std::env::consts::ARCH, std::env::consts::OS))
 }
 
-/// Cores that this process may use.
+/// Returns the number of cores that this process may use.
 pub fn cores() -> usize {
     std::thread::available_parallelism().map_or(1, |cores| cores.get())
 }
 
-/// The host's name, as far as it can be had.
+/// Returns the host's name, or `unknown`.
 pub fn host_name() -> String {
     std::fs::read_to_string("/proc/sys/kernel/hostname")
         .ok()
@@ -26,7 +26,7 @@ pub fn host_name() -> String {
         .unwrap_or_else(|| "unknown".to_string())
 }
 
-/// Memory of this process that is in RAM, in bytes; zero where the system does not tell.
+/// Returns the resident memory of this process in bytes; zero if the system does not report it.
 pub fn resident_bytes() -> u64 {
     std::fs::read_to_string("/proc/self/statm")
         .ok()
@@ -34,13 +34,13 @@ pub fn resident_bytes() -> u64 {
         .map_or(0, |pages| pages * 4096)
 }
 
-/// Seconds since 1970, for what people read and never for the mathematics.
+/// Returns the seconds since 1970, for display only; learning must not depend on it.
 pub fn time_unix_s() -> f64 {
     std::time::SystemTime::now().duration_since(std::time::UNIX_EPOCH).map_or(0.0, |since| since.as_secs_f64())
 }
 
-/// Whether the locale says that text is UTF-8, so that more than ASCII can be shown: the first of these variables that is
-/// set decides, as POSIX has it.
+/// Returns whether the locale uses UTF-8, so that non-ASCII text can be shown. The first of `LC_ALL`, `LC_CTYPE` and `LANG`
+/// that is set decides, as in POSIX.
 pub fn is_utf8_locale() -> bool {
     is_utf8(["LC_ALL", "LC_CTYPE", "LANG"].into_iter().filter_map(|name| std::env::var(name).ok()))
 }
@@ -53,7 +53,7 @@ fn is_utf8(mut set: impl Iterator<Item = String>) -> bool {
 #[cfg(test)]
 mod tests {
     #[test]
-    fn the_first_variable_that_says_something_decides() {
+    fn the_first_variable_that_is_set_decides() {
         let is_utf8 = |set: &[&str]| super::is_utf8(set.iter().map(ToString::to_string));
         assert!(is_utf8(&["", "de_DE.UTF-8", "C"]) && is_utf8(&["C.utf8"]));
         assert!(!is_utf8(&[]) && !is_utf8(&["C", "de_DE.UTF-8"]) && !is_utf8(&["POSIX"]));

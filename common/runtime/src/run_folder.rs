@@ -1,14 +1,15 @@
-//! Where a run keeps its files.
+//! Folder with a run's files.
 //!
 //! ```text
 //! runs/NAME/
 //!   config.toml           the configuration as used
 //!   command.txt           the command line, one line per start
-//!   versions.json         of this program, the toolchain's target and the machine
-//!   endpoint.txt          where the learner listens
+//!   versions.json         versions of this program, the toolchain's target and the machine
+//!   endpoint.txt          the learner's endpoint
 //!   model.xml             the humanoid
 //!   metrics.jsonl         one line per scalar
-//!   events.out.tfevents.* for TensorBoard
+//!   accounts.jsonl        one line per actor process
+//!   events.out.tfevents.* metrics for TensorBoard
 //!   checkpoints/          latest.bundle, best.bundle, NNNNNNNN.bundle
 //!   learning_curve.png    at the end
 //! ```
@@ -20,42 +21,42 @@ use std::{
 
 use treadmill_proto::ident::check_ident;
 
-/// A run's folder.
+/// Folder of a run.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RunFolder {
     root: PathBuf,
     name: String,
 }
 
-/// Why a run's folder cannot be used.
+/// Error of opening or creating a run's folder.
 #[derive(Debug, thiserror::Error)]
 pub enum RunFolderError {
-    /// Nothing is there.
+    /// The run does not exist.
     #[error("there is no run at `{path}`; {known}")]
     Missing {
-        /// Where it was looked for.
+        /// The path as given.
         path: String,
         /// Runs that exist.
         known: String,
     },
-    /// A run is there already.
+    /// The folder already holds a run.
     #[error("`{path}` already holds a run; go on with it by `--resume {path}`, or choose another --run-dir")]
     Taken {
         /// The folder.
         path: String,
     },
     /// The system refused.
-    #[error("the run folder `{path}` cannot be used: {source}")]
+    #[error("the run folder `{path}` cannot be used")]
     Io {
         /// The folder.
         path: String,
-        /// What the system said.
+        /// The system's error.
         source: io::Error,
     },
 }
 
 impl RunFolder {
-    /// Makes the folder of a new run: `run_dir` itself, or `runs/PREFIX-N` with the first N that is free.
+    /// Creates the folder of a new run: `run_dir`, or `runs/PREFIX-N` with the first free N.
     pub fn create(run_dir: Option<&Path>, prefix: &str) -> Result<Self, RunFolderError> {
         if let Some(root) = run_dir {
             let folder = Self::at(root);
@@ -68,17 +69,17 @@ impl RunFolder {
         for number in 1u32.. {
             let folder = Self::at(&Path::new("runs").join(format!("{prefix}-{number}")));
             fs::create_dir_all("runs").map_err(|source| folder.io(source))?;
-            // Two starts at the same moment get two folders: only one of them can create each.
+            // Two simultaneous starts get two folders, because only one of them can create each.
             match fs::create_dir(&folder.root) {
                 Ok(()) => return folder.prepare(),
-                Err(why) if why.kind() == io::ErrorKind::AlreadyExists => {}
-                Err(why) => return Err(folder.io(why)),
+                Err(error) if error.kind() == io::ErrorKind::AlreadyExists => {}
+                Err(error) => return Err(folder.io(error)),
             }
         }
-        unreachable!("a folder system does not hold four thousand million runs")
+        unreachable!("no file system holds 4 billion runs")
     }
 
-    /// Opens the folder of an existing run, given by path or by its name below `runs/`.
+    /// Opens the folder of an existing run, by path or by name below `runs/`.
     pub fn open(run: &str) -> Result<Self, RunFolderError> {
         let given = Path::new(run);
         [given.to_path_buf(), Path::new("runs").join(given)]
@@ -108,42 +109,42 @@ impl RunFolder {
         RunFolderError::Io { path: self.root.display().to_string(), source }
     }
 
-    /// The folder itself.
+    /// Returns the path of the folder.
     pub fn root(&self) -> &Path {
         &self.root
     }
 
-    /// The run's name, fit to stand in a key of the bus.
+    /// Returns the run's name, which is valid in keys of the bus.
     pub fn name(&self) -> &str {
         &self.name
     }
 
-    /// Where checkpoints lie.
+    /// Returns the path of the checkpoints.
     pub fn checkpoints(&self) -> PathBuf {
         self.root.join("checkpoints")
     }
 
-    /// One line per scalar.
+    /// Returns the path of the scalars, one per line.
     pub fn metrics(&self) -> PathBuf {
         self.root.join("metrics.jsonl")
     }
 
-    /// The configuration as used.
+    /// Returns the path of the configuration as used.
     pub fn config(&self) -> PathBuf {
         self.root.join("config.toml")
     }
 
-    /// The picture of the learning curve.
+    /// Returns the path of the learning curve.
     pub fn learning_curve(&self) -> PathBuf {
         self.root.join("learning_curve.png")
     }
 
-    /// What became of the fragments of every actor process, one line each.
+    /// Returns the path of the accounts of fragments, one line per actor process.
     pub fn accounts(&self) -> PathBuf {
         self.root.join("accounts.jsonl")
     }
 
-    /// Where the learner listens.
+    /// Returns the path of the learner's endpoint.
     pub fn endpoint(&self) -> PathBuf {
         self.root.join("endpoint.txt")
     }
@@ -170,13 +171,13 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_run_is_found_again_and_not_overwritten() {
+    fn a_run_is_found_and_not_overwritten() {
         let folder = tempfile::tempdir().unwrap();
         let root = folder.path().join("My Run.1");
         let run = RunFolder::create(Some(&root), "walk").unwrap();
         assert_eq!(run.name(), "my-run-1");
         assert_eq!(RunFolder::open(root.to_str().unwrap()).unwrap(), run);
-        // Killed before its first checkpoint, it is no run yet.
+        // A run that was killed before its first checkpoint does not count.
         assert_eq!(RunFolder::create(Some(&root), "walk").unwrap(), run);
         fs::write(run.checkpoints().join("latest.bundle"), "state").unwrap();
         let again = RunFolder::create(Some(&root), "walk").unwrap_err().to_string();

@@ -1,13 +1,13 @@
-//! Named random streams: every random number of a run comes from its seed through one of these.
+//! Named random streams, derived from the run's seed. Every random number of a run comes from one of them.
 
 use rand::SeedableRng;
 use rand_xoshiro::Xoshiro256PlusPlus;
 use sha2::{Digest, Sha256};
 
-/// The generator behind every stream. Its state is small and serialisable, so that a checkpoint can hold it.
+/// Generator of every stream. Its state is small and serialisable, for checkpoints.
 pub type Stream = Xoshiro256PlusPlus;
 
-/// The seed of the stream `name` with the numbers `index` under the run's seed.
+/// Returns the seed of the stream `name` with the numbers `index`, derived from the run's seed.
 pub fn derive(run_seed: u64, name: &str, index: &[u64]) -> u64 {
     let mut hash = Sha256::new();
     hash.update(run_seed.to_le_bytes());
@@ -17,19 +17,19 @@ pub fn derive(run_seed: u64, name: &str, index: &[u64]) -> u64 {
     first_eight(&hash.finalize())
 }
 
-/// The stream itself.
+/// Returns the stream `name` with the numbers `index`.
 pub fn stream(run_seed: u64, name: &str, index: &[u64]) -> Stream {
     Stream::seed_from_u64(derive(run_seed, name, index))
 }
 
-/// The state of a stream as numbers.
+/// Returns the state of a stream.
 pub fn words(stream: &Stream) -> [u64; 4] {
-    // The generator keeps its state to itself, but for those who serialise it.
+    // The state is accessible only through serialisation.
     let state = serde_json::to_value(stream).unwrap_or_default();
     std::array::from_fn(|index| state["s"][index].as_u64().unwrap_or_default())
 }
 
-/// The stream whose state [`words`] told. Four zeros, which are no stream's, give one of some other state.
+/// Returns the stream with a state from [`words`]. Four zeros, an invalid state, give a stream of another state.
 pub fn from_words(words: [u64; 4]) -> Stream {
     let mut bytes = [0; 32];
     for (place, word) in bytes.chunks_exact_mut(8).zip(words) {
@@ -38,7 +38,7 @@ pub fn from_words(words: [u64; 4]) -> Stream {
     Stream::from_seed(bytes)
 }
 
-/// A checksum for announcements and configuration hashes: the first eight bytes of SHA-256, little endian.
+/// Returns a checksum for announcements and configuration hashes: the first eight bytes of SHA-256, little endian.
 pub fn checksum(parts: &[&[u8]]) -> u64 {
     let mut hash = Sha256::new();
     for part in parts {
@@ -48,7 +48,7 @@ pub fn checksum(parts: &[&[u8]]) -> u64 {
     first_eight(&hash.finalize())
 }
 
-/// A number that no other process has: for incarnations and names, never for anything that learning depends on.
+/// Returns a number unique to this call, for incarnations and names. Learning must not depend on it.
 pub fn unique() -> u64 {
     let since_1970 = std::time::SystemTime::now().duration_since(std::time::UNIX_EPOCH).unwrap_or_default();
     let address = &since_1970 as *const _ as u64;
@@ -80,7 +80,7 @@ mod tests {
     }
 
     #[test]
-    fn a_stream_goes_on_from_its_words() {
+    fn a_stream_continues_from_its_words() {
         use rand::Rng;
         let mut original = stream(3, "x", &[]);
         for _ in 0..50 {
@@ -98,7 +98,7 @@ mod tests {
     }
 
     #[test]
-    fn checksum_separates_its_parts() {
+    fn the_checksum_depends_on_the_boundaries_of_parts() {
         assert_ne!(checksum(&[b"ab", b"c"]), checksum(&[b"a", b"bc"]));
     }
 }

@@ -1,4 +1,4 @@
-//! One way to ask every part to stop.
+//! Request to stop, shared by all parts of a process.
 
 use std::sync::{
     Arc,
@@ -7,7 +7,7 @@ use std::sync::{
 
 use tokio::sync::Notify;
 
-/// Shared by whoever asks and whoever must stop; asking twice is asking once.
+/// Shared request to stop; further requests have no effect.
 #[derive(Clone, Debug, Default)]
 pub struct Shutdown {
     inner: Arc<Inner>,
@@ -16,32 +16,32 @@ pub struct Shutdown {
 #[derive(Debug, Default)]
 struct Inner {
     asked: AtomicBool,
-    bell: Notify,
+    notify: Notify,
 }
 
 impl Shutdown {
-    /// Asks everybody to stop.
+    /// Requests the stop.
     pub fn ask(&self) {
         self.inner.asked.store(true, Ordering::SeqCst);
-        self.inner.bell.notify_waiters();
+        self.inner.notify.notify_waiters();
     }
 
-    /// Whether somebody asked.
+    /// Returns whether the stop was requested.
     pub fn asked(&self) -> bool {
         self.inner.asked.load(Ordering::SeqCst)
     }
 
-    /// Resolves once somebody asked.
+    /// Waits until the stop is requested.
     pub async fn wait(&self) {
         loop {
             // Registered before the flag is read, so that a call between the two is not missed.
-            let bell = self.inner.bell.notified();
-            tokio::pin!(bell);
-            bell.as_mut().enable();
+            let notified = self.inner.notify.notified();
+            tokio::pin!(notified);
+            notified.as_mut().enable();
             if self.asked() {
                 return;
             }
-            bell.await;
+            notified.await;
         }
     }
 }
@@ -51,7 +51,7 @@ mod tests {
     use super::*;
 
     #[tokio::test(flavor = "multi_thread")]
-    async fn every_waiter_wakes_also_those_who_come_late() {
+    async fn early_and_late_waiters_wake() {
         let shutdown = Shutdown::default();
         let early = tokio::spawn({
             let shutdown = shutdown.clone();

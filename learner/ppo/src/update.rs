@@ -7,7 +7,7 @@ use rand::Rng;
 use rayon::ThreadPool;
 use treadmill_config::PpoConfig;
 use treadmill_policy::gaussian::clamp_log_std;
-use treadmill_policy::{NetworkShape, Networks, ParameterError, Part, Policy, check_parameters};
+use treadmill_policy::{NetworkPart, NetworkShape, Networks, ParameterError, Policy, check_parameters};
 
 use crate::{
     batch::{Batch, minibatches, shuffle, weighted_advantages},
@@ -136,7 +136,7 @@ impl Updater {
         check_parameters(&shape, &parameters)?;
         clamp_log_std(&mut parameters[shape.log_std()]);
         let optimiser = OptimiserState::new(parameters.len());
-        let networks = Networks::on(device, &shape, Part::ActorCritic, Some(pool.clone()));
+        let networks = Networks::on(device, &shape, NetworkPart::ActorCritic, Some(pool.clone()));
         let state = State { parameters, optimiser, learning_rate: config.learning_rate };
         Ok(Self { shape, config: config.clone(), networks, device: device.clone(), pool, state })
     }

@@ -257,7 +257,7 @@ fn plain_operations_agree_with_fused_ones() {
     let mut fused = updater(&config(), 1);
     let batch = batch(&fused, 700, 8);
     let mut plain = restored(&fused, fused.learning_rate());
-    plain.networks = Networks::Plain(shape(), Part::ActorCritic);
+    plain.networks = Networks::Plain(shape(), NetworkPart::ActorCritic);
     let stats = [&mut fused, &mut plain].map(|updater| updater.update(&batch, &mut rng(9)).expect("a sound batch"));
     assert!((stats[0].approx_kl - stats[1].approx_kl).abs() < 1e-5);
     assert_eq!(stats[0].learning_rate, stats[1].learning_rate);

@@ -101,9 +101,9 @@ impl FragmentValidator {
     ) -> Result<AcceptedFragment, Rejection> {
         // The fragment may have been queued before its sender was put in quarantine.
         let sender = self.admission.identify(actor, received.claimed_incarnation);
-        if self.admission.holds(&sender, now) {
+        if self.admission.is_quarantined(&sender, now) {
             self.counts.quarantined += 1;
-            let reason = format!("too many refused fragments in a row from `{actor}`; wait a minute");
+            let reason = format!("`{actor}` is in quarantine for up to 60 s");
             return Err(Rejection { outcome: Outcome::Quarantined, reason, durable_through: 0 });
         }
         let checked = received.fragment.and_then(|fragment| self.check(actor, fragment, lineage));
@@ -131,7 +131,7 @@ impl FragmentValidator {
         self.ledger.insert(actor, incarnation, sequence, entry, env_steps);
         match lag {
             Ok(lag) => {
-                self.admission.taken(actor, incarnation, now);
+                self.admission.record_accepted(actor, incarnation, now);
                 self.counts.accepted += 1;
                 self.accepted_bytes += received.bytes as u64;
                 Ok(AcceptedFragment { fragment, lag })
@@ -143,9 +143,9 @@ impl FragmentValidator {
     /// Rejects a malformed fragment, which may put its sender in quarantine.
     fn reject_malformed(&mut self, actor: &str, sender: &Sender, why: &Malformed, now: Instant) -> Rejection {
         self.counts.malformed += 1;
-        self.malformed_log.warn(|| format!("a fragment from `{actor}` was refused: {why}"));
-        if self.admission.failed(sender, now) {
-            self.quarantine_log.warn(|| format!("`{actor}` is put in quarantine"));
+        self.malformed_log.emit(|| tracing::warn!(%actor, error = %why, "fragment rejected"));
+        if self.admission.record_malformed(sender, now) {
+            self.quarantine_log.emit(|| tracing::warn!(%actor, "sender quarantined"));
         }
         Rejection { outcome: Outcome::Malformed, reason: why.to_string(), durable_through: 0 }
     }
@@ -177,10 +177,9 @@ impl FragmentValidator {
 
     /// Reports a duplicate, or a fragment of an unknown policy, to admission control, which may put its sender in quarantine.
     fn report_useless(&self, sender: &Sender, now: Instant) {
-        if self.admission.useless(sender, now) {
-            let name = sender.name();
-            self.quarantine_log.warn(|| {
-                format!("`{name}` is put in quarantine: too many duplicates or unknown policy versions in a row")
+        if self.admission.record_useless(sender, now) {
+            self.quarantine_log.emit(|| {
+                tracing::warn!(actor = %sender.name(), "sender quarantined: too many duplicate or vanished fragments");
             });
         }
     }
@@ -205,7 +204,7 @@ impl FragmentValidator {
 
     /// Returns the senders in quarantine.
     pub fn quarantined(&self, now: Instant) -> Vec<String> {
-        self.admission.held(now)
+        self.admission.quarantined(now)
     }
 
     fn check(&self, actor: &str, fragment: Fragment, lineage: &Lineage) -> Result<Fragment, Malformed> {

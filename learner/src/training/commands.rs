@@ -111,7 +111,8 @@ impl Trainer {
             ));
         }
         if self.serving.evaluation.is_none() && changed.evaluates() {
-            let why = "`eval.every_steps` cannot be set, because the run was started without evaluation; start a new run with it";
+            let why = "`eval.every_steps` cannot be set, because the run was started without evaluation; start a new run \
+                       with it";
             return Err(why.to_string());
         }
         let before = self.config.value_of(key);

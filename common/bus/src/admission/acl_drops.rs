@@ -1,7 +1,6 @@
-//! Messages that the bus drops before anything of ours sees them, because the access rules or a limit on size forbid them:
-//! counted, and braked like other floods.
+//! Counts and throttles messages that Zenoh drops because the access rules or a size limit forbid them.
 //!
-//! The bus tells of them in its log alone, from the thread that reads the link. So this is a layer of the log.
+//! Zenoh reports these drops only in its log, on the thread that reads the link. So a layer of the log counts them.
 
 use std::sync::{
     LazyLock,
@@ -14,31 +13,31 @@ use tracing_subscriber::{Layer, filter::filter_fn, layer::Context, registry::Loo
 
 use crate::admission::read_throttle::ReadThrottle;
 
-/// Where the bus logs that it dropped a message, and nothing else at this level.
+/// Target under which Zenoh logs dropped messages, and nothing else at this level.
 const TARGET: &str = "zenoh::net::routing::interceptor";
-/// So many a second at full speed. A client of an honest role sends none, or a few when it joins.
-const FORBIDDEN_PER_S: f64 = 200.0;
+/// Dropped messages per second above which the link is throttled. An honest client causes none, or a few when it joins.
+const DROPS_PER_S: f64 = 200.0;
 
-static FORBIDDEN: AtomicU64 = AtomicU64::new(0);
+static DROPPED: AtomicU64 = AtomicU64::new(0);
 
-/// How many messages this process was sent, or would have sent, that are forbidden.
+/// Returns how many forbidden messages this process has dropped, incoming and outgoing.
 #[must_use]
 pub fn dropped_messages() -> u64 {
-    FORBIDDEN.load(Ordering::Relaxed)
+    DROPPED.load(Ordering::Relaxed)
 }
 
-/// A layer of the log that makes nothing of it but what this module is for.
+/// Log layer that counts dropped messages and throttles the links they come from. It logs nothing.
 pub fn throttle_drops<S: Subscriber + for<'a> LookupSpan<'a>>() -> impl Layer<S> {
-    Counted.with_filter(filter_fn(|metadata| metadata.target() == TARGET && *metadata.level() == Level::TRACE))
+    DropCounter.with_filter(filter_fn(|metadata| metadata.target() == TARGET && *metadata.level() == Level::TRACE))
 }
 
-struct Counted;
+struct DropCounter;
 
-impl<S: Subscriber> Layer<S> for Counted {
+impl<S: Subscriber> Layer<S> for DropCounter {
     fn on_event(&self, _: &Event<'_>, _: Context<'_, S>) {
-        static THROTTLE: LazyLock<ReadThrottle> = LazyLock::new(|| ReadThrottle::new(FORBIDDEN_PER_S));
-        FORBIDDEN.fetch_add(1, Ordering::Relaxed);
-        // In a thread of ours it is a message that we ourselves meant to send.
+        static THROTTLE: LazyLock<ReadThrottle> = LazyLock::new(|| ReadThrottle::new(DROPS_PER_S));
+        DROPPED.fetch_add(1, Ordering::Relaxed);
+        // Outside of a runtime this is one of our own threads, and the message one that this process sends.
         if Handle::try_current().is_ok() {
             THROTTLE.pass();
         }

@@ -1,10 +1,10 @@
-//! Who may hand in fragments now: looked at before anything is read, so that a flood costs little and reaches nobody else.
+//! Admission of fragments: decides before a fragment is read, so that a flood costs little and disturbs no other sender.
 //!
-//! The bus does not tell who sent a message, and all actors may share one certificate. What is known is the name in the key
-//! and the incarnation that the fragment claims. A process whose fragment was taken once has *proven* itself: from then on
-//! it is judged by what it does itself, and has its own room in the queue. Everything else of a name is one sender, so that
-//! somebody who sends nonsense under the name of a good actor shuts out himself and not that actor; and all senders that
-//! have proven nothing share a part of the queue and a rate, however many names they invent.
+//! Zenoh does not name the sender of a message, and all actors may share one certificate. Known are the actor's name in the
+//! key and the incarnation that the fragment claims. A process is *proven* once one of its fragments was accepted. A proven
+//! process is a sender of its own, with its own share of the queue. All other fragments under a name count as one sender. So
+//! malformed fragments under a good actor's name quarantine only their own sender. All unproven senders together share one
+//! part of the queue and one rate, however many names they use.
 
 pub mod acl_drops;
 pub mod rate_limited_log;
@@ -17,29 +17,29 @@ use std::{
     time::{Duration, Instant},
 };
 
-/// How long a sender is not listened to.
+/// Duration of a quarantine.
 pub const QUARANTINE: Duration = Duration::from_secs(60);
-/// Senders that are remembered for what they did, good or bad; the one that was silent longest gives way.
+/// Senders whose history is kept; the one that was silent longest is forgotten first.
 const SENDERS_MAX: usize = 4096;
-/// Fragments of one proven sender that may wait. An actor has two in flight at most, each sent once more where a receipt
-/// was lost.
-const WAITING_EACH_MAX: usize = 8;
-/// Senders that have proven nothing may fill this part of the queue.
+/// Fragments of one proven sender that may wait. An actor has at most two in flight, each resent once if its receipt is lost.
+const WAITING_PER_SENDER_MAX: usize = 8;
+/// Unproven senders may fill this fraction of the queue: one in this many places.
 const NEWCOMERS_SHARE: usize = 4;
-/// Bytes of theirs that may wait: two fragments of the largest size, or one of 3 MB from each thread that reads links, so that
-/// hundreds of actors that begin at once need not send their first ones again and again.
+/// Bytes of unproven senders that may wait: two fragments of the largest size, or one of 3 MB from each thread that reads
+/// links. Hundreds of actors that start at once then need not resend their first fragments.
 const NEWCOMERS_BYTES_MAX: usize = 64 << 20;
-/// Fragments of theirs that are looked at: each second, and at once after a silence.
+/// Fragments of unproven senders that are considered per second.
 const NEWCOMERS_PER_S: f64 = 200.0;
+/// Fragments of unproven senders that are considered at once after a silence.
 const NEWCOMERS_BURST: f64 = 512.0;
-/// What it takes of these to tell one of them that there is no room: little, so that hundreds that come at once and find none
-/// hear of it, and come again soon.
+/// Part of that budget that a *busy* receipt costs: little, so that each of hundreds of actors that start at once gets one
+/// and retries soon.
 const BUSY_COST: f64 = 0.1;
-/// Useless fragments in a row (sent before, or of policies that never were) that are no failure yet: after a restart of
-/// the learner an honest actor sends again whatever it has kept.
+/// Duplicate or vanished fragments in a row that lead to quarantine. After a restart of the learner, an honest actor resends
+/// all fragments that it has kept.
 const USELESS_MAX: u32 = 1024;
 
-/// Whom something is put down to: a proven process, or all else of a name.
+/// Sender of fragments: a proven process, or all unproven processes under one name.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Sender {
     name: String,
@@ -47,39 +47,40 @@ pub struct Sender {
 }
 
 impl Sender {
-    /// The name in its key.
+    /// Returns the actor's name in the key.
     pub fn name(&self) -> &str {
         &self.name
     }
 }
 
-/// Why a fragment is not let in.
+/// Reason why a fragment is not admitted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Refusal {
     /// Its sender is in quarantine.
     Quarantined,
-    /// No room for this sender now.
+    /// The sender's part of the queue is full.
     Busy,
-    /// Too many newcomers at once; not even an answer is spent on them.
+    /// Too many fragments of unproven senders; they get no receipt.
     Flood,
 }
 
-/// Decides who is let in; shared by the bus's callback and the learner.
+/// Decides which fragments are admitted; shared by the bus's callback and the learner.
 #[derive(Debug)]
 pub struct Admission {
-    after: u32,
+    quarantine_after: u32,
     newcomers_max: usize,
     state: Mutex<State>,
 }
 
 #[derive(Debug, Default)]
 struct State {
-    /// Processes whose fragments were taken, and when the last one was.
+    /// Proven processes, with the time of their last accepted fragment.
     proven: BTreeMap<(String, u64), Instant>,
     failures: BTreeMap<Sender, Failures>,
     waiting: HashMap<Sender, usize>,
     newcomers: usize,
     newcomers_bytes: usize,
+    /// Newcomers' budget and the time it was computed.
     budget: Option<(f64, Instant)>,
     unread: Unread,
 }
@@ -88,21 +89,21 @@ struct State {
 struct Failures {
     in_a_row: u32,
     useless_in_a_row: u32,
-    since: Instant,
+    last: Instant,
 }
 
-/// Fragments that were refused before they were read.
+/// Counts of fragments that were refused before they were read.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Unread {
-    /// Without content, too large, or under a name that is none.
+    /// Empty, too large, or under an invalid name.
     pub malformed: u64,
-    /// Of senders in quarantine.
+    /// From senders in quarantine.
     pub quarantined: u64,
-    /// For lack of room; their senders come again.
+    /// For lack of space; their senders retry.
     pub turned_away: u64,
 }
 
-/// Room in the queue, given back when it is dropped.
+/// Place in the queue; dropping it frees the place.
 #[derive(Debug)]
 pub struct AdmissionPermit {
     admission: Arc<Admission>,
@@ -111,21 +112,21 @@ pub struct AdmissionPermit {
 }
 
 impl Admission {
-    /// A sender is put in quarantine after so many refused fragments in a row; `capacity` fragments may wait in all.
-    pub fn new(after: u32, capacity: usize) -> Self {
-        Self { after, newcomers_max: (capacity / NEWCOMERS_SHARE).max(1), state: Mutex::default() }
+    /// Quarantines a sender after `quarantine_after` malformed fragments in a row; the queue holds `capacity` fragments.
+    pub fn new(quarantine_after: u32, capacity: usize) -> Self {
+        Self { quarantine_after, newcomers_max: (capacity / NEWCOMERS_SHARE).max(1), state: Mutex::default() }
     }
 
     fn state(&self) -> MutexGuard<'_, State> {
         self.state.lock().expect("no holder of this lock panics")
     }
 
-    /// Whom a fragment is put down to that came under this name and claims this incarnation.
+    /// Returns the sender of a fragment that arrived under `name` and claims the incarnation `claimed`.
     pub fn identify(&self, name: &str, claimed: Option<u64>) -> Sender {
         self.state().identify(name, claimed)
     }
 
-    /// Room for a fragment of so many bytes, if there is any.
+    /// Admits a fragment of `bytes` bytes, or returns why not.
     pub fn admit(
         self: &Arc<Self>,
         name: &str,
@@ -135,26 +136,27 @@ impl Admission {
     ) -> Result<AdmissionPermit, Refusal> {
         let mut state = self.state();
         let sender = state.identify(name, claimed);
-        if state.holds(&sender, self.after, now) {
+        if state.is_quarantined(&sender, self.quarantine_after, now) {
             state.unread.quarantined += 1;
             return Err(Refusal::Quarantined);
         }
-        let newcomer = sender.incarnation.is_none();
-        let has_room = if newcomer {
-            let has_room = state.newcomers < self.newcomers_max && state.newcomers_bytes + bytes <= NEWCOMERS_BYTES_MAX;
-            if !state.spend(if has_room { 1.0 } else { BUSY_COST }, now) {
+        let is_newcomer = sender.incarnation.is_none();
+        let has_space = if is_newcomer {
+            let has_space =
+                state.newcomers < self.newcomers_max && state.newcomers_bytes + bytes <= NEWCOMERS_BYTES_MAX;
+            if !state.spend(if has_space { 1.0 } else { BUSY_COST }, now) {
                 state.unread.turned_away += 1;
                 return Err(Refusal::Flood);
             }
-            has_room
+            has_space
         } else {
-            state.waiting.get(&sender).is_none_or(|waiting| *waiting < WAITING_EACH_MAX)
+            state.waiting.get(&sender).is_none_or(|waiting| *waiting < WAITING_PER_SENDER_MAX)
         };
-        if !has_room {
+        if !has_space {
             state.unread.turned_away += 1;
             return Err(Refusal::Busy);
         }
-        if newcomer {
+        if is_newcomer {
             state.newcomers += 1;
             state.newcomers_bytes += bytes;
         } else {
@@ -164,41 +166,41 @@ impl Admission {
         Ok(AdmissionPermit { admission: self.clone(), sender, bytes })
     }
 
-    /// Whether this sender is in quarantine.
-    pub fn holds(&self, sender: &Sender, now: Instant) -> bool {
-        self.state().holds(sender, self.after, now)
+    /// Returns whether this sender is in quarantine.
+    pub fn is_quarantined(&self, sender: &Sender, now: Instant) -> bool {
+        self.state().is_quarantined(sender, self.quarantine_after, now)
     }
 
-    /// Notes a refused fragment; whether that put its sender in quarantine.
-    pub fn failed(&self, sender: &Sender, now: Instant) -> bool {
+    /// Records a malformed fragment. Returns whether that put its sender in quarantine.
+    pub fn record_malformed(&self, sender: &Sender, now: Instant) -> bool {
         let mut state = self.state();
-        let failures = state.failures_of(sender, self.after, now);
+        let failures = state.failures_of(sender, self.quarantine_after, now);
         failures.in_a_row = failures.in_a_row.saturating_add(1);
-        failures.since = now;
-        failures.in_a_row == self.after
+        failures.last = now;
+        failures.in_a_row == self.quarantine_after
     }
 
-    /// Notes a fragment that was refused before it was read; whether that put its sender in quarantine.
-    pub fn failed_unread(&self, sender: &Sender, now: Instant) -> bool {
+    /// Records a fragment that was malformed at first sight. Returns whether that put its sender in quarantine.
+    pub fn record_malformed_unread(&self, sender: &Sender, now: Instant) -> bool {
         self.state().unread.malformed += 1;
-        self.failed(sender, now)
+        self.record_malformed(sender, now)
     }
 
-    /// Notes a sound fragment that nothing could be learnt from; whether that was one too many.
-    pub fn useless(&self, sender: &Sender, now: Instant) -> bool {
+    /// Records a duplicate or vanished fragment. Returns whether that put its sender in quarantine.
+    pub fn record_useless(&self, sender: &Sender, now: Instant) -> bool {
         let mut state = self.state();
-        let failures = state.failures_of(sender, self.after, now);
+        let failures = state.failures_of(sender, self.quarantine_after, now);
         failures.useless_in_a_row += 1;
-        failures.since = now;
+        failures.last = now;
         if failures.useless_in_a_row < USELESS_MAX {
             return false;
         }
-        (failures.in_a_row, failures.useless_in_a_row) = (self.after, 0);
+        (failures.in_a_row, failures.useless_in_a_row) = (self.quarantine_after, 0);
         true
     }
 
-    /// Notes a fragment that was taken: its process has proven itself.
-    pub fn taken(&self, name: &str, incarnation: u64, now: Instant) {
+    /// Records an accepted fragment: its process is proven from now on.
+    pub fn record_accepted(&self, name: &str, incarnation: u64, now: Instant) {
         let mut state = self.state();
         let before = state.identify(name, Some(incarnation));
         state.failures.remove(&before);
@@ -209,24 +211,24 @@ impl Admission {
         }
     }
 
-    /// Names of those in quarantine.
-    pub fn held(&self, now: Instant) -> Vec<String> {
+    /// Returns the names of the senders in quarantine.
+    pub fn quarantined(&self, now: Instant) -> Vec<String> {
         let state = self.state();
-        let held = state.failures.iter().filter(|(_, failures)| failures.hold(self.after, now));
-        let mut names: Vec<String> = held.map(|(sender, _)| sender.name.clone()).collect();
+        let quarantined = state.failures.iter().filter(|(_, failures)| failures.quarantine(self.quarantine_after, now));
+        let mut names: Vec<String> = quarantined.map(|(sender, _)| sender.name.clone()).collect();
         names.dedup();
         names
     }
 
-    /// What was refused unread since the last call.
+    /// Returns the counts of fragments refused unread since the last call.
     pub fn take_unread(&self) -> Unread {
         std::mem::take(&mut self.state().unread)
     }
 }
 
 impl Failures {
-    fn hold(&self, after: u32, now: Instant) -> bool {
-        self.in_a_row >= after && now.duration_since(self.since) < QUARANTINE
+    fn quarantine(&self, after: u32, now: Instant) -> bool {
+        self.in_a_row >= after && now.duration_since(self.last) < QUARANTINE
     }
 }
 
@@ -238,9 +240,9 @@ impl State {
         Sender { name: name.to_string(), incarnation }
     }
 
-    fn holds(&mut self, sender: &Sender, after: u32, now: Instant) -> bool {
+    fn is_quarantined(&mut self, sender: &Sender, after: u32, now: Instant) -> bool {
         match self.failures.get(sender) {
-            Some(failures) if failures.hold(after, now) => true,
+            Some(failures) if failures.quarantine(after, now) => true,
             Some(failures) if failures.in_a_row >= after => {
                 self.failures.remove(sender);
                 false
@@ -249,22 +251,23 @@ impl State {
         }
     }
 
-    /// The failures of a sender, for which another one is forgotten if need be: the one that failed longest ago, and of
-    /// those in quarantine only where there are no others.
+    /// Returns the failures of a sender. If the table is full, it forgets the sender that failed longest ago, and a
+    /// quarantined one only if all are quarantined.
     fn failures_of(&mut self, sender: &Sender, after: u32, now: Instant) -> &mut Failures {
         if self.failures.len() >= SENDERS_MAX && !self.failures.contains_key(sender) {
-            let oldest = self.failures.iter().min_by_key(|(_, failures)| (failures.hold(after, now), failures.since));
+            let oldest =
+                self.failures.iter().min_by_key(|(_, failures)| (failures.quarantine(after, now), failures.last));
             let oldest = oldest.map(|(sender, _)| sender.clone());
             oldest.map(|sender| self.failures.remove(&sender));
         }
-        let fresh = Failures { in_a_row: 0, useless_in_a_row: 0, since: now };
+        let fresh = Failures { in_a_row: 0, useless_in_a_row: 0, last: now };
         self.failures.entry(sender.clone()).or_insert(fresh)
     }
 
-    /// Whether one more newcomer may be looked at, or told something, for so much of the budget.
+    /// Spends `cost` of the newcomers' budget. Returns whether there was enough.
     fn spend(&mut self, cost: f64, now: Instant) -> bool {
-        let (left, since) = self.budget.unwrap_or((NEWCOMERS_BURST, now));
-        let earned = now.saturating_duration_since(since).as_secs_f64() * NEWCOMERS_PER_S;
+        let (left, computed) = self.budget.unwrap_or((NEWCOMERS_BURST, now));
+        let earned = now.saturating_duration_since(computed).as_secs_f64() * NEWCOMERS_PER_S;
         let left = (left + earned).min(NEWCOMERS_BURST);
         let enough = left >= cost;
         self.budget = Some((if enough { left - cost } else { left }, now));
@@ -273,7 +276,7 @@ impl State {
 }
 
 impl AdmissionPermit {
-    /// Whom the fragment is put down to.
+    /// Returns the sender of the fragment.
     pub fn sender(&self) -> &Sender {
         &self.sender
     }

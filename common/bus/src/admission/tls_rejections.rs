@@ -1,5 +1,4 @@
-//! Who is turned away at the door: the bus's own warnings about connections that do not prove who they are, as lines of
-//! our log. Everything else that the bus logs stays off.
+//! Logs connections that were rejected because the peer did not authenticate. Zenoh's other log events stay off.
 
 use std::sync::mpsc::{SyncSender, sync_channel};
 
@@ -8,49 +7,48 @@ use tracing_subscriber::{Layer, filter::filter_fn, layer::Context, registry::Loo
 
 use super::rate_limited_log::RateLimitedLog;
 
-/// Where the bus logs about encrypted connections.
+/// Target under which Zenoh logs encrypted connections.
 const TARGET: &str = "zenoh_link_tls";
-/// Warnings that wait to be told; more of them say nothing new.
-const WAITING_MAX: usize = 16;
+/// Warnings that may wait for the logging thread; further ones are dropped.
+const QUEUE: usize = 16;
 
-/// A layer of the log that tells, in our words and not too often, that a connection was refused.
+/// Log layer that reports rejected connections with the likely cause, rate-limited.
 pub fn log_tls_rejections<S: Subscriber + for<'a> LookupSpan<'a>>() -> impl Layer<S> {
-    let (sender, warnings) = sync_channel::<String>(WAITING_MAX);
-    // A layer must not log itself while an event is handed round.
+    let (sender, errors) = sync_channel::<String>(QUEUE);
+    // A layer must not log while it handles an event, so a thread does.
     std::thread::spawn(move || {
-        let complaints = RateLimitedLog::default();
-        for why in warnings {
-            let words = in_words(&why);
-            complaints.warn(|| format!("a connection was refused, since it did not prove who it is: {words} ({why})"));
+        let log = RateLimitedLog::default();
+        for error in errors {
+            log.emit(|| tracing::warn!(reason = likely_cause(&error), %error, "connection rejected"));
         }
     });
-    let ours = filter_fn(|metadata| metadata.target().starts_with(TARGET) && *metadata.level() <= Level::WARN);
-    Told(sender).with_filter(ours)
+    let tls_warnings = filter_fn(|metadata| metadata.target().starts_with(TARGET) && *metadata.level() <= Level::WARN);
+    TlsWarnings(sender).with_filter(tls_warnings)
 }
 
-/// What the encryption says, as whoever runs a fleet would.
-fn in_words(why: &str) -> &'static str {
-    const WORDS: [(&str, &str); 7] = [
+/// Returns the likely cause of a TLS error, as an operator would name it.
+fn likely_cause(error: &str) -> &'static str {
+    const CAUSES: [(&str, &str); 7] = [
         ("certificate expired", "its certificate has expired"),
         ("not valid yet", "its certificate is not valid yet; compare the clocks"),
-        ("BadSignature", "its certificate is of another authority"),
-        ("UnknownIssuer", "its certificate is of another authority"),
+        ("BadSignature", "its certificate is from another authority"),
+        ("UnknownIssuer", "its certificate is from another authority"),
         ("sent no certificates", "it has no certificate"),
         ("corrupt message", "it does not speak TLS"),
         ("alert", "it does not trust our certificate"),
     ];
-    WORDS.iter().find(|(part, _)| why.contains(part)).map_or("its handshake failed", |(_, words)| words)
+    CAUSES.iter().find(|(part, _)| error.contains(part)).map_or("its handshake failed", |(_, cause)| cause)
 }
 
-struct Told(SyncSender<String>);
+struct TlsWarnings(SyncSender<String>);
 
-impl<S: Subscriber> Layer<S> for Told {
+impl<S: Subscriber> Layer<S> for TlsWarnings {
     fn on_event(&self, event: &Event<'_>, _: Context<'_, S>) {
         let mut message = Message(String::new());
         event.record(&mut message);
-        // The bus takes every failure for a lack of open files.
-        let why = message.0.split(". Hint:").next().unwrap_or_default().to_string();
-        drop(self.0.try_send(why));
+        // Zenoh appends a hint about open files to every failure.
+        let error = message.0.split(". Hint:").next().unwrap_or_default().to_string();
+        drop(self.0.try_send(error));
     }
 }
 

@@ -1,4 +1,4 @@
-//! Commands to a learner and questions about it: a desk on its side, callers on the other.
+//! Control requests: a learner answers status requests and takes commands.
 
 use std::{
     sync::mpsc::{Receiver, sync_channel},
@@ -14,37 +14,37 @@ use zenoh::{
 
 use crate::{Bus, BusError, keys};
 
-/// Questions that may wait; whoever finds no room gets no answer, and asks again.
+/// Requests that may wait. Further ones get no answer, and the client asks again.
 const QUEUE: usize = 256;
 
-/// A request that waits for its answer.
+/// Request that waits for its answer.
 pub struct PendingRequest {
-    /// What is asked.
+    /// The request.
     pub request: ControlRequest,
     query: Query,
 }
 
 impl PendingRequest {
-    /// Answers on the run's own key, also where the question left the run open.
+    /// Answers on the key of `run`, even if the request did not name a run.
     pub fn answer(self, run: &str, reply: &ControlReply) {
         let key = match self.query.key_expr().as_str().ends_with("/control") {
             true => keys::control(run),
             false => keys::status(run),
         };
-        if let Err(why) = self.query.reply(key, reply.to_bytes()).wait() {
-            tracing::debug!("an answer could not be sent: {why}");
+        if let Err(error) = self.query.reply(key, reply.to_bytes()).wait() {
+            tracing::debug!(%error, "control reply not sent");
         }
     }
 }
 
-/// Where requests come in.
+/// Receives control requests on the learner's side.
 pub struct ControlServer {
     queue: Receiver<PendingRequest>,
     _queryables: [Queryable<()>; 2],
 }
 
 impl ControlServer {
-    /// Opens the desk of a run: every command on one key, and on another the question how it goes.
+    /// Opens two keys of a run: one for all commands, one for status requests only.
     pub fn open(bus: &Bus, run: &str) -> Result<Self, BusError> {
         let (sender, queue) = sync_channel(QUEUE);
         let open = |key: String, may_command: bool| {
@@ -58,12 +58,10 @@ impl ControlServer {
                             drop(sender.try_send(PendingRequest { request, query }));
                         }
                         Ok(request) => {
-                            let (asked, key) = (request.command().as_str_name(), query.key_expr().clone());
-                            tracing::warn!(
-                                "`{asked}` was asked on {key}, which only tells; the key for commands ends in control"
-                            );
+                            let command = request.command().as_str_name();
+                            tracing::warn!(command, key = %query.key_expr(), "command refused on the status key");
                         }
-                        Err(why) => tracing::warn!("a request to the learner was refused: {why}"),
+                        Err(error) => tracing::warn!(%error, "control request rejected"),
                     }
                 })
                 .wait()
@@ -73,18 +71,18 @@ impl ControlServer {
         Ok(Self { queue, _queryables: queryables })
     }
 
-    /// The next request, if one comes within `patience`.
-    pub fn next(&self, patience: Duration) -> Option<PendingRequest> {
-        self.queue.recv_timeout(patience).ok()
+    /// Returns the next request, or `None` if none comes within `timeout`.
+    pub fn next(&self, timeout: Duration) -> Option<PendingRequest> {
+        self.queue.recv_timeout(timeout).ok()
     }
 }
 
-/// How every run goes that answers, or the one that is named.
+/// Returns the status of `run`, or of every run that answers.
 pub async fn statuses(bus: &Bus, run: Option<&str>, timeout: Duration) -> Result<Vec<ControlReply>, BusError> {
     ask(bus, keys::status(run.unwrap_or("*")), &ControlRequest::plain(Command::Status), timeout).await
 }
 
-/// Commands the learner of `run`; `None` where nobody answered.
+/// Sends a command to the learner of `run`. `None` if no answer came.
 pub async fn command(
     bus: &Bus,
     run: &str,
@@ -109,13 +107,13 @@ async fn ask(
         .congestion_control(CongestionControl::Block)
         .await
         .map_err(BusError::flow("asking the learner"))?;
-    let mut sound = Vec::new();
+    let mut valid = Vec::new();
     while let Ok(reply) = replies.recv_async().await {
         let Ok(sample) = reply.result() else { continue };
         match ControlReply::decode_checked(&sample.payload().to_bytes()) {
-            Ok(reply) => sound.push(reply),
-            Err(why) => tracing::warn!("an answer was refused: {why}"),
+            Ok(reply) => valid.push(reply),
+            Err(error) => tracing::warn!(what = "control reply", %error, "reply rejected"),
         }
     }
-    Ok(sound)
+    Ok(valid)
 }

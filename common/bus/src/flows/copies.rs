@@ -1,18 +1,17 @@
-//! Copies of accepted fragments for recorders and debuggers, made only while somebody listens.
+//! Copies of accepted fragments for recorders and debuggers, made only while a subscriber exists.
 //!
-//! They travel on `treadmill/{run}/@rollouts/{actor}`. No wildcard matches a part of a key that begins with `@`, so whoever
-//! watches `treadmill/**` does not get megabytes by accident. Training never waits for them: they are handed to a thread of
-//! their own through a bounded queue, and what finds it full, or a link that is too slow, is left out. Fragments are numbered,
-//! so that a recorder sees what it missed.
+//! They travel on `treadmill/{run}/@rollouts/{actor}`. No wildcard matches a key part that begins with `@`, so a subscriber
+//! of `treadmill/**` does not receive megabytes by accident. Training never waits for copies: a thread takes them from a
+//! bounded queue, and copies that find it or the link full are dropped. Fragments are numbered, so a recorder sees gaps.
 
 use std::sync::{
     Arc,
     atomic::{AtomicBool, AtomicUsize, Ordering},
-    mpsc::{SyncSender, sync_channel},
+    mpsc::{Receiver, SyncSender, sync_channel},
 };
 
 use zenoh::{
-    Wait,
+    Session, Wait,
     bytes::ZBytes,
     matching::MatchingListener,
     pubsub::Publisher,
@@ -23,24 +22,25 @@ use crate::{Bus, BusError, keys};
 
 /// Copies that may wait for the link.
 const QUEUE: usize = 32;
-/// Their bytes.
+/// Bytes of copies that may wait for the link.
 const QUEUE_BYTES_MAX: usize = 64 << 20;
+const THREAD: &str = "rollout-copies";
 
-/// The learner's end.
+/// Sends copies of accepted fragments.
 pub struct RolloutCopies {
     is_watched: Arc<AtomicBool>,
     waiting_bytes: Arc<AtomicUsize>,
     queue: SyncSender<(String, ZBytes)>,
-    // Its only use is to tell whether anybody listens.
+    /// Reports whether a subscriber exists; it publishes nothing.
     _publisher: Publisher<'static>,
     _listener: MatchingListener<()>,
 }
 
 impl RolloutCopies {
-    /// Begins to look whether anybody listens.
+    /// Starts the thread and watches for subscribers.
     pub fn open(bus: &Bus, run: &str) -> Result<Self, BusError> {
         let is_watched = Arc::new(AtomicBool::new(false));
-        // One for all actors: a publisher for each name that ever sent something would be memory without bound.
+        // One publisher for all actors: one for each name ever seen would need unbounded memory.
         let publisher = bus
             .session
             .declare_publisher(keys::rollout_copies(run, "*"))
@@ -60,46 +60,48 @@ impl RolloutCopies {
         let (queue, waiting) = sync_channel::<(String, ZBytes)>(QUEUE);
         let waiting_bytes = Arc::new(AtomicUsize::new(0));
         std::thread::Builder::new()
-            .name("rollout-copies".to_string())
+            .name(THREAD.to_string())
             .spawn({
                 let (session, run, waiting_bytes) = (bus.session.clone(), run.to_string(), waiting_bytes.clone());
-                move || {
-                    for (actor, fragment) in waiting {
-                        let size = fragment.len();
-                        let sent = session
-                            .put(keys::rollout_copies(&run, &actor), fragment)
-                            .congestion_control(CongestionControl::Drop)
-                            .priority(Priority::Background)
-                            .wait();
-                        waiting_bytes.fetch_sub(size, Ordering::Relaxed);
-                        if let Err(why) = sent {
-                            tracing::debug!("a copy of a fragment could not be sent: {why}");
-                        }
-                    }
-                }
+                move || send(&session, &run, waiting, &waiting_bytes)
             })
-            .map_err(|why| BusError::Flow { what: "starting the copies' thread".to_string(), why: why.to_string() })?;
+            .map_err(BusError::thread(THREAD))?;
         Ok(Self { is_watched, waiting_bytes, queue, _publisher: publisher, _listener: listener })
     }
 
-    /// Whether anybody listens at this moment.
+    /// Returns whether a subscriber exists now.
     pub fn is_watched(&self) -> bool {
         self.is_watched.load(Ordering::Relaxed)
     }
 
-    /// Tells it from now on.
-    pub(super) fn watch(&self) -> Arc<AtomicBool> {
+    /// Returns the flag that says whether a subscriber exists.
+    pub(super) fn watched_flag(&self) -> Arc<AtomicBool> {
         self.is_watched.clone()
     }
 
-    /// Hands a copy over, or leaves it out where too many wait.
+    /// Queues a copy, or drops it if too many wait.
     pub fn offer(&self, actor: &str, fragment: impl Into<ZBytes>) {
         let fragment = fragment.into();
         let size = fragment.len();
-        let waiting = self.waiting_bytes.fetch_add(size, Ordering::Relaxed);
-        if waiting + size > QUEUE_BYTES_MAX || self.queue.try_send((actor.to_string(), fragment)).is_err() {
+        let waiting_bytes = self.waiting_bytes.fetch_add(size, Ordering::Relaxed);
+        if waiting_bytes + size > QUEUE_BYTES_MAX || self.queue.try_send((actor.to_string(), fragment)).is_err() {
             self.waiting_bytes.fetch_sub(size, Ordering::Relaxed);
-            tracing::debug!("a copy of a fragment of `{actor}` was left out: {waiting} bytes wait already");
+            tracing::debug!(actor, waiting_bytes, "fragment copy dropped: queue full");
+        }
+    }
+}
+
+fn send(session: &Session, run: &str, waiting: Receiver<(String, ZBytes)>, waiting_bytes: &AtomicUsize) {
+    for (actor, fragment) in waiting {
+        let size = fragment.len();
+        let sent = session
+            .put(keys::rollout_copies(run, &actor), fragment)
+            .congestion_control(CongestionControl::Drop)
+            .priority(Priority::Background)
+            .wait();
+        waiting_bytes.fetch_sub(size, Ordering::Relaxed);
+        if let Err(error) = sent {
+            tracing::debug!(%error, "fragment copy not sent");
         }
     }
 }

@@ -1,9 +1,9 @@
-//! Policies on trial: the learner's desk where evaluation actors fetch them and hand in what became of them.
+//! Evaluations: the learner hands out the policy to evaluate; evaluators fetch it and send reports.
 
 use std::{
     sync::{
         Arc, RwLock,
-        mpsc::{Receiver, sync_channel},
+        mpsc::{Receiver, SyncSender, sync_channel},
     },
     time::Duration,
 };
@@ -16,110 +16,120 @@ use zenoh::{
     query::{Query, Queryable},
 };
 
+use super::first_valid;
 use crate::{Bus, BusError, admission::rate_limited_log::RateLimitedLog, admission::read_throttle::ReadThrottle, keys};
 
-/// Requests and reports that may wait; whoever finds no room asks again.
+/// Requests, and reports, that may wait. Further requests get no answer, and the evaluator asks again.
 const QUEUE: usize = 64;
-/// Requests that are read at full speed, each second.
+/// Requests per second above which the link is throttled.
 const REQUESTS_PER_S: f64 = 200.0;
+const THREAD: &str = "evaluation-server";
 
-/// The learner's end.
+/// Version and bundle of the policy to evaluate.
+type Candidate = RwLock<Option<(PolicyVersion, Bytes)>>;
+
+/// Hands out policies to evaluate and receives reports.
 pub struct EvaluationServer {
-    candidate: Arc<RwLock<Option<(PolicyVersion, Bytes)>>>,
+    candidate: Arc<Candidate>,
     reports: Receiver<EvaluationReport>,
     _queryable: Queryable<()>,
 }
 
 impl EvaluationServer {
-    /// Opens the desk, with nothing to evaluate yet.
+    /// Starts the server, with no policy to evaluate yet.
     pub fn open(bus: &Bus, run: &str) -> Result<Self, BusError> {
         let candidate = Arc::new(RwLock::new(None));
-        let (ask, requests) = sync_channel::<Query>(QUEUE);
-        let (report, reports) = sync_channel(QUEUE);
+        let (request_sender, requests) = sync_channel::<Query>(QUEUE);
+        let (report_sender, reports) = sync_channel(QUEUE);
         std::thread::Builder::new()
-            .name("evaluation-desk".to_string())
+            .name(THREAD.to_string())
             .spawn({
                 let (candidate, run) = (candidate.clone(), run.to_string());
-                move || {
-                    let complaints = RateLimitedLog::default();
-                    for query in requests {
-                        let known = hand_in(&query, &run, &complaints).map(|handed: EvaluationReport| {
-                            let version = handed.version;
-                            // Where the queue is full the learner has reports enough.
-                            drop(report.try_send(handed));
-                            version
-                        });
-                        answer(&query, &candidate, known);
-                    }
-                }
+                move || serve(requests, &run, &candidate, &report_sender)
             })
-            .map_err(|why| BusError::Flow { what: "starting the evaluation desk".to_string(), why: why.to_string() })?;
+            .map_err(BusError::thread(THREAD))?;
         let throttle = ReadThrottle::new(REQUESTS_PER_S);
         let queryable = bus
             .session
             .declare_queryable(keys::evaluations(run, "*"))
             .callback(move |query| {
                 throttle.pass();
-                drop(ask.try_send(query));
+                drop(request_sender.try_send(query));
             })
             .wait()
             .map_err(BusError::flow("handing out policies for evaluation"))?;
         Ok(Self { candidate, reports, _queryable: queryable })
     }
 
-    /// Puts a policy on trial in place of the one before.
+    /// Replaces the policy to evaluate.
     pub fn put(&self, version: PolicyVersion, bundle: Bytes) {
         *self.candidate.write().expect("no holder of this lock panics") = Some((version, bundle));
     }
 
-    /// The next report that was handed in.
+    /// Returns the next report that has arrived.
     pub fn next_report(&self) -> Option<EvaluationReport> {
         self.reports.try_recv().ok()
     }
 }
 
-/// The report in a query, if there is a sound one.
-fn hand_in(query: &Query, run: &str, complaints: &RateLimitedLog) -> Option<EvaluationReport> {
-    let payload = query.payload().filter(|payload| !payload.is_empty())?;
-    let name = keys::last_part(query.key_expr().as_str());
-    let report = check_ident("evaluator", name).and_then(|()| EvaluationReport::decode(&payload.to_bytes()));
-    match report {
-        Ok(report) if report.run == run && report.evaluator == name => Some(report),
-        Ok(report) => {
-            let (run, evaluator) = (report.run, report.evaluator);
-            complaints.warn(|| format!("a report of run `{run}` by `{evaluator}` came on `{name}`'s key"));
-            None
-        }
-        Err(why) => {
-            complaints.warn(|| format!("an evaluation report was refused: {why}"));
-            None
-        }
+fn serve(requests: Receiver<Query>, run: &str, candidate: &Candidate, reports: &SyncSender<EvaluationReport>) {
+    let rejections = RateLimitedLog::default();
+    for query in requests {
+        let evaluated = read_report(&query, run, &rejections).map(|report| {
+            let version = report.version;
+            // If the queue is full, the learner has enough reports.
+            drop(reports.try_send(report));
+            version
+        });
+        answer(&query, candidate, evaluated);
     }
 }
 
-fn answer(query: &Query, candidate: &RwLock<Option<(PolicyVersion, Bytes)>>, known: Option<PolicyVersion>) {
+/// Returns the report in a query, if there is a valid one.
+fn read_report(query: &Query, run: &str, rejections: &RateLimitedLog) -> Option<EvaluationReport> {
+    let payload = query.payload().filter(|payload| !payload.is_empty())?;
+    let evaluator = keys::last_part(query.key_expr().as_str());
+    let report = check_ident("evaluator", evaluator).and_then(|()| EvaluationReport::decode(&payload.to_bytes()));
+    match report {
+        Ok(report) if report.run == run && report.evaluator == evaluator => return Some(report),
+        Ok(report) => rejections.emit(|| {
+            let (run, claimed) = (report.run, report.evaluator);
+            tracing::warn!(
+                evaluator,
+                run,
+                claimed,
+                "evaluation report rejected: its run or evaluator differs from the key"
+            );
+        }),
+        Err(error) => rejections.emit(|| tracing::warn!(%error, "evaluation report rejected")),
+    }
+    None
+}
+
+/// Replies with the policy to evaluate, or with nothing if there is none or the evaluator has just evaluated it.
+fn answer(query: &Query, candidate: &Candidate, evaluated: Option<PolicyVersion>) {
     let candidate = candidate.read().expect("no holder of this lock panics").clone();
     let bundle = match candidate {
-        Some((version, bundle)) if known != Some(version) => bundle,
+        Some((version, bundle)) if evaluated != Some(version) => bundle,
         _ => Bytes::new(),
     };
-    if let Err(why) = query.reply(query.key_expr().clone(), bundle).wait() {
-        tracing::debug!("a policy for evaluation could not be sent: {why}");
+    if let Err(error) = query.reply(query.key_expr().clone(), bundle).wait() {
+        tracing::debug!(%error, "policy for evaluation not sent");
     }
 }
 
-/// What a learner answered an evaluation actor.
+/// Learner's answer to an evaluator.
 #[derive(Debug)]
 pub enum Assignment {
-    /// Nobody answered.
-    Nobody,
+    /// No answer came.
+    NoAnswer,
     /// There is nothing to evaluate now.
     Nothing,
-    /// This policy.
+    /// Evaluate this policy.
     Evaluate(Box<PolicyBundle>),
 }
 
-/// Hands in a report, if there is one, and asks for the next policy to evaluate.
+/// Sends a report, if there is one, and asks for the next policy to evaluate.
 pub async fn ask_for_evaluation(
     bus: &Bus,
     run: &str,
@@ -136,16 +146,9 @@ pub async fn ask_for_evaluation(
         .congestion_control(CongestionControl::Block)
         .await
         .map_err(BusError::flow("asking for a policy to evaluate"))?;
-    while let Ok(reply) = replies.recv_async().await {
-        let Ok(sample) = reply.result() else { continue };
-        let payload = Bytes::from(sample.payload().to_bytes().into_owned());
-        if payload.is_empty() {
-            return Ok(Assignment::Nothing);
-        }
-        match PolicyBundle::decode(payload) {
-            Ok(bundle) => return Ok(Assignment::Evaluate(Box::new(bundle))),
-            Err(why) => tracing::warn!("a policy bundle was refused: {why}"),
-        }
-    }
-    Ok(Assignment::Nobody)
+    let decode = |payload: Bytes| match payload.is_empty() {
+        true => Ok(Assignment::Nothing),
+        false => PolicyBundle::decode(payload).map(|bundle| Assignment::Evaluate(Box::new(bundle))),
+    };
+    Ok(first_valid(replies, "policy bundle", decode).await.unwrap_or(Assignment::NoAnswer))
 }

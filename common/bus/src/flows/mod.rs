@@ -1,6 +1,5 @@
 //! Flows of the bus, one file for each kind of message.
 
-pub(crate) mod actor;
 pub(crate) mod control;
 pub(crate) mod copies;
 pub(crate) mod evaluation;
@@ -8,6 +7,28 @@ pub(crate) mod observer;
 pub(crate) mod policies;
 pub(crate) mod poses;
 pub(crate) mod presence;
+pub(crate) mod publications;
 pub(crate) mod received;
 pub(crate) mod rollouts;
+pub(crate) mod stats;
 pub(crate) mod tasks;
+
+use bytes::Bytes;
+use treadmill_proto::Malformed;
+use zenoh::{handlers::FifoChannelHandler, query::Reply};
+
+/// Returns the first valid reply to a query, or `None` if none came in time. Logs invalid replies as `what`.
+async fn first_valid<T>(
+    replies: FifoChannelHandler<Reply>,
+    what: &'static str,
+    decode: impl Fn(Bytes) -> Result<T, Malformed>,
+) -> Option<T> {
+    while let Ok(reply) = replies.recv_async().await {
+        let Ok(sample) = reply.result() else { continue };
+        match decode(Bytes::from(sample.payload().to_bytes().into_owned())) {
+            Ok(value) => return Some(value),
+            Err(error) => tracing::warn!(what, %error, "reply rejected"),
+        }
+    }
+    None
+}

@@ -1,4 +1,4 @@
-//! What observers do on the bus: listen to any key, and to metrics.
+//! Subscriptions of observers: to any key, and to metrics.
 
 use std::time::Duration;
 
@@ -12,32 +12,32 @@ use zenoh::{
 
 use crate::{Bus, BusError, keys};
 
-/// Messages of one tag that wait until somebody looks: some seconds of the quickest run.
+/// Messages of one tag that may wait: some seconds of the fastest run.
 const METRICS_WAITING: usize = 256;
 
-/// Messages of one key or of all that match a key expression; older ones give way to newer.
+/// Subscription to a key expression. If too many messages wait, the oldest are dropped.
 pub struct Feed {
     ring: Subscriber<RingChannelHandler<Sample>>,
 }
 
-/// One message.
+/// Received message.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Message {
-    /// Where it was published.
+    /// Key on which it was published.
     pub key: String,
-    /// What it says.
+    /// Payload.
     pub payload: Vec<u8>,
 }
 
 impl Feed {
-    /// The next message that is there already.
+    /// Returns the next message that has arrived.
     pub fn try_next(&self) -> Option<Message> {
         self.ring.try_recv().ok().flatten().map(Message::from)
     }
 
-    /// The next message, if one comes within `patience`.
-    pub fn next(&self, patience: Duration) -> Option<Message> {
-        self.ring.recv_timeout(patience).ok().flatten().map(Message::from)
+    /// Returns the next message, or `None` if none comes within `timeout`.
+    pub fn next(&self, timeout: Duration) -> Option<Message> {
+        self.ring.recv_timeout(timeout).ok().flatten().map(Message::from)
     }
 }
 
@@ -47,7 +47,7 @@ impl From<Sample> for Message {
     }
 }
 
-/// Begins to listen; at most `capacity` messages wait.
+/// Subscribes to `key`; at most `capacity` messages wait.
 pub fn observe(bus: &Bus, key: &str, capacity: usize) -> Result<Feed, BusError> {
     let ring = bus
         .session
@@ -58,26 +58,26 @@ pub fn observe(bus: &Bus, key: &str, capacity: usize) -> Result<Feed, BusError> 
     Ok(Feed { ring })
 }
 
-/// Metrics of one run or of all, under a few tags.
+/// Subscription to a few metric tags.
 pub struct MetricsFeed {
     feeds: Vec<Feed>,
 }
 
 impl MetricsFeed {
-    /// Begins to listen; `None` listens to every run.
+    /// Subscribes to `tags` of `run`, or of every run.
     pub fn open(bus: &Bus, run: Option<&str>, tags: &[&str]) -> Result<Self, BusError> {
-        let listen = |tag: &&str| observe(bus, &keys::metric(run.unwrap_or("*"), tag), METRICS_WAITING);
-        Ok(Self { feeds: tags.iter().map(listen).collect::<Result<_, _>>()? })
+        let subscribe = |tag: &&str| observe(bus, &keys::metric(run.unwrap_or("*"), tag), METRICS_WAITING);
+        Ok(Self { feeds: tags.iter().map(subscribe).collect::<Result<_, _>>()? })
     }
 
-    /// The next metric that is there already; what is unsound is passed over.
+    /// Returns the next metric that has arrived; skips invalid ones.
     pub fn try_next(&self) -> Option<Metric> {
-        self.feeds.iter().find_map(|feed| std::iter::from_fn(|| feed.try_next()).find_map(|message| sound(&message)))
+        self.feeds.iter().find_map(|feed| std::iter::from_fn(|| feed.try_next()).find_map(|message| decode(&message)))
     }
 }
 
-/// A metric that a learner may have sent: one that says of itself what its key says.
-fn sound(message: &Message) -> Option<Metric> {
+/// Returns the metric in a message if it is finite and matches its key.
+fn decode(message: &Message) -> Option<Metric> {
     let metric = Metric::from_json(&message.payload).ok()?;
     let is_named = check_ident("run", &metric.run).is_ok() && keys::metric(&metric.run, &metric.tag) == message.key;
     (is_named && metric.value.is_finite() && metric.time_unix_s.is_finite()).then_some(metric)
@@ -88,17 +88,17 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_metric_that_is_not_what_its_key_says_is_passed_over() {
+    fn a_metric_that_does_not_match_its_key_is_skipped() {
         let metric = Metric { run: "walk".into(), tag: "time/fps".into(), step: 8, value: 1.5, time_unix_s: 2.0 };
         let message = |key: &str, metric: &Metric| Message { key: key.to_string(), payload: metric.to_json() };
-        assert_eq!(sound(&message("treadmill/walk/metrics/time/fps", &metric)), Some(metric.clone()));
-        assert_eq!(sound(&message("treadmill/run/metrics/time/fps", &metric)), None, "another run's key");
-        assert_eq!(sound(&message("treadmill/walk/metrics/time/wait", &metric)), None, "another tag's key");
+        assert_eq!(decode(&message("treadmill/walk/metrics/time/fps", &metric)), Some(metric.clone()));
+        assert_eq!(decode(&message("treadmill/run/metrics/time/fps", &metric)), None, "another run's key");
+        assert_eq!(decode(&message("treadmill/walk/metrics/time/wait", &metric)), None, "another tag's key");
         let named = Metric { run: "\u{1b}[2J".into(), ..metric.clone() };
-        assert_eq!(sound(&message("treadmill/\u{1b}[2J/metrics/time/fps", &named)), None, "no name of a run");
-        let endless = Metric { value: f64::INFINITY, ..metric };
-        assert_eq!(sound(&message("treadmill/walk/metrics/time/fps", &endless)), None, "no number");
-        let nothing = Message { key: "treadmill/walk/metrics/time/fps".into(), payload: vec![0xff; 8] };
-        assert_eq!(sound(&nothing), None);
+        assert_eq!(decode(&message("treadmill/\u{1b}[2J/metrics/time/fps", &named)), None, "an invalid name of a run");
+        let infinite = Metric { value: f64::INFINITY, ..metric };
+        assert_eq!(decode(&message("treadmill/walk/metrics/time/fps", &infinite)), None, "not finite");
+        let garbage = Message { key: "treadmill/walk/metrics/time/fps".into(), payload: vec![0xff; 8] };
+        assert_eq!(decode(&garbage), None);
     }
 }

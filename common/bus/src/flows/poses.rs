@@ -1,7 +1,7 @@
-//! Poses for those who watch, sent only while somebody does.
+//! Poses for viewers, published only while a subscriber exists.
 //!
-//! They travel on `treadmill/{run}/poses/{actor}`. Whoever makes them asks first whether anybody listens, which costs one read
-//! of a flag; a link that is too slow loses poses and holds nobody up.
+//! They travel on `treadmill/{run}/poses/{actor}`. The actor first checks whether a subscriber exists, which costs one read of
+//! a flag. A slow link loses poses and delays nothing.
 
 use std::sync::{
     Arc,
@@ -17,24 +17,24 @@ use zenoh::{
 
 use crate::{Bus, BusError, keys};
 
-/// Whether anybody listens at this moment.
+/// Shared flag: whether a subscriber exists.
 #[derive(Clone, Debug, Default)]
 pub struct Watched(Arc<AtomicBool>);
 
 impl Watched {
-    /// Whether anybody listens.
+    /// Returns whether a subscriber exists now.
     #[must_use]
     pub fn now(&self) -> bool {
         self.0.load(Ordering::Relaxed)
     }
 
-    /// Says so; the bus does, and tests.
+    /// Sets the flag.
     pub fn set(&self, is_watched: bool) {
         self.0.store(is_watched, Ordering::Relaxed);
     }
 }
 
-/// An actor's end.
+/// Publishes an actor's poses.
 pub struct PosePublisher {
     watched: Watched,
     publisher: Publisher<'static>,
@@ -42,7 +42,7 @@ pub struct PosePublisher {
 }
 
 impl PosePublisher {
-    /// Begins to look whether anybody listens to this actor.
+    /// Declares the publisher and watches for subscribers to this actor's poses.
     pub fn open(bus: &Bus, run: &str, actor: &str) -> Result<Self, BusError> {
         let watched = Watched::default();
         let publisher = bus
@@ -66,16 +66,16 @@ impl PosePublisher {
         Ok(Self { watched, publisher, _listener: listener })
     }
 
-    /// Tells from now on whether anybody listens.
+    /// Returns the flag that says whether a subscriber exists.
     #[must_use]
     pub fn watched(&self) -> Watched {
         self.watched.clone()
     }
 
-    /// Sends one, or leaves it out where the link is busy.
-    pub fn tell(&self, pose: Vec<u8>) {
-        if let Err(why) = self.publisher.put(pose).wait() {
-            tracing::debug!("a pose could not be sent: {why}");
+    /// Publishes a pose, or drops it if the link is busy.
+    pub fn publish(&self, pose: Vec<u8>) {
+        if let Err(error) = self.publisher.put(pose).wait() {
+            tracing::debug!(%error, "pose not sent");
         }
     }
 }

@@ -1,4 +1,4 @@
-//! A fragment as it arrives: read where the bus has put it.
+//! Fragment as it arrives, decoded straight from the bus's buffers.
 
 use std::{
     io::Read,
@@ -8,33 +8,32 @@ use std::{
 use treadmill_proto::{Fragment, Malformed, fragment::claimed_incarnation};
 use zenoh::bytes::ZBytes;
 
-/// A payload in one piece of this size or more came through shared memory.
+/// A payload in one piece of at least this size came through shared memory.
 const SHARED_BYTES_MIN: usize = 64 << 10;
-/// As much of a fragment's beginning as holds run, actor and incarnation.
-const BEGINNING_BYTES: usize = 160;
+/// Bytes at the start of a fragment that hold run, actor and incarnation.
+const HEADER_BYTES: usize = 160;
 
-/// A fragment that was read, or why it cannot be.
+/// Received fragment, decoded, or why it cannot be.
 #[derive(Clone, Debug)]
 pub struct ReceivedFragment {
-    /// The incarnation that it claims to be of.
+    /// Incarnation that it claims.
     pub claimed_incarnation: Option<u64>,
-    /// Its size on the bus.
+    /// Size on the bus.
     pub bytes: usize,
-    /// Checked by itself; whether it fits the run is another matter.
+    /// Decoded fragment, checked by itself but not yet against the run.
     pub fragment: Result<Fragment, Malformed>,
 }
 
 impl ReceivedFragment {
-    /// Reads what the bus has received, in as many pieces of memory as it lies in. What came through shared memory is
-    /// counted.
-    pub(super) fn read(received: &ZBytes, shared: &AtomicU64) -> Self {
-        let pieces: Vec<&[u8]> = received.slices().collect();
-        if pieces.len() == 1 && received.len() >= SHARED_BYTES_MIN {
+    /// Decodes a payload in as many pieces as it lies in, and counts it in `shared` if it came through shared memory.
+    pub(super) fn read(payload: &ZBytes, shared: &AtomicU64) -> Self {
+        let pieces: Vec<&[u8]> = payload.slices().collect();
+        if pieces.len() == 1 && payload.len() >= SHARED_BYTES_MIN {
             shared.fetch_add(1, Ordering::Relaxed);
         }
         Self {
-            claimed_incarnation: claimed(received),
-            bytes: received.len(),
+            claimed_incarnation: incarnation_of(payload),
+            bytes: payload.len(),
             fragment: Fragment::decode_pieces(&pieces),
         }
     }
@@ -47,9 +46,9 @@ impl<T: AsRef<[u8]>> From<T> for ReceivedFragment {
     }
 }
 
-/// The incarnation that a fragment claims.
-pub(super) fn claimed(received: &ZBytes) -> Option<u64> {
-    let mut beginning = Vec::with_capacity(BEGINNING_BYTES);
-    received.reader().take(BEGINNING_BYTES as u64).read_to_end(&mut beginning).ok()?;
-    claimed_incarnation(&beginning)
+/// Returns the incarnation that a fragment claims.
+pub(super) fn incarnation_of(payload: &ZBytes) -> Option<u64> {
+    let mut header = Vec::with_capacity(HEADER_BYTES);
+    payload.reader().take(HEADER_BYTES as u64).read_to_end(&mut header).ok()?;
+    claimed_incarnation(&header)
 }

@@ -1,7 +1,7 @@
-//! The learner's desk where actors of external tasks register what they simulate, before they do anything else.
+//! External tasks: actors register what they simulate before they do anything else; the learner accepts or refuses.
 
 use std::{
-    sync::mpsc::{Receiver, sync_channel},
+    sync::mpsc::{Receiver, SyncSender, sync_channel},
     time::Duration,
 };
 
@@ -11,74 +11,84 @@ use zenoh::{
     query::{Query, Queryable},
 };
 
+use super::first_valid;
 use crate::{Bus, BusError, keys};
 
-/// Registrations that may wait; whoever finds no room gets no answer, and asks again.
+/// Registrations that may wait. Further ones get no answer, and the actor asks again.
 const QUEUE: usize = 64;
+const THREAD: &str = "task-server";
 
-/// Why a task that nobody settled yet cannot be this run's, in words.
+/// Returns why a task cannot be this run's, or `None` if it can.
 pub type Objection = Box<dyn Fn(&Task) -> Option<String> + Send + Sync>;
 
-/// The learner's end.
+/// Receives registrations of external tasks.
 pub struct TaskServer {
-    settled: Receiver<Task>,
+    accepted: Receiver<Task>,
     _queryable: Queryable<()>,
 }
 
 impl TaskServer {
-    /// Opens the desk. Where the run's task is not `known` yet, the first that is registered and not objected to is it.
+    /// Starts the server. If the run's task is not `known` yet, the first registered one without an `objection` becomes it.
     pub fn open(bus: &Bus, run: &str, known: Option<Task>, objection: Objection) -> Result<Self, BusError> {
-        let (ask, requests) = sync_channel::<Query>(QUEUE);
-        let (settle, settled) = sync_channel(1);
+        let (sender, requests) = sync_channel::<Query>(QUEUE);
+        let (accept, accepted) = sync_channel(1);
         std::thread::Builder::new()
-            .name("task-desk".to_string())
+            .name(THREAD.to_string())
             .spawn({
-                let (run, mut known) = (run.to_string(), known);
-                move || {
-                    for query in requests {
-                        let was_known = known.is_some();
-                        let receipt = register(&query, &run, &mut known, &objection);
-                        if let Some(task) = known.as_ref().filter(|_| !was_known) {
-                            drop(settle.try_send(task.clone()));
-                        }
-                        answer(&query, &receipt);
-                    }
-                }
+                let run = run.to_string();
+                move || serve(requests, &run, known, &objection, &accept)
             })
-            .map_err(|why| BusError::Flow { what: "starting the task desk".to_string(), why: why.to_string() })?;
+            .map_err(BusError::thread(THREAD))?;
         let queryable = bus
             .session
             .declare_queryable(keys::tasks(run, "*"))
             .callback(move |query| {
                 let bytes = query.payload().map_or(0, zenoh::bytes::ZBytes::len);
-                // Before it takes up room in the queue.
+                // Before it takes a place in the queue.
                 if bytes > TASK_BYTES_MAX {
-                    let why = Malformed::TooLarge { what: "task", bytes, limit: TASK_BYTES_MAX };
-                    return answer(&query, &TaskReceipt { accepted: false, reason: why.to_string(), task: None });
+                    let error = Malformed::TooLarge { what: "task", bytes, limit: TASK_BYTES_MAX };
+                    return answer(&query, &TaskReceipt { accepted: false, reason: error.to_string(), task: None });
                 }
-                drop(ask.try_send(query));
+                drop(sender.try_send(query));
             })
             .wait()
             .map_err(BusError::flow("taking registrations of tasks"))?;
-        Ok(Self { settled, _queryable: queryable })
+        Ok(Self { accepted, _queryable: queryable })
     }
 
-    /// The task that was settled by a registration, if that happens within `patience`.
-    pub fn settled(&self, patience: Duration) -> Option<Task> {
-        self.settled.recv_timeout(patience).ok()
+    /// Returns the first accepted task, or `None` if none is accepted within `timeout`.
+    pub fn accepted(&self, timeout: Duration) -> Option<Task> {
+        self.accepted.recv_timeout(timeout).ok()
+    }
+}
+
+fn serve(
+    requests: Receiver<Query>,
+    run: &str,
+    mut known: Option<Task>,
+    objection: &Objection,
+    accept: &SyncSender<Task>,
+) {
+    for query in requests {
+        let was_known = known.is_some();
+        let receipt = register(&query, run, &mut known, objection);
+        if let Some(task) = known.as_ref().filter(|_| !was_known) {
+            drop(accept.try_send(task.clone()));
+        }
+        answer(&query, &receipt);
     }
 }
 
 fn answer(query: &Query, receipt: &TaskReceipt) {
-    if let Err(why) = query.reply(query.key_expr().clone(), receipt.encode()).wait() {
-        tracing::debug!("a task receipt could not be sent: {why}");
+    if let Err(error) = query.reply(query.key_expr().clone(), receipt.encode()).wait() {
+        tracing::debug!(%error, "task receipt not sent");
     }
 }
 
 fn register(query: &Query, run: &str, known: &mut Option<Task>, objection: &Objection) -> TaskReceipt {
     let actor = keys::last_part(query.key_expr().as_str());
-    let why = match read(query, run, actor) {
-        Err(why) => Some(why.to_string()),
+    let refusal = match read(query, run, actor) {
+        Err(error) => Some(error.to_string()),
         Ok(task) => match known.as_ref() {
             Some(known) => known.differs_from(&task),
             None => objection(&task).or_else(|| {
@@ -87,10 +97,10 @@ fn register(query: &Query, run: &str, known: &mut Option<Task>, objection: &Obje
             }),
         },
     };
-    if let Some(why) = &why {
-        tracing::warn!("the registration of actor `{}` was refused: {why}", actor.escape_debug());
+    if let Some(error) = &refusal {
+        tracing::warn!(actor, %error, "registration refused");
     }
-    TaskReceipt { accepted: why.is_none(), reason: why.unwrap_or_default(), task: known.clone() }
+    TaskReceipt { accepted: refusal.is_none(), reason: refusal.unwrap_or_default(), task: known.clone() }
 }
 
 fn read(query: &Query, run: &str, actor: &str) -> Result<Task, Malformed> {
@@ -106,7 +116,7 @@ fn read(query: &Query, run: &str, actor: &str) -> Result<Task, Malformed> {
     Ok(registration.task)
 }
 
-/// Registers a task with the learner of `run`. `None` where nobody answered.
+/// Registers a task with the learner of the run. `None` if no answer came.
 pub async fn register_task(
     bus: &Bus,
     registration: &TaskRegistration,
@@ -114,7 +124,7 @@ pub async fn register_task(
 ) -> Result<Option<TaskReceipt>, BusError> {
     let payload = registration
         .encode()
-        .map_err(|why| BusError::Flow { what: "registering a task".to_string(), why: why.to_string() })?;
+        .map_err(|error| BusError::Flow { what: "registering a task".to_string(), why: error.to_string() })?;
     let replies = bus
         .session
         .get(keys::tasks(&registration.run, &registration.actor))
@@ -122,12 +132,5 @@ pub async fn register_task(
         .timeout(timeout)
         .await
         .map_err(BusError::flow("registering a task"))?;
-    while let Ok(reply) = replies.recv_async().await {
-        let Ok(sample) = reply.result() else { continue };
-        match TaskReceipt::decode(&sample.payload().to_bytes()) {
-            Ok(receipt) => return Ok(Some(receipt)),
-            Err(why) => tracing::warn!("a task receipt was refused: {why}"),
-        }
-    }
-    Ok(None)
+    Ok(first_valid(replies, "task receipt", |payload| TaskReceipt::decode(&payload)).await)
 }

@@ -1,37 +1,37 @@
-//! Who is who on the bus: one certificate for each part that is played, and what it entitles to.
+//! Roles on the bus, their certificates and their permissions.
 //!
-//! Both ends of a link prove by certificates of one authority who they are (mutual TLS). A certificate's common name says
-//! which part its holder plays; the learner and routers let each part do what its work needs, and nothing else. What is
-//! not allowed is dropped where it comes in, without an answer.
+//! Both ends of a link authenticate with certificates of one authority (mutual TLS). A certificate's common name states its
+//! holder's role. The learner and routers allow each role only what its work needs, and drop everything else on arrival
+//! without an answer.
 
 use std::path::{Path, PathBuf};
 
 use serde_json::{Value, json};
 use treadmill_proto::limits::{FRAGMENT_BYTES_MAX, POSE_BYTES_MAX, SMALL_BYTES_MAX, STATS_BYTES_MAX};
 
-/// A part that is played on the bus.
+/// Role of a process on the bus.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Role {
-    /// Trains; every key is its own.
+    /// Trains; may use every key.
     Learner,
-    /// Hands on what others say.
+    /// Forwards messages of other processes.
     Router,
-    /// Simulates: sends rollouts, statistics, episodes and poses, reads policies.
+    /// Simulates: reads policies; sends rollouts, statistics, episodes and poses.
     Actor,
-    /// Evaluates: hands reports in, takes policies.
+    /// Evaluates: reads policies, sends reports.
     Evaluator,
-    /// Watches: reads metrics, episodes, poses, statistics, policies, and who is there.
+    /// Watches: reads metrics, episodes, poses, statistics, policies and liveliness.
     Observer,
-    /// Watches, and commands the learner.
+    /// Watches, and sends commands to the learner.
     Operator,
 }
 
 impl Role {
-    /// All of them.
+    /// All roles.
     pub const ALL: [Self; 6] =
         [Self::Learner, Self::Router, Self::Actor, Self::Evaluator, Self::Observer, Self::Operator];
 
-    /// Its name, as files are called.
+    /// Returns the name, as in file names.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -44,46 +44,46 @@ impl Role {
         }
     }
 
-    /// The common name in its certificate.
+    /// Returns the common name in its certificate.
     #[must_use]
     pub fn common_name(self) -> String {
         format!("treadmill-{}", self.name())
     }
 
-    /// Whether others dial it, so that its certificate must name the hosts where it listens.
+    /// Returns whether others dial this role. Its certificate must then name the hosts it listens on.
     #[must_use]
     pub fn listens(self) -> bool {
         matches!(self, Self::Learner | Self::Router)
     }
 }
 
-/// The files of one part: in its folder, `ca.crt`, and `ROLE.crt` and `ROLE.key`.
+/// Certificate files of one role: `ca.crt`, `ROLE.crt` and `ROLE.key` in one folder.
 #[derive(Clone, Debug)]
 pub struct Credentials {
     /// The folder.
     pub folder: PathBuf,
-    /// Whose they are.
+    /// The role.
     pub role: Role,
 }
 
 impl Credentials {
-    /// The authority's certificate, which everybody trusts.
+    /// Returns the path of the authority's certificate.
     pub fn authority(folder: &Path) -> PathBuf {
         folder.join("ca.crt")
     }
 
-    /// Certificate and private key of this part.
+    /// Returns the paths of this role's certificate and private key.
     pub fn files(&self) -> [PathBuf; 2] {
         ["crt", "key"].map(|kind| self.folder.join(format!("{}.{kind}", self.role.name())))
     }
 
-    /// The first file that is not there.
+    /// Returns the first missing file.
     pub fn missing(&self) -> Option<PathBuf> {
         let [certificate, key] = self.files();
         [Self::authority(&self.folder), certificate, key].into_iter().find(|file| !file.is_file())
     }
 
-    /// Settings of the transport.
+    /// Returns Zenoh's TLS settings.
     pub(super) fn transport(&self) -> Value {
         let [certificate, key] = self.files();
         json!({
@@ -99,20 +99,20 @@ impl Credentials {
     }
 }
 
-/// What the learner's session and routers let in and out, as a setting of the bus.
+/// Returns Zenoh's access control settings of learners and routers.
 pub(super) fn access() -> Value {
     let mut rules = Vec::new();
     let mut policies = Vec::new();
     for role in Role::ALL {
-        let mut own = Vec::new();
+        let mut ids = Vec::new();
         for (number, Grant { flows, messages, keys }) in grants(role).into_iter().enumerate() {
             let id = format!("{}-{number}", role.name());
             rules.push(json!({
                 "id": id, "permission": "allow", "flows": flows, "messages": messages, "key_exprs": keys,
             }));
-            own.push(id);
+            ids.push(id);
         }
-        policies.push(json!({"rules": own, "subjects": [role.name()]}));
+        policies.push(json!({"rules": ids, "subjects": [role.name()]}));
     }
     let subjects: Vec<Value> =
         Role::ALL.map(|role| json!({"id": role.name(), "cert_common_names": [role.common_name()]})).into();
@@ -125,7 +125,7 @@ pub(super) fn access() -> Value {
     })
 }
 
-/// Largest messages that the learner's session and routers let in, by key; what is larger is dropped where it comes in.
+/// Returns the size limits of messages to learners and routers, by key; larger messages are dropped on arrival.
 pub(super) fn sizes() -> Value {
     let rule = |id: &str, message: &str, key: &str, bytes: usize| json!({"id": id, "flows": IN, "messages": [message], "key_exprs": [key], "size_limit": bytes});
     json!([
@@ -139,7 +139,7 @@ pub(super) fn sizes() -> Value {
     ])
 }
 
-/// One thing that a part may do.
+/// One permission of a role.
 struct Grant {
     flows: &'static [&'static str],
     messages: &'static [&'static str],
@@ -164,7 +164,7 @@ const POLICY: &[&str] = &["treadmill/*/policy/latest"];
 const ANNOUNCEMENT: &[&str] = &["treadmill/*/policy/version"];
 const STATUS: &[&str] = &["treadmill/*/status"];
 const TOKENS: &[&str] = &["treadmill/*/actors/*", "treadmill/*/learner"];
-/// What anybody who watches may read.
+/// Keys that observers and operators may subscribe to.
 const PUBLIC: &[&str] = &[
     "treadmill/*/metrics/**",
     "treadmill/*/episodes/*",
@@ -173,9 +173,8 @@ const PUBLIC: &[&str] = &[
     "treadmill/*/policy/version",
 ];
 
-/// Copies of accepted fragments. No wildcard matches them, so they are named wherever they may go. Whoever watches may read
-/// them: what is in them, every watcher of episodes and statistics knows the gist of, and a link that is too slow loses
-/// copies and costs training nothing.
+/// Copies of accepted fragments. No wildcard matches them, so every rule names them. Observers may read them: they reveal
+/// little more than episodes and statistics, and a slow link loses copies without delaying training.
 const COPIES: &[&str] = &["treadmill/*/@rollouts/*"];
 
 fn grants(role: Role) -> Vec<Grant> {
@@ -207,13 +206,13 @@ fn grants(role: Role) -> Vec<Grant> {
         }
         Role::Actor => {
             const ROLLOUTS: &[&str] = &["treadmill/*/rollouts/*", "treadmill/*/tasks/*"];
-            const TOLD: &[&str] = &["treadmill/*/actors/*/stats", "treadmill/*/episodes/*", "treadmill/*/poses/*"];
+            const PUBLISHED: &[&str] = &["treadmill/*/actors/*/stats", "treadmill/*/episodes/*", "treadmill/*/poses/*"];
             let mut grants = read_policy();
             grants.extend([
                 Grant { flows: IN, messages: &["query"], keys: ROLLOUTS },
                 Grant { flows: OUT, messages: &["reply", "declare_queryable"], keys: ROLLOUTS },
-                Grant { flows: IN, messages: &["put"], keys: TOLD },
-                Grant { flows: OUT, messages: &["declare_subscriber"], keys: TOLD },
+                Grant { flows: IN, messages: &["put"], keys: PUBLISHED },
+                Grant { flows: OUT, messages: &["declare_subscriber"], keys: PUBLISHED },
                 Grant { flows: IN, messages: &["liveliness_token"], keys: &["treadmill/*/actors/*"] },
             ]);
             grants

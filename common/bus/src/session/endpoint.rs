@@ -1,10 +1,10 @@
-//! Endpoints as the user gives them: checked before the bus sees them.
+//! Checks endpoints that the user gives, before Zenoh sees them.
 
 use std::net::{IpAddr, TcpListener};
 
 use crate::BusError;
 
-/// Refuses an endpoint that would carry plain text beyond this machine, unless that was asked for.
+/// Refuses a malformed endpoint, and plain text beyond this machine unless `insecure` allows it.
 pub fn check(endpoint: &str, insecure: bool) -> Result<(), BusError> {
     let refuse = |why: &str| Err(BusError::Endpoint { endpoint: endpoint.to_string(), why: why.to_string() });
     let Some((protocol, rest)) = endpoint.split_once('/') else {
@@ -33,34 +33,22 @@ fn is_loopback(host: &str) -> bool {
     bare == "localhost" || bare.parse::<IpAddr>().is_ok_and(|address| address.is_loopback())
 }
 
-/// Replaces port 0 by a port that is free now, since the bus does not tell which one it was given.
-pub fn with_port(endpoint: &str) -> Result<String, BusError> {
-    let Some(prefix) = endpoint.strip_suffix(":0") else {
-        return Ok(endpoint.to_string());
-    };
-    let host = prefix.split_once('/').map_or(prefix, |(_, host)| host);
-    let port = TcpListener::bind(format!("{host}:0"))
-        .and_then(|listener| listener.local_addr())
-        .map_err(|why| BusError::Endpoint { endpoint: endpoint.to_string(), why: why.to_string() })?
-        .port();
-    Ok(format!("{prefix}:{port}"))
-}
-
-/// Says early and clearly that a port is taken.
+/// Checks that the port of an endpoint is free, so that the error names it.
 pub fn check_free(endpoint: &str) -> Result<(), BusError> {
     let address = endpoint.split_once('/').map_or(endpoint, |(_, address)| address);
     match TcpListener::bind(address) {
         Ok(_) => Ok(()),
-        Err(why) => Err(BusError::Listen { endpoint: endpoint.to_string(), why: why.to_string() }),
+        Err(error) => Err(BusError::Listen { endpoint: endpoint.to_string(), why: error.to_string() }),
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::workarounds::free_port::with_free_port;
 
     #[test]
-    fn plain_text_stays_on_this_machine() {
+    fn plain_text_beyond_this_machine_is_refused() {
         for fine in ["tcp/127.0.0.1:7447", "tcp/localhost:0", "tcp/[::1]:7447", "tls/learner:7447"] {
             assert!(check(fine, false).is_ok(), "{fine}");
         }
@@ -73,12 +61,12 @@ mod tests {
     }
 
     #[test]
-    fn a_taken_port_is_named() {
+    fn the_error_names_a_taken_port() {
         let taken = TcpListener::bind("127.0.0.1:0").unwrap();
         let endpoint = format!("tcp/{}", taken.local_addr().unwrap());
         let why = check_free(&endpoint).unwrap_err().to_string();
         assert!(why.contains(&endpoint) && why.contains("--listen"), "{why}");
-        let free = with_port("tcp/127.0.0.1:0").unwrap();
+        let free = with_free_port("tcp/127.0.0.1:0").unwrap();
         assert!(!free.ends_with(":0"));
         check_free(&free).unwrap();
     }

@@ -1,4 +1,16 @@
-//! Code that exists only because of a fault in Zenoh. Each file names the upstream issue and says when it can be deleted.
+//! Code that exists only because of a fault in Zenoh 1.10. Each file names the upstream issue, if one is known, and the
+//! condition under which it can be deleted.
+//!
+//! - [`threads`], [`one_core`] and `yield_read`: an encrypted link breaks if two threads use it at once (zenoh#2557).
+//! - `open_files`: Zenoh's threads panic if they cannot open a file.
+//! - `discovery`: a client does not dial a discovered endpoint again.
+//! - `free_port`: Zenoh does not report which port it was given for port 0.
+//! - `close`: closing a session can block on a dead link (zenoh#2675).
 
+pub(crate) mod close;
+pub(crate) mod discovery;
+pub(crate) mod free_port;
 pub mod one_core;
+pub(crate) mod open_files;
 pub mod threads;
+pub(crate) mod yield_read;

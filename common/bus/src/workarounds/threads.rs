@@ -1,28 +1,29 @@
-//! On which threads the bus works: said in the environment, before it starts any.
+//! Chooses Zenoh's threads through its environment variable, before it starts any.
 //!
-//! The bus's TLS reads and writes one connection from two threads without a lock (eclipse-zenoh/zenoh#2557). Under load in both
-//! directions links break off by that, several times a second, and worse is possible. Where one thread does both, it cannot
-//! happen. A router is the exception: it would wait, in that thread, for what that thread itself must send first; its threads take
-//! turns on one core instead (`one_core.rs`).
+//! Zenoh reads and writes one TLS connection from two threads without a lock (eclipse-zenoh/zenoh#2557). Under load in both
+//! directions, links break several times a second, and worse is possible. One thread for both prevents that. A router would
+//! deadlock, because it would wait in that thread for data that the same thread must send. It runs on one core instead
+//! ([`super::one_core`]).
 //!
-//! Where links are not encrypted, the learner and routers read with more threads than the bus would by itself: fragments are
-//! decoded there. Links that are read slowly, because they flood (see `brake`), need a thread each for as long as they nap.
+//! Delete `ONE` when Zenoh locks the connection. `MANY` is no workaround: fragments are decoded on the reading threads, so
+//! learners and routers read unencrypted links with more threads than Zenoh's default. A link that the read throttle pauses
+//! needs a thread of its own for each pause.
 
 use crate::{BusOptions, Role};
 
-/// The variable by which the bus is told.
+/// Zenoh's environment variable for its threads.
 pub const VARIABLE: &str = "ZENOH_RUNTIME";
-/// One thread reads and writes all links; as many others may nap meanwhile.
+/// One thread reads and writes all links; up to 256 more may be paused.
 const ONE: &str = "(rx:(handover:tx),tx:(max_blocking_threads:256))";
-/// Links are read by several at a time.
+/// Sixteen threads read links.
 const MANY: &str = "(rx:(worker_threads:16,max_blocking_threads:256))";
 
-/// Name and value of the variable that says on which threads the bus of this process works: to be set before any other thread
-/// runs. `None` where it works as it does by itself, or as the user has said.
+/// Returns the name and value of the environment variable to set before any thread starts. `None` keeps Zenoh's default, or
+/// what the user has set.
 pub fn wanted(options: &BusOptions, role: Role) -> Option<(&'static str, &'static str)> {
-    // Whoever is to find others by multicast names no endpoint, but has certificates.
-    let is_named = options.listen.iter().chain(&options.connect).any(|endpoint| endpoint.starts_with("tls/"));
-    let value = match (is_named || options.credentials.is_some(), role) {
+    // With --discover no endpoint is given, but there are certificates.
+    let has_tls_endpoint = options.listen.iter().chain(&options.connect).any(|endpoint| endpoint.starts_with("tls/"));
+    let value = match (has_tls_endpoint || options.credentials.is_some(), role) {
         (true, Role::Learner | Role::Actor | Role::Evaluator | Role::Observer | Role::Operator) => ONE,
         (_, Role::Learner | Role::Router) => MANY,
         (false, _) => return None,
@@ -36,7 +37,7 @@ mod tests {
     use crate::Credentials;
 
     #[test]
-    fn only_encrypted_links_need_it_and_routers_cannot_have_it() {
+    fn encrypted_links_use_one_thread_except_in_routers() {
         let options = |endpoint: &str| BusOptions { connect: vec![endpoint.to_string()], ..BusOptions::default() };
         let value = |endpoint, role| wanted(&options(endpoint), role).map(|(_, value)| value);
         assert_eq!(value("tls/localhost:1", Role::Actor), Some(ONE));

@@ -59,7 +59,7 @@ impl ControlChannel {
         let (sender, commands) = sync_channel(COMMANDS_MAX);
         let closed = Arc::new(AtomicBool::new(false));
         std::thread::Builder::new()
-            .name("control".to_string())
+            .name("control-server".to_string())
             .spawn({
                 let (board, closed) = (board.clone(), closed.clone());
                 move || serve(&server, &feed, &board, &sender, &closed)

@@ -1,0 +1,81 @@
+//! Statistics of actors, as the learner receives them.
+
+use std::{
+    collections::HashMap,
+    sync::{Arc, Mutex},
+};
+
+use treadmill_proto::{ActorStats, limits::STATS_BYTES_MAX};
+use zenoh::{Wait, pubsub::Subscriber, sample::Sample};
+
+use super::presence::AliveView;
+use crate::{Bus, BusError, admission::rate_limited_log::RateLimitedLog, admission::read_throttle::ReadThrottle, keys};
+
+/// Statistics per second above which the link is throttled.
+const STATS_PER_S: f64 = 2000.0;
+
+/// Newest statistics of each live actor.
+pub struct StatsFeed {
+    alive: AliveView,
+    /// Encoded, so that a flood costs no decoding.
+    arrived: Arc<Mutex<HashMap<String, Vec<u8>>>>,
+    newest: HashMap<String, ActorStats>,
+    rejections: RateLimitedLog,
+    _subscriber: Subscriber<()>,
+}
+
+impl StatsFeed {
+    /// Subscribes to the statistics of the run's actors.
+    pub fn open(bus: &Bus, run: &str, alive: AliveView) -> Result<Self, BusError> {
+        let arrived = Arc::new(Mutex::new(HashMap::new()));
+        let subscriber = bus
+            .session
+            .declare_subscriber(keys::stats(run, "*"))
+            .callback({
+                let (alive, arrived, throttle) = (alive.clone(), arrived.clone(), ReadThrottle::new(STATS_PER_S));
+                move |sample: Sample| {
+                    throttle.pass();
+                    keep_newest(&sample, &alive, &arrived);
+                }
+            })
+            .wait()
+            .map_err(BusError::flow("listening to statistics"))?;
+        let (newest, rejections) = (HashMap::new(), RateLimitedLog::default());
+        Ok(Self { alive, arrived, newest, rejections, _subscriber: subscriber })
+    }
+
+    /// Returns the statistics that arrived since the last call, or why they were rejected.
+    pub fn take(&self) -> impl Iterator<Item = Result<ActorStats, String>> {
+        let arrived = std::mem::take(&mut *self.arrived.lock().expect("no holder of this lock panics"));
+        arrived.into_iter().map(|(actor, bytes)| match ActorStats::decode_checked(&bytes) {
+            Ok(stats) if stats.actor == actor => Ok(stats),
+            Ok(stats) => Err(format!("`{}` is named on the key of `{actor}`", stats.actor)),
+            Err(error) => Err(format!("from `{actor}`: {error}")),
+        })
+    }
+
+    /// Takes what arrived, forgets actors that are gone, and returns the newest statistics of each live actor.
+    pub fn newest(&mut self) -> &HashMap<String, ActorStats> {
+        let arrived: Vec<_> = self.take().collect();
+        for stats in arrived {
+            match stats {
+                Ok(stats) => drop(self.newest.insert(stats.actor.clone(), stats)),
+                Err(error) => self.rejections.emit(|| tracing::warn!(%error, "statistics rejected")),
+            }
+        }
+        let alive = self.alive.actors();
+        self.newest.retain(|actor, _| alive.contains(actor));
+        &self.newest
+    }
+}
+
+/// Keeps the sample as its actor's newest. Runs in the bus's receiving thread.
+fn keep_newest(sample: &Sample, alive: &AliveView, arrived: &Mutex<HashMap<String, Vec<u8>>>) {
+    let Some(actor) = keys::stats_actor(sample.key_expr().as_str()) else { return };
+    // Only live actors, whose number is limited: other names cannot fill the map.
+    if sample.payload().len() > STATS_BYTES_MAX || !alive.has(actor) {
+        return;
+    }
+    let bytes = sample.payload().to_bytes().into_owned();
+    arrived.lock().expect("no holder of this lock panics").insert(actor.to_string(), bytes);
+}
