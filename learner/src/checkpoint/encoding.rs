@@ -1,7 +1,8 @@
 //! File format of a checkpoint: magic, format version, length, SHA-256, then the state in bincode.
 //!
-//! Only this file names bincode, which is unmaintained (RUSTSEC-2025-0141) and pinned to 2.0.1. To replace it: raise [`FORMAT`], encode the state by another serde format below, and keep [`decode`]'s branch for the old number
-//! for as long as old runs matter. Nothing else knows how the bytes are made.
+//! Only this file names bincode, which is unmaintained (RUSTSEC-2025-0141) and pinned to 2.0.1. To replace it: raise
+//! [`FORMAT`], encode the state by another serde format below, and keep the branch of [`decode`] for the old format for
+//! as long as old runs matter.
 
 use serde::{Serialize, de::DeserializeOwned};
 use sha2::{Digest, Sha256};

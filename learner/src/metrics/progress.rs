@@ -23,7 +23,7 @@ const SPARKLINE_AFTER: Duration = Duration::from_secs(10);
 const SPARKLINE_EVERY_MAX: Duration = Duration::from_secs(300);
 
 /// Width of a sparkline in characters.
-const CURVE_WIDTH: usize = 16;
+const SPARKLINE_WIDTH: usize = 16;
 
 /// Wait for experience that is reported before the first update.
 const FIRST_WAIT_MIN: Duration = Duration::from_secs(2);
@@ -227,7 +227,7 @@ fn sparklines(history: &History, is_unicode: bool) -> Option<String> {
     let curve = |of: fn(&Point) -> f64, decimals| {
         let values: Vec<f64> = history.points().map(|point| of(&point)).collect();
         let (first, last) = (values.first()?, values.last()?);
-        let line = sparkline(&values, CURVE_WIDTH, is_unicode);
+        let line = sparkline(&values, SPARKLINE_WIDTH, is_unicode);
         Some(format!("{} {line} {}", rounded(*first, decimals), rounded(*last, decimals)))
     };
     let (returns, distances) = (curve(|point| point.return_mean, 0)?, curve(|point| point.distance_m, 1)?);
