@@ -60,8 +60,8 @@ impl Batch {
         .find(|(_, found, expected)| found != expected)
     }
 
-    /// Returns the observations of the given rows, `[B, observation]`, and their other fields, on `device`. `advantages` are the
-    /// normalised ones.
+    /// Returns the observations of the given rows, `[B, observation]`, and their other fields, on `device`.
+    /// `advantages` are the normalised ones.
     pub(crate) fn gather(
         &self,
         rows: &[u32],

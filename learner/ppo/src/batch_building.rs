@@ -1,8 +1,8 @@
-//! Turns accepted fragments into the batch of one update: normalises observations, estimates returns and advantages, and
-//! corrects for fragments of older policies.
+//! Turns accepted fragments into the batch of one update: normalises observations, estimates returns and advantages,
+//! and corrects for fragments of older policies.
 //!
-//! All observations, including those of a fragment that lags, are normalised by the newest policy's statistics: networks
-//! and statistics together are the policy that the update improves.
+//! All observations, including those of a fragment that lags, are normalised by the newest policy's statistics:
+//! networks and statistics together are the policy that the update improves.
 
 use treadmill_config::PpoConfig;
 use treadmill_policy::{
@@ -142,9 +142,9 @@ impl BatchBuilder<'_> {
 
 /// Correction of a fragment that an older policy acted.
 ///
-/// The decoupled objective keeps the update near the newest policy, and weights each action by its probability under the
-/// newest policy relative to the one that acted (Hilton et al. 2021, "Batch size-invariance for policy optimization",
-/// arXiv:2110.00641, equation 2; the weight is truncated at 1).
+/// The decoupled objective keeps the update near the newest policy, and weights each action by its probability under
+/// the newest policy relative to the one that acted (Hilton et al. 2021, "Batch size-invariance for policy
+/// optimization", arXiv:2110.00641, equation 2; the weight is truncated at 1).
 struct Correction {
     /// `min(1, π(a|s) / μ(a|s))` of each transition, with the newest policy π and the one that acted, μ.
     weights: Vec<f32>,
@@ -166,8 +166,8 @@ impl Correction {
     }
 }
 
-/// Returns the values of the observations truly reached. Converts `values` to the units of returns; if those are unknown,
-/// sets all values to 0.
+/// Returns the values of the observations truly reached. Converts `values` to the units of returns; if those are
+/// unknown, sets all values to 0.
 fn next_values(
     fragment: &Fragment,
     policy: &Policy,

@@ -33,8 +33,8 @@ pub struct Advantages {
     pub returns: Vec<f32>,
 }
 
-/// Estimates advantages and value targets: `δ = r + γ V' (1 − terminated) − V` and `A = δ + γ λ A'`, where `A'` is 0 after
-/// the end of an episode or fragment. Value targets are the λ-returns `V + A`.
+/// Estimates advantages and value targets: `δ = r + γ V' (1 − terminated) − V` and `A = δ + γ λ A'`, where `A'` is 0
+/// after the end of an episode or fragment. Value targets are the λ-returns `V + A`.
 ///
 /// # Panics
 /// If the planes differ in length or do not hold whole rows of `envs`.

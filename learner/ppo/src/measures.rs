@@ -52,8 +52,8 @@ fn variance(numbers: impl Iterator<Item = f64> + Clone) -> f64 {
     numbers.map(|x| (x - mean).powi(2)).sum::<f64>() / count
 }
 
-/// Returns the learning rate after an epoch whose KL divergence was `approx_kl`. Above twice the target it is divided by
-/// 1.5, below half the target multiplied by 1.5, always within its bounds. A target of 0 keeps it fixed.
+/// Returns the learning rate after an epoch whose KL divergence was `approx_kl`. Above twice the target it is divided
+/// by 1.5, below half the target multiplied by 1.5, always within its bounds. A target of 0 keeps it fixed.
 ///
 /// Rule of rl_games and rsl_rl, after the adaptive penalty of Schulman et al. 2017, arXiv:1707.06347, section 4.
 pub fn adapt_learning_rate(learning_rate: f64, approx_kl: f64, config: &PpoConfig) -> f64 {

@@ -108,8 +108,8 @@ pub enum UpdaterError {
 }
 
 impl Updater {
-    /// Updater of `parameters` with a fresh optimiser. The update runs on the threads of `pool`, or on the calling thread
-    /// if `pool` has only one; the results do not depend on the number of threads.
+    /// Updater of `parameters` with a fresh optimiser. The update runs on the threads of `pool`, or on the calling
+    /// thread if `pool` has only one; the results do not depend on the number of threads.
     ///
     /// # Errors
     /// If the parameters do not fit the shape or are not finite.

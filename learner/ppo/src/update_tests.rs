@@ -37,7 +37,7 @@ fn restored(other: &Updater, learning_rate: f64) -> Updater {
     updater
 }
 
-/// Batch of actions drawn from the updater's policy. The best action is the first two observations, the return their sum.
+/// Batch of actions of the updater's policy. The best action is the first two observations, the return their sum.
 fn batch(updater: &Updater, rows: usize, seed: u64) -> Batch {
     let (shape, mut rng) = (updater.shape(), rng(seed));
     let policy = updater.policy().expect("its own parameters fit");

@@ -18,7 +18,7 @@ const PARAMETER_SEED: u64 = 0x5e31_645e_38a6_c541;
 const NOISE_SEED: u64 = 0x2a85_5f45_b8c0_d3bc;
 const SHUFFLE_SEED: u64 = 0x0d5a_574d_dbcd_853a;
 
-/// Trains with every reward multiplied by `scale`. Returns the parameters after 20 updates, and the last explained variance.
+/// Trains with all rewards multiplied by `scale`. Returns the final parameters and the last explained variance.
 fn learnt(scale: f32) -> (Vec<f32>, f64) {
     let shape = NetworkShape { observation: 3, action: 2, hidden: vec![16, 8] };
     let config = PpoConfig { batch: STEPS * ENVS, minibatch: 64, ..PpoConfig::default() };

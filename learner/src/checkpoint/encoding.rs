@@ -14,8 +14,8 @@ const MAGIC: &[u8; 8] = b"TREADMIL";
 /// Version of the format, raised whenever the state's fields change.
 pub const FORMAT: u32 = 3;
 const HEADER_BYTES: usize = 8 + 4 + 8 + 32;
-/// Steps of (largest payload, memory that decoding it may take), in bytes, so that a wrong length inside cannot claim all
-/// memory. There are steps because bincode's limits are constants.
+/// Steps of (largest payload, memory that decoding it may take), in bytes, so that a wrong length inside cannot claim
+/// all memory. There are steps because bincode's limits are constants.
 const SMALL: (usize, usize) = (64 << 10, 1 << 20);
 const MEDIUM: (usize, usize) = (1 << 20, 16 << 20);
 const LARGE: (usize, usize) = (16 << 20, 256 << 20);

@@ -1,8 +1,8 @@
 //! Checkpoints: the whole state of a run in one file, written before its version is announced.
 //!
-//! In the folder `checkpoints`, `latest.bundle` is written after each update. `best.bundle` has the best evaluation so far,
-//! or before the first evaluation the best mean return in training. `NNNNNNNN.bundle`, named by the number of updates, is
-//! written every `learner.checkpoint_every_updates`; the last `learner.keep_checkpoints` are kept.
+//! In the folder `checkpoints`, `latest.bundle` is written after each update. `best.bundle` has the best evaluation so
+//! far, or before the first evaluation the best mean return in training. `NNNNNNNN.bundle`, named by the number of
+//! updates, is written every `learner.checkpoint_every_updates`; the last `learner.keep_checkpoints` are kept.
 
 pub mod encoding;
 mod fallback;
@@ -180,7 +180,7 @@ pub struct CheckpointWriter {
 }
 
 impl CheckpointWriter {
-    /// Writer into the run's folder. Every `every_updates` updates it writes a numbered checkpoint, and keeps the last `keep`.
+    /// Writer that also writes a numbered checkpoint every `every_updates` updates and keeps the last `keep`.
     pub fn new(folder: &RunFolder, every_updates: u64, keep: usize) -> Self {
         Self { folder: folder.checkpoints(), every_updates, keep }
     }

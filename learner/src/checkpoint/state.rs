@@ -135,7 +135,7 @@ impl TrainingState {
         source.build().map_err(|why| error_chain(&why))
     }
 
-    /// Returns why a run of this configuration cannot train `task`, if so. Called before memory is allocated for the networks.
+    /// Returns why a run of this configuration cannot train `task`, if so; called before networks are allocated.
     pub fn objection(config: &Config, task: &Task) -> Option<String> {
         let name = &config.task.name;
         if !name.is_empty() && *name != task.name {
@@ -186,8 +186,8 @@ impl TrainingState {
         self.actor_state.as_ref().map_or(Ok(()), |state| state.check().map_err(|why| error_chain(&why)))
     }
 
-    /// Hash that every fragment repeats: of the model and of the configuration that actors depend on. The run's length and
-    /// the learner's settings are excluded, so that they can be changed while actors continue.
+    /// Hash that every fragment repeats: of the model and of the configuration that actors depend on. The run's length
+    /// and the learner's settings are excluded, so that they can be changed while actors continue.
     pub fn config_hash(&self) -> Result<u64, String> {
         let mut config = self.config()?;
         config.run.steps = 0;

@@ -39,8 +39,8 @@ pub struct Account {
     pub too_old: u64,
     /// Dropped by rule: policy unknown after a resume.
     pub vanished: u64,
-    /// Numbers that the sender settled and this learner never handled: refused, or dropped by rule by a learner that died
-    /// before it saved that.
+    /// Numbers that the sender settled and this learner never handled: refused, or dropped by rule by a learner that
+    /// died before it saved that.
     pub unseen: u64,
     /// Environment steps of accepted fragments.
     pub env_steps: u64,
@@ -194,8 +194,8 @@ impl Ledger {
         }
     }
 
-    /// Records that the sender will not send any number up to `through` again. Otherwise a number that an earlier learner
-    /// dropped by rule, and that this ledger never saw, would stop the watermark for good.
+    /// Records that the sender will not send any number up to `through` again. Otherwise a number that an earlier
+    /// learner dropped by rule, and that this ledger never saw, would stop the watermark for good.
     pub fn settle(&mut self, actor: &str, incarnation: u64, through: u64) {
         self.clock += 1;
         let mark = self.processes.entry((actor.to_string(), incarnation)).or_default();

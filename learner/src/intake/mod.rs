@@ -1,9 +1,10 @@
 //! Intake: validates fragments from the bus, sends receipts, and collects batches.
 //!
-//! A receipt returns the sender's credit. In mode [`LearnerMode::Sync`], batches hold only fragments of the newest policy:
-//! the learner owes the receipts until it has published the next policy, so that senders continue with it. It never waits
-//! for one particular actor: once every actor has delivered, or the stragglers' time is up, it sends the receipts, and the
-//! other actors fill the batch. In mode [`LearnerMode::Async`], it answers a fragment as soon as it is accepted.
+//! A receipt returns the sender's credit. In mode [`LearnerMode::Sync`], batches hold only fragments of the newest
+//! policy: the learner owes the receipts until it has published the next policy, so that senders continue with it. It
+//! never waits for one particular actor: once every actor has delivered, or the stragglers' time is up, it sends the
+//! receipts, and the other actors fill the batch. In mode [`LearnerMode::Async`], it answers each
+//! accepted fragment at once.
 //!
 //! A fragment's stages here: incoming (on the bus's queue), received (decoded or malformed), accepted, part of a batch.
 //!
@@ -228,8 +229,8 @@ impl<S: FragmentSource> Intake<S> {
         self.validator.ledger.mark_durable();
     }
 
-    /// Answers every waiting sender that the learner is stopping. No checkpoint holds those fragments, so the senders keep
-    /// them for the next learner.
+    /// Answers every waiting sender that the learner is stopping. No checkpoint holds those fragments, so the senders
+    /// keep them for the next learner.
     pub fn stop(&mut self, lineage: &Lineage) {
         let receipt = Receipt {
             outcome: Outcome::Stopping,

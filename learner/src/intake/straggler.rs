@@ -8,17 +8,17 @@ use std::{
 /// Shortest wait: fragments of equal size do not arrive at the same instant.
 const WAIT_MIN: Duration = Duration::from_millis(50);
 
-/// Rounds in a row that may wait for actors that never deliver. Without this bound, a client that announces actors under
-/// new names would delay every round.
+/// Rounds in a row that may wait for actors that never deliver. Without this bound, a client that announces actors
+/// under new names would delay every round.
 const FUTILE_WAITS_MAX: u32 = 3;
 /// Most names of actors that have delivered.
 const KNOWN_MAX: usize = 4096;
 
 /// Decides when a round ends. In a round, each awaited actor delivers once.
 ///
-/// If `d` actors have delivered after a time `t`, the others may take `t / d` longer: one more actor in the round is worth
-/// that much time. A late actor is not awaited again until it delivers in two rounds in a row, which it can do only if it
-/// is as fast as the others. So a slow actor costs at most its own share.
+/// If `d` actors have delivered after a time `t`, the others may take `t / d` longer: one more actor in the round is
+/// worth that much time. A late actor is not awaited again until it delivers in two rounds in a row, which it can do
+/// only if it is as fast as the others. So a slow actor costs at most its own share.
 #[derive(Debug)]
 pub(super) struct StragglerPolicy {
     begun: Instant,

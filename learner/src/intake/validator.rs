@@ -175,7 +175,7 @@ impl FragmentValidator {
         }
     }
 
-    /// Reports a duplicate, or a fragment of an unknown policy, to admission control, which may put its sender in quarantine.
+    /// Reports a duplicate or a fragment of an unknown policy, which may put its sender in quarantine.
     fn report_useless(&self, sender: &Sender, now: Instant) {
         if self.admission.record_useless(sender, now) {
             self.quarantine_log.emit(|| {

@@ -19,7 +19,7 @@ use super::{CurveError, draw_curve};
 const FIRST_AFTER: Duration = Duration::from_secs(10);
 /// The next is due when the run is twice as old, or after this time.
 const EVERY_MAX: Duration = Duration::from_secs(300);
-/// Shortest pause between two images, in durations of the last drawing. So drawing takes at most half a percent of a core.
+/// Shortest pause between two images, in durations of the last drawing: at most half a percent of a core.
 const PAUSE_DURATIONS: u64 = 200;
 
 /// Thread that draws the learning curve.

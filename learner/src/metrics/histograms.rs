@@ -15,8 +15,8 @@ pub fn is_due(updates: u64) -> bool {
     updates % EVERY_UPDATES == 1
 }
 
-/// Computes the histograms of a batch: of all action entries together, of each by its name, and of the policy lag of all
-/// transitions. Actions are taken before clipping, in units of the action's range.
+/// Computes the histograms of a batch: of all action entries together, of each by its name, and of the policy lag of
+/// all transitions. Actions are taken before clipping, in units of the action's range.
 pub fn of(batch: &[AcceptedFragment], names: &[String]) -> Vec<(String, Histogram)> {
     let all = batch.iter().flat_map(|accepted| accepted.fragment.actions.iter().copied());
     let mut histograms = vec![("actions/all".to_string(), Histogram::of(all))];

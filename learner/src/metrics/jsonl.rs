@@ -20,7 +20,7 @@ impl JsonLines {
         Ok(Self { file: OpenOptions::new().append(true).create(true).open(path)? })
     }
 
-    /// Writes one line per metric; after an error, none is written. Omits NaN and infinity, which JSON cannot represent.
+    /// Writes one line per metric; after an error, none is written. Omits NaN and infinity, which JSON lacks.
     pub fn write(&mut self, metrics: &[Metric]) -> io::Result<()> {
         let mut lines = Vec::new();
         for metric in metrics.iter().filter(|metric| metric.value.is_finite()) {
@@ -30,9 +30,9 @@ impl JsonLines {
         append_whole(&mut self.file, &lines)
     }
 
-    /// On resume, removes every line with a step above `step`, which the run will write again, and every line that is not
-    /// a metric, such as one truncated by a crash. Replaces the file atomically; a missing file is not an error. Call it
-    /// before [`Self::append`].
+    /// On resume, removes every line with a step above `step`, which the run will write again, and every line that is
+    /// not a metric, such as one truncated by a crash. Replaces the file atomically; a missing file is not an error.
+    /// Call it before [`Self::append`].
     pub fn truncate_after(path: &Path, step: u64) -> io::Result<()> {
         let file = match File::open(path) {
             Ok(file) => file,

@@ -14,7 +14,7 @@
 //! - [`curve`]: [`draw_curve`], the learning curve as a PNG, drawn from `metrics.jsonl`.
 //! - [`curve_thread`]: [`CurveThread`], which draws the curve at intervals during training.
 //!
-//! The caller passes the time of each scalar. Only [`Console`] and [`CurveThread`] read the clock, to measure durations.
+//! The caller passes the time of each scalar. Only [`Console`] and [`CurveThread`] read the clock themselves.
 
 pub mod curve;
 pub mod curve_thread;

@@ -1,7 +1,7 @@
 //! Progress of a run on standard output.
 //!
-//! On a terminal: a progress bar, with tables and messages above it. Elsewhere, such as in a log file: plain lines without
-//! escape codes. Write errors are ignored, so that a closed pipe or a full disk does not stop training.
+//! On a terminal: a progress bar, with tables and messages above it. Elsewhere, such as in a log file: plain lines
+//! without escape codes. Write errors are ignored, so that a closed pipe or a full disk does not stop training.
 
 use std::collections::VecDeque;
 use std::io::{self, IsTerminal, Write};
@@ -163,16 +163,15 @@ impl Console {
         self.write(&text);
     }
 
-    /// Writes a message above the bar, or as a plain line. Removes escape codes and other control characters, because the
-    /// message may quote input from the network.
+    /// Writes a message above the bar, or as a plain line. Removes escape codes and other control characters, because
+    /// the message may quote input from the network.
     pub fn line(&mut self, message: &str) {
         let shown = |c: &char| !c.is_control() || matches!(c, '\n' | '\t');
         let message: String = strip_ansi_codes(message).chars().filter(shown).collect();
         self.write(&format!("{message}\n"));
     }
 
-    /// Removes the bar and writes the number of steps, the mean speed and the last sparklines. Only the first call has an
-    /// effect.
+    /// Removes the bar and writes steps, mean speed and the last sparklines. Only the first call has an effect.
     pub fn finish(&mut self, history: &History) {
         if std::mem::replace(&mut self.finished, true) {
             return;

@@ -1,7 +1,7 @@
 //! Newest value of every metric in Prometheus's text format.
 //!
-//! A tag `group/name` becomes the gauge `treadmill_group_name` with the run as a label. Its help text comes from the tag's
-//! row in `docs/reference/metrics.md`.
+//! A tag `group/name` becomes the gauge `treadmill_group_name` with the run as a label. Its help text comes from the
+//! tag's row in `docs/reference/metrics.md`.
 
 use std::{
     collections::{BTreeMap, HashMap},

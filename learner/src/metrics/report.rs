@@ -130,7 +130,7 @@ impl MetricsReport {
         self.console.show_wait(waited, actors);
     }
 
-    /// Publishes a metric. Each tag's publisher is declared once, because a declared key takes memory until the session ends.
+    /// Publishes a metric. Each tag's publisher is declared once, because a key takes memory until the session ends.
     fn publish(&mut self, metric: &Metric) {
         if !self.publishers.contains_key(&metric.tag) {
             match publish_dropping(&self.bus, keys::metric(&self.run, &metric.tag)) {
@@ -143,8 +143,8 @@ impl MetricsReport {
         self.publishers[&metric.tag](metric.to_json());
     }
 
-    /// Writes how the run ended: `stopped` is whether it was stopped before its last step, or `None` if it failed. Nothing is
-    /// written for a stopped run, because it may be resumed.
+    /// Writes how the run ended: `stopped` is whether it was stopped before its last step, or `None` if it failed.
+    /// Nothing is written for a stopped run, because it may be resumed.
     pub fn end(&self, stopped: Option<bool>) {
         if stopped == Some(true) {
             return;

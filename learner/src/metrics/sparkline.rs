@@ -5,8 +5,8 @@ const BLOCKS: [char; 8] = ['▁', '▂', '▃', '▄', '▅', '▆', '▇', '█
 /// ASCII characters from low to high.
 const ASCII: [char; 8] = ['_', '.', ':', '-', '=', '+', '*', '#'];
 
-/// Draws the values from first to last in at most `width` characters; each shows the mean of an equal share of the values.
-/// The scale spans the lowest and the highest mean.
+/// Draws the values from first to last in at most `width` characters; each shows the mean of an equal share of the
+/// values. The scale spans the lowest and the highest mean.
 pub fn sparkline(values: &[f64], width: usize, is_unicode: bool) -> String {
     let values: Vec<f64> = values.iter().copied().filter(|value| value.is_finite()).collect();
     let width = width.min(values.len());

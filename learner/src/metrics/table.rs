@@ -16,8 +16,8 @@ const PLAIN_BELOW: f64 = 1e15;
 /// Numbers below this are written with an exponent.
 const PLAIN_FROM: f64 = 1e-4;
 
-/// Returns a boxed table with two columns and one block per group, the part of a tag before its first `/`. Groups, and the
-/// names in each, keep their order. Every line ends in a newline.
+/// Returns a boxed table with two columns and one block per group, the part of a tag before its first `/`. Groups, and
+/// the names in each, keep their order. Every line ends in a newline.
 pub fn render_table(scalars: &Scalars) -> String {
     let rows = rows(scalars);
     let width = |column: fn(&Row) -> &str| rows.iter().map(|row| measure_text_width(column(row))).max().unwrap_or(0);

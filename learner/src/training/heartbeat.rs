@@ -8,7 +8,7 @@ use std::{
     time::{Duration, Instant},
 };
 
-/// Time of the training thread's last beat. The thread beats while it waits for fragments and after each part of an update.
+/// Last beat of the training thread, which beats while it waits for fragments and after each part of an update.
 #[derive(Clone, Debug)]
 pub struct Heartbeat {
     begun: Instant,

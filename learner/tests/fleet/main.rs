@@ -1,5 +1,5 @@
-//! The learner's intake in a fleet with slow and dying actors and with delayed and lost messages. It never stalls, accepts
-//! no fragment that is too old, and learns from every fragment at most once.
+//! The learner's intake in a fleet with slow and dying actors and with delayed and lost messages. It never stalls,
+//! accepts no fragment that is too old, and learns from every fragment at most once.
 
 mod world;
 
@@ -130,8 +130,7 @@ impl Learner {
         self.world.borrow_mut().announce(self.lineage.newest());
     }
 
-    /// Checks every fragment of a living process: it is in a checkpoint, dropped by rule, in flight, or kept until it is
-    /// durable.
+    /// Checks that each fragment of a living process is in a checkpoint, dropped by rule, in flight, or kept.
     fn check_fragments(&self) -> Result<(), TestCaseError> {
         let world = self.world.borrow();
         for actor in &world.actors {

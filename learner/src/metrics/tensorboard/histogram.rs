@@ -14,8 +14,8 @@ pub struct Histogram {
 }
 
 impl Histogram {
-    /// Counts numbers in buckets of equal width from the smallest to the greatest; without numbers it has no rows. Omits
-    /// numbers that are not finite. If all are equal, the last bucket counts them, and all buckets have width 0.
+    /// Counts numbers in buckets of equal width from the smallest to the greatest; without numbers it has no rows.
+    /// Omits numbers that are not finite. If all are equal, the last bucket counts them, and all buckets have width 0.
     pub fn of(values: impl Iterator<Item = f32> + Clone) -> Self {
         let finite = values.filter(|value| value.is_finite()).map(f64::from);
         let ends = finite

@@ -1,8 +1,8 @@
 //! Hyperparameters for TensorBoard's HPARAMS tab, which has one row for each run.
 //!
-//! TensorBoard keeps the first summary of each tag, and takes the columns from any run of the folder. So every run has the
-//! same columns, and their values must not change during a run: a resume cannot change the keys below. How a run ended is
-//! in a separate file, which is removed when the run is resumed.
+//! TensorBoard keeps the first summary of each tag, and takes the columns from any run of the folder. So every run has
+//! the same columns, and their values must not change during a run: a resume cannot change the keys below. How a run
+//! ended is in a separate file, which is removed when the run is resumed.
 
 use treadmill_config::Config;
 use treadmill_proto::event_file::{

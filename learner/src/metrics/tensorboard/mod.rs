@@ -59,8 +59,8 @@ pub struct EventWriter {
 }
 
 impl EventWriter {
-    /// Creates a new file `events.out.tfevents.{seconds}.{host}.{process}.{count}` in `folder`. Removes the file that holds
-    /// how the run ended, because the run continues.
+    /// Creates a new file `events.out.tfevents.{seconds}.{host}.{process}.{count}` in `folder`. Removes the file that
+    /// holds how the run ended, because the run continues.
     pub fn create(folder: &Path, time_unix_s: f64, host: &str) -> io::Result<Self> {
         for ended in event_files(folder)?.iter().filter(|path| path.to_string_lossy().ends_with(END_SUFFIX)) {
             fs::remove_file(ended)?;
@@ -79,8 +79,8 @@ impl EventWriter {
         Ok(writer)
     }
 
-    /// On resume, makes TensorBoard discard the older files' data from `first_step` on, because the run will write it again.
-    /// `first_step` is the checkpoint's step plus one.
+    /// On resume, makes TensorBoard discard the older files' data from `first_step` on, because the run will write it
+    /// again. `first_step` is the checkpoint's step plus one.
     pub fn resume(&mut self, first_step: u64, time_unix_s: f64) -> io::Result<()> {
         self.event(Event {
             wall_time: time_unix_s,
@@ -90,7 +90,7 @@ impl EventWriter {
         })
     }
 
-    /// Writes all scalars of one step as one record. Omits values that are not finite as 32-bit floats, TensorBoard's type.
+    /// Writes all scalars of one step as one record of 32-bit floats; omits those that are not finite.
     pub fn scalars(&mut self, step: u64, time_unix_s: f64, scalars: &Scalars) -> io::Result<()> {
         let value: Vec<Value> = scalars
             .iter()
@@ -100,8 +100,8 @@ impl EventWriter {
         self.values(step, time_unix_s, value)
     }
 
-    /// Writes histograms of one step as one record. They are tensors of the plugin `histograms`, because TensorBoard would
-    /// convert the older `HistogramProto` to other buckets.
+    /// Writes histograms of one step as one record. They are tensors of the plugin `histograms`, because TensorBoard
+    /// would convert the older `HistogramProto` to other buckets.
     pub fn histograms(&mut self, step: u64, time_unix_s: f64, histograms: &[(String, Histogram)]) -> io::Result<()> {
         let value = histograms.iter().map(|(tag, Histogram { rows })| Value {
             tag: tag.clone(),
