@@ -29,7 +29,7 @@ class Experiment:
     def await_gone(self, *names):
         """Waits until the learner logs that these actors are gone; sets `detected`."""
         def all_gone():
-            times = [self.fleet.learner_logged(f"`{name}` is gone", self.injected) for name in names]
+            times = [self.fleet.learner_logged(f"actor left actor={name}", self.injected) for name in names]
             return all(times) and max(times)
 
         self.detected = self.fleet.wait("the learner notices the loss", all_gone, 30) - self.injected
@@ -50,7 +50,7 @@ class Experiment:
         since = since or self.repaired
 
         def all_back():
-            logged = self.fleet.delivers if delivers else lambda name, at: self.fleet.learner_logged(f"`{name}` is there", at)
+            logged = self.fleet.delivers if delivers else lambda name, at: self.fleet.learner_logged(f"actor joined actor={name}", at)
             times = [logged(name, since) for name in names]
             return all(times) and max(times)
 

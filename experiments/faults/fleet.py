@@ -194,7 +194,7 @@ class Fleet:
         return min(times, default=None)
 
     def delivers(self, name, since=0.0):
-        return self.learner_logged(f"`{name}` delivers as", since)
+        return self.learner_logged(f"first fragment of an actor process actor={name} ", since)
 
     def spans(self):
         """Yields for each incarnation of an actor: name, incarnation, final JSON, and the last fragment that it produced."""

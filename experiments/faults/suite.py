@@ -73,7 +73,7 @@ def begin(fleet, wrapped, actor_options):
     for name in ("learner", "router", *ACTORS):
         options = actor_options if name in ACTORS else {}
         fleet.start(name, wrapper=wrapped.get(name, ()), **options)
-    fleet.wait("both actors joined", lambda: all(fleet.learner_logged(f"`{name}` is there", 0.0) for name in ACTORS))
+    fleet.wait("both actors joined", lambda: all(fleet.learner_logged(f"actor joined actor={name}", 0.0) for name in ACTORS))
     fleet.grow(6 * FRAGMENT)
 
 

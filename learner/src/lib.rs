@@ -1,10 +1,10 @@
-//! The learner: from rollouts to weights.
+//! Learner: trains the policy from the actors' rollout fragments.
 //!
 //! # Layout, in the order of the data
-//! - [`intake`]: validates fragments from the bus, answers them, and collects them into a batch.
-//! - [`training`]: the loop: collect, update, save, publish, log. The mathematics is the crate `treadmill-ppo`.
-//! - [`checkpoint`]: the whole state of a run, in one file.
-//! - [`metrics`]: scalars and histograms, and where they are logged.
+//! - [`intake`]: validates fragments from the bus, sends receipts, and collects a batch.
+//! - [`training`]: the loop: collect, update, save, publish, log. The crate `treadmill-ppo` holds the mathematics.
+//! - [`checkpoint`]: the whole state of a run in one file.
+//! - [`metrics`]: scalars and histograms, and their outputs.
 //!
 //! The loop runs on its own thread. Nothing here is async, and nothing depends on the actor's crates.
 

@@ -52,7 +52,7 @@ fn a_run_can_be_paused_saved_changed_and_stopped() {
     assert_refused(&control(folder, &["set", "ppo.clip", "1", "run"]), 2, &["`ppo.clip`"]);
     assert_eq!(status(folder)["updates"], paused["updates"]);
 
-    assert!(done(folder, &["resume", "run"]).starts_with("going on after update"));
+    assert!(done(folder, &["resume", "run"]).starts_with("resumed after update"));
     let steps = paused["env_steps"].as_u64().unwrap();
     await_steps(&run, steps + 2048);
     let going = await_that("two actors with accepted fragments", || {

@@ -117,7 +117,7 @@ fn a_waiting_learner_reports_the_reason_and_progress_can_be_turned_off() {
     let mut command = treadmill(folder.path());
     command.args(["learner", "--preset", "smoke", "--listen", "tcp/127.0.0.1:0", "--run-dir", path]);
     let learner = Running::start(command);
-    learner.wait_for("waiting for experience since 2s: no actor is there yet");
+    learner.wait_for("waiting for experience for 2s: no actor is connected");
     learner.signal(libc::SIGTERM);
     assert!(learner.wait().0.success());
     let (quiet_folder, quiet) = folders();

@@ -1,4 +1,4 @@
-//! What an update learns from, and how it is cut into minibatches.
+//! Batch of one update, and its minibatches.
 
 use std::ops::Range;
 
@@ -15,25 +15,25 @@ pub struct Batch {
     pub observations: Vec<f32>,
     /// Actions before clipping to their range, `[S, action]`.
     pub actions: Vec<f32>,
-    /// Log-probabilities of the actions under the policy that ratios are taken to, `[S]`.
+    /// Log-probabilities of the actions under the policy in the denominator of the ratios, `[S]`.
     pub log_probs: Vec<f32>,
-    /// Factors on the normalised advantages, `[S]`: 1, or less where another policy acted.
+    /// Factors on the normalised advantages, `[S]`: 1, or less if another policy acted.
     pub weights: Vec<f32>,
     /// Advantages as estimated, `[S]`; the update normalises them.
     pub advantages: Vec<f32>,
     /// Value targets, normalised, `[S]`.
     pub returns: Vec<f32>,
-    /// Values before the update in the same units, `[S]`; only for the explained variance.
+    /// Values before the update in the same units, `[S]`; used only for the explained variance.
     pub values: Vec<f32>,
 }
 
 impl Batch {
-    /// Transitions, `S`.
+    /// Number of transitions, `S`.
     pub fn len(&self) -> usize {
         self.returns.len()
     }
 
-    /// Whether there are none.
+    /// Whether the batch has no transitions.
     pub fn is_empty(&self) -> bool {
         self.returns.is_empty()
     }
@@ -45,8 +45,8 @@ impl Batch {
         self.values.extend_from_slice(values);
     }
 
-    /// The first field whose length does not fit, with the length it has and the one it should have.
-    pub(crate) fn misfit(&self, shape: &NetworkShape) -> Option<(&'static str, usize, usize)> {
+    /// Returns the first field with a wrong length, its length, and the expected length.
+    pub(crate) fn wrong_length(&self, shape: &NetworkShape) -> Option<(&'static str, usize, usize)> {
         let rows = self.len();
         [
             ("observations", self.observations.len(), rows * shape.observation),
@@ -60,7 +60,8 @@ impl Batch {
         .find(|(_, found, expected)| found != expected)
     }
 
-    /// Observations, `[B, observation]`, and all else of the given rows, on a device. `advantages` are the normalised ones.
+    /// Returns the observations of the given rows, `[B, observation]`, and their other fields, on `device`.
+    /// `advantages` are the normalised ones.
     pub(crate) fn gather(
         &self,
         rows: &[u32],
@@ -87,14 +88,14 @@ impl Batch {
     }
 }
 
-/// Advantages with mean 0 and standard deviation 1 over the whole batch, times their weights.
-pub(crate) fn weighted(batch: &Batch) -> Vec<f32> {
+/// Normalises the advantages over the whole batch and multiplies them by their weights.
+pub(crate) fn weighted_advantages(batch: &Batch) -> Vec<f32> {
     let mut advantages = normalised(&batch.advantages);
     advantages.iter_mut().zip(&batch.weights).for_each(|(advantage, weight)| *advantage *= weight);
     advantages
 }
 
-/// Advantages with mean 0 and standard deviation 1; 1e-8 is added to the deviation.
+/// Returns advantages with mean 0 and standard deviation 1; 1e-8 is added to the deviation.
 pub(crate) fn normalised(advantages: &[f32]) -> Vec<f32> {
     let count = advantages.len() as f64;
     let mean = advantages.iter().map(|a| f64::from(*a)).sum::<f64>() / count;
@@ -103,7 +104,7 @@ pub(crate) fn normalised(advantages: &[f32]) -> Vec<f32> {
     advantages.iter().map(|a| ((f64::from(*a) - mean) * scale) as f32).collect()
 }
 
-/// Cuts `rows` into as many minibatches as come closest to `size` rows each.
+/// Cuts `rows` into minibatches whose sizes are as close to `size` as possible.
 ///
 /// Every row is used; the sizes differ by at most one row and are below 1.5 · `size`.
 pub(crate) fn minibatches(rows: usize, size: usize) -> impl Iterator<Item = Range<usize>> {
@@ -155,7 +156,7 @@ mod tests {
     }
 
     #[test]
-    fn shuffling_reaches_every_order_about_equally_often() {
+    fn shuffling_reaches_every_order_equally_often() {
         let mut rng = Xoshiro256PlusPlus::seed_from_u64(5);
         let mut counts = std::collections::BTreeMap::new();
         for _ in 0..6000 {
@@ -168,7 +169,7 @@ mod tests {
     }
 
     #[test]
-    fn advantages_are_normalised_by_hand() {
+    fn normalised_advantages_equal_those_computed_by_hand() {
         let result = normalised(&[1.0, 3.0, 5.0]);
         let unit = (8.0_f32 / 3.0).sqrt();
         for (a, e) in result.iter().zip([-2.0 / unit, 0.0, 2.0 / unit]) {
@@ -178,7 +179,7 @@ mod tests {
     }
 
     #[test]
-    fn gathered_rows_are_the_ones_asked_for() -> Result<()> {
+    fn gather_returns_the_given_rows() -> Result<()> {
         let shape = NetworkShape { observation: 2, action: 1, hidden: vec![] };
         let batch = Batch {
             observations: vec![0.0, 1.0, 10.0, 11.0, 20.0, 21.0],
@@ -189,7 +190,7 @@ mod tests {
             returns: vec![7.0, 8.0, 9.0],
             values: vec![0.0; 3],
         };
-        assert_eq!(batch.misfit(&shape), None);
+        assert_eq!(batch.wrong_length(&shape), None);
         let (observations, minibatch) = batch.gather(&[2, 0], &[4.0, 5.0, 6.0], &shape, &Device::Cpu)?;
         assert_eq!(observations.to_vec2::<f32>()?, [[20.0, 21.0], [0.0, 1.0]]);
         assert_eq!(minibatch.actions.to_vec2::<f32>()?, [[2.5], [0.5]]);
@@ -197,7 +198,7 @@ mod tests {
         assert_eq!(minibatch.advantages.to_vec1::<f32>()?, [6.0, 4.0]);
         assert_eq!(minibatch.returns.to_vec1::<f32>()?, [9.0, 7.0]);
         let short = Batch { actions: vec![0.5], ..batch };
-        assert_eq!(short.misfit(&shape), Some(("actions", 1, 3)));
+        assert_eq!(short.wrong_length(&shape), Some(("actions", 1, 3)));
         Ok(())
     }
 }

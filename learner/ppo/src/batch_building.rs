@@ -1,8 +1,8 @@
-//! Turns accepted fragments into the batch of one update: normalises observations, estimates returns and advantages, and
-//! corrects for fragments of older policies.
+//! Turns accepted fragments into the batch of one update: normalises observations, estimates returns and advantages,
+//! and corrects for fragments of older policies.
 //!
-//! All observations are normalised by the statistics of the newest policy, also those of a fragment that lags: networks
-//! and statistics together are the policy that the update improves.
+//! All observations, including those of a fragment that lags, are normalised by the newest policy's statistics:
+//! networks and statistics together are the policy that the update improves.
 
 use treadmill_config::PpoConfig;
 use treadmill_policy::{
@@ -23,16 +23,16 @@ use crate::{
 /// Fragment that the learner accepted, and its lag.
 #[derive(Debug)]
 pub struct AcceptedFragment {
-    /// The fragment.
+    /// Its content.
     pub fragment: Fragment,
-    /// Versions between its policy and the newest.
+    /// Number of versions between its policy and the newest.
     pub lag: u64,
 }
 
 /// Builds the batch of one update from whole fragments.
 ///
-/// `policy` is the newest, which the update improves. `value_moments` take in the new returns before returns and values
-/// are normalised by them. With a `mirror`, the batch also has the mirror image of every transition.
+/// `policy` is the newest, which the update improves. The new returns are added to `value_moments` before returns and
+/// values are normalised by them. With a `mirror`, the batch also has the mirror image of every transition.
 ///
 /// # Errors
 /// If the networks cannot be evaluated.
@@ -62,13 +62,13 @@ pub fn build_batch(
 struct BatchBuilder<'a> {
     policy: &'a Policy,
     normaliser: &'a Normaliser,
-    /// Units of returns before this batch, if known.
+    /// Units of returns before this batch, if they are known.
     value_scale: Option<&'a ScalarNormaliser>,
     config: &'a PpoConfig,
 }
 
 impl BatchBuilder<'_> {
-    /// Appends the transitions of one fragment, and with a mirror their mirror images.
+    /// Appends the transitions of one fragment, and their mirror images if there is a mirror.
     fn add(
         &self,
         AcceptedFragment { fragment, lag }: &AcceptedFragment,
@@ -104,7 +104,7 @@ impl BatchBuilder<'_> {
         Ok(())
     }
 
-    /// Advantages and returns of one fragment, in units of scaled rewards.
+    /// Estimates advantages and returns of one fragment, in units of scaled rewards.
     fn advantages(&self, fragment: &Fragment, values: &[f32], next_values: &[f32]) -> Advantages {
         let config = self.config;
         let rewards: Vec<f32> = fragment.rewards.iter().map(|reward| reward * config.reward_scale as f32).collect();
@@ -129,7 +129,7 @@ impl BatchBuilder<'_> {
         let mut observations = mirror.observation.apply(&fragment.observations);
         self.normaliser.apply(&mut observations);
         let mut actions = mirror.action.apply(&fragment.actions);
-        // No policy took the mirrored actions. The policy that would have is the mirror image of the one that acted.
+        // No policy took the mirrored actions. The mirror image of the policy that acted would have.
         let Correction { weights, log_probs } =
             Correction::of(self.policy, &observations, &actions, &fragment.log_probs)?;
         batch.observations.append(&mut observations);
@@ -142,9 +142,9 @@ impl BatchBuilder<'_> {
 
 /// Correction of a fragment that an older policy acted.
 ///
-/// The decoupled objective keeps the newest policy as the one that the update stays near to, and weighs each action by
-/// how much more likely it is than when it was taken (Hilton et al. 2021, "Batch size-invariance for policy optimization",
-/// arXiv:2110.00641, equation 2; the weight is truncated at 1).
+/// The decoupled objective keeps the update near the newest policy, and weights each action by its probability under
+/// the newest policy relative to the one that acted (Hilton et al. 2021, "Batch size-invariance for policy
+/// optimization", arXiv:2110.00641, equation 2; the weight is truncated at 1).
 struct Correction {
     /// `min(1, π(a|s) / μ(a|s))` of each transition, with the newest policy π and the one that acted, μ.
     weights: Vec<f32>,
@@ -166,7 +166,8 @@ impl Correction {
     }
 }
 
-/// Values of the observations truly reached; brings `values` to the units of returns on the way, where they are known.
+/// Returns the values of the observations truly reached. Converts `values` to the units of returns; if those are
+/// unknown, sets all values to 0.
 fn next_values(
     fragment: &Fragment,
     policy: &Policy,
@@ -184,7 +185,7 @@ fn next_values(
             None => values.fill(0.0),
         }
     }
-    // The fragment's last observations mix both kinds, ordered by step and environment.
+    // The last observations of truncated episodes and of the fragment's end are mixed, ordered by step and environment.
     let (envs, mut last_values) = (fragment.envs as usize, last_values.into_iter());
     let (mut truncated_values, mut final_values) = (Vec::new(), vec![0.0; envs]);
     for (index, flags) in fragment.flags.iter().enumerate() {

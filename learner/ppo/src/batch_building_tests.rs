@@ -1,25 +1,28 @@
-//! What lag changes in a batch, and what it does not.
+//! Effects of lag and of a mirror on a batch.
 
+use rand_xoshiro::{Xoshiro256PlusPlus, rand_core::SeedableRng};
 use treadmill_policy::{NetworkShape, init};
 use treadmill_proto::PolicyVersion;
-use treadmill_runtime::seeds;
 
 use super::*;
 
 const STEPS: u32 = 6;
 const ENVS: u32 = 2;
+/// Seeds of the parameters of two policies.
+const NEWEST: u64 = 0x5e31_645e_38a6_c541;
+const OLD: u64 = 0x00ea_63de_0efd_875e;
 
 fn shape() -> NetworkShape {
     NetworkShape { observation: 3, action: 2, hidden: vec![8] }
 }
 
 fn policy(seed: u64) -> Policy {
-    let parameters = init::initial_parameters(&shape(), -0.5, &mut seeds::stream(seed, "parameters", &[]));
-    // Initial action means are next to nothing; larger weights make them tell policies apart.
+    let parameters = init::initial_parameters(&shape(), -0.5, &mut Xoshiro256PlusPlus::seed_from_u64(seed));
+    // Initial action means are close to 0; with larger weights they differ between policies.
     Policy::new(shape(), parameters.iter().map(|p| p * 3.0).collect()).expect("they fit")
 }
 
-/// A fragment acted by `acting`, with actions of fixed offsets from its means.
+/// Fragment acted by `acting`, with actions at fixed offsets from its means.
 fn fragment(acting: &Policy) -> Fragment {
     let rows = (STEPS * ENVS) as usize;
     let observations: Vec<f32> = (0..rows * 3).map(|i| ((i * 37 % 19) as f32 - 9.0) / 9.0).collect();
@@ -54,11 +57,11 @@ fn fragment(acting: &Policy) -> Fragment {
     }
 }
 
-fn prepared(acting: &Policy, newest: &Policy, lag: u64) -> Batch {
-    prepared_with(None, acting, newest, lag)
+fn batch_of(acting: &Policy, newest: &Policy, lag: u64) -> Batch {
+    batch_with(None, acting, newest, lag)
 }
 
-fn prepared_with(mirror: Option<&BatchMirror>, acting: &Policy, newest: &Policy, lag: u64) -> Batch {
+fn batch_with(mirror: Option<&BatchMirror>, acting: &Policy, newest: &Policy, lag: u64) -> Batch {
     let config = PpoConfig::default();
     let accepted = [AcceptedFragment { fragment: fragment(acting), lag }];
     let normaliser = Normaliser::identity(3, 10.0);
@@ -66,13 +69,13 @@ fn prepared_with(mirror: Option<&BatchMirror>, acting: &Policy, newest: &Policy,
 }
 
 #[test]
-fn experience_of_the_newest_policy_is_taken_as_it_is() {
-    let newest = policy(1);
-    let plain = prepared(&newest, &newest, 0);
+fn experience_of_the_newest_policy_is_not_corrected() {
+    let newest = policy(NEWEST);
+    let plain = batch_of(&newest, &newest, 0);
     assert!(plain.weights.iter().all(|weight| *weight == 1.0));
     assert_eq!(plain.log_probs, fragment(&newest).log_probs);
-    // A version that is no other policy corrects nothing away: rounding at most.
-    let corrected = prepared(&newest, &newest, 1);
+    // If the older version has the same parameters, the correction is 1 within rounding.
+    let corrected = batch_of(&newest, &newest, 1);
     assert_eq!((&corrected.advantages, &corrected.returns), (&plain.advantages, &plain.returns));
     for (found, wanted) in corrected.weights.iter().zip(&plain.weights) {
         assert!((found - wanted).abs() < 1e-4, "{found} {wanted}");
@@ -80,10 +83,10 @@ fn experience_of_the_newest_policy_is_taken_as_it_is() {
 }
 
 #[test]
-fn older_experience_is_weighed_by_how_likely_it_has_become() {
-    let (old, newest) = (policy(2), policy(1));
-    let uncorrected = prepared(&old, &newest, 0);
-    let decoupled = prepared(&old, &newest, 2);
+fn older_experience_is_weighted_by_its_probability_ratio() {
+    let (old, newest) = (policy(OLD), policy(NEWEST));
+    let uncorrected = batch_of(&old, &newest, 0);
+    let decoupled = batch_of(&old, &newest, 2);
     let acted = fragment(&old);
     assert_eq!(uncorrected.log_probs, acted.log_probs);
     assert_eq!(decoupled.advantages, uncorrected.advantages);
@@ -104,9 +107,9 @@ fn a_mirror_adds_the_image_of_every_transition() {
         observation: IndexSwap(vec![(1, -1.0), (0, -1.0), (2, 1.0)]),
         action: IndexSwap(vec![(1, 1.0), (0, 1.0)]),
     };
-    let newest = policy(1);
-    let plain = prepared(&newest, &newest, 0);
-    let both = prepared_with(Some(&mirror), &newest, &newest, 0);
+    let newest = policy(NEWEST);
+    let plain = batch_of(&newest, &newest, 0);
+    let both = batch_with(Some(&mirror), &newest, &newest, 0);
     let rows = plain.len();
     assert_eq!((both.len(), both.values.len(), both.weights.len()), (2 * rows, 2 * rows, 2 * rows));
     for (first, second) in [(&both.advantages, &plain.advantages), (&both.log_probs, &plain.log_probs)] {

@@ -4,8 +4,8 @@
 //! Pure functions on planes in time-major order, `[T, N]`: element `(t, n)` stands at `t · N + n`.
 //!
 //! **Truncation is not termination.** A terminated step has no future, so nothing is bootstrapped. After a truncated
-//! step, and at the end of a fragment, the episode would have gone on: the value of the observation truly reached
-//! stands in for the rest. Either way the next row belongs to another episode, so the trace is cut.
+//! step, and at the end of a fragment, the episode would have continued: the value of the observation truly reached
+//! estimates the rest of the return. In both cases the next row belongs to another episode, so the trace is cut.
 
 /// Steps of `envs` environments, each plane `[T, N]`; rewards and values in the same units.
 #[derive(Clone, Copy, Debug)]
@@ -18,54 +18,53 @@ pub struct Steps<'a> {
     pub values: &'a [f32],
     /// `V` of the observation truly reached by each step, as [`next_values`] gives it; not read where terminated.
     pub next_values: &'a [f32],
-    /// Whether the step ended its episode for good.
+    /// Whether the episode terminated at the step.
     pub terminated: &'a [bool],
-    /// Whether the step was the last only because of a time limit.
+    /// Whether a time limit truncated the episode at the step.
     pub truncated: &'a [bool],
 }
 
-/// What [`estimate`] gives, each plane `[T, N]`.
+/// Result of [`estimate`], each plane `[T, N]`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Advantages {
-    /// The advantage of each step's action.
+    /// Advantage of each step's action.
     pub advantages: Vec<f32>,
-    /// The value target of each step: advantage + value, the λ-return.
+    /// Value target of each step: advantage + value, the λ-return.
     pub returns: Vec<f32>,
 }
 
-/// `δ = r + γ V' (1 − terminated) − V` and `A = δ + γ λ A'`, where `A'` is 0 after the end of an episode or fragment.
-/// Value targets are the λ-returns `V + A`.
+/// Estimates advantages and value targets: `δ = r + γ V' (1 − terminated) − V` and `A = δ + γ λ A'`, where `A'` is 0
+/// after the end of an episode or fragment. Value targets are the λ-returns `V + A`.
 ///
 /// # Panics
 /// If the planes differ in length or do not hold whole rows of `envs`.
 pub fn estimate(steps: &Steps, gamma: f32, lambda: f32) -> Advantages {
     let Steps { envs, rewards, values, next_values, terminated, truncated } = *steps;
     let count = rewards.len();
-    assert!(envs > 0 && count.is_multiple_of(envs), "{count} steps are no whole rows of {envs} environments");
+    assert!(envs > 0 && count.is_multiple_of(envs), "{count} steps do not fill rows of {envs} environments");
     assert!(values.len() == count && next_values.len() == count, "one value before and after each step");
     assert!(terminated.len() == count && truncated.len() == count, "one flag of each kind per step");
 
     let (mut advantages, mut returns) = (vec![0.0; count], vec![0.0; count]);
-    // Advantages of the steps after.
-    let mut following = vec![0.0; envs];
+    let mut next_advantages = vec![0.0; envs];
     for start in (0..count).step_by(envs).rev() {
-        for (env, following) in following.iter_mut().enumerate() {
+        for (env, next_advantage) in next_advantages.iter_mut().enumerate() {
             let i = start + env;
             let future = if terminated[i] { 0.0 } else { gamma * next_values[i] };
-            let trace = if terminated[i] || truncated[i] { 0.0 } else { gamma * lambda * *following };
+            let trace = if terminated[i] || truncated[i] { 0.0 } else { gamma * lambda * *next_advantage };
             advantages[i] = rewards[i] + future - values[i] + trace;
-            *following = advantages[i];
+            *next_advantage = advantages[i];
             returns[i] = values[i] + advantages[i];
         }
     }
     Advantages { advantages, returns }
 }
 
-/// The plane of values after each step, from the values before each step and those of the true last observations.
+/// Returns the values after each step, from the values before each step and those of the true last observations.
 ///
 /// * Step not ended, not in the last row: the value before the next step of the same environment.
 /// * Truncated and not terminated: the next of `truncated_values`, which has one for each such step in time-major
-///   order, those of the last row included.
+///   order, including the last row.
 /// * Last row, not ended: `final_values`, `[N]`, the values of the observations after the fragment.
 /// * Terminated: 0.
 ///
@@ -79,7 +78,7 @@ pub fn next_values(
     final_values: &[f32],
 ) -> Vec<f32> {
     let envs = final_values.len();
-    assert!(envs > 0 && values.len().is_multiple_of(envs), "values are no whole rows of {envs} environments");
+    assert!(envs > 0 && values.len().is_multiple_of(envs), "the values do not fill rows of {envs} environments");
     assert!(terminated.len() == values.len() && truncated.len() == values.len(), "one flag of each kind per step");
     let mut truncated_values = truncated_values.iter().copied();
     let after = values.iter().skip(envs).chain(final_values).take(values.len());

@@ -1,10 +1,10 @@
-//! Advantages computed by hand, and compared with the definition.
+//! Advantages against numbers computed by hand, and against the definition.
 
 use proptest::prelude::*;
 
 use super::*;
 
-/// One environment, γ = 0.5, λ = 0.5 unless given otherwise.
+/// Advantages of one environment with γ = 0.5 and λ = 0.5.
 fn one(rewards: &[f32], values: &[f32], ends: &[(bool, bool)], truncated_values: &[f32], last: f32) -> Advantages {
     run(rewards, values, ends, truncated_values, &[last], 0.5, 0.5)
 }
@@ -31,13 +31,13 @@ fn run(
     estimate(&steps, gamma, lambda)
 }
 
-const GOES_ON: (bool, bool) = (false, false);
+const CONTINUES: (bool, bool) = (false, false);
 const TERMINATED: (bool, bool) = (true, false);
 const TRUNCATED: (bool, bool) = (false, true);
 
 #[test]
 fn termination_cuts_the_bootstrap_and_the_trace() {
-    let result = one(&[1.0, 2.0, 3.0], &[4.0, 8.0, 16.0], &[GOES_ON, TERMINATED, GOES_ON], &[], 100.0);
+    let result = one(&[1.0, 2.0, 3.0], &[4.0, 8.0, 16.0], &[CONTINUES, TERMINATED, CONTINUES], &[], 100.0);
     // δ2 = 3 + 50 − 16 = 37; δ1 = 2 − 8 = −6; δ0 = 1 + 4 − 4 = 1, A0 = 1 + ¼ · −6.
     assert_eq!(result.advantages, [-0.5, -6.0, 37.0]);
     assert_eq!(result.returns, [3.5, 2.0, 53.0]);
@@ -45,14 +45,14 @@ fn termination_cuts_the_bootstrap_and_the_trace() {
 
 #[test]
 fn truncation_bootstraps_from_the_true_last_observation_and_cuts_the_trace() {
-    let result = one(&[1.0, 2.0, 3.0], &[4.0, 8.0, 16.0], &[GOES_ON, TRUNCATED, GOES_ON], &[20.0], 100.0);
+    let result = one(&[1.0, 2.0, 3.0], &[4.0, 8.0, 16.0], &[CONTINUES, TRUNCATED, CONTINUES], &[20.0], 100.0);
     // δ1 = 2 + 10 − 8 = 4; A0 = 1 + ¼ · 4.
     assert_eq!(result.advantages, [2.0, 4.0, 37.0]);
 }
 
 #[test]
 fn the_fragment_end_bootstraps_from_the_final_observation() {
-    assert_eq!(one(&[1.0], &[4.0], &[GOES_ON], &[], 10.0).advantages, [2.0]);
+    assert_eq!(one(&[1.0], &[4.0], &[CONTINUES], &[], 10.0).advantages, [2.0]);
     assert_eq!(one(&[1.0], &[4.0], &[TERMINATED], &[], 10.0).advantages, [-3.0]);
     assert_eq!(one(&[1.0], &[4.0], &[TRUNCATED], &[20.0], 10.0).advantages, [7.0]);
 }
@@ -64,7 +64,7 @@ fn a_step_both_terminated_and_truncated_counts_as_terminated() {
 
 #[test]
 fn environments_do_not_mix() {
-    let ends = [GOES_ON, TRUNCATED, TRUNCATED, GOES_ON];
+    let ends = [CONTINUES, TRUNCATED, TRUNCATED, CONTINUES];
     let result = run(&[1.0, 2.0, 3.0, 4.0], &[0.0; 4], &ends, &[10.0, 20.0], &[30.0, 40.0], 0.5, 0.5);
     // Env 1 is truncated first in time-major order (V = 10), then env 0 (V = 20).
     assert_eq!(result.advantages, [1.0 + 0.25 * 13.0, 7.0, 13.0, 24.0]);
@@ -74,7 +74,7 @@ fn environments_do_not_mix() {
 fn lambda_one_is_the_monte_carlo_return_and_lambda_zero_the_temporal_difference() {
     let rewards = [1.0, 2.0, 4.0];
     let values = [10.0, 20.0, 30.0];
-    let ends = [GOES_ON, GOES_ON, TERMINATED];
+    let ends = [CONTINUES, CONTINUES, TERMINATED];
     let monte_carlo = run(&rewards, &values, &ends, &[], &[9.0], 0.5, 1.0);
     assert_eq!(monte_carlo.returns, [1.0 + 1.0 + 1.0, 2.0 + 2.0, 4.0]);
     let difference = run(&rewards, &values, &ends, &[], &[9.0], 0.5, 0.0);
@@ -83,17 +83,17 @@ fn lambda_one_is_the_monte_carlo_return_and_lambda_zero_the_temporal_difference(
 
 #[test]
 #[should_panic(expected = "more values than truncated steps")]
-fn values_left_over_are_a_mistake() {
+fn too_many_truncated_values_panic() {
     next_values(&[1.0], &[false], &[false], &[1.0], &[1.0]);
 }
 
 #[test]
 #[should_panic(expected = "one value for each truncated step")]
-fn values_that_are_missing_are_a_mistake() {
+fn missing_truncated_values_panic() {
     next_values(&[1.0], &[false], &[true], &[], &[1.0]);
 }
 
-/// Equation 16 as it stands: `A_t = Σ_l (γλ)^l δ_{t+l}` up to the end of the episode or fragment.
+/// Equation 16: `A_t = Σ_l (γλ)^l δ_{t+l}` up to the end of the episode or fragment.
 fn by_definition(steps: &Steps, gamma: f64, lambda: f64) -> Vec<f64> {
     let envs = steps.envs;
     let total = steps.rewards.len() / envs;

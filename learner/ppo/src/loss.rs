@@ -1,13 +1,13 @@
-//! The loss of proximal policy optimisation: Schulman et al. 2017, arXiv:1707.06347.
+//! Loss of proximal policy optimisation: Schulman et al. 2017, arXiv:1707.06347.
 //!
-//! Read from top to bottom. `B` is the number of rows of a minibatch, `A` the number of actions.
+//! `B` is the number of rows of a minibatch, `A` the number of actions.
 
 use candle_core::{Result, Tensor};
 use candle_nn::loss::mse;
 use treadmill_config::PpoConfig;
 use treadmill_policy::gaussian::HALF_LN_TAU;
 
-/// Transitions of one gradient step; the observations went into the networks already.
+/// Transitions of one gradient step, without the observations, which the networks have evaluated.
 #[derive(Clone, Debug)]
 pub struct Minibatch {
     /// Actions before clipping to their range, `[B, A]`.
@@ -20,12 +20,12 @@ pub struct Minibatch {
     pub returns: Tensor,
 }
 
-/// The loss and its parts.
+/// Loss and its parts.
 #[derive(Clone, Debug)]
 pub struct Loss {
-    /// What is minimised, a scalar.
+    /// Sum that is minimised, a scalar.
     pub total: Tensor,
-    /// The clipped surrogate, a scalar.
+    /// Clipped surrogate, a scalar.
     pub policy: Tensor,
     /// Half the mean squared error of the values, before its coefficient, a scalar.
     pub value: Tensor,
@@ -37,22 +37,22 @@ pub struct Loss {
     pub log_ratio: Tensor,
 }
 
-/// `total = policy + value_coefficient · value − entropy_coefficient · entropy + bounds_coefficient · bounds`.
+/// Computes `total = policy + value_coefficient · value − entropy_coefficient · entropy + bounds_coefficient · bounds`.
 ///
 /// `output` is that of both networks, `[B, A + 1]`: action means, then the value. `log_std` is `[A]`.
 ///
 /// # Errors
-/// If a tensor has another shape.
+/// If a tensor has the wrong shape.
 pub fn ppo_loss(output: &Tensor, log_std: &Tensor, minibatch: &Minibatch, config: &PpoConfig) -> Result<Loss> {
     let actions = log_std.elem_count();
     let means = output.narrow(1, 0, actions)?.contiguous()?;
     let values = output.narrow(1, actions, 1)?.flatten_all()?;
 
-    // How much more likely the actions have become: ratio = π_new(a|s) / π_old(a|s).
+    // ratio = π_new(a|s) / π_old(a|s).
     let log_ratio = (log_probability(&minibatch.actions, &means, log_std)? - &minibatch.log_probs)?;
     let ratio = log_ratio.exp()?;
 
-    // Equation 7: the worse of the plain and the clipped gain, so that nothing is won by leaving the clip range.
+    // Equation 7: the worse of the plain and the clipped gain, so that leaving the clip range gains nothing.
     let clipped = ratio.clamp(1.0 - config.clip_range, 1.0 + config.clip_range)?;
     let gain = (&ratio * &minibatch.advantages)?.minimum(&(clipped * &minibatch.advantages)?)?;
     let policy = gain.mean_all()?.neg()?;
@@ -60,8 +60,8 @@ pub fn ppo_loss(output: &Tensor, log_std: &Tensor, minibatch: &Minibatch, config
     let value = (mse(&values, &minibatch.returns)? * 0.5)?;
     let entropy = (log_std.sum_all()? + f64::from(HALF_LN_TAU + 0.5) * actions as f64)?;
 
-    // Means beyond the range of actions are pulled back; clipping alone would leave them without a gradient. The
-    // nearest mean within the limit is a constant target, which gives the same gradient as |mean| − limit would.
+    // Pulls back means beyond the range of actions; clipping alone would leave them without a gradient. The nearest
+    // mean within the limit is a constant target, which gives the same gradient as |mean| − limit.
     let within = means.detach().clamp(-config.bounds_limit, config.bounds_limit)?;
     let bounds = ((&means - within)?.sqr()?.sum_all()? / means.dim(0)? as f64)?;
 
@@ -71,9 +71,9 @@ pub fn ppo_loss(output: &Tensor, log_std: &Tensor, minibatch: &Minibatch, config
     Ok(Loss { total, policy, value, entropy, bounds, log_ratio: log_ratio.detach() })
 }
 
-/// Log-density of each row of actions, `[B]`: `Σ −½ ((a − μ)/σ)² − ln σ − ½ ln 2π` (see `policy::gaussian`).
+/// Log-density of each row of actions, `[B]`: `Σ −½ ((a − μ)/σ)² − ln σ − ½ ln 2π` (see `treadmill_policy::gaussian`).
 fn log_probability(actions: &Tensor, means: &Tensor, log_std: &Tensor) -> Result<Tensor> {
-    // The sum over actions is a matrix product with 1/σ², which Candle does faster than a broadcast and a sum.
+    // The sum over actions is a matrix product with 1/σ², which is faster in Candle than a broadcast and a sum.
     let precision = (log_std * -2.0)?.exp()?.unsqueeze(1)?;
     let squared_distance = (actions - means)?.sqr()?.matmul(&precision)?.squeeze(1)?;
     let constant = (log_std.sum_all()? + f64::from(HALF_LN_TAU) * log_std.elem_count() as f64)?;

@@ -1,10 +1,10 @@
-//! The loss against numbers computed by hand, and its gradient against finite differences.
+//! Loss against numbers computed by hand, and its gradient against finite differences.
 
 use candle_core::{Device, Var};
 
 use super::*;
 
-/// One minibatch as plain numbers, `rows` rows of `actions` actions.
+/// One minibatch as plain numbers.
 #[derive(Clone)]
 struct Case {
     output: Vec<f64>,
@@ -26,7 +26,7 @@ impl Case {
         self.returns.len()
     }
 
-    /// The loss by Candle, with the leaves it can be derived by.
+    /// Loss by Candle, and the leaves of its gradient.
     fn loss(&self) -> Result<(Loss, Var, Var)> {
         let (rows, actions) = (self.rows(), self.log_std.len());
         let output = Var::from_tensor(&tensor(&self.output).reshape((rows, actions + 1))?)?;
@@ -40,7 +40,7 @@ impl Case {
         Ok((ppo_loss(&output, &log_std, &minibatch, &self.config)?, output, log_std))
     }
 
-    /// The total loss in f64 with plain loops.
+    /// Total loss in f64 with plain loops.
     fn by_definition(&self) -> f64 {
         let (rows, count, c) = (self.rows(), self.log_std.len(), &self.config);
         let mut total = 0.0;
@@ -62,7 +62,7 @@ impl Case {
     }
 }
 
-/// Six rows of two actions: ratios inside and beyond the clip range with advantages of both signs, means beyond the
+/// Six rows of two actions: ratios inside and outside the clip range with advantages of both signs, means outside the
 /// bounds, every coefficient in use.
 fn case() -> Case {
     let wave = |count: usize, step: f64, scale: f64| (0..count).map(|i| (i as f64 * step).sin() * scale).collect();
@@ -80,7 +80,7 @@ fn case() -> Case {
             ..PpoConfig::default()
         },
     };
-    // Old log-probabilities that give ratios of 1.5, 1.5, 0.6, 0.6, 1.1 and 0.9.
+    // Old log-probabilities for ratios of 1.5, 1.5, 0.6, 0.6, 1.1 and 0.9.
     let (loss, ..) = case.loss().expect("candle runs");
     let new = loss.log_ratio.to_vec1::<f32>().expect("a vector");
     case.log_probs =
@@ -97,7 +97,7 @@ fn close(a: f64, b: f64) {
 }
 
 #[test]
-fn every_part_is_the_one_computed_by_hand() -> Result<()> {
+fn every_part_equals_the_one_computed_by_hand() -> Result<()> {
     // σ = 1; new log-probabilities of the rows: −½ ln 2π and −½ ln 2π − ½.
     let base = -0.5 * std::f64::consts::TAU.ln();
     let case = Case {
@@ -153,7 +153,7 @@ fn the_clipped_side_depends_on_the_sign_of_the_advantage() -> Result<()> {
 }
 
 #[test]
-fn the_loss_is_the_one_of_the_definition() -> Result<()> {
+fn the_loss_equals_its_definition() -> Result<()> {
     close(value(&case().loss()?.0.total), case().by_definition());
     Ok(())
 }
@@ -179,7 +179,7 @@ fn the_gradient_agrees_with_finite_differences() -> Result<()> {
 }
 
 #[test]
-fn a_row_whose_gain_is_clipped_does_not_move_the_means() -> Result<()> {
+fn a_clipped_gain_has_no_gradient() -> Result<()> {
     let mut case = case();
     case.config.bounds_coefficient = 0.0;
     let (loss, output, _) = case.loss()?;

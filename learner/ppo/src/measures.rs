@@ -1,8 +1,8 @@
-//! Measures of an update, and the learning rate that follows from them.
+//! Measures of an update, and the adaptive learning rate.
 
 use treadmill_config::PpoConfig;
 
-/// How far the policy has moved from the one that gathered the data, summed over rows.
+/// Distance of the policy from the one that acted, summed over rows.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct PolicyShift {
     rows: usize,
@@ -11,7 +11,7 @@ pub(crate) struct PolicyShift {
 }
 
 impl PolicyShift {
-    /// Adds rows by their `ln π_new(a|s) − ln π_old(a|s)`.
+    /// Adds rows, given their `ln π_new(a|s) − ln π_old(a|s)`.
     pub(crate) fn add(&mut self, log_ratio: &[f32], clip_range: f64) {
         self.rows += log_ratio.len();
         for log_ratio in log_ratio.iter().map(|l| f64::from(*l)) {
@@ -21,21 +21,21 @@ impl PolicyShift {
         }
     }
 
-    /// Estimate of the Kullback–Leibler divergence from the old to the new policy, in nats: the mean of
+    /// Estimated Kullback–Leibler divergence from the old to the new policy, in nats: the mean of
     /// `(ratio − 1) − ln ratio`, unbiased and never negative (Schulman 2020, "Approximating KL divergence", `k3`).
     pub(crate) fn approx_kl(&self) -> f64 {
         self.kl / self.rows.max(1) as f64
     }
 
-    /// Share of rows whose ratio lies outside the clip range.
+    /// Share of rows whose ratio is outside the clip range.
     pub(crate) fn clip_fraction(&self) -> f64 {
         self.clipped as f64 / self.rows.max(1) as f64
     }
 }
 
-/// The share of the variance of `returns` that `values` explain: `1 − Var(returns − values) / Var(returns)`.
+/// Returns the share of the variance of `returns` that `values` explain: `1 − Var(returns − values) / Var(returns)`.
 ///
-/// 1 is perfect, 0 no better than a constant; 0 also where all returns are equal or there are none.
+/// 1 is perfect, 0 is no better than a constant. It is also 0 if all returns are equal or there are none.
 ///
 /// # Panics
 /// If the lengths differ.
@@ -52,10 +52,10 @@ fn variance(numbers: impl Iterator<Item = f64> + Clone) -> f64 {
     numbers.map(|x| (x - mean).powi(2)).sum::<f64>() / count
 }
 
-/// The learning rate after an epoch whose KL divergence was `approx_kl`: over twice the target it is divided by 1.5,
-/// under half the target multiplied by 1.5, always within its bounds; a target of 0 keeps it fixed.
+/// Returns the learning rate after an epoch whose KL divergence was `approx_kl`. Above twice the target it is divided
+/// by 1.5, below half the target multiplied by 1.5, always within its bounds. A target of 0 keeps it fixed.
 ///
-/// The rule of rl_games and rsl_rl, after the adaptive penalty of Schulman et al. 2017, arXiv:1707.06347, section 4.
+/// Rule of rl_games and rsl_rl, after the adaptive penalty of Schulman et al. 2017, arXiv:1707.06347, section 4.
 pub fn adapt_learning_rate(learning_rate: f64, approx_kl: f64, config: &PpoConfig) -> f64 {
     const FACTOR: f64 = 1.5;
     let adapted = match config.target_kl {

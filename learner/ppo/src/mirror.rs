@@ -9,7 +9,7 @@ pub struct BatchMirror {
     pub action: IndexSwap,
 }
 
-/// For each entry of a row: index and sign of the entry that takes its place.
+/// Index and sign of the entry that replaces each entry of a row.
 #[derive(Clone, Debug, PartialEq)]
 pub struct IndexSwap(pub Vec<(usize, f32)>);
 

@@ -1,7 +1,7 @@
 //! Adam and gradient clipping over one flat slice.
 //!
 //! Kingma & Ba 2015, "Adam: a method for stochastic optimization", arXiv:1412.6980, algorithm 1, with the constants and
-//! the placing of ε of PyTorch's `torch.optim.Adam`: β₁ 0.9, β₂ 0.999, ε 1e-8 outside the root, no weight decay.
+//! the place of ε of PyTorch's `torch.optim.Adam`: β₁ 0.9, β₂ 0.999, ε 1e-8 outside the root, no weight decay.
 
 use multiversion::multiversion;
 use serde::{Deserialize, Serialize};
@@ -10,7 +10,7 @@ const BETA_1: f64 = 0.9;
 const BETA_2: f64 = 0.999;
 const EPSILON: f64 = 1e-8;
 
-/// All that Adam remembers; with the learning rate it makes a resumed run go on exactly.
+/// State of Adam. Together with the learning rate, a resumed run continues from it exactly.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct OptimiserState {
     /// Steps taken.
@@ -22,12 +22,12 @@ pub struct OptimiserState {
 }
 
 impl OptimiserState {
-    /// The state before the first step.
+    /// State before the first step.
     pub fn new(parameters: usize) -> Self {
         Self { step: 0, first_moment: vec![0.0; parameters], second_moment: vec![0.0; parameters] }
     }
 
-    /// One step of Adam with the gradient times `scale`.
+    /// Takes one step of Adam with the gradient times `scale`.
     ///
     /// # Panics
     /// If the lengths differ.
@@ -35,7 +35,7 @@ impl OptimiserState {
         let count = parameters.len();
         assert!(gradient.len() == count && self.first_moment.len() == count && self.second_moment.len() == count);
         self.step += 1;
-        // Steps beyond i32 change nothing: both powers are 0 long before.
+        // Steps beyond i32 change nothing: both powers are 0 well before.
         let step = i32::try_from(self.step).unwrap_or(i32::MAX);
         let factors = Factors {
             scale,
@@ -46,7 +46,7 @@ impl OptimiserState {
     }
 }
 
-/// What is the same for every parameter of one step.
+/// Factors that all parameters of one step share.
 struct Factors {
     scale: f32,
     step_size: f32,
@@ -68,7 +68,7 @@ fn adam(parameters: &mut [f32], gradient: &[f32], first: &mut [f32], second: &mu
     }
 }
 
-/// The Euclidean norm of a gradient, summed in f64; infinite or not a number where the gradient is.
+/// Returns the Euclidean norm of a gradient, summed in f64; infinite or not a number if an entry is.
 #[multiversion(targets("x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl", "x86_64+avx2+fma"))]
 pub fn global_norm(gradient: &[f32]) -> f64 {
     // Sixteen sums side by side, in a fixed order, so that the loop vectorises and the result never changes.
@@ -85,8 +85,8 @@ pub fn global_norm(gradient: &[f32]) -> f64 {
     sums.iter().sum::<f64>().sqrt()
 }
 
-/// The factor that brings a gradient of `norm` down to `max_norm`, and leaves a smaller one as it is: Pascanu, Mikolov
-/// & Bengio 2013, arXiv:1211.5063, with the 1e-6 of PyTorch's `clip_grad_norm_`.
+/// Returns the factor that reduces a gradient of `norm` to `max_norm`, or 1 if it is smaller: Pascanu, Mikolov & Bengio
+/// 2013, arXiv:1211.5063, with the 1e-6 of PyTorch's `clip_grad_norm_`.
 pub fn clip_factor(norm: f64, max_norm: f64) -> f32 {
     (max_norm / (norm + 1e-6)).min(1.0) as f32
 }

@@ -1,4 +1,4 @@
-//! One update: several epochs of gradient steps over one batch, undone as a whole if a number is not finite.
+//! One update: several epochs of gradient steps over one batch. If a number is not finite, the whole update is undone.
 
 use std::sync::Arc;
 
@@ -10,7 +10,7 @@ use treadmill_policy::gaussian::clamp_log_std;
 use treadmill_policy::{NetworkPart, NetworkShape, Networks, ParameterError, Policy, check_parameters};
 
 use crate::{
-    batch::{Batch, minibatches, shuffle, weighted},
+    batch::{Batch, minibatches, shuffle, weighted_advantages},
     loss::ppo_loss,
     measures::{PolicyShift, adapt_learning_rate, explained_variance},
     optimiser::{OptimiserState, clip_factor, global_norm},
@@ -27,7 +27,7 @@ pub struct Updater {
     state: State,
 }
 
-/// What an update changes, and what is put back when it fails.
+/// State that an update changes, restored when the update fails.
 #[derive(Clone, Debug)]
 struct State {
     parameters: Vec<f32>,
@@ -35,10 +35,10 @@ struct State {
     learning_rate: f64,
 }
 
-/// Means over all gradient steps of an update, weighted by rows, unless said otherwise.
+/// Statistics of an update: means over all gradient steps, weighted by rows, unless stated otherwise.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct UpdateStats {
-    /// The clipped surrogate; negative where the policy improves.
+    /// Clipped surrogate; negative if the policy improves.
     pub policy_loss: f64,
     /// Half the mean squared error of the normalised values.
     pub value_loss: f64,
@@ -46,9 +46,9 @@ pub struct UpdateStats {
     pub entropy: f64,
     /// Squared excess of action means over the limit, summed over actions.
     pub bounds_loss: f64,
-    /// Estimated KL divergence from the old policy in nats, mean over the last epoch.
+    /// Estimated KL divergence from the old policy in nats, over the last epoch.
     pub approx_kl: f64,
-    /// Share of rows whose probability ratio left the clip range.
+    /// Share of rows whose probability ratio is outside the clip range.
     pub clip_fraction: f64,
     /// Share of the variance of the returns that the values before the update explain.
     pub explained_variance: f64,
@@ -60,11 +60,11 @@ pub struct UpdateStats {
     pub std: f64,
     /// Gradient steps taken.
     pub minibatches: u64,
-    /// Rows that went through the networks, forward and back: batch times epochs.
+    /// Rows evaluated and differentiated: batch times epochs.
     pub samples: u64,
 }
 
-/// Why an update did not take place. The updater is as it was before; the random stream is not.
+/// Why an update was undone. The updater's state is restored, the random stream's is not.
 #[derive(Debug, thiserror::Error)]
 pub enum UpdateError {
     /// The batch holds no transition.
@@ -73,25 +73,25 @@ pub enum UpdateError {
     /// A field of the batch has the wrong length.
     #[error("{field} of the batch has {found} numbers, expected {expected}")]
     Length {
-        /// Which one.
+        /// Name of the field.
         field: &'static str,
         /// Its length.
         found: usize,
-        /// The length that fits the network and the other fields.
+        /// Length that fits the network and the other fields.
         expected: usize,
     },
     /// A number became infinite or not a number.
-    #[error("the {what} is not finite; the update was undone")]
+    #[error("the {what} is not finite")]
     NonFinite {
-        /// What was not finite: loss, gradient or parameters.
+        /// Quantity that is not finite, such as the loss.
         what: &'static str,
     },
     /// Candle failed.
-    #[error("the tensor library failed; the update was undone")]
+    #[error("the tensor library failed")]
     Tensor(#[from] candle_core::Error),
 }
 
-/// Why an updater cannot begin with what it was given.
+/// Why an updater cannot start from the given parameters or state.
 #[derive(Debug, thiserror::Error)]
 pub enum UpdaterError {
     /// The parameters do not fit the network.
@@ -108,8 +108,8 @@ pub enum UpdaterError {
 }
 
 impl Updater {
-    /// A fresh optimiser for `parameters`. The update runs on the threads of `pool`, on the calling one where `pool` has
-    /// a single thread; the results do not depend on how many there are.
+    /// Updater of `parameters` with a fresh optimiser. The update runs on the threads of `pool`, or on the calling
+    /// thread if `pool` has only one; the results do not depend on the number of threads.
     ///
     /// # Errors
     /// If the parameters do not fit the shape or are not finite.
@@ -122,10 +122,10 @@ impl Updater {
         Self::on(&Device::Cpu, shape, parameters, config, pool)
     }
 
-    /// As [`Self::new`], with networks and loss on `device`; advantages, clipping and Adam stay on the CPU.
+    /// Updater as by [`Self::new`], with networks and loss on `device`; advantages, clipping and Adam stay on the CPU.
     ///
     /// # Errors
-    /// As there.
+    /// As for [`Self::new`].
     pub fn on(
         device: &Device,
         shape: NetworkShape,
@@ -141,10 +141,10 @@ impl Updater {
         Ok(Self { shape, config: config.clone(), networks, device: device.clone(), pool, state })
     }
 
-    /// Goes on exactly where `optimiser` and the current `learning_rate` were taken from an updater.
+    /// Continues from another updater's `optimiser` and `learning_rate`.
     ///
     /// # Errors
-    /// If the optimiser's state does not fit the shape; then nothing has changed.
+    /// If the optimiser's state does not fit the shape; nothing is changed then.
     pub fn restore(&mut self, optimiser: OptimiserState, learning_rate: f64) -> Result<(), UpdaterError> {
         let expected = self.state.parameters.len();
         for moment in [&optimiser.first_moment, &optimiser.second_moment] {
@@ -156,37 +156,37 @@ impl Updater {
         Ok(())
     }
 
-    /// The shape of the networks.
+    /// Shape of the networks.
     pub fn shape(&self) -> &NetworkShape {
         &self.shape
     }
 
-    /// The flat parameter vector.
+    /// Parameters as one flat vector.
     pub fn parameters(&self) -> Vec<f32> {
         self.state.parameters.clone()
     }
 
-    /// All that Adam remembers.
+    /// State of Adam.
     pub fn optimiser(&self) -> &OptimiserState {
         &self.state.optimiser
     }
 
-    /// The current learning rate.
+    /// Current learning rate.
     pub fn learning_rate(&self) -> f64 {
         self.state.learning_rate
     }
 
-    /// Sets the learning rate; adaptation goes on from there.
+    /// Sets the learning rate, which adaptation then changes.
     pub fn set_learning_rate(&mut self, learning_rate: f64) {
         self.state.learning_rate = learning_rate;
     }
 
-    /// Learns by these settings from now on; the learning rate stays what adaptation made of it.
+    /// Replaces the settings; the adapted learning rate stays.
     pub fn set_config(&mut self, config: &PpoConfig) {
         self.config = config.clone();
     }
 
-    /// The current policy, which evaluates many rows on the threads of the update.
+    /// Current policy, which evaluates many rows on the threads of the update.
     ///
     /// # Errors
     /// If Candle fails.
@@ -197,20 +197,20 @@ impl Updater {
     /// Takes `epochs` passes over the batch, in an order drawn from `rng`.
     ///
     /// # Errors
-    /// If the batch does not fit, or a loss, gradient or parameter is not finite; then nothing has changed.
+    /// If the batch does not fit, or a loss, gradient or parameter is not finite; nothing is changed then.
     pub fn update(&mut self, batch: &Batch, rng: &mut impl Rng) -> Result<UpdateStats, UpdateError> {
         self.update_in(self.config.epochs, batch, rng)
     }
 
-    /// As [`Self::update`], with another number of passes.
+    /// Takes the given number of passes, else as [`Self::update`].
     ///
     /// # Errors
-    /// As there.
+    /// As for [`Self::update`].
     pub fn update_in(&mut self, epochs: u32, batch: &Batch, rng: &mut impl Rng) -> Result<UpdateStats, UpdateError> {
         if batch.is_empty() {
             return Err(UpdateError::Empty);
         }
-        if let Some((field, found, expected)) = batch.misfit(&self.shape) {
+        if let Some((field, found, expected)) = batch.wrong_length(&self.shape) {
             return Err(UpdateError::Length { field, found, expected });
         }
         let before = self.state.clone();
@@ -222,7 +222,7 @@ impl Updater {
     }
 
     fn run_epochs(&mut self, epochs: u32, batch: &Batch, rng: &mut impl Rng) -> Result<UpdateStats, UpdateError> {
-        let advantages = weighted(batch);
+        let advantages = weighted_advantages(batch);
         let mut order: Vec<u32> = (0..batch.len() as u32).collect();
         let mut stats = UpdateStats {
             explained_variance: explained_variance(&batch.values, &batch.returns),
@@ -238,7 +238,7 @@ impl Updater {
             stats.clip_fraction += shift.clip_fraction() / f64::from(epochs);
             self.state.learning_rate = adapt_learning_rate(self.state.learning_rate, stats.approx_kl, &self.config);
         }
-        finite(self.state.parameters.iter().all(|p| p.is_finite()), "parameter vector")?;
+        check_finite(self.state.parameters.iter().all(|p| p.is_finite()), "parameter vector")?;
 
         let samples = stats.samples as f64;
         for sum in [
@@ -256,7 +256,7 @@ impl Updater {
         Ok(stats)
     }
 
-    /// Forward, loss, backward, clipping, Adam. Adds to the sums in `stats` what the rows contribute.
+    /// Forward, loss, backward, clipping, Adam. Adds the rows' contributions to the sums in `stats` and `shift`.
     fn gradient_step(
         &mut self,
         batch: &Batch,
@@ -266,21 +266,21 @@ impl Updater {
         shift: &mut PolicyShift,
     ) -> Result<(), UpdateError> {
         let (observations, minibatch) = batch.gather(rows, advantages, &self.shape, &self.device)?;
-        // A leaf of its own: Candle's gradient of a slice of the flat vector would be as long as the vector.
+        // A separate leaf: Candle's gradient of a slice of the flat vector would be as long as the vector.
         let log_std_range = self.shape.log_std();
         let log_std = leaf(&self.state.parameters[log_std_range.clone()], &self.device)?;
         let parameters = leaf(&self.state.parameters, &self.device)?;
 
         let output = self.networks.forward(&parameters, &observations)?;
         let loss = ppo_loss(&output, &log_std, &minibatch, &self.config)?;
-        finite(scalar(&loss.total)?.is_finite(), "loss")?;
+        check_finite(scalar(&loss.total)?.is_finite(), "loss")?;
 
         let gradients = loss.total.backward()?;
-        let of = |leaf: &Var| gradients.get(leaf).expect("the loss depends on every leaf").to_vec1::<f32>();
-        let mut gradient = of(&parameters)?;
-        gradient[log_std_range.clone()].copy_from_slice(&of(&log_std)?);
+        let gradient_of = |leaf: &Var| gradients.get(leaf).expect("the loss depends on every leaf").to_vec1::<f32>();
+        let mut gradient = gradient_of(&parameters)?;
+        gradient[log_std_range.clone()].copy_from_slice(&gradient_of(&log_std)?);
         let norm = global_norm(&gradient);
-        finite(norm.is_finite(), "gradient")?;
+        check_finite(norm.is_finite(), "gradient")?;
 
         let State { parameters, optimiser, learning_rate } = &mut self.state;
         optimiser.apply(parameters, &gradient, clip_factor(norm, self.config.max_grad_norm), *learning_rate);
@@ -299,7 +299,7 @@ impl Updater {
     }
 }
 
-fn finite(is_finite: bool, what: &'static str) -> Result<(), UpdateError> {
+fn check_finite(is_finite: bool, what: &'static str) -> Result<(), UpdateError> {
     if is_finite { Ok(()) } else { Err(UpdateError::NonFinite { what }) }
 }
 

@@ -30,14 +30,14 @@ fn pool(threads: usize) -> Arc<ThreadPool> {
     Arc::new(rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads start"))
 }
 
-/// A new updater with all that a checkpoint keeps of another.
+/// New updater with the state that a checkpoint keeps of another.
 fn restored(other: &Updater, learning_rate: f64) -> Updater {
     let mut updater = Updater::new(shape(), other.parameters(), &other.config, pool(1)).expect("its parameters fit");
     updater.restore(other.optimiser().clone(), learning_rate).expect("its state fits");
     updater
 }
 
-/// Actions drawn from the updater's policy; the best action is the first two observations, the return their sum.
+/// Batch of actions of the updater's policy. The best action is the first two observations, the return their sum.
 fn batch(updater: &Updater, rows: usize, seed: u64) -> Batch {
     let (shape, mut rng) = (updater.shape(), rng(seed));
     let policy = updater.policy().expect("its own parameters fit");
@@ -62,7 +62,7 @@ fn batch(updater: &Updater, rows: usize, seed: u64) -> Batch {
     batch
 }
 
-/// Policy loss, value loss and total of the whole batch under the updater's parameters.
+/// Policy loss, value loss and total loss of the whole batch under the updater's parameters.
 fn losses(updater: &Updater, batch: &Batch) -> candle_core::Result<[f64; 3]> {
     let rows: Vec<u32> = (0..batch.len() as u32).collect();
     let (observations, minibatch) =
@@ -81,7 +81,7 @@ fn assert_same(a: &Updater, b: &Updater) {
 }
 
 #[test]
-fn an_update_lowers_both_losses_and_reports_what_it_did() {
+fn an_update_lowers_both_losses_and_returns_its_statistics() {
     let mut updater = updater(&config(), 1);
     let batch = batch(&updater, 1000, 2);
     let before = losses(&updater, &batch).expect("candle runs");
@@ -119,7 +119,7 @@ fn many_updates_solve_the_problem() {
 }
 
 #[test]
-fn one_gradient_step_is_the_one_of_candles_own_operations() -> candle_core::Result<()> {
+fn one_gradient_step_equals_that_of_candles_operations() -> candle_core::Result<()> {
     let config = PpoConfig { minibatch: 600, epochs: 1, target_kl: 0.0, max_grad_norm: 0.1, ..PpoConfig::default() };
     let mut updater = updater(&config, 1);
     let batch = batch(&updater, 600, 2);
@@ -147,7 +147,7 @@ fn one_gradient_step_is_the_one_of_candles_own_operations() -> candle_core::Resu
 }
 
 #[test]
-fn the_number_of_threads_does_not_change_one_bit() {
+fn the_number_of_threads_does_not_change_a_bit() {
     let config = PpoConfig { minibatch: 1500, epochs: 2, ..PpoConfig::default() };
     let mut alone = updater(&config, 1);
     let batch = batch(&alone, 3001, 5);
@@ -160,7 +160,7 @@ fn the_number_of_threads_does_not_change_one_bit() {
 }
 
 #[test]
-fn a_restored_updater_goes_on_with_the_same_bits() {
+fn a_restored_updater_continues_with_the_same_bits() {
     let mut whole = updater(&config(), 1);
     let first = batch(&whole, 700, 8);
     whole.update(&first, &mut rng(9)).expect("a sound batch");
@@ -173,7 +173,7 @@ fn a_restored_updater_goes_on_with_the_same_bits() {
 }
 
 #[test]
-fn an_update_with_a_number_that_is_not_finite_is_undone() {
+fn an_update_with_a_non_finite_number_is_undone() {
     let mut updater = updater(&config(), 1);
     let good = batch(&updater, 700, 8);
     updater.update(&good, &mut rng(9)).expect("a sound batch");
@@ -205,7 +205,7 @@ fn parameters_that_overflow_are_undone() {
     let fresh = updater(&config, 1);
     let mut updater = restored(&fresh, 1e300);
     let batch = batch(&updater, 700, 8);
-    let error = updater.update(&batch, &mut rng(9)).expect_err("a step without end");
+    let error = updater.update(&batch, &mut rng(9)).expect_err("an infinite step");
     assert!(matches!(error, UpdateError::NonFinite { what: "parameter vector" }), "{error}");
     assert_eq!(updater.parameters(), fresh.parameters());
     assert_eq!(updater.optimiser(), fresh.optimiser());
@@ -252,8 +252,8 @@ fn state_that_does_not_fit_is_refused() {
 }
 
 #[test]
-fn plain_operations_learn_what_the_fused_ones_learn() {
-    // What runs on a GPU, on the CPU: the same update within rounding.
+fn plain_operations_agree_with_fused_ones() {
+    // A GPU uses the plain operations; here they run on the CPU. The updates agree within rounding.
     let mut fused = updater(&config(), 1);
     let batch = batch(&fused, 700, 8);
     let mut plain = restored(&fused, fused.learning_rate());

@@ -1,6 +1,6 @@
-//! The learner's mathematics against PyTorch's and numpy's, by the files in `golden/`.
+//! The learner's mathematics against the results of PyTorch and numpy in `golden/`.
 //!
-//! Each comparison is also shown to find one wrong sign.
+//! Each test also shows that its comparison finds one wrong sign.
 
 mod golden;
 
@@ -57,7 +57,7 @@ impl AdvantagesFile {
 }
 
 #[test]
-fn advantages_are_those_of_n_step_returns() {
+fn advantages_equal_those_of_n_step_returns() {
     let file = AdvantagesFile::read();
     file.compare().expect("the same advantages");
     AdvantagesFile { rewards: flipped(&file.rewards), ..file.clone() }.compare().expect_err("a reward is wrong");
@@ -67,12 +67,12 @@ fn advantages_are_those_of_n_step_returns() {
         .expect_err("a value of a true last observation is wrong");
     AdvantagesFile { advantages: flipped(&file.advantages), ..file.clone() }.compare().expect_err("a number is wrong");
 
-    // Both kinds of ends matter: neither may be taken for the other.
+    // Confusing termination with truncation is an error in both directions.
     let with = |kind: &[bool], other: &[bool]| kind.iter().zip(other).position(|(kind, other)| *kind && !*other);
     let mut both = file.clone();
     let at = with(&file.terminated, &file.truncated).expect("a step that only terminated");
     both.terminated[at] = false;
-    both.compare().expect_err("a terminated step that goes on");
+    both.compare().expect_err("a terminated step that continues");
     let at = with(&file.truncated, &file.terminated).expect("a step that was only truncated");
     let mut both = file.clone();
     both.terminated[at] = true;
@@ -134,7 +134,7 @@ impl LossFile {
 }
 
 #[test]
-fn loss_and_gradient_are_those_of_pytorch() {
+fn loss_and_gradient_equal_those_of_pytorch() {
     let file = LossFile::read();
     file.compare().expect("the same loss");
     for (what, wrong) in [
@@ -189,7 +189,7 @@ impl AdamFile {
 }
 
 #[test]
-fn clipping_and_adam_are_those_of_pytorch() {
+fn clipping_and_adam_equal_those_of_pytorch() {
     let file: AdamFile = read(include_str!("golden/adam.json"));
     file.compare().expect("the same steps");
     for number in 0..file.steps.len() {
@@ -251,7 +251,7 @@ impl MomentsFile {
 }
 
 #[test]
-fn running_statistics_are_those_of_numpy() {
+fn running_statistics_equal_those_of_numpy() {
     let file: MomentsFile = read(include_str!("golden/moments.json"));
     file.compare().expect("the same statistics");
     for number in 0..file.parts.len() {

@@ -1,6 +1,6 @@
-//! Whole PPO updates against PyTorch's, by `golden/update.json`.
+//! Whole PPO updates against PyTorch's in `golden/update.json`.
 //!
-//! Each comparison is also shown to find one wrong sign.
+//! Each test also shows that its comparison finds one wrong sign.
 
 mod golden;
 
@@ -13,10 +13,10 @@ use serde::Deserialize;
 use treadmill_policy::NetworkShape;
 use treadmill_ppo::{Batch, UpdateStats, Updater};
 
-/// Of the parameters' root mean square, 0.3, or of their own size. Each gradient step moves them by about 1e-3.
+/// Relative to the parameters' root mean square, 0.3, or to their size. Each gradient step moves them by about 1e-3.
 const PARAMETER_TOLERANCE: f64 = 1e-5;
 
-/// The order of rows in each epoch, which PyTorch is given.
+/// Order of rows in each epoch, which PyTorch follows.
 #[derive(Deserialize)]
 struct OrderFile {
     seed: u64,
@@ -25,7 +25,7 @@ struct OrderFile {
 }
 
 #[test]
-fn pytorch_took_the_rows_in_the_order_of_the_shuffle() {
+fn the_recorded_order_equals_that_of_the_shuffle() {
     let file: OrderFile = read(include_str!("golden/order.json"));
     let mut random = Xoshiro256PlusPlus::seed_from_u64(file.seed);
     let mut order: Vec<u32> = (0..file.rows).collect();
@@ -76,7 +76,7 @@ impl UpdateFile {
         read(include_str!("golden/update.json"))
     }
 
-    /// Our own update of the same parameters by the same batch.
+    /// Runs the learner's update of the same parameters with the same batch.
     fn run(&self, case: &UpdateCase) -> (Updater, UpdateStats) {
         let shape = NetworkShape { observation: self.observation, action: self.action, hidden: self.hidden.clone() };
         let batch = Batch {
@@ -114,14 +114,14 @@ impl UpdateFile {
             ("explained_variance", stats.explained_variance),
             ("std", stats.std),
         ] {
-            // Gains and losses nearly cancel in the policy loss, so that little is left to be relative to.
+            // Gains and losses nearly cancel in the policy loss, so its relative error is larger.
             let tolerance = if what == "policy_loss" { 1e-2 } else { 1e-4 };
             compare(what, &[found], &[case.stats[what]], tolerance)?;
         }
         Ok(())
     }
 
-    /// The same with another batch.
+    /// Returns the file with a changed batch.
     fn with(&self, change: impl FnOnce(&mut BatchFile)) -> Self {
         let mut changed = self.clone();
         change(&mut changed.batch);
@@ -130,7 +130,7 @@ impl UpdateFile {
 }
 
 #[test]
-fn one_gradient_step_is_that_of_pytorch() {
+fn one_gradient_step_equals_that_of_pytorch() {
     let file = UpdateFile::read();
     let case = &file.one_step;
     assert_eq!(case.gradient_steps, 1);
@@ -141,11 +141,11 @@ fn one_gradient_step_is_that_of_pytorch() {
 }
 
 #[test]
-fn a_whole_update_is_that_of_pytorch() {
+fn a_whole_update_equals_that_of_pytorch() {
     let file = UpdateFile::read();
     let case = &file.whole;
     file.compare(case).expect("the same update");
-    // It has everything in it that an update can have.
+    // The case covers clipped ratios, bounds, clipped gradients and an adapted learning rate.
     let stats = &case.stats;
     assert!(case.gradient_steps > 10 && stats["clip_fraction"] > 0.1 && stats["bounds_loss"] > 0.01, "{stats:?}");
     assert!(stats["grad_norm"] > case.config["max_grad_norm"], "gradients are clipped: {stats:?}");
@@ -169,11 +169,11 @@ fn a_whole_update_is_that_of_pytorch() {
 }
 
 #[test]
-fn an_update_whose_learning_rate_rises_is_that_of_pytorch() {
+fn an_update_with_a_rising_learning_rate_equals_that_of_pytorch() {
     let file = UpdateFile::read();
     let case = &file.rising;
     assert_eq!(case.stats["learning_rate"], case.config["learning_rate_max"]);
     file.compare(case).expect("the same update");
-    // The rate of the whole update is another, and so is what it leads to.
+    // With another learning rate the results differ.
     file.compare(&UpdateCase { config: file.whole.config.clone(), ..case.clone() }).expect_err("another learning rate");
 }

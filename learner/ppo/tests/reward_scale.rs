@@ -1,8 +1,9 @@
-//! Learning is the same in whatever units rewards are paid.
+//! Learning does not depend on the units of rewards.
 
 use std::sync::Arc;
 
 use rand_distr::{Distribution, StandardNormal};
+use rand_xoshiro::{Xoshiro256PlusPlus, rand_core::SeedableRng};
 use treadmill_config::PpoConfig;
 use treadmill_policy::{
     NetworkShape, gaussian, init,
@@ -10,26 +11,29 @@ use treadmill_policy::{
 };
 use treadmill_ppo::{AcceptedFragment, Updater, build_batch};
 use treadmill_proto::{Fragment, PolicyVersion};
-use treadmill_runtime::seeds;
 
 const STEPS: u32 = 32;
 const ENVS: u32 = 8;
+const PARAMETER_SEED: u64 = 0x5e31_645e_38a6_c541;
+const NOISE_SEED: u64 = 0x2a85_5f45_b8c0_d3bc;
+const SHUFFLE_SEED: u64 = 0x0d5a_574d_dbcd_853a;
 
-/// Parameters after some updates where every reward is `scale` times as large, and the explained variance of the last.
+/// Trains with all rewards multiplied by `scale`. Returns the final parameters and the last explained variance.
 fn learnt(scale: f32) -> (Vec<f32>, f64) {
     let shape = NetworkShape { observation: 3, action: 2, hidden: vec![16, 8] };
     let config = PpoConfig { batch: STEPS * ENVS, minibatch: 64, ..PpoConfig::default() };
-    let parameters = init::initial_parameters(&shape, -0.5, &mut seeds::stream(1, "parameters", &[]));
+    let random = Xoshiro256PlusPlus::seed_from_u64;
+    let parameters = init::initial_parameters(&shape, -0.5, &mut random(PARAMETER_SEED));
     let pool = Arc::new(rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("a thread starts"));
     let mut updater = Updater::new(shape, parameters, &config, pool).expect("they fit");
-    let (mut random, mut shuffle) = (seeds::stream(1, "noise", &[]), seeds::stream(1, "shuffle", &[]));
+    let (mut noise_random, mut shuffle_random) = (random(NOISE_SEED), random(SHUFFLE_SEED));
     let mut value_moments = RunningMoments::new(1);
     let mut explained = 0.0;
     for sequence in 1..=20 {
         let policy = updater.policy().expect("its own parameters fit");
         let rows = (STEPS * ENVS) as usize;
         let mut normals =
-            |count: usize| -> Vec<f32> { (0..count).map(|_| StandardNormal.sample(&mut random)).collect() };
+            |count: usize| -> Vec<f32> { (0..count).map(|_| StandardNormal.sample(&mut noise_random)).collect() };
         let (observations, noise) = (normals(rows * 3), normals(rows * 2));
         let (mut means, mut actions) = (vec![0.0; rows * 2], vec![0.0; rows * 2]);
         policy.means(&observations, rows, &mut means).expect("candle runs");
@@ -40,7 +44,7 @@ fn learnt(scale: f32) -> (Vec<f32>, f64) {
         let log_probs = (0..rows)
             .map(|row| gaussian::log_probability(&actions[row * 2..][..2], &means[row * 2..][..2], policy.log_std()))
             .collect();
-        // Reward for doing what is seen; each step is an episode of its own, so that there is something to explain.
+        // The best action follows the observation. Each step is an episode, so the critic can explain the returns.
         let rewards = (0..rows)
             .map(|row| scale * (observations[row * 3] - (actions[row * 2] - observations[row * 3 + 1]).powi(2)))
             .collect();
@@ -68,13 +72,13 @@ fn learnt(scale: f32) -> (Vec<f32>, f64) {
         let accepted = [AcceptedFragment { fragment, lag: 0 }];
         let normaliser = Normaliser::identity(3, 10.0);
         let batch = build_batch(&accepted, &policy, &normaliser, &mut value_moments, None, &config).expect("it fits");
-        explained = updater.update(&batch, &mut shuffle).expect("finite").explained_variance;
+        explained = updater.update(&batch, &mut shuffle_random).expect("finite").explained_variance;
     }
     (updater.parameters(), explained)
 }
 
 #[test]
-fn rewards_a_thousand_times_smaller_or_larger_teach_the_same() {
+fn scaling_rewards_does_not_change_what_is_learnt() {
     let (wanted, explained) = learnt(1.0);
     assert!(explained > 0.3, "the critic learnt nothing: {explained}");
     for scale in [1e-3, 0.1, 1e3] {

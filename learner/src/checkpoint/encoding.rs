@@ -1,34 +1,35 @@
-//! The file around a checkpoint: magic, format version, length, SHA-256, then the state in bincode.
+//! File format of a checkpoint: magic, format version, length, SHA-256, then the state in bincode.
 //!
-//! This is the only file that names bincode, which is unmaintained (RUSTSEC-2025-0141) and pinned to 2.0.1. To leave
-//! it: raise [`FORMAT`], encode the state by another serde format below, and keep [`decode`]'s branch for the old number
-//! for as long as old runs matter. Nothing else knows how the bytes are made.
+//! Only this file names bincode, which is unmaintained (RUSTSEC-2025-0141) and pinned to 2.0.1. To replace it: raise
+//! [`FORMAT`], encode the state by another serde format below, and keep the branch of [`decode`] for the old format for
+//! as long as old runs matter.
 
 use serde::{Serialize, de::DeserializeOwned};
 use sha2::{Digest, Sha256};
+use treadmill_runtime::error_chain;
 
 use super::CheckpointError;
 
 const MAGIC: &[u8; 8] = b"TREADMIL";
-/// Version of the format; raised whenever the state's fields change.
+/// Version of the format, raised whenever the state's fields change.
 pub const FORMAT: u32 = 3;
 const HEADER_BYTES: usize = 8 + 4 + 8 + 32;
-/// Checkpoints are read from disk, not from the bus, but a length inside must not ask for all memory: what is read may take
-/// so many bytes where its content has at most so many. Bincode has its limits at compile time, hence the steps.
+/// Steps of (largest payload, memory that decoding it may take), in bytes, so that a wrong length inside cannot claim
+/// all memory. There are steps because bincode's limits are constants.
 const SMALL: (usize, usize) = (64 << 10, 1 << 20);
 const MEDIUM: (usize, usize) = (1 << 20, 16 << 20);
 const LARGE: (usize, usize) = (16 << 20, 256 << 20);
 const STATE_BYTES_MAX: usize = 4 << 30;
 
-/// Whether bytes begin as a checkpoint's do.
+/// Whether bytes begin like a checkpoint.
 pub fn is_checkpoint(bytes: &[u8]) -> bool {
     bytes.starts_with(MAGIC)
 }
 
-/// State as the bytes of a file.
+/// Encodes a state as the bytes of a file.
 pub fn encode<T: Serialize>(state: &T) -> Result<Vec<u8>, CheckpointError> {
     let payload = bincode::serde::encode_to_vec(state, bincode::config::standard())
-        .map_err(|why| CheckpointError::Encode { why: why.to_string() })?;
+        .map_err(|why| CheckpointError::Encode { why: error_chain(&why) })?;
     let mut bytes = Vec::with_capacity(HEADER_BYTES + payload.len());
     bytes.extend_from_slice(MAGIC);
     bytes.extend_from_slice(&FORMAT.to_le_bytes());
@@ -38,15 +39,18 @@ pub fn encode<T: Serialize>(state: &T) -> Result<Vec<u8>, CheckpointError> {
     Ok(bytes)
 }
 
-/// The bytes of a file as state.
+/// Decodes the bytes of a file.
+///
+/// # Errors
+/// If the file is damaged or has another format version.
 pub fn decode<T: DeserializeOwned>(path: &str, bytes: &[u8]) -> Result<T, CheckpointError> {
     let damaged = |why: String| CheckpointError::Damaged { path: path.to_string(), why };
     if bytes.len() < HEADER_BYTES {
-        return Err(damaged(format!("it has {} bytes, fewer than its header alone", bytes.len())));
+        return Err(damaged(format!("it has {} bytes, fewer than its header", bytes.len())));
     }
     let (header, payload) = bytes.split_at(HEADER_BYTES);
     if &header[..8] != MAGIC {
-        return Err(damaged("it does not begin as a checkpoint does".to_string()));
+        return Err(damaged("it does not begin like a checkpoint".to_string()));
     }
     let format = u32::from_le_bytes(header[8..12].try_into().expect("four bytes"));
     if format != FORMAT {
@@ -54,24 +58,24 @@ pub fn decode<T: DeserializeOwned>(path: &str, bytes: &[u8]) -> Result<T, Checkp
     }
     let length = u64::from_le_bytes(header[12..20].try_into().expect("eight bytes"));
     if length != payload.len() as u64 {
-        return Err(damaged(format!("it is truncated: {} of {length} bytes of state are there", payload.len())));
+        return Err(damaged(format!("it is truncated to {} of {length} bytes of state", payload.len())));
     }
     if Sha256::digest(payload).as_slice() != &header[20..] {
         return Err(damaged("its checksum does not match its content".to_string()));
     }
-    let read = match payload.len() {
+    let decoded = match payload.len() {
         length if length <= SMALL.0 => read::<T, { SMALL.1 }>(payload),
         length if length <= MEDIUM.0 => read::<T, { MEDIUM.1 }>(payload),
         length if length <= LARGE.0 => read::<T, { LARGE.1 }>(payload),
         _ => read::<T, STATE_BYTES_MAX>(payload),
     };
-    read.map_err(damaged)
+    decoded.map_err(damaged)
 }
 
 fn read<T: DeserializeOwned, const BYTES_MAX: usize>(payload: &[u8]) -> Result<T, String> {
     bincode::serde::decode_from_slice(payload, bincode::config::standard().with_limit::<BYTES_MAX>())
         .map(|(state, _)| state)
-        .map_err(|why| why.to_string())
+        .map_err(|why| error_chain(&why))
 }
 
 #[cfg(test)]
@@ -81,14 +85,14 @@ mod tests {
     use super::*;
 
     #[test]
-    fn state_survives() {
+    fn a_decoded_state_equals_the_encoded_one() {
         let state = (vec![1.0f32, -0.5], "run".to_string(), 7u64);
         let read: (Vec<f32>, String, u64) = decode("x", &encode(&state).unwrap()).unwrap();
         assert_eq!(read, state);
     }
 
     #[test]
-    fn each_damage_is_named() {
+    fn each_kind_of_damage_is_named() {
         let sound = encode(&vec![1u64; 20]).unwrap();
         let why = |bytes: &[u8]| decode::<Vec<u64>>("here", bytes).unwrap_err().to_string();
         assert!(why(&sound[..10]).contains("header"));
@@ -107,7 +111,7 @@ mod tests {
 
     proptest! {
         #[test]
-        fn one_changed_byte_is_always_noticed(at in 0usize..100, with in 1u8..) {
+        fn one_changed_byte_is_always_detected(at in 0usize..100, with in 1u8..) {
             let mut bytes = encode(&vec![3u64; 40]).unwrap();
             let at = at % bytes.len();
             bytes[at] ^= with;

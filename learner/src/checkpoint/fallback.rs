@@ -1,39 +1,39 @@
-//! When the checkpoint that is wanted is unsound: the newest one that is not.
+//! Fallback from an unsound checkpoint to the newest sound one.
 
 use std::{
     fs,
     path::{Path, PathBuf},
 };
 
+use treadmill_runtime::error_chain;
+
 use super::{CheckpointError, TrainingState, load_file};
 
-/// Reads `wanted`, or where it is damaged or missing the newest sound one beside it, by the number of updates inside; says
-/// in a warning which one that is, and why.
+/// Reads `wanted`. If it is damaged or missing, reads the sound checkpoint with the most updates in its folder, with a
+/// warning.
 ///
 /// # Errors
-/// As [`load_file`] where the file is sound but of another format, holds a configuration that this version refuses, or
-/// cannot be read; [`CheckpointError::NoneSound`] where
-/// nothing else is sound either.
+/// As [`load_file`] if the file is sound but has another format or a refused configuration, or cannot be read;
+/// [`CheckpointError::NoneSound`] if no checkpoint is sound.
 pub(super) fn load_or_newest_sound(wanted: &Path) -> Result<TrainingState, CheckpointError> {
     let why = match load_file(wanted) {
         Err(why) if is_unsound(&why) => why,
-        done => return done,
+        result => return result,
     };
     let folder = wanted.parent().unwrap_or(wanted);
-    let mut tried = vec![told(wanted, &why)];
+    let mut tried = vec![describe(wanted, &why)];
     let mut newest: Option<(PathBuf, TrainingState)> = None;
     for path in bundles(folder).into_iter().filter(|path| path != wanted) {
         match load_file(&path) {
             Ok(state)
                 if newest.as_ref().is_some_and(|(_, newest)| newest.counters.updates >= state.counters.updates) => {}
             Ok(state) => newest = Some((path, state)),
-            Err(why) => tried.push(told(&path, &why)),
+            Err(why) => tried.push(describe(&path, &why)),
         }
     }
     if let Some((path, state)) = newest {
-        let updates = state.counters.updates;
-        let (tried, path) = (tried.join("; "), path.display());
-        tracing::warn!("checkpoint {tried}; the newest sound one is used instead: `{path}`, after {updates} updates");
+        let (tried, updates) = (tried.join("; "), state.counters.updates);
+        tracing::warn!(%tried, used = %path.display(), updates, "checkpoint is unsound; using the newest sound one");
         return Ok(state);
     }
     match why {
@@ -46,18 +46,18 @@ fn is_unsound(why: &CheckpointError) -> bool {
     matches!(why, CheckpointError::Missing { .. } | CheckpointError::Damaged { .. } | CheckpointError::Shape { .. })
 }
 
-fn told(path: &Path, why: &CheckpointError) -> String {
+fn describe(path: &Path, why: &CheckpointError) -> String {
     let path = path.display();
     match why {
-        CheckpointError::Missing { .. } => format!("`{path}` is not there"),
+        CheckpointError::Missing { .. } => format!("`{path}` does not exist"),
         CheckpointError::Damaged { why, .. } => format!("`{path}` is damaged ({why})"),
         CheckpointError::Shape { why, .. } => format!("`{path}` does not fit its network ({why})"),
         CheckpointError::Format { found, .. } => format!("`{path}` has format {found}"),
-        other => format!("`{path}` cannot be read ({other})"),
+        other => format!("`{path}` cannot be read ({})", error_chain(other)),
     }
 }
 
-/// Files of checkpoints, in the order of their names.
+/// Returns the paths of a folder's checkpoints, sorted.
 pub(super) fn bundles(folder: &Path) -> Vec<PathBuf> {
     let mut paths: Vec<PathBuf> = fs::read_dir(folder)
         .into_iter()
@@ -88,14 +88,14 @@ mod tests {
         state
     }
 
-    /// `latest` after 7 updates, 2, 4 and 6 kept, `best` at 3.
+    /// Folder with `latest` after 7 updates, `best` after 3, and those after 2, 4 and 6.
     fn saved(at: &Path) -> RunFolder {
         let folder = RunFolder::create(Some(&at.join("run")), "x").unwrap();
-        let saver = CheckpointWriter::new(&folder, 2, 9);
+        let writer = CheckpointWriter::new(&folder, 2, 9);
         for updates in 1..=7 {
-            let saved = saver.save(&state(updates)).unwrap();
+            let saved = writer.save(&state(updates)).unwrap();
             if updates == 3 {
-                saver.save_best(&saved).unwrap();
+                writer.save_best(&saved).unwrap();
             }
         }
         folder
@@ -114,7 +114,7 @@ mod tests {
     }
 
     #[test]
-    fn the_newest_sound_one_by_what_is_inside_takes_the_place_of_a_damaged_one() {
+    fn the_sound_checkpoint_with_the_most_updates_replaces_a_damaged_one() {
         let at = tempfile::tempdir().unwrap();
         let folder = saved(at.path());
         assert_eq!(updates(&folder, Which::Latest), 7);
@@ -126,22 +126,22 @@ mod tests {
         fs::remove_file(folder.checkpoints().join("latest.bundle")).unwrap();
         assert_eq!(updates(&folder, Which::Latest), 4);
         spoil(&folder, "best.bundle");
-        assert_eq!(updates(&folder, Which::BestOrLatest), 4, "nobody asked for the best by name");
+        assert_eq!(updates(&folder, Which::BestOrLatest), 4, "`best` was not requested by name");
     }
 
     #[test]
-    fn one_that_is_named_is_not_replaced_by_another() {
+    fn a_requested_checkpoint_is_not_replaced_by_another() {
         let at = tempfile::tempdir().unwrap();
         let folder = saved(at.path());
         for (name, which) in [("best.bundle", Which::Best), ("00000004.bundle", Which::Numbered(4))] {
             spoil(&folder, name);
-            let why = load(&folder, which).unwrap_err().to_string();
+            let why = error_chain(&load(&folder, which).unwrap_err());
             assert!(why.contains(name) && why.contains("checksum") && why.contains("--checkpoint"), "{why}");
         }
     }
 
     #[test]
-    fn if_none_is_sound_all_that_was_tried_is_told() {
+    fn if_no_checkpoint_is_sound_the_error_names_all() {
         let at = tempfile::tempdir().unwrap();
         let folder = saved(at.path());
         for path in bundles(&folder.checkpoints()) {
@@ -156,7 +156,7 @@ mod tests {
     }
 
     #[test]
-    fn another_format_is_refused_and_not_passed_over() {
+    fn another_format_is_refused_without_fallback() {
         let at = tempfile::tempdir().unwrap();
         let folder = saved(at.path());
         let path = folder.checkpoints().join("latest.bundle");
@@ -167,14 +167,14 @@ mod tests {
     }
 
     #[test]
-    fn retired_keys_are_read_at_their_old_default_and_refused_otherwise() {
+    fn retired_keys_are_accepted_only_at_their_old_default() {
         let at = tempfile::tempdir().unwrap();
         let folder = saved(at.path());
         let save = |key: &str| {
             let mut state = state(8);
             state.config_toml = state.config_toml.replacen("[rollout]\n", &format!("[rollout]\n{key}\n"), 1);
             CheckpointWriter::new(&folder, 2, 9).save(&state).unwrap();
-            load(&folder, Which::Latest).map_err(|why| why.to_string())
+            load(&folder, Which::Latest).map_err(|why| error_chain(&why))
         };
         let read = save("noise_correlation = 0.0\nstale_versions = [0, 0]").unwrap();
         assert!(read.config_toml.contains("stale_versions"));

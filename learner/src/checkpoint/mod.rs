@@ -1,8 +1,8 @@
-//! Everything a run is, in one file, written before the version it holds is announced.
+//! Checkpoints: the whole state of a run in one file, written before its version is announced.
 //!
-//! `checkpoints/latest.bundle` after each update, `best.bundle` at the best evaluation so far (the
-//! best mean return in training before the first evaluation), `NNNNNNNN.bundle` (the
-//! number of updates) every so many updates, the last few of which are kept.
+//! In the folder `checkpoints`, `latest.bundle` is written after each update. `best.bundle` has the best evaluation so
+//! far, or before the first evaluation the best mean return in training. `NNNNNNNN.bundle`, named by the number of
+//! updates, is written every `learner.checkpoint_every_updates`; the last `learner.keep_checkpoints` are kept.
 
 pub mod encoding;
 mod fallback;
@@ -17,16 +17,16 @@ use treadmill_runtime::{atomic_file, run_folder::RunFolder};
 
 pub use state::{Counters, TrainingState};
 
-/// Which checkpoint of a run.
+/// Selects a checkpoint of a run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Which {
     /// The newest.
     Latest,
-    /// The one with the best mean return.
+    /// `best.bundle`.
     Best,
-    /// The one after so many updates.
+    /// The one after this number of updates.
     Numbered(u64),
-    /// The best if there is one, else the newest.
+    /// `best.bundle` if it exists, else the newest.
     BestOrLatest,
 }
 
@@ -38,7 +38,7 @@ impl std::str::FromStr for Which {
             "latest" => Ok(Self::Latest),
             "best" => Ok(Self::Best),
             _ => text.parse().map(Self::Numbered).map_err(|_| {
-                format!("`{text}` is no checkpoint; allowed: best, latest, or the number of updates of a kept one")
+                format!("`{text}` is not a checkpoint; allowed: best, latest, or the number of updates of a kept one")
             }),
         }
     }
@@ -47,15 +47,15 @@ impl std::str::FromStr for Which {
 /// Why a checkpoint cannot be read or written.
 #[derive(Debug, thiserror::Error)]
 pub enum CheckpointError {
-    /// It is not there.
+    /// It does not exist.
     #[error("there is no checkpoint `{path}`; {known}")]
     Missing {
-        /// Where it was looked for.
+        /// Path of the file.
         path: String,
-        /// Those that are there.
+        /// Existing checkpoints.
         known: String,
     },
-    /// It is there and unsound.
+    /// It is damaged.
     #[error("checkpoint `{path}` is damaged: {why}; choose another one by --checkpoint")]
     Damaged {
         /// Its path.
@@ -63,57 +63,57 @@ pub enum CheckpointError {
         /// What is wrong.
         why: String,
     },
-    /// It was written by another version of this program.
+    /// Another version of this program wrote it.
     #[error(
-        "checkpoint `{path}` has format {found}; this program reads format {known}: go on with the version that wrote it, \
-         which versions.json in the run's folder names"
+        "checkpoint `{path}` has format {found}; this program reads format {known}: continue with the version that wrote \
+         it, named in versions.json in the run's folder"
     )]
     Format {
         /// Its path.
         path: String,
-        /// Its format.
+        /// Format of the file.
         found: u32,
-        /// Ours.
+        /// Format of this program.
         known: u32,
     },
-    /// Its parts do not fit each other.
+    /// Its parts are inconsistent.
     #[error("checkpoint `{path}` does not fit its network: {why}")]
     Shape {
         /// Its path.
         path: String,
-        /// What does not fit.
+        /// What is inconsistent.
         why: String,
     },
-    /// Its configuration is one that this version refuses.
-    #[error("checkpoint `{path}` holds a configuration that is refused: {why}")]
+    /// This version refuses its configuration.
+    #[error("checkpoint `{path}` has a configuration that this version refuses: {why}")]
     Configuration {
         /// Its path.
         path: String,
-        /// Why, with the key.
+        /// Reason, with the key.
         why: String,
     },
-    /// Neither it nor any other checkpoint of the run is sound.
-    #[error("no checkpoint of this run is sound: {tried}; begin a new run, or put back a copy of one of these files")]
+    /// No checkpoint of the run is sound.
+    #[error("no checkpoint of this run is sound: {tried}; start a new run, or restore a copy of one of these files")]
     NoneSound {
-        /// Every one that was tried, with what is wrong with it.
+        /// Each checkpoint that was tried, with its error.
         tried: String,
     },
     /// The state could not be encoded.
     #[error("the state cannot be encoded: {why}")]
     Encode {
-        /// What the encoder said.
+        /// Message of the encoder.
         why: String,
     },
-    /// The system refused to write.
-    #[error("cannot save checkpoint `{path}`: {source}; the one before it is untouched")]
+    /// It cannot be written.
+    #[error("cannot save checkpoint `{path}`; the one before it is untouched")]
     Write {
         /// Its path.
         path: String,
         /// What the system said.
         source: io::Error,
     },
-    /// The system refused to read.
-    #[error("cannot read checkpoint `{path}`: {source}; choose another one by --checkpoint")]
+    /// It cannot be read.
+    #[error("cannot read checkpoint `{path}`; choose another one by --checkpoint")]
     Read {
         /// Its path.
         path: String,
@@ -122,8 +122,10 @@ pub enum CheckpointError {
     },
 }
 
-/// Reads one checkpoint of a run. Where the newest is wanted and unsound, the newest sound one is read instead, with a
-/// warning; one that is named is read or refused.
+/// Reads one checkpoint of a run. If the newest is requested and unsound, reads the newest sound one with a warning.
+///
+/// # Errors
+/// If the requested checkpoint is missing, unsound, or of another format, and there is no fallback.
 pub fn load(folder: &RunFolder, which: Which) -> Result<TrainingState, CheckpointError> {
     let checkpoints = folder.checkpoints();
     let (best, latest) = (checkpoints.join("best.bundle"), checkpoints.join("latest.bundle"));
@@ -135,19 +137,19 @@ pub fn load(folder: &RunFolder, which: Which) -> Result<TrainingState, Checkpoin
     }
 }
 
-/// Reads one bundle file.
+/// Reads one checkpoint file.
 pub fn load_file(path: &Path) -> Result<TrainingState, CheckpointError> {
-    let shown = path.display().to_string();
+    let name = path.display().to_string();
     let bytes = match fs::read(path) {
         Ok(bytes) => bytes,
         Err(why) if why.kind() == io::ErrorKind::NotFound => {
-            return Err(CheckpointError::Missing { known: known(path.parent().unwrap_or(path)), path: shown });
+            return Err(CheckpointError::Missing { known: known(path.parent().unwrap_or(path)), path: name });
         }
-        Err(source) => return Err(CheckpointError::Read { path: shown, source }),
+        Err(source) => return Err(CheckpointError::Read { path: name, source }),
     };
-    let state: TrainingState = encoding::decode(&shown, &bytes)?;
-    state.config().map_err(|why| CheckpointError::Configuration { path: shown.clone(), why })?;
-    state.check().map_err(|why| CheckpointError::Shape { path: shown, why })?;
+    let state: TrainingState = encoding::decode(&name, &bytes)?;
+    state.config().map_err(|why| CheckpointError::Configuration { path: name.clone(), why })?;
+    state.check().map_err(|why| CheckpointError::Shape { path: name, why })?;
     Ok(state)
 }
 
@@ -178,12 +180,12 @@ pub struct CheckpointWriter {
 }
 
 impl CheckpointWriter {
-    /// Writes into the run's folder; every so many updates a numbered one, of which the last `keep` stay.
+    /// Writer that also writes a numbered checkpoint every `every_updates` updates and keeps the last `keep`.
     pub fn new(folder: &RunFolder, every_updates: u64, keep: usize) -> Self {
         Self { folder: folder.checkpoints(), every_updates, keep }
     }
 
-    /// Writes `latest`, and beside it the numbered one that is due; returns what was written.
+    /// Writes `latest.bundle`, and a numbered checkpoint if one is due. Returns the encoded state.
     pub fn save(&self, state: &TrainingState) -> Result<Vec<u8>, CheckpointError> {
         let bytes = encoding::encode(state)?;
         self.write("latest.bundle", &bytes)?;
@@ -195,12 +197,12 @@ impl CheckpointWriter {
         Ok(bytes)
     }
 
-    /// Keeps numbered ones by another rule from now on.
-    pub fn set_rule(&mut self, every_updates: u64, keep: usize) {
+    /// Changes how often numbered checkpoints are written, and how many are kept.
+    pub fn set_retention(&mut self, every_updates: u64, keep: usize) {
         (self.every_updates, self.keep) = (every_updates, keep);
     }
 
-    /// Keeps the newest, which is that after so many updates, as a numbered one, too; where it is.
+    /// Copies the newest, which has `updates` updates, to a numbered checkpoint. Returns its path.
     pub fn keep_newest(&self, updates: u64) -> Result<PathBuf, CheckpointError> {
         let latest = self.latest();
         let bytes =
@@ -209,12 +211,12 @@ impl CheckpointWriter {
         Ok(self.folder.join(numbered(updates)))
     }
 
-    /// Writes `best`: a checkpoint as it was encoded.
+    /// Writes an encoded state as `best.bundle`.
     pub fn save_best(&self, bytes: &[u8]) -> Result<(), CheckpointError> {
         self.write("best.bundle", bytes)
     }
 
-    /// Where the newest lies.
+    /// Path of the newest checkpoint.
     pub fn latest(&self) -> PathBuf {
         self.folder.join("latest.bundle")
     }
@@ -236,7 +238,7 @@ impl CheckpointWriter {
         let surplus = numbers.len().saturating_sub(self.keep);
         for number in &numbers[..surplus] {
             if let Err(why) = fs::remove_file(self.folder.join(numbered(*number))) {
-                tracing::warn!("checkpoint {number} cannot be removed: {why}");
+                tracing::warn!(checkpoint = number, error = %why, "old checkpoint not removed");
             }
         }
     }

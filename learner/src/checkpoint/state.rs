@@ -1,4 +1,4 @@
-//! What a checkpoint holds.
+//! State that a checkpoint holds.
 
 use serde::{Deserialize, Serialize};
 use treadmill_config::{Config, ConfigSource, EvaluationConfig, LearnerConfig, PpoConfig};
@@ -8,51 +8,54 @@ use treadmill_policy::{
 };
 use treadmill_ppo::optimiser::OptimiserState;
 use treadmill_proto::{ActorState, PolicyBundle, Task, limits::BUNDLE_BYTES_MAX};
-use treadmill_runtime::seeds::{self, Stream};
+use treadmill_runtime::{
+    error_chain,
+    seeds::{self, Stream},
+};
 
 use crate::{
     intake::{FragmentCounts, Ledger, Lineage},
     metrics::episodes::EpisodeWindow,
 };
 
-/// Everything a run is. A field that is added or removed raises [`super::encoding::FORMAT`].
+/// Whole state of a run. Adding or removing a field requires a new [`super::encoding::FORMAT`].
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct TrainingState {
-    /// The run's name on the bus.
+    /// Name of the run on the bus.
     pub run: String,
-    /// The configuration as used.
+    /// Configuration as TOML.
     pub config_toml: String,
-    /// The humanoid as MJCF.
+    /// Humanoid as MJCF.
     pub model_xml: String,
-    /// The networks' shape.
+    /// Shape of the networks.
     pub shape: NetworkShape,
-    /// Which versions this state descends from; the newest is its own.
+    /// Versions that this state descends from; the newest is its own.
     pub lineage: Lineage,
     /// Actor, log standard deviations and critic, in [`NetworkShape`]'s order.
     pub parameters: Vec<f32>,
     /// Adam's moments and step count.
     pub optimiser: OptimiserState,
-    /// The current learning rate, as adaptation left it.
+    /// Current learning rate, after adaptation.
     pub learning_rate: f64,
     /// Statistics of raw observations.
     pub observation_moments: RunningMoments,
     /// Statistics of scaled returns.
     pub value_moments: RunningMoments,
-    /// The stream that shuffles minibatches.
+    /// Random stream that shuffles minibatches.
     pub shuffle: Stream,
-    /// Which fragments were dealt with.
+    /// Handled fragments.
     pub ledger: Ledger,
     /// Counts of fragments by outcome.
     pub fragment_counts: FragmentCounts,
-    /// The last finished episodes.
+    /// Last finished episodes.
     pub episodes: EpisodeWindow,
     /// Counters of the run.
     pub counters: Counters,
-    /// The best mean return so far.
+    /// Best mean return so far.
     pub best_return: Option<f64>,
-    /// Whether that is of an evaluation; until the first, it is of training.
+    /// Whether `best_return` is of an evaluation; until the first evaluation, it is of training.
     pub best_is_evaluated: bool,
-    /// Where the only actor of a deterministic run was after the last fragment that was learnt from.
+    /// State of a deterministic run's only actor after the last fragment that was learnt from.
     pub actor_state: Option<ActorState>,
 }
 
@@ -69,14 +72,14 @@ pub struct Counters {
     pub undone_updates: u64,
     /// Seconds of training.
     pub wall_s: f64,
-    /// Actor processes that were started again.
+    /// Restarts of actor processes.
     pub restarts: u64,
-    /// Learners that went on with this run.
+    /// Resumes of this run.
     pub resumes: u64,
 }
 
 impl TrainingState {
-    /// A run that begins.
+    /// State of a new run.
     pub fn fresh(
         run: &str,
         config: &Config,
@@ -112,7 +115,7 @@ impl TrainingState {
         }
     }
 
-    /// What this run trains, as actors of external tasks are told.
+    /// Task of this run, for actors of external tasks.
     pub fn task(&self) -> Result<Task, String> {
         let config = self.config()?;
         let narrow = |size: usize| u32::try_from(size).map_err(|why| why.to_string());
@@ -125,14 +128,14 @@ impl TrainingState {
         Ok(config.task.known().unwrap_or(own))
     }
 
-    /// The configuration as used.
+    /// Parses the configuration.
     pub fn config(&self) -> Result<Config, String> {
         let mut source = ConfigSource::default();
-        source.text(&self.config_toml, "the configuration in the checkpoint").map_err(|why| why.to_string())?;
-        source.build().map_err(|why| why.to_string())
+        source.text(&self.config_toml, "the configuration in the checkpoint").map_err(|why| error_chain(&why))?;
+        source.build().map_err(|why| error_chain(&why))
     }
 
-    /// Why no run of this configuration can be of `task`, in words; called before anything is allocated for it.
+    /// Returns why a run of this configuration cannot train `task`, if so; called before networks are allocated.
     pub fn objection(config: &Config, task: &Task) -> Option<String> {
         let name = &config.task.name;
         if !name.is_empty() && *name != task.name {
@@ -141,18 +144,18 @@ impl TrainingState {
         let hidden = config.policy.hidden.iter().map(|width| *width as usize).collect();
         let (observation, action) = (task.observation_size as usize, task.action_size as usize);
         let parameters = NetworkShape { observation, action, hidden }.parameter_count();
-        // The statistics of observations and the texts take up what is left.
-        let most = BUNDLE_BYTES_MAX / 2 / size_of::<f32>();
-        (parameters > most).then(|| {
+        // The other half is for the statistics of observations and the texts.
+        let parameters_max = BUNDLE_BYTES_MAX / 2 / size_of::<f32>();
+        (parameters > parameters_max).then(|| {
             format!(
-                "networks for {task} have {parameters} parameters with policy.hidden {:?}, and at most {most} can be handed \
-                 out; make policy.hidden narrower",
+                "networks for {task} have {parameters} parameters with policy.hidden {:?}, and a policy bundle holds at most \
+                 {parameters_max}; make policy.hidden narrower",
                 config.policy.hidden
             )
         })
     }
 
-    /// Whether the parts fit each other.
+    /// Checks that the parts are consistent.
     pub fn check(&self) -> Result<(), String> {
         let count = self.shape.parameter_count();
         let lengths = [
@@ -171,20 +174,20 @@ impl TrainingState {
             && (task.observation_size as usize, task.action_size as usize)
                 != (self.shape.observation, self.shape.action)
         {
-            return Err(format!("its configuration says that it trains {task}, but its network is {:?}", self.shape));
+            return Err(format!("its configuration is for {task}, but its network is {:?}", self.shape));
         }
         let hidden: Vec<usize> = config.policy.hidden.iter().map(|width| *width as usize).collect();
         if hidden != self.shape.hidden {
             return Err(format!(
-                "its network has hidden layers {:?}, but its configuration says policy.hidden = {hidden:?}",
+                "its network has hidden layers {:?}, but its configuration has policy.hidden = {hidden:?}",
                 self.shape.hidden
             ));
         }
-        self.actor_state.as_ref().map_or(Ok(()), |state| state.check().map_err(|why| why.to_string()))
+        self.actor_state.as_ref().map_or(Ok(()), |state| state.check().map_err(|why| error_chain(&why)))
     }
 
-    /// The hash that every fragment repeats: over the model and what of the configuration an actor depends on. How long the
-    /// run is and how the learner learns are not part of it, so that they can be changed while actors go on.
+    /// Hash that every fragment repeats: of the model and of the configuration that actors depend on. The run's length
+    /// and the learner's settings are excluded, so that they can be changed while actors continue.
     pub fn config_hash(&self) -> Result<u64, String> {
         let mut config = self.config()?;
         config.run.steps = 0;
@@ -194,7 +197,7 @@ impl TrainingState {
         Ok(seeds::checksum(&[config.to_toml().as_bytes(), self.model_xml.as_bytes()]))
     }
 
-    /// What actors get of this state. Its [`Self::actor_state`] is added where it is resumed.
+    /// Policy bundle for actors, without [`Self::actor_state`], which is added on resume.
     pub fn bundle(&self) -> Result<PolicyBundle, String> {
         let config = self.config()?;
         let weights = treadmill_policy::to_safetensors(&self.shape, &self.parameters);

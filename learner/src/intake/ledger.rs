@@ -1,27 +1,27 @@
-//! Which fragments were dealt with, so that sending one twice is harmless and none is forgotten.
+//! Ledger of handled fragments: a fragment that is sent twice is learnt from once, and none is lost.
 
 use std::collections::{BTreeMap, BTreeSet};
 
 use serde::{Deserialize, Serialize};
 
-/// Actor processes that are remembered; the one that was silent longest gives way.
+/// Actor processes that are kept; beyond this, the one that was silent longest is removed.
 const ACTORS_MAX: usize = 4096;
-/// Sequence numbers beyond a gap that are remembered for each process; a wider gap is given up, since the sender keeps
-/// fewer fragments than that: what is in a batch and in flight.
+/// Sequence numbers beyond a gap that are kept for each process. A wider gap is skipped, because a sender keeps fewer
+/// fragments: those in a batch and in flight.
 const AHEAD_MAX: usize = 65_536;
-/// The same over all processes: then the widest gap is given up. Every checkpoint holds them.
+/// The same over all processes; beyond this, the widest gap is skipped. Every checkpoint holds these numbers.
 const AHEAD_TOTAL_MAX: usize = 4 * AHEAD_MAX;
 
 /// Rules by which a well-formed fragment is dropped.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum DropRule {
-    /// Its policy is further back than is allowed.
+    /// Its policy is older than allowed.
     TooOld,
-    /// Its policy is none of this learner's ancestors.
+    /// Its policy is not an ancestor of the newest.
     Vanished,
 }
 
-/// Outcome of a fragment that was dealt with.
+/// Outcome of a handled fragment.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum LedgerEntry {
     /// Accepted.
@@ -30,26 +30,26 @@ pub enum LedgerEntry {
     Dropped(DropRule),
 }
 
-/// What became of the fragments of one actor process, or of several.
+/// Outcomes of the fragments of one or more actor processes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Account {
-    /// Taken.
+    /// Accepted.
     pub accepted: u64,
-    /// Dropped by rule: policy too far back.
+    /// Dropped by rule: policy too old.
     pub too_old: u64,
     /// Dropped by rule: policy unknown after a resume.
     pub vanished: u64,
-    /// Numbers that the sender settled and this learner never dealt with: refused, or dropped by rule by a learner that
-    /// died before it had saved that.
+    /// Numbers that the sender settled and this learner never handled: refused, or dropped by rule by a learner that
+    /// died before it saved that.
     pub unseen: u64,
-    /// Environment steps in what was taken.
+    /// Environment steps of accepted fragments.
     pub env_steps: u64,
-    /// Environment steps in what was dropped.
+    /// Environment steps of dropped fragments.
     pub env_steps_dropped: u64,
 }
 
 impl Account {
-    fn note(&mut self, entry: LedgerEntry, env_steps: u64) {
+    fn count(&mut self, entry: LedgerEntry, env_steps: u64) {
         let (count, steps) = match entry {
             LedgerEntry::Accepted => (&mut self.accepted, &mut self.env_steps),
             LedgerEntry::Dropped(DropRule::TooOld) => (&mut self.too_old, &mut self.env_steps_dropped),
@@ -69,42 +69,42 @@ impl Account {
     }
 }
 
-/// One actor process, as the ledger knows it.
+/// One actor process in the ledger.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ActorProcess {
-    /// The actor's name.
+    /// Name of the actor.
     pub actor: String,
-    /// Which of its processes.
+    /// Incarnation of the process.
     pub incarnation: u64,
-    /// Everything up to this number was dealt with.
+    /// Every number up to this one was handled.
     pub through: u64,
-    /// The highest number that came.
+    /// Highest number that was received.
     pub newest: u64,
-    /// Numbers below that which did not come. Those of a process that is gone are lost with it.
+    /// Numbers below `newest` that were not received. Those of a process that has ended are lost.
     pub missing: u64,
-    /// What became of the others.
+    /// Outcomes of the others.
     pub account: Account,
 }
 
-/// Watermarks of every actor process.
+/// Handled fragments of every actor process.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Ledger {
     /// Keyed by actor and incarnation.
     processes: BTreeMap<(String, u64), Watermark>,
-    /// Accounts of processes that gave way to others.
+    /// Accounts of removed processes.
     forgotten: Account,
     clock: u64,
 }
 
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 struct Watermark {
-    /// Every number up to this one was dealt with.
+    /// Every number up to this one was handled.
     through: u64,
-    /// Numbers beyond a gap that were dealt with.
+    /// Numbers beyond a gap that were handled.
     ahead: BTreeSet<u64>,
     /// Numbers that were dropped by rule and may be sent again.
     dropped: BTreeMap<u64, DropRule>,
-    /// What `through` was when the last checkpoint was written.
+    /// `through` at the last checkpoint.
     durable_through: u64,
     last_seen: u64,
     account: Account,
@@ -119,7 +119,7 @@ impl Watermark {
         }
     }
 
-    /// Gives up every number up to `through` that is still missing.
+    /// Skips every number up to `through` that is still missing.
     fn skip_to(&mut self, through: u64) {
         if through <= self.through {
             return;
@@ -134,12 +134,12 @@ impl Watermark {
 }
 
 impl Ledger {
-    /// Whether anything came from this process.
+    /// Whether the ledger has an entry for this process.
     pub fn knows(&self, actor: &str, incarnation: u64) -> bool {
         self.processes.contains_key(&(actor.to_string(), incarnation))
     }
 
-    /// What became of this fragment, if it was dealt with before.
+    /// Returns the outcome of a fragment that was handled before.
     pub fn entry(&self, actor: &str, incarnation: u64, sequence: u64) -> Option<LedgerEntry> {
         let mark = self.processes.get(&(actor.to_string(), incarnation))?;
         let was_dropped = mark.dropped.get(&sequence).map(|rule| LedgerEntry::Dropped(*rule));
@@ -147,12 +147,12 @@ impl Ledger {
         was_dropped.or(is_known.then_some(LedgerEntry::Accepted))
     }
 
-    /// Notes that a fragment of so many environment steps was dealt with.
+    /// Records the outcome of a fragment of `env_steps` environment steps.
     pub fn insert(&mut self, actor: &str, incarnation: u64, sequence: u64, entry: LedgerEntry, env_steps: u64) {
         self.clock += 1;
         let mark = self.processes.entry((actor.to_string(), incarnation)).or_default();
         mark.last_seen = self.clock;
-        mark.account.note(entry, env_steps);
+        mark.account.count(entry, env_steps);
         if sequence > mark.through {
             mark.ahead.insert(sequence);
         }
@@ -168,16 +168,16 @@ impl Ledger {
         if mark.dropped.len() > AHEAD_MAX {
             mark.dropped.pop_first();
         }
-        self.forget_the_oldest();
-        self.give_up_the_widest();
+        self.remove_oldest();
+        self.skip_widest_gap();
     }
 
-    /// Counting is cheap as long as nobody holds numbers back: only processes with gaps are many where somebody wants that.
-    fn give_up_the_widest(&mut self) {
-        let held = |mark: &Watermark| mark.ahead.len() + mark.dropped.len();
-        let ahead: usize = self.processes.values().map(held).sum();
-        if ahead > AHEAD_TOTAL_MAX
-            && let Some(widest) = self.processes.values_mut().max_by_key(|mark| held(mark))
+    /// Skips the widest gap if too many numbers are kept in all. Counting them is cheap: few processes have gaps.
+    fn skip_widest_gap(&mut self) {
+        let kept = |mark: &Watermark| mark.ahead.len() + mark.dropped.len();
+        let total: usize = self.processes.values().map(kept).sum();
+        if total > AHEAD_TOTAL_MAX
+            && let Some(widest) = self.processes.values_mut().max_by_key(|mark| kept(mark))
         {
             let last = widest.ahead.last().copied().unwrap_or(widest.through);
             widest.skip_to(last);
@@ -185,7 +185,7 @@ impl Ledger {
         }
     }
 
-    fn forget_the_oldest(&mut self) {
+    fn remove_oldest(&mut self) {
         if self.processes.len() > ACTORS_MAX {
             let oldest = self.processes.iter().min_by_key(|(_, mark)| mark.last_seen).map(|(key, _)| key.clone());
             if let Some(mark) = oldest.and_then(|key| self.processes.remove(&key)) {
@@ -194,35 +194,35 @@ impl Ledger {
         }
     }
 
-    /// Notes that the sender will not send anything up to this number again. Without this, a number that this ledger
-    /// never saw, because it was dropped by rule by a learner that is gone, would hold the watermark back for ever.
+    /// Records that the sender will not send any number up to `through` again. Otherwise a number that an earlier
+    /// learner dropped by rule, and that this ledger never saw, would stop the watermark for good.
     pub fn settle(&mut self, actor: &str, incarnation: u64, through: u64) {
         self.clock += 1;
         let mark = self.processes.entry((actor.to_string(), incarnation)).or_default();
         mark.last_seen = self.clock;
         mark.skip_to(through);
         mark.dropped.retain(|sequence, _| *sequence > through);
-        self.forget_the_oldest();
+        self.remove_oldest();
     }
 
-    /// Called on the copy that goes into a checkpoint, and on the ledger itself once that checkpoint is written.
+    /// Marks every handled number as durable: in the copy for a checkpoint, and in the ledger once that is written.
     pub fn mark_durable(&mut self) {
         self.processes.values_mut().for_each(|mark| mark.durable_through = mark.through);
     }
 
-    /// The highest number up to which everything of this process is part of a checkpoint.
+    /// Returns the number up to which a checkpoint holds every outcome of this process.
     pub fn durable_through(&self, actor: &str, incarnation: u64) -> u64 {
         self.processes.get(&(actor.to_string(), incarnation)).map_or(0, |mark| mark.durable_through)
     }
 
-    /// What became of all fragments of this run.
+    /// Sum of all accounts of this run.
     pub fn total(&self) -> Account {
         let mut total = self.forgotten;
         self.processes.values().for_each(|mark| total.add(&mark.account));
         total
     }
 
-    /// Every process that is remembered.
+    /// Iterates over the processes in the ledger.
     pub fn processes(&self) -> impl Iterator<Item = ActorProcess> {
         self.processes.iter().map(|((actor, incarnation), mark)| {
             let newest = mark.ahead.last().copied().unwrap_or(mark.through);
@@ -268,7 +268,7 @@ mod tests {
     }
 
     #[test]
-    fn what_the_sender_settled_closes_a_gap() {
+    fn settled_numbers_close_a_gap() {
         let mut ledger = Ledger::default();
         ledger.take("a", 1, 5);
         ledger.take("a", 1, 7);
@@ -280,7 +280,7 @@ mod tests {
     }
 
     #[test]
-    fn a_drop_is_remembered_as_one_until_the_sender_has_settled_it() {
+    fn a_drop_is_kept_until_the_sender_settles_it() {
         let mut ledger = Ledger::default();
         ledger.take("a", 1, 1);
         ledger.insert("a", 1, 2, LedgerEntry::Dropped(DropRule::Vanished), 8);
@@ -290,7 +290,7 @@ mod tests {
         assert_eq!(ledger.entry("a", 1, 4), None);
         ledger.settle("a", 1, 2);
         assert_eq!(ledger.entry("a", 1, 3), Some(LedgerEntry::Dropped(DropRule::TooOld)));
-        assert_eq!(ledger.processes[&("a".to_string(), 1)].dropped.len(), 1, "only what may come again");
+        assert_eq!(ledger.processes[&("a".to_string(), 1)].dropped.len(), 1, "only numbers that may be sent again");
     }
 
     #[test]
@@ -312,7 +312,7 @@ mod tests {
     }
 
     #[test]
-    fn another_incarnation_is_another_sender() {
+    fn incarnations_have_separate_numbers() {
         let mut ledger = Ledger::default();
         ledger.take("a", 1, 1);
         assert!(!ledger.contains("a", 2, 1));
@@ -323,15 +323,15 @@ mod tests {
         let mut ledger = Ledger::default();
         (0..ACTORS_MAX as u64 + 50).for_each(|incarnation| ledger.take("a", incarnation, 1));
         assert_eq!(ledger.processes.len(), ACTORS_MAX);
-        assert!(!ledger.contains("a", 0, 1), "the oldest gave way");
-        assert_eq!(ledger.total().accepted, ACTORS_MAX as u64 + 50, "but not what became of its fragments");
+        assert!(!ledger.contains("a", 0, 1), "the oldest was removed");
+        assert_eq!(ledger.total().accepted, ACTORS_MAX as u64 + 50, "its account stays");
         (0..AHEAD_MAX as u64 + 50).for_each(|i| ledger.take("b", 1, 2 + 2 * i));
         assert!(ledger.processes[&("b".to_string(), 1)].ahead.len() <= AHEAD_MAX);
     }
 
     proptest! {
         #[test]
-        fn whatever_the_order_exactly_what_was_put_in_is_contained(numbers in prop::collection::vec(1u64..40, 0..80)) {
+        fn the_ledger_contains_exactly_the_inserted_numbers_in_any_order(numbers in prop::collection::vec(1u64..40, 0..80)) {
             let mut ledger = Ledger::default();
             numbers.iter().for_each(|number| ledger.take("a", 1, *number));
             for number in 1..40 {

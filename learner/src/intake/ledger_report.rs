@@ -1,4 +1,4 @@
-//! Writes the ledger as a file: the account of every actor process, as of the last checkpoint.
+//! Writes the ledger of the last checkpoint as a file: the account of every actor process.
 
 use std::{fmt::Write, io, path::Path};
 
@@ -7,13 +7,13 @@ use treadmill_runtime::atomic_file;
 
 use super::{ActorProcess, Ledger};
 
-/// Replaces the file: one line for each process.
+/// Replaces the file with one line for each process.
 pub fn write(path: &Path, ledger: &Ledger) -> io::Result<()> {
     let mut lines = String::new();
     for ActorProcess { actor, incarnation, through, newest, missing, account } in ledger.processes() {
         let line = json!({
             "actor": actor,
-            // As text: readers that take every number for a double would lose its last digits.
+            // A string, because readers that parse numbers as doubles would lose its last digits.
             "incarnation": incarnation.to_string(),
             "through": through,
             "newest": newest,

@@ -1,46 +1,46 @@
-//! Which policy versions this learner descends from.
+//! Policy versions that the newest one descends from.
 
 use serde::{Deserialize, Serialize};
 use treadmill_proto::PolicyVersion;
 
-/// Starts of a learner that are remembered; fragments of older ones are long past any lag.
+/// Earlier incarnations that are kept; fragments of older ones exceed any allowed lag.
 const BRANCHES_MAX: usize = 64;
 
-/// The newest version, and for each earlier incarnation the last of its versions that this one grew from.
+/// Newest version, and for each earlier incarnation the last version that it descends from.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Lineage {
     branches: Vec<PolicyVersion>,
     newest: PolicyVersion,
 }
 
-/// How a fragment's version stands to the newest.
+/// Relation of a fragment's version to the newest.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Descent {
-    /// An ancestor, or the newest itself: so many versions back.
+    /// An ancestor, or the newest itself, with the number of versions between them.
     Lag(u64),
-    /// Never made durable, or of no learner of this run.
+    /// Never durable, or not of this run.
     Vanished,
-    /// Of this learner, which has not come so far yet.
+    /// A later version of this learner, which does not exist yet.
     Future,
 }
 
 impl Lineage {
-    /// A run that begins.
+    /// Lineage of a new run.
     pub fn new(incarnation: u64) -> Self {
         Self { branches: Vec::new(), newest: PolicyVersion { incarnation, number: 0 } }
     }
 
-    /// The newest version.
+    /// Newest version.
     pub fn newest(&self) -> PolicyVersion {
         self.newest
     }
 
-    /// One update more.
+    /// Advances by one update.
     pub fn advance(&mut self) {
         self.newest.number += 1;
     }
 
-    /// A learner that resumed under a new incarnation: numbers go on.
+    /// Continues under a new incarnation; version numbers continue.
     pub fn resume(&mut self, incarnation: u64) {
         self.branches.push(self.newest);
         if self.branches.len() > BRANCHES_MAX {
@@ -49,7 +49,7 @@ impl Lineage {
         self.newest.incarnation = incarnation;
     }
 
-    /// How `version` stands to the newest.
+    /// Returns the relation of `version` to the newest.
     pub fn descent(&self, version: PolicyVersion) -> Descent {
         let last = if version.incarnation == self.newest.incarnation {
             Some(self.newest.number)
@@ -74,12 +74,12 @@ mod tests {
     }
 
     #[test]
-    fn lag_counts_across_a_resume_and_vanished_versions_are_known_as_such() {
+    fn lag_counts_across_a_resume_and_vanished_versions_are_detected() {
         let mut lineage = Lineage::new(7);
         (0..5).for_each(|_| lineage.advance());
         assert_eq!(lineage.descent(version(7, 3)), Descent::Lag(2));
         assert_eq!(lineage.descent(version(7, 6)), Descent::Future);
-        // The process went on to version 8, but its successor resumed from the checkpoint of version 5.
+        // The first learner reached version 8; its successor resumed from the checkpoint of version 5.
         lineage.resume(9);
         lineage.advance();
         assert_eq!(lineage.newest(), version(9, 6));

@@ -1,19 +1,21 @@
-//! Fragments from the bus: validated, answered, collected into a batch.
+//! Intake: validates fragments from the bus, sends receipts, and collects batches.
 //!
-//! A receipt is the sender's credit. Where a batch is to be of the newest policy alone ([`LearnerMode::Sync`]), the
-//! learner owes receipts until it has learnt from the batch and published the next policy, so that senders continue with
-//! the newest. It never waits for one particular actor: once every actor has delivered, or the stragglers' time is up, it
-//! sends the receipts and the other actors fill the batch. Where older policies may take part ([`LearnerMode::Async`]), a
-//! fragment is answered as soon as it is accepted.
+//! A receipt returns the sender's credit. In mode [`LearnerMode::Sync`], batches hold only fragments of the newest
+//! policy: the learner owes the receipts until it has published the next policy, so that senders continue with it. It
+//! never waits for one particular actor: once every actor has delivered, or the stragglers' time is up, it sends the
+//! receipts, and the other actors fill the batch. In mode [`LearnerMode::Async`], it answers each
+//! accepted fragment at once.
+//!
+//! A fragment's stages here: incoming (on the bus's queue), received (decoded or malformed), accepted, part of a batch.
 //!
 //! # Layout
 //! - Here: [`Intake`], which collects batches.
 //! - `source`: [`FragmentSource`], where fragments come from.
 //! - `validator`: [`FragmentValidator`], which accepts or rejects a fragment.
-//! - `ledger`: [`Ledger`], which fragments of every actor process were dealt with.
+//! - `ledger`: [`Ledger`], the handled fragments of every actor process.
 //! - [`ledger_report`]: the ledger as a file.
-//! - `lineage`: [`Lineage`], which policy versions this learner descends from.
-//! - `straggler`: how long the other actors wait for a straggler.
+//! - `lineage`: [`Lineage`], the policy versions that the newest descends from.
+//! - `straggler`: limits the wait for stragglers.
 
 mod ledger;
 pub mod ledger_report;
@@ -31,7 +33,7 @@ use treadmill_runtime::shutdown::Shutdown;
 
 pub use ledger::{Account, ActorProcess, DropRule, Ledger, LedgerEntry};
 pub use lineage::{Descent, Lineage};
-pub use source::{BusFragmentSource, FragmentMessage, FragmentSource};
+pub use source::{BusFragmentSource, FragmentSource};
 use straggler::StragglerPolicy;
 pub use validator::{ExpectedFragment, FragmentCounts, FragmentValidator};
 
@@ -44,9 +46,9 @@ pub struct Intake<S: FragmentSource> {
     mode: LearnerMode,
     validator: FragmentValidator,
     stragglers: StragglerPolicy,
-    owed: Vec<OwedReceipt<S::Message>>,
-    /// Fragment that came when a batch was full already.
-    queued: Option<S::Message>,
+    owed: Vec<OwedReceipt<S::Incoming>>,
+    /// Fragment that came when a batch was already full.
+    queued: Option<S::Incoming>,
     /// Fragments of the next batch so far, and their transitions.
     accepted: Vec<AcceptedFragment>,
     transitions: usize,
@@ -54,10 +56,10 @@ pub struct Intake<S: FragmentSource> {
     present: BTreeSet<String>,
 }
 
-/// How collecting ended.
+/// Result of [`Intake::collect`].
 #[derive(Debug)]
 pub enum Collected {
-    /// There is a batch.
+    /// A batch is complete.
     Batch(CollectedBatch),
     /// The caller interrupted it.
     Interrupted,
@@ -66,8 +68,8 @@ pub enum Collected {
 }
 
 /// Accepted fragment whose receipt is still owed.
-struct OwedReceipt<M> {
-    message: M,
+struct OwedReceipt<I> {
+    incoming: I,
     incarnation: u64,
 }
 
@@ -76,16 +78,16 @@ struct OwedReceipt<M> {
 pub struct BatchSize {
     /// Transitions that the intake waits for.
     pub transitions: usize,
-    /// Transitions that it takes while fragments are queued, without waiting.
+    /// Transitions that it takes without waiting, while fragments are queued.
     pub transitions_max: usize,
 }
 
 /// Fragments of one update.
 #[derive(Debug)]
 pub struct CollectedBatch {
-    /// Whole fragments, ordered by sender and sequence number, so that the result does not depend on their arrival order.
+    /// Whole fragments, sorted by sender and sequence number, so that their arrival order does not matter.
     pub fragments: Vec<AcceptedFragment>,
-    /// Whether more fragments are queued than the batch takes.
+    /// Whether more fragments are queued.
     pub has_backlog: bool,
 }
 
@@ -106,7 +108,7 @@ impl<S: FragmentSource> Intake<S> {
         }
     }
 
-    /// The validator, with its ledger and counts.
+    /// Validator, with its ledger and counts.
     pub fn validator(&self) -> &FragmentValidator {
         &self.validator
     }
@@ -116,13 +118,13 @@ impl<S: FragmentSource> Intake<S> {
         self.validator.count_unread();
     }
 
-    /// Names of the actors that are alive.
+    /// Returns the names of the actors that are alive.
     pub fn alive(&self) -> BTreeSet<String> {
         self.source.actors()
     }
 
-    /// Collects whole fragments until there are as many transitions as `size` asks for, or shutdown is requested, or
-    /// `interrupt` returns true. After an interruption, the next call continues with the fragments collected so far.
+    /// Collects whole fragments until they have `size.transitions`, shutdown is requested, or `interrupt` returns true.
+    /// After an interruption, the next call continues with the fragments collected so far.
     pub fn collect(
         &mut self,
         size: BatchSize,
@@ -138,11 +140,11 @@ impl<S: FragmentSource> Intake<S> {
                 return Collected::Interrupted;
             }
             if let Some(accepted) = self.next(TICK, lineage) {
-                self.stragglers.delivered(&accepted.fragment.actor, self.source.now());
+                self.stragglers.record_delivery(&accepted.fragment.actor, self.source.now());
                 self.add(accepted);
             }
             let present = self.poll_actors();
-            if self.transitions < size.transitions && self.stragglers.is_over(&present, self.source.now()) {
+            if self.transitions < size.transitions && self.stragglers.is_round_over(&present, self.source.now()) {
                 self.send_owed_receipts(lineage);
             }
         }
@@ -168,33 +170,33 @@ impl<S: FragmentSource> Intake<S> {
         self.accepted.push(accepted);
     }
 
-    /// Returns the names of the actors that are alive; logs those that came or went.
+    /// Returns the names of the actors that are alive; logs those that joined or left.
     fn poll_actors(&mut self) -> BTreeSet<String> {
         let present = self.source.actors();
         if present != self.present {
-            present.difference(&self.present).for_each(|actor| tracing::info!("`{actor}` is there"));
-            self.present.difference(&present).for_each(|actor| tracing::info!("`{actor}` is gone"));
+            present.difference(&self.present).for_each(|actor| tracing::info!(%actor, "actor joined"));
+            self.present.difference(&present).for_each(|actor| tracing::info!(%actor, "actor left"));
             self.present = present.clone();
         }
         present
     }
 
     fn next(&mut self, timeout: Duration, lineage: &Lineage) -> Option<AcceptedFragment> {
-        let message = match self.queued.take() {
-            Some(message) => message,
+        let incoming = match self.queued.take() {
+            Some(incoming) => incoming,
             None => self.source.next(timeout)?,
         };
-        self.receive(message, lineage)
+        self.receive(incoming, lineage)
     }
 
-    /// Validates one fragment; answers it at once if it is rejected, or accepted in asynchronous mode.
-    fn receive(&mut self, mut message: S::Message, lineage: &Lineage) -> Option<AcceptedFragment> {
-        let received = message.take()?;
+    /// Validates one fragment. Answers it at once if it is rejected, or if it is accepted in asynchronous mode.
+    fn receive(&mut self, mut incoming: S::Incoming, lineage: &Lineage) -> Option<AcceptedFragment> {
+        let received = S::take(&mut incoming)?;
         let now = self.source.now();
-        match self.validator.validate(message.actor(), received, lineage, now) {
+        match self.validator.validate(S::actor(&incoming), received, lineage, now) {
             Ok(accepted) => {
-                self.source.copy(&mut message);
-                let owed = OwedReceipt { message, incarnation: accepted.fragment.actor_incarnation };
+                self.source.copy(&mut incoming);
+                let owed = OwedReceipt { incoming, incarnation: accepted.fragment.actor_incarnation };
                 match self.mode {
                     LearnerMode::Sync => self.owed.push(owed),
                     LearnerMode::Async => self.answer(owed, lineage),
@@ -202,48 +204,43 @@ impl<S: FragmentSource> Intake<S> {
                 Some(accepted)
             }
             Err(receipt) => {
-                message.answer(&receipt);
+                S::answer(incoming, &receipt);
                 None
             }
         }
     }
 
-    /// Sends every receipt that is owed: the senders continue, with the newest policy.
+    /// Sends every owed receipt, so that the senders continue with the newest policy.
     pub fn send_owed_receipts(&mut self, lineage: &Lineage) {
         for owed in std::mem::take(&mut self.owed) {
             self.answer(owed, lineage);
         }
-        self.stragglers.begin(self.source.now());
+        self.stragglers.begin_round(self.source.now());
     }
 
-    fn answer(&self, OwedReceipt { message, incarnation }: OwedReceipt<S::Message>, lineage: &Lineage) {
-        let durable_through = self.validator.ledger.durable_through(message.actor(), incarnation);
-        message.answer(&Receipt {
-            outcome: Outcome::Accepted,
-            reason: String::new(),
-            version: lineage.newest(),
-            durable_through,
-        });
+    fn answer(&self, OwedReceipt { incoming, incarnation }: OwedReceipt<S::Incoming>, lineage: &Lineage) {
+        let durable_through = self.validator.ledger.durable_through(S::actor(&incoming), incarnation);
+        let (outcome, version) = (Outcome::Accepted, lineage.newest());
+        S::answer(incoming, &Receipt { outcome, reason: String::new(), version, durable_through });
     }
 
-    /// Notes that a checkpoint on disk holds everything accepted so far.
+    /// Records that a checkpoint on disk holds everything accepted so far.
     pub fn mark_durable(&mut self) {
         self.validator.ledger.mark_durable();
     }
 
-    /// Answers every waiting sender that the learner stops. No checkpoint holds those fragments, so the senders keep them
-    /// for the next learner.
+    /// Answers every waiting sender that the learner is stopping. No checkpoint holds those fragments, so the senders
+    /// keep them for the next learner.
     pub fn stop(&mut self, lineage: &Lineage) {
-        let owed = std::mem::take(&mut self.owed).into_iter().map(|owed| owed.message);
-        let mut messages: Vec<S::Message> = owed.chain(self.queued.take()).collect();
-        messages.extend(std::iter::from_fn(|| self.source.next(Duration::ZERO)));
-        for message in messages {
-            message.answer(&Receipt {
-                outcome: Outcome::Stopping,
-                reason: "the learner is stopping".to_string(),
-                version: lineage.newest(),
-                durable_through: 0,
-            });
-        }
+        let receipt = Receipt {
+            outcome: Outcome::Stopping,
+            reason: "the learner is stopping".to_string(),
+            version: lineage.newest(),
+            durable_through: 0,
+        };
+        let owed = std::mem::take(&mut self.owed).into_iter().map(|owed| owed.incoming);
+        let mut waiting: Vec<S::Incoming> = owed.chain(self.queued.take()).collect();
+        waiting.extend(std::iter::from_fn(|| self.source.next(Duration::ZERO)));
+        waiting.into_iter().for_each(|incoming| S::answer(incoming, &receipt));
     }
 }

@@ -12,32 +12,29 @@ use crate::training::Heartbeat;
 
 /// Source of fragments, of the names of living actors, and of the time.
 pub trait FragmentSource {
-    /// Message with a fragment, which waits for its receipt.
-    type Message: FragmentMessage;
+    /// Fragment that waits for its receipt. If it is dropped without one, its sender sends it again.
+    type Incoming;
 
-    /// The next fragment, if one comes within `timeout`.
-    fn next(&mut self, timeout: Duration) -> Option<Self::Message>;
+    /// Returns the next fragment, if one comes within `timeout`.
+    fn next(&mut self, timeout: Duration) -> Option<Self::Incoming>;
 
-    /// Names of the actors that are alive.
-    fn actors(&self) -> BTreeSet<String>;
+    /// Returns the name of the actor that sent a fragment.
+    fn actor(incoming: &Self::Incoming) -> &str;
 
-    /// The present moment.
-    fn now(&self) -> Instant;
-
-    /// Passes on a copy of an accepted fragment if there is a subscriber; never waits.
-    fn copy(&self, _message: &mut Self::Message) {}
-}
-
-/// Message with a fragment, which waits for its receipt. If it is dropped without one, its sender sends it again.
-pub trait FragmentMessage {
-    /// Name of the actor that sent it.
-    fn actor(&self) -> &str;
-
-    /// Takes the fragment out, once; the receipt is still owed.
-    fn take(&mut self) -> Option<ReceivedFragment>;
+    /// Takes the content out, once; the receipt is still owed.
+    fn take(incoming: &mut Self::Incoming) -> Option<ReceivedFragment>;
 
     /// Sends the receipt, which returns the sender's credit.
-    fn answer(self, receipt: &Receipt);
+    fn answer(incoming: Self::Incoming, receipt: &Receipt);
+
+    /// Returns the names of the actors that are alive.
+    fn actors(&self) -> BTreeSet<String>;
+
+    /// Returns the current time.
+    fn now(&self) -> Instant;
+
+    /// Sends a copy of an accepted fragment if there is a subscriber; never blocks.
+    fn copy(&self, _incoming: &mut Self::Incoming) {}
 }
 
 /// Source of the fragments that come over the bus.
@@ -49,18 +46,30 @@ pub struct BusFragmentSource {
 }
 
 impl BusFragmentSource {
-    /// Source over what is declared on the bus; every call of `next` beats `heartbeat`.
+    /// Source over declarations on the bus; every call of `next` beats `heartbeat`.
     pub fn new(queue: RolloutIntake, alive: Alive, copies: RolloutCopies, heartbeat: Heartbeat) -> Self {
         Self { queue, alive, copies, heartbeat }
     }
 }
 
 impl FragmentSource for BusFragmentSource {
-    type Message = IncomingFragment;
+    type Incoming = IncomingFragment;
 
     fn next(&mut self, timeout: Duration) -> Option<IncomingFragment> {
         self.heartbeat.beat();
         self.queue.next(timeout)
+    }
+
+    fn actor(incoming: &IncomingFragment) -> &str {
+        &incoming.actor
+    }
+
+    fn take(incoming: &mut IncomingFragment) -> Option<ReceivedFragment> {
+        incoming.take()
+    }
+
+    fn answer(incoming: IncomingFragment, receipt: &Receipt) {
+        incoming.answer(receipt);
     }
 
     fn actors(&self) -> BTreeSet<String> {
@@ -71,21 +80,7 @@ impl FragmentSource for BusFragmentSource {
         Instant::now()
     }
 
-    fn copy(&self, message: &mut IncomingFragment) {
-        message.copy_to(&self.copies);
-    }
-}
-
-impl FragmentMessage for IncomingFragment {
-    fn actor(&self) -> &str {
-        &self.actor
-    }
-
-    fn take(&mut self) -> Option<ReceivedFragment> {
-        IncomingFragment::take(self)
-    }
-
-    fn answer(self, receipt: &Receipt) {
-        IncomingFragment::answer(self, receipt);
+    fn copy(&self, incoming: &mut IncomingFragment) {
+        incoming.copy_to(&self.copies);
     }
 }

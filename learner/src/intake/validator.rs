@@ -1,4 +1,4 @@
-//! Accepts or rejects each fragment, before anything is learnt from it.
+//! Accepts or rejects each fragment before the learner uses it.
 
 use std::{sync::Arc, time::Instant};
 
@@ -18,15 +18,15 @@ use super::{
 /// Properties that every fragment of a run must have.
 #[derive(Clone, Debug)]
 pub struct ExpectedFragment {
-    /// The run's name.
+    /// Name of the run.
     pub run: String,
-    /// Hash over the configuration and the model.
+    /// Hash of the configuration and the model.
     pub config_hash: u64,
     /// Entries of one observation.
     pub observation_size: u32,
     /// Entries of one action.
     pub action_size: u32,
-    /// Versions that a fragment may be behind.
+    /// Largest allowed lag in versions.
     pub max_policy_lag: u64,
 }
 
@@ -37,11 +37,11 @@ pub struct FragmentCounts {
     pub accepted: u64,
     /// Accepted before.
     pub duplicate: u64,
-    /// Dropped by rule: policy too far back.
+    /// Dropped by rule: policy too old.
     pub too_old: u64,
     /// Dropped by rule: policy unknown after a resume.
     pub vanished: u64,
-    /// Refused.
+    /// Rejected as malformed.
     pub malformed: u64,
     /// Rejected unread, because the sender is in quarantine.
     pub quarantined: u64,
@@ -51,20 +51,20 @@ pub struct FragmentCounts {
 #[derive(Debug)]
 pub struct FragmentValidator {
     expected: ExpectedFragment,
-    gate: Arc<Admission>,
-    refusals: RateLimitedLog,
-    quarantines: RateLimitedLog,
+    admission: Arc<Admission>,
+    malformed_log: RateLimitedLog,
+    quarantine_log: RateLimitedLog,
     /// Rejected unread because the queue was full, since this start.
     turned_away: u64,
     /// Bytes of the accepted fragments, since this start.
     accepted_bytes: u64,
-    /// Fragments that were dealt with.
+    /// Handled fragments.
     pub ledger: Ledger,
     /// Fragments by outcome.
     pub counts: FragmentCounts,
 }
 
-/// Fragment that is not accepted: what its receipt says.
+/// Content of a rejected fragment's receipt.
 struct Rejection {
     outcome: Outcome,
     reason: String,
@@ -73,12 +73,12 @@ struct Rejection {
 
 impl FragmentValidator {
     /// Validator that continues with a checkpoint's ledger and counts.
-    pub fn new(expected: ExpectedFragment, gate: Arc<Admission>, ledger: Ledger, counts: FragmentCounts) -> Self {
-        let (refusals, quarantines) = (RateLimitedLog::default(), RateLimitedLog::default());
-        Self { expected, gate, refusals, quarantines, turned_away: 0, accepted_bytes: 0, ledger, counts }
+    pub fn new(expected: ExpectedFragment, admission: Arc<Admission>, ledger: Ledger, counts: FragmentCounts) -> Self {
+        let (malformed_log, quarantine_log) = (RateLimitedLog::default(), RateLimitedLog::default());
+        Self { expected, admission, malformed_log, quarantine_log, turned_away: 0, accepted_bytes: 0, ledger, counts }
     }
 
-    /// Validates a fragment that `actor` sent. Returns it if it is accepted, else the receipt that says why not.
+    /// Validates a fragment that `actor` sent. Returns it if it is accepted, else the receipt with the reason.
     pub fn validate(
         &mut self,
         actor: &str,
@@ -99,33 +99,31 @@ impl FragmentValidator {
         lineage: &Lineage,
         now: Instant,
     ) -> Result<AcceptedFragment, Rejection> {
-        // Fragments can be queued before their sender is put in quarantine.
-        let sender = self.gate.identify(actor, received.claimed_incarnation);
-        if self.gate.is_quarantined(&sender, now) {
+        // The fragment may have been queued before its sender was put in quarantine.
+        let sender = self.admission.identify(actor, received.claimed_incarnation);
+        if self.admission.is_quarantined(&sender, now) {
             self.counts.quarantined += 1;
             let reason = format!("`{actor}` is in quarantine for up to 60 s");
             return Err(Rejection { outcome: Outcome::Quarantined, reason, durable_through: 0 });
         }
         let checked = received.fragment.and_then(|fragment| self.check(actor, fragment, lineage));
-        let fragment = checked.map_err(|why| self.refuse(actor, &sender, &why, now))?;
+        let fragment = checked.map_err(|why| self.reject_malformed(actor, &sender, &why, now))?;
         let (incarnation, sequence) = (fragment.actor_incarnation, fragment.sequence);
         if !self.ledger.knows(actor, incarnation) {
-            tracing::info!("`{actor}` delivers as process {incarnation}");
+            tracing::info!(%actor, incarnation, "first fragment of an actor process");
         }
         self.ledger.settle(actor, incarnation, fragment.settled_through);
         let durable_through = self.ledger.durable_through(actor, incarnation);
         if let Some(entry) = self.ledger.entry(actor, incarnation, sequence) {
             self.counts.duplicate += 1;
             self.report_useless(&sender, now);
-            // The receipt was lost: the sender gets the same outcome again.
+            // The first receipt was lost: the sender gets the same outcome again.
             let (outcome, reason) = match entry {
-                LedgerEntry::Accepted => (Outcome::Duplicate, String::new()),
-                LedgerEntry::Dropped(DropRule::TooOld) => (Outcome::TooOld, "dropped when it first came".to_string()),
-                LedgerEntry::Dropped(DropRule::Vanished) => {
-                    (Outcome::Vanished, "dropped when it first came".to_string())
-                }
+                LedgerEntry::Accepted => (Outcome::Duplicate, ""),
+                LedgerEntry::Dropped(DropRule::TooOld) => (Outcome::TooOld, "dropped when first received"),
+                LedgerEntry::Dropped(DropRule::Vanished) => (Outcome::Vanished, "dropped when first received"),
             };
-            return Err(Rejection { outcome, reason, durable_through });
+            return Err(Rejection { outcome, reason: reason.to_string(), durable_through });
         }
         let env_steps = fragment.transitions() as u64;
         let lag = self.check_lag(&fragment, lineage, &sender, now);
@@ -133,7 +131,7 @@ impl FragmentValidator {
         self.ledger.insert(actor, incarnation, sequence, entry, env_steps);
         match lag {
             Ok(lag) => {
-                self.gate.record_accepted(actor, incarnation, now);
+                self.admission.record_accepted(actor, incarnation, now);
                 self.counts.accepted += 1;
                 self.accepted_bytes += received.bytes as u64;
                 Ok(AcceptedFragment { fragment, lag })
@@ -142,12 +140,12 @@ impl FragmentValidator {
         }
     }
 
-    /// Counts a malformed fragment, which may put its sender in quarantine.
-    fn refuse(&mut self, actor: &str, sender: &Sender, why: &Malformed, now: Instant) -> Rejection {
+    /// Rejects a malformed fragment, which may put its sender in quarantine.
+    fn reject_malformed(&mut self, actor: &str, sender: &Sender, why: &Malformed, now: Instant) -> Rejection {
         self.counts.malformed += 1;
-        self.refusals.emit(|| tracing::warn!(%actor, error = %why, "fragment rejected"));
-        if self.gate.record_malformed(sender, now) {
-            self.quarantines.emit(|| tracing::warn!(%actor, "sender quarantined"));
+        self.malformed_log.emit(|| tracing::warn!(%actor, error = %why, "fragment rejected"));
+        if self.admission.record_malformed(sender, now) {
+            self.quarantine_log.emit(|| tracing::warn!(%actor, "sender quarantined"));
         }
         Rejection { outcome: Outcome::Malformed, reason: why.to_string(), durable_through: 0 }
     }
@@ -161,11 +159,11 @@ impl FragmentValidator {
         now: Instant,
     ) -> Result<u64, (DropRule, Outcome, String)> {
         match lineage.descent(fragment.version) {
-            // `check` has refused versions of the future.
+            // `check` has rejected versions of the future.
             Descent::Vanished | Descent::Future => {
                 self.counts.vanished += 1;
                 self.report_useless(sender, now);
-                let reason = format!("policy version {:?} is not one of this learner's", fragment.version);
+                let reason = format!("policy version {:?} is not an ancestor of the newest", fragment.version);
                 Err((DropRule::Vanished, Outcome::Vanished, reason))
             }
             Descent::Lag(lag) if lag > self.expected.max_policy_lag => {
@@ -177,10 +175,10 @@ impl FragmentValidator {
         }
     }
 
-    /// Reports a fragment without use to admission control, which may put its sender in quarantine.
+    /// Reports a duplicate or a fragment of an unknown policy, which may put its sender in quarantine.
     fn report_useless(&self, sender: &Sender, now: Instant) {
-        if self.gate.record_useless(sender, now) {
-            self.quarantines.emit(|| {
+        if self.admission.record_useless(sender, now) {
+            self.quarantine_log.emit(|| {
                 tracing::warn!(actor = %sender.name(), "sender quarantined: too many duplicate or vanished fragments");
             });
         }
@@ -188,25 +186,25 @@ impl FragmentValidator {
 
     /// Adds the fragments that admission control rejected unread to the counts.
     pub fn count_unread(&mut self) {
-        let unread = self.gate.take_unread();
+        let unread = self.admission.take_unread();
         self.counts.malformed += unread.malformed;
         self.counts.quarantined += unread.quarantined;
         self.turned_away += unread.turned_away;
     }
 
-    /// Fragments rejected unread because the queue was full, since this start.
+    /// Number of fragments rejected unread because the queue was full, since this start.
     pub fn turned_away(&self) -> u64 {
         self.turned_away
     }
 
-    /// Bytes of the accepted fragments, since this start.
+    /// Size of the accepted fragments in bytes, since this start.
     pub fn accepted_bytes(&self) -> u64 {
         self.accepted_bytes
     }
 
-    /// Senders in quarantine.
+    /// Returns the senders in quarantine.
     pub fn quarantined(&self, now: Instant) -> Vec<String> {
-        self.gate.quarantined(now)
+        self.admission.quarantined(now)
     }
 
     fn check(&self, actor: &str, fragment: Fragment, lineage: &Lineage) -> Result<Fragment, Malformed> {

@@ -72,7 +72,7 @@ fn a_fragment_dropped_by_rule_gets_the_same_outcome_when_it_is_sent_again() {
 }
 
 #[test]
-fn refusals_name_the_field_and_lead_to_quarantine() {
+fn rejections_name_the_field_and_lead_to_quarantine() {
     let (mut validator, lineage) = (validator(), lineage(0));
     let wrong =
         Fragment { observation_size: 2, observations: vec![0.0; 2], last_observations: vec![0.0; 2], ..fragment(1, 0) };
@@ -95,7 +95,7 @@ fn a_version_of_the_future_is_malformed() {
 }
 
 #[test]
-fn nonsense_under_the_name_of_a_good_actor_does_not_harm_it() {
+fn malformed_fragments_in_the_name_of_an_actor_do_not_harm_it() {
     let (mut validator, lineage) = (validator(), lineage(0));
     assert_eq!(outcome(&mut validator, &fragment(1, 0), &lineage), Outcome::Accepted);
     let impostor = Fragment { actor_incarnation: 3, run: "other".into(), ..fragment(2, 0) };
@@ -107,7 +107,7 @@ fn nonsense_under_the_name_of_a_good_actor_does_not_harm_it() {
 }
 
 #[test]
-fn a_sender_cannot_speak_for_another() {
+fn a_sender_cannot_use_the_name_of_another() {
     let (mut validator, lineage) = (validator(), lineage(0));
     let receipt =
         validator.validate("b", fragment(1, 0).encode().unwrap().into(), &lineage, Instant::now()).unwrap_err();

@@ -1,4 +1,4 @@
-//! The learning curve as a picture, drawn from `metrics.jsonl`.
+//! Learning curve as a PNG, drawn from `metrics.jsonl`.
 
 use std::fs::{self, File};
 use std::io;
@@ -13,23 +13,23 @@ use plotters::style::{FontDesc, FontStyle, register_font};
 use super::jsonl::for_each_metric;
 use super::table::format_number;
 
-/// Width and height of the picture in pixels.
+/// Width and height of the image in pixels.
 const SIZE: (u32, u32) = (1200, 1200);
 
-/// The name under which the embedded font is known to the plotter.
+/// Name of the embedded font in the plotter.
 const FONT: &str = "DejaVu Sans";
 
-/// Up to here a number can be drawn; what lies beyond is left out, as the plotter's arithmetic would overflow.
+/// Largest number that is drawn; larger ones are omitted, because the plotter's arithmetic would overflow.
 const DRAWABLE_MAX: f64 = 1e12;
 
-/// Up to this many points each gets a dot: a line alone would not show that they are few.
+/// Most points that are drawn as dots: a line alone would not show that there are few.
 const DOTS_MAX: usize = 60;
 
 const TITLE: RGBColor = RGBColor(40, 40, 40);
 const LABEL: RGBColor = RGBColor(90, 90, 90);
 const GRID: RGBColor = RGBColor(225, 225, 225);
 
-/// One quantity over the environment steps.
+/// Plot of one quantity over environment steps.
 struct Panel {
     tag: &'static str,
     title: &'static str,
@@ -53,42 +53,42 @@ const PANELS: [Panel; 3] = [
     },
 ];
 
-/// Why there is no picture.
+/// Why the learning curve cannot be drawn.
 #[derive(Debug, thiserror::Error)]
 pub enum CurveError {
     /// The metrics cannot be read.
-    #[error("cannot read the metrics in {path}")]
+    #[error("cannot read the metrics in {path} for the learning curve")]
     Read {
-        /// The file.
+        /// Path of the file.
         path: PathBuf,
-        /// What the system said.
+        /// Error of the system.
         source: io::Error,
     },
-    /// The plotter gave up; a file that cannot be written is the usual reason.
+    /// The plotter failed, usually because the file cannot be written.
     #[error("cannot draw the learning curve to {path}: {why}")]
     Draw {
-        /// The file.
+        /// Path of the file.
         path: PathBuf,
-        /// What the plotter said.
+        /// Message of the plotter.
         why: String,
     },
-    /// The finished picture cannot be put in its place.
-    #[error("cannot put the learning curve in its place at {path}")]
+    /// The older image cannot be replaced.
+    #[error("cannot replace the learning curve at {path}")]
     Replace {
-        /// The file.
+        /// Path of the file.
         path: PathBuf,
-        /// What the system said.
+        /// Error of the system.
         source: io::Error,
     },
 }
 
 /// Draws the learning curve of a run: return, distance and velocity over environment steps, one panel below the
-/// other. A quantity without points gets an empty panel that says so. The picture replaces an older one as a whole.
+/// other. A panel without points shows a note. The image replaces an older one atomically.
 pub fn draw_curve(metrics_jsonl: &Path, png: &Path) -> Result<(), CurveError> {
     let read = |source| CurveError::Read { path: metrics_jsonl.to_path_buf(), source };
     let curves = File::open(metrics_jsonl).and_then(read_curves).map_err(read)?;
 
-    // The plotter chooses the format by the name's end, so the temporary name ends in `.png` too.
+    // The plotter chooses the format by the extension, so the temporary file has the same.
     let temporary = png.with_extension("tmp.png");
     let drawn = draw(&curves, &temporary)
         .map_err(|error| CurveError::Draw { path: png.to_path_buf(), why: error.to_string() })
@@ -96,13 +96,13 @@ pub fn draw_curve(metrics_jsonl: &Path, png: &Path) -> Result<(), CurveError> {
             fs::rename(&temporary, png).map_err(|source| CurveError::Replace { path: png.to_path_buf(), source })
         });
     if drawn.is_err() {
-        // It may never have been made; the first error is the one to tell.
+        // The file may not exist; the first error is returned.
         let _ = fs::remove_file(&temporary);
     }
     drawn
 }
 
-/// Points (millions of steps, value), one list per panel.
+/// Points (millions of steps, value) of each panel.
 type Curves = [Vec<(f64, f64)>; PANELS.len()];
 
 fn read_curves(file: File) -> io::Result<Curves> {
@@ -124,8 +124,8 @@ type DrawError<'a> = DrawingAreaErrorKind<<BitMapBackend<'a> as DrawingBackend>:
 type Area<'a> = DrawingArea<BitMapBackend<'a>, Shift>;
 
 fn draw<'a>(curves: &Curves, path: &'a Path) -> Result<(), DrawError<'a>> {
-    // The font is part of the program: a machine without a screen often has none. Its bytes are a valid font, and
-    // without it the first text would be an error, not a panic.
+    // The font is embedded, because a machine without a screen often has none. If registering it failed, drawing text
+    // would return an error.
     let _ = register_font(FONT, FontStyle::Normal, dejavu::sans::regular());
     let area = BitMapBackend::new(path, SIZE).into_drawing_area();
     area.fill(&WHITE)?;
@@ -185,13 +185,13 @@ fn caption(panel: &Panel, points: &[(f64, f64)]) -> String {
     let best = points.iter().map(|point| point.1).fold(f64::NEG_INFINITY, f64::max);
     match points.last() {
         Some(last) => {
-            format!("{}: {} at last, {} at best", panel.title, format_number(last.1), format_number(best))
+            format!("{}: last {}, best {}", panel.title, format_number(last.1), format_number(best))
         }
         None => panel.title.to_string(),
     }
 }
 
-/// What the vertical axis shows: all points and some air, also for a single point or a constant.
+/// Returns the range of the vertical axis: all points and a margin, also for a single point or a constant.
 fn value_range(points: &[(f64, f64)]) -> Range<f64> {
     if points.is_empty() {
         return 0.0..1.0;
@@ -201,11 +201,11 @@ fn value_range(points: &[(f64, f64)]) -> Range<f64> {
         .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), point| (low.min(point.1), high.max(point.1)));
     let size = low.abs().max(high.abs());
     let span = high - low;
-    let air = if span > size * 1e-6 { span * 0.06 } else { (size * 0.1).max(1e-3) };
-    low - air..high + air
+    let margin = if span > size * 1e-6 { span * 0.06 } else { (size * 0.1).max(1e-3) };
+    low - margin..high + margin
 }
 
-/// As many decimals as it takes to tell neighbouring labels of an axis of this span apart, and none that are zero.
+/// Formats a label with as many decimals as neighbouring labels on an axis of this span need, without trailing zeros.
 fn axis_label(value: f64, span: f64) -> String {
     let decimals = (1.0 - span.log10().floor()).clamp(0.0, 9.0);
     let label = format!("{value:.*}", decimals as usize);

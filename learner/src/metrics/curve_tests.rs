@@ -1,4 +1,4 @@
-//! Tests of the learning curve: there is a picture, whatever the metrics look like.
+//! Learning curves of ordinary and unusual metrics.
 
 use std::fs;
 use std::path::Path;
@@ -11,13 +11,13 @@ fn line(tag: &str, step: u64, value: &str) -> String {
     format!(r#"{{"run":"r","tag":"{tag}","step":{step},"value":{value},"time_unix_s":1.0}}"#) + "\n"
 }
 
-/// Draws and gives the width and height that the PNG's header tells.
+/// Draws, and returns the width and height in the PNG's header.
 fn drawn(metrics: &str) -> (u32, u32) {
     let folder = tempfile::tempdir().unwrap();
     let (jsonl, png) = (folder.path().join("metrics.jsonl"), folder.path().join("curve.png"));
     fs::write(&jsonl, metrics).unwrap();
     draw_curve(&jsonl, &png).unwrap();
-    assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 2, "a temporary file stayed behind");
+    assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 2, "a temporary file was left");
     let bytes = fs::read(&png).unwrap();
     assert_eq!(bytes[..8], *b"\x89PNG\r\n\x1a\n");
     let number = |at: usize| u32::from_be_bytes(bytes[at..at + 4].try_into().unwrap());
@@ -35,7 +35,7 @@ fn a_run_is_drawn() {
 }
 
 #[test]
-fn odd_metrics_are_drawn_as_well() {
+fn unusual_metrics_are_drawn() {
     let points =
         |values: &[(u64, &str)]| -> String { values.iter().map(|(step, value)| line(TAGS[0], *step, value)).collect() };
     let cases = [
@@ -55,7 +55,7 @@ fn odd_metrics_are_drawn_as_well() {
 }
 
 #[test]
-fn an_older_picture_is_replaced() {
+fn an_older_image_is_replaced() {
     let folder = tempfile::tempdir().unwrap();
     let (jsonl, png) = (folder.path().join("metrics.jsonl"), folder.path().join("curve.png"));
     fs::write(&jsonl, line(TAGS[0], 5, "1.0")).unwrap();
@@ -65,7 +65,7 @@ fn an_older_picture_is_replaced() {
 }
 
 #[test]
-fn what_cannot_be_read_or_written_is_an_error_that_names_the_file() {
+fn read_and_write_errors_name_the_file() {
     let folder = tempfile::tempdir().unwrap();
     let (jsonl, png) = (folder.path().join("metrics.jsonl"), folder.path().join("gone").join("curve.png"));
     let error = draw_curve(&jsonl, Path::new("curve.png")).unwrap_err();

@@ -1,20 +1,20 @@
-//! The last finished episodes, as Stable-Baselines3 averages them.
+//! Window of the last finished episodes, as in Stable-Baselines3.
 
 use std::collections::VecDeque;
 
 use serde::{Deserialize, Serialize};
 use treadmill_proto::{EndCause, Episode};
 
-/// Episodes that a mean is taken over.
+/// Number of episodes in the window.
 pub const WINDOW: usize = 100;
 
-/// The last [`WINDOW`] episodes and counts over the run.
+/// Last [`WINDOW`] episodes, and counts over the run.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct EpisodeWindow {
     recent: VecDeque<Entry>,
-    /// Episodes over the run.
+    /// Number of episodes over the run.
     pub finished: u64,
-    /// Episodes over the run that the physics ended with a number that is not finite.
+    /// Number of episodes over the run that ended because the physics produced a number that is not finite.
     pub faults: u64,
 }
 
@@ -34,16 +34,16 @@ pub struct EpisodeMeans {
     pub return_mean: f64,
     /// Mean length in control steps.
     pub length_mean: f64,
-    /// Mean forward distance.
+    /// Mean forward distance in metres.
     pub distance_mean_m: f64,
-    /// Mean over episodes of distance over time.
+    /// Mean over episodes of distance over time, in metres per second.
     pub velocity_mean_mps: f64,
-    /// Share of episodes that ended with a fall, or by whatever rule an external task has.
+    /// Share of episodes that ended with a fall, or by termination in an external task.
     pub fall_fraction: f64,
 }
 
 impl EpisodeWindow {
-    /// Adds what a fragment reports.
+    /// Adds the episodes of a fragment.
     pub fn extend<'a>(&mut self, episodes: impl IntoIterator<Item = &'a Episode>) {
         for episode in episodes {
             self.finished += 1;
@@ -61,12 +61,12 @@ impl EpisodeWindow {
         }
     }
 
-    /// Whether a mean over the window says anything yet.
+    /// Whether the window has [`WINDOW`] episodes.
     pub fn is_full(&self) -> bool {
         self.recent.len() == WINDOW
     }
 
-    /// Means over the window; `None` before the first episode ended.
+    /// Returns the means over the window, or `None` before the first episode ends.
     pub fn means(&self) -> Option<EpisodeMeans> {
         if self.recent.is_empty() {
             return None;
@@ -91,7 +91,7 @@ mod tests {
     }
 
     #[test]
-    fn means_are_over_the_last_hundred() {
+    fn means_are_over_the_last_hundred_episodes() {
         let mut window = EpisodeWindow::default();
         assert_eq!(window.means(), None);
         window.extend(&vec![episode(1000.0, EndCause::NonFinite); 50]);

@@ -4,19 +4,19 @@ use treadmill_ppo::AcceptedFragment;
 
 use super::tensorboard::Histogram;
 
-/// Updates from one set of histograms to the next: they take a hundred times the room of a scalar.
+/// Number of updates per set of histograms: they take a hundred times the space of a scalar.
 pub const EVERY_UPDATES: u64 = 10;
 
-/// Entries of an action with a histogram of their own; those beyond are in the one of all.
+/// Most entries of an action with a separate histogram; the histogram of all entries has the rest.
 const NAMED_MAX: usize = 64;
 
-/// Whether an update has histograms, the first of a run being number 1.
+/// Whether an update has histograms; the first update of a run is number 1.
 pub fn is_due(updates: u64) -> bool {
     updates % EVERY_UPDATES == 1
 }
 
-/// Histograms of a batch: of all entries of the actions, of each of them by its name, and of the policy lag. Actions are those that
-/// the policy chose, before clipping, in units of the action's range; each transition counts with its fragment's lag.
+/// Computes the histograms of a batch: of all action entries together, of each by its name, and of the policy lag of
+/// all transitions. Actions are taken before clipping, in units of the action's range.
 pub fn of(batch: &[AcceptedFragment], names: &[String]) -> Vec<(String, Histogram)> {
     let all = batch.iter().flat_map(|accepted| accepted.fragment.actions.iter().copied());
     let mut histograms = vec![("actions/all".to_string(), Histogram::of(all))];

@@ -1,36 +1,36 @@
-//! How return and distance of a run developed: few points, however long it is.
+//! Return and distance over a run, in a bounded number of points.
 
 use std::{fs::File, io, path::Path};
 
 use super::jsonl::for_each_metric;
 
-/// Points that are kept: more than any line of text shows.
+/// Most points that are kept: more than a line of text shows.
 const POINTS_MAX: usize = 128;
 
 const RETURN_TAG: &str = "rollout/ep_rew_mean";
 const DISTANCE_TAG: &str = "rollout/distance_mean_m";
 const EVALUATED_TAG: &str = "eval/distance_mean_m";
 
-/// Return and mean distance after some update.
+/// Return and distance after one update.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Point {
     /// Mean return of the last episodes.
     pub return_mean: f64,
-    /// Their mean distance in metres.
+    /// Mean distance of the last episodes in metres.
     pub distance_m: f64,
 }
 
-/// What a run has reached so far.
+/// Return and distance of a run so far.
 #[derive(Clone, Debug)]
 pub struct History {
     points: Vec<Point>,
-    /// Of so many updates one is kept.
+    /// Number of updates per kept point.
     every: u64,
     seen: u64,
     last: Option<Point>,
-    /// The greatest mean distance in training.
+    /// Greatest mean distance in training, in metres.
     pub distance_best_m: Option<f64>,
-    /// The greatest mean distance of an evaluation.
+    /// Greatest mean distance of an evaluation, in metres.
     pub evaluated_best_m: Option<f64>,
 }
 
@@ -41,7 +41,7 @@ impl Default for History {
 }
 
 impl History {
-    /// What the metrics of a run say; nothing where there are none.
+    /// Reads the history from a run's metrics; empty if the file does not exist.
     pub fn read(metrics_jsonl: &Path) -> io::Result<Self> {
         let mut history = Self::default();
         let file = match File::open(metrics_jsonl) {
@@ -53,9 +53,9 @@ impl History {
         for_each_metric(file, |metric, _| {
             match &metric.tag[..] {
                 RETURN_TAG => return_mean = Some(metric.value),
-                // In every round it stands after the return.
-                DISTANCE_TAG => history.take(return_mean.take(), Some(metric.value), None),
-                EVALUATED_TAG => history.take(None, None, Some(metric.value)),
+                // In every update it comes after the return.
+                DISTANCE_TAG => history.add(return_mean.take(), Some(metric.value), None),
+                EVALUATED_TAG => history.add(None, None, Some(metric.value)),
                 _ => {}
             }
             Ok(())
@@ -63,9 +63,9 @@ impl History {
         Ok(history)
     }
 
-    /// Takes in what is known after an update: mean return and distance of the last episodes, and the mean distance of an
+    /// Adds the values after an update: mean return and distance of the last episodes, and the mean distance of an
     /// evaluation that has just ended.
-    pub fn take(&mut self, return_mean: Option<f64>, distance_m: Option<f64>, evaluated_m: Option<f64>) {
+    pub fn add(&mut self, return_mean: Option<f64>, distance_m: Option<f64>, evaluated_m: Option<f64>) {
         let greater = |best: Option<f64>, value: Option<f64>| match (best, value.filter(|value| value.is_finite())) {
             (Some(best), Some(value)) => Some(best.max(value)),
             (best, value) => best.or(value),
@@ -86,13 +86,13 @@ impl History {
         self.seen += 1;
     }
 
-    /// From first to last; the last update's is always among them.
+    /// Iterates over the points from first to last, including the last update's.
     pub fn points(&self) -> impl Iterator<Item = Point> + Clone + '_ {
         let missing = self.last.filter(|last| self.points.last() != Some(last));
         self.points.iter().copied().chain(missing)
     }
 
-    /// As far as it ever came, in metres: by evaluation or in training.
+    /// Greatest mean distance of an evaluation or in training, in metres.
     pub fn farthest_m(&self) -> Option<f64> {
         match (self.distance_best_m, self.evaluated_best_m) {
             (Some(trained), Some(evaluated)) => Some(trained.max(evaluated)),
@@ -106,10 +106,10 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_long_run_has_few_points_with_the_first_and_the_last_among_them() {
+    fn a_long_run_keeps_few_points_including_the_first_and_the_last() {
         let mut history = History::default();
         for update in 0..10_001 {
-            history.take(Some(f64::from(update)), Some(0.5), None);
+            history.add(Some(f64::from(update)), Some(0.5), None);
         }
         let points: Vec<_> = history.points().collect();
         assert!((POINTS_MAX / 2..=POINTS_MAX + 1).contains(&points.len()), "{}", points.len());
@@ -119,19 +119,19 @@ mod tests {
     }
 
     #[test]
-    fn the_farthest_is_kept() {
+    fn the_greatest_distances_are_kept() {
         let mut history = History::default();
         assert_eq!(history.farthest_m(), None);
         for distance_m in [1.0, 4.0, 2.0, f64::NAN] {
-            history.take(Some(1.0), Some(distance_m), None);
+            history.add(Some(1.0), Some(distance_m), None);
         }
-        history.take(None, None, Some(3.0));
+        history.add(None, None, Some(3.0));
         assert_eq!((history.distance_best_m, history.evaluated_best_m), (Some(4.0), Some(3.0)));
         assert_eq!(history.farthest_m(), Some(4.0));
     }
 
     #[test]
-    fn what_was_logged_is_read_again() {
+    fn the_history_is_read_from_the_metrics() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("metrics.jsonl");
         assert_eq!(History::read(&path).unwrap().points().count(), 0);

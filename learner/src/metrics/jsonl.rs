@@ -1,4 +1,4 @@
-//! `metrics.jsonl`: one line per scalar, the same object as on its topic.
+//! `metrics.jsonl`: one line per scalar, with the same JSON object as on the bus.
 
 use std::fs::{self, File, OpenOptions};
 use std::io::{self, BufRead, BufReader, BufWriter, Write};
@@ -8,20 +8,19 @@ use treadmill_proto::json::Metric;
 
 use super::append_whole;
 
-/// A file of JSON lines that only grows.
+/// Append-only file of JSON lines.
 #[derive(Debug)]
 pub struct JsonLines {
     file: File,
 }
 
 impl JsonLines {
-    /// Opens the file for appending, and makes it where there is none.
+    /// Opens the file for appending, and creates it if needed.
     pub fn append(path: &Path) -> io::Result<Self> {
         Ok(Self { file: OpenOptions::new().append(true).create(true).open(path)? })
     }
 
-    /// Writes one line per metric, all of them or, after an error, none. JSON has no word for NaN and infinity: such
-    /// a metric is left out.
+    /// Writes one line per metric; after an error, none is written. Omits NaN and infinity, which JSON lacks.
     pub fn write(&mut self, metrics: &[Metric]) -> io::Result<()> {
         let mut lines = Vec::new();
         for metric in metrics.iter().filter(|metric| metric.value.is_finite()) {
@@ -31,29 +30,29 @@ impl JsonLines {
         append_whole(&mut self.file, &lines)
     }
 
-    /// On resume: removes every line with a step above `step`, which the run is about to make again, and every line
-    /// that is no metric (one that a crash tore). The file is replaced as a whole or stays as it is; that there is
-    /// none is no error. To be called before [`Self::append`].
+    /// On resume, removes every line with a step above `step`, which the run will write again, and every line that is
+    /// not a metric, such as one truncated by a crash. Replaces the file atomically; a missing file is not an error.
+    /// Call it before [`Self::append`].
     pub fn truncate_after(path: &Path, step: u64) -> io::Result<()> {
         let file = match File::open(path) {
             Ok(file) => file,
             Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(()),
             Err(error) => return Err(error),
         };
-        // In the same folder, because a rename is atomic only within one file system.
+        // In the same folder, because a rename is atomic only within a file system.
         let mut temporary = path.as_os_str().to_owned();
         temporary.push(".tmp");
         let temporary = Path::new(&temporary);
         let replaced = copy_through(file, temporary, step).and_then(|()| fs::rename(temporary, path));
         if replaced.is_err() {
-            // It may never have been made; the first error is the one to tell.
+            // The file may not exist; the first error is returned.
             let _ = fs::remove_file(temporary);
         }
         replaced
     }
 }
 
-/// Calls `each` with every metric of a file and its line, in the file's order, and passes over lines that are none.
+/// Calls `each` with every metric of a file and its line, in order; skips lines that are not metrics.
 pub(super) fn for_each_metric(file: File, mut each: impl FnMut(Metric, &[u8]) -> io::Result<()>) -> io::Result<()> {
     let mut reader = BufReader::new(file);
     let mut line = Vec::new();
@@ -68,7 +67,7 @@ pub(super) fn for_each_metric(file: File, mut each: impl FnMut(Metric, &[u8]) ->
 
 fn copy_through(file: File, to: &Path, step: u64) -> io::Result<()> {
     let mut kept = BufWriter::new(File::create(to)?);
-    // The lines' own bytes: decoding and encoding again may change a number's last digit.
+    // Copies the lines' bytes: encoding a number again may change its last digit.
     for_each_metric(file, |metric, line| {
         if metric.step > step {
             return Ok(());

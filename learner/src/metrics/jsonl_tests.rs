@@ -1,4 +1,4 @@
-//! Tests of `metrics.jsonl`.
+//! Writing and truncating `metrics.jsonl`.
 
 use std::fs;
 
@@ -15,7 +15,7 @@ fn line(step: u64, value: &str) -> String {
 }
 
 #[test]
-fn lines_are_appended_and_what_json_cannot_carry_is_left_out() {
+fn lines_are_appended_without_non_finite_values() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("metrics.jsonl");
     JsonLines::append(&path).unwrap().write(&[metric(1, 0.5), metric(1, f64::NAN)]).unwrap();
@@ -26,21 +26,21 @@ fn lines_are_appended_and_what_json_cannot_carry_is_left_out() {
 }
 
 #[test]
-fn a_resume_removes_what_will_be_made_again_and_a_torn_line() {
+fn a_resume_removes_later_lines_and_a_truncated_line() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("metrics.jsonl");
     let kept = line(10, "0.1") + &line(20, "0.30000000000000004");
     fs::write(&path, kept.clone() + &line(21, "3.0") + r#"{"run":"r","tag":"roll"#).unwrap();
     JsonLines::truncate_after(&path, 20).unwrap();
     assert_eq!(fs::read_to_string(&path).unwrap(), kept);
-    assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1, "the temporary file stayed behind");
+    assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1, "the temporary file was left");
 
     JsonLines::append(&path).unwrap().write(&[metric(30, 4.0)]).unwrap();
     assert_eq!(fs::read_to_string(&path).unwrap(), kept + &line(30, "4.0"));
 }
 
 #[test]
-fn a_whole_last_line_that_misses_only_its_newline_stays() {
+fn a_complete_last_line_without_a_newline_stays() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("metrics.jsonl");
     fs::write(&path, line(10, "1.0").trim_end()).unwrap();
@@ -49,7 +49,7 @@ fn a_whole_last_line_that_misses_only_its_newline_stays() {
 }
 
 #[test]
-fn bytes_that_are_no_text_do_not_stop_a_resume() {
+fn bytes_that_are_not_text_do_not_stop_a_resume() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("metrics.jsonl");
     let mut bytes = vec![0xff, 0x00, b'\n', b'\n'];
@@ -61,7 +61,7 @@ fn bytes_that_are_no_text_do_not_stop_a_resume() {
 }
 
 #[test]
-fn no_file_is_nothing_to_truncate_but_a_folder_is_an_error() {
+fn a_missing_file_is_accepted_but_a_folder_is_an_error() {
     let folder = tempfile::tempdir().unwrap();
     JsonLines::truncate_after(&folder.path().join("metrics.jsonl"), 0).unwrap();
     assert!(JsonLines::truncate_after(folder.path(), 0).is_err());
@@ -70,7 +70,7 @@ fn no_file_is_nothing_to_truncate_but_a_folder_is_an_error() {
 
 #[cfg(target_os = "linux")]
 #[test]
-fn a_full_disk_is_an_error_and_no_panic() {
+fn a_full_disk_is_an_error() {
     let mut lines = JsonLines::append(std::path::Path::new("/dev/full")).unwrap();
     assert_eq!(lines.write(&[metric(1, 1.0)]).unwrap_err().kind(), std::io::ErrorKind::StorageFull);
 }

@@ -1,21 +1,20 @@
-//! Scalars and histograms of each update, and where they are logged.
+//! Scalars and histograms of each update, and their outputs.
 //!
 //! # Layout
 //! - [`scalars`]: the scalars of each update; [`histograms`]: distributions of actions and lags.
-//! - [`episodes`]: the window of episodes that means are taken over.
+//! - [`episodes`]: the window of episodes for means.
 //! - [`report`]: [`MetricsReport`], which writes to every output below.
-//! - [`progress`]: [`Console`], what the user sees while it trains.
+//! - [`progress`]: [`Console`], progress on standard output.
 //! - [`table`]: scalars as text, pure functions.
 //! - [`jsonl`]: [`JsonLines`], `metrics.jsonl`.
 //! - [`tensorboard`]: [`EventWriter`], `events.out.tfevents.…`.
-//! - [`history`]: [`History`], how return and distance developed, in few points.
+//! - [`history`]: [`History`], return and distance over the run in few points.
 //! - [`sparkline`]: a curve in one line of text.
 //! - [`prometheus`]: [`PrometheusMetrics`], the newest values in Prometheus's text format.
 //! - [`curve`]: [`draw_curve`], the learning curve as a PNG, drawn from `metrics.jsonl`.
-//! - [`curve_thread`]: [`CurveThread`], which draws it at intervals during training.
+//! - [`curve_thread`]: [`CurveThread`], which draws the curve at intervals during training.
 //!
-//! None of these reads the clock for what it writes: the caller says when a scalar was measured. Only [`Console`]
-//! looks at it, for the speed it shows.
+//! The caller passes the time of each scalar. Only [`Console`] and [`CurveThread`] read the clock themselves.
 
 pub mod curve;
 pub mod curve_thread;
@@ -43,16 +42,16 @@ pub use tensorboard::{EventWriter, Histogram};
 use std::fs::File;
 use std::io::{self, Write};
 
-/// One scalar per tag at one number of environment steps; tags are like `rollout/ep_rew_mean`.
+/// Scalars of one update by tag, such as `rollout/ep_rew_mean`.
 pub type Scalars = [(String, f64)];
 
-/// Appends all of `bytes` to a file opened for appending, or none of them: after an error (a full disk), what was
-/// half written is cut off again, so that the next record starts where one may start.
+/// Appends all of `bytes` to a file opened for appending, or none: after an error such as a full disk, it truncates a
+/// partial record, so that the next one starts at a record boundary.
 fn append_whole(file: &mut File, bytes: &[u8]) -> io::Result<()> {
     let before = file.metadata()?.len();
     let written = file.write_all(bytes);
     if written.is_err() {
-        // Cutting off may fail as well; the first error is the one to return.
+        // Truncating may also fail; the first error is returned.
         let _ = file.set_len(before);
     }
     written

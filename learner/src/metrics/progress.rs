@@ -1,8 +1,7 @@
-//! What the user sees while a run trains, all of it on standard output.
+//! Progress of a run on standard output.
 //!
-//! On a terminal: a progress bar, with tables and messages above it. Anywhere else, as in a log file: plain lines
-//! without a single escape code. A closed pipe or a full disk behind standard output never stops a training run, so
-//! whatever writing here fails is passed over.
+//! On a terminal: a progress bar, with tables and messages above it. Elsewhere, such as in a log file: plain lines
+//! without escape codes. Write errors are ignored, so that a closed pipe or a full disk does not stop training.
 
 use std::collections::VecDeque;
 use std::io::{self, IsTerminal, Write};
@@ -15,56 +14,58 @@ use treadmill_runtime::machine;
 use super::table::{render_line, render_table};
 use super::{History, Scalars, history::Point, sparkline::sparkline};
 
-/// Between two progress lines in a log file.
+/// Interval between two progress lines in a log file.
 const LINE_EVERY: Duration = Duration::from_secs(10);
 
-/// The first picture of learning in a log file; each further one when the run is twice as old, or after the second time.
-const PICTURE_AFTER: Duration = Duration::from_secs(10);
-const PICTURE_EVERY_MAX: Duration = Duration::from_secs(300);
+/// Time of the first sparkline in a log file.
+const SPARKLINE_AFTER: Duration = Duration::from_secs(10);
+/// The next is due when the run is twice as old, or after this time.
+const SPARKLINE_EVERY_MAX: Duration = Duration::from_secs(300);
 
-/// Characters of a curve in one line.
-const CURVE_WIDTH: usize = 16;
+/// Width of a sparkline in characters.
+const SPARKLINE_WIDTH: usize = 16;
 
-/// Waiting for experience is worth a word after this; while a run learns, only after the second time.
-const WAITING_AFTER: Duration = Duration::from_secs(2);
-const WAITING_LONG: Duration = Duration::from_secs(30);
+/// Wait for experience that is reported before the first update.
+const FIRST_WAIT_MIN: Duration = Duration::from_secs(2);
+/// Wait for experience that is reported afterwards.
+const WAIT_MIN: Duration = Duration::from_secs(30);
 
-/// How far the speed looks back: long enough for several updates, short enough to follow actors that come and go.
+/// Window of the speed: long enough for several updates, short enough to follow actors that join and leave.
 const SPEED_WINDOW: Duration = Duration::from_secs(60);
 
-/// Between two measurements that are kept.
+/// Interval between two samples.
 const SPEED_EVERY: Duration = Duration::from_secs(2);
 
-/// Measurements kept: those in the window, the one at its edge, and the newest one.
+/// Most samples: those in the window, the one at its edge, and the newest.
 const SPEED_SAMPLES_MAX: usize = 32;
 
-/// The bar on a terminal. No colours, so `NO_COLOR` has nothing to switch off.
+/// Bar on a terminal, without colours.
 const BAR: &str = "{percent:>3}% [{wide_bar}] {human_pos}/{human_len} steps, {msg}";
-/// The same below a picture of learning, once there is one.
-const PICTURE_AND_BAR: &str = "{prefix}\n{percent:>3}% [{wide_bar}] {human_pos}/{human_len} steps, {msg}";
+/// Bar below a sparkline.
+const SPARKLINE_AND_BAR: &str = "{prefix}\n{percent:>3}% [{wide_bar}] {human_pos}/{human_len} steps, {msg}";
 
-/// A progress bar and tables on a terminal, plain lines elsewhere.
+/// Progress bar and tables on a terminal, plain lines elsewhere.
 pub struct Console {
     out: Box<dyn Write + Send>,
     terminal: bool,
-    /// Only on a terminal, and only when asked for.
+    /// Only on a terminal, and only with `show_progress`.
     bar: Option<ProgressBar>,
     show_progress: bool,
     started: Instant,
-    speed: ThroughputMeter,
+    speed: SpeedMeter,
     total_steps: u64,
     env_steps: u64,
     line_at: Duration,
-    picture_at: Duration,
-    /// How long the batch of the moment was waited for when that was last said.
+    sparkline_at: Duration,
+    /// Wait for the current batch when it was last reported.
     waited: Duration,
     is_unicode: bool,
     finished: bool,
 }
 
 impl Console {
-    /// A console for a run that goes from `start_steps` (after a resume more than 0) to `total_steps`. Without
-    /// `show_progress` there is no bar and no line about progress; tables and messages stay.
+    /// Console for a run from `start_steps` (more than 0 after a resume) to `total_steps`. Without `show_progress`, it
+    /// shows only tables and messages.
     pub fn new(total_steps: u64, start_steps: u64, show_progress: bool) -> Self {
         let terminal = io::stdout().is_terminal() && std::env::var_os("TERM").is_none_or(|term| term != "dumb");
         let mut console = Self::writing_to(Box::new(io::stdout()), total_steps, start_steps, show_progress);
@@ -73,7 +74,7 @@ impl Console {
         console
     }
 
-    /// The run goes to another number of steps than it began with.
+    /// Changes the run's number of steps.
     pub fn set_steps(&mut self, total_steps: u64) {
         self.total_steps = total_steps;
         if let Some(bar) = &self.bar {
@@ -81,7 +82,7 @@ impl Console {
         }
     }
 
-    /// Plain lines into `out`.
+    /// Console that writes plain lines to `out`.
     fn writing_to(out: Box<dyn Write + Send>, total_steps: u64, start_steps: u64, show_progress: bool) -> Self {
         Self {
             out,
@@ -89,18 +90,18 @@ impl Console {
             bar: None,
             show_progress,
             started: Instant::now(),
-            speed: ThroughputMeter::new(start_steps),
+            speed: SpeedMeter::new(start_steps),
             total_steps,
             env_steps: start_steps,
             line_at: LINE_EVERY,
-            picture_at: PICTURE_AFTER,
+            sparkline_at: SPARKLINE_AFTER,
             waited: Duration::ZERO,
             is_unicode: machine::is_utf8_locale(),
             finished: false,
         }
     }
 
-    /// Where the run is now; shown with the speed, the time left, and now and then a picture of how it learns.
+    /// Shows the number of steps with speed, remaining time, and at intervals a sparkline.
     pub fn progress(&mut self, env_steps: u64, history: &History) {
         self.progress_at(env_steps, history, self.started.elapsed());
     }
@@ -109,69 +110,68 @@ impl Console {
         self.waited = Duration::ZERO;
         self.env_steps = env_steps;
         self.speed.observe(elapsed, env_steps);
-        let pace = pace(self.speed.steps_per_s(), self.total_steps.saturating_sub(env_steps));
+        let speed = speed_and_remaining(self.speed.steps_per_s(), self.total_steps.saturating_sub(env_steps));
         if let Some(bar) = &self.bar {
             bar.set_position(env_steps);
-            bar.set_message(pace);
-            if let Some(picture) = picture(history, self.is_unicode) {
+            bar.set_message(speed);
+            if let Some(sparklines) = sparklines(history, self.is_unicode) {
                 if bar.prefix().is_empty() {
-                    style(bar, PICTURE_AND_BAR);
+                    style(bar, SPARKLINE_AND_BAR);
                 }
-                bar.set_prefix(picture);
+                bar.set_prefix(sparklines);
             }
         } else if self.show_progress && !self.terminal && elapsed >= self.line_at {
             self.line_at = elapsed + LINE_EVERY;
             let percent = env_steps as f64 / self.total_steps.max(1) as f64 * 100.0;
-            self.write(&format!("steps={env_steps} of {} ({percent:.1}%), {pace}\n", self.total_steps));
+            self.write(&format!("steps={env_steps} of {} ({percent:.1}%), {speed}\n", self.total_steps));
         }
-        if !self.terminal && elapsed >= self.picture_at {
-            self.picture_at = elapsed + elapsed.min(PICTURE_EVERY_MAX);
+        if !self.terminal && elapsed >= self.sparkline_at {
+            self.sparkline_at = elapsed + elapsed.min(SPARKLINE_EVERY_MAX);
             self.show(history, elapsed);
         }
     }
 
-    /// A line with a picture of how the run learns, where there is anything to show.
+    /// Writes a line with sparklines, if there are any.
     fn show(&mut self, history: &History, elapsed: Duration) {
-        if let Some(picture) = picture(history, self.is_unicode).filter(|_| self.show_progress) {
-            self.write(&format!("after {}: {picture}\n", clock(elapsed.as_secs())));
+        if let Some(sparklines) = sparklines(history, self.is_unicode).filter(|_| self.show_progress) {
+            self.write(&format!("after {}: {sparklines}\n", clock(elapsed.as_secs())));
         }
     }
 
-    /// Says that experience is waited for, where that takes long, and then less and less often.
-    pub fn waiting(&mut self, waited: Duration, actors: usize) {
-        let patience = if self.speed.is_begun() { WAITING_LONG } else { WAITING_AFTER };
-        if waited < patience.max(self.waited * 2) || !self.show_progress {
+    /// Reports a long wait for experience, then again each time it has doubled. `actors` are alive.
+    pub fn show_wait(&mut self, waited: Duration, actors: usize) {
+        let threshold = if self.speed.has_started() { WAIT_MIN } else { FIRST_WAIT_MIN };
+        if waited < threshold.max(self.waited * 2) || !self.show_progress {
             return;
         }
         self.waited = waited;
-        let who = match actors {
-            0 => "no actor is there yet or any more".to_string(),
-            1 => "1 actor is there and simulates".to_string(),
-            actors => format!("{actors} actors are there and simulate"),
+        let alive = match actors {
+            0 => "no actor is connected".to_string(),
+            1 => "1 actor is simulating".to_string(),
+            actors => format!("{actors} actors are simulating"),
         };
-        let message = format!("waiting for experience since {}: {who}", clock(waited.as_secs()));
+        let message = format!("waiting for experience for {}: {alive}", clock(waited.as_secs()));
         match &self.bar {
             Some(bar) => bar.set_message(message),
             None => self.write(&format!("{message}\n")),
         }
     }
 
-    /// All scalars of one step: a boxed table on a terminal, elsewhere one line `steps=… tag=value …`.
+    /// Writes all scalars of one update: a boxed table on a terminal, elsewhere one line `steps=… tag=value …`.
     pub fn table(&mut self, scalars: &Scalars) {
         let text = if self.terminal { render_table(scalars) } else { render_line(self.env_steps, scalars) + "\n" };
         self.write(&text);
     }
 
-    /// A message above the bar, elsewhere a plain line. Escape codes and other control characters in it are taken
-    /// out: a message may quote what came over the network.
+    /// Writes a message above the bar, or as a plain line. Removes escape codes and other control characters, because
+    /// the message may quote input from the network.
     pub fn line(&mut self, message: &str) {
         let shown = |c: &char| !c.is_control() || matches!(c, '\n' | '\t');
         let message: String = strip_ansi_codes(message).chars().filter(shown).collect();
         self.write(&format!("{message}\n"));
     }
 
-    /// Takes the bar away and says how far the run came and how fast it was from start to end, with a last picture. Only the
-    /// first call does anything.
+    /// Removes the bar and writes steps, mean speed and the last sparklines. Only the first call has an effect.
     pub fn finish(&mut self, history: &History) {
         if std::mem::replace(&mut self.finished, true) {
             return;
@@ -214,19 +214,19 @@ fn bar(total_steps: u64, start_steps: u64) -> ProgressBar {
     bar
 }
 
-/// Both templates are constants; were one wrong, what the bar has would do.
+/// Sets the template. Both templates are constants; with an invalid one the bar would keep its style.
 fn style(bar: &ProgressBar, template: &str) {
     if let Ok(style) = ProgressStyle::with_template(template) {
         bar.set_style(style.progress_chars("=> "));
     }
 }
 
-/// `return 310 ▁▃▆█ 620, distance 0.1 ▁▂▅█ 1.9 m, farthest 1.9 m`; nothing before an episode has ended.
-fn picture(history: &History, is_unicode: bool) -> Option<String> {
+/// Returns `return 310 ▁▃▆█ 620, distance 0.1 ▁▂▅█ 1.9 m, farthest 1.9 m`, or `None` before an episode ends.
+fn sparklines(history: &History, is_unicode: bool) -> Option<String> {
     let curve = |of: fn(&Point) -> f64, decimals| {
         let values: Vec<f64> = history.points().map(|point| of(&point)).collect();
         let (first, last) = (values.first()?, values.last()?);
-        let line = sparkline(&values, CURVE_WIDTH, is_unicode);
+        let line = sparkline(&values, SPARKLINE_WIDTH, is_unicode);
         Some(format!("{} {line} {}", rounded(*first, decimals), rounded(*last, decimals)))
     };
     let (returns, distances) = (curve(|point| point.return_mean, 0)?, curve(|point| point.distance_m, 1)?);
@@ -234,27 +234,27 @@ fn picture(history: &History, is_unicode: bool) -> Option<String> {
     Some(format!("return {returns}, distance {distances} m{farthest}"))
 }
 
-/// Never `-0.0`.
+/// Rounds to `decimals`, without negative zero.
 fn rounded(value: f64, decimals: usize) -> String {
     let text = format!("{value:.decimals$}");
     let is_zero = text.bytes().all(|byte| matches!(byte, b'-' | b'0' | b'.'));
     if is_zero { text.trim_start_matches('-').to_string() } else { text }
 }
 
-/// Steps per second over the last while. Time is given from outside.
+/// Measures steps per second over [`SPEED_WINDOW`]. The caller passes the time.
 #[derive(Debug)]
-struct ThroughputMeter {
+struct SpeedMeter {
     start_steps: u64,
     samples: VecDeque<(Duration, u64)>,
 }
 
-impl ThroughputMeter {
+impl SpeedMeter {
     fn new(start_steps: u64) -> Self {
         Self { start_steps, samples: VecDeque::from([(Duration::ZERO, start_steps)]) }
     }
 
     fn observe(&mut self, elapsed: Duration, env_steps: u64) {
-        // The newest sample moves along until it is far enough from the one before it.
+        // Replaces the newest sample until it is SPEED_EVERY after the one before it.
         if let [.., before, newest] = self.samples.make_contiguous()
             && newest.0.saturating_sub(before.0) < SPEED_EVERY
         {
@@ -262,18 +262,18 @@ impl ThroughputMeter {
         } else {
             self.samples.push_back((elapsed, env_steps));
         }
-        // The sample at the window's edge or beyond stays, so that rare updates have a speed as well.
+        // Keeps one sample at the window's edge or before it, so that rare updates also have a speed.
         let outside = |sample: &(Duration, u64)| elapsed.saturating_sub(sample.0) >= SPEED_WINDOW;
         while self.samples.len() > SPEED_SAMPLES_MAX || (self.samples.len() > 2 && outside(&self.samples[1])) {
             self.samples.pop_front();
         }
     }
 
-    fn is_begun(&self) -> bool {
+    fn has_started(&self) -> bool {
         self.samples.len() > 1
     }
 
-    /// `None` as long as nothing can be said.
+    /// Returns the speed, or `None` without two samples at different times.
     fn steps_per_s(&self) -> Option<f64> {
         let (first, last) = (self.samples.front()?, self.samples.back()?);
         let seconds = last.0.saturating_sub(first.0).as_secs_f64();
@@ -281,8 +281,8 @@ impl ThroughputMeter {
     }
 }
 
-/// `3412 steps/s, 4m 05s left`.
-fn pace(steps_per_s: Option<f64>, steps_left: u64) -> String {
+/// Returns text such as `3412 steps/s, 4m 05s left`.
+fn speed_and_remaining(steps_per_s: Option<f64>, steps_left: u64) -> String {
     match steps_per_s {
         Some(speed) if speed > 0.0 => {
             format!("{speed:.0} steps/s, {} left", clock((steps_left as f64 / speed).ceil() as u64))
@@ -291,7 +291,7 @@ fn pace(steps_per_s: Option<f64>, steps_left: u64) -> String {
     }
 }
 
-/// `5s`, `4m 05s`, `3h 04m`, `2d 03h`.
+/// Returns text such as `5s`, `4m 05s`, `3h 04m` or `2d 03h`.
 fn clock(seconds: u64) -> String {
     let (minutes, hours, days) = (seconds / 60, seconds / 3600, seconds / 86_400);
     match (days, hours, minutes) {

@@ -1,4 +1,4 @@
-//! Tests of what the user sees.
+//! Output of the console.
 
 use std::sync::{Arc, Mutex};
 
@@ -27,7 +27,7 @@ fn seconds(seconds: u64) -> Duration {
 }
 
 #[test]
-fn a_log_file_gets_plain_lines_at_most_one_on_progress_in_ten_seconds() {
+fn a_log_file_gets_plain_lines_and_progress_every_ten_seconds() {
     let captured = Captured::default();
     let mut console = Console::writing_to(Box::new(captured.clone()), 10_000, 1_000, true);
     console.line("\u{1b}[31mactor a-0\u{1b}[0m\u{9b}2J\r\u{7} joined\u{1b}");
@@ -45,7 +45,7 @@ fn a_log_file_gets_plain_lines_at_most_one_on_progress_in_ten_seconds() {
 }
 
 #[test]
-fn without_progress_tables_and_messages_stay() {
+fn without_progress_there_are_only_tables_and_messages() {
     let captured = Captured::default();
     let mut console = Console::writing_to(Box::new(captured.clone()), 0, 0, false);
     console.progress_at(500, &History::default(), seconds(60));
@@ -56,7 +56,7 @@ fn without_progress_tables_and_messages_stay() {
 }
 
 #[test]
-fn a_run_is_finished_once_and_may_have_gone_nowhere() {
+fn finish_writes_once_even_without_progress() {
     let captured = Captured::default();
     let mut console = Console::writing_to(Box::new(captured.clone()), 0, 7, true);
     console.progress_at(7, &History::default(), Duration::ZERO);
@@ -68,13 +68,13 @@ fn a_run_is_finished_once_and_may_have_gone_nowhere() {
 }
 
 #[test]
-fn learning_is_pictured_now_and_then_and_at_the_end() {
+fn sparklines_appear_at_intervals_and_at_the_end() {
     let captured = Captured::default();
     let mut console = Console::writing_to(Box::new(captured.clone()), 10_000, 0, true);
     (console.is_unicode, console.line_at) = (false, seconds(1_000));
     let mut history = History::default();
     for second in 1..=39 {
-        history.take(Some(10.0 * second as f64), Some(0.5), None);
+        history.add(Some(10.0 * second as f64), Some(0.5), None);
         console.progress_at(second, &history, seconds(second));
     }
     let text = captured.text();
@@ -87,14 +87,14 @@ fn learning_is_pictured_now_and_then_and_at_the_end() {
 }
 
 #[test]
-fn waiting_is_told_less_and_less_often() {
+fn a_wait_is_reported_less_and_less_often() {
     let captured = Captured::default();
     let mut console = Console::writing_to(Box::new(captured.clone()), 10_000, 0, true);
-    (0..=20).for_each(|second| console.waiting(seconds(second), 0));
+    (0..=20).for_each(|second| console.show_wait(seconds(second), 0));
     console.progress_at(100, &History::default(), seconds(21));
-    (0..=40).for_each(|second| console.waiting(seconds(second), 2));
-    let no_actor = |since: &str| format!("waiting for experience since {since}: no actor is there yet or any more\n");
-    let simulating = "waiting for experience since 30s: 2 actors are there and simulate\n";
+    (0..=40).for_each(|second| console.show_wait(seconds(second), 2));
+    let no_actor = |time: &str| format!("waiting for experience for {time}: no actor is connected\n");
+    let simulating = "waiting for experience for 30s: 2 actors are simulating\n";
     let waited: String = ["2s", "4s", "8s", "16s"].into_iter().map(no_actor).collect();
     let text: String =
         captured.text().lines().filter(|line| line.starts_with("waiting")).map(|line| format!("{line}\n")).collect();
@@ -102,12 +102,12 @@ fn waiting_is_told_less_and_less_often() {
 }
 
 #[test]
-fn nothing_is_less_than_nothing() {
+fn rounding_never_gives_negative_zero() {
     assert_eq!([-0.02, -0.06, 0.04, 12.34].map(|value| rounded(value, 1)), ["0.0", "-0.1", "0.0", "12.3"]);
 }
 
 #[test]
-fn a_closed_pipe_stops_nothing() {
+fn a_closed_pipe_is_ignored() {
     struct Closed;
     impl Write for Closed {
         fn write(&mut self, _: &[u8]) -> io::Result<usize> {
@@ -125,8 +125,8 @@ fn a_closed_pipe_stops_nothing() {
 }
 
 #[test]
-fn the_speed_looks_back_over_its_window_only() {
-    let mut speed = ThroughputMeter::new(0);
+fn the_speed_is_that_of_its_window() {
+    let mut speed = SpeedMeter::new(0);
     assert_eq!(speed.steps_per_s(), None);
     let mut steps = 0;
     for tenth in 1..=6_000u64 {
@@ -140,19 +140,19 @@ fn the_speed_looks_back_over_its_window_only() {
 
 #[test]
 fn rare_updates_still_have_a_speed() {
-    let mut speed = ThroughputMeter::new(100);
+    let mut speed = SpeedMeter::new(100);
     speed.observe(seconds(200), 300);
     speed.observe(seconds(400), 700);
     assert_eq!(speed.steps_per_s(), Some(2.0));
-    // A clock that stands still and steps that go back do no harm.
+    // A clock that stops and decreasing steps are harmless.
     speed.observe(seconds(400), 0);
     assert_eq!(speed.steps_per_s(), Some(0.0));
 }
 
 #[test]
-fn times_read_well() {
+fn durations_are_formatted_with_two_units() {
     assert_eq!([5, 245, 11_040, 183_600].map(clock), ["5s", "4m 05s", "3h 04m", "2d 03h"]);
-    assert_eq!(pace(None, 5), "0 steps/s");
-    assert_eq!(pace(Some(0.0), 5), "0 steps/s");
-    assert_eq!(pace(Some(f64::MIN_POSITIVE), u64::MAX).split(", ").count(), 2);
+    assert_eq!(speed_and_remaining(None, 5), "0 steps/s");
+    assert_eq!(speed_and_remaining(Some(0.0), 5), "0 steps/s");
+    assert_eq!(speed_and_remaining(Some(f64::MIN_POSITIVE), u64::MAX).split(", ").count(), 2);
 }

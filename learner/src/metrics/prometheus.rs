@@ -1,7 +1,7 @@
-//! The newest value of every metric, as Prometheus reads it.
+//! Newest value of every metric in Prometheus's text format.
 //!
-//! A tag `group/name` becomes the gauge `treadmill_group_name` with the run as its label. What the help says is the row of
-//! that tag in `docs/reference/metrics.md`.
+//! A tag `group/name` becomes the gauge `treadmill_group_name` with the run as a label. Its help text comes from the
+//! tag's row in `docs/reference/metrics.md`.
 
 use std::{
     collections::{BTreeMap, HashMap},
@@ -17,20 +17,20 @@ use prometheus_client::{
 };
 use treadmill_proto::{ActorStats, PolicyVersion};
 
-/// What the text is, in the words of HTTP.
+/// HTTP content type of the page.
 pub const CONTENT_TYPE: &str = "application/openmetrics-text; version=1.0.0; charset=utf-8";
 
-/// Actors that are shown one by one, so that a page stays small; sums take in all of them.
+/// Most actors with separate gauges, so that a page stays small. Sums include all actors.
 const ACTORS_SHOWN_MAX: usize = 1024;
 
-/// What is told of each actor: name of the gauge, number.
+/// Gauge of each actor: name and value.
 type ActorGauge = (&'static str, fn(&ActorStats, PolicyVersion) -> Option<f64>);
 
 const ACTOR_GAUGES: [ActorGauge; 6] = [
     ("actor_env_steps_per_s", |stats, _| Some(stats.env_steps_per_s)),
     ("actor_envs", |stats, _| Some(stats.envs.into())),
     ("actor_policy_version", |stats, _| stats.version.as_ref().map(|version| version.number as f64)),
-    // Absent where its policy is another learner's.
+    // Absent if its policy is of another learner.
     ("actor_policy_lag", |stats, newest| {
         let version = stats.version.as_ref().filter(|version| version.incarnation == newest.incarnation)?;
         Some(newest.number.saturating_sub(version.number) as f64)
@@ -52,8 +52,8 @@ struct Newest {
 }
 
 impl PrometheusMetrics {
-    /// Takes the scalars of one update. What is not among them keeps its value.
-    pub fn take<'a>(&self, scalars: impl IntoIterator<Item = (&'a str, f64)>) {
+    /// Sets scalars; others keep their value.
+    pub fn set<'a>(&self, scalars: impl IntoIterator<Item = (&'a str, f64)>) {
         let mut newest = self.lock();
         for (tag, value) in scalars {
             match newest.scalars.get_mut(tag) {
@@ -63,8 +63,8 @@ impl PrometheusMetrics {
         }
     }
 
-    /// Takes what actors told, in place of what they told before; `version` is the learner's newest.
-    pub fn take_actors(&self, stats: &HashMap<String, ActorStats>, version: PolicyVersion) {
+    /// Replaces the actors' statistics; `version` is the learner's newest.
+    pub fn set_actors(&self, stats: &HashMap<String, ActorStats>, version: PolicyVersion) {
         let mut names: Vec<&String> = stats.keys().collect();
         names.sort_unstable();
         names.truncate(ACTORS_SHOWN_MAX);
@@ -75,14 +75,14 @@ impl PrometheusMetrics {
         self.lock().actors = names.into_iter().map(|name| (name.clone(), row(&stats[name]))).collect();
     }
 
-    /// The page: everything that was taken, and `live`, which whoever asks for the page knows best.
+    /// Returns the page with all values and with `live`, the caller's current values.
     pub fn page(&self, run: &str, live: &[(&str, f64)]) -> String {
-        self.take(live.iter().copied());
+        self.set(live.iter().copied());
         let mut registry =
             Registry::with_prefix_and_labels("treadmill", [("run".into(), run.to_string().into())].into_iter());
         registry.register_collector(Box::new(self.clone()));
         let mut page = String::new();
-        text::encode(&mut page, &registry).expect("a string takes all that is written to it");
+        text::encode(&mut page, &registry).expect("writing to a string does not fail");
         page
     }
 
@@ -112,23 +112,23 @@ impl Collector for PrometheusMetrics {
     }
 }
 
-/// A tag as the name of a gauge, before the prefix.
+/// Returns the gauge's name for a tag, without the prefix.
 fn gauge(tag: &str) -> String {
     tag.replace('/', "_")
 }
 
-/// What a gauge means, from the page that users read.
+/// Returns the help text of a gauge from the page of metrics.
 fn help(gauge: &str) -> &'static str {
     static HELP: LazyLock<HashMap<String, String>> =
         LazyLock::new(|| include_str!("../../../docs/reference/metrics.md").lines().filter_map(row).collect());
     HELP.get(gauge).map_or("A metric of Treadmill", String::as_str)
 }
 
-/// The gauge of a line of a table, and what the line says about it on one plain line.
+/// Parses a row of the page's tables: name of the gauge and help text.
 fn row(line: &str) -> Option<(String, String)> {
     let (name, rest) = line.strip_prefix("| `")?.split_once("` | ")?;
     let (unit, meaning) = rest.strip_suffix(" |")?.split_once(" | ")?;
-    // What is typical stands last.
+    // The typical value is in the last column.
     let meaning = meaning.split(" | ").next().unwrap_or(meaning);
     let name =
         name.strip_prefix("treadmill_").map(str::to_string).or_else(|| name.contains('/').then(|| gauge(name)))?;
@@ -147,10 +147,10 @@ mod tests {
     }
 
     #[test]
-    fn a_page_has_every_scalar_with_help_type_and_run() {
+    fn a_page_has_every_scalar_with_help_type_and_run_label() {
         let prometheus = PrometheusMetrics::default();
-        prometheus.take([("time/fps", 250.0), ("bus/fragments_accepted", 3.0)]);
-        prometheus.take([("time/fps", 300.5)]);
+        prometheus.set([("time/fps", 250.0), ("bus/fragments_accepted", 3.0)]);
+        prometheus.set([("time/fps", 300.5)]);
         let page = prometheus.page("walk-1", &[("learner/silence_s", 0.25)]);
         assert!(page.contains("# TYPE treadmill_time_fps gauge\ntreadmill_time_fps{run=\"walk-1\"} 300.5\n"), "{page}");
         assert!(page.contains("treadmill_bus_fragments_accepted{run=\"walk-1\"} 3.0\n"), "{page}");
@@ -160,31 +160,31 @@ mod tests {
     }
 
     #[test]
-    fn actors_have_rows_of_their_own_for_as_long_as_they_are_there() {
+    fn actors_have_gauges_while_they_are_alive() {
         let prometheus = PrometheusMetrics::default();
         let both = [("a".to_string(), stats(10, 7)), ("b".to_string(), stats(10, 6))];
-        prometheus.take_actors(&both.into(), NEWEST);
+        prometheus.set_actors(&both.into(), NEWEST);
         let page = prometheus.page("r", &[]);
         assert!(page.contains("treadmill_actor_policy_lag{run=\"r\",actor=\"a\"} 2.0\n"), "{page}");
         assert!(!page.contains("treadmill_actor_policy_lag{run=\"r\",actor=\"b\"}"), "of another learner: {page}");
         assert!(page.contains("treadmill_actor_env_steps_per_s{run=\"r\",actor=\"b\"} 1500.5\n"), "{page}");
-        prometheus.take_actors(&[("b".to_string(), stats(12, 7))].into(), NEWEST);
+        prometheus.set_actors(&[("b".to_string(), stats(12, 7))].into(), NEWEST);
         let page = prometheus.page("r", &[]);
         assert!(!page.contains("actor=\"a\""), "gone: {page}");
         assert!(page.contains("treadmill_actor_policy_lag{run=\"r\",actor=\"b\"} 0.0\n"), "{page}");
     }
 
     #[test]
-    fn a_page_stays_small_whatever_the_number_of_actors() {
+    fn a_page_has_a_limited_number_of_actors() {
         let prometheus = PrometheusMetrics::default();
         let many = (0..3 * ACTORS_SHOWN_MAX).map(|n| (format!("actor-{n:05}"), stats(12, 7))).collect();
-        prometheus.take_actors(&many, NEWEST);
+        prometheus.set_actors(&many, NEWEST);
         let page = prometheus.page("r", &[]);
         assert_eq!(page.matches("treadmill_actor_envs{").count(), ACTORS_SHOWN_MAX);
     }
 
     #[test]
-    fn help_is_one_plain_line_from_the_page_of_metrics() {
+    fn help_texts_come_from_the_page_of_metrics() {
         assert_eq!(help("no_such_gauge"), "A metric of Treadmill");
         let text = help("learner_memory_mb");
         assert!(text.contains("Resident memory of the learner's process. Unit: MB"), "{text}");

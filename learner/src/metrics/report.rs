@@ -1,11 +1,11 @@
-//! Writes each scalar to every output: screen, TensorBoard, `metrics.jsonl`, the bus, Prometheus.
+//! Writes each scalar to every output: console, TensorBoard, `metrics.jsonl`, bus and Prometheus.
 
 use std::{collections::HashMap, time::Duration};
 
 use treadmill_bus::{Bus, keys, publish_dropping};
 use treadmill_config::Config;
 use treadmill_proto::json::Metric;
-use treadmill_runtime::{machine, shutdown::Shutdown};
+use treadmill_runtime::{error_chain, machine, shutdown::Shutdown};
 
 use super::{Console, CurveThread, EventWriter, Histogram, History, JsonLines, PrometheusMetrics, tensorboard::texts};
 use crate::{
@@ -13,10 +13,10 @@ use crate::{
     training::{TrainingError, TrainingOptions, disk_full::wait_for_disk_space},
 };
 
-/// Sends a JSON object under one tag.
+/// Publishes a JSON object under one tag.
 type Publish = Box<dyn Fn(Vec<u8>) + Send>;
 
-/// Every output of scalars and histograms.
+/// All outputs of scalars and histograms.
 pub struct MetricsReport {
     run: String,
     bus: Bus,
@@ -30,7 +30,7 @@ pub struct MetricsReport {
 }
 
 impl MetricsReport {
-    /// Opens the logs; on a resumed run, removes lines that are newer than the checkpoint.
+    /// Opens the logs. For a resumed run, removes lines that are newer than the checkpoint.
     pub fn open(
         bus: &Bus,
         state: &TrainingState,
@@ -48,7 +48,7 @@ impl MetricsReport {
             events.resume(env_steps + 1, now)?;
         }
         events.hyperparameters(config, now)?;
-        // What holds from this step on; TensorBoard shows the older ones beside it.
+        // Texts that apply from this step on; TensorBoard also shows the earlier ones.
         for (tag, text) in [
             ("config", texts::configuration(config)),
             ("command", texts::command(&options.command)),
@@ -69,17 +69,17 @@ impl MetricsReport {
         })
     }
 
-    /// Prints the table at other intervals from now on.
+    /// Changes the interval of the table.
     pub fn set_table_every(&mut self, updates: u64) {
         self.table_every_updates = updates;
     }
 
-    /// The run ends after another number of steps than it began with.
+    /// Changes the run's number of steps.
     pub fn set_steps(&mut self, steps: u64) {
         self.console.set_steps(steps);
     }
 
-    /// Logs the scalars of one update; where the disk is full, once it is not.
+    /// Logs the scalars of one update; waits while the disk is full.
     pub fn log(
         &mut self,
         env_steps: u64,
@@ -102,7 +102,7 @@ impl MetricsReport {
             .collect();
         wait_for_disk_space(shutdown, || self.lines.write(&metrics))?;
         wait_for_disk_space(shutdown, || self.events.scalars(env_steps, time_unix_s, scalars))?;
-        self.prometheus.take(metrics.iter().map(|metric| (metric.tag.as_str(), metric.value)));
+        self.prometheus.set(metrics.iter().map(|metric| (metric.tag.as_str(), metric.value)));
         for metric in &metrics {
             self.publish(metric);
         }
@@ -114,7 +114,7 @@ impl MetricsReport {
         Ok(())
     }
 
-    /// Logs histograms, which TensorBoard alone shows.
+    /// Logs histograms to TensorBoard; waits while the disk is full.
     pub fn log_histograms(
         &mut self,
         env_steps: u64,
@@ -125,34 +125,36 @@ impl MetricsReport {
         wait_for_disk_space(shutdown, || self.events.histograms(env_steps, time_unix_s, histograms))
     }
 
-    /// Says that experience is waited for, where that takes long; `actors` are alive.
-    pub fn waiting(&mut self, waited: Duration, actors: usize) {
-        self.console.waiting(waited, actors);
+    /// Reports a long wait for experience on the console; `actors` are alive.
+    pub fn show_wait(&mut self, waited: Duration, actors: usize) {
+        self.console.show_wait(waited, actors);
     }
 
-    /// One publisher for each tag, declared once: a declared key costs memory for as long as the session lives.
+    /// Publishes a metric. Each tag's publisher is declared once, because a key takes memory until the session ends.
     fn publish(&mut self, metric: &Metric) {
         if !self.publishers.contains_key(&metric.tag) {
             match publish_dropping(&self.bus, keys::metric(&self.run, &metric.tag)) {
                 Ok(publish) => drop(self.publishers.insert(metric.tag.clone(), Box::new(publish))),
-                Err(why) => return tracing::warn!("{why}"),
+                Err(why) => {
+                    return tracing::warn!(tag = %metric.tag, error = %error_chain(&why), "metric not published");
+                }
             }
         }
         self.publishers[&metric.tag](metric.to_json());
     }
 
-    /// Notes how the run ended: whether it was stopped before its last step, or nothing where it failed. One that was stopped
-    /// may go on, so nothing is said of it.
+    /// Writes how the run ended: `stopped` is whether it was stopped before its last step, or `None` if it failed.
+    /// Nothing is written for a stopped run, because it may be resumed.
     pub fn end(&self, stopped: Option<bool>) {
         if stopped == Some(true) {
             return;
         }
         if let Err(why) = self.events.end(stopped.is_some(), machine::time_unix_s()) {
-            tracing::warn!("TensorBoard is not told how the run ended: {why}");
+            tracing::warn!(error = %why, "the end of the run was not written for TensorBoard");
         }
     }
 
-    /// Ends the bar and draws the learning curve.
+    /// Finishes the console output and draws the learning curve.
     pub fn finish(&mut self, history: &History) -> Result<(), TrainingError> {
         self.console.finish(history);
         Ok(self.curve.finish()?)

@@ -1,4 +1,4 @@
-//! Scalars of each update: one tag and one number each.
+//! Scalars of each update, by tag.
 
 use std::{
     collections::{BTreeSet, HashMap},
@@ -14,14 +14,14 @@ use treadmill_runtime::machine;
 use super::History;
 use crate::{checkpoint::TrainingState, training::evaluation::EvaluationResult};
 
-/// How long the phases of one update took.
+/// Durations of the phases of one update.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct PhaseDurations {
     /// Waiting for fragments and validating them.
     pub collect: Duration,
     /// Estimating advantages and learning.
     pub update: Duration,
-    /// Learning alone: minibatches forward and back.
+    /// Gradient steps alone.
     pub learn: Duration,
     /// Writing the checkpoint.
     pub checkpoint: Duration,
@@ -32,15 +32,15 @@ pub struct PhaseDurations {
 pub struct PolicyLag {
     /// Mean number of versions behind.
     pub mean: f64,
-    /// The largest.
+    /// Largest number of versions behind.
     pub max: f64,
     /// Share of transitions that are 0, 1, 2, 3, 4, and 5 or more versions behind.
     pub shares: [f64; LAG_SHARES.len()],
-    /// Transitions.
+    /// Number of transitions.
     pub transitions: f64,
 }
 
-/// The histogram of lags, tag by tag.
+/// Tags of the shares of each lag.
 const LAG_SHARES: [&str; 6] = [
     "bus/policy_lag_0_share",
     "bus/policy_lag_1_share",
@@ -51,7 +51,7 @@ const LAG_SHARES: [&str; 6] = [
 ];
 
 impl PolicyLag {
-    /// Over every transition of a batch.
+    /// Computes the lag over every transition of a batch.
     pub fn of(batch: &[AcceptedFragment]) -> Self {
         let transitions: f64 = batch.iter().map(|accepted| accepted.fragment.transitions() as f64).sum();
         let mut lag = Self { transitions, ..Self::default() };
@@ -65,7 +65,7 @@ impl PolicyLag {
     }
 }
 
-/// Environment steps per second, and how much of the time was spent waiting for them, over the last updates.
+/// Measures the throughput over the last updates.
 #[derive(Debug)]
 pub struct ThroughputMeter {
     marks: std::collections::VecDeque<Mark>,
@@ -89,7 +89,7 @@ pub struct Throughput {
 }
 
 impl ThroughputMeter {
-    /// Updates that the throughput is taken over.
+    /// Number of updates in the measurement.
     const UPDATES: usize = 20;
 
     /// Starts to measure.
@@ -98,7 +98,7 @@ impl ThroughputMeter {
         Self { marks: [mark].into(), waited: Duration::ZERO }
     }
 
-    /// Notes the steps so far, and for how long the last ones were waited for; the speed since the oldest mark.
+    /// Records the steps so far and the wait for the last ones. Returns the throughput since the oldest record.
     pub fn mark(&mut self, env_steps: u64, waited: Duration) -> Throughput {
         let at = Instant::now();
         self.waited += waited;
@@ -115,40 +115,40 @@ impl ThroughputMeter {
     }
 }
 
-/// Everything that the scalars of one update are taken from.
+/// Sources of the scalars of one update.
 pub struct UpdateRecord<'a> {
-    /// The state after it.
+    /// State after the update.
     pub state: &'a TrainingState,
-    /// The configuration.
+    /// Configuration.
     pub config: &'a Config,
-    /// What the update did; `None` where it was undone.
+    /// Statistics of the update; `None` if it was undone.
     pub update: Option<&'a UpdateStats>,
     /// Lag of the batch.
     pub lag: PolicyLag,
-    /// Passes over it.
+    /// Passes over the batch.
     pub epochs: u32,
-    /// How long its parts took.
+    /// Durations of the phases.
     pub durations: PhaseDurations,
     /// Result of an evaluation that has just ended.
     pub evaluation: Option<&'a EvaluationResult>,
-    /// What the run has reached so far, this update included.
+    /// History of the run, including this update.
     pub history: &'a History,
     /// Throughput of the last updates.
     pub throughput: Throughput,
     /// Actors that are alive.
     pub alive: &'a BTreeSet<String>,
-    /// The newest statistics of each.
+    /// Newest statistics of each actor.
     pub stats: &'a HashMap<String, ActorStats>,
     /// Senders in quarantine.
     pub quarantined: usize,
-    /// Fragments rejected unread because the queue was full, since this start.
+    /// Number of fragments rejected unread because the queue was full, since this start.
     pub turned_away: u64,
-    /// Bytes of the accepted fragments, since this start.
+    /// Size of the accepted fragments in bytes, since this start.
     pub accepted_bytes: u64,
 }
 
 impl UpdateRecord<'_> {
-    /// Every tag with its number.
+    /// Returns every tag with its value.
     pub fn scalars(&self) -> Vec<(String, f64)> {
         let mut out: Vec<(&str, f64)> = Vec::with_capacity(64);
         self.rollout(&mut out);
@@ -192,7 +192,7 @@ impl UpdateRecord<'_> {
             out.extend([
                 ("train/approx_kl", update.approx_kl),
                 ("train/clip_fraction", update.clip_fraction),
-                // Stable-Baselines3 logs the loss, which is minus the entropy.
+                // Stable-Baselines3 logs the loss, which is the negative entropy.
                 ("train/entropy_loss", -update.entropy),
                 ("train/explained_variance", update.explained_variance),
                 ("train/policy_gradient_loss", update.policy_loss),

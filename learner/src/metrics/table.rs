@@ -4,26 +4,26 @@ use console::measure_text_width;
 
 use super::Scalars;
 
-/// How far a name stands in from its group's heading.
+/// Indentation of a name below its group's heading.
 const INDENT: &str = "   ";
 
-/// Digits that count in a number with a fraction.
+/// Significant digits of a number with a fraction.
 const SIGNIFICANT_DIGITS: i32 = 4;
 
-/// From here on a number is written with an exponent.
+/// Numbers from here on are written with an exponent.
 const PLAIN_BELOW: f64 = 1e15;
 
-/// Below this a number is written with an exponent.
+/// Numbers below this are written with an exponent.
 const PLAIN_FROM: f64 = 1e-4;
 
-/// A boxed table with two columns, one block per group; the group is what stands before the `/` of a tag.
-/// Groups, and the names in each, keep the order in which they were first given. Every line ends in a newline.
+/// Returns a boxed table with two columns and one block per group, the part of a tag before its first `/`. Groups, and
+/// the names in each, keep their order. Every line ends in a newline.
 pub fn render_table(scalars: &Scalars) -> String {
     let rows = rows(scalars);
     let width = |column: fn(&Row) -> &str| rows.iter().map(|row| measure_text_width(column(row))).max().unwrap_or(0);
     let (names, values) = (width(|row| &row.0), width(|row| &row.1));
 
-    // Two columns with `| ` before, ` | ` between and ` |` after them.
+    // `| ` before, ` | ` between and ` |` after the columns.
     let rule = format!("{}\n", "-".repeat(names + values + 7));
     let mut table = rule.clone();
     for (name, value) in &rows {
@@ -33,7 +33,7 @@ pub fn render_table(scalars: &Scalars) -> String {
     table
 }
 
-/// One line without a newline, easy to search and to split: `steps=81920 rollout/ep_rew_mean=123.4 …`.
+/// Returns one line without a newline: `steps=81920 rollout/ep_rew_mean=123.4 …`.
 pub fn render_line(env_steps: u64, scalars: &Scalars) -> String {
     let mut line = format!("steps={env_steps}");
     for (tag, value) in scalars {
@@ -42,7 +42,7 @@ pub fn render_line(env_steps: u64, scalars: &Scalars) -> String {
     line
 }
 
-/// Four significant digits; whole numbers in full; an exponent only where the number would not be readable without.
+/// Formats a number with four significant digits; whole numbers in full; very small and large numbers with an exponent.
 pub fn format_number(value: f64) -> String {
     if value.is_nan() {
         return "nan".to_string();
@@ -55,7 +55,7 @@ pub fn format_number(value: f64) -> String {
         // Adding zero turns -0 into 0.
         return format!("{:.0}", value + 0.0);
     }
-    // The exponent after rounding: 9.99996 has that of 10.
+    // The exponent after rounding: for 9.99996 that of 10.
     let scientific = format!("{value:.*e}", (SIGNIFICANT_DIGITS - 1) as usize);
     let (mantissa, exponent) = scientific.split_once('e').unwrap_or((&scientific, "0"));
     if !(PLAIN_FROM..PLAIN_BELOW).contains(&size) {
@@ -66,7 +66,7 @@ pub fn format_number(value: f64) -> String {
     without_trailing_zeros(&fixed).to_string()
 }
 
-/// A name and a value, both as shown; a heading has no value.
+/// Name and value as shown; a heading has no value.
 type Row = (String, String);
 
 fn rows(scalars: &Scalars) -> Vec<Row> {
@@ -130,7 +130,7 @@ mod tests {
     }
 
     #[test]
-    fn a_table_is_grouped_by_what_stands_before_the_slash() {
+    fn a_table_is_grouped_by_the_part_before_the_slash() {
         let table = render_table(&scalars(&[
             ("rollout/ep_rew_mean", 123.456),
             ("time/total_timesteps", 81_920.0),
@@ -149,7 +149,7 @@ mod tests {
     }
 
     #[test]
-    fn odd_tags_and_no_scalars_are_drawn_as_well() {
+    fn unusual_tags_and_empty_tables_are_rendered() {
         assert_eq!(render_table(&[]), "-------\n-------\n");
         let table = render_table(&scalars(&[("loose", 1.0), ("größe/höhe", 2.0), ("a/b/c", 3.0)]));
         assert_eq!(

@@ -1,20 +1,20 @@
-//! Applies control commands, and publishes the run's status.
+//! Applies control commands and publishes the run's status.
 
 use std::time::Duration;
 
 use treadmill_config::{ConfigSource, LearnerConfig, is_retired};
 use treadmill_proto::{Command, ControlRequest, Phase, RunStatus};
-use treadmill_runtime::machine;
+use treadmill_runtime::{error_chain, machine};
 
 use super::{Trainer, load_adaptation::LoadAdaptation};
 use crate::checkpoint::TrainingState;
 
 /// Longest wait of a paused learner between two checks for shutdown.
 const TICK: Duration = Duration::from_millis(50);
-/// Status is published at least this often, also during a long update or wait.
+/// Longest interval between two publications of the status while the learner waits.
 pub(super) const STATUS_EVERY: Duration = Duration::from_secs(1);
 
-/// Keys that may change while a run goes on, beside all of `[ppo]` but those below: no actor depends on them.
+/// Keys outside `[ppo]` that may change during a run, because no actor depends on them.
 const CHANGEABLE: &[&str] = &[
     "run.steps",
     "eval.every_steps",
@@ -23,15 +23,15 @@ const CHANGEABLE: &[&str] = &[
     "learner.table_every_updates",
     "learner.undone_max",
 ];
-/// Keys of `[ppo]` that are built into what was begun.
+/// Keys of `[ppo]` that cannot change during a run.
 const FIXED: &[&str] = &["ppo.symmetry"];
 
-/// Whether a key of the configuration may change while a run goes on.
+/// Whether a key of the configuration may change during a run.
 pub fn is_changeable(key: &str) -> bool {
     CHANGEABLE.contains(&key) || key.starts_with("ppo.") && !FIXED.contains(&key)
 }
 
-/// Status of a run before its first update.
+/// Returns the status of a run before its first update.
 pub(super) fn first_status(state: &TrainingState, env_steps_wanted: u64) -> RunStatus {
     RunStatus {
         run: state.run.clone(),
@@ -51,38 +51,38 @@ impl Trainer {
         while !self.shutdown.asked() {
             self.serving.heartbeat.beat();
             let timeout = if self.serving.paused { TICK } else { Duration::ZERO };
-            let Some(inquiry) = self.serving.control.next(timeout) else {
+            let Some(pending) = self.serving.control.next(timeout) else {
                 if self.serving.paused {
                     self.publish_status_if_due();
                     continue;
                 }
                 break;
             };
-            let outcome = self.apply(&inquiry.request);
+            let outcome = self.apply(&pending.request);
             if let Ok(text) = &outcome {
-                tracing::info!("on request: {text}");
+                tracing::info!(outcome = text, "command applied");
             }
             self.publish_status(false);
-            self.serving.control.answer(inquiry, outcome);
+            self.serving.control.answer(pending, outcome);
         }
     }
 
     fn apply(&mut self, request: &ControlRequest) -> Result<String, String> {
         let (updates, env_steps) = (self.state.counters.updates, self.state.counters.env_steps);
         match request.command() {
-            Command::Pause if self.serving.paused => Ok(format!("it is paused already, after update {updates}")),
+            Command::Pause if self.serving.paused => Ok(format!("paused already, after update {updates}")),
             Command::Pause => {
                 self.serving.paused = true;
-                Ok(format!("paused after update {updates} ({env_steps} env steps); actors keep what they have"))
+                Ok(format!("paused after update {updates} ({env_steps} env steps); actors keep their fragments"))
             }
-            Command::Resume if !self.serving.paused => Ok("it is not paused".to_string()),
+            Command::Resume if !self.serving.paused => Ok("the run is not paused".to_string()),
             Command::Resume => {
                 self.serving.paused = false;
-                Ok(format!("going on after update {updates} ({env_steps} env steps)"))
+                Ok(format!("resumed after update {updates} ({env_steps} env steps)"))
             }
             Command::Checkpoint => {
-                let path = self.serving.checkpoints.keep_newest(updates).map_err(|why| why.to_string())?;
-                Ok(format!("the state after update {updates} ({env_steps} env steps) is kept as {}", path.display()))
+                let path = self.serving.checkpoints.keep_newest(updates).map_err(|why| error_chain(&why))?;
+                Ok(format!("the state after update {updates} ({env_steps} env steps) is saved as {}", path.display()))
             }
             Command::Stop => {
                 self.shutdown.ask();
@@ -93,40 +93,37 @@ impl Trainer {
         }
     }
 
-    /// Changes one key, and every part that depends on it.
+    /// Changes one key and every part that depends on it.
     fn set(&mut self, key: &str, value: &str) -> Result<String, String> {
         let mut source = ConfigSource::default();
-        let source_of = "the configuration of the run";
-        source.text(&self.state.config_toml, source_of).map_err(|why| why.to_string())?;
-        source.set(&format!("{key}={value}")).map_err(|why| why.to_string())?;
-        let changed = source.build().map_err(|why| why.to_string())?;
+        source.text(&self.state.config_toml, "the configuration of the run").map_err(|why| error_chain(&why))?;
+        source.set(&format!("{key}={value}")).map_err(|why| error_chain(&why))?;
+        let changed = source.build().map_err(|why| error_chain(&why))?;
         if is_retired(key) {
-            return Ok(format!("`{key}` no longer exists; its old default is how every run behaves"));
+            return Ok(format!("`{key}` no longer exists; every run behaves by its old default"));
         }
         if !is_changeable(key) {
             return Err(format!(
-                "`{key}` cannot be changed while the run goes on, because actors or the state depend on it; changeable are \
-                 {}, and the keys of [ppo] other than {}",
+                "`{key}` cannot be changed during the run, because actors or the state depend on it; changeable are {}, and \
+                 the keys of [ppo] other than {}",
                 CHANGEABLE.join(", "),
                 FIXED.join(", ")
             ));
         }
         if self.serving.evaluation.is_none() && changed.evaluates() {
-            return Err(
-                "`eval.every_steps` cannot be set where the run began without evaluation; resume it with the value \
-                        you want"
-                    .to_string(),
-            );
+            let why = "`eval.every_steps` cannot be set, because the run was started without evaluation; start a new run \
+                       with it";
+            return Err(why.to_string());
         }
         let before = self.config.value_of(key);
         if key == "ppo.learning_rate" {
-            // This replaces the adapted rate, too.
+            // Replaces the adapted rate.
             self.learning.updater.set_learning_rate(changed.ppo.learning_rate);
         }
         self.learning.updater.set_config(&changed.ppo);
         self.learning.load = LoadAdaptation::new(&changed);
         let LearnerConfig { checkpoint_every_updates, keep_checkpoints, .. } = changed.learner;
-        self.serving.checkpoints.set_rule(checkpoint_every_updates.into(), keep_checkpoints as usize);
+        self.serving.checkpoints.set_retention(checkpoint_every_updates.into(), keep_checkpoints as usize);
         self.reporting.report.set_table_every(changed.learner.table_every_updates.into());
         self.reporting.report.set_steps(changed.run.steps);
         if let Some(evaluation) = &mut self.serving.evaluation {
@@ -139,7 +136,7 @@ impl Trainer {
         Ok(format!("{key} is {after}, was {before}, from update {from} on"))
     }
 
-    /// Publishes the status if the last time is [`STATUS_EVERY`] ago.
+    /// Publishes the status if [`STATUS_EVERY`] has passed since the last time.
     pub(super) fn publish_status_if_due(&mut self) {
         if self.serving.control.since_status() >= STATUS_EVERY {
             self.publish_status(false);

@@ -1,21 +1,22 @@
-//! Waits while the disk is full: what a run has learnt is worth more than the time until space is freed.
+//! Waits while the disk is full, so that a run does not lose what it has learnt.
 
 use std::{
+    error::Error,
     io::{self, ErrorKind},
     time::{Duration, Instant},
 };
 
-use treadmill_runtime::shutdown::Shutdown;
+use treadmill_runtime::{error_chain, shutdown::Shutdown};
 
 use crate::checkpoint::CheckpointError;
 
 /// Pause between two attempts.
 const RETRY: Duration = Duration::from_millis(500);
 /// Pause between two warnings.
-const REPEAT: Duration = Duration::from_secs(30);
+const WARN_EVERY: Duration = Duration::from_secs(30);
 
 /// Error that may mean that the disk is full.
-pub trait MayBeDiskFull: std::fmt::Display {
+pub trait MayBeDiskFull: Error {
     /// Whether the disk or the quota is full.
     fn is_disk_full(&self) -> bool;
 }
@@ -32,8 +33,8 @@ impl MayBeDiskFull for CheckpointError {
     }
 }
 
-/// Calls `write` again and again while the disk is full, unless shutdown is requested. A `write` that fails must leave no
-/// trace.
+/// Calls `write` until the disk is no longer full or shutdown is requested. A `write` that fails must leave no partial
+/// output.
 pub fn wait_for_disk_space<T, E: MayBeDiskFull>(
     shutdown: &Shutdown,
     mut write: impl FnMut() -> Result<T, E>,
@@ -42,15 +43,15 @@ pub fn wait_for_disk_space<T, E: MayBeDiskFull>(
     loop {
         match write() {
             Err(why) if why.is_disk_full() && !shutdown.asked() => {
-                if warned.is_none_or(|warned| warned.elapsed() >= REPEAT) {
-                    tracing::warn!("{why}; training waits until there is room");
+                if warned.is_none_or(|warned| warned.elapsed() >= WARN_EVERY) {
+                    tracing::warn!(error = %error_chain(&why), "the disk is full: training waits until there is room");
                     warned = Some(Instant::now());
                 }
                 std::thread::sleep(RETRY);
             }
             outcome => {
                 if warned.is_some() && outcome.is_ok() {
-                    tracing::warn!("there is room again, and training goes on");
+                    tracing::warn!("there is room on the disk again: training continues");
                 }
                 return outcome;
             }

@@ -1,4 +1,4 @@
-//! Why training stops early.
+//! Error that ends training.
 
 use std::io;
 
@@ -17,26 +17,26 @@ pub enum TrainingError {
     #[error(transparent)]
     Checkpoint(#[from] CheckpointError),
     /// A log could not be written.
-    #[error("the logs of the run cannot be written: {0}")]
+    #[error("the logs of the run cannot be written")]
     Log(#[from] io::Error),
     /// The networks could not be evaluated.
-    #[error("the networks cannot be evaluated: {0}")]
+    #[error("the networks cannot be evaluated")]
     Evaluation(#[from] candle_core::Error),
-    /// Update after update was undone.
-    #[error("{updates} updates in a row were undone, the last because {why}; the last sound checkpoint stays in place")]
-    NotFinite {
-        /// How many.
+    /// Too many updates in a row were undone.
+    #[error("{updates} updates in a row were undone; the last sound checkpoint stays in place")]
+    Undone {
+        /// Number of updates.
         updates: u32,
-        /// What was not finite.
-        why: UpdateError,
+        /// Error of the last update.
+        source: UpdateError,
     },
-    /// The state does not fit together.
+    /// The state is inconsistent.
     #[error("the state of the run cannot be used: {why}")]
     State {
         /// What is wrong.
         why: String,
     },
-    /// The picture could not be drawn.
-    #[error("the learning curve cannot be drawn: {0}")]
+    /// The learning curve could not be drawn.
+    #[error(transparent)]
     Curve(#[from] CurveError),
 }

@@ -1,4 +1,4 @@
-//! Schedules evaluations: after every `eval.every_steps` environment steps, one policy goes to the evaluation actors.
+//! Schedules evaluations: every `eval.every_steps` environment steps, evaluation actors get one policy.
 
 use std::collections::VecDeque;
 
@@ -6,7 +6,7 @@ use bytes::Bytes;
 use treadmill_bus::{Bus, BusError, EvaluationServer};
 use treadmill_proto::{EvaluationReport, PolicyVersion};
 
-/// Policies that may still get a result; older ones are forgotten.
+/// Policies that wait for a result; older ones are dropped.
 const CANDIDATES_MAX: usize = 4;
 
 /// Result of an evaluation.
@@ -14,9 +14,9 @@ const CANDIDATES_MAX: usize = 4;
 pub struct EvaluationResult {
     /// The evaluation actor's report.
     pub report: EvaluationReport,
-    /// Environment steps that the policy had learnt from.
+    /// Environment steps that the policy has learnt from.
     pub env_steps: u64,
-    /// The checkpoint with that policy, encoded.
+    /// Encoded checkpoint with that policy.
     pub checkpoint: Vec<u8>,
 }
 
@@ -26,7 +26,7 @@ struct Candidate {
     checkpoint: Vec<u8>,
 }
 
-/// Submits policies for evaluation and matches results to them.
+/// Submits policies for evaluation and matches the results to them.
 pub struct EvaluationScheduler {
     server: EvaluationServer,
     every_steps: u64,
@@ -35,7 +35,7 @@ pub struct EvaluationScheduler {
 }
 
 impl EvaluationScheduler {
-    /// Evaluates one policy after every `every_steps` environment steps; the run has `env_steps` already.
+    /// Scheduler that evaluates one policy every `every_steps` environment steps; the run has `env_steps` already.
     pub fn open(bus: &Bus, run: &str, every_steps: u64, env_steps: u64) -> Result<Self, BusError> {
         let due_at_steps = (env_steps / every_steps + 1) * every_steps;
         Ok(Self { server: EvaluationServer::open(bus, run)?, every_steps, due_at_steps, candidates: VecDeque::new() })
@@ -52,12 +52,12 @@ impl EvaluationScheduler {
         }
     }
 
-    /// Whether a policy that has learnt from `env_steps` is to be evaluated.
+    /// Whether a policy that has learnt from `env_steps` is due for evaluation.
     pub fn is_due(&self, env_steps: u64) -> bool {
         env_steps >= self.due_at_steps
     }
 
-    /// Submits a policy for evaluation, with the checkpoint that it is part of.
+    /// Submits a policy for evaluation. `checkpoint` holds the same policy.
     pub fn submit(&mut self, version: PolicyVersion, bundle: Bytes, env_steps: u64, checkpoint: Vec<u8>) {
         self.due_at_steps = (env_steps / self.every_steps + 1) * self.every_steps;
         if self.candidates.len() == CANDIDATES_MAX {
@@ -67,7 +67,7 @@ impl EvaluationScheduler {
         self.server.put(version, bundle);
     }
 
-    /// The next result of a submitted policy; each policy has one.
+    /// Returns the next result of a submitted policy; each policy has at most one.
     pub fn next_result(&mut self) -> Option<EvaluationResult> {
         while let Some(report) = self.server.next_report() {
             let known = self.candidates.iter().position(|candidate| candidate.version == report.version);

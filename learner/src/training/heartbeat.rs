@@ -1,4 +1,4 @@
-//! Heartbeat of the training thread, which other threads watch.
+//! Heartbeat of the training thread, which other threads monitor.
 
 use std::{
     sync::{
@@ -8,29 +8,29 @@ use std::{
     time::{Duration, Instant},
 };
 
-/// Heartbeat of the training thread: it beats while it waits for fragments, and after each part of an update.
+/// Last beat of the training thread, which beats while it waits for fragments and after each part of an update.
 #[derive(Clone, Debug)]
 pub struct Heartbeat {
     begun: Instant,
     /// Milliseconds from `begun` to the last beat.
-    beaten_ms: Arc<AtomicU64>,
+    last_beat_ms: Arc<AtomicU64>,
 }
 
 impl Default for Heartbeat {
     fn default() -> Self {
-        Self { begun: Instant::now(), beaten_ms: Arc::default() }
+        Self { begun: Instant::now(), last_beat_ms: Arc::default() }
     }
 }
 
 impl Heartbeat {
     /// Records a beat.
     pub fn beat(&self) {
-        self.beaten_ms.store(self.begun.elapsed().as_millis() as u64, Ordering::Relaxed);
+        self.last_beat_ms.store(self.begun.elapsed().as_millis() as u64, Ordering::Relaxed);
     }
 
     /// Time since the last beat.
     pub fn silence(&self) -> Duration {
-        self.begun.elapsed().saturating_sub(Duration::from_millis(self.beaten_ms.load(Ordering::Relaxed)))
+        self.begun.elapsed().saturating_sub(Duration::from_millis(self.last_beat_ms.load(Ordering::Relaxed)))
     }
 }
 
@@ -40,7 +40,7 @@ mod tests {
 
     #[test]
     fn silence_lasts_until_the_next_beat() {
-        let heartbeat = Heartbeat { begun: Instant::now() - Duration::from_secs(1000), beaten_ms: Arc::default() };
+        let heartbeat = Heartbeat { begun: Instant::now() - Duration::from_secs(1000), last_beat_ms: Arc::default() };
         let watched = heartbeat.clone();
         assert!(watched.silence() >= Duration::from_secs(1000));
         heartbeat.beat();

@@ -1,6 +1,7 @@
-//! Turns a batch into improved parameters.
+//! Updates the parameters from a batch.
 
 use std::{
+    error::Error,
     sync::Arc,
     time::{Duration, Instant},
 };
@@ -8,18 +9,18 @@ use std::{
 use treadmill_config::Config;
 use treadmill_policy::normaliser::Normaliser;
 use treadmill_ppo::{AcceptedFragment, BatchMirror, UpdateError, UpdateStats, Updater, build_batch};
-use treadmill_runtime::machine;
+use treadmill_runtime::{error_chain, machine};
 
 use super::{Trainer, TrainingError, TrainingOptions, load_adaptation::LoadAdaptation};
 use crate::checkpoint::TrainingState;
 
-/// The learning part of a [`Trainer`].
+/// Learning part of a [`Trainer`].
 pub(super) struct Learning {
     pub(super) updater: Updater,
     mirror: Option<BatchMirror>,
     pub(super) load: LoadAdaptation,
     undone_in_a_row: u32,
-    /// How long the gradient steps of the last update took.
+    /// Duration of the last update's gradient steps.
     pub(super) learn: Duration,
 }
 
@@ -30,7 +31,7 @@ impl Learning {
         config: &Config,
         options: &TrainingOptions,
     ) -> Result<Self, TrainingError> {
-        let wrong = |why: String| TrainingError::State { why };
+        let invalid = |why: &dyn Error| TrainingError::State { why: error_chain(why) };
         let threads = match config.learner.threads {
             0 => machine::cores(),
             threads => threads as usize,
@@ -39,11 +40,11 @@ impl Learning {
             .num_threads(threads)
             .thread_name(|index| format!("update-{index}"))
             .build()
-            .map_err(|why| wrong(why.to_string()))?;
+            .map_err(|why| invalid(&why))?;
         let parameters = state.parameters.clone();
         let mut updater = Updater::on(&options.device, state.shape.clone(), parameters, &config.ppo, Arc::new(pool))
-            .map_err(|why| wrong(why.to_string()))?;
-        updater.restore(state.optimiser.clone(), state.learning_rate).map_err(|why| wrong(why.to_string()))?;
+            .map_err(|why| invalid(&why))?;
+        updater.restore(state.optimiser.clone(), state.learning_rate).map_err(|why| invalid(&why))?;
         Ok(Self {
             updater,
             mirror: options.mirror.clone(),
@@ -55,10 +56,10 @@ impl Learning {
 }
 
 impl Trainer {
-    /// Learns from a batch. Returns `None` if the update was undone because a number was not finite.
+    /// Updates the parameters from a batch. Returns `None` if the update was undone.
     pub(super) fn update(&mut self, accepted: &[AcceptedFragment]) -> Result<Option<UpdateStats>, TrainingError> {
         let Self { state, learning, config, .. } = self;
-        let policy = learning.updater.policy().map_err(|why| TrainingError::State { why: why.to_string() })?;
+        let policy = learning.updater.policy().map_err(|why| TrainingError::State { why: error_chain(&why) })?;
         let clip = config.policy.observation_clip as f32;
         let normaliser = Normaliser::from_moments(&state.observation_moments, clip);
         let mut value_moments = state.value_moments.clone();
@@ -69,13 +70,13 @@ impl Trainer {
             observation_moments.update(&fragment.observations, state.shape.observation);
         }
         let begun = Instant::now();
-        let updated = if observation_moments.is_finite() && value_moments.is_finite() {
+        let result = if observation_moments.is_finite() && value_moments.is_finite() {
             learning.updater.update_in(learning.load.epochs(), &batch, &mut state.shuffle)
         } else {
             Err(UpdateError::NonFinite { what: "running statistic" })
         };
         learning.learn = begun.elapsed();
-        let stats = match updated {
+        let stats = match result {
             Ok(stats) => {
                 learning.undone_in_a_row = 0;
                 state.value_moments = value_moments;
@@ -83,12 +84,12 @@ impl Trainer {
                 state.counters.gradient_steps += stats.minibatches;
                 Some(stats)
             }
-            Err(why) => {
-                tracing::warn!("an update was undone: {why}");
+            Err(source) => {
+                tracing::warn!(error = %error_chain(&source), "update undone");
                 learning.undone_in_a_row += 1;
                 state.counters.undone_updates += 1;
                 if learning.undone_in_a_row >= config.learner.undone_max {
-                    return Err(TrainingError::NotFinite { updates: learning.undone_in_a_row, why });
+                    return Err(TrainingError::Undone { updates: learning.undone_in_a_row, source });
                 }
                 None
             }

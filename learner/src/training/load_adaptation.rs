@@ -1,6 +1,6 @@
-//! Adapts the size of batches and the passes over them to the load.
+//! Adapts batch size and passes over each batch to the load.
 //!
-//! Where fragments queue although the learner never waits, it first takes larger batches, then makes fewer passes over
+//! If fragments queue although the learner never waits, it first takes larger batches, then makes fewer passes over
 //! each. Only after that do actors wait for their receipts.
 
 use treadmill_config::{Config, LearnerMode};
@@ -17,7 +17,7 @@ pub struct LoadAdaptation {
 }
 
 impl LoadAdaptation {
-    /// As configured; in mode `sync`, where actors wait by design, size and passes are fixed.
+    /// Adaptation within the configured bounds. In mode `sync`, where actors wait by design, size and passes are fixed.
     pub fn new(config: &Config) -> Self {
         let (transitions, epochs) = (config.ppo.batch as usize, config.ppo.epochs);
         let (most, fewest) = match config.learner.mode {
@@ -37,12 +37,12 @@ impl LoadAdaptation {
         self.batch_size
     }
 
-    /// Passes over the present batch.
+    /// Passes over the current batch.
     pub fn epochs(&self) -> u32 {
         self.epochs
     }
 
-    /// Adapts to a batch: one pass less if it left a backlog, else one more, within the bounds.
+    /// Adapts to a batch: one pass less if there is a backlog, else one more, within the bounds.
     pub fn adapt(&mut self, batch: &CollectedBatch) {
         self.epochs = match batch.has_backlog {
             true => self.epochs - 1,
@@ -70,7 +70,7 @@ mod tests {
     }
 
     #[test]
-    fn passes_go_down_to_their_bound_and_back() {
+    fn passes_fall_to_their_minimum_and_rise_again() {
         let mut load = load(LearnerMode::Async, 3);
         assert_eq!(load.batch_size(), BatchSize { transitions: 100, transitions_max: 250 });
         assert_eq!(load.epochs(), 5);
@@ -79,7 +79,7 @@ mod tests {
     }
 
     #[test]
-    fn bounds_that_say_nothing_change_nothing() {
+    fn a_minimum_above_the_passes_and_mode_sync_fix_the_passes() {
         let mut strict = load(LearnerMode::Async, 9);
         assert_eq!(adapt(&mut strict, true), 5);
         let mut sync = load(LearnerMode::Sync, 1);

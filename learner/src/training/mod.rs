@@ -1,15 +1,15 @@
 //! The training loop: collect, update, save, publish, log.
 //!
 //! # Layout
-//! - Here: [`train`] and the loop. `Trainer` has three parts, each with the steps of the loop that it is for.
+//! - Here: [`train`] and its loop. `Trainer` has three parts: learning, serving and reporting.
 //! - `options`: [`TrainingOptions`] and [`TrainingSummary`]; `error`: [`TrainingError`].
 //! - `start`: prepares a `Trainer` for its first batch.
-//! - `learning`: turns a batch into improved parameters.
-//! - `serving`: fragments in; checkpoint, policy and evaluations out.
+//! - `learning`: updates the parameters from a batch.
+//! - `serving`: collects batches, saves checkpoints, publishes policies, takes evaluation results.
 //! - `reporting`: logs each update.
-//! - `commands`: applies control commands, publishes the run's status.
-//! - [`control`]: queues commands for the training thread, answers status requests.
-//! - [`evaluation`]: schedules evaluations while training continues.
+//! - `commands`: applies control commands and publishes the run's status.
+//! - [`control`]: queues commands for the training thread and answers status requests.
+//! - [`evaluation`]: schedules evaluations during training.
 //! - [`load_adaptation`]: adapts batch size and passes to the load.
 //! - [`heartbeat`]: heartbeat of the training thread.
 //! - [`disk_full`]: waits while the disk is full.
@@ -40,7 +40,7 @@ pub use self::options::{TrainingOptions, TrainingSummary};
 use self::{learning::Learning, reporting::Reporting, serving::Serving};
 use crate::{checkpoint::TrainingState, metrics::scalars::PhaseDurations};
 
-/// Trains until the run has all its steps or shutdown is requested. Blocks: give it its own thread.
+/// Trains until the run has all its steps or shutdown is requested. Blocks, so it needs its own thread.
 pub fn train(
     bus: &Bus,
     state: TrainingState,

@@ -8,7 +8,7 @@ use treadmill_runtime::run_folder::RunFolder;
 use super::heartbeat::Heartbeat;
 use crate::{checkpoint::TrainingState, metrics::PrometheusMetrics};
 
-/// Inputs of training beside the state that it begins with.
+/// Inputs of training besides the initial state.
 pub struct TrainingOptions {
     /// Folder of the run.
     pub folder: RunFolder,
@@ -24,25 +24,25 @@ pub struct TrainingOptions {
     pub prometheus: PrometheusMetrics,
     /// Heartbeat of the training thread.
     pub heartbeat: Heartbeat,
-    /// Command line of this start, for TensorBoard.
+    /// Command line of this process, for TensorBoard.
     pub command: String,
     /// Names and values of versions and machine, for TensorBoard.
     pub versions: Vec<(String, String)>,
-    /// Names of the entries of an action; entries without a name are shown by their number.
+    /// Names of an action's entries; entries without a name are shown by their number.
     pub action_names: Vec<String>,
 }
 
 /// Result of a training run.
 #[derive(Clone, Debug)]
 pub struct TrainingSummary {
-    /// The state at the end.
+    /// Final state.
     pub state: TrainingState,
-    /// Seconds of this start.
+    /// Seconds since this process started training.
     pub wall_s: f64,
-    /// Environment steps of this start.
+    /// Environment steps since this process started training.
     pub env_steps: u64,
     /// Whether shutdown was requested before the last step.
     pub stopped: bool,
-    /// The greatest mean distance, of an evaluation or in training, in metres.
+    /// Greatest mean distance of an evaluation or in training, in metres.
     pub farthest_m: Option<f64>,
 }

@@ -22,7 +22,7 @@ use crate::{
     },
 };
 
-/// The reporting part of a [`Trainer`].
+/// Reporting part of a [`Trainer`].
 pub(super) struct Reporting {
     pub(super) report: MetricsReport,
     /// Return and distance over the run.
@@ -36,8 +36,8 @@ pub(super) struct Reporting {
     restarts_before: u64,
     begun: Instant,
     wall_before_s: f64,
-    /// Environment steps per second, and mean lag of the last batch.
     pub(super) env_steps_per_s: f64,
+    /// Mean lag of the last batch.
     pub(super) lag_mean: f64,
 }
 
@@ -92,11 +92,11 @@ impl Trainer {
         let (throughput, lag) = (reporting.throughput.mark(env_steps, serving.waited), PolicyLag::of(batch));
         (reporting.env_steps_per_s, reporting.lag_mean) = (throughput.env_steps_per_s, lag.mean);
         let stats = reporting.stats.newest();
-        reporting.prometheus.take_actors(stats, state.lineage.newest());
+        reporting.prometheus.set_actors(stats, state.lineage.newest());
         let means = state.episodes.means();
         let (return_mean, distance_m) =
             (means.as_ref().map(|m| m.return_mean), means.as_ref().map(|m| m.distance_mean_m));
-        reporting.history.take(return_mean, distance_m, evaluation.map(|result| result.report.distance_mean_m));
+        reporting.history.add(return_mean, distance_m, evaluation.map(|result| result.report.distance_mean_m));
         let validator = serving.intake.validator();
         let record = UpdateRecord {
             state,
@@ -123,7 +123,7 @@ impl Trainer {
         Ok(reporting.report.log(env_steps, updates, &scalars, &reporting.history, shutdown)?)
     }
 
-    /// Answers waiting senders, and writes the last logs.
+    /// Answers waiting senders and writes the last logs.
     pub(super) fn finish(&mut self) -> Result<(), TrainingError> {
         self.serving.intake.stop(&self.state.lineage);
         // The ledger of the last checkpoint, without fragments accepted since.

@@ -1,9 +1,10 @@
-//! Fragments in; checkpoint, policy and evaluations out.
+//! Collects batches, saves checkpoints, publishes policies, and takes evaluation results.
 
 use std::time::{Duration, Instant};
 
 use treadmill_bus::PolicyServer;
 use treadmill_proto::PolicyAnnouncement;
+use treadmill_runtime::error_chain;
 
 use super::{
     Trainer, TrainingError, commands,
@@ -13,27 +14,27 @@ use super::{
     heartbeat::Heartbeat,
 };
 use crate::{
-    checkpoint::CheckpointWriter,
+    checkpoint::{CheckpointWriter, TrainingState},
     intake::{BusFragmentSource, Collected, CollectedBatch, Intake},
 };
 
-/// The part of a [`Trainer`] that serves actors, evaluators and operators.
+/// Serving part of a [`Trainer`]: actors, evaluators and operators.
 pub(super) struct Serving {
     pub(super) intake: Intake<BusFragmentSource>,
     pub(super) policies: PolicyServer,
-    /// Evaluation while training continues, if it is configured.
+    /// Evaluation during training, if it is configured.
     pub(super) evaluation: Option<EvaluationScheduler>,
     pub(super) control: ControlChannel,
     /// Whether an operator has paused the run.
     pub(super) paused: bool,
     pub(super) checkpoints: CheckpointWriter,
     pub(super) heartbeat: Heartbeat,
-    /// How long the learner waited for the present batch.
+    /// Time that the learner waited for the current batch.
     pub(super) waited: Duration,
 }
 
 impl Trainer {
-    /// Collects a batch, and applies commands meanwhile. Returns `None` if shutdown is requested.
+    /// Collects a batch and applies commands meanwhile. Returns `None` if shutdown is requested.
     pub(super) fn collect(&mut self) -> Option<CollectedBatch> {
         self.serving.waited = Duration::ZERO;
         loop {
@@ -49,7 +50,7 @@ impl Trainer {
                 Collected::Batch(batch) => return Some(batch),
                 Collected::Interrupted => {
                     self.publish_status_if_due();
-                    self.reporting.report.waiting(self.serving.waited, self.serving.intake.alive().len());
+                    self.reporting.report.show_wait(self.serving.waited, self.serving.intake.alive().len());
                 }
                 Collected::Stopped => return None,
             }
@@ -70,13 +71,13 @@ impl Trainer {
         Ok(Some(result))
     }
 
-    /// Writes the checkpoint, and returns its bytes.
+    /// Writes the checkpoint and returns its bytes.
     pub(super) fn save(&mut self) -> Result<Vec<u8>, TrainingError> {
         self.serving.intake.count_unread();
         let validator = self.serving.intake.validator();
         self.state.fragment_counts = validator.counts;
         self.state.ledger = validator.ledger.clone();
-        // Writing the state makes everything accepted so far durable, so the written ledger says so.
+        // Once this state is written, everything accepted so far is durable.
         self.state.ledger.mark_durable();
         let best = self.best_in_training();
         self.state.best_return = best.or(self.state.best_return);
@@ -90,20 +91,22 @@ impl Trainer {
         Ok(saved)
     }
 
-    /// The mean return in training, if it is the best so far and no policy was evaluated yet.
+    /// Returns the mean return in training, if it is the best so far and no policy was evaluated yet.
     fn best_in_training(&self) -> Option<f64> {
-        let is_known = self.state.best_is_evaluated;
-        let episodes = (!is_known).then_some(&self.state.episodes).filter(|episodes| episodes.is_full())?;
+        let TrainingState { episodes, best_is_evaluated, best_return, .. } = &self.state;
+        if *best_is_evaluated || !episodes.is_full() {
+            return None;
+        }
         let return_mean = episodes.means()?.return_mean;
-        self.state.best_return.is_none_or(|best| return_mean > best).then_some(return_mean)
+        best_return.is_none_or(|best| return_mean > best).then_some(return_mean)
     }
 
-    /// Publishes the new policy, and submits it for evaluation if one is due. `saved` is its checkpoint.
+    /// Publishes the new policy and submits it for evaluation if one is due. `saved` is its checkpoint.
     pub(super) fn publish(&mut self, saved: Vec<u8>) -> Result<(), TrainingError> {
-        let wrong = |why: String| TrainingError::State { why };
-        let bundle = self.state.bundle().map_err(wrong)?;
+        let invalid = |why| TrainingError::State { why };
+        let bundle = self.state.bundle().map_err(invalid)?;
         let announcement = PolicyAnnouncement { version: bundle.version, checksum: bundle.checksum };
-        let encoded: bytes::Bytes = bundle.encode().map_err(|why| wrong(why.to_string()))?.into();
+        let encoded: bytes::Bytes = bundle.encode().map_err(|why| invalid(error_chain(&why)))?.into();
         self.serving.policies.publish(encoded.clone(), &announcement);
         self.serving.intake.send_owed_receipts(&self.state.lineage);
         let env_steps = self.state.counters.env_steps;

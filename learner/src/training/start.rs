@@ -6,7 +6,7 @@ use treadmill_bus::{
     Alive, AliveView, Bus, BusError, PolicyServer, RolloutCopies, RolloutIntake, StatsFeed, admission::Admission,
 };
 use treadmill_config::Config;
-use treadmill_runtime::shutdown::Shutdown;
+use treadmill_runtime::{error_chain, shutdown::Shutdown};
 
 use super::{
     Trainer, TrainingError, TrainingOptions, commands, control::ControlChannel, disk_full::wait_for_disk_space,
@@ -19,17 +19,17 @@ use crate::{
 };
 
 impl Trainer {
-    /// Saves the state, then opens logs and bus.
+    /// Saves the state, then opens the logs and the flows on the bus.
     pub(super) fn start(
         bus: &Bus,
         state: TrainingState,
         options: &TrainingOptions,
         shutdown: &Shutdown,
     ) -> Result<Self, TrainingError> {
-        let wrong = |why: String| TrainingError::State { why };
-        let config = state.config().map_err(wrong)?;
-        let mut bundle = state.bundle().map_err(wrong)?;
-        // Only until the next version: an actor that joins later would repeat steps that were learnt from.
+        let invalid = |why| TrainingError::State { why };
+        let config = state.config().map_err(invalid)?;
+        let mut bundle = state.bundle().map_err(invalid)?;
+        // Only in this version: an actor that joins later must not repeat steps that were learnt from.
         bundle.actor_state = state.actor_state.clone();
         let expected = ExpectedFragment {
             run: state.run.clone(),
@@ -44,23 +44,19 @@ impl Trainer {
             config.learner.checkpoint_every_updates.into(),
             config.learner.keep_checkpoints as usize,
         );
-        // This version is on disk before any actor can hold it: a learner that dies now is resumed from it.
+        // Save this version before any actor can get it, so that a learner that dies now resumes from it.
         wait_for_disk_space(shutdown, || checkpoints.save(&state))?;
-        let encoded = bundle.encode().map_err(|why| wrong(why.to_string()))?;
+        let encoded = bundle.encode().map_err(|why| invalid(error_chain(&why)))?;
         let report = MetricsReport::open(bus, &state, &config, options)?;
-        // After the report has removed lines that are newer than the checkpoint.
+        // `MetricsReport::open` has removed lines newer than the checkpoint.
         let history = History::read(&options.folder.metrics())?;
         let (intake, alive) = open_intake(bus, &state, &config, options, expected)?;
         let status = commands::first_status(&state, config.run.steps);
         let control = ControlChannel::open(bus, status, alive.clone())?;
         let stats = StatsFeed::open(bus, &state.run, alive)?;
-        let evaluation = match config.evaluates() {
-            false => None,
-            true => {
-                let (every_steps, env_steps) = (config.eval.every_steps, state.counters.env_steps);
-                Some(EvaluationScheduler::open(bus, &state.run, every_steps, env_steps)?)
-            }
-        };
+        let (every_steps, env_steps) = (config.eval.every_steps, state.counters.env_steps);
+        let scheduler = config.evaluates().then(|| EvaluationScheduler::open(bus, &state.run, every_steps, env_steps));
+        let evaluation = scheduler.transpose()?;
         let policies = PolicyServer::open(bus, &state.run, encoded.into())?;
         let serving = Serving {
             intake,
@@ -77,7 +73,7 @@ impl Trainer {
     }
 }
 
-/// Opens the intake of fragments on the bus; also returns the view of living actors.
+/// Opens the intake of fragments on the bus. Also returns the view of living actors.
 fn open_intake(
     bus: &Bus,
     state: &TrainingState,
@@ -86,10 +82,10 @@ fn open_intake(
     expected: ExpectedFragment,
 ) -> Result<(Intake<BusFragmentSource>, AliveView), BusError> {
     let capacity = config.learner.intake_fragments as usize;
-    let gate = Arc::new(Admission::new(config.learner.quarantine_after, capacity));
-    let validator = FragmentValidator::new(expected, gate.clone(), state.ledger.clone(), state.fragment_counts);
+    let admission = Arc::new(Admission::new(config.learner.quarantine_after, capacity));
+    let validator = FragmentValidator::new(expected, admission.clone(), state.ledger.clone(), state.fragment_counts);
     let copies = RolloutCopies::open(bus, &state.run)?;
-    let queue = RolloutIntake::open(bus, &state.run, capacity, gate, &copies)?;
+    let queue = RolloutIntake::open(bus, &state.run, capacity, admission, &copies)?;
     let alive = Alive::watch(bus, &state.run)?;
     let view = alive.view();
     let source = BusFragmentSource::new(queue, alive, copies, options.heartbeat.clone());

@@ -1,5 +1,5 @@
-//! A learner's intake among actors that are slow, die and come back, over messages that are late or lost: it always goes
-//! on, takes nothing that is too old, and learns from every fragment once at most.
+//! The learner's intake in a fleet with slow and dying actors and with delayed and lost messages. It never stalls,
+//! accepts no fragment that is too old, and learns from every fragment at most once.
 
 mod world;
 
@@ -13,19 +13,19 @@ use treadmill_learner::intake::{
     BatchSize, Collected, ExpectedFragment, FragmentCounts, FragmentValidator, Intake, Ledger, Lineage,
 };
 use treadmill_runtime::seeds;
-use world::{FleetWorld, MemoryFragmentSource, Setting, Shared};
+use world::{FleetSettings, FleetWorld, MemoryFragmentSource, Shared};
 
-/// Longer than this (of the fleet's time) an update never takes, whatever gets lost: many receipts in a row would have to.
-const STUCK: Duration = Duration::from_secs(3 * 3600);
+/// Longest time (of the fleet's clock) that an update may take, however many messages are lost.
+const UPDATE_MAX: Duration = Duration::from_secs(3 * 3600);
 const UPDATE: Duration = Duration::from_millis(150);
 
 #[derive(Clone, Debug)]
 struct Case {
-    fleet: Setting,
+    fleet: FleetSettings,
     mode: LearnerMode,
     max_policy_lag: u64,
     size: BatchSize,
-    /// Rounds of a hundred in which the learner dies before it has saved.
+    /// Share of rounds in which the learner dies before it saves.
     learner_deaths_percent: u32,
     actor_deaths_percent: u32,
 }
@@ -33,7 +33,7 @@ struct Case {
 /// (actor, incarnation, sequence)
 type Name = (String, u64, u64);
 
-/// What a checkpoint holds of the fleet.
+/// Checkpoint of the fleet.
 #[derive(Clone)]
 struct Saved {
     lineage: Lineage,
@@ -47,7 +47,7 @@ struct Learner {
     world: Shared,
     intake: Intake<MemoryFragmentSource>,
     lineage: Lineage,
-    /// What the present weights are made of.
+    /// Fragments in the current weights.
     learnt: BTreeSet<Name>,
     saved: Saved,
     starts: u64,
@@ -70,24 +70,27 @@ impl Learner {
     fn round(&mut self, dies: bool) -> Result<(), TestCaseError> {
         let shutdown = {
             let mut world = self.world.borrow_mut();
-            world.patient_until = world.now + STUCK;
-            world.out_of_patience.clone()
+            world.deadline = world.now + UPDATE_MAX;
+            world.timed_out.clone()
         };
-        // Every other look is interrupted: what was batch until then must not be lost.
-        let (case, mut looks) = (self.case.size, 0);
+        // Every other poll interrupts: the fragments collected until then must not be lost.
+        let (size, mut polls) = (self.case.size, 0);
         let batch = loop {
             let interrupt = || {
-                looks += 1;
-                looks % 2 == 0
+                polls += 1;
+                polls % 2 == 0
             };
-            match self.intake.collect(case, &self.lineage, &shutdown, interrupt) {
+            match self.intake.collect(size, &self.lineage, &shutdown, interrupt) {
                 Collected::Batch(batch) => break Some(batch),
                 Collected::Interrupted => {}
                 Collected::Stopped => break None,
             }
         };
         let Some(batch) = batch else {
-            return Err(TestCaseError::fail(format!("nothing for {STUCK:?}: {:?}", self.intake.validator().counts)));
+            return Err(TestCaseError::fail(format!(
+                "no batch for {UPDATE_MAX:?}: {:?}",
+                self.intake.validator().counts
+            )));
         };
         prop_assert!(batch.fragments.len() >= self.case.size.transitions);
         prop_assert!(batch.fragments.len() <= self.case.size.transitions_max.max(self.case.size.transitions));
@@ -114,7 +117,7 @@ impl Learner {
         Ok(())
     }
 
-    /// The process is gone, and another goes on from the last checkpoint.
+    /// Kills the process; another one continues from the last checkpoint.
     fn die(&mut self) {
         self.starts += 1;
         self.world.borrow_mut().kill_learner();
@@ -127,9 +130,8 @@ impl Learner {
         self.world.borrow_mut().announce(self.lineage.newest());
     }
 
-    /// Every fragment that a living process produced is somewhere: learnt from for good, dropped by rule and known to be,
-    /// on its way, or kept until it is durable.
-    fn account(&self) -> Result<(), TestCaseError> {
+    /// Checks that each fragment of a living process is in a checkpoint, dropped by rule, in flight, or kept.
+    fn check_fragments(&self) -> Result<(), TestCaseError> {
         let world = self.world.borrow();
         for actor in &world.actors {
             for sequence in 1..=actor.newest {
@@ -137,7 +139,7 @@ impl Learner {
                 let outstanding = actor.in_flight.contains_key(&sequence) || actor.kept.contains_key(&sequence);
                 let (learnt, dropped) = (self.saved.learnt.contains(&name), actor.dropped.contains(&sequence));
                 prop_assert!(learnt || dropped || outstanding, "{name:?} is lost");
-                prop_assert!(!dropped || world.refused.contains(&name), "{name:?} was never dropped");
+                prop_assert!(!dropped || world.dropped.contains(&name), "{name:?} was never dropped");
                 prop_assert!(!(learnt && dropped), "{name:?} is learnt from and counted as dropped");
             }
         }
@@ -172,7 +174,7 @@ fn cases() -> impl Strategy<Value = Case> {
         let (seed, fragment_ms, in_flight, loss_percent, delay_ms) = fleet;
         let (is_sync, max_policy_lag, transitions, more) = learner;
         Case {
-            fleet: Setting { seed, fragment_ms, in_flight, loss_percent, delay_ms },
+            fleet: FleetSettings { seed, fragment_ms, in_flight, loss_percent, delay_ms },
             mode: if is_sync { LearnerMode::Sync } else { LearnerMode::Async },
             max_policy_lag,
             size: BatchSize { transitions, transitions_max: transitions + more },
@@ -186,12 +188,12 @@ proptest! {
     #![proptest_config(ProptestConfig::with_cases(300))]
 
     #[test]
-    fn no_setting_and_no_failure_stops_the_fleet_or_doubles_a_fragment(case in cases()) {
+    fn no_failure_stalls_the_fleet_or_loses_or_doubles_a_fragment(case in cases()) {
         let mut random = seeds::stream(case.fleet.seed, "deaths", &[]);
         let mut learner = Learner::new(&case);
         for _ in 0..30 {
             learner.round(random.random_range(0..100) < case.learner_deaths_percent)?;
-            learner.account()?;
+            learner.check_fragments()?;
             if random.random_range(0..100) < case.actor_deaths_percent {
                 let actor = random.random_range(0..case.fleet.fragment_ms.len());
                 learner.world.borrow_mut().restart(actor, learner.lineage.newest());
@@ -200,10 +202,10 @@ proptest! {
     }
 }
 
-/// Fragments that a fleet without failures has learnt from in a minute.
+/// Number of fragments that a fleet without failures learns from in a minute.
 fn learnt_in_a_minute(mode: LearnerMode, fragment_ms: &[u64], size: usize) -> f64 {
     let case = Case {
-        fleet: Setting { seed: 1, fragment_ms: fragment_ms.to_vec(), in_flight: 1, loss_percent: 0, delay_ms: 4 },
+        fleet: FleetSettings { seed: 1, fragment_ms: fragment_ms.to_vec(), in_flight: 1, loss_percent: 0, delay_ms: 4 },
         mode,
         max_policy_lag: 4,
         size: BatchSize { transitions: size, transitions_max: size },
@@ -212,13 +214,13 @@ fn learnt_in_a_minute(mode: LearnerMode, fragment_ms: &[u64], size: usize) -> f6
     };
     let mut learner = Learner::new(&case);
     while learner.world.borrow().now < Duration::from_secs(60) {
-        learner.round(false).expect("nothing goes wrong");
+        learner.round(false).expect("no failure");
     }
     learner.learnt.len() as f64
 }
 
 #[test]
-fn a_slow_actor_costs_its_own_share_at_most() {
+fn a_slow_actor_costs_at_most_its_own_share() {
     for mode in [LearnerMode::Sync, LearnerMode::Async] {
         for slow_ms in [220, 450, 1000, 5000] {
             let even = learnt_in_a_minute(mode, &[200, 200, 200, 200], 12);
@@ -229,7 +231,7 @@ fn a_slow_actor_costs_its_own_share_at_most() {
 }
 
 #[test]
-fn actors_that_need_not_wait_bring_more() {
+fn asynchronous_mode_learns_from_more_fragments() {
     let [sync, async_] = [LearnerMode::Sync, LearnerMode::Async].map(|mode| learnt_in_a_minute(mode, &[200, 200], 4));
     assert!(async_ > 1.2 * sync, "{async_} and {sync}");
 }

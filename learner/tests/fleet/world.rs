@@ -1,7 +1,7 @@
-//! A fleet without a bus: actors, messages that take their time or get lost, and a clock that jumps from event to event.
+//! Simulated fleet without a bus: actors, delayed or lost messages, and a clock that jumps from event to event.
 //!
-//! The learner's intake is the real one. Actors follow the protocol of the actor process: credit, fragments sent until
-//! they are dealt with, those taken kept until they are durable and sent again to a new learner.
+//! The learner's intake is the real one. Actors follow the protocol of the actor process: they have credit, send each
+//! fragment until it is answered, keep accepted ones until they are durable, and send those again to a new learner.
 
 mod source;
 
@@ -21,22 +21,22 @@ use treadmill_runtime::{
     shutdown::Shutdown,
 };
 
-pub use source::{MemoryFragmentSource, MemoryMessage};
+pub use source::{MemoryFragment, MemoryFragmentSource};
 
 const RECEIPT_TIMEOUT: Duration = Duration::from_secs(60);
 const RETRY: Duration = Duration::from_millis(200);
 
-/// What the fleet is like.
+/// Properties of the fleet.
 #[derive(Clone, Debug)]
-pub struct Setting {
+pub struct FleetSettings {
     pub seed: u64,
-    /// Milliseconds that each actor takes for a fragment.
+    /// Milliseconds that each actor needs for a fragment.
     pub fragment_ms: Vec<u64>,
-    /// Fragments of an actor on the bus at once.
+    /// Fragments that an actor may have on the bus at once.
     pub in_flight: u32,
-    /// Messages of a hundred that get lost.
+    /// Share of lost messages.
     pub loss_percent: u32,
-    /// Milliseconds that a message takes at most.
+    /// Longest delay of a message in milliseconds.
     pub delay_ms: u64,
 }
 
@@ -57,7 +57,7 @@ enum Event {
         sequence: u64,
         receipt: Receipt,
     },
-    /// Neither a verdict nor an answer came: the fragment is sent again.
+    /// No receipt came, or the learner was busy: the fragment is sent again.
     Again {
         actor: usize,
         incarnation: u64,
@@ -75,22 +75,22 @@ pub struct Actor {
     pub name: String,
     pub incarnation: u64,
     pub newest: u64,
-    /// On their way: the fragment and the number of the last attempt.
+    /// Fragments without a receipt, with the number of the last attempt.
     pub in_flight: BTreeMap<u64, (Bytes, u64)>,
-    /// Taken, but perhaps not durable.
+    /// Accepted, but perhaps not durable.
     pub kept: BTreeMap<u64, Bytes>,
     pub dropped: BTreeSet<u64>,
     version: PolicyVersion,
     learner: u64,
     credit: u32,
     is_simulating: bool,
-    /// Version that the fragment being simulated is acted by.
+    /// Version that acts the fragment being simulated.
     acting: PolicyVersion,
 }
 
-/// Everything but the learner.
+/// Fleet and network, without the learner.
 pub struct FleetWorld {
-    setting: Setting,
+    settings: FleetSettings,
     begun: Instant,
     pub now: Duration,
     events: BinaryHeap<Reverse<(Duration, u64)>>,
@@ -98,36 +98,36 @@ pub struct FleetWorld {
     counter: u64,
     random: Stream,
     pub actors: Vec<Actor>,
-    queue: VecDeque<MemoryMessage>,
-    /// What a learner dropped by rule, whether or not its receipt came through: (actor, incarnation, sequence).
-    pub refused: BTreeSet<(String, u64, u64)>,
-    /// Whether a learner listens.
+    queue: VecDeque<MemoryFragment>,
+    /// Fragments that a learner dropped by rule, even if the receipt was lost: (actor, incarnation, sequence).
+    pub dropped: BTreeSet<(String, u64, u64)>,
+    /// Whether a learner is running.
     pub is_learner_up: bool,
-    /// When nothing came until this moment, the learner is asked to stop.
-    pub patient_until: Duration,
-    pub out_of_patience: Shutdown,
+    /// If the learner still waits at this time, it is asked to stop.
+    pub deadline: Duration,
+    pub timed_out: Shutdown,
 }
 
 pub type Shared = Rc<RefCell<FleetWorld>>;
 
 impl FleetWorld {
-    pub fn new(setting: &Setting, version: PolicyVersion) -> Shared {
+    pub fn new(settings: &FleetSettings, version: PolicyVersion) -> Shared {
         let mut world = Self {
-            setting: setting.clone(),
+            settings: settings.clone(),
             begun: Instant::now(),
             now: Duration::ZERO,
             events: BinaryHeap::new(),
             pending: BTreeMap::new(),
             counter: 0,
-            random: seeds::stream(setting.seed, "world", &[]),
+            random: seeds::stream(settings.seed, "world", &[]),
             actors: Vec::new(),
             queue: VecDeque::new(),
-            refused: BTreeSet::new(),
+            dropped: BTreeSet::new(),
             is_learner_up: true,
-            patient_until: Duration::MAX,
-            out_of_patience: Shutdown::default(),
+            deadline: Duration::MAX,
+            timed_out: Shutdown::default(),
         };
-        for index in 0..setting.fragment_ms.len() {
+        for index in 0..settings.fragment_ms.len() {
             world.actors.push(Actor {
                 name: format!("actor-{index}"),
                 incarnation: 0,
@@ -146,10 +146,10 @@ impl FleetWorld {
         Rc::new(RefCell::new(world))
     }
 
-    /// Another process takes an actor's place; what the old one had is gone.
+    /// Replaces an actor's process; the old one's fragments are lost.
     pub fn restart(&mut self, actor: usize, version: PolicyVersion) {
         self.counter += 1;
-        let (incarnation, credit) = (self.counter, self.setting.in_flight);
+        let (incarnation, credit) = (self.counter, self.settings.in_flight);
         let process = &mut self.actors[actor];
         *process = Actor {
             name: process.name.clone(),
@@ -167,20 +167,20 @@ impl FleetWorld {
         self.simulate(actor);
     }
 
-    /// The learner dies with all that waits for it.
+    /// Kills the learner; its queue is lost.
     pub fn kill_learner(&mut self) {
         self.is_learner_up = false;
         self.queue.clear();
     }
 
-    /// Lets time pass.
+    /// Advances the clock.
     pub fn pass(world: &Shared, time: Duration) {
         let until = world.borrow().now + time;
         while Self::step(world, until) {}
         world.borrow_mut().now = until;
     }
 
-    /// Tells every actor of a new version, where the message comes through.
+    /// Announces a new version to every actor; messages may be lost.
     pub fn announce(&mut self, version: PolicyVersion) {
         for actor in 0..self.actors.len() {
             self.send(Event::Announcement { actor, version });
@@ -193,15 +193,15 @@ impl FleetWorld {
         self.events.push(Reverse((self.now + time, self.counter)));
     }
 
-    /// Over the network: late, or never.
+    /// Sends over the network, which delays or loses the message.
     fn send(&mut self, event: Event) {
-        let delay_ms = self.random.random_range(0..=self.setting.delay_ms);
-        if self.random.random_range(0..100) >= self.setting.loss_percent {
+        let delay_ms = self.random.random_range(0..=self.settings.delay_ms);
+        if self.random.random_range(0..100) >= self.settings.loss_percent {
             self.after(Duration::from_millis(delay_ms), event);
         }
     }
 
-    /// The next event up to a moment; whether there was one.
+    /// Runs the next event up to `until`. Returns whether there was one.
     fn step(world: &Shared, until: Duration) -> bool {
         let event = {
             let mut world = world.borrow_mut();
@@ -216,12 +216,12 @@ impl FleetWorld {
             }
         };
         if let Some(event) = event {
-            Self::happen(world, event);
+            Self::handle(world, event);
         }
         true
     }
 
-    fn happen(shared: &Shared, event: Event) {
+    fn handle(shared: &Shared, event: Event) {
         let mut world = shared.borrow_mut();
         match event {
             Event::Simulated { actor, incarnation } if world.actors[actor].incarnation == incarnation => {
@@ -229,15 +229,8 @@ impl FleetWorld {
             }
             Event::Request { actor, incarnation, sequence, payload } if world.is_learner_up => {
                 let name = world.actors[actor].name.clone();
-                let world_of_message = shared.clone();
-                world.queue.push_back(MemoryMessage {
-                    world: world_of_message,
-                    actor,
-                    name,
-                    incarnation,
-                    sequence,
-                    payload,
-                });
+                let fragment = MemoryFragment { world: shared.clone(), actor, name, incarnation, sequence, payload };
+                world.queue.push_back(fragment);
             }
             Event::Again { actor, incarnation, sequence, attempt } => {
                 let process = &world.actors[actor];
@@ -249,7 +242,7 @@ impl FleetWorld {
             Event::Answer { actor, incarnation, sequence, receipt }
                 if world.actors[actor].incarnation == incarnation =>
             {
-                world.heed(actor, sequence, &receipt);
+                world.apply_receipt(actor, sequence, &receipt);
             }
             Event::Announcement { actor, version } => world.refresh(actor, version),
             _ => {}
@@ -265,7 +258,7 @@ impl FleetWorld {
         process.is_simulating = true;
         process.acting = process.version;
         let incarnation = process.incarnation;
-        self.after(Duration::from_millis(self.setting.fragment_ms[actor]), Event::Simulated { actor, incarnation });
+        self.after(Duration::from_millis(self.settings.fragment_ms[actor]), Event::Simulated { actor, incarnation });
     }
 
     fn deliver(&mut self, actor: usize) {
@@ -276,7 +269,7 @@ impl FleetWorld {
         let settled_through = open.map_or(process.newest - 1, |first| first - 1);
         let fragment = fragment(process, settled_through);
         let sequence = process.newest;
-        let payload = fragment.encode().expect("it is sound").into();
+        let payload = fragment.encode().expect("a sound fragment").into();
         process.in_flight.insert(sequence, (payload, 0));
         self.submit(actor, sequence);
         self.simulate(actor);
@@ -292,7 +285,7 @@ impl FleetWorld {
         self.send(Event::Request { actor, incarnation, sequence, payload });
     }
 
-    fn heed(&mut self, actor: usize, sequence: u64, receipt: &Receipt) {
+    fn apply_receipt(&mut self, actor: usize, sequence: u64, receipt: &Receipt) {
         let process = &mut self.actors[actor];
         let incarnation = process.incarnation;
         let Some((payload, attempt)) = process.in_flight.get(&sequence).cloned() else { return };
@@ -307,9 +300,9 @@ impl FleetWorld {
         process.in_flight.remove(&sequence);
         process.kept.retain(|kept, _| *kept > receipt.durable_through);
         self.refresh(actor, receipt.version);
-        // Fragments that are sent again to a new learner had their credit back before.
+        // Fragments that are sent again to a new learner have returned their credit before.
         let process = &mut self.actors[actor];
-        process.credit = (process.credit + 1).min(self.setting.in_flight);
+        process.credit = (process.credit + 1).min(self.settings.in_flight);
         self.simulate(actor);
     }
 

@@ -1,20 +1,20 @@
 #!/usr/bin/env python3
-"""Writes the JSON files beside this script: what PyTorch and numpy make of the learner's mathematics.
+"""Writes the JSON files in this folder: the results of PyTorch and numpy for the learner's mathematics.
 
     pip install torch numpy
     python3 learner/ppo/tests/golden/make.py
 
-Everything is computed in double precision from inputs that single precision holds exactly, by plain PyTorch: modules,
-torch.distributions, torch.optim.Adam, torch.nn.utils.clip_grad_norm_. Advantages come from the definition by n-step
-returns and not from a recursion. `order.json` is read, not written: it has the order in which the learner's seeded
-shuffle takes the rows of a batch. A test compares it with the shuffle and prints what it should be.
+Plain PyTorch computes everything in double precision from inputs that are exact in single precision: modules,
+torch.distributions, torch.optim.Adam, torch.nn.utils.clip_grad_norm_. Advantages follow the definition by n-step
+returns, not a recursion. The script reads `order.json`, the order in which the learner's seeded shuffle takes the rows
+of a batch. If that order changes, a test fails and prints the new one.
 
-| file | has |
+| file | content |
 |---|---|
-| advantages.json | generalised advantage estimation over episodes that end in every way |
+| advantages.json | generalised advantage estimation over episodes with every kind of end |
 | loss.json | the PPO loss, its parts and its gradient |
 | adam.json | gradient clipping and Adam, step by step |
-| moments.json | running mean and variance, and the normalisations made from them |
+| moments.json | running mean and variance, and normalisation by them |
 | update.json | whole PPO updates: one gradient step, and several epochs of minibatches |
 """
 
@@ -31,12 +31,12 @@ torch.set_default_dtype(torch.float64)
 
 
 def single(numbers):
-    """The nearest numbers of single precision, in double precision."""
+    """Rounds to single precision; returns double precision."""
     return np.asarray(numbers).astype(np.float32).astype(np.float64)
 
 
 def plain(value):
-    """What JSON can hold; numbers keep eleven digits, more than single precision has."""
+    """Converts to types that JSON has; numbers keep eleven digits, more than single precision has."""
     if isinstance(value, dict):
         return {key: plain(entry) for key, entry in value.items()}
     if isinstance(value, torch.Tensor):
@@ -55,7 +55,7 @@ def write(name, content):
 
 
 def lambda_return(rewards, values_after, gamma, lam):
-    """The λ-return of the first of these steps: n-step returns weighted by (1 − λ) λⁿ⁻¹, the longest by what is left."""
+    """The λ-return of the first of these steps: n-step returns weighted by (1 − λ) λⁿ⁻¹, the longest by the rest."""
     total, weight_left = 0.0, 1.0
     for n in range(1, len(rewards) + 1):
         n_step = sum(gamma**k * rewards[k] for k in range(n)) + gamma**n * values_after[n - 1]
@@ -70,7 +70,7 @@ def advantages(random):
     rewards, values = single(random.normal(size=(steps, envs))), single(3 * random.normal(size=(steps, envs)))
     last = single(3 * random.normal(size=envs))
     terminated, truncated = np.zeros((steps, envs), bool), np.zeros((steps, envs), bool)
-    # In the middle, one after the other, on the same step, in the first and in the last row; one goes on throughout.
+    # Ends in the middle, in sequence, on the same step, in the first and last row; one environment never ends.
     terminated[[5, 6, 17], 0] = True
     truncated[[3, 11, 23], 1] = True
     terminated[[0, 9, 23], 2] = True
@@ -100,7 +100,7 @@ LOSS = {
 
 
 def loss_parts(means, values, log_std, actions, old_log_probs, normalised, returns, config):
-    """The loss of one minibatch as torch.distributions gives it."""
+    """The loss of one minibatch by torch.distributions."""
     policy = torch.distributions.Normal(means, log_std.exp().expand_as(means))
     log_ratio = policy.log_prob(actions).sum(1) - old_log_probs
     ratio = log_ratio.exp()
@@ -206,7 +206,7 @@ class Agent:
 
 
 def start_parameters(random):
-    """Larger than an initialisation would be, so that some means are out of bounds and every gradient is well above rounding."""
+    """Larger than initial parameters, so that some means are out of bounds and every gradient is well above rounding."""
     sizes = []
     for outputs in (ACTION, 1):
         widths = (OBSERVATION, *HIDDEN, outputs)
@@ -217,8 +217,8 @@ def start_parameters(random):
     return single(np.concatenate([spread * random.normal(size=count) for count, spread in sizes]))
 
 
-def made_up(agent, rows, random):
-    """A batch under a policy that is a little older than the agent's, as from an actor that lags."""
+def synthetic_batch(agent, rows, random):
+    """A batch acted by a policy slightly older than the agent's, as from an actor that lags."""
     observations = torch.tensor(single(random.normal(size=(rows, OBSERVATION))))
     with torch.no_grad():
         policy = torch.distributions.Normal(agent.actor(observations), agent.log_std.exp())
@@ -234,14 +234,14 @@ def made_up(agent, rows, random):
 
 
 def update(agent, batch, orders, config):
-    """One PPO update in plain PyTorch; returns what is reported of it."""
+    """One PPO update in plain PyTorch; returns its statistics."""
     optimiser = torch.optim.Adam(agent.parameters, lr=config["learning_rate"], eps=1e-8)
     given, rate = batch["advantages"], config["learning_rate"]
     normalised = (given - given.mean()) / (given.std(correction=0) + 1e-8)
     rows, steps, rates, clip_fractions = len(given), [], [], []
     for order in orders:
         kl, clipped = 0.0, 0
-        # As many minibatches as come nearest to the size asked for, equal to within one row.
+        # The number of minibatches whose size is nearest to the configured one; sizes differ by at most one row.
         count = max(1, int(rows / config["minibatch"] + 0.5))
         for i in range(count):
             some = torch.tensor(order[rows * i // count : rows * (i + 1) // count])
@@ -290,7 +290,7 @@ def update(agent, batch, orders, config):
 def updates(random):
     given = json.loads((HERE / "order.json").read_text(encoding="utf-8"))
     start = start_parameters(random)
-    batch = made_up(Agent(start), given["rows"], random)
+    batch = synthetic_batch(Agent(start), given["rows"], random)
     common = {
         **LOSS, "max_grad_norm": 0.5, "learning_rate": 1.4e-3, "learning_rate_min": 1e-5, "learning_rate_max": 1.5e-3,
     }

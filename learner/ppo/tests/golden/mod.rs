@@ -1,21 +1,21 @@
-//! What PyTorch and numpy found, and how it is compared with what the learner finds: see `make.py`, which wrote the files.
+//! Results of PyTorch and numpy, written by `make.py`, and their comparison with the learner's.
 
 use std::collections::BTreeMap;
 
 use serde::de::DeserializeOwned;
 use treadmill_config::PpoConfig;
 
-/// The content of one of the files.
+/// Parses one of the files.
 pub fn read<T: DeserializeOwned>(text: &str) -> T {
     serde_json::from_str(text).expect("the file is what make.py writes")
 }
 
-/// In single precision; the inputs lose nothing by it.
+/// Converts to single precision; the inputs are exact in it.
 pub fn narrow(numbers: &[f64]) -> Vec<f32> {
     numbers.iter().map(|number| *number as f32).collect()
 }
 
-/// The same numbers, the largest of them with the other sign: a mistake that every comparison has to find.
+/// Returns the numbers with the sign of the largest flipped: a mistake that every comparison has to find.
 pub fn flipped(numbers: &[f64]) -> Vec<f64> {
     let size = |i: &usize| numbers[*i].abs();
     let largest = (0..numbers.len()).max_by(|a, b| size(a).total_cmp(&size(b))).expect("there are numbers");
@@ -24,7 +24,7 @@ pub fn flipped(numbers: &[f64]) -> Vec<f64> {
     flipped
 }
 
-/// A number that is not what it should be.
+/// Number outside its tolerance.
 #[derive(Debug)]
 #[expect(dead_code, reason = "read where a failed assertion prints it")]
 pub struct GoldenMismatch {
@@ -35,8 +35,8 @@ pub struct GoldenMismatch {
     pub allowed: f64,
 }
 
-/// Compares number by number, to within `tolerance` times the root mean square of all that is expected, or times the
-/// number's own size where that is larger.
+/// Compares number by number, to within `tolerance` times the root mean square of all expected numbers, or times the
+/// expected number if that is larger.
 pub fn compare<N: Copy + Into<f64>>(
     what: &'static str,
     found: &[N],
@@ -57,7 +57,7 @@ pub fn compare<N: Copy + Into<f64>>(
     Ok(())
 }
 
-/// The configuration that the files give by name, over the defaults.
+/// Returns the default configuration with the values that a file gives by name.
 pub fn config(given: &BTreeMap<String, f64>) -> PpoConfig {
     let mut config = PpoConfig::default();
     for (name, number) in given {
@@ -77,7 +77,7 @@ pub fn config(given: &BTreeMap<String, f64>) -> PpoConfig {
                 *field = *number as u32;
                 continue;
             }
-            other => panic!("no field of the configuration is called {other}"),
+            other => panic!("the configuration has no field {other}"),
         };
         *field = *number;
     }

@@ -1,12 +1,12 @@
-//! How often which values came, as TensorBoard's histograms have it: rows of left edge, right edge and count.
+//! Histograms as TensorBoard reads them: rows of left edge, right edge and count.
 
-/// Buckets between the smallest and the greatest value: as many as TensorBoard's own writer makes.
+/// Number of buckets, as in TensorBoard's writer.
 const BUCKETS: usize = 30;
 
-/// Buckets of whole numbers at most; what is greater is counted in the last.
+/// Most buckets of whole numbers; the last also counts greater ones.
 const WHOLE_MAX: usize = 128;
 
-/// Counts of values in buckets that follow each other.
+/// Counts of values in adjacent buckets.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Histogram {
     /// Left edge, right edge, count.
@@ -14,8 +14,8 @@ pub struct Histogram {
 }
 
 impl Histogram {
-    /// Of numbers, in buckets of equal width from the smallest to the greatest of them; without any it has no rows. What
-    /// is not finite is left out. Where all are equal, only the last bucket counts, and no bucket has a width.
+    /// Counts numbers in buckets of equal width from the smallest to the greatest; without numbers it has no rows.
+    /// Omits numbers that are not finite. If all are equal, the last bucket counts them, and all buckets have width 0.
     pub fn of(values: impl Iterator<Item = f32> + Clone) -> Self {
         let finite = values.filter(|value| value.is_finite()).map(f64::from);
         let ends = finite
@@ -36,7 +36,7 @@ impl Histogram {
         Self { rows: rows.collect() }
     }
 
-    /// Of whole numbers with how often each came: one bucket around each from 0 to the greatest.
+    /// Histogram of (whole number, count): one bucket around each number from 0 to the greatest.
     pub fn of_whole(counted: impl Iterator<Item = (u64, u64)>) -> Self {
         let mut rows: Vec<[f64; 3]> = Vec::new();
         for (number, count) in counted {
@@ -55,8 +55,8 @@ mod tests {
     use super::*;
 
     #[test]
-    fn every_value_is_counted_once_also_at_the_edges() {
-        // From 0 to 3 in thirty buckets, each 0.1 wide: 0 is in the first, 0.25 in the third, 3 in the last.
+    fn every_value_is_counted_once_including_the_edges() {
+        // Thirty buckets of width 0.1 from 0 to 3: 0 is in the first, 0.25 in the third, 3 in the last.
         let histogram = Histogram::of([0.0, 0.25, 3.0, f32::NAN, 3.0].into_iter());
         assert_eq!(histogram.rows.len(), 30);
         assert_eq!((histogram.rows[0][2], histogram.rows[2][2], histogram.rows[29][2]), (1.0, 1.0, 2.0));
@@ -66,7 +66,7 @@ mod tests {
     }
 
     #[test]
-    fn no_values_equal_values_and_huge_values_have_histograms() {
+    fn no_values_equal_values_and_huge_values_are_counted() {
         assert!(Histogram::of([].into_iter()).rows.is_empty());
         let equal = Histogram::of([0.5, 0.5].into_iter());
         assert_eq!((equal.rows[28], equal.rows[29]), ([0.5, 0.5, 0.0], [0.5, 0.5, 2.0]));
@@ -76,7 +76,7 @@ mod tests {
     }
 
     #[test]
-    fn whole_numbers_have_a_bucket_each_and_a_bound() {
+    fn whole_numbers_have_one_bucket_each_up_to_a_limit() {
         let lags = Histogram::of_whole([(2, 64), (0, 128), (2, 1)].into_iter());
         assert_eq!(lags.rows, [[-0.5, 0.5, 128.0], [0.5, 1.5, 0.0], [1.5, 2.5, 65.0]]);
         let far = Histogram::of_whole([(u64::MAX, 3)].into_iter());

@@ -1,9 +1,8 @@
-//! Hyperparameters as TensorBoard's HPARAMS tab compares them: one row for each run.
+//! Hyperparameters for TensorBoard's HPARAMS tab, which has one row for each run.
 //!
-//! TensorBoard keeps the first summary that it reads of each tag, and takes its columns from any run of the folder. So
-//! every run names the same columns, and what is said of a run must hold for as long as the run does: the keys below
-//! are part of the hash that fragments repeat or are left alone by a resume, and how a run ended stands in a file of its
-//! own, which is taken away when it goes on.
+//! TensorBoard keeps the first summary of each tag, and takes the columns from any run of the folder. So every run has
+//! the same columns, and their values must not change during a run: a resume cannot change the keys below. How a run
+//! ended is in a separate file, which is removed when the run is resumed.
 
 use treadmill_config::Config;
 use treadmill_proto::event_file::{
@@ -11,12 +10,12 @@ use treadmill_proto::event_file::{
     hparam_value::Kind, hparams_data::Data,
 };
 
-/// Names of the tags, which the plugin looks for.
+/// Tags that the plugin reads.
 pub(super) const EXPERIMENT_TAG: &str = "_hparams_/experiment";
 pub(super) const START_TAG: &str = "_hparams_/session_start_info";
 pub(super) const END_TAG: &str = "_hparams_/session_end_info";
 
-/// What a user tunes, section by section.
+/// Hyperparameters, by section.
 pub const KEYS: &[&str] = &[
     "run.seed",
     "env.task",
@@ -47,14 +46,14 @@ pub const KEYS: &[&str] = &[
     "learner.max_policy_lag",
 ];
 
-/// What runs are compared by: tag, title, meaning. TensorBoard shows the last value of each.
+/// Metrics of the comparison: tag, title, meaning. TensorBoard shows the last value of each.
 pub const METRICS: &[(&str, &str, &str)] = &[
-    ("eval/distance_best_m", "best evaluated distance [m]", "The farthest of all evaluations."),
+    ("eval/distance_best_m", "best evaluated distance [m]", "The greatest of all evaluations."),
     ("rollout/distance_best_m", "best distance in training [m]", "The greatest mean over the last episodes."),
     ("rollout/ep_rew_mean", "return in training", "Mean over the last episodes."),
     ("eval/mean_reward", "evaluated return", "Of the last evaluation."),
     ("time/total_timesteps", "environment steps", "Learnt from so far."),
-    ("time/time_elapsed", "wall time [s]", "Of training so far."),
+    ("time/time_elapsed", "wall time [s]", "Training so far."),
 ];
 
 /// `DataType` of `api.proto`.
@@ -66,7 +65,7 @@ const NUMBER: i32 = 3;
 const SUCCESS: i32 = 1;
 const FAILURE: i32 = 2;
 
-/// The columns: the same for every run.
+/// Returns the columns, the same for every run.
 pub(super) fn experiment() -> HparamsData {
     let (config, keys) = (Config::default(), Config::keys());
     let hparam_infos = KEYS.iter().map(|key| {
@@ -91,20 +90,20 @@ pub(super) fn experiment() -> HparamsData {
     HparamsData { version: 0, data: Some(Data::Experiment(experiment)) }
 }
 
-/// A run's own values.
+/// Returns the values of a run.
 pub(super) fn session_start(config: &Config, time_unix_s: f64) -> HparamsData {
     let values = KEYS.iter().map(|key| ((*key).to_string(), HparamValue { kind: Some(value(config, key)) }));
     let start = SessionStart { hparams: values.collect(), start_time_secs: time_unix_s };
     HparamsData { version: 0, data: Some(Data::SessionStart(start)) }
 }
 
-/// How a run ended.
+/// Returns the status of a run that has ended.
 pub(super) fn session_end(is_success: bool, time_unix_s: f64) -> HparamsData {
     let status = if is_success { SUCCESS } else { FAILURE };
     HparamsData { version: 0, data: Some(Data::SessionEnd(SessionEnd { status, end_time_secs: time_unix_s })) }
 }
 
-/// A key's value as TensorBoard knows values; a list stands as its text.
+/// Returns a key's value as TensorBoard's type; a list is a string.
 fn value(config: &Config, key: &str) -> Kind {
     let text = config.value_of(key);
     match (text.parse::<f64>(), text.parse::<bool>()) {
@@ -119,7 +118,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn every_key_is_one_of_the_configuration() {
+    fn every_key_is_in_the_configuration() {
         let known: Vec<_> = Config::keys().into_iter().map(|key| key.key.to_string()).collect();
         for key in KEYS {
             assert!(known.iter().any(|known| known == key), "{key}");
@@ -127,7 +126,7 @@ mod tests {
     }
 
     #[test]
-    fn values_keep_their_kind() {
+    fn values_keep_their_type() {
         let config = Config::default();
         assert_eq!(value(&config, "ppo.gamma"), Kind::Number(0.99));
         assert_eq!(value(&config, "ppo.symmetry"), Kind::String("off".to_string()));

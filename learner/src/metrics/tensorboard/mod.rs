@@ -1,12 +1,11 @@
-//! TensorBoard's event files: one protobuf message per record, each record framed with masked checksums.
+//! TensorBoard's event files: one protobuf message per record, each framed with masked checksums.
 //!
-//! The messages are the parts of TensorBoard's schemas that are needed; like everything that is serialised, they stand in
-//! `proto`.
+//! The messages, in `proto`, are the necessary parts of TensorBoard's schemas.
 //!
 //! # Layout
-//! - [`histogram`]: how often which values came.
-//! - [`texts`]: what a run is, as Markdown.
-//! - [`hparams`]: what runs are compared by.
+//! - [`histogram`]: counts of values.
+//! - [`texts`]: description of a run as Markdown.
+//! - [`hparams`]: hyperparameters for the comparison of runs.
 
 pub mod histogram;
 pub mod hparams;
@@ -25,16 +24,16 @@ pub use histogram::Histogram;
 
 use super::{Scalars, append_whole};
 
-/// What the first record of every event file says.
+/// Content of the first record of every event file.
 const FILE_VERSION: &str = "brain.Event:2";
 
-/// What every event file's name begins with.
+/// Prefix of every event file's name.
 const FILE_PREFIX: &str = "events.out.tfevents.";
 
-/// What the name of a file ends with that says how a run ended.
+/// Suffix of the file that holds how the run ended.
 const END_SUFFIX: &str = ".end";
 
-/// Hyperparameters stand within so many bytes of a file's beginning.
+/// Hyperparameters are within this number of bytes from a file's beginning.
 const HEAD_BYTES: u64 = 64 << 10;
 
 /// `DT_FLOAT`, `DT_DOUBLE` and `DT_STRING` of TensorBoard's `types.proto`.
@@ -48,10 +47,10 @@ const CLASS_TENSOR: i32 = 2;
 /// `SessionLog.START` of `event.proto`.
 const SESSION_START: i32 = 1;
 
-/// How many names are tried until one is free.
+/// Most file names that are tried until one is free.
 const NAMES_MAX: u32 = 10_000;
 
-/// Writes one event file. A resumed run writes another one into the same folder; TensorBoard shows both as one.
+/// Writer of one event file. A resumed run writes another one into the same folder; TensorBoard shows both as one run.
 #[derive(Debug)]
 pub struct EventWriter {
     file: File,
@@ -60,8 +59,8 @@ pub struct EventWriter {
 }
 
 impl EventWriter {
-    /// Makes `events.out.tfevents.{seconds}.{host}.{process}.{count}` in `folder`, always a new file. What says there how
-    /// the run ended is taken away: it goes on.
+    /// Creates a new file `events.out.tfevents.{seconds}.{host}.{process}.{count}` in `folder`. Removes the file that
+    /// holds how the run ended, because the run continues.
     pub fn create(folder: &Path, time_unix_s: f64, host: &str) -> io::Result<Self> {
         for ended in event_files(folder)?.iter().filter(|path| path.to_string_lossy().ends_with(END_SUFFIX)) {
             fs::remove_file(ended)?;
@@ -80,8 +79,8 @@ impl EventWriter {
         Ok(writer)
     }
 
-    /// On resume: TensorBoard forgets what older files of this folder hold from `first_step` on, because the run is
-    /// about to make it again. Give the first step that may be written, the checkpoint's plus one.
+    /// On resume, makes TensorBoard discard the older files' data from `first_step` on, because the run will write it
+    /// again. `first_step` is the checkpoint's step plus one.
     pub fn resume(&mut self, first_step: u64, time_unix_s: f64) -> io::Result<()> {
         self.event(Event {
             wall_time: time_unix_s,
@@ -91,8 +90,7 @@ impl EventWriter {
         })
     }
 
-    /// Writes all scalars of one step as one record. What is not finite as a 32-bit float, TensorBoard's kind of
-    /// number, is left out.
+    /// Writes all scalars of one step as one record of 32-bit floats; omits those that are not finite.
     pub fn scalars(&mut self, step: u64, time_unix_s: f64, scalars: &Scalars) -> io::Result<()> {
         let value: Vec<Value> = scalars
             .iter()
@@ -102,8 +100,8 @@ impl EventWriter {
         self.values(step, time_unix_s, value)
     }
 
-    /// Writes histograms of one step as one record. They are tensors of the plugin `histograms` and not the older
-    /// `HistogramProto`, which TensorBoard turns into these when it reads it: so it shows the very buckets that were counted.
+    /// Writes histograms of one step as one record. They are tensors of the plugin `histograms`, because TensorBoard
+    /// would convert the older `HistogramProto` to other buckets.
     pub fn histograms(&mut self, step: u64, time_unix_s: f64, histograms: &[(String, Histogram)]) -> io::Result<()> {
         let value = histograms.iter().map(|(tag, Histogram { rows })| Value {
             tag: tag.clone(),
@@ -119,14 +117,13 @@ impl EventWriter {
         self.values(step, time_unix_s, value.collect())
     }
 
-    /// Writes a text, such as the run's configuration, for TensorBoard's TEXT tab, which understands Markdown. `step` is
-    /// the one from which on it holds.
+    /// Writes a Markdown text, such as the run's configuration, for TensorBoard's TEXT tab. It applies from `step` on.
     pub fn text(&mut self, step: u64, time_unix_s: f64, tag: &str, text: &str) -> io::Result<()> {
         let value = Value {
             tag: tag.to_string(),
             tensor: Some(Tensor {
                 dtype: DT_STRING,
-                // A single text; TensorBoard shows a list of texts as a table around them.
+                // A single text; TensorBoard would show a list of texts as a table.
                 shape: shape(&[]),
                 string_val: vec![text.as_bytes().to_vec().into()],
                 ..Tensor::default()
@@ -137,7 +134,7 @@ impl EventWriter {
         self.values(step, time_unix_s, vec![value])
     }
 
-    /// Writes the run's row of the HPARAMS tab, where no file of this folder has it yet: TensorBoard takes the first.
+    /// Writes the run's row of the HPARAMS tab, unless a file of this folder has it: TensorBoard uses the first.
     pub fn hyperparameters(&mut self, config: &Config, time_unix_s: f64) -> io::Result<()> {
         for file in event_files(&self.folder)? {
             if has_in_head(&file, hparams::START_TAG.as_bytes())? {
@@ -151,7 +148,7 @@ impl EventWriter {
         self.values(0, time_unix_s, value)
     }
 
-    /// Says how the run ended, in a file of its own that is taken away when it goes on.
+    /// Writes how the run ended to a separate file, which is removed when the run is resumed.
     pub fn end(&self, is_success: bool, time_unix_s: f64) -> io::Result<()> {
         let mut writer = Self::create_named(&self.folder, time_unix_s, &self.host, END_SUFFIX)?;
         let ended = hparams::session_end(is_success, time_unix_s);
@@ -171,7 +168,7 @@ impl EventWriter {
     }
 }
 
-/// A value whose metadata is all that the HPARAMS tab reads; the tensor is empty.
+/// Returns a value for the HPARAMS tab, which reads only its metadata; the tensor is empty.
 fn hparams_value(tag: &str, data: &HparamsData) -> Value {
     Value {
         tag: tag.to_string(),
@@ -190,7 +187,7 @@ fn shape(sizes: &[usize]) -> Option<Shape> {
     Some(Shape { dim: sizes.iter().map(|size| Dim { size: *size as i64 }).collect() })
 }
 
-/// The event files of a folder.
+/// Returns the event files of a folder.
 fn event_files(folder: &Path) -> io::Result<Vec<PathBuf>> {
     let mut found = Vec::new();
     for entry in fs::read_dir(folder)? {
@@ -208,7 +205,7 @@ fn has_in_head(file: &Path, part: &[u8]) -> io::Result<bool> {
     Ok(head.windows(part.len()).any(|window| window == part))
 }
 
-/// TFRecord: length, checksum of the length, data, checksum of the data; all little-endian.
+/// Returns a TFRecord: length, checksum of the length, data, checksum of the data; all little-endian.
 pub(super) fn framed(data: &[u8]) -> Vec<u8> {
     let length = (data.len() as u64).to_le_bytes();
     let mut record = Vec::with_capacity(data.len() + 16);
@@ -219,7 +216,7 @@ pub(super) fn framed(data: &[u8]) -> Vec<u8> {
     record
 }
 
-/// A CRC-32C, rotated and shifted so that a checksum over data that holds checksums stays a good one.
+/// Returns the CRC-32C, rotated and shifted, so that checksums over data with checksums stay reliable.
 pub(super) fn masked_crc(data: &[u8]) -> u32 {
     crc32c::crc32c(data).rotate_right(15).wrapping_add(0xa282_ead8)
 }
@@ -229,7 +226,7 @@ fn create_new(folder: &Path, seconds: u64, host: &str, suffix: &str) -> io::Resu
     let host: String = host.chars().map(|c| if allowed(c) { c } else { '_' }).collect();
     let host = if host.is_empty() { "localhost" } else { &host };
     let process = std::process::id();
-    // Names sort by time, the order in which TensorBoard reads them; hence the leading zeros.
+    // Leading zeros make names sort by time, the order in which TensorBoard reads them.
     let path = |count: u32| folder.join(format!("{FILE_PREFIX}{seconds:010}.{host}.{process}.{count:04}{suffix}"));
     for count in 0..NAMES_MAX {
         match OpenOptions::new().append(true).create_new(true).open(path(count)) {

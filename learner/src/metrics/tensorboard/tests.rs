@@ -1,4 +1,4 @@
-//! Tests of the event files, read back with a reader of their own.
+//! Event files, read back by a separate reader.
 
 use std::fs;
 use std::path::Path;
@@ -8,7 +8,7 @@ use treadmill_proto::event_file::Event;
 
 use super::{EventWriter, Histogram, framed, masked_crc};
 
-/// Every event of a file; each checksum is checked.
+/// Returns every event of a file, and checks the checksums.
 fn read(path: &Path) -> Vec<Event> {
     let bytes = fs::read(path).unwrap();
     let mut rest = bytes.as_slice();
@@ -39,7 +39,7 @@ fn scalars(values: &[(&str, f64)]) -> Vec<(String, f64)> {
 
 #[test]
 fn a_record_is_framed_as_documented() {
-    // The CRC-32C of "123456789" is e3069283 in every table of checksums. Rotated right by 15 bits it is
+    // The CRC-32C of "123456789" is e3069283 in published tables. Rotated right by 15 bits it is
     // 2507c60d: e3069283 >> 15 = 0001c60d, e3069283 << 17 = 25060000. Plus a282ead8 is c78ab0e5.
     assert_eq!(masked_crc(b"123456789"), 0xc78a_b0e5);
     let record = framed(b"123456789");
@@ -50,7 +50,7 @@ fn a_record_is_framed_as_documented() {
 }
 
 #[test]
-fn the_first_record_is_the_one_tensorflow_writes() {
+fn the_first_record_equals_that_of_tensorflow() {
     // wall_time = 1.0: field 1, 64 bit, 3ff0000000000000; file_version: field 3, 13 bytes.
     let event = Event { wall_time: 1.0, file_version: Some("brain.Event:2".into()), ..Event::default() };
     let expected = [&[0x09, 0, 0, 0, 0, 0, 0, 0xf0, 0x3f, 0x1a, 13][..], b"brain.Event:2"].concat();
@@ -75,7 +75,7 @@ fn scalars_and_text_are_read_back() {
     assert!(name.starts_with("events.out.tfevents.1700000000.a_box_1."), "{name}");
 
     let events = read(file);
-    assert_eq!(events.len(), 4, "a step without a finite scalar is no event");
+    assert_eq!(events.len(), 4, "a step without a finite scalar has no event");
     let text = &events[1].summary.as_ref().unwrap().value[0];
     assert_eq!((text.tag.as_str(), text.simple_value), ("config", None));
     assert_eq!(text.tensor.as_ref().unwrap().string_val, ["# *ä*".as_bytes()]);
@@ -87,7 +87,7 @@ fn scalars_and_text_are_read_back() {
 }
 
 #[test]
-fn writers_of_the_same_second_get_files_of_their_own_in_order() {
+fn writers_of_the_same_second_get_separate_files_in_order() {
     let folder = tempfile::tempdir().unwrap();
     for time in [5.25, 5.75, 5.0] {
         EventWriter::create(folder.path(), time, "").unwrap();
@@ -98,7 +98,7 @@ fn writers_of_the_same_second_get_files_of_their_own_in_order() {
 }
 
 #[test]
-fn a_folder_that_is_not_there_is_an_error() {
+fn a_missing_folder_is_an_error() {
     let folder = tempfile::tempdir().unwrap();
     assert!(EventWriter::create(&folder.path().join("gone"), 1.0, "box").is_err());
 }
@@ -119,7 +119,7 @@ fn histograms_are_tensors_of_three_columns() {
 }
 
 #[test]
-fn a_resumed_run_keeps_its_row_and_forgets_that_it_had_ended() {
+fn a_resumed_run_keeps_its_row_and_removes_its_end() {
     let tags = |folder: &Path| {
         let mut tags: Vec<String> = files(folder)
             .iter()

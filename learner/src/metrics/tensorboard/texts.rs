@@ -1,13 +1,13 @@
-//! What a run is, as Markdown for TensorBoard's TEXT tab.
+//! Description of a run, as Markdown for TensorBoard's TEXT tab.
 
 use treadmill_config::Config;
 
-/// The configuration as a table: every key with its value and its default; what was changed is set in bold.
+/// Returns the configuration as a table of keys, values and defaults; changed values are bold.
 pub fn configuration(config: &Config) -> String {
     let mut text = String::from("| key | value | default |\n|---|---|---|\n");
     for key in Config::keys() {
         let value = config.value_of(&key.key);
-        // A section that says nothing is left out of configurations, too.
+        // Configurations omit empty values, too.
         if value.is_empty() {
             continue;
         }
@@ -17,7 +17,7 @@ pub fn configuration(config: &Config) -> String {
     text
 }
 
-/// Names and values, as a table.
+/// Returns names and values as a table.
 pub fn facts(facts: &[(String, String)]) -> String {
     let mut text = String::from("| what | which |\n|---|---|\n");
     for (name, value) in facts {
@@ -26,12 +26,12 @@ pub fn facts(facts: &[(String, String)]) -> String {
     text
 }
 
-/// A command line, as it is.
+/// Returns a command line as a code block.
 pub fn command(line: &str) -> String {
     format!("```sh\n{line}\n```")
 }
 
-/// A table's cell has one line, and no bar.
+/// Escapes text for a table's cell, which has one line and no bar.
 fn cell(text: &str) -> String {
     text.replace('|', "\\|").replace(['\n', '\r'], " ")
 }
@@ -41,7 +41,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_was_changed_stands_out() {
+    fn changed_values_are_bold() {
         let mut config = Config::default();
         config.ppo.gamma = 0.97;
         let text = configuration(&config);

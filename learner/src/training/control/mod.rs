@@ -1,4 +1,4 @@
-//! Status of a run, and commands to it.
+//! Control of a run: status requests and commands.
 //!
 //! A separate thread answers status requests at once. Commands are queued for the training thread, which applies them
 //! several times a second, also while it waits for fragments.
@@ -10,7 +10,7 @@ use std::{
     sync::{
         Arc, Mutex, MutexGuard,
         atomic::{AtomicBool, Ordering},
-        mpsc::{Receiver, TrySendError, sync_channel},
+        mpsc::{Receiver, SyncSender, TrySendError, sync_channel},
     },
     time::{Duration, Instant},
 };
@@ -39,7 +39,7 @@ struct StatusBoard {
 pub struct ControlChannel {
     board: Arc<Mutex<StatusBoard>>,
     commands: Receiver<PendingRequest>,
-    /// Command that [`Self::has_command`] has taken from the queue.
+    /// Command that [`Self::has_command`] took from the queue.
     next: Option<PendingRequest>,
     closed: Arc<AtomicBool>,
     status_set: Instant,
@@ -62,27 +62,10 @@ impl ControlChannel {
             .name("control-server".to_string())
             .spawn({
                 let (board, closed) = (board.clone(), closed.clone());
-                move || {
-                    while !closed.load(Ordering::Relaxed) {
-                        let inquiry = server.next(TICK);
-                        let mut board = lock(&board);
-                        board.roster.hear(&feed, Instant::now());
-                        let Some(inquiry) = inquiry else { continue };
-                        if inquiry.request.command() == Command::Status {
-                            let reply = board.reply(true, String::new());
-                            inquiry.answer(&board.run, &reply);
-                        } else if let Err(TrySendError::Full(inquiry) | TrySendError::Disconnected(inquiry)) =
-                            sender.try_send(inquiry)
-                        {
-                            let why = format!("{COMMANDS_MAX} commands wait already; ask again");
-                            let reply = board.reply(false, why);
-                            inquiry.answer(&board.run, &reply);
-                        }
-                    }
-                }
+                move || serve(&server, &feed, &board, &sender, &closed)
             })
             .map_err(|why: io::Error| BusError::Flow {
-                what: "starting the control desk".into(),
+                what: "starting the control thread".into(),
                 why: why.to_string(),
             })?;
         Ok(Self { board, commands, next: None, closed, status_set: Instant::now() })
@@ -96,27 +79,27 @@ impl ControlChannel {
         self.next.is_some()
     }
 
-    /// The next command, if one comes within `timeout`.
+    /// Returns the next command, if one comes within `timeout`.
     pub fn next(&mut self, timeout: Duration) -> Option<PendingRequest> {
         self.next.take().or_else(|| self.commands.recv_timeout(timeout).ok())
     }
 
-    /// Answers a command: what was done, or why it failed.
-    pub fn answer(&self, inquiry: PendingRequest, outcome: Result<String, String>) {
+    /// Answers a command with its outcome: a message, or an error.
+    pub fn answer(&self, pending: PendingRequest, outcome: Result<String, String>) {
         let board = lock(&self.board);
         let reply = match outcome {
             Ok(text) => board.reply(true, text),
             Err(text) => board.reply(false, text),
         };
-        inquiry.answer(&board.run, &reply);
+        pending.answer(&board.run, &reply);
     }
 
-    /// Time since [`Self::set_status`] was called.
+    /// Time since the last call of [`Self::set_status`].
     pub fn since_status(&self) -> Duration {
         self.status_set.elapsed()
     }
 
-    /// Sets the status that requests are answered with; `is_update` right after an update.
+    /// Sets the status for later requests; `is_update` right after an update.
     pub fn set_status(&mut self, status: RunStatus, quarantined: Vec<String>, is_update: bool) {
         self.status_set = Instant::now();
         let mut board = lock(&self.board);
@@ -130,6 +113,30 @@ impl ControlChannel {
 impl Drop for ControlChannel {
     fn drop(&mut self) {
         self.closed.store(true, Ordering::Relaxed);
+    }
+}
+
+/// Answers status requests and queues commands until `closed` is set.
+fn serve(
+    server: &ControlServer,
+    feed: &StatsFeed,
+    board: &Mutex<StatusBoard>,
+    commands: &SyncSender<PendingRequest>,
+    closed: &AtomicBool,
+) {
+    while !closed.load(Ordering::Relaxed) {
+        let pending = server.next(TICK);
+        let mut board = lock(board);
+        board.roster.update(feed, Instant::now());
+        let Some(pending) = pending else { continue };
+        if pending.request.command() == Command::Status {
+            pending.answer(&board.run, &board.reply(true, String::new()));
+        } else if let Err(TrySendError::Full(pending) | TrySendError::Disconnected(pending)) =
+            commands.try_send(pending)
+        {
+            let why = format!("{COMMANDS_MAX} commands are queued already; try again");
+            pending.answer(&board.run, &board.reply(false, why));
+        }
     }
 }
 

@@ -8,68 +8,67 @@ use std::{
 use treadmill_bus::{AliveView, StatsFeed};
 use treadmill_proto::{ActorStats, ActorStatus, wire::PolicyVersion};
 
-/// An actor that is gone stays in the status for this long.
-const REMEMBERED: Duration = Duration::from_secs(60);
-/// Actors that are remembered, and actors in a status.
+/// An actor that has left stays in the status for this long.
+const KEPT: Duration = Duration::from_secs(60);
+/// Most actors in the roster, and in a status.
 const ACTORS_MAX: usize = 16_384;
 
 /// Last statistics of each actor, and when they came.
 pub struct Roster {
     alive: AliveView,
-    heard: BTreeMap<String, (ActorStats, Instant)>,
+    last_stats: BTreeMap<String, (ActorStats, Instant)>,
     pruned: Instant,
 }
 
 impl Roster {
     /// Empty roster.
     pub fn new(alive: AliveView) -> Self {
-        Self { alive, heard: BTreeMap::new(), pruned: Instant::now() }
+        Self { alive, last_stats: BTreeMap::new(), pruned: Instant::now() }
     }
 
     /// Takes the actors' newest statistics.
-    pub fn hear(&mut self, feed: &StatsFeed, now: Instant) {
-        // The training thread reads the same feed, and logs malformed messages.
+    pub fn update(&mut self, feed: &StatsFeed, now: Instant) {
+        // The training thread has its own feed, and logs malformed messages.
         for stats in feed.take().flatten() {
-            if self.heard.len() < ACTORS_MAX || self.heard.contains_key(&stats.actor) {
-                self.heard.insert(stats.actor.clone(), (stats, now));
+            if self.last_stats.len() < ACTORS_MAX || self.last_stats.contains_key(&stats.actor) {
+                self.last_stats.insert(stats.actor.clone(), (stats, now));
             }
         }
-        // Not each time: this visits every actor.
-        if now.duration_since(self.pruned) > REMEMBERED {
-            self.heard.retain(|_, (_, at)| now.duration_since(*at) < REMEMBERED);
+        // Rarely, because this visits every actor.
+        if now.duration_since(self.pruned) > KEPT {
+            self.last_stats.retain(|_, (_, at)| now.duration_since(*at) < KEPT);
             self.pruned = now;
         }
     }
 
-    /// Actors that are alive, in quarantine, or were heard of lately. Lag is counted from `newest`.
+    /// Returns the actors that are alive, in quarantine, or sent statistics lately. Lag is counted from `newest`.
     pub fn actors(&self, newest: PolicyVersion, quarantined: &[String], now: Instant) -> Vec<ActorStatus> {
-        actor_statuses(&self.alive.actors(), &self.heard, newest, quarantined, now)
+        actor_statuses(&self.alive.actors(), &self.last_stats, newest, quarantined, now)
     }
 }
 
 fn actor_statuses(
     alive: &BTreeSet<String>,
-    heard: &BTreeMap<String, (ActorStats, Instant)>,
+    last_stats: &BTreeMap<String, (ActorStats, Instant)>,
     newest: PolicyVersion,
     quarantined: &[String],
     now: Instant,
 ) -> Vec<ActorStatus> {
-    let lately =
-        heard.iter().filter(|(_, (_, at))| now.duration_since(*at) < REMEMBERED).map(|(name, _)| name.as_str());
+    let recent = last_stats.iter().filter(|(_, (_, at))| now.duration_since(*at) < KEPT).map(|(name, _)| name.as_str());
     let names: BTreeSet<&str> =
-        alive.iter().map(String::as_str).chain(lately).chain(quarantined.iter().map(String::as_str)).collect();
+        alive.iter().map(String::as_str).chain(recent).chain(quarantined.iter().map(String::as_str)).collect();
     names
         .into_iter()
         .take(ACTORS_MAX)
         .map(|name| {
-            let last = heard.get(name);
+            let last = last_stats.get(name);
             let version = last.and_then(|(stats, _)| stats.version);
             ActorStatus {
                 name: name.to_string(),
                 alive: alive.contains(name),
                 since_contact_s: last.map(|(_, at)| now.duration_since(*at).as_secs_f64()),
-                quarantined: quarantined.iter().any(|held| held == name),
-                // Versions of a learner that is gone cannot be counted from.
+                quarantined: quarantined.iter().any(|quarantined| quarantined == name),
+                // Lag is unknown for a version of an earlier learner.
                 lag_versions: version
                     .filter(|version| version.incarnation == newest.incarnation)
                     .map(|version| newest.number.saturating_sub(version.number)),
@@ -92,16 +91,16 @@ mod tests {
             version: Some(version(number)),
             ..ActorStats::default()
         };
-        let heard: BTreeMap<_, _> = [("alive", 10), ("gone", 9), ("forgotten", 3)]
+        let last_stats: BTreeMap<_, _> = [("alive", 10), ("gone", 9), ("forgotten", 3)]
             .into_iter()
             .map(|(name, number)| {
-                let at = if name == "forgotten" { begun } else { begun + REMEMBERED };
+                let at = if name == "forgotten" { begun } else { begun + KEPT };
                 (name.to_string(), (stats(name, number), at))
             })
             .collect();
         let alive = ["alive", "new"].map(String::from).into();
-        let now = begun + REMEMBERED + Duration::from_secs(1);
-        let statuses = actor_statuses(&alive, &heard, version(12), &["banned".to_string()], now);
+        let now = begun + KEPT + Duration::from_secs(1);
+        let statuses = actor_statuses(&alive, &last_stats, version(12), &["banned".to_string()], now);
         let names: Vec<&str> = statuses.iter().map(|actor| actor.name.as_str()).collect();
         assert_eq!(names, ["alive", "banned", "gone", "new"]);
         assert_eq!(
@@ -112,6 +111,6 @@ mod tests {
         assert_eq!((statuses[2].alive, statuses[2].lag_versions), (false, Some(3)));
         assert_eq!((statuses[3].alive, statuses[3].lag_versions, statuses[3].since_contact_s), (true, None, None));
         let successor = PolicyVersion { incarnation: 8, number: 12 };
-        assert_eq!(actor_statuses(&alive, &heard, successor, &[], now)[0].lag_versions, None);
+        assert_eq!(actor_statuses(&alive, &last_stats, successor, &[], now)[0].lag_versions, None);
     }
 }

@@ -1,4 +1,4 @@
-//! The learner's end of the fleet: what arrives, and what is answered.
+//! The learner's end of the fleet: fragments in, receipts out.
 
 use std::{
     collections::BTreeSet,
@@ -7,32 +7,49 @@ use std::{
 
 use bytes::Bytes;
 use treadmill_bus::ReceivedFragment;
-use treadmill_learner::intake::{FragmentMessage, FragmentSource};
+use treadmill_learner::intake::FragmentSource;
 use treadmill_proto::{Outcome, Receipt};
 
 use super::{Event, FleetWorld, Shared};
 
-/// The learner's end.
+/// Source of the fragments that arrive in a [`FleetWorld`].
 pub struct MemoryFragmentSource(pub Shared);
 
 impl FragmentSource for MemoryFragmentSource {
-    type Message = MemoryMessage;
+    type Incoming = MemoryFragment;
 
-    fn next(&mut self, patience: Duration) -> Option<MemoryMessage> {
-        let until = self.0.borrow().now + patience;
+    fn next(&mut self, timeout: Duration) -> Option<MemoryFragment> {
+        let until = self.0.borrow().now + timeout;
         loop {
-            if let Some(message) = self.0.borrow_mut().queue.pop_front() {
-                return Some(message);
+            if let Some(fragment) = self.0.borrow_mut().queue.pop_front() {
+                return Some(fragment);
             }
             if !FleetWorld::step(&self.0, until) {
                 let mut world = self.0.borrow_mut();
                 world.now = until;
-                if world.now > world.patient_until {
-                    world.out_of_patience.ask();
+                if world.now > world.deadline {
+                    world.timed_out.ask();
                 }
                 return None;
             }
         }
+    }
+
+    fn actor(incoming: &MemoryFragment) -> &str {
+        &incoming.name
+    }
+
+    fn take(incoming: &mut MemoryFragment) -> Option<ReceivedFragment> {
+        Some(std::mem::take(&mut incoming.payload).into())
+    }
+
+    fn answer(incoming: MemoryFragment, receipt: &Receipt) {
+        let MemoryFragment { world, actor, name, incarnation, sequence, .. } = incoming;
+        let mut world = world.borrow_mut();
+        if matches!(receipt.outcome, Outcome::TooOld | Outcome::Vanished) {
+            world.dropped.insert((name, incarnation, sequence));
+        }
+        world.send(Event::Answer { actor, incarnation, sequence, receipt: receipt.clone() });
     }
 
     fn actors(&self) -> BTreeSet<String> {
@@ -45,30 +62,12 @@ impl FragmentSource for MemoryFragmentSource {
     }
 }
 
-/// A fragment in the learner's hands.
-pub struct MemoryMessage {
+/// Fragment that waits for its receipt.
+pub struct MemoryFragment {
     pub(super) world: Shared,
     pub(super) actor: usize,
     pub(super) name: String,
     pub(super) incarnation: u64,
     pub(super) sequence: u64,
     pub(super) payload: Bytes,
-}
-
-impl FragmentMessage for MemoryMessage {
-    fn actor(&self) -> &str {
-        &self.name
-    }
-
-    fn take(&mut self) -> Option<ReceivedFragment> {
-        Some(std::mem::take(&mut self.payload).into())
-    }
-
-    fn answer(self, receipt: &Receipt) {
-        let Self { actor, incarnation, sequence, .. } = self;
-        if matches!(receipt.outcome, Outcome::TooOld | Outcome::Vanished) {
-            self.world.borrow_mut().refused.insert((self.name, incarnation, sequence));
-        }
-        self.world.borrow_mut().send(Event::Answer { actor, incarnation, sequence, receipt: receipt.clone() });
-    }
 }
