@@ -50,7 +50,10 @@ class Experiment:
         since = since or self.repaired
 
         def all_back():
-            logged = self.fleet.delivers if delivers else lambda name, at: self.fleet.learner_logged(f"actor joined actor={name}", at)
+            def joined(name, at):
+                return self.fleet.learner_logged(f"actor joined actor={name}", at)
+
+            logged = self.fleet.delivers if delivers else joined
             times = [logged(name, since) for name in names]
             return all(times) and max(times)
 
