@@ -79,13 +79,13 @@ fn a_machine_that_is_well_has_no_problem_and_everything_is_said_in_words_too() {
     let output = check(folder.path(), &["--actors", "1"]);
     assert_eq!(last_json(&output)["problems"], 0, "{}", stdout(&output));
     assert_eq!(output.status.code(), Some(0));
-    for name in ["disk", "open files", "clock", "loopback", "simulation", "networks"] {
+    for name in ["disk", "open files", "clock"] {
         assert_ok(&output, name);
     }
     assert!(of(&output, "learner").0.is_empty(), "no learner was named");
     let output = run(folder.path(), &["check", "--actors", "1"]);
     let text = stdout(&output);
-    assert!(text.lines().any(|line| line.starts_with("ok       simulation")), "{text}");
+    assert!(text.lines().any(|line| line.starts_with("ok       disk")), "{text}");
     assert!(text.trim_end().lines().last().unwrap().contains("diagnoses"), "{text}");
     assert_refused(&check(folder.path(), &["--connect", "tcp/192.0.2.1:1"]), 2, &["--insecure"]);
 }
@@ -103,7 +103,7 @@ fn a_disk_that_is_full_or_nearly_is_named() {
     fs::create_dir(folder.path().join("small")).unwrap();
     let nearly = "mount -t tmpfs -o size=50m none small &&";
     if let Some(output) = check_apart(folder.path(), "-rm", nearly, "--run-dir small/run") {
-        assert_problem(&output, "disk", &["52 MB free", "make room"]);
+        assert_problem(&output, "disk", &["52 MB free", "free some space"]);
     }
     let full = "mount -t tmpfs -o size=64k none small && cat /dev/zero > small/fill 2> /dev/null;";
     if let Some(output) = check_apart(folder.path(), "-rm", full, "--run-dir small/run") {
@@ -112,38 +112,10 @@ fn a_disk_that_is_full_or_nearly_is_named() {
 }
 
 #[test]
-fn too_little_shared_memory_matters_where_it_is_wanted() {
-    let (folder, _) = folders();
-    let before = "mount -t tmpfs -o size=1m none /dev/shm &&";
-    if let Some(output) = check_apart(folder.path(), "-rm", before, "--actors 2 --shared-memory") {
-        assert_problem(&output, "shared memory", &["1 MB free", "--shm-size"]);
-    }
-}
-
-#[test]
-fn a_machine_that_does_not_reach_itself_is_told() {
-    let (folder, _) = folders();
-    // A new network namespace has its loopback interface down.
-    if let Some(output) = check_apart(folder.path(), "-rn", "", "") {
-        assert_problem(&output, "loopback", &["ip link set lo up"]);
-        assert_eq!(of(&output, "multicast").0, ["note"]);
-    }
-}
-
-#[test]
 fn too_few_open_files_are_named() {
     let (folder, _) = folders();
     assert_problem(&check_after(folder.path(), "ulimit -n 64;", ""), "open files", &["64 at most", "ulimit -Hn 4096"]);
-    assert_problem(&check(folder.path(), &["--actors", "100000"]), "memory", &["100000 actors"]);
-}
-
-#[test]
-fn a_locale_without_utf8_is_noted() {
-    let (folder, _) = folders();
-    let output = check_after(folder.path(), "LC_ALL=C; export LC_ALL;", "");
-    assert_eq!(of(&output, "terminal").0, ["note"]);
-    let output = check_after(folder.path(), "LC_ALL=C.UTF-8; export LC_ALL;", "");
-    assert_eq!(of(&output, "terminal").0, ["ok"]);
+    assert!(of(&check(folder.path(), &["--actors", "100000"]), "open files").1.contains("100000 actors"));
 }
 
 #[test]
@@ -179,7 +151,7 @@ fn nobody_and_somebody_else_are_told_apart() {
     assert_problem(&output, "learner", &["does not speak", "ss -ltnp"]);
     drop(taken);
     let output = check(folder.path(), &["--connect", &endpoint]);
-    assert_problem(&output, "route", &["nobody listens", "endpoint.txt"]);
+    assert_problem(&output, "route", &["no process listens", "endpoint.txt"]);
     assert!(of(&output, "learner").0.is_empty());
     assert_problem(&check(folder.path(), &["--connect", "tls/127.0.0.1:1"]), "route", &[]);
 }
@@ -276,7 +248,7 @@ fn certificates_are_judged_by_their_days_their_authority_and_their_keys() {
     assert_problem(&look(), "certificates", &["644", "chmod 600"]);
     fs::set_permissions(path("observer.key"), fs::Permissions::from_mode(0o600)).unwrap();
     fs::copy(path("observer.key"), path("operator.key")).unwrap();
-    assert_problem(&look(), "certificates", &["operator.key", "does not go with"]);
+    assert_problem(&look(), "certificates", &["operator.key", "does not match"]);
     fs::copy(path("observer.crt"), path("operator.crt")).unwrap();
     assert_problem(&look(), "certificates", &["treadmill-observer", "treadmill-operator"]);
     certs(folder.path(), &["others"]);
@@ -301,7 +273,7 @@ fn a_handshake_says_which_side_does_not_trust_which() {
     assert_problem(&look("others", &endpoint), "handshake", &["another authority", "ca.crt"]);
     // Its certificate names no such host.
     let elsewhere = endpoint.replace("127.0.0.1", "127.0.0.2");
-    assert_problem(&look("certs", &elsewhere), "route", &["nobody listens"]);
+    assert_problem(&look("certs", &elsewhere), "route", &["no process listens"]);
     certs(folder.path(), &["certs", "--renew", "--host", "learner.example"]);
     let renamed = run_folder.with_extension("renamed");
     let _renamed = learner(folder.path(), &renamed, &["--listen", "tls/127.0.0.1:0", "--tls", "certs"]);
@@ -309,7 +281,7 @@ fn a_handshake_says_which_side_does_not_trust_which() {
     assert_problem(&refused, "handshake", &["not for this name", "--host NAME"]);
     // Ours are of another authority than the learner trusts, and we trust the learner's.
     fs::copy(folder.path().join("certs/ca.crt"), folder.path().join("others/ca.crt")).unwrap();
-    assert_problem(&look("others", &endpoint), "handshake", &["does not take our certificate"]);
+    assert_problem(&look("others", &endpoint), "handshake", &["rejects our certificate"]);
     // With an actor's certificate alone, the check still shows that the link works.
     for part in ["learner", "router", "evaluator", "observer", "operator"] {
         fs::remove_file(folder.path().join(format!("certs/{part}.crt"))).unwrap();
