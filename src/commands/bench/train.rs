@@ -1,4 +1,4 @@
-//! The whole system as a user starts it: this binary's own `train`, in a folder that is thrown away.
+//! `bench train`: speed of this binary's own `train` in a temporary folder.
 
 use std::process::{Command, Stdio};
 
