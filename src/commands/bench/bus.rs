@@ -63,7 +63,7 @@ pub fn run(args: &BusArgs) -> anyhow::Result<()> {
     if !(args.fragment_mb >= 0.04 && args.fragment_mb <= 30.0) {
         return Err(Usage(format!("--fragment-mb is {}; allowed: 0.04 to 30", args.fragment_mb)).into());
     }
-    let folder = tempfile::tempdir().context("no temporary folder")?;
+    let folder = tempfile::tempdir().context("cannot create a temporary folder")?;
     let network = network(args, folder.path())?;
     let fragment_bytes = (args.fragment_mb * 1e6) as usize;
     let measure_raw = || raw::measure(fragment_bytes, RAW_DURATION.min(Duration::from_secs_f64(args.seconds)));

@@ -67,7 +67,7 @@ pub fn measure(
         "threads": threads,
         "cpu": machine::cpu_name(),
         "workload": format!(
-            "{WORLDS} humanoids, every motor at plus or minus its limit by chance, anew in each step, {resets} resets"
+            "{WORLDS} humanoids, every motor at a random end of its range in each step, {resets} resets"
         ),
         "checksum": format!("{:016x}", seeds::checksum(&[&numbers, &u64::to_le_bytes(faults)])),
     }))

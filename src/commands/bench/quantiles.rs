@@ -43,7 +43,8 @@ impl Quantiles {
         self.largest = self.largest.max(other.largest);
     }
 
-    /// Returns the upper end of the bin of the sample with this rank, at most the largest sample; 0 without samples.
+    /// Returns the value that `share` of the samples do not exceed: the upper end of its bin, at most the largest sample.
+    /// Returns 0 without samples.
     pub fn quantile(&self, share: f64) -> f64 {
         let rank = (share * self.total as f64).ceil() as u64;
         let mut passed = self.zeros;

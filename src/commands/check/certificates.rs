@@ -80,12 +80,10 @@ fn diagnose_role(folder: &Path, role: Role, roots: &Arc<RootCertStore>) -> Resul
         let seen = format!("{shown} belongs to `{found}`; the bus expects `{expected}`");
         return Err(Finding::problem(NAME, seen, "give each file the name of its role, as `treadmill certs` does"));
     }
-    let hosts = hosts(&certificate);
-    let hosts = if hosts.is_empty() { String::new() } else { format!(", for {}", hosts.join(" ")) };
-    Ok(Finding { seen: validity.seen.clone() + &hosts, ..validity })
+    Ok(validity)
 }
 
-/// Compares a certificate's validity with the clock.
+/// Compares a certificate's validity with the clock; returns the finding for a certificate without other problems.
 fn check_validity(role: Role, certificate: &X509Certificate) -> Result<Finding, Finding> {
     let (now, role, validity) = (OffsetDateTime::now_utc(), role.name(), certificate.validity());
     let (from, until) = (validity.not_before.to_datetime(), validity.not_after.to_datetime());
@@ -100,7 +98,9 @@ fn check_validity(role: Role, certificate: &X509Certificate) -> Result<Finding, 
         return Err(Finding::problem(NAME, seen, remedy));
     }
     let days = (until - now).whole_days();
-    let seen = format!("the {role}'s is valid until {} UTC, {days} days more", date_text(until));
+    let hosts = hosts(certificate);
+    let named = if hosts.is_empty() { String::new() } else { format!(", for {}", hosts.join(" ")) };
+    let seen = format!("the {role}'s is valid until {} UTC, {days} days more{named}", date_text(until));
     Ok(match days {
         ..RENEWAL_DAYS => Finding::note(NAME, seen, "renew them soon: `treadmill certs DIR --renew`"),
         _ => Finding::ok(NAME, seen),
@@ -117,13 +117,12 @@ fn check_key(der: &CertificateDer, certificate: &str, file: &Path) -> Result<(),
             CertifiedKey::from_der(vec![der.clone().into_owned()], key, &provider).map_err(|why| why.to_string())
         })
         .map_err(|why| Finding::problem(NAME, format!("{shown} does not match {certificate}: {why}"), COPY_ANEW))?;
-    match file.metadata().map_or(0, |facts| facts.permissions().mode() & 0o777) {
-        mode if mode & 0o077 != 0 => {
-            let seen = format!("{shown} can be read by others: its mode is {mode:o}");
-            Err(Finding::problem(NAME, seen, format!("make it private: chmod 600 {shown}")))
-        }
-        _ => Ok(()),
+    let mode = file.metadata().map_or(0, |facts| facts.permissions().mode() & 0o777);
+    if mode & 0o077 != 0 {
+        let seen = format!("{shown} can be read by others: its mode is {mode:o}");
+        return Err(Finding::problem(NAME, seen, format!("make it private: chmod 600 {shown}")));
     }
+    Ok(())
 }
 
 /// Returns why the authority rejects a certificate.

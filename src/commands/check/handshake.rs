@@ -25,7 +25,7 @@ pub fn diagnose(stream: TcpStream, host: &str, credentials: &Credentials) -> Fin
     let connection = match connection(host, credentials) {
         Ok(connection) => connection,
         Err(why) => {
-            return Finding::problem(NAME, format!("this machine's files are unusable: {why}"), "copy them anew");
+            return Finding::problem(NAME, format!("this machine's files are unusable: {why}"), "copy them again");
         }
     };
     match shake_hands(stream, connection) {

@@ -52,7 +52,8 @@ fn assess_cpu(name: &str, has_avx2_fma: bool, has_avx512: bool) -> Finding {
 pub fn disk(run_dir: &Path) -> Finding {
     let whole = std::path::absolute(run_dir).unwrap_or_default();
     let Some(folder) = whole.ancestors().find(|folder| folder.is_dir()) else {
-        return Finding::problem("disk", "no folder exists above it", "name an existing folder with --run-dir");
+        let seen = format!("no folder above {} exists", run_dir.display());
+        return Finding::problem("disk", seen, "name an existing folder with --run-dir");
     };
     let shown = folder.display();
     if let Err(why) = tempfile::tempfile_in(folder).and_then(|mut file| file.write_all(&[0; 4096])) {

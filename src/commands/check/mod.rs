@@ -57,8 +57,8 @@ pub fn run(args: CheckArgs) -> ExitCode {
                 "name": finding.name, "verdict": finding.severity.name(), "seen": finding.seen, "remedy": finding.remedy,
             })
         };
-        let listed: Vec<_> = findings.iter().map(as_json).collect();
-        say(&json!({ "problems": problems, "notes": notes, "findings": listed }).to_string());
+        let findings: Vec<_> = findings.iter().map(as_json).collect();
+        say(&json!({ "problems": problems, "notes": notes, "findings": findings }).to_string());
     } else {
         findings.iter().for_each(|finding| say(&finding.to_string()));
         say(&format!("{} diagnoses: {problems} problems, {notes} notes", findings.len()));

@@ -14,7 +14,6 @@ use super::{
 };
 
 const NAME: &str = "route";
-
 const CONNECT_TIMEOUT: Duration = Duration::from_secs(5);
 
 /// Connects to an endpoint as a client does. The flag is true if the bus can be asked there.
