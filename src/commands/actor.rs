@@ -1,4 +1,4 @@
-//! `treadmill actor`: only an actor; task, model and rollout settings come from the learner with the policy bundle.
+//! `treadmill actor`: runs only an actor; the learner's policy bundle brings task, model and rollout settings.
 
 use clap::{Args, builder::ArgPredicate};
 use serde_json::json;
@@ -19,7 +19,7 @@ use crate::{
 /// Flags of `actor`.
 #[derive(Args)]
 pub struct ActorArgs {
-    /// Where the learner or a router listens; may be repeated.
+    /// Endpoint of the learner or of a router; may be repeated.
     #[arg(
         long,
         value_name = "ENDPOINT",
@@ -27,39 +27,39 @@ pub struct ActorArgs {
         default_value_if("discover", ArgPredicate::IsPresent, None)
     )]
     connect: Vec<String>,
-    /// The run to join; may be left out where there is only one.
+    /// The run to join; may be left out if there is only one.
     #[arg(long, value_name = "NAME")]
     run: Option<String>,
-    /// This actor's name, unlike that of any other; by default made from the host's name.
+    /// This actor's unique name; by default made from the host's name.
     #[arg(long, value_name = "NAME")]
     name: Option<String>,
     /// Environments of this actor.
     #[arg(long, default_value_t = 32, value_parser = clap::value_parser!(u32).range(1..=65_536))]
     envs: u32,
-    /// Threads that the environments are spread over, 0 for one per core; by default what the run says.
+    /// Threads that step the environments, 0 for one per core; by default as the run is configured.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(0..=256))]
     threads: Option<u32>,
-    /// At the end, print what became of all fragments as one JSON object.
+    /// At the end, print the numbers of fragments by outcome as one JSON object.
     #[arg(long)]
     json: bool,
     #[command(flatten)]
     network: NetworkArgs,
-    /// Number of this start, from which its random streams are derived; without it, unlike that of any other start.
+    /// Number of this start, from which its random streams are derived; by default unique.
     #[arg(long, hide = true)]
     start_number: Option<u64>,
-    /// How much less urgent than others this process is, 0 to 19.
+    /// Nice value of this process, 0 to 19.
     #[arg(long, hide = true, default_value_t = 0, value_parser = clap::value_parser!(i32).range(0..=19))]
     nice: i32,
-    /// End when standard input closes, which it does when the parent process is gone.
+    /// Exit when standard input closes, which happens when the parent process ends.
     #[arg(long, hide = true)]
     until_stdin_closes: bool,
 }
 
-/// Runs the actor until it is told to stop.
+/// Runs the actor until it is asked to stop.
 pub fn run(args: ActorArgs) -> anyhow::Result<()> {
     if args.nice > 0 {
-        // Before any other thread is there: each thread has its own, and inherits it. Being refused is no harm.
-        // SAFETY: it takes a number and touches no memory of ours.
+        // Set before other threads start, because each inherits it. Failure is harmless.
+        // SAFETY: the call takes a number and accesses no memory of this process.
         unsafe { libc::nice(args.nice) };
     }
     let options = WorkerOptions {
@@ -70,10 +70,10 @@ pub fn run(args: ActorArgs) -> anyhow::Result<()> {
         start: args.start_number.unwrap_or_else(seeds::unique),
         where_to: args.network.where_to(&args.connect),
     };
-    let wrong = |why: Malformed| Usage(why.to_string());
-    check_ident("name", &options.name).map_err(wrong)?;
+    let usage_error = |why: Malformed| Usage(why.to_string());
+    check_ident("name", &options.name).map_err(usage_error)?;
     if let Some(run) = &options.run {
-        check_ident("run", run).map_err(wrong)?;
+        check_ident("run", run).map_err(usage_error)?;
     }
     let bus_options = args.network.options(Role::Actor, Vec::new(), args.connect)?;
     let where_to = options.where_to.clone();
@@ -91,7 +91,7 @@ fn as_json(name: &str, account: &Account) -> String {
     let fragments = account.fragments;
     json!({
         "actor": name,
-        // As text: readers that take every number for a double would lose its last digits.
+        // As text, because readers that parse numbers as doubles would lose its last digits.
         "incarnation": account.incarnation.to_string(),
         "produced": fragments.produced,
         "accepted": fragments.accepted,

@@ -1,4 +1,4 @@
-//! `treadmill certs`: an authority and a certificate for each part, so that nobody else gets in.
+//! `treadmill certs`: creates an authority and a certificate for each role, without which no machine joins the bus.
 
 use std::{
     fs,
@@ -17,7 +17,7 @@ use treadmill_bus::{Credentials, Role};
 
 use crate::launch::{exit_code::Usage, output::say};
 
-/// Certificates begin before they were made: clocks differ, and jump.
+/// Certificates are valid from this long before they were made, because clocks differ.
 const LEEWAY: Duration = Duration::days(1);
 
 /// Flags of `certs`.
@@ -25,22 +25,22 @@ const LEEWAY: Duration = Duration::days(1);
 pub struct CertsArgs {
     /// Folder to write to.
     folder: PathBuf,
-    /// Name or address under which learner or router are dialled; may be repeated.
+    /// Name or address at which the learner or a router is dialled; may be repeated.
     #[arg(long, value_name = "HOST", default_values = ["localhost", "127.0.0.1", "::1"])]
     host: Vec<String>,
-    /// Days until the certificates of the parts expire; the authority's own lasts ten times as long.
+    /// Days until the certificates of the roles expire; the authority's own lasts ten times as long.
     #[arg(long, default_value_t = 365, value_parser = clap::value_parser!(u32).range(1..=3650))]
     days: u32,
-    /// Make the parts' certificates anew, by the authority that is there.
+    /// Replace the roles' certificates, and keep the authority.
     #[arg(long)]
     renew: bool,
-    /// Also lay out a folder for each part below this one, with the three files that it needs and nothing else.
+    /// Also write a folder per role below this one, with only the three files that the role needs.
     #[arg(long, value_name = "DIR")]
     bundles: Option<PathBuf>,
 }
 
 impl CertsArgs {
-    /// Certificates for processes of this machine alone, soon over.
+    /// Returns flags for certificates that serve processes of this machine for one day.
     pub fn for_this_machine(folder: &Path) -> Self {
         Self {
             folder: folder.to_path_buf(),
@@ -52,28 +52,28 @@ impl CertsArgs {
     }
 }
 
-/// Makes what is not there yet, and tells where it is.
+/// Creates the missing files and prints where they are.
 pub fn run(args: &CertsArgs) -> anyhow::Result<()> {
     let folder = &args.folder;
     let made = make(args)?;
     match made.is_empty() {
-        true => say("nothing to do: all certificates are there; make them anew with --renew"),
+        true => say("nothing to do: all certificates exist; replace them with --renew"),
         false => say(&format!("wrote certificates and keys of {} to {}", made.join(", "), folder.display())),
     }
     if let Some(bundles) = &args.bundles {
         for role in Role::ALL {
-            hand_out(folder, role, &bundles.join(role.name()))?;
+            write_bundle(folder, role, &bundles.join(role.name()))?;
         }
-        say(&format!("laid out a folder for each part below {}", bundles.display()));
+        say(&format!("wrote a folder for each role below {}", bundles.display()));
     }
-    say("give each machine ca.crt and the two files of its part; keep ca.key where nobody else can read it");
+    say("give each machine ca.crt and the two files of its role; keep ca.key where only you can read it");
     Ok(())
 }
 
-/// Makes what is not there yet: the parts whose files were made.
+/// Creates the missing files and returns the roles whose files were created.
 pub fn make(args: &CertsArgs) -> anyhow::Result<Vec<&'static str>> {
     let folder = &args.folder;
-    fs::create_dir_all(folder).with_context(|| format!("cannot make the folder `{}`", folder.display()))?;
+    fs::create_dir_all(folder).with_context(|| format!("cannot create the folder `{}`", folder.display()))?;
     let authority = authority(folder, args.days)?;
     let mut made = Vec::new();
     for role in Role::ALL {
@@ -90,21 +90,21 @@ pub fn make(args: &CertsArgs) -> anyhow::Result<Vec<&'static str>> {
     Ok(made)
 }
 
-/// What one part needs, in a folder of its own; what is the same already stays as it is.
-fn hand_out(folder: &Path, role: Role, own: &Path) -> anyhow::Result<()> {
-    fs::create_dir_all(own).with_context(|| format!("cannot make the folder `{}`", own.display()))?;
+/// Writes the files that one role needs into `own`; unchanged files are not written.
+fn write_bundle(folder: &Path, role: Role, own: &Path) -> anyhow::Result<()> {
+    fs::create_dir_all(own).with_context(|| format!("cannot create the folder `{}`", own.display()))?;
     let [certificate, key] = Credentials { folder: folder.to_path_buf(), role }.files();
     for (file, mode) in [(Credentials::authority(folder), 0o644), (key, 0o600), (certificate, 0o644)] {
         let text = fs::read_to_string(&file).with_context(|| format!("cannot read `{}`", file.display()))?;
-        let copy = own.join(file.file_name().expect("files of a part have names"));
-        if !fs::read_to_string(&copy).is_ok_and(|there| there == text) {
+        let copy = own.join(file.file_name().expect("files of a role have names"));
+        if !fs::read_to_string(&copy).is_ok_and(|old| old == text) {
             write(&copy, &text, mode)?;
         }
     }
     Ok(())
 }
 
-/// The authority that is there, or a new one.
+/// Reads the folder's authority, or creates one.
 fn authority(folder: &Path, days: u32) -> anyhow::Result<Issuer<'static, KeyPair>> {
     let (certificate, key) = (Credentials::authority(folder), folder.join("ca.key"));
     match (certificate.exists(), key.exists()) {
@@ -112,9 +112,9 @@ fn authority(folder: &Path, days: u32) -> anyhow::Result<Issuer<'static, KeyPair
             let read =
                 |path: &Path| fs::read_to_string(path).with_context(|| format!("cannot read `{}`", path.display()));
             let pair =
-                KeyPair::from_pem(&read(&key)?).with_context(|| format!("`{}` is no private key", key.display()))?;
+                KeyPair::from_pem(&read(&key)?).with_context(|| format!("`{}` is not a private key", key.display()))?;
             Issuer::from_ca_cert_pem(&read(&certificate)?, pair)
-                .with_context(|| format!("`{}` is no authority's certificate", certificate.display()))
+                .with_context(|| format!("`{}` is not an authority's certificate", certificate.display()))
         }
         (false, false) => {
             let pair = KeyPair::generate()?;
@@ -122,21 +122,21 @@ fn authority(folder: &Path, days: u32) -> anyhow::Result<Issuer<'static, KeyPair
             params.distinguished_name.push(DnType::CommonName, "treadmill-ca");
             params.is_ca = IsCa::Ca(BasicConstraints::Constrained(0));
             params.key_usages = vec![KeyUsagePurpose::KeyCertSign, KeyUsagePurpose::CrlSign];
-            lasting(&mut params, days.saturating_mul(10));
+            set_validity(&mut params, days.saturating_mul(10));
             let text = params.self_signed(&pair)?.pem();
             write(&key, &pair.serialize_pem(), 0o600)?;
             write(&certificate, &text, 0o644)?;
             Ok(Issuer::new(params, pair))
         }
         _ => Err(Usage(format!(
-            "folder `{}` has only one of ca.crt and ca.key; put the other one back, or choose an empty folder",
+            "folder `{}` has only one of ca.crt and ca.key; restore the other one, or choose an empty folder",
             folder.display()
         ))
         .into()),
     }
 }
 
-/// Certificate and private key of a part.
+/// Returns certificate and private key of a role.
 fn issue(
     role: Role,
     hosts: &[String],
@@ -151,28 +151,28 @@ fn issue(
     if role.listens() {
         params.extended_key_usages.push(ExtendedKeyUsagePurpose::ServerAuth);
     }
-    lasting(&mut params, days);
+    set_validity(&mut params, days);
     let pair = KeyPair::generate()?;
     let text = params.signed_by(&pair, authority)?.pem();
     Ok((text, pair.serialize_pem()))
 }
 
-fn lasting(params: &mut CertificateParams, days: u32) {
+fn set_validity(params: &mut CertificateParams, days: u32) {
     let now = OffsetDateTime::now_utc();
     params.not_before = now - LEEWAY;
     params.not_after = now + Duration::days(days.into());
 }
 
-/// Written beside its place first; a private key is never readable by others, not for a moment.
+/// Writes a file atomically with `mode` from the start, so that others can never read a private key.
 fn write(path: &Path, text: &str, mode: u32) -> anyhow::Result<()> {
-    let beside = path.with_extension("new");
-    let _ = fs::remove_file(&beside);
+    let temporary = path.with_extension("new");
+    let _ = fs::remove_file(&temporary);
     let written = fs::OpenOptions::new()
         .write(true)
         .create_new(true)
         .mode(mode)
-        .open(&beside)
+        .open(&temporary)
         .and_then(|mut file| file.write_all(text.as_bytes()).and_then(|()| file.sync_all()))
-        .and_then(|()| fs::rename(&beside, path));
+        .and_then(|()| fs::rename(&temporary, path));
     written.with_context(|| format!("cannot write `{}`", path.display()))
 }

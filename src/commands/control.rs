@@ -1,4 +1,4 @@
-//! `treadmill control`: commands to a learner that is running.
+//! `treadmill control`: commands to a running learner.
 
 use std::time::Duration;
 
@@ -12,31 +12,31 @@ use crate::{
     shared::learner_address::{self, ReachArgs},
 };
 
-/// A command waits for the update that is going on.
+/// Timeout of a command, which waits for the end of the current update.
 const DONE_TIMEOUT: Duration = Duration::from_secs(60);
 
 /// Flags of `control`.
 #[derive(Args)]
 pub struct ControlArgs {
     #[command(subcommand)]
-    order: Order,
+    command: ControlCommand,
 }
 
 #[derive(Subcommand)]
-enum Order {
-    /// Learn from nothing until `resume`; actors keep what they have.
+enum ControlCommand {
+    /// Stop learning until `resume`; actors keep their fragments.
     Pause(ReachArgs),
-    /// Go on after `pause`.
+    /// Continue after `pause`.
     Resume(ReachArgs),
     /// Keep the newest checkpoint under its number of updates.
     Checkpoint(ReachArgs),
-    /// Finish the update, save, and end.
+    /// Finish the update, save, and exit.
     Stop(ReachArgs),
-    /// Change one key of the configuration, as in: set ppo.target_kl 0.01
+    /// Change one configuration key, as in: set ppo.target_kl 0.01
     Set {
-        /// The key.
+        /// Name of the key.
         key: String,
-        /// Its new value.
+        /// New value.
         #[arg(allow_hyphen_values = true)]
         value: String,
         #[command(flatten)]
@@ -44,7 +44,7 @@ enum Order {
     },
 }
 
-impl Order {
+impl ControlCommand {
     fn split(self) -> (ControlRequest, ReachArgs) {
         let plain = ControlRequest::plain;
         match self {
@@ -57,9 +57,9 @@ impl Order {
     }
 }
 
-/// Sends the command and tells what the learner did.
+/// Sends the command and prints the learner's reply.
 pub fn run(args: ControlArgs) -> anyhow::Result<()> {
-    let (request, reach) = args.order.split();
+    let (request, reach) = args.command.split();
     learner_address::connect(&reach, Role::Operator, async |bus, run| {
         let run = match run {
             Some(run) => run,
@@ -72,7 +72,7 @@ pub fn run(args: ControlArgs) -> anyhow::Result<()> {
         .pop();
         let ControlReply { done, text, .. } = reply.with_context(|| {
             format!(
-                "no learner of run `{run}` takes commands there; is it up, and have you the operator's certificate?"
+                "no learner of run `{run}` takes commands there; is it running, and do you have the operator's certificate?"
             )
         })?;
         if !done {
@@ -83,7 +83,7 @@ pub fn run(args: ControlArgs) -> anyhow::Result<()> {
     })
 }
 
-/// A command is for one run.
+/// Returns the only run that answers, because a command is for one run.
 async fn only_run(bus: &Bus) -> anyhow::Result<String> {
     let replies =
         learner_address::retry_until_answered(async || statuses(bus, None, learner_address::ANSWER_TIMEOUT).await)
@@ -91,8 +91,8 @@ async fn only_run(bus: &Bus) -> anyhow::Result<String> {
     let mut runs: Vec<String> = replies.into_iter().filter_map(|reply| Some(reply.status?.run)).collect();
     runs.sort();
     match &runs[..] {
-        [] => anyhow::bail!("no run answers there; is its learner up?"),
+        [] => anyhow::bail!("no run answers there; is its learner running?"),
         [run] => Ok(run.clone()),
-        _ => Err(Usage(format!("several runs answer there; choose one by --run: {}", runs.join(", "))).into()),
+        _ => Err(Usage(format!("several runs answer there; choose one with --run: {}", runs.join(", "))).into()),
     }
 }

@@ -1,4 +1,4 @@
-//! `treadmill evaluator`: plays deterministic episodes with policies of a run while it trains, and hands in how they did.
+//! `treadmill evaluator`: plays deterministic episodes with a run's policies while it trains, and reports the results.
 
 use clap::{Args, builder::ArgPredicate};
 use treadmill_actor::evaluator::{self, EvaluatorOptions};
@@ -16,7 +16,7 @@ use crate::{
 /// Flags of `evaluator`.
 #[derive(Args)]
 pub struct EvaluatorArgs {
-    /// Where the learner or a router listens; may be repeated.
+    /// Endpoint of the learner or of a router; may be repeated.
     #[arg(
         long,
         value_name = "ENDPOINT",
@@ -24,30 +24,30 @@ pub struct EvaluatorArgs {
         default_value_if("discover", ArgPredicate::IsPresent, None)
     )]
     connect: Vec<String>,
-    /// The run to evaluate; may be left out where there is only one.
+    /// The run to evaluate; may be left out if there is only one.
     #[arg(long, value_name = "NAME")]
     run: Option<String>,
-    /// This evaluator's name, unlike that of any other; by default made from the host's name.
+    /// This evaluator's unique name; by default made from the host's name.
     #[arg(long, value_name = "NAME")]
     name: Option<String>,
     #[command(flatten)]
     network: NetworkArgs,
-    /// End when standard input closes, which it does when the parent process is gone.
+    /// Exit when standard input closes, which happens when the parent process ends.
     #[arg(long, hide = true)]
     until_stdin_closes: bool,
 }
 
-/// Evaluates until it is told to stop.
+/// Evaluates until it is asked to stop.
 pub fn run(args: EvaluatorArgs) -> anyhow::Result<()> {
     let options = EvaluatorOptions {
         run: args.run,
         name: args.name.unwrap_or_else(default_name),
         where_to: args.network.where_to(&args.connect),
     };
-    let wrong = |why: Malformed| Usage(why.to_string());
-    check_ident("name", &options.name).map_err(wrong)?;
+    let usage_error = |why: Malformed| Usage(why.to_string());
+    check_ident("name", &options.name).map_err(usage_error)?;
     if let Some(run) = &options.run {
-        check_ident("run", run).map_err(wrong)?;
+        check_ident("run", run).map_err(usage_error)?;
     }
     let bus_options = args.network.options(Role::Evaluator, Vec::new(), args.connect)?;
     let where_to = options.where_to.clone();

@@ -1,4 +1,4 @@
-//! `treadmill export`: a trained policy as a file that other programs read.
+//! `treadmill export`: writes a trained policy as a file that other programs read.
 
 use std::path::{Path, PathBuf};
 
@@ -14,28 +14,28 @@ use crate::{launch::output::say, shared::saved_policy};
 #[derive(Args)]
 #[command(group(ArgGroup::new("files").args(["safetensors", "onnx"]).multiple(true).required(true)))]
 pub struct ExportArgs {
-    /// The run: its folder, its name below runs/, a bundle file, or what `export` wrote.
+    /// Run folder, name below runs/, bundle file, or a file that `export` wrote.
     run: String,
     /// Write weights, observation statistics and task as one safetensors file.
     #[arg(long, value_name = "FILE")]
     safetensors: Option<PathBuf>,
-    /// Write the policy as an ONNX model from raw observations to actions, with everything between them inside.
+    /// Write the policy as an ONNX model from raw observations to actions, normalisation included.
     #[arg(long, value_name = "FILE")]
     onnx: Option<PathBuf>,
-    /// Which checkpoint: best, latest, or the number of updates of a kept one.
+    /// Checkpoint: best, latest, or the number of updates of a kept one.
     #[arg(long, value_name = "WHICH", default_value = "latest")]
     checkpoint: Which,
 }
 
-/// Writes the files and tells what is in them.
+/// Writes the files and prints what they contain.
 pub fn run(args: &ExportArgs) -> anyhow::Result<()> {
     let policy = saved_policy::load(&args.run, args.checkpoint)?;
     let config = saved_policy::trained_under(&policy);
     if !config.is_external() {
-        // Nothing is written that `eval` would refuse.
+        // Refuses a policy that `eval` would refuse.
         saved_policy::environment(&args.run, &policy, &config)?;
     }
-    // Also where only a model is written: it checks that everything fits together.
+    // Also run for ONNX alone, because it checks that shapes match.
     let bytes = policy.to_bytes().with_context(|| format!("the policy of `{}` cannot be exported", args.run))?;
     let widths: Vec<String> = [policy.shape.observation]
         .iter()
@@ -56,7 +56,7 @@ pub fn run(args: &ExportArgs) -> anyhow::Result<()> {
 fn write(path: &Path, bytes: &[u8], what: &str) -> anyhow::Result<()> {
     let shown = path.display();
     atomic_file::write(path, bytes)
-        .with_context(|| format!("cannot write `{shown}`; is its folder there, and may you write to it?"))?;
+        .with_context(|| format!("cannot write `{shown}`; does its folder exist, and may you write to it?"))?;
     say(&format!("wrote {shown}: {what}, {} bytes", bytes.len()));
     Ok(())
 }

@@ -1,4 +1,4 @@
-//! `treadmill learner`: only the learner.
+//! `treadmill learner`: runs only the learner.
 
 use clap::Args;
 use treadmill_bus::Role;
@@ -25,18 +25,18 @@ pub struct LearnerArgs {
     network: NetworkArgs,
     #[command(flatten)]
     metrics: MetricsArgs,
-    /// The run's name on the bus; by default the name of its folder.
+    /// Name of the run on the bus; by default the name of its folder.
     #[arg(long, value_name = "NAME", conflicts_with = "resume")]
     run: Option<String>,
-    /// Where to listen; may be repeated.
+    /// Endpoint to listen on; may be repeated.
     #[arg(long, value_name = "ENDPOINT", default_value = "tcp/127.0.0.1:7447")]
     listen: Vec<String>,
-    /// Other routers to join; may be repeated.
+    /// Endpoint of a router to join; may be repeated.
     #[arg(long, value_name = "ENDPOINT")]
     connect: Vec<String>,
 }
 
-/// Runs the learner until the run has its steps.
+/// Runs the learner until the run reaches its number of steps.
 pub fn run(args: LearnerArgs) -> anyhow::Result<()> {
     if let Some(run) = &args.run {
         check_ident("run", run).map_err(|why| Usage(why.to_string()))?;

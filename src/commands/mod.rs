@@ -1,4 +1,4 @@
-//! The subcommands: each module has the flags of its command and a function `run`.
+//! Subcommands: each module has the flags of its command and a function `run`.
 //!
 //! # Layout
 //! - Training: [`train`], [`learner`], [`actor`], [`evaluator`], [`router`], [`certs`].

@@ -1,4 +1,4 @@
-//! `treadmill router`: hands messages on, for a site with many machines.
+//! `treadmill router`: forwards messages at a site with many machines.
 
 use anyhow::Context;
 use clap::Args;
@@ -13,17 +13,17 @@ use crate::{
 /// Flags of `router`.
 #[derive(Args)]
 pub struct RouterArgs {
-    /// Where to listen; may be repeated.
+    /// Endpoint to listen on; may be repeated.
     #[arg(long, value_name = "ENDPOINT", default_value = "tcp/127.0.0.1:7447")]
     listen: Vec<String>,
-    /// The learner, or a router on the way to it; may be repeated.
+    /// Endpoint of the learner, or of a router on the way to it; may be repeated.
     #[arg(long, value_name = "ENDPOINT")]
     connect: Vec<String>,
     #[command(flatten)]
     network: NetworkArgs,
 }
 
-/// Hands messages on until it is told to stop.
+/// Forwards messages until the process is asked to stop.
 pub fn run(args: RouterArgs) -> anyhow::Result<()> {
     let options = args.network.options(Role::Router, args.listen, args.connect)?;
     if options.credentials.is_some() {
@@ -38,13 +38,13 @@ pub fn run(args: RouterArgs) -> anyhow::Result<()> {
         let (bus, endpoints) = tokio::task::spawn_blocking(move || Bus::open_router(&options)).await??;
         say(&format!("listening {}", endpoints.join(", ")));
         if !dialled.is_empty() {
-            say(&format!("dialling  {dialled}, again whenever that is gone"));
+            say(&format!("dialling  {dialled}, again after each loss"));
         }
         shutdown.wait().await;
         bus.close();
         Ok(())
     });
-    // A close that hangs must not keep the process.
+    // A close that hangs must not keep the process alive.
     runtime.shutdown_background();
     outcome
 }

@@ -1,5 +1,4 @@
-//! `treadmill train`: a learner in this process, actor processes started beside it; no router, no container, no
-//! network beyond loopback.
+//! `treadmill train`: runs a learner in this process and starts actor processes, without a network beyond loopback.
 
 use clap::Args;
 use treadmill_bus::Role;
@@ -25,21 +24,21 @@ pub struct TrainArgs {
     network: NetworkArgs,
     #[command(flatten)]
     metrics: MetricsArgs,
-    /// One actor in lock-step: the same seed gives the same weights bit for bit.
+    /// Run one actor in lock-step: the same seed gives the same weights bit for bit.
     #[arg(long, conflicts_with = "resume")]
     deterministic: bool,
     /// Actor processes; by default one per core.
     #[arg(long)]
     actors: Option<u32>,
-    /// Environments in total, split over the actors.
+    /// Environments in total, divided among the actors.
     #[arg(long, conflicts_with = "resume")]
     envs: Option<u32>,
-    /// Where to listen; by default a free port on loopback, which is written to the run's folder.
+    /// Endpoint to listen on; by default a free port on loopback, which is written to the run's folder.
     #[arg(long, value_name = "ENDPOINT", default_value = "tcp/127.0.0.1:0")]
     listen: String,
 }
 
-/// Trains until the run has its steps.
+/// Trains until the run reaches its number of steps.
 pub fn run(args: TrainArgs) -> anyhow::Result<()> {
     let options = args.network.options(Role::Learner, vec![args.listen], Vec::new())?;
     let metrics = args.metrics.listen()?;

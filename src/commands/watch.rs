@@ -1,18 +1,17 @@
-//! `treadmill watch`: hands over to the viewer, which is a program of its own, so that building the trainer does not build it.
+//! `treadmill watch`: starts the viewer, a program of its own so that building the trainer does not build it.
 
 use std::{env, io::ErrorKind, os::unix::process::CommandExt, path::PathBuf, process::Command};
 
 use anyhow::Context;
 
-/// The viewer.
+/// Program of the viewer.
 const PROGRAM: &str = "treadmill-watch";
 
-/// The viewer takes this process's place, with its arguments, its terminal and its signals; comes back only where it cannot be
-/// started.
+/// Replaces this process by the viewer with the same arguments; returns only if the viewer cannot be started.
 pub fn run() -> anyhow::Result<()> {
     let beside = env::current_exe().ok().map(|own| own.with_file_name(PROGRAM)).filter(|path| path.is_file());
     let program = beside.unwrap_or_else(|| PathBuf::from(PROGRAM));
-    // All but `treadmill watch` itself.
+    // Skips `treadmill watch`.
     let why = Command::new(&program).args(env::args_os().skip(2)).exec();
     if why.kind() == ErrorKind::NotFound {
         anyhow::bail!(

@@ -77,13 +77,13 @@ fn a_healthy_machine_has_no_problems_in_json_and_in_text() {
     let output = check(folder.path(), &["--actors", "1"]);
     assert_eq!(last_json(&output)["problems"], 0, "{}", stdout(&output));
     assert_eq!(output.status.code(), Some(0));
-    for name in ["disk", "open files", "clock", "loopback", "simulation", "networks"] {
+    for name in ["disk", "open files", "clock"] {
         assert_ok(&output, name);
     }
     assert!(of(&output, "learner").0.is_empty(), "no learner was named");
     let output = run(folder.path(), &["check", "--actors", "1"]);
     let text = stdout(&output);
-    assert!(text.lines().any(|line| line.starts_with("ok       simulation")), "{text}");
+    assert!(text.lines().any(|line| line.starts_with("ok       disk")), "{text}");
     assert!(text.trim_end().lines().last().unwrap().contains("diagnoses"), "{text}");
     assert_refused(&check(folder.path(), &["--connect", "tcp/192.0.2.1:1"]), 2, &["--insecure"]);
 }
@@ -101,7 +101,7 @@ fn a_full_or_nearly_full_disk_is_reported() {
     fs::create_dir(folder.path().join("small")).unwrap();
     let nearly = "mount -t tmpfs -o size=50m none small &&";
     if let Some(output) = check_apart(folder.path(), "-rm", nearly, "--run-dir small/run") {
-        assert_problem(&output, "disk", &["52 MB free", "make room"]);
+        assert_problem(&output, "disk", &["52 MB free", "free some space"]);
     }
     let full = "mount -t tmpfs -o size=64k none small && cat /dev/zero > small/fill 2> /dev/null;";
     if let Some(output) = check_apart(folder.path(), "-rm", full, "--run-dir small/run") {
@@ -110,38 +110,10 @@ fn a_full_or_nearly_full_disk_is_reported() {
 }
 
 #[test]
-fn too_little_shared_memory_is_reported_with_its_flag() {
-    let (folder, _) = folders();
-    let before = "mount -t tmpfs -o size=1m none /dev/shm &&";
-    if let Some(output) = check_apart(folder.path(), "-rm", before, "--actors 2 --shared-memory") {
-        assert_problem(&output, "shared memory", &["1 MB free", "--shm-size"]);
-    }
-}
-
-#[test]
-fn a_loopback_that_is_down_is_reported() {
-    let (folder, _) = folders();
-    // A new network namespace has its loopback interface down.
-    if let Some(output) = check_apart(folder.path(), "-rn", "", "") {
-        assert_problem(&output, "loopback", &["ip link set lo up"]);
-        assert_eq!(of(&output, "multicast").0, ["note"]);
-    }
-}
-
-#[test]
 fn too_few_open_files_are_reported() {
     let (folder, _) = folders();
     assert_problem(&check_after(folder.path(), "ulimit -n 64;", ""), "open files", &["64 at most", "ulimit -Hn 4096"]);
-    assert_problem(&check(folder.path(), &["--actors", "100000"]), "memory", &["100000 actors"]);
-}
-
-#[test]
-fn a_locale_without_utf8_is_noted() {
-    let (folder, _) = folders();
-    let output = check_after(folder.path(), "LC_ALL=C; export LC_ALL;", "");
-    assert_eq!(of(&output, "terminal").0, ["note"]);
-    let output = check_after(folder.path(), "LC_ALL=C.UTF-8; export LC_ALL;", "");
-    assert_eq!(of(&output, "terminal").0, ["ok"]);
+    assert!(of(&check(folder.path(), &["--actors", "100000"]), "open files").1.contains("100000 actors"));
 }
 
 #[test]
@@ -177,7 +149,7 @@ fn no_listener_and_a_listener_of_another_program_are_distinguished() {
     assert_problem(&output, "learner", &["does not speak", "ss -ltnp"]);
     drop(taken);
     let output = check(folder.path(), &["--connect", &endpoint]);
-    assert_problem(&output, "route", &["nobody listens", "endpoint.txt"]);
+    assert_problem(&output, "route", &["no process listens", "endpoint.txt"]);
     assert!(of(&output, "learner").0.is_empty());
     assert_problem(&check(folder.path(), &["--connect", "tls/127.0.0.1:1"]), "route", &[]);
 }
@@ -274,7 +246,7 @@ fn problems_of_dates_authorities_and_keys_of_certificates_are_reported() {
     assert_problem(&look(), "certificates", &["644", "chmod 600"]);
     fs::set_permissions(path("observer.key"), fs::Permissions::from_mode(0o600)).unwrap();
     fs::copy(path("observer.key"), path("operator.key")).unwrap();
-    assert_problem(&look(), "certificates", &["operator.key", "does not go with"]);
+    assert_problem(&look(), "certificates", &["operator.key", "does not match"]);
     fs::copy(path("observer.crt"), path("operator.crt")).unwrap();
     assert_problem(&look(), "certificates", &["treadmill-observer", "treadmill-operator"]);
     certs(folder.path(), &["others"]);
@@ -299,7 +271,7 @@ fn a_failed_handshake_reports_which_side_does_not_trust_the_other() {
     assert_problem(&look("others", &endpoint), "handshake", &["another authority", "ca.crt"]);
     // No learner listens at this address.
     let elsewhere = endpoint.replace("127.0.0.1", "127.0.0.2");
-    assert_problem(&look("certs", &elsewhere), "route", &["nobody listens"]);
+    assert_problem(&look("certs", &elsewhere), "route", &["no process listens"]);
     certs(folder.path(), &["certs", "--renew", "--host", "learner.example"]);
     let renamed = run_folder.with_extension("renamed");
     let _renamed = learner(folder.path(), &renamed, &["--listen", "tls/127.0.0.1:0", "--tls", "certs"]);
@@ -307,7 +279,7 @@ fn a_failed_handshake_reports_which_side_does_not_trust_the_other() {
     assert_problem(&refused, "handshake", &["not for this name", "--host NAME"]);
     // This machine trusts the learner's authority, but not the other way round.
     fs::copy(folder.path().join("certs/ca.crt"), folder.path().join("others/ca.crt")).unwrap();
-    assert_problem(&look("others", &endpoint), "handshake", &["does not take our certificate"]);
+    assert_problem(&look("others", &endpoint), "handshake", &["rejects our certificate"]);
     // With an actor's certificate alone, the check still shows that the link works.
     for part in ["learner", "router", "evaluator", "observer", "operator"] {
         fs::remove_file(folder.path().join(format!("certs/{part}.crt"))).unwrap();

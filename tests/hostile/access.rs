@@ -258,7 +258,7 @@ fn invalid_arguments_and_folders_of_certificates_are_refused() {
     assert_refused(&run(path, &["certs", "certs", "--host", "näme"]), 2, &["--host"]);
     assert!(run(path, &["certs", "certs"]).status.success());
     fs::write(path.join("certs/ca.key"), "no key").unwrap();
-    assert_refused(&run(path, &["certs", "certs", "--renew"]), 1, &["ca.key", "no private key"]);
+    assert_refused(&run(path, &["certs", "certs", "--renew"]), 1, &["ca.key", "not a private key"]);
     let args = ["learner", "--listen", "tls/127.0.0.1:0", "--tls", "nowhere"];
     assert_refused(&run(path, &args), 2, &["nowhere/ca.crt", "treadmill certs"]);
     // Beyond this machine, plain text needs `--insecure`.

@@ -1,4 +1,4 @@
-//! The bus under the load of many actors, at several numbers of them; `load_generator` has the processes.
+//! `bench bus`: the bus under the load of several numbers of actors; `load_generator` has the processes.
 
 use std::{path::Path, time::Duration};
 
@@ -17,37 +17,37 @@ use crate::{
     },
 };
 
-/// How long each measurement of raw TCP takes.
-const RAW: Duration = Duration::from_secs(1);
+/// Duration of each measurement of raw TCP.
+const RAW_DURATION: Duration = Duration::from_secs(1);
 
 /// Flags of `bench bus`.
 #[derive(Args)]
 pub struct BusArgs {
-    /// Numbers of actors, one step after the other.
+    /// Numbers of actors, measured one after the other.
     #[arg(long, value_name = "N,…", value_delimiter = ',', default_values_t = [1, 10, 50, 100, 200], value_parser = clap::value_parser!(u32).range(1..=4000))]
     actors: Vec<u32>,
-    /// Seconds that each step is measured for.
+    /// Duration of each measurement in seconds.
     #[arg(long, value_name = "S", default_value_t = 5.0)]
     seconds: f64,
     /// Size of a fragment.
     #[arg(long, value_name = "MB", default_value_t = 3.0)]
     fragment_mb: f64,
-    /// Fragments that each actor has on its way.
+    /// Unacknowledged fragments of each actor.
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=16))]
     in_flight: u32,
-    /// Pause of each actor after a receipt, as if something were simulated; by default they send as fast as they can.
+    /// Pause of each actor after a receipt, in place of simulation; 0 sends as fast as possible.
     #[arg(long, value_name = "MS", default_value_t = 0)]
     pause_ms: u64,
-    /// How exactly observations travel, as in rollout.observation_precision.
+    /// Precision of observations on the wire, as in rollout.observation_precision.
     #[arg(long, default_value = "f32", value_parser = ["f32", "f16"])]
     precision: String,
-    /// Policies of 1 MB that are handed out to all actors in each step.
+    /// Policies of 1 MB that the learner sends to all actors at each number of actors.
     #[arg(long, value_name = "N", default_value_t = 20, value_parser = clap::value_parser!(u32).range(1..=10_000))]
     broadcasts: u32,
-    /// Encrypt every link, with certificates made for this alone.
+    /// Encrypt every link, with temporary certificates.
     #[arg(long)]
     tls: bool,
-    /// Let fragments pass through shared memory.
+    /// Send fragments through shared memory.
     #[arg(long)]
     shared_memory: bool,
     /// Print one JSON object.
@@ -55,7 +55,7 @@ pub struct BusArgs {
     json: bool,
 }
 
-/// Measures and tells.
+/// Runs the measurement and prints its result.
 pub fn run(args: &BusArgs) -> anyhow::Result<()> {
     if !(args.seconds > 0.0 && args.seconds <= 3600.0) {
         return Err(Usage(format!("--seconds is {}; allowed: above 0, at most 3600", args.seconds)).into());
@@ -63,10 +63,10 @@ pub fn run(args: &BusArgs) -> anyhow::Result<()> {
     if !(args.fragment_mb >= 0.04 && args.fragment_mb <= 30.0) {
         return Err(Usage(format!("--fragment-mb is {}; allowed: 0.04 to 30", args.fragment_mb)).into());
     }
-    let folder = tempfile::tempdir().context("no temporary folder")?;
+    let folder = tempfile::tempdir().context("cannot create a temporary folder")?;
     let network = network(args, folder.path())?;
     let fragment_bytes = (args.fragment_mb * 1e6) as usize;
-    let measure_raw = || raw::measure(fragment_bytes, RAW.min(Duration::from_secs_f64(args.seconds)));
+    let measure_raw = || raw::measure(fragment_bytes, RAW_DURATION.min(Duration::from_secs_f64(args.seconds)));
     let (mut steps, mut raw) = (Vec::new(), measure_raw()?);
     if !args.json {
         say(&load_step::heading());
@@ -95,7 +95,7 @@ pub fn run(args: &BusArgs) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// Flags of every process that is to be on the bus.
+/// Returns the network flags of every process on the bus.
 fn network(args: &BusArgs, folder: &Path) -> anyhow::Result<Vec<String>> {
     let mut flags = Vec::new();
     if args.tls {

@@ -1,4 +1,4 @@
-//! 64 worlds, random actions, resets included: with task and observation, and physics alone.
+//! `bench env`: steps per second with random actions and resets, with task and observation and of physics alone.
 
 use std::time::Instant;
 
@@ -19,24 +19,24 @@ use super::{
 };
 use crate::launch::model::{self, ModelArgs};
 
-/// Random actions that the worlds are stepped with, over and over; a multiple of their number.
+/// Number of random actions, which repeat; a multiple of [`WORLDS`].
 const ACTIONS: usize = 64 * WORLDS;
 
 /// Flags of `bench env`.
 #[derive(Args)]
 pub struct EnvArgs {
-    /// Environment steps to measure over.
+    /// Environment steps to measure.
     #[arg(long, default_value_t = 100_000)]
     pub steps: u64,
-    /// Threads that the worlds are spread over; 0 means one per core.
+    /// Threads that step the worlds; 0 means one per core.
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u16).range(0..=256))]
     threads: u16,
-    /// What the policy is to see, short for --set env.observation=KIND.
+    /// Kind of observation, short for --set env.observation=KIND.
     #[arg(long, value_name = "KIND")]
     observation: Option<String>,
     #[command(flatten)]
     model: ModelArgs,
-    /// Instead of speed, measure how well joints and limits hold under the largest torques in random directions.
+    /// Measure errors of joint limits under the largest torques in random directions, instead of speed.
     #[arg(long)]
     quality: bool,
     /// Print one JSON object.
@@ -57,7 +57,7 @@ pub fn run(args: &EnvArgs) -> anyhow::Result<()> {
     let config = args.config()?;
     let file = args.model.model.as_deref();
     let text = model::text(file)?;
-    // Says what is wrong with the file, where anything is.
+    // Reports errors of the model file.
     model::environment(&config, &text, file)?;
     let environment = settings::training(&config);
     let threads = bench_worlds::threads(args.threads.into());
@@ -99,8 +99,8 @@ fn measure(
     let env_steps_per_s = steps as f64 / begun.elapsed().as_secs_f64();
     let observations: Vec<u8> = environments.observations().iter().flat_map(|entry| entry.to_le_bytes()).collect();
 
-    // The same bodies under the same actions, without observation and reward; a body on the ground costs more than one that
-    // stands, so those that fell stand up again here too.
+    // The same actions without observation and reward. Bodies that fell are reset here too, because contact with the ground
+    // costs time.
     let mut worlds = BenchWorlds::new(config, model_xml, threads, |_| vec![0.0f32; size])?;
     let begun = Instant::now();
     for round in 0..rounds {
@@ -117,7 +117,7 @@ fn measure(
     }
     let physics_only_steps_per_s = steps as f64 / begun.elapsed().as_secs_f64();
     let faults: u64 = worlds.iter().map(|(world, _)| world.faults).sum();
-    // Each world was put on its feet once before the first step.
+    // Each world was reset once before the first step.
     let resets = resets + worlds.iter().map(|(world, _)| world.resets - 1).sum::<u64>();
 
     Ok(json!({

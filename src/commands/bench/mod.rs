@@ -28,20 +28,20 @@ use crate::{
 #[derive(Args)]
 pub struct BenchArgs {
     #[command(subcommand)]
-    what: What,
+    benchmark: Benchmark,
 }
 
 #[derive(Subcommand)]
-enum What {
-    /// Environment steps per second, with observation and without policy; or how well the joints hold.
+enum Benchmark {
+    /// Environment steps per second without a policy, or errors of joint limits.
     Env(env::EnvArgs),
     /// Minibatch samples per second of the update.
     Update(update::UpdateArgs),
-    /// Microseconds that an actor's policy takes to choose actions.
+    /// Microseconds per call of an actor's policy.
     Policy(policy::PolicyArgs),
-    /// Fragments that a learner takes from many actors, receipts, policies and memory.
+    /// Rates and latencies of a learner's bus with many actors.
     Bus(bus::BusArgs),
-    /// The learner of `bus`.
+    /// Learner of `bus`.
     #[command(hide = true)]
     BusHost(host::HostArgs),
     /// Some of the actors of `bus`.
@@ -51,20 +51,20 @@ enum What {
     Train(train::BenchTrainArgs),
 }
 
-/// Runs one bench.
+/// Runs one benchmark.
 pub fn run(args: BenchArgs) -> anyhow::Result<()> {
-    match args.what {
-        What::Env(args) => env::run(&args),
-        What::Update(args) => update::run(&args),
-        What::Policy(args) => policy::run(&args),
-        What::Bus(args) => bus::run(&args),
-        What::BusHost(args) => host::run(&args),
-        What::BusLoad(args) => load::run(&args),
-        What::Train(args) => train::run(&args),
+    match args.benchmark {
+        Benchmark::Env(args) => env::run(&args),
+        Benchmark::Update(args) => update::run(&args),
+        Benchmark::Policy(args) => policy::run(&args),
+        Benchmark::Bus(args) => bus::run(&args),
+        Benchmark::BusHost(args) => host::run(&args),
+        Benchmark::BusLoad(args) => load::run(&args),
+        Benchmark::Train(args) => train::run(&args),
     }
 }
 
-/// The result as one JSON object or as lines for people.
+/// Prints the result as one JSON object or as lines of text.
 fn print_result(result: &serde_json::Value, json: bool) {
     if json {
         return say(&result.to_string());
@@ -75,7 +75,7 @@ fn print_result(result: &serde_json::Value, json: bool) {
     }
 }
 
-/// Digits that say something.
+/// Rounds to one decimal.
 pub(crate) fn rounded(rate: f64) -> f64 {
     (rate * 10.0).round() / 10.0
 }

@@ -1,4 +1,4 @@
-//! The networks that benches run, and what they are fed with.
+//! Networks of benchmarks and their inputs.
 
 use std::str::FromStr;
 
@@ -8,10 +8,10 @@ use treadmill_runtime::seeds;
 
 /// Actions of the humanoid.
 const ACTIONS: usize = 17;
-/// Widest layer that is allowed, and the most numbers in an observation.
-const WIDEST: usize = 4096;
+/// Largest width of a layer or an observation.
+const WIDTH_MAX: usize = 4096;
 
-/// Widths as a flag gives them, `45-256-128`: those of the observation and of each hidden layer.
+/// Widths of the observation and of each hidden layer, as in `45-256-128`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Widths(Vec<usize>);
 
@@ -19,10 +19,10 @@ impl FromStr for Widths {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {
-        let wanted = format!("2 to 9 widths from 1 to {WIDEST}, observation first, as in 45-256-128");
-        let width = |part: &str| part.parse().ok().filter(|width| (1..=WIDEST).contains(width));
+        let expected = format!("2 to 9 widths from 1 to {WIDTH_MAX}, observation first, as in 45-256-128");
+        let width = |part: &str| part.parse().ok().filter(|width| (1..=WIDTH_MAX).contains(width));
         let widths: Option<Vec<usize>> = text.split('-').map(width).collect();
-        widths.filter(|widths| (2..=9).contains(&widths.len())).map(Self).ok_or(wanted)
+        widths.filter(|widths| (2..=9).contains(&widths.len())).map(Self).ok_or(expected)
     }
 }
 
@@ -34,18 +34,18 @@ impl std::fmt::Display for Widths {
 }
 
 impl Widths {
-    /// The networks of these widths, with the humanoid's actions.
+    /// Returns networks of these widths with the humanoid's actions.
     pub fn shape(&self) -> NetworkShape {
         NetworkShape { observation: self.0[0], action: ACTIONS, hidden: self.0[1..].to_vec() }
     }
 }
 
-/// Standard normal numbers.
+/// Draws standard normal numbers.
 pub fn normals(count: usize, random: &mut seeds::Stream) -> Vec<f32> {
     (0..count).map(|_| StandardNormal.sample(random)).collect()
 }
 
-/// The checksum of numbers, to be told.
+/// Returns the checksum of numbers as text.
 pub fn checksum(numbers: &[f32]) -> String {
     let bytes: Vec<u8> = numbers.iter().flat_map(|number| number.to_le_bytes()).collect();
     format!("{:016x}", seeds::checksum(&[&bytes]))
@@ -56,7 +56,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn widths_are_read_and_told_alike() {
+    fn widths_are_parsed_and_printed_alike() {
         for text in ["45-256-128", "348-512-256", "1-1", "376-512-256-128"] {
             assert_eq!(text.parse::<Widths>().expect("widths").to_string(), text);
         }
@@ -65,7 +65,7 @@ mod tests {
     }
 
     #[test]
-    fn widths_that_make_no_network_are_refused() {
+    fn invalid_widths_are_refused() {
         for text in ["", "45", "45-", "-45-256", "45-0", "45-4097", "45x256", "45-2.5", "1-1-1-1-1-1-1-1-1-1"] {
             assert!(text.parse::<Widths>().expect_err(text).contains("45-256-128"));
         }

@@ -1,4 +1,4 @@
-//! What an actor asks of the policy in every control step: action means for a few rows.
+//! `bench policy`: action means for a few rows, as an actor computes them in every control step.
 
 use std::time::Instant;
 
@@ -18,13 +18,13 @@ const WARM_UP: u32 = 100;
 /// Flags of `bench policy`.
 #[derive(Args)]
 pub struct PolicyArgs {
-    /// Calls to measure over.
+    /// Calls to measure.
     #[arg(long, default_value_t = 10_000, value_parser = clap::value_parser!(u32).range(1..=100_000_000))]
     calls: u32,
-    /// Observations of one call.
+    /// Observations per call.
     #[arg(long, value_name = "N", default_value_t = 64, value_parser = clap::value_parser!(u32).range(1..=65_536))]
     rows: u32,
-    /// Widths of the actor: observation, then hidden layers.
+    /// Widths of the actor's network: observation, then hidden layers.
     #[arg(long, value_name = "WIDTHS", default_value = "45-256-128")]
     network: Widths,
     /// Print one JSON object.

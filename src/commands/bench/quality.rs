@@ -1,4 +1,4 @@
-//! How well joints and limits hold under the largest torques there are, in random directions.
+//! `bench env --quality`: errors of joint limits under the largest torques in random directions.
 
 use rand::RngExt;
 use serde_json::json;
@@ -10,25 +10,25 @@ use super::{
     quantiles::Quantiles,
 };
 
-/// A body that flails on the floor is put on its feet again after so many control steps: 15 s.
-const FLAILING_STEPS: u32 = 1000;
+/// Control steps (15 s) after which a humanoid on the floor is reset.
+const RESET_AFTER_STEPS: u32 = 1000;
 
-/// What one world has counted.
-struct Record {
+/// Measurements of one world.
+struct WorldQuality {
     random: seeds::Stream,
     controls: Vec<f32>,
     steps: u32,
     overshoot_rad: Quantiles,
 }
 
-/// Lets all worlds flail and tells what their joints did; memory does not grow with the steps.
+/// Steps all worlds and returns quantiles of their joint errors; memory does not grow with the steps.
 pub fn measure(
     config: &EnvironmentConfig,
     model_xml: &str,
     threads: usize,
     rounds: u64,
 ) -> anyhow::Result<serde_json::Value> {
-    let mut worlds = BenchWorlds::new(config, model_xml, threads, |index| Record {
+    let mut worlds = BenchWorlds::new(config, model_xml, threads, |index| WorldQuality {
         random: seeds::stream(1, "bench-quality", &[index as u64]),
         controls: Vec::new(),
         steps: 0,
@@ -37,9 +37,9 @@ pub fn measure(
     for _ in 0..rounds {
         worlds.each(|world, record| {
             let failed = record.step(world);
-            // Half of the worlds stand up as soon as they fell; the others are thrown about on the floor.
+            // Half of the worlds are reset after a fall; the others stay on the floor for a while.
             let fell = !task::is_healthy(config, world.environment.physics().torso_height_m());
-            if failed || (fell && world.index.is_multiple_of(2)) || record.steps >= FLAILING_STEPS {
+            if failed || (fell && world.index.is_multiple_of(2)) || record.steps >= RESET_AFTER_STEPS {
                 record.steps = 0;
                 world.reset();
             }
@@ -67,14 +67,14 @@ pub fn measure(
         "threads": threads,
         "cpu": machine::cpu_name(),
         "workload": format!(
-            "{WORLDS} humanoids, every motor at plus or minus its limit by chance, anew in each step, {resets} resets"
+            "{WORLDS} humanoids, every motor at a random end of its range in each step, {resets} resets"
         ),
         "checksum": format!("{:016x}", seeds::checksum(&[&numbers, &u64::to_le_bytes(faults)])),
     }))
 }
 
-impl Record {
-    /// One step with every motor at one end of its range; whether physics failed.
+impl WorldQuality {
+    /// Makes one step with every motor at one end of its range; returns whether physics failed.
     fn step(&mut self, world: &mut BenchWorld) -> bool {
         self.controls.resize(world.environment.action_size(), 0.0);
         for (control, [low, high]) in self.controls.iter_mut().zip(world.environment.action_ranges()) {

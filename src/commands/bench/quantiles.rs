@@ -1,24 +1,24 @@
-//! Quantiles of any number of samples in memory that does not grow.
+//! Quantiles of any number of samples in constant memory.
 
-/// Bins for each factor of ten: a quantile is told up to 2.4 % too high.
+/// Bins per factor of ten: a quantile is up to 2.4 % too high.
 const BINS_PER_DECADE: f64 = 100.0;
-/// What is at or below this counts as nothing: in metres or radians it is far below any rounding.
+/// Samples up to this count as zero: in metres or radians it is far below rounding.
 const SMALLEST: f64 = 1e-16;
-/// From [`SMALLEST`] up to 1e4. The last bin has what is larger, too, and is told as the largest sample.
+/// Bins from [`SMALLEST`] to 1e4. The last bin also counts larger samples and stands for the largest.
 const BINS: usize = 2000;
 
-/// A histogram with logarithmic bins, for samples that are not negative.
+/// Histogram of non-negative samples with logarithmic bins.
 #[derive(Clone, Debug)]
 pub struct Quantiles {
     counts: Vec<u64>,
-    nothing: u64,
+    zeros: u64,
     total: u64,
     largest: f64,
 }
 
 impl Default for Quantiles {
     fn default() -> Self {
-        Self { counts: vec![0; BINS], nothing: 0, total: 0, largest: 0.0 }
+        Self { counts: vec![0; BINS], zeros: 0, total: 0, largest: 0.0 }
     }
 }
 
@@ -28,26 +28,26 @@ impl Quantiles {
         self.total += 1;
         self.largest = self.largest.max(sample);
         if sample <= SMALLEST {
-            self.nothing += 1;
+            self.zeros += 1;
         } else {
             let bin = ((sample / SMALLEST).log10() * BINS_PER_DECADE) as usize;
             self.counts[bin.min(BINS - 1)] += 1;
         }
     }
 
-    /// Counts what another has counted.
+    /// Adds the samples of another histogram.
     pub fn merge(&mut self, other: &Self) {
         self.counts.iter_mut().zip(&other.counts).for_each(|(mine, theirs)| *mine += theirs);
-        self.nothing += other.nothing;
+        self.zeros += other.zeros;
         self.total += other.total;
         self.largest = self.largest.max(other.largest);
     }
 
-    /// The value that this share of the samples does not exceed: the upper end of its bin, and never more than the
-    /// largest sample. 0 without samples.
+    /// Returns the value that `share` of the samples do not exceed: the upper end of its bin, at most the largest sample.
+    /// Returns 0 without samples.
     pub fn quantile(&self, share: f64) -> f64 {
         let rank = (share * self.total as f64).ceil() as u64;
-        let mut passed = self.nothing;
+        let mut passed = self.zeros;
         if rank <= passed {
             return 0.0;
         }
@@ -60,7 +60,7 @@ impl Quantiles {
         self.largest
     }
 
-    /// The largest sample, exactly.
+    /// Returns the largest sample, exactly.
     pub fn largest(&self) -> f64 {
         self.largest
     }
@@ -77,7 +77,7 @@ mod tests {
     }
 
     #[test]
-    fn quantiles_are_those_of_the_sorted_samples_within_a_bin() {
+    fn quantiles_match_sorted_samples_within_a_bin() {
         let samples: Vec<f64> = (1..=1000).map(|number| f64::from(number).powi(3) * 1e-9).collect();
         let quantiles = of(samples.iter().rev().copied());
         for (share, rank) in [(0.001, 1), (0.5, 500), (0.99, 990), (0.999, 999), (1.0, 1000)] {
@@ -85,11 +85,11 @@ mod tests {
             assert!((exact..exact * 1.024).contains(&found) || found == exact, "{share}: {found} instead of {exact}");
         }
         assert_eq!(quantiles.largest(), 1.0);
-        assert_eq!(quantiles.quantile(1.0), 1.0, "the upper end of a bin is not told beyond the largest sample");
+        assert_eq!(quantiles.quantile(1.0), 1.0, "no quantile exceeds the largest sample");
     }
 
     #[test]
-    fn nothing_and_everything_have_a_place() {
+    fn zeros_and_huge_samples_are_counted() {
         assert_eq!(Quantiles::default().quantile(0.5), 0.0);
         let quantiles = of([0.0, 0.0, 0.0, 1e9]);
         assert_eq!((quantiles.quantile(0.75), quantiles.quantile(1.0)), (0.0, 1e9));
@@ -97,7 +97,7 @@ mod tests {
     }
 
     #[test]
-    fn merging_is_counting_together() {
+    fn merged_histogram_equals_one_of_all_samples() {
         let (low, high) = (of((1..500).map(f64::from)), of((500..=1000).map(f64::from)));
         let mut merged = low;
         merged.merge(&high);

@@ -1,4 +1,4 @@
-//! The whole system as a user starts it: this binary's own `train`, in a folder that is thrown away.
+//! `bench train`: speed of this binary's own `train` in a temporary folder.
 
 use std::process::{Command, Stdio};
 
@@ -25,9 +25,9 @@ pub struct BenchTrainArgs {
 
 /// Runs the measurement and prints its result.
 pub fn run(args: &BenchTrainArgs) -> anyhow::Result<()> {
-    let folder = tempfile::tempdir().context("no temporary folder")?;
+    let folder = tempfile::tempdir().context("cannot create a temporary folder")?;
     let actors = args.actors.unwrap_or(machine::cores() as u32);
-    let program = std::env::current_exe().context("this program's own path is unknown")?;
+    let program = std::env::current_exe().context("the path of this program is unknown")?;
     let output = Command::new(program)
         .args(["train", "--no-progress", "--json"])
         .args(["--steps", &args.steps.to_string(), "--actors", &actors.to_string()])

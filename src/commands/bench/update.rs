@@ -1,4 +1,4 @@
-//! The update on made-up experience: forward, loss, backward, gradient clipping, Adam.
+//! `bench update`: an update on random experience, with forward and backward pass, gradient clipping and Adam.
 
 use std::{sync::Arc, time::Instant};
 
@@ -7,7 +7,7 @@ use serde_json::json;
 use treadmill_config::PpoConfig;
 use treadmill_policy::{NetworkShape, device::DeviceKind, gaussian, init::initial_parameters};
 use treadmill_ppo::{Batch, Updater};
-use treadmill_runtime::{machine, seeds};
+use treadmill_runtime::{error_chain, machine, seeds};
 
 use crate::launch::{exit_code::Usage, memory};
 
@@ -20,19 +20,19 @@ use super::{
 /// Flags of `bench update`.
 #[derive(Args)]
 pub struct UpdateArgs {
-    /// Updates to measure over, after one that warms up.
+    /// Updates to measure, after one for warm-up.
     #[arg(long, default_value_t = 10)]
     updates: u32,
-    /// Threads; 0 means one per core.
+    /// Threads of the update; 0 means one per core.
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u16).range(0..=256))]
     threads: u16,
-    /// Transitions of one gradient step.
+    /// Transitions per gradient step.
     #[arg(long, default_value_t = 2048)]
     minibatch: u32,
-    /// Widths of actor and critic: observation, then hidden layers.
+    /// Widths of actor and critic networks: observation, then hidden layers.
     #[arg(long, value_name = "WIDTHS", default_value = "45-256-128")]
     network: Widths,
-    /// Where the networks are computed: cpu, or cuda in a build with that feature.
+    /// Device for the networks: cpu, or cuda in a build with that feature.
     #[arg(long, value_name = "DEVICE", default_value = "cpu")]
     device: DeviceKind,
     /// Print one JSON object.
@@ -43,13 +43,13 @@ pub struct UpdateArgs {
 /// Runs the measurement and prints its result.
 pub fn run(args: &UpdateArgs) -> anyhow::Result<()> {
     memory::keep_freed();
-    let device = args.device.open().map_err(|why| Usage(why.to_string()))?;
+    let device = args.device.open().map_err(|why| Usage(error_chain(&why)))?;
     let shape = args.network.shape();
     let minibatch = args.minibatch.max(1);
     let config = PpoConfig { minibatch, batch: minibatch.saturating_mul(4), ..PpoConfig::default() };
     let mut random = seeds::stream(1, "bench-update", &[]);
     let parameters = initial_parameters(&shape, -0.5, &mut random);
-    let batch = made_up(&shape, config.batch as usize, &mut random);
+    let batch = random_batch(&shape, config.batch as usize, &mut random);
     let threads = bench_worlds::threads(args.threads.into());
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build()?;
     let mut updater = Updater::on(&device, shape, parameters, &config, Arc::new(pool))?;
@@ -73,7 +73,7 @@ pub fn run(args: &UpdateArgs) -> anyhow::Result<()> {
     Ok(())
 }
 
-fn made_up(shape: &NetworkShape, rows: usize, random: &mut seeds::Stream) -> Batch {
+fn random_batch(shape: &NetworkShape, rows: usize, random: &mut seeds::Stream) -> Batch {
     let mut normals = |count: usize| network::normals(count, random);
     let actions = normals(rows * shape.action);
     let (mean, log_std) = (vec![0.0; shape.action], vec![-0.5; shape.action]);

@@ -1,6 +1,6 @@
-//! What is in a folder of certificates: whose, valid from when to when, by which authority, and whether keys are private.
+//! Diagnosis of a folder of certificates: role, validity, authority, hosts, and privacy of keys.
 
-use std::{fs, os::unix::fs::PermissionsExt, path::Path, sync::Arc};
+use std::{net::IpAddr, os::unix::fs::PermissionsExt, path::Path, sync::Arc};
 
 use rustls::{
     CertificateError, RootCertStore,
@@ -12,128 +12,129 @@ use time::OffsetDateTime;
 use treadmill_bus::{Credentials, Role};
 use x509_parser::prelude::{FromDer, GeneralName, X509Certificate};
 
-use super::{clock::date_text, finding::Finding};
+use super::{finding::Finding, machine::date_text};
 
 const NAME: &str = "certificates";
 
-/// One that lasts no longer than this is to be renewed.
-const SOON_DAYS: i64 = 14;
+/// Remaining days below which a certificate should be renewed.
+const RENEWAL_DAYS: i64 = 14;
+/// Words for a certificate that this folder's authority did not issue.
+pub const OTHER_AUTHORITY: &str = "it is of another authority";
+/// Remedy for [`OTHER_AUTHORITY`].
+pub const SAME_AUTHORITY: &str =
+    "all machines need files of one authority: copy ca.crt and each role's files from the same folder";
+const COPY_ANEW: &str = "copy both files again from the folder that `treadmill certs` wrote";
 
-/// Of every part whose files are in the folder.
+/// Makes a finding for each role whose certificate is in the folder.
 pub fn diagnose(folder: &Path) -> Vec<Finding> {
     let roots = match authority(folder) {
         Ok(roots) => roots,
         Err(finding) => return vec![finding],
     };
-    let now = OffsetDateTime::now_utc();
-    let parts = Role::ALL.into_iter().filter(|role| folder.join(format!("{}.crt", role.name())).exists());
-    let findings: Vec<Finding> = parts.map(|role| look_at(folder, role, &roots, now)).collect();
-    match findings.is_empty() {
-        true => vec![Finding::problem(
+    let roles = Role::ALL.into_iter().filter(|role| folder.join(format!("{}.crt", role.name())).exists());
+    let findings: Vec<Finding> =
+        roles.map(|role| diagnose_role(folder, role, &roots).unwrap_or_else(|finding| finding)).collect();
+    if findings.is_empty() {
+        let seen = format!("{} has no role's certificate", folder.display());
+        return vec![Finding::problem(
             NAME,
-            format!("{} has no part's certificate", folder.display()),
-            "copy the two files of this machine's part there, as actor.crt and actor.key",
-        )],
-        false => findings,
+            seen,
+            "copy the two files of this machine's role, as actor.crt and actor.key",
+        )];
     }
+    findings
 }
 
-/// Whom this folder's authority has certified.
+/// Reads the folder's authority; the error is the finding about it.
 pub fn authority(folder: &Path) -> Result<Arc<RootCertStore>, Finding> {
     let file = Credentials::authority(folder);
-    let wrong = |why: String| {
-        let remedy = "make certificates with `treadmill certs`, or copy ca.crt from where that was done";
-        Finding::problem(NAME, format!("{}: {why}", file.display()), remedy)
-    };
     let mut roots = RootCertStore::empty();
-    let certificate = CertificateDer::from_pem_file(&file).map_err(|why| wrong(why.to_string()))?;
-    roots.add(certificate).map_err(|why| wrong(why.to_string()))?;
-    Ok(Arc::new(roots))
+    let added = CertificateDer::from_pem_file(&file)
+        .map_err(|why| why.to_string())
+        .and_then(|certificate| roots.add(certificate).map_err(|why| why.to_string()));
+    match added {
+        Ok(()) => Ok(Arc::new(roots)),
+        Err(why) => Err(Finding::problem(
+            NAME,
+            format!("{}: {why}", file.display()),
+            "make certificates with `treadmill certs`, or copy ca.crt from where they were made",
+        )),
+    }
 }
 
-fn look_at(folder: &Path, role: Role, roots: &Arc<RootCertStore>, now: OffsetDateTime) -> Finding {
+fn diagnose_role(folder: &Path, role: Role, roots: &Arc<RootCertStore>) -> Result<Finding, Finding> {
     let [certificate_file, key_file] = Credentials { folder: folder.to_path_buf(), role }.files();
-    let (part, shown) = (role.name(), certificate_file.display());
-    let wrong = |seen: String, remedy: &str| Finding::problem(NAME, seen, remedy);
-    let again = "copy both files anew from where `treadmill certs` was run";
-    let der = match CertificateDer::from_pem_file(&certificate_file) {
-        Ok(der) => der,
-        Err(why) => return wrong(format!("{shown} is no certificate: {why}"), again),
-    };
-    let Ok((_, certificate)) = X509Certificate::from_der(&der) else {
-        return wrong(format!("{shown} is no certificate"), again);
-    };
-    let (from, until) =
-        (certificate.validity().not_before.to_datetime(), certificate.validity().not_after.to_datetime());
-    if now < from {
-        return wrong(
-            format!(
-                "the {part}'s certificate is not valid before {} UTC, and it is {} here",
-                date_text(from),
-                date_text(now)
-            ),
-            "set this machine's clock, or wait",
-        );
+    let shown = certificate_file.display();
+    let unreadable = |why: String| Finding::problem(NAME, format!("{shown} is not a certificate: {why}"), COPY_ANEW);
+    let der = CertificateDer::from_pem_file(&certificate_file).map_err(|why| unreadable(why.to_string()))?;
+    let (_, certificate) = X509Certificate::from_der(&der).map_err(|why| unreadable(why.to_string()))?;
+    let validity = check_validity(role, &certificate)?;
+    if let Some(why) = rejection(&der, roots) {
+        let seen = format!("the {}'s certificate is refused: {why}", role.name());
+        return Err(Finding::problem(NAME, seen, SAME_AUTHORITY));
     }
-    if now > until {
-        return wrong(
-            format!("the {part}'s certificate expired at {} UTC", date_text(until)),
-            "make new ones with `treadmill certs DIR --renew`, and copy them to each machine; if it should be valid, set the clock",
-        );
-    }
-    if let Some(why) = refused(&der, roots) {
-        return wrong(
-            format!("the {part}'s certificate is refused: {why}"),
-            "all machines need files that one authority made: copy ca.crt and this part's files from the same folder",
-        );
-    }
-    let private = PrivateKeyDer::from_pem_file(&key_file).map_err(|why| why.to_string());
-    let fits = private.and_then(|key| {
-        CertifiedKey::from_der(vec![der.clone()], key, &rustls::crypto::ring::default_provider())
-            .map_err(|why| why.to_string())
-    });
-    if let Err(why) = fits {
-        return wrong(format!("{} does not go with {shown}: {why}", key_file.display()), again);
-    }
-    let mode = fs::metadata(&key_file).map_or(0, |facts| facts.permissions().mode() & 0o777);
-    if mode & 0o077 != 0 {
-        return wrong(
-            format!("{} can be read by others: its mode is {mode:o}", key_file.display()),
-            &format!("keep it private: chmod 600 {}", key_file.display()),
-        );
-    }
+    check_key(&der, &shown.to_string(), &key_file)?;
     let common_name = certificate.subject().iter_common_name().next().and_then(|name| name.as_str().ok());
     if common_name != Some(&role.common_name()) {
-        return wrong(
-            format!(
-                "{shown} is of `{}`, and the bus knows the {part} as `{}`",
-                common_name.unwrap_or(""),
-                role.common_name()
-            ),
-            "give each file the name of its part, as `treadmill certs` does",
-        );
+        let (found, expected) = (common_name.unwrap_or(""), role.common_name());
+        let seen = format!("{shown} belongs to `{found}`; the bus expects `{expected}`");
+        return Err(Finding::problem(NAME, seen, "give each file the name of its role, as `treadmill certs` does"));
+    }
+    Ok(validity)
+}
+
+/// Compares a certificate's validity with the clock; returns the finding for a certificate without other problems.
+fn check_validity(role: Role, certificate: &X509Certificate) -> Result<Finding, Finding> {
+    let (now, role, validity) = (OffsetDateTime::now_utc(), role.name(), certificate.validity());
+    let (from, until) = (validity.not_before.to_datetime(), validity.not_after.to_datetime());
+    if now < from {
+        let (from, now) = (date_text(from), date_text(now));
+        let seen = format!("the {role}'s certificate is not valid before {from} UTC, and it is {now} here");
+        return Err(Finding::problem(NAME, seen, "set this machine's clock, or wait"));
+    }
+    if now > until {
+        let remedy = "renew it with `treadmill certs DIR --renew`, and copy it to each machine; or set the clock";
+        let seen = format!("the {role}'s certificate expired at {} UTC", date_text(until));
+        return Err(Finding::problem(NAME, seen, remedy));
     }
     let days = (until - now).whole_days();
-    let hosts = names(&certificate);
+    let hosts = hosts(certificate);
     let named = if hosts.is_empty() { String::new() } else { format!(", for {}", hosts.join(" ")) };
-    let seen = format!("the {part}'s is valid until {} UTC, {days} days more{named}", date_text(until));
-    match days {
-        ..SOON_DAYS => Finding::note(NAME, seen, "renew them soon: `treadmill certs DIR --renew`"),
+    let seen = format!("the {role}'s is valid until {} UTC, {days} days more{named}", date_text(until));
+    Ok(match days {
+        ..RENEWAL_DAYS => Finding::note(NAME, seen, "renew them soon: `treadmill certs DIR --renew`"),
         _ => Finding::ok(NAME, seen),
+    })
+}
+
+/// Tests that the private key matches the certificate and that only its owner can read it.
+fn check_key(der: &CertificateDer, certificate: &str, file: &Path) -> Result<(), Finding> {
+    let shown = file.display();
+    let provider = rustls::crypto::ring::default_provider();
+    PrivateKeyDer::from_pem_file(file)
+        .map_err(|why| why.to_string())
+        .and_then(|key| {
+            CertifiedKey::from_der(vec![der.clone().into_owned()], key, &provider).map_err(|why| why.to_string())
+        })
+        .map_err(|why| Finding::problem(NAME, format!("{shown} does not match {certificate}: {why}"), COPY_ANEW))?;
+    let mode = file.metadata().map_or(0, |facts| facts.permissions().mode() & 0o777);
+    if mode & 0o077 != 0 {
+        let seen = format!("{shown} can be read by others: its mode is {mode:o}");
+        return Err(Finding::problem(NAME, seen, format!("make it private: chmod 600 {shown}")));
+    }
+    Ok(())
+}
+
+/// Returns why the authority rejects a certificate.
+fn rejection(der: &CertificateDer, roots: &Arc<RootCertStore>) -> Option<String> {
+    let provider = Arc::new(rustls::crypto::ring::default_provider());
+    match WebPkiClientVerifier::builder_with_provider(roots.clone(), provider).build() {
+        Ok(verifier) => verifier.verify_client_cert(der, &[], UnixTime::now()).err().map(|why| in_words(&why)),
+        Err(why) => Some(why.to_string()),
     }
 }
 
-/// Why the authority does not stand by a certificate, in words.
-fn refused(der: &CertificateDer, roots: &Arc<RootCertStore>) -> Option<String> {
-    let provider = Arc::new(rustls::crypto::ring::default_provider());
-    let verifier = match WebPkiClientVerifier::builder_with_provider(roots.clone(), provider).build() {
-        Ok(verifier) => verifier,
-        Err(why) => return Some(why.to_string()),
-    };
-    verifier.verify_client_cert(der, &[], UnixTime::now()).err().map(|why| in_words(&why))
-}
-
-/// What encryption says against a certificate, as whoever runs a fleet would.
+/// Describes a TLS error in an operator's words.
 pub fn in_words(why: &rustls::Error) -> String {
     let rustls::Error::InvalidCertificate(reason) = why else { return why.to_string() };
     match reason {
@@ -141,7 +142,7 @@ pub fn in_words(why: &rustls::Error) -> String {
         CertificateError::NotValidYet | CertificateError::NotValidYetContext { .. } => {
             "it is not valid yet".to_string()
         }
-        CertificateError::UnknownIssuer | CertificateError::BadSignature => "it is of another authority".to_string(),
+        CertificateError::UnknownIssuer | CertificateError::BadSignature => OTHER_AUTHORITY.to_string(),
         CertificateError::NotValidForName | CertificateError::NotValidForNameContext { .. } => {
             format!("it is not for this name: {reason}")
         }
@@ -149,16 +150,16 @@ pub fn in_words(why: &rustls::Error) -> String {
     }
 }
 
-/// Hosts that a certificate is for.
-fn names(certificate: &X509Certificate) -> Vec<String> {
+/// Returns the hosts that a certificate names.
+fn hosts(certificate: &X509Certificate) -> Vec<String> {
     let Ok(Some(names)) = certificate.subject_alternative_name() else { return Vec::new() };
-    let name = |name: &GeneralName| match name {
+    let host = |name: &GeneralName| match name {
         GeneralName::DNSName(host) => Some((*host).to_string()),
-        GeneralName::IPAddress(bytes) => match bytes.len() {
-            4 => <[u8; 4]>::try_from(*bytes).ok().map(|four| std::net::Ipv4Addr::from(four).to_string()),
-            _ => <[u8; 16]>::try_from(*bytes).ok().map(|sixteen| std::net::Ipv6Addr::from(sixteen).to_string()),
-        },
+        GeneralName::IPAddress(bytes) => {
+            let v4 = <[u8; 4]>::try_from(*bytes).map(|bytes| IpAddr::from(bytes).to_string());
+            v4.or_else(|_| <[u8; 16]>::try_from(*bytes).map(|bytes| IpAddr::from(bytes).to_string())).ok()
+        }
         _ => None,
     };
-    names.value.general_names.iter().filter_map(name).collect()
+    names.value.general_names.iter().filter_map(host).collect()
 }

@@ -1,20 +1,20 @@
-//! What a diagnosis says: a severity, what was seen, and what to do.
+//! Result of a diagnosis: its severity, what was seen, and what to do.
 
 use std::fmt;
 
-/// How bad it is.
+/// Severity of a finding.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Severity {
-    /// As it should be.
+    /// No action needed.
     Ok,
-    /// It works, and could be better, or should be known.
+    /// Works, but could be better.
     Note,
-    /// Something will not work.
+    /// Will not work.
     Problem,
 }
 
 impl Severity {
-    /// In one word.
+    /// Returns the word that stands for it in the output.
     pub fn name(self) -> &'static str {
         match self {
             Self::Ok => "ok",
@@ -24,12 +24,11 @@ impl Severity {
     }
 }
 
-/// What one diagnosis says.
+/// Result of one diagnosis.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Finding {
-    /// Of what, in a word or two that never change.
+    /// Fixed name of the diagnosis.
     pub name: &'static str,
-    /// How bad it is.
     pub severity: Severity,
     /// What was seen, in one line.
     pub seen: String,
@@ -38,28 +37,23 @@ pub struct Finding {
 }
 
 impl Finding {
-    /// All is well.
+    /// Creates a finding that needs no action.
     pub fn ok(name: &'static str, seen: impl Into<String>) -> Self {
         Self { name, severity: Severity::Ok, seen: one_line(&seen.into()), remedy: None }
     }
 
-    /// Worth knowing.
+    /// Creates a finding worth knowing.
     pub fn note(name: &'static str, seen: impl Into<String>, remedy: impl Into<String>) -> Self {
         Self { name, severity: Severity::Note, seen: one_line(&seen.into()), remedy: Some(one_line(&remedy.into())) }
     }
 
-    /// To be mended.
+    /// Creates a finding to be fixed.
     pub fn problem(name: &'static str, seen: impl Into<String>, remedy: impl Into<String>) -> Self {
         Self { severity: Severity::Problem, ..Self::note(name, seen, remedy) }
     }
 }
 
-/// `1 actor`, `2 actors`.
-pub fn actors(count: u64) -> String {
-    if count == 1 { "1 actor".to_string() } else { format!("{count} actors") }
-}
-
-/// Some of what is seen was said by strangers: nothing of it moves the cursor or makes a line of its own.
+/// Replaces control characters: text from other machines must not move the cursor or start a line.
 fn one_line(text: &str) -> String {
     text.chars().map(|c| if c.is_control() { ' ' } else { c }).collect()
 }
@@ -79,7 +73,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_finding_stands_in_its_columns_and_strangers_make_no_lines() {
+    fn findings_are_aligned_and_contain_no_control_characters() {
         let finding = Finding::problem("learner", "version \u{1b}[2J1\n", "update it");
         let text = finding.to_string();
         assert_eq!(text, "problem  learner        version  [2J1 \n                        do: update it");

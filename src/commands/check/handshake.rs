@@ -1,5 +1,4 @@
-//! Whether both ends of an encrypted link take each other's certificate, asked of the encryption itself: the bus would only
-//! say that nobody answers.
+//! Diagnosis of the TLS handshake. The bus would report only that no learner answers.
 
 use std::{io::Read, net::TcpStream, sync::Arc, time::Duration};
 
@@ -9,105 +8,86 @@ use rustls::{
 };
 use treadmill_bus::Credentials;
 
-use super::{certificates, finding::Finding};
+use super::{
+    certificates::{self, OTHER_AUTHORITY, SAME_AUTHORITY},
+    finding::Finding,
+};
 
 const NAME: &str = "handshake";
 
-/// How long each step may take.
-const PATIENCE: Duration = Duration::from_secs(5);
-/// Who does not take our certificate says so this soon; who does waits for us to speak.
-const OBJECTION: Duration = Duration::from_millis(700);
+/// Timeout of each step.
+const STEP_TIMEOUT: Duration = Duration::from_secs(5);
+/// Time within which a peer that rejects our certificate says so; a peer that accepts it waits for us.
+const REJECTION_TIMEOUT: Duration = Duration::from_millis(700);
 
-/// Agrees on encryption with whoever is at the other end, who is to be `host`.
+/// Makes a TLS handshake with `host` at the other end of `stream`.
 pub fn diagnose(stream: TcpStream, host: &str, credentials: &Credentials) -> Finding {
-    match shake(stream, host, credentials) {
-        Ok(()) => Finding::ok(NAME, format!("{host} and this machine's {} trust each other", credentials.role.name())),
-        Err(why) => objection(host, &why),
-    }
-}
-
-/// Why there is no link.
-enum Failure {
-    /// The files here cannot be used.
-    Ours(String),
-    /// What the encryption says.
-    Tls(Error),
-    /// What the system says.
-    Io(String),
-}
-
-fn shake(stream: TcpStream, host: &str, credentials: &Credentials) -> Result<(), Failure> {
-    let roots = certificates::authority(&credentials.folder).map_err(|finding| Failure::Ours(finding.seen))?;
-    let [certificate, key] = credentials.files();
-    let ours = |why: rustls::pki_types::pem::Error| Failure::Ours(why.to_string());
-    let chain = vec![CertificateDer::from_pem_file(&certificate).map_err(ours)?];
-    let private = PrivateKeyDer::from_pem_file(&key).map_err(ours)?;
-    let config = ClientConfig::builder_with_provider(Arc::new(rustls::crypto::ring::default_provider()))
-        .with_safe_default_protocol_versions()
-        .and_then(|config| config.with_root_certificates(roots).with_client_auth_cert(chain, private))
-        .map_err(|why| Failure::Ours(why.to_string()))?;
-    let name = ServerName::try_from(host.to_string()).map_err(|why| Failure::Ours(why.to_string()))?;
-    let connection = ClientConnection::new(Arc::new(config), name).map_err(Failure::Tls)?;
-    let patient = |patience| {
-        stream
-            .set_read_timeout(Some(patience))
-            .and_then(|()| stream.set_write_timeout(Some(patience)))
-            .map_err(|why| Failure::Io(why.to_string()))
+    let connection = match connection(host, credentials) {
+        Ok(connection) => connection,
+        Err(why) => {
+            return Finding::problem(NAME, format!("this machine's files are unusable: {why}"), "copy them again");
+        }
     };
-    patient(PATIENCE)?;
-    let socket = stream.try_clone().map_err(|why| Failure::Io(why.to_string()))?;
-    let mut link = StreamOwned::new(connection, socket);
-    while link.conn.is_handshaking() {
-        link.conn.complete_io(&mut link.sock).map_err(failure)?;
+    match shake_hands(stream, connection) {
+        Ok(()) => Finding::ok(NAME, format!("{host} and this machine's {} trust each other", credentials.role.name())),
+        Err(why) => rejected(host, &why),
     }
-    // Our own certificate is judged after we are done.
-    patient(OBJECTION)?;
+}
+
+fn connection(host: &str, credentials: &Credentials) -> anyhow::Result<ClientConnection> {
+    let roots = certificates::authority(&credentials.folder).map_err(|finding| anyhow::anyhow!(finding.seen))?;
+    let [certificate, key] = credentials.files();
+    let chain = vec![CertificateDer::from_pem_file(&certificate)?];
+    let config = ClientConfig::builder_with_provider(Arc::new(rustls::crypto::ring::default_provider()))
+        .with_safe_default_protocol_versions()?
+        .with_root_certificates(roots)
+        .with_client_auth_cert(chain, PrivateKeyDer::from_pem_file(&key)?)?;
+    Ok(ClientConnection::new(Arc::new(config), ServerName::try_from(host.to_string())?)?)
+}
+
+fn shake_hands(stream: TcpStream, connection: ClientConnection) -> anyhow::Result<()> {
+    stream.set_read_timeout(Some(STEP_TIMEOUT))?;
+    stream.set_write_timeout(Some(STEP_TIMEOUT))?;
+    let mut link = StreamOwned::new(connection, stream);
+    while link.conn.is_handshaking() {
+        link.conn.complete_io(&mut link.sock)?;
+    }
+    // The peer verifies our certificate after our side of the handshake is complete.
+    link.sock.set_read_timeout(Some(REJECTION_TIMEOUT))?;
     match link.read(&mut [0; 1]) {
-        Ok(0) => Err(Failure::Io("the other end closed the link at once".to_string())),
+        Ok(0) => anyhow::bail!("the other end closed the link at once"),
         Ok(_) => Ok(()),
         Err(why) if matches!(why.kind(), std::io::ErrorKind::WouldBlock | std::io::ErrorKind::TimedOut) => Ok(()),
-        Err(why) => Err(failure(why)),
+        Err(why) => Err(why.into()),
     }
 }
 
-fn failure(why: std::io::Error) -> Failure {
-    let told = why.to_string();
-    match why.into_inner().and_then(|inner| inner.downcast::<Error>().ok()) {
-        Some(tls) => Failure::Tls(*tls),
-        None => Failure::Io(told),
-    }
-}
-
-fn objection(host: &str, why: &Failure) -> Finding {
-    let same =
-        "all machines need files that one authority made: copy ca.crt and each part's files from the same folder";
-    let (seen, remedy) = match why {
-        Failure::Ours(why) => (format!("this machine's files cannot be used: {why}"), "copy them anew"),
-        Failure::Tls(why @ Error::InvalidCertificate(_)) => {
+fn rejected(host: &str, why: &anyhow::Error) -> Finding {
+    // An I/O error wraps what TLS reports.
+    let tls = why.chain().find_map(|cause| {
+        let wrapped = cause.downcast_ref::<std::io::Error>().and_then(std::io::Error::get_ref);
+        cause.downcast_ref::<Error>().or_else(|| wrapped?.downcast_ref::<Error>())
+    });
+    let (seen, remedy) = match tls {
+        Some(why @ Error::InvalidCertificate(_)) => {
             let words = certificates::in_words(why);
             let remedy = match &words[..] {
-                "it has expired" => {
-                    "make new ones with `treadmill certs DIR --renew` and restart the learner with them"
-                }
+                "it has expired" => "renew it with `treadmill certs DIR --renew`, and restart the learner",
                 "it is not valid yet" => "compare the clocks of both machines",
-                "it is of another authority" => same,
+                OTHER_AUTHORITY => SAME_AUTHORITY,
                 _ => "name the host in its certificate: `treadmill certs DIR --renew --host NAME`",
             };
             (format!("{host}'s certificate is refused: {words}"), remedy)
         }
-        Failure::Tls(Error::AlertReceived(AlertDescription::CertificateExpired)) => (
-            format!("{host} says that our certificate has expired"),
+        Some(Error::AlertReceived(AlertDescription::CertificateExpired)) => (
+            format!("{host} reports that our certificate has expired"),
             "renew it, or compare the clocks of both machines",
         ),
-        Failure::Tls(Error::AlertReceived(alert)) => {
-            (format!("{host} does not take our certificate ({alert:?})"), same)
-        }
-        Failure::Tls(why) => {
-            (format!("{host} does not speak TLS as it should: {why}"), "dial tcp/ if it is not encrypted")
-        }
-        Failure::Io(why) => (
-            format!("the link to {host} broke while encryption was agreed upon: {why}"),
-            "see whether its endpoint begins with tls/, and whether its clock and certificates are right",
+        Some(Error::AlertReceived(alert)) => (format!("{host} rejects our certificate ({alert:?})"), SAME_AUTHORITY),
+        Some(why) => (format!("{host} does not speak TLS: {why}"), "dial tcp/ if it is not encrypted"),
+        None => (
+            format!("the link to {host} broke during the handshake: {why}"),
+            "check that its endpoint begins with tls/, and that its clock and certificates are right",
         ),
     };
     Finding::problem(NAME, seen, remedy)

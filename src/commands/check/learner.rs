@@ -1,29 +1,27 @@
-//! Whether a learner answers, of which version it is, and how far its clock is off.
+//! Diagnosis of a learner: whether it answers, its version, and the difference of its clock.
 
-use std::time::Duration;
+use std::{io, time::Duration};
 
-use treadmill_bus::{Bus, BusOptions, Role, statuses};
+use treadmill_bus::{Bus, BusOptions, Credentials, Role, statuses};
 use treadmill_proto::{ControlReply, RunStatus};
-use treadmill_runtime::machine;
+use treadmill_runtime::{error_chain, machine};
 
-use super::{
-    finding::{Finding, actors as counted},
-    route,
-};
+use super::{finding::Finding, route};
 use crate::{
     launch::{exit_code::Usage, slow_step::SlowStepNotice},
-    shared::learner_address::{self, ReachArgs},
+    shared::learner_address::{ANSWER_TIMEOUT, ReachArgs, retry_until_answered},
 };
 
 const NAME: &str = "learner";
 const VERSIONS: &str = "versions";
 const SKEW: &str = "clock skew";
 
-/// How long the bus may take to open once somebody listens.
+/// Timeout for opening the bus when a process listens.
 const OPEN_TIMEOUT: Duration = Duration::from_secs(8);
-/// Clocks that differ by this are worth a word, and by that much nothing that is dated fits together.
+/// Difference of clocks above which a note appears, and above which dates no longer match.
 const SKEW_S: f64 = 2.0;
 const SKEW_MAX_S: f64 = 60.0;
+const SAME_VERSION: &str = "use the same version of Treadmill on all machines";
 
 /// Route to a learner.
 pub struct LearnerRoute {
@@ -32,7 +30,7 @@ pub struct LearnerRoute {
 }
 
 impl LearnerRoute {
-    /// As the flags say; none where they name no learner.
+    /// Reads the route from the flags; returns `None` if they name no learner.
     pub fn of(reach: &ReachArgs) -> anyhow::Result<Option<Self>> {
         let connect = reach.named_endpoints()?;
         if let Some(run) = &reach.run {
@@ -41,67 +39,49 @@ impl LearnerRoute {
         if connect.is_empty() && !reach.network.discover {
             return Ok(None);
         }
-        let role = role(reach);
-        // Whoever has no certificate that fits is told so by the diagnosis, and not by a refusal to make it.
-        let options = reach.network.options(role, Vec::new(), connect)?;
+        let options = reach.network.options(role(reach), Vec::new(), connect)?;
         Ok(Some(Self { options, run: reach.run.clone() }))
     }
 
-    /// Goes the way.
+    /// Diagnoses each endpoint, and asks the learner if one of them is reachable.
     pub fn diagnose(&self) -> Vec<Finding> {
-        let (mut findings, mut is_open) = (Vec::new(), self.options.discover);
+        let (mut findings, mut is_reachable) = (Vec::new(), self.options.discover);
         for endpoint in &self.options.connect {
-            let (found, is_well) = route::diagnose(endpoint, self.options.credentials.as_ref());
+            let (found, is_ok) = route::diagnose(endpoint, self.options.credentials.as_ref());
             findings.extend(found);
-            is_open |= is_well;
+            is_reachable |= is_ok;
         }
-        // Nobody would answer on the bus either.
-        if is_open {
-            findings.extend(self.ask());
+        if is_reachable {
+            findings.extend(self.ask().unwrap_or_else(|finding| vec![finding]));
         }
         findings
     }
 
-    fn ask(&self) -> Vec<Finding> {
+    fn ask(&self) -> Result<Vec<Finding>, Finding> {
         let _step = SlowStepNotice::begin("asking the learner");
-        let runtime = match tokio::runtime::Builder::new_multi_thread().worker_threads(2).enable_all().build() {
-            Ok(runtime) => runtime,
-            Err(why) => {
-                return vec![Finding::problem(NAME, why.to_string(), "see how many threads this user may have")];
-            }
-        };
+        let runtime = tokio::runtime::Builder::new_multi_thread().worker_threads(2).enable_all().build();
+        let too_few_threads = |why: io::Error| Finding::problem(NAME, why.to_string(), "raise ulimit -u");
+        let runtime = runtime.map_err(too_few_threads)?;
         let findings = runtime.block_on(async {
             let options = self.options.clone();
             let opened = tokio::task::spawn_blocking(move || Bus::open_client(&options));
-            let bus = match tokio::time::timeout(OPEN_TIMEOUT, opened).await {
-                Ok(Ok(Ok(bus))) => bus,
-                Ok(Ok(Err(why))) => {
-                    return vec![Finding::problem(NAME, why.to_string(), "see the flags of the network")];
-                }
-                _ => return vec![self.silent()],
+            let Ok(Ok(opened)) = tokio::time::timeout(OPEN_TIMEOUT, opened).await else {
+                let seen = "a process listens there, but does not speak as a learner or a router does";
+                let remedy = "find the process that uses the port: ss -ltnp there; a learner logs where it listens";
+                return Err(Finding::problem(NAME, seen, remedy));
             };
-            let asked = learner_address::retry_until_answered(async || {
-                statuses(&bus, None, learner_address::ANSWER_TIMEOUT).await
-            })
-            .await;
+            let bus = opened.map_err(|why| Finding::problem(NAME, error_chain(&why), "check the network flags"))?;
+            let replies = retry_until_answered(async || statuses(&bus, None, ANSWER_TIMEOUT).await).await;
             let now_unix_s = machine::time_unix_s();
             bus.close();
-            match asked {
-                Ok(replies) => self.assess(replies, now_unix_s),
-                Err(why) => vec![Finding::problem(NAME, why.to_string(), "ask again; then see the learner's log")],
+            match replies {
+                Ok(replies) => Ok(self.assess(replies, now_unix_s)),
+                Err(why) => Err(Finding::problem(NAME, format!("{why:#}"), "ask again; then read the learner's log")),
             }
         });
-        // A dial that goes on must not keep the process.
+        // Unfinished dialling must not keep the process alive.
         runtime.shutdown_background();
         findings
-    }
-
-    fn silent(&self) -> Finding {
-        Finding::problem(
-            NAME,
-            "somebody listens there, and does not speak as a learner or a router does",
-            "see what has that port: ss -ltnp there; a learner says what it listens on when it starts",
-        )
     }
 
     fn assess(&self, replies: Vec<ControlReply>, now_unix_s: f64) -> Vec<Finding> {
@@ -120,43 +100,36 @@ impl LearnerRoute {
             (Some(run), _) if !runs.is_empty() => {
                 let names: Vec<&str> = runs.iter().map(|status| &status.run[..]).collect();
                 let seen = format!("no run `{run}` answers there; these do: {}", names.join(", "));
-                Finding::problem(NAME, seen, "name one of these by --run")
+                Finding::problem(NAME, seen, "name one of these with --run")
             }
             (_, Some(role)) if !matches!(role, Role::Observer | Role::Operator) => Finding::note(
                 NAME,
-                format!("the {}'s certificate lets nobody ask how a run goes, so no more is known", role.name()),
-                "look from a machine with an observer's certificate for versions and clocks",
+                format!("the {}'s certificate may not ask for the status of a run", role.name()),
+                "use an observer's certificate to check versions and clocks",
             ),
             _ => Finding::problem(
                 NAME,
                 "no learner answers there",
-                "start one, or dial it and not a router that has lost it; see that both sides speak of the same run",
+                "start a learner; if this is a router, check its link to the learner; check that --run is the same",
             ),
         }
     }
 }
 
-/// As whom to ask: as an observer where there are its files, else as whoever this machine is.
+/// Chooses the role to ask as: the first one, beginning with the observer, whose files exist.
 fn role(reach: &ReachArgs) -> Role {
     let Some(folder) = &reach.network.tls else { return Role::Observer };
-    let has_files =
-        |role: &Role| ["crt", "key"].iter().all(|kind| folder.join(format!("{}.{kind}", role.name())).is_file());
+    let has_files = |role: &Role| Credentials { folder: folder.clone(), role: *role }.missing().is_none();
     let wanted = [Role::Observer, Role::Operator, Role::Actor, Role::Evaluator, Role::Learner, Role::Router];
     wanted.into_iter().find(has_files).unwrap_or(Role::Observer)
 }
 
 fn answers(status: &RunStatus) -> Finding {
+    let RunStatus { run, host, env_steps, env_steps_wanted, .. } = status;
     let alive = status.actors.iter().filter(|actor| actor.alive).count();
-    let seen = format!(
-        "run `{}` answers from {}: {} of {} steps, {}",
-        status.run,
-        status.host,
-        status.env_steps,
-        status.env_steps_wanted,
-        counted(alive as u64)
-    );
+    let seen = format!("run `{run}` answers from {host}: {env_steps} of {env_steps_wanted} steps, actors: {alive}");
     match alive {
-        0 => Finding::note(NAME, seen, format!("start an actor: treadmill actor --run {}", status.run)),
+        0 => Finding::note(NAME, seen, format!("start an actor: treadmill actor --run {run}")),
         _ => Finding::ok(NAME, seen),
     }
 }
@@ -164,36 +137,30 @@ fn answers(status: &RunStatus) -> Finding {
 fn versions(status: &RunStatus) -> Finding {
     let ours = env!("CARGO_PKG_VERSION");
     if status.program_version != ours {
-        return Finding::problem(
-            VERSIONS,
-            format!("the learner of `{}` is of version {}, and this is {ours}", status.run, status.program_version),
-            "use the same version of Treadmill on all machines",
-        );
+        let seen = format!("the learner of `{}` has version {}, this has {ours}", status.run, status.program_version);
+        return Finding::problem(VERSIONS, seen, SAME_VERSION);
     }
     let other = status.actors.iter().find_map(|actor| {
         let version = &actor.stats.as_ref()?.program_version;
-        // Actors in other languages have versions of their own.
+        // Actors in other languages have versions of their own, which contain a space.
         (actor.alive && version != ours && !version.contains(' ')).then_some((&actor.name, version))
     });
     match other {
-        Some((actor, version)) => Finding::problem(
-            VERSIONS,
-            format!("actor `{actor}` is of version {version}, and the learner and this are of {ours}"),
-            "use the same version of Treadmill on all machines",
-        ),
-        None => Finding::ok(VERSIONS, format!("learner, actors and this program are of {ours}")),
+        Some((actor, version)) => {
+            let seen = format!("actor `{actor}` has version {version}, the learner and this have {ours}");
+            Finding::problem(VERSIONS, seen, SAME_VERSION)
+        }
+        None => Finding::ok(VERSIONS, format!("learner, actors and this program have {ours}")),
     }
 }
 
 fn skew(status: &RunStatus, now_unix_s: f64) -> Finding {
     if status.time_unix_s == 0.0 {
-        return Finding::note(SKEW, "the learner does not tell its time", "use the same version on all machines");
+        return Finding::note(SKEW, "the learner does not report its time", SAME_VERSION);
     }
     let ahead_s = status.time_unix_s - now_unix_s;
-    let seen = match ahead_s > 0.0 {
-        true => format!("the learner's clock is {:.1} s ahead of this one", ahead_s.abs()),
-        false => format!("the learner's clock is {:.1} s behind this one", ahead_s.abs()),
-    };
+    let direction = if ahead_s > 0.0 { "ahead of" } else { "behind" };
+    let seen = format!("the learner's clock is {:.1} s {direction} this one", ahead_s.abs());
     let remedy = "set both by NTP (timedatectl set-ntp true): certificates and dates of metrics depend on it";
     match ahead_s.abs() {
         off_s if off_s.is_nan() || off_s > SKEW_MAX_S => Finding::problem(SKEW, seen, remedy),
@@ -208,7 +175,7 @@ mod tests {
     use crate::commands::check::finding::Severity;
 
     #[test]
-    fn clocks_that_differ_are_told_by_how_much() {
+    fn difference_of_clocks_is_reported() {
         let found = |time_unix_s| skew(&RunStatus { time_unix_s, ..RunStatus::default() }, 1000.0);
         assert_eq!(found(1001.0).severity, Severity::Ok);
         assert!(found(990.0).severity == Severity::Note && found(990.0).seen.contains("10.0 s behind"));

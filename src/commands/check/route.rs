@@ -1,4 +1,4 @@
-//! The way to an endpoint: its name, its port, and who answers there.
+//! Diagnosis of the route to an endpoint: name resolution, port and TLS handshake.
 
 use std::{
     io,
@@ -8,53 +8,43 @@ use std::{
 
 use treadmill_bus::Credentials;
 
-use super::{finding::Finding, handshake};
+use super::{
+    finding::{Finding, Severity},
+    handshake,
+};
 
 const NAME: &str = "route";
+const CONNECT_TIMEOUT: Duration = Duration::from_secs(5);
 
-/// How long a machine may take to answer.
-const PATIENCE: Duration = Duration::from_secs(5);
-
-/// Goes to one endpoint as a client does; true where somebody answers as it should.
+/// Connects to an endpoint as a client does. The flag is true if the bus can be asked there.
 pub fn diagnose(endpoint: &str, credentials: Option<&Credentials>) -> (Vec<Finding>, bool) {
     let Some((protocol, rest)) = endpoint.split_once('/') else { return (Vec::new(), false) };
     let address = rest.split(['?', '#']).next().unwrap_or(rest);
-    let stream = match resolve(address).and_then(|found| dial(&found)) {
+    let stream = match address.to_socket_addrs().and_then(connect) {
         Ok(stream) => stream,
         Err(why) => return (vec![unreachable(endpoint, &why)], false),
     };
-    let reached = Finding::ok(NAME, format!("somebody listens at {endpoint}"));
+    let reached = Finding::ok(NAME, format!("a process listens at {endpoint}"));
     match (protocol, credentials) {
         ("tls", Some(credentials)) => {
             let host = address.rsplit_once(':').map_or(address, |(host, _)| host);
-            let shaken = handshake::diagnose(stream, host.trim_matches(['[', ']']), credentials);
-            let is_well = shaken.severity != super::Severity::Problem;
-            (vec![reached, shaken], is_well)
+            let handshake = handshake::diagnose(stream, host.trim_matches(['[', ']']), credentials);
+            let is_ok = handshake.severity != Severity::Problem;
+            (vec![reached, handshake], is_ok)
         }
         ("tls", None) => {
-            let finding = Finding::problem(
-                NAME,
-                format!("{endpoint} wants certificates, and --tls was not given"),
-                "give the folder with ca.crt and this part's two files: --tls DIR",
-            );
-            (vec![finding], false)
+            let seen = format!("{endpoint} requires certificates, and --tls is missing");
+            let remedy = "name the folder with ca.crt and the two files of this machine's role: --tls DIR";
+            (vec![Finding::problem(NAME, seen, remedy)], false)
         }
         _ => (vec![reached], true),
     }
 }
 
-fn resolve(address: &str) -> io::Result<Vec<SocketAddr>> {
-    let found: Vec<SocketAddr> = address.to_socket_addrs()?.collect();
-    match found.is_empty() {
-        true => Err(io::Error::other("the name has no address")),
-        false => Ok(found),
-    }
-}
-
-fn dial(addresses: &[SocketAddr]) -> io::Result<TcpStream> {
+fn connect(addresses: impl Iterator<Item = SocketAddr>) -> io::Result<TcpStream> {
     let mut last = io::Error::other("the name has no address");
     for address in addresses {
-        match TcpStream::connect_timeout(address, PATIENCE) {
+        match TcpStream::connect_timeout(&address, CONNECT_TIMEOUT) {
             Ok(stream) => return Ok(stream),
             Err(why) => last = why,
         }
@@ -65,15 +55,15 @@ fn dial(addresses: &[SocketAddr]) -> io::Result<TcpStream> {
 fn unreachable(endpoint: &str, why: &io::Error) -> Finding {
     let (seen, remedy) = match why.kind() {
         io::ErrorKind::ConnectionRefused => (
-            format!("nobody listens at {endpoint}"),
-            "start the learner, or take the endpoint from endpoint.txt in its run's folder; one that listens on 127.0.0.1 is \
-             reached from its own machine alone",
+            format!("no process listens at {endpoint}"),
+            "start the learner, or take the endpoint from endpoint.txt in its run's folder; a learner on 127.0.0.1 is \
+             unreachable from other machines",
         ),
         io::ErrorKind::TimedOut | io::ErrorKind::HostUnreachable | io::ErrorKind::NetworkUnreachable => (
             format!("no answer from {endpoint}: {why}"),
-            "see whether the machine is up and whether a firewall or security group lets this port through",
+            "check that the machine is up, and that no firewall or security group blocks this port",
         ),
-        _ => (format!("{endpoint} cannot be reached: {why}"), "see whether the name is right: getent hosts NAME"),
+        _ => (format!("{endpoint} cannot be reached: {why}"), "check the name: getent hosts NAME"),
     };
     Finding::problem(NAME, seen, remedy)
 }
@@ -83,7 +73,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn each_kind_of_silence_has_its_own_remedy() {
+    fn each_kind_of_failure_has_its_own_remedy() {
         let remedy = |kind: io::ErrorKind| unreachable("tcp/learner:7447", &kind.into()).remedy.unwrap();
         assert!(remedy(io::ErrorKind::ConnectionRefused).contains("endpoint.txt"));
         assert!(remedy(io::ErrorKind::TimedOut).contains("firewall"));

@@ -1,4 +1,4 @@
-//! Pictures of an evaluation: `eval --gif` and `eval --png`.
+//! Pictures of an evaluation, for `eval --gif` and `eval --png`.
 
 use std::{
     fs,
@@ -20,10 +20,10 @@ use crate::launch::exit_code::Usage;
 #[derive(Args)]
 #[command(group(ArgGroup::new("pictures").args(["gif", "png"]).multiple(true)))]
 pub struct FilmArgs {
-    /// Write the first episode as an animation; needs no window and no GPU.
+    /// Write the first episode as an animation; needs neither a window nor a GPU.
     #[arg(long, value_name = "FILE")]
     gif: Option<PathBuf>,
-    /// Write the pictures of the first episode into a folder, as 00000.png, 00001.png, ...
+    /// Write the pictures of the first episode to a folder, as 00000.png, 00001.png, ...
     #[arg(long, value_name = "FOLDER")]
     png: Option<PathBuf>,
     /// Width and height of the pictures, in pixels.
@@ -32,15 +32,15 @@ pub struct FilmArgs {
     /// Pictures per second.
     #[arg(long, value_name = "N", default_value_t = 20, requires = "pictures", value_parser = clap::value_parser!(u32).range(1..=50))]
     fps: u32,
-    /// Leave out the beginning, so many seconds of it.
+    /// Begin after this many seconds of the episode.
     #[arg(long, value_name = "S", default_value_t = 0.0, requires = "pictures", value_parser = seconds)]
     from_s: f64,
-    /// End after so many seconds; by default with the episode.
+    /// Show this many seconds; by default until the episode ends.
     #[arg(long, value_name = "S", requires = "pictures", value_parser = seconds)]
     seconds: Option<f64>,
 }
 
-/// Pixels of a picture.
+/// Width and height of a picture, in pixels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 struct Size {
     width: u32,
@@ -70,10 +70,10 @@ fn seconds(text: &str) -> Result<f64, String> {
     }
 }
 
-/// How soon the camera follows the torso to the side: after this time (s) it is 1/e of a step aside behind.
+/// Time constant (s) with which the camera follows the torso sideways.
 const FOLLOW_S: f64 = 0.5;
 
-/// Takes the pictures of one episode.
+/// Recorder of the first episode.
 pub struct Filming {
     gif: Option<(Gif<BufWriter<NamedTempFile>>, PathBuf)>,
     png: Option<PathBuf>,
@@ -83,13 +83,13 @@ pub struct Filming {
     until_s: f64,
     control_step_s: f64,
     taken: u32,
-    /// The point of the floor above which the torso is, and that the camera follows.
+    /// Point of the floor that the camera follows.
     followed_m: Option<[f64; 2]>,
     failed: Option<anyhow::Error>,
 }
 
 impl FilmArgs {
-    /// Opens what is written to; `None` where no pictures are wanted.
+    /// Opens the outputs; returns `None` if no pictures are wanted.
     pub fn begin(&self, control_step_s: f64) -> anyhow::Result<Option<Filming>> {
         if self.gif.is_none() && self.png.is_none() {
             return Ok(None);
@@ -112,28 +112,28 @@ impl FilmArgs {
         }))
     }
 
-    /// A temporary file beside the place, which gets its name once it is whole.
+    /// Creates a temporary file beside `path`, which gets its name when it is complete.
     fn open(&self, path: &Path) -> anyhow::Result<(Gif<BufWriter<NamedTempFile>>, PathBuf)> {
         let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
         let file = NamedTempFile::new_in(folder)
-            .with_context(|| format!("--gif {}: nothing can be written there", path.display()))?;
+            .with_context(|| format!("--gif {}: the folder is not writable", path.display()))?;
         Ok((Gif::new(BufWriter::new(file), f64::from(self.fps)), path.to_path_buf()))
     }
 }
 
 fn make_empty(folder: &Path) -> anyhow::Result<()> {
-    fs::create_dir_all(folder).with_context(|| format!("--png {}: no such folder can be made", folder.display()))?;
-    let mut there = fs::read_dir(folder).with_context(|| format!("--png {}: it cannot be read", folder.display()))?;
-    if there.next().is_some() {
-        let why =
-            format!("--png {}: there is something in it already; name a new or an empty folder", folder.display());
+    fs::create_dir_all(folder).with_context(|| format!("--png {}: cannot create the folder", folder.display()))?;
+    let mut entries =
+        fs::read_dir(folder).with_context(|| format!("--png {}: cannot read the folder", folder.display()))?;
+    if entries.next().is_some() {
+        let why = format!("--png {}: the folder is not empty; name a new or an empty one", folder.display());
         return Err(Usage(why).into());
     }
     Ok(())
 }
 
 impl Filming {
-    /// A step of an evaluation; those of its first episode are seen.
+    /// Records a step of an evaluation if it belongs to the first episode.
     pub fn record(&mut self, told: &Told) {
         if told.episode == 1
             && self.failed.is_none()
@@ -147,12 +147,12 @@ impl Filming {
         let position = told.physics.position();
         let share = 1.0 - (-self.control_step_s / FOLLOW_S).exp();
         let followed_m = self.followed_m.get_or_insert([position[0], position[1]]);
-        // Ahead at once: whoever runs would be out of the picture otherwise.
+        // Forward motion is followed without delay, because a runner would leave the picture.
         followed_m[0] = position[0];
         followed_m[1] += (position[1] - followed_m[1]) * share;
         let time_s = f64::from(told.step) * self.control_step_s;
         let due_s = self.from_s + f64::from(self.taken) / f64::from(self.fps);
-        // The step that is nearest to when the picture is due.
+        // Takes the step nearest to the time at which the picture is due.
         if time_s + self.control_step_s / 2.0 < due_s || due_s >= self.until_s {
             return Ok(());
         }
@@ -170,30 +170,34 @@ impl Filming {
         Ok(())
     }
 
-    /// Puts everything in its place and says what was made.
+    /// Completes the files and returns a line that describes them.
     pub fn finish(self) -> anyhow::Result<String> {
         if let Some(why) = self.failed {
             return Err(why);
         }
         if self.taken == 0 {
-            let why = format!("--from-s {}: the first episode was over by then", self.from_s);
+            let why = format!("--from-s {}: the first episode ended before", self.from_s);
             return Err(Usage(why).into());
         }
-        let mut made = Vec::new();
+        let mut files = Vec::new();
         if let Some((gif, path)) = self.gif {
-            let place = || format!("--gif {}", path.display());
-            let file =
-                gif.finish().with_context(place)?.into_inner().map_err(|why| why.into_error()).with_context(place)?;
-            let bytes = file.as_file().metadata().with_context(place)?.len();
-            keep(file, &path).with_context(place)?;
-            made.push(format!("{} ({:.1} MB)", path.display(), bytes as f64 / 1e6));
+            let context = || format!("--gif {}", path.display());
+            let file = gif
+                .finish()
+                .with_context(context)?
+                .into_inner()
+                .map_err(|why| why.into_error())
+                .with_context(context)?;
+            let bytes = file.as_file().metadata().with_context(context)?.len();
+            keep(file, &path).with_context(context)?;
+            files.push(format!("{} ({:.1} MB)", path.display(), bytes as f64 / 1e6));
         }
-        made.extend(self.png.map(|folder| folder.display().to_string()));
-        Ok(format!("{} pictures of {} × {}: {}", self.taken, self.size.0, self.size.1, made.join(", ")))
+        files.extend(self.png.map(|folder| folder.display().to_string()));
+        Ok(format!("{} pictures of {} × {}: {}", self.taken, self.size.0, self.size.1, files.join(", ")))
     }
 }
 
-/// Gives a temporary file its name, and the permissions of any other file.
+/// Gives a temporary file its name and permissions 0644.
 fn keep(file: NamedTempFile, path: &Path) -> anyhow::Result<()> {
     #[cfg(unix)]
     {
@@ -209,7 +213,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn sizes_are_two_numbers_in_bounds() {
+    fn size_is_two_numbers_in_bounds() {
         assert_eq!("640x480".parse(), Ok(Size { width: 640, height: 480 }));
         for wrong in ["640", "640x", "x480", "0x100", "5000x100", "-1x100", "640x480x3", "1e2x100"] {
             assert!(wrong.parse::<Size>().unwrap_err().contains("320x240"), "{wrong}");

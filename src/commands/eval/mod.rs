@@ -32,14 +32,14 @@ use crate::{
     shared::saved_policy,
 };
 
-/// What chooses the actions.
+/// Source of the actions.
 #[derive(Clone, Copy, Debug, ValueEnum)]
 enum AgentKind {
-    /// The run's policy without exploration.
+    /// The run's policy, without exploration.
     Policy,
     /// Uniformly random actions.
     Random,
-    /// The naive learner that nudges one preferred action.
+    /// Naive learner that adjusts one preferred action.
     PreferredAction,
 }
 
@@ -56,7 +56,7 @@ impl AgentKind {
 /// Flags of `eval`.
 #[derive(Args)]
 pub struct EvalArgs {
-    /// The run: its folder, its name below runs/, a bundle file, or what `export` wrote. Needed for the policy only.
+    /// Run folder, name below runs/, bundle file, or a file that `export` wrote; needed only for --agent policy.
     run: Option<String>,
     /// Episodes to play.
     #[arg(long, default_value_t = 20, value_parser = clap::value_parser!(u32).range(1..=100_000))]
@@ -64,31 +64,31 @@ pub struct EvalArgs {
     /// Seed of the resets and of the baselines.
     #[arg(long, default_value_t = 1)]
     seed: u64,
-    /// Who chooses the actions.
+    /// What chooses the actions.
     #[arg(long, value_enum, default_value = "policy")]
     agent: AgentKind,
-    /// Which checkpoint: best, latest, or the number of updates of a kept one; by default best if there is one.
+    /// Checkpoint: best, latest, or the number of updates of a kept one; by default best if it exists.
     #[arg(long, value_name = "WHICH")]
     checkpoint: Option<Which>,
-    /// Randomise the episodes as the run did in training; without this they are not, whatever the run did.
+    /// Randomise the episodes as in training; by default they are never randomised.
     #[arg(long)]
     randomised: bool,
     #[command(flatten)]
     model: ModelArgs,
-    /// Print the first and every N-th step of each episode; 100 for the baselines, 0 (never) for the policy.
+    /// Print the first and every N-th step of each episode; by default 100 for baselines, 0 (never) for the policy.
     #[arg(long, value_name = "N")]
     print_every: Option<u32>,
-    /// Write each observation and the action chosen for it to a file, one JSON object per line.
+    /// Write each observation with its action to a file, one JSON object per line.
     #[arg(long, value_name = "FILE")]
     trace: Option<PathBuf>,
     #[command(flatten)]
     film: FilmArgs,
-    /// Print one JSON object as the last line of standard output, and nothing else.
+    /// Print only one JSON object.
     #[arg(long)]
     json: bool,
 }
 
-/// Plays the episodes and prints what came of them.
+/// Plays the episodes and prints their results.
 pub fn run(args: EvalArgs) -> anyhow::Result<()> {
     let (mut environment, agent) = prepare(&args)?;
     let mut agent = TracedAgent { agent, file: None };
@@ -119,13 +119,13 @@ pub fn run(args: EvalArgs) -> anyhow::Result<()> {
     })?;
     agent.finish()?;
     step.update("finishing the pictures".to_string());
-    let made = filming.map(Filming::finish).transpose()?;
+    let pictures = filming.map(Filming::finish).transpose()?;
     drop(step);
     if args.json {
         say(&as_json(args.agent, &evaluation, control_step_s));
     } else {
         print_table(args.agent, &evaluation, control_step_s);
-        made.iter().for_each(|made| say(&format!("pictures      {made}")));
+        pictures.iter().for_each(|line| say(&format!("pictures      {line}")));
     }
     Ok(())
 }
@@ -160,19 +160,19 @@ fn prepare(args: &EvalArgs) -> anyhow::Result<(Environment, Box<dyn Agent>)> {
     Ok((environment, agent))
 }
 
-/// What the episodes are played under: the run's task, without what it randomised in training unless that is asked for.
+/// Returns the run's configuration, with randomisation only if the flag asks for it.
 fn configuration(args: &EvalArgs, mut config: Config) -> anyhow::Result<Config> {
     if !args.randomised {
         config.randomisation = RandomisationConfig::default();
     } else if config.randomisation == RandomisationConfig::default() {
-        let why = "--randomised plays as the run did in training, but it randomised nothing; \
-                   name what you want, as in --set randomisation.push_mps=[0.5,0.5]";
+        let why = "--randomised plays as the run did in training, but the run randomised nothing; \
+                   choose a randomisation, as in --set randomisation.push_mps=[0.5,0.5]";
         return Err(Usage(why.to_string()).into());
     }
     args.model.config(&config)
 }
 
-/// A policy goes with every robot that has as many joints and motors as its own; what they mean is the user's to know.
+/// Tests that the model has as many observations and actions as the policy; the user must know that they mean the same.
 fn check_fits(policy: &ExportedPolicy, environment: &Environment, agent: AgentKind, file: &Path) -> Result<(), Usage> {
     let wanted = (policy.shape.observation, policy.shape.action);
     let found = (environment.observation_size(), environment.action_size());
@@ -180,8 +180,8 @@ fn check_fits(policy: &ExportedPolicy, environment: &Environment, agent: AgentKi
         return Ok(());
     }
     Err(Usage(format!(
-        "model file `{}`: its observations and actions have {} and {} numbers, those of the run's policy {} and {}; leave \
-         --model out to evaluate on the run's own model",
+        "model file `{}` has {} observations and {} actions, the run's policy {} and {}; leave out --model to evaluate on \
+         the run's own model",
         file.display(),
         found.0,
         found.1,
@@ -197,7 +197,7 @@ fn baseline(args: &EvalArgs, action_size: usize) -> Box<dyn Agent> {
     }
 }
 
-/// An agent whose observations and actions are written down.
+/// Agent whose observations and actions are written to a file.
 struct TracedAgent {
     agent: Box<dyn Agent>,
     file: Option<BufWriter<File>>,

@@ -1,4 +1,4 @@
-//! Every command and flag, as clap has them.
+//! Page of all commands and flags, generated from clap's definitions.
 
 use std::fmt::Write as _;
 
@@ -6,16 +6,16 @@ use clap::{Arg, ArgAction, Command};
 
 use super::{cell, heading};
 
-/// Names of arguments that every command has.
-const EVERYWHERE: [&str; 2] = ["help", "version"];
+/// Arguments of every command.
+const COMMON: [&str; 2] = ["help", "version"];
 
-/// The page.
+/// Returns the page.
 pub fn page(program: Command) -> String {
     let mut program = program.disable_help_subcommand(true);
     program.build();
     let mut page = heading("Commands", "the definitions of the command line");
-    page += "\nThe same is told by `treadmill COMMAND --help`, and by the pages that `treadmill man FOLDER` writes.\n";
-    page += "`--help` is an argument of every command; `treadmill --version` tells the version.\n";
+    page += "\n`treadmill COMMAND --help` and the pages of `treadmill man FOLDER` have the same text.\n";
+    page += "Every command has `--help`; `treadmill --version` prints the version.\n";
     // Writing into a string cannot fail.
     let _ = describe(&mut page, &program);
     page
@@ -44,7 +44,7 @@ fn describe(page: &mut String, command: &Command) -> std::fmt::Result {
 fn arguments(page: &mut String, command: &Command) -> std::fmt::Result {
     let mut arguments: Vec<&Arg> = command
         .get_arguments()
-        .filter(|argument| !argument.is_hide_set() && !EVERYWHERE.contains(&argument.get_id().as_str()))
+        .filter(|argument| !argument.is_hide_set() && !COMMON.contains(&argument.get_id().as_str()))
         .collect();
     if arguments.is_empty() {
         return Ok(());
@@ -56,7 +56,7 @@ fn arguments(page: &mut String, command: &Command) -> std::fmt::Result {
         writeln!(
             page,
             "| `{}` | {} | {}{} |",
-            cell(&written(argument)),
+            cell(&usage(argument)),
             default(argument),
             cell(&help.unwrap_or_default()),
             choices(argument)
@@ -65,8 +65,8 @@ fn arguments(page: &mut String, command: &Command) -> std::fmt::Result {
     Ok(())
 }
 
-/// An argument as it is typed.
-fn written(argument: &Arg) -> String {
+/// Returns an argument as the user types it.
+fn usage(argument: &Arg) -> String {
     let values: Vec<String> = match argument.get_value_names() {
         Some(names) => names.iter().map(ToString::to_string).collect(),
         None => vec![argument.get_id().to_string().to_uppercase()],
@@ -90,7 +90,7 @@ fn default(argument: &Arg) -> String {
     if values.is_empty() { "–".to_string() } else { values.join(", ") }
 }
 
-/// The values that may be chosen, where there are few.
+/// Returns a sentence with the possible values of an enumeration.
 fn choices(argument: &Arg) -> String {
     let takes_values = matches!(argument.get_action(), ArgAction::Set | ArgAction::Append);
     let values = argument.get_possible_values();

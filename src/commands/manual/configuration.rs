@@ -1,4 +1,4 @@
-//! Every configuration key, as it is declared.
+//! Page of all configuration keys, generated from their declarations.
 
 use std::fmt::Write as _;
 
@@ -7,11 +7,11 @@ use treadmill_learner::training::is_changeable;
 
 use super::{cell, heading};
 
-/// The page.
+/// Returns the page.
 pub fn page() -> String {
-    let mut page = heading("Configuration keys", "their declarations in `common/src/config/sections.rs`");
-    page += "\n[configuration.md](../guide/configuration.md) says where values come from and what is checked. *Live*: whether `treadmill\n";
-    page += "control set KEY VALUE` changes the key of a run that goes on.\n";
+    let mut page = heading("Configuration keys", "their declarations in `common/config/src/sections.rs`");
+    page += "\n[configuration.md](../guide/configuration.md) explains where values come from and what is checked. *Live* keys can\n";
+    page += "change during a run, by `treadmill control set KEY VALUE`.\n";
     for section in Config::sections() {
         // Writing into a string cannot fail.
         let _ = write!(
@@ -28,7 +28,7 @@ pub fn page() -> String {
     page
 }
 
-/// The type in words, with the unit that the name ends in.
+/// Names the type, with the unit from the end of the key.
 fn kind(key: &KeyDoc) -> String {
     let kind = match key.kind {
         "bool" => "true or false",

@@ -1,4 +1,4 @@
-//! `treadmill completions`, `man` and the hidden `reference`: text generated from the definitions of commands and keys.
+//! `treadmill completions`, `man` and the hidden `reference`: text generated from definitions of commands and keys.
 //!
 //! # Layout
 //! - [`commands`]: page of all commands and flags.
@@ -17,7 +17,7 @@ use crate::launch::output::say;
 /// Flags of `completions`.
 #[derive(Args)]
 pub struct CompletionsArgs {
-    /// Which shell the script is for.
+    /// Shell that the script is for.
     shell: Shell,
 }
 
@@ -32,14 +32,14 @@ enum Shell {
 /// Flags of `man`.
 #[derive(Args)]
 pub struct ManArgs {
-    /// Folder for the pages, as /usr/local/share/man/man1; made where it is missing.
+    /// Folder for the pages, such as /usr/local/share/man/man1; created if missing.
     folder: PathBuf,
 }
 
 /// Flags of `reference`.
 #[derive(Args)]
 pub struct ReferenceArgs {
-    /// Which page.
+    /// Page to print.
     page: Page,
 }
 
@@ -68,7 +68,7 @@ pub fn man(args: &ManArgs, program: Command) -> anyhow::Result<()> {
     let folder = &args.folder;
     fs::create_dir_all(folder)
         .and_then(|()| clap_mangen::generate_to(program, folder))
-        .with_context(|| format!("manual pages cannot be written to `{}`", folder.display()))
+        .with_context(|| format!("cannot write manual pages to `{}`", folder.display()))
 }
 
 /// Prints a page of `docs/reference/`.
@@ -80,15 +80,15 @@ pub fn reference(args: &ReferenceArgs, program: Command) {
     say(page.trim_end());
 }
 
-/// The beginning of a generated page.
+/// Returns the head of a generated page.
 fn heading(title: &str, made_from: &str) -> String {
     format!(
-        "# {title}\n\n<!-- Made from {made_from}; do not edit. Write it anew with\n     \
+        "# {title}\n\n<!-- Generated from {made_from}; do not edit. Regenerate with\n     \
          TREADMILL_WRITE_REFERENCE=1 cargo test --release --test documentation reference -->\n"
     )
 }
 
-/// Text in a cell of a Markdown table: on one line, and without what would end the cell or begin a tag.
+/// Formats text for a cell of a Markdown table: on one line, with `|` and `<` escaped.
 fn cell(text: &str) -> String {
     let words: Vec<&str> = text.split_whitespace().collect();
     words.join(" ").replace('|', "\\|").replace('<', "\\<")

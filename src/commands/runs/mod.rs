@@ -1,4 +1,4 @@
-//! `treadmill runs`: what trained runs came to, side by side, and what they were configured otherwise.
+//! `treadmill runs`: compares trained runs and their configurations.
 
 mod record;
 
@@ -18,15 +18,15 @@ use crate::launch::{exit_code::Usage, output::say};
 /// Flags of `runs`.
 #[derive(Args)]
 pub struct RunsArgs {
-    /// Folders of runs, or folders that hold some.
+    /// Run folders, or folders that contain run folders.
     #[arg(default_value = "runs")]
     paths: Vec<PathBuf>,
-    /// Print one JSON object per run and nothing else.
+    /// Print only one JSON object per run.
     #[arg(long)]
     json: bool,
 }
 
-/// Reads what is there and tells it, the run that walks furthest first.
+/// Reads and prints the runs, sorted by distance, farthest first.
 pub fn run(args: &RunsArgs) -> anyhow::Result<()> {
     let mut records = Vec::new();
     for path in &args.paths {
@@ -36,7 +36,7 @@ pub fn run(args: &RunsArgs) -> anyhow::Result<()> {
     }
     if records.is_empty() {
         let shown: Vec<_> = args.paths.iter().map(|path| format!("`{}`", path.display())).collect();
-        return Err(Usage(format!("there is no run in {}; name a folder that holds some", shown.join(", "))).into());
+        return Err(Usage(format!("there is no run in {}; name a folder that contains one", shown.join(", "))).into());
     }
     records.sort_by(|one, other| other.distance_m().total_cmp(&one.distance_m()));
     let differences = differences(&records);
@@ -48,7 +48,7 @@ pub fn run(args: &RunsArgs) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// The folder itself if it is a run's, else the runs directly in it, by name.
+/// Returns the folder if it is a run's, else the runs directly in it, sorted by name.
 fn runs_in(path: &Path) -> anyhow::Result<Vec<PathBuf>> {
     let is_run = |folder: &Path| folder.join("config.toml").is_file();
     if is_run(path) {
@@ -60,7 +60,7 @@ fn runs_in(path: &Path) -> anyhow::Result<Vec<PathBuf>> {
     Ok(found)
 }
 
-/// Of each run, the keys that not all of them have in common, with its values.
+/// Returns for each run its values of those keys whose values differ between runs.
 fn differences(records: &[Record]) -> Vec<BTreeMap<&str, &str>> {
     let keys: BTreeSet<&str> = records.iter().flat_map(|record| record.config.keys().map(String::as_str)).collect();
     let differs = |key: &&str| records.iter().any(|record| record.config.get(*key) != records[0].config.get(*key));
@@ -93,7 +93,7 @@ fn print_table(records: &[Record], differences: &[BTreeMap<&str, &str>]) {
     let rows: Vec<[String; 8]> = records
         .iter()
         .map(|record| {
-            // Without an evaluation, what training itself saw; marked, since exploration stumbles.
+            // Without an evaluation, the distance in training, in brackets because exploration shortens it.
             let evaluated = record.best_eval_distance_m.map(|metres| format!("{metres:.1}"));
             let distance = evaluated.or_else(|| record.training_distance_m.map(|metres| format!("({metres:.1})")));
             [
@@ -120,21 +120,21 @@ fn print_table(records: &[Record], differences: &[BTreeMap<&str, &str>]) {
     say(&line(HEADINGS));
     for (row, changes) in rows.iter().zip(differences) {
         say(&line(row.each_ref().map(String::as_str)));
-        let told: Vec<String> = changes.iter().map(|(key, value)| format!("{key}={value}")).collect();
-        if !told.is_empty() {
-            say(&format!("    {}", told.join(" ")));
+        let changes: Vec<String> = changes.iter().map(|(key, value)| format!("{key}={value}")).collect();
+        if !changes.is_empty() {
+            say(&format!("    {}", changes.join(" ")));
         }
     }
     say("");
     say(
-        "best m: mean distance of the best evaluation; in brackets: of the last episodes of training, where there was none.",
+        "best m: mean distance of the best evaluation; in brackets: without an evaluation, of the last training episodes.",
     );
     say(
-        "return, falls: of the last episodes of training. Below each run: the configuration keys that not all have in common.",
+        "return, falls: of the last training episodes. Below each run: configuration keys whose values differ between runs.",
     );
 }
 
-/// 1234567 → 1 234 567.
+/// Formats 1234567 as `1 234 567`.
 fn thousands(number: u64) -> String {
     let digits = number.to_string();
     let groups: Vec<&str> =
@@ -156,7 +156,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn numbers_are_easy_to_read() {
+    fn numbers_and_durations_are_formatted() {
         assert_eq!([0, 999, 1000, 1_234_567].map(thousands), ["0", "999", "1 000", "1 234 567"]);
         assert_eq!(
             [4.2, 59.6, 61.0, 3599.0, 3660.0].map(duration),

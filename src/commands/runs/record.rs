@@ -1,4 +1,4 @@
-//! What the files of one run say.
+//! Results of one run, read from its files.
 
 use std::{
     collections::BTreeMap,
@@ -10,25 +10,25 @@ use std::{
 use anyhow::Context;
 use serde_json::Value;
 
-/// One run.
+/// Results of one run.
 #[derive(Debug, Default)]
 pub(super) struct Record {
     pub(super) name: String,
     pub(super) folder: PathBuf,
     pub(super) env_steps: u64,
     pub(super) wall_s: f64,
-    /// Of the evaluation with the greatest mean distance, and after how many environment steps that was.
+    /// Greatest mean distance of an evaluation, and the environment steps at which it was reached.
     pub(super) best_eval_distance_m: Option<f64>,
     pub(super) best_eval_at: Option<u64>,
-    /// Means over the last episodes of training.
+    /// Means over the last training episodes.
     pub(super) training_distance_m: Option<f64>,
     pub(super) training_return: Option<f64>,
     pub(super) fall_fraction: Option<f64>,
-    /// `section.key` → value, as TOML.
+    /// Values as TOML, by `section.key`.
     pub(super) config: BTreeMap<String, String>,
 }
 
-/// A key that a run's configuration does not have.
+/// Stands for a key that a run's configuration does not have.
 const ABSENT: &str = "–";
 
 impl Record {
@@ -38,7 +38,8 @@ impl Record {
             folder.file_name().map_or_else(|| folder.display().to_string(), |name| name.to_string_lossy().into_owned());
         let path = folder.join("config.toml");
         let text = fs::read_to_string(&path).with_context(|| format!("cannot read `{}`", path.display()))?;
-        let table: toml::Table = text.parse().with_context(|| format!("`{}` is no configuration", path.display()))?;
+        let table: toml::Table =
+            text.parse().with_context(|| format!("`{}` is not a configuration", path.display()))?;
         let mut record = Self { name, folder: folder.to_path_buf(), ..Self::default() };
         for (section, keys) in &table {
             for (key, value) in keys.as_table().into_iter().flatten() {
@@ -46,18 +47,18 @@ impl Record {
             }
         }
         let path = folder.join("metrics.jsonl");
-        // A run that is being started has none yet.
+        // A run that is just starting has no metrics.
         if let Ok(file) = File::open(&path) {
             for line in BufReader::new(file).lines() {
                 let line = line.with_context(|| format!("cannot read `{}`", path.display()))?;
-                record.take(&line);
+                record.add_line(&line);
             }
         }
         Ok(record)
     }
 
-    /// One line of the metrics; one that was cut off in the middle says nothing.
-    fn take(&mut self, line: &str) {
+    /// Reads one line of metrics; ignores an incomplete line.
+    fn add_line(&mut self, line: &str) {
         let Ok(metric) = serde_json::from_str::<Value>(line) else { return };
         let (Some(tag), Some(value)) = (metric["tag"].as_str(), metric["value"].as_f64()) else { return };
         match tag {
@@ -74,12 +75,12 @@ impl Record {
         }
     }
 
-    /// As far as it walks.
+    /// Returns the best known distance.
     pub(super) fn distance_m(&self) -> f64 {
         self.best_eval_distance_m.or(self.training_distance_m).unwrap_or(f64::NEG_INFINITY)
     }
 
-    /// Over the whole run.
+    /// Returns the mean speed over the whole run.
     pub(super) fn env_steps_per_s(&self) -> Option<f64> {
         (self.wall_s > 0.0).then(|| self.env_steps as f64 / self.wall_s)
     }
@@ -94,7 +95,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_best_evaluation_and_the_last_of_all_else_count() {
+    fn best_evaluation_and_last_value_of_other_metrics_count() {
         let mut record = Record::default();
         for (tag, step, value) in [
             ("time/total_timesteps", 100, 100.0),
@@ -104,9 +105,9 @@ mod tests {
             ("time/total_timesteps", 300, 300.0),
             ("time/time_elapsed", 300, 2.0),
         ] {
-            record.take(&serde_json::json!({"tag": tag, "step": step, "value": value}).to_string());
+            record.add_line(&serde_json::json!({"tag": tag, "step": step, "value": value}).to_string());
         }
-        record.take("{\"tag\":\"time/total_times");
+        record.add_line("{\"tag\":\"time/total_times");
         assert_eq!((record.env_steps, record.best_eval_distance_m, record.best_eval_at), (300, Some(9.5), Some(200)));
         assert_eq!((record.env_steps_per_s(), record.distance_m()), (Some(150.0), 9.5));
         assert_eq!((record.training_return, record.config_value("a.b")), (None, ABSENT));

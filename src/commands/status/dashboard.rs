@@ -1,4 +1,4 @@
-//! `treadmill status --watch` on a terminal: draws what is known, and does what is typed.
+//! `treadmill status --watch` on a terminal: draws the state of runs and handles keys.
 
 use std::{
     sync::mpsc::{Receiver, sync_channel},
@@ -22,26 +22,26 @@ use crate::{
     shared::learner_address::{self, ReachArgs},
 };
 
-/// Between two drawings where nobody types: what changes on the screen is sent, and nothing else.
+/// Interval of redrawing without key presses.
 const TICK: Duration = Duration::from_millis(250);
 
-/// Shows how the runs go until it is left, by a key or by a signal.
+/// Shows the dashboard until a key or a signal ends it.
 pub fn run(reach: &ReachArgs) -> anyhow::Result<()> {
     let options = reach.options(Role::Observer)?;
     learner_address::connect_with(options.clone(), async |bus| {
         let (sender, news) = sync_channel(NEWS_WAITING);
         let follower = Follower::new(reach.clone(), options, bus, sender)?;
         let shutdown = Shutdown::default();
-        leave_on_signals(shutdown.clone())?;
+        exit_on_signals(shutdown.clone())?;
         let following = tokio::spawn(follower.run());
         let shown = tokio::task::spawn_blocking(move || show(&news, &shutdown)).await;
         following.abort();
-        shown.context("the dashboard came to an end by itself")?
+        shown.context("the dashboard ended unexpectedly")?
     })
 }
 
-/// The terminal is given back on the way out, so these end what they would otherwise have killed.
-fn leave_on_signals(shutdown: Shutdown) -> std::io::Result<()> {
+/// Turns signals into a regular exit, which restores the terminal.
+fn exit_on_signals(shutdown: Shutdown) -> std::io::Result<()> {
     for kind in [SignalKind::terminate(), SignalKind::interrupt(), SignalKind::hangup()] {
         let (mut signals, shutdown) = (signal(kind)?, shutdown.clone());
         tokio::spawn(async move {
@@ -53,24 +53,24 @@ fn leave_on_signals(shutdown: Shutdown) -> std::io::Result<()> {
 }
 
 fn show(news: &Receiver<News>, shutdown: &Shutdown) -> anyhow::Result<()> {
-    const WHAT: &str = "the terminal cannot be used; without --watch, or into a pipe, plain text is told";
+    const UNUSABLE: &str = "the terminal cannot be used; plain text appears without --watch, or in a pipe";
     let theme = Theme::of_environment();
-    let mut screen = TerminalScreen::open().context(WHAT)?;
+    let mut screen = TerminalScreen::open().context(UNUSABLE)?;
     let mut fleet = Fleet::new(Instant::now());
     while !shutdown.asked() {
         for _ in 0..NEWS_WAITING {
             match news.try_recv() {
-                Ok(News::Answers(answers)) => fleet.answer(answers, Instant::now()),
+                Ok(News::Answers(answers)) => fleet.apply_statuses(answers, Instant::now()),
                 Ok(News::Silence(why)) => fleet.silence = Some(why),
-                Ok(News::Metric(metric)) => fleet.measure(&metric),
-                Ok(News::Past(metrics)) => metrics.iter().for_each(|metric| fleet.measure(metric)),
+                Ok(News::Metric(metric)) => fleet.apply_metric(&metric),
+                Ok(News::Past(metrics)) => metrics.iter().for_each(|metric| fleet.apply_metric(metric)),
                 Err(_) => break,
             }
         }
-        screen.draw(|frame| draw::draw(frame, &mut fleet, &theme, Instant::now())).context(WHAT)?;
+        screen.draw(|frame| draw::draw(frame, &mut fleet, &theme, Instant::now())).context(UNUSABLE)?;
         let mut timeout = TICK;
-        while event::poll(timeout).context(WHAT)? {
-            match keys::action(&event::read().context(WHAT)?, fleet.helps) {
+        while event::poll(timeout).context(UNUSABLE)? {
+            match keys::action(&event::read().context(UNUSABLE)?, fleet.helps) {
                 Some(Action::Quit) => return Ok(()),
                 Some(action) => fleet.act(action),
                 None => {}

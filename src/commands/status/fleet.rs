@@ -1,4 +1,4 @@
-//! What the dashboard knows: every run that answered, and which of them is looked at.
+//! State of the dashboard: all runs that answered, and the selected one.
 
 use std::{cmp::Ordering, collections::BTreeMap, time::Instant};
 
@@ -9,18 +9,18 @@ use super::{
     keys::Action,
 };
 
-/// Runs that are remembered; of more, those that answer first.
+/// Most runs that are kept; further ones are ignored.
 const RUNS_MAX: usize = 64;
 
-/// Curves that are drawn, by the tag of their metric.
+/// Metric tag of the curve of returns.
 pub const RETURN: &str = "rollout/ep_rew_mean";
-/// Metres forward.
+/// Metric tag of the distance walked, in metres.
 pub const DISTANCE: &str = "rollout/distance_mean_m";
-/// Metres per second.
+/// Metric tag of the velocity, in m/s.
 pub const VELOCITY: &str = "rollout/velocity_mean_mps";
-/// Environment steps per second.
+/// Metric tag of the speed, in environment steps per second.
 pub const SPEED: &str = "time/fps";
-/// Share of the last batch by how many versions it lagged behind: 0 to 4, and 5 or more.
+/// Metric tags of the last batch's shares by policy lag: 0 to 4 versions, and 5 or more.
 pub const LAGS: [&str; 6] = [
     "bus/policy_lag_0_share",
     "bus/policy_lag_1_share",
@@ -30,26 +30,26 @@ pub const LAGS: [&str; 6] = [
     "bus/policy_lag_5_up_share",
 ];
 
-/// Versions that the last batch lagged behind on average.
+/// Metric tag of the last batch's mean policy lag, in versions.
 pub const LAG_MEAN: &str = "bus/policy_lag_mean";
-/// Those of the curves.
+/// Tags of all curves.
 pub const CURVES: [&str; 4] = [RETURN, DISTANCE, VELOCITY, SPEED];
 
-/// Every tag that the dashboard listens to.
+/// Returns every tag that the dashboard subscribes to.
 pub fn tags() -> Vec<&'static str> {
     CURVES.into_iter().chain(LAGS).chain([LAG_MEAN]).collect()
 }
 
-/// One run.
+/// State of one run.
 #[derive(Clone, Debug)]
 pub struct Run {
-    /// What its learner last answered.
+    /// Last answer of its learner.
     pub status: RunStatus,
-    /// When.
+    /// Time of that answer.
     pub answered: Instant,
-    /// Fragments per second.
+    /// Accepted fragments per second.
     pub fragments: Rate,
-    /// Bytes per second.
+    /// Accepted bytes per second.
     pub bytes: Rate,
     curves: BTreeMap<&'static str, Curve>,
     lags: [Option<f64>; LAGS.len()],
@@ -69,33 +69,33 @@ impl Run {
         }
     }
 
-    /// One of the curves; an empty one where nothing was told yet.
+    /// Returns a curve; it is empty before its first value.
     pub fn curve(&self, tag: &str) -> Curve {
         self.curves.get(tag).cloned().unwrap_or_default()
     }
 
-    /// The histogram of lags, once it was told.
+    /// Returns the histogram of lags once a share is known.
     pub fn lags(&self) -> Option<[f64; LAGS.len()]> {
-        let told = self.lags.map(|share| share.unwrap_or_default());
-        self.lags.iter().any(Option::is_some).then_some(told)
+        let shares = self.lags.map(|share| share.unwrap_or_default());
+        self.lags.iter().any(Option::is_some).then_some(shares)
     }
 
-    /// Of the same batch as the histogram, as far as that is known.
+    /// Returns the mean lag, of the histogram's batch if known.
     pub fn lag_mean(&self) -> f64 {
         self.lag_mean.unwrap_or(self.status.policy_lag_mean)
     }
 
-    fn answer(&mut self, status: RunStatus, began: Instant, now: Instant) {
+    fn apply_status(&mut self, status: RunStatus, began: Instant, now: Instant) {
         let at_s = now.duration_since(began).as_secs_f64();
         self.fragments.push(at_s, status.accepted as f64);
         self.bytes.push(at_s, status.accepted_bytes as f64);
-        let told = [
+        let values = [
             (RETURN, status.return_mean),
             (DISTANCE, status.distance_mean_m),
             (VELOCITY, status.velocity_mean_mps),
             (SPEED, (status.updates > 0).then_some(status.env_steps_per_s)),
         ];
-        for (tag, value) in told {
+        for (tag, value) in values {
             if let Some(value) = value {
                 self.curves.entry(tag).or_default().push(status.env_steps, value);
             }
@@ -103,7 +103,7 @@ impl Run {
         (self.status, self.answered) = (status, now);
     }
 
-    fn measure(&mut self, metric: &Metric) {
+    fn apply_metric(&mut self, metric: &Metric) {
         if let Some(lag) = LAGS.iter().position(|tag| *tag == metric.tag) {
             self.lags[lag] = Some(metric.value.clamp(0.0, 1.0));
         } else if metric.tag == LAG_MEAN {
@@ -114,10 +114,10 @@ impl Run {
     }
 }
 
-/// What the table of actors is ordered by.
+/// Sort order of the table of actors.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Order {
-    /// Names, as the learner has them.
+pub enum ActorOrder {
+    /// By name.
     #[default]
     Name,
     /// Slowest first.
@@ -128,7 +128,7 @@ pub enum Order {
     Contact,
 }
 
-impl Order {
+impl ActorOrder {
     fn next(self) -> Self {
         match self {
             Self::Name => Self::Speed,
@@ -138,7 +138,7 @@ impl Order {
         }
     }
 
-    /// In a word.
+    /// Returns the word that the dashboard shows.
     pub fn name(self) -> &'static str {
         match self {
             Self::Name => "name",
@@ -161,26 +161,26 @@ impl Order {
     }
 }
 
-/// Every run, and what of them is looked at.
+/// All runs, the selected one and the scroll position.
 #[derive(Clone, Debug)]
 pub struct Fleet {
     began: Instant,
     runs: Vec<Run>,
     selected: usize,
-    /// The first actor that is shown.
+    /// Index of the first actor shown.
     scroll: usize,
-    /// Actors that there was room for when they were last drawn.
+    /// Rows of the table when it was last drawn.
     visible_rows: usize,
-    /// What the actors are ordered by.
-    pub order: Order,
-    /// Whether the keys are explained.
+    /// Order of the actors.
+    pub order: ActorOrder,
+    /// Whether the help is shown.
     pub helps: bool,
-    /// Why nobody answers now.
+    /// Why no learner answers now.
     pub silence: Option<String>,
 }
 
 impl Fleet {
-    /// Nobody has answered yet.
+    /// Creates a state without runs.
     pub fn new(now: Instant) -> Self {
         Self {
             began: now,
@@ -188,44 +188,44 @@ impl Fleet {
             selected: 0,
             scroll: 0,
             visible_rows: 1,
-            order: Order::default(),
+            order: ActorOrder::default(),
             helps: false,
             silence: None,
         }
     }
 
-    /// The run that is looked at, as which of how many.
+    /// Returns the selected run, its number from 1, and the number of runs.
     pub fn selected(&self) -> Option<(&Run, usize, usize)> {
         self.runs.get(self.selected).map(|run| (run, self.selected + 1, self.runs.len()))
     }
 
-    /// Takes answers in; runs that did not answer keep what they last said.
-    pub fn answer(&mut self, answers: Vec<RunStatus>, now: Instant) {
+    /// Applies answers; other runs keep their last status.
+    pub fn apply_statuses(&mut self, answers: Vec<RunStatus>, now: Instant) {
         self.silence = None;
-        let looked_at = self.selected().map(|(run, ..)| run.status.run.clone());
+        let selected = self.selected().map(|(run, ..)| run.status.run.clone());
         for status in answers {
             match self.runs.binary_search_by(|run| run.status.run.cmp(&status.run)) {
-                Ok(known) => self.runs[known].answer(status, self.began, now),
+                Ok(known) => self.runs[known].apply_status(status, self.began, now),
                 Err(place) if self.runs.len() < RUNS_MAX => {
                     self.runs.insert(place, Run::new(status.clone(), now));
-                    self.runs[place].answer(status, self.began, now);
+                    self.runs[place].apply_status(status, self.began, now);
                 }
                 Err(_) => {}
             }
         }
-        // Others may have come before it.
+        // New runs may precede the selected one.
         let place = |name: String| self.runs.iter().position(|run| run.status.run == name);
-        self.selected = looked_at.and_then(place).unwrap_or_default();
+        self.selected = selected.and_then(place).unwrap_or_default();
     }
 
-    /// Takes a metric in, where its run is known.
-    pub fn measure(&mut self, metric: &Metric) {
+    /// Applies a metric of a known run.
+    pub fn apply_metric(&mut self, metric: &Metric) {
         if let Ok(known) = self.runs.binary_search_by(|run| run.status.run.cmp(&metric.run)) {
-            self.runs[known].measure(metric);
+            self.runs[known].apply_metric(metric);
         }
     }
 
-    /// Does what a key stands for, but for quitting.
+    /// Applies the action of a key, except for quitting.
     pub fn act(&mut self, action: Action) {
         let page = self.visible_rows.max(1);
         match action {
@@ -258,7 +258,7 @@ impl Fleet {
         self.scroll
     }
 
-    /// The actors of the run that is looked at, in the order that was chosen.
+    /// Returns the actors of the selected run in the chosen order.
     pub fn actors(&self) -> Vec<&ActorStatus> {
         let mut actors: Vec<_> =
             self.selected().map(|(run, ..)| run.status.actors.iter().collect()).unwrap_or_default();

@@ -1,4 +1,4 @@
-//! Asks the learners how it goes and listens to their metrics, for as long as the dashboard is there.
+//! Polls the learners' statuses and receives their metrics for the dashboard.
 
 use std::{
     path::PathBuf,
@@ -8,65 +8,66 @@ use std::{
 
 use treadmill_bus::{Bus, BusOptions, MetricsFeed, statuses};
 use treadmill_proto::{RunStatus, json::Metric};
+use treadmill_runtime::error_chain;
 
 use super::{WATCH_EVERY, fleet, past};
 use crate::shared::learner_address::{self, ReachArgs};
 
-/// How often it is looked for metrics.
+/// Interval of polling for metrics.
 const LISTEN_EVERY: Duration = Duration::from_millis(200);
-/// Metrics that are handed over in one look: a flood must not keep us from asking.
+/// Most metrics forwarded per poll, so that a flood does not delay the next request for statuses.
 const METRICS_AT_ONCE: usize = 4096;
-/// News that may wait for the dashboard; what finds no room is left out, and the next answer says it anew.
+/// Capacity of the queue to the dashboard. Further items are dropped; the next answer repeats them.
 pub const NEWS_WAITING: usize = 4096;
 
-/// What there is to tell the dashboard.
+/// Message to the dashboard.
 pub enum News {
-    /// How the runs go.
+    /// Statuses of runs.
     Answers(Vec<RunStatus>),
-    /// Nobody answered, and what is known of why.
+    /// No learner answered, with the reason as far as known.
     Silence(String),
-    /// A metric of some run.
+    /// Metric of a run.
     Metric(Metric),
-    /// What a run of this machine has logged before, in this order.
+    /// Earlier metrics of a run on this machine, in the order of its log.
     Past(Vec<Metric>),
 }
 
-/// Where the dashboard's answers come from.
+/// Client that supplies the dashboard.
 pub struct Follower {
     reach: ReachArgs,
     options: BusOptions,
     bus: Bus,
     feed: MetricsFeed,
     news: SyncSender<News>,
-    /// The run's log, until it was read.
+    /// Metrics file of the run, until it was read.
     log: Option<PathBuf>,
 }
 
-/// The dashboard does not listen any more.
-struct Left;
+/// The dashboard has closed the queue.
+struct Closed;
 
 impl Follower {
-    /// Begins to listen on a session that was opened with these options.
+    /// Subscribes to metrics on a session that was opened with these options.
     pub fn new(reach: ReachArgs, options: BusOptions, bus: Bus, news: SyncSender<News>) -> anyhow::Result<Self> {
         let feed = MetricsFeed::open(&bus, reach.run.as_deref(), &fleet::tags())?;
         let log = reach.log();
         Ok(Self { reach, options, bus, feed, news, log })
     }
 
-    /// Asks and listens until the dashboard is left.
+    /// Polls until the dashboard closes the queue.
     pub async fn run(mut self) {
         while self.ask().await.is_ok() {
             let until = Instant::now() + WATCH_EVERY;
             while Instant::now() < until {
                 tokio::time::sleep(LISTEN_EVERY).await;
-                if self.hand_over_metrics().is_err() {
+                if self.forward_metrics().is_err() {
                     return;
                 }
             }
         }
     }
 
-    async fn ask(&mut self) -> Result<(), Left> {
+    async fn ask(&mut self) -> Result<(), Closed> {
         match statuses(&self.bus, self.reach.run.as_deref(), learner_address::ANSWER_TIMEOUT).await {
             Ok(replies) if !replies.is_empty() => {
                 let answers = replies.into_iter().filter_map(|reply| reply.status).collect();
@@ -77,20 +78,20 @@ impl Follower {
                 self.send(News::Silence("no learner answers".to_string()))?;
                 self.redial().await
             }
-            Err(why) => self.send(News::Silence(why.to_string())),
+            Err(why) => self.send(News::Silence(error_chain(&why))),
         }
     }
 
-    /// Once somebody has answered, what its log has is of use.
-    async fn load_past(&mut self) -> Result<(), Left> {
+    /// Loads earlier metrics after the first answer, because only metrics of known runs are kept.
+    async fn load_past(&mut self) -> Result<(), Closed> {
         let Some(log) = self.log.take() else { return Ok(()) };
         let past = tokio::task::spawn_blocking(move || past::read(&log)).await.unwrap_or_default();
         self.send(News::Past(past))
     }
 
-    /// A learner that was resumed may listen elsewhere, and its run's folder says where. On an endpoint that stays the same
-    /// the bus dials again by itself.
-    async fn redial(&mut self) -> Result<(), Left> {
+    /// Dials the endpoint in the run's folder if it changed: a resumed learner may listen elsewhere. The bus itself redials
+    /// an unchanged endpoint.
+    async fn redial(&mut self) -> Result<(), Closed> {
         let connect = self.reach.endpoints().unwrap_or_default();
         if connect.is_empty() || connect == self.options.connect {
             return Ok(());
@@ -105,18 +106,18 @@ impl Follower {
         match moved {
             Ok((bus, feed)) => {
                 self.feed = feed;
-                let left = std::mem::replace(&mut self.bus, bus);
-                // Closing may take seconds where nobody is at the other end.
-                tokio::task::spawn_blocking(move || left.close());
+                let old = std::mem::replace(&mut self.bus, bus);
+                // Closing may take seconds if the peer is gone.
+                tokio::task::spawn_blocking(move || old.close());
             }
-            Err(why) => self.send(News::Silence(why.to_string()))?,
+            Err(why) => self.send(News::Silence(format!("{why:#}")))?,
         }
-        // Tried once: who answers late is dialled by the bus itself.
+        // One attempt is enough: the bus itself redials a peer that answers late.
         self.options = options;
         Ok(())
     }
 
-    fn hand_over_metrics(&self) -> Result<(), Left> {
+    fn forward_metrics(&self) -> Result<(), Closed> {
         for _ in 0..METRICS_AT_ONCE {
             let Some(metric) = self.feed.try_next() else { break };
             self.send(News::Metric(metric))?;
@@ -124,10 +125,10 @@ impl Follower {
         Ok(())
     }
 
-    fn send(&self, news: News) -> Result<(), Left> {
+    fn send(&self, news: News) -> Result<(), Closed> {
         match self.news.try_send(news) {
             Ok(()) | Err(TrySendError::Full(_)) => Ok(()),
-            Err(TrySendError::Disconnected(_)) => Err(Left),
+            Err(TrySendError::Disconnected(_)) => Err(Closed),
         }
     }
 }

@@ -1,26 +1,26 @@
-//! What was seen so far, within bounds: curves over environment steps, and rates over the last seconds.
+//! Bounded history of a run: curves over environment steps, and rates over the last seconds.
 
 use std::collections::VecDeque;
 
-/// Points of one curve: more than any terminal has columns of dots.
+/// Most points of one curve: more than any terminal has columns of dots.
 const POINTS_MAX: usize = 1024;
-/// Larger values are drawn as this: a difference of two of them is still a number.
+/// Largest absolute value that is kept, so that differences stay finite.
 const VALUE_MAX: f64 = 1e15;
-/// How far a rate looks back.
+/// Window of a rate.
 const WINDOW_S: f64 = 10.0;
-/// Measurements of a rate that are kept.
+/// Most measurements of a rate that are kept.
 const MARKS_MAX: usize = 64;
 
-/// One value over environment steps. A long run is kept whole, only more coarsely.
+/// Values over environment steps. A long run is kept whole, with coarser spacing.
 #[derive(Clone, Debug, Default)]
 pub struct Curve {
     points: Vec<(u64, f64)>,
-    /// Steps between two points that are kept.
+    /// Smallest number of steps between two points.
     spacing: u64,
 }
 
 impl Curve {
-    /// Takes a value in. A step that goes back is a run that was resumed from there; a value that is no number is left out.
+    /// Adds a value. A step backwards means a resumed run and removes later points. Non-finite values are ignored.
     pub fn push(&mut self, step: u64, value: f64) {
         if !value.is_finite() {
             return;
@@ -29,7 +29,7 @@ impl Curve {
         while self.points.last().is_some_and(|(last, _)| *last >= step) {
             self.points.pop();
         }
-        // The newest point is always there; it gives way where it is too near to the one before.
+        // The newest point is always kept; the next one replaces it if it is too near to its predecessor.
         if let [.., (before, _), last] = &mut self.points[..]
             && last.0 < before.saturating_add(self.spacing)
         {
@@ -42,7 +42,7 @@ impl Curve {
         }
     }
 
-    /// Keeps half of the points, evenly spaced, with the first and the last.
+    /// Removes about half of the points, and keeps the first and the last.
     fn thin(&mut self) {
         let (first, last) = (self.points[0].0, self.points[self.points.len() - 1]);
         self.spacing = (last.0 - first).div_ceil(POINTS_MAX as u64 / 2).max(1);
@@ -59,20 +59,20 @@ impl Curve {
         }
     }
 
-    /// Every point, as (environment steps, value).
+    /// Iterates over the points as (environment steps, value).
     pub fn points(&self) -> impl ExactSizeIterator<Item = (f64, f64)> {
         self.points.iter().map(|(step, value)| (*step as f64, *value))
     }
 }
 
-/// How fast a count grows.
+/// Growth of a count per second.
 #[derive(Clone, Debug, Default)]
 pub struct Rate {
     marks: VecDeque<(f64, f64)>,
 }
 
 impl Rate {
-    /// Takes down what the count is at a time in seconds. A count that falls was begun anew.
+    /// Adds the count at a time in seconds. A falling count means a restarted learner and clears the history.
     pub fn push(&mut self, at_s: f64, count: f64) {
         if self.marks.back().is_some_and(|(last_s, last)| at_s <= *last_s || count < *last) {
             self.marks.clear();
@@ -83,7 +83,7 @@ impl Rate {
         }
     }
 
-    /// Growth per second over the last seconds; unknown until two measurements are there.
+    /// Returns the growth per second; `None` before the second measurement.
     pub fn per_s(&self) -> Option<f64> {
         let (first, last) = (self.marks.front()?, self.marks.back()?);
         (last.0 > first.0).then(|| (last.1 - first.1) / (last.0 - first.0))
@@ -103,7 +103,7 @@ mod tests {
     }
 
     #[test]
-    fn a_long_run_is_kept_whole_and_within_bounds() {
+    fn long_run_is_kept_whole_and_within_bounds() {
         let mut curve = Curve::default();
         for update in 0..100_000u64 {
             curve.push(update * 8192, update as f64);
@@ -114,36 +114,36 @@ mod tests {
         assert_eq!((steps[0], steps[steps.len() - 1]), (0.0, 99_999.0 * 8192.0));
         assert!(steps.len() > POINTS_MAX / 4, "{}", steps.len());
         let widest = steps.windows(2).map(|pair| pair[1] - pair[0]).fold(0.0, f64::max);
-        assert!(widest <= 8.0 * 99_999.0 * 8192.0 / POINTS_MAX as f64, "no part of it is lost: {widest}");
+        assert!(widest <= 8.0 * 99_999.0 * 8192.0 / POINTS_MAX as f64, "gaps are bounded: {widest}");
     }
 
     #[test]
-    fn a_resumed_run_takes_back_what_comes_after_its_checkpoint() {
+    fn resumed_run_removes_points_after_its_checkpoint() {
         let mut curve = Curve::default();
         [10, 20, 30, 40].into_iter().for_each(|step| curve.push(step, step as f64));
         curve.push(20, -1.0);
         assert_eq!(curve.points().collect::<Vec<_>>(), [(10.0, 10.0), (20.0, -1.0)]);
         curve.push(30, f64::NAN);
-        assert_eq!(last(&curve), Some(-1.0), "what is no number is left out");
+        assert_eq!(last(&curve), Some(-1.0), "NaN is ignored");
         curve.push(u64::MAX, f64::MAX);
         assert_eq!(last(&curve), Some(VALUE_MAX));
     }
 
     #[test]
-    fn a_rate_is_growth_over_the_last_seconds() {
+    fn rate_is_growth_over_the_last_seconds() {
         let mut rate = Rate::default();
         assert_eq!(rate.per_s(), None);
         rate.push(0.0, 5.0);
         assert_eq!(rate.per_s(), None);
         rate.push(2.0, 9.0);
         assert_eq!(rate.per_s(), Some(2.0));
-        // From 2 s (9) to 12 s (29): what is older has no part in it.
+        // From 2 s (9) to 12 s (29); older measurements do not count.
         rate.push(12.0, 29.0);
         assert_eq!(rate.per_s(), Some(2.0));
         rate.push(22.0, 29.0);
-        assert_eq!(rate.per_s(), Some(0.0), "a run that is paused");
+        assert_eq!(rate.per_s(), Some(0.0), "paused run");
         rate.push(24.0, 3.0);
-        assert_eq!(rate.per_s(), None, "a learner that was begun anew");
+        assert_eq!(rate.per_s(), None, "restarted learner");
         (0..1000).for_each(|mark| rate.push(25.0 + f64::from(mark) * 1e-3, f64::from(mark)));
         assert!(rate.marks.len() <= MARKS_MAX);
     }

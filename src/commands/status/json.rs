@@ -1,11 +1,11 @@
-//! How runs go, as JSON objects.
+//! Statuses of runs as JSON objects.
 
 use serde_json::json;
 use treadmill_proto::{Phase, RunStatus};
 
 use super::plain::state;
 
-/// One object on a line for each run.
+/// Returns a line with one object for each run.
 pub fn as_json(runs: &[RunStatus]) -> String {
     runs.iter().map(|run| json_of(run).to_string() + "\n").collect()
 }

@@ -1,37 +1,37 @@
-//! What keys stand for.
+//! Keys of the dashboard and their actions.
 
 use ratatui::crossterm::event::{Event, KeyCode, KeyEventKind, KeyModifiers};
 
-/// Something to do.
+/// Action of a key.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Action {
-    /// Leave.
+    /// Quits.
     Quit,
-    /// Explain the keys, or stop explaining them.
+    /// Shows or hides the help.
     Help,
-    /// Stop explaining them.
+    /// Hides the help.
     Back,
-    /// Look at the next run.
+    /// Selects the next run.
     NextRun,
-    /// Look at the one before.
+    /// Selects the previous run.
     PreviousRun,
-    /// Order the actors by something else.
+    /// Changes the order of the actors.
     Order,
-    /// One actor up.
+    /// Scrolls up by one actor.
     Up,
-    /// One actor down.
+    /// Scrolls down by one actor.
     Down,
-    /// As many as there is room for.
+    /// Scrolls up by one page.
     PageUp,
-    /// As many as there is room for.
+    /// Scrolls down by one page.
     PageDown,
-    /// To the first actor.
+    /// Scrolls to the first actor.
     First,
-    /// To the last actor.
+    /// Scrolls to the last actor.
     Last,
 }
 
-/// What is to be read beside each key, in the order of the help.
+/// Lines of the help: keys and their effect.
 pub const HELP: [(&str, &str); 7] = [
     ("q, Esc, Ctrl-C", "leave; the runs go on"),
     ("Tab, Shift-Tab", "next or previous run"),
@@ -42,7 +42,7 @@ pub const HELP: [(&str, &str); 7] = [
     ("?", "these lines, and back"),
 ];
 
-/// What an event asks for; `helps` while the keys are explained.
+/// Returns the action of an event; `helps` is true while the help is shown.
 pub fn action(event: &Event, helps: bool) -> Option<Action> {
     let Event::Key(key) = event else { return None };
     if key.kind == KeyEventKind::Release {
@@ -79,7 +79,7 @@ mod tests {
     }
 
     #[test]
-    fn q_escape_and_ctrl_c_leave() {
+    fn q_escape_and_ctrl_c_quit() {
         let plain = KeyModifiers::NONE;
         for (code, modifiers) in
             [(KeyCode::Char('q'), plain), (KeyCode::Esc, plain), (KeyCode::Char('c'), KeyModifiers::CONTROL)]
@@ -87,7 +87,7 @@ mod tests {
             assert_eq!(pressed(code, modifiers, false), Some(Action::Quit), "{code:?}");
         }
         assert_eq!(pressed(KeyCode::Char('c'), plain, false), None);
-        assert_eq!(pressed(KeyCode::Esc, plain, true), Some(Action::Back), "out of the help first");
+        assert_eq!(pressed(KeyCode::Esc, plain, true), Some(Action::Back), "Esc first closes the help");
         assert_eq!(pressed(KeyCode::Char('G'), KeyModifiers::SHIFT, false), Some(Action::Last));
         assert_eq!(action(&Event::Resize(1, 1), false), None);
     }

@@ -1,7 +1,7 @@
 //! `treadmill status`: progress and participants of runs.
 //!
 //! # Layout
-//! - [`plain`], [`json`]: the answer as text and as JSON.
+//! - [`plain`], [`json`]: the answers as text and as JSON.
 //! - [`dashboard`]: draws the answers on a terminal, again and again; [`keys`] has its keys.
 //! - [`follow`]: polls the learners and receives metrics for the dashboard.
 //! - [`past`]: reads metrics that a run on this machine logged before.
@@ -31,7 +31,7 @@ use crate::{
     shared::learner_address::{self, ReachArgs},
 };
 
-/// How often `--watch` looks.
+/// Interval at which `--watch` asks for statuses.
 const WATCH_EVERY: Duration = Duration::from_secs(2);
 
 /// Flags of `status`.
@@ -39,7 +39,7 @@ const WATCH_EVERY: Duration = Duration::from_secs(2);
 pub struct StatusArgs {
     #[command(flatten)]
     reach: ReachArgs,
-    /// Look again every two seconds: a dashboard on a terminal (`q` quits, `?` explains), plain text elsewhere.
+    /// Repeat every two seconds: as a dashboard on a terminal (`q` quits, `?` shows the keys), as plain text elsewhere.
     #[arg(long)]
     watch: bool,
     /// Print one JSON object per line.
@@ -47,7 +47,7 @@ pub struct StatusArgs {
     json: bool,
 }
 
-/// Tells how it goes, once or again and again.
+/// Prints the statuses, once or repeatedly.
 pub fn run(args: StatusArgs) -> anyhow::Result<()> {
     let StatusArgs { reach, watch, json } = args;
     if watch && !json && terminal_screen::is_there() {
@@ -66,16 +66,16 @@ pub fn run(args: StatusArgs) -> anyhow::Result<()> {
     })
 }
 
-/// How every run goes that answers; an error where none does.
+/// Returns the statuses of all runs that answer; fails if none does.
 async fn ask(bus: &Bus, run: Option<&str>) -> anyhow::Result<Vec<RunStatus>> {
     let replies =
         learner_address::retry_until_answered(async || statuses(bus, run, learner_address::ANSWER_TIMEOUT).await)
             .await?;
-    let mut told: Vec<RunStatus> = replies.into_iter().filter_map(|reply| reply.status).collect();
-    if told.is_empty() {
+    let mut runs: Vec<RunStatus> = replies.into_iter().filter_map(|reply| reply.status).collect();
+    if runs.is_empty() {
         let whose = run.map_or("no run".to_string(), |run| format!("no run `{run}`"));
-        anyhow::bail!("{whose} answers there; is its learner up, and does your certificate let you ask?");
+        anyhow::bail!("{whose} answers there; is its learner running, and does your certificate let you ask?");
     }
-    told.sort_by(|a, b| a.run.cmp(&b.run));
-    Ok(told)
+    runs.sort_by(|a, b| a.run.cmp(&b.run));
+    Ok(runs)
 }

@@ -1,4 +1,4 @@
-//! What a run of this machine has logged before the dashboard was opened.
+//! Metrics that a run on this machine logged before the dashboard was opened.
 
 use std::{
     fs::File,
@@ -10,12 +10,12 @@ use treadmill_proto::json::Metric;
 
 use super::fleet::CURVES;
 
-/// Of a longer log, the end is read.
+/// Most bytes that are read, from the end of the log.
 const BYTES_MAX: u64 = 256 << 20;
-/// A longer line is none of a metric.
+/// Longest line of a metric.
 const LINE_BYTES_MAX: u64 = 4096;
 
-/// The metrics that curves are made of, as far as the log can be read.
+/// Reads the metrics of curves; an unreadable log has none.
 pub fn read(log: &Path) -> Vec<Metric> {
     let Ok(mut file) = File::open(log) else { return Vec::new() };
     let length = file.metadata().map_or(0, |metadata| metadata.len());
@@ -25,7 +25,7 @@ pub fn read(log: &Path) -> Vec<Metric> {
     let wanted = CURVES.map(|tag| format!("\"tag\":\"{tag}\""));
     let (mut reader, mut line, mut metrics) = (BufReader::new(file), Vec::new(), Vec::new());
     while matches!((&mut reader).take(LINE_BYTES_MAX).read_until(b'\n', &mut line), Ok(1..)) {
-        // Most lines are of other tags, and need not be understood.
+        // Most lines have other tags and are not parsed.
         let text = String::from_utf8_lossy(&line);
         if wanted.iter().any(|tag| text.contains(tag)) {
             metrics.extend(Metric::from_json(text.trim_end().as_bytes()).ok());
@@ -40,7 +40,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn curves_are_read_and_nonsense_is_passed_over() {
+    fn curves_are_read_and_malformed_lines_skipped() {
         let folder = tempfile::tempdir().unwrap();
         let log = folder.path().join("metrics.jsonl");
         let metric = |tag: &str, step| Metric { run: "r".into(), tag: tag.into(), step, value: 1.5, time_unix_s: 2.0 };

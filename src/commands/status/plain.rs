@@ -1,10 +1,10 @@
-//! How runs go, as lines of text.
+//! Statuses of runs as lines of text.
 
 use std::fmt::Write as _;
 
 use treadmill_proto::{ActorStatus, Phase, RunStatus};
 
-/// A paragraph for each run, with a table of its actors.
+/// Returns a paragraph for each run, with a table of its actors.
 pub fn as_text(runs: &[RunStatus]) -> String {
     let mut out = String::new();
     for run in runs {
@@ -95,16 +95,16 @@ fn line(out: &mut String, actor: &ActorStatus) -> std::fmt::Result {
     )
 }
 
-/// What strangers call themselves, without what would move the cursor or turn the direction of writing.
+/// Returns up to 24 characters of text from other machines, without those that move the cursor or change direction.
 pub fn plain(text: &str) -> String {
-    let unseen = |c: char| {
+    let is_invisible = |c: char| {
         c.is_control()
             || matches!(c, '\u{ad}' | '\u{200b}'..='\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2060}'..='\u{206f}' | '\u{feff}')
     };
-    text.chars().filter(|c| !unseen(*c)).take(24).collect()
+    text.chars().filter(|c| !is_invisible(*c)).take(24).collect()
 }
 
-/// Whether an actor takes part, in a word.
+/// Returns the state of an actor in one word.
 pub fn state(actor: &ActorStatus) -> &'static str {
     match (actor.quarantined, actor.alive) {
         (true, _) => "quarantined",
@@ -125,7 +125,7 @@ fn seconds(elapsed_s: f64) -> String {
     if elapsed_s < 100.0 { format!("{elapsed_s:.1} s") } else { format!("{:.0} min", elapsed_s / 60.0) }
 }
 
-/// Steps per second that the living actors report, together.
+/// Returns the sum of the steps per second that living actors report.
 pub fn fleet_rate(run: &RunStatus) -> f64 {
     run.actors
         .iter()

@@ -1,9 +1,9 @@
-//! Runs to draw: a sound one, and what a program that means ill might say.
+//! Statuses for tests of drawing: a sound one, and hostile ones.
 
 use proptest::prelude::*;
 use treadmill_proto::{ActorStats, ActorStatus, Phase, RunStatus, wire::PolicyVersion};
 
-/// A run in the middle of its way, with so many actors.
+/// Returns a run halfway through, with this many actors.
 pub fn run(name: &str, actors: usize) -> RunStatus {
     let version = |number| Some(PolicyVersion { incarnation: 7, number });
     let actors = (0..actors).map(|number| ActorStatus {
@@ -53,19 +53,19 @@ pub fn run(name: &str, actors: usize) -> RunStatus {
     }
 }
 
-/// Any number that 64 bits can be read as.
+/// Any `f64`, NaN and infinities included.
 fn numbers() -> impl Strategy<Value = f64> {
     any::<u64>().prop_map(f64::from_bits)
 }
 
-/// Text with which somebody might try to move the cursor, or to fill the screen.
+/// Text that might move the cursor or fill the screen.
 fn names() -> impl Strategy<Value = String> {
     let nasty = "[\u{1b}\u{9b}\r\n\t\u{202e}\u{200d}日本👩‍👩‍👧a-z]{0,40}";
     prop_oneof![nasty, any::<String>(), Just("w".repeat(300))]
 }
 
 prop_compose! {
-    /// A reply whose names passed the checks of the bus, and of which everything else is whatever it is.
+    /// Reply with valid names and arbitrary other fields.
     pub fn hostile()(
         run in "[a-z0-9_-]{1,64}",
         (phase, pid, counts) in (0..5i32, any::<u32>(), any::<[u64; 13]>()),
@@ -91,21 +91,21 @@ prop_compose! {
 prop_compose! {
     fn actor()(
         name in "[a-z0-9_-]{1,64}",
-        (alive, quarantined, told) in any::<(bool, bool, bool)>(),
+        (alive, quarantined, known) in any::<(bool, bool, bool)>(),
         (contact, speed) in (numbers(), numbers()),
         (lag, number, envs) in any::<(u64, u64, u32)>(),
         (host, program_version) in (names(), names()),
     ) -> ActorStatus {
         let stats = ActorStats {
             actor: name.clone(), host, program_version, envs, env_steps_per_s: speed,
-            version: told.then_some(PolicyVersion { incarnation: 1, number }),
+            version: known.then_some(PolicyVersion { incarnation: 1, number }),
             dropped_by_rule: number, resent: lag, resident_bytes: lag, ..ActorStats::default()
         };
         ActorStatus {
             name, alive, quarantined,
-            since_contact_s: told.then_some(contact),
-            lag_versions: told.then_some(lag),
-            stats: told.then_some(stats),
+            since_contact_s: known.then_some(contact),
+            lag_versions: known.then_some(lag),
+            stats: known.then_some(stats),
         }
     }
 }

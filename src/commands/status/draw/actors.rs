@@ -1,4 +1,4 @@
-//! Who takes part: as many rows and columns as there is room for.
+//! Table of actors, with as many rows and columns as fit.
 
 use ratatui::{
     Frame,
@@ -19,16 +19,16 @@ use crate::commands::status::{
     plain::{fleet_rate, state},
 };
 
-/// Columns at the right end of the last line, for which actors are shown.
+/// Columns at the right end of the last line for the range of actors shown.
 pub const RANGE_WIDTH: u16 = 20;
-/// Columns that a name gets in any case, where it is that long.
+/// Columns that a long name gets before other columns.
 const NAME_WIDTH: u16 = 20;
 
-/// A column beside the name.
+/// Column beside the name.
 struct Column {
     title: &'static str,
     width: u16,
-    /// The lower, the sooner there must be room for it.
+    /// Columns of lower rank are shown first.
     rank: usize,
     text: fn(&ActorStatus) -> String,
 }
@@ -41,7 +41,7 @@ fn or_unknown(text: Option<String>) -> String {
     text.filter(|text| !text.is_empty()).unwrap_or_else(|| UNKNOWN.to_string())
 }
 
-/// From left to right.
+/// Columns from left to right.
 const COLUMNS: [Column; 11] = [
     Column { title: "host", width: 14, rank: 4, text: |a| or_unknown(stats(a, |s| shorten(&plain(&s.host), 14))) },
     Column {
@@ -71,7 +71,7 @@ const COLUMNS: [Column; 11] = [
     Column { title: "state", width: 11, rank: 0, text: |a| state(a).to_string() },
 ];
 
-/// Columns that fit beside a name of this width.
+/// Returns the columns that fit beside a name of this width.
 fn fitting(width: u16, name_width: u16) -> Vec<&'static Column> {
     let mut width_left = width.saturating_sub(name_width);
     let mut by_rank: Vec<usize> = (0..COLUMNS.len()).collect();
@@ -86,7 +86,7 @@ fn fitting(width: u16, name_width: u16) -> Vec<&'static Column> {
     fitting.into_iter().map(|column| &COLUMNS[column]).collect()
 }
 
-/// Draws the table, and in `keys` which part of it this is.
+/// Draws the table, and the range of actors shown in `keys`.
 pub fn draw(frame: &mut Frame, area: Rect, keys: Rect, fleet: &mut Fleet, has_heading: bool, theme: &Theme) {
     let [heading, table] = Layout::vertical([Constraint::Length(has_heading.into()), Constraint::Fill(1)]).areas(area);
     let visible_rows = usize::from(table.height.saturating_sub(1));
@@ -95,18 +95,18 @@ pub fn draw(frame: &mut Frame, area: Rect, keys: Rect, fleet: &mut Fleet, has_he
     let Some((run, ..)) = fleet.selected() else { return };
     if has_heading {
         let alive = actors.iter().filter(|actor| actor.alive).count();
-        let banned = actors.iter().filter(|actor| actor.quarantined).count();
+        let quarantined = actors.iter().filter(|actor| actor.quarantined).count();
         let mut pieces = Pieces::new(heading.width);
         pieces.push(format!("actors {alive} alive"), theme.strong());
         pieces.push(format!("{} steps/s together", number(fleet_rate(&run.status))), theme.quiet());
-        if banned > 0 {
-            pieces.push(format!("{banned} in quarantine"), theme.bad());
+        if quarantined > 0 {
+            pieces.push(format!("{quarantined} in quarantine"), theme.bad());
         }
         pieces.push(format!("by {}", fleet.order.name()), theme.quiet());
         frame.render_widget(pieces.line(), heading);
     }
     if actors.is_empty() {
-        return frame.render_widget(Paragraph::new("no actor is there yet").style(theme.quiet()), table);
+        return frame.render_widget(Paragraph::new("no actors yet").style(theme.quiet()), table);
     }
     let shown = &actors[first..actors.len().min(first + visible_rows)];
     let longest = shown.iter().map(|actor| actor.name.chars().count()).max().unwrap_or_default();
@@ -134,7 +134,7 @@ pub fn draw(frame: &mut Frame, area: Rect, keys: Rect, fleet: &mut Fleet, has_he
     frame.render_widget(Line::styled(range, theme.quiet()).right_aligned(), keys);
 }
 
-/// Numbers to the right, words to the left.
+/// Aligns numbers to the right and words to the left.
 fn aligned(column: &Column, text: String, style: Style) -> Line<'static> {
     let line = Line::from(Span::styled(text, style));
     if matches!(column.title, "host" | "version" | "state") { line } else { line.right_aligned() }

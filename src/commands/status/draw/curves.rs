@@ -19,30 +19,30 @@ use crate::commands::status::{
     history::Curve,
 };
 
-/// From here on velocity has a picture of its own, and so has lag.
+/// Smallest width with charts of velocity and lag.
 const WIDE: u16 = 120;
 
-/// Draws them side by side.
+/// Draws the charts side by side.
 pub fn draw(frame: &mut Frame, area: Rect, run: &Run, theme: &Theme) {
     let status = &run.status;
     let (metres, mps) = (known(status.distance_mean_m), known(status.velocity_mean_mps));
     let is_wide = area.width >= WIDE;
     let distance = if is_wide { format!("distance {metres} m") } else { format!("{metres} m at {mps} m/s") };
-    let mut pictures = vec![
+    let mut charts = vec![
         (RETURN, format!("return {}", known(status.return_mean))),
         (DISTANCE, distance),
         (SPEED, format!("{} steps/s", number(status.env_steps_per_s))),
     ];
     if is_wide {
-        pictures.insert(2, (VELOCITY, format!("velocity {mps} m/s")));
+        charts.insert(2, (VELOCITY, format!("velocity {mps} m/s")));
     }
-    let count = pictures.len() + usize::from(is_wide);
+    let count = charts.len() + usize::from(is_wide);
     let areas = Layout::horizontal(vec![Constraint::Fill(1); count]).spacing(1).split(area);
-    for ((tag, title), area) in pictures.into_iter().zip(areas.iter()) {
+    for ((tag, title), area) in charts.into_iter().zip(areas.iter()) {
         curve(frame, *area, &run.curve(tag), title, theme);
     }
     if is_wide {
-        lag::picture(frame, areas[count - 1], run, theme);
+        lag::draw_bars(frame, areas[count - 1], run, theme);
     }
 }
 
@@ -66,7 +66,7 @@ fn curve(frame: &mut Frame, area: Rect, curve: &Curve, title: String, theme: &Th
     frame.render_widget(chart, area);
 }
 
-/// The smallest ranges that have all points in them, and some width.
+/// Returns the smallest ranges of steps and values that contain all points and are not empty.
 fn bounds(points: &[(f64, f64)]) -> Option<[[f64; 2]; 2]> {
     let (first, last) = (points.first()?.0, points.last()?.0);
     let range = |values: &mut dyn Iterator<Item = f64>| {
@@ -74,15 +74,15 @@ fn bounds(points: &[(f64, f64)]) -> Option<[[f64; 2]; 2]> {
     };
     let [low, high] = range(&mut points.iter().map(|(_, value)| *value));
     let widened = |low: f64, high: f64| {
-        // A part of the value itself, or a difference could be too small to count.
+        // Relative to the value, because a smaller difference could be lost in rounding.
         let least = (low.abs().max(high.abs()) * 1e-6).max(1e-6);
         if high - low < least { [low - least, high + least] } else { [low, high] }
     };
     Some([widened(first, last), widened(low, high)])
 }
 
-/// The same in one line, where there is no room for pictures.
-pub fn in_words(frame: &mut Frame, area: Rect, run: &Run, theme: &Theme) {
+/// Draws the latest values in one line, for small terminals.
+pub fn draw_line(frame: &mut Frame, area: Rect, run: &Run, theme: &Theme) {
     let status = &run.status;
     let mut pieces = Pieces::new(area.width);
     pieces.push(format!("return {}", known(status.return_mean)), theme.strong());

@@ -1,16 +1,16 @@
-//! Numbers in few characters, whatever they are.
+//! Numbers in few characters.
 
 pub use crate::commands::status::plain::plain;
 
-/// What stands for a number that is not known, or is none.
+/// Stands for a number that is unknown or not finite.
 pub const UNKNOWN: &str = "–";
 
-/// A count: whole as long as it is short, then with a letter for its thousands.
+/// Formats a count: in full below ten million, else with a unit letter.
 pub fn count(count: u64) -> String {
     if count < 10_000_000 { grouped(count) } else { scaled(count as f64) }
 }
 
-/// A count in at most five characters.
+/// Formats a count in at most five characters.
 pub fn short(count: u64) -> String {
     if count < 10_000 { count.to_string() } else { scaled(count as f64) }
 }
@@ -27,7 +27,7 @@ fn grouped(count: u64) -> String {
     out
 }
 
-/// A number with about three digits.
+/// Formats a number with about three digits.
 pub fn number(value: f64) -> String {
     let size = value.abs();
     match size {
@@ -39,7 +39,7 @@ pub fn number(value: f64) -> String {
     }
 }
 
-/// A number that may not be known.
+/// Formats a number that may be unknown.
 pub fn known(value: Option<f64>) -> String {
     value.map_or_else(|| UNKNOWN.to_string(), number)
 }
@@ -57,7 +57,7 @@ fn scaled(value: f64) -> String {
     format!("{value:.0e}")
 }
 
-/// Seconds, in the unit that suits them.
+/// Formats seconds in a suitable unit.
 pub fn duration(elapsed_s: f64) -> String {
     match elapsed_s {
         s if !s.is_finite() || s < 0.0 => UNKNOWN.to_string(),
@@ -70,7 +70,7 @@ pub fn duration(elapsed_s: f64) -> String {
     }
 }
 
-/// A share as a percentage.
+/// Formats a share as a percentage.
 pub fn percent(share: f64) -> String {
     if share.is_finite() { format!("{:.0} %", 100.0 * share.clamp(0.0, 1.0)) } else { UNKNOWN.to_string() }
 }
@@ -80,7 +80,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn whatever_they_are_they_are_short() {
+    fn all_numbers_are_short() {
         assert_eq!([count(0), count(999), count(8192), count(4_194_304)], ["0", "999", "8 192", "4 194 304"]);
         assert_eq!([count(12_345_678), count(u64::MAX)], ["12.3M", "18.4E"]);
         assert_eq!([number(0.0), number(-1.234), number(99.96), number(5892.4)], ["0.00", "-1.23", "100", "5892"]);

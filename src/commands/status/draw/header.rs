@@ -1,4 +1,4 @@
-//! The run, how far it is, and how fast.
+//! Name of the run, progress and speed.
 
 use std::time::{Duration, Instant};
 
@@ -15,15 +15,15 @@ use super::{
 };
 use crate::commands::status::fleet::Run;
 
-/// A run that did not answer for so long is told of as silent.
+/// Time without an answer after which a run is shown as silent.
 const SILENT_AFTER: Duration = Duration::from_secs(6);
-/// Below this width words are shortened.
+/// Width below which words are shortened.
 const NARROW: u16 = 60;
-/// Columns of the progress bar at most and at least.
+/// Most and fewest columns of the progress bar.
 const BAR_MAX: usize = 40;
 const BAR_MIN: usize = 4;
 
-/// Draws three lines.
+/// Draws three lines: title, progress and traffic.
 pub fn draw(
     frame: &mut Frame,
     area: Rect,
@@ -101,7 +101,7 @@ fn traffic_line(width: u16, run: &Run, theme: &Theme) -> Pieces {
     pieces
 }
 
-/// What became of fragments: the accepted, and of the others those that there were.
+/// Draws the counts of fragments by outcome; zeros are omitted.
 pub fn fragments(frame: &mut Frame, area: Rect, run: &Run, theme: &Theme) {
     let status = &run.status;
     let mut pieces = Pieces::new(area.width);

@@ -1,4 +1,4 @@
-//! How many versions behind the experience was that is learnt from.
+//! Policy lag of the last batch.
 
 use ratatui::{
     Frame,
@@ -14,14 +14,14 @@ use super::{
 };
 use crate::commands::status::fleet::Run;
 
-/// The versions that are told apart.
+/// Labels of the histogram's bins.
 const NAMES: [&str; 6] = ["0", "1", "2", "3", "4", "5+"];
-/// A share in one character.
+/// Characters for shares.
 const HEIGHTS: [char; 8] = ['▁', '▂', '▃', '▄', '▅', '▆', '▇', '█'];
-/// From here on each share is told as a number, too.
+/// Smallest width with the shares as numbers.
 const NUMBERS_WIDTH_MIN: u16 = 78;
 
-/// One line: the mean, and the histogram of the last batch.
+/// Draws one line: mean and histogram.
 pub fn draw(frame: &mut Frame, area: Rect, run: &Run, theme: &Theme) {
     let mut pieces = Pieces::new(area.width);
     pieces.push(format!("lag {} mean", number(run.lag_mean())), theme.strong());
@@ -49,8 +49,8 @@ fn height(share: f64) -> char {
     }
 }
 
-/// The histogram as a picture.
-pub fn picture(frame: &mut Frame, area: Rect, run: &Run, theme: &Theme) {
+/// Draws the histogram as a bar chart.
+pub fn draw_bars(frame: &mut Frame, area: Rect, run: &Run, theme: &Theme) {
     let block = Block::new().title(Line::styled("lag in versions", theme.strong()));
     let Some(lags) = run.lags() else {
         return frame.render_widget(Paragraph::new("nothing yet").style(theme.quiet()).block(block), area);

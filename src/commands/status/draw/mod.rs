@@ -1,4 +1,4 @@
-//! Draws the dashboard's state and does nothing else.
+//! Drawing of the dashboard's state.
 //!
 //! # Layout
 //! - [`header`]: name of the run, progress and speed.
@@ -33,17 +33,17 @@ use super::{
     keys::HELP,
 };
 
-/// The smallest terminal that there is a use in.
+/// Smallest terminal that is supported.
 const WIDTH_MIN: u16 = 40;
 const HEIGHT_MIN: u16 = 10;
-/// From here on there is room for curves.
+/// Smallest terminal with curves.
 const CURVES_WIDTH_MIN: u16 = 70;
 const CURVES_HEIGHT_MIN: u16 = 18;
 const CURVES_HEIGHT_MAX: u16 = 24;
-/// From here on there is room for a line above the table, and for one about fragments.
+/// Smallest height with a line above the table and one about fragments.
 const HEADINGS_HEIGHT_MIN: u16 = 14;
 
-/// Draws all of it.
+/// Draws the whole dashboard.
 pub fn draw(frame: &mut Frame, fleet: &mut Fleet, theme: &Theme, now: Instant) {
     let area = frame.area();
     if area.width < WIDTH_MIN || area.height < HEIGHT_MIN {
@@ -54,11 +54,11 @@ pub fn draw(frame: &mut Frame, fleet: &mut Fleet, theme: &Theme, now: Instant) {
     let [body, keys] = Layout::vertical([Constraint::Fill(1), Constraint::Length(1)]).areas(area);
     match fleet.selected() {
         Some((run, which, of)) => {
-            let rest = about_run(frame, body, run, (which, of), fleet.silence.is_some(), theme, now);
+            let rest = draw_run(frame, body, run, (which, of), fleet.silence.is_some(), theme, now);
             actors::draw(frame, rest, keys, fleet, area.height >= HEADINGS_HEIGHT_MIN, theme);
         }
         None => {
-            let text = fleet.silence.as_deref().unwrap_or("asking how it goes");
+            let text = fleet.silence.as_deref().unwrap_or("asking the learners");
             frame.render_widget(Paragraph::new(figures::plain(text)).wrap(Wrap { trim: true }), body);
         }
     }
@@ -66,16 +66,16 @@ pub fn draw(frame: &mut Frame, fleet: &mut Fleet, theme: &Theme, now: Instant) {
     for (key, what) in [("q", "quit"), ("?", "help"), ("↑↓", "scroll"), ("s", "order"), ("Tab", "run")] {
         pieces.push(format!("{key} {what}"), theme.quiet());
     }
-    // Whatever stands at its right end is more than the last of the keys.
+    // The range of actors at the right end has priority over the last keys.
     let left = Rect { width: keys.width.saturating_sub(actors::RANGE_WIDTH), ..keys };
     frame.render_widget(pieces.fitted(left.width), left);
     if fleet.helps {
-        help(frame, area, theme);
+        draw_help(frame, area, theme);
     }
 }
 
-/// Everything about the run itself; what is left of the area.
-fn about_run(
+/// Draws everything about the run itself, and returns the rest of the area.
+fn draw_run(
     frame: &mut Frame,
     area: Rect,
     run: &Run,
@@ -98,7 +98,7 @@ fn about_run(
     header::draw(frame, head, run, place, silent, theme, now);
     match has_curves {
         true => curves::draw(frame, curves_area, run, theme),
-        false => curves::in_words(frame, curves_area, run, theme),
+        false => curves::draw_line(frame, curves_area, run, theme),
     }
     lag::draw(frame, lag_area, run, theme);
     if has_fragments {
@@ -107,7 +107,7 @@ fn about_run(
     rest
 }
 
-fn help(frame: &mut Frame, area: Rect, theme: &Theme) {
+fn draw_help(frame: &mut Frame, area: Rect, theme: &Theme) {
     let lines: Vec<Line> = HELP.iter().map(|(keys, what)| Line::from(format!("{keys:<15} {what}"))).collect();
     let height = (lines.len() as u16 + 2).min(area.height);
     let width = WIDTH_MIN.min(area.width);

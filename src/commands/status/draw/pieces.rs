@@ -1,14 +1,14 @@
-//! A line of pieces: what does not fit is left out whole, and nothing is cut in the middle.
+//! Line of text pieces; a piece that does not fit is omitted as a whole.
 
 use ratatui::{
     style::Style,
     text::{Line, Span},
 };
 
-/// Between two pieces.
+/// Separator of two pieces.
 const GAP: &str = "  ";
 
-/// Pieces that are put side by side, the most important first.
+/// Pieces of one line, the most important first.
 #[derive(Debug)]
 pub struct Pieces {
     pieces: Vec<Span<'static>>,
@@ -16,12 +16,12 @@ pub struct Pieces {
 }
 
 impl Pieces {
-    /// An empty line of this width.
+    /// Creates an empty line of this width.
     pub fn new(width: u16) -> Self {
         Self { pieces: Vec::new(), width_left: width.into() }
     }
 
-    /// Adds a piece if it fits; columns that are left after it.
+    /// Adds a piece if it fits, and returns the columns left.
     pub fn push(&mut self, text: impl Into<String>, style: Style) -> usize {
         let piece = Span::styled(text.into(), style);
         let needed = piece.width() + if self.pieces.is_empty() { 0 } else { GAP.len() };
@@ -32,7 +32,7 @@ impl Pieces {
         self.width_left
     }
 
-    /// The line.
+    /// Returns the line.
     pub fn line(self) -> Line<'static> {
         let mut spans = Vec::with_capacity(self.pieces.len() * 2);
         for piece in self.pieces {
@@ -44,7 +44,7 @@ impl Pieces {
         Line::from(spans)
     }
 
-    /// The line, of as many pieces as fit into less.
+    /// Returns the line with as many pieces as fit into `width`.
     pub fn fitted(self, width: u16) -> Line<'static> {
         let mut fitted = Self::new(width);
         for piece in self.pieces {
@@ -55,7 +55,7 @@ impl Pieces {
     }
 }
 
-/// A name in at most `width` columns: what is left out is in the middle, because names differ at their ends.
+/// Shortens a name to `width` columns in its middle, because names differ at their ends.
 pub fn shorten(name: &str, width: usize) -> String {
     if Span::raw(name).width() <= width {
         return name.to_string();
@@ -80,7 +80,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn pieces_are_whole_or_left_out_and_names_keep_their_ends() {
+    fn pieces_are_whole_or_omitted_and_names_keep_their_ends() {
         let mut pieces = Pieces::new(12);
         pieces.push("walk-1", Style::new());
         assert_eq!(pieces.push("too long", Style::new()), 6);

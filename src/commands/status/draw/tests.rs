@@ -1,4 +1,4 @@
-//! What is on the screen, for terminals of many sizes and for whatever runs may say.
+//! Screens of terminals of many sizes, for sound and for hostile statuses.
 
 use std::time::{Duration, Instant};
 
@@ -13,7 +13,7 @@ use crate::commands::status::{
     samples,
 };
 
-/// A fleet that was told of these runs for some seconds, with curves and a histogram of lags for each.
+/// Returns a fleet after some seconds of statuses of these runs, with curves and histograms of lags.
 fn fleet(runs: &[RunStatus], now: Instant) -> Fleet {
     let mut fleet = Fleet::new(now - Duration::from_secs(4));
     for (ago_s, done) in [(4, 0.5), (2, 0.75), (0, 1.0)] {
@@ -23,19 +23,19 @@ fn fleet(runs: &[RunStatus], now: Instant) -> Fleet {
             env_steps: (run.env_steps as f64 * done) as u64,
             ..run.clone()
         };
-        fleet.answer(runs.iter().map(earlier).collect(), now - Duration::from_secs(ago_s));
+        fleet.apply_statuses(runs.iter().map(earlier).collect(), now - Duration::from_secs(ago_s));
     }
     for run in runs {
         for (lag, tag) in LAGS.iter().enumerate() {
             let value = [0.1, 0.8, 0.1, 0.0, 0.0, 0.0][lag];
             let metric = Metric { run: run.run.clone(), tag: (*tag).into(), step: 1, value, time_unix_s: 1.0 };
-            fleet.measure(&metric);
+            fleet.apply_metric(&metric);
         }
     }
     fleet
 }
 
-fn drawn(fleet: &mut Fleet, width: u16, height: u16, coloured: bool, now: Instant) -> Buffer {
+fn draw_to_buffer(fleet: &mut Fleet, width: u16, height: u16, coloured: bool, now: Instant) -> Buffer {
     let mut terminal = Terminal::new(TestBackend::new(width, height)).unwrap();
     terminal.draw(|frame| draw(frame, fleet, &Theme::new(coloured), now)).unwrap();
     terminal.backend().buffer().clone()
@@ -47,133 +47,136 @@ fn lines(buffer: &Buffer) -> Vec<String> {
 }
 
 fn screen(fleet: &mut Fleet, width: u16, height: u16) -> String {
-    lines(&drawn(fleet, width, height, true, Instant::now())).join("\n")
+    lines(&draw_to_buffer(fleet, width, height, true, Instant::now())).join("\n")
 }
 
-fn has(screen: &str, parts: &[&str]) {
+fn assert_shows(screen: &str, parts: &[&str]) {
     for part in parts {
         assert!(screen.contains(part), "`{part}` is missing in\n{screen}");
     }
 }
 
 #[test]
-fn eighty_columns_have_the_run_its_curves_its_lag_and_its_actors() {
+fn eighty_columns_show_the_run_its_curves_its_lag_and_its_actors() {
     let now = Instant::now();
     let screen = screen(&mut fleet(&[samples::run("walk-1", 3)], now), 80, 24);
-    has(&screen, &["walk-1  training", "on workhorse", "process 4711", "version 0.1.0"]);
-    has(&screen, &["52 %", "4 194 304 of 8 000 000 steps", "3 min elapsed", "3 min to go"]);
-    // In 4 s a half of 970 fragments and of 970 MB came.
-    has(&screen, &["22.9k steps/s", "121 fragments/s", "121 MB/s", "512 updates"]);
-    has(&screen, &["return 5892", "18.3 m at 1.30 m/s", "2.10M", "4.19M"]);
-    has(&screen, &["lag 1.02 mean", "0 ▁10%", "1 ▇80%", "5+ ·0%"]);
-    has(&screen, &["970 accepted", "5 too old", "actors 2 alive", "1 in quarantine"]);
-    has(&screen, &["name", "host", "version", "policy", "lag", "steps/s", "contact", "state"]);
+    assert_shows(&screen, &["walk-1  training", "on workhorse", "process 4711", "version 0.1.0"]);
+    assert_shows(&screen, &["52 %", "4 194 304 of 8 000 000 steps", "3 min elapsed", "3 min to go"]);
+    // Half of 970 fragments and of 970 MB came in 4 s.
+    assert_shows(&screen, &["22.9k steps/s", "121 fragments/s", "121 MB/s", "512 updates"]);
+    assert_shows(&screen, &["return 5892", "18.3 m at 1.30 m/s", "2.10M", "4.19M"]);
+    assert_shows(&screen, &["lag 1.02 mean", "0 ▁10%", "1 ▇80%", "5+ ·0%"]);
+    assert_shows(&screen, &["970 accepted", "5 too old", "actors 2 alive", "1 in quarantine"]);
+    assert_shows(&screen, &["name", "host", "version", "policy", "lag", "steps/s", "contact", "state"]);
     for row in [
         ["actor-0", "host-0", "0.1.0", "512", "1000", "0.0 s", "alive"],
         ["actor-1", "host-0", "0.1.0", "511", "1001", "0.2 s", "quarantined"],
         ["actor-2", "host-0", "0.1.0", "510", "1002", "0.5 s", "gone"],
     ] {
         let line = screen.lines().find(|line| line.starts_with(row[0])).expect(row[0]);
-        has(line, &row);
+        assert_shows(line, &row);
     }
-    has(&screen, &["q quit  ? help  ↑↓ scroll  s order  Tab run", "1–3 of 3"]);
+    assert_shows(&screen, &["q quit  ? help  ↑↓ scroll  s order  Tab run", "1–3 of 3"]);
 }
 
 #[test]
-fn forty_columns_have_the_same_in_words() {
+fn forty_columns_show_values_instead_of_curves() {
     let now = Instant::now();
     let screen = screen(&mut fleet(&[samples::run("walk-1", 200)], now), 40, 10);
-    has(&screen, &["walk-1  training", "52 %", "4.19M of 8.00M", "3 min to go"]);
-    has(&screen, &["22.9k steps/s  121 frag/s  121 MB/s", "return 5892  18.3 m  1.30 m/s", "lag 1.02 mean  ▁▇▁···"]);
-    has(&screen, &["actor-0", "1000", "alive", "q quit  ? help", "1–3 of 200"]);
+    assert_shows(&screen, &["walk-1  training", "52 %", "4.19M of 8.00M", "3 min to go"]);
+    assert_shows(
+        &screen,
+        &["22.9k steps/s  121 frag/s  121 MB/s", "return 5892  18.3 m  1.30 m/s", "lag 1.02 mean  ▁▇▁···"],
+    );
+    assert_shows(&screen, &["actor-0", "1000", "alive", "q quit  ? help", "1–3 of 200"]);
 }
 
 #[test]
 fn a_large_terminal_shows_more() {
     let now = Instant::now();
     let screen = screen(&mut fleet(&[samples::run("walk-1", 20)], now), 200, 60);
-    has(&screen, &["distance 18.3 m", "velocity 1.30 m/s", "lag in versions", "5+", "80"]);
-    has(&screen, &["dropped", "resent", "MB", "envs", "actor-19", "1–20 of 20"]);
+    assert_shows(&screen, &["distance 18.3 m", "velocity 1.30 m/s", "lag in versions", "5+", "80"]);
+    assert_shows(&screen, &["dropped", "resent", "MB", "envs", "actor-19", "1–20 of 20"]);
 }
 
 #[test]
-fn two_hundred_actors_are_reached_by_scrolling_and_ordered_by_what_matters() {
+fn two_hundred_actors_can_be_scrolled_and_ordered() {
     let now = Instant::now();
     let mut fleet = fleet(&[samples::run("walk-1", 200)], now);
-    has(&screen(&mut fleet, 80, 24), &["actor-0 ", "1–7 of 200"]);
+    assert_shows(&screen(&mut fleet, 80, 24), &["actor-0 ", "1–7 of 200"]);
     fleet.act(Action::PageDown);
     fleet.act(Action::Down);
-    has(&screen(&mut fleet, 80, 24), &["9–15 of 200"]);
+    assert_shows(&screen(&mut fleet, 80, 24), &["9–15 of 200"]);
     fleet.act(Action::Last);
     fleet.act(Action::Down);
     let last = screen(&mut fleet, 80, 24);
-    has(&last, &["actor-99 ", "194–200 of 200"]);
+    assert_shows(&last, &["actor-99 ", "194–200 of 200"]);
     fleet.act(Action::PageUp);
-    has(&screen(&mut fleet, 80, 24), &["187–193 of 200"]);
+    assert_shows(&screen(&mut fleet, 80, 24), &["187–193 of 200"]);
     fleet.act(Action::First);
     fleet.act(Action::Order);
     fleet.act(Action::Order);
     let laggards = screen(&mut fleet, 80, 24);
-    has(&laggards, &["by lag", "actor-103 ", "actor-107 ", "1–7 of 200"]);
-    // What leaves while somebody looks at it leaves no hole.
+    assert_shows(&laggards, &["by lag", "actor-103 ", "actor-107 ", "1–7 of 200"]);
+    // Actors that leave while they are shown leave no gap.
     fleet.act(Action::Last);
-    fleet.answer(vec![samples::run("walk-1", 2)], now);
-    has(&screen(&mut fleet, 80, 24), &["1–2 of 2", "actor-0"]);
+    fleet.apply_statuses(vec![samples::run("walk-1", 2)], now);
+    assert_shows(&screen(&mut fleet, 80, 24), &["1–2 of 2", "actor-0"]);
 }
 
 #[test]
-fn tab_goes_through_the_runs_and_new_ones_do_not_change_what_is_looked_at() {
+fn tab_selects_runs_and_new_runs_keep_the_selection() {
     let now = Instant::now();
     let mut fleet = fleet(&[samples::run("run-b", 1), samples::run("run-d", 2)], now);
-    has(&screen(&mut fleet, 80, 24), &["run-b", "run 1 of 2"]);
+    assert_shows(&screen(&mut fleet, 80, 24), &["run-b", "run 1 of 2"]);
     fleet.act(Action::NextRun);
-    has(&screen(&mut fleet, 80, 24), &["run-d", "run 2 of 2"]);
-    fleet.answer(vec![samples::run("run-a", 1), samples::run("run-c", 1)], now);
-    has(&screen(&mut fleet, 80, 24), &["run-d", "run 4 of 4"]);
+    assert_shows(&screen(&mut fleet, 80, 24), &["run-d", "run 2 of 2"]);
+    fleet.apply_statuses(vec![samples::run("run-a", 1), samples::run("run-c", 1)], now);
+    assert_shows(&screen(&mut fleet, 80, 24), &["run-d", "run 4 of 4"]);
     fleet.act(Action::NextRun);
-    has(&screen(&mut fleet, 80, 24), &["run-a", "run 1 of 4"]);
+    assert_shows(&screen(&mut fleet, 80, 24), &["run-a", "run 1 of 4"]);
     fleet.act(Action::PreviousRun);
-    has(&screen(&mut fleet, 80, 24), &["run-d"]);
+    assert_shows(&screen(&mut fleet, 80, 24), &["run-d"]);
 }
 
 #[test]
-fn a_learner_that_is_gone_is_told_of_until_it_is_back() {
+fn silent_learner_is_shown_as_gone_until_it_answers() {
     let begun = Instant::now();
     let mut fleet = fleet(&[samples::run("walk-1", 2)], begun);
-    let at = |fleet: &mut Fleet, now| lines(&drawn(fleet, 80, 24, true, now)).join("\n");
-    has(&at(&mut fleet, begun), &["walk-1  training"]);
+    let at = |fleet: &mut Fleet, now| lines(&draw_to_buffer(fleet, 80, 24, true, now)).join("\n");
+    assert_shows(&at(&mut fleet, begun), &["walk-1  training"]);
     fleet.silence = Some("no learner answers".into());
     let later = begun + Duration::from_secs(42);
-    has(&at(&mut fleet, later), &["walk-1  learner gone, silent for 42 s", "return 5892", "actor-1"]);
-    fleet.answer(vec![RunStatus { phase: Phase::Paused.into(), ..samples::run("walk-1", 2) }], later);
-    has(&at(&mut fleet, later), &["walk-1  paused"]);
-    // Where other runs answer, this one is silent all the same.
-    has(&at(&mut fleet, later + Duration::from_secs(10)), &["learner gone, silent for 10 s"]);
+    assert_shows(&at(&mut fleet, later), &["walk-1  learner gone, silent for 42 s", "return 5892", "actor-1"]);
+    fleet.apply_statuses(vec![RunStatus { phase: Phase::Paused.into(), ..samples::run("walk-1", 2) }], later);
+    assert_shows(&at(&mut fleet, later), &["walk-1  paused"]);
+    // This run is silent even if others answer.
+    assert_shows(&at(&mut fleet, later + Duration::from_secs(10)), &["learner gone, silent for 10 s"]);
 }
 
 #[test]
-fn keys_are_explained_and_small_terminals_are_told_what_is_needed() {
+fn help_lists_keys_and_small_terminals_show_the_size_needed() {
     let now = Instant::now();
     let mut fleet = fleet(&[samples::run("walk-1", 2)], now);
     fleet.act(Action::Help);
     for (width, height) in [(40, 10), (80, 24), (200, 60)] {
         let screen = screen(&mut fleet, width, height);
-        HELP.iter().for_each(|(keys, what)| has(&screen, &[keys, what]));
+        HELP.iter().for_each(|(keys, what)| assert_shows(&screen, &[keys, what]));
     }
     fleet.act(Action::Back);
     assert!(!screen(&mut fleet, 80, 24).contains("Shift-Tab"));
-    has(&screen(&mut fleet, 39, 24), &["This needs 40×10", "39×24"]);
-    has(&screen(&mut fleet, 80, 9), &["This needs 40×10", "80×9"]);
-    has(&screen(&mut Fleet::new(now), 80, 24), &["asking how it goes", "q quit"]);
+    assert_shows(&screen(&mut fleet, 39, 24), &["This needs 40×10", "39×24"]);
+    assert_shows(&screen(&mut fleet, 80, 9), &["This needs 40×10", "80×9"]);
+    assert_shows(&screen(&mut Fleet::new(now), 80, 24), &["asking the learners", "q quit"]);
 }
 
 #[test]
-fn without_colours_there_are_none() {
+fn theme_without_colours_uses_none() {
     let now = Instant::now();
     let mut fleet = fleet(&[samples::run("walk-1", 3)], now);
     for (width, height) in [(40, 10), (80, 24), (200, 60)] {
         let colours = |coloured| {
-            let buffer = drawn(&mut fleet.clone(), width, height, coloured, now);
+            let buffer = draw_to_buffer(&mut fleet.clone(), width, height, coloured, now);
             buffer.content.iter().filter(|cell| cell.fg != Color::Reset || cell.bg != Color::Reset).count()
         };
         assert_eq!(colours(false), 0);
@@ -186,7 +189,7 @@ proptest! {
     #![proptest_config(ProptestConfig::with_cases(96))]
 
     #[test]
-    fn whatever_runs_say_it_is_drawn_and_moves_nothing(
+    fn hostile_statuses_are_drawn_without_control_characters(
         runs in prop::collection::vec(samples::hostile(), 0..4),
         values in prop::collection::vec((any::<u64>(), any::<u64>().prop_map(f64::from_bits), 0..11usize), 0..40),
         (width, height) in (0..250u16, 0..80u16),
@@ -198,14 +201,14 @@ proptest! {
         for (step, value, tag) in values {
             for run in &runs {
                 let metric = Metric { run: run.run.clone(), tag: tags()[tag].into(), step, value, time_unix_s: value };
-                fleet.measure(&metric);
+                fleet.apply_metric(&metric);
             }
         }
         if helps {
             fleet.act(Action::Help);
         }
         for action in [Action::Last, Action::NextRun, Action::Order, Action::PageDown] {
-            let buffer = drawn(&mut fleet, width, height, true, now);
+            let buffer = draw_to_buffer(&mut fleet, width, height, true, now);
             for cell in &buffer.content {
                 let moves = cell.symbol().chars().any(|c| c.is_control() || ('\u{202a}'..='\u{202e}').contains(&c));
                 prop_assert!(!moves, "{:?}", cell.symbol());

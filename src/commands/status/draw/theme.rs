@@ -1,50 +1,50 @@
-//! Colours, or none of them.
+//! Colours of the dashboard.
 
 use ratatui::style::{Color, Modifier, Style};
 
-/// How things are set off. Without colours, by weight alone.
+/// Styles of text. Without colours, only the weight differs.
 #[derive(Clone, Copy, Debug)]
 pub struct Theme {
     coloured: bool,
 }
 
 impl Theme {
-    /// With or without colours.
+    /// Creates a theme with or without colours.
     pub fn new(coloured: bool) -> Self {
         Self { coloured }
     }
 
-    /// Without colours where `NO_COLOR` says so (<https://no-color.org>).
+    /// Creates a theme without colours if `NO_COLOR` is set (<https://no-color.org>).
     pub fn of_environment() -> Self {
         Self::new(std::env::var_os("NO_COLOR").is_none_or(|value| value.is_empty()))
     }
 
-    /// Of names and headings.
+    /// Returns the style of names and headings.
     pub fn strong(&self) -> Style {
         Style::new().add_modifier(Modifier::BOLD)
     }
 
-    /// Of what explains.
+    /// Returns the style of explanations.
     pub fn quiet(&self) -> Style {
         Style::new().add_modifier(Modifier::DIM)
     }
 
-    /// Of what goes well.
+    /// Returns the style of a good state.
     pub fn good(&self) -> Style {
         self.colour(Color::Green)
     }
 
-    /// Of what should be looked at.
+    /// Returns the style of a warning.
     pub fn warning(&self) -> Style {
         self.colour(Color::Yellow).add_modifier(Modifier::BOLD)
     }
 
-    /// Of what is shut out or gone.
+    /// Returns the style of a bad state.
     pub fn bad(&self) -> Style {
         self.colour(Color::Red).add_modifier(Modifier::BOLD)
     }
 
-    /// Of curves and bars.
+    /// Returns the style of curves and bars.
     pub fn curve(&self) -> Style {
         self.colour(Color::Cyan)
     }
