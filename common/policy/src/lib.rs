@@ -13,13 +13,11 @@
 //! - `fused`: both networks as one Candle operation with its own gradient, for CPUs.
 //! - `plain`: the same networks from Candle's operations, for GPUs and as the reference of tests.
 //! - `networks`: [`Networks`], which chooses between the two.
-//! - `agreement`: compares the two on this processor.
 //! - `inference`: [`Policy`], which actors evaluate.
 //! - `normaliser`: running moments and normalisation of observations and returns.
 //! - `exported`, `onnx`: a policy as a safetensors or ONNX file.
 //! - `device`: choice of CPU or GPU.
 
-pub mod agreement;
 pub mod device;
 mod elementwise;
 pub mod exported;
