@@ -95,7 +95,7 @@ fn another_run_is_there_and_somebody_sends_nonsense() {
     let replaced = [(&endpoint[..], USUAL)];
     let heading = "The name of the run is wrong";
     let lost = start(folder.path(), &["actor", "--connect", &endpoint, "--run", "wlk", "--envs", "4"]);
-    tells(heading, &lost, "no learner of run", &replaced);
+    tells(heading, &lost, "no learner answers", &replaced);
     fails(heading, folder.path(), &["status", "--connect", &endpoint, "--run", "wlk"], &replaced);
     fails("The port is in use", folder.path(), &["learner", "--preset", "smoke", "--listen", &endpoint], &replaced);
 

@@ -177,7 +177,7 @@ fn an_actor_that_the_saved_state_does_not_fit_says_so_and_begins_anew() {
     command.args(["actor", "--connect", &endpoint(&run), "--envs", "4", "--name", "actor-0"]);
     let actor = Running::start(command);
     let told = actor.wait_for("begins new episodes");
-    assert!(told.contains("it has 8 environments, and here are 4"), "{told}");
+    assert!(told.contains("the state has 8 environments, this actor has 4"), "{told}");
     assert!(learner.wait().0.success());
     let state = latest(&run);
     assert_eq!(state.counters.updates, 4);

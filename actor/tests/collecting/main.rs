@@ -1,6 +1,6 @@
-//! Environments side by side, and the fragments, poses and saved episodes that an actor makes of them.
+//! Vectors of environments, and the fragments, poses and saved states that an actor takes from them.
 
 mod environments;
 mod poses;
 mod rollout;
-mod saved;
+mod state;

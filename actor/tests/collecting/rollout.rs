@@ -1,9 +1,10 @@
 //! Fragments from real environments: shapes, ends of episodes, faults.
 
 use treadmill_actor::{
-    acting::ActingPolicy,
-    environments::{Environments, SeedSource, Stepped},
-    rollout::{Collector, Sender},
+    acting_policy::ActingPolicy,
+    environments::{Environments, SeedSource, StepResults},
+    identity::ActorIdentity,
+    rollout::Collector,
 };
 use treadmill_humanoid::{EnvironmentConfig, HUMANOID_XML};
 use treadmill_policy::{NetworkShape, gaussian, init::initial_parameters, to_safetensors};
@@ -42,37 +43,39 @@ fn policy() -> ActingPolicy {
 }
 
 fn collector(envs: usize, steps: u32, config: &EnvironmentConfig) -> Collector {
-    let sender = Sender { run: "walk".into(), actor: "a".into(), incarnation: 6, config_hash: 5 };
-    Collector::new(environments(envs, config), seeds::stream(1, "noise", &[]), steps, sender)
+    Collector::new(environments(envs, config), seeds::stream(1, "noise", &[]), steps, identity())
 }
 
-/// Row `[t][n]` of a plane.
+fn identity() -> ActorIdentity {
+    ActorIdentity { run: "walk".into(), actor: "a".into(), incarnation: 6, config_hash: 5 }
+}
+
+/// Returns row `[t][n]` of a plane.
 fn row(plane: &[f32], t: usize, n: usize, envs: usize, width: usize) -> &[f32] {
     &plane[(t * envs + n) * width..][..width]
 }
 
 #[test]
-fn the_learner_has_the_very_numbers_that_the_policy_saw() {
+fn the_learner_receives_exactly_the_numbers_that_the_policy_saw() {
     let (envs, steps) = (3, 8);
     let config = EnvironmentConfig { max_episode_steps: 5, ..EnvironmentConfig::default() };
     for precision in [Precision::F32, Precision::F16] {
-        let sender = Sender { run: "walk".into(), actor: "a".into(), incarnation: 6, config_hash: 5 };
         let environments = environments(envs, &config).with_precision(precision);
-        let mut collector = Collector::new(environments, seeds::stream(1, "noise", &[]), steps, sender);
+        let mut collector = Collector::new(environments, seeds::stream(1, "noise", &[]), steps, identity());
         let (policy, mut normalised, mut means) = (policy(), Vec::new(), vec![0.0; envs * 17]);
         for _ in 0..2 {
             let fragment = collector.collect(&policy, 0).unwrap();
             assert!(fragment.flags.contains(&TRUNCATED));
-            let arrived = Fragment::decode(fragment.encode_as(precision).unwrap()).unwrap();
-            assert!(arrived == fragment);
+            let received = Fragment::decode(fragment.encode_as(precision).unwrap()).unwrap();
+            assert!(received == fragment);
             for t in 0..steps as usize {
                 policy
-                    .means(&arrived.observations[t * envs * 45..][..envs * 45], envs, &mut normalised, &mut means)
+                    .means(&received.observations[t * envs * 45..][..envs * 45], envs, &mut normalised, &mut means)
                     .unwrap();
                 for (n, mean) in means.chunks_exact(17).enumerate() {
                     let acted =
-                        gaussian::log_probability(row(&arrived.actions, t, n, envs, 17), mean, policy.log_std());
-                    assert_eq!(acted.to_bits(), arrived.log_probs[t * envs + n].to_bits());
+                        gaussian::log_probability(row(&received.actions, t, n, envs, 17), mean, policy.log_std());
+                    assert_eq!(acted.to_bits(), received.log_probs[t * envs + n].to_bits());
                 }
             }
         }
@@ -80,7 +83,7 @@ fn the_learner_has_the_very_numbers_that_the_policy_saw() {
 }
 
 #[test]
-fn a_fragment_is_whole_and_its_successor_goes_on() {
+fn the_next_fragment_continues_where_the_last_one_ended() {
     let mut collector = collector(3, 4, &EnvironmentConfig::default());
     let policy = policy();
     let first = collector.collect(&policy, 0).unwrap();
@@ -89,7 +92,7 @@ fn a_fragment_is_whole_and_its_successor_goes_on() {
     second.check().unwrap();
     assert_eq!((first.sequence, second.sequence, second.settled_through), (1, 2, 1));
     assert_eq!(first.version, PolicyVersion { incarnation: 3, number: 4 });
-    // No episode ends within eight steps: what the first reached is where the second begins.
+    // No episode ends within eight steps, so the second fragment begins with the last observation of the first.
     assert!(first.flags.iter().chain(&second.flags).all(|flags| *flags == 0));
     assert_eq!(first.last_observations, second.observations[..3 * 45]);
 }
@@ -107,13 +110,13 @@ fn a_time_limit_is_truncation_with_the_true_last_observation() {
     assert_eq!(fragment.last_observations.len(), 6 * 45);
     let (true_last, next_start) = (&fragment.last_observations[..45], row(&fragment.observations, 3, 0, 2, 45));
     assert_ne!(true_last, next_start, "the last observation is not the first of the next episode");
-    // It is where the episode had come to: the torso is within a step's reach of where it was before.
+    // The torso's height changes little within one step.
     let before = row(&fragment.observations, 2, 0, 2, 45);
     assert!((true_last[0] - before[0]).abs() < 0.05);
 }
 
 #[test]
-fn falls_are_terminations_and_add_up() {
+fn falls_are_terminations_and_their_returns_add_up() {
     let mut collector = collector(4, 64, &EnvironmentConfig::default());
     let fragment = collector.collect(&policy(), 0).unwrap();
     fragment.check().unwrap();
@@ -123,10 +126,10 @@ fn falls_are_terminations_and_add_up() {
     assert!(fragment.episodes.iter().all(|episode| episode.cause == EndCause::Fell));
     let first = fragment.flags.iter().step_by(4).position(|flags| *flags == TERMINATED).unwrap();
     let sum: f64 = (0..=first).map(|t| f64::from(row(&fragment.rewards, t, 0, 4, 1)[0])).sum();
-    let told = fragment.episodes.iter().find(|episode| episode.length as usize == first + 1).unwrap();
-    assert!((told.return_sum - sum).abs() < 1e-6);
-    let velocity = told.distance_m / (f64::from(told.length) * 0.015);
-    assert!((told.velocity_mean_mps - velocity).abs() < 1e-12);
+    let episode = fragment.episodes.iter().find(|episode| episode.length as usize == first + 1).unwrap();
+    assert!((episode.return_sum - sum).abs() < 1e-6);
+    let velocity = episode.distance_m / (f64::from(episode.length) * 0.015);
+    assert!((episode.velocity_mean_mps - velocity).abs() < 1e-12);
 }
 
 #[test]
@@ -137,17 +140,17 @@ fn the_same_seeds_give_the_same_fragment() {
 }
 
 #[test]
-fn failed_physics_ends_the_episode_and_never_reaches_the_learner() {
+fn failed_physics_ends_the_episode_with_finite_numbers() {
     let mut environments = environments(2, &EnvironmentConfig::default());
-    let mut stepped = Stepped::default();
-    environments.step(&[0.0; 34], &mut stepped);
+    let mut results = StepResults::default();
+    environments.step(&[0.0; 34], &mut results);
     environments.poison(1);
-    environments.step(&[0.0; 34], &mut stepped);
-    assert_eq!(stepped.flags, [0, TERMINATED]);
-    assert_eq!(stepped.rewards[1], 0.0);
-    assert_eq!((stepped.episodes.len(), stepped.episodes[0].cause), (1, EndCause::NonFinite));
-    assert!(stepped.episodes[0].return_sum.is_finite());
+    environments.step(&[0.0; 34], &mut results);
+    assert_eq!(results.flags, [0, TERMINATED]);
+    assert_eq!(results.rewards[1], 0.0);
+    assert_eq!((results.episodes.len(), results.episodes[0].cause), (1, EndCause::NonFinite));
+    assert!(results.episodes[0].return_sum.is_finite());
     assert!(environments.observations().iter().all(|number| number.is_finite()));
-    environments.step(&[0.0; 34], &mut stepped);
-    assert_eq!(stepped.flags, [0, 0], "the next episode is sound");
+    environments.step(&[0.0; 34], &mut results);
+    assert_eq!(results.flags, [0, 0], "the next episode runs normally");
 }
