@@ -1,4 +1,4 @@
-//! The policy that the learner hands out, and its announcement.
+//! Policy bundles of the learner and their announcements.
 
 use bytes::{Buf, Bytes};
 use prost::Message;
@@ -12,12 +12,12 @@ use crate::{
     planes, scan, wire,
 };
 
-/// Which policy: numbers grow by one with each update, incarnations are drawn anew at each start of a learner.
+/// Version of a policy. Each update increments the number; each start of a learner draws a new incarnation.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub struct PolicyVersion {
-    /// Which learner process.
+    /// Learner process that made the policy.
     pub incarnation: u64,
-    /// How many updates the run has seen.
+    /// Updates since the run began.
     pub number: u64,
 }
 
@@ -33,22 +33,22 @@ impl From<wire::PolicyVersion> for PolicyVersion {
     }
 }
 
-/// The newest version and its checksum.
+/// Announcement of the newest policy.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct PolicyAnnouncement {
-    /// The newest version.
+    /// Newest version.
     pub version: PolicyVersion,
-    /// Checksum of its weights.
+    /// Checksum of the weights.
     pub checksum: u64,
 }
 
 impl PolicyAnnouncement {
-    /// Protobuf bytes.
+    /// Encodes as protobuf.
     pub fn encode(&self) -> Vec<u8> {
         wire::PolicyAnnouncement { version: Some(self.version.into()), checksum: self.checksum }.encode_to_vec()
     }
 
-    /// Reads protobuf bytes from a stranger.
+    /// Decodes and checks untrusted protobuf bytes.
     pub fn decode(bytes: &[u8]) -> Result<Self, Malformed> {
         check_small("announcement", bytes.len())?;
         let message = wire::PolicyAnnouncement::decode(bytes)
@@ -57,12 +57,12 @@ impl PolicyAnnouncement {
     }
 }
 
-/// Everything an actor needs.
+/// Policy with everything else that an actor needs.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PolicyBundle {
-    /// The run it belongs to.
+    /// Name of the run.
     pub run: String,
-    /// Which policy.
+    /// Version of the policy.
     pub version: PolicyVersion,
     /// Entries of one observation.
     pub observation_size: u32,
@@ -72,21 +72,21 @@ pub struct PolicyBundle {
     pub hidden: Vec<u32>,
     /// A safetensors file.
     pub weights: Bytes,
-    /// Mean of each entry of the observation.
+    /// Mean of each observation entry.
     pub observation_mean: Vec<f32>,
-    /// One over the standard deviation of each entry.
+    /// Inverse standard deviation of each observation entry.
     pub observation_inverse_std: Vec<f32>,
-    /// Normalised observations are clipped to plus and minus this.
+    /// Bound of normalised observations.
     pub observation_clip: f32,
     /// Hash over configuration and model.
     pub config_hash: u64,
-    /// The run's configuration.
+    /// Configuration of the run as TOML.
     pub config_toml: String,
-    /// The humanoid as MJCF.
+    /// Humanoid as MJCF.
     pub model_xml: String,
     /// Checksum of `weights`.
     pub checksum: u64,
-    /// Where the run's only actor was when the learner last saved; only right after a resume of a deterministic run.
+    /// State of the run's only actor at the last checkpoint; present only right after a resume of a deterministic run.
     pub actor_state: Option<ActorState>,
 }
 
@@ -118,7 +118,7 @@ impl PolicyBundle {
         self.actor_state.as_ref().map_or(Ok(()), ActorState::check)
     }
 
-    /// Protobuf bytes.
+    /// Encodes as protobuf.
     pub fn encode(&self) -> Result<Vec<u8>, Malformed> {
         self.check()?;
         let bytes = wire::PolicyBundle {
@@ -142,7 +142,7 @@ impl PolicyBundle {
         Ok(bytes)
     }
 
-    /// Reads and checks protobuf bytes from a stranger.
+    /// Decodes and checks untrusted protobuf bytes.
     pub fn decode(bytes: impl Into<Bytes>) -> Result<Self, Malformed> {
         let bytes = bytes.into();
         check_size(bytes.len())?;
@@ -187,17 +187,17 @@ pub(crate) fn check_small(what: &'static str, bytes: usize) -> Result<(), Malfor
     Ok(())
 }
 
-/// A width takes one byte here and four once it is decoded, so their number is looked at first.
+/// Checks the number of widths before decoding, because one encoded byte becomes four.
 fn check_hidden_count(bytes: &[u8]) -> Result<(), Malformed> {
     const HIDDEN_FIELD: u32 = 5;
     let mut widths = 0;
     scan::all("policy bundle", Cursor::whole(bytes), |field| {
         if field.number == HIDDEN_FIELD {
-            // Packed, or one by one.
+            // Packed, or one field each.
             widths += field.bytes.map_or(1, |packed| packed.remaining().max(1));
         }
     })?;
-    // A width of up to five bytes each.
+    // A width takes at most five bytes.
     if widths > 5 * HIDDEN_LAYERS_MAX {
         return Err(Malformed::field(
             "hidden",
@@ -246,14 +246,14 @@ mod tests {
     }
 
     #[test]
-    fn bundle_and_announcement_survive_the_wire() {
+    fn bundle_and_announcement_round_trip() {
         assert_eq!(PolicyBundle::decode(sample().encode().unwrap()).unwrap(), sample());
         let announcement = PolicyAnnouncement { version: sample().version, checksum: 5 };
         assert_eq!(PolicyAnnouncement::decode(&announcement.encode()).unwrap(), announcement);
     }
 
     #[test]
-    fn wrong_statistics_are_named() {
+    fn the_error_names_the_bad_field() {
         let bad = PolicyBundle { observation_mean: vec![1.0], ..sample() };
         assert!(bad.encode().unwrap_err().to_string().contains("observation_mean"));
         let bad = PolicyBundle { observation_inverse_std: vec![1.0, f32::NAN], ..sample() };
