@@ -3,7 +3,7 @@
 use prost::Message;
 
 use crate::{
-    Malformed,
+    Malformed, check_size,
     ident::check_ident,
     limits::{ACTOR_STATE_BYTES_MAX, ENVS_MAX, WIDTH_MAX},
 };
@@ -33,10 +33,7 @@ impl ActorState {
     /// Checks sizes and numbers, before encoding and after decoding.
     pub fn check(&self) -> Result<(), Malformed> {
         check_ident("actor_state.actor", &self.actor)?;
-        let bytes = self.encoded_len();
-        if bytes > ACTOR_STATE_BYTES_MAX {
-            return Err(Malformed::TooLarge { what: "actor state", bytes, limit: ACTOR_STATE_BYTES_MAX });
-        }
+        check_size("actor state", self.encoded_len(), ACTOR_STATE_BYTES_MAX)?;
         let envs = self.envs();
         if !(1..=ENVS_MAX as usize).contains(&envs) {
             return Err(Malformed::field("actor_state.episodes", envs, format!("1 to {ENVS_MAX} numbers")));

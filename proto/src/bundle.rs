@@ -5,12 +5,15 @@ use prost::Message;
 use serde::{Deserialize, Serialize};
 
 use crate::{
-    ActorState, Malformed,
+    ActorState, Malformed, check_range, check_size,
     ident::check_ident,
     limits::{BUNDLE_BYTES_MAX, HIDDEN_LAYERS_MAX, MODEL_BYTES_MAX, SMALL_BYTES_MAX, WIDTH_MAX},
     pieces::Cursor,
     planes, scan, wire,
 };
+
+/// Kind of message in errors.
+const BUNDLE: &str = "policy bundle";
 
 /// Version of a policy. Each update increments the number; each start of a learner draws a new incarnation.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
@@ -50,9 +53,8 @@ impl PolicyAnnouncement {
 
     /// Decodes and checks untrusted protobuf bytes.
     pub fn decode(bytes: &[u8]) -> Result<Self, Malformed> {
-        check_small("announcement", bytes.len())?;
-        let message = wire::PolicyAnnouncement::decode(bytes)
-            .map_err(|why| Malformed::Undecodable { what: "announcement", why: why.to_string() })?;
+        check_size("announcement", bytes.len(), SMALL_BYTES_MAX)?;
+        let message = wire::PolicyAnnouncement::decode(bytes).map_err(Malformed::undecodable("announcement"))?;
         Ok(Self { version: version(message.version)?, checksum: message.checksum })
     }
 }
@@ -93,12 +95,12 @@ pub struct PolicyBundle {
 impl PolicyBundle {
     fn check(&self) -> Result<(), Malformed> {
         check_ident("run", &self.run)?;
-        width("observation_size", self.observation_size)?;
-        width("action_size", self.action_size)?;
+        check_range("observation_size", self.observation_size, WIDTH_MAX)?;
+        check_range("action_size", self.action_size, WIDTH_MAX)?;
         if self.hidden.is_empty() || self.hidden.len() > HIDDEN_LAYERS_MAX {
             return Err(Malformed::field("hidden", self.hidden.len(), format!("1 to {HIDDEN_LAYERS_MAX} layers")));
         }
-        self.hidden.iter().try_for_each(|hidden| width("hidden", *hidden))?;
+        self.hidden.iter().try_for_each(|width| check_range("hidden", *width, WIDTH_MAX))?;
         if self.model_xml.len() > MODEL_BYTES_MAX {
             let found = format!("{} bytes long", self.model_xml.len());
             return Err(Malformed::field("model_xml", found, format!("at most {MODEL_BYTES_MAX}")));
@@ -138,18 +140,17 @@ impl PolicyBundle {
             actor_state: self.actor_state.clone(),
         }
         .encode_to_vec();
-        check_size(bytes.len())?;
+        check_size(BUNDLE, bytes.len(), BUNDLE_BYTES_MAX)?;
         Ok(bytes)
     }
 
     /// Decodes and checks untrusted protobuf bytes.
     pub fn decode(bytes: impl Into<Bytes>) -> Result<Self, Malformed> {
         let bytes = bytes.into();
-        check_size(bytes.len())?;
+        check_size(BUNDLE, bytes.len(), BUNDLE_BYTES_MAX)?;
         check_hidden_count(&bytes)?;
-        let message = wire::PolicyBundle::decode(bytes)
-            .map_err(|why| Malformed::Undecodable { what: "policy bundle", why: why.to_string() })?;
-        width("observation_size", message.observation_size)?;
+        let message = wire::PolicyBundle::decode(bytes).map_err(Malformed::undecodable(BUNDLE))?;
+        check_range("observation_size", message.observation_size, WIDTH_MAX)?;
         let size = message.observation_size as usize;
         let bundle = Self {
             version: version(message.version)?,
@@ -180,18 +181,11 @@ pub(crate) fn version(version: Option<wire::PolicyVersion>) -> Result<PolicyVers
     version.map(Into::into).ok_or_else(|| Malformed::field("version", "missing", "a policy version"))
 }
 
-pub(crate) fn check_small(what: &'static str, bytes: usize) -> Result<(), Malformed> {
-    if bytes > SMALL_BYTES_MAX {
-        return Err(Malformed::TooLarge { what, bytes, limit: SMALL_BYTES_MAX });
-    }
-    Ok(())
-}
-
 /// Checks the number of widths before decoding, because one encoded byte becomes four.
 fn check_hidden_count(bytes: &[u8]) -> Result<(), Malformed> {
     const HIDDEN_FIELD: u32 = 5;
     let mut widths = 0;
-    scan::all("policy bundle", Cursor::whole(bytes), |field| {
+    scan::all(BUNDLE, Cursor::whole(bytes), |field| {
         if field.number == HIDDEN_FIELD {
             // Packed, or one field each.
             widths += field.bytes.map_or(1, |packed| packed.remaining().max(1));
@@ -206,20 +200,6 @@ fn check_hidden_count(bytes: &[u8]) -> Result<(), Malformed> {
         ));
     }
     Ok(())
-}
-
-fn check_size(bytes: usize) -> Result<(), Malformed> {
-    if bytes > BUNDLE_BYTES_MAX {
-        return Err(Malformed::TooLarge { what: "policy bundle", bytes, limit: BUNDLE_BYTES_MAX });
-    }
-    Ok(())
-}
-
-fn width(field: &'static str, value: u32) -> Result<(), Malformed> {
-    if (1..=WIDTH_MAX).contains(&value) {
-        return Ok(());
-    }
-    Err(Malformed::field(field, value, format!("1 to {WIDTH_MAX}")))
 }
 
 #[cfg(test)]

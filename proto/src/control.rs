@@ -3,9 +3,9 @@
 use prost::Message;
 
 use crate::{
-    Malformed, bundle,
+    Malformed, check_size,
     ident::check_ident,
-    limits::{CONTROL_VALUE_CHARS_MAX, STATUS_BYTES_MAX},
+    limits::{CONTROL_VALUE_CHARS_MAX, SMALL_BYTES_MAX, STATUS_BYTES_MAX},
     wire,
 };
 
@@ -30,8 +30,8 @@ impl ControlRequest {
     /// Decodes and checks untrusted protobuf bytes.
     pub fn decode_checked(bytes: &[u8]) -> Result<Self, Malformed> {
         const KIND: &str = "control request";
-        bundle::check_small(KIND, bytes.len())?;
-        let request = Self::decode(bytes).map_err(|why| Malformed::Undecodable { what: KIND, why: why.to_string() })?;
+        check_size(KIND, bytes.len(), SMALL_BYTES_MAX)?;
+        let request = Self::decode(bytes).map_err(Malformed::undecodable(KIND))?;
         if request.command() == Command::Unspecified {
             return Err(Malformed::field("command", request.command, "1 to 6"));
         }
@@ -54,10 +54,8 @@ impl ControlReply {
     /// Decodes and checks untrusted protobuf bytes.
     pub fn decode_checked(bytes: &[u8]) -> Result<Self, Malformed> {
         const KIND: &str = "control reply";
-        if bytes.len() > STATUS_BYTES_MAX {
-            return Err(Malformed::TooLarge { what: KIND, bytes: bytes.len(), limit: STATUS_BYTES_MAX });
-        }
-        let reply = Self::decode(bytes).map_err(|why| Malformed::Undecodable { what: KIND, why: why.to_string() })?;
+        check_size(KIND, bytes.len(), STATUS_BYTES_MAX)?;
+        let reply = Self::decode(bytes).map_err(Malformed::undecodable(KIND))?;
         let Some(status) = &reply.status else {
             return Err(Malformed::field("status", "absent", "the status of the run"));
         };

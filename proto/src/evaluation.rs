@@ -2,7 +2,7 @@
 
 use prost::Message;
 
-use crate::{Malformed, PolicyVersion, bundle, ident::check_ident, wire};
+use crate::{Malformed, PolicyVersion, bundle, check_size, ident::check_ident, limits::SMALL_BYTES_MAX, wire};
 
 /// Results of deterministic episodes of one policy.
 #[derive(Clone, Debug, PartialEq)]
@@ -50,9 +50,8 @@ impl EvaluationReport {
     /// Decodes and checks untrusted protobuf bytes.
     pub fn decode(bytes: &[u8]) -> Result<Self, Malformed> {
         const KIND: &str = "evaluation report";
-        bundle::check_small(KIND, bytes.len())?;
-        let message = wire::EvaluationReport::decode(bytes)
-            .map_err(|why| Malformed::Undecodable { what: KIND, why: why.to_string() })?;
+        check_size(KIND, bytes.len(), SMALL_BYTES_MAX)?;
+        let message = wire::EvaluationReport::decode(bytes).map_err(Malformed::undecodable(KIND))?;
         check_ident("run", &message.run)?;
         check_ident("evaluator", &message.evaluator)?;
         for (field, value) in [

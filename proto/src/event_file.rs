@@ -18,7 +18,7 @@ impl Event {
 
     /// Decodes protobuf bytes.
     pub fn from_bytes(bytes: &[u8]) -> Result<Self, Malformed> {
-        Self::decode(bytes).map_err(|why| Malformed::Undecodable { what: "event", why: why.to_string() })
+        Self::decode(bytes).map_err(Malformed::undecodable("event"))
     }
 }
 

@@ -4,7 +4,7 @@ use bytes::{Buf, BufMut, Bytes};
 use prost::Message;
 
 use crate::{
-    ActorState, Malformed, PolicyVersion, Precision,
+    ActorState, Malformed, PolicyVersion, Precision, check_range, check_size,
     ident::check_ident,
     limits::{ENVS_MAX, FRAGMENT_BYTES_MAX, SEQUENCE_MAX, STEPS_MAX, WIDTH_MAX},
     pieces::Cursor,
@@ -124,10 +124,10 @@ impl Fragment {
     pub fn check(&self) -> Result<(), Malformed> {
         check_ident("run", &self.run)?;
         check_ident("actor", &self.actor)?;
-        in_range("steps", self.steps, STEPS_MAX)?;
-        in_range("envs", self.envs, ENVS_MAX)?;
-        in_range("observation_size", self.observation_size, WIDTH_MAX)?;
-        in_range("action_size", self.action_size, WIDTH_MAX)?;
+        check_range("steps", self.steps, STEPS_MAX)?;
+        check_range("envs", self.envs, ENVS_MAX)?;
+        check_range("observation_size", self.observation_size, WIDTH_MAX)?;
+        check_range("action_size", self.action_size, WIDTH_MAX)?;
         if !(1..=SEQUENCE_MAX).contains(&self.sequence) {
             return Err(Malformed::field("sequence", self.sequence, format!("1 to {SEQUENCE_MAX}")));
         }
@@ -205,7 +205,7 @@ impl Fragment {
             observation_precision: wire::Precision::from(precision).into(),
         };
         let bytes = message.encode_to_vec();
-        check_size(bytes.len())?;
+        check_size("fragment", bytes.len(), FRAGMENT_BYTES_MAX)?;
         Ok(bytes)
     }
 
@@ -217,15 +217,14 @@ impl Fragment {
     /// Decodes and checks untrusted bytes in several pieces, without joining them.
     pub fn decode_pieces(pieces: &[&[u8]]) -> Result<Self, Malformed> {
         let bytes = Cursor::new(pieces);
-        check_size(bytes.remaining())?;
+        check_size("fragment", bytes.remaining(), FRAGMENT_BYTES_MAX)?;
         let Parts { planes: [observations, actions, log_probs, rewards, last_observations], others } =
             Parts::of(bytes)?;
-        let message = wire::Fragment::decode(Bytes::from(others))
-            .map_err(|why| Malformed::Undecodable { what: "fragment", why: why.to_string() })?;
-        in_range("steps", message.steps, STEPS_MAX)?;
-        in_range("envs", message.envs, ENVS_MAX)?;
-        in_range("observation_size", message.observation_size, WIDTH_MAX)?;
-        in_range("action_size", message.action_size, WIDTH_MAX)?;
+        let message = wire::Fragment::decode(Bytes::from(others)).map_err(Malformed::undecodable("fragment"))?;
+        check_range("steps", message.steps, STEPS_MAX)?;
+        check_range("envs", message.envs, ENVS_MAX)?;
+        check_range("observation_size", message.observation_size, WIDTH_MAX)?;
+        check_range("action_size", message.action_size, WIDTH_MAX)?;
         let rows = message.steps as usize * message.envs as usize;
         let (width, action) = (message.observation_size as usize, message.action_size as usize);
         let precision = Precision::try_from(message.observation_precision)?;
@@ -298,17 +297,6 @@ impl<'a> Parts<'a> {
         }
         Ok(parts)
     }
-}
-
-fn check_size(bytes: usize) -> Result<(), Malformed> {
-    if bytes > FRAGMENT_BYTES_MAX {
-        return Err(Malformed::TooLarge { what: "fragment", bytes, limit: FRAGMENT_BYTES_MAX });
-    }
-    Ok(())
-}
-
-fn in_range(field: &'static str, value: u32, max: u32) -> Result<(), Malformed> {
-    if (1..=max).contains(&value) { Ok(()) } else { Err(Malformed::field(field, value, format!("1 to {max}"))) }
 }
 
 fn plane(field: &'static str, numbers: &[f32], count: usize) -> Result<(), Malformed> {

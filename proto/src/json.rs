@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::{Episode, Malformed, bundle::check_small};
+use crate::{Episode, Malformed, check_size, limits::SMALL_BYTES_MAX};
 
 /// `treadmill/{run}/metrics/{group}/{name}`, and a line of `metrics.jsonl`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -36,8 +36,8 @@ fn to_json(object: &impl Serialize) -> Vec<u8> {
 }
 
 fn from_json<T: for<'a> Deserialize<'a>>(what: &'static str, bytes: &[u8]) -> Result<T, Malformed> {
-    check_small(what, bytes.len())?;
-    serde_json::from_slice(bytes).map_err(|why| Malformed::Undecodable { what, why: why.to_string() })
+    check_size(what, bytes.len(), SMALL_BYTES_MAX)?;
+    serde_json::from_slice(bytes).map_err(Malformed::undecodable(what))
 }
 
 /// `treadmill/{run}/episodes/{actor}`.

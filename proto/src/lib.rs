@@ -72,6 +72,16 @@ pub use receipt::{Outcome, Receipt};
 pub use stats::ActorStats;
 pub use task::{Task, TaskReceipt, TaskRegistration};
 
+/// Refuses a message of more than `limit` bytes.
+fn check_size(what: &'static str, bytes: usize, limit: usize) -> Result<(), Malformed> {
+    if bytes > limit { Err(Malformed::TooLarge { what, bytes, limit }) } else { Ok(()) }
+}
+
+/// Refuses 0 and values above `max`.
+fn check_range(field: &'static str, value: u32, max: u32) -> Result<(), Malformed> {
+    if (1..=max).contains(&value) { Ok(()) } else { Err(Malformed::field(field, value, format!("1 to {max}"))) }
+}
+
 /// Reason for which a message is refused.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum Malformed {
@@ -118,5 +128,10 @@ pub enum Malformed {
 impl Malformed {
     pub(crate) fn field(field: &'static str, value: impl ToString, expected: impl Into<String>) -> Self {
         Self::Field { field, value: value.to_string(), expected: expected.into() }
+    }
+
+    /// Returns a conversion of a decoder's error.
+    pub(crate) fn undecodable<E: ToString>(what: &'static str) -> impl Fn(E) -> Self {
+        move |error| Self::Undecodable { what, why: error.to_string() }
     }
 }

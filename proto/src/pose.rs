@@ -2,7 +2,7 @@
 
 use prost::Message;
 
-use crate::{Malformed, bundle, ident::check_ident, limits::POSE_BYTES_MAX, wire};
+use crate::{Malformed, bundle, check_size, ident::check_ident, limits::POSE_BYTES_MAX, planes::all_finite, wire};
 
 pub use wire::Pose;
 
@@ -19,14 +19,14 @@ impl Pose {
     /// Checks the pose and encodes it as protobuf.
     pub fn to_bytes(&self) -> Result<Vec<u8>, Malformed> {
         self.check()?;
-        check_size(self.encoded_len())?;
+        check_size("pose", self.encoded_len(), POSE_BYTES_MAX)?;
         Ok(self.encode_to_vec())
     }
 
     /// Decodes and checks untrusted protobuf bytes.
     pub fn decode_checked(bytes: &[u8]) -> Result<Self, Malformed> {
-        check_size(bytes.len())?;
-        let pose = Self::decode(bytes).map_err(|why| Malformed::Undecodable { what: "pose", why: why.to_string() })?;
+        check_size("pose", bytes.len(), POSE_BYTES_MAX)?;
+        let pose = Self::decode(bytes).map_err(Malformed::undecodable("pose"))?;
         pose.check()?;
         Ok(pose)
     }
@@ -51,10 +51,10 @@ impl Pose {
             ("velocity_mps", self.velocity_mps),
             ("distance_m", self.distance_m),
         ];
-        scalars.iter().try_for_each(|(field, value)| finite(field, std::slice::from_ref(value)))?;
-        finite("bodies", &self.bodies)?;
-        finite("contacts", &self.contacts)?;
-        finite("joint_torques_nm", &self.joint_torques_nm)?;
+        scalars.iter().try_for_each(|(field, value)| all_finite(field, std::slice::from_ref(value)))?;
+        all_finite("bodies", &self.bodies)?;
+        all_finite("contacts", &self.contacts)?;
+        all_finite("joint_torques_nm", &self.joint_torques_nm)?;
         if !(0.0..=TIME_MAX_S).contains(&self.time_s) {
             return Err(Malformed::field("time_s", self.time_s, format!("0 to {TIME_MAX_S}")));
         }
@@ -66,20 +66,6 @@ impl Pose {
             }
         }
         Ok(())
-    }
-}
-
-fn check_size(bytes: usize) -> Result<(), Malformed> {
-    if bytes > POSE_BYTES_MAX {
-        return Err(Malformed::TooLarge { what: "pose", bytes, limit: POSE_BYTES_MAX });
-    }
-    Ok(())
-}
-
-fn finite(field: &'static str, numbers: &[f32]) -> Result<(), Malformed> {
-    match numbers.iter().position(|number| !number.is_finite()) {
-        Some(index) => Err(Malformed::NotFinite { field, index, value: numbers[index].to_string() }),
-        None => Ok(()),
     }
 }
 

@@ -2,7 +2,7 @@
 
 use prost::Message;
 
-use crate::{Malformed, PolicyVersion, bundle, wire};
+use crate::{Malformed, PolicyVersion, bundle, check_size, limits::SMALL_BYTES_MAX, wire};
 
 /// Outcome of a fragment.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -64,9 +64,8 @@ impl Receipt {
 
     /// Decodes and checks untrusted protobuf bytes.
     pub fn decode(bytes: &[u8]) -> Result<Self, Malformed> {
-        bundle::check_small("receipt", bytes.len())?;
-        let message = wire::Receipt::decode(bytes)
-            .map_err(|why| Malformed::Undecodable { what: "receipt", why: why.to_string() })?;
+        check_size("receipt", bytes.len(), SMALL_BYTES_MAX)?;
+        let message = wire::Receipt::decode(bytes).map_err(Malformed::undecodable("receipt"))?;
         let outcome = OUTCOMES
             .iter()
             .find(|(_, wire)| *wire as i32 == message.outcome)

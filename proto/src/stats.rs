@@ -2,18 +2,15 @@
 
 use prost::Message;
 
-use crate::{Malformed, ident::check_ident, limits::STATS_BYTES_MAX, wire};
+use crate::{Malformed, check_size, ident::check_ident, limits::STATS_BYTES_MAX, wire};
 
 pub use wire::ActorStats;
 
 impl ActorStats {
     /// Decodes and checks untrusted protobuf bytes.
     pub fn decode_checked(bytes: &[u8]) -> Result<Self, Malformed> {
-        if bytes.len() > STATS_BYTES_MAX {
-            return Err(Malformed::TooLarge { what: "statistics", bytes: bytes.len(), limit: STATS_BYTES_MAX });
-        }
-        let stats =
-            Self::decode(bytes).map_err(|why| Malformed::Undecodable { what: "statistics", why: why.to_string() })?;
+        check_size("statistics", bytes.len(), STATS_BYTES_MAX)?;
+        let stats = Self::decode(bytes).map_err(Malformed::undecodable("statistics"))?;
         check_ident("actor", &stats.actor)?;
         if !stats.env_steps_per_s.is_finite() {
             return Err(Malformed::NotFinite {

@@ -3,7 +3,7 @@
 use prost::Message;
 
 use crate::{
-    Malformed,
+    Malformed, check_range, check_size,
     ident::{check_ident, check_task_name},
     limits::{TASK_BYTES_MAX, WIDTH_MAX},
     wire,
@@ -36,12 +36,8 @@ impl Task {
     /// Checks name, sizes and ranges.
     pub fn check(&self) -> Result<(), Malformed> {
         check_task_name("task.name", &self.name)?;
-        for (field, size) in [("task.observation_size", self.observation_size), ("task.action_size", self.action_size)]
-        {
-            if !(1..=WIDTH_MAX).contains(&size) {
-                return Err(Malformed::field(field, size, format!("1 to {WIDTH_MAX}")));
-            }
-        }
+        check_range("task.observation_size", self.observation_size, WIDTH_MAX)?;
+        check_range("task.action_size", self.action_size, WIDTH_MAX)?;
         for (field, range) in [("task.action_low", &self.action_low), ("task.action_high", &self.action_high)] {
             if range.len() != self.action_size as usize {
                 let found = format!("{} numbers long", range.len());
@@ -111,9 +107,8 @@ impl TaskRegistration {
 
     /// Decodes and checks untrusted protobuf bytes.
     pub fn decode(bytes: &[u8]) -> Result<Self, Malformed> {
-        check_size(bytes.len())?;
-        let message = wire::TaskRegistration::decode(bytes)
-            .map_err(|why| Malformed::Undecodable { what: "task registration", why: why.to_string() })?;
+        check_size("task", bytes.len(), TASK_BYTES_MAX)?;
+        let message = wire::TaskRegistration::decode(bytes).map_err(Malformed::undecodable("task registration"))?;
         let task = message.task.ok_or_else(|| Malformed::field("task", "missing", "a task"))?.into();
         let registration = Self { run: message.run, actor: message.actor, task };
         registration.check()?;
@@ -136,18 +131,10 @@ impl TaskReceipt {
 
     /// Decodes untrusted protobuf bytes.
     pub fn decode(bytes: &[u8]) -> Result<Self, Malformed> {
-        check_size(bytes.len())?;
-        let message = wire::TaskReceipt::decode(bytes)
-            .map_err(|why| Malformed::Undecodable { what: "task receipt", why: why.to_string() })?;
+        check_size("task", bytes.len(), TASK_BYTES_MAX)?;
+        let message = wire::TaskReceipt::decode(bytes).map_err(Malformed::undecodable("task receipt"))?;
         Ok(Self { accepted: message.accepted, reason: message.reason, task: message.task.map(Into::into) })
     }
-}
-
-fn check_size(bytes: usize) -> Result<(), Malformed> {
-    if bytes > TASK_BYTES_MAX {
-        return Err(Malformed::TooLarge { what: "task", bytes, limit: TASK_BYTES_MAX });
-    }
-    Ok(())
 }
 
 impl From<Task> for wire::Task {
