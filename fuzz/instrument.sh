@@ -1,10 +1,9 @@
 #!/bin/sh
-# Cargo runs this in place of the compiler for the crates of this workspace (RUSTC_WORKSPACE_WRAPPER): libFuzzer then sees
-# which code an input reaches, and arithmetic that overflows ends the program. Works with the pinned, stable compiler, and
-# everything else stays as it was built.
+# Compiler wrapper for the crates of this workspace (RUSTC_WORKSPACE_WRAPPER): adds libFuzzer's coverage counters and overflow
+# checks. It works with the pinned, stable compiler; dependencies are not rebuilt.
 for argument in "$@"; do
     case $argument in
-        # It runs while building, without libFuzzer.
+        # Build scripts run without libFuzzer.
         build_script_build) exec "$@" ;;
     esac
 done

@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
 # Fuzzes decoders with coverage, on the pinned toolchain:  fuzz/run.sh SECONDS [TARGET ...]
-# What was found is kept in fuzz/corpus/TARGET; an input that ends the program is written to fuzz/artifacts/TARGET/.
+# Inputs that reach new code are kept in fuzz/corpus/TARGET; crashing inputs are written to fuzz/artifacts/TARGET/.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
-seconds=${1:?how many seconds each decoder is fuzzed}
+seconds=${1:?seconds per decoder}
 shift
 all=$(sed -n 's/^name = "\([a-z_]*\)"$/\1/p' fuzz/Cargo.toml)
 targets=("$@")
@@ -11,7 +11,7 @@ targets=("$@")
 
 build=(cargo build --release --features treadmill-fuzz/libfuzzer)
 for target in "${targets[@]}"; do build+=(--bin "$target"); done
-# All of the workspace is chosen so that its dependencies are those of every other build.
+# Without `-p treadmill-fuzz`, dependencies keep the features of other builds and are not rebuilt.
 RUSTC_WORKSPACE_WRAPPER=$PWD/fuzz/instrument.sh "${build[@]}"
 cargo build --release --example seeds
 target/release/examples/seeds fuzz/corpus
