@@ -3,12 +3,13 @@
 use tokio::sync::mpsc;
 use treadmill_actor::{
     environments::{Environments, SeedSource, StepResults},
-    identity::ActorIdentity,
     poses::{PoseSampler, STRIDE},
 };
 use treadmill_bus::Watched;
 use treadmill_humanoid::{CONTROL_STEP_S, EnvironmentConfig, HUMANOID_XML, Model};
 use treadmill_proto::{PolicyVersion, Pose};
+
+use crate::identity;
 
 const VERSION: PolicyVersion = PolicyVersion { incarnation: 3, number: 4 };
 const ENVS: usize = 2;
@@ -26,8 +27,7 @@ impl Recording {
         let seeds = SeedSource { run_seed: 1, actor: "a".into(), start: 0 };
         let environments = Environments::new(ENVS, config, HUMANOID_XML, seeds).unwrap();
         let watched = Watched::default();
-        let identity = ActorIdentity { run: "walk".into(), actor: "a".into(), incarnation: 6, config_hash: 5 };
-        let (sampler, poses) = PoseSampler::new(watched.clone(), identity);
+        let (sampler, poses) = PoseSampler::new(watched.clone(), identity("a"));
         Self { environments, results: StepResults::default(), sampler, watched, poses }
     }
 

@@ -1,53 +1,26 @@
 //! Fragments from real environments: shapes, ends of episodes, faults.
 
 use treadmill_actor::{
-    acting_policy::ActingPolicy,
     environments::{Environments, SeedSource, StepResults},
-    identity::ActorIdentity,
     rollout::Collector,
 };
 use treadmill_humanoid::{EnvironmentConfig, HUMANOID_XML};
-use treadmill_policy::{NetworkShape, gaussian, init::initial_parameters, to_safetensors};
+use treadmill_policy::gaussian;
 use treadmill_proto::{
-    EndCause, Fragment, PolicyBundle, PolicyVersion, Precision,
+    EndCause, Fragment, PolicyVersion, Precision,
     fragment::{TERMINATED, TRUNCATED},
 };
 use treadmill_runtime::seeds;
+
+use crate::{identity, policy};
 
 fn environments(count: usize, config: &EnvironmentConfig) -> Environments {
     let seeds = SeedSource { run_seed: 1, actor: "a".into(), start: 0 };
     Environments::new(count, config, HUMANOID_XML, seeds).unwrap()
 }
 
-fn policy() -> ActingPolicy {
-    let shape = NetworkShape { observation: 45, action: 17, hidden: vec![8] };
-    let parameters = initial_parameters(&shape, -0.5, &mut seeds::stream(1, "test", &[]));
-    let weights = to_safetensors(&shape, &parameters);
-    ActingPolicy::new(&PolicyBundle {
-        run: "walk".into(),
-        version: PolicyVersion { incarnation: 3, number: 4 },
-        observation_size: 45,
-        action_size: 17,
-        hidden: vec![8],
-        checksum: seeds::checksum(&[&weights]),
-        weights: weights.into(),
-        observation_mean: vec![0.0; 45],
-        observation_inverse_std: vec![1.0; 45],
-        observation_clip: 10.0,
-        config_hash: 5,
-        config_toml: String::new(),
-        model_xml: String::new(),
-        actor_state: None,
-    })
-    .unwrap()
-}
-
 fn collector(envs: usize, steps: u32, config: &EnvironmentConfig) -> Collector {
-    Collector::new(environments(envs, config), seeds::stream(1, "noise", &[]), steps, identity())
-}
-
-fn identity() -> ActorIdentity {
-    ActorIdentity { run: "walk".into(), actor: "a".into(), incarnation: 6, config_hash: 5 }
+    Collector::new(environments(envs, config), seeds::stream(1, "noise", &[]), steps, identity("a"))
 }
 
 /// Returns row `[t][n]` of a plane.
@@ -61,8 +34,8 @@ fn the_learner_receives_exactly_the_numbers_that_the_policy_saw() {
     let config = EnvironmentConfig { max_episode_steps: 5, ..EnvironmentConfig::default() };
     for precision in [Precision::F32, Precision::F16] {
         let environments = environments(envs, &config).with_precision(precision);
-        let mut collector = Collector::new(environments, seeds::stream(1, "noise", &[]), steps, identity());
-        let (policy, mut normalised, mut means) = (policy(), Vec::new(), vec![0.0; envs * 17]);
+        let mut collector = Collector::new(environments, seeds::stream(1, "noise", &[]), steps, identity("a"));
+        let (policy, mut normalised, mut means) = (policy(45), Vec::new(), vec![0.0; envs * 17]);
         for _ in 0..2 {
             let fragment = collector.collect(&policy, 0).unwrap();
             assert!(fragment.flags.contains(&TRUNCATED));
@@ -85,7 +58,7 @@ fn the_learner_receives_exactly_the_numbers_that_the_policy_saw() {
 #[test]
 fn the_next_fragment_continues_where_the_last_one_ended() {
     let mut collector = collector(3, 4, &EnvironmentConfig::default());
-    let policy = policy();
+    let policy = policy(45);
     let first = collector.collect(&policy, 0).unwrap();
     let second = collector.collect(&policy, 1).unwrap();
     first.check().unwrap();
@@ -100,7 +73,7 @@ fn the_next_fragment_continues_where_the_last_one_ended() {
 #[test]
 fn a_time_limit_is_truncation_with_the_true_last_observation() {
     let config = EnvironmentConfig { max_episode_steps: 3, ..EnvironmentConfig::default() };
-    let fragment = collector(2, 7, &config).collect(&policy(), 0).unwrap();
+    let fragment = collector(2, 7, &config).collect(&policy(45), 0).unwrap();
     fragment.check().unwrap();
     let flags: Vec<u8> = fragment.flags.iter().step_by(2).copied().collect();
     assert_eq!(flags, [0, 0, TRUNCATED, 0, 0, TRUNCATED, 0]);
@@ -118,7 +91,7 @@ fn a_time_limit_is_truncation_with_the_true_last_observation() {
 #[test]
 fn falls_are_terminations_and_their_returns_add_up() {
     let mut collector = collector(4, 64, &EnvironmentConfig::default());
-    let fragment = collector.collect(&policy(), 0).unwrap();
+    let fragment = collector.collect(&policy(45), 0).unwrap();
     fragment.check().unwrap();
     let ends = fragment.flags.iter().filter(|flags| **flags == TERMINATED).count();
     assert!(ends > 0, "random actions fall within 64 steps");
@@ -134,7 +107,7 @@ fn falls_are_terminations_and_their_returns_add_up() {
 
 #[test]
 fn the_same_seeds_give_the_same_fragment() {
-    let collect = || collector(2, 40, &EnvironmentConfig::default()).collect(&policy(), 0).unwrap();
+    let collect = || collector(2, 40, &EnvironmentConfig::default()).collect(&policy(45), 0).unwrap();
     let (first, second): (Fragment, Fragment) = (collect(), collect());
     assert_eq!(first, second);
 }

@@ -1,15 +1,13 @@
 //! Saved state of an actor: a process that restores it collects, bit for bit, the next fragments of the original.
 
 use treadmill_actor::{
-    acting_policy::ActingPolicy,
     environments::{Environments, SeedSource},
-    identity::ActorIdentity,
     rollout::Collector,
 };
 use treadmill_humanoid::{EnvironmentConfig, HUMANOID_XML, ObservationKind, Randomisation};
-use treadmill_policy::{NetworkShape, init::initial_parameters, to_safetensors};
-use treadmill_proto::{Fragment, PolicyBundle, PolicyVersion, Precision, fragment::TRUNCATED};
-use treadmill_runtime::seeds;
+use treadmill_proto::{Fragment, Precision, fragment::TRUNCATED};
+
+use crate::{identity, policy};
 
 /// Returns a configuration with every kind of randomisation, whose episodes end in every way within a few steps.
 fn randomised() -> EnvironmentConfig {
@@ -30,29 +28,6 @@ fn randomised() -> EnvironmentConfig {
     }
 }
 
-fn policy(observation: usize) -> ActingPolicy {
-    let shape = NetworkShape { observation, action: 17, hidden: vec![8] };
-    let parameters = initial_parameters(&shape, -0.5, &mut seeds::stream(1, "test", &[]));
-    let weights = to_safetensors(&shape, &parameters);
-    ActingPolicy::new(&PolicyBundle {
-        run: "walk".into(),
-        version: PolicyVersion { incarnation: 3, number: 4 },
-        observation_size: observation as u32,
-        action_size: 17,
-        hidden: vec![8],
-        checksum: seeds::checksum(&[&weights]),
-        weights: weights.into(),
-        observation_mean: vec![0.0; observation],
-        observation_inverse_std: vec![1.0; observation],
-        observation_clip: 10.0,
-        config_hash: 5,
-        config_toml: String::new(),
-        model_xml: String::new(),
-        actor_state: None,
-    })
-    .unwrap()
-}
-
 /// Returns the collector of an actor process; each `start` draws other random numbers.
 fn collector(envs: usize, config: &EnvironmentConfig, name: &str, start: u64, threads: usize) -> Collector {
     collector_in(Precision::F32, envs, config, name, start, threads)
@@ -70,8 +45,7 @@ fn collector_in(
     let noise = seeds.noise();
     let environments = Environments::new(envs, config, HUMANOID_XML, seeds).unwrap().with_threads(threads).unwrap();
     let environments = environments.with_precision(precision);
-    let identity = ActorIdentity { run: "walk".into(), actor: name.into(), incarnation: 6, config_hash: 5 };
-    let mut collector = Collector::new(environments, noise, 16, identity);
+    let mut collector = Collector::new(environments, noise, 16, identity(name));
     collector.attach_state();
     collector
 }
