@@ -1,4 +1,4 @@
-//! Compiles the schemas with `protox`, so that no `protoc` has to be installed.
+//! Compiles the schemas with `protox`, which needs no installed `protoc`.
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     println!("cargo:rerun-if-changed=schema");
@@ -7,14 +7,14 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let files = protox::compile(schemas, ["schema"])?;
     prost_build::Config::new()
         .bytes(["."])
-        // It is part of a checkpoint, too.
+        // Checkpoints contain it as well.
         .type_attribute("treadmill.v1.ActorState", "#[derive(serde::Serialize, serde::Deserialize)]")
         .compile_fds(files)?;
     println!("cargo:rerun-if-changed=onnx");
     prost_build::Config::new().bytes(["."]).compile_fds(protox::compile(["onnx.proto"], ["onnx"])?)?;
     println!("cargo:rerun-if-changed=tensorboard");
     let files = protox::compile(["event.proto", "hparams.proto"], ["tensorboard"])?;
-    // Equal configurations give equal bytes.
+    // Ordered maps, so that equal configurations give equal bytes.
     prost_build::Config::new().bytes(["."]).btree_map(["."]).compile_fds(files)?;
     Ok(())
 }

@@ -1,38 +1,37 @@
-//! Whoever chooses actions in an evaluation: the trained policy, or one of the baselines.
+//! Agents that an evaluation can play: the trained policy and two baselines.
 
 use rand::RngExt;
 use treadmill_policy::exported::ExportedPolicy;
+use treadmill_proto::PolicyBundle;
 use treadmill_runtime::seeds::{self, Stream};
 
-use treadmill_proto::PolicyBundle;
+use crate::{ActorError, acting_policy::ActingPolicy};
 
-use crate::{ActorError, acting::ActingPolicy};
-
-/// Chooses actions: −1 is the lower end of a motor's range, 1 its upper one.
+/// Chooses actions; −1 is the lower end of a motor's range, 1 the upper one.
 pub trait Agent {
-    /// The action for one raw observation.
+    /// Writes the action for one raw observation.
     fn act(&mut self, observation: &[f32], action: &mut [f32]) -> Result<(), ActorError>;
 
-    /// What the last action was rewarded with.
+    /// Receives the reward of the last action.
     fn rewarded(&mut self, _reward: f32) {}
 
-    /// An episode is over.
+    /// Receives the end of an episode.
     fn episode_ended(&mut self) {}
 }
 
-/// The mean action of a trained policy, without exploration.
+/// Agent that takes the mean action of a trained policy, without exploration.
 pub struct PolicyAgent {
     policy: ActingPolicy,
     normalised: Vec<f32>,
 }
 
 impl PolicyAgent {
-    /// Acts as an exported policy says.
+    /// Loads an exported policy.
     pub fn new(policy: &ExportedPolicy) -> Result<Self, ActorError> {
         Ok(Self { policy: ActingPolicy::exported(policy)?, normalised: Vec::new() })
     }
 
-    /// Acts as a learner's policy says.
+    /// Loads a policy bundle of a learner.
     pub fn of_bundle(bundle: &PolicyBundle) -> Result<Self, ActorError> {
         Ok(Self { policy: ActingPolicy::new(bundle)?, normalised: Vec::new() })
     }
@@ -44,13 +43,13 @@ impl Agent for PolicyAgent {
     }
 }
 
-/// Uniformly random actions.
+/// Agent that takes uniformly random actions.
 pub struct RandomAgent {
     random: Stream,
 }
 
 impl RandomAgent {
-    /// Draws from the seed's own stream.
+    /// Creates the agent with its own random stream.
     pub fn new(seed: u64) -> Self {
         Self { random: seeds::stream(seed, "random-agent", &[]) }
     }
@@ -63,8 +62,8 @@ impl Agent for RandomAgent {
     }
 }
 
-/// The naive learner: one preferred action, blind to the observation, nudged towards actions that were rewarded better
-/// than the average so far.
+/// Naive learner: it ignores the observation and moves one preferred action towards actions whose reward exceeds the mean
+/// reward so far.
 pub struct PreferredActionAgent {
     random: Stream,
     preferred: Vec<f32>,
@@ -75,16 +74,16 @@ pub struct PreferredActionAgent {
 }
 
 impl PreferredActionAgent {
-    /// Share of the way to a rewarded action that the preferred one goes.
+    /// Step size towards a rewarded action.
     pub const NUDGE: f32 = 0.05;
     /// Probability of a random action in the first episode.
     pub const EXPLORATION_START: f64 = 0.5;
     /// Factor on that probability after each episode.
     pub const EXPLORATION_DECAY: f64 = 0.99;
-    /// The probability never falls below this.
+    /// Lower bound of that probability.
     pub const EXPLORATION_MIN: f64 = 0.05;
 
-    /// Draws from the seed's own stream.
+    /// Creates the agent with its own random stream.
     pub fn new(seed: u64, action_size: usize) -> Self {
         Self {
             random: seeds::stream(seed, "preferred-action-agent", &[]),
@@ -129,11 +128,11 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_naive_learner_is_nudged_by_better_than_average_rewards_only() {
+    fn preferred_action_moves_only_after_rewards_above_the_mean() {
         let mut agent = PreferredActionAgent::new(1, 1);
         agent.tried = vec![1.0];
         agent.rewarded(5.0);
-        assert_eq!(agent.preferred, [0.0], "the first reward is the average");
+        assert_eq!(agent.preferred, [0.0], "the first reward is the mean");
         agent.rewarded(6.0);
         assert_eq!(agent.preferred, [0.05]);
         agent.rewarded(1.0);
@@ -144,7 +143,7 @@ mod tests {
     }
 
     #[test]
-    fn exploration_decays_to_its_floor() {
+    fn exploration_decays_to_its_minimum() {
         let mut agent = PreferredActionAgent::new(1, 1);
         agent.episode_ended();
         assert!((agent.exploration - 0.495).abs() < 1e-12);
@@ -153,7 +152,7 @@ mod tests {
     }
 
     #[test]
-    fn random_actions_fill_the_range_and_repeat_with_the_seed() {
+    fn random_actions_cover_the_range_and_repeat_with_the_seed() {
         let draw = |seed| {
             let mut actions = vec![0.0; 1000];
             RandomAgent::new(seed).act(&[], &mut actions).unwrap();

@@ -1,6 +1,8 @@
-//! N humanoids that step together, each in its own world, and the record of their episodes.
+//! N humanoids that step together, each in its own world, and their episodes.
 
-mod saved;
+mod state;
+
+use std::io;
 
 use rayon::{ThreadPool, ThreadPoolBuilder, prelude::*};
 use treadmill_humanoid::{Environment, EnvironmentConfig, ModelError};
@@ -12,30 +14,30 @@ use treadmill_runtime::{machine, seeds};
 
 use crate::ActorError;
 
-/// Where the reset seeds of these environments come from.
+/// Source of the random streams of these environments.
 #[derive(Clone, Debug)]
 pub struct SeedSource {
-    /// The run's seed.
+    /// Seed of the run.
     pub run_seed: u64,
-    /// The actor's name.
+    /// Name of the actor.
     pub actor: String,
-    /// Number of this start of the actor: it draws other random numbers each time.
+    /// Number of this start of the actor, so that each start draws other random numbers.
     pub start: u64,
 }
 
 impl SeedSource {
-    fn resets(self) -> ResetSeeds {
+    fn reset_seeds(self) -> ResetSeeds {
         let stream = format!("reset/{}", self.actor);
         ResetSeeds { run_seed: self.run_seed, actor: self.actor, stream, start: self.start }
     }
 
-    /// The stream of exploration noise.
+    /// Returns the stream of exploration noise.
     pub fn noise(&self) -> seeds::Stream {
         seeds::stream(self.run_seed, &format!("action-noise/{}", self.actor), &[self.start])
     }
 }
 
-/// Seeds of episodes: they depend on the environment's number and the episode's, and on no other environment.
+/// Seeds of episodes. Each depends only on the numbers of the environment and of the episode.
 #[derive(Clone)]
 struct ResetSeeds {
     run_seed: u64,
@@ -50,36 +52,35 @@ impl ResetSeeds {
     }
 }
 
-/// N environments.
+/// Vector of N environments.
 pub struct Environments {
-    places: Vec<Place>,
+    slots: Vec<EnvironmentSlot>,
     seeds: ResetSeeds,
     observations: Vec<f32>,
     observation_size: usize,
     action_size: usize,
     precision: Precision,
-    /// None where the caller's own thread steps all. Rayon's, because it shares out what is left of a step whenever a
-    /// thread runs dry: steps take unlike times, by contacts and resets. On two cores that others kept busy, 64
-    /// environments took 5 % more CPU time on two threads than on one.
+    /// `None` if the caller's thread steps all. Rayon balances the load by work stealing: contacts and resets make steps
+    /// unequal. On two busy cores, 64 environments took 5 % more CPU time on two threads than on one.
     pool: Option<ThreadPool>,
 }
 
-/// One environment with everything that its step writes, so that threads have nothing in common.
-struct Place {
+/// One environment with all outputs of its step, so that threads share nothing.
+struct EnvironmentSlot {
     env: usize,
     environment: Environment,
     precision: Precision,
-    running: Running,
+    progress: EpisodeProgress,
     control: Vec<f32>,
     reward: f32,
     flags: u8,
     ended: Option<Episode>,
-    /// Where an episode ended, kept while the next one begins in the same step.
+    /// Last observation of an episode; the next episode begins in the same step.
     last_observation: Vec<f32>,
 }
 
 #[derive(Clone, Copy, Debug, Default)]
-struct Running {
+struct EpisodeProgress {
     number: u64,
     length: u32,
     return_sum: f64,
@@ -87,81 +88,80 @@ struct Running {
     last_x_m: f64,
 }
 
-/// One environment as it is now.
-pub struct View<'a> {
+/// Present state of one environment.
+pub struct EnvironmentView<'a> {
     /// Number of its episode, from 1.
     pub episode: u64,
-    /// Control steps since that began.
+    /// Control steps since the episode began.
     pub step: u32,
-    /// Where the torso was then, along x (m).
+    /// Position of the torso along x at the start of the episode (m).
     pub start_x_m: f64,
-    /// The environment.
+    /// Environment.
     pub environment: &'a Environment,
 }
 
-/// What one step of all environments gave. Planes are `[N]`.
+/// Results of one step of all environments; vectors are `[N]` unless stated otherwise.
 #[derive(Debug, Default)]
-pub struct Stepped {
+pub struct StepResults {
     /// Unscaled rewards.
     pub rewards: Vec<f32>,
     /// Bits of [`treadmill_proto::fragment`].
     pub flags: Vec<u8>,
-    /// `[K][observation]`: the true last observations of the environments that were truncated, in order.
+    /// `[K][observation]`: true last observations of the truncated environments, in order.
     pub truncated_observations: Vec<f32>,
     /// Episodes that ended.
     pub episodes: Vec<Episode>,
 }
 
 impl Environments {
-    /// Makes and resets `count` environments, to be stepped on the caller's thread.
+    /// Creates and resets `count` environments, which step on the caller's thread.
     pub fn new(
         count: usize,
         config: &EnvironmentConfig,
         model_xml: &str,
         seeds: SeedSource,
     ) -> Result<Self, ModelError> {
-        let places = (0..count)
-            .map(|env| Ok(Place::new(env, Environment::new(config, model_xml)?)))
+        let slots = (0..count)
+            .map(|env| Ok(EnvironmentSlot::new(env, Environment::new(config, model_xml)?)))
             .collect::<Result<Vec<_>, ModelError>>()?;
-        let observation_size = places.first().map_or(0, |place| place.environment.observation_size());
-        let action_size = places.first().map_or(0, |place| place.environment.action_size());
+        let observation_size = slots.first().map_or(0, |slot| slot.environment.observation_size());
+        let action_size = slots.first().map_or(0, |slot| slot.environment.action_size());
         let mut all = Self {
-            places,
-            seeds: seeds.resets(),
+            slots,
+            seeds: seeds.reset_seeds(),
             observations: vec![0.0; count * observation_size],
             observation_size,
             action_size,
             precision: Precision::F32,
             pool: None,
         };
-        all.begin();
+        all.reset();
         Ok(all)
     }
 
-    /// Resets all to their first episodes.
-    fn begin(&mut self) {
+    /// Resets all environments to their first episodes.
+    fn reset(&mut self) {
         let rows = self.observations.chunks_exact_mut(self.observation_size.max(1));
-        for (place, observation) in self.places.iter_mut().zip(rows) {
-            place.running = Running::default();
-            place.reset(&self.seeds, observation);
+        for (slot, observation) in self.slots.iter_mut().zip(rows) {
+            slot.progress = EpisodeProgress::default();
+            slot.reset(&self.seeds, observation);
         }
     }
 
-    /// Rounds every observation to what arrives at the learner, before anybody acts by it.
+    /// Rounds every observation before the policy sees it, so that the learner receives the same numbers.
     pub fn with_precision(mut self, precision: Precision) -> Self {
         self.precision = precision;
-        self.places.iter_mut().for_each(|place| place.precision = precision);
+        self.slots.iter_mut().for_each(|slot| slot.precision = precision);
         precision.round(&mut self.observations);
         self
     }
 
-    /// How exactly observations travel.
+    /// Returns the precision of observations on the wire.
     pub fn precision(&self) -> Precision {
         self.precision
     }
 
-    /// Spreads the environments over this many threads; 0 means one per core, and more than environments are of no use.
-    /// What they give is the same, bit for bit, for any number.
+    /// Spreads the environments over at most this many threads; 0 means one per core. Results do not depend on the number.
     pub fn with_threads(mut self, threads: usize) -> Result<Self, ActorError> {
         let threads = if threads == 0 { machine::cores() } else { threads };
         let threads = threads.min(self.len());
@@ -169,82 +169,83 @@ impl Environments {
             || ThreadPoolBuilder::new().num_threads(threads).thread_name(|index| format!("physics-{index}")).build();
         self.pool = match threads {
             0 | 1 => None,
-            _ => Some(pool().map_err(|why| ActorError::Physics { why: why.to_string() })?),
+            _ => Some(pool().map_err(|error| ActorError::ThreadStart(io::Error::other(error)))?),
         };
         Ok(self)
     }
 
-    /// N.
+    /// Returns N.
     pub fn len(&self) -> usize {
-        self.places.len()
+        self.slots.len()
     }
 
-    /// Whether there are none.
+    /// Returns whether N is 0.
     pub fn is_empty(&self) -> bool {
-        self.places.is_empty()
+        self.slots.is_empty()
     }
 
-    /// Threads that step the environments.
+    /// Returns the number of threads that step the environments.
     pub fn threads(&self) -> usize {
         self.pool.as_ref().map_or(1, ThreadPool::current_num_threads)
     }
 
-    /// Entries of one observation.
+    /// Returns the number of entries in one observation.
     pub fn observation_size(&self) -> usize {
         self.observation_size
     }
 
-    /// Entries of one action.
+    /// Returns the number of entries in one action.
     pub fn action_size(&self) -> usize {
         self.action_size
     }
 
-    /// `[N][observation]`: where the environments are now; after an episode's end, the start of the next.
+    /// Returns the present observations, `[N][observation]`; after an episode's end, the first one of the next episode.
     pub fn observations(&self) -> &[f32] {
         &self.observations
     }
 
-    /// The first environment, for those who watch.
-    pub fn first(&self) -> Option<View<'_>> {
-        let Place { running, environment, .. } = self.places.first()?;
-        Some(View { episode: running.number, step: running.length, start_x_m: running.start_x_m, environment })
+    /// Returns the first environment, which observers see.
+    pub fn first(&self) -> Option<EnvironmentView<'_>> {
+        let EnvironmentSlot { progress, environment, .. } = self.slots.first()?;
+        let EpisodeProgress { number: episode, length: step, start_x_m, .. } = *progress;
+        Some(EnvironmentView { episode, step, start_x_m, environment })
     }
 
-    /// Steps all by `actions`, `[N][action]` where −1 is the lower end of a motor's range and 1 its upper one; they are
-    /// clipped to it here. An episode that ends is followed by the next at once.
+    /// Steps all environments by `actions`, `[N][action]`, clipped to −1 and 1, the ends of a motor's range. After the end
+    /// of an episode, the next begins in the same step.
     ///
     /// # Panics
     /// If there are not as many actions as environments.
-    pub fn step(&mut self, actions: &[f32], stepped: &mut Stepped) {
+    pub fn step(&mut self, actions: &[f32], results: &mut StepResults) {
         assert_eq!(actions.len(), self.len() * self.action_size, "one action for each environment is needed");
-        let Self { places, seeds, observations, .. } = self;
-        // Without environments there is nothing to cut into pieces.
+        let Self { slots, seeds, observations, .. } = self;
+        // Without environments both widths are 0, which is no chunk size.
         let (width, action_size) = (self.observation_size.max(1), self.action_size.max(1));
         match &self.pool {
-            None => places
+            None => slots
                 .iter_mut()
                 .zip(observations.chunks_exact_mut(width))
                 .zip(actions.chunks_exact(action_size))
-                .for_each(|((place, observation), action)| place.step(action, seeds, observation)),
+                .for_each(|((slot, observation), action)| slot.step(action, seeds, observation)),
             Some(pool) => pool.install(|| {
-                places
+                slots
                     .par_iter_mut()
                     .zip(observations.par_chunks_exact_mut(width))
                     .zip(actions.par_chunks_exact(action_size))
-                    // Pieces of a few hundred microseconds would leave threads idle at the end of each step.
+                    // Chunks of several environments would leave threads idle at the end of each step.
                     .with_max_len(1)
-                    .for_each(|((place, observation), action)| place.step(action, seeds, observation));
+                    .for_each(|((slot, observation), action)| slot.step(action, seeds, observation));
             }),
         }
-        stepped.gather(&mut self.places);
+        results.collect(&mut self.slots);
     }
 
-    /// Puts fresh Rapier worlds below all, so that what follows depends on nothing that [`Self::save`] leaves out.
+    /// Replaces all Rapier worlds, so that further steps depend only on the state that [`Self::save_state`] saves.
     pub fn renew_worlds(&mut self) {
         match &self.pool {
-            None => self.places.iter_mut().for_each(|place| place.environment.renew_world()),
+            None => self.slots.iter_mut().for_each(|slot| slot.environment.renew_world()),
             Some(pool) => {
-                pool.install(|| self.places.par_iter_mut().for_each(|place| place.environment.renew_world()));
+                pool.install(|| self.slots.par_iter_mut().for_each(|slot| slot.environment.renew_world()));
             }
         }
     }
@@ -252,33 +253,33 @@ impl Environments {
     /// Makes the physics of one environment fail at the next step; for tests.
     #[doc(hidden)]
     pub fn poison(&mut self, env: usize) {
-        self.places[env].environment.physics_mut().poison();
+        self.slots[env].environment.physics_mut().poison();
     }
 }
 
-impl Stepped {
-    /// Takes what the environments left, in their order.
-    fn gather(&mut self, places: &mut [Place]) {
+impl StepResults {
+    /// Moves the outputs of all environments here, in their order.
+    fn collect(&mut self, slots: &mut [EnvironmentSlot]) {
         self.rewards.clear();
         self.flags.clear();
         self.truncated_observations.clear();
         self.episodes.clear();
-        for place in places {
-            self.rewards.push(place.reward);
-            self.flags.push(place.flags);
-            if place.flags & TRUNCATED != 0 {
-                self.truncated_observations.extend_from_slice(&place.last_observation);
+        for slot in slots {
+            self.rewards.push(slot.reward);
+            self.flags.push(slot.flags);
+            if slot.flags & TRUNCATED != 0 {
+                self.truncated_observations.extend_from_slice(&slot.last_observation);
             }
-            self.episodes.extend(place.ended.take());
+            self.episodes.extend(slot.ended.take());
         }
     }
 }
 
-impl Place {
+impl EnvironmentSlot {
     fn new(env: usize, environment: Environment) -> Self {
         Self {
             env,
-            running: Running::default(),
+            progress: EpisodeProgress::default(),
             control: vec![0.0; environment.action_size()],
             reward: 0.0,
             flags: 0,
@@ -293,14 +294,14 @@ impl Place {
         self.environment.action_from_shares(action, &mut self.control);
         let step = self.environment.step(&self.control, observation);
         self.precision.round(observation);
-        let running = &mut self.running;
-        running.length += 1;
-        // The reward of a step whose physics failed says nothing.
+        let progress = &mut self.progress;
+        progress.length += 1;
+        // The reward of a step whose physics failed is meaningless.
         self.reward = if step.fault { 0.0 } else { step.reward };
-        running.return_sum += f64::from(self.reward);
+        progress.return_sum += f64::from(self.reward);
         if !step.fault {
-            // The torso's place, whatever the task's info tells.
-            running.last_x_m = self.environment.physics().position()[0];
+            // Position of the torso: the task's info may measure another point.
+            progress.last_x_m = self.environment.physics().position()[0];
         }
         let (flags, cause) = match (step.fault, step.terminated, step.truncated) {
             (true, ..) => (TERMINATED, EndCause::NonFinite),
@@ -313,22 +314,23 @@ impl Place {
         };
         self.flags = flags;
         self.last_observation.copy_from_slice(observation);
-        let distance_m = running.last_x_m - running.start_x_m;
+        let distance_m = progress.last_x_m - progress.start_x_m;
         self.ended = Some(Episode {
-            return_sum: running.return_sum,
-            length: running.length,
+            return_sum: progress.return_sum,
+            length: progress.length,
             distance_m,
-            velocity_mean_mps: distance_m / (f64::from(running.length) * self.environment.control_step_s()),
+            velocity_mean_mps: distance_m / (f64::from(progress.length) * self.environment.control_step_s()),
             cause,
         });
         self.reset(seeds, observation);
     }
 
     fn reset(&mut self, seeds: &ResetSeeds, observation: &mut [f32]) {
-        let number = self.running.number;
+        let number = self.progress.number;
         self.environment.reset(seeds.of(self.env, number), observation);
         self.precision.round(observation);
         let x_m = self.environment.physics().position()[0];
-        self.running = Running { number: number + 1, start_x_m: x_m, last_x_m: x_m, ..Running::default() };
+        self.progress =
+            EpisodeProgress { number: number + 1, start_x_m: x_m, last_x_m: x_m, ..EpisodeProgress::default() };
     }
 }

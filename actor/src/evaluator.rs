@@ -1,4 +1,4 @@
-//! The evaluation actor: plays deterministic episodes with policies on trial, and tells the learner what became of them.
+//! Evaluator process: plays deterministic episodes with policies that the learner assigns, and reports the results.
 
 use std::time::Duration;
 
@@ -6,31 +6,31 @@ use treadmill_bus::{Assignment, Bus, ask_for_evaluation};
 use treadmill_config::{Config, ConfigError, ConfigSource};
 use treadmill_humanoid::Environment;
 use treadmill_proto::{EvaluationReport, PolicyBundle};
-use treadmill_runtime::shutdown::Shutdown;
+use treadmill_runtime::{error_chain, shutdown::Shutdown};
 
-use crate::{ActorError, agent::PolicyAgent, evaluation::evaluate, policies::join, settings};
+use crate::{ActorError, agent::PolicyAgent, evaluation::evaluate, policy_fetcher::join_run, settings};
 
 const ANSWER_TIMEOUT: Duration = Duration::from_secs(10);
-/// Pause between two questions for a policy.
+/// Pause between two requests for a policy.
 const PAUSE: Duration = Duration::from_millis(500);
 
-/// How this process was started.
+/// Options of an evaluator process.
 #[derive(Clone, Debug)]
 pub struct EvaluatorOptions {
-    /// The run to evaluate; the only one there is if none is named.
+    /// Name of the run; without it, the only run of the endpoint.
     pub run: Option<String>,
-    /// The evaluator's name.
+    /// Name of the evaluator.
     pub name: String,
-    /// Where the learner is, for messages.
-    pub where_to: String,
+    /// Endpoint of the learner, for messages.
+    pub endpoint: String,
 }
 
-/// Runs until somebody asks to stop.
+/// Evaluates policies until a request to stop.
 pub async fn run(bus: Bus, options: EvaluatorOptions, shutdown: Shutdown) -> Result<(), ActorError> {
-    let Some(bundle) = join(&bus, options.run.as_deref(), &options.where_to, &shutdown).await? else {
+    let Some(bundle) = join_run(&bus, options.run.as_deref(), &options.endpoint, &shutdown).await? else {
         return Ok(());
     };
-    settings::check_ours(&bundle.run, &config_of(&bundle)?)?;
+    settings::check_supported(&bundle.run, &read_config(&bundle)?)?;
     let run = bundle.run;
     let mut report = None;
     while !shutdown.asked() {
@@ -40,11 +40,11 @@ pub async fn run(bus: Bus, options: EvaluatorOptions, shutdown: Shutdown) -> Res
         };
         if let Assignment::Evaluate(bundle) = assignment {
             let (name, stop) = (options.name.clone(), shutdown.clone());
-            let played = tokio::task::spawn_blocking(move || play(&bundle, name, &stop));
-            match played.await.map_err(|why| ActorError::Physics { why: why.to_string() })? {
-                Ok(played) => report = played,
-                // A policy that cannot be played is no reason to leave the next one unplayed.
-                Err(why) => tracing::warn!("{why}"),
+            let result = tokio::task::spawn_blocking(move || play(&bundle, name, &stop)).await;
+            match result.map_err(ActorError::Evaluation)? {
+                Ok(finished) => report = finished,
+                // The next policy may be sound, so the evaluator continues.
+                Err(error) => tracing::warn!(error = %error_chain(&error), "policy not evaluated"),
             }
         }
         tokio::select! {
@@ -55,15 +55,16 @@ pub async fn run(bus: Bus, options: EvaluatorOptions, shutdown: Shutdown) -> Res
     Ok(())
 }
 
-fn config_of(bundle: &PolicyBundle) -> Result<Config, ConfigError> {
+/// Reads the run's configuration from a policy bundle.
+pub(crate) fn read_config(bundle: &PolicyBundle) -> Result<Config, ConfigError> {
     let mut source = ConfigSource::default();
     source.text(&bundle.config_toml, "the configuration of the run")?;
     source.build()
 }
 
-/// Plays one policy; `None` where somebody asked to stop before the end.
+/// Plays the episodes of one policy; returns `None` after a request to stop.
 fn play(bundle: &PolicyBundle, evaluator: String, shutdown: &Shutdown) -> Result<Option<EvaluationReport>, ActorError> {
-    let config = config_of(bundle)?;
+    let config = read_config(bundle)?;
     let mut environment = Environment::new(&settings::environment(&config.env), &bundle.model_xml)?;
     let mut agent = PolicyAgent::of_bundle(bundle)?;
     let mut evaluations = Vec::new();
@@ -71,7 +72,7 @@ fn play(bundle: &PolicyBundle, evaluator: String, shutdown: &Shutdown) -> Result
         if shutdown.asked() {
             return Ok(None);
         }
-        // The same starts for every policy: differences between two of them are their own.
+        // Every policy starts from the same states, so that differences between policies are their own.
         let seed = config.run.seed.wrapping_add(u64::from(episode));
         evaluations.push(evaluate(&mut environment, &mut agent, 1, seed, |_| {})?);
     }
@@ -82,10 +83,10 @@ fn play(bundle: &PolicyBundle, evaluator: String, shutdown: &Shutdown) -> Result
         evaluator,
         version: bundle.version,
         episodes: all.episodes.len() as u32,
-        return_mean: all.mean(|played| played.return_sum),
+        return_mean: all.mean(|episode| episode.return_sum),
         return_std: all.return_std(),
-        length_mean: all.mean(|played| f64::from(played.length)),
-        distance_mean_m: all.mean(|played| played.distance_m),
+        length_mean: all.mean(|episode| f64::from(episode.length)),
+        distance_mean_m: all.mean(|episode| episode.distance_m),
         velocity_mean_mps: all.velocity_mean_mps(environment.control_step_s()),
         falls: all.falls() as u32,
     }))

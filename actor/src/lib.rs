@@ -1,75 +1,33 @@
-//! From environments to rollouts.
+//! Collects rollouts with a policy and delivers them to the learner; plays evaluations.
 //!
 //! # Layout, in the order of the data
-//! - [`settings`]: the run's configuration as the environment takes it.
+//! - [`settings`]: maps the run's configuration to the environment's.
 //! - [`environments`]: N humanoids that step together, and their episodes.
-//! - [`acting`]: the policy in use.
-//! - [`rollout`]: fragments of T control steps.
-//! - [`courier`]: fragments to the learner, with receipts, credit and a window of what may have to be sent again.
-//! - [`policies`]: the newest policy, announced and fetched.
-//! - [`poses`]: what those who watch see.
-//! - [`worker`]: all of it as one process.
-//! - [`agent`]: whoever chooses actions in an evaluation.
-//! - [`evaluation`]: episodes without learning, and their table.
+//! - [`acting_policy`]: the networks and statistics of one policy bundle, ready to choose actions.
+//! - [`identity`]: name and number of an actor process.
+//! - [`rollout`]: collects fragments of T control steps.
+//! - [`delivery`]: sends fragments until each has a receipt, and keeps accepted ones until they are durable.
+//! - [`policy_fetcher`]: joins a run and fetches the newest policy.
+//! - [`poses`]: poses of the first environment for observers.
+//! - [`worker`]: one actor process.
+//! - [`agent`]: agents that an evaluation can play: the trained policy and two baselines.
+//! - [`evaluation`]: plays episodes without learning and computes their statistics.
+//! - [`evaluator`]: one evaluator process.
 //!
-//! Physics runs on a thread of its own; the bus is spoken to from async tasks.
+//! Physics runs on its own thread; async tasks use the bus.
 
-pub mod acting;
+pub mod acting_policy;
 pub mod agent;
-pub mod courier;
+pub mod delivery;
 pub mod environments;
+mod error;
 pub mod evaluation;
 pub mod evaluator;
-pub mod policies;
+pub mod identity;
+pub mod policy_fetcher;
 pub mod poses;
 pub mod rollout;
 pub mod settings;
 pub mod worker;
 
-/// Why an actor cannot go on.
-#[derive(Debug, thiserror::Error)]
-pub enum ActorError {
-    /// The bus failed.
-    #[error(transparent)]
-    Bus(#[from] treadmill_bus::BusError),
-    /// The model cannot be simulated.
-    #[error("the humanoid model cannot be used: {0}")]
-    Model(#[from] treadmill_humanoid::ModelError),
-    /// The configuration in the policy bundle cannot be used.
-    #[error("the configuration in the policy bundle cannot be used: {0}")]
-    Config(#[from] treadmill_config::ConfigError),
-    /// The policy bundle does not fit.
-    #[error("the policy bundle of version {number} cannot be used: {why}")]
-    Bundle {
-        /// The policy's number.
-        number: u64,
-        /// What is wrong.
-        why: String,
-    },
-    /// The run trains what this program does not simulate.
-    #[error(
-        "run `{run}` trains `{task}`, which this program does not simulate: it trains the humanoid alone; join with an actor \
-         that has that environment, as in `python -m treadmill_actor --run {run} --env NAME` (see python/README.md)"
-    )]
-    OtherTask {
-        /// The run.
-        run: String,
-        /// What it trains.
-        task: String,
-    },
-    /// The policy could not be evaluated.
-    #[error("the policy cannot be evaluated: {0}")]
-    Inference(#[from] candle_core::Error),
-    /// The trace of an evaluation could not be written.
-    #[error("the trace cannot be written: {why}")]
-    Trace {
-        /// What the system said.
-        why: std::io::Error,
-    },
-    /// The physics thread is gone.
-    #[error("the physics thread stopped: {why}")]
-    Physics {
-        /// Its last words.
-        why: String,
-    },
-}
+pub use error::ActorError;

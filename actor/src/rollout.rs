@@ -7,52 +7,40 @@ use treadmill_runtime::seeds::Stream;
 
 use crate::{
     ActorError,
-    acting::ActingPolicy,
-    environments::{Environments, Stepped},
-    poses::Camera,
+    acting_policy::ActingPolicy,
+    environments::{Environments, StepResults},
+    identity::ActorIdentity,
+    poses::PoseSampler,
 };
 
-/// What every fragment of this actor says of itself.
-#[derive(Clone, Debug)]
-pub struct Sender {
-    /// The run.
-    pub run: String,
-    /// The actor's name.
-    pub actor: String,
-    /// Which process of that name.
-    pub incarnation: u64,
-    /// Hash over configuration and model.
-    pub config_hash: u64,
-}
-
-/// Collects fragments, one after the other; episodes run on from one to the next.
+/// Collects fragments one after the other; episodes continue from one fragment to the next.
 pub struct Collector {
     environments: Environments,
     noise: Stream,
     steps: u32,
-    sender: Sender,
+    identity: ActorIdentity,
     sequence: u64,
     is_state_attached: bool,
-    stepped: Stepped,
-    camera: Option<Camera>,
+    results: StepResults,
+    pose_sampler: Option<PoseSampler>,
     normalised: Vec<f32>,
     means: Vec<f32>,
-    /// `[N][action]`: the exploration noise of the step, in standard deviations.
+    /// `[N][action]`: exploration noise of the step, in standard deviations.
     normals: Vec<f32>,
 }
 
 impl Collector {
-    /// A collector of fragments of `steps` control steps.
-    pub fn new(environments: Environments, noise: Stream, steps: u32, sender: Sender) -> Self {
+    /// Creates a collector of fragments of `steps` control steps.
+    pub fn new(environments: Environments, noise: Stream, steps: u32, identity: ActorIdentity) -> Self {
         let (envs, action) = (environments.len(), environments.action_size());
         Self {
             noise,
             steps,
-            sender,
+            identity,
             sequence: 0,
             is_state_attached: false,
-            stepped: Stepped::default(),
-            camera: None,
+            results: StepResults::default(),
+            pose_sampler: None,
             normalised: Vec::new(),
             means: vec![0.0; envs * action],
             normals: vec![0.0; envs * action],
@@ -60,49 +48,49 @@ impl Collector {
         }
     }
 
-    /// Lets a camera look after each step.
-    pub fn with_camera(mut self, camera: Camera) -> Self {
-        self.camera = Some(camera);
+    /// Samples a pose after each step.
+    pub fn with_pose_sampler(mut self, sampler: PoseSampler) -> Self {
+        self.pose_sampler = Some(sampler);
         self
     }
 
-    /// From now on each fragment says where it leaves the actor, so that a resumed run can go on from there exactly.
+    /// Attaches the actor's state to each further fragment, from which a resumed run continues bit for bit.
     pub fn attach_state(&mut self) {
         self.is_state_attached = true;
     }
 
-    /// Goes on from where a fragment left an actor.
+    /// Continues from the state after a fragment.
     ///
     /// # Errors
-    /// What does not fit, in words; nothing has happened then.
-    pub fn go_on(&mut self, state: &ActorState) -> Result<(), String> {
-        self.noise = self.environments.go_on(state)?;
+    /// Returns why the state does not fit; all environments then begin their first episodes.
+    pub fn restore_state(&mut self, state: &ActorState) -> Result<(), String> {
+        self.noise = self.environments.restore_state(state)?;
         Ok(())
     }
 
-    /// How exactly the observations of its fragments travel.
+    /// Returns the precision of observations on the wire.
     pub fn precision(&self) -> Precision {
         self.environments.precision()
     }
 
-    /// Transitions of one fragment.
+    /// Returns the number of transitions in one fragment.
     pub fn transitions(&self) -> usize {
         self.steps as usize * self.environments.len()
     }
 
-    /// The next fragment, which tells the learner what will not be sent again.
+    /// Collects the next fragment. `settled_through` tells the learner which fragments will not be sent again.
     pub fn collect(&mut self, policy: &ActingPolicy, settled_through: u64) -> Result<Fragment, ActorError> {
         let (envs, width, action_size) =
             (self.environments.len(), self.environments.observation_size(), self.environments.action_size());
         let rows = self.transitions();
         self.sequence += 1;
         let mut fragment = Fragment {
-            run: self.sender.run.clone(),
-            actor: self.sender.actor.clone(),
-            actor_incarnation: self.sender.incarnation,
+            run: self.identity.run.clone(),
+            actor: self.identity.actor.clone(),
+            actor_incarnation: self.identity.incarnation,
             sequence: self.sequence,
             version: policy.version,
-            config_hash: self.sender.config_hash,
+            config_hash: self.identity.config_hash,
             steps: self.steps,
             envs: envs as u32,
             observation_size: width as u32,
@@ -117,34 +105,40 @@ impl Collector {
             settled_through,
             actor_state: None,
         };
-        // What Rapier keeps from step to step is no part of an actor's state, so no fragment begins with any of it.
+        // Rapier's internal state is not part of an actor's state, so every fragment starts without it.
         self.environments.renew_worlds();
         for t in 0..self.steps {
             let start = fragment.actions.len();
             fragment.observations.extend_from_slice(self.environments.observations());
             self.normals.fill_with(|| StandardNormal.sample(&mut self.noise));
             self.act(policy, &mut fragment)?;
-            self.environments.step(&fragment.actions[start..], &mut self.stepped);
-            if let Some(camera) = &mut self.camera {
-                camera.see(&self.environments, policy.version);
+            self.environments.step(&fragment.actions[start..], &mut self.results);
+            if let Some(sampler) = &mut self.pose_sampler {
+                sampler.sample(&self.environments, policy.version);
             }
-            fragment.rewards.extend_from_slice(&self.stepped.rewards);
-            fragment.flags.extend_from_slice(&self.stepped.flags);
-            fragment.episodes.append(&mut self.stepped.episodes);
+            fragment.rewards.extend_from_slice(&self.results.rewards);
+            fragment.flags.extend_from_slice(&self.results.flags);
+            fragment.episodes.append(&mut self.results.episodes);
             self.add_last_observations(t, &mut fragment);
         }
         if self.is_state_attached {
-            fragment.actor_state = self.environments.save(&self.noise);
-            if fragment.actor_state.as_ref().is_some_and(|state| !state.fits()) {
-                tracing::warn!(
-                    "{envs} environments are too many for their state to be saved: this run cannot be resumed bit for bit; \
-                     use fewer"
-                );
-                self.is_state_attached = false;
-                fragment.actor_state = None;
-            }
+            fragment.actor_state = self.saved_state();
         }
         Ok(fragment)
+    }
+
+    /// Returns the actor's state; if that is too large for a fragment, returns `None` and attaches no further ones.
+    fn saved_state(&mut self) -> Option<ActorState> {
+        let state = self.environments.save_state(&self.noise)?;
+        if !state.fits() {
+            tracing::warn!(
+                envs = self.environments.len(),
+                "too many environments to save their state: this run cannot be resumed bit for bit; use fewer"
+            );
+            self.is_state_attached = false;
+            return None;
+        }
+        Some(state)
     }
 
     fn act(&mut self, policy: &ActingPolicy, fragment: &mut Fragment) -> Result<(), ActorError> {
@@ -160,11 +154,11 @@ impl Collector {
         Ok(())
     }
 
-    /// Ordered by step, then by environment; see [`Fragment::needs_last_observation`].
+    /// Adds last observations ordered by step, then by environment; see [`Fragment::needs_last_observation`].
     fn add_last_observations(&mut self, t: u32, fragment: &mut Fragment) {
         let width = self.environments.observation_size();
-        let mut truncated = self.stepped.truncated_observations.chunks_exact(width);
-        for (env, flags) in self.stepped.flags.iter().enumerate() {
+        let mut truncated = self.results.truncated_observations.chunks_exact(width);
+        for (env, flags) in self.results.flags.iter().enumerate() {
             if flags & treadmill_proto::fragment::TRUNCATED != 0 {
                 let last = truncated.next().expect("one observation for each truncated environment");
                 fragment.last_observations.extend_from_slice(last);

@@ -1,4 +1,4 @@
-//! The run's configuration as the environment takes it.
+//! Maps the run's configuration to that of the environment.
 
 use treadmill_config::{Config, EnvConfig, EnvObservation, EnvTask, ObservationPrecision, RandomisationConfig};
 use treadmill_humanoid::{EnvironmentConfig, ObservationKind, Randomisation, RewardTask};
@@ -6,20 +6,20 @@ use treadmill_proto::Precision;
 
 use crate::ActorError;
 
-/// Refuses a task that is not simulated here.
-pub fn check_ours(run: &str, config: &Config) -> Result<(), ActorError> {
+/// Refuses a task that this program does not simulate.
+pub fn check_supported(run: &str, config: &Config) -> Result<(), ActorError> {
     match config.is_external() {
         true => Err(ActorError::OtherTask { run: run.to_string(), task: config.task_name() }),
         false => Ok(()),
     }
 }
 
-/// The environment that experience is gathered in: the task, with what the run randomises.
+/// Returns the configuration of a training environment: the task with the run's randomisation.
 pub fn training(config: &Config) -> EnvironmentConfig {
     EnvironmentConfig { randomisation: randomisation(&config.randomisation), ..environment(&config.env) }
 }
 
-/// How exactly observations travel.
+/// Returns the precision of observations on the wire.
 pub fn precision(config: &Config) -> Precision {
     match config.rollout.observation_precision {
         ObservationPrecision::F32 => Precision::F32,
@@ -44,13 +44,13 @@ fn randomisation(config: &RandomisationConfig) -> Randomisation {
     }
 }
 
-/// The task without randomisation; the environment's crate knows nothing of configuration files.
+/// Returns the configuration of an environment without randomisation.
 pub fn environment(config: &EnvConfig) -> EnvironmentConfig {
     EnvironmentConfig {
         task: match config.task {
-            // Refused by `check_ours` wherever an environment is made from a configuration that came from elsewhere.
-            EnvTask::HumanoidV5 | EnvTask::External => RewardTask::HumanoidV5,
-            EnvTask::HumanoidV4 => RewardTask::HumanoidV4,
+            // `check_supported` refuses external tasks of foreign configurations.
+            EnvRewardTask::HumanoidV5 | EnvTask::External => RewardTask::HumanoidV5,
+            EnvRewardTask::HumanoidV4 => RewardTask::HumanoidV4,
         },
         forward_reward_weight: config.forward_reward_weight,
         ctrl_cost_weight: config.ctrl_cost_weight,
@@ -85,16 +85,16 @@ mod tests {
     use super::*;
 
     #[test]
-    fn both_sides_have_the_same_defaults() {
+    fn configuration_and_environment_have_the_same_defaults() {
         assert_eq!(environment(&EnvConfig::default()), EnvironmentConfig::default());
         assert_eq!(training(&Config::default()), EnvironmentConfig::default());
     }
 
     #[test]
-    fn both_sides_refuse_the_same_ranges() {
+    fn configuration_and_environment_refuse_the_same_ranges() {
         let ends = [-1.0, 0.0, 0.015, 0.1, 1.0, 3.0, 10.0, 1000.0, f64::NAN];
-        type Put = fn(&mut RandomisationConfig, [f64; 2]);
-        let keys: [Put; 9] = [
+        type Set = fn(&mut RandomisationConfig, [f64; 2]);
+        let keys: [Set; 9] = [
             |config, range| config.mass_scale = range,
             |config, range| config.floor_friction_scale = range,
             |config, range| config.motor_scale = range,
@@ -105,18 +105,18 @@ mod tests {
             |config, range| config.push_mps = range,
             |config, [low, _]| config.control_noise = low,
         ];
-        for (key, put) in keys.into_iter().enumerate() {
+        for (key, set) in keys.into_iter().enumerate() {
             for range in ends.iter().flat_map(|low| ends.map(|high| [*low, high])) {
                 let mut config = Config::default();
-                put(&mut config.randomisation, range);
-                let there = Environment::new(&training(&config), HUMANOID_XML).is_ok();
-                assert_eq!(config.check().is_ok(), there, "key {key}: {range:?}");
+                set(&mut config.randomisation, range);
+                let is_accepted = Environment::new(&training(&config), HUMANOID_XML).is_ok();
+                assert_eq!(config.check().is_ok(), is_accepted, "key {key}: {range:?}");
             }
         }
     }
 
     #[test]
-    fn a_model_that_is_read_also_travels() {
+    fn every_readable_model_fits_into_a_bundle() {
         assert_eq!(treadmill_humanoid::model::MODEL_BYTES_MAX, treadmill_proto::limits::MODEL_BYTES_MAX);
     }
 }

@@ -1,25 +1,25 @@
-//! Stepping many environments adds no allocation to those of the physics engine, resets included.
+//! Stepping many environments, resets included, allocates no more than the physics engine alone.
 //!
-//! One test alone in its process: the count is over all threads.
+//! This test runs alone in its process, because it counts the allocations of all threads.
 
 use std::{
     alloc::{GlobalAlloc, Layout, System},
     sync::atomic::{AtomicU64, Ordering},
 };
 
-use treadmill_actor::environments::{Environments, SeedSource, Stepped};
+use treadmill_actor::environments::{Environments, SeedSource, StepResults};
 use treadmill_humanoid::{Environment, EnvironmentConfig, HUMANOID_XML};
 use treadmill_runtime::seeds;
 
-struct Counting;
+struct CountingAllocator;
 
 static COUNT: AtomicU64 = AtomicU64::new(0);
 
-// SAFETY: everything is handed to the system's allocator unchanged.
-unsafe impl GlobalAlloc for Counting {
+// SAFETY: every call goes to the system's allocator unchanged.
+unsafe impl GlobalAlloc for CountingAllocator {
     unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
         COUNT.fetch_add(1, Ordering::Relaxed);
-        // SAFETY: the caller's promises are those that the system's allocator asks for.
+        // SAFETY: the caller keeps the contract of the system's allocator, which is the same.
         unsafe { System.alloc(layout) }
     }
 
@@ -36,9 +36,9 @@ unsafe impl GlobalAlloc for Counting {
 }
 
 #[global_allocator]
-static ALLOCATOR: Counting = Counting;
+static ALLOCATOR: CountingAllocator = CountingAllocator;
 
-fn counted(work: impl FnOnce()) -> u64 {
+fn count_allocations(work: impl FnOnce()) -> u64 {
     let before = COUNT.load(Ordering::Relaxed);
     work();
     COUNT.load(Ordering::Relaxed) - before
@@ -49,17 +49,17 @@ const EPISODE_STEPS: u32 = 10;
 const WARM_UP_STEPS: u64 = 20;
 const STEPS: u64 = 200;
 
-/// Episodes that end by time alone: physics alone can be reset in the same steps.
+/// Returns a configuration whose episodes end by time alone, so that bare physics can be reset in the same steps.
 fn config() -> EnvironmentConfig {
     EnvironmentConfig { terminate_when_unhealthy: false, max_episode_steps: EPISODE_STEPS, ..Default::default() }
 }
 
-/// An action in units of the action range.
+/// Returns an action in units of the action range.
 fn action(env: usize, step: u64) -> [f32; 17] {
     std::array::from_fn(|motor| ((env * 31 + motor * 7) as f32 + step as f32).sin())
 }
 
-fn physics_alone() -> u64 {
+fn bare_physics() -> u64 {
     let mut bodies: Vec<Environment> =
         (0..ENVS).map(|_| Environment::new(&config(), HUMANOID_XML).expect("valid")).collect();
     let limit = bodies[0].action_ranges()[0][1];
@@ -79,36 +79,36 @@ fn physics_alone() -> u64 {
         }
     };
     play(0..WARM_UP_STEPS);
-    counted(|| play(WARM_UP_STEPS..WARM_UP_STEPS + STEPS))
+    count_allocations(|| play(WARM_UP_STEPS..WARM_UP_STEPS + STEPS))
 }
 
 fn environments(threads: usize) -> u64 {
     let seeds = SeedSource { run_seed: 5, actor: "a".into(), start: 0 };
     let environments = Environments::new(ENVS, &config(), HUMANOID_XML, seeds).expect("valid");
     let mut environments = environments.with_threads(threads).expect("threads start");
-    let (mut stepped, mut actions) = (Stepped::default(), [0.0; 17 * ENVS]);
+    let (mut results, mut actions) = (StepResults::default(), [0.0; 17 * ENVS]);
     let mut play = |steps: std::ops::Range<u64>| {
         for step in steps {
             for (env, part) in actions.chunks_exact_mut(17).enumerate() {
                 part.copy_from_slice(&action(env, step));
             }
-            environments.step(&actions, &mut stepped);
+            environments.step(&actions, &mut results);
         }
     };
     play(0..WARM_UP_STEPS);
-    counted(|| play(WARM_UP_STEPS..WARM_UP_STEPS + STEPS))
+    count_allocations(|| play(WARM_UP_STEPS..WARM_UP_STEPS + STEPS))
 }
 
 #[test]
 fn environments_allocate_no_more_than_their_physics() {
-    let alone = physics_alone();
-    // Rapier's own buffers grow a little differently from one world to the next.
-    let found = environments(1);
+    let physics = bare_physics();
+    // Rapier's buffers grow slightly differently in each world.
+    let one_thread = environments(1);
     assert!(
-        found <= alone + STEPS / 20,
-        "{found} allocations in {STEPS} steps of {ENVS} environments, {alone} of physics alone"
+        one_thread <= physics + STEPS / 20,
+        "{one_thread} allocations in {STEPS} steps of {ENVS} environments, {physics} of bare physics"
     );
-    // The pool's queue of waiting steps is made of blocks of some 60, and each thread starts with a queue of its own.
-    let spread = environments(2);
-    assert!(spread <= alone + STEPS / 10, "{spread} on two threads, {alone} of physics alone");
+    // Rayon allocates a block per about 60 queued steps, and a queue per thread.
+    let two_threads = environments(2);
+    assert!(two_threads <= physics + STEPS / 10, "{two_threads} on two threads, {physics} of bare physics");
 }

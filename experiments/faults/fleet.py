@@ -204,9 +204,9 @@ class Fleet:
             text = process.err.read_text(encoding="utf-8", errors="replace")
             last = process.last_json()
             # One process may have stayed in several runs, of which each has numbers of its own.
-            for part in text.split("counts its fragments as process ")[1:]:
+            for part in text.split("new incarnation incarnation=")[1:]:
                 incarnation = re.match(r"\d+", part)[0]
-                produced = [int(number) for number in re.findall(r"fragment (\d+) is on its way", part)]
+                produced = [int(number) for number in re.findall(r"fragment produced sequence=(\d+)", part)]
                 own = last if last and last["incarnation"] == incarnation else None
                 yield process.name, incarnation, own, max(produced, default=0)
 

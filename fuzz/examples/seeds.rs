@@ -1,4 +1,4 @@
-//! Writes a sound message of each kind for libFuzzer to begin with: `seeds FOLDER`.
+//! Writes a valid message of each kind as initial corpus of libFuzzer: `seeds FOLDER`.
 
 use std::{fs, path::PathBuf};
 
@@ -9,7 +9,7 @@ fn main() -> std::io::Result<()> {
     for (name, _, sample, _) in TARGETS {
         let folder = root.join(name);
         fs::create_dir_all(&folder)?;
-        fs::write(folder.join("sound"), sample())?;
+        fs::write(folder.join("valid"), sample())?;
     }
     Ok(())
 }

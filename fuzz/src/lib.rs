@@ -1,11 +1,11 @@
-//! What strangers could send, tried on every decoder.
+//! Fuzz targets for every decoder of untrusted bytes.
 //!
 //! # Layout
-//! - Here: one function for each decoder. It takes any bytes, and panics if the decoder does, or if what was decoded is not
-//!   the same after it was encoded and decoded once more.
-//! - [`samples`]: sound messages of each kind, to begin with.
-//! - `fuzz_targets/`: the same functions for `cargo fuzz`, behind the feature `libfuzzer`.
-//! - `tests/`: the same functions with changed samples and noise, in `cargo test`, under a limit on memory.
+//! - Here: one function per decoder. It accepts any bytes, and panics if the decoder panics or if a decoded value changes in
+//!   a second round trip.
+//! - [`samples`]: one valid message of each kind.
+//! - `fuzz_targets/`: these functions for `cargo fuzz`, behind the feature `libfuzzer`.
+//! - `tests/`: these functions in `cargo test`, on random bytes and mutated samples, with a limit on allocated memory.
 
 pub mod samples;
 
@@ -27,13 +27,13 @@ use treadmill_proto::{
     json::{EpisodeReport, Metric},
 };
 
-/// A decoder under test.
+/// Function that runs one decoder.
 pub type Target = fn(&[u8]);
 
-/// Bytes that a decoder takes.
+/// Function that returns a valid message.
 type Sample = fn() -> Vec<u8>;
 
-/// Every decoder, with a sound message and how many bytes it may allocate for each byte of a message, beside a constant.
+/// Every decoder with its name, a valid message, and the bytes that it may allocate per byte of a message, plus a constant.
 pub const TARGETS: &[(&str, Target, Sample, usize)] = &[
     ("fragment", fragment, samples::fragment, 16),
     ("actor_state", actor_state, samples::actor_state, 16),
@@ -52,26 +52,26 @@ pub const TARGETS: &[(&str, Target, Sample, usize)] = &[
     ("fragment_validator", fragment_validator, samples::fragment, 16),
 ];
 
-/// A rollout fragment.
+/// Decodes a rollout fragment.
 pub fn fragment(data: &[u8]) {
     let claimed = claimed_incarnation(data);
     let decoded = Fragment::decode(data);
     let (front, back) = data.split_at(data.len() / 3);
-    assert_eq!(Fragment::decode_pieces(&[front, back]), decoded, "it does not matter in how many pieces it came");
+    assert_eq!(Fragment::decode_pieces(&[front, back]), decoded, "the result does not depend on the number of pieces");
     if let Ok(fragment) = decoded {
         assert!(claimed.is_none_or(|claimed| claimed == fragment.actor_incarnation) || has_two_incarnations(data));
-        let again = fragment.encode().expect("what was decoded can be encoded");
-        assert_eq!(claimed_incarnation(&again).unwrap_or(0), fragment.actor_incarnation);
-        assert_eq!(Fragment::decode(again).expect("what was encoded can be decoded"), fragment);
+        let encoded = fragment.encode().expect("what was decoded can be encoded");
+        assert_eq!(claimed_incarnation(&encoded).unwrap_or(0), fragment.actor_incarnation);
+        assert_eq!(Fragment::decode(encoded).expect("what was encoded can be decoded"), fragment);
     }
 }
 
-/// A sender may write a field twice; the last one counts, but admission reads the first.
+/// Returns whether the incarnation may occur twice; the decoder uses the last one, admission control the first.
 fn has_two_incarnations(data: &[u8]) -> bool {
     data.iter().filter(|byte| **byte == 0x18).count() >= 2
 }
 
-/// The state of an actor, which travels in fragments.
+/// Decodes the state of an actor inside a fragment.
 pub fn actor_state(data: &[u8]) {
     let mut message = samples::fragment_without_state();
     message.extend([0x9a, 0x01]);
@@ -85,51 +85,51 @@ pub fn actor_state(data: &[u8]) {
     fragment(&message);
 }
 
-/// A policy bundle.
+/// Decodes a policy bundle.
 pub fn bundle(data: &[u8]) {
     if let Ok(bundle) = PolicyBundle::decode(Bytes::copy_from_slice(data)) {
-        let again = bundle.encode().expect("what was decoded can be encoded");
-        assert_eq!(PolicyBundle::decode(again).expect("what was encoded can be decoded"), bundle);
+        let encoded = bundle.encode().expect("what was decoded can be encoded");
+        assert_eq!(PolicyBundle::decode(encoded).expect("what was encoded can be decoded"), bundle);
     }
 }
 
-/// An announcement.
+/// Decodes an announcement.
 pub fn announcement(data: &[u8]) {
     if let Ok(announcement) = PolicyAnnouncement::decode(data) {
         assert_eq!(PolicyAnnouncement::decode(&announcement.encode()), Ok(announcement));
     }
 }
 
-/// A receipt.
+/// Decodes a receipt.
 pub fn receipt(data: &[u8]) {
     if let Ok(receipt) = Receipt::decode(data) {
         assert_eq!(Receipt::decode(&receipt.encode()), Ok(receipt));
     }
 }
 
-/// Statistics of an actor.
+/// Decodes statistics of an actor.
 pub fn stats(data: &[u8]) {
     if let Ok(stats) = ActorStats::decode_checked(data) {
         assert_eq!(ActorStats::decode_checked(&stats.to_bytes()), Ok(stats));
     }
 }
 
-/// A report of an evaluation.
+/// Decodes a report of an evaluation.
 pub fn evaluation(data: &[u8]) {
     if let Ok(report) = EvaluationReport::decode(data) {
         assert_eq!(EvaluationReport::decode(&report.encode()), Ok(report));
     }
 }
 
-/// How a body stands.
+/// Decodes a pose.
 pub fn pose(data: &[u8]) {
     if let Ok(pose) = Pose::decode_checked(data) {
-        let again = pose.to_bytes().expect("what was decoded can be encoded");
-        assert_eq!(Pose::decode_checked(&again), Ok(pose));
+        let encoded = pose.to_bytes().expect("what was decoded can be encoded");
+        assert_eq!(Pose::decode_checked(&encoded), Ok(pose));
     }
 }
 
-/// The objects on the JSON topics.
+/// Decodes the objects on the JSON topics.
 pub fn json(data: &[u8]) {
     if let Ok(metric) = Metric::from_json(data) {
         assert_eq!(Metric::from_json(&metric.to_json()), Ok(metric));
@@ -139,9 +139,9 @@ pub fn json(data: &[u8]) {
     }
 }
 
-/// A checkpoint: the file, and its content in a file that is otherwise sound, which no chance would bring about.
+/// Decodes a checkpoint: the bytes as a file, and the bytes as the content of a file with a valid header and checksum.
 pub fn checkpoint(data: &[u8]) {
-    let mut wrapped = encoding::encode(&()).expect("nothing is easily encoded");
+    let mut wrapped = encoding::encode(&()).expect("the unit value can be encoded");
     wrapped.truncate(12);
     wrapped.extend((data.len() as u64).to_le_bytes());
     wrapped.extend(Sha256::digest(data));
@@ -151,52 +151,52 @@ pub fn checkpoint(data: &[u8]) {
         if state.check().is_ok() {
             drop(state.bundle());
         }
-        let again = encoding::encode(&state).expect("what was decoded can be encoded");
-        // Numbers that are no numbers are equal to nothing, so bytes are compared.
-        let read: TrainingState = encoding::decode("a file", &again).expect("what was encoded can be decoded");
-        assert_eq!(encoding::encode(&read).expect("as before"), again);
+        let encoded = encoding::encode(&state).expect("what was decoded can be encoded");
+        // NaN is not equal to itself, so bytes are compared.
+        let decoded: TrainingState = encoding::decode("a file", &encoded).expect("what was encoded can be decoded");
+        assert_eq!(encoding::encode(&decoded).expect("what was decoded can be encoded"), encoded);
     }
 }
 
-/// An exported policy.
+/// Decodes an exported policy.
 pub fn exported(data: &[u8]) {
     if let Ok(policy) = ExportedPolicy::from_bytes(data) {
-        let again = policy.to_bytes().expect("what was decoded can be encoded");
-        assert_eq!(ExportedPolicy::from_bytes(&again).expect("what was encoded can be decoded"), policy);
+        let encoded = policy.to_bytes().expect("what was decoded can be encoded");
+        assert_eq!(ExportedPolicy::from_bytes(&encoded).expect("what was encoded can be decoded"), policy);
     }
 }
 
-/// The weights in a policy bundle.
+/// Decodes the weights of a policy bundle.
 pub fn weights(data: &[u8]) {
     let shape = samples::shape();
     if let Ok(parameters) = from_safetensors(data, &shape) {
-        let again = to_safetensors(&shape, &parameters);
-        assert_eq!(from_safetensors(&again, &shape).expect("what was encoded can be decoded"), parameters);
+        let encoded = to_safetensors(&shape, &parameters);
+        assert_eq!(from_safetensors(&encoded, &shape).expect("what was encoded can be decoded"), parameters);
     }
 }
 
-/// A robot as MJCF text.
+/// Reads a robot from MJCF text.
 pub fn model(data: &[u8]) {
     if let Ok(text) = std::str::from_utf8(data) {
         drop(Model::from_mjcf(text));
     }
 }
 
-/// A configuration as TOML text.
+/// Reads a configuration from TOML text.
 pub fn config(data: &[u8]) {
     let Ok(text) = std::str::from_utf8(data) else { return };
     if let Ok(config) = read_config(text) {
-        assert_eq!(read_config(&config.to_toml()).expect("what was written can be read"), config);
+        assert_eq!(read_config(&config.to_toml()).expect("what was encoded can be decoded"), config);
     }
 }
 
 fn read_config(text: &str) -> Result<Config, String> {
     let mut source = ConfigSource::default();
-    source.text(text, "a text").map_err(|why| why.to_string())?;
-    source.build().map_err(|why| why.to_string())
+    source.text(text, "a text").map_err(|error| error.to_string())?;
+    source.build().map_err(|error| error.to_string())
 }
 
-/// The learner's validation of a fragment.
+/// Validates a fragment as the learner does, twice.
 pub fn fragment_validator(data: &[u8]) {
     let expected = ExpectedFragment {
         run: samples::RUN.into(),
@@ -213,10 +213,14 @@ pub fn fragment_validator(data: &[u8]) {
     for _ in 0..2 {
         let validated = validator.validate(samples::ACTOR, data.into(), &lineage, now);
         if let Err(receipt) = &validated {
-            assert_eq!(Receipt::decode(&receipt.encode()).as_ref(), Ok(&**receipt), "its sender can read the answer");
+            assert_eq!(
+                Receipt::decode(&receipt.encode()).as_ref(),
+                Ok(&**receipt),
+                "the sender can decode the receipt"
+            );
         }
     }
-    assert!(validator.counts.accepted <= 1, "nothing is learnt from twice");
+    assert!(validator.counts.accepted <= 1, "no fragment is accepted twice");
     let counts = validator.counts;
     assert_eq!(
         counts.accepted + counts.duplicate + counts.too_old + counts.vanished + counts.malformed,

@@ -1,4 +1,4 @@
-//! Sound messages of each kind, small, so that a change of one byte is a change of much.
+//! One valid message of each kind, small so that a mutated byte matters.
 
 use bytes::Bytes;
 use treadmill_config::{Config, EnvConfig, RandomisationConfig, TaskConfig};
@@ -15,11 +15,11 @@ use treadmill_proto::{
     PolicyVersion, Pose, Receipt, json::Metric,
 };
 
-/// The run.
+/// Name of the run.
 pub const RUN: &str = "walk";
-/// The actor.
+/// Name of the actor.
 pub const ACTOR: &str = "a1";
-/// The learner's incarnation.
+/// Incarnation of the learner.
 pub const INCARNATION: u64 = 9;
 /// Hash over the configuration.
 pub const CONFIG_HASH: u64 = 11;
@@ -47,7 +47,7 @@ fn state() -> ActorState {
     }
 }
 
-fn plain() -> Fragment {
+fn fragment_message() -> Fragment {
     Fragment {
         run: RUN.into(),
         actor: ACTOR.into(),
@@ -77,23 +77,23 @@ fn plain() -> Fragment {
     }
 }
 
-/// A rollout fragment.
+/// Encodes a rollout fragment.
 pub fn fragment() -> Vec<u8> {
-    Fragment { actor_state: Some(state()), ..plain() }.encode().expect("it is sound")
+    Fragment { actor_state: Some(state()), ..fragment_message() }.encode().expect("a valid message")
 }
 
-/// One without the state of the actor, which is the last field.
+/// Encodes a rollout fragment without the actor's state, which is the last field.
 pub fn fragment_without_state() -> Vec<u8> {
-    plain().encode().expect("it is sound")
+    fragment_message().encode().expect("a valid message")
 }
 
-/// The state of an actor.
+/// Encodes the state of an actor.
 pub fn actor_state() -> Vec<u8> {
-    // Behind the fragment's other fields: two bytes of key, two of length.
+    // After the fragment's other fields: two bytes of tag, two of length.
     fragment()[fragment_without_state().len() + 4..].to_vec()
 }
 
-/// A policy bundle.
+/// Encodes a policy bundle.
 pub fn bundle() -> Vec<u8> {
     PolicyBundle {
         run: RUN.into(),
@@ -112,26 +112,26 @@ pub fn bundle() -> Vec<u8> {
         actor_state: Some(state()),
     }
     .encode()
-    .expect("it is sound")
+    .expect("a valid message")
 }
 
-/// An announcement.
+/// Encodes an announcement.
 pub fn announcement() -> Vec<u8> {
     PolicyAnnouncement { version: version(), checksum: 5 }.encode()
 }
 
-/// A receipt.
+/// Encodes a receipt.
 pub fn receipt() -> Vec<u8> {
     Receipt { outcome: Outcome::TooOld, reason: "because".into(), version: version(), durable_through: 3 }.encode()
 }
 
-/// Statistics of an actor.
+/// Encodes statistics of an actor.
 pub fn stats() -> Vec<u8> {
     ActorStats { actor: ACTOR.into(), host: "here".into(), env_steps_per_s: 0.5, produced: 3, ..Default::default() }
         .to_bytes()
 }
 
-/// How a body of one part stands.
+/// Encodes the pose of a single body.
 pub fn pose() -> Vec<u8> {
     let pose = Pose {
         run: RUN.into(),
@@ -148,10 +148,10 @@ pub fn pose() -> Vec<u8> {
         reward_survive: 5.0,
         ..Pose::default()
     };
-    pose.to_bytes().expect("a sound pose")
+    pose.to_bytes().expect("a valid message")
 }
 
-/// A report of an evaluation.
+/// Encodes a report of an evaluation.
 pub fn evaluation() -> Vec<u8> {
     EvaluationReport {
         run: RUN.into(),
@@ -168,21 +168,21 @@ pub fn evaluation() -> Vec<u8> {
     .encode()
 }
 
-/// A scalar.
+/// Encodes a scalar.
 pub fn metric() -> Vec<u8> {
     Metric { run: RUN.into(), tag: "a/b".into(), step: 3, value: 0.1, time_unix_s: 1.5 }.to_json()
 }
 
-/// The content of a checkpoint.
+/// Encodes the content of a checkpoint.
 pub fn checkpoint() -> Vec<u8> {
     let mut config = Config::default();
     config.policy.hidden = vec![2];
     let state = TrainingState::fresh(RUN, &config, "<mujoco/>", WIDTH as usize, 1, INCARNATION);
-    // Without the header, which is made anew for every content.
-    encoding::encode(&state).expect("it is sound")[52..].to_vec()
+    // Without the header, which the target adds.
+    encoding::encode(&state).expect("a valid message")[52..].to_vec()
 }
 
-/// An exported policy.
+/// Encodes an exported policy.
 pub fn exported() -> Vec<u8> {
     let shape = shape();
     let (observation, mean, variance) =
@@ -201,26 +201,26 @@ pub fn exported() -> Vec<u8> {
         model_xml: "<mujoco/>".into(),
     }
     .to_bytes()
-    .expect("it is sound")
+    .expect("a valid message")
 }
 
-/// A network's weights.
+/// Encodes the weights of a network.
 pub fn weights() -> Vec<u8> {
     let shape = shape();
     to_safetensors(&shape, &vec![0.5; shape.parameter_count()])
 }
 
-/// A robot.
+/// Returns a robot as MJCF text.
 pub fn model() -> Vec<u8> {
     HUMANOID_XML.as_bytes().to_vec()
 }
 
-/// A configuration.
+/// Returns a configuration as TOML text.
 pub fn config() -> Vec<u8> {
     Config::default().to_toml().into_bytes()
 }
 
-/// The shape of the samples' network.
+/// Returns the shape of the samples' network.
 pub fn shape() -> NetworkShape {
     NetworkShape { observation: WIDTH as usize, action: 1, hidden: vec![2] }
 }

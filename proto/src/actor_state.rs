@@ -1,42 +1,39 @@
-//! Where an actor is at a fragment's end: what a deterministic run is resumed from.
+//! State of an actor at a fragment's end, from which a deterministic run resumes.
 
 use prost::Message;
 
 use crate::{
-    Malformed,
+    Malformed, check_size,
     ident::check_ident,
     limits::{ACTOR_STATE_BYTES_MAX, ENVS_MAX, WIDTH_MAX},
 };
 
 pub use crate::wire::ActorState;
 
-/// Numbers that are the state of a random generator.
+/// Numbers in the state of one random generator.
 pub const GENERATOR_NUMBERS: usize = 4;
-/// Generators of one environment: of sensor noise, motor noise and pushes.
+/// Generators of one environment: sensor noise, motor noise and pushes.
 pub const ENVIRONMENT_GENERATORS: usize = 3;
 /// Entries of [`ActorState::progress`] for one environment.
 pub const PROGRESS_NUMBERS: usize = 3;
-/// More past actions than this are not kept for an action of the greatest width.
+/// Largest number of past action entries per environment.
 const PAST_ACTIONS_MAX: usize = 16 * WIDTH_MAX as usize;
 
 impl ActorState {
-    /// N.
+    /// Returns N.
     pub fn envs(&self) -> usize {
         self.episodes.len()
     }
 
-    /// Whether it is small enough to travel.
+    /// Returns whether the state is small enough for a message.
     pub fn fits(&self) -> bool {
         self.encoded_len() <= ACTOR_STATE_BYTES_MAX
     }
 
-    /// Checks sizes and numbers; called before encoding and after decoding.
+    /// Checks sizes and numbers, before encoding and after decoding.
     pub fn check(&self) -> Result<(), Malformed> {
         check_ident("actor_state.actor", &self.actor)?;
-        let bytes = self.encoded_len();
-        if bytes > ACTOR_STATE_BYTES_MAX {
-            return Err(Malformed::TooLarge { what: "actor state", bytes, limit: ACTOR_STATE_BYTES_MAX });
-        }
+        check_size("actor state", self.encoded_len(), ACTOR_STATE_BYTES_MAX)?;
         let envs = self.envs();
         if !(1..=ENVS_MAX as usize).contains(&envs) {
             return Err(Malformed::field("actor_state.episodes", envs, format!("1 to {ENVS_MAX} numbers")));
@@ -85,7 +82,7 @@ fn all_finite(field: &'static str, numbers: impl Iterator<Item = f64>) -> Result
 pub(crate) mod tests {
     use super::*;
 
-    /// Of `envs` environments that observe two numbers each.
+    /// Returns a state of `envs` environments with two observations each.
     pub(crate) fn sample(actor: &str, envs: usize) -> ActorState {
         ActorState {
             actor: actor.into(),
@@ -104,21 +101,21 @@ pub(crate) mod tests {
     }
 
     #[test]
-    fn numbers_survive_to_the_bit_and_take_their_own_size() {
+    fn numbers_keep_every_bit_and_their_encoding_is_compact() {
         let state = sample("a", 3);
         state.check().unwrap();
         let bytes = state.encode_to_vec();
         let read = ActorState::decode(&*bytes).unwrap();
         assert_eq!(read, state);
         assert!(read.velocities.iter().all(|number| number.is_sign_negative()));
-        // Name and start, then 8 × (4 + 3 × (1 + 3 + 8 + 7 + 12)) + 4 × 3 × (1 + 2 + 4 + 1) bytes and the fields' heads.
+        // Name and start, 8 × (4 + 3 × (1 + 3 + 8 + 7 + 12)) + 4 × 3 × (1 + 2 + 4 + 1) bytes, and the tags of the fields.
         assert!((872..920).contains(&bytes.len()), "{}", bytes.len());
     }
 
     #[test]
-    fn each_fault_is_named() {
-        type Spoil = fn(&mut ActorState);
-        let spoils: [(&str, Spoil); 14] = [
+    fn the_error_names_the_bad_field() {
+        type Corrupt = fn(&mut ActorState);
+        let cases: [(&str, Corrupt); 14] = [
             ("actor_state.actor", |s| s.actor = "a/b".into()),
             ("actor_state.noise", |s| s.noise.truncate(1)),
             ("actor_state.episodes", |s| s.episodes.clear()),
@@ -134,11 +131,11 @@ pub(crate) mod tests {
             ("actor_state.steps_to_push", |s| s.steps_to_push.clear()),
             ("actor_state.streams", |s| s.streams.truncate(1)),
         ];
-        for (part, spoil) in spoils {
+        for (part, corrupt) in cases {
             let mut state = sample("a", 3);
-            spoil(&mut state);
-            let told = state.check().expect_err(part).to_string();
-            assert!(told.contains(part), "{told}");
+            corrupt(&mut state);
+            let error = state.check().expect_err(part).to_string();
+            assert!(error.contains(part), "{error}");
         }
         let mut large = sample("a", 1);
         large.past_actions = vec![0.0; ACTOR_STATE_BYTES_MAX / 4];

@@ -1,23 +1,26 @@
-//! The policy that the learner hands out, and its announcement.
+//! Policy bundles of the learner and their announcements.
 
 use bytes::{Buf, Bytes};
 use prost::Message;
 use serde::{Deserialize, Serialize};
 
 use crate::{
-    ActorState, Malformed,
+    ActorState, Malformed, check_range, check_size,
     ident::check_ident,
     limits::{BUNDLE_BYTES_MAX, HIDDEN_LAYERS_MAX, MODEL_BYTES_MAX, SMALL_BYTES_MAX, WIDTH_MAX},
     pieces::Cursor,
     planes, scan, wire,
 };
 
-/// Which policy: numbers grow by one with each update, incarnations are drawn anew at each start of a learner.
+/// Kind of message in errors.
+const BUNDLE: &str = "policy bundle";
+
+/// Version of a policy. Each update increments the number; each start of a learner draws a new incarnation.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub struct PolicyVersion {
-    /// Which learner process.
+    /// Learner process that made the policy.
     pub incarnation: u64,
-    /// How many updates the run has seen.
+    /// Updates since the run began.
     pub number: u64,
 }
 
@@ -33,36 +36,35 @@ impl From<wire::PolicyVersion> for PolicyVersion {
     }
 }
 
-/// The newest version and its checksum.
+/// Announcement of the newest policy.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct PolicyAnnouncement {
-    /// The newest version.
+    /// Newest version.
     pub version: PolicyVersion,
-    /// Checksum of its weights.
+    /// Checksum of the weights.
     pub checksum: u64,
 }
 
 impl PolicyAnnouncement {
-    /// Protobuf bytes.
+    /// Encodes as protobuf.
     pub fn encode(&self) -> Vec<u8> {
         wire::PolicyAnnouncement { version: Some(self.version.into()), checksum: self.checksum }.encode_to_vec()
     }
 
-    /// Reads protobuf bytes from a stranger.
+    /// Decodes and checks untrusted protobuf bytes.
     pub fn decode(bytes: &[u8]) -> Result<Self, Malformed> {
-        check_small("announcement", bytes.len())?;
-        let message = wire::PolicyAnnouncement::decode(bytes)
-            .map_err(|why| Malformed::Undecodable { what: "announcement", why: why.to_string() })?;
+        check_size("announcement", bytes.len(), SMALL_BYTES_MAX)?;
+        let message = wire::PolicyAnnouncement::decode(bytes).map_err(Malformed::undecodable("announcement"))?;
         Ok(Self { version: version(message.version)?, checksum: message.checksum })
     }
 }
 
-/// Everything an actor needs.
+/// Policy with everything else that an actor needs.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PolicyBundle {
-    /// The run it belongs to.
+    /// Name of the run.
     pub run: String,
-    /// Which policy.
+    /// Version of the policy.
     pub version: PolicyVersion,
     /// Entries of one observation.
     pub observation_size: u32,
@@ -72,33 +74,33 @@ pub struct PolicyBundle {
     pub hidden: Vec<u32>,
     /// A safetensors file.
     pub weights: Bytes,
-    /// Mean of each entry of the observation.
+    /// Mean of each observation entry.
     pub observation_mean: Vec<f32>,
-    /// One over the standard deviation of each entry.
+    /// Inverse standard deviation of each observation entry.
     pub observation_inverse_std: Vec<f32>,
-    /// Normalised observations are clipped to plus and minus this.
+    /// Bound of normalised observations.
     pub observation_clip: f32,
     /// Hash over configuration and model.
     pub config_hash: u64,
-    /// The run's configuration.
+    /// Configuration of the run as TOML.
     pub config_toml: String,
-    /// The humanoid as MJCF.
+    /// Humanoid as MJCF.
     pub model_xml: String,
     /// Checksum of `weights`.
     pub checksum: u64,
-    /// Where the run's only actor was when the learner last saved; only right after a resume of a deterministic run.
+    /// State of the run's only actor at the last checkpoint; present only right after a resume of a deterministic run.
     pub actor_state: Option<ActorState>,
 }
 
 impl PolicyBundle {
     fn check(&self) -> Result<(), Malformed> {
         check_ident("run", &self.run)?;
-        width("observation_size", self.observation_size)?;
-        width("action_size", self.action_size)?;
+        check_range("observation_size", self.observation_size, WIDTH_MAX)?;
+        check_range("action_size", self.action_size, WIDTH_MAX)?;
         if self.hidden.is_empty() || self.hidden.len() > HIDDEN_LAYERS_MAX {
             return Err(Malformed::field("hidden", self.hidden.len(), format!("1 to {HIDDEN_LAYERS_MAX} layers")));
         }
-        self.hidden.iter().try_for_each(|hidden| width("hidden", *hidden))?;
+        self.hidden.iter().try_for_each(|width| check_range("hidden", *width, WIDTH_MAX))?;
         if self.model_xml.len() > MODEL_BYTES_MAX {
             let found = format!("{} bytes long", self.model_xml.len());
             return Err(Malformed::field("model_xml", found, format!("at most {MODEL_BYTES_MAX}")));
@@ -118,7 +120,7 @@ impl PolicyBundle {
         self.actor_state.as_ref().map_or(Ok(()), ActorState::check)
     }
 
-    /// Protobuf bytes.
+    /// Encodes as protobuf.
     pub fn encode(&self) -> Result<Vec<u8>, Malformed> {
         self.check()?;
         let bytes = wire::PolicyBundle {
@@ -138,18 +140,17 @@ impl PolicyBundle {
             actor_state: self.actor_state.clone(),
         }
         .encode_to_vec();
-        check_size(bytes.len())?;
+        check_size(BUNDLE, bytes.len(), BUNDLE_BYTES_MAX)?;
         Ok(bytes)
     }
 
-    /// Reads and checks protobuf bytes from a stranger.
+    /// Decodes and checks untrusted protobuf bytes.
     pub fn decode(bytes: impl Into<Bytes>) -> Result<Self, Malformed> {
         let bytes = bytes.into();
-        check_size(bytes.len())?;
+        check_size(BUNDLE, bytes.len(), BUNDLE_BYTES_MAX)?;
         check_hidden_count(&bytes)?;
-        let message = wire::PolicyBundle::decode(bytes)
-            .map_err(|why| Malformed::Undecodable { what: "policy bundle", why: why.to_string() })?;
-        width("observation_size", message.observation_size)?;
+        let message = wire::PolicyBundle::decode(bytes).map_err(Malformed::undecodable(BUNDLE))?;
+        check_range("observation_size", message.observation_size, WIDTH_MAX)?;
         let size = message.observation_size as usize;
         let bundle = Self {
             version: version(message.version)?,
@@ -180,24 +181,17 @@ pub(crate) fn version(version: Option<wire::PolicyVersion>) -> Result<PolicyVers
     version.map(Into::into).ok_or_else(|| Malformed::field("version", "missing", "a policy version"))
 }
 
-pub(crate) fn check_small(what: &'static str, bytes: usize) -> Result<(), Malformed> {
-    if bytes > SMALL_BYTES_MAX {
-        return Err(Malformed::TooLarge { what, bytes, limit: SMALL_BYTES_MAX });
-    }
-    Ok(())
-}
-
-/// A width takes one byte here and four once it is decoded, so their number is looked at first.
+/// Checks the number of widths before decoding, because one encoded byte becomes four.
 fn check_hidden_count(bytes: &[u8]) -> Result<(), Malformed> {
     const HIDDEN_FIELD: u32 = 5;
     let mut widths = 0;
-    scan::all("policy bundle", Cursor::whole(bytes), |field| {
+    scan::all(BUNDLE, Cursor::whole(bytes), |field| {
         if field.number == HIDDEN_FIELD {
-            // Packed, or one by one.
+            // Packed, or one field each.
             widths += field.bytes.map_or(1, |packed| packed.remaining().max(1));
         }
     })?;
-    // A width of up to five bytes each.
+    // A width takes at most five bytes.
     if widths > 5 * HIDDEN_LAYERS_MAX {
         return Err(Malformed::field(
             "hidden",
@@ -206,20 +200,6 @@ fn check_hidden_count(bytes: &[u8]) -> Result<(), Malformed> {
         ));
     }
     Ok(())
-}
-
-fn check_size(bytes: usize) -> Result<(), Malformed> {
-    if bytes > BUNDLE_BYTES_MAX {
-        return Err(Malformed::TooLarge { what: "policy bundle", bytes, limit: BUNDLE_BYTES_MAX });
-    }
-    Ok(())
-}
-
-fn width(field: &'static str, value: u32) -> Result<(), Malformed> {
-    if (1..=WIDTH_MAX).contains(&value) {
-        return Ok(());
-    }
-    Err(Malformed::field(field, value, format!("1 to {WIDTH_MAX}")))
 }
 
 #[cfg(test)]
@@ -246,14 +226,14 @@ mod tests {
     }
 
     #[test]
-    fn bundle_and_announcement_survive_the_wire() {
+    fn bundle_and_announcement_round_trip() {
         assert_eq!(PolicyBundle::decode(sample().encode().unwrap()).unwrap(), sample());
         let announcement = PolicyAnnouncement { version: sample().version, checksum: 5 };
         assert_eq!(PolicyAnnouncement::decode(&announcement.encode()).unwrap(), announcement);
     }
 
     #[test]
-    fn wrong_statistics_are_named() {
+    fn the_error_names_the_bad_field() {
         let bad = PolicyBundle { observation_mean: vec![1.0], ..sample() };
         assert!(bad.encode().unwrap_err().to_string().contains("observation_mean"));
         let bad = PolicyBundle { observation_inverse_std: vec![1.0, f32::NAN], ..sample() };

@@ -1,37 +1,37 @@
-//! What people and scripts ask a learner, and what it answers.
+//! Commands to a learner, and its replies.
 
 use prost::Message;
 
 use crate::{
-    Malformed, bundle,
+    Malformed, check_size,
     ident::check_ident,
-    limits::{CONTROL_VALUE_CHARS_MAX, STATUS_BYTES_MAX},
+    limits::{CONTROL_VALUE_CHARS_MAX, SMALL_BYTES_MAX, STATUS_BYTES_MAX},
     wire,
 };
 
 pub use wire::{ActorStatus, Command, ControlReply, ControlRequest, Phase, RunStatus};
 
 impl ControlRequest {
-    /// A command that needs nothing but its name.
+    /// Returns a request without arguments.
     pub fn plain(command: Command) -> Self {
         Self { command: command.into(), ..Self::default() }
     }
 
-    /// Asks for another value of one key of the configuration.
+    /// Returns a request to set one configuration key.
     pub fn set(key: &str, value: &str) -> Self {
         Self { command: Command::Set.into(), key: key.to_string(), value: value.to_string() }
     }
 
-    /// Protobuf bytes.
+    /// Encodes as protobuf.
     pub fn to_bytes(&self) -> Vec<u8> {
         self.encode_to_vec()
     }
 
-    /// Reads and checks protobuf bytes from a stranger.
+    /// Decodes and checks untrusted protobuf bytes.
     pub fn decode_checked(bytes: &[u8]) -> Result<Self, Malformed> {
-        const WHAT: &str = "control request";
-        bundle::check_small(WHAT, bytes.len())?;
-        let request = Self::decode(bytes).map_err(|why| Malformed::Undecodable { what: WHAT, why: why.to_string() })?;
+        const KIND: &str = "control request";
+        check_size(KIND, bytes.len(), SMALL_BYTES_MAX)?;
+        let request = Self::decode(bytes).map_err(Malformed::undecodable(KIND))?;
         if request.command() == Command::Unspecified {
             return Err(Malformed::field("command", request.command, "1 to 6"));
         }
@@ -46,18 +46,16 @@ impl ControlRequest {
 }
 
 impl ControlReply {
-    /// Protobuf bytes.
+    /// Encodes as protobuf.
     pub fn to_bytes(&self) -> Vec<u8> {
         self.encode_to_vec()
     }
 
-    /// Reads and checks protobuf bytes from a stranger.
+    /// Decodes and checks untrusted protobuf bytes.
     pub fn decode_checked(bytes: &[u8]) -> Result<Self, Malformed> {
-        const WHAT: &str = "control reply";
-        if bytes.len() > STATUS_BYTES_MAX {
-            return Err(Malformed::TooLarge { what: WHAT, bytes: bytes.len(), limit: STATUS_BYTES_MAX });
-        }
-        let reply = Self::decode(bytes).map_err(|why| Malformed::Undecodable { what: WHAT, why: why.to_string() })?;
+        const KIND: &str = "control reply";
+        check_size(KIND, bytes.len(), STATUS_BYTES_MAX)?;
+        let reply = Self::decode(bytes).map_err(Malformed::undecodable(KIND))?;
         let Some(status) = &reply.status else {
             return Err(Malformed::field("status", "absent", "the status of the run"));
         };
@@ -74,11 +72,11 @@ mod tests {
     use super::*;
 
     #[test]
-    fn requests_survive_and_nonsense_is_refused() {
+    fn requests_round_trip_and_bad_ones_are_refused() {
         let request = ControlRequest::set("ppo.target_kl", "0.02");
         assert_eq!(ControlRequest::decode_checked(&request.to_bytes()), Ok(request));
-        let nothing = ControlRequest::default();
-        assert!(ControlRequest::decode_checked(&nothing.to_bytes()).unwrap_err().to_string().contains("`command`"));
+        let empty = ControlRequest::default();
+        assert!(ControlRequest::decode_checked(&empty.to_bytes()).unwrap_err().to_string().contains("`command`"));
         let unknown = ControlRequest { command: 99, ..ControlRequest::default() };
         assert!(ControlRequest::decode_checked(&unknown.to_bytes()).is_err());
         let long = ControlRequest::set("ppo.target_kl", &"9".repeat(CONTROL_VALUE_CHARS_MAX + 1));
@@ -86,7 +84,7 @@ mod tests {
     }
 
     #[test]
-    fn replies_survive_and_names_are_checked() {
+    fn replies_round_trip_and_names_are_checked() {
         let actor = ActorStatus { name: "actor-0".into(), alive: true, ..ActorStatus::default() };
         let status = RunStatus { run: "walk-1".into(), actors: vec![actor], ..RunStatus::default() };
         let mut reply = ControlReply { done: true, text: "paused".into(), status: Some(status) };

@@ -1,17 +1,17 @@
-//! What became of a policy in an evaluation.
+//! Results of evaluations.
 
 use prost::Message;
 
-use crate::{Malformed, PolicyVersion, bundle, ident::check_ident, wire};
+use crate::{Malformed, PolicyVersion, bundle, check_size, ident::check_ident, limits::SMALL_BYTES_MAX, wire};
 
-/// The outcome of deterministic episodes of one policy.
+/// Results of deterministic episodes of one policy.
 #[derive(Clone, Debug, PartialEq)]
 pub struct EvaluationReport {
-    /// The run.
+    /// Name of the run.
     pub run: String,
-    /// Who evaluated.
+    /// Name of the evaluator.
     pub evaluator: String,
-    /// The policy.
+    /// Version of the policy.
     pub version: PolicyVersion,
     /// Episodes played, at least 1.
     pub episodes: u32,
@@ -21,16 +21,16 @@ pub struct EvaluationReport {
     pub return_std: f64,
     /// Mean length (control steps).
     pub length_mean: f64,
-    /// Mean distance forward (m).
+    /// Mean forward distance (m).
     pub distance_mean_m: f64,
-    /// Distance over time, over all episodes (m/s).
+    /// Total distance over total time (m/s).
     pub velocity_mean_mps: f64,
     /// Episodes that ended with a fall.
     pub falls: u32,
 }
 
 impl EvaluationReport {
-    /// Protobuf bytes.
+    /// Encodes as protobuf.
     pub fn encode(&self) -> Vec<u8> {
         wire::EvaluationReport {
             run: self.run.clone(),
@@ -47,12 +47,11 @@ impl EvaluationReport {
         .encode_to_vec()
     }
 
-    /// Reads and checks protobuf bytes from a stranger.
+    /// Decodes and checks untrusted protobuf bytes.
     pub fn decode(bytes: &[u8]) -> Result<Self, Malformed> {
-        const WHAT: &str = "evaluation report";
-        bundle::check_small(WHAT, bytes.len())?;
-        let message = wire::EvaluationReport::decode(bytes)
-            .map_err(|why| Malformed::Undecodable { what: WHAT, why: why.to_string() })?;
+        const KIND: &str = "evaluation report";
+        check_size(KIND, bytes.len(), SMALL_BYTES_MAX)?;
+        let message = wire::EvaluationReport::decode(bytes).map_err(Malformed::undecodable(KIND))?;
         check_ident("run", &message.run)?;
         check_ident("evaluator", &message.evaluator)?;
         for (field, value) in [
@@ -92,7 +91,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn reports_survive_and_nonsense_is_refused() {
+    fn reports_round_trip_and_bad_ones_are_refused() {
         let report = EvaluationReport {
             run: "walk-1".into(),
             evaluator: "evaluator".into(),
@@ -106,7 +105,7 @@ mod tests {
             falls: 1,
         };
         assert_eq!(EvaluationReport::decode(&report.encode()), Ok(report.clone()));
-        let spoil: [fn(&mut EvaluationReport); 6] = [
+        let corruptions: [fn(&mut EvaluationReport); 6] = [
             |report| report.run = "a/b".into(),
             |report| report.evaluator = String::new(),
             |report| report.episodes = 0,
@@ -114,9 +113,9 @@ mod tests {
             |report| report.return_mean = f64::NAN,
             |report| report.velocity_mean_mps = f64::INFINITY,
         ];
-        for spoil in spoil {
+        for corrupt in corruptions {
             let mut bad = report.clone();
-            spoil(&mut bad);
+            corrupt(&mut bad);
             assert!(EvaluationReport::decode(&bad.encode()).is_err(), "{bad:?}");
         }
         assert!(EvaluationReport::decode(b"no protobuf").is_err());

@@ -1,5 +1,5 @@
-//! TensorBoard's event messages, and those of its HPARAMS tab: the parts of its schemas that scalars, texts, histograms
-//! and hyperparameters need. They go to files and never to the bus.
+//! Messages of TensorBoard's event files and HPARAMS tab: the parts that scalars, texts, histograms and hyperparameters
+//! need.
 
 use prost::Message;
 
@@ -11,19 +11,19 @@ pub use crate::wire_tensorboard::{
 };
 
 impl Event {
-    /// Protobuf bytes.
+    /// Encodes as protobuf.
     pub fn to_bytes(&self) -> Vec<u8> {
         self.encode_to_vec()
     }
 
-    /// Reads protobuf bytes.
+    /// Decodes protobuf bytes.
     pub fn from_bytes(bytes: &[u8]) -> Result<Self, Malformed> {
-        Self::decode(bytes).map_err(|why| Malformed::Undecodable { what: "event", why: why.to_string() })
+        Self::decode(bytes).map_err(Malformed::undecodable("event"))
     }
 }
 
 impl HparamsData {
-    /// Protobuf bytes.
+    /// Encodes as protobuf.
     pub fn to_bytes(&self) -> Vec<u8> {
         self.encode_to_vec()
     }

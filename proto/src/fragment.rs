@@ -4,33 +4,33 @@ use bytes::{Buf, BufMut, Bytes};
 use prost::Message;
 
 use crate::{
-    ActorState, Malformed, PolicyVersion, Precision,
+    ActorState, Malformed, PolicyVersion, Precision, check_range, check_size,
     ident::check_ident,
     limits::{ENVS_MAX, FRAGMENT_BYTES_MAX, SEQUENCE_MAX, STEPS_MAX, WIDTH_MAX},
     pieces::Cursor,
     planes, scan, wire,
 };
 
-/// Flag bit of a transition after which the episode was over by rule of the task.
+/// Flag bit of a transition that ended the episode by a rule of the task.
 pub const TERMINATED: u8 = 1;
-/// Flag bit of a transition after which the episode was cut off by the time limit.
+/// Flag bit of a transition that ended the episode by the time limit.
 pub const TRUNCATED: u8 = 2;
 
-/// Why an episode ended.
+/// Cause of an episode's end.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum EndCause {
-    /// The torso left its healthy range.
+    /// The torso left its healthy range of height.
     Fell,
-    /// The greatest length was reached.
+    /// The episode reached its maximum length.
     TimeLimit,
-    /// The physics gave a number that is not finite.
+    /// The physics produced an infinite or NaN number.
     NonFinite,
-    /// It was over by a rule of an external task.
+    /// A rule of an external task ended the episode.
     Terminated,
 }
 
 impl EndCause {
-    /// The word that stands in JSON.
+    /// Returns the name used in JSON.
     pub fn name(self) -> &'static str {
         match self {
             Self::Fell => "fell",
@@ -41,33 +41,33 @@ impl EndCause {
     }
 }
 
-/// A finished episode.
+/// Finished episode.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Episode {
     /// Sum of unscaled rewards.
     pub return_sum: f64,
     /// Control steps.
     pub length: u32,
-    /// Forward distance between start and end in metres.
+    /// Forward distance between start and end (m).
     pub distance_m: f64,
-    /// Distance over time.
+    /// Distance over time (m/s).
     pub velocity_mean_mps: f64,
-    /// Why it ended.
+    /// Cause of the end.
     pub cause: EndCause,
 }
 
-/// One fragment. Planes are time-major: entry `[t][n][i]` stands at `((t * N) + n) * width + i`.
+/// Rollout fragment. Planes are time-major: entry `[t][n][i]` is at `((t * N) + n) * width + i`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Fragment {
-    /// The run it belongs to.
+    /// Name of the run.
     pub run: String,
-    /// Who sent it.
+    /// Name of the actor.
     pub actor: String,
-    /// Which process of that name.
+    /// Process of that name.
     pub actor_incarnation: u64,
-    /// Counts the fragments of this incarnation from 1.
+    /// Number of the fragment within this incarnation, from 1.
     pub sequence: u64,
-    /// The policy that chose the actions.
+    /// Version of the policy that chose the actions.
     pub version: PolicyVersion,
     /// Hash over configuration and model.
     pub config_hash: u64,
@@ -79,34 +79,34 @@ pub struct Fragment {
     pub observation_size: u32,
     /// Entries of one action.
     pub action_size: u32,
-    /// `[T][N][observation_size]`, as the policy saw them before normalisation.
+    /// `[T][N][observation_size]`, before normalisation.
     pub observations: Vec<f32>,
     /// `[T][N][action_size]`, before clipping, in units of the action range.
     pub actions: Vec<f32>,
-    /// `[T][N]`, of the unclipped actions.
+    /// `[T][N]`, log-probabilities of the unclipped actions.
     pub log_probs: Vec<f32>,
     /// `[T][N]`, unscaled.
     pub rewards: Vec<f32>,
     /// `[T][N]`, bits [`TERMINATED`] and [`TRUNCATED`].
     pub flags: Vec<u8>,
-    /// `[K][observation_size]`: see [`Fragment::needs_last_observation`] for which.
+    /// `[K][observation_size]`; [`Fragment::needs_last_observation`] selects them.
     pub last_observations: Vec<f32>,
-    /// Episodes that ended within.
+    /// Episodes that ended in this fragment.
     pub episodes: Vec<Episode>,
-    /// The sender will not send anything up to this sequence number again: it is durable, or dropped by rule.
+    /// Sequence number up to which all fragments are durable or dropped; the sender will not send them again.
     pub settled_through: u64,
-    /// Where the actor is after this fragment; only in deterministic runs.
+    /// State of the actor after this fragment; only in deterministic runs.
     pub actor_state: Option<ActorState>,
 }
 
 impl Fragment {
-    /// T × N.
+    /// Returns T × N.
     pub fn transitions(&self) -> usize {
         self.steps as usize * self.envs as usize
     }
 
-    /// Whether step `t` of an environment with these flags carries its true last observation: where the episode was cut
-    /// off, and at the fragment's end unless it was terminated.
+    /// Returns whether step `t` of an environment with these flags carries its true last observation: at truncations, and
+    /// at the fragment's end unless the episode terminated.
     pub fn needs_last_observation(flags: u8, t: u32, steps: u32) -> bool {
         flags & TRUNCATED != 0 || (t + 1 == steps && flags & TERMINATED == 0)
     }
@@ -120,14 +120,14 @@ impl Fragment {
             .count()
     }
 
-    /// Checks shapes, ranges and numbers; called before encoding and after decoding.
+    /// Checks shapes, ranges and numbers, before encoding and after decoding.
     pub fn check(&self) -> Result<(), Malformed> {
         check_ident("run", &self.run)?;
         check_ident("actor", &self.actor)?;
-        in_range("steps", self.steps, STEPS_MAX)?;
-        in_range("envs", self.envs, ENVS_MAX)?;
-        in_range("observation_size", self.observation_size, WIDTH_MAX)?;
-        in_range("action_size", self.action_size, WIDTH_MAX)?;
+        check_range("steps", self.steps, STEPS_MAX)?;
+        check_range("envs", self.envs, ENVS_MAX)?;
+        check_range("observation_size", self.observation_size, WIDTH_MAX)?;
+        check_range("action_size", self.action_size, WIDTH_MAX)?;
         if !(1..=SEQUENCE_MAX).contains(&self.sequence) {
             return Err(Malformed::field("sequence", self.sequence, format!("1 to {SEQUENCE_MAX}")));
         }
@@ -174,12 +174,12 @@ impl Fragment {
         Ok(())
     }
 
-    /// Protobuf bytes, with observations as they are.
+    /// Encodes as protobuf with observations in single precision.
     pub fn encode(&self) -> Result<Vec<u8>, Malformed> {
         self.encode_as(Precision::F32)
     }
 
-    /// Protobuf bytes, with observations that are rounded to this precision already.
+    /// Encodes as protobuf; the observations must already be rounded to `precision`.
     pub fn encode_as(&self, precision: Precision) -> Result<Vec<u8>, Malformed> {
         self.check()?;
         let message = wire::Fragment {
@@ -205,31 +205,30 @@ impl Fragment {
             observation_precision: wire::Precision::from(precision).into(),
         };
         let bytes = message.encode_to_vec();
-        check_size(bytes.len())?;
+        check_size("fragment", bytes.len(), FRAGMENT_BYTES_MAX)?;
         Ok(bytes)
     }
 
-    /// Reads and checks protobuf bytes from a stranger.
+    /// Decodes and checks untrusted protobuf bytes.
     pub fn decode(bytes: impl AsRef<[u8]>) -> Result<Self, Malformed> {
         Self::decode_pieces(&[bytes.as_ref()])
     }
 
-    /// The same for bytes that lie in several pieces, which are read where they are.
+    /// Decodes and checks untrusted bytes in several pieces, without joining them.
     pub fn decode_pieces(pieces: &[&[u8]]) -> Result<Self, Malformed> {
         let bytes = Cursor::new(pieces);
-        check_size(bytes.remaining())?;
+        check_size("fragment", bytes.remaining(), FRAGMENT_BYTES_MAX)?;
         let Parts { planes: [observations, actions, log_probs, rewards, last_observations], others } =
             Parts::of(bytes)?;
-        let message = wire::Fragment::decode(Bytes::from(others))
-            .map_err(|why| Malformed::Undecodable { what: "fragment", why: why.to_string() })?;
-        in_range("steps", message.steps, STEPS_MAX)?;
-        in_range("envs", message.envs, ENVS_MAX)?;
-        in_range("observation_size", message.observation_size, WIDTH_MAX)?;
-        in_range("action_size", message.action_size, WIDTH_MAX)?;
+        let message = wire::Fragment::decode(Bytes::from(others)).map_err(Malformed::undecodable("fragment"))?;
+        check_range("steps", message.steps, STEPS_MAX)?;
+        check_range("envs", message.envs, ENVS_MAX)?;
+        check_range("observation_size", message.observation_size, WIDTH_MAX)?;
+        check_range("action_size", message.action_size, WIDTH_MAX)?;
         let rows = message.steps as usize * message.envs as usize;
         let (width, action) = (message.observation_size as usize, message.action_size as usize);
         let precision = Precision::try_from(message.observation_precision)?;
-        // Whether the last observations are as many as the flags ask for is checked below, over the whole.
+        // `check` compares the number of last observations with the flags.
         let fragment = Self {
             version: message.version.ok_or_else(|| Malformed::field("version", "missing", "a policy version"))?.into(),
             observations: precision.read("observations", observations, rows * width)?,
@@ -260,8 +259,7 @@ impl Fragment {
     }
 }
 
-/// The incarnation that an encoded fragment claims to be of, read from its first bytes alone; `None` where they do not say.
-/// Whether it is true is another matter.
+/// Reads the unverified incarnation from the first bytes of an encoded fragment; returns `None` if they do not hold it.
 pub fn claimed_incarnation(beginning: &[u8]) -> Option<u64> {
     scan::leading(beginning).find(|field| field.number == INCARNATION_FIELD)?.varint
 }
@@ -270,12 +268,12 @@ const INCARNATION_FIELD: u32 = 3;
 const EPISODES_FIELD: u32 = 17;
 /// Observations, actions, log-probabilities, rewards and last observations.
 const PLANE_FIELDS: [u32; 5] = [11, 12, 13, 14, 16];
-/// What the planes hold of one transition at least: an entry of observation and action each, log-probability, reward, flags.
+/// Smallest size of one transition: an entry each of observation and action, log-probability, reward and flags.
 const TRANSITION_BYTES_MIN: usize = 17;
 
-/// An encoded fragment's planes, which are nearly all of it and stay where they are, and copies of all other fields.
+/// Encoded fragment, split: planes stay in place because they are nearly all of it; other fields are copied.
 struct Parts<'a> {
-    /// In the order of [`PLANE_FIELDS`].
+    /// Planes in the order of [`PLANE_FIELDS`].
     planes: [Cursor<'a>; PLANE_FIELDS.len()],
     others: Vec<u8>,
 }
@@ -287,29 +285,18 @@ impl<'a> Parts<'a> {
         scan::all("fragment", message, |field| {
             episodes += usize::from(field.number == EPISODES_FIELD);
             match (PLANE_FIELDS.iter().position(|plane| *plane == field.number), field.bytes) {
-                // Where a field stands twice, the later one counts.
+                // If a field occurs twice, protobuf uses the later one.
                 (Some(plane), Some(bytes)) => parts.planes[plane] = bytes,
                 _ => parts.others.put(field.encoded),
             }
         })?;
-        // An episode has a transition at least. Decoded it takes far more bytes than it may take here.
+        // An episode has at least one transition, and takes far more bytes decoded than encoded.
         let (bytes, most) = (message.remaining(), message.remaining() / TRANSITION_BYTES_MIN);
         if episodes > most {
             return Err(Malformed::field("episodes", episodes, format!("at most {most} in {bytes} bytes")));
         }
         Ok(parts)
     }
-}
-
-fn check_size(bytes: usize) -> Result<(), Malformed> {
-    if bytes > FRAGMENT_BYTES_MAX {
-        return Err(Malformed::TooLarge { what: "fragment", bytes, limit: FRAGMENT_BYTES_MAX });
-    }
-    Ok(())
-}
-
-fn in_range(field: &'static str, value: u32, max: u32) -> Result<(), Malformed> {
-    if (1..=max).contains(&value) { Ok(()) } else { Err(Malformed::field(field, value, format!("1 to {max}"))) }
 }
 
 fn plane(field: &'static str, numbers: &[f32], count: usize) -> Result<(), Malformed> {
@@ -327,7 +314,7 @@ fn check_flags(flags: &[u8], rows: usize) -> Result<(), Malformed> {
     if flags.len() != rows {
         return Err(Malformed::field("flags", format!("{} bytes long", flags.len()), format!("{rows} bytes")));
     }
-    // A transition that ended both ways has no defined bootstrap.
+    // A transition that is both terminated and truncated has no defined bootstrap.
     match flags.iter().find(|flags| **flags > TRUNCATED) {
         Some(bad) => Err(Malformed::field("flags", bad, "0, 1 (terminated) or 2 (truncated)")),
         None => Ok(()),

@@ -19,7 +19,7 @@ pub(crate) fn sample() -> Fragment {
         actions: vec![0.5; 6],
         log_probs: vec![-1.0; 6],
         rewards: vec![5.0; 6],
-        // Env 0 runs on, env 1 is truncated at t = 0, env 2 is terminated at t = 1.
+        // Environment 0 continues, 1 is truncated at t = 0, 2 terminates at t = 1.
         flags: vec![0, TRUNCATED, 0, 0, 0, TERMINATED],
         last_observations: vec![1.0; 3 * 2],
         episodes: vec![Episode {
@@ -35,23 +35,23 @@ pub(crate) fn sample() -> Fragment {
 }
 
 #[test]
-fn a_fragment_survives_the_wire() {
+fn a_fragment_round_trips() {
     let fragment = sample();
     assert_eq!(Fragment::decode(fragment.encode().unwrap()).unwrap(), fragment);
 }
 
 proptest! {
     #[test]
-    fn pieces_make_no_difference(places in prop::collection::vec(any::<usize>(), 0..12), half in any::<bool>()) {
+    fn decoding_does_not_depend_on_pieces(positions in prop::collection::vec(any::<usize>(), 0..12), half in any::<bool>()) {
         let precision = if half { Precision::F16 } else { Precision::F32 };
         let bytes = sample().encode_as(precision).unwrap();
-        let pieces = crate::pieces::tests::cut(&bytes, places);
+        let pieces = crate::pieces::tests::cut(&bytes, positions);
         prop_assert_eq!(Fragment::decode_pieces(&pieces).unwrap(), sample());
     }
 }
 
 #[test]
-fn planes_are_what_the_schema_calls_them() {
+fn plane_numbers_match_the_schema() {
     let planes = wire::Fragment {
         observations: vec![1].into(),
         actions: vec![2].into(),
@@ -67,19 +67,19 @@ fn planes_are_what_the_schema_calls_them() {
 }
 
 #[test]
-fn a_plane_that_is_a_number_is_refused() {
+fn an_integer_in_place_of_a_plane_is_refused() {
     // Field 11 as an integer.
     let refused = Fragment::decode([0x58, 7]).unwrap_err().to_string();
     assert!(refused.contains("cannot be decoded") && refused.contains("observations"), "{refused}");
 }
 
 #[test]
-fn half_precision_survives_the_wire_and_says_what_it_is() {
+fn half_precision_round_trips_and_names_itself() {
     let fragment = sample();
     let (full, half) = (fragment.encode().unwrap(), fragment.encode_as(Precision::F16).unwrap());
     assert_eq!(Fragment::decode(half.clone()).unwrap(), fragment);
     let numbers = fragment.observations.len() + fragment.last_observations.len();
-    // Two bytes less for each number, and three more to say so: a tag of two and a number of one.
+    // Two bytes less for each number, and three more for the precision: a tag of two and a value of one.
     assert_eq!(half.len(), full.len() - 2 * numbers + 3);
     let unknown = wire::Fragment { observation_precision: 2, ..wire::Fragment::decode(&full[..]).unwrap() };
     let refused = Fragment::decode(unknown.encode_to_vec()).unwrap_err().to_string();
@@ -92,7 +92,7 @@ fn half_precision_survives_the_wire_and_says_what_it_is() {
 }
 
 #[test]
-fn numbers_that_are_not_finite_are_refused_in_either_precision() {
+fn infinite_numbers_are_refused_in_either_precision() {
     for (precision, number) in [(Precision::F32, &[0, 0, 0x80, 0x7f][..]), (Precision::F16, &[0, 0x7c][..])] {
         let mut message = wire::Fragment::decode(&sample().encode_as(precision).unwrap()[..]).unwrap();
         let mut plane = message.observations.to_vec();
@@ -104,8 +104,8 @@ fn numbers_that_are_not_finite_are_refused_in_either_precision() {
 }
 
 #[test]
-fn last_observations_follow_the_flags() {
-    // One for the truncation, and two at the end: environments 0 and 1 run on, environment 2 was terminated.
+fn the_number_of_last_observations_follows_from_the_flags() {
+    // One for the truncation, and two at the end, where environments 0 and 1 continue.
     assert_eq!(sample().last_observation_count(), 3);
     let mut short = sample();
     short.last_observations.truncate(4);
@@ -113,7 +113,7 @@ fn last_observations_follow_the_flags() {
 }
 
 #[test]
-fn each_fault_is_named() {
+fn the_error_names_the_bad_field() {
     let refuse = |change: fn(&mut Fragment)| {
         let mut fragment = sample();
         change(&mut fragment);
@@ -134,17 +134,17 @@ fn each_fault_is_named() {
 }
 
 #[test]
-fn too_large_is_refused_before_decoding() {
+fn oversized_fragments_are_refused_before_decoding() {
     let huge = Bytes::from(vec![0xff; FRAGMENT_BYTES_MAX + 1]);
     assert!(matches!(Fragment::decode(huge), Err(Malformed::TooLarge { .. })));
 }
 
 #[test]
-fn memory_is_not_sold_cheaply() {
+fn many_empty_episodes_are_refused_before_decoding() {
     // Empty episodes: three bytes each, and forty once decoded.
-    let bomb = [0x8a, 1, 0].repeat(FRAGMENT_BYTES_MAX / 3);
-    let why = Fragment::decode(bomb).unwrap_err().to_string();
-    assert!(why.contains("`episodes`") && why.contains("at most"), "{why}");
+    let episodes = [0x8a, 1, 0].repeat(FRAGMENT_BYTES_MAX / 3);
+    let error = Fragment::decode(episodes).unwrap_err().to_string();
+    assert!(error.contains("`episodes`") && error.contains("at most"), "{error}");
 }
 
 #[test]
@@ -153,13 +153,13 @@ fn the_incarnation_is_read_from_the_first_bytes() {
     assert_eq!(claimed_incarnation(&bytes[..16]), Some(7));
     assert_eq!(claimed_incarnation(&bytes[..6]), None);
     assert_eq!(claimed_incarnation(&[0xff; 64]), None);
-    // A text where the number should be.
+    // A string in place of the number.
     assert_eq!(claimed_incarnation(&[0x1a, 1, b'x']), None);
 }
 
 proptest! {
     #[test]
-    fn noise_never_panics(bytes in prop::collection::vec(any::<u8>(), 0..400)) {
+    fn random_bytes_never_panic(bytes in prop::collection::vec(any::<u8>(), 0..400)) {
         let _ = Fragment::decode(bytes);
     }
 

@@ -1,14 +1,14 @@
-//! Names that may stand in a key of the bus.
+//! Names that are valid in a bus key.
 
 use crate::{
     Malformed,
     limits::{IDENT_CHARS_MAX, TASK_NAME_CHARS_MAX},
 };
 
-/// How names of this program's own tasks begin.
+/// Prefix of the names of built-in tasks.
 pub const OWN_TASKS: &str = "treadmill/";
 
-/// Accepts `[a-z0-9_-]{1,64}`: nothing that a key expression would read as structure or a wildcard.
+/// Accepts `[a-z0-9_-]{1,64}`, which contains no separator or wildcard of a key expression.
 pub fn check_ident(field: &'static str, name: &str) -> Result<(), Malformed> {
     let allowed = |c: u8| c.is_ascii_lowercase() || c.is_ascii_digit() || c == b'_' || c == b'-';
     if (1..=IDENT_CHARS_MAX).contains(&name.len()) && name.bytes().all(allowed) {
@@ -18,7 +18,7 @@ pub fn check_ident(field: &'static str, name: &str) -> Result<(), Malformed> {
     Err(Malformed::field(field, format!("`{shown}`"), "1 to 64 of the characters a-z, 0-9, _ and -"))
 }
 
-/// Accepts a task's name, as in `gymnasium/Humanoid-v5`. Names that begin with [`OWN_TASKS`] are for this program to give.
+/// Accepts the name of an external task, such as `gymnasium/Humanoid-v5`; [`OWN_TASKS`] is reserved for built-in tasks.
 pub fn check_task_name(field: &'static str, name: &str) -> Result<(), Malformed> {
     let allowed = |c: u8| c.is_ascii_alphanumeric() || b"_-./:".contains(&c);
     let fits = (1..=TASK_NAME_CHARS_MAX).contains(&name.len()) && name.bytes().all(allowed);
@@ -45,13 +45,13 @@ mod tests {
     }
 
     #[test]
-    fn names_of_tasks_are_plain_and_not_our_own() {
-        for fine in ["gymnasium/Humanoid-v5", "gymnasium/my.module:Walk-v0", "x"] {
-            assert!(check_task_name("name", fine).is_ok(), "{fine}");
+    fn task_names_are_plain_and_without_the_reserved_prefix() {
+        for good in ["gymnasium/Humanoid-v5", "gymnasium/my.module:Walk-v0", "x"] {
+            assert!(check_task_name("name", good).is_ok(), "{good}");
         }
         for bad in ["", "a b", "treadmill/humanoid-v5", "a\n", "é", "*", &"x".repeat(129)] {
-            let why = check_task_name("name", bad).unwrap_err().to_string();
-            assert!(why.contains("`name`") && !why.contains('\n'), "{why}");
+            let error = check_task_name("name", bad).unwrap_err().to_string();
+            assert!(error.contains("`name`") && !error.contains('\n'), "{error}");
         }
     }
 }

@@ -1,31 +1,31 @@
-//! The objects on the JSON topics, readable from any language.
+//! Objects on the JSON topics.
 
 use serde::{Deserialize, Serialize};
 
-use crate::{Episode, Malformed, bundle::check_small};
+use crate::{Episode, Malformed, check_size, limits::SMALL_BYTES_MAX};
 
 /// `treadmill/{run}/metrics/{group}/{name}`, and a line of `metrics.jsonl`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Metric {
-    /// The run.
+    /// Name of the run.
     pub run: String,
-    /// Group and name, as in `rollout/ep_rew_mean`.
+    /// Group and name, such as `rollout/ep_rew_mean`.
     pub tag: String,
     /// Environment steps so far.
     pub step: u64,
-    /// The scalar.
+    /// Value of the scalar.
     pub value: f64,
     /// Seconds since 1970.
     pub time_unix_s: f64,
 }
 
 impl Metric {
-    /// The object as it stands on the topic and, on a line of its own, in the file.
+    /// Encodes as one JSON object, for the topic and for a line of the file.
     pub fn to_json(&self) -> Vec<u8> {
         to_json(self)
     }
 
-    /// Reads an object from a stranger.
+    /// Decodes an untrusted JSON object.
     pub fn from_json(bytes: &[u8]) -> Result<Self, Malformed> {
         from_json("metric", bytes)
     }
@@ -36,32 +36,32 @@ fn to_json(object: &impl Serialize) -> Vec<u8> {
 }
 
 fn from_json<T: for<'a> Deserialize<'a>>(what: &'static str, bytes: &[u8]) -> Result<T, Malformed> {
-    check_small(what, bytes.len())?;
-    serde_json::from_slice(bytes).map_err(|why| Malformed::Undecodable { what, why: why.to_string() })
+    check_size(what, bytes.len(), SMALL_BYTES_MAX)?;
+    serde_json::from_slice(bytes).map_err(Malformed::undecodable(what))
 }
 
 /// `treadmill/{run}/episodes/{actor}`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct EpisodeReport {
-    /// The run.
+    /// Name of the run.
     pub run: String,
-    /// Which actor.
+    /// Name of the actor.
     pub actor: String,
     /// Sum of unscaled rewards.
     #[serde(rename = "return")]
     pub return_sum: f64,
     /// Control steps.
     pub length: u32,
-    /// Forward distance in metres.
+    /// Forward distance (m).
     pub distance_m: f64,
-    /// Distance over time.
+    /// Distance over time (m/s).
     pub velocity_mean_mps: f64,
     /// `fell`, `time_limit`, `non_finite` or `terminated`.
     pub cause: String,
 }
 
 impl EpisodeReport {
-    /// The report of one episode.
+    /// Creates the report of one episode.
     pub fn new(run: &str, actor: &str, episode: &Episode) -> Self {
         Self {
             run: run.to_string(),
@@ -74,12 +74,12 @@ impl EpisodeReport {
         }
     }
 
-    /// The object as it stands on the topic.
+    /// Encodes as one JSON object.
     pub fn to_json(&self) -> Vec<u8> {
         to_json(self)
     }
 
-    /// Reads an object from a stranger.
+    /// Decodes an untrusted JSON object.
     pub fn from_json(bytes: &[u8]) -> Result<Self, Malformed> {
         from_json("episode", bytes)
     }
@@ -91,7 +91,7 @@ mod tests {
     use crate::EndCause;
 
     #[test]
-    fn an_episode_reads_as_documented() {
+    fn an_episode_has_the_documented_form() {
         let episode =
             Episode { return_sum: 1.5, length: 2, distance_m: 0.25, velocity_mean_mps: 0.5, cause: EndCause::Fell };
         assert_eq!(
@@ -101,9 +101,9 @@ mod tests {
     }
 
     #[test]
-    fn each_end_of_an_episode_has_the_word_that_is_documented() {
-        let words =
+    fn end_causes_have_the_documented_names() {
+        let names =
             [EndCause::Fell, EndCause::TimeLimit, EndCause::NonFinite, EndCause::Terminated].map(EndCause::name);
-        assert_eq!(words, ["fell", "time_limit", "non_finite", "terminated"]);
+        assert_eq!(names, ["fell", "time_limit", "non_finite", "terminated"]);
     }
 }

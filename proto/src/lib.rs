@@ -1,25 +1,25 @@
-//! What crosses a process boundary: schemas, encoding and limits. No I/O, no tensors, no async.
+//! Messages between processes: schemas, encoding and limits. No I/O, no tensors, no async.
 //!
 //! # Layout
-//! - [`wire`]: the structures generated from `schema/*.proto`.
-//! - [`fragment`]: rollouts, checked on both sides.
-//! - [`precision`]: how exactly observations travel.
-//! - [`prepared`]: one fragment under many names.
-//! - [`bundle`]: the policy that the learner hands out.
-//! - [`actor_state`]: where an actor is, for deterministic runs.
-//! - [`receipt`]: the learner's answer to a fragment.
-//! - [`stats`]: what an actor tells about itself.
-//! - [`pose`]: how an actor's body stands and moves.
-//! - [`task`]: what an actor of an external task registers.
-//! - [`evaluation`]: what became of a policy in an evaluation.
-//! - [`control`]: what people and scripts ask a learner.
-//! - [`json`]: the objects on the JSON topics.
-//! - [`event_file`]: TensorBoard's messages.
-//! - [`onnx`]: a policy as other programs run it.
-//! - [`ident`]: names that may stand in a key.
-//! - [`limits`]: what is refused before it is decoded.
+//! - [`wire`]: structures generated from `schema/*.proto`.
+//! - [`fragment`]: rollout fragments, checked on both sides.
+//! - [`precision`]: precision of observations on the wire.
+//! - [`prepared`]: one encoded fragment sent under many names.
+//! - [`bundle`]: policy bundles and their announcements.
+//! - [`actor_state`]: complete state of an actor, for deterministic runs.
+//! - [`receipt`]: answers of the learner to fragments.
+//! - [`stats`]: statistics of an actor.
+//! - [`pose`]: poses of an actor's body.
+//! - [`task`]: registration of external tasks.
+//! - [`evaluation`]: results of evaluations.
+//! - [`control`]: commands to a learner, and its status.
+//! - [`json`]: objects on the JSON topics.
+//! - [`event_file`]: messages of TensorBoard's event files.
+//! - [`onnx`]: policies as ONNX models.
+//! - [`ident`]: names that are valid in a bus key.
+//! - [`limits`]: size limits, checked before decoding.
 //!
-//! Whatever arrives is hostile until checked: size first, then shape, then numbers.
+//! Received messages are hostile until checked: size first, then shape, then numbers.
 
 pub mod actor_state;
 pub mod bundle;
@@ -72,45 +72,55 @@ pub use receipt::{Outcome, Receipt};
 pub use stats::ActorStats;
 pub use task::{Task, TaskReceipt, TaskRegistration};
 
-/// Why a message was refused.
+/// Refuses a message of more than `limit` bytes.
+fn check_size(what: &'static str, bytes: usize, limit: usize) -> Result<(), Malformed> {
+    if bytes > limit { Err(Malformed::TooLarge { what, bytes, limit }) } else { Ok(()) }
+}
+
+/// Refuses 0 and values above `max`.
+fn check_range(field: &'static str, value: u32, max: u32) -> Result<(), Malformed> {
+    if (1..=max).contains(&value) { Ok(()) } else { Err(Malformed::field(field, value, format!("1 to {max}"))) }
+}
+
+/// Reason for which a message is refused.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum Malformed {
-    /// Larger than its kind may be.
+    /// The message is too large.
     #[error("{what} has {bytes} bytes, more than the {limit} that are allowed")]
     TooLarge {
-        /// Which message.
+        /// Kind of message.
         what: &'static str,
-        /// Its size.
+        /// Size of the message.
         bytes: usize,
-        /// The limit.
+        /// Limit for this kind.
         limit: usize,
     },
-    /// No valid protobuf or JSON.
+    /// The bytes are no valid protobuf or JSON.
     #[error("{what} cannot be decoded: {why}")]
     Undecodable {
-        /// Which message.
+        /// Kind of message.
         what: &'static str,
-        /// What the decoder said.
+        /// Message of the decoder.
         why: String,
     },
     /// A field's value is out of range, missing or of the wrong length.
     #[error("field `{field}` is {value}; expected {expected}")]
     Field {
-        /// The field.
+        /// Name of the field.
         field: &'static str,
-        /// What was found.
+        /// Value found.
         value: String,
-        /// What is allowed.
+        /// Values allowed.
         expected: String,
     },
-    /// A number that is not finite.
+    /// A number is infinite or NaN.
     #[error("field `{field}` holds {value} at index {index}; every number must be finite")]
     NotFinite {
-        /// The field.
+        /// Name of the field.
         field: &'static str,
-        /// Where.
+        /// Position of the number in the field.
         index: usize,
-        /// What was found.
+        /// Value found.
         value: String,
     },
 }
@@ -118,5 +128,10 @@ pub enum Malformed {
 impl Malformed {
     pub(crate) fn field(field: &'static str, value: impl ToString, expected: impl Into<String>) -> Self {
         Self::Field { field, value: value.to_string(), expected: expected.into() }
+    }
+
+    /// Returns a conversion of a decoder's error.
+    pub(crate) fn undecodable<E: ToString>(what: &'static str) -> impl Fn(E) -> Self {
+        move |error| Self::Undecodable { what, why: error.to_string() }
     }
 }

@@ -1,22 +1,22 @@
-//! What is refused before anything is allocated for it.
+//! Size limits, checked before anything is allocated.
 
-/// Largest encoded fragment: below the bus's own limit of 32 MiB per message, above any sensible configuration.
+/// Largest encoded fragment, below the bus's limit of 32 MiB per message.
 pub const FRAGMENT_BYTES_MAX: usize = 30 << 20;
 /// Largest encoded policy bundle.
 pub const BUNDLE_BYTES_MAX: usize = 30 << 20;
-/// Largest encoded state of an actor, which travels in fragments and bundles.
+/// Largest encoded state of an actor, which is part of fragments and bundles.
 pub const ACTOR_STATE_BYTES_MAX: usize = 8 << 20;
-/// Longest model text, as the environment reads it.
+/// Longest model text, equal to the environment's limit.
 pub const MODEL_BYTES_MAX: usize = 4 << 20;
 /// Largest message of any other kind: receipts, statistics, announcements, JSON.
 pub const SMALL_BYTES_MAX: usize = 64 << 10;
 /// Largest statistics message of an actor.
 pub const STATS_BYTES_MAX: usize = 4 << 10;
-/// Largest pose: room for a thousand bodies and their contacts.
+/// Largest pose: about a thousand bodies with their contacts.
 pub const POSE_BYTES_MAX: usize = 64 << 10;
-/// Largest sequence number, so that counting on from one never wraps.
+/// Largest sequence number; counting on from it never overflows.
 pub const SEQUENCE_MAX: u64 = u64::MAX >> 1;
-/// Largest status of a run: some hundred bytes for each actor.
+/// Largest status of a run: a few hundred bytes for each actor.
 pub const STATUS_BYTES_MAX: usize = 4 << 20;
 /// Longest key or value in a request to change the configuration.
 pub const CONTROL_VALUE_CHARS_MAX: usize = 1024;
@@ -26,7 +26,7 @@ pub const STEPS_MAX: u32 = 4096;
 pub const ENVS_MAX: u32 = 65_536;
 /// Largest observation or action vector.
 pub const WIDTH_MAX: u32 = 4096;
-/// Most hidden layers, and the widest of them.
+/// Most hidden layers.
 pub const HIDDEN_LAYERS_MAX: usize = 8;
 /// Largest registration of a task: two ranges of the widest action, and names.
 pub const TASK_BYTES_MAX: usize = SMALL_BYTES_MAX + 2 * 8 * WIDTH_MAX as usize;

@@ -1,17 +1,17 @@
-//! A policy as an ONNX model: raw observations in, actions in the units of the motors out.
+//! Policy as an ONNX model: its input is raw observations, its output actions in the units of the motors.
 //!
 //! ```text
 //! observation ─ Sub mean ─ Mul 1/std ─ Clip ─ (Gemm ─ Elu)… ─ Gemm ─ Clip ±1 ─ Mul half ─ Add centre ─ action
 //! ```
 //!
-//! Operators are those of operator set 13, which every runtime of the last years has. The first dimension of both ends is free:
-//! as many observations at once as one likes.
+//! Operators belong to operator set 13, which current runtimes support. The first dimension of input and output is the
+//! batch.
 
 use prost::Message;
 
 use crate::{planes, wire_onnx as wire};
 
-/// Version of the file format that has operator set 13.
+/// Version of the file format with operator set 13.
 const IR_VERSION: i64 = 7;
 const OPERATORS: i64 = 13;
 const FLOAT32: i32 = 1;
@@ -25,27 +25,27 @@ pub struct Layer<'a> {
     pub bias: &'a [f32],
 }
 
-/// What becomes a model.
+/// Policy to encode as a model.
 #[derive(Clone, Debug)]
 pub struct OnnxPolicy<'a> {
-    /// `[observation]`, taken off first.
+    /// `[observation]`, subtracted first.
     pub mean: &'a [f32],
-    /// `[observation]`, multiplied with then.
+    /// `[observation]`, multiplied second.
     pub inverse_std: &'a [f32],
-    /// Normalised observations are clipped to plus and minus this.
+    /// Bound of normalised observations.
     pub clip: f32,
-    /// From the observation onwards, with ELU between them.
+    /// Layers from the observation to the action, with ELU between them.
     pub layers: Vec<Layer<'a>>,
-    /// `[action]`: what −1 means.
+    /// `[action]`: action at policy output −1.
     pub low: &'a [f32],
-    /// `[action]`: what 1 means.
+    /// `[action]`: action at policy output 1.
     pub high: &'a [f32],
-    /// What else a reader may want to know, as names and values.
+    /// Names and values of the model's metadata.
     pub metadata: Vec<(String, String)>,
 }
 
 impl OnnxPolicy<'_> {
-    /// The bytes of the file. The same policy gives the same bytes.
+    /// Encodes the model file. Equal policies give equal bytes.
     #[must_use]
     pub fn encode(&self) -> Vec<u8> {
         let mut graph = Graph::default();
@@ -71,9 +71,9 @@ impl OnnxPolicy<'_> {
             }
         }
         let x = graph.clip(&x, "share", -1.0, 1.0);
-        let ends = || self.low.iter().zip(self.high);
-        let centre: Vec<f32> = ends().map(|(low, high)| f32::midpoint(*low, *high)).collect();
-        let half: Vec<f32> = ends().map(|(low, high)| high / 2.0 - low / 2.0).collect();
+        let ranges = || self.low.iter().zip(self.high);
+        let centre: Vec<f32> = ranges().map(|(low, high)| f32::midpoint(*low, *high)).collect();
+        let half: Vec<f32> = ranges().map(|(low, high)| high / 2.0 - low / 2.0).collect();
         graph.constant("action_half", &[half.len()], &half);
         graph.constant("action_centre", &[centre.len()], &centre);
         let x = graph.node("Mul", &[&x, "action_half"], "stretched", &[]);
@@ -88,8 +88,8 @@ impl OnnxPolicy<'_> {
                 node: graph.nodes,
                 name: "policy".to_string(),
                 initializer: graph.constants,
-                input: vec![end("observation", self.mean.len())],
-                output: vec![end("action", self.low.len())],
+                input: vec![port("observation", self.mean.len())],
+                output: vec![port("action", self.low.len())],
             }),
             metadata_props: self
                 .metadata
@@ -117,7 +117,7 @@ impl Graph {
         });
     }
 
-    /// An operation whose result has this name, which is given back.
+    /// Adds an operation; returns the name of its output.
     fn node(&mut self, operator: &str, inputs: &[&str], output: &str, attributes: &[wire::AttributeProto]) -> String {
         self.nodes.push(wire::NodeProto {
             input: inputs.iter().map(ToString::to_string).collect(),
@@ -137,8 +137,8 @@ impl Graph {
     }
 }
 
-/// An input or output of `[batch, width]` numbers.
-fn end(name: &str, width: usize) -> wire::ValueInfoProto {
+/// Returns an input or output of shape `[batch, width]`.
+fn port(name: &str, width: usize) -> wire::ValueInfoProto {
     use wire::tensor_shape_proto::{Dimension, dimension::Value};
     let dim = [Value::DimParam("batch".to_string()), Value::DimValue(width as i64)];
     let shape = wire::TensorShapeProto { dim: dim.map(|value| Dimension { value: Some(value) }).to_vec() };

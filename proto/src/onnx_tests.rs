@@ -2,7 +2,7 @@ use std::collections::HashMap;
 
 use super::*;
 
-/// What a runtime does with the graph: the seven operators that there are, over one row of numbers.
+/// Runs the graph on one observation.
 fn run(model: &[u8], observation: &[f32]) -> Vec<f32> {
     let graph = wire::ModelProto::decode(model).unwrap().graph.unwrap();
     let numbers =
@@ -29,7 +29,7 @@ fn run(model: &[u8], observation: &[f32]) -> Vec<f32> {
                     .map(|(row, bias)| row.iter().zip(of[0]).map(|(w, x)| w * x).sum::<f32>() + bias)
                     .collect()
             }
-            other => panic!("{other} is no operator of a policy"),
+            other => panic!("unexpected operator {other}"),
         };
         known.insert(node.output[0].clone(), result);
     }
@@ -37,7 +37,7 @@ fn run(model: &[u8], observation: &[f32]) -> Vec<f32> {
 }
 
 #[test]
-fn a_model_acts_as_computed_by_hand() {
+fn actions_match_a_hand_computation() {
     let policy = OnnxPolicy {
         mean: &[1.0, 2.0],
         inverse_std: &[0.5, 2.0],
@@ -53,10 +53,10 @@ fn a_model_acts_as_computed_by_hand() {
     let model = policy.encode();
     assert_eq!(model, policy.encode());
     // (3 − 1) · 0.5 = 1; (10 − 2) · 2 = 16, clipped to 3. Hidden: 1, and ELU(−3 + 0.5) = e^−2.5 − 1 = −0.917915.
-    // 0.25 − 0.458958 + 0.1 = −0.108958, of a range whose centre is 0.2 and half 0.4.
+    // 0.25 − 0.458958 + 0.1 = −0.108958, in a range with centre 0.2 and half width 0.4.
     let action = run(&model, &[3.0, 10.0]);
     assert!((action[0] - (0.2 - 0.108_958 * 0.4)).abs() < 1e-6, "{action:?}");
-    // Far beyond both ends: the clip of shares. Hidden: 3, and 3 + 0.5 = 3.5; 0.75 + 1.75 + 0.1 = 2.6.
+    // Beyond both bounds. Hidden: 3, and 3 + 0.5 = 3.5; 0.75 + 1.75 + 0.1 = 2.6, clipped to 1.
     assert_eq!(run(&model, &[100.0, -100.0]), [0.6]);
     let read = wire::ModelProto::decode(&model[..]).unwrap();
     assert_eq!((read.opset_import[0].version, read.metadata_props[0].value.as_str()), (OPERATORS, "b"));

@@ -1,10 +1,10 @@
-//! Number planes: raw little-endian bytes. Their length is checked as they are read, their numbers afterwards.
+//! Planes of numbers: raw little-endian bytes. Reading checks their length, [`all_finite`] their numbers.
 
 use bytes::{Buf, Bytes};
 
 use crate::{Malformed, pieces::Cursor};
 
-/// Numbers as little-endian bytes.
+/// Encodes numbers as little-endian bytes.
 pub(crate) fn to_bytes(numbers: &[f32]) -> Bytes {
     if cfg!(target_endian = "little") {
         return Bytes::copy_from_slice(bytemuck::cast_slice(numbers));
@@ -12,12 +12,12 @@ pub(crate) fn to_bytes(numbers: &[f32]) -> Bytes {
     numbers.iter().flat_map(|number| number.to_le_bytes()).collect()
 }
 
-/// Little-endian bytes as exactly `count` numbers, whatever these are.
+/// Decodes exactly `count` little-endian numbers, without checking their values.
 pub(crate) fn from_bytes(field: &'static str, bytes: &[u8], count: usize) -> Result<Vec<f32>, Malformed> {
     read(field, Cursor::whole(bytes), count)
 }
 
-/// The same for bytes wherever they lie.
+/// Decodes exactly `count` little-endian numbers from a cursor, without checking their values.
 pub(crate) fn read(field: &'static str, bytes: Cursor<'_>, count: usize) -> Result<Vec<f32>, Malformed> {
     if Some(bytes.remaining()) != count.checked_mul(4) {
         return Err(Malformed::field(
@@ -29,10 +29,10 @@ pub(crate) fn read(field: &'static str, bytes: Cursor<'_>, count: usize) -> Resu
     Ok(bytes.numbers(f32::from_le_bytes))
 }
 
-/// Refuses infinities and NaN, naming the first.
+/// Refuses infinities and NaN; the error names the first.
 pub(crate) fn all_finite(field: &'static str, numbers: &[f32]) -> Result<(), Malformed> {
-    // Exponents of all ones, and no others, are infinities and NaN. Comparing bits needs no branches and, unlike a sum of
-    // floats, no order, so that it is done for several numbers at once.
+    // Exactly infinities and NaN have an exponent of all ones. Comparing bits needs no branches and no order, so the compiler
+    // vectorises it.
     const EXPONENT: u32 = 0x7f80_0000;
     let bad = |number: &f32| u32::from(number.to_bits() & EXPONENT == EXPONENT);
     if numbers.iter().fold(0, |found, number| found | bad(number)) == 0 {
@@ -47,14 +47,14 @@ mod tests {
     use super::*;
 
     #[test]
-    fn numbers_survive_and_order_is_little_endian() {
+    fn numbers_round_trip_in_little_endian() {
         let bytes = to_bytes(&[1.0, -2.5]);
         assert_eq!(&bytes[..4], &[0, 0, 0x80, 0x3f]);
         assert_eq!(from_bytes("x", &bytes, 2).unwrap(), vec![1.0, -2.5]);
     }
 
     #[test]
-    fn wrong_length_and_nan_are_named() {
+    fn the_error_names_wrong_lengths_and_infinite_numbers() {
         assert!(from_bytes("x", &[0; 7], 2).unwrap_err().to_string().contains("7 bytes"));
         for bad in [f32::NAN, -f32::NAN, f32::INFINITY, f32::NEG_INFINITY] {
             assert!(all_finite("x", &[1.0, bad]).unwrap_err().to_string().contains("index 1"), "{bad}");

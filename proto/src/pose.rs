@@ -1,38 +1,32 @@
-//! How an actor's body stands and moves, for those who watch.
+//! Poses of an actor's body, for observers.
 
 use prost::Message;
 
-use crate::{Malformed, bundle, ident::check_ident, limits::POSE_BYTES_MAX, wire};
+use crate::{Malformed, bundle, check_size, ident::check_ident, limits::POSE_BYTES_MAX, planes::all_finite, wire};
 
 pub use wire::Pose;
 
-/// Numbers of one body in [`Pose::bodies`]: a place and a unit quaternion.
+/// Numbers of one body in [`Pose::bodies`]: a position and a unit quaternion.
 pub const BODY_NUMBERS: usize = 7;
-/// Numbers of one contact in [`Pose::contacts`]: a place and a force.
+/// Numbers of one contact in [`Pose::contacts`]: a position and a force.
 pub const CONTACT_NUMBERS: usize = 6;
-/// An episode of this many seconds is eleven days long.
+/// Longest episode (s), more than eleven days.
 const TIME_MAX_S: f64 = 1e6;
-/// A quaternion's length may be off by this, which no rounding brings about.
+/// Tolerance of a quaternion's length, larger than any rounding error.
 const LENGTH_TOLERANCE: f32 = 1e-3;
 
 impl Pose {
-    /// Protobuf bytes.
-    ///
-    /// # Errors
-    /// [`Malformed`] where it would be refused when it arrives.
+    /// Checks the pose and encodes it as protobuf.
     pub fn to_bytes(&self) -> Result<Vec<u8>, Malformed> {
         self.check()?;
-        check_size(self.encoded_len())?;
+        check_size("pose", self.encoded_len(), POSE_BYTES_MAX)?;
         Ok(self.encode_to_vec())
     }
 
-    /// Reads and checks protobuf bytes from a stranger.
-    ///
-    /// # Errors
-    /// [`Malformed`] names what is wrong.
+    /// Decodes and checks untrusted protobuf bytes.
     pub fn decode_checked(bytes: &[u8]) -> Result<Self, Malformed> {
-        check_size(bytes.len())?;
-        let pose = Self::decode(bytes).map_err(|why| Malformed::Undecodable { what: "pose", why: why.to_string() })?;
+        check_size("pose", bytes.len(), POSE_BYTES_MAX)?;
+        let pose = Self::decode(bytes).map_err(Malformed::undecodable("pose"))?;
         pose.check()?;
         Ok(pose)
     }
@@ -49,7 +43,7 @@ impl Pose {
             let found = format!("{} numbers long", self.contacts.len());
             return Err(Malformed::field("contacts", found, format!("{CONTACT_NUMBERS} numbers for each contact")));
         }
-        let figures = [
+        let scalars = [
             ("reward_survive", self.reward_survive),
             ("reward_forward", self.reward_forward),
             ("reward_ctrl", self.reward_ctrl),
@@ -57,10 +51,10 @@ impl Pose {
             ("velocity_mps", self.velocity_mps),
             ("distance_m", self.distance_m),
         ];
-        figures.iter().try_for_each(|(field, value)| finite(field, std::slice::from_ref(value)))?;
-        finite("bodies", &self.bodies)?;
-        finite("contacts", &self.contacts)?;
-        finite("joint_torques_nm", &self.joint_torques_nm)?;
+        scalars.iter().try_for_each(|(field, value)| all_finite(field, std::slice::from_ref(value)))?;
+        all_finite("bodies", &self.bodies)?;
+        all_finite("contacts", &self.contacts)?;
+        all_finite("joint_torques_nm", &self.joint_torques_nm)?;
         if !(0.0..=TIME_MAX_S).contains(&self.time_s) {
             return Err(Malformed::field("time_s", self.time_s, format!("0 to {TIME_MAX_S}")));
         }
@@ -72,20 +66,6 @@ impl Pose {
             }
         }
         Ok(())
-    }
-}
-
-fn check_size(bytes: usize) -> Result<(), Malformed> {
-    if bytes > POSE_BYTES_MAX {
-        return Err(Malformed::TooLarge { what: "pose", bytes, limit: POSE_BYTES_MAX });
-    }
-    Ok(())
-}
-
-fn finite(field: &'static str, numbers: &[f32]) -> Result<(), Malformed> {
-    match numbers.iter().position(|number| !number.is_finite()) {
-        Some(index) => Err(Malformed::NotFinite { field, index, value: numbers[index].to_string() }),
-        None => Ok(()),
     }
 }
 
@@ -111,15 +91,15 @@ mod tests {
     }
 
     #[test]
-    fn poses_survive() {
+    fn poses_round_trip() {
         let pose = sample();
         assert_eq!(Pose::decode_checked(&pose.to_bytes().unwrap()), Ok(pose));
     }
 
     #[test]
-    fn each_fault_is_named_on_both_sides() {
-        type Spoil = fn(&mut Pose);
-        let spoils: [(&str, Spoil); 13] = [
+    fn encoding_and_decoding_name_the_bad_field() {
+        type Corrupt = fn(&mut Pose);
+        let cases: [(&str, Corrupt); 13] = [
             ("run", |pose| pose.run = "a/b".into()),
             ("actor", |pose| pose.actor.clear()),
             ("version", |pose| pose.version = None),
@@ -134,13 +114,13 @@ mod tests {
             ("time_s", |pose| pose.time_s = -1.0),
             ("pose has", |pose| pose.joint_torques_nm = vec![0.0; POSE_BYTES_MAX / 4]),
         ];
-        for (part, spoil) in spoils {
+        for (part, corrupt) in cases {
             let mut pose = sample();
-            spoil(&mut pose);
-            let told = pose.to_bytes().expect_err(part).to_string();
-            assert!(told.contains(part), "{told}");
-            let told = Pose::decode_checked(&pose.encode_to_vec()).expect_err(part).to_string();
-            assert!(told.contains(part), "{told}");
+            corrupt(&mut pose);
+            let error = pose.to_bytes().expect_err(part).to_string();
+            assert!(error.contains(part), "{error}");
+            let error = Pose::decode_checked(&pose.encode_to_vec()).expect_err(part).to_string();
+            assert!(error.contains(part), "{error}");
         }
         assert!(Pose::decode_checked(b"no protobuf").is_err());
     }

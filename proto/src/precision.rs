@@ -1,4 +1,4 @@
-//! How exactly observations travel.
+//! Precision of observations on the wire.
 
 use bytes::{Buf, Bytes};
 use half::{
@@ -8,35 +8,34 @@ use half::{
 
 use crate::{Malformed, pieces::Cursor, planes, wire};
 
-/// How exactly observations travel.
+/// Precision of observations on the wire.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Precision {
-    /// As they are.
+    /// Single precision, unchanged.
     #[default]
     F32,
-    /// In half precision (IEEE 754 binary16): eleven significant bits, at most 65 504.
+    /// Half precision (IEEE 754 binary16): eleven significant bits, at most 65 504.
     F16,
 }
 
-/// The largest number in half precision.
+/// Largest number in half precision.
 const F16_MAX: f32 = 65_504.0;
 
 impl Precision {
-    /// Rounds numbers to what arrives. Whoever acts by them rounds them before, so that the learner has the very numbers
-    /// that the policy saw. What is too large becomes the largest number that there is; NaN stays.
+    /// Rounds numbers to this precision. An actor rounds before its policy sees them, so that the learner receives the same
+    /// numbers. Larger numbers become the largest one of the precision; NaN stays.
     pub fn round(self, numbers: &mut [f32]) {
         match self {
             Self::F32 => {}
             Self::F16 => {
                 for number in numbers {
-                    let held = number.clamp(-F16_MAX, F16_MAX);
-                    *number = f16::from_f32(held).to_f32();
+                    *number = f16::from_f32(number.clamp(-F16_MAX, F16_MAX)).to_f32();
                 }
             }
         }
     }
 
-    /// Numbers as little-endian bytes; in half precision they must be rounded already.
+    /// Encodes numbers as little-endian bytes; they must already be rounded.
     pub(crate) fn to_bytes(self, field: &'static str, numbers: &[f32]) -> Result<Bytes, Malformed> {
         if self == Self::F32 {
             return Ok(planes::to_bytes(numbers));
@@ -51,7 +50,7 @@ impl Precision {
         Ok(halves.iter().flat_map(|half| half.to_le_bytes()).collect())
     }
 
-    /// Little-endian bytes as exactly `count` numbers, whatever these are.
+    /// Decodes exactly `count` little-endian numbers, without checking their values.
     pub(crate) fn read(self, field: &'static str, bytes: Cursor<'_>, count: usize) -> Result<Vec<f32>, Malformed> {
         if self == Self::F32 {
             return planes::read(field, bytes, count);
@@ -65,7 +64,7 @@ impl Precision {
         Ok(numbers)
     }
 
-    /// Bytes of one number.
+    /// Returns the bytes of one number.
     pub(crate) fn bytes(self) -> usize {
         match self {
             Self::F32 => 4,
@@ -102,8 +101,8 @@ mod tests {
     use super::*;
 
     #[test]
-    fn rounding_is_to_the_nearest_and_stays_finite() {
-        // 2049 lies between 2048 and 2050, of which the former has the even digits; the smallest number above 0 is 6e-8.
+    fn rounding_goes_to_the_nearest_finite_number() {
+        // 2049 lies between 2048 and 2050; ties go to even. The smallest number above 0 is 6e-8.
         let mut numbers = [1.0, 0.1, 2049.0, 1e6, -f32::INFINITY, 1e-9];
         Precision::F16.round(&mut numbers);
         assert_eq!(numbers, [1.0, 0.099_975_586, 2048.0, 65_504.0, -65_504.0, 0.0]);
@@ -113,7 +112,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_not_rounded_is_not_sent() {
+    fn unrounded_numbers_are_refused() {
         let refused = Precision::F16.to_bytes("observations", &[1.0, 0.1]).unwrap_err().to_string();
         assert!(refused.contains("`observations` is 0.1 at index 1"), "{refused}");
         let refused = Precision::F16.read("observations", Cursor::whole(&[0; 3]), 2).unwrap_err().to_string();
@@ -122,7 +121,7 @@ mod tests {
 
     proptest! {
         #[test]
-        fn rounded_numbers_survive_the_wire(mut numbers in prop::collection::vec(-1e5f32..1e5, 0..40)) {
+        fn rounded_numbers_round_trip(mut numbers in prop::collection::vec(-1e5f32..1e5, 0..40)) {
             Precision::F16.round(&mut numbers);
             let bytes = Precision::F16.to_bytes("x", &numbers).unwrap();
             prop_assert_eq!(bytes.len(), 2 * numbers.len());

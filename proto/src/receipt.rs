@@ -1,27 +1,27 @@
-//! The learner's answer to a fragment: the actor's credit.
+//! Answers of the learner to fragments, which give credit to the actor.
 
 use prost::Message;
 
-use crate::{Malformed, PolicyVersion, bundle, wire};
+use crate::{Malformed, PolicyVersion, bundle, check_size, limits::SMALL_BYTES_MAX, wire};
 
-/// What became of a fragment.
+/// Outcome of a fragment.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Outcome {
-    /// Taken.
+    /// The learner accepted the fragment.
     Accepted,
-    /// Taken before.
+    /// The learner accepted the fragment before.
     Duplicate,
-    /// Its policy is further back than `max_policy_lag`.
+    /// The lag of its policy exceeds `max_policy_lag`.
     TooOld,
-    /// Its policy is unknown to a learner that resumed from an older checkpoint.
+    /// Its policy is unknown, because the learner resumed from an older checkpoint.
     Vanished,
-    /// Refused; the reason says why.
+    /// The fragment failed a check, which the reason names.
     Malformed,
-    /// The sender keeps failing.
+    /// The sender is quarantined.
     Quarantined,
-    /// The intake is full: send it again.
+    /// The intake is full; the actor sends the fragment again.
     Busy,
-    /// The learner is stopping: keep it for its successor.
+    /// The learner is stopping; the actor keeps the fragment for its successor.
     Stopping,
 }
 
@@ -36,21 +36,21 @@ const OUTCOMES: [(Outcome, wire::Outcome); 8] = [
     (Outcome::Stopping, wire::Outcome::Stopping),
 ];
 
-/// A receipt.
+/// Receipt for one fragment.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Receipt {
-    /// What became of the fragment.
+    /// Outcome of the fragment.
     pub outcome: Outcome,
-    /// What was wrong, in words, where something was.
+    /// Error in words; empty without one.
     pub reason: String,
-    /// The newest policy version.
+    /// Newest policy version.
     pub version: PolicyVersion,
-    /// Every accepted fragment of this actor up to this sequence number is part of a checkpoint.
+    /// Sequence number up to which a checkpoint holds every accepted fragment of this actor.
     pub durable_through: u64,
 }
 
 impl Receipt {
-    /// Protobuf bytes.
+    /// Encodes as protobuf.
     pub fn encode(&self) -> Vec<u8> {
         let outcome = OUTCOMES.iter().find(|(ours, _)| *ours == self.outcome).map(|(_, wire)| *wire);
         wire::Receipt {
@@ -62,11 +62,10 @@ impl Receipt {
         .encode_to_vec()
     }
 
-    /// Reads protobuf bytes from a stranger.
+    /// Decodes and checks untrusted protobuf bytes.
     pub fn decode(bytes: &[u8]) -> Result<Self, Malformed> {
-        bundle::check_small("receipt", bytes.len())?;
-        let message = wire::Receipt::decode(bytes)
-            .map_err(|why| Malformed::Undecodable { what: "receipt", why: why.to_string() })?;
+        check_size("receipt", bytes.len(), SMALL_BYTES_MAX)?;
+        let message = wire::Receipt::decode(bytes).map_err(Malformed::undecodable("receipt"))?;
         let outcome = OUTCOMES
             .iter()
             .find(|(_, wire)| *wire as i32 == message.outcome)
@@ -86,7 +85,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn every_outcome_survives_the_wire() {
+    fn every_outcome_round_trips() {
         for (outcome, _) in OUTCOMES {
             let receipt = Receipt {
                 outcome,

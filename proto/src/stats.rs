@@ -1,19 +1,16 @@
-//! What an actor tells about itself every few seconds.
+//! Statistics that an actor publishes every few seconds.
 
 use prost::Message;
 
-use crate::{Malformed, ident::check_ident, limits::STATS_BYTES_MAX, wire};
+use crate::{Malformed, check_size, ident::check_ident, limits::STATS_BYTES_MAX, wire};
 
 pub use wire::ActorStats;
 
 impl ActorStats {
-    /// Reads and checks protobuf bytes from a stranger.
+    /// Decodes and checks untrusted protobuf bytes.
     pub fn decode_checked(bytes: &[u8]) -> Result<Self, Malformed> {
-        if bytes.len() > STATS_BYTES_MAX {
-            return Err(Malformed::TooLarge { what: "statistics", bytes: bytes.len(), limit: STATS_BYTES_MAX });
-        }
-        let stats =
-            Self::decode(bytes).map_err(|why| Malformed::Undecodable { what: "statistics", why: why.to_string() })?;
+        check_size("statistics", bytes.len(), STATS_BYTES_MAX)?;
+        let stats = Self::decode(bytes).map_err(Malformed::undecodable("statistics"))?;
         check_ident("actor", &stats.actor)?;
         if !stats.env_steps_per_s.is_finite() {
             return Err(Malformed::NotFinite {
@@ -25,7 +22,7 @@ impl ActorStats {
         Ok(stats)
     }
 
-    /// Protobuf bytes.
+    /// Encodes as protobuf.
     pub fn to_bytes(&self) -> Vec<u8> {
         self.encode_to_vec()
     }
@@ -36,7 +33,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn statistics_survive_and_nonsense_is_refused() {
+    fn statistics_round_trip_and_bad_ones_are_refused() {
         let stats = ActorStats { actor: "a".into(), env_steps: 7, ..Default::default() };
         assert_eq!(ActorStats::decode_checked(&stats.to_bytes()).unwrap(), stats);
         let bad = ActorStats { actor: "A/B".into(), ..Default::default() };

@@ -1,28 +1,28 @@
-//! What policies are trained for, as an actor of an external task registers it.
+//! External tasks and their registration.
 
 use prost::Message;
 
 use crate::{
-    Malformed,
+    Malformed, check_range, check_size,
     ident::{check_ident, check_task_name},
     limits::{TASK_BYTES_MAX, WIDTH_MAX},
     wire,
 };
 
-/// A task.
+/// Task that a run trains.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Task {
-    /// As in `gymnasium/Humanoid-v5`.
+    /// Name, such as `gymnasium/Humanoid-v5`.
     pub name: String,
     /// Entries of one observation.
     pub observation_size: u32,
     /// Entries of one action.
     pub action_size: u32,
-    /// What an action of −1 means.
+    /// Action at policy output −1.
     pub action_low: Vec<f64>,
-    /// What an action of 1 means.
+    /// Action at policy output 1.
     pub action_high: Vec<f64>,
-    /// Duration of one control step (s); 0 where it is not known.
+    /// Duration of one control step (s); 0 if unknown.
     pub control_step_s: f64,
 }
 
@@ -33,15 +33,11 @@ impl std::fmt::Display for Task {
 }
 
 impl Task {
-    /// Checks what somebody registers.
+    /// Checks name, sizes and ranges.
     pub fn check(&self) -> Result<(), Malformed> {
         check_task_name("task.name", &self.name)?;
-        for (field, size) in [("task.observation_size", self.observation_size), ("task.action_size", self.action_size)]
-        {
-            if !(1..=WIDTH_MAX).contains(&size) {
-                return Err(Malformed::field(field, size, format!("1 to {WIDTH_MAX}")));
-            }
-        }
+        check_range("task.observation_size", self.observation_size, WIDTH_MAX)?;
+        check_range("task.action_size", self.action_size, WIDTH_MAX)?;
         for (field, range) in [("task.action_low", &self.action_low), ("task.action_high", &self.action_high)] {
             if range.len() != self.action_size as usize {
                 let found = format!("{} numbers long", range.len());
@@ -60,7 +56,7 @@ impl Task {
         Ok(())
     }
 
-    /// Why an actor of `other` cannot join a run of this task; `None` where it can.
+    /// Returns why an actor of `other` cannot join a run of this task; `None` if it can.
     pub fn differs_from(&self, other: &Self) -> Option<String> {
         if self == other {
             return None;
@@ -79,41 +75,40 @@ impl Task {
     }
 }
 
-/// What an actor tells the learner before anything else.
+/// Registration of an actor of an external task, its first message to the learner.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TaskRegistration {
-    /// The run that it wants to join.
+    /// Name of the run to join.
     pub run: String,
-    /// Its name.
+    /// Name of the actor.
     pub actor: String,
-    /// What it simulates.
+    /// Task that the actor simulates.
     pub task: Task,
 }
 
-/// What the learner answers.
+/// Answer of the learner to a registration.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TaskReceipt {
-    /// Whether the actor may join.
+    /// Whether the actor may join the run.
     pub accepted: bool,
-    /// Why not.
+    /// Reason for a refusal.
     pub reason: String,
-    /// What the run trains, once that is settled.
+    /// Task that the run trains, once it is known.
     pub task: Option<Task>,
 }
 
 impl TaskRegistration {
-    /// Protobuf bytes.
+    /// Encodes as protobuf.
     pub fn encode(&self) -> Result<Vec<u8>, Malformed> {
         self.check()?;
         let task = Some(self.task.clone().into());
         Ok(wire::TaskRegistration { run: self.run.clone(), actor: self.actor.clone(), task }.encode_to_vec())
     }
 
-    /// Reads and checks protobuf bytes from a stranger.
+    /// Decodes and checks untrusted protobuf bytes.
     pub fn decode(bytes: &[u8]) -> Result<Self, Malformed> {
-        check_size(bytes.len())?;
-        let message = wire::TaskRegistration::decode(bytes)
-            .map_err(|why| Malformed::Undecodable { what: "task registration", why: why.to_string() })?;
+        check_size("task", bytes.len(), TASK_BYTES_MAX)?;
+        let message = wire::TaskRegistration::decode(bytes).map_err(Malformed::undecodable("task registration"))?;
         let task = message.task.ok_or_else(|| Malformed::field("task", "missing", "a task"))?.into();
         let registration = Self { run: message.run, actor: message.actor, task };
         registration.check()?;
@@ -128,26 +123,18 @@ impl TaskRegistration {
 }
 
 impl TaskReceipt {
-    /// Protobuf bytes.
+    /// Encodes as protobuf.
     pub fn encode(&self) -> Vec<u8> {
         let task = self.task.clone().map(Into::into);
         wire::TaskReceipt { accepted: self.accepted, reason: self.reason.clone(), task }.encode_to_vec()
     }
 
-    /// Reads protobuf bytes from a stranger.
+    /// Decodes untrusted protobuf bytes.
     pub fn decode(bytes: &[u8]) -> Result<Self, Malformed> {
-        check_size(bytes.len())?;
-        let message = wire::TaskReceipt::decode(bytes)
-            .map_err(|why| Malformed::Undecodable { what: "task receipt", why: why.to_string() })?;
+        check_size("task", bytes.len(), TASK_BYTES_MAX)?;
+        let message = wire::TaskReceipt::decode(bytes).map_err(Malformed::undecodable("task receipt"))?;
         Ok(Self { accepted: message.accepted, reason: message.reason, task: message.task.map(Into::into) })
     }
-}
-
-fn check_size(bytes: usize) -> Result<(), Malformed> {
-    if bytes > TASK_BYTES_MAX {
-        return Err(Malformed::TooLarge { what: "task", bytes, limit: TASK_BYTES_MAX });
-    }
-    Ok(())
 }
 
 impl From<Task> for wire::Task {
@@ -197,7 +184,7 @@ mod tests {
     }
 
     #[test]
-    fn registrations_and_receipts_survive_the_wire() {
+    fn registrations_and_receipts_round_trip() {
         let registration = registration(task());
         assert_eq!(TaskRegistration::decode(&registration.encode().unwrap()).unwrap(), registration);
         for task in [None, Some(task())] {
@@ -207,9 +194,9 @@ mod tests {
     }
 
     #[test]
-    fn what_makes_no_sense_is_refused_by_name() {
-        type Spoil = fn(&mut Task);
-        let cases: [(&str, Spoil); 8] = [
+    fn the_error_names_the_bad_field() {
+        type Corrupt = fn(&mut Task);
+        let cases: [(&str, Corrupt); 8] = [
             ("task.name", |task| task.name = "treadmill/humanoid-v5".into()),
             ("task.observation_size", |task| task.observation_size = 0),
             ("task.observation_size", |task| task.observation_size = 4097),
@@ -219,9 +206,9 @@ mod tests {
             ("task.action_low", |task| task.action_low = vec![2.0]),
             ("task.control_step_s", |task| task.control_step_s = f64::NAN),
         ];
-        for (field, spoil) in cases {
+        for (field, corrupt) in cases {
             let mut bad = task();
-            spoil(&mut bad);
+            corrupt(&mut bad);
             let unchecked = wire::TaskRegistration { run: "run".into(), actor: "a".into(), task: Some(bad.into()) };
             let why = TaskRegistration::decode(&unchecked.encode_to_vec()).unwrap_err().to_string();
             assert!(why.contains(&format!("`{field}`")), "{field}: {why}");
@@ -233,7 +220,7 @@ mod tests {
     }
 
     #[test]
-    fn what_differs_is_told() {
+    fn the_reason_names_the_difference() {
         assert_eq!(task().differs_from(&task()), None);
         let other = Task { name: "gymnasium/Other-v0".into(), ..task() };
         let why = task().differs_from(&other).unwrap();
@@ -250,7 +237,7 @@ mod tests {
 
     proptest! {
         #[test]
-        fn random_bytes_do_no_harm(bytes in proptest::collection::vec(any::<u8>(), 0..300)) {
+        fn random_bytes_never_panic(bytes in proptest::collection::vec(any::<u8>(), 0..300)) {
             let _ = TaskRegistration::decode(&bytes);
             let _ = TaskReceipt::decode(&bytes);
         }

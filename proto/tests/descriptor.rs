@@ -1,4 +1,4 @@
-//! The schemas as one file that other languages read at run time, without a compiler of their own: kept as it must be.
+//! The descriptor file, which the Python package reads at run time, matches the schemas.
 
 use std::{fs, path::PathBuf};
 
@@ -7,7 +7,7 @@ fn path(below: &str) -> PathBuf {
 }
 
 #[test]
-fn what_the_python_package_reads_is_what_the_schemas_say() {
+fn the_descriptor_file_matches_the_schemas() {
     let mut names: Vec<String> = fs::read_dir(path("proto/schema"))
         .unwrap()
         .flatten()
@@ -25,7 +25,7 @@ fn what_the_python_package_reads_is_what_the_schemas_say() {
     let found = fs::read(&file).unwrap_or_default();
     assert!(
         found == wanted,
-        "python/treadmill_actor/schema.binpb is not what proto/schema/ says; write it anew with \
+        "python/treadmill_actor/schema.binpb does not match proto/schema/; regenerate it with \
          TREADMILL_WRITE_SCHEMA=1 cargo test --release -p treadmill-proto --test descriptor"
     );
 }

@@ -1,8 +1,7 @@
-//! The promise of compatibility: bytes that were written once are read for ever, to the same values.
+//! Compatibility: old messages decode to the same values, and default fields do not change the encoding.
 //!
-//! `golden/messages-N.txt` holds messages as some version of this crate wrote them, one a line: its name, then its bytes in
-//! hexadecimal. Lines are added, never changed. With `TREADMILL_WRITE_GOLDEN=FILE` the test
-//! writes them as this version does.
+//! `golden/messages-N.txt` holds one message a line, as an earlier version encoded it: its name and its bytes in hexadecimal.
+//! Lines are added, never changed. With `TREADMILL_WRITE_GOLDEN=FILE`, the test writes the messages of this version.
 
 use bytes::Bytes;
 use treadmill_proto::{
@@ -90,7 +89,7 @@ const OUTCOMES: [(&str, Outcome); 8] = [
     ("receipt.stopping", Outcome::Stopping),
 ];
 
-#[allow(clippy::needless_update, reason = "fields that are added later have their defaults in old messages")]
+#[allow(clippy::needless_update, reason = "added fields have their defaults in old messages")]
 fn stats() -> ActorStats {
     ActorStats {
         actor: "actor-0".into(),
@@ -129,7 +128,7 @@ fn evaluation() -> EvaluationReport {
     }
 }
 
-#[allow(clippy::needless_update, reason = "fields that are added later have their defaults in old messages")]
+#[allow(clippy::needless_update, reason = "added fields have their defaults in old messages")]
 fn pose() -> Pose {
     Pose {
         run: "walk-1".into(),
@@ -162,8 +161,8 @@ fn episode() -> EpisodeReport {
     EpisodeReport::new("walk-1", "actor-0", &fragment().episodes[1])
 }
 
-/// Every message as this version writes it.
-fn written() -> Vec<(&'static str, Vec<u8>)> {
+/// Returns every message as this version encodes it.
+fn encoded_messages() -> Vec<(&'static str, Vec<u8>)> {
     let mut all = vec![
         ("fragment", fragment().encode().unwrap()),
         ("bundle", bundle().encode().unwrap()),
@@ -178,8 +177,8 @@ fn written() -> Vec<(&'static str, Vec<u8>)> {
     all
 }
 
-/// Asserts that `bytes` are read as the message of this name.
-fn assert_read(name: &str, bytes: &[u8]) {
+/// Asserts that `bytes` decode to the message of this name.
+fn assert_decodes(name: &str, bytes: &[u8]) {
     match name {
         "fragment" => assert_eq!(Fragment::decode(bytes), Ok(fragment())),
         "bundle" => assert_eq!(PolicyBundle::decode(bytes.to_vec()), Ok(bundle())),
@@ -208,33 +207,33 @@ fn golden() -> Vec<(&'static str, Vec<u8>)> {
 }
 
 #[test]
-fn old_bytes_are_read_to_the_same_values() {
+fn old_messages_decode_to_the_same_values() {
     if let Some(file) = std::env::var_os("TREADMILL_WRITE_GOLDEN") {
         let line = |(name, bytes): (&str, Vec<u8>)| {
             let hex: String = bytes.iter().map(|byte| format!("{byte:02x}")).collect();
             format!("{name} {hex}\n")
         };
-        std::fs::write(file, written().into_iter().map(line).collect::<String>()).unwrap();
+        std::fs::write(file, encoded_messages().into_iter().map(line).collect::<String>()).unwrap();
     }
     let golden = golden();
-    golden.iter().for_each(|(name, bytes)| assert_read(name, bytes));
-    for (name, _) in written() {
+    golden.iter().for_each(|(name, bytes)| assert_decodes(name, bytes));
+    for (name, _) in encoded_messages() {
         assert!(golden.iter().any(|(known, _)| *known == name), "`{name}` has no golden bytes");
     }
 }
 
 #[test]
-fn old_readers_are_written_to_as_before() {
-    // A field that is added later is left out where it has its default, so these bytes stay as they are.
-    for (name, bytes) in written() {
+fn messages_are_encoded_as_before() {
+    // An added field with its default value is not encoded, so these bytes do not change.
+    for (name, bytes) in encoded_messages() {
         let (_, old) = golden().into_iter().find(|(known, _)| *known == name).expect("see the other test");
-        assert_eq!(bytes, old, "{name} is written in another way than before");
+        assert_eq!(bytes, old, "{name} is encoded differently than before");
     }
 }
 
 #[test]
-fn what_a_newer_sender_adds_is_passed_over() {
-    // Field 1000 as a number, as bytes, as four bytes and as eight.
+fn unknown_fields_are_ignored() {
+    // Field 1000 as a varint, as bytes, as four bytes and as eight.
     let added: [&[u8]; 4] = [
         &[0xc0, 0x3e, 0x96, 1],
         &[0xc2, 0x3e, 3, 1, 2, 3],
@@ -244,12 +243,12 @@ fn what_a_newer_sender_adds_is_passed_over() {
     for (name, bytes) in golden() {
         if bytes[0] == b'{' {
             let text = String::from_utf8(bytes).unwrap().replacen('{', r#"{"added":{"deep":[1]},"#, 1);
-            assert_read(name, text.as_bytes());
+            assert_decodes(name, text.as_bytes());
             continue;
         }
         for field in added {
-            assert_read(name, &[field, &bytes].concat());
-            assert_read(name, &[&bytes, field].concat());
+            assert_decodes(name, &[field, &bytes].concat());
+            assert_decodes(name, &[&bytes, field].concat());
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use clap::{Args, builder::ArgPredicate};
 use serde_json::json;
-use treadmill_actor::worker::{self, Account, WorkerOptions};
+use treadmill_actor::worker::{self, ActorSummary, WorkerOptions};
 use treadmill_bus::Role;
 use treadmill_proto::{Malformed, ident::check_ident};
 use treadmill_runtime::seeds;
@@ -68,7 +68,7 @@ pub fn run(args: ActorArgs) -> anyhow::Result<()> {
         envs: args.envs,
         threads: args.threads,
         start: args.start_number.unwrap_or_else(seeds::unique),
-        where_to: args.network.where_to(&args.connect),
+        endpoint: args.network.where_to(&args.connect),
     };
     let usage_error = |why: Malformed| Usage(why.to_string());
     check_ident("name", &options.name).map_err(usage_error)?;
@@ -76,7 +76,7 @@ pub fn run(args: ActorArgs) -> anyhow::Result<()> {
         check_ident("run", run).map_err(usage_error)?;
     }
     let bus_options = args.network.options(Role::Actor, Vec::new(), args.connect)?;
-    let where_to = options.where_to.clone();
+    let where_to = options.endpoint.clone();
     with_session(bus_options, &where_to, args.until_stdin_closes, |bus, shutdown| async move {
         let name = options.name.clone();
         let account = worker::run(bus, options, shutdown).await?;
@@ -87,7 +87,7 @@ pub fn run(args: ActorArgs) -> anyhow::Result<()> {
     })
 }
 
-fn as_json(name: &str, account: &Account) -> String {
+fn as_json(name: &str, account: &ActorSummary) -> String {
     let fragments = account.fragments;
     json!({
         "actor": name,

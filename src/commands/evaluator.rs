@@ -42,7 +42,7 @@ pub fn run(args: EvaluatorArgs) -> anyhow::Result<()> {
     let options = EvaluatorOptions {
         run: args.run,
         name: args.name.unwrap_or_else(default_name),
-        where_to: args.network.where_to(&args.connect),
+        endpoint: args.network.where_to(&args.connect),
     };
     let usage_error = |why: Malformed| Usage(why.to_string());
     check_ident("name", &options.name).map_err(usage_error)?;
@@ -50,7 +50,7 @@ pub fn run(args: EvaluatorArgs) -> anyhow::Result<()> {
         check_ident("run", run).map_err(usage_error)?;
     }
     let bus_options = args.network.options(Role::Evaluator, Vec::new(), args.connect)?;
-    let where_to = options.where_to.clone();
+    let where_to = options.endpoint.clone();
     with_session(bus_options, &where_to, args.until_stdin_closes, |bus, shutdown| {
         evaluator::run(bus, options, shutdown)
     })

@@ -97,7 +97,7 @@ fn another_run_answers_and_an_actor_sends_malformed_fragments() {
     let replaced = [(&endpoint[..], QUOTED_ENDPOINT)];
     let heading = "The name of the run is wrong";
     let lost = start(folder.path(), &["actor", "--connect", &endpoint, "--run", "wlk", "--envs", "4"]);
-    assert_line(heading, &lost, "no learner of run", &replaced);
+    assert_line(heading, &lost, "no learner answers", &replaced);
     assert_error(heading, folder.path(), &["status", "--connect", &endpoint, "--run", "wlk"], &replaced);
     assert_error(
         "The port is in use",

@@ -175,7 +175,7 @@ fn an_actor_that_does_not_fit_the_saved_state_warns_and_begins_new_episodes() {
     command.args(["actor", "--connect", &endpoint(&run), "--envs", "4", "--name", "actor-0"]);
     let actor = Running::start(command);
     let warning = actor.wait_for("begins new episodes");
-    assert!(warning.contains("it has 8 environments, and here are 4"), "{warning}");
+    assert!(warning.contains("the state has 8 environments, this actor has 4"), "{warning}");
     assert!(learner.wait().0.success());
     let state = latest(&run);
     assert_eq!(state.counters.updates, 4);

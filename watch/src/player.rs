@@ -2,7 +2,7 @@
 
 use treadmill_actor::{
     agent::PolicyAgent,
-    evaluation::{Told, evaluate},
+    evaluation::{EvaluationStep, evaluate},
     poses,
 };
 use treadmill_config::RandomisationConfig;
@@ -54,12 +54,12 @@ impl Player {
     }
 }
 
-fn pose(told: &Told, start_x_m: f64) -> Pose {
+fn pose(told: &EvaluationStep, start_x_m: f64) -> Pose {
     Pose {
         episode: told.episode.into(),
         step: told.step,
         time_s: f64::from(told.step) * CONTROL_STEP_S,
         distance_m: (told.physics.position()[0] - start_x_m) as f32,
-        ..poses::of(told.physics, told.info)
+        ..poses::body_pose(told.physics, told.info)
     }
 }

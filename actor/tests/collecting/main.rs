@@ -1,6 +1,38 @@
-//! Environments side by side, and the fragments, poses and saved episodes that an actor makes of them.
+//! Vectors of environments, and the fragments, poses and saved states that an actor takes from them.
 
 mod environments;
 mod poses;
 mod rollout;
-mod saved;
+mod state;
+
+use treadmill_actor::{acting_policy::ActingPolicy, identity::ActorIdentity};
+use treadmill_policy::{NetworkShape, init::initial_parameters, to_safetensors};
+use treadmill_proto::{PolicyBundle, PolicyVersion};
+use treadmill_runtime::seeds;
+
+fn identity(actor: &str) -> ActorIdentity {
+    ActorIdentity { run: "walk".into(), actor: actor.into(), incarnation: 6, config_hash: 5 }
+}
+
+fn policy(observation: usize) -> ActingPolicy {
+    let shape = NetworkShape { observation, action: 17, hidden: vec![8] };
+    let parameters = initial_parameters(&shape, -0.5, &mut seeds::stream(1, "test", &[]));
+    let weights = to_safetensors(&shape, &parameters);
+    ActingPolicy::new(&PolicyBundle {
+        run: "walk".into(),
+        version: PolicyVersion { incarnation: 3, number: 4 },
+        observation_size: observation as u32,
+        action_size: 17,
+        hidden: vec![8],
+        checksum: seeds::checksum(&[&weights]),
+        weights: weights.into(),
+        observation_mean: vec![0.0; observation],
+        observation_inverse_std: vec![1.0; observation],
+        observation_clip: 10.0,
+        config_hash: 5,
+        config_toml: String::new(),
+        model_xml: String::new(),
+        actor_state: None,
+    })
+    .unwrap()
+}

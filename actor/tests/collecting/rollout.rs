@@ -1,78 +1,54 @@
 //! Fragments from real environments: shapes, ends of episodes, faults.
 
 use treadmill_actor::{
-    acting::ActingPolicy,
-    environments::{Environments, SeedSource, Stepped},
-    rollout::{Collector, Sender},
+    environments::{Environments, SeedSource, StepResults},
+    rollout::Collector,
 };
 use treadmill_humanoid::{EnvironmentConfig, HUMANOID_XML};
-use treadmill_policy::{NetworkShape, gaussian, init::initial_parameters, to_safetensors};
+use treadmill_policy::gaussian;
 use treadmill_proto::{
-    EndCause, Fragment, PolicyBundle, PolicyVersion, Precision,
+    EndCause, Fragment, PolicyVersion, Precision,
     fragment::{TERMINATED, TRUNCATED},
 };
 use treadmill_runtime::seeds;
+
+use crate::{identity, policy};
 
 fn environments(count: usize, config: &EnvironmentConfig) -> Environments {
     let seeds = SeedSource { run_seed: 1, actor: "a".into(), start: 0 };
     Environments::new(count, config, HUMANOID_XML, seeds).unwrap()
 }
 
-fn policy() -> ActingPolicy {
-    let shape = NetworkShape { observation: 45, action: 17, hidden: vec![8] };
-    let parameters = initial_parameters(&shape, -0.5, &mut seeds::stream(1, "test", &[]));
-    let weights = to_safetensors(&shape, &parameters);
-    ActingPolicy::new(&PolicyBundle {
-        run: "walk".into(),
-        version: PolicyVersion { incarnation: 3, number: 4 },
-        observation_size: 45,
-        action_size: 17,
-        hidden: vec![8],
-        checksum: seeds::checksum(&[&weights]),
-        weights: weights.into(),
-        observation_mean: vec![0.0; 45],
-        observation_inverse_std: vec![1.0; 45],
-        observation_clip: 10.0,
-        config_hash: 5,
-        config_toml: String::new(),
-        model_xml: String::new(),
-        actor_state: None,
-    })
-    .unwrap()
-}
-
 fn collector(envs: usize, steps: u32, config: &EnvironmentConfig) -> Collector {
-    let sender = Sender { run: "walk".into(), actor: "a".into(), incarnation: 6, config_hash: 5 };
-    Collector::new(environments(envs, config), seeds::stream(1, "noise", &[]), steps, sender)
+    Collector::new(environments(envs, config), seeds::stream(1, "noise", &[]), steps, identity("a"))
 }
 
-/// Row `[t][n]` of a plane.
+/// Returns row `[t][n]` of a plane.
 fn row(plane: &[f32], t: usize, n: usize, envs: usize, width: usize) -> &[f32] {
     &plane[(t * envs + n) * width..][..width]
 }
 
 #[test]
-fn the_learner_has_the_very_numbers_that_the_policy_saw() {
+fn the_learner_receives_exactly_the_numbers_that_the_policy_saw() {
     let (envs, steps) = (3, 8);
     let config = EnvironmentConfig { max_episode_steps: 5, ..EnvironmentConfig::default() };
     for precision in [Precision::F32, Precision::F16] {
-        let sender = Sender { run: "walk".into(), actor: "a".into(), incarnation: 6, config_hash: 5 };
         let environments = environments(envs, &config).with_precision(precision);
-        let mut collector = Collector::new(environments, seeds::stream(1, "noise", &[]), steps, sender);
-        let (policy, mut normalised, mut means) = (policy(), Vec::new(), vec![0.0; envs * 17]);
+        let mut collector = Collector::new(environments, seeds::stream(1, "noise", &[]), steps, identity("a"));
+        let (policy, mut normalised, mut means) = (policy(45), Vec::new(), vec![0.0; envs * 17]);
         for _ in 0..2 {
             let fragment = collector.collect(&policy, 0).unwrap();
             assert!(fragment.flags.contains(&TRUNCATED));
-            let arrived = Fragment::decode(fragment.encode_as(precision).unwrap()).unwrap();
-            assert!(arrived == fragment);
+            let received = Fragment::decode(fragment.encode_as(precision).unwrap()).unwrap();
+            assert!(received == fragment);
             for t in 0..steps as usize {
                 policy
-                    .means(&arrived.observations[t * envs * 45..][..envs * 45], envs, &mut normalised, &mut means)
+                    .means(&received.observations[t * envs * 45..][..envs * 45], envs, &mut normalised, &mut means)
                     .unwrap();
                 for (n, mean) in means.chunks_exact(17).enumerate() {
                     let acted =
-                        gaussian::log_probability(row(&arrived.actions, t, n, envs, 17), mean, policy.log_std());
-                    assert_eq!(acted.to_bits(), arrived.log_probs[t * envs + n].to_bits());
+                        gaussian::log_probability(row(&received.actions, t, n, envs, 17), mean, policy.log_std());
+                    assert_eq!(acted.to_bits(), received.log_probs[t * envs + n].to_bits());
                 }
             }
         }
@@ -80,16 +56,16 @@ fn the_learner_has_the_very_numbers_that_the_policy_saw() {
 }
 
 #[test]
-fn a_fragment_is_whole_and_its_successor_goes_on() {
+fn the_next_fragment_continues_where_the_last_one_ended() {
     let mut collector = collector(3, 4, &EnvironmentConfig::default());
-    let policy = policy();
+    let policy = policy(45);
     let first = collector.collect(&policy, 0).unwrap();
     let second = collector.collect(&policy, 1).unwrap();
     first.check().unwrap();
     second.check().unwrap();
     assert_eq!((first.sequence, second.sequence, second.settled_through), (1, 2, 1));
     assert_eq!(first.version, PolicyVersion { incarnation: 3, number: 4 });
-    // No episode ends within eight steps: what the first reached is where the second begins.
+    // No episode ends within eight steps, so the second fragment begins with the last observation of the first.
     assert!(first.flags.iter().chain(&second.flags).all(|flags| *flags == 0));
     assert_eq!(first.last_observations, second.observations[..3 * 45]);
 }
@@ -97,7 +73,7 @@ fn a_fragment_is_whole_and_its_successor_goes_on() {
 #[test]
 fn a_time_limit_is_truncation_with_the_true_last_observation() {
     let config = EnvironmentConfig { max_episode_steps: 3, ..EnvironmentConfig::default() };
-    let fragment = collector(2, 7, &config).collect(&policy(), 0).unwrap();
+    let fragment = collector(2, 7, &config).collect(&policy(45), 0).unwrap();
     fragment.check().unwrap();
     let flags: Vec<u8> = fragment.flags.iter().step_by(2).copied().collect();
     assert_eq!(flags, [0, 0, TRUNCATED, 0, 0, TRUNCATED, 0]);
@@ -107,15 +83,15 @@ fn a_time_limit_is_truncation_with_the_true_last_observation() {
     assert_eq!(fragment.last_observations.len(), 6 * 45);
     let (true_last, next_start) = (&fragment.last_observations[..45], row(&fragment.observations, 3, 0, 2, 45));
     assert_ne!(true_last, next_start, "the last observation is not the first of the next episode");
-    // It is where the episode had come to: the torso is within a step's reach of where it was before.
+    // The torso's height changes little within one step.
     let before = row(&fragment.observations, 2, 0, 2, 45);
     assert!((true_last[0] - before[0]).abs() < 0.05);
 }
 
 #[test]
-fn falls_are_terminations_and_add_up() {
+fn falls_are_terminations_and_their_returns_add_up() {
     let mut collector = collector(4, 64, &EnvironmentConfig::default());
-    let fragment = collector.collect(&policy(), 0).unwrap();
+    let fragment = collector.collect(&policy(45), 0).unwrap();
     fragment.check().unwrap();
     let ends = fragment.flags.iter().filter(|flags| **flags == TERMINATED).count();
     assert!(ends > 0, "random actions fall within 64 steps");
@@ -123,31 +99,31 @@ fn falls_are_terminations_and_add_up() {
     assert!(fragment.episodes.iter().all(|episode| episode.cause == EndCause::Fell));
     let first = fragment.flags.iter().step_by(4).position(|flags| *flags == TERMINATED).unwrap();
     let sum: f64 = (0..=first).map(|t| f64::from(row(&fragment.rewards, t, 0, 4, 1)[0])).sum();
-    let told = fragment.episodes.iter().find(|episode| episode.length as usize == first + 1).unwrap();
-    assert!((told.return_sum - sum).abs() < 1e-6);
-    let velocity = told.distance_m / (f64::from(told.length) * 0.015);
-    assert!((told.velocity_mean_mps - velocity).abs() < 1e-12);
+    let episode = fragment.episodes.iter().find(|episode| episode.length as usize == first + 1).unwrap();
+    assert!((episode.return_sum - sum).abs() < 1e-6);
+    let velocity = episode.distance_m / (f64::from(episode.length) * 0.015);
+    assert!((episode.velocity_mean_mps - velocity).abs() < 1e-12);
 }
 
 #[test]
 fn the_same_seeds_give_the_same_fragment() {
-    let collect = || collector(2, 40, &EnvironmentConfig::default()).collect(&policy(), 0).unwrap();
+    let collect = || collector(2, 40, &EnvironmentConfig::default()).collect(&policy(45), 0).unwrap();
     let (first, second): (Fragment, Fragment) = (collect(), collect());
     assert_eq!(first, second);
 }
 
 #[test]
-fn failed_physics_ends_the_episode_and_never_reaches_the_learner() {
+fn failed_physics_ends_the_episode_with_finite_numbers() {
     let mut environments = environments(2, &EnvironmentConfig::default());
-    let mut stepped = Stepped::default();
-    environments.step(&[0.0; 34], &mut stepped);
+    let mut results = StepResults::default();
+    environments.step(&[0.0; 34], &mut results);
     environments.poison(1);
-    environments.step(&[0.0; 34], &mut stepped);
-    assert_eq!(stepped.flags, [0, TERMINATED]);
-    assert_eq!(stepped.rewards[1], 0.0);
-    assert_eq!((stepped.episodes.len(), stepped.episodes[0].cause), (1, EndCause::NonFinite));
-    assert!(stepped.episodes[0].return_sum.is_finite());
+    environments.step(&[0.0; 34], &mut results);
+    assert_eq!(results.flags, [0, TERMINATED]);
+    assert_eq!(results.rewards[1], 0.0);
+    assert_eq!((results.episodes.len(), results.episodes[0].cause), (1, EndCause::NonFinite));
+    assert!(results.episodes[0].return_sum.is_finite());
     assert!(environments.observations().iter().all(|number| number.is_finite()));
-    environments.step(&[0.0; 34], &mut stepped);
-    assert_eq!(stepped.flags, [0, 0], "the next episode is sound");
+    environments.step(&[0.0; 34], &mut results);
+    assert_eq!(results.flags, [0, 0], "the next episode runs normally");
 }

@@ -1,4 +1,4 @@
-//! How much memory the calling thread asks for.
+//! Measures the memory that the calling thread allocates.
 
 use std::{
     alloc::{GlobalAlloc, Layout, System},
@@ -10,45 +10,45 @@ thread_local! {
     static PEAK: Cell<isize> = const { Cell::new(0) };
 }
 
-/// The system's allocator, and a count.
-pub struct Counting;
+/// System allocator that counts allocated bytes per thread.
+pub struct CountingAllocator;
 
 fn count(bytes: isize) {
-    // While a thread ends its count is gone.
+    // At a thread's end its counters are already gone.
     let _ = NOW.try_with(|now| {
         now.set(now.get() + bytes);
         PEAK.with(|peak| peak.set(peak.get().max(now.get())));
     });
 }
 
-// SAFETY: every call goes to the system's allocator as it came; counting allocates nothing.
-unsafe impl GlobalAlloc for Counting {
+// SAFETY: every call goes to the system's allocator unchanged; counting allocates nothing.
+unsafe impl GlobalAlloc for CountingAllocator {
     unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
         count(layout.size() as isize);
-        // SAFETY: the caller's promises are the same.
+        // SAFETY: the caller keeps the contract of the system's allocator, which is the same.
         unsafe { System.alloc(layout) }
     }
 
     unsafe fn alloc_zeroed(&self, layout: Layout) -> *mut u8 {
         count(layout.size() as isize);
-        // SAFETY: the caller's promises are the same.
+        // SAFETY: the caller keeps the contract of the system's allocator, which is the same.
         unsafe { System.alloc_zeroed(layout) }
     }
 
     unsafe fn realloc(&self, pointer: *mut u8, layout: Layout, size: usize) -> *mut u8 {
         count(size as isize - layout.size() as isize);
-        // SAFETY: the caller's promises are the same.
+        // SAFETY: the caller keeps the contract of the system's allocator, which is the same.
         unsafe { System.realloc(pointer, layout, size) }
     }
 
     unsafe fn dealloc(&self, pointer: *mut u8, layout: Layout) {
         count(-(layout.size() as isize));
-        // SAFETY: the caller's promises are the same.
+        // SAFETY: the caller keeps the contract of the system's allocator, which is the same.
         unsafe { System.dealloc(pointer, layout) }
     }
 }
 
-/// The most bytes that this thread held at once while `work` ran, beyond what it held before.
+/// Returns the peak of the bytes that `work` allocates on this thread.
 pub fn peak_bytes(work: impl FnOnce()) -> usize {
     let before = NOW.with(Cell::get);
     PEAK.with(|peak| peak.set(before));

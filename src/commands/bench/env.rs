@@ -6,7 +6,7 @@ use clap::Args;
 use rand::RngExt;
 use serde_json::json;
 use treadmill_actor::{
-    environments::{Environments, SeedSource, Stepped},
+    environments::{Environments, SeedSource, StepResults},
     settings,
 };
 use treadmill_config::Config;
@@ -88,7 +88,7 @@ fn measure(
         &actions[first * size..][..WORLDS * size]
     };
 
-    let (mut stepped, mut sum, mut resets) = (Stepped::default(), 0.0f64, 0u64);
+    let (mut stepped, mut sum, mut resets) = (StepResults::default(), 0.0f64, 0u64);
     let begun = Instant::now();
     for round in 0..rounds {
         environments.step(actions_of(round), &mut stepped);

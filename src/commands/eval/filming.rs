@@ -10,7 +10,7 @@ use std::{
 use anyhow::Context;
 use clap::{ArgGroup, Args};
 use tempfile::NamedTempFile;
-use treadmill_actor::evaluation::Told;
+use treadmill_actor::evaluation::EvaluationStep;
 use treadmill_render::{Camera, Gif, Picture, Scene, film};
 use treadmill_runtime::atomic_file;
 
@@ -134,7 +134,7 @@ fn make_empty(folder: &Path) -> anyhow::Result<()> {
 
 impl Filming {
     /// Records a step of an evaluation if it belongs to the first episode.
-    pub fn record(&mut self, told: &Told) {
+    pub fn record(&mut self, told: &EvaluationStep) {
         if told.episode == 1
             && self.failed.is_none()
             && let Err(why) = self.take_picture(told)
@@ -143,7 +143,7 @@ impl Filming {
         }
     }
 
-    fn take_picture(&mut self, told: &Told) -> anyhow::Result<()> {
+    fn take_picture(&mut self, told: &EvaluationStep) -> anyhow::Result<()> {
         let position = told.physics.position();
         let share = 1.0 - (-self.control_step_s / FOLLOW_S).exp();
         let followed_m = self.followed_m.get_or_insert([position[0], position[1]]);

@@ -12,7 +12,7 @@ use serde_json::json;
 use treadmill_actor::{
     ActorError,
     agent::{Agent, PolicyAgent, PreferredActionAgent, RandomAgent},
-    evaluation::{Evaluation, Told, evaluate},
+    evaluation::{Evaluation, EvaluationStep, evaluate},
 };
 use treadmill_config::{Config, RandomisationConfig};
 use treadmill_humanoid::Environment;
@@ -113,7 +113,7 @@ pub fn run(args: EvalArgs) -> anyhow::Result<()> {
             filming.record(&told);
         }
         if !quiet && (told.step == 1 || told.step.is_multiple_of(print_every)) {
-            let Told { episode, step, reward, total, .. } = told;
+            let EvaluationStep { episode, step, reward, total, .. } = told;
             say(&format!("episode {episode:>3}  step {step:>4}  reward {reward:>8.3}  total {total:>9.2}"));
         }
     })?;
@@ -214,7 +214,7 @@ impl Agent for TracedAgent {
         self.agent.act(observation, action)?;
         if let Some(file) = &mut self.file {
             let line = json!({"observation": observation, "action": action});
-            writeln!(file, "{line}").map_err(|why| ActorError::Trace { why })?;
+            writeln!(file, "{line}").map_err(ActorError::Trace)?;
         }
         Ok(())
     }

@@ -1,17 +1,16 @@
-//! An actor's state after a fragment: who goes on from its bytes sends, bit for bit, what the actor itself sends next.
+//! Saved state of an actor: a process that restores it collects, bit for bit, the next fragments of the original.
 
 use treadmill_actor::{
-    acting::ActingPolicy,
     environments::{Environments, SeedSource},
-    rollout::{Collector, Sender},
+    rollout::Collector,
 };
 use treadmill_humanoid::{EnvironmentConfig, HUMANOID_XML, ObservationKind, Randomisation};
-use treadmill_policy::{NetworkShape, init::initial_parameters, to_safetensors};
-use treadmill_proto::{Fragment, PolicyBundle, PolicyVersion, Precision, fragment::TRUNCATED};
-use treadmill_runtime::seeds;
+use treadmill_proto::{Fragment, Precision, fragment::TRUNCATED};
 
-/// Episodes that end in all ways within a few steps, with something of everything that is random.
-fn rich() -> EnvironmentConfig {
+use crate::{identity, policy};
+
+/// Returns a configuration with every kind of randomisation, whose episodes end in every way within a few steps.
+fn randomised() -> EnvironmentConfig {
     EnvironmentConfig {
         max_episode_steps: 25,
         observation: ObservationKind::GymnasiumV5,
@@ -29,30 +28,7 @@ fn rich() -> EnvironmentConfig {
     }
 }
 
-fn policy(observation: usize) -> ActingPolicy {
-    let shape = NetworkShape { observation, action: 17, hidden: vec![8] };
-    let parameters = initial_parameters(&shape, -0.5, &mut seeds::stream(1, "test", &[]));
-    let weights = to_safetensors(&shape, &parameters);
-    ActingPolicy::new(&PolicyBundle {
-        run: "walk".into(),
-        version: PolicyVersion { incarnation: 3, number: 4 },
-        observation_size: observation as u32,
-        action_size: 17,
-        hidden: vec![8],
-        checksum: seeds::checksum(&[&weights]),
-        weights: weights.into(),
-        observation_mean: vec![0.0; observation],
-        observation_inverse_std: vec![1.0; observation],
-        observation_clip: 10.0,
-        config_hash: 5,
-        config_toml: String::new(),
-        model_xml: String::new(),
-        actor_state: None,
-    })
-    .unwrap()
-}
-
-/// An actor process; every start of it draws other random numbers.
+/// Returns the collector of an actor process; each `start` draws other random numbers.
 fn collector(envs: usize, config: &EnvironmentConfig, name: &str, start: u64, threads: usize) -> Collector {
     collector_in(Precision::F32, envs, config, name, start, threads)
 }
@@ -69,24 +45,23 @@ fn collector_in(
     let noise = seeds.noise();
     let environments = Environments::new(envs, config, HUMANOID_XML, seeds).unwrap().with_threads(threads).unwrap();
     let environments = environments.with_precision(precision);
-    let sender = Sender { run: "walk".into(), actor: name.into(), incarnation: 6, config_hash: 5 };
-    let mut collector = Collector::new(environments, noise, 16, sender);
+    let mut collector = Collector::new(environments, noise, 16, identity(name));
     collector.attach_state();
     collector
 }
 
-/// What is learnt from: a process counts its fragments from one.
-fn learnt(fragment: Fragment) -> Fragment {
+/// Checks a fragment and removes the numbers that depend on the process.
+fn comparable(fragment: Fragment) -> Fragment {
     fragment.check().unwrap();
     Fragment { sequence: 1, settled_through: 0, ..fragment }
 }
 
 #[test]
-fn a_successor_goes_on_from_the_bytes_of_any_fragment() {
+fn a_successor_continues_from_the_bytes_of_any_fragment() {
     let cases = [
         (EnvironmentConfig::default(), 45, Precision::F32),
-        (rich(), 348, Precision::F32),
-        (rich(), 348, Precision::F16),
+        (randomised(), 348, Precision::F32),
+        (randomised(), 348, Precision::F16),
     ];
     for (config, width, precision) in cases {
         let policy = policy(width);
@@ -99,34 +74,37 @@ fn a_successor_goes_on_from_the_bytes_of_any_fragment() {
             let bytes = fragments[at].encode_as(precision).unwrap();
             let state = Fragment::decode(bytes).unwrap().actor_state.unwrap();
             let mut successor = collector_in(precision, 4, &config, "a", 99, threads);
-            successor.go_on(&state).unwrap();
+            successor.restore_state(&state).unwrap();
             for fragment in &fragments[at + 1..] {
-                assert!(learnt(successor.collect(&policy, 0).unwrap()) == learnt(fragment.clone()), "from {at}");
+                assert!(
+                    comparable(successor.collect(&policy, 0).unwrap()) == comparable(fragment.clone()),
+                    "from {at}"
+                );
             }
         }
     }
 }
 
 #[test]
-fn a_state_that_does_not_fit_is_refused_and_all_begins_as_without_it() {
+fn after_an_unfit_state_all_begins_as_without_it() {
     let (config, policy) = (EnvironmentConfig::default(), policy(45));
     let state = collector(3, &config, "a", 2, 1).collect(&policy, 0).unwrap().actor_state.unwrap();
     let wanted = |envs, name| collector(envs, &config, name, 7, 1).collect(&policy, 0).unwrap();
     let mut upside_down = state.clone();
-    // Of the last environment, so that others have gone on before.
+    // The quaternion of the last environment, so that the others are restored before it fails.
     let at = upside_down.positions.len() / 3 * 2 + 3;
     upside_down.positions[at..at + 4].fill(0.0);
     let mut narrow = state.clone();
     narrow.velocities.truncate(3 * 22);
     for (state, envs, name, part) in [
-        (&state, 4, "a", "it has 3 environments, and here are 4"),
-        (&state, 3, "b", "it is that of actor `a`, and this is `b`"),
+        (&state, 4, "a", "the state has 3 environments, this actor has 4"),
+        (&state, 3, "b", "the state is of actor `a`, this actor is `b`"),
         (&upside_down, 3, "a", "quaternion"),
         (&narrow, 3, "a", "velocity vector has the wrong length: 22 instead of 23"),
     ] {
         let mut collector = collector(envs, &config, name, 7, 1);
-        let why = collector.go_on(state).unwrap_err();
-        assert!(why.contains(part), "{why}");
+        let error = collector.restore_state(state).unwrap_err();
+        assert!(error.contains(part), "{error}");
         assert!(collector.collect(&policy, 0).unwrap() == wanted(envs, name), "{part}");
     }
 }

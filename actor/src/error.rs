@@ -1,0 +1,62 @@
+//! Errors that end an actor or an evaluator.
+
+use std::io;
+
+use tokio::task::JoinError;
+
+/// Error that ends an actor or an evaluator.
+#[derive(Debug, thiserror::Error)]
+pub enum ActorError {
+    /// The bus failed.
+    #[error(transparent)]
+    Bus(#[from] treadmill_bus::BusError),
+    /// The model cannot be simulated.
+    #[error("the humanoid model cannot be used")]
+    Model(#[from] treadmill_humanoid::ModelError),
+    /// The configuration in the policy bundle is invalid.
+    #[error("the configuration in the policy bundle cannot be used")]
+    Config(#[from] treadmill_config::ConfigError),
+    /// The policy bundle is damaged or does not fit the model.
+    #[error("the policy bundle of version {number} cannot be used: {why}")]
+    Bundle {
+        /// Number of the policy.
+        number: u64,
+        /// Reason, with its causes.
+        why: String,
+    },
+    /// The run trains a task that this program does not simulate.
+    #[error(
+        "run `{run}` trains `{task}`, which this program does not simulate: it simulates the humanoid only; join with an actor \
+         that has that environment, as in `python -m treadmill_actor --run {run} --env NAME` (see python/README.md)"
+    )]
+    OtherTask {
+        /// Name of the run.
+        run: String,
+        /// Task that the run trains.
+        task: String,
+    },
+    /// The network cannot be evaluated.
+    #[error("the policy cannot be evaluated")]
+    Inference(#[from] candle_core::Error),
+    /// The trace of an evaluation cannot be written.
+    #[error("the trace cannot be written")]
+    Trace(#[source] io::Error),
+    /// A fragment failed its own checks.
+    #[error("the fragment cannot be encoded")]
+    Encoding(#[source] treadmill_proto::Malformed),
+    /// The task that delivers a fragment panicked.
+    #[error("the delivery of a fragment failed")]
+    Delivery(#[source] JoinError),
+    /// The task that plays an evaluation panicked.
+    #[error("the evaluation failed")]
+    Evaluation(#[source] JoinError),
+    /// The system refused the physics threads.
+    #[error("the physics threads cannot be started")]
+    ThreadStart(#[source] io::Error),
+    /// The physics thread ended before it was stopped.
+    #[error("the physics thread ended unexpectedly")]
+    PhysicsEnded,
+    /// The physics thread panicked.
+    #[error("the physics thread panicked")]
+    PhysicsPanicked,
+}

@@ -1,0 +1,121 @@
+//! Joins a run and fetches its newest policy.
+
+use std::{
+    sync::{Arc, RwLock},
+    time::Duration,
+};
+
+use tokio::sync::Mutex;
+use treadmill_bus::{Bus, BusError, fetch_policy};
+use treadmill_proto::{PolicyBundle, PolicyVersion};
+use treadmill_runtime::{error_chain, shutdown::Shutdown};
+
+use crate::{ActorError, acting_policy::ActingPolicy};
+
+const FETCH_TIMEOUT: Duration = Duration::from_secs(10);
+const RETRY: Duration = Duration::from_millis(200);
+/// Retries between two warnings that no learner answers.
+const RETRIES_PER_WARNING: u32 = 50;
+
+/// Waits for a learner's policy; returns `None` after a request to stop.
+pub async fn join_run(
+    bus: &Bus,
+    run: Option<&str>,
+    endpoint: &str,
+    shutdown: &Shutdown,
+) -> Result<Option<PolicyBundle>, BusError> {
+    let mut retries = 0u32;
+    loop {
+        let bundle = tokio::select! {
+            bundle = fetch_policy(bus, run, FETCH_TIMEOUT) => bundle?,
+            () = shutdown.wait() => return Ok(None),
+        };
+        if bundle.is_some() {
+            return Ok(bundle);
+        }
+        // The first retries are silent: the learner may just be starting.
+        if retries % RETRIES_PER_WARNING == 5 {
+            tracing::warn!(run = run.map(tracing::field::display), %endpoint, "no learner answers; retrying");
+        }
+        retries += 1;
+        tokio::select! {
+            () = tokio::time::sleep(RETRY) => {}
+            () = shutdown.wait() => return Ok(None),
+        }
+    }
+}
+
+/// Holds the policy in use and replaces it with newer ones.
+pub struct PolicyFetcher {
+    bus: Bus,
+    run: String,
+    /// Run that the user named. Without one, the actor follows the learner to another run.
+    requested_run: Option<String>,
+    config_hash: u64,
+    current: RwLock<Arc<ActingPolicy>>,
+    fetching: Mutex<()>,
+}
+
+/// Result of looking for a newer policy.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Refresh {
+    /// No learner answered, or no newer policy exists.
+    Unchanged,
+    /// A newer policy is in use.
+    Replaced,
+    /// The learner trains another run, or the same name with another configuration or model. The actor must rejoin.
+    OtherRun,
+}
+
+impl PolicyFetcher {
+    /// Starts with the policy received on joining.
+    pub fn new(bus: Bus, requested_run: Option<String>, bundle: &PolicyBundle) -> Result<Self, ActorError> {
+        Ok(Self {
+            bus,
+            run: bundle.run.clone(),
+            requested_run,
+            config_hash: bundle.config_hash,
+            current: RwLock::new(Arc::new(ActingPolicy::new(bundle)?)),
+            fetching: Mutex::new(()),
+        })
+    }
+
+    /// Returns the policy in use.
+    pub fn current(&self) -> Arc<ActingPolicy> {
+        self.current.read().expect("no holder of this lock panics").clone()
+    }
+
+    /// Fetches the newest policy, unless the `known` newest version is already in use.
+    pub async fn refresh(&self, known: Option<PolicyVersion>) -> Refresh {
+        // An announcement and a receipt name the same version at nearly the same time; only one of them fetches it.
+        let _one_at_a_time = self.fetching.lock().await;
+        let version = self.current().version;
+        if known == Some(version) {
+            return Refresh::Unchanged;
+        }
+        let bundle = match fetch_policy(&self.bus, self.requested_run.as_deref(), FETCH_TIMEOUT).await {
+            Ok(Some(bundle)) => bundle,
+            Ok(None) => return Refresh::Unchanged,
+            Err(error) => {
+                tracing::warn!(error = %error_chain(&error), "cannot fetch the policy");
+                return Refresh::Unchanged;
+            }
+        };
+        if bundle.run != self.run || bundle.config_hash != self.config_hash {
+            return Refresh::OtherRun;
+        }
+        if bundle.version == version {
+            return Refresh::Unchanged;
+        }
+        match ActingPolicy::new(&bundle) {
+            Ok(policy) => {
+                *self.current.write().expect("no holder of this lock panics") = Arc::new(policy);
+                Refresh::Replaced
+            }
+            Err(error) => {
+                tracing::warn!(error = %error_chain(&error), "keeping the previous policy");
+                Refresh::Unchanged
+            }
+        }
+    }
+}

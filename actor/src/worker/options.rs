@@ -1,0 +1,33 @@
+//! Options of an actor process, and its final report.
+
+use crate::delivery::DeliveryCounts;
+
+/// Options of an actor process.
+#[derive(Clone, Debug)]
+pub struct WorkerOptions {
+    /// Name of the run to join; without it, the only run of the endpoint.
+    pub run: Option<String>,
+    /// Name of the actor.
+    pub name: String,
+    /// Number of environments.
+    pub envs: u32,
+    /// Threads that step the environments; 0 means one per core. Overrides the run's `rollout.threads`.
+    pub threads: Option<u32>,
+    /// Number of this start, from which its random streams are derived.
+    pub start: u64,
+    /// Endpoint of the learner, for messages.
+    pub endpoint: String,
+}
+
+/// Final report of an actor on its membership in one run.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct ActorSummary {
+    /// Incarnation that its fragments carry.
+    pub incarnation: u64,
+    /// Fragments by outcome.
+    pub fragments: DeliveryCounts,
+    /// Highest sequence number up to which every fragment is durable or dropped.
+    pub settled_through: u64,
+    /// Environment steps in all fragments.
+    pub env_steps: u64,
+}

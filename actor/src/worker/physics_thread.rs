@@ -1,0 +1,117 @@
+//! Physics thread of an actor: collects one fragment per credit with the newest policy.
+
+use std::{
+    sync::{
+        Arc,
+        atomic::{AtomicU64, Ordering},
+        mpsc as std_mpsc,
+    },
+    thread::{self, JoinHandle},
+};
+
+use tokio::sync::mpsc;
+use treadmill_proto::{EndCause, Episode, Fragment, Precision};
+
+use crate::{
+    ActorError,
+    delivery::{PendingFragment, Uploader},
+    policy_fetcher::PolicyFetcher,
+    rollout::Collector,
+};
+
+/// Capacity of the channel to the uploader; credit keeps it at `max_in_flight`, which is at most 2.
+const CHANNEL_FRAGMENTS: usize = 2;
+
+/// Encoded fragment with the episodes that ended in it.
+pub(super) struct ProducedFragment {
+    pub(super) pending: PendingFragment,
+    pub(super) episodes: Vec<Episode>,
+}
+
+/// Counts of the physics thread.
+#[derive(Default)]
+pub(super) struct Progress {
+    pub(super) env_steps: AtomicU64,
+    pub(super) episodes: AtomicU64,
+    pub(super) faults: AtomicU64,
+}
+
+/// Parts of an actor that the physics thread and the async tasks share.
+#[derive(Clone)]
+pub(super) struct Shared {
+    pub(super) policies: Arc<PolicyFetcher>,
+    pub(super) uploader: Arc<Uploader>,
+    pub(super) progress: Arc<Progress>,
+}
+
+/// Handle of the running thread.
+pub(super) struct PhysicsThread {
+    thread: JoinHandle<()>,
+    credit: std_mpsc::Sender<()>,
+    fragments: mpsc::Receiver<Result<ProducedFragment, ActorError>>,
+}
+
+impl PhysicsThread {
+    /// Starts the thread with credit for `in_flight` fragments.
+    pub(super) fn start(collector: Collector, shared: Shared, in_flight: u32) -> Result<Self, ActorError> {
+        let (credit, received_credit) = std_mpsc::channel();
+        let (sender, fragments) = mpsc::channel(CHANNEL_FRAGMENTS);
+        let thread = thread::Builder::new()
+            .name("physics".to_string())
+            .spawn(move || collect_fragments(collector, &shared, &received_credit, &sender))
+            .map_err(ActorError::ThreadStart)?;
+        let physics = Self { thread, credit, fragments };
+        (0..in_flight).for_each(|_| physics.give_credit());
+        Ok(physics)
+    }
+
+    /// Allows one more fragment.
+    pub(super) fn give_credit(&self) {
+        // A thread that has ended needs no credit; `next` returns its error.
+        let _ = self.credit.send(());
+    }
+
+    /// Returns the next fragment. Cancel-safe.
+    pub(super) async fn next(&mut self) -> Result<ProducedFragment, ActorError> {
+        self.fragments.recv().await.unwrap_or(Err(ActorError::PhysicsEnded))
+    }
+
+    /// Waits until the thread has finished its present fragment, which is discarded.
+    pub(super) async fn stop(self) -> Result<(), ActorError> {
+        let Self { thread, credit, fragments } = self;
+        drop((credit, fragments));
+        let joined = tokio::task::spawn_blocking(move || thread.join()).await;
+        joined.ok().and_then(Result::ok).ok_or(ActorError::PhysicsPanicked)
+    }
+}
+
+fn collect_fragments(
+    mut collector: Collector,
+    shared: &Shared,
+    credit: &std_mpsc::Receiver<()>,
+    fragments: &mpsc::Sender<Result<ProducedFragment, ActorError>>,
+) {
+    while credit.recv().is_ok() {
+        let policy = shared.policies.current();
+        let produced = collector.collect(&policy, shared.uploader.settled_through()).and_then(|fragment| {
+            shared.uploader.register(fragment.sequence);
+            encode(fragment, collector.precision(), &shared.progress)
+        });
+        let failed = produced.is_err();
+        if fragments.blocking_send(produced).is_err() || failed {
+            return;
+        }
+    }
+}
+
+fn encode(fragment: Fragment, precision: Precision, progress: &Progress) -> Result<ProducedFragment, ActorError> {
+    let bytes = fragment.encode_as(precision).map_err(ActorError::Encoding)?.into();
+    progress.env_steps.fetch_add(fragment.transitions() as u64, Ordering::Relaxed);
+    progress.episodes.fetch_add(fragment.episodes.len() as u64, Ordering::Relaxed);
+    let faults = fragment.episodes.iter().filter(|episode| episode.cause == EndCause::NonFinite).count();
+    progress.faults.fetch_add(faults as u64, Ordering::Relaxed);
+    Ok(ProducedFragment {
+        pending: PendingFragment { sequence: fragment.sequence, bytes },
+        episodes: fragment.episodes,
+    })
+}
