@@ -6,10 +6,11 @@ use std::path::PathBuf;
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum ModelError {
-    /// The text is not valid MJCF.
-    #[error("the model text is not valid MJCF")]
-    Parse(#[source] mjcf_rs::ParseError),
-    /// The MJCF uses a feature that this environment does not simulate.
+    /// The text is not readable MJCF.
+    // Not a `#[source]`: its message repeats its own cause.
+    #[error("the model text is not valid MJCF: {0}")]
+    Parse(mjcf_rs::ParseError),
+    /// The text is MJCF, but uses something this environment does not simulate.
     #[error("model element `{element}`: {problem}")]
     Unsupported {
         /// Name of the body, joint, geom or motor.
