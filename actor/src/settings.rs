@@ -49,8 +49,8 @@ pub fn environment(config: &EnvConfig) -> EnvironmentConfig {
     EnvironmentConfig {
         task: match config.task {
             // `check_supported` refuses external tasks of foreign configurations.
-            EnvRewardTask::HumanoidV5 | EnvTask::External => RewardTask::HumanoidV5,
-            EnvRewardTask::HumanoidV4 => RewardTask::HumanoidV4,
+            EnvTask::HumanoidV5 | EnvTask::External => RewardTask::HumanoidV5,
+            EnvTask::HumanoidV4 => RewardTask::HumanoidV4,
         },
         forward_reward_weight: config.forward_reward_weight,
         ctrl_cost_weight: config.ctrl_cost_weight,

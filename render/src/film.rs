@@ -48,7 +48,7 @@ struct Encoding<W: Write> {
     encoder: Encoder<W>,
     size: (u16, u16),
     colours: NeuQuant,
-    palette_indices: HashMap<[u8; 3], u8>,
+    indices: HashMap<[u8; 3], u8>,
     previous: Vec<u8>,
 }
 
@@ -101,13 +101,13 @@ impl<W: Write> Encoding<W> {
         palette.resize((COLOURS + 1) * 3, 0);
         let mut encoder = Encoder::new(out, size.0, size.1, &palette)?;
         encoder.set_repeat(Repeat::Infinite)?;
-        Ok(Self { encoder, size, colours, palette_indices: HashMap::new(), previous: Vec::new() })
+        Ok(Self { encoder, size, colours, indices: HashMap::new(), previous: Vec::new() })
     }
 
     fn write(&mut self, picture: &Picture, delay: u16) -> Result<(), FilmError> {
-        let Self { colours, palette_indices, .. } = self;
+        let Self { colours, indices, .. } = self;
         let mut nearest = |rgb: &[u8; 3]| {
-            *palette_indices.entry(*rgb).or_insert_with(|| colours.index_of(&[rgb[0], rgb[1], rgb[2], 255]) as u8)
+            *indices.entry(*rgb).or_insert_with(|| colours.index_of(&[rgb[0], rgb[1], rgb[2], 255]) as u8)
         };
         let current: Vec<u8> = picture.rgb.as_chunks::<3>().0.iter().map(&mut nearest).collect();
         let (width, height) = self.size;

@@ -1,6 +1,6 @@
 //! Settings and model from keyword arguments. Errors name the keyword, its value and the accepted values.
 
-use std::{io, ops::RangeInclusive, path::Path};
+use std::{error::Error, io, iter::successors, ops::RangeInclusive, path::Path};
 
 use pyo3::{
     exceptions::{PyFileNotFoundError, PyOSError, PyTypeError, PyValueError},
@@ -11,7 +11,6 @@ use treadmill_humanoid::{
     CONTROL_STEP_S, Environment, EnvironmentConfig, HUMANOID_XML, ModelError, ObservationKind, RewardTask,
     read_model_file,
 };
-use treadmill_runtime::error_chain;
 
 /// All keywords, for the error about an unknown one.
 const KEYWORDS: &str = "contact_cost_range, contact_cost_weight, ctrl_cost_weight, \
@@ -183,11 +182,11 @@ impl Keyword<'_, '_> {
 }
 
 /// Returns the Python exception for a model error, with its causes.
+// Not `treadmill_runtime::error_chain`: that crate would add tokio to the package.
 fn refusal(why: &ModelError, file: Option<&str>) -> PyErr {
-    let message = match file {
-        Some(path) => format!("xml_file `{path}`: {}", error_chain(why)),
-        None => error_chain(why),
-    };
+    let path = file.map(|path| format!("xml_file `{path}`"));
+    let causes = successors(Some(why as &dyn Error), |&cause| cause.source()).map(ToString::to_string);
+    let message = path.into_iter().chain(causes).collect::<Vec<_>>().join(": ");
     match why {
         ModelError::File { source, .. } if source.kind() == io::ErrorKind::NotFound => {
             PyFileNotFoundError::new_err(message)

@@ -134,30 +134,30 @@ fn make_empty(folder: &Path) -> anyhow::Result<()> {
 
 impl Filming {
     /// Records a step of an evaluation if it belongs to the first episode.
-    pub fn record(&mut self, told: &EvaluationStep) {
-        if told.episode == 1
+    pub fn record(&mut self, step: &EvaluationStep) {
+        if step.episode == 1
             && self.failed.is_none()
-            && let Err(why) = self.take_picture(told)
+            && let Err(why) = self.take_picture(step)
         {
             self.failed = Some(why);
         }
     }
 
-    fn take_picture(&mut self, told: &EvaluationStep) -> anyhow::Result<()> {
-        let position = told.physics.position();
+    fn take_picture(&mut self, step: &EvaluationStep) -> anyhow::Result<()> {
+        let position = step.physics.position();
         let share = 1.0 - (-self.control_step_s / FOLLOW_S).exp();
         let followed_m = self.followed_m.get_or_insert([position[0], position[1]]);
         // Forward motion is followed without delay, because a runner would leave the picture.
         followed_m[0] = position[0];
         followed_m[1] += (position[1] - followed_m[1]) * share;
-        let time_s = f64::from(told.step) * self.control_step_s;
+        let time_s = f64::from(step.step) * self.control_step_s;
         let due_s = self.from_s + f64::from(self.taken) / f64::from(self.fps);
         // Takes the step nearest to the time at which the picture is due.
         if time_s + self.control_step_s / 2.0 < due_s || due_s >= self.until_s {
             return Ok(());
         }
         let camera = Camera::beside(followed_m[0], followed_m[1]);
-        let picture = Picture::of(&Scene::of(told.physics), &camera, self.size);
+        let picture = Picture::of(&Scene::of(step.physics), &camera, self.size);
         if let Some((gif, path)) = &mut self.gif {
             gif.add(&picture).with_context(|| format!("--gif {}", path.display()))?;
         }

@@ -14,7 +14,7 @@ use std::{
 
 pub use process::*;
 
-/// Timeout of every wait; a browser without a GPU needs long for its first picture.
+/// Nothing in these tests takes this long unless it is broken; a browser without a GPU takes a while for its first picture.
 pub const TIMEOUT: Duration = Duration::from_secs(300);
 
 /// Returns the root of the repository.

@@ -136,12 +136,12 @@ pub(super) fn attributes_of(node: Node<'_, '_>) -> Vec<Attribute> {
 /// Merges `over` into `under`. A list that may be shorter keeps the remaining numbers of the one under it.
 fn merge(tag: &str, mut under: Vec<Attribute>, over: Vec<Attribute>) -> Vec<Attribute> {
     for (name, mut value) in over {
-        let may_be_shorter =
+        let optional =
             matches!(vocabulary::rule(tag, &name), Some(AttributeRule::Numbers(least, most)) if least < most);
         match under.iter_mut().find(|(found, _)| *found == name) {
             Some((_, below)) => {
                 let given = value.split_whitespace().count();
-                if may_be_shorter && given > 0 {
+                if optional && given > 0 {
                     for rest in below.split_whitespace().skip(given) {
                         value.push(' ');
                         value.push_str(rest);

@@ -28,9 +28,7 @@ pub(super) fn read_hinge(joint: &Joint, autolimits: bool, torque_nm: Option<[f64
     let name = joint.name.clone().unwrap_or_default();
     match joint.type_ {
         JointType::Hinge => {}
-        JointType::Free => {
-            return Err(ModelError::unsupported(&name, "only the root may have a free joint"));
-        }
+        JointType::Free => return Err(ModelError::unsupported(&name, "only the root may have a free joint")),
         JointType::Ball | JointType::Slide => {
             let kind = format!("{:?}", joint.type_).to_lowercase();
             return Err(ModelError::unsupported(&name, format!("joints must be hinges, not of type {kind}")));
@@ -65,7 +63,7 @@ fn range(name: &str, joint: &Joint, autolimits: bool) -> Result<(f64, f64), Mode
         return Ok((f64::NEG_INFINITY, f64::INFINITY));
     }
     let [min_rad, max_rad] =
-        joint.range.ok_or_else(|| ModelError::unsupported(name, "`limited` is true, but there is no range"))?;
+        joint.range.ok_or_else(|| ModelError::unsupported(name, "it is limited, but has no range"))?;
     if min_rad.is_nan() || max_rad.is_nan() || min_rad >= max_rad {
         return Err(ModelError::figure(name, "lower end of the range (rad)", min_rad, "below the upper end"));
     }

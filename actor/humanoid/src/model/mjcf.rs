@@ -133,10 +133,7 @@ impl Reader {
             return Err(ModelError::unsupported(body, "the root, directly below the world, must have a free joint"));
         }
         if !self.bodies.is_empty() {
-            return Err(ModelError::unsupported(
-                body,
-                "there may be only one root, and all other bodies must be below it",
-            ));
+            return Err(ModelError::unsupported(body, "there may be only one root, above all other bodies"));
         }
         joints::check_free(joint)
     }

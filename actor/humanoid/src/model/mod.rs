@@ -267,22 +267,17 @@ impl Model {
 
     /// Returns a description of the first part that differs from another model.
     pub(crate) fn difference(&self, other: &Self) -> Option<String> {
-        fn first_difference<T: PartialEq>(
-            kind: &str,
-            ours: &[T],
-            theirs: &[T],
-            name: fn(&T) -> &str,
-        ) -> Option<String> {
+        fn changed<T: PartialEq>(kind: &str, ours: &[T], theirs: &[T], name: fn(&T) -> &str) -> Option<String> {
             if ours.len() != theirs.len() {
                 return Some(format!("{kind} count ({} and {})", ours.len(), theirs.len()));
             }
             ours.iter().zip(theirs).find(|(one, other)| one != other).map(|(one, _)| format!("{kind} `{}`", name(one)))
         }
-        first_difference("body part", &self.links, &other.links, |link| &link.name)
-            .or_else(|| first_difference("rigid body", &self.bodies, &other.bodies, |body| &body.name))
-            .or_else(|| first_difference("hinge", &self.hinges, &other.hinges, |hinge| &hinge.name))
-            .or_else(|| first_difference("motor", &self.motors, &other.motors, |motor| &motor.name))
-            .or_else(|| first_difference("tendon", &self.tendons, &other.tendons, |tendon| &tendon.name))
+        changed("body part", &self.links, &other.links, |link| &link.name)
+            .or_else(|| changed("rigid body", &self.bodies, &other.bodies, |body| &body.name))
+            .or_else(|| changed("hinge", &self.hinges, &other.hinges, |hinge| &hinge.name))
+            .or_else(|| changed("motor", &self.motors, &other.motors, |motor| &motor.name))
+            .or_else(|| changed("tendon", &self.tendons, &other.tendons, |tendon| &tendon.name))
             .or_else(|| (self != other).then(|| "floor, gravity or collision rules".to_owned()))
     }
 

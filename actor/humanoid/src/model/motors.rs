@@ -114,9 +114,7 @@ fn limits(
         (_, Some([low, high])) => {
             Err(ModelError::attribute(name, attribute, &format!("{low} {high}"), "a lower and an upper limit"))
         }
-        (_, None) => {
-            Err(ModelError::unsupported(name, format!("its `limited` flag is true, but there is no `{attribute}`")))
-        }
+        (_, None) => Err(ModelError::unsupported(name, format!("it is limited, but has no `{attribute}`"))),
     }
 }
 

@@ -309,10 +309,7 @@ pub(super) fn check(label: &str, tag: &str, attributes: &[Attribute]) -> Result<
     Ok(())
 }
 
-/// Checks a value against a rule.
-///
-/// # Errors
-/// The accepted values, for a message.
+/// Checks a value against a rule; the error describes the accepted values.
 pub(super) fn allowed(rule: AttributeRule, value: &str) -> Result<(), String> {
     let several = |least: usize, most: usize, what: &str| {
         let count = if least == most { least.to_string() } else { format!("{least} to {most}") };

@@ -24,7 +24,7 @@ fn set_state(physics: &mut Physics, state: &State) {
 }
 
 /// Returns our observation of every golden state.
-fn observations(config: &EnvironmentConfig, states: &[State]) -> Vec<Vec<f32>> {
+fn observe(config: &EnvironmentConfig, states: &[State]) -> Vec<Vec<f32>> {
     let mut physics = physics();
     let observation = Observation::new(config, physics.model());
     let rows = states.iter().map(|state| {
@@ -49,7 +49,7 @@ fn every_entry_equals_gymnasiums() {
     let states = states();
     assert_eq!(states.len(), 200);
     for kind in [V5, V4] {
-        compare(&observations(&config(kind), &states), &expected(kind, &states))
+        compare(&observe(&config(kind), &states), &expected(kind, &states))
             .unwrap_or_else(|mismatch| panic!("{kind:?}: {mismatch:?}"));
     }
 }
@@ -70,7 +70,7 @@ fn no_entry_is_zero_in_all_golden_states() {
 fn the_comparison_detects_flipped_signs_and_swapped_axes_in_every_block() {
     let states = states();
     for kind in [V5, V4] {
-        let right = observations(&config(kind), &states);
+        let right = observe(&config(kind), &states);
         let expected = expected(kind, &states);
         let observation = Observation::new(&config(kind), physics().model());
         let names: Vec<&str> = observation.blocks().iter().map(|block| block.name).collect();
@@ -144,19 +144,19 @@ fn each_flag_removes_only_its_block() {
     ];
     let states = states();
     let model = Model::from_mjcf(HUMANOID_XML).expect("valid");
-    let whole = observations(&config(V5), &states);
+    let whole = observe(&config(V5), &states);
     for (name, size, switch) in cases {
         let mut without = config(V5);
         switch(&mut without);
         let out = block(&Observation::new(&config(V5), &model), name);
         assert_eq!(out.len(), size);
         assert!(Observation::new(&without, &model).blocks().iter().all(|block| block.name != name));
-        for (whole, part) in whole.iter().zip(observations(&without, &states)) {
+        for (whole, part) in whole.iter().zip(observe(&without, &states)) {
             assert_eq!(part, [&whole[..out.start], &whole[out.end..]].concat(), "{name}");
         }
     }
     let place = EnvironmentConfig { exclude_current_positions_from_observation: false, ..config(V5) };
-    for ((state, whole), placed) in states.iter().zip(&whole).zip(observations(&place, &states)) {
+    for ((state, whole), placed) in states.iter().zip(&whole).zip(observe(&place, &states)) {
         assert!((f64::from(placed[0]) - state.position[0]).abs() < 1e-5);
         assert!((f64::from(placed[1]) - state.position[1]).abs() < 1e-5);
         assert_eq!(placed[2..], whole[..]);
@@ -167,7 +167,7 @@ fn each_flag_removes_only_its_block() {
 fn compact_is_the_beginning_of_v5() {
     let states = states();
     for (compact, whole) in
-        observations(&config(ObservationKind::Compact), &states).iter().zip(observations(&config(V5), &states))
+        observe(&config(ObservationKind::Compact), &states).iter().zip(observe(&config(V5), &states))
     {
         assert_eq!(compact[..], whole[..45]);
     }
