@@ -78,7 +78,7 @@ impl Collector {
         self.steps as usize * self.environments.len()
     }
 
-    /// Collects the next fragment. `settled_through` tells the learner which fragments will not be sent again.
+    /// Collects the next fragment. Fragments up to `settled_through` will not be sent again.
     pub fn collect(&mut self, policy: &ActingPolicy, settled_through: u64) -> Result<Fragment, ActorError> {
         let (envs, width, action_size) =
             (self.environments.len(), self.environments.observation_size(), self.environments.action_size());

@@ -156,8 +156,8 @@ class Fleet:
         """Returns environment steps and updates so far, from the end of metrics.jsonl."""
         try:
             with (self.run / "metrics.jsonl").open("rb") as file:
-                file.seek(0, os.SEEK_END)
-                file.seek(max(0, file.tell() - 32_768))
+                size = file.seek(0, os.SEEK_END)
+                file.seek(max(0, size - 32_768))
                 tail = file.read().decode("utf-8", errors="replace")
         except OSError:
             return None

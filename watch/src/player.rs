@@ -42,24 +42,24 @@ impl Player {
         let mut start_x_m = 0.0;
         // `evaluate` cannot stop early, so the remaining steps are not shown.
         let mut shown = Ok(true);
-        evaluate(&mut self.environment, &mut self.agent, episodes, seed, |told| {
-            if told.step == 1 {
-                start_x_m = told.physics.position()[0];
+        evaluate(&mut self.environment, &mut self.agent, episodes, seed, |step| {
+            if step.step == 1 {
+                start_x_m = step.physics.position()[0];
             }
             if matches!(shown, Ok(true)) {
-                shown = show(&pose(&told, start_x_m));
+                shown = show(&pose(&step, start_x_m));
             }
         })?;
         shown.map(drop)
     }
 }
 
-fn pose(told: &EvaluationStep, start_x_m: f64) -> Pose {
+fn pose(step: &EvaluationStep, start_x_m: f64) -> Pose {
     Pose {
-        episode: told.episode.into(),
-        step: told.step,
-        time_s: f64::from(told.step) * CONTROL_STEP_S,
-        distance_m: (told.physics.position()[0] - start_x_m) as f32,
-        ..poses::body_pose(told.physics, told.info)
+        episode: step.episode.into(),
+        step: step.step,
+        time_s: f64::from(step.step) * CONTROL_STEP_S,
+        distance_m: (step.physics.position()[0] - start_x_m) as f32,
+        ..poses::body_pose(step.physics, step.info)
     }
 }

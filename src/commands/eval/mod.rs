@@ -104,23 +104,23 @@ pub fn run(args: EvalArgs) -> anyhow::Result<()> {
     let quiet = args.json || print_every == 0;
     let control_step_s = environment.control_step_s();
     let mut filming = args.film.begin(control_step_s)?;
-    let step = SlowStepNotice::begin(format!("playing episode 1 of {}", args.episodes));
-    let evaluation = evaluate(&mut environment, &mut agent, args.episodes, args.seed, |told| {
-        if told.step == 1 {
-            step.update(format!("playing episode {} of {}", told.episode, args.episodes));
+    let notice = SlowStepNotice::begin(format!("playing episode 1 of {}", args.episodes));
+    let evaluation = evaluate(&mut environment, &mut agent, args.episodes, args.seed, |step| {
+        if step.step == 1 {
+            notice.update(format!("playing episode {} of {}", step.episode, args.episodes));
         }
         if let Some(filming) = &mut filming {
-            filming.record(&told);
+            filming.record(&step);
         }
-        if !quiet && (told.step == 1 || told.step.is_multiple_of(print_every)) {
-            let EvaluationStep { episode, step, reward, total, .. } = told;
+        if !quiet && (step.step == 1 || step.step.is_multiple_of(print_every)) {
+            let EvaluationStep { episode, step, reward, total, .. } = step;
             say(&format!("episode {episode:>3}  step {step:>4}  reward {reward:>8.3}  total {total:>9.2}"));
         }
     })?;
     agent.finish()?;
-    step.update("finishing the pictures".to_string());
+    notice.update("finishing the pictures".to_string());
     let pictures = filming.map(Filming::finish).transpose()?;
-    drop(step);
+    drop(notice);
     if args.json {
         say(&as_json(args.agent, &evaluation, control_step_s));
     } else {
