@@ -1,6 +1,6 @@
 //! Learning curve as a PNG, drawn from `metrics.jsonl`.
 
-use std::fs::{self, File};
+use std::fs::File;
 use std::io;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
@@ -9,6 +9,7 @@ use plotters::coord::Shift;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 use plotters::style::{FontDesc, FontStyle, register_font};
+use treadmill_runtime::atomic_file;
 
 use super::jsonl::for_each_metric;
 use super::table::format_number;
@@ -64,7 +65,7 @@ pub enum CurveError {
         /// Error of the system.
         source: io::Error,
     },
-    /// The plotter failed, usually because the file cannot be written.
+    /// The plotter failed.
     #[error("cannot draw the learning curve to {path}: {why}")]
     Draw {
         /// Path of the file.
@@ -72,9 +73,9 @@ pub enum CurveError {
         /// Message of the plotter.
         why: String,
     },
-    /// The older image cannot be replaced.
-    #[error("cannot replace the learning curve at {path}")]
-    Replace {
+    /// The image cannot be written.
+    #[error("cannot write the learning curve to {path}")]
+    Write {
         /// Path of the file.
         path: PathBuf,
         /// Error of the system.
@@ -88,18 +89,20 @@ pub fn draw_curve(metrics_jsonl: &Path, png: &Path) -> Result<(), CurveError> {
     let read = |source| CurveError::Read { path: metrics_jsonl.to_path_buf(), source };
     let curves = File::open(metrics_jsonl).and_then(read_curves).map_err(read)?;
 
-    // The plotter chooses the format by the extension, so the temporary file has the same.
-    let temporary = png.with_extension("tmp.png");
-    let drawn = draw(&curves, &temporary)
-        .map_err(|error| CurveError::Draw { path: png.to_path_buf(), why: error.to_string() })
-        .and_then(|()| {
-            fs::rename(&temporary, png).map_err(|source| CurveError::Replace { path: png.to_path_buf(), source })
-        });
-    if drawn.is_err() {
-        // The file may not exist; the first error is returned.
-        let _ = fs::remove_file(&temporary);
-    }
-    drawn
+    let draw = |why: String| CurveError::Draw { path: png.to_path_buf(), why };
+    let mut rgb = vec![0; 3 * SIZE.0 as usize * SIZE.1 as usize];
+    draw_panels(&curves, &mut rgb).map_err(|error| draw(error.to_string()))?;
+    let bytes = encode_png(&rgb).map_err(|error| draw(error.to_string()))?;
+    atomic_file::write(png, &bytes).map_err(|source| CurveError::Write { path: png.to_path_buf(), source })
+}
+
+fn encode_png(rgb: &[u8]) -> Result<Vec<u8>, png::EncodingError> {
+    let mut bytes = Vec::new();
+    let mut encoder = png::Encoder::new(&mut bytes, SIZE.0, SIZE.1);
+    encoder.set_color(png::ColorType::Rgb);
+    encoder.set_depth(png::BitDepth::Eight);
+    encoder.write_header()?.write_image_data(rgb)?;
+    Ok(bytes)
 }
 
 /// Points (millions of steps, value) of each panel.
@@ -123,11 +126,11 @@ fn read_curves(file: File) -> io::Result<Curves> {
 type DrawError<'a> = DrawingAreaErrorKind<<BitMapBackend<'a> as DrawingBackend>::ErrorType>;
 type Area<'a> = DrawingArea<BitMapBackend<'a>, Shift>;
 
-fn draw<'a>(curves: &Curves, path: &'a Path) -> Result<(), DrawError<'a>> {
+fn draw_panels<'a>(curves: &Curves, rgb: &'a mut [u8]) -> Result<(), DrawError<'a>> {
     // The font is embedded, because a machine without a screen often has none. If registering it failed, drawing text
     // would return an error.
     let _ = register_font(FONT, FontStyle::Normal, dejavu::sans::regular());
-    let area = BitMapBackend::new(path, SIZE).into_drawing_area();
+    let area = BitMapBackend::with_buffer(rgb, SIZE).into_drawing_area();
     area.fill(&WHITE)?;
     let million_steps_max = curves.iter().flatten().map(|point| point.0).fold(0.0, f64::max);
     let million_steps = 0.0..if million_steps_max > 0.0 { million_steps_max } else { 1.0 };

@@ -72,5 +72,5 @@ fn read_and_write_errors_name_the_file() {
     assert!(matches!(&error, CurveError::Read { path, .. } if *path == jsonl), "{error}");
     fs::write(&jsonl, "").unwrap();
     let error = draw_curve(&jsonl, &png).unwrap_err();
-    assert!(matches!(&error, CurveError::Draw { path, .. } if *path == png), "{error}");
+    assert!(matches!(&error, CurveError::Write { path, .. } if *path == png), "{error}");
 }
