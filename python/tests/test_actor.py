@@ -195,7 +195,7 @@ class DeliveryTest(unittest.TestCase):
         waits = []
         stopping = SimpleNamespace(is_set=lambda: False, wait=waits.append)
         uploader = Uploader(bus, "run", "py", 1, 60.0, stopping)
-        uploader.produced(1)
+        uploader.note_produced(1)
         self.assertEqual(uploader.deliver(1, b"1").outcome, schema.OUTCOMES["malformed"])
         self.assertEqual((waits, uploader.ledger.resent, uploader.ledger.dropped_by_rule), ([0.2, 0.2, 0.2, 10.0], 4, 1))
 

@@ -74,7 +74,7 @@ class Uploader:
         self.lock = threading.Lock()
         self.ledger = DeliveryLedger(incarnation)
 
-    def produced(self, sequence):
+    def note_produced(self, sequence):
         """See DeliveryLedger.note_produced."""
         with self.lock:
             self.ledger.note_produced(sequence)
@@ -108,7 +108,7 @@ class Uploader:
         return None
 
     def resend_unsaved(self, incarnation):
-        """Resends what a previous incarnation accepted but may not have saved; the learner drops duplicates."""
+        """Resends fragments that a previous incarnation accepted but may not have saved; the learner drops duplicates."""
         with self.lock:
             resend = self.ledger.take_unsaved(incarnation)
         for sequence, fragment in sorted(resend.items()):

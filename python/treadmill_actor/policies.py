@@ -22,7 +22,7 @@ def until_answered(ask, problem, stopping):
         answer = ask()
         if answer is not None:
             return answer
-        # Waits a second first: a starting learner is normal.
+        # The first warning comes after a second, because the learner may be starting.
         if tries % 50 == 5:
             log.warning("%s; retrying", problem)
         tries += 1

@@ -32,7 +32,7 @@ class Worker:
         self.bus, self.run, self.actor = bus, run, actor
         self.environments, self.seed, self.stopping = environments, seed, stopping
         self.env_steps = self.episodes = self.faults = 0
-        self.failure = None
+        self.uploader = self.failure = None
 
     def work(self, steps=None):
         """Joins and simulates for `steps` environment steps; joins again if the run changes."""
@@ -113,7 +113,7 @@ class Worker:
                 continue
             policy, version = policies.current
             fragment, episodes = collector.collect(policy, version, self.uploader.settled_through())
-            self.uploader.produced(collector.sequence)
+            self.uploader.note_produced(collector.sequence)
             outbox.put((collector.sequence, fragment))
             self.env_steps += collector.transitions
             self.episodes += len(episodes)

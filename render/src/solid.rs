@@ -92,7 +92,7 @@ impl Solid {
         Self { form, bound: Ball { centre: body * geometry.centre_m(), radius_m } }
     }
 
-    /// Whether a ray may hit the shape before a distance (m), judged by its bounding sphere.
+    /// Whether a ray may hit the shape before a distance (m): whether it enters the bounding sphere.
     pub(crate) fn may_hit(&self, ray: &Ray, before_m: f64) -> bool {
         self.bound.may_hit(ray, before_m)
     }
@@ -125,7 +125,7 @@ fn sphere(ray: &Ray, centre: &Point3<f64>, radius_m: f64) -> Option<Hit> {
         .then(|| Hit { distance_m, normal: (ray.at(distance_m) - centre) / radius_m })
 }
 
-/// The wall between the end planes, or the ball at either end.
+/// Returns where a ray enters a capsule: its wall between the end planes, or the ball at either end.
 fn capsule(ray: &Ray, from: &Point3<f64>, to: &Point3<f64>, radius_m: f64) -> Option<Hit> {
     let axis = to - from;
     let length_m = axis.norm();
@@ -168,7 +168,7 @@ fn cylinder(ray: &Ray, radius_m: f64, half_length_m: f64) -> Option<Hit> {
         .then(|| Hit { distance_m, normal: Vector3::new(0.0, 0.0, up) })
 }
 
-/// Slab method: a ray hits the box if it enters the last pair of planes before it leaves the first.
+/// Returns where a ray enters a box, by the slab method: it enters the last pair of planes before it leaves the first.
 fn cuboid(ray: &Ray, half_m: &Vector3<f64>) -> Option<Hit> {
     let (mut enters, mut leaves, mut through) = (f64::NEG_INFINITY, f64::INFINITY, 0);
     for axis in 0..3 {
@@ -191,7 +191,7 @@ fn cuboid(ray: &Ray, half_m: &Vector3<f64>) -> Option<Hit> {
     (enters <= leaves && enters > NEAREST_M).then_some(Hit { distance_m: enters, normal })
 }
 
-/// Becomes a unit sphere when all lengths are divided by the semi-axes.
+/// Returns where a ray enters an ellipsoid, which is a unit sphere when all lengths are divided by the semi-axes.
 fn ellipsoid(ray: &Ray, half_m: &Vector3<f64>) -> Option<Hit> {
     let scaled = ray.direction.component_div(half_m);
     let stretch = scaled.norm();

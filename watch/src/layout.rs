@@ -45,9 +45,9 @@ pub mod paths {
     pub const STEP: &str = "control step";
 }
 
-/// Initial state of the timeline.
+/// How the timeline plays at first.
 #[derive(Clone, Copy, PartialEq, Eq)]
-pub enum PlaybackSpeed {
+pub enum PlayMode {
     /// Plays from the beginning in real time.
     Played,
     /// Follows the latest data.
@@ -72,7 +72,7 @@ pub fn followed_m([x, y]: [f32; 2]) -> [[f32; 3]; 2] {
 }
 
 /// Sends the layout; if `follows`, the camera follows the robot.
-pub fn send(recording: &RecordingStream, follows: bool, speed: PlaybackSpeed) -> RecordingStreamResult<()> {
+pub fn send(recording: &RecordingStream, follows: bool, mode: PlayMode) -> RecordingStreamResult<()> {
     let space = ContainerLike::from(Spatial3DView::new("humanoid").with_origin(paths::WORLD));
     let space_path = path_of(&space);
     let curves = |name: &str, path: &str| ContainerLike::from(TimeSeriesView::new(name).with_origin(path));
@@ -84,7 +84,7 @@ pub fn send(recording: &RecordingStream, follows: bool, speed: PlaybackSpeed) ->
     let curve_paths = curves.each_ref().map(path_of);
     let curves = Vertical::new(curves);
     let root = Horizontal::new([space, curves.into()]).with_column_shares([1.7, 1.0]);
-    let play = if speed == PlaybackSpeed::Live { PlayState::Following } else { PlayState::Playing };
+    let play = if mode == PlayMode::Live { PlayState::Following } else { PlayState::Playing };
     let blueprint = Blueprint::new(root)
         .with_auto_views(false)
         .with_auto_layout(false)

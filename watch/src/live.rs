@@ -73,7 +73,7 @@ async fn fetch_bundle(bus: &Bus, run: Option<&str>) -> anyhow::Result<PolicyBund
         }
         if start.elapsed() >= learner_address::ANSWER_TIMEOUT {
             let whose = run.map_or("no run".to_string(), |run| format!("no run `{run}`"));
-            anyhow::bail!("{whose} answers there; is its learner up, and does your certificate let you ask?");
+            anyhow::bail!("{whose} answers there; is its learner running, and does your certificate let you ask?");
         }
         tokio::time::sleep(POLL_INTERVAL).await;
     }

@@ -108,9 +108,9 @@ impl SceneRecorder {
 
     /// Logs one pose; ignores poses that do not fit the model.
     pub fn show(&mut self, pose: &Pose) -> RecordingStreamResult<()> {
-        let places = pose.bodies.as_chunks::<BODY_NUMBERS>().0;
-        let [torso, ..] = places else { return Ok(()) };
-        if places.len() != self.bodies.len() || pose.joint_torques_nm.len() != self.model.hinges.len() {
+        let body_poses = pose.bodies.as_chunks::<BODY_NUMBERS>().0;
+        let [torso, ..] = body_poses else { return Ok(()) };
+        if body_poses.len() != self.bodies.len() || pose.joint_torques_nm.len() != self.model.hinges.len() {
             return Ok(());
         }
         self.begin_episode(pose);
@@ -133,7 +133,7 @@ impl SceneRecorder {
             };
             rec.log(paths::EPISODES, &TextLog::new(text))?;
         }
-        for (path, [x, y, z, w, i, j, k]) in self.bodies.iter().zip(places) {
+        for (path, [x, y, z, w, i, j, k]) in self.bodies.iter().zip(body_poses) {
             let rotation = Quaternion::from_xyzw([*i, *j, *k, *w]);
             rec.log(path.clone(), &Transform3D::from_translation_rotation([*x, *y, *z], rotation))?;
         }

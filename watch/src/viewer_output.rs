@@ -67,20 +67,16 @@ impl ViewerOutput {
         }
         let web_port = free_port(bind, args.web_port, "--web-port")?;
         let data_port = free_port(bind, args.data_port, "--data-port")?;
-        let host = match bind {
-            bind if bind.is_unspecified() => machine::host_name(),
+        let address = match bind {
             IpAddr::V6(bind) => format!("[{bind}]"),
             IpAddr::V4(bind) => bind.to_string(),
         };
+        let host = if bind.is_unspecified() { machine::host_name() } else { address.clone() };
         let options = ServerOptions {
             memory_limit: MemoryLimit::from_bytes(args.memory_max_mb << 20),
             // Page and data have different ports.
             cors_allowed_origins: vec![format!("http://{host}:{web_port}"), format!("http://*:{web_port}")],
             ..ServerOptions::default()
-        };
-        let address = match bind {
-            IpAddr::V6(bind) => format!("[{bind}]"),
-            IpAddr::V4(bind) => bind.to_string(),
         };
         let recording = builder.serve_grpc_opts(&address, data_port, options).context("the data cannot be served")?;
         let page = WebViewerConfig {

@@ -91,12 +91,11 @@ fn check_length(what: &str, found: usize, expected: usize) -> Result<(), String>
 }
 
 fn state(physics: &Physics) -> State {
-    let joints = physics.joint_quality();
     let forces = (0..physics.model().links.len()).map(|link| physics.contact_wrench(link).0.norm());
     State {
         qpos: physics.position().to_vec(),
         qvel: physics.velocity().to_vec(),
-        limit_overshoot_rad: joints.limit_overshoot_rad,
+        limit_overshoot_rad: physics.joint_quality().limit_overshoot_rad,
         bodies_in_contact: forces.clone().filter(|force_n| *force_n > 0.0).count(),
         contact_force_n: forces.sum(),
     }

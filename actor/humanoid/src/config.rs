@@ -52,7 +52,7 @@ pub struct EnvironmentConfig {
     pub healthy_reward: f64,
     /// Whether leaving the healthy range ends the episode.
     pub terminate_when_unhealthy: bool,
-    /// A torso is healthy while its height (m) lies strictly between these two.
+    /// Healthy torso heights (m) lie strictly between these two.
     pub healthy_z_range: [f64; 2],
     /// Every position and velocity starts within ± this of its nominal value (m, rad, m/s, rad/s).
     pub reset_noise_scale: f64,
@@ -181,9 +181,7 @@ impl Default for Randomisation {
     }
 }
 
-/// Returns the first field that differs between two values of a type: name, value on the left, value on the right.
-///
-/// It must be given all fields: the compiler rejects a list that lacks one.
+/// Returns the first field that differs: name, left value, right value. A list that lacks a field does not compile.
 macro_rules! first_difference {
     ($type:ident, $left:expr, $right:expr, [$($field:ident),* $(,)?]) => {{
         let $type { $($field),* } = $left;

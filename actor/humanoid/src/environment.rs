@@ -11,7 +11,7 @@ pub use self::snapshot::EnvironmentSnapshot;
 use crate::config::{CONTROL_STEP_S, EnvironmentConfig};
 use crate::error::{InputError, ModelError};
 use crate::info::{PerTendon, StepInfo};
-use crate::model::{Model, Tendon};
+use crate::model::Model;
 use crate::observation::Observation;
 use crate::physics::{JointQuality, Physics};
 use crate::randomisation::Randomiser;
@@ -284,7 +284,7 @@ fn uniform_noise(random: &mut impl Rng, scale: f64) -> f64 {
 }
 
 fn tendon_values(physics: &Physics, hinges: &[f64]) -> PerTendon {
-    physics.model().tendons.iter().map(|tendon: &Tendon| tendon.sum_over(hinges)).collect()
+    physics.model().tendons.iter().map(|tendon| tendon.sum_over(hinges)).collect()
 }
 
 /// Returns the info before an episode's first step.

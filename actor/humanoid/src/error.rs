@@ -48,12 +48,12 @@ pub enum ModelError {
         source: std::io::Error,
     },
     /// A quantity of the model is physically impossible.
-    #[error("model element `{element}`: {figure} is {value}, but must be {expected}")]
-    Figure {
+    #[error("model element `{element}`: {quantity} is {value}, but must be {expected}")]
+    Quantity {
         /// Name of the body, joint, geom or motor.
         element: String,
-        /// Quantity, with its unit.
-        figure: &'static str,
+        /// Name of the quantity, with its unit.
+        quantity: &'static str,
         /// Value found.
         value: f64,
         /// Accepted values.
@@ -201,7 +201,7 @@ impl ModelError {
         }
     }
 
-    pub(crate) fn figure(element: &str, figure: &'static str, value: f64, expected: &'static str) -> Self {
-        Self::Figure { element: element.to_owned(), figure, value, expected }
+    pub(crate) fn quantity(element: &str, quantity: &'static str, value: f64, expected: &'static str) -> Self {
+        Self::Quantity { element: element.to_owned(), quantity, value, expected }
     }
 }

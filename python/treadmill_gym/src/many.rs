@@ -7,7 +7,7 @@ use pyo3::{
     types::PyDict,
 };
 use rayon::{ThreadPool, ThreadPoolBuilder, prelude::*};
-use treadmill_humanoid::{Environment, Physics, StepInfo};
+use treadmill_humanoid::{Environment, Physics, RewardTask, StepInfo};
 
 use crate::{
     info::{self, FAULT, Moment},
@@ -55,7 +55,7 @@ type Stepped<'py> = (
 
 #[pymethods]
 impl Humanoids {
-    /// `max_episode_steps` 0 means no time limit; `threads` 0 means one per core.
+    /// Builds `num_envs` humanoids. `max_episode_steps` 0 means no time limit; `threads` 0 means one per core.
     #[new]
     fn new(
         num_envs: Bound<'_, PyAny>,
@@ -177,7 +177,7 @@ impl Humanoids {
         self.slots[0].observation.len()
     }
 
-    fn task(&self) -> treadmill_humanoid::RewardTask {
+    fn task(&self) -> RewardTask {
         self.slots[0].environment.config().task
     }
 }

@@ -23,7 +23,6 @@ const KEYWORDS: &str = "contact_cost_range, contact_cost_weight, ctrl_cost_weigh
 const BUILT_IN: &str = "humanoid.xml";
 /// Accepted `frame_skip`: with Gymnasium's time step, it gives the control step that is simulated here.
 const FRAME_SKIP: u32 = 5;
-
 /// Accepted `substeps` and `solver_iterations`.
 const REPEATS: RangeInclusive<u32> = 1..=1000;
 

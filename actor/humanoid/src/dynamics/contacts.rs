@@ -29,7 +29,7 @@ pub(crate) struct ContactPoint {
     pub(crate) bodies: [Option<usize>; 2],
     /// Their links, in the same order; for reports only.
     pub(crate) links: [Option<usize>; 2],
-    /// Relative to O (m).
+    /// Position relative to O (m).
     pub(crate) position_m: Vector3<f64>,
     /// Unit vector from the first body to the second.
     pub(crate) normal: Vector3<f64>,
@@ -133,13 +133,13 @@ impl Contacts {
     }
 
     /// Returns the floor's total impulse, with the moment about a point (m, relative to O).
-    pub(crate) fn momentum(&self, about_m: &Vector3<f64>) -> Force {
+    pub(crate) fn floor_impulse(&self, about_m: &Vector3<f64>) -> Force {
         let mut sum = Force::default();
         for point in &self.points {
-            let given = Force::at(&(point.position_m - about_m), point.impulse_ns, Vector3::zeros());
+            let impulse = Force::at(&(point.position_m - about_m), point.impulse_ns, Vector3::zeros());
             match point.bodies {
-                [None, Some(_)] => sum += given,
-                [Some(_), None] => sum -= given,
+                [None, Some(_)] => sum += impulse,
+                [Some(_), None] => sum -= impulse,
                 _ => {}
             }
         }
@@ -236,7 +236,7 @@ fn directions(normal: &Vector3<f64>) -> [Vector3<f64>; DIRECTIONS] {
     [*normal, first, normal.cross(&first)]
 }
 
-/// Writes the rates of separation per rate of each degree of freedom, a row for each direction.
+/// Writes one row per direction: the rate of separation per rate of each degree of freedom.
 fn write_jacobians(
     tree: &Tree,
     posture: &Posture,

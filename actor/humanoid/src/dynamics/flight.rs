@@ -122,7 +122,7 @@ impl Flight {
         posture.velocities(tree, velocity, &mut self.velocities);
         let after = Momentum::of(posture, &self.velocities);
         let before = &self.start_momentum;
-        let target = before.expected_after(&tree.gravity_mps2, time_s, &contacts.momentum(&before.centre_m));
+        let target = before.expected_after(&tree.gravity_mps2, time_s, &contacts.floor_impulse(&before.centre_m));
         after.restore(posture, &target.about_centre, velocity);
         // The centre of mass follows the momentum alone: without contacts, along a parabola.
         let moved = (before.velocity_mps() + target.velocity_mps()) * (time_s / 2.0);

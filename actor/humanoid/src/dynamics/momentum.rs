@@ -31,11 +31,10 @@ impl Momentum {
         Self { about_centre, centre_m, inertia }
     }
 
-    /// Returns a copy with the momentum after `time_s` of gravity and the impulse `given` (moment about the centre of mass).
-    /// Centre and inertia stay the same.
-    pub(crate) fn expected_after(&self, gravity_mps2: &Vector3<f64>, time_s: f64, given: &Force) -> Self {
+    /// Returns a copy whose momentum includes `time_s` of gravity and an impulse (moment about the centre of mass).
+    pub(crate) fn expected_after(&self, gravity_mps2: &Vector3<f64>, time_s: f64, impulse: &Force) -> Self {
         let mut expected = *self;
-        expected.about_centre += *given;
+        expected.about_centre += *impulse;
         expected.about_centre.force += gravity_mps2 * (self.inertia.mass_kg * time_s);
         expected
     }

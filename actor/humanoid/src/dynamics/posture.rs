@@ -5,7 +5,7 @@
 use nalgebra::{Matrix3, Quaternion, UnitQuaternion, Vector3};
 
 use super::spatial::{Inertia, Motion};
-use super::tree::{ROOT_DOFS, ROOT_POSITIONS, Tree, rotation_matrix};
+use super::tree::{ROOT_DOFS, ROOT_POSITIONS, Tree};
 
 /// Poses, joint axes and inertias of a tree at one position.
 #[derive(Clone, Debug)]
@@ -36,7 +36,7 @@ impl Posture {
 
     /// Computes poses and axes at a position vector. The root's quaternion need not be normalised.
     pub(crate) fn update_kinematics(&mut self, tree: &Tree, position: &[f64]) {
-        let root = rotation_matrix(&root_rotation(position));
+        let root = root_rotation(position).to_rotation_matrix().into_inner();
         self.rotations[0] = root;
         self.origins_m[0] = Vector3::zeros();
         self.centres_m[0] = root * tree.nodes[0].centre_m;

@@ -1,6 +1,6 @@
 //! Kinematic tree: bodies with inertia, and degrees of freedom with their paths to the root.
 
-use nalgebra::{Matrix3, UnitQuaternion, Vector3};
+use nalgebra::{Matrix3, Vector3};
 
 use crate::model::Model;
 
@@ -66,7 +66,7 @@ impl Tree {
             .iter()
             .map(|body| Node {
                 parent: body.parent.unwrap_or(0),
-                rotation: rotation_matrix(&body.pose.rotation),
+                rotation: body.pose.rotation.to_rotation_matrix().into_inner(),
                 parent_anchor_m: (body.pose * body.anchor_m).coords,
                 anchor_m: body.anchor_m.coords,
                 hinges: body.hinges.clone(),
@@ -159,8 +159,4 @@ fn build_paths(nodes: &[Node], hinges: usize) -> (Vec<u32>, Vec<usize>, Vec<u32>
         starts.push(starts[starts.len() - 1] + path.len());
     }
     (paths.concat(), starts, innermost)
-}
-
-pub(crate) fn rotation_matrix(rotation: &UnitQuaternion<f64>) -> Matrix3<f64> {
-    rotation.to_rotation_matrix().into_inner()
 }

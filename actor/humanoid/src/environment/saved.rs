@@ -66,7 +66,7 @@ impl Environment {
     /// # Panics
     /// If `observation` does not have length [`Self::observation_size`].
     pub fn resume_episode(&mut self, state: &EpisodeState, observation: &mut [f32]) -> Result<(), StateError> {
-        self.physics.check_without_ranges(&state.position, &state.velocity)?;
+        self.physics.check_numbers(&state.position, &state.velocity)?;
         check("observation", &state.observation, self.observation_size())?;
         check("past actions", &state.past_actions, self.randomiser.past_size())?;
         self.seed = Some(state.seed);

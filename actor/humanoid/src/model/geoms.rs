@@ -37,7 +37,8 @@ pub(super) fn read(
         return Err(ModelError::unsupported(name, problem));
     };
     let mass = (!weightless).then(|| match mass_kg {
-        Some(mass_kg) => inertia::of_geometry(&geometry, mass_kg / inertia::volume_m3(&geometry)),
+        // A density of 1 kg/m³ gives the volume.
+        Some(mass_kg) => inertia::of_geometry(&geometry, mass_kg / inertia::of_geometry(&geometry, 1.0).mass_kg),
         None => inertia::of_geometry(&geometry, density_kgpm3),
     });
     if !collides {
@@ -52,7 +53,7 @@ pub(super) fn read(
 /// Reads the collision shape of a geom.
 pub(super) fn collision_shape(name: &str, geom: &Geom, geometry: Geometry) -> Result<Shape, ModelError> {
     if !(0.0..=MARGIN_MAX_M).contains(&geom.margin) {
-        return Err(ModelError::figure(name, "margin (m)", geom.margin, "between 0 and 0.01"));
+        return Err(ModelError::quantity(name, "margin (m)", geom.margin, "between 0 and 0.01"));
     }
     let has_friction = match geom.condim {
         1 => false,
@@ -148,7 +149,7 @@ fn positive(element: &str, what: &'static str, value: f64) -> Result<f64, ModelE
     if value.is_finite() && value > 0.0 {
         Ok(value)
     } else {
-        Err(ModelError::figure(element, what, value, "finite and above 0"))
+        Err(ModelError::quantity(element, what, value, "finite and above 0"))
     }
 }
 
@@ -156,6 +157,6 @@ pub(super) fn not_negative(element: &str, what: &'static str, value: f64) -> Res
     if value.is_finite() && value >= 0.0 {
         Ok(value)
     } else {
-        Err(ModelError::figure(element, what, value, "finite and not negative"))
+        Err(ModelError::quantity(element, what, value, "finite and not negative"))
     }
 }

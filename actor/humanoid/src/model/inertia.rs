@@ -40,11 +40,6 @@ fn point_inertia(mass_kg: f64, offset: Vector3<f64>) -> Matrix3<f64> {
     (Matrix3::identity() * offset.norm_squared() - offset * offset.transpose()) * mass_kg
 }
 
-/// Returns the volume (m³).
-pub(crate) fn volume_m3(geometry: &Geometry) -> f64 {
-    of_geometry(geometry, 1.0).mass_kg
-}
-
 /// Returns the mass properties of a solid of uniform density (kg/m³).
 pub(crate) fn of_geometry(geometry: &Geometry, density_kgpm3: f64) -> MassProperties {
     match *geometry {

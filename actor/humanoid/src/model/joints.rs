@@ -17,7 +17,7 @@ pub(super) fn check_free(joint: &Joint) -> Result<(), ModelError> {
         ("armature of a free joint", joint.armature),
     ] {
         if value != 0.0 {
-            return Err(ModelError::figure(name, what, value, "0: the root must move freely"));
+            return Err(ModelError::quantity(name, what, value, "0: the root must move freely"));
         }
     }
     Ok(())
@@ -65,7 +65,7 @@ fn range(name: &str, joint: &Joint, autolimits: bool) -> Result<(f64, f64), Mode
     let [min_rad, max_rad] =
         joint.range.ok_or_else(|| ModelError::unsupported(name, "it is limited, but has no range"))?;
     if min_rad.is_nan() || max_rad.is_nan() || min_rad >= max_rad {
-        return Err(ModelError::figure(name, "lower end of the range (rad)", min_rad, "below the upper end"));
+        return Err(ModelError::quantity(name, "lower end of the range (rad)", min_rad, "below the upper end"));
     }
     Ok((min_rad, max_rad))
 }

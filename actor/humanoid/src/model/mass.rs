@@ -11,32 +11,30 @@ use crate::error::ModelError;
 /// Relative tolerance of the triangle inequality of principal inertias, since numbers in texts are rounded.
 const TRIANGLE_TOLERANCE: f64 = 1e-3;
 
-/// Returns the mass properties of one MJCF body's parts, in the frame of its rigid body.
-///
-/// `shapes` are those of the body's geoms that count for its mass.
+/// Returns the mass properties of one MJCF body's parts, in the frame of its rigid body; `geoms` are its geoms' masses.
 pub(super) fn parts_of_body(
     name: &str,
-    shapes: Vec<MassProperties>,
+    geoms: Vec<MassProperties>,
     inertial: Option<&Inertial>,
     offset: &Isometry3<f64>,
     compiler: &Compiler,
 ) -> Result<Vec<MassProperties>, ModelError> {
     let explicit = match compiler.inertia_from_geom {
-        InertiaFromGeom::True => inertial.filter(|_| shapes.is_empty()),
+        InertiaFromGeom::True => inertial.filter(|_| geoms.is_empty()),
         InertiaFromGeom::False | InertiaFromGeom::Auto => inertial,
     };
     if let Some(inertial) = explicit {
         return Ok(vec![read_inertial(name, inertial, offset, compiler)?]);
     }
-    let parts = if compiler.inertia_from_geom == InertiaFromGeom::False { Vec::new() } else { shapes };
+    let parts = if compiler.inertia_from_geom == InertiaFromGeom::False { Vec::new() } else { geoms };
     if compiler.bound_mass <= 0.0 && compiler.bound_inertia <= 0.0 {
         return Ok(parts);
     }
     Ok(vec![bounded(inertia::sum(&parts), offset, compiler)])
 }
 
-/// Whether geoms may count for the mass of a body.
-pub(super) fn needs_shapes(inertial: Option<&Inertial>, compiler: &Compiler) -> bool {
+/// Returns whether geoms may count for the mass of a body.
+pub(super) fn uses_geoms(inertial: Option<&Inertial>, compiler: &Compiler) -> bool {
     match compiler.inertia_from_geom {
         InertiaFromGeom::True => true,
         InertiaFromGeom::False => false,
@@ -61,7 +59,7 @@ fn read_inertial(
         }
     };
     if principal.min() < 0.0 {
-        return Err(ModelError::figure(name, "least principal inertia (kg·m²)", principal.min(), "not negative"));
+        return Err(ModelError::quantity(name, "least principal inertia (kg·m²)", principal.min(), "not negative"));
     }
     principal.apply(|value| *value = value.max(compiler.bound_inertia));
     let slack = 2.0 * principal.max() - principal.sum();

@@ -110,7 +110,7 @@ impl Reader {
         let mut geom_masses = Vec::new();
         for geom in &body.geoms {
             let [first, last] = self.flat.inertia_groups;
-            let counts = (first..=last).contains(&geom.group) && mass::needs_shapes(body.inertial.as_ref(), compiler);
+            let counts = (first..=last).contains(&geom.group) && mass::uses_geoms(body.inertial.as_ref(), compiler);
             let (mass, shape) = geoms::read(geom, &placement.offset, counts)?;
             geom_masses.extend(mass);
             if let Some(shape) = shape {
@@ -213,7 +213,7 @@ impl Reader {
             let least_kgm2 = body.inertia_kgm2.symmetric_eigenvalues().min();
             if !(least_kgm2.is_finite() && least_kgm2 > 0.0) {
                 let wanted = "finite and above 0";
-                return Err(ModelError::figure(&body.name, "least principal inertia (kg·m²)", least_kgm2, wanted));
+                return Err(ModelError::quantity(&body.name, "least principal inertia (kg·m²)", least_kgm2, wanted));
             }
         }
         if total_kg > 0.0 {
@@ -248,7 +248,7 @@ impl Reader {
     }
 }
 
-/// Returns the part of a rigid body that one MJCF body makes; `parts` are those of its mass.
+/// Returns the link of one MJCF body; `parts` are the parts of its mass.
 fn link(name: String, body: usize, pose: Isometry3<f64>, shapes: Range<usize>, parts: &[MassProperties]) -> Link {
     let mass = inertia::sum(parts).unwrap_or(MassProperties {
         mass_kg: 0.0,

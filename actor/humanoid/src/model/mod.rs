@@ -273,7 +273,7 @@ impl Model {
             }
             ours.iter().zip(theirs).find(|(one, other)| one != other).map(|(one, _)| format!("{kind} `{}`", name(one)))
         }
-        changed("body part", &self.links, &other.links, |link| &link.name)
+        changed("link", &self.links, &other.links, |link| &link.name)
             .or_else(|| changed("rigid body", &self.bodies, &other.bodies, |body| &body.name))
             .or_else(|| changed("hinge", &self.hinges, &other.hinges, |hinge| &hinge.name))
             .or_else(|| changed("motor", &self.motors, &other.motors, |motor| &motor.name))

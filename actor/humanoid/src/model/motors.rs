@@ -31,7 +31,7 @@ fn read_one(actuator: &Actuator, hinges: &[Hinge], autolimits: bool) -> Result<M
         .ok_or_else(|| ModelError::unsupported(&name, "its `joint` is not a hinge of the model"))?;
     let gear = actuator.gear[0];
     if gear == 0.0 {
-        return Err(ModelError::figure(&name, "gear", gear, "other than 0"));
+        return Err(ModelError::quantity(&name, "gear", gear, "other than 0"));
     }
     let (gain, bias) = gain_and_bias(&name, actuator)?;
     let force = limits(&name, "forcerange", actuator.force_range, actuator.force_limited, autolimits)?;
@@ -88,11 +88,11 @@ fn gain_and_bias(name: &str, actuator: &Actuator) -> Result<(f64, [f64; 3]), Mod
         _ => return Err(ModelError::unsupported(name, "actuators must be motor, position, velocity or general")),
     };
     if gain == 0.0 {
-        return Err(ModelError::figure(name, "gain", gain, "other than 0"));
+        return Err(ModelError::quantity(name, "gain", gain, "other than 0"));
     }
     for (what, value) in [("stiffness of the servo", -bias[1]), ("damping of the servo", -bias[2])] {
         if value < 0.0 {
-            return Err(ModelError::figure(name, what, value, "at least 0, so that the servo is stable"));
+            return Err(ModelError::quantity(name, what, value, "at least 0, so that the servo is stable"));
         }
     }
     Ok((gain, bias))

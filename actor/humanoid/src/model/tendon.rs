@@ -7,7 +7,7 @@ use mjcf_rs::tendon::FixedTendon;
 use super::{Hinge, Tendon};
 use crate::error::ModelError;
 
-/// Most tendons: every step's info holds their lengths without allocating.
+/// Most tendons; a bound because every step's info holds their lengths without allocating.
 pub const TENDONS_MAX: usize = 16;
 
 /// Reads the tendons of a plain model text.
@@ -29,7 +29,7 @@ fn read_fixed(tendon: &FixedTendon, hinges: &[Hinge]) -> Result<Tendon, ModelErr
                 ModelError::unsupported(&name, format!("`{}` is not a hinge of this model", term.joint))
             })?;
             if !term.coef.is_finite() {
-                return Err(ModelError::figure(&name, "coef", term.coef, "finite"));
+                return Err(ModelError::quantity(&name, "coef", term.coef, "finite"));
             }
             Ok((hinge, term.coef))
         })

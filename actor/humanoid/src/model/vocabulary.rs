@@ -23,213 +23,109 @@ pub(super) enum AttributeRule {
 
 use AttributeRule::{Inert, Numbers, Only, Whole, Word};
 
+/// Attribute names, separated by spaces, and their common rule.
 type Rules = [(&'static str, AttributeRule)];
 
 /// Attributes that give an orientation; an element may have at most one.
 pub(super) const ORIENTATIONS: [&str; 5] = ["quat", "axisangle", "xyaxes", "zaxis", "euler"];
 
-const PLACE: &Rules = &[
-    ("pos", Numbers(3, 3)),
-    ("quat", Numbers(4, 4)),
-    ("axisangle", Numbers(4, 4)),
-    ("xyaxes", Numbers(6, 6)),
-    ("zaxis", Numbers(3, 3)),
-    ("euler", Numbers(3, 3)),
-];
+const PLACE: &Rules =
+    &[("pos zaxis euler", Numbers(3, 3)), ("quat axisangle", Numbers(4, 4)), ("xyaxes", Numbers(6, 6))];
 
-const NAMED: &Rules = &[("name", Word), ("class", Word), ("group", Whole(1, 1)), ("user", Inert)];
+const NAMED: &Rules = &[("name class", Word), ("group", Whole(1, 1)), ("user", Inert)];
 
 const COMPILER: &Rules = &[
-    ("autolimits", Word),
-    ("boundmass", Numbers(1, 1)),
-    ("boundinertia", Numbers(1, 1)),
-    ("settotalmass", Numbers(1, 1)),
-    ("balanceinertia", Word),
+    ("autolimits balanceinertia angle eulerseq inertiafromgeom", Word),
+    ("boundmass boundinertia settotalmass", Numbers(1, 1)),
     ("coordinate", Only("local")),
-    ("angle", Word),
-    ("eulerseq", Word),
-    ("inertiafromgeom", Word),
     ("inertiagrouprange", Whole(2, 2)),
     ("alignfree", Only("false")),
-    ("strippath", Inert),
-    ("fitaabb", Inert),
-    ("meshdir", Inert),
-    ("texturedir", Inert),
-    ("assetdir", Inert),
-    ("discardvisual", Inert),
-    ("usethread", Inert),
-    ("fusestatic", Inert),
-    ("saveinertial", Inert),
-    ("exactmeshinertia", Inert),
-    ("convexhull", Inert),
+    ("strippath fitaabb meshdir texturedir assetdir discardvisual usethread fusestatic saveinertial", Inert),
+    ("exactmeshinertia convexhull", Inert),
 ];
 
 /// Solver settings of MuJoCo are inert: they do not apply to Rapier and this crate.
 const OPTION: &Rules = &[
     ("gravity", Numbers(3, 3)),
     ("wind", Only("0 0 0")),
-    ("density", Only("0")),
-    ("viscosity", Only("0")),
-    ("magnetic", Inert),
-    ("timestep", Inert),
-    ("apirate", Inert),
-    ("impratio", Inert),
-    ("integrator", Inert),
-    ("cone", Inert),
-    ("jacobian", Inert),
-    ("solver", Inert),
-    ("iterations", Inert),
-    ("tolerance", Inert),
-    ("ls_iterations", Inert),
-    ("ls_tolerance", Inert),
-    ("noslip_iterations", Inert),
-    ("noslip_tolerance", Inert),
-    ("mpr_iterations", Inert),
-    ("mpr_tolerance", Inert),
-    ("ccd_iterations", Inert),
-    ("ccd_tolerance", Inert),
-    ("sleep_tolerance", Inert),
-    ("sdf_iterations", Inert),
-    ("sdf_initpoints", Inert),
+    ("density viscosity", Only("0")),
+    ("magnetic timestep apirate impratio integrator cone jacobian solver iterations tolerance", Inert),
+    ("ls_iterations ls_tolerance noslip_iterations noslip_tolerance mpr_iterations mpr_tolerance", Inert),
+    ("ccd_iterations ccd_tolerance sleep_tolerance sdf_iterations sdf_initpoints", Inert),
 ];
 
 const FLAG: &Rules = &[
-    ("constraint", Only("enable")),
-    ("equality", Only("enable")),
-    ("frictionloss", Only("enable")),
-    ("limit", Only("enable")),
-    ("contact", Only("enable")),
-    ("passive", Only("enable")),
-    ("spring", Only("enable")),
-    ("damper", Only("enable")),
-    ("gravity", Only("enable")),
-    ("clampctrl", Only("enable")),
-    ("filterparent", Only("enable")),
-    ("actuation", Only("enable")),
+    ("constraint equality frictionloss limit contact passive spring damper gravity clampctrl", Only("enable")),
+    ("filterparent actuation", Only("enable")),
     ("override", Only("disable")),
-    ("warmstart", Inert),
-    ("refsafe", Inert),
-    ("sensor", Inert),
-    ("midphase", Inert),
-    ("nativeccd", Inert),
-    ("eulerdamp", Inert),
-    ("autoreset", Inert),
-    ("energy", Inert),
-    ("fwdinv", Inert),
-    ("invdiscrete", Inert),
-    ("multiccd", Inert),
-    ("island", Inert),
-    ("sleep", Inert),
+    ("warmstart refsafe sensor midphase nativeccd eulerdamp autoreset energy fwdinv invdiscrete", Inert),
+    ("multiccd island sleep", Inert),
 ];
 
-const BODY: &Rules = &[
-    ("name", Word),
-    ("childclass", Word),
-    ("mocap", Only("false")),
-    ("gravcomp", Only("0")),
-    ("user", Inert),
-    ("sleep", Inert),
-];
+const BODY: &Rules =
+    &[("name childclass", Word), ("mocap", Only("false")), ("gravcomp", Only("0")), ("user sleep", Inert)];
 
 const INERTIAL: &Rules = &[("mass", Numbers(1, 1)), ("diaginertia", Numbers(3, 3)), ("fullinertia", Numbers(6, 6))];
 
 const JOINT: &Rules = &[
-    ("type", Word),
-    ("pos", Numbers(3, 3)),
-    ("axis", Numbers(3, 3)),
+    ("type limited actuatorfrclimited", Word),
+    ("pos axis", Numbers(3, 3)),
     ("springdamper", Only("0 0")),
-    ("limited", Word),
-    ("range", Numbers(2, 2)),
-    ("actuatorfrclimited", Word),
-    ("actuatorfrcrange", Numbers(2, 2)),
+    ("range actuatorfrcrange", Numbers(2, 2)),
     ("actuatorgravcomp", Only("false")),
     ("solreflimit", Only("0.02 1")),
     ("solimplimit", Only("0.9 0.95 0.001 0.5 2")),
     // No effect without frictionloss.
-    ("solreffriction", Inert),
-    ("solimpfriction", Inert),
-    ("frictionloss", Only("0")),
-    ("margin", Only("0")),
-    ("ref", Only("0")),
-    ("springref", Numbers(1, 1)),
-    ("stiffness", Numbers(1, 1)),
-    ("damping", Numbers(1, 1)),
-    ("armature", Numbers(1, 1)),
+    ("solreffriction solimpfriction", Inert),
+    ("frictionloss margin ref", Only("0")),
+    ("springref stiffness damping armature", Numbers(1, 1)),
 ];
 
 const FREEJOINT: &Rules = &[("name", Word), ("group", Inert), ("align", Only("false|auto"))];
 
 const GEOM: &Rules = &[
-    ("type", Word),
-    ("size", Numbers(1, 3)),
+    ("type mesh hfield", Word),
+    ("size friction", Numbers(1, 3)),
     ("fromto", Numbers(6, 6)),
-    ("friction", Numbers(1, 3)),
-    ("mass", Numbers(1, 1)),
-    ("density", Numbers(1, 1)),
+    ("mass density margin", Numbers(1, 1)),
     ("shellinertia", Only("false")),
-    ("contype", Whole(1, 1)),
-    ("conaffinity", Whole(1, 1)),
-    ("condim", Whole(1, 1)),
-    ("priority", Only("0")),
-    ("margin", Numbers(1, 1)),
-    ("gap", Only("0")),
+    ("contype conaffinity condim", Whole(1, 1)),
+    ("priority gap", Only("0")),
     ("solref", Only("0.02 1")),
     ("solimp", Only("0.9 0.95 0.001 0.5 2")),
     // No effect where all shapes have the same softness and there is no fluid.
-    ("solmix", Inert),
-    ("fluidshape", Inert),
-    ("fluidcoef", Inert),
-    ("mesh", Word),
-    ("hfield", Word),
-    ("fitscale", Inert),
-    ("material", Inert),
-    ("rgba", Inert),
+    ("solmix fluidshape fluidcoef", Inert),
+    ("fitscale material rgba", Inert),
 ];
 
 const ACTUATOR: &Rules = &[
-    ("joint", Word),
+    ("joint ctrllimited forcelimited", Word),
     ("gear", Numbers(1, 6)),
-    ("ctrllimited", Word),
-    ("ctrlrange", Numbers(2, 2)),
-    ("forcelimited", Word),
-    ("forcerange", Numbers(2, 2)),
+    ("ctrlrange forcerange", Numbers(2, 2)),
     ("actlimited", Only("false|auto")),
     ("actearly", Only("false")),
     // For muscles.
     ("lengthrange", Inert),
 ];
 
-const POSITION: &Rules =
-    &[("kp", Numbers(1, 1)), ("kv", Numbers(1, 1)), ("timeconst", Only("0")), ("inheritrange", Only("0"))];
+const POSITION: &Rules = &[("kp kv", Numbers(1, 1)), ("timeconst inheritrange", Only("0"))];
 const VELOCITY: &Rules = &[("kv", Numbers(1, 1))];
 const GENERAL: &Rules = &[
     ("gaintype", Only("fixed")),
     ("biastype", Only("none|affine")),
     ("dyntype", Only("none")),
-    ("gainprm", Numbers(1, 10)),
-    ("biasprm", Numbers(1, 10)),
+    ("gainprm biasprm", Numbers(1, 10)),
     ("dynprm", Inert),
 ];
 
 /// Only tendons without stiffness, friction, limit and motor are accepted: they exert no force.
 const FIXED: &Rules = &[
     ("limited", Only("false|auto")),
-    ("stiffness", Only("0")),
-    ("damping", Only("0")),
-    ("frictionloss", Only("0")),
-    ("armature", Only("0")),
+    ("stiffness damping frictionloss armature", Only("0")),
     ("range", Numbers(2, 2)),
-    ("actuatorfrclimited", Inert),
-    ("actuatorfrcrange", Inert),
-    ("springlength", Inert),
-    ("margin", Inert),
-    ("solreflimit", Inert),
-    ("solimplimit", Inert),
-    ("solreffriction", Inert),
-    ("solimpfriction", Inert),
-    ("width", Inert),
-    ("material", Inert),
-    ("rgba", Inert),
+    ("actuatorfrclimited actuatorfrcrange springlength margin", Inert),
+    ("solreflimit solimplimit solreffriction solimpfriction", Inert),
+    ("width material rgba", Inert),
 ];
 
 /// Returns the rules of an element's attributes; `None` for an unsupported element.
@@ -242,7 +138,7 @@ pub(super) fn rules(tag: &str) -> Option<&'static [&'static Rules]> {
         "default" => &[&[("class", Word)]],
         "worldbody" | "contact" | "tendon" | "actuator" | "asset" => &[],
         "body" => &[BODY, PLACE],
-        "frame" => &[&[("name", Word), ("childclass", Word)], PLACE],
+        "frame" => &[&[("name childclass", Word)], PLACE],
         "inertial" => &[INERTIAL, PLACE],
         "joint" => &[NAMED, JOINT],
         "freejoint" => &[FREEJOINT],
@@ -251,7 +147,7 @@ pub(super) fn rules(tag: &str) -> Option<&'static [&'static Rules]> {
         "position" => &[NAMED, ACTUATOR, POSITION],
         "velocity" => &[NAMED, ACTUATOR, VELOCITY],
         "general" => &[NAMED, ACTUATOR, GENERAL],
-        "exclude" => &[&[("name", Word), ("body1", Word), ("body2", Word)]],
+        "exclude" => &[&[("name body1 body2", Word)]],
         "fixed" => &[NAMED, FIXED],
         "term" => &[&[("joint", Word), ("coef", Numbers(1, 1))]],
         _ => return None,
@@ -280,7 +176,8 @@ pub(super) const INERT: [&str; 16] = [
 
 /// Returns the rule of one attribute.
 pub(super) fn rule(tag: &str, attribute: &str) -> Option<AttributeRule> {
-    rules(tag)?.iter().copied().flatten().find(|(name, _)| *name == attribute).map(|(_, rule)| *rule)
+    let has_attribute = |(names, _): &&(&str, AttributeRule)| names.split(' ').any(|name| name == attribute);
+    rules(tag)?.iter().copied().flatten().find(has_attribute).map(|(_, rule)| *rule)
 }
 
 /// Refuses unknown attributes, invalid values, and several orientations.

@@ -10,8 +10,8 @@
 //! | `cfrc_ext` | 6 per link | moment x, y, z (N·m), force x, y, z (N) of the link's contacts |
 //!
 //! Links are in the model text's order: 13 for the built-in humanoid. `cinert`, `cvel` and `cfrc_ext` are in world axes and
-//! about the *centre*, the whole humanoid's centre of mass: the inertia is about the centre, the offset is that of the link's
-//! centre of mass from it, and the velocity is that of the link's point at it.
+//! about the *centre*, the whole humanoid's centre of mass: the offset is from the centre to the link's centre of mass, and the
+//! velocity is that of the link's material point at the centre.
 //!
 //! | [`ObservationKind`] | blocks | humanoid |
 //! |---|---|---|
@@ -20,7 +20,7 @@
 //! | `GymnasiumV4` | all, with a row of zeros for the world before the links' rows and six zeros for the root before the torques | 376 |
 //!
 //! Formulas and order are MuJoCo's (`mj_comPos`, `mj_comVel`, `mj_rnePostConstraint`) and Gymnasium's
-//! (`humanoid_v5.py`, `humanoid_v4.py`). Two points differ. Everything here belongs to the end of the control step, while
+//! (`humanoid_v5.py`, `humanoid_v4.py`). Two points differ. All quantities here belong to the end of the control step, while
 //! MuJoCo's derived quantities are those of its integrator's last stage. Contact forces are means over the control step,
 //! while MuJoCo's are those at its end.
 
@@ -37,7 +37,7 @@ use crate::physics::Physics;
 pub const OBSERVATION_SIZE_COMPACT: usize = 45;
 
 /// Numbers of the position vector that can be excluded: x and y, because walking must not depend on them.
-const HIDDEN: usize = 2;
+const EXCLUDABLE: usize = 2;
 /// Degrees of freedom of the root.
 const ROOT_FREEDOMS: usize = 6;
 /// Numbers of a link's inertia.
@@ -82,10 +82,10 @@ impl Observation {
         let has_world = config.observation == ObservationKind::GymnasiumV4;
         let all = config.observation != ObservationKind::Compact;
         let rows = model.links.len() + usize::from(has_world);
-        let hidden = if config.exclude_current_positions_from_observation { HIDDEN } else { 0 };
+        let excluded = if config.exclude_current_positions_from_observation { EXCLUDABLE } else { 0 };
         let torques = model.hinges.len() + if has_world { ROOT_FREEDOMS } else { 0 };
         let quantities = [
-            ("qpos", Quantity::Position, model.position_size() - hidden, true),
+            ("qpos", Quantity::Position, model.position_size() - excluded, true),
             ("qvel", Quantity::Velocity, model.velocity_size(), true),
             ("cinert", Quantity::Inertias, rows * INERTIA_SIZE, all && config.include_cinert_in_observation),
             ("cvel", Quantity::Velocities, rows * SPATIAL_SIZE, all && config.include_cvel_in_observation),
@@ -102,7 +102,7 @@ impl Observation {
                 Block { name, range: start..end, quantity }
             })
             .collect();
-        Self { blocks, has_world, height_index: HIDDEN - hidden }
+        Self { blocks, has_world, height_index: EXCLUDABLE - excluded }
     }
 
     /// Returns the length of the observation.

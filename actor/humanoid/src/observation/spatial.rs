@@ -17,7 +17,7 @@ pub(super) struct SpatialInertia {
 }
 
 impl SpatialInertia {
-    /// Computes that of a link whose body is at `pose`, about `point` (m, world frame).
+    /// Computes the inertia of a link about `point` (m, world frame); `pose` is that of its body.
     pub(super) fn of_link(link: &Link, pose: &Isometry3<f64>, point: &Point3<f64>) -> Self {
         let rotation = pose.rotation.to_rotation_matrix();
         let own = rotation.matrix() * link.inertia_kgm2 * rotation.matrix().transpose();

@@ -31,9 +31,7 @@ pub(super) fn send(
 
 /// Returns the pose of a body when the root is at `root_m`.
 pub(super) fn pose(posture: &Posture, body: usize, root_m: &Vector3<f64>) -> Pose {
-    Pose::from_parts(to_vector(&(root_m + posture.origins_m[body])), to_rotation(&quaternion(posture, body)))
-}
-
-fn quaternion(posture: &Posture, body: usize) -> UnitQuaternion<f64> {
-    UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(posture.rotations[body]))
+    let rotation = Rotation3::from_matrix_unchecked(posture.rotations[body]);
+    let rotation = to_rotation(&UnitQuaternion::from_rotation_matrix(&rotation));
+    Pose::from_parts(to_vector(&(root_m + posture.origins_m[body])), rotation)
 }

@@ -70,8 +70,7 @@ pub struct Physics {
 }
 
 impl Physics {
-    /// Builds a world for a model, at rest in its nominal pose. `settings` may be a reference to an environment's
-    /// configuration.
+    /// Builds a world for a model, at rest in its nominal pose; `&EnvironmentConfig` may serve as `settings`.
     ///
     /// # Errors
     /// [`ModelError`] if a setting is out of range, or a servo too stiff for the physics step.
@@ -246,7 +245,7 @@ impl Physics {
         Ok(())
     }
 
-    /// Duration of one physics step (s).
+    /// Returns the duration of one physics step (s).
     fn step_s(&self) -> f64 {
         CONTROL_STEP_S / f64::from(self.settings.substeps)
     }
@@ -311,7 +310,9 @@ impl Physics {
     #[must_use]
     pub fn centre_of_mass(&self) -> Point3<f64> {
         let root = Vector3::from_column_slice(&self.position[..3]);
-        Point3::from(root + centre_of_mass(&self.tree, &self.posture))
+        let centres = self.tree.nodes.iter().zip(&self.posture.centres_m);
+        let sum: Vector3<f64> = centres.map(|(node, centre)| centre * node.mass_kg).sum();
+        Point3::from(root + sum / self.tree.mass_kg())
     }
 
     /// Returns the velocity of the whole humanoid's centre of mass (m/s, world frame).
@@ -379,10 +380,4 @@ impl Physics {
     pub fn poison(&mut self) {
         self.velocity[0] = f64::NAN;
     }
-}
-
-/// Returns the centre of mass of the whole humanoid (m, relative to the root's origin).
-fn centre_of_mass(tree: &Tree, posture: &Posture) -> Vector3<f64> {
-    let sum: Vector3<f64> = tree.nodes.iter().zip(&posture.centres_m).map(|(node, centre)| centre * node.mass_kg).sum();
-    sum / tree.mass_kg()
 }

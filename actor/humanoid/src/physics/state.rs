@@ -4,7 +4,6 @@ use super::Physics;
 use crate::config::HINGE_TOLERANCE_RAD;
 use crate::dynamics::{ROOT_DOFS, ROOT_POSITIONS};
 use crate::error::StateError;
-use crate::model::Model;
 
 /// Accepted norms of the root's quaternion, which is then normalised.
 const QUATERNION_NORMS: std::ops::RangeInclusive<f64> = 1e-6..=1e6;
@@ -28,14 +27,21 @@ impl Physics {
     /// # Errors
     /// [`StateError`] names the first invalid entry, its value and what is accepted; the state is then unchanged.
     pub fn try_set_state(&mut self, position: &[f64], velocity: &[f64]) -> Result<(), StateError> {
-        check(&self.model, position, velocity)?;
+        self.check_numbers(position, velocity)?;
+        for (offset, (hinge, &value_rad)) in self.model.hinges.iter().zip(&position[ROOT_POSITIONS..]).enumerate() {
+            if hinge.overshoot_rad(value_rad) > HINGE_TOLERANCE_RAD {
+                return Err(StateError::Hinge {
+                    index: ROOT_POSITIONS + offset,
+                    hinge: hinge.name.clone(),
+                    value_rad,
+                    min_rad: hinge.min_rad,
+                    max_rad: hinge.max_rad,
+                    tolerance_rad: HINGE_TOLERANCE_RAD,
+                });
+            }
+        }
         self.set_state(position, velocity);
         Ok(())
-    }
-
-    /// Checks a state for [`Self::resume_from`]. Hinges may have any angle, because the limits are soft.
-    pub(crate) fn check_without_ranges(&self, position: &[f64], velocity: &[f64]) -> Result<(), StateError> {
-        check_numbers(&self.model, position, velocity)
     }
 
     /// Restarts from exactly this state: unlike [`Self::set_state`], it does not normalise the quaternion.
@@ -44,46 +50,30 @@ impl Physics {
         self.velocity.copy_from_slice(velocity);
         self.restart();
     }
-}
 
-fn check(model: &Model, position: &[f64], velocity: &[f64]) -> Result<(), StateError> {
-    check_numbers(model, position, velocity)?;
-    for (offset, (hinge, &value_rad)) in model.hinges.iter().zip(&position[ROOT_POSITIONS..]).enumerate() {
-        if hinge.overshoot_rad(value_rad) > HINGE_TOLERANCE_RAD {
-            return Err(StateError::Hinge {
-                index: ROOT_POSITIONS + offset,
-                hinge: hinge.name.clone(),
-                value_rad,
-                min_rad: hinge.min_rad,
-                max_rad: hinge.max_rad,
-                tolerance_rad: HINGE_TOLERANCE_RAD,
-            });
+    /// Checks lengths, finiteness, and the quaternion's norm. Hinges may have any angle, because the limits are soft.
+    pub(crate) fn check_numbers(&self, position: &[f64], velocity: &[f64]) -> Result<(), StateError> {
+        let model = &self.model;
+        for (what, numbers, expected, root, kind) in [
+            ("position", position, model.position_size(), &ROOT_POSITION_NAMES[..], "angle"),
+            ("velocity", velocity, model.velocity_size(), &ROOT_VELOCITY_NAMES[..], "rate"),
+        ] {
+            if numbers.len() != expected {
+                return Err(StateError::Length { what, found: numbers.len(), expected });
+            }
+            if let Some((index, &value)) = numbers.iter().enumerate().find(|(_, number)| !number.is_finite()) {
+                let name = match root.get(index) {
+                    Some(name) => (*name).to_owned(),
+                    None => format!("{kind} of hinge `{}`", model.hinges[index - root.len()].name),
+                };
+                return Err(StateError::NotFinite { what, index, name, value });
+            }
         }
-    }
-    Ok(())
-}
-
-/// Checks lengths, finiteness, and the quaternion's norm.
-fn check_numbers(model: &Model, position: &[f64], velocity: &[f64]) -> Result<(), StateError> {
-    for (what, numbers, expected, root, kind) in [
-        ("position", position, model.position_size(), &ROOT_POSITION_NAMES[..], "angle"),
-        ("velocity", velocity, model.velocity_size(), &ROOT_VELOCITY_NAMES[..], "rate"),
-    ] {
-        if numbers.len() != expected {
-            return Err(StateError::Length { what, found: numbers.len(), expected });
+        let value = [position[3], position[4], position[5], position[6]];
+        let norm = value.iter().map(|part| part * part).sum::<f64>().sqrt();
+        if !QUATERNION_NORMS.contains(&norm) {
+            return Err(StateError::Quaternion { value });
         }
-        if let Some((index, &value)) = numbers.iter().enumerate().find(|(_, number)| !number.is_finite()) {
-            let name = match root.get(index) {
-                Some(name) => (*name).to_owned(),
-                None => format!("{kind} of hinge `{}`", model.hinges[index - root.len()].name),
-            };
-            return Err(StateError::NotFinite { what, index, name, value });
-        }
+        Ok(())
     }
-    let value = [position[3], position[4], position[5], position[6]];
-    let norm = value.iter().map(|part| part * part).sum::<f64>().sqrt();
-    if !QUATERNION_NORMS.contains(&norm) {
-        return Err(StateError::Quaternion { value });
-    }
-    Ok(())
 }

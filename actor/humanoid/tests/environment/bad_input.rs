@@ -43,6 +43,8 @@ fn wrong_lengths_are_refused_with_the_expected_length() {
     assert_eq!(environment.try_step(&[0.0; 17], &mut seen[1..]).err(), Some(buffer));
     assert_eq!(environment.try_reset(0, &mut seen[1..]).err(), Some(buffer));
     assert_eq!(environment.observe(&mut seen[1..]).err(), Some(buffer));
+    assert_eq!(buffer.to_string(), "observation buffer has the wrong length: 44 instead of 45");
+    assert!(seen.iter().all(|number| *number == 0.0), "a refusal writes nothing");
 }
 
 #[test]

@@ -1,61 +1,11 @@
 //! Saved episode states: an episode resumes bit for bit, and states that do not fit are refused.
 
-use treadmill_humanoid::{
-    Environment, EnvironmentConfig, EpisodeState, HUMANOID_XML, ObservationKind, Randomisation, StateError,
-};
+use treadmill_humanoid::{Environment, EnvironmentConfig, EpisodeState, StateError};
 
-/// Settings with contact forces in the observation and all randomisation.
-fn rich() -> EnvironmentConfig {
-    EnvironmentConfig {
-        observation: ObservationKind::GymnasiumV5,
-        terminate_when_unhealthy: false,
-        max_episode_steps: 400,
-        randomisation: Randomisation {
-            mass_scale: [0.8, 1.2],
-            floor_friction_scale: [0.5, 1.5],
-            motor_scale: [0.8, 1.2],
-            damping_scale: [0.8, 1.2],
-            armature_scale: [0.8, 1.2],
-            gravity_scale: [0.9, 1.1],
-            sensor_noise_position: 0.01,
-            sensor_noise_velocity: 0.05,
-            control_noise: 0.05,
-            action_delay_steps: [0, 3],
-            push_interval_s: [0.1, 0.5],
-            push_mps: [0.1, 0.5],
-        },
-        ..EnvironmentConfig::default()
-    }
-}
+use crate::support::{environment, play, randomised, reset};
 
 fn plain() -> EnvironmentConfig {
     EnvironmentConfig { terminate_when_unhealthy: false, ..EnvironmentConfig::default() }
-}
-
-fn environment(config: &EnvironmentConfig) -> Environment {
-    Environment::new(config, HUMANOID_XML).expect("valid")
-}
-
-fn reset(environment: &mut Environment, seed: u64) -> Vec<f32> {
-    let mut observation = vec![0.0; environment.observation_size()];
-    environment.reset(seed, &mut observation);
-    observation
-}
-
-/// Plays steps `from..to` of an episode and returns the bits of all their results.
-fn play(environment: &mut Environment, from: u32, to: u32) -> Vec<u64> {
-    let mut observation = vec![0.0; environment.observation_size()];
-    let mut bits = Vec::new();
-    for step in from..to {
-        let action: [f32; 17] = std::array::from_fn(|motor| 0.4 * ((step * 31 + motor as u32 * 17) as f32).sin());
-        let result = environment.step(&action, &mut observation);
-        assert!(!result.fault);
-        bits.extend(observation.iter().map(|number| u64::from(number.to_bits())));
-        bits.push(u64::from(result.reward.to_bits()) << 2 | u64::from(result.truncated) << 1);
-        let physics = environment.physics();
-        bits.extend(physics.position().iter().chain(physics.velocity()).map(|number| number.to_bits()));
-    }
-    bits
 }
 
 /// Returns everything that can be read without a step.
@@ -76,7 +26,7 @@ fn visible_state(environment: &Environment) -> String {
 
 #[test]
 fn a_renewed_world_looks_the_same_without_its_warm_starts() {
-    let (mut renewed, mut other) = (environment(&rich()), environment(&rich()));
+    let (mut renewed, mut other) = (environment(&randomised()), environment(&randomised()));
     for environment in [&mut renewed, &mut other] {
         reset(environment, 3);
         play(environment, 0, 120);
@@ -91,7 +41,7 @@ fn a_renewed_world_looks_the_same_without_its_warm_starts() {
 
 #[test]
 fn an_episode_resumes_from_its_state_bit_for_bit() {
-    for config in [plain(), rich()] {
+    for config in [plain(), randomised()] {
         let mut original = environment(&config);
         let mut busy = environment(&config);
         reset(&mut busy, 99);
@@ -133,7 +83,7 @@ fn there_is_no_state_before_the_first_reset_nor_after_a_fault() {
 
 #[test]
 fn a_snapshot_carries_the_state_of_its_episode() {
-    let (mut original, mut other) = (environment(&rich()), environment(&rich()));
+    let (mut original, mut other) = (environment(&randomised()), environment(&randomised()));
     reset(&mut original, 4);
     play(&mut original, 0, 30);
     other.restore(&original.snapshot()).expect("of the same build");
@@ -142,7 +92,7 @@ fn a_snapshot_carries_the_state_of_its_episode() {
 
 #[test]
 fn states_that_do_not_fit_are_refused_by_name_and_change_nothing() {
-    let mut environment = environment(&rich());
+    let mut environment = environment(&randomised());
     reset(&mut environment, 2);
     play(&mut environment, 0, 20);
     let sound = environment.episode_state().expect("the environment was reset");

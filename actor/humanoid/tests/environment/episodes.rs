@@ -2,31 +2,9 @@
 
 use rand::{RngExt, SeedableRng};
 use rand_xoshiro::Xoshiro256PlusPlus;
-use treadmill_humanoid::{
-    CONTROL_STEP_S, Environment, EnvironmentConfig, HUMANOID_XML, OBSERVATION_SIZE_COMPACT, StepOutcome,
-};
+use treadmill_humanoid::{CONTROL_STEP_S, Environment, EnvironmentConfig, OBSERVATION_SIZE_COMPACT, StepOutcome};
 
-fn environment(config: &EnvironmentConfig) -> Environment {
-    Environment::new(config, HUMANOID_XML).expect("the humanoid is valid")
-}
-
-fn random_action(random: &mut Xoshiro256PlusPlus) -> [f32; 17] {
-    std::array::from_fn(|_| random.random_range(-0.4..0.4))
-}
-
-/// Bits of all observations and rewards of an episode of random actions, which continues after falls.
-fn episode_bits(environment: &mut Environment, seed: u64, steps: u32) -> Vec<u32> {
-    let mut random = Xoshiro256PlusPlus::seed_from_u64(seed);
-    let mut observation = [0.0; OBSERVATION_SIZE_COMPACT];
-    environment.reset(seed, &mut observation);
-    let mut bits: Vec<u32> = observation.iter().map(|number| number.to_bits()).collect();
-    for _ in 0..steps {
-        let step = environment.step(&random_action(&mut random), &mut observation);
-        bits.extend(observation.iter().map(|number| number.to_bits()));
-        bits.push(step.reward.to_bits());
-    }
-    bits
-}
+use crate::support::{environment, episode_bits};
 
 #[test]
 fn sizes_are_those_of_the_humanoid() {

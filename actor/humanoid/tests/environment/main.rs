@@ -10,3 +10,4 @@ mod golden;
 mod observations;
 mod randomisation;
 mod snapshots;
+mod support;

@@ -203,7 +203,7 @@ fn observe_repeats_the_observation_of_the_last_step() {
 }
 
 #[test]
-fn each_task_tells_its_own_info() {
+fn each_task_has_its_own_info() {
     for (task, names, on_reset) in [(RewardTask::HumanoidV5, 11, 5), (RewardTask::HumanoidV4, 9, 0)] {
         let config = EnvironmentConfig { task, ..EnvironmentConfig::default() };
         let mut environment = Environment::new(&config, HUMANOID_XML).expect("valid");

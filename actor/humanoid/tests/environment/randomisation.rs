@@ -1,8 +1,8 @@
 //! Randomised episodes: the ranges of drawn quantities, and their effects on motion, actions and observations.
 
-use rand::{RngExt, SeedableRng};
-use rand_xoshiro::Xoshiro256PlusPlus;
 use treadmill_humanoid::{Environment, EnvironmentConfig, HUMANOID_XML, Randomisation};
+
+use crate::support::episode_bits;
 
 const SIZE: usize = 45;
 
@@ -39,21 +39,6 @@ fn everything() -> Randomisation {
         push_interval_s: [0.1, 0.5],
         push_mps: [0.1, 1.0],
     }
-}
-
-/// Bits of all observations and rewards of an episode of random actions, which continues after falls.
-fn episode_bits(environment: &mut Environment, seed: u64, steps: u32) -> Vec<u32> {
-    let mut random = Xoshiro256PlusPlus::seed_from_u64(seed);
-    let mut observation = [0.0; SIZE];
-    environment.reset(seed, &mut observation);
-    let mut bits: Vec<u32> = observation.iter().map(|number| number.to_bits()).collect();
-    for _ in 0..steps {
-        let action: [f32; 17] = std::array::from_fn(|_| random.random_range(-0.4..0.4));
-        let step = environment.step(&action, &mut observation);
-        bits.extend(observation.iter().map(|number| number.to_bits()));
-        bits.push(step.reward.to_bits());
-    }
-    bits
 }
 
 fn first_observation(randomisation: Randomisation, seed: u64) -> [f32; SIZE] {

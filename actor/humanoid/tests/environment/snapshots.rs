@@ -2,63 +2,14 @@
 
 use rand::{RngExt, SeedableRng};
 use rand_xoshiro::Xoshiro256PlusPlus;
-use treadmill_humanoid::{
-    Environment, EnvironmentConfig, HUMANOID_XML, Model, ObservationKind, Physics, Randomisation, SnapshotError,
-};
+use treadmill_humanoid::{Environment, EnvironmentConfig, HUMANOID_XML, Model, Physics, Randomisation, SnapshotError};
 
-/// Settings with contact forces in the observation and all randomisation.
-fn rich() -> EnvironmentConfig {
-    EnvironmentConfig {
-        observation: ObservationKind::GymnasiumV5,
-        terminate_when_unhealthy: false,
-        max_episode_steps: 400,
-        randomisation: Randomisation {
-            mass_scale: [0.8, 1.2],
-            floor_friction_scale: [0.5, 1.5],
-            motor_scale: [0.8, 1.2],
-            damping_scale: [0.8, 1.2],
-            armature_scale: [0.8, 1.2],
-            gravity_scale: [0.9, 1.1],
-            sensor_noise_position: 0.01,
-            sensor_noise_velocity: 0.05,
-            control_noise: 0.05,
-            action_delay_steps: [0, 3],
-            push_interval_s: [0.1, 0.5],
-            push_mps: [0.1, 0.5],
-        },
-        ..EnvironmentConfig::default()
-    }
-}
-
-fn environment(config: &EnvironmentConfig) -> Environment {
-    Environment::new(config, HUMANOID_XML).expect("valid")
-}
-
-/// Plays steps `from..to` of an episode and returns the bits of all their results.
-fn play(environment: &mut Environment, from: u32, to: u32) -> Vec<u64> {
-    let mut observation = vec![0.0; environment.observation_size()];
-    let mut bits = Vec::new();
-    for step in from..to {
-        let action: [f32; 17] = std::array::from_fn(|motor| 0.4 * ((step * 31 + motor as u32 * 17) as f32).sin());
-        let result = environment.step(&action, &mut observation);
-        assert!(!result.fault);
-        bits.extend(observation.iter().map(|number| u64::from(number.to_bits())));
-        bits.push(u64::from(result.reward.to_bits()) << 2 | u64::from(result.truncated) << 1);
-        let physics = environment.physics();
-        bits.extend(physics.position().iter().chain(physics.velocity()).map(|number| number.to_bits()));
-    }
-    bits
-}
-
-fn reset(environment: &mut Environment, seed: u64) -> Vec<f32> {
-    let mut observation = vec![0.0; environment.observation_size()];
-    environment.reset(seed, &mut observation);
-    observation
-}
+use crate::support::{environment, play, randomised, reset};
 
 #[test]
 fn an_episode_continues_from_a_snapshot_bit_for_bit() {
-    for config in [EnvironmentConfig { terminate_when_unhealthy: false, ..EnvironmentConfig::default() }, rich()] {
+    for config in [EnvironmentConfig { terminate_when_unhealthy: false, ..EnvironmentConfig::default() }, randomised()]
+    {
         let mut original = environment(&config);
         let mut other = environment(&config);
         reset(&mut other, 99);
@@ -89,8 +40,8 @@ fn an_episode_continues_from_a_snapshot_bit_for_bit() {
 
 #[test]
 fn a_snapshot_changes_nothing_and_holds_the_last_results() {
-    let mut plain = environment(&rich());
-    let mut watched = environment(&rich());
+    let mut plain = environment(&randomised());
+    let mut watched = environment(&randomised());
     reset(&mut plain, 8);
     reset(&mut watched, 8);
     let wanted = play(&mut plain, 0, 60);
@@ -124,7 +75,7 @@ fn a_snapshot_changes_nothing_and_holds_the_last_results() {
 
 #[test]
 fn the_episode_after_a_restored_one_is_unchanged() {
-    let config = rich();
+    let config = randomised();
     let mut original = environment(&config);
     reset(&mut original, 1);
     play(&mut original, 0, 80);
@@ -209,7 +160,7 @@ fn snapshots_of_other_models_and_settings_are_refused_by_name() {
     for (from, to, part) in [
         ("gear=\"300\"", "gear=\"301\"", "motor `right_hip_y`"),
         ("range=\"-45 45\"", "range=\"-45 46\"", "hinge `abdomen_z`"),
-        ("size=\"0.049\"", "size=\"0.048\"", "body part `right_shin`"),
+        ("size=\"0.049\"", "size=\"0.048\"", "link `right_shin`"),
         ("<option ", "<option gravity=\"0 0 -9.8\" ", "gravity"),
     ] {
         let xml = HUMANOID_XML.replace(from, to);

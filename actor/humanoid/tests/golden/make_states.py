@@ -35,7 +35,7 @@ SEED = 20240615
 
 
 def environments(xml):
-    """Gymnasium's two environments on one MuJoCo model and its data; v4 accepts no file, so its model is replaced."""
+    """Returns Gymnasium's two environments on one MuJoCo model and its data; v4 accepts no file, so its model is replaced."""
     v5 = humanoid_v5.HumanoidEnv(xml_file=str(xml))
     v4 = humanoid_v4.HumanoidEnv()
     v4.model, v4.data = v5.model, v5.data
@@ -66,7 +66,7 @@ def set_state(environment, qpos, qvel, ctrl):
 
 
 def contacts(model, data):
-    """Rows of first link, second link, point and force on the first link, for each active contact."""
+    """Returns rows of first link, second link, point and force on the first link, for each active contact."""
     rows = []
     for number in range(data.ncon):
         contact = data.contact[number]

@@ -4,7 +4,6 @@ use nalgebra::{Point3, Vector3};
 use treadmill_humanoid::ContactForce;
 
 const FILE: &[u8] = include_bytes!("states.bin");
-const HEADER: usize = 8 + 7 * 4;
 
 /// State of the body, with the observations and contacts of MuJoCo and Gymnasium.
 pub struct State {
@@ -49,7 +48,7 @@ pub fn states() -> Vec<State> {
     assert!(rest.is_empty());
     let sizes: Vec<usize> = words[..7].iter().map(|word| u32::from_le_bytes(*word) as usize).collect();
     let [states, nq, nv, nu, v5, v4, tendons] = sizes[..] else { unreachable!("seven sizes were read") };
-    let mut reader = Reader(words[(HEADER - 8) / 4..].iter());
+    let mut reader = Reader(words[sizes.len()..].iter());
     let all = (0..states)
         .map(|_| State {
             position: reader.doubles(nq),

@@ -1,4 +1,4 @@
 //! Model texts: values read from them, and refusals.
 
-mod figures;
 mod refusals;
+mod values;

@@ -4,6 +4,10 @@ use treadmill_humanoid::{CONTROL_STEP_S, Environment, EnvironmentConfig, Model, 
 
 const G1_LIKE_XML: &str = include_str!("../../assets/g1-like.xml");
 
+fn physics(text: &str) -> Physics {
+    Physics::new(Model::from_mjcf(text).expect("valid"), &EnvironmentConfig::default()).expect("valid")
+}
+
 /// Trunk with two arms whose hands overlap; with attributes of each hand and the floor, and more sections.
 fn crossed(left: &str, right: &str, floor: &str, more: &str) -> Physics {
     let arm = |name: &str, shape: &str| {
@@ -19,7 +23,7 @@ fn crossed(left: &str, right: &str, floor: &str, more: &str) -> Physics {
         arm("left", left),
         arm("right", right)
     );
-    Physics::new(Model::from_mjcf(&text).expect("valid"), &EnvironmentConfig::default()).expect("valid")
+    physics(&text)
 }
 
 /// Whether the hands push each other in the air, and whether the floor lifts the body when they are 3 cm below it.
@@ -54,16 +58,18 @@ fn contype_conaffinity_and_exclusions_decide_contacts() {
     assert_eq!(touches("", "", "", &part("trunk", "right")), (true, true));
 }
 
-/// Speed of a box of 1 kg after sliding on the floor for 0.15 s from 2 m/s.
-fn speed_left(shape: &str, floor: &str) -> f64 {
-    let text = format!(
+/// Box of 1 kg on the floor.
+fn sliding_box(shape: &str, floor: &str) -> Physics {
+    physics(&format!(
         r#"<mujoco><worldbody><geom type="plane" size="1 1 1" {floor}/><body pos="0 0 0.1"><freejoint/>
            <geom type="box" size="0.3 0.3 0.1" mass="1" {shape}/>
            <body pos="0 0 0"><joint name="j"/><geom size="0.01" mass="0.001" contype="0" conaffinity="0"/></body>
            </body></worldbody><actuator><motor joint="j"/></actuator></mujoco>"#
-    );
-    let mut physics =
-        Physics::new(Model::from_mjcf(&text).expect("valid"), &EnvironmentConfig::default()).expect("valid");
+    ))
+}
+
+/// Speed (m/s) of the box after sliding on the floor for 0.15 s from 2 m/s.
+fn speed_left(mut physics: Physics) -> f64 {
     let position = physics.model().nominal_position();
     physics.set_state(&position, &[2.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]);
     for _ in 0..10 {
@@ -82,7 +88,7 @@ fn the_greater_friction_of_a_pair_counts() {
         ("friction=\"0.5\"", "friction=\"0.5\" condim=\"1\"", 0.5),
         ("friction=\"0.5\" condim=\"1\"", "friction=\"0.5\" condim=\"1\"", 0.0),
     ] {
-        let (found, wanted) = (speed_left(shape, floor), 2.0 - friction * 9.81 * 0.15);
+        let (found, wanted) = (speed_left(sliding_box(shape, floor)), 2.0 - friction * 9.81 * 0.15);
         assert!((found - wanted).abs() < 0.05, "{shape} on {floor}: {found} m/s instead of {wanted} m/s");
     }
 }
@@ -95,8 +101,7 @@ fn resting_gap_m(ball: &str, floor: &str) -> f64 {
            <geom type="sphere" size="0.01"/></body></body></worldbody>
            <actuator><motor joint="turn" ctrlrange="-1 1"/></actuator></mujoco>"#
     );
-    let model = Model::from_mjcf(&text).expect("valid");
-    let mut physics = Physics::new(model, &EnvironmentConfig::default()).expect("valid");
+    let mut physics = physics(&text);
     for _ in 0..100 {
         physics.step_only(&[0.0]).expect("finite");
     }
@@ -134,8 +139,7 @@ fn solid_shapes_rest_on_their_surfaces() {
                <geom {shape}/><body pos="0 0 0"><joint name="j"/><geom size="0.01" contype="0" conaffinity="0"/></body>
                </body></worldbody><actuator><motor joint="j"/></actuator></mujoco>"#
         );
-        let mut physics =
-            Physics::new(Model::from_mjcf(&text).expect("valid"), &EnvironmentConfig::default()).expect("valid");
+        let mut physics = physics(&text);
         for _ in 0..20 {
             physics.step_only(&[0.0]).expect("finite");
         }
@@ -144,15 +148,18 @@ fn solid_shapes_rest_on_their_surfaces() {
     }
 }
 
-/// Trunk with one driven hinge; with the motor's element and attributes of the joint.
-fn driven(motor: &str, joint: &str) -> Environment {
-    let text = format!(
+/// Model of a trunk with one driven hinge; with the motor's element and attributes of the joint.
+fn driven_model(motor: &str, joint: &str) -> String {
+    format!(
         r#"<mujoco><compiler angle="radian"/><option gravity="0 0 0"/><worldbody><geom type="plane" size="1 1 1"/>
            <body pos="0 0 1.5"><freejoint/><geom size="0.3"/>
            <body pos="0 0 0.5"><joint name="j" axis="0 1 0" {joint}/><geom type="box" size="0.1 0.1 0.1"/></body></body>
            </worldbody><actuator>{motor}</actuator></mujoco>"#
-    );
-    Environment::new(&EnvironmentConfig::default(), &text).expect("valid")
+    )
+}
+
+fn driven(motor: &str, joint: &str) -> Environment {
+    Environment::new(&EnvironmentConfig::default(), &driven_model(motor, joint)).expect("valid")
 }
 
 /// Torque (N·m) on the hinge in the first step, for a share of the motor's range.
@@ -224,20 +231,11 @@ fn a_weaker_servo_measures_the_same_length() {
 
 #[test]
 fn randomised_floor_friction_also_scales_the_shapes() {
-    let text = r#"<mujoco><worldbody><geom type="plane" size="1 1 1" friction="0.8"/><body pos="0 0 0.1"><freejoint/>
-        <geom type="box" size="0.3 0.3 0.1" mass="1" friction="0.8"/>
-        <body><joint name="j"/><geom size="0.01" mass="0.001" contype="0" conaffinity="0"/></body></body></worldbody>
-        <actuator><motor joint="j"/></actuator></mujoco>"#;
-    let mut physics =
-        Physics::new(Model::from_mjcf(text).expect("valid"), &EnvironmentConfig::default()).expect("valid");
+    let mut physics = sliding_box("friction=\"0.8\"", "friction=\"0.8\"");
     let mut variation = Variation::none(physics.model());
     variation.floor_friction_scale = 0.25;
     physics.set_variation(&variation);
-    physics.set_state(&physics.model().nominal_position(), &[2.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]);
-    for _ in 0..10 {
-        physics.step_only(&[0.0]).expect("finite");
-    }
-    let (found, wanted) = (physics.centre_of_mass_velocity().x, 2.0 - 0.2 * 9.81 * 0.15);
+    let (found, wanted) = (speed_left(physics), 2.0 - 0.2 * 9.81 * 0.15);
     assert!((found - wanted).abs() < 0.05, "{found} m/s instead of {wanted} m/s");
 }
 
@@ -258,7 +256,7 @@ fn a_servo_reaches_and_keeps_its_target() {
 fn a_servo_too_stiff_for_the_physics_step_is_refused_by_name() {
     let model = |kv: f64| {
         let servo = format!("<position name=\"stiff\" joint=\"j\" kp=\"0.1\" kv=\"{kv}\" ctrlrange=\"-1 1\"/>");
-        driven_model(&servo)
+        Model::from_mjcf(&driven_model(&servo, "")).expect("valid")
     };
     let config = EnvironmentConfig::default();
     // A cube of 8 kg and 0.2 m side has 8 × 0.04 / 6 kg·m² about its middle; divided by the step, that is the bound.
@@ -268,15 +266,6 @@ fn a_servo_too_stiff_for_the_physics_step_is_refused_by_name() {
     assert!(message.contains("stiff") && message.contains("env.substeps"), "{message}");
     let finer = EnvironmentConfig { substeps: 4, ..config };
     assert!(Physics::new(model(bound * 1.01), &finer).is_ok());
-}
-
-fn driven_model(motor: &str) -> Model {
-    let text = format!(
-        r#"<mujoco><worldbody><geom type="plane" size="1 1 1"/><body pos="0 0 1.5"><freejoint/><geom size="0.3"/>
-           <body pos="0 0 0.5"><joint name="j" axis="0 1 0"/><geom type="box" size="0.1 0.1 0.1"/></body></body>
-           </worldbody><actuator>{motor}</actuator></mujoco>"#
-    );
-    Model::from_mjcf(&text).expect("valid")
 }
 
 #[test]
