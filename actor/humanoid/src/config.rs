@@ -76,7 +76,7 @@ pub struct EnvironmentConfig {
     pub solver_iterations: u32,
     /// See [`PhysicsSettings::self_collision`].
     pub self_collision: bool,
-    /// What varies between episodes besides the initial state; nothing by default.
+    /// Randomisation of each episode; off by default.
     pub randomisation: Randomisation,
 }
 
