@@ -150,12 +150,12 @@ def main():
             f"`make_vec`, {n} of {OURS}, 1 thread": lambda: vector(OURS, n, s, threads=1),
         },
     )
-    cores, each_its_own = os.cpu_count(), {"vectorization_mode": "async"}
+    cores, one_process_each = os.cpu_count(), {"vectorization_mode": "async"}
     compare(
         f"Environments, all {cores} cores, random actions, wall-clock time",
         args.rounds,
         {
-            f"`make_vec`, {cores} of {THEIRS} (AsyncVectorEnv)": lambda: vector(THEIRS, cores, s, CLOCK, **each_its_own),
+            f"`make_vec`, {cores} of {THEIRS} (AsyncVectorEnv)": lambda: vector(THEIRS, cores, s, CLOCK, **one_process_each),
             f"`make_vec`, {n} of {OURS}": lambda: vector(OURS, n, s, CLOCK),
         },
     )

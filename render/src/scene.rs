@@ -60,7 +60,7 @@ impl Scene {
         first
     }
 
-    /// Whether a ray hits any shape.
+    /// Returns whether a ray hits any shape.
     pub(crate) fn is_hit(&self, ray: &Ray) -> bool {
         self.is_near(ray)
             && self.solids.iter().any(|(solid, _)| solid.may_hit(ray, f64::INFINITY) && solid.hit(ray).is_some())

@@ -54,7 +54,7 @@ pub(crate) struct Ball {
 }
 
 impl Ball {
-    /// Whether a ray enters the sphere before a distance (m).
+    /// Returns whether a ray enters the sphere before a distance (m).
     pub(crate) fn may_hit(&self, ray: &Ray, before_m: f64) -> bool {
         let towards = self.centre - ray.origin;
         let along = towards.dot(&ray.direction);
@@ -92,7 +92,7 @@ impl Solid {
         Self { form, bound: Ball { centre: body * geometry.centre_m(), radius_m } }
     }
 
-    /// Whether a ray may hit the shape before a distance (m): whether it enters the bounding sphere.
+    /// Returns whether a ray may hit the shape before a distance (m): whether it enters the bounding sphere.
     pub(crate) fn may_hit(&self, ray: &Ray, before_m: f64) -> bool {
         self.bound.may_hit(ray, before_m)
     }

@@ -83,7 +83,7 @@ async fn fetch_bundle(bus: &Bus, run: Option<&str>) -> anyhow::Result<PolicyBund
 fn check_task(bundle: &PolicyBundle) -> anyhow::Result<()> {
     let mut source = ConfigSource::default();
     source.text(&bundle.config_toml, "the configuration of the run")?;
-    settings::check_supported(&bundle.run, &source.build()?).context("it cannot be watched")
+    settings::check_supported(&bundle.run, &source.build()?).context("the run cannot be watched")
 }
 
 /// Poses of one actor at a time.

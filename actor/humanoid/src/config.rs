@@ -76,7 +76,7 @@ pub struct EnvironmentConfig {
     pub solver_iterations: u32,
     /// See [`PhysicsSettings::self_collision`].
     pub self_collision: bool,
-    /// What varies between episodes besides the initial state; nothing by default.
+    /// Randomisation of each episode; off by default.
     pub randomisation: Randomisation,
 }
 
@@ -227,7 +227,12 @@ impl EnvironmentConfig {
             return refuse("reset_noise_scale", &self.reset_noise_scale, "between 0 and 1");
         }
         if self.observation == ObservationKind::GymnasiumV4 {
-            for (setting, included) in self.inclusions() {
+            for (setting, included) in [
+                ("include_cinert_in_observation", self.include_cinert_in_observation),
+                ("include_cvel_in_observation", self.include_cvel_in_observation),
+                ("include_qfrc_actuator_in_observation", self.include_qfrc_actuator_in_observation),
+                ("include_cfrc_ext_in_observation", self.include_cfrc_ext_in_observation),
+            ] {
                 if !included {
                     return refuse(setting, &false, "true, since Humanoid-v4's observation leaves nothing out");
                 }
@@ -265,16 +270,6 @@ impl EnvironmentConfig {
                 randomisation,
             ]
         )
-    }
-
-    /// Flags of the optional blocks of [`ObservationKind::GymnasiumV5`].
-    fn inclusions(&self) -> [(&'static str, bool); 4] {
-        [
-            ("include_cinert_in_observation", self.include_cinert_in_observation),
-            ("include_cvel_in_observation", self.include_cvel_in_observation),
-            ("include_qfrc_actuator_in_observation", self.include_qfrc_actuator_in_observation),
-            ("include_cfrc_ext_in_observation", self.include_cfrc_ext_in_observation),
-        ]
     }
 }
 

@@ -39,7 +39,6 @@ pub struct Environment {
     last_observation: Vec<f32>,
     last_info: StepInfo,
     episode_steps: u32,
-    faults: u64,
 }
 
 impl Environment {
@@ -69,7 +68,6 @@ impl Environment {
             last_observation,
             physics,
             episode_steps: 0,
-            faults: 0,
         })
     }
 
@@ -115,15 +113,7 @@ impl Environment {
     /// # Panics
     /// If `observation` does not have length [`Self::observation_size`].
     pub fn reset(&mut self, seed: u64, observation: &mut [f32]) {
-        self.try_reset(seed, observation).unwrap_or_else(|why| panic!("{why}"));
-    }
-
-    /// As [`Self::reset`], for buffers from outside.
-    ///
-    /// # Errors
-    /// [`InputError`] if `observation` has the wrong length; the episode then continues.
-    pub fn try_reset(&mut self, seed: u64, observation: &mut [f32]) -> Result<(), InputError> {
-        self.check_observation(observation)?;
+        self.check_observation(observation).unwrap_or_else(|why| panic!("{why}"));
         let mut random = Xoshiro256PlusPlus::seed_from_u64(seed);
         let scale = self.config.reset_noise_scale;
         for (start, nominal) in self.start_position.iter_mut().zip(&self.nominal_position) {
@@ -139,7 +129,6 @@ impl Environment {
         self.episode_steps = 0;
         self.last_info = reset_info(&self.config, &self.physics);
         self.write_observation(observation);
-        Ok(())
     }
 
     /// Simulates one control step and writes the observation after it.
@@ -247,16 +236,9 @@ impl Environment {
         self.last_observation.copy_from_slice(observation);
     }
 
-    fn fault(&mut self, observation: &mut [f32]) -> StepOutcome {
-        self.faults += 1;
+    fn fault(&self, observation: &mut [f32]) -> StepOutcome {
         observation.copy_from_slice(&self.last_observation);
         StepOutcome { reward: 0.0, terminated: true, truncated: false, fault: true, info: self.last_info }
-    }
-
-    /// Returns the number of faults since the environment was built.
-    #[must_use]
-    pub fn fault_count(&self) -> u64 {
-        self.faults
     }
 
     /// Returns the simulation.

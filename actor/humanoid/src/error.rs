@@ -15,7 +15,7 @@ pub enum ModelError {
     Unsupported {
         /// Name of the body, joint, geom or motor.
         element: String,
-        /// The problem, and what would be accepted.
+        /// Problem, and the accepted alternative.
         problem: String,
     },
     /// An attribute is unreadable, or asks for physics that is not simulated.

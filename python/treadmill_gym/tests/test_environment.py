@@ -93,7 +93,7 @@ class Spaces(unittest.TestCase):
         env = gymnasium.make(ID, include_cfrc_ext_in_observation=False, exclude_current_positions_from_observation=False)
         self.assertEqual(env.observation_space.shape, (348 - 78 + 2,))
 
-    @unittest.skipUnless(find_spec("mujoco"), "LEFT OUT: MuJoCo is not installed")
+    @unittest.skipUnless(find_spec("mujoco"), "MuJoCo is not installed")
     def test_spaces_and_infos_equal_those_of_gymnasiums_humanoid(self):
         theirs, ours = gymnasium.make("Humanoid-v5"), gymnasium.make(ID)
         self.assertEqual(ours.observation_space, theirs.observation_space)

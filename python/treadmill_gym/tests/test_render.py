@@ -102,7 +102,7 @@ raise SystemExit(os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]))
         self.assertEqual(subprocess.run([sys.executable, "-W", "ignore", "-c", code], timeout=120, check=False).returncode, 0)
 
 
-@unittest.skipUnless(find_spec("pygame"), "LEFT OUT: pygame is not installed")
+@unittest.skipUnless(find_spec("pygame"), "pygame is not installed")
 class Windows(unittest.TestCase):
     def setUp(self):
         # The dummy driver draws nothing.

@@ -14,8 +14,8 @@ import treadmill_gym  # noqa: F401  registers the environment
 
 ID = "treadmill/Humanoid-v0"
 EXAMPLES = Path(__file__).resolve().parents[2] / "examples/gym"
-NEEDS_SB3 = unittest.skipUnless(find_spec("stable_baselines3"), "LEFT OUT: stable_baselines3 is not installed")
-NEEDS_TENSORBOARD = unittest.skipUnless(find_spec("tensorboard"), "LEFT OUT: tensorboard is not installed")
+NEEDS_SB3 = unittest.skipUnless(find_spec("stable_baselines3"), "stable_baselines3 is not installed")
+NEEDS_TENSORBOARD = unittest.skipUnless(find_spec("tensorboard"), "tensorboard is not installed")
 
 
 @NEEDS_SB3

@@ -204,8 +204,8 @@ impl Flight {
         }
         for (index, inertia) in posture.inertias.iter().enumerate() {
             let velocity = &self.velocities[index];
-            self.loads[index] =
-                inertia.times(&self.accelerations[index]) + velocity.cross_force(&inertia.times(velocity));
+            self.loads[index] = inertia.times(&self.accelerations[index]);
+            self.loads[index] += velocity.cross_force(&inertia.times(velocity));
         }
         for (index, node) in tree.nodes.iter().enumerate().skip(1).rev() {
             let load = self.loads[index];

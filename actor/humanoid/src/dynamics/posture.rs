@@ -75,7 +75,8 @@ impl Posture {
         out[0] = self.sum_of_axes(0..ROOT_DOFS, velocity);
         for (index, node) in tree.nodes.iter().enumerate().skip(1) {
             let dofs = ROOT_DOFS + node.hinges.start..ROOT_DOFS + node.hinges.end;
-            out[index] = out[node.parent] + self.sum_of_axes(dofs, velocity);
+            out[index] = out[node.parent];
+            out[index] += self.sum_of_axes(dofs, velocity);
         }
     }
 

@@ -3,7 +3,7 @@
 //! A motion is (angular velocity, velocity of the body's point at O). A force is (moment about O, force).
 //! Formulas: R. Featherstone, *Rigid Body Dynamics Algorithms*, 2008, chapter 2.
 
-use std::ops::{Add, AddAssign, Mul, SubAssign};
+use std::ops::{AddAssign, Mul, SubAssign};
 
 use nalgebra::{Matrix3, Vector3};
 
@@ -97,14 +97,6 @@ impl Inertia {
     }
 }
 
-impl Add for Motion {
-    type Output = Self;
-    #[inline]
-    fn add(self, other: Self) -> Self {
-        Self { angular: self.angular + other.angular, linear: self.linear + other.linear }
-    }
-}
-
 impl AddAssign for Motion {
     #[inline]
     fn add_assign(&mut self, other: Self) {
@@ -118,14 +110,6 @@ impl Mul<f64> for Motion {
     #[inline]
     fn mul(self, factor: f64) -> Self {
         Self { angular: self.angular * factor, linear: self.linear * factor }
-    }
-}
-
-impl Add for Force {
-    type Output = Self;
-    #[inline]
-    fn add(self, other: Self) -> Self {
-        Self { moment: self.moment + other.moment, force: self.force + other.force }
     }
 }
 

@@ -37,8 +37,7 @@ impl Environment {
 
     /// Restores a snapshot of this environment, or of another one with the same model and settings.
     ///
-    /// From there the same actions give the same observations and rewards, bit for bit. [`Self::fault_count`] does not
-    /// change, because it belongs to the environment and not to the episode.
+    /// From there the same actions give the same observations and rewards, bit for bit.
     ///
     /// # Errors
     /// [`SnapshotError`] if the model or a setting differs; the environment is then unchanged.

@@ -87,7 +87,7 @@ fn exclusion_sides(exclusions: &[Exclusion], body: Option<usize>) -> Vec<(usize,
     exclusions.iter().enumerate().flat_map(sides_of).collect()
 }
 
-/// Whether two lists of exclusion sides hold opposite sides of one exclusion.
+/// Returns whether two lists of exclusion sides hold opposite sides of one exclusion.
 fn is_excluded(one: &[(usize, usize)], other: &[(usize, usize)]) -> bool {
     one.iter().any(|(index, side)| other.contains(&(*index, 1 - side)))
 }

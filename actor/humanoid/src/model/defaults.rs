@@ -7,7 +7,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use roxmltree::Node;
 
-use super::vocabulary::{self, AttributeRule, INERT};
+use super::vocabulary::{self, AttributeRule, is_inert};
 use crate::error::ModelError;
 
 /// Name and value of an attribute.
@@ -61,7 +61,7 @@ impl Classes {
                 continue;
             }
             // Defaults of elements that are refused at every occurrence have no effect.
-            if INERT.contains(&tag) || matches!(tag, "equality" | "pair" | "tendon") {
+            if is_inert(tag) || matches!(tag, "equality" | "pair" | "tendon") {
                 if tag == "tendon" {
                     class.insert("fixed".to_owned(), attributes_of(child));
                 }

@@ -8,7 +8,7 @@ use std::fmt::Write;
 use roxmltree::Node;
 
 use super::defaults::{ACTUATORS, Attribute, Classes, attributes_of, get};
-use super::vocabulary::{self, INERT, numbers};
+use super::vocabulary::{self, is_inert, numbers};
 use super::xml;
 use crate::error::ModelError;
 
@@ -106,14 +106,14 @@ impl Writer {
                     for child in elements(node) {
                         let kind = child.tag_name().name();
                         match kind {
-                            _ if tag == "asset" && INERT.contains(&kind) => {}
+                            _ if tag == "asset" && is_inert(kind) => {}
                             "flag" if tag == "option" => vocabulary::check("option flag", kind, &attributes_of(child))?,
                             _ => return Err(ModelError::unsupported(tag, format!("<{kind}> is not supported"))),
                         }
                     }
                 }
                 "worldbody" | "contact" | "tendon" | "actuator" => vocabulary::check(tag, tag, &attributes_of(node))?,
-                _ if INERT.contains(&tag) => {}
+                _ if is_inert(tag) => {}
                 _ => return Err(ModelError::unsupported("mujoco", format!("<{tag}> is not supported"))),
             }
         }
@@ -198,7 +198,7 @@ impl Writer {
                     self.open(tag, &attributes);
                     self.close(tag);
                 }
-                _ if INERT.contains(&tag) => {}
+                _ if is_inert(tag) => {}
                 _ => return Err(ModelError::unsupported(owner, format!("<{tag}> is not supported"))),
             }
         }

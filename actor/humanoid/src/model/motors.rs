@@ -7,7 +7,7 @@ use nalgebra::Isometry3;
 use super::{Hinge, Model, Motor};
 use crate::error::ModelError;
 
-/// Control range of a motor without control range, force limits and joint torque limits.
+/// Control range of a motor that has neither a control range nor limits of force or joint torque.
 const UNIT_RANGE: [f64; 2] = [-1.0, 1.0];
 const UNLIMITED: [f64; 2] = [f64::NEG_INFINITY, f64::INFINITY];
 

@@ -154,25 +154,12 @@ pub(super) fn rules(tag: &str) -> Option<&'static [&'static Rules]> {
     })
 }
 
-/// Elements that, with their content, never affect motion.
-pub(super) const INERT: [&str; 16] = [
-    "size",
-    "visual",
-    "statistic",
-    "custom",
-    "sensor",
-    "keyframe",
-    "texture",
-    "material",
-    "mesh",
-    "hfield",
-    "light",
-    "camera",
-    "site",
-    "lengthrange",
-    "numeric",
-    "text",
-];
+/// Returns whether an element, with its content, never affects motion.
+pub(super) fn is_inert(tag: &str) -> bool {
+    "size visual statistic custom sensor keyframe texture material mesh hfield light camera site lengthrange numeric text"
+        .split(' ')
+        .any(|inert| inert == tag)
+}
 
 /// Returns the rule of one attribute.
 pub(super) fn rule(tag: &str, attribute: &str) -> Option<AttributeRule> {
@@ -235,7 +222,7 @@ pub(super) fn numbers(value: &str) -> Option<Vec<f64>> {
     value.split_whitespace().map(|token| token.parse::<f64>().ok().filter(|number| number.is_finite())).collect()
 }
 
-/// Whether two values are equal: as numbers if they are numbers, where `found` may omit the last ones.
+/// Returns whether two values are equal: as numbers if they are numbers, where `found` may omit the last ones.
 fn same(wanted: &str, found: &str) -> bool {
     match (numbers(wanted), numbers(found)) {
         (Some(wanted), Some(found)) if !found.is_empty() => found.len() <= wanted.len() && wanted.starts_with(&found),

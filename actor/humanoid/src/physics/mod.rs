@@ -6,8 +6,8 @@
 //! 2. Rapier steps the bodies as free rigid bodies at the flight's final velocities. It detects the contacts and solves them.
 //! 3. The contact impulses are refined in joint coordinates, together with the hinge limits, and applied to the state.
 //!
-//! So joints cannot come apart. Rapier's world has no joints: they would cost a third more time, and with the refinement the
-//! motion is as close to MuJoCo's without them.
+//! Therefore joints cannot come apart. Rapier's world has no joints: they would take a third more time and bring the motion no
+//! closer to MuJoCo's.
 //!
 //! This module does not depend on rewards or episodes. Only this module names Rapier.
 

@@ -66,7 +66,7 @@ impl RapierWorld {
         parameters.num_internal_pgs_iterations = 1;
         parameters.num_internal_stabilization_iterations = 0;
         parameters.normalized_prediction_distance = (PREDICTION_M + largest_margin_sum_m(model)) as f32;
-        // Rapier reuses a contact point until it has moved 5 cm; that of a rolling foot leaves the floor long before.
+        // Rapier reuses a contact point until it has moved 5 cm; under a rolling foot, the point leaves the floor long before.
         parameters.contact_recycling = false;
 
         let floor = ColliderBuilder::new(SharedShape::halfspace(Vector::Z))

@@ -115,14 +115,13 @@ fn a_fault_repeats_the_last_finite_observation() {
     environment.step(&[0.1; 17], &mut observation);
     let last = observation;
     environment.physics_mut().poison();
-    for faults in 1..=2 {
+    for _ in 0..2 {
         observation.fill(9.0);
         let step = environment.step(&[0.1; 17], &mut observation);
         assert!(step.fault && step.terminated && !step.truncated);
         assert_eq!(step.reward, 0.0);
         assert_eq!(observation, last);
         assert!(step.info.torso_height_m.is_finite());
-        assert_eq!(environment.fault_count(), faults);
     }
     environment.reset(6, &mut observation);
     let step = environment.step(&[0.1; 17], &mut observation);

@@ -58,7 +58,6 @@ fn the_centre_of_mass_falls_freely_before_it_lands() {
     let time_s = f64::from(steps) * CONTROL_STEP_S;
     let fallen = start - physics.centre_of_mass();
     let expected_m = 9.81 * time_s * time_s / 2.0;
-    // Stepping in time adds g·t·dt/2, where dt is one solver pass: 3 mm here.
     assert!((fallen.z - expected_m).abs() < 0.005, "fell {} m instead of {expected_m} m", fallen.z);
     assert!(fallen.x.abs() < 1e-3 && fallen.y.abs() < 1e-3);
     assert!((physics.centre_of_mass_velocity().z + 9.81 * time_s).abs() < 1e-2);
