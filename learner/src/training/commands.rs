@@ -145,7 +145,7 @@ impl Trainer {
 
     /// Publishes the status; `is_update` right after an update.
     pub(super) fn publish_status(&mut self, is_update: bool) {
-        let (state, validator) = (&self.state, self.serving.intake.validator());
+        let (state, validator) = (&self.state, &self.serving.intake.validator);
         let (means, counts) = (state.episodes.means(), validator.counts);
         let phase = match (self.shutdown.asked(), self.serving.paused) {
             (true, _) => Phase::Stopping,
@@ -165,7 +165,7 @@ impl Trainer {
             policy_lag_mean: self.reporting.lag_mean,
             resident_bytes: machine::resident_bytes(),
             accepted: counts.accepted,
-            accepted_bytes: validator.accepted_bytes(),
+            accepted_bytes: validator.accepted_bytes,
             duplicate: counts.duplicate,
             too_old: counts.too_old,
             vanished: counts.vanished,
