@@ -1,13 +1,12 @@
 //! Progress of a run on standard output.
 //!
-//! On a terminal: a progress bar, with tables and messages above it. Elsewhere, such as in a log file: plain lines
+//! On a terminal: a progress bar, with tables above it. Elsewhere, such as in a log file: plain lines
 //! without escape codes. Write errors are ignored, so that a closed pipe or a full disk does not stop training.
 
 use std::collections::VecDeque;
 use std::io::{self, IsTerminal, Write};
 use std::time::{Duration, Instant};
 
-use console::strip_ansi_codes;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use treadmill_runtime::machine;
 
@@ -65,7 +64,7 @@ pub struct Console {
 
 impl Console {
     /// Console for a run from `start_steps` (more than 0 after a resume) to `total_steps`. Without `show_progress`, it
-    /// shows only tables and messages.
+    /// shows only tables.
     pub fn new(total_steps: u64, start_steps: u64, show_progress: bool) -> Self {
         let is_terminal = io::stdout().is_terminal() && std::env::var_os("TERM").is_none_or(|term| term != "dumb");
         let mut console = Self::writing_to(Box::new(io::stdout()), total_steps, start_steps, show_progress);
@@ -161,14 +160,6 @@ impl Console {
     pub fn table(&mut self, scalars: &Scalars) {
         let text = if self.is_terminal { render_table(scalars) } else { render_line(self.env_steps, scalars) + "\n" };
         self.write(&text);
-    }
-
-    /// Writes a message above the bar, or as a plain line. Removes escape codes and other control characters, because
-    /// the message may quote input from the network.
-    pub fn line(&mut self, message: &str) {
-        let shown = |c: &char| !c.is_control() || matches!(c, '\n' | '\t');
-        let message: String = strip_ansi_codes(message).chars().filter(shown).collect();
-        self.write(&format!("{message}\n"));
     }
 
     /// Removes the bar and writes steps, mean speed and the last sparklines. Only the first call has an effect.

@@ -124,8 +124,7 @@ impl Trainer {
         self.learning.load = LoadAdaptation::new(&changed);
         let LearnerConfig { checkpoint_every_updates, keep_checkpoints, .. } = changed.learner;
         self.serving.checkpoints.set_retention(checkpoint_every_updates.into(), keep_checkpoints as usize);
-        self.reporting.report.set_table_every(changed.learner.table_every_updates.into());
-        self.reporting.report.set_steps(changed.run.steps);
+        self.reporting.report.set_config(&changed);
         if let Some(evaluation) = &mut self.serving.evaluation {
             evaluation.set_every(changed.eval.every_steps, self.state.counters.env_steps);
         }
