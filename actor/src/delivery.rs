@@ -36,7 +36,7 @@ pub struct DeliveryCounts {
     pub accepted: u64,
     /// Too old, of a vanished version, or malformed.
     pub dropped_by_rule: u64,
-    /// Without a receipt.
+    /// Pending.
     pub in_flight: u64,
     /// Additional times that fragments were sent.
     pub resent: u64,
@@ -66,8 +66,9 @@ struct DeliveryState {
     /// Sequence numbers of pending fragments.
     pending: BTreeSet<u64>,
     /// Accepted fragments that no checkpoint holds yet. Each update makes them durable, so they number at most a batch plus
-    /// the fragments in flight.
+    /// the pending fragments.
     awaiting_durability: BTreeMap<u64, Bytes>,
+    /// Highest sequence number.
     newest: u64,
 }
 
@@ -112,7 +113,7 @@ impl Uploader {
         open.map_or(state.newest, |first| first - 1)
     }
 
-    /// Registers a fragment that is about to be delivered.
+    /// Registers a produced fragment, which is then pending.
     pub fn register(&self, sequence: u64) {
         let mut state = self.state();
         state.produced += 1;
@@ -125,7 +126,7 @@ impl Uploader {
     pub async fn deliver(&self, fragment: PendingFragment) -> Result<Refresh, BusError> {
         let receipt = self.send_until_settled(&fragment.bytes).await?;
         if receipt.outcome == Outcome::Malformed {
-            tracing::error!(sequence = fragment.sequence, reason = %receipt.reason, "the learner refused a fragment");
+            tracing::error!(actor = %self.actor, sequence = fragment.sequence, reason = %receipt.reason, "fragment rejected");
         }
         self.state().settle(fragment, &receipt);
         let refresh = self.policies.refresh(Some(receipt.version)).await;
@@ -141,7 +142,7 @@ impl Uploader {
     /// recognises duplicates by their sequence number.
     async fn resend_to_new_learner(&self) -> Result<(), BusError> {
         let incarnation = self.policies.current().version.incarnation;
-        let lost: Vec<PendingFragment> = {
+        let pending: Vec<PendingFragment> = {
             let mut state = self.state();
             if state.incarnation == incarnation {
                 return Ok(());
@@ -153,7 +154,7 @@ impl Uploader {
             state.pending.extend(accepted.keys());
             accepted.into_iter().map(|(sequence, bytes)| PendingFragment { sequence, bytes }).collect()
         };
-        for fragment in lost {
+        for fragment in pending {
             let receipt = self.send_until_settled(&fragment.bytes).await?;
             self.state().settle(fragment, &receipt);
         }

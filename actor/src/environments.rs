@@ -126,7 +126,7 @@ impl Environments {
             .collect::<Result<Vec<_>, ModelError>>()?;
         let observation_size = slots.first().map_or(0, |slot| slot.environment.observation_size());
         let action_size = slots.first().map_or(0, |slot| slot.environment.action_size());
-        let mut all = Self {
+        let mut environments = Self {
             slots,
             seeds: seeds.reset_seeds(),
             observations: vec![0.0; count * observation_size],
@@ -135,8 +135,8 @@ impl Environments {
             precision: Precision::F32,
             pool: None,
         };
-        all.reset();
-        Ok(all)
+        environments.reset();
+        Ok(environments)
     }
 
     /// Resets all environments to their first episodes.

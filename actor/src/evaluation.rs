@@ -49,7 +49,7 @@ pub struct EvaluationStep<'a> {
 }
 
 /// Results of an evaluation.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Evaluation {
     /// Every episode.
     pub episodes: Vec<EpisodeResult>,

@@ -3,12 +3,17 @@
 use std::time::Duration;
 
 use treadmill_bus::{Assignment, Bus, ask_for_evaluation};
-use treadmill_config::{Config, ConfigError, ConfigSource};
 use treadmill_humanoid::Environment;
 use treadmill_proto::{EvaluationReport, PolicyBundle};
 use treadmill_runtime::{error_chain, shutdown::Shutdown};
 
-use crate::{ActorError, agent::PolicyAgent, evaluation::evaluate, policy_fetcher::join_run, settings};
+use crate::{
+    ActorError,
+    agent::PolicyAgent,
+    evaluation::{Evaluation, evaluate},
+    policy_fetcher::join_run,
+    settings,
+};
 
 const ANSWER_TIMEOUT: Duration = Duration::from_secs(10);
 /// Pause between two requests for a policy.
@@ -30,7 +35,7 @@ pub async fn run(bus: Bus, options: EvaluatorOptions, shutdown: Shutdown) -> Res
     let Some(bundle) = join_run(&bus, options.run.as_deref(), &options.endpoint, &shutdown).await? else {
         return Ok(());
     };
-    settings::check_supported(&bundle.run, &read_config(&bundle)?)?;
+    settings::check_supported(&bundle.run, &settings::read_config(&bundle)?)?;
     let run = bundle.run;
     let mut report = None;
     while !shutdown.asked() {
@@ -55,29 +60,20 @@ pub async fn run(bus: Bus, options: EvaluatorOptions, shutdown: Shutdown) -> Res
     Ok(())
 }
 
-/// Reads the run's configuration from a policy bundle.
-pub(crate) fn read_config(bundle: &PolicyBundle) -> Result<Config, ConfigError> {
-    let mut source = ConfigSource::default();
-    source.text(&bundle.config_toml, "the configuration of the run")?;
-    source.build()
-}
-
 /// Plays the episodes of one policy; returns `None` after a request to stop.
 fn play(bundle: &PolicyBundle, evaluator: String, shutdown: &Shutdown) -> Result<Option<EvaluationReport>, ActorError> {
-    let config = read_config(bundle)?;
+    let config = settings::read_config(bundle)?;
     let mut environment = Environment::new(&settings::environment(&config.env), &bundle.model_xml)?;
     let mut agent = PolicyAgent::of_bundle(bundle)?;
-    let mut evaluations = Vec::new();
+    let mut all = Evaluation::default();
     for episode in 0..config.eval.episodes {
         if shutdown.asked() {
             return Ok(None);
         }
         // Every policy starts from the same states, so that differences between policies are their own.
         let seed = config.run.seed.wrapping_add(u64::from(episode));
-        evaluations.push(evaluate(&mut environment, &mut agent, 1, seed, |_| {})?);
+        all.episodes.extend(evaluate(&mut environment, &mut agent, 1, seed, |_| {})?.episodes);
     }
-    let mut all = evaluations.swap_remove(0);
-    all.episodes.extend(evaluations.into_iter().flat_map(|evaluation| evaluation.episodes));
     Ok(Some(EvaluationReport {
         run: bundle.run.clone(),
         evaluator,

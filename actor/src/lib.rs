@@ -1,7 +1,7 @@
 //! Collects rollouts with a policy and delivers them to the learner; plays evaluations.
 //!
 //! # Layout, in the order of the data
-//! - [`settings`]: maps the run's configuration to the environment's.
+//! - [`settings`]: reads the run's configuration and maps it to the environment's.
 //! - [`environments`]: N humanoids that step together, and their episodes.
 //! - [`acting_policy`]: the networks and statistics of one policy bundle, ready to choose actions.
 //! - [`identity`]: name and number of an actor process.

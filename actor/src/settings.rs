@@ -1,10 +1,19 @@
-//! Maps the run's configuration to that of the environment.
+//! Reads the run's configuration and maps it to that of the environment.
 
-use treadmill_config::{Config, EnvConfig, EnvObservation, EnvTask, ObservationPrecision, RandomisationConfig};
+use treadmill_config::{
+    Config, ConfigError, ConfigSource, EnvConfig, EnvObservation, EnvTask, ObservationPrecision, RandomisationConfig,
+};
 use treadmill_humanoid::{EnvironmentConfig, ObservationKind, Randomisation, RewardTask};
-use treadmill_proto::Precision;
+use treadmill_proto::{PolicyBundle, Precision};
 
 use crate::ActorError;
+
+/// Reads the run's configuration from a policy bundle.
+pub(crate) fn read_config(bundle: &PolicyBundle) -> Result<Config, ConfigError> {
+    let mut source = ConfigSource::default();
+    source.text(&bundle.config_toml, "the configuration of the run")?;
+    source.build()
+}
 
 /// Refuses a task that this program does not simulate.
 pub fn check_supported(run: &str, config: &Config) -> Result<(), ActorError> {
@@ -48,7 +57,7 @@ fn randomisation(config: &RandomisationConfig) -> Randomisation {
 pub fn environment(config: &EnvConfig) -> EnvironmentConfig {
     EnvironmentConfig {
         task: match config.task {
-            // `check_supported` refuses external tasks of foreign configurations.
+            // `check_supported` refuses external tasks.
             EnvTask::HumanoidV5 | EnvTask::External => RewardTask::HumanoidV5,
             EnvTask::HumanoidV4 => RewardTask::HumanoidV4,
         },

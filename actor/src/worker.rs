@@ -21,7 +21,6 @@ use crate::{
     ActorError,
     delivery::Uploader,
     environments::{Environments, SeedSource},
-    evaluator::read_config,
     identity::ActorIdentity,
     policy_fetcher::{PolicyFetcher, Refresh, join_run},
     poses::{self, PoseSampler},
@@ -51,9 +50,10 @@ pub async fn run(bus: Bus, options: WorkerOptions, shutdown: Shutdown) -> Result
         match reason {
             EndReason::StopRequested => return Ok(last),
             EndReason::RunReplaced => tracing::warn!(
+                actor = %options.name,
                 run = %bundle.run,
-                in_flight = summary.fragments.in_flight,
-                "the learner replaced the run; rejoining without the fragments in flight"
+                pending = summary.fragments.in_flight,
+                "the learner replaced the run; rejoining without the pending fragments"
             ),
         }
     }
@@ -70,7 +70,7 @@ struct Membership<'a> {
 
 impl<'a> Membership<'a> {
     fn new(bus: &'a Bus, options: &'a WorkerOptions, bundle: &PolicyBundle) -> Result<Self, ActorError> {
-        let config = read_config(bundle)?;
+        let config = settings::read_config(bundle)?;
         settings::check_supported(&bundle.run, &config)?;
         let incarnation = seeds::unique();
         tracing::info!(incarnation, actor = %options.name, "new incarnation");

@@ -57,7 +57,7 @@ pub struct Episode {
 }
 
 /// Rollout fragment. Planes are time-major: entry `[t][n][i]` is at `((t * N) + n) * width + i`.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Fragment {
     /// Name of the run.
     pub run: String,

@@ -109,9 +109,9 @@ fn take(mut intake: Intake<BusFragmentSource>, taken: &Mutex<Taken>, shutdown: &
     let one = BatchSize { transitions: 1, transitions_max: 1 };
     let mut durable = 0;
     while let Collected::Batch(batch) = intake.collect(one, &lineage, shutdown, || false) {
-        let counts = intake.validator().counts;
+        let counts = intake.validator.counts;
         if counts.accepted >= durable + DURABLE_EVERY {
-            intake.mark_durable();
+            intake.validator.ledger.mark_durable();
             durable = counts.accepted;
         }
         let mut taken = taken.lock().expect("no holder of this lock panics");

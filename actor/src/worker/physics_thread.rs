@@ -19,7 +19,7 @@ use crate::{
     rollout::Collector,
 };
 
-/// Capacity of the channel to the uploader; credit keeps it at `max_in_flight`, which is at most 2.
+/// Capacity of the channel to the uploader: the most credit that `rollout.max_in_flight` allows.
 const CHANNEL_FRAGMENTS: usize = 2;
 
 /// Encoded fragment with the episodes that ended in it.
@@ -48,19 +48,19 @@ pub(super) struct Shared {
 pub(super) struct PhysicsThread {
     thread: JoinHandle<()>,
     credit: std_mpsc::Sender<()>,
-    fragments: mpsc::Receiver<Result<ProducedFragment, ActorError>>,
+    produced: mpsc::Receiver<Result<ProducedFragment, ActorError>>,
 }
 
 impl PhysicsThread {
     /// Starts the thread with credit for `in_flight` fragments.
     pub(super) fn start(collector: Collector, shared: Shared, in_flight: u32) -> Result<Self, ActorError> {
         let (credit, received_credit) = std_mpsc::channel();
-        let (sender, fragments) = mpsc::channel(CHANNEL_FRAGMENTS);
+        let (sender, produced) = mpsc::channel(CHANNEL_FRAGMENTS);
         let thread = thread::Builder::new()
             .name("physics".to_string())
             .spawn(move || collect_fragments(collector, &shared, &received_credit, &sender))
             .map_err(ActorError::ThreadStart)?;
-        let physics = Self { thread, credit, fragments };
+        let physics = Self { thread, credit, produced };
         (0..in_flight).for_each(|_| physics.give_credit());
         Ok(physics)
     }
@@ -73,13 +73,13 @@ impl PhysicsThread {
 
     /// Returns the next fragment. Cancel-safe.
     pub(super) async fn next(&mut self) -> Result<ProducedFragment, ActorError> {
-        self.fragments.recv().await.unwrap_or(Err(ActorError::PhysicsEnded))
+        self.produced.recv().await.unwrap_or(Err(ActorError::PhysicsEnded))
     }
 
     /// Waits until the thread has finished its present fragment, which is discarded.
     pub(super) async fn stop(self) -> Result<(), ActorError> {
-        let Self { thread, credit, fragments } = self;
-        drop((credit, fragments));
+        let Self { thread, credit, produced } = self;
+        drop((credit, produced));
         let joined = tokio::task::spawn_blocking(move || thread.join()).await;
         joined.ok().and_then(Result::ok).ok_or(ActorError::PhysicsPanicked)
     }
@@ -89,7 +89,7 @@ fn collect_fragments(
     mut collector: Collector,
     shared: &Shared,
     credit: &std_mpsc::Receiver<()>,
-    fragments: &mpsc::Sender<Result<ProducedFragment, ActorError>>,
+    sender: &mpsc::Sender<Result<ProducedFragment, ActorError>>,
 ) {
     while credit.recv().is_ok() {
         let policy = shared.policies.current();
@@ -98,7 +98,7 @@ fn collect_fragments(
             encode(fragment, collector.precision(), &shared.progress)
         });
         let failed = produced.is_err();
-        if fragments.blocking_send(produced).is_err() || failed {
+        if sender.blocking_send(produced).is_err() || failed {
             return;
         }
     }

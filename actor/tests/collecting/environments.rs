@@ -1,31 +1,17 @@
 //! Results of an environment do not depend on the number of threads or of other environments.
 
 use treadmill_actor::environments::{Environments, SeedSource, StepResults};
-use treadmill_humanoid::{EnvironmentConfig, HUMANOID_XML, Randomisation};
+use treadmill_humanoid::{HUMANOID_XML, Randomisation};
 use treadmill_proto::{Episode, fragment::TRUNCATED};
+
+use crate::randomised;
 
 const STEPS: u64 = 60;
 
-/// Returns a configuration with every kind of randomisation, whose episodes end in every way within a few steps.
-fn config() -> EnvironmentConfig {
-    EnvironmentConfig {
-        max_episode_steps: 25,
-        randomisation: Randomisation {
-            mass_scale: [0.8, 1.2],
-            sensor_noise_position: 0.01,
-            control_noise: 0.1,
-            action_delay_steps: [0, 2],
-            push_interval_s: [0.1, 0.2],
-            push_mps: [0.1, 2.0],
-            ..Randomisation::default()
-        },
-        ..EnvironmentConfig::default()
-    }
-}
-
 fn environments(count: usize, threads: usize) -> Environments {
     let seeds = SeedSource { run_seed: 5, actor: "a".into(), start: 2 };
-    Environments::new(count, &config(), HUMANOID_XML, seeds).unwrap().with_threads(threads).unwrap()
+    let config = randomised(Randomisation::default().motor_scale);
+    Environments::new(count, &config, HUMANOID_XML, seeds).unwrap().with_threads(threads).unwrap()
 }
 
 /// Returns an action that depends only on the environment's number and the step. Half of the environments stand still.

@@ -4,36 +4,13 @@ use treadmill_actor::{
     environments::{Environments, SeedSource},
     rollout::Collector,
 };
-use treadmill_humanoid::{EnvironmentConfig, HUMANOID_XML, ObservationKind, Randomisation};
+use treadmill_humanoid::{EnvironmentConfig, HUMANOID_XML, ObservationKind};
 use treadmill_proto::{Fragment, Precision, fragment::TRUNCATED};
 
-use crate::{identity, policy};
-
-/// Returns a configuration with every kind of randomisation, whose episodes end in every way within a few steps.
-fn randomised() -> EnvironmentConfig {
-    EnvironmentConfig {
-        max_episode_steps: 25,
-        observation: ObservationKind::GymnasiumV5,
-        randomisation: Randomisation {
-            mass_scale: [0.8, 1.2],
-            motor_scale: [0.8, 1.2],
-            sensor_noise_position: 0.01,
-            control_noise: 0.1,
-            action_delay_steps: [0, 2],
-            push_interval_s: [0.1, 0.2],
-            push_mps: [0.1, 2.0],
-            ..Randomisation::default()
-        },
-        ..EnvironmentConfig::default()
-    }
-}
+use crate::{identity, policy, randomised};
 
 /// Returns the collector of an actor process; each `start` draws other random numbers.
-fn collector(envs: usize, config: &EnvironmentConfig, name: &str, start: u64, threads: usize) -> Collector {
-    collector_in(Precision::F32, envs, config, name, start, threads)
-}
-
-fn collector_in(
+fn collector(
     precision: Precision,
     envs: usize,
     config: &EnvironmentConfig,
@@ -58,6 +35,7 @@ fn comparable(fragment: Fragment) -> Fragment {
 
 #[test]
 fn a_successor_continues_from_the_bytes_of_any_fragment() {
+    let randomised = || EnvironmentConfig { observation: ObservationKind::GymnasiumV5, ..randomised([0.8, 1.2]) };
     let cases = [
         (EnvironmentConfig::default(), 45, Precision::F32),
         (randomised(), 348, Precision::F32),
@@ -65,7 +43,7 @@ fn a_successor_continues_from_the_bytes_of_any_fragment() {
     ];
     for (config, width, precision) in cases {
         let policy = policy(width);
-        let mut original = collector_in(precision, 4, &config, "a", 2, 1);
+        let mut original = collector(precision, 4, &config, "a", 2, 1);
         let fragments: Vec<Fragment> = (0..8).map(|_| original.collect(&policy, 0).unwrap()).collect();
         assert!(fragments.iter().filter(|fragment| !fragment.episodes.is_empty()).count() > 2, "episodes end");
         let truncated = fragments.iter().flat_map(|fragment| &fragment.flags).any(|flags| flags & TRUNCATED != 0);
@@ -73,7 +51,7 @@ fn a_successor_continues_from_the_bytes_of_any_fragment() {
         for (at, threads) in [(0, 1), (3, 2), (5, 1)] {
             let bytes = fragments[at].encode_as(precision).unwrap();
             let state = Fragment::decode(bytes).unwrap().actor_state.unwrap();
-            let mut successor = collector_in(precision, 4, &config, "a", 99, threads);
+            let mut successor = collector(precision, 4, &config, "a", 99, threads);
             successor.restore_state(&state).unwrap();
             for fragment in &fragments[at + 1..] {
                 assert!(
@@ -88,8 +66,9 @@ fn a_successor_continues_from_the_bytes_of_any_fragment() {
 #[test]
 fn after_an_unfit_state_all_begins_as_without_it() {
     let (config, policy) = (EnvironmentConfig::default(), policy(45));
-    let state = collector(3, &config, "a", 2, 1).collect(&policy, 0).unwrap().actor_state.unwrap();
-    let wanted = |envs, name| collector(envs, &config, name, 7, 1).collect(&policy, 0).unwrap();
+    let collector = |envs, name, start| collector(Precision::F32, envs, &config, name, start, 1);
+    let state = collector(3, "a", 2).collect(&policy, 0).unwrap().actor_state.unwrap();
+    let wanted = |envs, name| collector(envs, name, 7).collect(&policy, 0).unwrap();
     let mut upside_down = state.clone();
     // The quaternion of the last environment, so that the others are restored before it fails.
     let at = upside_down.positions.len() / 3 * 2 + 3;
@@ -102,7 +81,7 @@ fn after_an_unfit_state_all_begins_as_without_it() {
         (&upside_down, 3, "a", "quaternion"),
         (&narrow, 3, "a", "velocity vector has the wrong length: 22 instead of 23"),
     ] {
-        let mut collector = collector(envs, &config, name, 7, 1);
+        let mut collector = collector(envs, name, 7);
         let error = collector.restore_state(state).unwrap_err();
         assert!(error.contains(part), "{error}");
         assert!(collector.collect(&policy, 0).unwrap() == wanted(envs, name), "{part}");

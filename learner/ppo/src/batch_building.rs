@@ -4,6 +4,7 @@
 //! All observations, including those of a fragment that lags, are normalised by the newest policy's statistics:
 //! networks and statistics together are the policy that the update improves.
 
+use candle_core::Result;
 use treadmill_config::PpoConfig;
 use treadmill_policy::{
     Policy, gaussian,
@@ -43,13 +44,13 @@ pub fn build_batch(
     value_moments: &mut RunningMoments,
     mirror: Option<&BatchMirror>,
     config: &PpoConfig,
-) -> Result<Batch, candle_core::Error> {
+) -> Result<Batch> {
     // Before the first return, the units of returns are unknown, so the critic's output is not used.
     let old_scale = (value_moments.count > 0.0).then(|| ScalarNormaliser::from_moments(value_moments));
-    let builder = BatchBuilder { policy, normaliser, value_scale: old_scale.as_ref(), config };
+    let builder = BatchBuilder { policy, normaliser, value_scale: old_scale.as_ref(), mirror, config };
     let mut batch = Batch::default();
     for accepted in accepted {
-        builder.add(accepted, mirror, &mut batch)?;
+        builder.add(accepted, &mut batch)?;
     }
     value_moments.update(&batch.returns, 1);
     let new_scale = ScalarNormaliser::from_moments(value_moments);
@@ -64,40 +65,28 @@ struct BatchBuilder<'a> {
     normaliser: &'a Normaliser,
     /// Units of returns before this batch, if they are known.
     value_scale: Option<&'a ScalarNormaliser>,
+    mirror: Option<&'a BatchMirror>,
     config: &'a PpoConfig,
 }
 
 impl BatchBuilder<'_> {
     /// Appends the transitions of one fragment, and their mirror images if there is a mirror.
-    fn add(
-        &self,
-        AcceptedFragment { fragment, lag }: &AcceptedFragment,
-        mirror: Option<&BatchMirror>,
-        batch: &mut Batch,
-    ) -> Result<(), candle_core::Error> {
+    fn add(&self, AcceptedFragment { fragment, lag }: &AcceptedFragment, batch: &mut Batch) -> Result<()> {
         let mut observations = fragment.observations.clone();
         self.normaliser.apply(&mut observations);
         let mut values = self.policy.values(&observations, fragment.transitions())?;
-        let next_values = next_values(fragment, self.policy, self.normaliser, &mut values, self.value_scale)?;
-        let correction = match lag {
-            0 => None,
-            _ => Some(Correction::of(self.policy, &observations, &fragment.actions, &fragment.log_probs)?),
+        let next_values = self.next_values(fragment, &mut values)?;
+        let Correction { weights, log_probs } = match lag {
+            0 => Correction::none(&fragment.log_probs),
+            _ => Correction::of(self.policy, &observations, &fragment.actions, &fragment.log_probs)?,
         };
         let estimated = self.advantages(fragment, &values, &next_values);
         batch.observations.append(&mut observations);
         batch.actions.extend_from_slice(&fragment.actions);
-        match correction {
-            Some(Correction { weights, log_probs }) => {
-                batch.log_probs.extend(log_probs);
-                batch.weights.extend(weights);
-            }
-            None => {
-                batch.log_probs.extend_from_slice(&fragment.log_probs);
-                batch.weights.resize(batch.log_probs.len(), 1.0);
-            }
-        }
+        batch.log_probs.extend(log_probs);
+        batch.weights.extend(weights);
         batch.extend_targets(&estimated, &values);
-        if let Some(mirror) = mirror {
+        if let Some(mirror) = self.mirror {
             self.add_mirror_image(fragment, mirror, batch)?;
             batch.extend_targets(&estimated, &values);
         }
@@ -119,17 +108,44 @@ impl BatchBuilder<'_> {
         gae::estimate(&steps, config.gamma as f32, config.gae_lambda as f32)
     }
 
+    /// Returns the values of the observations truly reached. Converts `values` to the units of returns; if those are
+    /// unknown, sets all values to 0.
+    fn next_values(&self, fragment: &Fragment, values: &mut [f32]) -> Result<Vec<f32>> {
+        let mut last = fragment.last_observations.clone();
+        self.normaliser.apply(&mut last);
+        let rows = last.len() / fragment.observation_size as usize;
+        let mut last_values = if rows > 0 { self.policy.values(&last, rows)? } else { Vec::new() };
+        for values in [&mut last_values[..], &mut *values] {
+            match self.value_scale {
+                Some(scale) => scale.denormalise(values),
+                None => values.fill(0.0),
+            }
+        }
+        // The last observations of truncated episodes and of the fragment's end are mixed, ordered by step and environment.
+        let (envs, mut last_values) = (fragment.envs as usize, last_values.into_iter());
+        let (mut truncated_values, mut final_values) = (Vec::new(), vec![0.0; envs]);
+        for (index, flags) in fragment.flags.iter().enumerate() {
+            if !Fragment::needs_last_observation(*flags, (index / envs) as u32, fragment.steps) {
+                continue;
+            }
+            let value =
+                last_values.next().expect("a checked fragment has one last observation for each that is needed");
+            if flags & TRUNCATED != 0 {
+                truncated_values.push(value);
+            } else {
+                final_values[index % envs] = value;
+            }
+        }
+        let (terminated, truncated) = (flagged(fragment, TERMINATED), flagged(fragment, TRUNCATED));
+        Ok(gae::next_values(values, &terminated, &truncated, &truncated_values, &final_values))
+    }
+
     /// Appends observations, actions, log-probabilities and weights of the mirror image of a fragment.
-    fn add_mirror_image(
-        &self,
-        fragment: &Fragment,
-        mirror: &BatchMirror,
-        batch: &mut Batch,
-    ) -> Result<(), candle_core::Error> {
+    fn add_mirror_image(&self, fragment: &Fragment, mirror: &BatchMirror, batch: &mut Batch) -> Result<()> {
         let mut observations = mirror.observation.apply(&fragment.observations);
         self.normaliser.apply(&mut observations);
         let mut actions = mirror.action.apply(&fragment.actions);
-        // No policy took the mirrored actions. The mirror image of the policy that acted would have.
+        // The mirror image of the acting policy takes the mirrored actions with the same probabilities.
         let Correction { weights, log_probs } =
             Correction::of(self.policy, &observations, &actions, &fragment.log_probs)?;
         batch.observations.append(&mut observations);
@@ -153,8 +169,13 @@ struct Correction {
 }
 
 impl Correction {
+    /// Correction of a fragment that the newest policy acted.
+    fn none(log_probs: &[f32]) -> Self {
+        Self { weights: vec![1.0; log_probs.len()], log_probs: log_probs.to_vec() }
+    }
+
     /// `old` are the log-probabilities of the actions under the policy that acted, `[rows]`.
-    fn of(policy: &Policy, observations: &[f32], actions: &[f32], old: &[f32]) -> Result<Self, candle_core::Error> {
+    fn of(policy: &Policy, observations: &[f32], actions: &[f32], old: &[f32]) -> Result<Self> {
         let mut means = vec![0.0; actions.len()];
         policy.means(observations, old.len(), &mut means)?;
         let log_std = policy.log_std();
@@ -164,43 +185,6 @@ impl Correction {
         let weights = log_probs.iter().zip(old).map(|(new, old)| (new - old).exp().min(1.0)).collect();
         Ok(Self { weights, log_probs })
     }
-}
-
-/// Returns the values of the observations truly reached. Converts `values` to the units of returns; if those are
-/// unknown, sets all values to 0.
-fn next_values(
-    fragment: &Fragment,
-    policy: &Policy,
-    normaliser: &Normaliser,
-    values: &mut [f32],
-    scale: Option<&ScalarNormaliser>,
-) -> Result<Vec<f32>, candle_core::Error> {
-    let mut last = fragment.last_observations.clone();
-    normaliser.apply(&mut last);
-    let rows = last.len() / fragment.observation_size as usize;
-    let mut last_values = if rows > 0 { policy.values(&last, rows)? } else { Vec::new() };
-    for values in [&mut last_values[..], &mut *values] {
-        match scale {
-            Some(scale) => scale.denormalise(values),
-            None => values.fill(0.0),
-        }
-    }
-    // The last observations of truncated episodes and of the fragment's end are mixed, ordered by step and environment.
-    let (envs, mut last_values) = (fragment.envs as usize, last_values.into_iter());
-    let (mut truncated_values, mut final_values) = (Vec::new(), vec![0.0; envs]);
-    for (index, flags) in fragment.flags.iter().enumerate() {
-        if !Fragment::needs_last_observation(*flags, (index / envs) as u32, fragment.steps) {
-            continue;
-        }
-        let value = last_values.next().expect("a checked fragment has one last observation for each that is needed");
-        if flags & TRUNCATED != 0 {
-            truncated_values.push(value);
-        } else {
-            final_values[index % envs] = value;
-        }
-    }
-    let (terminated, truncated) = (flagged(fragment, TERMINATED), flagged(fragment, TRUNCATED));
-    Ok(gae::next_values(values, &terminated, &truncated, &truncated_values, &final_values))
 }
 
 fn flagged(fragment: &Fragment, flag: u8) -> Vec<bool> {

@@ -2,7 +2,6 @@
 
 use rand_xoshiro::{Xoshiro256PlusPlus, rand_core::SeedableRng};
 use treadmill_policy::{NetworkShape, init};
-use treadmill_proto::PolicyVersion;
 
 use super::*;
 
@@ -35,12 +34,6 @@ fn fragment(acting: &Policy) -> Fragment {
     let mut flags = vec![0; rows];
     flags[3] = TERMINATED;
     Fragment {
-        run: "walk".into(),
-        actor: "a".into(),
-        actor_incarnation: 1,
-        sequence: 1,
-        version: PolicyVersion::default(),
-        config_hash: 0,
         steps: STEPS,
         envs: ENVS,
         observation_size: 3,
@@ -51,9 +44,7 @@ fn fragment(acting: &Policy) -> Fragment {
         rewards: (0..rows).map(|i| i as f32).collect(),
         flags,
         last_observations: vec![0.5; 6],
-        episodes: vec![],
-        settled_through: 0,
-        actor_state: None,
+        ..Fragment::default()
     }
 }
 

@@ -59,7 +59,7 @@ pub struct UpdateStats {
     /// Standard deviation of the actions after the update, mean over actions.
     pub std: f64,
     /// Gradient steps taken.
-    pub minibatches: u64,
+    pub gradient_steps: u64,
     /// Rows evaluated and differentiated: batch times epochs.
     pub samples: u64,
 }
@@ -122,7 +122,7 @@ impl Updater {
         Self::on(&Device::Cpu, shape, parameters, config, pool)
     }
 
-    /// Updater as by [`Self::new`], with networks and loss on `device`; advantages, clipping and Adam stay on the CPU.
+    /// Same as [`Self::new`], with networks and loss on `device`; advantages, clipping and Adam stay on the CPU.
     ///
     /// # Errors
     /// As for [`Self::new`].
@@ -199,14 +199,19 @@ impl Updater {
     /// # Errors
     /// If the batch does not fit, or a loss, gradient or parameter is not finite; nothing is changed then.
     pub fn update(&mut self, batch: &Batch, rng: &mut impl Rng) -> Result<UpdateStats, UpdateError> {
-        self.update_in(self.config.epochs, batch, rng)
+        self.update_in_epochs(self.config.epochs, batch, rng)
     }
 
-    /// Takes the given number of passes, else as [`Self::update`].
+    /// Same as [`Self::update`], with the given number of passes.
     ///
     /// # Errors
     /// As for [`Self::update`].
-    pub fn update_in(&mut self, epochs: u32, batch: &Batch, rng: &mut impl Rng) -> Result<UpdateStats, UpdateError> {
+    pub fn update_in_epochs(
+        &mut self,
+        epochs: u32,
+        batch: &Batch,
+        rng: &mut impl Rng,
+    ) -> Result<UpdateStats, UpdateError> {
         if batch.is_empty() {
             return Err(UpdateError::Empty);
         }
@@ -292,7 +297,7 @@ impl Updater {
         stats.entropy += weight * scalar(&loss.entropy)?;
         stats.bounds_loss += weight * scalar(&loss.bounds)?;
         stats.grad_norm += weight * norm;
-        stats.minibatches += 1;
+        stats.gradient_steps += 1;
         stats.samples += rows.len() as u64;
         shift.add(&loss.log_ratio.to_vec1()?, self.config.clip_range);
         Ok(())

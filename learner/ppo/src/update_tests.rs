@@ -91,7 +91,7 @@ fn an_update_lowers_both_losses_and_returns_its_statistics() {
         assert!(after < before - 0.005, "{before} {after}");
     }
     assert!(before[0].abs() < 1e-5, "advantages of mean 0 under ratios of 1");
-    assert_eq!((stats.minibatches, stats.samples), (9, 3000));
+    assert_eq!((stats.gradient_steps, stats.samples), (9, 3000));
     assert!(stats.value_loss < before[1] && stats.value_loss > after[1], "the mean lies between first and last");
     assert!(stats.approx_kl > 0.0 && stats.grad_norm > 0.0 && stats.entropy > 1.0);
     assert!((0.0..1.0).contains(&stats.clip_fraction));

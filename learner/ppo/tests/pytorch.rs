@@ -33,10 +33,6 @@ struct AdvantagesFile {
 }
 
 impl AdvantagesFile {
-    fn read() -> Self {
-        read(include_str!("golden/advantages.json"))
-    }
-
     fn compare(&self) -> std::result::Result<(), GoldenMismatch> {
         let values = narrow(&self.values);
         let (truncated_values, final_values) = (narrow(&self.truncated_values), narrow(&self.final_values));
@@ -58,7 +54,7 @@ impl AdvantagesFile {
 
 #[test]
 fn advantages_equal_those_of_n_step_returns() {
-    let file = AdvantagesFile::read();
+    let file: AdvantagesFile = read(include_str!("golden/advantages.json"));
     file.compare().expect("the same advantages");
     AdvantagesFile { rewards: flipped(&file.rewards), ..file.clone() }.compare().expect_err("a reward is wrong");
     AdvantagesFile { values: flipped(&file.values), ..file.clone() }.compare().expect_err("a value is wrong");
@@ -96,10 +92,6 @@ struct LossFile {
 }
 
 impl LossFile {
-    fn read() -> Self {
-        read(include_str!("golden/loss.json"))
-    }
-
     fn compare(&self) -> std::result::Result<(), GoldenMismatch> {
         let (rows, actions) = (self.returns.len(), self.log_std.len());
         let inner = || -> Result<_> {
@@ -135,7 +127,7 @@ impl LossFile {
 
 #[test]
 fn loss_and_gradient_equal_those_of_pytorch() {
-    let file = LossFile::read();
+    let file: LossFile = read(include_str!("golden/loss.json"));
     file.compare().expect("the same loss");
     for (what, wrong) in [
         ("advantage", LossFile { advantages: flipped(&file.advantages), ..file.clone() }),

@@ -98,7 +98,7 @@ impl UpdateFile {
 
     fn compare(&self, case: &UpdateCase) -> std::result::Result<(), GoldenMismatch> {
         let (updater, stats) = self.run(case);
-        assert_eq!(stats.minibatches, case.gradient_steps);
+        assert_eq!(stats.gradient_steps, case.gradient_steps);
         compare("parameters", &updater.parameters(), &case.parameters, PARAMETER_TOLERANCE)?;
         compare("first moment", &updater.optimiser().first_moment, &case.first_moment, 1e-4)?;
         compare("second moment", &updater.optimiser().second_moment, &case.second_moment, 1e-4)?;

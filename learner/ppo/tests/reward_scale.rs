@@ -10,7 +10,7 @@ use treadmill_policy::{
     normaliser::{Normaliser, RunningMoments},
 };
 use treadmill_ppo::{AcceptedFragment, Updater, build_batch};
-use treadmill_proto::{Fragment, PolicyVersion};
+use treadmill_proto::Fragment;
 
 const STEPS: u32 = 32;
 const ENVS: u32 = 8;
@@ -29,7 +29,7 @@ fn learnt(scale: f32) -> (Vec<f32>, f64) {
     let (mut noise_random, mut shuffle_random) = (random(NOISE_SEED), random(SHUFFLE_SEED));
     let mut value_moments = RunningMoments::new(1);
     let mut explained = 0.0;
-    for sequence in 1..=20 {
+    for _ in 0..20 {
         let policy = updater.policy().expect("its own parameters fit");
         let rows = (STEPS * ENVS) as usize;
         let mut normals =
@@ -49,12 +49,6 @@ fn learnt(scale: f32) -> (Vec<f32>, f64) {
             .map(|row| scale * (observations[row * 3] - (actions[row * 2] - observations[row * 3 + 1]).powi(2)))
             .collect();
         let fragment = Fragment {
-            run: "walk".into(),
-            actor: "a".into(),
-            actor_incarnation: 1,
-            sequence,
-            version: PolicyVersion::default(),
-            config_hash: 0,
             steps: STEPS,
             envs: ENVS,
             observation_size: 3,
@@ -64,10 +58,7 @@ fn learnt(scale: f32) -> (Vec<f32>, f64) {
             log_probs,
             rewards,
             flags: vec![treadmill_proto::fragment::TERMINATED; rows],
-            last_observations: vec![],
-            episodes: vec![],
-            settled_through: 0,
-            actor_state: None,
+            ..Fragment::default()
         };
         let accepted = [AcceptedFragment { fragment, lag: 0 }];
         let normaliser = Normaliser::identity(3, 10.0);

@@ -50,7 +50,7 @@ pub enum CheckpointError {
     /// It does not exist.
     #[error("there is no checkpoint `{path}`; {known}")]
     Missing {
-        /// Path of the file.
+        /// Its path.
         path: String,
         /// Existing checkpoints.
         known: String,
@@ -109,7 +109,7 @@ pub enum CheckpointError {
     Write {
         /// Its path.
         path: String,
-        /// What the system said.
+        /// Error of the system.
         source: io::Error,
     },
     /// It cannot be read.
@@ -117,7 +117,7 @@ pub enum CheckpointError {
     Read {
         /// Its path.
         path: String,
-        /// What the system said.
+        /// Error of the system.
         source: io::Error,
     },
 }

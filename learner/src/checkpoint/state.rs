@@ -135,7 +135,7 @@ impl TrainingState {
         source.build().map_err(|why| error_chain(&why))
     }
 
-    /// Returns why a run of this configuration cannot train `task`, if so; called before networks are allocated.
+    /// Returns why a run of this configuration cannot train `task`, or `None` if it can. Allocates no networks.
     pub fn objection(config: &Config, task: &Task) -> Option<String> {
         let name = &config.task.name;
         if !name.is_empty() && *name != task.name {

@@ -7,9 +7,9 @@ use serde::{Deserialize, Serialize};
 /// Actor processes that are kept; beyond this, the one that was silent longest is removed.
 const ACTORS_MAX: usize = 4096;
 /// Sequence numbers beyond a gap that are kept for each process. A wider gap is skipped, because a sender keeps fewer
-/// fragments: those in a batch and in flight.
+/// fragments: the pending ones and those of a batch.
 const AHEAD_MAX: usize = 65_536;
-/// The same over all processes; beyond this, the widest gap is skipped. Every checkpoint holds these numbers.
+/// Sum of these numbers over all processes, because every checkpoint holds them; beyond this, the widest gap is skipped.
 const AHEAD_TOTAL_MAX: usize = 4 * AHEAD_MAX;
 
 /// Rules by which a well-formed fragment is dropped.
@@ -82,7 +82,7 @@ pub struct ActorProcess {
     pub newest: u64,
     /// Numbers below `newest` that were not received. Those of a process that has ended are lost.
     pub missing: u64,
-    /// Outcomes of the others.
+    /// Outcomes of the handled fragments.
     pub account: Account,
 }
 
@@ -244,7 +244,7 @@ mod tests {
     use proptest::prelude::*;
 
     impl Ledger {
-        fn take(&mut self, actor: &str, incarnation: u64, sequence: u64) {
+        fn accept(&mut self, actor: &str, incarnation: u64, sequence: u64) {
             self.insert(actor, incarnation, sequence, LedgerEntry::Accepted, 8);
         }
 
@@ -256,12 +256,12 @@ mod tests {
     #[test]
     fn a_gap_holds_the_watermark_back() {
         let mut ledger = Ledger::default();
-        ledger.take("a", 1, 1);
-        ledger.take("a", 1, 3);
+        ledger.accept("a", 1, 1);
+        ledger.accept("a", 1, 3);
         ledger.mark_durable();
         assert_eq!(ledger.durable_through("a", 1), 1);
         assert!(ledger.contains("a", 1, 3) && !ledger.contains("a", 1, 2));
-        ledger.take("a", 1, 2);
+        ledger.accept("a", 1, 2);
         assert_eq!(ledger.durable_through("a", 1), 1, "not before the next checkpoint");
         ledger.mark_durable();
         assert_eq!(ledger.durable_through("a", 1), 3);
@@ -270,8 +270,8 @@ mod tests {
     #[test]
     fn settled_numbers_close_a_gap() {
         let mut ledger = Ledger::default();
-        ledger.take("a", 1, 5);
-        ledger.take("a", 1, 7);
+        ledger.accept("a", 1, 5);
+        ledger.accept("a", 1, 7);
         ledger.settle("a", 1, 4);
         ledger.mark_durable();
         assert_eq!(ledger.durable_through("a", 1), 5);
@@ -282,7 +282,7 @@ mod tests {
     #[test]
     fn a_drop_is_kept_until_the_sender_settles_it() {
         let mut ledger = Ledger::default();
-        ledger.take("a", 1, 1);
+        ledger.accept("a", 1, 1);
         ledger.insert("a", 1, 2, LedgerEntry::Dropped(DropRule::Vanished), 8);
         ledger.insert("a", 1, 3, LedgerEntry::Dropped(DropRule::TooOld), 8);
         assert_eq!(ledger.entry("a", 1, 1), Some(LedgerEntry::Accepted));
@@ -296,10 +296,10 @@ mod tests {
     #[test]
     fn every_number_is_accounted_for() {
         let mut ledger = Ledger::default();
-        ledger.take("a", 1, 1);
+        ledger.accept("a", 1, 1);
         ledger.insert("a", 1, 2, LedgerEntry::Dropped(DropRule::TooOld), 8);
-        ledger.take("a", 1, 5);
-        ledger.take("a", 1, 9);
+        ledger.accept("a", 1, 5);
+        ledger.accept("a", 1, 9);
         let process = ledger.processes().next().unwrap();
         assert_eq!((process.through, process.newest, process.missing), (2, 9, 5), "3, 4, 6, 7 and 8 are missing");
         ledger.settle("a", 1, 6);
@@ -314,18 +314,18 @@ mod tests {
     #[test]
     fn incarnations_have_separate_numbers() {
         let mut ledger = Ledger::default();
-        ledger.take("a", 1, 1);
+        ledger.accept("a", 1, 1);
         assert!(!ledger.contains("a", 2, 1));
     }
 
     #[test]
     fn memory_is_bounded() {
         let mut ledger = Ledger::default();
-        (0..ACTORS_MAX as u64 + 50).for_each(|incarnation| ledger.take("a", incarnation, 1));
+        (0..ACTORS_MAX as u64 + 50).for_each(|incarnation| ledger.accept("a", incarnation, 1));
         assert_eq!(ledger.processes.len(), ACTORS_MAX);
         assert!(!ledger.contains("a", 0, 1), "the oldest was removed");
         assert_eq!(ledger.total().accepted, ACTORS_MAX as u64 + 50, "its account stays");
-        (0..AHEAD_MAX as u64 + 50).for_each(|i| ledger.take("b", 1, 2 + 2 * i));
+        (0..AHEAD_MAX as u64 + 50).for_each(|i| ledger.accept("b", 1, 2 + 2 * i));
         assert!(ledger.processes[&("b".to_string(), 1)].ahead.len() <= AHEAD_MAX);
     }
 
@@ -333,7 +333,7 @@ mod tests {
         #[test]
         fn the_ledger_contains_exactly_the_inserted_numbers_in_any_order(numbers in prop::collection::vec(1u64..40, 0..80)) {
             let mut ledger = Ledger::default();
-            numbers.iter().for_each(|number| ledger.take("a", 1, *number));
+            numbers.iter().for_each(|number| ledger.accept("a", 1, *number));
             for number in 1..40 {
                 prop_assert_eq!(ledger.contains("a", 1, number), numbers.contains(&number));
             }

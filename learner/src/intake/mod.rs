@@ -3,10 +3,9 @@
 //! A receipt returns the sender's credit. In mode [`LearnerMode::Sync`], batches hold only fragments of the newest
 //! policy: the learner owes the receipts until it has published the next policy, so that senders continue with it. It
 //! never waits for one particular actor: once every actor has delivered, or the stragglers' time is up, it sends the
-//! receipts, and the other actors fill the batch. In mode [`LearnerMode::Async`], it answers each
-//! accepted fragment at once.
+//! receipts, and the other actors fill the batch. In mode [`LearnerMode::Async`], it answers accepted fragments at once.
 //!
-//! A fragment's stages here: incoming (on the bus's queue), received (decoded or malformed), accepted, part of a batch.
+//! A fragment's stages here: received, accepted, batch. *Incoming* is a received fragment that waits for its receipt.
 //!
 //! # Layout
 //! - Here: [`Intake`], which collects batches.
@@ -44,7 +43,8 @@ const TICK: Duration = Duration::from_millis(20);
 pub struct Intake<S: FragmentSource> {
     source: S,
     mode: LearnerMode,
-    validator: FragmentValidator,
+    /// Validator, with the ledger and the counts.
+    pub validator: FragmentValidator,
     stragglers: StragglerPolicy,
     owed: Vec<OwedReceipt<S::Incoming>>,
     /// Fragment that came when a batch was already full.
@@ -61,7 +61,7 @@ pub struct Intake<S: FragmentSource> {
 pub enum Collected {
     /// A batch is complete.
     Batch(CollectedBatch),
-    /// The caller interrupted it.
+    /// `interrupt` returned true.
     Interrupted,
     /// Shutdown was requested.
     Stopped,
@@ -108,16 +108,6 @@ impl<S: FragmentSource> Intake<S> {
         }
     }
 
-    /// Validator, with its ledger and counts.
-    pub fn validator(&self) -> &FragmentValidator {
-        &self.validator
-    }
-
-    /// Adds fragments that were rejected unread to the counts.
-    pub fn count_unread(&mut self) {
-        self.validator.count_unread();
-    }
-
     /// Returns the names of the actors that are alive.
     pub fn alive(&self) -> BTreeSet<String> {
         self.source.actors()
@@ -158,9 +148,8 @@ impl<S: FragmentSource> Intake<S> {
         }
         self.transitions = 0;
         let mut fragments = std::mem::take(&mut self.accepted);
-        fragments.sort_by(|a, b| {
-            let key = |accepted: &AcceptedFragment| (accepted.fragment.actor_incarnation, accepted.fragment.sequence);
-            a.fragment.actor.cmp(&b.fragment.actor).then_with(|| key(a).cmp(&key(b)))
+        fragments.sort_by(|AcceptedFragment { fragment: a, .. }, AcceptedFragment { fragment: b, .. }| {
+            (&a.actor, a.actor_incarnation, a.sequence).cmp(&(&b.actor, b.actor_incarnation, b.sequence))
         });
         Collected::Batch(CollectedBatch { fragments, has_backlog: self.queued.is_some() })
     }
@@ -222,11 +211,6 @@ impl<S: FragmentSource> Intake<S> {
         let durable_through = self.validator.ledger.durable_through(S::actor(&incoming), incarnation);
         let (outcome, version) = (Outcome::Accepted, lineage.newest());
         S::answer(incoming, &Receipt { outcome, reason: String::new(), version, durable_through });
-    }
-
-    /// Records that a checkpoint on disk holds everything accepted so far.
-    pub fn mark_durable(&mut self) {
-        self.validator.ledger.mark_durable();
     }
 
     /// Answers every waiting sender that the learner is stopping. No checkpoint holds those fragments, so the senders

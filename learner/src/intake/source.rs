@@ -1,4 +1,4 @@
-//! Where fragments come from: the bus, or a model of it in tests.
+//! Source of fragments: the bus, or a model of it in tests.
 
 use std::{
     collections::BTreeSet,
@@ -12,7 +12,7 @@ use crate::training::Heartbeat;
 
 /// Source of fragments, of the names of living actors, and of the time.
 pub trait FragmentSource {
-    /// Fragment that waits for its receipt. If it is dropped without one, its sender sends it again.
+    /// Received fragment that waits for its receipt. If it is dropped without one, its sender sends it again.
     type Incoming;
 
     /// Returns the next fragment, if one comes within `timeout`.
@@ -46,7 +46,7 @@ pub struct BusFragmentSource {
 }
 
 impl BusFragmentSource {
-    /// Source over declarations on the bus; every call of `next` beats `heartbeat`.
+    /// Source of the queued fragments; every call of `next` beats `heartbeat`.
     pub fn new(queue: RolloutIntake, alive: Alive, copies: RolloutCopies, heartbeat: Heartbeat) -> Self {
         Self { queue, alive, copies, heartbeat }
     }

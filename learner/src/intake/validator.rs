@@ -54,21 +54,14 @@ pub struct FragmentValidator {
     admission: Arc<Admission>,
     malformed_log: RateLimitedLog,
     quarantine_log: RateLimitedLog,
-    /// Rejected unread because the queue was full, since this start.
-    turned_away: u64,
-    /// Bytes of the accepted fragments, since this start.
-    accepted_bytes: u64,
+    /// Number of fragments rejected unread because the queue was full, since this start.
+    pub turned_away: u64,
+    /// Size of the accepted fragments in bytes, since this start.
+    pub accepted_bytes: u64,
     /// Handled fragments.
     pub ledger: Ledger,
     /// Fragments by outcome.
     pub counts: FragmentCounts,
-}
-
-/// Content of a rejected fragment's receipt.
-struct Rejection {
-    outcome: Outcome,
-    reason: String,
-    durable_through: u64,
 }
 
 impl FragmentValidator {
@@ -86,28 +79,21 @@ impl FragmentValidator {
         lineage: &Lineage,
         now: Instant,
     ) -> Result<AcceptedFragment, Box<Receipt>> {
-        self.decide(actor, received, lineage, now).map_err(|rejection| {
-            let Rejection { outcome, reason, durable_through } = rejection;
-            Box::new(Receipt { outcome, reason, version: lineage.newest(), durable_through })
-        })
-    }
-
-    fn decide(
-        &mut self,
-        actor: &str,
-        received: ReceivedFragment,
-        lineage: &Lineage,
-        now: Instant,
-    ) -> Result<AcceptedFragment, Rejection> {
+        let version = lineage.newest();
+        let rejection =
+            |outcome, reason: String, durable_through| Box::new(Receipt { outcome, reason, version, durable_through });
         // The fragment may have been queued before its sender was put in quarantine.
         let sender = self.admission.identify(actor, received.claimed_incarnation);
         if self.admission.is_quarantined(&sender, now) {
             self.counts.quarantined += 1;
             let reason = format!("`{actor}` is in quarantine for up to 60 s");
-            return Err(Rejection { outcome: Outcome::Quarantined, reason, durable_through: 0 });
+            return Err(rejection(Outcome::Quarantined, reason, 0));
         }
         let checked = received.fragment.and_then(|fragment| self.check(actor, fragment, lineage));
-        let fragment = checked.map_err(|why| self.reject_malformed(actor, &sender, &why, now))?;
+        let fragment = checked.map_err(|why| {
+            self.report_malformed(actor, &sender, &why, now);
+            rejection(Outcome::Malformed, why.to_string(), 0)
+        })?;
         let (incarnation, sequence) = (fragment.actor_incarnation, fragment.sequence);
         if !self.ledger.knows(actor, incarnation) {
             tracing::info!(%actor, incarnation, "first fragment of an actor process");
@@ -123,7 +109,7 @@ impl FragmentValidator {
                 LedgerEntry::Dropped(DropRule::TooOld) => (Outcome::TooOld, "dropped when first received"),
                 LedgerEntry::Dropped(DropRule::Vanished) => (Outcome::Vanished, "dropped when first received"),
             };
-            return Err(Rejection { outcome, reason: reason.to_string(), durable_through });
+            return Err(rejection(outcome, reason.to_string(), durable_through));
         }
         let env_steps = fragment.transitions() as u64;
         let lag = self.check_lag(&fragment, lineage, &sender, now);
@@ -136,18 +122,17 @@ impl FragmentValidator {
                 self.accepted_bytes += received.bytes as u64;
                 Ok(AcceptedFragment { fragment, lag })
             }
-            Err((_, outcome, reason)) => Err(Rejection { outcome, reason, durable_through }),
+            Err((_, outcome, reason)) => Err(rejection(outcome, reason, durable_through)),
         }
     }
 
-    /// Rejects a malformed fragment, which may put its sender in quarantine.
-    fn reject_malformed(&mut self, actor: &str, sender: &Sender, why: &Malformed, now: Instant) -> Rejection {
+    /// Reports a malformed fragment, which may put its sender in quarantine.
+    fn report_malformed(&mut self, actor: &str, sender: &Sender, why: &Malformed, now: Instant) {
         self.counts.malformed += 1;
         self.malformed_log.emit(|| tracing::warn!(%actor, error = %why, "fragment rejected"));
         if self.admission.record_malformed(sender, now) {
             self.quarantine_log.emit(|| tracing::warn!(%actor, "sender quarantined"));
         }
-        Rejection { outcome: Outcome::Malformed, reason: why.to_string(), durable_through: 0 }
     }
 
     /// Returns the lag of a well-formed fragment, or the rule by which it is dropped.
@@ -192,21 +177,12 @@ impl FragmentValidator {
         self.turned_away += unread.turned_away;
     }
 
-    /// Number of fragments rejected unread because the queue was full, since this start.
-    pub fn turned_away(&self) -> u64 {
-        self.turned_away
-    }
-
-    /// Size of the accepted fragments in bytes, since this start.
-    pub fn accepted_bytes(&self) -> u64 {
-        self.accepted_bytes
-    }
-
     /// Returns the senders in quarantine.
     pub fn quarantined(&self, now: Instant) -> Vec<String> {
         self.admission.quarantined(now)
     }
 
+    /// Checks that a fragment belongs to this run and was sent by `actor`.
     fn check(&self, actor: &str, fragment: Fragment, lineage: &Lineage) -> Result<Fragment, Malformed> {
         let expected = &self.expected;
         let differ = |field: &'static str, found: String, wanted: String| {

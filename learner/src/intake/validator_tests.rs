@@ -26,9 +26,7 @@ fn fragment(sequence: u64, number: u64) -> Fragment {
         rewards: vec![1.0],
         flags: vec![0],
         last_observations: vec![0.0],
-        episodes: vec![],
-        settled_through: 0,
-        actor_state: None,
+        ..Fragment::default()
     }
 }
 

@@ -7,7 +7,7 @@ use super::tensorboard::Histogram;
 /// Number of updates per set of histograms: they take a hundred times the space of a scalar.
 pub const EVERY_UPDATES: u64 = 10;
 
-/// Most entries of an action with a separate histogram; the histogram of all entries has the rest.
+/// Most entries of an action with separate histograms; only `actions/all` has the others.
 const NAMED_MAX: usize = 64;
 
 /// Whether an update has histograms; the first update of a run is number 1.

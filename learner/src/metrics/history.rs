@@ -66,10 +66,6 @@ impl History {
     /// Adds the values after an update: mean return and distance of the last episodes, and the mean distance of an
     /// evaluation that has just ended.
     pub fn add(&mut self, return_mean: Option<f64>, distance_m: Option<f64>, evaluated_m: Option<f64>) {
-        let greater = |best: Option<f64>, value: Option<f64>| match (best, value.filter(|value| value.is_finite())) {
-            (Some(best), Some(value)) => Some(best.max(value)),
-            (best, value) => best.or(value),
-        };
         self.distance_best_m = greater(self.distance_best_m, distance_m);
         self.evaluated_best_m = greater(self.evaluated_best_m, evaluated_m);
         let (Some(return_mean), Some(distance_m)) = (return_mean, distance_m) else { return };
@@ -94,11 +90,13 @@ impl History {
 
     /// Greatest mean distance of an evaluation or in training, in metres.
     pub fn farthest_m(&self) -> Option<f64> {
-        match (self.distance_best_m, self.evaluated_best_m) {
-            (Some(trained), Some(evaluated)) => Some(trained.max(evaluated)),
-            (trained, evaluated) => trained.or(evaluated),
-        }
+        greater(self.distance_best_m, self.evaluated_best_m)
     }
+}
+
+/// Returns the greater of two values, without one that is absent or not finite.
+fn greater(best: Option<f64>, value: Option<f64>) -> Option<f64> {
+    best.into_iter().chain(value.filter(|value| value.is_finite())).reduce(f64::max)
 }
 
 #[cfg(test)]

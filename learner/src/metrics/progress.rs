@@ -1,13 +1,12 @@
 //! Progress of a run on standard output.
 //!
-//! On a terminal: a progress bar, with tables and messages above it. Elsewhere, such as in a log file: plain lines
+//! On a terminal: a progress bar, with tables above it. Elsewhere, such as in a log file: plain lines
 //! without escape codes. Write errors are ignored, so that a closed pipe or a full disk does not stop training.
 
 use std::collections::VecDeque;
 use std::io::{self, IsTerminal, Write};
 use std::time::{Duration, Instant};
 
-use console::strip_ansi_codes;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use treadmill_runtime::machine;
 
@@ -25,9 +24,9 @@ const SPARKLINE_EVERY_MAX: Duration = Duration::from_secs(300);
 /// Width of a sparkline in characters.
 const SPARKLINE_WIDTH: usize = 16;
 
-/// Wait for experience that is reported before the first update.
+/// Shortest wait for experience that is reported before the first update.
 const FIRST_WAIT_MIN: Duration = Duration::from_secs(2);
-/// Wait for experience that is reported afterwards.
+/// Shortest wait that is reported afterwards.
 const WAIT_MIN: Duration = Duration::from_secs(30);
 
 /// Window of the speed: long enough for several updates, short enough to follow actors that join and leave.
@@ -47,7 +46,7 @@ const SPARKLINE_AND_BAR: &str = "{prefix}\n{percent:>3}% [{wide_bar}] {human_pos
 /// Progress bar and tables on a terminal, plain lines elsewhere.
 pub struct Console {
     out: Box<dyn Write + Send>,
-    terminal: bool,
+    is_terminal: bool,
     /// Only on a terminal, and only with `show_progress`.
     bar: Option<ProgressBar>,
     show_progress: bool,
@@ -65,12 +64,12 @@ pub struct Console {
 
 impl Console {
     /// Console for a run from `start_steps` (more than 0 after a resume) to `total_steps`. Without `show_progress`, it
-    /// shows only tables and messages.
+    /// shows only tables.
     pub fn new(total_steps: u64, start_steps: u64, show_progress: bool) -> Self {
-        let terminal = io::stdout().is_terminal() && std::env::var_os("TERM").is_none_or(|term| term != "dumb");
+        let is_terminal = io::stdout().is_terminal() && std::env::var_os("TERM").is_none_or(|term| term != "dumb");
         let mut console = Self::writing_to(Box::new(io::stdout()), total_steps, start_steps, show_progress);
-        console.terminal = terminal;
-        console.bar = (terminal && show_progress).then(|| bar(total_steps, start_steps));
+        console.is_terminal = is_terminal;
+        console.bar = (is_terminal && show_progress).then(|| new_bar(total_steps, start_steps));
         console
     }
 
@@ -86,7 +85,7 @@ impl Console {
     fn writing_to(out: Box<dyn Write + Send>, total_steps: u64, start_steps: u64, show_progress: bool) -> Self {
         Self {
             out,
-            terminal: false,
+            is_terminal: false,
             bar: None,
             show_progress,
             started: Instant::now(),
@@ -116,23 +115,23 @@ impl Console {
             bar.set_message(speed);
             if let Some(sparklines) = sparklines(history, self.is_unicode) {
                 if bar.prefix().is_empty() {
-                    style(bar, SPARKLINE_AND_BAR);
+                    set_template(bar, SPARKLINE_AND_BAR);
                 }
                 bar.set_prefix(sparklines);
             }
-        } else if self.show_progress && !self.terminal && elapsed >= self.line_at {
+        } else if self.show_progress && !self.is_terminal && elapsed >= self.line_at {
             self.line_at = elapsed + LINE_EVERY;
             let percent = env_steps as f64 / self.total_steps.max(1) as f64 * 100.0;
             self.write(&format!("steps={env_steps} of {} ({percent:.1}%), {speed}\n", self.total_steps));
         }
-        if !self.terminal && elapsed >= self.sparkline_at {
+        if !self.is_terminal && elapsed >= self.sparkline_at {
             self.sparkline_at = elapsed + elapsed.min(SPARKLINE_EVERY_MAX);
-            self.show(history, elapsed);
+            self.write_sparklines(history, elapsed);
         }
     }
 
     /// Writes a line with sparklines, if there are any.
-    fn show(&mut self, history: &History, elapsed: Duration) {
+    fn write_sparklines(&mut self, history: &History, elapsed: Duration) {
         if let Some(sparklines) = sparklines(history, self.is_unicode).filter(|_| self.show_progress) {
             self.write(&format!("after {}: {sparklines}\n", clock(elapsed.as_secs())));
         }
@@ -159,16 +158,8 @@ impl Console {
 
     /// Writes all scalars of one update: a boxed table on a terminal, elsewhere one line `steps=… tag=value …`.
     pub fn table(&mut self, scalars: &Scalars) {
-        let text = if self.terminal { render_table(scalars) } else { render_line(self.env_steps, scalars) + "\n" };
+        let text = if self.is_terminal { render_table(scalars) } else { render_line(self.env_steps, scalars) + "\n" };
         self.write(&text);
-    }
-
-    /// Writes a message above the bar, or as a plain line. Removes escape codes and other control characters, because
-    /// the message may quote input from the network.
-    pub fn line(&mut self, message: &str) {
-        let shown = |c: &char| !c.is_control() || matches!(c, '\n' | '\t');
-        let message: String = strip_ansi_codes(message).chars().filter(shown).collect();
-        self.write(&format!("{message}\n"));
     }
 
     /// Removes the bar and writes steps, mean speed and the last sparklines. Only the first call has an effect.
@@ -185,7 +176,7 @@ impl Console {
             let speed = steps as f64 / elapsed.as_secs_f64().max(f64::MIN_POSITIVE);
             let (now, total) = (self.env_steps, self.total_steps);
             self.write(&format!("steps={now} of {total}, {} at {speed:.0} steps/s\n", clock(elapsed.as_secs())));
-            self.show(history, elapsed);
+            self.write_sparklines(history, elapsed);
         }
     }
 
@@ -201,21 +192,15 @@ impl Console {
     }
 }
 
-impl std::fmt::Debug for Console {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.debug_struct("Console").field("terminal", &self.terminal).field("env_steps", &self.env_steps).finish()
-    }
-}
-
-fn bar(total_steps: u64, start_steps: u64) -> ProgressBar {
+fn new_bar(total_steps: u64, start_steps: u64) -> ProgressBar {
     let bar = ProgressBar::with_draw_target(Some(total_steps), ProgressDrawTarget::stdout()).with_position(start_steps);
-    style(&bar, BAR);
+    set_template(&bar, BAR);
     bar.set_message("waiting for the first steps");
     bar
 }
 
-/// Sets the template. Both templates are constants; with an invalid one the bar would keep its style.
-fn style(bar: &ProgressBar, template: &str) {
+/// Sets the bar's template. Both templates are constants; with an invalid one the bar would keep its style.
+fn set_template(bar: &ProgressBar, template: &str) {
     if let Ok(style) = ProgressStyle::with_template(template) {
         bar.set_style(style.progress_chars("=> "));
     }

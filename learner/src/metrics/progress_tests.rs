@@ -30,29 +30,26 @@ fn seconds(seconds: u64) -> Duration {
 fn a_log_file_gets_plain_lines_and_progress_every_ten_seconds() {
     let captured = Captured::default();
     let mut console = Console::writing_to(Box::new(captured.clone()), 10_000, 1_000, true);
-    console.line("\u{1b}[31mactor a-0\u{1b}[0m\u{9b}2J\r\u{7} joined\u{1b}");
     for second in 1..=20 {
         console.progress_at(1_000 + 100 * second, &History::default(), seconds(second));
     }
     console.table(&[("rollout/ep_rew_mean".to_string(), 1.25)]);
     assert_eq!(
         captured.text(),
-        "actor a-0 joined\n\
-         steps=2000 of 10000 (20.0%), 100 steps/s, 1m 20s left\n\
+        "steps=2000 of 10000 (20.0%), 100 steps/s, 1m 20s left\n\
          steps=3000 of 10000 (30.0%), 100 steps/s, 1m 10s left\n\
          steps=3000 rollout/ep_rew_mean=1.25\n"
     );
 }
 
 #[test]
-fn without_progress_there_are_only_tables_and_messages() {
+fn without_progress_there_are_only_tables() {
     let captured = Captured::default();
     let mut console = Console::writing_to(Box::new(captured.clone()), 0, 0, false);
     console.progress_at(500, &History::default(), seconds(60));
     console.table(&[("train/loss".to_string(), f64::NAN)]);
-    console.line("done");
     console.finish(&History::default());
-    assert_eq!(captured.text(), "steps=500 train/loss=nan\ndone\n");
+    assert_eq!(captured.text(), "steps=500 train/loss=nan\n");
 }
 
 #[test]
@@ -120,7 +117,6 @@ fn a_closed_pipe_is_ignored() {
     let mut console = Console::writing_to(Box::new(Closed), 10, 0, true);
     console.progress_at(5, &History::default(), seconds(60));
     console.table(&[]);
-    console.line("a message");
     console.finish(&History::default());
 }
 

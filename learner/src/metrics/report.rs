@@ -69,14 +69,10 @@ impl MetricsReport {
         })
     }
 
-    /// Changes the interval of the table.
-    pub fn set_table_every(&mut self, updates: u64) {
-        self.table_every_updates = updates;
-    }
-
-    /// Changes the run's number of steps.
-    pub fn set_steps(&mut self, steps: u64) {
-        self.console.set_steps(steps);
+    /// Applies a changed configuration: the interval of the table, and the run's number of steps.
+    pub fn set_config(&mut self, config: &Config) {
+        self.table_every_updates = config.learner.table_every_updates.into();
+        self.console.set_steps(config.run.steps);
     }
 
     /// Logs the scalars of one update; waits while the disk is full.

@@ -124,8 +124,7 @@ impl Trainer {
         self.learning.load = LoadAdaptation::new(&changed);
         let LearnerConfig { checkpoint_every_updates, keep_checkpoints, .. } = changed.learner;
         self.serving.checkpoints.set_retention(checkpoint_every_updates.into(), keep_checkpoints as usize);
-        self.reporting.report.set_table_every(changed.learner.table_every_updates.into());
-        self.reporting.report.set_steps(changed.run.steps);
+        self.reporting.report.set_config(&changed);
         if let Some(evaluation) = &mut self.serving.evaluation {
             evaluation.set_every(changed.eval.every_steps, self.state.counters.env_steps);
         }
@@ -145,7 +144,7 @@ impl Trainer {
 
     /// Publishes the status; `is_update` right after an update.
     pub(super) fn publish_status(&mut self, is_update: bool) {
-        let (state, validator) = (&self.state, self.serving.intake.validator());
+        let (state, validator) = (&self.state, &self.serving.intake.validator);
         let (means, counts) = (state.episodes.means(), validator.counts);
         let phase = match (self.shutdown.asked(), self.serving.paused) {
             (true, _) => Phase::Stopping,
@@ -165,7 +164,7 @@ impl Trainer {
             policy_lag_mean: self.reporting.lag_mean,
             resident_bytes: machine::resident_bytes(),
             accepted: counts.accepted,
-            accepted_bytes: validator.accepted_bytes(),
+            accepted_bytes: validator.accepted_bytes,
             duplicate: counts.duplicate,
             too_old: counts.too_old,
             vanished: counts.vanished,

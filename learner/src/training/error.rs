@@ -21,7 +21,7 @@ pub enum TrainingError {
     Log(#[from] io::Error),
     /// The networks could not be evaluated.
     #[error("the networks cannot be evaluated")]
-    Evaluation(#[from] candle_core::Error),
+    Inference(#[from] candle_core::Error),
     /// Too many updates in a row were undone.
     #[error("{updates} updates in a row were undone; the last sound checkpoint stays in place")]
     Undone {

@@ -37,18 +37,15 @@ pub struct EvaluationScheduler {
 impl EvaluationScheduler {
     /// Scheduler that evaluates one policy every `every_steps` environment steps; the run has `env_steps` already.
     pub fn open(bus: &Bus, run: &str, every_steps: u64, env_steps: u64) -> Result<Self, BusError> {
-        let due_at_steps = (env_steps / every_steps + 1) * every_steps;
-        Ok(Self { server: EvaluationServer::open(bus, run)?, every_steps, due_at_steps, candidates: VecDeque::new() })
+        let (server, due_at_steps) = (EvaluationServer::open(bus, run)?, next_due(every_steps, env_steps));
+        Ok(Self { server, every_steps, due_at_steps, candidates: VecDeque::new() })
     }
 
-    /// Changes the interval.
+    /// Changes the interval; with 0, no policy is due.
     pub fn set_every(&mut self, every_steps: u64, env_steps: u64) {
         if every_steps != self.every_steps {
             self.every_steps = every_steps;
-            self.due_at_steps = match every_steps {
-                0 => u64::MAX,
-                every => (env_steps / every + 1) * every,
-            };
+            self.due_at_steps = next_due(every_steps, env_steps);
         }
     }
 
@@ -59,7 +56,7 @@ impl EvaluationScheduler {
 
     /// Submits a policy for evaluation. `checkpoint` holds the same policy.
     pub fn submit(&mut self, version: PolicyVersion, bundle: Bytes, env_steps: u64, checkpoint: Vec<u8>) {
-        self.due_at_steps = (env_steps / self.every_steps + 1) * self.every_steps;
+        self.due_at_steps = next_due(self.every_steps, env_steps);
         if self.candidates.len() == CANDIDATES_MAX {
             self.candidates.pop_front();
         }
@@ -77,4 +74,9 @@ impl EvaluationScheduler {
         }
         None
     }
+}
+
+/// Returns the first multiple of `every_steps` above `env_steps`.
+fn next_due(every_steps: u64, env_steps: u64) -> u64 {
+    env_steps.checked_div(every_steps).map_or(u64::MAX, |passed| (passed + 1) * every_steps)
 }

@@ -56,22 +56,22 @@ impl Learning {
 }
 
 impl Trainer {
-    /// Updates the parameters from a batch. Returns `None` if the update was undone.
-    pub(super) fn update(&mut self, accepted: &[AcceptedFragment]) -> Result<Option<UpdateStats>, TrainingError> {
+    /// Updates the parameters from the fragments of a batch. Returns `None` if the update was undone.
+    pub(super) fn update(&mut self, fragments: &[AcceptedFragment]) -> Result<Option<UpdateStats>, TrainingError> {
         let Self { state, learning, config, .. } = self;
         let policy = learning.updater.policy().map_err(|why| TrainingError::State { why: error_chain(&why) })?;
         let clip = config.policy.observation_clip as f32;
         let normaliser = Normaliser::from_moments(&state.observation_moments, clip);
         let mut value_moments = state.value_moments.clone();
         let mirror = learning.mirror.as_ref();
-        let batch = build_batch(accepted, &policy, &normaliser, &mut value_moments, mirror, &config.ppo)?;
+        let batch = build_batch(fragments, &policy, &normaliser, &mut value_moments, mirror, &config.ppo)?;
         let mut observation_moments = state.observation_moments.clone();
-        for AcceptedFragment { fragment, .. } in accepted {
+        for AcceptedFragment { fragment, .. } in fragments {
             observation_moments.update(&fragment.observations, state.shape.observation);
         }
         let begun = Instant::now();
         let result = if observation_moments.is_finite() && value_moments.is_finite() {
-            learning.updater.update_in(learning.load.epochs(), &batch, &mut state.shuffle)
+            learning.updater.update_in_epochs(learning.load.epochs(), &batch, &mut state.shuffle)
         } else {
             Err(UpdateError::NonFinite { what: "running statistic" })
         };
@@ -81,7 +81,7 @@ impl Trainer {
                 learning.undone_in_a_row = 0;
                 state.value_moments = value_moments;
                 state.observation_moments = observation_moments;
-                state.counters.gradient_steps += stats.minibatches;
+                state.counters.gradient_steps += stats.gradient_steps;
                 Some(stats)
             }
             Err(source) => {
@@ -98,19 +98,19 @@ impl Trainer {
         Ok(stats)
     }
 
-    /// Advances the state by one update from `batch`.
-    pub(super) fn advance(&mut self, batch: &[AcceptedFragment]) {
+    /// Advances the state by the update from `fragments`, also if it was undone.
+    pub(super) fn advance(&mut self, fragments: &[AcceptedFragment]) {
         let (state, updater) = (&mut self.state, &self.learning.updater);
         state.parameters = updater.parameters();
         state.optimiser = updater.optimiser().clone();
         state.learning_rate = updater.learning_rate();
         state.lineage.advance();
         state.counters.updates += 1;
-        for AcceptedFragment { fragment, .. } in batch {
+        for AcceptedFragment { fragment, .. } in fragments {
             state.counters.env_steps += fragment.transitions() as u64;
             state.episodes.extend(&fragment.episodes);
         }
-        state.actor_state = batch.last().and_then(|accepted| accepted.fragment.actor_state.clone());
+        state.actor_state = fragments.last().and_then(|accepted| accepted.fragment.actor_state.clone());
         state.counters.wall_s = self.reporting.wall_s();
         state.counters.restarts = self.reporting.restarts();
     }

@@ -1,7 +1,7 @@
 //! Adapts batch size and passes over each batch to the load.
 //!
 //! If fragments queue although the learner never waits, it first takes larger batches, then makes fewer passes over
-//! each. Only after that do actors wait for their receipts.
+//! each. Actors wait for their receipts only after that.
 
 use treadmill_config::{Config, LearnerMode};
 
@@ -20,16 +20,11 @@ impl LoadAdaptation {
     /// Adaptation within the configured bounds. In mode `sync`, where actors wait by design, size and passes are fixed.
     pub fn new(config: &Config) -> Self {
         let (transitions, epochs) = (config.ppo.batch as usize, config.ppo.epochs);
-        let (most, fewest) = match config.learner.mode {
+        let (transitions_max, epochs_min) = match config.learner.mode {
             LearnerMode::Sync => (transitions, epochs),
             LearnerMode::Async => (transitions.max(config.ppo.batch_max as usize), epochs.min(config.ppo.epochs_min)),
         };
-        Self {
-            batch_size: BatchSize { transitions, transitions_max: most },
-            epochs,
-            epochs_min: fewest,
-            epochs_max: epochs,
-        }
+        Self { batch_size: BatchSize { transitions, transitions_max }, epochs, epochs_min, epochs_max: epochs }
     }
 
     /// Size of the next batch.
@@ -44,11 +39,8 @@ impl LoadAdaptation {
 
     /// Adapts to a batch: one pass less if there is a backlog, else one more, within the bounds.
     pub fn adapt(&mut self, batch: &CollectedBatch) {
-        self.epochs = match batch.has_backlog {
-            true => self.epochs - 1,
-            false => self.epochs + 1,
-        }
-        .clamp(self.epochs_min, self.epochs_max);
+        let epochs = if batch.has_backlog { self.epochs - 1 } else { self.epochs + 1 };
+        self.epochs = epochs.clamp(self.epochs_min, self.epochs_max);
     }
 }
 

@@ -62,7 +62,7 @@ pub fn train(
     })
 }
 
-/// Runs update after update. Returns whether shutdown was requested before the last step.
+/// Collects, updates, saves, publishes and logs until the last step. Returns whether shutdown was requested before it.
 fn run(trainer: &mut Trainer) -> Result<bool, TrainingError> {
     while trainer.state.counters.env_steps < trainer.config.run.steps {
         let begun = Instant::now();

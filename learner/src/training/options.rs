@@ -16,7 +16,7 @@ pub struct TrainingOptions {
     pub device: candle_core::Device,
     /// Mirror for `ppo.symmetry`.
     pub mirror: Option<BatchMirror>,
-    /// Whether a progress bar is drawn on a terminal.
+    /// Whether progress is shown: a bar on a terminal, lines elsewhere.
     pub show_progress: bool,
     /// Actor processes that the supervisor has restarted.
     pub restarts: Arc<AtomicU64>,

@@ -93,11 +93,9 @@ impl Trainer {
         (reporting.env_steps_per_s, reporting.lag_mean) = (throughput.env_steps_per_s, lag.mean);
         let stats = reporting.stats.newest();
         reporting.prometheus.set_actors(stats, state.lineage.newest());
-        let means = state.episodes.means();
-        let (return_mean, distance_m) =
-            (means.as_ref().map(|m| m.return_mean), means.as_ref().map(|m| m.distance_mean_m));
+        let (return_mean, distance_m) = state.episodes.means().map(|m| (m.return_mean, m.distance_mean_m)).unzip();
         reporting.history.add(return_mean, distance_m, evaluation.map(|result| result.report.distance_mean_m));
-        let validator = serving.intake.validator();
+        let validator = &serving.intake.validator;
         let record = UpdateRecord {
             state,
             config,
@@ -111,8 +109,8 @@ impl Trainer {
             stats,
             alive: &alive,
             quarantined: validator.quarantined(Instant::now()).len(),
-            turned_away: validator.turned_away(),
-            accepted_bytes: validator.accepted_bytes(),
+            turned_away: validator.turned_away,
+            accepted_bytes: validator.accepted_bytes,
         };
         let scalars = record.scalars();
         let updates = state.counters.updates;

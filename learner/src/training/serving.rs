@@ -73,8 +73,8 @@ impl Trainer {
 
     /// Writes the checkpoint and returns its bytes.
     pub(super) fn save(&mut self) -> Result<Vec<u8>, TrainingError> {
-        self.serving.intake.count_unread();
-        let validator = self.serving.intake.validator();
+        let validator = &mut self.serving.intake.validator;
+        validator.count_unread();
         self.state.fragment_counts = validator.counts;
         self.state.ledger = validator.ledger.clone();
         // Once this state is written, everything accepted so far is durable.
@@ -86,7 +86,7 @@ impl Trainer {
         if best.is_some() {
             wait_for_disk_space(&self.shutdown, || checkpoints.save_best(&saved))?;
         }
-        self.serving.intake.mark_durable();
+        self.serving.intake.validator.ledger.mark_durable();
         self.serving.heartbeat.beat();
         Ok(saved)
     }

@@ -30,8 +30,8 @@ struct Case {
     actor_deaths_percent: u32,
 }
 
-/// (actor, incarnation, sequence)
-type Name = (String, u64, u64);
+/// Actor, incarnation and sequence number.
+type FragmentId = (String, u64, u64);
 
 /// Checkpoint of the fleet.
 #[derive(Clone)]
@@ -39,7 +39,7 @@ struct Saved {
     lineage: Lineage,
     ledger: Ledger,
     counts: FragmentCounts,
-    learnt: BTreeSet<Name>,
+    learnt: BTreeSet<FragmentId>,
 }
 
 struct Learner {
@@ -48,7 +48,7 @@ struct Learner {
     intake: Intake<MemoryFragmentSource>,
     lineage: Lineage,
     /// Fragments in the current weights.
-    learnt: BTreeSet<Name>,
+    learnt: BTreeSet<FragmentId>,
     saved: Saved,
     starts: u64,
 }
@@ -89,7 +89,7 @@ impl Learner {
         let Some(batch) = batch else {
             return Err(TestCaseError::fail(format!(
                 "no batch for {UPDATE_MAX:?}: {:?}",
-                self.intake.validator().counts
+                self.intake.validator.counts
             )));
         };
         prop_assert!(batch.fragments.len() >= self.case.size.transitions);
@@ -98,8 +98,8 @@ impl Learner {
         for accepted in &batch.fragments {
             prop_assert!(accepted.lag <= allowed);
             let fragment = &accepted.fragment;
-            let name = (fragment.actor.clone(), fragment.actor_incarnation, fragment.sequence);
-            prop_assert!(self.learnt.insert(name.clone()), "{name:?} is learnt from twice");
+            let id = (fragment.actor.clone(), fragment.actor_incarnation, fragment.sequence);
+            prop_assert!(self.learnt.insert(id.clone()), "{id:?} is learnt from twice");
         }
         FleetWorld::pass(&self.world, UPDATE);
         if dies {
@@ -107,11 +107,11 @@ impl Learner {
             return Ok(());
         }
         self.lineage.advance();
-        let mut ledger = self.intake.validator().ledger.clone();
+        let mut ledger = self.intake.validator.ledger.clone();
         ledger.mark_durable();
-        let counts = self.intake.validator().counts;
+        let counts = self.intake.validator.counts;
         self.saved = Saved { lineage: self.lineage.clone(), ledger, counts, learnt: self.learnt.clone() };
-        self.intake.mark_durable();
+        self.intake.validator.ledger.mark_durable();
         self.world.borrow_mut().announce(self.lineage.newest());
         self.intake.send_owed_receipts(&self.lineage);
         Ok(())
@@ -130,17 +130,17 @@ impl Learner {
         self.world.borrow_mut().announce(self.lineage.newest());
     }
 
-    /// Checks that each fragment of a living process is in a checkpoint, dropped by rule, in flight, or kept.
+    /// Checks that each fragment of a living process is in a checkpoint, dropped by rule, pending, or kept.
     fn check_fragments(&self) -> Result<(), TestCaseError> {
         let world = self.world.borrow();
         for actor in &world.actors {
             for sequence in 1..=actor.newest {
-                let name = (actor.name.clone(), actor.incarnation, sequence);
-                let outstanding = actor.in_flight.contains_key(&sequence) || actor.kept.contains_key(&sequence);
-                let (learnt, dropped) = (self.saved.learnt.contains(&name), actor.dropped.contains(&sequence));
-                prop_assert!(learnt || dropped || outstanding, "{name:?} is lost");
-                prop_assert!(!dropped || world.dropped.contains(&name), "{name:?} was never dropped");
-                prop_assert!(!(learnt && dropped), "{name:?} is learnt from and counted as dropped");
+                let id = (actor.name.clone(), actor.incarnation, sequence);
+                let outstanding = actor.pending.contains_key(&sequence) || actor.kept.contains_key(&sequence);
+                let (learnt, dropped) = (self.saved.learnt.contains(&id), actor.dropped.contains(&sequence));
+                prop_assert!(learnt || dropped || outstanding, "{id:?} is lost");
+                prop_assert!(!dropped || world.dropped.contains(&id), "{id:?} was never dropped");
+                prop_assert!(!(learnt && dropped), "{id:?} is learnt from and counted as dropped");
             }
         }
         Ok(())

@@ -40,34 +40,13 @@ pub struct FleetSettings {
     pub delay_ms: u64,
 }
 
+/// Event of the fleet. `Again` sends a fragment again, because no receipt came or the learner was busy.
 enum Event {
-    Simulated {
-        actor: usize,
-        incarnation: u64,
-    },
-    Request {
-        actor: usize,
-        incarnation: u64,
-        sequence: u64,
-        payload: Bytes,
-    },
-    Answer {
-        actor: usize,
-        incarnation: u64,
-        sequence: u64,
-        receipt: Receipt,
-    },
-    /// No receipt came, or the learner was busy: the fragment is sent again.
-    Again {
-        actor: usize,
-        incarnation: u64,
-        sequence: u64,
-        attempt: u64,
-    },
-    Announcement {
-        actor: usize,
-        version: PolicyVersion,
-    },
+    Simulated { actor: usize, incarnation: u64 },
+    Request { actor: usize, incarnation: u64, sequence: u64, payload: Bytes },
+    Answer { actor: usize, incarnation: u64, sequence: u64, receipt: Receipt },
+    Again { actor: usize, incarnation: u64, sequence: u64, attempt: u64 },
+    Announcement { actor: usize, version: PolicyVersion },
 }
 
 /// One actor process.
@@ -75,8 +54,8 @@ pub struct Actor {
     pub name: String,
     pub incarnation: u64,
     pub newest: u64,
-    /// Fragments without a receipt, with the number of the last attempt.
-    pub in_flight: BTreeMap<u64, (Bytes, u64)>,
+    /// Pending fragments, with the number of the last attempt.
+    pub pending: BTreeMap<u64, (Bytes, u64)>,
     /// Accepted, but perhaps not durable.
     pub kept: BTreeMap<u64, Bytes>,
     pub dropped: BTreeSet<u64>,
@@ -88,13 +67,31 @@ pub struct Actor {
     acting: PolicyVersion,
 }
 
+impl Actor {
+    fn new(name: String, incarnation: u64, credit: u32, version: PolicyVersion) -> Self {
+        Self {
+            name,
+            incarnation,
+            newest: 0,
+            pending: BTreeMap::new(),
+            kept: BTreeMap::new(),
+            dropped: BTreeSet::new(),
+            version,
+            learner: version.incarnation,
+            credit,
+            is_simulating: false,
+            acting: version,
+        }
+    }
+}
+
 /// Fleet and network, without the learner.
 pub struct FleetWorld {
     settings: FleetSettings,
     begun: Instant,
     pub now: Duration,
     events: BinaryHeap<Reverse<(Duration, u64)>>,
-    pending: BTreeMap<u64, Event>,
+    scheduled: BTreeMap<u64, Event>,
     counter: u64,
     random: Stream,
     pub actors: Vec<Actor>,
@@ -117,7 +114,7 @@ impl FleetWorld {
             begun: Instant::now(),
             now: Duration::ZERO,
             events: BinaryHeap::new(),
-            pending: BTreeMap::new(),
+            scheduled: BTreeMap::new(),
             counter: 0,
             random: seeds::stream(settings.seed, "world", &[]),
             actors: Vec::new(),
@@ -128,19 +125,7 @@ impl FleetWorld {
             timed_out: Shutdown::default(),
         };
         for index in 0..settings.fragment_ms.len() {
-            world.actors.push(Actor {
-                name: format!("actor-{index}"),
-                incarnation: 0,
-                newest: 0,
-                in_flight: BTreeMap::new(),
-                kept: BTreeMap::new(),
-                dropped: BTreeSet::new(),
-                version,
-                learner: version.incarnation,
-                credit: 0,
-                is_simulating: false,
-                acting: version,
-            });
+            world.actors.push(Actor::new(format!("actor-{index}"), 0, 0, version));
             world.restart(index, version);
         }
         Rc::new(RefCell::new(world))
@@ -149,21 +134,8 @@ impl FleetWorld {
     /// Replaces an actor's process; the old one's fragments are lost.
     pub fn restart(&mut self, actor: usize, version: PolicyVersion) {
         self.counter += 1;
-        let (incarnation, credit) = (self.counter, self.settings.in_flight);
-        let process = &mut self.actors[actor];
-        *process = Actor {
-            name: process.name.clone(),
-            incarnation,
-            newest: 0,
-            in_flight: BTreeMap::new(),
-            kept: BTreeMap::new(),
-            dropped: BTreeSet::new(),
-            version,
-            learner: version.incarnation,
-            credit,
-            is_simulating: false,
-            acting: version,
-        };
+        let name = self.actors[actor].name.clone();
+        self.actors[actor] = Actor::new(name, self.counter, self.settings.in_flight, version);
         self.simulate(actor);
     }
 
@@ -189,7 +161,7 @@ impl FleetWorld {
 
     fn after(&mut self, time: Duration, event: Event) {
         self.counter += 1;
-        self.pending.insert(self.counter, event);
+        self.scheduled.insert(self.counter, event);
         self.events.push(Reverse((self.now + time, self.counter)));
     }
 
@@ -210,7 +182,7 @@ impl FleetWorld {
                     let (at, number) = (*at, *number);
                     world.events.pop();
                     world.now = world.now.max(at);
-                    world.pending.remove(&number)
+                    world.scheduled.remove(&number)
                 }
                 _ => return false,
             }
@@ -234,7 +206,7 @@ impl FleetWorld {
             }
             Event::Again { actor, incarnation, sequence, attempt } => {
                 let process = &world.actors[actor];
-                let is_open = process.in_flight.get(&sequence).is_some_and(|(_, last)| *last == attempt);
+                let is_open = process.pending.get(&sequence).is_some_and(|(_, last)| *last == attempt);
                 if process.incarnation == incarnation && is_open {
                     world.submit(actor, sequence);
                 }
@@ -265,12 +237,12 @@ impl FleetWorld {
         let process = &mut self.actors[actor];
         process.is_simulating = false;
         process.newest += 1;
-        let open = [process.in_flight.keys().next(), process.kept.keys().next()].into_iter().flatten().min();
+        let open = [process.pending.keys().next(), process.kept.keys().next()].into_iter().flatten().min();
         let settled_through = open.map_or(process.newest - 1, |first| first - 1);
         let fragment = fragment(process, settled_through);
         let sequence = process.newest;
         let payload = fragment.encode().expect("a sound fragment").into();
-        process.in_flight.insert(sequence, (payload, 0));
+        process.pending.insert(sequence, (payload, 0));
         self.submit(actor, sequence);
         self.simulate(actor);
     }
@@ -278,7 +250,7 @@ impl FleetWorld {
     fn submit(&mut self, actor: usize, sequence: u64) {
         let process = &mut self.actors[actor];
         let incarnation = process.incarnation;
-        let Some((payload, attempt)) = process.in_flight.get_mut(&sequence) else { return };
+        let Some((payload, attempt)) = process.pending.get_mut(&sequence) else { return };
         *attempt += 1;
         let (payload, attempt) = (payload.clone(), *attempt);
         self.after(RECEIPT_TIMEOUT, Event::Again { actor, incarnation, sequence, attempt });
@@ -288,7 +260,7 @@ impl FleetWorld {
     fn apply_receipt(&mut self, actor: usize, sequence: u64, receipt: &Receipt) {
         let process = &mut self.actors[actor];
         let incarnation = process.incarnation;
-        let Some((payload, attempt)) = process.in_flight.get(&sequence).cloned() else { return };
+        let Some((payload, attempt)) = process.pending.get(&sequence).cloned() else { return };
         match receipt.outcome {
             Outcome::Busy | Outcome::Stopping => {
                 return self.after(RETRY, Event::Again { actor, incarnation, sequence, attempt });
@@ -297,7 +269,7 @@ impl FleetWorld {
             Outcome::TooOld | Outcome::Vanished => drop(process.dropped.insert(sequence)),
             Outcome::Malformed | Outcome::Quarantined => panic!("refused: {}", receipt.reason),
         }
-        process.in_flight.remove(&sequence);
+        process.pending.remove(&sequence);
         process.kept.retain(|kept, _| *kept > receipt.durable_through);
         self.refresh(actor, receipt.version);
         // Fragments that are sent again to a new learner have returned their credit before.
@@ -313,7 +285,7 @@ impl FleetWorld {
             process.learner = version.incarnation;
             let again: Vec<u64> = process.kept.keys().copied().collect();
             let kept = std::mem::take(&mut process.kept);
-            process.in_flight.extend(kept.into_iter().map(|(sequence, payload)| (sequence, (payload, 0))));
+            process.pending.extend(kept.into_iter().map(|(sequence, payload)| (sequence, (payload, 0))));
             again.into_iter().for_each(|sequence| self.submit(actor, sequence));
         }
     }
@@ -337,8 +309,7 @@ fn fragment(process: &Actor, settled_through: u64) -> Fragment {
         rewards: vec![1.0],
         flags: vec![0],
         last_observations: vec![0.0],
-        episodes: vec![],
         settled_through,
-        actor_state: None,
+        ..Fragment::default()
     }
 }

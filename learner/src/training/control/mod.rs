@@ -87,11 +87,8 @@ impl ControlChannel {
     /// Answers a command with its outcome: a message, or an error.
     pub fn answer(&self, pending: PendingRequest, outcome: Result<String, String>) {
         let board = lock(&self.board);
-        let reply = match outcome {
-            Ok(text) => board.reply(true, text),
-            Err(text) => board.reply(false, text),
-        };
-        pending.answer(&board.run, &reply);
+        let is_done = outcome.is_ok();
+        pending.answer(&board.run, &board.reply(is_done, outcome.unwrap_or_else(|why| why)));
     }
 
     /// Time since the last call of [`Self::set_status`].
@@ -145,6 +142,7 @@ fn lock(board: &Mutex<StatusBoard>) -> MutexGuard<'_, StatusBoard> {
 }
 
 impl StatusBoard {
+    /// Returns a reply with the present status.
     fn reply(&self, done: bool, text: String) -> ControlReply {
         let newest = self.status.version.unwrap_or_default();
         let status = RunStatus {
