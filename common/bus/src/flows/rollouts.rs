@@ -3,7 +3,7 @@
 use std::{
     sync::{
         Arc,
-        atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering},
+        atomic::{AtomicU64, AtomicUsize, Ordering},
         mpsc::{Receiver, SyncSender, TrySendError, sync_channel},
     },
     time::{Duration, Instant},
@@ -18,9 +18,9 @@ use zenoh::{
     query::{Query, Queryable},
 };
 
-use super::{first_valid, received::incarnation_of};
+use super::{first_valid, received::incarnation_of, start_thread};
 use crate::{
-    Bus, BusError, ReceivedFragment, RolloutCopies,
+    Bus, BusError, ReceivedFragment, RolloutCopies, Watched,
     admission::{Admission, AdmissionPermit, Refusal, rate_limited_log::RateLimitedLog, read_throttle::ReadThrottle},
     keys,
 };
@@ -31,7 +31,6 @@ const INTAKE_BYTES_MAX: usize = 128 << 20;
 const REFUSALS_QUEUE: usize = 1024;
 /// Rate of fragments refused unread above which the link is throttled.
 const REFUSALS_PER_S: f64 = 100.0;
-const REFUSALS_THREAD: &str = "refusals";
 /// Stands for every invalid name. No actor can have it.
 const INVALID_NAME: &str = "?";
 
@@ -104,13 +103,13 @@ impl RolloutIntake {
         copies: &RolloutCopies,
     ) -> Result<Self, BusError> {
         let (sender, queue) = sync_channel(capacity);
-        let (shared, is_watched) = (Arc::new(AtomicU64::new(0)), copies.watched_flag());
+        let shared = Arc::new(AtomicU64::new(0));
         let receiver = RolloutReceiver {
             admission,
             queue: sender,
             queued_bytes: Arc::default(),
             shared: shared.clone(),
-            is_watched,
+            watched: copies.watched(),
             refusals: start_refusals()?,
             rejection_log: RateLimitedLog::default(),
             quarantine_log: RateLimitedLog::default(),
@@ -142,7 +141,7 @@ struct RolloutReceiver {
     queue: SyncSender<IncomingFragment>,
     queued_bytes: Arc<AtomicUsize>,
     shared: Arc<AtomicU64>,
-    is_watched: Arc<AtomicBool>,
+    watched: Watched,
     refusals: SyncSender<(Query, Receipt)>,
     rejection_log: RateLimitedLog,
     quarantine_log: RateLimitedLog,
@@ -177,7 +176,7 @@ impl RolloutReceiver {
         let incoming = IncomingFragment {
             actor: actor.to_string(),
             received: Some(ReceivedFragment::read(&payload, &self.shared)),
-            encoded: self.is_watched.load(Ordering::Relaxed).then_some(payload),
+            encoded: self.watched.now().then_some(payload),
             bytes: size,
             query,
             queued_bytes: self.queued_bytes.clone(),
@@ -225,10 +224,7 @@ fn unreadable(named: Result<(), Malformed>, size: usize) -> Option<String> {
 /// Starts the thread that sends refusals; it ends when the returned sender is dropped.
 fn start_refusals() -> Result<SyncSender<(Query, Receipt)>, BusError> {
     let (sender, refusals) = sync_channel::<(Query, Receipt)>(REFUSALS_QUEUE);
-    std::thread::Builder::new()
-        .name(REFUSALS_THREAD.to_string())
-        .spawn(move || refusals.iter().for_each(|(query, receipt)| reply(&query, &receipt)))
-        .map_err(BusError::thread(REFUSALS_THREAD))?;
+    start_thread("refusals", move || refusals.iter().for_each(|(query, receipt)| reply(&query, &receipt)))?;
     Ok(sender)
 }
 
