@@ -3,28 +3,13 @@
 use prost::Message;
 
 use crate::{
-    Malformed, check_range, check_size,
+    Malformed, check_finite, check_range, check_size,
     ident::{check_ident, check_task_name},
     limits::{TASK_BYTES_MAX, WIDTH_MAX},
     wire,
 };
 
-/// Task that a run trains.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Task {
-    /// Name, such as `gymnasium/Humanoid-v5`.
-    pub name: String,
-    /// Entries of one observation.
-    pub observation_size: u32,
-    /// Entries of one action.
-    pub action_size: u32,
-    /// Action at policy output −1.
-    pub action_low: Vec<f64>,
-    /// Action at policy output 1.
-    pub action_high: Vec<f64>,
-    /// Duration of one control step (s); 0 if unknown.
-    pub control_step_s: f64,
-}
+pub use wire::Task;
 
 impl std::fmt::Display for Task {
     fn fmt(&self, to: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
@@ -40,12 +25,10 @@ impl Task {
         check_range("task.action_size", self.action_size, WIDTH_MAX)?;
         for (field, range) in [("task.action_low", &self.action_low), ("task.action_high", &self.action_high)] {
             if range.len() != self.action_size as usize {
-                let found = format!("{} numbers long", range.len());
-                return Err(Malformed::field(field, found, format!("{}, as task.action_size says", self.action_size)));
+                let expected = format!("{}, as task.action_size says", self.action_size);
+                return Err(Malformed::length(field, range.len(), expected));
             }
-            if let Some(index) = range.iter().position(|end| !end.is_finite()) {
-                return Err(Malformed::NotFinite { field, index, value: range[index].to_string() });
-            }
+            check_finite(field, range.iter().copied())?;
         }
         if let Some((low, high)) = self.action_low.iter().zip(&self.action_high).find(|(low, high)| low >= high) {
             return Err(Malformed::field("task.action_low", low, format!("below task.action_high, which is {high}")));
@@ -101,7 +84,7 @@ impl TaskRegistration {
     /// Encodes as protobuf.
     pub fn encode(&self) -> Result<Vec<u8>, Malformed> {
         self.check()?;
-        let task = Some(self.task.clone().into());
+        let task = Some(self.task.clone());
         Ok(wire::TaskRegistration { run: self.run.clone(), actor: self.actor.clone(), task }.encode_to_vec())
     }
 
@@ -109,7 +92,7 @@ impl TaskRegistration {
     pub fn decode(bytes: &[u8]) -> Result<Self, Malformed> {
         check_size("task", bytes.len(), TASK_BYTES_MAX)?;
         let message = wire::TaskRegistration::decode(bytes).map_err(Malformed::undecodable("task registration"))?;
-        let task = message.task.ok_or_else(|| Malformed::field("task", "missing", "a task"))?.into();
+        let task = message.task.ok_or_else(|| Malformed::field("task", "missing", "a task"))?;
         let registration = Self { run: message.run, actor: message.actor, task };
         registration.check()?;
         Ok(registration)
@@ -125,41 +108,15 @@ impl TaskRegistration {
 impl TaskReceipt {
     /// Encodes as protobuf.
     pub fn encode(&self) -> Vec<u8> {
-        let task = self.task.clone().map(Into::into);
-        wire::TaskReceipt { accepted: self.accepted, reason: self.reason.clone(), task }.encode_to_vec()
+        let Self { accepted, reason, task } = self.clone();
+        wire::TaskReceipt { accepted, reason, task }.encode_to_vec()
     }
 
     /// Decodes untrusted protobuf bytes.
     pub fn decode(bytes: &[u8]) -> Result<Self, Malformed> {
         check_size("task", bytes.len(), TASK_BYTES_MAX)?;
         let message = wire::TaskReceipt::decode(bytes).map_err(Malformed::undecodable("task receipt"))?;
-        Ok(Self { accepted: message.accepted, reason: message.reason, task: message.task.map(Into::into) })
-    }
-}
-
-impl From<Task> for wire::Task {
-    fn from(task: Task) -> Self {
-        Self {
-            name: task.name,
-            observation_size: task.observation_size,
-            action_size: task.action_size,
-            action_low: task.action_low,
-            action_high: task.action_high,
-            control_step_s: task.control_step_s,
-        }
-    }
-}
-
-impl From<wire::Task> for Task {
-    fn from(task: wire::Task) -> Self {
-        Self {
-            name: task.name,
-            observation_size: task.observation_size,
-            action_size: task.action_size,
-            action_low: task.action_low,
-            action_high: task.action_high,
-            control_step_s: task.control_step_s,
-        }
+        Ok(Self { accepted: message.accepted, reason: message.reason, task: message.task })
     }
 }
 
@@ -209,7 +166,7 @@ mod tests {
         for (field, corrupt) in cases {
             let mut bad = task();
             corrupt(&mut bad);
-            let unchecked = wire::TaskRegistration { run: "run".into(), actor: "a".into(), task: Some(bad.into()) };
+            let unchecked = wire::TaskRegistration { run: "run".into(), actor: "a".into(), task: Some(bad) };
             let why = TaskRegistration::decode(&unchecked.encode_to_vec()).unwrap_err().to_string();
             assert!(why.contains(&format!("`{field}`")), "{field}: {why}");
         }
