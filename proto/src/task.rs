@@ -9,7 +9,7 @@ use crate::{
     wire,
 };
 
-pub use wire::Task;
+pub use wire::{Task, TaskReceipt};
 
 impl std::fmt::Display for Task {
     fn fmt(&self, to: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
@@ -69,17 +69,6 @@ pub struct TaskRegistration {
     pub task: Task,
 }
 
-/// Answer of the learner to a registration.
-#[derive(Clone, Debug, PartialEq)]
-pub struct TaskReceipt {
-    /// Whether the actor may join the run.
-    pub accepted: bool,
-    /// Reason for a refusal.
-    pub reason: String,
-    /// Task that the run trains, once it is known.
-    pub task: Option<Task>,
-}
-
 impl TaskRegistration {
     /// Encodes as protobuf.
     pub fn encode(&self) -> Result<Vec<u8>, Malformed> {
@@ -107,16 +96,14 @@ impl TaskRegistration {
 
 impl TaskReceipt {
     /// Encodes as protobuf.
-    pub fn encode(&self) -> Vec<u8> {
-        let Self { accepted, reason, task } = self.clone();
-        wire::TaskReceipt { accepted, reason, task }.encode_to_vec()
+    pub fn to_bytes(&self) -> Vec<u8> {
+        self.encode_to_vec()
     }
 
-    /// Decodes untrusted protobuf bytes.
-    pub fn decode(bytes: &[u8]) -> Result<Self, Malformed> {
+    /// Decodes untrusted protobuf bytes of limited size.
+    pub fn decode_checked(bytes: &[u8]) -> Result<Self, Malformed> {
         check_size("task", bytes.len(), TASK_BYTES_MAX)?;
-        let message = wire::TaskReceipt::decode(bytes).map_err(Malformed::undecodable("task receipt"))?;
-        Ok(Self { accepted: message.accepted, reason: message.reason, task: message.task })
+        Self::decode(bytes).map_err(Malformed::undecodable("task receipt"))
     }
 }
 
@@ -146,7 +133,7 @@ mod tests {
         assert_eq!(TaskRegistration::decode(&registration.encode().unwrap()).unwrap(), registration);
         for task in [None, Some(task())] {
             let receipt = TaskReceipt { accepted: task.is_some(), reason: "because".into(), task };
-            assert_eq!(TaskReceipt::decode(&receipt.encode()).unwrap(), receipt);
+            assert_eq!(TaskReceipt::decode_checked(&receipt.to_bytes()).unwrap(), receipt);
         }
     }
 
@@ -196,7 +183,7 @@ mod tests {
         #[test]
         fn random_bytes_never_panic(bytes in proptest::collection::vec(any::<u8>(), 0..300)) {
             let _ = TaskRegistration::decode(&bytes);
-            let _ = TaskReceipt::decode(&bytes);
+            let _ = TaskReceipt::decode_checked(&bytes);
         }
     }
 }

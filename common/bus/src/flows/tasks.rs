@@ -77,7 +77,7 @@ fn serve(
 }
 
 fn answer(query: &Query, receipt: &TaskReceipt) {
-    if let Err(error) = query.reply(query.key_expr().clone(), receipt.encode()).wait() {
+    if let Err(error) = query.reply(query.key_expr().clone(), receipt.to_bytes()).wait() {
         tracing::debug!(%error, "task receipt not sent");
     }
 }
@@ -129,5 +129,5 @@ pub async fn register_task(
         .timeout(timeout)
         .await
         .map_err(BusError::flow("registering a task"))?;
-    Ok(first_valid(replies, "task receipt", |payload| TaskReceipt::decode(&payload)).await)
+    Ok(first_valid(replies, "task receipt", |payload| TaskReceipt::decode_checked(&payload)).await)
 }
