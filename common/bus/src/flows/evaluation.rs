@@ -16,7 +16,7 @@ use zenoh::{
     query::{Query, Queryable},
 };
 
-use super::{first_valid, start_thread};
+use super::{first_valid, reply, start_thread};
 use crate::{Bus, BusError, admission::rate_limited_log::RateLimitedLog, admission::read_throttle::ReadThrottle, keys};
 
 /// Requests, and reports, that may wait. Further requests get no answer, and the evaluator asks again.
@@ -104,9 +104,7 @@ fn answer(query: &Query, candidate: &Candidate, evaluated: Option<PolicyVersion>
         Some((version, bundle)) if evaluated != Some(version) => bundle,
         _ => Bytes::new(),
     };
-    if let Err(error) = query.reply(query.key_expr().clone(), bundle).wait() {
-        tracing::debug!(%error, "policy for evaluation not sent");
-    }
+    reply(query, bundle, "policy for evaluation");
 }
 
 /// Learner's answer to an evaluator.

@@ -86,7 +86,7 @@ fn serve(current: &RwLock<Bytes>, key: &str, requests: &Mutex<Receiver<Query>>) 
         let bundle = current.read().expect("no holder of this lock panics").clone();
         // The reply's key names the run even if the request did not.
         if let Err(error) = query.reply(key, bundle).wait() {
-            tracing::debug!(%error, "policy bundle not sent");
+            tracing::debug!(what = "policy bundle", %error, "reply not sent");
         }
     }
 }

@@ -18,7 +18,7 @@ use zenoh::{
     query::{Query, Queryable},
 };
 
-use super::{first_valid, received::incarnation_of, start_thread};
+use super::{first_valid, received::incarnation_of, reply, start_thread};
 use crate::{
     Bus, BusError, ReceivedFragment, RolloutCopies, Watched,
     admission::{Admission, AdmissionPermit, Refusal, rate_limited_log::RateLimitedLog, read_throttle::ReadThrottle},
@@ -48,9 +48,9 @@ pub struct IncomingFragment {
 }
 
 impl IncomingFragment {
-    /// Sends the receipt, which frees the sender's credit.
+    /// Sends the receipt, which frees the sender's credit. A sender that lost its link sends the fragment again.
     pub fn answer(self, receipt: &Receipt) {
-        reply(&self.query, receipt);
+        reply(&self.query, receipt.encode(), "receipt");
     }
 
     /// Takes the fragment, once, and frees its place in the queue. The receipt is still owed.
@@ -75,13 +75,6 @@ impl IncomingFragment {
 impl Drop for IncomingFragment {
     fn drop(&mut self) {
         self.free_bytes();
-    }
-}
-
-fn reply(query: &Query, receipt: &Receipt) {
-    if let Err(error) = query.reply(query.key_expr().clone(), receipt.encode()).wait() {
-        // The sender left or lost its link. It sends again, and the ledger knows the fragment.
-        tracing::debug!(%error, "receipt not sent");
     }
 }
 
@@ -224,7 +217,9 @@ fn unreadable(named: Result<(), Malformed>, size: usize) -> Option<String> {
 /// Starts the thread that sends refusals; it ends when the returned sender is dropped.
 fn start_refusals() -> Result<SyncSender<(Query, Receipt)>, BusError> {
     let (sender, refusals) = sync_channel::<(Query, Receipt)>(REFUSALS_QUEUE);
-    start_thread("refusals", move || refusals.iter().for_each(|(query, receipt)| reply(&query, &receipt)))?;
+    start_thread("refusals", move || {
+        refusals.iter().for_each(|(query, receipt)| reply(&query, receipt.encode(), "receipt"))
+    })?;
     Ok(sender)
 }
 

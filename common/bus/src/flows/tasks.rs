@@ -12,7 +12,7 @@ use zenoh::{
     query::{Query, Queryable},
 };
 
-use super::{first_valid, start_thread};
+use super::{first_valid, reply, start_thread};
 use crate::{Bus, BusError, keys};
 
 /// Registrations that may wait. Further ones get no answer, and the actor asks again.
@@ -44,7 +44,8 @@ impl TaskServer {
                 // Checked here, so that a large registration takes no place in the queue.
                 if bytes > TASK_BYTES_MAX {
                     let error = Malformed::TooLarge { what: "task", bytes, limit: TASK_BYTES_MAX };
-                    return answer(&query, &TaskReceipt { accepted: false, reason: error.to_string(), task: None });
+                    let refusal = TaskReceipt { accepted: false, reason: error.to_string(), task: None };
+                    return reply(&query, refusal.to_bytes(), "task receipt");
                 }
                 drop(sender.try_send(query));
             })
@@ -72,13 +73,7 @@ fn serve(
         if let Some(task) = known.as_ref().filter(|_| !was_known) {
             drop(accept.try_send(task.clone()));
         }
-        answer(&query, &receipt);
-    }
-}
-
-fn answer(query: &Query, receipt: &TaskReceipt) {
-    if let Err(error) = query.reply(query.key_expr().clone(), receipt.to_bytes()).wait() {
-        tracing::debug!(%error, "task receipt not sent");
+        reply(&query, receipt.to_bytes(), "task receipt");
     }
 }
 
