@@ -3,9 +3,10 @@
 use prost::Message;
 
 use crate::{
-    Malformed, check_size,
+    Malformed, check_finite, check_size,
     ident::check_ident,
     limits::{ACTOR_STATE_BYTES_MAX, ENVS_MAX, WIDTH_MAX},
+    planes,
 };
 
 pub use crate::wire::ActorState;
@@ -20,7 +21,7 @@ pub const PROGRESS_NUMBERS: usize = 3;
 const PAST_ACTIONS_MAX: usize = 16 * WIDTH_MAX as usize;
 
 impl ActorState {
-    /// Returns N.
+    /// Returns the number of environments, N.
     pub fn envs(&self) -> usize {
         self.episodes.len()
     }
@@ -46,7 +47,7 @@ impl ActorState {
             ("actor_state.streams", self.streams.len(), envs * ENVIRONMENT_GENERATORS * GENERATOR_NUMBERS),
         ] {
             if found != wanted {
-                return Err(Malformed::field(field, format!("{found} numbers long"), format!("{wanted} numbers")));
+                return Err(Malformed::length(field, found, format!("{wanted} numbers")));
             }
         }
         for (field, found, width_max) in [
@@ -57,24 +58,17 @@ impl ActorState {
         ] {
             if !found.is_multiple_of(envs) || !(1..=width_max).contains(&(found / envs)) {
                 let wanted = format!("1 to {width_max} for each of {envs} environments");
-                return Err(Malformed::field(field, format!("{found} numbers long"), wanted));
+                return Err(Malformed::length(field, found, wanted));
             }
         }
         if let Some(index) = self.episodes.iter().position(|begun| *begun == 0) {
             return Err(Malformed::field("actor_state.episodes", format!("0 at index {index}"), "1 or more"));
         }
-        all_finite("actor_state.progress", self.progress.iter().copied())?;
-        all_finite("actor_state.positions", self.positions.iter().copied())?;
-        all_finite("actor_state.velocities", self.velocities.iter().copied())?;
-        all_finite("actor_state.observations", self.observations.iter().map(|number| f64::from(*number)))?;
-        all_finite("actor_state.past_actions", self.past_actions.iter().map(|number| f64::from(*number)))
-    }
-}
-
-fn all_finite(field: &'static str, numbers: impl Iterator<Item = f64>) -> Result<(), Malformed> {
-    match numbers.enumerate().find(|(_, number)| !number.is_finite()) {
-        Some((index, value)) => Err(Malformed::NotFinite { field, index, value: value.to_string() }),
-        None => Ok(()),
+        check_finite("actor_state.progress", self.progress.iter().copied())?;
+        check_finite("actor_state.positions", self.positions.iter().copied())?;
+        check_finite("actor_state.velocities", self.velocities.iter().copied())?;
+        planes::check_finite("actor_state.observations", &self.observations)?;
+        planes::check_finite("actor_state.past_actions", &self.past_actions)
     }
 }
 

@@ -110,9 +110,9 @@ impl PolicyBundle {
             [("observation_mean", &self.observation_mean), ("observation_inverse_std", &self.observation_inverse_std)]
         {
             if plane.len() != size {
-                return Err(Malformed::field(field, format!("{} numbers long", plane.len()), format!("{size}")));
+                return Err(Malformed::length(field, plane.len(), size.to_string()));
             }
-            planes::all_finite(field, plane)?;
+            planes::check_finite(field, plane)?;
         }
         if !(self.observation_clip.is_finite() && self.observation_clip > 0.0) {
             return Err(Malformed::field("observation_clip", self.observation_clip, "a number above 0"));
@@ -193,11 +193,8 @@ fn check_hidden_count(bytes: &[u8]) -> Result<(), Malformed> {
     })?;
     // A width takes at most five bytes.
     if widths > 5 * HIDDEN_LAYERS_MAX {
-        return Err(Malformed::field(
-            "hidden",
-            format!("{widths} bytes long"),
-            format!("1 to {HIDDEN_LAYERS_MAX} layers"),
-        ));
+        let expected = format!("1 to {HIDDEN_LAYERS_MAX} layers");
+        return Err(Malformed::field("hidden", format!("{widths} bytes long"), expected));
     }
     Ok(())
 }

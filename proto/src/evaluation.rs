@@ -2,7 +2,9 @@
 
 use prost::Message;
 
-use crate::{Malformed, PolicyVersion, bundle, check_size, ident::check_ident, limits::SMALL_BYTES_MAX, wire};
+use crate::{
+    Malformed, PolicyVersion, bundle, check_finite, check_size, ident::check_ident, limits::SMALL_BYTES_MAX, wire,
+};
 
 /// Results of deterministic episodes of one policy.
 #[derive(Clone, Debug, PartialEq)]
@@ -61,9 +63,7 @@ impl EvaluationReport {
             ("distance_mean_m", message.distance_mean_m),
             ("velocity_mean_mps", message.velocity_mean_mps),
         ] {
-            if !value.is_finite() {
-                return Err(Malformed::NotFinite { field, index: 0, value: value.to_string() });
-            }
+            check_finite(field, [value])?;
         }
         if message.episodes == 0 {
             return Err(Malformed::field("episodes", 0, "at least 1"));

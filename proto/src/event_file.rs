@@ -1,5 +1,4 @@
-//! Messages of TensorBoard's event files and HPARAMS tab: the parts that scalars, texts, histograms and hyperparameters
-//! need.
+//! Messages of TensorBoard's event files and HPARAMS tab, as far as a run writes them.
 
 use prost::Message;
 

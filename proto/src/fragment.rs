@@ -4,7 +4,7 @@ use bytes::{Buf, BufMut, Bytes};
 use prost::Message;
 
 use crate::{
-    ActorState, Malformed, PolicyVersion, Precision, check_range, check_size,
+    ActorState, Malformed, PolicyVersion, Precision, bundle, check_range, check_size,
     ident::check_ident,
     limits::{ENVS_MAX, FRAGMENT_BYTES_MAX, SEQUENCE_MAX, STEPS_MAX, WIDTH_MAX},
     pieces::Cursor,
@@ -100,7 +100,7 @@ pub struct Fragment {
 }
 
 impl Fragment {
-    /// Returns T × N.
+    /// Returns the number of transitions, T × N.
     pub fn transitions(&self) -> usize {
         self.steps as usize * self.envs as usize
     }
@@ -138,16 +138,13 @@ impl Fragment {
             self.check_state(state)?;
         }
         let rows = self.transitions();
-        plane("observations", &self.observations, rows * self.observation_size as usize)?;
-        plane("actions", &self.actions, rows * self.action_size as usize)?;
-        plane("log_probs", &self.log_probs, rows)?;
-        plane("rewards", &self.rewards, rows)?;
+        check_plane("observations", &self.observations, rows * self.observation_size as usize)?;
+        check_plane("actions", &self.actions, rows * self.action_size as usize)?;
+        check_plane("log_probs", &self.log_probs, rows)?;
+        check_plane("rewards", &self.rewards, rows)?;
         check_flags(&self.flags, rows)?;
-        plane(
-            "last_observations",
-            &self.last_observations,
-            self.last_observation_count() * self.observation_size as usize,
-        )?;
+        let last_count = self.last_observation_count() * self.observation_size as usize;
+        check_plane("last_observations", &self.last_observations, last_count)?;
         if self.episodes.len() > rows {
             return Err(Malformed::field("episodes", self.episodes.len(), format!("at most {rows}")));
         }
@@ -228,18 +225,15 @@ impl Fragment {
         let rows = message.steps as usize * message.envs as usize;
         let (width, action) = (message.observation_size as usize, message.action_size as usize);
         let precision = Precision::try_from(message.observation_precision)?;
-        // `check` compares the number of last observations with the flags.
+        // `check` compares this number with the flags.
+        let last_count = last_observations.remaining() / precision.bytes();
         let fragment = Self {
-            version: message.version.ok_or_else(|| Malformed::field("version", "missing", "a policy version"))?.into(),
+            version: bundle::version(message.version)?,
             observations: precision.read("observations", observations, rows * width)?,
             actions: planes::read("actions", actions, rows * action)?,
             log_probs: planes::read("log_probs", log_probs, rows)?,
             rewards: planes::read("rewards", rewards, rows)?,
-            last_observations: precision.read(
-                "last_observations",
-                last_observations,
-                last_observations.remaining() / precision.bytes(),
-            )?,
+            last_observations: precision.read("last_observations", last_observations, last_count)?,
             flags: message.flags.to_vec(),
             episodes: message.episodes.iter().map(Episode::try_from).collect::<Result<_, _>>()?,
             run: message.run,
@@ -299,15 +293,12 @@ impl<'a> Parts<'a> {
     }
 }
 
-fn plane(field: &'static str, numbers: &[f32], count: usize) -> Result<(), Malformed> {
+fn check_plane(field: &'static str, numbers: &[f32], count: usize) -> Result<(), Malformed> {
     if numbers.len() != count {
-        return Err(Malformed::field(
-            field,
-            format!("{} numbers long", numbers.len()),
-            format!("{count} numbers, as steps, envs and widths say"),
-        ));
+        let expected = format!("{count} numbers, as steps, envs and widths say");
+        return Err(Malformed::length(field, numbers.len(), expected));
     }
-    planes::all_finite(field, numbers)
+    planes::check_finite(field, numbers)
 }
 
 fn check_flags(flags: &[u8], rows: usize) -> Result<(), Malformed> {

@@ -61,7 +61,7 @@ pub struct EpisodeReport {
 }
 
 impl EpisodeReport {
-    /// Creates the report of one episode.
+    /// Returns the report of one episode.
     pub fn new(run: &str, actor: &str, episode: &Episode) -> Self {
         Self {
             run: run.to_string(),

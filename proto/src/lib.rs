@@ -82,6 +82,14 @@ fn check_range(field: &'static str, value: u32, max: u32) -> Result<(), Malforme
     if (1..=max).contains(&value) { Ok(()) } else { Err(Malformed::field(field, value, format!("1 to {max}"))) }
 }
 
+/// Refuses infinities and NaN; the error names the first.
+fn check_finite(field: &'static str, numbers: impl IntoIterator<Item = f64>) -> Result<(), Malformed> {
+    match numbers.into_iter().enumerate().find(|(_, number)| !number.is_finite()) {
+        Some((index, value)) => Err(Malformed::NotFinite { field, index, value: value.to_string() }),
+        None => Ok(()),
+    }
+}
+
 /// Reason for which a message is refused.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum Malformed {
@@ -128,6 +136,11 @@ pub enum Malformed {
 impl Malformed {
     pub(crate) fn field(field: &'static str, value: impl ToString, expected: impl Into<String>) -> Self {
         Self::Field { field, value: value.to_string(), expected: expected.into() }
+    }
+
+    /// Returns the error of a field with a wrong number of entries.
+    pub(crate) fn length(field: &'static str, found: usize, expected: impl Into<String>) -> Self {
+        Self::field(field, format!("{found} numbers long"), expected)
     }
 
     /// Returns a conversion of a decoder's error.

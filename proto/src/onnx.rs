@@ -4,8 +4,7 @@
 //! observation ─ Sub mean ─ Mul 1/std ─ Clip ─ (Gemm ─ Elu)… ─ Gemm ─ Clip ±1 ─ Mul half ─ Add centre ─ action
 //! ```
 //!
-//! Operators belong to operator set 13, which current runtimes support. The first dimension of input and output is the
-//! batch.
+//! Operators are those of operator set 13, which current runtimes support. Input and output are `[batch, width]`.
 
 use prost::Message;
 

@@ -1,4 +1,4 @@
-//! Planes of numbers: raw little-endian bytes. Reading checks their length, [`all_finite`] their numbers.
+//! Planes of numbers: raw little-endian bytes. Reading checks their length, [`check_finite`] checks the numbers.
 
 use bytes::{Buf, Bytes};
 
@@ -19,18 +19,21 @@ pub(crate) fn from_bytes(field: &'static str, bytes: &[u8], count: usize) -> Res
 
 /// Decodes exactly `count` little-endian numbers from a cursor, without checking their values.
 pub(crate) fn read(field: &'static str, bytes: Cursor<'_>, count: usize) -> Result<Vec<f32>, Malformed> {
-    if Some(bytes.remaining()) != count.checked_mul(4) {
-        return Err(Malformed::field(
-            field,
-            format!("{} bytes long", bytes.remaining()),
-            format!("{count} numbers of 4 bytes"),
-        ));
-    }
+    check_bytes(field, bytes, count, 4)?;
     Ok(bytes.numbers(f32::from_le_bytes))
 }
 
+/// Checks that the bytes are exactly `count` numbers of `size` bytes.
+pub(crate) fn check_bytes(field: &'static str, bytes: Cursor<'_>, count: usize, size: usize) -> Result<(), Malformed> {
+    let found = bytes.remaining();
+    if Some(found) == count.checked_mul(size) {
+        return Ok(());
+    }
+    Err(Malformed::field(field, format!("{found} bytes long"), format!("{count} numbers of {size} bytes")))
+}
+
 /// Refuses infinities and NaN; the error names the first.
-pub(crate) fn all_finite(field: &'static str, numbers: &[f32]) -> Result<(), Malformed> {
+pub(crate) fn check_finite(field: &'static str, numbers: &[f32]) -> Result<(), Malformed> {
     // Exactly infinities and NaN have an exponent of all ones. Comparing bits needs no branches and no order, so the compiler
     // vectorises it.
     const EXPONENT: u32 = 0x7f80_0000;
@@ -57,8 +60,8 @@ mod tests {
     fn the_error_names_wrong_lengths_and_infinite_numbers() {
         assert!(from_bytes("x", &[0; 7], 2).unwrap_err().to_string().contains("7 bytes"));
         for bad in [f32::NAN, -f32::NAN, f32::INFINITY, f32::NEG_INFINITY] {
-            assert!(all_finite("x", &[1.0, bad]).unwrap_err().to_string().contains("index 1"), "{bad}");
+            assert!(check_finite("x", &[1.0, bad]).unwrap_err().to_string().contains("index 1"), "{bad}");
         }
-        assert!(all_finite("x", &[f32::MAX, f32::MIN, -0.0, 1e-42]).is_ok());
+        assert!(check_finite("x", &[f32::MAX, f32::MIN, -0.0, 1e-42]).is_ok());
     }
 }

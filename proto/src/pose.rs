@@ -2,7 +2,7 @@
 
 use prost::Message;
 
-use crate::{Malformed, bundle, check_size, ident::check_ident, limits::POSE_BYTES_MAX, planes::all_finite, wire};
+use crate::{Malformed, bundle, check_size, ident::check_ident, limits::POSE_BYTES_MAX, planes::check_finite, wire};
 
 pub use wire::Pose;
 
@@ -36,12 +36,12 @@ impl Pose {
         check_ident("actor", &self.actor)?;
         bundle::version(self.version)?;
         if self.bodies.is_empty() || !self.bodies.len().is_multiple_of(BODY_NUMBERS) {
-            let found = format!("{} numbers long", self.bodies.len());
-            return Err(Malformed::field("bodies", found, format!("{BODY_NUMBERS} numbers for each body")));
+            let expected = format!("{BODY_NUMBERS} numbers for each body");
+            return Err(Malformed::length("bodies", self.bodies.len(), expected));
         }
         if !self.contacts.len().is_multiple_of(CONTACT_NUMBERS) {
-            let found = format!("{} numbers long", self.contacts.len());
-            return Err(Malformed::field("contacts", found, format!("{CONTACT_NUMBERS} numbers for each contact")));
+            let expected = format!("{CONTACT_NUMBERS} numbers for each contact");
+            return Err(Malformed::length("contacts", self.contacts.len(), expected));
         }
         let scalars = [
             ("reward_survive", self.reward_survive),
@@ -51,10 +51,10 @@ impl Pose {
             ("velocity_mps", self.velocity_mps),
             ("distance_m", self.distance_m),
         ];
-        scalars.iter().try_for_each(|(field, value)| all_finite(field, std::slice::from_ref(value)))?;
-        all_finite("bodies", &self.bodies)?;
-        all_finite("contacts", &self.contacts)?;
-        all_finite("joint_torques_nm", &self.joint_torques_nm)?;
+        scalars.iter().try_for_each(|(field, value)| check_finite(field, std::slice::from_ref(value)))?;
+        check_finite("bodies", &self.bodies)?;
+        check_finite("contacts", &self.contacts)?;
+        check_finite("joint_torques_nm", &self.joint_torques_nm)?;
         if !(0.0..=TIME_MAX_S).contains(&self.time_s) {
             return Err(Malformed::field("time_s", self.time_s, format!("0 to {TIME_MAX_S}")));
         }

@@ -1,6 +1,6 @@
 //! Precision of observations on the wire.
 
-use bytes::{Buf, Bytes};
+use bytes::Bytes;
 use half::{
     f16,
     slice::{HalfBitsSliceExt, HalfFloatSliceExt},
@@ -55,10 +55,7 @@ impl Precision {
         if self == Self::F32 {
             return planes::read(field, bytes, count);
         }
-        if Some(bytes.remaining()) != count.checked_mul(2) {
-            let found = format!("{} bytes long", bytes.remaining());
-            return Err(Malformed::field(field, found, format!("{count} numbers of 2 bytes")));
-        }
+        planes::check_bytes(field, bytes, count, self.bytes())?;
         let mut numbers = vec![0.0; count];
         bytes.numbers(u16::from_le_bytes).reinterpret_cast::<f16>().convert_to_f32_slice(&mut numbers);
         Ok(numbers)

@@ -2,7 +2,7 @@
 
 use prost::Message;
 
-use crate::{Malformed, check_size, ident::check_ident, limits::STATS_BYTES_MAX, wire};
+use crate::{Malformed, check_finite, check_size, ident::check_ident, limits::STATS_BYTES_MAX, wire};
 
 pub use wire::ActorStats;
 
@@ -12,13 +12,7 @@ impl ActorStats {
         check_size("statistics", bytes.len(), STATS_BYTES_MAX)?;
         let stats = Self::decode(bytes).map_err(Malformed::undecodable("statistics"))?;
         check_ident("actor", &stats.actor)?;
-        if !stats.env_steps_per_s.is_finite() {
-            return Err(Malformed::NotFinite {
-                field: "env_steps_per_s",
-                index: 0,
-                value: stats.env_steps_per_s.to_string(),
-            });
-        }
+        check_finite("env_steps_per_s", [stats.env_steps_per_s])?;
         Ok(stats)
     }
 

@@ -3,28 +3,13 @@
 use prost::Message;
 
 use crate::{
-    Malformed, check_range, check_size,
+    Malformed, check_finite, check_range, check_size,
     ident::{check_ident, check_task_name},
     limits::{TASK_BYTES_MAX, WIDTH_MAX},
     wire,
 };
 
-/// Task that a run trains.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Task {
-    /// Name, such as `gymnasium/Humanoid-v5`.
-    pub name: String,
-    /// Entries of one observation.
-    pub observation_size: u32,
-    /// Entries of one action.
-    pub action_size: u32,
-    /// Action at policy output −1.
-    pub action_low: Vec<f64>,
-    /// Action at policy output 1.
-    pub action_high: Vec<f64>,
-    /// Duration of one control step (s); 0 if unknown.
-    pub control_step_s: f64,
-}
+pub use wire::{Task, TaskReceipt};
 
 impl std::fmt::Display for Task {
     fn fmt(&self, to: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
@@ -40,12 +25,10 @@ impl Task {
         check_range("task.action_size", self.action_size, WIDTH_MAX)?;
         for (field, range) in [("task.action_low", &self.action_low), ("task.action_high", &self.action_high)] {
             if range.len() != self.action_size as usize {
-                let found = format!("{} numbers long", range.len());
-                return Err(Malformed::field(field, found, format!("{}, as task.action_size says", self.action_size)));
+                let expected = format!("{}, as task.action_size says", self.action_size);
+                return Err(Malformed::length(field, range.len(), expected));
             }
-            if let Some(index) = range.iter().position(|end| !end.is_finite()) {
-                return Err(Malformed::NotFinite { field, index, value: range[index].to_string() });
-            }
+            check_finite(field, range.iter().copied())?;
         }
         if let Some((low, high)) = self.action_low.iter().zip(&self.action_high).find(|(low, high)| low >= high) {
             return Err(Malformed::field("task.action_low", low, format!("below task.action_high, which is {high}")));
@@ -86,22 +69,11 @@ pub struct TaskRegistration {
     pub task: Task,
 }
 
-/// Answer of the learner to a registration.
-#[derive(Clone, Debug, PartialEq)]
-pub struct TaskReceipt {
-    /// Whether the actor may join the run.
-    pub accepted: bool,
-    /// Reason for a refusal.
-    pub reason: String,
-    /// Task that the run trains, once it is known.
-    pub task: Option<Task>,
-}
-
 impl TaskRegistration {
     /// Encodes as protobuf.
     pub fn encode(&self) -> Result<Vec<u8>, Malformed> {
         self.check()?;
-        let task = Some(self.task.clone().into());
+        let task = Some(self.task.clone());
         Ok(wire::TaskRegistration { run: self.run.clone(), actor: self.actor.clone(), task }.encode_to_vec())
     }
 
@@ -109,7 +81,7 @@ impl TaskRegistration {
     pub fn decode(bytes: &[u8]) -> Result<Self, Malformed> {
         check_size("task", bytes.len(), TASK_BYTES_MAX)?;
         let message = wire::TaskRegistration::decode(bytes).map_err(Malformed::undecodable("task registration"))?;
-        let task = message.task.ok_or_else(|| Malformed::field("task", "missing", "a task"))?.into();
+        let task = message.task.ok_or_else(|| Malformed::field("task", "missing", "a task"))?;
         let registration = Self { run: message.run, actor: message.actor, task };
         registration.check()?;
         Ok(registration)
@@ -124,42 +96,14 @@ impl TaskRegistration {
 
 impl TaskReceipt {
     /// Encodes as protobuf.
-    pub fn encode(&self) -> Vec<u8> {
-        let task = self.task.clone().map(Into::into);
-        wire::TaskReceipt { accepted: self.accepted, reason: self.reason.clone(), task }.encode_to_vec()
+    pub fn to_bytes(&self) -> Vec<u8> {
+        self.encode_to_vec()
     }
 
-    /// Decodes untrusted protobuf bytes.
-    pub fn decode(bytes: &[u8]) -> Result<Self, Malformed> {
+    /// Decodes untrusted protobuf bytes of limited size.
+    pub fn decode_checked(bytes: &[u8]) -> Result<Self, Malformed> {
         check_size("task", bytes.len(), TASK_BYTES_MAX)?;
-        let message = wire::TaskReceipt::decode(bytes).map_err(Malformed::undecodable("task receipt"))?;
-        Ok(Self { accepted: message.accepted, reason: message.reason, task: message.task.map(Into::into) })
-    }
-}
-
-impl From<Task> for wire::Task {
-    fn from(task: Task) -> Self {
-        Self {
-            name: task.name,
-            observation_size: task.observation_size,
-            action_size: task.action_size,
-            action_low: task.action_low,
-            action_high: task.action_high,
-            control_step_s: task.control_step_s,
-        }
-    }
-}
-
-impl From<wire::Task> for Task {
-    fn from(task: wire::Task) -> Self {
-        Self {
-            name: task.name,
-            observation_size: task.observation_size,
-            action_size: task.action_size,
-            action_low: task.action_low,
-            action_high: task.action_high,
-            control_step_s: task.control_step_s,
-        }
+        Self::decode(bytes).map_err(Malformed::undecodable("task receipt"))
     }
 }
 
@@ -189,7 +133,7 @@ mod tests {
         assert_eq!(TaskRegistration::decode(&registration.encode().unwrap()).unwrap(), registration);
         for task in [None, Some(task())] {
             let receipt = TaskReceipt { accepted: task.is_some(), reason: "because".into(), task };
-            assert_eq!(TaskReceipt::decode(&receipt.encode()).unwrap(), receipt);
+            assert_eq!(TaskReceipt::decode_checked(&receipt.to_bytes()).unwrap(), receipt);
         }
     }
 
@@ -209,7 +153,7 @@ mod tests {
         for (field, corrupt) in cases {
             let mut bad = task();
             corrupt(&mut bad);
-            let unchecked = wire::TaskRegistration { run: "run".into(), actor: "a".into(), task: Some(bad.into()) };
+            let unchecked = wire::TaskRegistration { run: "run".into(), actor: "a".into(), task: Some(bad) };
             let why = TaskRegistration::decode(&unchecked.encode_to_vec()).unwrap_err().to_string();
             assert!(why.contains(&format!("`{field}`")), "{field}: {why}");
         }
@@ -239,7 +183,7 @@ mod tests {
         #[test]
         fn random_bytes_never_panic(bytes in proptest::collection::vec(any::<u8>(), 0..300)) {
             let _ = TaskRegistration::decode(&bytes);
-            let _ = TaskReceipt::decode(&bytes);
+            let _ = TaskReceipt::decode_checked(&bytes);
         }
     }
 }

@@ -262,7 +262,15 @@ fn the_table_of_threads_has_every_thread_that_is_started() {
 
     let mut started = BTreeSet::new();
     for (_, text) in sources().iter().filter(|(name, _)| !name.contains("tests/") && !name.contains("examples/")) {
-        for begin in [".name(\"", ".name(format!(\"", "thread_name(|index| format!(\"", "THREAD: &str = \""] {
+        let begins = [
+            ".name(\"",
+            ".name(format!(\"",
+            "thread_name(|index| format!(\"",
+            "THREAD: &str = \"",
+            "start_thread(\"",
+            "start_thread(&format!(\"",
+        ];
+        for begin in begins {
             started.extend(text.split(begin).skip(1).map(|rest| without_number(rest.split('"').next().unwrap())));
         }
         let numbered = text.split("let name = format!(\"").skip(1).map(|rest| rest.split('"').next().unwrap());

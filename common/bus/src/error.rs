@@ -59,10 +59,4 @@ impl BusError {
         let what = what.into();
         move |error| Self::Flow { what, why: error.to_string() }
     }
-
-    /// Returns the error of a thread that could not be started.
-    pub(crate) fn thread(name: &str) -> impl FnOnce(std::io::Error) -> Self {
-        let what = format!("starting thread {name}");
-        move |error| Self::Flow { what, why: error.to_string() }
-    }
 }

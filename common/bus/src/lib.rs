@@ -27,13 +27,14 @@ pub use flows::{
     evaluation::{Assignment, EvaluationServer, ask_for_evaluation},
     observer::{Feed, Message, MetricsFeed, observe},
     policies::{Announcements, PolicyServer, fetch_policy, watch_announcements},
-    poses::{PosePublisher, Watched},
+    poses::PosePublisher,
     presence::{Alive, AliveView, token},
     publications::publish_dropping,
     received::ReceivedFragment,
     rollouts::{IncomingFragment, RolloutIntake, submit},
     stats::StatsFeed,
     tasks::{Objection, TaskServer, register_task},
+    watched::Watched,
 };
 pub use session::{
     Bus, BusOptions,

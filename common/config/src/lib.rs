@@ -169,9 +169,6 @@ impl Config {
     }
 
     fn check_together(&self) -> Result<(), ConfigError> {
-        let refuse = |key: &str, value: String, allowed: String| {
-            Err(ConfigError::Value { key: key.to_string(), value, allowed })
-        };
         if self.ppo.minibatch > self.ppo.batch {
             return refuse(
                 "ppo.minibatch",
@@ -187,11 +184,7 @@ impl Config {
             );
         }
         if self.learner.mode == LearnerMode::Sync && self.rollout.max_in_flight == 2 {
-            return refuse(
-                "rollout.max_in_flight",
-                "2".to_string(),
-                "0 or 1 where learner.mode is \"sync\"".to_string(),
-            );
+            return refuse("rollout.max_in_flight", "2", "0 or 1 where learner.mode is \"sync\"");
         }
         self.check_observation()?;
         self.check_task()?;
@@ -216,12 +209,8 @@ impl Config {
         ];
         for (key, included) in included {
             if env.observation == EnvObservation::GymnasiumV4 && !included {
-                return Err(ConfigError::Value {
-                    key: key.to_string(),
-                    value: "false".to_string(),
-                    allowed: "true where env.observation is \"gymnasium-v4\"; \"gymnasium-v5\" can leave blocks out"
-                        .to_string(),
-                });
+                let allowed = "true where env.observation is \"gymnasium-v4\"; \"gymnasium-v5\" can leave blocks out";
+                return refuse(key, "false", allowed);
             }
         }
         Ok(())
@@ -262,6 +251,16 @@ impl Config {
     pub fn to_toml(&self) -> String {
         toml::to_string(self).expect("a checked config is plain tables of plain values")
     }
+}
+
+/// Returns the error of a value that is not allowed.
+pub(crate) fn refuse<T>(key: &str, value: impl Into<String>, allowed: impl Into<String>) -> Result<T, ConfigError> {
+    Err(ConfigError::Value { key: key.to_string(), value: value.into(), allowed: allowed.into() })
+}
+
+/// Reads a value in TOML notation.
+pub(crate) fn parse_value(text: &str) -> Option<toml::Value> {
+    format!("v = {text}").parse::<toml::Table>().ok()?.remove("v")
 }
 
 /// Returns a value in TOML notation.

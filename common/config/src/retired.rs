@@ -3,9 +3,9 @@
 
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use toml::{Table, Value};
+use toml::Value;
 
-use super::ConfigError;
+use super::{ConfigError, parse_value};
 
 /// Key that no longer exists.
 struct Retired {
@@ -44,7 +44,7 @@ pub fn is_retired(key: &str) -> bool {
 /// [`ConfigError::Retired`] if the value is another one.
 pub(super) fn ignores(key: &str, value: &Value) -> Result<bool, ConfigError> {
     let Some(retired) = RETIRED.iter().find(|retired| retired.key == key) else { return Ok(false) };
-    let default = format!("v = {}", retired.default).parse::<Table>().expect("defaults are TOML")["v"].clone();
+    let default = parse_value(retired.default).expect("defaults are TOML");
     if !is_same(value, &default) {
         return Err(ConfigError::Retired {
             key: key.to_string(),
@@ -73,13 +73,7 @@ fn is_same(found: &Value, wanted: &Value) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Config, ConfigSource};
-
-    fn set(pair: &str) -> Result<Config, ConfigError> {
-        let mut source = ConfigSource::default();
-        source.set(pair)?;
-        source.build()
-    }
+    use crate::{Config, ConfigSource, source::tests::set};
 
     #[test]
     fn old_defaults_are_ignored() {

@@ -89,11 +89,8 @@ macro_rules! section {
                 $(
                     let allowed: fn(&$kind) -> bool = $check;
                     if !allowed(&self.$field) {
-                        return Err($crate::ConfigError::Value {
-                            key: concat!($table, ".", stringify!($field)).to_string(),
-                            value: $crate::show(&self.$field),
-                            allowed: $allowed.to_string(),
-                        });
+                        let key = concat!($table, ".", stringify!($field));
+                        return $crate::refuse(key, $crate::show(&self.$field), $allowed);
                     }
                 )*
                 Ok(())

@@ -2,7 +2,7 @@
 
 use treadmill_proto::Task;
 
-use super::{Config, ConfigError, EnvTask, Symmetry, TaskConfig, show};
+use super::{Config, ConfigError, EnvTask, Symmetry, TaskConfig, refuse, show};
 
 impl TaskConfig {
     pub(super) fn is_unset(&self) -> bool {
@@ -50,30 +50,26 @@ impl Config {
     }
 
     pub(super) fn check_task(&self) -> Result<(), ConfigError> {
-        let refuse = |key: &str, value: String, allowed: &str| {
-            Err(ConfigError::Value { key: key.to_string(), value, allowed: allowed.to_string() })
-        };
         let task = &self.task;
         if !self.is_external() {
-            if !task.is_unset() {
-                let why = "nothing in [task] where env.task is not \"external\"";
-                return refuse("task.name", show(&task.name), why);
-            }
-            return Ok(());
+            return match task.is_unset() {
+                true => Ok(()),
+                false => refuse("task.name", show(&task.name), "nothing in [task] where env.task is not \"external\""),
+            };
         }
         if self.run.deterministic {
             let why = "false where env.task is \"external\": its actors do not draw from the run's seed";
-            return refuse("run.deterministic", "true".to_string(), why);
+            return refuse("run.deterministic", "true", why);
         }
         if self.ppo.symmetry == Symmetry::Mirrored {
-            return refuse("ppo.symmetry", "\"mirrored\"".to_string(), "\"off\" where env.task is \"external\"");
+            return refuse("ppo.symmetry", "\"mirrored\"", "\"off\" where env.task is \"external\"");
         }
         match task.known() {
             Some(known) => known
                 .check()
-                .or_else(|error| refuse("task", known.name.clone(), &format!("a consistent task, but {error}"))),
+                .or_else(|error| refuse("task", known.name.clone(), format!("a consistent task, but {error}"))),
             None if TaskConfig { name: String::new(), ..task.clone() }.is_unset() => Ok(()),
-            None => refuse("task.observation_size", "0".to_string(), "1 to 4096 where another key of [task] is given"),
+            None => refuse("task.observation_size", "0", "1 to 4096 where another key of [task] is given"),
         }
     }
 }

@@ -1,4 +1,4 @@
-//! A policy with everything needed to play it, as one safetensors file.
+//! Exported policy: one safetensors file with everything needed to play it.
 //!
 //! | tensor | number type, shape | holds |
 //! |---|---|---|
@@ -16,9 +16,8 @@
 
 use safetensors::tensor::SafeTensors;
 use serde::{Deserialize, Serialize};
-use treadmill_proto::limits::{BUNDLE_BYTES_MAX, HIDDEN_LAYERS_MAX, WIDTH_MAX};
-
 use treadmill_config::{Config, ConfigError, EnvConfig, EnvTask, RandomisationConfig, TaskConfig};
+use treadmill_proto::limits::{BUNDLE_BYTES_MAX, HIDDEN_LAYERS_MAX, WIDTH_MAX};
 
 use crate::{
     NetworkShape, ParameterError, check_parameters, column, from_safetensors,
@@ -83,7 +82,7 @@ pub enum ExportedError {
     Parameters(#[from] ParameterError),
 }
 
-/// A policy and the task it was trained for.
+/// Policy and the task it was trained for.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ExportedPolicy {
     /// Shape of the networks.

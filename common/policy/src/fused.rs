@@ -12,8 +12,8 @@ use candle_core::{CpuStorage, CustomOp2, Layout, Result, Shape, Storage, Tensor,
 use rayon::ThreadPool;
 use rayon::prelude::*;
 
-use super::NetworkShape;
 use super::kernel::{Mlp, Scratch};
+use super::{NetworkPart, NetworkShape};
 
 /// Rows that are processed together, so that the activations of one layer stay in the second-level cache.
 const CHUNK_ROWS: usize = 256;
@@ -56,22 +56,13 @@ struct Lane {
 }
 
 impl FusedNetworks {
-    /// Returns actor and critic; the output is `[rows, action + 1]`: action means, then the value.
-    pub fn actor_critic(shape: &NetworkShape, pool: Option<Arc<ThreadPool>>) -> Self {
-        Self::new(shape, vec![Mlp::new(shape.actor()), Mlp::new(shape.critic())], pool)
-    }
-
-    /// Returns the actor; the output is `[rows, action]`.
-    pub fn actor(shape: &NetworkShape, pool: Option<Arc<ThreadPool>>) -> Self {
-        Self::new(shape, vec![Mlp::new(shape.actor())], pool)
-    }
-
-    /// Returns the critic; the output is `[rows, 1]`.
-    pub fn critic(shape: &NetworkShape, pool: Option<Arc<ThreadPool>>) -> Self {
-        Self::new(shape, vec![Mlp::new(shape.critic())], pool)
-    }
-
-    fn new(shape: &NetworkShape, networks: Vec<Mlp>, pool: Option<Arc<ThreadPool>>) -> Self {
+    /// Returns the networks of `part`, which also determines the output.
+    pub fn new(shape: &NetworkShape, part: NetworkPart, pool: Option<Arc<ThreadPool>>) -> Self {
+        let networks = match part {
+            NetworkPart::ActorCritic => vec![Mlp::new(shape.actor()), Mlp::new(shape.critic())],
+            NetworkPart::Actor => vec![Mlp::new(shape.actor())],
+            NetworkPart::Critic => vec![Mlp::new(shape.critic())],
+        };
         let inner = Inner {
             networks,
             observation: shape.observation,

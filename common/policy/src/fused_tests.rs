@@ -3,7 +3,7 @@
 use candle_core::{Device, Var};
 
 use super::*;
-use crate::{Dense, plain};
+use crate::{kernel::tests::exact_output, plain};
 
 fn wave(count: usize, step: f64) -> Vec<f32> {
     (0..count).map(|i| ((i as f64 + 1.0) * step).sin() as f32 * 0.6).collect()
@@ -14,14 +14,18 @@ fn pool(threads: usize) -> Option<Arc<ThreadPool>> {
     Some(Arc::new(pool))
 }
 
-/// Parameters that keep the outputs of wide layers near 1.
+fn actor_critic(shape: &NetworkShape, pool: Option<Arc<ThreadPool>>) -> FusedNetworks {
+    FusedNetworks::new(shape, NetworkPart::ActorCritic, pool)
+}
+
+/// Returns parameters that keep the outputs of wide layers near 1.
 fn parameters(shape: &NetworkShape) -> Vec<f32> {
     let widest = shape.hidden.iter().copied().max().unwrap_or(1).max(shape.observation);
     let scale = (16.0 / widest as f32).sqrt().min(1.0);
     wave(shape.parameter_count(), 0.71).iter().map(|p| p * scale).collect()
 }
 
-/// Networks of the presets, for the compact and Gymnasium's observation.
+/// Returns the networks of the presets, for the compact and Gymnasium's observation.
 fn shapes_in_use() -> [NetworkShape; 2] {
     [(45, vec![256, 128]), (348, vec![512, 256])].map(|(observation, hidden)| NetworkShape {
         observation,
@@ -51,7 +55,7 @@ fn output_and_gradient_agree_with_candles_operations() {
     let small = [(vec![16, 8], 33), (vec![4], 700), (vec![], 5), (vec![8, 8, 8], CHUNK_ROWS * LANES + 300)]
         .map(|(hidden, rows)| (NetworkShape { observation: 7, action: 3, hidden }, rows));
     for (shape, rows) in small.into_iter().chain(shapes_in_use().map(|shape| (shape, CHUNK_ROWS + 30))) {
-        let networks = FusedNetworks::actor_critic(&shape, None);
+        let networks = actor_critic(&shape, None);
         let fused = run(|p, x| networks.forward(p, x), &shape, rows);
         let plain = run(|p, x| plain::actor_critic(&shape, p, x), &shape, rows);
         for (fused, plain) in fused.iter().zip(&plain) {
@@ -64,20 +68,11 @@ fn output_and_gradient_agree_with_candles_operations() {
     }
 }
 
-/// Returns `Σ c · output` of both networks in f64, straight from the definition.
+/// Returns `Σ c · output` of both networks in f64.
 fn weighted_output(shape: &NetworkShape, parameters: &[f64], observations: &[f64], weights: &[f64]) -> f64 {
-    let apply = |layers: &[Dense], row: &[f64]| {
-        let mut row = row.to_vec();
-        for (i, layer) in layers.iter().enumerate() {
-            let (weight, bias) = (&parameters[layer.weight()], &parameters[layer.bias()]);
-            let sums = weight.chunks_exact(layer.input).zip(bias);
-            let sums = sums.map(|(weight, bias)| bias + weight.iter().zip(&row).map(|(w, x)| w * x).sum::<f64>());
-            row = sums.map(|z| if i + 1 == layers.len() || z > 0.0 { z } else { z.exp_m1() }).collect();
-        }
-        row
-    };
     let rows = observations.chunks_exact(shape.observation);
-    let outputs = rows.flat_map(|row| [apply(&shape.actor(), row), apply(&shape.critic(), row)].concat());
+    let outputs = rows
+        .flat_map(|row| [shape.actor(), shape.critic()].map(|layers| exact_output(&layers, parameters, row)).concat());
     outputs.zip(weights).map(|(output, weight)| output * weight).sum()
 }
 
@@ -89,7 +84,7 @@ fn the_gradient_of_actor_and_critic_agrees_with_finite_differences() -> Result<(
         let weights = wave(ROWS * (shape.action + 1), 2.1);
         let leaf = Var::from_slice(&numbers, numbers.len(), &Device::Cpu)?;
         let observations = Tensor::from_slice(&seen, (ROWS, shape.observation), &Device::Cpu)?;
-        let output = FusedNetworks::actor_critic(&shape, None).forward(&leaf, &observations)?;
+        let output = actor_critic(&shape, None).forward(&leaf, &observations)?;
         let loss = (output * Tensor::from_slice(&weights, (ROWS, shape.action + 1), &Device::Cpu)?)?.sum_all()?;
         let gradient = loss.backward()?.get(&leaf).expect("the parameters take part").to_vec1::<f32>()?;
 
@@ -127,12 +122,11 @@ fn actor_and_critic_alone_agree_with_both_together() -> Result<()> {
         let numbers = Tensor::new(parameters(&shape), &Device::Cpu)?;
         let observations =
             Tensor::from_vec(wave(rows * shape.observation, 1.37), (rows, shape.observation), &Device::Cpu)?;
-        let both = FusedNetworks::actor_critic(&shape, None).forward(&numbers, &observations)?;
-        let actor = FusedNetworks::actor(&shape, None).forward(&numbers, &observations)?;
-        let critic = FusedNetworks::critic(&shape, None).forward(&numbers, &observations)?;
-        for (alone, start) in [(actor, 0), (critic, shape.action)] {
-            let part = both.narrow(1, start, alone.dim(1)?)?;
-            let largest = (part - alone)?.abs()?.max_all()?.to_scalar::<f32>()?;
+        let both = actor_critic(&shape, None).forward(&numbers, &observations)?;
+        for (part, start) in [(NetworkPart::Actor, 0), (NetworkPart::Critic, shape.action)] {
+            let alone = FusedNetworks::new(&shape, part, None).forward(&numbers, &observations)?;
+            let together = both.narrow(1, start, alone.dim(1)?)?;
+            let largest = (together - alone)?.abs()?.max_all()?.to_scalar::<f32>()?;
             assert!(largest < 1e-5, "{shape:?}: {largest}");
         }
     }
@@ -143,10 +137,10 @@ fn actor_and_critic_alone_agree_with_both_together() -> Result<()> {
 fn the_number_of_threads_does_not_change_one_bit() {
     let shape = NetworkShape { observation: 9, action: 4, hidden: vec![32, 16] };
     let rows = CHUNK_ROWS * (LANES + 3) + 17;
-    let alone = FusedNetworks::actor_critic(&shape, None);
+    let alone = actor_critic(&shape, None);
     let expected = run(|p, x| alone.forward(p, x), &shape, rows);
     for threads in [1, 2, 3, 7] {
-        let networks = FusedNetworks::actor_critic(&shape, pool(threads));
+        let networks = actor_critic(&shape, pool(threads));
         assert_eq!(run(|p, x| networks.forward(p, x), &shape, rows), expected, "{threads} threads");
     }
 }
@@ -154,9 +148,9 @@ fn the_number_of_threads_does_not_change_one_bit() {
 #[test]
 fn reused_buffers_of_another_size_do_not_change_results() {
     let shape = NetworkShape { observation: 5, action: 2, hidden: vec![8] };
-    let networks = FusedNetworks::actor_critic(&shape, None);
+    let networks = actor_critic(&shape, None);
     let fresh = |rows| {
-        let networks = FusedNetworks::actor_critic(&shape, None);
+        let networks = actor_critic(&shape, None);
         run(|p, x| networks.forward(p, x), &shape, rows)
     };
     for rows in [3000, 10, 600, 1] {
@@ -168,7 +162,7 @@ fn reused_buffers_of_another_size_do_not_change_results() {
 #[test]
 fn two_forward_passes_before_one_backward_pass_do_not_disturb_each_other() -> Result<()> {
     let shape = NetworkShape { observation: 5, action: 2, hidden: vec![8] };
-    let networks = FusedNetworks::actor_critic(&shape, None);
+    let networks = actor_critic(&shape, None);
     let expected = run(|p, x| networks.forward(p, x), &shape, 20);
     let twice = run(
         |p, x| {
@@ -186,7 +180,7 @@ fn two_forward_passes_before_one_backward_pass_do_not_disturb_each_other() -> Re
 #[test]
 fn tensors_of_another_shape_are_refused() -> Result<()> {
     let shape = NetworkShape { observation: 5, action: 2, hidden: vec![8] };
-    let networks = FusedNetworks::actor_critic(&shape, None);
+    let networks = actor_critic(&shape, None);
     let parameters = Tensor::zeros(shape.parameter_count(), candle_core::DType::F32, &Device::Cpu)?;
     let wrong = Tensor::zeros((4, 6), candle_core::DType::F32, &Device::Cpu)?;
     let text = networks.forward(&parameters, &wrong).expect_err("six numbers per row").to_string();

@@ -15,17 +15,6 @@ pub fn clamp_log_std(log_std: &mut [f32]) {
     log_std.iter_mut().for_each(|l| *l = l.clamp(LOG_STD_MIN, LOG_STD_MAX));
 }
 
-/// Writes the standard deviations, `exp(log_std)`.
-///
-/// # Panics
-/// If the lengths differ.
-pub fn standard_deviations(log_std: &[f32], std: &mut [f32]) {
-    assert_eq!(log_std.len(), std.len(), "one standard deviation per action");
-    for (s, l) in std.iter_mut().zip(log_std) {
-        *s = l.clamp(LOG_STD_MIN, LOG_STD_MAX).exp();
-    }
-}
-
 /// Writes a sample of one row, `mean + std · normal`; `normals` are independent standard normal numbers, `[action]`.
 ///
 /// # Panics
@@ -105,9 +94,6 @@ mod tests {
 
     #[test]
     fn log_std_is_clamped_to_its_range() {
-        let mut std = [0.0; 3];
-        standard_deviations(&[-1e30, 0.0, 1e30], &mut std);
-        assert_eq!(std, [LOG_STD_MIN.exp(), 1.0, LOG_STD_MAX.exp()]);
         let mut action = [0.0];
         sample(&[0.0], &[f32::INFINITY], &[1.0], &mut action);
         assert_eq!(action[0], LOG_STD_MAX.exp());

@@ -181,7 +181,7 @@ fn multiply([m, n, k]: [usize; 3], left: Matrix, right: Matrix, product: &mut [f
 }
 
 #[cfg(test)]
-mod tests {
+pub(crate) mod tests {
     use super::*;
     use crate::NetworkShape;
 
@@ -203,21 +203,22 @@ mod tests {
         multiply([2, 1, 3], Matrix::row_major(&data, 3), Matrix::row_major(&data, 1), &mut [0.0; 2], false);
     }
 
-    /// Returns `Σ c · output` in f64, straight from the definition.
+    /// Returns the output of a network for one row in f64, straight from the definition.
+    pub(crate) fn exact_output(layers: &[Dense], parameters: &[f64], row: &[f64]) -> Vec<f64> {
+        let mut row = row.to_vec();
+        for (i, layer) in layers.iter().enumerate() {
+            let (weight, bias) = (&parameters[layer.weight()], &parameters[layer.bias()]);
+            row = (0..layer.output)
+                .map(|o| bias[o] + (0..layer.input).map(|k| weight[o * layer.input + k] * row[k]).sum::<f64>())
+                .map(|z| if i + 1 == layers.len() || z > 0.0 { z } else { z.exp_m1() })
+                .collect();
+        }
+        row
+    }
+
+    /// Returns `Σ c · output` in f64.
     fn weighted_output(layers: &[Dense], parameters: &[f64], input: &[f64], weights: &[f64]) -> f64 {
-        let columns = layers[0].input;
-        let outputs = input.chunks_exact(columns).flat_map(|row| {
-            let mut row = row.to_vec();
-            for (i, layer) in layers.iter().enumerate() {
-                let weight = &parameters[layer.weight()];
-                let bias = &parameters[layer.bias()];
-                row = (0..layer.output)
-                    .map(|o| bias[o] + (0..layer.input).map(|k| weight[o * layer.input + k] * row[k]).sum::<f64>())
-                    .map(|z| if i + 1 == layers.len() || z > 0.0 { z } else { z.exp_m1() })
-                    .collect();
-            }
-            row
-        });
+        let outputs = input.chunks_exact(layers[0].input).flat_map(|row| exact_output(layers, parameters, row));
         outputs.zip(weights).map(|(o, w)| o * w).sum()
     }
 

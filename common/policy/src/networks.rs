@@ -30,14 +30,10 @@ pub enum Networks {
 impl Networks {
     /// Returns the fastest implementation for `device`. A CPU uses the threads of `pool`.
     pub fn on(device: &Device, shape: &NetworkShape, part: NetworkPart, pool: Option<Arc<ThreadPool>>) -> Self {
-        if !device.is_cpu() {
-            return Self::Plain(shape.clone(), part);
+        match device.is_cpu() {
+            true => Self::Fused(FusedNetworks::new(shape, part, pool)),
+            false => Self::Plain(shape.clone(), part),
         }
-        Self::Fused(match part {
-            NetworkPart::ActorCritic => FusedNetworks::actor_critic(shape, pool),
-            NetworkPart::Actor => FusedNetworks::actor(shape, pool),
-            NetworkPart::Critic => FusedNetworks::critic(shape, pool),
-        })
     }
 
     /// Applies the networks to `observations`, `[rows, observation]`; `parameters` is the flat vector, on the same device.

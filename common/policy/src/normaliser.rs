@@ -7,9 +7,9 @@ use serde::{Deserialize, Serialize};
 
 /// Added to a variance before its root is taken, so that a constant column is not divided by zero.
 pub const VARIANCE_EPSILON: f64 = 1e-5;
-/// See [`ScalarNormaliser::from_moments`].
+/// Floor of a standard deviation as a fraction of the mean; see [`ScalarNormaliser::from_moments`].
 const STD_FLOOR: f64 = 1e-4;
-/// See [`ScalarNormaliser::from_moments`].
+/// Least floor of a standard deviation.
 const STD_MIN: f64 = 1e-12;
 
 /// Running count, mean and sum of squared deviations of each column.
@@ -80,6 +80,11 @@ impl RunningMoments {
         let divide = |m2: &f64| if self.count > 0.0 { m2 / self.count } else { 1.0 };
         self.m2.iter().map(divide).collect()
     }
+
+    /// Returns whether all moments are finite.
+    pub fn is_finite(&self) -> bool {
+        self.count.is_finite() && self.mean.iter().chain(&self.m2).all(|number| number.is_finite())
+    }
 }
 
 /// Normalisation `(x − mean) / √(variance + ε)`, clipped; ε is [`VARIANCE_EPSILON`].
@@ -91,13 +96,6 @@ pub struct Normaliser {
     pub inverse_std: Vec<f32>,
     /// Limit to which results are clipped, in both directions.
     pub clip: f32,
-}
-
-impl RunningMoments {
-    /// Returns whether all moments are finite.
-    pub fn is_finite(&self) -> bool {
-        self.count.is_finite() && self.mean.iter().chain(&self.m2).all(|number| number.is_finite())
-    }
 }
 
 impl Normaliser {
@@ -163,7 +161,7 @@ impl Normaliser {
 pub struct ScalarNormaliser {
     /// Mean of the quantity.
     pub mean: f32,
-    /// `√(variance + (floor · mean)²)` of the quantity; see [`ScalarNormaliser::from_moments`].
+    /// Standard deviation of the quantity, with a floor; see [`ScalarNormaliser::from_moments`].
     pub std: f32,
 }
 
@@ -180,12 +178,9 @@ impl ScalarNormaliser {
         if moments.count == 0.0 {
             return Self { mean: 0.0, std: 1.0 };
         }
-        Self { mean: moments.mean[0] as f32, std: Self::std(moments) }
-    }
-
-    fn std(moments: &RunningMoments) -> f32 {
         let floor = (STD_FLOOR * moments.mean[0]).abs().max(STD_MIN);
-        (moments.variance()[0] + floor * floor).sqrt() as f32
+        let std = (moments.variance()[0] + floor * floor).sqrt() as f32;
+        Self { mean: moments.mean[0] as f32, std }
     }
 
     /// Normalises numbers in place.

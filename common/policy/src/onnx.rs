@@ -1,4 +1,4 @@
-//! A policy as an ONNX model, for other programs.
+//! Exports a policy as an ONNX model, for other programs.
 
 use treadmill_proto::onnx::{Layer, OnnxPolicy};
 
@@ -9,7 +9,7 @@ use crate::exported::ExportedPolicy;
 #[must_use]
 pub fn to_onnx(policy: &ExportedPolicy) -> Vec<u8> {
     let normaliser = policy.normaliser();
-    let layer = |range: std::ops::Range<usize>| &policy.parameters[range];
+    let part = |range: std::ops::Range<usize>| &policy.parameters[range];
     let layers = policy.shape.actor();
     let metadata = [
         ("observation", policy.observation.kind.clone()),
@@ -20,7 +20,7 @@ pub fn to_onnx(policy: &ExportedPolicy) -> Vec<u8> {
         mean: &normaliser.mean,
         inverse_std: &normaliser.inverse_std,
         clip: normaliser.clip,
-        layers: layers.iter().map(|dense| Layer { weight: layer(dense.weight()), bias: layer(dense.bias()) }).collect(),
+        layers: layers.iter().map(|dense| Layer { weight: part(dense.weight()), bias: part(dense.bias()) }).collect(),
         low: &policy.action.low,
         high: &policy.action.high,
         metadata: metadata.map(|(key, value)| (format!("treadmill.{key}"), value)).to_vec(),

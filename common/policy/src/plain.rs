@@ -1,6 +1,6 @@
 //! Networks from Candle's own operations and gradients, for any device.
 //!
-//! Several times slower than `fused` on a CPU; the tests of `fused` use it as the reference.
+//! They are several times slower than `fused` on a CPU; the tests of `fused` use them as the reference.
 
 use candle_core::{Result, Tensor};
 use candle_nn::{Activation, Linear, Module};

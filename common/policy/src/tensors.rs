@@ -71,7 +71,8 @@ pub fn check_parameters(shape: &NetworkShape, parameters: &[f32]) -> Result<(), 
     if parameters.len() != expected {
         return Err(ParameterError::Count { found: parameters.len(), expected });
     }
-    shape.tensors().iter().try_for_each(|tensor| check_finite(tensor, &parameters[tensor.range()]))
+    let numbers = |tensor: &NamedTensor| parameters[tensor.range()].iter().copied().map(f64::from);
+    shape.tensors().iter().try_for_each(|tensor| check_finite(&tensor.name, numbers(tensor)))
 }
 
 /// Returns the parameters as safetensors bytes.
@@ -126,7 +127,7 @@ pub fn from_safetensors(bytes: &[u8], shape: &NetworkShape) -> Result<Vec<f32>, 
         for (number, bytes) in target.iter_mut().zip(data.as_chunks::<4>().0) {
             *number = f32::from_le_bytes(*bytes);
         }
-        check_finite(&tensor, target)?;
+        check_finite(&tensor.name, target.iter().copied().map(f64::from))?;
     }
     Ok(parameters)
 }
@@ -138,10 +139,8 @@ pub fn from_safetensors(bytes: &[u8], shape: &NetworkShape) -> Result<Vec<f32>, 
 pub(crate) fn column(file: &SafeTensors<'_>, name: &str, length: usize) -> Result<Vec<f64>, ParameterError> {
     let data = data_of(file, name, &[length], Dtype::F64, "F64")?;
     let numbers: Vec<f64> = data.as_chunks::<8>().0.iter().map(|bytes| f64::from_le_bytes(*bytes)).collect();
-    match numbers.iter().position(|x| !x.is_finite()) {
-        None => Ok(numbers),
-        Some(index) => Err(ParameterError::NonFinite { name: name.to_string(), index, value: numbers[index] }),
-    }
+    check_finite(name, numbers.iter().copied())?;
+    Ok(numbers)
 }
 
 /// Returns the bytes of one tensor after checking its shape and number type.
@@ -167,13 +166,10 @@ fn data_of<'a>(
     Ok(view.data())
 }
 
-fn check_finite(tensor: &NamedTensor, numbers: &[f32]) -> Result<(), ParameterError> {
-    match numbers.iter().position(|x| !x.is_finite()) {
+fn check_finite(name: &str, numbers: impl IntoIterator<Item = f64>) -> Result<(), ParameterError> {
+    match numbers.into_iter().enumerate().find(|(_, number)| !number.is_finite()) {
         None => Ok(()),
-        Some(index) => {
-            let value = f64::from(numbers[index]);
-            Err(ParameterError::NonFinite { name: tensor.name.clone(), index, value })
-        }
+        Some((index, value)) => Err(ParameterError::NonFinite { name: name.to_string(), index, value }),
     }
 }
 

@@ -5,8 +5,8 @@
 //! - [`run_folder`]: the folder with a run's files.
 //! - [`atomic_file`]: writes a file atomically.
 //! - [`shutdown`]: stops every part of a process.
-//! - [`error_chain`]: an error's message with its causes.
-//! - [`machine`]: hardware facts for benchmark sheets.
+//! - [`error_chain`]: an error message with its causes.
+//! - [`machine`]: facts about this machine, for benchmarks and status reports.
 
 pub mod atomic_file;
 mod error_chain;

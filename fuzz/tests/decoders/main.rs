@@ -91,17 +91,21 @@ fn find_target(name: &str) -> (Target, usize) {
     (found.1, found.3)
 }
 
+/// Calls `test` with `cases` values of a strategy.
+fn run_cases<S: Strategy>(name: &str, cases: u32, values: S, test: impl Fn(S::Value)) {
+    let mut runner = TestRunner::new(Config { cases, failure_persistence: None, ..Config::default() });
+    let outcome = runner.run(&values, |value| {
+        test(value);
+        Ok(())
+    });
+    outcome.unwrap_or_else(|error| panic!("{name}: {error}"));
+}
+
 #[test]
 fn random_bytes_are_decoded_safely() {
     for (name, target, _, factor) in TARGETS {
-        let mut runner = TestRunner::new(Config { cases: cases(), failure_persistence: None, ..Config::default() });
         let bytes = prop::collection::vec(any::<u8>(), 0..300);
-        runner
-            .run(&bytes, |bytes| {
-                run_target(name, *target, *factor, &bytes);
-                Ok(())
-            })
-            .unwrap_or_else(|error| panic!("{name}: {error}"));
+        run_cases(name, cases(), bytes, |bytes| run_target(name, *target, *factor, &bytes));
     }
 }
 
@@ -112,16 +116,11 @@ fn mutated_samples_are_decoded_safely() {
         target(&sample);
         // Decoding a robot or a checkpoint takes a thousand times as long as a receipt.
         let cases = if sample.len() > 4000 { cases() / 10 } else { cases() };
-        let mut runner = TestRunner::new(Config { cases, failure_persistence: None, ..Config::default() });
-        let mutations = prop::collection::vec(mutation(), 1..6);
-        runner
-            .run(&mutations, |mutations| {
-                let mut bytes = sample.clone();
-                mutations.iter().for_each(|mutation| apply(&mut bytes, mutation));
-                run_target(name, *target, *factor, &bytes);
-                Ok(())
-            })
-            .unwrap_or_else(|error| panic!("{name}: {error}"));
+        run_cases(name, cases, prop::collection::vec(mutation(), 1..6), |mutations| {
+            let mut bytes = sample.clone();
+            mutations.iter().for_each(|mutation| apply(&mut bytes, mutation));
+            run_target(name, *target, *factor, &bytes);
+        });
     }
 }
 

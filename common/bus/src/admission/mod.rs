@@ -80,8 +80,7 @@ struct State {
     waiting: HashMap<Sender, usize>,
     newcomers: usize,
     newcomers_bytes: usize,
-    /// Newcomers' budget and the time it was computed.
-    budget: Option<(f64, Instant)>,
+    newcomers_budget: Budget,
     unread: Unread,
 }
 
@@ -144,7 +143,8 @@ impl Admission {
         let has_space = if is_newcomer {
             let has_space =
                 state.newcomers < self.newcomers_max && state.newcomers_bytes + bytes <= NEWCOMERS_BYTES_MAX;
-            if !state.spend(if has_space { 1.0 } else { BUSY_COST }, now) {
+            let cost = if has_space { 1.0 } else { BUSY_COST };
+            if !state.newcomers_budget.spend(cost, NEWCOMERS_PER_S, NEWCOMERS_BURST, now) {
                 state.unread.turned_away += 1;
                 return Err(Refusal::Flood);
             }
@@ -214,7 +214,8 @@ impl Admission {
     /// Returns the names of the senders in quarantine.
     pub fn quarantined(&self, now: Instant) -> Vec<String> {
         let state = self.state();
-        let quarantined = state.failures.iter().filter(|(_, failures)| failures.quarantine(self.quarantine_after, now));
+        let quarantined =
+            state.failures.iter().filter(|(_, failures)| failures.is_quarantined(self.quarantine_after, now));
         let mut names: Vec<String> = quarantined.map(|(sender, _)| sender.name.clone()).collect();
         names.dedup();
         names
@@ -227,7 +228,7 @@ impl Admission {
 }
 
 impl Failures {
-    fn quarantine(&self, after: u32, now: Instant) -> bool {
+    fn is_quarantined(&self, after: u32, now: Instant) -> bool {
         self.in_a_row >= after && now.duration_since(self.last) < QUARANTINE
     }
 }
@@ -242,7 +243,7 @@ impl State {
 
     fn is_quarantined(&mut self, sender: &Sender, after: u32, now: Instant) -> bool {
         match self.failures.get(sender) {
-            Some(failures) if failures.quarantine(after, now) => true,
+            Some(failures) if failures.is_quarantined(after, now) => true,
             Some(failures) if failures.in_a_row >= after => {
                 self.failures.remove(sender);
                 false
@@ -256,21 +257,26 @@ impl State {
     fn failures_of(&mut self, sender: &Sender, after: u32, now: Instant) -> &mut Failures {
         if self.failures.len() >= SENDERS_MAX && !self.failures.contains_key(sender) {
             let oldest =
-                self.failures.iter().min_by_key(|(_, failures)| (failures.quarantine(after, now), failures.last));
+                self.failures.iter().min_by_key(|(_, failures)| (failures.is_quarantined(after, now), failures.last));
             let oldest = oldest.map(|(sender, _)| sender.clone());
             oldest.map(|sender| self.failures.remove(&sender));
         }
         let fresh = Failures { in_a_row: 0, useless_in_a_row: 0, last: now };
         self.failures.entry(sender.clone()).or_insert(fresh)
     }
+}
 
-    /// Spends `cost` of the newcomers' budget. Returns whether there was enough.
-    fn spend(&mut self, cost: f64, now: Instant) -> bool {
-        let (left, computed) = self.budget.unwrap_or((NEWCOMERS_BURST, now));
-        let earned = now.saturating_duration_since(computed).as_secs_f64() * NEWCOMERS_PER_S;
-        let left = (left + earned).min(NEWCOMERS_BURST);
+/// Budget that refills over time: what is left, and the time it was computed. It starts full.
+#[derive(Debug, Default)]
+struct Budget(Option<(f64, Instant)>);
+
+impl Budget {
+    /// Spends `cost` of a budget that earns `per_s` per second up to `most`. Returns whether there was enough.
+    fn spend(&mut self, cost: f64, per_s: f64, most: f64, now: Instant) -> bool {
+        let (left, computed) = self.0.unwrap_or((most, now));
+        let left = (left + now.saturating_duration_since(computed).as_secs_f64() * per_s).min(most);
         let enough = left >= cost;
-        self.budget = Some((if enough { left - cost } else { left }, now));
+        self.0 = Some((if enough { left - cost } else { left }, now));
         enough
     }
 }

@@ -14,6 +14,7 @@ use tokio::{
     task::{block_in_place, coop::has_budget_remaining},
 };
 
+use super::Budget;
 use crate::workarounds::yield_read::yield_read;
 
 /// One pause. Waking a thread disturbs the others for far longer than a message costs, so pauses are few and long.
@@ -26,14 +27,13 @@ const PAUSES_PER_READ: u32 = 40;
 #[derive(Debug)]
 pub(crate) struct ReadThrottle {
     per_s: f64,
-    /// Budget and the time it was computed.
-    state: Mutex<Option<(f64, Instant)>>,
+    budget: Mutex<Budget>,
 }
 
 impl ReadThrottle {
     /// Allows `per_s` messages per second, and as many at once after a silence of a second.
     pub(crate) fn new(per_s: f64) -> Self {
-        Self { per_s, state: Mutex::default() }
+        Self { per_s, budget: Mutex::default() }
     }
 
     /// Counts one message; pauses if the budget is spent.
@@ -44,12 +44,7 @@ impl ReadThrottle {
     }
 
     fn spend(&self, now: Instant) -> bool {
-        let mut state = self.state.lock().expect("no holder of this lock panics");
-        let (left, computed) = state.unwrap_or((self.per_s, now));
-        let left = (left + now.saturating_duration_since(computed).as_secs_f64() * self.per_s).min(self.per_s);
-        let enough = left >= 1.0;
-        *state = Some((if enough { left - 1.0 } else { left }, now));
-        enough
+        self.budget.lock().expect("no holder of this lock panics").spend(1.0, self.per_s, self.per_s, now)
     }
 }
 

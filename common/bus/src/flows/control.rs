@@ -32,7 +32,7 @@ impl PendingRequest {
             false => keys::status(run),
         };
         if let Err(error) = self.query.reply(key, reply.to_bytes()).wait() {
-            tracing::debug!(%error, "control reply not sent");
+            tracing::debug!(what = "control reply", %error, "reply not sent");
         }
     }
 }

@@ -6,7 +6,7 @@
 
 use std::sync::{
     Arc,
-    atomic::{AtomicBool, AtomicUsize, Ordering},
+    atomic::{AtomicUsize, Ordering},
     mpsc::{Receiver, SyncSender, sync_channel},
 };
 
@@ -18,17 +18,17 @@ use zenoh::{
     qos::{CongestionControl, Priority},
 };
 
-use crate::{Bus, BusError, keys};
+use super::start_thread;
+use crate::{Bus, BusError, Watched, keys};
 
 /// Copies that may wait for the link.
 const QUEUE: usize = 32;
 /// Bytes of copies that may wait for the link.
 const QUEUE_BYTES_MAX: usize = 64 << 20;
-const THREAD: &str = "rollout-copies";
 
 /// Sends copies of accepted fragments.
 pub struct RolloutCopies {
-    is_watched: Arc<AtomicBool>,
+    watched: Watched,
     waiting_bytes: Arc<AtomicUsize>,
     queue: SyncSender<(String, ZBytes)>,
     /// Reports whether a subscriber exists; it publishes nothing.
@@ -39,44 +39,30 @@ pub struct RolloutCopies {
 impl RolloutCopies {
     /// Starts the thread and watches for subscribers.
     pub fn open(bus: &Bus, run: &str) -> Result<Self, BusError> {
-        let is_watched = Arc::new(AtomicBool::new(false));
         // One publisher for all actors: one for each name ever seen would need unbounded memory.
         let publisher = bus
             .session
             .declare_publisher(keys::rollout_copies(run, "*"))
             .wait()
             .map_err(BusError::flow("declaring copies of fragments"))?;
-        let listener = publisher
-            .matching_listener()
-            .callback({
-                let is_watched = is_watched.clone();
-                move |status| is_watched.store(status.matching(), Ordering::Relaxed)
-            })
-            .wait()
-            .map_err(BusError::flow("looking for recorders"))?;
-        if publisher.matching_status().wait().is_ok_and(|status| status.matching()) {
-            is_watched.store(true, Ordering::Relaxed);
-        }
+        let (watched, listener) = Watched::follow(&publisher, "looking for recorders")?;
         let (queue, waiting) = sync_channel::<(String, ZBytes)>(QUEUE);
         let waiting_bytes = Arc::new(AtomicUsize::new(0));
-        std::thread::Builder::new()
-            .name(THREAD.to_string())
-            .spawn({
-                let (session, run, waiting_bytes) = (bus.session.clone(), run.to_string(), waiting_bytes.clone());
-                move || send(&session, &run, waiting, &waiting_bytes)
-            })
-            .map_err(BusError::thread(THREAD))?;
-        Ok(Self { is_watched, waiting_bytes, queue, _publisher: publisher, _listener: listener })
+        start_thread("rollout-copies", {
+            let (session, run, waiting_bytes) = (bus.session.clone(), run.to_string(), waiting_bytes.clone());
+            move || send(&session, &run, waiting, &waiting_bytes)
+        })?;
+        Ok(Self { watched, waiting_bytes, queue, _publisher: publisher, _listener: listener })
     }
 
     /// Returns whether a subscriber exists now.
     pub fn is_watched(&self) -> bool {
-        self.is_watched.load(Ordering::Relaxed)
+        self.watched.now()
     }
 
     /// Returns the flag that says whether a subscriber exists.
-    pub(super) fn watched_flag(&self) -> Arc<AtomicBool> {
-        self.is_watched.clone()
+    pub(super) fn watched(&self) -> Watched {
+        self.watched.clone()
     }
 
     /// Queues a copy, or drops it if too many wait.

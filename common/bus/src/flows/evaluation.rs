@@ -16,14 +16,13 @@ use zenoh::{
     query::{Query, Queryable},
 };
 
-use super::first_valid;
+use super::{first_valid, reply, start_thread};
 use crate::{Bus, BusError, admission::rate_limited_log::RateLimitedLog, admission::read_throttle::ReadThrottle, keys};
 
 /// Requests, and reports, that may wait. Further requests get no answer, and the evaluator asks again.
 const QUEUE: usize = 64;
 /// Requests per second above which the link is throttled.
 const REQUESTS_PER_S: f64 = 200.0;
-const THREAD: &str = "evaluation-server";
 
 /// Version and bundle of the policy to evaluate.
 type Candidate = RwLock<Option<(PolicyVersion, Bytes)>>;
@@ -41,13 +40,10 @@ impl EvaluationServer {
         let candidate = Arc::new(RwLock::new(None));
         let (request_sender, requests) = sync_channel::<Query>(QUEUE);
         let (report_sender, reports) = sync_channel(QUEUE);
-        std::thread::Builder::new()
-            .name(THREAD.to_string())
-            .spawn({
-                let (candidate, run) = (candidate.clone(), run.to_string());
-                move || serve(requests, &run, &candidate, &report_sender)
-            })
-            .map_err(BusError::thread(THREAD))?;
+        start_thread("evaluation-server", {
+            let (candidate, run) = (candidate.clone(), run.to_string());
+            move || serve(requests, &run, &candidate, &report_sender)
+        })?;
         let throttle = ReadThrottle::new(REQUESTS_PER_S);
         let queryable = bus
             .session
@@ -94,12 +90,7 @@ fn read_report(query: &Query, run: &str, rejections: &RateLimitedLog) -> Option<
         Ok(report) if report.run == run && report.evaluator == evaluator => return Some(report),
         Ok(report) => rejections.emit(|| {
             let (run, claimed) = (report.run, report.evaluator);
-            tracing::warn!(
-                evaluator,
-                run,
-                claimed,
-                "evaluation report rejected: its run or evaluator differs from the key"
-            );
+            tracing::warn!(evaluator, run, claimed, "evaluation report rejected: it does not match its key");
         }),
         Err(error) => rejections.emit(|| tracing::warn!(%error, "evaluation report rejected")),
     }
@@ -113,9 +104,7 @@ fn answer(query: &Query, candidate: &Candidate, evaluated: Option<PolicyVersion>
         Some((version, bundle)) if evaluated != Some(version) => bundle,
         _ => Bytes::new(),
     };
-    if let Err(error) = query.reply(query.key_expr().clone(), bundle).wait() {
-        tracing::debug!(%error, "policy for evaluation not sent");
-    }
+    reply(query, bundle, "policy for evaluation");
 }
 
 /// Learner's answer to an evaluator.

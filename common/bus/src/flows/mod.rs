@@ -12,10 +12,33 @@ pub(crate) mod received;
 pub(crate) mod rollouts;
 pub(crate) mod stats;
 pub(crate) mod tasks;
+pub(crate) mod watched;
 
 use bytes::Bytes;
 use treadmill_proto::Malformed;
-use zenoh::{handlers::FifoChannelHandler, query::Reply};
+use zenoh::{
+    Wait,
+    bytes::ZBytes,
+    handlers::FifoChannelHandler,
+    query::{Query, Reply},
+};
+
+use crate::BusError;
+
+/// Starts a thread.
+fn start_thread(name: &str, work: impl FnOnce() + Send + 'static) -> Result<(), BusError> {
+    let started = std::thread::Builder::new().name(name.to_string()).spawn(work);
+    started
+        .map(drop)
+        .map_err(|error| BusError::Flow { what: format!("starting thread {name}"), why: error.to_string() })
+}
+
+/// Answers a query on its own key; logs a failure as `what`.
+fn reply(query: &Query, payload: impl Into<ZBytes>, what: &'static str) {
+    if let Err(error) = query.reply(query.key_expr().clone(), payload).wait() {
+        tracing::debug!(what, %error, "reply not sent");
+    }
+}
 
 /// Returns the first valid reply to a query, or `None` if none came in time. Logs invalid replies as `what`.
 async fn first_valid<T>(

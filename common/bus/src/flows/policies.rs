@@ -19,7 +19,7 @@ use zenoh::{
     sample::Sample,
 };
 
-use super::first_valid;
+use super::{first_valid, start_thread};
 use crate::{Bus, BusError, admission::read_throttle::ReadThrottle, keys};
 
 /// Policy requests that may wait for a server thread.
@@ -44,11 +44,7 @@ impl PolicyServer {
         let (key, requests) = (keys::policy_latest(run), Arc::new(Mutex::new(requests)));
         for number in 0..THREADS {
             let (current, key, requests) = (current.clone(), key.clone(), requests.clone());
-            let name = format!("policy-server-{number}");
-            std::thread::Builder::new()
-                .name(name.clone())
-                .spawn(move || serve(&current, &key, &requests))
-                .map_err(BusError::thread(&name))?;
+            start_thread(&format!("policy-server-{number}"), move || serve(&current, &key, &requests))?;
         }
         let throttle = ReadThrottle::new(REQUESTS_PER_S);
         let queryable = bus
@@ -90,7 +86,7 @@ fn serve(current: &RwLock<Bytes>, key: &str, requests: &Mutex<Receiver<Query>>) 
         let bundle = current.read().expect("no holder of this lock panics").clone();
         // The reply's key names the run even if the request did not.
         if let Err(error) = query.reply(key, bundle).wait() {
-            tracing::debug!(%error, "policy bundle not sent");
+            tracing::debug!(what = "policy bundle", %error, "reply not sent");
         }
     }
 }

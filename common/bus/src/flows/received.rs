@@ -1,4 +1,4 @@
-//! Fragment as it arrives, decoded straight from the bus's buffers.
+//! Fragments as they arrive, decoded straight from the bus's buffers.
 
 use std::{
     io::Read,
@@ -8,12 +8,12 @@ use std::{
 use treadmill_proto::{Fragment, Malformed, fragment::claimed_incarnation};
 use zenoh::bytes::ZBytes;
 
-/// A payload in one piece of at least this size came through shared memory.
-const SHARED_BYTES_MIN: usize = 64 << 10;
+use crate::session::SHARED_BYTES_MIN;
+
 /// Bytes at the start of a fragment that hold run, actor and incarnation.
 const HEADER_BYTES: usize = 160;
 
-/// Received fragment, decoded, or why it cannot be.
+/// Received fragment, decoded, or the reason why it cannot be decoded.
 #[derive(Clone, Debug)]
 pub struct ReceivedFragment {
     /// Incarnation that it claims.
@@ -28,6 +28,7 @@ impl ReceivedFragment {
     /// Decodes a payload in as many pieces as it lies in, and counts it in `shared` if it came through shared memory.
     pub(super) fn read(payload: &ZBytes, shared: &AtomicU64) -> Self {
         let pieces: Vec<&[u8]> = payload.slices().collect();
+        // A payload of this size in one piece came through shared memory.
         if pieces.len() == 1 && payload.len() >= SHARED_BYTES_MIN {
             shared.fetch_add(1, Ordering::Relaxed);
         }

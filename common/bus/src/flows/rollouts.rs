@@ -3,7 +3,7 @@
 use std::{
     sync::{
         Arc,
-        atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering},
+        atomic::{AtomicU64, AtomicUsize, Ordering},
         mpsc::{Receiver, SyncSender, TrySendError, sync_channel},
     },
     time::{Duration, Instant},
@@ -18,9 +18,9 @@ use zenoh::{
     query::{Query, Queryable},
 };
 
-use super::{first_valid, received::incarnation_of};
+use super::{first_valid, received::incarnation_of, reply, start_thread};
 use crate::{
-    Bus, BusError, ReceivedFragment, RolloutCopies,
+    Bus, BusError, ReceivedFragment, RolloutCopies, Watched,
     admission::{Admission, AdmissionPermit, Refusal, rate_limited_log::RateLimitedLog, read_throttle::ReadThrottle},
     keys,
 };
@@ -31,7 +31,6 @@ const INTAKE_BYTES_MAX: usize = 128 << 20;
 const REFUSALS_QUEUE: usize = 1024;
 /// Rate of fragments refused unread above which the link is throttled.
 const REFUSALS_PER_S: f64 = 100.0;
-const REFUSALS_THREAD: &str = "refusals";
 /// Stands for every invalid name. No actor can have it.
 const INVALID_NAME: &str = "?";
 
@@ -49,9 +48,9 @@ pub struct IncomingFragment {
 }
 
 impl IncomingFragment {
-    /// Sends the receipt, which frees the sender's credit.
+    /// Sends the receipt, which frees the sender's credit. A sender that lost its link sends the fragment again.
     pub fn answer(self, receipt: &Receipt) {
-        reply(&self.query, receipt);
+        reply(&self.query, receipt.encode(), "receipt");
     }
 
     /// Takes the fragment, once, and frees its place in the queue. The receipt is still owed.
@@ -79,13 +78,6 @@ impl Drop for IncomingFragment {
     }
 }
 
-fn reply(query: &Query, receipt: &Receipt) {
-    if let Err(error) = query.reply(query.key_expr().clone(), receipt.encode()).wait() {
-        // The sender left or lost its link. It sends again, and the ledger knows the fragment.
-        tracing::debug!(%error, "receipt not sent");
-    }
-}
-
 /// Bounded queue of fragments on their way into the learner.
 pub struct RolloutIntake {
     queue: Receiver<IncomingFragment>,
@@ -104,13 +96,13 @@ impl RolloutIntake {
         copies: &RolloutCopies,
     ) -> Result<Self, BusError> {
         let (sender, queue) = sync_channel(capacity);
-        let (shared, is_watched) = (Arc::new(AtomicU64::new(0)), copies.watched_flag());
+        let shared = Arc::new(AtomicU64::new(0));
         let receiver = RolloutReceiver {
             admission,
             queue: sender,
             queued_bytes: Arc::default(),
             shared: shared.clone(),
-            is_watched,
+            watched: copies.watched(),
             refusals: start_refusals()?,
             rejection_log: RateLimitedLog::default(),
             quarantine_log: RateLimitedLog::default(),
@@ -142,7 +134,7 @@ struct RolloutReceiver {
     queue: SyncSender<IncomingFragment>,
     queued_bytes: Arc<AtomicUsize>,
     shared: Arc<AtomicU64>,
-    is_watched: Arc<AtomicBool>,
+    watched: Watched,
     refusals: SyncSender<(Query, Receipt)>,
     rejection_log: RateLimitedLog,
     quarantine_log: RateLimitedLog,
@@ -177,7 +169,7 @@ impl RolloutReceiver {
         let incoming = IncomingFragment {
             actor: actor.to_string(),
             received: Some(ReceivedFragment::read(&payload, &self.shared)),
-            encoded: self.is_watched.load(Ordering::Relaxed).then_some(payload),
+            encoded: self.watched.now().then_some(payload),
             bytes: size,
             query,
             queued_bytes: self.queued_bytes.clone(),
@@ -225,10 +217,9 @@ fn unreadable(named: Result<(), Malformed>, size: usize) -> Option<String> {
 /// Starts the thread that sends refusals; it ends when the returned sender is dropped.
 fn start_refusals() -> Result<SyncSender<(Query, Receipt)>, BusError> {
     let (sender, refusals) = sync_channel::<(Query, Receipt)>(REFUSALS_QUEUE);
-    std::thread::Builder::new()
-        .name(REFUSALS_THREAD.to_string())
-        .spawn(move || refusals.iter().for_each(|(query, receipt)| reply(&query, &receipt)))
-        .map_err(BusError::thread(REFUSALS_THREAD))?;
+    start_thread("refusals", move || {
+        refusals.iter().for_each(|(query, receipt)| reply(&query, receipt.encode(), "receipt"))
+    })?;
     Ok(sender)
 }
 

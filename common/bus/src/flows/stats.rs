@@ -49,7 +49,7 @@ impl StatsFeed {
         let arrived = std::mem::take(&mut *self.arrived.lock().expect("no holder of this lock panics"));
         arrived.into_iter().map(|(actor, bytes)| match ActorStats::decode_checked(&bytes) {
             Ok(stats) if stats.actor == actor => Ok(stats),
-            Ok(stats) => Err(format!("`{}` is named on the key of `{actor}`", stats.actor)),
+            Ok(stats) => Err(format!("from `{actor}`: they name `{}`", stats.actor)),
             Err(error) => Err(format!("from `{actor}`: {error}")),
         })
     }

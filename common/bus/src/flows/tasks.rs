@@ -8,15 +8,15 @@ use std::{
 use treadmill_proto::{Malformed, Task, TaskReceipt, TaskRegistration, ident::check_ident, limits::TASK_BYTES_MAX};
 use zenoh::{
     Wait,
+    bytes::ZBytes,
     query::{Query, Queryable},
 };
 
-use super::first_valid;
+use super::{first_valid, reply, start_thread};
 use crate::{Bus, BusError, keys};
 
 /// Registrations that may wait. Further ones get no answer, and the actor asks again.
 const QUEUE: usize = 64;
-const THREAD: &str = "task-server";
 
 /// Returns why a task cannot be this run's, or `None` if it can.
 pub type Objection = Box<dyn Fn(&Task) -> Option<String> + Send + Sync>;
@@ -32,22 +32,20 @@ impl TaskServer {
     pub fn open(bus: &Bus, run: &str, known: Option<Task>, objection: Objection) -> Result<Self, BusError> {
         let (sender, requests) = sync_channel::<Query>(QUEUE);
         let (accept, accepted) = sync_channel(1);
-        std::thread::Builder::new()
-            .name(THREAD.to_string())
-            .spawn({
-                let run = run.to_string();
-                move || serve(requests, &run, known, &objection, &accept)
-            })
-            .map_err(BusError::thread(THREAD))?;
+        start_thread("task-server", {
+            let run = run.to_string();
+            move || serve(requests, &run, known, &objection, &accept)
+        })?;
         let queryable = bus
             .session
             .declare_queryable(keys::tasks(run, "*"))
             .callback(move |query| {
-                let bytes = query.payload().map_or(0, zenoh::bytes::ZBytes::len);
-                // Before it takes a place in the queue.
+                let bytes = query.payload().map_or(0, ZBytes::len);
+                // Checked here, so that a large registration takes no place in the queue.
                 if bytes > TASK_BYTES_MAX {
                     let error = Malformed::TooLarge { what: "task", bytes, limit: TASK_BYTES_MAX };
-                    return answer(&query, &TaskReceipt { accepted: false, reason: error.to_string(), task: None });
+                    let refusal = TaskReceipt { accepted: false, reason: error.to_string(), task: None };
+                    return reply(&query, refusal.to_bytes(), "task receipt");
                 }
                 drop(sender.try_send(query));
             })
@@ -75,13 +73,7 @@ fn serve(
         if let Some(task) = known.as_ref().filter(|_| !was_known) {
             drop(accept.try_send(task.clone()));
         }
-        answer(&query, &receipt);
-    }
-}
-
-fn answer(query: &Query, receipt: &TaskReceipt) {
-    if let Err(error) = query.reply(query.key_expr().clone(), receipt.encode()).wait() {
-        tracing::debug!(%error, "task receipt not sent");
+        reply(&query, receipt.to_bytes(), "task receipt");
     }
 }
 
@@ -105,7 +97,7 @@ fn register(query: &Query, run: &str, known: &mut Option<Task>, objection: &Obje
 
 fn read(query: &Query, run: &str, actor: &str) -> Result<Task, Malformed> {
     check_ident("actor", actor)?;
-    let payload = query.payload().map(zenoh::bytes::ZBytes::to_bytes).unwrap_or_default();
+    let payload = query.payload().map(ZBytes::to_bytes).unwrap_or_default();
     let registration = TaskRegistration::decode(&payload)?;
     for (field, found, wanted) in [("run", &registration.run[..], run), ("actor", &registration.actor[..], actor)] {
         if found != wanted {
@@ -132,5 +124,5 @@ pub async fn register_task(
         .timeout(timeout)
         .await
         .map_err(BusError::flow("registering a task"))?;
-    Ok(first_valid(replies, "task receipt", |payload| TaskReceipt::decode(&payload)).await)
+    Ok(first_valid(replies, "task receipt", |payload| TaskReceipt::decode_checked(&payload)).await)
 }

@@ -142,11 +142,14 @@ fn size_limit(id: &str, message: &str, key: &str, bytes: usize) -> Value {
     json!({"id": id, "flows": IN, "messages": [message], "key_exprs": [key], "size_limit": bytes})
 }
 
+type Keys = &'static [&'static str];
+
 /// One permission of a role.
+#[derive(Clone)]
 struct Grant {
     flows: &'static [&'static str],
     messages: &'static [&'static str],
-    keys: &'static [&'static str],
+    keys: Keys,
 }
 
 const IN: &[&str] = &["ingress"];
@@ -163,12 +166,12 @@ const EVERYTHING: &[&str] = &[
     "declare_liveliness_subscriber",
     "liveliness_query",
 ];
-const POLICY: &[&str] = &["treadmill/*/policy/latest"];
-const ANNOUNCEMENT: &[&str] = &["treadmill/*/policy/version"];
-const STATUS: &[&str] = &["treadmill/*/status"];
-const TOKENS: &[&str] = &["treadmill/*/actors/*", "treadmill/*/learner"];
+const POLICY: Keys = &["treadmill/*/policy/latest"];
+const ANNOUNCEMENT: Keys = &["treadmill/*/policy/version"];
+const STATUS: Keys = &["treadmill/*/status"];
+const TOKENS: Keys = &["treadmill/*/actors/*", "treadmill/*/learner"];
 /// Keys that observers and operators may subscribe to.
-const PUBLIC: &[&str] = &[
+const PUBLIC: Keys = &[
     "treadmill/*/metrics/**",
     "treadmill/*/episodes/*",
     "treadmill/*/poses/*",
@@ -178,66 +181,43 @@ const PUBLIC: &[&str] = &[
 
 /// Copies of accepted fragments. No wildcard matches them, so every rule names them. Observers may read them: they reveal
 /// little more than episodes and statistics, and a slow link loses copies without delaying training.
-const COPIES: &[&str] = &["treadmill/*/@rollouts/*"];
+const COPIES: Keys = &["treadmill/*/@rollouts/*"];
+
+/// Allows queries on these keys, and their replies.
+fn query(keys: Keys) -> Vec<Grant> {
+    vec![
+        Grant { flows: IN, messages: &["query"], keys },
+        Grant { flows: OUT, messages: &["reply", "declare_queryable"], keys },
+    ]
+}
+
+/// Allows subscriptions to these keys, and their publications.
+fn subscribe(keys: Keys) -> Vec<Grant> {
+    vec![Grant { flows: IN, messages: &["declare_subscriber"], keys }, Grant { flows: OUT, messages: &["put"], keys }]
+}
 
 fn grants(role: Role) -> Vec<Grant> {
-    let read_policy = || {
-        vec![
-            Grant { flows: IN, messages: &["query"], keys: POLICY },
-            Grant { flows: OUT, messages: &["reply", "declare_queryable"], keys: POLICY },
-            Grant { flows: IN, messages: &["declare_subscriber"], keys: ANNOUNCEMENT },
-            Grant { flows: OUT, messages: &["put"], keys: ANNOUNCEMENT },
-        ]
-    };
-    let watch = || {
-        let mut grants = read_policy();
-        grants.extend([
-            Grant { flows: IN, messages: &["query"], keys: STATUS },
-            Grant { flows: OUT, messages: &["reply", "declare_queryable"], keys: STATUS },
-            Grant { flows: IN, messages: &["declare_subscriber"], keys: PUBLIC },
-            Grant { flows: OUT, messages: &["put"], keys: PUBLIC },
-            Grant { flows: IN, messages: &["declare_subscriber"], keys: COPIES },
-            Grant { flows: OUT, messages: &["put"], keys: COPIES },
-            Grant { flows: IN, messages: &["declare_liveliness_subscriber", "liveliness_query"], keys: TOKENS },
-            Grant { flows: OUT, messages: &["liveliness_token", "reply"], keys: TOKENS },
-        ]);
-        grants
-    };
+    let read_policy = [query(POLICY), subscribe(ANNOUNCEMENT)].concat();
+    let tokens = vec![
+        Grant { flows: IN, messages: &["declare_liveliness_subscriber", "liveliness_query"], keys: TOKENS },
+        Grant { flows: OUT, messages: &["liveliness_token", "reply"], keys: TOKENS },
+    ];
+    let watch = [read_policy.clone(), query(STATUS), subscribe(PUBLIC), subscribe(COPIES), tokens].concat();
     match role {
         Role::Learner | Role::Router => {
             vec![Grant { flows: BOTH, messages: EVERYTHING, keys: &["treadmill/**", "treadmill/*/@rollouts/*"] }]
         }
         Role::Actor => {
-            const ROLLOUTS: &[&str] = &["treadmill/*/rollouts/*", "treadmill/*/tasks/*"];
-            const PUBLISHED: &[&str] = &["treadmill/*/actors/*/stats", "treadmill/*/episodes/*", "treadmill/*/poses/*"];
-            let mut grants = read_policy();
-            grants.extend([
-                Grant { flows: IN, messages: &["query"], keys: ROLLOUTS },
-                Grant { flows: OUT, messages: &["reply", "declare_queryable"], keys: ROLLOUTS },
+            const PUBLISHED: Keys = &["treadmill/*/actors/*/stats", "treadmill/*/episodes/*", "treadmill/*/poses/*"];
+            let publish = vec![
                 Grant { flows: IN, messages: &["put"], keys: PUBLISHED },
                 Grant { flows: OUT, messages: &["declare_subscriber"], keys: PUBLISHED },
                 Grant { flows: IN, messages: &["liveliness_token"], keys: &["treadmill/*/actors/*"] },
-            ]);
-            grants
+            ];
+            [read_policy, query(&["treadmill/*/rollouts/*", "treadmill/*/tasks/*"]), publish].concat()
         }
-        Role::Evaluator => {
-            const EVALUATIONS: &[&str] = &["treadmill/*/evaluations/*"];
-            let mut grants = read_policy();
-            grants.extend([
-                Grant { flows: IN, messages: &["query"], keys: EVALUATIONS },
-                Grant { flows: OUT, messages: &["reply", "declare_queryable"], keys: EVALUATIONS },
-            ]);
-            grants
-        }
-        Role::Observer => watch(),
-        Role::Operator => {
-            const CONTROL: &[&str] = &["treadmill/*/control"];
-            let mut grants = watch();
-            grants.extend([
-                Grant { flows: IN, messages: &["query"], keys: CONTROL },
-                Grant { flows: OUT, messages: &["reply", "declare_queryable"], keys: CONTROL },
-            ]);
-            grants
-        }
+        Role::Evaluator => [read_policy, query(&["treadmill/*/evaluations/*"])].concat(),
+        Role::Observer => watch,
+        Role::Operator => [watch, query(&["treadmill/*/control"])].concat(),
     }
 }

@@ -21,8 +21,8 @@ const MESSAGE_BYTES_MAX: usize = 32 << 20;
 /// a client opens its session before it has that.
 const LEASE_MS: u64 = 4000;
 /// Smallest message that uses shared memory.
-const SHARED_BYTES_MIN: usize = 64 << 10;
-/// Shared memory of a process: two fragments of 3 MB. Messages that do not fit use the link.
+pub(crate) const SHARED_BYTES_MIN: usize = 64 << 10;
+/// Shared memory of a process: two fragments of 3 MB.
 const SHARED_POOL_BYTES: usize = 8 << 20;
 
 /// Most sessions of a router; the system's limit on open files may allow fewer.
@@ -80,7 +80,7 @@ impl Bus {
             endpoint::check_free(&endpoint)?;
             listen.push(endpoint);
         }
-        let mut settings = base(options)?;
+        let mut settings = base_settings(options)?;
         let files = rlimit::increase_nofile_limit(SESSIONS_MAX + ACCEPT_PENDING + OTHER_FILES).unwrap_or(1024);
         let sessions = files.saturating_sub(ACCEPT_PENDING + OTHER_FILES).clamp(16, SESSIONS_MAX);
         insert(&mut settings, "transport/unicast/max_sessions", json!(sessions))?;
@@ -106,7 +106,7 @@ impl Bus {
     /// Opens the session of a client, which dials until it is admitted.
     pub fn open_client(options: &BusOptions) -> Result<Self, BusError> {
         options.check()?;
-        let mut settings = base(options)?;
+        let mut settings = base_settings(options)?;
         insert(&mut settings, "mode", json!("client"))?;
         let mut endpoints = options.connect.clone();
         if options.discover {
@@ -147,7 +147,7 @@ fn dial(settings: &mut Config, endpoints: &[String]) -> Result<(), BusError> {
     )
 }
 
-fn base(options: &BusOptions) -> Result<Config, BusError> {
+fn base_settings(options: &BusOptions) -> Result<Config, BusError> {
     let mut settings = match options.zenoh_config.as_deref() {
         Some(path) => Config::from_file(path).map_err(|error| BusError::Config {
             what: format!("--zenoh-config {}", path.display()),
