@@ -9,7 +9,7 @@ use treadmill_proto::{ControlReply, ident::check_ident};
 use treadmill_runtime::run_folder::RunFolder;
 
 use crate::{
-    launch::{exit_code::Usage, slow_step::SlowStepNotice},
+    launch::{async_runtime, exit_code::Usage, slow_step::SlowStepNotice},
     shared::network_args::NetworkArgs,
 };
 
@@ -116,19 +116,14 @@ pub fn connect(
 /// # Errors
 /// If the bus cannot be joined, or the work fails.
 pub fn connect_with(options: BusOptions, work: impl AsyncFnOnce(Bus) -> anyhow::Result<()>) -> anyhow::Result<()> {
-    let runtime =
-        tokio::runtime::Builder::new_multi_thread().worker_threads(2).enable_all().build().context("no runtime")?;
-    let outcome = runtime.block_on(async {
+    async_runtime::run(async {
         let step = SlowStepNotice::begin(format!("dialling {}", options.connect.join(", ")));
         let bus = dial(options).await?;
         drop(step);
         let outcome = work(bus.clone()).await;
         bus.close();
         outcome
-    });
-    // A dial in progress must not keep the process alive.
-    runtime.shutdown_background();
-    outcome
+    })
 }
 
 /// Opens a session on the bus.

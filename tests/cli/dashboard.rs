@@ -17,8 +17,6 @@ use treadmill_rl::launch::terminal_screen::TerminalScreen;
 
 use crate::support::*;
 
-const ENDLESS: &str = "1000000000";
-
 fn length(characters: u16) -> NonZeroU16 {
     NonZeroU16::new(characters).expect("a terminal has characters")
 }

@@ -220,9 +220,7 @@ fn resume_restores_all_state() {
 #[test]
 fn the_first_ctrl_c_saves_and_prints_the_resume_command() {
     let (folder, run) = folders();
-    let mut command = treadmill(folder.path());
-    command.args(["train", "--preset", "smoke", "--steps", "100000000", "--run-dir", run.to_str().unwrap()]);
-    let training = Running::start(command);
+    let training = Running::start(endless(folder.path(), &run, "train"));
     await_steps(&run, 1024);
     let actors = children(training.pid(), "actor");
     assert_eq!(actors.len(), 2);
