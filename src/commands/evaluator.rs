@@ -21,8 +21,8 @@ pub struct EvaluatorArgs {
 /// Evaluates until it is asked to stop.
 pub fn run(args: EvaluatorArgs) -> anyhow::Result<()> {
     let options = EvaluatorOptions {
-        run: args.client.run()?,
         name: args.client.name()?,
+        run: args.client.run()?,
         endpoint: args.network.where_to(&args.client.connect),
     };
     with_session(args.client, &args.network, Role::Evaluator, |bus, shutdown| evaluator::run(bus, options, shutdown))

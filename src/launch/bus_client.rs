@@ -9,7 +9,7 @@ use treadmill_proto::ident::check_ident;
 use treadmill_runtime::{machine, seeds, shutdown::Shutdown};
 
 use super::{async_runtime, exit_code::Usage, signals};
-use crate::shared::network_args::NetworkArgs;
+use crate::shared::network_args::{NetworkArgs, check_run};
 
 /// Time without an answer before the first warning: the learner may still be starting.
 const FIRST_WARNING: Duration = Duration::from_secs(1);
@@ -47,7 +47,7 @@ impl ClientArgs {
 
     /// Returns the run to join, if given.
     pub fn run(&self) -> Result<Option<String>, Usage> {
-        self.run.iter().try_for_each(|run| check_ident("run", run)).map_err(|why| Usage(why.to_string()))?;
+        check_run(self.run.as_deref())?;
         Ok(self.run.clone())
     }
 }

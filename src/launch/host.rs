@@ -102,12 +102,12 @@ async fn wait_for_task(
     shutdown: &Shutdown,
     heartbeat: &Heartbeat,
 ) -> anyhow::Result<Option<TaskServer>> {
-    let settled = external_task::settle(bus, prepared, shutdown);
-    tokio::pin!(settled);
+    let opening = external_task::open_server(bus, prepared, shutdown);
+    tokio::pin!(opening);
     let mut beat = tokio::time::interval(HEARTBEAT_EVERY);
     loop {
         tokio::select! {
-            task_server = &mut settled => return task_server,
+            task_server = &mut opening => return task_server,
             _ = beat.tick() => heartbeat.beat(),
         }
     }

@@ -34,6 +34,12 @@ pub fn treadmill(folder: &Path) -> Command {
     command
 }
 
+/// Trains a run of the preset `smoke` for 2048 steps.
+pub fn trained(folder: &Path, run: &Path) {
+    let args = ["train", "--preset", "smoke", "--steps", "2048", "--run-dir", run.to_str().unwrap()];
+    assert!(self::run(folder, &args).status.success());
+}
+
 /// Returns the command `train` or `learner` of a run of the preset `smoke` that trains until it is stopped.
 pub fn endless(folder: &Path, run: &Path, command: &str) -> Command {
     let mut started = treadmill(folder);
