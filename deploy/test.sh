@@ -256,7 +256,7 @@ saved=$(docker logs "$learner" 2>&1 | sed -n 's/^stopped after \([0-9]*\) env st
 compose start 2>/dev/null
 learner=$(id learner)
 await 'training after the restart' trains_beyond "$saved"
-docker logs "$learner" 2>&1 | grep "going on at $saved env steps" >/dev/null || fail "the learner did not resume at $saved steps"
+docker logs "$learner" 2>&1 | grep "resuming at $saved env steps" >/dev/null || fail "the learner did not resume at $saved steps"
 say "stopped, saved at $saved steps, every container exited with 0; resumed"
 [ "$(value bus/fragments_malformed)" -le 3 ] || fail 'fragments of valid actors were rejected'
 say 'all tests passed'

@@ -2,16 +2,14 @@
 
 use clap::Args;
 use treadmill_bus::Role;
-use treadmill_proto::ident::check_ident;
 
 use crate::{
     launch::{
-        exit_code::Usage,
         host::{self, HostOptions},
         metrics_page::MetricsArgs,
         startup::{self, AnyRunArgs, NewRunArgs, RunCommand},
     },
-    shared::network_args::NetworkArgs,
+    shared::network_args::{NetworkArgs, check_run},
 };
 
 /// Flags of `learner`.
@@ -38,9 +36,7 @@ pub struct LearnerArgs {
 
 /// Runs the learner until the run reaches its number of steps.
 pub fn run(args: LearnerArgs) -> anyhow::Result<()> {
-    if let Some(run) = &args.run {
-        check_ident("run", run).map_err(|why| Usage(why.to_string()))?;
-    }
+    check_run(args.run.as_deref())?;
     let options = args.network.options(Role::Learner, args.listen, args.connect)?;
     let metrics = args.metrics.listen()?;
     let mut prepared = startup::prepare(RunCommand::Learner, &args.new, &args.any, &[])?;

@@ -1,12 +1,11 @@
 //! `treadmill router`: forwards messages at a site with many machines.
 
-use anyhow::Context;
 use clap::Args;
 use treadmill_bus::{Bus, Role};
 use treadmill_runtime::shutdown::Shutdown;
 
 use crate::{
-    launch::{output::say, signals},
+    launch::{async_runtime, output::say, signals},
     shared::network_args::NetworkArgs,
 };
 
@@ -29,9 +28,7 @@ pub fn run(args: RouterArgs) -> anyhow::Result<()> {
     if options.credentials.is_some() {
         treadmill_bus::workarounds::one_core::keep_to_one_core();
     }
-    let runtime =
-        tokio::runtime::Builder::new_multi_thread().worker_threads(2).enable_all().build().context("no runtime")?;
-    let outcome = runtime.block_on(async {
+    async_runtime::run(async {
         let shutdown = Shutdown::default();
         signals::listen(shutdown.clone(), "")?;
         let dialled = options.connect.join(", ");
@@ -43,8 +40,5 @@ pub fn run(args: RouterArgs) -> anyhow::Result<()> {
         shutdown.wait().await;
         bus.close();
         Ok(())
-    });
-    // A close that hangs must not keep the process alive.
-    runtime.shutdown_background();
-    outcome
+    })
 }

@@ -25,7 +25,7 @@ pub fn print_start(
     let root = folder.root().display();
     let steps = state.as_ref().map_or(0, |state| state.counters.env_steps);
     let verb = match (steps, config.is_external(), &config.task.name[..]) {
-        (1.., ..) => format!("going on at {steps} env steps"),
+        (1.., ..) => format!("resuming at {steps} env steps"),
         (0, false, _) => "training a humanoid to walk".to_string(),
         (0, true, "") => "training the task that its first actor registers".to_string(),
         (0, true, name) => format!("training `{name}`"),

@@ -1,31 +1,70 @@
-//! Bus session of an actor or an evaluator: dialling, stopping, default name.
+//! Flags and bus session of an actor or an evaluator.
 
 use std::{io::Read, time::Duration};
 
-use anyhow::Context;
+use clap::{Args, builder::ArgPredicate};
 use treadmill_actor::ActorError;
-use treadmill_bus::{Bus, BusOptions};
+use treadmill_bus::{Bus, Role};
+use treadmill_proto::ident::check_ident;
 use treadmill_runtime::{machine, seeds, shutdown::Shutdown};
 
-use super::signals;
+use super::{async_runtime, exit_code::Usage, signals};
+use crate::shared::network_args::{NetworkArgs, check_run};
 
 /// Time without an answer before the first warning: the learner may still be starting.
 const FIRST_WARNING: Duration = Duration::from_secs(1);
 const WARN_EVERY: Duration = Duration::from_secs(10);
 
+/// Flags of an actor or an evaluator.
+#[derive(Args)]
+pub struct ClientArgs {
+    /// Endpoint of the learner or of a router; may be repeated.
+    #[arg(
+        long,
+        value_name = "ENDPOINT",
+        default_value = "tcp/127.0.0.1:7447",
+        default_value_if("discover", ArgPredicate::IsPresent, None)
+    )]
+    pub connect: Vec<String>,
+    /// The run to join; may be left out if there is only one.
+    #[arg(long, value_name = "NAME")]
+    run: Option<String>,
+    /// Unique name of this process; by default made from the host's name.
+    #[arg(long, value_name = "NAME")]
+    name: Option<String>,
+    /// Exit when standard input closes, which happens when the parent process ends.
+    #[arg(long, hide = true)]
+    until_stdin_closes: bool,
+}
+
+impl ClientArgs {
+    /// Returns the name of this process. Without the flag, each call makes another one.
+    pub fn name(&self) -> Result<String, Usage> {
+        let name = self.name.clone().unwrap_or_else(default_name);
+        check_ident("name", &name).map_err(|why| Usage(why.to_string()))?;
+        Ok(name)
+    }
+
+    /// Returns the run to join, if given.
+    pub fn run(&self) -> Result<Option<String>, Usage> {
+        check_run(self.run.as_deref())?;
+        Ok(self.run.clone())
+    }
+}
+
 /// Joins the bus as a client and runs `work` with the session. Returns early if the process is asked to stop while dialling.
 pub fn with_session<W: Future<Output = Result<(), ActorError>>>(
-    bus_options: BusOptions,
-    where_to: &str,
-    until_stdin_closes: bool,
+    client: ClientArgs,
+    network: &NetworkArgs,
+    role: Role,
     work: impl FnOnce(Bus, Shutdown) -> W,
 ) -> anyhow::Result<()> {
-    let runtime =
-        tokio::runtime::Builder::new_multi_thread().worker_threads(2).enable_all().build().context("no runtime")?;
-    let outcome = runtime.block_on(async {
+    let where_to = network.where_to(&client.connect);
+    let bus_options = network.options(role, Vec::new(), client.connect)?;
+    async_runtime::run(async {
         let shutdown = Shutdown::default();
         signals::listen(shutdown.clone(), "")?;
-        if until_stdin_closes {
+        if client.until_stdin_closes {
             stop_when_stdin_closes(shutdown.clone())?;
         }
         let opened = tokio::task::spawn_blocking(move || Bus::open_client(&bus_options));
@@ -42,13 +81,11 @@ pub fn with_session<W: Future<Output = Result<(), ActorError>>>(
         let outcome = work(bus.clone(), shutdown).await;
         bus.close();
         Ok(outcome?)
-    });
-    runtime.shutdown_background();
-    outcome
+    })
 }
 
 /// Returns the host's name with a random ending that makes it unique.
-pub fn default_name() -> String {
+fn default_name() -> String {
     let host: String = machine::host_name()
         .to_lowercase()
         .chars()

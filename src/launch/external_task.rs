@@ -14,7 +14,11 @@ const POLL_INTERVAL: Duration = Duration::from_millis(100);
 
 /// Opens the server where actors register. If the run's task is unknown, waits until an actor registers it. Returns `None` after
 /// a request to stop.
-pub async fn settle(bus: &Bus, prepared: &mut Prepared, shutdown: &Shutdown) -> anyhow::Result<Option<TaskServer>> {
+pub async fn open_server(
+    bus: &Bus,
+    prepared: &mut Prepared,
+    shutdown: &Shutdown,
+) -> anyhow::Result<Option<TaskServer>> {
     let known = prepared.state.as_ref().map(TrainingState::task).transpose().map_err(anyhow::Error::msg)?;
     let config = prepared.config.clone();
     let objection = Box::new(move |task: &Task| TrainingState::objection(&config, task));
@@ -35,6 +39,6 @@ pub async fn settle(bus: &Bus, prepared: &mut Prepared, shutdown: &Shutdown) -> 
     });
     let Some((server, task)) = waiting.await? else { return Ok(None) };
     say(&format!("  task      {task}, as its first actor registered it"));
-    prepared.settle(task)?;
+    prepared.set_task(task)?;
     Ok(Some(server))
 }

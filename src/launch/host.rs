@@ -17,7 +17,7 @@ use treadmill_learner::{
 use treadmill_runtime::{atomic_file, run_folder::RunFolder, shutdown::Shutdown};
 
 use super::{
-    banner, external_task, memory,
+    async_runtime, banner, external_task, memory,
     metrics_page::MetricsListener,
     model,
     output::say,
@@ -45,12 +45,7 @@ pub struct HostOptions<'a> {
 /// Hosts a learner until its run is complete or stopped.
 pub fn run(prepared: Prepared, options: HostOptions) -> anyhow::Result<()> {
     memory::keep_freed();
-    let runtime =
-        tokio::runtime::Builder::new_multi_thread().worker_threads(2).enable_all().build().context("no runtime")?;
-    let outcome = runtime.block_on(run_until_done(prepared, options));
-    // A hanging close must not keep the process alive.
-    runtime.shutdown_background();
-    outcome
+    async_runtime::run(run_until_done(prepared, options))
 }
 
 async fn run_until_done(mut prepared: Prepared, options: HostOptions<'_>) -> anyhow::Result<()> {
@@ -107,12 +102,12 @@ async fn wait_for_task(
     shutdown: &Shutdown,
     heartbeat: &Heartbeat,
 ) -> anyhow::Result<Option<TaskServer>> {
-    let settled = external_task::settle(bus, prepared, shutdown);
-    tokio::pin!(settled);
+    let opening = external_task::open_server(bus, prepared, shutdown);
+    tokio::pin!(opening);
     let mut beat = tokio::time::interval(HEARTBEAT_EVERY);
     loop {
         tokio::select! {
-            task_server = &mut settled => return task_server,
+            task_server = &mut opening => return task_server,
             _ = beat.tick() => heartbeat.beat(),
         }
     }

@@ -3,11 +3,12 @@
 //! # Layout
 //! - Before a run: `startup` (flags to configuration, run folder and first state), `model` (the robot), `external_task`
 //!   (waits for the task that the first actor registers), `banner` (text printed before and after a run).
-//! - During a run: `host` (a learner with actors beside it), `supervisor` (restarts actor processes), `bus_client` (session of
-//!   an actor or evaluator), `metrics_page` (metrics over HTTP).
-//! - The process: [`exit_code`], [`signals`], [`log`], [`output`], [`slow_step`], [`terminal_screen`], `memory`
+//! - During a run: `host` (a learner with actors beside it), `supervisor` (restarts actor processes), `bus_client` (flags and
+//!   session of an actor or evaluator), `metrics_page` (metrics over HTTP).
+//! - The process: `async_runtime`, [`exit_code`], [`signals`], [`log`], [`output`], [`slow_step`], [`terminal_screen`], `memory`
 //!   (allocator settings).
 
+pub(crate) mod async_runtime;
 pub(crate) mod banner;
 pub(crate) mod bus_client;
 pub mod exit_code;

@@ -90,7 +90,7 @@ impl Prepared {
     }
 
     /// Sets the task of a new run and creates its state.
-    pub fn settle(&mut self, task: Task) -> anyhow::Result<()> {
+    pub fn set_task(&mut self, task: Task) -> anyhow::Result<()> {
         let (observation, action) = (task.observation_size as usize, task.action_size as usize);
         self.config.task = task.into();
         self.config.check()?;
@@ -198,7 +198,7 @@ fn begin(
         let folder = RunFolder::create(new.run_dir.as_deref(), &new.preset)?;
         let run = folder.name().to_string();
         let mut prepared = Prepared { config, folder, device, mirror: None, run, state: None };
-        known.map_or(Ok(()), |task| prepared.settle(task))?;
+        known.map_or(Ok(()), |task| prepared.set_task(task))?;
         return Ok(prepared);
     }
     let text = model::text(any.model.as_deref())?;

@@ -19,10 +19,10 @@ use treadmill_runtime::shutdown::Shutdown;
 
 use crate::launch::output::say_error;
 
-/// A life shorter than this counts as useless.
-const TOO_SHORT: Duration = Duration::from_secs(5);
-/// Useless lives in a row after which a process is given up.
-const TOO_SHORT_MAX: u32 = 8;
+/// A process that ends sooner than this counts as a failed start.
+const FAILED_START: Duration = Duration::from_secs(5);
+/// Failed starts in a row after which a process is given up.
+const FAILED_STARTS_MAX: u32 = 8;
 /// Nice value of actors on the learner's machine.
 const ACTOR_NICE: &str = "10";
 const BACKOFF_MAX: Duration = Duration::from_secs(5);
@@ -114,23 +114,23 @@ impl std::fmt::Display for Role {
 }
 
 async fn keep_alive(fleet: &FleetOptions, role: Role, restarts: &AtomicU64, stopping: &Shutdown) -> anyhow::Result<()> {
-    let mut short_lives = 0;
-    for life in 0u64.. {
+    let mut failed_starts = 0;
+    for restart in 0u64.. {
         let begun = Instant::now();
-        let mut child = spawn(fleet, role, life)?;
+        let mut child = spawn(fleet, role, restart)?;
         // Taken out, because waiting for a child closes its standard input.
         let stdin = child.stdin.take();
         let status = tokio::select! {
             status = child.wait() => status.context("an actor cannot be waited for")?,
             () = stopping.wait() => return end(child, stdin).await,
         };
-        short_lives = if begun.elapsed() < TOO_SHORT { short_lives + 1 } else { 0 };
-        if short_lives >= TOO_SHORT_MAX {
-            anyhow::bail!("{role} ended {short_lives} times in a row right after its start, last with {status}");
+        failed_starts = if begun.elapsed() < FAILED_START { failed_starts + 1 } else { 0 };
+        if failed_starts >= FAILED_STARTS_MAX {
+            anyhow::bail!("{role} ended {failed_starts} times in a row right after its start, last with {status}");
         }
         restarts.fetch_add(1, Ordering::Relaxed);
         say_error(&format!("{role} ended with {status}; starting it again"));
-        let pause = (Duration::from_millis(100) * 2u32.saturating_pow(short_lives)).min(BACKOFF_MAX);
+        let pause = (Duration::from_millis(100) * 2u32.saturating_pow(failed_starts)).min(BACKOFF_MAX);
         tokio::select! {
             () = tokio::time::sleep(pause) => {}
             () = stopping.wait() => return Ok(()),
@@ -139,14 +139,14 @@ async fn keep_alive(fleet: &FleetOptions, role: Role, restarts: &AtomicU64, stop
     Ok(())
 }
 
-fn spawn(fleet: &FleetOptions, role: Role, life: u64) -> anyhow::Result<Child> {
+fn spawn(fleet: &FleetOptions, role: Role, restart: u64) -> anyhow::Result<Child> {
     let program = std::env::current_exe().context("this program's own path is unknown")?;
     let mut command = Command::new(program);
     match role {
         Role::Actor { index } => {
             // The first actors take the remainder.
             let envs = fleet.envs / fleet.actors + u32::from(index < fleet.envs % fleet.actors);
-            let start = (fleet.starts_before << 32) + life;
+            let start = (fleet.starts_before << 32) + restart;
             command.args(["actor", "--envs", &envs.to_string(), "--start-number", &start.to_string()]);
             // The learner goes first: the sooner it publishes a policy, the fresher the experience.
             command.args(["--nice", ACTOR_NICE]);

@@ -40,9 +40,9 @@ pub struct HostArgs {
     network: NetworkArgs,
 }
 
-/// Accepted fragments.
+/// Counts of fragments, and the checksum of the first accepted one.
 #[derive(Default)]
-struct Taken {
+struct Progress {
     counts: FragmentCounts,
     checksum: String,
 }
@@ -65,10 +65,10 @@ pub fn run(args: &HostArgs) -> anyhow::Result<()> {
     let shared = queue.shared();
     let source = BusFragmentSource::new(queue, alive, copies, Heartbeat::default());
     let validator = FragmentValidator::new(expected(), admission, Ledger::default(), FragmentCounts::default());
-    let (taken, shutdown) = (Arc::new(Mutex::new(Taken::default())), Shutdown::default());
+    let (progress, shutdown) = (Arc::new(Mutex::new(Progress::default())), Shutdown::default());
     let intake = std::thread::Builder::new().name("training".to_string()).spawn({
-        let (taken, shutdown) = (taken.clone(), shutdown.clone());
-        move || take(Intake::new(source, LearnerMode::Async, validator), &taken, &shutdown)
+        let (progress, shutdown) = (progress.clone(), shutdown.clone());
+        move || accept_fragments(Intake::new(source, LearnerMode::Async, validator), &progress, &shutdown)
     })?;
     say(&json!({"endpoint": endpoints[0], "bundle_bytes": bundle_bytes}).to_string());
     let begun = Instant::now();
@@ -76,8 +76,8 @@ pub fn run(args: &HostArgs) -> anyhow::Result<()> {
         let line = line.context("standard input cannot be read")?;
         let answer = match line.split_once(' ') {
             None if line == "mark" => {
-                let taken = taken.lock().expect("no holder of this lock panics");
-                mark(&taken, begun, shared.load(Ordering::Relaxed))
+                let progress = progress.lock().expect("no holder of this lock panics");
+                mark(&progress, begun, shared.load(Ordering::Relaxed))
             }
             Some(("publish", number)) => {
                 bundle.version.number = number.parse().context("a policy has a number")?;
@@ -104,7 +104,7 @@ fn expected() -> ExpectedFragment {
 }
 
 /// Body of the training thread without training: answers each fragment as soon as it is accepted.
-fn take(mut intake: Intake<BusFragmentSource>, taken: &Mutex<Taken>, shutdown: &Shutdown) {
+fn accept_fragments(mut intake: Intake<BusFragmentSource>, progress: &Mutex<Progress>, shutdown: &Shutdown) {
     let lineage = Lineage::new(workload::INCARNATION);
     let one = BatchSize { transitions: 1, transitions_max: 1 };
     let mut durable = 0;
@@ -114,10 +114,10 @@ fn take(mut intake: Intake<BusFragmentSource>, taken: &Mutex<Taken>, shutdown: &
             intake.validator.ledger.mark_durable();
             durable = counts.accepted;
         }
-        let mut taken = taken.lock().expect("no holder of this lock panics");
-        taken.counts = counts;
-        if taken.checksum.is_empty() {
-            taken.checksum = batch.fragments.first().map(checksum).unwrap_or_default();
+        let mut progress = progress.lock().expect("no holder of this lock panics");
+        progress.counts = counts;
+        if progress.checksum.is_empty() {
+            progress.checksum = batch.fragments.first().map(checksum).unwrap_or_default();
         }
     }
     intake.stop(&lineage);
@@ -128,8 +128,8 @@ fn checksum(AcceptedFragment { fragment, .. }: &AcceptedFragment) -> String {
     network::checksum(&[&observations[..], actions, log_probs, rewards, last_observations].concat())
 }
 
-fn mark(taken: &Taken, begun: Instant, shared: u64) -> Value {
-    let FragmentCounts { accepted, duplicate, too_old, vanished, malformed, quarantined } = taken.counts;
+fn mark(progress: &Progress, begun: Instant, shared: u64) -> Value {
+    let FragmentCounts { accepted, duplicate, too_old, vanished, malformed, quarantined } = progress.counts;
     json!({
         "at_s": begun.elapsed().as_secs_f64(),
         "accepted": accepted,
@@ -139,7 +139,7 @@ fn mark(taken: &Taken, begun: Instant, shared: u64) -> Value {
         "resident_mb": machine::resident_bytes() as f64 / 1e6,
         "resident_max_mb": usage::resident_max_mb(),
         "shared_mb": usage::shared_mb(),
-        "checksum": taken.checksum,
+        "checksum": progress.checksum,
     })
 }
 

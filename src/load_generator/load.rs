@@ -7,6 +7,7 @@ use std::{
         atomic::{AtomicU64, Ordering},
         mpsc::{Receiver, Sender, channel},
     },
+    thread::JoinHandle,
     time::{Duration, Instant},
 };
 
@@ -112,13 +113,13 @@ pub fn run(args: &LoadArgs) -> anyhow::Result<()> {
         outcomes: Mutex::new(Outcomes::default()),
         published: AtomicU64::new(0),
     });
-    let ((fetched, fetches), (taken, firsts)) = (channel(), channel());
-    let senders = join(args, &options, &runtime, &shared, &fetched, &taken)?;
+    let ((fetched, fetches), (accepted, first_accepted)) = (channel(), channel());
+    let senders = join(args, &options, &runtime, &shared, &fetched, &accepted)?;
     let fragment_bytes = shared.prepared.under("a", 1, 1).len();
     let bytes_per_transition = fragment_bytes as f64 / transitions as f64;
     let ready = json!({"fragment_bytes": fragment_bytes, "bytes_per_transition": bytes_per_transition});
     say(&ready.to_string());
-    let mut load = Load { actors: args.actors as usize, shared, senders, fetches, firsts, cpu_before_s: 0.0 };
+    let mut load = Load { actors: args.actors as usize, shared, senders, fetches, first_accepted, cpu_before_s: 0.0 };
     for line in std::io::stdin().lock().lines() {
         if let Some(answer) = load.execute(&line.context("standard input cannot be read")?)? {
             say(&answer.to_string());
@@ -133,11 +134,11 @@ pub fn run(args: &LoadArgs) -> anyhow::Result<()> {
 struct Load {
     actors: usize,
     shared: Arc<Shared>,
-    senders: Vec<Joined>,
+    senders: Vec<JoinHandle<()>>,
     /// Number of each policy that an actor fetched, with the Unix time in seconds.
     fetches: Receiver<(u64, f64)>,
     /// One message for the first accepted fragment of each actor.
-    firsts: Receiver<()>,
+    first_accepted: Receiver<()>,
     cpu_before_s: f64,
 }
 
@@ -166,10 +167,11 @@ impl Load {
     /// Waits until a fragment of every actor was accepted: before that an actor is a newcomer, which admission control limits.
     fn wait_for_first_fragments(&self) -> Value {
         let deadline = Instant::now() + FIRST_FRAGMENTS_TIMEOUT;
-        let actors =
-            std::iter::from_fn(|| self.firsts.recv_timeout(deadline.saturating_duration_since(Instant::now())).ok())
-                .take(self.actors)
-                .count();
+        let actors = std::iter::from_fn(|| {
+            self.first_accepted.recv_timeout(deadline.saturating_duration_since(Instant::now())).ok()
+        })
+        .take(self.actors)
+        .count();
         json!({"taken_of_actors": actors})
     }
 
@@ -222,8 +224,6 @@ impl Shared {
     }
 }
 
-type Joined = std::thread::JoinHandle<()>;
-
 /// Joins the run with every actor: session, token, announcements, first policy. Starts the senders.
 fn join(
     args: &LoadArgs,
@@ -231,8 +231,8 @@ fn join(
     runtime: &Runtime,
     shared: &Arc<Shared>,
     fetched: &Sender<(u64, f64)>,
-    taken: &Sender<()>,
-) -> anyhow::Result<Vec<Joined>> {
+    accepted: &Sender<()>,
+) -> anyhow::Result<Vec<JoinHandle<()>>> {
     let mut senders = Vec::new();
     for index in args.first..args.first + args.actors {
         let name = format!("actor-{index}");
@@ -250,7 +250,7 @@ fn join(
         let sequence = Arc::new(AtomicU64::new(1));
         for sender in 0..args.in_flight {
             let (shared, bus, name, sequence) = (shared.clone(), bus.clone(), name.clone(), sequence.clone());
-            let (handle, first) = (runtime.handle().clone(), (sender == 0).then(|| taken.clone()));
+            let (handle, first) = (runtime.handle().clone(), (sender == 0).then(|| accepted.clone()));
             let work = move || deliver(&shared, &bus, &name, &sequence, &handle, first);
             senders.push(std::thread::Builder::new().stack_size(STACK_BYTES).spawn(work)?);
         }

@@ -5,12 +5,12 @@ use std::{path::PathBuf, time::Duration};
 use anyhow::Context;
 use clap::Args;
 use treadmill_bus::{Bus, BusError, BusOptions, Role};
-use treadmill_proto::{ControlReply, ident::check_ident};
+use treadmill_proto::ControlReply;
 use treadmill_runtime::run_folder::RunFolder;
 
 use crate::{
-    launch::{exit_code::Usage, slow_step::SlowStepNotice},
-    shared::network_args::NetworkArgs,
+    launch::{async_runtime, slow_step::SlowStepNotice},
+    shared::network_args::{NetworkArgs, check_run},
 };
 
 /// Endpoint of a learner by default.
@@ -43,7 +43,7 @@ pub struct ReachArgs {
 impl ReachArgs {
     /// Returns the metrics file of the run whose folder was given.
     #[must_use]
-    pub fn log(&self) -> Option<PathBuf> {
+    pub fn metrics_file(&self) -> Option<PathBuf> {
         RunFolder::open(self.folder.as_ref()?).ok().map(|folder| folder.metrics())
     }
 
@@ -83,9 +83,7 @@ impl ReachArgs {
     /// If endpoint, name or certificates are refused.
     pub fn options(&self, role: Role) -> anyhow::Result<BusOptions> {
         let connect = self.endpoints()?;
-        if let Some(run) = &self.run {
-            check_ident("run", run).map_err(|why| Usage(why.to_string()))?;
-        }
+        check_run(self.run.as_deref())?;
         match self.network.options(role, Vec::new(), connect.clone()) {
             // An operator has the rights of an observer.
             Err(_) if role == Role::Observer => {
@@ -116,19 +114,14 @@ pub fn connect(
 /// # Errors
 /// If the bus cannot be joined, or the work fails.
 pub fn connect_with(options: BusOptions, work: impl AsyncFnOnce(Bus) -> anyhow::Result<()>) -> anyhow::Result<()> {
-    let runtime =
-        tokio::runtime::Builder::new_multi_thread().worker_threads(2).enable_all().build().context("no runtime")?;
-    let outcome = runtime.block_on(async {
+    async_runtime::run(async {
         let step = SlowStepNotice::begin(format!("dialling {}", options.connect.join(", ")));
         let bus = dial(options).await?;
         drop(step);
         let outcome = work(bus.clone()).await;
         bus.close();
         outcome
-    });
-    // A dial in progress must not keep the process alive.
-    runtime.shutdown_background();
-    outcome
+    })
 }
 
 /// Opens a session on the bus.

@@ -4,8 +4,17 @@ use std::path::PathBuf;
 
 use clap::Args;
 use treadmill_bus::{BusOptions, Credentials, Role, workarounds::threads};
+use treadmill_proto::ident::check_ident;
 
 use crate::launch::exit_code::Usage;
+
+/// Checks the name of a run, if given.
+///
+/// # Errors
+/// If the name has other characters than a key of the bus allows.
+pub fn check_run(run: Option<&str>) -> Result<(), Usage> {
+    run.map_or(Ok(()), |run| check_ident("run", run)).map_err(|why| Usage(why.to_string()))
+}
 
 /// Flags of the network.
 #[derive(Args, Clone, Debug, Default)]

@@ -10,10 +10,8 @@ use std::{
 };
 
 use crate::support::*;
-use rcgen::{CertificateParams, DnType, ExtendedKeyUsagePurpose, Issuer, KeyPair};
 use serde_json::Value;
-use time::OffsetDateTime;
-use treadmill_bus::{Bus, BusOptions, ControlServer};
+use treadmill_bus::{Bus, BusOptions, ControlServer, Role};
 use treadmill_proto::{ControlReply, RunStatus};
 use treadmill_runtime::machine;
 
@@ -54,7 +52,7 @@ fn check_after(folder: &Path, before: &str, args: &str) -> Output {
     Command::new("sh").args(["-c", &script]).current_dir(folder).output().expect("a shell")
 }
 
-/// Does the same in new namespaces; `None` if the machine does not allow them.
+/// Runs the check likewise in new namespaces; `None` if the machine does not allow them.
 fn check_apart(folder: &Path, flags: &str, before: &str, args: &str) -> Option<Output> {
     let allowed = Command::new("unshare").args([flags, "true"]).output().is_ok_and(|tried| tried.status.success());
     if !allowed {
@@ -66,8 +64,10 @@ fn check_apart(folder: &Path, flags: &str, before: &str, args: &str) -> Option<O
     Some(Command::new("unshare").args([flags, "sh", "-c", &script]).current_dir(folder).output().expect("it starts"))
 }
 
+/// Reports a skipped test; panics with TREADMILL_STRICT=yes.
 #[allow(clippy::print_stderr, reason = "reports a skipped test")]
 fn skip(why: &str) {
+    assert!(std::env::var("TREADMILL_STRICT").as_deref() != Ok("yes"), "{why}");
     eprintln!("SKIPPED: {why}");
 }
 
@@ -156,8 +156,7 @@ fn no_listener_and_a_listener_of_another_program_are_distinguished() {
 
 /// Starts a learner.
 fn learner(folder: &Path, run: &Path, more: &[&str]) -> Running {
-    let mut command = treadmill(folder);
-    command.args(["learner", "--preset", "smoke", "--steps", "1000000000", "--run-dir", run.to_str().unwrap()]);
+    let mut command = endless(folder, run, "learner");
     command.args(more);
     let learner = Running::start(command);
     learner.wait_for("listening");
@@ -204,56 +203,36 @@ fn a_learner_of_another_version_with_a_wrong_clock_is_reported() {
     bus.close();
 }
 
-fn certs(folder: &Path, args: &[&str]) {
-    let made = run(folder, &[&["certs"], args].concat());
-    assert!(made.status.success(), "{}", stderr(&made));
-}
-
-/// Issues an observer's certificate by the authority of `certs/`, valid between these days from now.
-fn issue_observer(folder: &Path, from_days: i64, until_days: i64) {
-    let read = |name: &str| fs::read_to_string(folder.join("certs").join(name)).unwrap();
-    let authority = KeyPair::from_pem(&read("ca.key")).unwrap();
-    let issuer = Issuer::from_ca_cert_pem(&read("ca.crt"), authority).unwrap();
-    let mut params = CertificateParams::new(Vec::new()).unwrap();
-    params.distinguished_name.push(DnType::CommonName, "treadmill-observer");
-    params.extended_key_usages = vec![ExtendedKeyUsagePurpose::ClientAuth];
-    let now = OffsetDateTime::now_utc();
-    params.not_before = now + time::Duration::days(from_days);
-    params.not_after = now + time::Duration::days(until_days);
-    let pair = KeyPair::generate().unwrap();
-    fs::write(folder.join("certs/observer.crt"), params.signed_by(&pair, &issuer).unwrap().pem()).unwrap();
-    fs::write(folder.join("certs/observer.key"), pair.serialize_pem()).unwrap();
-    fs::set_permissions(folder.join("certs/observer.key"), fs::Permissions::from_mode(0o600)).unwrap();
-}
-
 #[test]
 fn problems_of_dates_authorities_and_keys_of_certificates_are_reported() {
     let (folder, _) = folders();
     certs(folder.path(), &["certs"]);
-    let look = || check(folder.path(), &["--tls", "certs"]);
-    assert_ok(&look(), "certificates");
-    assert!(of(&look(), "certificates").1.contains("127.0.0.1"), "the hosts of the certificate");
-    issue_observer(folder.path(), -30, -3);
-    assert_problem(&look(), "certificates", &["observer", "expired", "--renew"]);
-    issue_observer(folder.path(), 3, 30);
-    assert_problem(&look(), "certificates", &["observer", "not valid before", "clock"]);
-    issue_observer(folder.path(), -30, 3);
-    assert!(of(&look(), "certificates").0.contains(&"note".to_string()), "it expires soon");
-    issue_observer(folder.path(), -30, 300);
-    assert_ok(&look(), "certificates");
-    let path = |name: &str| folder.path().join("certs").join(name);
+    let check_certs = || check(folder.path(), &["--tls", "certs"]);
+    assert_ok(&check_certs(), "certificates");
+    assert!(of(&check_certs(), "certificates").1.contains("127.0.0.1"), "the hosts of the certificate");
+    let own = folder.path().join("certs");
+    let issue_observer = |days| issue(Role::Observer, &own, &own, days);
+    issue_observer([-30, -3]);
+    assert_problem(&check_certs(), "certificates", &["observer", "expired", "--renew"]);
+    issue_observer([3, 30]);
+    assert_problem(&check_certs(), "certificates", &["observer", "not valid before", "clock"]);
+    issue_observer([-30, 3]);
+    assert!(of(&check_certs(), "certificates").0.contains(&"note".to_string()), "it expires soon");
+    issue_observer([-30, 300]);
+    assert_ok(&check_certs(), "certificates");
+    let path = |name: &str| own.join(name);
     fs::set_permissions(path("observer.key"), fs::Permissions::from_mode(0o644)).unwrap();
-    assert_problem(&look(), "certificates", &["644", "chmod 600"]);
+    assert_problem(&check_certs(), "certificates", &["644", "chmod 600"]);
     fs::set_permissions(path("observer.key"), fs::Permissions::from_mode(0o600)).unwrap();
     fs::copy(path("observer.key"), path("operator.key")).unwrap();
-    assert_problem(&look(), "certificates", &["operator.key", "does not match"]);
+    assert_problem(&check_certs(), "certificates", &["operator.key", "does not match"]);
     fs::copy(path("observer.crt"), path("operator.crt")).unwrap();
-    assert_problem(&look(), "certificates", &["treadmill-observer", "treadmill-operator"]);
+    assert_problem(&check_certs(), "certificates", &["treadmill-observer", "treadmill-operator"]);
     certs(folder.path(), &["others"]);
     fs::copy(folder.path().join("others/ca.crt"), path("ca.crt")).unwrap();
-    assert_problem(&look(), "certificates", &["another authority"]);
+    assert_problem(&check_certs(), "certificates", &["another authority"]);
     fs::write(path("ca.crt"), "nothing").unwrap();
-    assert_problem(&look(), "certificates", &["ca.crt"]);
+    assert_problem(&check_certs(), "certificates", &["ca.crt"]);
 }
 
 #[test]
@@ -263,28 +242,28 @@ fn a_failed_handshake_reports_which_side_does_not_trust_the_other() {
     certs(folder.path(), &["others"]);
     let _learner = learner(folder.path(), &run_folder, &["--listen", "tls/127.0.0.1:0", "--tls", "certs"]);
     let endpoint = endpoint(&run_folder);
-    let look = |tls: &str, endpoint: &str| check(folder.path(), &["--connect", endpoint, "--tls", tls]);
-    let output = look("certs", &endpoint);
+    let check_with = |tls: &str, endpoint: &str| check(folder.path(), &["--connect", endpoint, "--tls", tls]);
+    let output = check_with("certs", &endpoint);
     for name in ["certificates", "route", "handshake", "versions", "clock skew"] {
         assert_ok(&output, name);
     }
-    assert_problem(&look("others", &endpoint), "handshake", &["another authority", "ca.crt"]);
+    assert_problem(&check_with("others", &endpoint), "handshake", &["another authority", "ca.crt"]);
     // No learner listens at this address.
     let elsewhere = endpoint.replace("127.0.0.1", "127.0.0.2");
-    assert_problem(&look("certs", &elsewhere), "route", &["no process listens"]);
+    assert_problem(&check_with("certs", &elsewhere), "route", &["no process listens"]);
     certs(folder.path(), &["certs", "--renew", "--host", "learner.example"]);
     let renamed = run_folder.with_extension("renamed");
     let _renamed = learner(folder.path(), &renamed, &["--listen", "tls/127.0.0.1:0", "--tls", "certs"]);
-    let refused = look("certs", &self::endpoint(&renamed));
+    let refused = check_with("certs", &self::endpoint(&renamed));
     assert_problem(&refused, "handshake", &["not for this name", "--host NAME"]);
     // This machine trusts the learner's authority, but not the other way round.
     fs::copy(folder.path().join("certs/ca.crt"), folder.path().join("others/ca.crt")).unwrap();
-    assert_problem(&look("others", &endpoint), "handshake", &["rejects our certificate"]);
+    assert_problem(&check_with("others", &endpoint), "handshake", &["rejects our certificate"]);
     // With an actor's certificate alone, the check still shows that the link works.
     for part in ["learner", "router", "evaluator", "observer", "operator"] {
         fs::remove_file(folder.path().join(format!("certs/{part}.crt"))).unwrap();
     }
-    let output = look("certs", &endpoint);
+    let output = check_with("certs", &endpoint);
     assert_ok(&output, "handshake");
     assert_eq!(of(&output, "learner").0, ["note"], "{}", stdout(&output));
     let output = check(folder.path(), &["--connect", &endpoint]);

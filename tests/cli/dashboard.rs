@@ -17,8 +17,6 @@ use treadmill_rl::launch::terminal_screen::TerminalScreen;
 
 use crate::support::*;
 
-const ENDLESS: &str = "1000000000";
-
 fn length(characters: u16) -> NonZeroU16 {
     NonZeroU16::new(characters).expect("a terminal has characters")
 }
@@ -179,9 +177,9 @@ fn the_dashboard_shows_a_run_follows_its_size_explains_keys_and_quits() {
     assert!(!seen.contains('\u{1b}') && seen.lines().count() <= 24, "{seen}");
 
     terminal.types("?");
-    terminal.shows(&["leave; the runs go on"]);
+    terminal.shows(&["quit; runs continue"]);
     terminal.types("\u{1b}");
-    await_that("the explanation is gone", || (!terminal.text().contains("leave; the runs")).then_some(()));
+    await_that("the end of the help", || (!terminal.text().contains("quit; runs continue")).then_some(()));
     terminal.resize(10, 40);
     terminal.shows(&["run  training", "of 1.00G", "actor-0", "frag/s"]);
     terminal.resize(5, 30);

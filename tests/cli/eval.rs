@@ -1,17 +1,12 @@
 //! `eval`: policies, baselines, and unusable checkpoints.
 
-use std::{fs, path::Path};
+use std::fs;
 
 use crate::support::*;
 use treadmill_learner::checkpoint::{encoding, load_file};
 
-fn trained(folder: &Path, run: &Path) {
-    let args = ["train", "--preset", "smoke", "--steps", "1024", "--run-dir", run.to_str().unwrap()];
-    assert!(self::run(folder, &args).status.success());
-}
-
 #[test]
-fn the_first_and_every_hundredth_step_are_printed() {
+fn the_first_and_every_nth_step_are_printed() {
     let (folder, _) = folders();
     let output = self::run(folder.path(), &["eval", "--agent", "random", "--episodes", "2", "--print-every", "5"]);
     assert!(output.status.success(), "{}", stderr(&output));

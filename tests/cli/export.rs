@@ -9,11 +9,6 @@ use std::{
 use crate::support::*;
 use serde_json::Value;
 
-fn trained(folder: &Path, run: &Path) {
-    let args = ["train", "--preset", "smoke", "--steps", "2048", "--run-dir", run.to_str().unwrap()];
-    assert!(self::run(folder, &args).status.success());
-}
-
 fn export(folder: &Path, run: &str, file: &Path) -> Vec<u8> {
     let output = self::run(folder, &["export", run, "--safetensors", file.to_str().unwrap()]);
     assert!(output.status.success(), "{}", stderr(&output));

@@ -84,11 +84,11 @@ fn unwritable_outputs_and_invalid_flags_are_refused() {
     };
     fs::create_dir(folder.path().join("full")).unwrap();
     fs::write(folder.path().join("full/a"), "x").unwrap();
-    refused(&["--png", "full"], 2, &["--png full", "empty folder"]);
+    refused(&["--png", "full"], 2, &["--png full", "not empty"]);
     refused(&["--gif", "absent/a.gif"], 1, &["--gif absent/a.gif"]);
     refused(&["--gif", "a.gif", "--size", "9x9"], 2, &["--size", "320x240"]);
     refused(&["--gif", "a.gif", "--fps", "0"], 2, &["--fps"]);
     refused(&["--fps", "10"], 2, &["--gif"]);
-    refused(&["--gif", "a.gif", "--from-s", "3000"], 2, &["--from-s 3000", "over by then"]);
+    refused(&["--gif", "a.gif", "--from-s", "3000"], 2, &["--from-s 3000", "ended before"]);
     assert!(!folder.path().join("a.gif").exists());
 }

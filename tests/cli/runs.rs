@@ -43,5 +43,5 @@ fn missing_runs_and_invalid_configurations_are_reported() {
     assert_refused(&run(folder.path(), &["runs"]), 2, &["no run in `runs`"]);
     fs::create_dir(folder.path().join("runs/bad")).unwrap();
     fs::write(folder.path().join("runs/bad/config.toml"), "[").unwrap();
-    assert_refused(&run(folder.path(), &["runs"]), 1, &["runs/bad/config.toml", "no configuration"]);
+    assert_refused(&run(folder.path(), &["runs"]), 1, &["runs/bad/config.toml", "not a configuration"]);
 }

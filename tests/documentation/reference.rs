@@ -137,7 +137,7 @@ fn every_command_has_a_manual_page() {
     }
     assert!(!pages.join("treadmill-reference.1").exists(), "a hidden command has no page");
     fs::write(folder.path().join("file"), "").unwrap();
-    assert_refused(&run(folder.path(), &["man", "file"]), 1, &["cannot be written to `file`"]);
+    assert_refused(&run(folder.path(), &["man", "file"]), 1, &["cannot write manual pages to `file`"]);
 }
 
 #[test]

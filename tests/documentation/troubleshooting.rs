@@ -66,7 +66,6 @@ fn unused_endpoint() -> String {
 
 /// Endpoint that the page quotes.
 const QUOTED_ENDPOINT: &str = "tcp/127.0.0.1:7447";
-const ENDLESS: &str = "1000000000";
 
 #[test]
 fn every_marked_heading_is_tested_here() {

@@ -14,7 +14,7 @@ use std::{
 
 use crate::attacks::{Attacker, fragment};
 use crate::support::*;
-use rcgen::{CertificateParams, DnType, ExtendedKeyUsagePurpose, Issuer, KeyPair};
+use treadmill_bus::Role;
 use treadmill_proto::Outcome;
 use zenoh::Wait;
 
@@ -40,8 +40,7 @@ fn fleet() -> Fleet {
     bus_on_one_thread();
     let (folder, run) = folders();
     assert!(self::run(folder.path(), &["certs", "certs"]).status.success());
-    let mut command = treadmill(folder.path());
-    command.args(["learner", "--preset", "smoke", "--steps", "1000000000", "--run-dir", run.to_str().unwrap()]);
+    let mut command = endless(folder.path(), &run, "learner");
     command.args(["--listen", "tls/127.0.0.1:0", "--tls", "certs"]);
     let learner = Running::start(command);
     let endpoint = endpoint(&run);
@@ -180,23 +179,6 @@ fn an_observer_can_read_but_not_send_fragments_or_reports() {
     assert!(matches!(receipt.outcome, Outcome::Accepted | Outcome::TooOld), "{receipt:?}");
 }
 
-/// Issues an actor's certificate that expired yesterday, by the authority in `certs`, into the folder `expired`.
-fn issue_expired(folder: &Path) {
-    let (certs, out) = (folder.join("certs"), folder.join("expired"));
-    let read = |name: &str| fs::read_to_string(certs.join(name)).unwrap();
-    let authority = Issuer::from_ca_cert_pem(&read("ca.crt"), KeyPair::from_pem(&read("ca.key")).unwrap()).unwrap();
-    let mut params = CertificateParams::default();
-    params.distinguished_name.push(DnType::CommonName, "treadmill-actor");
-    params.extended_key_usages = vec![ExtendedKeyUsagePurpose::ClientAuth];
-    params.not_before = time::OffsetDateTime::now_utc() - time::Duration::days(9);
-    params.not_after = time::OffsetDateTime::now_utc() - time::Duration::days(1);
-    let pair = KeyPair::generate().unwrap();
-    fs::create_dir(&out).unwrap();
-    fs::copy(certs.join("ca.crt"), out.join("ca.crt")).unwrap();
-    fs::write(out.join("actor.crt"), params.signed_by(&pair, &authority).unwrap().pem()).unwrap();
-    fs::write(out.join("actor.key"), pair.serialize_pem()).unwrap();
-}
-
 #[test]
 fn clients_without_a_valid_certificate_are_refused_and_logged() {
     let fleet = fleet();
@@ -212,7 +194,9 @@ fn clients_without_a_valid_certificate_are_refused_and_logged() {
     assert!(run(folder, &["certs", "others"]).status.success());
     // A certificate of another authority, with trust in the learner's.
     fs::copy(folder.join("certs/ca.crt"), folder.join("others/ca.crt")).unwrap();
-    issue_expired(folder);
+    fs::create_dir(folder.join("expired")).unwrap();
+    fs::copy(folder.join("certs/ca.crt"), folder.join("expired/ca.crt")).unwrap();
+    issue(Role::Actor, &fleet.certs(), &folder.join("expired"), [-9, -1]);
     // TLS without a client certificate.
     let nameless = Attacker::join(&fleet.endpoint, "run", Some((&fleet.certs(), "")), SILENCE);
     let answers = nameless.map(|client| client.ask("treadmill/run/policy/latest", vec![], SILENCE));

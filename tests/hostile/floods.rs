@@ -29,8 +29,7 @@ struct Fleet {
 fn fleet(tls: bool, settings: &[&str]) -> Fleet {
     bus_on_one_thread();
     let (folder, run) = folders();
-    let mut command = treadmill(folder.path());
-    command.args(["learner", "--preset", "smoke", "--steps", "1000000000", "--run-dir", run.to_str().unwrap()]);
+    let mut command = endless(folder.path(), &run, "learner");
     for setting in settings {
         command.args(["--set", setting]);
     }

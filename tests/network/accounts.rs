@@ -7,8 +7,6 @@ use crate::support::*;
 use serde_json::Value;
 use treadmill_learner::checkpoint::load_file;
 
-/// More steps than any test waits for.
-const ENDLESS: &str = "1000000000";
 /// Part of the message of an actor that gets no answer.
 const UNANSWERED: &str = "keeping fragments";
 

@@ -6,8 +6,8 @@ mod sample;
 use crate::support::*;
 use bytes::Bytes;
 use serde_json::Value;
-use treadmill_bus::{Bus, BusOptions, fetch_policy, observe, submit};
-use treadmill_proto::{Fragment, Outcome, PolicyBundle, Receipt};
+use treadmill_bus::{Bus, observe, submit};
+use treadmill_proto::{Fragment, Outcome, Receipt};
 
 /// Run that trains until the end of the test, and a client of its bus.
 struct Fixture {
@@ -19,22 +19,9 @@ struct Fixture {
 
 fn start() -> Fixture {
     let (folder, run) = folders();
-    let mut command = treadmill(folder.path());
-    command.args(["train", "--preset", "smoke", "--steps", "1000000000", "--run-dir", run.to_str().unwrap()]);
-    let training = Running::start(command);
-    let connect = vec![endpoint(&run)];
-    let bus = Bus::open_client(&BusOptions { connect, ..BusOptions::default() }).unwrap();
+    let training = Running::start(endless(folder.path(), &run, "train"));
+    let bus = join(&run);
     Fixture { training, bus, _folder: folder, run }
-}
-
-async fn policy(bus: &Bus) -> PolicyBundle {
-    loop {
-        // Without a reply, the client does not know the learner yet.
-        if let Some(bundle) = fetch_policy(bus, Some("run"), TIMEOUT).await.unwrap() {
-            return bundle;
-        }
-        tokio::task::yield_now().await;
-    }
 }
 
 async fn send(bus: &Bus, bytes: impl Into<Bytes>) -> Receipt {

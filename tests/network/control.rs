@@ -6,8 +6,6 @@ use crate::support::*;
 use serde_json::Value;
 use treadmill_learner::checkpoint::load_file;
 
-const ENDLESS: &str = "1000000000";
-
 fn control(folder: &Path, args: &[&str]) -> std::process::Output {
     run(folder, &[&["control"], args].concat())
 }
@@ -27,9 +25,7 @@ fn status(folder: &Path) -> Value {
 fn a_run_can_be_paused_saved_changed_and_stopped() {
     let (folder, run) = folders();
     let folder = folder.path();
-    let mut command = treadmill(folder);
-    command.args(["train", "--preset", "smoke", "--steps", ENDLESS, "--run-dir", run.to_str().unwrap()]);
-    let training = Running::start(command);
+    let training = Running::start(endless(folder, &run, "train"));
     await_steps(&run, 1024);
 
     assert!(done(folder, &["pause", "run"]).starts_with("paused after update"));
@@ -76,8 +72,7 @@ fn an_observer_can_query_status_and_only_the_operator_can_send_commands() {
     let (folder, run) = folders();
     let folder = folder.path();
     assert!(crate::support::run(folder, &["certs", "certs"]).status.success());
-    let mut command = treadmill(folder);
-    command.args(["train", "--preset", "smoke", "--steps", ENDLESS, "--run-dir", run.to_str().unwrap()]);
+    let mut command = endless(folder, &run, "train");
     command.args(["--listen", "tls/127.0.0.1:0", "--tls", "certs"]);
     let training = Running::start(command);
     await_steps(&run, 512);

@@ -2,7 +2,7 @@
 
 use crate::support::*;
 use bytes::Bytes;
-use treadmill_bus::{Bus, BusOptions, Credentials, Role, RolloutCopies, observe};
+use treadmill_bus::{Bus, BusOptions, Role, RolloutCopies, observe};
 use treadmill_proto::Fragment;
 
 /// Capacity of a subscriber that loses nothing on a slow machine.
@@ -11,10 +11,8 @@ const RING: usize = 65_536;
 #[test]
 fn subscribers_of_the_copies_get_them_and_subscribers_of_everything_do_not() {
     let (folder, run) = folders();
-    let mut command = treadmill(folder.path());
-    command.args(["train", "--preset", "smoke", "--steps", "1000000000", "--run-dir", run.to_str().unwrap()]);
-    let training = Running::start(command);
-    let bus = Bus::open_client(&BusOptions { connect: vec![endpoint(&run)], ..BusOptions::default() }).unwrap();
+    let training = Running::start(endless(folder.path(), &run, "train"));
+    let bus = join(&run);
     let everything = observe(&bus, "treadmill/**", RING).unwrap();
     let copies = observe(&bus, "treadmill/run/@rollouts/*", RING).unwrap();
     let mut bytes = 0;
@@ -40,19 +38,11 @@ fn subscribers_of_the_copies_get_them_and_subscribers_of_everything_do_not() {
 fn observers_can_read_the_copies_and_actors_cannot() {
     let (folder, run) = folders();
     assert!(self::run(folder.path(), &["certs", "certs"]).status.success());
-    let mut command = treadmill(folder.path());
-    command.args(["train", "--preset", "smoke", "--steps", "1000000000", "--run-dir", run.to_str().unwrap()]);
+    let mut command = endless(folder.path(), &run, "train");
     command.args(["--listen", "tls/127.0.0.1:0", "--tls", "certs"]);
     let _training = Running::start(command);
-    let connect = vec![endpoint(&run)];
-    let watch = |role| {
-        let credentials = Some(Credentials { folder: folder.path().join("certs"), role });
-        let options = BusOptions { connect: connect.clone(), credentials, ..BusOptions::default() };
-        let bus = Bus::open_client(&options).unwrap();
-        (observe(&bus, "treadmill/run/@rollouts/*", RING).unwrap(), bus)
-    };
-    let (actors, _actor) = watch(Role::Actor);
-    let (observers, _observer) = watch(Role::Observer);
+    let [actor, observer] = [Role::Actor, Role::Observer].map(|role| join_as(role, folder.path(), &run));
+    let [actors, observers] = [&actor, &observer].map(|bus| observe(bus, "treadmill/run/@rollouts/*", RING).unwrap());
     for _ in 0..10 {
         Fragment::decode(Bytes::from(observers.next(TIMEOUT).expect("a copy").payload)).unwrap();
     }

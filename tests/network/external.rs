@@ -4,7 +4,7 @@ use std::{fs, path::Path, process::Command};
 
 use crate::support::*;
 use bytes::Bytes;
-use treadmill_bus::{Bus, BusOptions, Credentials, Role, fetch_policy, register_task, submit};
+use treadmill_bus::{Bus, Role, register_task, submit};
 use treadmill_config::ConfigSource;
 use treadmill_proto::{
     EndCause, Episode, Fragment, Outcome, PolicyBundle, Receipt, Task, TaskReceipt, TaskRegistration,
@@ -31,25 +31,12 @@ fn learner(folder: &Path, run: &Path, more: &[&str]) -> Running {
     Running::start(command)
 }
 
-fn join(run: &Path) -> Bus {
-    Bus::open_client(&BusOptions { connect: vec![endpoint(run)], ..BusOptions::default() }).unwrap()
-}
-
 async fn register(bus: &Bus, actor: &str, task: &Task) -> TaskReceipt {
     let registration = TaskRegistration { run: "run".into(), actor: actor.into(), task: task.clone() };
     loop {
         // Without a reply, the client does not know the learner yet.
         if let Some(receipt) = register_task(bus, &registration, TIMEOUT).await.unwrap() {
             return receipt;
-        }
-        tokio::task::yield_now().await;
-    }
-}
-
-async fn policy(bus: &Bus) -> PolicyBundle {
-    loop {
-        if let Some(bundle) = fetch_policy(bus, Some("run"), TIMEOUT).await.unwrap() {
-            return bundle;
         }
         tokio::task::yield_now().await;
     }
@@ -201,11 +188,7 @@ async fn with_certificates_actors_can_register_tasks_and_observers_cannot() {
     command.args(["learner", "--listen", "tls/127.0.0.1:0", "--tls", "certs", "--task", "external"]);
     command.args(["--preset", "smoke", "--run-dir", run.to_str().unwrap()]);
     let training = Running::start(command);
-    let connect = vec![endpoint(&run)];
-    let join = |role| {
-        let credentials = Some(Credentials { folder: folder.path().join("certs"), role });
-        Bus::open_client(&BusOptions { connect: connect.clone(), credentials, ..BusOptions::default() }).unwrap()
-    };
+    let join = |role| join_as(role, folder.path(), &run);
     let stranger = TaskRegistration {
         run: "run".into(),
         actor: "watcher".into(),

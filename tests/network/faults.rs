@@ -1,25 +1,11 @@
 //! Killed and frozen processes: the others continue, and no loss goes unreported.
 
-use std::{
-    fs,
-    os::unix::process::CommandExt,
-    path::Path,
-    process::{Command, Stdio},
-};
+use std::{fs, os::unix::process::CommandExt, path::Path, process::Stdio};
 
 use crate::support::*;
-use treadmill_bus::{Bus, BusOptions, observe};
+use treadmill_bus::observe;
 use treadmill_learner::checkpoint::load_file;
 use treadmill_proto::ActorStats;
-
-/// More steps than any test waits for.
-const ENDLESS: &str = "1000000000";
-
-fn endless(folder: &Path, run: &Path, command: &str) -> Command {
-    let mut started = treadmill(folder);
-    started.args([command, "--preset", "smoke", "--steps", ENDLESS, "--run-dir", run.to_str().unwrap()]);
-    started
-}
 
 fn actor(folder: &Path, endpoint: &str, name: &str) -> Running {
     let mut command = treadmill(folder);
@@ -91,7 +77,7 @@ fn a_killed_learner_is_resumed_while_its_actors_wait() {
     assert!(actors.iter().all(|actor| is_running(actor.pid())), "actors outlive the learner");
 
     // In the actors' counts, produced = accepted + dropped by rule + in flight, and nothing piles up.
-    let bus = Bus::open_client(&BusOptions { connect: vec![endpoint], ..BusOptions::default() }).unwrap();
+    let bus = join(&run);
     let feed = observe(&bus, "treadmill/run/actors/*/stats", 16).unwrap();
     for _ in 0..4 {
         let message = feed.next(TIMEOUT).expect("statistics");

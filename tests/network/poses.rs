@@ -3,9 +3,9 @@
 use std::time::Duration;
 
 use crate::support::*;
-use treadmill_bus::{Bus, BusOptions, Credentials, Feed, Message, PosePublisher, Role, fetch_policy, observe};
+use treadmill_bus::{Bus, BusOptions, Feed, Message, PosePublisher, Role, observe};
 use treadmill_humanoid::Model;
-use treadmill_proto::{PolicyBundle, Pose};
+use treadmill_proto::Pose;
 
 /// Capacity of a subscriber that loses nothing on a slow machine.
 const RING: usize = 4096;
@@ -19,25 +19,18 @@ fn next(feed: &Feed) -> Pose {
     pose
 }
 
-fn bundle(bus: &Bus) -> PolicyBundle {
-    let runtime = tokio::runtime::Builder::new_multi_thread().enable_all().build().unwrap();
-    await_that("the policy", || runtime.block_on(fetch_policy(bus, Some("run"), TIMEOUT)).unwrap())
-}
-
 #[test]
 fn observers_see_episodes_from_their_start() {
     let (folder, run) = folders();
-    let mut command = treadmill(folder.path());
-    command.args(["learner", "--preset", "smoke", "--steps", "1000000000", "--run-dir", run.to_str().unwrap()]);
+    let mut command = endless(folder.path(), &run, "learner");
     command.args(["--listen", "tcp/127.0.0.1:0"]);
     let _learner = Running::start(command);
-    let endpoint = endpoint(&run);
     let mut command = treadmill(folder.path());
-    command.args(["actor", "--connect", &endpoint, "--envs", "4", "--name", "legs"]);
+    command.args(["actor", "--connect", &endpoint(&run), "--envs", "4", "--name", "legs"]);
     let _actor = Running::start(command);
     await_steps(&run, 4096);
-    let bus = Bus::open_client(&BusOptions { connect: vec![endpoint], ..BusOptions::default() }).unwrap();
-    let bundle = bundle(&bus);
+    let bus = join(&run);
+    let bundle = tokio::runtime::Runtime::new().unwrap().block_on(policy(&bus));
     let model = Model::from_mjcf(&bundle.model_xml).unwrap();
     let feed = observe(&bus, "treadmill/run/poses/*", RING).unwrap();
     // The actor has simulated many episodes; its poses begin with the start of one, because it sent none before.
@@ -67,19 +60,11 @@ fn observers_see_episodes_from_their_start() {
 fn observers_can_read_poses_and_actors_cannot() {
     let (folder, run) = folders();
     assert!(self::run(folder.path(), &["certs", "certs"]).status.success());
-    let mut command = treadmill(folder.path());
-    command.args(["train", "--preset", "smoke", "--steps", "1000000000", "--run-dir", run.to_str().unwrap()]);
+    let mut command = endless(folder.path(), &run, "train");
     command.args(["--listen", "tls/127.0.0.1:0", "--tls", "certs", "--actors", "1"]);
     let _training = Running::start(command);
-    let connect = vec![endpoint(&run)];
-    let watch = |role| {
-        let credentials = Some(Credentials { folder: folder.path().join("certs"), role });
-        let options = BusOptions { connect: connect.clone(), credentials, ..BusOptions::default() };
-        let bus = Bus::open_client(&options).unwrap();
-        (observe(&bus, "treadmill/run/poses/*", RING).unwrap(), bus)
-    };
-    let (actors, _actor) = watch(Role::Actor);
-    let (observers, _observer) = watch(Role::Observer);
+    let [actor, observer] = [Role::Actor, Role::Observer].map(|role| join_as(role, folder.path(), &run));
+    let [actors, observers] = [&actor, &observer].map(|bus| observe(bus, "treadmill/run/poses/*", RING).unwrap());
     for _ in 0..10 {
         next(&observers);
     }

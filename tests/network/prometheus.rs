@@ -27,9 +27,8 @@ fn get(address: &str, path: &str) -> Option<(u16, String)> {
 
 /// Starts a run with a metrics page, and returns the page's address.
 fn train(folder: &Path, run: &Path, more: &[&str]) -> (Running, String) {
-    let mut command = treadmill(folder);
-    command.args(["train", "--preset", "smoke", "--steps", "100000000", "--no-progress", "--run-dir"]);
-    command.arg(run).args(["--prometheus", "127.0.0.1:0"]).args(more);
+    let mut command = endless(folder, run, "train");
+    command.args(["--no-progress", "--prometheus", "127.0.0.1:0"]).args(more);
     let training = Running::start(command);
     let line = training.wait_for("  metrics   ");
     let address = line.split("http://").nth(1).and_then(|rest| rest.strip_suffix("/metrics")).expect("an address");

@@ -5,15 +5,9 @@ use std::{fs, os::unix::fs::PermissionsExt, path::Path, process::Command};
 use crate::support::*;
 
 fn learner(folder: &Path, run: &Path) -> Command {
-    let mut command = treadmill(folder);
-    command.args(["learner", "--preset", "smoke", "--steps", "1000000000", "--run-dir", run.to_str().unwrap()]);
+    let mut command = endless(folder, run, "learner");
     command.args(["--listen", "tls/127.0.0.1:0", "--tls", "certs"]);
     command
-}
-
-fn certs(folder: &Path, args: &[&str]) {
-    let made = run(folder, &[&["certs"], args].concat());
-    assert!(made.status.success(), "{}", stderr(&made));
 }
 
 #[test]

@@ -5,6 +5,7 @@ mod process;
 
 use std::{
     fs,
+    os::unix::fs::PermissionsExt,
     path::{Path, PathBuf},
     process::{Command, Output, Stdio},
     sync::Once,
@@ -12,11 +13,17 @@ use std::{
 };
 
 pub use process::*;
+use rcgen::{CertificateParams, DnType, ExtendedKeyUsagePurpose, Issuer, KeyPair};
 use serde_json::Value;
-use treadmill_bus::{BusOptions, Role, workarounds::threads};
+use time::OffsetDateTime;
+use treadmill_bus::{Bus, BusOptions, Credentials, Role, fetch_policy, workarounds::threads};
+use treadmill_proto::PolicyBundle;
 
 /// Longest wait for a condition, which only a broken program reaches.
 pub const TIMEOUT: Duration = Duration::from_secs(120);
+
+/// More steps than any test waits for.
+pub const ENDLESS: &str = "1000000000";
 
 /// Returns the command of the binary under test, to run in `folder`.
 pub fn treadmill(folder: &Path) -> Command {
@@ -25,6 +32,19 @@ pub fn treadmill(folder: &Path) -> Command {
     // The binary sets it itself.
     command.env_remove(threads::VARIABLE);
     command
+}
+
+/// Trains a run of the preset `smoke` for 2048 steps.
+pub fn trained(folder: &Path, run: &Path) {
+    let args = ["train", "--preset", "smoke", "--steps", "2048", "--run-dir", run.to_str().unwrap()];
+    assert!(self::run(folder, &args).status.success());
+}
+
+/// Returns the command `train` or `learner` of a run of the preset `smoke` that trains until it is stopped.
+pub fn endless(folder: &Path, run: &Path, command: &str) -> Command {
+    let mut started = treadmill(folder);
+    started.args([command, "--preset", "smoke", "--steps", ENDLESS, "--run-dir", run.to_str().unwrap()]);
+    started
 }
 
 /// Makes clients in this process use one thread, as Treadmill's own do over TLS: otherwise a flood can corrupt the memory of its
@@ -43,6 +63,50 @@ pub fn bus_on_one_thread() {
 /// Runs the binary to its end.
 pub fn run(folder: &Path, args: &[&str]) -> Output {
     treadmill(folder).args(args).output().expect("the binary starts")
+}
+
+/// Runs `treadmill certs`.
+pub fn certs(folder: &Path, args: &[&str]) {
+    let made = run(folder, &[&["certs"], args].concat());
+    assert!(made.status.success(), "{}", stderr(&made));
+}
+
+/// Issues a client's certificate by the authority in `certs` into `out`, valid between these days from now.
+pub fn issue(role: Role, certs: &Path, out: &Path, [from, until]: [i64; 2]) {
+    let read = |name: &str| fs::read_to_string(certs.join(name)).unwrap();
+    let authority = Issuer::from_ca_cert_pem(&read("ca.crt"), KeyPair::from_pem(&read("ca.key")).unwrap()).unwrap();
+    let mut params = CertificateParams::default();
+    params.distinguished_name.push(DnType::CommonName, role.common_name());
+    params.extended_key_usages = vec![ExtendedKeyUsagePurpose::ClientAuth];
+    params.not_before = OffsetDateTime::now_utc() + time::Duration::days(from);
+    params.not_after = OffsetDateTime::now_utc() + time::Duration::days(until);
+    let pair = KeyPair::generate().unwrap();
+    let [certificate, key] = Credentials { folder: out.to_path_buf(), role }.files();
+    fs::write(certificate, params.signed_by(&pair, &authority).unwrap().pem()).unwrap();
+    fs::write(&key, pair.serialize_pem()).unwrap();
+    fs::set_permissions(&key, fs::Permissions::from_mode(0o600)).unwrap();
+}
+
+/// Joins the bus of a run.
+pub fn join(run: &Path) -> Bus {
+    Bus::open_client(&BusOptions { connect: vec![endpoint(run)], ..BusOptions::default() }).unwrap()
+}
+
+/// Joins the bus of a run with the certificate of a role in `folder/certs`.
+pub fn join_as(role: Role, folder: &Path, run: &Path) -> Bus {
+    let credentials = Some(Credentials { folder: folder.join("certs"), role });
+    Bus::open_client(&BusOptions { connect: vec![endpoint(run)], credentials, ..BusOptions::default() }).unwrap()
+}
+
+/// Waits for the newest policy of the run `run`.
+pub async fn policy(bus: &Bus) -> PolicyBundle {
+    loop {
+        // Without a reply, the client does not know the learner yet.
+        if let Some(bundle) = fetch_policy(bus, Some("run"), TIMEOUT).await.unwrap() {
+            return bundle;
+        }
+        tokio::task::yield_now().await;
+    }
 }
 
 /// Returns standard output as text.

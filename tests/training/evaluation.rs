@@ -1,14 +1,13 @@
 //! Evaluation during training, and the best checkpoint chosen by it.
 
 use crate::support::*;
-use treadmill_bus::{Assignment, Bus, BusOptions, ask_for_evaluation};
+use treadmill_bus::{Assignment, ask_for_evaluation};
 use treadmill_learner::checkpoint::load_file;
 
 #[test]
 fn policies_are_evaluated_during_training() {
     let (folder, run) = folders();
-    let mut command = treadmill(folder.path());
-    command.args(["train", "--preset", "smoke", "--steps", "1000000000", "--run-dir", run.to_str().unwrap()]);
+    let mut command = endless(folder.path(), &run, "train");
     command.args(["--set", "eval.every_steps=2048", "--set", "eval.episodes=3"]);
     let training = Running::start(command);
     let values = |tag: &str| -> Vec<(u64, f64)> {
@@ -44,16 +43,12 @@ fn policies_are_evaluated_during_training() {
 #[test]
 fn forged_reports_are_ignored() {
     let (folder, run) = folders();
-    let mut command = treadmill(folder.path());
-    command.args(["train", "--preset", "smoke", "--steps", "1000000000", "--run-dir", run.to_str().unwrap()]);
+    let mut command = endless(folder.path(), &run, "train");
     command.args(["--set", "eval.every_steps=500000000"]);
     let training = Running::start(command);
     await_steps(&run, 1024);
-    let endpoint = endpoint(&run);
-    let runtime = tokio::runtime::Builder::new_multi_thread().enable_all().build().unwrap();
-    runtime.block_on(async {
-        let options = BusOptions { connect: vec![endpoint], insecure: true, ..BusOptions::default() };
-        let bus = tokio::task::spawn_blocking(move || Bus::open_client(&options)).await.unwrap().unwrap();
+    let bus = join(&run);
+    tokio::runtime::Runtime::new().unwrap().block_on(async {
         let report = treadmill_proto::EvaluationReport {
             run: run.file_name().unwrap().to_str().unwrap().into(),
             evaluator: "liar".into(),

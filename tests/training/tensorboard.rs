@@ -124,9 +124,7 @@ fn tensorboard_shows_configuration_histograms_and_hyperparameters() {
 fn a_failed_run_has_the_status_failure() {
     let Some(python) = python_with("tensorboard") else { return };
     let (folder, run) = folders();
-    let mut command = treadmill(folder.path());
-    command.args(["train", "--preset", "smoke", "--steps", "1000000000", "--run-dir", "run"]);
-    let training = Running::start(command);
+    let training = Running::start(endless(folder.path(), &run, "train"));
     await_steps(&run, 512);
     // From now on, saving fails.
     fs::rename(run.join("checkpoints"), run.join("elsewhere")).unwrap();

@@ -95,9 +95,8 @@ fn a_run_prints_its_banner_and_leaves_all_files() {
 #[test]
 fn the_learning_curve_appears_during_the_run() {
     let (folder, run_folder) = folders();
-    let path = run_folder.to_str().unwrap();
-    let mut command = treadmill(folder.path());
-    command.args(["train", "--preset", "smoke", "--steps", "1000000000", "--run-dir", path]).env("LC_ALL", "C.UTF-8");
+    let mut command = endless(folder.path(), &run_folder, "train");
+    command.env("LC_ALL", "C.UTF-8");
     let running = Running::start(command);
     let line = running.wait_for("after ");
     for part in ["return ", "distance ", "farthest ", "▁", "█"] {
@@ -220,9 +219,7 @@ fn resume_restores_all_state() {
 #[test]
 fn the_first_ctrl_c_saves_and_prints_the_resume_command() {
     let (folder, run) = folders();
-    let mut command = treadmill(folder.path());
-    command.args(["train", "--preset", "smoke", "--steps", "100000000", "--run-dir", run.to_str().unwrap()]);
-    let training = Running::start(command);
+    let training = Running::start(endless(folder.path(), &run, "train"));
     await_steps(&run, 1024);
     let actors = children(training.pid(), "actor");
     assert_eq!(actors.len(), 2);
@@ -242,10 +239,8 @@ fn the_first_ctrl_c_saves_and_prints_the_resume_command() {
 #[test]
 fn the_second_ctrl_c_ends_the_process_at_once() {
     let (folder, run) = folders();
-    let mut command = treadmill(folder.path());
-    command.args(["train", "--preset", "smoke", "--run-dir", run.to_str().unwrap()]);
+    let mut command = endless(folder.path(), &run, "train");
     command.args(["--set", "ppo.epochs=100", "--set", "ppo.batch=65536", "--set", "ppo.minibatch=16"]);
-    command.args(["--steps", "100000000"]);
     let training = Running::start(command);
     // The first update is long: a hundred epochs of four thousand gradient steps. Ctrl-C arrives during it.
     await_that("a busy training thread", || {

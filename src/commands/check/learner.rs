@@ -8,8 +8,11 @@ use treadmill_runtime::{error_chain, machine};
 
 use super::{finding::Finding, route};
 use crate::{
-    launch::{exit_code::Usage, slow_step::SlowStepNotice},
-    shared::learner_address::{ANSWER_TIMEOUT, ReachArgs, retry_until_answered},
+    launch::slow_step::SlowStepNotice,
+    shared::{
+        learner_address::{ANSWER_TIMEOUT, ReachArgs, retry_until_answered},
+        network_args::check_run,
+    },
 };
 
 const NAME: &str = "learner";
@@ -33,9 +36,7 @@ impl LearnerRoute {
     /// Reads the route from the flags; returns `None` if they name no learner.
     pub fn of(reach: &ReachArgs) -> anyhow::Result<Option<Self>> {
         let connect = reach.named_endpoints()?;
-        if let Some(run) = &reach.run {
-            treadmill_proto::ident::check_ident("run", run).map_err(|why| Usage(why.to_string()))?;
-        }
+        check_run(reach.run.as_deref())?;
         if connect.is_empty() && !reach.network.discover {
             return Ok(None);
         }

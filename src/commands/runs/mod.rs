@@ -13,7 +13,10 @@ use clap::Args;
 use serde_json::json;
 
 use self::record::Record;
-use crate::launch::{exit_code::Usage, output::say};
+use crate::launch::{
+    exit_code::Usage,
+    output::{say, thousands},
+};
 
 /// Flags of `runs`.
 #[derive(Args)]
@@ -132,14 +135,6 @@ fn print_table(records: &[Record], differences: &[BTreeMap<&str, &str>]) {
     say(
         "return, falls: of the last training episodes. Below each run: configuration keys whose values differ between runs.",
     );
-}
-
-/// Formats 1234567 as `1 234 567`.
-fn thousands(number: u64) -> String {
-    let digits = number.to_string();
-    let groups: Vec<&str> =
-        digits.as_bytes().rchunks(3).rev().map(|group| str::from_utf8(group).unwrap_or("")).collect();
-    groups.join(" ")
 }
 
 fn duration(seconds: f64) -> String {

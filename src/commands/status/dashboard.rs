@@ -14,7 +14,7 @@ use treadmill_runtime::shutdown::Shutdown;
 use super::{
     draw::{self, Theme},
     fleet::Fleet,
-    follow::{Follower, NEWS_WAITING, News},
+    follow::{Follower, NEWS_QUEUED_MAX, News},
     keys::{self, Action},
 };
 use crate::{
@@ -29,7 +29,7 @@ const TICK: Duration = Duration::from_millis(250);
 pub fn run(reach: &ReachArgs) -> anyhow::Result<()> {
     let options = reach.options(Role::Observer)?;
     learner_address::connect_with(options.clone(), async |bus| {
-        let (sender, news) = sync_channel(NEWS_WAITING);
+        let (sender, news) = sync_channel(NEWS_QUEUED_MAX);
         let follower = Follower::new(reach.clone(), options, bus, sender)?;
         let shutdown = Shutdown::default();
         exit_on_signals(shutdown.clone())?;
@@ -58,7 +58,7 @@ fn show(news: &Receiver<News>, shutdown: &Shutdown) -> anyhow::Result<()> {
     let mut screen = TerminalScreen::open().context(UNUSABLE)?;
     let mut fleet = Fleet::new(Instant::now());
     while !shutdown.asked() {
-        for _ in 0..NEWS_WAITING {
+        for _ in 0..NEWS_QUEUED_MAX {
             match news.try_recv() {
                 Ok(News::Answers(answers)) => fleet.apply_statuses(answers, Instant::now()),
                 Ok(News::Silence(why)) => fleet.silence = Some(why),
@@ -70,7 +70,7 @@ fn show(news: &Receiver<News>, shutdown: &Shutdown) -> anyhow::Result<()> {
         screen.draw(|frame| draw::draw(frame, &mut fleet, &theme, Instant::now())).context(UNUSABLE)?;
         let mut timeout = TICK;
         while event::poll(timeout).context(UNUSABLE)? {
-            match keys::action(&event::read().context(UNUSABLE)?, fleet.helps) {
+            match keys::action(&event::read().context(UNUSABLE)?, fleet.shows_help) {
                 Some(Action::Quit) => return Ok(()),
                 Some(action) => fleet.act(action),
                 None => {}

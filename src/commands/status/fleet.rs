@@ -174,7 +174,7 @@ pub struct Fleet {
     /// Order of the actors.
     pub order: ActorOrder,
     /// Whether the help is shown.
-    pub helps: bool,
+    pub shows_help: bool,
     /// Why no learner answers now.
     pub silence: Option<String>,
 }
@@ -189,7 +189,7 @@ impl Fleet {
             scroll: 0,
             visible_rows: 1,
             order: ActorOrder::default(),
-            helps: false,
+            shows_help: false,
             silence: None,
         }
     }
@@ -229,8 +229,8 @@ impl Fleet {
     pub fn act(&mut self, action: Action) {
         let page = self.visible_rows.max(1);
         match action {
-            Action::Help => self.helps = !self.helps,
-            Action::Back => self.helps = false,
+            Action::Help => self.shows_help = !self.shows_help,
+            Action::Back => self.shows_help = false,
             Action::NextRun | Action::PreviousRun if self.runs.is_empty() => {}
             Action::NextRun => self.select((self.selected + 1) % self.runs.len()),
             Action::PreviousRun => self.select((self.selected + self.runs.len() - 1) % self.runs.len()),

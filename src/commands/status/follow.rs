@@ -18,7 +18,7 @@ const LISTEN_EVERY: Duration = Duration::from_millis(200);
 /// Most metrics forwarded per poll, so that a flood does not delay the next request for statuses.
 const METRICS_AT_ONCE: usize = 4096;
 /// Capacity of the queue to the dashboard. Further items are dropped; the next answer repeats them.
-pub const NEWS_WAITING: usize = 4096;
+pub const NEWS_QUEUED_MAX: usize = 4096;
 
 /// Message to the dashboard.
 pub enum News {
@@ -40,7 +40,7 @@ pub struct Follower {
     feed: MetricsFeed,
     news: SyncSender<News>,
     /// Metrics file of the run, until it was read.
-    log: Option<PathBuf>,
+    metrics_file: Option<PathBuf>,
 }
 
 /// The dashboard has closed the queue.
@@ -50,13 +50,13 @@ impl Follower {
     /// Subscribes to metrics on a session that was opened with these options.
     pub fn new(reach: ReachArgs, options: BusOptions, bus: Bus, news: SyncSender<News>) -> anyhow::Result<Self> {
         let feed = MetricsFeed::open(&bus, reach.run.as_deref(), &fleet::tags())?;
-        let log = reach.log();
-        Ok(Self { reach, options, bus, feed, news, log })
+        let metrics_file = reach.metrics_file();
+        Ok(Self { reach, options, bus, feed, news, metrics_file })
     }
 
     /// Polls until the dashboard closes the queue.
     pub async fn run(mut self) {
-        while self.ask().await.is_ok() {
+        while self.poll_statuses().await.is_ok() {
             let until = Instant::now() + WATCH_EVERY;
             while Instant::now() < until {
                 tokio::time::sleep(LISTEN_EVERY).await;
@@ -67,7 +67,7 @@ impl Follower {
         }
     }
 
-    async fn ask(&mut self) -> Result<(), Closed> {
+    async fn poll_statuses(&mut self) -> Result<(), Closed> {
         match statuses(&self.bus, self.reach.run.as_deref(), learner_address::ANSWER_TIMEOUT).await {
             Ok(replies) if !replies.is_empty() => {
                 let answers = replies.into_iter().filter_map(|reply| reply.status).collect();
@@ -84,8 +84,8 @@ impl Follower {
 
     /// Loads earlier metrics after the first answer, because only metrics of known runs are kept.
     async fn load_past(&mut self) -> Result<(), Closed> {
-        let Some(log) = self.log.take() else { return Ok(()) };
-        let past = tokio::task::spawn_blocking(move || past::read(&log)).await.unwrap_or_default();
+        let Some(file) = self.metrics_file.take() else { return Ok(()) };
+        let past = tokio::task::spawn_blocking(move || past::read(&file)).await.unwrap_or_default();
         self.send(News::Past(past))
     }
 

@@ -33,17 +33,17 @@ pub enum Action {
 
 /// Lines of the help: keys and their effect.
 pub const HELP: [(&str, &str); 7] = [
-    ("q, Esc, Ctrl-C", "leave; the runs go on"),
+    ("q, Esc, Ctrl-C", "quit; runs continue"),
     ("Tab, Shift-Tab", "next or previous run"),
     ("↑ ↓, k j", "scroll the actors"),
-    ("PgUp PgDn, b f", "a page of them"),
-    ("Home End, g G", "the first, the last"),
-    ("s", "another order of them"),
-    ("?", "these lines, and back"),
+    ("PgUp PgDn, b f", "scroll by a page"),
+    ("Home End, g G", "first or last actor"),
+    ("s", "change the order"),
+    ("?", "show or hide this help"),
 ];
 
-/// Returns the action of an event; `helps` is true while the help is shown.
-pub fn action(event: &Event, helps: bool) -> Option<Action> {
+/// Returns the action of an event; `shows_help` is true while the help is shown.
+pub fn action(event: &Event, shows_help: bool) -> Option<Action> {
     let Event::Key(key) = event else { return None };
     if key.kind == KeyEventKind::Release {
         return None;
@@ -52,7 +52,7 @@ pub fn action(event: &Event, helps: bool) -> Option<Action> {
         return matches!(key.code, KeyCode::Char('c' | 'd')).then_some(Action::Quit);
     }
     match key.code {
-        KeyCode::Esc if helps => Some(Action::Back),
+        KeyCode::Esc if shows_help => Some(Action::Back),
         KeyCode::Char('q') | KeyCode::Esc => Some(Action::Quit),
         KeyCode::Char('?' | 'h') => Some(Action::Help),
         KeyCode::Tab => Some(Action::NextRun),
@@ -74,8 +74,8 @@ mod tests {
 
     use super::*;
 
-    fn pressed(code: KeyCode, modifiers: KeyModifiers, helps: bool) -> Option<Action> {
-        action(&Event::Key(KeyEvent::new(code, modifiers)), helps)
+    fn pressed(code: KeyCode, modifiers: KeyModifiers, shows_help: bool) -> Option<Action> {
+        action(&Event::Key(KeyEvent::new(code, modifiers)), shows_help)
     }
 
     #[test]

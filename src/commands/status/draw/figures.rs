@@ -1,30 +1,19 @@
 //! Numbers in few characters.
 
 pub use crate::commands::status::plain::plain;
+use crate::launch::output::thousands;
 
 /// Stands for a number that is unknown or not finite.
 pub const UNKNOWN: &str = "–";
 
 /// Formats a count: in full below ten million, else with a unit letter.
 pub fn count(count: u64) -> String {
-    if count < 10_000_000 { grouped(count) } else { scaled(count as f64) }
+    if count < 10_000_000 { thousands(count) } else { scaled(count as f64) }
 }
 
 /// Formats a count in at most five characters.
 pub fn short(count: u64) -> String {
     if count < 10_000 { count.to_string() } else { scaled(count as f64) }
-}
-
-fn grouped(count: u64) -> String {
-    let digits = count.to_string();
-    let mut out = String::with_capacity(digits.len() + 2);
-    for (place, digit) in digits.char_indices() {
-        if place > 0 && (digits.len() - place).is_multiple_of(3) {
-            out.push(' ');
-        }
-        out.push(digit);
-    }
-    out
 }
 
 /// Formats a number with about three digits.

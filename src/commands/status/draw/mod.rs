@@ -69,7 +69,7 @@ pub fn draw(frame: &mut Frame, fleet: &mut Fleet, theme: &Theme, now: Instant) {
     // The range of actors at the right end has priority over the last keys.
     let left = Rect { width: keys.width.saturating_sub(actors::RANGE_WIDTH), ..keys };
     frame.render_widget(pieces.fitted(left.width), left);
-    if fleet.helps {
+    if fleet.shows_help {
         draw_help(frame, area, theme);
     }
 }

@@ -193,7 +193,7 @@ proptest! {
         runs in prop::collection::vec(samples::hostile(), 0..4),
         values in prop::collection::vec((any::<u64>(), any::<u64>().prop_map(f64::from_bits), 0..11usize), 0..40),
         (width, height) in (0..250u16, 0..80u16),
-        helps in any::<bool>(),
+        shows_help in any::<bool>(),
         seconds in 0..100_000u64,
     ) {
         let now = Instant::now() + Duration::from_secs(seconds);
@@ -204,7 +204,7 @@ proptest! {
                 fleet.apply_metric(&metric);
             }
         }
-        if helps {
+        if shows_help {
             fleet.act(Action::Help);
         }
         for action in [Action::Last, Action::NextRun, Action::Order, Action::PageDown] {
@@ -213,7 +213,7 @@ proptest! {
                 let moves = cell.symbol().chars().any(|c| c.is_control() || ('\u{202a}'..='\u{202e}').contains(&c));
                 prop_assert!(!moves, "{:?}", cell.symbol());
             }
-            if let (Some((run, ..)), true) = (fleet.selected(), width >= WIDTH_MIN && height >= HEIGHT_MIN && !helps) {
+            if let (Some((run, ..)), true) = (fleet.selected(), width >= WIDTH_MIN && height >= HEIGHT_MIN && !shows_help) {
                 let screen = lines(&buffer).join("\n");
                 let (front, back) = (run.status.run.chars().next().unwrap(), run.status.run.chars().last().unwrap());
                 let first = screen.lines().next().unwrap();
