@@ -187,7 +187,7 @@ mod tests {
     fn help_texts_come_from_the_page_of_metrics() {
         assert_eq!(help("no_such_gauge"), "A metric of Treadmill");
         let text = help("learner_memory_mb");
-        assert!(text.contains("Resident memory of the learner's process. Unit: MB"), "{text}");
+        assert!(text.contains("Resident memory of the learner process. Unit: MB"), "{text}");
         assert!(help("actor_envs").contains("Unit: count"));
         assert_eq!(row("| `run`, `actor` | – | Which run, and which of its actors. |"), None);
         assert_eq!(row("| `a/b` | s | Says `x`. |"), Some(("a_b".to_string(), "Says x. Unit: s.".to_string())));
