@@ -37,6 +37,7 @@ port = endpoint.rsplit(":", 1)[1]
 WAIT_S = 40
 # A denied query gets no answer, so each query waits this long.
 QUERY_TIMEOUT_S = 3
+ATTEMPTS = 5
 
 
 def config(where, authority=None, own=None):
@@ -136,7 +137,9 @@ print("publishes episodes: actor; not: observer. Publishes metrics: not: actor")
 
 # Only actors may send rollouts. Actors, observers and evaluators may fetch the policy.
 rollouts = f"treadmill/{run}/rollouts/stranger"
-assert answers(actor, rollouts, b"malformed"), "an actor gets a receipt even for a malformed fragment"
+# The router's link to the learner may break (zenoh#2557); like every actor, ask again then.
+receipts = any(answers(actor, rollouts, b"malformed") for _ in range(ATTEMPTS))
+assert receipts, "an actor gets a receipt even for a malformed fragment"
 for opened in [observer, evaluator]:
     assert not answers(opened, rollouts, b"malformed")
 print("sends rollouts: actor; not: observer, evaluator")
