@@ -9,39 +9,14 @@ speed, policy lag, return and distance of each run. Needs no Python packages.
 
 import argparse
 import asyncio
-import contextlib
 import json
 import pathlib
 import signal
 import statistics
+import sys
 
-CHUNK_BYTES = 1 << 16
-# Large enough for all fragments that actors may have in flight.
-CHUNKS_IN_FLIGHT = 4096
-
-
-async def relay(reader, writer, delay_s):
-    """Forwards data and the end of the stream in order, delayed."""
-    loop, chunks = asyncio.get_running_loop(), asyncio.Queue(CHUNKS_IN_FLIGHT)
-
-    async def receive():
-        chunk = True
-        while chunk:
-            with contextlib.suppress(ConnectionError):
-                chunk = await reader.read(CHUNK_BYTES)
-            await chunks.put((loop.time() + delay_s, chunk))
-
-    receiving = asyncio.create_task(receive())
-    with contextlib.suppress(ConnectionError):
-        while True:
-            due, chunk = await chunks.get()
-            await asyncio.sleep(due - loop.time())
-            if not chunk:
-                break
-            writer.write(chunk)
-            await writer.drain()
-    receiving.cancel()
-    writer.close()
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "faults"))
+from links import forward
 
 
 async def listen(port, delay_s):
@@ -56,7 +31,7 @@ async def listen(port, delay_s):
             # The learner has ended before the actors.
             writer.close()
             return
-        await asyncio.gather(relay(reader, upstream, delay_s), relay(replies, writer, delay_s))
+        await asyncio.gather(forward(reader, upstream, lambda: delay_s), forward(replies, writer, lambda: delay_s))
 
     server = await asyncio.start_server(accept, "127.0.0.1", 0)
     return server, server.sockets[0].getsockname()[1], links
