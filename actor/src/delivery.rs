@@ -213,7 +213,13 @@ mod tests {
     use super::*;
 
     fn receipt(outcome: Outcome, durable_through: u64) -> Receipt {
-        Receipt { outcome, reason: String::new(), version: PolicyVersion::default(), durable_through }
+        Receipt {
+            outcome,
+            reason: String::new(),
+            version: PolicyVersion::default(),
+            durable_through,
+            fragment_steps: 0,
+        }
     }
 
     #[test]

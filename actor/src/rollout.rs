@@ -103,7 +103,7 @@ impl Collector {
             last_observations: Vec::new(),
             episodes: Vec::new(),
             settled_through,
-            actor_state: None,
+            ..Fragment::default()
         };
         // Rapier's internal state is not part of an actor's state, so every fragment starts without it.
         self.environments.renew_worlds();

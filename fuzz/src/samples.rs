@@ -74,6 +74,8 @@ fn fragment_message() -> Fragment {
         }],
         settled_through: 1,
         actor_state: None,
+        env_steps: 8,
+        collect_s: 0.5,
     }
 }
 
@@ -110,6 +112,7 @@ pub fn bundle() -> Vec<u8> {
         model_xml: "<mujoco/>".into(),
         checksum: 5,
         actor_state: Some(state()),
+        fragment_steps: 16,
     }
     .encode()
     .expect("a valid message")
@@ -122,7 +125,14 @@ pub fn announcement() -> Vec<u8> {
 
 /// Encodes a receipt.
 pub fn receipt() -> Vec<u8> {
-    Receipt { outcome: Outcome::TooOld, reason: "because".into(), version: version(), durable_through: 3 }.encode()
+    Receipt {
+        outcome: Outcome::TooOld,
+        reason: "because".into(),
+        version: version(),
+        durable_through: 3,
+        fragment_steps: 16,
+    }
+    .encode()
 }
 
 /// Encodes statistics of an actor.

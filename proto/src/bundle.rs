@@ -9,7 +9,9 @@ use crate::{
     ident::check_ident,
     limits::{BUNDLE_BYTES_MAX, HIDDEN_LAYERS_MAX, MODEL_BYTES_MAX, SMALL_BYTES_MAX, WIDTH_MAX},
     pieces::Cursor,
-    planes, scan, wire,
+    planes,
+    receipt::check_fragment_steps,
+    scan, wire,
 };
 
 /// Kind of message in errors.
@@ -90,6 +92,8 @@ pub struct PolicyBundle {
     pub checksum: u64,
     /// State of the run's only actor at the last checkpoint; present only right after a resume of a deterministic run.
     pub actor_state: Option<ActorState>,
+    /// Control steps of a fragment of an actor that has no receipt yet; 0 means `rollout.fragment_steps`.
+    pub fragment_steps: u32,
 }
 
 impl PolicyBundle {
@@ -117,6 +121,7 @@ impl PolicyBundle {
         if !(self.observation_clip.is_finite() && self.observation_clip > 0.0) {
             return Err(Malformed::field("observation_clip", self.observation_clip, "a number above 0"));
         }
+        check_fragment_steps(self.fragment_steps)?;
         self.actor_state.as_ref().map_or(Ok(()), ActorState::check)
     }
 
@@ -138,6 +143,7 @@ impl PolicyBundle {
             model_xml: self.model_xml.clone(),
             checksum: self.checksum,
             actor_state: self.actor_state.clone(),
+            fragment_steps: self.fragment_steps,
         }
         .encode_to_vec();
         check_size(BUNDLE, bytes.len(), BUNDLE_BYTES_MAX)?;
@@ -171,6 +177,7 @@ impl PolicyBundle {
             model_xml: message.model_xml,
             checksum: message.checksum,
             actor_state: message.actor_state,
+            fragment_steps: message.fragment_steps,
         };
         bundle.check()?;
         Ok(bundle)
@@ -219,6 +226,7 @@ mod tests {
             model_xml: "<mujoco/>".into(),
             checksum: 5,
             actor_state: Some(crate::actor_state::tests::sample("a", 2)),
+            fragment_steps: 64,
         }
     }
 

@@ -97,6 +97,10 @@ pub struct Fragment {
     pub settled_through: u64,
     /// State of the actor after this fragment; only in deterministic runs.
     pub actor_state: Option<ActorState>,
+    /// Environment steps that this incarnation has simulated, including this fragment; 0 if it does not count them.
+    pub env_steps: u64,
+    /// Seconds that the sender simulated this fragment, without waits; 0 if it does not measure them.
+    pub collect_s: f64,
 }
 
 impl Fragment {
@@ -138,6 +142,13 @@ impl Fragment {
             self.check_state(state)?;
         }
         let rows = self.transitions();
+        if !(self.env_steps == 0 || (rows as u64..=SEQUENCE_MAX).contains(&self.env_steps)) {
+            let expected = format!("0, or at least the fragment's own {rows} transitions and at most {SEQUENCE_MAX}");
+            return Err(Malformed::field("env_steps", self.env_steps, expected));
+        }
+        if !(self.collect_s.is_finite() && self.collect_s >= 0.0) {
+            return Err(Malformed::field("collect_s", self.collect_s, "0 or more"));
+        }
         check_plane("observations", &self.observations, rows * self.observation_size as usize)?;
         check_plane("actions", &self.actions, rows * self.action_size as usize)?;
         check_plane("log_probs", &self.log_probs, rows)?;
@@ -200,6 +211,8 @@ impl Fragment {
             settled_through: self.settled_through,
             actor_state: self.actor_state.clone(),
             observation_precision: wire::Precision::from(precision).into(),
+            env_steps: self.env_steps,
+            collect_s: self.collect_s,
         };
         let bytes = message.encode_to_vec();
         check_size("fragment", bytes.len(), FRAGMENT_BYTES_MAX)?;
@@ -247,6 +260,8 @@ impl Fragment {
             action_size: message.action_size,
             settled_through: message.settled_through,
             actor_state: message.actor_state,
+            env_steps: message.env_steps,
+            collect_s: message.collect_s,
         };
         fragment.check()?;
         Ok(fragment)

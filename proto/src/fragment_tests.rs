@@ -31,6 +31,8 @@ pub(crate) fn sample() -> Fragment {
         }],
         settled_through: 1,
         actor_state: Some(state("a1", 3)),
+        env_steps: 60,
+        collect_s: 0.25,
     }
 }
 

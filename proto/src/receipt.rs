@@ -2,7 +2,11 @@
 
 use prost::Message;
 
-use crate::{Malformed, PolicyVersion, bundle, check_size, limits::SMALL_BYTES_MAX, wire};
+use crate::{
+    Malformed, PolicyVersion, bundle, check_size,
+    limits::{SMALL_BYTES_MAX, STEPS_MAX},
+    wire,
+};
 
 /// Outcome of a fragment.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -47,6 +51,8 @@ pub struct Receipt {
     pub version: PolicyVersion,
     /// Sequence number up to which a checkpoint holds every accepted fragment of this actor.
     pub durable_through: u64,
+    /// Control steps of the actor's next fragment; 0 means as the policy bundle says.
+    pub fragment_steps: u32,
 }
 
 impl Receipt {
@@ -58,6 +64,7 @@ impl Receipt {
             reason: self.reason.clone(),
             version: Some(self.version.into()),
             durable_through: self.durable_through,
+            fragment_steps: self.fragment_steps,
         }
         .encode_to_vec()
     }
@@ -71,13 +78,23 @@ impl Receipt {
             .find(|(_, wire)| *wire as i32 == message.outcome)
             .map(|(ours, _)| *ours)
             .ok_or_else(|| Malformed::field("outcome", message.outcome, "1 to 8"))?;
+        check_fragment_steps(message.fragment_steps)?;
         Ok(Self {
             outcome,
             reason: message.reason,
             version: bundle::version(message.version)?,
             durable_through: message.durable_through,
+            fragment_steps: message.fragment_steps,
         })
     }
+}
+
+/// Checks the length of a future fragment; 0 leaves it open.
+pub(crate) fn check_fragment_steps(steps: u32) -> Result<(), Malformed> {
+    if steps > STEPS_MAX {
+        return Err(Malformed::field("fragment_steps", steps, format!("0 to {STEPS_MAX}")));
+    }
+    Ok(())
 }
 
 #[cfg(test)]
@@ -92,9 +109,12 @@ mod tests {
                 reason: "because".into(),
                 version: PolicyVersion { incarnation: 1, number: 2 },
                 durable_through: 3,
+                fragment_steps: 32,
             };
             assert_eq!(Receipt::decode(&receipt.encode()).unwrap(), receipt);
         }
+        let long = wire::Receipt { outcome: 1, fragment_steps: STEPS_MAX + 1, ..wire::Receipt::default() };
+        assert!(Receipt::decode(&long.encode_to_vec()).unwrap_err().to_string().contains("fragment_steps"));
         assert!(Receipt::decode(&[8, 99]).unwrap_err().to_string().contains("outcome"));
     }
 }

@@ -52,6 +52,7 @@ fn fragment() -> Fragment {
         episodes: vec![episode(EndCause::TimeLimit, 1), episode(EndCause::Fell, 2), episode(EndCause::NonFinite, 3)],
         settled_through: 299,
         actor_state: Some(actor_state()),
+        ..Fragment::default()
     }
 }
 
@@ -71,11 +72,12 @@ fn bundle() -> PolicyBundle {
         model_xml: "<mujoco/>".into(),
         checksum: 0xfff0_0000_0000_0001,
         actor_state: Some(actor_state()),
+        fragment_steps: 0,
     }
 }
 
 fn receipt(outcome: Outcome) -> Receipt {
-    Receipt { outcome, reason: "weil – because".into(), version: VERSION, durable_through: 129 }
+    Receipt { outcome, reason: "weil – because".into(), version: VERSION, durable_through: 129, fragment_steps: 0 }
 }
 
 const OUTCOMES: [(&str, Outcome); 8] = [

@@ -54,7 +54,7 @@ pub(super) fn fragment(bytes: usize, precision: Precision) -> Result<(PreparedFr
         last_observations: numbers(WIDTHS.0, envs),
         episodes: Vec::new(),
         settled_through: 0,
-        actor_state: None,
+        ..Fragment::default()
     };
     precision.round(&mut fragment.observations);
     precision.round(&mut fragment.last_observations);
@@ -80,5 +80,6 @@ pub(super) fn bundle() -> PolicyBundle {
         config_toml: String::new(),
         model_xml: treadmill_humanoid::HUMANOID_XML.to_string(),
         actor_state: None,
+        fragment_steps: 0,
     }
 }

@@ -68,7 +68,7 @@ fn fragment(bundle: &PolicyBundle, sequence: u64) -> Fragment {
         last_observations: vec![],
         episodes: vec![episode; rows],
         settled_through: 0,
-        actor_state: None,
+        ..Fragment::default()
     }
 }
 

@@ -24,6 +24,6 @@ pub fn fragment(bundle: &PolicyBundle, actor: &str, sequence: u64) -> Fragment {
         last_observations: vec![0.0; width],
         episodes: vec![],
         settled_through: 0,
-        actor_state: None,
+        ..Fragment::default()
     }
 }

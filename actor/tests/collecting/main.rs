@@ -52,6 +52,7 @@ fn policy(observation: usize) -> ActingPolicy {
         config_toml: String::new(),
         model_xml: String::new(),
         actor_state: None,
+        fragment_steps: 0,
     })
     .unwrap()
 }

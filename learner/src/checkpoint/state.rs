@@ -218,6 +218,7 @@ impl TrainingState {
             config_toml: self.config_toml.clone(),
             model_xml: self.model_xml.clone(),
             actor_state: None,
+            fragment_steps: 0,
         })
     }
 }

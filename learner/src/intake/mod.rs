@@ -210,7 +210,7 @@ impl<S: FragmentSource> Intake<S> {
     fn answer(&self, OwedReceipt { incoming, incarnation }: OwedReceipt<S::Incoming>, lineage: &Lineage) {
         let durable_through = self.validator.ledger.durable_through(S::actor(&incoming), incarnation);
         let (outcome, version) = (Outcome::Accepted, lineage.newest());
-        S::answer(incoming, &Receipt { outcome, reason: String::new(), version, durable_through });
+        S::answer(incoming, &Receipt { outcome, reason: String::new(), version, durable_through, fragment_steps: 0 });
     }
 
     /// Answers every waiting sender that the learner is stopping. No checkpoint holds those fragments, so the senders
@@ -221,6 +221,7 @@ impl<S: FragmentSource> Intake<S> {
             reason: "the learner is stopping".to_string(),
             version: lineage.newest(),
             durable_through: 0,
+            fragment_steps: 0,
         };
         let owed = std::mem::take(&mut self.owed).into_iter().map(|owed| owed.incoming);
         let mut waiting: Vec<S::Incoming> = owed.chain(self.queued.take()).collect();

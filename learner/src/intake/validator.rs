@@ -80,8 +80,9 @@ impl FragmentValidator {
         now: Instant,
     ) -> Result<AcceptedFragment, Box<Receipt>> {
         let version = lineage.newest();
-        let rejection =
-            |outcome, reason: String, durable_through| Box::new(Receipt { outcome, reason, version, durable_through });
+        let rejection = |outcome, reason: String, durable_through| {
+            Box::new(Receipt { outcome, reason, version, durable_through, fragment_steps: 0 })
+        };
         // The fragment may have been queued before its sender was put in quarantine.
         let sender = self.admission.identify(actor, received.claimed_incarnation);
         if self.admission.is_quarantined(&sender, now) {

@@ -198,7 +198,8 @@ impl RolloutReceiver {
     /// queue is full there is no reply, and the sender sends again.
     fn refuse(&self, query: Query, outcome: Outcome, reason: String) {
         self.throttle.pass();
-        let receipt = Receipt { outcome, reason, version: PolicyVersion::default(), durable_through: 0 };
+        let receipt =
+            Receipt { outcome, reason, version: PolicyVersion::default(), durable_through: 0, fragment_steps: 0 };
         drop(self.refusals.try_send((query, receipt)));
     }
 }
