@@ -2,7 +2,10 @@
 
 use std::{
     collections::{BTreeMap, BTreeSet},
-    sync::{Arc, Mutex, MutexGuard},
+    sync::{
+        Arc, Mutex, MutexGuard,
+        atomic::{AtomicU32, Ordering},
+    },
     time::Duration,
 };
 
@@ -51,6 +54,8 @@ pub struct Uploader {
     actor: String,
     receipt_timeout: Duration,
     policies: Arc<PolicyFetcher>,
+    /// Control steps of the next fragment.
+    fragment_steps: AtomicU32,
     state: Mutex<DeliveryState>,
 }
 
@@ -80,8 +85,15 @@ enum NextStep {
 }
 
 impl Uploader {
-    /// Creates the uploader of one actor process.
-    pub fn new(bus: Bus, run: &str, actor: &str, receipt_timeout: Duration, policies: Arc<PolicyFetcher>) -> Self {
+    /// Creates the uploader of one actor process, whose first fragment has `fragment_steps`.
+    pub fn new(
+        bus: Bus,
+        run: &str,
+        actor: &str,
+        receipt_timeout: Duration,
+        policies: Arc<PolicyFetcher>,
+        fragment_steps: u32,
+    ) -> Self {
         let incarnation = policies.current().version.incarnation;
         Self {
             bus,
@@ -89,8 +101,14 @@ impl Uploader {
             actor: actor.to_string(),
             receipt_timeout,
             policies,
+            fragment_steps: fragment_steps.into(),
             state: Mutex::new(DeliveryState { incarnation, ..DeliveryState::default() }),
         }
+    }
+
+    /// Returns the control steps of the next fragment.
+    pub fn fragment_steps(&self) -> u32 {
+        self.fragment_steps.load(Ordering::Relaxed)
     }
 
     /// Returns the present counts.
@@ -127,6 +145,9 @@ impl Uploader {
         let receipt = self.send_until_settled(&fragment.bytes).await?;
         if receipt.outcome == Outcome::Malformed {
             tracing::error!(actor = %self.actor, sequence = fragment.sequence, reason = %receipt.reason, "fragment rejected");
+        }
+        if receipt.fragment_steps > 0 {
+            self.fragment_steps.store(receipt.fragment_steps, Ordering::Relaxed);
         }
         self.state().settle(fragment, &receipt);
         let refresh = self.policies.refresh(Some(receipt.version)).await;

@@ -17,9 +17,10 @@ use crate::{
 pub struct Collector {
     environments: Environments,
     noise: Stream,
-    steps: u32,
     identity: ActorIdentity,
     sequence: u64,
+    /// Environment steps simulated so far.
+    env_steps: u64,
     is_state_attached: bool,
     results: StepResults,
     pose_sampler: Option<PoseSampler>,
@@ -30,14 +31,14 @@ pub struct Collector {
 }
 
 impl Collector {
-    /// Creates a collector of fragments of `steps` control steps.
-    pub fn new(environments: Environments, noise: Stream, steps: u32, identity: ActorIdentity) -> Self {
+    /// Creates a collector.
+    pub fn new(environments: Environments, noise: Stream, identity: ActorIdentity) -> Self {
         let (envs, action) = (environments.len(), environments.action_size());
         Self {
             noise,
-            steps,
             identity,
             sequence: 0,
+            env_steps: 0,
             is_state_attached: false,
             results: StepResults::default(),
             pose_sampler: None,
@@ -73,17 +74,13 @@ impl Collector {
         self.environments.precision()
     }
 
-    /// Returns the number of transitions in one fragment.
-    pub fn transitions(&self) -> usize {
-        self.steps as usize * self.environments.len()
-    }
-
-    /// Collects the next fragment. Fragments up to `settled_through` will not be sent again.
-    pub fn collect(&mut self, policy: &ActingPolicy, settled_through: u64) -> Result<Fragment, ActorError> {
+    /// Collects the next fragment, of `steps` control steps. Fragments up to `settled_through` will not be sent again.
+    pub fn collect(&mut self, policy: &ActingPolicy, steps: u32, settled_through: u64) -> Result<Fragment, ActorError> {
         let (envs, width, action_size) =
             (self.environments.len(), self.environments.observation_size(), self.environments.action_size());
-        let rows = self.transitions();
+        let rows = steps as usize * envs;
         self.sequence += 1;
+        self.env_steps += rows as u64;
         let mut fragment = Fragment {
             run: self.identity.run.clone(),
             actor: self.identity.actor.clone(),
@@ -91,7 +88,7 @@ impl Collector {
             sequence: self.sequence,
             version: policy.version,
             config_hash: self.identity.config_hash,
-            steps: self.steps,
+            steps,
             envs: envs as u32,
             observation_size: width as u32,
             action_size: action_size as u32,
@@ -103,11 +100,12 @@ impl Collector {
             last_observations: Vec::new(),
             episodes: Vec::new(),
             settled_through,
+            env_steps: self.env_steps,
             ..Fragment::default()
         };
         // Rapier's internal state is not part of an actor's state, so every fragment starts without it.
         self.environments.renew_worlds();
-        for t in 0..self.steps {
+        for t in 0..steps {
             let start = fragment.actions.len();
             fragment.observations.extend_from_slice(self.environments.observations());
             self.normals.fill_with(|| StandardNormal.sample(&mut self.noise));
@@ -162,7 +160,7 @@ impl Collector {
             if flags & treadmill_proto::fragment::TRUNCATED != 0 {
                 let last = truncated.next().expect("one observation for each truncated environment");
                 fragment.last_observations.extend_from_slice(last);
-            } else if Fragment::needs_last_observation(*flags, t, self.steps) {
+            } else if Fragment::needs_last_observation(*flags, t, fragment.steps) {
                 let now = &self.environments.observations()[env * width..][..width];
                 fragment.last_observations.extend_from_slice(now);
             }

@@ -15,6 +15,22 @@ pub(crate) fn read_config(bundle: &PolicyBundle) -> Result<Config, ConfigError> 
     source.build()
 }
 
+/// Control steps of a fragment where neither the bundle nor the configuration says them.
+const FRAGMENT_STEPS: u32 = 128;
+/// Shortest automatic fragment.
+const FRAGMENT_STEPS_MIN: u32 = 8;
+
+/// Returns the control steps of the first fragment of an actor with `envs` environments. Every receipt says those of the next.
+pub(crate) fn first_fragment_steps(bundle: &PolicyBundle, config: &Config, envs: u32) -> u32 {
+    let steps = [bundle.fragment_steps, config.rollout.fragment_steps, FRAGMENT_STEPS];
+    let steps = steps.into_iter().find(|steps| *steps > 0).unwrap_or(FRAGMENT_STEPS);
+    match config.rollout.fragment_steps {
+        // The learner does not know this actor yet, whose first fragment alone may fill a batch.
+        0 => steps.min((config.ppo.batch / envs.max(1)).max(FRAGMENT_STEPS_MIN)),
+        _ => steps,
+    }
+}
+
 /// Refuses a task that this program does not simulate.
 pub fn check_supported(run: &str, config: &Config) -> Result<(), ActorError> {
     match config.is_external() {
@@ -92,6 +108,19 @@ mod tests {
     use treadmill_humanoid::{Environment, HUMANOID_XML};
 
     use super::*;
+
+    #[test]
+    fn the_first_fragment_holds_at_most_a_batch() {
+        let mut config = Config::default();
+        let mut bundle = PolicyBundle { fragment_steps: 64, ..PolicyBundle::default() };
+        assert_eq!(first_fragment_steps(&bundle, &config, 32), 64);
+        assert_eq!(first_fragment_steps(&bundle, &config, 512), 16);
+        assert_eq!(first_fragment_steps(&bundle, &config, 65_536), 8);
+        bundle.fragment_steps = 0;
+        assert_eq!(first_fragment_steps(&bundle, &config, 32), 128, "of a learner that says nothing");
+        config.rollout.fragment_steps = 24;
+        assert_eq!(first_fragment_steps(&bundle, &config, 65_536), 24, "as configured");
+    }
 
     #[test]
     fn configuration_and_environment_have_the_same_defaults() {

@@ -76,7 +76,8 @@ impl<'a> Membership<'a> {
         tracing::info!(incarnation, actor = %options.name, "new incarnation");
         let policies = Arc::new(PolicyFetcher::new(bus.clone(), options.run.clone(), bundle)?);
         let receipt_timeout = Duration::from_millis(config.bus.receipt_timeout_ms);
-        let uploader = Uploader::new(bus.clone(), &bundle.run, &options.name, receipt_timeout, policies.clone());
+        let steps = settings::first_fragment_steps(bundle, &config, options.envs);
+        let uploader = Uploader::new(bus.clone(), &bundle.run, &options.name, receipt_timeout, policies.clone(), steps);
         let identity = ActorIdentity {
             run: bundle.run.clone(),
             actor: options.name.clone(),
@@ -116,7 +117,7 @@ impl<'a> Membership<'a> {
             let why = format!("its observation and action sizes are {wanted:?}, the model's are {found:?}");
             return Err(ActorError::Bundle { number: bundle.version.number, why });
         }
-        let mut collector = Collector::new(environments, noise, config.rollout.fragment_steps, self.identity.clone());
+        let mut collector = Collector::new(environments, noise, self.identity.clone());
         if config.run.deterministic {
             collector.attach_state();
         }

@@ -84,7 +84,7 @@ pub fn fragment() -> Vec<u8> {
     Fragment { actor_state: Some(state()), ..fragment_message() }.encode().expect("a valid message")
 }
 
-/// Encodes a rollout fragment without the actor's state, which is the last field.
+/// Encodes a rollout fragment without the actor's state, to which that can be appended.
 pub fn fragment_without_state() -> Vec<u8> {
     fragment_message().encode().expect("a valid message")
 }

@@ -62,7 +62,7 @@ impl PolicyAnnouncement {
 }
 
 /// Policy with everything else that an actor needs.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct PolicyBundle {
     /// Name of the run.
     pub run: String,

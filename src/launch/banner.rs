@@ -70,7 +70,9 @@ fn goal(config: &Config, steps: u64) -> String {
         false => "to go forward and not to fall",
     };
     let updates = left.div_ceil(batch.max(1));
-    format!("{goal}, in {left} env steps ({updates} updates); the remaining time appears once the speed is known")
+    format!(
+        "{goal}, in {left} env steps (at most {updates} updates); the remaining time appears once the speed is known"
+    )
 }
 
 /// Returns the value of `--connect` for other processes, with further flags that they need. An address that means "all

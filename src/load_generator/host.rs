@@ -10,10 +10,10 @@ use anyhow::Context;
 use clap::Args;
 use serde_json::{Value, json};
 use treadmill_bus::{Alive, Bus, PolicyServer, Role, RolloutCopies, RolloutIntake, admission::Admission};
-use treadmill_config::{LearnerConfig, LearnerMode};
+use treadmill_config::{Config, LearnerMode};
 use treadmill_learner::intake::{
-    BatchSize, BusFragmentSource, Collected, ExpectedFragment, FragmentCounts, FragmentValidator, Intake, Ledger,
-    Lineage,
+    BatchSize, BusFragmentSource, Collected, ExpectedFragment, FleetPlan, FragmentCounts, FragmentValidator,
+    HorizonRule, Intake, Ledger, Lineage,
 };
 use treadmill_learner::training::Heartbeat;
 use treadmill_ppo::AcceptedFragment;
@@ -57,18 +57,20 @@ pub fn run(args: &HostArgs) -> anyhow::Result<()> {
     let encoded = bundle.encode()?;
     let bundle_bytes = encoded.len();
     let policies = PolicyServer::open(&bus, workload::RUN, encoded.into())?;
-    let defaults = LearnerConfig::default();
-    let capacity = defaults.intake_fragments as usize;
-    let admission = Arc::new(Admission::new(defaults.quarantine_after, capacity));
+    let defaults = Config::default();
+    let capacity = defaults.learner.intake_fragments as usize;
+    let admission = Arc::new(Admission::new(defaults.learner.quarantine_after, capacity));
     let (alive, copies) = (Alive::watch(&bus, workload::RUN)?, RolloutCopies::open(&bus, workload::RUN)?);
     let queue = RolloutIntake::open(&bus, workload::RUN, capacity, admission.clone(), &copies)?;
     let shared = queue.shared();
     let source = BusFragmentSource::new(queue, alive, copies, Heartbeat::default());
     let validator = FragmentValidator::new(expected(), admission, Ledger::default(), FragmentCounts::default());
+    let (observation, action) = workload::WIDTHS;
+    let fleet = FleetPlan::new(HorizonRule::new(&defaults, observation as usize, action as usize), 1);
     let (progress, shutdown) = (Arc::new(Mutex::new(Progress::default())), Shutdown::default());
     let intake = std::thread::Builder::new().name("training".to_string()).spawn({
         let (progress, shutdown) = (progress.clone(), shutdown.clone());
-        move || accept_fragments(Intake::new(source, LearnerMode::Async, validator), &progress, &shutdown)
+        move || accept_fragments(Intake::new(source, LearnerMode::Async, validator, fleet), &progress, &shutdown)
     })?;
     say(&json!({"endpoint": endpoints[0], "bundle_bytes": bundle_bytes}).to_string());
     let begun = Instant::now();
@@ -106,9 +108,9 @@ fn expected() -> ExpectedFragment {
 /// Body of the training thread without training: answers each fragment as soon as it is accepted.
 fn accept_fragments(mut intake: Intake<BusFragmentSource>, progress: &Mutex<Progress>, shutdown: &Shutdown) {
     let lineage = Lineage::new(workload::INCARNATION);
-    let one = BatchSize { transitions: 1, transitions_max: 1 };
+    let any = BatchSize { transitions: 1, transitions_max: usize::MAX };
     let mut durable = 0;
-    while let Collected::Batch(batch) = intake.collect(one, &lineage, shutdown, || false) {
+    while let Collected::Batch(batch) = intake.collect(any, &lineage, shutdown, || false) {
         let counts = intake.validator.counts;
         if counts.accepted >= durable + DURABLE_EVERY {
             intake.validator.ledger.mark_durable();

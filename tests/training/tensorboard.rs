@@ -60,7 +60,19 @@ fn tensorboard_shows_configuration_histograms_and_hyperparameters() {
     let Some(python) = python_with("tensorboard") else { return };
     let (folder, run) = folders();
     let run_name = run.to_str().unwrap();
-    let train = ["train", "--preset", "smoke", "--steps", "6144", "--run-dir", run_name, "--set", "ppo.gamma=0.97"];
+    let train = [
+        "train",
+        "--preset",
+        "smoke",
+        "--steps",
+        "6144",
+        "--run-dir",
+        run_name,
+        "--set",
+        "ppo.gamma=0.97",
+        "--actors",
+        "1",
+    ];
     assert!(self::run(folder.path(), &train).status.success());
     let first = read(&python, &run);
 

@@ -34,14 +34,16 @@ fn a_run_prints_its_banner_and_leaves_all_files() {
     for field in ["wall_s", "env_steps_per_s", "return_mean", "length_mean", "distance_mean_m", "velocity_mean_mps"] {
         assert!(summary[field].is_f64(), "{field} in {summary}");
     }
-    assert_eq!(
-        (&summary["run"], &summary["env_steps"], &summary["restarts"]),
-        (&"run".into(), &8192.into(), &0.into())
+    assert_eq!((&summary["run"], &summary["restarts"]), (&"run".into(), &0.into()));
+    // The second actor may join in the middle of a round, whose batch then holds more than 512 steps.
+    let (env_steps, updates) = (summary["env_steps"].as_u64().unwrap(), summary["updates"].as_u64().unwrap());
+    assert!(
+        (8192..8192 + 512).contains(&env_steps) && (14..=16).contains(&updates),
+        "{env_steps} in {updates} updates"
     );
-    assert_eq!(summary["updates"], 16);
     let text = stdout(&output);
     for part in [
-        "to go forward and not to fall, in 8192 env steps (16 updates); the remaining time appears once the speed is known",
+        "to go forward and not to fall, in 8192 env steps (at most 16 updates); the remaining time appears once the speed is known",
         "watch     treadmill status --watch ",
         "film      treadmill eval ",
         "resume    treadmill train --resume ",
@@ -161,7 +163,7 @@ fn training_works_with_the_full_observations_of_gymnasium() {
 #[test]
 fn training_with_mirror_images_continues_after_a_resume() {
     let (folder, run) = folders();
-    let output = smoke(folder.path(), &run, &["--set", "ppo.symmetry=mirrored"]);
+    let output = smoke(folder.path(), &run, &["--set", "ppo.symmetry=mirrored", "--actors", "1"]);
     assert!(output.status.success(), "{}", stderr(&output));
     let args = ["train", "--resume", run.to_str().unwrap(), "--steps", "12288", "--json"];
     let resumed = self::run(folder.path(), &args);
@@ -197,7 +199,7 @@ fn the_same_seed_gives_the_same_weights_bit_for_bit() {
 #[test]
 fn resume_restores_all_state() {
     let (folder, run) = folders();
-    assert!(smoke(folder.path(), &run, &["--steps", "4096"]).status.success());
+    assert!(smoke(folder.path(), &run, &["--steps", "4096", "--actors", "1"]).status.success());
     let before = load_file(&run.join("checkpoints/latest.bundle")).unwrap();
     let run_name = run.to_str().unwrap();
     let output = self::run(folder.path(), &["train", "--resume", run_name, "--steps", "8192", "--json"]);

@@ -7,6 +7,7 @@ use std::{
         mpsc as std_mpsc,
     },
     thread::{self, JoinHandle},
+    time::Instant,
 };
 
 use tokio::sync::mpsc;
@@ -93,7 +94,10 @@ fn collect_fragments(
 ) {
     while credit.recv().is_ok() {
         let policy = shared.policies.current();
-        let produced = collector.collect(&policy, shared.uploader.settled_through()).and_then(|fragment| {
+        let (steps, settled_through) = (shared.uploader.fragment_steps(), shared.uploader.settled_through());
+        let begun = Instant::now();
+        let produced = collector.collect(&policy, steps, settled_through).and_then(|mut fragment| {
+            fragment.collect_s = begun.elapsed().as_secs_f64();
             shared.uploader.register(fragment.sequence);
             encode(fragment, collector.precision(), &shared.progress)
         });

@@ -19,8 +19,8 @@ fn environments(count: usize, config: &EnvironmentConfig) -> Environments {
     Environments::new(count, config, HUMANOID_XML, seeds).unwrap()
 }
 
-fn collector(envs: usize, steps: u32, config: &EnvironmentConfig) -> Collector {
-    Collector::new(environments(envs, config), seeds::stream(1, "noise", &[]), steps, identity("a"))
+fn collector(envs: usize, config: &EnvironmentConfig) -> Collector {
+    Collector::new(environments(envs, config), seeds::stream(1, "noise", &[]), identity("a"))
 }
 
 /// Returns row `[t][n]` of a plane.
@@ -34,10 +34,10 @@ fn the_learner_receives_exactly_the_numbers_that_the_policy_saw() {
     let config = EnvironmentConfig { max_episode_steps: 5, ..EnvironmentConfig::default() };
     for precision in [Precision::F32, Precision::F16] {
         let environments = environments(envs, &config).with_precision(precision);
-        let mut collector = Collector::new(environments, seeds::stream(1, "noise", &[]), steps, identity("a"));
+        let mut collector = Collector::new(environments, seeds::stream(1, "noise", &[]), identity("a"));
         let (policy, mut normalised, mut means) = (policy(45), Vec::new(), vec![0.0; envs * 17]);
         for _ in 0..2 {
-            let fragment = collector.collect(&policy, 0).unwrap();
+            let fragment = collector.collect(&policy, steps, 0).unwrap();
             assert!(fragment.flags.contains(&TRUNCATED));
             let received = Fragment::decode(fragment.encode_as(precision).unwrap()).unwrap();
             assert!(received == fragment);
@@ -57,15 +57,17 @@ fn the_learner_receives_exactly_the_numbers_that_the_policy_saw() {
 
 #[test]
 fn the_next_fragment_continues_where_the_last_one_ended() {
-    let mut collector = collector(3, 4, &EnvironmentConfig::default());
+    let mut collector = collector(3, &EnvironmentConfig::default());
     let policy = policy(45);
-    let first = collector.collect(&policy, 0).unwrap();
-    let second = collector.collect(&policy, 1).unwrap();
+    let first = collector.collect(&policy, 4, 0).unwrap();
+    let second = collector.collect(&policy, 6, 1).unwrap();
     first.check().unwrap();
     second.check().unwrap();
     assert_eq!((first.sequence, second.sequence, second.settled_through), (1, 2, 1));
+    assert_eq!((first.steps, second.steps), (4, 6), "each fragment has the length that was asked for");
+    assert_eq!((first.env_steps, second.env_steps), (12, 30));
     assert_eq!(first.version, PolicyVersion { incarnation: 3, number: 4 });
-    // No episode ends within eight steps, so the second fragment begins with the last observation of the first.
+    // No episode ends within ten steps, so the second fragment begins with the last observation of the first.
     assert!(first.flags.iter().chain(&second.flags).all(|flags| *flags == 0));
     assert_eq!(first.last_observations, second.observations[..3 * 45]);
 }
@@ -73,7 +75,7 @@ fn the_next_fragment_continues_where_the_last_one_ended() {
 #[test]
 fn a_time_limit_is_truncation_with_the_true_last_observation() {
     let config = EnvironmentConfig { max_episode_steps: 3, ..EnvironmentConfig::default() };
-    let fragment = collector(2, 7, &config).collect(&policy(45), 0).unwrap();
+    let fragment = collector(2, &config).collect(&policy(45), 7, 0).unwrap();
     fragment.check().unwrap();
     let flags: Vec<u8> = fragment.flags.iter().step_by(2).copied().collect();
     assert_eq!(flags, [0, 0, TRUNCATED, 0, 0, TRUNCATED, 0]);
@@ -90,8 +92,8 @@ fn a_time_limit_is_truncation_with_the_true_last_observation() {
 
 #[test]
 fn falls_are_terminations_and_their_returns_add_up() {
-    let mut collector = collector(4, 64, &EnvironmentConfig::default());
-    let fragment = collector.collect(&policy(45), 0).unwrap();
+    let mut collector = collector(4, &EnvironmentConfig::default());
+    let fragment = collector.collect(&policy(45), 64, 0).unwrap();
     fragment.check().unwrap();
     let ends = fragment.flags.iter().filter(|flags| **flags == TERMINATED).count();
     assert!(ends > 0, "random actions fall within 64 steps");
@@ -107,7 +109,7 @@ fn falls_are_terminations_and_their_returns_add_up() {
 
 #[test]
 fn the_same_seeds_give_the_same_fragment() {
-    let collect = || collector(2, 40, &EnvironmentConfig::default()).collect(&policy(45), 0).unwrap();
+    let collect = || collector(2, &EnvironmentConfig::default()).collect(&policy(45), 40, 0).unwrap();
     let (first, second): (Fragment, Fragment) = (collect(), collect());
     assert_eq!(first, second);
 }

@@ -22,7 +22,7 @@ fn collector(
     let noise = seeds.noise();
     let environments = Environments::new(envs, config, HUMANOID_XML, seeds).unwrap().with_threads(threads).unwrap();
     let environments = environments.with_precision(precision);
-    let mut collector = Collector::new(environments, noise, 16, identity(name));
+    let mut collector = Collector::new(environments, noise, identity(name));
     collector.attach_state();
     collector
 }
@@ -30,7 +30,7 @@ fn collector(
 /// Checks a fragment and removes the numbers that depend on the process.
 fn comparable(fragment: Fragment) -> Fragment {
     fragment.check().unwrap();
-    Fragment { sequence: 1, settled_through: 0, ..fragment }
+    Fragment { sequence: 1, settled_through: 0, env_steps: 0, ..fragment }
 }
 
 #[test]
@@ -44,7 +44,7 @@ fn a_successor_continues_from_the_bytes_of_any_fragment() {
     for (config, width, precision) in cases {
         let policy = policy(width);
         let mut original = collector(precision, 4, &config, "a", 2, 1);
-        let fragments: Vec<Fragment> = (0..8).map(|_| original.collect(&policy, 0).unwrap()).collect();
+        let fragments: Vec<Fragment> = (0..8).map(|_| original.collect(&policy, 16, 0).unwrap()).collect();
         assert!(fragments.iter().filter(|fragment| !fragment.episodes.is_empty()).count() > 2, "episodes end");
         let truncated = fragments.iter().flat_map(|fragment| &fragment.flags).any(|flags| flags & TRUNCATED != 0);
         assert_eq!(truncated, width == 348);
@@ -55,7 +55,7 @@ fn a_successor_continues_from_the_bytes_of_any_fragment() {
             successor.restore_state(&state).unwrap();
             for fragment in &fragments[at + 1..] {
                 assert!(
-                    comparable(successor.collect(&policy, 0).unwrap()) == comparable(fragment.clone()),
+                    comparable(successor.collect(&policy, 16, 0).unwrap()) == comparable(fragment.clone()),
                     "from {at}"
                 );
             }
@@ -67,8 +67,8 @@ fn a_successor_continues_from_the_bytes_of_any_fragment() {
 fn after_an_unfit_state_all_begins_as_without_it() {
     let (config, policy) = (EnvironmentConfig::default(), policy(45));
     let collector = |envs, name, start| collector(Precision::F32, envs, &config, name, start, 1);
-    let state = collector(3, "a", 2).collect(&policy, 0).unwrap().actor_state.unwrap();
-    let wanted = |envs, name| collector(envs, name, 7).collect(&policy, 0).unwrap();
+    let state = collector(3, "a", 2).collect(&policy, 16, 0).unwrap().actor_state.unwrap();
+    let wanted = |envs, name| collector(envs, name, 7).collect(&policy, 16, 0).unwrap();
     let mut upside_down = state.clone();
     // The quaternion of the last environment, so that the others are restored before it fails.
     let at = upside_down.positions.len() / 3 * 2 + 3;
@@ -84,6 +84,6 @@ fn after_an_unfit_state_all_begins_as_without_it() {
         let mut collector = collector(envs, name, 7);
         let error = collector.restore_state(state).unwrap_err();
         assert!(error.contains(part), "{error}");
-        assert!(collector.collect(&policy, 0).unwrap() == wanted(envs, name), "{part}");
+        assert!(collector.collect(&policy, 16, 0).unwrap() == wanted(envs, name), "{part}");
     }
 }

@@ -173,7 +173,7 @@ impl Config {
             return refuse(
                 "ppo.minibatch",
                 self.ppo.minibatch.to_string(),
-                format!("1 to ppo.batch, which is {}", self.ppo.batch),
+                format!("0 to ppo.batch, which is {}", self.ppo.batch),
             );
         }
         if self.ppo.learning_rate_min > self.ppo.learning_rate_max {

@@ -120,8 +120,8 @@ section! {
         envs: u32 = 64, "1 to 65536" => |v| (1..=65_536).contains(v);
         /// Actor processes that `train` starts; 0 means one per core.
         actors: u32 = 0, "0 to 256" => |v| *v <= 256;
-        /// Control steps of each environment in one fragment.
-        fragment_steps: u32 = 128, "1 to 4096" => |v| (1..=4096).contains(v);
+        /// Control steps of each environment in one fragment; 0 lets the learner fit them to the number and speed of the actors.
+        fragment_steps: u32 = 0, "0 to 4096" => |v| *v <= 4096;
         /// Precision to which observations are rounded before the policy and the learner receive them; "f16" saves a third of the bytes.
         observation_precision: ObservationPrecision = ObservationPrecision::F32, "\"f32\" or \"f16\"" => |_| true;
         /// Fragments without a receipt that an actor may have on the bus; 0 means 1 in learner.mode "sync" and 2 in "async".
@@ -146,12 +146,12 @@ section! {
 section! {
     /// Proximal policy optimisation.
     PpoConfig as "ppo" {
-        /// Transitions of one update.
+        /// Fewest transitions of one update; a batch holds all that the actors have delivered.
         batch: u32 = 8192, "1 to 16777216" => |v| (1..=16_777_216).contains(v);
-        /// Most transitions of one update in learner.mode "async", used when more transitions wait.
-        batch_max: u32 = 8192, "0 to 16777216; less than ppo.batch counts as ppo.batch" => |v| *v <= 16_777_216;
-        /// Transitions of one gradient step.
-        minibatch: u32 = 1024, "1 to ppo.batch" => |v| *v >= 1;
+        /// Transitions of one update that automatic fragments do not exceed; in learner.mode "async" no batch does.
+        batch_max: u32 = 131_072, "0 to 16777216; less than ppo.batch counts as ppo.batch" => |v| *v <= 16_777_216;
+        /// Transitions of one gradient step; 0 divides each batch into 8.
+        minibatch: u32 = 0, "0 to ppo.batch" => |_| true;
         /// Passes over the batch in one update.
         epochs: u32 = 3, "1 to 100" => |v| (1..=100).contains(v);
         /// Fewest passes in learner.mode "async", used when experience waits although batches have their largest size.
@@ -197,7 +197,7 @@ section! {
         /// Versions that a fragment's policy may lag behind the newest in mode "async"; older fragments are dropped and counted.
         max_policy_lag: u32 = 4, "0 to 100" => |v| *v <= 100;
         /// Fragments that may wait in the learner's queue.
-        intake_fragments: u32 = 256, "1 to 65536" => |v| (1..=65_536).contains(v);
+        intake_fragments: u32 = 4096, "1 to 65536" => |v| (1..=65_536).contains(v);
         /// Malformed fragments in a row after which a sender is put in quarantine for 60 s.
         quarantine_after: u32 = 8, "1 to 1000" => |v| (1..=1000).contains(v);
         /// Updates in a row that may be undone, because a number is not finite, before the run stops.
@@ -230,5 +230,18 @@ section! {
         policy_poll_ms: u64 = 10_000, "100 to 600000" => |v| (100..=600_000).contains(v);
         /// Milliseconds between two statistics messages of an actor.
         stats_every_ms: u64 = 2000, "100 to 600000" => |v| (100..=600_000).contains(v);
+    }
+}
+
+impl PpoConfig {
+    /// Gradient steps of one pass over a batch if `minibatch` is 0.
+    const MINIBATCHES: usize = 8;
+
+    /// Returns the transitions of one gradient step in a batch of `rows`.
+    pub fn minibatch_rows(&self, rows: usize) -> usize {
+        match self.minibatch {
+            0 => rows.div_ceil(Self::MINIBATCHES),
+            pinned => pinned as usize,
+        }
     }
 }

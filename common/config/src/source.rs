@@ -225,7 +225,7 @@ pub(crate) mod tests {
         let message = |pair: &str| set(pair).unwrap_err().to_string();
         assert_eq!(message("rollout.envs=0"), "config key `rollout.envs` is 0; allowed: 1 to 65536");
         assert!(message("ppo.learning_rat=1").contains("did you mean `ppo.learning_rate`?"));
-        assert!(message("ppo.minibatch=9000").contains("1 to ppo.batch, which is 8192"));
+        assert!(message("ppo.minibatch=9000").contains("0 to ppo.batch, which is 8192"));
         assert!(message("ppo.epochs=many").contains("`ppo.epochs` is \"many\""));
         assert!(message("ppo.epochs=-1").contains("is -1; allowed: 1 to 100"));
         assert!(

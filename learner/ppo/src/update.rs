@@ -236,7 +236,7 @@ impl Updater {
         for _ in 0..epochs {
             shuffle(&mut order, rng);
             let mut shift = PolicyShift::default();
-            for range in minibatches(batch.len(), self.config.minibatch as usize) {
+            for range in minibatches(batch.len(), self.config.minibatch_rows(batch.len())) {
                 self.gradient_step(batch, &order[range], &advantages, &mut stats, &mut shift)?;
             }
             stats.approx_kl = shift.approx_kl();

@@ -1,9 +1,14 @@
 //! Intake: validates fragments from the bus, sends receipts, and collects batches.
 //!
-//! A receipt returns the sender's credit. In mode [`LearnerMode::Sync`], batches hold only fragments of the newest
-//! policy: the learner owes the receipts until it has published the next policy, so that senders continue with it. It
-//! never waits for one particular actor: once every actor has delivered, or the stragglers' time is up, it sends the
-//! receipts, and the other actors fill the batch. In mode [`LearnerMode::Async`], it answers accepted fragments at once.
+//! A receipt returns the sender's credit and says how long its next fragment should be. A batch holds all that the fleet has
+//! delivered, and at least `ppo.batch` transitions.
+//!
+//! In mode [`LearnerMode::Sync`], batches hold only fragments of the newest policy. A round ends when every live actor has
+//! delivered one, or the stragglers' time is up. A batch needs one or more rounds. The learner owes the receipts of a round
+//! until it begins the next, after the last round of a batch under a new policy.
+//!
+//! In mode [`LearnerMode::Async`], the learner answers accepted fragments at once. Fragments that find the batch full wait
+//! for the next one, and so do their senders.
 //!
 //! A fragment's stages here: received, accepted, batch. *Incoming* is a received fragment that waits for its receipt.
 //!
@@ -11,27 +16,39 @@
 //! - Here: [`Intake`], which collects batches.
 //! - `source`: [`FragmentSource`], where fragments come from.
 //! - `validator`: [`FragmentValidator`], which accepts or rejects a fragment.
+//! - `fleet`: [`FleetPlan`], the actors' environments, speeds, horizons and effort; `horizon`: the rule for horizons.
 //! - `ledger`: [`Ledger`], the handled fragments of every actor process.
 //! - [`ledger_report`]: the ledger as a file.
 //! - `lineage`: [`Lineage`], the policy versions that the newest descends from.
+//! - `rejections`: [`Rejections`], the senders of rejected fragments.
 //! - `straggler`: limits the wait for stragglers.
 
+mod fleet;
+mod horizon;
 mod ledger;
 pub mod ledger_report;
 mod lineage;
+mod rejections;
 mod source;
 mod straggler;
 mod validator;
 
-use std::{collections::BTreeSet, time::Duration};
+use std::{
+    collections::{BTreeSet, VecDeque},
+    time::Duration,
+};
 
 use treadmill_config::LearnerMode;
 use treadmill_ppo::AcceptedFragment;
 use treadmill_proto::{Outcome, Receipt};
 use treadmill_runtime::shutdown::Shutdown;
 
+use fleet::Effort;
+pub use fleet::{FleetEffort, FleetPlan};
+pub use horizon::HorizonRule;
 pub use ledger::{Account, ActorProcess, DropRule, Ledger, LedgerEntry};
 pub use lineage::{Descent, Lineage};
+pub use rejections::{Rejection, Rejections};
 pub use source::{BusFragmentSource, FragmentSource};
 use straggler::StragglerPolicy;
 pub use validator::{ExpectedFragment, FragmentCounts, FragmentValidator};
@@ -45,15 +62,17 @@ pub struct Intake<S: FragmentSource> {
     mode: LearnerMode,
     /// Validator, with the ledger and the counts.
     pub validator: FragmentValidator,
+    /// Environments, speeds and horizons of the actors.
+    pub fleet: FleetPlan,
     stragglers: StragglerPolicy,
+    /// Value of [`FragmentSource::membership`] when the live actors were last read.
+    membership: Option<u64>,
     owed: Vec<OwedReceipt<S::Incoming>>,
-    /// Fragment that came when a batch was already full.
-    queued: Option<S::Incoming>,
+    /// Received fragments that wait for a place in a batch, the next first.
+    waiting: VecDeque<S::Incoming>,
     /// Fragments of the next batch so far, and their transitions.
     accepted: Vec<AcceptedFragment>,
     transitions: usize,
-    /// Actors that were alive at the last poll.
-    present: BTreeSet<String>,
 }
 
 /// Result of [`Intake::collect`].
@@ -78,7 +97,7 @@ struct OwedReceipt<I> {
 pub struct BatchSize {
     /// Transitions that the intake waits for.
     pub transitions: usize,
-    /// Transitions that it takes without waiting, while fragments are queued.
+    /// Transitions from which on it takes no further fragment.
     pub transitions_max: usize,
 }
 
@@ -87,33 +106,34 @@ pub struct BatchSize {
 pub struct CollectedBatch {
     /// Whole fragments, sorted by sender and sequence number, so that their arrival order does not matter.
     pub fragments: Vec<AcceptedFragment>,
-    /// Whether more fragments are queued.
+    /// Whether more fragments wait, which the batch has no place for.
     pub has_backlog: bool,
 }
 
 impl<S: FragmentSource> Intake<S> {
     /// Intake that takes its fragments from `source`.
-    pub fn new(source: S, mode: LearnerMode, validator: FragmentValidator) -> Self {
+    pub fn new(source: S, mode: LearnerMode, validator: FragmentValidator, fleet: FleetPlan) -> Self {
         let stragglers = StragglerPolicy::new(source.now());
         Self {
             source,
             mode,
             validator,
+            fleet,
             stragglers,
+            membership: None,
             owed: Vec::new(),
-            queued: None,
+            waiting: VecDeque::new(),
             accepted: Vec::new(),
             transitions: 0,
-            present: BTreeSet::new(),
         }
     }
 
     /// Returns the names of the actors that are alive.
-    pub fn alive(&self) -> BTreeSet<String> {
-        self.source.actors()
+    pub fn alive(&self) -> &BTreeSet<String> {
+        self.stragglers.alive()
     }
 
-    /// Collects whole fragments until they have `size.transitions`, shutdown is requested, or `interrupt` returns true.
+    /// Collects whole fragments until a batch is complete, shutdown is requested, or `interrupt` returns true.
     /// After an interruption, the next call continues with the fragments collected so far.
     pub fn collect(
         &mut self,
@@ -122,67 +142,98 @@ impl<S: FragmentSource> Intake<S> {
         shutdown: &Shutdown,
         mut interrupt: impl FnMut() -> bool,
     ) -> Collected {
-        while self.transitions < size.transitions {
+        loop {
+            self.poll_actors();
+            self.waiting.extend(std::iter::from_fn(|| self.source.next(Duration::ZERO)));
+            self.accept_waiting(size, lineage);
+            if self.is_complete(size) {
+                return Collected::Batch(self.close_batch(lineage));
+            }
             if shutdown.asked() {
                 return Collected::Stopped;
             }
             if interrupt() {
                 return Collected::Interrupted;
             }
-            if let Some(accepted) = self.next(TICK, lineage) {
-                self.stragglers.record_delivery(&accepted.fragment.actor, self.source.now());
-                self.add(accepted);
+            if self.mode == LearnerMode::Sync && self.stragglers.is_round_over(self.source.now()) {
+                self.begin_round(lineage);
             }
-            let present = self.poll_actors();
-            if self.transitions < size.transitions && self.stragglers.is_round_over(&present, self.source.now()) {
-                self.send_owed_receipts(lineage);
-            }
+            self.waiting.extend(self.source.next(TICK));
         }
-        while self.transitions < size.transitions_max
-            && let Some(accepted) = self.next(Duration::ZERO, lineage)
-        {
-            self.add(accepted);
-        }
-        if self.queued.is_none() {
-            self.queued = self.source.next(Duration::ZERO);
+    }
+
+    /// Whether the batch has its size and, in synchronous mode, its last round is over.
+    fn is_complete(&mut self, size: BatchSize) -> bool {
+        self.transitions >= size.transitions
+            && (self.mode == LearnerMode::Async || self.stragglers.is_round_over(self.source.now()))
+    }
+
+    /// Closes the batch, and fits the horizons to the fleet that delivered it.
+    fn close_batch(&mut self, lineage: &Lineage) -> CollectedBatch {
+        if self.mode == LearnerMode::Async {
+            self.begin_round(lineage);
         }
         self.transitions = 0;
         let mut fragments = std::mem::take(&mut self.accepted);
         fragments.sort_by(|AcceptedFragment { fragment: a, .. }, AcceptedFragment { fragment: b, .. }| {
             (&a.actor, a.actor_incarnation, a.sequence).cmp(&(&b.actor, b.actor_incarnation, b.sequence))
         });
-        Collected::Batch(CollectedBatch { fragments, has_backlog: self.queued.is_some() })
+        CollectedBatch { fragments, has_backlog: !self.waiting.is_empty() }
     }
 
-    fn add(&mut self, accepted: AcceptedFragment) {
-        self.transitions += accepted.fragment.transitions();
-        self.accepted.push(accepted);
-    }
-
-    /// Returns the names of the actors that are alive; logs those that joined or left.
-    fn poll_actors(&mut self) -> BTreeSet<String> {
-        let present = self.source.actors();
-        if present != self.present {
-            present.difference(&self.present).for_each(|actor| tracing::info!(%actor, "actor joined"));
-            self.present.difference(&present).for_each(|actor| tracing::info!(%actor, "actor left"));
-            self.present = present.clone();
+    /// Accepts waiting fragments while the batch has room, in the order of [`Self::order_waiting`].
+    fn accept_waiting(&mut self, size: BatchSize, lineage: &Lineage) {
+        self.order_waiting(lineage);
+        while self.transitions < size.transitions_max
+            && let Some(incoming) = self.waiting.pop_front()
+        {
+            if let Some(accepted) = self.receive(incoming, lineage) {
+                self.stragglers.record_delivery(&accepted.fragment.actor, self.source.now());
+                self.transitions += accepted.fragment.transitions();
+                self.accepted.push(accepted);
+            }
         }
-        present
     }
 
-    fn next(&mut self, timeout: Duration, lineage: &Lineage) -> Option<AcceptedFragment> {
-        let incoming = match self.queued.take() {
-            Some(incoming) => incoming,
-            None => self.source.next(timeout)?,
-        };
-        self.receive(incoming, lineage)
+    /// Orders the waiting fragments: first those that would be too old for the next batch, then the newest.
+    fn order_waiting(&mut self, lineage: &Lineage) {
+        if self.waiting.len() > 1 {
+            let lag_max = self.validator.max_policy_lag();
+            let lag = |incoming: &S::Incoming| match S::version(incoming).map(|version| lineage.descent(version)) {
+                Some(Descent::Lag(lag)) if lag < lag_max => lag + 1,
+                _ => 0,
+            };
+            self.waiting.make_contiguous().sort_by_key(lag);
+        }
+    }
+
+    /// Reads the live actors if their number has changed; logs those that joined or left.
+    fn poll_actors(&mut self) {
+        let membership = self.source.membership();
+        if self.membership == Some(membership) {
+            return;
+        }
+        self.membership = Some(membership);
+        let alive = self.source.actors();
+        let before = self.stragglers.alive();
+        alive.difference(before).for_each(|actor| tracing::info!(%actor, "actor joined"));
+        before.difference(&alive).for_each(|actor| tracing::info!(%actor, "actor left"));
+        self.stragglers.set_alive(alive);
     }
 
     /// Validates one fragment. Answers it at once if it is rejected, or if it is accepted in asynchronous mode.
     fn receive(&mut self, mut incoming: S::Incoming, lineage: &Lineage) -> Option<AcceptedFragment> {
         let received = S::take(&mut incoming)?;
         let now = self.source.now();
-        match self.validator.validate(S::actor(&incoming), received, lineage, now) {
+        let effort = received.fragment.as_ref().ok().map(Effort::of);
+        let validated = self.validator.validate(S::actor(&incoming), received, lineage, now);
+        let outcome = validated.as_ref().map_or_else(|receipt| receipt.outcome, |_| Outcome::Accepted);
+        if let Some(effort) = effort
+            && matches!(outcome, Outcome::Accepted | Outcome::TooOld | Outcome::Vanished)
+        {
+            self.fleet.record(S::actor(&incoming), &effort);
+        }
+        match validated {
             Ok(accepted) => {
                 self.source.copy(&mut incoming);
                 let owed = OwedReceipt { incoming, incarnation: accepted.fragment.actor_incarnation };
@@ -193,14 +244,19 @@ impl<S: FragmentSource> Intake<S> {
                 Some(accepted)
             }
             Err(receipt) => {
-                S::answer(incoming, &receipt);
+                let fragment_steps = self.fleet.steps(S::actor(&incoming));
+                S::answer(incoming, &Receipt { fragment_steps, ..*receipt });
                 None
             }
         }
     }
 
-    /// Sends every owed receipt, so that the senders continue with the newest policy.
-    pub fn send_owed_receipts(&mut self, lineage: &Lineage) {
+    /// Begins a round: fits the horizons to the fleet, and sends every owed receipt, so that the senders continue with the
+    /// newest policy.
+    pub fn begin_round(&mut self, lineage: &Lineage) {
+        for actor in self.fleet.plan(self.stragglers.alive()) {
+            self.stragglers.forgive(&actor);
+        }
         for owed in std::mem::take(&mut self.owed) {
             self.answer(owed, lineage);
         }
@@ -209,8 +265,9 @@ impl<S: FragmentSource> Intake<S> {
 
     fn answer(&self, OwedReceipt { incoming, incarnation }: OwedReceipt<S::Incoming>, lineage: &Lineage) {
         let durable_through = self.validator.ledger.durable_through(S::actor(&incoming), incarnation);
-        let (outcome, version) = (Outcome::Accepted, lineage.newest());
-        S::answer(incoming, &Receipt { outcome, reason: String::new(), version, durable_through, fragment_steps: 0 });
+        let (outcome, version, reason) = (Outcome::Accepted, lineage.newest(), String::new());
+        let fragment_steps = self.fleet.steps(S::actor(&incoming));
+        S::answer(incoming, &Receipt { outcome, reason, version, durable_through, fragment_steps });
     }
 
     /// Answers every waiting sender that the learner is stopping. No checkpoint holds those fragments, so the senders
@@ -224,8 +281,8 @@ impl<S: FragmentSource> Intake<S> {
             fragment_steps: 0,
         };
         let owed = std::mem::take(&mut self.owed).into_iter().map(|owed| owed.incoming);
-        let mut waiting: Vec<S::Incoming> = owed.chain(self.queued.take()).collect();
-        waiting.extend(std::iter::from_fn(|| self.source.next(Duration::ZERO)));
-        waiting.into_iter().for_each(|incoming| S::answer(incoming, &receipt));
+        let mut unanswered: Vec<S::Incoming> = owed.chain(self.waiting.drain(..)).collect();
+        unanswered.extend(std::iter::from_fn(|| self.source.next(Duration::ZERO)));
+        unanswered.into_iter().for_each(|incoming| S::answer(incoming, &receipt));
     }
 }

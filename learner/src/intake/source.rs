@@ -6,7 +6,7 @@ use std::{
 };
 
 use treadmill_bus::{Alive, IncomingFragment, ReceivedFragment, RolloutCopies, RolloutIntake};
-use treadmill_proto::Receipt;
+use treadmill_proto::{PolicyVersion, Receipt};
 
 use crate::training::Heartbeat;
 
@@ -21,6 +21,9 @@ pub trait FragmentSource {
     /// Returns the name of the actor that sent a fragment.
     fn actor(incoming: &Self::Incoming) -> &str;
 
+    /// Returns the policy version that a fragment names; `None` if it cannot be decoded.
+    fn version(incoming: &Self::Incoming) -> Option<PolicyVersion>;
+
     /// Takes the content out, once; the receipt is still owed.
     fn take(incoming: &mut Self::Incoming) -> Option<ReceivedFragment>;
 
@@ -29,6 +32,9 @@ pub trait FragmentSource {
 
     /// Returns the names of the actors that are alive.
     fn actors(&self) -> BTreeSet<String>;
+
+    /// Returns a number that changes whenever [`Self::actors`] does.
+    fn membership(&self) -> u64;
 
     /// Returns the current time.
     fn now(&self) -> Instant;
@@ -64,6 +70,10 @@ impl FragmentSource for BusFragmentSource {
         &incoming.actor
     }
 
+    fn version(incoming: &IncomingFragment) -> Option<PolicyVersion> {
+        incoming.version()
+    }
+
     fn take(incoming: &mut IncomingFragment) -> Option<ReceivedFragment> {
         incoming.take()
     }
@@ -74,6 +84,10 @@ impl FragmentSource for BusFragmentSource {
 
     fn actors(&self) -> BTreeSet<String> {
         self.alive.actors()
+    }
+
+    fn membership(&self) -> u64 {
+        self.alive.changes()
     }
 
     fn now(&self) -> Instant {

@@ -13,6 +13,7 @@ use treadmill_proto::{Fragment, Malformed, Outcome, Receipt};
 use super::{
     ledger::{DropRule, Ledger, LedgerEntry},
     lineage::{Descent, Lineage},
+    rejections::Rejections,
 };
 
 /// Properties that every fragment of a run must have.
@@ -58,6 +59,8 @@ pub struct FragmentValidator {
     pub turned_away: u64,
     /// Size of the accepted fragments in bytes, since this start.
     pub accepted_bytes: u64,
+    /// Senders of rejected fragments, since this start.
+    pub rejections: Rejections,
     /// Handled fragments.
     pub ledger: Ledger,
     /// Fragments by outcome.
@@ -68,7 +71,22 @@ impl FragmentValidator {
     /// Validator that continues with a checkpoint's ledger and counts.
     pub fn new(expected: ExpectedFragment, admission: Arc<Admission>, ledger: Ledger, counts: FragmentCounts) -> Self {
         let (malformed_log, quarantine_log) = (RateLimitedLog::default(), RateLimitedLog::default());
-        Self { expected, admission, malformed_log, quarantine_log, turned_away: 0, accepted_bytes: 0, ledger, counts }
+        Self {
+            expected,
+            admission,
+            malformed_log,
+            quarantine_log,
+            turned_away: 0,
+            accepted_bytes: 0,
+            rejections: Rejections::default(),
+            ledger,
+            counts,
+        }
+    }
+
+    /// Returns the largest allowed lag in versions.
+    pub fn max_policy_lag(&self) -> u64 {
+        self.expected.max_policy_lag
     }
 
     /// Validates a fragment that `actor` sent. Returns it if it is accepted, else the receipt with the reason.
@@ -130,6 +148,7 @@ impl FragmentValidator {
     /// Reports a malformed fragment, which may put its sender in quarantine.
     fn report_malformed(&mut self, actor: &str, sender: &Sender, why: &Malformed, now: Instant) {
         self.counts.malformed += 1;
+        self.rejections.record(actor, &why.to_string(), now);
         self.malformed_log.emit(|| tracing::warn!(%actor, error = %why, "fragment rejected"));
         if self.admission.record_malformed(sender, now) {
             self.quarantine_log.emit(|| tracing::warn!(%actor, "sender quarantined"));

@@ -18,6 +18,7 @@
 
 pub mod curve;
 pub mod curve_thread;
+mod efficiency;
 pub mod episodes;
 pub mod histograms;
 pub mod history;
@@ -32,6 +33,7 @@ pub mod tensorboard;
 
 pub use curve::{CurveError, draw_curve};
 pub use curve_thread::CurveThread;
+pub use efficiency::{Efficiency, EfficiencyMeter};
 pub use history::History;
 pub use jsonl::JsonLines;
 pub use progress::Console;

@@ -11,7 +11,7 @@ use treadmill_ppo::{AcceptedFragment, UpdateStats};
 use treadmill_proto::ActorStats;
 use treadmill_runtime::machine;
 
-use super::History;
+use super::{Efficiency, History};
 use crate::{checkpoint::TrainingState, training::evaluation::EvaluationResult};
 
 /// Durations of the phases of one update.
@@ -135,6 +135,8 @@ pub struct UpdateRecord<'a> {
     pub history: &'a History,
     /// Throughput of the last updates.
     pub throughput: Throughput,
+    /// Efficiency of the fleet over the last updates.
+    pub efficiency: Efficiency,
     /// Actors that are alive.
     pub alive: &'a BTreeSet<String>,
     /// Newest statistics of each actor.
@@ -172,6 +174,7 @@ impl UpdateRecord<'_> {
         }
         out.extend(self.history.distance_best_m.map(|best_m| ("rollout/distance_best_m", best_m)));
         out.push(("rollout/episodes", self.state.episodes.finished as f64));
+        out.extend(self.efficiency.used_share.map(|share| ("rollout/used_share", share)));
     }
 
     fn time(&self, out: &mut Vec<(&str, f64)>) {
@@ -252,6 +255,7 @@ impl UpdateRecord<'_> {
         let memory_max = self.stats.values().map(|stats| stats.resident_bytes).max().unwrap_or(0);
         out.extend([
             ("actors/alive", self.alive.len() as f64),
+            ("actors/envs", sum(|stats| f64::from(stats.envs))),
             ("actors/restarts", self.state.counters.restarts as f64),
             ("actors/quarantined", self.quarantined as f64),
             ("actors/physics_faults", self.state.episodes.faults as f64),
@@ -261,5 +265,6 @@ impl UpdateRecord<'_> {
             ("learner/wait_share", self.throughput.wait_share),
             ("learner/memory_mb", machine::resident_bytes() as f64 / 1e6),
         ]);
+        out.extend(self.efficiency.idle_share.map(|share| ("actors/idle_share", share)));
     }
 }

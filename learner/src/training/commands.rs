@@ -3,11 +3,12 @@
 use std::time::Duration;
 
 use treadmill_config::{ConfigSource, LearnerConfig, is_retired};
+use treadmill_policy::NetworkShape;
 use treadmill_proto::{Command, ControlRequest, Phase, RunStatus};
 use treadmill_runtime::{error_chain, machine};
 
 use super::{Trainer, load_adaptation::LoadAdaptation};
-use crate::checkpoint::TrainingState;
+use crate::{checkpoint::TrainingState, intake::HorizonRule};
 
 /// Longest wait of a paused learner between two checks for shutdown.
 const TICK: Duration = Duration::from_millis(50);
@@ -122,6 +123,8 @@ impl Trainer {
         }
         self.learning.updater.set_config(&changed.ppo);
         self.learning.load = LoadAdaptation::new(&changed);
+        let NetworkShape { observation, action, .. } = self.state.shape;
+        self.serving.intake.fleet.set_rule(HorizonRule::new(&changed, observation, action));
         let LearnerConfig { checkpoint_every_updates, keep_checkpoints, .. } = changed.learner;
         self.serving.checkpoints.set_retention(checkpoint_every_updates.into(), keep_checkpoints as usize);
         self.reporting.report.set_config(&changed);
@@ -170,6 +173,10 @@ impl Trainer {
             vanished: counts.vanished,
             malformed: counts.malformed,
             quarantined: counts.quarantined,
+            used_share: self.reporting.efficiency.used_share,
+            idle_share: self.reporting.efficiency.idle_share,
+            undone_updates: state.counters.undone_updates,
+            alarms: self.reporting.alarms.texts(&validator.rejections, std::time::Instant::now()),
             ..first_status(state, self.config.run.steps)
         };
         let quarantined = validator.quarantined(std::time::Instant::now());

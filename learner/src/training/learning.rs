@@ -58,7 +58,7 @@ impl Learning {
 impl Trainer {
     /// Updates the parameters from the fragments of a batch. Returns `None` if the update was undone.
     pub(super) fn update(&mut self, fragments: &[AcceptedFragment]) -> Result<Option<UpdateStats>, TrainingError> {
-        let Self { state, learning, config, .. } = self;
+        let Self { state, learning, config, reporting, .. } = self;
         let policy = learning.updater.policy().map_err(|why| TrainingError::State { why: error_chain(&why) })?;
         let clip = config.policy.observation_clip as f32;
         let normaliser = Normaliser::from_moments(&state.observation_moments, clip);
@@ -86,6 +86,7 @@ impl Trainer {
             }
             Err(source) => {
                 tracing::warn!(error = %error_chain(&source), "update undone");
+                reporting.alarms.record_undone(&error_chain(&source), Instant::now());
                 learning.undone_in_a_row += 1;
                 state.counters.undone_updates += 1;
                 if learning.undone_in_a_row >= config.learner.undone_max {

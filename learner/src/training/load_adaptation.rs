@@ -17,11 +17,12 @@ pub struct LoadAdaptation {
 }
 
 impl LoadAdaptation {
-    /// Adaptation within the configured bounds. In mode `sync`, where actors wait by design, size and passes are fixed.
+    /// Adaptation within the configured bounds. In mode `sync`, a batch holds all that the fleet delivers, and the passes are
+    /// fixed.
     pub fn new(config: &Config) -> Self {
         let (transitions, epochs) = (config.ppo.batch as usize, config.ppo.epochs);
         let (transitions_max, epochs_min) = match config.learner.mode {
-            LearnerMode::Sync => (transitions, epochs),
+            LearnerMode::Sync => (usize::MAX, epochs),
             LearnerMode::Async => (transitions.max(config.ppo.batch_max as usize), epochs.min(config.ppo.epochs_min)),
         };
         Self { batch_size: BatchSize { transitions, transitions_max }, epochs, epochs_min, epochs_max: epochs }
@@ -75,7 +76,7 @@ mod tests {
         let mut strict = load(LearnerMode::Async, 9);
         assert_eq!(adapt(&mut strict, true), 5);
         let mut sync = load(LearnerMode::Sync, 1);
-        assert_eq!(sync.batch_size(), BatchSize { transitions: 100, transitions_max: 100 });
+        assert_eq!(sync.batch_size(), BatchSize { transitions: 100, transitions_max: usize::MAX });
         assert_eq!(adapt(&mut sync, true), 5);
     }
 }

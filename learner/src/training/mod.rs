@@ -3,6 +3,7 @@
 //! # Layout
 //! - Here: [`train`] and its loop. `Trainer` has three parts: learning, serving and reporting.
 //! - `options`: [`TrainingOptions`] and [`TrainingSummary`]; `error`: [`TrainingError`].
+//! - `alarms`: conditions that need an operator.
 //! - `start`: prepares a `Trainer` for its first batch.
 //! - `learning`: updates the parameters from a batch.
 //! - `serving`: collects batches, saves checkpoints, publishes policies, takes evaluation results.
@@ -14,6 +15,7 @@
 //! - [`heartbeat`]: heartbeat of the training thread.
 //! - [`disk_full`]: waits while the disk is full.
 
+mod alarms;
 mod commands;
 pub mod control;
 pub mod disk_full;

@@ -12,12 +12,12 @@ use std::{
 use treadmill_bus::StatsFeed;
 use treadmill_ppo::{AcceptedFragment, UpdateStats};
 
-use super::{Trainer, TrainingError, TrainingOptions, evaluation::EvaluationResult};
+use super::{Trainer, TrainingError, TrainingOptions, alarms::Alarms, evaluation::EvaluationResult};
 use crate::{
     checkpoint::TrainingState,
     intake::ledger_report,
     metrics::{
-        History, MetricsReport, PrometheusMetrics, histograms,
+        Efficiency, EfficiencyMeter, History, MetricsReport, PrometheusMetrics, histograms,
         scalars::{PhaseDurations, PolicyLag, ThroughputMeter, UpdateRecord},
     },
 };
@@ -32,6 +32,10 @@ pub(super) struct Reporting {
     ledger_report: PathBuf,
     action_names: Vec<String>,
     throughput: ThroughputMeter,
+    efficiency_meter: EfficiencyMeter,
+    /// Efficiency of the fleet over the last updates.
+    pub(super) efficiency: Efficiency,
+    pub(super) alarms: Alarms,
     restarts: Arc<AtomicU64>,
     restarts_before: u64,
     begun: Instant,
@@ -57,6 +61,9 @@ impl Reporting {
             ledger_report: options.folder.accounts(),
             action_names: options.action_names.clone(),
             throughput: ThroughputMeter::new(state.counters.env_steps),
+            efficiency_meter: EfficiencyMeter::new(Instant::now()),
+            efficiency: Efficiency::default(),
+            alarms: Alarms::default(),
             restarts: options.restarts.clone(),
             restarts_before: state.counters.restarts,
             begun: Instant::now(),
@@ -88,6 +95,11 @@ impl Trainer {
     ) -> Result<(), TrainingError> {
         let Self { state, config, shutdown, learning, serving, reporting } = self;
         let alive = serving.intake.alive();
+        let learnt = if update.is_some() { transitions(batch) } else { 0 };
+        let effort = serving.intake.fleet.effort();
+        reporting.efficiency = reporting.efficiency_meter.mark(Instant::now(), learnt, effort, alive.len());
+        let (too_old, undone) = (serving.intake.validator.counts.too_old, state.counters.undone_updates);
+        reporting.alarms.record_efficiency(reporting.efficiency, too_old, undone);
         let env_steps = state.counters.env_steps;
         let (throughput, lag) = (reporting.throughput.mark(env_steps, serving.waited), PolicyLag::of(batch));
         (reporting.env_steps_per_s, reporting.lag_mean) = (throughput.env_steps_per_s, lag.mean);
@@ -107,7 +119,8 @@ impl Trainer {
             history: &reporting.history,
             throughput,
             stats,
-            alive: &alive,
+            efficiency: reporting.efficiency,
+            alive,
             quarantined: validator.quarantined(Instant::now()).len(),
             turned_away: validator.turned_away,
             accepted_bytes: validator.accepted_bytes,
@@ -129,4 +142,8 @@ impl Trainer {
         self.reporting.report.finish(&self.reporting.history)?;
         Ok(())
     }
+}
+
+fn transitions(batch: &[AcceptedFragment]) -> u64 {
+    batch.iter().map(|accepted| accepted.fragment.transitions() as u64).sum()
 }

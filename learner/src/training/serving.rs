@@ -3,6 +3,7 @@
 use std::time::{Duration, Instant};
 
 use treadmill_bus::PolicyServer;
+use treadmill_config::LearnerMode;
 use treadmill_proto::PolicyAnnouncement;
 use treadmill_runtime::error_chain;
 
@@ -104,11 +105,14 @@ impl Trainer {
     /// Publishes the new policy and submits it for evaluation if one is due. `saved` is its checkpoint.
     pub(super) fn publish(&mut self, saved: Vec<u8>) -> Result<(), TrainingError> {
         let invalid = |why| TrainingError::State { why };
-        let bundle = self.state.bundle().map_err(invalid)?;
+        let mut bundle = self.state.bundle().map_err(invalid)?;
+        bundle.fragment_steps = self.serving.intake.fleet.nominal();
         let announcement = PolicyAnnouncement { version: bundle.version, checksum: bundle.checksum };
         let encoded: bytes::Bytes = bundle.encode().map_err(|why| invalid(error_chain(&why)))?.into();
         self.serving.policies.publish(encoded.clone(), &announcement);
-        self.serving.intake.send_owed_receipts(&self.state.lineage);
+        if self.config.learner.mode == LearnerMode::Sync {
+            self.serving.intake.begin_round(&self.state.lineage);
+        }
         let env_steps = self.state.counters.env_steps;
         if let Some(evaluation) = &mut self.serving.evaluation
             && evaluation.is_due(env_steps)

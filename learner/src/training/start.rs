@@ -14,7 +14,7 @@ use super::{
 };
 use crate::{
     checkpoint::{CheckpointWriter, TrainingState},
-    intake::{BusFragmentSource, ExpectedFragment, FragmentValidator, Intake},
+    intake::{BusFragmentSource, ExpectedFragment, FleetPlan, FragmentValidator, HorizonRule, Intake},
     metrics::{History, MetricsReport},
 };
 
@@ -31,6 +31,9 @@ impl Trainer {
         let mut bundle = state.bundle().map_err(invalid)?;
         // Only in this version: an actor that joins later must not repeat steps that were learnt from.
         bundle.actor_state = state.actor_state.clone();
+        let rule = HorizonRule::new(&config, state.shape.observation, state.shape.action);
+        let fleet = FleetPlan::new(rule, config.rollout.envs as usize);
+        bundle.fragment_steps = fleet.nominal();
         let expected = ExpectedFragment {
             run: state.run.clone(),
             config_hash: bundle.config_hash,
@@ -50,7 +53,7 @@ impl Trainer {
         let report = MetricsReport::open(bus, &state, &config, options)?;
         // `MetricsReport::open` has removed lines newer than the checkpoint.
         let history = History::read(&options.folder.metrics())?;
-        let (intake, alive) = open_intake(bus, &state, &config, options, expected)?;
+        let (intake, alive) = open_intake(bus, &state, &config, options, expected, fleet)?;
         let status = commands::first_status(&state, config.run.steps);
         let control = ControlChannel::open(bus, status, alive.clone())?;
         let stats = StatsFeed::open(bus, &state.run, alive)?;
@@ -80,6 +83,7 @@ fn open_intake(
     config: &Config,
     options: &TrainingOptions,
     expected: ExpectedFragment,
+    fleet: FleetPlan,
 ) -> Result<(Intake<BusFragmentSource>, AliveView), BusError> {
     let capacity = config.learner.intake_fragments as usize;
     let admission = Arc::new(Admission::new(config.learner.quarantine_after, capacity));
@@ -89,5 +93,5 @@ fn open_intake(
     let alive = Alive::watch(bus, &state.run)?;
     let view = alive.view();
     let source = BusFragmentSource::new(queue, alive, copies, options.heartbeat.clone());
-    Ok((Intake::new(source, config.learner.mode, validator), view))
+    Ok((Intake::new(source, config.learner.mode, validator, fleet), view))
 }

@@ -30,8 +30,14 @@ const RETRY: Duration = Duration::from_millis(200);
 #[derive(Clone, Debug)]
 pub struct FleetSettings {
     pub seed: u64,
-    /// Milliseconds that each actor needs for a fragment.
-    pub fragment_ms: Vec<u64>,
+    /// Milliseconds that each actor needs for a control step of its environments.
+    pub step_ms: Vec<f64>,
+    /// Environments of each actor.
+    pub envs: u32,
+    /// Control steps of an actor's first fragment; receipts say those of the others.
+    pub steps: u32,
+    /// Configured control steps of a fragment; 0 means automatic.
+    pub pinned_steps: u32,
     /// Fragments that an actor may have on the bus at once.
     pub in_flight: u32,
     /// Share of lost messages.
@@ -42,7 +48,7 @@ pub struct FleetSettings {
 
 /// Event of the fleet. `Again` sends a fragment again, because no receipt came or the learner was busy.
 enum Event {
-    Simulated { actor: usize, incarnation: u64 },
+    Simulated { actor: usize, incarnation: u64, steps: u32 },
     Request { actor: usize, incarnation: u64, sequence: u64, payload: Bytes },
     Answer { actor: usize, incarnation: u64, sequence: u64, receipt: Receipt },
     Again { actor: usize, incarnation: u64, sequence: u64, attempt: u64 },
@@ -63,12 +69,16 @@ pub struct Actor {
     learner: u64,
     credit: u32,
     is_simulating: bool,
+    /// Control steps of the next fragment.
+    steps: u32,
+    /// Environment steps simulated so far.
+    pub env_steps: u64,
     /// Version that acts the fragment being simulated.
     acting: PolicyVersion,
 }
 
 impl Actor {
-    fn new(name: String, incarnation: u64, credit: u32, version: PolicyVersion) -> Self {
+    fn new(name: String, incarnation: u64, settings: &FleetSettings, version: PolicyVersion) -> Self {
         Self {
             name,
             incarnation,
@@ -78,8 +88,10 @@ impl Actor {
             dropped: BTreeSet::new(),
             version,
             learner: version.incarnation,
-            credit,
+            credit: settings.in_flight,
             is_simulating: false,
+            steps: settings.steps,
+            env_steps: 0,
             acting: version,
         }
     }
@@ -124,8 +136,8 @@ impl FleetWorld {
             deadline: Duration::MAX,
             timed_out: Shutdown::default(),
         };
-        for index in 0..settings.fragment_ms.len() {
-            world.actors.push(Actor::new(format!("actor-{index}"), 0, 0, version));
+        for index in 0..settings.step_ms.len() {
+            world.actors.push(Actor::new(format!("actor-{index}"), 0, settings, version));
             world.restart(index, version);
         }
         Rc::new(RefCell::new(world))
@@ -135,7 +147,7 @@ impl FleetWorld {
     pub fn restart(&mut self, actor: usize, version: PolicyVersion) {
         self.counter += 1;
         let name = self.actors[actor].name.clone();
-        self.actors[actor] = Actor::new(name, self.counter, self.settings.in_flight, version);
+        self.actors[actor] = Actor::new(name, self.counter, &self.settings, version);
         self.simulate(actor);
     }
 
@@ -196,8 +208,8 @@ impl FleetWorld {
     fn handle(shared: &Shared, event: Event) {
         let mut world = shared.borrow_mut();
         match event {
-            Event::Simulated { actor, incarnation } if world.actors[actor].incarnation == incarnation => {
-                world.deliver(actor);
+            Event::Simulated { actor, incarnation, steps } if world.actors[actor].incarnation == incarnation => {
+                world.deliver(actor, steps);
             }
             Event::Request { actor, incarnation, sequence, payload } if world.is_learner_up => {
                 let name = world.actors[actor].name.clone();
@@ -229,17 +241,24 @@ impl FleetWorld {
         process.credit -= 1;
         process.is_simulating = true;
         process.acting = process.version;
-        let incarnation = process.incarnation;
-        self.after(Duration::from_millis(self.settings.fragment_ms[actor]), Event::Simulated { actor, incarnation });
+        let (incarnation, steps) = (process.incarnation, process.steps);
+        self.after(self.simulation(actor, steps), Event::Simulated { actor, incarnation, steps });
     }
 
-    fn deliver(&mut self, actor: usize) {
+    /// Returns the time in which an actor simulates `steps` control steps.
+    fn simulation(&self, actor: usize, steps: u32) -> Duration {
+        Duration::from_secs_f64(self.settings.step_ms[actor] * f64::from(steps) / 1e3)
+    }
+
+    fn deliver(&mut self, actor: usize, steps: u32) {
+        let (envs, collect_s) = (self.settings.envs, self.simulation(actor, steps).as_secs_f64());
         let process = &mut self.actors[actor];
         process.is_simulating = false;
         process.newest += 1;
         let open = [process.pending.keys().next(), process.kept.keys().next()].into_iter().flatten().min();
         let settled_through = open.map_or(process.newest - 1, |first| first - 1);
-        let fragment = fragment(process, settled_through);
+        process.env_steps += u64::from(steps * envs);
+        let fragment = Fragment { collect_s, ..fragment(process, steps, envs, settled_through) };
         let sequence = process.newest;
         let payload = fragment.encode().expect("a sound fragment").into();
         process.pending.insert(sequence, (payload, 0));
@@ -272,6 +291,7 @@ impl FleetWorld {
         process.pending.remove(&sequence);
         process.kept.retain(|kept, _| *kept > receipt.durable_through);
         self.refresh(actor, receipt.version);
+        self.actors[actor].steps = receipt.fragment_steps;
         // Fragments that are sent again to a new learner have returned their credit before.
         let process = &mut self.actors[actor];
         process.credit = (process.credit + 1).min(self.settings.in_flight);
@@ -291,7 +311,8 @@ impl FleetWorld {
     }
 }
 
-fn fragment(process: &Actor, settled_through: u64) -> Fragment {
+fn fragment(process: &Actor, steps: u32, envs: u32, settled_through: u64) -> Fragment {
+    let rows = (steps * envs) as usize;
     Fragment {
         run: "walk".into(),
         actor: process.name.clone(),
@@ -299,17 +320,18 @@ fn fragment(process: &Actor, settled_through: u64) -> Fragment {
         sequence: process.newest,
         version: process.acting,
         config_hash: 5,
-        steps: 1,
-        envs: 1,
+        steps,
+        envs,
         observation_size: 1,
         action_size: 1,
-        observations: vec![0.0],
-        actions: vec![0.0],
-        log_probs: vec![0.0],
-        rewards: vec![1.0],
-        flags: vec![0],
-        last_observations: vec![0.0],
+        observations: vec![0.0; rows],
+        actions: vec![0.0; rows],
+        log_probs: vec![0.0; rows],
+        rewards: vec![1.0; rows],
+        flags: vec![0; rows],
+        last_observations: vec![0.0; envs as usize],
         settled_through,
+        env_steps: process.env_steps,
         ..Fragment::default()
     }
 }

@@ -66,6 +66,10 @@ fn json_of(run: &RunStatus) -> serde_json::Value {
             "accepted": run.accepted, "duplicate": run.duplicate, "too_old": run.too_old, "vanished": run.vanished,
             "malformed": run.malformed, "quarantined": run.quarantined,
         },
+        "used_share": run.used_share,
+        "idle_share": run.idle_share,
+        "undone_updates": run.undone_updates,
+        "alarms": run.alarms,
         "actors": actors,
     })
 }

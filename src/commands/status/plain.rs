@@ -4,6 +4,11 @@ use std::fmt::Write as _;
 
 use treadmill_proto::{ActorStatus, Phase, RunStatus};
 
+/// Longest name from another machine.
+const NAME_CHARS_MAX: usize = 24;
+/// Longest alarm.
+const ALARM_CHARS_MAX: usize = 400;
+
 /// Returns a paragraph for each run, with a table of its actors.
 pub fn as_text(runs: &[RunStatus]) -> String {
     let mut out = String::new();
@@ -61,6 +66,17 @@ fn describe(out: &mut String, run: &RunStatus) -> std::fmt::Result {
         run.policy_lag_mean,
         run.resident_bytes as f64 / 1e6
     )?;
+    let share = |share: Option<f64>| share.map_or("–".to_string(), |share| format!("{:.1} %", 100.0 * share));
+    writeln!(
+        out,
+        "  work       {} of the simulated steps learnt from, {} updates undone; actors idle {} of the time",
+        share(run.used_share),
+        run.undone_updates,
+        share(run.idle_share)
+    )?;
+    for alarm in &run.alarms {
+        writeln!(out, "  ALARM      {}", printable(alarm, ALARM_CHARS_MAX))?;
+    }
     let alive = run.actors.iter().filter(|actor| actor.alive).count();
     writeln!(out, "  actors     {alive} alive, {:.0} steps per second together", fleet_rate(run))?;
     if !run.actors.is_empty() {
@@ -97,11 +113,16 @@ fn line(out: &mut String, actor: &ActorStatus) -> std::fmt::Result {
 
 /// Returns up to 24 characters of text from other machines, without those that move the cursor or change direction.
 pub fn plain(text: &str) -> String {
+    printable(text, NAME_CHARS_MAX)
+}
+
+/// Returns up to `chars_max` characters of text from other machines, as [`plain`] does.
+pub fn printable(text: &str, chars_max: usize) -> String {
     let is_invisible = |c: char| {
         c.is_control()
             || matches!(c, '\u{ad}' | '\u{200b}'..='\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2060}'..='\u{206f}' | '\u{feff}')
     };
-    text.chars().filter(|c| !is_invisible(*c)).take(24).collect()
+    text.chars().filter(|c| !is_invisible(*c)).take(chars_max).collect()
 }
 
 /// Returns the state of an actor in one word.

@@ -68,15 +68,17 @@ prop_compose! {
     /// Reply with valid names and arbitrary other fields.
     pub fn hostile()(
         run in "[a-z0-9_-]{1,64}",
-        (phase, pid, counts) in (0..5i32, any::<u32>(), any::<[u64; 13]>()),
-        floats in prop::array::uniform8(numbers()),
+        (phase, pid, counts) in (0..5i32, any::<u32>(), any::<[u64; 14]>()),
+        floats in prop::array::uniform10(numbers()),
         (host, program_version) in (names(), names()),
         known in any::<bool>(),
         actors in prop::collection::vec(actor(), 0..24),
+        alarms in prop::collection::vec(names(), 0..6),
     ) -> RunStatus {
         RunStatus {
             time_unix_s: floats[0],
-            run, phase, pid, host, program_version, actors,
+            run, phase, pid, host, program_version, actors, alarms,
+            used_share: known.then_some(floats[8]), idle_share: known.then_some(floats[9]), undone_updates: counts[13],
             version: known.then_some(PolicyVersion { incarnation: counts[0], number: counts[1] }),
             env_steps: counts[2], env_steps_wanted: counts[3], updates: counts[4],
             wall_s: floats[0], env_steps_per_s: floats[1], since_update_s: floats[2], policy_lag_mean: floats[3],

@@ -2,7 +2,10 @@
 
 use std::{
     collections::BTreeSet,
-    sync::{Arc, Mutex},
+    sync::{
+        Arc, Mutex,
+        atomic::{AtomicU64, Ordering},
+    },
 };
 
 use treadmill_proto::ident::check_ident;
@@ -44,7 +47,7 @@ impl Alive {
             .declare_subscriber(keys::actor(run, "*"))
             .history(true)
             .callback({
-                let actors = view.actors.clone();
+                let AliveView { actors, changes } = view.clone();
                 move |sample: Sample| {
                     let actor = keys::last_part(sample.key_expr().as_str());
                     let mut actors = actors.lock().expect("no holder of this lock panics");
@@ -55,6 +58,7 @@ impl Alive {
                         SampleKind::Put => {}
                         SampleKind::Delete => drop(actors.remove(actor)),
                     }
+                    changes.fetch_add(1, Ordering::Release);
                 }
             })
             .wait()
@@ -77,12 +81,18 @@ impl Alive {
     pub fn actors(&self) -> BTreeSet<String> {
         self.view.actors()
     }
+
+    /// Returns a number that changes whenever the live actors do.
+    pub fn changes(&self) -> u64 {
+        self.view.changes.load(Ordering::Acquire)
+    }
 }
 
 /// Live actors, as another thread sees them.
 #[derive(Clone, Default)]
 pub struct AliveView {
     actors: Arc<Mutex<BTreeSet<String>>>,
+    changes: Arc<AtomicU64>,
 }
 
 impl AliveView {

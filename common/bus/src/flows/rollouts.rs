@@ -53,6 +53,11 @@ impl IncomingFragment {
         reply(&self.query, receipt.encode(), "receipt");
     }
 
+    /// Returns the policy version that the fragment names, unless it was taken or cannot be decoded.
+    pub fn version(&self) -> Option<PolicyVersion> {
+        self.received.as_ref()?.fragment.as_ref().ok().map(|fragment| fragment.version)
+    }
+
     /// Takes the fragment, once, and frees its place in the queue. The receipt is still owed.
     pub fn take(&mut self) -> Option<ReceivedFragment> {
         self.free_bytes();

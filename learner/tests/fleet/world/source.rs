@@ -8,7 +8,7 @@ use std::{
 use bytes::Bytes;
 use treadmill_bus::ReceivedFragment;
 use treadmill_learner::intake::FragmentSource;
-use treadmill_proto::{Outcome, Receipt};
+use treadmill_proto::{Fragment, Outcome, PolicyVersion, Receipt};
 
 use super::{Event, FleetWorld, Shared};
 
@@ -39,6 +39,10 @@ impl FragmentSource for MemoryFragmentSource {
         &incoming.name
     }
 
+    fn version(incoming: &MemoryFragment) -> Option<PolicyVersion> {
+        Fragment::decode(&incoming.payload).ok().map(|fragment| fragment.version)
+    }
+
     fn take(incoming: &mut MemoryFragment) -> Option<ReceivedFragment> {
         Some(std::mem::take(&mut incoming.payload).into())
     }
@@ -54,6 +58,11 @@ impl FragmentSource for MemoryFragmentSource {
 
     fn actors(&self) -> BTreeSet<String> {
         self.0.borrow().actors.iter().map(|actor| actor.name.clone()).collect()
+    }
+
+    fn membership(&self) -> u64 {
+        // A restarted process keeps its name.
+        0
     }
 
     fn now(&self) -> Instant {

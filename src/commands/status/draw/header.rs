@@ -13,7 +13,7 @@ use super::{
     figures::{count, duration, known, number, percent, plain, short},
     pieces::{Pieces, shorten},
 };
-use crate::commands::status::fleet::Run;
+use crate::commands::status::{fleet::Run, plain::printable};
 
 /// Time without an answer after which a run is shown as silent.
 const SILENT_AFTER: Duration = Duration::from_secs(6);
@@ -97,8 +97,23 @@ fn traffic_line(width: u16, run: &Run, theme: &Theme) -> Pieces {
     pieces.push(format!("{} MB/s", known(mb_per_s)), theme.strong());
     pieces.push(format!("{} updates", count(status.updates)), theme.quiet());
     pieces.push(format!("the last {} ago", duration(status.since_update_s)), theme.quiet());
+    if let Some(share) = status.used_share {
+        pieces.push(format!("{} used", percent(share)), theme.strong());
+    }
+    if let Some(share) = status.idle_share {
+        pieces.push(format!("{} idle", percent(share)), theme.quiet());
+    }
     pieces.push(format!("learner {} MB", number(status.resident_bytes as f64 / 1e6)), theme.quiet());
     pieces
+}
+
+/// Draws an alarm on each line.
+pub fn alarms(frame: &mut Frame, area: Rect, run: &Run, theme: &Theme) {
+    for (alarm, line) in run.status.alarms.iter().zip(area.rows()) {
+        let mut pieces = Pieces::new(area.width);
+        pieces.push(shorten(&printable(alarm, area.width.into()), area.width.into()), theme.bad());
+        frame.render_widget(pieces.line(), line);
+    }
 }
 
 /// Draws the counts of fragments by outcome; zeros are omitted.

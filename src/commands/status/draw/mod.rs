@@ -42,6 +42,8 @@ const CURVES_HEIGHT_MIN: u16 = 18;
 const CURVES_HEIGHT_MAX: u16 = 24;
 /// Smallest height with a line above the table and one about fragments.
 const HEADINGS_HEIGHT_MIN: u16 = 14;
+/// Most lines of alarms.
+const ALARM_LINES_MAX: u16 = 3;
 
 /// Draws the whole dashboard.
 pub fn draw(frame: &mut Frame, fleet: &mut Fleet, theme: &Theme, now: Instant) {
@@ -87,8 +89,10 @@ fn draw_run(
     let has_curves = area.width >= CURVES_WIDTH_MIN && area.height + 1 >= CURVES_HEIGHT_MIN;
     let has_fragments = area.height + 1 >= HEADINGS_HEIGHT_MIN;
     let curves_height = if has_curves { ((area.height - 5) / 2).clamp(6, CURVES_HEIGHT_MAX) } else { 1 };
-    let [head, curves_area, lag_area, fragments, rest] = Layout::vertical([
+    let alarms = (run.status.alarms.len() as u16).min(ALARM_LINES_MAX).min(area.height / 8);
+    let [head, alarm_area, curves_area, lag_area, fragments, rest] = Layout::vertical([
         Constraint::Length(3),
+        Constraint::Length(alarms),
         Constraint::Length(curves_height),
         Constraint::Length(1),
         Constraint::Length(has_fragments.into()),
@@ -96,6 +100,7 @@ fn draw_run(
     ])
     .areas(area);
     header::draw(frame, head, run, place, silent, theme, now);
+    header::alarms(frame, alarm_area, run, theme);
     match has_curves {
         true => curves::draw(frame, curves_area, run, theme),
         false => curves::draw_line(frame, curves_area, run, theme),

@@ -155,6 +155,16 @@ fn silent_learner_is_shown_as_gone_until_it_answers() {
 }
 
 #[test]
+fn alarms_are_shown_below_the_progress() {
+    let mut run = samples::run("walk-1", 4);
+    (run.used_share, run.idle_share) = (Some(0.64), Some(0.25));
+    run.alarms = vec!["64 % of the simulated steps are learnt from".into(), "3 updates were undone".into()];
+    let mut fleet = fleet(&[run], Instant::now());
+    assert_shows(&screen(&mut fleet, 120, 30), &["64 % of the simulated steps", "3 updates were undone", "64 % used"]);
+    assert_shows(&screen(&mut fleet, 120, 10), &["64 % of the simulated steps", "64 % used", "steps/s"]);
+}
+
+#[test]
 fn help_lists_keys_and_small_terminals_show_the_size_needed() {
     let now = Instant::now();
     let mut fleet = fleet(&[samples::run("walk-1", 2)], now);

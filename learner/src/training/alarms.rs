@@ -1,0 +1,84 @@
+//! Alarms: conditions that waste work or hide a fault, each with its remedy. The status and the dashboard show them.
+
+use std::time::{Duration, Instant};
+
+use treadmill_bus::admission::rate_limited_log::RateLimitedLog;
+
+use crate::{intake::Rejections, metrics::Efficiency};
+
+/// Share of the simulated steps below which waste is an alarm.
+const USED_SHARE_MIN: f64 = 0.9;
+/// An alarm about rejected or undone work lasts for this long.
+const LASTS: Duration = Duration::from_secs(60);
+/// Most senders that are named.
+const SENDERS_MAX: usize = 4;
+
+/// Present alarms.
+#[derive(Debug, Default)]
+pub(super) struct Alarms {
+    waste: Option<String>,
+    undone: Option<(Instant, String)>,
+    log: RateLimitedLog,
+}
+
+impl Alarms {
+    /// Records the efficiency after an update. `late` fragments were too old, in this run.
+    pub(super) fn record_efficiency(&mut self, efficiency: Efficiency, late: u64, undone: u64) {
+        let wasted = efficiency.used_share.filter(|share| *share < USED_SHARE_MIN);
+        if let Some(used_share) = wasted {
+            self.log.emit(|| {
+                tracing::warn!(
+                    used_share,
+                    too_old = late,
+                    undone_updates = undone,
+                    "simulated steps are not learnt from; set rollout.fragment_steps = 0, or learner.mode = \"async\""
+                );
+            });
+        }
+        self.waste = wasted.map(|share| {
+            format!(
+                "{:.0} % of the simulated steps are learnt from ({late} fragments were too old, {undone} updates undone); in \
+                 a new run, set rollout.fragment_steps = 0, or learner.mode = \"async\"",
+                100.0 * share
+            )
+        });
+    }
+
+    /// Records an undone update.
+    pub(super) fn record_undone(&mut self, why: &str, now: Instant) {
+        let text = format!("an update was undone: {why}; the log names the fragments that caused it");
+        self.undone = Some((now, text));
+    }
+
+    /// Returns every alarm as one sentence.
+    pub(super) fn texts(&self, rejections: &Rejections, now: Instant) -> Vec<String> {
+        let undone = self.undone.as_ref().filter(|(at, _)| now.duration_since(*at) < LASTS).map(|(_, text)| text);
+        let rejected = rejections.recent(now, LASTS).take(SENDERS_MAX).map(|(sender, rejection)| {
+            let (count, reason) = (rejection.fragments, &rejection.reason);
+            format!(
+                "{count} fragments of `{sender}` were rejected, the last because {reason}; stop or repair that actor"
+            )
+        });
+        self.waste.iter().chain(undone).cloned().chain(rejected).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn each_alarm_says_what_to_do_and_ends() {
+        let (mut alarms, mut rejections, now) = (Alarms::default(), Rejections::default(), Instant::now());
+        assert!(alarms.texts(&rejections, now).is_empty());
+        alarms.record_efficiency(Efficiency { used_share: Some(0.64), idle_share: None }, 12, 0);
+        alarms.record_undone("the loss is not finite", now);
+        rejections.record("bad", "`rewards` is absurd", now);
+        let texts = alarms.texts(&rejections, now);
+        assert!(texts[0].starts_with("64 % of the simulated steps") && texts[0].contains("rollout.fragment_steps"));
+        assert!(texts[1].contains("the loss is not finite"));
+        assert!(texts[2].contains("1 fragments of `bad`") && texts[2].contains("stop or repair"), "{}", texts[2]);
+        alarms.record_efficiency(Efficiency { used_share: Some(0.97), idle_share: None }, 12, 0);
+        assert!(alarms.texts(&rejections, now + LASTS).is_empty());
+    }
+}
