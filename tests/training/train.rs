@@ -85,8 +85,8 @@ fn a_run_prints_its_banner_and_leaves_all_files() {
     ] {
         assert!(metrics.iter().any(|(name, ..)| name == tag), "{tag}");
     }
-    let updates = metrics.iter().filter(|(name, ..)| name == "train/learning_rate").count();
-    assert_eq!(updates, 16, "one line for each update");
+    let logged = metrics.iter().filter(|(name, ..)| name == "train/learning_rate").count();
+    assert_eq!(logged as u64, updates, "one line for each update");
     let documented = page("reference/metrics");
     for (tag, ..) in &metrics {
         assert!(documented.contains(&format!("| `{tag}` |")), "docs/reference/metrics.md does not explain {tag}");
