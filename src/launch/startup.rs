@@ -119,14 +119,24 @@ pub fn prepare(
     any: &AnyRunArgs,
     changes: &[(&str, toml::Value)],
 ) -> anyhow::Result<Prepared> {
-    // Before anything is written, so that a missing device leaves nothing behind.
-    let device = any.device.open().map_err(|why| Usage(error_chain(&why)))?;
     let prepared = match &any.resume {
-        Some(run) => resume(command, run, any, device)?,
-        None => begin(command, new, any, changes, device)?,
+        Some(run) => resume(command, run, any)?,
+        None => begin(command, new, any, changes)?,
     };
     write_run_files(&prepared).with_context(|| format!("cannot write to {}", prepared.folder.root().display()))?;
     Ok(prepared)
+}
+
+/// Opens the device of a run; called before anything is written, so that a missing device leaves nothing behind.
+fn open_device(config: &Config, kind: DeviceKind) -> Result<Device, Usage> {
+    if config.run.deterministic && kind == DeviceKind::Cuda {
+        return Err(Usage(
+            "--deterministic promises the same weights bit for bit, which a GPU does not compute; use --device cpu, or leave \
+             --deterministic out"
+                .to_string(),
+        ));
+    }
+    kind.open().map_err(|why| Usage(error_chain(&why)))
 }
 
 /// Refuses commands and flags that make no sense for a task that other programs simulate.
@@ -163,7 +173,6 @@ fn begin(
     new: &NewRunArgs,
     any: &AnyRunArgs,
     changes: &[(&str, toml::Value)],
-    device: Device,
 ) -> anyhow::Result<Prepared> {
     let mut source = ConfigSource::default();
     source.preset(&new.preset)?;
@@ -190,6 +199,7 @@ fn begin(
         config.learner.mode = LearnerMode::Sync;
     }
     check_external(command, &config, any)?;
+    let device = open_device(&config, any.device)?;
     if config.is_external() {
         let known = config.task.known();
         if let Some(why) = known.as_ref().and_then(|task| TrainingState::objection(&config, task)) {
@@ -210,12 +220,13 @@ fn begin(
     Ok(Prepared { config, folder, device, mirror, run: state.run.clone(), state: Some(state) })
 }
 
-fn resume(command: RunCommand, run: &str, any: &AnyRunArgs, device: Device) -> anyhow::Result<Prepared> {
+fn resume(command: RunCommand, run: &str, any: &AnyRunArgs) -> anyhow::Result<Prepared> {
     let folder = RunFolder::open(run)?;
     let _step = SlowStepNotice::begin(format!("loading the checkpoint of {}", folder.root().display()));
     let mut state = checkpoint::load(&folder, any.checkpoint.unwrap_or(Which::Latest))?;
     let mut config = state.config().map_err(anyhow::Error::msg)?;
     check_external(command, &config, any)?;
+    let device = open_device(&config, any.device)?;
     if let Some(file) = &any.model {
         model::check_same(&state.model_xml, file)?;
     }

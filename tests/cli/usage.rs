@@ -119,6 +119,8 @@ fn a_missing_device_is_refused_before_anything_is_written() {
         assert_refused(&output, 2, &parts);
     }
     assert!(!run_folder.exists());
+    let deterministic = ["train", "--preset", "smoke", "--run-dir", path, "--deterministic", "--device", "cuda"];
+    assert_refused(&run(folder.path(), &deterministic), 2, &["--deterministic", "bit for bit", "--device cpu"]);
     assert_refused(&run(folder.path(), &["bench", "update", "--device", "cuda"]), 2, &parts);
     assert_refused(&run(folder.path(), &["train", "--device", "tpu"]), 2, &["tpu", "cpu, cuda"]);
 }

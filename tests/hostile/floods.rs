@@ -170,6 +170,30 @@ fn replayed_fragments_are_not_learnt_from_and_quarantine_their_sender() {
     fleet.end();
 }
 
+#[test]
+fn finite_but_absurd_fragments_end_no_run_and_quarantine_their_sender() {
+    let fleet = fleet(false, &["learner.undone_max=1"]);
+    let attacker = fleet.attacker();
+    let mut sequence = 0;
+    await_that("the quarantine of the sender", || {
+        sequence += 1;
+        let mut absurd = fragment(&attacker.policy(), "absurd", sequence);
+        match sequence % 3 {
+            0 => absurd.log_probs.fill(-1e30),
+            1 => absurd.rewards.fill(3e38),
+            _ => absurd.actions.fill(1e30),
+        }
+        let receipt = attacker.send("absurd", absurd.encode().unwrap())?;
+        assert!(!matches!(receipt.outcome, Outcome::Malformed), "{receipt:?}");
+        (receipt.outcome == Outcome::Quarantined).then_some(())
+    });
+    fleet.learner.wait_for("fragment not learnt from actor=absurd");
+    fleet.learner.wait_for("sender quarantined: implausible fragments in a row actor=absurd");
+    fleet.assert_trains();
+    assert_eq!(fleet.value("train/undone_updates"), 0.0);
+    fleet.end();
+}
+
 /// Sends small messages of every kind at once, as fast as possible.
 fn flood(tls: bool) {
     let fleet = fleet(tls, &["eval.every_steps=4096"]);

@@ -1,7 +1,7 @@
 //! Other clients of the bus: receipts for their fragments, and subscriptions.
 
 #[path = "../support/fragment.rs"]
-mod sample;
+pub mod sample;
 
 use crate::support::*;
 use bytes::Bytes;

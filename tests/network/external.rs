@@ -2,7 +2,7 @@
 
 use std::{fs, path::Path, process::Command};
 
-use crate::support::*;
+use crate::{bus::sample::log_probs, support::*};
 use bytes::Bytes;
 use treadmill_bus::{Bus, Role, register_task, submit};
 use treadmill_config::ConfigSource;
@@ -49,6 +49,8 @@ fn fragment(bundle: &PolicyBundle, sequence: u64) -> Fragment {
     let wavy = |count: usize| (0..count).map(|index| (index as f32 * 0.7).sin()).collect::<Vec<f32>>();
     let episode =
         Episode { return_sum: 1.0, length: 1, distance_m: 0.0, velocity_mean_mps: 0.0, cause: EndCause::Terminated };
+    let observations = wavy(rows * bundle.observation_size as usize);
+    let actions = wavy(rows * bundle.action_size as usize);
     Fragment {
         run: bundle.run.clone(),
         actor: "count-1".into(),
@@ -60,9 +62,9 @@ fn fragment(bundle: &PolicyBundle, sequence: u64) -> Fragment {
         envs,
         observation_size: bundle.observation_size,
         action_size: bundle.action_size,
-        observations: wavy(rows * bundle.observation_size as usize),
-        actions: wavy(rows * bundle.action_size as usize),
-        log_probs: vec![-2.0; rows],
+        log_probs: log_probs(bundle, &observations, &actions),
+        observations,
+        actions,
         rewards: vec![1.0; rows],
         flags: vec![TERMINATED; rows],
         last_observations: vec![],

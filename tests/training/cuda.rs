@@ -47,6 +47,7 @@ fn batch(random: &mut seeds::Stream) -> Batch {
     Batch {
         observations: normals(ROWS * 45, random),
         log_probs,
+        means: vec![0.0; actions.len()],
         actions,
         weights: vec![1.0; ROWS],
         advantages: normals(ROWS, random),

@@ -149,7 +149,9 @@ fn training_works_with_the_full_observations_of_gymnasium() {
         let variances = state.observation_moments.variance();
         assert!(variances.iter().filter(|variance| **variance < 1e-12).count() >= 13, "{preset}");
         assert!(variances.iter().all(|variance| variance.is_finite()));
-        let output = self::run(folder.path(), &["eval", run.to_str().unwrap(), "--episodes", "1", "--json"]);
+        // The newest policy, which `export` takes too; the best may be an earlier one.
+        let newest = ["--checkpoint", "latest", "--episodes", "1", "--json"];
+        let output = self::run(folder.path(), &[&["eval", run.to_str().unwrap()], &newest[..]].concat());
         assert_eq!(last_json(&output)["episodes"], 1, "{}", stderr(&output));
         // The exported policy holds open ranges and the kind of observation.
         let exported = folder.path().join("policy.safetensors");

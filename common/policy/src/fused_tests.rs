@@ -52,7 +52,7 @@ fn run(forward: impl Fn(&Tensor, &Tensor) -> Result<Tensor>, shape: &NetworkShap
 
 #[test]
 fn output_and_gradient_agree_with_candles_operations() {
-    let small = [(vec![16, 8], 33), (vec![4], 700), (vec![], 5), (vec![8, 8, 8], CHUNK_ROWS * LANES + 300)]
+    let small = [(vec![16, 8], 33), (vec![4], 700), (vec![], 5), (vec![8, 8, 8], CHUNK_ROWS * LANES_MIN + 300)]
         .map(|(hidden, rows)| (NetworkShape { observation: 7, action: 3, hidden }, rows));
     for (shape, rows) in small.into_iter().chain(shapes_in_use().map(|shape| (shape, CHUNK_ROWS + 30))) {
         let networks = actor_critic(&shape, None);
@@ -136,12 +136,38 @@ fn actor_and_critic_alone_agree_with_both_together() -> Result<()> {
 #[test]
 fn the_number_of_threads_does_not_change_one_bit() {
     let shape = NetworkShape { observation: 9, action: 4, hidden: vec![32, 16] };
-    let rows = CHUNK_ROWS * (LANES + 3) + 17;
+    let rows = CHUNK_ROWS * (LANES_MIN + 3) + 17;
     let alone = actor_critic(&shape, None);
     let expected = run(|p, x| alone.forward(p, x), &shape, rows);
     for threads in [1, 2, 3, 7] {
         let networks = actor_critic(&shape, pool(threads));
         assert_eq!(run(|p, x| networks.forward(p, x), &shape, rows), expected, "{threads} threads");
+    }
+}
+
+#[test]
+fn every_chunk_has_its_own_lane_while_memory_allows() {
+    let [default, gymnasium] = shapes_in_use().map(|shape| actor_critic(&shape, None));
+    for chunks in [1, 4, 8, 32, 93] {
+        assert_eq!(default.inner.lanes(chunks), chunks);
+    }
+    let (default, gymnasium) = (default.inner.lanes(100_000), gymnasium.inner.lanes(100_000));
+    assert_eq!((default, gymnasium), (93, 29));
+    let huge = NetworkShape { observation: 4096, action: 17, hidden: vec![4096; 4] };
+    assert_eq!(actor_critic(&huge, None).inner.lanes(100_000), LANES_MIN);
+}
+
+#[test]
+fn chunks_that_share_a_lane_give_the_gradient_of_candles_operations() {
+    // So large that the memory of lanes is for the fewest.
+    let shape = NetworkShape { observation: 2, action: 1, hidden: vec![1100, 1500] };
+    let networks = actor_critic(&shape, pool(2));
+    let rows = CHUNK_ROWS * (LANES_MIN + 1) + 9;
+    assert!(networks.inner.lanes(rows.div_ceil(CHUNK_ROWS)) < rows.div_ceil(CHUNK_ROWS));
+    let fused = run(|p, x| networks.forward(p, x), &shape, rows);
+    let plain = run(|p, x| plain::actor_critic(&shape, p, x), &shape, rows);
+    for (i, (a, b)) in fused[1].iter().zip(&plain[1]).enumerate() {
+        assert!((a - b).abs() < 3e-5 * (1.0 + b.abs()), "{i}: {a} {b}");
     }
 }
 

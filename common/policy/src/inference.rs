@@ -7,8 +7,10 @@ use rayon::ThreadPool;
 
 use super::{NetworkPart, NetworkShape, Networks, ParameterError, check_parameters};
 
-/// Rows per application of the networks; bounds the memory for activations.
+/// Rows per application of the networks on one thread or on a GPU; bounds the memory for activations.
 const ROWS_AT_ONCE: usize = 4096;
+/// Rows per application of the networks for each further thread: four of the chunks that threads share.
+const ROWS_PER_THREAD: usize = 1024;
 
 /// Networks with their parameters, for evaluation only.
 #[derive(Clone, Debug)]
@@ -19,6 +21,7 @@ pub struct Policy {
     device: Device,
     actor: Networks,
     critic: Networks,
+    rows_at_once: usize,
 }
 
 impl Policy {
@@ -51,9 +54,11 @@ impl Policy {
     ) -> std::result::Result<Self, ParameterError> {
         check_parameters(&shape, &parameters)?;
         let tensor = Tensor::from_slice(&parameters, parameters.len(), device)?;
+        let threads = pool.as_ref().map_or(1, |pool| pool.current_num_threads());
         let actor = Networks::on(device, &shape, NetworkPart::Actor, pool.clone());
         let critic = Networks::on(device, &shape, NetworkPart::Critic, pool);
-        Ok(Self { shape, parameters, tensor, device: device.clone(), actor, critic })
+        let rows_at_once = ROWS_AT_ONCE.max(threads * ROWS_PER_THREAD);
+        Ok(Self { shape, parameters, tensor, device: device.clone(), actor, critic, rows_at_once })
     }
 
     /// Returns the shape of the networks.
@@ -106,8 +111,8 @@ impl Policy {
         let columns = self.shape.observation;
         assert_eq!(observations.len(), rows * columns, "observations do not hold {rows} rows of {columns}");
         assert_eq!(output.len(), rows * width, "the output does not hold {rows} rows of {width}");
-        let inputs = observations.chunks(ROWS_AT_ONCE * columns);
-        for (input, output) in inputs.zip(output.chunks_mut(ROWS_AT_ONCE * width)) {
+        let inputs = observations.chunks(self.rows_at_once * columns);
+        for (input, output) in inputs.zip(output.chunks_mut(self.rows_at_once * width)) {
             let input = Tensor::from_slice(input, (input.len() / columns, columns), &self.device)?;
             let result = networks.forward(&self.tensor, &input)?;
             let (storage, _) = result.storage_and_layout();

@@ -45,6 +45,13 @@ impl Mlp {
         hidden.iter().map(|layer| layer.output).sum()
     }
 
+    /// Returns the numbers in memory for one partial gradient over chunks of `rows` rows: the gradient itself, and those
+    /// between layers.
+    pub(super) fn lane_numbers(&self, rows: usize) -> usize {
+        let widest = self.layers.iter().map(|layer| layer.output).max().unwrap_or(0);
+        self.range.len() + rows * (2 * widest + self.output())
+    }
+
     /// Computes `output`, `[rows, output]`, from `input`, `[rows, input]`.
     ///
     /// `activations`, of length `rows · hidden`, receives the outputs of the hidden layers, one layer after the other.

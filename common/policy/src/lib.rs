@@ -14,7 +14,8 @@
 //! - `plain`: the same networks from Candle's operations, for GPUs and as the reference of tests.
 //! - `networks`: [`Networks`], which chooses between the two.
 //! - `inference`: [`Policy`], which actors evaluate.
-//! - `normaliser`: running moments and normalisation of observations and returns.
+//! - `moments`: running mean and variance of observations and returns.
+//! - `normaliser`: normalisation by them.
 //! - `exported`, `onnx`: a policy as a safetensors or ONNX file.
 //! - `device`: choice of CPU or GPU.
 
@@ -26,6 +27,7 @@ pub mod gaussian;
 mod inference;
 pub mod init;
 mod kernel;
+mod moments;
 mod networks;
 pub mod normaliser;
 pub mod onnx;

@@ -1,9 +1,11 @@
-//! Running mean and variance, and normalisation by them.
+//! Normalisation by running mean and variance.
 //!
 //! [`RunningMoments`] is the learner's running state. [`Normaliser`] is the fixed function that is published with each policy
 //! version, so that a rollout uses the statistics of its version.
 
 use serde::{Deserialize, Serialize};
+
+pub use super::moments::RunningMoments;
 
 /// Added to a variance before its root is taken, so that a constant column is not divided by zero.
 pub const VARIANCE_EPSILON: f64 = 1e-5;
@@ -11,81 +13,6 @@ pub const VARIANCE_EPSILON: f64 = 1e-5;
 const STD_FLOOR: f64 = 1e-4;
 /// Least floor of a standard deviation.
 const STD_MIN: f64 = 1e-12;
-
-/// Running count, mean and sum of squared deviations of each column.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct RunningMoments {
-    /// Rows seen.
-    pub count: f64,
-    /// Mean of each column.
-    pub mean: Vec<f64>,
-    /// Sum over rows of the squared deviation from the mean, for each column.
-    pub m2: Vec<f64>,
-}
-
-impl RunningMoments {
-    /// Returns the moments of zero rows with `width` columns.
-    pub fn new(width: usize) -> Self {
-        Self { count: 0.0, mean: vec![0.0; width], m2: vec![0.0; width] }
-    }
-
-    /// Adds rows, `[n, width]`. They must be finite, because the moments would keep NaN and infinity for ever.
-    ///
-    /// # Panics
-    /// If `width` differs from that of the moments, or `rows` does not hold whole rows.
-    pub fn update(&mut self, rows: &[f32], width: usize) {
-        assert_eq!(width, self.mean.len(), "the moments have another width");
-        if rows.is_empty() {
-            return;
-        }
-        assert!(rows.len().is_multiple_of(width), "{} numbers are no whole rows of {width}", rows.len());
-        // Two passes, because a one-pass sum of squares loses all digits if the mean is large.
-        let count = (rows.len() / width) as f64;
-        let mut batch = Self { count, ..Self::new(width) };
-        for row in rows.chunks_exact(width) {
-            batch.mean.iter_mut().zip(row).for_each(|(sum, x)| *sum += f64::from(*x));
-        }
-        batch.mean.iter_mut().for_each(|sum| *sum /= count);
-        for row in rows.chunks_exact(width) {
-            for ((m2, mean), x) in batch.m2.iter_mut().zip(&batch.mean).zip(row) {
-                let deviation = f64::from(*x) - mean;
-                *m2 += deviation * deviation;
-            }
-        }
-        self.merge(&batch);
-    }
-
-    /// Merges the moments of other rows: Chan, Golub & LeVeque 1979, "Updating formulae and a pairwise algorithm
-    /// for computing sample variances", equation 2.1.
-    ///
-    /// # Panics
-    /// If the widths differ.
-    pub fn merge(&mut self, other: &Self) {
-        assert_eq!(self.mean.len(), other.mean.len(), "the moments have another width");
-        let total = self.count + other.count;
-        if total == 0.0 {
-            return;
-        }
-        let share = other.count / total;
-        for i in 0..self.mean.len() {
-            let delta = other.mean[i] - self.mean[i];
-            self.mean[i] += delta * share;
-            self.m2[i] += other.m2[i] + delta * delta * self.count * share;
-        }
-        self.count = total;
-    }
-
-    /// Returns the population variance of each column; 1 before the first row.
-    pub fn variance(&self) -> Vec<f64> {
-        let divide = |m2: &f64| if self.count > 0.0 { m2 / self.count } else { 1.0 };
-        self.m2.iter().map(divide).collect()
-    }
-
-    /// Returns whether all moments are finite.
-    pub fn is_finite(&self) -> bool {
-        self.count.is_finite() && self.mean.iter().chain(&self.m2).all(|number| number.is_finite())
-    }
-}
 
 /// Normalisation `(x − mean) / √(variance + ε)`, clipped; ε is [`VARIANCE_EPSILON`].
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -197,32 +124,6 @@ impl ScalarNormaliser {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use proptest::prelude::*;
-
-    fn close(a: f64, b: f64) {
-        assert!((a - b).abs() < 1e-9 * (1.0 + b.abs()), "{a} is not {b}");
-    }
-
-    #[test]
-    fn moments_agree_with_a_calculation_by_hand() {
-        let mut moments = RunningMoments::new(2);
-        moments.update(&[1.0, 10.0, 2.0, 10.0], 2);
-        moments.update(&[6.0, 40.0], 2);
-        assert_eq!(moments.count, 3.0);
-        close(moments.mean[0], 3.0);
-        close(moments.mean[1], 20.0);
-        close(moments.variance()[0], 14.0 / 3.0);
-        close(moments.variance()[1], 200.0);
-    }
-
-    #[test]
-    fn a_large_mean_does_not_swallow_the_variance() {
-        let mut moments = RunningMoments::new(1);
-        for _ in 0..100 {
-            moments.update(&[16_000_000.0, 16_000_001.0], 1);
-        }
-        close(moments.variance()[0], 0.25);
-    }
 
     #[test]
     fn normalised_rows_agree_with_a_calculation_by_hand() {
@@ -280,24 +181,5 @@ mod tests {
         assert!(!Normaliser { inverse_std: vec![1.0, 0.0, 1.0], ..good.clone() }.is_valid(3));
         assert!(!Normaliser { mean: vec![f32::NAN, 0.0, 0.0], ..good.clone() }.is_valid(3));
         assert!(!Normaliser { clip: -1.0, ..good }.is_valid(3));
-    }
-
-    proptest! {
-        #[test]
-        fn merged_parts_equal_the_whole(rows in prop::collection::vec(-100.0_f32..100.0, 0..60), cut in 0_usize..20) {
-            let rows = &rows[..rows.len() / 3 * 3];
-            let cut = (cut * 3).min(rows.len());
-            let mut whole = RunningMoments::new(3);
-            whole.update(rows, 3);
-            let (mut left, mut right) = (RunningMoments::new(3), RunningMoments::new(3));
-            left.update(&rows[..cut], 3);
-            right.update(&rows[cut..], 3);
-            left.merge(&right);
-            prop_assert_eq!(left.count, whole.count);
-            for i in 0..3 {
-                prop_assert!((left.mean[i] - whole.mean[i]).abs() < 1e-9);
-                prop_assert!((left.m2[i] - whole.m2[i]).abs() < 1e-6);
-            }
-        }
     }
 }

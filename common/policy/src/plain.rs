@@ -23,15 +23,28 @@ pub fn actor_critic(shape: &NetworkShape, parameters: &Tensor, observations: &Te
 /// # Errors
 /// If a tensor has the wrong shape.
 pub fn network(layers: &[Dense], parameters: &Tensor, observations: &Tensor) -> Result<Tensor> {
-    let mut rows = observations.clone();
-    for (i, layer) in layers.iter().enumerate() {
+    let mut tensors = Vec::new();
+    for layer in layers {
         let weight = parameters.narrow(0, layer.weight().start, layer.weight().len())?;
-        let weight = weight.reshape((layer.output, layer.input))?;
-        let bias = parameters.narrow(0, layer.bias().start, layer.output)?;
-        rows = Linear::new(weight, Some(bias)).forward(&rows)?;
-        if i + 1 < layers.len() {
+        tensors.push(weight.reshape((layer.output, layer.input))?);
+        tensors.push(parameters.narrow(0, layer.bias().start, layer.output)?);
+    }
+    layered(&tensors, observations)
+}
+
+/// Applies one network, given weight and bias of each layer in turn. With leaves of their own, gradients have the size of their
+/// layer; the gradient of a slice would have that of the flat vector.
+///
+/// # Errors
+/// If a tensor has the wrong shape.
+pub fn layered(tensors: &[Tensor], observations: &Tensor) -> Result<Tensor> {
+    let mut rows = observations.clone();
+    for (i, layer) in tensors.chunks_exact(2).enumerate() {
+        if i > 0 {
             rows = Activation::Elu(1.0).forward(&rows)?;
         }
+        let (weight, bias) = (layer[0].clone(), layer[1].clone());
+        rows = Linear::new(weight, Some(bias)).forward(&rows)?;
     }
     Ok(rows)
 }

@@ -6,7 +6,7 @@ use candle_core::{Device, Result, Tensor};
 use rand::{Rng, RngExt};
 use treadmill_policy::NetworkShape;
 
-use crate::{gae::Advantages, loss::Minibatch};
+use crate::loss::Minibatch;
 
 /// `S` transitions, in any order.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -15,7 +15,9 @@ pub struct Batch {
     pub observations: Vec<f32>,
     /// Actions before clipping to their range, `[S, action]`.
     pub actions: Vec<f32>,
-    /// Log-probabilities of the actions under the policy in the denominator of the ratios, `[S]`.
+    /// Action means of the policy that the update starts from, `[S, action]`; they measure how far the update moves it.
+    pub means: Vec<f32>,
+    /// Log-probabilities of the actions under that policy, the denominator of the ratios, `[S]`.
     pub log_probs: Vec<f32>,
     /// Factors on the normalised advantages, `[S]`: 1, or less if another policy acted.
     pub weights: Vec<f32>,
@@ -38,19 +40,13 @@ impl Batch {
         self.returns.is_empty()
     }
 
-    /// Appends value targets, values and advantages of one fragment.
-    pub(crate) fn extend_targets(&mut self, estimated: &Advantages, values: &[f32]) {
-        self.advantages.extend_from_slice(&estimated.advantages);
-        self.returns.extend_from_slice(&estimated.returns);
-        self.values.extend_from_slice(values);
-    }
-
     /// Returns the first field with a wrong length, its length, and the expected length.
     pub(crate) fn wrong_length(&self, shape: &NetworkShape) -> Option<(&'static str, usize, usize)> {
         let rows = self.len();
         [
             ("observations", self.observations.len(), rows * shape.observation),
             ("actions", self.actions.len(), rows * shape.action),
+            ("means", self.means.len(), rows * shape.action),
             ("log_probs", self.log_probs.len(), rows),
             ("weights", self.weights.len(), rows),
             ("advantages", self.advantages.len(), rows),
@@ -58,6 +54,22 @@ impl Batch {
         ]
         .into_iter()
         .find(|(_, found, expected)| found != expected)
+    }
+
+    /// Returns the name of a field with a number that is infinite or NaN.
+    pub(crate) fn non_finite(&self) -> Option<&'static str> {
+        [
+            ("batch's observations", &self.observations),
+            ("batch's actions", &self.actions),
+            ("batch's means", &self.means),
+            ("batch's log-probabilities", &self.log_probs),
+            ("batch's weights", &self.weights),
+            ("batch's advantages", &self.advantages),
+            ("batch's returns", &self.returns),
+            ("batch's values", &self.values),
+        ]
+        .into_iter()
+        .find_map(|(name, numbers)| numbers.iter().any(|number| !number.is_finite()).then_some(name))
     }
 
     /// Returns the observations of the given rows, `[B, observation]`, and their other fields, on `device`.
@@ -69,15 +81,8 @@ impl Batch {
         shape: &NetworkShape,
         device: &Device,
     ) -> Result<(Tensor, Minibatch)> {
-        let pick = |plane: &[f32], width: usize| {
-            let mut picked = Vec::with_capacity(rows.len() * width);
-            for row in rows.iter().map(|r| *r as usize) {
-                picked.extend_from_slice(&plane[row * width..(row + 1) * width]);
-            }
-            picked
-        };
-        let matrix = |plane, width| Tensor::from_vec(pick(plane, width), (rows.len(), width), device);
-        let column = |plane| Tensor::from_vec(pick(plane, 1), rows.len(), device);
+        let matrix = |plane, width| Tensor::from_vec(picked(plane, width, rows), (rows.len(), width), device);
+        let column = |plane| Tensor::from_vec(picked(plane, 1, rows), rows.len(), device);
         let minibatch = Minibatch {
             actions: matrix(&self.actions, shape.action)?,
             log_probs: column(&self.log_probs)?,
@@ -86,6 +91,15 @@ impl Batch {
         };
         Ok((matrix(&self.observations, shape.observation)?, minibatch))
     }
+}
+
+/// Returns the given rows of a plane, `[S, width]`.
+pub(crate) fn picked(plane: &[f32], width: usize, rows: &[u32]) -> Vec<f32> {
+    let mut picked = Vec::with_capacity(rows.len() * width);
+    for row in rows.iter().map(|row| *row as usize) {
+        picked.extend_from_slice(&plane[row * width..(row + 1) * width]);
+    }
+    picked
 }
 
 /// Normalises the advantages over the whole batch and multiplies them by their weights.
@@ -184,6 +198,7 @@ mod tests {
         let batch = Batch {
             observations: vec![0.0, 1.0, 10.0, 11.0, 20.0, 21.0],
             actions: vec![0.5, 1.5, 2.5],
+            means: vec![0.0; 3],
             log_probs: vec![-1.0, -2.0, -3.0],
             weights: vec![1.0; 3],
             advantages: vec![0.0; 3],
@@ -199,6 +214,9 @@ mod tests {
         assert_eq!(minibatch.returns.to_vec1::<f32>()?, [9.0, 7.0]);
         let short = Batch { actions: vec![0.5], ..batch };
         assert_eq!(short.wrong_length(&shape), Some(("actions", 1, 3)));
+        assert_eq!(short.non_finite(), None);
+        let infinite = Batch { values: vec![0.0, f32::INFINITY, 0.0], ..short };
+        assert_eq!(infinite.non_finite(), Some("batch's values"));
         Ok(())
     }
 }

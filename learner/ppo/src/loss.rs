@@ -7,6 +7,10 @@ use candle_nn::loss::mse;
 use treadmill_config::PpoConfig;
 use treadmill_policy::gaussian::HALF_LN_TAU;
 
+/// Largest logarithm of a probability ratio. The loss is clipped long before; a larger one would make the exponential infinite,
+/// and its product with a weight of 0 not a number.
+pub const LOG_RATIO_MAX: f64 = 20.0;
+
 /// Transitions of one gradient step, without the observations, which the networks have evaluated.
 #[derive(Clone, Debug)]
 pub struct Minibatch {
@@ -33,7 +37,7 @@ pub struct Loss {
     pub entropy: Tensor,
     /// Squared excess of action means, before its coefficient, a scalar.
     pub bounds: Tensor,
-    /// `ln π_new(a|s) − ln π_old(a|s)`, `[B]`, detached.
+    /// `ln π_new(a|s) − ln π_old(a|s)`, `[B]`, detached, at most [`LOG_RATIO_MAX`].
     pub log_ratio: Tensor,
 }
 
@@ -50,6 +54,7 @@ pub fn ppo_loss(output: &Tensor, log_std: &Tensor, minibatch: &Minibatch, config
 
     // ratio = π_new(a|s) / π_old(a|s).
     let log_ratio = (log_probability(&minibatch.actions, &means, log_std)? - &minibatch.log_probs)?;
+    let log_ratio = log_ratio.minimum(LOG_RATIO_MAX)?;
     let ratio = log_ratio.exp()?;
 
     // Equation 7: the worse of the plain and the clipped gain, so that leaving the clip range gains nothing.

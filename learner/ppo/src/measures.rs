@@ -1,36 +1,62 @@
 //! Measures of an update, and the adaptive learning rate.
 
+use candle_core::{Device, Result, Tensor};
 use treadmill_config::PpoConfig;
+use treadmill_policy::{NetworkShape, Networks, gaussian};
 
-/// Distance of the policy from the one that acted, summed over rows.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+use crate::batch::{Batch, picked};
+
+/// Rows that the divergence is measured on. Over a batch of 8,192 rows, a forward pass of the actor would take 17 ms of the 105 ms
+/// of a pass (networks of 256 and 128, one thread). Over these rows it takes 2 ms, with networks of 512 and 256 9 ms of 500 ms.
+const KL_ROWS: usize = 1024;
+/// Fractional part of the golden ratio: its multiples modulo 1 fill the interval evenly and share no period with the batch.
+const GOLDEN: f64 = 0.618_033_988_749_894_9;
+
+/// Measures how far passes over a batch move the policy, on up to [`KL_ROWS`] rows: all rows of a small batch, or rows spread
+/// evenly over a larger one, the same after every pass.
+///
+/// With 1,024 rows the standard error of the mean is about 3 % of it, and the learning rate changes at a factor of 2.
+#[derive(Debug)]
 pub(crate) struct PolicyShift {
-    rows: usize,
-    kl: f64,
-    clipped: usize,
+    observations: Tensor,
+    old_means: Vec<f32>,
+    old_log_std: Vec<f32>,
 }
 
 impl PolicyShift {
-    /// Adds rows, given their `ln π_new(a|s) − ln π_old(a|s)`.
-    pub(crate) fn add(&mut self, log_ratio: &[f32], clip_range: f64) {
-        self.rows += log_ratio.len();
-        for log_ratio in log_ratio.iter().map(|l| f64::from(*l)) {
-            let ratio = log_ratio.exp();
-            self.kl += (ratio - 1.0) - log_ratio;
-            self.clipped += usize::from((ratio - 1.0).abs() > clip_range);
-        }
+    /// Measure against the policy that the update starts from, whose means the batch has.
+    pub(crate) fn new(batch: &Batch, shape: &NetworkShape, old_log_std: &[f32], device: &Device) -> Result<Self> {
+        let rows = spread_rows(batch.len());
+        let observations = picked(&batch.observations, shape.observation, &rows);
+        Ok(Self {
+            observations: Tensor::from_vec(observations, (rows.len(), shape.observation), device)?,
+            old_means: picked(&batch.means, shape.action, &rows),
+            old_log_std: old_log_std.to_vec(),
+        })
     }
 
-    /// Estimated Kullback–Leibler divergence from the old to the new policy, in nats: the mean of
-    /// `(ratio − 1) − ln ratio`, unbiased and never negative (Schulman 2020, "Approximating KL divergence", `k3`).
-    pub(crate) fn approx_kl(&self) -> f64 {
-        self.kl / self.rows.max(1) as f64
+    /// Returns the means of the new policy, `[rows, action]`, which [`Self::divergence`] takes.
+    pub(crate) fn new_means(&self, actor: &Networks, parameters: &Tensor) -> Result<Tensor> {
+        actor.forward(parameters, &self.observations)
     }
 
-    /// Share of rows whose ratio is outside the clip range.
-    pub(crate) fn clip_fraction(&self) -> f64 {
-        self.clipped as f64 / self.rows.max(1) as f64
+    /// Returns the Kullback–Leibler divergence from the old to the new policy in nats, in closed form.
+    pub(crate) fn divergence(&self, new_means: &[f32], new_log_std: &[f32]) -> f64 {
+        gaussian::kl_divergence(&self.old_means, &self.old_log_std, new_means, new_log_std)
     }
+}
+
+/// Returns up to [`KL_ROWS`] of `rows` rows.
+fn spread_rows(rows: usize) -> Vec<u32> {
+    match rows <= KL_ROWS {
+        true => (0..rows as u32).collect(),
+        false => (0..KL_ROWS).map(|i| ((i as f64 * GOLDEN).fract() * rows as f64) as u32).collect(),
+    }
+}
+
+/// Returns the number of rows whose probability ratio is outside the clip range, given the ratios' logarithms.
+pub(crate) fn clipped(log_ratio: &[f32], clip_range: f64) -> usize {
+    log_ratio.iter().filter(|log_ratio| (f64::from(**log_ratio).exp() - 1.0).abs() > clip_range).count()
 }
 
 /// Returns the share of the variance of `returns` that `values` explain: `1 − Var(returns − values) / Var(returns)`.
@@ -52,7 +78,7 @@ fn variance(numbers: impl Iterator<Item = f64> + Clone) -> f64 {
     numbers.map(|x| (x - mean).powi(2)).sum::<f64>() / count
 }
 
-/// Returns the learning rate after an epoch whose KL divergence was `approx_kl`. Above twice the target it is divided
+/// Returns the learning rate after a pass after which the KL divergence is `approx_kl`. Above twice the target it is divided
 /// by 1.5, below half the target multiplied by 1.5, always within its bounds. A target of 0 keeps it fixed.
 ///
 /// Rule of rl_games and rsl_rl, after the adaptive penalty of Schulman et al. 2017, arXiv:1707.06347, section 4.
@@ -76,28 +102,28 @@ mod tests {
     }
 
     #[test]
-    fn kl_and_clip_fraction_are_those_computed_by_hand() {
-        let mut shift = PolicyShift::default();
-        shift.add(&[0.0, 2.0_f32.ln()], 0.2);
-        shift.add(&[0.5_f32.ln(), 1.1_f32.ln()], 0.2);
-        // k3: 0, 1 − ln 2, −½ + ln 2, 0.1 − ln 1.1.
-        close(shift.approx_kl(), (0.5 + 0.1 - 1.1_f64.ln()) / 4.0);
-        close(shift.clip_fraction(), 0.5);
+    fn ratios_outside_the_clip_range_are_counted() {
+        let log_ratios = [0.0, 2.0_f32.ln(), 0.5_f32.ln(), 1.1_f32.ln(), 0.81_f32.ln()];
+        assert_eq!(clipped(&log_ratios, 0.2), 2);
+        assert_eq!(clipped(&[], 0.2), 0);
     }
 
     #[test]
-    fn the_kl_estimate_is_that_of_two_gaussians() {
-        // Old N(0, 1), new N(½, 1): KL = ½ · ½². Rows stand at the quantile midpoints of a fine grid, weighted by hand.
-        let (mut kl, mut weight) = (0.0, 0.0);
-        for i in -800..=800 {
-            let x = f64::from(i) * 0.01;
-            let density = (-0.5 * x * x).exp();
-            let mut shift = PolicyShift::default();
-            shift.add(&[(0.5 * x - 0.125) as f32], 0.2);
-            kl += density * shift.approx_kl();
-            weight += density;
+    fn rows_are_all_of_a_small_batch_and_spread_over_a_large_one() {
+        assert_eq!(spread_rows(5), [0, 1, 2, 3, 4]);
+        assert_eq!(spread_rows(KL_ROWS).len(), KL_ROWS);
+        for rows in [KL_ROWS + 1, 8192, 16_777_216] {
+            let spread = spread_rows(rows);
+            assert_eq!(spread.len(), KL_ROWS);
+            // Every sixty-fourth of the batch has its share, within one row.
+            let mut shares = [0_i32; 64];
+            spread.iter().for_each(|row| shares[*row as usize * 64 / rows] += 1);
+            assert!(shares.iter().all(|share| (14..=18).contains(share)), "{rows}: {shares:?}");
+            // No environment of a plane `[T, 32]` is left out or preferred.
+            let mut envs = [0_i32; 32];
+            spread.iter().for_each(|row| envs[*row as usize % 32] += 1);
+            assert!(envs.iter().all(|count| (16..=48).contains(count)), "{rows}: {envs:?}");
         }
-        assert!((kl / weight - 0.125).abs() < 1e-4, "{}", kl / weight);
     }
 
     #[test]

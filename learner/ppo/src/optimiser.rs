@@ -6,9 +6,9 @@
 use multiversion::multiversion;
 use serde::{Deserialize, Serialize};
 
-const BETA_1: f64 = 0.9;
-const BETA_2: f64 = 0.999;
-const EPSILON: f64 = 1e-8;
+pub(crate) const BETA_1: f64 = 0.9;
+pub(crate) const BETA_2: f64 = 0.999;
+pub(crate) const EPSILON: f64 = 1e-8;
 
 /// State of Adam. Together with the learning rate, a resumed run continues from it exactly.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -35,15 +35,17 @@ impl OptimiserState {
         let count = parameters.len();
         assert!(gradient.len() == count && self.first_moment.len() == count && self.second_moment.len() == count);
         self.step += 1;
-        // Steps beyond i32 change nothing: both powers are 0 well before.
-        let step = i32::try_from(self.step).unwrap_or(i32::MAX);
-        let factors = Factors {
-            scale,
-            step_size: (learning_rate / (1.0 - BETA_1.powi(step))) as f32,
-            root_correction: (1.0 / (1.0 - BETA_2.powi(step)).sqrt()) as f32,
-        };
+        let (step_size, root_correction) = bias_corrections(self.step, learning_rate);
+        let factors = Factors { scale, step_size: step_size as f32, root_correction: root_correction as f32 };
         adam(parameters, gradient, &mut self.first_moment, &mut self.second_moment, &factors);
     }
+}
+
+/// Returns the step size, and the factor on the root of the second moment, of the given step.
+pub(crate) fn bias_corrections(step: u64, learning_rate: f64) -> (f64, f64) {
+    // Steps beyond i32 change nothing: both powers are 0 well before.
+    let step = i32::try_from(step).unwrap_or(i32::MAX);
+    (learning_rate / (1.0 - BETA_1.powi(step)), 1.0 / (1.0 - BETA_2.powi(step)).sqrt())
 }
 
 /// Factors that all parameters of one step share.

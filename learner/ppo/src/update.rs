@@ -11,17 +11,19 @@ use treadmill_policy::{NetworkPart, NetworkShape, Networks, ParameterError, Poli
 
 use crate::{
     batch::{Batch, minibatches, shuffle, weighted_advantages},
+    device_pass::DevicePass,
     loss::ppo_loss,
-    measures::{PolicyShift, adapt_learning_rate, explained_variance},
+    measures::{PolicyShift, adapt_learning_rate, clipped, explained_variance},
     optimiser::{OptimiserState, clip_factor, global_norm},
 };
 
 /// Improves the parameters, batch after batch.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct Updater {
     shape: NetworkShape,
     config: PpoConfig,
     networks: Networks,
+    actor: Networks,
     device: Device,
     pool: Arc<ThreadPool>,
     state: State,
@@ -29,10 +31,22 @@ pub struct Updater {
 
 /// State that an update changes, restored when the update fails.
 #[derive(Clone, Debug)]
-struct State {
-    parameters: Vec<f32>,
-    optimiser: OptimiserState,
-    learning_rate: f64,
+pub(crate) struct State {
+    pub(crate) parameters: Vec<f32>,
+    pub(crate) optimiser: OptimiserState,
+    pub(crate) learning_rate: f64,
+}
+
+/// Sums over the rows of one pass, and the divergence after it.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct PassSums {
+    pub(crate) policy_loss: f64,
+    pub(crate) value_loss: f64,
+    pub(crate) entropy: f64,
+    pub(crate) bounds_loss: f64,
+    pub(crate) grad_norm: f64,
+    pub(crate) clipped: f64,
+    pub(crate) divergence: f64,
 }
 
 /// Statistics of an update: means over all gradient steps, weighted by rows, unless stated otherwise.
@@ -46,7 +60,8 @@ pub struct UpdateStats {
     pub entropy: f64,
     /// Squared excess of action means over the limit, summed over actions.
     pub bounds_loss: f64,
-    /// Estimated KL divergence from the old policy in nats, over the last epoch.
+    /// KL divergence in nats from the policy that the update started from to that after the last epoch, in closed form over a
+    /// sample of the rows.
     pub approx_kl: f64,
     /// Share of rows whose probability ratio is outside the clip range.
     pub clip_fraction: f64,
@@ -89,6 +104,9 @@ pub enum UpdateError {
     /// Candle failed.
     #[error("the tensor library failed")]
     Tensor(#[from] candle_core::Error),
+    /// The parameters cannot be evaluated.
+    #[error("the parameters cannot be used")]
+    Parameters(#[from] ParameterError),
 }
 
 /// Why an updater cannot start from the given parameters or state.
@@ -122,7 +140,7 @@ impl Updater {
         Self::on(&Device::Cpu, shape, parameters, config, pool)
     }
 
-    /// Same as [`Self::new`], with networks and loss on `device`; advantages, clipping and Adam stay on the CPU.
+    /// Same as [`Self::new`], on `device`. On a GPU, the whole update runs there.
     ///
     /// # Errors
     /// As for [`Self::new`].
@@ -137,8 +155,9 @@ impl Updater {
         clamp_log_std(&mut parameters[shape.log_std()]);
         let optimiser = OptimiserState::new(parameters.len());
         let networks = Networks::on(device, &shape, NetworkPart::ActorCritic, Some(pool.clone()));
+        let actor = Networks::on(device, &shape, NetworkPart::Actor, Some(pool.clone()));
         let state = State { parameters, optimiser, learning_rate: config.learning_rate };
-        Ok(Self { shape, config: config.clone(), networks, device: device.clone(), pool, state })
+        Ok(Self { shape, config: config.clone(), networks, actor, device: device.clone(), pool, state })
     }
 
     /// Continues from another updater's `optimiser` and `learning_rate`.
@@ -159,6 +178,11 @@ impl Updater {
     /// Shape of the networks.
     pub fn shape(&self) -> &NetworkShape {
         &self.shape
+    }
+
+    /// Settings.
+    pub fn config(&self) -> &PpoConfig {
+        &self.config
     }
 
     /// Parameters as one flat vector.
@@ -218,6 +242,9 @@ impl Updater {
         if let Some((field, found, expected)) = batch.wrong_length(&self.shape) {
             return Err(UpdateError::Length { field, found, expected });
         }
+        if let Some(what) = batch.non_finite() {
+            return Err(UpdateError::NonFinite { what });
+        }
         let before = self.state.clone();
         let result = self.run_epochs(epochs, batch, rng);
         if result.is_err() {
@@ -229,46 +256,60 @@ impl Updater {
     fn run_epochs(&mut self, epochs: u32, batch: &Batch, rng: &mut impl Rng) -> Result<UpdateStats, UpdateError> {
         let advantages = weighted_advantages(batch);
         let mut order: Vec<u32> = (0..batch.len() as u32).collect();
+        let log_std = &self.state.parameters[self.shape.log_std()];
+        let shift = PolicyShift::new(batch, &self.shape, log_std, &self.device)?;
+        let mut on_device = match &self.networks {
+            Networks::Fused(_) => None,
+            Networks::Plain(..) => {
+                Some(DevicePass::upload(batch, &advantages, &self.shape, &self.config, &self.device, &self.state)?)
+            }
+        };
         let mut stats = UpdateStats {
             explained_variance: explained_variance(&batch.values, &batch.returns),
             ..UpdateStats::default()
         };
         for _ in 0..epochs {
             shuffle(&mut order, rng);
-            let mut shift = PolicyShift::default();
-            for range in minibatches(batch.len(), self.config.minibatch_rows(batch.len())) {
-                self.gradient_step(batch, &order[range], &advantages, &mut stats, &mut shift)?;
-            }
-            stats.approx_kl = shift.approx_kl();
-            stats.clip_fraction += shift.clip_fraction() / f64::from(epochs);
-            self.state.learning_rate = adapt_learning_rate(self.state.learning_rate, stats.approx_kl, &self.config);
-        }
-        check_finite(self.state.parameters.iter().all(|p| p.is_finite()), "parameter vector")?;
-
-        let samples = stats.samples as f64;
-        for sum in [
-            &mut stats.policy_loss,
-            &mut stats.value_loss,
-            &mut stats.entropy,
-            &mut stats.bounds_loss,
-            &mut stats.grad_norm,
-        ] {
-            *sum /= samples;
+            let sums = match &mut on_device {
+                Some(pass) => pass.run(&order, &self.actor, &shift, &mut self.state)?,
+                None => self.pass(batch, &order, &advantages, &shift)?,
+            };
+            stats.add(&sums, &order, self.config.minibatch_rows(order.len()));
+            self.state.learning_rate = adapt_learning_rate(self.state.learning_rate, sums.divergence, &self.config);
         }
         let log_std = &self.state.parameters[self.shape.log_std()];
-        stats.std = log_std.iter().map(|l| f64::from(*l).exp()).sum::<f64>() / log_std.len() as f64;
-        stats.learning_rate = self.state.learning_rate;
+        stats.finish(log_std, self.state.learning_rate);
         Ok(stats)
     }
 
-    /// Forward, loss, backward, clipping, Adam. Adds the rows' contributions to the sums in `stats` and `shift`.
+    /// Takes one pass over the batch on the CPU.
+    fn pass(
+        &mut self,
+        batch: &Batch,
+        order: &[u32],
+        advantages: &[f32],
+        shift: &PolicyShift,
+    ) -> Result<PassSums, UpdateError> {
+        let mut sums = PassSums::default();
+        for range in minibatches(order.len(), self.config.minibatch_rows(order.len())) {
+            self.gradient_step(batch, &order[range], advantages, &mut sums)?;
+        }
+        let parameters = &self.state.parameters;
+        check_finite(parameters.iter().all(|p| p.is_finite()), "parameter vector")?;
+        let tensor = Tensor::from_slice(parameters, parameters.len(), &self.device)?;
+        let means = shift.new_means(&self.actor, &tensor)?.flatten_all()?.to_vec1::<f32>()?;
+        sums.divergence = shift.divergence(&means, &parameters[self.shape.log_std()]);
+        check_finite(sums.divergence.is_finite(), "divergence from the old policy")?;
+        Ok(sums)
+    }
+
+    /// Forward, loss, backward, clipping, Adam. Adds the rows' contributions to `sums`.
     fn gradient_step(
         &mut self,
         batch: &Batch,
         rows: &[u32],
         advantages: &[f32],
-        stats: &mut UpdateStats,
-        shift: &mut PolicyShift,
+        sums: &mut PassSums,
     ) -> Result<(), UpdateError> {
         let (observations, minibatch) = batch.gather(rows, advantages, &self.shape, &self.device)?;
         // A separate leaf: Candle's gradient of a slice of the flat vector would be as long as the vector.
@@ -292,19 +333,50 @@ impl Updater {
         clamp_log_std(&mut parameters[log_std_range]);
 
         let weight = rows.len() as f64;
-        stats.policy_loss += weight * scalar(&loss.policy)?;
-        stats.value_loss += weight * scalar(&loss.value)?;
-        stats.entropy += weight * scalar(&loss.entropy)?;
-        stats.bounds_loss += weight * scalar(&loss.bounds)?;
-        stats.grad_norm += weight * norm;
-        stats.gradient_steps += 1;
-        stats.samples += rows.len() as u64;
-        shift.add(&loss.log_ratio.to_vec1()?, self.config.clip_range);
+        sums.policy_loss += weight * scalar(&loss.policy)?;
+        sums.value_loss += weight * scalar(&loss.value)?;
+        sums.entropy += weight * scalar(&loss.entropy)?;
+        sums.bounds_loss += weight * scalar(&loss.bounds)?;
+        sums.grad_norm += weight * norm;
+        sums.clipped += clipped(&loss.log_ratio.to_vec1()?, self.config.clip_range) as f64;
         Ok(())
     }
 }
 
-fn check_finite(is_finite: bool, what: &'static str) -> Result<(), UpdateError> {
+impl UpdateStats {
+    /// Adds the sums of one pass over rows in the given order.
+    fn add(&mut self, sums: &PassSums, order: &[u32], minibatch: usize) {
+        self.policy_loss += sums.policy_loss;
+        self.value_loss += sums.value_loss;
+        self.entropy += sums.entropy;
+        self.bounds_loss += sums.bounds_loss;
+        self.grad_norm += sums.grad_norm;
+        self.clip_fraction += sums.clipped;
+        self.approx_kl = sums.divergence;
+        self.gradient_steps += minibatches(order.len(), minibatch).count() as u64;
+        self.samples += order.len() as u64;
+    }
+
+    /// Converts sums to means.
+    fn finish(&mut self, log_std: &[f32], learning_rate: f64) {
+        let samples = self.samples.max(1) as f64;
+        for sum in [
+            &mut self.policy_loss,
+            &mut self.value_loss,
+            &mut self.entropy,
+            &mut self.bounds_loss,
+            &mut self.grad_norm,
+            &mut self.clip_fraction,
+        ] {
+            *sum /= samples;
+        }
+        self.std = log_std.iter().map(|l| f64::from(*l).exp()).sum::<f64>() / log_std.len() as f64;
+        self.learning_rate = learning_rate;
+    }
+}
+
+/// Returns an error with the name of the quantity unless it is finite.
+pub(crate) fn check_finite(is_finite: bool, what: &'static str) -> Result<(), UpdateError> {
     if is_finite { Ok(()) } else { Err(UpdateError::NonFinite { what }) }
 }
 

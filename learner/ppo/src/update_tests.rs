@@ -58,7 +58,7 @@ fn batch(updater: &Updater, rows: usize, seed: u64) -> Batch {
         batch.advantages.push(-(0..shape.action).map(|i| (action[i] - seen[i]).powi(2)).sum::<f32>());
         batch.returns.push(seen[0] + seen[1]);
     }
-    batch.observations = observations;
+    (batch.observations, batch.means) = (observations, means);
     batch
 }
 
@@ -179,7 +179,9 @@ fn an_update_with_a_non_finite_number_is_undone() {
     updater.update(&good, &mut rng(9)).expect("a sound batch");
     let mut untouched = restored(&updater, updater.learning_rate());
 
-    let spoil: [fn(&mut Batch); 5] = [
+    let spoil: [fn(&mut Batch); 7] = [
+        |batch| batch.returns[0] = 3e30,
+        |batch| batch.means[3] = f32::NAN,
         |batch| batch.observations[1234] = f32::NAN,
         |batch| batch.actions[77] = f32::INFINITY,
         |batch| batch.log_probs[699] = f32::NAN,
@@ -231,6 +233,57 @@ fn the_learning_rate_adapts_once_per_epoch() {
 }
 
 #[test]
+fn the_divergence_is_that_after_the_last_step() {
+    // One pass of one gradient step: the ratios are 1 when its gradient is computed.
+    let config = PpoConfig { minibatch: 600, epochs: 1, target_kl: 5e-6, learning_rate: 1e-3, ..config() };
+    let mut updater = updater(&config, 1);
+    let before = updater.policy().expect("fits");
+    let batch = batch(&updater, 600, 8);
+    let stats = updater.update(&batch, &mut rng(9)).expect("a sound batch");
+    assert_eq!(stats.gradient_steps, 1);
+    // By the definition, from log-probabilities: the mean over rows of Σ over a grid of actions.
+    let after = updater.policy().expect("fits");
+    let means = |policy: &Policy| {
+        let mut means = vec![0.0; 1200];
+        policy.means(&batch.observations, 600, &mut means).expect("candle runs");
+        means
+    };
+    let mut expected = 0.0;
+    for (old, new) in means(&before)
+        .iter()
+        .zip(means(&after))
+        .enumerate()
+        .map(|(i, pair)| (i % 2, pair))
+        .map(|(action, (old, new))| (([*old], [before.log_std()[action]]), ([new], [after.log_std()[action]])))
+    {
+        let step = 0.02;
+        for x in (-400..400).map(|i| [old.0[0] + i as f32 * step]) {
+            let (p, q) = (log_probability(&x, &old.0, &old.1), log_probability(&x, &new.0, &new.1));
+            expected += f64::from(p.exp() * step) * f64::from(p - q);
+        }
+    }
+    expected /= 600.0;
+    assert!(expected > 2.0 * config.target_kl, "{expected}");
+    assert!((stats.approx_kl - expected).abs() < 0.02 * expected, "{} {expected}", stats.approx_kl);
+    // The step was too large.
+    assert!((stats.learning_rate - 1e-3 / 1.5).abs() < 1e-12, "{}", stats.learning_rate);
+}
+
+#[test]
+fn the_divergence_of_a_large_batch_is_measured_on_a_sample_of_it() {
+    let config = PpoConfig { minibatch: 1000, epochs: 1, target_kl: 0.0, ..config() };
+    let mut updater = updater(&config, 1);
+    let batch = batch(&updater, 6000, 8);
+    let stats = updater.update(&batch, &mut rng(9)).expect("a sound batch");
+    let after = updater.policy().expect("fits");
+    let mut means = vec![0.0; 12_000];
+    after.means(&batch.observations, 6000, &mut means).expect("candle runs");
+    let exact = treadmill_policy::gaussian::kl_divergence(&batch.means, &[-0.5; 2], &means, after.log_std());
+    assert!((stats.approx_kl / exact - 1.0).abs() < 0.1, "{} {exact}", stats.approx_kl);
+    assert_ne!(stats.approx_kl, exact);
+}
+
+#[test]
 fn batches_that_do_not_fit_are_refused() {
     let mut updater = updater(&config(), 1);
     let good = batch(&updater, 10, 8);
@@ -251,17 +304,67 @@ fn state_that_does_not_fit_is_refused() {
     assert!(matches!(error, UpdaterError::Parameters(_)), "{error}");
 }
 
+/// Updater with the same parameters whose passes run as on a GPU, but on the CPU.
+fn on_device(other: &Updater) -> Updater {
+    let mut updater = restored(other, other.learning_rate());
+    updater.networks = Networks::Plain(shape(), NetworkPart::ActorCritic);
+    updater.actor = Networks::Plain(shape(), NetworkPart::Actor);
+    updater
+}
+
 #[test]
-fn plain_operations_agree_with_fused_ones() {
-    // A GPU uses the plain operations; here they run on the CPU. The updates agree within rounding.
-    let mut fused = updater(&config(), 1);
-    let batch = batch(&fused, 700, 8);
-    let mut plain = restored(&fused, fused.learning_rate());
-    plain.networks = Networks::Plain(shape(), NetworkPart::ActorCritic);
-    let stats = [&mut fused, &mut plain].map(|updater| updater.update(&batch, &mut rng(9)).expect("a sound batch"));
-    assert!((stats[0].approx_kl - stats[1].approx_kl).abs() < 1e-5);
-    assert_eq!(stats[0].learning_rate, stats[1].learning_rate);
-    for (a, b) in fused.parameters().iter().zip(plain.parameters()) {
-        assert!((a - b).abs() < 1e-4, "{a} {b}");
+fn passes_on_a_device_equal_those_of_the_processor() {
+    // Clipped gradients, clipped ratios, means out of bounds, and an adapted learning rate take part.
+    let config = PpoConfig { max_grad_norm: 0.1, entropy_coefficient: 1e-3, bounds_limit: 0.02, ..config() };
+    let mut fused = updater(&config, 1);
+    let mut device = on_device(&fused);
+    for update in 0..5 {
+        let batch = batch(&fused, 700, 8 + update);
+        let stats = [&mut fused, &mut device].map(|updater| updater.update(&batch, &mut rng(update)).expect("sound"));
+        for (what, [a, b]) in [
+            ("policy loss", [stats[0].policy_loss, stats[1].policy_loss]),
+            ("value loss", [stats[0].value_loss, stats[1].value_loss]),
+            ("entropy", [stats[0].entropy, stats[1].entropy]),
+            ("bounds loss", [stats[0].bounds_loss, stats[1].bounds_loss]),
+            ("divergence", [stats[0].approx_kl, stats[1].approx_kl]),
+            ("clip fraction", [stats[0].clip_fraction, stats[1].clip_fraction]),
+            ("norm", [stats[0].grad_norm, stats[1].grad_norm]),
+        ] {
+            assert!((a - b).abs() < 1e-5 * (1.0 + a.abs()), "{what}: {a} {b}");
+        }
+        assert_eq!(stats[0].learning_rate, stats[1].learning_rate);
+        assert_eq!((stats[0].gradient_steps, stats[0].samples), (stats[1].gradient_steps, stats[1].samples));
+        assert!(stats[0].grad_norm > 0.1 && (update < 4 || stats[0].bounds_loss > 0.0), "{stats:?}");
+        let largest = |a: &[f32], b: &[f32]| a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f32::max);
+        let off = largest(&fused.parameters(), &device.parameters());
+        assert!(off < 1e-5, "parameters are off by {off} after update {update}");
+        let (a, b) = (fused.optimiser(), device.optimiser());
+        assert_eq!(a.step, b.step);
+        assert!(largest(&a.first_moment, &b.first_moment) < 1e-5);
+        assert!(largest(&a.second_moment, &b.second_moment) < 1e-5);
     }
+}
+
+#[test]
+fn passes_on_a_device_with_a_non_finite_number_are_undone() {
+    let fused = updater(&config(), 1);
+    let batch = batch(&fused, 700, 8);
+    let huge = Batch { returns: vec![3e30; 700], ..batch.clone() };
+    let mut device = on_device(&fused);
+    let error = device.update(&huge, &mut rng(9)).expect_err("its square is infinite");
+    assert!(matches!(error, UpdateError::NonFinite { what: "loss" }), "{error}");
+    assert_same(&device, &fused);
+    device.set_learning_rate(1e300);
+    let error = device.update(&batch, &mut rng(9)).expect_err("an infinite step");
+    assert!(matches!(error, UpdateError::NonFinite { .. }), "{error}");
+    assert_eq!((device.parameters(), device.optimiser()), (fused.parameters(), fused.optimiser()));
+}
+
+#[test]
+fn the_standard_deviation_keeps_its_range_on_a_device() {
+    let config = PpoConfig { entropy_coefficient: 100.0, learning_rate: 1.0, target_kl: 0.0, ..config() };
+    let fused = updater(&config, 1);
+    let mut device = on_device(&fused);
+    device.update(&batch(&fused, 700, 8), &mut rng(9)).expect("a sound batch");
+    assert_eq!(device.policy().expect("fits").log_std(), [LOG_STD_MAX; 2]);
 }

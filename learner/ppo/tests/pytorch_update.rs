@@ -54,6 +54,7 @@ struct UpdateFile {
 struct BatchFile {
     observations: Vec<f64>,
     actions: Vec<f64>,
+    means: Vec<f64>,
     log_probs: Vec<f64>,
     advantages: Vec<f64>,
     returns: Vec<f64>,
@@ -82,6 +83,7 @@ impl UpdateFile {
         let batch = Batch {
             observations: narrow(&self.batch.observations),
             actions: narrow(&self.batch.actions),
+            means: narrow(&self.batch.means),
             log_probs: narrow(&self.batch.log_probs),
             weights: vec![1.0; self.batch.log_probs.len()],
             advantages: narrow(&self.batch.advantages),

@@ -62,8 +62,9 @@ fn learnt(scale: f32) -> (Vec<f32>, f64) {
         };
         let accepted = [AcceptedFragment { fragment, lag: 0 }];
         let normaliser = Normaliser::identity(3, 10.0);
-        let batch = build_batch(&accepted, &policy, &normaliser, &mut value_moments, None, &config).expect("it fits");
-        explained = updater.update(&batch, &mut shuffle_random).expect("finite").explained_variance;
+        let built = build_batch(&accepted, &policy, &normaliser, &mut value_moments, None, &config).expect("it fits");
+        assert_eq!(built.rejected, []);
+        explained = updater.update(&built.batch, &mut shuffle_random).expect("finite").explained_variance;
     }
     (updater.parameters(), explained)
 }

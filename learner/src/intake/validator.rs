@@ -7,7 +7,7 @@ use treadmill_bus::{
     ReceivedFragment,
     admission::{Admission, Sender, rate_limited_log::RateLimitedLog},
 };
-use treadmill_ppo::AcceptedFragment;
+use treadmill_ppo::{AcceptedFragment, Implausible};
 use treadmill_proto::{Fragment, Malformed, Outcome, Receipt};
 
 use super::{
@@ -54,7 +54,10 @@ pub struct FragmentValidator {
     expected: ExpectedFragment,
     admission: Arc<Admission>,
     malformed_log: RateLimitedLog,
+    implausible_log: RateLimitedLog,
     quarantine_log: RateLimitedLog,
+    /// Number of accepted fragments that the learner did not learn from because they are implausible, since this start.
+    pub implausible: u64,
     /// Number of fragments rejected unread because the queue was full, since this start.
     pub turned_away: u64,
     /// Size of the accepted fragments in bytes, since this start.
@@ -70,12 +73,13 @@ pub struct FragmentValidator {
 impl FragmentValidator {
     /// Validator that continues with a checkpoint's ledger and counts.
     pub fn new(expected: ExpectedFragment, admission: Arc<Admission>, ledger: Ledger, counts: FragmentCounts) -> Self {
-        let (malformed_log, quarantine_log) = (RateLimitedLog::default(), RateLimitedLog::default());
         Self {
             expected,
             admission,
-            malformed_log,
-            quarantine_log,
+            malformed_log: RateLimitedLog::default(),
+            implausible_log: RateLimitedLog::default(),
+            quarantine_log: RateLimitedLog::default(),
+            implausible: 0,
             turned_away: 0,
             accepted_bytes: 0,
             rejections: Rejections::default(),
@@ -153,6 +157,23 @@ impl FragmentValidator {
         if self.admission.record_malformed(sender, now) {
             self.quarantine_log.emit(|| tracing::warn!(%actor, "sender quarantined"));
         }
+    }
+
+    /// Reports an accepted fragment that the learner did not learn from, which may put its sender in quarantine.
+    pub fn report_implausible(&mut self, fragment: &Fragment, why: &Implausible, now: Instant) {
+        self.implausible += 1;
+        self.rejections.record(&fragment.actor, &why.to_string(), now);
+        let (actor, sequence) = (&fragment.actor, fragment.sequence);
+        self.implausible_log.emit(|| tracing::warn!(%actor, sequence, error = %why, "fragment not learnt from"));
+        let sender = self.admission.identify(actor, Some(fragment.actor_incarnation));
+        if self.admission.record_implausible(&sender, now) {
+            self.quarantine_log.emit(|| tracing::warn!(%actor, "sender quarantined: implausible fragments in a row"));
+        }
+    }
+
+    /// Reports a fragment that the learner learnt from, so that earlier implausible ones of its sender no longer count.
+    pub fn report_learnt(&self, fragment: &Fragment) {
+        self.admission.record_learnt(&self.admission.identify(&fragment.actor, Some(fragment.actor_incarnation)));
     }
 
     /// Returns the lag of a well-formed fragment, or the rule by which it is dropped.

@@ -111,3 +111,23 @@ fn a_sender_cannot_use_the_name_of_another() {
         validator.validate("b", fragment(1, 0).encode().unwrap().into(), &lineage, Instant::now()).unwrap_err();
     assert!(receipt.reason.contains("as the key says"), "{}", receipt.reason);
 }
+
+#[test]
+fn implausible_fragments_are_counted_and_lead_to_quarantine() {
+    let (mut validator, lineage) = (validator(), lineage(0));
+    let now = Instant::now();
+    for sequence in 1..=4 {
+        let sent = fragment(sequence, 0);
+        assert_eq!(outcome(&mut validator, &sent, &lineage), Outcome::Accepted, "its numbers are not checked here");
+        // The first is good; the others are three in a row.
+        match sequence {
+            1 => validator.report_learnt(&sent),
+            _ => validator.report_implausible(&sent, &Implausible::NonFinite, now),
+        }
+        assert_eq!(validator.quarantined(now).is_empty(), sequence < 4, "{sequence}");
+    }
+    assert_eq!((validator.implausible, validator.counts.accepted, validator.counts.malformed), (3, 4, 0));
+    assert_eq!(outcome(&mut validator, &fragment(5, 0), &lineage), Outcome::Quarantined);
+    let other = Fragment { actor_incarnation: 3, ..fragment(1, 0) };
+    assert_eq!(outcome(&mut validator, &other, &lineage), Outcome::Accepted, "another process of that name");
+}

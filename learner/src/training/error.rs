@@ -21,7 +21,7 @@ pub enum TrainingError {
     Log(#[from] io::Error),
     /// The networks could not be evaluated.
     #[error("the networks cannot be evaluated")]
-    Inference(#[from] candle_core::Error),
+    Inference(#[source] UpdateError),
     /// Too many updates in a row were undone.
     #[error("{updates} updates in a row were undone; the last sound checkpoint stays in place")]
     Undone {

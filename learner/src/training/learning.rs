@@ -7,8 +7,7 @@ use std::{
 };
 
 use treadmill_config::Config;
-use treadmill_policy::normaliser::Normaliser;
-use treadmill_ppo::{AcceptedFragment, BatchMirror, UpdateError, UpdateStats, Updater, build_batch};
+use treadmill_ppo::{AcceptedFragment, BatchMirror, Improvement, Improver, UpdateError, UpdateStats, Updater};
 use treadmill_runtime::{error_chain, machine};
 
 use super::{Trainer, TrainingError, TrainingOptions, load_adaptation::LoadAdaptation};
@@ -56,33 +55,42 @@ impl Learning {
 }
 
 impl Trainer {
-    /// Updates the parameters from the fragments of a batch. Returns `None` if the update was undone.
-    pub(super) fn update(&mut self, fragments: &[AcceptedFragment]) -> Result<Option<UpdateStats>, TrainingError> {
+    /// Updates the parameters from the fragments of a batch. Implausible fragments are reported and removed. Returns `None` if
+    /// the update was undone.
+    pub(super) fn update(
+        &mut self,
+        fragments: &mut Vec<AcceptedFragment>,
+    ) -> Result<Option<UpdateStats>, TrainingError> {
         let Self { state, learning, config, reporting, .. } = self;
-        let policy = learning.updater.policy().map_err(|why| TrainingError::State { why: error_chain(&why) })?;
-        let clip = config.policy.observation_clip as f32;
-        let normaliser = Normaliser::from_moments(&state.observation_moments, clip);
-        let mut value_moments = state.value_moments.clone();
-        let mirror = learning.mirror.as_ref();
-        let batch = build_batch(fragments, &policy, &normaliser, &mut value_moments, mirror, &config.ppo)?;
-        let mut observation_moments = state.observation_moments.clone();
-        for AcceptedFragment { fragment, .. } in fragments {
-            observation_moments.update(&fragment.observations, state.shape.observation);
-        }
-        let begun = Instant::now();
-        let result = if observation_moments.is_finite() && value_moments.is_finite() {
-            learning.updater.update_in_epochs(learning.load.epochs(), &batch, &mut state.shuffle)
-        } else {
-            Err(UpdateError::NonFinite { what: "running statistic" })
+        let epochs = learning.load.epochs();
+        let mut improver = Improver {
+            updater: &mut learning.updater,
+            observation_moments: &mut state.observation_moments,
+            value_moments: &mut state.value_moments,
+            mirror: learning.mirror.as_ref(),
+            observation_clip: config.policy.observation_clip as f32,
         };
+        let prepared = improver.prepare(fragments).map_err(TrainingError::Inference)?;
+        let begun = Instant::now();
+        let Improvement { result, rejected } = improver.improve(epochs, fragments, prepared, &mut state.shuffle);
         learning.learn = begun.elapsed();
-        let stats = match result {
+        let validator = &mut self.serving.intake.validator;
+        for (fragment, why) in &rejected {
+            validator.report_implausible(fragment, why, Instant::now());
+        }
+        fragments.iter().for_each(|accepted| validator.report_learnt(&accepted.fragment));
+        self.serving.heartbeat.beat();
+        match result {
             Ok(stats) => {
                 learning.undone_in_a_row = 0;
-                state.value_moments = value_moments;
-                state.observation_moments = observation_moments;
                 state.counters.gradient_steps += stats.gradient_steps;
-                Some(stats)
+                Ok(Some(stats))
+            }
+            // The senders are at fault, so this does not end the run.
+            Err(UpdateError::Empty) => {
+                tracing::warn!(rejected = rejected.len(), "update undone: no fragment of the batch is plausible");
+                state.counters.undone_updates += 1;
+                Ok(None)
             }
             Err(source) => {
                 tracing::warn!(error = %error_chain(&source), "update undone");
@@ -92,11 +100,9 @@ impl Trainer {
                 if learning.undone_in_a_row >= config.learner.undone_max {
                     return Err(TrainingError::Undone { updates: learning.undone_in_a_row, source });
                 }
-                None
+                Ok(None)
             }
-        };
-        self.serving.heartbeat.beat();
-        Ok(stats)
+        }
     }
 
     /// Advances the state by the update from `fragments`, also if it was undone.

@@ -68,9 +68,9 @@ pub fn train(
 fn run(trainer: &mut Trainer) -> Result<bool, TrainingError> {
     while trainer.state.counters.env_steps < trainer.config.run.steps {
         let begun = Instant::now();
-        let Some(batch) = trainer.collect() else { return Ok(true) };
+        let Some(mut batch) = trainer.collect() else { return Ok(true) };
         let collect = begun.elapsed();
-        let stats = trainer.update(&batch.fragments)?;
+        let stats = trainer.update(&mut batch.fragments)?;
         let update = begun.elapsed() - collect;
         trainer.advance(&batch.fragments);
         let evaluation = trainer.take_evaluation()?;

@@ -83,6 +83,7 @@ fn random_batch(shape: &NetworkShape, rows: usize, random: &mut seeds::Stream) -
             .chunks_exact(shape.action)
             .map(|action| gaussian::log_probability(action, &mean, &log_std))
             .collect(),
+        means: vec![0.0; actions.len()],
         actions,
         weights: vec![1.0; rows],
         advantages: normals(rows),

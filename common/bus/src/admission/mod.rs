@@ -88,6 +88,8 @@ struct State {
 struct Failures {
     in_a_row: u32,
     useless_in_a_row: u32,
+    /// Accepted fragments in a row that the learner did not learn from.
+    implausible_in_a_row: u32,
     last: Instant,
 }
 
@@ -199,11 +201,35 @@ impl Admission {
         true
     }
 
-    /// Records an accepted fragment: its process is proven from now on.
+    /// Records an accepted fragment that the learner did not learn from, as many as malformed ones in a row lead to quarantine.
+    /// Returns whether this one did.
+    pub fn record_implausible(&self, sender: &Sender, now: Instant) -> bool {
+        let mut state = self.state();
+        let failures = state.failures_of(sender, self.quarantine_after, now);
+        failures.implausible_in_a_row += 1;
+        failures.last = now;
+        if failures.implausible_in_a_row < self.quarantine_after {
+            return false;
+        }
+        (failures.in_a_row, failures.implausible_in_a_row) = (self.quarantine_after, 0);
+        true
+    }
+
+    /// Records a fragment that the learner learnt from; it ends a row of implausible ones.
+    pub fn record_learnt(&self, sender: &Sender) {
+        if let Some(failures) = self.state().failures.get_mut(sender) {
+            failures.implausible_in_a_row = 0;
+        }
+    }
+
+    /// Records an accepted fragment: its process is proven from now on. Whether it is plausible is not known yet.
     pub fn record_accepted(&self, name: &str, incarnation: u64, now: Instant) {
         let mut state = self.state();
         let before = state.identify(name, Some(incarnation));
-        state.failures.remove(&before);
+        if let Some(failures) = state.failures.remove(&before).filter(|failures| failures.implausible_in_a_row > 0) {
+            let sender = Sender { name: name.to_string(), incarnation: Some(incarnation) };
+            state.failures.insert(sender, Failures { in_a_row: 0, useless_in_a_row: 0, ..failures });
+        }
         state.proven.insert((name.to_string(), incarnation), now);
         if state.proven.len() > SENDERS_MAX {
             let oldest = state.proven.iter().min_by_key(|(_, last)| **last).map(|(process, _)| process.clone());
@@ -261,7 +287,7 @@ impl State {
             let oldest = oldest.map(|(sender, _)| sender.clone());
             oldest.map(|sender| self.failures.remove(&sender));
         }
-        let fresh = Failures { in_a_row: 0, useless_in_a_row: 0, last: now };
+        let fresh = Failures { in_a_row: 0, useless_in_a_row: 0, implausible_in_a_row: 0, last: now };
         self.failures.entry(sender.clone()).or_insert(fresh)
     }
 }

@@ -21,6 +21,28 @@ fn consecutive_failures_quarantine_a_sender_for_a_limited_time() {
 }
 
 #[test]
+fn accepted_fragments_that_are_implausible_in_a_row_quarantine_their_sender() {
+    let (admission, now) = (admission(), Instant::now());
+    let accept = |admission: &Admission| admission.record_accepted("a", 1, now);
+    accept(&admission);
+    let a = admission.identify("a", Some(1));
+    assert!(!admission.record_implausible(&a, now));
+    // The next one is well-formed too, and is learnt from.
+    accept(&admission);
+    admission.record_learnt(&a);
+    assert!(!admission.record_implausible(&a, now), "not in a row");
+    accept(&admission);
+    assert!(admission.record_implausible(&a, now), "being accepted does not end the row");
+    assert!(admission.is_quarantined(&a, now));
+    // A good fragment from before does not end the quarantine; time does, and the row begins anew.
+    admission.record_learnt(&a);
+    assert!(admission.is_quarantined(&a, now) && !admission.is_quarantined(&a, now + QUARANTINE));
+    assert!(!admission.record_implausible(&a, now + QUARANTINE));
+    // Others are not touched.
+    assert!(!admission.is_quarantined(&admission.identify("a", Some(2)), now));
+}
+
+#[test]
 fn malformed_fragments_under_a_good_name_quarantine_only_their_sender() {
     let (admission, now) = (admission(), Instant::now());
     admission.record_accepted("good", 7, now);

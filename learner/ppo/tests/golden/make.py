@@ -227,7 +227,8 @@ def synthetic_batch(agent, rows, random):
         values = agent.critic(observations).squeeze(1)
     returns = 0.5 * values.numpy() + 0.4 * observations[:, 0].numpy() + 0.1 * random.normal(size=rows)
     return {
-        "observations": observations, "actions": actions, "log_probs": torch.tensor(single(log_probs)),
+        "observations": observations, "actions": actions, "means": torch.tensor(single(policy.mean)),
+        "log_probs": torch.tensor(single(log_probs)),
         "advantages": torch.tensor(single(5 * random.normal(size=rows) + 2)), "returns": torch.tensor(single(returns)),
         "values": torch.tensor(single(values)),
     }
@@ -239,8 +240,14 @@ def update(agent, batch, orders, config):
     given, rate = batch["advantages"], config["learning_rate"]
     normalised = (given - given.mean()) / (given.std(correction=0) + 1e-8)
     rows, steps, rates, clip_fractions = len(given), [], [], []
+
+    def policy():
+        with torch.no_grad():
+            return torch.distributions.Normal(agent.actor(batch["observations"]), agent.log_std.exp())
+
+    before = policy()
     for order in orders:
-        kl, clipped = 0.0, 0
+        clipped = 0
         # The number of minibatches whose size is nearest to the configured one; sizes differ by at most one row.
         count = max(1, int(rows / config["minibatch"] + 0.5))
         for i in range(count):
@@ -258,9 +265,8 @@ def update(agent, batch, orders, config):
             optimiser.step()
             steps.append({"rows": len(some)} | {name: part.item() for name, part in parts.items()})
             ratio = log_ratio.exp()
-            kl += (ratio - 1 - log_ratio).sum().item()
             clipped += ((ratio - 1).abs() > config["clip_range"]).sum().item()
-        kl /= rows
+        kl = torch.distributions.kl_divergence(before, policy()).sum(1).mean().item()
         clip_fractions.append(clipped / rows)
         if config["target_kl"] > 0 and kl > 2 * config["target_kl"]:
             rate = max(rate / 1.5, config["learning_rate_min"])
