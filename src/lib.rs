@@ -4,7 +4,7 @@
 //! - `commands`: a file or folder for each subcommand.
 //! - [`launch`]: starting and hosting a run; exit codes, signals, log and output of every command.
 //! - [`shared`]: saved policies, and flags common to several commands and the viewer.
-//! - `load_generator`: processes of `bench bus`, which simulate a learner and many actors.
+//! - `load_generator`: processes of `bench bus` and `bench fleet`, which simulate a learner or many actors.
 
 mod commands;
 pub mod launch;

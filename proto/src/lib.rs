@@ -4,7 +4,7 @@
 //! - [`wire`]: structures generated from `schema/*.proto`.
 //! - [`fragment`]: rollout fragments, checked on both sides.
 //! - [`precision`]: precision of observations on the wire.
-//! - [`prepared`]: one encoded fragment sent under many names.
+//! - [`prepared`]: one encoded fragment sent under many names, and transitions that fragments of any size repeat.
 //! - [`bundle`]: policy bundles and their announcements.
 //! - [`actor_state`]: complete state of an actor, for deterministic runs.
 //! - [`receipt`]: answers of the learner to fragments.
@@ -67,7 +67,7 @@ pub use evaluation::EvaluationReport;
 pub use fragment::{EndCause, Episode, Fragment};
 pub use pose::Pose;
 pub use precision::Precision;
-pub use prepared::PreparedFragment;
+pub use prepared::{PreparedFragment, PreparedTransitions};
 pub use receipt::{Outcome, Receipt};
 pub use stats::ActorStats;
 pub use task::{Task, TaskReceipt, TaskRegistration};

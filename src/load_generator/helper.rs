@@ -2,6 +2,7 @@
 
 use std::{
     io::{BufRead, BufReader, Write},
+    os::unix::process::CommandExt,
     process::{Child, ChildStdin, Command, Stdio},
     sync::mpsc::{Receiver, channel},
     time::Duration,
@@ -24,12 +25,9 @@ pub(super) struct Helper {
 impl Helper {
     /// Starts `treadmill bench` with `args`.
     pub(super) fn start(args: &[String]) -> anyhow::Result<Self> {
-        let program = std::env::current_exe().context("this program's own path is unknown")?;
         let name = args.first().cloned().unwrap_or_default();
-        let mut child = Command::new(program)
-            .arg("bench")
-            .args(args)
-            // The child ends when this closes, also if this process dies.
+        let mut child = command(&[&["bench".to_string()], args].concat())?
+            // The child ends when this closes.
             .stdin(Stdio::piped())
             .stdout(Stdio::piped())
             .spawn()
@@ -80,7 +78,27 @@ impl Drop for Helper {
     }
 }
 
+/// Returns the command of this binary with `args`; the process is killed when this one ends.
+pub(super) fn command(args: &[String]) -> anyhow::Result<Command> {
+    let program = std::env::current_exe().context("this program's own path is unknown")?;
+    let mut command = Command::new(program);
+    command.args(args);
+    // SAFETY: between fork and exec, prctl is allowed, and it accesses no memory here.
+    unsafe {
+        command.pre_exec(|| match libc::prctl(libc::PR_SET_PDEATHSIG, libc::SIGKILL) {
+            0 => Ok(()),
+            _ => Err(std::io::Error::last_os_error()),
+        });
+    }
+    Ok(command)
+}
+
 /// Returns a number of an answer.
 pub(super) fn number(answer: &Value, field: &str) -> anyhow::Result<f64> {
     answer[field].as_f64().with_context(|| format!("`{field}` is missing in {answer}"))
+}
+
+/// Returns the numbers of a list.
+pub(super) fn numbers(list: &Value) -> impl Iterator<Item = f64> + '_ {
+    list.as_array().into_iter().flatten().filter_map(Value::as_f64)
 }

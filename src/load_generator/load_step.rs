@@ -6,7 +6,7 @@ use anyhow::Context;
 use serde_json::{Value, json};
 
 use super::{
-    helper::{Helper, number},
+    helper::{Helper, number, numbers},
     raw::Raw,
 };
 use crate::commands::bench::rounded;
@@ -259,21 +259,17 @@ pub(crate) fn heading() -> String {
 }
 
 /// Rounds milliseconds to two decimals.
-fn ms(value: f64) -> f64 {
+pub(super) fn ms(value: f64) -> f64 {
     (value * 100.0).round() / 100.0
 }
 
 /// Rounds ratios and costs to three decimals.
-fn share(value: f64) -> f64 {
+pub(super) fn share(value: f64) -> f64 {
     (value * 1000.0).round() / 1000.0
 }
 
-fn numbers(list: &Value) -> impl Iterator<Item = f64> + '_ {
-    list.as_array().into_iter().flatten().filter_map(Value::as_f64)
-}
-
 /// Returns a quantile of sorted numbers by rank; zero if there are none.
-fn quantile(sorted: &[f64], share: f64) -> f64 {
+pub(super) fn quantile(sorted: &[f64], share: f64) -> f64 {
     let rank = (share * sorted.len() as f64).ceil() as usize;
     sorted.get(rank.max(1) - 1).copied().unwrap_or(0.0)
 }

@@ -145,3 +145,58 @@ fn train_measures_the_whole_system() {
     assert_eq!(result["actors"], 1);
     assert!(!result["cpu"].as_str().unwrap().is_empty());
 }
+
+/// Runs `bench fleet` with a learner of the preset `smoke`, whose fragments have 64 steps, and checks what every run adds up to.
+fn fleet(args: &[&str]) -> Value {
+    let smoke = ["fleet", "--preset", "smoke", "--actors", "3", "--envs", "4", "--seconds", "0.5", "--warmup-s", "0"];
+    let result = bench(&[&smoke, args].concat());
+    let fragments = &result["fragments"];
+    let count = |name: &str| fragments[name].as_u64().unwrap_or_else(|| panic!("{name}: {result}"));
+    assert_eq!(count("produced"), count("accepted") + count("dropped") + count("in_flight"), "{result}");
+    assert_eq!(count("dropped"), count("too_old") + count("vanished"), "{result}");
+    for name in ["produced", "accepted", "dropped", "in_flight"] {
+        assert_eq!(count(&format!("{name}_steps")), 64 * 4 * count(name), "{name} of 256 transitions each: {result}");
+    }
+    let untrained = count("accepted_steps") as i64 - result["trained_in_all_steps"].as_i64().unwrap();
+    assert_eq!(result["untrained_steps"], untrained);
+    assert_eq!(result["nothing_lost"], true, "{result}");
+    assert_eq!((&result["actors_alive_min"], &result["actors"]), (&3.0.into(), &3.into()));
+    let figure = |name: &str| result[name].as_f64().unwrap_or_else(|| panic!("{name}: {result}"));
+    let (trained, dropped) = (figure("trained_steps"), figure("dropped_steps"));
+    assert_eq!(figure("used_share"), trained / (trained + dropped), "{result}");
+    assert!(figure("updates") >= 5.0 && figure("update_steps_per_s") > 0.0 && figure("learner_resident_max_mb") > 0.0);
+    for kind in ["receipt", "policy_fetch", "send_late"] {
+        assert!(figure(&format!("{kind}_p50_ms")) <= figure(&format!("{kind}_p99_ms")), "{result}");
+    }
+    result
+}
+
+#[test]
+fn fleet_counts_every_fragment_of_a_learner_in_lock_step() {
+    let result = fleet(&["--rate", "4000", "--slow", "0.5"]);
+    assert_eq!((&result["mode"], &result["rate_sum"]), (&"sync".into(), &10_000.0.into()));
+    assert_eq!(result["policy_lag_max"], 0.0);
+    assert_eq!(result["update_steps_per_s_before"], Value::Null);
+}
+
+#[test]
+fn fleet_counts_every_fragment_of_delayed_actors_behind_a_router() {
+    let result = fleet(&["--mode", "async", "--tls", "--routers", "1", "--delay-ms", "5", "--calibrate-s", "0.5"]);
+    assert_eq!((&result["mode"], &result["transport"]), (&"async".into(), &"mutual tls".into()));
+    let figure = |name: &str| result[name].as_f64().unwrap_or_else(|| panic!("{name}: {result}"));
+    let load = figure("rate_sum") / figure("update_steps_per_s_before");
+    assert!((load - 0.8).abs() < 1e-3, "{result}");
+    assert!(figure("receipt_p50_ms") >= 10.0 && figure("policy_fetch_p50_ms") >= 10.0, "two delays: {result}");
+}
+
+#[test]
+fn fleet_refuses_rates_out_of_range() {
+    let (folder, _) = folders();
+    for (args, parts) in [
+        (["--rate", "fast"], ["--rate", "auto"]),
+        (["--slow", "2"], ["--slow", "0.001 to 1"]),
+        (["--load", "0"], ["--load", "above 0"]),
+    ] {
+        assert_refused(&self::run(folder.path(), &[&["bench", "fleet"][..], &args].concat()), 2, &parts);
+    }
+}

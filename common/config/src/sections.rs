@@ -181,7 +181,7 @@ section! {
         /// Highest learning rate that adaptation may reach.
         learning_rate_max: f64 = 1e-3, "at least ppo.learning_rate_min, at most 1" => |v| *v > 0.0 && *v <= 1.0;
         /// Target KL divergence. Above twice this value the learning rate is divided by 1.5, below half of it multiplied by 1.5; 0 keeps it fixed.
-        target_kl: f64 = 0.016, "0 or more" => |v| *v >= 0.0 && v.is_finite();
+        target_kl: f64 = 0.024, "0 or more" => |v| *v >= 0.0 && v.is_finite();
         /// Factor on rewards before returns are computed.
         reward_scale: f64 = 0.1, "above 0" => |v| *v > 0.0 && v.is_finite();
     }

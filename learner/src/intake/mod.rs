@@ -73,6 +73,8 @@ pub struct Intake<S: FragmentSource> {
     /// Fragments of the next batch so far, and their transitions.
     accepted: Vec<AcceptedFragment>,
     transitions: usize,
+    /// Time in which no fragment was there to take.
+    idle: Duration,
 }
 
 /// Result of [`Intake::collect`].
@@ -125,7 +127,13 @@ impl<S: FragmentSource> Intake<S> {
             waiting: VecDeque::new(),
             accepted: Vec::new(),
             transitions: 0,
+            idle: Duration::ZERO,
         }
+    }
+
+    /// Returns the time in which no fragment was there to take, since the learner started.
+    pub fn idle(&self) -> Duration {
+        self.idle
     }
 
     /// Returns the names of the actors that are alive.
@@ -158,7 +166,9 @@ impl<S: FragmentSource> Intake<S> {
             if self.mode == LearnerMode::Sync && self.stragglers.is_round_over(self.source.now()) {
                 self.begin_round(lineage);
             }
+            let begun = self.source.now();
             self.waiting.extend(self.source.next(TICK));
+            self.idle += self.source.now().duration_since(begun);
         }
     }
 

@@ -25,6 +25,10 @@ pub struct PhaseDurations {
     pub learn: Duration,
     /// Writing the checkpoint.
     pub checkpoint: Duration,
+    /// From the end of the update until the new policy is announced.
+    pub publish: Duration,
+    /// Work of the training thread besides the update, since the last update was logged.
+    pub serial: Duration,
 }
 
 /// Lag of the batch, over transitions.
@@ -187,6 +191,8 @@ impl UpdateRecord<'_> {
             ("time/collect_s", self.durations.collect.as_secs_f64()),
             ("time/update_s", self.durations.update.as_secs_f64()),
             ("time/checkpoint_s", self.durations.checkpoint.as_secs_f64()),
+            ("time/publish_s", self.durations.publish.as_secs_f64()),
+            ("time/serial_s", self.durations.serial.as_secs_f64()),
         ]);
     }
 

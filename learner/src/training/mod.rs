@@ -77,7 +77,10 @@ fn run(trainer: &mut Trainer) -> Result<bool, TrainingError> {
         let saved = trainer.save()?;
         let checkpoint = begun.elapsed() - collect - update;
         trainer.publish(saved)?;
-        let durations = PhaseDurations { collect, update, learn: trainer.learning.learn, checkpoint };
+        let publish = begun.elapsed() - collect - update;
+        let serial = trainer.reporting.serial(update, trainer.serving.intake.idle());
+        let learn = trainer.learning.learn;
+        let durations = PhaseDurations { collect, update, learn, checkpoint, publish, serial };
         trainer.log(stats.as_ref(), &batch.fragments, durations, evaluation.as_ref())?;
         trainer.learning.load.adapt(&batch);
         trainer.publish_status(true);

@@ -6,7 +6,7 @@ use std::{
         Arc,
         atomic::{AtomicU64, Ordering},
     },
-    time::Instant,
+    time::{Duration, Instant},
 };
 
 use treadmill_bus::StatsFeed;
@@ -39,6 +39,8 @@ pub(super) struct Reporting {
     restarts: Arc<AtomicU64>,
     restarts_before: u64,
     begun: Instant,
+    /// When the last round was logged, and how long the intake had been idle then.
+    last_round: (Instant, Duration),
     wall_before_s: f64,
     pub(super) env_steps_per_s: f64,
     /// Mean lag of the last batch.
@@ -67,6 +69,7 @@ impl Reporting {
             restarts: options.restarts.clone(),
             restarts_before: state.counters.restarts,
             begun: Instant::now(),
+            last_round: (Instant::now(), Duration::ZERO),
             wall_before_s: state.counters.wall_s,
             env_steps_per_s: 0.0,
             lag_mean: 0.0,
@@ -76,6 +79,12 @@ impl Reporting {
     /// Seconds of training over the whole run.
     pub(super) fn wall_s(&self) -> f64 {
         self.wall_before_s + self.begun.elapsed().as_secs_f64()
+    }
+
+    /// Returns the work of the training thread besides the update, since the last call. `idle` is that of the intake so far.
+    pub(super) fn serial(&mut self, update: Duration, idle: Duration) -> Duration {
+        let (last, idle_before) = std::mem::replace(&mut self.last_round, (Instant::now(), idle));
+        self.last_round.0.duration_since(last).saturating_sub(update + (idle - idle_before))
     }
 
     /// Restarts of actor processes over the whole run.

@@ -1,0 +1,313 @@
+//! Figures of the measured window.
+
+use std::{collections::HashMap, time::Instant};
+
+use anyhow::Context;
+use serde_json::{Value, json};
+
+use super::{
+    counts::{Tally, Times},
+    run_metrics::LoggedUpdate,
+};
+use crate::{
+    commands::bench::rounded,
+    load_generator::load_step::{ms, quantile, share},
+};
+
+/// Counts right after an update.
+pub(super) struct Mark {
+    /// Updates so far.
+    pub(super) updates: usize,
+    pub(super) tally: Tally,
+    pub(super) at: Instant,
+    pub(super) fleet_cpu_s: f64,
+    pub(super) learner_cpu_s: f64,
+    pub(super) routers_cpu_s: f64,
+    /// Time that the training thread ran, and was ready to run.
+    pub(super) training_thread_s: Option<[f64; 2]>,
+    pub(super) sent_bytes: Option<HashMap<String, u64>>,
+}
+
+/// Sources of the figures.
+pub(super) struct Figures<'a> {
+    pub(super) rates: &'a [f64],
+    pub(super) envs: u32,
+    /// Speed of the update before the measurement, if it was measured.
+    pub(super) calibrated: Option<f64>,
+    pub(super) joined_s: f64,
+    pub(super) alive_s: Option<f64>,
+    pub(super) bundle_bytes: f64,
+    pub(super) begin: Mark,
+    pub(super) end: Mark,
+    /// Sorted.
+    pub(super) times: Times,
+    /// After the actors have stopped.
+    pub(super) final_tally: Tally,
+    pub(super) learner_resident_max_mb: f64,
+    /// Of the whole run.
+    pub(super) updates: &'a [LoggedUpdate],
+}
+
+impl Figures<'_> {
+    /// Returns all figures by name.
+    pub(super) fn to_json(&self) -> anyhow::Result<Value> {
+        let mut all = serde_json::Map::new();
+        for part in [self.training()?, self.fragments()?, self.cost()?] {
+            all.extend(part.as_object().cloned().unwrap_or_default());
+        }
+        Ok(all.into())
+    }
+
+    /// Returns the updates of the window, after the one that it begins with.
+    fn window(&self) -> anyhow::Result<(&LoggedUpdate, &[LoggedUpdate])> {
+        let window = self.updates.get(self.begin.updates - 1..self.end.updates).unwrap_or_default();
+        window.split_first().filter(|(_, rest)| !rest.is_empty()).context("no update was measured")
+    }
+
+    /// Returns environment steps learnt from, and seconds, from the first to the last update of the window.
+    fn trained(&self) -> anyhow::Result<(f64, f64)> {
+        let (first, rest) = self.window()?;
+        let last = rest.last().unwrap_or(first);
+        let passed_s = last.value("time/time_elapsed") - first.value("time/time_elapsed");
+        Ok(((last.env_steps - first.env_steps) as f64, passed_s.max(1e-9)))
+    }
+
+    fn training(&self) -> anyhow::Result<Value> {
+        let ((_, window), (trained, passed_s)) = (self.window()?, self.trained()?);
+        let (rate_sum, speed) = (self.rates.iter().sum::<f64>(), update_rate(window));
+        let sum = |tag: &str| window.iter().map(|update| update.value(tag)).sum::<f64>();
+        let of_all = |of: fn(f64, f64) -> f64, start: f64, tag: &str| {
+            window.iter().map(|update| update.value(tag)).fold(start, of)
+        };
+        let batches = window.iter().map(|update| update.value("train/batch"));
+        let weighted: f64 = window.iter().map(|u| u.value("bus/policy_lag_mean") * u.value("train/batch")).sum();
+        let simulated_s = (self.end.tally.simulated_us - self.begin.tally.simulated_us) as f64 / 1e6;
+        let played_s = self.end.at.duration_since(self.begin.at).as_secs_f64();
+        let serial_ms = ms(self.serial_s(window, passed_s) * 1e3 / window.len() as f64);
+        Ok(json!({
+            "actors": self.rates.len(),
+            "envs": self.envs,
+            "rate_sum": finite(rate_sum),
+            "rate_max": finite(self.rates.iter().copied().fold(0.0, f64::max)),
+            "measured_s": rounded(passed_s),
+            "updates": window.len(),
+            "trained_steps": trained,
+            "trained_steps_per_s": rounded(trained / passed_s),
+            "trained_per_rate": finite(share(trained / passed_s / rate_sum)),
+            "update_steps_per_s_before": self.calibrated.map(rounded),
+            "update_steps_per_s": rounded(speed),
+            "trained_per_update": share(trained / passed_s / speed),
+            "batch_mean": rounded(batches.sum::<f64>() / window.len() as f64),
+            "idle_share": finite(share(1.0 - simulated_s / (played_s * self.rates.len() as f64)))
+                .filter(|_| rate_sum.is_finite()),
+            "policy_lag_mean": share(weighted / sum("train/batch").max(1.0)),
+            "policy_lag_max": of_all(f64::max, 0.0, "bus/policy_lag_max"),
+            "actors_alive_min": of_all(f64::min, f64::INFINITY, "actors/alive"),
+            "learner_wait_share": window.last().and_then(|update| update.get("learner/wait_share")).map(share),
+            "learner_used_share": window.last().and_then(|update| update.get("rollout/used_share")),
+            "collect_ms": ms(sum("time/collect_s") * 1e3 / window.len() as f64),
+            "update_ms": ms(sum("time/update_s") * 1e3 / window.len() as f64),
+            "checkpoint_ms": ms(sum("time/checkpoint_s") * 1e3 / window.len() as f64),
+            "serial_ms": serial_ms,
+            "training_thread_cpu_ms": self.training_thread_s().map(|[ran_s, _]| ms(ran_s * 1e3 / window.len() as f64)),
+        }))
+    }
+
+    /// Returns the training thread's time outside the update, without waiting for fragments: `time/serial_s` if it logs that.
+    fn serial_s(&self, window: &[LoggedUpdate], passed_s: f64) -> f64 {
+        let sum = |tag: &str| window.iter().map(|update| update.value(tag)).sum::<f64>();
+        if window.iter().all(|update| update.get("time/serial_s").is_some()) {
+            return sum("time/serial_s");
+        }
+        let update_s = sum("time/update_s");
+        estimated_serial_s(passed_s - sum("time/collect_s") - update_s, update_s, self.training_thread_s())
+    }
+
+    /// Returns the seconds in the window that the training thread ran, and that it was ready to run.
+    fn training_thread_s(&self) -> Option<[f64; 2]> {
+        let (end, begin) = (self.end.training_thread_s?, self.begin.training_thread_s?);
+        Some([end[0] - begin[0], end[1] - begin[1]])
+    }
+
+    fn fragments(&self) -> anyhow::Result<Value> {
+        let (trained, _) = self.trained()?;
+        let (begin, end, all) = (&self.begin.tally, &self.end.tally, &self.final_tally);
+        let dropped = (end.dropped_steps - begin.dropped_steps) as f64;
+        let trained_in_all = self.updates.last().map_or(0, |last| last.env_steps);
+        // Accepted for the next batch when the actors stopped. More than a batch would be lost experience.
+        let untrained = all.accepted_steps as i64 - trained_in_all as i64;
+        let batch_max = self.updates.iter().map(|update| update.value("train/batch")).fold(0.0, f64::max);
+        let lost = (untrained as f64 - batch_max).max(0.0);
+        let adds_up = all.produced == all.accepted + all.dropped + all.in_flight
+            && all.produced_steps == all.accepted_steps + all.dropped_steps + all.in_flight_steps;
+        Ok(json!({
+            "used_share": trained / (trained + dropped + lost),
+            "produced_steps": end.produced_steps - begin.produced_steps,
+            "dropped_steps": dropped,
+            "nothing_lost": adds_up && lost == 0.0 && untrained >= -(all.in_flight_steps as i64),
+            "fragments": all.to_json(),
+            "trained_in_all_steps": trained_in_all,
+            "untrained_steps": untrained,
+        }))
+    }
+
+    fn cost(&self) -> anyhow::Result<Value> {
+        let (begin, end, times) = (&self.begin, &self.end, &self.times);
+        let versions = (self.end.updates - self.begin.updates).max(1) as f64;
+        let sent = begin.sent_bytes.as_ref().zip(end.sent_bytes.as_ref()).map(|(begin, end)| {
+            let of = |(peer, bytes): (&String, &u64)| bytes.saturating_sub(*begin.get(peer).unwrap_or(&0)) as f64;
+            end.iter().map(of).sum::<f64>()
+        });
+        let quantiles = |sorted: &[f64]| [0.5, 0.99].map(|of| ms(quantile(sorted, of)));
+        let ([receipt_p50, receipt_p99], [fetch_p50, fetch_p99], [late_p50, late_p99]) =
+            (quantiles(&times.receipts_ms), quantiles(&times.fetches_ms), quantiles(&times.late_ms));
+        Ok(json!({
+            "joined_s": ms(self.joined_s),
+            "all_alive_s": self.alive_s.map(ms),
+            "receipt_p50_ms": receipt_p50,
+            "receipt_p99_ms": receipt_p99,
+            "policy_fetch_p50_ms": fetch_p50,
+            "policy_fetch_p99_ms": fetch_p99,
+            "send_late_p50_ms": late_p50,
+            "send_late_p99_ms": late_p99,
+            "policy_bytes": self.bundle_bytes,
+            "learner_sent_mb_per_version": sent.map(|sent| share(sent / versions / 1e6)),
+            "learner_resident_max_mb": rounded(self.learner_resident_max_mb),
+            "learner_cpu_s": rounded(end.learner_cpu_s - begin.learner_cpu_s),
+            "played_cpu_s": rounded(end.fleet_cpu_s - begin.fleet_cpu_s),
+            "routers_cpu_s": rounded(end.routers_cpu_s - begin.routers_cpu_s),
+        }))
+    }
+}
+
+/// Returns the environment steps of these updates per second of update.
+pub(super) fn update_rate(updates: &[LoggedUpdate]) -> f64 {
+    let sum = |tag: &str| updates.iter().map(|update| update.value(tag)).sum::<f64>();
+    sum("train/batch") / sum("time/update_s").max(1e-9)
+}
+
+/// Returns the larger of two lower bounds of the serial time: the time outside collecting and updating, and the processor time
+/// of the training thread outside the update. `thread_s` is the time that it ran and that it was ready to run; other processes
+/// take the same share of it in the update and outside.
+fn estimated_serial_s(outside_s: f64, update_s: f64, thread_s: Option<[f64; 2]>) -> f64 {
+    let [ran_s, ready_s] = thread_s.unwrap_or_default();
+    let update_share = (update_s / (ran_s + ready_s).max(1e-9)).min(1.0);
+    outside_s.max(ran_s * (1.0 - update_share))
+}
+
+/// Returns a finite number; JSON has no others.
+fn finite(value: f64) -> Option<f64> {
+    value.is_finite().then_some(value)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Mark after `updates` updates, at `seconds`; `tally` has produced, accepted and dropped steps.
+    fn mark(updates: usize, at: Instant, [produced, accepted, dropped]: [u64; 3]) -> Mark {
+        let tally = Tally {
+            produced_steps: produced,
+            accepted_steps: accepted,
+            dropped_steps: dropped,
+            in_flight_steps: produced - accepted - dropped,
+            simulated_us: produced * 1000,
+            ..Tally::default()
+        };
+        let sent_bytes = Some(HashMap::from([("peer".to_string(), updates as u64 * 3_000_000)]));
+        Mark {
+            updates,
+            tally,
+            at,
+            fleet_cpu_s: 0.0,
+            learner_cpu_s: updates as f64,
+            routers_cpu_s: 0.0,
+            training_thread_s: Some([updates as f64 * 0.5, updates as f64 * 0.125]),
+            sent_bytes,
+        }
+    }
+
+    fn update(env_steps: u64, elapsed_s: f64, batch: f64) -> LoggedUpdate {
+        let values = [
+            ("time/time_elapsed", elapsed_s),
+            ("time/collect_s", 1.0),
+            ("time/update_s", 0.5),
+            ("train/batch", batch),
+            ("bus/policy_lag_mean", elapsed_s / 10.0),
+            ("bus/policy_lag_max", elapsed_s),
+            ("actors/alive", 2.0),
+        ];
+        LoggedUpdate::of(env_steps, &values)
+    }
+
+    fn result(accepted_in_all: u64) -> Value {
+        let start = Instant::now();
+        let updates = [update(100, 2.0, 100.0), update(400, 4.0, 300.0), update(500, 6.0, 100.0)];
+        let final_tally = mark(0, start, [accepted_in_all + 60, accepted_in_all, 60]).tally;
+        let figures = Figures {
+            rates: &[100.0, 50.0],
+            envs: 1,
+            calibrated: None,
+            joined_s: 0.25,
+            alive_s: None,
+            bundle_bytes: 1.0,
+            begin: mark(1, start, [200, 120, 10]),
+            end: mark(3, start + std::time::Duration::from_secs(4), [800, 600, 50]),
+            times: Times { receipts_ms: vec![1.0, 2.0, 9.0], ..Times::default() },
+            final_tally,
+            learner_resident_max_mb: 5.0,
+            updates: &updates,
+        };
+        figures.to_json().unwrap()
+    }
+
+    #[test]
+    fn figures_are_those_between_the_two_marks() {
+        let result = result(560);
+        for (figure, expected) in [
+            // 500 - 100 steps in 6 - 2 seconds; the rates sum to 150 steps/s.
+            ("trained_steps", 400.0),
+            ("trained_steps_per_s", 100.0),
+            ("trained_per_rate", 0.667),
+            // Batches of 300 and 100 in 2 x 0.5 s of update.
+            ("update_steps_per_s", 400.0),
+            ("trained_per_update", 0.25),
+            // 600 ms of simulation by two actors in 4 s.
+            ("idle_share", 0.925),
+            // (0.4 x 300 + 0.6 x 100) / 400.
+            ("policy_lag_mean", 0.45),
+            ("policy_lag_max", 6.0),
+            // 4 s without 2 s of collecting and 1 s of update, over two updates.
+            ("serial_ms", 500.0),
+            ("training_thread_cpu_ms", 500.0),
+            ("receipt_p50_ms", 2.0),
+            ("receipt_p99_ms", 9.0),
+            ("learner_sent_mb_per_version", 3.0),
+            ("learner_cpu_s", 2.0),
+            // 400 of 400 + 40.
+            ("dropped_steps", 40.0),
+            ("used_share", 400.0 / 440.0),
+            ("untrained_steps", 60.0),
+        ] {
+            assert_eq!(result[figure].as_f64(), Some(expected), "{figure}: {result}");
+        }
+        assert_eq!(result["nothing_lost"], true);
+    }
+
+    #[test]
+    fn serial_time_is_estimated_from_wall_and_processor_time() {
+        // Of 2 s, 0.4 s had no core; the update took half of them, so half of 1.6 s is outside.
+        assert!((estimated_serial_s(0.1, 1.0, Some([1.6, 0.4])) - 0.8).abs() < 1e-12);
+        assert_eq!(estimated_serial_s(0.9, 1.0, Some([1.6, 0.4])), 0.9);
+        assert_eq!(estimated_serial_s(0.1, 3.0, Some([1.6, 0.4])), 0.1, "the update ran on other threads");
+        assert_eq!(estimated_serial_s(0.1, 1.0, None), 0.1);
+    }
+
+    #[test]
+    fn accepted_fragments_that_were_never_learnt_from_are_lost() {
+        // The largest batch has 300 steps, so 400 of 900 accepted steps without an update are 100 too many.
+        let result = result(900);
+        assert_eq!(result["nothing_lost"], false);
+        assert_eq!(result["used_share"].as_f64(), Some(400.0 / (400.0 + 40.0 + 100.0)));
+    }
+}
