@@ -126,6 +126,10 @@ pub fn prepare(
         None => begin(command, new, any, changes, device)?,
     };
     write_run_files(&prepared).with_context(|| format!("cannot write to {}", prepared.folder.root().display()))?;
+    let stale = prepared.folder.remove_stale_files()?;
+    if stale > 0 {
+        tracing::info!(stale, "removed temporary files that a killed process left");
+    }
     Ok(prepared)
 }
 

@@ -127,6 +127,7 @@ fn neither_ctrl_c_nor_a_kill_changes_a_bit() {
     }
     let (found, errors) = resume(folder.path(), &run, updates + 2, &[]);
     assert!(!errors.contains("begins new episodes"), "{errors}");
+    assert_eq!(temporary_files(&run), [""; 0], "the kills left files behind");
     let whole = folder.path().join("whole");
     let wanted = begin(folder.path(), &whole, updates + 2, &["--set", "ppo.epochs=10"]);
     assert_same(&found, &wanted);
@@ -160,6 +161,30 @@ fn a_damaged_latest_checkpoint_is_reported_and_the_newest_sound_one_used() {
         }
         assert_same(&found, &wanted);
     }
+}
+
+/// Returns the names of the temporary files in a run folder.
+fn temporary_files(run: &Path) -> Vec<String> {
+    let folders = [run.to_path_buf(), run.join("checkpoints")];
+    let entries = folders.iter().flat_map(|folder| fs::read_dir(folder).unwrap().flatten());
+    entries
+        .map(|entry| entry.file_name().to_string_lossy().into_owned())
+        .filter(|name| name.ends_with(".tmp"))
+        .collect()
+}
+
+#[test]
+fn a_resumed_run_removes_the_temporary_files_of_killed_processes() {
+    let (folder, run) = folders();
+    begin(folder.path(), &run, 1, &[]);
+    // Linux numbers processes up to 2^22.
+    let ended = 1 << 30;
+    for name in ["checkpoints/.latest.bundle", "checkpoints/.00000002.bundle", ".config.toml"] {
+        fs::write(run.join(format!("{name}.{ended}.tmp")), "half").unwrap();
+    }
+    fs::write(run.join("notes.tmp"), "not ours").unwrap();
+    resume(folder.path(), &run, 2, &[]);
+    assert_eq!(temporary_files(&run), ["notes.tmp"]);
 }
 
 #[test]
