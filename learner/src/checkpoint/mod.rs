@@ -1,8 +1,9 @@
 //! Checkpoints: the whole state of a run in one file, written before its version is announced.
 //!
 //! In the folder `checkpoints`, `latest.bundle` is written after each update. `best.bundle` has the best evaluation so
-//! far, or before the first evaluation the best mean return in training. `NNNNNNNN.bundle`, named by the number of
-//! updates, is written every `learner.checkpoint_every_updates`; the last `learner.keep_checkpoints` are kept.
+//! far, or before the first evaluation the best return in training: the mean of the middle half of the last 100 episodes,
+//! which a few absurd returns do not change. `NNNNNNNN.bundle`, named by the number of updates, is written every
+//! `learner.checkpoint_every_updates`; the last `learner.keep_checkpoints` are kept.
 
 pub mod encoding;
 mod fallback;
