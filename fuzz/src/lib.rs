@@ -182,14 +182,19 @@ pub fn model(data: &[u8]) {
     }
 }
 
-/// Reads a configuration from TOML text.
+/// Reads a configuration from TOML text, as this program's own and as that of a run of any version.
 pub fn config(data: &[u8]) {
     let Ok(text) = std::str::from_utf8(data) else { return };
     if let Ok(config) = read_config(text) {
         assert_eq!(read_config(&config.to_toml()).expect("what was encoded can be decoded"), config);
     }
 }
+    let mut of_run = ConfigSource::default();
+    let unknown = of_run.text_of_run(text, "a text", |_| true);
+    let of_run = of_run.build();
 
+        assert_eq!(unknown.as_deref(), Ok(&[][..]), "every key is known");
+        assert_eq!(of_run.as_ref(), Ok(&config));
 fn read_config(text: &str) -> Result<Config, String> {
     let mut source = ConfigSource::default();
     source.text(text, "a text").map_err(|error| error.to_string())?;
