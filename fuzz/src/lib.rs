@@ -17,7 +17,7 @@ use treadmill_bus::admission::Admission;
 use treadmill_config::{Config, ConfigSource};
 use treadmill_humanoid::Model;
 use treadmill_learner::{
-    checkpoint::{TrainingState, encoding},
+    checkpoint::{decode as decode_checkpoint, encoding},
     intake::{ExpectedFragment, FragmentCounts, FragmentValidator, Ledger, Lineage},
 };
 use treadmill_policy::{exported::ExportedPolicy, from_safetensors, to_safetensors};
@@ -141,19 +141,23 @@ pub fn json(data: &[u8]) {
 
 /// Decodes a checkpoint: the bytes as a file, and the bytes as the content of a file with a valid header and checksum.
 pub fn checkpoint(data: &[u8]) {
-    let mut wrapped = encoding::encode(&()).expect("the unit value can be encoded");
-    wrapped.truncate(12);
-    wrapped.extend((data.len() as u64).to_le_bytes());
-    wrapped.extend(Sha256::digest(data));
-    wrapped.extend(data);
-    for bytes in [data, &wrapped] {
-        let Ok(state) = encoding::decode::<TrainingState>("a file", bytes) else { continue };
+    let wrapped = [encoding::FORMAT_BEFORE, encoding::FORMAT].map(|format| {
+        let mut wrapped = encoding::encode(&()).expect("the unit value can be encoded");
+        wrapped.truncate(8);
+        wrapped.extend(format.to_le_bytes());
+        wrapped.extend((data.len() as u64).to_le_bytes());
+        wrapped.extend(Sha256::digest(data));
+        wrapped.extend(data);
+        wrapped
+    });
+    for bytes in [data, &wrapped[0], &wrapped[1]] {
+        let Ok(state) = decode_checkpoint("a file", bytes) else { continue };
         if state.check().is_ok() {
             drop(state.bundle());
         }
         let encoded = encoding::encode(&state).expect("what was decoded can be encoded");
         // NaN is not equal to itself, so bytes are compared.
-        let decoded: TrainingState = encoding::decode("a file", &encoded).expect("what was encoded can be decoded");
+        let decoded = decode_checkpoint("a file", &encoded).expect("what was encoded can be decoded");
         assert_eq!(encoding::encode(&decoded).expect("what was decoded can be encoded"), encoded);
     }
 }

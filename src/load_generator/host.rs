@@ -129,11 +129,12 @@ fn checksum(AcceptedFragment { fragment, .. }: &AcceptedFragment) -> String {
 }
 
 fn mark(progress: &Progress, begun: Instant, shared: u64) -> Value {
-    let FragmentCounts { accepted, duplicate, too_old, vanished, malformed, quarantined } = progress.counts;
+    let FragmentCounts { accepted, duplicate, too_old, vanished, malformed, quarantined, implausible } =
+        progress.counts;
     json!({
         "at_s": begun.elapsed().as_secs_f64(),
         "accepted": accepted,
-        "not_accepted": duplicate + too_old + vanished + malformed + quarantined,
+        "not_accepted": duplicate + too_old + vanished + malformed + quarantined + implausible,
         "in_place": shared,
         "cpu_s": usage::cpu_s(),
         "resident_mb": machine::resident_bytes() as f64 / 1e6,

@@ -47,6 +47,8 @@ pub struct FragmentCounts {
     pub quarantined: u64,
 }
 
+    /// Rejected because a value is no plausible experience of the run.
+    pub implausible: u64,
 /// Validates fragments against the checkpoint's ledger, and reports bad senders to admission control.
 #[derive(Debug)]
 pub struct FragmentValidator {
