@@ -189,16 +189,16 @@ pub fn model(data: &[u8]) {
 /// Reads a configuration from TOML text, as this program's own and as that of a run of any version.
 pub fn config(data: &[u8]) {
     let Ok(text) = std::str::from_utf8(data) else { return };
-    if let Ok(config) = read_config(text) {
-        assert_eq!(read_config(&config.to_toml()).expect("what was encoded can be decoded"), config);
-    }
-}
     let mut of_run = ConfigSource::default();
     let unknown = of_run.text_of_run(text, "a text", |_| true);
     let of_run = of_run.build();
-
+    if let Ok(config) = read_config(text) {
         assert_eq!(unknown.as_deref(), Ok(&[][..]), "every key is known");
         assert_eq!(of_run.as_ref(), Ok(&config));
+        assert_eq!(read_config(&config.to_toml()).expect("what was encoded can be decoded"), config);
+    }
+}
+
 fn read_config(text: &str) -> Result<Config, String> {
     let mut source = ConfigSource::default();
     source.text(text, "a text").map_err(|error| error.to_string())?;
@@ -213,6 +213,7 @@ pub fn fragment_validator(data: &[u8]) {
         observation_size: samples::WIDTH,
         action_size: 1,
         max_policy_lag: 1,
+        physics_version: 1,
     };
     let admission = Arc::new(Admission::new(8, 64));
     let mut validator = FragmentValidator::new(expected, admission, Ledger::default(), FragmentCounts::default());

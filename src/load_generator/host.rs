@@ -100,6 +100,7 @@ fn expected() -> ExpectedFragment {
         observation_size: workload::WIDTHS.0,
         action_size: workload::WIDTHS.1,
         max_policy_lag: 0,
+        physics_version: 0,
     }
 }
 

@@ -28,6 +28,8 @@ pub struct ExpectedFragment {
     pub action_size: u32,
     /// Largest allowed lag in versions.
     pub max_policy_lag: u64,
+    /// Version of the physics; 0 accepts any, as runs of external tasks do.
+    pub physics_version: u32,
 }
 
 /// Number of fragments by outcome, over the whole run.
@@ -45,10 +47,10 @@ pub struct FragmentCounts {
     pub malformed: u64,
     /// Rejected unread, because the sender is in quarantine.
     pub quarantined: u64,
-}
-
     /// Rejected because a value is no plausible experience of the run.
     pub implausible: u64,
+}
+
 /// Validates fragments against the checkpoint's ledger, and reports bad senders to admission control.
 #[derive(Debug)]
 pub struct FragmentValidator {
@@ -99,7 +101,8 @@ impl FragmentValidator {
         })?;
         let (incarnation, sequence) = (fragment.actor_incarnation, fragment.sequence);
         if !self.ledger.knows(actor, incarnation) {
-            tracing::info!(%actor, incarnation, "first fragment of an actor process");
+            let wire_version = fragment.wire_version;
+            tracing::info!(%actor, incarnation, wire_version, "first fragment of an actor process");
         }
         self.ledger.settle(actor, incarnation, fragment.settled_through);
         let durable_through = self.ledger.durable_through(actor, incarnation);
@@ -205,6 +208,12 @@ impl FragmentValidator {
             if found != wanted {
                 return differ(field, found.to_string(), format!("{wanted}, as the policy bundle says"));
             }
+        }
+        // Senders of before there were versions simulate physics 1.
+        let (found, wanted) = (fragment.physics_version.max(1), expected.physics_version);
+        if wanted != 0 && found != wanted {
+            let wanted = format!("{wanted}, the physics of the run: use the same version of treadmill");
+            return differ("physics_version", found.to_string(), wanted);
         }
         // A version is saved before it is published, so no actor can have a later one.
         if lineage.descent(fragment.version) == Descent::Future {

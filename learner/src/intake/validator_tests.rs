@@ -3,8 +3,14 @@ use treadmill_proto::PolicyVersion;
 use super::*;
 
 fn validator() -> FragmentValidator {
-    let expected =
-        ExpectedFragment { run: "walk".into(), config_hash: 5, observation_size: 1, action_size: 1, max_policy_lag: 1 };
+    let expected = ExpectedFragment {
+        run: "walk".into(),
+        config_hash: 5,
+        observation_size: 1,
+        action_size: 1,
+        max_policy_lag: 1,
+        physics_version: 0,
+    };
     FragmentValidator::new(expected, Arc::new(Admission::new(3, 64)), Ledger::default(), FragmentCounts::default())
 }
 
@@ -68,6 +74,27 @@ fn a_fragment_dropped_by_rule_gets_the_same_outcome_when_it_is_sent_again() {
     }
     validator.ledger.mark_durable();
     assert_eq!(validator.ledger.durable_through("a", 2), 1);
+}
+
+#[test]
+fn another_physics_is_refused_by_name_and_none_counts_as_the_first() {
+    let lineage = lineage(0);
+    let outcome = |expected: u32, found: u32| {
+        let mut validator = validator();
+        validator.expected.physics_version = expected;
+        let fragment = Fragment { physics_version: found, wire_version: 2, ..fragment(1, 0) };
+        let validated = validator.validate("a", fragment.encode().unwrap().into(), &lineage, Instant::now());
+        validated.map(drop).map_err(|receipt| receipt.reason)
+    };
+    for (expected, found) in [(1, 0), (1, 1), (2, 2), (0, 0), (0, 7)] {
+        assert_eq!(outcome(expected, found), Ok(()), "{expected} {found}");
+    }
+    for (expected, found, shown) in [(1, 2, 2), (2, 1, 1), (2, 0, 1), (2, u32::MAX, u32::MAX)] {
+        let wanted = format!(
+            "field `physics_version` is {shown}; expected {expected}, the physics of the run: use the same version of treadmill"
+        );
+        assert_eq!(outcome(expected, found), Err(wanted));
+    }
 }
 
 #[test]
