@@ -3,6 +3,8 @@
 use std::io;
 
 use tokio::task::JoinError;
+use treadmill_humanoid::PHYSICS_VERSION;
+use treadmill_proto::WIRE_VERSION;
 
 /// Error that ends an actor or an evaluator.
 #[derive(Debug, thiserror::Error)]
@@ -34,6 +36,30 @@ pub enum ActorError {
         run: String,
         /// Task that the run trains.
         task: String,
+    },
+    /// The run trains with another version of the physics.
+    #[error(
+        "this actor simulates physics {PHYSICS_VERSION}, the run `{run}` has physics {theirs}: use the same version of \
+         treadmill as its learner"
+    )]
+    OtherPhysics {
+        /// Name of the run.
+        run: String,
+        /// Version of the run's physics.
+        theirs: u32,
+    },
+    /// The run sets keys that actors of this version do not know.
+    #[error(
+        "run `{run}` sets keys that this actor does not know ({unknown}): it needs actors of wire version {needed}, this \
+         actor has {WIRE_VERSION}; use the same version of treadmill as its learner"
+    )]
+    UnknownKeys {
+        /// Name of the run.
+        run: String,
+        /// Unknown keys of the sections that concern actors.
+        unknown: String,
+        /// Smallest wire version that knows them.
+        needed: u32,
     },
     /// The network cannot be evaluated.
     #[error("the policy cannot be evaluated")]

@@ -35,7 +35,7 @@ pub async fn run(bus: Bus, options: EvaluatorOptions, shutdown: Shutdown) -> Res
     let Some(bundle) = join_run(&bus, options.run.as_deref(), &options.endpoint, &shutdown).await? else {
         return Ok(());
     };
-    settings::check_supported(&bundle.run, &settings::read_config(&bundle)?)?;
+    settings::read_simulated(&bundle)?;
     let run = bundle.run;
     let mut report = None;
     while !shutdown.asked() {
@@ -62,7 +62,7 @@ pub async fn run(bus: Bus, options: EvaluatorOptions, shutdown: Shutdown) -> Res
 
 /// Plays the episodes of one policy; returns `None` after a request to stop.
 fn play(bundle: &PolicyBundle, evaluator: String, shutdown: &Shutdown) -> Result<Option<EvaluationReport>, ActorError> {
-    let config = settings::read_config(bundle)?;
+    let config = settings::read_simulated(bundle)?;
     let mut environment = Environment::new(&settings::environment(&config.env), &bundle.model_xml)?;
     let mut agent = PolicyAgent::of_bundle(bundle)?;
     let mut all = Evaluation::default();

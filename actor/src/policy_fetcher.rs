@@ -52,6 +52,7 @@ pub struct PolicyFetcher {
     /// Run that the user named. Without one, the actor follows the learner to another run.
     requested_run: Option<String>,
     config_hash: u64,
+    physics_version: u32,
     current: RwLock<Arc<ActingPolicy>>,
     fetching: Mutex<()>,
 }
@@ -63,7 +64,7 @@ pub enum Refresh {
     Unchanged,
     /// A newer policy is in use.
     Replaced,
-    /// The learner trains another run, or the same name with another configuration or model. The actor must rejoin.
+    /// The learner trains another run, or the same name with another configuration, model or physics. The actor must rejoin.
     OtherRun,
 }
 
@@ -75,6 +76,7 @@ impl PolicyFetcher {
             run: bundle.run.clone(),
             requested_run,
             config_hash: bundle.config_hash,
+            physics_version: bundle.physics_version,
             current: RwLock::new(Arc::new(ActingPolicy::new(bundle)?)),
             fetching: Mutex::new(()),
         })
@@ -101,7 +103,9 @@ impl PolicyFetcher {
                 return Refresh::Unchanged;
             }
         };
-        if bundle.run != self.run || bundle.config_hash != self.config_hash {
+        let is_same_run = bundle.run == self.run && bundle.config_hash == self.config_hash;
+        // A learner of another version may have resumed the run.
+        if !is_same_run || bundle.physics_version != self.physics_version {
             return Refresh::OtherRun;
         }
         if bundle.version == version {

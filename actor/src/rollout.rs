@@ -1,8 +1,9 @@
 //! Fragments: T control steps of N environments under one policy.
 
 use rand_distr::{Distribution, StandardNormal};
+use treadmill_humanoid::PHYSICS_VERSION;
 use treadmill_policy::gaussian;
-use treadmill_proto::{ActorState, Fragment, Precision};
+use treadmill_proto::{ActorState, Fragment, Precision, WIRE_VERSION};
 use treadmill_runtime::seeds::Stream;
 
 use crate::{
@@ -101,6 +102,8 @@ impl Collector {
             episodes: Vec::new(),
             settled_through,
             env_steps: self.env_steps,
+            wire_version: WIRE_VERSION,
+            physics_version: PHYSICS_VERSION,
             ..Fragment::default()
         };
         // Rapier's internal state is not part of an actor's state, so every fragment starts without it.

@@ -1,18 +1,57 @@
 //! Reads the run's configuration and maps it to that of the environment.
 
 use treadmill_config::{
-    Config, ConfigError, ConfigSource, EnvConfig, EnvObservation, EnvTask, ObservationPrecision, RandomisationConfig,
+    Config, ConfigSource, EnvConfig, EnvObservation, EnvTask, ObservationPrecision, RandomisationConfig,
+    is_key_of_actors,
 };
-use treadmill_humanoid::{EnvironmentConfig, ObservationKind, Randomisation, RewardTask};
-use treadmill_proto::{PolicyBundle, Precision};
+use treadmill_humanoid::{EnvironmentConfig, ObservationKind, PHYSICS_VERSION, Randomisation, RewardTask};
+use treadmill_proto::{PolicyBundle, Precision, WIRE_VERSION};
 
 use crate::ActorError;
 
-/// Reads the run's configuration from a policy bundle.
-pub(crate) fn read_config(bundle: &PolicyBundle) -> Result<Config, ConfigError> {
+/// Sections that actors need. Other sections may have values that only the learner's version knows.
+const SECTIONS: [&str; 5] = ["env", "task", "randomisation", "rollout", "bus"];
+/// Keys of other sections that actors need.
+const KEYS: [&str; 5] = ["run.seed", "run.deterministic", "ppo.batch", "learner.mode", "eval.episodes"];
+/// Most unknown keys that a message names.
+const NAMED_MAX: usize = 8;
+
+/// Reads what this program needs to simulate the run, whose learner may have another version.
+///
+/// # Errors
+/// If the run trains another task or another physics, or sets a key that this program does not know.
+pub fn read_simulated(bundle: &PolicyBundle) -> Result<Config, ActorError> {
+    let config = read_config(bundle)?;
+    check_supported(&bundle.run, &config)?;
+    // Runs of before there were versions have physics 1.
+    match bundle.physics_version.max(1) {
+        PHYSICS_VERSION => Ok(config),
+        theirs => Err(ActorError::OtherPhysics { run: bundle.run.clone(), theirs }),
+    }
+}
+
+/// Reads the keys that actors need from a policy bundle; all others have their defaults.
+///
+/// # Errors
+/// If a needed key has a value that is not allowed here, or the run sets a key of actors that is unknown here.
+pub fn read_config(bundle: &PolicyBundle) -> Result<Config, ActorError> {
     let mut source = ConfigSource::default();
-    source.text(&bundle.config_toml, "the configuration of the run")?;
-    source.build()
+    let unknown = source.text_of_run(&bundle.config_toml, "the configuration of the run", is_needed)?;
+    if bundle.wire_version_min > WIRE_VERSION {
+        let of_actors = unknown.iter().filter(|key| is_key_of_actors(key)).take(NAMED_MAX);
+        let unknown = of_actors.map(|key| format!("`{key}`")).collect::<Vec<_>>().join(", ");
+        let needed = bundle.wire_version_min;
+        return Err(ActorError::UnknownKeys { run: bundle.run.clone(), unknown, needed });
+    }
+    if !unknown.is_empty() {
+        let keys = unknown[..unknown.len().min(NAMED_MAX)].join(", ");
+        tracing::info!(run = %bundle.run, %keys, count = unknown.len(), "ignored unknown keys of the run's configuration");
+    }
+    Ok(source.build()?)
+}
+
+fn is_needed(key: &str) -> bool {
+    KEYS.contains(&key) || key.split_once('.').is_some_and(|(section, _)| SECTIONS.contains(&section))
 }
 
 /// Control steps of a fragment where neither the bundle nor the configuration says them.
@@ -105,6 +144,8 @@ pub fn environment(config: &EnvConfig) -> EnvironmentConfig {
 
 #[cfg(test)]
 mod tests {
+    use std::{collections::BTreeSet, fs, path::Path};
+
     use treadmill_humanoid::{Environment, HUMANOID_XML};
 
     use super::*;
@@ -151,6 +192,33 @@ mod tests {
                 assert_eq!(config.check().is_ok(), is_accepted, "key {key}: {range:?}");
             }
         }
+    }
+
+    fn sources(folder: &Path, found: &mut String) {
+        for entry in fs::read_dir(folder).unwrap().flatten() {
+            match entry.file_type().unwrap().is_dir() {
+                true => sources(&entry.path(), found),
+                false => found.push_str(&fs::read_to_string(entry.path()).unwrap()),
+            }
+        }
+    }
+
+    #[test]
+    fn every_key_that_this_crate_uses_is_read_from_the_bundle() {
+        let mut text = String::new();
+        sources(&Path::new(env!("CARGO_MANIFEST_DIR")).join("src"), &mut text);
+        let keys = Config::keys();
+        let uses = text.split("config.").skip(1).filter_map(|rest| {
+            let is_used = |key: &str| {
+                let after = rest.strip_prefix(key).and_then(|after| after.chars().next());
+                after.is_some_and(|next| !(next.is_ascii_alphanumeric() || next == '_'))
+            };
+            keys.iter().find(|known| is_used(&known.key))
+        });
+        let used: BTreeSet<&str> = uses.map(|known| known.key.as_str()).collect();
+        assert!(used.len() > 5 && used.contains("run.seed"), "{used:?}");
+        let missing: Vec<&str> = used.into_iter().filter(|key| !is_needed(key)).collect();
+        assert!(missing.is_empty(), "these keys would have their defaults; add them to KEYS: {missing:?}");
     }
 
     #[test]

@@ -70,8 +70,7 @@ struct Membership<'a> {
 
 impl<'a> Membership<'a> {
     fn new(bus: &'a Bus, options: &'a WorkerOptions, bundle: &PolicyBundle) -> Result<Self, ActorError> {
-        let config = settings::read_config(bundle)?;
-        settings::check_supported(&bundle.run, &config)?;
+        let config = settings::read_simulated(bundle)?;
         let incarnation = seeds::unique();
         tracing::info!(incarnation, actor = %options.name, "new incarnation");
         let policies = Arc::new(PolicyFetcher::new(bus.clone(), options.run.clone(), bundle)?);

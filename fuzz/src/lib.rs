@@ -17,7 +17,7 @@ use treadmill_bus::admission::Admission;
 use treadmill_config::{Config, ConfigSource};
 use treadmill_humanoid::Model;
 use treadmill_learner::{
-    checkpoint::{TrainingState, encoding},
+    checkpoint::{decode as decode_checkpoint, encoding},
     intake::{ExpectedFragment, FragmentCounts, FragmentValidator, Ledger, Lineage},
 };
 use treadmill_policy::{exported::ExportedPolicy, from_safetensors, to_safetensors};
@@ -141,19 +141,23 @@ pub fn json(data: &[u8]) {
 
 /// Decodes a checkpoint: the bytes as a file, and the bytes as the content of a file with a valid header and checksum.
 pub fn checkpoint(data: &[u8]) {
-    let mut wrapped = encoding::encode(&()).expect("the unit value can be encoded");
-    wrapped.truncate(12);
-    wrapped.extend((data.len() as u64).to_le_bytes());
-    wrapped.extend(Sha256::digest(data));
-    wrapped.extend(data);
-    for bytes in [data, &wrapped] {
-        let Ok(state) = encoding::decode::<TrainingState>("a file", bytes) else { continue };
+    let wrapped = [encoding::FORMAT_BEFORE, encoding::FORMAT].map(|format| {
+        let mut wrapped = encoding::encode(&()).expect("the unit value can be encoded");
+        wrapped.truncate(8);
+        wrapped.extend(format.to_le_bytes());
+        wrapped.extend((data.len() as u64).to_le_bytes());
+        wrapped.extend(Sha256::digest(data));
+        wrapped.extend(data);
+        wrapped
+    });
+    for bytes in [data, &wrapped[0], &wrapped[1]] {
+        let Ok(state) = decode_checkpoint("a file", bytes) else { continue };
         if state.check().is_ok() {
             drop(state.bundle());
         }
         let encoded = encoding::encode(&state).expect("what was decoded can be encoded");
         // NaN is not equal to itself, so bytes are compared.
-        let decoded: TrainingState = encoding::decode("a file", &encoded).expect("what was encoded can be decoded");
+        let decoded = decode_checkpoint("a file", &encoded).expect("what was encoded can be decoded");
         assert_eq!(encoding::encode(&decoded).expect("what was decoded can be encoded"), encoded);
     }
 }
@@ -182,10 +186,15 @@ pub fn model(data: &[u8]) {
     }
 }
 
-/// Reads a configuration from TOML text.
+/// Reads a configuration from TOML text, as this program's own and as that of a run of any version.
 pub fn config(data: &[u8]) {
     let Ok(text) = std::str::from_utf8(data) else { return };
+    let mut of_run = ConfigSource::default();
+    let unknown = of_run.text_of_run(text, "a text", |_| true);
+    let of_run = of_run.build();
     if let Ok(config) = read_config(text) {
+        assert_eq!(unknown.as_deref(), Ok(&[][..]), "every key is known");
+        assert_eq!(of_run.as_ref(), Ok(&config));
         assert_eq!(read_config(&config.to_toml()).expect("what was encoded can be decoded"), config);
     }
 }
@@ -204,6 +213,7 @@ pub fn fragment_validator(data: &[u8]) {
         observation_size: samples::WIDTH,
         action_size: 1,
         max_policy_lag: 1,
+        physics_version: 1,
     };
     let admission = Arc::new(Admission::new(8, 64));
     let mut validator = FragmentValidator::new(expected, admission, Ledger::default(), FragmentCounts::default());

@@ -76,6 +76,8 @@ fn fragment_message() -> Fragment {
         actor_state: None,
         env_steps: 8,
         collect_s: 0.5,
+        wire_version: 1,
+        physics_version: 1,
     }
 }
 
@@ -84,15 +86,17 @@ pub fn fragment() -> Vec<u8> {
     Fragment { actor_state: Some(state()), ..fragment_message() }.encode().expect("a valid message")
 }
 
-/// Encodes a rollout fragment without the actor's state, to which that can be appended.
+/// Encodes a rollout fragment without the actor's state.
 pub fn fragment_without_state() -> Vec<u8> {
     fragment_message().encode().expect("a valid message")
 }
 
 /// Encodes the state of an actor.
 pub fn actor_state() -> Vec<u8> {
-    // After the fragment's other fields: two bytes of tag, two of length.
-    fragment()[fragment_without_state().len() + 4..].to_vec()
+    let (with, without) = (fragment(), fragment_without_state());
+    let start = with.iter().zip(&without).position(|(with, without)| with != without).expect("the state comes between");
+    // Two bytes of tag, two of length.
+    with[start + 4..start + with.len() - without.len()].to_vec()
 }
 
 /// Encodes a policy bundle.
@@ -113,6 +117,9 @@ pub fn bundle() -> Vec<u8> {
         checksum: 5,
         actor_state: Some(state()),
         fragment_steps: 16,
+        wire_version: 1,
+        wire_version_min: 1,
+        physics_version: 1,
     }
     .encode()
     .expect("a valid message")

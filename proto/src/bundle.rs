@@ -94,6 +94,12 @@ pub struct PolicyBundle {
     pub actor_state: Option<ActorState>,
     /// Control steps of a fragment of an actor that has no receipt yet; 0 means `rollout.fragment_steps`.
     pub fragment_steps: u32,
+    /// Wire version of the learner; 0 means before there were any.
+    pub wire_version: u32,
+    /// Smallest [`WIRE_VERSION`](crate::WIRE_VERSION) of actors that know every key which this run sets; 0 admits all.
+    pub wire_version_min: u32,
+    /// Version of the physics that this run trains with; 0 means 1, and has no meaning in runs of external tasks.
+    pub physics_version: u32,
 }
 
 impl PolicyBundle {
@@ -144,6 +150,9 @@ impl PolicyBundle {
             checksum: self.checksum,
             actor_state: self.actor_state.clone(),
             fragment_steps: self.fragment_steps,
+            wire_version: self.wire_version,
+            wire_version_min: self.wire_version_min,
+            physics_version: self.physics_version,
         }
         .encode_to_vec();
         check_size(BUNDLE, bytes.len(), BUNDLE_BYTES_MAX)?;
@@ -178,6 +187,9 @@ impl PolicyBundle {
             checksum: message.checksum,
             actor_state: message.actor_state,
             fragment_steps: message.fragment_steps,
+            wire_version: message.wire_version,
+            wire_version_min: message.wire_version_min,
+            physics_version: message.physics_version,
         };
         bundle.check()?;
         Ok(bundle)
@@ -227,6 +239,9 @@ mod tests {
             checksum: 5,
             actor_state: Some(crate::actor_state::tests::sample("a", 2)),
             fragment_steps: 64,
+            wire_version: 2,
+            wire_version_min: 1,
+            physics_version: 3,
         }
     }
 

@@ -101,6 +101,10 @@ pub struct Fragment {
     pub env_steps: u64,
     /// Seconds that the sender simulated this fragment, without waits; 0 if it does not measure them.
     pub collect_s: f64,
+    /// Wire version of the sender; 0 means before there were any.
+    pub wire_version: u32,
+    /// Version of the physics that the sender simulates; 0 means 1, and has no meaning in runs of external tasks.
+    pub physics_version: u32,
 }
 
 impl Fragment {
@@ -213,6 +217,8 @@ impl Fragment {
             observation_precision: wire::Precision::from(precision).into(),
             env_steps: self.env_steps,
             collect_s: self.collect_s,
+            wire_version: self.wire_version,
+            physics_version: self.physics_version,
         };
         let bytes = message.encode_to_vec();
         check_size("fragment", bytes.len(), FRAGMENT_BYTES_MAX)?;
@@ -262,6 +268,8 @@ impl Fragment {
             actor_state: message.actor_state,
             env_steps: message.env_steps,
             collect_s: message.collect_s,
+            wire_version: message.wire_version,
+            physics_version: message.physics_version,
         };
         fragment.check()?;
         Ok(fragment)

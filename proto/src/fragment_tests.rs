@@ -33,6 +33,8 @@ pub(crate) fn sample() -> Fragment {
         actor_state: Some(state("a1", 3)),
         env_steps: 60,
         collect_s: 0.25,
+        wire_version: 2,
+        physics_version: 3,
     }
 }
 

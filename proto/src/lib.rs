@@ -72,6 +72,10 @@ pub use receipt::{Outcome, Receipt};
 pub use stats::ActorStats;
 pub use task::{Task, TaskReceipt, TaskRegistration};
 
+/// Version of the messages and of the configuration keys that actors know. Raised with each release that adds a field or
+/// a key on which actors depend.
+pub const WIRE_VERSION: u32 = 1;
+
 /// Refuses a message of more than `limit` bytes.
 fn check_size(what: &'static str, bytes: usize, limit: usize) -> Result<(), Malformed> {
     if bytes > limit { Err(Malformed::TooLarge { what, bytes, limit }) } else { Ok(()) }

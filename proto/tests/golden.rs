@@ -72,7 +72,7 @@ fn bundle() -> PolicyBundle {
         model_xml: "<mujoco/>".into(),
         checksum: 0xfff0_0000_0000_0001,
         actor_state: Some(actor_state()),
-        fragment_steps: 0,
+        ..PolicyBundle::default()
     }
 }
 

@@ -5,6 +5,7 @@ import sys
 import unittest
 from pathlib import Path
 from types import SimpleNamespace
+from unittest import mock
 
 import gymnasium
 import numpy as np
@@ -51,8 +52,59 @@ def linear(action=2):
     return Policy(tensors, np.zeros(2), np.ones(2), 10.0)
 
 
-def settings(steps):
-    return Settings(steps, 1, 60.0, 10.0, 2.0, "t")
+def config(rollout="", more=""):
+    """Returns a configuration as a learner sends it, with keys of a section added."""
+    return f"""
+        [learner]
+        mode = "sync"
+        [rollout]
+        fragment_steps = 32
+        max_in_flight = 0
+        {rollout}
+        [bus]
+        receipt_timeout_ms = 60000
+        policy_poll_ms = 10000
+        stats_every_ms = 2000
+        {more}
+    """
+
+
+class SettingsTest(unittest.TestCase):
+    def test_unknown_keys_and_sections_are_ignored(self):
+        text = config('compression = "zstd"', "jitter = 0.5\n[weather]\nwind_mps = 3.0\n[weather.deep]\nx = 1")
+        read = Settings.of(schema.PolicyBundle(config_toml=f"later = 1\n{text}", wire_version=2, wire_version_min=1))
+        self.assertEqual(read, Settings(32, 1, 60.0, 10.0, 2.0, ""))
+        asynchronous = Settings.of(schema.PolicyBundle(config_toml=config().replace('"sync"', '"async"')))
+        self.assertEqual(asynchronous.fragments_in_flight, 2)
+
+    def test_unknown_values_of_known_keys_are_refused_by_name(self):
+        cases = [
+            ('mode = "sync"', 'mode = "hybrid"', "`learner.mode` is 'hybrid'"),
+            ("max_in_flight = 0", "max_in_flight = 3", "`rollout.max_in_flight` is 3"),
+            ("max_in_flight = 0", "max_in_flight = true", "`rollout.max_in_flight` is True"),
+            ("max_in_flight = 0", "max_in_flight = 1.0", "`rollout.max_in_flight` is 1.0"),
+            ("max_in_flight = 0", "", "`rollout.max_in_flight` is None"),
+            ("fragment_steps = 32", "fragment_steps = 5000", "`rollout.fragment_steps` is 5000; allowed: 0 to 4096"),
+            ("policy_poll_ms = 10000", 'policy_poll_ms = "auto"', "`bus.policy_poll_ms` is 'auto'"),
+            ("max_in_flight = 0", "max_in_flight = 0\nnoise_correlation = 0.5", "`rollout.noise_correlation` is 0.5"),
+        ]
+        for known, future, message in cases:
+            with self.assertRaisesRegex(TaskError, message):
+                Settings.of(schema.PolicyBundle(config_toml=config().replace(known, future)))
+
+    def test_newer_wire_version_is_refused_by_name(self):
+        needed = schema.WIRE_VERSION + 1
+        bundle = schema.PolicyBundle(run="gym", config_toml=config(), wire_version_min=needed)
+        with self.assertRaisesRegex(TaskError, f"run `gym` needs actors of wire version {needed}, this actor has"):
+            Settings.of(bundle)
+
+    def test_receipt_then_bundle_then_configuration_set_the_length_of_a_fragment(self):
+        def steps(configured, receipt, bundle):
+            text = config().replace("fragment_steps = 32", f"fragment_steps = {configured}")
+            return Settings.of(schema.PolicyBundle(config_toml=text)).next_fragment_steps(receipt, bundle)
+
+        self.assertEqual([steps(32, 8, 16), steps(32, 0, 16), steps(32, 0, 0), steps(0, 0, 0)], [8, 16, 32, 128])
+        self.assertEqual(steps(0, 2**32 - 1, 16), 4096)
 
 
 class PolicyTest(unittest.TestCase):
@@ -116,9 +168,23 @@ class TaskTest(unittest.TestCase):
 class RolloutTest(unittest.TestCase):
     def collect(self, steps, **ends):
         environments = Environments(lambda: Count(**ends), "test/Count-v0", 2, 1)
-        collector = Collector(environments, settings(steps), "run", "py", 5, 9, 3)
-        fragment, episodes = collector.collect(linear(), schema.PolicyVersion(incarnation=1, number=2), 0)
+        collector = Collector(environments, "run", "py", 5, 9, 3)
+        fragment, episodes = collector.collect(linear(), schema.PolicyVersion(incarnation=1, number=2), 0, steps)
         return schema.Fragment.FromString(fragment), episodes
+
+    def test_fragments_differ_in_length_and_count_steps(self):
+        collector = Collector(Environments(Count, "test/Count-v0", 2, 1), "run", "py", 5, 9, 3)
+        lengths = [3, 1, 4]
+        fragments = [
+            schema.Fragment.FromString(collector.collect(linear(), schema.PolicyVersion(), 0, steps)[0]) for steps in lengths
+        ]
+        self.assertEqual([fragment.steps for fragment in fragments], lengths)
+        # Two environments: 6, then 2 and 8 more.
+        self.assertEqual([fragment.env_steps for fragment in fragments], [6, 8, 16])
+        self.assertEqual([len(fragment.rewards) for fragment in fragments], [24, 8, 32])
+        self.assertTrue(all(0 < fragment.collect_s < 60 for fragment in fragments))
+        self.assertTrue(all(fragment.wire_version == schema.WIRE_VERSION for fragment in fragments))
+        self.assertTrue(all(fragment.physics_version == 0 for fragment in fragments))
 
     def test_arrays_are_time_major(self):
         fragment, _ = self.collect(3)
@@ -158,10 +224,23 @@ class RolloutTest(unittest.TestCase):
         self.assertEqual((rewards[0], flags[0], cut_off, episodes[0]["cause"]), (0.0, 1, {}, "non_finite"))
         self.assertTrue(np.isfinite(environments.observations).all())
 
-    def test_too_large_fragment_raises(self):
+    def test_fragment_is_shortened_to_the_limit(self):
+        environments = Environments(lambda: Count(limit=1), "test/Count-v0", 2, 1)
+        collector = Collector(environments, "run", "py", 5, 9, 3)
+        collector.steps_max = 7
+        fragment, _ = collector.collect(linear(), schema.PolicyVersion(), 0, 4096)
+        self.assertEqual(schema.Fragment.FromString(fragment).steps, 7)
+        # Every step ends an episode here, which is the largest fragment of so many steps.
+        with mock.patch("treadmill_actor.rollout.FRAGMENT_BYTES_MAX", 8000):
+            small = Collector(environments, "run", "py", 5, 9, 3)
+        fragment, episodes = small.collect(linear(), schema.PolicyVersion(), 0, 4096)
+        self.assertEqual((len(episodes), small.steps_max > 10), (2 * small.steps_max, True))
+        self.assertLessEqual(len(fragment), 8000)
+
+    def test_too_many_environments_raise(self):
         environments = Environments(Count, "test/Count-v0", 2, 1)
-        with self.assertRaisesRegex(TaskError, "fewer --envs"):
-            Collector(environments, settings(4_000_000), "run", "py", 5, 9, 3)
+        with mock.patch("treadmill_actor.rollout.FRAGMENT_BYTES_MAX", 4200), self.assertRaisesRegex(TaskError, "fewer --envs"):
+            Collector(environments, "run", "py", 5, 9, 3)
 
 
 def receipt(outcome, durable_through=0):

@@ -62,6 +62,8 @@ class Policies:
         self.run_changed = threading.Event()
         self.fetching = threading.Lock()
         self._current = (Policy.from_bundle(bundle), bundle.version)
+        #: Steps of a fragment as the newest bundle says; 0 if it leaves them open.
+        self.fragment_steps = bundle.fragment_steps
         self.announced_version = None
 
     @property
@@ -85,6 +87,7 @@ class Policies:
             if bundle.run != self.run or bundle.config_hash != self.config_hash:
                 self.run_changed.set()
                 return
+            self.fragment_steps = bundle.fragment_steps
             if bundle.version == self._current[1]:
                 return
             try:

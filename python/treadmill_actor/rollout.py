@@ -2,6 +2,7 @@
 
 import logging
 import math
+import time
 
 import numpy as np
 
@@ -10,6 +11,8 @@ from .task import TaskError, describe
 
 TERMINATED, TRUNCATED = 1, 2
 FRAGMENT_BYTES_MAX = 30 << 20
+#: Most bytes of a fragment's header, and of one episode in it.
+HEADER_BYTES, EPISODE_BYTES = 4096, 40
 log = logging.getLogger("treadmill_actor")
 
 
@@ -96,28 +99,29 @@ class Environments:
 class Collector:
     """Collects one fragment after the other; episodes continue across fragments."""
 
-    def __init__(self, environments, settings, run, actor, incarnation, config_hash, seed):
-        self.environments, self.settings = environments, settings
+    def __init__(self, environments, run, actor, incarnation, config_hash, seed):
+        self.environments = environments
         self.header = {"run": run, "actor": actor, "actor_incarnation": incarnation, "config_hash": config_hash}
         self.random = np.random.default_rng(seed)
         self.sequence = 0
-        steps, envs, task = settings.fragment_steps, len(environments), environments.task
-        numbers = steps * envs * (task.observation_size + task.action_size + 2) + envs * task.observation_size
-        if 4 * numbers + steps * envs + 4096 > FRAGMENT_BYTES_MAX:
+        #: Environment steps in all fragments.
+        self.env_steps = 0
+        envs, task = len(environments), environments.task
+        # A step may end an episode of each environment, and so has an episode's summary and a last observation.
+        step_bytes = envs * (4 * (2 * task.observation_size + task.action_size + 2) + 1 + EPISODE_BYTES)
+        #: Most steps that always fit into a fragment.
+        self.steps_max = (FRAGMENT_BYTES_MAX - HEADER_BYTES - 4 * envs * task.observation_size) // step_bytes
+        if self.steps_max < 1:
             raise TaskError(
-                f"a fragment of {steps} steps of {envs} environments has about {4 * numbers >> 20} MiB; the limit is "
-                f"{FRAGMENT_BYTES_MAX >> 20} MiB; use fewer --envs, or a lower rollout.fragment_steps"
+                f"one step of {envs} environments has up to {step_bytes >> 20} MiB; a fragment has at most "
+                f"{FRAGMENT_BYTES_MAX >> 20} MiB; use fewer --envs"
             )
 
-    @property
-    def transitions(self):
-        """Environment steps in one fragment."""
-        return self.settings.fragment_steps * len(self.environments)
-
-    def collect(self, policy, version, settled_through):
-        """Returns the next fragment, encoded, and its finished episodes."""
-        environments, settings, task = self.environments, self.settings, self.environments.task
-        steps, envs = settings.fragment_steps, len(environments)
+    def collect(self, policy, version, settled_through, steps):
+        """Returns the next fragment of `steps` steps, or as many as fit, encoded, and its finished episodes."""
+        begun = time.monotonic()
+        environments, task = self.environments, self.environments.task
+        steps, envs = min(steps, self.steps_max), len(environments)
         observations = np.empty((steps, envs, task.observation_size), np.float32)
         actions = np.empty((steps, envs, task.action_size), np.float32)
         log_probs, rewards = np.empty((steps, envs), np.float32), np.empty((steps, envs), np.float32)
@@ -135,6 +139,7 @@ class Collector:
                 elif t + 1 == steps and flags[t, env] == 0:
                     last_observations.append(environments.observations[env].copy())
         self.sequence += 1
+        self.env_steps += steps * envs
         planes = {
             "observations": observations,
             "actions": actions,
@@ -152,8 +157,11 @@ class Collector:
             action_size=task.action_size,
             flags=flags.tobytes(),
             settled_through=settled_through,
+            env_steps=self.env_steps,
+            wire_version=schema.WIRE_VERSION,
             **{name: plane.astype("<f4", copy=False).tobytes() for name, plane in planes.items()},
         )
         for episode in episodes:
             fragment.episodes.add(**{**episode, "cause": schema.END_CAUSES[episode["cause"]]})
+        fragment.collect_s = time.monotonic() - begun
         return fragment.SerializeToString(), episodes

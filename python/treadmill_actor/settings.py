@@ -1,9 +1,14 @@
-"""Configuration keys that an actor needs, from the TOML in a policy bundle."""
+"""Configuration keys that an actor needs, from the TOML in a policy bundle. Other keys and sections are ignored."""
 
 import tomllib
 from dataclasses import dataclass
 
+from .schema import WIRE_VERSION
 from .task import TaskError
+
+#: Steps of a fragment if neither the learner nor the configuration says.
+FRAGMENT_STEPS = 128
+FRAGMENT_STEPS_MAX = 4096
 
 
 @dataclass(frozen=True)
@@ -19,21 +24,43 @@ class Settings:
 
     @classmethod
     def of(cls, bundle):
-        """Reads a PolicyBundle. Raises TaskError for a retired key that has an effect."""
+        """Reads a PolicyBundle. Raises TaskError for a value or a wire version that this actor does not know."""
+        if bundle.wire_version_min > WIRE_VERSION:
+            raise TaskError(
+                f"run `{bundle.run}` needs actors of wire version {bundle.wire_version_min}, this actor has "
+                f"{WIRE_VERSION}; use the learner's version of treadmill_actor"
+            )
         config = tomllib.loads(bundle.config_toml)
-        rollout, bus = config["rollout"], config["bus"]
-        in_flight = rollout["max_in_flight"] or (1 if config["learner"]["mode"] == "sync" else 2)
-        correlation = rollout.get("noise_correlation", 0.0)
+        # An older learner may have sent the retired key.
+        correlation = config.get("rollout", {}).get("noise_correlation", 0.0)
         if correlation != 0.0:
             raise TaskError(
                 f"config key `rollout.noise_correlation` is {correlation}, but the key no longer exists; start a run "
                 "without it, or use the learner's version of treadmill_actor"
             )
+        mode = _choice(config, "learner.mode", ("sync", "async"))
+        in_flight = _choice(config, "rollout.max_in_flight", (0, 1, 2))
+        steps = _choice(config, "rollout.fragment_steps", range(FRAGMENT_STEPS_MAX + 1))
+        milliseconds = range(1, 3_600_001)
         return cls(
-            fragment_steps=rollout["fragment_steps"],
-            fragments_in_flight=in_flight,
-            receipt_timeout_s=bus["receipt_timeout_ms"] / 1e3,
-            policy_poll_s=bus["policy_poll_ms"] / 1e3,
-            stats_every_s=bus["stats_every_ms"] / 1e3,
+            fragment_steps=steps or FRAGMENT_STEPS,
+            fragments_in_flight=in_flight or (1 if mode == "sync" else 2),
+            receipt_timeout_s=_choice(config, "bus.receipt_timeout_ms", milliseconds) / 1e3,
+            policy_poll_s=_choice(config, "bus.policy_poll_ms", milliseconds) / 1e3,
+            stats_every_s=_choice(config, "bus.stats_every_ms", milliseconds) / 1e3,
             task=config.get("task", {}).get("name", ""),
         )
+
+    def next_fragment_steps(self, receipt_steps, bundle_steps):
+        """Returns the steps of the next fragment: as the last receipt says, else the bundle, else the configuration."""
+        return min(receipt_steps or bundle_steps or self.fragment_steps, FRAGMENT_STEPS_MAX)
+
+
+def _choice(config, key, allowed):
+    section, name = key.split(".")
+    value = config.get(section, {}).get(name)
+    # In Python, True equals 1 and 1.0 does too.
+    if type(value) is not type(allowed[0]) or value not in allowed:
+        shown = f"{allowed.start} to {allowed.stop - 1}" if isinstance(allowed, range) else ", ".join(map(repr, allowed))
+        raise TaskError(f"config key `{key}` is {value!r}; allowed: {shown}; use the learner's version of treadmill_actor")
+    return value

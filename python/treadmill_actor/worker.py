@@ -32,6 +32,8 @@ class Worker:
         self.bus, self.run, self.actor = bus, run, actor
         self.environments, self.seed, self.stopping = environments, seed, stopping
         self.env_steps = self.episodes = self.faults = 0
+        #: Steps of the next fragment as the last receipt says; 0 if it leaves them open.
+        self.receipt_steps = 0
         self.uploader = self.failure = None
 
     def work(self, steps=None):
@@ -48,6 +50,7 @@ class Worker:
     def _simulate_run(self, bundle, steps):
         """Simulates until the end or until the run changes. Returns False if the run changed."""
         settings, incarnation = Settings.of(bundle), unique()
+        self.receipt_steps = 0
         policies = Policies(self.bus, bundle, self.actor, self.environments.task)
         # Ends the upload threads.
         leaving = threading.Event()
@@ -55,7 +58,7 @@ class Worker:
             self.bus, self.run, self.actor, bundle.version.incarnation, settings.receipt_timeout_s, leaving
         )
         collector = Collector(
-            self.environments, settings, self.run, self.actor, incarnation, bundle.config_hash, (self.seed, incarnation)
+            self.environments, self.run, self.actor, incarnation, bundle.config_hash, (self.seed, incarnation)
         )
         ended, announced = threading.Event(), threading.Event()
 
@@ -85,7 +88,7 @@ class Worker:
             thread.start()
         done = False
         try:
-            done = self._simulate(collector, policies, credit, outbox, episode_publisher, steps)
+            done = self._simulate(collector, settings, policies, credit, outbox, episode_publisher, steps)
         finally:
             for _ in range(settings.fragments_in_flight):
                 outbox.put(None)
@@ -105,17 +108,19 @@ class Worker:
             raise self.failure
         return done
 
-    def _simulate(self, collector, policies, credit, outbox, episode_publisher, steps):
+    def _simulate(self, collector, settings, policies, credit, outbox, episode_publisher, steps):
         while not self.stopping.is_set() and self.failure is None:
             if policies.run_changed.is_set():
                 return False
             if not credit.acquire(timeout=0.1):
                 continue
             policy, version = policies.current
-            fragment, episodes = collector.collect(policy, version, self.uploader.settled_through())
+            length = settings.next_fragment_steps(self.receipt_steps, policies.fragment_steps)
+            before = collector.env_steps
+            fragment, episodes = collector.collect(policy, version, self.uploader.settled_through(), length)
             self.uploader.note_produced(collector.sequence)
             outbox.put((collector.sequence, fragment))
-            self.env_steps += collector.transitions
+            self.env_steps += collector.env_steps - before
             self.episodes += len(episodes)
             for episode in episodes:
                 self.faults += episode["cause"] == "non_finite"
@@ -133,6 +138,7 @@ class Worker:
                 receipt = self.uploader.deliver(*item)
                 if receipt is None:
                     return
+                self.receipt_steps = receipt.fragment_steps
                 policies.refresh(receipt.version)
                 self.uploader.resend_unsaved(policies.current[1].incarnation)
                 credit.release()

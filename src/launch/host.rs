@@ -190,6 +190,7 @@ fn as_json(summary: &TrainingSummary) -> String {
         "distance_mean_m": number(|means| means.distance_mean_m),
         "velocity_mean_mps": number(|means| means.velocity_mean_mps),
         "restarts": state.counters.restarts,
+        "used_share": state.counters.used_share(),
         "stopped": summary.stopped,
     })
     .to_string()

@@ -6,10 +6,11 @@ use anyhow::Context;
 use clap::Args;
 use serde_json::json;
 use treadmill_config::{Config, ConfigSource, EnvTask, LearnerMode};
+use treadmill_humanoid::PHYSICS_VERSION;
 use treadmill_learner::checkpoint::{self, TrainingState, Which};
 use treadmill_policy::device::{Device, DeviceKind};
 use treadmill_ppo::BatchMirror;
-use treadmill_proto::Task;
+use treadmill_proto::{Task, WIRE_VERSION};
 use treadmill_runtime::{atomic_file, error_chain, machine, run_folder::RunFolder, seeds};
 
 use crate::launch::{exit_code::Usage, model, slow_step::SlowStepNotice};
@@ -123,6 +124,10 @@ pub fn prepare(
         Some(run) => resume(command, run, any)?,
         None => begin(command, new, any, changes)?,
     };
+    let stale = prepared.folder.remove_stale_files()?;
+    if stale > 0 {
+        tracing::info!(stale, "removed temporary files that a killed process left");
+    }
     write_run_files(&prepared).with_context(|| format!("cannot write to {}", prepared.folder.root().display()))?;
     Ok(prepared)
 }
@@ -216,7 +221,8 @@ fn begin(
     let mirror = model::mirror(&config, &text)?;
     let (observation, action) = (environment.observation_size(), environment.action_size());
     let folder = RunFolder::create(new.run_dir.as_deref(), &new.preset)?;
-    let state = TrainingState::fresh(folder.name(), &config, &text, observation, action, seeds::unique());
+    let fresh = TrainingState::fresh(folder.name(), &config, &text, observation, action, seeds::unique());
+    let state = TrainingState { physics_version: PHYSICS_VERSION, ..fresh };
     Ok(Prepared { config, folder, device, mirror, run: state.run.clone(), state: Some(state) })
 }
 
@@ -233,6 +239,9 @@ fn resume(command: RunCommand, run: &str, any: &AnyRunArgs) -> anyhow::Result<Pr
     if let Some(steps) = any.steps {
         config.run.steps = steps;
         config.check()?;
+    }
+    if !config.is_external() {
+        state.adopt_physics(PHYSICS_VERSION).map_err(anyhow::Error::msg)?;
     }
     // Without retired keys, so that actors need not know them.
     state.config_toml = config.to_toml();
@@ -263,10 +272,12 @@ pub fn command_line() -> String {
 }
 
 /// Returns facts about this program and this machine.
-fn facts() -> [(&'static str, serde_json::Value); 6] {
+fn facts() -> [(&'static str, serde_json::Value); 8] {
     [
         ("treadmill", env!("CARGO_PKG_VERSION").into()),
         ("checkpoint_format", checkpoint::encoding::FORMAT.into()),
+        ("wire_version", WIRE_VERSION.into()),
+        ("physics_version", PHYSICS_VERSION.into()),
         ("os", std::env::consts::OS.into()),
         ("architecture", std::env::consts::ARCH.into()),
         ("cpu", machine::cpu_name().into()),

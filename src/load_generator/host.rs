@@ -102,6 +102,7 @@ fn expected() -> ExpectedFragment {
         observation_size: workload::WIDTHS.0,
         action_size: workload::WIDTHS.1,
         max_policy_lag: 0,
+        physics_version: 0,
     }
 }
 
@@ -131,11 +132,12 @@ fn checksum(AcceptedFragment { fragment, .. }: &AcceptedFragment) -> String {
 }
 
 fn mark(progress: &Progress, begun: Instant, shared: u64) -> Value {
-    let FragmentCounts { accepted, duplicate, too_old, vanished, malformed, quarantined } = progress.counts;
+    let FragmentCounts { accepted, duplicate, too_old, vanished, malformed, quarantined, implausible } =
+        progress.counts;
     json!({
         "at_s": begun.elapsed().as_secs_f64(),
         "accepted": accepted,
-        "not_accepted": duplicate + too_old + vanished + malformed + quarantined,
+        "not_accepted": duplicate + too_old + vanished + malformed + quarantined + implausible,
         "in_place": shared,
         "cpu_s": usage::cpu_s(),
         "resident_mb": machine::resident_bytes() as f64 / 1e6,

@@ -77,9 +77,7 @@ pub(super) fn bundle() -> PolicyBundle {
         observation_inverse_std: vec![1.0; shape.observation],
         observation_clip: 10.0,
         config_hash: CONFIG_HASH,
-        config_toml: String::new(),
         model_xml: treadmill_humanoid::HUMANOID_XML.to_string(),
-        actor_state: None,
-        fragment_steps: 0,
+        ..PolicyBundle::default()
     }
 }

@@ -2,7 +2,10 @@
 
 use std::{
     path::Path,
-    sync::atomic::{AtomicU64, Ordering},
+    sync::{
+        Arc, Mutex,
+        atomic::{AtomicU64, Ordering},
+    },
     time::{Duration, Instant},
 };
 
@@ -120,6 +123,15 @@ impl Attacker {
         let key = format!("treadmill/{}/rollouts/{actor}", self.run);
         let answer = self.ask(&key, payload, TIMEOUT).into_iter().next()?;
         Some(Receipt::decode(&answer).expect("a receipt"))
+    }
+
+    /// Answers queries for `key` with the present bytes of `reply`.
+    pub fn serve(&self, key: &str, reply: Arc<Mutex<Vec<u8>>>) {
+        let answer = move |query: zenoh::query::Query| {
+            let bytes = reply.lock().unwrap().clone();
+            let _ = query.reply(query.key_expr().clone(), bytes).wait();
+        };
+        self.session.declare_queryable(key.to_string()).callback(answer).background().wait().unwrap();
     }
 
     /// Publishes a payload.

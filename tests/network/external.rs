@@ -6,6 +6,7 @@ use crate::{bus::sample::log_probs, support::*};
 use bytes::Bytes;
 use treadmill_bus::{Bus, Role, register_task, submit};
 use treadmill_config::ConfigSource;
+use treadmill_learner::checkpoint::load_file;
 use treadmill_proto::{
     EndCause, Episode, Fragment, Outcome, PolicyBundle, Receipt, Task, TaskReceipt, TaskRegistration,
     fragment::TERMINATED,
@@ -203,6 +204,29 @@ async fn with_certificates_actors_can_register_tasks_and_observers_cannot() {
         "the registration of the observer did not arrive"
     );
     training.wait_for("`test/Count-v0`");
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn a_few_absurd_returns_do_not_decide_which_policy_is_the_best() {
+    let (folder, run) = folders();
+    let _training = learner(folder.path(), &run, &["--task", "external"]);
+    let bus = join(&run);
+    assert!(register(&bus, "count-1", &task()).await.accepted);
+    let checkpoint = |name: &str| load_file(&run.join("checkpoints").join(name)).unwrap();
+    // The last 100 of 512 episodes count: first 20 of them return ten thousand, then all of them 2, then all of them 1.
+    for (sequence, returned, absurd) in [(1, 1.0, 20), (2, 2.0, 0), (3, 1.0, 0)] {
+        let mut fragment = fragment(&policy(&bus).await, sequence);
+        fragment.rewards.fill(returned);
+        let rows = fragment.rewards.len();
+        fragment.rewards[rows - absurd..].fill(1e4);
+        for (episode, reward) in fragment.episodes.iter_mut().zip(&fragment.rewards) {
+            episode.return_sum = f64::from(*reward);
+        }
+        assert_eq!(send(&bus, &fragment).await.outcome, Outcome::Accepted);
+        let best = if sequence == 1 { 1.0 } else { 2.0 };
+        assert_eq!(checkpoint("latest.bundle").best_return, Some(best), "after {sequence} updates");
+        assert_eq!(checkpoint("best.bundle").counters.updates, sequence.min(2));
+    }
 }
 
 #[test]

@@ -4,6 +4,13 @@
 //! and some tests here open a router.
 
 mod accounts;
+#[path = "../hostile/attacks.rs"]
+#[allow(
+    dead_code,
+    clippy::duplicate_mod,
+    reason = "the tests of hostile clients use the rest, with its sample fragment"
+)]
+mod attacks;
 mod bus;
 mod control;
 mod copies;
@@ -14,3 +21,4 @@ mod prometheus;
 mod security;
 #[path = "../support/mod.rs"]
 mod support;
+mod versions;

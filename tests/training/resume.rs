@@ -3,7 +3,8 @@
 use std::{fs, path::Path};
 
 use crate::support::*;
-use treadmill_learner::checkpoint::{TrainingState, load_file};
+use treadmill_humanoid::PHYSICS_VERSION;
+use treadmill_learner::checkpoint::{TrainingState, encoding, load_file};
 
 /// Transitions of one update.
 const BATCH: u64 = 512;
@@ -127,6 +128,7 @@ fn neither_ctrl_c_nor_a_kill_changes_a_bit() {
     }
     let (found, errors) = resume(folder.path(), &run, updates + 2, &[]);
     assert!(!errors.contains("begins new episodes"), "{errors}");
+    assert_eq!(temporary_files(&run), [""; 0], "the kills left files behind");
     let whole = folder.path().join("whole");
     let wanted = begin(folder.path(), &whole, updates + 2, &["--set", "ppo.epochs=10"]);
     assert_same(&found, &wanted);
@@ -160,6 +162,54 @@ fn a_damaged_latest_checkpoint_is_reported_and_the_newest_sound_one_used() {
         }
         assert_same(&found, &wanted);
     }
+}
+
+/// Returns the names of the temporary files in a run folder.
+fn temporary_files(run: &Path) -> Vec<String> {
+    let folders = [run.to_path_buf(), run.join("checkpoints")];
+    let entries = folders.iter().flat_map(|folder| fs::read_dir(folder).unwrap().flatten());
+    entries
+        .map(|entry| entry.file_name().to_string_lossy().into_owned())
+        .filter(|name| name.ends_with(".tmp"))
+        .collect()
+}
+
+#[test]
+fn a_resumed_run_removes_the_temporary_files_of_killed_processes() {
+    let (folder, run) = folders();
+    begin(folder.path(), &run, 1, &[]);
+    // Linux numbers processes up to 2^22.
+    let ended = 1 << 30;
+    for name in ["checkpoints/.latest.bundle", "checkpoints/.00000002.bundle", ".config.toml"] {
+        fs::write(run.join(format!("{name}.{ended}.tmp")), "half").unwrap();
+    }
+    fs::write(run.join("notes.tmp"), "not ours").unwrap();
+    resume(folder.path(), &run, 2, &[]);
+    assert_eq!(temporary_files(&run), ["notes.tmp"]);
+}
+
+#[test]
+fn a_run_of_format_3_resumes_and_one_of_a_newer_physics_is_refused() {
+    let (folder, run) = folders();
+    let latest_path = run.join("checkpoints/latest.bundle");
+    fs::create_dir_all(run.join("checkpoints")).unwrap();
+    fs::write(&latest_path, include_bytes!("../../learner/tests/golden/format-3.bundle")).unwrap();
+    // It has ten updates of 64 steps each.
+    let more = ["train", "--resume", run.to_str().unwrap(), "--steps", "768"];
+    let output = self::run(folder.path(), &more);
+    assert!(output.status.success(), "{}", stderr(&output));
+    assert_eq!(stderr(&output).contains("newer physics"), PHYSICS_VERSION > 1, "{}", stderr(&output));
+    assert_eq!(u32::from(fs::read(&latest_path).unwrap()[8]), encoding::FORMAT);
+    let mut state = latest(&run);
+    assert_eq!((state.counters.updates, state.counters.env_steps, state.counters.resumes), (12, 768, 1));
+    assert_eq!(state.physics_version, PHYSICS_VERSION);
+    assert!(state.actor_state.is_some());
+
+    state.physics_version = PHYSICS_VERSION + 1;
+    fs::write(&latest_path, encoding::encode(&state).unwrap()).unwrap();
+    let (ours, theirs) =
+        (format!("simulates physics {PHYSICS_VERSION}"), format!("has physics {}", PHYSICS_VERSION + 1));
+    assert_refused(&self::run(folder.path(), &more), 1, &[&ours, &theirs, "versions.json"]);
 }
 
 #[test]

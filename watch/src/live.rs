@@ -5,7 +5,6 @@ use std::time::{Duration, Instant};
 use anyhow::Context;
 use treadmill_actor::settings;
 use treadmill_bus::{Bus, Feed, Role, fetch_policy, keys, observe};
-use treadmill_config::ConfigSource;
 use treadmill_humanoid::Model;
 use treadmill_proto::{PolicyBundle, Pose, ident::check_ident};
 use treadmill_rl::{
@@ -81,9 +80,7 @@ async fn fetch_bundle(bus: &Bus, run: Option<&str>) -> anyhow::Result<PolicyBund
 
 /// Refuses a run of a task that this program does not simulate.
 fn check_task(bundle: &PolicyBundle) -> anyhow::Result<()> {
-    let mut source = ConfigSource::default();
-    source.text(&bundle.config_toml, "the configuration of the run")?;
-    settings::check_supported(&bundle.run, &source.build()?).context("the run cannot be watched")
+    settings::check_supported(&bundle.run, &settings::read_config(bundle)?).context("the run cannot be watched")
 }
 
 /// Poses of one actor at a time.

@@ -9,6 +9,10 @@ use crate::error::ModelError;
 /// Duration of one control step (s): one action, one observation, one reward.
 pub const CONTROL_STEP_S: f64 = 0.015;
 
+/// Version of the simulation. Raised whenever the same state, action and settings give another next state, observation, reward
+/// or end of an episode, so that one run never mixes two of them. `tests/environment/physics_version.rs` holds it to that.
+pub const PHYSICS_VERSION: u32 = 1;
+
 /// How far outside its range a hinge may be set (rad). In the nominal pose of Humanoid-v5 the knees are 2° beyond the end
 /// of their range, and limits are soft.
 pub const HINGE_TOLERANCE_RAD: f64 = 0.1;

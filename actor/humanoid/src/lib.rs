@@ -31,7 +31,9 @@ pub mod task;
 mod dynamics;
 mod randomisation;
 
-pub use config::{CONTROL_STEP_S, EnvironmentConfig, ObservationKind, PhysicsSettings, Randomisation, RewardTask};
+pub use config::{
+    CONTROL_STEP_S, EnvironmentConfig, ObservationKind, PHYSICS_VERSION, PhysicsSettings, Randomisation, RewardTask,
+};
 pub use environment::{Environment, EnvironmentSnapshot, EpisodeState};
 pub use error::{InputError, ModelError, SnapshotError, StateError};
 pub use info::{InfoValue, StepInfo};

@@ -49,10 +49,7 @@ fn policy(observation: usize) -> ActingPolicy {
         observation_inverse_std: vec![1.0; observation],
         observation_clip: 10.0,
         config_hash: 5,
-        config_toml: String::new(),
-        model_xml: String::new(),
-        actor_state: None,
-        fragment_steps: 0,
+        ..PolicyBundle::default()
     })
     .unwrap()
 }

@@ -10,6 +10,8 @@ mod section;
 mod sections;
 mod source;
 mod task;
+mod unknown_key;
+mod wire;
 
 use serde::{Deserialize, Serialize};
 
@@ -22,6 +24,7 @@ pub use sections::{
     RunConfig, TaskConfig,
 };
 pub use source::ConfigSource;
+pub use wire::is_key_of_actors;
 
 /// Whole configuration, checked.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]

@@ -4,7 +4,10 @@ use std::path::Path;
 
 use toml::{Table, Value};
 
-use super::{Config, ConfigError, KeyDoc, choices, parse_value, preset, refuse, retired};
+use super::{
+    Config, ConfigError, KeyDoc, choices, is_retired, parse_value, preset, refuse, retired,
+    unknown_key::{is_replaced, section_of, unknown},
+};
 
 /// Collects configuration; later sources override earlier ones.
 #[derive(Clone, Debug, Default)]
@@ -28,10 +31,7 @@ impl ConfigSource {
 
     /// Adds TOML text; `origin` names it in errors.
     pub fn text(&mut self, text: &str, origin: &str) -> Result<(), ConfigError> {
-        let table: Table = text.parse().map_err(|error: toml::de::Error| ConfigError::Syntax {
-            origin: origin.to_string(),
-            why: error.to_string(),
-        })?;
+        let table = parse(text, origin)?;
         let keys = Config::keys();
         for (section, value) in table {
             let Value::Table(entries) = value else {
@@ -45,6 +45,45 @@ impl ConfigSource {
             }
         }
         Ok(())
+    }
+
+    /// Adds those keys of a run's configuration for which `is_needed` returns true. Another version of this program may
+    /// have written it: keys and sections that do not exist here are ignored. Returns the names of these keys.
+    ///
+    /// # Errors
+    /// If the text is not TOML, or the value of a needed key is not allowed here.
+    pub fn text_of_run(
+        &mut self,
+        text: &str,
+        origin: &str,
+        is_needed: impl Fn(&str) -> bool,
+    ) -> Result<Vec<String>, ConfigError> {
+        let keys = Config::keys();
+        let mut unknown = Vec::new();
+        for (section, value) in parse(text, origin)? {
+            let entries = match value {
+                Value::Table(entries) => entries,
+                value if keys.iter().any(|known| section_of(known) == section) => {
+                    let (value, allowed) = (value.to_string(), "a table".to_string());
+                    return Err(ConfigError::Type { key: section, value, allowed });
+                }
+                _ => {
+                    unknown.push(section);
+                    continue;
+                }
+            };
+            for (name, value) in entries {
+                let key = format!("{section}.{name}");
+                // Keys of earlier versions are known too, and are refused where they would have an effect.
+                let is_known = is_retired(&key) || is_replaced(&key) || keys.iter().any(|known| known.key == key);
+                match is_known {
+                    false => unknown.push(key),
+                    true if is_needed(&key) => self.put(&key, value, &keys)?,
+                    true => {}
+                }
+            }
+        }
+        Ok(unknown)
     }
 
     /// Adds one `key=value`; a value that is not TOML is a string.
@@ -84,6 +123,11 @@ impl ConfigSource {
             .insert(name.to_string(), value);
         Ok(())
     }
+}
+
+fn parse(text: &str, origin: &str) -> Result<Table, ConfigError> {
+    text.parse()
+        .map_err(|error: toml::de::Error| ConfigError::Syntax { origin: origin.to_string(), why: error.to_string() })
 }
 
 /// Converts a value to the key's type if that loses nothing, such as `1` to `1.0` and `8e6` to `8000000`.
@@ -127,61 +171,6 @@ fn convert_items(items: &[Value], kind: &'static str, known: &KeyDoc) -> Result<
     items.iter().map(|item| convert(item.clone(), &known)).collect::<Result<_, _>>().map(Value::Array)
 }
 
-fn section_of(known: &KeyDoc) -> &str {
-    known.key.split('.').next().unwrap_or_default()
-}
-
-/// Keys of earlier versions, with their successors.
-const REPLACED: &[(&str, &str)] = &[
-    ("env.contact_cost_max", "`env.contact_cost_range`, as in contact_cost_range = [-inf, 10.0]"),
-    ("env.healthy_z_min_m", "`env.healthy_z_range`, as in healthy_z_range = [1.0, 2.0]"),
-    ("env.healthy_z_max_m", "`env.healthy_z_range`, as in healthy_z_range = [1.0, 2.0]"),
-];
-
-fn unknown(key: &str, keys: &[KeyDoc]) -> ConfigError {
-    if let Some((_, successor)) = REPLACED.iter().find(|(old, _)| *old == key) {
-        return ConfigError::UnknownKey { key: key.to_string(), hint: format!("it is now part of {successor}") };
-    }
-    let wanted = key.rsplit('.').next().unwrap_or(key);
-    let nearest = keys
-        .iter()
-        .map(|known| {
-            (distance(key, &known.key).min(distance(wanted, known.key.rsplit('.').next().unwrap_or(""))), known)
-        })
-        .min_by_key(|(distance, _)| *distance);
-    let hint = match nearest {
-        // Up to a third of the letters wrong counts as a misspelling.
-        Some((distance, known)) if distance <= wanted.len() / 3 => format!("did you mean `{}`?", known.key),
-        _ => {
-            let section = key.split('.').next().unwrap_or(key);
-            let mut allowed: Vec<&str> =
-                keys.iter().filter(|known| section_of(known) == section).map(|known| known.key.as_str()).collect();
-            if allowed.is_empty() {
-                allowed = keys.iter().map(section_of).collect();
-                allowed.dedup();
-            }
-            format!("allowed: {}", allowed.join(", "))
-        }
-    };
-    ConfigError::UnknownKey { key: key.to_string(), hint }
-}
-
-/// Returns the Levenshtein distance of two short names.
-fn distance(left: &str, right: &str) -> usize {
-    let right: Vec<char> = right.chars().collect();
-    let mut row: Vec<usize> = (0..=right.len()).collect();
-    for (i, a) in left.chars().enumerate() {
-        let mut diagonal = row[0];
-        row[0] = i + 1;
-        for (j, b) in right.iter().enumerate() {
-            let substitution = diagonal + usize::from(a != *b);
-            diagonal = row[j + 1];
-            row[j + 1] = substitution.min(row[j] + 1).min(diagonal + 1);
-        }
-    }
-    row[right.len()]
-}
-
 #[cfg(test)]
 pub(crate) mod tests {
     use super::*;
@@ -221,6 +210,33 @@ pub(crate) mod tests {
     }
 
     #[test]
+    fn keys_of_another_version_are_ignored_and_known_ones_are_checked() {
+        let read = |text: &str| {
+            let mut source = ConfigSource::default();
+            let unknown = source.text_of_run(text, "the run", |key| !key.starts_with("ppo."))?;
+            Ok::<_, ConfigError>((source.build()?, unknown))
+        };
+        let newer = "later = 1\n[env]\nsubsteps = 4\nterrain = \"rough\"\n[env.deep]\nx = 1\n[weather]\nwind_mps = 3.0\n\
+                     [ppo]\nminibatch = -7\nalgorithm = \"ppo2\"\n[rollout]\nstale_versions = [0, 0]\n";
+        let (config, unknown) = read(newer).unwrap();
+        assert_eq!(unknown, ["env.deep", "env.terrain", "later", "ppo.algorithm", "weather.wind_mps"]);
+        let mut wanted = Config::default();
+        wanted.env.substeps = 4;
+        assert_eq!(config, wanted, "`ppo.minibatch` is not needed, and `rollout.stale_versions` has its old default");
+        let message = |text: &str| read(text).unwrap_err().to_string();
+        assert!(message("[env]\ntask = \"humanoid-v6\"").contains("`env.task` is \"humanoid-v6\""));
+        assert!(message("[env]\nsubsteps = \"many\"").contains("`env.substeps` is \"many\""));
+        assert!(message("[rollout]\nenvs = 0").contains("`rollout.envs` is 0"));
+        assert!(message("[rollout]\nnoise_correlation = 0.5").contains("no longer exists"));
+        assert!(message("[env]\nhealthy_z_min_m = 0.8").contains("`env.healthy_z_range`"));
+        assert!(message("[env").contains("the run is not valid TOML"));
+        assert!(message("env = 3").contains("`env` is 3"));
+        // The program's own reading of files refuses the same keys.
+        let mut own = ConfigSource::default();
+        assert!(own.text("[weather]\nwind_mps = 3.0", "a file").unwrap_err().to_string().contains("weather.wind_mps"));
+    }
+
+    #[test]
     fn errors_name_key_value_and_allowed_values() {
         let message = |pair: &str| set(pair).unwrap_err().to_string();
         assert_eq!(message("rollout.envs=0"), "config key `rollout.envs` is 0; allowed: 1 to 65536");
@@ -235,16 +251,6 @@ pub(crate) mod tests {
         assert!(message("rollout.max_in_flight=2").contains("where learner.mode is \"sync\""));
         assert!(message("ppo.gamma=nan").contains("allowed: 0 to 1"));
         assert!(message("seed").contains("key=value"));
-    }
-
-    #[test]
-    fn replaced_keys_name_their_successor() {
-        for (old, _) in REPLACED {
-            let message = set(&format!("{old}=1.5")).unwrap_err().to_string();
-            assert!(message.contains(old) && message.contains("_range = ["), "{message}");
-        }
-        assert!(set("env.healthy_z_min_m=1").unwrap_err().to_string().contains("`env.healthy_z_range`"));
-        assert!(set("env.contact_cost_max=1").unwrap_err().to_string().contains("`env.contact_cost_range`"));
     }
 
     #[test]
@@ -324,12 +330,6 @@ pub(crate) mod tests {
         #[test]
         fn no_pair_panics(pair in ".{0,40}") {
             let _ = set(&pair);
-        }
-
-        #[test]
-        fn distance_is_a_metric(a in "[a-d]{0,6}", b in "[a-d]{0,6}") {
-            prop_assert_eq!(distance(&a, &b), distance(&b, &a));
-            prop_assert_eq!(distance(&a, &b) == 0, a == b);
         }
     }
 }

@@ -6,6 +6,9 @@ use std::{
     path::Path,
 };
 
+/// End of a temporary file's name.
+const SUFFIX: &str = ".tmp";
+
 /// Writes `bytes` to `path`. A crash at any moment leaves either the old file or the new one.
 ///
 /// # Errors
@@ -13,7 +16,7 @@ use std::{
 pub fn write(path: &Path, bytes: &[u8]) -> io::Result<()> {
     let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
     let name = path.file_name().ok_or_else(|| io::Error::new(io::ErrorKind::InvalidInput, "the path names no file"))?;
-    let temporary = folder.join(format!(".{}.{}.tmp", name.to_string_lossy(), std::process::id()));
+    let temporary = folder.join(format!(".{}.{}{SUFFIX}", name.to_string_lossy(), std::process::id()));
     let written = (|| {
         let mut file = File::create(&temporary)?;
         file.write_all(bytes)?;
@@ -27,6 +30,42 @@ pub fn write(path: &Path, bytes: &[u8]) -> io::Result<()> {
         let _ = fs::remove_file(&temporary);
     }
     written
+}
+
+/// Returns whether a file has the name of a temporary file of [`write`].
+pub fn is_temporary(name: &str) -> bool {
+    writer(name).is_some()
+}
+
+/// Removes the temporary files that killed processes left in `folder`. Returns how many there were.
+///
+/// # Errors
+/// The system's error; a file that another process removes meanwhile is none.
+pub fn remove_stale(folder: &Path) -> io::Result<usize> {
+    let mut removed = 0;
+    for entry in fs::read_dir(folder)? {
+        let entry = entry?;
+        let name = entry.file_name();
+        let Some(writer) = writer(&name.to_string_lossy()) else { continue };
+        // Another command may write into this folder now. In a container, each process may have the number of the last one.
+        let is_running = writer != std::process::id() && Path::new("/proc").join(writer.to_string()).exists();
+        if is_running || !entry.file_type()?.is_file() {
+            continue;
+        }
+        match fs::remove_file(entry.path()) {
+            Ok(()) => removed += 1,
+            Err(error) if error.kind() == io::ErrorKind::NotFound => {}
+            Err(error) => return Err(error),
+        }
+    }
+    Ok(removed)
+}
+
+/// Returns the number of the process that wrote a temporary file of this name, `.NAME.PROCESS.tmp`.
+fn writer(name: &str) -> Option<u32> {
+    let (file, process) = name.strip_prefix('.')?.strip_suffix(SUFFIX)?.rsplit_once('.')?;
+    let is_number = process.bytes().all(|byte| byte.is_ascii_digit());
+    (!file.is_empty() && is_number).then(|| process.parse().ok()).flatten()
 }
 
 #[cfg(test)]
@@ -51,5 +90,39 @@ mod tests {
         fs::create_dir(&path).unwrap();
         assert!(write(&path, b"one").is_err());
         assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1);
+    }
+
+    #[test]
+    fn only_temporary_files_of_ended_processes_are_removed() {
+        let folder = tempfile::tempdir().unwrap();
+        // Linux numbers processes up to 2^22.
+        let ended = 1 << 30;
+        let own = std::process::id();
+        let stale = [format!(".latest.bundle.{ended}.tmp"), format!(".a.{own}.tmp"), format!(".x.y.{ended}.tmp")];
+        let others = [
+            // The first process always runs.
+            ".latest.bundle.1.tmp".to_string(),
+            format!("latest.bundle.{ended}.tmp"),
+            format!(".{ended}.tmp"),
+            format!("..{ended}.tmp"),
+            ".latest.bundle.12a.tmp".to_string(),
+            ".latest.bundle.+5.tmp".to_string(),
+            ".latest.bundle..tmp".to_string(),
+            ".latest.bundle.99999999999.tmp".to_string(),
+            "latest.bundle".to_string(),
+        ];
+        for name in stale.iter().chain(&others) {
+            fs::write(folder.path().join(name), "x").unwrap();
+        }
+        fs::create_dir(folder.path().join(format!(".folder.{ended}.tmp"))).unwrap();
+        assert_eq!(remove_stale(folder.path()).unwrap(), stale.len());
+        for name in stale {
+            assert!(is_temporary(&name) && !folder.path().join(&name).exists(), "{name}");
+        }
+        for name in others {
+            assert!(folder.path().join(&name).exists(), "{name}");
+        }
+        assert_eq!(remove_stale(folder.path()).unwrap(), 0);
+        assert!(remove_stale(&folder.path().join("missing")).is_err());
     }
 }

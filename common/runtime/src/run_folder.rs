@@ -21,6 +21,8 @@ use std::{
 
 use treadmill_proto::ident::check_ident;
 
+use crate::atomic_file;
+
 /// Folder of a run.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RunFolder {
@@ -60,8 +62,9 @@ impl RunFolder {
     pub fn create(run_dir: Option<&Path>, prefix: &str) -> Result<Self, RunFolderError> {
         if let Some(root) = run_dir {
             let folder = Self::at(root);
-            let checkpoints = fs::read_dir(folder.checkpoints()).into_iter().flatten().count();
-            if checkpoints > 0 || folder.metrics().exists() {
+            let entries = fs::read_dir(folder.checkpoints()).into_iter().flatten().flatten();
+            let is_checkpoint = |entry: &fs::DirEntry| !atomic_file::is_temporary(&entry.file_name().to_string_lossy());
+            if entries.into_iter().any(|entry| is_checkpoint(&entry)) || folder.metrics().exists() {
                 return Err(RunFolderError::Taken { path: root.display().to_string() });
             }
             return folder.prepare();
@@ -103,6 +106,12 @@ impl RunFolder {
     fn prepare(self) -> Result<Self, RunFolderError> {
         fs::create_dir_all(self.checkpoints()).map_err(|source| self.io(source))?;
         Ok(self)
+    }
+
+    /// Removes the temporary files that killed processes left in this folder. Returns how many there were.
+    pub fn remove_stale_files(&self) -> Result<usize, RunFolderError> {
+        let remove = |folder: &Path| atomic_file::remove_stale(folder).map_err(|source| self.io(source));
+        Ok(remove(&self.root)? + remove(&self.checkpoints())?)
     }
 
     fn io(&self, source: io::Error) -> RunFolderError {
@@ -177,8 +186,11 @@ mod tests {
         let run = RunFolder::create(Some(&root), "walk").unwrap();
         assert_eq!(run.name(), "my-run-1");
         assert_eq!(RunFolder::open(root.to_str().unwrap()).unwrap(), run);
-        // A run that was killed before its first checkpoint does not count.
+        // A run that was killed before or while it wrote its first checkpoint does not count.
+        fs::write(run.checkpoints().join(format!(".latest.bundle.{}.tmp", 1 << 30)), "half").unwrap();
         assert_eq!(RunFolder::create(Some(&root), "walk").unwrap(), run);
+        fs::write(root.join(format!(".config.toml.{}.tmp", 1 << 30)), "half").unwrap();
+        assert_eq!(run.remove_stale_files().unwrap(), 2);
         fs::write(run.checkpoints().join("latest.bundle"), "state").unwrap();
         let again = RunFolder::create(Some(&root), "walk").unwrap_err().to_string();
         assert!(again.contains("--resume"), "{again}");

@@ -13,7 +13,7 @@ use crate::{
     loss::{Minibatch, ppo_loss},
     measures::PolicyShift,
     optimiser::{BETA_1, BETA_2, EPSILON, bias_corrections},
-    update::{PassSums, State, UpdateError, check_finite},
+    update::{PassSums, UpdateError, UpdaterState, check_finite},
 };
 
 /// Sums of one pass: the loss and its four parts, the gradient's norm, and the number of clipped ratios.
@@ -39,7 +39,7 @@ impl DevicePass {
         shape: &NetworkShape,
         config: &PpoConfig,
         device: &Device,
-        state: &State,
+        state: &UpdaterState,
     ) -> Result<Self> {
         let matrix = |plane: &[f32], width| Tensor::from_slice(plane, (batch.len(), width), device);
         let vector = |numbers: &[f32]| Tensor::from_slice(numbers, numbers.len(), device);
@@ -67,7 +67,7 @@ impl DevicePass {
         order: &[u32],
         actor: &Networks,
         shift: &PolicyShift,
-        state: &mut State,
+        state: &mut UpdaterState,
     ) -> std::result::Result<PassSums, UpdateError> {
         let order = Tensor::from_slice(order, order.len(), &self.device)?;
         let gathered = |plane: &Tensor| plane.index_select(&order, 0);
@@ -149,7 +149,7 @@ impl DevicePass {
         sums: &Tensor,
         means: &Tensor,
         shift: &PolicyShift,
-        state: &mut State,
+        state: &mut UpdaterState,
     ) -> std::result::Result<PassSums, UpdateError> {
         let joined = Tensor::cat(&[&self.parameters, &self.first_moment, &self.second_moment, sums, means], D::Minus1)?;
         let numbers = joined.to_vec1::<f32>()?;

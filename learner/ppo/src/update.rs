@@ -26,12 +26,12 @@ pub struct Updater {
     actor: Networks,
     device: Device,
     pool: Arc<ThreadPool>,
-    state: State,
+    state: UpdaterState,
 }
 
 /// State that an update changes, restored when the update fails.
 #[derive(Clone, Debug)]
-pub(crate) struct State {
+pub(crate) struct UpdaterState {
     pub(crate) parameters: Vec<f32>,
     pub(crate) optimiser: OptimiserState,
     pub(crate) learning_rate: f64,
@@ -156,7 +156,7 @@ impl Updater {
         let optimiser = OptimiserState::new(parameters.len());
         let networks = Networks::on(device, &shape, NetworkPart::ActorCritic, Some(pool.clone()));
         let actor = Networks::on(device, &shape, NetworkPart::Actor, Some(pool.clone()));
-        let state = State { parameters, optimiser, learning_rate: config.learning_rate };
+        let state = UpdaterState { parameters, optimiser, learning_rate: config.learning_rate };
         Ok(Self { shape, config: config.clone(), networks, actor, device: device.clone(), pool, state })
     }
 
@@ -328,7 +328,7 @@ impl Updater {
         let norm = global_norm(&gradient);
         check_finite(norm.is_finite(), "gradient")?;
 
-        let State { parameters, optimiser, learning_rate } = &mut self.state;
+        let UpdaterState { parameters, optimiser, learning_rate } = &mut self.state;
         optimiser.apply(parameters, &gradient, clip_factor(norm, self.config.max_grad_norm), *learning_rate);
         clamp_log_std(&mut parameters[log_std_range]);
 

@@ -1,11 +1,13 @@
 //! Checkpoints: the whole state of a run in one file, written before its version is announced.
 //!
 //! In the folder `checkpoints`, `latest.bundle` is written after each update. `best.bundle` has the best evaluation so
-//! far, or before the first evaluation the best mean return in training. `NNNNNNNN.bundle`, named by the number of
-//! updates, is written every `learner.checkpoint_every_updates`; the last `learner.keep_checkpoints` are kept.
+//! far, or before the first evaluation the best return in training: the mean of the middle half of the last 100 episodes,
+//! which a few absurd returns do not change. `NNNNNNNN.bundle`, named by the number of updates, is written every
+//! `learner.checkpoint_every_updates`; the last `learner.keep_checkpoints` are kept.
 
 pub mod encoding;
 mod fallback;
+mod format_3;
 mod state;
 
 use std::{
@@ -15,6 +17,7 @@ use std::{
 
 use treadmill_runtime::{atomic_file, run_folder::RunFolder};
 
+use self::encoding::{FORMAT, FORMAT_BEFORE};
 pub use state::{Counters, TrainingState};
 
 /// Selects a checkpoint of a run.
@@ -65,16 +68,14 @@ pub enum CheckpointError {
     },
     /// Another version of this program wrote it.
     #[error(
-        "checkpoint `{path}` has format {found}; this program reads format {known}: continue with the version that wrote \
-         it, named in versions.json in the run's folder"
+        "checkpoint `{path}` has format {found}; this program reads formats {FORMAT_BEFORE} and {FORMAT}: continue with the \
+         version that wrote it, named in versions.json in the run's folder"
     )]
     Format {
         /// Its path.
         path: String,
         /// Format of the file.
         found: u32,
-        /// Format of this program.
-        known: u32,
     },
     /// Its parts are inconsistent.
     #[error("checkpoint `{path}` does not fit its network: {why}")]
@@ -147,10 +148,18 @@ pub fn load_file(path: &Path) -> Result<TrainingState, CheckpointError> {
         }
         Err(source) => return Err(CheckpointError::Read { path: name, source }),
     };
-    let state: TrainingState = encoding::decode(&name, &bytes)?;
+    let state = decode(&name, &bytes)?;
     state.config().map_err(|why| CheckpointError::Configuration { path: name.clone(), why })?;
     state.check().map_err(|why| CheckpointError::Shape { path: name, why })?;
     Ok(state)
+}
+
+/// Decodes the bytes of a checkpoint file, without checking the state.
+///
+/// # Errors
+/// If the file is damaged or has another format.
+pub fn decode(path: &str, bytes: &[u8]) -> Result<TrainingState, CheckpointError> {
+    encoding::decode::<TrainingState, format_3::State>(path, bytes)
 }
 
 fn known(folder: &Path) -> String {

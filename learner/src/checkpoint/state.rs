@@ -7,7 +7,7 @@ use treadmill_policy::{
     normaliser::{Normaliser, RunningMoments},
 };
 use treadmill_ppo::optimiser::OptimiserState;
-use treadmill_proto::{ActorState, PolicyBundle, Task, limits::BUNDLE_BYTES_MAX};
+use treadmill_proto::{ActorState, PolicyBundle, Task, WIRE_VERSION, limits::BUNDLE_BYTES_MAX};
 use treadmill_runtime::{
     error_chain,
     seeds::{self, Stream},
@@ -57,6 +57,8 @@ pub struct TrainingState {
     pub best_is_evaluated: bool,
     /// State of a deterministic run's only actor after the last fragment that was learnt from.
     pub actor_state: Option<ActorState>,
+    /// Version of the physics that simulated the last episodes; 0 means 1, and has no meaning for external tasks.
+    pub physics_version: u32,
 }
 
 /// Counters over the whole run, across resumes.
@@ -76,6 +78,18 @@ pub struct Counters {
     pub restarts: u64,
     /// Resumes of this run.
     pub resumes: u64,
+    /// Environment steps that the actors themselves counted.
+    pub env_steps_simulated: u64,
+    /// Environment steps in batches whose update was undone.
+    pub env_steps_undone: u64,
+}
+
+impl Counters {
+    /// Returns the share of the steps counted by the actors that the run has learnt from; `None` before the first one.
+    pub fn used_share(&self) -> Option<f64> {
+        let learnt = self.env_steps.saturating_sub(self.env_steps_undone) as f64;
+        (self.env_steps_simulated > 0).then(|| (learnt / self.env_steps_simulated as f64).min(1.0))
+    }
 }
 
 impl TrainingState {
@@ -110,6 +124,7 @@ impl TrainingState {
             best_return: None,
             best_is_evaluated: false,
             actor_state: None,
+            physics_version: 0,
             parameters,
             shape,
         }
@@ -186,6 +201,27 @@ impl TrainingState {
         self.actor_state.as_ref().map_or(Ok(()), |state| state.check().map_err(|why| error_chain(&why)))
     }
 
+    /// Continues the run with this program's physics. If the run has another one, its actor begins new episodes.
+    ///
+    /// # Errors
+    /// If the run has a newer physics.
+    pub fn adopt_physics(&mut self, ours: u32) -> Result<(), String> {
+        // Runs of before there were versions have physics 1.
+        let theirs = self.physics_version.max(1);
+        if theirs > ours {
+            return Err(format!(
+                "this program simulates physics {ours}, the run has physics {theirs}: continue with the version that wrote \
+                 it, named in versions.json in the run's folder"
+            ));
+        }
+        if theirs < ours {
+            tracing::warn!(theirs, ours, "the run goes on with a newer physics; its actors begin new episodes");
+            self.actor_state = None;
+        }
+        self.physics_version = ours;
+        Ok(())
+    }
+
     /// Hash that every fragment repeats: of the model and of the configuration that actors depend on. The run's length
     /// and the learner's settings are excluded, so that they can be changed while actors continue.
     pub fn config_hash(&self) -> Result<u64, String> {
@@ -219,6 +255,9 @@ impl TrainingState {
             model_xml: self.model_xml.clone(),
             actor_state: None,
             fragment_steps: 0,
+            wire_version: WIRE_VERSION,
+            wire_version_min: config.wire_version_min(),
+            physics_version: self.physics_version,
         })
     }
 }

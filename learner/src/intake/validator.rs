@@ -29,6 +29,8 @@ pub struct ExpectedFragment {
     pub action_size: u32,
     /// Largest allowed lag in versions.
     pub max_policy_lag: u64,
+    /// Version of the physics; 0 accepts any, as runs of external tasks do.
+    pub physics_version: u32,
 }
 
 /// Number of fragments by outcome, over the whole run.
@@ -46,6 +48,8 @@ pub struct FragmentCounts {
     pub malformed: u64,
     /// Rejected unread, because the sender is in quarantine.
     pub quarantined: u64,
+    /// Rejected because a value is no plausible experience of the run.
+    pub implausible: u64,
 }
 
 /// Validates fragments against the checkpoint's ledger, and reports bad senders to admission control.
@@ -56,8 +60,6 @@ pub struct FragmentValidator {
     malformed_log: RateLimitedLog,
     implausible_log: RateLimitedLog,
     quarantine_log: RateLimitedLog,
-    /// Number of accepted fragments that the learner did not learn from because they are implausible, since this start.
-    pub implausible: u64,
     /// Number of fragments rejected unread because the queue was full, since this start.
     pub turned_away: u64,
     /// Size of the accepted fragments in bytes, since this start.
@@ -79,7 +81,6 @@ impl FragmentValidator {
             malformed_log: RateLimitedLog::default(),
             implausible_log: RateLimitedLog::default(),
             quarantine_log: RateLimitedLog::default(),
-            implausible: 0,
             turned_away: 0,
             accepted_bytes: 0,
             rejections: Rejections::default(),
@@ -119,7 +120,8 @@ impl FragmentValidator {
         })?;
         let (incarnation, sequence) = (fragment.actor_incarnation, fragment.sequence);
         if !self.ledger.knows(actor, incarnation) {
-            tracing::info!(%actor, incarnation, "first fragment of an actor process");
+            let wire_version = fragment.wire_version;
+            tracing::info!(%actor, incarnation, wire_version, "first fragment of an actor process");
         }
         self.ledger.settle(actor, incarnation, fragment.settled_through);
         let durable_through = self.ledger.durable_through(actor, incarnation);
@@ -161,7 +163,7 @@ impl FragmentValidator {
 
     /// Reports an accepted fragment that the learner did not learn from, which may put its sender in quarantine.
     pub fn report_implausible(&mut self, fragment: &Fragment, why: &Implausible, now: Instant) {
-        self.implausible += 1;
+        self.counts.implausible += 1;
         self.rejections.record(&fragment.actor, &why.to_string(), now);
         let (actor, sequence) = (&fragment.actor, fragment.sequence);
         self.implausible_log.emit(|| tracing::warn!(%actor, sequence, error = %why, "fragment not learnt from"));
@@ -243,6 +245,12 @@ impl FragmentValidator {
             if found != wanted {
                 return differ(field, found.to_string(), format!("{wanted}, as the policy bundle says"));
             }
+        }
+        // Senders of before there were versions simulate physics 1.
+        let (found, wanted) = (fragment.physics_version.max(1), expected.physics_version);
+        if wanted != 0 && found != wanted {
+            let wanted = format!("{wanted}, the physics of the run: use the same version of treadmill");
+            return differ("physics_version", found.to_string(), wanted);
         }
         // A version is saved before it is published, so no actor can have a later one.
         if lineage.descent(fragment.version) == Descent::Future {

@@ -3,8 +3,14 @@ use treadmill_proto::PolicyVersion;
 use super::*;
 
 fn validator() -> FragmentValidator {
-    let expected =
-        ExpectedFragment { run: "walk".into(), config_hash: 5, observation_size: 1, action_size: 1, max_policy_lag: 1 };
+    let expected = ExpectedFragment {
+        run: "walk".into(),
+        config_hash: 5,
+        observation_size: 1,
+        action_size: 1,
+        max_policy_lag: 1,
+        physics_version: 0,
+    };
     FragmentValidator::new(expected, Arc::new(Admission::new(3, 64)), Ledger::default(), FragmentCounts::default())
 }
 
@@ -54,7 +60,8 @@ fn each_outcome_and_its_count() {
     assert_eq!(outcome(&mut validator, &vanished, &lineage), Outcome::Vanished);
     let other_run = Fragment { run: "other".into(), ..fragment(5, 5) };
     assert_eq!(outcome(&mut validator, &other_run, &lineage), Outcome::Malformed);
-    let wanted = FragmentCounts { accepted: 2, duplicate: 1, too_old: 1, vanished: 1, malformed: 1, quarantined: 0 };
+    let wanted =
+        FragmentCounts { accepted: 2, duplicate: 1, too_old: 1, vanished: 1, malformed: 1, ..Default::default() };
     assert_eq!(validator.counts, wanted);
 }
 
@@ -67,6 +74,27 @@ fn a_fragment_dropped_by_rule_gets_the_same_outcome_when_it_is_sent_again() {
     }
     validator.ledger.mark_durable();
     assert_eq!(validator.ledger.durable_through("a", 2), 1);
+}
+
+#[test]
+fn another_physics_is_refused_by_name_and_none_counts_as_the_first() {
+    let lineage = lineage(0);
+    let outcome = |expected: u32, found: u32| {
+        let mut validator = validator();
+        validator.expected.physics_version = expected;
+        let fragment = Fragment { physics_version: found, wire_version: 2, ..fragment(1, 0) };
+        let validated = validator.validate("a", fragment.encode().unwrap().into(), &lineage, Instant::now());
+        validated.map(drop).map_err(|receipt| receipt.reason)
+    };
+    for (expected, found) in [(1, 0), (1, 1), (2, 2), (0, 0), (0, 7)] {
+        assert_eq!(outcome(expected, found), Ok(()), "{expected} {found}");
+    }
+    for (expected, found, shown) in [(1, 2, 2), (2, 1, 1), (2, 0, 1), (2, u32::MAX, u32::MAX)] {
+        let wanted = format!(
+            "field `physics_version` is {shown}; expected {expected}, the physics of the run: use the same version of treadmill"
+        );
+        assert_eq!(outcome(expected, found), Err(wanted));
+    }
 }
 
 #[test]
@@ -126,7 +154,7 @@ fn implausible_fragments_are_counted_and_lead_to_quarantine() {
         }
         assert_eq!(validator.quarantined(now).is_empty(), sequence < 4, "{sequence}");
     }
-    assert_eq!((validator.implausible, validator.counts.accepted, validator.counts.malformed), (3, 4, 0));
+    assert_eq!((validator.counts.implausible, validator.counts.accepted, validator.counts.malformed), (3, 4, 0));
     assert_eq!(outcome(&mut validator, &fragment(5, 0), &lineage), Outcome::Quarantined);
     let other = Fragment { actor_incarnation: 3, ..fragment(1, 0) };
     assert_eq!(outcome(&mut validator, &other, &lineage), Outcome::Accepted, "another process of that name");

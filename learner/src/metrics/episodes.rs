@@ -66,6 +66,19 @@ impl EpisodeWindow {
         self.recent.len() == WINDOW
     }
 
+    /// Returns the mean return of the middle half of the window, from the first to the third quartile. Up to a quarter of the
+    /// episodes with absurd returns do not move it out of the range of the others. `None` before the window is full, or if the
+    /// mean is not finite.
+    pub fn middle_return_mean(&self) -> Option<f64> {
+        if !self.is_full() {
+            return None;
+        }
+        let mut returns: Vec<f64> = self.recent.iter().map(|entry| entry.return_sum).collect();
+        returns.sort_by(f64::total_cmp);
+        let middle = &returns[WINDOW / 4..WINDOW - WINDOW / 4];
+        Some(middle.iter().sum::<f64>() / middle.len() as f64).filter(|mean| mean.is_finite())
+    }
+
     /// Returns the means over the window, or `None` before the first episode ends.
     pub fn means(&self) -> Option<EpisodeMeans> {
         if self.recent.is_empty() {
@@ -101,5 +114,36 @@ mod tests {
         let means = window.means().unwrap();
         assert_eq!((means.return_mean, means.fall_fraction), (2.0, 0.5));
         assert_eq!((window.finished, window.faults), (150, 50));
+    }
+
+    #[test]
+    fn absurd_returns_do_not_change_the_middle_mean() {
+        let returns = |returns: Vec<f64>| {
+            let mut window = EpisodeWindow::default();
+            window.extend(&returns.into_iter().map(|sum| episode(sum, EndCause::Fell)).collect::<Vec<_>>());
+            window.middle_return_mean()
+        };
+        assert_eq!(returns(vec![1.0; 99]), None, "the window is not full");
+        // 0 to 99: the middle half is 25 to 74, whose mean is 49.5.
+        let sound: Vec<f64> = (0..100).map(f64::from).collect();
+        assert_eq!(returns(sound.clone()), Some(49.5));
+        // The 25 smallest become absurd: the middle half is then 50 to 99.
+        let absurd = |by: f64| returns(sound.iter().map(|sum| if *sum < 25.0 { by } else { *sum }).collect());
+        assert_eq!(absurd(1e300), Some(74.5));
+        assert_eq!(absurd(-1e300), Some(49.5));
+        // The sum of the middle half overflows.
+        assert_eq!(returns(vec![1e308; 100]), None);
+    }
+
+    #[test]
+    fn the_middle_mean_rises_with_a_share_of_successes() {
+        let successes = |count: usize| {
+            let mut window = EpisodeWindow::default();
+            window.extend(&vec![episode(1.0, EndCause::Fell); count]);
+            window.extend(&vec![episode(0.0, EndCause::Fell); 100 - count]);
+            window.middle_return_mean().unwrap()
+        };
+        // With k successes, k - 25 of the middle 50 episodes succeed.
+        assert_eq!([successes(20), successes(30), successes(60), successes(90)], [0.0, 0.1, 0.7, 1.0]);
     }
 }

@@ -233,6 +233,7 @@ impl UpdateRecord<'_> {
             ("bus/fragments_too_old", counts.too_old as f64),
             ("bus/fragments_vanished", counts.vanished as f64),
             ("bus/fragments_malformed", counts.malformed as f64),
+            ("bus/fragments_implausible", counts.implausible as f64),
             ("bus/fragments_quarantined", counts.quarantined as f64),
             ("bus/fragments_turned_away", self.turned_away as f64),
             ("bus/messages_forbidden", dropped_messages() as f64),

@@ -106,7 +106,7 @@ impl Trainer {
     }
 
     /// Advances the state by the update from `fragments`, also if it was undone.
-    pub(super) fn advance(&mut self, fragments: &[AcceptedFragment]) {
+    pub(super) fn advance(&mut self, fragments: &[AcceptedFragment], is_undone: bool) {
         let (state, updater) = (&mut self.state, &self.learning.updater);
         state.parameters = updater.parameters();
         state.optimiser = updater.optimiser().clone();
@@ -115,9 +115,12 @@ impl Trainer {
         state.counters.updates += 1;
         for AcceptedFragment { fragment, .. } in fragments {
             state.counters.env_steps += fragment.transitions() as u64;
+            state.counters.env_steps_undone += if is_undone { fragment.transitions() as u64 } else { 0 };
             state.episodes.extend(&fragment.episodes);
         }
         state.actor_state = fragments.last().and_then(|accepted| accepted.fragment.actor_state.clone());
+        state.counters.env_steps_simulated =
+            self.reporting.simulated_before + self.serving.intake.fleet.effort().env_steps;
         state.counters.wall_s = self.reporting.wall_s();
         state.counters.restarts = self.reporting.restarts();
     }

@@ -72,7 +72,7 @@ fn run(trainer: &mut Trainer) -> Result<bool, TrainingError> {
         let collect = begun.elapsed();
         let stats = trainer.update(&mut batch.fragments)?;
         let update = begun.elapsed() - collect;
-        trainer.advance(&batch.fragments);
+        trainer.advance(&batch.fragments, stats.is_none());
         let evaluation = trainer.take_evaluation()?;
         let saved = trainer.save()?;
         let checkpoint = begun.elapsed() - collect - update;

@@ -38,6 +38,8 @@ pub(super) struct Reporting {
     pub(super) alarms: Alarms,
     restarts: Arc<AtomicU64>,
     restarts_before: u64,
+    /// Environment steps that actors had counted when this process started.
+    pub(super) simulated_before: u64,
     begun: Instant,
     /// When the last round was logged, and how long the intake had been idle then.
     last_round: (Instant, Duration),
@@ -68,6 +70,7 @@ impl Reporting {
             alarms: Alarms::default(),
             restarts: options.restarts.clone(),
             restarts_before: state.counters.restarts,
+            simulated_before: state.counters.env_steps_simulated,
             begun: Instant::now(),
             last_round: (Instant::now(), Duration::ZERO),
             wall_before_s: state.counters.wall_s,

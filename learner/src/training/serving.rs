@@ -92,13 +92,14 @@ impl Trainer {
         Ok(saved)
     }
 
-    /// Returns the mean return in training, if it is the best so far and no policy was evaluated yet.
+    /// Returns the return in training, if it is the best so far and no policy was evaluated yet. A few absurd returns must not
+    /// make a policy the best for ever.
     fn best_in_training(&self) -> Option<f64> {
         let TrainingState { episodes, best_is_evaluated, best_return, .. } = &self.state;
-        if *best_is_evaluated || !episodes.is_full() {
+        if *best_is_evaluated {
             return None;
         }
-        let return_mean = episodes.means()?.return_mean;
+        let return_mean = episodes.middle_return_mean()?;
         best_return.is_none_or(|best| return_mean > best).then_some(return_mean)
     }
 

@@ -40,6 +40,7 @@ impl Trainer {
             observation_size: bundle.observation_size,
             action_size: bundle.action_size,
             max_policy_lag: config.policy_lag_allowed().into(),
+            physics_version: bundle.physics_version,
         };
         let learning = Learning::new(&state, &config, options)?;
         let checkpoints = CheckpointWriter::new(

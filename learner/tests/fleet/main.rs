@@ -173,6 +173,7 @@ fn intake(case: &Case, world: &Shared, saved: &Saved) -> Intake<MemoryFragmentSo
         observation_size: 1,
         action_size: 1,
         max_policy_lag: if case.mode == LearnerMode::Sync { 0 } else { case.max_policy_lag },
+        physics_version: 0,
     };
     let validator =
         FragmentValidator::new(expected, Arc::new(Admission::new(8, 256)), saved.ledger.clone(), saved.counts);

@@ -15,7 +15,7 @@ use super::print_result;
 use crate::{
     commands::certs,
     launch::exit_code::Usage,
-    load_generator::fleet::measure::{FleetPlan, PlayedRate},
+    load_generator::fleet::measure::{MeasurementPlan, PlayedRate},
 };
 
 /// Least rate of an actor (environment steps per second).
@@ -147,7 +147,7 @@ fn check(args: &FleetArgs) -> Result<(), Usage> {
     Ok(())
 }
 
-fn plan(args: &FleetArgs, folder: &Path, temporary: &Path) -> anyhow::Result<FleetPlan> {
+fn plan(args: &FleetArgs, folder: &Path, temporary: &Path) -> anyhow::Result<MeasurementPlan> {
     let mut network = Vec::new();
     if args.tls {
         let certificates = temporary.join("certs");
@@ -158,7 +158,7 @@ fn plan(args: &FleetArgs, folder: &Path, temporary: &Path) -> anyhow::Result<Fle
     for pair in std::iter::once(&format!("learner.mode={}", args.mode)).chain(&args.set) {
         learner.extend(["--set".to_string(), pair.clone()]);
     }
-    Ok(FleetPlan {
+    Ok(MeasurementPlan {
         actors: args.actors as usize,
         envs: args.envs,
         rate: match args.rate {

@@ -40,7 +40,7 @@ pub(crate) enum PlayedRate {
 }
 
 /// Parameters of a measurement.
-pub(crate) struct FleetPlan {
+pub(crate) struct MeasurementPlan {
     pub(crate) actors: usize,
     pub(crate) envs: u32,
     pub(crate) rate: PlayedRate,
@@ -62,7 +62,7 @@ pub(crate) struct FleetPlan {
     pub(crate) folder: PathBuf,
 }
 
-impl FleetPlan {
+impl MeasurementPlan {
     /// Returns each actor's factor on the common rate.
     fn factors(&self) -> Vec<f64> {
         let equal = self.actors - self.slow.len();
@@ -125,7 +125,7 @@ struct Measurement {
 }
 
 impl Measurement {
-    fn start(plan: &FleetPlan) -> anyhow::Result<Self> {
+    fn start(plan: &MeasurementPlan) -> anyhow::Result<Self> {
         let run = plan.folder.join(RUN);
         let mut args: Vec<String> =
             ["learner", "--run", RUN, "--steps", ENDLESS, "--no-progress", "--listen", plan.listen, "--run-dir"]
@@ -245,7 +245,7 @@ struct PlayedFleet {
 }
 
 impl PlayedFleet {
-    fn start(plan: &FleetPlan, endpoints: &[&str]) -> anyhow::Result<Self> {
+    fn start(plan: &MeasurementPlan, endpoints: &[&str]) -> anyhow::Result<Self> {
         let count = plan.processes.min(plan.actors);
         let sizes: Vec<usize> =
             (0..count).map(|process| plan.actors / count + usize::from(process < plan.actors % count)).collect();

@@ -172,10 +172,7 @@ mod tests {
             observation_inverse_std: vec![2.0; 3],
             observation_clip: 10.0,
             config_hash: 9,
-            config_toml: String::new(),
-            model_xml: String::new(),
-            actor_state: None,
-            fragment_steps: 0,
+            ..PolicyBundle::default()
         }
     }
 

@@ -8,6 +8,7 @@ mod episodes;
 #[path = "../golden/mod.rs"]
 mod golden;
 mod observations;
+mod physics_version;
 mod randomisation;
 mod snapshots;
 mod support;

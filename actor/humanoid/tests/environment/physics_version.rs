@@ -1,0 +1,98 @@
+//! A change of the simulation requires another `PHYSICS_VERSION`.
+
+use treadmill_humanoid::{EnvironmentConfig, ObservationKind, PHYSICS_VERSION, Randomisation, RewardTask};
+
+use crate::support::{environment, randomised, reset};
+
+/// Control steps of a scene: enough for contacts, too few for rounding errors of other processors to grow.
+const STEPS: u32 = 12;
+/// Largest relative difference that counts as rounding.
+const TOLERANCE: f64 = 1e-4;
+
+/// Version, and the results of [`scenes`] under it. A change of the simulation replaces the results and raises the version.
+const GOLDEN: (u32, [[f64; 3]; 4]) = (
+    1,
+    [
+        [418.7487246843997, -970.4261407317313, -971.196404880815],
+        [429.9042401892936, -895.7924955624626, 31071.428100920257],
+        [417.86758319269984, -856.2904523583197, 60812.34088365592],
+        [431.36704218758126, -1049.2193635427361, 79355.3874989873],
+    ],
+);
+
+fn scenes() -> [(EnvironmentConfig, u64); 4] {
+    let v4 = EnvironmentConfig {
+        task: RewardTask::HumanoidV4,
+        observation: ObservationKind::GymnasiumV4,
+        ..EnvironmentConfig::default()
+    };
+    let v5 = EnvironmentConfig { observation: ObservationKind::GymnasiumV5, ..EnvironmentConfig::default() };
+    [(EnvironmentConfig::default(), 1), (v4, 2), (v5, 3), (randomised(), 4)]
+}
+
+/// Returns weighted sums of positions, of velocities, and of observations and rewards over all steps of a scene.
+fn sums(config: &EnvironmentConfig, seed: u64) -> [f64; 3] {
+    // Different weights, so that an exchange of two numbers changes the sum.
+    let sum = |numbers: &mut dyn Iterator<Item = f64>| -> f64 {
+        numbers.enumerate().map(|(index, number)| number * (1.0 + (index * 37 % 19) as f64)).sum()
+    };
+    let mut environment = environment(config);
+    let mut observation = reset(&mut environment, seed);
+    let (mut sums, mut contact_steps) = ([0.0; 3], 0);
+    for step in 0..STEPS {
+        let action: [f32; 17] = std::array::from_fn(|motor| 0.4 * ((step * 29 + motor as u32 * 13) as f32).sin());
+        let result = environment.step(&action, &mut observation);
+        assert!(!result.fault);
+        let physics = environment.physics();
+        contact_steps += u32::from(physics.squared_contact_wrenches() > 0.0);
+        sums[0] += sum(&mut physics.position().iter().copied());
+        sums[1] += sum(&mut physics.velocity().iter().copied());
+        let end = [result.reward, f32::from(u8::from(result.terminated)), f32::from(u8::from(result.truncated))];
+        sums[2] += sum(&mut end.iter().chain(&observation).map(|number| f64::from(*number)));
+    }
+    assert!(contact_steps > 0, "seed {seed}: no contacts");
+    sums
+}
+
+fn is_close(found: &[f64; 3], golden: &[f64; 3]) -> bool {
+    found.iter().zip(golden).all(|(found, golden)| (found - golden).abs() <= TOLERANCE * (1.0 + golden.abs()))
+}
+
+#[test]
+fn another_simulation_has_another_version() {
+    let found = scenes().map(|(config, seed)| sums(&config, seed));
+    let (version, golden) = GOLDEN;
+    assert_eq!(version, PHYSICS_VERSION, "replace the golden results together with the version");
+    assert!(
+        found.iter().zip(&golden).all(|(found, golden)| is_close(found, golden)),
+        "the simulation has changed: raise PHYSICS_VERSION, and replace the golden results by {found:?}"
+    );
+}
+
+#[test]
+fn rounding_errors_stay_within_the_tolerance() {
+    for (config, seed) in scenes() {
+        // Rounding errors of single precision are of the size of 1e-7, and this moves the start by about as much.
+        let moved = EnvironmentConfig { reset_noise_scale: config.reset_noise_scale + 1e-7, ..config.clone() };
+        let (before, after) = (sums(&config, seed), sums(&moved, seed));
+        assert!(before != after && is_close(&after, &before), "{before:?}, {after:?}");
+    }
+}
+
+#[test]
+fn small_changes_of_the_simulation_exceed_the_tolerance() {
+    let before = sums(&EnvironmentConfig::default(), 1);
+    assert!(is_close(&before, &before));
+    let gravity = Randomisation { gravity_scale: [1.002; 2], ..Randomisation::default() };
+    let damping = Randomisation { damping_scale: [1.02; 2], ..Randomisation::default() };
+    let changed = [
+        EnvironmentConfig { substeps: 3, ..EnvironmentConfig::default() },
+        EnvironmentConfig { healthy_reward: 5.01, ..EnvironmentConfig::default() },
+        EnvironmentConfig { randomisation: gravity, ..EnvironmentConfig::default() },
+        EnvironmentConfig { randomisation: damping, ..EnvironmentConfig::default() },
+    ];
+    for config in changed {
+        let after = sums(&config, 1);
+        assert!(!is_close(&after, &before), "{config:?}: {before:?}, {after:?}");
+    }
+}
