@@ -196,7 +196,6 @@ fn largest_difference(shape: &NetworkShape, gain: f32, log_std: f32) -> f32 {
         let found = gaussian::log_probabilities(&actions, &means, policy.log_std());
         found.iter().zip(&claimed).map(|(a, b)| (a - b).abs()).fold(0.0, f32::max)
     });
-    println!("{shape:?} gain {gain} log std {log_std}: {differences:?}");
     differences.into_iter().fold(0.0, f32::max)
 }
 
