@@ -2,8 +2,7 @@
 
 use std::time::{Duration, Instant};
 
-use treadmill_bus::PolicyServer;
-use treadmill_proto::PolicyAnnouncement;
+use treadmill_bus::{PolicyServer, PublishedPolicy};
 use treadmill_runtime::error_chain;
 
 use super::{
@@ -105,9 +104,10 @@ impl Trainer {
     pub(super) fn publish(&mut self, saved: Vec<u8>) -> Result<(), TrainingError> {
         let invalid = |why| TrainingError::State { why };
         let bundle = self.state.bundle().map_err(invalid)?;
-        let announcement = PolicyAnnouncement { version: bundle.version, checksum: bundle.checksum };
-        let encoded: bytes::Bytes = bundle.encode().map_err(|why| invalid(error_chain(&why)))?.into();
-        self.serving.policies.publish(encoded.clone(), &announcement);
+        let policy = PublishedPolicy::new(&bundle, &self.state.for_actors(&bundle));
+        let policy = policy.map_err(|why| invalid(error_chain(&why)))?;
+        let encoded = policy.bundle();
+        self.serving.policies.publish(policy);
         self.serving.intake.send_owed_receipts(&self.state.lineage);
         let env_steps = self.state.counters.env_steps;
         if let Some(evaluation) = &mut self.serving.evaluation
