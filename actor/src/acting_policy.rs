@@ -1,6 +1,8 @@
-//! Policy in use: networks, observation statistics and version of one bundle.
+//! Policy in use: actor network, observation statistics and version of one bundle.
 
-use treadmill_policy::{NetworkShape, Policy, exported::ExportedPolicy, from_safetensors, normaliser::Normaliser};
+use treadmill_policy::{
+    NetworkShape, Policy, actor_from_safetensors, exported::ExportedPolicy, normaliser::Normaliser,
+};
 use treadmill_proto::{PolicyBundle, PolicyVersion};
 use treadmill_runtime::{error_chain, seeds};
 
@@ -15,7 +17,7 @@ pub struct ActingPolicy {
 }
 
 impl ActingPolicy {
-    /// Checks a bundle and loads its networks.
+    /// Checks a bundle and loads its actor network. A critic is not needed.
     pub fn new(bundle: &PolicyBundle) -> Result<Self, ActorError> {
         let refuse = |why: String| ActorError::Bundle { number: bundle.version.number, why };
         if seeds::checksum(&[&bundle.weights]) != bundle.checksum {
@@ -26,7 +28,8 @@ impl ActingPolicy {
             action: bundle.action_size as usize,
             hidden: bundle.hidden.iter().map(|width| *width as usize).collect(),
         };
-        let parameters = from_safetensors(&bundle.weights, &shape).map_err(|error| refuse(error_chain(&error)))?;
+        let parameters = actor_from_safetensors(&bundle.weights, &shape);
+        let parameters = parameters.map_err(|error| refuse(error_chain(&error)))?;
         let policy = Policy::new(shape, parameters).map_err(|error| refuse(error_chain(&error)))?;
         let normaliser = Normaliser {
             mean: bundle.observation_mean.clone(),

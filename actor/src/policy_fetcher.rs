@@ -6,8 +6,8 @@ use std::{
 };
 
 use tokio::sync::Mutex;
-use treadmill_bus::{Bus, BusError, fetch_policy};
-use treadmill_proto::{PolicyBundle, PolicyVersion};
+use treadmill_bus::{Bus, BusError, FetchedPolicy, fetch_newer_policy, fetch_policy};
+use treadmill_proto::{PolicyAnnouncement, PolicyBundle, PolicyRequest, PolicyVersion};
 use treadmill_runtime::{error_chain, shutdown::Shutdown};
 
 use crate::{ActorError, acting_policy::ActingPolicy};
@@ -54,6 +54,8 @@ pub struct PolicyFetcher {
     config_hash: u64,
     physics_version: u32,
     current: RwLock<Arc<ActingPolicy>>,
+    /// Last announcement, whose checksum the weights of its version must have.
+    announced: RwLock<Option<PolicyAnnouncement>>,
     fetching: Mutex<()>,
 }
 
@@ -78,6 +80,7 @@ impl PolicyFetcher {
             config_hash: bundle.config_hash,
             physics_version: bundle.physics_version,
             current: RwLock::new(Arc::new(ActingPolicy::new(bundle)?)),
+            announced: RwLock::new(None),
             fetching: Mutex::new(()),
         })
     }
@@ -85,6 +88,11 @@ impl PolicyFetcher {
     /// Returns the policy in use.
     pub fn current(&self) -> Arc<ActingPolicy> {
         self.current.read().expect("no holder of this lock panics").clone()
+    }
+
+    /// Records an announcement. [`Self::refresh`] then fetches its version.
+    pub fn record_announcement(&self, announcement: PolicyAnnouncement) {
+        *self.announced.write().expect("no holder of this lock panics") = Some(announcement);
     }
 
     /// Fetches the newest policy, unless the `known` newest version is already in use.
@@ -95,9 +103,9 @@ impl PolicyFetcher {
         if known == Some(version) {
             return Refresh::Unchanged;
         }
-        let bundle = match fetch_policy(&self.bus, self.requested_run.as_deref(), FETCH_TIMEOUT).await {
-            Ok(Some(bundle)) => bundle,
-            Ok(None) => return Refresh::Unchanged,
+        let bundle = match self.fetch(version, known).await {
+            Ok(Some(FetchedPolicy::Newer(bundle))) => bundle,
+            Ok(Some(FetchedPolicy::Unchanged) | None) => return Refresh::Unchanged,
             Err(error) => {
                 tracing::warn!(error = %error_chain(&error), "cannot fetch the policy");
                 return Refresh::Unchanged;
@@ -108,10 +116,36 @@ impl PolicyFetcher {
         if !is_same_run || bundle.physics_version != self.physics_version {
             return Refresh::OtherRun;
         }
+        self.replace(version, &bundle)
+    }
+
+    /// Asks for a policy newer than `version`; without configuration and model, which this actor has.
+    async fn fetch(
+        &self,
+        version: PolicyVersion,
+        announced: Option<PolicyVersion>,
+    ) -> Result<Option<FetchedPolicy>, BusError> {
+        let request = PolicyRequest { known: Some(version), announced, config_hash: self.config_hash, offset: 0 };
+        let fetched = fetch_newer_policy(&self.bus, &self.run, &request, FETCH_TIMEOUT).await?;
+        if fetched.is_some() || self.requested_run.is_some() {
+            return Ok(fetched);
+        }
+        // The learner may train another run by now.
+        let other = fetch_policy(&self.bus, None, FETCH_TIMEOUT).await?;
+        Ok(other.map(|bundle| FetchedPolicy::Newer(Box::new(bundle))))
+    }
+
+    /// Replaces the policy of `version` with a newer one. Keeps it if the newer one is damaged.
+    fn replace(&self, version: PolicyVersion, bundle: &PolicyBundle) -> Refresh {
         if bundle.version == version {
             return Refresh::Unchanged;
         }
-        match ActingPolicy::new(&bundle) {
+        let announced = *self.announced.read().expect("no holder of this lock panics");
+        if announced.is_some_and(|announced| !announced.agrees_with(bundle)) {
+            tracing::warn!(version = bundle.version.number, "policy rejected: its weights are not the announced ones");
+            return Refresh::Unchanged;
+        }
+        match ActingPolicy::new(bundle) {
             Ok(policy) => {
                 *self.current.write().expect("no holder of this lock panics") = Arc::new(policy);
                 Refresh::Replaced

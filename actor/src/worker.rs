@@ -159,7 +159,10 @@ impl<'a> Membership<'a> {
                     }
                     physics.give_credit();
                 }
-                Some(announced) = announcements.next() => self.refresh(Some(announced.version), &mut refreshes),
+                Some(announced) = announcements.next() => {
+                    self.shared.policies.record_announcement(announced);
+                    self.refresh(Some(announced.version), &mut refreshes);
+                }
                 _ = poll_due.tick() => self.refresh(None, &mut refreshes),
                 Some(refresh) = refreshes.join_next() => {
                     if refresh.is_ok_and(|refresh| refresh == Refresh::OtherRun) {

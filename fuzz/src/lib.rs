@@ -22,7 +22,8 @@ use treadmill_learner::{
 };
 use treadmill_policy::{exported::ExportedPolicy, from_safetensors, to_safetensors};
 use treadmill_proto::{
-    ActorStats, EvaluationReport, Fragment, PolicyAnnouncement, PolicyBundle, Pose, Receipt,
+    ActorStats, EvaluationReport, Fragment, PolicyAnnouncement, PolicyBundle, PolicyPiece, PolicyRequest, Pose,
+    Receipt,
     fragment::claimed_incarnation,
     json::{EpisodeReport, Metric},
 };
@@ -39,6 +40,8 @@ pub const TARGETS: &[(&str, Target, Sample, usize)] = &[
     ("actor_state", actor_state, samples::actor_state, 16),
     ("bundle", bundle, samples::bundle, 16),
     ("announcement", announcement, samples::announcement, 16),
+    ("policy_request", policy_request, samples::policy_request, 16),
+    ("policy_piece", policy_piece, samples::policy_piece, 16),
     ("receipt", receipt, samples::receipt, 16),
     ("stats", stats, samples::stats, 16),
     ("evaluation", evaluation, samples::evaluation, 16),
@@ -97,6 +100,20 @@ pub fn bundle(data: &[u8]) {
 pub fn announcement(data: &[u8]) {
     if let Ok(announcement) = PolicyAnnouncement::decode(data) {
         assert_eq!(PolicyAnnouncement::decode(&announcement.encode()), Ok(announcement));
+    }
+}
+
+/// Decodes a request for a piece of a policy.
+pub fn policy_request(data: &[u8]) {
+    if let Ok(request) = PolicyRequest::decode(data) {
+        assert_eq!(PolicyRequest::decode(&request.encode()), Ok(request));
+    }
+}
+
+/// Decodes a piece of a policy.
+pub fn policy_piece(data: &[u8]) {
+    if let Ok(piece) = PolicyPiece::decode(Bytes::copy_from_slice(data)) {
+        assert_eq!(PolicyPiece::decode(piece.encode()), Ok(piece));
     }
 }
 

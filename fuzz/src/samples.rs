@@ -12,7 +12,7 @@ use treadmill_policy::{
 };
 use treadmill_proto::{
     ActorState, ActorStats, EndCause, Episode, EvaluationReport, Fragment, Outcome, PolicyAnnouncement, PolicyBundle,
-    PolicyVersion, Pose, Receipt, json::Metric,
+    PolicyPiece, PolicyRequest, PolicyVersion, Pose, Receipt, json::Metric,
 };
 
 /// Name of the run.
@@ -127,7 +127,17 @@ pub fn bundle() -> Vec<u8> {
 
 /// Encodes an announcement.
 pub fn announcement() -> Vec<u8> {
-    PolicyAnnouncement { version: version(), checksum: 5 }.encode()
+    PolicyAnnouncement { version: version(), checksum: 5, actor_checksum: 6 }.encode()
+}
+
+/// Encodes a request for a piece of a policy.
+pub fn policy_request() -> Vec<u8> {
+    PolicyRequest { known: Some(version()), announced: Some(version()), config_hash: CONFIG_HASH, offset: 3 }.encode()
+}
+
+/// Encodes a piece of a policy.
+pub fn policy_piece() -> Vec<u8> {
+    PolicyPiece::cut(RUN, version(), &Bytes::from(bundle()), 3).encode()
 }
 
 /// Encodes a receipt.

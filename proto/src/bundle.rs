@@ -45,19 +45,29 @@ pub struct PolicyAnnouncement {
     pub version: PolicyVersion,
     /// Checksum of the weights.
     pub checksum: u64,
+    /// Checksum of the weights that actors get; 0 if unknown.
+    pub actor_checksum: u64,
 }
 
 impl PolicyAnnouncement {
     /// Encodes as protobuf.
     pub fn encode(&self) -> Vec<u8> {
-        wire::PolicyAnnouncement { version: Some(self.version.into()), checksum: self.checksum }.encode_to_vec()
+        let Self { version, checksum, actor_checksum } = *self;
+        wire::PolicyAnnouncement { version: Some(version.into()), checksum, actor_checksum }.encode_to_vec()
     }
 
     /// Decodes and checks untrusted protobuf bytes.
     pub fn decode(bytes: &[u8]) -> Result<Self, Malformed> {
         check_size("announcement", bytes.len(), SMALL_BYTES_MAX)?;
         let message = wire::PolicyAnnouncement::decode(bytes).map_err(Malformed::undecodable("announcement"))?;
-        Ok(Self { version: version(message.version)?, checksum: message.checksum })
+        let wire::PolicyAnnouncement { checksum, actor_checksum, .. } = message;
+        Ok(Self { version: version(message.version)?, checksum, actor_checksum })
+    }
+
+    /// Returns whether `bundle` is of another version or has the announced weights, with or without the critic.
+    #[must_use]
+    pub fn agrees_with(&self, bundle: &PolicyBundle) -> bool {
+        self.version != bundle.version || [self.checksum, self.actor_checksum].contains(&bundle.checksum)
     }
 }
 
@@ -129,6 +139,12 @@ impl PolicyBundle {
         }
         check_fragment_steps(self.fragment_steps)?;
         self.actor_state.as_ref().map_or(Ok(()), ActorState::check)
+    }
+
+    /// Returns the bundle without configuration, model and state of an actor, for actors that have the same configuration.
+    #[must_use]
+    pub fn without_config(&self) -> Self {
+        Self { config_toml: String::new(), model_xml: String::new(), actor_state: None, ..self.clone() }
     }
 
     /// Encodes as protobuf.
@@ -248,8 +264,32 @@ mod tests {
     #[test]
     fn bundle_and_announcement_round_trip() {
         assert_eq!(PolicyBundle::decode(sample().encode().unwrap()).unwrap(), sample());
-        let announcement = PolicyAnnouncement { version: sample().version, checksum: 5 };
+        let announcement = PolicyAnnouncement { version: sample().version, checksum: 5, actor_checksum: 6 };
         assert_eq!(PolicyAnnouncement::decode(&announcement.encode()).unwrap(), announcement);
+    }
+
+    #[test]
+    fn an_announcement_agrees_with_the_announced_weights_only() {
+        let announced = |version, checksum, actor_checksum| PolicyAnnouncement { version, checksum, actor_checksum };
+        let (version, other) = (sample().version, PolicyVersion { incarnation: 1, number: 3 });
+        assert!(announced(version, 5, 6).agrees_with(&sample()), "weights with the critic");
+        assert!(announced(version, 4, 5).agrees_with(&sample()), "weights without the critic");
+        assert!(!announced(version, 4, 6).agrees_with(&sample()));
+        assert!(announced(other, 4, 6).agrees_with(&sample()), "another version");
+    }
+
+    #[test]
+    fn a_bundle_without_configuration_keeps_the_policy() {
+        let short = sample().without_config();
+        assert_eq!((short.config_toml.len(), short.model_xml.len(), &short.actor_state), (0, 0, &None));
+        let whole = sample();
+        let restored = PolicyBundle {
+            config_toml: whole.config_toml.clone(),
+            model_xml: whole.model_xml.clone(),
+            actor_state: whole.actor_state.clone(),
+            ..PolicyBundle::decode(short.encode().unwrap()).unwrap()
+        };
+        assert_eq!(restored, whole);
     }
 
     #[test]

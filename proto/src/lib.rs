@@ -6,6 +6,7 @@
 //! - [`precision`]: precision of observations on the wire.
 //! - [`prepared`]: one encoded fragment sent under many names, and transitions that fragments of any size repeat.
 //! - [`bundle`]: policy bundles and their announcements.
+//! - [`policy_pieces`]: conditional requests for the newest policy, answered in pieces.
 //! - [`actor_state`]: complete state of an actor, for deterministic runs.
 //! - [`receipt`]: answers of the learner to fragments.
 //! - [`stats`]: statistics of an actor.
@@ -31,6 +32,7 @@ pub mod ident;
 pub mod json;
 pub mod limits;
 pub mod onnx;
+pub mod policy_pieces;
 pub mod pose;
 pub mod precision;
 pub mod prepared;
@@ -65,6 +67,7 @@ pub use bundle::{PolicyAnnouncement, PolicyBundle, PolicyVersion};
 pub use control::{ActorStatus, Command, ControlReply, ControlRequest, Phase, RunStatus};
 pub use evaluation::EvaluationReport;
 pub use fragment::{EndCause, Episode, Fragment};
+pub use policy_pieces::{PolicyPiece, PolicyRequest};
 pub use pose::Pose;
 pub use precision::Precision;
 pub use prepared::{PreparedFragment, PreparedTransitions};

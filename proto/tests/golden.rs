@@ -6,12 +6,13 @@
 use bytes::Bytes;
 use treadmill_proto::{
     ActorState, ActorStats, EndCause, Episode, EvaluationReport, Fragment, Outcome, PolicyAnnouncement, PolicyBundle,
-    PolicyVersion, Pose, Receipt,
+    PolicyPiece, PolicyRequest, PolicyVersion, Pose, Receipt,
     json::{EpisodeReport, Metric},
 };
 
 const GOLDEN: &str = include_str!("golden/messages-1.txt");
 const VERSION: PolicyVersion = PolicyVersion { incarnation: 0x0102_0304_0506_0708, number: 4 };
+const ANNOUNCEMENT: PolicyAnnouncement = PolicyAnnouncement { version: VERSION, checksum: 5, actor_checksum: 0 };
 
 fn actor_state() -> ActorState {
     ActorState {
@@ -154,6 +155,15 @@ fn pose() -> Pose {
     }
 }
 
+fn policy_request() -> PolicyRequest {
+    PolicyRequest { known: Some(VERSION), announced: Some(VERSION), config_hash: 0x1112_1314_1516_1718, offset: 60_000 }
+}
+
+fn policy_piece() -> PolicyPiece {
+    let data = Bytes::from_static(&[7]);
+    PolicyPiece { run: "walk-1".into(), version: VERSION, total_bytes: 60_001, offset: 60_000, data }
+}
+
 fn metric() -> Metric {
     let (run, tag) = ("walk-1".into(), "rollout/ep_rew_mean".into());
     Metric { run, tag, step: 8192, value: 91.95, time_unix_s: 1_795_229_241.25 }
@@ -168,7 +178,9 @@ fn encoded_messages() -> Vec<(&'static str, Vec<u8>)> {
     let mut all = vec![
         ("fragment", fragment().encode().unwrap()),
         ("bundle", bundle().encode().unwrap()),
-        ("announcement", PolicyAnnouncement { version: VERSION, checksum: 5 }.encode()),
+        ("announcement", ANNOUNCEMENT.encode()),
+        ("policy_request", policy_request().encode()),
+        ("policy_piece", policy_piece().encode()),
         ("stats", stats().to_bytes()),
         ("evaluation", evaluation().encode()),
         ("pose", pose().to_bytes().unwrap()),
@@ -184,9 +196,9 @@ fn assert_decodes(name: &str, bytes: &[u8]) {
     match name {
         "fragment" => assert_eq!(Fragment::decode(bytes), Ok(fragment())),
         "bundle" => assert_eq!(PolicyBundle::decode(bytes.to_vec()), Ok(bundle())),
-        "announcement" => {
-            assert_eq!(PolicyAnnouncement::decode(bytes), Ok(PolicyAnnouncement { version: VERSION, checksum: 5 }));
-        }
+        "announcement" => assert_eq!(PolicyAnnouncement::decode(bytes), Ok(ANNOUNCEMENT)),
+        "policy_request" => assert_eq!(PolicyRequest::decode(bytes), Ok(policy_request())),
+        "policy_piece" => assert_eq!(PolicyPiece::decode(bytes.to_vec()), Ok(policy_piece())),
         "stats" => assert_eq!(ActorStats::decode_checked(bytes), Ok(stats())),
         "evaluation" => assert_eq!(EvaluationReport::decode(bytes), Ok(evaluation())),
         "pose" => assert_eq!(Pose::decode_checked(bytes), Ok(pose())),

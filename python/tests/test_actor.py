@@ -13,7 +13,7 @@ import numpy as np
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 
 from treadmill_actor import schema  # noqa: E402
-from treadmill_actor.bus import BusError, check_endpoint  # noqa: E402
+from treadmill_actor.bus import BusError, check_endpoint, fetch_pieces  # noqa: E402
 from treadmill_actor.delivery import DeliveryLedger, Uploader  # noqa: E402
 from treadmill_actor.policies import Policies  # noqa: E402
 from treadmill_actor.policy import HALF_LN_TAU, Policy, PolicyError, checksum, read_safetensors  # noqa: E402
@@ -295,7 +295,7 @@ class JoiningTest(unittest.TestCase):
         )
 
     def policies(self, answers, receipt=None):
-        bus = SimpleNamespace(fetch_policy=lambda _: answers.pop(0), register=lambda *_: receipt)
+        bus = SimpleNamespace(fetch_policy=lambda *_: answers.pop(0), register=lambda *_: receipt)
         return Policies(bus, self.bundle(), "py", None)
 
     def test_new_configuration_sets_run_changed(self):
@@ -309,6 +309,39 @@ class JoiningTest(unittest.TestCase):
         policies = self.policies([damaged])
         policies.refresh()
         self.assertEqual((policies.current[1].number, policies.run_changed.is_set()), (0, False))
+
+    def fetched(self, answers):
+        """Returns what fetch_pieces makes of these answers, and the offsets that it asked for."""
+        offsets = []
+
+        def ask(key, payload, priority):
+            offsets.append(schema.PolicyRequest.FromString(payload).offset)
+            return answers.pop(0)
+
+        return fetch_pieces(ask, "key", schema.PolicyRequest(config_hash=9)), offsets
+
+    def test_pieces_make_up_the_bundle(self):
+        def piece(bundle, number, start, end=None):
+            data = bundle.SerializeToString()
+            version = schema.PolicyVersion(number=number)
+            total = len(data)
+            return schema.PolicyPiece(
+                run="run", version=version, total_bytes=total, offset=start, data=data[start:end]
+            ).SerializeToString()
+
+        old, new = self.bundle(), self.bundle(config_hash=8)
+        self.assertEqual(self.fetched([piece(old, 1, 0)]), (old, [0]))
+        # The second piece is lost once.
+        self.assertEqual(self.fetched([piece(old, 1, 0, 50), None, piece(old, 1, 50)]), (old, [0, 50, 50]))
+        # The server has a newer version by then.
+        answers = [piece(old, 1, 0, 50), piece(new, 2, 50), piece(new, 2, 0, 60), piece(new, 2, 60)]
+        self.assertEqual(self.fetched(answers), (new, [0, 50, 0, 60]))
+        self.assertEqual(self.fetched([None]), (None, [0]))
+
+    def test_short_answer_means_an_unchanged_policy(self):
+        unchanged = schema.PolicyPiece(run="run", version=schema.PolicyVersion(number=4)).SerializeToString()
+        bundle, _ = self.fetched([unchanged])
+        self.assertEqual((bundle.run, bundle.version.number, bundle.config_hash), ("run", 4, 9))
 
     def test_task_is_registered_again_without_a_policy(self):
         refused = self.policies([None], schema.TaskReceipt(accepted=False, reason="another task"))

@@ -2,6 +2,7 @@
 
 import ipaddress
 import json
+import time
 from pathlib import Path
 
 import zenoh
@@ -9,6 +10,7 @@ import zenoh
 from . import schema
 
 FETCH_TIMEOUT_S = 10.0
+PIECE_RETRY_S = 0.05
 MESSAGE_BYTES_MAX = 32 << 20
 
 
@@ -66,6 +68,37 @@ def configuration(connect, tls=None, role="actor"):
     return config
 
 
+def fetch_pieces(ask, key, request):
+    """Returns the policy bundle that a server sends in pieces, or None if it does not answer.
+
+    If the known version is the newest, the bundle has only run, version and configuration hash.
+    """
+    data, first = b"", None
+    deadline = time.monotonic() + FETCH_TIMEOUT_S
+    while time.monotonic() < deadline:
+        request.offset = len(data)
+        answer = ask(key, request.SerializeToString(), priority=zenoh.Priority.DATA_HIGH)
+        if answer is None:
+            if first is None:
+                return None
+            time.sleep(PIECE_RETRY_S)
+            continue
+        piece = schema.PolicyPiece.FromString(answer)
+        if piece.total_bytes == 0:
+            return schema.PolicyBundle(run=piece.run, version=piece.version, config_hash=request.config_hash)
+        if first is not None and piece.version != first.version:
+            # The server has a newer version by now.
+            data, first = b"", None
+        if piece.offset != len(data) or not piece.data or piece.total_bytes > MESSAGE_BYTES_MAX:
+            time.sleep(PIECE_RETRY_S)
+            continue
+        first = first or piece
+        data += piece.data
+        if len(data) >= first.total_bytes:
+            return schema.PolicyBundle.FromString(data)
+    return None
+
+
 class Bus:
     """Zenoh session with the queries and publications of an actor."""
 
@@ -98,8 +131,19 @@ class Bus:
         answer = self.ask(f"treadmill/{run}/tasks/{actor}", registration.SerializeToString())
         return None if answer is None else schema.TaskReceipt.FromString(answer)
 
-    def fetch_policy(self, run):
-        """Returns the newest policy bundle, or None if no learner answered."""
+    def fetch_policy(self, run, known=None, announced=None, config_hash=0):
+        """Returns the newest policy bundle, or None if no learner answered.
+
+        With `known` and `config_hash`, the version and configuration in use, the bundle lacks what this actor has. An older
+        learner sends the whole bundle.
+        """
+        request = schema.PolicyRequest(known=known, announced=announced, config_hash=config_hash)
+        # The router that this session dialled may have the policy.
+        nodes = [f"/{node}" for node in self.session.info.routers_zid()]
+        for node in [*nodes, ""]:
+            bundle = fetch_pieces(self.ask, f"treadmill/{run}/policy/pieces{node}", request)
+            if bundle is not None:
+                return bundle
         answer = self.ask(f"treadmill/{run}/policy/latest", priority=zenoh.Priority.DATA_HIGH)
         return None if answer is None else schema.PolicyBundle.FromString(answer)
 

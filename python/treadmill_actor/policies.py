@@ -77,7 +77,7 @@ class Policies:
         with self.fetching:
             if known is not None and known == self._current[1]:
                 return
-            bundle = self.bus.fetch_policy(self.run)
+            bundle = self.bus.fetch_policy(self.run, self._current[1], known, self.config_hash)
             if bundle is None:
                 # A new learner has no policy before the first registration.
                 receipt = self.bus.register(self.run, self.actor, self.task)

@@ -1,7 +1,7 @@
-//! `treadmill router`: forwards messages at a site with many machines.
+//! `treadmill router`: forwards messages at a site with many machines, and hands out policies to the actors behind it.
 
 use clap::Args;
-use treadmill_bus::{Bus, Role};
+use treadmill_bus::{Bus, PolicyCache, Role};
 use treadmill_runtime::shutdown::Shutdown;
 
 use crate::{
@@ -37,7 +37,11 @@ pub fn run(args: RouterArgs) -> anyhow::Result<()> {
         if !dialled.is_empty() {
             say(&format!("dialling  {dialled}, again after each loss"));
         }
-        shutdown.wait().await;
+        let cache = PolicyCache::open(&bus)?;
+        tokio::select! {
+            () = cache.serve() => {}
+            () = shutdown.wait() => {}
+        }
         bus.close();
         Ok(())
     })

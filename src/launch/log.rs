@@ -14,5 +14,5 @@ pub fn begin(more: &str) {
         .with_ansi(std::io::IsTerminal::is_terminal(&std::io::stderr()))
         .with_target(false)
         .with_filter(filter);
-    tracing_subscriber::registry().with(log).with(bus::log_tls_rejections()).with(bus::throttle_drops()).init();
+    tracing_subscriber::registry().with(log).with(bus::log_tls_rejections()).init();
 }

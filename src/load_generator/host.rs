@@ -9,7 +9,9 @@ use std::{
 use anyhow::Context;
 use clap::Args;
 use serde_json::{Value, json};
-use treadmill_bus::{Alive, Bus, PolicyServer, Role, RolloutCopies, RolloutIntake, admission::Admission};
+use treadmill_bus::{
+    Alive, Bus, PolicyServer, PublishedPolicy, Role, RolloutCopies, RolloutIntake, ServedPolicies, admission::Admission,
+};
 use treadmill_config::{Config, LearnerMode};
 use treadmill_learner::intake::{
     BatchSize, BusFragmentSource, Collected, ExpectedFragment, FleetPlan, FragmentCounts, FragmentValidator,
@@ -17,7 +19,7 @@ use treadmill_learner::intake::{
 };
 use treadmill_learner::training::Heartbeat;
 use treadmill_ppo::AcceptedFragment;
-use treadmill_proto::{Fragment, PolicyAnnouncement, PolicyBundle};
+use treadmill_proto::{Fragment, PolicyBundle};
 use treadmill_runtime::{machine, shutdown::Shutdown};
 
 use super::{usage, workload};
@@ -53,10 +55,10 @@ pub fn run(args: &HostArgs) -> anyhow::Result<()> {
     usage::allow_many_connections();
     let options = args.network.options(Role::Learner, vec![args.listen.clone()], Vec::new())?;
     let (bus, endpoints) = Bus::open_router(&options)?;
-    let mut bundle = workload::bundle();
-    let encoded = bundle.encode()?;
-    let bundle_bytes = encoded.len();
-    let policies = PolicyServer::open(&bus, workload::RUN, encoded.into())?;
+    let mut bundles = workload::bundles();
+    let first = PublishedPolicy::new(&bundles[0], &bundles[1])?;
+    let bundle_bytes = first.bundle().len();
+    let policies = PolicyServer::open(&bus, first)?;
     let defaults = Config::default();
     let capacity = defaults.learner.intake_fragments as usize;
     let admission = Arc::new(Admission::new(defaults.learner.quarantine_after, capacity));
@@ -79,11 +81,12 @@ pub fn run(args: &HostArgs) -> anyhow::Result<()> {
         let answer = match line.split_once(' ') {
             None if line == "mark" => {
                 let progress = progress.lock().expect("no holder of this lock panics");
-                mark(&progress, begun, shared.load(Ordering::Relaxed))
+                mark(&progress, begun, shared.load(Ordering::Relaxed), policies.served())
             }
             Some(("publish", number)) => {
-                bundle.version.number = number.parse().context("a policy has a number")?;
-                publish(&policies, &bundle)?
+                let number = number.parse().context("a policy has a number")?;
+                bundles.iter_mut().for_each(|bundle| bundle.version.number = number);
+                publish(&policies, &bundles)?
             }
             _ => anyhow::bail!("unknown command `{line}`"),
         };
@@ -131,7 +134,7 @@ fn checksum(AcceptedFragment { fragment, .. }: &AcceptedFragment) -> String {
     network::checksum(&[&observations[..], actions, log_probs, rewards, last_observations].concat())
 }
 
-fn mark(progress: &Progress, begun: Instant, shared: u64) -> Value {
+fn mark(progress: &Progress, begun: Instant, shared: u64, served: ServedPolicies) -> Value {
     let FragmentCounts { accepted, duplicate, too_old, vanished, malformed, quarantined, implausible } =
         progress.counts;
     json!({
@@ -139,6 +142,8 @@ fn mark(progress: &Progress, begun: Instant, shared: u64) -> Value {
         "accepted": accepted,
         "not_accepted": duplicate + too_old + vanished + malformed + quarantined + implausible,
         "in_place": shared,
+        "policies_served": served.policies,
+        "policy_bytes": served.bytes,
         "cpu_s": usage::cpu_s(),
         "resident_mb": machine::resident_bytes() as f64 / 1e6,
         "resident_max_mb": usage::resident_max_mb(),
@@ -147,10 +152,9 @@ fn mark(progress: &Progress, begun: Instant, shared: u64) -> Value {
     })
 }
 
-fn publish(policies: &PolicyServer, bundle: &PolicyBundle) -> anyhow::Result<Value> {
-    let announcement = PolicyAnnouncement { version: bundle.version, checksum: bundle.checksum };
-    let encoded = bundle.encode()?;
+fn publish(policies: &PolicyServer, [bundle, for_actors]: &[PolicyBundle; 2]) -> anyhow::Result<Value> {
+    let policy = PublishedPolicy::new(bundle, for_actors)?;
     let time_unix_s = machine::time_unix_s();
-    policies.publish(encoded.into(), &announcement);
+    policies.publish(policy);
     Ok(json!({"published": bundle.version.number, "time_unix_s": time_unix_s}))
 }

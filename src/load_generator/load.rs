@@ -16,9 +16,12 @@ use bytes::Bytes;
 use clap::Args;
 use serde_json::{Value, json};
 use tokio::runtime::{Handle, Runtime};
-use treadmill_bus::{Announcements, Bus, BusOptions, Role, fetch_policy, submit, token, watch_announcements};
+use treadmill_bus::{
+    Announcements, Bus, BusOptions, FetchedPolicy, Role, fetch_newer_policy, fetch_policy, submit, token,
+    watch_announcements,
+};
 use treadmill_config::BusConfig;
-use treadmill_proto::{Outcome, Precision, PreparedFragment};
+use treadmill_proto::{Outcome, PolicyRequest, PolicyVersion, Precision, PreparedFragment};
 use treadmill_runtime::machine;
 
 use super::{usage, workload};
@@ -309,15 +312,19 @@ fn deliver(
 /// Fetches each announced policy, and published ones whose announcement was lost. Reports the time of each.
 async fn follow(bus: &Bus, announcements: &Announcements, shared: &Shared, fetched: &Sender<(u64, f64)>) {
     let poll_interval = Duration::from_millis(BusConfig::default().policy_poll_ms);
-    let mut known = 0;
+    let mut known = PolicyVersion { incarnation: workload::INCARNATION, number: 0 };
     loop {
         let announced = tokio::time::timeout(poll_interval, announcements.next()).await;
-        if announced.is_err() && shared.published.load(Ordering::Relaxed) == known {
+        if announced.is_err() && shared.published.load(Ordering::Relaxed) == known.number {
             continue;
         }
-        if let Ok(Some(bundle)) = fetch_policy(bus, Some(workload::RUN), FETCH_TIMEOUT).await {
-            known = bundle.version.number;
-            if fetched.send((known, machine::time_unix_s())).is_err() {
+        let announced = announced.ok().flatten().map(|announced| announced.version);
+        let request = PolicyRequest { known: Some(known), announced, config_hash: workload::CONFIG_HASH, offset: 0 };
+        if let Ok(Some(FetchedPolicy::Newer(bundle))) =
+            fetch_newer_policy(bus, workload::RUN, &request, FETCH_TIMEOUT).await
+        {
+            known = bundle.version;
+            if fetched.send((known.number, machine::time_unix_s())).is_err() {
                 return;
             }
         }

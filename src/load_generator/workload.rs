@@ -1,6 +1,6 @@
 //! Messages to send: one fragment of random numbers under every actor's name, and policies of a given size.
 
-use treadmill_policy::{init::initial_parameters, to_safetensors};
+use treadmill_policy::{actor_to_safetensors, init::initial_parameters, to_safetensors};
 use treadmill_proto::{Fragment, Malformed, PolicyBundle, PolicyVersion, Precision, PreparedFragment};
 use treadmill_runtime::seeds;
 
@@ -61,11 +61,12 @@ pub(super) fn fragment(bytes: usize, precision: Precision) -> Result<(PreparedFr
     Ok((PreparedFragment::new(&fragment, precision)?, rows))
 }
 
-/// Returns the first policy; others differ only in their number.
-pub(super) fn bundle() -> PolicyBundle {
+/// Returns the first policy, whole and as actors get it; others differ only in their number.
+pub(super) fn bundles() -> [PolicyBundle; 2] {
     let shape = NETWORK.parse::<Widths>().expect("widths").shape();
-    let weights = to_safetensors(&shape, &initial_parameters(&shape, -0.5, &mut seeds::stream(1, "bench-bus", &[1])));
-    PolicyBundle {
+    let parameters = initial_parameters(&shape, -0.5, &mut seeds::stream(1, "bench-bus", &[1]));
+    let weights = [to_safetensors(&shape, &parameters), actor_to_safetensors(&shape, &parameters)];
+    weights.map(|weights| PolicyBundle {
         run: RUN.to_string(),
         version: PolicyVersion { incarnation: INCARNATION, number: 0 },
         observation_size: WIDTHS.0,
@@ -79,5 +80,5 @@ pub(super) fn bundle() -> PolicyBundle {
         config_hash: CONFIG_HASH,
         model_xml: treadmill_humanoid::HUMANOID_XML.to_string(),
         ..PolicyBundle::default()
-    }
+    })
 }

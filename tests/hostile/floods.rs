@@ -17,16 +17,16 @@ use treadmill_proto::Outcome;
 const GROWTH_BYTES_MAX: u64 = 250 << 20;
 
 /// Learner with one good actor.
-struct Fleet {
+pub(crate) struct Fleet {
     learner: Running,
     actor: Running,
-    endpoint: String,
+    pub(crate) endpoint: String,
     folder: tempfile::TempDir,
     run: PathBuf,
     tls: bool,
 }
 
-fn fleet(tls: bool, settings: &[&str]) -> Fleet {
+pub(crate) fn fleet(tls: bool, settings: &[&str]) -> Fleet {
     bus_on_one_thread();
     let (folder, run) = folders();
     let mut command = endless(folder.path(), &run, "learner");
@@ -56,7 +56,7 @@ fn actor(folder: &Path, endpoint: &str, tls: bool, name: &str) -> Command {
 }
 
 impl Fleet {
-    fn attacker(&self) -> Attacker {
+    pub(crate) fn attacker(&self) -> Attacker {
         let certs = self.folder.path().join("certs");
         let tls = self.tls.then_some((certs.as_path(), "actor"));
         Attacker::join(&self.endpoint, "run", tls, TIMEOUT).expect("a session")
@@ -67,14 +67,14 @@ impl Fleet {
     }
 
     /// Asserts that the learner keeps learning from the good actor.
-    fn assert_trains(&self) {
+    pub(crate) fn assert_trains(&self) {
         let steps = metrics(&self.run).last().unwrap().1;
         await_steps(&self.run, steps + 4096);
         assert!(is_running(self.learner.pid()) && is_running(self.actor.pid()));
     }
 
     /// Stops the learner and asserts that it did not fail.
-    fn end(self) {
+    pub(crate) fn end(self) {
         self.actor.signal(libc::SIGTERM);
         self.learner.signal(libc::SIGINT);
         let (status, lines) = self.learner.wait();
@@ -210,11 +210,6 @@ fn flood(tls: bool) {
     await_that("the count of rejected fragments", || {
         last_value(&fleet.run, "bus/fragments_turned_away").filter(|count| *count > 0.0)
     });
-    if tls {
-        await_that("the count of forbidden messages", || {
-            last_value(&fleet.run, "bus/messages_forbidden").filter(|count| *count > 1000.0)
-        });
-    }
     fleet.assert_trains();
     let after = resident_bytes(fleet.learner.pid());
     assert!(after < before + GROWTH_BYTES_MAX, "{before} bytes before and {after} after {sent} messages");

@@ -8,5 +8,6 @@ mod access;
 #[allow(dead_code, reason = "the example and other tests use the rest")]
 mod attacks;
 mod floods;
+mod stalled;
 #[path = "../support/mod.rs"]
 mod support;

@@ -16,6 +16,7 @@ mod control;
 mod copies;
 mod external;
 mod faults;
+mod policies;
 mod poses;
 mod prometheus;
 mod security;

@@ -2,11 +2,11 @@
 //!
 //! Rollouts and policies are queries, because a publication also succeeds when no subscriber receives it. Announcements,
 //! statistics and metrics are publications, which the bus may drop. Callbacks never wait for a receiver: each one puts its
-//! message into a bounded queue, and [`admission`] throttles links that send too much.
+//! message into a bounded queue. Replies never wait for a requester that does not read: see [`session`].
 //!
 //! # Layout
 //! - [`session`]: opens sessions; builds Zenoh's configuration, keys, endpoints and access rules.
-//! - [`admission`]: decides which fragments are admitted, and throttles floods.
+//! - [`admission`]: decides which fragments are admitted, so that floods disturb no other sender.
 //! - `flows`: sends and receives; one file for each kind of message.
 //! - [`workarounds`]: code that exists only because of a fault in Zenoh.
 
@@ -16,17 +16,17 @@ mod flows;
 pub mod session;
 pub mod workarounds;
 
-pub use admission::{
-    acl_drops::{dropped_messages, throttle_drops},
-    tls_rejections::log_tls_rejections,
-};
+pub use admission::tls_rejections::log_tls_rejections;
 pub use error::BusError;
 pub use flows::{
     control::{ControlServer, PendingRequest, command, statuses},
     copies::RolloutCopies,
     evaluation::{Assignment, EvaluationServer, ask_for_evaluation},
     observer::{Feed, Message, MetricsFeed, observe},
-    policies::{Announcements, PolicyServer, fetch_policy, watch_announcements},
+    policies::{Announcements, PolicyServer, PublishedPolicy, watch_announcements},
+    policy_cache::PolicyCache,
+    policy_fetch::{FetchedPolicy, fetch_newer_policy, fetch_policy},
+    policy_pieces::ServedPolicies,
     poses::PosePublisher,
     presence::{Alive, AliveView, token},
     publications::publish_dropping,

@@ -39,5 +39,7 @@ pub use fused::FusedNetworks;
 pub use inference::Policy;
 pub use networks::{NetworkPart, Networks};
 pub use shape::{Dense, NamedTensor, NetworkShape};
-pub use tensors::{ParameterError, check_parameters, from_safetensors, to_safetensors};
+pub use tensors::{
+    ParameterError, actor_from_safetensors, actor_to_safetensors, check_parameters, from_safetensors, to_safetensors,
+};
 pub(crate) use tensors::{column, to_safetensors_with};

@@ -96,6 +96,12 @@ impl NetworkShape {
         tensors
     }
 
+    /// Returns the tensors of the actor and `log_std`, in the order of the flat vector.
+    pub fn actor_tensors(&self) -> Vec<NamedTensor> {
+        let end = self.log_std().end;
+        self.tensors().into_iter().filter(|tensor| tensor.offset < end).collect()
+    }
+
     fn dense_layers(&self, start: usize, last: usize) -> Vec<Dense> {
         let mut offset = start;
         let mut input = self.observation;

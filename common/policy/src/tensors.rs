@@ -83,6 +83,14 @@ pub fn to_safetensors(shape: &NetworkShape, parameters: &[f32]) -> Vec<u8> {
     to_safetensors_with(shape, parameters, &[], None)
 }
 
+/// Returns the parameters of the actor, without those of the critic, as safetensors bytes.
+///
+/// # Panics
+/// If `parameters` does not have the length of `shape`.
+pub fn actor_to_safetensors(shape: &NetworkShape, parameters: &[f32]) -> Vec<u8> {
+    encode(shape, &shape.actor_tensors(), parameters, &[], None)
+}
+
 /// Returns the parameters, named columns of f64 and one entry of metadata as safetensors bytes.
 ///
 /// Only one entry, because several would be written in random order.
@@ -95,11 +103,21 @@ pub(crate) fn to_safetensors_with(
     columns: &[(&str, &[f64])],
     metadata: Option<(&str, String)>,
 ) -> Vec<u8> {
+    encode(shape, &shape.tensors(), parameters, columns, metadata)
+}
+
+fn encode(
+    shape: &NetworkShape,
+    tensors: &[NamedTensor],
+    parameters: &[f32],
+    columns: &[(&str, &[f64])],
+    metadata: Option<(&str, String)>,
+) -> Vec<u8> {
     assert_eq!(parameters.len(), shape.parameter_count(), "parameters do not fit the network");
     let bytes: Vec<u8> = parameters.iter().flat_map(|p| p.to_le_bytes()).collect();
-    let weights = shape.tensors().into_iter().map(|tensor| {
+    let weights = tensors.iter().map(|tensor| {
         let range = tensor.range();
-        (tensor.name, view(Dtype::F32, tensor.shape, &bytes[range.start * 4..range.end * 4]))
+        (tensor.name.clone(), view(Dtype::F32, tensor.shape.clone(), &bytes[range.start * 4..range.end * 4]))
     });
     let wide: Vec<(String, Vec<u8>)> = columns
         .iter()
@@ -119,9 +137,22 @@ fn view(dtype: Dtype, shape: Vec<usize>, bytes: &[u8]) -> TensorView<'_> {
 /// # Errors
 /// If a tensor is missing, has the wrong shape or number type, or holds a number that is not finite.
 pub fn from_safetensors(bytes: &[u8], shape: &NetworkShape) -> Result<Vec<f32>, ParameterError> {
+    decode(bytes, shape, &shape.tensors())
+}
+
+/// Reads the flat parameter vector of an actor, which never evaluates the critic: parameters of the critic are 0. Ignores
+/// tensors that are not part of the actor.
+///
+/// # Errors
+/// As [`from_safetensors`].
+pub fn actor_from_safetensors(bytes: &[u8], shape: &NetworkShape) -> Result<Vec<f32>, ParameterError> {
+    decode(bytes, shape, &shape.actor_tensors())
+}
+
+fn decode(bytes: &[u8], shape: &NetworkShape, tensors: &[NamedTensor]) -> Result<Vec<f32>, ParameterError> {
     let file = SafeTensors::deserialize(bytes)?;
     let mut parameters = vec![0.0; shape.parameter_count()];
-    for tensor in shape.tensors() {
+    for tensor in tensors {
         let data = data_of(&file, &tensor.name, &tensor.shape, Dtype::F32, "F32")?;
         let target = &mut parameters[tensor.range()];
         for (number, bytes) in target.iter_mut().zip(data.as_chunks::<4>().0) {
@@ -183,6 +214,20 @@ mod tests {
 
     fn numbers() -> Vec<f32> {
         (0..shape().parameter_count()).map(|i| i as f32 * 0.25 - 3.0).collect()
+    }
+
+    #[test]
+    fn the_actors_bytes_hold_the_actor_and_nothing_of_the_critic() {
+        let bytes = actor_to_safetensors(&shape(), &numbers());
+        let file = SafeTensors::deserialize(&bytes).expect("own bytes");
+        assert!(file.names().iter().all(|name| name.starts_with("actor.") || *name == "log_std"), "{:?}", file.names());
+        let end = shape().log_std().end;
+        let expected: Vec<f32> = numbers()[..end].iter().copied().chain(vec![0.0; numbers().len() - end]).collect();
+        assert_eq!(actor_from_safetensors(&bytes, &shape()).expect("own bytes"), expected);
+        // The bytes of older learners hold the critic, too.
+        let whole = to_safetensors(&shape(), &numbers());
+        assert_eq!(actor_from_safetensors(&whole, &shape()).expect("own bytes"), expected);
+        assert!(matches!(from_safetensors(&bytes, &shape()), Err(ParameterError::Missing { .. })));
     }
 
     #[test]

@@ -233,7 +233,13 @@ impl TrainingState {
         Ok(seeds::checksum(&[config.to_toml().as_bytes(), self.model_xml.as_bytes()]))
     }
 
-    /// Policy bundle for actors, without [`Self::actor_state`], which is added on resume.
+    /// Returns a bundle with the weights of the actor only, which is what actors need.
+    pub fn for_actors(&self, bundle: &PolicyBundle) -> PolicyBundle {
+        let weights = treadmill_policy::actor_to_safetensors(&self.shape, &self.parameters);
+        PolicyBundle { checksum: seeds::checksum(&[&weights]), weights: weights.into(), ..bundle.clone() }
+    }
+
+    /// Policy bundle with actor and critic, without [`Self::actor_state`], which is added on resume.
     pub fn bundle(&self) -> Result<PolicyBundle, String> {
         let config = self.config()?;
         let weights = treadmill_policy::to_safetensors(&self.shape, &self.parameters);

@@ -5,7 +5,6 @@ use std::{
     time::{Duration, Instant},
 };
 
-use treadmill_bus::dropped_messages;
 use treadmill_config::Config;
 use treadmill_ppo::{AcceptedFragment, UpdateStats};
 use treadmill_proto::ActorStats;
@@ -236,7 +235,6 @@ impl UpdateRecord<'_> {
             ("bus/fragments_implausible", counts.implausible as f64),
             ("bus/fragments_quarantined", counts.quarantined as f64),
             ("bus/fragments_turned_away", self.turned_away as f64),
-            ("bus/messages_forbidden", dropped_messages() as f64),
             ("bus/accepted_mb", self.accepted_bytes as f64 / 1e6),
             ("bus/fragments_unseen", account.unseen as f64),
             ("bus/env_steps_dropped", account.env_steps_dropped as f64),

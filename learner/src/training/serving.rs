@@ -2,9 +2,8 @@
 
 use std::time::{Duration, Instant};
 
-use treadmill_bus::PolicyServer;
+use treadmill_bus::{PolicyServer, PublishedPolicy};
 use treadmill_config::LearnerMode;
-use treadmill_proto::PolicyAnnouncement;
 use treadmill_runtime::error_chain;
 
 use super::{
@@ -108,9 +107,10 @@ impl Trainer {
         let invalid = |why| TrainingError::State { why };
         let mut bundle = self.state.bundle().map_err(invalid)?;
         bundle.fragment_steps = self.serving.intake.fleet.nominal();
-        let announcement = PolicyAnnouncement { version: bundle.version, checksum: bundle.checksum };
-        let encoded: bytes::Bytes = bundle.encode().map_err(|why| invalid(error_chain(&why)))?.into();
-        self.serving.policies.publish(encoded.clone(), &announcement);
+        let policy = PublishedPolicy::new(&bundle, &self.state.for_actors(&bundle));
+        let policy = policy.map_err(|why| invalid(error_chain(&why)))?;
+        let encoded = policy.bundle();
+        self.serving.policies.publish(policy);
         if self.config.learner.mode == LearnerMode::Sync {
             self.serving.intake.begin_round(&self.state.lineage);
         }

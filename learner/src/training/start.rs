@@ -3,7 +3,8 @@
 use std::{sync::Arc, time::Duration};
 
 use treadmill_bus::{
-    Alive, AliveView, Bus, BusError, PolicyServer, RolloutCopies, RolloutIntake, StatsFeed, admission::Admission,
+    Alive, AliveView, Bus, BusError, PolicyServer, PublishedPolicy, RolloutCopies, RolloutIntake, StatsFeed,
+    admission::Admission,
 };
 use treadmill_config::Config;
 use treadmill_runtime::{error_chain, shutdown::Shutdown};
@@ -50,7 +51,8 @@ impl Trainer {
         );
         // Save this version before any actor can get it, so that a learner that dies now resumes from it.
         wait_for_disk_space(shutdown, || checkpoints.save(&state))?;
-        let encoded = bundle.encode().map_err(|why| invalid(error_chain(&why)))?;
+        let policy = PublishedPolicy::new(&bundle, &state.for_actors(&bundle));
+        let policy = policy.map_err(|why| invalid(error_chain(&why)))?;
         let report = MetricsReport::open(bus, &state, &config, options)?;
         // `MetricsReport::open` has removed lines newer than the checkpoint.
         let history = History::read(&options.folder.metrics())?;
@@ -61,7 +63,7 @@ impl Trainer {
         let (every_steps, env_steps) = (config.eval.every_steps, state.counters.env_steps);
         let scheduler = config.evaluates().then(|| EvaluationScheduler::open(bus, &state.run, every_steps, env_steps));
         let evaluation = scheduler.transpose()?;
-        let policies = PolicyServer::open(bus, &state.run, encoded.into())?;
+        let policies = PolicyServer::open(bus, policy)?;
         let serving = Serving {
             intake,
             policies,

@@ -6,9 +6,7 @@
 //! malformed fragments under a good actor's name quarantine only their own sender. All unproven senders together share one
 //! part of the queue and one rate, however many names they use.
 
-pub mod acl_drops;
 pub mod rate_limited_log;
-pub(crate) mod read_throttle;
 pub mod tls_rejections;
 
 use std::{

@@ -17,13 +17,10 @@ use zenoh::{
 };
 
 use super::{first_valid, reply, start_thread};
-use crate::{Bus, BusError, admission::rate_limited_log::RateLimitedLog, admission::read_throttle::ReadThrottle, keys};
+use crate::{Bus, BusError, admission::rate_limited_log::RateLimitedLog, keys};
 
 /// Requests, and reports, that may wait. Further requests get no answer, and the evaluator asks again.
 const QUEUE: usize = 64;
-/// Requests per second above which the link is throttled.
-const REQUESTS_PER_S: f64 = 200.0;
-
 /// Version and bundle of the policy to evaluate.
 type Candidate = RwLock<Option<(PolicyVersion, Bytes)>>;
 
@@ -44,14 +41,10 @@ impl EvaluationServer {
             let (candidate, run) = (candidate.clone(), run.to_string());
             move || serve(requests, &run, &candidate, &report_sender)
         })?;
-        let throttle = ReadThrottle::new(REQUESTS_PER_S);
         let queryable = bus
             .session
             .declare_queryable(keys::evaluations(run, "*"))
-            .callback(move |query| {
-                throttle.pass();
-                drop(request_sender.try_send(query));
-            })
+            .callback(move |query| drop(request_sender.try_send(query)))
             .wait()
             .map_err(BusError::flow("handing out policies for evaluation"))?;
         Ok(Self { candidate, reports, _queryable: queryable })
@@ -71,7 +64,9 @@ impl EvaluationServer {
 fn serve(requests: Receiver<Query>, run: &str, candidate: &Candidate, reports: &SyncSender<EvaluationReport>) {
     let rejections = RateLimitedLog::default();
     for query in requests {
-        let evaluated = read_report(&query, run, &rejections).map(|report| {
+        // An invalid report gets no reply: a policy is large, and its sender does not evaluate.
+        let Ok(report) = read_report(&query, run, &rejections) else { continue };
+        let evaluated = report.map(|report| {
             let version = report.version;
             // If the queue is full, the learner has enough reports.
             drop(reports.try_send(report));
@@ -81,20 +76,23 @@ fn serve(requests: Receiver<Query>, run: &str, candidate: &Candidate, reports: &
     }
 }
 
-/// Returns the report in a query, if there is a valid one.
-fn read_report(query: &Query, run: &str, rejections: &RateLimitedLog) -> Option<EvaluationReport> {
-    let payload = query.payload().filter(|payload| !payload.is_empty())?;
+/// Report that was rejected, and logged.
+struct Rejected;
+
+/// Returns the report in a query, if there is one.
+fn read_report(query: &Query, run: &str, rejections: &RateLimitedLog) -> Result<Option<EvaluationReport>, Rejected> {
+    let Some(payload) = query.payload().filter(|payload| !payload.is_empty()) else { return Ok(None) };
     let evaluator = keys::last_part(query.key_expr().as_str());
     let report = check_ident("evaluator", evaluator).and_then(|()| EvaluationReport::decode(&payload.to_bytes()));
     match report {
-        Ok(report) if report.run == run && report.evaluator == evaluator => return Some(report),
+        Ok(report) if report.run == run && report.evaluator == evaluator => return Ok(Some(report)),
         Ok(report) => rejections.emit(|| {
             let (run, claimed) = (report.run, report.evaluator);
             tracing::warn!(evaluator, run, claimed, "evaluation report rejected: it does not match its key");
         }),
         Err(error) => rejections.emit(|| tracing::warn!(%error, "evaluation report rejected")),
     }
-    None
+    Err(Rejected)
 }
 
 /// Replies with the policy to evaluate, or with nothing if there is none or the evaluator has just evaluated it.

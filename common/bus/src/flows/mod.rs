@@ -5,6 +5,9 @@ pub(crate) mod copies;
 pub(crate) mod evaluation;
 pub(crate) mod observer;
 pub(crate) mod policies;
+pub(crate) mod policy_cache;
+pub(crate) mod policy_fetch;
+pub(crate) mod policy_pieces;
 pub(crate) mod poses;
 pub(crate) mod presence;
 pub(crate) mod publications;
@@ -35,7 +38,12 @@ fn start_thread(name: &str, work: impl FnOnce() + Send + 'static) -> Result<(), 
 
 /// Answers a query on its own key; logs a failure as `what`.
 fn reply(query: &Query, payload: impl Into<ZBytes>, what: &'static str) {
-    if let Err(error) = query.reply(query.key_expr().clone(), payload).wait() {
+    reply_on(query, query.key_expr().as_str(), payload, what);
+}
+
+/// Answers a query on `key`; logs a failure as `what`. The bus drops the reply if the requester does not read.
+fn reply_on(query: &Query, key: &str, payload: impl Into<ZBytes>, what: &'static str) {
+    if let Err(error) = query.reply(key, payload).wait() {
         tracing::debug!(what, %error, "reply not sent");
     }
 }

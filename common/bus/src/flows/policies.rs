@@ -1,15 +1,15 @@
-//! Policies: the learner serves the newest bundle and announces each version; actors watch and fetch.
+//! Policies: the learner serves the newest one and announces each version; actors watch the announcements.
+//!
+//! Actors get pieces of a bundle without the critic ([`super::policy_pieces`]). Other programs, and actors older than that,
+//! get the whole bundle in one reply on `policy/latest`.
 
-use std::{
-    sync::{
-        Arc, Mutex, RwLock,
-        mpsc::{Receiver, sync_channel},
-    },
-    time::Duration,
+use std::sync::{
+    Arc, Mutex, RwLock,
+    mpsc::{Receiver, sync_channel},
 };
 
 use bytes::Bytes;
-use treadmill_proto::{PolicyAnnouncement, PolicyBundle};
+use treadmill_proto::{Malformed, PolicyAnnouncement, PolicyBundle};
 use zenoh::{
     Wait,
     handlers::{RingChannel, RingChannelHandler},
@@ -19,89 +19,126 @@ use zenoh::{
     sample::Sample,
 };
 
-use super::{first_valid, start_thread};
-use crate::{Bus, BusError, admission::read_throttle::ReadThrottle, keys};
+use super::{
+    policy_pieces::{ActorPolicy, PieceReply, PieceServer, ServedPolicies},
+    reply_on, start_thread,
+};
+use crate::{Bus, BusError, keys};
 
-/// Policy requests that may wait for a server thread.
-const QUEUE: usize = 4096;
-/// Threads that serve policies. A requester that does not read its reply blocks only one of them.
-const THREADS: usize = 4;
-/// Rate of policy requests above which the link is throttled.
-const REQUESTS_PER_S: f64 = 1000.0;
+/// Requests for a whole bundle that may wait for a thread. Further ones get no reply.
+const QUEUE: usize = 1024;
+/// Threads that send whole bundles.
+const THREADS: usize = 2;
 
-/// Serves the newest policy bundle and announces it.
+/// Policy as the learner publishes it.
+#[derive(Debug)]
+pub struct PublishedPolicy {
+    bundle: Bytes,
+    for_actors: Arc<ActorPolicy>,
+    announcement: PolicyAnnouncement,
+}
+
+impl PublishedPolicy {
+    /// Encodes a bundle, and `for_actors`, the same bundle with the weights of the actor only.
+    pub fn new(bundle: &PolicyBundle, for_actors: &PolicyBundle) -> Result<Self, Malformed> {
+        let (version, checksum) = (bundle.version, bundle.checksum);
+        let announcement = PolicyAnnouncement { version, checksum, actor_checksum: for_actors.checksum };
+        Ok(Self { bundle: bundle.encode()?.into(), for_actors: Arc::new(ActorPolicy::new(for_actors)?), announcement })
+    }
+
+    /// Returns the encoded bundle with actor and critic.
+    #[must_use]
+    pub fn bundle(&self) -> Bytes {
+        self.bundle.clone()
+    }
+}
+
+/// Serves the newest policy and announces it.
 pub struct PolicyServer {
-    current: Arc<RwLock<Bytes>>,
+    current: Arc<RwLock<PublishedPolicy>>,
+    pieces: PieceServer,
     announcer: Publisher<'static>,
-    _queryable: Queryable<()>,
+    _queryables: [Queryable<()>; 3],
 }
 
 impl PolicyServer {
-    /// Starts to serve `bundle`.
-    pub fn open(bus: &Bus, run: &str, bundle: Bytes) -> Result<Self, BusError> {
-        let current = Arc::new(RwLock::new(bundle));
-        let (sender, requests) = sync_channel::<Query>(QUEUE);
-        let (key, requests) = (keys::policy_latest(run), Arc::new(Mutex::new(requests)));
-        for number in 0..THREADS {
-            let (current, key, requests) = (current.clone(), key.clone(), requests.clone());
-            start_thread(&format!("policy-server-{number}"), move || serve(&current, &key, &requests))?;
-        }
-        let throttle = ReadThrottle::new(REQUESTS_PER_S);
-        let queryable = bus
-            .session
-            .declare_queryable(key)
-            // A request that finds the queue full gets no reply, and its actor asks again.
-            .callback(move |query| {
-                throttle.pass();
-                drop(sender.try_send(query));
+    /// Starts to serve `policy`.
+    pub fn open(bus: &Bus, policy: PublishedPolicy) -> Result<Self, BusError> {
+        let run = policy.for_actors.run().to_string();
+        let current = Arc::new(RwLock::new(policy));
+        let pieces = PieceServer::start()?;
+        let serve_pieces = |key| {
+            let (current, pieces) = (current.clone(), pieces.clone());
+            declare(bus, key, move |query| {
+                let policy = current.read().expect("no holder of this lock panics").for_actors.clone();
+                if let Some(reply) = PieceReply::read(query) {
+                    pieces.send(reply, policy);
+                }
             })
-            .wait()
-            .map_err(BusError::flow("serving policies"))?;
+        };
+        let queryables = [
+            serve_pieces(keys::policy_pieces(&run))?,
+            serve_pieces(keys::policy_pieces_of(&run, &bus.session.zid().to_string()))?,
+            serve_bundles(bus, &run, &current)?,
+        ];
         let announcer = bus
             .session
-            .declare_publisher(keys::policy_version(run))
+            .declare_publisher(keys::policy_version(&run))
             .congestion_control(CongestionControl::Drop)
             .priority(Priority::DataHigh)
             .wait()
             .map_err(BusError::flow("declaring the announcement"))?;
-        Ok(Self { current, announcer, _queryable: queryable })
+        Ok(Self { current, pieces, announcer, _queryables: queryables })
     }
 
-    /// Serves `bundle` from now on, and announces it.
-    pub fn publish(&self, bundle: Bytes, announcement: &PolicyAnnouncement) {
-        *self.current.write().expect("no holder of this lock panics") = bundle;
-        if let Err(error) = self.announcer.put(announcement.encode()).wait() {
+    /// Serves `policy` from now on, and announces it.
+    pub fn publish(&self, policy: PublishedPolicy) {
+        let announcement = policy.announcement.encode();
+        *self.current.write().expect("no holder of this lock panics") = policy;
+        if let Err(error) = self.announcer.put(announcement).wait() {
             // Receipts carry the version, too, and actors poll now and then.
             tracing::debug!(%error, "policy announcement not sent");
         }
     }
+
+    /// Returns what actors and routers got since the start.
+    #[must_use]
+    pub fn served(&self) -> ServedPolicies {
+        self.pieces.served()
+    }
 }
 
-/// Serves requests until the queue is closed.
-fn serve(current: &RwLock<Bytes>, key: &str, requests: &Mutex<Receiver<Query>>) {
+/// Declares a queryable whose callback must not block.
+pub(super) fn declare(
+    bus: &Bus,
+    key: String,
+    callback: impl Fn(Query) + Send + Sync + 'static,
+) -> Result<Queryable<()>, BusError> {
+    let opened = bus.session.declare_queryable(key).callback(callback).wait();
+    opened.map_err(BusError::flow("serving policies"))
+}
+
+/// Serves whole bundles on threads of their own. A large bundle may wait for space on a link, and pieces must not.
+fn serve_bundles(bus: &Bus, run: &str, current: &Arc<RwLock<PublishedPolicy>>) -> Result<Queryable<()>, BusError> {
+    let (sender, requests) = sync_channel::<Query>(QUEUE);
+    let (key, requests) = (keys::policy_latest(run), Arc::new(Mutex::new(requests)));
+    for number in 0..THREADS {
+        let (current, key, requests) = (current.clone(), key.clone(), requests.clone());
+        start_thread(&format!("policy-bundles-{number}"), move || send_bundles(&current, &key, &requests))?;
+    }
+    declare(bus, key, move |query| drop(sender.try_send(query)))
+}
+
+/// Answers requests until the queue is closed.
+fn send_bundles(current: &RwLock<PublishedPolicy>, key: &str, requests: &Mutex<Receiver<Query>>) {
     loop {
         // The lock is held only while waiting for a request, not while replying.
         let next = requests.lock().expect("no holder of this lock panics").recv();
         let Ok(query) = next else { return };
-        let bundle = current.read().expect("no holder of this lock panics").clone();
+        let bundle = current.read().expect("no holder of this lock panics").bundle.clone();
         // The reply's key names the run even if the request did not.
-        if let Err(error) = query.reply(key, bundle).wait() {
-            tracing::debug!(what = "policy bundle", %error, "reply not sent");
-        }
+        reply_on(&query, key, bundle, "policy bundle");
     }
-}
-
-/// Fetches the newest policy of `run`, or of the only run. `None` if no answer came; the learner may still be running.
-pub async fn fetch_policy(bus: &Bus, run: Option<&str>, timeout: Duration) -> Result<Option<PolicyBundle>, BusError> {
-    let replies = bus
-        .session
-        .get(keys::policy_latest(run.unwrap_or("*")))
-        .timeout(timeout)
-        .priority(Priority::DataHigh)
-        .congestion_control(CongestionControl::Block)
-        .await
-        .map_err(BusError::flow("asking for the policy"))?;
-    Ok(first_valid(replies, "policy bundle", PolicyBundle::decode).await)
 }
 
 /// Announcements of new policies; only the newest is kept.

@@ -21,7 +21,7 @@ use zenoh::{
 use super::{first_valid, received::incarnation_of, reply, start_thread};
 use crate::{
     Bus, BusError, ReceivedFragment, RolloutCopies, Watched,
-    admission::{Admission, AdmissionPermit, Refusal, rate_limited_log::RateLimitedLog, read_throttle::ReadThrottle},
+    admission::{Admission, AdmissionPermit, Refusal, rate_limited_log::RateLimitedLog},
     keys,
 };
 
@@ -29,8 +29,10 @@ use crate::{
 const INTAKE_BYTES_MAX: usize = 128 << 20;
 /// Refusals that may wait to be sent.
 const REFUSALS_QUEUE: usize = 1024;
-/// Rate of fragments refused unread above which the link is throttled.
-const REFUSALS_PER_S: f64 = 100.0;
+/// Receipts that may wait to be sent: two for each actor of the largest fleet.
+const RECEIPTS_QUEUE: usize = 8192;
+/// Longest wait for the last receipts to be sent when the intake is closed.
+const LAST_RECEIPTS_TIMEOUT: Duration = Duration::from_secs(1);
 /// Stands for every invalid name. No actor can have it.
 const INVALID_NAME: &str = "?";
 
@@ -43,14 +45,15 @@ pub struct IncomingFragment {
     encoded: Option<ZBytes>,
     bytes: usize,
     query: Query,
+    receipts: ReceiptQueue,
     queued_bytes: Arc<AtomicUsize>,
     permit: Option<AdmissionPermit>,
 }
 
 impl IncomingFragment {
-    /// Sends the receipt, which frees the sender's credit. A sender that lost its link sends the fragment again.
+    /// Queues the receipt, which frees the sender's credit; never waits. A sender without a receipt sends the fragment again.
     pub fn answer(self, receipt: &Receipt) {
-        reply(&self.query, receipt.encode(), "receipt");
+        self.receipts.offer(self.query.clone(), receipt);
     }
 
     /// Returns the policy version that the fragment names, unless it was taken or cannot be decoded.
@@ -86,6 +89,7 @@ impl Drop for IncomingFragment {
 /// Bounded queue of fragments on their way into the learner.
 pub struct RolloutIntake {
     queue: Receiver<IncomingFragment>,
+    receipts: ReceiptQueue,
     shared: Arc<AtomicU64>,
     _queryable: Queryable<()>,
 }
@@ -102,16 +106,20 @@ impl RolloutIntake {
     ) -> Result<Self, BusError> {
         let (sender, queue) = sync_channel(capacity);
         let shared = Arc::new(AtomicU64::new(0));
+        let (receipts, send_receipts) = ReceiptQueue::bounded(RECEIPTS_QUEUE);
+        start_thread("receipts", send_receipts)?;
+        let (refusals, send_refusals) = ReceiptQueue::bounded(REFUSALS_QUEUE);
+        start_thread("refusals", send_refusals)?;
         let receiver = RolloutReceiver {
             admission,
             queue: sender,
             queued_bytes: Arc::default(),
             shared: shared.clone(),
             watched: copies.watched(),
-            refusals: start_refusals()?,
+            receipts: receipts.clone(),
+            refusals,
             rejection_log: RateLimitedLog::default(),
             quarantine_log: RateLimitedLog::default(),
-            throttle: ReadThrottle::new(REFUSALS_PER_S),
         };
         let queryable = bus
             .session
@@ -119,7 +127,7 @@ impl RolloutIntake {
             .callback(move |query| receiver.receive(query))
             .wait()
             .map_err(BusError::flow("taking rollouts"))?;
-        Ok(Self { queue, shared, _queryable: queryable })
+        Ok(Self { queue, receipts, shared, _queryable: queryable })
     }
 
     /// Returns the counter of fragments that came through shared memory.
@@ -133,6 +141,13 @@ impl RolloutIntake {
     }
 }
 
+impl Drop for RolloutIntake {
+    /// Waits until the last receipts are sent, because the session may be closed next.
+    fn drop(&mut self) {
+        self.receipts.flush(LAST_RECEIPTS_TIMEOUT);
+    }
+}
+
 /// Receives fragments in the bus's threads.
 struct RolloutReceiver {
     admission: Arc<Admission>,
@@ -140,10 +155,11 @@ struct RolloutReceiver {
     queued_bytes: Arc<AtomicUsize>,
     shared: Arc<AtomicU64>,
     watched: Watched,
-    refusals: SyncSender<(Query, Receipt)>,
+    receipts: ReceiptQueue,
+    /// Separate, so that a flood of refusals takes no place of receipts.
+    refusals: ReceiptQueue,
     rejection_log: RateLimitedLog,
     quarantine_log: RateLimitedLog,
-    throttle: ReadThrottle,
 }
 
 impl RolloutReceiver {
@@ -177,6 +193,7 @@ impl RolloutReceiver {
             encoded: self.watched.now().then_some(payload),
             bytes: size,
             query,
+            receipts: self.receipts.clone(),
             queued_bytes: self.queued_bytes.clone(),
             permit: Some(permit),
         };
@@ -193,19 +210,16 @@ impl RolloutReceiver {
             }
             Refusal::Busy => self.refuse(query, Outcome::Busy, format!("too many fragments of `{actor}` wait already")),
             Refusal::Flood => {
-                self.throttle.pass();
                 self.rejection_log.emit(|| tracing::warn!("unproven senders exceed their rate; fragments ignored"));
             }
         }
     }
 
-    /// Queues a refusal for the thread that sends it: a sender that does not read replies must not block this thread. If the
-    /// queue is full there is no reply, and the sender sends again.
+    /// Queues a refusal. If too many wait there is no reply, and the sender sends again.
     fn refuse(&self, query: Query, outcome: Outcome, reason: String) {
-        self.throttle.pass();
         let receipt =
             Receipt { outcome, reason, version: PolicyVersion::default(), durable_through: 0, fragment_steps: 0 };
-        drop(self.refusals.try_send((query, receipt)));
+        self.refusals.offer(query, &receipt);
     }
 }
 
@@ -220,13 +234,42 @@ fn unreadable(named: Result<(), Malformed>, size: usize) -> Option<String> {
     }
 }
 
-/// Starts the thread that sends refusals; it ends when the returned sender is dropped.
-fn start_refusals() -> Result<SyncSender<(Query, Receipt)>, BusError> {
-    let (sender, refusals) = sync_channel::<(Query, Receipt)>(REFUSALS_QUEUE);
-    start_thread("refusals", move || {
-        refusals.iter().for_each(|(query, receipt)| reply(&query, receipt.encode(), "receipt"))
-    })?;
-    Ok(sender)
+/// Queue of a thread that sends receipts, so that no other thread waits for a link.
+#[derive(Clone)]
+struct ReceiptQueue(SyncSender<Outgoing>);
+
+enum Outgoing {
+    Receipt(Query, Vec<u8>),
+    /// Everything queued before was sent.
+    Flush(SyncSender<()>),
+}
+
+impl ReceiptQueue {
+    /// Returns the queue and the work of its thread, which ends when every clone of the queue is dropped.
+    fn bounded(capacity: usize) -> (Self, impl FnOnce() + Send + use<>) {
+        let (sender, queue) = sync_channel(capacity);
+        let send = move || {
+            for outgoing in queue {
+                match outgoing {
+                    Outgoing::Receipt(query, receipt) => reply(&query, receipt, "receipt"),
+                    Outgoing::Flush(done) => drop(done.try_send(())),
+                }
+            }
+        };
+        (Self(sender), send)
+    }
+
+    /// Queues a receipt, or drops it if the queue is full.
+    fn offer(&self, query: Query, receipt: &Receipt) {
+        drop(self.0.try_send(Outgoing::Receipt(query, receipt.encode())));
+    }
+
+    fn flush(&self, timeout: Duration) {
+        let (done, is_done) = sync_channel(1);
+        if self.0.try_send(Outgoing::Flush(done)).is_ok() {
+            let _ = is_done.recv_timeout(timeout);
+        }
+    }
 }
 
 /// Sends one encoded fragment and waits for its receipt. `None` if no receipt came: the fragment may have arrived or not.

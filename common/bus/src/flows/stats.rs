@@ -9,10 +9,7 @@ use treadmill_proto::{ActorStats, limits::STATS_BYTES_MAX};
 use zenoh::{Wait, pubsub::Subscriber, sample::Sample};
 
 use super::presence::AliveView;
-use crate::{Bus, BusError, admission::rate_limited_log::RateLimitedLog, admission::read_throttle::ReadThrottle, keys};
-
-/// Statistics per second above which the link is throttled.
-const STATS_PER_S: f64 = 2000.0;
+use crate::{Bus, BusError, admission::rate_limited_log::RateLimitedLog, keys};
 
 /// Newest statistics of each live actor.
 pub struct StatsFeed {
@@ -32,11 +29,8 @@ impl StatsFeed {
             .session
             .declare_subscriber(keys::stats(run, "*"))
             .callback({
-                let (alive, arrived, throttle) = (alive.clone(), arrived.clone(), ReadThrottle::new(STATS_PER_S));
-                move |sample: Sample| {
-                    throttle.pass();
-                    keep_newest(&sample, &alive, &arrived);
-                }
+                let (alive, arrived) = (alive.clone(), arrived.clone());
+                move |sample: Sample| keep_newest(&sample, &alive, &arrived)
             })
             .wait()
             .map_err(BusError::flow("listening to statistics"))?;

@@ -130,7 +130,7 @@ pub(super) fn sizes() -> Value {
     json!([
         size_limit("rollouts", "query", "treadmill/*/rollouts/*", FRAGMENT_BYTES_MAX + SMALL_BYTES_MAX),
         size_limit("evaluations", "query", "treadmill/*/evaluations/*", SMALL_BYTES_MAX),
-        size_limit("policies", "query", "treadmill/*/policy/*", SMALL_BYTES_MAX),
+        size_limit("policies", "query", "treadmill/*/policy/**", SMALL_BYTES_MAX),
         size_limit("control", "query", "treadmill/*/control", SMALL_BYTES_MAX),
         size_limit("statistics", "put", "treadmill/*/actors/*/stats", STATS_BYTES_MAX),
         size_limit("episodes", "put", "treadmill/*/episodes/*", STATS_BYTES_MAX),
@@ -166,7 +166,7 @@ const EVERYTHING: &[&str] = &[
     "declare_liveliness_subscriber",
     "liveliness_query",
 ];
-const POLICY: Keys = &["treadmill/*/policy/latest"];
+const POLICY: Keys = &["treadmill/*/policy/latest", "treadmill/*/policy/pieces", "treadmill/*/policy/pieces/*"];
 const ANNOUNCEMENT: Keys = &["treadmill/*/policy/version"];
 const STATUS: Keys = &["treadmill/*/status"];
 const TOKENS: Keys = &["treadmill/*/actors/*", "treadmill/*/learner"];

@@ -5,6 +5,16 @@ pub fn policy_version(run: &str) -> String {
     format!("treadmill/{run}/policy/version")
 }
 
+/// Returns `treadmill/{run}/policy/pieces`: the newest policy for actors, in pieces, from the learner.
+pub fn policy_pieces(run: &str) -> String {
+    format!("treadmill/{run}/policy/pieces")
+}
+
+/// Returns `treadmill/{run}/policy/pieces/{node}`: the same from the learner or router with this Zenoh ID.
+pub fn policy_pieces_of(run: &str, node: &str) -> String {
+    format!("treadmill/{run}/policy/pieces/{node}")
+}
+
 /// Returns `treadmill/{run}/policy/latest`: the newest policy bundle.
 pub fn policy_latest(run: &str) -> String {
     format!("treadmill/{run}/policy/latest")

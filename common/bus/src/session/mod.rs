@@ -1,4 +1,8 @@
 //! Opens and closes sessions; the only place that builds Zenoh's configuration.
+//!
+//! Learners and routers never wait for a requester that does not read its replies. Zenoh sends a reply with the congestion
+//! control of its request, so they replace that on arrival: where a link has no space for a reply, Zenoh drops it, and the
+//! requester asks again. A request that a router passes on waits for space again.
 
 pub mod access_rules;
 pub mod endpoint;
@@ -89,6 +93,14 @@ impl Bus {
             insert(&mut settings, "access_control", access_rules::access())?;
         }
         insert(&mut settings, "low_pass_filter", access_rules::sizes())?;
+        insert(
+            &mut settings,
+            "qos/network",
+            json!([
+                {"messages": ["query"], "flows": ["ingress"], "overwrite": {"congestion_control": "drop"}},
+                {"messages": ["query"], "flows": ["egress"], "overwrite": {"congestion_control": "block"}},
+            ]),
+        )?;
         let endpoints: Vec<String> = listen.iter().map(|endpoint| with_handshake_timeout(endpoint)).collect();
         insert(&mut settings, "listen/endpoints", json!(endpoints))?;
         if options.discover {
@@ -166,8 +178,9 @@ fn base_settings(options: &BusOptions) -> Result<Config, BusError> {
         ("transport/link/tx/keep_alive", json!(4)),
         (
             "transport/link/tx/queue/size",
+            // The pieces of a policy and an announcement fit into `data_high`, a policy to evaluate into `data_low`.
             json!({"control": 2, "real_time": 2, "interactive_high": 4, "interactive_low": 2,
-                   "data_high": 4, "data": 16, "data_low": 2, "background": 2}),
+                   "data_high": 16, "data": 16, "data_low": 16, "background": 2}),
         ),
         // Keeps the links of a learner that is busy for a moment.
         ("transport/link/tx/queue/congestion_control/block/wait_before_close", json!(10_000_000)),

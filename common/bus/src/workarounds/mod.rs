@@ -1,7 +1,7 @@
 //! Code that exists only because of a fault in Zenoh 1.10. Each file names the upstream issue, if one is known, and the
 //! condition under which it can be deleted.
 //!
-//! - [`threads`], [`one_core`] and `yield_read`: an encrypted link breaks if two threads use it at once (zenoh#2557).
+//! - [`threads`] and [`one_core`]: an encrypted link breaks if two threads use it at once (zenoh#2557).
 //! - `open_files`: Zenoh's threads panic if they cannot open a file.
 //! - `discovery`: a client does not dial a discovered endpoint again.
 //! - `free_port`: Zenoh does not report which port it was given for port 0.
@@ -13,4 +13,3 @@ pub(crate) mod free_port;
 pub mod one_core;
 pub(crate) mod open_files;
 pub mod threads;
-pub(crate) mod yield_read;

@@ -6,17 +6,16 @@
 //! ([`super::one_core`]).
 //!
 //! Delete `ONE` when Zenoh locks the connection. `MANY` is no workaround: fragments are decoded on the reading threads, so
-//! learners and routers read unencrypted links with more threads than Zenoh's default. A link that the read throttle pauses
-//! needs a thread of its own for each pause.
+//! learners and routers read unencrypted links with more threads than Zenoh's default.
 
 use crate::{BusOptions, Role};
 
 /// Zenoh's environment variable for its threads.
 pub const VARIABLE: &str = "ZENOH_RUNTIME";
-/// One thread reads and writes all links; up to 256 more may be paused.
-const ONE: &str = "(rx:(handover:tx),tx:(max_blocking_threads:256))";
+/// One thread reads and writes all links.
+const ONE: &str = "(rx:(handover:tx))";
 /// Sixteen threads read links.
-const MANY: &str = "(rx:(worker_threads:16,max_blocking_threads:256))";
+const MANY: &str = "(rx:(worker_threads:16))";
 
 /// Returns the name and value of the environment variable to set before any thread starts. `None` keeps Zenoh's default, or
 /// what the user has set.

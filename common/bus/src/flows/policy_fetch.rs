@@ -1,0 +1,245 @@
+//! Fetches policies: asks the nearest server for what is new, and puts the pieces together.
+
+use std::time::Duration;
+
+use bytes::Bytes;
+use tokio::time::Instant;
+use treadmill_proto::{PolicyBundle, PolicyPiece, PolicyRequest, PolicyVersion};
+use zenoh::{
+    Wait,
+    handlers::FifoChannelHandler,
+    qos::{CongestionControl, Priority},
+    query::Reply,
+};
+
+use super::first_valid;
+use crate::{Bus, BusError, keys};
+
+/// Pieces that a requester asks for at once. The bus has space for them on an idle link, however slow it is.
+const WINDOW: usize = 8;
+/// Longest wait for the first piece. A router may have to fetch the policy.
+const FIRST_TIMEOUT: Duration = Duration::from_secs(5);
+/// Longest wait for each further piece. A lost one is asked for again.
+const PIECE_TIMEOUT: Duration = Duration::from_secs(3);
+/// Pause before a lost piece is asked for again.
+const RETRY: Duration = Duration::from_millis(50);
+
+/// Answer to a request for a newer policy.
+#[derive(Clone, Debug, PartialEq)]
+pub enum FetchedPolicy {
+    /// The known version is the newest.
+    Unchanged,
+    /// A newer policy. It has configuration and model only if the request named another configuration.
+    Newer(Box<PolicyBundle>),
+}
+
+/// Fetches the newest policy of `run`, or of the only run, with configuration and model but without the critic. `None` if no
+/// answer came; the learner may still be running.
+pub async fn fetch_policy(bus: &Bus, run: Option<&str>, timeout: Duration) -> Result<Option<PolicyBundle>, BusError> {
+    let fetched = match run {
+        Some(run) => fetch_newer_policy(bus, run, &PolicyRequest::default(), timeout).await?,
+        None => ask_learner(bus, "*", &PolicyRequest::default(), timeout).await?,
+    };
+    Ok(fetched.and_then(|fetched| match fetched {
+        FetchedPolicy::Newer(bundle) => Some(*bundle),
+        FetchedPolicy::Unchanged => None,
+    }))
+}
+
+/// Fetches the policy of `run` if it is newer than the one in `request`: from the router that this client dialled, or else from
+/// the learner. `None` if no answer came.
+pub async fn fetch_newer_policy(
+    bus: &Bus,
+    run: &str,
+    request: &PolicyRequest,
+    timeout: Duration,
+) -> Result<Option<FetchedPolicy>, BusError> {
+    let nodes: Vec<String> = bus.session.info().routers_zid().wait().map(|node| node.to_string()).collect();
+    for node in nodes {
+        let fetched = fetch_pieces(bus, keys::policy_pieces_of(run, &node), request, timeout).await?;
+        if fetched.is_some() {
+            return Ok(fetched);
+        }
+    }
+    ask_learner(bus, run, request, timeout).await
+}
+
+/// Asks the learner; an older one knows only requests for the whole bundle.
+async fn ask_learner(
+    bus: &Bus,
+    run: &str,
+    request: &PolicyRequest,
+    timeout: Duration,
+) -> Result<Option<FetchedPolicy>, BusError> {
+    let fetched = fetch_pieces(bus, keys::policy_pieces(run), request, timeout).await?;
+    if fetched.is_some() {
+        return Ok(fetched);
+    }
+    let replies = get(bus, keys::policy_latest(run), Vec::new(), timeout)?;
+    let whole = first_valid(replies, "policy bundle", PolicyBundle::decode).await;
+    Ok(whole.map(|bundle| match request.known == Some(bundle.version) {
+        true => FetchedPolicy::Unchanged,
+        false => FetchedPolicy::Newer(Box::new(bundle)),
+    }))
+}
+
+/// Fetches all pieces from the server of `key`. `None` if it does not answer in time.
+pub(super) async fn fetch_pieces(
+    bus: &Bus,
+    mut key: String,
+    request: &PolicyRequest,
+    timeout: Duration,
+) -> Result<Option<FetchedPolicy>, BusError> {
+    let deadline = Instant::now() + timeout;
+    let mut partial = PartialPolicy::default();
+    loop {
+        let mut asked = Vec::new();
+        let longest_wait = if partial.run.is_empty() { FIRST_TIMEOUT.min(timeout) } else { PIECE_TIMEOUT };
+        for offset in partial.missing().take(WINDOW) {
+            let request = PolicyRequest { offset: offset as u64, ..*request };
+            asked.push(get(bus, key.clone(), request.encode(), longest_wait)?);
+        }
+        let mut is_lost = false;
+        for replies in asked {
+            match first_valid(replies, "piece of a policy", PolicyPiece::decode).await {
+                Some(piece) if piece.is_unchanged() => return Ok(Some(FetchedPolicy::Unchanged)),
+                Some(piece) => is_lost |= !partial.add(piece),
+                None if partial.run.is_empty() => return Ok(None),
+                None => is_lost = true,
+            }
+        }
+        if let Some(bundle) = partial.whole() {
+            return Ok(decode(&partial, bundle).map(|bundle| FetchedPolicy::Newer(Box::new(bundle))));
+        }
+        if key.contains('*') {
+            // Several learners may answer; the remaining pieces are of the first.
+            key = keys::policy_pieces(&partial.run);
+        }
+        if Instant::now() >= deadline {
+            return Ok(None);
+        }
+        if is_lost {
+            tokio::time::sleep(RETRY).await;
+        }
+    }
+}
+
+fn get(bus: &Bus, key: String, payload: Vec<u8>, timeout: Duration) -> Result<FifoChannelHandler<Reply>, BusError> {
+    bus.session
+        .get(key)
+        .payload(payload)
+        .timeout(timeout)
+        .priority(Priority::DataHigh)
+        .congestion_control(CongestionControl::Block)
+        .wait()
+        .map_err(BusError::flow("asking for the policy"))
+}
+
+/// Decodes a complete bundle and compares it with its pieces. Logs why it is rejected.
+fn decode(partial: &PartialPolicy, bundle: Bytes) -> Option<PolicyBundle> {
+    let run = &partial.run;
+    match PolicyBundle::decode(bundle) {
+        Ok(bundle) if bundle.run == *run && Some(bundle.version) == partial.version => return Some(bundle),
+        Ok(_) => tracing::warn!(run, "policy rejected: it is not the one that its pieces name"),
+        Err(error) => tracing::warn!(run, %error, "policy rejected"),
+    }
+    None
+}
+
+/// Pieces of a policy so far, in order.
+#[derive(Debug, Default)]
+struct PartialPolicy {
+    run: String,
+    version: Option<PolicyVersion>,
+    total: usize,
+    /// Size of the first piece, which the server chose.
+    piece: usize,
+    bytes: Vec<u8>,
+}
+
+impl PartialPolicy {
+    /// Returns where the missing pieces begin; only the beginning, as long as nothing is there.
+    fn missing(&self) -> impl Iterator<Item = usize> + use<> {
+        let (start, end) = (self.bytes.len(), self.total.max(1));
+        (start..end).step_by(self.piece.max(1))
+    }
+
+    /// Appends a piece. Returns whether it was the next one. If the server has a newer version by now, begins again.
+    fn add(&mut self, piece: PolicyPiece) -> bool {
+        let is_first = self.version.is_none();
+        if !is_first && self.version != Some(piece.version) {
+            *self = Self { run: piece.run, version: None, ..Self::default() };
+            return false;
+        }
+        let is_next = piece.offset == self.bytes.len() as u64 && !piece.data.is_empty();
+        let agrees = is_first || piece.run == self.run && piece.total_bytes == self.total as u64;
+        if !is_next || !agrees {
+            return false;
+        }
+        if is_first {
+            (self.run, self.version) = (piece.run, Some(piece.version));
+            (self.total, self.piece) = (piece.total_bytes as usize, piece.data.len());
+        }
+        self.bytes.extend_from_slice(&piece.data);
+        true
+    }
+
+    /// Takes the bundle out once all pieces are there.
+    fn whole(&mut self) -> Option<Bytes> {
+        let is_whole = self.version.is_some() && self.bytes.len() == self.total;
+        is_whole.then(|| std::mem::take(&mut self.bytes).into())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const OLD: PolicyVersion = PolicyVersion { incarnation: 7, number: 3 };
+    const NEW: PolicyVersion = PolicyVersion { incarnation: 7, number: 4 };
+
+    fn bundle(length: u32) -> Bytes {
+        (0..length).map(|byte| byte as u8).collect::<Vec<_>>().into()
+    }
+
+    fn missing(partial: &PartialPolicy) -> Vec<usize> {
+        partial.missing().take(WINDOW).collect()
+    }
+
+    #[test]
+    fn pieces_are_asked_for_in_windows_and_put_together() {
+        let (bundle, mut partial) = (bundle(75_000), PartialPolicy::default());
+        assert_eq!(missing(&partial), [0]);
+        assert!(partial.add(PolicyPiece::cut("walk", OLD, &bundle, 0)));
+        assert_eq!((missing(&partial), partial.whole()), (vec![30_000, 60_000], None));
+        // The second piece is lost, so the third does not fit.
+        assert!(!partial.add(PolicyPiece::cut("walk", OLD, &bundle, 60_000)));
+        assert!(partial.add(PolicyPiece::cut("walk", OLD, &bundle, 30_000)));
+        assert_eq!(missing(&partial), [60_000]);
+        assert!(partial.add(PolicyPiece::cut("walk", OLD, &bundle, 60_000)));
+        assert_eq!(partial.whole(), Some(bundle));
+    }
+
+    #[test]
+    fn a_newer_version_begins_again() {
+        let (old, new, mut partial) = (bundle(50_000), bundle(35_000), PartialPolicy::default());
+        assert!(partial.add(PolicyPiece::cut("walk", OLD, &old, 0)));
+        assert!(!partial.add(PolicyPiece::cut("walk", NEW, &new, 30_000)));
+        assert_eq!(missing(&partial), [0]);
+        assert!(partial.add(PolicyPiece::cut("walk", NEW, &new, 0)));
+        assert!(partial.add(PolicyPiece::cut("walk", NEW, &new, 30_000)));
+        assert_eq!((partial.version, partial.whole()), (Some(NEW), Some(new)));
+    }
+
+    #[test]
+    fn pieces_that_do_not_fit_are_dropped() {
+        let (bundle, mut partial) = (bundle(50_000), PartialPolicy::default());
+        assert!(!partial.add(PolicyPiece::cut("walk", OLD, &bundle, 30_000)), "not the beginning");
+        assert!(!partial.add(PolicyPiece { data: Bytes::new(), ..PolicyPiece::cut("walk", OLD, &bundle, 0) }), "empty");
+        assert!(partial.add(PolicyPiece::cut("walk", OLD, &bundle, 0)));
+        assert!(!partial.add(PolicyPiece::cut("run", OLD, &bundle, 30_000)), "another run");
+        let other_size = PolicyPiece { total_bytes: 49_999, ..PolicyPiece::cut("walk", OLD, &bundle, 30_000) };
+        assert!(!partial.add(other_size));
+        assert_eq!((missing(&partial), partial.whole()), (vec![30_000], None));
+    }
+}

@@ -1,0 +1,215 @@
+//! Policies through routers: the learner sends each version once to a router, and all actors behind it get it.
+
+use std::{collections::BTreeMap, net::TcpListener, path::Path};
+
+use bytes::Bytes;
+use treadmill_bus::{
+    Bus, BusOptions, FetchedPolicy, PolicyServer, PublishedPolicy, ServedPolicies, fetch_newer_policy, fetch_policy,
+};
+use treadmill_proto::{PolicyBundle, PolicyRequest, PolicyVersion};
+use treadmill_runtime::seeds;
+
+use crate::support::*;
+
+/// Clients behind the last router.
+const CLIENTS: usize = 8;
+/// Larger than a piece, so that several are needed.
+const WEIGHTS: usize = 200_000;
+
+fn bundle(number: u64) -> [PolicyBundle; 2] {
+    [2 * WEIGHTS, WEIGHTS].map(|length| {
+        let weights = Bytes::from(vec![number as u8; length]);
+        PolicyBundle {
+            run: "run".into(),
+            version: PolicyVersion { incarnation: 7, number },
+            observation_size: 1,
+            action_size: 1,
+            hidden: vec![1],
+            checksum: seeds::checksum(&[&weights]),
+            weights,
+            observation_mean: vec![0.0],
+            observation_inverse_std: vec![1.0],
+            observation_clip: 10.0,
+            config_hash: 9,
+            config_toml: "[run]".into(),
+            model_xml: "<mujoco/>".into(),
+            actor_state: None,
+            fragment_steps: 0,
+        }
+    })
+}
+
+fn published(number: u64) -> PublishedPolicy {
+    let [whole, for_actors] = bundle(number);
+    PublishedPolicy::new(&whole, &for_actors).unwrap()
+}
+
+fn free_endpoint() -> String {
+    format!("tcp/{}", TcpListener::bind("127.0.0.1:0").unwrap().local_addr().unwrap())
+}
+
+fn router(folder: &Path, listen: &str, connect: &str) -> Running {
+    let mut command = treadmill(folder);
+    command.args(["router", "--listen", listen, "--connect", connect]);
+    let router = Running::start(command);
+    router.wait_for("listening");
+    router
+}
+
+/// Joins as an actor does that names its run.
+async fn join_run(bus: &Bus) -> PolicyBundle {
+    loop {
+        if let Some(bundle) = fetch_policy(bus, Some("run"), TIMEOUT).await.unwrap() {
+            return bundle;
+        }
+        tokio::task::yield_now().await;
+    }
+}
+
+/// Fetches the announced version `number` with every client at once, as actors do that have the version before.
+async fn fetch_with_all(clients: &[Bus], number: u64) {
+    let mut fetches = tokio::task::JoinSet::new();
+    for bus in clients {
+        let bus = bus.clone();
+        fetches.spawn(async move {
+            let announced = Some(PolicyVersion { incarnation: 7, number });
+            let known = Some(PolicyVersion { incarnation: 7, number: number - 1 });
+            let request = PolicyRequest { known, announced, config_hash: 9, offset: 0 };
+            // Without a reply, the client does not know its router again yet.
+            let fetched = loop {
+                if let Some(fetched) = fetch_newer_policy(&bus, "run", &request, TIMEOUT).await.unwrap() {
+                    break fetched;
+                }
+                tokio::task::yield_now().await;
+            };
+            let [_, for_actors] = bundle(number);
+            assert_eq!(fetched, FetchedPolicy::Newer(Box::new(for_actors.without_config())));
+        });
+    }
+    while let Some(fetched) = fetches.join_next().await {
+        fetched.unwrap();
+    }
+}
+
+/// Returns how many policies the learner sent since `before`.
+fn sent_since(server: &PolicyServer, before: ServedPolicies) -> u64 {
+    server.served().policies - before.policies
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn a_router_fetches_each_version_once_for_all_actors_behind_it() {
+    let (folder, _) = folders();
+    let listen = vec!["tcp/127.0.0.1:0".to_string()];
+    let (learner, endpoints) = Bus::open_router(&BusOptions { listen, ..BusOptions::default() }).unwrap();
+    let server = PolicyServer::open(&learner, published(1)).unwrap();
+    // The actors' router is behind another one.
+    let (outer_at, inner_at) = (free_endpoint(), free_endpoint());
+    let _outer = router(folder.path(), &outer_at, &endpoints[0]);
+    let inner = router(folder.path(), &inner_at, &outer_at);
+    let open = || Bus::open_client(&BusOptions { connect: vec![inner_at.clone()], ..BusOptions::default() }).unwrap();
+    let clients: Vec<Bus> = (0..CLIENTS).map(|_| open()).collect();
+    for client in &clients {
+        assert_eq!(join_run(client).await, bundle(1)[1], "with configuration and model, without the critic");
+    }
+    for number in 2..6 {
+        let before = server.served();
+        server.publish(published(number));
+        fetch_with_all(&clients, number).await;
+        assert_eq!(sent_since(&server, before), 1, "version {number}");
+        let bytes = server.served().bytes - before.bytes;
+        assert!(bytes < 2 * WEIGHTS as u64, "{bytes} bytes for {CLIENTS} actors");
+    }
+    // Actors that poll get a short answer, wherever it comes from.
+    let before = server.served();
+    for client in &clients {
+        let request = PolicyRequest { known: Some(PolicyVersion { incarnation: 7, number: 5 }), ..Default::default() };
+        let polled = fetch_newer_policy(client, "run", &request, TIMEOUT).await.unwrap();
+        assert_eq!(polled, Some(FetchedPolicy::Unchanged));
+    }
+    assert_eq!(sent_since(&server, before), 0);
+
+    // A new router knows nothing. Meanwhile the learner announces a version that no client receives.
+    inner.signal(libc::SIGKILL);
+    inner.wait();
+    server.publish(published(6));
+    let inner = router(folder.path(), &inner_at, &outer_at);
+    fetch_with_all(&clients, 6).await;
+    let before = server.served();
+    server.publish(published(7));
+    fetch_with_all(&clients, 7).await;
+    assert_eq!(sent_since(&server, before), 1);
+    clients.iter().for_each(Bus::close);
+    drop((server, inner));
+    learner.close();
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn an_actor_of_the_learner_gets_a_version_once() {
+    let listen = vec!["tcp/127.0.0.1:0".to_string()];
+    let (learner, connect) = Bus::open_router(&BusOptions { listen, ..BusOptions::default() }).unwrap();
+    let server = PolicyServer::open(&learner, published(1)).unwrap();
+    let client = Bus::open_client(&BusOptions { connect, ..BusOptions::default() }).unwrap();
+    assert_eq!(join_run(&client).await, bundle(1)[1]);
+    assert_eq!(fetch_policy(&client, None, TIMEOUT).await.unwrap(), Some(bundle(1)[1].clone()), "of the only run");
+    let before = server.served();
+    server.publish(published(2));
+    fetch_with_all(std::slice::from_ref(&client), 2).await;
+    let current = PolicyRequest { known: Some(bundle(2)[0].version), ..PolicyRequest::default() };
+    let polled = fetch_newer_policy(&client, "run", &current, TIMEOUT).await.unwrap();
+    assert_eq!(polled, Some(FetchedPolicy::Unchanged));
+    let after = server.served();
+    assert_eq!((sent_since(&server, before), after.unchanged - before.unchanged), (1, 1));
+    client.close();
+    learner.close();
+}
+
+fn assert_one_policy_per_version(tls: bool) {
+    let (folder, run) = folders();
+    certs(folder.path(), &["certs"]);
+    let (scheme, with_tls) = if tls { ("tls", &["--tls", "certs"][..]) } else { ("tcp", &[][..]) };
+    let mut command = endless(folder.path(), &run, "learner");
+    command.args(["--listen", &format!("{scheme}/127.0.0.1:0")]).args(with_tls);
+    command.env("TREADMILL_LOG", "warn,zenoh=off,treadmill_bus=debug");
+    let learner = Running::start(command);
+    let router_at = free_endpoint().replace("tcp", scheme);
+    let mut command = treadmill(folder.path());
+    command.args(["router", "--listen", &router_at, "--connect", &endpoint(&run)]).args(with_tls);
+    let router = Running::start(command);
+    router.wait_for("listening");
+    let actors: Vec<Running> = (0..CLIENTS)
+        .map(|number| {
+            let mut command = treadmill(folder.path());
+            let name = format!("a{number}");
+            command.args(["actor", "--connect", &router_at, "--run", "run", "--envs", "2", "--name", &name]);
+            command.args(with_tls);
+            Running::start(command)
+        })
+        .collect();
+    await_that("all actors", || last_value(&run, "actors/alive").filter(|alive| *alive == CLIENTS as f64));
+    let joined = metrics(&run).iter().filter(|(tag, ..)| tag == "train/n_updates").count() as u64;
+    let steps = metrics(&run).last().unwrap().1;
+    await_steps(&run, steps + 16_384);
+    actors.iter().for_each(|actor| actor.signal(libc::SIGTERM));
+    learner.signal(libc::SIGINT);
+    let (status, lines) = learner.wait();
+    assert!(status.success(), "{lines:#?}");
+    let mut served: BTreeMap<u64, u32> = BTreeMap::new();
+    for line in lines.iter().filter(|line| line.contains("policy served")) {
+        let version = line.split("version=").nth(1).and_then(|rest| rest.split_whitespace().next());
+        *served.entry(version.unwrap().parse().unwrap()).or_default() += 1;
+    }
+    let after_joining: Vec<_> = served.range(joined + 2..).collect();
+    assert!(after_joining.len() > 4, "{served:?}");
+    assert!(after_joining.iter().all(|(_, count)| **count == 1), "{served:?}");
+    drop((actors, router));
+}
+
+#[test]
+fn a_learner_sends_a_version_once_to_the_router_of_eight_actors() {
+    assert_one_policy_per_version(false);
+}
+
+#[test]
+fn access_rules_let_a_router_answer_for_the_learner() {
+    assert_one_policy_per_version(true);
+}
