@@ -10,7 +10,7 @@ fn runs_are_compared_by_results_and_configuration() {
     let (folder, _) = folders();
     let train = |name: &str, more: &[&str]| {
         let dir = format!("runs/{name}");
-        let args = ["train", "--preset", "smoke", "--steps", "1024", "--run-dir", &dir];
+        let args = ["train", "--preset", "smoke", "--steps", "1024", "--actors", "1", "--run-dir", &dir];
         assert!(run(folder.path(), &[&args[..], more].concat()).status.success());
     };
     train("plain", &[]);

@@ -33,8 +33,7 @@ fn bundle(number: u64) -> [PolicyBundle; 2] {
             config_hash: 9,
             config_toml: "[run]".into(),
             model_xml: "<mujoco/>".into(),
-            actor_state: None,
-            fragment_steps: 0,
+            ..PolicyBundle::default()
         }
     })
 }

@@ -36,7 +36,7 @@ pub fn treadmill(folder: &Path) -> Command {
 
 /// Trains a run of the preset `smoke` for 2048 steps.
 pub fn trained(folder: &Path, run: &Path) {
-    let args = ["train", "--preset", "smoke", "--steps", "2048", "--run-dir", run.to_str().unwrap()];
+    let args = ["train", "--preset", "smoke", "--steps", "2048", "--actors", "1", "--run-dir", run.to_str().unwrap()];
     assert!(self::run(folder, &args).status.success());
 }
 

@@ -175,7 +175,7 @@ fn training_with_mirror_images_continues_after_a_resume() {
     let steps =
         |run: &std::path::Path| load_file(&run.join("checkpoints/latest.bundle")).unwrap().counters.gradient_steps;
     let (plain_folder, plain) = folders();
-    assert!(smoke(plain_folder.path(), &plain, &["--steps", "12288"]).status.success());
+    assert!(smoke(plain_folder.path(), &plain, &["--steps", "12288", "--actors", "1"]).status.success());
     assert_eq!(steps(&run), 2 * steps(&plain));
 }
 

@@ -180,8 +180,7 @@ pub(super) mod tests {
             config_hash: 9,
             config_toml: "[run]".into(),
             model_xml: "<mujoco/>".into(),
-            actor_state: None,
-            fragment_steps: 0,
+            ..PolicyBundle::default()
         }
     }
 
