@@ -62,10 +62,10 @@ fn forged_reports_are_ignored() {
             falls: 0,
         };
         let timeout = std::time::Duration::from_secs(10);
-        for evaluator in ["liar", "other-liar"] {
-            let answer = ask_for_evaluation(&bus, &report.run, evaluator, Some(&report), timeout).await;
-            assert!(matches!(answer, Ok(Assignment::Nothing)), "{answer:?}");
-        }
+        let answer = ask_for_evaluation(&bus, &report.run, "liar", Some(&report), timeout).await;
+        assert!(matches!(answer, Ok(Assignment::Nothing)), "{answer:?}");
+        let answer = ask_for_evaluation(&bus, &report.run, "other-liar", Some(&report), timeout).await;
+        assert!(matches!(answer, Ok(Assignment::NoAnswer)), "a report under another name gets no reply: {answer:?}");
     });
     await_steps(&run, 8192);
     training.signal(libc::SIGINT);
