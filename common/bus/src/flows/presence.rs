@@ -16,7 +16,7 @@ use zenoh::{
     sample::{Sample, SampleKind},
 };
 
-use crate::{Bus, BusError, keys};
+use crate::{Bus, BusError, keys, workarounds::kept_routes::KeptRoutes};
 
 /// Most actors that are tracked; further tokens are ignored.
 const ACTORS_MAX: usize = 4096;
@@ -33,6 +33,7 @@ pub fn token(bus: &Bus, run: &str, actor: &str) -> Result<impl Send + Sync + use
 /// Live actors, by liveliness token.
 pub struct Alive {
     view: AliveView,
+    kept_routes: KeptRoutes,
     _subscriber: Subscriber<()>,
     _token: LivelinessToken,
 }
@@ -69,7 +70,8 @@ impl Alive {
             .declare_token(keys::learner(run))
             .wait()
             .map_err(BusError::flow("declaring the learner's token"))?;
-        Ok(Self { view, _subscriber: subscriber, _token: token })
+        let kept_routes = KeptRoutes::new(&bus.session, run);
+        Ok(Self { view, kept_routes, _subscriber: subscriber, _token: token })
     }
 
     /// Returns a view for another thread.
@@ -78,8 +80,10 @@ impl Alive {
     }
 
     /// Returns the names of the live actors.
-    pub fn actors(&self) -> BTreeSet<String> {
-        self.view.actors()
+    pub fn actors(&mut self) -> BTreeSet<String> {
+        let actors = self.view.actors();
+        self.kept_routes.set_actors(&actors);
+        actors
     }
 
     /// Returns a number that changes whenever the live actors do.
