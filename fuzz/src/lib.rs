@@ -12,7 +12,6 @@ pub mod samples;
 use std::{sync::Arc, time::Instant};
 
 use bytes::Bytes;
-use sha2::{Digest, Sha256};
 use treadmill_bus::admission::Admission;
 use treadmill_config::{Config, ConfigSource};
 use treadmill_humanoid::Model;
@@ -158,19 +157,19 @@ pub fn json(data: &[u8]) {
 
 /// Decodes a checkpoint: the bytes as a file, and the bytes as the content of a file with a valid header and checksum.
 pub fn checkpoint(data: &[u8]) {
-    let wrapped = [encoding::FORMAT_BEFORE, encoding::FORMAT].map(|format| {
+    let wrapped = [encoding::FORMAT_OLDEST, encoding::FORMAT].map(|format| {
         let mut wrapped = encoding::encode(&()).expect("the unit value can be encoded");
         wrapped.truncate(8);
         wrapped.extend(format.to_le_bytes());
         wrapped.extend((data.len() as u64).to_le_bytes());
-        wrapped.extend(Sha256::digest(data));
+        wrapped.extend(encoding::checksum(format, data));
         wrapped.extend(data);
         wrapped
     });
     for bytes in [data, &wrapped[0], &wrapped[1]] {
         let Ok(state) = decode_checkpoint("a file", bytes) else { continue };
-        if state.check().is_ok() {
-            drop(state.bundle());
+        if let Ok(config) = state.check().and_then(|()| state.config()) {
+            drop(state.bundle(&config, 0));
         }
         let encoded = encoding::encode(&state).expect("what was decoded can be encoded");
         // NaN is not equal to itself, so bytes are compared.

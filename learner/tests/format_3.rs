@@ -79,7 +79,7 @@ fn an_older_physics_begins_new_episodes_and_a_newer_one_is_refused() {
     assert!(state.actor_state.is_some() && state.physics_version == 1, "before there were versions, there was one");
     state.adopt_physics(2).unwrap();
     assert!(state.actor_state.is_none() && state.physics_version == 2);
-    assert_eq!(state.bundle().unwrap().physics_version, 2);
+    assert_eq!(state.bundle(&state.config().unwrap(), 0).unwrap().physics_version, 2);
     let why = state.adopt_physics(1).unwrap_err();
     assert!(why.contains("simulates physics 1") && why.contains("has physics 2"), "{why}");
     assert_eq!(state.physics_version, 2);

@@ -17,7 +17,7 @@ use std::{
 
 use treadmill_runtime::{atomic_file, run_folder::RunFolder};
 
-use self::encoding::{FORMAT, FORMAT_BEFORE};
+use self::encoding::{FORMAT, FORMAT_OLDEST};
 pub use state::{Counters, TrainingState};
 
 /// Selects a checkpoint of a run.
@@ -68,7 +68,7 @@ pub enum CheckpointError {
     },
     /// Another version of this program wrote it.
     #[error(
-        "checkpoint `{path}` has format {found}; this program reads formats {FORMAT_BEFORE} and {FORMAT}: continue with the \
+        "checkpoint `{path}` has format {found}; this program reads formats {FORMAT_OLDEST} to {FORMAT}: continue with the \
          version that wrote it, named in versions.json in the run's folder"
     )]
     Format {
@@ -181,7 +181,7 @@ fn numbered(number: u64) -> String {
 }
 
 /// Writes the checkpoints of one run.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct CheckpointWriter {
     folder: PathBuf,
     every_updates: u64,
@@ -194,16 +194,23 @@ impl CheckpointWriter {
         Self { folder: folder.checkpoints(), every_updates, keep }
     }
 
-    /// Writes `latest.bundle`, and a numbered checkpoint if one is due. Returns the encoded state.
+    /// Writes `latest.bundle`. Returns the encoded state.
     pub fn save(&self, state: &TrainingState) -> Result<Vec<u8>, CheckpointError> {
         let bytes = encoding::encode(state)?;
         self.write("latest.bundle", &bytes)?;
-        let updates = state.counters.updates;
-        if self.keep > 0 && updates > 0 && updates.is_multiple_of(self.every_updates) {
-            self.write(&numbered(updates), &bytes)?;
-            self.prune();
-        }
         Ok(bytes)
+    }
+
+    /// Whether a numbered checkpoint is due after this number of updates.
+    pub fn is_due(&self, updates: u64) -> bool {
+        self.keep > 0 && updates > 0 && updates.is_multiple_of(self.every_updates)
+    }
+
+    /// Writes an encoded state as the checkpoint of this number of updates, and removes surplus ones.
+    pub fn save_numbered(&self, updates: u64, bytes: &[u8]) -> Result<(), CheckpointError> {
+        self.write(&numbered(updates), bytes)?;
+        self.prune();
+        Ok(())
     }
 
     /// Changes how often numbered checkpoints are written, and how many are kept.

@@ -224,13 +224,13 @@ impl TrainingState {
 
     /// Hash that every fragment repeats: of the model and of the configuration that actors depend on. The run's length
     /// and the learner's settings are excluded, so that they can be changed while actors continue.
-    pub fn config_hash(&self) -> Result<u64, String> {
-        let mut config = self.config()?;
+    pub fn config_hash(&self, config: &Config) -> u64 {
+        let mut config = config.clone();
         config.run.steps = 0;
         config.ppo = PpoConfig::default();
         config.eval = EvaluationConfig::default();
         config.learner = LearnerConfig { mode: config.learner.mode, ..LearnerConfig::default() };
-        Ok(seeds::checksum(&[config.to_toml().as_bytes(), self.model_xml.as_bytes()]))
+        seeds::checksum(&[config.to_toml().as_bytes(), self.model_xml.as_bytes()])
     }
 
     /// Returns a bundle with the weights of the actor only, which is what actors need.
@@ -239,9 +239,9 @@ impl TrainingState {
         PolicyBundle { checksum: seeds::checksum(&[&weights]), weights: weights.into(), ..bundle.clone() }
     }
 
-    /// Policy bundle with actor and critic, without [`Self::actor_state`], which is added on resume.
-    pub fn bundle(&self) -> Result<PolicyBundle, String> {
-        let config = self.config()?;
+    /// Policy bundle with actor and critic, without [`Self::actor_state`], which is added on resume. `config` is the parsed
+    /// configuration and `config_hash` its hash: bundles are too frequent to compute either.
+    pub fn bundle(&self, config: &Config, config_hash: u64) -> Result<PolicyBundle, String> {
         let weights = treadmill_policy::to_safetensors(&self.shape, &self.parameters);
         let normaliser = Normaliser::from_moments(&self.observation_moments, config.policy.observation_clip as f32);
         let narrow = |size: usize| u32::try_from(size).map_err(|why| why.to_string());
@@ -256,7 +256,7 @@ impl TrainingState {
             observation_mean: normaliser.mean,
             observation_inverse_std: normaliser.inverse_std,
             observation_clip: normaliser.clip,
-            config_hash: self.config_hash()?,
+            config_hash,
             config_toml: self.config_toml.clone(),
             model_xml: self.model_xml.clone(),
             actor_state: None,

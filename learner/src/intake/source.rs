@@ -31,7 +31,7 @@ pub trait FragmentSource {
     fn answer(incoming: Self::Incoming, receipt: &Receipt);
 
     /// Returns the names of the actors that are alive.
-    fn actors(&self) -> BTreeSet<String>;
+    fn actors(&mut self) -> BTreeSet<String>;
 
     /// Returns a number that changes whenever [`Self::actors`] does.
     fn membership(&self) -> u64;
@@ -82,7 +82,7 @@ impl FragmentSource for BusFragmentSource {
         incoming.answer(receipt);
     }
 
-    fn actors(&self) -> BTreeSet<String> {
+    fn actors(&mut self) -> BTreeSet<String> {
         self.alive.actors()
     }
 

@@ -46,7 +46,7 @@ impl Alarms {
 
     /// Records an undone update.
     pub(super) fn record_undone(&mut self, why: &str, now: Instant) {
-        let text = format!("an update was undone: {why}; the log names the fragments that caused it");
+        let text = format!("an update was undone: {why}; if fragments caused it, the log names their senders");
         self.undone = Some((now, text));
     }
 
@@ -56,7 +56,7 @@ impl Alarms {
         let rejected = rejections.recent(now, LASTS).take(SENDERS_MAX).map(|(sender, rejection)| {
             let (count, reason) = (rejection.fragments, &rejection.reason);
             format!(
-                "{count} fragments of `{sender}` were rejected, the last because {reason}; stop or repair that actor"
+                "fragments of `{sender}` were rejected ({count}), the last because {reason}; stop or repair that actor"
             )
         });
         self.waste.iter().chain(undone).cloned().chain(rejected).collect()
@@ -77,7 +77,11 @@ mod tests {
         let texts = alarms.texts(&rejections, now);
         assert!(texts[0].starts_with("64 % of the simulated steps") && texts[0].contains("rollout.fragment_steps"));
         assert!(texts[1].contains("the loss is not finite"));
-        assert!(texts[2].contains("1 fragments of `bad`") && texts[2].contains("stop or repair"), "{}", texts[2]);
+        assert!(
+            texts[2].contains("fragments of `bad` were rejected (1)") && texts[2].contains("stop or repair"),
+            "{}",
+            texts[2]
+        );
         alarms.record_efficiency(Efficiency { used_share: Some(0.97), idle_share: None }, 12, 0);
         assert!(alarms.texts(&rejections, now + LASTS).is_empty());
     }

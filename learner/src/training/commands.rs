@@ -127,7 +127,12 @@ impl Trainer {
         self.serving.intake.fleet.set_rule(HorizonRule::new(&changed, observation, action));
         let LearnerConfig { checkpoint_every_updates, keep_checkpoints, .. } = changed.learner;
         self.serving.checkpoints.set_retention(checkpoint_every_updates.into(), keep_checkpoints as usize);
-        self.reporting.report.set_config(&changed);
+        let for_report = changed.clone();
+        let outputs = self.reporting.background.submit(move |report| {
+            report.set_config(&for_report);
+            Ok(())
+        });
+        outputs.map_err(|why| error_chain(&why))?;
         if let Some(evaluation) = &mut self.serving.evaluation {
             evaluation.set_every(changed.eval.every_steps, self.state.counters.env_steps);
         }

@@ -17,13 +17,13 @@ pub struct EvaluationResult {
     /// Environment steps that the policy has learnt from.
     pub env_steps: u64,
     /// Encoded checkpoint with that policy.
-    pub checkpoint: Vec<u8>,
+    pub checkpoint: Bytes,
 }
 
 struct Candidate {
     version: PolicyVersion,
     env_steps: u64,
-    checkpoint: Vec<u8>,
+    checkpoint: Bytes,
 }
 
 /// Submits policies for evaluation and matches the results to them.
@@ -55,7 +55,7 @@ impl EvaluationScheduler {
     }
 
     /// Submits a policy for evaluation. `checkpoint` holds the same policy.
-    pub fn submit(&mut self, version: PolicyVersion, bundle: Bytes, env_steps: u64, checkpoint: Vec<u8>) {
+    pub fn submit(&mut self, version: PolicyVersion, bundle: Bytes, env_steps: u64, checkpoint: Bytes) {
         self.due_at_steps = next_due(self.every_steps, env_steps);
         if self.candidates.len() == CANDIDATES_MAX {
             self.candidates.pop_front();

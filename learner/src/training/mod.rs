@@ -4,6 +4,7 @@
 //! - Here: [`train`] and its loop. `Trainer` has three parts: learning, serving and reporting.
 //! - `options`: [`TrainingOptions`] and [`TrainingSummary`]; `error`: [`TrainingError`].
 //! - `alarms`: conditions that need an operator.
+//! - `background`: thread for the work that no actor waits for.
 //! - `start`: prepares a `Trainer` for its first batch.
 //! - `learning`: updates the parameters from a batch.
 //! - `serving`: collects batches, saves checkpoints, publishes policies, takes evaluation results.
@@ -16,6 +17,7 @@
 //! - [`disk_full`]: waits while the disk is full.
 
 mod alarms;
+mod background;
 mod commands;
 pub mod control;
 pub mod disk_full;
@@ -52,15 +54,13 @@ pub fn train(
     let (begun, steps_before) = (Instant::now(), state.counters.env_steps);
     let mut trainer = Trainer::start(bus, state, options, shutdown)?;
     let outcome = run(&mut trainer);
-    trainer.reporting.report.end(outcome.as_ref().ok().copied());
-    let stopped = outcome?;
-    trainer.finish()?;
+    let (state, farthest_m, stopped) = trainer.finish(outcome)?;
     Ok(TrainingSummary {
         wall_s: begun.elapsed().as_secs_f64(),
-        env_steps: trainer.state.counters.env_steps - steps_before,
+        env_steps: state.counters.env_steps - steps_before,
         stopped,
-        farthest_m: trainer.reporting.history.farthest_m(),
-        state: trainer.state,
+        farthest_m,
+        state,
     })
 }
 
@@ -76,7 +76,8 @@ fn run(trainer: &mut Trainer) -> Result<bool, TrainingError> {
         let evaluation = trainer.take_evaluation()?;
         let saved = trainer.save()?;
         let checkpoint = begun.elapsed() - collect - update;
-        trainer.publish(saved)?;
+        trainer.publish(&saved)?;
+        trainer.keep(saved)?;
         let publish = begun.elapsed() - collect - update;
         let serial = trainer.reporting.serial(update, trainer.serving.intake.idle());
         let learn = trainer.learning.learn;

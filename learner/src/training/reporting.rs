@@ -1,6 +1,7 @@
 //! Logs each update.
 
 use std::{
+    io,
     path::PathBuf,
     sync::{
         Arc,
@@ -12,7 +13,9 @@ use std::{
 use treadmill_bus::StatsFeed;
 use treadmill_ppo::{AcceptedFragment, UpdateStats};
 
-use super::{Trainer, TrainingError, TrainingOptions, alarms::Alarms, evaluation::EvaluationResult};
+use super::{
+    Trainer, TrainingError, TrainingOptions, alarms::Alarms, background::Background, evaluation::EvaluationResult,
+};
 use crate::{
     checkpoint::TrainingState,
     intake::ledger_report,
@@ -24,7 +27,7 @@ use crate::{
 
 /// Reporting part of a [`Trainer`].
 pub(super) struct Reporting {
-    pub(super) report: MetricsReport,
+    pub(super) background: Background,
     /// Return and distance over the run.
     pub(super) history: History,
     stats: StatsFeed,
@@ -56,9 +59,9 @@ impl Reporting {
         stats: StatsFeed,
         state: &TrainingState,
         options: &TrainingOptions,
-    ) -> Self {
-        Self {
-            report,
+    ) -> io::Result<Self> {
+        Ok(Self {
+            background: Background::start(report)?,
             history,
             stats,
             prometheus: options.prometheus.clone(),
@@ -76,7 +79,7 @@ impl Reporting {
             wall_before_s: state.counters.wall_s,
             env_steps_per_s: 0.0,
             lag_mean: 0.0,
-        }
+        })
     }
 
     /// Seconds of training over the whole run.
@@ -139,20 +142,32 @@ impl Trainer {
         };
         let scalars = record.scalars();
         let updates = state.counters.updates;
-        if histograms::is_due(updates) {
-            let histograms = histograms::of(batch, &reporting.action_names);
-            reporting.report.log_histograms(env_steps, &histograms, shutdown)?;
-        }
-        Ok(reporting.report.log(env_steps, updates, &scalars, &reporting.history, shutdown)?)
+        let histograms = histograms::is_due(updates).then(|| histograms::of(batch, &reporting.action_names));
+        let (history, shutdown) = (reporting.history.clone(), shutdown.clone());
+        reporting.background.submit(move |report| {
+            if let Some(histograms) = histograms {
+                report.log_histograms(env_steps, &histograms, &shutdown)?;
+            }
+            Ok(report.log(env_steps, updates, &scalars, &history, &shutdown)?)
+        })
     }
 
-    /// Answers waiting senders and writes the last logs.
-    pub(super) fn finish(&mut self) -> Result<(), TrainingError> {
+    /// Ends the run: answers waiting senders and writes the last logs. `outcome` is whether the run was stopped before its last
+    /// step. Returns the state, the greatest distance in metres, and the outcome.
+    pub(super) fn finish(
+        mut self,
+        outcome: Result<bool, TrainingError>,
+    ) -> Result<(TrainingState, Option<f64>, bool), TrainingError> {
         self.serving.intake.stop(&self.state.lineage);
+        let Reporting { background, history, ledger_report, .. } = self.reporting;
+        let (mut report, written) = background.finish();
+        let outcome = outcome.and_then(|stopped| written.map(|()| stopped));
+        report.end(outcome.as_ref().ok().copied());
+        let stopped = outcome?;
         // The ledger of the last checkpoint, without fragments accepted since.
-        ledger_report::write(&self.reporting.ledger_report, &self.state.ledger)?;
-        self.reporting.report.finish(&self.reporting.history)?;
-        Ok(())
+        ledger_report::write(&ledger_report, &self.state.ledger)?;
+        report.finish(&history)?;
+        Ok((self.state, history.farthest_m(), stopped))
     }
 }
 

@@ -2,6 +2,7 @@
 
 use std::time::{Duration, Instant};
 
+use bytes::Bytes;
 use treadmill_bus::{PolicyServer, PublishedPolicy};
 use treadmill_config::LearnerMode;
 use treadmill_runtime::error_chain;
@@ -22,6 +23,8 @@ use crate::{
 pub(super) struct Serving {
     pub(super) intake: Intake<BusFragmentSource>,
     pub(super) policies: PolicyServer,
+    /// Hash of what actors depend on; it does not change during a run.
+    pub(super) config_hash: u64,
     /// Evaluation during training, if it is configured.
     pub(super) evaluation: Option<EvaluationScheduler>,
     pub(super) control: ControlChannel,
@@ -50,7 +53,12 @@ impl Trainer {
                 Collected::Batch(batch) => return Some(batch),
                 Collected::Interrupted => {
                     self.publish_status_if_due();
-                    self.reporting.report.show_wait(self.serving.waited, self.serving.intake.alive().len());
+                    let (waited, actors) = (self.serving.waited, self.serving.intake.alive().len());
+                    // An error is returned after the next update.
+                    let _ = self.reporting.background.submit(move |report| {
+                        report.show_wait(waited, actors);
+                        Ok(())
+                    });
                 }
                 Collected::Stopped => return None,
             }
@@ -71,8 +79,8 @@ impl Trainer {
         Ok(Some(result))
     }
 
-    /// Writes the checkpoint and returns its bytes.
-    pub(super) fn save(&mut self) -> Result<Vec<u8>, TrainingError> {
+    /// Writes the checkpoint and returns its bytes. Actors wait for it, so that no version is announced that a crash could undo.
+    pub(super) fn save(&mut self) -> Result<Bytes, TrainingError> {
         let validator = &mut self.serving.intake.validator;
         validator.count_unread();
         self.state.fragment_counts = validator.counts;
@@ -82,13 +90,26 @@ impl Trainer {
         let best = self.best_in_training();
         self.state.best_return = best.or(self.state.best_return);
         let checkpoints = &self.serving.checkpoints;
-        let saved = wait_for_disk_space(&self.shutdown, || checkpoints.save(&self.state))?;
+        let saved = Bytes::from(wait_for_disk_space(&self.shutdown, || checkpoints.save(&self.state))?);
         if best.is_some() {
             wait_for_disk_space(&self.shutdown, || checkpoints.save_best(&saved))?;
         }
         self.serving.intake.validator.ledger.mark_durable();
         self.serving.heartbeat.beat();
         Ok(saved)
+    }
+
+    /// Keeps the checkpoint if a numbered one is due.
+    pub(super) fn keep(&self, saved: Bytes) -> Result<(), TrainingError> {
+        let (checkpoints, shutdown) = (self.serving.checkpoints.clone(), self.shutdown.clone());
+        let updates = self.state.counters.updates;
+        if !checkpoints.is_due(updates) {
+            return Ok(());
+        }
+        self.reporting.background.submit(move |_| {
+            wait_for_disk_space(&shutdown, || checkpoints.save_numbered(updates, &saved))?;
+            Ok(())
+        })
     }
 
     /// Returns the return in training, if it is the best so far and no policy was evaluated yet. A few absurd returns must not
@@ -103,9 +124,9 @@ impl Trainer {
     }
 
     /// Publishes the new policy and submits it for evaluation if one is due. `saved` is its checkpoint.
-    pub(super) fn publish(&mut self, saved: Vec<u8>) -> Result<(), TrainingError> {
+    pub(super) fn publish(&mut self, saved: &Bytes) -> Result<(), TrainingError> {
         let invalid = |why| TrainingError::State { why };
-        let mut bundle = self.state.bundle().map_err(invalid)?;
+        let mut bundle = self.state.bundle(&self.config, self.serving.config_hash).map_err(invalid)?;
         bundle.fragment_steps = self.serving.intake.fleet.nominal();
         let policy = PublishedPolicy::new(&bundle, &self.state.for_actors(&bundle));
         let policy = policy.map_err(|why| invalid(error_chain(&why)))?;
@@ -118,7 +139,7 @@ impl Trainer {
         if let Some(evaluation) = &mut self.serving.evaluation
             && evaluation.is_due(env_steps)
         {
-            evaluation.submit(bundle.version, encoded, env_steps, saved);
+            evaluation.submit(bundle.version, encoded, env_steps, saved.clone());
         }
         Ok(())
     }

@@ -29,7 +29,8 @@ impl Trainer {
     ) -> Result<Self, TrainingError> {
         let invalid = |why| TrainingError::State { why };
         let config = state.config().map_err(invalid)?;
-        let mut bundle = state.bundle().map_err(invalid)?;
+        let config_hash = state.config_hash(&config);
+        let mut bundle = state.bundle(&config, config_hash).map_err(invalid)?;
         // Only in this version: an actor that joins later must not repeat steps that were learnt from.
         bundle.actor_state = state.actor_state.clone();
         let rule = HorizonRule::new(&config, state.shape.observation, state.shape.action);
@@ -37,7 +38,7 @@ impl Trainer {
         bundle.fragment_steps = fleet.nominal();
         let expected = ExpectedFragment {
             run: state.run.clone(),
-            config_hash: bundle.config_hash,
+            config_hash,
             observation_size: bundle.observation_size,
             action_size: bundle.action_size,
             max_policy_lag: config.policy_lag_allowed().into(),
@@ -67,6 +68,7 @@ impl Trainer {
         let serving = Serving {
             intake,
             policies,
+            config_hash,
             evaluation,
             control,
             paused: false,
@@ -74,7 +76,7 @@ impl Trainer {
             heartbeat: options.heartbeat.clone(),
             waited: Duration::ZERO,
         };
-        let reporting = Reporting::new(report, history, stats, &state, options);
+        let reporting = Reporting::new(report, history, stats, &state, options)?;
         Ok(Self { state, config, shutdown: shutdown.clone(), learning, serving, reporting })
     }
 }

@@ -56,7 +56,7 @@ impl FragmentSource for MemoryFragmentSource {
         world.send(Event::Answer { actor, incarnation, sequence, receipt: receipt.clone() });
     }
 
-    fn actors(&self) -> BTreeSet<String> {
+    fn actors(&mut self) -> BTreeSet<String> {
         self.0.borrow().actors.iter().map(|actor| actor.name.clone()).collect()
     }
 
