@@ -61,6 +61,18 @@ pub enum ActorError {
         /// Smallest wire version that knows them.
         needed: u32,
     },
+    /// A fragment would be larger than the bus allows.
+    #[error(
+        "fragments of {envs} environments and {steps} steps are too large to send; allowed for {steps} steps: --envs {envs_max};          start further actors for the other environments"
+    )]
+    FragmentSize {
+        /// Environments of this actor.
+        envs: u32,
+        /// Control steps of a fragment.
+        steps: u32,
+        /// Most environments for these steps.
+        envs_max: usize,
+    },
     /// The network cannot be evaluated.
     #[error("the policy cannot be evaluated")]
     Inference(#[from] candle_core::Error),

@@ -1,11 +1,11 @@
 //! Reads the run's configuration and maps it to that of the environment.
 
 use treadmill_config::{
-    Config, ConfigSource, EnvConfig, EnvObservation, EnvTask, ObservationPrecision, RandomisationConfig,
+    Config, ConfigSource, EnvConfig, EnvObservation, EnvTask, ObservationPrecision, RandomisationConfig, RolloutConfig,
     is_key_of_actors,
 };
 use treadmill_humanoid::{EnvironmentConfig, ObservationKind, PHYSICS_VERSION, Randomisation, RewardTask};
-use treadmill_proto::{PolicyBundle, Precision, WIRE_VERSION};
+use treadmill_proto::{PolicyBundle, Precision, WIRE_VERSION, limits::fragment_envs_max};
 
 use crate::ActorError;
 
@@ -54,20 +54,26 @@ fn is_needed(key: &str) -> bool {
     KEYS.contains(&key) || key.split_once('.').is_some_and(|(section, _)| SECTIONS.contains(&section))
 }
 
-/// Control steps of a fragment where neither the bundle nor the configuration says them.
-const FRAGMENT_STEPS: u32 = 128;
-/// Shortest automatic fragment.
-const FRAGMENT_STEPS_MIN: u32 = 8;
-
 /// Returns the control steps of the first fragment of an actor with `envs` environments. Every receipt says those of the next.
-pub(crate) fn first_fragment_steps(bundle: &PolicyBundle, config: &Config, envs: u32) -> u32 {
-    let steps = [bundle.fragment_steps, config.rollout.fragment_steps, FRAGMENT_STEPS];
-    let steps = steps.into_iter().find(|steps| *steps > 0).unwrap_or(FRAGMENT_STEPS);
-    match config.rollout.fragment_steps {
+///
+/// # Errors
+/// If such a fragment is too large for the bus.
+pub(crate) fn first_fragment_steps(bundle: &PolicyBundle, config: &Config, envs: u32) -> Result<u32, ActorError> {
+    let steps = match (bundle.fragment_steps, config.rollout.fragment_steps) {
+        // Of a learner that says nothing.
+        (0, 0) => RolloutConfig::STEPS_MAX,
+        (0, steps) | (steps, _) => steps,
+    };
+    let steps = match config.rollout.fragment_steps {
         // The learner does not know this actor yet, whose first fragment alone may fill a batch.
-        0 => steps.min((config.ppo.batch / envs.max(1)).max(FRAGMENT_STEPS_MIN)),
+        0 => steps.min((config.ppo.batch / envs.max(1)).max(RolloutConfig::STEPS_MIN)),
         _ => steps,
+    };
+    let envs_max = fragment_envs_max(steps, bundle.observation_size as usize, bundle.action_size as usize);
+    if envs as usize > envs_max {
+        return Err(ActorError::FragmentSize { envs, steps, envs_max });
     }
+    Ok(steps)
 }
 
 /// Refuses a task that this program does not simulate.
@@ -153,14 +159,20 @@ mod tests {
     #[test]
     fn the_first_fragment_holds_at_most_a_batch() {
         let mut config = Config::default();
-        let mut bundle = PolicyBundle { fragment_steps: 64, ..PolicyBundle::default() };
-        assert_eq!(first_fragment_steps(&bundle, &config, 32), 64);
-        assert_eq!(first_fragment_steps(&bundle, &config, 512), 16);
-        assert_eq!(first_fragment_steps(&bundle, &config, 65_536), 8);
+        let sizes = PolicyBundle { observation_size: 45, action_size: 17, ..PolicyBundle::default() };
+        let mut bundle = PolicyBundle { fragment_steps: 64, ..sizes };
+        let steps = |bundle: &PolicyBundle, config: &Config, envs| first_fragment_steps(bundle, config, envs).unwrap();
+        assert_eq!(steps(&bundle, &config, 32), 64);
+        assert_eq!(steps(&bundle, &config, 512), 16);
+        assert_eq!(steps(&bundle, &config, 10_000), 8);
         bundle.fragment_steps = 0;
-        assert_eq!(first_fragment_steps(&bundle, &config, 32), 128, "of a learner that says nothing");
+        assert_eq!(steps(&bundle, &config, 32), 128, "of a learner that says nothing");
         config.rollout.fragment_steps = 24;
-        assert_eq!(first_fragment_steps(&bundle, &config, 65_536), 24, "as configured");
+        assert_eq!(steps(&bundle, &config, 4096), 24, "as configured");
+        config.rollout.fragment_steps = 32;
+        let why = first_fragment_steps(&bundle, &config, 4096).unwrap_err().to_string();
+        // 32 × 257 + 180 bytes of each environment, in 30 MiB less a sixty-fourth.
+        assert!(why.contains("4096 environments and 32 steps") && why.contains("--envs 3684"), "{why}");
     }
 
     #[test]

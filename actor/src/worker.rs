@@ -75,7 +75,7 @@ impl<'a> Membership<'a> {
         tracing::info!(incarnation, actor = %options.name, "new incarnation");
         let policies = Arc::new(PolicyFetcher::new(bus.clone(), options.run.clone(), bundle)?);
         let receipt_timeout = Duration::from_millis(config.bus.receipt_timeout_ms);
-        let steps = settings::first_fragment_steps(bundle, &config, options.envs);
+        let steps = settings::first_fragment_steps(bundle, &config, options.envs)?;
         let uploader = Uploader::new(bus.clone(), &bundle.run, &options.name, receipt_timeout, policies.clone(), steps);
         let identity = ActorIdentity {
             run: bundle.run.clone(),

@@ -2,6 +2,14 @@
 
 /// Largest encoded fragment, below the bus's limit of 32 MiB per message.
 pub const FRAGMENT_BYTES_MAX: usize = 30 << 20;
+/// Returns the most environments of a fragment of `steps` steps with observations and actions of these widths.
+#[must_use]
+pub fn fragment_envs_max(steps: u32, observation: usize, action: usize) -> usize {
+    // Observation, action, log-probability, reward and flags of each step, and one last observation.
+    let env_bytes = steps as usize * (4 * (observation + action + 2) + 1) + 4 * observation;
+    // The rest is for the header and for finished episodes.
+    (FRAGMENT_BYTES_MAX - FRAGMENT_BYTES_MAX / 64) / env_bytes
+}
 /// Largest encoded policy bundle.
 pub const BUNDLE_BYTES_MAX: usize = 30 << 20;
 /// Largest piece of a policy bundle. With its header it fits into one batch of the bus, which has 32 to 64 KiB depending on the

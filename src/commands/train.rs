@@ -2,7 +2,6 @@
 
 use clap::Args;
 use treadmill_bus::Role;
-use treadmill_runtime::machine;
 
 use crate::{
     launch::{
@@ -49,9 +48,6 @@ pub fn run(args: TrainArgs) -> anyhow::Result<()> {
     let prepared = startup::prepare(RunCommand::Train, &args.new, &args.any, &changes)?;
     let rollout = &prepared.config.rollout;
     let wanted = args.actors.filter(|_| !prepared.config.run.deterministic).unwrap_or(rollout.actors);
-    let actors = match wanted {
-        0 => (machine::cores() as u32).min(rollout.envs),
-        wanted => wanted.min(rollout.envs),
-    };
+    let actors = startup::actor_processes(wanted, rollout.envs);
     host::run(prepared, HostOptions { any: &args.any, bus: &options, actors: Some(actors), metrics })
 }

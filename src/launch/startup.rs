@@ -5,12 +5,12 @@ use std::{fs, path::PathBuf};
 use anyhow::Context;
 use clap::Args;
 use serde_json::json;
-use treadmill_config::{Config, ConfigSource, EnvTask, LearnerMode};
+use treadmill_config::{Config, ConfigSource, EnvTask, LearnerMode, RolloutConfig};
 use treadmill_humanoid::PHYSICS_VERSION;
 use treadmill_learner::checkpoint::{self, TrainingState, Which};
 use treadmill_policy::device::{Device, DeviceKind};
 use treadmill_ppo::BatchMirror;
-use treadmill_proto::{Task, WIRE_VERSION};
+use treadmill_proto::{Task, WIRE_VERSION, limits::fragment_envs_max};
 use treadmill_runtime::{atomic_file, error_chain, machine, run_folder::RunFolder, seeds};
 
 use crate::launch::{exit_code::Usage, model, slow_step::SlowStepNotice};
@@ -173,6 +173,27 @@ fn task_keys(name: &str) -> Vec<(&'static str, toml::Value)> {
     }
 }
 
+/// Returns the number of actor processes of `train`: `wanted`, or one per core if that is 0.
+pub fn actor_processes(wanted: u32, envs: u32) -> u32 {
+    let wanted = if wanted == 0 { machine::cores() as u32 } else { wanted };
+    wanted.min(envs)
+}
+
+/// Refuses actors with more environments than a fragment holds.
+fn check_fragments(config: &Config, observation: usize, action: usize) -> Result<(), Usage> {
+    let RolloutConfig { envs, actors, fragment_steps, .. } = config.rollout;
+    let steps = if fragment_steps == 0 { RolloutConfig::STEPS_MIN } else { fragment_steps };
+    let (actors, envs_max) = (actor_processes(actors, envs), fragment_envs_max(steps, observation, action));
+    let needed = (envs as usize).div_ceil(envs_max.max(1));
+    if needed <= actors as usize {
+        return Ok(());
+    }
+    Err(Usage(format!(
+        "{actors} actors cannot send fragments of {envs} environments with {steps} steps, because a fragment holds at most \
+         {envs_max} environments; use --actors {needed}, fewer --envs, or a smaller rollout.fragment_steps"
+    )))
+}
+
 fn begin(
     command: RunCommand,
     new: &NewRunArgs,
@@ -181,6 +202,10 @@ fn begin(
 ) -> anyhow::Result<Prepared> {
     let mut source = ConfigSource::default();
     source.preset(&new.preset)?;
+    if command == RunCommand::Learner {
+        // Its actors are on other machines, and do not wait for the update.
+        source.value("learner.mode", "async")?;
+    }
     if let Some(file) = &new.config {
         source.file(file)?;
     }
@@ -220,6 +245,9 @@ fn begin(
     let environment = model::environment(&config, &text, any.model.as_deref())?;
     let mirror = model::mirror(&config, &text)?;
     let (observation, action) = (environment.observation_size(), environment.action_size());
+    if command == RunCommand::Train {
+        check_fragments(&config, observation, action)?;
+    }
     let folder = RunFolder::create(new.run_dir.as_deref(), &new.preset)?;
     let fresh = TrainingState::fresh(folder.name(), &config, &text, observation, action, seeds::unique());
     let state = TrainingState { physics_version: PHYSICS_VERSION, ..fresh };

@@ -3,8 +3,7 @@
 use std::{fs, path::Path, process::Command};
 
 use crate::{bus::sample::log_probs, support::*};
-use bytes::Bytes;
-use treadmill_bus::{Bus, Role, register_task, submit};
+use treadmill_bus::{Bus, Role, register_task};
 use treadmill_config::ConfigSource;
 use treadmill_learner::checkpoint::load_file;
 use treadmill_proto::{
@@ -27,7 +26,8 @@ fn learner(folder: &Path, run: &Path, more: &[&str]) -> Running {
     let mut command: Command = treadmill(folder);
     command.args(["learner", "--listen", "tcp/127.0.0.1:0"]).args(more);
     if !more.contains(&"--resume") {
-        command.args(["--preset", "smoke", "--run-dir", run.to_str().unwrap()]);
+        // One update for each fragment.
+        command.args(["--preset", "smoke", "--set", "learner.mode=sync", "--run-dir", run.to_str().unwrap()]);
     }
     Running::start(command)
 }
@@ -76,13 +76,7 @@ fn fragment(bundle: &PolicyBundle, sequence: u64) -> Fragment {
 }
 
 async fn send(bus: &Bus, fragment: &Fragment) -> Receipt {
-    let bytes = Bytes::from(fragment.encode().unwrap());
-    loop {
-        if let Some(receipt) = submit(bus, "run", &fragment.actor, bytes.clone(), TIMEOUT).await.unwrap() {
-            return receipt;
-        }
-        tokio::task::yield_now().await;
-    }
+    deliver(bus, &fragment.actor, fragment.encode().unwrap()).await
 }
 
 #[tokio::test(flavor = "multi_thread")]

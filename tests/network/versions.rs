@@ -7,10 +7,9 @@ use std::{
 };
 
 use crate::{attacks::Attacker, support::*};
-use bytes::Bytes;
 use toml::{Table, Value};
 use treadmill_actor::acting_policy::ActingPolicy;
-use treadmill_bus::{Bus, BusOptions, RolloutCopies, RolloutIntake, admission::Admission, submit};
+use treadmill_bus::{Bus, BusOptions, RolloutCopies, RolloutIntake, admission::Admission};
 use treadmill_humanoid::PHYSICS_VERSION;
 use treadmill_policy::gaussian;
 use treadmill_proto::{Fragment, Outcome, PolicyBundle, Receipt, WIRE_VERSION, fragment::TERMINATED};
@@ -21,6 +20,7 @@ const UNKNOWN_FIELD: [u8; 6] = [0xc2, 0x3e, 3, 1, 2, 3];
 fn learner(folder: &Path, run: &Path) -> Running {
     let mut command: Command = treadmill(folder);
     command.args(["learner", "--listen", "tcp/127.0.0.1:0", "--preset", "smoke", "--run-dir", run.to_str().unwrap()]);
+    command.args(["--set", "learner.mode=sync"]);
     Running::start(command)
 }
 
@@ -179,13 +179,7 @@ fn fragment(bundle: &PolicyBundle, sequence: u64) -> Fragment {
 }
 
 async fn send(bus: &Bus, fragment: &Fragment) -> Receipt {
-    let bytes = Bytes::from([&fragment.encode().unwrap()[..], &UNKNOWN_FIELD].concat());
-    loop {
-        if let Some(receipt) = submit(bus, "run", &fragment.actor, bytes.clone(), TIMEOUT).await.unwrap() {
-            return receipt;
-        }
-        tokio::task::yield_now().await;
-    }
+    deliver(bus, &fragment.actor, [&fragment.encode().unwrap()[..], &UNKNOWN_FIELD].concat()).await
 }
 
 #[tokio::test(flavor = "multi_thread")]

@@ -12,12 +12,13 @@ use std::{
     time::Duration,
 };
 
+use bytes::Bytes;
 pub use process::*;
 use rcgen::{CertificateParams, DnType, ExtendedKeyUsagePurpose, Issuer, KeyPair};
 use serde_json::Value;
 use time::OffsetDateTime;
-use treadmill_bus::{Bus, BusOptions, Credentials, Role, fetch_policy, workarounds::threads};
-use treadmill_proto::PolicyBundle;
+use treadmill_bus::{Bus, BusOptions, Credentials, Role, fetch_policy, submit, workarounds::threads};
+use treadmill_proto::{PolicyBundle, Receipt};
 
 /// Longest wait for a condition, which only a broken program reaches.
 pub const TIMEOUT: Duration = Duration::from_secs(120);
@@ -32,6 +33,17 @@ pub fn treadmill(folder: &Path) -> Command {
     // The binary sets it itself.
     command.env_remove(threads::VARIABLE);
     command
+}
+
+/// Sends an encoded fragment of the run `run` until a receipt comes.
+pub async fn deliver(bus: &Bus, actor: &str, fragment: Vec<u8>) -> Receipt {
+    let fragment = Bytes::from(fragment);
+    loop {
+        if let Some(receipt) = submit(bus, "run", actor, fragment.clone(), TIMEOUT).await.unwrap() {
+            return receipt;
+        }
+        tokio::task::yield_now().await;
+    }
 }
 
 /// Trains a run of the preset `smoke` for 2048 steps.

@@ -269,6 +269,29 @@ fn the_second_ctrl_c_ends_the_process_at_once() {
 }
 
 #[test]
+fn a_learner_without_actors_of_its_own_begins_in_async() {
+    let (folder, run) = folders();
+    for (more, mode) in [(&[][..], "async"), (&["--set", "learner.mode=sync"], "sync")] {
+        let mut command = treadmill(folder.path());
+        command.args(["learner", "--preset", "smoke", "--listen", "tcp/127.0.0.1:0"]).args(more);
+        command.args(["--run-dir", run.join(mode).to_str().unwrap()]);
+        let _learner = Running::start(command);
+        endpoint(&run.join(mode));
+        let config = fs::read_to_string(run.join(mode).join("config.toml")).unwrap();
+        assert!(config.contains(&format!("\nmode = \"{mode}\"\n")), "{config}");
+    }
+}
+
+#[test]
+fn fragments_that_are_too_large_to_send_are_refused_before_anything_is_written() {
+    let (folder, run) = folders();
+    let flags = ["--envs", "5000", "--actors", "1", "--set", "rollout.fragment_steps=32"];
+    let parts = ["fragments of 5000 environments with 32 steps", "at most 3684 environments", "use --actors 2"];
+    assert_refused(&smoke(folder.path(), &run, &flags), 2, &parts);
+    assert!(!run.exists());
+}
+
+#[test]
 fn a_run_folder_is_not_overwritten() {
     let (folder, run) = folders();
     assert!(smoke(folder.path(), &run, &["--steps", "512"]).status.success());

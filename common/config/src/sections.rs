@@ -233,6 +233,14 @@ section! {
     }
 }
 
+impl RolloutConfig {
+    /// Shortest automatic fragment in control steps.
+    pub const STEPS_MIN: u32 = 8;
+    /// Longest automatic fragment of an actor at the usual speed. Fewer environments than fill a batch with it deliver several
+    /// fragments for each batch.
+    pub const STEPS_MAX: u32 = 128;
+}
+
 impl PpoConfig {
     /// Gradient steps of one pass over a batch if `minibatch` is 0.
     const MINIBATCHES: usize = 8;

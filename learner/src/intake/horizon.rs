@@ -5,16 +5,14 @@
 
 use std::collections::BTreeMap;
 
-use treadmill_config::Config;
+use treadmill_config::{Config, RolloutConfig};
 use treadmill_proto::limits::{FRAGMENT_BYTES_MAX, STEPS_MAX};
 
-/// Longest nominal horizon. Fewer environments than fill a batch with it deliver several fragments for each batch.
-const NOMINAL_MAX: usize = 128;
 /// Horizon below which advantages lose more by their bias than small batches gain. Beyond the number of environments that fill
 /// a batch with it, batches grow, and horizons shrink with the fourth root of that number.
 const NOMINAL_KNEE: f64 = 32.0;
 /// Shortest horizon of any actor.
-const STEPS_MIN: usize = 8;
+const STEPS_MIN: usize = RolloutConfig::STEPS_MIN as usize;
 /// Longest horizon of a fast actor, relative to the nominal one.
 const FACTOR_MAX: usize = 4;
 
@@ -62,7 +60,7 @@ impl HorizonRule {
             return (grown as usize).min(self.batch_max);
         }
         // With few environments, a batch needs several rounds of equal size.
-        let rounds = self.batch.div_ceil(NOMINAL_MAX * envs);
+        let rounds = self.batch.div_ceil(RolloutConfig::STEPS_MAX as usize * envs);
         self.batch.div_ceil(rounds)
     }
 
