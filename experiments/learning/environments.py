@@ -11,11 +11,10 @@ thread, so that parallel runs do not disturb each other. Compare steps, not time
 """
 
 import argparse
-import concurrent.futures
 import json
 import pathlib
 import statistics
-import subprocess
+import shutil
 import sys
 
 import search
@@ -40,14 +39,8 @@ def train(binary, root, label, envs, seed, steps, changes):
     if done.exists():
         return
     if folder.exists():
-        subprocess.run(["rm", "-r", str(folder)], check=True)
-    command = [str(binary), "train", "--seed", str(seed), "--steps", str(steps), "--envs", str(envs)]
-    command += ["--run-dir", str(folder), "--no-progress", "--json"]
-    for change in ["rollout.actors=1", "learner.threads=1", *changes]:
-        command += ["--set", change]
-    run = subprocess.run(command, capture_output=True, text=True)
-    if run.returncode != 0:
-        sys.exit(f"{' '.join(command)} failed: {run.stderr.strip()}")
+        shutil.rmtree(folder)
+    search.train_alone(binary, folder, ["--seed", str(seed), "--steps", str(steps), "--envs", str(envs)], changes)
     note = {"label": label, "envs": envs, "seed": seed, "steps": steps, "changes": changes}
     done.write_text(json.dumps(note) + "\n", encoding="utf-8")
     print(f"{label}, {envs} environments, seed {seed}: {search.summary(search.measure(folder))}", file=sys.stderr)
@@ -98,7 +91,7 @@ def table(root):
         reached = [one["to_10_m"] for one in found]
         each = ", ".join(search.million(steps) for steps in reached)
         seeds = ", ".join(str(note["seed"]) for note in of_kind)
-        rows.append([envs, changes, f"{batch:.0f}", seeds, search.million(search.median(reached)), each, *ends])
+        rows.append([str(envs), changes, f"{batch:.0f}", seeds, search.million(search.median(reached)), each, *ends])
     header = ["environments", "`--set`", "batch", "seeds", "10 m after", "each seed", "4 M steps: m", "8 M steps: m"]
     return report.table(header, rows)
 
@@ -118,13 +111,8 @@ def main():
     if binary:
         root.mkdir(parents=True, exist_ok=True)
         runs = [(envs, seed) for envs in arguments.envs for seed in arguments.seeds]
-        with concurrent.futures.ThreadPoolExecutor(arguments.jobs) as pool:
-            train_one = lambda envs, seed: train(
-                binary[0], root, arguments.label, envs, seed, arguments.steps, arguments.changes
-            )
-            jobs = [pool.submit(train_one, *run) for run in runs]
-            for job in jobs:
-                job.result()
+        train_one = lambda envs, seed: train(binary[0], root, arguments.label, envs, seed, arguments.steps, arguments.changes)
+        search.run_all(train_one, runs, arguments.jobs)
     text = table(root)
     print(text)
     if arguments.doc:

@@ -13,6 +13,7 @@ import argparse
 import concurrent.futures
 import json
 import pathlib
+import shutil
 import statistics
 import subprocess
 import sys
@@ -76,6 +77,25 @@ def note_of(folder):
     return folder.parent / f"{folder.name}.json"
 
 
+def train_alone(binary, folder, flags, changes):
+    """Trains a run to its last step with one actor process and one update thread."""
+    command = [str(binary), "train", "--run-dir", str(folder), "--no-progress", "--json", *flags]
+    for change in ["rollout.actors=1", "learner.threads=1", *changes]:
+        command += ["--set", change]
+    run = subprocess.run(command, capture_output=True, text=True)
+    if run.returncode != 0:
+        sys.exit(f"{' '.join(command)} failed: {run.stderr.strip()}")
+    if json.loads(run.stdout.splitlines()[-1])["stopped"]:
+        sys.exit(f"{folder} was stopped before its last step")
+
+
+def run_all(train_one, runs, jobs):
+    """Calls `train_one` with each of `runs`, in `jobs` threads."""
+    with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
+        for job in [pool.submit(train_one, *run) for run in runs]:
+            job.result()
+
+
 def train(binary, root, name, seed, steps):
     """Trains one run unless it is complete. Restarts an incomplete run."""
     folder = folder_of(root, name, seed)
@@ -83,13 +103,8 @@ def train(binary, root, name, seed, steps):
     if done.exists():
         return
     if folder.exists():
-        subprocess.run(["rm", "-r", str(folder)], check=True)
-    command = [str(binary), "train", "--seed", str(seed), "--steps", str(steps), "--run-dir", str(folder), "--json"]
-    for change in ["rollout.actors=1", "learner.threads=1", *BASE, *CANDIDATES[name]]:
-        command += ["--set", change]
-    run = subprocess.run([*command, "--no-progress"], capture_output=True, text=True)
-    if run.returncode != 0:
-        sys.exit(f"{' '.join(command)} failed: {run.stderr.strip()}")
+        shutil.rmtree(folder)
+    train_alone(binary, folder, ["--seed", str(seed), "--steps", str(steps)], [*BASE, *CANDIDATES[name]])
     done.write_text(json.dumps({"name": name, "seed": seed, "steps": steps}) + "\n", encoding="utf-8")
     print(f"{name}, seed {seed}: {summary(measure(folder))}", file=sys.stderr)
 
@@ -174,10 +189,7 @@ def main():
     if binary:
         root.mkdir(parents=True, exist_ok=True)
         runs = [(name, seed) for name in arguments.only for seed in arguments.seeds]
-        with concurrent.futures.ThreadPoolExecutor(arguments.jobs) as pool:
-            jobs = [pool.submit(train, binary[0], root, name, seed, arguments.steps) for name, seed in runs]
-            for job in jobs:
-                job.result()
+        run_all(lambda name, seed: train(binary[0], root, name, seed, arguments.steps), runs, arguments.jobs)
     text = table(root)
     print(text)
     if arguments.doc:

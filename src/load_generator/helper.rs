@@ -23,10 +23,10 @@ pub(super) struct Helper {
 }
 
 impl Helper {
-    /// Starts `treadmill bench` with `args`.
-    pub(super) fn start(args: &[String]) -> anyhow::Result<Self> {
+    /// Starts `treadmill bench` with `args`, at this nice value.
+    pub(super) fn start(args: &[String], nice: i32) -> anyhow::Result<Self> {
         let name = args.first().cloned().unwrap_or_default();
-        let mut child = command(&[&["bench".to_string()], args].concat())?
+        let mut child = command(&[&["bench".to_string()], args].concat(), nice)?
             // The child ends when this closes.
             .stdin(Stdio::piped())
             .stdout(Stdio::piped())
@@ -78,16 +78,20 @@ impl Drop for Helper {
     }
 }
 
-/// Returns the command of this binary with `args`; the process is killed when this one ends.
-pub(super) fn command(args: &[String]) -> anyhow::Result<Command> {
+/// Returns the command of this binary with `args`, at this nice value; the process is killed when this one ends.
+pub(super) fn command(args: &[String], nice: i32) -> anyhow::Result<Command> {
     let program = std::env::current_exe().context("this program's own path is unknown")?;
     let mut command = Command::new(program);
     command.args(args);
-    // SAFETY: between fork and exec, prctl is allowed, and it accesses no memory here.
+    // SAFETY: between fork and exec, nice and prctl are allowed, and they access no memory here.
     unsafe {
-        command.pre_exec(|| match libc::prctl(libc::PR_SET_PDEATHSIG, libc::SIGKILL) {
-            0 => Ok(()),
-            _ => Err(std::io::Error::last_os_error()),
+        command.pre_exec(move || {
+            // Fails only for negative values.
+            libc::nice(nice);
+            match libc::prctl(libc::PR_SET_PDEATHSIG, libc::SIGKILL) {
+                0 => Ok(()),
+                _ => Err(std::io::Error::last_os_error()),
+            }
         });
     }
     Ok(command)

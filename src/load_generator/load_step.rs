@@ -60,7 +60,7 @@ impl LoadStep<'_> {
     pub(crate) fn measure(&self) -> anyhow::Result<Measured> {
         let strings = |args: &[&str]| args.iter().map(|arg| (*arg).to_string()).collect::<Vec<_>>();
         let mut host =
-            Helper::start(&[strings(&["bus-host", "--listen", self.endpoint]), self.network.to_vec()].concat())?;
+            Helper::start(&[strings(&["bus-host", "--listen", self.endpoint]), self.network.to_vec()].concat(), 0)?;
         let started = host.receive()?;
         let endpoint = started["endpoint"].as_str().context("the learner has an endpoint")?.to_string();
         let mut loads = self.start_loads(&endpoint)?;
@@ -165,7 +165,7 @@ impl LoadStep<'_> {
                 args.extend(["--precision".to_string(), self.precision.to_string()]);
                 args.extend_from_slice(self.network);
                 first += actors;
-                Helper::start(&args)
+                Helper::start(&args, 0)
             })
             .collect()
     }

@@ -23,8 +23,8 @@ pub(super) struct Mark {
     pub(super) fleet_cpu_s: f64,
     pub(super) learner_cpu_s: f64,
     pub(super) routers_cpu_s: f64,
-    /// Time that the training thread ran, and was ready to run.
-    pub(super) training_thread_s: Option<[f64; 2]>,
+    /// Processor time of the training thread.
+    pub(super) training_thread_s: Option<f64>,
     pub(super) sent_bytes: Option<HashMap<String, u64>>,
 }
 
@@ -83,7 +83,7 @@ impl Figures<'_> {
         let weighted: f64 = window.iter().map(|u| u.value("bus/policy_lag_mean") * u.value("train/batch")).sum();
         let simulated_s = (self.end.tally.simulated_us - self.begin.tally.simulated_us) as f64 / 1e6;
         let played_s = self.end.at.duration_since(self.begin.at).as_secs_f64();
-        let serial_ms = ms(self.serial_s(window, passed_s) * 1e3 / window.len() as f64);
+        let mean_ms = |tag: &str| ms(sum(tag) * 1e3 / window.len() as f64);
         Ok(json!({
             "actors": self.rates.len(),
             "envs": self.envs,
@@ -105,28 +105,18 @@ impl Figures<'_> {
             "actors_alive_min": of_all(f64::min, f64::INFINITY, "actors/alive"),
             "learner_wait_share": window.last().and_then(|update| update.get("learner/wait_share")).map(share),
             "learner_used_share": window.last().and_then(|update| update.get("rollout/used_share")),
-            "collect_ms": ms(sum("time/collect_s") * 1e3 / window.len() as f64),
-            "update_ms": ms(sum("time/update_s") * 1e3 / window.len() as f64),
-            "checkpoint_ms": ms(sum("time/checkpoint_s") * 1e3 / window.len() as f64),
-            "serial_ms": serial_ms,
-            "training_thread_cpu_ms": self.training_thread_s().map(|[ran_s, _]| ms(ran_s * 1e3 / window.len() as f64)),
+            "collect_ms": mean_ms("time/collect_s"),
+            "update_ms": mean_ms("time/update_s"),
+            "checkpoint_ms": mean_ms("time/checkpoint_s"),
+            "publish_ms": mean_ms("time/publish_s"),
+            "serial_ms": mean_ms("time/serial_s"),
+            "training_thread_cpu_ms": self.training_thread_s().map(|cpu_s| ms(cpu_s * 1e3 / window.len() as f64)),
         }))
     }
 
-    /// Returns the training thread's time outside the update, without waiting for fragments: `time/serial_s` if it logs that.
-    fn serial_s(&self, window: &[LoggedUpdate], passed_s: f64) -> f64 {
-        let sum = |tag: &str| window.iter().map(|update| update.value(tag)).sum::<f64>();
-        if window.iter().all(|update| update.get("time/serial_s").is_some()) {
-            return sum("time/serial_s");
-        }
-        let update_s = sum("time/update_s");
-        estimated_serial_s(passed_s - sum("time/collect_s") - update_s, update_s, self.training_thread_s())
-    }
-
-    /// Returns the seconds in the window that the training thread ran, and that it was ready to run.
-    fn training_thread_s(&self) -> Option<[f64; 2]> {
-        let (end, begin) = (self.end.training_thread_s?, self.begin.training_thread_s?);
-        Some([end[0] - begin[0], end[1] - begin[1]])
+    /// Returns the processor time of the training thread in the window.
+    fn training_thread_s(&self) -> Option<f64> {
+        Some(self.end.training_thread_s? - self.begin.training_thread_s?)
     }
 
     fn fragments(&self) -> anyhow::Result<Value> {
@@ -186,15 +176,6 @@ pub(super) fn update_rate(updates: &[LoggedUpdate]) -> f64 {
     sum("train/batch") / sum("time/update_s").max(1e-9)
 }
 
-/// Returns the larger of two lower bounds of the serial time: the time outside collecting and updating, and the processor time
-/// of the training thread outside the update. `thread_s` is the time that it ran and that it was ready to run; other processes
-/// take the same share of it in the update and outside.
-fn estimated_serial_s(outside_s: f64, update_s: f64, thread_s: Option<[f64; 2]>) -> f64 {
-    let [ran_s, ready_s] = thread_s.unwrap_or_default();
-    let update_share = (update_s / (ran_s + ready_s).max(1e-9)).min(1.0);
-    outside_s.max(ran_s * (1.0 - update_share))
-}
-
 /// Returns a finite number; JSON has no others.
 fn finite(value: f64) -> Option<f64> {
     value.is_finite().then_some(value)
@@ -222,7 +203,7 @@ mod tests {
             fleet_cpu_s: 0.0,
             learner_cpu_s: updates as f64,
             routers_cpu_s: 0.0,
-            training_thread_s: Some([updates as f64 * 0.5, updates as f64 * 0.125]),
+            training_thread_s: Some(updates as f64 * 0.5),
             sent_bytes,
         }
     }
@@ -232,6 +213,9 @@ mod tests {
             ("time/time_elapsed", elapsed_s),
             ("time/collect_s", 1.0),
             ("time/update_s", 0.5),
+            ("time/checkpoint_s", 0.125),
+            ("time/publish_s", 0.25),
+            ("time/serial_s", 0.375),
             ("train/batch", batch),
             ("bus/policy_lag_mean", elapsed_s / 10.0),
             ("bus/policy_lag_max", elapsed_s),
@@ -277,8 +261,9 @@ mod tests {
             // (0.4 x 300 + 0.6 x 100) / 400.
             ("policy_lag_mean", 0.45),
             ("policy_lag_max", 6.0),
-            // 4 s without 2 s of collecting and 1 s of update, over two updates.
-            ("serial_ms", 500.0),
+            ("checkpoint_ms", 125.0),
+            ("publish_ms", 250.0),
+            ("serial_ms", 375.0),
             ("training_thread_cpu_ms", 500.0),
             ("receipt_p50_ms", 2.0),
             ("receipt_p99_ms", 9.0),
@@ -292,15 +277,6 @@ mod tests {
             assert_eq!(result[figure].as_f64(), Some(expected), "{figure}: {result}");
         }
         assert_eq!(result["nothing_lost"], true);
-    }
-
-    #[test]
-    fn serial_time_is_estimated_from_wall_and_processor_time() {
-        // Of 2 s, 0.4 s had no core; the update took half of them, so half of 1.6 s is outside.
-        assert!((estimated_serial_s(0.1, 1.0, Some([1.6, 0.4])) - 0.8).abs() < 1e-12);
-        assert_eq!(estimated_serial_s(0.9, 1.0, Some([1.6, 0.4])), 0.9);
-        assert_eq!(estimated_serial_s(0.1, 3.0, Some([1.6, 0.4])), 0.1, "the update ran on other threads");
-        assert_eq!(estimated_serial_s(0.1, 1.0, None), 0.1);
     }
 
     #[test]

@@ -12,7 +12,7 @@ use super::{
     RUN,
     counts::{Tally, Times},
     figures::{Figures, Mark, update_rate},
-    processes::Process,
+    processes::{NICE, Process},
     run_metrics::{LoggedUpdate, RunMetrics},
 };
 use crate::load_generator::helper::{Helper, number, numbers};
@@ -263,7 +263,7 @@ impl PlayedFleet {
             }
             args.extend(endpoints.iter().flat_map(|endpoint| ["--connect".to_string(), (*endpoint).to_string()]));
             args.extend(plan.network.iter().cloned());
-            processes.push(Helper::start(&args)?);
+            processes.push(Helper::start(&args, NICE)?);
             first += size;
         }
         let (mut joined_s, mut bundle_bytes) = (0.0f64, 0.0);

@@ -18,6 +18,8 @@ const START_TIMEOUT: Duration = Duration::from_secs(60);
 /// Longest wait until a process has ended.
 const STOP_TIMEOUT: Duration = Duration::from_secs(30);
 const POLL: Duration = Duration::from_millis(20);
+/// Nice value of routers and played actors, so that the learner has the machine as if they ran elsewhere.
+pub(super) const NICE: i32 = 19;
 /// Name of the learner's thread that collects, updates and saves.
 const TRAINING_THREAD: &str = "training";
 
@@ -33,7 +35,7 @@ impl Process {
     pub(super) fn learner(args: &[String], run: &Path, log: &Path) -> anyhow::Result<Self> {
         let log_file = File::create(log).with_context(|| format!("cannot create `{}`", log.display()))?;
         let output = log_file.try_clone().context("the log cannot be shared")?;
-        let mut command = command(args)?;
+        let mut command = command(args, 0)?;
         command.stdin(Stdio::null()).stdout(output).stderr(log_file);
         let mut child = command.spawn().context("the learner cannot be started")?;
         let (file, begun) = (run.join("endpoint.txt"), Instant::now());
@@ -57,7 +59,7 @@ impl Process {
     /// Starts a router that dials the learner at `to`.
     pub(super) fn router(listen: &str, to: &str, network: &[String]) -> anyhow::Result<Self> {
         let args = ["router", "--listen", listen, "--connect", to].map(str::to_string);
-        let mut child = command(&[&args, network].concat())?
+        let mut child = command(&[&args, network].concat(), NICE)?
             .stdin(Stdio::null())
             .stdout(Stdio::piped())
             .spawn()
@@ -108,16 +110,15 @@ impl Process {
         kib.unwrap_or(0.0) * 1024.0 / 1e6
     }
 
-    /// Returns the seconds that the learner's training thread ran, and those that it was ready to run but had no core.
-    /// `None` if the kernel does not count them.
-    pub(super) fn training_thread_s(&self) -> Option<[f64; 2]> {
+    /// Returns the processor time of the learner's training thread in seconds. `None` if the kernel does not count it.
+    pub(super) fn training_thread_s(&self) -> Option<f64> {
         let tasks = fs::read_dir(format!("/proc/{}/task", self.child.id())).ok()?;
         let is_training =
             |task: &PathBuf| fs::read_to_string(task.join("comm")).is_ok_and(|name| name.trim() == TRAINING_THREAD);
         let task = tasks.flatten().map(|task| task.path()).find(is_training)?;
         let counts = fs::read_to_string(task.join("schedstat")).ok()?;
-        let mut seconds = counts.split_whitespace().map(|count| count.parse::<f64>().unwrap_or(0.0) / 1e9);
-        Some([seconds.next()?, seconds.next()?])
+        let ran_ns: f64 = counts.split_whitespace().next()?.parse().ok()?;
+        Some(ran_ns / 1e9)
     }
 
     /// Returns the bytes that the process has sent over each connection to its endpoint, by the other end's address. `None` if
