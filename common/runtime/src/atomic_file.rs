@@ -40,7 +40,7 @@ pub fn is_temporary(name: &str) -> bool {
 /// Removes the temporary files that killed processes left in `folder`. Returns how many there were.
 ///
 /// # Errors
-/// The system's error; a file that another process removes meanwhile is none.
+/// The system's error. It is no error if another process removes a file meanwhile.
 pub fn remove_stale(folder: &Path) -> io::Result<usize> {
     let mut removed = 0;
     for entry in fs::read_dir(folder)? {

@@ -101,20 +101,20 @@ impl FleetPlan {
         self.rule = rule;
     }
 
-    /// Records a well-formed fragment, also if it came too late. Returns whether its sender is new.
-    pub(super) fn record(&mut self, actor: &str, effort: &Effort) -> bool {
+    /// Records a well-formed fragment, also if it came too late.
+    pub(super) fn record(&mut self, actor: &str, effort: &Effort) {
         self.effort.collect_s += effort.collect_s;
         let Some(known) = self.actors.get_mut(actor) else {
             self.effort.env_steps += effort.transitions;
             if self.actors.len() < ACTORS_MAX {
                 self.actors.insert(actor.to_string(), Actor::new(effort, self.nominal));
             }
-            return true;
+            return;
         };
         self.effort.env_steps += known.simulated(effort);
         if known.incarnation != effort.incarnation {
             *known = Actor { speed: known.speed, steps: known.steps, ..Actor::new(effort, known.steps) };
-            return false;
+            return;
         }
         known.counted = known.counted.max(effort.counted);
         known.envs = effort.envs;
@@ -122,7 +122,6 @@ impl FleetPlan {
             (true, true) => known.step_s + NEWEST_WEIGHT * (effort.step_s - known.step_s),
             _ => effort.step_s,
         };
-        false
     }
 
     /// Fits every horizon to the present fleet. Returns the actors whose horizon is now shorter.
@@ -203,7 +202,7 @@ mod tests {
     fn horizons_follow_lasting_changes_of_speed_and_ignore_noise() {
         let (mut fleet, names) = (fleet(), names(8));
         for (i, name) in names.iter().enumerate() {
-            assert!(fleet.record(name, &effort(1, 80, 1.0 + 0.01 * i as f64)));
+            fleet.record(name, &effort(1, 80, 1.0 + 0.01 * i as f64));
         }
         fleet.plan(&names);
         assert!(names.iter().all(|name| fleet.steps(name) == 128), "noise of some percent");
@@ -216,7 +215,7 @@ mod tests {
     #[test]
     fn a_short_absence_changes_no_horizon() {
         let (mut fleet, all) = (fleet(), names(4));
-        all.iter().for_each(|name| assert!(fleet.record(name, &effort(1, 80, 1.0))));
+        all.iter().for_each(|name| fleet.record(name, &effort(1, 80, 1.0)));
         fleet.plan(&all);
         let before = fleet.steps("a0");
         for _ in 0..ABSENT_ROUNDS_MAX {

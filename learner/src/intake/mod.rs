@@ -217,7 +217,7 @@ impl<S: FragmentSource> Intake<S> {
         }
     }
 
-    /// Reads the live actors if their number has changed; logs those that joined or left.
+    /// Reads the live actors if they have changed; logs those that joined or left.
     fn poll_actors(&mut self) {
         let membership = self.source.membership();
         if self.membership == Some(membership) {

@@ -1,7 +1,7 @@
 //! Limits how long the other actors wait for one that has not delivered yet.
 
 use std::{
-    collections::BTreeSet,
+    collections::{BTreeSet, HashSet},
     time::{Duration, Instant},
 };
 
@@ -28,11 +28,11 @@ const KNOWN_MAX: usize = 4096;
 pub(super) struct StragglerPolicy {
     begun: Instant,
     alive: BTreeSet<String>,
-    delivered: BTreeSet<String>,
-    delivered_before: BTreeSet<String>,
-    late: BTreeSet<String>,
+    delivered: HashSet<String>,
+    delivered_before: HashSet<String>,
+    late: HashSet<String>,
     /// Actors that have ever delivered.
-    known: BTreeSet<String>,
+    known: HashSet<String>,
     futile_waits: u32,
     deadline: Option<Instant>,
     /// Number of awaited actors that have not delivered.
@@ -44,10 +44,10 @@ impl StragglerPolicy {
         Self {
             begun: now,
             alive: BTreeSet::new(),
-            delivered: BTreeSet::new(),
-            delivered_before: BTreeSet::new(),
-            late: BTreeSet::new(),
-            known: BTreeSet::new(),
+            delivered: HashSet::new(),
+            delivered_before: HashSet::new(),
+            late: HashSet::new(),
+            known: HashSet::new(),
             futile_waits: 0,
             deadline: None,
             missing: 0,
