@@ -17,6 +17,7 @@ use tokio::{
     time::sleep,
 };
 use treadmill_bus::{Announcements, Bus, fetch_policy, keys, publish_dropping, submit, token, watch_announcements};
+use treadmill_config::RolloutConfig;
 use treadmill_proto::{ActorStats, Fragment, Outcome, PolicyVersion, Receipt};
 use treadmill_runtime::{machine, seeds};
 
@@ -32,8 +33,6 @@ const FETCH_TIMEOUT: Duration = Duration::from_secs(10);
 const RETRY: Duration = Duration::from_millis(200);
 /// Pause of a quarantined sender before its next attempt, as in an actor.
 const QUARANTINE_RETRY: Duration = Duration::from_secs(10);
-/// Control steps of a fragment if neither receipt, policy nor configuration says it.
-const STEPS: u32 = 128;
 /// Most credits that an actor holds, as `rollout.max_in_flight` allows.
 const CREDITS_MAX: usize = 2;
 /// Policies that an actor remembers: a simulation may have begun a moment before the newest arrived.
@@ -194,7 +193,7 @@ impl PlayedActor {
     fn fragment_steps(&self, policy: &PlayedPolicy) -> u32 {
         let configured = self.shared.policies.config.rollout.fragment_steps;
         let asked = [self.steps_asked.load(Ordering::Relaxed), policy.fragment_steps(), configured];
-        asked.into_iter().find(|steps| *steps > 0).unwrap_or(STEPS)
+        asked.into_iter().find(|steps| *steps > 0).unwrap_or(RolloutConfig::STEPS_MAX)
     }
 
     /// Delivers one fragment, then fetches the policy that its receipt names, then returns the credit.
