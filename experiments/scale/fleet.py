@@ -246,7 +246,7 @@ def main():
     commit = subprocess.run(["git", "rev-parse", "--short", "HEAD"], capture_output=True, text=True).stdout.strip()
     machine = next((one for rounds in results.values() for one in rounds if "cpu" in one), {})
     text = [f"Treadmill {commit}; {machine.get('cpu', '?')}, {machine.get('cores', '?')} cores; load of the machine before: "
-            f"{load_before:.1f}. {arguments.rounds} rounds of {arguments.seconds:.0f} s.", "", *table(rows, results)]
+            f"{load_before:.1f}. {arguments.rounds} rounds.", "", *table(rows, results)]
     if arguments.doc:
         report.replace(arguments.doc, "fleet.py", "\n".join(text))
     print("\n".join(text))
