@@ -183,11 +183,22 @@ await 'training after resume' trains_beyond "$paused"
 say "an operator read the status, paused at $paused steps and resumed"
 
 # --- scaling ---------------------------------------------------------------------------------------------------------------
-compose up -d --no-build --no-recreate --scale actor=4 2>/dev/null
-await 'four actors' alive_is 4
+# Thousandths of the simulated steps that were learnt from, over about the last 20 updates.
+used() {
+    docker exec "$learner" grep -F '"tag":"rollout/used_share"' /runs/smoke/metrics.jsonl | tail -n 1 |
+        sed -n 's/.*"value":\([^,]*\).*/\1/p' | awk '{ printf "%d\n", 1000 * $1 }'
+}
+for actors in 3 6; do
+    compose up -d --no-build --no-recreate --scale "actor=$actors" 2>/dev/null
+    await "$actors actors" alive_is "$actors"
+    # The first fragments of an actor may be too old: updates of this preset take milliseconds.
+    await 'a hundred updates' trains_beyond $(($(steps) + 100 * 512))
+    [ "$(used)" -ge 970 ] || fail "of 1000 steps that $actors actors simulate, only $(used) are learnt from"
+    say "$actors actors: of 1000 simulated steps $(used) are learnt from"
+done
 compose up -d --no-build --no-recreate --scale actor=2 2>/dev/null
 await 'two actors again' alive_is 2
-say "scaled to four actors and back during training: $(steps) steps"
+say "scaled to six actors and back during training: $(steps) steps"
 
 # --- crashes ---------------------------------------------------------------------------------------------------------------
 # Kills the process, because Docker does not restart a container after `docker kill`.

@@ -195,7 +195,7 @@ section! {
         /// Whether a batch holds only experience of the newest policy and actors wait ("sync"), or also of older ones and actors never idle ("async").
         mode: LearnerMode = LearnerMode::Sync, "\"sync\" or \"async\"" => |_| true;
         /// Versions that a fragment's policy may lag behind the newest in mode "async"; older fragments are dropped and counted.
-        max_policy_lag: u32 = 4, "0 to 100" => |v| *v <= 100;
+        max_policy_lag: u32 = 8, "0 to 100" => |v| *v <= 100;
         /// Fragments that may wait in the learner's queue.
         intake_fragments: u32 = 4096, "1 to 65536" => |v| (1..=65_536).contains(v);
         /// Malformed fragments in a row after which a sender is put in quarantine for 60 s.

@@ -31,7 +31,7 @@ fn case(mode: LearnerMode, step_ms: &[f64], update_each: Duration) -> Case {
     let step_ms = step_ms.to_vec();
     let fleet =
         FleetSettings { seed: 1, step_ms, envs: ENVS, steps, pinned_steps: 0, in_flight, loss_percent: 0, delay_ms: 4 };
-    let (max_policy_lag, update) = (4, (Duration::from_millis(10), update_each));
+    let (max_policy_lag, update) = (8, (Duration::from_millis(10), update_each));
     Case { fleet, mode, max_policy_lag, size, update, learner_deaths_percent: 0, actor_deaths_percent: 0 }
 }
 
