@@ -4,6 +4,7 @@ use std::{
     fs::{self, File},
     io::{self, Write},
     path::Path,
+    sync::atomic::{AtomicU64, Ordering},
 };
 
 /// End of a temporary file's name.
@@ -16,7 +17,10 @@ const SUFFIX: &str = ".tmp";
 pub fn write(path: &Path, bytes: &[u8]) -> io::Result<()> {
     let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
     let name = path.file_name().ok_or_else(|| io::Error::new(io::ErrorKind::InvalidInput, "the path names no file"))?;
-    let temporary = folder.join(format!(".{}.{}{SUFFIX}", name.to_string_lossy(), std::process::id()));
+    // Two threads may write the same file at the same time.
+    static WRITES: AtomicU64 = AtomicU64::new(0);
+    let (write, process) = (WRITES.fetch_add(1, Ordering::Relaxed), std::process::id());
+    let temporary = folder.join(format!(".{}.{write}.{process}{SUFFIX}", name.to_string_lossy()));
     let written = (|| {
         let mut file = File::create(&temporary)?;
         file.write_all(bytes)?;
@@ -61,7 +65,7 @@ pub fn remove_stale(folder: &Path) -> io::Result<usize> {
     Ok(removed)
 }
 
-/// Returns the number of the process that wrote a temporary file of this name, `.NAME.PROCESS.tmp`.
+/// Returns the number of the process that wrote a temporary file of this name, `.NAME.WRITE.PROCESS.tmp`.
 fn writer(name: &str) -> Option<u32> {
     let (file, process) = name.strip_prefix('.')?.strip_suffix(SUFFIX)?.rsplit_once('.')?;
     let is_number = process.bytes().all(|byte| byte.is_ascii_digit());
@@ -79,6 +83,19 @@ mod tests {
         write(&path, b"one").unwrap();
         write(&path, b"two").unwrap();
         assert_eq!(fs::read(&path).unwrap(), b"two");
+        assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1);
+    }
+
+    #[test]
+    fn threads_may_write_the_same_file() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("state");
+        std::thread::scope(|scope| {
+            let write = || (0..50).try_for_each(|_| write(&path, &[7; 10_000]));
+            let threads: Vec<_> = (0..4).map(|_| scope.spawn(write)).collect();
+            threads.into_iter().for_each(|thread| thread.join().unwrap().unwrap());
+        });
+        assert_eq!(fs::read(&path).unwrap(), [7; 10_000]);
         assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1);
     }
 
