@@ -63,7 +63,8 @@ pub enum ActorError {
     },
     /// A fragment would be larger than the bus allows.
     #[error(
-        "fragments of {envs} environments and {steps} steps are too large to send; allowed for {steps} steps: --envs {envs_max};          start further actors for the other environments"
+        "fragments of {envs} environments and {steps} steps are too large to send; allowed for {steps} steps: --envs {envs_max}; \
+         start further actors for the other environments"
     )]
     FragmentSize {
         /// Environments of this actor.

@@ -172,7 +172,7 @@ mod tests {
         config.rollout.fragment_steps = 32;
         let why = first_fragment_steps(&bundle, &config, 4096).unwrap_err().to_string();
         // 32 × 257 + 180 bytes of each environment, in 30 MiB less a sixty-fourth.
-        assert!(why.contains("4096 environments and 32 steps") && why.contains("--envs 3684"), "{why}");
+        assert!(why.contains("4096 environments and 32 steps") && why.contains("--envs 3684; start further"), "{why}");
     }
 
     #[test]

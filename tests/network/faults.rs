@@ -127,6 +127,19 @@ fn a_failed_save_ends_the_run_with_the_last_checkpoint_intact() {
 }
 
 #[test]
+fn a_failed_copy_of_a_checkpoint_ends_the_run_although_its_policy_was_announced() {
+    let (folder, run) = folders();
+    let train = |flags: &[&str]| self::run(folder.path(), &[&["train"], flags].concat());
+    let every = "learner.checkpoint_every_updates=1";
+    let path = run.to_str().unwrap();
+    assert!(train(&["--preset", "smoke", "--steps", "1024", "--set", every, "--run-dir", path]).status.success());
+    // A folder with the name of a later numbered checkpoint.
+    fs::create_dir_all(run.join("checkpoints/00000004.bundle/x")).unwrap();
+    let output = train(&["--resume", path, "--steps", ENDLESS]);
+    assert_refused(&output, 1, &["cannot save checkpoint", "00000004.bundle"]);
+}
+
+#[test]
 fn a_frozen_actor_does_not_delay_the_others() {
     let (folder, run) = folders();
     let training = Running::start(endless(folder.path(), &run, "train"));

@@ -94,6 +94,11 @@ impl FragmentValidator {
         self.expected.max_policy_lag
     }
 
+    /// Returns the hash of what actors depend on, which does not change during a run.
+    pub fn config_hash(&self) -> u64 {
+        self.expected.config_hash
+    }
+
     /// Validates a fragment that `actor` sent. Returns it if it is accepted, else the receipt with the reason.
     pub fn validate(
         &mut self,

@@ -39,18 +39,15 @@ impl Background {
         Ok(Self { jobs, errors, thread })
     }
 
-    /// Queues a job.
-    ///
-    /// # Errors
-    /// That of an earlier job.
-    pub(super) fn submit(
-        &self,
-        job: impl FnOnce(&mut MetricsReport) -> Result<(), TrainingError> + Send + 'static,
-    ) -> Result<(), TrainingError> {
-        self.errors.try_recv().map_or(Ok(()), Err)?;
+    /// Queues a job. Its error is returned by [`Self::check`].
+    pub(super) fn submit(&self, job: impl FnOnce(&mut MetricsReport) -> Result<(), TrainingError> + Send + 'static) {
         // The thread ends only by a panic, which `finish` passes on.
         let _ = self.jobs.send(Box::new(job));
-        Ok(())
+    }
+
+    /// Returns the error of a job, once.
+    pub(super) fn check(&self) -> Result<(), TrainingError> {
+        self.errors.try_recv().map_or(Ok(()), Err)
     }
 
     /// Ends the thread after the last job. Returns the outputs, and the error of a job if one failed.

@@ -128,11 +128,10 @@ impl Trainer {
         let LearnerConfig { checkpoint_every_updates, keep_checkpoints, .. } = changed.learner;
         self.serving.checkpoints.set_retention(checkpoint_every_updates.into(), keep_checkpoints as usize);
         let for_report = changed.clone();
-        let outputs = self.reporting.background.submit(move |report| {
+        self.reporting.background.submit(move |report| {
             report.set_config(&for_report);
             Ok(())
         });
-        outputs.map_err(|why| error_chain(&why))?;
         if let Some(evaluation) = &mut self.serving.evaluation {
             evaluation.set_every(changed.eval.every_steps, self.state.counters.env_steps);
         }

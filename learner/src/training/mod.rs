@@ -77,7 +77,7 @@ fn run(trainer: &mut Trainer) -> Result<bool, TrainingError> {
         let saved = trainer.save()?;
         let checkpoint = begun.elapsed() - collect - update;
         trainer.publish(&saved)?;
-        trainer.keep(saved)?;
+        trainer.keep(saved);
         let publish = begun.elapsed() - collect - update;
         let serial = trainer.reporting.serial(update, trainer.serving.intake.idle());
         let learn = trainer.learning.learn;

@@ -149,7 +149,8 @@ impl Trainer {
                 report.log_histograms(env_steps, &histograms, &shutdown)?;
             }
             Ok(report.log(env_steps, updates, &scalars, &history, &shutdown)?)
-        })
+        });
+        reporting.background.check()
     }
 
     /// Ends the run: answers waiting senders and writes the last logs. `outcome` is whether the run was stopped before its last

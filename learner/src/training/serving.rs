@@ -23,8 +23,6 @@ use crate::{
 pub(super) struct Serving {
     pub(super) intake: Intake<BusFragmentSource>,
     pub(super) policies: PolicyServer,
-    /// Hash of what actors depend on; it does not change during a run.
-    pub(super) config_hash: u64,
     /// Evaluation during training, if it is configured.
     pub(super) evaluation: Option<EvaluationScheduler>,
     pub(super) control: ControlChannel,
@@ -54,8 +52,7 @@ impl Trainer {
                 Collected::Interrupted => {
                     self.publish_status_if_due();
                     let (waited, actors) = (self.serving.waited, self.serving.intake.alive().len());
-                    // An error is returned after the next update.
-                    let _ = self.reporting.background.submit(move |report| {
+                    self.reporting.background.submit(move |report| {
                         report.show_wait(waited, actors);
                         Ok(())
                     });
@@ -100,16 +97,14 @@ impl Trainer {
     }
 
     /// Keeps the checkpoint if a numbered one is due.
-    pub(super) fn keep(&self, saved: Bytes) -> Result<(), TrainingError> {
+    pub(super) fn keep(&self, saved: Bytes) {
         let (checkpoints, shutdown) = (self.serving.checkpoints.clone(), self.shutdown.clone());
         let updates = self.state.counters.updates;
-        if !checkpoints.is_due(updates) {
-            return Ok(());
+        if checkpoints.is_due(updates) {
+            self.reporting
+                .background
+                .submit(move |_| Ok(wait_for_disk_space(&shutdown, || checkpoints.save_numbered(updates, &saved))?));
         }
-        self.reporting.background.submit(move |_| {
-            wait_for_disk_space(&shutdown, || checkpoints.save_numbered(updates, &saved))?;
-            Ok(())
-        })
     }
 
     /// Returns the return in training, if it is the best so far and no policy was evaluated yet. A few absurd returns must not
@@ -126,7 +121,8 @@ impl Trainer {
     /// Publishes the new policy and submits it for evaluation if one is due. `saved` is its checkpoint.
     pub(super) fn publish(&mut self, saved: &Bytes) -> Result<(), TrainingError> {
         let invalid = |why| TrainingError::State { why };
-        let mut bundle = self.state.bundle(&self.config, self.serving.config_hash).map_err(invalid)?;
+        let mut bundle =
+            self.state.bundle(&self.config, self.serving.intake.validator.config_hash()).map_err(invalid)?;
         bundle.fragment_steps = self.serving.intake.fleet.nominal();
         let policy = PublishedPolicy::new(&bundle, &self.state.for_actors(&bundle));
         let policy = policy.map_err(|why| invalid(error_chain(&why)))?;

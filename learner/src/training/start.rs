@@ -68,7 +68,6 @@ impl Trainer {
         let serving = Serving {
             intake,
             policies,
-            config_hash,
             evaluation,
             control,
             paused: false,
