@@ -115,6 +115,7 @@ value() {
 }
 steps() { value time/total_timesteps; }
 trains_beyond() { now=$(steps) && [ "${now:-0}" -gt "$1" ]; }
+updates_beyond() { [ "$(value time/iterations)" -gt "$1" ]; }
 alive_is() { [ "$(value actors/alive)" = "$1" ]; }
 known() { [ -n "$(value "$1")" ]; }
 health_is() { [ "$(docker inspect -f '{{.State.Health.Status}}' "$1")" = "$2" ]; }
@@ -183,16 +184,18 @@ await 'training after resume' trains_beyond "$paused"
 say "an operator read the status, paused at $paused steps and resumed"
 
 # --- scaling ---------------------------------------------------------------------------------------------------------------
-# Thousandths of the simulated steps that were learnt from, over about the last 20 updates.
+# Thousandths of the simulated steps that were learnt from, over about the last 100 updates: the mean of 25 lines, of which the
+# run writes one every four updates.
 used() {
-    docker exec "$learner" grep -F '"tag":"rollout/used_share"' /runs/smoke/metrics.jsonl | tail -n 1 |
-        sed -n 's/.*"value":\([^,]*\).*/\1/p' | awk '{ printf "%d\n", 1000 * $1 }'
+    docker exec "$learner" grep -F '"tag":"rollout/used_share"' /runs/smoke/metrics.jsonl | tail -n 25 |
+        sed -n 's/.*"value":\([^,]*\).*/\1/p' | awk '{ sum += $1 } END { printf "%d\n", 1000 * sum / NR }'
 }
 for actors in 3 6; do
     compose up -d --no-build --no-recreate --scale "actor=$actors" 2>/dev/null
     await "$actors actors" alive_is "$actors"
     # The first fragments of an actor may be too old: updates of this preset take milliseconds.
-    await 'a hundred updates' trains_beyond $(($(steps) + 100 * 512))
+    begun=$(value time/iterations)
+    await '200 updates' updates_beyond $((begun + 200))
     [ "$(used)" -ge 970 ] || fail "of 1000 steps that $actors actors simulate, only $(used) are learnt from"
     say "$actors actors: of 1000 simulated steps $(used) are learnt from"
 done

@@ -96,6 +96,12 @@ impl FleetPlan {
         self.actors.get(actor).map_or(self.nominal, |known| known.steps)
     }
 
+    /// Returns the transitions of one fragment of every live actor.
+    pub(super) fn round_transitions(&self, alive: &BTreeSet<String>) -> usize {
+        let live = self.actors.iter().filter(|(name, _)| alive.contains(*name));
+        live.map(|(_, actor)| actor.envs * actor.steps as usize).sum()
+    }
+
     /// Replaces the rule, after a change of the configuration.
     pub fn set_rule(&mut self, rule: HorizonRule) {
         self.rule = rule;

@@ -11,6 +11,9 @@ use treadmill_proto::limits::{FRAGMENT_BYTES_MAX, STEPS_MAX};
 /// Horizon below which advantages lose more by their bias than small batches gain. Beyond the number of environments that fill
 /// a batch with it, batches grow, and horizons shrink with the fourth root of that number.
 const NOMINAL_KNEE: f64 = 32.0;
+/// Growth of the batch from which on horizons shrink in proportion to the number of environments instead: more policies that act
+/// in turn teach more than longer fragments of each.
+const GROWTH_MAX: f64 = 4.0;
 /// Shortest horizon of any actor.
 const STEPS_MIN: usize = RolloutConfig::STEPS_MIN as usize;
 /// Longest horizon of a fast actor, relative to the nominal one.
@@ -56,7 +59,7 @@ impl HorizonRule {
         let envs = envs.max(1);
         let excess = envs as f64 * NOMINAL_KNEE / self.batch as f64;
         if excess > 1.0 {
-            let grown = self.batch as f64 * excess.powf(0.75);
+            let grown = self.batch as f64 * excess.powf(0.75).min(GROWTH_MAX);
             return (grown as usize).min(self.batch_max);
         }
         // With few environments, a batch needs several rounds of equal size.

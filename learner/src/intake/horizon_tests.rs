@@ -37,10 +37,13 @@ fn few_environments_deliver_several_equal_fragments_for_a_batch() {
 fn beyond_256_environments_batches_grow_and_horizons_shrink_slowly() {
     let rule = rule();
     assert_eq!(rule.nominal(512), 27);
-    assert_eq!(rule.nominal(4096), 16);
-    assert_eq!(rule.round_rows(4096), 65_536);
-    assert_eq!((rule.nominal(16_384), rule.round_rows(16_384)), (8, 131_072), "at most ppo.batch_max");
-    assert_eq!(rule.nominal(65_536), STEPS_MIN as u32, "then actors wait");
+    assert_eq!((rule.nominal(1024), rule.round_rows(1024)), (23, 23_170));
+    assert_eq!((rule.nominal(2048), rule.round_rows(2048)), (16, 32_768), "four batches");
+    assert_eq!((rule.nominal(4096), rule.round_rows(4096)), (8, 32_768));
+    assert_eq!(rule.nominal(65_536), STEPS_MIN as u32, "and batches grow again");
+    let mut config = Config::default();
+    config.ppo.batch_max = 10_000;
+    assert_eq!(HorizonRule::new(&config, 45, 17).round_rows(4096), 10_000, "at most ppo.batch_max");
 }
 
 #[test]

@@ -7,8 +7,10 @@
 //! delivered one, or the stragglers' time is up. A batch needs one or more rounds. The learner owes the receipts of a round
 //! until it begins the next, after the last round of a batch under a new policy.
 //!
-//! In mode [`LearnerMode::Async`], the learner answers accepted fragments at once. Fragments that find the batch full wait
-//! for the next one, and so do their senders.
+//! In mode [`LearnerMode::Async`], the learner answers accepted fragments at once. A batch waits for as many transitions as one
+//! fragment of every live actor has, whoever sends them: with smaller batches, the policy would change many times while an
+//! actor simulates, and most experience would be too old. Fragments that find the batch full wait for the next one, and so do
+//! their senders.
 //!
 //! A fragment's stages here: received, accepted, batch. *Incoming* is a received fragment that waits for its receipt.
 //!
@@ -67,6 +69,8 @@ pub struct Intake<S: FragmentSource> {
     stragglers: StragglerPolicy,
     /// Value of [`FragmentSource::membership`] when the live actors were last read.
     membership: Option<u64>,
+    /// Transitions of one fragment of every live actor.
+    round_transitions: usize,
     owed: Vec<OwedReceipt<S::Incoming>>,
     /// Received fragments that wait for a place in a batch, the next first.
     waiting: VecDeque<S::Incoming>,
@@ -123,6 +127,7 @@ impl<S: FragmentSource> Intake<S> {
             fleet,
             stragglers,
             membership: None,
+            round_transitions: 0,
             owed: Vec::new(),
             waiting: VecDeque::new(),
             accepted: Vec::new(),
@@ -172,10 +177,13 @@ impl<S: FragmentSource> Intake<S> {
         }
     }
 
-    /// Whether the batch has its size and, in synchronous mode, its last round is over.
+    /// Whether the batch has its size and that of a round or, in synchronous mode, its last round is over.
     fn is_complete(&mut self, size: BatchSize) -> bool {
         self.transitions >= size.transitions
-            && (self.mode == LearnerMode::Async || self.stragglers.is_round_over(self.source.now()))
+            && match self.mode {
+                LearnerMode::Sync => self.stragglers.is_round_over(self.source.now()),
+                LearnerMode::Async => self.transitions >= self.round_transitions.min(size.transitions_max),
+            }
     }
 
     /// Closes the batch, and fits the horizons to the fleet that delivered it.
@@ -228,6 +236,7 @@ impl<S: FragmentSource> Intake<S> {
         let before = self.stragglers.alive();
         alive.difference(before).for_each(|actor| tracing::info!(%actor, "actor joined"));
         before.difference(&alive).for_each(|actor| tracing::info!(%actor, "actor left"));
+        self.round_transitions = self.fleet.round_transitions(&alive);
         self.stragglers.set_alive(alive);
     }
 
@@ -267,6 +276,7 @@ impl<S: FragmentSource> Intake<S> {
         for actor in self.fleet.plan(self.stragglers.alive()) {
             self.stragglers.forgive(&actor);
         }
+        self.round_transitions = self.fleet.round_transitions(self.stragglers.alive());
         for owed in std::mem::take(&mut self.owed) {
             self.answer(owed, lineage);
         }

@@ -114,6 +114,16 @@ fn a_slow_actor_with_a_configured_horizon_costs_at_most_its_own_share() {
 }
 
 #[test]
+fn a_fleet_whose_fragments_fill_many_batches_wastes_none() {
+    // A batch has two fragments, and 64 arrive in the time of one.
+    let automatic = pinned(LearnerMode::Async, &[200.0; 64], 2);
+    let size = BatchSize { transitions_max: 1024, ..automatic.size };
+    let case = Case { size, update: (Duration::from_millis(1), Duration::ZERO), ..automatic };
+    let Measured { learnt, simulated } = measure(&case);
+    assert!(learnt >= 0.995 * simulated, "{learnt} of {simulated}");
+}
+
+#[test]
 fn asynchronous_mode_learns_from_more_fragments() {
     let [sync, async_] = MODES.map(|mode| measure(&pinned(mode, &[200.0; 2], 4)).learnt);
     assert!(async_ > 1.2 * sync, "{async_} and {sync}");
