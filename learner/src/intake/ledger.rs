@@ -1,6 +1,6 @@
 //! Ledger of handled fragments: a fragment that is sent twice is learnt from once, and none is lost.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::{BTreeMap, BTreeSet, btree_map::Entry};
 
 use serde::{Deserialize, Serialize};
 
@@ -30,6 +30,17 @@ pub enum LedgerEntry {
     Accepted,
     /// Dropped.
     Dropped(DropRule),
+}
+
+/// What the ledger knows of a received fragment.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct KnownFragment {
+    /// Whether it is the first of its process.
+    pub is_new_process: bool,
+    /// Number up to which a checkpoint holds every outcome of the process.
+    pub durable_through: u64,
+    /// Outcome, if the fragment was handled before.
+    pub entry: Option<LedgerEntry>,
 }
 
 /// Outcomes of the fragments of one or more actor processes.
@@ -113,6 +124,13 @@ struct Watermark {
 }
 
 impl Watermark {
+    /// Returns the outcome of a fragment that was handled before.
+    fn entry(&self, sequence: u64) -> Option<LedgerEntry> {
+        let was_dropped = self.dropped.get(&sequence).map(|rule| LedgerEntry::Dropped(*rule));
+        let is_known = sequence <= self.through || self.ahead.contains(&sequence);
+        was_dropped.or(is_known.then_some(LedgerEntry::Accepted))
+    }
+
     fn close_gap(&mut self) {
         while let Some(next) = self.through.checked_add(1)
             && self.ahead.remove(&next)
@@ -136,17 +154,13 @@ impl Watermark {
 }
 
 impl Ledger {
-    /// Whether the ledger has an entry for this process.
-    pub fn knows(&self, actor: &str, incarnation: u64) -> bool {
-        self.processes.contains_key(&(actor.to_string(), incarnation))
-    }
-
-    /// Returns the outcome of a fragment that was handled before.
-    pub fn entry(&self, actor: &str, incarnation: u64, sequence: u64) -> Option<LedgerEntry> {
-        let mark = self.processes.get(&(actor.to_string(), incarnation))?;
-        let was_dropped = mark.dropped.get(&sequence).map(|rule| LedgerEntry::Dropped(*rule));
-        let is_known = sequence <= mark.through || mark.ahead.contains(&sequence);
-        was_dropped.or(is_known.then_some(LedgerEntry::Accepted))
+    /// Settles what the sender of a fragment will not send again, and returns what is known of the fragment.
+    pub fn look_up(&mut self, actor: &str, incarnation: u64, sequence: u64, settled_through: u64) -> KnownFragment {
+        let (mark, is_new_process) = self.settle(actor, incarnation, settled_through);
+        let known =
+            KnownFragment { is_new_process, durable_through: mark.durable_through, entry: mark.entry(sequence) };
+        self.remove_oldest();
+        known
     }
 
     /// Records the outcome of a fragment of `env_steps` environment steps.
@@ -201,14 +215,17 @@ impl Ledger {
     }
 
     /// Records that the sender will not send any number up to `through` again. Otherwise a number that an earlier
-    /// learner dropped by rule, and that this ledger never saw, would stop the watermark for good.
-    pub fn settle(&mut self, actor: &str, incarnation: u64, through: u64) {
+    /// learner dropped by rule, and that this ledger never saw, would stop the watermark for good. Returns whether the process
+    /// is new, too.
+    fn settle(&mut self, actor: &str, incarnation: u64, through: u64) -> (&mut Watermark, bool) {
         self.clock += 1;
-        let mark = self.processes.entry((actor.to_string(), incarnation)).or_default();
+        let entry = self.processes.entry((actor.to_string(), incarnation));
+        let is_new = matches!(entry, Entry::Vacant(_));
+        let mark = entry.or_default();
         mark.last_seen = self.clock;
         mark.skip_to(through);
         mark.dropped.retain(|sequence, _| *sequence > through);
-        self.remove_oldest();
+        (mark, is_new)
     }
 
     /// Marks every handled number as durable: in the copy for a checkpoint, and in the ledger once that is written.
@@ -252,6 +269,10 @@ mod tests {
     impl Ledger {
         fn accept(&mut self, actor: &str, incarnation: u64, sequence: u64) {
             self.insert(actor, incarnation, sequence, LedgerEntry::Accepted, 8);
+        }
+
+        fn entry(&self, actor: &str, incarnation: u64, sequence: u64) -> Option<LedgerEntry> {
+            self.processes.get(&(actor.to_string(), incarnation))?.entry(sequence)
         }
 
         fn contains(&self, actor: &str, incarnation: u64, sequence: u64) -> bool {

@@ -48,7 +48,7 @@ use treadmill_runtime::shutdown::Shutdown;
 use fleet::Effort;
 pub use fleet::{FleetEffort, FleetPlan};
 pub use horizon::HorizonRule;
-pub use ledger::{Account, ActorProcess, DropRule, Ledger, LedgerEntry};
+pub use ledger::{Account, ActorProcess, DropRule, KnownFragment, Ledger, LedgerEntry};
 pub use lineage::{Descent, Lineage};
 pub use rejections::{Rejection, Rejections};
 pub use source::{BusFragmentSource, FragmentSource};
@@ -206,7 +206,9 @@ impl<S: FragmentSource> Intake<S> {
             && let Some(incoming) = self.waiting.pop_front()
         {
             if let Some(accepted) = self.receive(incoming, lineage) {
-                self.stragglers.record_delivery(&accepted.fragment.actor, self.source.now());
+                if self.mode == LearnerMode::Sync {
+                    self.stragglers.record_delivery(&accepted.fragment.actor, self.source.now());
+                }
                 self.transitions += accepted.fragment.transitions();
                 self.accepted.push(accepted);
             }
@@ -273,14 +275,15 @@ impl<S: FragmentSource> Intake<S> {
     /// Begins a round: fits the horizons to the fleet, and sends every owed receipt, so that the senders continue with the
     /// newest policy.
     pub fn begin_round(&mut self, lineage: &Lineage) {
-        for actor in self.fleet.plan(self.stragglers.alive()) {
-            self.stragglers.forgive(&actor);
-        }
+        let shorter = self.fleet.plan(self.stragglers.alive());
         self.round_transitions = self.fleet.round_transitions(self.stragglers.alive());
         for owed in std::mem::take(&mut self.owed) {
             self.answer(owed, lineage);
         }
-        self.stragglers.begin_round(self.source.now());
+        if self.mode == LearnerMode::Sync {
+            shorter.iter().for_each(|actor| self.stragglers.forgive(actor));
+            self.stragglers.begin_round(self.source.now());
+        }
     }
 
     fn answer(&self, OwedReceipt { incoming, incarnation }: OwedReceipt<S::Incoming>, lineage: &Lineage) {

@@ -11,7 +11,7 @@ use treadmill_ppo::{AcceptedFragment, Implausible};
 use treadmill_proto::{Fragment, Malformed, Outcome, Receipt};
 
 use super::{
-    ledger::{DropRule, Ledger, LedgerEntry},
+    ledger::{DropRule, KnownFragment, Ledger, LedgerEntry},
     lineage::{Descent, Lineage},
     rejections::Rejections,
 };
@@ -124,13 +124,13 @@ impl FragmentValidator {
             rejection(Outcome::Malformed, why.to_string(), 0)
         })?;
         let (incarnation, sequence) = (fragment.actor_incarnation, fragment.sequence);
-        if !self.ledger.knows(actor, incarnation) {
+        let KnownFragment { is_new_process, durable_through, entry } =
+            self.ledger.look_up(actor, incarnation, sequence, fragment.settled_through);
+        if is_new_process {
             let wire_version = fragment.wire_version;
             tracing::info!(%actor, incarnation, wire_version, "first fragment of an actor process");
         }
-        self.ledger.settle(actor, incarnation, fragment.settled_through);
-        let durable_through = self.ledger.durable_through(actor, incarnation);
-        if let Some(entry) = self.ledger.entry(actor, incarnation, sequence) {
+        if let Some(entry) = entry {
             self.counts.duplicate += 1;
             self.report_useless(&sender, now);
             // The first receipt was lost: the sender gets the same outcome again.
