@@ -218,7 +218,7 @@ actors_before=$(began) before=$(steps) killed=$SECONDS
 kill -9 "$(main_process "$learner")"
 await 'the restart of the learner' restarted "$learner" 0
 await 'training after the restart' trains_beyond "$((before + 1000))"
-docker logs "$learner" 2>&1 | grep 'resuming /runs/smoke' >/dev/null || fail 'the learner did not resume'
+docker logs "$learner" 2>&1 | grep 'run `smoke`: resuming at' >/dev/null || fail 'the learner did not resume'
 [ "$(began)" = "$actors_before" ] || fail 'an actor restarted because the learner crashed'
 say "the learner was killed, resumed, and passed $before steps after $((SECONDS - killed)) s; no actor restarted"
 
@@ -265,12 +265,13 @@ for container in $(docker ps -aq --filter "label=com.docker.compose.project=$pro
     [ "$code" = 0 ] || fail "$(docker inspect -f '{{.Name}}' "$container") exited with $code"
 done
 docker logs --tail 5 "$learner" 2>&1 | grep 'saved in /runs/smoke/checkpoints' >/dev/null || fail 'the learner did not save'
-saved=$(docker logs "$learner" 2>&1 | sed -n 's/^stopped after \([0-9]*\) env steps.*/\1/p' | tail -n 1)
+saved=$(docker logs "$learner" 2>&1 | sed -n 's/^stopped after \([0-9,]*\) env steps.*/\1/p' | tail -n 1)
+shown=$saved saved=$(printf %s "$saved" | tr -d ,)
 [ "$saved" -ge "$before" ] || fail "saved at $saved steps, after $before"
 compose start 2>/dev/null
 learner=$(id learner)
 await 'training after the restart' trains_beyond "$saved"
-docker logs "$learner" 2>&1 | grep "resuming at $saved env steps" >/dev/null || fail "the learner did not resume at $saved steps"
+docker logs "$learner" 2>&1 | grep "resuming at $shown env steps" >/dev/null || fail "the learner did not resume at $saved steps"
 say "stopped, saved at $saved steps, every container exited with 0; resumed"
 [ "$(value bus/fragments_malformed)" -le 3 ] || fail 'fragments of valid actors were rejected'
 say 'all tests passed'

@@ -17,10 +17,10 @@ use clap::{CommandFactory, Parser, Subcommand};
 
 use crate::{
     commands::{
-        actor, bench, certs, check, control, eval, evaluator, export, learner, manual, router, runs, status, train,
-        watch,
+        actor, bench, certs, check, config, control, eval, evaluator, export, learner, manual, router, runs, status,
+        train, watch,
     },
-    launch::{exit_code, log},
+    launch::{exit_code, familiar_flags, log, output},
     shared::viewer_args,
 };
 
@@ -57,6 +57,8 @@ enum Command {
     Status(status::StatusArgs),
     /// Command a learner: pause, resume, checkpoint, stop, or set a configuration key.
     Control(control::ControlArgs),
+    /// Print the configuration, or explain one of its keys.
+    Config(config::ConfigArgs),
     /// Forward messages between machines: actors dial the router, the router dials the learner.
     Router(router::RouterArgs),
     /// Create certificates that admit only your own machines to the bus.
@@ -82,7 +84,15 @@ pub fn main() -> ExitCode {
     // from physics and update.
     // SAFETY: no other thread runs yet, so none accesses the environment.
     unsafe { std::env::set_var("CANDLE_NUM_THREADS", "1") };
-    let command = Cli::parse().command;
+    let command = match Cli::try_parse() {
+        Ok(cli) => cli.command,
+        Err(error) => {
+            // Prints help to standard output and errors to standard error.
+            let _ = error.print();
+            familiar_flags::hint(&error).iter().for_each(|hint| output::say_error(hint));
+            return ExitCode::from(u8::try_from(error.exit_code()).unwrap_or(2));
+        }
+    };
     log::begin("");
     let done = match command {
         Command::Train(args) => train::run(args),
@@ -95,6 +105,7 @@ pub fn main() -> ExitCode {
         Command::Runs(args) => runs::run(&args),
         Command::Status(args) => status::run(args),
         Command::Control(args) => control::run(args),
+        Command::Config(args) => config::run(&args),
         Command::Router(args) => router::run(args),
         Command::Certs(args) => certs::run(&args),
         Command::Bench(args) => bench::run(args),

@@ -4,7 +4,7 @@ use std::{
     collections::{BTreeMap, BTreeSet},
     sync::{
         Arc, Mutex, MutexGuard,
-        atomic::{AtomicU32, Ordering},
+        atomic::{AtomicBool, AtomicU32, Ordering},
     },
     time::Duration,
 };
@@ -20,6 +20,8 @@ const RETRY: Duration = Duration::from_millis(200);
 const QUARANTINE_RETRY: Duration = Duration::from_secs(10);
 /// Retries between two warnings about the same fragment.
 const RETRIES_PER_WARNING: u64 = 50;
+/// Retries before the first warning: a learner may be restarting.
+const RETRIES_BEFORE_NOTICE: u64 = 5;
 
 /// Encoded fragment without a receipt.
 #[derive(Clone, Debug)]
@@ -56,6 +58,9 @@ pub struct Uploader {
     policies: Arc<PolicyFetcher>,
     /// Control steps of the next fragment.
     fragment_steps: AtomicU32,
+    notify: fn(&str),
+    /// Whether the user was notified that no learner answers.
+    is_lost: AtomicBool,
     state: Mutex<DeliveryState>,
 }
 
@@ -102,8 +107,17 @@ impl Uploader {
             receipt_timeout,
             policies,
             fragment_steps: fragment_steps.into(),
+            notify: |_| {},
+            is_lost: AtomicBool::new(false),
             state: Mutex::new(DeliveryState { incarnation, ..DeliveryState::default() }),
         }
+    }
+
+    /// Notifies the user when no learner answers, and when one answers again.
+    #[must_use]
+    pub fn with_notices(mut self, notify: fn(&str)) -> Self {
+        self.notify = notify;
+        self
     }
 
     /// Returns the control steps of the next fragment.
@@ -186,14 +200,24 @@ impl Uploader {
         let mut retries = 0u64;
         loop {
             let answer = submit(&self.bus, &self.run, &self.actor, bytes.clone(), self.receipt_timeout).await?;
+            let is_silent = answer.is_none();
             let (pause, reason) = match answer {
                 None => (RETRY, "no learner answers".to_string()),
-                Some(receipt) => match next_step(receipt.outcome) {
-                    NextStep::Settle => return Ok(receipt),
-                    NextStep::RetryAfter(pause) => (pause, receipt.reason),
-                },
+                Some(receipt) => {
+                    if self.is_lost.swap(false, Ordering::Relaxed) {
+                        (self.notify)("the learner answers again");
+                    }
+                    match next_step(receipt.outcome) {
+                        NextStep::Settle => return Ok(receipt),
+                        NextStep::RetryAfter(pause) => (pause, receipt.reason),
+                    }
+                }
             };
-            if retries % RETRIES_PER_WARNING == 5 {
+            if is_silent && retries == RETRIES_BEFORE_NOTICE && !self.is_lost.swap(true, Ordering::Relaxed) {
+                let pending = self.state().pending.len();
+                (self.notify)(&format!("no learner answers; keeping {pending} fragments and trying again"));
+            }
+            if retries % RETRIES_PER_WARNING == RETRIES_BEFORE_NOTICE {
                 tracing::warn!(actor = %self.actor, %reason, "keeping fragments and retrying");
             }
             tokio::time::sleep(pause).await;

@@ -26,6 +26,14 @@ pub enum ActorError {
         /// Reason, with its causes.
         why: String,
     },
+    /// Another actor of the same name is in the run.
+    #[error("an actor named `{name}` is in the run `{run}` already; choose another --name, or leave it out")]
+    NameTaken {
+        /// Name of the run.
+        run: String,
+        /// Name of both actors.
+        name: String,
+    },
     /// The run trains a task that this program does not simulate.
     #[error(
         "run `{run}` trains `{task}`, which this program does not simulate: it simulates the humanoid only; join with an actor \

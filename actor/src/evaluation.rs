@@ -1,5 +1,7 @@
 //! Episodes without learning, and their statistics.
 
+use std::ops::ControlFlow;
+
 use treadmill_humanoid::{Environment, Physics, StepInfo};
 use treadmill_runtime::seeds;
 
@@ -46,6 +48,8 @@ pub struct EvaluationStep<'a> {
     pub info: &'a StepInfo,
     /// Body after the step.
     pub physics: &'a Physics,
+    /// Result of the episode, after its last step.
+    pub ended: Option<EpisodeResult>,
 }
 
 /// Results of an evaluation.
@@ -81,20 +85,20 @@ impl Evaluation {
     }
 }
 
-/// Plays `episodes` episodes and calls `on_step` after every step.
+/// Plays `episodes` episodes and calls `on_step` after every step, which may end the evaluation.
 pub fn evaluate(
     environment: &mut Environment,
     agent: &mut dyn Agent,
     episodes: u32,
     seed: u64,
-    mut on_step: impl FnMut(EvaluationStep),
+    mut on_step: impl FnMut(EvaluationStep) -> ControlFlow<()>,
 ) -> Result<Evaluation, ActorError> {
     let mut observation = vec![0.0; environment.observation_size()];
     let mut action = vec![0.0; environment.action_size()];
     let mut control = action.clone();
     let mut overshoots = Vec::new();
     let mut results = Vec::new();
-    for episode in 0..episodes {
+    'evaluation: for episode in 0..episodes {
         environment.reset(seeds::derive(seed, "evaluation", &[episode.into()]), &mut observation);
         let start_x_m = environment.physics().position()[0];
         let mut result = EpisodeResult::default();
@@ -110,22 +114,29 @@ pub fn evaluate(
                 result.distance_m = environment.physics().position()[0] - start_x_m;
                 overshoots.push(environment.joint_quality().limit_overshoot_rad);
             }
-            on_step(EvaluationStep {
+            let has_ended = step.terminated || step.truncated;
+            if has_ended {
+                result.fell = step.terminated && !step.fault;
+                result.velocity_mps = result.distance_m / (f64::from(result.length) * environment.control_step_s());
+                agent.episode_ended();
+                results.push(result);
+            }
+            let flow = on_step(EvaluationStep {
                 episode: episode + 1,
                 step: result.length,
                 reward: step.reward,
                 total: result.return_sum,
                 info: environment.info(),
                 physics: environment.physics(),
+                ended: has_ended.then_some(result),
             });
-            if step.terminated || step.truncated {
-                result.fell = step.terminated && !step.fault;
+            if flow.is_break() {
+                break 'evaluation;
+            }
+            if has_ended {
                 break;
             }
         }
-        result.velocity_mps = result.distance_m / (f64::from(result.length) * environment.control_step_s());
-        agent.episode_ended();
-        results.push(result);
     }
     Ok(Evaluation { episodes: results, joints: joint_report(&mut overshoots) })
 }

@@ -1,6 +1,6 @@
 //! Evaluator process: plays deterministic episodes with policies that the learner assigns, and reports the results.
 
-use std::time::Duration;
+use std::{ops::ControlFlow, time::Duration};
 
 use treadmill_bus::{Assignment, Bus, ask_for_evaluation};
 use treadmill_humanoid::Environment;
@@ -72,7 +72,7 @@ fn play(bundle: &PolicyBundle, evaluator: String, shutdown: &Shutdown) -> Result
         }
         // Every policy starts from the same states, so that differences between policies are their own.
         let seed = config.run.seed.wrapping_add(u64::from(episode));
-        all.episodes.extend(evaluate(&mut environment, &mut agent, 1, seed, |_| {})?.episodes);
+        all.episodes.extend(evaluate(&mut environment, &mut agent, 1, seed, |_| ControlFlow::Continue(()))?.episodes);
     }
     Ok(Some(EvaluationReport {
         run: bundle.run.clone(),

@@ -9,7 +9,7 @@ use std::{
 };
 
 use tokio::task::JoinSet;
-use treadmill_bus::{Bus, PosePublisher, keys, publish_dropping, token, watch_announcements};
+use treadmill_bus::{Bus, PosePublisher, is_actor_present, keys, publish_dropping, token, watch_announcements};
 use treadmill_config::Config;
 use treadmill_proto::{ActorState, ActorStats, PolicyBundle, PolicyVersion, json::EpisodeReport};
 use treadmill_runtime::{machine, seeds, shutdown::Shutdown};
@@ -28,6 +28,12 @@ use crate::{
     settings,
 };
 
+/// Longest wait for the answer whether an actor of this name is in the run.
+const TOKEN_TIMEOUT: Duration = Duration::from_secs(2);
+/// Longest wait for a predecessor of the same name to go: Zenoh gives up a silent link after ten seconds.
+const NAME_TIMEOUT: Duration = Duration::from_secs(15);
+const NAME_RETRY: Duration = Duration::from_millis(500);
+
 /// Reason for which a membership in a run ended.
 enum EndReason {
     StopRequested,
@@ -42,10 +48,16 @@ pub async fn run(bus: Bus, options: WorkerOptions, shutdown: Shutdown) -> Result
             return Ok(last);
         };
         tracing::info!(actor = %options.name, run = %bundle.run, version = bundle.version.number, "joined the run");
+        if !wait_for_name(&bus, &options, &bundle.run, &shutdown).await? {
+            return Ok(last);
+        }
         let membership = Membership::new(&bus, &options, &bundle)?;
+        let WorkerOptions { name, envs, .. } = &options;
+        (options.notify)(&format!("joined run `{}` as `{name}` with {envs} environments", bundle.run));
         let reason = membership.run(&bundle, &shutdown).await?;
         let summary = membership.summary();
         tracing::info!(actor = %options.name, run = %bundle.run, ?summary, "left the run");
+        (options.notify)(&format!("left run `{}`: {}", bundle.run, summary.delivered()));
         last = Some(summary);
         match reason {
             EndReason::StopRequested => return Ok(last),
@@ -57,6 +69,25 @@ pub async fn run(bus: Bus, options: WorkerOptions, shutdown: Shutdown) -> Result
             ),
         }
     }
+}
+
+/// Waits until no other actor of this name is in the run: a predecessor may have ended without notice. Returns false after a
+/// request to stop.
+///
+/// # Errors
+/// [`ActorError::NameTaken`] if another one stays.
+async fn wait_for_name(bus: &Bus, options: &WorkerOptions, run: &str, shutdown: &Shutdown) -> Result<bool, ActorError> {
+    let begun = Instant::now();
+    while is_actor_present(bus, run, &options.name, TOKEN_TIMEOUT).await? {
+        if begun.elapsed() > NAME_TIMEOUT {
+            return Err(ActorError::NameTaken { run: run.to_string(), name: options.name.clone() });
+        }
+        tokio::select! {
+            () = shutdown.wait() => return Ok(false),
+            () = tokio::time::sleep(NAME_RETRY) => {}
+        }
+    }
+    Ok(true)
 }
 
 /// Membership of an actor in one run, from joining to leaving.
@@ -77,6 +108,7 @@ impl<'a> Membership<'a> {
         let receipt_timeout = Duration::from_millis(config.bus.receipt_timeout_ms);
         let steps = settings::first_fragment_steps(bundle, &config, options.envs)?;
         let uploader = Uploader::new(bus.clone(), &bundle.run, &options.name, receipt_timeout, policies.clone(), steps);
+        let uploader = uploader.with_notices(options.notify);
         let identity = ActorIdentity {
             run: bundle.run.clone(),
             actor: options.name.clone(),

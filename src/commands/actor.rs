@@ -52,6 +52,8 @@ pub fn run(args: ActorArgs) -> anyhow::Result<()> {
         threads: args.threads,
         start: args.start_number.unwrap_or_else(seeds::unique),
         endpoint: args.network.where_to(&args.client.connect),
+        // The parent of a supervised actor reports to the user.
+        notify: if args.client.until_stdin_closes { |_| {} } else { say },
     };
     with_session(args.client, &args.network, Role::Actor, |bus, shutdown| async move {
         let name = options.name.clone();

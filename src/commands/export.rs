@@ -4,11 +4,15 @@ use std::path::{Path, PathBuf};
 
 use anyhow::Context;
 use clap::{ArgGroup, Args};
+use serde_json::json;
 use treadmill_learner::checkpoint::Which;
 use treadmill_policy::onnx::to_onnx;
 use treadmill_runtime::atomic_file;
 
-use crate::{launch::output::say, shared::saved_policy};
+use crate::{
+    launch::output::say,
+    shared::saved_policy::{self, Origin, SavedPolicy},
+};
 
 /// Flags of `export`.
 #[derive(Args)]
@@ -22,14 +26,17 @@ pub struct ExportArgs {
     /// Write the policy as an ONNX model from raw observations to actions, normalisation included.
     #[arg(long, value_name = "FILE")]
     onnx: Option<PathBuf>,
-    /// Checkpoint: best, latest, or the number of updates of a kept one.
-    #[arg(long, value_name = "WHICH", default_value = "latest")]
-    checkpoint: Which,
+    /// Checkpoint: best, latest, or the number of updates of a kept one; by default best if it exists.
+    #[arg(long, value_name = "WHICH")]
+    checkpoint: Option<Which>,
+    /// Print only one JSON object.
+    #[arg(long)]
+    json: bool,
 }
 
 /// Writes the files and prints what they contain.
 pub fn run(args: &ExportArgs) -> anyhow::Result<()> {
-    let policy = saved_policy::load(&args.run, args.checkpoint)?;
+    let SavedPolicy { policy, origin } = saved_policy::load(&args.run, args.checkpoint)?;
     let config = saved_policy::trained_under(&policy);
     if !config.is_external() {
         // Refuses a policy that `eval` would refuse.
@@ -43,20 +50,39 @@ pub fn run(args: &ExportArgs) -> anyhow::Result<()> {
         .chain([&policy.shape.action])
         .map(ToString::to_string)
         .collect();
-    let actor = format!("actor {}", widths.join("-"));
+    let of = origin.as_ref().map(|origin| format!("{origin}: ")).unwrap_or_default();
+    let actor = format!("{of}actor {}", widths.join("-"));
+    let mut written = Vec::new();
     if let Some(path) = &args.safetensors {
-        write(path, &bytes, &format!("{actor}, its critic and observation statistics"))?;
+        let what = format!("{actor}, its critic and observation statistics");
+        written.push(write(path, &bytes, what)?);
     }
     if let Some(path) = &args.onnx {
-        write(path, &to_onnx(&policy), &format!("{actor}, with normalisation and ranges of the motors, as ONNX"))?;
+        let what = format!("{actor}, with normalisation and ranges of the motors, as ONNX");
+        written.push(write(path, &to_onnx(&policy), what)?);
+    }
+    if args.json {
+        let files: Vec<_> = written.iter().map(|file| json!({"file": file.path, "bytes": file.bytes})).collect();
+        let (checkpoint, env_steps) = origin.map(|Origin { checkpoint, env_steps }| (checkpoint, env_steps)).unzip();
+        say(&json!({"checkpoint": checkpoint, "checkpoint_env_steps": env_steps, "files": files}).to_string());
+        return Ok(());
+    }
+    for Written { path, bytes, what } in &written {
+        say(&format!("wrote {}: {what}, {bytes} bytes", path.display()));
     }
     Ok(())
 }
 
-fn write(path: &Path, bytes: &[u8], what: &str) -> anyhow::Result<()> {
+/// File that was written.
+struct Written<'a> {
+    path: &'a Path,
+    bytes: usize,
+    what: String,
+}
+
+fn write<'a>(path: &'a Path, bytes: &[u8], what: String) -> anyhow::Result<Written<'a>> {
     let shown = path.display();
     atomic_file::write(path, bytes)
         .with_context(|| format!("cannot write `{shown}`; does its folder exist, and may you write to it?"))?;
-    say(&format!("wrote {shown}: {what}, {} bytes", bytes.len()));
-    Ok(())
+    Ok(Written { path, bytes: bytes.len(), what })
 }

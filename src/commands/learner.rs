@@ -24,7 +24,7 @@ pub struct LearnerArgs {
     #[command(flatten)]
     metrics: MetricsArgs,
     /// Name of the run on the bus; by default the name of its folder.
-    #[arg(long, value_name = "NAME", conflicts_with = "resume")]
+    #[arg(long, value_name = "NAME")]
     run: Option<String>,
     /// Endpoint to listen on; may be repeated.
     #[arg(long, value_name = "ENDPOINT", default_value = "tcp/127.0.0.1:7447")]
@@ -39,9 +39,7 @@ pub fn run(args: LearnerArgs) -> anyhow::Result<()> {
     check_run(args.run.as_deref())?;
     let options = args.network.options(Role::Learner, args.listen, args.connect)?;
     let metrics = args.metrics.listen()?;
-    let mut prepared = startup::prepare(RunCommand::Learner, &args.new, &args.any, &[])?;
-    if let Some(run) = args.run {
-        prepared.rename(run);
-    }
-    host::run(prepared, HostOptions { any: &args.any, bus: &options, actors: None, metrics })
+    let mut start = startup::prepare(RunCommand::Learner, &args.new, &args.any, &[])?;
+    args.run.map_or(Ok(()), |run| start.set_name(run))?;
+    host::run(start, HostOptions { any: &args.any, bus: &options, actors: None, metrics })
 }

@@ -4,12 +4,13 @@
 //! - Training: [`train`], [`learner`], [`actor`], [`evaluator`], [`router`], [`certs`].
 //! - While a run trains: [`status`], [`control`].
 //! - Trained policies: [`eval`], [`watch`], [`export`], [`runs`].
-//! - Machine and program: [`check`], [`bench`], [`manual`] (`completions`, `man`, `reference`).
+//! - Machine and program: [`check`], [`bench`], [`config`], [`manual`] (`completions`, `man`, `reference`).
 
 pub(crate) mod actor;
 pub(crate) mod bench;
 pub(crate) mod certs;
 pub(crate) mod check;
+pub(crate) mod config;
 pub(crate) mod control;
 pub(crate) mod eval;
 pub(crate) mod evaluator;

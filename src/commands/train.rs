@@ -2,12 +2,13 @@
 
 use clap::Args;
 use treadmill_bus::Role;
+use treadmill_config::Config;
 
 use crate::{
     launch::{
         host::{self, HostOptions},
         metrics_page::MetricsArgs,
-        startup::{self, AnyRunArgs, NewRunArgs, RunCommand},
+        startup::{self, AnyRunArgs, NewRunArgs, RunCommand, Start},
     },
     shared::network_args::NetworkArgs,
 };
@@ -24,13 +25,13 @@ pub struct TrainArgs {
     #[command(flatten)]
     metrics: MetricsArgs,
     /// Run one actor in lock-step: the same seed gives the same weights bit for bit.
-    #[arg(long, conflicts_with = "resume")]
+    #[arg(long)]
     deterministic: bool,
     /// Actor processes; by default one per core.
     #[arg(long)]
     actors: Option<u32>,
     /// Environments in total, divided among the actors.
-    #[arg(long, conflicts_with = "resume")]
+    #[arg(long)]
     envs: Option<u32>,
     /// Endpoint to listen on; by default a free port on loopback, which is written to the run's folder.
     #[arg(long, value_name = "ENDPOINT", default_value = "tcp/127.0.0.1:0")]
@@ -45,9 +46,15 @@ pub fn run(args: TrainArgs) -> anyhow::Result<()> {
     if args.deterministic {
         changes.push(("run.deterministic", true.into()));
     }
-    let prepared = startup::prepare(RunCommand::Train, &args.new, &args.any, &changes)?;
-    let rollout = &prepared.config.rollout;
-    let wanted = args.actors.filter(|_| !prepared.config.run.deterministic).unwrap_or(rollout.actors);
-    let actors = startup::actor_processes(wanted, rollout.envs);
-    host::run(prepared, HostOptions { any: &args.any, bus: &options, actors: Some(actors), metrics })
+    let start = startup::prepare(RunCommand::Train, &args.new, &args.any, &changes)?;
+    let actors = match &start {
+        Start::Ready(prepared, _) => processes(&prepared.config, args.actors),
+        Start::Finished(..) => 0,
+    };
+    host::run(start, HostOptions { any: &args.any, bus: &options, actors: Some(actors), metrics })
+}
+
+fn processes(config: &Config, flag: Option<u32>) -> u32 {
+    let wanted = flag.filter(|_| !config.run.deterministic).unwrap_or(config.rollout.actors);
+    startup::actor_processes(wanted, config.rollout.envs)
 }

@@ -5,12 +5,12 @@ use std::net::SocketAddr;
 
 use treadmill_bus::Credentials;
 use treadmill_config::Config;
-use treadmill_learner::training::TrainingSummary;
-use treadmill_runtime::run_folder::RunFolder;
+use treadmill_learner::{checkpoint::TrainingState, training::TrainingSummary};
+use treadmill_runtime::{numbers::thousands, run_folder::RunFolder};
 
 use crate::launch::{
     output::{say, say_error},
-    startup::Prepared,
+    startup::{Prepared, quoted},
 };
 
 /// Prints the banner of a run. `actors` is the number of actor processes that this process starts, `page` the metrics page.
@@ -22,10 +22,10 @@ pub fn print_start(
     page: Option<SocketAddr>,
 ) {
     let Prepared { config, folder, state, run, .. } = prepared;
-    let root = folder.root().display();
+    let root = quoted(&folder.root().display().to_string());
     let steps = state.as_ref().map_or(0, |state| state.counters.env_steps);
     let verb = match (steps, config.is_external(), &config.task.name[..]) {
-        (1.., ..) => format!("resuming at {steps} env steps"),
+        (1.., ..) => format!("resuming at {} env steps", thousands(steps)),
         (0, false, _) => "training a humanoid to walk".to_string(),
         (0, true, "") => "training the task that its first actor registers".to_string(),
         (0, true, name) => format!("training `{name}`"),
@@ -34,6 +34,7 @@ pub fn print_start(
     say(&format!("  learns    {}", goal(config, steps)));
     say(&format!("  files     {root}  (curves: tensorboard --logdir {root}, or {root}/learning_curve.png)"));
     match actors {
+        Some(1) => say("  actors    1 process beside this one"),
         Some(actors) => say(&format!("  actors    {actors} processes beside this one")),
         None => {
             let command = match config.is_external() {
@@ -45,7 +46,7 @@ pub fn print_start(
         }
     }
     say(&format!("  listening {}", endpoints.join(", ")));
-    let tls = credentials.map(|credentials| format!(" --tls {}", credentials.folder.display())).unwrap_or_default();
+    let tls = credentials.map(tls_flag).unwrap_or_default();
     say(&format!("  watch     treadmill status --watch {root}{tls}"));
     if !config.is_external() {
         say(&format!(
@@ -70,6 +71,7 @@ fn goal(config: &Config, steps: u64) -> String {
         false => "to go forward and not to fall",
     };
     let updates = left.div_ceil(batch.max(1));
+    let (left, updates) = (thousands(left), thousands(updates));
     format!(
         "{goal}, in {left} env steps (at most {updates} updates); the remaining time appears once the speed is known"
     )
@@ -81,18 +83,34 @@ fn connect_flags(endpoint: &str, credentials: Option<&Credentials>) -> String {
     let host = treadmill_runtime::machine::host_name();
     let dialled = endpoint.replace("/0.0.0.0:", &format!("/{host}:")).replace("/[::]:", &format!("/{host}:"));
     match credentials {
-        Some(credentials) => format!("{dialled} --tls {}", credentials.folder.display()),
+        Some(credentials) => dialled + &tls_flag(credentials),
         None if dialled.contains(&host) && dialled != endpoint => format!("{dialled} --insecure"),
         None => dialled,
     }
 }
 
+/// Returns the flag that names the certificates, after a space.
+fn tls_flag(credentials: &Credentials) -> String {
+    format!(" --tls {}", quoted(&credentials.folder.display().to_string()))
+}
+
+/// Prints that a run has all its steps.
+pub fn print_finished(folder: &RunFolder, state: &TrainingState, command: &str) {
+    let (root, steps) = (quoted(&folder.root().display().to_string()), state.counters.env_steps);
+    say(&format!(
+        "run `{}` is finished: it has {} steps; go on with: treadmill {command} --resume {root} --steps {}",
+        state.run,
+        thousands(steps),
+        steps.saturating_mul(2)
+    ));
+}
+
 /// Prints the result of the run and the commands to use next.
 pub fn print_end(folder: &RunFolder, summary: &TrainingSummary, command: &str) {
-    let root = folder.root().display();
+    let root = quoted(&folder.root().display().to_string());
     let steps = summary.state.counters.env_steps;
     let what = if summary.stopped { "stopped" } else { "done" };
-    say(&format!("{what} after {steps} env steps; saved in {root}/checkpoints"));
+    say(&format!("{what} after {} env steps; saved in {root}/checkpoints", thousands(steps)));
     if let Some(means) = summary.state.episodes.means() {
         let farthest = summary.farthest_m.map(|m| format!("; farthest so far {m:.1} m")).unwrap_or_default();
         say(&format!(
@@ -108,7 +126,7 @@ pub fn print_end(folder: &RunFolder, summary: &TrainingSummary, command: &str) {
     if summary.state.model_xml.is_empty() {
         say(&format!("take the policy elsewhere: treadmill export {root} --safetensors FILE"));
     } else {
-        say(&format!("see how far it walks: treadmill eval {root} --gif walk.gif"));
+        say(&format!("see how far it walks: treadmill eval {root} --episodes 1 --gif walk.gif"));
     }
     say("compare it with other runs: treadmill runs");
 }

@@ -34,7 +34,7 @@ pub struct ClientArgs {
     name: Option<String>,
     /// Exit when standard input closes, which happens when the parent process ends.
     #[arg(long, hide = true)]
-    until_stdin_closes: bool,
+    pub until_stdin_closes: bool,
 }
 
 impl ClientArgs {

@@ -24,7 +24,10 @@ fn is_usage(why: &anyhow::Error) -> bool {
     why.chain().any(|cause| {
         cause.is::<Usage>()
             || cause.is::<ConfigError>()
-            || matches!(cause.downcast_ref(), Some(RunFolderError::Missing { .. } | RunFolderError::Taken { .. }))
+            || matches!(
+                cause.downcast_ref(),
+                Some(RunFolderError::Missing { .. } | RunFolderError::Taken { .. } | RunFolderError::InUse { .. })
+            )
             || matches!(cause.downcast_ref(), Some(BusError::Endpoint { .. }))
     })
 }

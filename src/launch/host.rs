@@ -14,7 +14,7 @@ use treadmill_learner::{
     metrics::{PrometheusMetrics, episodes::EpisodeMeans},
     training::{self, Heartbeat, TrainingError, TrainingOptions, TrainingSummary},
 };
-use treadmill_runtime::{atomic_file, run_folder::RunFolder, shutdown::Shutdown};
+use treadmill_runtime::{atomic_file, run_folder::RunFolder, run_lock::RunLock, shutdown::Shutdown};
 
 use super::{
     async_runtime, banner, external_task, memory,
@@ -23,7 +23,7 @@ use super::{
     output::say,
     signals,
     slow_step::SlowStepNotice,
-    startup::{self, AnyRunArgs, Prepared},
+    startup::{self, AnyRunArgs, Prepared, Start},
     supervisor::{FleetOptions, Supervisor},
 };
 
@@ -42,17 +42,41 @@ pub struct HostOptions<'a> {
     pub metrics: Option<MetricsListener>,
 }
 
-/// Hosts a learner until its run is complete or stopped.
-pub fn run(prepared: Prepared, options: HostOptions) -> anyhow::Result<()> {
-    memory::keep_freed();
-    async_runtime::run(run_until_done(prepared, options))
+impl HostOptions<'_> {
+    /// Returns the command that this process runs.
+    fn command(&self) -> &'static str {
+        self.actors.map_or("learner", |_| "train")
+    }
 }
 
-async fn run_until_done(mut prepared: Prepared, options: HostOptions<'_>) -> anyhow::Result<()> {
+/// Hosts a learner until its run is complete or stopped. A finished run is only reported.
+pub fn run(start: Start, options: HostOptions) -> anyhow::Result<()> {
+    let (prepared, mut lock) = match start {
+        Start::Ready(prepared, lock) => (*prepared, lock),
+        Start::Finished(folder, state) => {
+            banner::print_finished(&folder, &state, options.command());
+            if options.any.json {
+                say(&as_json(&TrainingSummary::finished(*state)));
+            }
+            return Ok(());
+        }
+    };
+    memory::keep_freed();
+    let folder = prepared.folder.clone();
+    let outcome = async_runtime::run(run_until_done(prepared, &mut lock, options));
+    if outcome.is_err() {
+        folder.discard();
+    }
+    outcome
+}
+
+async fn run_until_done(mut prepared: Prepared, lock: &mut RunLock, options: HostOptions<'_>) -> anyhow::Result<()> {
+    let command = options.command();
     let HostOptions { any, bus: bus_options, actors, metrics } = options;
     let shutdown = Shutdown::default();
     signals::listen(shutdown.clone(), "stopping after this update; press Ctrl-C again to stop at once")?;
     let (bus, endpoints) = open_bus(bus_options, &prepared.folder).await?;
+    lock.set_endpoint(&endpoints.join(", ")).context("the lock of the run folder cannot be written")?;
     let (prometheus, heartbeat) = (PrometheusMetrics::default(), Heartbeat::default());
     let page =
         metrics.map(|page| page.serve(prepared.run.clone(), prometheus.clone(), heartbeat.clone())).transpose()?;
@@ -78,7 +102,7 @@ async fn run_until_done(mut prepared: Prepared, options: HostOptions<'_>) -> any
     drop(task_server);
     bus.close();
     let summary = outcome??;
-    banner::print_end(&folder, &summary, actors.map_or("learner", |_| "train"));
+    banner::print_end(&folder, &summary, command);
     if any.json {
         say(&as_json(&summary));
     }
@@ -125,6 +149,7 @@ fn training_options(
     let state = state.context(NO_STATE)?;
     let options = TrainingOptions {
         folder,
+        steps: config.run.steps,
         device,
         mirror,
         show_progress: !any.no_progress,

@@ -1,11 +1,12 @@
 //! Starting and hosting a run, and process-wide services of every command.
 //!
 //! # Layout
-//! - Before a run: `startup` (flags to configuration, run folder and first state), `model` (the robot), `external_task`
-//!   (waits for the task that the first actor registers), `banner` (text printed before and after a run).
+//! - Before a run: `startup` (flags to configuration, run folder and first state), `resumption` (loads a saved run and compares
+//!   the flags with it), `model` (the robot), `external_task` (waits for the task that the first actor registers), `banner`
+//!   (text printed before and after a run).
 //! - During a run: `host` (a learner with actors beside it), `supervisor` (restarts actor processes), `bus_client` (flags and
 //!   session of an actor or evaluator), `metrics_page` (metrics over HTTP).
-//! - The process: `async_runtime`, [`exit_code`], [`signals`], [`log`], [`output`], [`slow_step`], [`terminal_screen`], `memory`
+//! - The process: `async_runtime`, `familiar_flags` (hints for flags of other programs), [`exit_code`], [`signals`], [`log`], [`output`], [`slow_step`], [`terminal_screen`], `memory`
 //!   (allocator settings).
 
 pub(crate) mod async_runtime;
@@ -13,12 +14,14 @@ pub(crate) mod banner;
 pub(crate) mod bus_client;
 pub mod exit_code;
 pub(crate) mod external_task;
+pub(crate) mod familiar_flags;
 pub(crate) mod host;
 pub mod log;
 pub(crate) mod memory;
 pub(crate) mod metrics_page;
 pub(crate) mod model;
 pub mod output;
+pub(crate) mod resumption;
 pub mod signals;
 pub mod slow_step;
 pub(crate) mod startup;

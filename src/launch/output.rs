@@ -1,4 +1,4 @@
-//! Lines on standard output and standard error, and numbers in them. A closed stream is ignored, because a reader that goes away must not stop
+//! Lines on standard output and standard error. A closed stream is ignored, because a reader that goes away must not stop
 //! training. Also the log's writer, which buffers while a dashboard uses the terminal.
 
 use std::{
@@ -17,17 +17,14 @@ pub fn say(line: &str) {
     let _ = writeln!(std::io::stdout().lock(), "{line}");
 }
 
+/// Prints a line on standard output. Returns false if its reader has gone away.
+pub fn say_to_reader(line: &str) -> bool {
+    !writeln!(io::stdout().lock(), "{line}").is_err_and(|why| why.kind() == io::ErrorKind::BrokenPipe)
+}
+
 /// Prints a line on standard error.
 pub fn say_error(line: &str) {
     let _ = writeln!(std::io::stderr().lock(), "{line}");
-}
-
-/// Formats 1234567 as `1 234 567`.
-pub fn thousands(number: u64) -> String {
-    let digits = number.to_string();
-    let groups: Vec<&str> =
-        digits.as_bytes().rchunks(3).rev().map(|group| str::from_utf8(group).unwrap_or("")).collect();
-    groups.join(" ")
 }
 
 /// Begins or ends buffering the log, if it goes to a terminal; the end writes the buffered part.

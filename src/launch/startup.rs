@@ -11,43 +11,73 @@ use treadmill_learner::checkpoint::{self, TrainingState, Which};
 use treadmill_policy::device::{Device, DeviceKind};
 use treadmill_ppo::BatchMirror;
 use treadmill_proto::{Task, WIRE_VERSION, limits::fragment_envs_max};
-use treadmill_runtime::{atomic_file, error_chain, machine, run_folder::RunFolder, seeds};
+use treadmill_runtime::{
+    atomic_file, error_chain, machine,
+    numbers::parse_count,
+    run_folder::{RunFolder, RunFolderError},
+    run_lock::RunLock,
+    seeds,
+};
 
-use crate::launch::{exit_code::Usage, model, slow_step::SlowStepNotice};
+use crate::launch::{exit_code::Usage, model, resumption};
 
-/// Flags of a new run. They conflict with `--resume`, because a resumed run has them saved.
+/// Flags that configure a new run. A resumed run has them saved and accepts those that agree.
 #[derive(Args, Clone, Debug, Default)]
 pub struct NewRunArgs {
-    /// Preset to start the configuration from: walk, walk-v5obs, walk-v4obs, smoke or sim2sim.
-    #[arg(long, value_name = "NAME", default_value = "walk")]
-    pub preset: String,
+    /// Preset to start the configuration from: walk (the default), walk-v5obs, walk-v4obs, smoke or sim2sim.
+    #[arg(long, value_name = "NAME")]
+    pub preset: Option<String>,
     /// Configuration file (TOML), applied over the preset.
-    #[arg(long, value_name = "FILE", conflicts_with = "resume")]
+    #[arg(long, value_name = "FILE")]
     pub config: Option<PathBuf>,
     /// Set a configuration key, as in ppo.learning_rate=3e-4; may be repeated.
-    #[arg(long, value_name = "KEY=VALUE", conflicts_with = "resume")]
+    #[arg(long, value_name = "KEY=VALUE")]
     pub set: Vec<String>,
     /// Task: humanoid-v5, humanoid-v4, `external` for the task that the first actor registers, or the name of such a task,
     /// as in gymnasium/Humanoid-v5 (see docs/guide/external-tasks.md).
-    #[arg(long, value_name = "NAME", conflicts_with = "resume")]
+    #[arg(long, value_name = "NAME")]
     pub task: Option<String>,
     /// Seed of every random stream.
-    #[arg(long, conflicts_with = "resume")]
+    #[arg(long)]
     pub seed: Option<u64>,
     /// Folder of the run; by default runs/PRESET-N with the first free N.
-    #[arg(long, value_name = "DIR", conflicts_with = "resume")]
+    #[arg(long, value_name = "DIR")]
     pub run_dir: Option<PathBuf>,
+}
+
+impl NewRunArgs {
+    fn preset(&self) -> &str {
+        self.preset.as_deref().unwrap_or("walk")
+    }
+
+    /// Adds the file, the keys and the task, in this order, then `changes`, which are keys of other flags, and the seed.
+    pub fn add_to(&self, source: &mut ConfigSource, changes: &[(&str, toml::Value)]) -> anyhow::Result<()> {
+        if let Some(file) = &self.config {
+            source.file(file)?;
+        }
+        for pair in &self.set {
+            source.set(pair)?;
+        }
+        let task = self.task.as_deref().map(task_keys).transpose()?;
+        for (key, value) in task.unwrap_or_default().iter().chain(changes) {
+            source.value(key, value.clone())?;
+        }
+        self.seed.map_or(Ok(()), |seed| add_count(source, "run.seed", seed))
+    }
 }
 
 /// Flags of new and resumed runs.
 #[derive(Args, Clone, Debug, Default)]
 pub struct AnyRunArgs {
-    /// Total number of environment steps of the run.
-    #[arg(long)]
+    /// Total number of environment steps of the run, as in 8000000, 8M or 1e6.
+    #[arg(long, value_parser = parse_count)]
     pub steps: Option<u64>,
     /// Resume this run: its folder, or its name below runs/.
-    #[arg(long, value_name = "RUN", conflicts_with = "preset")]
+    #[arg(long, value_name = "RUN")]
     pub resume: Option<String>,
+    /// Resume the run in --run-dir if it has a checkpoint, else begin it: one command line for a service.
+    #[arg(long, requires = "run_dir", conflicts_with = "resume")]
+    pub resume_or_start: bool,
     /// MJCF file of a robot other than the built-in humanoid (see docs/guide/robots.md); a resumed run keeps its own.
     #[arg(long, value_name = "FILE")]
     pub model: Option<PathBuf>,
@@ -65,9 +95,43 @@ pub struct AnyRunArgs {
     pub json: bool,
 }
 
+/// Result of preparing a run.
+pub enum Start {
+    /// It can begin, and this process alone may write into its folder while it keeps the lock.
+    Ready(Box<Prepared>, RunLock),
+    /// It has all its steps.
+    Finished(RunFolder, Box<TrainingState>),
+}
+
+impl Start {
+    /// Sets the name of a new run on the bus.
+    ///
+    /// # Errors
+    /// If a resumed or finished run has another name.
+    pub fn set_name(&mut self, run: String) -> Result<(), Usage> {
+        let (saved, prepared) = match self {
+            Self::Ready(prepared, _) => {
+                let saved = prepared.state.as_ref().filter(|state| state.counters.resumes > 0);
+                (saved.map(|state| state.run.clone()), Some(prepared))
+            }
+            Self::Finished(_, state) => (Some(state.run.clone()), None),
+        };
+        if let Some(saved) = saved.filter(|saved| *saved != run) {
+            return Err(Usage(format!(
+                "`--run {run}`: the saved run is `{saved}`, and a resumed run keeps its name; leave --run out"
+            )));
+        }
+        if let Some(prepared) = prepared {
+            prepared.state.iter_mut().for_each(|state| state.run.clone_from(&run));
+            prepared.run = run;
+        }
+        Ok(())
+    }
+}
+
 /// Run that is ready to begin.
 pub struct Prepared {
-    /// Its configuration.
+    /// Its configuration. `run.steps` is the goal of this start, which may be less than that of the run.
     pub config: Config,
     /// Its folder.
     pub folder: RunFolder,
@@ -82,14 +146,6 @@ pub struct Prepared {
 }
 
 impl Prepared {
-    /// Changes the name of the run on the bus.
-    pub fn rename(&mut self, run: String) {
-        if let Some(state) = &mut self.state {
-            state.run.clone_from(&run);
-        }
-        self.run = run;
-    }
-
     /// Sets the task of a new run and creates its state.
     pub fn set_task(&mut self, task: Task) -> anyhow::Result<()> {
         let (observation, action) = (task.observation_size as usize, task.action_size as usize);
@@ -113,27 +169,50 @@ pub enum RunCommand {
 /// Prepares a new or resumed run. `changes` are keys set by flags of the command.
 ///
 /// # Errors
-/// If flags or configuration are refused, or the run folder cannot be read or written.
+/// If flags or configuration are refused, another process has the run, or its folder cannot be read or written.
 pub fn prepare(
     command: RunCommand,
     new: &NewRunArgs,
     any: &AnyRunArgs,
     changes: &[(&str, toml::Value)],
-) -> anyhow::Result<Prepared> {
-    let prepared = match &any.resume {
-        Some(run) => resume(command, run, any)?,
+) -> anyhow::Result<Start> {
+    let begun = new.run_dir.as_deref().filter(|root| any.resume_or_start && RunFolder::has_checkpoint(root));
+    let saved = any.resume.clone().or(begun.map(|root| root.display().to_string()));
+    let start = match saved {
+        Some(run) => resumption::resume(command, &run, new, any, changes)?,
         None => begin(command, new, any, changes)?,
     };
+    let Start::Ready(prepared, _) = &start else { return Ok(start) };
     let stale = prepared.folder.remove_stale_files()?;
     if stale > 0 {
         tracing::info!(stale, "removed temporary files that a killed process left");
     }
-    write_run_files(&prepared).with_context(|| format!("cannot write to {}", prepared.folder.root().display()))?;
-    Ok(prepared)
+    let written = write_run_files(prepared);
+    if written.is_err() {
+        prepared.folder.discard();
+    }
+    written.with_context(|| format!("cannot write to {}", prepared.folder.root().display()))?;
+    Ok(start)
+}
+
+/// Adds a count to a configuration.
+fn add_count(source: &mut ConfigSource, key: &str, count: u64) -> anyhow::Result<()> {
+    let count =
+        i64::try_from(count).map_err(|_| Usage(format!("`{key}` is {count}; allowed: at most {}", i64::MAX)))?;
+    Ok(source.value(key, count)?)
+}
+
+/// Sets what `run.deterministic` requires.
+pub fn complete(config: &mut Config) {
+    if config.run.deterministic {
+        config.rollout.actors = 1;
+        config.rollout.max_in_flight = 1;
+        config.learner.mode = LearnerMode::Sync;
+    }
 }
 
 /// Opens the device of a run; called before anything is written, so that a missing device leaves nothing behind.
-fn open_device(config: &Config, kind: DeviceKind) -> Result<Device, Usage> {
+pub fn open_device(config: &Config, kind: DeviceKind) -> Result<Device, Usage> {
     if config.run.deterministic && kind == DeviceKind::Cuda {
         return Err(Usage(
             "--deterministic promises the same weights bit for bit, which a GPU does not compute; use --device cpu, or leave \
@@ -145,7 +224,7 @@ fn open_device(config: &Config, kind: DeviceKind) -> Result<Device, Usage> {
 }
 
 /// Refuses commands and flags that make no sense for a task that other programs simulate.
-fn check_external(command: RunCommand, config: &Config, any: &AnyRunArgs) -> Result<(), Usage> {
+pub fn check_external(command: RunCommand, config: &Config, any: &AnyRunArgs) -> Result<(), Usage> {
     if !config.is_external() {
         return Ok(());
     }
@@ -166,11 +245,17 @@ fn check_external(command: RunCommand, config: &Config, any: &AnyRunArgs) -> Res
 }
 
 /// Returns the keys that `--task NAME` sets: the task, and its name if it is external.
-fn task_keys(name: &str) -> Vec<(&'static str, toml::Value)> {
-    match EnvTask::NAMES.contains(&name) {
-        true => vec![("env.task", name.into())],
-        false => vec![("env.task", EnvTask::External.name().into()), ("task.name", name.into())],
+fn task_keys(name: &str) -> Result<Vec<(&'static str, toml::Value)>, Usage> {
+    if EnvTask::NAMES.contains(&name) {
+        return Ok(vec![("env.task", name.into())]);
     }
+    let ours = name.to_lowercase();
+    if EnvTask::NAMES.contains(&ours.as_str()) {
+        return Err(Usage(format!(
+            "--task {name}: the built-in task is `{ours}`; `gymnasium/{name}` is Gymnasium's own, which Python actors simulate"
+        )));
+    }
+    Ok(vec![("env.task", EnvTask::External.name().into()), ("task.name", name.into())])
 }
 
 /// Returns the number of actor processes of `train`: `wanted`, or one per core if that is 0.
@@ -199,35 +284,17 @@ fn begin(
     new: &NewRunArgs,
     any: &AnyRunArgs,
     changes: &[(&str, toml::Value)],
-) -> anyhow::Result<Prepared> {
+) -> anyhow::Result<Start> {
     let mut source = ConfigSource::default();
-    source.preset(&new.preset)?;
+    source.preset(new.preset())?;
     if command == RunCommand::Learner {
         // Its actors are on other machines, and do not wait for the update.
         source.value("learner.mode", "async")?;
     }
-    if let Some(file) = &new.config {
-        source.file(file)?;
-    }
-    for pair in &new.set {
-        source.set(pair)?;
-    }
-    for (key, value) in new.task.as_deref().map(task_keys).unwrap_or_default().iter().chain(changes) {
-        source.value(key, value.clone())?;
-    }
-    for (key, value) in [("run.seed", new.seed), ("run.steps", any.steps)] {
-        if let Some(value) = value {
-            let value = i64::try_from(value)
-                .map_err(|_| Usage(format!("`{key}` is {value}; allowed: at most {}", i64::MAX)))?;
-            source.value(key, value)?;
-        }
-    }
+    new.add_to(&mut source, changes)?;
+    any.steps.map_or(Ok(()), |steps| add_count(&mut source, "run.steps", steps))?;
     let mut config = source.build()?;
-    if config.run.deterministic {
-        config.rollout.actors = 1;
-        config.rollout.max_in_flight = 1;
-        config.learner.mode = LearnerMode::Sync;
-    }
+    complete(&mut config);
     check_external(command, &config, any)?;
     let device = open_device(&config, any.device)?;
     if config.is_external() {
@@ -235,11 +302,11 @@ fn begin(
         if let Some(why) = known.as_ref().and_then(|task| TrainingState::objection(&config, task)) {
             return Err(Usage(why).into());
         }
-        let folder = RunFolder::create(new.run_dir.as_deref(), &new.preset)?;
+        let (folder, lock) = create_folder(new)?;
         let run = folder.name().to_string();
         let mut prepared = Prepared { config, folder, device, mirror: None, run, state: None };
         known.map_or(Ok(()), |task| prepared.set_task(task))?;
-        return Ok(prepared);
+        return Ok(Start::Ready(Box::new(prepared), lock));
     }
     let text = model::text(any.model.as_deref())?;
     let environment = model::environment(&config, &text, any.model.as_deref())?;
@@ -248,35 +315,17 @@ fn begin(
     if command == RunCommand::Train {
         check_fragments(&config, observation, action)?;
     }
-    let folder = RunFolder::create(new.run_dir.as_deref(), &new.preset)?;
+    let (folder, lock) = create_folder(new)?;
     let fresh = TrainingState::fresh(folder.name(), &config, &text, observation, action, seeds::unique());
     let state = TrainingState { physics_version: PHYSICS_VERSION, ..fresh };
-    Ok(Prepared { config, folder, device, mirror, run: state.run.clone(), state: Some(state) })
+    let prepared = Prepared { config, folder, device, mirror, run: state.run.clone(), state: Some(state) };
+    Ok(Start::Ready(Box::new(prepared), lock))
 }
 
-fn resume(command: RunCommand, run: &str, any: &AnyRunArgs) -> anyhow::Result<Prepared> {
-    let folder = RunFolder::open(run)?;
-    let _step = SlowStepNotice::begin(format!("loading the checkpoint of {}", folder.root().display()));
-    let mut state = checkpoint::load(&folder, any.checkpoint.unwrap_or(Which::Latest))?;
-    let mut config = state.config().map_err(anyhow::Error::msg)?;
-    check_external(command, &config, any)?;
-    let device = open_device(&config, any.device)?;
-    if let Some(file) = &any.model {
-        model::check_same(&state.model_xml, file)?;
-    }
-    if let Some(steps) = any.steps {
-        config.run.steps = steps;
-        config.check()?;
-    }
-    if !config.is_external() {
-        state.adopt_physics(PHYSICS_VERSION).map_err(anyhow::Error::msg)?;
-    }
-    // Without retired keys, so that actors need not know them.
-    state.config_toml = config.to_toml();
-    state.lineage.resume(seeds::unique());
-    state.counters.resumes += 1;
-    let mirror = model::mirror(&config, &state.model_xml)?;
-    Ok(Prepared { config, folder, device, mirror, run: state.run.clone(), state: Some(state) })
+fn create_folder(new: &NewRunArgs) -> Result<(RunFolder, RunLock), RunFolderError> {
+    let folder = RunFolder::create(new.run_dir.as_deref(), new.preset())?;
+    let lock = RunLock::take(&folder)?;
+    Ok((folder, lock))
 }
 
 fn write_run_files(prepared: &Prepared) -> std::io::Result<()> {
@@ -284,7 +333,9 @@ fn write_run_files(prepared: &Prepared) -> std::io::Result<()> {
     let Prepared { config, folder, state, .. } = prepared;
     // Atomically: on a full disk, the files of the previous start remain.
     let write = |path: PathBuf, text: &str| atomic_file::write(&path, text.as_bytes());
-    write(folder.config(), &config.to_toml())?;
+    // The saved configuration, whose goal may be beyond that of this start.
+    let saved = state.as_ref().map_or_else(|| config.to_toml(), |state| state.config_toml.clone());
+    write(folder.config(), &saved)?;
     if let Some(text) = state.as_ref().map(|state| &state.model_xml).filter(|text| !text.is_empty()) {
         write(folder.root().join("model.xml"), text)?;
     }
@@ -323,7 +374,7 @@ pub fn versions(config: &Config) -> Vec<(String, String)> {
 }
 
 /// Quotes an argument for a shell.
-fn quoted(part: &str) -> String {
+pub fn quoted(part: &str) -> String {
     let plain = |c: char| c.is_ascii_alphanumeric() || "-_./=:,+".contains(c);
     if !part.is_empty() && part.chars().all(plain) {
         return part.to_string();

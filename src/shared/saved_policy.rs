@@ -1,35 +1,70 @@
 //! Policy named by a RUN argument: of a run's folder, of a bundle file, or of a file written by `export`.
 
-use std::{fs, path::Path};
+use std::{fmt, fs, path::Path};
 
 use anyhow::Context;
 use treadmill_actor::settings;
 use treadmill_config::{Config, EnvTask};
 use treadmill_humanoid::{CONTROL_STEP_S, Environment, Model};
-use treadmill_learner::checkpoint::{self, TrainingState, Which, encoding};
+use treadmill_learner::checkpoint::{self, Loaded, TrainingState, Which, encoding};
 use treadmill_policy::exported::{ActionFacts, ExportedPolicy, ObservationFacts};
 use treadmill_proto::Task;
-use treadmill_runtime::run_folder::RunFolder;
+use treadmill_runtime::{numbers::thousands, run_folder::RunFolder};
 
 use crate::launch::exit_code::Usage;
 
-/// Reads the policy of a run's folder (its checkpoint `which`), of a bundle file or of an exported file.
+/// Policy that was read, and where it comes from.
+pub struct SavedPolicy {
+    /// The policy.
+    pub policy: ExportedPolicy,
+    /// Its checkpoint; `None` for a file that `export` wrote.
+    pub origin: Option<Origin>,
+}
+
+/// Checkpoint that a policy comes from.
+#[derive(Clone, Debug)]
+pub struct Origin {
+    /// Its name, as `--checkpoint` takes it, or its file.
+    pub checkpoint: String,
+    /// Environment steps learnt from until then.
+    pub env_steps: u64,
+}
+
+impl fmt::Display for Origin {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "checkpoint {}, {} steps", self.checkpoint, thousands(self.env_steps))
+    }
+}
+
+/// Reads the policy of a run's folder, of a bundle file or of an exported file. `which` selects a checkpoint of a folder; by
+/// default the best if there is one, else the latest.
 ///
 /// # Errors
-/// If there is no such run or file, or its policy cannot be used.
-pub fn load(run: &str, which: Which) -> anyhow::Result<ExportedPolicy> {
+/// If there is no such run or file, its policy cannot be used, or `which` selects a checkpoint of a file.
+pub fn load(run: &str, which: Option<Which>) -> anyhow::Result<SavedPolicy> {
     let path = Path::new(run);
     if !path.is_file() {
-        let state = checkpoint::load(&RunFolder::open(run)?, which)?;
-        return from_state(&state).with_context(|| format!("cannot use the policy of `{run}`"));
+        let Loaded { name, state } = checkpoint::load(&RunFolder::open(run)?, which.unwrap_or(Which::BestOrLatest))?;
+        return from_state(&state, name).with_context(|| format!("cannot use the policy of `{run}`"));
+    }
+    if which.is_some() {
+        let why = format!("--checkpoint selects a checkpoint of a run, and `{run}` is a file; leave --checkpoint out");
+        return Err(Usage(why).into());
     }
     let bytes = fs::read(path).with_context(|| format!("cannot read `{run}`"))?;
-    let policy = if encoding::is_checkpoint(&bytes) || path.extension().is_some_and(|end| end == "bundle") {
-        from_state(&checkpoint::load_file(path)?)
+    let loaded = if encoding::is_checkpoint(&bytes) || path.extension().is_some_and(|end| end == "bundle") {
+        from_state(&checkpoint::load_file(path)?, run.to_string())
+    } else if path.extension().is_some_and(|end| end == "onnx") {
+        let why = format!(
+            "`{run}` is an ONNX model, which other programs play; name the run, its checkpoint, or a file written by \
+             `treadmill export RUN --safetensors FILE`"
+        );
+        return Err(Usage(why).into());
     } else {
-        ExportedPolicy::from_bytes(&bytes).map_err(anyhow::Error::from)
+        let policy = ExportedPolicy::from_bytes(&bytes).map_err(anyhow::Error::from);
+        policy.map(|policy| SavedPolicy { policy, origin: None })
     };
-    policy.with_context(|| format!("`{run}` is not a usable policy"))
+    loaded.with_context(|| format!("`{run}` is not a usable policy"))
 }
 
 /// Returns the configuration that a policy was trained under, as far as episodes depend on it.
@@ -85,7 +120,12 @@ pub fn environment(run: &str, policy: &ExportedPolicy, config: &Config) -> anyho
     Ok(environment)
 }
 
-fn from_state(state: &TrainingState) -> anyhow::Result<ExportedPolicy> {
+fn from_state(state: &TrainingState, checkpoint: String) -> anyhow::Result<SavedPolicy> {
+    let origin = Some(Origin { checkpoint, env_steps: state.counters.env_steps });
+    Ok(SavedPolicy { policy: exported(state)?, origin })
+}
+
+fn exported(state: &TrainingState) -> anyhow::Result<ExportedPolicy> {
     let config = state.config().map_err(anyhow::Error::msg)?;
     let (action, control_step_s) = match config.task.known() {
         Some(task) => (external_action(&task), task.control_step_s),

@@ -169,7 +169,7 @@ fn the_dashboard_shows_a_run_follows_its_size_explains_keys_and_quits() {
     let steps = |seen: &str| -> u64 {
         let (before, _) = seen.split_once(" of 1.00G steps").expect("the steps");
         let figures = before.rsplit_once("%  ").expect("the share before them").1;
-        figures.replace(' ', "").parse().unwrap()
+        figures.replace(',', "").parse().unwrap()
     };
     let before = steps(&seen);
     await_that("steps that grow", || (steps(&terminal.text()) > before).then_some(()));

@@ -17,7 +17,7 @@ fn the_first_and_every_nth_step_are_printed() {
         "{text}"
     );
     assert!(steps[0].contains("reward") && steps[0].contains("total"));
-    assert!(text.contains("distance") && text.contains("limit overshoot"), "{text}");
+    assert!(text.contains("distance") && !text.contains("limit overshoot"), "{text}");
     let default = stdout(&self::run(folder.path(), &["eval", "--agent", "random", "--episodes", "1"]));
     assert_eq!(
         default.lines().filter(|line| line.starts_with("episode   1")).count(),
@@ -33,7 +33,8 @@ fn every_agent_reports_all_fields_and_repeats_with_its_seed() {
     let run_name = run.to_str().unwrap();
     for agent in ["policy", "random", "preferred-action"] {
         let play = |seed: &str| {
-            let args = ["eval", run_name, "--agent", agent, "--episodes", "3", "--seed", seed, "--json"];
+            let which: &[&str] = if agent == "policy" { &[run_name] } else { &["--agent", agent] };
+            let args = [&["eval", "--episodes", "3", "--seed", seed, "--json"], which].concat();
             let output = self::run(folder.path(), &args);
             assert_eq!(stdout(&output).lines().count(), 1, "{}", stderr(&output));
             last_json(&output)
@@ -55,6 +56,48 @@ fn every_agent_reports_all_fields_and_repeats_with_its_seed() {
         assert_eq!(result, play("1"));
         assert_ne!(result["return_mean"], play("2")["return_mean"]);
     }
+}
+
+#[test]
+fn the_checkpoint_that_plays_is_named() {
+    let (folder, run) = folders();
+    trained(folder.path(), &run);
+    let path = run.to_str().unwrap();
+    let play = |more: &[&str]| self::run(folder.path(), &[&["eval", path, "--episodes", "1"], more].concat());
+    assert!(stdout(&play(&[])).contains("policy of checkpoint latest, 2,048 steps"));
+    fs::copy(run.join("checkpoints/latest.bundle"), run.join("checkpoints/best.bundle")).unwrap();
+    assert!(stdout(&play(&[])).contains("policy of checkpoint best, 2,048 steps"));
+    let exported = self::run(folder.path(), &["export", path, "--safetensors", "a.safetensors", "--json"]);
+    for printed in [last_json(&play(&["--json"])), last_json(&exported)] {
+        assert_eq!((&printed["checkpoint"], &printed["checkpoint_env_steps"]), (&"best".into(), &2048.into()));
+    }
+    assert!(stdout(&play(&["--verbose"])).contains("limit overshoot"));
+}
+
+#[test]
+fn arguments_without_effect_are_refused() {
+    let (folder, run) = folders();
+    trained(folder.path(), &run);
+    let path = run.to_str().unwrap();
+    let eval = |args: &[&str]| self::run(folder.path(), &[&["eval"], args].concat());
+    assert_refused(&eval(&[path, "--agent", "random"]), 2, &["leave RUN out"]);
+    assert_refused(&eval(&["--agent", "random", "--checkpoint", "best"]), 2, &["leave --checkpoint out"]);
+    assert!(self::run(folder.path(), &["export", path, "--safetensors", "a.safetensors"]).status.success());
+    assert_refused(&eval(&["a.safetensors", "--checkpoint", "best"]), 2, &["a.safetensors", "leave --checkpoint out"]);
+    assert!(self::run(folder.path(), &["export", path, "--onnx", "a.onnx"]).status.success());
+    assert_refused(&eval(&["a.onnx"]), 2, &["a.onnx", "ONNX", "--safetensors"]);
+    assert_refused(&eval(&[path, "--json", "--verbose"]), 2, &["--json", "--verbose"]);
+}
+
+#[test]
+fn a_closed_pipe_ends_the_episodes() {
+    let (folder, _) = folders();
+    let mut command = treadmill(folder.path());
+    command.args(["eval", "--agent", "random", "--episodes", "100000", "--print-every", "1"]);
+    let mut playing = command.stdout(std::process::Stdio::piped()).spawn().unwrap();
+    drop(playing.stdout.take());
+    let status = await_that("the end of the evaluation", || playing.try_wait().unwrap());
+    assert!(status.success());
 }
 
 #[test]

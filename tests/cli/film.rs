@@ -1,6 +1,6 @@
 //! `eval --gif` and `--png`: pictures without a window.
 
-use std::{fs, path::Path};
+use std::{fs, os::unix::fs::PermissionsExt, path::Path};
 
 use crate::support::*;
 
@@ -76,6 +76,52 @@ fn the_film_can_start_later_and_end_earlier() {
 }
 
 #[test]
+fn every_episode_is_shown_at_25_pictures_per_second() {
+    let (folder, _) = folders();
+    let film = |episodes: &str, name: &str| {
+        let args = ["eval", "--agent", "random", "--episodes", episodes, "--size", "64x48", "--gif", name, "--json"];
+        let output = run(folder.path(), &args);
+        assert!(output.status.success(), "{}", stderr(&output));
+        let steps = last_json(&output)["length_mean"].as_f64().unwrap() * episodes.parse::<f64>().unwrap();
+        (screens(&folder.path().join(name)).len() as f64, steps * 0.015 * 25.0)
+    };
+    let (one, wanted) = film("1", "one.gif");
+    assert!((one - wanted).abs() <= 1.0, "{one} {wanted}");
+    let (three, wanted) = film("3", "three.gif");
+    assert!((three - wanted).abs() <= 3.0 && three > one, "{three} {wanted}");
+}
+
+#[test]
+fn a_video_is_written_by_ffmpeg() {
+    let (folder, _) = folders();
+    let film = |path: &str| {
+        let mut command = treadmill(folder.path());
+        command.env("PATH", path).args(["eval", "--agent", "random", "--episodes", "1", "--size", "64x48"]);
+        command.args(["--gif", "a.mp4"]).output().unwrap()
+    };
+    assert_refused(&film("/nowhere"), 2, &["--gif a.mp4", "ffmpeg", "not installed", ".gif"]);
+    // A program that copies its input into the file that its last argument names.
+    let tools = folder.path().join("tools");
+    let install = |text: &str| {
+        fs::create_dir_all(&tools).unwrap();
+        fs::write(tools.join("ffmpeg"), text).unwrap();
+        fs::set_permissions(tools.join("ffmpeg"), PermissionsExt::from_mode(0o755)).unwrap();
+    };
+    let path = format!("{}:/usr/bin:/bin", tools.display());
+    install("#!/bin/sh\necho \"$@\" >arguments\nfor last; do :; done\nexec cat >\"$last\"\n");
+    let output = film(&path);
+    assert!(output.status.success(), "{}", stderr(&output));
+    let arguments = fs::read_to_string(folder.path().join("arguments")).unwrap();
+    assert!(arguments.contains("-video_size 64x48 -framerate 25"), "{arguments}");
+    let bytes = fs::read(folder.path().join("a.mp4")).unwrap().len();
+    assert!(bytes > 3 * 64 * 48 * 3 && bytes.is_multiple_of(64 * 48 * 3), "{bytes} bytes");
+    fs::remove_file(folder.path().join("a.mp4")).unwrap();
+    install("#!/bin/sh\ncat >/dev/null\necho 'unknown encoder' >&2\nexit 1\n");
+    assert_refused(&film(&path), 1, &["ffmpeg failed: unknown encoder"]);
+    assert!(!folder.path().join("a.mp4").exists());
+}
+
+#[test]
 fn unwritable_outputs_and_invalid_flags_are_refused() {
     let (folder, _) = folders();
     let refused = |more: &[&str], exit: i32, wanted: &[&str]| {
@@ -89,6 +135,7 @@ fn unwritable_outputs_and_invalid_flags_are_refused() {
     refused(&["--gif", "a.gif", "--size", "9x9"], 2, &["--size", "320x240"]);
     refused(&["--gif", "a.gif", "--fps", "0"], 2, &["--fps"]);
     refused(&["--fps", "10"], 2, &["--gif"]);
-    refused(&["--gif", "a.gif", "--from-s", "3000"], 2, &["--from-s 3000", "ended before"]);
+    refused(&["--gif", "a.avi"], 2, &["--gif a.avi", ".gif or .mp4"]);
+    refused(&["--gif", "a.gif", "--from-s", "3000"], 2, &["--from-s 3000", "every episode ended before"]);
     assert!(!folder.path().join("a.gif").exists());
 }

@@ -6,6 +6,7 @@ mod dashboard;
 mod eval;
 mod export;
 mod film;
+mod lifecycle;
 mod model;
 mod runs;
 #[path = "../support/mod.rs"]

@@ -15,13 +15,24 @@ fn runs_are_compared_by_results_and_configuration() {
     };
     train("plain", &[]);
     train("other", &["--seed", "7", "--set", "ppo.learning_rate=0.001"]);
-    let table = run(folder.path(), &["runs"]);
+    let table = run(folder.path(), &["runs", "--keys"]);
     let text = stdout(&table);
     assert!(table.status.success(), "{}", stderr(&table));
-    for part in ["env steps", "plain", "other", "1 024", "ppo.learning_rate=0.001", "run.seed=7", "run.seed=1"] {
+    for part in [
+        "env steps",
+        "plain",
+        "other",
+        "1,024",
+        "ppo.learning_rate = 0.001",
+        "run.seed = 7",
+        "run.seed = 1",
+        "finished",
+    ] {
         assert!(text.contains(part), "`{part}` is missing in: {text}");
     }
     assert!(!text.contains("ppo.gamma"), "common keys are omitted: {text}");
+    assert!(text.lines().all(|line| line.chars().count() <= 100), "{text}");
+    assert!(!stdout(&run(folder.path(), &["runs"])).contains("run.seed = 7"));
 
     let output = run(folder.path(), &["runs", "--json", "runs/other", "runs/plain"]);
     let lines: Vec<Value> = stdout(&output).lines().map(|line| serde_json::from_str(line).unwrap()).collect();

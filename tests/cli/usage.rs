@@ -63,8 +63,6 @@ fn an_unknown_run_is_refused_with_the_existing_ones() {
     assert_refused(&self::run(folder.path(), &["train", "--resume", "nowhere"]), 2, &["nowhere", "runs/walk-7"]);
     assert_refused(&self::run(folder.path(), &["eval"]), 2, &["RUN", "--agent random"]);
     assert_refused(&self::run(folder.path(), &["eval", "walk-7"]), 1, &["no checkpoint", "saved none yet"]);
-    let both = self::run(folder.path(), &["train", "--resume", "walk-7", "--seed", "3"]);
-    assert_refused(&both, 2, &["--seed", "--resume"]);
 }
 
 #[test]

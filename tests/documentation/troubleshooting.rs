@@ -9,6 +9,8 @@ use std::{
     sync::LazyLock,
 };
 
+use treadmill_runtime::machine;
+
 use crate::attacks::{Attacker, corrupted};
 use crate::support::*;
 
@@ -148,8 +150,19 @@ fn runs_cannot_be_resumed() {
     let train = ["train", "--preset", "smoke", "--run-dir", "run", "--no-progress"];
     assert!(crate::support::run(folder, &train).status.success());
     assert_error("The folder holds another run", folder, &train, &[]);
-    let args = ["train", "--resume", "run", "--set", "ppo.epochs=2"];
+    let args = ["train", "--resume", "run", "--set", "ppo.epochs=3"];
     assert_error("A resumed run is given another configuration", folder, &args, &[]);
+
+    let args = ["train", "--resume", "run", "--steps", "4096"];
+    assert_error("The run has its steps already", folder, &args, &[]);
+    let training = start(folder, &["train", "--resume", "run", "--steps", ENDLESS, "--no-progress"]);
+    await_steps(&run, 9000);
+    let (pid, host, at) = (format!("process {}", training.pid()), machine::host_name(), endpoint(&run));
+    let host = format!("host {host},");
+    let replaced = [(pid.as_str(), "process PID"), (host.as_str(), "host HOST,"), (at.as_str(), "ENDPOINT")];
+    assert_error("Another process trains the run", folder, &["train", "--resume", "run"], &replaced);
+    training.signal(libc::SIGINT);
+    training.wait();
 
     let checkpoint = |name: &str| run.join("checkpoints").join(name);
     let valid = fs::read(checkpoint("latest.bundle")).unwrap();
@@ -159,7 +172,7 @@ fn runs_cannot_be_resumed() {
     assert_error("The checkpoint is of another version", folder, &["train", "--resume", "run"], &[]);
     let heading = "A checkpoint is damaged";
     fs::write(checkpoint("latest.bundle"), "garbage").unwrap();
-    let exported = crate::support::run(folder, &["export", "run", "--safetensors", "policy"]);
+    let exported = crate::support::run(folder, &["export", "run", "--checkpoint", "latest", "--safetensors", "policy"]);
     let text = stderr(&exported);
     assert!(exported.status.success(), "{text}");
     let warning = text.lines().find(|line| line.contains("WARN")).expect("a warning");

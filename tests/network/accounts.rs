@@ -8,7 +8,7 @@ use serde_json::Value;
 use treadmill_learner::checkpoint::load_file;
 
 /// Part of the message of an actor that gets no answer.
-const UNANSWERED: &str = "keeping fragments";
+const UNANSWERED: &str = "no learner answers; keeping";
 
 /// Learner, router, and two actors that reach the learner only through the router.
 struct Fleet {

@@ -140,6 +140,37 @@ fn a_failed_copy_of_a_checkpoint_ends_the_run_although_its_policy_was_announced(
 }
 
 #[test]
+fn a_second_actor_of_the_same_name_is_refused_and_a_successor_is_not() {
+    let (folder, run) = folders();
+    let mut learner = endless(folder.path(), &run, "learner");
+    let _learner = Running::start({
+        learner.args(["--listen", "tcp/127.0.0.1:0"]);
+        learner
+    });
+    let at = endpoint(&run);
+    let actor = || {
+        let mut command = treadmill(folder.path());
+        command.args(["actor", "--connect", &at, "--envs", "4", "--name", "twin"]);
+        Running::start(command)
+    };
+    let first = actor();
+    first.wait_for("joined run `run` as `twin` with 4 environments");
+    let (status, lines) = actor().wait();
+    assert_eq!(status.code(), Some(1), "{lines:?}");
+    assert!(lines.iter().any(|line| line.contains("an actor named `twin` is in the run `run` already")), "{lines:?}");
+    first.signal(libc::SIGKILL);
+    let next = actor();
+    next.wait_for("joined run `run`");
+    next.signal(libc::SIGTERM);
+    let (status, lines) = next.wait();
+    assert!(status.success());
+    assert!(
+        lines.iter().any(|line| line.starts_with("left run `run`: ") && line.contains("steps simulated")),
+        "{lines:?}"
+    );
+}
+
+#[test]
 fn a_frozen_actor_does_not_delay_the_others() {
     let (folder, run) = folders();
     let training = Running::start(endless(folder.path(), &run, "train"));

@@ -1,5 +1,7 @@
 //! Episodes of a saved policy, played as by `eval`: with its mean action, without randomisation.
 
+use std::ops::ControlFlow;
+
 use treadmill_actor::{
     agent::PolicyAgent,
     evaluation::{EvaluationStep, evaluate},
@@ -20,7 +22,7 @@ pub struct Player {
 impl Player {
     /// Loads the policy that RUN names.
     pub fn load(run: &str, which: Option<Which>) -> anyhow::Result<Self> {
-        let policy = saved_policy::load(run, which.unwrap_or(Which::BestOrLatest))?;
+        let policy = saved_policy::load(run, which)?.policy;
         let mut config = saved_policy::trained_under(&policy);
         config.randomisation = RandomisationConfig::default();
         let environment = saved_policy::environment(run, &policy, &config)?;
@@ -40,15 +42,13 @@ impl Player {
         mut show: impl FnMut(&Pose) -> anyhow::Result<bool>,
     ) -> anyhow::Result<()> {
         let mut start_x_m = 0.0;
-        // `evaluate` cannot stop early, so the remaining steps are not shown.
         let mut shown = Ok(true);
         evaluate(&mut self.environment, &mut self.agent, episodes, seed, |step| {
             if step.step == 1 {
                 start_x_m = step.physics.position()[0];
             }
-            if matches!(shown, Ok(true)) {
-                shown = show(&pose(&step, start_x_m));
-            }
+            shown = show(&pose(&step, start_x_m));
+            if matches!(shown, Ok(true)) { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
         })?;
         shown.map(drop)
     }

@@ -1,5 +1,7 @@
 //! Options of an actor process, and its final report.
 
+use treadmill_runtime::numbers::thousands;
+
 use crate::delivery::DeliveryCounts;
 
 /// Options of an actor process.
@@ -17,6 +19,8 @@ pub struct WorkerOptions {
     pub start: u64,
     /// Endpoint of the learner, for messages.
     pub endpoint: String,
+    /// Notifies the user when the actor joins, loses the learner, finds it again, or leaves.
+    pub notify: fn(&str),
 }
 
 /// Final report of an actor on its membership in one run.
@@ -30,4 +34,13 @@ pub struct ActorSummary {
     pub settled_through: u64,
     /// Environment steps in all fragments.
     pub env_steps: u64,
+}
+
+impl ActorSummary {
+    /// Returns the number of fragments that a learner has handled, and of simulated steps, as text.
+    pub(crate) fn delivered(&self) -> String {
+        let DeliveryCounts { accepted, dropped_by_rule, .. } = self.fragments;
+        let fragments = thousands(accepted + dropped_by_rule);
+        format!("{fragments} fragments delivered, {} steps simulated", thousands(self.env_steps))
+    }
 }

@@ -2,16 +2,19 @@
 //!
 //! # Layout
 //! - [`seeds`]: named random streams, derived from the run's seed.
-//! - [`run_folder`]: the folder with a run's files.
+//! - [`run_folder`]: the folder with a run's files; [`run_lock`]: the right to write into it.
 //! - [`atomic_file`]: writes a file atomically.
 //! - [`shutdown`]: stops every part of a process.
 //! - [`error_chain`]: an error message with its causes.
+//! - [`numbers`]: large numbers as people write and read them.
 //! - [`machine`]: facts about this machine, for benchmarks and status reports.
 
 pub mod atomic_file;
 mod error_chain;
 pub mod machine;
+pub mod numbers;
 pub mod run_folder;
+pub mod run_lock;
 pub mod seeds;
 pub mod shutdown;
 

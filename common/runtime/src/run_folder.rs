@@ -6,6 +6,7 @@
 //!   command.txt           the command line, one line per start
 //!   versions.json         versions of this program, the toolchain's target and the machine
 //!   endpoint.txt          the learner's endpoint
+//!   lock.json             the process that writes into this folder
 //!   model.xml             the humanoid
 //!   metrics.jsonl         one line per scalar
 //!   accounts.jsonl        one line per actor process
@@ -21,7 +22,7 @@ use std::{
 
 use treadmill_proto::ident::check_ident;
 
-use crate::atomic_file;
+use crate::{atomic_file, run_lock::Holder};
 
 /// Folder of a run.
 #[derive(Clone, Debug, PartialEq)]
@@ -47,6 +48,17 @@ pub enum RunFolderError {
         /// The folder.
         path: String,
     },
+    /// Another process writes into the folder.
+    #[error(
+        "`{path}` is in use by {holder}; stop that process first, as by `treadmill control stop {path}`, or choose another \
+         --run-dir"
+    )]
+    InUse {
+        /// The folder.
+        path: String,
+        /// The other process.
+        holder: Holder,
+    },
     /// The system refused.
     #[error("the run folder `{path}` cannot be used")]
     Io {
@@ -62,9 +74,7 @@ impl RunFolder {
     pub fn create(run_dir: Option<&Path>, prefix: &str) -> Result<Self, RunFolderError> {
         if let Some(root) = run_dir {
             let folder = Self::at(root);
-            let entries = fs::read_dir(folder.checkpoints()).into_iter().flatten().flatten();
-            let is_checkpoint = |entry: &fs::DirEntry| !atomic_file::is_temporary(&entry.file_name().to_string_lossy());
-            if entries.into_iter().any(|entry| is_checkpoint(&entry)) || folder.metrics().exists() {
+            if folder.is_used() {
                 return Err(RunFolderError::Taken { path: root.display().to_string() });
             }
             return folder.prepare();
@@ -101,6 +111,33 @@ impl RunFolder {
             .collect();
         let name = if check_ident("run", &name).is_ok() { name } else { "run".to_string() };
         Self { root: root.to_path_buf(), name }
+    }
+
+    /// Whether the folder `root` holds a run with a checkpoint.
+    #[must_use]
+    pub fn has_checkpoint(root: &Path) -> bool {
+        let entries = fs::read_dir(Self::at(root).checkpoints()).into_iter().flatten().flatten();
+        entries.into_iter().any(|entry| !atomic_file::is_temporary(&entry.file_name().to_string_lossy()))
+    }
+
+    /// Whether a run has begun here.
+    fn is_used(&self) -> bool {
+        Self::has_checkpoint(&self.root) || self.metrics().exists()
+    }
+
+    /// Removes the files of a run that failed to start. Keeps everything if training has begun, and files that the run did
+    /// not write.
+    pub fn discard(&self) {
+        if self.is_used() {
+            return;
+        }
+        // What cannot be removed stays: the failed start is the error to report.
+        let _ = self.remove_stale_files();
+        for name in ["config.toml", "command.txt", "versions.json", "model.xml", "endpoint.txt", "lock.json"] {
+            let _ = fs::remove_file(self.root.join(name));
+        }
+        let _ = fs::remove_dir(self.checkpoints());
+        let _ = fs::remove_dir(&self.root);
     }
 
     fn prepare(self) -> Result<Self, RunFolderError> {
@@ -153,6 +190,11 @@ impl RunFolder {
         self.root.join("accounts.jsonl")
     }
 
+    /// Returns the path of the lock, see [`crate::run_lock`].
+    pub fn lock(&self) -> PathBuf {
+        self.root.join("lock.json")
+    }
+
     /// Returns the path of the learner's endpoint.
     pub fn endpoint(&self) -> PathBuf {
         self.root.join("endpoint.txt")
@@ -194,6 +236,24 @@ mod tests {
         fs::write(run.checkpoints().join("latest.bundle"), "state").unwrap();
         let again = RunFolder::create(Some(&root), "walk").unwrap_err().to_string();
         assert!(again.contains("--resume"), "{again}");
+    }
+
+    #[test]
+    fn only_a_run_that_never_began_is_discarded() {
+        let folder = tempfile::tempdir().unwrap();
+        let root = folder.path().join("run");
+        let run = RunFolder::create(Some(&root), "walk").unwrap();
+        fs::write(run.config(), "").unwrap();
+        fs::write(root.join("notes.txt"), "mine").unwrap();
+        run.discard();
+        assert!(!run.config().exists() && root.join("notes.txt").exists());
+        fs::remove_file(root.join("notes.txt")).unwrap();
+        run.clone().prepare().unwrap().discard();
+        assert!(!root.exists());
+        let run = run.prepare().unwrap();
+        fs::write(run.checkpoints().join("latest.bundle"), "state").unwrap();
+        run.discard();
+        assert!(run.checkpoints().join("latest.bundle").exists());
     }
 
     #[test]

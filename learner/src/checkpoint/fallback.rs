@@ -15,15 +15,15 @@ use super::{CheckpointError, TrainingState, load_file};
 /// # Errors
 /// As [`load_file`] if the file is sound but has another format or a refused configuration, or cannot be read;
 /// [`CheckpointError::NoneSound`] if no checkpoint is sound.
-pub(super) fn load_or_newest_sound(wanted: &Path) -> Result<TrainingState, CheckpointError> {
-    let why = match load_file(wanted) {
+pub(super) fn load_or_newest_sound(wanted: PathBuf) -> Result<(PathBuf, TrainingState), CheckpointError> {
+    let why = match load_file(&wanted) {
         Err(why) if is_unsound(&why) => why,
-        result => return result,
+        result => return result.map(|state| (wanted, state)),
     };
-    let folder = wanted.parent().unwrap_or(wanted);
-    let mut tried = vec![describe(wanted, &why)];
+    let folder = wanted.parent().unwrap_or(&wanted);
+    let mut tried = vec![describe(&wanted, &why)];
     let mut newest: Option<(PathBuf, TrainingState)> = None;
-    for path in bundles(folder).into_iter().filter(|path| path != wanted) {
+    for path in bundles(folder).into_iter().filter(|path| *path != wanted) {
         match load_file(&path) {
             Ok(state)
                 if newest.as_ref().is_some_and(|(_, newest)| newest.counters.updates >= state.counters.updates) => {}
@@ -34,7 +34,7 @@ pub(super) fn load_or_newest_sound(wanted: &Path) -> Result<TrainingState, Check
     if let Some((path, state)) = newest {
         let (tried, updates) = (tried.join("; "), state.counters.updates);
         tracing::warn!(%tried, used = %path.display(), updates, "checkpoint is unsound; using the newest sound one");
-        return Ok(state);
+        return Ok((path, state));
     }
     match why {
         CheckpointError::Missing { .. } if tried.len() == 1 => Err(why),
@@ -113,7 +113,7 @@ mod tests {
     }
 
     fn updates(folder: &RunFolder, which: Which) -> u64 {
-        load(folder, which).unwrap().counters.updates
+        load(folder, which).unwrap().state.counters.updates
     }
 
     #[test]
@@ -177,7 +177,7 @@ mod tests {
             let mut state = state(8);
             state.config_toml = state.config_toml.replacen("[rollout]\n", &format!("[rollout]\n{key}\n"), 1);
             CheckpointWriter::new(&folder, 2, 9).save(&state).unwrap();
-            load(&folder, Which::Latest).map_err(|why| error_chain(&why))
+            load(&folder, Which::Latest).map(|loaded| loaded.state).map_err(|why| error_chain(&why))
         };
         let read = save("noise_correlation = 0.0\nstale_versions = [0, 0]").unwrap();
         assert!(read.config_toml.contains("stale_versions"));

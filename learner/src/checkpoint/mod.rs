@@ -47,6 +47,15 @@ impl std::str::FromStr for Which {
     }
 }
 
+/// Checkpoint that was read.
+#[derive(Debug)]
+pub struct Loaded {
+    /// Which one it is, as `--checkpoint` names it.
+    pub name: String,
+    /// The state.
+    pub state: TrainingState,
+}
+
 /// Why a checkpoint cannot be read or written.
 #[derive(Debug, thiserror::Error)]
 pub enum CheckpointError {
@@ -127,15 +136,23 @@ pub enum CheckpointError {
 ///
 /// # Errors
 /// If the requested checkpoint is missing, unsound, or of another format, and there is no fallback.
-pub fn load(folder: &RunFolder, which: Which) -> Result<TrainingState, CheckpointError> {
+pub fn load(folder: &RunFolder, which: Which) -> Result<Loaded, CheckpointError> {
     let checkpoints = folder.checkpoints();
     let (best, latest) = (checkpoints.join("best.bundle"), checkpoints.join("latest.bundle"));
-    match which {
-        Which::Best => load_file(&best),
-        Which::Numbered(number) => load_file(&checkpoints.join(numbered(number))),
-        Which::BestOrLatest if best.exists() => fallback::load_or_newest_sound(&best),
-        Which::Latest | Which::BestOrLatest => fallback::load_or_newest_sound(&latest),
-    }
+    let exactly = |path: PathBuf| load_file(&path).map(|state| (path, state));
+    let (path, state) = match which {
+        Which::Best => exactly(best),
+        Which::Numbered(number) => exactly(checkpoints.join(numbered(number))),
+        Which::BestOrLatest if best.exists() => fallback::load_or_newest_sound(best),
+        Which::Latest | Which::BestOrLatest => fallback::load_or_newest_sound(latest),
+    }?;
+    Ok(Loaded { name: name_of(&path), state })
+}
+
+/// Returns the name by which `--checkpoint` selects a file.
+fn name_of(path: &Path) -> String {
+    let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+    name.parse::<u64>().map_or(name, |number| number.to_string())
 }
 
 /// Reads one checkpoint file.
@@ -163,11 +180,7 @@ pub fn decode(path: &str, bytes: &[u8]) -> Result<TrainingState, CheckpointError
 }
 
 fn known(folder: &Path) -> String {
-    let mut names: Vec<String> = fallback::bundles(folder)
-        .iter()
-        .filter_map(|path| Some(path.file_stem()?.to_string_lossy().into_owned()))
-        .map(|name| name.parse::<u64>().map_or(name, |number| number.to_string()))
-        .collect();
+    let mut names: Vec<String> = fallback::bundles(folder).iter().map(|path| name_of(path)).collect();
     names.sort();
     if names.is_empty() {
         "this run has saved none yet".to_string()

@@ -8,7 +8,7 @@
 //! until it begins the next, after the last round of a batch under a new policy.
 //!
 //! In mode [`LearnerMode::Async`], the learner answers accepted fragments at once. A batch waits for as many transitions as one
-//! fragment of every live actor has, whoever sends them: with smaller batches, the policy would change many times while an
+//! fragment of every live actor has, from any senders: with smaller batches, the policy would change many times while an
 //! actor simulates, and most experience would be too old. Fragments that find the batch full wait for the next one, and so do
 //! their senders.
 //!

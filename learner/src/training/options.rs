@@ -12,6 +12,8 @@ use crate::{checkpoint::TrainingState, metrics::PrometheusMetrics};
 pub struct TrainingOptions {
     /// Folder of the run.
     pub folder: RunFolder,
+    /// Environment steps of the run after which this start ends. The saved configuration may have more.
+    pub steps: u64,
     /// Device that computes the networks.
     pub device: candle_core::Device,
     /// Mirror for `ppo.symmetry`.
@@ -30,6 +32,13 @@ pub struct TrainingOptions {
     pub versions: Vec<(String, String)>,
     /// Names of an action's entries; entries without a name are shown by their number.
     pub action_names: Vec<String>,
+}
+
+impl TrainingSummary {
+    /// Summary of a start that has nothing left to do.
+    pub fn finished(state: TrainingState) -> Self {
+        Self { state, wall_s: 0.0, env_steps: 0, stopped: false, farthest_m: None }
+    }
 }
 
 /// Result of a training run.

@@ -28,7 +28,8 @@ impl Trainer {
         shutdown: &Shutdown,
     ) -> Result<Self, TrainingError> {
         let invalid = |why| TrainingError::State { why };
-        let config = state.config().map_err(invalid)?;
+        let mut config = state.config().map_err(invalid)?;
+        config.run.steps = options.steps;
         let config_hash = state.config_hash(&config);
         let mut bundle = state.bundle(&config, config_hash).map_err(invalid)?;
         // Only in this version: an actor that joins later must not repeat steps that were learnt from.

@@ -2,49 +2,50 @@
 
 use std::{
     fs,
-    io::BufWriter,
     path::{Path, PathBuf},
     str::FromStr,
 };
 
 use anyhow::Context;
 use clap::{ArgGroup, Args};
-use tempfile::NamedTempFile;
 use treadmill_actor::evaluation::EvaluationStep;
-use treadmill_render::{Camera, Gif, Picture, Scene, film};
+use treadmill_render::{Camera, Picture, Scene, film};
 use treadmill_runtime::atomic_file;
 
+use super::film::Film;
 use crate::launch::exit_code::Usage;
 
 /// Flags of pictures.
 #[derive(Args)]
 #[command(group(ArgGroup::new("pictures").args(["gif", "png"]).multiple(true)))]
 pub struct FilmArgs {
-    /// Write the first episode as an animation; needs neither a window nor a GPU.
+    /// Write all episodes as an animation, a GIF, or a video if FILE ends in .mp4 (needs ffmpeg); needs no window and no GPU.
     #[arg(long, value_name = "FILE")]
     gif: Option<PathBuf>,
-    /// Write the pictures of the first episode to a folder, as 00000.png, 00001.png, ...
+    /// Write the pictures of all episodes to a folder, as 00000.png, 00001.png, ...
     #[arg(long, value_name = "FOLDER")]
     png: Option<PathBuf>,
     /// Width and height of the pictures, in pixels.
     #[arg(long, value_name = "WxH", default_value = "320x240", requires = "pictures")]
     size: Size,
     /// Pictures per second.
-    #[arg(long, value_name = "N", default_value_t = 20, requires = "pictures", value_parser = clap::value_parser!(u32).range(1..=50))]
+    #[arg(long, value_name = "N", default_value_t = 25, requires = "pictures", value_parser = clap::value_parser!(u32).range(1..=50))]
     fps: u32,
-    /// Begin after this many seconds of the episode.
+    /// Begin after this many seconds of each episode.
     #[arg(long, value_name = "S", default_value_t = 0.0, requires = "pictures", value_parser = seconds)]
     from_s: f64,
-    /// Show this many seconds; by default until the episode ends.
+    /// Show this many seconds of each episode; by default until it ends.
     #[arg(long, value_name = "S", requires = "pictures", value_parser = seconds)]
     seconds: Option<f64>,
 }
 
 /// Width and height of a picture, in pixels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-struct Size {
-    width: u32,
-    height: u32,
+pub struct Size {
+    /// Pixels in a row.
+    pub width: u32,
+    /// Rows.
+    pub height: u32,
 }
 
 impl FromStr for Size {
@@ -73,16 +74,18 @@ fn seconds(text: &str) -> Result<f64, String> {
 /// Time constant (s) with which the camera follows the torso sideways.
 const FOLLOW_S: f64 = 0.5;
 
-/// Recorder of the first episode.
+/// Recorder of the episodes.
 pub struct Filming {
-    gif: Option<(Gif<BufWriter<NamedTempFile>>, PathBuf)>,
+    film: Option<Film>,
     png: Option<PathBuf>,
     size: (u32, u32),
     fps: u32,
     from_s: f64,
     until_s: f64,
     control_step_s: f64,
+    /// Pictures so far, and those of the present episode.
     taken: u32,
+    taken_of_episode: u32,
     /// Point of the floor that the camera follows.
     followed_m: Option<[f64; 2]>,
     failed: Option<anyhow::Error>,
@@ -94,12 +97,12 @@ impl FilmArgs {
         if self.gif.is_none() && self.png.is_none() {
             return Ok(None);
         }
-        let gif = self.gif.as_deref().map(|path| self.open(path)).transpose()?;
+        let film = self.gif.as_deref().map(|path| Film::open(path, self.size, self.fps)).transpose()?;
         if let Some(folder) = &self.png {
             make_empty(folder)?;
         }
         Ok(Some(Filming {
-            gif,
+            film,
             png: self.png.clone(),
             size: (self.size.width, self.size.height),
             fps: self.fps,
@@ -107,17 +110,10 @@ impl FilmArgs {
             until_s: self.seconds.map_or(f64::INFINITY, |seconds| self.from_s + seconds),
             control_step_s,
             taken: 0,
+            taken_of_episode: 0,
             followed_m: None,
             failed: None,
         }))
-    }
-
-    /// Creates a temporary file beside `path`, which gets its name when it is complete.
-    fn open(&self, path: &Path) -> anyhow::Result<(Gif<BufWriter<NamedTempFile>>, PathBuf)> {
-        let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
-        let file = NamedTempFile::new_in(folder)
-            .with_context(|| format!("--gif {}: the folder is not writable", path.display()))?;
-        Ok((Gif::new(BufWriter::new(file), f64::from(self.fps)), path.to_path_buf()))
     }
 }
 
@@ -133,10 +129,12 @@ fn make_empty(folder: &Path) -> anyhow::Result<()> {
 }
 
 impl Filming {
-    /// Records a step of an evaluation if it belongs to the first episode.
+    /// Records a step of an evaluation.
     pub fn record(&mut self, step: &EvaluationStep) {
-        if step.episode == 1
-            && self.failed.is_none()
+        if step.step == 1 {
+            (self.taken_of_episode, self.followed_m) = (0, None);
+        }
+        if self.failed.is_none()
             && let Err(why) = self.take_picture(step)
         {
             self.failed = Some(why);
@@ -151,15 +149,15 @@ impl Filming {
         followed_m[0] = position[0];
         followed_m[1] += (position[1] - followed_m[1]) * share;
         let time_s = f64::from(step.step) * self.control_step_s;
-        let due_s = self.from_s + f64::from(self.taken) / f64::from(self.fps);
+        let due_s = self.from_s + f64::from(self.taken_of_episode) / f64::from(self.fps);
         // Takes the step nearest to the time at which the picture is due.
         if time_s + self.control_step_s / 2.0 < due_s || due_s >= self.until_s {
             return Ok(());
         }
         let camera = Camera::beside(followed_m[0], followed_m[1]);
         let picture = Picture::of(&Scene::of(step.physics), &camera, self.size);
-        if let Some((gif, path)) = &mut self.gif {
-            gif.add(&picture).with_context(|| format!("--gif {}", path.display()))?;
+        if let Some(film) = &mut self.film {
+            film.add(&picture)?;
         }
         if let Some(folder) = &self.png {
             let path = folder.join(format!("{:05}.png", self.taken));
@@ -167,6 +165,7 @@ impl Filming {
                 .with_context(|| format!("cannot write `{}`", path.display()))?;
         }
         self.taken += 1;
+        self.taken_of_episode += 1;
         Ok(())
     }
 
@@ -176,36 +175,16 @@ impl Filming {
             return Err(why);
         }
         if self.taken == 0 {
-            let why = format!("--from-s {}: the first episode ended before", self.from_s);
+            let why = format!("--from-s {}: every episode ended before", self.from_s);
             return Err(Usage(why).into());
         }
         let mut files = Vec::new();
-        if let Some((gif, path)) = self.gif {
-            let context = || format!("--gif {}", path.display());
-            let file = gif
-                .finish()
-                .with_context(context)?
-                .into_inner()
-                .map_err(|why| why.into_error())
-                .with_context(context)?;
-            let bytes = file.as_file().metadata().with_context(context)?.len();
-            keep(file, &path).with_context(context)?;
-            files.push(format!("{} ({:.1} MB)", path.display(), bytes as f64 / 1e6));
+        if let Some(film) = self.film {
+            files.push(film.finish()?);
         }
         files.extend(self.png.map(|folder| folder.display().to_string()));
         Ok(format!("{} pictures of {} × {}: {}", self.taken, self.size.0, self.size.1, files.join(", ")))
     }
-}
-
-/// Gives a temporary file its name and permissions 0644.
-fn keep(file: NamedTempFile, path: &Path) -> anyhow::Result<()> {
-    #[cfg(unix)]
-    {
-        use std::os::unix::fs::PermissionsExt;
-        file.as_file().set_permissions(fs::Permissions::from_mode(0o644))?;
-    }
-    file.persist(path)?;
-    Ok(())
 }
 
 #[cfg(test)]

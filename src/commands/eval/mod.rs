@@ -3,6 +3,7 @@
 use std::{
     fs::File,
     io::{BufWriter, Write},
+    ops::ControlFlow,
     path::{Path, PathBuf},
 };
 
@@ -12,13 +13,14 @@ use serde_json::json;
 use treadmill_actor::{
     ActorError,
     agent::{Agent, PolicyAgent, PreferredActionAgent, RandomAgent},
-    evaluation::{Evaluation, EvaluationStep, evaluate},
+    evaluation::{EpisodeResult, Evaluation, EvaluationStep, evaluate},
 };
 use treadmill_config::{Config, RandomisationConfig};
 use treadmill_humanoid::Environment;
 use treadmill_learner::checkpoint::Which;
 use treadmill_policy::exported::ExportedPolicy;
 
+mod film;
 mod filming;
 
 use self::filming::{FilmArgs, Filming};
@@ -26,10 +28,10 @@ use crate::{
     launch::{
         exit_code::Usage,
         model::{self, ModelArgs},
-        output::say,
+        output::{say, say_to_reader},
         slow_step::SlowStepNotice,
     },
-    shared::saved_policy,
+    shared::saved_policy::{self, Origin, SavedPolicy},
 };
 
 /// Source of the actions.
@@ -56,7 +58,7 @@ impl AgentKind {
 /// Flags of `eval`.
 #[derive(Args)]
 pub struct EvalArgs {
-    /// Run folder, name below runs/, bundle file, or a file that `export` wrote; needed only for --agent policy.
+    /// Run folder, name below runs/, bundle file, or a file that `export` wrote; only for --agent policy.
     run: Option<String>,
     /// Episodes to play.
     #[arg(long, default_value_t = 20, value_parser = clap::value_parser!(u32).range(1..=100_000))]
@@ -86,11 +88,14 @@ pub struct EvalArgs {
     /// Print only one JSON object.
     #[arg(long)]
     json: bool,
+    /// Also print how well joint limits held.
+    #[arg(long, conflicts_with = "json")]
+    verbose: bool,
 }
 
 /// Plays the episodes and prints their results.
 pub fn run(args: EvalArgs) -> anyhow::Result<()> {
-    let (mut environment, agent) = prepare(&args)?;
+    let Prepared { mut environment, agent, origin } = prepare(&args)?;
     let mut agent = TracedAgent { agent, file: None };
     if let Some(path) = &args.trace {
         let file = File::create(path).with_context(|| format!("cannot write the trace `{}`", path.display()))?;
@@ -101,7 +106,8 @@ pub fn run(args: EvalArgs) -> anyhow::Result<()> {
         (None, AgentKind::Policy) => 0,
         (None, _) => 100,
     };
-    let quiet = args.json || print_every == 0;
+    let prints_steps = !args.json && print_every > 0;
+    let prints_rows = !args.json && print_every == 0;
     let control_step_s = environment.control_step_s();
     let mut filming = args.film.begin(control_step_s)?;
     let notice = SlowStepNotice::begin(format!("playing episode 1 of {}", args.episodes));
@@ -112,52 +118,77 @@ pub fn run(args: EvalArgs) -> anyhow::Result<()> {
         if let Some(filming) = &mut filming {
             filming.record(&step);
         }
-        if !quiet && (step.step == 1 || step.step.is_multiple_of(print_every)) {
+        let mut is_read = true;
+        if prints_steps && (step.step == 1 || step.step.is_multiple_of(print_every)) {
             let EvaluationStep { episode, step, reward, total, .. } = step;
-            say(&format!("episode {episode:>3}  step {step:>4}  reward {reward:>8.3}  total {total:>9.2}"));
+            is_read = say_to_reader(&format!(
+                "episode {episode:>3}  step {step:>4}  reward {reward:>8.3}  total {total:>9.2}"
+            ));
         }
+        if prints_rows && let Some(played) = &step.ended {
+            is_read = (step.episode > 1 || say_to_reader(HEADINGS)) && say_to_reader(&row(step.episode, played));
+        }
+        // Files are completed although the table has no reader.
+        let is_wanted = is_read || args.trace.is_some() || filming.is_some();
+        if is_wanted { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
     })?;
     agent.finish()?;
     notice.update("finishing the pictures".to_string());
     let pictures = filming.map(Filming::finish).transpose()?;
     drop(notice);
     if args.json {
-        say(&as_json(args.agent, &evaluation, control_step_s));
+        say(&as_json(args.agent, origin, &evaluation, control_step_s));
     } else {
-        print_table(args.agent, &evaluation, control_step_s);
+        if prints_steps {
+            say(HEADINGS);
+            (1..).zip(&evaluation.episodes).for_each(|(episode, played)| say(&row(episode, played)));
+        }
+        print_summary(&args, origin.as_ref(), &evaluation, control_step_s);
         pictures.iter().for_each(|line| say(&format!("pictures      {line}")));
     }
     Ok(())
 }
 
-fn prepare(args: &EvalArgs) -> anyhow::Result<(Environment, Box<dyn Agent>)> {
-    let Some(run) = &args.run else {
-        if matches!(args.agent, AgentKind::Policy) {
+/// What plays.
+struct Prepared {
+    environment: Environment,
+    agent: Box<dyn Agent>,
+    /// Checkpoint of the policy, if that comes from one.
+    origin: Option<Origin>,
+}
+
+fn prepare(args: &EvalArgs) -> anyhow::Result<Prepared> {
+    let is_policy = matches!(args.agent, AgentKind::Policy);
+    let Some(run) = args.run.as_ref().filter(|_| is_policy) else {
+        if is_policy {
             let why = "eval needs a RUN, as in `treadmill eval runs/walk-1`; or choose --agent random".to_string();
+            return Err(Usage(why).into());
+        }
+        let unused = [("RUN", args.run.is_some()), ("--checkpoint", args.checkpoint.is_some())];
+        if let Some((unused, _)) = unused.into_iter().find(|(_, is_given)| *is_given) {
+            let agent = args.agent.name();
+            let why =
+                format!("--agent {agent} plays without a policy; leave {unused} out, or leave --agent {agent} out");
             return Err(Usage(why).into());
         }
         let config = configuration(args, Config::default())?;
         let file = args.model.model.as_deref();
         let environment = model::environment(&config, &model::text(file)?, file)?;
         let action_size = environment.action_size();
-        return Ok((environment, baseline(args, action_size)));
+        return Ok(Prepared { environment, agent: baseline(args, action_size), origin: None });
     };
     let _step = SlowStepNotice::begin(format!("loading the policy of {run}"));
-    let policy = saved_policy::load(run, args.checkpoint.unwrap_or(Which::BestOrLatest))?;
+    let SavedPolicy { policy, origin } = saved_policy::load(run, args.checkpoint)?;
     let config = configuration(args, saved_policy::trained_under(&policy))?;
     let environment = match args.model.model.as_deref() {
         None => saved_policy::environment(run, &policy, &config)?,
         Some(file) => {
             let environment = model::environment(&config, &model::text(Some(file))?, Some(file))?;
-            check_fits(&policy, &environment, args.agent, file)?;
+            check_fits(&policy, &environment, file)?;
             environment
         }
     };
-    let agent: Box<dyn Agent> = match args.agent {
-        AgentKind::Policy => Box::new(PolicyAgent::new(&policy)?),
-        _ => baseline(args, environment.action_size()),
-    };
-    Ok((environment, agent))
+    Ok(Prepared { environment, agent: Box::new(PolicyAgent::new(&policy)?), origin })
 }
 
 /// Returns the run's configuration, with randomisation only if the flag asks for it.
@@ -173,10 +204,10 @@ fn configuration(args: &EvalArgs, mut config: Config) -> anyhow::Result<Config> 
 }
 
 /// Tests that the model has as many observations and actions as the policy; the user must know that they mean the same.
-fn check_fits(policy: &ExportedPolicy, environment: &Environment, agent: AgentKind, file: &Path) -> Result<(), Usage> {
+fn check_fits(policy: &ExportedPolicy, environment: &Environment, file: &Path) -> Result<(), Usage> {
     let wanted = (policy.shape.observation, policy.shape.action);
     let found = (environment.observation_size(), environment.action_size());
-    if found == wanted || !matches!(agent, AgentKind::Policy) {
+    if found == wanted {
         return Ok(());
     }
     Err(Usage(format!(
@@ -228,41 +259,43 @@ impl Agent for TracedAgent {
     }
 }
 
-fn print_table(agent: AgentKind, evaluation: &Evaluation, control_step_s: f64) {
-    say("episode      return  length  distance m  velocity m/s  end");
-    for (index, played) in evaluation.episodes.iter().enumerate() {
-        let end = match (played.fault, played.fell) {
-            (true, _) => "non-finite",
-            (_, true) => "fell",
-            _ => "time limit",
-        };
-        say(&format!(
-            "{:>7} {:>11.1} {:>7} {:>11.2} {:>13.2}  {end}",
-            index + 1,
-            played.return_sum,
-            played.length,
-            played.distance_m,
-            played.velocity_mps
-        ));
-    }
-    let joints = &evaluation.joints;
+const HEADINGS: &str = "episode      return  length  distance m  velocity m/s  end";
+
+fn row(episode: u32, played: &EpisodeResult) -> String {
+    let end = match (played.fault, played.fell) {
+        (true, _) => "non-finite",
+        (_, true) => "fell",
+        _ => "time limit",
+    };
+    let EpisodeResult { return_sum, length, distance_m, velocity_mps, .. } = played;
+    format!("{episode:>7} {return_sum:>11.1} {length:>7} {distance_m:>11.2} {velocity_mps:>13.2}  {end}")
+}
+
+fn print_summary(args: &EvalArgs, origin: Option<&Origin>, evaluation: &Evaluation, control_step_s: f64) {
     say("");
-    say(&format!("agent         {}", agent.name()));
+    let from = origin.map(|origin| format!(" of {origin}")).unwrap_or_default();
+    say(&format!("agent         {}{from}", args.agent.name()));
     say(&format!("episodes      {}, {} of them ended with a fall", evaluation.episodes.len(), evaluation.falls()));
     say(&format!("return        {:.1} ± {:.1}", evaluation.mean(|played| played.return_sum), evaluation.return_std()));
     say(&format!("length        {:.1} steps", evaluation.mean(|played| f64::from(played.length))));
     say(&format!("distance      {:.2} m", evaluation.mean(|played| played.distance_m)));
     say(&format!("velocity      {:.2} m/s", evaluation.velocity_mean_mps(control_step_s)));
-    say(&format!(
-        "joints        limit overshoot {:.3} rad (99.9 % of steps; largest {:.3} rad)",
-        joints.overshoot_p999_rad, joints.overshoot_max_rad
-    ));
+    if args.verbose {
+        let joints = &evaluation.joints;
+        say(&format!(
+            "joints        limit overshoot {:.3} rad (99.9 % of steps; largest {:.3} rad)",
+            joints.overshoot_p999_rad, joints.overshoot_max_rad
+        ));
+    }
 }
 
-fn as_json(agent: AgentKind, evaluation: &Evaluation, control_step_s: f64) -> String {
+fn as_json(agent: AgentKind, origin: Option<Origin>, evaluation: &Evaluation, control_step_s: f64) -> String {
     let joints = &evaluation.joints;
+    let (checkpoint, env_steps) = origin.map(|Origin { checkpoint, env_steps }| (checkpoint, env_steps)).unzip();
     json!({
         "agent": agent.name(),
+        "checkpoint": checkpoint,
+        "checkpoint_env_steps": env_steps,
         "episodes": evaluation.episodes.len(),
         "return_mean": evaluation.mean(|played| played.return_sum),
         "return_std": evaluation.return_std(),

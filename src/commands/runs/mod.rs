@@ -11,12 +11,10 @@ use std::{
 use anyhow::Context;
 use clap::Args;
 use serde_json::json;
+use treadmill_runtime::numbers::thousands;
 
 use self::record::Record;
-use crate::launch::{
-    exit_code::Usage,
-    output::{say, thousands},
-};
+use crate::launch::{exit_code::Usage, output::say};
 
 /// Flags of `runs`.
 #[derive(Args)]
@@ -24,6 +22,9 @@ pub struct RunsArgs {
     /// Run folders, or folders that contain run folders.
     #[arg(default_value = "runs")]
     paths: Vec<PathBuf>,
+    /// Also print the configuration keys whose values differ between the runs.
+    #[arg(long)]
+    keys: bool,
     /// Print only one JSON object per run.
     #[arg(long)]
     json: bool,
@@ -46,7 +47,7 @@ pub fn run(args: &RunsArgs) -> anyhow::Result<()> {
     if args.json {
         records.iter().zip(&differences).for_each(|(record, changes)| say(&as_json(record, changes)));
     } else {
-        print_table(&records, &differences);
+        print_table(&records, args.keys.then_some(&differences));
     }
     Ok(())
 }
@@ -76,6 +77,8 @@ fn as_json(record: &Record, changes: &BTreeMap<&str, &str>) -> String {
     json!({
         "run": record.name,
         "folder": record.folder,
+        "task": record.task(),
+        "state": record.state(),
         "env_steps": record.env_steps,
         "wall_s": record.wall_s,
         "env_steps_per_s": record.env_steps_per_s(),
@@ -89,9 +92,12 @@ fn as_json(record: &Record, changes: &BTreeMap<&str, &str>) -> String {
     .to_string()
 }
 
-const HEADINGS: [&str; 8] = ["run", "env steps", "wall time", "steps/s", "best m", "at step", "return", "falls"];
+const HEADINGS: [&str; 8] = ["run", "task", "env steps", "best m", "return", "falls", "time", "state"];
+/// Longest name that is shown, so that a row fits into 100 columns.
+const NAME_CHARS_MAX: usize = 28;
+const TASK_CHARS_MAX: usize = 14;
 
-fn print_table(records: &[Record], differences: &[BTreeMap<&str, &str>]) {
+fn print_table(records: &[Record], differences: Option<&[BTreeMap<&str, &str>]>) {
     let or_none = |text: Option<String>| text.unwrap_or_else(|| "–".to_string());
     let rows: Vec<[String; 8]> = records
         .iter()
@@ -100,14 +106,14 @@ fn print_table(records: &[Record], differences: &[BTreeMap<&str, &str>]) {
             let evaluated = record.best_eval_distance_m.map(|metres| format!("{metres:.1}"));
             let distance = evaluated.or_else(|| record.training_distance_m.map(|metres| format!("({metres:.1})")));
             [
-                record.name.clone(),
+                shortened(&record.name, NAME_CHARS_MAX),
+                shortened(&record.task(), TASK_CHARS_MAX),
                 thousands(record.env_steps),
-                duration(record.wall_s),
-                or_none(record.env_steps_per_s().map(|speed| thousands(speed as u64))),
                 or_none(distance),
-                or_none(record.best_eval_at.map(thousands)),
                 or_none(record.training_return.map(|sum| format!("{sum:.0}"))),
                 or_none(record.fall_fraction.map(|share| format!("{:.0} %", share * 100.0))),
+                duration(record.wall_s),
+                record.state().to_string(),
             ]
         })
         .collect();
@@ -116,25 +122,38 @@ fn print_table(records: &[Record], differences: &[BTreeMap<&str, &str>]) {
     };
     let widths: Vec<usize> = (0..HEADINGS.len()).map(width).collect();
     let line = |cells: [&str; 8]| {
-        let first = format!("{:<1$}", cells[0], widths[0]);
-        let others = cells.iter().zip(&widths).skip(1).map(|(cell, width)| format!("  {cell:>width$}"));
-        first + &others.collect::<String>()
+        let cell = |(column, (cell, width)): (usize, (&&str, &usize))| match column {
+            0 => format!("{cell:<width$}"),
+            1 => format!("  {cell:<width$}"),
+            7 => format!("  {cell}"),
+            _ => format!("  {cell:>width$}"),
+        };
+        cells.iter().zip(&widths).enumerate().map(cell).collect::<String>()
     };
     say(&line(HEADINGS));
-    for (row, changes) in rows.iter().zip(differences) {
+    for (number, row) in rows.iter().enumerate() {
         say(&line(row.each_ref().map(String::as_str)));
-        let changes: Vec<String> = changes.iter().map(|(key, value)| format!("{key}={value}")).collect();
-        if !changes.is_empty() {
-            say(&format!("    {}", changes.join(" ")));
+        for (key, value) in differences.and_then(|all| all.get(number)).into_iter().flatten() {
+            say(&format!("    {key} = {value}"));
         }
     }
     say("");
-    say(
-        "best m: mean distance of the best evaluation; in brackets: without an evaluation, of the last training episodes.",
-    );
-    say(
-        "return, falls: of the last training episodes. Below each run: configuration keys whose values differ between runs.",
-    );
+    say("best m: mean distance of the best evaluation, in brackets that of the last training episodes.");
+    say("return, falls: of the last training episodes.");
+    if differences.is_none() && records.len() > 1 {
+        say("Configuration keys that differ: treadmill runs --keys");
+    }
+}
+
+/// Shortens a name in its middle.
+fn shortened(name: &str, chars_max: usize) -> String {
+    let chars: Vec<char> = name.chars().collect();
+    if chars.len() <= chars_max {
+        return name.to_string();
+    }
+    let head = chars_max / 2;
+    let tail = chars.len() - (chars_max - head - 1);
+    chars[..head].iter().chain(&['…']).chain(&chars[tail..]).collect()
 }
 
 fn duration(seconds: f64) -> String {
@@ -151,8 +170,9 @@ mod tests {
     use super::*;
 
     #[test]
-    fn numbers_and_durations_are_formatted() {
-        assert_eq!([0, 999, 1000, 1_234_567].map(thousands), ["0", "999", "1 000", "1 234 567"]);
+    fn names_and_durations_are_formatted() {
+        assert_eq!(shortened("walk-1", 8), "walk-1");
+        assert_eq!(shortened("a-very-long-name", 8), "a-ve…ame");
         assert_eq!(
             [4.2, 59.6, 61.0, 3599.0, 3660.0].map(duration),
             ["4 s", "1 min 00 s", "1 min 01 s", "59 min 59 s", "1 h 01 min"]

@@ -9,6 +9,7 @@ use std::{
 
 use anyhow::Context;
 use serde_json::Value;
+use treadmill_runtime::{run_folder::RunFolder, run_lock::holder};
 
 /// Results of one run.
 #[derive(Debug, Default)]
@@ -24,6 +25,8 @@ pub(super) struct Record {
     pub(super) training_distance_m: Option<f64>,
     pub(super) training_return: Option<f64>,
     pub(super) fall_fraction: Option<f64>,
+    /// Whether a process trains it now.
+    pub(super) is_running: bool,
     /// Values as TOML, by `section.key`.
     pub(super) config: BTreeMap<String, String>,
 }
@@ -40,7 +43,8 @@ impl Record {
         let text = fs::read_to_string(&path).with_context(|| format!("cannot read `{}`", path.display()))?;
         let table: toml::Table =
             text.parse().with_context(|| format!("`{}` is not a configuration", path.display()))?;
-        let mut record = Self { name, folder: folder.to_path_buf(), ..Self::default() };
+        let is_running = RunFolder::open(&folder.display().to_string()).is_ok_and(|run| holder(&run).is_some());
+        let mut record = Self { name, folder: folder.to_path_buf(), is_running, ..Self::default() };
         for (section, keys) in &table {
             for (key, value) in keys.as_table().into_iter().flatten() {
                 record.config.insert(format!("{section}.{key}"), value.to_string());
@@ -72,6 +76,23 @@ impl Record {
                 self.best_eval_at = metric["step"].as_u64();
             }
             _ => {}
+        }
+    }
+
+    /// Returns the task's name.
+    pub(super) fn task(&self) -> String {
+        let text =
+            |key: &str| self.config.get(key).map(|value| value.trim_matches('"')).filter(|text| !text.is_empty());
+        text("task.name").or(text("env.task")).unwrap_or(ABSENT).to_string()
+    }
+
+    /// Returns whether the run is running, has all its steps, or was stopped before.
+    pub(super) fn state(&self) -> &'static str {
+        let wanted = self.config.get("run.steps").and_then(|steps| steps.parse::<u64>().ok());
+        match (self.is_running, wanted) {
+            (true, _) => "running",
+            (false, Some(wanted)) if self.env_steps >= wanted => "finished",
+            _ => "stopped",
         }
     }
 

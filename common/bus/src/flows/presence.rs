@@ -6,6 +6,7 @@ use std::{
         Arc, Mutex,
         atomic::{AtomicU64, Ordering},
     },
+    time::Duration,
 };
 
 use treadmill_proto::ident::check_ident;
@@ -28,6 +29,21 @@ pub fn token(bus: &Bus, run: &str, actor: &str) -> Result<impl Send + Sync + use
         .declare_token(keys::actor(run, actor))
         .wait()
         .map_err(BusError::flow("declaring the actor's token"))
+}
+
+/// Returns whether an actor of this name holds a token now.
+///
+/// # Errors
+/// If the bus fails. No answer within `timeout` counts as no.
+pub async fn is_actor_present(bus: &Bus, run: &str, actor: &str, timeout: Duration) -> Result<bool, BusError> {
+    let query = bus.session.liveliness().get(keys::actor(run, actor)).timeout(timeout).wait();
+    let replies = query.map_err(BusError::flow("looking for an actor's token"))?;
+    while let Ok(reply) = replies.recv_async().await {
+        if reply.result().is_ok() {
+            return Ok(true);
+        }
+    }
+    Ok(false)
 }
 
 /// Live actors, by liveliness token.

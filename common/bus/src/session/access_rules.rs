@@ -208,11 +208,15 @@ fn grants(role: Role) -> Vec<Grant> {
             vec![Grant { flows: BOTH, messages: EVERYTHING, keys: &["treadmill/**", "treadmill/*/@rollouts/*"] }]
         }
         Role::Actor => {
+            const ACTORS: Keys = &["treadmill/*/actors/*"];
             const PUBLISHED: Keys = &["treadmill/*/actors/*/stats", "treadmill/*/episodes/*", "treadmill/*/poses/*"];
             let publish = vec![
                 Grant { flows: IN, messages: &["put"], keys: PUBLISHED },
                 Grant { flows: OUT, messages: &["declare_subscriber"], keys: PUBLISHED },
-                Grant { flows: IN, messages: &["liveliness_token"], keys: &["treadmill/*/actors/*"] },
+                Grant { flows: IN, messages: &["liveliness_token"], keys: ACTORS },
+                // Whether its name is taken.
+                Grant { flows: IN, messages: &["liveliness_query"], keys: ACTORS },
+                Grant { flows: OUT, messages: &["liveliness_token", "reply"], keys: ACTORS },
             ];
             [read_policy, query(&["treadmill/*/rollouts/*", "treadmill/*/tasks/*"]), publish].concat()
         }

@@ -1,7 +1,8 @@
 //! Numbers in few characters.
 
+use treadmill_runtime::numbers::thousands;
+
 pub use crate::commands::status::plain::plain;
-use crate::launch::output::thousands;
 
 /// Stands for a number that is unknown or not finite.
 pub const UNKNOWN: &str = "–";
@@ -70,7 +71,7 @@ mod tests {
 
     #[test]
     fn all_numbers_are_short() {
-        assert_eq!([count(0), count(999), count(8192), count(4_194_304)], ["0", "999", "8 192", "4 194 304"]);
+        assert_eq!([count(0), count(999), count(8192), count(4_194_304)], ["0", "999", "8,192", "4,194,304"]);
         assert_eq!([count(12_345_678), count(u64::MAX)], ["12.3M", "18.4E"]);
         assert_eq!([number(0.0), number(-1.234), number(99.96), number(5892.4)], ["0.00", "-1.23", "100", "5892"]);
         assert_eq!([number(22_908.0), number(f64::NAN), number(f64::MAX)], ["22.9k", "–", "2e308"]);

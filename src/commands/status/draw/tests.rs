@@ -61,7 +61,7 @@ fn eighty_columns_show_the_run_its_curves_its_lag_and_its_actors() {
     let now = Instant::now();
     let screen = screen(&mut fleet(&[samples::run("walk-1", 3)], now), 80, 24);
     assert_shows(&screen, &["walk-1  training", "on workhorse", "process 4711", "version 0.1.0"]);
-    assert_shows(&screen, &["52 %", "4 194 304 of 8 000 000 steps", "3 min elapsed", "3 min to go"]);
+    assert_shows(&screen, &["52 %", "4,194,304 of 8,000,000 steps", "3 min elapsed", "3 min to go"]);
     // Half of 970 fragments and of 970 MB came in 4 s.
     assert_shows(&screen, &["22.9k steps/s", "121 fragments/s", "121 MB/s", "512 updates"]);
     assert_shows(&screen, &["return 5892", "18.3 m at 1.30 m/s", "2.10M", "4.19M"]);

@@ -1,0 +1,130 @@
+//! Lock of a run's folder: one process at a time writes into it.
+
+use std::{
+    fmt,
+    fs::{File, OpenOptions, TryLockError},
+    io::{self, Seek, Write},
+    thread,
+    time::Duration,
+};
+
+use serde_json::{Value, json};
+
+use crate::{
+    machine,
+    run_folder::{RunFolder, RunFolderError},
+};
+
+/// Attempts to take the lock, because [`holder`] takes it for a moment to see whether it is free.
+const ATTEMPTS: u32 = 4;
+const RETRY: Duration = Duration::from_millis(25);
+
+/// Process that writes into a run's folder.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Holder {
+    /// Its number; `None` if the lock's file does not say.
+    pub pid: Option<u32>,
+    /// Its host.
+    pub host: String,
+    /// Endpoint on which it listens, once it does.
+    pub endpoint: String,
+}
+
+impl Holder {
+    fn read(folder: &RunFolder) -> Self {
+        // The holder may be writing it now.
+        let text = std::fs::read_to_string(folder.lock()).unwrap_or_default();
+        let value: Value = serde_json::from_str(&text).unwrap_or_default();
+        let text = |key: &str| value[key].as_str().unwrap_or_default().to_string();
+        let pid = value["pid"].as_u64().and_then(|pid| u32::try_from(pid).ok());
+        Self { pid, host: text("host"), endpoint: text("endpoint") }
+    }
+}
+
+impl fmt::Display for Holder {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Some(pid) = self.pid else { return write!(f, "another process") };
+        write!(f, "process {pid} on host {}", self.host)?;
+        if self.endpoint.is_empty() { Ok(()) } else { write!(f, ", which listens on {}", self.endpoint) }
+    }
+}
+
+/// Right to write into a run's folder. The system takes it back when the process ends, however it ends.
+#[derive(Debug)]
+pub struct RunLock {
+    file: File,
+}
+
+impl RunLock {
+    /// Takes the lock of `folder` and writes this process into its file.
+    ///
+    /// # Errors
+    /// [`RunFolderError::InUse`] if another process has it, [`RunFolderError::Io`] if the system refuses.
+    pub fn take(folder: &RunFolder) -> Result<Self, RunFolderError> {
+        let io = |source| RunFolderError::Io { path: folder.root().display().to_string(), source };
+        let open = OpenOptions::new().create(true).truncate(false).write(true).open(folder.lock());
+        let mut lock = Self { file: open.map_err(io)? };
+        for attempt in 1.. {
+            match lock.file.try_lock() {
+                Ok(()) => break,
+                Err(TryLockError::WouldBlock) if attempt < ATTEMPTS => thread::sleep(RETRY),
+                Err(TryLockError::WouldBlock) => {
+                    let (path, holder) = (folder.root().display().to_string(), Holder::read(folder));
+                    return Err(RunFolderError::InUse { path, holder });
+                }
+                Err(TryLockError::Error(source)) => return Err(io(source)),
+            }
+        }
+        lock.set_endpoint("").map_err(io)?;
+        Ok(lock)
+    }
+
+    /// Writes the endpoint on which this process listens into the lock's file.
+    ///
+    /// # Errors
+    /// The system's error.
+    pub fn set_endpoint(&mut self, endpoint: &str) -> io::Result<()> {
+        let holder = json!({"pid": std::process::id(), "host": machine::host_name(), "endpoint": endpoint});
+        // The same file, because the lock belongs to it.
+        self.file.set_len(0)?;
+        self.file.rewind()?;
+        writeln!(self.file, "{holder}")
+    }
+}
+
+/// Returns the process that writes into `folder` now, if there is one.
+#[must_use]
+pub fn holder(folder: &RunFolder) -> Option<Holder> {
+    let file = File::open(folder.lock()).ok()?;
+    matches!(file.try_lock_shared(), Err(TryLockError::WouldBlock)).then(|| Holder::read(folder))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_second_writer_is_told_the_first_until_that_has_gone() {
+        let folder = tempfile::tempdir().unwrap();
+        let run = RunFolder::create(Some(&folder.path().join("run")), "walk").unwrap();
+        assert_eq!(holder(&run), None);
+        let mut lock = RunLock::take(&run).unwrap();
+        assert!(RunLock::take(&run).unwrap_err().to_string().contains(&format!("process {}", std::process::id())));
+        lock.set_endpoint("tcp/127.0.0.1:7").unwrap();
+        let refused = RunLock::take(&run).unwrap_err().to_string();
+        assert!(refused.contains("which listens on tcp/127.0.0.1:7"), "{refused}");
+        assert_eq!(holder(&run).unwrap().pid, Some(std::process::id()));
+        drop(lock);
+        assert_eq!(holder(&run), None);
+        drop(RunLock::take(&run).unwrap());
+    }
+
+    #[test]
+    fn a_lock_without_a_name_is_still_a_lock() {
+        let folder = tempfile::tempdir().unwrap();
+        let run = RunFolder::create(Some(&folder.path().join("run")), "walk").unwrap();
+        let lock = RunLock::take(&run).unwrap();
+        lock.file.set_len(0).unwrap();
+        assert!(RunLock::take(&run).unwrap_err().to_string().contains("another process"));
+    }
+}

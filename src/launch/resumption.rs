@@ -1,0 +1,157 @@
+//! Resumes a run: loads its checkpoint, and refuses flags that differ from what it has saved.
+
+use std::fs;
+
+use toml::Table;
+use treadmill_config::{Config, ConfigSource};
+use treadmill_humanoid::PHYSICS_VERSION;
+use treadmill_learner::checkpoint::{self, Which};
+use treadmill_runtime::{numbers::thousands, run_folder::RunFolder, run_lock::RunLock, seeds};
+
+use crate::launch::{
+    exit_code::Usage,
+    model,
+    slow_step::SlowStepNotice,
+    startup::{self, AnyRunArgs, NewRunArgs, Prepared, RunCommand, Start},
+};
+
+/// Resumes `run`, a folder or a name below `runs/`. `changes` are keys set by flags of the command.
+///
+/// # Errors
+/// If flags differ from the saved run, another process has it, or its checkpoint cannot be used.
+pub fn resume(
+    command: RunCommand,
+    run: &str,
+    new: &NewRunArgs,
+    any: &AnyRunArgs,
+    changes: &[(&str, toml::Value)],
+) -> anyhow::Result<Start> {
+    let folder = RunFolder::open(run)?;
+    check_folder(&folder, new)?;
+    let lock = RunLock::take(&folder)?;
+    let _step = SlowStepNotice::begin(format!("loading the checkpoint of {}", folder.root().display()));
+    let mut state = checkpoint::load(&folder, any.checkpoint.unwrap_or(Which::Latest))?.state;
+    let mut config = state.config().map_err(anyhow::Error::msg)?;
+    startup::check_external(command, &config, any)?;
+    // The number of processes may differ at each start.
+    let kept: Vec<_> = changes.iter().filter(|(key, _)| *key != "rollout.actors").cloned().collect();
+    check_agreement(&config, new, &kept)?;
+    let device = startup::open_device(&config, any.device)?;
+    if !config.is_external() {
+        state.adopt_physics(PHYSICS_VERSION).map_err(anyhow::Error::msg)?;
+    }
+    if let Some(file) = &any.model {
+        model::check_same(&state.model_xml, file)?;
+    }
+    let (reached, saved) = (state.counters.env_steps, config.run.steps);
+    let goal = match any.steps {
+        // A service has the same command line at each start.
+        Some(steps) if any.resume_or_start => steps.max(saved),
+        Some(steps) if steps <= reached => return Err(too_few(&folder, steps, reached, saved).into()),
+        Some(steps) => steps,
+        None => saved,
+    };
+    if reached >= goal {
+        return Ok(Start::Finished(folder, Box::new(state)));
+    }
+    config.run.steps = saved.max(goal);
+    config.check()?;
+    // Without retired keys, so that actors need not know them.
+    state.config_toml = config.to_toml();
+    config.run.steps = goal;
+    state.lineage.resume(seeds::unique());
+    state.counters.resumes += 1;
+    let mirror = model::mirror(&config, &state.model_xml)?;
+    let prepared = Prepared { config, folder, device, mirror, run: state.run.clone(), state: Some(state) };
+    Ok(Start::Ready(Box::new(prepared), lock))
+}
+
+fn too_few(folder: &RunFolder, steps: u64, reached: u64, saved: u64) -> Usage {
+    let further = if saved > reached { saved } else { reached.saturating_mul(2) };
+    Usage(format!(
+        "`--steps {steps}`: `{}` is already at {} steps; go on with `--steps {further}`",
+        folder.root().display(),
+        thousands(reached)
+    ))
+}
+
+fn check_folder(folder: &RunFolder, new: &NewRunArgs) -> Result<(), Usage> {
+    let Some(given) = &new.run_dir else { return Ok(()) };
+    let root = folder.root();
+    match fs::canonicalize(given).is_ok_and(|given| fs::canonicalize(root).is_ok_and(|root| root == given)) {
+        true => Ok(()),
+        false => Err(Usage(format!(
+            "`--run-dir {}` is not the folder of the resumed run, `{}`; leave --run-dir out",
+            given.display(),
+            root.display()
+        ))),
+    }
+}
+
+/// Refuses flags of new runs that would change the saved configuration. The goal is not among them: only `--steps` sets it.
+fn check_agreement(saved: &Config, new: &NewRunArgs, changes: &[(&str, toml::Value)]) -> anyhow::Result<()> {
+    let mut source = ConfigSource::default();
+    source.text(&saved.to_toml(), "the saved configuration")?;
+    if let Some(preset) = &new.preset {
+        source.preset(preset)?;
+    }
+    new.add_to(&mut source, changes)?;
+    source.value("run.steps", i64::try_from(saved.run.steps)?)?;
+    let mut wanted = source.build()?;
+    startup::complete(&mut wanted);
+    let differences = differences(saved, &wanted)?;
+    if differences.is_empty() {
+        return Ok(());
+    }
+    Err(Usage(format!(
+        "{}; a resumed run keeps its configuration: leave that out, or begin another run in a new --run-dir",
+        differences.join(", ")
+    ))
+    .into())
+}
+
+/// Describes each key in which two configurations differ.
+fn differences(saved: &Config, wanted: &Config) -> anyhow::Result<Vec<String>> {
+    let (saved, wanted) = (saved.to_toml().parse::<Table>()?, wanted.to_toml().parse::<Table>()?);
+    let mut differences = Vec::new();
+    for (section, keys) in &wanted {
+        for (key, value) in keys.as_table().into_iter().flatten() {
+            let before = saved.get(section).and_then(|keys| keys.get(key));
+            if before != Some(value) {
+                let before = before.map_or_else(|| "absent".to_string(), ToString::to_string);
+                differences.push(format!("`{section}.{key}` is {value} by your flags and {before} in the saved run"));
+            }
+        }
+    }
+    Ok(differences)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn objection(saved: &[&str], given: &[&str]) -> Option<String> {
+        let mut source = ConfigSource::default();
+        source.preset("smoke").unwrap();
+        saved.iter().for_each(|pair| source.set(pair).unwrap());
+        let mut saved = source.build().unwrap();
+        startup::complete(&mut saved);
+        let new = NewRunArgs {
+            preset: Some("smoke".to_string()),
+            set: given.iter().map(ToString::to_string).collect(),
+            ..NewRunArgs::default()
+        };
+        check_agreement(&saved, &new, &[]).err().map(|why| why.to_string())
+    }
+
+    #[test]
+    fn flags_that_agree_with_the_saved_run_are_accepted() {
+        assert_eq!(objection(&[], &[]), None);
+        assert_eq!(objection(&["ppo.batch=1024", "run.steps=99999"], &["ppo.batch=1024"]), None);
+        assert_eq!(objection(&["run.deterministic=true"], &["run.deterministic=true"]), None);
+        let why = objection(&["ppo.batch=1024"], &[]).unwrap();
+        assert!(why.contains("`ppo.batch` is 512 by your flags and 1024 in the saved run"), "{why}");
+        let why = objection(&[], &["ppo.gamma=0.9", "run.seed=7"]).unwrap();
+        assert!(why.contains("ppo.gamma") && why.contains("`run.seed` is 7"), "{why}");
+    }
+}
