@@ -10,7 +10,7 @@
 set -eu
 
 preset=${TREADMILL_PRESET:-walk}
-set -- learner --no-progress --preset "$preset" --run-dir "/runs/${TREADMILL_RUN:-$preset}" --resume-or-start "$@"
+set -- learner --preset "$preset" --run-dir "/runs/${TREADMILL_RUN:-$preset}" --resume-or-start "$@"
 [ -z "${TREADMILL_STEPS:-}" ] || set -- "$@" --steps "$TREADMILL_STEPS"
 [ -z "${TREADMILL_SEED:-}" ] || set -- "$@" --seed "$TREADMILL_SEED"
 # Split at blanks only, without file name patterns: values may contain brackets.

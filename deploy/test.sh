@@ -184,10 +184,9 @@ await 'training after resume' trains_beyond "$paused"
 say "an operator read the status, paused at $paused steps and resumed"
 
 # --- scaling ---------------------------------------------------------------------------------------------------------------
-# Thousandths of the simulated steps that were learnt from, over about the last 100 updates: the mean of 25 lines, of which the
-# run writes one every four updates.
+# Thousandths of the simulated steps that were learnt from, over about the last 100 updates.
 used() {
-    docker exec "$learner" grep -F '"tag":"rollout/used_share"' /runs/smoke/metrics.jsonl | tail -n 25 |
+    docker exec "$learner" grep -F '"tag":"rollout/used_share"' /runs/smoke/metrics.jsonl | tail -n 100 |
         sed -n 's/.*"value":\([^,]*\).*/\1/p' | awk '{ sum += $1 } END { printf "%d\n", 1000 * sum / NR }'
 }
 for actors in 3 6; do

@@ -36,14 +36,10 @@ pub fn print_start(
     match actors {
         Some(1) => say("  actors    1 process beside this one"),
         Some(actors) => say(&format!("  actors    {actors} processes beside this one")),
-        None => {
-            let command = match config.is_external() {
-                true => "python -m treadmill_actor --env NAME",
-                false => "treadmill actor",
-            };
-            let connect = connect_flags(&endpoints[0], credentials);
-            say(&format!("  actors    none yet; start some by: {command} --connect {connect} --run {run}"));
-        }
+        None => say(&format!(
+            "  actors    none yet; start some by: {}",
+            actor_command(prepared, &endpoints[0], credentials)
+        )),
     }
     say(&format!("  listening {}", endpoints.join(", ")));
     let tls = credentials.map(tls_flag).unwrap_or_default();
@@ -60,6 +56,15 @@ pub fn print_start(
     let command = actors.map_or("learner", |_| "train");
     say("  stop      Ctrl-C once finishes the update and saves");
     say(&format!("  resume    treadmill {command} --resume {root}"));
+}
+
+/// Returns the command that starts an actor of this run.
+pub fn actor_command(prepared: &Prepared, endpoint: &str, credentials: Option<&Credentials>) -> String {
+    let command = match prepared.config.is_external() {
+        true => "python -m treadmill_actor --env NAME",
+        false => "treadmill actor",
+    };
+    format!("{command} --connect {} --run {}", connect_flags(endpoint, credentials), prepared.run)
 }
 
 /// Returns the goal and the number of steps to it. The progress display adds the remaining time.

@@ -11,7 +11,7 @@ use tokio::sync::oneshot;
 use treadmill_bus::{Bus, BusOptions, TaskServer};
 use treadmill_learner::{
     checkpoint::TrainingState,
-    metrics::{PrometheusMetrics, episodes::EpisodeMeans},
+    metrics::{ConsoleOptions, PrometheusMetrics, episodes::EpisodeMeans},
     training::{self, Heartbeat, TrainingError, TrainingOptions, TrainingSummary},
 };
 use treadmill_runtime::{atomic_file, run_folder::RunFolder, run_lock::RunLock, shutdown::Shutdown};
@@ -91,7 +91,13 @@ async fn run_until_done(mut prepared: Prepared, lock: &mut RunLock, options: Hos
     let restarts = Arc::new(AtomicU64::new(0));
     let fleet = actors.map(|actors| fleet_options(&prepared, bus_options, &endpoints[0], actors)).transpose()?;
     let folder = prepared.folder.clone();
-    let (state, training_options) = training_options(prepared, any, restarts.clone(), prometheus, heartbeat)?;
+    let console = ConsoleOptions {
+        show_progress: !any.no_progress,
+        log_metrics: any.log_metrics,
+        actor_command: (actors.is_none())
+            .then(|| banner::actor_command(&prepared, &endpoints[0], bus_options.credentials.as_ref())),
+    };
+    let (state, training_options) = training_options(prepared, console, restarts.clone(), prometheus, heartbeat)?;
     let trained = spawn_training(&bus, state, training_options, &shutdown)?;
     let supervisor = fleet.map(|fleet| Supervisor::start(&fleet, restarts, shutdown));
     let outcome = trained.await.context("the training thread panicked");
@@ -140,7 +146,7 @@ async fn wait_for_task(
 /// Returns the state to train from and the options of the training.
 fn training_options(
     prepared: Prepared,
-    any: &AnyRunArgs,
+    console: ConsoleOptions,
     restarts: Arc<AtomicU64>,
     prometheus: PrometheusMetrics,
     heartbeat: Heartbeat,
@@ -152,7 +158,7 @@ fn training_options(
         steps: config.run.steps,
         device,
         mirror,
-        show_progress: !any.no_progress,
+        console,
         restarts,
         prometheus,
         heartbeat,

@@ -90,6 +90,9 @@ pub struct AnyRunArgs {
     /// Do not show progress.
     #[arg(long)]
     pub no_progress: bool,
+    /// Print all metrics every `learner.table_every_updates` updates.
+    #[arg(long)]
+    pub log_metrics: bool,
     /// Print one JSON summary as the last line of standard output.
     #[arg(long)]
     pub json: bool,
@@ -187,11 +190,9 @@ pub fn prepare(
     if stale > 0 {
         tracing::info!(stale, "removed temporary files that a killed process left");
     }
-    let written = write_run_files(prepared);
-    if written.is_err() {
-        prepared.folder.discard();
-    }
-    written.with_context(|| format!("cannot write to {}", prepared.folder.root().display()))?;
+    write_run_files(prepared)
+        .inspect_err(|_| prepared.folder.discard())
+        .with_context(|| format!("cannot write to {}", prepared.folder.root().display()))?;
     Ok(start)
 }
 
@@ -324,8 +325,7 @@ fn begin(
 
 fn create_folder(new: &NewRunArgs) -> Result<(RunFolder, RunLock), RunFolderError> {
     let folder = RunFolder::create(new.run_dir.as_deref(), new.preset())?;
-    let lock = RunLock::take(&folder)?;
-    Ok((folder, lock))
+    RunLock::take(&folder).map(|lock| (folder, lock))
 }
 
 fn write_run_files(prepared: &Prepared) -> std::io::Result<()> {

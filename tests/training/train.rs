@@ -100,15 +100,21 @@ fn the_learning_curve_appears_during_the_run() {
     let mut command = endless(folder.path(), &run_folder, "train");
     command.env("LC_ALL", "C.UTF-8");
     let running = Running::start(command);
-    let line = running.wait_for("after ");
-    for part in ["return ", "distance ", "farthest ", "▁", "█"] {
+    let line = running.wait_for("steps/s");
+    for part in ["return ", "length ", "distance ", "used "] {
         assert!(line.contains(part), "`{part}` is missing in: {line}");
     }
+    assert!(line.chars().count() <= 160, "{line}");
     let png = run_folder.join("learning_curve.png");
     await_that("a picture of the learning curve", || fs::read(&png).ok().filter(|png| png.starts_with(b"\x89PNG")));
     assert!(is_running(running.pid()), "the run is not over");
     running.signal(libc::SIGTERM);
-    assert!(running.wait().0.success());
+    let (status, lines) = running.wait();
+    assert!(status.success());
+    let line = lines.iter().find(|line| line.starts_with("after ")).expect("the curves");
+    for part in ["return ", " → ", "distance ", "▁"] {
+        assert!(line.contains(part), "`{part}` is missing in: {line}");
+    }
 }
 
 #[test]
@@ -118,7 +124,8 @@ fn a_waiting_learner_reports_the_reason_and_progress_can_be_turned_off() {
     let mut command = treadmill(folder.path());
     command.args(["learner", "--preset", "smoke", "--listen", "tcp/127.0.0.1:0", "--run-dir", path]);
     let learner = Running::start(command);
-    learner.wait_for("waiting for experience for 2s: no actor is connected");
+    let line = learner.wait_for("waiting for experience for 2s: no actor is connected");
+    assert!(line.contains("start one: treadmill actor --connect tcp/127.0.0.1:"), "{line}");
     learner.signal(libc::SIGTERM);
     assert!(learner.wait().0.success());
     let (quiet_folder, quiet) = folders();

@@ -206,7 +206,7 @@ section! {
         keep_checkpoints: u32 = 3, "0 to 1000" => |v| *v <= 1000;
         /// Updates between two numbered checkpoints.
         checkpoint_every_updates: u32 = 50, "1 to 1000000" => |v| (1..=1_000_000).contains(v);
-        /// Updates between two tables on the terminal.
+        /// Updates between two outputs of all metrics with `--log-metrics`.
         table_every_updates: u32 = 10, "1 to 1000000" => |v| (1..=1_000_000).contains(v);
     }
 }

@@ -36,7 +36,7 @@ pub use curve_thread::CurveThread;
 pub use efficiency::{Efficiency, EfficiencyMeter};
 pub use history::History;
 pub use jsonl::JsonLines;
-pub use progress::Console;
+pub use progress::{Console, ConsoleOptions};
 pub use prometheus::PrometheusMetrics;
 pub use report::MetricsReport;
 pub use tensorboard::{EventWriter, Histogram};

@@ -1,30 +1,28 @@
 //! Progress of a run on standard output.
 //!
-//! On a terminal: a progress bar, with tables above it. Elsewhere, such as in a log file: plain lines
-//! without escape codes. Write errors are ignored, so that a closed pipe or a full disk does not stop training.
+//! On a terminal: a progress bar, and above it tables of the most important metrics. Elsewhere, such as in a log file: short
+//! lines without escape codes. Write errors are ignored, so that a closed pipe or a full disk does not stop training.
 
 use std::collections::VecDeque;
 use std::io::{self, IsTerminal, Write};
 use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
-use treadmill_runtime::machine;
+use treadmill_runtime::{machine, numbers::thousands};
 
-use super::table::{render_line, render_table};
+use super::table::{important, render_line, render_table};
 use super::{History, Scalars, history::Point, sparkline::sparkline};
 
 /// Interval between two progress lines in a log file.
 const LINE_EVERY: Duration = Duration::from_secs(10);
 
-/// Time of the first sparkline in a log file.
-const SPARKLINE_AFTER: Duration = Duration::from_secs(10);
-/// The next is due when the run is twice as old, or after this time.
-const SPARKLINE_EVERY_MAX: Duration = Duration::from_secs(300);
+/// Interval between two tables on a terminal.
+const TABLE_EVERY: Duration = Duration::from_secs(15);
 
 /// Width of a sparkline in characters.
 const SPARKLINE_WIDTH: usize = 16;
 
-/// Shortest wait for experience that is reported before the first update.
+/// Shortest wait for experience that is reported before the first update, or if no actor is connected.
 const FIRST_WAIT_MIN: Duration = Duration::from_secs(2);
 /// Shortest wait that is reported afterwards.
 const WAIT_MIN: Duration = Duration::from_secs(30);
@@ -43,19 +41,30 @@ const BAR: &str = "{percent:>3}% [{wide_bar}] {human_pos}/{human_len} steps, {ms
 /// Bar below a sparkline.
 const SPARKLINE_AND_BAR: &str = "{prefix}\n{percent:>3}% [{wide_bar}] {human_pos}/{human_len} steps, {msg}";
 
+/// What a console shows.
+#[derive(Clone, Debug, Default)]
+pub struct ConsoleOptions {
+    /// Whether it shows progress; otherwise only what `log_metrics` asks for.
+    pub show_progress: bool,
+    /// Whether it shows all metrics, every `learner.table_every_updates` updates.
+    pub log_metrics: bool,
+    /// Command that starts an actor, where the user starts them.
+    pub actor_command: Option<String>,
+}
+
 /// Progress bar and tables on a terminal, plain lines elsewhere.
 pub struct Console {
     out: Box<dyn Write + Send>,
     is_terminal: bool,
     /// Only on a terminal, and only with `show_progress`.
     bar: Option<ProgressBar>,
-    show_progress: bool,
+    options: ConsoleOptions,
     started: Instant,
     speed: SpeedMeter,
     total_steps: u64,
     env_steps: u64,
-    line_at: Duration,
-    sparkline_at: Duration,
+    /// Time of the next line or table.
+    due: Duration,
     /// Wait for the current batch when it was last reported.
     waited: Duration,
     is_unicode: bool,
@@ -63,13 +72,15 @@ pub struct Console {
 }
 
 impl Console {
-    /// Console for a run from `start_steps` (more than 0 after a resume) to `total_steps`. Without `show_progress`, it
-    /// shows only tables.
-    pub fn new(total_steps: u64, start_steps: u64, show_progress: bool) -> Self {
+    /// Console for a run from `start_steps` (more than 0 after a resume) to `total_steps`.
+    pub fn new(total_steps: u64, start_steps: u64, options: ConsoleOptions) -> Self {
         let is_terminal = io::stdout().is_terminal() && std::env::var_os("TERM").is_none_or(|term| term != "dumb");
-        let mut console = Self::writing_to(Box::new(io::stdout()), total_steps, start_steps, show_progress);
+        let mut console = Self::writing_to(Box::new(io::stdout()), total_steps, start_steps, options);
         console.is_terminal = is_terminal;
-        console.bar = (is_terminal && show_progress).then(|| new_bar(total_steps, start_steps));
+        if is_terminal && console.options.show_progress {
+            console.bar = Some(new_bar(total_steps, start_steps));
+            console.due = TABLE_EVERY;
+        }
         console
     }
 
@@ -82,30 +93,30 @@ impl Console {
     }
 
     /// Console that writes plain lines to `out`.
-    fn writing_to(out: Box<dyn Write + Send>, total_steps: u64, start_steps: u64, show_progress: bool) -> Self {
+    fn writing_to(out: Box<dyn Write + Send>, total_steps: u64, start_steps: u64, options: ConsoleOptions) -> Self {
         Self {
             out,
             is_terminal: false,
             bar: None,
-            show_progress,
+            options,
             started: Instant::now(),
             speed: SpeedMeter::new(start_steps),
             total_steps,
             env_steps: start_steps,
-            line_at: LINE_EVERY,
-            sparkline_at: SPARKLINE_AFTER,
+            due: Duration::ZERO,
             waited: Duration::ZERO,
             is_unicode: machine::is_utf8_locale(),
             finished: false,
         }
     }
 
-    /// Shows the number of steps with speed, remaining time, and at intervals a sparkline.
-    pub fn progress(&mut self, env_steps: u64, history: &History) {
-        self.progress_at(env_steps, history, self.started.elapsed());
+    /// Shows an update: on a terminal the bar with sparklines, at intervals a table; elsewhere a line after the first update,
+    /// then at intervals.
+    pub fn progress(&mut self, env_steps: u64, scalars: &Scalars, history: &History) {
+        self.progress_at(env_steps, scalars, history, self.started.elapsed());
     }
 
-    fn progress_at(&mut self, env_steps: u64, history: &History, elapsed: Duration) {
+    fn progress_at(&mut self, env_steps: u64, scalars: &Scalars, history: &History, elapsed: Duration) {
         self.waited = Duration::ZERO;
         self.env_steps = env_steps;
         self.speed.observe(elapsed, env_steps);
@@ -119,33 +130,35 @@ impl Console {
                 }
                 bar.set_prefix(sparklines);
             }
-        } else if self.show_progress && !self.is_terminal && elapsed >= self.line_at {
-            self.line_at = elapsed + LINE_EVERY;
-            let percent = env_steps as f64 / self.total_steps.max(1) as f64 * 100.0;
-            self.write(&format!("steps={env_steps} of {} ({percent:.1}%), {speed}\n", self.total_steps));
-        }
-        if !self.is_terminal && elapsed >= self.sparkline_at {
-            self.sparkline_at = elapsed + elapsed.min(SPARKLINE_EVERY_MAX);
-            self.write_sparklines(history, elapsed);
+            if elapsed >= self.due {
+                self.due = elapsed + TABLE_EVERY;
+                self.write(&render_table(&important(scalars)));
+            }
+        } else if self.options.show_progress && elapsed >= self.due {
+            self.due = elapsed + LINE_EVERY;
+            self.write(&(line(env_steps, self.total_steps, &speed, scalars) + "\n"));
         }
     }
 
     /// Writes a line with sparklines, if there are any.
     fn write_sparklines(&mut self, history: &History, elapsed: Duration) {
-        if let Some(sparklines) = sparklines(history, self.is_unicode).filter(|_| self.show_progress) {
+        if let Some(sparklines) = sparklines(history, self.is_unicode) {
             self.write(&format!("after {}: {sparklines}\n", clock(elapsed.as_secs())));
         }
     }
 
     /// Reports a long wait for experience, then again each time it has doubled. `actors` are alive.
     pub fn show_wait(&mut self, waited: Duration, actors: usize) {
-        let threshold = if self.speed.has_started() { WAIT_MIN } else { FIRST_WAIT_MIN };
-        if waited < threshold.max(self.waited * 2) || !self.show_progress {
+        let threshold = if actors > 0 && self.speed.has_started() { WAIT_MIN } else { FIRST_WAIT_MIN };
+        if waited < threshold.max(self.waited * 2) || !self.options.show_progress {
             return;
         }
         self.waited = waited;
         let alive = match actors {
-            0 => "no actor is connected".to_string(),
+            0 => match &self.options.actor_command {
+                Some(command) => format!("no actor is connected; start one: {command}"),
+                None => "no actor is connected".to_string(),
+            },
             1 => "1 actor is simulating".to_string(),
             actors => format!("{actors} actors are simulating"),
         };
@@ -156,8 +169,12 @@ impl Console {
         }
     }
 
-    /// Writes all scalars of one update: a boxed table on a terminal, elsewhere one line `steps=… tag=value …`.
+    /// Writes all scalars of one update, if the options ask for them: a boxed table on a terminal, elsewhere one line
+    /// `steps=… tag=value …`.
     pub fn table(&mut self, scalars: &Scalars) {
+        if !self.options.log_metrics {
+            return;
+        }
         let text = if self.is_terminal { render_table(scalars) } else { render_line(self.env_steps, scalars) + "\n" };
         self.write(&text);
     }
@@ -170,12 +187,12 @@ impl Console {
         if let Some(bar) = self.bar.take() {
             bar.finish_and_clear();
         }
-        if self.show_progress {
+        if self.options.show_progress {
             let elapsed = self.started.elapsed();
             let steps = self.env_steps.saturating_sub(self.speed.start_steps);
             let speed = steps as f64 / elapsed.as_secs_f64().max(f64::MIN_POSITIVE);
-            let (now, total) = (self.env_steps, self.total_steps);
-            self.write(&format!("steps={now} of {total}, {} at {speed:.0} steps/s\n", clock(elapsed.as_secs())));
+            let [now, total, speed] = [self.env_steps, self.total_steps, speed as u64].map(thousands);
+            self.write(&format!("steps {now} of {total}, {} at {speed} steps/s\n", clock(elapsed.as_secs())));
             self.write_sparklines(history, elapsed);
         }
     }
@@ -206,17 +223,35 @@ fn set_template(bar: &ProgressBar, template: &str) {
     }
 }
 
-/// Returns `return 310 ▁▃▆█ 620, distance 0.1 ▁▂▅█ 1.9 m, farthest 1.9 m`, or `None` before an episode ends.
+/// Returns `155,648 of 8,000,000 steps (1.9 %), 7,412 steps/s, 17m 38s left; return 412, length 85, …`.
+fn line(env_steps: u64, total_steps: u64, speed: &str, scalars: &Scalars) -> String {
+    let percent = env_steps as f64 / total_steps.max(1) as f64 * 100.0;
+    let known = |tag: &str| scalars.iter().find(|(name, _)| name == tag).map(|(_, value)| *value);
+    let parts = [
+        known("rollout/ep_rew_mean").map(|value| format!("return {}", rounded(value, 0))),
+        known("rollout/ep_len_mean").map(|value| format!("length {}", rounded(value, 0))),
+        known("rollout/distance_mean_m").map(|value| format!("distance {} m", rounded(value, 1))),
+        known("rollout/used_share").map(|value| format!("used {} %", rounded(100.0 * value, 0))),
+    ];
+    let parts: Vec<String> = parts.into_iter().flatten().collect();
+    let separator = if parts.is_empty() { "" } else { "; " };
+    let (now, total) = (thousands(env_steps), thousands(total_steps));
+    format!("{now} of {total} steps ({percent:.1} %), {speed}{separator}{}", parts.join(", "))
+}
+
+/// Returns `return 310 → 620 (best 640) ▁▃▆█, distance 0.1 → 1.9 m ▁▂▅█`, or `None` before an episode ends.
 fn sparklines(history: &History, is_unicode: bool) -> Option<String> {
-    let curve = |of: fn(&Point) -> f64, decimals| {
+    let arrow = if is_unicode { '→' } else { '>' };
+    let curve = |of: fn(&Point) -> f64, best: Option<f64>, decimals, unit: &str| {
         let values: Vec<f64> = history.points().map(|point| of(&point)).collect();
-        let (first, last) = (values.first()?, values.last()?);
-        let line = sparkline(&values, SPARKLINE_WIDTH, is_unicode);
-        Some(format!("{} {line} {}", rounded(*first, decimals), rounded(*last, decimals)))
+        let best = best.unwrap_or_else(|| values.iter().copied().fold(f64::NEG_INFINITY, f64::max));
+        let [first, now, best] = [*values.first()?, *values.last()?, best].map(|value| rounded(value, decimals));
+        let best = if best == now { String::new() } else { format!(" (best {best})") };
+        Some(format!("{first} {arrow} {now}{unit}{best} {}", sparkline(&values, SPARKLINE_WIDTH, is_unicode)))
     };
-    let (returns, distances) = (curve(|point| point.return_mean, 0)?, curve(|point| point.distance_m, 1)?);
-    let farthest = history.farthest_m().map(|m| format!(", farthest {} m", rounded(m, 1))).unwrap_or_default();
-    Some(format!("return {returns}, distance {distances} m{farthest}"))
+    let returns = curve(|point| point.return_mean, None, 0, "")?;
+    let distances = curve(|point| point.distance_m, history.farthest_m(), 1, " m")?;
+    Some(format!("return {returns}, distance {distances}"))
 }
 
 /// Rounds to `decimals`, without negative zero.
@@ -266,11 +301,12 @@ impl SpeedMeter {
     }
 }
 
-/// Returns text such as `3412 steps/s, 4m 05s left`.
+/// Returns text such as `3,412 steps/s, 4m 05s left`.
 fn speed_and_remaining(steps_per_s: Option<f64>, steps_left: u64) -> String {
     match steps_per_s {
         Some(speed) if speed > 0.0 => {
-            format!("{speed:.0} steps/s, {} left", clock((steps_left as f64 / speed).ceil() as u64))
+            let left = clock((steps_left as f64 / speed).ceil() as u64);
+            format!("{} steps/s, {left} left", thousands(speed.round() as u64))
         }
         _ => "0 steps/s".to_string(),
     }

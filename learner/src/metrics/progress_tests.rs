@@ -26,27 +26,50 @@ fn seconds(seconds: u64) -> Duration {
     Duration::from_secs(seconds)
 }
 
+fn options(show_progress: bool, log_metrics: bool) -> ConsoleOptions {
+    ConsoleOptions { show_progress, log_metrics, actor_command: None }
+}
+
+fn console(captured: &Captured, total_steps: u64, start_steps: u64, options: ConsoleOptions) -> Console {
+    Console::writing_to(Box::new(captured.clone()), total_steps, start_steps, options)
+}
+
 #[test]
-fn a_log_file_gets_plain_lines_and_progress_every_ten_seconds() {
+fn a_log_file_gets_a_short_line_after_the_first_update_and_every_ten_seconds() {
     let captured = Captured::default();
-    let mut console = Console::writing_to(Box::new(captured.clone()), 10_000, 1_000, true);
+    let mut console = console(&captured, 10_000, 1_000, options(true, false));
+    let scalars = [
+        ("rollout/ep_rew_mean", 412.3),
+        ("rollout/ep_len_mean", 85.2),
+        ("rollout/distance_mean_m", -0.04),
+        ("rollout/used_share", 0.996),
+    ];
+    let scalars = scalars.map(|(tag, value)| (tag.to_string(), value));
     for second in 1..=20 {
-        console.progress_at(1_000 + 100 * second, &History::default(), seconds(second));
+        console.progress_at(1_000 + 100 * second, &scalars, &History::default(), seconds(second));
+        console.table(&scalars);
     }
-    console.table(&[("rollout/ep_rew_mean".to_string(), 1.25)]);
     assert_eq!(
         captured.text(),
-        "steps=2000 of 10000 (20.0%), 100 steps/s, 1m 20s left\n\
-         steps=3000 of 10000 (30.0%), 100 steps/s, 1m 10s left\n\
-         steps=3000 rollout/ep_rew_mean=1.25\n"
+        "1,100 of 10,000 steps (11.0 %), 100 steps/s, 1m 29s left; return 412, length 85, distance 0.0 m, used 100 %\n\
+         2,100 of 10,000 steps (21.0 %), 100 steps/s, 1m 19s left; return 412, length 85, distance 0.0 m, used 100 %\n"
     );
 }
 
 #[test]
-fn without_progress_there_are_only_tables() {
+fn a_line_of_large_numbers_has_at_most_160_characters() {
+    let tags = ["rollout/ep_rew_mean", "rollout/ep_len_mean", "rollout/distance_mean_m", "rollout/used_share"];
+    let scalars = tags.map(|tag| (tag.to_string(), -123_456.7));
+    let speed = speed_and_remaining(Some(1_234_567.0), 1 << 40);
+    let line = line(123_456_789_012, 999_999_999_999, &speed, &scalars);
+    assert!(line.chars().count() <= 160, "{line}");
+}
+
+#[test]
+fn all_metrics_are_shown_only_on_request() {
     let captured = Captured::default();
-    let mut console = Console::writing_to(Box::new(captured.clone()), 0, 0, false);
-    console.progress_at(500, &History::default(), seconds(60));
+    let mut console = console(&captured, 0, 0, options(false, true));
+    console.progress_at(500, &[], &History::default(), seconds(60));
     console.table(&[("train/loss".to_string(), f64::NAN)]);
     console.finish(&History::default());
     assert_eq!(captured.text(), "steps=500 train/loss=nan\n");
@@ -55,47 +78,45 @@ fn without_progress_there_are_only_tables() {
 #[test]
 fn finish_writes_once_even_without_progress() {
     let captured = Captured::default();
-    let mut console = Console::writing_to(Box::new(captured.clone()), 0, 7, true);
-    console.progress_at(7, &History::default(), Duration::ZERO);
+    let mut console = console(&captured, 0, 7, options(true, false));
     console.finish(&History::default());
     console.finish(&History::default());
     let text = captured.text();
-    assert!(text.starts_with("steps=7 of 0, ") && text.ends_with(" at 0 steps/s\n"), "{text}");
+    assert!(text.starts_with("steps 7 of 0, ") && text.ends_with(" at 0 steps/s\n"), "{text}");
     assert_eq!(text.lines().count(), 1);
 }
 
 #[test]
-fn sparklines_appear_at_intervals_and_at_the_end() {
+fn curves_appear_at_the_end_with_first_last_and_best() {
     let captured = Captured::default();
-    let mut console = Console::writing_to(Box::new(captured.clone()), 10_000, 0, true);
-    (console.is_unicode, console.line_at) = (false, seconds(1_000));
+    let mut console = console(&captured, 10_000, 0, options(true, false));
+    console.is_unicode = false;
     let mut history = History::default();
-    for second in 1..=39 {
-        history.add(Some(10.0 * second as f64), Some(0.5), None);
-        console.progress_at(second, &history, seconds(second));
+    for value in [10.0, 80.0, 40.0] {
+        history.add(Some(value), Some(0.5), None);
     }
-    let text = captured.text();
-    let times: Vec<_> = text.lines().map(|line| line.split(':').next().unwrap()).collect();
-    assert_eq!(times, ["after 10s", "after 20s"], "{text}");
-    assert!(text.starts_with("after 10s: return 10 _"), "{text}");
-    assert!(text.contains("# 100, distance 0.5 __________ 0.5 m, farthest 0.5 m\n"), "{text}");
     console.finish(&history);
-    assert!(captured.text().trim_end().ends_with("farthest 0.5 m"), "{}", captured.text());
+    let text = captured.text();
+    assert!(text.ends_with(": return 10 > 40 (best 80) _#-, distance 0.5 > 0.5 m ___\n"), "{text}");
 }
 
 #[test]
 fn a_wait_is_reported_less_and_less_often() {
     let captured = Captured::default();
-    let mut console = Console::writing_to(Box::new(captured.clone()), 10_000, 0, true);
+    let options = ConsoleOptions { actor_command: Some("treadmill actor".to_string()), ..options(true, false) };
+    let mut console = console(&captured, 10_000, 0, options);
     (0..=20).for_each(|second| console.show_wait(seconds(second), 0));
-    console.progress_at(100, &History::default(), seconds(21));
+    console.progress_at(100, &[], &History::default(), seconds(21));
     (0..=40).for_each(|second| console.show_wait(seconds(second), 2));
-    let no_actor = |time: &str| format!("waiting for experience for {time}: no actor is connected\n");
+    console.progress_at(200, &[], &History::default(), seconds(65));
+    (0..=2).for_each(|second| console.show_wait(seconds(second), 0));
+    let no_actor =
+        |time: &str| format!("waiting for experience for {time}: no actor is connected; start one: treadmill actor\n");
     let simulating = "waiting for experience for 30s: 2 actors are simulating\n";
     let waited: String = ["2s", "4s", "8s", "16s"].into_iter().map(no_actor).collect();
     let text: String =
         captured.text().lines().filter(|line| line.starts_with("waiting")).map(|line| format!("{line}\n")).collect();
-    assert_eq!(text, waited + simulating);
+    assert_eq!(text, waited + simulating + &no_actor("2s"));
 }
 
 #[test]
@@ -114,8 +135,8 @@ fn a_closed_pipe_is_ignored() {
             Err(io::ErrorKind::BrokenPipe.into())
         }
     }
-    let mut console = Console::writing_to(Box::new(Closed), 10, 0, true);
-    console.progress_at(5, &History::default(), seconds(60));
+    let mut console = Console::writing_to(Box::new(Closed), 10, 0, options(true, true));
+    console.progress_at(5, &[], &History::default(), seconds(60));
     console.table(&[]);
     console.finish(&History::default());
 }

@@ -60,7 +60,7 @@ impl MetricsReport {
             curve: CurveThread::new(folder.metrics(), folder.learning_curve()),
             run: state.run.clone(),
             bus: bus.clone(),
-            console: Console::new(config.run.steps, env_steps, options.show_progress),
+            console: Console::new(config.run.steps, env_steps, options.console.clone()),
             lines,
             events,
             prometheus: options.prometheus.clone(),
@@ -102,7 +102,7 @@ impl MetricsReport {
         for metric in &metrics {
             self.publish(metric);
         }
-        self.console.progress(env_steps, history);
+        self.console.progress(env_steps, scalars, history);
         self.curve.poll();
         if updates.is_multiple_of(self.table_every_updates) {
             self.console.table(scalars);

@@ -16,6 +16,32 @@ const PLAIN_BELOW: f64 = 1e15;
 /// Numbers below this are written with an exponent.
 const PLAIN_FROM: f64 = 1e-4;
 
+/// Metrics of the tables on a terminal, which have at most 25 lines.
+const IMPORTANT: &[&str] = &[
+    "rollout/ep_rew_mean",
+    "rollout/ep_len_mean",
+    "rollout/distance_mean_m",
+    "rollout/distance_best_m",
+    "rollout/fall_fraction",
+    "rollout/used_share",
+    "eval/mean_reward",
+    "eval/distance_mean_m",
+    "actors/alive",
+    "actors/idle_share",
+    "time/fps",
+    "time/total_timesteps",
+    "train/approx_kl",
+    "train/clip_fraction",
+    "train/explained_variance",
+    "train/learning_rate",
+    "train/std",
+];
+
+/// Returns the most important metrics, in their own order.
+pub fn important(scalars: &Scalars) -> Vec<(String, f64)> {
+    scalars.iter().filter(|(tag, _)| IMPORTANT.contains(&tag.as_str())).cloned().collect()
+}
+
 /// Returns a boxed table with two columns and one block per group, the part of a tag before its first `/`. Groups, and
 /// the names in each, keep their order. Every line ends in a newline.
 pub fn render_table(scalars: &Scalars) -> String {
@@ -127,6 +153,14 @@ mod tests {
         for (value, text) in cases {
             assert_eq!(format_number(value), text, "{value:e}");
         }
+    }
+
+    #[test]
+    fn a_table_of_important_metrics_fits_a_small_terminal() {
+        let all: Vec<(String, f64)> =
+            IMPORTANT.iter().chain(&["bus/accepted_mb"]).map(|tag| (tag.to_string(), 1.5)).collect();
+        let table = render_table(&important(&all));
+        assert!(table.lines().count() <= 25 && !table.contains("accepted_mb"), "{table}");
     }
 
     #[test]

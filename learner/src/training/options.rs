@@ -6,7 +6,10 @@ use treadmill_ppo::BatchMirror;
 use treadmill_runtime::run_folder::RunFolder;
 
 use super::heartbeat::Heartbeat;
-use crate::{checkpoint::TrainingState, metrics::PrometheusMetrics};
+use crate::{
+    checkpoint::TrainingState,
+    metrics::{ConsoleOptions, PrometheusMetrics},
+};
 
 /// Inputs of training besides the initial state.
 pub struct TrainingOptions {
@@ -18,8 +21,8 @@ pub struct TrainingOptions {
     pub device: candle_core::Device,
     /// Mirror for `ppo.symmetry`.
     pub mirror: Option<BatchMirror>,
-    /// Whether progress is shown: a bar on a terminal, lines elsewhere.
-    pub show_progress: bool,
+    /// What the console shows.
+    pub console: ConsoleOptions,
     /// Actor processes that the supervisor has restarted.
     pub restarts: Arc<AtomicU64>,
     /// Newest values for Prometheus.
