@@ -115,6 +115,25 @@ fn flags_that_agree_with_the_saved_run_are_accepted_and_others_refused_with_both
 }
 
 #[test]
+fn status_finds_the_live_runs_of_this_folder_and_knows_the_others() {
+    let (folder, _) = folders();
+    let status = |args: &[&str]| self::run(folder.path(), &[&["status"], args].concat());
+    trained(folder.path(), &folder.path().join("runs/done"));
+    let text = stdout(&status(&["done"]));
+    assert!(text.starts_with("run `done` is finished: no process trains it\n  steps      2,048\n"), "{text}");
+    let live = ["one", "two"].map(|name| {
+        let run = folder.path().join("runs").join(name);
+        let running = Running::start(endless(folder.path(), &run, "train"));
+        await_steps(&run, 512);
+        running
+    });
+    let text = stdout(&status(&[]));
+    assert!(text.contains("run `one` trains on") && text.contains("run `two` trains on"), "{text}");
+    assert!(!text.contains("`done`"), "{text}");
+    drop(live);
+}
+
+#[test]
 fn a_failed_start_leaves_no_folder() {
     let (folder, run) = folders();
     let taken = TcpListener::bind("127.0.0.1:0").unwrap();

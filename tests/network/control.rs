@@ -64,7 +64,10 @@ fn a_run_can_be_paused_saved_changed_and_stopped() {
     assert!(ended.success());
     let state = load_file(&run.join("checkpoints/latest.bundle")).unwrap();
     assert_eq!(state.config().unwrap().ppo.learning_rate, 1e-4);
-    assert_refused(&crate::support::run(folder, &["status", "run"]), 1, &["no answer from", "endpoint.txt"]);
+    let text = stdout(&crate::support::run(folder, &["status", "run"]));
+    assert!(text.contains("run `run` is stopped: no process trains it") && text.contains("--resume run"), "{text}");
+    assert_eq!(status(folder)["phase"], "stopped");
+    assert_refused(&control(folder, &["pause", "run"]), 1, &["no answer from", "endpoint.txt"]);
 }
 
 #[test]

@@ -1,6 +1,6 @@
 //! `treadmill runs`: compares trained runs and their configurations.
 
-mod record;
+pub(crate) mod record;
 
 use std::{
     collections::{BTreeMap, BTreeSet},

@@ -13,22 +13,22 @@ use treadmill_runtime::{run_folder::RunFolder, run_lock::holder};
 
 /// Results of one run.
 #[derive(Debug, Default)]
-pub(super) struct Record {
-    pub(super) name: String,
-    pub(super) folder: PathBuf,
-    pub(super) env_steps: u64,
-    pub(super) wall_s: f64,
+pub(crate) struct Record {
+    pub(crate) name: String,
+    pub(crate) folder: PathBuf,
+    pub(crate) env_steps: u64,
+    pub(crate) wall_s: f64,
     /// Greatest mean distance of an evaluation, and the environment steps at which it was reached.
-    pub(super) best_eval_distance_m: Option<f64>,
-    pub(super) best_eval_at: Option<u64>,
+    pub(crate) best_eval_distance_m: Option<f64>,
+    pub(crate) best_eval_at: Option<u64>,
     /// Means over the last training episodes.
-    pub(super) training_distance_m: Option<f64>,
-    pub(super) training_return: Option<f64>,
-    pub(super) fall_fraction: Option<f64>,
+    pub(crate) training_distance_m: Option<f64>,
+    pub(crate) training_return: Option<f64>,
+    pub(crate) fall_fraction: Option<f64>,
     /// Whether a process trains it now.
-    pub(super) is_running: bool,
+    pub(crate) is_running: bool,
     /// Values as TOML, by `section.key`.
-    pub(super) config: BTreeMap<String, String>,
+    pub(crate) config: BTreeMap<String, String>,
 }
 
 /// Stands for a key that a run's configuration does not have.
@@ -36,7 +36,7 @@ const ABSENT: &str = "–";
 
 impl Record {
     /// Reads configuration and metrics.
-    pub(super) fn read(folder: &Path) -> anyhow::Result<Self> {
+    pub(crate) fn read(folder: &Path) -> anyhow::Result<Self> {
         let name =
             folder.file_name().map_or_else(|| folder.display().to_string(), |name| name.to_string_lossy().into_owned());
         let path = folder.join("config.toml");
@@ -80,14 +80,14 @@ impl Record {
     }
 
     /// Returns the task's name.
-    pub(super) fn task(&self) -> String {
+    pub(crate) fn task(&self) -> String {
         let text =
             |key: &str| self.config.get(key).map(|value| value.trim_matches('"')).filter(|text| !text.is_empty());
         text("task.name").or(text("env.task")).unwrap_or(ABSENT).to_string()
     }
 
     /// Returns whether the run is running, has all its steps, or was stopped before.
-    pub(super) fn state(&self) -> &'static str {
+    pub(crate) fn state(&self) -> &'static str {
         let wanted = self.config.get("run.steps").and_then(|steps| steps.parse::<u64>().ok());
         match (self.is_running, wanted) {
             (true, _) => "running",
@@ -97,16 +97,16 @@ impl Record {
     }
 
     /// Returns the best known distance.
-    pub(super) fn distance_m(&self) -> f64 {
+    pub(crate) fn distance_m(&self) -> f64 {
         self.best_eval_distance_m.or(self.training_distance_m).unwrap_or(f64::NEG_INFINITY)
     }
 
     /// Returns the mean speed over the whole run.
-    pub(super) fn env_steps_per_s(&self) -> Option<f64> {
+    pub(crate) fn env_steps_per_s(&self) -> Option<f64> {
         (self.wall_s > 0.0).then(|| self.env_steps as f64 / self.wall_s)
     }
 
-    pub(super) fn config_value(&self, key: &str) -> &str {
+    pub(crate) fn config_value(&self, key: &str) -> &str {
         self.config.get(key).map_or(ABSENT, String::as_str)
     }
 }

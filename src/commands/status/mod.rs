@@ -2,6 +2,7 @@
 //!
 //! # Layout
 //! - [`plain`], [`json`]: the answers as text and as JSON.
+//! - [`local`]: runs of this machine: those that are trained now, and the results of one that is not.
 //! - [`dashboard`]: draws the answers on a terminal, again and again; [`keys`] has its keys.
 //! - [`follow`]: polls the learners and receives metrics for the dashboard.
 //! - [`past`]: reads metrics that a run on this machine logged before.
@@ -15,6 +16,7 @@ mod follow;
 mod history;
 mod json;
 mod keys;
+mod local;
 mod past;
 mod plain;
 #[cfg(test)]
@@ -53,7 +55,20 @@ pub fn run(args: StatusArgs) -> anyhow::Result<()> {
     if watch && !json && terminal_screen::is_there() {
         return dashboard::run(&reach);
     }
-    learner_address::connect(&reach, Role::Observer, async |bus, run| {
+    if let Some(idle) = local::idle(&reach).filter(|_| !watch) {
+        say(&idle?.describe(json));
+        return Ok(());
+    }
+    let live = if watch { Vec::new() } else { local::live(&reach) };
+    if live.is_empty() {
+        return show(&reach, watch, json);
+    }
+    live.into_iter().try_for_each(|folder| show(&ReachArgs { folder: Some(folder), ..reach.clone() }, false, json))
+}
+
+/// Asks the learners that `reach` names, and prints their statuses.
+fn show(reach: &ReachArgs, watch: bool, json: bool) -> anyhow::Result<()> {
+    learner_address::connect(reach, Role::Observer, async |bus, run| {
         loop {
             let replies = ask(&bus, run.as_deref()).await?;
             let text = if json { json::as_json(&replies) } else { plain::as_text(&replies) };

@@ -3,6 +3,7 @@
 use std::fmt::Write as _;
 
 use treadmill_proto::{ActorStatus, Phase, RunStatus};
+use treadmill_runtime::numbers::thousands;
 
 /// Longest name from another machine.
 const NAME_CHARS_MAX: usize = 24;
@@ -32,11 +33,11 @@ fn describe(out: &mut String, run: &RunStatus) -> std::fmt::Result {
     )?;
     writeln!(
         out,
-        "  steps      {} of {} ({:.0} %), {:.0} per second",
-        run.env_steps,
-        run.env_steps_wanted,
+        "  steps      {} of {} ({:.0} %), {} per second",
+        thousands(run.env_steps),
+        thousands(run.env_steps_wanted),
         100.0 * run.env_steps as f64 / run.env_steps_wanted.max(1) as f64,
-        run.env_steps_per_s
+        thousands(run.env_steps_per_s.max(0.0) as u64)
     )?;
     writeln!(
         out,
