@@ -69,7 +69,8 @@ def summary(agent, played):
 
 def in_treadmill(binary, policy, agent, episodes, seed):
     """Returns the summary of `treadmill eval`."""
-    command = [str(binary), "eval", str(policy), "--agent", agent, "--json"]
+    which = [str(policy)] if agent == "policy" else ["--agent", agent]
+    command = [str(binary), "eval", *which, "--json"]
     run = subprocess.run([*command, "--episodes", str(episodes), "--seed", str(seed)], capture_output=True, text=True)
     if run.returncode != 0:
         sys.exit(f"{' '.join(command)} failed: {run.stderr.strip()}")
