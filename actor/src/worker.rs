@@ -47,10 +47,10 @@ pub async fn run(bus: Bus, options: WorkerOptions, shutdown: Shutdown) -> Result
         let Some(bundle) = join_run(&bus, options.run.as_deref(), &options.endpoint, &shutdown).await? else {
             return Ok(last);
         };
-        tracing::info!(actor = %options.name, run = %bundle.run, version = bundle.version.number, "joined the run");
         if !wait_for_name(&bus, &options, &bundle.run, &shutdown).await? {
             return Ok(last);
         }
+        tracing::info!(actor = %options.name, run = %bundle.run, version = bundle.version.number, "joined the run");
         let membership = Membership::new(&bus, &options, &bundle)?;
         let WorkerOptions { name, envs, .. } = &options;
         (options.notify)(&format!("joined run `{}` as `{name}` with {envs} environments", bundle.run));

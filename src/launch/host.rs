@@ -94,7 +94,8 @@ async fn run_until_done(mut prepared: Prepared, lock: &mut RunLock, options: Hos
     let console = ConsoleOptions {
         show_progress: !any.no_progress,
         log_metrics: any.log_metrics,
-        actor_command: (actors.is_none())
+        actor_command: actors
+            .is_none()
             .then(|| banner::actor_command(&prepared, &endpoints[0], bus_options.credentials.as_ref())),
     };
     let (state, training_options) = training_options(prepared, console, restarts.clone(), prometheus, heartbeat)?;

@@ -37,13 +37,6 @@ pub struct TrainingOptions {
     pub action_names: Vec<String>,
 }
 
-impl TrainingSummary {
-    /// Summary of a start that has nothing left to do.
-    pub fn finished(state: TrainingState) -> Self {
-        Self { state, wall_s: 0.0, env_steps: 0, stopped: false, farthest_m: None }
-    }
-}
-
 /// Result of a training run.
 #[derive(Clone, Debug)]
 pub struct TrainingSummary {
@@ -57,4 +50,11 @@ pub struct TrainingSummary {
     pub stopped: bool,
     /// Greatest mean distance of an evaluation or in training, in metres.
     pub farthest_m: Option<f64>,
+}
+
+impl TrainingSummary {
+    /// Summary of a start that has nothing left to do.
+    pub fn finished(state: TrainingState) -> Self {
+        Self { state, wall_s: 0.0, env_steps: 0, stopped: false, farthest_m: None }
+    }
 }
