@@ -87,17 +87,8 @@ fi
 say "engine $(docker version --format '{{.Server.Version}}'), $("${composer[@]}" version --short)"
 
 # --- image: the Dockerfile's last stage with the binary ------------------------------------------------------------------
-base=$(sed -n 's/^FROM \(debian:[^ ]*\)$/\1/p' "$here/Dockerfile")
-docker image inspect "$base" >/dev/null 2>&1 || docker pull -q "$base" 2>/dev/null || "$here/base-images.sh" runtime
-mkdir -p "$work/image/deploy"
-cp "$binary" "$work/image/treadmill"
-cp "$here"/*.sh "$work/image/deploy"
-sed -n '/^FROM debian:/,$p' "$here/Dockerfile" |
-    sed 's|COPY --from=build /src/target/release/treadmill|COPY treadmill|' >"$work/image/Dockerfile"
-DOCKER_BUILDKIT=0 docker build -q -t treadmill:test "$work/image" >"$work/build.log" 2>&1 ||
+"$here/image.sh" "$binary" treadmill:test >"$work/build.log" 2>&1 ||
     { cat "$work/build.log" >&2; fail 'building the image failed'; }
-docker run --rm --network none treadmill:test --version >/dev/null ||
-    fail "$binary does not run on $base; build it there"
 say "image of $(docker image inspect -f '{{.Size}}' treadmill:test) bytes"
 
 # --- start -----------------------------------------------------------------------------------------------------------------

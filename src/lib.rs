@@ -2,11 +2,13 @@
 //!
 //! # Layout
 //! - `commands`: a file or folder for each subcommand.
+//! - `diagnosis`: why no learner answers, for `check` and for every other command.
 //! - [`launch`]: starting and hosting a run; exit codes, signals, log and output of every command.
 //! - [`shared`]: saved policies, and flags common to several commands and the viewer.
 //! - `load_generator`: processes of `bench bus` and `bench fleet`, which simulate a learner or many actors.
 
 mod commands;
+mod diagnosis;
 pub mod launch;
 mod load_generator;
 pub mod shared;
@@ -20,7 +22,7 @@ use crate::{
         actor, bench, certs, check, config, control, eval, evaluator, export, learner, manual, router, runs, status,
         train, watch,
     },
-    launch::{exit_code, familiar_flags, log, output},
+    launch::{exit_code, familiar_flags, log, output, processor},
     shared::viewer_args,
 };
 
@@ -80,6 +82,22 @@ enum Command {
 ///
 /// Call it first in `main`: it sets an environment variable, which is sound only while no other thread runs.
 pub fn main() -> ExitCode {
+    let mut lacks = processor::lacks().peekable();
+    if lacks.peek().is_some() {
+        output::say_error("error: this build of treadmill does not run on this processor, which lacks:");
+        lacks.for_each(output::say_error);
+        output::say_error(
+            "Released builds need AVX2 and FMA (x86-64-v3: Intel since 2013, AMD since 2015). Build from source instead: \
+             `cargo install --locked --path .`. In a virtual machine, expose the host's processor (QEMU: -cpu host).",
+        );
+        return ExitCode::FAILURE;
+    }
+    run()
+}
+
+/// Runs the command. Never part of [`main`], where the compiler would use instructions before they are known to exist.
+#[inline(never)]
+fn run() -> ExitCode {
     // By default, Candle runs larger element-wise operations on threads of its own. They spin while waiting and take cores
     // from physics and update.
     // SAFETY: no other thread runs yet, so none accesses the environment.

@@ -11,7 +11,7 @@ use crate::{
     ActorError,
     agent::PolicyAgent,
     evaluation::{Evaluation, evaluate},
-    policy_fetcher::join_run,
+    policy_fetcher::{Explain, join_run},
     settings,
 };
 
@@ -20,19 +20,19 @@ const ANSWER_TIMEOUT: Duration = Duration::from_secs(10);
 const PAUSE: Duration = Duration::from_millis(500);
 
 /// Options of an evaluator process.
-#[derive(Clone, Debug)]
+#[derive(Clone)]
 pub struct EvaluatorOptions {
     /// Name of the run; without it, the only run of the endpoint.
     pub run: Option<String>,
     /// Name of the evaluator.
     pub name: String,
-    /// Endpoint of the learner, for messages.
-    pub endpoint: String,
+    /// Explains why the run does not answer.
+    pub explain: Explain,
 }
 
 /// Evaluates policies until a request to stop.
 pub async fn run(bus: Bus, options: EvaluatorOptions, shutdown: Shutdown) -> Result<(), ActorError> {
-    let Some(bundle) = join_run(&bus, options.run.as_deref(), &options.endpoint, &shutdown).await? else {
+    let Some(bundle) = join_run(&bus, options.run.as_deref(), &options.explain, &shutdown).await? else {
         return Ok(());
     };
     settings::read_simulated(&bundle)?;

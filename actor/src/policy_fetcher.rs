@@ -1,6 +1,7 @@
 //! Joins a run and fetches its newest policy.
 
 use std::{
+    pin::Pin,
     sync::{Arc, RwLock},
     time::Duration,
 };
@@ -17,11 +18,14 @@ const RETRY: Duration = Duration::from_millis(200);
 /// Retries between two warnings that no learner answers.
 const RETRIES_PER_WARNING: u32 = 50;
 
+/// Finds out why the run does not answer on a bus that is open.
+pub type Explain = Arc<dyn Fn(Bus) -> Pin<Box<dyn Future<Output = String> + Send>> + Send + Sync>;
+
 /// Waits for a learner's policy; returns `None` after a request to stop.
 pub async fn join_run(
     bus: &Bus,
     run: Option<&str>,
-    endpoint: &str,
+    explain: &Explain,
     shutdown: &Shutdown,
 ) -> Result<Option<PolicyBundle>, BusError> {
     let mut retries = 0u32;
@@ -35,7 +39,8 @@ pub async fn join_run(
         }
         // The first retries are silent: the learner may just be starting.
         if retries % RETRIES_PER_WARNING == 5 {
-            tracing::warn!(run = run.map(tracing::field::display), %endpoint, "no learner answers; retrying");
+            let cause = explain(bus.clone()).await;
+            tracing::warn!(run = run.map(tracing::field::display), %cause, "no learner answers; retrying");
         }
         retries += 1;
         tokio::select! {

@@ -44,7 +44,7 @@ enum EndReason {
 pub async fn run(bus: Bus, options: WorkerOptions, shutdown: Shutdown) -> Result<Option<ActorSummary>, ActorError> {
     let mut last = None;
     loop {
-        let Some(bundle) = join_run(&bus, options.run.as_deref(), &options.endpoint, &shutdown).await? else {
+        let Some(bundle) = join_run(&bus, options.run.as_deref(), &options.explain, &shutdown).await? else {
             return Ok(last);
         };
         if !wait_for_name(&bus, &options, &bundle.run, &shutdown).await? {

@@ -51,7 +51,7 @@ pub fn run(args: ActorArgs) -> anyhow::Result<()> {
         envs: args.envs,
         threads: args.threads,
         start: args.start_number.unwrap_or_else(seeds::unique),
-        endpoint: args.network.where_to(&args.client.connect),
+        explain: args.client.explain(&args.network, Role::Actor)?,
         // The parent of a supervised actor reports to the user.
         notify: if args.client.until_stdin_closes { |_| {} } else { say },
     };

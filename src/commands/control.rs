@@ -2,14 +2,13 @@
 
 use std::time::Duration;
 
-use anyhow::Context;
 use clap::{Args, Subcommand};
-use treadmill_bus::{Bus, Role, command, statuses};
+use treadmill_bus::{Role, command, statuses};
 use treadmill_proto::{Command, ControlReply, ControlRequest};
 
 use crate::{
     launch::{exit_code::Usage, output::say},
-    shared::learner_address::{self, ReachArgs},
+    shared::learner_address::{self, LearnerLink, ReachArgs},
 };
 
 /// Timeout of a command, which waits for the end of the current update.
@@ -60,21 +59,17 @@ impl ControlCommand {
 /// Sends the command and prints the learner's reply.
 pub fn run(args: ControlArgs) -> anyhow::Result<()> {
     let (request, reach) = args.command.split();
-    learner_address::connect(&reach, Role::Operator, async |bus, run| {
-        let run = match run {
-            Some(run) => run,
-            None => only_run(&bus).await?,
+    learner_address::connect(&reach, Role::Operator, async |link| {
+        let run = match &link.run {
+            Some(run) => run.clone(),
+            None => only_run(link).await?,
         };
         let reply = learner_address::retry_until_answered(async || {
-            Ok(command(&bus, &run, &request, DONE_TIMEOUT).await?.into_iter().collect())
+            Ok(command(&link.bus, &run, &request, DONE_TIMEOUT).await?.into_iter().collect())
         })
         .await?
         .pop();
-        let ControlReply { done, text, .. } = reply.with_context(|| {
-            format!(
-                "no learner of run `{run}` takes commands there; is it running, and do you have the operator's certificate?"
-            )
-        })?;
+        let Some(ControlReply { done, text, .. }) = reply else { return Err(link.silence().await) };
         if !done {
             return Err(Usage(text).into());
         }
@@ -84,14 +79,13 @@ pub fn run(args: ControlArgs) -> anyhow::Result<()> {
 }
 
 /// Returns the only run that answers, because a command is for one run.
-async fn only_run(bus: &Bus) -> anyhow::Result<String> {
-    let replies =
-        learner_address::retry_until_answered(async || statuses(bus, None, learner_address::ANSWER_TIMEOUT).await)
-            .await?;
+async fn only_run(link: &LearnerLink) -> anyhow::Result<String> {
+    let ask = async || statuses(&link.bus, None, learner_address::ANSWER_TIMEOUT).await;
+    let replies = learner_address::retry_until_answered(ask).await?;
     let mut runs: Vec<String> = replies.into_iter().filter_map(|reply| Some(reply.status?.run)).collect();
     runs.sort();
     match &runs[..] {
-        [] => anyhow::bail!("no run answers there; is its learner running?"),
+        [] => Err(link.silence().await),
         [run] => Ok(run.clone()),
         _ => Err(Usage(format!("several runs answer there; choose one with --run: {}", runs.join(", "))).into()),
     }

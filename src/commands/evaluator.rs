@@ -23,7 +23,7 @@ pub fn run(args: EvaluatorArgs) -> anyhow::Result<()> {
     let options = EvaluatorOptions {
         name: args.client.name()?,
         run: args.client.run()?,
-        endpoint: args.network.where_to(&args.client.connect),
+        explain: args.client.explain(&args.network, Role::Evaluator)?,
     };
     with_session(args.client, &args.network, Role::Evaluator, |bus, shutdown| evaluator::run(bus, options, shutdown))
 }

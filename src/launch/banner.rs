@@ -6,11 +6,11 @@ use std::net::SocketAddr;
 use treadmill_bus::Credentials;
 use treadmill_config::Config;
 use treadmill_learner::{checkpoint::TrainingState, training::TrainingSummary};
-use treadmill_runtime::{numbers::thousands, run_folder::RunFolder};
+use treadmill_runtime::{numbers::thousands, run_folder::RunFolder, words::quoted};
 
 use crate::launch::{
     output::{say, say_error},
-    startup::{Prepared, quoted},
+    startup::Prepared,
 };
 
 /// Prints the banner of a run. `actors` is the number of actor processes that this process starts, `page` the metrics page.

@@ -1,15 +1,19 @@
 //! Flags and bus session of an actor or an evaluator.
 
-use std::{io::Read, time::Duration};
+use std::{io::Read, sync::Arc, time::Duration};
 
 use clap::{Args, builder::ArgPredicate};
-use treadmill_actor::ActorError;
+use tokio::task::spawn_blocking;
+use treadmill_actor::{ActorError, policy_fetcher::Explain};
 use treadmill_bus::{Bus, Role};
 use treadmill_proto::ident::check_ident;
 use treadmill_runtime::{machine, seeds, shutdown::Shutdown};
 
 use super::{async_runtime, exit_code::Usage, signals};
-use crate::shared::network_args::{NetworkArgs, check_run};
+use crate::{
+    diagnosis::Silence,
+    shared::network_args::{NetworkArgs, check_run},
+};
 
 /// Time without an answer before the first warning: the learner may still be starting.
 const FIRST_WARNING: Duration = Duration::from_secs(1);
@@ -50,6 +54,16 @@ impl ClientArgs {
         check_run(self.run.as_deref())?;
         Ok(self.run.clone())
     }
+
+    /// Returns what explains to a process of this role why its run does not answer.
+    pub fn explain(&self, network: &NetworkArgs, role: Role) -> anyhow::Result<Explain> {
+        let options = network.options(role, Vec::new(), self.connect.clone())?;
+        let run = self.run.clone();
+        Ok(Arc::new(move |bus| {
+            let (options, run) = (options.clone(), run.clone());
+            Box::pin(async move { Silence::of_run(&bus, &options, run.as_deref()).await.in_one_line() })
+        }))
+    }
 }
 
 /// Joins the bus as a client and runs `work` with the session. Returns early if the process is asked to stop while dialling.
@@ -59,6 +73,7 @@ pub fn with_session<W: Future<Output = Result<(), ActorError>>>(
     role: Role,
     work: impl FnOnce(Bus, Shutdown) -> W,
 ) -> anyhow::Result<()> {
+    let run = client.run.clone();
     let where_to = network.where_to(&client.connect);
     let bus_options = network.options(role, Vec::new(), client.connect)?;
     async_runtime::run(async {
@@ -67,7 +82,8 @@ pub fn with_session<W: Future<Output = Result<(), ActorError>>>(
         if client.until_stdin_closes {
             stop_when_stdin_closes(shutdown.clone())?;
         }
-        let opened = tokio::task::spawn_blocking(move || Bus::open_client(&bus_options));
+        let dialled = bus_options.clone();
+        let opened = spawn_blocking(move || Bus::open_client(&dialled));
         tokio::pin!(opened);
         // Dialling lasts until a peer answers, which may be never.
         let mut warning = tokio::time::interval_at(tokio::time::Instant::now() + FIRST_WARNING, WARN_EVERY);
@@ -75,7 +91,18 @@ pub fn with_session<W: Future<Output = Result<(), ActorError>>>(
             tokio::select! {
                 bus = &mut opened => break bus??,
                 () = shutdown.wait() => return Ok(()),
-                _ = warning.tick() => tracing::warn!(endpoints = %where_to, "no answer; retrying"),
+                _ = warning.tick() => {
+                    let (options, run) = (bus_options.clone(), run.clone());
+                    let silence = spawn_blocking(move || Silence::of_endpoints(&options, run.as_deref()));
+                    tokio::select! {
+                        bus = &mut opened => break bus??,
+                        () = shutdown.wait() => return Ok(()),
+                        silence = silence => {
+                            let cause = silence?.in_one_line();
+                            tracing::warn!(endpoints = %where_to, %cause, "no answer; retrying");
+                        }
+                    }
+                }
             }
         };
         let outcome = work(bus.clone(), shutdown).await;

@@ -6,8 +6,8 @@
 //!   (text printed before and after a run).
 //! - During a run: `host` (a learner with actors beside it), `supervisor` (restarts actor processes), `bus_client` (flags and
 //!   session of an actor or evaluator), `metrics_page` (metrics over HTTP).
-//! - The process: `async_runtime`, `familiar_flags` (hints for flags of other programs), [`exit_code`], [`signals`], [`log`], [`output`], [`slow_step`], [`terminal_screen`], `memory`
-//!   (allocator settings).
+//! - The process: `async_runtime`, `familiar_flags` (hints for flags of other programs), `processor` (refuses one that is too
+//!   old), `memory` (allocator settings), [`exit_code`], [`signals`], [`log`], [`output`], [`slow_step`], [`terminal_screen`].
 
 pub(crate) mod async_runtime;
 pub(crate) mod banner;
@@ -21,6 +21,7 @@ pub(crate) mod memory;
 pub(crate) mod metrics_page;
 pub(crate) mod model;
 pub mod output;
+pub(crate) mod processor;
 pub(crate) mod resumption;
 pub mod signals;
 pub mod slow_step;

@@ -16,7 +16,7 @@ use treadmill_runtime::{
     numbers::parse_count,
     run_folder::{RunFolder, RunFolderError},
     run_lock::RunLock,
-    seeds,
+    seeds, words,
 };
 
 use crate::launch::{exit_code::Usage, model, resumption};
@@ -347,7 +347,7 @@ fn write_run_files(prepared: &Prepared) -> std::io::Result<()> {
 
 /// Returns this process's command line, quoted for a shell.
 pub fn command_line() -> String {
-    std::env::args().map(|part| quoted(&part)).collect::<Vec<_>>().join(" ")
+    std::env::args().map(|part| words::quoted(&part)).collect::<Vec<_>>().join(" ")
 }
 
 /// Returns facts about this program and this machine.
@@ -373,28 +373,7 @@ pub fn versions(config: &Config) -> Vec<(String, String)> {
     versions
 }
 
-/// Quotes an argument for a shell.
-pub fn quoted(part: &str) -> String {
-    let plain = |c: char| c.is_ascii_alphanumeric() || "-_./=:,+".contains(c);
-    if !part.is_empty() && part.chars().all(plain) {
-        return part.to_string();
-    }
-    format!("'{}'", part.replace('\'', r"'\''"))
-}
-
 /// Returns the configuration keys of the flags that were given.
 pub fn changes(flags: &[(&'static str, Option<u32>)]) -> Vec<(&'static str, toml::Value)> {
     flags.iter().filter_map(|(key, value)| value.map(|value| (*key, i64::from(value).into()))).collect()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn arguments_are_quoted_for_a_shell() {
-        assert_eq!(quoted("--set"), "--set");
-        assert_eq!(quoted("policy.hidden=[8, 8]"), "'policy.hidden=[8, 8]'");
-        assert_eq!(quoted("it's"), r"'it'\''s'");
-    }
 }

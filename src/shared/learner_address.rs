@@ -6,17 +6,19 @@ use anyhow::Context;
 use clap::Args;
 use treadmill_bus::{Bus, BusError, BusOptions, Role};
 use treadmill_proto::ControlReply;
-use treadmill_runtime::run_folder::RunFolder;
+use treadmill_runtime::{run_folder::RunFolder, run_lock::holder, words::quoted};
 
 use crate::{
+    diagnosis::Silence,
     launch::{async_runtime, slow_step::SlowStepNotice},
     shared::network_args::{NetworkArgs, check_run},
 };
 
 /// Endpoint of a learner by default.
 const DEFAULT_ENDPOINT: &str = "tcp/127.0.0.1:7447";
-/// Longest dial.
-const DIAL_TIMEOUT: Duration = Duration::from_secs(5);
+/// Time without an answer after which the way to the endpoints is examined, and further time for an answer if it is free.
+const DIAGNOSE_AFTER: Duration = Duration::from_secs(1);
+const DIAL_TIMEOUT: Duration = Duration::from_secs(4);
 /// Longest wait for an answer of a learner.
 pub const ANSWER_TIMEOUT: Duration = Duration::from_secs(5);
 /// Time after joining during which a router may not know the learner yet.
@@ -45,6 +47,14 @@ impl ReachArgs {
     #[must_use]
     pub fn metrics_file(&self) -> Option<PathBuf> {
         RunFolder::open(self.folder.as_ref()?).ok().map(|folder| folder.metrics())
+    }
+
+    /// Returns the folder of the run that was given, if no process trains it now.
+    #[must_use]
+    pub fn idle_folder(&self) -> Option<RunFolder> {
+        let folder = RunFolder::open(self.folder.as_ref()?).ok()?;
+        // Runs of earlier versions have no lock, so they may be running.
+        (folder.lock().exists() && holder(&folder).is_none()).then_some(folder)
     }
 
     /// Returns the endpoints given, or the one that the run's folder holds now: a restarted learner may listen elsewhere.
@@ -97,29 +107,42 @@ impl ReachArgs {
     }
 }
 
-/// Joins the bus as an observer or operator and runs `work` with the session and the run's name, if given.
+/// Session with the bus where a learner should be.
+pub struct LearnerLink {
+    /// The session.
+    pub bus: Bus,
+    /// Name of the wanted run, if given.
+    pub run: Option<String>,
+    options: BusOptions,
+}
+
+impl LearnerLink {
+    /// Returns the error that the run does not answer, with the reason.
+    pub async fn silence(&self) -> anyhow::Error {
+        Silence::of_run(&self.bus, &self.options, self.run.as_deref()).await.into()
+    }
+}
+
+/// Joins the bus as an observer or operator, and runs `work` with the session.
 ///
 /// # Errors
 /// If the bus cannot be joined, or the work fails.
 pub fn connect(
     reach: &ReachArgs,
     role: Role,
-    work: impl AsyncFnOnce(Bus, Option<String>) -> anyhow::Result<()>,
+    work: impl AsyncFnOnce(&LearnerLink) -> anyhow::Result<()>,
 ) -> anyhow::Result<()> {
-    connect_with(reach.options(role)?, async |bus| work(bus, reach.run.clone()).await)
-}
-
-/// Joins the bus and runs `work` with the session.
-///
-/// # Errors
-/// If the bus cannot be joined, or the work fails.
-pub fn connect_with(options: BusOptions, work: impl AsyncFnOnce(Bus) -> anyhow::Result<()>) -> anyhow::Result<()> {
+    if let Some(folder) = reach.idle_folder() {
+        let root = quoted(&folder.root().display().to_string());
+        anyhow::bail!("no process trains `{root}` now; go on with: treadmill train --resume {root}");
+    }
+    let options = reach.options(role)?;
     async_runtime::run(async {
         let step = SlowStepNotice::begin(format!("dialling {}", options.connect.join(", ")));
-        let bus = dial(options).await?;
+        let link = LearnerLink { bus: dial(&options, reach.run.as_deref()).await?, run: reach.run.clone(), options };
         drop(step);
-        let outcome = work(bus.clone()).await;
-        bus.close();
+        let outcome = work(&link).await;
+        link.bus.close();
         outcome
     })
 }
@@ -127,17 +150,29 @@ pub fn connect_with(options: BusOptions, work: impl AsyncFnOnce(Bus) -> anyhow::
 /// Opens a session on the bus.
 ///
 /// # Errors
-/// If no peer answers within five seconds.
-pub async fn dial(options: BusOptions) -> anyhow::Result<Bus> {
-    let where_to = options.connect.join(", ");
-    let opened = tokio::task::spawn_blocking(move || Bus::open_client(&options));
-    let Ok(bus) = tokio::time::timeout(DIAL_TIMEOUT, opened).await else {
-        anyhow::bail!(
-            "no answer from {where_to}; is the learner running? --connect names another endpoint; the run folder has it in \
-             endpoint.txt"
-        );
-    };
-    Ok(bus??)
+/// If no peer answers in time; the error says why.
+pub async fn dial(options: &BusOptions, run: Option<&str>) -> anyhow::Result<Bus> {
+    let opened = tokio::task::spawn_blocking({
+        let options = options.clone();
+        move || Bus::open_client(&options)
+    });
+    tokio::pin!(opened);
+    if let Ok(bus) = tokio::time::timeout(DIAGNOSE_AFTER, &mut opened).await {
+        return Ok(bus??);
+    }
+    let asked = (options.clone(), run.map(str::to_string));
+    let hindrance = tokio::task::spawn_blocking({
+        let (options, run) = asked.clone();
+        move || Silence::of_route(&options, run.as_deref())
+    });
+    if let Some(silence) = hindrance.await? {
+        return Err(silence.into());
+    }
+    if let Ok(bus) = tokio::time::timeout(DIAL_TIMEOUT, opened).await {
+        return Ok(bus??);
+    }
+    let (options, run) = asked;
+    Err(tokio::task::spawn_blocking(move || Silence::of_endpoints(&options, run.as_deref())).await?.into())
 }
 
 /// Repeats a request for a moment until it is answered: a router may not know the learner yet.

@@ -176,7 +176,7 @@ fn a_learner_is_found_by_its_folder_and_a_wrong_run_name_is_reported() {
     let endpoint = endpoint(&run_folder);
     assert_ok(&check(folder.path(), &["--connect", &endpoint, "--run", "walk"]), "versions");
     let output = check(folder.path(), &["--connect", &endpoint, "--run", "stroll"]);
-    assert_problem(&output, "learner", &["stroll", "these do: walk", "--run"]);
+    assert_problem(&output, "learner", &["no learner trains a run `stroll`", "with --run: walk"]);
 }
 
 #[test]

@@ -97,9 +97,9 @@ fn another_run_answers_and_an_actor_sends_malformed_fragments() {
     let endpoint = endpoint(&run);
     let replaced = [(&endpoint[..], QUOTED_ENDPOINT)];
     let heading = "The name of the run is wrong";
-    let lost = start(folder.path(), &["actor", "--connect", &endpoint, "--run", "wlk", "--envs", "4"]);
+    let lost = start(folder.path(), &["actor", "--connect", &endpoint, "--run", "rum", "--envs", "4"]);
     assert_line(heading, &lost, "no learner answers", &replaced);
-    assert_error(heading, folder.path(), &["status", "--connect", &endpoint, "--run", "wlk"], &replaced);
+    assert_error(heading, folder.path(), &["status", "--connect", &endpoint, "--run", "rum"], &replaced);
     assert_error(
         "The port is in use",
         folder.path(),
@@ -223,5 +223,6 @@ fn clients_without_the_right_certificate_are_refused() {
         fs::copy(folder.join("certs").join(from), folder.join("theirs").join(to)).unwrap();
     }
     let args = ["control", "pause", "run", "--run", "run", "--tls", "theirs"];
-    assert_error("The learner takes no command", folder, &args, &[]);
+    let place = folder.join("theirs").canonicalize().unwrap();
+    assert_error("The learner takes no command", folder, &args, &[(place.to_str().unwrap(), "FOLDER")]);
 }

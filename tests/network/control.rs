@@ -67,7 +67,11 @@ fn a_run_can_be_paused_saved_changed_and_stopped() {
     let text = stdout(&crate::support::run(folder, &["status", "run"]));
     assert!(text.contains("run `run` is stopped: no process trains it") && text.contains("--resume run"), "{text}");
     assert_eq!(status(folder)["phase"], "stopped");
-    assert_refused(&control(folder, &["pause", "run"]), 1, &["no answer from", "endpoint.txt"]);
+    assert_refused(
+        &control(folder, &["pause", "run"]),
+        1,
+        &["no process trains `run` now", "treadmill train --resume run"],
+    );
 }
 
 #[test]
@@ -88,7 +92,11 @@ fn an_observer_can_query_status_and_only_the_operator_can_send_commands() {
     let asked = crate::support::run(folder, &["status", "run", "--tls", "theirs", "--json"]);
     assert_eq!(last_json(&asked)["run"], "run");
     let args = ["pause", "run", "--run", "run", "--tls", "theirs"];
-    assert_refused(&control(folder, &args), 1, &["no learner of run `run` takes commands"]);
+    assert_refused(
+        &control(folder, &args),
+        1,
+        &["operator.crt belongs to `treadmill-observer`", "treadmill check --connect tls/"],
+    );
     assert_eq!(status_over(folder, "certs")["phase"], "training");
     assert!(done(folder, &["pause", "run", "--tls", "certs"]).starts_with("paused"));
     assert_eq!(status_over(folder, "certs")["phase"], "paused");

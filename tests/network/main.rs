@@ -20,6 +20,7 @@ mod policies;
 mod poses;
 mod prometheus;
 mod security;
+mod silence;
 #[path = "../support/mod.rs"]
 mod support;
 mod versions;

@@ -9,7 +9,7 @@ use treadmill_humanoid::Model;
 use treadmill_proto::{PolicyBundle, Pose, ident::check_ident};
 use treadmill_rl::{
     launch::{exit_code::Usage, output::say, signals},
-    shared::learner_address::{self, ReachArgs},
+    shared::learner_address::{self, LearnerLink, ReachArgs},
 };
 use treadmill_runtime::{error_chain, shutdown::Shutdown};
 
@@ -40,13 +40,13 @@ pub fn run(
     if let Some(actor) = options.actor {
         check_ident("--actor", actor).map_err(|why| Usage(why.to_string()))?;
     }
-    learner_address::connect(options.reach, Role::Observer, async |bus, run| {
+    learner_address::connect(options.reach, Role::Observer, async |link| {
         let shutdown = Shutdown::default();
         signals::listen(shutdown.clone(), "").context("signals cannot be caught")?;
-        let bundle = fetch_bundle(&bus, run.as_deref()).await?;
+        let bundle = fetch_bundle(link).await?;
         check_task(&bundle)?;
         let (output, mut recorder) = open(&format!("{}, live", bundle.run), Model::from_mjcf(&bundle.model_xml)?)?;
-        let mut poses = ActorPoses::open(&bus, &bundle.run, options.actor)?;
+        let mut poses = ActorPoses::open(&link.bus, &bundle.run, options.actor)?;
         say(&format!("waiting for an episode of {} to begin", options.actor.unwrap_or("an actor")));
         while !shutdown.asked() && options.for_s.is_none_or(|limit_s| recorder.shown_s() < limit_s) {
             let Some(pose) = tokio::task::block_in_place(|| poses.next())? else { continue };
@@ -64,15 +64,14 @@ pub fn run(
     })
 }
 
-async fn fetch_bundle(bus: &Bus, run: Option<&str>) -> anyhow::Result<PolicyBundle> {
+async fn fetch_bundle(link: &LearnerLink) -> anyhow::Result<PolicyBundle> {
     let start = Instant::now();
     loop {
-        if let Some(bundle) = fetch_policy(bus, run, learner_address::ANSWER_TIMEOUT).await? {
+        if let Some(bundle) = fetch_policy(&link.bus, link.run.as_deref(), learner_address::ANSWER_TIMEOUT).await? {
             return Ok(bundle);
         }
         if start.elapsed() >= learner_address::ANSWER_TIMEOUT {
-            let whose = run.map_or("no run".to_string(), |run| format!("no run `{run}`"));
-            anyhow::bail!("{whose} answers there; is its learner running, and does your certificate let you ask?");
+            return Err(link.silence().await);
         }
         tokio::time::sleep(POLL_INTERVAL).await;
     }

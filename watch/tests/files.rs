@@ -103,7 +103,7 @@ fn invalid_arguments_are_refused_by_name() {
     refused(&[policy, "--speed", "0"], 2, &["--speed"]);
     refused(&[policy, "--actor", "a"], 2, &["--live"]);
     refused(&["--live", "--connect", "tcp/127.0.0.1:9", "--actor", "a/b"], 2, &["--actor", "a/b"]);
-    refused(&["--live", "--connect", "tcp/127.0.0.1:9"], 1, &["no answer from tcp/127.0.0.1:9"]);
+    refused(&["--live", "--connect", "tcp/127.0.0.1:9"], 1, &["no process listens at tcp/127.0.0.1:9"]);
     let taken = std::net::TcpListener::bind("127.0.0.1:0").expect("a port");
     let port = taken.local_addr().expect("an address").port().to_string();
     refused(&[policy, "--web-port", &port], 2, &["--web-port", &port]);

@@ -2,10 +2,10 @@
 
 use treadmill_runtime::numbers::thousands;
 
-use crate::delivery::DeliveryCounts;
+use crate::{delivery::DeliveryCounts, policy_fetcher::Explain};
 
 /// Options of an actor process.
-#[derive(Clone, Debug)]
+#[derive(Clone)]
 pub struct WorkerOptions {
     /// Name of the run to join; without it, the only run of the endpoint.
     pub run: Option<String>,
@@ -17,8 +17,8 @@ pub struct WorkerOptions {
     pub threads: Option<u32>,
     /// Number of this start, from which its random streams are derived.
     pub start: u64,
-    /// Endpoint of the learner, for messages.
-    pub endpoint: String,
+    /// Explains why the run does not answer.
+    pub explain: Explain,
     /// Notifies the user when the actor joins, loses the learner, finds it again, or leaves.
     pub notify: fn(&str),
 }

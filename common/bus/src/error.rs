@@ -57,6 +57,41 @@ pub enum BusError {
 impl BusError {
     pub(crate) fn flow(what: impl Into<String>) -> impl FnOnce(zenoh::Error) -> Self {
         let what = what.into();
-        move |error| Self::Flow { what, why: error.to_string() }
+        move |error| Self::Flow { what, why: in_words(&error) }
+    }
+}
+
+/// Returns Zenoh's error without the places in its source, `at FILE:LINE.`, which follow each cause.
+pub(crate) fn in_words(error: &zenoh::Error) -> String {
+    let text = error.to_string();
+    let mut words = String::with_capacity(text.len());
+    let mut rest = &text[..];
+    while let Some(at) = rest.find(" at ") {
+        let (before, place) = (&rest[..at], &rest[at + 4..]);
+        words.push_str(before);
+        let end = place.find(".rs:").map(|file| file + 4).filter(|&line| !place[..line].contains(' '));
+        rest = match end {
+            Some(line) => place[line..].trim_start_matches(|c: char| c.is_ascii_digit()).trim_start_matches('.'),
+            None => {
+                words.push_str(" at ");
+                place
+            }
+        };
+    }
+    words + rest
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn errors_do_not_name_source_files() {
+        let error = zenoh::Config::from_file("/no such folder/at all.json5").unwrap_err();
+        assert!(error.to_string().contains(".rs:"), "{error}");
+        let words = in_words(&error);
+        assert!(!words.contains(".rs:") && words.contains("/no such folder/at all.json5"), "{words}");
+        let text = "first cause at /a/b.rs:12. - Caused by second at noon at /c-1.0/d.rs:3.";
+        assert_eq!(in_words(&text.into()), "first cause - Caused by second at noon");
     }
 }

@@ -7,6 +7,7 @@
 //! - [`shutdown`]: stops every part of a process.
 //! - [`error_chain`]: an error message with its causes.
 //! - [`numbers`]: large numbers as people write and read them.
+//! - [`words`]: quoted arguments and nearest names for messages.
 //! - [`machine`]: facts about this machine, for benchmarks and status reports.
 
 pub mod atomic_file;
@@ -17,5 +18,6 @@ pub mod run_folder;
 pub mod run_lock;
 pub mod seeds;
 pub mod shutdown;
+pub mod words;
 
 pub use error_chain::error_chain;

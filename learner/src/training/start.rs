@@ -60,7 +60,7 @@ impl Trainer {
         let history = History::read(&options.folder.metrics())?;
         let (intake, alive) = open_intake(bus, &state, &config, options, expected, fleet)?;
         let status = commands::first_status(&state, config.run.steps);
-        let control = ControlChannel::open(bus, status, alive.clone())?;
+        let control = ControlChannel::open(bus, status, alive.clone(), options.console.actor_command.clone())?;
         let stats = StatsFeed::open(bus, &state.run, alive)?;
         let (every_steps, env_steps) = (config.eval.every_steps, state.counters.env_steps);
         let scheduler = config.evaluates().then(|| EvaluationScheduler::open(bus, &state.run, every_steps, env_steps));

@@ -6,8 +6,8 @@ use treadmill_bus::{Bus, BusOptions, Credentials, Role, statuses};
 use treadmill_proto::{ControlReply, RunStatus};
 use treadmill_runtime::{error_chain, machine};
 
-use super::{finding::Finding, route};
 use crate::{
+    diagnosis::{self, finding::Finding, route},
     launch::slow_step::SlowStepNotice,
     shared::{
         learner_address::{ANSWER_TIMEOUT, ReachArgs, retry_until_answered},
@@ -67,53 +67,31 @@ impl LearnerRoute {
             let options = self.options.clone();
             let opened = tokio::task::spawn_blocking(move || Bus::open_client(&options));
             let Ok(Ok(opened)) = tokio::time::timeout(OPEN_TIMEOUT, opened).await else {
-                let seen = "a process listens there, but does not speak as a learner or a router does";
-                let remedy = "find the process that uses the port: ss -ltnp there; a learner logs where it listens";
-                return Err(Finding::problem(NAME, seen, remedy));
+                return Err(Finding { name: NAME, ..route::not_a_learner(&self.options.connect) });
             };
             let bus = opened.map_err(|why| Finding::problem(NAME, error_chain(&why), "check the network flags"))?;
             let replies = retry_until_answered(async || statuses(&bus, None, ANSWER_TIMEOUT).await).await;
             let now_unix_s = machine::time_unix_s();
-            bus.close();
-            match replies {
-                Ok(replies) => Ok(self.assess(replies, now_unix_s)),
+            let findings = match replies {
+                Ok(replies) => match &self.assess(replies, now_unix_s)[..] {
+                    [] => Ok(vec![diagnosis::missing_run(&bus, &self.options, self.run.as_deref()).await]),
+                    findings => Ok(findings.to_vec()),
+                },
                 Err(why) => Err(Finding::problem(NAME, format!("{why:#}"), "ask again; then read the learner's log")),
-            }
+            };
+            bus.close();
+            findings
         });
         // Unfinished dialling must not keep the process alive.
         runtime.shutdown_background();
         findings
     }
 
+    /// Judges the answers of the wanted runs; returns nothing if none of them answered.
     fn assess(&self, replies: Vec<ControlReply>, now_unix_s: f64) -> Vec<Finding> {
-        let runs: Vec<RunStatus> = replies.into_iter().filter_map(|reply| reply.status).collect();
-        let wanted: Vec<&RunStatus> =
-            runs.iter().filter(|status| self.run.as_ref().is_none_or(|run| *run == status.run)).collect();
-        if wanted.is_empty() {
-            return vec![self.missing(&runs)];
-        }
-        wanted.into_iter().flat_map(|status| [answers(status), versions(status), skew(status, now_unix_s)]).collect()
-    }
-
-    fn missing(&self, runs: &[RunStatus]) -> Finding {
-        let role = self.options.credentials.as_ref().map(|credentials| credentials.role);
-        match (&self.run, role) {
-            (Some(run), _) if !runs.is_empty() => {
-                let names: Vec<&str> = runs.iter().map(|status| &status.run[..]).collect();
-                let seen = format!("no run `{run}` answers there; these do: {}", names.join(", "));
-                Finding::problem(NAME, seen, "name one of these with --run")
-            }
-            (_, Some(role)) if !matches!(role, Role::Observer | Role::Operator) => Finding::note(
-                NAME,
-                format!("the {}'s certificate may not ask for the status of a run", role.name()),
-                "use an observer's certificate to check versions and clocks",
-            ),
-            _ => Finding::problem(
-                NAME,
-                "no learner answers there",
-                "start a learner; if this is a router, check its link to the learner; check that --run is the same",
-            ),
-        }
+        let statuses = replies.into_iter().filter_map(|reply| reply.status);
+        let wanted = statuses.filter(|status| self.run.as_ref().is_none_or(|run| *run == status.run));
+        wanted.flat_map(|status| [answers(&status), versions(&status), skew(&status, now_unix_s)]).collect()
     }
 }
 
@@ -173,7 +151,7 @@ fn skew(status: &RunStatus, now_unix_s: f64) -> Finding {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::commands::check::finding::Severity;
+    use crate::diagnosis::finding::Severity;
 
     #[test]
     fn difference_of_clocks_is_reported() {

@@ -6,7 +6,10 @@ use time::OffsetDateTime;
 use treadmill_bus::{BusError, endpoint};
 use treadmill_runtime::{error_chain, machine};
 
-use super::finding::Finding;
+use crate::{
+    diagnosis::{certificates::date_text, finding::Finding},
+    shared::network_args::NetworkArgs,
+};
 
 /// Free disk space below which one run, or several, may not reach their end: a run takes some tens of megabytes.
 const FREE_MIN_BYTES: u64 = 200_000_000;
@@ -115,15 +118,11 @@ pub fn clock(now_unix_s: f64) -> Finding {
     Finding::problem("clock", seen, remedy)
 }
 
-/// Formats a date as `2026-05-01 13:05`.
-pub fn date_text(at: OffsetDateTime) -> String {
-    let month = u8::from(at.month());
-    format!("{:04}-{month:02}-{:02} {:02}:{:02}", at.year(), at.day(), at.hour(), at.minute())
-}
-
 /// Tests that a learner could listen at an endpoint.
-pub fn listen(given: &str, insecure: bool) -> Finding {
-    let Err(why) = endpoint::check(given, insecure).and_then(|()| endpoint::check_free(given)) else {
+pub fn listen(given: &str, network: &NetworkArgs) -> Finding {
+    let has_certificates = network.tls.is_some() || network.zenoh_config.is_some();
+    let checked = endpoint::check(given, network.insecure, has_certificates);
+    let Err(why) = checked.and_then(|()| endpoint::check_free(given)) else {
         return Finding::ok("listen", format!("{given} is free"));
     };
     let remedy = match why {
@@ -136,7 +135,7 @@ pub fn listen(given: &str, insecure: bool) -> Finding {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::commands::check::finding::Severity;
+    use crate::diagnosis::finding::Severity;
 
     #[test]
     fn widest_kernels_are_named() {

@@ -1,16 +1,11 @@
 //! `treadmill check`: diagnoses of this machine and the route to a learner, each with a remedy.
 //!
 //! # Layout
-//! - [`finding`]: result of one diagnosis, with its severity.
 //! - [`machine`]: vector instructions, disk, open files, clock and ports of this machine.
-//! - Route to a learner: [`certificates`], [`route`], [`handshake`], [`learner`].
+//! - [`learner`]: answer of a learner. The way to it and the certificates are diagnosed by `src/diagnosis/`.
 
-mod certificates;
-mod finding;
-mod handshake;
 mod learner;
 mod machine;
-mod route;
 
 use std::{path::PathBuf, process::ExitCode};
 
@@ -19,10 +14,13 @@ use serde_json::json;
 use treadmill_runtime::machine::{cores, time_unix_s};
 
 use crate::{
+    diagnosis::{
+        certificates,
+        finding::{Finding, Severity},
+    },
     launch::{exit_code, output::say},
     shared::learner_address::ReachArgs,
 };
-use finding::{Finding, Severity};
 
 /// Flags of `check`.
 #[derive(Args)]
@@ -75,7 +73,7 @@ fn diagnose(args: &CheckArgs) -> anyhow::Result<Vec<Finding>> {
         machine::open_files(args.actors.unwrap_or(cores() as u64)),
         machine::clock(time_unix_s()),
     ];
-    findings.extend(args.listen.iter().map(|endpoint| machine::listen(endpoint, args.reach.network.insecure)));
+    findings.extend(args.listen.iter().map(|endpoint| machine::listen(endpoint, &args.reach.network)));
     if let Some(folder) = &args.reach.network.tls {
         findings.extend(certificates::diagnose(folder));
     }

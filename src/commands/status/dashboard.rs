@@ -28,9 +28,9 @@ const TICK: Duration = Duration::from_millis(250);
 /// Shows the dashboard until a key or a signal ends it.
 pub fn run(reach: &ReachArgs) -> anyhow::Result<()> {
     let options = reach.options(Role::Observer)?;
-    learner_address::connect_with(options.clone(), async |bus| {
+    learner_address::connect(reach, Role::Observer, async |link| {
         let (sender, news) = sync_channel(NEWS_QUEUED_MAX);
-        let follower = Follower::new(reach.clone(), options, bus, sender)?;
+        let follower = Follower::new(reach.clone(), options.clone(), link.bus.clone(), sender)?;
         let shutdown = Shutdown::default();
         exit_on_signals(shutdown.clone())?;
         let following = tokio::spawn(follower.run());

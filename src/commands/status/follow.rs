@@ -97,7 +97,7 @@ impl Follower {
             return Ok(());
         }
         let options = BusOptions { connect, ..self.options.clone() };
-        let moved = match learner_address::dial(options.clone()).await {
+        let moved = match learner_address::dial(&options, self.reach.run.as_deref()).await {
             Ok(bus) => MetricsFeed::open(&bus, self.reach.run.as_deref(), &fleet::tags())
                 .map(|feed| (bus, feed))
                 .map_err(anyhow::Error::from),
@@ -110,7 +110,8 @@ impl Follower {
                 // Closing may take seconds if the peer is gone.
                 tokio::task::spawn_blocking(move || old.close());
             }
-            Err(why) => self.send(News::Silence(format!("{why:#}")))?,
+            // The dashboard has one line for it.
+            Err(why) => self.send(News::Silence(error_chain(why.as_ref()).replace("\n ", ";")))?,
         }
         // One attempt is enough: the bus itself redials a peer that answers late.
         self.options = options;

@@ -15,11 +15,7 @@ pub struct IdleRun {
 
 /// Returns the run whose folder `reach` names, if no process trains it.
 pub fn idle(reach: &ReachArgs) -> Option<anyhow::Result<IdleRun>> {
-    let folder = RunFolder::open(reach.folder.as_ref()?).ok()?;
-    // Runs of earlier versions have no lock, so they may be running.
-    if !folder.lock().exists() || holder(&folder).is_some() {
-        return None;
-    }
+    let folder = reach.idle_folder()?;
     let root = folder.root().display().to_string();
     Some(Record::read(folder.root()).map(|record| IdleRun { record, root }))
 }

@@ -8,6 +8,7 @@
 //! - [`past`]: reads metrics that a run on this machine logged before.
 //! - [`fleet`], [`history`]: the dashboard's state, of bounded size.
 //! - [`draw`]: draws that state.
+//! - [`waiting`]: waits until a run begins.
 
 mod dashboard;
 mod draw;
@@ -21,16 +22,20 @@ mod past;
 mod plain;
 #[cfg(test)]
 mod samples;
+mod waiting;
 
 use std::time::Duration;
 
 use clap::Args;
-use treadmill_bus::{Bus, Role, statuses};
+use treadmill_bus::{Role, statuses};
 use treadmill_proto::RunStatus;
 
 use crate::{
-    launch::{output::say, terminal_screen},
-    shared::learner_address::{self, ReachArgs},
+    launch::{
+        output::{say, say_to_reader},
+        terminal_screen,
+    },
+    shared::learner_address::{self, LearnerLink, ReachArgs},
 };
 
 /// Interval at which `--watch` asks for statuses.
@@ -41,7 +46,8 @@ const WATCH_EVERY: Duration = Duration::from_secs(2);
 pub struct StatusArgs {
     #[command(flatten)]
     reach: ReachArgs,
-    /// Repeat every two seconds: as a dashboard on a terminal (`q` quits, `?` shows the keys), as plain text elsewhere.
+    /// Wait for the run and follow it: as a dashboard on a terminal (`q` quits, `?` shows the keys), elsewhere by a line for each
+    /// run every two seconds.
     #[arg(long)]
     watch: bool,
     /// Print one JSON object per line.
@@ -52,44 +58,62 @@ pub struct StatusArgs {
 /// Prints the statuses, once or repeatedly.
 pub fn run(args: StatusArgs) -> anyhow::Result<()> {
     let StatusArgs { reach, watch, json } = args;
-    if watch && !json && terminal_screen::is_there() {
-        return dashboard::run(&reach);
+    if watch {
+        let reach = waiting::until_there(&reach)?;
+        return if json || !terminal_screen::is_there() { follow_lines(reach, json) } else { dashboard::run(&reach) };
     }
-    if let Some(idle) = local::idle(&reach).filter(|_| !watch) {
+    if let Some(idle) = local::idle(&reach) {
         say(&idle?.describe(json));
         return Ok(());
     }
-    let live = if watch { Vec::new() } else { local::live(&reach) };
+    let live = local::live(&reach);
     if live.is_empty() {
-        return show(&reach, watch, json);
+        return show(&reach, json);
     }
-    live.into_iter().try_for_each(|folder| show(&ReachArgs { folder: Some(folder), ..reach.clone() }, false, json))
+    live.into_iter().try_for_each(|folder| show(&ReachArgs { folder: Some(folder), ..reach.clone() }, json))
 }
 
 /// Asks the learners that `reach` names, and prints their statuses.
-fn show(reach: &ReachArgs, watch: bool, json: bool) -> anyhow::Result<()> {
-    learner_address::connect(reach, Role::Observer, async |bus, run| {
-        loop {
-            let replies = ask(&bus, run.as_deref()).await?;
-            let text = if json { json::as_json(&replies) } else { plain::as_text(&replies) };
-            say(text.trim_end());
-            if !watch {
-                return Ok(());
-            }
-            tokio::time::sleep(WATCH_EVERY).await;
-        }
+fn show(reach: &ReachArgs, json: bool) -> anyhow::Result<()> {
+    learner_address::connect(reach, Role::Observer, async |link| {
+        let runs = ask(link).await?;
+        let text = if json { json::as_json(&runs) } else { plain::as_text(&runs) };
+        say(text.trim_end());
+        Ok(())
     })
 }
 
+/// Prints the statuses every two seconds, until the reader goes away or the run of a folder is idle. Waits where no learner
+/// answers.
+fn follow_lines(mut reach: ReachArgs, json: bool) -> anyhow::Result<()> {
+    loop {
+        let mut is_read = true;
+        learner_address::connect(&reach, Role::Observer, async |link| {
+            while is_read && let Ok(runs) = ask(link).await {
+                let text = if json { json::as_json(&runs) } else { plain::as_lines(&runs) };
+                is_read = say_to_reader(text.trim_end());
+                tokio::time::sleep(WATCH_EVERY).await;
+            }
+            Ok(())
+        })?;
+        if !is_read {
+            return Ok(());
+        }
+        if let Some(idle) = local::idle(&reach) {
+            say(&idle?.describe(json));
+            return Ok(());
+        }
+        reach = waiting::until_there(&reach)?;
+    }
+}
+
 /// Returns the statuses of all runs that answer; fails if none does.
-async fn ask(bus: &Bus, run: Option<&str>) -> anyhow::Result<Vec<RunStatus>> {
-    let replies =
-        learner_address::retry_until_answered(async || statuses(bus, run, learner_address::ANSWER_TIMEOUT).await)
-            .await?;
+async fn ask(link: &LearnerLink) -> anyhow::Result<Vec<RunStatus>> {
+    let ask = async || statuses(&link.bus, link.run.as_deref(), learner_address::ANSWER_TIMEOUT).await;
+    let replies = learner_address::retry_until_answered(ask).await?;
     let mut runs: Vec<RunStatus> = replies.into_iter().filter_map(|reply| reply.status).collect();
     if runs.is_empty() {
-        let whose = run.map_or("no run".to_string(), |run| format!("no run `{run}`"));
-        anyhow::bail!("{whose} answers there; is its learner running, and does your certificate let you ask?");
+        return Err(link.silence().await);
     }
     runs.sort_by(|a, b| a.run.cmp(&b.run));
     Ok(runs)

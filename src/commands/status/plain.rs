@@ -20,6 +20,33 @@ pub fn as_text(runs: &[RunStatus]) -> String {
     out
 }
 
+/// Returns a line for each run.
+pub fn as_lines(runs: &[RunStatus]) -> String {
+    runs.iter().map(line_of).collect::<Vec<_>>().join("\n")
+}
+
+fn line_of(run: &RunStatus) -> String {
+    let alive = run.actors.iter().filter(|actor| actor.alive).count();
+    let mut line = format!(
+        "run `{}` {}: {} of {} steps ({:.1} %), {} steps/s, actors: {alive}",
+        run.run,
+        phase(run),
+        thousands(run.env_steps),
+        thousands(run.env_steps_wanted),
+        100.0 * run.env_steps as f64 / run.env_steps_wanted.max(1) as f64,
+        thousands(run.env_steps_per_s.max(0.0) as u64),
+    );
+    let mut add = |name: &str, value: Option<f64>, decimals: usize, unit: &str| {
+        line += &value.map(|value| format!(", {name} {value:.decimals$}{unit}")).unwrap_or_default();
+    };
+    add("return", run.return_mean, 0, "");
+    add("length", run.length_mean, 0, "");
+    add("distance", run.distance_mean_m, 1, " m");
+    add("used", run.used_share.map(|share| 100.0 * share), 0, " %");
+    let alarms = run.alarms.iter().map(|alarm| format!("\n  ALARM {}", printable(alarm, ALARM_CHARS_MAX)));
+    line + &alarms.collect::<String>()
+}
+
 fn describe(out: &mut String, run: &RunStatus) -> std::fmt::Result {
     let version = run.version.unwrap_or_default();
     writeln!(

@@ -22,6 +22,9 @@ use crate::{Bus, BusError, keys, workarounds::kept_routes::KeptRoutes};
 /// Most actors that are tracked; further tokens are ignored.
 const ACTORS_MAX: usize = 4096;
 
+/// Most runs that [`live_runs`] returns.
+const RUNS_MAX: usize = 64;
+
 /// Declares an actor's liveliness token, which lasts until it is dropped.
 pub fn token(bus: &Bus, run: &str, actor: &str) -> Result<impl Send + Sync + use<>, BusError> {
     bus.session
@@ -44,6 +47,24 @@ pub async fn is_actor_present(bus: &Bus, run: &str, actor: &str, timeout: Durati
         }
     }
     Ok(false)
+}
+
+/// Returns the names of the runs whose learners hold tokens now, in order.
+///
+/// # Errors
+/// If the bus fails. No answer within `timeout` counts as none.
+pub async fn live_runs(bus: &Bus, timeout: Duration) -> Result<Vec<String>, BusError> {
+    let query = bus.session.liveliness().get(keys::learner("*")).timeout(timeout).wait();
+    let replies = query.map_err(BusError::flow("looking for learners' tokens"))?;
+    let mut runs = BTreeSet::new();
+    while let Ok(reply) = replies.recv_async().await {
+        let run =
+            reply.result().ok().and_then(|sample| keys::learner_run(sample.key_expr().as_str()).map(String::from));
+        if runs.len() < RUNS_MAX {
+            runs.extend(run.filter(|run| check_ident("run", run).is_ok()));
+        }
+    }
+    Ok(runs.into_iter().collect())
 }
 
 /// Live actors, by liveliness token.

@@ -198,6 +198,12 @@ fn subscribe(keys: Keys) -> Vec<Grant> {
 
 fn grants(role: Role) -> Vec<Grant> {
     let read_policy = [query(POLICY), subscribe(ANNOUNCEMENT)].concat();
+    // Which runs there are, for the message that the wanted one is missing.
+    const LEARNERS: Keys = &["treadmill/*/learner"];
+    let learners = vec![
+        Grant { flows: IN, messages: &["liveliness_query"], keys: LEARNERS },
+        Grant { flows: OUT, messages: &["liveliness_token", "reply"], keys: LEARNERS },
+    ];
     let tokens = vec![
         Grant { flows: IN, messages: &["declare_liveliness_subscriber", "liveliness_query"], keys: TOKENS },
         Grant { flows: OUT, messages: &["liveliness_token", "reply"], keys: TOKENS },
@@ -218,9 +224,10 @@ fn grants(role: Role) -> Vec<Grant> {
                 Grant { flows: IN, messages: &["liveliness_query"], keys: ACTORS },
                 Grant { flows: OUT, messages: &["liveliness_token", "reply"], keys: ACTORS },
             ];
-            [read_policy, query(&["treadmill/*/rollouts/*", "treadmill/*/tasks/*"]), publish].concat()
+            let deliver = query(&["treadmill/*/rollouts/*", "treadmill/*/tasks/*"]);
+            [read_policy, deliver, publish, learners].concat()
         }
-        Role::Evaluator => [read_policy, query(&["treadmill/*/evaluations/*"])].concat(),
+        Role::Evaluator => [read_policy, query(&["treadmill/*/evaluations/*"]), learners].concat(),
         Role::Observer => watch,
         Role::Operator => [watch, query(&["treadmill/*/control"])].concat(),
     }

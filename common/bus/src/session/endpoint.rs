@@ -4,8 +4,8 @@ use std::net::{IpAddr, TcpListener};
 
 use crate::BusError;
 
-/// Refuses a malformed endpoint, and plain text beyond this machine unless `insecure` allows it.
-pub fn check(endpoint: &str, insecure: bool) -> Result<(), BusError> {
+/// Refuses a malformed endpoint, plain text beyond this machine unless `insecure` allows it, and TLS without certificates.
+pub fn check(endpoint: &str, insecure: bool, has_certificates: bool) -> Result<(), BusError> {
     let refuse = |why: &str| Err(BusError::Endpoint { endpoint: endpoint.to_string(), why: why.to_string() });
     let Some((protocol, rest)) = endpoint.split_once('/') else {
         return refuse("it has no protocol; write tcp/HOST:PORT");
@@ -18,7 +18,11 @@ pub fn check(endpoint: &str, insecure: bool) -> Result<(), BusError> {
         return refuse("host or port is not valid; write tcp/HOST:PORT with a port from 0 to 65535");
     }
     match protocol {
-        "tls" => Ok(()),
+        "tls" if has_certificates => Ok(()),
+        "tls" => refuse(
+            "links to it are encrypted, and --tls is missing; name the folder with this machine's certificates: --tls DIR \
+             (`treadmill certs DIR` makes them)",
+        ),
         "tcp" if insecure || is_loopback(host) => Ok(()),
         "tcp" => refuse(
             "plain tcp beyond loopback can be read and forged by any host on the network; use tls/HOST:PORT with \
@@ -50,13 +54,14 @@ mod tests {
     #[test]
     fn plain_text_beyond_this_machine_is_refused() {
         for fine in ["tcp/127.0.0.1:7447", "tcp/localhost:0", "tcp/[::1]:7447", "tls/learner:7447"] {
-            assert!(check(fine, false).is_ok(), "{fine}");
+            assert!(check(fine, false, true).is_ok(), "{fine}");
         }
-        let refused = check("tcp/0.0.0.0:7447", false).unwrap_err().to_string();
-        assert!(refused.contains("--insecure"), "{refused}");
-        assert!(check("tcp/0.0.0.0:7447", true).is_ok());
+        let refused = |endpoint| check(endpoint, false, false).unwrap_err().to_string();
+        assert!(refused("tcp/0.0.0.0:7447").contains("--insecure"));
+        assert!(refused("tls/learner:7447").contains("--tls DIR"));
+        assert!(check("tcp/0.0.0.0:7447", true, false).is_ok());
         for bad in ["learner:7447", "tcp/learner", "tcp/:1", "tcp/h:99999", "udp/127.0.0.1:1"] {
-            assert!(check(bad, true).is_err(), "{bad}");
+            assert!(check(bad, true, true).is_err(), "{bad}");
         }
     }
 

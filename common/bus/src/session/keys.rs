@@ -50,6 +50,11 @@ pub fn learner(run: &str) -> String {
     format!("treadmill/{run}/learner")
 }
 
+/// Returns the run in a key of [`learner`].
+pub fn learner_run(key: &str) -> Option<&str> {
+    key.strip_prefix("treadmill/")?.strip_suffix("/learner")
+}
+
 /// Returns `treadmill/{run}/actors/{actor}/stats`: statistics.
 pub fn stats(run: &str, actor: &str) -> String {
     format!("treadmill/{run}/actors/{actor}/stats")

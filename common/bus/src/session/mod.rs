@@ -15,6 +15,7 @@ use zenoh::{Config, Session, Wait};
 
 use crate::{
     BusError,
+    error::in_words,
     workarounds::{close, discovery, free_port::with_free_port, open_files::check_open_files},
 };
 use access_rules::Credentials;
@@ -62,7 +63,12 @@ pub struct BusOptions {
 impl BusOptions {
     /// Checks the endpoints and the limit on open files.
     pub fn check(&self) -> Result<(), BusError> {
-        self.listen.iter().chain(&self.connect).try_for_each(|given| endpoint::check(given, self.insecure))?;
+        // The user's own Zenoh configuration may bring certificates.
+        let has_certificates = self.credentials.is_some() || self.zenoh_config.is_some();
+        self.listen
+            .iter()
+            .chain(&self.connect)
+            .try_for_each(|given| endpoint::check(given, self.insecure, has_certificates))?;
         check_open_files()
     }
 }
@@ -129,7 +135,7 @@ impl Bus {
     }
 
     fn open(settings: Config) -> Result<Self, BusError> {
-        let session = zenoh::open(settings).wait().map_err(|error| BusError::Open { why: error.to_string() })?;
+        let session = zenoh::open(settings).wait().map_err(|error| BusError::Open { why: in_words(&error) })?;
         Ok(Self { session })
     }
 
@@ -163,7 +169,7 @@ fn base_settings(options: &BusOptions) -> Result<Config, BusError> {
     let mut settings = match options.zenoh_config.as_deref() {
         Some(path) => Config::from_file(path).map_err(|error| BusError::Config {
             what: format!("--zenoh-config {}", path.display()),
-            why: error.to_string(),
+            why: in_words(&error),
         })?,
         None => Config::default(),
     };
@@ -202,5 +208,5 @@ fn base_settings(options: &BusOptions) -> Result<Config, BusError> {
 fn insert(settings: &mut Config, key: &str, value: serde_json::Value) -> Result<(), BusError> {
     settings
         .insert_json5(key, &value.to_string())
-        .map_err(|error| BusError::Config { what: format!("bus setting {key}"), why: error.to_string() })
+        .map_err(|error| BusError::Config { what: format!("bus setting {key}"), why: in_words(&error) })
 }

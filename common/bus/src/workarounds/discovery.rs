@@ -54,7 +54,7 @@ fn check_discovered(locator: &str, options: &BusOptions) -> Result<(), BusError>
         let why = "it is not encrypted, and --tls was given".to_string();
         return Err(BusError::Endpoint { endpoint: locator.to_string(), why });
     }
-    endpoint::check(locator, options.insecure)
+    endpoint::check(locator, options.insecure, options.credentials.is_some())
 }
 
 #[cfg(test)]

@@ -33,6 +33,8 @@ struct StatusBoard {
     updated: Instant,
     quarantined: Vec<String>,
     roster: Roster,
+    /// Command that starts an actor, unless this process starts them itself.
+    actor_command: Option<String>,
 }
 
 /// The training thread's end of the control flow.
@@ -50,12 +52,17 @@ impl ControlChannel {
     ///
     /// # Errors
     /// If the bus refuses, or the thread cannot be started.
-    pub fn open(bus: &Bus, status: RunStatus, alive: AliveView) -> Result<Self, BusError> {
+    pub fn open(
+        bus: &Bus,
+        status: RunStatus,
+        alive: AliveView,
+        actor_command: Option<String>,
+    ) -> Result<Self, BusError> {
         let run = status.run.clone();
         let (server, feed) = (ControlServer::open(bus, &run)?, StatsFeed::open(bus, &run, alive.clone())?);
         let roster = Roster::new(alive);
-        let board =
-            Arc::new(Mutex::new(StatusBoard { run, status, updated: Instant::now(), quarantined: Vec::new(), roster }));
+        let (updated, quarantined) = (Instant::now(), Vec::new());
+        let board = Arc::new(Mutex::new(StatusBoard { run, status, updated, quarantined, roster, actor_command }));
         let (sender, commands) = sync_channel(COMMANDS_MAX);
         let closed = Arc::new(AtomicBool::new(false));
         std::thread::Builder::new()
@@ -145,12 +152,17 @@ impl StatusBoard {
     /// Returns a reply with the present status.
     fn reply(&self, done: bool, text: String) -> ControlReply {
         let newest = self.status.version.unwrap_or_default();
-        let status = RunStatus {
+        let mut status = RunStatus {
             time_unix_s: machine::time_unix_s(),
             since_update_s: self.updated.elapsed().as_secs_f64(),
             actors: self.roster.actors(newest, &self.quarantined, Instant::now()),
             ..self.status.clone()
         };
+        if !status.actors.iter().any(|actor| actor.alive) {
+            status.env_steps_per_s = 0.0;
+            let command = self.actor_command.as_ref().map(|command| format!("; start one: {command}"));
+            status.alarms.insert(0, format!("no actor is connected{}", command.unwrap_or_default()));
+        }
         ControlReply { done, text, status: Some(status) }
     }
 }

@@ -12,7 +12,7 @@ use time::OffsetDateTime;
 use treadmill_bus::{Credentials, Role};
 use x509_parser::prelude::{FromDer, GeneralName, X509Certificate};
 
-use super::{finding::Finding, machine::date_text};
+use super::finding::Finding;
 
 const NAME: &str = "certificates";
 
@@ -43,6 +43,11 @@ pub fn diagnose(folder: &Path) -> Vec<Finding> {
         )];
     }
     findings
+}
+
+/// Makes the finding for one role's certificate.
+pub fn diagnose_role_in(folder: &Path, role: Role) -> Finding {
+    authority(folder).and_then(|roots| diagnose_role(folder, role, &roots)).unwrap_or_else(|finding| finding)
 }
 
 /// Reads the folder's authority; the error is the finding about it.
@@ -162,4 +167,10 @@ fn hosts(certificate: &X509Certificate) -> Vec<String> {
         _ => None,
     };
     names.value.general_names.iter().filter_map(host).collect()
+}
+
+/// Formats a date as `2026-05-01 13:05`.
+pub fn date_text(at: OffsetDateTime) -> String {
+    let month = u8::from(at.month());
+    format!("{:04}-{month:02}-{:02} {:02}:{:02}", at.year(), at.day(), at.hour(), at.minute())
 }

@@ -41,6 +41,22 @@ pub fn diagnose(endpoint: &str, credentials: Option<&Credentials>) -> (Vec<Findi
     }
 }
 
+/// Returns the finding about endpoints where a process listens, but does not answer as a learner or a router does.
+pub fn not_a_learner(endpoints: &[String]) -> Finding {
+    for endpoint in endpoints {
+        let Some(address) = endpoint.strip_prefix("tcp/") else { continue };
+        let stream = address.to_socket_addrs().and_then(connect);
+        if stream.is_ok_and(handshake::speaks_tls) {
+            let seen = format!("the process at {endpoint} speaks TLS");
+            let remedy = format!("dial tls/{address}, with --tls DIR for the folder of this machine's certificates");
+            return Finding::problem(NAME, seen, remedy);
+        }
+    }
+    let endpoints = endpoints.join(", ");
+    let seen = format!("a process listens at {endpoints}, but does not speak as a learner or a router does");
+    Finding::problem(NAME, seen, "find the process that uses the port: ss -ltnp there; a learner logs where it listens")
+}
+
 fn connect(addresses: impl Iterator<Item = SocketAddr>) -> io::Result<TcpStream> {
     let mut last = io::Error::other("the name has no address");
     for address in addresses {
@@ -63,7 +79,7 @@ fn unreachable(endpoint: &str, why: &io::Error) -> Finding {
             format!("no answer from {endpoint}: {why}"),
             "check that the machine is up, and that no firewall or security group blocks this port",
         ),
-        _ => (format!("{endpoint} cannot be reached: {why}"), "check the name: getent hosts NAME"),
+        _ => (format!("the host of {endpoint} is unknown: {why}"), "check the name: getent hosts NAME"),
     };
     Finding::problem(NAME, seen, remedy)
 }

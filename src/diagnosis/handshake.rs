@@ -3,7 +3,7 @@
 use std::{io::Read, net::TcpStream, sync::Arc, time::Duration};
 
 use rustls::{
-    AlertDescription, ClientConfig, ClientConnection, Error, StreamOwned,
+    AlertDescription, ClientConfig, ClientConnection, Error, RootCertStore, StreamOwned,
     pki_types::{CertificateDer, PrivateKeyDer, ServerName, pem::PemObject},
 };
 use treadmill_bus::Credentials;
@@ -32,6 +32,24 @@ pub fn diagnose(stream: TcpStream, host: &str, credentials: &Credentials) -> Fin
         Ok(()) => Finding::ok(NAME, format!("{host} and this machine's {} trust each other", credentials.role.name())),
         Err(why) => rejected(host, &why),
     }
+}
+
+/// Returns whether the process at the other end of `stream` answers the beginning of a TLS handshake.
+pub fn speaks_tls(mut stream: TcpStream) -> bool {
+    let mut ask = || -> anyhow::Result<u8> {
+        let config = ClientConfig::builder_with_provider(Arc::new(rustls::crypto::ring::default_provider()))
+            .with_safe_default_protocol_versions()?
+            .with_root_certificates(RootCertStore::empty())
+            .with_no_client_auth();
+        let mut connection = ClientConnection::new(Arc::new(config), ServerName::try_from("learner")?)?;
+        stream.set_read_timeout(Some(REJECTION_TIMEOUT))?;
+        connection.write_tls(&mut stream)?;
+        let mut kind = [0];
+        stream.read_exact(&mut kind)?;
+        Ok(kind[0])
+    };
+    // Alert or handshake, RFC 8446, section 5.1.
+    ask().is_ok_and(|kind| matches!(kind, 21 | 22))
 }
 
 fn connection(host: &str, credentials: &Credentials) -> anyhow::Result<ClientConnection> {

@@ -1,0 +1,165 @@
+//! Why no learner answers: what every command asks before it reports that. `treadmill check` prints the same findings.
+//!
+//! # Layout
+//! - [`finding`]: result of one diagnosis, with its severity.
+//! - [`certificates`]: a folder of certificates.
+//! - [`route`]: name, port and protocol of an endpoint; [`handshake`]: its TLS.
+
+pub(crate) mod certificates;
+pub(crate) mod finding;
+mod handshake;
+pub(crate) mod route;
+
+use std::{fmt, time::Duration};
+
+use treadmill_bus::{Bus, BusOptions, Role, live_runs};
+use treadmill_runtime::words::{nearest, quoted};
+
+use finding::{Finding, Severity};
+
+const NAME: &str = "learner";
+
+/// Longest wait for the list of learners.
+const RUNS_TIMEOUT: Duration = Duration::from_secs(2);
+
+/// Why no learner answers, what to do about it, and the command that examines everything.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Silence {
+    /// What was found, in one line.
+    pub seen: String,
+    /// What to do, in one line.
+    pub remedy: String,
+    /// A complete `treadmill check` command.
+    pub check: String,
+}
+
+impl fmt::Display for Silence {
+    fn fmt(&self, formatter: &mut fmt::Formatter) -> fmt::Result {
+        let Self { seen, remedy, check } = self;
+        write!(formatter, "no answer: {seen}\n  {remedy}\n  {check}")
+    }
+}
+
+impl std::error::Error for Silence {}
+
+impl Silence {
+    /// Finds out why no client can join the bus of `options`. Takes some seconds and blocks its thread.
+    #[must_use]
+    pub fn of_endpoints(options: &BusOptions, run: Option<&str>) -> Self {
+        Self::of_route(options, run).unwrap_or_else(|| {
+            let finding = match options.discover {
+                true => no_reply_to_multicast(),
+                false => route::not_a_learner(&options.connect),
+            };
+            Self::new(finding, options, run)
+        })
+    }
+
+    /// Finds what stands on the way to the endpoints of `options`, if they are named. Blocks its thread for seconds at most.
+    #[must_use]
+    pub fn of_route(options: &BusOptions, run: Option<&str>) -> Option<Self> {
+        let credentials = options.credentials.as_ref();
+        let findings = options.connect.iter().flat_map(|endpoint| route::diagnose(endpoint, credentials).0);
+        // The folder of certificates explains a failed handshake better than the other end does.
+        let own = credentials.map(|credentials| certificates::diagnose_role_in(&credentials.folder, credentials.role));
+        let found = own.into_iter().chain(findings).find(|finding| finding.severity == Severity::Problem);
+        found.map(|finding| Self::new(finding, options, run))
+    }
+
+    /// Finds out why the run does not answer on a bus that is open.
+    pub async fn of_run(bus: &Bus, options: &BusOptions, run: Option<&str>) -> Self {
+        Self::new(missing_run(bus, options, run).await, options, run)
+    }
+
+    /// Returns all three parts in one line, for a log.
+    #[must_use]
+    pub fn in_one_line(&self) -> String {
+        let Self { seen, remedy, check } = self;
+        format!("{seen}; {remedy}; to examine it: {check}")
+    }
+
+    fn new(finding: Finding, options: &BusOptions, run: Option<&str>) -> Self {
+        Self { seen: finding.seen, remedy: finding.remedy.unwrap_or_default(), check: check_command(options, run) }
+    }
+}
+
+/// Finds out why the run does not answer on a bus that is open.
+pub async fn missing_run(bus: &Bus, options: &BusOptions, run: Option<&str>) -> Finding {
+    let runs = live_runs(bus, RUNS_TIMEOUT).await.unwrap_or_default();
+    let names = runs.join(", ");
+    let there = options.connect.join(", ");
+    let credentials = options.credentials.as_ref();
+    let own = credentials.map(|credentials| certificates::diagnose_role_in(&credentials.folder, credentials.role));
+    match (run, credentials.map(|credentials| credentials.role)) {
+        _ if runs.is_empty() => Finding::problem(
+            NAME,
+            format!("no learner has joined the bus at {there}"),
+            "start a learner; if this is a router, check its link to the learner",
+        ),
+        (Some(run), _) if !runs.iter().any(|live| live == run) => {
+            let hint = nearest(run, runs.iter().map(|run| &run[..])).map(|near| format!("; did you mean `{near}`?"));
+            Finding::problem(
+                NAME,
+                format!("no learner trains a run `{run}` at {there}{}", hint.unwrap_or_default()),
+                format!("name one of the runs there with --run: {names}"),
+            )
+        }
+        (_, Some(role)) if !matches!(role, Role::Observer | Role::Operator) => Finding::note(
+            NAME,
+            format!("run `{names}` is there; the {}'s certificate may not ask for its status", role.name()),
+            "use an observer's certificate to check versions and clocks",
+        ),
+        _ => own.filter(|own| own.severity == Severity::Problem).unwrap_or_else(|| {
+            let seen = format!("the learner of `{names}` at {there} does not answer in time");
+            Finding::problem(NAME, seen, "ask again; then compare the versions on both machines, and read its log")
+        }),
+    }
+}
+
+fn no_reply_to_multicast() -> Finding {
+    Finding::problem(
+        "discovery",
+        "no learner or router replied to multicast",
+        "start it with --discover; where the network carries no multicast, name an endpoint with --connect",
+    )
+}
+
+/// Returns the command that examines the way to a learner, quoted for a shell.
+fn check_command(options: &BusOptions, run: Option<&str>) -> String {
+    let mut words = vec!["treadmill check".to_string()];
+    let mut add = |flag: &str, value: &str| words.push(format!("{flag} {}", quoted(value)));
+    options.connect.iter().for_each(|endpoint| add("--connect", endpoint));
+    if let Some(run) = run {
+        add("--run", run);
+    }
+    if let Some(credentials) = &options.credentials {
+        add("--tls", &credentials.folder.display().to_string());
+    }
+    if let Some(file) = &options.zenoh_config {
+        add("--zenoh-config", &file.display().to_string());
+    }
+    words.extend(options.insecure.then(|| "--insecure".to_string()));
+    words.extend(options.discover.then(|| "--discover".to_string()));
+    words.join(" ")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use treadmill_bus::Credentials;
+
+    #[test]
+    fn the_command_repeats_all_flags_of_the_network() {
+        let credentials = Credentials { folder: "my certs".into(), role: Role::Actor };
+        let options = BusOptions {
+            connect: vec!["tls/a:1".to_string(), "tls/b:2".to_string()],
+            credentials: Some(credentials),
+            insecure: true,
+            ..BusOptions::default()
+        };
+        assert_eq!(
+            check_command(&options, Some("walk")),
+            "treadmill check --connect tls/a:1 --connect tls/b:2 --run walk --tls 'my certs' --insecure"
+        );
+    }
+}
