@@ -82,14 +82,7 @@ enum Command {
 ///
 /// Call it first in `main`: it sets an environment variable, which is sound only while no other thread runs.
 pub fn main() -> ExitCode {
-    let mut lacks = processor::lacks().peekable();
-    if lacks.peek().is_some() {
-        output::say_error("error: this build of treadmill does not run on this processor, which lacks:");
-        lacks.for_each(output::say_error);
-        output::say_error(
-            "Released builds need AVX2 and FMA (x86-64-v3: Intel since 2013, AMD since 2015). Build from source instead: \
-             `cargo install --locked --path .`. In a virtual machine, expose the host's processor (QEMU: -cpu host).",
-        );
+    if !processor::is_supported() {
         return ExitCode::FAILURE;
     }
     run()
