@@ -3,6 +3,7 @@
 use std::{
     fs,
     io::Write,
+    net::IpAddr,
     os::unix::fs::OpenOptionsExt,
     path::{Path, PathBuf},
 };
@@ -15,18 +16,24 @@ use rcgen::{
 use time::{Duration, OffsetDateTime};
 use treadmill_bus::{Credentials, Role};
 
-use crate::launch::{exit_code::Usage, output::say};
+use crate::{
+    diagnosis::certificates,
+    launch::{exit_code::Usage, output::say},
+};
 
 /// Certificates are valid from this long before they were made, because clocks differ.
 const LEEWAY: Duration = Duration::days(1);
+/// Hosts of new certificates by default.
+const LOCAL_HOSTS: [&str; 3] = ["localhost", "127.0.0.1", "::1"];
 
 /// Flags of `certs`.
 #[derive(Args)]
 pub struct CertsArgs {
     /// Folder to write to.
     folder: PathBuf,
-    /// Name or address at which the learner or a router is dialled; may be repeated.
-    #[arg(long, value_name = "HOST", default_values = ["localhost", "127.0.0.1", "::1"])]
+    /// Name or address at which the learner or a router is dialled; may be repeated. New certificates have localhost, 127.0.0.1
+    /// and ::1 by default; existing ones keep their hosts and get the new ones.
+    #[arg(long, value_name = "HOST")]
     host: Vec<String>,
     /// Days until the certificates of the roles expire; the authority's own lasts ten times as long.
     #[arg(long, default_value_t = 365, value_parser = clap::value_parser!(u32).range(1..=3650))]
@@ -52,14 +59,15 @@ impl CertsArgs {
     }
 }
 
-/// Creates the missing files and prints where they are.
+/// Creates the missing files, and prints what the folder contains.
 pub fn run(args: &CertsArgs) -> anyhow::Result<()> {
     let folder = &args.folder;
     let made = make(args)?;
     match made.is_empty() {
-        true => say("nothing to do: all certificates exist; replace them with --renew"),
+        true => say("nothing to do: all certificates exist; --host adds a host, --renew replaces them all"),
         false => say(&format!("wrote certificates and keys of {} to {}", made.join(", "), folder.display())),
     }
+    certificates::diagnose(folder).iter().for_each(|finding| say(&finding.to_string()));
     if let Some(bundles) = &args.bundles {
         for role in Role::ALL {
             write_bundle(folder, role, &bundles.join(role.name()))?;
@@ -70,24 +78,41 @@ pub fn run(args: &CertsArgs) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// Creates the missing files and returns the roles whose files were created.
+/// Creates the missing files, and those of listening roles that lack a host; returns the roles whose files were written.
 pub fn make(args: &CertsArgs) -> anyhow::Result<Vec<&'static str>> {
     let folder = &args.folder;
     fs::create_dir_all(folder).with_context(|| format!("cannot create the folder `{}`", folder.display()))?;
     let authority = authority(folder, args.days)?;
     let mut made = Vec::new();
     for role in Role::ALL {
-        let credentials = Credentials { folder: folder.clone(), role };
-        let [certificate, key] = credentials.files();
-        if !args.renew && certificate.exists() && key.exists() {
+        let [certificate, key] = Credentials { folder: folder.clone(), role }.files();
+        let is_there = certificate.exists() && key.exists();
+        let old = if is_there { certificates::hosts_in(&certificate) } else { Some(Vec::new()) };
+        let hosts = hosts(old.as_deref().unwrap_or_default(), &args.host);
+        // An unreadable certificate is replaced only on request.
+        let is_complete = is_there && (!role.listens() || old.is_none_or(|old| old == hosts));
+        if is_complete && !args.renew {
             continue;
         }
-        let (text, private) = issue(role, &args.host, args.days, &authority)?;
+        let (text, private) = issue(role, &hosts, args.days, &authority)?;
         write(&key, &private, 0o600)?;
         write(&certificate, &text, 0o644)?;
         made.push(role.name());
     }
     Ok(made)
+}
+
+/// Returns the hosts of a new certificate: those of the old one, then the given ones; this machine's if there are none.
+fn hosts(old: &[String], given: &[String]) -> Vec<String> {
+    // An address has several spellings.
+    let spelled = |host: &String| host.parse::<IpAddr>().map_or_else(|_| host.clone(), |address| address.to_string());
+    let mut hosts = old.to_vec();
+    for host in given.iter().map(spelled) {
+        if !hosts.contains(&host) {
+            hosts.push(host);
+        }
+    }
+    if hosts.is_empty() { LOCAL_HOSTS.map(String::from).to_vec() } else { hosts }
 }
 
 /// Writes the files that one role needs into `own`; unchanged files are not written.

@@ -8,7 +8,7 @@ use toml::Table;
 use treadmill_config::{Config, ConfigSource, KeyDoc};
 use treadmill_learner::training::is_changeable;
 
-use crate::launch::output::say;
+use crate::{launch::output::say, shared::existing_file::existing_file};
 
 /// Flags of `config`.
 #[derive(Args)]
@@ -19,7 +19,7 @@ pub struct ConfigArgs {
     #[arg(long, value_name = "NAME", default_value = "walk")]
     preset: String,
     /// Configuration file (TOML), applied over the preset.
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, value_name = "FILE", value_parser = existing_file)]
     config: Option<PathBuf>,
     /// Set a configuration key; may be repeated.
     #[arg(long, value_name = "KEY=VALUE")]

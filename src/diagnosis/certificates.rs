@@ -155,6 +155,12 @@ pub fn in_words(why: &rustls::Error) -> String {
     }
 }
 
+/// Returns the hosts that the certificate in a file names; `None` if it cannot be read.
+pub fn hosts_in(file: &Path) -> Option<Vec<String>> {
+    let der = CertificateDer::from_pem_file(file).ok()?;
+    X509Certificate::from_der(&der).ok().map(|(_, certificate)| hosts(&certificate))
+}
+
 /// Returns the hosts that a certificate names.
 fn hosts(certificate: &X509Certificate) -> Vec<String> {
     let Ok(Some(names)) = certificate.subject_alternative_name() else { return Vec::new() };

@@ -12,13 +12,13 @@ use treadmill_humanoid::{Environment, HUMANOID_XML, Model, ModelError, read_mode
 use treadmill_ppo::{BatchMirror, IndexSwap};
 use treadmill_runtime::error_chain;
 
-use crate::launch::exit_code::Usage;
+use crate::{launch::exit_code::Usage, shared::existing_file::existing_file};
 
 /// Flags about robot and task of commands that play without a run.
 #[derive(Args, Clone, Debug, Default)]
 pub struct ModelArgs {
     /// MJCF file of a robot other than the built-in humanoid; see docs/guide/robots.md.
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, value_name = "FILE", value_parser = existing_file)]
     pub model: Option<PathBuf>,
     /// Set a key of [env] or [randomisation], as in env.substeps=5; may be repeated.
     #[arg(long, value_name = "KEY=VALUE")]

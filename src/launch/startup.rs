@@ -19,7 +19,10 @@ use treadmill_runtime::{
     seeds, words,
 };
 
-use crate::launch::{exit_code::Usage, model, resumption};
+use crate::{
+    launch::{exit_code::Usage, model, resumption},
+    shared::existing_file::existing_file,
+};
 
 /// Flags that configure a new run. A resumed run has them saved and accepts those that agree.
 #[derive(Args, Clone, Debug, Default)]
@@ -28,7 +31,7 @@ pub struct NewRunArgs {
     #[arg(long, value_name = "NAME")]
     pub preset: Option<String>,
     /// Configuration file (TOML), applied over the preset.
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, value_name = "FILE", value_parser = existing_file)]
     pub config: Option<PathBuf>,
     /// Set a configuration key, as in ppo.learning_rate=3e-4; may be repeated.
     #[arg(long, value_name = "KEY=VALUE")]
@@ -79,7 +82,7 @@ pub struct AnyRunArgs {
     #[arg(long, requires = "run_dir", conflicts_with = "resume")]
     pub resume_or_start: bool,
     /// MJCF file of a robot other than the built-in humanoid (see docs/guide/robots.md); a resumed run keeps its own.
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, value_name = "FILE", value_parser = existing_file)]
     pub model: Option<PathBuf>,
     /// Checkpoint to resume from: latest, best, or the number of updates of a kept one.
     #[arg(long, value_name = "WHICH", requires = "resume")]

@@ -4,8 +4,10 @@
 //! - [`saved_policy`]: the policy of a run, a checkpoint or an exported file.
 //! - [`network_args`]: flags of the network.
 //! - [`learner_address`]: flags that locate a learner, and a session with it.
+//! - `existing_file`: reads a flag that names a file.
 //! - [`viewer_args`]: flags of `watch`.
 
+pub(crate) mod existing_file;
 pub mod learner_address;
 pub mod network_args;
 pub mod saved_policy;

@@ -6,7 +6,7 @@ use clap::Args;
 use treadmill_bus::{BusOptions, Credentials, Role, workarounds::threads};
 use treadmill_proto::ident::check_ident;
 
-use crate::launch::exit_code::Usage;
+use crate::{launch::exit_code::Usage, shared::existing_file::existing_file};
 
 /// Checks the name of a run, if given.
 ///
@@ -33,7 +33,7 @@ pub struct NetworkArgs {
     #[arg(long)]
     pub shared_memory: bool,
     /// Zenoh configuration file (JSON5); Treadmill's own settings take precedence.
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, value_name = "FILE", value_parser = existing_file)]
     pub zenoh_config: Option<PathBuf>,
 }
 

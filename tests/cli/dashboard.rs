@@ -195,9 +195,9 @@ fn a_learner_restarted_at_another_endpoint_is_found() {
     let (folder, run) = folders();
     let training = train(folder.path(), &["--preset", "smoke", "--run-dir", "run"]);
     await_steps(&run, 512);
-    let terminal = Terminal::start(folder.path(), &["status", "run", "--watch"], &[("NO_COLOR", "1")]);
-    let seen = terminal.shows(&["run  training", "actor-0"]);
-    assert!(!seen.contains("gone"), "{seen}");
+    let terminal = Terminal::start(folder.path(), &["status", "run", "--watch"], &[("NO_COLOR", "1"), ("LC_ALL", "C")]);
+    let seen = terminal.shows(&["run  training", "actor-0", "scroll"]);
+    assert!(!seen.contains("gone") && seen.is_ascii(), "{seen}");
     assert!(!terminal.is_coloured());
     let first = endpoint(&run);
     training.signal(libc::SIGTERM);

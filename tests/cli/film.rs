@@ -66,7 +66,7 @@ fn the_film_can_start_later_and_end_earlier() {
         let args = ["eval", "--agent", "random", "--episodes", "1", "--size", "64x48", "--fps", "50", "--gif", name];
         let output = run(folder.path(), &[&args[..], more].concat());
         assert!(output.status.success(), "{}", stderr(&output));
-        assert!(stdout(&output).contains("pictures of 64 × 48"), "{}", stdout(&output));
+        assert!(stdout(&output).contains("pictures of 64x48"), "{}", stdout(&output));
         screens(&folder.path().join(name))
     };
     let whole = film("whole.gif", &[]);

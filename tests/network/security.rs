@@ -79,6 +79,31 @@ fn an_actor_of_another_authority_is_refused() {
 }
 
 #[test]
+fn hosts_of_certificates_are_listed_added_and_kept() {
+    let (folder, _) = folders();
+    let certs = |args: &[&str]| {
+        let output = run(folder.path(), &[&["certs", "certs"], args].concat());
+        assert!(output.status.success(), "{}", stderr(&output));
+        stdout(&output)
+    };
+    let read = |name: &str| fs::read(folder.path().join("certs").join(name)).unwrap();
+    let text = certs(&["--host", "first.example"]);
+    assert!(text.contains("the learner's is valid until") && text.contains("for first.example"), "{text}");
+    let (actor, learner) = (read("actor.crt"), read("learner.crt"));
+    let text = certs(&["--host", "::0001"]);
+    assert!(text.contains("wrote certificates and keys of learner, router to certs"), "{text}");
+    assert!(text.contains("364 days more, for first.example ::1"), "{text}");
+    assert!(read("actor.crt") == actor && read("learner.crt") != learner, "only roles that listen name hosts");
+    let learner = read("learner.crt");
+    let text = certs(&["--host", "::1"]);
+    assert!(text.contains("nothing to do") && text.contains("for first.example ::1"), "{text}");
+    assert_eq!(read("learner.crt"), learner);
+    let text = certs(&["--renew", "--days", "30"]);
+    assert!(text.contains("29 days more, for first.example ::1"), "{text}");
+    assert!(read("actor.crt") != actor && read("learner.crt") != learner);
+}
+
+#[test]
 fn certificates_are_created_once_and_only_the_owner_can_read_keys() {
     let (folder, _) = folders();
     certs(folder.path(), &["certs", "--host", "learner.example"]);

@@ -30,6 +30,8 @@ pub const ENDLESS: &str = "1000000000";
 pub fn treadmill(folder: &Path) -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_treadmill"));
     command.current_dir(folder).env_remove("TREADMILL_LOG").stdin(Stdio::null());
+    // Output without a locale is ASCII.
+    command.env("LC_ALL", "C.UTF-8");
     // The binary sets it itself.
     command.env_remove(threads::VARIABLE);
     command

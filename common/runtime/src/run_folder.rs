@@ -22,7 +22,14 @@ use std::{
 
 use treadmill_proto::ident::check_ident;
 
-use crate::{atomic_file, run_lock::Holder};
+use crate::{
+    atomic_file,
+    run_lock::Holder,
+    words::{nearest, nearest_path},
+};
+
+/// Most runs that an error lists.
+const RUNS_LISTED_MAX: usize = 12;
 
 /// Folder of a run.
 #[derive(Clone, Debug, PartialEq)]
@@ -99,7 +106,7 @@ impl RunFolder {
             .into_iter()
             .map(|root| Self::at(&root))
             .find(|folder| folder.checkpoints().is_dir())
-            .ok_or_else(|| RunFolderError::Missing { path: run.to_string(), known: known_runs() })
+            .ok_or_else(|| RunFolderError::Missing { path: run.to_string(), known: known_runs(run) })
     }
 
     fn at(root: &Path) -> Self {
@@ -201,20 +208,22 @@ impl RunFolder {
     }
 }
 
-fn known_runs() -> String {
-    let mut names: Vec<String> = fs::read_dir("runs")
-        .into_iter()
-        .flatten()
-        .flatten()
-        .filter(|entry| entry.path().join("checkpoints").is_dir())
-        .map(|entry| format!("runs/{}", entry.file_name().to_string_lossy()))
-        .collect();
+/// Returns the run that `given` may mean, and those that exist.
+fn known_runs(given: &str) -> String {
+    let entries = fs::read_dir("runs").into_iter().flatten().flatten();
+    let is_run = |entry: &fs::DirEntry| entry.path().join("checkpoints").is_dir();
+    let mut names: Vec<String> =
+        entries.filter(is_run).map(|entry| format!("runs/{}", entry.file_name().to_string_lossy())).collect();
     names.sort();
-    if names.is_empty() {
-        "there are no runs here yet: `treadmill train` makes one".to_string()
-    } else {
-        format!("runs here: {}", names.join(", "))
-    }
+    let bare = names.iter().filter_map(|name| name.strip_prefix("runs/"));
+    let near = nearest(given, names.iter().map(String::as_str).chain(bare)).map(str::to_string);
+    let hint = near.or_else(|| nearest_path(Path::new(given))).map(|near| format!("did you mean `{near}`? "));
+    let list = match names.len() {
+        0 => "there are no runs here yet: `treadmill train` makes one".to_string(),
+        count @ 1..=RUNS_LISTED_MAX => format!("runs here: {}", names[..count].join(", ")),
+        count => format!("runs here: {} and {} more", names[..RUNS_LISTED_MAX].join(", "), count - RUNS_LISTED_MAX),
+    };
+    hint.unwrap_or_default() + &list
 }
 
 #[cfg(test)]

@@ -1,4 +1,8 @@
-//! Parts of messages: arguments quoted for a shell, and the name that a misspelled one may mean.
+//! Parts of messages: arguments quoted for a shell, the name that a misspelled one may mean, and text without Unicode.
+
+use std::{borrow::Cow, fs, path::Path};
+
+use crate::machine;
 
 /// Quotes an argument for a shell, if that is necessary.
 #[must_use]
@@ -19,6 +23,48 @@ pub fn nearest<'a>(given: &str, known: impl IntoIterator<Item = &'a str>) -> Opt
     (distance * 3 <= given.chars().count()).then_some(name)
 }
 
+/// Returns the file or folder beside `path` that a misspelled path may mean.
+#[must_use]
+pub fn nearest_path(path: &Path) -> Option<String> {
+    let folder = path.parent()?;
+    let entries = fs::read_dir(if folder == Path::new("") { Path::new(".") } else { folder }).ok()?;
+    let names: Vec<String> = entries.flatten().map(|entry| entry.file_name().to_string_lossy().into_owned()).collect();
+    let name = nearest(path.file_name()?.to_str()?, names.iter().map(String::as_str))?;
+    Some(folder.join(name).display().to_string())
+}
+
+/// Returns text that a terminal of this locale can show: itself, or with an ASCII character for each other one.
+#[must_use]
+pub fn shown(text: &str) -> Cow<'_, str> {
+    if machine::is_utf8_locale() || text.is_ascii() {
+        return text.into();
+    }
+    text.chars().map(ascii).collect()
+}
+
+/// Returns the ASCII character that looks most like `c`.
+#[must_use]
+pub fn ascii(c: char) -> char {
+    match c {
+        '\0'..='\u{7f}' => c,
+        '▁' | '▂' => '_',
+        '▃' | '▄' | '–' | '─' | '━' => '-',
+        '▅' | '▆' => '=',
+        '▇' | '█' | '▓' => '#',
+        '░' | '▒' | '·' | '…' => '.',
+        '│' | '┃' => '|',
+        // Corners and crossings of boxes, then points of curves.
+        '\u{2500}'..='\u{257f}' => '+',
+        '\u{2800}'..='\u{28ff}' | '•' => '*',
+        '×' => 'x',
+        '±' => '~',
+        '↑' => '^',
+        '↓' => 'v',
+        '→' => '>',
+        _ => '?',
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -28,6 +74,22 @@ mod tests {
         assert_eq!(quoted("--set"), "--set");
         assert_eq!(quoted("policy.hidden=[8, 8]"), "'policy.hidden=[8, 8]'");
         assert_eq!(quoted("it's"), r"'it'\''s'");
+    }
+
+    #[test]
+    fn misspelled_paths_are_recognised() {
+        let folder = tempfile::tempdir().unwrap();
+        fs::write(folder.path().join("robot.xml"), "").unwrap();
+        let near = nearest_path(&folder.path().join("robt.xml")).unwrap();
+        assert!(near.ends_with("/robot.xml"), "{near}");
+        assert_eq!(nearest_path(&folder.path().join("weather.toml")), None);
+        assert_eq!(nearest_path(Path::new("/no/such/folder/robot.xml")), None);
+    }
+
+    #[test]
+    fn every_character_gets_one_of_ascii() {
+        let text: String = "4.2 ± 1 █▅▁ a–b ⣿ 日".chars().map(ascii).collect();
+        assert_eq!(text, "4.2 ~ 1 #=_ a-b * ?");
     }
 
     #[test]

@@ -183,7 +183,7 @@ impl Filming {
             files.push(film.finish()?);
         }
         files.extend(self.png.map(|folder| folder.display().to_string()));
-        Ok(format!("{} pictures of {} × {}: {}", self.taken, self.size.0, self.size.1, files.join(", ")))
+        Ok(format!("{} pictures of {}x{}: {}", self.taken, self.size.0, self.size.1, files.join(", ")))
     }
 }
 

@@ -19,6 +19,7 @@ use treadmill_config::{Config, RandomisationConfig};
 use treadmill_humanoid::Environment;
 use treadmill_learner::checkpoint::Which;
 use treadmill_policy::exported::ExportedPolicy;
+use treadmill_runtime::words::shown;
 
 mod film;
 mod filming;
@@ -276,7 +277,8 @@ fn print_summary(args: &EvalArgs, origin: Option<&Origin>, evaluation: &Evaluati
     let from = origin.map(|origin| format!(" of {origin}")).unwrap_or_default();
     say(&format!("agent         {}{from}", args.agent.name()));
     say(&format!("episodes      {}, {} of them ended with a fall", evaluation.episodes.len(), evaluation.falls()));
-    say(&format!("return        {:.1} ± {:.1}", evaluation.mean(|played| played.return_sum), evaluation.return_std()));
+    let (mean, std) = (evaluation.mean(|played| played.return_sum), evaluation.return_std());
+    say(&shown(&format!("return        {mean:.1} ± {std:.1}")));
     say(&format!("length        {:.1} steps", evaluation.mean(|played| f64::from(played.length))));
     say(&format!("distance      {:.2} m", evaluation.mean(|played| played.distance_m)));
     say(&format!("velocity      {:.2} m/s", evaluation.velocity_mean_mps(control_step_s)));

@@ -11,7 +11,7 @@ use std::{
 use anyhow::Context;
 use clap::Args;
 use serde_json::json;
-use treadmill_runtime::numbers::thousands;
+use treadmill_runtime::{numbers::thousands, words::shown};
 
 use self::record::Record;
 use crate::launch::{exit_code::Usage, output::say};
@@ -130,9 +130,9 @@ fn print_table(records: &[Record], differences: Option<&[BTreeMap<&str, &str>]>)
         };
         cells.iter().zip(&widths).enumerate().map(cell).collect::<String>()
     };
-    say(&line(HEADINGS));
+    say(&shown(&line(HEADINGS)));
     for (number, row) in rows.iter().enumerate() {
-        say(&line(row.each_ref().map(String::as_str)));
+        say(&shown(&line(row.each_ref().map(String::as_str))));
         for (key, value) in differences.and_then(|all| all.get(number)).into_iter().flatten() {
             say(&format!("    {key} = {value}"));
         }

@@ -6,10 +6,10 @@ use std::{
 };
 
 use anyhow::Context;
-use ratatui::crossterm::event;
+use ratatui::{Frame, crossterm::event};
 use tokio::signal::unix::{SignalKind, signal};
 use treadmill_bus::Role;
-use treadmill_runtime::shutdown::Shutdown;
+use treadmill_runtime::{machine, shutdown::Shutdown};
 
 use super::{
     draw::{self, Theme},
@@ -54,7 +54,7 @@ fn exit_on_signals(shutdown: Shutdown) -> std::io::Result<()> {
 
 fn show(news: &Receiver<News>, shutdown: &Shutdown) -> anyhow::Result<()> {
     const UNUSABLE: &str = "the terminal cannot be used; plain text appears without --watch, or in a pipe";
-    let theme = Theme::of_environment();
+    let (theme, is_unicode) = (Theme::of_environment(), machine::is_utf8_locale());
     let mut screen = TerminalScreen::open().context(UNUSABLE)?;
     let mut fleet = Fleet::new(Instant::now());
     while !shutdown.asked() {
@@ -67,7 +67,13 @@ fn show(news: &Receiver<News>, shutdown: &Shutdown) -> anyhow::Result<()> {
                 Err(_) => break,
             }
         }
-        screen.draw(|frame| draw::draw(frame, &mut fleet, &theme, Instant::now())).context(UNUSABLE)?;
+        let draw = |frame: &mut Frame| {
+            draw::draw(frame, &mut fleet, &theme, Instant::now());
+            if !is_unicode {
+                draw::replace_unicode(frame.buffer_mut());
+            }
+        };
+        screen.draw(draw).context(UNUSABLE)?;
         let mut timeout = TICK;
         while event::poll(timeout).context(UNUSABLE)? {
             match keys::action(&event::read().context(UNUSABLE)?, fleet.shows_help) {

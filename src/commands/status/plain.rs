@@ -94,7 +94,7 @@ fn describe(out: &mut String, run: &RunStatus) -> std::fmt::Result {
         run.policy_lag_mean,
         run.resident_bytes as f64 / 1e6
     )?;
-    let share = |share: Option<f64>| share.map_or("–".to_string(), |share| format!("{:.1} %", 100.0 * share));
+    let share = |share: Option<f64>| share.map_or("-".to_string(), |share| format!("{:.1} %", 100.0 * share));
     writeln!(
         out,
         "  work       {} of the simulated steps learnt from, {} updates undone; actors idle {} of the time",
@@ -122,7 +122,7 @@ fn describe(out: &mut String, run: &RunStatus) -> std::fmt::Result {
 
 fn line(out: &mut String, actor: &ActorStatus) -> std::fmt::Result {
     let stats = actor.stats.clone().unwrap_or_default();
-    let known = |text: String| if actor.stats.is_some() { text } else { "–".to_string() };
+    let known = |text: String| if actor.stats.is_some() { text } else { "-".to_string() };
     writeln!(
         out,
         "    {:<24} {:<16} {:>8} {:>5} {:>4} {:>9} {:>8} {:>8} {:>7}  {}",
@@ -130,9 +130,9 @@ fn line(out: &mut String, actor: &ActorStatus) -> std::fmt::Result {
         known(plain(&stats.host)),
         known(plain(&stats.program_version)),
         known(stats.envs.to_string()),
-        actor.lag_versions.map_or("–".to_string(), |lag| lag.to_string()),
+        actor.lag_versions.map_or("-".to_string(), |lag| lag.to_string()),
         known(format!("{:.0}", stats.env_steps_per_s)),
-        actor.since_contact_s.map_or("–".to_string(), seconds),
+        actor.since_contact_s.map_or("-".to_string(), seconds),
         known(stats.dropped_by_rule.to_string()),
         known(stats.resent.to_string()),
         state(actor),

@@ -21,10 +21,13 @@ use std::time::Instant;
 
 use ratatui::{
     Frame,
+    buffer::Buffer,
     layout::{Constraint, Layout, Rect},
     text::Line,
     widgets::{Block, Clear, Paragraph, Wrap},
 };
+
+use treadmill_runtime::words::ascii;
 
 use self::pieces::Pieces;
 pub use self::theme::Theme;
@@ -44,6 +47,15 @@ const CURVES_HEIGHT_MAX: u16 = 24;
 const HEADINGS_HEIGHT_MIN: u16 = 14;
 /// Most lines of alarms.
 const ALARM_LINES_MAX: u16 = 3;
+
+/// Replaces what a terminal without Unicode cannot show.
+pub fn replace_unicode(buffer: &mut Buffer) {
+    for cell in &mut buffer.content {
+        if let Some(shown) = cell.symbol().chars().next().filter(|_| !cell.symbol().is_ascii()) {
+            cell.set_char(ascii(shown));
+        }
+    }
+}
 
 /// Draws the whole dashboard.
 pub fn draw(frame: &mut Frame, fleet: &mut Fleet, theme: &Theme, now: Instant) {
