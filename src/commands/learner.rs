@@ -7,7 +7,8 @@ use crate::{
     launch::{
         host::{self, HostOptions},
         metrics_page::MetricsArgs,
-        startup::{self, AnyRunArgs, NewRunArgs, RunCommand},
+        run_args::{AnyRunArgs, NewRunArgs},
+        startup::{self, RunCommand},
     },
     shared::network_args::{NetworkArgs, check_run},
 };

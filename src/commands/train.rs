@@ -8,7 +8,8 @@ use crate::{
     launch::{
         host::{self, HostOptions},
         metrics_page::MetricsArgs,
-        startup::{self, AnyRunArgs, NewRunArgs, RunCommand, Start},
+        run_args::{AnyRunArgs, NewRunArgs, changes},
+        startup::{self, RunCommand, Start},
     },
     shared::network_args::NetworkArgs,
 };
@@ -42,7 +43,7 @@ pub struct TrainArgs {
 pub fn run(args: TrainArgs) -> anyhow::Result<()> {
     let options = args.network.options(Role::Learner, vec![args.listen], Vec::new())?;
     let metrics = args.metrics.listen()?;
-    let mut changes = startup::changes(&[("rollout.envs", args.envs), ("rollout.actors", args.actors)]);
+    let mut changes = changes(&[("rollout.envs", args.envs), ("rollout.actors", args.actors)]);
     if args.deterministic {
         changes.push(("run.deterministic", true.into()));
     }

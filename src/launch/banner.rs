@@ -25,6 +25,7 @@ pub fn print_start(
     let root = quoted(&folder.root().display().to_string());
     let steps = state.as_ref().map_or(0, |state| state.counters.env_steps);
     let verb = match (steps, config.is_external(), &config.task.name[..]) {
+        (1.., ..) if prepared.origin.is_some() => format!("branching off at {} env steps", thousands(steps)),
         (1.., ..) => format!("resuming at {} env steps", thousands(steps)),
         (0, false, _) => "training a humanoid to walk".to_string(),
         (0, true, "") => "training the task that its first actor registers".to_string(),
@@ -32,6 +33,9 @@ pub fn print_start(
     };
     say(&format!("run `{run}`: {verb}"));
     say(&format!("  learns    {}", goal(config, steps)));
+    if let Some(origin) = &prepared.origin {
+        say(&format!("  begins    with the policy of {origin}"));
+    }
     say(&format!("  files     {root}  (curves: tensorboard --logdir {root}, or {root}/learning_curve.png)"));
     match actors {
         Some(1) => say("  actors    1 process beside this one"),

@@ -21,9 +21,10 @@ use super::{
     metrics_page::MetricsListener,
     model,
     output::say,
+    run_args::AnyRunArgs,
     signals,
     slow_step::SlowStepNotice,
-    startup::{self, AnyRunArgs, Prepared, Start},
+    startup::{self, Prepared, Start},
     supervisor::{FleetOptions, Supervisor},
 };
 
@@ -152,7 +153,7 @@ fn training_options(
     prometheus: PrometheusMetrics,
     heartbeat: Heartbeat,
 ) -> anyhow::Result<(TrainingState, TrainingOptions)> {
-    let Prepared { config, folder, device, mirror, run: _, state } = prepared;
+    let Prepared { config, folder, device, mirror, state, .. } = prepared;
     let state = state.context(NO_STATE)?;
     let options = TrainingOptions {
         folder,

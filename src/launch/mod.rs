@@ -11,6 +11,7 @@
 
 pub(crate) mod async_runtime;
 pub(crate) mod banner;
+pub(crate) mod begin;
 pub(crate) mod bus_client;
 pub mod exit_code;
 pub(crate) mod external_task;
@@ -23,8 +24,10 @@ pub(crate) mod model;
 pub mod output;
 pub(crate) mod processor;
 pub(crate) mod resumption;
+pub(crate) mod run_args;
 pub mod signals;
 pub mod slow_step;
 pub(crate) mod startup;
 pub(crate) mod supervisor;
 pub mod terminal_screen;
+pub(crate) mod warm_start;

@@ -11,8 +11,9 @@ use treadmill_runtime::{numbers::thousands, run_folder::RunFolder, run_lock::Run
 use crate::launch::{
     exit_code::Usage,
     model,
+    run_args::{AnyRunArgs, NewRunArgs},
     slow_step::SlowStepNotice,
-    startup::{self, AnyRunArgs, NewRunArgs, Prepared, RunCommand, Start},
+    startup::{self, Prepared, RunCommand, Start},
 };
 
 /// Resumes `run`, a folder or a name below `runs/`. `changes` are keys set by flags of the command.
@@ -33,7 +34,13 @@ pub fn resume(
     let mut state = checkpoint::load(&folder, any.checkpoint.unwrap_or(Which::Latest))?.state;
     let mut config = state.config().map_err(anyhow::Error::msg)?;
     startup::check_external(command, &config, any)?;
-    // The number of processes may differ at each start.
+    // Labels describe the run and may change at each start, as may the number of processes.
+    for (key, value) in new.labels() {
+        let mut source = ConfigSource::default();
+        source.text(&config.to_toml(), "the saved configuration")?;
+        source.value(key, value)?;
+        config = source.build()?;
+    }
     let kept: Vec<_> = changes.iter().filter(|(key, _)| *key != "rollout.actors").cloned().collect();
     check_agreement(&config, new, &kept)?;
     let device = startup::open_device(&config, any.device)?;
@@ -62,7 +69,16 @@ pub fn resume(
     state.lineage.resume(seeds::unique());
     state.counters.resumes += 1;
     let mirror = model::mirror(&config, &state.model_xml)?;
-    let prepared = Prepared { config, folder, device, mirror, run: state.run.clone(), state: Some(state) };
+    let prepared = Prepared {
+        config,
+        folder,
+        device,
+        mirror,
+        run: state.run.clone(),
+        state: Some(state),
+        init_from: None,
+        origin: None,
+    };
     Ok(Start::Ready(Box::new(prepared), lock))
 }
 

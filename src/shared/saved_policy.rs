@@ -7,7 +7,10 @@ use treadmill_actor::settings;
 use treadmill_config::{Config, EnvTask};
 use treadmill_humanoid::{CONTROL_STEP_S, Environment, Model};
 use treadmill_learner::checkpoint::{self, Loaded, TrainingState, Which, encoding};
-use treadmill_policy::exported::{ActionFacts, ExportedPolicy, ObservationFacts};
+use treadmill_policy::{
+    exported::{ActionFacts, ExportedPolicy, ObservationFacts},
+    normaliser::RunningMoments,
+};
 use treadmill_proto::Task;
 use treadmill_runtime::{numbers::thousands, run_folder::RunFolder};
 
@@ -19,6 +22,8 @@ pub struct SavedPolicy {
     pub policy: ExportedPolicy,
     /// Its checkpoint; `None` for a file that `export` wrote.
     pub origin: Option<Origin>,
+    /// Statistics of returns, by which its critic is scaled; `None` for a file that `export` wrote.
+    pub return_moments: Option<RunningMoments>,
 }
 
 /// Checkpoint that a policy comes from.
@@ -62,7 +67,7 @@ pub fn load(run: &str, which: Option<Which>) -> anyhow::Result<SavedPolicy> {
         return Err(Usage(why).into());
     } else {
         let policy = ExportedPolicy::from_bytes(&bytes).map_err(anyhow::Error::from);
-        policy.map(|policy| SavedPolicy { policy, origin: None })
+        policy.map(|policy| SavedPolicy { policy, origin: None, return_moments: None })
     };
     loaded.with_context(|| format!("`{run}` is not a usable policy"))
 }
@@ -122,7 +127,7 @@ pub fn environment(run: &str, policy: &ExportedPolicy, config: &Config) -> anyho
 
 fn from_state(state: &TrainingState, checkpoint: String) -> anyhow::Result<SavedPolicy> {
     let origin = Some(Origin { checkpoint, env_steps: state.counters.env_steps });
-    Ok(SavedPolicy { policy: exported(state)?, origin })
+    Ok(SavedPolicy { policy: exported(state)?, origin, return_moments: Some(state.value_moments.clone()) })
 }
 
 fn exported(state: &TrainingState) -> anyhow::Result<ExportedPolicy> {

@@ -1,4 +1,4 @@
-//! Training runs from start to end: determinism, resuming, evaluation, TensorBoard, GPUs.
+//! Training runs from start to end: determinism, resuming, warm starts, evaluation, TensorBoard, GPUs.
 
 #[cfg(feature = "cuda")]
 mod cuda;
@@ -8,3 +8,4 @@ mod resume;
 mod support;
 mod tensorboard;
 mod train;
+mod warm_start;

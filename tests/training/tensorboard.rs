@@ -72,6 +72,10 @@ fn tensorboard_shows_configuration_histograms_and_hyperparameters() {
         "ppo.gamma=0.97",
         "--actors",
         "1",
+        "--tag",
+        "short",
+        "--description",
+        "what a run logs",
     ];
     assert!(self::run(folder.path(), &train).status.success());
     let first = read(&python, &run);
@@ -79,6 +83,7 @@ fn tensorboard_shows_configuration_histograms_and_hyperparameters() {
     assert_configuration(first["points"]["config"][0][1].as_str().unwrap(), &run);
     assert!(first["points"]["command"][0][1].as_str().unwrap().contains("train --preset smoke --steps 6144"));
     assert!(first["points"]["versions"][0][1].as_str().unwrap().contains(env!("CARGO_PKG_VERSION")));
+    assert_eq!(first["points"]["description"][0][1], "`short`\n\nwhat a run logs");
 
     // Twelve updates of 512 steps: the first and the eleventh have histograms, and each counts the whole batch.
     let count = |tag: &str, index: usize| -> f64 {
@@ -100,7 +105,7 @@ fn tensorboard_shows_configuration_histograms_and_hyperparameters() {
     let lags = &first["histograms"]["bus/policy_lag"][0][1];
     assert_eq!(*lags, serde_json::json!([[-0.5, 0.5, 512.0]]), "no fragment lags in lock-step");
     let documented = page("reference/metrics");
-    for tag in ["actions/all", "actions/{name}", "bus/policy_lag", "config", "command", "versions"] {
+    for tag in ["actions/all", "actions/{name}", "bus/policy_lag", "config", "command", "versions", "description"] {
         assert!(documented.contains(&format!("| `{tag}` |")), "docs/reference/metrics.md does not explain {tag}");
     }
 

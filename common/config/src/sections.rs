@@ -13,6 +13,10 @@ section! {
         steps: u64 = 8_000_000, "1 to 1000000000000" => |v| (1..=1_000_000_000_000).contains(v);
         /// Run one actor in lock-step with the learner: the same seed then gives the same weights, bit for bit.
         deterministic: bool = false, "true or false" => |_| true;
+        /// Words that group runs, shown by `treadmill runs` and TensorBoard.
+        tags: Vec<String> = Vec::new(), "at most 16 words, each of 1 to 32 characters" => |v| v.len() <= 16 && v.iter().all(|tag| (1..=32).contains(&tag.chars().count()) && !tag.contains(|c: char| c.is_whitespace() || c.is_control()));
+        /// Free text about the run, shown by `treadmill runs` and TensorBoard.
+        description: String = String::new(), "at most 500 characters in one line" => |v| v.chars().count() <= 500 && !v.contains(char::is_control);
     }
 }
 

@@ -151,6 +151,7 @@ fn convert(value: Value, known: &KeyDoc) -> Result<Value, ConfigError> {
             convert_items(items, kind, known)
         }
         ("Vec<f64>", Value::Array(items)) => convert_items(items, "f64", known),
+        ("Vec<String>", Value::Array(items)) => convert_items(items, "String", known),
         ("String", Value::String(_)) => Ok(value),
         (kind, Value::String(name)) if choices::names(kind).is_some() => {
             match choices::names(kind).is_some_and(|names| names.contains(&name.as_str())) {

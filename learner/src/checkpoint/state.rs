@@ -1,7 +1,7 @@
 //! State that a checkpoint holds.
 
 use serde::{Deserialize, Serialize};
-use treadmill_config::{Config, ConfigSource, EvaluationConfig, LearnerConfig, PpoConfig};
+use treadmill_config::{Config, ConfigSource, EvaluationConfig, LearnerConfig, PpoConfig, RunConfig};
 use treadmill_policy::{
     NetworkShape, init,
     normaliser::{Normaliser, RunningMoments},
@@ -226,7 +226,7 @@ impl TrainingState {
     /// and the learner's settings are excluded, so that they can be changed while actors continue.
     pub fn config_hash(&self, config: &Config) -> u64 {
         let mut config = config.clone();
-        config.run.steps = 0;
+        config.run = RunConfig { steps: 0, tags: Vec::new(), description: String::new(), ..config.run };
         config.ppo = PpoConfig::default();
         config.eval = EvaluationConfig::default();
         config.learner = LearnerConfig { mode: config.learner.mode, ..LearnerConfig::default() };

@@ -53,8 +53,11 @@ impl MetricsReport {
             ("config", texts::configuration(config)),
             ("command", texts::command(&options.command)),
             ("versions", texts::facts(&options.versions)),
+            ("description", texts::description(&config.run)),
         ] {
-            events.text(env_steps, now, tag, &text)?;
+            if !text.is_empty() {
+                events.text(env_steps, now, tag, &text)?;
+            }
         }
         Ok(Self {
             curve: CurveThread::new(folder.metrics(), folder.learning_curve()),

@@ -86,6 +86,20 @@ impl Record {
         text("task.name").or(text("env.task")).unwrap_or(ABSENT).to_string()
     }
 
+    /// Returns the words that group runs.
+    pub(crate) fn tags(&self) -> Vec<String> {
+        let tags = self.config.get("run.tags").and_then(|text| format!("tags = {text}").parse::<toml::Table>().ok());
+        let tags = tags.and_then(|table| table.get("tags")?.clone().try_into().ok());
+        tags.unwrap_or_default()
+    }
+
+    /// Returns the free text about the run, which may be empty.
+    pub(crate) fn description(&self) -> String {
+        let text =
+            self.config.get("run.description").and_then(|text| format!("text = {text}").parse::<toml::Table>().ok());
+        text.and_then(|table| table.get("text")?.as_str().map(str::to_string)).unwrap_or_default()
+    }
+
     /// Returns whether the run is running, has all its steps, or was stopped before.
     pub(crate) fn state(&self) -> &'static str {
         let wanted = self.config.get("run.steps").and_then(|steps| steps.parse::<u64>().ok());

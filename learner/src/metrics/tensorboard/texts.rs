@@ -1,6 +1,6 @@
 //! Description of a run, as Markdown for TensorBoard's TEXT tab.
 
-use treadmill_config::Config;
+use treadmill_config::{Config, RunConfig};
 
 /// Returns the configuration as a table of keys, values and defaults; changed values are bold.
 pub fn configuration(config: &Config) -> String {
@@ -24,6 +24,12 @@ pub fn facts(facts: &[(String, String)]) -> String {
         text += &format!("| {} | {} |\n", cell(name), cell(value));
     }
     text
+}
+
+/// Returns the tags and the description of a run; empty if it has neither.
+pub fn description(run: &RunConfig) -> String {
+    let tags: Vec<String> = run.tags.iter().map(|tag| format!("`{tag}`")).collect();
+    [tags.join(" "), run.description.clone()].join("\n\n").trim().to_string()
 }
 
 /// Returns a command line as a code block.

@@ -1,0 +1,140 @@
+//! Begins a run: configuration, robot, folder and first state.
+
+use treadmill_config::{Config, ConfigSource, LearnerMode, RolloutConfig};
+use treadmill_humanoid::PHYSICS_VERSION;
+use treadmill_learner::checkpoint::TrainingState;
+use treadmill_proto::limits::fragment_envs_max;
+use treadmill_runtime::{
+    run_folder::{RunFolder, RunFolderError},
+    run_lock::RunLock,
+    seeds,
+};
+
+use crate::launch::{
+    exit_code::Usage,
+    model,
+    run_args::{AnyRunArgs, NewRunArgs, add_count},
+    startup::{Prepared, RunCommand, Start, actor_processes, check_external, complete, open_device},
+    warm_start::{Fork, InitFrom},
+};
+
+/// Begins a run. `changes` are keys set by flags of the command.
+///
+/// # Errors
+/// If flags or configuration are refused, or the folder cannot be created.
+pub fn begin(
+    command: RunCommand,
+    new: &NewRunArgs,
+    any: &AnyRunArgs,
+    changes: &[(&str, toml::Value)],
+) -> anyhow::Result<Start> {
+    let fork = new.fork.as_ref().map(|run| Fork::read(run, any.checkpoint)).transpose()?;
+    let mut source = ConfigSource::default();
+    match &fork {
+        Some(fork) => source.text(&fork.state.config_toml, "the configuration of the forked run")?,
+        None => source.preset(new.preset())?,
+    }
+    if command == RunCommand::Learner && fork.is_none() {
+        // Its actors are on other machines, and do not wait for the update.
+        source.value("learner.mode", LearnerMode::Async.name())?;
+    }
+    new.add_to(&mut source, changes)?;
+    any.steps.map_or(Ok(()), |steps| add_count(&mut source, "run.steps", steps))?;
+    let mut config = source.build()?;
+    complete(&mut config);
+    check_external(command, &config, any)?;
+    match fork {
+        Some(fork) => branch_off(command, new, any, config, fork),
+        None if config.is_external() => begin_external(new, any, config),
+        None => begin_built_in(command, new, any, config),
+    }
+}
+
+fn begin_built_in(command: RunCommand, new: &NewRunArgs, any: &AnyRunArgs, config: Config) -> anyhow::Result<Start> {
+    let device = open_device(&config, any.device)?;
+    let text = model::text(any.model.as_deref())?;
+    let environment = model::environment(&config, &text, any.model.as_deref())?;
+    let mirror = model::mirror(&config, &text)?;
+    let (observation, action) = (environment.observation_size(), environment.action_size());
+    if command == RunCommand::Train {
+        check_fragments(&config, observation, action)?;
+    }
+    let fresh = TrainingState::fresh("", &config, &text, observation, action, seeds::unique());
+    let mut state = TrainingState { physics_version: PHYSICS_VERSION, ..fresh };
+    let init_from = InitFrom::of(new, any);
+    let origin = init_from.as_ref().map(|from| from.copy_to(&mut state)).transpose()?;
+    let (folder, lock) = create_folder(new, new.preset())?;
+    let run = folder.name().to_string();
+    state.run.clone_from(&run);
+    let prepared = Prepared { config, folder, device, mirror, run, state: Some(state), init_from, origin };
+    Ok(Start::Ready(Box::new(prepared), lock))
+}
+
+/// Begins a run whose task an actor registers; it has no state until then, unless the configuration knows the task.
+fn begin_external(new: &NewRunArgs, any: &AnyRunArgs, config: Config) -> anyhow::Result<Start> {
+    let device = open_device(&config, any.device)?;
+    let known = config.task.known();
+    if let Some(why) = known.as_ref().and_then(|task| TrainingState::objection(&config, task)) {
+        return Err(Usage(why).into());
+    }
+    let (folder, lock) = create_folder(new, new.preset())?;
+    let (run, init_from) = (folder.name().to_string(), InitFrom::of(new, any));
+    let mut prepared = Prepared { config, folder, device, mirror: None, run, state: None, init_from, origin: None };
+    let set = known.map_or(Ok(()), |task| prepared.set_task(task));
+    set.inspect_err(|_| prepared.folder.discard())?;
+    Ok(Start::Ready(Box::new(prepared), lock))
+}
+
+/// Begins a run with the learning state of another one.
+fn branch_off(
+    command: RunCommand,
+    new: &NewRunArgs,
+    any: &AnyRunArgs,
+    config: Config,
+    fork: Fork,
+) -> anyhow::Result<Start> {
+    let device = open_device(&config, any.device)?;
+    let (prefix, origin) = (format!("{}-fork", fork.state.run), Some(fork.origin.clone()));
+    let mut state = fork.with_config(&config)?;
+    let mut mirror = None;
+    if !config.is_external() {
+        if let Some(file) = &any.model {
+            model::check_same(&state.model_xml, file)?;
+        }
+        let environment = model::environment(&config, &state.model_xml, None)?;
+        let (size, wanted) = (environment.observation_size(), state.shape.observation);
+        if size != wanted {
+            let why = format!("`--fork`: this configuration has {size} observations, and the networks take {wanted}");
+            return Err(Usage(why + "; keep env.observation").into());
+        }
+        mirror = model::mirror(&config, &state.model_xml)?;
+        if command == RunCommand::Train {
+            check_fragments(&config, size, state.shape.action)?;
+        }
+    }
+    let (folder, lock) = create_folder(new, &prefix)?;
+    let run = folder.name().to_string();
+    state.run.clone_from(&run);
+    let prepared = Prepared { config, folder, device, mirror, run, state: Some(state), init_from: None, origin };
+    Ok(Start::Ready(Box::new(prepared), lock))
+}
+
+fn create_folder(new: &NewRunArgs, prefix: &str) -> Result<(RunFolder, RunLock), RunFolderError> {
+    let folder = RunFolder::create(new.run_dir.as_deref(), prefix)?;
+    RunLock::take(&folder).map(|lock| (folder, lock))
+}
+
+/// Refuses actors with more environments than a fragment holds.
+fn check_fragments(config: &Config, observation: usize, action: usize) -> Result<(), Usage> {
+    let RolloutConfig { envs, actors, fragment_steps, .. } = config.rollout;
+    let steps = if fragment_steps == 0 { RolloutConfig::STEPS_MIN } else { fragment_steps };
+    let (actors, envs_max) = (actor_processes(actors, envs), fragment_envs_max(steps, observation, action));
+    let needed = (envs as usize).div_ceil(envs_max.max(1));
+    if needed <= actors as usize {
+        return Ok(());
+    }
+    Err(Usage(format!(
+        "{actors} actors cannot send fragments of {envs} environments with {steps} steps, because a fragment holds at most \
+         {envs_max} environments; use --actors {needed}, fewer --envs, or a smaller rollout.fragment_steps"
+    )))
+}

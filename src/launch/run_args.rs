@@ -1,0 +1,136 @@
+//! Flags of `train` and `learner`, and the configuration keys that they set.
+
+use std::path::PathBuf;
+
+use clap::Args;
+use treadmill_config::{ConfigSource, EnvTask};
+use treadmill_learner::checkpoint::Which;
+use treadmill_policy::device::DeviceKind;
+use treadmill_runtime::numbers::parse_count;
+
+use crate::{launch::exit_code::Usage, shared::existing_file::existing_file};
+
+/// Flags that configure a new run. A resumed run has them saved and accepts those that agree.
+#[derive(Args, Clone, Debug, Default)]
+pub struct NewRunArgs {
+    /// Preset to start the configuration from: walk (the default), walk-v5obs, walk-v4obs, smoke or sim2sim.
+    #[arg(long, value_name = "NAME")]
+    pub preset: Option<String>,
+    /// Configuration file (TOML), applied over the preset.
+    #[arg(long, value_name = "FILE", value_parser = existing_file)]
+    pub config: Option<PathBuf>,
+    /// Set a configuration key, as in ppo.learning_rate=3e-4; may be repeated.
+    #[arg(long, value_name = "KEY=VALUE")]
+    pub set: Vec<String>,
+    /// Task: humanoid-v5, humanoid-v4, `external` for the task that the first actor registers, or the name of such a task,
+    /// as in gymnasium/Humanoid-v5 (see docs/guide/external-tasks.md).
+    #[arg(long, value_name = "NAME")]
+    pub task: Option<String>,
+    /// Seed of every random stream.
+    #[arg(long)]
+    pub seed: Option<u64>,
+    /// Folder of the run; by default runs/PRESET-N with the first free N.
+    #[arg(long, value_name = "DIR")]
+    pub run_dir: Option<PathBuf>,
+    /// Begin with weights and statistics of another policy, and new counters: a run, a checkpoint or an exported file.
+    #[arg(long, value_name = "POLICY", group = "saved")]
+    pub init_from: Option<String>,
+    /// Branch off from another run: its configuration and whole learning state, in a new folder; --set changes keys.
+    #[arg(long, value_name = "RUN", group = "saved", conflicts_with = "preset")]
+    pub fork: Option<String>,
+    /// Word that groups runs, for `treadmill runs` and TensorBoard; may be repeated.
+    #[arg(long = "tag", value_name = "WORD")]
+    pub tags: Vec<String>,
+    /// Free text about the run, for `treadmill runs` and TensorBoard.
+    #[arg(long, value_name = "TEXT")]
+    pub description: Option<String>,
+}
+
+impl NewRunArgs {
+    /// Returns the name of the preset.
+    pub fn preset(&self) -> &str {
+        self.preset.as_deref().unwrap_or("walk")
+    }
+
+    /// Adds the file, the keys and the task, in this order, then `changes`, which are keys of other flags, and the seed.
+    pub fn add_to(&self, source: &mut ConfigSource, changes: &[(&str, toml::Value)]) -> anyhow::Result<()> {
+        if let Some(file) = &self.config {
+            source.file(file)?;
+        }
+        for pair in &self.set {
+            source.set(pair)?;
+        }
+        let task = self.task.as_deref().map(task_keys).transpose()?;
+        for (key, value) in task.unwrap_or_default().iter().chain(changes) {
+            source.value(key, value.clone())?;
+        }
+        for (key, value) in self.labels() {
+            source.value(key, value)?;
+        }
+        self.seed.map_or(Ok(()), |seed| add_count(source, "run.seed", seed))
+    }
+
+    /// Returns the keys that only describe the run, if they were given.
+    pub fn labels(&self) -> Vec<(&'static str, toml::Value)> {
+        let tags = (!self.tags.is_empty()).then(|| ("run.tags", self.tags.clone().into()));
+        tags.into_iter().chain(self.description.clone().map(|text| ("run.description", text.into()))).collect()
+    }
+}
+
+/// Flags of new and resumed runs.
+#[derive(Args, Clone, Debug, Default)]
+pub struct AnyRunArgs {
+    /// Total number of environment steps of the run, as in 8000000, 8M or 1e6.
+    #[arg(long, value_parser = parse_count)]
+    pub steps: Option<u64>,
+    /// Resume this run: its folder, or its name below runs/.
+    #[arg(long, value_name = "RUN", group = "saved")]
+    pub resume: Option<String>,
+    /// Resume the run in --run-dir if it has a checkpoint, else begin it: one command line for a service.
+    #[arg(long, requires = "run_dir", conflicts_with = "resume")]
+    pub resume_or_start: bool,
+    /// MJCF file of a robot other than the built-in humanoid (see docs/guide/robots.md); a resumed run keeps its own.
+    #[arg(long, value_name = "FILE", value_parser = existing_file)]
+    pub model: Option<PathBuf>,
+    /// Checkpoint to resume, fork or begin from: latest, best, or the number of updates of a kept one.
+    #[arg(long, value_name = "WHICH", requires = "saved")]
+    pub checkpoint: Option<Which>,
+    /// Device for the networks: cpu, or cuda in a build with that feature.
+    #[arg(long, value_name = "DEVICE", default_value = "cpu")]
+    pub device: DeviceKind,
+    /// Do not show progress.
+    #[arg(long)]
+    pub no_progress: bool,
+    /// Print all metrics every `learner.table_every_updates` updates.
+    #[arg(long)]
+    pub log_metrics: bool,
+    /// Print one JSON summary as the last line of standard output.
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// Adds a count to a configuration.
+pub fn add_count(source: &mut ConfigSource, key: &str, count: u64) -> anyhow::Result<()> {
+    let count =
+        i64::try_from(count).map_err(|_| Usage(format!("`{key}` is {count}; allowed: at most {}", i64::MAX)))?;
+    Ok(source.value(key, count)?)
+}
+
+/// Returns the keys that `--task NAME` sets: the task, and its name if it is external.
+fn task_keys(name: &str) -> Result<Vec<(&'static str, toml::Value)>, Usage> {
+    if EnvTask::NAMES.contains(&name) {
+        return Ok(vec![("env.task", name.into())]);
+    }
+    let ours = name.to_lowercase();
+    if EnvTask::NAMES.contains(&ours.as_str()) {
+        return Err(Usage(format!(
+            "--task {name}: the built-in task is `{ours}`; `gymnasium/{name}` is Gymnasium's own, which Python actors simulate"
+        )));
+    }
+    Ok(vec![("env.task", EnvTask::External.name().into()), ("task.name", name.into())])
+}
+
+/// Returns the configuration keys of the flags that were given.
+pub fn changes(flags: &[(&'static str, Option<u32>)]) -> Vec<(&'static str, toml::Value)> {
+    flags.iter().filter_map(|(key, value)| value.map(|value| (*key, i64::from(value).into()))).collect()
+}

@@ -1,0 +1,114 @@
+//! First state of a run that begins with another one's policy, or branches off from another run.
+
+use treadmill_config::Config;
+use treadmill_humanoid::PHYSICS_VERSION;
+use treadmill_learner::{
+    checkpoint::{self, TrainingState, Which},
+    intake::{FragmentCounts, Ledger},
+};
+use treadmill_policy::normaliser::RunningMoments;
+use treadmill_runtime::{numbers::thousands, run_folder::RunFolder, seeds};
+
+use crate::{
+    launch::{
+        exit_code::Usage,
+        run_args::{AnyRunArgs, NewRunArgs},
+    },
+    shared::saved_policy::{self, SavedPolicy},
+};
+
+/// Policy that a new run begins with: a run, a checkpoint or an exported file.
+pub struct InitFrom {
+    from: String,
+    /// Checkpoint of a run; by default the best if there is one.
+    which: Option<Which>,
+}
+
+impl InitFrom {
+    /// Reads the flags.
+    pub fn of(new: &NewRunArgs, any: &AnyRunArgs) -> Option<Self> {
+        new.init_from.clone().map(|from| Self { from, which: any.checkpoint })
+    }
+
+    /// Copies its weights and statistics into the state of a new run, whose counters remain. Returns what was copied.
+    ///
+    /// # Errors
+    /// If there is no such policy, or its networks have another shape.
+    pub fn copy_to(&self, state: &mut TrainingState) -> anyhow::Result<String> {
+        let from = &self.from;
+        let SavedPolicy { policy, origin, return_moments } = saved_policy::load(from, self.which)?;
+        let (theirs, ours) = (&policy.shape, &state.shape);
+        if theirs != ours {
+            return Err(Usage(format!(
+                "`--init-from {from}`: its networks have {} observations, {} actions and hidden layers {:?}; those of this run \
+                 have {}, {} and {:?}; use the same robot, env.observation and policy.hidden",
+                theirs.observation, theirs.action, theirs.hidden, ours.observation, ours.action, ours.hidden
+            ))
+            .into());
+        }
+        let count = policy.observation.count;
+        let m2 = policy.variance.iter().map(|variance| variance * count).collect();
+        state.observation_moments = RunningMoments { count, mean: policy.mean, m2 };
+        state.parameters = policy.parameters;
+        // An exported file has none: the critic then learns the scale of returns anew.
+        state.value_moments = return_moments.unwrap_or_else(|| RunningMoments::new(1));
+        Ok(origin.map_or_else(|| format!("`{from}`"), |origin| format!("`{from}`, {origin}")))
+    }
+}
+
+/// Learning state of another run: what a new run that branches off goes on from.
+pub struct Fork {
+    /// Weights, optimiser, statistics and counters.
+    pub state: TrainingState,
+    /// What was copied, for the banner.
+    pub origin: String,
+}
+
+impl Fork {
+    /// Reads the state of the run `from`.
+    ///
+    /// # Errors
+    /// If there is no such run, or this program cannot continue it.
+    pub fn read(from: &str, which: Option<Which>) -> anyhow::Result<Self> {
+        let loaded = checkpoint::load(&RunFolder::open(from)?, which.unwrap_or(Which::Latest))?;
+        let mut state = loaded.state;
+        let origin = format!("`{from}`, checkpoint {}, {} steps", loaded.name, thousands(state.counters.env_steps));
+        if !state.config().map_err(anyhow::Error::msg)?.is_external() {
+            state.adopt_physics(PHYSICS_VERSION).map_err(anyhow::Error::msg)?;
+        }
+        state.lineage.resume(seeds::unique());
+        // Its own actors will deliver to it, and its own episodes decide what is best.
+        (state.ledger, state.fragment_counts) = (Ledger::default(), FragmentCounts::default());
+        (state.best_return, state.best_is_evaluated, state.actor_state) = (None, false, None);
+        state.counters.resumes = 0;
+        Ok(Self { state, origin })
+    }
+
+    /// Returns the state with another configuration.
+    ///
+    /// # Errors
+    /// If the configuration does not fit the state, or has no more steps than it.
+    pub fn with_config(mut self, config: &Config) -> anyhow::Result<TrainingState> {
+        let state = &mut self.state;
+        let reached = state.counters.env_steps;
+        if config.run.steps <= reached {
+            return Err(Usage(format!(
+                "`--fork`: the run is at {} steps already and its goal is {}; go on with `--steps {}`",
+                thousands(reached),
+                thousands(config.run.steps),
+                reached.saturating_mul(2)
+            ))
+            .into());
+        }
+        let before = state.config().map_err(anyhow::Error::msg)?;
+        if before.ppo.learning_rate != config.ppo.learning_rate {
+            state.learning_rate = config.ppo.learning_rate;
+        }
+        if before.run.seed != config.run.seed {
+            state.shuffle = seeds::stream(config.run.seed, "shuffle", &[]);
+        }
+        state.config_toml = config.to_toml();
+        state.check().map_err(|why| Usage(format!("`--fork`: the new configuration does not fit: {why}")))?;
+        Ok(self.state)
+    }
+}

@@ -1,0 +1,114 @@
+//! Runs that begin with another run's policy, and runs that branch off.
+
+use std::{fs, path::Path};
+
+use crate::support::*;
+use treadmill_learner::checkpoint::{TrainingState, load_file};
+
+/// Starts a learner without actors, and returns its first state and the beginning of its output.
+fn first_state(folder: &Path, name: &str, args: &[&str]) -> (TrainingState, Vec<String>) {
+    let mut command = treadmill(folder);
+    command.args(["learner", "--listen", "tcp/127.0.0.1:0", "--run-dir", name]).args(args);
+    let learner = Running::start(command);
+    // It saves its first state before it listens.
+    learner.wait_for("resume    treadmill");
+    let state = await_that("the first state", || load_file(&folder.join(name).join("checkpoints/latest.bundle")).ok());
+    learner.signal(libc::SIGTERM);
+    let (_, lines) = learner.wait();
+    (state, lines)
+}
+
+fn latest(run: &Path) -> TrainingState {
+    load_file(&run.join("checkpoints/latest.bundle")).unwrap()
+}
+
+#[test]
+fn a_run_begins_with_weights_and_statistics_of_another_one_and_new_counters() {
+    let (folder, run_folder) = folders();
+    let folder = folder.path();
+    trained(folder, &run_folder);
+    let theirs = latest(&run_folder);
+    let smoke = ["--preset", "smoke"];
+    let from = [&smoke[..], &["--init-from", "run", "--checkpoint", "latest", "--seed", "5"]].concat();
+    let (ours, _) = first_state(folder, "warm", &from);
+    assert_eq!(ours.parameters, theirs.parameters);
+    assert_eq!(ours.value_moments, theirs.value_moments);
+    assert_eq!((ours.counters.env_steps, ours.counters.updates, &ours.run[..]), (0, 0, "warm"));
+    assert_eq!(ours.observation_moments.count, theirs.observation_moments.count);
+    assert_eq!(ours.observation_moments.mean, theirs.observation_moments.mean);
+    for (ours, theirs) in ours.observation_moments.m2.iter().zip(&theirs.observation_moments.m2) {
+        assert!((ours - theirs).abs() <= 1e-9 * theirs.abs(), "{ours} {theirs}");
+    }
+    assert!(ours.optimiser.first_moment.iter().all(|moment| *moment == 0.0));
+
+    // A file of `export` has no statistics of returns.
+    let exported = run(folder, &["export", "run", "--checkpoint", "latest", "--safetensors", "policy.safetensors"]);
+    assert!(exported.status.success(), "{}", stderr(&exported));
+    let from = [&smoke[..], &["--init-from", "policy.safetensors"]].concat();
+    let (ours, _) = first_state(folder, "exported", &from);
+    assert_eq!((ours.parameters, ours.value_moments.count), (theirs.parameters, 0.0));
+
+    let train = |args: &[&str]| run(folder, &[&["train", "--preset", "smoke", "--run-dir", "other"], args].concat());
+    let parts = ["--init-from run", "policy.hidden"];
+    assert_refused(&train(&["--init-from", "run", "--set", "policy.hidden=[8]"]), 2, &parts);
+    assert_refused(&train(&["--init-from", "rum"]), 2, &["no run at `rum`", "did you mean `run`?"]);
+    assert_refused(&train(&["--init-from", "run", "--resume", "run"]), 2, &["cannot be used with"]);
+    assert_refused(&train(&["--checkpoint", "best"]), 2, &["--resume", "--init-from", "--fork"]);
+    assert!(!folder.join("other").exists(), "a refused start leaves no folder");
+}
+
+#[test]
+fn a_fork_goes_on_in_a_folder_of_its_own_with_other_keys() {
+    let (folder, run_folder) = folders();
+    let folder = folder.path();
+    trained(folder, &run_folder);
+    let theirs = latest(&run_folder);
+    let (steps, updates) = (theirs.counters.env_steps, theirs.counters.updates);
+    let args = ["--fork", "run", "--set", "ppo.epochs=3", "--set", "ppo.learning_rate=7e-5", "--steps", ENDLESS];
+    let (ours, _) = first_state(folder, "branch", &args);
+    assert_eq!((ours.counters.env_steps, ours.counters.updates, &ours.run[..]), (steps, updates, "branch"));
+    assert_eq!((&ours.parameters, &ours.optimiser), (&theirs.parameters, &theirs.optimiser));
+    assert_eq!(ours.learning_rate, 7e-5);
+    let config = ours.config().unwrap();
+    assert_eq!((config.ppo.epochs, config.ppo.batch), (3, theirs.config().unwrap().ppo.batch));
+    assert_eq!(latest(&run_folder), theirs, "the forked run is unchanged");
+
+    let args = ["train", "--fork", "run", "--run-dir", "on", "--no-progress", "--steps"];
+    let further = (steps + 1024).to_string();
+    let trained = run(folder, &[&args[..], &[&further]].concat());
+    assert!(trained.status.success(), "{}", stderr(&trained));
+    assert!(stdout(&trained).contains("branching off at"), "{}", stdout(&trained));
+    let ours = latest(&folder.join("on"));
+    assert!(ours.counters.env_steps >= steps + 1024 && ours.counters.updates > updates);
+    assert!(metrics(&folder.join("on")).iter().all(|(_, step, _)| *step > steps), "its curves begin at the fork");
+
+    let refused = |args: &[&str], parts: &[&str]| {
+        assert_refused(&run(folder, &[&["train", "--fork", "run"], args].concat()), 2, parts)
+    };
+    refused(&["--steps", "10"], &["is at", "go on with `--steps"]);
+    refused(&["--steps", ENDLESS, "--set", "policy.hidden=[8]"], &["policy.hidden"]);
+    refused(&["--steps", ENDLESS, "--set", "env.observation=gymnasium-v5"], &["env.observation"]);
+    refused(&["--preset", "walk"], &["--preset"]);
+    assert!(!folder.join("runs").exists(), "a refused start leaves no folder");
+}
+
+#[test]
+fn tags_and_description_are_shown_and_may_change() {
+    let (folder, run_folder) = folders();
+    let folder = folder.path();
+    let args = ["train", "--preset", "smoke", "--steps", "512", "--run-dir", "run", "--no-progress", "--tag", "slow"];
+    let trained = run(folder, &[&args[..], &["--tag", "v2", "--description", "fewer \"steps\""]].concat());
+    assert!(trained.status.success(), "{}", stderr(&trained));
+    let listed = stdout(&run(folder, &["runs", "run"]));
+    assert!(listed.lines().any(|line| line == "    [slow] [v2] fewer \"steps\""), "{listed}");
+    let record = last_json(&run(folder, &["runs", "run", "--json"]));
+    assert_eq!((&record["tags"][1], &record["description"]), (&"v2".into(), &"fewer \"steps\"".into()));
+
+    let resumed =
+        run(folder, &["train", "--resume", "run", "--steps", "4096", "--no-progress", "--description", "new"]);
+    assert!(resumed.status.success(), "{}", stderr(&resumed));
+    let config = fs::read_to_string(run_folder.join("config.toml")).unwrap();
+    assert!(config.contains("description = \"new\"") && config.contains("\"slow\""), "{config}");
+    let two_words = run(folder, &["train", "--preset", "smoke", "--tag", "two words"]);
+    assert_refused(&two_words, 2, &["run.tags", "1 to 32 characters"]);
+}
