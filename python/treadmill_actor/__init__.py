@@ -11,6 +11,7 @@ Modules, in the order of the data:
     schema     protobuf messages of proto/schema
     settings   configuration keys that an actor needs
     cli        command line
+    forward    forwards metrics to MLflow or Weights & Biases; no actor
 """
 
 __version__ = "0.1.0"

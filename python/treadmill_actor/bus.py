@@ -1,7 +1,9 @@
 """Zenoh session of an actor; no other module imports zenoh. docs/guide/external-tasks.md describes each key."""
 
+import contextlib
 import ipaddress
 import json
+import queue
 import time
 from pathlib import Path
 
@@ -66,6 +68,30 @@ def configuration(connect, tls=None, role="actor"):
     for name, value in settings.items():
         config.insert_json5(name, json.dumps(value))
     return config
+
+
+def observe(connect, tls, run, events):
+    """Opens a session that puts ("metric", metric), ("begun", run) and ("gone", run) into a queue, and drops what is too much.
+
+    `run` is a name, or `*` for all runs.
+    """
+    zenoh.init_log_from_env_or("error")
+    session = zenoh.open(configuration(connect, tls, "observer"))
+
+    def put(kind, value):
+        with contextlib.suppress(queue.Full):
+            events.put_nowait((kind, value))
+
+    def receive_metric(sample):
+        put("metric", json.loads(sample.payload.to_string()))
+
+    def receive_token(sample):
+        name = str(sample.key_expr).split("/")[1]
+        put("begun" if sample.kind == zenoh.SampleKind.PUT else "gone", name)
+
+    session.declare_subscriber(f"treadmill/{run}/metrics/**", receive_metric)
+    session.liveliness().declare_subscriber(f"treadmill/{run}/learner", receive_token, history=True)
+    return session
 
 
 def fetch_pieces(ask, key, request):

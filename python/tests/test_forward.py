@@ -1,0 +1,86 @@
+"""Tests of the forwarder with recording sinks."""
+
+import queue
+import sys
+import tempfile
+import types
+import unittest
+from pathlib import Path
+from unittest import mock
+
+from treadmill_actor import forward
+
+
+def metric(run, tag, step, value=1.0):
+    """Returns a metric as the learner publishes it."""
+    return "metric", {"run": run, "tag": tag, "step": step, "value": value, "time_unix_s": 12.5}
+
+
+class RecordingRun:
+    """Sink that records calls."""
+
+    def __init__(self):
+        self.logged, self.video = [], "unfinished"
+
+    def log(self, metrics):
+        self.logged += [(m["tag"], m["step"], m["value"]) for m in metrics]
+
+    def finish(self, video):
+        self.video = video
+
+
+class ForwardTest(unittest.TestCase):
+    def forwarded(self, events):
+        """Forwards `events` until all runs have ended; returns the sinks by the names of their runs."""
+        waiting, sinks = queue.Queue(), {}
+        for event in events:
+            waiting.put(event)
+        forward.forward(waiting, lambda name: sinks.setdefault(name, RecordingRun()), lambda: "film.gif", gone_s=0.0)
+        return sinks
+
+    def test_runs_are_logged_apart_and_end_with_a_video(self):
+        events = [("begun", "a"), metric("a", "x", 1), metric("b", "x", 1, 2.0), metric("a", "y", 2), ("gone", "a"), ("gone", "b")]
+        sinks = self.forwarded(events)
+        self.assertEqual(sinks["a"].logged, [("x", 1, 1.0), ("y", 2, 1.0)])
+        self.assertEqual(sinks["b"].logged, [("x", 1, 2.0)])
+        self.assertEqual((sinks["a"].video, sinks["b"].video), ("film.gif", "film.gif"))
+
+    def test_restarted_learner_does_not_end_its_run(self):
+        events = [metric("a", "x", 1), ("gone", "a"), ("begun", "a"), metric("a", "x", 2), ("gone", "a")]
+        self.assertEqual(self.forwarded(events)["a"].logged, [("x", 1, 1.0), ("x", 2, 1.0)])
+
+    def test_wandb_gets_metrics_of_one_step_together(self):
+        wandb = mock.MagicMock()
+        with mock.patch.dict(sys.modules, {"wandb": wandb}):
+            run = forward.WandbRun("walk", "project")
+            run.log([value for _, value in (metric("walk", "a", 5), metric("walk", "b", 5, 2.0), metric("walk", "a", 6))])
+            run.finish(Path("policy.gif"))
+        calls = [call.args[0] for call in wandb.init.return_value.log.call_args_list]
+        self.assertEqual(calls[:2], [{"env_steps": 5, "a": 1.0, "b": 2.0}, {"env_steps": 6, "a": 1.0}])
+        wandb.Video.assert_called_once_with("policy.gif", format="gif")
+        wandb.init.return_value.finish.assert_called_once()
+
+    def test_mlflow_gets_steps_and_milliseconds(self):
+        mlflow, entities = mock.MagicMock(), types.SimpleNamespace(Metric=lambda *args: args)
+        with mock.patch.dict(sys.modules, {"mlflow": mlflow, "mlflow.entities": entities}):
+            run = forward.MlflowRun("walk", "project")
+            run.log([metric("walk", "a", 5)[1]])
+            run.finish(Path("policy.gif"))
+        client = mlflow.MlflowClient.return_value
+        self.assertEqual(client.log_batch.call_args.kwargs["metrics"], [("a", 1.0, 12500, 5)])
+        client.log_artifact.assert_called_once_with(run.id, "policy.gif", "video")
+        client.set_terminated.assert_called_once_with(run.id)
+
+    def test_folder_names_its_endpoint(self):
+        with tempfile.TemporaryDirectory() as folder:
+            self.assertEqual(forward.address(folder, None), (None, folder, ["tcp/127.0.0.1:7447"]))
+            Path(folder, "endpoint.txt").write_text("tcp/0.0.0.0:5\ntcp/other:1\n")
+            self.assertEqual(forward.address(folder, None), (Path(folder), "*", ["tcp/127.0.0.1:5"]))
+            self.assertEqual(forward.address("walk", ["tls/h:1"]), (None, "walk", ["tls/h:1"]))
+
+    def test_missing_program_means_no_video(self):
+        self.assertIsNone(forward.film("runs/walk-1", "/tmp", program="/no/such/treadmill"))
+
+
+if __name__ == "__main__":
+    unittest.main()

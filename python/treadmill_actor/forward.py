@@ -1,0 +1,174 @@
+"""Forwards the metrics of runs to MLflow or Weights & Biases while they train, and a video of the policy at the end.
+
+    python -m treadmill_actor.forward mlflow runs/walk-1             # a run's folder on this machine
+    python -m treadmill_actor.forward wandb walk --connect tls/HOST:7447 --tls certs
+
+Keeps the name, environment step and time of each metric. A run ends when its learner has been gone for ten seconds; then the best
+policy of a folder is filmed by `treadmill eval`. Ctrl-C ends all runs.
+"""
+
+import argparse
+import contextlib
+import json
+import queue
+import shutil
+import subprocess
+import sys
+import tempfile
+import time
+from pathlib import Path
+
+GONE_S = 10.0
+"""Time without a learner after which a run has ended: a learner that restarts is back sooner."""
+BATCH_MAX = 1000
+"""Most metrics of one call; MLflow's limit."""
+
+
+class MlflowRun:
+    """Run of an MLflow experiment."""
+
+    def __init__(self, name, project, tracking_uri=None):
+        from mlflow import MlflowClient
+
+        self.client = MlflowClient(tracking_uri)
+        known = self.client.get_experiment_by_name(project)
+        experiment = known.experiment_id if known else self.client.create_experiment(project)
+        self.id = self.client.create_run(experiment, run_name=name).info.run_id
+
+    def log(self, metrics):
+        """Logs metrics."""
+        from mlflow.entities import Metric
+
+        points = [Metric(m["tag"], m["value"], int(m["time_unix_s"] * 1000), m["step"]) for m in metrics]
+        self.client.log_batch(self.id, metrics=points)
+
+    def finish(self, video):
+        """Ends the run; `video` is a file or None."""
+        if video:
+            self.client.log_artifact(self.id, str(video), "video")
+        self.client.set_terminated(self.id)
+
+
+class WandbRun:
+    """Run of a Weights & Biases project."""
+
+    def __init__(self, name, project):
+        import wandb
+
+        self.wandb = wandb
+        self.run = wandb.init(project=project, name=name, reinit="create_new")
+        # Its own steps count calls.
+        self.run.define_metric("*", step_metric="env_steps")
+
+    def log(self, metrics):
+        """Logs metrics, those of one environment step together."""
+        for step in sorted({metric["step"] for metric in metrics}):
+            self.run.log({"env_steps": step} | {m["tag"]: m["value"] for m in metrics if m["step"] == step})
+
+    def finish(self, video):
+        """Ends the run; `video` is a file or None."""
+        if video:
+            self.run.log({"video": self.wandb.Video(str(video), format=video.suffix[1:])})
+        self.run.finish()
+
+
+def film(folder, target, program="treadmill"):
+    """Films one episode of the run in `folder`. Returns the file below `target`, or None with a message."""
+    video = Path(target) / ("policy.mp4" if shutil.which("ffmpeg") else "policy.gif")
+    command = [program, "eval", str(folder), "--episodes", "1", "--gif", str(video)]
+    try:
+        done = subprocess.run(command, capture_output=True, text=True, check=False)
+        problem = done.stderr.strip() if done.returncode else None
+    except OSError as error:
+        problem = f"{error}; put `treadmill` on the PATH, or name it with --treadmill"
+    if problem:
+        print(f"no video of {folder}: {problem}", file=sys.stderr)
+        return None
+    return video
+
+
+def take_batch(events, timeout_s):
+    """Waits for an event and returns all that wait, at most BATCH_MAX; empty after the timeout."""
+    try:
+        batch = [events.get(timeout=timeout_s)]
+    except queue.Empty:
+        return []
+    while len(batch) < BATCH_MAX and not events.empty():
+        batch.append(events.get())
+    return batch
+
+
+def forward(events, open_run, make_video, gone_s=GONE_S):
+    """Logs metrics until every run that began has ended.
+
+    `events` holds ("metric", metric), ("begun", run) and ("gone", run). `open_run(name)` returns a sink.
+    """
+    sinks, gone_since = {}, {}
+    with contextlib.suppress(KeyboardInterrupt):
+        while True:
+            batch = take_batch(events, 0.2)
+            for kind, value in batch:
+                if kind == "gone":
+                    gone_since[value] = time.monotonic()
+                elif kind == "begun":
+                    gone_since.pop(value, None)
+            metrics = [value for kind, value in batch if kind == "metric"]
+            for name in dict.fromkeys(metric["run"] for metric in metrics):
+                if name not in sinks:
+                    sinks[name] = open_run(name)
+                sinks[name].log([metric for metric in metrics if metric["run"] == name])
+            ended = [name for name, since in gone_since.items() if time.monotonic() - since >= gone_s]
+            for name in ended:
+                del gone_since[name]
+                if name in sinks:
+                    sinks.pop(name).finish(make_video())
+                    if not sinks:
+                        return
+    for sink in sinks.values():
+        sink.finish(make_video())
+
+
+def address(run, connect):
+    """Returns folder, run and endpoints that the arguments name; a folder holds the endpoint of its learner."""
+    folder = next((path for path in (Path(run), Path("runs") / run) if (path / "endpoint.txt").is_file()), None)
+    if folder is None or connect:
+        return None, run, connect or ["tcp/127.0.0.1:7447"]
+    endpoint = (folder / "endpoint.txt").read_text().splitlines()[0]
+    return folder, "*", [endpoint.replace("/0.0.0.0:", "/127.0.0.1:").replace("/[::]:", "/[::1]:")]
+
+
+def main():
+    """Runs the command line."""
+    from . import bus
+
+    flags = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    flags.add_argument("to", choices=["mlflow", "wandb"])
+    flags.add_argument("run", nargs="?", default="*", help="folder of a run, or its name on the bus; default all")
+    flags.add_argument("--connect", action="append", help="endpoint of the learner or a router; default tcp/127.0.0.1:7447")
+    flags.add_argument("--tls", help="folder with ca.crt, observer.crt and observer.key")
+    flags.add_argument("--insecure", action="store_true", help="allow plain tcp beyond loopback")
+    flags.add_argument("--project", default="treadmill", help="project or experiment that the runs belong to")
+    flags.add_argument("--tracking-uri", help="of MLflow, for example sqlite:///mlflow.db, or a server's address")
+    flags.add_argument("--treadmill", default="treadmill", help="program that films the policy")
+    args = flags.parse_args()
+    folder, run, connect = address(args.run, args.connect)
+    events = queue.Queue(100_000)
+    try:
+        for endpoint in connect:
+            bus.check_endpoint(endpoint, args.insecure)
+        session = bus.observe(connect, args.tls, run, events)
+    except bus.BusError as error:
+        print(f"error: {error}", file=sys.stderr)
+        return 2
+
+    def open_run(name):
+        print(f"forwarding run `{name}` to {args.to}", flush=True)
+        return MlflowRun(name, args.project, args.tracking_uri) if args.to == "mlflow" else WandbRun(name, args.project)
+
+    with session, tempfile.TemporaryDirectory() as target:
+        forward(events, open_run, lambda: folder and film(folder, target, args.treadmill))
+    return 0
+
+
+if __name__ == "__main__":
+    raise SystemExit(main())
