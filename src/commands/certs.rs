@@ -13,6 +13,7 @@ use clap::Args;
 use rcgen::{
     BasicConstraints, CertificateParams, DnType, ExtendedKeyUsagePurpose, IsCa, Issuer, KeyPair, KeyUsagePurpose,
 };
+use rustls::pki_types::ServerName;
 use time::{Duration, OffsetDateTime};
 use treadmill_bus::{Credentials, Role};
 
@@ -81,6 +82,9 @@ pub fn run(args: &CertsArgs) -> anyhow::Result<()> {
 /// Creates the missing files, and those of listening roles that lack a host; returns the roles whose files were written.
 pub fn make(args: &CertsArgs) -> anyhow::Result<Vec<&'static str>> {
     let folder = &args.folder;
+    if let Some(host) = args.host.iter().find(|host| ServerName::try_from(host.as_str()).is_err()) {
+        return Err(Usage(format!("--host {host}: it is neither a host's name nor an address")).into());
+    }
     fs::create_dir_all(folder).with_context(|| format!("cannot create the folder `{}`", folder.display()))?;
     let authority = authority(folder, args.days)?;
     let mut made = Vec::new();

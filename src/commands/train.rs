@@ -6,6 +6,7 @@ use treadmill_config::Config;
 
 use crate::{
     launch::{
+        exit_code::Usage,
         host::{self, HostOptions},
         metrics_page::MetricsArgs,
         run_args::{AnyRunArgs, NewRunArgs, changes},
@@ -45,6 +46,9 @@ pub fn run(args: TrainArgs) -> anyhow::Result<()> {
     let metrics = args.metrics.listen()?;
     let mut changes = changes(&[("rollout.envs", args.envs), ("rollout.actors", args.actors)]);
     if args.deterministic {
+        if args.actors.is_some_and(|actors| actors > 1) {
+            return Err(Usage("--deterministic runs one actor in lock-step; leave --actors out".to_string()).into());
+        }
         changes.push(("run.deterministic", true.into()));
     }
     let start = startup::prepare(RunCommand::Train, &args.new, &args.any, &changes)?;

@@ -1,4 +1,4 @@
-//! Hints for flags that users know from other programs of this kind.
+//! Hints for flags that users know from other programs of this kind, and for a frequent slip.
 
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 
@@ -26,7 +26,17 @@ pub fn hint(error: &clap::Error) -> Option<String> {
         return None;
     }
     let Some(ContextValue::String(given)) = error.get(ContextKind::InvalidArg) else { return None };
+    let words: Vec<String> = std::env::args().collect();
+    if let Some(hint) = set_without_equals(&words, given) {
+        return Some(hint);
+    }
     let given = given.split('=').next().unwrap_or(given);
     let (_, ours) = FAMILIAR.iter().find(|(theirs, _)| theirs.contains(&given))?;
     Some(format!("hint: what other programs call {given} is {ours} here; `treadmill config` prints every key"))
+}
+
+/// Returns a hint if the unknown argument is the value in `--set KEY VALUE`.
+fn set_without_equals(words: &[String], given: &str) -> Option<String> {
+    let [_, key, _] = words.windows(3).find(|words| words[0] == "--set" && words[2] == given)? else { return None };
+    (!key.contains('=')).then(|| format!("hint: write --set {key}={given}"))
 }

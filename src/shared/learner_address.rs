@@ -1,6 +1,6 @@
 //! Flags that locate a learner, and a session with it: for `status`, `control`, `check` and the viewer.
 
-use std::{path::PathBuf, time::Duration};
+use std::{fs, path::PathBuf, time::Duration};
 
 use anyhow::Context;
 use clap::Args;
@@ -10,7 +10,7 @@ use treadmill_runtime::{run_folder::RunFolder, run_lock::holder, words::quoted};
 
 use crate::{
     diagnosis::Silence,
-    launch::{async_runtime, slow_step::SlowStepNotice},
+    launch::{async_runtime, exit_code::Usage, slow_step::SlowStepNotice},
     shared::network_args::{NetworkArgs, check_run},
 };
 
@@ -55,6 +55,19 @@ impl ReachArgs {
         let folder = RunFolder::open(self.folder.as_ref()?).ok()?;
         // Runs of earlier versions have no lock, so they may be running.
         (folder.lock().exists() && holder(&folder).is_none()).then_some(folder)
+    }
+
+    /// Returns the folders below `runs/` of runs that are trained now, unless the flags name a learner.
+    #[must_use]
+    pub fn live_runs(&self) -> Vec<String> {
+        if self.folder.is_some() || !self.connect.is_empty() || self.network.discover {
+            return Vec::new();
+        }
+        let entries = fs::read_dir("runs").into_iter().flatten().flatten();
+        let mut folders: Vec<String> = entries.map(|entry| entry.path().display().to_string()).collect();
+        folders.sort();
+        folders.retain(|folder| RunFolder::open(folder).is_ok_and(|folder| holder(&folder).is_some()));
+        folders
     }
 
     /// Returns the endpoints given, or the one that the run's folder holds now: a restarted learner may listen elsewhere.
@@ -136,6 +149,11 @@ pub fn connect(
         let root = quoted(&folder.root().display().to_string());
         anyhow::bail!("no process trains `{root}` now; go on with: treadmill train --resume {root}");
     }
+    let reach = match &reach.live_runs()[..] {
+        [] => reach.clone(),
+        [run] => ReachArgs { folder: Some(run.clone()), ..reach.clone() },
+        runs => return Err(Usage(format!("several runs are trained here; name one: {}", runs.join(", "))).into()),
+    };
     let options = reach.options(role)?;
     async_runtime::run(async {
         let step = SlowStepNotice::begin(format!("dialling {}", options.connect.join(", ")));

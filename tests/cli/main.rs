@@ -9,6 +9,7 @@ mod film;
 mod lifecycle;
 mod model;
 mod runs;
+mod slips;
 #[path = "../support/mod.rs"]
 mod support;
 mod usage;

@@ -106,10 +106,12 @@ pub enum ConfigError {
         given: String,
     },
     /// The preset does not exist.
-    #[error("unknown preset `{given}`; allowed: {allowed}")]
+    #[error("unknown preset `{given}`;{hint} allowed: {allowed}")]
     Preset {
         /// The name as given.
         given: String,
+        /// The name that it may mean, as a question, or nothing.
+        hint: String,
         /// Existing names.
         allowed: String,
     },

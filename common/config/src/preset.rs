@@ -38,6 +38,15 @@ push_interval_s = [2.0, 5.0]
 push_mps = [0.0, 0.5]
 ";
 
+/// Asks whether the preset nearest to `name` is meant; empty if none is near.
+fn hint(name: &str) -> String {
+    let given = name.to_lowercase();
+    let nearest = PRESETS.iter().map(|(known, _)| (strsim::levenshtein(&given, known), *known)).min();
+    // Up to a third of the letters wrong counts as a misspelling.
+    let nearest = nearest.filter(|(distance, _)| distance * 3 <= given.len());
+    nearest.map(|(_, known)| format!(" did you mean `{known}`?")).unwrap_or_default()
+}
+
 /// Returns the text of a preset.
 ///
 /// # Errors
@@ -45,6 +54,7 @@ push_mps = [0.0, 0.5]
 pub fn preset(name: &str) -> Result<&'static str, ConfigError> {
     PRESETS.iter().find(|(known, _)| *known == name).map(|(_, text)| *text).ok_or_else(|| ConfigError::Preset {
         given: name.to_string(),
+        hint: hint(name),
         allowed: PRESETS.iter().map(|(known, _)| *known).collect::<Vec<_>>().join(", "),
     })
 }

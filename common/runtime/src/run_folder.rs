@@ -67,7 +67,7 @@ pub enum RunFolderError {
         holder: Holder,
     },
     /// The system refused.
-    #[error("the run folder `{path}` cannot be used")]
+    #[error("the run folder `{path}` cannot be used; choose one that you may write to with --run-dir")]
     Io {
         /// The folder.
         path: String,
@@ -217,7 +217,10 @@ fn known_runs(given: &str) -> String {
     names.sort();
     let bare = names.iter().filter_map(|name| name.strip_prefix("runs/"));
     let near = nearest(given, names.iter().map(String::as_str).chain(bare)).map(str::to_string);
-    let hint = near.or_else(|| nearest_path(Path::new(given))).map(|near| format!("did you mean `{near}`? "));
+    // A path within a run, as of a checkpoint.
+    let above = Path::new(given).ancestors().skip(1).find(|folder| folder.join("checkpoints").is_dir());
+    let near = above.map(|folder| folder.display().to_string()).or(near).or_else(|| nearest_path(Path::new(given)));
+    let hint = near.map(|near| format!("did you mean `{near}`? "));
     let list = match names.len() {
         0 => "there are no runs here yet: `treadmill train` makes one".to_string(),
         count @ 1..=RUNS_LISTED_MAX => format!("runs here: {}", names[..count].join(", ")),

@@ -29,7 +29,8 @@ pub fn nearest_path(path: &Path) -> Option<String> {
     let folder = path.parent()?;
     let entries = fs::read_dir(if folder == Path::new("") { Path::new(".") } else { folder }).ok()?;
     let names: Vec<String> = entries.flatten().map(|entry| entry.file_name().to_string_lossy().into_owned()).collect();
-    let name = nearest(path.file_name()?.to_str()?, names.iter().map(String::as_str))?;
+    let given = path.file_name()?.to_str()?;
+    let name = nearest(given, names.iter().map(String::as_str).filter(|name| *name != given))?;
     Some(folder.join(name).display().to_string())
 }
 

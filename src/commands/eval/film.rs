@@ -41,6 +41,10 @@ impl Film {
             _ => return Err(Usage(format!("--gif {}: the name must end in .gif or .mp4", path.display())).into()),
         };
         let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+        if !folder.is_dir() {
+            let why = format!("--gif {}: the folder `{}` does not exist", path.display(), folder.display());
+            return Err(Usage(why).into());
+        }
         let file = NamedTempFile::new_in(folder)
             .with_context(|| format!("--gif {}: the folder is not writable", path.display()))?;
         let encoder = match is_mp4 {

@@ -1,9 +1,7 @@
 //! Runs of this machine, by their folders.
 
-use std::{fs, path::Path};
-
 use serde_json::json;
-use treadmill_runtime::{numbers::thousands, run_folder::RunFolder, run_lock::holder};
+use treadmill_runtime::numbers::thousands;
 
 use crate::{commands::runs::record::Record, shared::learner_address::ReachArgs};
 
@@ -18,18 +16,6 @@ pub fn idle(reach: &ReachArgs) -> Option<anyhow::Result<IdleRun>> {
     let folder = reach.idle_folder()?;
     let root = folder.root().display().to_string();
     Some(Record::read(folder.root()).map(|record| IdleRun { record, root }))
-}
-
-/// Returns the folders below `runs/` of runs that are trained now, unless `reach` names a learner.
-pub fn live(reach: &ReachArgs) -> Vec<String> {
-    if reach.folder.is_some() || !reach.connect.is_empty() || reach.network.discover {
-        return Vec::new();
-    }
-    let entries = fs::read_dir(Path::new("runs")).into_iter().flatten().flatten();
-    let mut folders: Vec<String> = entries.map(|entry| entry.path().display().to_string()).collect();
-    folders.sort();
-    folders.retain(|folder| RunFolder::open(folder).is_ok_and(|folder| holder(&folder).is_some()));
-    folders
 }
 
 impl IdleRun {

@@ -66,7 +66,7 @@ pub fn run(args: StatusArgs) -> anyhow::Result<()> {
         say(&idle?.describe(json));
         return Ok(());
     }
-    let live = local::live(&reach);
+    let live = reach.live_runs();
     if live.is_empty() {
         return show(&reach, json);
     }

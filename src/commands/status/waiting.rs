@@ -5,7 +5,6 @@ use std::{thread::sleep, time::Duration};
 use treadmill_bus::Role;
 use treadmill_runtime::{error_chain, run_folder::RunFolder};
 
-use super::local;
 use crate::{diagnosis::Silence, launch::output::say_error, shared::learner_address::ReachArgs};
 
 const RETRY: Duration = Duration::from_secs(1);
@@ -18,7 +17,7 @@ const RETRY: Duration = Duration::from_secs(1);
 pub fn until_there(reach: &ReachArgs) -> anyhow::Result<ReachArgs> {
     let mut said = String::new();
     loop {
-        let folder = local::live(reach).into_iter().next();
+        let folder = reach.live_runs().into_iter().next();
         let found = ReachArgs { folder: folder.or(reach.folder.clone()), ..reach.clone() };
         let Some(why) = hindrance(&found)? else { return Ok(found) };
         if why != said {

@@ -1,0 +1,58 @@
+//! Ordinary slips of a new user: each gets an error that names the remedy.
+
+use std::fs;
+
+use crate::support::*;
+
+#[test]
+fn misspelled_names_get_the_nearest_one() {
+    let (folder, run_folder) = folders();
+    let folder = folder.path();
+    trained(folder, &run_folder);
+    fs::create_dir(folder.join("runs")).unwrap();
+    fs::rename(&run_folder, folder.join("runs/walk-1")).unwrap();
+    fs::write(folder.join("robot.xml"), "<mujoco/>").unwrap();
+    let refused = |args: &[&str], parts: &[&str]| assert_refused(&run(folder, args), 2, parts);
+    refused(&["eval", "wlak-1"], &["no run at `wlak-1`", "did you mean `walk-1`?", "runs here: runs/walk-1"]);
+    refused(&["train", "--resume", "rnus/walk-1"], &["did you mean `runs/walk-1`?"]);
+    refused(&["train", "--resume", "runs/walk-1/checkpoints/latest.bundle"], &["did you mean `runs/walk-1`?"]);
+    refused(&["status", "runs"], &["no run at `runs`; runs here: runs/walk-1"]);
+    refused(&["train", "--model", "robt.xml"], &["--model", "does not exist; did you mean `robot.xml`?"]);
+    refused(&["train", "--config", "my.toml"], &["--config", "does not exist"]);
+    refused(&["train", "--preset", "Walk"], &["unknown preset `Walk`; did you mean `walk`?"]);
+    refused(&["train", "--set", "ppo.epochs", "3"], &["hint: write --set ppo.epochs=3"]);
+}
+
+#[test]
+fn what_would_be_ignored_or_is_impossible_is_refused() {
+    let (folder, _) = folders();
+    let folder = folder.path();
+    let refused = |args: &[&str], parts: &[&str]| assert_refused(&run(folder, args), 2, parts);
+    refused(&["train", "--deterministic", "--actors", "4"], &["--deterministic runs one actor", "leave --actors out"]);
+    refused(&["certs", "certs", "--host", "bad host!"], &["--host bad host!", "neither a host's name nor an address"]);
+    let film = ["eval", "--agent", "random", "--episodes", "1", "--gif", "films/walk.gif"];
+    refused(&film, &["--gif films/walk.gif", "the folder `films` does not exist"]);
+    fs::write(folder.join("file"), "").unwrap();
+    assert_refused(
+        &run(folder, &["train", "--run-dir", "file"]),
+        1,
+        &["run folder `file`", "may write to with --run-dir"],
+    );
+    assert!(!folder.join("certs").exists() && !folder.join("runs").exists(), "nothing is left behind");
+}
+
+#[test]
+fn control_finds_the_only_live_run_and_refuses_to_choose() {
+    let (folder, _) = folders();
+    let folder = folder.path();
+    let start = |name: &str| {
+        let training = Running::start(endless(folder, &folder.join("runs").join(name), "train"));
+        await_steps(&folder.join("runs").join(name), 512);
+        training
+    };
+    let _one = start("one");
+    assert!(stdout(&run(folder, &["control", "pause"])).starts_with("paused"));
+    let _two = start("two");
+    assert_refused(&run(folder, &["control", "resume"]), 2, &["several runs", "runs/one, runs/two"]);
+    assert!(stdout(&run(folder, &["control", "resume", "one"])).starts_with("resumed"));
+}
