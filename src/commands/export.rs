@@ -83,6 +83,6 @@ struct Written<'a> {
 fn write<'a>(path: &'a Path, bytes: &[u8], what: String) -> anyhow::Result<Written<'a>> {
     let shown = path.display();
     atomic_file::write(path, bytes)
-        .with_context(|| format!("cannot write `{shown}`; name an existing folder that you may write to"))?;
+        .with_context(|| format!("cannot write `{shown}`; does its folder exist, and may you write to it?"))?;
     Ok(Written { path, bytes: bytes.len(), what })
 }

@@ -93,7 +93,7 @@ fn rejected(host: &str, why: &anyhow::Error) -> Finding {
                 "it has expired" => "renew it with `treadmill certs DIR --renew`, and restart the learner",
                 "it is not valid yet" => "compare the clocks of both machines",
                 OTHER_AUTHORITY => SAME_AUTHORITY,
-                _ => "name the host in its certificate: `treadmill certs DIR --renew --host NAME`",
+                _ => "name the host in its certificate: `treadmill certs DIR --host NAME`",
             };
             (format!("{host}'s certificate is refused: {words}"), remedy)
         }

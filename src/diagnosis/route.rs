@@ -25,20 +25,11 @@ pub fn diagnose(endpoint: &str, credentials: Option<&Credentials>) -> (Vec<Findi
         Err(why) => return (vec![unreachable(endpoint, &why)], false),
     };
     let reached = Finding::ok(NAME, format!("a process listens at {endpoint}"));
-    match (protocol, credentials) {
-        ("tls", Some(credentials)) => {
-            let host = address.rsplit_once(':').map_or(address, |(host, _)| host);
-            let handshake = handshake::diagnose(stream, host.trim_matches(['[', ']']), credentials);
-            let is_ok = handshake.severity != Severity::Problem;
-            (vec![reached, handshake], is_ok)
-        }
-        ("tls", None) => {
-            let seen = format!("{endpoint} requires certificates, and --tls is missing");
-            let remedy = "name the folder with ca.crt and the two files of this machine's role: --tls DIR";
-            (vec![Finding::problem(NAME, seen, remedy)], false)
-        }
-        _ => (vec![reached], true),
-    }
+    let (true, Some(credentials)) = (protocol == "tls", credentials) else { return (vec![reached], true) };
+    let host = address.rsplit_once(':').map_or(address, |(host, _)| host);
+    let handshake = handshake::diagnose(stream, host.trim_matches(['[', ']']), credentials);
+    let is_ok = handshake.severity != Severity::Problem;
+    (vec![reached, handshake], is_ok)
 }
 
 /// Returns the finding about endpoints where a process listens, but does not answer as a learner or a router does.

@@ -10,15 +10,15 @@ use treadmill_actor::settings;
 use treadmill_config::{Config, ConfigSource, EnvConfig, EnvObservation, Symmetry};
 use treadmill_humanoid::{Environment, HUMANOID_XML, Model, ModelError, read_model_file};
 use treadmill_ppo::{BatchMirror, IndexSwap};
-use treadmill_runtime::error_chain;
+use treadmill_runtime::{error_chain, words::nearest_path};
 
-use crate::{launch::exit_code::Usage, shared::existing_file::existing_file};
+use crate::launch::exit_code::Usage;
 
 /// Flags about robot and task of commands that play without a run.
 #[derive(Args, Clone, Debug, Default)]
 pub struct ModelArgs {
     /// MJCF file of a robot other than the built-in humanoid; see docs/guide/robots.md.
-    #[arg(long, value_name = "FILE", value_parser = existing_file)]
+    #[arg(long, value_name = "FILE")]
     pub model: Option<PathBuf>,
     /// Set a key of [env] or [randomisation], as in env.substeps=5; may be repeated.
     #[arg(long, value_name = "KEY=VALUE")]
@@ -45,7 +45,11 @@ impl ModelArgs {
 pub fn text(file: Option<&Path>) -> Result<Cow<'static, str>, Usage> {
     match file {
         None => Ok(Cow::Borrowed(HUMANOID_XML)),
-        Some(path) => Ok(Cow::Owned(read_model_file(path).map_err(|why| in_file(Some(path), &why))?)),
+        Some(path) => Ok(Cow::Owned(read_model_file(path).map_err(|why| {
+            let near = (!path.exists()).then(|| nearest_path(path)).flatten();
+            let hint = near.map(|near| format!("; did you mean `{near}`?")).unwrap_or_default();
+            Usage(in_file(Some(path), &why).0 + &hint)
+        })?)),
     }
 }
 

@@ -90,7 +90,7 @@ pub struct AnyRunArgs {
     #[arg(long, requires = "run_dir", conflicts_with = "resume")]
     pub resume_or_start: bool,
     /// MJCF file of a robot other than the built-in humanoid (see docs/guide/robots.md); a resumed run keeps its own.
-    #[arg(long, value_name = "FILE", value_parser = existing_file)]
+    #[arg(long, value_name = "FILE")]
     pub model: Option<PathBuf>,
     /// Checkpoint to resume, fork or begin from: latest, best, or the number of updates of a kept one.
     #[arg(long, value_name = "WHICH", requires = "saved")]

@@ -10,9 +10,7 @@ use treadmill_runtime::words::nearest_path;
 /// If there is no such file.
 pub fn existing_file(text: &str) -> Result<PathBuf, String> {
     let path = PathBuf::from(text);
-    if path.exists() {
-        return Ok(path);
-    }
+    let Err(why) = path.metadata() else { return Ok(path) };
     let hint = nearest_path(&path).map(|near| format!("; did you mean `{near}`?"));
-    Err(format!("it does not exist{}", hint.unwrap_or_default()))
+    Err(format!("it cannot be read: {why}{}", hint.unwrap_or_default()))
 }

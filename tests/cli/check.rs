@@ -151,7 +151,7 @@ fn no_listener_and_a_listener_of_another_program_are_distinguished() {
     let output = check(folder.path(), &["--connect", &endpoint]);
     assert_problem(&output, "route", &["no process listens", "endpoint.txt"]);
     assert!(of(&output, "learner").0.is_empty());
-    assert_problem(&check(folder.path(), &["--connect", "tls/127.0.0.1:1"]), "route", &[]);
+    assert_refused(&check(folder.path(), &["--connect", "tls/127.0.0.1:1"]), 2, &["--tls DIR"]);
 }
 
 /// Starts a learner.
@@ -251,9 +251,14 @@ fn a_failed_handshake_reports_which_side_does_not_trust_the_other() {
     // No learner listens at this address.
     let elsewhere = endpoint.replace("127.0.0.1", "127.0.0.2");
     assert_problem(&check_with("certs", &elsewhere), "route", &["no process listens"]);
-    certs(folder.path(), &["certs", "--renew", "--host", "learner.example"]);
+    let named = folder.path().join("named");
+    fs::create_dir(&named).unwrap();
+    for file in ["ca.crt", "ca.key"] {
+        fs::copy(folder.path().join("certs").join(file), named.join(file)).unwrap();
+    }
+    certs(folder.path(), &["named", "--host", "learner.example"]);
     let renamed = run_folder.with_extension("renamed");
-    let _renamed = learner(folder.path(), &renamed, &["--listen", "tls/127.0.0.1:0", "--tls", "certs"]);
+    let _renamed = learner(folder.path(), &renamed, &["--listen", "tls/127.0.0.1:0", "--tls", "named"]);
     let refused = check_with("certs", &self::endpoint(&renamed));
     assert_problem(&refused, "handshake", &["not for this name", "--host NAME"]);
     // This machine trusts the learner's authority, but not the other way round.
@@ -266,6 +271,5 @@ fn a_failed_handshake_reports_which_side_does_not_trust_the_other() {
     let output = check_with("certs", &endpoint);
     assert_ok(&output, "handshake");
     assert_eq!(of(&output, "learner").0, ["note"], "{}", stdout(&output));
-    let output = check(folder.path(), &["--connect", &endpoint]);
-    assert_problem(&output, "route", &["--tls DIR"]);
+    assert_refused(&check(folder.path(), &["--connect", &endpoint]), 2, &["--tls DIR"]);
 }

@@ -17,8 +17,11 @@ fn misspelled_names_get_the_nearest_one() {
     refused(&["train", "--resume", "rnus/walk-1"], &["did you mean `runs/walk-1`?"]);
     refused(&["train", "--resume", "runs/walk-1/checkpoints/latest.bundle"], &["did you mean `runs/walk-1`?"]);
     refused(&["status", "runs"], &["no run at `runs`; runs here: runs/walk-1"]);
-    refused(&["train", "--model", "robt.xml"], &["--model", "does not exist; did you mean `robot.xml`?"]);
-    refused(&["train", "--config", "my.toml"], &["--config", "does not exist"]);
+    refused(
+        &["train", "--model", "robt.xml"],
+        &["robt.xml` cannot be read: No such file", "did you mean `robot.xml`?"],
+    );
+    refused(&["train", "--config", "my.toml"], &["--config", "cannot be read: No such file"]);
     refused(&["train", "--preset", "Walk"], &["unknown preset `Walk`; did you mean `walk`?"]);
     refused(&["train", "--set", "ppo.epochs", "3"], &["hint: write --set ppo.epochs=3"]);
 }
@@ -31,7 +34,7 @@ fn what_would_be_ignored_or_is_impossible_is_refused() {
     refused(&["train", "--deterministic", "--actors", "4"], &["--deterministic runs one actor", "leave --actors out"]);
     refused(&["certs", "certs", "--host", "bad host!"], &["--host bad host!", "neither a host's name nor an address"]);
     let film = ["eval", "--agent", "random", "--episodes", "1", "--gif", "films/walk.gif"];
-    refused(&film, &["--gif films/walk.gif", "the folder `films` does not exist"]);
+    assert_refused(&run(folder, &film), 1, &["--gif films/walk.gif", "the folder `films` does not exist"]);
     fs::write(folder.join("file"), "").unwrap();
     assert_refused(
         &run(folder, &["train", "--run-dir", "file"]),

@@ -25,7 +25,7 @@ use treadmill_proto::ident::check_ident;
 use crate::{
     atomic_file,
     run_lock::Holder,
-    words::{nearest, nearest_path},
+    words::{nearest, nearest_path, quoted},
 };
 
 /// Most runs that an error lists.
@@ -50,15 +50,15 @@ pub enum RunFolderError {
         known: String,
     },
     /// The folder already holds a run.
-    #[error("`{path}` already holds a run; continue it with `--resume {path}`, or choose another --run-dir")]
+    #[error("`{path}` already holds a run; continue it with `--resume {}`, or choose another --run-dir", quoted(path))]
     Taken {
         /// The folder.
         path: String,
     },
     /// Another process writes into the folder.
     #[error(
-        "`{path}` is in use by {holder}; stop that process first, as by `treadmill control stop {path}`, or choose another \
-         --run-dir"
+        "`{path}` is in use by {holder}; stop that process first, as by `treadmill control stop {}`, or choose another --run-dir",
+        quoted(path)
     )]
     InUse {
         /// The folder.

@@ -42,8 +42,7 @@ impl Film {
         };
         let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
         if !folder.is_dir() {
-            let why = format!("--gif {}: the folder `{}` does not exist", path.display(), folder.display());
-            return Err(Usage(why).into());
+            anyhow::bail!("--gif {}: the folder `{}` does not exist", path.display(), folder.display());
         }
         let file = NamedTempFile::new_in(folder)
             .with_context(|| format!("--gif {}: the folder is not writable", path.display()))?;

@@ -1,7 +1,7 @@
 //! Runs of this machine, by their folders.
 
 use serde_json::json;
-use treadmill_runtime::numbers::thousands;
+use treadmill_runtime::{numbers::thousands, words::quoted};
 
 use crate::{commands::runs::record::Record, shared::learner_address::ReachArgs};
 
@@ -21,7 +21,7 @@ pub fn idle(reach: &ReachArgs) -> Option<anyhow::Result<IdleRun>> {
 impl IdleRun {
     /// Returns its results and how to go on, as text or as JSON.
     pub fn describe(&self, json: bool) -> String {
-        let Self { record, root } = self;
+        let (record, root) = (&self.record, quoted(&self.root));
         let distance_m = record.best_eval_distance_m.or(record.training_distance_m);
         if json {
             return json!({
