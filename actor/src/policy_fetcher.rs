@@ -39,7 +39,10 @@ pub async fn join_run(
         }
         // The first retries are silent: the learner may just be starting.
         if retries % RETRIES_PER_WARNING == 5 {
-            let cause = explain(bus.clone()).await;
+            let cause = tokio::select! {
+                cause = explain(bus.clone()) => cause,
+                () = shutdown.wait() => return Ok(None),
+            };
             tracing::warn!(run = run.map(tracing::field::display), %cause, "no learner answers; retrying");
         }
         retries += 1;

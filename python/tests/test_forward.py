@@ -1,5 +1,6 @@
 """Tests of the forwarder with recording sinks."""
 
+import itertools
 import queue
 import sys
 import tempfile
@@ -46,8 +47,20 @@ class ForwardTest(unittest.TestCase):
         self.assertEqual((sinks["a"].video, sinks["b"].video), ("film.gif", "film.gif"))
 
     def test_restarted_learner_does_not_end_its_run(self):
-        events = [metric("a", "x", 1), ("gone", "a"), ("begun", "a"), metric("a", "x", 2), ("gone", "a")]
-        self.assertEqual(self.forwarded(events)["a"].logged, [("x", 1, 1.0), ("x", 2, 1.0)])
+        batches = [[metric("a", "x", 1), ("gone", "a")], [("begun", "a")], [], [metric("a", "x", 2)], [("gone", "a")], []]
+        clock, opened = itertools.count(step=4.0), []
+
+        def open_run(name):
+            opened.append(RecordingRun())
+            return opened[-1]
+
+        # The clock advances by four seconds at each look.
+        with (
+            mock.patch.object(forward, "take_batch", lambda *_: batches.pop(0)),
+            mock.patch.object(forward.time, "monotonic", lambda: next(clock)),
+        ):
+            forward.forward(None, open_run, lambda: None, gone_s=6.0)
+        self.assertEqual([run.logged for run in opened], [[("x", 1, 1.0), ("x", 2, 1.0)]])
 
     def test_wandb_gets_metrics_of_one_step_together(self):
         wandb = mock.MagicMock()
@@ -73,9 +86,11 @@ class ForwardTest(unittest.TestCase):
 
     def test_folder_names_its_endpoint(self):
         with tempfile.TemporaryDirectory() as folder:
-            self.assertEqual(forward.address(folder, None), (None, folder, ["tcp/127.0.0.1:7447"]))
+            with self.assertRaises(ValueError):
+                forward.address(folder, None)
             Path(folder, "endpoint.txt").write_text("tcp/0.0.0.0:5\ntcp/other:1\n")
             self.assertEqual(forward.address(folder, None), (Path(folder), "*", ["tcp/127.0.0.1:5"]))
+            self.assertEqual(forward.address("walk", None), (None, "walk", ["tcp/127.0.0.1:7447"]))
             self.assertEqual(forward.address("walk", ["tls/h:1"]), (None, "walk", ["tls/h:1"]))
 
     def test_missing_program_means_no_video(self):

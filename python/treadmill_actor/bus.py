@@ -1,9 +1,7 @@
 """Zenoh session of an actor; no other module imports zenoh. docs/guide/external-tasks.md describes each key."""
 
-import contextlib
 import ipaddress
 import json
-import queue
 import time
 from pathlib import Path
 
@@ -14,6 +12,7 @@ from . import schema
 FETCH_TIMEOUT_S = 10.0
 PIECE_RETRY_S = 0.05
 MESSAGE_BYTES_MAX = 32 << 20
+QUEUED_METRICS_MAX = 100_000
 
 
 class BusError(Exception):
@@ -71,23 +70,22 @@ def configuration(connect, tls=None, role="actor"):
 
 
 def observe(connect, tls, run, events):
-    """Opens a session that puts ("metric", metric), ("begun", run) and ("gone", run) into a queue, and drops what is too much.
+    """Opens a session that puts ("metric", metric), ("begun", run) and ("gone", run) into an unbounded queue.
+
+    Metrics are dropped while QUEUED_METRICS_MAX events wait; they come again with the next update.
 
     `run` is a name, or `*` for all runs.
     """
     zenoh.init_log_from_env_or("error")
     session = zenoh.open(configuration(connect, tls, "observer"))
 
-    def put(kind, value):
-        with contextlib.suppress(queue.Full):
-            events.put_nowait((kind, value))
-
     def receive_metric(sample):
-        put("metric", json.loads(sample.payload.to_string()))
+        if events.qsize() < QUEUED_METRICS_MAX:
+            events.put(("metric", json.loads(sample.payload.to_string())))
 
     def receive_token(sample):
         name = str(sample.key_expr).split("/")[1]
-        put("begun" if sample.kind == zenoh.SampleKind.PUT else "gone", name)
+        events.put(("begun" if sample.kind == zenoh.SampleKind.PUT else "gone", name))
 
     session.declare_subscriber(f"treadmill/{run}/metrics/**", receive_metric)
     session.liveliness().declare_subscriber(f"treadmill/{run}/learner", receive_token, history=True)

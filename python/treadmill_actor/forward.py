@@ -8,8 +8,7 @@ policy of a folder is filmed by `treadmill eval`. Ctrl-C ends all runs.
 """
 
 import argparse
-import contextlib
-import json
+import importlib
 import queue
 import shutil
 import subprocess
@@ -104,7 +103,7 @@ def forward(events, open_run, make_video, gone_s=GONE_S):
     `events` holds ("metric", metric), ("begun", run) and ("gone", run). `open_run(name)` returns a sink.
     """
     sinks, gone_since = {}, {}
-    with contextlib.suppress(KeyboardInterrupt):
+    try:
         while True:
             batch = take_batch(events, 0.2)
             for kind, value in batch:
@@ -124,16 +123,21 @@ def forward(events, open_run, make_video, gone_s=GONE_S):
                     sinks.pop(name).finish(make_video())
                     if not sinks:
                         return
-    for sink in sinks.values():
-        sink.finish(make_video())
+    except KeyboardInterrupt:
+        pass
+    finally:
+        for sink in sinks.values():
+            sink.finish(make_video())
 
 
 def address(run, connect):
     """Returns folder, run and endpoints that the arguments name; a folder holds the endpoint of its learner."""
     folder = next((path for path in (Path(run), Path("runs") / run) if (path / "endpoint.txt").is_file()), None)
     if folder is None or connect:
+        if "/" in run:
+            raise ValueError(f"`{run}` is neither a run's folder with endpoint.txt nor a run's name")
         return None, run, connect or ["tcp/127.0.0.1:7447"]
-    endpoint = (folder / "endpoint.txt").read_text().splitlines()[0]
+    endpoint = (folder / "endpoint.txt").read_text().partition("\n")[0]
     return folder, "*", [endpoint.replace("/0.0.0.0:", "/127.0.0.1:").replace("/[::]:", "/[::1]:")]
 
 
@@ -151,13 +155,17 @@ def main():
     flags.add_argument("--tracking-uri", help="of MLflow, for example sqlite:///mlflow.db, or a server's address")
     flags.add_argument("--treadmill", default="treadmill", help="program that films the policy")
     args = flags.parse_args()
-    folder, run, connect = address(args.run, args.connect)
-    events = queue.Queue(100_000)
+    events = queue.Queue()
     try:
+        importlib.import_module(args.to)
+        folder, run, connect = address(args.run, args.connect)
         for endpoint in connect:
             bus.check_endpoint(endpoint, args.insecure)
         session = bus.observe(connect, args.tls, run, events)
-    except bus.BusError as error:
+    except ImportError:
+        print(f"error: {args.to} is not installed: pip install {args.to}", file=sys.stderr)
+        return 2
+    except (bus.BusError, ValueError) as error:
         print(f"error: {error}", file=sys.stderr)
         return 2
 

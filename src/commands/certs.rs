@@ -91,7 +91,7 @@ pub fn make(args: &CertsArgs) -> anyhow::Result<Vec<&'static str>> {
     for role in Role::ALL {
         let [certificate, key] = Credentials { folder: folder.clone(), role }.files();
         let is_there = certificate.exists() && key.exists();
-        let old = if is_there { certificates::hosts_in(&certificate) } else { Some(Vec::new()) };
+        let old = if certificate.exists() { certificates::hosts_in(&certificate) } else { Some(Vec::new()) };
         let hosts = hosts(old.as_deref().unwrap_or_default(), &args.host);
         // An unreadable certificate is replaced only on request.
         let is_complete = is_there && (!role.listens() || old.is_none_or(|old| old == hosts));

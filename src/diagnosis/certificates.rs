@@ -33,7 +33,7 @@ pub fn diagnose(folder: &Path) -> Vec<Finding> {
     };
     let roles = Role::ALL.into_iter().filter(|role| folder.join(format!("{}.crt", role.name())).exists());
     let findings: Vec<Finding> =
-        roles.map(|role| diagnose_role(folder, role, &roots).unwrap_or_else(|finding| finding)).collect();
+        roles.map(|role| diagnose_whole(folder, role, &roots).unwrap_or_else(|finding| finding)).collect();
     if findings.is_empty() {
         let seen = format!("{} has no role's certificate", folder.display());
         return vec![Finding::problem(
@@ -45,7 +45,7 @@ pub fn diagnose(folder: &Path) -> Vec<Finding> {
     findings
 }
 
-/// Makes the finding for one role's certificate.
+/// Makes the finding for one role's certificate, as far as links depend on it.
 pub fn diagnose_role_in(folder: &Path, role: Role) -> Finding {
     authority(folder).and_then(|roots| diagnose_role(folder, role, &roots)).unwrap_or_else(|finding| finding)
 }
@@ -65,6 +65,12 @@ pub fn authority(folder: &Path) -> Result<Arc<RootCertStore>, Finding> {
             "make certificates with `treadmill certs`, or copy ca.crt from where they were made",
         )),
     }
+}
+
+fn diagnose_whole(folder: &Path, role: Role, roots: &Arc<RootCertStore>) -> Result<Finding, Finding> {
+    let finding = diagnose_role(folder, role, roots)?;
+    let [_, key] = Credentials { folder: folder.to_path_buf(), role }.files();
+    check_privacy(&key).map(|()| finding)
 }
 
 fn diagnose_role(folder: &Path, role: Role, roots: &Arc<RootCertStore>) -> Result<Finding, Finding> {
@@ -112,7 +118,7 @@ fn check_validity(role: Role, certificate: &X509Certificate) -> Result<Finding, 
     })
 }
 
-/// Tests that the private key matches the certificate and that only its owner can read it.
+/// Tests that the private key matches the certificate.
 fn check_key(der: &CertificateDer, certificate: &str, file: &Path) -> Result<(), Finding> {
     let shown = file.display();
     let provider = rustls::crypto::ring::default_provider();
@@ -122,6 +128,12 @@ fn check_key(der: &CertificateDer, certificate: &str, file: &Path) -> Result<(),
             CertifiedKey::from_der(vec![der.clone().into_owned()], key, &provider).map_err(|why| why.to_string())
         })
         .map_err(|why| Finding::problem(NAME, format!("{shown} does not match {certificate}: {why}"), COPY_ANEW))?;
+    Ok(())
+}
+
+/// Tests that only its owner can read a private key. No link fails because of that.
+fn check_privacy(file: &Path) -> Result<(), Finding> {
+    let shown = file.display();
     let mode = file.metadata().map_or(0, |facts| facts.permissions().mode() & 0o777);
     if mode & 0o077 != 0 {
         let seen = format!("{shown} can be read by others: its mode is {mode:o}");

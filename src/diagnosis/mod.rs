@@ -12,7 +12,7 @@ pub(crate) mod route;
 
 use std::{fmt, time::Duration};
 
-use treadmill_bus::{Bus, BusOptions, Role, live_runs};
+use treadmill_bus::{Bus, BusOptions, live_runs};
 use treadmill_runtime::words::{nearest, quoted};
 
 use finding::{Finding, Severity};
@@ -46,22 +46,20 @@ impl Silence {
     /// Finds out why no client can join the bus of `options`. Takes some seconds and blocks its thread.
     #[must_use]
     pub fn of_endpoints(options: &BusOptions, run: Option<&str>) -> Self {
-        Self::of_route(options, run).unwrap_or_else(|| {
-            let finding = match options.discover {
-                true => no_reply_to_multicast(),
-                false => route::not_a_learner(&options.connect),
-            };
-            Self::new(finding, options, run)
-        })
+        Self::of_route(options, run).unwrap_or_else(|| Self::new(no_peer(options), options, run))
     }
 
-    /// Finds what stands on the way to the endpoints of `options`, if they are named. Blocks its thread for seconds at most.
+    /// Finds what stands on the way to an endpoint of `options`: the bus dials them in order, each until it answers. `None` if
+    /// nothing is found, or if discovery may find others. Blocks its thread, at most some seconds for each endpoint.
     #[must_use]
     pub fn of_route(options: &BusOptions, run: Option<&str>) -> Option<Self> {
+        if options.discover {
+            return None;
+        }
         let credentials = options.credentials.as_ref();
-        let findings = options.connect.iter().flat_map(|endpoint| route::diagnose(endpoint, credentials).0);
         // The folder of certificates explains a failed handshake better than the other end does.
         let own = credentials.map(|credentials| certificates::diagnose_role_in(&credentials.folder, credentials.role));
+        let findings = options.connect.iter().flat_map(|endpoint| route::diagnose(endpoint, credentials).0);
         let found = own.into_iter().chain(findings).find(|finding| finding.severity == Severity::Problem);
         found.map(|finding| Self::new(finding, options, run))
     }
@@ -87,41 +85,41 @@ impl Silence {
 pub async fn missing_run(bus: &Bus, options: &BusOptions, run: Option<&str>) -> Finding {
     let runs = live_runs(bus, RUNS_TIMEOUT).await.unwrap_or_default();
     let names = runs.join(", ");
-    let there = options.connect.join(", ");
-    let credentials = options.credentials.as_ref();
-    let own = credentials.map(|credentials| certificates::diagnose_role_in(&credentials.folder, credentials.role));
-    match (run, credentials.map(|credentials| credentials.role)) {
-        _ if runs.is_empty() => Finding::problem(
+    let there = if options.connect.is_empty() { "that was discovered".to_string() } else { options.connect.join(", ") };
+    if runs.is_empty() {
+        return Finding::problem(
             NAME,
             format!("no learner has joined the bus at {there}"),
-            "start a learner; if this is a router, check its link to the learner",
-        ),
-        (Some(run), _) if !runs.iter().any(|live| live == run) => {
-            let hint = nearest(run, runs.iter().map(|run| &run[..])).map(|near| format!("; did you mean `{near}`?"));
-            Finding::problem(
-                NAME,
-                format!("no learner trains a run `{run}` at {there}{}", hint.unwrap_or_default()),
-                format!("name one of the runs there with --run: {names}"),
-            )
-        }
-        (_, Some(role)) if !matches!(role, Role::Observer | Role::Operator) => Finding::note(
-            NAME,
-            format!("run `{names}` is there; the {}'s certificate may not ask for its status", role.name()),
-            "use an observer's certificate to check versions and clocks",
-        ),
-        _ => own.filter(|own| own.severity == Severity::Problem).unwrap_or_else(|| {
-            let seen = format!("the learner of `{names}` at {there} does not answer in time");
-            Finding::problem(NAME, seen, "ask again; then compare the versions on both machines, and read its log")
-        }),
+            "start a learner (one for an external task joins with its first actor); if this is a router, check its link to \
+             the learner",
+        );
     }
+    if let Some(run) = run.filter(|run| !runs.iter().any(|live| live == run)) {
+        let near = nearest(run, runs.iter().map(|run| &run[..])).map(|near| format!("; did you mean `{near}`?"));
+        return Finding::problem(
+            NAME,
+            format!("no learner trains a run `{run}` at {there}{}", near.unwrap_or_default()),
+            format!("name one of the runs there with --run: {names}"),
+        );
+    }
+    let credentials = options.credentials.as_ref();
+    let own = credentials.map(|credentials| certificates::diagnose_role_in(&credentials.folder, credentials.role));
+    own.filter(|own| own.severity == Severity::Problem).unwrap_or_else(|| {
+        let seen = format!("the learner of `{}` at {there} does not answer in time", run.unwrap_or(&names));
+        Finding::problem(NAME, seen, "ask again; then compare the versions on both machines, and read its log")
+    })
 }
 
-fn no_reply_to_multicast() -> Finding {
-    Finding::problem(
-        "discovery",
-        "no learner or router replied to multicast",
-        "start it with --discover; where the network carries no multicast, name an endpoint with --connect",
-    )
+/// Returns the finding that no learner or router could be joined, though a process listens.
+pub fn no_peer(options: &BusOptions) -> Finding {
+    if options.connect.is_empty() {
+        return Finding::problem(
+            "discovery",
+            "no learner or router replied to multicast",
+            "start it with --discover; where the network carries no multicast, name an endpoint with --connect",
+        );
+    }
+    route::not_a_learner(&options.connect)
 }
 
 /// Returns the command that examines the way to a learner, quoted for a shell.
@@ -146,7 +144,7 @@ fn check_command(options: &BusOptions, run: Option<&str>) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use treadmill_bus::Credentials;
+    use treadmill_bus::{Credentials, Role};
 
     #[test]
     fn the_command_repeats_all_flags_of_the_network() {

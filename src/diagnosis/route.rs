@@ -20,7 +20,14 @@ const CONNECT_TIMEOUT: Duration = Duration::from_secs(5);
 pub fn diagnose(endpoint: &str, credentials: Option<&Credentials>) -> (Vec<Finding>, bool) {
     let Some((protocol, rest)) = endpoint.split_once('/') else { return (Vec::new(), false) };
     let address = rest.split(['?', '#']).next().unwrap_or(rest);
-    let stream = match address.to_socket_addrs().and_then(connect) {
+    let addresses = match address.to_socket_addrs() {
+        Ok(addresses) => addresses,
+        Err(why) => {
+            let seen = format!("the host of {endpoint} is unknown: {why}");
+            return (vec![Finding::problem(NAME, seen, "check the name: getent hosts NAME")], false);
+        }
+    };
+    let stream = match connect(addresses) {
         Ok(stream) => stream,
         Err(why) => return (vec![unreachable(endpoint, &why)], false),
     };
@@ -70,7 +77,7 @@ fn unreachable(endpoint: &str, why: &io::Error) -> Finding {
             format!("no answer from {endpoint}: {why}"),
             "check that the machine is up, and that no firewall or security group blocks this port",
         ),
-        _ => (format!("the host of {endpoint} is unknown: {why}"), "check the name: getent hosts NAME"),
+        _ => (format!("{endpoint} cannot be reached: {why}"), "check this machine's network"),
     };
     Finding::problem(NAME, seen, remedy)
 }
@@ -84,6 +91,6 @@ mod tests {
         let remedy = |kind: io::ErrorKind| unreachable("tcp/learner:7447", &kind.into()).remedy.unwrap();
         assert!(remedy(io::ErrorKind::ConnectionRefused).contains("endpoint.txt"));
         assert!(remedy(io::ErrorKind::TimedOut).contains("firewall"));
-        assert!(remedy(io::ErrorKind::NotFound).contains("getent"));
+        assert!(remedy(io::ErrorKind::PermissionDenied).contains("network"));
     }
 }

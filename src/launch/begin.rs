@@ -61,7 +61,7 @@ fn begin_built_in(command: RunCommand, new: &NewRunArgs, any: &AnyRunArgs, confi
     }
     let fresh = TrainingState::fresh("", &config, &text, observation, action, seeds::unique());
     let mut state = TrainingState { physics_version: PHYSICS_VERSION, ..fresh };
-    let init_from = InitFrom::of(new, any);
+    let init_from = InitFrom::read(new, any)?;
     let origin = init_from.as_ref().map(|from| from.copy_to(&mut state)).transpose()?;
     let (folder, lock) = create_folder(new, new.preset())?;
     let run = folder.name().to_string();
@@ -77,8 +77,9 @@ fn begin_external(new: &NewRunArgs, any: &AnyRunArgs, config: Config) -> anyhow:
     if let Some(why) = known.as_ref().and_then(|task| TrainingState::objection(&config, task)) {
         return Err(Usage(why).into());
     }
+    let init_from = InitFrom::read(new, any)?;
     let (folder, lock) = create_folder(new, new.preset())?;
-    let (run, init_from) = (folder.name().to_string(), InitFrom::of(new, any));
+    let run = folder.name().to_string();
     let mut prepared = Prepared { config, folder, device, mirror: None, run, state: None, init_from, origin: None };
     let set = known.map_or(Ok(()), |task| prepared.set_task(task));
     set.inspect_err(|_| prepared.folder.discard())?;

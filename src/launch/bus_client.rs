@@ -55,7 +55,7 @@ impl ClientArgs {
         Ok(self.run.clone())
     }
 
-    /// Returns what explains to a process of this role why its run does not answer.
+    /// Returns a function that finds out why the run does not answer a process of this role.
     pub fn explain(&self, network: &NetworkArgs, role: Role) -> anyhow::Result<Explain> {
         let options = network.options(role, Vec::new(), self.connect.clone())?;
         let run = self.run.clone();
@@ -87,6 +87,8 @@ pub fn with_session<W: Future<Output = Result<(), ActorError>>>(
         tokio::pin!(opened);
         // Dialling lasts until a peer answers, which may be never.
         let mut warning = tokio::time::interval_at(tokio::time::Instant::now() + FIRST_WARNING, WARN_EVERY);
+        // A diagnosis may take longer than the interval.
+        warning.set_missed_tick_behavior(tokio::time::MissedTickBehavior::Delay);
         let bus = loop {
             tokio::select! {
                 bus = &mut opened => break bus??,

@@ -40,5 +40,8 @@ pub async fn open_server(
     let Some((server, task)) = waiting.await? else { return Ok(None) };
     say(&format!("  task      {task}, as its first actor registered it"));
     prepared.set_task(task)?;
+    if let Some(origin) = &prepared.origin {
+        say(&format!("  begins    with the policy of {origin}"));
+    }
     Ok(Some(server))
 }

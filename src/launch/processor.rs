@@ -19,9 +19,12 @@ pub(crate) fn is_supported() -> bool {
     // Bits from Intel's manual, volume 2, instruction CPUID. OSXSAVE: the operating system saves wide registers.
     let basic = __cpuid(1).ecx;
     let extended = if __cpuid(0).eax >= 7 { __cpuid_count(7, 0).ebx } else { 0 };
+    let long = if __cpuid(0x8000_0000).eax >= 0x8000_0001 { __cpuid(0x8000_0001).ecx } else { 0 };
     let (osxsave, avx, fma) = (basic >> 27 & 1, basic >> 28 & 1, basic >> 12 & 1);
     let (avx2, bmi) = (extended >> 5 & 1, extended >> 3 & extended >> 8 & 1);
-    if osxsave & avx & fma & avx2 & bmi == 1 {
+    // F16C, MOVBE and LZCNT.
+    let rest = basic >> 29 & basic >> 22 & long >> 5 & 1;
+    if osxsave & avx & fma & avx2 & bmi & rest == 1 {
         return true;
     }
     // Failures to write are ignored: the exit code remains.
@@ -39,6 +42,9 @@ pub(crate) fn is_supported() -> bool {
     }
     if bmi == 0 {
         say(b" BMI");
+    }
+    if rest == 0 {
+        say(b" F16C, MOVBE or LZCNT");
     }
     say(b"; build it from source, which runs on every x86-64 processor: cargo install --locked --path . (in a virtual machine, \
           expose the host's processor instead; QEMU: -cpu host)\n");

@@ -31,16 +31,20 @@ pub fn resume(
     check_folder(&folder, new)?;
     let lock = RunLock::take(&folder)?;
     let _step = SlowStepNotice::begin(format!("loading the checkpoint of {}", folder.root().display()));
-    let mut state = checkpoint::load(&folder, any.checkpoint.unwrap_or(Which::Latest))?.state;
+    // With --resume-or-start, the flag chooses the checkpoint to begin from.
+    let which = any.checkpoint.filter(|_| any.resume.is_some()).unwrap_or(Which::Latest);
+    let mut state = checkpoint::load(&folder, which)?.state;
     let mut config = state.config().map_err(anyhow::Error::msg)?;
     startup::check_external(command, &config, any)?;
     // Labels describe the run and may change at each start, as may the number of processes.
+    let saved_run = config.run.clone();
     for (key, value) in new.labels() {
         let mut source = ConfigSource::default();
         source.text(&config.to_toml(), "the saved configuration")?;
         source.value(key, value)?;
         config = source.build()?;
     }
+    let has_new_labels = config.run != saved_run;
     let kept: Vec<_> = changes.iter().filter(|(key, _)| *key != "rollout.actors").cloned().collect();
     check_agreement(&config, new, &kept)?;
     let device = startup::open_device(&config, any.device)?;
@@ -59,6 +63,10 @@ pub fn resume(
         None => saved,
     };
     if reached >= goal {
+        if has_new_labels && any.resume.is_some() {
+            let why = "`--tag` and `--description` are saved when a run goes on, and this one is finished; add --steps";
+            return Err(Usage(why.to_string()).into());
+        }
         return Ok(Start::Finished(folder, Box::new(state)));
     }
     config.run.steps = saved.max(goal);

@@ -17,26 +17,29 @@ use crate::{
     shared::saved_policy::{self, SavedPolicy},
 };
 
-/// Policy that a new run begins with: a run, a checkpoint or an exported file.
+/// Policy that a new run begins with.
 pub struct InitFrom {
     from: String,
-    /// Checkpoint of a run; by default the best if there is one.
-    which: Option<Which>,
+    saved: SavedPolicy,
 }
 
 impl InitFrom {
-    /// Reads the flags.
-    pub fn of(new: &NewRunArgs, any: &AnyRunArgs) -> Option<Self> {
-        new.init_from.clone().map(|from| Self { from, which: any.checkpoint })
+    /// Reads the run, checkpoint or exported file that the flags name; of a run, by default the best checkpoint if there is one.
+    ///
+    /// # Errors
+    /// If there is no such policy.
+    pub fn read(new: &NewRunArgs, any: &AnyRunArgs) -> anyhow::Result<Option<Self>> {
+        let Some(from) = new.init_from.clone() else { return Ok(None) };
+        let saved = saved_policy::load(&from, any.checkpoint)?;
+        Ok(Some(Self { from, saved }))
     }
 
     /// Copies its weights and statistics into the state of a new run, whose counters remain. Returns what was copied.
     ///
     /// # Errors
-    /// If there is no such policy, or its networks have another shape.
+    /// If its networks have another shape.
     pub fn copy_to(&self, state: &mut TrainingState) -> anyhow::Result<String> {
-        let from = &self.from;
-        let SavedPolicy { policy, origin, return_moments } = saved_policy::load(from, self.which)?;
+        let Self { from, saved: SavedPolicy { policy, origin, return_moments } } = self;
         let (theirs, ours) = (&policy.shape, &state.shape);
         if theirs != ours {
             return Err(Usage(format!(
@@ -48,11 +51,11 @@ impl InitFrom {
         }
         let count = policy.observation.count;
         let m2 = policy.variance.iter().map(|variance| variance * count).collect();
-        state.observation_moments = RunningMoments { count, mean: policy.mean, m2 };
-        state.parameters = policy.parameters;
+        state.observation_moments = RunningMoments { count, mean: policy.mean.clone(), m2 };
+        state.parameters.clone_from(&policy.parameters);
         // An exported file has none: the critic then learns the scale of returns anew.
-        state.value_moments = return_moments.unwrap_or_else(|| RunningMoments::new(1));
-        Ok(origin.map_or_else(|| format!("`{from}`"), |origin| format!("`{from}`, {origin}")))
+        state.value_moments = return_moments.clone().unwrap_or_else(|| RunningMoments::new(1));
+        Ok(origin.as_ref().map_or_else(|| format!("`{from}`"), |origin| format!("`{from}`, {origin}")))
     }
 }
 

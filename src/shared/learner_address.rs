@@ -31,7 +31,8 @@ pub struct ReachArgs {
     /// Folder of a run on this machine, or its name below runs/; the folder holds the learner's endpoint.
     #[arg(value_name = "RUN", conflicts_with = "connect")]
     pub folder: Option<String>,
-    /// Endpoint of the learner or of a router; may be repeated. By default tcp/127.0.0.1:7447.
+    /// Endpoint of the learner or of a router; may be repeated. By default that of the run that is trained below runs/, else
+    /// tcp/127.0.0.1:7447.
     #[arg(long, value_name = "ENDPOINT")]
     pub connect: Vec<String>,
     /// Name of the run on the bus; may be left out if there is only one.
@@ -57,10 +58,10 @@ impl ReachArgs {
         (folder.lock().exists() && holder(&folder).is_none()).then_some(folder)
     }
 
-    /// Returns the folders below `runs/` of runs that are trained now, unless the flags name a learner.
+    /// Returns the folders below `runs/` of runs that are trained now, unless the flags name a run or a learner.
     #[must_use]
     pub fn live_runs(&self) -> Vec<String> {
-        if self.folder.is_some() || !self.connect.is_empty() || self.network.discover {
+        if self.folder.is_some() || self.run.is_some() || !self.connect.is_empty() || self.network.discover {
             return Vec::new();
         }
         let entries = fs::read_dir("runs").into_iter().flatten().flatten();
@@ -94,7 +95,7 @@ impl ReachArgs {
     /// As [`Self::named_endpoints`].
     pub fn endpoints(&self) -> anyhow::Result<Vec<String>> {
         let mut connect = self.named_endpoints()?;
-        if connect.is_empty() {
+        if connect.is_empty() && !self.network.discover {
             connect.push(DEFAULT_ENDPOINT.to_string());
         }
         Ok(connect)

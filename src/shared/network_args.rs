@@ -62,7 +62,10 @@ impl NetworkArgs {
             zenoh_config: self.zenoh_config.clone(),
         };
         options.check()?;
-        if let Some((name, value)) = threads::wanted(&options, role) {
+        // A later call, which makes the same options, must change nothing.
+        let wanted =
+            threads::wanted(&options, role).filter(|(name, value)| std::env::var(name).as_deref() != Ok(*value));
+        if let Some((name, value)) = wanted {
             // SAFETY: every command calls this before it starts a thread, so no other thread accesses the environment.
             unsafe { std::env::set_var(name, value) };
         }

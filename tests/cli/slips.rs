@@ -27,7 +27,7 @@ fn misspelled_names_get_the_nearest_one() {
 }
 
 #[test]
-fn what_would_be_ignored_or_is_impossible_is_refused() {
+fn ignored_and_impossible_flags_are_refused() {
     let (folder, _) = folders();
     let folder = folder.path();
     let refused = |args: &[&str], parts: &[&str]| assert_refused(&run(folder, args), 2, parts);

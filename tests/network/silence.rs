@@ -56,7 +56,7 @@ fn encryption_without_certificates_is_refused_on_both_sides() {
 }
 
 #[test]
-fn other_certificates_and_plain_text_are_told_from_silence() {
+fn other_certificates_and_plain_text_are_recognised() {
     let (folder, path) = folders();
     let folder = folder.path();
     certs(folder, &["certs"]);
@@ -99,6 +99,9 @@ fn a_misspelled_run_gets_the_nearest_name() {
     command.args(["actor", "--connect", &endpoint, "--run", "wlak"]);
     let line = Running::start(command).wait_for("no learner answers; retrying");
     assert!(line.contains("did you mean `walk`?"), "{line}");
+    let mut command = treadmill(folder);
+    command.args(["status", "--watch", "--connect", &endpoint, "--run", "wlak"]);
+    Running::start(command).wait_for("did you mean `walk`?");
 }
 
 #[test]

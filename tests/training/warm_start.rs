@@ -93,6 +93,27 @@ fn a_fork_goes_on_in_a_folder_of_its_own_with_other_keys() {
 }
 
 #[test]
+fn a_service_begins_from_a_policy_once_and_then_goes_on() {
+    let (folder, run_folder) = folders();
+    let folder = folder.path();
+    trained(folder, &run_folder);
+    let service =
+        ["--preset", "smoke", "--resume-or-start", "--init-from", "run", "--checkpoint", "best", "--tag", "a"];
+    let train = |steps: &str| {
+        let args = ["train", "--run-dir", "service", "--no-progress", "--steps", steps];
+        let output = run(folder, &[&args[..], &service].concat());
+        assert!(output.status.success(), "{}", stderr(&output));
+        latest(&folder.join("service")).counters
+    };
+    let (first, second) = (train("1024"), train("3072"));
+    assert!(first.updates > 0 && second.updates > first.updates, "it goes on from its newest checkpoint");
+    assert_eq!((first.resumes, second.resumes), (0, 1));
+    // A finished run keeps its labels.
+    let relabelled = run(folder, &["train", "--resume", "service", "--tag", "b"]);
+    assert_refused(&relabelled, 2, &["this one is finished", "add --steps"]);
+}
+
+#[test]
 fn tags_and_description_are_shown_and_may_change() {
     let (folder, run_folder) = folders();
     let folder = folder.path();

@@ -218,8 +218,10 @@ fn known_runs(given: &str) -> String {
     let bare = names.iter().filter_map(|name| name.strip_prefix("runs/"));
     let near = nearest(given, names.iter().map(String::as_str).chain(bare)).map(str::to_string);
     // A path within a run, as of a checkpoint.
-    let above = Path::new(given).ancestors().skip(1).find(|folder| folder.join("checkpoints").is_dir());
-    let near = above.map(|folder| folder.display().to_string()).or(near).or_else(|| nearest_path(Path::new(given)));
+    let is_run = |folder: &Path| folder != Path::new("") && folder.join("checkpoints").is_dir();
+    let above = Path::new(given).ancestors().skip(1).find(|folder| is_run(folder));
+    let beside = nearest_path(Path::new(given)).filter(|near| Path::new(near).is_file() || is_run(Path::new(near)));
+    let near = above.map(|folder| folder.display().to_string()).or(near).or(beside);
     let hint = near.map(|near| format!("did you mean `{near}`? "));
     let list = match names.len() {
         0 => "there are no runs here yet: `treadmill train` makes one".to_string(),

@@ -18,8 +18,6 @@ pub(super) const STATUS_EVERY: Duration = Duration::from_secs(1);
 /// Keys outside `[ppo]` that may change during a run, because no actor depends on them.
 const CHANGEABLE: &[&str] = &[
     "run.steps",
-    "run.tags",
-    "run.description",
     "eval.every_steps",
     "learner.checkpoint_every_updates",
     "learner.keep_checkpoints",

@@ -67,14 +67,14 @@ impl LearnerRoute {
             let options = self.options.clone();
             let opened = tokio::task::spawn_blocking(move || Bus::open_client(&options));
             let Ok(Ok(opened)) = tokio::time::timeout(OPEN_TIMEOUT, opened).await else {
-                return Err(Finding { name: NAME, ..route::not_a_learner(&self.options.connect) });
+                return Err(Finding { name: NAME, ..diagnosis::no_peer(&self.options) });
             };
             let bus = opened.map_err(|why| Finding::problem(NAME, error_chain(&why), "check the network flags"))?;
             let replies = retry_until_answered(async || statuses(&bus, None, ANSWER_TIMEOUT).await).await;
             let now_unix_s = machine::time_unix_s();
             let findings = match replies {
                 Ok(replies) => match &self.assess(replies, now_unix_s)[..] {
-                    [] => Ok(vec![diagnosis::missing_run(&bus, &self.options, self.run.as_deref()).await]),
+                    [] => Ok(vec![self.silence(&bus).await]),
                     findings => Ok(findings.to_vec()),
                 },
                 Err(why) => Err(Finding::problem(NAME, format!("{why:#}"), "ask again; then read the learner's log")),
@@ -85,6 +85,20 @@ impl LearnerRoute {
         // Unfinished dialling must not keep the process alive.
         runtime.shutdown_background();
         findings
+    }
+
+    /// Returns why no status came: only observers and operators may ask for it.
+    async fn silence(&self, bus: &Bus) -> Finding {
+        let found = diagnosis::missing_run(bus, &self.options, self.run.as_deref()).await;
+        let role = self.options.credentials.as_ref().map(|credentials| credentials.role);
+        match role.filter(|role| !matches!(role, Role::Observer | Role::Operator)) {
+            Some(role) if found.seen.contains("does not answer") => Finding::note(
+                NAME,
+                format!("the link works; the {}'s certificate may not ask for the status of a run", role.name()),
+                "use an observer's certificate to check versions and clocks",
+            ),
+            _ => found,
+        }
     }
 
     /// Judges the answers of the wanted runs; returns nothing if none of them answered.

@@ -37,6 +37,7 @@ fn kind(key: &KeyDoc) -> String {
         "String" => "text",
         "Vec<u32>" => "whole numbers",
         "Vec<f64>" => "numbers",
+        "Vec<String>" => "words",
         "[f64; 2]" => "two numbers",
         "[u32; 2]" => "two whole numbers",
         _ => "name",

@@ -11,7 +11,10 @@ use treadmill_proto::{RunStatus, json::Metric};
 use treadmill_runtime::error_chain;
 
 use super::{WATCH_EVERY, fleet, past};
-use crate::shared::learner_address::{self, ReachArgs};
+use crate::{
+    diagnosis::Silence,
+    shared::learner_address::{self, ReachArgs},
+};
 
 /// Interval of polling for metrics.
 const LISTEN_EVERY: Duration = Duration::from_millis(200);
@@ -75,7 +78,8 @@ impl Follower {
                 self.load_past().await
             }
             Ok(_) => {
-                self.send(News::Silence("no learner answers".to_string()))?;
+                let silence = Silence::of_run(&self.bus, &self.options, self.reach.run.as_deref()).await;
+                self.send(News::Silence(silence.in_one_line()))?;
                 self.redial().await
             }
             Err(why) => self.send(News::Silence(error_chain(&why))),

@@ -30,6 +30,7 @@ use clap::Args;
 use treadmill_bus::{Role, statuses};
 use treadmill_proto::RunStatus;
 
+use self::waiting::Waiting;
 use crate::{
     launch::{
         output::{say, say_to_reader},
@@ -46,8 +47,8 @@ const WATCH_EVERY: Duration = Duration::from_secs(2);
 pub struct StatusArgs {
     #[command(flatten)]
     reach: ReachArgs,
-    /// Wait for the run and follow it: as a dashboard on a terminal (`q` quits, `?` shows the keys), elsewhere by a line for each
-    /// run every two seconds.
+    /// Wait for the run and follow it: as a dashboard on a terminal (`q` quits, `?` shows the keys), elsewhere every two
+    /// seconds by a line for each run and alarm.
     #[arg(long)]
     watch: bool,
     /// Print one JSON object per line.
@@ -59,8 +60,7 @@ pub struct StatusArgs {
 pub fn run(args: StatusArgs) -> anyhow::Result<()> {
     let StatusArgs { reach, watch, json } = args;
     if watch {
-        let reach = waiting::until_there(&reach)?;
-        return if json || !terminal_screen::is_there() { follow_lines(reach, json) } else { dashboard::run(&reach) };
+        return if json || !terminal_screen::is_there() { follow_lines(&reach, json) } else { show_dashboard(&reach) };
     }
     if let Some(idle) = local::idle(&reach) {
         say(&idle?.describe(json));
@@ -83,27 +83,41 @@ fn show(reach: &ReachArgs, json: bool) -> anyhow::Result<()> {
     })
 }
 
-/// Prints the statuses every two seconds, until the reader goes away or the run of a folder is idle. Waits where no learner
-/// answers.
-fn follow_lines(mut reach: ReachArgs, json: bool) -> anyhow::Result<()> {
+/// Shows the dashboard, as soon as a learner answers.
+fn show_dashboard(reach: &ReachArgs) -> anyhow::Result<()> {
+    let mut waiting = Waiting::default();
     loop {
+        match dashboard::run(&waiting.for_run(reach)) {
+            Ok(()) => return Ok(()),
+            silent => waiting.after(silent)?,
+        }
+    }
+}
+
+/// Prints the statuses every two seconds, until the reader goes away or no process trains the run any more. Waits where no
+/// learner answers.
+fn follow_lines(reach: &ReachArgs, json: bool) -> anyhow::Result<()> {
+    let mut waiting = Waiting::default();
+    loop {
+        let found = waiting.for_run(reach);
         let mut is_read = true;
-        learner_address::connect(&reach, Role::Observer, async |link| {
-            while is_read && let Ok(runs) = ask(link).await {
+        let followed = learner_address::connect(&found, Role::Observer, async |link| {
+            while is_read {
+                let runs = ask(link).await?;
                 let text = if json { json::as_json(&runs) } else { plain::as_lines(&runs) };
                 is_read = say_to_reader(text.trim_end());
                 tokio::time::sleep(WATCH_EVERY).await;
             }
             Ok(())
-        })?;
+        });
         if !is_read {
             return Ok(());
         }
-        if let Some(idle) = local::idle(&reach) {
+        if let Some(idle) = local::idle(&found) {
             say(&idle?.describe(json));
             return Ok(());
         }
-        reach = waiting::until_there(&reach)?;
+        waiting.after(followed)?;
     }
 }
 
