@@ -97,6 +97,8 @@ fn a_service_begins_from_a_policy_once_and_then_goes_on() {
     let (folder, run_folder) = folders();
     let folder = folder.path();
     trained(folder, &run_folder);
+    // Only the other run has a best policy.
+    fs::copy(run_folder.join("checkpoints/latest.bundle"), run_folder.join("checkpoints/best.bundle")).unwrap();
     let service =
         ["--preset", "smoke", "--resume-or-start", "--init-from", "run", "--checkpoint", "best", "--tag", "a"];
     let train = |steps: &str| {
