@@ -169,7 +169,7 @@ operate() { compose run --rm -T --no-deps operator "$@" --connect tls/router:744
 operate status >"$work/status" || { cat "$work/operator.log" >&2; fail 'status failed'; }
 grep -q 'smoke' "$work/status" || { cat "$work/status" >&2; fail 'status does not name the run'; }
 operate control pause >"$work/receipt" || { cat "$work/operator.log" >&2; fail 'pause failed'; }
-paused=$(sed -n 's/.*(\([0-9]*\) env steps).*/\1/p' "$work/receipt")
+paused=$(sed -n 's|.*(\([0-9,]*\) env steps).*|\1|p' "$work/receipt" | tr -d ,)
 operate control resume >/dev/null || fail 'resume failed'
 await 'training after resume' trains_beyond "$paused"
 say "an operator read the status, paused at $paused steps and resumed"

@@ -5,7 +5,7 @@ use std::time::Duration;
 use treadmill_config::{ConfigSource, LearnerConfig, is_retired};
 use treadmill_policy::NetworkShape;
 use treadmill_proto::{Command, ControlRequest, Phase, RunStatus};
-use treadmill_runtime::{error_chain, machine};
+use treadmill_runtime::{error_chain, machine, numbers::thousands};
 
 use super::{Trainer, load_adaptation::LoadAdaptation};
 use crate::{checkpoint::TrainingState, intake::HorizonRule};
@@ -69,7 +69,7 @@ impl Trainer {
     }
 
     fn apply(&mut self, request: &ControlRequest) -> Result<String, String> {
-        let (updates, env_steps) = (self.state.counters.updates, self.state.counters.env_steps);
+        let (updates, env_steps) = (self.state.counters.updates, thousands(self.state.counters.env_steps));
         match request.command() {
             Command::Pause if self.serving.paused => Ok(format!("paused already, after update {updates}")),
             Command::Pause => {

@@ -106,7 +106,7 @@ fn describe(out: &mut String, run: &RunStatus) -> std::fmt::Result {
         writeln!(out, "  ALARM      {}", printable(alarm, ALARM_CHARS_MAX))?;
     }
     let alive = run.actors.iter().filter(|actor| actor.alive).count();
-    writeln!(out, "  actors     {alive} alive, {:.0} steps per second together", fleet_rate(run))?;
+    writeln!(out, "  actors     {alive} alive, {} steps per second together", thousands(fleet_rate(run) as u64))?;
     if !run.actors.is_empty() {
         writeln!(
             out,
