@@ -133,7 +133,7 @@ def forward(events, open_run, make_video, gone_s=GONE_S):
 def address(run, connect):
     """Returns folder, run and endpoints that the arguments name; a folder holds the endpoint of its learner."""
     folder = next((path for path in (Path(run), Path("runs") / run) if (path / "endpoint.txt").is_file()), None)
-    if folder is None or connect:
+    if connect or not folder:
         if "/" in run:
             raise ValueError(f"`{run}` is neither a run's folder with endpoint.txt nor a run's name")
         return None, run, connect or ["tcp/127.0.0.1:7447"]

@@ -66,7 +66,8 @@ impl Silence {
 
     /// Finds out why the run does not answer on a bus that is open.
     pub async fn of_run(bus: &Bus, options: &BusOptions, run: Option<&str>) -> Self {
-        Self::new(missing_run(bus, options, run).await, options, run)
+        let finding = missing_run(bus, options, run).await.unwrap_or_else(|| silent_learner(options, run));
+        Self::new(finding, options, run)
     }
 
     /// Returns all three parts in one line, for a log.
@@ -81,31 +82,35 @@ impl Silence {
     }
 }
 
-/// Finds out why the run does not answer on a bus that is open.
-pub async fn missing_run(bus: &Bus, options: &BusOptions, run: Option<&str>) -> Finding {
+/// Returns the finding that no learner of the run is on the bus; `None` if one is.
+pub async fn missing_run(bus: &Bus, options: &BusOptions, run: Option<&str>) -> Option<Finding> {
     let runs = live_runs(bus, RUNS_TIMEOUT).await.unwrap_or_default();
     let names = runs.join(", ");
     let there = if options.connect.is_empty() { "that was discovered".to_string() } else { options.connect.join(", ") };
     if runs.is_empty() {
-        return Finding::problem(
+        return Some(Finding::problem(
             NAME,
             format!("no learner has joined the bus at {there}"),
             "start a learner (one for an external task joins with its first actor); if this is a router, check its link to \
              the learner",
-        );
+        ));
     }
-    if let Some(run) = run.filter(|run| !runs.iter().any(|live| live == run)) {
-        let near = nearest(run, runs.iter().map(|run| &run[..])).map(|near| format!("; did you mean `{near}`?"));
-        return Finding::problem(
-            NAME,
-            format!("no learner trains a run `{run}` at {there}{}", near.unwrap_or_default()),
-            format!("name one of the runs there with --run: {names}"),
-        );
-    }
+    let run = run.filter(|run| !runs.iter().any(|live| live == run))?;
+    let near = nearest(run, runs.iter().map(|run| &run[..])).map(|near| format!("; did you mean `{near}`?"));
+    Some(Finding::problem(
+        NAME,
+        format!("no learner trains a run `{run}` at {there}{}", near.unwrap_or_default()),
+        format!("name one of the runs there with --run: {names}"),
+    ))
+}
+
+/// Returns the finding that a learner is on the bus and does not answer.
+pub fn silent_learner(options: &BusOptions, run: Option<&str>) -> Finding {
     let credentials = options.credentials.as_ref();
     let own = credentials.map(|credentials| certificates::diagnose_role_in(&credentials.folder, credentials.role));
     own.filter(|own| own.severity == Severity::Problem).unwrap_or_else(|| {
-        let seen = format!("the learner of `{}` at {there} does not answer in time", run.unwrap_or(&names));
+        let whose = run.map(|run| format!(" of run `{run}`")).unwrap_or_default();
+        let seen = format!("the learner{whose} is there, but does not answer in time");
         Finding::problem(NAME, seen, "ask again; then compare the versions on both machines, and read its log")
     })
 }

@@ -1,9 +1,9 @@
 //! Starting and hosting a run, and process-wide services of every command.
 //!
 //! # Layout
-//! - Before a run: `startup` (flags to configuration, run folder and first state), `resumption` (loads a saved run and compares
-//!   the flags with it), `model` (the robot), `external_task` (waits for the task that the first actor registers), `banner`
-//!   (text printed before and after a run).
+//! - Before a run: `run_args` (flags), `startup` (from flags to a run that is ready), `begin` (a new run), `warm_start` (from another
+//!   run's policy or state), `resumption` (loads a saved run and compares the flags with it), `model` (the robot),
+//!   `external_task` (waits for the task that the first actor registers), `banner` (text printed before and after a run).
 //! - During a run: `host` (a learner with actors beside it), `supervisor` (restarts actor processes), `bus_client` (flags and
 //!   session of an actor or evaluator), `metrics_page` (metrics over HTTP).
 //! - The process: `async_runtime`, `familiar_flags` (hints for flags of other programs), `processor` (refuses one that is too

@@ -60,7 +60,7 @@ impl ReachArgs {
 
     /// Returns the folders below `runs/` of runs that are trained now, unless the flags name a run or a learner.
     #[must_use]
-    pub fn live_runs(&self) -> Vec<String> {
+    pub fn live_folders(&self) -> Vec<String> {
         if self.folder.is_some() || self.run.is_some() || !self.connect.is_empty() || self.network.discover {
             return Vec::new();
         }
@@ -150,7 +150,7 @@ pub fn connect(
         let root = quoted(&folder.root().display().to_string());
         anyhow::bail!("no process trains `{root}` now; go on with: treadmill train --resume {root}");
     }
-    let reach = match &reach.live_runs()[..] {
+    let reach = match &reach.live_folders()[..] {
         [] => reach.clone(),
         [run] => ReachArgs { folder: Some(run.clone()), ..reach.clone() },
         runs => return Err(Usage(format!("several runs are trained here; name one: {}", runs.join(", "))).into()),

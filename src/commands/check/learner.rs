@@ -89,15 +89,17 @@ impl LearnerRoute {
 
     /// Returns why no status came: only observers and operators may ask for it.
     async fn silence(&self, bus: &Bus) -> Finding {
-        let found = diagnosis::missing_run(bus, &self.options, self.run.as_deref()).await;
-        let role = self.options.credentials.as_ref().map(|credentials| credentials.role);
-        match role.filter(|role| !matches!(role, Role::Observer | Role::Operator)) {
-            Some(role) if found.seen.contains("does not answer") => Finding::note(
+        let run = self.run.as_deref();
+        if let Some(missing) = diagnosis::missing_run(bus, &self.options, run).await {
+            return missing;
+        }
+        match self.options.credentials.as_ref().map(|credentials| credentials.role) {
+            None | Some(Role::Observer | Role::Operator) => diagnosis::silent_learner(&self.options, run),
+            Some(role) => Finding::note(
                 NAME,
                 format!("the link works; the {}'s certificate may not ask for the status of a run", role.name()),
                 "use an observer's certificate to check versions and clocks",
             ),
-            _ => found,
         }
     }
 

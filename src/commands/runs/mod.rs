@@ -79,8 +79,8 @@ fn as_json(record: &Record, changes: &BTreeMap<&str, &str>) -> String {
         "folder": record.folder,
         "task": record.task(),
         "state": record.state(),
-        "tags": record.tags(),
-        "description": record.description(),
+        "tags": record.tags,
+        "description": record.description,
         "env_steps": record.env_steps,
         "wall_s": record.wall_s,
         "env_steps_per_s": record.env_steps_per_s(),
@@ -137,11 +137,10 @@ fn print_table(records: &[Record], differences: Option<&[BTreeMap<&str, &str>]>)
     say(&shown(&line(HEADINGS)));
     for (number, row) in rows.iter().enumerate() {
         say(&shown(&line(row.each_ref().map(String::as_str))));
-        let (tags, description) = (records[number].tags(), records[number].description());
-        let about = [tags.iter().map(|tag| format!("[{tag}]")).collect(), vec![description]].concat();
-        let about: Vec<&str> = about.iter().map(String::as_str).filter(|text| !text.is_empty()).collect();
-        if !about.is_empty() {
-            say(&shown(&shortened(&format!("    {}", about.join(" ")), ROW_CHARS_MAX)));
+        let Record { tags, description, .. } = &records[number];
+        let labels: String = tags.iter().map(|tag| format!("[{tag}] ")).collect::<String>() + description;
+        if !labels.is_empty() {
+            say(&shown(&shortened(&format!("    {}", labels.trim_end()), ROW_CHARS_MAX)));
         }
         for (key, value) in differences.and_then(|all| all.get(number)).into_iter().flatten() {
             say(&format!("    {key} = {value}"));

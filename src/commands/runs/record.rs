@@ -27,6 +27,10 @@ pub(crate) struct Record {
     pub(crate) fall_fraction: Option<f64>,
     /// Whether a process trains it now.
     pub(crate) is_running: bool,
+    /// Words that group runs.
+    pub(crate) tags: Vec<String>,
+    /// Free text about the run.
+    pub(crate) description: String,
     /// Values as TOML, by `section.key`.
     pub(crate) config: BTreeMap<String, String>,
 }
@@ -50,6 +54,10 @@ impl Record {
                 record.config.insert(format!("{section}.{key}"), value.to_string());
             }
         }
+        // Runs of earlier versions have no labels.
+        let label = |key: &str| table.get("run").and_then(|keys| keys.get(key)).cloned();
+        record.tags = label("tags").and_then(|tags| tags.try_into().ok()).unwrap_or_default();
+        record.description = label("description").and_then(|text| text.try_into().ok()).unwrap_or_default();
         let path = folder.join("metrics.jsonl");
         // A run that is just starting has no metrics.
         if let Ok(file) = File::open(&path) {
@@ -84,20 +92,6 @@ impl Record {
         let text =
             |key: &str| self.config.get(key).map(|value| value.trim_matches('"')).filter(|text| !text.is_empty());
         text("task.name").or(text("env.task")).unwrap_or(ABSENT).to_string()
-    }
-
-    /// Returns the words that group runs.
-    pub(crate) fn tags(&self) -> Vec<String> {
-        let tags = self.config.get("run.tags").and_then(|text| format!("tags = {text}").parse::<toml::Table>().ok());
-        let tags = tags.and_then(|table| table.get("tags")?.clone().try_into().ok());
-        tags.unwrap_or_default()
-    }
-
-    /// Returns the free text about the run, which may be empty.
-    pub(crate) fn description(&self) -> String {
-        let text =
-            self.config.get("run.description").and_then(|text| format!("text = {text}").parse::<toml::Table>().ok());
-        text.and_then(|table| table.get("text")?.as_str().map(str::to_string)).unwrap_or_default()
     }
 
     /// Returns whether the run is running, has all its steps, or was stopped before.

@@ -114,8 +114,10 @@ impl Follower {
                 // Closing may take seconds if the peer is gone.
                 tokio::task::spawn_blocking(move || old.close());
             }
-            // The dashboard has one line for it.
-            Err(why) => self.send(News::Silence(error_chain(why.as_ref()).replace("\n ", ";")))?,
+            Err(why) => {
+                let silence = why.downcast_ref().map(Silence::in_one_line);
+                self.send(News::Silence(silence.unwrap_or_else(|| error_chain(why.as_ref()))))?;
+            }
         }
         // One attempt is enough: the bus itself redials a peer that answers late.
         self.options = options;

@@ -66,7 +66,7 @@ pub fn run(args: StatusArgs) -> anyhow::Result<()> {
         say(&idle?.describe(json));
         return Ok(());
     }
-    let live = reach.live_runs();
+    let live = reach.live_folders();
     if live.is_empty() {
         return show(&reach, json);
     }

@@ -19,7 +19,7 @@ impl Waiting {
     /// `runs/`.
     pub fn for_run(&mut self, reach: &ReachArgs) -> ReachArgs {
         loop {
-            let folder = reach.live_runs().into_iter().next();
+            let folder = reach.live_folders().into_iter().next();
             let found = ReachArgs { folder: folder.or(reach.folder.clone()), ..reach.clone() };
             let Some(why) = hindrance(&found) else { return found };
             self.wait(why);

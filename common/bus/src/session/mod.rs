@@ -63,13 +63,14 @@ pub struct BusOptions {
 impl BusOptions {
     /// Checks the endpoints and the limit on open files.
     pub fn check(&self) -> Result<(), BusError> {
-        // The user's own Zenoh configuration may bring certificates.
-        let has_certificates = self.credentials.is_some() || self.zenoh_config.is_some();
-        self.listen
-            .iter()
-            .chain(&self.connect)
-            .try_for_each(|given| endpoint::check(given, self.insecure, has_certificates))?;
+        self.listen.iter().chain(&self.connect).try_for_each(|given| self.check_endpoint(given))?;
         check_open_files()
+    }
+
+    /// Checks one endpoint.
+    pub(crate) fn check_endpoint(&self, given: &str) -> Result<(), BusError> {
+        // The user's own Zenoh configuration may bring certificates.
+        endpoint::check(given, self.insecure, self.credentials.is_some() || self.zenoh_config.is_some())
     }
 }
 

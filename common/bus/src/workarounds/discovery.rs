@@ -8,7 +8,7 @@ use std::time::{Duration, Instant};
 
 use zenoh::{Config, Wait, config::WhatAmI};
 
-use crate::{BusError, BusOptions, endpoint};
+use crate::{BusError, BusOptions};
 
 /// Duration of one scouting round, in which Zenoh repeats the request.
 const ROUND: Duration = Duration::from_secs(3);
@@ -54,7 +54,7 @@ fn check_discovered(locator: &str, options: &BusOptions) -> Result<(), BusError>
         let why = "it is not encrypted, and --tls was given".to_string();
         return Err(BusError::Endpoint { endpoint: locator.to_string(), why });
     }
-    endpoint::check(locator, options.insecure, options.credentials.is_some())
+    options.check_endpoint(locator)
 }
 
 #[cfg(test)]
