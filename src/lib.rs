@@ -19,8 +19,8 @@ use clap::{CommandFactory, Parser, Subcommand};
 
 use crate::{
     commands::{
-        actor, bench, certs, check, config, control, eval, evaluator, export, learner, manual, router, runs, status,
-        train, watch,
+        actor, bench, certs, check, config, control, eval, evaluator, export, learner, manual, robot, router, runs,
+        status, train, watch,
     },
     launch::{exit_code, familiar_flags, log, output, processor},
     shared::viewer_args,
@@ -53,6 +53,8 @@ enum Command {
     Watch(viewer_args::ViewerArgs),
     /// Write a trained policy as a file that other programs read.
     Export(export::ExportArgs),
+    /// Print what was understood of a robot's file, and draft its card.
+    Robot(robot::RobotArgs),
     /// Compare runs: distance walked, training time, and differences in configuration.
     Runs(runs::RunsArgs),
     /// Show the state of runs and of their actors.
@@ -113,6 +115,7 @@ fn run() -> ExitCode {
         Command::Eval(args) => eval::run(args),
         Command::Watch(_) => watch::run(),
         Command::Export(args) => export::run(&args),
+        Command::Robot(args) => robot::run(&args),
         Command::Runs(args) => runs::run(&args),
         Command::Status(args) => status::run(args),
         Command::Control(args) => control::run(args),

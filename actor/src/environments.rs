@@ -1,18 +1,13 @@
-//! N humanoids that step together, each in its own world, and their episodes.
+//! N humanoids that step together on the caller's thread, each in its own world, and their episodes.
 
-mod state;
+pub mod state;
 
-use std::io;
-
-use rayon::{ThreadPool, ThreadPoolBuilder, prelude::*};
-use treadmill_humanoid::{Environment, EnvironmentConfig, ModelError};
+use treadmill_humanoid::{Environment, EnvironmentConfig, ModelError, worlds_per_pass};
 use treadmill_proto::{
     EndCause, Episode, Precision,
     fragment::{TERMINATED, TRUNCATED},
 };
-use treadmill_runtime::{machine, seeds};
-
-use crate::ActorError;
+use treadmill_runtime::seeds;
 
 /// Source of the random streams of these environments.
 #[derive(Clone, Debug)]
@@ -60,12 +55,9 @@ pub struct Environments {
     observation_size: usize,
     action_size: usize,
     precision: Precision,
-    /// `None` if the caller's thread steps all. Rayon balances the load by work stealing: contacts and resets make steps
-    /// unequal. On two busy cores, 64 environments took 5 % more CPU time on two threads than on one.
-    pool: Option<ThreadPool>,
 }
 
-/// One environment with all outputs of its step, so that threads share nothing.
+/// One environment with all outputs of its step.
 struct EnvironmentSlot {
     env: usize,
     environment: Environment,
@@ -114,7 +106,7 @@ pub struct StepResults {
 }
 
 impl Environments {
-    /// Creates and resets `count` environments, which step on the caller's thread.
+    /// Creates and resets `count` environments.
     pub fn new(
         count: usize,
         config: &EnvironmentConfig,
@@ -133,7 +125,6 @@ impl Environments {
             observation_size,
             action_size,
             precision: Precision::F32,
-            pool: None,
         };
         environments.reset();
         Ok(environments)
@@ -161,17 +152,23 @@ impl Environments {
         self.precision
     }
 
-    /// Spreads the environments over at most this many threads; 0 means one per core. Results do not depend on the number.
-    pub fn with_threads(mut self, threads: usize) -> Result<Self, ActorError> {
-        let threads = if threads == 0 { machine::cores() } else { threads };
-        let threads = threads.min(self.len());
-        let pool =
-            || ThreadPoolBuilder::new().num_threads(threads).thread_name(|index| format!("physics-{index}")).build();
-        self.pool = match threads {
-            0 | 1 => None,
-            _ => Some(pool().map_err(|error| ActorError::ThreadStart(io::Error::other(error)))?),
-        };
-        Ok(self)
+    /// Divides the environments, in their order, into at most this many shares that can step on different threads. All but
+    /// the last have whole passes of the physics.
+    pub fn split(mut self, shares: usize) -> Vec<Self> {
+        let chunk = worlds_per_pass();
+        let share = self.len().div_ceil(shares.max(1)).next_multiple_of(chunk).max(chunk);
+        let mut rest = std::mem::take(&mut self.slots).into_iter().peekable();
+        let mut rows = self.observations.chunks(share * self.observation_size.max(1));
+        let mut split = Vec::new();
+        while rest.peek().is_some() {
+            split.push(Self {
+                slots: rest.by_ref().take(share).collect(),
+                seeds: self.seeds.clone(),
+                observations: rows.next().unwrap_or_default().to_vec(),
+                ..self
+            });
+        }
+        split
     }
 
     /// Returns N.
@@ -179,14 +176,14 @@ impl Environments {
         self.slots.len()
     }
 
+    /// Returns the number of the first environment among all of the actor.
+    pub fn first_number(&self) -> usize {
+        self.slots.first().map_or(0, |slot| slot.env)
+    }
+
     /// Returns whether N is 0.
     pub fn is_empty(&self) -> bool {
         self.slots.is_empty()
-    }
-
-    /// Returns the number of threads that step the environments.
-    pub fn threads(&self) -> usize {
-        self.pool.as_ref().map_or(1, ThreadPool::current_num_threads)
     }
 
     /// Returns the number of entries in one observation.
@@ -221,33 +218,19 @@ impl Environments {
         let Self { slots, seeds, observations, .. } = self;
         // Without environments both widths are 0, which is no chunk size.
         let (width, action_size) = (self.observation_size.max(1), self.action_size.max(1));
-        match &self.pool {
-            None => slots
-                .iter_mut()
-                .zip(observations.chunks_exact_mut(width))
-                .zip(actions.chunks_exact(action_size))
-                .for_each(|((slot, observation), action)| slot.step(action, seeds, observation)),
-            Some(pool) => pool.install(|| {
-                slots
-                    .par_iter_mut()
-                    .zip(observations.par_chunks_exact_mut(width))
-                    .zip(actions.par_chunks_exact(action_size))
-                    // Chunks of several environments would leave threads idle at the end of each step.
-                    .with_max_len(1)
-                    .for_each(|((slot, observation), action)| slot.step(action, seeds, observation));
-            }),
-        }
-        results.collect(&mut self.slots);
-    }
-
-    /// Replaces all Rapier worlds, so that further steps depend only on the state that [`Self::save_state`] saves.
-    pub fn renew_worlds(&mut self) {
-        match &self.pool {
-            None => self.slots.iter_mut().for_each(|slot| slot.environment.renew_world()),
-            Some(pool) => {
-                pool.install(|| self.slots.par_iter_mut().for_each(|slot| slot.environment.renew_world()));
+        // Environments of one chunk step in one pass.
+        let chunk = worlds_per_pass();
+        let rows = observations.chunks_mut(chunk * width).zip(actions.chunks(chunk * action_size));
+        for (slots, (observations, actions)) in slots.chunks_mut(chunk).zip(rows) {
+            for (slot, action) in slots.iter_mut().zip(actions.chunks_exact(action_size)) {
+                slot.begin_step(action);
+            }
+            Environment::step_together(&mut slots.iter_mut().map(|slot| &mut slot.environment));
+            for (slot, observation) in slots.iter_mut().zip(observations.chunks_exact_mut(width)) {
+                slot.finish_step(seeds, observation);
             }
         }
+        results.collect(&mut self.slots);
     }
 
     /// Makes the physics of one environment fail at the next step; for tests.
@@ -290,9 +273,13 @@ impl EnvironmentSlot {
         }
     }
 
-    fn step(&mut self, action: &[f32], seeds: &ResetSeeds, observation: &mut [f32]) {
+    fn begin_step(&mut self, action: &[f32]) {
         self.environment.action_from_shares(action, &mut self.control);
-        let step = self.environment.step(&self.control, observation);
+        self.environment.begin_step(&self.control);
+    }
+
+    fn finish_step(&mut self, seeds: &ResetSeeds, observation: &mut [f32]) {
+        let step = self.environment.finish_step(observation);
         self.precision.round(observation);
         let progress = &mut self.progress;
         progress.length += 1;

@@ -7,15 +7,21 @@ use std::time::Duration;
 
 use tokio::{sync::mpsc, time::MissedTickBehavior};
 use treadmill_bus::{PosePublisher, Watched};
-use treadmill_humanoid::{CONTROL_STEP_S, Physics, StepInfo, physics::BodyMotion};
+use treadmill_humanoid::{Physics, StepInfo, physics::BodyMotion};
 use treadmill_proto::{PolicyVersion, Pose, pose::BODY_NUMBERS};
 
 use crate::{environments::Environments, identity::ActorIdentity};
 
-/// Control steps between two poses: 33 poses per second, of at most 60 that the interface allows.
-pub const STRIDE: u32 = 2;
-/// Bound of the queue: an episode of 1000 control steps. Of a longer one, only the beginning is shown.
+/// Time between two poses (s): 33 poses per second, of at most 60 that the interface allows.
+const INTERVAL_S: f64 = 0.03;
+/// Bound of the queue: an episode of 15 s. Of a longer one, only the beginning is shown.
 const QUEUED_POSES_MAX: usize = 512;
+
+/// Returns the control steps from one pose to the next.
+#[must_use]
+pub fn stride(control_step_s: f64) -> u32 {
+    (INTERVAL_S / control_step_s).round().max(1.0) as u32
+}
 
 /// Records poses of the first environment, on the physics thread.
 pub struct PoseSampler {
@@ -45,7 +51,7 @@ impl PoseSampler {
             let is_queue_empty = self.queue.capacity() == self.queue.max_capacity();
             self.episode = (first.step == 0 && is_queue_empty).then_some(first.episode);
         }
-        if self.episode.is_none() || !first.step.is_multiple_of(STRIDE) {
+        if self.episode.is_none() || !first.step.is_multiple_of(stride(first.environment.control_step_s())) {
             return;
         }
         let physics = first.environment.physics();
@@ -57,7 +63,7 @@ impl PoseSampler {
             config_hash: self.identity.config_hash,
             episode: first.episode,
             step: first.step,
-            time_s: f64::from(first.step) * CONTROL_STEP_S,
+            time_s: f64::from(first.step) * first.environment.control_step_s(),
             distance_m: (physics.position()[0] - first.start_x_m) as f32,
             ..body_pose(physics, first.environment.info())
         };
@@ -69,9 +75,9 @@ impl PoseSampler {
 }
 
 /// Publishes recorded poses in real time.
-pub async fn publish(mut poses: mpsc::Receiver<Pose>, publisher: PosePublisher) {
+pub async fn publish(mut poses: mpsc::Receiver<Pose>, publisher: PosePublisher, control_step_s: f64) {
     let watched = publisher.watched();
-    let mut due = tokio::time::interval(Duration::from_secs_f64(f64::from(STRIDE) * CONTROL_STEP_S));
+    let mut due = tokio::time::interval(Duration::from_secs_f64(f64::from(stride(control_step_s)) * control_step_s));
     due.set_missed_tick_behavior(MissedTickBehavior::Delay);
     while let Some(pose) = poses.recv().await {
         // Without observers the queue is drained, so that the next observer does not get old poses.
@@ -90,7 +96,7 @@ pub async fn publish(mut poses: mpsc::Receiver<Pose>, publisher: PosePublisher) 
 #[must_use]
 pub fn body_pose(physics: &Physics, info: &StepInfo) -> Pose {
     Pose {
-        bodies: physics.body_motions().iter().flat_map(body_numbers).collect(),
+        bodies: physics.body_motions().flat_map(|motion| body_numbers(&motion)).collect(),
         contacts: contacts(physics),
         joint_torques_nm: physics.joint_torques_nm().iter().map(|torque| *torque as f32).collect(),
         reward_survive: info.reward_survive as f32,
@@ -117,4 +123,15 @@ fn contacts(physics: &Physics) -> Vec<f32> {
             [point.at_m.x, point.at_m.y, point.at_m.z, force_n.x, force_n.y, force_n.z].map(|number| number as f32)
         })
         .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn poses_are_about_30_ms_apart_whatever_the_control_step() {
+        let strides = [0.001, 0.005, 0.01, 0.015, 0.02, 0.03, 0.1].map(stride);
+        assert_eq!(strides, [30, 6, 3, 2, 2, 1, 1]);
+    }
 }

@@ -141,8 +141,9 @@ pub fn environment(config: &EnvConfig) -> EnvironmentConfig {
         include_qfrc_actuator_in_observation: config.include_qfrc_actuator_in_observation,
         include_cfrc_ext_in_observation: config.include_cfrc_ext_in_observation,
         max_episode_steps: config.max_episode_steps,
+        keyframe: config.keyframe.clone(),
+        control_step_s: config.control_step_s,
         substeps: config.substeps,
-        solver_iterations: config.solver_iterations,
         self_collision: config.self_collision,
         randomisation: Randomisation::default(),
     }

@@ -128,7 +128,7 @@ impl<'a> Membership<'a> {
         let _token = token(self.bus, &self.identity.run, &self.identity.actor)?;
         // The set aborts its task when it is dropped.
         let mut pose_task = JoinSet::new();
-        pose_task.spawn(poses::publish(poses, publisher));
+        pose_task.spawn(poses::publish(poses, publisher, self.config.env.control_step_s));
         let reason = self.deliver_until_end(&mut physics, shutdown).await?;
         physics.stop().await?;
         Ok(reason)
@@ -138,17 +138,21 @@ impl<'a> Membership<'a> {
         let (config, options) = (&self.config, self.options);
         let seeds = SeedSource { run_seed: config.run.seed, actor: options.name.clone(), start: options.start };
         let noise = seeds.noise();
-        let threads = options.threads.unwrap_or(config.rollout.threads) as usize;
+        // The number of threads may change the rounding of actions.
+        let threads = match config.run.deterministic {
+            true => 1,
+            false => options.threads.unwrap_or(config.rollout.threads) as usize,
+        };
         let environments =
             Environments::new(options.envs as usize, &settings::training(config), &bundle.model_xml, seeds)?;
-        let environments = environments.with_threads(threads)?.with_precision(settings::precision(config));
+        let environments = environments.with_precision(settings::precision(config));
         let wanted = (bundle.observation_size as usize, bundle.action_size as usize);
         let found = (environments.observation_size(), environments.action_size());
         if wanted != found {
             let why = format!("its observation and action sizes are {wanted:?}, the model's are {found:?}");
             return Err(ActorError::Bundle { number: bundle.version.number, why });
         }
-        let mut collector = Collector::new(environments, noise, self.identity.clone());
+        let mut collector = Collector::new(environments, noise, self.identity.clone()).with_threads(threads)?;
         if config.run.deterministic {
             collector.attach_state();
         }

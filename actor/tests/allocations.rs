@@ -1,6 +1,6 @@
 //! Stepping many environments, resets included, allocates no more than the physics engine alone.
 //!
-//! This test runs alone in its process, because it counts the allocations of all threads.
+//! This test runs alone in its process, because it counts the allocations of the whole process.
 
 use std::{
     alloc::{GlobalAlloc, Layout, System},
@@ -82,10 +82,9 @@ fn bare_physics() -> u64 {
     count_allocations(|| play(WARM_UP_STEPS..WARM_UP_STEPS + STEPS))
 }
 
-fn environments(threads: usize) -> u64 {
+fn environments() -> u64 {
     let seeds = SeedSource { run_seed: 5, actor: "a".into(), start: 0 };
-    let environments = Environments::new(ENVS, &config(), HUMANOID_XML, seeds).expect("valid");
-    let mut environments = environments.with_threads(threads).expect("threads start");
+    let mut environments = Environments::new(ENVS, &config(), HUMANOID_XML, seeds).expect("valid");
     let (mut results, mut actions) = (StepResults::default(), [0.0; 17 * ENVS]);
     let mut play = |steps: std::ops::Range<u64>| {
         for step in steps {
@@ -102,13 +101,10 @@ fn environments(threads: usize) -> u64 {
 #[test]
 fn environments_allocate_no_more_than_their_physics() {
     let physics = bare_physics();
-    // Rapier's buffers grow slightly differently in each world.
-    let one_thread = environments(1);
+    // Buffers grow with the contacts that their environments have met.
+    let all = environments();
     assert!(
-        one_thread <= physics + STEPS / 20,
-        "{one_thread} allocations in {STEPS} steps of {ENVS} environments, {physics} of bare physics"
+        all <= physics + STEPS / 20,
+        "{all} allocations in {STEPS} steps of {ENVS} environments, {physics} of bare physics"
     );
-    // Rayon allocates a block per about 60 queued steps, and a queue per thread.
-    let two_threads = environments(2);
-    assert!(two_threads <= physics + STEPS / 10, "{two_threads} on two threads, {physics} of bare physics");
 }

@@ -1,11 +1,13 @@
 """Measures Treadmill's humanoid against MuJoCo's and writes the tables of docs/results/fidelity.md.
 
 Needs: pip install "gymnasium[mujoco]" numpy
-       cargo build --release -p treadmill-humanoid --example open_loop
+       cargo build --release && cargo build --release -p treadmill-humanoid --example open_loop
 
-Usage: measure.py [--json OUT.json] [--compare BASELINE.json] [--doc docs/results/fidelity.md]
+Usage: measure.py [--json OUT.json] [--compare BASELINE.json] [--rapier BINARY] [--doc docs/results/fidelity.md]
 
-Both simulators get the same states and actions. MuJoCo simulates Gymnasium's Humanoid-v5 file by RK4, 5 steps of 3 ms.
+All simulators get the same states and actions. The reference is Gymnasium's Humanoid-v5 file in MuJoCo by RK4, 5 steps of 3 ms.
+Beside each step size of Treadmill stands MuJoCo's Euler integrator with the same steps. `--rapier` adds rows of Rapier's own
+multibody; rapier_multibody/ builds its binary.
 """
 
 import argparse
@@ -14,6 +16,7 @@ import pathlib
 import subprocess
 import sys
 import tempfile
+import tomllib
 
 import numpy as np
 
@@ -23,37 +26,30 @@ import report
 
 SEED = 1
 STEPS = {0.15: 10, 0.3: 20, 0.5: 33}
-
-# Name in the tables, settings of the environment. The first row is the default: 2 physics steps of 7.5 ms per control step, each
-# with one iteration of Rapier's solver.
-TREADMILL = [
-    ("Treadmill, defaults", {}),
-    ("Treadmill, 3 × 5 ms", {"substeps": 3}),
-    ("Treadmill, 5 × 3 ms", {"substeps": 5}),
-]
+SUBSTEPS = (2, 3, 4, 5)
+REFERENCE = "MuJoCo, RK4, 5 × 3 ms"
 # Name in the tables, integrator, time step (s).
-REFERENCES = [
-    ("MuJoCo, RK4, 30 × 0.5 ms", "RK4", 0.0005),
-    ("MuJoCo, Euler, 5 × 3 ms", "Euler", 0.003),
-    ("MuJoCo, Euler, 3 × 5 ms", "Euler", 0.005),
-    ("MuJoCo, implicitfast, 5 × 3 ms", "implicitfast", 0.003),
-    ("MuJoCo, implicitfast, 3 × 5 ms", "implicitfast", 0.005),
-    ("MuJoCo, implicitfast, 2 × 7.5 ms", "implicitfast", 0.0075),
-]
+OTHERS = [("MuJoCo, RK4, 30 × 0.5 ms", "RK4", 0.0005), ("MuJoCo, implicitfast, 5 × 3 ms", "implicitfast", 0.003)]
 PERTURBED = "MuJoCo, RK4, 5 × 3 ms, start changed by up to 1e-4"
+# Name in the tables, settings of rapier_multibody/.
+RAPIER = [
+    ("Rapier multibody, 5 × 3 ms, 4 iterations", {"substeps": 5, "solver_iterations": 4}),
+    ("Rapier multibody, 5 × 3 ms, 1 iteration", {"substeps": 5, "solver_iterations": 1}),
+]
 
 
-class Treadmill:
-    """Runs the example `open_loop`."""
+class OpenLoop:
+    """Runs a binary that plays cases: the example `open_loop`, or rapier_multibody's."""
 
     def __init__(self, binary, folder):
         self.binary, self.folder = binary, folder
 
-    def __call__(self, given, config=None, **changes):
-        """Plays cases. Returns for each a dictionary of arrays [T, …]."""
+    def __call__(self, given, config=None, contact=True, **changes):
+        """Plays cases. Returns for each qpos [T, 24] and qvel [T, 23]."""
         path = self.folder / "model.xml"
         path.write_text(body.variant_xml(body.TREADMILL_XML, **changes), encoding="utf-8")
-        extra = {"model_file": str(path), "config": config or {}}
+        config = (config or {}) | ({} if contact else {"self_collision": False})
+        extra = {"model_file": str(path), "config": config}
         text = json.dumps([{key: value.tolist() for key, value in case.items()} | extra for case in given])
         run = subprocess.run([self.binary], input=text, capture_output=True, text=True)
         if run.returncode != 0:
@@ -61,8 +57,69 @@ class Treadmill:
         played = json.loads(run.stdout)
         for case, states in zip(given, played):
             if len(states) != len(case["actions"]):
-                sys.exit(f"Treadmill's state was not finite after {len(states)} of {len(case['actions'])} steps")
-        return [{key: np.array([state[key] for state in states]) for key in states[0]} for states in played]
+                sys.exit(f"{self.binary}: not finite after {len(states)} of {len(case['actions'])} steps, with {config}")
+        return [tuple(np.array([state[key] for state in states]) for key in ("qpos", "qvel")) for states in played]
+
+
+def mujoco(integrator, timestep_s):
+    """Returns a function that plays cases in MuJoCo, with OpenLoop's arguments and result."""
+
+    def play(given, contact=True, **changes):
+        model = body.load(contact=contact, **changes)
+        return [body.simulate(model, case, integrator, timestep_s) for case in given]
+
+    return play
+
+
+def step_name(substeps):
+    """Returns a step size as in "2 × 7.5 ms"."""
+    return f"{substeps} × {1000 * body.CONTROL_STEP_S / substeps:g} ms"
+
+
+def euler_name(substeps):
+    """Returns the name of MuJoCo's row with this many steps."""
+    return f"MuJoCo, Euler, {step_name(substeps)}"
+
+
+def euler(substeps):
+    """Returns a function that plays cases by MuJoCo's Euler integrator."""
+    return mujoco("Euler", body.CONTROL_STEP_S / substeps)
+
+
+class Candidates:
+    """Rows of the tables: name → function that plays cases. The first row is Treadmill's default."""
+
+    def __init__(self, treadmill, rapier, default_substeps):
+        self.treadmill = treadmill
+        self.default = f"Treadmill, {step_name(default_substeps)} (default)"
+        self.rows, self.pairs = {}, {}
+        for substeps in (default_substeps, *(number for number in SUBSTEPS if number != default_substeps)):
+            is_default = substeps == default_substeps
+            name = self.default if is_default else f"Treadmill, {step_name(substeps)}"
+            self.rows[name] = self.ours({} if is_default else {"substeps": substeps})
+            self.rows[euler_name(substeps)] = euler(substeps)
+            self.pairs[step_name(substeps)] = (name, euler_name(substeps))
+        for name, integrator, timestep_s in OTHERS:
+            self.rows[name] = mujoco(integrator, timestep_s)
+        for name, config in RAPIER if rapier else []:
+            self.rows[name] = lambda given, config=config, **options: rapier(given, config, **options)
+
+    def keep(self, names):
+        """Drops all other rows."""
+        self.rows = {name: play for name, play in self.rows.items() if name in names}
+        self.pairs = {step: pair for step, pair in self.pairs.items() if set(pair) <= set(names)}
+
+    def ours(self, config):
+        """Returns a function that plays cases in Treadmill."""
+        return lambda given, **options: self.treadmill(given, config, **options)
+
+    def ratios(self, rows, keys):
+        """Returns for each step size Treadmill's errors divided by those of MuJoCo's Euler with the same steps."""
+        rows = {row["name"]: row for row in rows}
+        return [
+            {"name": step, **{key: [a / b for a, b in zip(rows[ours][key], rows[theirs][key])] for key in keys}}
+            for step, (ours, theirs) in self.pairs.items()
+        ]
 
 
 def errors(reference, found, times_s):
@@ -79,24 +136,25 @@ def errors(reference, found, times_s):
     return row
 
 
-def rollouts(treadmill, played, times_s, contact, limits):
+def rollouts(candidates, played, times_s, contact, limits):
     """Returns each simulator's open-loop error against MuJoCo's RK4 with 3 ms."""
-    model = body.load(contact=contact, limits=limits)
-    reference = [body.simulate(model, case)[0] for case in played]
-    rows = []
-    for name, config in TREADMILL:
-        config = config | ({} if contact else {"self_collision": False})
-        found = [states["qpos"] for states in treadmill(played, config, limits=limits)]
-        rows.append({"name": name, **errors(reference, found, times_s)})
-    for name, integrator, timestep_s in REFERENCES:
-        found = [body.simulate(model, case, integrator, timestep_s)[0] for case in played]
-        rows.append({"name": name, **errors(reference, found, times_s)})
-    found = [body.simulate(model, case)[0] for case in cases.perturbed(played, 1e-4, SEED)]
-    rows.append({"name": PERTURBED, **errors(reference, found, times_s)})
-    return {"cases": len(played), "times_s": list(times_s), "rows": rows}
+    options = {"contact": contact, "limits": limits}
+
+    def positions(play, given):
+        return [qpos for qpos, _ in play(given, **options)]
+
+    rk4 = mujoco("RK4", 0.003)
+    reference = positions(rk4, played)
+    rows = [
+        {"name": name, **errors(reference, positions(play, played), times_s)} for name, play in candidates.rows.items()
+    ]
+    perturbed = positions(rk4, cases.perturbed(played, 1e-4, SEED))
+    rows.append({"name": PERTURBED, **errors(reference, perturbed, times_s)})
+    ratios = candidates.ratios(rows, ("angle_mean_rad", "height_mean_m"))
+    return {"cases": len(played), "times_s": list(times_s), "rows": rows, "ratios": ratios}
 
 
-def energy(treadmill):
+def energy(candidates):
     """Returns the energy drift of a body under gravity and its own springs only."""
     played = cases.passive_flights(np.random.default_rng(SEED), 20, 134)
     changes = {"limits": False, "damping": False}
@@ -120,47 +178,38 @@ def energy(treadmill):
             "angular_momentum_mean": [np.mean(turn[t]) for t in steps],
         }
 
-    rows = []
-    for name, config in TREADMILL:
-        states = treadmill(played, config | {"self_collision": False}, **changes)
-        rows.append(row(name, [(s["qpos"], s["qvel"]) for s in states]))
-    for name, integrator, timestep_s in [("MuJoCo, RK4, 5 × 3 ms", "RK4", 0.003), *REFERENCES[1:]]:
-        rows.append(row(name, [body.simulate(model, case, integrator, timestep_s) for case in played]))
+    plays = {**candidates.rows, REFERENCE: mujoco("RK4", 0.003)}
+    rows = [row(name, play(played, contact=False, **changes)) for name, play in plays.items()]
     moving_j = float(np.mean([moving[1] - still for moving, still in zip(start, still_j)]))
     return {"cases": len(played), "times_s": list(steps), "internal_kinetic_start_j": moving_j, "rows": rows}
 
 
-def mirror(treadmill):
+def mirror(candidates):
     """Returns how far the mirrored case deviates from the mirrored path (rad, over joints and cases)."""
     rng = np.random.default_rng(SEED)
     result = {"cases": 50, "rows": []}
+    plays = {candidates.default: candidates.rows[candidates.default], REFERENCE: mujoco("RK4", 0.003)}
     for what, played, contact in [
         ("in flight, 0.15 s", cases.flights(rng, 50, 10, 0.4), False),
         ("standing, random actions, 0.5 s", cases.drops(rng, 50, 33, 0.4), True),
     ]:
-        mirrored = cases.mirrored(played)
-        model = body.load(contact=contact, symmetric=True)
-        config = {} if contact else {"self_collision": False}
-        ours = [[s["qpos"] for s in treadmill(side, config, symmetric=True)] for side in (played, mirrored)]
-        theirs = [[body.simulate(model, case)[0] for case in side] for side in (played, mirrored)]
-        for name, (paths, images) in [("Treadmill, defaults", ours), ("MuJoCo, RK4, 5 × 3 ms", theirs)]:
-            away = np.abs([path[-1] - body.mirror_qpos(image[-1]) for path, image in zip(paths, images)])[:, 7:]
+        for name, play in plays.items():
+            sides = [play(side, contact=contact, symmetric=True) for side in (played, cases.mirrored(played))]
+            ends = [(path[-1], image[-1]) for (path, _), (image, _) in zip(*sides)]
+            away = np.abs([path - body.mirror_qpos(image) for path, image in ends])[:, 7:]
             row = {"name": name, "what": what, "median_rad": float(np.median(away)), "max_rad": float(away.max())}
             result["rows"].append(row)
     return result
 
 
-def joints(treadmill):
+def joints(candidates):
     """Returns the overshoot of joint limits under full torques with random signs."""
     played = cases.thrashing(np.random.default_rng(SEED), 10, 1000)
     model = body.load()
     rows = []
-    for name, config in TREADMILL:
-        states = treadmill(played, config)
-        overshoot = np.concatenate([s["limit_overshoot_rad"] for s in states])
+    for name, play in {**candidates.rows, REFERENCE: mujoco("RK4", 0.003)}.items():
+        overshoot = np.concatenate([body.overshoot_rad(model, qpos) for qpos, _ in play(played)])
         rows.append({"name": name, "overshoot_rad": quantiles(overshoot)})
-    overshoot = np.concatenate([body.overshoot_rad(model, body.simulate(model, case)[0]) for case in played])
-    rows.append({"name": "MuJoCo, RK4, 5 × 3 ms", "overshoot_rad": quantiles(overshoot)})
     return {"steps": 10_000, "rows": rows}
 
 
@@ -169,38 +218,57 @@ def quantiles(numbers):
     return [float(np.percentile(numbers, share)) for share in (50, 99, 99.9, 100)]
 
 
-def measure(treadmill):
-    """Runs all measurements. Returns one JSON object."""
+def random_cases():
+    """Returns the cases of the tables of errors."""
     rng = np.random.default_rng(SEED)
-    flights = cases.flights(rng, 200, 10, body.CONTROL_LIMIT)
-    drops_zero = cases.drops(rng, 100, 33, 0.0)
-    drops_random = cases.drops(rng, 100, 33, body.CONTROL_LIMIT)
-    standing_s = (0.15, 0.3, 0.5)
+    return {
+        "flights": cases.flights(rng, 200, 10, body.CONTROL_LIMIT),
+        "drops_zero": cases.drops(rng, 100, 33, 0.0),
+        "drops_random": cases.drops(rng, 100, 33, body.CONTROL_LIMIT),
+    }
+
+
+def measure(candidates):
+    """Runs all measurements. Returns one JSON object."""
+    played, standing_s = random_cases(), (0.15, 0.3, 0.5)
+    flights = played["flights"]
     return {
         "made": report.circumstances(body.REPOSITORY),
-        "flight_free": rollouts(treadmill, flights, (0.15,), contact=False, limits=False),
-        "flight_limits": rollouts(treadmill, flights, (0.15,), contact=False, limits=True),
-        "drop_zero": rollouts(treadmill, drops_zero, standing_s, contact=True, limits=True),
-        "drop_random": rollouts(treadmill, drops_random, standing_s, contact=True, limits=True),
-        "energy": energy(treadmill),
-        "mirror": mirror(treadmill),
-        "joints": joints(treadmill),
+        "flight_free": rollouts(candidates, flights, (0.15,), contact=False, limits=False),
+        "flight_limits": rollouts(candidates, flights, (0.15,), contact=False, limits=True),
+        "drop_zero": rollouts(candidates, played["drops_zero"], standing_s, contact=True, limits=True),
+        "drop_random": rollouts(candidates, played["drops_random"], standing_s, contact=True, limits=True),
+        "energy": energy(candidates),
+        "mirror": mirror(candidates),
+        "joints": joints(candidates),
     }
+
+
+def default_substeps(binary):
+    """Returns the default of env.substeps."""
+    printed = subprocess.run([binary, "config"], capture_output=True, text=True, check=True).stdout
+    return tomllib.loads(printed)["env"]["substeps"]
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    binary = body.REPOSITORY / "target/release/examples/open_loop"
-    parser.add_argument("--open-loop", type=pathlib.Path, default=binary, help="the built example")
+    built = body.REPOSITORY / "target/release"
+    parser.add_argument("--open-loop", type=pathlib.Path, default=built / "examples/open_loop", help="the built example")
+    parser.add_argument("--treadmill", type=pathlib.Path, default=built / "treadmill", help="the built binary")
+    parser.add_argument("--rapier", type=pathlib.Path, help="binary of rapier_multibody/, for its rows")
     parser.add_argument("--json", type=pathlib.Path, help="file for all numbers")
     parser.add_argument("--compare", type=pathlib.Path, help="numbers of an earlier version, shown in rows 'before'")
     parser.add_argument("--doc", type=pathlib.Path, help="page whose generated part is replaced")
     arguments = parser.parse_args()
-    if not arguments.open_loop.exists():
-        sys.exit(f"{arguments.open_loop} does not exist; run: cargo build --release -p treadmill-humanoid --example open_loop")
+    for binary in filter(None, (arguments.open_loop, arguments.treadmill, arguments.rapier)):
+        if not binary.exists():
+            sys.exit(f"{binary} does not exist; the first lines of --help say how to build it")
     before = json.loads(arguments.compare.read_text(encoding="utf-8")) if arguments.compare else None
     with tempfile.TemporaryDirectory() as folder:
-        result = measure(Treadmill(arguments.open_loop, pathlib.Path(folder)))
+        treadmill, rapier = [
+            OpenLoop(binary, pathlib.Path(folder)) if binary else None for binary in (arguments.open_loop, arguments.rapier)
+        ]
+        result = measure(Candidates(treadmill, rapier, default_substeps(arguments.treadmill)))
     if arguments.json:
         report.write_json(arguments.json, result)
     text = report.fidelity(result, before)

@@ -64,6 +64,16 @@ def replace(path, script, text):
     path.write_text(f"{head}{begin}\n\n{text.strip()}\n\n{end}{tail}", encoding="utf-8")
 
 
+def by_step(folder):
+    """Returns the metrics of a run folder: step → tag → value."""
+    found = {}
+    with open(folder / "metrics.jsonl", encoding="utf-8") as lines:
+        for line in lines:
+            metric = json.loads(line)
+            found.setdefault(metric["step"], {})[metric["tag"]] = metric["value"]
+    return found
+
+
 def table(header, rows):
     """Formats strings as a Markdown table."""
     lines = [header, ["---"] * len(header), *rows]
@@ -87,18 +97,31 @@ def _pair(mean, high):
 
 
 def _rollouts(title, result, before, key):
-    times = result["times_s"]
-    header = ["", *(f"joint angles (rad), {t:g} s" for t in times), *(f"torso height (m), {t:g} s" for t in times)]
+    header = ["", *_columns(result["times_s"])]
     rows = []
     for row in _with_before(result, before, key):
         angles = zip(row["angle_mean_rad"], row["angle_p95_rad"])
         heights = zip(row["height_mean_m"], row["height_p95_m"])
         rows.append([row["name"], *(_pair(*a) for a in angles), *(_pair(*h) for h in heights)])
-    return f"### {title}\n\n{result['cases']} cases; mean / 95th percentile of the error.\n\n" + table(header, rows)
+    text = f"### {title}\n\n{result['cases']} cases; mean / 95th percentile of the error.\n\n" + table(header, rows)
+    return text + "\n" + _ratios(result)
+
+
+def _columns(times_s):
+    return [*(f"joint angles (rad), {t:g} s" for t in times_s), *(f"torso height (m), {t:g} s" for t in times_s)]
+
+
+def _ratios(result):
+    rows = []
+    for row in result["ratios"]:
+        rows.append([row["name"], *(number(ratio) for ratio in (*row["angle_mean_rad"], *row["height_mean_m"]))])
+    columns = [column.replace(" (rad)", "").replace(" (m)", "") for column in _columns(result["times_s"])]
+    lead = "Treadmill's mean error, divided by that of MuJoCo's Euler integrator with the same steps:"
+    return f"{lead}\n\n" + table(["", *columns], rows)
 
 
 def _with_before(result, before, key):
-    """Returns the rows, with the earlier version's default row inserted after the first one."""
+    """Returns the rows, with the earlier version's default row inserted after the first one, which is the default."""
     rows = list(result["rows"])
     if before:
         old = before[key]["rows"][0]

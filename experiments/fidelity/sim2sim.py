@@ -29,11 +29,14 @@ from policy import Policy
 
 REPOSITORY = pathlib.Path(__file__).resolve().parents[2]
 TOLERANCE = 1e-5
+# Time step of Humanoid-v5's model.
+TIMESTEP_S = 0.003
 
 
-def play(choose, episodes, seed, trace=None):
-    """Returns one dictionary per episode. `choose(data)` returns an observation, or None, and the controls."""
-    environment = gymnasium.make("Humanoid-v5", disable_env_checker=True)
+def play(choose, episodes, seed, frame_skip, trace=None):
+    """Returns one dictionary per episode. `choose(data)` returns an observation, or None, and the controls. A control step has
+    `frame_skip` time steps."""
+    environment = gymnasium.make("Humanoid-v5", frame_skip=frame_skip, disable_env_checker=True)
     data = environment.unwrapped.data
     played = []
     for episode in range(episodes):
@@ -56,13 +59,13 @@ def play(choose, episodes, seed, trace=None):
     return played
 
 
-def summary(agent, played):
+def summary(agent, played, control_step_s):
     """Returns mean, minimum and maximum over episodes. As in `treadmill eval`, mean velocity is total distance / total time."""
     result = {"agent": agent, "simulator": "MuJoCo", "episodes": len(played), "falls": sum(e["fell"] for e in played)}
     for key in ("return", "length", "distance_m", "velocity_mps"):
         values = [episode[key] for episode in played]
         result |= {f"{key}_mean": float(np.mean(values)), f"{key}_min": min(values), f"{key}_max": max(values)}
-    time_s = sum(episode["length"] for episode in played) * 0.015
+    time_s = sum(episode["length"] for episode in played) * control_step_s
     result["velocity_mps_mean"] = sum(episode["distance_m"] for episode in played) / time_s
     return result
 
@@ -133,6 +136,10 @@ def main():
         return
     if len(policy.low) != 17:
         sys.exit(f"{arguments.policy} controls {len(policy.low)} motors, but Humanoid-v5 has 17")
+    frame_skip = round(policy.facts["control_step_s"] / TIMESTEP_S)
+    control_step_s = frame_skip * TIMESTEP_S
+    if abs(control_step_s - policy.facts["control_step_s"]) > 1e-9 or frame_skip == 0:
+        sys.exit(f"{arguments.policy} has a control step that is no multiple of MuJoCo's time step of {TIMESTEP_S} s")
     rng = np.random.default_rng(arguments.seed)
 
     def by_policy(data):
@@ -150,7 +157,8 @@ def main():
         if arguments.treadmill:
             more = (agent, arguments.episodes, arguments.seed)
             results.append(in_treadmill(arguments.treadmill, arguments.policy, *more))
-        results.append(summary(agent, play(agents[agent], arguments.episodes, arguments.seed, trace)))
+        played = play(agents[agent], arguments.episodes, arguments.seed, frame_skip, trace)
+        results.append(summary(agent, played, control_step_s))
     if trace:
         trace.close()
     made = report.circumstances(REPOSITORY)

@@ -1,140 +1,107 @@
-"""Compares the speed of Treadmill's environment with Gymnasium's Humanoid-v5 and plain MuJoCo, in turn on one core.
+"""Compares Treadmill's speed with its peers' in one run and writes the speed table of docs/results/fidelity.md.
 
-Needs: pip install "gymnasium[mujoco]" numpy
-       cargo build --release
+Needs: cargo build --release && cargo build --release -p treadmill-humanoid --example open_loop
+The script installs the peers into a virtual environment of its own, target/peers: MuJoCo, Gymnasium, EnvPool, and with
+`--training` PyTorch and Stable-Baselines3.
 
-Usage: taskset -c 0 speed.py target/release/treadmill [--rounds 5] [--seconds 3] [--json OUT.json] [--doc docs/results/fidelity.md]
+Usage: speed.py target/release/treadmill [--pairs 10] [--training] [--rapier BINARY] [--json OUT.json]
+                                         [--doc docs/results/fidelity.md]
 
-Each candidate runs once per round, so that changes of the machine's speed affect all. Actions are random, resets are included, and
-a step is one control step of 15 ms. Treadmill steps 64 humanoids in turn, like an actor; MuJoCo steps one, which stays in the
-processor's cache. Run it on an idle machine.
+Each pair runs Treadmill and its peer in turn on the same cores; every second pair reverses the order. A row is the median of
+the pairs' ratios, with their quartiles. All rows take turns, so that changes of the machine's speed affect all. Actions are
+random; a step is one control step of 15 ms. Run it on an idle machine.
 """
 
 import argparse
-import json
 import os
 import pathlib
 import statistics
-import subprocess
 import sys
-import time
 
-import gymnasium
-import mujoco
-import numpy as np
+import peers
 
-import body
-import report
-
-HEALTHY_M = (1.0, 2.0)
-RAW = {"RK4": "MuJoCo, RK4, 5 × 3 ms", "Euler": "MuJoCo, Euler, 5 × 3 ms", "implicitfast": "MuJoCo, implicitfast, 5 × 3 ms"}
-GYMNASIUM = "Gymnasium Humanoid-v5"
-COMPACT, FULL = "Treadmill, compact observation", "Treadmill, gymnasium-v5 observation"
-PHYSICS = "Treadmill, physics only"
+HERE = pathlib.Path(__file__).resolve().parent
+REPOSITORY = HERE.parents[1]
 
 
-def actions(seed):
-    rng = np.random.default_rng(seed)
-    return rng.uniform(-body.CONTROL_LIMIT, body.CONTROL_LIMIT, (4096, 17)).astype(np.float32)
-
-
-def treadmill(binary, steps, observation):
-    """Returns the output of `bench env`, or None if the binary lacks --observation."""
-    command = [str(binary), "bench", "env", "--steps", str(steps), "--json"]
-    if observation != "compact":
-        command += ["--observation", observation]
-    run = subprocess.run(command, capture_output=True, text=True)
-    if run.returncode == 2 and "--observation" in run.stderr:
-        return None
-    if run.returncode != 0:
-        sys.exit(f"{' '.join(command)} failed: {run.stderr.strip()}")
-    return json.loads(run.stdout.strip().splitlines()[-1])
-
-
-def gymnasium_speed(seconds, seed):
-    """Returns control steps per second of the environment in its usual loop."""
-    environment = gymnasium.make("Humanoid-v5", disable_env_checker=True)
-    environment.reset(seed=seed)
-    steps, given, begun = 0, actions(seed), time.perf_counter()
-    while time.perf_counter() - begun < seconds:
-        for action in given[steps % 4096 : steps % 4096 + 64]:
-            _, _, terminated, truncated, _ = environment.step(action)
-            if terminated or truncated:
-                environment.reset()
-        steps += 64
-    return steps / (time.perf_counter() - begun)
-
-
-def raw_speed(integrator, seconds, seed):
-    """Returns control steps per second of plain MuJoCo: no observation, no reward."""
-    model = body.load()
-    model.opt.integrator = body.INTEGRATORS[integrator]
-    data, rng, given = mujoco.MjData(model), np.random.default_rng(seed), actions(seed)
-    steps, begun = 0, time.perf_counter()
-    while time.perf_counter() - begun < seconds:
-        for action in given[steps % 4096 : steps % 4096 + 64]:
-            data.ctrl[:] = action
-            mujoco.mj_step(model, data, nstep=5)
-            if not HEALTHY_M[0] < data.qpos[2] < HEALTHY_M[1]:
-                mujoco.mj_resetData(model, data)
-                data.qpos[:] += rng.uniform(-0.01, 0.01, 24)
-                data.qvel[:] = rng.uniform(-0.01, 0.01, 23)
-        steps += 64
-    return steps / (time.perf_counter() - begun)
-
-
-def one_round(arguments, number):
-    """Returns control steps per second of each candidate."""
-    found = {}
-    compact = treadmill(arguments.treadmill, arguments.steps, "compact")
-    found[COMPACT], found[PHYSICS] = compact["env_steps_per_s"], compact["physics_only_steps_per_s"]
-    full = treadmill(arguments.treadmill, arguments.steps, "gymnasium-v5")
-    if full:
-        found[FULL] = full["env_steps_per_s"]
-    found[GYMNASIUM] = gymnasium_speed(arguments.seconds, number)
-    for integrator, name in RAW.items():
-        found[name] = raw_speed(integrator, arguments.seconds, number)
+def measure(rows, pairs):
+    """Returns for each row the speeds [pair, (Treadmill's, the peer's)]. Leaves out rows that cannot be measured."""
+    found = {row.key: [] for row in rows}
+    for number in range(pairs):
+        for row in rows:
+            sides = (row.ours, row.peer) if number % 2 == 0 else (row.peer, row.ours)
+            values = [side() for side in sides]
+            found[row.key].append(values if number % 2 == 0 else values[::-1])
+            ours, peer = found[row.key][-1]
+            print(f"pair {number + 1}, {row.key}: {ours:.0f} ÷ {peer:.0f} = {ours / peer:.3g}", file=sys.stderr)
     return found
 
 
-def table(rounds):
-    """Formats median, range and median ratios; each ratio is taken within one round."""
+def quartiles(values):
+    """Returns lower quartile, median and upper quartile."""
+    return statistics.quantiles(values, n=4, method="inclusive") if len(values) > 1 else values * 3
 
-    def median(name):
-        return statistics.median(found[name] for found in rounds)
 
-    def ratio(name, base):
-        return f"{statistics.median(found[name] / found[base] for found in rounds):.2f}"
-
-    rows = []
-    for name in sorted(rounds[0], key=median, reverse=True):
-        rates = [found[name] for found in rounds]
-        spread = f"{min(rates):.0f} to {max(rates):.0f}"
-        rows.append([name, f"{median(name):.0f}", spread, ratio(name, GYMNASIUM), ratio(name, RAW["RK4"])])
-    return report.table(["", "control steps/s", "range", "× Gymnasium", "× MuJoCo, RK4"], rows)
+def table(rows, found, report):
+    """Formats median speeds, and median and quartiles of their ratio."""
+    lines = []
+    for row in rows:
+        ours, peer = zip(*found[row.key])
+        low, middle, high = (f"{ratio:.3g}" for ratio in quartiles([a / b for a, b in found[row.key]]))
+        speeds = [f"{statistics.median(side):.0f}" for side in (ours, peer)]
+        lines.append([row.what, speeds[0], row.against, speeds[1], f"**{middle}**", f"{low} to {high}", row.cores])
+    header = ["Treadmill", "steps/s", "compared with", "steps/s", "ratio", "quartiles", "cores"]
+    return report.table(header, lines)
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    release = REPOSITORY / "target/release"
     parser.add_argument("treadmill", type=pathlib.Path, help="the built binary")
-    parser.add_argument("--rounds", type=int, default=5)
-    parser.add_argument("--seconds", type=float, default=3.0, help="per MuJoCo candidate and round")
-    parser.add_argument("--steps", type=int, default=20_000, help="per Treadmill candidate and round")
-    parser.add_argument("--core", type=int, help="core to pin to; default: the first allowed one")
+    parser.add_argument("--pairs", type=int, default=10)
+    parser.add_argument("--seconds", type=float, default=2.0, help="per peer and pair")
+    parser.add_argument("--steps", type=int, default=100_000, help="of Treadmill, per row and pair")
+    parser.add_argument("--rows", help="keys of the rows to measure, separated by commas; default: all")
+    parser.add_argument("--open-loop", type=pathlib.Path, default=release / "examples/open_loop", help="for state errors")
+    parser.add_argument("--rapier", type=pathlib.Path, help="binary of rapier_multibody/, for its rows")
+    robot = REPOSITORY / "actor/humanoid/assets/g1-like-servos.xml"
+    parser.add_argument("--robot", type=pathlib.Path, default=robot, help="MJCF file of a servo robot on a height field")
+    parser.add_argument("--robot-healthy", default="0.5,1.1", help="heights of its root (m) outside which it is reset")
+    parser.add_argument("--robot-substeps", type=int, default=5, help="its physics steps per control step, on both sides")
+    parser.add_argument("--training", action="store_true", help="also train: trained steps/s, and wall time to 10 m")
+    parser.add_argument("--runs", type=pathlib.Path, nargs="*", default=[], help="run folders, for wall time to 10 m, in place of new trainings")
+    parser.add_argument("--cores", help="two cores to use, for example 0,1; default: the first allowed ones")
+    parser.add_argument("--peers", type=pathlib.Path, default=peers.FOLDER, help="virtual environment of the peers")
     parser.add_argument("--json", type=pathlib.Path, help="file for all numbers")
     parser.add_argument("--doc", type=pathlib.Path, help="page whose generated part is replaced")
     arguments = parser.parse_args()
-    core = min(os.sched_getaffinity(0)) if arguments.core is None else arguments.core
-    os.sched_setaffinity(0, {core})
+    if not arguments.treadmill.exists():
+        sys.exit(f"{arguments.treadmill} does not exist; run: cargo build --release")
+    peers.enter(arguments.peers, arguments.training)
+
+    # These modules need the peers.
+    import report
+    import speed_rows
+
+    allowed = sorted(os.sched_getaffinity(0))
+    cores = [int(core) for core in arguments.cores.split(",")] if arguments.cores else allowed[:2]
     load = os.getloadavg()[0]
-    rounds = [one_round(arguments, number) for number in range(arguments.rounds)]
-    made = report.circumstances(body.REPOSITORY)
-    text = f"{report.made_by(made)} {len(rounds)} rounds; load of the machine before: {load:.1f}.\n\n{table(rounds)}"
-    if FULL not in rounds[0]:
-        text += "\nLeft out: the gymnasium-v5 observation, because this binary's `bench env` has no `--observation`.\n"
+    context = speed_rows.Context(arguments, cores)
+    rows = speed_rows.rows(context)
+    if arguments.rows:
+        rows = [row for row in rows if row.key in arguments.rows.split(",")]
+    found = measure(rows, arguments.pairs)
+    errors = speed_rows.state_errors(context)
+    walks = speed_rows.times_to_10_m(context)
+
+    packages = ("mujoco", "gymnasium", "envpool", "numpy") + (("stable-baselines3", "torch") if arguments.training else ())
+    made = report.circumstances(REPOSITORY, packages)
+    lead = f"{report.made_by(made, packages)} {arguments.pairs} pairs per row; load of the machine before: {load:.1f}."
+    text = "\n".join([f"{lead}\n", table(rows, found, report), *speed_rows.notes(context, errors, walks)])
     print(text)
     if arguments.json:
-        report.write_json(arguments.json, {"made": made, "load": load, "rounds": rounds})
+        keys = {"made": made, "load": load, "pairs": found, "state_errors_rad": errors, "seconds_to_10_m": walks}
+        report.write_json(arguments.json, keys)
     if arguments.doc:
         report.replace(arguments.doc, "speed.py", text)
 

@@ -111,11 +111,7 @@ def train(binary, root, name, seed, steps):
 
 def measure(folder):
     """Returns the results of a run's evaluations."""
-    by_step = {}
-    with open(folder / "metrics.jsonl", encoding="utf-8") as lines:
-        for line in lines:
-            metric = json.loads(line)
-            by_step.setdefault(metric["step"], {})[metric["tag"]] = metric["value"]
+    by_step = report.by_step(folder)
     evaluations = {}
     for values in by_step.values():
         if "eval/distance_mean_m" in values:

@@ -18,17 +18,15 @@ import pathlib
 import statistics
 import subprocess
 import sys
-import time
 
 HERE = pathlib.Path(__file__).resolve().parent
 REPOSITORY = HERE.parents[1]
 sys.path.insert(0, str(HERE.parent / "fidelity"))
 
-import gymnasium
-import stable_baselines3
 import torch
 
 import report
+import speed_peers
 import torch_ppo
 
 SMALL, LARGE = (45, 256, 128), (348, 512, 256)
@@ -68,17 +66,6 @@ def pinned(cores, threads, measure):
         os.sched_setaffinity(0, before)
 
 
-def stable_baselines(steps):
-    """Returns environment steps per second of Stable-Baselines3's tutorial script."""
-    environment = gymnasium.make("Humanoid-v5")
-    model = stable_baselines3.PPO("MlpPolicy", environment, device="cpu")
-    begun = time.perf_counter()
-    model.learn(total_timesteps=steps)
-    rate = model.num_timesteps / (time.perf_counter() - begun)
-    environment.close()
-    return rate
-
-
 def update(arguments, cores, widths, threads=1):
     """Returns Treadmill's samples per second."""
     options = ["--network", "-".join(map(str, widths)), "--threads", threads, "--updates", arguments.updates]
@@ -95,9 +82,7 @@ def sides(arguments, one, two):
         return pinned(one, 1, lambda: torch_ppo.call_us(SMALL, ROWS, arguments.calls, **options))
 
     def other_training():
-        # PyTorch defaults to one thread per core, which can be slower for networks this small.
-        rates = [pinned(two, threads, lambda: stable_baselines(arguments.sb3_steps)) for threads in (1, len(two))]
-        return max(rates)
+        return pinned(two, len(two), lambda: speed_peers.stable_baselines(arguments.sb3_steps, len(two)))
 
     def inference():
         return treadmill(arguments.treadmill, one, "policy", "--rows", ROWS, "--calls", arguments.calls)["call_us"]

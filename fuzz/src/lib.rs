@@ -3,10 +3,12 @@
 //! # Layout
 //! - Here: one function per decoder. It accepts any bytes, and panics if the decoder panics or if a decoded value changes in
 //!   a second round trip.
+//! - [`robots`]: random robots that must simulate.
 //! - [`samples`]: one valid message of each kind.
 //! - `fuzz_targets/`: these functions for `cargo fuzz`, behind the feature `libfuzzer`.
 //! - `tests/`: these functions in `cargo test`, on random bytes and mutated samples, with a limit on allocated memory.
 
+pub mod robots;
 pub mod samples;
 
 use std::{sync::Arc, time::Instant};
@@ -14,7 +16,7 @@ use std::{sync::Arc, time::Instant};
 use bytes::Bytes;
 use treadmill_bus::admission::Admission;
 use treadmill_config::{Config, ConfigSource};
-use treadmill_humanoid::Model;
+use treadmill_humanoid::{HUMANOID_XML, Model, Physics, PhysicsSettings, card::RobotCard};
 use treadmill_learner::{
     checkpoint::{decode as decode_checkpoint, encoding},
     intake::{ExpectedFragment, FragmentCounts, FragmentValidator, Ledger, Lineage},
@@ -50,6 +52,7 @@ pub const TARGETS: &[(&str, Target, Sample, usize)] = &[
     ("exported", exported, samples::exported, 64),
     ("weights", weights, samples::weights, 64),
     ("model", model, samples::model, 256),
+    ("card", card, samples::card, 256),
     ("config", config, samples::config, 256),
     ("fragment_validator", fragment_validator, samples::fragment, 16),
 ];
@@ -200,6 +203,20 @@ pub fn model(data: &[u8]) {
     if let Ok(text) = std::str::from_utf8(data) {
         drop(Model::from_mjcf(text));
     }
+}
+
+/// Reads a robot card and applies it to the humanoid; if it fits, the robot must simulate.
+pub fn card(data: &[u8]) {
+    let Some(card) = std::str::from_utf8(data).ok().and_then(|text| RobotCard::parse(text).ok()) else { return };
+    let mut model = Model::from_mjcf(HUMANOID_XML).expect("valid");
+    if card.apply(&mut model).is_err() {
+        return;
+    }
+    let controls: Vec<f32> = model.motors.iter().map(|motor| motor.control[1] as f32).collect();
+    assert!(controls.iter().all(|control| control.is_finite()), "a target is not finite");
+    let mut physics = Physics::new(model, PhysicsSettings::default()).expect("the settings are valid");
+    // A fault is no error: any gain is allowed.
+    let _ = physics.step_only(&controls);
 }
 
 /// Reads a configuration from TOML text, as this program's own and as that of a run of any version.

@@ -242,6 +242,14 @@ pub fn model() -> Vec<u8> {
     HUMANOID_XML.as_bytes().to_vec()
 }
 
+/// Returns a robot card for the humanoid.
+pub fn card() -> Vec<u8> {
+    let card = "feet = [\"left_foot\", \"right_foot\"]\nheight_m = 1.3\nsymmetry = [[\"left_*\", \"right_*\"]]\n[[hinges]]\n\
+                names = \"*\"\nkp = 80.0\nkd = 4.0\neffort_nm = 60\narmature_kgm2 = 0.01\n[[hinges]]\nnames = \"*_knee\"\n\
+                default_rad = -0.3\naction_scale_rad = 0.5\nheld = true\n";
+    card.as_bytes().to_vec()
+}
+
 /// Returns a configuration as TOML text.
 pub fn config() -> Vec<u8> {
     Config::default().to_toml().into_bytes()

@@ -6,8 +6,9 @@
 //! # Layout
 //! - [`scene`]: coloured shapes of a body, at their poses.
 //! - [`camera`]: rays of a pinhole camera.
+//! - [`surface`]: the floor, or a height field.
 //! - [`solid`]: intersection of a ray with a shape.
-//! - [`picture`]: light, shadow, floor and pixels.
+//! - [`picture`]: light, shadow and pixels.
 //! - [`film`]: encoding as GIF and PNG.
 
 pub mod camera;
@@ -15,6 +16,7 @@ pub mod film;
 pub mod picture;
 pub mod scene;
 pub mod solid;
+pub mod surface;
 
 pub use camera::Camera;
 pub use film::{FilmError, Gif};

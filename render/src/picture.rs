@@ -1,4 +1,4 @@
-//! Rendering: light, shadow, floor and pixels.
+//! Rendering: light, shadow and pixels.
 
 use nalgebra::Vector3;
 use rayon::prelude::*;
@@ -85,16 +85,13 @@ fn colour(scene: &Scene, ray: &Ray, light: &Vector3<f64>) -> Colour {
         let is_lit = lamp > 0.0 && !scene.is_hit(&from);
         return scaled(colour, ambient(hit.normal.z) + if is_lit { LAMP * lamp } else { 0.0 });
     }
-    // The floor is the plane z = 0.
-    let distance_m = -ray.origin.z / ray.direction.z;
-    if !(distance_m > 0.0 && distance_m.is_finite()) {
-        return SKY;
-    }
-    let at = ray.at(distance_m);
-    let from = Ray { origin: at + Vector3::z() * LIFT_M, direction: *light };
-    let lamp = if scene.is_hit(&from) { 0.0 } else { LAMP * light.z };
-    let haze = 1.0 - (-(distance_m / HAZE_M).powi(2)).exp();
-    mixed(scaled(floor(at.x, at.y), ambient(1.0) + lamp), SKY, haze)
+    let Some(hit) = scene.surface().hit(ray) else { return SKY };
+    let at = ray.at(hit.distance_m);
+    let from = Ray { origin: at + hit.normal * LIFT_M, direction: *light };
+    let is_lit = !(scene.is_hit(&from) || scene.surface().shades(&from));
+    let lamp = if is_lit { LAMP * hit.normal.dot(light).max(0.0) } else { 0.0 };
+    let haze = 1.0 - (-(hit.distance_m / HAZE_M).powi(2)).exp();
+    mixed(scaled(floor(at.x, at.y), ambient(hit.normal.z) + lamp), SKY, haze)
 }
 
 /// Returns the ambient brightness of a surface whose normal has this z.

@@ -3,7 +3,10 @@
 use nalgebra::Point3;
 use treadmill_humanoid::Physics;
 
-use crate::solid::{Ball, Hit, Ray, Solid};
+use crate::{
+    solid::{Ball, Hit, Ray, Solid},
+    surface::Surface,
+};
 
 /// Red, green and blue, each from 0 to 1.
 pub type Colour = [f64; 3];
@@ -13,18 +16,19 @@ const LEFT: Colour = [0.93, 0.55, 0.24];
 const RIGHT: Colour = [0.18, 0.56, 0.60];
 const MIDDLE: Colour = [0.85, 0.83, 0.78];
 
-/// Coloured shapes above the floor.
+/// Coloured shapes above the ground.
 #[derive(Clone, Debug)]
 pub struct Scene {
+    surface: Surface,
     solids: Vec<(Solid, Colour)>,
     bound: Option<Ball>,
 }
 
 impl Scene {
-    /// Returns a scene without shapes.
+    /// Returns a level scene without shapes.
     #[must_use]
     pub fn empty() -> Self {
-        Self { solids: Vec::new(), bound: None }
+        Self { surface: Surface::new(None), solids: Vec::new(), bound: None }
     }
 
     /// Returns the shapes of a body at their current poses.
@@ -39,10 +43,14 @@ impl Scene {
             }
         }
         let bound = bound(&solids);
-        Self { solids, bound }
+        Self { surface: Surface::new(model.ground.height_field.as_ref()), solids, bound }
     }
 
-    /// Returns the first hit of a ray.
+    pub(crate) fn surface(&self) -> &Surface {
+        &self.surface
+    }
+
+    /// Returns the first hit of a ray on a shape.
     pub(crate) fn hit(&self, ray: &Ray) -> Option<(Hit, Colour)> {
         if !self.is_near(ray) {
             return None;

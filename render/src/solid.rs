@@ -40,7 +40,7 @@ pub struct Hit {
 const NEAREST_M: f64 = 1e-9;
 
 /// Shape in the world.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub struct Solid {
     form: Form,
     pub(crate) bound: Ball,
@@ -64,13 +64,31 @@ impl Ball {
     }
 }
 
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 enum Form {
     Sphere,
-    Capsule { from: Point3<f64>, to: Point3<f64>, radius_m: f64 },
-    Cylinder { pose: Isometry3<f64>, radius_m: f64, half_length_m: f64 },
-    Box { pose: Isometry3<f64>, half_m: Vector3<f64> },
-    Ellipsoid { pose: Isometry3<f64>, half_m: Vector3<f64> },
+    Capsule {
+        from: Point3<f64>,
+        to: Point3<f64>,
+        radius_m: f64,
+    },
+    Cylinder {
+        pose: Isometry3<f64>,
+        radius_m: f64,
+        half_length_m: f64,
+    },
+    Box {
+        pose: Isometry3<f64>,
+        half_m: Vector3<f64>,
+    },
+    Ellipsoid {
+        pose: Isometry3<f64>,
+        half_m: Vector3<f64>,
+    },
+    /// Planes of the faces: outward normal and position along it (m).
+    Hull {
+        planes: Vec<(Vector3<f64>, f64)>,
+    },
 }
 
 impl Solid {
@@ -88,6 +106,11 @@ impl Solid {
             }
             Geometry::Box { pose, half_m } => (Form::Box { pose: body * pose, half_m }, half_m.norm()),
             Geometry::Ellipsoid { pose, half_m } => (Form::Ellipsoid { pose: body * pose, half_m }, half_m.max()),
+            Geometry::Hull { ref vertices_m } => {
+                let centre = geometry.centre_m();
+                let distances = vertices_m.iter().map(|vertex| nalgebra::distance(&centre, vertex));
+                (Form::Hull { planes: planes(geometry, vertices_m, body) }, distances.fold(0.0, f64::max))
+            }
         };
         Self { form, bound: Ball { centre: body * geometry.centre_m(), radius_m } }
     }
@@ -101,6 +124,7 @@ impl Solid {
     #[must_use]
     pub fn hit(&self, ray: &Ray) -> Option<Hit> {
         match self.form {
+            Form::Hull { ref planes } => hull(ray, planes),
             Form::Sphere => sphere(ray, &self.bound.centre, self.bound.radius_m),
             Form::Capsule { from, to, radius_m } => capsule(ray, &from, &to, radius_m),
             Form::Cylinder { pose, radius_m, half_length_m } => {
@@ -188,6 +212,34 @@ fn cuboid(ray: &Ray, half_m: &Vector3<f64>) -> Option<Hit> {
     }
     let mut normal = Vector3::zeros();
     normal[through] = -ray.direction[through].signum();
+    (enters <= leaves && enters > NEAREST_M).then_some(Hit { distance_m: enters, normal })
+}
+
+/// Returns the planes of a hull's faces in the world.
+fn planes(geometry: &Geometry, vertices_m: &[Point3<f64>], body: &Isometry3<f64>) -> Vec<(Vector3<f64>, f64)> {
+    let plane = |corners: [usize; 3]| {
+        let [a, b, c] = corners.map(|corner| body * vertices_m[corner]);
+        let normal = (b - a).cross(&(c - a)).normalize();
+        (normal, normal.dot(&a.coords))
+    };
+    geometry.hull_faces().into_iter().map(plane).collect()
+}
+
+/// Returns where a ray enters the space behind all planes.
+fn hull(ray: &Ray, planes: &[(Vector3<f64>, f64)]) -> Option<Hit> {
+    let (mut enters, mut leaves, mut normal) = (f64::NEG_INFINITY, f64::INFINITY, Vector3::zeros());
+    for (outwards, offset) in planes {
+        let (height, rate) = (outwards.dot(&ray.origin.coords) - offset, outwards.dot(&ray.direction));
+        if rate == 0.0 {
+            if height > 0.0 {
+                return None;
+            }
+        } else if rate > 0.0 {
+            leaves = leaves.min(-height / rate);
+        } else if -height / rate > enters {
+            (enters, normal) = (-height / rate, *outwards);
+        }
+    }
     (enters <= leaves && enters > NEAREST_M).then_some(Hit { distance_m: enters, normal })
 }
 

@@ -7,7 +7,7 @@ fn pose() -> Isometry3<f64> {
     Isometry3::from_parts(Translation3::new(0.1, -0.2, 0.3), UnitQuaternion::from_euler_angles(0.4, -0.7, 1.1))
 }
 
-fn forms() -> [Geometry; 5] {
+fn forms() -> [Geometry; 6] {
     let half_m = Vector3::new(0.2, 0.1, 0.3);
     [
         Geometry::Sphere { centre_m: Point3::new(0.1, 0.0, 0.2), radius_m: 0.25 },
@@ -15,8 +15,12 @@ fn forms() -> [Geometry; 5] {
         Geometry::Cylinder { pose: pose(), radius_m: 0.2, half_length_m: 0.3 },
         Geometry::Box { pose: pose(), half_m },
         Geometry::Ellipsoid { pose: pose(), half_m },
+        Geometry::Hull { vertices_m: OCTAHEDRON.map(Point3::from).to_vec() },
     ]
 }
+
+const OCTAHEDRON: [[f64; 3]; 6] =
+    [[0.3, 0.0, 0.0], [-0.3, 0.0, 0.0], [0.0, 0.3, 0.0], [0.0, -0.3, 0.0], [0.0, 0.0, 0.3], [0.0, 0.0, -0.3]];
 
 /// Returns a number below 0 inside a shape, 0 on its surface and above 0 outside, computed without rays.
 fn level(geometry: &Geometry, at: Point3<f64>) -> f64 {
@@ -35,17 +39,19 @@ fn level(geometry: &Geometry, at: Point3<f64>) -> f64 {
         Geometry::Ellipsoid { pose, half_m } => {
             pose.inverse_transform_point(&at).coords.component_div(&half_m).norm() - 1.0
         }
+        // The octahedron above.
+        Geometry::Hull { .. } => at.coords.lp_norm(1) - 0.3,
     }
 }
 
 proptest! {
     #[test]
     fn a_ray_hits_a_shape_where_it_first_enters_it(
-        form in 0usize..5,
+        form in 0usize..6,
         origin in prop::array::uniform3(-2.0f64..2.0),
         target in prop::array::uniform3(-0.5f64..0.5),
     ) {
-        let (geometry, body) = (forms()[form], pose());
+        let (geometry, body) = (forms()[form].clone(), pose());
         let solid = Solid::new(&geometry, &body);
         let (origin, target) = (Point3::from(origin), Point3::from(target));
         let level_at = |at: Point3<f64>| level(&geometry, body.inverse_transform_point(&at));

@@ -13,7 +13,9 @@ fn physics() -> Physics {
 /// Returns the centre of every shape in the world.
 fn centres(physics: &Physics) -> Vec<Point3<f64>> {
     let bodies = physics.model().bodies.iter().zip(physics.body_motions());
-    bodies.flat_map(|(body, motion)| body.shapes.iter().map(|shape| motion.pose * shape.geometry.centre_m())).collect()
+    bodies
+        .flat_map(|(body, motion)| body.shapes.iter().map(move |shape| motion.pose * shape.geometry.centre_m()))
+        .collect()
 }
 
 #[test]

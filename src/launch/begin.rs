@@ -52,7 +52,7 @@ pub fn begin(
 
 fn begin_built_in(command: RunCommand, new: &NewRunArgs, any: &AnyRunArgs, config: Config) -> anyhow::Result<Start> {
     let device = open_device(&config, any.device)?;
-    let text = model::text(any.model.as_deref())?;
+    let text = model::completed(&config, any.model.as_deref())?;
     let environment = model::environment(&config, &text, any.model.as_deref())?;
     let mirror = model::mirror(&config, &text)?;
     let (observation, action) = (environment.observation_size(), environment.action_size());
@@ -100,7 +100,7 @@ fn branch_off(
     let mut mirror = None;
     if !config.is_external() {
         if let Some(file) = &any.model {
-            model::check_same(&state.model_xml, file)?;
+            model::check_same(&config, &state.model_xml, file)?;
         }
         let environment = model::environment(&config, &state.model_xml, None)?;
         let (size, wanted) = (environment.observation_size(), state.shape.observation);

@@ -8,7 +8,7 @@ use std::{
 use clap::Args;
 use treadmill_actor::settings;
 use treadmill_config::{Config, ConfigSource, EnvConfig, EnvObservation, Symmetry};
-use treadmill_humanoid::{Environment, HUMANOID_XML, Model, ModelError, read_model_file};
+use treadmill_humanoid::{Environment, HUMANOID_XML, Model, ModelError, card, read_model_file};
 use treadmill_ppo::{BatchMirror, IndexSwap};
 use treadmill_runtime::{error_chain, words::nearest_path};
 
@@ -17,7 +17,7 @@ use crate::launch::exit_code::Usage;
 /// Flags about robot and task of commands that play without a run.
 #[derive(Args, Clone, Debug, Default)]
 pub struct ModelArgs {
-    /// MJCF file of a robot other than the built-in humanoid; see docs/guide/robots.md.
+    /// MJCF file or card of a robot other than the built-in humanoid; see docs/guide/robots.md.
     #[arg(long, value_name = "FILE")]
     pub model: Option<PathBuf>,
     /// Set a key of [env] or [randomisation], as in env.substeps=5; may be repeated.
@@ -38,6 +38,15 @@ impl ModelArgs {
             source.set(pair)?;
         }
         Ok(source.build()?)
+    }
+}
+
+/// Returns the text of a model file, or by default of the built-in humanoid, with the card that `env.robot` names.
+pub fn completed(config: &Config, file: Option<&Path>) -> Result<Cow<'static, str>, Usage> {
+    let text = text(file)?;
+    match config.env.robot.as_str() {
+        "" => Ok(text),
+        name => Ok(Cow::Owned(card::with_built_in(&text, name).map_err(|why| Usage(format!("env.robot: {why}")))?)),
     }
 }
 
@@ -64,7 +73,7 @@ pub fn environment(config: &Config, text: &str, file: Option<&Path>) -> Result<E
     }
     let environment = Environment::new(&settings::training(config), text).map_err(|why| in_file(file, &why))?;
     if let Some(path) = file {
-        check_height(&config.env, environment.physics().model().nominal_position()[2], path)?;
+        check_height(&config.env, environment.nominal_position()[2], path)?;
     }
     Ok(environment)
 }
@@ -91,8 +100,8 @@ pub fn mirror(config: &Config, text: &str) -> Result<Option<BatchMirror>, Usage>
 }
 
 /// Checks that `file` is the model of the resumed run.
-pub fn check_same(run_text: &str, file: &Path) -> Result<(), Usage> {
-    if text(Some(file))? == run_text {
+pub fn check_same(config: &Config, run_text: &str, file: &Path) -> Result<(), Usage> {
+    if completed(config, Some(file))? == run_text {
         return Ok(());
     }
     Err(Usage(format!(
@@ -116,7 +125,8 @@ fn check_height(env: &EnvConfig, height_m: f64, path: &Path) -> Result<(), Usage
     )))
 }
 
-fn in_file(file: Option<&Path>, why: &ModelError) -> Usage {
+/// Returns the error of a model that was read from `file` if given.
+pub fn in_file(file: Option<&Path>, why: &ModelError) -> Usage {
     let why = error_chain(why);
     match file {
         Some(path) => Usage(format!("model file `{}`: {why}", path.display())),

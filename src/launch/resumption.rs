@@ -52,7 +52,7 @@ pub fn resume(
         state.adopt_physics(PHYSICS_VERSION).map_err(anyhow::Error::msg)?;
     }
     if let Some(file) = &any.model {
-        model::check_same(&state.model_xml, file)?;
+        model::check_same(&config, &state.model_xml, file)?;
     }
     let (reached, saved) = (state.counters.env_steps, config.run.steps);
     let goal = match any.steps {

@@ -89,7 +89,7 @@ pub struct AnyRunArgs {
     /// Resume the run in --run-dir if it has a checkpoint, else begin it: one command line for a service.
     #[arg(long, requires = "run_dir", conflicts_with = "resume")]
     pub resume_or_start: bool,
-    /// MJCF file of a robot other than the built-in humanoid (see docs/guide/robots.md); a resumed run keeps its own.
+    /// MJCF file or card of a robot other than the built-in humanoid (see docs/guide/robots.md); a resumed run keeps its own.
     #[arg(long, value_name = "FILE")]
     pub model: Option<PathBuf>,
     /// Checkpoint to resume, fork or begin from: latest, best, or the number of updates of a kept one.

@@ -5,7 +5,7 @@ use std::{fmt, fs, path::Path};
 use anyhow::Context;
 use treadmill_actor::settings;
 use treadmill_config::{Config, EnvTask};
-use treadmill_humanoid::{CONTROL_STEP_S, Environment, Model};
+use treadmill_humanoid::{Environment, Model};
 use treadmill_learner::checkpoint::{self, Loaded, TrainingState, Which, encoding};
 use treadmill_policy::{
     exported::{ActionFacts, ExportedPolicy, ObservationFacts},
@@ -116,12 +116,6 @@ pub fn environment(run: &str, policy: &ExportedPolicy, config: &Config) -> anyho
             );
         }
     }
-    if policy.control_step_s != CONTROL_STEP_S {
-        anyhow::bail!(
-            "control_step_s of `{run}` is {}; this program simulates only {CONTROL_STEP_S}",
-            policy.control_step_s
-        );
-    }
     Ok(environment)
 }
 
@@ -134,7 +128,7 @@ fn exported(state: &TrainingState) -> anyhow::Result<ExportedPolicy> {
     let config = state.config().map_err(anyhow::Error::msg)?;
     let (action, control_step_s) = match config.task.known() {
         Some(task) => (external_action(&task), task.control_step_s),
-        None => (motors(&Model::from_mjcf(&state.model_xml)?), CONTROL_STEP_S),
+        None => (motors(&Model::from_mjcf(&state.model_xml)?), config.env.control_step_s),
     };
     let kind = if config.is_external() { EnvTask::External.name() } else { config.env.observation.name() };
     let (observation, mean, variance) =

@@ -26,8 +26,10 @@ fn env_measures_steps_with_and_without_observation() {
     let spread = bench(&["env", "--steps", "1280", "--threads", "2"]);
     assert_eq!((&spread["threads"], &spread["checksum"]), (&2.into(), &first["checksum"]));
     assert_eq!(spread["workload"], first["workload"], "as many resets");
-    let finer = bench(&["env", "--steps", "1280", "--set", "env.substeps=4"]);
+    let finer = bench(&["env", "--steps", "1280", "--set", "env.substeps=5"]);
     assert_ne!(finer["checksum"], first["checksum"], "configuration keys take effect");
+    let slower = bench(&["env", "--steps", "1280", "--set", "env.control_step_s=0.02"]);
+    assert_eq!(slower["control_step_s"], 0.02);
 }
 
 #[test]
@@ -37,8 +39,21 @@ fn env_measures_how_far_joints_exceed_their_limits() {
     let ordered = [overshoot("p50"), overshoot("p99"), overshoot("p999"), overshoot("max")];
     assert!(ordered.is_sorted() && ordered[0] >= 0.0 && ordered[3].is_finite(), "{ordered:?}");
     assert_eq!((&one["faults"], &one["steps"]), (&0.into(), &6400.into()));
+    let residuals = ["p50", "p99", "max"].map(|name| one[format!("residual_{name}")].as_f64().expect("a number"));
+    assert!(residuals.is_sorted() && residuals[2] < 10.0, "{residuals:?} m/s² or rad/s²");
     let two = bench(&["env", "--quality", "--steps", "6400", "--threads", "2"]);
     assert_eq!(one["checksum"], two["checksum"]);
+}
+
+#[test]
+fn env_ignores_a_retired_key_with_a_notice() {
+    let (folder, _) = folders();
+    let given = ["bench", "env", "--steps", "64", "--json", "--set", "env.solver_iterations=4"];
+    let output = self::run(folder.path(), &given);
+    assert!(output.status.success(), "{}", stderr(&output));
+    let notice = stderr(&output);
+    assert!(notice.contains("retired") && notice.contains("env.solver_iterations"), "{notice}");
+    assert_eq!(last_json(&output)["faults"], 0);
 }
 
 #[test]

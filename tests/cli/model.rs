@@ -41,7 +41,7 @@ fn train(folder: &Path, run: &Path, model: &str, more: &[&str]) -> std::process:
 #[test]
 fn every_command_names_the_file_of_an_unusable_model() {
     let (folder, run) = folders();
-    let bent = HOPPER.replace("<geom name=\"chest\"", "<geom name=\"chest\" solref=\"0.01 1\"");
+    let bent = HOPPER.replace("<geom name=\"chest\"", "<geom name=\"chest\" shellinertia=\"true\"");
     write(folder.path(), "bent.xml", &bent);
     write(folder.path(), "notes.xml", "remember the milk");
     write(folder.path(), "empty.xml", "");
@@ -49,7 +49,7 @@ fn every_command_names_the_file_of_an_unusable_model() {
     write(folder.path(), "parts.xml", "<mujoco><include file=\"legs.xml\"/></mujoco>");
     let cases: [(&str, &[&str]); 6] = [
         ("missing.xml", &["missing.xml", "cannot be read", "No such file"]),
-        ("bent.xml", &["bent.xml", "`chest`", "solref", "0.01 1", "0.02 1"]),
+        ("bent.xml", &["bent.xml", "`chest`", "shellinertia", "true", "false"]),
         ("notes.xml", &["notes.xml", "not valid MJCF"]),
         ("empty.xml", &["empty.xml", "empty"]),
         ("huge.xml", &["huge.xml", "4194305 bytes", "4194304"]),
@@ -117,4 +117,49 @@ fn a_robot_can_be_played_and_timed_without_a_run() {
     let args = ["bench", "env", "--steps", "640", "--json", "--model", "hopper.xml"];
     let timed = last_json(&self::run(folder.path(), &[&args[..], &HEALTHY].concat()));
     assert_eq!((&timed["observation"], &timed["faults"]), (&13.into(), &0.into()));
+}
+
+#[test]
+fn robot_drafts_a_card_that_trains_and_paints_the_robot() {
+    let (folder, run) = folders();
+    write(folder.path(), "hopper.xml", HOPPER);
+    let drafted = self::run(folder.path(), &["robot", "hopper.xml", "--png", "hopper.png"]);
+    assert!(drafted.status.success(), "{}", stderr(&drafted));
+    let report = stdout(&drafted);
+    for part in
+        ["# robot", "1 hinges", "level plane", "hip", "model = \"hopper.xml\"", "base = \"trunk\"", "effort_nm = 20.0"]
+    {
+        assert!(report.contains(part), "`{part}` is missing in:\n{report}");
+    }
+    assert!(fs::read(folder.path().join("hopper.png")).unwrap().starts_with(b"\x89PNG"));
+    write(folder.path(), "card.toml", &report);
+    let printed = self::run(folder.path(), &["robot", "card.toml"]);
+    assert!(stdout(&printed).lines().all(|line| !line.starts_with('#')), "{}", stdout(&printed));
+    let trained = train(folder.path(), &run, "card.toml", &HEALTHY);
+    assert!(trained.status.success(), "{}", stderr(&trained));
+    assert!(fs::read_to_string(run.join("model.xml")).unwrap().contains("treadmill_robot_card"));
+
+    write(folder.path(), "sliding.xml", &HOPPER.replace("<joint name=\"hip\"", "<joint name=\"hip\" type=\"slide\""));
+    assert_refused(&self::run(folder.path(), &["robot", "sliding.xml"]), 2, &["sliding.xml", "hip", "slide"]);
+    write(folder.path(), "wrong.toml", &report.replace("names = \"hip\"", "names = \"knee\""));
+    let args = ["robot", "wrong.toml"];
+    assert_refused(&self::run(folder.path(), &args), 2, &["wrong.toml", "robot card", "knee", "no hinge", "hip"]);
+    assert_refused(&train(folder.path(), &folder.path().join("x"), "wrong.toml", &HEALTHY), 2, &["wrong.toml", "knee"]);
+    let args = ["robot", "card.toml", "--card", "h1"];
+    assert_refused(&self::run(folder.path(), &args), 2, &["card `h1`", "card of its own"]);
+    let args = ["eval", "--agent", "random", "--model", "hopper.xml", "--set", "env.robot=h2"];
+    assert_refused(&self::run(folder.path(), &args), 2, &["env.robot", "`h2`", "g1, g1-29, h1, t1"]);
+    let args = ["robot", "hopper.xml", "--card", "h1"];
+    assert_refused(&self::run(folder.path(), &args), 2, &["`base`", "pelvis", "trunk"]);
+    write(folder.path(), "lost.toml", &report.replace("hopper.xml", "gone.xml"));
+    assert_refused(&self::run(folder.path(), &["robot", "lost.toml"]), 2, &["gone.xml", "cannot be read"]);
+    write(
+        folder.path(),
+        "meshes.xml",
+        &HOPPER
+            .replace("<worldbody>", "<asset><mesh name=\"m\" file=\"m.stl\"/></asset><worldbody>")
+            .replace("type=\"capsule\" fromto=\"0 0 0 0 0 -0.6\" size=\"0.05\"", "type=\"mesh\" mesh=\"m\""),
+    );
+    assert_refused(&self::run(folder.path(), &["robot", "meshes.xml"]), 2, &["meshes.xml", "m.stl", "cannot be read"]);
+    assert_refused(&self::run(folder.path(), &["robot", "hoper.xml"]), 2, &["hoper.xml"]);
 }

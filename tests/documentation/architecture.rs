@@ -8,7 +8,7 @@ use std::{
 
 /// Third-party crates, and the only folders whose packages may depend on them; "(dev)" marks dev-dependencies. The tests of
 /// hostile clients need Zenoh itself.
-const DEPENDENTS: [(&str, &[&str]); 17] = [
+const DEPENDENTS: [(&str, &[&str]); 18] = [
     ("bincode", &["learner"]),
     ("candle-core", &["actor", "common/policy", "learner", "learner/ppo"]),
     ("candle-nn", &["common/policy", "learner/ppo"]),
@@ -20,11 +20,12 @@ const DEPENDENTS: [(&str, &[&str]); 17] = [
     ("prost", &["proto"]),
     ("prost-build", &["proto"]),
     ("protox", &["proto"]),
+    ("pulp", &["actor/humanoid"]),
     ("pyo3", &["python/treadmill_gym"]),
     ("rapier3d", &["actor/humanoid"]),
     ("ratatui", &["."]),
     ("rerun", &["watch"]),
-    ("toml", &[".", "common/config"]),
+    ("toml", &[".", "actor/humanoid", "common/config"]),
     ("zenoh", &[". (dev)", "common/bus"]),
 ];
 /// Packages of the workspace on which no other depends, and those on which only one does.
@@ -163,7 +164,11 @@ fn crates_are_named_only_in_their_folder() {
     assert_named_only_in(&["prost::", "prost_build", "protox::"], &["proto/"]);
     assert_named_only_in(&["bincode::"], &["learner/src/checkpoint/encoding.rs"]);
     assert_named_only_in(&["zenoh::"], &["common/bus/", "tests/hostile/"]);
-    assert_named_only_in(&["rapier3d::", "parry3d::"], &["actor/humanoid/src/physics"]);
+    assert_named_only_in(&["rapier3d::", "parry3d::"], &["actor/humanoid/src/collision"]);
+    assert_named_only_in(
+        &["pulp::"],
+        &["actor/humanoid/src/collision", "actor/humanoid/src/dynamics", "actor/humanoid/src/lanes"],
+    );
     assert_named_only_in(&["rerun::"], &["watch/"]);
 }
 

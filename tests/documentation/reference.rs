@@ -41,7 +41,7 @@ fn every_configuration_key_is_in_the_reference() {
         let row = page.lines().find(|line| line.starts_with(&format!("| `{}` |", key.key))).expect(&key.key);
         assert!(row.contains(&key.default) && row.contains(key.allowed) && row.contains(key.doc), "{row}");
     }
-    assert!(page.contains("| `ppo.target_kl` | number | `0.024` | 0 or more | yes |"), "{page}");
+    assert!(page.contains("| `ppo.target_kl` | number | `0.048` | 0 or more | yes |"), "{page}");
     assert!(page.contains("| `bus.stats_every_ms` | whole number, ms | `2000` | 100 to 600000 | no |"), "{page}");
 }
 

@@ -35,6 +35,7 @@ pub fn fragment(bundle: &PolicyBundle, actor: &str, sequence: u64) -> Fragment {
         last_observations: vec![0.0; width],
         episodes: vec![],
         settled_through: 0,
+        physics_version: bundle.physics_version,
         ..Fragment::default()
     }
 }

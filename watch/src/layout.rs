@@ -13,7 +13,6 @@ use rerun::{
         re_sdk_types::blueprint::archetypes::{EyeControls3D, LineGrid3D, VisibleTimeRanges},
     },
 };
-use treadmill_humanoid::CONTROL_STEP_S;
 
 /// Paths of entities and names of timelines, shared by recorder and layout.
 pub mod paths {
@@ -72,7 +71,12 @@ pub fn followed_m([x, y]: [f32; 2]) -> [[f32; 3]; 2] {
 }
 
 /// Sends the layout; if `follows`, the camera follows the robot.
-pub fn send(recording: &RecordingStream, follows: bool, mode: PlayMode) -> RecordingStreamResult<()> {
+pub fn send(
+    recording: &RecordingStream,
+    follows: bool,
+    mode: PlayMode,
+    control_step_s: f64,
+) -> RecordingStreamResult<()> {
     let space = ContainerLike::from(Spatial3DView::new("humanoid").with_origin(paths::WORLD));
     let space_path = path_of(&space);
     let curves = |name: &str, path: &str| ContainerLike::from(TimeSeriesView::new(name).with_origin(path));
@@ -102,7 +106,7 @@ pub fn send(recording: &RecordingStream, follows: bool, mode: PlayMode) -> Recor
         eye = eye.with_tracking_entity(paths::FOLLOWED);
     }
     let grid = LineGrid3D::new().with_visible(false);
-    let visible_range = visible_range();
+    let visible_range = visible_range(control_step_s);
     let mut properties: Vec<(EntityPath, &dyn AsComponents)> =
         vec![(space_path.clone() / "EyeControls3D", &eye), (space_path / "LineGrid3D", &grid)];
     properties
@@ -119,7 +123,7 @@ fn path_of(view: &ContainerLike) -> EntityPath {
 }
 
 /// Limits curves to a few seconds around the current moment, so that single steps are visible.
-fn visible_range() -> VisibleTimeRanges {
+fn visible_range(control_step_s: f64) -> VisibleTimeRanges {
     let range = |timeline: &str, [before, after]: [i64; 2]| VisibleTimeRange {
         timeline: timeline.into(),
         range: TimeRange {
@@ -127,7 +131,7 @@ fn visible_range() -> VisibleTimeRanges {
             end: TimeRangeBoundary::CursorRelative(TimeInt(after)),
         },
     };
-    let steps = [BEFORE_S, AFTER_S].map(|seconds| (seconds as f64 / CONTROL_STEP_S) as i64);
+    let steps = [BEFORE_S, AFTER_S].map(|seconds| (seconds as f64 / control_step_s) as i64);
     let nanoseconds = [BEFORE_S, AFTER_S].map(|seconds| seconds * 1_000_000_000);
     VisibleTimeRanges::default().with_ranges([range(paths::TIME, nanoseconds), range(paths::STEP, steps)])
 }

@@ -5,6 +5,7 @@ use std::time::{Duration, Instant};
 use anyhow::Context;
 use treadmill_actor::settings;
 use treadmill_bus::{Bus, Feed, Role, fetch_policy, keys, observe};
+use treadmill_config::Config;
 use treadmill_humanoid::Model;
 use treadmill_proto::{PolicyBundle, Pose, ident::check_ident};
 use treadmill_rl::{
@@ -32,10 +33,11 @@ pub struct LiveOptions<'a> {
     pub for_s: Option<f64>,
 }
 
-/// Connects to the bus and records poses until Ctrl-C; `open` creates output and recorder for the run's robot.
+/// Connects to the bus and records poses until Ctrl-C; `open` creates output and recorder for the run's robot
+/// and the duration of its control steps (s).
 pub fn run(
     options: &LiveOptions,
-    open: impl FnOnce(&str, Model) -> anyhow::Result<(ViewerOutput, SceneRecorder)>,
+    open: impl FnOnce(&str, Model, f64) -> anyhow::Result<(ViewerOutput, SceneRecorder)>,
 ) -> anyhow::Result<()> {
     if let Some(actor) = options.actor {
         check_ident("--actor", actor).map_err(|why| Usage(why.to_string()))?;
@@ -44,8 +46,9 @@ pub fn run(
         let shutdown = Shutdown::default();
         signals::listen(shutdown.clone(), "").context("signals cannot be caught")?;
         let bundle = fetch_bundle(link).await?;
-        check_task(&bundle)?;
-        let (output, mut recorder) = open(&format!("{}, live", bundle.run), Model::from_mjcf(&bundle.model_xml)?)?;
+        let config = read_config(&bundle)?;
+        let model = Model::from_mjcf(&bundle.model_xml)?;
+        let (output, mut recorder) = open(&format!("{}, live", bundle.run), model, config.env.control_step_s)?;
         let mut poses = ActorPoses::open(&link.bus, &bundle.run, options.actor)?;
         say(&format!("waiting for an episode of {} to begin", options.actor.unwrap_or("an actor")));
         while !shutdown.asked() && options.for_s.is_none_or(|limit_s| recorder.shown_s() < limit_s) {
@@ -77,9 +80,11 @@ async fn fetch_bundle(link: &LearnerLink) -> anyhow::Result<PolicyBundle> {
     }
 }
 
-/// Refuses a run of a task that this program does not simulate.
-fn check_task(bundle: &PolicyBundle) -> anyhow::Result<()> {
-    settings::check_supported(&bundle.run, &settings::read_config(bundle)?).context("the run cannot be watched")
+/// Reads a run's configuration; refuses a task that this program does not simulate.
+fn read_config(bundle: &PolicyBundle) -> anyhow::Result<Config> {
+    let config = settings::read_config(bundle)?;
+    settings::check_supported(&bundle.run, &config).context("the run cannot be watched")?;
+    Ok(config)
 }
 
 /// Poses of one actor at a time.

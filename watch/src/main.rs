@@ -57,7 +57,7 @@ fn play(view: &ViewerArgs) -> anyhow::Result<()> {
         return Err(Usage(why.to_string()).into());
     };
     let mut player = player::Player::load(run, view.checkpoint)?;
-    let (output, mut recorder) = set_up(view, run, player.model(), PlayMode::Played)?;
+    let (output, mut recorder) = set_up(view, run, player.model(), player.control_step_s(), PlayMode::Played)?;
     let start = Instant::now();
     player.play(view.episodes, view.seed, |pose| {
         recorder.show(pose)?;
@@ -72,18 +72,19 @@ fn play(view: &ViewerArgs) -> anyhow::Result<()> {
 
 fn live(view: &ViewerArgs) -> anyhow::Result<()> {
     let options = live::LiveOptions { reach: &view.reach, actor: view.actor.as_deref(), for_s: view.for_s };
-    live::run(&options, |name, model| set_up(view, name, model, PlayMode::Live))
+    live::run(&options, |name, model, control_step_s| set_up(view, name, model, control_step_s, PlayMode::Live))
 }
 
 fn set_up(
     view: &ViewerArgs,
     name: &str,
     model: Model,
+    control_step_s: f64,
     mode: PlayMode,
 ) -> anyhow::Result<(ViewerOutput, SceneRecorder)> {
     let output = ViewerOutput::open(&view.output, name, view.reach.network.insecure)?;
     let recorder = SceneRecorder::new(output.recording().clone(), model);
-    layout::send(output.recording(), !view.no_follow, mode)?;
+    layout::send(output.recording(), !view.no_follow, mode, control_step_s)?;
     recorder.set_up()?;
     Ok((output, recorder))
 }

@@ -8,7 +8,7 @@ use treadmill_actor::{
     poses,
 };
 use treadmill_config::RandomisationConfig;
-use treadmill_humanoid::{CONTROL_STEP_S, Environment, Model};
+use treadmill_humanoid::{Environment, Model};
 use treadmill_learner::checkpoint::Which;
 use treadmill_proto::Pose;
 use treadmill_rl::shared::saved_policy;
@@ -34,6 +34,11 @@ impl Player {
         self.environment.physics().model().clone()
     }
 
+    /// Returns the duration of a control step (s).
+    pub fn control_step_s(&self) -> f64 {
+        self.environment.control_step_s()
+    }
+
     /// Plays episodes and passes the pose of each step to `show`, until it returns false or an error.
     pub fn play(
         &mut self,
@@ -41,24 +46,24 @@ impl Player {
         seed: u64,
         mut show: impl FnMut(&Pose) -> anyhow::Result<bool>,
     ) -> anyhow::Result<()> {
-        let mut start_x_m = 0.0;
+        let (mut start_x_m, control_step_s) = (0.0, self.control_step_s());
         let mut shown = Ok(true);
         evaluate(&mut self.environment, &mut self.agent, episodes, seed, |step| {
             if step.step == 1 {
                 start_x_m = step.physics.position()[0];
             }
-            shown = show(&pose(&step, start_x_m));
+            shown = show(&pose(&step, start_x_m, control_step_s));
             if matches!(shown, Ok(true)) { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
         })?;
         shown.map(drop)
     }
 }
 
-fn pose(step: &EvaluationStep, start_x_m: f64) -> Pose {
+fn pose(step: &EvaluationStep, start_x_m: f64, control_step_s: f64) -> Pose {
     Pose {
         episode: step.episode.into(),
         step: step.step,
-        time_s: f64::from(step.step) * CONTROL_STEP_S,
+        time_s: f64::from(step.step) * control_step_s,
         distance_m: (step.physics.position()[0] - start_x_m) as f32,
         ..poses::body_pose(step.physics, step.info)
     }

@@ -88,10 +88,22 @@ impl SceneRecorder {
         self.shown_s
     }
 
-    /// Logs the floor and the names of the curves.
+    /// Logs the ground and the names of the curves.
     pub fn set_up(&self) -> RecordingStreamResult<()> {
         let rec = &self.recording;
         rec.log_static(paths::WORLD, &ViewCoordinates::RIGHT_HAND_Z_UP())?;
+        match &self.model.ground.height_field {
+            Some(field) => shapes::log_height_field(rec, format!("{}/field", paths::WORLD), field, colour(LINES))?,
+            None => self.log_plane()?,
+        }
+        rec.log_static(paths::REWARD, &SeriesLines::new().with_names(REWARD_TERMS))?;
+        rec.log_static(paths::VELOCITY, &SeriesLines::new().with_names(["forward m/s", "distance / 10 m"]))?;
+        let hinges = self.model.hinges.iter().map(|hinge| hinge.name.as_str());
+        rec.log_static(paths::TORQUES, &SeriesLines::new().with_names(hinges))
+    }
+
+    fn log_plane(&self) -> RecordingStreamResult<()> {
+        let rec = &self.recording;
         let plate = Boxes3D::from_centers_and_half_sizes([[0.0, 0.0, -0.02]], [[FLOOR_HALF_M, FLOOR_HALF_M, 0.018]]);
         let plate = plate.with_colors([colour(FLOOR)]).with_fill_mode(FillMode::Solid);
         rec.log_static(format!("{}/plate", paths::FLOOR), &plate)?;
@@ -99,11 +111,7 @@ impl SceneRecorder {
         let lines = (-GRID_HALF_M..=GRID_HALF_M).map(|at| at as f32);
         let lines = lines.flat_map(|at| [[[-end, at, 0.0], [end, at, 0.0]], [[at, -end, 0.0], [at, end, 0.0]]]);
         let lines = LineStrips3D::new(lines).with_colors([colour(LINES)]).with_radii([0.008]);
-        rec.log_static(format!("{}/lines", paths::FLOOR), &lines)?;
-        rec.log_static(paths::REWARD, &SeriesLines::new().with_names(REWARD_TERMS))?;
-        rec.log_static(paths::VELOCITY, &SeriesLines::new().with_names(["forward m/s", "distance / 10 m"]))?;
-        let hinges = self.model.hinges.iter().map(|hinge| hinge.name.as_str());
-        rec.log_static(paths::TORQUES, &SeriesLines::new().with_names(hinges))
+        rec.log_static(format!("{}/lines", paths::FLOOR), &lines)
     }
 
     /// Logs one pose; ignores poses that do not fit the model.

@@ -1,11 +1,14 @@
-//! Logs a model's shapes to Rerun: once for each body, in its frame.
+//! Logs a model's shapes to Rerun, once for each body, in its frame; and the height field of its ground.
 
 use nalgebra::{UnitQuaternion, Vector3};
 use rerun::{
-    Boxes3D, Capsules3D, Color, Cylinders3D, Ellipsoids3D, EntityPath, EntityPathPart, RecordingStream,
+    Boxes3D, Capsules3D, Color, Cylinders3D, Ellipsoids3D, EntityPath, EntityPathPart, Mesh3D, RecordingStream,
     RecordingStreamResult, components::FillMode, datatypes::Quaternion,
 };
-use treadmill_humanoid::{Model, model::Geometry};
+use treadmill_humanoid::{
+    Model,
+    model::{Geometry, HeightField},
+};
 use treadmill_render::scene;
 
 /// Logs the shapes of one body below its path.
@@ -47,9 +50,47 @@ pub fn log(recording: &RecordingStream, path: &EntityPath, model: &Model, body: 
                         .with_quaternions([quaternion(&pose.rotation)]);
                 recording.log_static(at, &ellipsoid.with_colors(colours).with_fill_mode(FillMode::Solid))?;
             }
+            Geometry::Hull { ref vertices_m } => {
+                let faces = shape.geometry.hull_faces().into_iter().map(|face| face.map(|corner| corner as u32));
+                let mesh = Mesh3D::new(vertices_m.iter().map(|vertex| array(&vertex.coords)))
+                    .with_triangle_indices(faces)
+                    .with_vertex_colors(vec![colours[0]; vertices_m.len()]);
+                recording.log_static(at, &mesh)?;
+            }
         }
     }
     Ok(())
+}
+
+/// Logs a height field.
+pub fn log_height_field(
+    recording: &RecordingStream,
+    path: String,
+    field: &HeightField,
+    colour: Color,
+) -> RecordingStreamResult<()> {
+    let steps_m = [2.0 * field.half_x_m / (field.columns - 1) as f64, 2.0 * field.half_y_m / (field.rows - 1) as f64];
+    let height_m = |column: usize, row: usize| field.heights_m[row * field.columns + column];
+    let places = (0..field.rows).flat_map(|row| (0..field.columns).map(move |column| (column, row)));
+    let points = places.clone().map(|(column, row)| {
+        let x_m = field.centre_m.x - field.half_x_m + column as f64 * steps_m[0];
+        let y_m = field.centre_m.y - field.half_y_m + row as f64 * steps_m[1];
+        [x_m, y_m, field.centre_m.z + height_m(column, row)].map(|number| number as f32)
+    });
+    let normals = places.map(|(column, row)| {
+        let ends = |index: usize, count: usize| (index.saturating_sub(1), (index + 1).min(count - 1));
+        let ((left, right), (near, far)) = (ends(column, field.columns), ends(row, field.rows));
+        let along_x = (height_m(right, row) - height_m(left, row)) / ((right - left) as f64 * steps_m[0]);
+        let along_y = (height_m(column, far) - height_m(column, near)) / ((far - near) as f64 * steps_m[1]);
+        array(&Vector3::new(-along_x, -along_y, 1.0).normalize())
+    });
+    let cells = (0..field.rows - 1).flat_map(|row| (0..field.columns - 1).map(move |column| (column, row)));
+    let faces = cells.flat_map(|(column, row)| {
+        let corner = |columns: usize, rows: usize| ((row + rows) * field.columns + column + columns) as u32;
+        [[corner(0, 0), corner(1, 0), corner(1, 1)], [corner(0, 0), corner(1, 1), corner(0, 1)]]
+    });
+    let mesh = Mesh3D::new(points).with_vertex_normals(normals).with_triangle_indices(faces);
+    recording.log_static(path, &mesh.with_vertex_colors(vec![colour; field.heights_m.len()]))
 }
 
 fn array(vector: &Vector3<f64>) -> [f32; 3] {

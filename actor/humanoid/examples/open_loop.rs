@@ -2,8 +2,8 @@
 //!
 //! Usage: `open_loop [CASES.json]`; without a file, the cases come from standard input.
 //!
-//! Input: a JSON list of cases, each `{"qpos": [24], "qvel": [23], "actions": [[17], …], "model_file": "x.xml",
-//! "config": {"substeps": 2, "solver_iterations": 1, "self_collision": true}}`. The last two entries and each setting are
+//! Input: a JSON list of cases, each `{"qpos": [24], "qvel": [23], "actions": [[17], …], "model_file": "x.xml or card.toml",
+//! "config": {"substeps": 2, "control_step_s": 0.015, "self_collision": true}}`. The last two entries and each setting are
 //! optional. Vectors are MuJoCo's: see `treadmill_humanoid::physics`.
 //!
 //! Output: a JSON list with one list per case, one object per control step: `{"qpos", "qvel", "limit_overshoot_rad",
@@ -14,10 +14,11 @@ use std::{
     error::Error,
     fs,
     io::{self, BufWriter, Read, Write},
+    path::Path,
 };
 
 use serde::{Deserialize, Serialize};
-use treadmill_humanoid::{HUMANOID_XML, Model, Physics, PhysicsSettings};
+use treadmill_humanoid::{HUMANOID_XML, Model, Physics, PhysicsSettings, read_model_file};
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -36,7 +37,7 @@ struct Case {
 #[serde(deny_unknown_fields)]
 struct Overrides {
     substeps: Option<u32>,
-    solver_iterations: Option<u32>,
+    control_step_s: Option<f64>,
     self_collision: Option<bool>,
 }
 
@@ -72,7 +73,7 @@ fn main() -> Result<(), Box<dyn Error>> {
 
 fn simulate(case: &Case) -> Result<Vec<State>, Box<dyn Error>> {
     let xml = match &case.model_file {
-        Some(path) => fs::read_to_string(path).map_err(|why| format!("cannot read `{path}`: {why}"))?,
+        Some(path) => read_model_file(Path::new(path))?,
         None => HUMANOID_XML.to_string(),
     };
     let mut physics = Physics::new(Model::from_mjcf(&xml)?, case.config.settings())?;
@@ -106,7 +107,7 @@ impl Overrides {
         let defaults = PhysicsSettings::default();
         PhysicsSettings {
             substeps: self.substeps.unwrap_or(defaults.substeps),
-            solver_iterations: self.solver_iterations.unwrap_or(defaults.solver_iterations),
+            control_step_s: self.control_step_s.unwrap_or(defaults.control_step_s),
             self_collision: self.self_collision.unwrap_or(defaults.self_collision),
         }
     }

@@ -2,16 +2,16 @@
 //!
 //! Weights, ranges and flags carry the names of the arguments of Gymnasium's environments.
 
-use std::fmt::Debug;
+use std::{fmt::Debug, ops::RangeInclusive};
 
 use crate::error::ModelError;
 
-/// Duration of one control step (s): one action, one observation, one reward.
-pub const CONTROL_STEP_S: f64 = 0.015;
+/// Accepted durations of a control step (s).
+const CONTROL_STEPS_S: RangeInclusive<f64> = 0.001..=0.1;
 
 /// Version of the simulation. Raised whenever the same state, action and settings give another next state, observation, reward
 /// or end of an episode, so that one run never mixes two of them. `tests/environment/physics_version.rs` holds it to that.
-pub const PHYSICS_VERSION: u32 = 1;
+pub const PHYSICS_VERSION: u32 = 2;
 
 /// How far outside its range a hinge may be set (rad). In the nominal pose of Humanoid-v5 the knees are 2° beyond the end
 /// of their range, and limits are soft.
@@ -46,7 +46,7 @@ pub struct EnvironmentConfig {
     pub task: RewardTask,
     /// Reward per m/s of forward speed of the centre of mass.
     pub forward_reward_weight: f64,
-    /// Cost per unit of the sum of squared controls.
+    /// Cost per unit of the sum of squared entries of the action; see [`crate::task::control_cost`].
     pub ctrl_cost_weight: f64,
     /// Cost per unit of the sum of squared contact forces (N²) and moments ((N·m)²). Humanoid-v4 has no such cost.
     pub contact_cost_weight: f64,
@@ -74,10 +74,12 @@ pub struct EnvironmentConfig {
     pub include_cfrc_ext_in_observation: bool,
     /// An episode is truncated after this many control steps; 0 means never.
     pub max_episode_steps: u32,
+    /// Name of the model's keyframe at which episodes start; empty means the nominal pose.
+    pub keyframe: String,
+    /// See [`PhysicsSettings::control_step_s`].
+    pub control_step_s: f64,
     /// See [`PhysicsSettings::substeps`].
     pub substeps: u32,
-    /// See [`PhysicsSettings::solver_iterations`].
-    pub solver_iterations: u32,
     /// See [`PhysicsSettings::self_collision`].
     pub self_collision: bool,
     /// Randomisation of each episode; off by default.
@@ -86,7 +88,7 @@ pub struct EnvironmentConfig {
 
 impl Default for EnvironmentConfig {
     fn default() -> Self {
-        let PhysicsSettings { substeps, solver_iterations, self_collision } = PhysicsSettings::default();
+        let PhysicsSettings { control_step_s, substeps, self_collision } = PhysicsSettings::default();
         Self {
             task: RewardTask::HumanoidV5,
             forward_reward_weight: 1.25,
@@ -104,8 +106,9 @@ impl Default for EnvironmentConfig {
             include_qfrc_actuator_in_observation: true,
             include_cfrc_ext_in_observation: true,
             max_episode_steps: 1000,
+            keyframe: String::new(),
+            control_step_s,
             substeps,
-            solver_iterations,
             self_collision,
             randomisation: Randomisation::default(),
         }
@@ -113,26 +116,26 @@ impl Default for EnvironmentConfig {
 }
 
 /// Settings that the motion depends on.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PhysicsSettings {
+    /// Duration of one control step (s), 0.001 to 0.1: one action, one observation, one reward.
+    pub control_step_s: f64,
     /// Physics steps per control step, 1 to 1000.
     pub substeps: u32,
-    /// Iterations of Rapier's constraint solver per physics step, 1 to 1000; its result is then refined in joint coordinates.
-    pub solver_iterations: u32,
     /// Whether bodies that are not neighbours in the tree collide with each other.
     pub self_collision: bool,
 }
 
 impl Default for PhysicsSettings {
     fn default() -> Self {
-        Self { substeps: 2, solver_iterations: 1, self_collision: true }
+        Self { control_step_s: 0.015, substeps: 4, self_collision: true }
     }
 }
 
 impl From<&EnvironmentConfig> for PhysicsSettings {
     fn from(config: &EnvironmentConfig) -> Self {
-        let EnvironmentConfig { substeps, solver_iterations, self_collision, .. } = *config;
-        Self { substeps, solver_iterations, self_collision }
+        let EnvironmentConfig { control_step_s, substeps, self_collision, .. } = *config;
+        Self { control_step_s, substeps, self_collision }
     }
 }
 
@@ -151,7 +154,8 @@ pub struct Randomisation {
     pub armature_scale: [f64; 2],
     /// Factor on gravity.
     pub gravity_scale: [f64; 2],
-    /// Standard deviation of the noise on observed height (m), orientation (rad about each axis) and hinge angles (rad).
+    /// Standard deviation of the noise on observed height (m), orientation (rad about each axis) and hinge angles (rad). All
+    /// other blocks of an observation are computed from the noisy state.
     pub sensor_noise_position: f64,
     /// Standard deviation of the noise on observed velocities (m/s, rad/s).
     pub sensor_noise_velocity: f64,
@@ -242,7 +246,7 @@ impl EnvironmentConfig {
                 }
             }
         }
-        self.randomisation.check()
+        self.randomisation.check(self.control_step_s)
     }
 
     /// Returns the first setting that differs from another configuration's: name, value here, value there.
@@ -268,8 +272,9 @@ impl EnvironmentConfig {
                 include_qfrc_actuator_in_observation,
                 include_cfrc_ext_in_observation,
                 max_episode_steps,
+                keyframe,
+                control_step_s,
                 substeps,
-                solver_iterations,
                 self_collision,
                 randomisation,
             ]
@@ -278,19 +283,20 @@ impl EnvironmentConfig {
 }
 
 impl PhysicsSettings {
-    /// Rejects counts that are zero or absurdly large.
+    /// Rejects durations and counts that cannot be simulated.
     pub(crate) fn check(&self) -> Result<(), ModelError> {
-        for (setting, value) in [("substeps", self.substeps), ("solver_iterations", self.solver_iterations)] {
-            if !(1..=1000).contains(&value) {
-                return refuse(setting, &value, "between 1 and 1000");
-            }
+        if !CONTROL_STEPS_S.contains(&self.control_step_s) {
+            return refuse("control_step_s", &self.control_step_s, "between 0.001 and 0.1 s");
+        }
+        if !(1..=1000).contains(&self.substeps) {
+            return refuse("substeps", &self.substeps, "between 1 and 1000");
         }
         Ok(())
     }
 
     /// Returns the first setting that differs from `other`: name, value here, value there.
     pub(crate) fn difference(&self, other: &Self) -> Option<(&'static str, String, String)> {
-        first_difference!(PhysicsSettings, self, other, [substeps, solver_iterations, self_collision])
+        first_difference!(PhysicsSettings, self, other, [control_step_s, substeps, self_collision])
     }
 }
 
@@ -305,8 +311,13 @@ impl Randomisation {
         *self != off
     }
 
-    /// Rejects ranges that are empty or exceed their bounds.
-    pub(crate) fn check(&self) -> Result<(), ModelError> {
+    /// Returns whether observations have noise.
+    pub(crate) fn has_sensor_noise(&self) -> bool {
+        self.sensor_noise_position > 0.0 || self.sensor_noise_velocity > 0.0
+    }
+
+    /// Rejects ranges that are empty or exceed their bounds, for a duration of the control step (s).
+    pub(crate) fn check(&self, control_step_s: f64) -> Result<(), ModelError> {
         let refuse =
             |setting, value: f64, expected| Err(ModelError::Setting { setting, value: value.to_string(), expected });
         let factors = "between 0 and 10, and the first of the range not above the second";
@@ -323,8 +334,8 @@ impl Randomisation {
             (
                 "push_interval_s",
                 self.push_interval_s,
-                [CONTROL_STEP_S, 1000.0],
-                "between one control step and 1000 s, the first not above the second",
+                [control_step_s, 1000.0],
+                "between one control step (control_step_s) and 1000 s, the first not above the second",
             ),
             ("push_mps", self.push_mps, [0.0, 10.0], factors),
         ] {

@@ -3,16 +3,17 @@
 mod saved;
 mod snapshot;
 
+use nalgebra::Point3;
 use rand::{Rng, RngExt, SeedableRng};
 use rand_xoshiro::Xoshiro256PlusPlus;
 
 pub use self::saved::EpisodeState;
 pub use self::snapshot::EnvironmentSnapshot;
-use crate::config::{CONTROL_STEP_S, EnvironmentConfig};
+use crate::config::EnvironmentConfig;
 use crate::error::{InputError, ModelError};
 use crate::info::{PerTendon, StepInfo};
 use crate::model::Model;
-use crate::observation::Observation;
+use crate::observation::{Observation, Sensed};
 use crate::physics::{JointQuality, Physics};
 use crate::randomisation::Randomiser;
 use crate::task::{self, StepOutcome, Transition};
@@ -25,14 +26,22 @@ pub struct Environment {
     config: EnvironmentConfig,
     physics: Physics,
     observation: Observation,
+    /// State with sensor noise, if the observation shows more of it than positions and velocities.
+    sensed: Option<Sensed>,
     randomiser: Randomiser,
     /// Seed of the episode; none before the first reset.
     seed: Option<u64>,
+    /// State at which episodes start, without noise.
     nominal_position: Vec<f64>,
+    nominal_velocity: Vec<f64>,
     /// Buffers of the reset: position and velocity vectors with noise.
     start_position: Vec<f64>,
     start_velocity: Vec<f64>,
     controls: Vec<f32>,
+    /// Action of the step, as given.
+    action: Vec<f32>,
+    /// Centre of mass before the step (m).
+    centre_before: Point3<f64>,
     /// Lowest and highest control of each motor.
     action_ranges: Vec<[f32; 2]>,
     /// Last observation; a fault returns it again.
@@ -49,24 +58,31 @@ impl Environment {
     pub fn new(config: &EnvironmentConfig, model_xml: &str) -> Result<Self, ModelError> {
         let model = Model::from_mjcf(model_xml)?;
         config.check()?;
-        let physics = Physics::new(model, config)?;
-        let nominal_position = physics.model().nominal_position();
+        let (nominal_position, nominal_velocity) = start(&model, &config.keyframe)?;
+        let mut physics = Physics::new(model, config)?;
+        physics.set_state(&nominal_position, &nominal_velocity);
+        let action_size = physics.model().motors.len();
         let observation = Observation::new(config, physics.model());
         let mut last_observation = vec![0.0; observation.size()];
         observation.write(&physics, &mut last_observation);
+        let is_derived = config.randomisation.has_sensor_noise() && observation.has_derived_blocks();
         Ok(Self {
             config: config.clone(),
+            sensed: is_derived.then(|| Sensed::new(&physics)),
             seed: None,
-            randomiser: Randomiser::new(&config.randomisation, physics.model(), &observation),
+            randomiser: Randomiser::new(config, physics.model(), &observation),
             start_position: nominal_position.clone(),
             start_velocity: vec![0.0; physics.model().velocity_size()],
-            controls: vec![0.0; physics.model().motors.len()],
+            controls: vec![0.0; action_size],
             action_ranges: physics.model().motors.iter().map(|motor| motor.control.map(|end| end as f32)).collect(),
             last_info: reset_info(config, &physics),
             observation,
             nominal_position,
+            nominal_velocity,
             last_observation,
             physics,
+            action: vec![0.0; action_size],
+            centre_before: Point3::origin(),
             episode_steps: 0,
         })
     }
@@ -86,10 +102,10 @@ impl Environment {
     /// Returns the duration of one step (s).
     #[must_use]
     pub fn control_step_s(&self) -> f64 {
-        CONTROL_STEP_S
+        self.config.control_step_s
     }
 
-    /// Returns the lowest and highest value of each entry of an action (units of control); actions are clamped to them.
+    /// Returns the lowest and highest control of each motor (units of control); motors receive actions clamped to them.
     #[must_use]
     pub fn action_ranges(&self) -> &[[f32; 2]] {
         &self.action_ranges
@@ -119,8 +135,8 @@ impl Environment {
         for (start, nominal) in self.start_position.iter_mut().zip(&self.nominal_position) {
             *start = nominal + uniform_noise(&mut random, scale);
         }
-        for start in &mut self.start_velocity {
-            *start = uniform_noise(&mut random, scale);
+        for (start, nominal) in self.start_velocity.iter_mut().zip(&self.nominal_velocity) {
+            *start = nominal + uniform_noise(&mut random, scale);
         }
         self.seed = Some(seed);
         self.randomiser.begin_episode(seed, &mut self.physics);
@@ -133,8 +149,8 @@ impl Environment {
 
     /// Simulates one control step and writes the observation after it.
     ///
-    /// `action` has one control per motor, in actuator order, and is clamped to [`Self::action_ranges`]. If randomisation
-    /// delays or disturbs it, the control cost is still that of `action`.
+    /// `action` has one control per motor, in actuator order. The motors receive it clamped to [`Self::action_ranges`], and
+    /// perhaps delayed or disturbed by randomisation; the control cost is always that of `action` as given.
     ///
     /// If the action or the physics is not finite, the step is a fault: terminated, reward 0, observation and `info` as
     /// before. Every further step until [`Self::reset`] is a fault too.
@@ -159,20 +175,49 @@ impl Environment {
 
     /// Simulates one control step; the slices have the right lengths.
     fn advance(&mut self, action: &[f32], observation: &mut [f32]) -> StepOutcome {
+        self.begin_step(action);
+        Self::step_together(&mut std::iter::once(&mut *self));
+        self.finish_step(observation)
+    }
+
+    /// Sets the action of the next step; [`Self::step_together`] and [`Self::finish_step`] must follow. The three do what
+    /// [`Self::step`] does, for several environments at once.
+    ///
+    /// # Panics
+    /// If `action` has the wrong length.
+    pub fn begin_step(&mut self, action: &[f32]) {
+        assert_eq!(action.len(), self.controls.len(), "action has the wrong length");
+        self.action.copy_from_slice(action);
         for (control, (action, [low, high])) in self.controls.iter_mut().zip(action.iter().zip(&self.action_ranges)) {
             *control = action.clamp(*low, *high);
         }
         if let Some(velocity_mps) = self.randomiser.due_push() {
             self.physics.push(velocity_mps);
         }
-        let before = self.physics.centre_of_mass();
+        self.centre_before = self.physics.centre_of_mass();
         self.episode_steps = self.episode_steps.saturating_add(1);
         // Physics rejects a non-finite action, which neither clamping nor a delay may hide.
         let is_finite = action.iter().all(|control| control.is_finite());
         let controls = if is_finite { self.randomiser.controls_reaching_motors(&self.controls) } else { action };
-        if self.physics.step_only(controls).is_err() {
+        // A fault shows when the step ends.
+        let _ = self.physics.set_controls(controls);
+    }
+
+    /// Simulates the begun step of several environments with the same model and settings. The result of each is the same, bit
+    /// for bit, as if it had stepped alone; the machine simulates [`crate::worlds_per_pass`] of them at once.
+    pub fn step_together(environments: &mut dyn Iterator<Item = &mut Self>) {
+        Physics::step_together(&mut environments.map(|environment| &mut environment.physics));
+    }
+
+    /// Writes the observation after a step and returns its outcome.
+    ///
+    /// # Panics
+    /// If `observation` has the wrong length.
+    pub fn finish_step(&mut self, observation: &mut [f32]) -> StepOutcome {
+        if self.physics.check_step().is_err() {
             return self.fault(observation);
         }
+        let before = self.centre_before;
         let after = self.physics.centre_of_mass();
         let position = self.physics.position();
         let step = task::evaluate_step(
@@ -181,7 +226,7 @@ impl Environment {
                 centre_before_m: [before.x, before.y],
                 centre_after_m: [after.x, after.y],
                 torso_m: [position[0], position[1], position[2]],
-                controls: &self.controls,
+                action: &self.action,
                 squared_contact_wrenches: self.physics.squared_contact_wrenches(),
                 tendon_length_rad: tendon_values(&self.physics, self.physics.joint_angles()),
                 tendon_velocity_radps: tendon_values(&self.physics, self.physics.joint_rates()),
@@ -201,6 +246,12 @@ impl Environment {
         self.check_observation(observation)?;
         self.observation.write(&self.physics, observation);
         Ok(())
+    }
+
+    /// Returns the position vector at which episodes start, without noise.
+    #[must_use]
+    pub fn nominal_position(&self) -> &[f64] {
+        &self.nominal_position
     }
 
     /// Returns the layout of an observation.
@@ -233,6 +284,9 @@ impl Environment {
     fn write_observation(&mut self, observation: &mut [f32]) {
         self.observation.write(&self.physics, observation);
         self.randomiser.add_sensor_noise(observation);
+        if let Some(sensed) = &mut self.sensed {
+            self.observation.write_sensed(&self.physics, sensed, observation);
+        }
         self.last_observation.copy_from_slice(observation);
     }
 
@@ -257,6 +311,21 @@ impl Environment {
     #[must_use]
     pub fn joint_quality(&self) -> JointQuality {
         self.physics.joint_quality()
+    }
+}
+
+/// Returns the state at which episodes start: that of a keyframe, or the nominal pose at rest for an empty name.
+fn start(model: &Model, keyframe: &str) -> Result<(Vec<f64>, Vec<f64>), ModelError> {
+    if keyframe.is_empty() {
+        let of_card = model.robot.as_ref().map(|robot| robot.default_position.clone());
+        return Ok((of_card.unwrap_or_else(|| model.nominal_position()), vec![0.0; model.velocity_size()]));
+    }
+    match model.keyframes.iter().find(|known| known.name == keyframe) {
+        Some(found) => Ok((found.position.clone(), found.velocity.clone())),
+        None => {
+            let known: Vec<&str> = model.keyframes.iter().map(|known| known.name.as_str()).collect();
+            Err(ModelError::Keyframe { name: keyframe.to_owned(), known: known.join(", ") })
+        }
     }
 }
 

@@ -59,6 +59,17 @@ pub enum ModelError {
         /// Accepted values.
         expected: &'static str,
     },
+    /// The configuration names a keyframe that the model does not have.
+    #[error("env.keyframe: the model has no keyframe `{name}`; it has: {}", if known.is_empty() { "none" } else { known })]
+    Keyframe {
+        /// Name in [`crate::EnvironmentConfig::keyframe`].
+        name: String,
+        /// The model's keyframes.
+        known: String,
+    },
+    /// A robot card is wrong, or does not fit its model.
+    #[error("robot card: {0}")]
+    Card(String),
     /// A setting of the environment is out of range.
     #[error("environment setting `{setting}` is {value}, but must be {expected}")]
     Setting {

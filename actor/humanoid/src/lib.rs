@@ -1,17 +1,23 @@
 //! Treadmill: the humanoid environment.
 //!
-//! Rapier simulates a humanoid on a floor with the tasks of Gymnasium's Humanoid-v5 and -v4: the built-in one with 17
-//! joints, or any that an MJCF text describes. This crate depends on neither Zenoh, tokio nor Candle, so that evaluation,
-//! benchmarks and the Python package can use it too.
+//! Simulates humanoids with the tasks of Gymnasium's Humanoid-v5 and -v4: the built-in one with 17 joints, or any that an
+//! MJCF text describes. Rapier finds what touches; the equations of motion are ours. One pass simulates several humanoids,
+//! one per lane of a vector register.
+//!
+//! This crate depends on neither Zenoh, tokio nor Candle, so that evaluation, benchmarks and the Python package can use it
+//! too.
 //!
 //! # Layout
-//! - [`environment`]: the entry point; episodes, resets, faults.
+//! - [`environment`]: the entry point; episodes, resets, faults; steps of several environments together.
 //! - [`task`]: reward and end of an episode, as pure functions.
 //! - [`info`]: a step in detail, under Gymnasium's names.
 //! - [`observation`]: numbers that the policy observes.
-//! - [`physics`]: named quantities of the simulated humanoid; the only place in the project that names Rapier.
-//! - [`model`]: MJCF text → bodies, hinge chains, motors.
-//! - `dynamics`: motion of the articulated body between contacts.
+//! - [`physics`]: named quantities of the simulated humanoid.
+//! - [`model`]: MJCF text → bodies, hinge chains, motors, pairs of shapes that may touch.
+//! - [`card`]: robot cards, which complete a model by servos and a default pose.
+//! - `dynamics`: motion of articulated bodies with their constraints.
+//! - `collision`: contact points; the only module of the workspace that names Rapier.
+//! - `lanes`: numbers of several worlds side by side.
 //! - `randomisation`: draws each episode's model, sensor noise, delays and pushes from its seed.
 //! - [`config`], [`error`]: settings and errors.
 //!
@@ -19,6 +25,7 @@
 //! A *link* is a `<body>` of the model text (a link in URDF). A *body* is a rigid body: one link, or several that are welded
 //! together because no joint lies between them.
 
+pub mod card;
 pub mod config;
 pub mod environment;
 pub mod error;
@@ -28,12 +35,13 @@ pub mod observation;
 pub mod physics;
 pub mod task;
 
+mod collision;
 mod dynamics;
+mod lanes;
 mod randomisation;
 
-pub use config::{
-    CONTROL_STEP_S, EnvironmentConfig, ObservationKind, PHYSICS_VERSION, PhysicsSettings, Randomisation, RewardTask,
-};
+pub use config::{EnvironmentConfig, ObservationKind, PHYSICS_VERSION, PhysicsSettings, Randomisation, RewardTask};
+pub use dynamics::worlds_per_pass;
 pub use environment::{Environment, EnvironmentSnapshot, EpisodeState};
 pub use error::{InputError, ModelError, SnapshotError, StateError};
 pub use info::{InfoValue, StepInfo};

@@ -10,7 +10,7 @@ use rand::{Rng, RngExt, SeedableRng};
 use rand_distr::{Distribution, StandardNormal};
 use rand_xoshiro::Xoshiro256PlusPlus;
 
-use crate::config::{CONTROL_STEP_S, Randomisation};
+use crate::config::{EnvironmentConfig, Randomisation};
 use crate::model::Model;
 use crate::observation::Observation;
 use crate::physics::{Physics, Variation};
@@ -22,6 +22,7 @@ const QUATERNION: std::ops::Range<usize> = 1..5;
 #[derive(Clone)]
 pub(crate) struct Randomiser {
     settings: Randomisation,
+    control_step_s: f64,
     is_on: bool,
     variation: Variation,
     /// Index of the torso's height in an observation.
@@ -46,11 +47,13 @@ pub(crate) struct Randomiser {
 
 impl Randomiser {
     /// Takes checked settings, a model and its observation; [`Self::begin_episode`] must precede all other calls.
-    pub(crate) fn new(settings: &Randomisation, model: &Model, observation: &Observation) -> Self {
+    pub(crate) fn new(config: &EnvironmentConfig, model: &Model, observation: &Observation) -> Self {
+        let settings = &config.randomisation;
         let slots = settings.action_delay_steps[1] as usize + 1;
         Self {
             is_on: settings.is_on(),
             settings: settings.clone(),
+            control_step_s: config.control_step_s,
             variation: Variation::none(model),
             height_index: observation.height_index(),
             positions: model.position_size() - 2,
@@ -117,7 +120,7 @@ impl Randomiser {
 
     fn schedule_push(&mut self) {
         let interval_s = uniform(&mut self.pushes, self.settings.push_interval_s);
-        self.steps_to_push = (interval_s / CONTROL_STEP_S).round().max(1.0) as u32;
+        self.steps_to_push = (interval_s / self.control_step_s).round().max(1.0) as u32;
     }
 
     /// Returns the velocity (m/s, world frame) that a push adds before this control step, if one is due. Called once per
@@ -159,7 +162,9 @@ impl Randomiser {
         &self.delayed
     }
 
-    /// Adds sensor noise to the positions and velocities of an observation, except x and y. Other blocks are unchanged.
+    /// Adds sensor noise to the positions and velocities of an observation, except x and y.
+    ///
+    /// [`Observation::write_sensed`] then computes the other blocks from them.
     pub(crate) fn add_sensor_noise(&mut self, observation: &mut [f32]) {
         let observation = &mut observation[self.height_index..];
         let std = self.settings.sensor_noise_position;

@@ -4,7 +4,7 @@
 //! contact cost; if unhealthy steps end the episode, it pays for health on every step, including the last; its info has the
 //! position of the centre of mass instead of the torso's.
 
-use crate::config::{CONTROL_STEP_S, EnvironmentConfig, RewardTask};
+use crate::config::{EnvironmentConfig, RewardTask};
 use crate::info::{PerTendon, StepInfo};
 
 /// Quantities of one control step that reward and termination depend on.
@@ -16,8 +16,8 @@ pub struct Transition<'a> {
     pub centre_after_m: [f64; 2],
     /// Torso position after the step: x, y, z (m).
     pub torso_m: [f64; 3],
-    /// Clamped action, one control per motor.
-    pub controls: &'a [f32],
+    /// Action as given, one control per motor.
+    pub action: &'a [f32],
     /// Sum of squared contact forces (N²) and moments ((N·m)²) over all links.
     pub squared_contact_wrenches: f64,
     /// Length of each tendon after the step (rad).
@@ -50,10 +50,14 @@ pub fn is_healthy(config: &EnvironmentConfig, torso_height_m: f64) -> bool {
     low < torso_height_m && torso_height_m < high
 }
 
-/// Returns the cost of a control vector: weight × Σ control².
+/// Returns the cost of an action: weight × Σ control².
+///
+/// It charges the controls as given, even beyond the motors' ranges, because Gymnasium does: MuJoCo clamps only the copy that
+/// moves the motors, and `control_cost` of `humanoid_v5.py` sums over `data.ctrl`. Policies of this project never pay more
+/// than the ranges allow: as in Stable-Baselines3, their actions are clipped before (`Environment::action_from_shares`).
 #[must_use]
-pub fn control_cost(config: &EnvironmentConfig, controls: &[f32]) -> f64 {
-    let sum: f64 = controls.iter().map(|&control| f64::from(control).powi(2)).sum();
+pub fn control_cost(config: &EnvironmentConfig, action: &[f32]) -> f64 {
+    let sum: f64 = action.iter().map(|&control| f64::from(control).powi(2)).sum();
     config.ctrl_cost_weight * sum
 }
 
@@ -92,7 +96,7 @@ pub fn evaluate_step(config: &EnvironmentConfig, transition: &Transition<'_>) ->
     let [torso_x_m, torso_y_m, height_m] = transition.torso_m;
     let [x_m, y_m] = info_position_m(config.task, [torso_x_m, torso_y_m], transition.centre_after_m);
     let [x_velocity_mps, y_velocity_mps] =
-        [0, 1].map(|axis| (transition.centre_after_m[axis] - transition.centre_before_m[axis]) / CONTROL_STEP_S);
+        [0, 1].map(|axis| (transition.centre_after_m[axis] - transition.centre_before_m[axis]) / config.control_step_s);
     let healthy = is_healthy(config, height_m);
     let info = StepInfo {
         x_position_m: x_m,
@@ -104,14 +108,16 @@ pub fn evaluate_step(config: &EnvironmentConfig, transition: &Transition<'_>) ->
         tendon_velocity_radps: transition.tendon_velocity_radps,
         reward_survive: health_reward(config, healthy),
         reward_forward: config.forward_reward_weight * x_velocity_mps,
-        reward_ctrl: -control_cost(config, transition.controls),
+        reward_ctrl: -control_cost(config, transition.action),
         reward_contact: -contact_cost(config, transition.squared_contact_wrenches),
         torso_height_m: height_m,
     };
     let terminated = config.terminate_when_unhealthy && !healthy;
     let out_of_time = config.max_episode_steps > 0 && transition.episode_steps >= config.max_episode_steps;
     StepOutcome {
-        reward: (info.reward_survive + info.reward_forward + info.reward_ctrl + info.reward_contact) as f32,
+        // The cost of huge controls exceeds single precision.
+        reward: (info.reward_survive + info.reward_forward + info.reward_ctrl + info.reward_contact)
+            .clamp(f32::MIN.into(), f32::MAX.into()) as f32,
         terminated,
         truncated: out_of_time && !terminated,
         fault: false,
@@ -130,7 +136,7 @@ mod tests {
             centre_before_m: [1.0, 2.0],
             centre_after_m: [1.03, 1.985],
             torso_m: [3.0, 4.0, height_m],
-            controls: &CONTROLS,
+            action: &CONTROLS,
             squared_contact_wrenches: 2.0e6,
             tendon_length_rad: [0.5, -0.5].into_iter().collect(),
             tendon_velocity_radps: [1.5, -1.5].into_iter().collect(),
@@ -150,6 +156,29 @@ mod tests {
         assert!((step.info.distance_from_origin_m - 5.0).abs() < 1e-12);
         assert!((f64::from(step.reward) - 6.468_75).abs() < 1e-6);
         assert!(!step.terminated && !step.truncated && !step.fault);
+    }
+
+    #[test]
+    fn the_velocity_follows_the_control_step() {
+        let config = EnvironmentConfig { control_step_s: 0.03, ..EnvironmentConfig::default() };
+        let info = evaluate_step(&config, &transition(1.4, 1)).info;
+        assert!((info.x_velocity_mps - 1.0).abs() < 1e-9 && (info.y_velocity_mps + 0.5).abs() < 1e-9);
+        assert!((info.reward_forward - 1.25).abs() < 1e-9);
+    }
+
+    #[test]
+    fn controls_beyond_their_range_cost_what_they_cost_in_gymnasium() {
+        // `reward_ctrl` of gymnasium.make("Humanoid-v5").step(action), with Gymnasium 1.4.0 and MuJoCo 4.0.0; v4 gives the same.
+        let action: [f32; 17] = std::array::from_fn(|motor| (0.1 * (-1f64).powi(motor as i32) * motor as f64) as f32);
+        let cost = control_cost(&EnvironmentConfig::default(), &action);
+        assert!((cost - 1.496_000_005_394_221).abs() < 1e-12, "{cost}");
+    }
+
+    #[test]
+    fn huge_controls_leave_the_reward_finite() {
+        let step =
+            evaluate_step(&EnvironmentConfig::default(), &Transition { action: &[f32::MAX], ..transition(1.4, 1) });
+        assert!(step.reward == f32::MIN && step.info.reward_ctrl.is_finite());
     }
 
     #[test]

@@ -118,10 +118,10 @@ fn the_environment_allocates_no_more_than_its_physics() {
     assert!(counted(|| drop(environment(disturbed.clone()))) > 0, "allocations are counted");
     for randomisation in [Randomisation::default(), disturbed] {
         let [alone, found] = [physics_alone(randomisation.clone()), whole_environment(randomisation)];
-        // Rapier's buffers grow slightly differently in each world.
+        // Buffers of each thread grow with the contacts that it has met.
         let more = found.iter().zip(alone).map(|(found, alone)| found.saturating_sub(alone)).max();
         assert!(
-            more < Some(STEPS / 20),
+            more < Some(STEPS / 20) && alone[1] < STEPS / 20,
             "{found:?} allocations in a reset and in {STEPS} steps, {alone:?} of them in physics alone"
         );
     }

@@ -5,60 +5,60 @@ use treadmill_proto::ActorState;
 use treadmill_proto::actor_state::{ENVIRONMENT_GENERATORS, GENERATOR_NUMBERS, PROGRESS_NUMBERS};
 use treadmill_runtime::{error_chain, seeds};
 
-use super::{Environments, EpisodeProgress};
+use super::{Environments, EpisodeProgress, ResetSeeds};
+
+/// Saves all shares of an actor's environments, in their order, and the stream of exploration noise. Environments that continue
+/// from the result behave, bit for bit, as these do.
+///
+/// Returns `None` if an environment has faulted since its reset, which cannot happen between calls of [`Environments::step`].
+pub fn save(shares: &[&Environments], noise: &seeds::Stream) -> Option<ActorState> {
+    let ResetSeeds { actor, start, .. } = shares.first()?.seeds.clone();
+    let mut state = ActorState { actor, start, noise: seeds::words(noise).to_vec(), ..ActorState::default() };
+    for slot in shares.iter().flat_map(|share| &share.slots) {
+        let (episode, progress) = (slot.environment.episode_state()?, &slot.progress);
+        state.episodes.push(progress.number);
+        state.lengths.push(episode.steps);
+        state.progress.extend([progress.return_sum, progress.start_x_m, progress.last_x_m]);
+        state.positions.extend(episode.position);
+        state.velocities.extend(episode.velocity);
+        state.observations.extend(episode.observation);
+        state.past_actions.extend(episode.past_actions);
+        state.steps_to_push.push(episode.steps_to_push);
+        state.streams.extend(episode.streams.iter().flat_map(seeds::words));
+    }
+    Some(state)
+}
+
+/// Restores `state` after checking it; returns its stream of exploration noise.
+///
+/// # Errors
+/// Returns why the state does not fit; all environments then begin their first episodes.
+pub fn restore(shares: &mut [&mut Environments], state: &ActorState) -> Result<seeds::Stream, String> {
+    let envs: usize = shares.iter().map(|share| share.len()).sum();
+    let result = state.check().map_err(|error| error_chain(&error)).and_then(|()| {
+        if state.envs() != envs {
+            return Err(format!("the state has {} environments, this actor has {envs}", state.envs()));
+        }
+        shares.iter_mut().try_for_each(|share| share.restore_rows(state))
+    });
+    if result.is_err() {
+        shares.iter_mut().for_each(|share| share.reset());
+    }
+    result.map(|()| seeds::from_words(entries(&state.noise, 0)))
+}
 
 impl Environments {
-    /// Saves all environments and the stream of exploration noise. Environments that continue from the result behave, bit
-    /// for bit, as these do after [`Self::renew_worlds`].
-    ///
-    /// Returns `None` if an environment has faulted since its reset, which cannot happen between calls of [`Self::step`].
-    pub fn save_state(&self, noise: &seeds::Stream) -> Option<ActorState> {
-        let mut state = ActorState {
-            actor: self.seeds.actor.clone(),
-            start: self.seeds.start,
-            noise: seeds::words(noise).to_vec(),
-            ..ActorState::default()
-        };
-        for slot in &self.slots {
-            let (episode, progress) = (slot.environment.episode_state()?, &slot.progress);
-            state.episodes.push(progress.number);
-            state.lengths.push(episode.steps);
-            state.progress.extend([progress.return_sum, progress.start_x_m, progress.last_x_m]);
-            state.positions.extend(episode.position);
-            state.velocities.extend(episode.velocity);
-            state.observations.extend(episode.observation);
-            state.past_actions.extend(episode.past_actions);
-            state.steps_to_push.push(episode.steps_to_push);
-            state.streams.extend(episode.streams.iter().flat_map(seeds::words));
-        }
-        Some(state)
-    }
-
-    /// Restores `state` after checking it; returns its stream of exploration noise.
-    ///
-    /// # Errors
-    /// Returns why the state does not fit; all environments then begin their first episodes.
-    pub fn restore_state(&mut self, state: &ActorState) -> Result<seeds::Stream, String> {
-        let result = self.try_restore_state(state);
-        if result.is_err() {
-            self.reset();
-        }
-        result
-    }
-
-    fn try_restore_state(&mut self, state: &ActorState) -> Result<seeds::Stream, String> {
-        state.check().map_err(|error| error_chain(&error))?;
+    /// Restores the rows of these environments from a checked state of all.
+    fn restore_rows(&mut self, state: &ActorState) -> Result<(), String> {
         if state.actor != self.seeds.actor {
             return Err(format!("the state is of actor `{}`, this actor is `{}`", state.actor, self.seeds.actor));
-        }
-        if state.envs() != self.len() {
-            return Err(format!("the state has {} environments, this actor has {}", state.envs(), self.len()));
         }
         // Further episodes take their seeds from the start at which the state was saved.
         let mut seeds = self.seeds.clone();
         seeds.start = state.start;
         let rows = self.slots.iter_mut().zip(self.observations.chunks_exact_mut(self.observation_size.max(1)));
-        for (env, (slot, observation)) in rows.enumerate() {
+        for (slot, observation) in rows {
+            let env = slot.env;
             let number = state.episodes[env];
             let episode = EpisodeState {
                 seed: seeds.of(env, number - 1),
@@ -76,7 +76,7 @@ impl Environments {
             slot.progress = EpisodeProgress { number, length: episode.steps, return_sum, start_x_m, last_x_m };
         }
         self.seeds = seeds;
-        Ok(seeds::from_words(entries(&state.noise, 0)))
+        Ok(())
     }
 }
 

@@ -1,17 +1,17 @@
-//! Results of an environment do not depend on the number of threads or of other environments.
+//! Results of an environment do not depend on the other environments, nor on the share that it belongs to.
 
 use treadmill_actor::environments::{Environments, SeedSource, StepResults};
-use treadmill_humanoid::{HUMANOID_XML, Randomisation};
+use treadmill_humanoid::{EnvironmentConfig, HUMANOID_XML, Randomisation, worlds_per_pass};
 use treadmill_proto::{Episode, fragment::TRUNCATED};
 
 use crate::randomised;
 
 const STEPS: u64 = 60;
 
-fn environments(count: usize, threads: usize) -> Environments {
+fn environments(count: usize, shares: usize) -> Vec<Environments> {
     let seeds = SeedSource { run_seed: 5, actor: "a".into(), start: 2 };
     let config = randomised(Randomisation::default().motor_scale);
-    Environments::new(count, &config, HUMANOID_XML, seeds).unwrap().with_threads(threads).unwrap()
+    Environments::new(count, &config, HUMANOID_XML, seeds).unwrap().split(shares)
 }
 
 /// Returns an action that depends only on the environment's number and the step. Half of the environments stand still.
@@ -35,25 +35,28 @@ fn bits(numbers: &[f32]) -> impl Iterator<Item = u32> {
     numbers.iter().map(|number| number.to_bits())
 }
 
-fn play(count: usize, threads: usize) -> Vec<Trajectory> {
-    let mut all = environments(count, threads);
-    let width = all.observation_size();
-    let mut trajectories = vec![Trajectory::default(); count];
+fn play(count: usize, shares: usize) -> Vec<Trajectory> {
+    environments(count, shares).into_iter().flat_map(play_share).collect()
+}
+
+fn play_share(mut share: Environments) -> Vec<Trajectory> {
+    let (first, width) = (share.first_number(), share.observation_size());
+    let mut trajectories = vec![Trajectory::default(); share.len()];
     let mut results = StepResults::default();
     for step in 0..STEPS {
-        let actions: Vec<f32> = (0..count).flat_map(|env| action(env, step)).collect();
-        all.step(&actions, &mut results);
+        let actions: Vec<f32> = (first..first + share.len()).flat_map(|env| action(env, step)).collect();
+        share.step(&actions, &mut results);
         let mut last_observations = results.truncated_observations.chunks_exact(width);
         let mut episodes = results.episodes.iter();
-        for (env, trajectory) in trajectories.iter_mut().enumerate() {
-            trajectory.observations.extend(bits(&all.observations()[env * width..][..width]));
-            trajectory.rewards.extend(bits(&results.rewards[env..=env]));
-            trajectory.flags.push(results.flags[env]);
-            if results.flags[env] & TRUNCATED != 0 {
+        for (row, trajectory) in trajectories.iter_mut().enumerate() {
+            trajectory.observations.extend(bits(&share.observations()[row * width..][..width]));
+            trajectory.rewards.extend(bits(&results.rewards[row..=row]));
+            trajectory.flags.push(results.flags[row]);
+            if results.flags[row] & TRUNCATED != 0 {
                 let last = last_observations.next().expect("one for each truncated environment");
                 trajectory.last_observations.extend(bits(last));
             }
-            if results.flags[env] != 0 {
+            if results.flags[row] != 0 {
                 trajectory.episodes.push(*episodes.next().expect("one for each end"));
             }
         }
@@ -63,35 +66,43 @@ fn play(count: usize, threads: usize) -> Vec<Trajectory> {
 }
 
 #[test]
-fn threads_and_other_environments_do_not_change_a_bit() {
-    let reference = play(16, 1);
+fn shares_and_other_environments_do_not_change_a_bit() {
+    let reference = play(40, 1);
     let ends: usize = reference.iter().map(|trajectory| trajectory.episodes.len()).sum();
     let truncated =
         reference.iter().flat_map(|trajectory| &trajectory.flags).filter(|flags| *flags & TRUNCATED != 0).count();
     assert!(truncated > 0 && ends > truncated, "{truncated} of {ends} episodes ended by the time limit");
-    for (count, threads) in [(1, 1), (1, 3), (5, 1), (5, 2), (5, 3), (16, 2), (16, 3)] {
-        let trajectories = play(count, threads);
+    for (count, shares) in [(1, 1), (1, 3), (5, 1), (5, 2), (40, 2), (40, 3), (40, 40)] {
+        let trajectories = play(count, shares);
         for (env, (trajectory, reference)) in trajectories.iter().zip(&reference).enumerate() {
-            assert!(trajectory == reference, "environment {env} of {count} on {threads} threads");
+            assert!(trajectory == reference, "environment {env} of {count} in {shares} shares");
         }
     }
     assert!(reference[0] != reference[2], "environments differ from each other");
 }
 
 #[test]
-fn threads_are_at_most_as_many_as_environments() {
-    assert_eq!(environments(2, 3).threads(), 2);
-    assert_eq!(environments(1, 0).threads(), 1);
-    assert_eq!(environments(3, 3).threads(), 3);
-    let mut none = environments(0, 4);
-    assert!(none.is_empty() && none.threads() == 1);
+fn shares_are_whole_passes_but_for_the_last() {
+    let sizes = |count, shares| environments(count, shares).iter().map(Environments::len).collect::<Vec<_>>();
+    let pass = worlds_per_pass();
+    assert_eq!(sizes(2, 3), [2], "fewer environments than a pass");
+    assert_eq!(sizes(5 * pass, 2), [3 * pass, 2 * pass]);
+    assert_eq!(sizes(3 * pass + 1, 100), [pass, pass, pass, 1]);
+    assert_eq!(sizes(3, 0), [3]);
+    assert!(sizes(0, 4).is_empty());
+}
+
+#[test]
+fn no_environments_step_without_actions() {
+    let seeds = SeedSource { run_seed: 5, actor: "a".into(), start: 2 };
+    let mut none = Environments::new(0, &EnvironmentConfig::default(), HUMANOID_XML, seeds).unwrap();
     let mut results = StepResults::default();
     none.step(&[], &mut results);
-    assert!(results.rewards.is_empty());
+    assert!(none.is_empty() && results.rewards.is_empty());
 }
 
 #[test]
 #[should_panic(expected = "one action for each environment is needed")]
 fn too_few_actions_panic() {
-    environments(2, 1).step(&[0.0; 17], &mut StepResults::default());
+    environments(2, 1)[0].step(&[0.0; 17], &mut StepResults::default());
 }

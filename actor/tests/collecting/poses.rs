@@ -3,10 +3,10 @@
 use tokio::sync::mpsc;
 use treadmill_actor::{
     environments::{Environments, SeedSource, StepResults},
-    poses::{PoseSampler, STRIDE},
+    poses::{PoseSampler, stride},
 };
 use treadmill_bus::Watched;
-use treadmill_humanoid::{CONTROL_STEP_S, EnvironmentConfig, HUMANOID_XML, Model};
+use treadmill_humanoid::{EnvironmentConfig, HUMANOID_XML, Model};
 use treadmill_proto::{PolicyVersion, Pose};
 
 use crate::identity;
@@ -74,6 +74,17 @@ fn an_episode_is_recorded_whole_and_drained_before_the_next() {
 }
 
 #[test]
+fn poses_follow_the_control_step() {
+    let config = EnvironmentConfig { control_step_s: 0.01, max_episode_steps: 7, ..EnvironmentConfig::default() };
+    let mut recording = Recording::begin(&config);
+    recording.watched.set(true);
+    recording.step(14);
+    let poses = recording.recorded();
+    assert_eq!(moments(&poses), [0, 3, 6].map(|step| (2, step)));
+    assert!((poses[2].time_s - 0.06).abs() < 1e-12);
+}
+
+#[test]
 fn a_pose_repeats_the_state_of_the_physics() {
     let mut recording = Recording::begin(&EnvironmentConfig { max_episode_steps: 9, ..EnvironmentConfig::default() });
     recording.watched.set(true);
@@ -91,7 +102,7 @@ fn a_pose_repeats_the_state_of_the_physics() {
         let rotation = motion.pose.rotation.quaternion();
         assert_eq!(numbers[3..], [rotation.w, rotation.i, rotation.j, rotation.k].map(|part| part as f32));
     }
-    assert_eq!((last.time_s, poses[0].distance_m), (4.0 * CONTROL_STEP_S, 0.0));
+    assert_eq!((last.time_s, poses[0].distance_m), (4.0 * 0.015, 0.0));
     assert_eq!(last.reward_survive, 5.0);
     for pose in &poses {
         assert_eq!(Pose::decode_checked(&pose.to_bytes().unwrap()).as_ref(), Ok(pose));
@@ -109,7 +120,7 @@ fn the_queue_of_a_long_episode_is_bounded() {
     recording.step(2000);
     let poses = recording.recorded();
     assert_eq!(poses.len(), 512);
-    assert_eq!(poses.last().unwrap().step, 511 * STRIDE);
+    assert_eq!(poses.last().unwrap().step, 511 * stride(0.015));
     // The queue is empty again, but the rest of this episode stays dropped.
     recording.step(100);
     assert!(recording.recorded().is_empty());

@@ -4,7 +4,7 @@ use treadmill_actor::{
     environments::{Environments, SeedSource, StepResults},
     rollout::Collector,
 };
-use treadmill_humanoid::{EnvironmentConfig, HUMANOID_XML};
+use treadmill_humanoid::{EnvironmentConfig, HUMANOID_XML, worlds_per_pass};
 use treadmill_policy::gaussian;
 use treadmill_proto::{
     EndCause, Fragment, PolicyVersion, Precision,
@@ -112,6 +112,42 @@ fn the_same_seeds_give_the_same_fragment() {
     let collect = || collector(2, &EnvironmentConfig::default()).collect(&policy(45), 40, 0).unwrap();
     let (first, second): (Fragment, Fragment) = (collect(), collect());
     assert_eq!(first, second);
+}
+
+#[test]
+fn threads_change_no_more_than_the_rounding_of_actions() {
+    let envs = 2 * worlds_per_pass() + 3;
+    let config = EnvironmentConfig { max_episode_steps: 2, ..EnvironmentConfig::default() };
+    let policy = policy(45);
+    let collect = |threads: usize| {
+        let mut collector = collector(envs, &config).with_threads(threads).unwrap();
+        collector.attach_state();
+        let fragment = collector.collect(&policy, 5, 0).unwrap();
+        fragment.check().unwrap();
+        fragment
+    };
+    let one = collect(1);
+    assert_eq!((one.episodes.len(), one.last_observations.len()), (2 * envs, 3 * envs * 45));
+    for threads in [2, 3, 100] {
+        let several = collect(threads);
+        assert_eq!(several.flags, one.flags);
+        for (plane, other) in [
+            (&several.observations, &one.observations),
+            (&several.actions, &one.actions),
+            (&several.log_probs, &one.log_probs),
+            (&several.rewards, &one.rewards),
+            (&several.last_observations, &one.last_observations),
+        ] {
+            assert_eq!(plane.len(), other.len());
+            let difference = plane.iter().zip(other).map(|(one, other)| (one - other).abs()).fold(0.0, f32::max);
+            assert!(difference < 1e-3, "{difference} on {threads} threads");
+        }
+        let distances = |fragment: &Fragment| fragment.episodes.iter().map(|end| end.distance_m).collect::<Vec<_>>();
+        for (one, other) in distances(&one).into_iter().zip(distances(&several)) {
+            assert!((one - other).abs() < 1e-4, "episodes keep their order");
+        }
+        assert_eq!(several.actor_state.unwrap().episodes, one.actor_state.as_ref().unwrap().episodes);
+    }
 }
 
 #[test]

@@ -20,9 +20,8 @@ fn collector(
 ) -> Collector {
     let seeds = SeedSource { run_seed: 1, actor: name.into(), start };
     let noise = seeds.noise();
-    let environments = Environments::new(envs, config, HUMANOID_XML, seeds).unwrap().with_threads(threads).unwrap();
-    let environments = environments.with_precision(precision);
-    let mut collector = Collector::new(environments, noise, identity(name));
+    let environments = Environments::new(envs, config, HUMANOID_XML, seeds).unwrap().with_precision(precision);
+    let mut collector = Collector::new(environments, noise, identity(name)).with_threads(threads).unwrap();
     collector.attach_state();
     collector
 }

@@ -192,6 +192,7 @@ impl Config {
             return refuse("rollout.max_in_flight", "2", "0 or 1 where learner.mode is \"sync\"");
         }
         self.check_observation()?;
+        self.check_push_interval()?;
         self.check_task()?;
         if self.rollout.actors > self.rollout.envs {
             return refuse(
@@ -217,6 +218,17 @@ impl Config {
                 let allowed = "true where env.observation is \"gymnasium-v4\"; \"gymnasium-v5\" can leave blocks out";
                 return refuse(key, "false", allowed);
             }
+        }
+        Ok(())
+    }
+
+    /// Checks that pushes come at most once in a control step.
+    fn check_push_interval(&self) -> Result<(), ConfigError> {
+        let (interval_s, control_step_s) = (&self.randomisation.push_interval_s, self.env.control_step_s);
+        if interval_s[0] < control_step_s {
+            let shown = show(&control_step_s);
+            let allowed = format!("[smallest, largest], env.control_step_s to 1000, and env.control_step_s is {shown}");
+            return refuse("randomisation.push_interval_s", show(interval_s), allowed);
         }
         Ok(())
     }

@@ -1,16 +1,29 @@
-//! Module for serde's `with`: writes the infinite numbers of a section as `"inf"` and `"-inf"`, because JSON has none.
+//! Module for serde's `with`: writes the infinite numbers of a section as `"inf"` and `"-inf"`, because JSON has none, and
+//! reads sections with retired keys.
 
 use serde::{Deserialize, Deserializer, Serialize, Serializer, de::DeserializeOwned, de::Error as _, ser::Error as _};
+
+use super::{Section, retired};
 
 /// Writes a section with its keys in alphabetical order.
 pub fn serialize<T: Serialize, S: Serializer>(section: &T, serializer: S) -> Result<S::Ok, S::Error> {
     to_json(toml::Value::try_from(section).map_err(S::Error::custom)?).serialize(serializer)
 }
 
-/// Reads a section.
-pub fn deserialize<'de, T: DeserializeOwned, D: Deserializer<'de>>(deserializer: D) -> Result<T, D::Error> {
+/// Reads a section, without its retired keys.
+pub fn deserialize<'de, T: Section + DeserializeOwned, D: Deserializer<'de>>(deserializer: D) -> Result<T, D::Error> {
     let json = serde_json::Value::deserialize(deserializer)?;
-    let open = to_toml(json).ok_or_else(|| D::Error::custom("a section has no null and no number beyond 64 bits"))?;
+    let mut open =
+        to_toml(json).ok_or_else(|| D::Error::custom("a section has no null and no number beyond 64 bits"))?;
+    if let Some(entries) = open.as_table_mut() {
+        let mut kept = toml::Table::new();
+        for (name, value) in std::mem::take(entries) {
+            if !retired::ignores(&format!("{}.{name}", T::NAME), &value).map_err(D::Error::custom)? {
+                kept.insert(name, value);
+            }
+        }
+        *entries = kept;
+    }
     open.try_into().map_err(|error: toml::de::Error| D::Error::custom(error.message()))
 }
 
@@ -67,6 +80,15 @@ mod tests {
         assert!(text.contains(r#""contact_cost_range":["-inf",10.0]"#), "{text}");
         assert!(text.contains(r#""healthy_z_range":[0.5,"inf"]"#), "{text}");
         assert_eq!(serde_json::from_str::<Holder>(&text).unwrap().env, env);
+    }
+
+    #[test]
+    fn sections_of_earlier_versions_have_retired_keys_and_lack_new_ones() {
+        let text = serde_json::to_string(&Holder { env: EnvConfig::default() }).unwrap();
+        let older =
+            text.replace(r#""control_step_s":0.015,"#, "").replace(r#""keyframe":"","#, r#""solver_iterations":4,"#);
+        assert!(!older.contains("control_step_s") && older.contains("solver_iterations"), "{older}");
+        assert_eq!(serde_json::from_str::<Holder>(&older).unwrap().env, EnvConfig::default());
     }
 
     #[test]

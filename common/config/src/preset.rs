@@ -7,11 +7,14 @@ pub const PRESETS: &[(&str, &str)] = &[
     // The defaults.
     ("walk", ""),
     // Gymnasium's observations, with more passes over the batch; as measured in docs/results.
-    ("walk-v5obs", "[env]\nobservation = \"gymnasium-v5\"\n[ppo]\nepochs = 5\nepochs_min = 3\nminibatch = 2048\n"),
+    (
+        "walk-v5obs",
+        "[env]\nobservation = \"gymnasium-v5\"\n[ppo]\nepochs = 5\nepochs_min = 3\nminibatch = 2048\ntarget_kl = 0.024\n",
+    ),
     (
         "walk-v4obs",
         "[env]\ntask = \"humanoid-v4\"\nobservation = \"gymnasium-v4\"\n\
-         [ppo]\nepochs = 5\nepochs_min = 3\nminibatch = 2048\n",
+         [ppo]\nepochs = 5\nepochs_min = 3\nminibatch = 2048\ntarget_kl = 0.024\n",
     ),
     // Ends within seconds, for a laptop or a test.
     (

@@ -1,5 +1,6 @@
 //! Keys of earlier versions that no longer exist. Saved configurations may hold them: the old default is ignored with a
-//! notice, because the program still behaves that way; any other value is refused.
+//! notice, because the program still behaves that way; any other value is refused. Of a key that tuned something which is
+//! gone, every value is ignored.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -10,8 +11,8 @@ use super::{ConfigError, parse_value};
 /// Key that no longer exists.
 struct Retired {
     key: &'static str,
-    /// Its old default in TOML notation, which is how the program behaves now.
-    default: &'static str,
+    /// Its old default in TOML notation, which is how the program behaves now; `None` if every value is ignored.
+    default: Option<&'static str>,
     /// What the program does now.
     now: &'static str,
     is_noticed: AtomicBool,
@@ -19,17 +20,25 @@ struct Retired {
 
 impl Retired {
     const fn new(key: &'static str, default: &'static str, now: &'static str) -> Self {
-        Self { key, default, now, is_noticed: AtomicBool::new(false) }
+        Self { key, default: Some(default), now, is_noticed: AtomicBool::new(false) }
+    }
+
+    const fn with_any_value(key: &'static str, now: &'static str) -> Self {
+        Self { key, default: None, now, is_noticed: AtomicBool::new(false) }
     }
 }
 
-static RETIRED: [Retired; 3] = [
+static RETIRED: [Retired; 4] = [
     Retired::new("rollout.noise_correlation", "0.0", "exploration noise is drawn anew at each control step"),
     Retired::new("rollout.stale_versions", "[0, 0]", "an actor always acts by the newest policy that it has"),
     Retired::new(
         "ppo.off_policy",
         "\"decoupled\"",
         "lagging experience is always corrected by the decoupled objective",
+    ),
+    Retired::with_any_value(
+        "env.solver_iterations",
+        "contacts are solved in joint coordinates, without iterations to set",
     ),
 ];
 
@@ -38,23 +47,21 @@ pub fn is_retired(key: &str) -> bool {
     RETIRED.iter().any(|retired| retired.key == key)
 }
 
-/// Returns whether `key` is retired and `value` its old default, so that it can be ignored. Logs that once per process.
+/// Returns whether `key` is retired and `value` can be ignored: it is the old default, or the key takes any value. Logs that
+/// once per process.
 ///
 /// # Errors
 /// [`ConfigError::Retired`] if the value is another one.
 pub(super) fn ignores(key: &str, value: &Value) -> Result<bool, ConfigError> {
     let Some(retired) = RETIRED.iter().find(|retired| retired.key == key) else { return Ok(false) };
-    let default = parse_value(retired.default).expect("defaults are TOML");
-    if !is_same(value, &default) {
-        return Err(ConfigError::Retired {
-            key: key.to_string(),
-            value: value.to_string(),
-            default: retired.default,
-            now: retired.now,
-        });
+    if let Some(default) = retired.default
+        && !is_same(value, &parse_value(default).expect("defaults are TOML"))
+    {
+        let (key, value) = (key.to_string(), value.to_string());
+        return Err(ConfigError::Retired { key, value, default, now: retired.now });
     }
     if !retired.is_noticed.swap(true, Ordering::Relaxed) {
-        tracing::warn!(key, %value, now = retired.now, "ignored a retired config key at its old default");
+        tracing::warn!(key, %value, now = retired.now, "ignored a retired config key");
     }
     Ok(true)
 }
@@ -83,6 +90,17 @@ mod tests {
         assert_eq!(source.build().unwrap(), Config::default());
         for pair in ["rollout.noise_correlation=0", "rollout.stale_versions=[0.0, 0]", "ppo.off_policy=decoupled"] {
             assert_eq!(set(pair).unwrap(), Config::default(), "{pair}");
+        }
+    }
+
+    #[test]
+    fn every_value_of_a_key_without_meaning_is_ignored() {
+        for value in ["1", "8", "\"many\"", "[1, 2]"] {
+            let mut source = ConfigSource::default();
+            source.text(&format!("[env]\nsolver_iterations = {value}\nsubsteps = 3\n"), "saved").unwrap();
+            let config = source.build().unwrap();
+            assert_eq!(config.env.substeps, 3);
+            assert_eq!(set(&format!("env.solver_iterations={value}")).unwrap(), Config::default());
         }
     }
 

@@ -27,7 +27,7 @@ section! {
         task: EnvTask = EnvTask::HumanoidV5, "\"humanoid-v5\", \"humanoid-v4\" or \"external\"" => |_| true;
         /// Reward per m/s of forward velocity of the whole body's centre of mass.
         forward_reward_weight: f64 = 1.25, "a finite number" => |v| v.is_finite();
-        /// Cost per squared unit of control.
+        /// Cost per squared unit of control, of the action as given.
         ctrl_cost_weight: f64 = 0.1, "0 or more" => |v| *v >= 0.0 && v.is_finite();
         /// Cost per squared newton (or newton metre) of external contact force.
         contact_cost_weight: f64 = 5e-7, "0 or more" => |v| *v >= 0.0 && v.is_finite();
@@ -55,10 +55,14 @@ section! {
         include_cfrc_ext_in_observation: bool = true, "true or false" => |_| true;
         /// Control steps after which an episode is truncated.
         max_episode_steps: u32 = 1000, "1 to 1000000" => |v| (1..=1_000_000).contains(v);
-        /// Physics steps per control step of 15 ms.
-        substeps: u32 = 2, "1 to 50" => |v| (1..=50).contains(v);
-        /// Iterations of Rapier's solver per physics step. Its result is then refined in joint coordinates.
-        solver_iterations: u32 = 1, "1 to 50" => |v| (1..=50).contains(v);
+        /// Name of the model's keyframe at which episodes start; empty means the nominal pose.
+        keyframe: String = String::new(), "at most 128 characters in one line" => |v| v.chars().count() <= 128 && !v.contains(char::is_control);
+        /// Name of a built-in robot card (g1, g1-29, h1 or t1) that completes the model; empty means none. See docs/guide/robots.md.
+        robot: String = String::new(), "at most 128 characters in one line" => |v| v.chars().count() <= 128 && !v.contains(char::is_control);
+        /// Duration of one control step in seconds: one action, one observation, one reward.
+        control_step_s: f64 = 0.015, "0.001 to 0.1" => |v| (0.001..=0.1).contains(v);
+        /// Physics steps per control step.
+        substeps: u32 = 4, "1 to 50" => |v| (1..=50).contains(v);
         /// Whether the humanoid's limbs collide with each other.
         self_collision: bool = true, "true or false" => |_| true;
     }
@@ -97,16 +101,16 @@ section! {
         armature_scale: [f64; 2] = [1.0, 1.0], "[smallest, largest], 0 to 10" => |v| is_range(v, 0.0, 10.0);
         /// Factor on gravity.
         gravity_scale: [f64; 2] = [1.0, 1.0], "[smallest, largest], 0 to 10" => |v| is_range(v, 0.0, 10.0);
-        /// Standard deviation of the noise on observed height (m), orientation (rad about each axis) and hinge angles (rad).
+        /// Standard deviation of the noise on observed height (m), orientation (rad about each axis) and hinge angles (rad). All that is observed is computed from the noisy numbers.
         sensor_noise_position: f64 = 0.0, "0 to 1" => |v| (0.0..=1.0).contains(v);
-        /// Standard deviation of the noise on observed velocities (m/s, rad/s).
+        /// Standard deviation of the noise on observed velocities (m/s, rad/s), likewise.
         sensor_noise_velocity: f64 = 0.0, "0 to 1" => |v| (0.0..=1.0).contains(v);
         /// Standard deviation of the noise on each control, as a fraction of the largest control.
         control_noise: f64 = 0.0, "0 to 1" => |v| (0.0..=1.0).contains(v);
         /// Control steps until an action reaches the motors; constant during an episode.
         action_delay_steps: [u32; 2] = [0, 0], "[smallest, largest], 0 to 3" => |v| v[0] <= v[1] && v[1] <= 3;
         /// Seconds between two pushes, and before the first of an episode.
-        push_interval_s: [f64; 2] = [2.0, 5.0], "[smallest, largest], 0.015 to 1000" => |v| is_range(v, 0.015, 1000.0);
+        push_interval_s: [f64; 2] = [2.0, 5.0], "[smallest, largest], env.control_step_s to 1000" => |v| is_range(v, 0.0, 1000.0);
         /// Velocity in m/s that a push adds to the whole body in a random horizontal direction; 0 disables pushes.
         push_mps: [f64; 2] = [0.0, 0.0], "[smallest, largest], 0 to 10" => |v| is_range(v, 0.0, 10.0);
     }
@@ -130,7 +134,7 @@ section! {
         observation_precision: ObservationPrecision = ObservationPrecision::F32, "\"f32\" or \"f16\"" => |_| true;
         /// Fragments without a receipt that an actor may have on the bus; 0 means 1 in learner.mode "sync" and 2 in "async".
         max_in_flight: u32 = 0, "0 to 2, and not 2 in learner.mode \"sync\"" => |v| *v <= 2;
-        /// Threads of each actor process, which divide its environments; 0 means one per core.
+        /// Threads of each actor process, which divide its environments; 0 means one per core. A deterministic run uses one.
         threads: u32 = 1, "0 to 256" => |v| *v <= 256;
     }
 }
@@ -154,12 +158,12 @@ section! {
         batch: u32 = 8192, "1 to 16777216" => |v| (1..=16_777_216).contains(v);
         /// Transitions of one update that automatic fragments do not exceed; in learner.mode "async" no batch does.
         batch_max: u32 = 131_072, "0 to 16777216; less than ppo.batch counts as ppo.batch" => |v| *v <= 16_777_216;
-        /// Transitions of one gradient step; 0 divides each batch into 8.
+        /// Transitions of one gradient step; 0 divides each batch into 16.
         minibatch: u32 = 0, "0 to ppo.batch" => |_| true;
         /// Passes over the batch in one update.
-        epochs: u32 = 3, "1 to 100" => |v| (1..=100).contains(v);
+        epochs: u32 = 2, "1 to 100" => |v| (1..=100).contains(v);
         /// Fewest passes in learner.mode "async", used when experience waits although batches have their largest size.
-        epochs_min: u32 = 2, "1 to ppo.epochs; more than that counts as ppo.epochs" => |v| (1..=100).contains(v);
+        epochs_min: u32 = 1, "1 to ppo.epochs; more than that counts as ppo.epochs" => |v| (1..=100).contains(v);
         /// Discount of future reward per control step.
         gamma: f64 = 0.99, "0 to 1" => |v| (0.0..=1.0).contains(v);
         /// Bias-variance trade-off of generalised advantage estimation.
@@ -185,7 +189,7 @@ section! {
         /// Highest learning rate that adaptation may reach.
         learning_rate_max: f64 = 1e-3, "at least ppo.learning_rate_min, at most 1" => |v| *v > 0.0 && *v <= 1.0;
         /// Target KL divergence. Above twice this value the learning rate is divided by 1.5, below half of it multiplied by 1.5; 0 keeps it fixed.
-        target_kl: f64 = 0.024, "0 or more" => |v| *v >= 0.0 && v.is_finite();
+        target_kl: f64 = 0.048, "0 or more" => |v| *v >= 0.0 && v.is_finite();
         /// Factor on rewards before returns are computed.
         reward_scale: f64 = 0.1, "above 0" => |v| *v > 0.0 && v.is_finite();
     }
@@ -247,7 +251,7 @@ impl RolloutConfig {
 
 impl PpoConfig {
     /// Gradient steps of one pass over a batch if `minibatch` is 0.
-    const MINIBATCHES: usize = 8;
+    const MINIBATCHES: usize = 16;
 
     /// Returns the transitions of one gradient step in a batch of `rows`.
     pub fn minibatch_rows(&self, rows: usize) -> usize {

@@ -217,12 +217,12 @@ pub(crate) mod tests {
             let unknown = source.text_of_run(text, "the run", |key| !key.starts_with("ppo."))?;
             Ok::<_, ConfigError>((source.build()?, unknown))
         };
-        let newer = "later = 1\n[env]\nsubsteps = 4\nterrain = \"rough\"\n[env.deep]\nx = 1\n[weather]\nwind_mps = 3.0\n\
+        let newer = "later = 1\n[env]\nsubsteps = 5\nterrain = \"rough\"\n[env.deep]\nx = 1\n[weather]\nwind_mps = 3.0\n\
                      [ppo]\nminibatch = -7\nalgorithm = \"ppo2\"\n[rollout]\nstale_versions = [0, 0]\n";
         let (config, unknown) = read(newer).unwrap();
         assert_eq!(unknown, ["env.deep", "env.terrain", "later", "ppo.algorithm", "weather.wind_mps"]);
         let mut wanted = Config::default();
-        wanted.env.substeps = 4;
+        wanted.env.substeps = 5;
         assert_eq!(config, wanted, "`ppo.minibatch` is not needed, and `rollout.stale_versions` has its old default");
         let message = |text: &str| read(text).unwrap_err().to_string();
         assert!(message("[env]\ntask = \"humanoid-v6\"").contains("`env.task` is \"humanoid-v6\""));
@@ -252,6 +252,39 @@ pub(crate) mod tests {
         assert!(message("rollout.max_in_flight=2").contains("where learner.mode is \"sync\""));
         assert!(message("ppo.gamma=nan").contains("allowed: 0 to 1"));
         assert!(message("seed").contains("key=value"));
+    }
+
+    #[test]
+    fn control_steps_have_a_range_and_pushes_are_no_more_frequent() {
+        let message = |pairs: &[&str]| {
+            let mut source = ConfigSource::default();
+            pairs.iter().for_each(|pair| source.set(pair).unwrap());
+            source.build().unwrap_err().to_string()
+        };
+        for bad in ["0", "0.0009", "0.11", "-0.02", "nan", "inf"] {
+            let message = message(&[&format!("env.control_step_s={bad}")]);
+            assert!(
+                message.contains("`env.control_step_s` is") && message.contains("allowed: 0.001 to 0.1"),
+                "{message}"
+            );
+        }
+        for (text, value) in [("0.001", 0.001), ("0.02", 0.02), ("0.1", 0.1)] {
+            assert_eq!(set(&format!("env.control_step_s={text}")).unwrap().env.control_step_s, value);
+        }
+        assert_eq!(Config::default().env.control_step_s, 0.015);
+        let pushes = message(&["env.control_step_s=0.05", "randomisation.push_interval_s=[0.02, 1]"]);
+        assert!(pushes.contains("`randomisation.push_interval_s` is [0.02, 1.0]"), "{pushes}");
+        assert!(pushes.contains("env.control_step_s is 0.05"), "{pushes}");
+        assert!(set("randomisation.push_interval_s=[0.02, 1]").is_ok());
+    }
+
+    #[test]
+    fn a_keyframe_is_a_name() {
+        assert_eq!(set("env.keyframe=squat").unwrap().env.keyframe, "squat");
+        assert!(Config::default().env.keyframe.is_empty());
+        let message = set("env.keyframe=3").unwrap_err().to_string();
+        assert!(message.contains("`env.keyframe` is 3, which is not of the right type"), "{message}");
+        assert!(set(&format!("env.keyframe={}", "x".repeat(129))).is_err());
     }
 
     #[test]

@@ -42,9 +42,9 @@ mod tests {
         let added = [("env.substeps", 2), ("rollout.envs", 3), ("randomisation.push_mps", 9)];
         let version = |config: &Config| config.wire_version_of(&added);
         assert_eq!(version(&Config::default()), 0);
-        assert_eq!(version(&set("env.substeps=2").unwrap()), 0, "the default");
+        assert_eq!(version(&set("env.substeps=4").unwrap()), 0, "the default");
         assert_eq!(version(&set("env.substeps=3").unwrap()), 2);
-        assert_eq!(version(&set("env.solver_iterations=3").unwrap()), 0, "known to all");
+        assert_eq!(version(&set("env.self_collision=false").unwrap()), 0, "known to all");
         assert_eq!(version(&Config { env: set("env.substeps=3").unwrap().env, ..set("rollout.envs=8").unwrap() }), 3);
     }
 

@@ -279,6 +279,10 @@ impl ExportedPolicy {
         if !(self.control_step_s.is_finite() && self.control_step_s > 0.0 || unknown) {
             return Err(entry("control_step_s", &self.control_step_s, "a number above 0".into()));
         }
+        if self.env.task != EnvTask::External && self.control_step_s != self.env.control_step_s {
+            let expected = format!("env.control_step_s, which is {}", self.env.control_step_s);
+            return Err(entry("control_step_s", &self.control_step_s, expected));
+        }
         if !self.normaliser().is_valid(inputs) {
             let expected = "means, variances and a clip that give finite numbers".into();
             return Err(entry("observation", &format!("{:?}", self.observation), expected));

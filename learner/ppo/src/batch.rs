@@ -6,7 +6,7 @@ use candle_core::{Device, Result, Tensor};
 use rand::{Rng, RngExt};
 use treadmill_policy::NetworkShape;
 
-use crate::loss::Minibatch;
+use crate::fused_loss::MinibatchRows;
 
 /// `S` transitions, in any order.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -80,16 +80,15 @@ impl Batch {
         advantages: &[f32],
         shape: &NetworkShape,
         device: &Device,
-    ) -> Result<(Tensor, Minibatch)> {
-        let matrix = |plane, width| Tensor::from_vec(picked(plane, width, rows), (rows.len(), width), device);
-        let column = |plane| Tensor::from_vec(picked(plane, 1, rows), rows.len(), device);
-        let minibatch = Minibatch {
-            actions: matrix(&self.actions, shape.action)?,
-            log_probs: column(&self.log_probs)?,
-            advantages: column(advantages)?,
-            returns: column(&self.returns)?,
+    ) -> Result<(Tensor, MinibatchRows)> {
+        let minibatch = MinibatchRows {
+            actions: picked(&self.actions, shape.action, rows),
+            log_probs: picked(&self.log_probs, 1, rows),
+            advantages: picked(advantages, 1, rows),
+            returns: picked(&self.returns, 1, rows),
         };
-        Ok((matrix(&self.observations, shape.observation)?, minibatch))
+        let observations = picked(&self.observations, shape.observation, rows);
+        Ok((Tensor::from_vec(observations, (rows.len(), shape.observation), device)?, minibatch))
     }
 }
 
@@ -208,10 +207,10 @@ mod tests {
         assert_eq!(batch.wrong_length(&shape), None);
         let (observations, minibatch) = batch.gather(&[2, 0], &[4.0, 5.0, 6.0], &shape, &Device::Cpu)?;
         assert_eq!(observations.to_vec2::<f32>()?, [[20.0, 21.0], [0.0, 1.0]]);
-        assert_eq!(minibatch.actions.to_vec2::<f32>()?, [[2.5], [0.5]]);
-        assert_eq!(minibatch.log_probs.to_vec1::<f32>()?, [-3.0, -1.0]);
-        assert_eq!(minibatch.advantages.to_vec1::<f32>()?, [6.0, 4.0]);
-        assert_eq!(minibatch.returns.to_vec1::<f32>()?, [9.0, 7.0]);
+        assert_eq!(minibatch.actions, [2.5, 0.5]);
+        assert_eq!(minibatch.log_probs, [-3.0, -1.0]);
+        assert_eq!(minibatch.advantages, [6.0, 4.0]);
+        assert_eq!(minibatch.returns, [9.0, 7.0]);
         let short = Batch { actions: vec![0.5], ..batch };
         assert_eq!(short.wrong_length(&shape), Some(("actions", 1, 3)));
         assert_eq!(short.non_finite(), None);

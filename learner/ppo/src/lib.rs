@@ -9,6 +9,7 @@
 //! - [`plausibility`]: finds fragments whose numbers cannot be what an actor observed.
 //! - [`batch`]: the batch itself, and its minibatches.
 //! - [`loss`]: the loss, from top to bottom, in Candle's operations.
+//! - `fused_loss`: the same loss as one operation, for a CPU.
 //! - [`update`]: [`Updater`] runs epochs of gradient steps, and restores the old parameters when one fails.
 //! - `device_pass`: the same epochs on a GPU.
 //! - [`optimiser`]: Adam and gradient clipping over one flat slice.
@@ -18,6 +19,7 @@
 pub mod batch;
 pub mod batch_building;
 mod device_pass;
+mod fused_loss;
 pub mod gae;
 pub mod improvement;
 pub mod loss;

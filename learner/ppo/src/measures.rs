@@ -54,11 +54,6 @@ fn spread_rows(rows: usize) -> Vec<u32> {
     }
 }
 
-/// Returns the number of rows whose probability ratio is outside the clip range, given the ratios' logarithms.
-pub(crate) fn clipped(log_ratio: &[f32], clip_range: f64) -> usize {
-    log_ratio.iter().filter(|log_ratio| (f64::from(**log_ratio).exp() - 1.0).abs() > clip_range).count()
-}
-
 /// Returns the share of the variance of `returns` that `values` explain: `1 − Var(returns − values) / Var(returns)`.
 ///
 /// 1 is perfect, 0 is no better than a constant. It is also 0 if all returns are equal or there are none.
@@ -99,13 +94,6 @@ mod tests {
 
     fn close(a: f64, b: f64) {
         assert!((a - b).abs() < 1e-6, "{a} is not {b}");
-    }
-
-    #[test]
-    fn ratios_outside_the_clip_range_are_counted() {
-        let log_ratios = [0.0, 2.0_f32.ln(), 0.5_f32.ln(), 1.1_f32.ln(), 0.81_f32.ln()];
-        assert_eq!(clipped(&log_ratios, 0.2), 2);
-        assert_eq!(clipped(&[], 0.2), 0);
     }
 
     #[test]

@@ -12,8 +12,8 @@ use treadmill_policy::{NetworkPart, NetworkShape, Networks, ParameterError, Poli
 use crate::{
     batch::{Batch, minibatches, shuffle, weighted_advantages},
     device_pass::DevicePass,
-    loss::ppo_loss,
-    measures::{PolicyShift, adapt_learning_rate, clipped, explained_variance},
+    fused_loss::fused_ppo_loss,
+    measures::{PolicyShift, adapt_learning_rate, explained_variance},
     optimiser::{OptimiserState, clip_factor, global_norm},
 };
 
@@ -272,7 +272,11 @@ impl Updater {
             shuffle(&mut order, rng);
             let sums = match &mut on_device {
                 Some(pass) => pass.run(&order, &self.actor, &shift, &mut self.state)?,
-                None => self.pass(batch, &order, &advantages, &shift)?,
+                None => {
+                    // On a thread of the pool, so that the others wait for its next task and are not woken for each.
+                    let pool = Arc::clone(&self.pool);
+                    pool.install(|| self.pass(batch, &order, &advantages, &shift))?
+                }
             };
             stats.add(&sums, &order, self.config.minibatch_rows(order.len()));
             self.state.learning_rate = adapt_learning_rate(self.state.learning_rate, sums.divergence, &self.config);
@@ -318,10 +322,10 @@ impl Updater {
         let parameters = leaf(&self.state.parameters, &self.device)?;
 
         let output = self.networks.forward(&parameters, &observations)?;
-        let loss = ppo_loss(&output, &log_std, &minibatch, &self.config)?;
-        check_finite(scalar(&loss.total)?.is_finite(), "loss")?;
+        let (total, parts) = fused_ppo_loss(&output, &log_std, minibatch, &self.config)?;
+        check_finite(scalar(&total)?.is_finite(), "loss")?;
 
-        let gradients = loss.total.backward()?;
+        let gradients = total.backward()?;
         let gradient_of = |leaf: &Var| gradients.get(leaf).expect("the loss depends on every leaf").to_vec1::<f32>();
         let mut gradient = gradient_of(&parameters)?;
         gradient[log_std_range.clone()].copy_from_slice(&gradient_of(&log_std)?);
@@ -333,12 +337,12 @@ impl Updater {
         clamp_log_std(&mut parameters[log_std_range]);
 
         let weight = rows.len() as f64;
-        sums.policy_loss += weight * scalar(&loss.policy)?;
-        sums.value_loss += weight * scalar(&loss.value)?;
-        sums.entropy += weight * scalar(&loss.entropy)?;
-        sums.bounds_loss += weight * scalar(&loss.bounds)?;
+        sums.policy_loss += weight * parts.policy;
+        sums.value_loss += weight * parts.value;
+        sums.entropy += weight * parts.entropy;
+        sums.bounds_loss += weight * parts.bounds;
         sums.grad_norm += weight * norm;
-        sums.clipped += clipped(&loss.log_ratio.to_vec1()?, self.config.clip_range) as f64;
+        sums.clipped += parts.clipped as f64;
         Ok(())
     }
 }

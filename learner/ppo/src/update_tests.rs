@@ -8,6 +8,7 @@ use treadmill_policy::plain;
 
 use super::*;
 use crate::batch::normalised;
+use crate::loss::ppo_loss;
 
 fn rng(seed: u64) -> Xoshiro256PlusPlus {
     Xoshiro256PlusPlus::seed_from_u64(seed)
@@ -70,7 +71,7 @@ fn losses(updater: &Updater, batch: &Batch) -> candle_core::Result<[f64; 3]> {
     let parameters = leaf(&updater.state.parameters, &Device::Cpu)?;
     let log_std = leaf(&updater.state.parameters[updater.shape.log_std()], &Device::Cpu)?;
     let output = plain::actor_critic(&updater.shape, &parameters, &observations)?;
-    let loss = ppo_loss(&output, &log_std, &minibatch, &updater.config)?;
+    let loss = ppo_loss(&output, &log_std, &minibatch.tensors()?, &updater.config)?;
     Ok([scalar(&loss.policy)?, scalar(&loss.value)?, scalar(&loss.total)?])
 }
 
@@ -130,7 +131,7 @@ fn one_gradient_step_equals_that_of_candles_operations() -> candle_core::Result<
     let parameters = leaf(&start, &Device::Cpu)?;
     let log_std = parameters.narrow(0, shape().log_std().start, 2)?;
     let output = plain::actor_critic(&shape(), &parameters, &observations)?;
-    let gradients = ppo_loss(&output, &log_std, &minibatch, &config)?.total.backward()?;
+    let gradients = ppo_loss(&output, &log_std, &minibatch.tensors()?, &config)?.total.backward()?;
     let gradient = gradients.get(&parameters).expect("takes part").to_vec1::<f32>()?;
     let norm = gradient.iter().map(|g| f64::from(*g).powi(2)).sum::<f64>().sqrt();
 

@@ -7,7 +7,7 @@ use pyo3::{
     types::PyDict,
 };
 use rayon::{ThreadPool, ThreadPoolBuilder, prelude::*};
-use treadmill_humanoid::{Environment, Physics, RewardTask, StepInfo};
+use treadmill_humanoid::{Environment, Physics, RewardTask, StepInfo, worlds_per_pass};
 
 use crate::{
     info::{self, FAULT, Moment},
@@ -111,9 +111,11 @@ impl Humanoids {
         let width = self.width();
         let Self { slots, pool } = self;
         py.detach(|| {
-            for_each_slot(pool.as_ref(), slots, rows, width, |index, slot, row| {
-                if mask[index] {
-                    slot.reset(seeds[index], row);
+            for_each_pass(pool.as_ref(), slots, rows, width, |first, slots, rows| {
+                for (index, (slot, row)) in slots.iter_mut().zip(rows.chunks_exact_mut(width)).enumerate() {
+                    if mask[first + index] {
+                        slot.reset(seeds[first + index], row);
+                    }
                 }
             });
         });
@@ -141,9 +143,19 @@ impl Humanoids {
         let rows = writable.as_slice_mut()?;
         let Self { slots, pool } = self;
         py.detach(|| {
-            for_each_slot(pool.as_ref(), slots, rows, width, |index, slot, row| match resets[index] {
-                true => slot.reset(seeds[index], row),
-                false => slot.step(&actions[index * action_size..(index + 1) * action_size], row),
+            for_each_pass(pool.as_ref(), slots, rows, width, |first, slots, rows| {
+                let resets = &resets[first..];
+                for (index, slot) in slots.iter_mut().enumerate().filter(|(index, _)| !resets[*index]) {
+                    slot.environment.begin_step(&actions[(first + index) * action_size..][..action_size]);
+                }
+                let stepping = slots.iter_mut().zip(resets).filter(|(_, is_reset)| !**is_reset);
+                Environment::step_together(&mut stepping.map(|(slot, _)| &mut slot.environment));
+                for (index, (slot, row)) in slots.iter_mut().zip(rows.chunks_exact_mut(width)).enumerate() {
+                    match resets[index] {
+                        true => slot.reset(seeds[first + index], row),
+                        false => slot.finish_step(row),
+                    }
+                }
             });
         });
         drop(writable);
@@ -199,9 +211,9 @@ impl Slot {
         self.copy_observation(row);
     }
 
-    fn step(&mut self, action: &[f32], row: &mut [f64]) {
-        let step = self.environment.step(action, &mut self.observation);
-        self.followed.update(self.environment.physics());
+    fn finish_step(&mut self, row: &mut [f64]) {
+        let step = self.environment.finish_step(&mut self.observation);
+        self.followed.update(self.environment.physics(), self.environment.control_step_s());
         let (terminated, truncated, fault) = (step.terminated, step.truncated, step.fault);
         self.result = StepResult { reward: step.reward.into(), terminated, truncated, fault };
         self.copy_observation(row);
@@ -226,23 +238,25 @@ fn pool(threads: usize, count: usize) -> PyResult<Option<ThreadPool>> {
     }
 }
 
-/// Calls `act` with each slot and its row of the observations.
-fn for_each_slot(
+/// Calls `act` with every few slots that step in one pass, the index of the first, and their rows of the observations.
+fn for_each_pass(
     pool: Option<&ThreadPool>,
     slots: &mut [Slot],
     rows: &mut [f64],
     width: usize,
-    act: impl Fn(usize, &mut Slot, &mut [f64]) + Sync,
+    act: impl Fn(usize, &mut [Slot], &mut [f64]) + Sync,
 ) {
+    let count = worlds_per_pass();
     match pool {
         None => {
-            let pairs = slots.iter_mut().zip(rows.chunks_exact_mut(width));
-            pairs.enumerate().for_each(|(index, (slot, row))| act(index, slot, row));
+            let chunks = slots.chunks_mut(count).zip(rows.chunks_mut(count * width));
+            chunks.enumerate().for_each(|(index, (slots, rows))| act(index * count, slots, rows));
         }
         Some(pool) => pool.install(|| {
-            let pairs = slots.par_iter_mut().zip(rows.par_chunks_exact_mut(width)).enumerate();
-            // Steps take different times, so larger chunks would leave threads idle at the end.
-            pairs.with_max_len(1).for_each(|(index, (slot, row))| act(index, slot, row));
+            let chunks = slots.par_chunks_mut(count).zip(rows.par_chunks_mut(count * width));
+            // Several chunks at a time would leave threads idle at the end of each step.
+            let chunks = chunks.with_max_len(1).enumerate();
+            chunks.for_each(|(index, (slots, rows))| act(index * count, slots, rows));
         }),
     }
 }

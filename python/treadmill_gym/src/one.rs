@@ -66,7 +66,7 @@ impl Humanoid {
         let Self { environment, observation, .. } = self;
         let step = py.detach(|| environment.try_step(action, observation));
         let step = step.map_err(|why| PyValueError::new_err(why.to_string()))?;
-        self.followed.update(self.environment.physics());
+        self.followed.update(self.environment.physics(), self.environment.control_step_s());
         let info = self.info(py, Moment::Step)?;
         if step.fault {
             info.set_item(FAULT, true)?;

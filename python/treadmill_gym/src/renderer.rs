@@ -11,7 +11,7 @@ use pyo3::{
     prelude::*,
 };
 use rayon::{ThreadPool, ThreadPoolBuilder};
-use treadmill_humanoid::{CONTROL_STEP_S, Physics};
+use treadmill_humanoid::Physics;
 use treadmill_render::{Camera, Picture, Scene, camera::BESIDE_M};
 
 use crate::{many::Humanoids, one::Humanoid, settings::Keyword};
@@ -33,9 +33,9 @@ impl Followed {
         self.0 = [physics.position()[0], physics.position()[1]];
     }
 
-    /// Follows the body after a step.
-    pub fn update(&mut self, physics: &Physics) {
-        let share = 1.0 - (-CONTROL_STEP_S / FOLLOW_TIME_S).exp();
+    /// Follows the body after a step of `control_step_s`.
+    pub fn update(&mut self, physics: &Physics, control_step_s: f64) {
+        let share = 1.0 - (-control_step_s / FOLLOW_TIME_S).exp();
         // Forward motion is not smoothed, as a running body would leave the picture.
         self.0[0] = physics.position()[0];
         self.0[1] += (physics.position()[1] - self.0[1]) * share;

@@ -8,22 +8,21 @@ use pyo3::{
     types::{PyBool, PyDict},
 };
 use treadmill_humanoid::{
-    CONTROL_STEP_S, Environment, EnvironmentConfig, HUMANOID_XML, ModelError, ObservationKind, RewardTask,
-    read_model_file,
+    Environment, EnvironmentConfig, HUMANOID_XML, ModelError, ObservationKind, RewardTask, read_model_file,
 };
 
 /// All keywords, for the error about an unknown one.
-const KEYWORDS: &str = "contact_cost_range, contact_cost_weight, ctrl_cost_weight, \
+const KEYWORDS: &str = "contact_cost_range, contact_cost_weight, control_step_s, ctrl_cost_weight, \
     exclude_current_positions_from_observation, forward_reward_weight, frame_skip, healthy_reward, healthy_z_range, \
     include_cfrc_ext_in_observation, include_cinert_in_observation, include_cvel_in_observation, \
-    include_qfrc_actuator_in_observation, observation, reset_noise_scale, self_collision, solver_iterations, substeps, \
+    include_qfrc_actuator_in_observation, keyframe, observation, reset_noise_scale, self_collision, substeps, \
     task, terminate_when_unhealthy, xml_file";
 
 /// Gymnasium's name of its own model file, which stands for the built-in model here.
 const BUILT_IN: &str = "humanoid.xml";
-/// Accepted `frame_skip`: with Gymnasium's time step, it gives the control step that is simulated here.
+/// Accepted `frame_skip`: with Gymnasium's time step, it gives the default control step.
 const FRAME_SKIP: u32 = 5;
-/// Accepted `substeps` and `solver_iterations`.
+/// Accepted `substeps`.
 const REPEATS: RangeInclusive<u32> = 1..=1000;
 
 /// Settings and model of an environment.
@@ -69,8 +68,9 @@ impl EnvironmentSettings {
                     config.include_qfrc_actuator_in_observation = keyword.flag()?
                 }
                 "include_cfrc_ext_in_observation" => config.include_cfrc_ext_in_observation = keyword.flag()?,
+                "keyframe" => config.keyframe = keyword.text()?,
+                "control_step_s" => config.control_step_s = keyword.number()?,
                 "substeps" => config.substeps = keyword.whole(REPEATS)?,
-                "solver_iterations" => config.solver_iterations = keyword.whole(REPEATS)?,
                 "self_collision" => config.self_collision = keyword.flag()?,
                 "frame_skip" => keyword.frame_skip()?,
                 "xml_file" => file = keyword.file()?,
@@ -95,7 +95,7 @@ impl EnvironmentSettings {
     pub fn environment(&self) -> PyResult<Environment> {
         let file = self.file.as_deref();
         let environment = Environment::new(&self.config, &self.model_xml).map_err(|why| refusal(&why, file))?;
-        let height_m = environment.physics().model().nominal_position()[2];
+        let height_m = environment.nominal_position()[2];
         let [low_m, high_m] = self.config.healthy_z_range;
         if self.config.terminate_when_unhealthy && !(low_m < height_m && height_m < high_m) {
             return Err(PyValueError::new_err(format!(
@@ -166,9 +166,13 @@ impl Keyword<'_, '_> {
         match self.whole(REPEATS) {
             Ok(FRAME_SKIP) => Ok(()),
             _ => Err(self.refuse(&format!(
-                "{FRAME_SKIP}: a control step is always {CONTROL_STEP_S} s; `substeps` sets its number of physics steps"
+                "{FRAME_SKIP}: `control_step_s` sets the duration of a step, `substeps` its number of physics steps"
             ))),
         }
+    }
+
+    fn text(&self) -> PyResult<String> {
+        self.value.extract().map_err(|_| self.refuse("a text"))
     }
 
     /// Returns the path of a model file; `None` for the built-in model.

@@ -213,10 +213,13 @@ class Keywords(unittest.TestCase):
         self.refuse("reset_noise_scale.*-1.*between 0 and 1", reset_noise_scale=-1)
         self.refuse("substeps.*0.*between 1 and 1000", substeps=0)
         self.refuse("substeps is 2.5", substeps=2.5)
+        self.refuse("control_step_s.*0.2.*between 0.001 and 0.1 s", control_step_s=0.2)
+        self.refuse("control_step_s is 'fast', but must be a number", control_step_s="fast")
+        self.refuse("unknown keyword argument `solver_iterations`", TypeError, solver_iterations=1)
         self.refuse("observation is 'all', but must be one of 'gymnasium-v5'", observation="all")
         self.refuse("task is 5, but must be one of", task=5)
         self.refuse("self_collision is 'no', but must be True or False", self_collision="no")
-        self.refuse("frame_skip is 4, but must be 5.*substeps", frame_skip=4)
+        self.refuse("frame_skip is 4, but must be 5.*control_step_s.*substeps", frame_skip=4)
         self.refuse("include_cvel_in_observation", observation="gymnasium-v4", include_cvel_in_observation=False)
         self.refuse("width is 4, but must be a whole number between 16 and 4096", width=4)
         self.refuse("height is -3, but must be a whole number", height=-3)
@@ -230,6 +233,20 @@ class Keywords(unittest.TestCase):
         env = gymnasium.make(ID, xml_file="humanoid.xml", frame_skip=5, contact_cost_range=(-np.inf, 10.0))
         self.assertEqual(env.observation_space.shape, (348,))
 
+    def test_the_control_step_sets_dt_and_pictures_per_second(self):
+        for keywords, dt, fps in (({}, 0.015, 67), ({"control_step_s": 0.02}, 0.02, 50)):
+            env = gymnasium.make(ID, **keywords)
+            self.assertEqual((env.unwrapped.dt, env.unwrapped.metadata["render_fps"]), (dt, fps))
+            envs = gymnasium.make_vec(ID, 2, **keywords)
+            self.assertEqual((envs.dt, envs.metadata["render_fps"]), (dt, fps))
+
+    def test_controls_beyond_their_range_cost_what_they_cost_in_gymnasium(self):
+        env = gymnasium.make(ID)
+        env.reset(seed=0)
+        action = np.array([(-1) ** motor * 0.1 * motor for motor in range(17)], np.float32)
+        info = env.unwrapped.step(action)[4]
+        self.assertAlmostEqual(info["reward_ctrl"], -1.496000005394221, 9)
+
     def test_a_robot_from_a_file(self):
         import tempfile
         from pathlib import Path
@@ -241,7 +258,7 @@ class Keywords(unittest.TestCase):
             env = gymnasium.make(ID, xml_file=path, observation="compact", healthy_z_range=(0.5, 1.2))
             self.assertEqual(env.observation_space.shape, (13,))
             np.testing.assert_array_equal([env.action_space.low, env.action_space.high], [[-0.5], [1.0]])
-            path.write_text(HOPPER.replace('damping="1"', 'frictionloss="0.1"'))
+            path.write_text(HOPPER.replace('damping="1"', 'frictionloss="-0.1"'))
             self.refuse("hopper.xml.*frictionloss", xml_file=str(path), healthy_z_range=(0.5, 1.2))
 
 

@@ -1,7 +1,8 @@
 //! Humanoids stepped on several threads.
 
-use rayon::{ThreadPool, ThreadPoolBuilder, prelude::*};
-use treadmill_humanoid::{Environment, EnvironmentConfig};
+use std::thread;
+
+use treadmill_humanoid::{Environment, EnvironmentConfig, Physics, worlds_per_pass};
 use treadmill_runtime::{machine, seeds};
 
 /// Number of humanoids, as many as an actor has: one alone would stay in the cache.
@@ -32,7 +33,7 @@ impl BenchWorld {
 /// [`WORLDS`] humanoids, each with a `T`.
 pub struct BenchWorlds<T> {
     worlds: Vec<(BenchWorld, T)>,
-    pool: ThreadPool,
+    threads: usize,
 }
 
 impl<T: Send> BenchWorlds<T> {
@@ -51,13 +52,39 @@ impl<T: Send> BenchWorlds<T> {
             Ok((world, state(index)))
         };
         let worlds = (0..WORLDS).map(world).collect::<anyhow::Result<_>>()?;
-        Ok(Self { worlds, pool: ThreadPoolBuilder::new().num_threads(threads).build()? })
+        Ok(Self { worlds, threads })
     }
 
-    /// Calls `work` once for each world, in parallel.
-    pub fn each(&mut self, work: impl Fn(&mut BenchWorld, &mut T) + Sync) {
-        let worlds = &mut self.worlds;
-        self.pool.install(|| worlds.par_iter_mut().with_max_len(1).for_each(|(world, state)| work(world, state)));
+    /// Steps the physics of all worlds `rounds` times, each thread a share of them. `begin` sets the controls of a world in a round; `end`
+    /// learns whether its physics failed.
+    pub fn step(
+        &mut self,
+        rounds: u64,
+        begin: impl Fn(u64, &mut BenchWorld, &mut T) + Sync,
+        end: impl Fn(&mut BenchWorld, &mut T, bool) + Sync,
+    ) {
+        let (begin, end, pass) = (&begin, &end, worlds_per_pass());
+        let share = WORLDS.div_ceil(self.threads).next_multiple_of(pass);
+        let step_share = |share: &mut [(BenchWorld, T)]| {
+            for round in 0..rounds {
+                for chunk in share.chunks_mut(pass) {
+                    for (world, state) in &mut *chunk {
+                        begin(round, world, state);
+                    }
+                    Physics::step_together(&mut chunk.iter_mut().map(|(world, _)| world.environment.physics_mut()));
+                    for (world, state) in chunk {
+                        let failed = world.environment.physics_mut().check_step().is_err();
+                        world.faults += u64::from(failed);
+                        end(world, state, failed);
+                    }
+                }
+            }
+        };
+        thread::scope(|scope| {
+            for share in self.worlds.chunks_mut(share) {
+                scope.spawn(|| step_share(share));
+            }
+        });
     }
 
     /// Iterates over all worlds in order.

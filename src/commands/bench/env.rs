@@ -1,6 +1,6 @@
 //! `bench env`: steps per second with random actions and resets, with task and observation and of physics alone.
 
-use std::time::Instant;
+use std::{thread, time::Instant};
 
 use clap::Args;
 use rand::RngExt;
@@ -56,7 +56,7 @@ impl EnvArgs {
 pub fn run(args: &EnvArgs) -> anyhow::Result<()> {
     let config = args.config()?;
     let file = args.model.model.as_deref();
-    let text = model::text(file)?;
+    let text = model::completed(&config, file)?;
     // Reports errors of the model file.
     model::environment(&config, &text, file)?;
     let environment = settings::training(&config);
@@ -79,42 +79,56 @@ fn measure(
     rounds: u64,
 ) -> anyhow::Result<serde_json::Value> {
     let seeds = SeedSource { run_seed: 1, actor: "bench".to_string(), start: 0 };
-    let mut environments = Environments::new(WORLDS, config, model_xml, seeds)?.with_threads(threads)?;
+    let environments = Environments::new(WORLDS, config, model_xml, seeds)?;
     let mut random = seeds::stream(1, "bench-actions", &[]);
-    let size = environments.action_size();
+    let (size, observation_size) = (environments.action_size(), environments.observation_size());
     let actions: Vec<f32> = (0..ACTIONS * size).map(|_| random.random_range(-1.0..1.0)).collect();
     let actions_of = |round: u64| {
         let first = round as usize * WORLDS % ACTIONS;
         &actions[first * size..][..WORLDS * size]
     };
 
-    let (mut stepped, mut sum, mut resets) = (StepResults::default(), 0.0f64, 0u64);
+    // Like an actor, each thread steps a share of the environments.
+    let mut shares: Vec<_> = environments.split(threads).into_iter().map(|share| (share, 0u64, 0u64)).collect();
     let begun = Instant::now();
-    for round in 0..rounds {
-        environments.step(actions_of(round), &mut stepped);
-        sum += stepped.rewards.iter().map(|reward| f64::from(*reward)).sum::<f64>();
-        resets += stepped.episodes.len() as u64;
-    }
+    thread::scope(|scope| {
+        for (share, sum, resets) in &mut shares {
+            scope.spawn(move || {
+                let mut stepped = StepResults::default();
+                for round in 0..rounds {
+                    share.step(&actions_of(round)[share.first_number() * size..][..share.len() * size], &mut stepped);
+                    // Whole numbers add up to the same in any order.
+                    *sum += stepped.rewards.iter().map(|reward| u64::from(reward.to_bits())).sum::<u64>();
+                    *resets += stepped.episodes.len() as u64;
+                }
+            });
+        }
+    });
     let steps = rounds * WORLDS as u64;
     let env_steps_per_s = steps as f64 / begun.elapsed().as_secs_f64();
-    let observations: Vec<u8> = environments.observations().iter().flat_map(|entry| entry.to_le_bytes()).collect();
+    let sum: u64 = shares.iter().map(|(_, sum, _)| sum).sum();
+    let resets: u64 = shares.iter().map(|(.., resets)| resets).sum();
+    let entries = shares.iter().flat_map(|(share, ..)| share.observations());
+    let observations: Vec<u8> = entries.flat_map(|entry| entry.to_le_bytes()).collect();
 
     // The same actions without observation and reward. Bodies that fell are reset here too, because contact with the ground
     // costs time.
     let mut worlds = BenchWorlds::new(config, model_xml, threads, |_| vec![0.0f32; size])?;
     let begun = Instant::now();
-    for round in 0..rounds {
-        let actions = actions_of(round);
-        worlds.each(|world, controls| {
-            let action = &actions[world.index * size..][..size];
+    worlds.step(
+        rounds,
+        |round, world, controls| {
+            let action = &actions_of(round)[world.index * size..][..size];
             world.environment.action_from_shares(action, controls);
-            let failed = world.environment.physics_mut().step_only(controls).is_err();
-            world.faults += u64::from(failed);
+            // A failure shows after the step.
+            let _ = world.environment.physics_mut().set_controls(controls);
+        },
+        |world, _, failed| {
             if failed || !task::is_healthy(config, world.environment.physics().torso_height_m()) {
                 world.reset();
             }
-        });
-    }
+        },
+    );
     let physics_only_steps_per_s = steps as f64 / begun.elapsed().as_secs_f64();
     let faults: u64 = worlds.iter().map(|(world, _)| world.faults).sum();
     // Each world was reset once before the first step.
@@ -123,9 +137,9 @@ fn measure(
     Ok(json!({
         "env_steps_per_s": rounded(env_steps_per_s),
         "physics_only_steps_per_s": rounded(physics_only_steps_per_s),
-        "observation": environments.observation_size(),
+        "observation": observation_size,
         "observation_kind": observation_kind,
-        "control_step_s": treadmill_humanoid::CONTROL_STEP_S,
+        "control_step_s": config.control_step_s,
         "threads": threads,
         "cpu": machine::cpu_name(),
         "workload": format!("{WORLDS} humanoids, uniformly random actions, {steps} steps each way, {resets} resets"),

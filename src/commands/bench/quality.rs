@@ -1,4 +1,4 @@
-//! `bench env --quality`: errors of joint limits under the largest torques in random directions.
+//! `bench env --quality`: errors of joint limits and of the constraint solve under the largest torques in random directions.
 
 use rand::RngExt;
 use serde_json::json;
@@ -10,8 +10,8 @@ use super::{
     quantiles::Quantiles,
 };
 
-/// Control steps (15 s) after which a humanoid on the floor is reset.
-const RESET_AFTER_STEPS: u32 = 1000;
+/// Time after which a humanoid on the floor is reset (s).
+const RESET_AFTER_S: f64 = 15.0;
 
 /// Measurements of one world.
 struct WorldQuality {
@@ -19,6 +19,7 @@ struct WorldQuality {
     controls: Vec<f32>,
     steps: u32,
     overshoot_rad: Quantiles,
+    residual: Quantiles,
 }
 
 /// Steps all worlds and returns quantiles of their joint errors; memory does not grow with the steps.
@@ -33,22 +34,31 @@ pub fn measure(
         controls: Vec::new(),
         steps: 0,
         overshoot_rad: Quantiles::default(),
+        residual: Quantiles::default(),
     })?;
-    for _ in 0..rounds {
-        worlds.each(|world, record| {
-            let failed = record.step(world);
+    let reset_after_steps = (RESET_AFTER_S / config.control_step_s).round() as u32;
+    worlds.step(
+        rounds,
+        |_, world, record| record.begin(world),
+        |world, record, failed| {
+            if !failed {
+                let quality = world.environment.joint_quality();
+                record.overshoot_rad.add(quality.limit_overshoot_rad);
+                record.residual.add(quality.residual);
+            }
             // Half of the worlds are reset after a fall; the others stay on the floor for a while.
             let fell = !task::is_healthy(config, world.environment.physics().torso_height_m());
-            if failed || (fell && world.index.is_multiple_of(2)) || record.steps >= RESET_AFTER_STEPS {
+            if failed || (fell && world.index.is_multiple_of(2)) || record.steps >= reset_after_steps {
                 record.steps = 0;
                 world.reset();
             }
-        });
-    }
-    let mut overshoot_rad = Quantiles::default();
+        },
+    );
+    let (mut overshoot_rad, mut residual) = (Quantiles::default(), Quantiles::default());
     let (mut faults, mut resets) = (0, 0);
     for (world, record) in worlds.iter() {
         overshoot_rad.merge(&record.overshoot_rad);
+        residual.merge(&record.residual);
         faults += world.faults;
         resets += world.resets;
     }
@@ -62,8 +72,11 @@ pub fn measure(
         "limit_overshoot_p99_rad": overshoots[1],
         "limit_overshoot_p999_rad": overshoots[2],
         "limit_overshoot_max_rad": overshoot_rad.largest(),
+        "residual_p50": residual.quantile(0.5),
+        "residual_p99": residual.quantile(0.99),
+        "residual_max": residual.largest(),
         "faults": faults,
-        "control_step_s": treadmill_humanoid::CONTROL_STEP_S,
+        "control_step_s": config.control_step_s,
         "threads": threads,
         "cpu": machine::cpu_name(),
         "workload": format!(
@@ -74,18 +87,14 @@ pub fn measure(
 }
 
 impl WorldQuality {
-    /// Makes one step with every motor at one end of its range; returns whether physics failed.
-    fn step(&mut self, world: &mut BenchWorld) -> bool {
+    /// Sets every motor to one end of its range.
+    fn begin(&mut self, world: &mut BenchWorld) {
         self.controls.resize(world.environment.action_size(), 0.0);
         for (control, [low, high]) in self.controls.iter_mut().zip(world.environment.action_ranges()) {
             *control = if self.random.random() { *high } else { *low };
         }
         self.steps += 1;
-        if world.environment.physics_mut().step_only(&self.controls).is_err() {
-            world.faults += 1;
-            return true;
-        }
-        self.overshoot_rad.add(world.environment.joint_quality().limit_overshoot_rad);
-        false
+        // A failure shows after the step.
+        let _ = world.environment.physics_mut().set_controls(&self.controls);
     }
 }

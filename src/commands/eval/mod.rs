@@ -174,7 +174,7 @@ fn prepare(args: &EvalArgs) -> anyhow::Result<Prepared> {
         }
         let config = configuration(args, Config::default())?;
         let file = args.model.model.as_deref();
-        let environment = model::environment(&config, &model::text(file)?, file)?;
+        let environment = model::environment(&config, &model::completed(&config, file)?, file)?;
         let action_size = environment.action_size();
         return Ok(Prepared { environment, agent: baseline(args, action_size), origin: None });
     };
@@ -184,7 +184,7 @@ fn prepare(args: &EvalArgs) -> anyhow::Result<Prepared> {
     let environment = match args.model.model.as_deref() {
         None => saved_policy::environment(run, &policy, &config)?,
         Some(file) => {
-            let environment = model::environment(&config, &model::text(Some(file))?, Some(file))?;
+            let environment = model::environment(&config, &model::completed(&config, Some(file))?, Some(file))?;
             check_fits(&policy, &environment, file)?;
             environment
         }

@@ -106,6 +106,7 @@ impl PlayedPolicy {
             rewards: material.rewards.clone(),
             flags: vec![0; ROWS],
             last_observations: material.last_observations.clone(),
+            physics_version: bundle.physics_version,
             ..Fragment::default()
         };
         Ok(PreparedTransitions::new(&fragment, material.precision)?)

@@ -6,9 +6,12 @@ use super::*;
 fn check_accepts_the_defaults_and_names_each_bad_setting() {
     assert!(EnvironmentConfig::default().check().is_ok());
     type Spoil = fn(&mut EnvironmentConfig);
-    let broken: [(&str, Spoil); 11] = [
+    let broken: [(&str, Spoil); 14] = [
         ("substeps", |c| c.substeps = 0),
-        ("solver_iterations", |c| c.solver_iterations = 0),
+        ("control_step_s", |c| c.control_step_s = 0.000_9),
+        ("control_step_s", |c| c.control_step_s = 0.11),
+        ("control_step_s", |c| c.control_step_s = f64::NAN),
+        ("push_interval_s", |c| (c.control_step_s, c.randomisation.push_interval_s) = (0.05, [0.04, 1.0])),
         ("healthy_reward", |c| c.healthy_reward = f64::NAN),
         ("healthy_z_range", |c| c.healthy_z_range = [2.0, 2.0]),
         ("healthy_z_range", |c| c.healthy_z_range = [f64::NAN, 2.0]),
@@ -31,6 +34,17 @@ fn check_accepts_the_defaults_and_names_each_bad_setting() {
 }
 
 #[test]
+fn control_steps_reach_from_1_to_100_ms() {
+    for control_step_s in [0.001, 0.02, 0.1] {
+        assert!(EnvironmentConfig { control_step_s, ..EnvironmentConfig::default() }.check().is_ok());
+    }
+    let error =
+        EnvironmentConfig { control_step_s: 0.2, ..EnvironmentConfig::default() }.check().expect_err("too long");
+    let wanted = "environment setting `control_step_s` is 0.2, but must be between 0.001 and 0.1 s";
+    assert_eq!(error.to_string(), wanted);
+}
+
+#[test]
 fn ranges_may_be_infinite() {
     let open = [f64::NEG_INFINITY, f64::INFINITY];
     let config = EnvironmentConfig { contact_cost_range: open, healthy_z_range: open, ..EnvironmentConfig::default() };
@@ -40,7 +54,7 @@ fn ranges_may_be_infinite() {
 #[test]
 fn randomisation_is_off_by_default_and_each_setting_switches_it_on() {
     assert!(!Randomisation::default().is_on());
-    assert!(Randomisation::default().check().is_ok());
+    assert!(Randomisation::default().check(0.015).is_ok());
     assert!(!Randomisation { push_interval_s: [1.0, 1.0], ..Randomisation::default() }.is_on());
     type Change = fn(&mut Randomisation);
     let changes: [Change; 11] = [
@@ -59,7 +73,7 @@ fn randomisation_is_off_by_default_and_each_setting_switches_it_on() {
     for (index, change) in changes.into_iter().enumerate() {
         let mut settings = Randomisation::default();
         change(&mut settings);
-        assert!(settings.is_on() && settings.check().is_ok(), "change {index}");
+        assert!(settings.is_on() && settings.check(0.015).is_ok(), "change {index}");
     }
 }
 
@@ -80,7 +94,7 @@ fn bad_randomisation_ranges_are_rejected_by_name() {
     for (name, spoil) in broken {
         let mut settings = Randomisation::default();
         spoil(&mut settings);
-        let error = settings.check().expect_err(name).to_string();
+        let error = settings.check(0.015).expect_err(name).to_string();
         assert!(error.contains(name), "{error}");
     }
 }

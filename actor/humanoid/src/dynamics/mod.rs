@@ -1,35 +1,35 @@
-//! Joint-space dynamics of the articulated body.
+//! Joint-space dynamics of articulated bodies, for several worlds at once.
 //!
 //! The state has the coordinates of MJCF: a position vector (root position, root quaternion w x y z, one angle per hinge)
 //! and a velocity vector (root velocity in world axes, root angular velocity in the root's axes, one rate per hinge).
 //!
-//! - `tree`: bodies and degrees of freedom.
-//! - `spatial`: spatial vectors and inertias.
+//! - `structure`: what all worlds of a model share: bodies and degrees of freedom.
+//! - `world`: state and parameters of one world.
+//! - `engine`, `group`, `exchange`: passes over several worlds, step by step.
 //! - `posture`: forward kinematics.
 //! - `mass_matrix`: assembly and factorisation.
-//! - `flight`: one time step without contacts.
-//! - `momentum`: conservation of momentum in that step.
-//! - `limits`: the hinges' ranges within that step.
-//! - `softness`: compliance of limits and contacts.
-//! - `contacts`: impulses at contact points.
-//! - `rows`: products of rows over the degrees of freedom.
+//! - `forces`: accelerations without constraints.
+//! - `constraints`: limits, friction losses, servos' torque limits, contacts.
+//! - `momentum`: conservation of momentum.
+//! - `responses`: approximate responses to forces, for the softness of constraints.
 
-mod contacts;
-mod flight;
-mod limits;
+mod constraints;
+mod engine;
+mod exchange;
+mod forces;
+mod group;
 mod mass_matrix;
 mod momentum;
 mod posture;
-mod rows;
-mod softness;
-mod spatial;
-mod tree;
-
+mod responses;
+mod structure;
 #[cfg(test)]
 mod tests;
+mod world;
 
-pub(crate) use contacts::{ContactPoint, Contacts};
-pub(crate) use flight::Flight;
+pub use engine::worlds_per_pass;
+pub(crate) use engine::{advance, refresh};
+pub(crate) use group::Pass;
 pub(crate) use posture::Posture;
-pub(crate) use spatial::Motion;
-pub(crate) use tree::{ROOT_DOFS, ROOT_POSITIONS, Tree};
+pub(crate) use structure::{ROOT_DOFS, ROOT_POSITIONS, Structure};
+pub(crate) use world::{BodyState, Drive, Impulse, Parameters, World};

@@ -1,67 +1,71 @@
-//! Linear and angular momentum of the whole humanoid, which only gravity changes in flight.
+//! Linear and angular momentum of a whole robot, which only gravity and the ground change.
 //!
-//! Time stepping conserves momentum only approximately. A correction of the root's velocity restores it exactly, which costs
-//! less than finer steps.
+//! Time stepping conserves momentum only approximately. A correction of the root's state restores it exactly, which costs less
+//! than finer steps.
 
-use nalgebra::{Matrix3, Vector3};
+use pulp::Simd;
 
 use super::posture::Posture;
-use super::spatial::{Force, Inertia, Motion};
+use super::structure::Structure;
+use crate::lanes::{Force, Inertia, Motion, Vec3};
 
-/// Momentum and inertia of the whole humanoid.
-#[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Momentum {
+/// Momentum of a robot, and its inertia.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Momentum<S: Simd> {
     /// Moment of momentum about the centre of mass (N·m·s) and linear momentum (N·s).
-    pub(crate) about_centre: Force,
+    pub(crate) about_centre: Force<S>,
     /// Centre of mass (m, relative to O).
-    pub(crate) centre_m: Vector3<f64>,
-    inertia: Inertia,
+    pub(crate) centre_m: Vec3<S>,
+    inertia: Inertia<S>,
 }
 
-impl Momentum {
+impl<S: Simd> Momentum<S> {
     /// Sums over the bodies of a posture with inertia, moving at the given velocities.
-    pub(crate) fn of(posture: &Posture, velocities: &[Motion]) -> Self {
-        let (mut inertia, mut sum) = (Inertia::default(), Force::default());
+    #[inline(always)]
+    pub(crate) fn of(simd: S, posture: &Posture<S>, velocities: &[Motion<S>]) -> Self {
+        let (mut inertia, mut sum) = (Inertia::zero(simd), Force::zero(simd));
         for (part, velocity) in posture.inertias.iter().zip(velocities) {
             inertia += *part;
             sum += part.times(velocity);
         }
-        let centre_m = inertia.first_moment / inertia.mass_kg;
+        let centre_m = inertia.first_moment * (sum.force.x.constant(1.0) / inertia.mass_kg);
         let about_centre = Force { moment: sum.moment - centre_m.cross(&sum.force), force: sum.force };
         Self { about_centre, centre_m, inertia }
     }
 
-    /// Returns a copy whose momentum includes `time_s` of gravity and an impulse (moment about the centre of mass).
-    pub(crate) fn expected_after(&self, gravity_mps2: &Vector3<f64>, time_s: f64, impulse: &Force) -> Self {
-        let mut expected = *self;
-        expected.about_centre += *impulse;
-        expected.about_centre.force += gravity_mps2 * (self.inertia.mass_kg * time_s);
-        expected
+    /// Returns the velocity of the root, as linear and angular part in world axes, that has to be added for this momentum to
+    /// become `wanted` (moment about the centre).
+    #[inline(always)]
+    pub(crate) fn correction(&self, wanted: &Force<S>) -> Motion<S> {
+        let missing = wanted.moment - self.about_centre.moment;
+        let angular = self.solve(&missing);
+        let one = self.inertia.mass_kg.constant(1.0);
+        let linear = (wanted.force - self.about_centre.force) * (one / self.inertia.mass_kg);
+        Motion { angular, linear: linear - angular.cross(&self.centre_m) }
     }
 
-    /// Returns the velocity of the centre of mass (m/s).
-    pub(crate) fn velocity_mps(&self) -> Vector3<f64> {
-        self.about_centre.force / self.inertia.mass_kg
+    /// Solves inertia about the centre × x = moment, by the adjugate.
+    #[inline(always)]
+    fn solve(&self, moment: &Vec3<S>) -> Vec3<S> {
+        let (c, m) = (&self.centre_m, self.inertia.mass_kg);
+        let [xx, yy, zz, xy, xz, yz] = self.inertia.about_origin;
+        let (mx, my, mz) = (c.x * m, c.y * m, c.z * m);
+        let (xx, yy, zz) = (xx - (c.y * my + c.z * mz), yy - (c.x * mx + c.z * mz), zz - (c.x * mx + c.y * my));
+        let (xy, xz, yz) = (xy + c.x * my, xz + c.x * mz, yz + c.y * mz);
+        let first = Vec3::new(yy * zz - yz * yz, xz * yz - xy * zz, xy * yz - xz * yy);
+        let second = Vec3::new(first.y, xx * zz - xz * xz, xy * xz - xx * yz);
+        let third = Vec3::new(first.z, second.z, xx * yy - xy * xy);
+        let determinant = xx * first.x + xy * first.y + xz * first.z;
+        Vec3::new(first.dot(moment), second.dot(moment), third.dot(moment)) * (m.constant(1.0) / determinant)
     }
+}
 
-    /// Corrects the root's part of a velocity vector so that this momentum becomes `wanted` (moment about the centre).
-    pub(crate) fn restore(&self, posture: &Posture, wanted: &Force, velocity: &mut [f64]) {
-        let missing_moment = wanted.moment - self.about_centre.moment;
-        let missing = wanted.force - self.about_centre.force;
-        let about_centre = self.about_centre_inertia();
-        let Some(inverse) = about_centre.try_inverse() else { return };
-        let angular = inverse * missing_moment;
-        let linear = missing / self.inertia.mass_kg - angular.cross(&self.centre_m);
-        let local = posture.rotations[0].transpose() * angular;
-        for axis in 0..3 {
-            velocity[axis] += linear[axis];
-            velocity[3 + axis] += local[axis];
-        }
-    }
-
-    fn about_centre_inertia(&self) -> Matrix3<f64> {
-        let c = self.centre_m;
-        let shift = Matrix3::identity() * c.norm_squared() - c * c.transpose();
-        self.inertia.about_origin - shift * self.inertia.mass_kg
-    }
+/// Whether gravity and contacts are all that acts on a robot as a whole.
+pub(crate) fn is_free(structure: &Structure) -> bool {
+    structure.root_damping == 0.0
+        && structure.root_armature == 0.0
+        && structure
+            .coordinates
+            .iter()
+            .all(|coordinate| coordinate.terms.iter().all(|(dof, _)| *dof >= super::ROOT_DOFS))
 }

@@ -7,8 +7,7 @@ use crate::error::StateError;
 
 /// State of an episode between two control steps, apart from model and settings.
 ///
-/// It holds less than an [`super::EnvironmentSnapshot`]: the seed reproduces what the episode drew at its start, and Rapier's
-/// world starts afresh.
+/// It holds less than an [`super::EnvironmentSnapshot`]: the seed reproduces what the episode drew at its start.
 #[derive(Clone, Debug, PartialEq)]
 pub struct EpisodeState {
     /// Seed of the episode.
@@ -30,14 +29,9 @@ pub struct EpisodeState {
 }
 
 impl Environment {
-    /// Replaces the Rapier world by a fresh one; see [`crate::Physics::renew_world`].
-    pub fn renew_world(&mut self) {
-        self.physics.renew_world();
-    }
-
     /// Returns the episode's state; `None` before the first reset, and after a fault.
     ///
-    /// If [`Self::renew_world`] follows, [`Self::resume_episode`] continues bit for bit as this environment does. The state
+    /// [`Self::resume_episode`] continues bit for bit as this environment does. The state
     /// does not include a variation or state set through [`Self::physics_mut`].
     #[must_use]
     pub fn episode_state(&self) -> Option<EpisodeState> {

@@ -61,12 +61,11 @@ impl Classes {
                 continue;
             }
             // Defaults of elements that are refused at every occurrence have no effect.
-            if is_inert(tag) || matches!(tag, "equality" | "pair" | "tendon") {
-                if tag == "tendon" {
-                    class.insert("fixed".to_owned(), attributes_of(child));
-                }
+            if is_inert(tag) || tag == "equality" {
                 continue;
             }
+            // Spatial tendons, which share these defaults, are refused.
+            let tag = if tag == "tendon" { "fixed" } else { tag };
             if vocabulary::rules(tag).is_none() {
                 return Err(ModelError::unsupported(&label, format!("<{tag}> is not supported")));
             }
@@ -133,8 +132,19 @@ pub(super) fn attributes_of(node: Node<'_, '_>) -> Vec<Attribute> {
     node.attributes().map(|attribute| (attribute.name().to_owned(), attribute.value().to_owned())).collect()
 }
 
+/// Attributes of servos that set the same quantity.
+pub(super) const REPLACED: [[&str; 2]; 2] = [["kv", "dampratio"], ["ctrlrange", "inheritrange"]];
+
+fn opposite<'a>([one, other]: &[&'a str; 2], name: &str) -> Option<&'a str> {
+    if name == *one { Some(*other) } else { (name == *other).then_some(*one) }
+}
+
 /// Merges `over` into `under`. A list that may be shorter keeps the remaining numbers of the one under it.
 fn merge(tag: &str, mut under: Vec<Attribute>, over: Vec<Attribute>) -> Vec<Attribute> {
+    // Of two settings of one quantity, the one nearest to the element counts.
+    for replaced in over.iter().flat_map(|(name, _)| REPLACED.iter().filter_map(move |pair| opposite(pair, name))) {
+        under.retain(|(found, _)| found != replaced);
+    }
     for (name, mut value) in over {
         let optional =
             matches!(vocabulary::rule(tag, &name), Some(AttributeRule::Numbers(least, most)) if least < most);

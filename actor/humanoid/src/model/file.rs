@@ -1,22 +1,55 @@
-//! Model files, with their `<include>`s inserted.
+//! Model files, with their `<include>`s, meshes and height fields inserted.
 
 use std::fs::File;
-use std::io::Read;
+use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
+use super::embed;
 use super::xml::{self, MODEL_BYTES_MAX};
+use crate::card::{self, RobotCard};
 use crate::error::ModelError;
 
 /// Reads a model file and replaces each `<include>` by the content of its file.
 ///
-/// As in MuJoCo, paths of included files are relative to the outermost file, and no file is included twice. Mesh and
-/// texture files are not read.
+/// As in MuJoCo, paths of included files are relative to the outermost file, and no file is included twice. Of the other files
+/// that the model names, those that motion depends on are written into the text: hulls of meshes, and height fields.
+///
+/// A robot card, a file that ends in `.toml`, gives the text of its model with the card in it.
 ///
 /// # Errors
 /// [`ModelError`] names the file that is missing or too long, or the text that is not XML.
 pub fn read_model_file(path: &Path) -> Result<String, ModelError> {
-    let mut reader = Reader { folder: path.parent().unwrap_or(Path::new("")).to_path_buf(), seen: Vec::new() };
-    reader.read(path.to_path_buf())
+    if path.extension().is_some_and(|kind| kind.eq_ignore_ascii_case("toml")) {
+        return read_card_file(path);
+    }
+    read_mjcf_file(path)
+}
+
+fn read_card_file(path: &Path) -> Result<String, ModelError> {
+    let text = read_text(path)?;
+    let name = RobotCard::parse(&text)?.model;
+    if name.is_empty() {
+        return Err(ModelError::Card("`model`, the path of the model file, is missing".to_owned()));
+    }
+    let model = path.parent().unwrap_or(Path::new("")).join(name);
+    if model.extension().is_some_and(|kind| kind.eq_ignore_ascii_case("toml")) {
+        return Err(ModelError::Card(format!("`model` is `{}`, but must be an MJCF file", model.display())));
+    }
+    let whole = card::with_card(&read_mjcf_file(&model)?, &text)?;
+    check_length(whole.len() as u64)?;
+    Ok(whole)
+}
+
+fn read_mjcf_file(path: &Path) -> Result<String, ModelError> {
+    let folder = path.parent().unwrap_or(Path::new("")).to_path_buf();
+    let text = Reader { folder: folder.clone(), seen: Vec::new() }.read(path.to_path_buf())?;
+    // The reader of the whole model reports other errors better.
+    if !text.contains("file=") && !text.contains("file =") {
+        return Ok(text);
+    }
+    let text = embed::embed(&text, &folder)?;
+    check_length(text.len() as u64)?;
+    Ok(text)
 }
 
 struct Reader {
@@ -69,19 +102,29 @@ impl Reader {
 }
 
 fn read_text(path: &Path) -> Result<String, ModelError> {
+    let bytes = read_bytes(path, MODEL_BYTES_MAX as u64)?;
+    String::from_utf8(bytes).map_err(|why| {
+        let source = io::Error::new(io::ErrorKind::InvalidData, why.utf8_error());
+        ModelError::File { path: path.to_path_buf(), source }
+    })
+}
+
+/// Reads a file of at most `limit` bytes.
+pub(super) fn read_bytes(path: &Path, limit: u64) -> Result<Vec<u8>, ModelError> {
     let failed = |source| ModelError::File { path: path.to_path_buf(), source };
     let file = File::open(path).map_err(failed)?;
-    check_length(file.metadata().map_err(failed)?.len())?;
-    let mut text = String::new();
+    check(file.metadata().map_err(failed)?.len(), limit)?;
+    let mut bytes = Vec::new();
     // The length of a pipe is unknown before it is read.
-    file.take(MODEL_BYTES_MAX as u64 + 1).read_to_string(&mut text).map_err(failed)?;
-    check_length(text.len() as u64)?;
-    Ok(text)
+    file.take(limit + 1).read_to_end(&mut bytes).map_err(failed)?;
+    check(bytes.len() as u64, limit)?;
+    Ok(bytes)
 }
 
 fn check_length(bytes: u64) -> Result<(), ModelError> {
-    if bytes > MODEL_BYTES_MAX as u64 {
-        return Err(ModelError::TooLarge { bytes, limit: MODEL_BYTES_MAX as u64 });
-    }
-    Ok(())
+    check(bytes, MODEL_BYTES_MAX as u64)
+}
+
+fn check(bytes: u64, limit: u64) -> Result<(), ModelError> {
+    if bytes > limit { Err(ModelError::TooLarge { bytes, limit }) } else { Ok(()) }
 }

@@ -3,31 +3,62 @@
 //! `mjcf-rs` reads the result.
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::fmt::Write;
 
 use roxmltree::Node;
 
+use super::assets::Assets;
 use super::defaults::{ACTUATORS, Attribute, Classes, attributes_of, get};
-use super::vocabulary::{self, is_inert, numbers};
-use super::xml;
+use super::vocabulary::{self, is_inert};
+use super::xml::{self, elements, sections};
+use crate::card::{self, RobotCard};
 use crate::error::ModelError;
 
 /// Plain model text, and settings that `mjcf-rs` does not read.
 #[derive(Default)]
 pub(super) struct Flat {
     pub(super) text: String,
-    /// Limits of the total motor torque by joint (N·m), for joints that have them.
-    pub(super) torque_ranges: BTreeMap<String, [f64; 2]>,
     /// First and last group of geoms that count for masses.
     pub(super) inertia_groups: [i32; 2],
+    /// Attributes of joints and geoms by name, with defaults.
+    pub(super) joints: BTreeMap<String, Vec<Attribute>>,
+    pub(super) geoms: BTreeMap<String, Vec<Attribute>>,
+    /// Attributes of tendons and actuators in their order, with defaults.
+    pub(super) tendons: Vec<Vec<Attribute>>,
+    pub(super) actuators: Vec<Vec<Attribute>>,
+    /// Labels and attributes of pairs and keyframes.
+    pub(super) pairs: Vec<(String, Vec<Attribute>)>,
+    pub(super) keys: Vec<(String, Vec<Attribute>)>,
+    pub(super) assets: Assets,
+    pub(super) card: Option<RobotCard>,
+}
+
+impl Flat {
+    /// Returns the attributes of a joint with defaults.
+    pub(super) fn joint(&self, name: &str) -> &[Attribute] {
+        self.joints.get(name).map_or(&[], Vec::as_slice)
+    }
+
+    /// Returns the attributes of a geom with defaults.
+    pub(super) fn geom(&self, name: &str) -> &[Attribute] {
+        self.geoms.get(name).map_or(&[], Vec::as_slice)
+    }
 }
 
 /// Returns the plain text, or an error for the first element that cannot be simulated.
 pub(super) fn flatten(text: &str) -> Result<Flat, ModelError> {
     let document = xml::parse_model(text)?;
     let root = document.root_element();
-    let mut writer = Writer::default();
+    let mut writer = Writer { flat: Flat { inertia_groups: [0, 5], ..Flat::default() }, ..Writer::default() };
     writer.read_settings(root)?;
+    writer.flat.card = card::in_document(&document)?;
+    for asset in sections(root, "asset").flat_map(elements) {
+        if !is_inert(asset.tag_name().name()) {
+            writer.flat.assets.read(asset, &writer.classes)?;
+        }
+    }
+    for key in sections(root, "keyframe").flat_map(elements) {
+        writer.read_key(key)?;
+    }
     writer.open("mujoco", &[]);
     for tag in ["compiler", "option"] {
         for node in sections(root, tag) {
@@ -40,7 +71,7 @@ pub(super) fn flatten(text: &str) -> Result<Flat, ModelError> {
         writer.write_tree(node, None, "world", &mut Counts::default())?;
         writer.close("worldbody");
     }
-    for (section, kinds) in [("contact", &["exclude"][..]), ("tendon", &["fixed"]), ("actuator", &ACTUATORS)] {
+    for (section, kinds) in [("contact", &["exclude", "pair"][..]), ("tendon", &["fixed"]), ("actuator", &ACTUATORS)] {
         for node in sections(root, section) {
             writer.open(section, &[]);
             writer.write_section(node, section, kinds)?;
@@ -48,16 +79,7 @@ pub(super) fn flatten(text: &str) -> Result<Flat, ModelError> {
         }
     }
     writer.close("mujoco");
-    let Writer { text, torque_ranges, inertia_groups, .. } = writer;
-    Ok(Flat { text, torque_ranges, inertia_groups: inertia_groups.unwrap_or([0, 5]) })
-}
-
-fn sections<'a, 'text>(root: Node<'a, 'text>, tag: &'static str) -> impl Iterator<Item = Node<'a, 'text>> {
-    elements(root).filter(move |node| node.has_tag_name(tag))
-}
-
-fn elements<'a, 'text>(node: Node<'a, 'text>) -> impl Iterator<Item = Node<'a, 'text>> {
-    node.children().filter(Node::is_element)
+    Ok(writer.flat)
 }
 
 /// Number of elements of each kind in a body so far; numbers elements without a name.
@@ -66,12 +88,9 @@ struct Counts(BTreeMap<&'static str, usize>);
 
 #[derive(Default)]
 struct Writer {
-    text: String,
+    flat: Flat,
     classes: Classes,
     names: BTreeSet<(&'static str, String)>,
-    torque_ranges: BTreeMap<String, [f64; 2]>,
-    inertia_groups: Option<[i32; 2]>,
-    without_autolimits: bool,
     bodies: usize,
 }
 
@@ -106,13 +125,15 @@ impl Writer {
                     for child in elements(node) {
                         let kind = child.tag_name().name();
                         match kind {
-                            _ if tag == "asset" && is_inert(kind) => {}
+                            _ if tag == "asset" && (is_inert(kind) || matches!(kind, "mesh" | "hfield")) => {}
                             "flag" if tag == "option" => vocabulary::check("option flag", kind, &attributes_of(child))?,
                             _ => return Err(ModelError::unsupported(tag, format!("<{kind}> is not supported"))),
                         }
                     }
                 }
-                "worldbody" | "contact" | "tendon" | "actuator" => vocabulary::check(tag, tag, &attributes_of(node))?,
+                "worldbody" | "contact" | "tendon" | "actuator" | "keyframe" => {
+                    vocabulary::check(tag, tag, &attributes_of(node))?;
+                }
                 _ if is_inert(tag) => {}
                 _ => return Err(ModelError::unsupported("mujoco", format!("<{tag}> is not supported"))),
             }
@@ -131,11 +152,8 @@ impl Writer {
         if let Some(groups) = get(&attributes, "inertiagrouprange") {
             let groups: Vec<i32> = groups.split_whitespace().filter_map(|token| token.parse().ok()).collect();
             if let [first, last] = groups[..] {
-                self.inertia_groups = Some([first, last]);
+                self.flat.inertia_groups = [first, last];
             }
-        }
-        if let Some(autolimits) = get(&attributes, "autolimits") {
-            self.without_autolimits = autolimits == "false";
         }
         Ok(())
     }
@@ -183,9 +201,9 @@ impl Writer {
                     let label = label_of(child, "joint", owner, counts);
                     let attributes = self.classes.with_defaults(child, class, &label)?;
                     let attributes = self.checked(tag, &label, attributes, "joint")?;
-                    self.record_torque_range(&label, &attributes)?;
                     self.open(tag, &attributes);
                     self.close(tag);
+                    self.flat.joints.insert(label, attributes);
                 }
                 "geom" => {
                     let label = label_of(child, "geom", owner, counts);
@@ -197,6 +215,7 @@ impl Writer {
                     let attributes = self.checked(tag, &label, attributes, "geom")?;
                     self.open(tag, &attributes);
                     self.close(tag);
+                    self.flat.geoms.insert(label, attributes);
                 }
                 _ if is_inert(tag) => {}
                 _ => return Err(ModelError::unsupported(owner, format!("<{tag}> is not supported"))),
@@ -230,7 +249,10 @@ impl Writer {
     fn write_section(&mut self, node: Node<'_, '_>, section: &str, kinds: &[&'static str]) -> Result<(), ModelError> {
         for child in elements(node) {
             let tag = child.tag_name().name();
-            let label = own_name(child).or(child.attribute("joint")).unwrap_or(tag).to_owned();
+            let label = match (child.attribute("geom1"), child.attribute("geom2")) {
+                (Some(one), Some(other)) if own_name(child).is_none() => format!("{tag} of {one} and {other}"),
+                _ => own_name(child).or(child.attribute("joint")).unwrap_or(tag).to_owned(),
+            };
             let Some(kind) = kinds.iter().find(|kind| **kind == tag) else {
                 let problem = format!("<{section}><{tag}> is not supported; accepted: {}", kinds.join(", "));
                 return Err(ModelError::unsupported(&label, problem));
@@ -254,21 +276,34 @@ impl Writer {
             };
             self.open(tag, &attributes);
             if section == "tendon" {
-                self.write_terms(child, &label, &attributes)?;
+                self.write_terms(child, &label)?;
             } else if let Some(inner) = elements(child).next() {
                 let problem = format!("<{}> is not supported", inner.tag_name().name());
                 return Err(ModelError::unsupported(&label, problem));
             }
             self.close(tag);
+            match section {
+                "tendon" => self.flat.tendons.push(attributes),
+                "actuator" => self.flat.actuators.push(attributes),
+                _ if tag == "pair" => self.flat.pairs.push((label, attributes)),
+                _ => {}
+            }
         }
         Ok(())
     }
 
-    fn write_terms(&mut self, node: Node<'_, '_>, label: &str, attributes: &[Attribute]) -> Result<(), ModelError> {
-        if get(attributes, "range").is_some() && get(attributes, "limited") != Some("false") && !self.without_autolimits
-        {
-            return Err(ModelError::unsupported(label, "limits of tendons are not simulated; remove its range"));
+    fn read_key(&mut self, node: Node<'_, '_>) -> Result<(), ModelError> {
+        let tag = node.tag_name().name();
+        if tag != "key" {
+            return Err(ModelError::unsupported("keyframe", format!("<{tag}> is not supported")));
         }
+        let label = own_name(node).map_or_else(|| format!("key {}", self.flat.keys.len() + 1), str::to_owned);
+        let attributes = self.checked(tag, &label, attributes_of(node), "key")?;
+        self.flat.keys.push((label, attributes));
+        Ok(())
+    }
+
+    fn write_terms(&mut self, node: Node<'_, '_>, label: &str) -> Result<(), ModelError> {
         for term in elements(node) {
             if !term.has_tag_name("joint") {
                 return Err(ModelError::unsupported(label, format!("<{}> is not supported", term.tag_name().name())));
@@ -302,48 +337,12 @@ impl Writer {
         Ok(without_class(attributes))
     }
 
-    fn record_torque_range(&mut self, joint: &str, attributes: &[Attribute]) -> Result<(), ModelError> {
-        let range = get(attributes, "actuatorfrcrange").and_then(numbers);
-        let limited = match get(attributes, "actuatorfrclimited") {
-            Some("true") => true,
-            Some("false") => false,
-            _ if self.without_autolimits && range.is_some() => {
-                let problem = "without autolimits `actuatorfrcrange` needs `actuatorfrclimited`";
-                return Err(ModelError::unsupported(joint, problem));
-            }
-            _ => range.is_some(),
-        };
-        match range.as_deref() {
-            _ if !limited => {}
-            Some([low, high]) if low < high => {
-                self.torque_ranges.insert(joint.to_owned(), [*low, *high]);
-            }
-            _ => {
-                return Err(ModelError::unsupported(joint, "`actuatorfrcrange` must be a lower and an upper torque"));
-            }
-        }
-        Ok(())
-    }
-
     fn open(&mut self, tag: &str, attributes: &[Attribute]) {
-        let _ = write!(self.text, "<{tag}");
-        for (name, value) in attributes {
-            let _ = write!(self.text, " {name}=\"");
-            for letter in value.chars() {
-                match letter {
-                    '&' => self.text.push_str("&amp;"),
-                    '<' => self.text.push_str("&lt;"),
-                    '"' => self.text.push_str("&quot;"),
-                    _ => self.text.push(letter),
-                }
-            }
-            self.text.push('"');
-        }
-        self.text.push('>');
+        xml::open(&mut self.flat.text, tag, attributes);
     }
 
     fn close(&mut self, tag: &str) {
-        let _ = writeln!(self.text, "</{tag}>");
+        xml::close(&mut self.flat.text, tag);
     }
 }
 

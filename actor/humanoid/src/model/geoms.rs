@@ -3,13 +3,20 @@
 use mjcf_rs::body::{Geom, GeomType};
 use nalgebra::{Isometry3, Point3, Rotation3, UnitQuaternion, Vector3};
 
+use super::assets::Assets;
 use super::inertia::{self, MassProperties};
 use super::mjcf::isometry;
+use super::values::{not_negative, positive};
 use super::{Geometry, Shape};
 use crate::error::ModelError;
 
 /// Largest margin (m); a greater one would be a visible gap.
-const MARGIN_MAX_M: f64 = 0.01;
+pub(super) const MARGIN_MAX_M: f64 = 0.01;
+
+/// Returns whether a geom may touch others; `is_paired` if a `<pair>` names it.
+pub(super) fn collides(geom: &Geom, is_paired: bool) -> bool {
+    geom.contype != 0 || geom.conaffinity != 0 || is_paired
+}
 
 /// Reads a geom of a body: its mass if it has one, and its shape if it can collide.
 ///
@@ -18,16 +25,23 @@ pub(super) fn read(
     geom: &Geom,
     offset: &Isometry3<f64>,
     counts_for_mass: bool,
+    is_paired: bool,
+    assets: &Assets,
 ) -> Result<(Option<MassProperties>, Option<Shape>), ModelError> {
     let name = geom.name.as_deref().unwrap_or("geom");
-    let collides = geom.contype != 0 || geom.conaffinity != 0;
+    let collides = collides(geom, is_paired);
     let density_kgpm3 = not_negative(name, "density (kg/m³)", geom.density.unwrap_or(inertia::WATER_KGPM3))?;
     let mass_kg = geom.mass.map(|mass_kg| not_negative(name, "mass (kg)", mass_kg)).transpose()?;
     let weightless = mass_kg.map_or(density_kgpm3 == 0.0, |mass_kg| mass_kg == 0.0) || !counts_for_mass;
-    let Some(geometry) = geometry(name, geom, offset)? else {
+    let needed = collides || !weightless;
+    let found = if needed || geom.mesh.is_none() { geometry(name, geom, offset, assets)? } else { None };
+    let Some(geometry) = found else {
         if collides {
             let what = describe(geom);
-            let problem = format!("{what} cannot collide; use primitive shapes, or contype=\"0\" conaffinity=\"0\"");
+            let problem = format!(
+                "{what} cannot collide without the numbers of its file, which are read with a model file, but not from a \
+                 text; use primitive shapes, contype=\"0\" conaffinity=\"0\", or <mesh vertex=\"…\"> with type=\"mesh\""
+            );
             return Err(ModelError::unsupported(name, problem));
         }
         if weightless {
@@ -36,16 +50,21 @@ pub(super) fn read(
         let problem = format!("the mass of {} is unknown; give the body an <inertial>", describe(geom));
         return Err(ModelError::unsupported(name, problem));
     };
-    let mass = (!weightless).then(|| match mass_kg {
+    if let Some(mesh) = geom.mesh.as_deref().filter(|mesh| !weightless && !assets.is_convex(mesh)) {
+        let problem = format!(
+            "its mass depends on the faces of mesh `{mesh}`; remove `face`, set inertia=\"convex\" in <mesh>, or give the \
+             body an <inertial>"
+        );
+        return Err(ModelError::unsupported(name, problem));
+    }
+    let mass = (!weightless).then(|| {
         // A density of 1 kg/m³ gives the volume.
-        Some(mass_kg) => inertia::of_geometry(&geometry, mass_kg / inertia::of_geometry(&geometry, 1.0).mass_kg),
-        None => inertia::of_geometry(&geometry, density_kgpm3),
+        let unit = inertia::of_geometry(&geometry, 1.0);
+        let volume_m3 = unit.mass_kg;
+        unit.scaled(mass_kg.map_or(density_kgpm3, |mass_kg| mass_kg / volume_m3))
     });
     if !collides {
         return Ok((mass, None));
-    }
-    if matches!(geometry, Geometry::Ellipsoid { .. }) {
-        return Err(ModelError::unsupported(name, "ellipsoids cannot collide; use a capsule or a box"));
     }
     Ok((mass, Some(collision_shape(name, geom, geometry)?)))
 }
@@ -55,14 +74,7 @@ pub(super) fn collision_shape(name: &str, geom: &Geom, geometry: Geometry) -> Re
     if !(0.0..=MARGIN_MAX_M).contains(&geom.margin) {
         return Err(ModelError::quantity(name, "margin (m)", geom.margin, "between 0 and 0.01"));
     }
-    let has_friction = match geom.condim {
-        1 => false,
-        3 => true,
-        other => {
-            let problem = "1 or 3: torsional and rolling friction are not simulated";
-            return Err(ModelError::attribute(name, "condim", &other.to_string(), problem));
-        }
-    };
+    let has_friction = has_friction(name, &geom.condim.to_string())?;
     let friction = not_negative(name, "friction", geom.friction[0])?;
     Ok(Shape {
         name: name.to_owned(),
@@ -72,8 +84,16 @@ pub(super) fn collision_shape(name: &str, geom: &Geom, geometry: Geometry) -> Re
         margin_m: geom.margin,
         contype: geom.contype,
         conaffinity: geom.conaffinity,
-        group: 0,
     })
+}
+
+/// Returns whether contacts with this `condim` have friction. Torsional and rolling friction, of 4 and 6, are left out.
+pub(super) fn has_friction(name: &str, condim: &str) -> Result<bool, ModelError> {
+    match condim.trim() {
+        "1" => Ok(false),
+        "3" | "4" | "6" => Ok(true),
+        other => Err(ModelError::attribute(name, "condim", other, "1, 3, 4 or 6")),
+    }
 }
 
 fn describe(geom: &Geom) -> String {
@@ -84,8 +104,13 @@ fn describe(geom: &Geom) -> String {
     }
 }
 
-/// Returns the geometry in the rigid body's frame; `None` for meshes, height fields and distance fields.
-fn geometry(name: &str, geom: &Geom, offset: &Isometry3<f64>) -> Result<Option<Geometry>, ModelError> {
+/// Returns the geometry in the rigid body's frame; `None` for meshes in files, height fields and distance fields.
+fn geometry(name: &str, geom: &Geom, offset: &Isometry3<f64>, assets: &Assets) -> Result<Option<Geometry>, ModelError> {
+    if let (GeomType::Mesh, Some(mesh)) = (&geom.type_, &geom.mesh) {
+        let pose = offset * isometry(&geom.pose);
+        let hull = assets.hull(mesh)?;
+        return Ok(hull.map(|hull| Geometry::Hull { vertices_m: hull.iter().map(|vertex| pose * vertex).collect() }));
+    }
     if matches!(geom.type_, GeomType::Mesh | GeomType::Hfield | GeomType::Sdf) || geom.mesh.is_some() {
         return Ok(None);
     }
@@ -142,21 +167,5 @@ fn solid(kind: &GeomType, pose: Isometry3<f64>, half_m: Vector3<f64>) -> Geometr
     match kind {
         GeomType::Ellipsoid => Geometry::Ellipsoid { pose, half_m },
         _ => Geometry::Box { pose, half_m },
-    }
-}
-
-fn positive(element: &str, what: &'static str, value: f64) -> Result<f64, ModelError> {
-    if value.is_finite() && value > 0.0 {
-        Ok(value)
-    } else {
-        Err(ModelError::quantity(element, what, value, "finite and above 0"))
-    }
-}
-
-pub(super) fn not_negative(element: &str, what: &'static str, value: f64) -> Result<f64, ModelError> {
-    if value.is_finite() && value >= 0.0 {
-        Ok(value)
-    } else {
-        Err(ModelError::quantity(element, what, value, "finite and not negative"))
     }
 }

@@ -6,7 +6,7 @@ use std::f64::consts::PI;
 
 use nalgebra::{Isometry3, Matrix3, Point3, Rotation3, Vector3};
 
-use super::Geometry;
+use super::{Geometry, hull};
 
 /// Default density (kg/m³).
 pub(super) const WATER_KGPM3: f64 = 1000.0;
@@ -20,6 +20,13 @@ pub(crate) struct MassProperties {
     pub(crate) centre_m: Point3<f64>,
     /// Inertia about the centre of mass (kg·m²).
     pub(crate) inertia_kgm2: Matrix3<f64>,
+}
+
+impl MassProperties {
+    /// Returns the same part with mass and inertia multiplied by a factor.
+    pub(super) fn scaled(self, factor: f64) -> Self {
+        Self { mass_kg: self.mass_kg * factor, inertia_kgm2: self.inertia_kgm2 * factor, ..self }
+    }
 }
 
 /// Returns the mass properties of several parts together; `None` if they have no mass.
@@ -40,7 +47,7 @@ fn point_inertia(mass_kg: f64, offset: Vector3<f64>) -> Matrix3<f64> {
     (Matrix3::identity() * offset.norm_squared() - offset * offset.transpose()) * mass_kg
 }
 
-/// Returns the mass properties of a solid of uniform density (kg/m³).
+/// Returns the mass properties of a solid of uniform density (kg/m³); a flat hull has no mass.
 pub(crate) fn of_geometry(geometry: &Geometry, density_kgpm3: f64) -> MassProperties {
     match *geometry {
         Geometry::Sphere { centre_m, radius_m } => of_capsule(&centre_m, &centre_m, radius_m, density_kgpm3),
@@ -58,6 +65,8 @@ pub(crate) fn of_geometry(geometry: &Geometry, density_kgpm3: f64) -> MassProper
             let mass_kg = density_kgpm3 * 4.0 / 3.0 * PI * half_m.product();
             from_principal(&pose, mass_kg, sums_of_squares(&half_m) * (mass_kg / 5.0))
         }
+        Geometry::Hull { ref vertices_m } => hull::mass_properties(vertices_m, density_kgpm3)
+            .unwrap_or_else(|| from_principal(&Isometry3::identity(), 0.0, Vector3::zeros())),
     }
 }
 

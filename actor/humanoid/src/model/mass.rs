@@ -48,7 +48,7 @@ fn read_inertial(
     offset: &Isometry3<f64>,
     compiler: &Compiler,
 ) -> Result<MassProperties, ModelError> {
-    let mass_kg = super::geoms::not_negative(name, "mass (kg)", inertial.mass)?;
+    let mass_kg = super::values::not_negative(name, "mass (kg)", inertial.mass)?;
     let pose = offset * isometry(&inertial.pose);
     let (mut principal, axes) = match inertial.inertia {
         InertiaSpec::Diagonal([x, y, z]) => (Vector3::new(x, y, z), Matrix3::identity()),

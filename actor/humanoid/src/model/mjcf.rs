@@ -1,23 +1,37 @@
 //! Conversion of MJCF text to a [`Model`]; welded bodies are merged into rigid bodies.
 
+use std::collections::BTreeSet;
 use std::ops::Range;
 
 use mjcf_rs::body::{Geom, GeomType, Joint, JointType};
 use nalgebra::{Isometry3, Matrix3, Point3, Quaternion, Translation3, UnitQuaternion, Vector3};
 
+use super::defaults::get;
 use super::flatten::{Flat, flatten};
 use super::inertia::MassProperties;
-use super::{Body, Geometry, Hinge, Link, Model, Shape, collision, geoms, inertia, joints, mass, motors, tendon};
+use super::pairs::{self, ContactRules, Party};
+use super::{
+    Body, Geometry, Ground, HeightField, Hinge, Link, Model, RootJoint, Shape, collision, geoms, inertia, joints,
+    keyframes, mass, motors, tendon,
+};
 use crate::error::ModelError;
 
-/// Most rigid bodies: the collision groups have one bit for each, and one for the floor.
-const BODIES_MAX: usize = 31;
+/// Most rigid bodies.
+pub const BODIES_MAX: usize = 512;
+/// Most hinges.
+pub const HINGES_MAX: usize = 1024;
+/// Most colliding shapes, so that all pairs of them can be compared.
+pub const SHAPES_MAX: usize = 4096;
+/// Most vertices of all hulls.
+const HULL_VERTICES_MAX: usize = 1 << 16;
 
 /// Reads and checks a model text.
 pub(super) fn read(text: &str) -> Result<Model, ModelError> {
     let flat = flatten(text)?;
     let source = mjcf_rs::Model::from_str(&flat.text, ".").map_err(ModelError::Parse)?;
-    let mut reader = Reader { flat, ..Reader::default() };
+    let sides = flat.pairs.iter().flat_map(|(_, pair)| [get(pair, "geom1"), get(pair, "geom2")]);
+    let paired = sides.flatten().map(str::to_owned).collect();
+    let mut reader = Reader { flat, paired, ..Reader::default() };
     for (index, entry) in source.bodies.iter().enumerate() {
         match entry.parent {
             None => {
@@ -40,38 +54,54 @@ struct Placement {
 #[derive(Default)]
 struct Reader {
     flat: Flat,
+    /// Names of the geoms in `<pair>`s.
+    paired: BTreeSet<String>,
     /// Placement of each MJCF body.
     placements: Vec<Placement>,
     bodies: Vec<Body>,
     hinges: Vec<Hinge>,
-    floor: Option<Shape>,
+    root: Option<RootJoint>,
+    floor: Option<(Shape, ContactRules, Option<HeightField>)>,
     /// Parts of each rigid body's mass.
     parts: Vec<Vec<MassProperties>>,
-    /// MJCF body of each shape, as `[body][shape]`.
-    origins: Vec<Vec<usize>>,
+    /// Contact parameters and MJCF body of each shape, as `[body][shape]`.
+    rules: Vec<Vec<(ContactRules, usize)>>,
+    shapes: usize,
+    hull_vertices: usize,
     /// MJCF bodies that move.
     links: Vec<Link>,
+    simplifications: Vec<String>,
 }
 
 impl Reader {
     /// Reads the geoms of a static body. Only a level floor may collide.
     fn read_world(&mut self, body: &str, geoms: &[Geom], offset: &Isometry3<f64>) -> Result<(), ModelError> {
-        for geom in geoms.iter().filter(|geom| geom.contype != 0 || geom.conaffinity != 0) {
+        for geom in geoms {
             let name = geom.name.as_deref().unwrap_or("geom");
+            if !geoms::collides(geom, self.paired.contains(name)) {
+                continue;
+            }
             let pose = offset * isometry(&geom.pose);
             let up = pose.rotation * Vector3::z();
-            if !matches!(geom.type_, GeomType::Plane) || pose.translation.z.abs() > 1e-9 || up.z < 1.0 - 1e-9 {
-                let problem = format!(
-                    "it belongs to {body}, which is static, but only a level plane at z = 0 may collide there; a robot's \
-                     root needs a free joint"
-                );
-                return Err(ModelError::unsupported(name, problem));
-            }
+            let field = match (&geom.type_, &geom.hfield) {
+                (GeomType::Plane, _) if pose.translation.z.abs() <= 1e-9 && up.z >= 1.0 - 1e-9 => None,
+                (GeomType::Hfield, Some(field)) if pose.rotation.angle() <= 1e-9 => {
+                    Some(self.flat.assets.height_field(field, Point3::from(pose.translation.vector))?)
+                }
+                _ => {
+                    let problem = format!(
+                        "it belongs to {body}, which is static, but only a level plane at z = 0, or a height field that \
+                         is not turned, may collide there; a robot's root needs a free joint"
+                    );
+                    return Err(ModelError::unsupported(name, problem));
+                }
+            };
             if self.floor.is_some() {
                 return Err(ModelError::unsupported(name, "there may be only one floor"));
             }
             let point = Geometry::Sphere { centre_m: Point3::origin(), radius_m: 0.0 };
-            self.floor = Some(geoms::collision_shape(name, geom, point)?);
+            let rules = ContactRules::read(name, geom.priority, self.flat.geom(name))?;
+            self.floor = Some((geoms::collision_shape(name, geom, point)?, rules, field));
         }
         Ok(())
     }
@@ -90,12 +120,12 @@ impl Reader {
             Placement { body: owner, offset: pose }
         } else {
             if owner.is_none() {
-                self.check_root(&name, parent, &body.joints)?;
+                self.read_root(&name, parent, &body.joints)?;
             }
             let jointed = self.read_joints(name.clone(), owner, pose, &body.joints, compiler.autolimits)?;
             self.bodies.push(jointed);
             self.parts.push(Vec::new());
-            self.origins.push(Vec::new());
+            self.rules.push(Vec::new());
             Placement { body: Some(self.bodies.len() - 1), offset: Isometry3::identity() }
         };
         self.placements.push(placement);
@@ -111,11 +141,16 @@ impl Reader {
         for geom in &body.geoms {
             let [first, last] = self.flat.inertia_groups;
             let counts = (first..=last).contains(&geom.group) && mass::uses_geoms(body.inertial.as_ref(), compiler);
-            let (mass, shape) = geoms::read(geom, &placement.offset, counts)?;
+            let geom_name = geom.name.as_deref().unwrap_or_default();
+            let is_paired = self.paired.contains(geom_name);
+            let (mass, shape) = geoms::read(geom, &placement.offset, counts, is_paired, &self.flat.assets)?;
             geom_masses.extend(mass);
             if let Some(shape) = shape {
+                self.count(&shape)?;
+                let rules = ContactRules::read(geom_name, geom.priority, self.flat.geom(geom_name))?;
+                self.note_simplifications(geom, &shape);
+                self.rules[owner].push((rules, index));
                 self.bodies[owner].shapes.push(shape);
-                self.origins[owner].push(index);
             }
         }
         let parts = mass::parts_of_body(&name, geom_masses, body.inertial.as_ref(), &placement.offset, compiler)?;
@@ -125,7 +160,40 @@ impl Reader {
         Ok(())
     }
 
-    fn check_root(&self, body: &str, parent: usize, joints: &[Joint]) -> Result<(), ModelError> {
+    /// Notes what a colliding shape does more simply than its geom.
+    fn note_simplifications(&mut self, geom: &Geom, shape: &Shape) {
+        if geom.condim > 3 {
+            let note = format!(
+                "geom `{}`: condim {} counts as 3, without torsional and rolling friction",
+                shape.name, geom.condim
+            );
+            self.simplifications.push(note);
+        }
+        if matches!(shape.geometry, Geometry::Ellipsoid { .. }) {
+            self.simplifications
+                .push(format!("geom `{}`: the ellipsoid touches others as a hull of 146 points", shape.name));
+        }
+    }
+
+    /// Refuses more shapes, or vertices of hulls, than supported.
+    fn count(&mut self, shape: &Shape) -> Result<(), ModelError> {
+        self.shapes += 1;
+        if let Geometry::Hull { vertices_m } = &shape.geometry {
+            self.hull_vertices += vertices_m.len();
+        }
+        for (count, most, what) in [
+            (self.shapes, SHAPES_MAX, "colliding shapes"),
+            (self.hull_vertices, HULL_VERTICES_MAX, "vertices of colliding meshes"),
+        ] {
+            if count > most {
+                let problem = format!("there are more than {most} {what}; use fewer or simpler shapes");
+                return Err(ModelError::unsupported(&shape.name, problem));
+            }
+        }
+        Ok(())
+    }
+
+    fn read_root(&mut self, body: &str, parent: usize, joints: &[Joint]) -> Result<(), ModelError> {
         let [joint] = joints else {
             return Err(ModelError::unsupported(body, "the root must have one free joint and no other joint"));
         };
@@ -135,7 +203,9 @@ impl Reader {
         if !self.bodies.is_empty() {
             return Err(ModelError::unsupported(body, "there may be only one root, above all other bodies"));
         }
-        joints::check_free(joint)
+        let attributes = self.flat.joint(joint.name.as_deref().unwrap_or_default());
+        self.root = Some(joints::read_free(joint, attributes)?);
+        Ok(())
     }
 
     /// Adds a body's hinges. Returns the body without shapes and mass.
@@ -148,22 +218,16 @@ impl Reader {
         autolimits: bool,
     ) -> Result<Body, ModelError> {
         let first = self.hinges.len();
-        let mut anchor_m = Point3::origin();
         if parent.is_some() {
-            anchor_m = Point3::from(joints[0].pos);
-            if joints.iter().any(|joint| Point3::from(joint.pos) != anchor_m) {
-                return Err(ModelError::unsupported(&name, "all hinges of a body must be at one point"));
-            }
             for joint in joints {
-                let torque_nm = joint.name.as_ref().and_then(|joint| self.flat.torque_ranges.get(joint)).copied();
-                self.hinges.push(joints::read_hinge(joint, autolimits, torque_nm)?);
+                let attributes = self.flat.joint(joint.name.as_deref().unwrap_or_default());
+                self.hinges.push(joints::read_hinge(joint, attributes, autolimits)?);
             }
         }
         Ok(Body {
             name,
             parent,
             pose,
-            anchor_m,
             hinges: first..self.hinges.len(),
             shapes: Vec::new(),
             mass_kg: 0.0,
@@ -173,34 +237,74 @@ impl Reader {
     }
 
     fn finish(mut self, source: &mjcf_rs::Model) -> Result<Model, ModelError> {
-        if self.bodies.is_empty() {
+        let Some(root) = self.root.take() else {
             return Err(ModelError::unsupported("worldbody", "there must be a root body with a free joint"));
-        }
-        if self.bodies.len() > BODIES_MAX {
+        };
+        if let Some(body) = self.bodies.get(BODIES_MAX) {
             let problem =
                 format!("there are {} moving bodies, but at most {BODIES_MAX} are supported", self.bodies.len());
-            return Err(ModelError::unsupported(&self.bodies[BODIES_MAX].name, problem));
+            return Err(ModelError::unsupported(&body.name, problem));
+        }
+        if let Some(hinge) = self.hinges.get(HINGES_MAX) {
+            let problem = format!("there are {} hinges, but at most {HINGES_MAX} are supported", self.hinges.len());
+            return Err(ModelError::unsupported(&hinge.name, problem));
         }
         self.compute_masses(source.compiler.set_total_mass)?;
-        let floor = self
-            .floor
-            .take()
-            .ok_or_else(|| ModelError::unsupported("worldbody", "a floor is needed: a plane at z = 0 that collides"))?;
+        let (floor, floor_rules, height_field) = match self.floor.take() {
+            Some(floor) => floor,
+            None => {
+                self.simplifications
+                    .push("no floor in the file: a level plane at z = 0 with friction 1 is added".to_owned());
+                added_floor()?
+            }
+        };
         let exclusions = self.read_exclusions(source)?;
-        let collision_masks = collision::assign_groups(&mut self.bodies, &self.origins, &floor, &exclusions)?;
-        let tendons = tendon::read(&source.tendons, &self.hinges)?;
-        let motors = motors::read(&source.actuators, &self.hinges, &source.compiler)?;
-        Ok(Model {
+        let ground = Party { shape: &floor, rules: &floor_rules, origin: None };
+        let contacts = pairs::Source {
+            bodies: &self.bodies,
+            rules: &self.rules,
+            ground,
+            exclusions: &exclusions,
+            explicit: &self.flat.pairs,
+        };
+        let pairs = contacts.pairs()?;
+        let rolling = |condim: &str| matches!(condim.trim(), "4" | "6");
+        for (label, _) in self.flat.pairs.iter().filter(|(_, pair)| get(pair, "condim").is_some_and(rolling)) {
+            let note = "its condim counts as 3, without torsional and rolling friction";
+            self.simplifications.push(format!("{label}: {note}"));
+        }
+        let autolimits = source.compiler.autolimits;
+        let tendons = tendon::read(&source.tendons, &self.flat.tendons, &self.hinges, autolimits)?;
+        let motors = motors::read(&source.actuators, &self.flat.actuators, &self.hinges, autolimits)?;
+        let mut model = Model {
             bodies: self.bodies,
             hinges: self.hinges,
             motors,
             links: self.links,
             tendons,
-            collision_masks,
-            floor_friction: if floor.has_friction { floor.friction } else { 0.0 },
-            floor_margin_m: floor.margin_m,
+            pairs,
+            root,
+            keyframes: Vec::new(),
             gravity_mps2: Vector3::from(source.option.gravity),
-        })
+            robot: None,
+            simplifications: self.simplifications,
+            ground: Ground {
+                friction: floor.friction,
+                has_friction: floor.has_friction,
+                margin_m: floor.margin_m,
+                softness: floor_rules.softness(),
+                contype: floor.contype,
+                conaffinity: floor.conaffinity,
+                name: floor.name,
+                height_field,
+            },
+        };
+        motors::resolve_damping_ratios(&mut model)?;
+        model.keyframes = keyframes::read(&model, &self.flat.keys)?;
+        if let Some(card) = &self.flat.card {
+            card.apply(&mut model)?;
+        }
+        Ok(model)
     }
 
     fn compute_masses(&mut self, total_kg: f64) -> Result<(), ModelError> {
@@ -246,6 +350,20 @@ impl Reader {
             })
             .collect()
     }
+}
+
+/// Returns the floor of a text without one, with MuJoCo's defaults.
+fn added_floor() -> Result<(Shape, ContactRules, Option<HeightField>), ModelError> {
+    let floor = Shape {
+        name: "floor".to_owned(),
+        geometry: Geometry::Sphere { centre_m: Point3::origin(), radius_m: 0.0 },
+        friction: 1.0,
+        has_friction: true,
+        margin_m: 0.0,
+        contype: 1,
+        conaffinity: 1,
+    };
+    Ok((floor, ContactRules::read("floor", 0, &[])?, None))
 }
 
 /// Returns the link of one MJCF body; `parts` are the parts of its mass.

@@ -3,29 +3,48 @@
 //! [`Model::from_mjcf`] reads MJCF text; [`crate::physics`] builds a world from the model.
 //! Lengths are metres, angles radians, masses kilograms.
 
+mod assets;
 mod collision;
 mod defaults;
+mod embed;
 mod file;
 mod flatten;
+mod geometry;
 mod geoms;
+mod ground;
+mod hull;
 mod inertia;
 mod joints;
+mod keyframes;
 mod mass;
 pub mod mirror;
 mod mjcf;
 mod motors;
+mod pairs;
+mod softness;
 mod tendon;
+mod values;
 mod vocabulary;
 mod xml;
 
+use std::collections::BTreeMap;
 use std::ops::Range;
 
 use nalgebra::{Isometry3, Matrix3, Point3, Unit, Vector3};
 
-pub(crate) use self::collision::FLOOR_GROUP;
+pub use self::assets::MESH_VERTICES_MAX;
 pub use self::file::read_model_file;
+pub use self::geometry::Geometry;
+pub use self::ground::{Ground, HEIGHT_FIELD_SIDE_MAX, HeightField};
+pub use self::joints::RootJoint;
+pub use self::keyframes::{KEYFRAMES_MAX, Keyframe};
+pub use self::mjcf::{BODIES_MAX, HINGES_MAX, SHAPES_MAX};
+pub use self::pairs::{PAIRS_MAX, Pair, ShapeIndex};
+pub use self::softness::Softness;
 pub use self::tendon::TENDONS_MAX;
 pub use self::xml::MODEL_BYTES_MAX;
+pub(crate) use self::xml::with_custom_text;
+use crate::card::Robot;
 use crate::error::ModelError;
 
 /// MJCF text of the built-in humanoid: 17 hinges, about 42 kg, masses and sizes of Humanoid-v5.
@@ -44,14 +63,20 @@ pub struct Model {
     pub links: Vec<Link>,
     /// Fixed tendons, in the order of the text; at most [`TENDONS_MAX`].
     pub tendons: Vec<Tendon>,
-    /// Bits of the groups that the shapes of each [`Shape::group`] may touch; the highest bit is the floor.
-    pub collision_masks: Vec<u32>,
-    /// Friction coefficient of the floor; the greater coefficient of a pair counts.
-    pub floor_friction: f64,
-    /// Distance (m) below which the floor pushes; the margins of a pair add up.
-    pub floor_margin_m: f64,
+    /// Every two shapes that may touch: those with the ground first, each kind in the order of the bodies and shapes.
+    pub pairs: Vec<Pair>,
+    /// Ground.
+    pub ground: Ground,
+    /// Free joint of the root.
+    pub root: RootJoint,
+    /// Keyframes, in the order of the text.
+    pub keyframes: Vec<Keyframe>,
     /// Acceleration of gravity (m/s²), world frame.
     pub gravity_mps2: Vector3<f64>,
+    /// What the robot's card says, if the text has one.
+    pub robot: Option<Robot>,
+    /// What is simulated more simply than the text says.
+    pub simplifications: Vec<String>,
 }
 
 /// Rigid body: an MJCF body with joints, and all bodies without joints that are welded to it.
@@ -63,8 +88,6 @@ pub struct Body {
     pub parent: Option<usize>,
     /// Pose in the parent's frame (root: in the world) with all hinges at zero.
     pub pose: Isometry3<f64>,
-    /// Position of all hinges to the parent, in this body's frame (m).
-    pub anchor_m: Point3<f64>,
     /// Hinges between the parent and this body, from the parent on.
     pub hinges: Range<usize>,
     /// Collision shapes, in this body's frame.
@@ -96,13 +119,19 @@ pub struct Link {
     pub inertia_kgm2: Matrix3<f64>,
 }
 
-/// Fixed tendon: a weighted sum of hinge angles that exerts no force.
+/// Fixed tendon: a weighted sum of hinge angles, which it may limit.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Tendon {
     /// Name in the text.
     pub name: String,
     /// Indices into [`Model::hinges`], with weights.
     pub terms: Vec<(usize, f64)>,
+    /// Smallest and largest length; `None` without limits.
+    pub range: Option<[f64; 2]>,
+    /// Softness of the limits.
+    pub limit_softness: Softness,
+    /// Distance before a limit from which it pushes, in units of length.
+    pub limit_margin: f64,
 }
 
 impl Tendon {
@@ -120,7 +149,7 @@ pub struct Shape {
     pub name: String,
     /// Geometry in its body's frame.
     pub geometry: Geometry,
-    /// Friction coefficient; the greater one of a pair counts, if at least one shape has friction.
+    /// Friction coefficient of its own; contacts have that of their [`Pair`].
     pub friction: f64,
     /// Whether it has friction by itself: MJCF's `condim` is 3, not 1.
     pub has_friction: bool,
@@ -130,66 +159,6 @@ pub struct Shape {
     pub contype: u32,
     /// MJCF's `conaffinity`.
     pub conaffinity: u32,
-    /// Collision group: an index into [`Model::collision_masks`].
-    pub group: usize,
-}
-
-/// Form and position of a shape; lengths in metres.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Geometry {
-    /// Sphere.
-    Sphere {
-        /// Centre.
-        centre_m: Point3<f64>,
-        /// Radius.
-        radius_m: f64,
-    },
-    /// All points within a radius of a line segment.
-    Capsule {
-        /// One end of the segment.
-        from_m: Point3<f64>,
-        /// Other end.
-        to_m: Point3<f64>,
-        /// Radius.
-        radius_m: f64,
-    },
-    /// Cylinder along the z axis of its pose.
-    Cylinder {
-        /// Centre and orientation.
-        pose: Isometry3<f64>,
-        /// Radius.
-        radius_m: f64,
-        /// Distance from the centre to either end.
-        half_length_m: f64,
-    },
-    /// Box.
-    Box {
-        /// Centre and orientation.
-        pose: Isometry3<f64>,
-        /// Half of each side.
-        half_m: Vector3<f64>,
-    },
-    /// Ellipsoid; has mass, but cannot collide.
-    Ellipsoid {
-        /// Centre and orientation.
-        pose: Isometry3<f64>,
-        /// Semi-axes.
-        half_m: Vector3<f64>,
-    },
-}
-
-impl Geometry {
-    /// Returns the centre in the body's frame (m).
-    #[must_use]
-    pub fn centre_m(&self) -> Point3<f64> {
-        match self {
-            Self::Sphere { centre_m, .. } => *centre_m,
-            Self::Capsule { from_m, to_m, .. } => nalgebra::center(from_m, to_m),
-            Self::Cylinder { pose, .. } | Self::Box { pose, .. } | Self::Ellipsoid { pose, .. } => {
-                Point3::from(pose.translation.vector)
-            }
-        }
-    }
 }
 
 /// One hinge of the chain between a body and its parent.
@@ -199,6 +168,8 @@ pub struct Hinge {
     pub name: String,
     /// Axis in the frame of the moved body, with all hinges at zero.
     pub axis: Unit<Vector3<f64>>,
+    /// Point on the axis, in the frame of the moved body (m).
+    pub anchor_m: Point3<f64>,
     /// Smallest allowed angle (rad); −∞ without a limit.
     pub min_rad: f64,
     /// Largest allowed angle (rad); +∞ without a limit.
@@ -211,6 +182,14 @@ pub struct Hinge {
     pub damping_nmsprad: f64,
     /// Rotor inertia, as seen at the hinge (kg·m²).
     pub armature_kgm2: f64,
+    /// Greatest torque of dry friction (N·m).
+    pub friction_loss_nm: f64,
+    /// Softness of the dry friction.
+    pub friction_softness: Softness,
+    /// Softness of the limits.
+    pub limit_softness: Softness,
+    /// Angle before a limit from which it pushes (rad).
+    pub limit_margin_rad: f64,
     /// Smallest and largest total torque of its motors (N·m); infinite without limits.
     pub torque_nm: [f64; 2],
 }
@@ -254,7 +233,7 @@ pub struct Motor {
 }
 
 impl Model {
-    /// Reads a model from MJCF text.
+    /// Reads a model from MJCF text, and applies the card in it.
     ///
     /// docs/guide/robots.md lists the accepted MJCF. Any other element or attribute that motion depends on is refused.
     /// No file is opened; [`read_model_file`] inserts included files.
@@ -262,7 +241,27 @@ impl Model {
     /// # Errors
     /// [`ModelError`] names the first element that cannot be simulated.
     pub fn from_mjcf(text: &str) -> Result<Self, ModelError> {
+        let model = Self::without_motors(text)?;
+        if model.motors.is_empty() {
+            let problem = "the model needs at least one motor; a robot card gives it servos, and `treadmill robot FILE` drafts \
+                           that card";
+            return Err(ModelError::unsupported("actuator", problem));
+        }
+        Ok(model)
+    }
+
+    /// As [`Self::from_mjcf`], but motors may be missing: a card is to add them.
+    ///
+    /// # Errors
+    /// As there.
+    pub fn without_motors(text: &str) -> Result<Self, ModelError> {
         mjcf::read(text)
+    }
+
+    /// Returns the kinds of elements of a text that no motion depends on, with their counts.
+    #[must_use]
+    pub fn ignored_elements(text: &str) -> BTreeMap<String, usize> {
+        vocabulary::ignored(text)
     }
 
     /// Returns a description of the first part that differs from another model.
@@ -278,7 +277,9 @@ impl Model {
             .or_else(|| changed("hinge", &self.hinges, &other.hinges, |hinge| &hinge.name))
             .or_else(|| changed("motor", &self.motors, &other.motors, |motor| &motor.name))
             .or_else(|| changed("tendon", &self.tendons, &other.tendons, |tendon| &tendon.name))
-            .or_else(|| (self != other).then(|| "floor, gravity or collision rules".to_owned()))
+            .or_else(|| {
+                (self != other).then(|| "ground, gravity, root joint, keyframes, card or collision rules".to_owned())
+            })
     }
 
     /// Returns the index in [`Model::links`] of the link that a shape of a rigid body belongs to.

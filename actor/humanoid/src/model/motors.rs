@@ -2,28 +2,53 @@
 
 use mjcf_rs::extras::{Actuator, ActuatorKind};
 use mjcf_rs::types::Tristate;
-use nalgebra::Isometry3;
 
+use super::defaults::{Attribute, REPLACED, get};
+use super::values::{amount, not_negative, number};
 use super::{Hinge, Model, Motor};
+use crate::dynamics::{Drive, Structure};
 use crate::error::ModelError;
 
 /// Control range of a motor that has neither a control range nor limits of force or joint torque.
 const UNIT_RANGE: [f64; 2] = [-1.0, 1.0];
 const UNLIMITED: [f64; 2] = [f64::NEG_INFINITY, f64::INFINITY];
 
-/// Reads all actuators.
+/// Reads all actuators; `attributes` are those of each. [`resolve_damping_ratios`] must follow.
 pub(super) fn read(
     actuators: &[Actuator],
+    attributes: &[Vec<Attribute>],
     hinges: &[Hinge],
-    compiler: &mjcf_rs::compiler::Compiler,
+    autolimits: bool,
 ) -> Result<Vec<Motor>, ModelError> {
-    if actuators.is_empty() {
-        return Err(ModelError::unsupported("actuator", "the model needs at least one motor"));
-    }
-    actuators.iter().map(|actuator| read_one(actuator, hinges, compiler.autolimits)).collect()
+    let both = actuators.iter().zip(attributes);
+    both.map(|(actuator, attributes)| read_one(actuator, attributes, hinges, autolimits)).collect()
 }
 
-fn read_one(actuator: &Actuator, hinges: &[Hinge], autolimits: bool) -> Result<Motor, ModelError> {
+/// Replaces damping ratios by damping: ratio × 2 √(stiffness × inertia), with the inertia that a torque on the hinge alone
+/// accelerates in the nominal pose.
+///
+/// # Errors
+/// [`ModelError`] names a servo whose damping is not finite.
+pub(super) fn resolve_damping_ratios(model: &mut Model) -> Result<(), ModelError> {
+    if model.motors.iter().all(|motor| motor.bias[2] <= 0.0) {
+        return Ok(());
+    }
+    let responses = Structure::new(model).hinge_responses;
+    for motor in model.motors.iter_mut().filter(|motor| motor.bias[2] > 0.0) {
+        let mass = 1.0 / (responses[motor.hinge] * motor.gear_nm.powi(2));
+        let damping = motor.bias[2] * 2.0 * (motor.gain * mass).sqrt();
+        motor.bias[2] = -not_negative(&motor.name, "damping of the servo by its `dampratio`", damping)?;
+    }
+    Ok(())
+}
+
+/// Reads one actuator. A damping ratio is returned as positive `bias[2]`, as in MuJoCo.
+fn read_one(
+    actuator: &Actuator,
+    attributes: &[Attribute],
+    hinges: &[Hinge],
+    autolimits: bool,
+) -> Result<Motor, ModelError> {
     let name = actuator.name.clone().or_else(|| actuator.joint.clone()).unwrap_or_default();
     let hinge = hinges
         .iter()
@@ -33,15 +58,20 @@ fn read_one(actuator: &Actuator, hinges: &[Hinge], autolimits: bool) -> Result<M
     if gear == 0.0 {
         return Err(ModelError::quantity(&name, "gear", gear, "other than 0"));
     }
-    let (gain, bias) = gain_and_bias(&name, actuator)?;
+    for [one, other] in REPLACED {
+        if get(attributes, one).is_some() && get(attributes, other).is_some() {
+            return Err(ModelError::unsupported(&name, format!("give either `{one}` or `{other}`, not both")));
+        }
+    }
+    let (gain, bias) = gain_and_bias(&name, actuator, attributes)?;
     let force = limits(&name, "forcerange", actuator.force_range, actuator.force_limited, autolimits)?;
-    let control = limits(&name, "ctrlrange", actuator.ctrl_range, actuator.ctrl_limited, autolimits)?;
-    let is_servo = bias != [0.0; 3];
+    let control = match inherited_range(&name, attributes, &hinges[hinge])? {
+        Some(range) => Some(range).filter(|_| actuator.ctrl_limited != Tristate::False),
+        None => limits(&name, "ctrlrange", actuator.ctrl_range, actuator.ctrl_limited, autolimits)?,
+    };
     let control = match (control, force) {
         (Some(control), _) => control,
-        (None, _) if is_servo => {
-            return Err(ModelError::unsupported(&name, "a servo needs a `ctrlrange`: the range of its targets"));
-        }
+        (None, _) if bias != [0.0; 3] => servo_range(&name, gear, bias, &hinges[hinge])?,
         // Derive the action range from the limits of the motor or its joint.
         (None, Some([low, high])) => sorted(low / gain, high / gain),
         (None, None) => match hinges[hinge].torque_nm {
@@ -61,18 +91,45 @@ fn read_one(actuator: &Actuator, hinges: &[Hinge], autolimits: bool) -> Result<M
     })
 }
 
+/// Returns the control range of a position servo with `inheritrange`: a multiple of its hinge's range.
+fn inherited_range(name: &str, attributes: &[Attribute], hinge: &Hinge) -> Result<Option<[f64; 2]>, ModelError> {
+    let share = amount(name, attributes, "inheritrange", "inheritrange")?;
+    if share == 0.0 {
+        return Ok(None);
+    }
+    // Like MuJoCo, without regard to the gear.
+    let (centre, half) = (f64::midpoint(hinge.min_rad, hinge.max_rad), (hinge.max_rad - hinge.min_rad) / 2.0);
+    if !half.is_finite() {
+        return Err(ModelError::unsupported(name, "`inheritrange` needs a `range` of its joint"));
+    }
+    Ok(Some([centre - share * half, centre + share * half]))
+}
+
+/// Returns the control range of a servo without one: for a position servo the range of its hinge.
+fn servo_range(name: &str, gear: f64, bias: [f64; 3], hinge: &Hinge) -> Result<[f64; 2], ModelError> {
+    if bias[1] == 0.0 || !(hinge.min_rad.is_finite() && hinge.max_rad.is_finite()) {
+        let problem =
+            "a servo needs a `ctrlrange`, the range of its targets; a position servo may use its joint's `range`";
+        return Err(ModelError::unsupported(name, problem));
+    }
+    Ok(sorted(gear * hinge.min_rad, gear * hinge.max_rad))
+}
+
 fn sorted(one: f64, other: f64) -> [f64; 2] {
     [one.min(other), one.max(other)]
 }
 
 /// Returns gain and bias of an actuator: force = gain × control + bias · (1, length, velocity).
-fn gain_and_bias(name: &str, actuator: &Actuator) -> Result<(f64, [f64; 3]), ModelError> {
+fn gain_and_bias(name: &str, actuator: &Actuator, attributes: &[Attribute]) -> Result<(f64, [f64; 3]), ModelError> {
     let parameter = |list: &[f64], index: usize| list.get(index).copied().unwrap_or(0.0);
     let (gain, bias) = match actuator.kind {
         ActuatorKind::Motor => (1.0, [0.0; 3]),
         ActuatorKind::Position => {
-            let (kp, kv) = (actuator.kp.unwrap_or(1.0), actuator.kv.unwrap_or(0.0));
-            (kp, [0.0, -kp, -kv])
+            let kp = actuator.kp.unwrap_or(1.0);
+            let kv = amount(name, attributes, "kv", "damping of the servo")?;
+            let ratio =
+                number(attributes, "dampratio").map(|ratio| not_negative(name, "dampratio", ratio)).transpose()?;
+            (kp, [0.0, -kp, ratio.unwrap_or(-kv)])
         }
         ActuatorKind::Velocity => {
             let kv = actuator.kv.unwrap_or(1.0);
@@ -90,7 +147,9 @@ fn gain_and_bias(name: &str, actuator: &Actuator) -> Result<(f64, [f64; 3]), Mod
     if gain == 0.0 {
         return Err(ModelError::quantity(name, "gain", gain, "other than 0"));
     }
-    for (what, value) in [("stiffness of the servo", -bias[1]), ("damping of the servo", -bias[2])] {
+    // A general actuator may have a damping ratio too.
+    let damping = if gain == -bias[1] { 0.0 } else { -bias[2] };
+    for (what, value) in [("stiffness of the servo", -bias[1]), ("damping of the servo", damping)] {
         if value < 0.0 {
             return Err(ModelError::quantity(name, what, value, "at least 0, so that the servo is stable"));
         }
@@ -118,82 +177,31 @@ fn limits(
     }
 }
 
-impl Motor {
-    /// Returns the force for a control and the hinge's angle and rate; torque is gear × force (N·m).
-    fn force(&self, control: f64, angle_rad: f64, rate_radps: f64) -> f64 {
-        let [constant, per_length, per_velocity] = self.bias;
-        let (length, velocity) = (self.length_per_rad * angle_rad, self.length_per_rad * rate_radps);
-        (self.gain * control.clamp(self.control[0], self.control[1])
-            + constant
-            + per_length * length
-            + per_velocity * velocity)
-            .clamp(self.force[0], self.force[1])
-    }
-}
-
 impl Model {
-    /// Writes the total motor torque on each hinge (N·m), for one control per motor and the hinges' angles (rad) and
-    /// rates (rad/s). Clamps controls to [`Motor::control`].
-    pub(crate) fn motor_torques(
-        &self,
-        controls: &[f32],
-        angles_rad: &[f64],
-        rates_radps: &[f64],
-        torques_nm: &mut [f64],
-    ) {
-        torques_nm.fill(0.0);
+    /// Writes the motors of each hinge for one control per motor. Clamps controls to [`Motor::control`].
+    pub(crate) fn drives(&self, controls: &[f32], drives: &mut [Drive]) {
+        for (drive, hinge) in drives.iter_mut().zip(&self.hinges) {
+            let [min_nm, max_nm] = hinge.torque_nm;
+            *drive = Drive { min_nm, max_nm, ..Drive::default() };
+        }
         for (motor, &control) in self.motors.iter().zip(controls) {
-            let (angle_rad, rate_radps) = (angles_rad[motor.hinge], rates_radps[motor.hinge]);
-            torques_nm[motor.hinge] += motor.gear_nm * motor.force(f64::from(control), angle_rad, rate_radps);
-        }
-        for (torque_nm, hinge) in torques_nm.iter_mut().zip(&self.hinges) {
-            *torque_nm = torque_nm.clamp(hinge.torque_nm[0], hinge.torque_nm[1]);
-        }
-    }
-
-    /// Refuses servos that are unstable with physics steps of `step_s`: their torque is computed before each step, so it
-    /// must not carry the hinge past its target within one.
-    ///
-    /// # Errors
-    /// [`ModelError`] names the servo.
-    pub(crate) fn check_servos(&self, step_s: f64) -> Result<(), ModelError> {
-        for motor in &self.motors {
-            let [_, per_length, per_velocity] = motor.bias;
-            let squared = motor.gear_nm * motor.gear_nm;
-            let inertia_kgm2 = self.hinges[motor.hinge].armature_kgm2 + self.carried_inertia_kgm2(motor.hinge);
-            let limit = inertia_kgm2 / (squared * step_s);
-            if -per_velocity - per_length * step_s > limit {
-                let problem = format!(
-                    "its damping of {} and stiffness of {} need physics steps shorter than {} ms: raise env.substeps \
-                     or the joint's armature, or use the joint's `damping`, which has no such limit",
-                    -per_velocity,
-                    -per_length,
-                    step_s * 1e3
-                );
-                return Err(ModelError::unsupported(&motor.name, problem));
+            let drive = &mut drives[motor.hinge];
+            let [constant, per_length, per_velocity] = motor.bias;
+            let force = motor.gain * f64::from(control).clamp(motor.control[0], motor.control[1]) + constant;
+            let limits = sorted(motor.gear_nm * motor.force[0], motor.gear_nm * motor.force[1]);
+            if per_length == 0.0 && per_velocity == 0.0 {
+                drive.torque_nm += (motor.gear_nm * force).clamp(limits[0], limits[1]);
+            } else {
+                drive.torque_nm += motor.gear_nm * force;
+                drive.stiffness_nmprad -= motor.gear_nm * motor.length_per_rad * per_length;
+                drive.damping_nmsprad -= motor.gear_nm * motor.length_per_rad * per_velocity;
+                // A hinge rarely has several servos; their limits then hold for the sum.
+                drive.min_nm = drive.min_nm.max(limits[0]);
+                drive.max_nm = drive.max_nm.min(limits[1]);
             }
         }
-        Ok(())
-    }
-
-    /// Returns the inertia about a hinge's axis of all bodies that it moves, with all hinges at zero (kg·m²).
-    fn carried_inertia_kgm2(&self, hinge: usize) -> f64 {
-        let Some(carrier) = self.bodies.iter().position(|body| body.hinges.contains(&hinge)) else { return 0.0 };
-        let axis = self.hinges[hinge].axis.into_inner();
-        let anchor = self.bodies[carrier].anchor_m;
-        let mut poses: Vec<Option<Isometry3<f64>>> = vec![None; self.bodies.len()];
-        let mut sum = 0.0;
-        for (index, body) in self.bodies.iter().enumerate().skip(carrier) {
-            let pose = match body.parent.and_then(|parent| poses[parent]) {
-                _ if index == carrier => Isometry3::identity(),
-                Some(parent) => parent * body.pose,
-                None => continue,
-            };
-            poses[index] = Some(pose);
-            let local = pose.rotation.inverse() * axis;
-            let arm = (pose * body.centre_of_mass_m - anchor).cross(&axis);
-            sum += local.dot(&(body.inertia_kgm2 * local)) + body.mass_kg * arm.norm_squared();
+        for drive in drives.iter_mut().filter(|drive| drive.stiffness_nmprad == 0.0 && drive.damping_nmsprad == 0.0) {
+            drive.torque_nm = drive.torque_nm.max(drive.min_nm).min(drive.max_nm);
         }
-        sum
     }
 }

@@ -3,7 +3,14 @@
 //! Everything else is refused, because `mjcf-rs` silently ignores unknown names. Names and defaults are those of MuJoCo's
 //! XML reference (<https://mujoco.readthedocs.io/en/stable/XMLreference.html>).
 
+use std::collections::BTreeMap;
+
+use roxmltree::Node;
+
 use super::defaults::{Attribute, get};
+use super::xml;
+use super::{HEIGHT_FIELD_SIDE_MAX, MESH_VERTICES_MAX};
+use crate::card::CARD_TEXT;
 use crate::error::ModelError;
 
 /// Values that an attribute may have.
@@ -44,7 +51,7 @@ const COMPILER: &Rules = &[
     ("exactmeshinertia convexhull", Inert),
 ];
 
-/// Solver settings of MuJoCo are inert: they do not apply to Rapier and this crate.
+/// Solver settings of MuJoCo are inert: they do not apply to this crate's solver.
 const OPTION: &Rules = &[
     ("gravity", Numbers(3, 3)),
     ("wind", Only("0 0 0")),
@@ -73,12 +80,10 @@ const JOINT: &Rules = &[
     ("springdamper", Only("0 0")),
     ("range actuatorfrcrange", Numbers(2, 2)),
     ("actuatorgravcomp", Only("false")),
-    ("solreflimit", Only("0.02 1")),
-    ("solimplimit", Only("0.9 0.95 0.001 0.5 2")),
-    // No effect without frictionloss.
-    ("solreffriction solimpfriction", Inert),
-    ("frictionloss margin ref", Only("0")),
-    ("springref stiffness damping armature", Numbers(1, 1)),
+    ("solreflimit solreffriction", Numbers(1, 2)),
+    ("solimplimit solimpfriction", Numbers(1, 5)),
+    ("ref", Only("0")),
+    ("springref stiffness damping armature frictionloss margin", Numbers(1, 1)),
 ];
 
 const FREEJOINT: &Rules = &[("name", Word), ("group", Inert), ("align", Only("false|auto"))];
@@ -87,14 +92,14 @@ const GEOM: &Rules = &[
     ("type mesh hfield", Word),
     ("size friction", Numbers(1, 3)),
     ("fromto", Numbers(6, 6)),
-    ("mass density margin", Numbers(1, 1)),
+    ("mass density margin solmix", Numbers(1, 1)),
     ("shellinertia", Only("false")),
-    ("contype conaffinity condim", Whole(1, 1)),
-    ("priority gap", Only("0")),
-    ("solref", Only("0.02 1")),
-    ("solimp", Only("0.9 0.95 0.001 0.5 2")),
-    // No effect where all shapes have the same softness and there is no fluid.
-    ("solmix fluidshape fluidcoef", Inert),
+    ("contype conaffinity condim priority", Whole(1, 1)),
+    ("gap", Only("0")),
+    ("solref", Numbers(1, 2)),
+    ("solimp", Numbers(1, 5)),
+    // No effect without a fluid.
+    ("fluidshape fluidcoef", Inert),
     ("fitscale material rgba", Inert),
 ];
 
@@ -108,7 +113,7 @@ const ACTUATOR: &Rules = &[
     ("lengthrange", Inert),
 ];
 
-const POSITION: &Rules = &[("kp kv", Numbers(1, 1)), ("timeconst inheritrange", Only("0"))];
+const POSITION: &Rules = &[("kp kv dampratio inheritrange", Numbers(1, 1)), ("timeconst", Only("0"))];
 const VELOCITY: &Rules = &[("kv", Numbers(1, 1))];
 const GENERAL: &Rules = &[
     ("gaintype", Only("fixed")),
@@ -118,15 +123,51 @@ const GENERAL: &Rules = &[
     ("dynprm", Inert),
 ];
 
-/// Only tendons without stiffness, friction, limit and motor are accepted: they exert no force.
+/// Only tendons without stiffness, friction and motor are accepted.
 const FIXED: &Rules = &[
-    ("limited", Only("false|auto")),
+    ("limited", Word),
     ("stiffness damping frictionloss armature", Only("0")),
     ("range", Numbers(2, 2)),
-    ("actuatorfrclimited actuatorfrcrange springlength margin", Inert),
-    ("solreflimit solimplimit solreffriction solimpfriction", Inert),
+    ("solreflimit", Numbers(1, 2)),
+    ("solimplimit", Numbers(1, 5)),
+    ("margin", Numbers(1, 1)),
+    ("actuatorfrclimited actuatorfrcrange springlength solreffriction solimpfriction", Inert),
     ("width material rgba", Inert),
 ];
+
+const PAIR: &Rules = &[
+    ("name class geom1 geom2", Word),
+    ("condim", Whole(1, 1)),
+    ("friction", Numbers(1, 5)),
+    ("solref", Numbers(1, 2)),
+    ("solimp", Numbers(1, 5)),
+    ("margin", Numbers(1, 1)),
+    ("gap", Only("0")),
+    ("solreffriction", Only("0 0")),
+];
+
+/// Meshes with vertices in the text; others are ignored.
+const MESH: &Rules = &[
+    ("name class", Word),
+    ("vertex", Numbers(12, 3 * MESH_VERTICES_MAX)),
+    ("scale refpos", Numbers(3, 3)),
+    ("refquat", Numbers(4, 4)),
+    ("inertia", Only("convex|exact|legacy")),
+    ("maxhullvert", Only("-1")),
+    ("face normal texcoord smoothnormal content_type material octree_maxdepth", Inert),
+    // Beside vertices MuJoCo refuses these; in a class they hold for other meshes.
+    ("file builtin params", Inert),
+];
+
+const HFIELD: &Rules = &[
+    ("name", Word),
+    ("nrow ncol", Whole(1, 1)),
+    ("size", Numbers(4, 4)),
+    ("elevation", Numbers(4, HEIGHT_FIELD_SIDE_MAX * HEIGHT_FIELD_SIDE_MAX)),
+    ("file content_type", Inert),
+];
+
+const KEY: &Rules = &[("name qpos qvel ctrl", Word), ("time", Inert)];
 
 /// Returns the rules of an element's attributes; `None` for an unsupported element.
 pub(super) fn rules(tag: &str) -> Option<&'static [&'static Rules]> {
@@ -136,7 +177,7 @@ pub(super) fn rules(tag: &str) -> Option<&'static [&'static Rules]> {
         "option" => &[OPTION],
         "flag" => &[FLAG],
         "default" => &[&[("class", Word)]],
-        "worldbody" | "contact" | "tendon" | "actuator" | "asset" => &[],
+        "worldbody" | "contact" | "tendon" | "actuator" | "asset" | "keyframe" => &[],
         "body" => &[BODY, PLACE],
         "frame" => &[&[("name childclass", Word)], PLACE],
         "inertial" => &[INERTIAL, PLACE],
@@ -148,6 +189,10 @@ pub(super) fn rules(tag: &str) -> Option<&'static [&'static Rules]> {
         "velocity" => &[NAMED, ACTUATOR, VELOCITY],
         "general" => &[NAMED, ACTUATOR, GENERAL],
         "exclude" => &[&[("name body1 body2", Word)]],
+        "pair" => &[PAIR],
+        "mesh" => &[MESH],
+        "hfield" => &[HFIELD],
+        "key" => &[KEY],
         "fixed" => &[NAMED, FIXED],
         "term" => &[&[("joint", Word), ("coef", Numbers(1, 1))]],
         _ => return None,
@@ -156,9 +201,34 @@ pub(super) fn rules(tag: &str) -> Option<&'static [&'static Rules]> {
 
 /// Returns whether an element, with its content, never affects motion.
 pub(super) fn is_inert(tag: &str) -> bool {
-    "size visual statistic custom sensor keyframe texture material mesh hfield light camera site lengthrange numeric text"
+    "size visual statistic custom sensor texture material light camera site lengthrange numeric text"
         .split(' ')
         .any(|inert| inert == tag)
+}
+
+/// Returns the kinds of elements in a text that the simulation ignores, with their counts: of those within each other only the
+/// outermost. Empty if the text is not XML.
+pub(super) fn ignored(text: &str) -> BTreeMap<String, usize> {
+    fn count(node: Node<'_, '_>, found: &mut BTreeMap<String, usize>) {
+        for child in xml::elements(node) {
+            let tag = child.tag_name().name();
+            let is_card = tag == "custom" && child.children().any(|text| text.attribute("name") == Some(CARD_TEXT));
+            match is_inert(tag) {
+                true if is_card => {}
+                true if matches!(tag, "sensor" | "custom") => {
+                    *found.entry(tag.to_owned()).or_default() += xml::elements(child).count();
+                }
+                true => *found.entry(tag.to_owned()).or_default() += 1,
+                false if tag == "default" => {}
+                false => count(child, found),
+            }
+        }
+    }
+    let mut found = BTreeMap::new();
+    if let Ok(document) = xml::parse(text) {
+        count(document.root_element(), &mut found);
+    }
+    found
 }
 
 /// Returns the rule of one attribute.

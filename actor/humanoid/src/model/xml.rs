@@ -1,7 +1,10 @@
-//! XML parsing with bounds on length and depth.
+//! XML: parsing with bounds on length and depth, and writing.
 
-use roxmltree::Document;
+use std::fmt::Write;
 
+use roxmltree::{Document, Node};
+
+use super::defaults::Attribute;
 use crate::error::ModelError;
 
 /// Longest model text (bytes); a humanoid of primitive shapes takes a few thousand bytes.
@@ -31,6 +34,56 @@ pub(super) fn parse(text: &str) -> Result<Document<'_>, ModelError> {
         return Err(ModelError::unsupported("mujoco", format!("elements are nested more than {DEPTH_MAX} deep")));
     }
     Document::parse(text).map_err(|why| ModelError::Parse(why.into()))
+}
+
+/// Returns the outermost sections of a kind.
+pub(super) fn sections<'a, 'text>(root: Node<'a, 'text>, tag: &'static str) -> impl Iterator<Item = Node<'a, 'text>> {
+    elements(root).filter(move |node| node.has_tag_name(tag))
+}
+
+/// Returns the elements within another.
+pub(super) fn elements<'a, 'text>(node: Node<'a, 'text>) -> impl Iterator<Item = Node<'a, 'text>> {
+    node.children().filter(Node::is_element)
+}
+
+/// Writes an opening tag.
+pub(super) fn open(text: &mut String, tag: &str, attributes: &[Attribute]) {
+    let _ = write!(text, "<{tag}");
+    for (name, value) in attributes {
+        let _ = write!(text, " {name}=\"");
+        for letter in value.chars() {
+            match letter {
+                '&' => text.push_str("&amp;"),
+                '<' => text.push_str("&lt;"),
+                '"' => text.push_str("&quot;"),
+                // A reader would turn these into spaces.
+                '\n' => text.push_str("&#10;"),
+                '\t' => text.push_str("&#9;"),
+                _ => text.push(letter),
+            }
+        }
+        text.push('"');
+    }
+    text.push('>');
+}
+
+/// Writes a closing tag.
+pub(super) fn close(text: &mut String, tag: &str) {
+    let _ = writeln!(text, "</{tag}>");
+}
+
+/// Returns a model text with a `<custom>` section that holds one more `<text>`.
+pub(crate) fn with_custom_text(text: &str, name: &str, data: &str) -> Result<String, ModelError> {
+    let document = parse_model(text)?;
+    let root = document.root_element().range();
+    let end = text[..root.end].rfind("</").unwrap_or(root.end);
+    let attributes = [("name", name), ("data", data)].map(|(name, value)| (name.to_owned(), value.to_owned()));
+    let mut custom = String::new();
+    open(&mut custom, "custom", &[]);
+    open(&mut custom, "text", &attributes);
+    close(&mut custom, "text");
+    close(&mut custom, "custom");
+    Ok([&text[..end], &custom, &text[end..]].concat())
 }
 
 /// Returns the nesting depth of elements; meaningless for a text that is not well-formed.

@@ -23,13 +23,22 @@
 //! (`humanoid_v5.py`, `humanoid_v4.py`). Two points differ. All quantities here belong to the end of the control step, while
 //! MuJoCo's derived quantities are those of its integrator's last stage. Contact forces are means over the control step,
 //! while MuJoCo's are those at its end.
+//!
+//! With sensor noise, `qpos` and `qvel` are noisy, and all other blocks are computed from these noisy numbers: `cinert` and
+//! `cvel` at the sensed state, `qfrc_actuator` as the torques of the present controls there, `cfrc_ext` as exact forces in the
+//! frames of the links, which are turned to their sensed orientations. No entry shows what a noisy sensor hides.
 
+mod sensed;
 mod spatial;
 
 use std::ops::Range;
 
+pub(crate) use self::sensed::Sensed;
 use self::spatial::{SpatialInertia, velocity_about};
+use nalgebra::Point3;
+
 use crate::config::{EnvironmentConfig, ObservationKind};
+use crate::dynamics::World;
 use crate::model::Model;
 use crate::physics::Physics;
 
@@ -63,6 +72,14 @@ enum Quantity {
     Velocities,
     Torques,
     Contacts,
+}
+
+/// Motion, torques and contacts that the derived blocks show: the exact ones, or as sensed.
+struct View<'a> {
+    physics: &'a Physics,
+    world: &'a World,
+    centre_m: Point3<f64>,
+    sensed: Option<&'a Sensed>,
 }
 
 /// Layout of an observation for one model.
@@ -128,6 +145,7 @@ impl Observation {
     /// If `observation` does not have length [`Self::size`], or `physics` simulates another model.
     pub fn write(&self, physics: &Physics, observation: &mut [f32]) {
         assert_eq!(observation.len(), self.size(), "observation buffer has the wrong length");
+        let view = View { physics, world: physics.world(), centre_m: physics.centre_of_mass(), sensed: None };
         for block in &self.blocks {
             let target = &mut observation[block.range.clone()];
             match block.quantity {
@@ -136,11 +154,46 @@ impl Observation {
                     copy(&position[position.len() - target.len()..], target);
                 }
                 Quantity::Velocity => copy(physics.velocity(), target),
-                Quantity::Torques => copy(physics.joint_torques_nm(), self.after_world(target, ROOT_FREEDOMS)),
-                Quantity::Inertias => self.write_inertias(physics, target),
-                Quantity::Velocities => self.write_velocities(physics, target),
-                Quantity::Contacts => self.write_contacts(physics, target),
+                derived => self.write_derived(derived, &view, target),
             }
+        }
+    }
+
+    /// Computes all derived blocks again from the positions and velocities in `observation`, which have sensor noise.
+    pub(crate) fn write_sensed(&self, physics: &Physics, sensed: &mut Sensed, observation: &mut [f32]) {
+        for block in &self.blocks {
+            let entries = &observation[block.range.clone()];
+            match block.quantity {
+                Quantity::Position => {
+                    let excluded = sensed.position.len() - entries.len();
+                    sensed.position[..excluded].copy_from_slice(&physics.position()[..excluded]);
+                    widen(entries, &mut sensed.position[excluded..]);
+                }
+                Quantity::Velocity => widen(entries, &mut sensed.velocity),
+                _ => {}
+            }
+        }
+        sensed.update(physics);
+        let view =
+            View { physics, world: &sensed.world, centre_m: sensed.world.centre_of_mass(), sensed: Some(sensed) };
+        for block in &self.blocks {
+            self.write_derived(block.quantity, &view, &mut observation[block.range.clone()]);
+        }
+    }
+
+    /// Returns whether there is any block besides positions and velocities.
+    pub(crate) fn has_derived_blocks(&self) -> bool {
+        self.blocks.iter().any(|block| !matches!(block.quantity, Quantity::Position | Quantity::Velocity))
+    }
+
+    /// Writes a block unless it is the positions or the velocities.
+    fn write_derived(&self, quantity: Quantity, view: &View<'_>, target: &mut [f32]) {
+        match quantity {
+            Quantity::Position | Quantity::Velocity => {}
+            Quantity::Torques => copy(&view.world.torques_nm, self.after_world(target, ROOT_FREEDOMS)),
+            Quantity::Inertias => self.write_inertias(view, target),
+            Quantity::Velocities => self.write_velocities(view, target),
+            Quantity::Contacts => self.write_contacts(view, target),
         }
     }
 
@@ -151,32 +204,40 @@ impl Observation {
         rest
     }
 
-    fn write_inertias(&self, physics: &Physics, target: &mut [f32]) {
-        let centre = physics.centre_of_mass();
+    fn write_inertias(&self, view: &View<'_>, target: &mut [f32]) {
         let rows = self.after_world(target, INERTIA_SIZE).chunks_exact_mut(INERTIA_SIZE);
-        for (link, row) in physics.model().links.iter().zip(rows) {
-            let pose = &physics.body_motions()[link.body].pose;
-            copy(&SpatialInertia::of_link(link, pose, &centre).numbers(), row);
+        for (link, row) in view.physics.model().links.iter().zip(rows) {
+            let pose = &view.world.body_motion(link.body).pose;
+            copy(&SpatialInertia::of_link(link, pose, &view.centre_m).numbers(), row);
         }
     }
 
-    fn write_velocities(&self, physics: &Physics, target: &mut [f32]) {
-        let centre = physics.centre_of_mass();
-        let model = physics.model();
+    fn write_velocities(&self, view: &View<'_>, target: &mut [f32]) {
+        let model = view.physics.model();
         let rows = self.after_world(target, SPATIAL_SIZE).chunks_exact_mut(SPATIAL_SIZE);
         for (link, row) in model.links.iter().zip(rows) {
-            let motion = &physics.body_motions()[link.body];
-            copy(velocity_about(&centre, &model.bodies[link.body], motion).as_slice(), row);
+            let motion = &view.world.body_motion(link.body);
+            copy(velocity_about(&view.centre_m, &model.bodies[link.body], motion).as_slice(), row);
         }
     }
 
-    fn write_contacts(&self, physics: &Physics, target: &mut [f32]) {
+    fn write_contacts(&self, view: &View<'_>, target: &mut [f32]) {
         let rows = self.after_world(target, SPATIAL_SIZE).chunks_exact_mut(SPATIAL_SIZE);
         for (link, row) in rows.enumerate() {
-            let (force, moment) = physics.contact_wrench(link);
+            let (force, moment) = match view.sensed {
+                Some(sensed) => sensed.contact_wrench(view.physics, link),
+                None => view.physics.contact_wrench(link),
+            };
             copy(moment.as_slice(), &mut row[..3]);
             copy(force.as_slice(), &mut row[3..]);
         }
+    }
+}
+
+fn widen(numbers: &[f32], target: &mut [f64]) {
+    debug_assert_eq!(numbers.len(), target.len());
+    for (slot, number) in target.iter_mut().zip(numbers) {
+        *slot = f64::from(*number);
     }
 }
 

@@ -1,8 +1,8 @@
-//! Motion of the rigid bodies, computed from joint coordinates.
+//! Motion of the rigid bodies.
 
-use nalgebra::{Isometry3, Rotation3, Translation3, UnitQuaternion, Vector3};
+use nalgebra::{Isometry3, Point3, Rotation3, Translation3, UnitQuaternion, Vector3};
 
-use crate::dynamics::{Motion, Posture, Tree};
+use crate::dynamics::{BodyState, World};
 
 /// Motion of one rigid body in the world frame.
 #[derive(Clone, Copy, Debug)]
@@ -15,31 +15,34 @@ pub struct BodyMotion {
     pub angular_radps: Vector3<f64>,
 }
 
-impl BodyMotion {
-    pub(crate) fn at_rest() -> Self {
-        Self { pose: Isometry3::identity(), linear_mps: Vector3::zeros(), angular_radps: Vector3::zeros() }
+impl World {
+    fn root_m(&self) -> Vector3<f64> {
+        Vector3::from_column_slice(&self.position[..3])
     }
-}
 
-/// Writes the motion of all bodies for a posture with the root at `root_m` and a velocity vector.
-pub(super) fn write_motions(
-    tree: &Tree,
-    posture: &Posture,
-    root_m: &Vector3<f64>,
-    velocity: &[f64],
-    velocities: &mut [Motion],
-    motions: &mut [BodyMotion],
-) {
-    posture.velocities(tree, velocity, velocities);
-    for (index, motion) in motions.iter_mut().enumerate() {
-        let rotation = Rotation3::from_matrix_unchecked(posture.rotations[index]);
-        *motion = BodyMotion {
+    /// Returns pose and velocity of a body.
+    pub(crate) fn body_motion(&self, body: usize) -> BodyMotion {
+        let body = &self.bodies[body];
+        let rotation = Rotation3::from_matrix_unchecked(body.rotation);
+        BodyMotion {
             pose: Isometry3::from_parts(
-                Translation3::from(root_m + posture.origins_m[index]),
+                Translation3::from(self.root_m() + body.origin_m),
                 UnitQuaternion::from_rotation_matrix(&rotation),
             ),
-            linear_mps: velocities[index].at(&posture.centres_m[index]),
-            angular_radps: velocities[index].angular,
-        };
+            linear_mps: body.linear_mps,
+            angular_radps: body.angular_radps,
+        }
+    }
+
+    /// Returns the centre of mass of the whole humanoid (m, world frame).
+    pub(crate) fn centre_of_mass(&self) -> Point3<f64> {
+        Point3::from(self.root_m() + self.mean_over_mass(|body| body.centre_m))
+    }
+
+    /// Returns the mean of a quantity of the bodies, weighted by their masses.
+    pub(super) fn mean_over_mass(&self, quantity: impl Fn(&BodyState) -> Vector3<f64>) -> Vector3<f64> {
+        let masses = &self.parameters.masses_kg;
+        let sum: Vector3<f64> = self.bodies.iter().zip(masses).map(|(body, mass)| quantity(body) * *mass).sum();
+        sum / masses.iter().sum::<f64>()
     }
 }

@@ -46,8 +46,8 @@ impl Physics {
 
     /// Restarts from exactly this state: unlike [`Self::set_state`], it does not normalise the quaternion.
     pub(crate) fn resume_from(&mut self, position: &[f64], velocity: &[f64]) {
-        self.position.copy_from_slice(position);
-        self.velocity.copy_from_slice(velocity);
+        self.world.position.copy_from_slice(position);
+        self.world.velocity.copy_from_slice(velocity);
         self.restart();
     }
 

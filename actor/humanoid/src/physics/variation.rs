@@ -2,8 +2,7 @@
 
 use std::sync::Arc;
 
-use super::world::{RapierWorld, mass_properties, own_friction};
-use crate::dynamics::Tree;
+use crate::dynamics::Parameters;
 use crate::model::Model;
 
 /// Factors by which humanoid, floor and gravity differ from the model text.
@@ -59,7 +58,7 @@ impl Variation {
         for ((motor, nominal), scale) in model.motors.iter_mut().zip(&nominal.motors).zip(&self.motor_scale) {
             motor.gear_nm = nominal.gear_nm * scale;
         }
-        model.floor_friction = nominal.floor_friction * self.floor_friction_scale;
+        model.ground.friction = nominal.ground.friction * self.floor_friction_scale;
         model.gravity_mps2 = nominal.gravity_mps2 * self.gravity_scale;
     }
 }
@@ -91,31 +90,11 @@ impl VariableModel {
         self.is_due = true;
     }
 
-    /// Applies a new variation to model, tree and world; the simulation must restart afterwards.
-    pub(super) fn apply_if_due(&mut self, model: &mut Model, tree: &mut Tree, world: &mut RapierWorld) {
+    /// Applies a new variation to model and parameters; the simulation must restart afterwards.
+    pub(super) fn apply_if_due(&mut self, model: &mut Model, parameters: &mut Parameters) {
         if std::mem::take(&mut self.is_due) {
             self.variation.apply(&self.nominal, model);
-            tree.apply_variation(model);
-            world.apply_variation(model);
-        }
-    }
-}
-
-impl RapierWorld {
-    /// Copies a model's masses and frictions into the template of the next restart.
-    pub(super) fn apply_variation(&mut self, model: &Model) {
-        for (handle, body) in self.bodies.iter().zip(&model.bodies) {
-            if let Some(rigid) = self.template.bodies.get_mut(*handle) {
-                rigid.set_additional_mass_properties(mass_properties(body), false);
-            }
-        }
-        if let Some(floor) = self.template.colliders.get_mut(self.floor) {
-            floor.set_friction(model.floor_friction as f32);
-        }
-        for (handle, body, shape) in &self.shape_colliders {
-            if let Some(collider) = self.template.colliders.get_mut(*handle) {
-                collider.set_friction(own_friction(&model.bodies[*body].shapes[*shape]));
-            }
+            parameters.set(model, self.variation.floor_friction_scale);
         }
     }
 }

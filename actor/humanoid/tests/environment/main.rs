@@ -2,6 +2,7 @@
 
 mod bad_input;
 mod contacts;
+mod control_steps;
 mod determinism;
 mod episode_states;
 mod episodes;
@@ -10,5 +11,6 @@ mod golden;
 mod observations;
 mod physics_version;
 mod randomisation;
+mod sensor_noise;
 mod snapshots;
 mod support;

@@ -146,9 +146,9 @@ fn snapshots_of_other_models_and_settings_are_refused_by_name() {
     let mut finer = environment(&EnvironmentConfig { substeps: 3, ..config.clone() });
     let untouched = reset(&mut finer, 4);
     let refusal = finer.restore(&snapshot).expect_err("other substeps");
-    let wanted = SnapshotError::Setting { setting: "substeps", taken: "2".into(), found: "3".into() };
+    let wanted = SnapshotError::Setting { setting: "substeps", taken: "4".into(), found: "3".into() };
     assert_eq!(refusal, wanted);
-    assert!(refusal.to_string().contains("`substeps` = 2, but here it is 3"), "{refusal}");
+    assert!(refusal.to_string().contains("`substeps` = 4, but here it is 3"), "{refusal}");
     let mut seen = vec![0.0; finer.observation_size()];
     finer.observe(&mut seen).expect("the right length");
     assert_eq!(seen, untouched, "a refusal must change nothing");
@@ -162,6 +162,12 @@ fn snapshots_of_other_models_and_settings_are_refused_by_name() {
         ("range=\"-45 45\"", "range=\"-45 46\"", "hinge `abdomen_z`"),
         ("size=\"0.049\"", "size=\"0.048\"", "link `right_shin`"),
         ("<option ", "<option gravity=\"0 0 -9.8\" ", "gravity"),
+        ("friction=\"1 0.1 0.1\"", "friction=\"0.9 0.1 0.1\"", "ground"),
+        (
+            "</worldbody>",
+            "</worldbody><contact><exclude body1=\"torso\" body2=\"left_shin\"/></contact>",
+            "collision rules",
+        ),
     ] {
         let xml = HUMANOID_XML.replace(from, to);
         assert_ne!(xml, HUMANOID_XML);
@@ -173,8 +179,8 @@ fn snapshots_of_other_models_and_settings_are_refused_by_name() {
     let plain = Physics::new(model.clone(), &config).expect("valid").snapshot();
     type Change = fn(&mut EnvironmentConfig);
     let changes: [(&str, Change); 3] = [
-        ("substeps", |c| c.substeps = 4),
-        ("solver_iterations", |c| c.solver_iterations = 3),
+        ("substeps", |c| c.substeps = 3),
+        ("control_step_s", |c| c.control_step_s = 0.02),
         ("self_collision", |c| c.self_collision = false),
     ];
     for (name, change) in changes {

@@ -1,4 +1,10 @@
 //! Model texts: values read from them, and refusals.
 
+mod assets;
+mod cards;
+mod contacts;
+mod files;
+mod joints;
 mod refusals;
+mod support;
 mod values;

@@ -4,6 +4,11 @@ use nalgebra::{Unit, UnitQuaternion, Vector3};
 use proptest::prelude::*;
 use treadmill_humanoid::{Environment, EnvironmentConfig, HUMANOID_XML, Model, Physics};
 
+use crate::assets::ROCK;
+use crate::contacts::TOUCH;
+use crate::joints::SERVOS;
+use crate::support::{changed, problem};
+
 /// Body with an arm above a floor; each test changes one place.
 const ARM: &str = r#"
 <mujoco>
@@ -28,21 +33,6 @@ const ARM: &str = r#"
   <tendon><fixed name="sinew"><joint joint="elbow" coef="2"/></fixed></tendon>
   <actuator><motor name="biceps" joint="elbow" gear="2" ctrlrange="-1 1"/></actuator>
 </mujoco>"#;
-
-/// Returns the error of a text, with its cause.
-fn problem(text: &str) -> String {
-    let error = Model::from_mjcf(text).expect_err(text);
-    match std::error::Error::source(&error) {
-        Some(cause) => format!("{error}: {cause}"),
-        None => error.to_string(),
-    }
-}
-
-/// Returns a text with one place changed.
-fn changed(text: &str, from: &str, to: &str) -> String {
-    assert!(text.contains(from), "there is no {from}");
-    text.replacen(from, to, 1)
-}
 
 /// Asserts that each change of [`ARM`] is refused with a message that contains all parts.
 fn assert_refused(cases: &[(&str, &str, &[&str])]) {
@@ -100,13 +90,11 @@ fn the_tree_must_be_one_robot_on_a_floor() {
         ("<freejoint name=\"root\"/>", "<joint type=\"free\"/><joint/>", &["base", "one free joint"]),
         (
             "<freejoint name=\"root\"/>",
-            "<joint name=\"root\" type=\"free\" damping=\"1\"/>",
-            &["root", "damping", "is 1"],
+            "<joint name=\"root\" type=\"free\" damping=\"-1\"/>",
+            &["root", "damping", "is -1"],
         ),
         ("<worldbody>", second, &["base", "only one root"]),
         ("<joint name=\"elbow\" axis=\"0 1 0\"/>", "<freejoint name=\"elbow\"/>", &["elbow", "only the root"]),
-        ("<geom name=\"floor\" type=\"plane\" size=\"1 1 1\"/>", "", &["worldbody", "floor"]),
-        ("type=\"plane\"", "type=\"plane\" contype=\"0\" conaffinity=\"0\"", &["worldbody", "collides"]),
         ("type=\"plane\"", "type=\"plane\" euler=\"0.1 0 0\"", &["floor", "level"]),
         ("<worldbody>", "<worldbody><geom name=\"rug\" type=\"plane\" size=\"1 1 1\"/>", &["floor", "only one"]),
         ("<worldbody>", "<worldbody><geom name=\"step\" type=\"box\" size=\"1 1 1\"/>", &["step", "level plane"]),
@@ -128,13 +116,20 @@ fn the_tree_must_be_one_robot_on_a_floor() {
 }
 
 #[test]
-fn more_bodies_than_collision_groups_are_refused_with_their_number() {
-    let link = |n: usize| format!("<body name=\"link{n}\" pos=\"0 0 -1\"><joint/><geom size=\"0.1\"/>");
-    let chain = |count| (1..=count).map(link).collect::<String>() + &"</body>".repeat(count);
-    let with = |count| changed(ARM, "<body name=\"upper\"", &format!("{}<body name=\"upper\"", chain(count)));
-    assert!(Model::from_mjcf(&with(28)).is_ok());
-    let message = problem(&with(29));
-    assert!(message.contains("32 moving bodies") && message.contains("31"), "{message}");
+fn bodies_hinges_and_shapes_are_bounded() {
+    let with = |more: &str| changed(ARM, "<body name=\"upper\"", &format!("{more}<body name=\"upper\""));
+    let fingers = |count: usize| with(&"<body><joint/><geom size=\"0.1\"/></body>".repeat(count));
+    assert_eq!(Model::from_mjcf(&fingers(509)).expect("512 bodies").bodies.len(), 512);
+    let message = problem(&fingers(510));
+    assert!(message.contains("513 moving bodies") && message.contains("at most 512"), "{message}");
+    let message = problem(&with(&format!("<body>{}<geom size=\"0.1\"/></body>", "<joint/>".repeat(1023))));
+    assert!(message.contains("1025 hinges") && message.contains("at most 1024"), "{message}");
+    let message = problem(&with(&"<geom size=\"0.1\"/>".repeat(4095)));
+    assert!(message.contains("more than 4096 colliding shapes"), "{message}");
+    // Two bodies of 400 shapes each.
+    let shapes = "<geom size=\"0.1\"/>".repeat(400);
+    let message = problem(&with(&format!("<body><joint/>{shapes}</body><body><joint/>{shapes}</body>")));
+    assert!(message.contains("more than 131072 pairs") && message.contains("contype"), "{message}");
 }
 
 #[test]
@@ -159,7 +154,6 @@ fn masses_and_sizes_must_be_physically_possible() {
         ("angle=\"radian\"", "autolimits=\"false\"", &["shoulder", "limited"]),
         ("angle=\"radian\"", "eulerseq=\"xyzw\"", &["eulerseq", "xyzw"]),
         ("axis=\"0 1 0\" range", "axis=\"0 0 0\" range", &["shoulder", "axis"]),
-        ("<joint name=\"elbow\"", "<joint pos=\"1 0 0\"/><joint name=\"elbow\"", &["lower", "one point"]),
     ]);
 }
 
@@ -168,25 +162,26 @@ fn unsupported_physics_is_refused_by_name() {
     assert_refused(&[
         ("axis=\"0 1 0\" range", "type=\"slide\" axis=\"0 1 0\" range", &["shoulder", "slide"]),
         ("axis=\"0 1 0\" range", "type=\"ball\" range", &["shoulder", "ball"]),
-        ("range=\"-1 1\"", "range=\"-1 1\" frictionloss=\"0.1\"", &["shoulder", "frictionloss", "0.1"]),
+        ("range=\"-1 1\"", "range=\"-1 1\" frictionloss=\"-0.1\"", &["shoulder", "frictionloss", "-0.1"]),
+        ("range=\"-1 1\"", "range=\"-1 1\" margin=\"-0.1\"", &["shoulder", "margin", "-0.1"]),
         ("range=\"-1 1\"", "range=\"-1 1\" ref=\"0.1\"", &["shoulder", "`ref`"]),
         ("range=\"-1 1\"", "range=\"-1 1\" springdamper=\"1 1\"", &["shoulder", "springdamper"]),
-        ("range=\"-1 1\"", "range=\"-1 1\" solreflimit=\"0.01 1\"", &["shoulder", "solreflimit", "0.02 1"]),
-        ("class=\"limb\"/>", "class=\"limb\"><joint frictionloss=\"1\"/></default>", &["shoulder", "frictionloss"]),
+        ("range=\"-1 1\"", "range=\"-1 1\" solreflimit=\"0.01 -1\"", &["shoulder", "solreflimit", "damping ratio"]),
+        ("range=\"-1 1\"", "range=\"-1 1\" solimpfriction=\"1 2 3 4 5 6\"", &["shoulder", "solimpfriction", "1 to 5"]),
+        ("class=\"limb\"/>", "class=\"limb\"><joint frictionloss=\"-1\"/></default>", &["shoulder", "frictionloss"]),
         ("class=\"limb\"/>", "class=\"limb\"><joint wings=\"1\"/></default>", &["default limb", "wings"]),
         ("childclass=\"limb\"", "childclass=\"wing\"", &["upper", "wing"]),
-        ("size=\"0.2\"", "size=\"0.2\" solref=\"0.01 1\"", &["trunk", "solref"]),
-        ("size=\"0.2\"", "size=\"0.2\" condim=\"6\"", &["trunk", "condim", "rolling"]),
-        ("size=\"0.2\"", "size=\"0.2\" priority=\"1\"", &["trunk", "priority"]),
+        ("size=\"0.2\"", "size=\"0.2\" solref=\"-100\"", &["trunk", "solref", "-100 1"]),
+        ("size=\"0.2\"", "size=\"0.2\" solmix=\"-1\"", &["trunk", "solmix"]),
+        ("size=\"0.2\"", "size=\"0.2\" condim=\"5\"", &["trunk", "condim", "1, 3, 4 or 6"]),
+        ("size=\"0.2\"", "size=\"0.2\" priority=\"1.5\"", &["trunk", "priority", "whole"]),
         ("size=\"0.2\"", "size=\"0.2\" gap=\"0.1\"", &["trunk", "gap"]),
         ("size=\"0.2\"", "size=\"0.2\" margin=\"0.1\"", &["trunk", "margin"]),
         ("size=\"0.2\"", "size=\"0.2\" margin=\"-0.001\"", &["trunk", "margin", "-0.001"]),
         ("type=\"plane\"", "type=\"plane\" margin=\"0.011\"", &["floor", "margin", "0.011", "0.01"]),
         ("type=\"plane\"", "type=\"plane\" gap=\"0.001\"", &["floor", "gap"]),
-        ("size=\"0.2\"", "size=\"0.2\" condim=\"1\" friction=\"1.5\"", &["trunk", "floor", "1.5"]),
         ("size=\"0.2\"", "size=\"0.2\" fromto=\"0 0 0 0 0 1\"", &["trunk", "fromto"]),
-        ("type=\"sphere\" size=\"0.2\"", "type=\"ellipsoid\" size=\"0.2 0.1 0.1\"", &["trunk", "ellipsoids"]),
-        ("type=\"sphere\" size=\"0.2\"", "type=\"mesh\" mesh=\"skull\"", &["trunk", "mesh `skull`", "primitive"]),
+        ("type=\"sphere\" size=\"0.2\"", "type=\"mesh\" mesh=\"skull\"", &["trunk", "mesh `skull`", "its file"]),
         (
             "type=\"sphere\" size=\"0.2\"",
             "type=\"mesh\" mesh=\"skull\" contype=\"0\" conaffinity=\"0\"",
@@ -199,10 +194,11 @@ fn unsupported_physics_is_refused_by_name() {
         ("<body name=\"lower\"", "<body name=\"lower\" gravcomp=\"1\"", &["lower", "gravcomp"]),
         ("<body name=\"lower\"", "<flexcomp/><body name=\"lower\"", &["upper", "flexcomp"]),
         ("<body name=\"lower\"", "<frame><joint/></frame><body name=\"lower\"", &["upper", "<frame>"]),
-        ("<tendon>", "<contact><pair geom1=\"trunk\" geom2=\"floor\"/></contact><tendon>", &["pair", "exclude"]),
         ("<tendon>", "<contact><exclude body1=\"base\" body2=\"wing\"/></contact><tendon>", &["exclude", "wing"]),
         ("<fixed name=\"sinew\">", "<fixed name=\"sinew\" stiffness=\"5\">", &["sinew", "stiffness"]),
-        ("<fixed name=\"sinew\">", "<fixed name=\"sinew\" range=\"0 1\">", &["sinew", "limits"]),
+        ("<fixed name=\"sinew\">", "<fixed name=\"sinew\" range=\"1 0\">", &["sinew", "range", "1 0"]),
+        ("<fixed name=\"sinew\">", "<fixed name=\"sinew\" limited=\"true\">", &["sinew", "limited", "range"]),
+        ("<fixed name=\"sinew\">", "<fixed name=\"sinew\" solreflimit=\"1 0\">", &["sinew", "solreflimit"]),
         ("<joint joint=\"elbow\"", "<joint joint=\"knee\"", &["sinew", "knee"]),
         ("<tendon>", "<tendon><spatial name=\"rope\"/>", &["rope", "spatial"]),
     ]);
@@ -219,7 +215,11 @@ fn motors_must_exist_and_have_a_strength() {
         ("ctrlrange=\"-1 1\"", "ctrllimited=\"true\"", &["biceps", "ctrlrange"]),
         ("gear=\"2\"", "gear=\"0\"", &["biceps", "gear"]),
         ("<motor name", "<muscle name", &["biceps", "muscle"]),
-        ("<motor name=\"biceps\"", "<position dampratio=\"1\" name=\"biceps\"", &["biceps", "dampratio"]),
+        ("<motor name=\"biceps\"", "<position dampratio=\"-1\" name=\"biceps\"", &["biceps", "dampratio", "-1"]),
+        ("<motor name=\"biceps\"", "<position dampratio=\"1\" kv=\"2\" name=\"biceps\"", &["biceps", "either `kv`"]),
+        ("<motor name=\"biceps\"", "<position inheritrange=\"1\" name=\"biceps\"", &["biceps", "either `ctrlrange`"]),
+        ("<motor name=\"biceps\"", "<motor dampratio=\"1\" name=\"biceps\"", &["biceps", "dampratio"]),
+        ("<motor name=\"biceps\"", "<position kv=\"-1\" name=\"biceps\"", &["biceps", "damping", "-1"]),
         ("<motor name=\"biceps\"", "<position kp=\"-5\" name=\"biceps\"", &["biceps", "stiffness", "-5"]),
         ("<motor name=\"biceps\"", "<general dyntype=\"filter\" name=\"biceps\"", &["biceps", "dyntype"]),
         ("<default class=\"limb\"/>", "<position kp=\"5\"/>", &["limb"]),
@@ -228,13 +228,24 @@ fn motors_must_exist_and_have_a_strength() {
     assert!(problem(&mixed).contains("defaults of <position>"));
     let open_ended = changed(ARM, "<motor name=\"biceps\"", "<position kp=\"5\" name=\"biceps\"");
     assert!(problem(&changed(&open_ended, "ctrlrange=\"-1 1\"", "")).contains("range of its targets"));
+    let inherited = changed(&open_ended, "ctrlrange=\"-1 1\"", "inheritrange=\"0.9\"");
+    assert!(problem(&inherited).contains("`range` of its joint"));
+}
+
+#[test]
+fn a_robot_without_a_floor_gets_one() {
+    let bare = changed(ARM, "<geom name=\"floor\" type=\"plane\" size=\"1 1 1\"/>", "");
+    let (mut model, whole) = (Model::from_mjcf(&bare).expect("valid"), Model::from_mjcf(ARM).expect("valid"));
+    assert!(matches!(&model.simplifications[..], [note] if note.contains("no floor")));
+    model.simplifications.clear();
+    assert_eq!(format!("{model:?}"), format!("{whole:?}"));
 }
 
 #[test]
 fn visual_elements_are_accepted() {
     let dressed = [
         ("<tendon>", "<visual><map fogend=\"5\"/></visual><statistic extent=\"2\"/><size nkey=\"5\"/><tendon>"),
-        ("<tendon>", "<sensor><gyro site=\"imu\"/></sensor><keyframe><key qpos=\"0\"/></keyframe><custom/><tendon>"),
+        ("<tendon>", "<sensor><gyro site=\"imu\"/></sensor><keyframe/><custom/><tendon>"),
         ("<tendon>", "<asset><texture builtin=\"flat\"/><material name=\"m\"/><mesh file=\"no.stl\"/></asset><tendon>"),
         ("<worldbody>", "<worldbody><light/><camera name=\"c\"/><site name=\"home\"/>"),
         ("size=\"0.2\"", "size=\"0.2\" rgba=\"1 0 0 1\" material=\"m\" group=\"1\" user=\"258\""),
@@ -276,6 +287,18 @@ proptest! {
                 let _ = Model::from_mjcf(&[&text[..start], &text[start + length..]].concat());
             }
         }
+        for text in [TOUCH, SERVOS, ROCK] {
+            let all = values(text);
+            let mut corrupted = text.to_owned();
+            corrupted.replace_range(all[place.index(all.len())].clone(), &value);
+            if let Ok(model) = Model::from_mjcf(&corrupted) {
+                let pairs = model.pairs.iter().map(|pair| pair.softness);
+                let all = pairs.chain(model.hinges.iter().map(|hinge| hinge.limit_softness));
+                prop_assert!(all.clone().all(|softness| softness.stiffness.is_finite() && softness.damping.is_finite()));
+                prop_assert!(all.flat_map(|softness| softness.impedance[..2].to_vec()).all(|share| (0.0..=1.0).contains(&share)));
+                prop_assert!(model.motors.iter().all(|motor| motor.bias.iter().all(|number| number.is_finite())));
+            }
+        }
     }
 }
 
@@ -290,8 +313,8 @@ fn tendons_that_exert_force_are_refused_by_name() {
         (fixed, with("damping=\"0.1\""), ["left_hipknee", "damping"]),
         (fixed, with("frictionloss=\"1\""), ["left_hipknee", "frictionloss"]),
         (fixed, with("armature=\"1\""), ["left_hipknee", "armature"]),
-        (fixed, with("range=\"-1 1\""), ["left_hipknee", "range"]),
-        (fixed, with("limited=\"true\" range=\"-1 1\""), ["left_hipknee", "limited"]),
+        (fixed, with("range=\"-1\""), ["left_hipknee", "range"]),
+        (fixed, with("limited=\"perhaps\" range=\"-1 1\""), ["left_hipknee", "limited"]),
         ("joint=\"left_knee\" coef", "joint=\"left_wing\" coef".to_owned(), ["left_hipknee", "left_wing"]),
         ("joint=\"left_knee\" coef=\"1\"", "joint=\"left_knee\" coef=\"nan\"".to_owned(), ["left_hipknee", "coef"]),
         ("<joint joint=\"left_knee\" coef", "<joint name=\"left_knee\" coef".to_owned(), ["left_hipknee", "name"]),
@@ -349,7 +372,7 @@ fn a_body_may_have_many_skew_hinges() {
     let turned = axes.iter().zip(angles).fold(UnitQuaternion::identity(), |turned, (axis, angle_rad)| {
         turned * UnitQuaternion::from_axis_angle(&Unit::new_normalize(Vector3::from(*axis)), angle_rad)
     });
-    let motions = physics.body_motions();
-    let found = motions[1].pose.rotation.inverse() * motions[2].pose.rotation;
+    let [parent, child] = [1, 2].map(|body| physics.body_motion(body).pose.rotation);
+    let found = parent.inverse() * child;
     assert!(found.angle_to(&turned) < 1e-12, "{found} instead of {turned}");
 }

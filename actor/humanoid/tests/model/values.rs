@@ -2,9 +2,10 @@
 
 use nalgebra::{Matrix3, Point3};
 use treadmill_humanoid::model::{Body, Geometry};
-use treadmill_humanoid::{HUMANOID_XML, Model, read_model_file};
+use treadmill_humanoid::{HUMANOID_XML, Model};
 
 const G1_LIKE_XML: &str = include_str!("../../assets/g1-like.xml");
+const G1_LIKE_SERVOS_XML: &str = include_str!("../../assets/g1-like-servos.xml");
 
 /// Text with classes, frames, all kinds of orientation, all shapes and both kinds of inertia.
 const ODD: &str = r#"
@@ -185,6 +186,32 @@ fn the_robot_of_29_hinges_has_mujocos_values() {
 }
 
 #[test]
+fn the_robot_with_servos_is_the_same_on_bumps() {
+    let (plain, model) = (Model::from_mjcf(G1_LIKE_XML), Model::from_mjcf(G1_LIKE_SERVOS_XML));
+    let (plain, model) = (plain.expect("valid"), model.expect("valid"));
+    assert_eq!((&model.bodies, &model.pairs), (&plain.bodies, &plain.pairs));
+    assert_eq!(model.pairs.len(), 113, "as in MuJoCo 4.0");
+    for (motor, hinge) in model.motors.iter().map(|motor| (motor, &model.hinges[motor.hinge])) {
+        assert_eq!((hinge.armature_kgm2, hinge.friction_loss_nm > 0.0), (0.01, true), "{}", hinge.name);
+        let [low, high] = motor.control;
+        assert!((low - hinge.min_rad).abs() < 1e-12 && (high - hinge.max_rad).abs() < 1e-12, "{}", motor.name);
+        assert!(motor.bias[1] == -motor.gain && motor.bias[2] < 0.0 && motor.force[1] > 0.0);
+    }
+    let knee = model.motors.iter().find(|motor| motor.name == "left_knee").expect("a knee");
+    assert_eq!((knee.gain, knee.bias, knee.force), (150.0, [0.0, -150.0, -4.0], [-140.0, 140.0]));
+    let [stand] = &model.keyframes[..] else { panic!("one keyframe") };
+    assert_eq!((stand.name.as_str(), stand.position[2], stand.controls.len()), ("stand", 0.777, 29));
+    assert!(
+        model.motors.iter().zip(&stand.controls).all(|(motor, control)| stand.position[7 + motor.hinge] == *control)
+    );
+    let field = model.ground.height_field.expect("bumps");
+    assert_eq!((field.rows, field.columns, field.half_x_m, field.half_y_m), (33, 33, 8.0, 8.0));
+    assert_eq!(field.height_at(0.0, 0.0), Some(0.0));
+    let highest_m = field.heights_m.iter().copied().fold(0.0, f64::max);
+    assert!((highest_m - 0.04).abs() < 1e-12 && field.heights_m.iter().all(|height_m| *height_m >= 0.0));
+}
+
+#[test]
 fn a_motor_without_control_range_derives_it_from_its_limits() {
     let range_of = |motor: &str, joint: &str| {
         let text = format!(
@@ -199,29 +226,4 @@ fn a_motor_without_control_range_derives_it_from_its_limits() {
     assert_eq!(range_of("forcerange=\"-20 30\"", ""), [-20.0, 30.0]);
     assert_eq!(range_of("gear=\"-10\"", "actuatorfrcrange=\"-20 30\""), [-3.0, 2.0]);
     assert_eq!(range_of("gear=\"10\"", ""), [-1.0, 1.0]);
-}
-
-#[test]
-fn included_files_are_inserted() {
-    let folder = std::env::temp_dir().join(format!("treadmill-models-{}", std::process::id()));
-    std::fs::create_dir_all(folder.join("parts")).expect("a folder");
-    let write = |name: &str, text: &str| std::fs::write(folder.join(name), text).expect("a file");
-    let (before, worldbody) = HUMANOID_XML.split_once("<worldbody>").expect("a worldbody");
-    let (worldbody, motors) = worldbody.split_once("</worldbody>").expect("its end");
-    write("robot.xml", &format!("{before}<include file=\"parts/world.xml\"/>{motors}"));
-    // Paths are relative to the outermost file.
-    write(
-        "parts/world.xml",
-        "<mujocoinclude><worldbody><include file=\"parts/body.xml\"/></worldbody></mujocoinclude>",
-    );
-    write("parts/body.xml", &format!("<mujoco>{worldbody}</mujoco>"));
-    let read = || read_model_file(&folder.join("robot.xml"));
-    let model = Model::from_mjcf(&read().expect("all there")).expect("valid");
-    assert_eq!(format!("{model:?}"), format!("{:?}", Model::from_mjcf(HUMANOID_XML).expect("valid")));
-
-    write("parts/body.xml", "<mujoco><include file=\"robot.xml\"/></mujoco>");
-    assert!(read().expect_err("a circle").to_string().contains("`robot.xml` is included twice"));
-    std::fs::remove_file(folder.join("parts/body.xml")).expect("it exists");
-    assert!(read().expect_err("missing").to_string().contains("parts/body.xml"));
-    std::fs::remove_dir_all(&folder).expect("it exists");
 }

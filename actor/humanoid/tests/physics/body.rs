@@ -1,7 +1,9 @@
 //! Physics of the humanoid: mass, fall, contacts, motors.
 
 use nalgebra::Vector3;
-use treadmill_humanoid::{CONTROL_STEP_S, EnvironmentConfig, HUMANOID_XML, Model, Physics};
+use treadmill_humanoid::{EnvironmentConfig, HUMANOID_XML, Model, Physics};
+
+use crate::CONTROL_STEP_S;
 
 const IDLE: [f32; 17] = [0.0; 17];
 
@@ -24,7 +26,7 @@ fn the_mass_is_that_of_humanoid_v5() {
     assert_eq!(model.hinges.len(), 17);
     assert_eq!(model.motors.len(), 17);
     let shapes = model.bodies.iter().flat_map(|body| &body.shapes);
-    assert!(shapes.map(|shape| shape.margin_m).chain([model.floor_margin_m]).all(|margin_m| margin_m == 0.001));
+    assert!(shapes.map(|shape| shape.margin_m).chain([model.ground.margin_m]).all(|margin_m| margin_m == 0.001));
     let foot_and_shin = model.bodies.iter().find(|body| body.name == "right_shin").expect("has a right shin");
     assert_eq!(foot_and_shin.shapes.len(), 2);
 }
@@ -152,7 +154,7 @@ fn every_motor_turns_its_hinge_in_the_right_direction() {
 
 #[test]
 fn with_fine_steps_the_dynamics_match_mujoco() {
-    let config = EnvironmentConfig { substeps: 15, solver_iterations: 8, ..EnvironmentConfig::default() };
+    let config = EnvironmentConfig { substeps: 15, ..EnvironmentConfig::default() };
     for (motor, (change, reference)) in rate_changes(&config).iter().zip(MUJOCO_RATE_CHANGE).enumerate() {
         let ratio = change / reference;
         assert!((0.87..1.1).contains(&ratio), "motor {motor}: {change} rad/s, {ratio} of MuJoCo's");

@@ -35,7 +35,7 @@ proptest! {
             prop_assert!((found - set).abs() < 1e-12, "velocity {index}: {found} instead of {set}");
         }
         // The root's body has the same motion; its angular velocity is set in the root's axes.
-        let root = physics.body_motions()[0];
+        let root = physics.body_motion(0);
         let spin = root.pose.rotation * Vector3::new(velocity[3], velocity[4], velocity[5]);
         prop_assert!((root.angular_radps - spin).norm() < 1e-12);
         prop_assert!((root.pose.translation.vector - Vector3::from(place)).norm() < 1e-12);
@@ -51,7 +51,7 @@ fn the_root_velocity_is_that_of_its_frame_not_its_centre_of_mass() {
     let mut velocity = [0.0; 23];
     velocity[..6].copy_from_slice(&[1.0, 0.0, 0.0, 0.0, 2.0, 0.0]);
     physics.set_state(&position, &velocity);
-    let (torso, motion) = (&physics.model().bodies[0], &physics.body_motions()[0]);
+    let (torso, motion) = (&physics.model().bodies[0], &physics.body_motion(0));
     // At 2 rad/s forward, a centre of mass d above the frame moves forward at 2d.
     let expected = 1.0 + 2.0 * torso.centre_of_mass_m.z;
     assert!(torso.centre_of_mass_m.z.abs() > 0.01);
@@ -64,9 +64,8 @@ fn bending_the_knee_moves_the_foot_up_and_back() {
     let mut position = physics.model().nominal_position();
     let knee = physics.model().hinges.iter().position(|hinge| hinge.name == "right_knee").expect("has a knee");
     let shin = physics.model().bodies.iter().position(|body| body.name == "right_shin").expect("has a shin");
-    let foot = |physics: &Physics| {
-        physics.body_motions()[shin].pose * physics.model().bodies[shin].shapes[1].geometry.centre_m()
-    };
+    let foot =
+        |physics: &Physics| physics.body_motion(shin).pose * physics.model().bodies[shin].shapes[1].geometry.centre_m();
     let straight = foot(&physics);
     position[7 + knee] = -1.5;
     physics.set_state(&position, &[0.0; 23]);

@@ -1,9 +1,42 @@
 //! Motion of the humanoid, of small bodies with a closed form, and of other models.
 
+mod batch;
 mod body;
 mod boxes;
 mod coordinates;
 mod dynamics;
+mod ground;
 mod hinge;
+mod invariance;
+mod joints;
 mod model_motion;
+mod rest;
+mod rolling;
 mod variation;
+
+use treadmill_humanoid::{EnvironmentConfig, Model, Physics};
+
+/// Control step of the default settings (s).
+const CONTROL_STEP_S: f64 = 0.015;
+
+/// Hinge and motor that every model needs, with a link of negligible mass.
+const SPARE_HINGE: &str = r#"<body><joint name="spare" damping="0.01"/>
+    <inertial pos="0 0 0" mass="1e-6" diaginertia="1e-9 1e-9 1e-9"/></body>"#;
+const SPARE_MOTOR: &str = r#"<actuator><motor joint="spare"/></actuator>"#;
+
+/// Physics of a text with the default settings.
+fn simulation(text: &str) -> Physics {
+    Physics::new(Model::from_mjcf(text).expect("valid"), &EnvironmentConfig::default()).expect("valid")
+}
+
+/// Simulates control steps with the same controls.
+fn advance(physics: &mut Physics, steps: u32, controls: &[f32]) {
+    for _ in 0..steps {
+        physics.step_only(controls).expect("finite");
+    }
+}
+
+/// Sum of all contact forces on all links along z (N), means over the last control step.
+fn lift_n(physics: &Physics) -> f64 {
+    (0..physics.model().links.len()).map(|link| physics.contact_wrench(link).0.z).sum()
+}

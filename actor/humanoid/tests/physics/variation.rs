@@ -1,7 +1,9 @@
 //! Randomised bodies and pushes.
 
 use nalgebra::Vector3;
-use treadmill_humanoid::{CONTROL_STEP_S, EnvironmentConfig, HUMANOID_XML, Model, Physics, Variation};
+use treadmill_humanoid::{EnvironmentConfig, HUMANOID_XML, Model, Physics, Variation};
+
+use crate::CONTROL_STEP_S;
 
 const IDLE: [f32; 17] = [0.0; 17];
 const STILL: [f64; 23] = [0.0; 23];
@@ -219,7 +221,7 @@ fn a_push_changes_only_the_velocity_of_the_whole_body() {
         let expected = before + push.as_slice().get(index).copied().unwrap_or(0.0);
         assert!((after - expected).abs() < 1e-5, "entry {index}: {after} instead of {expected}");
     }
-    assert!(body.body_motions().iter().all(|motion| motion.linear_mps.iter().all(|part| part.is_finite())));
+    assert!(body.body_motions().all(|motion| motion.linear_mps.iter().all(|part| part.is_finite())));
 }
 
 #[test]

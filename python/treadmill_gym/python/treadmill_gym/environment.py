@@ -12,7 +12,7 @@ class HumanoidEnv(gymnasium.Env, EzPickle):
     """Task of Gymnasium's Humanoid-v5, simulated by Treadmill.
 
     `render_mode` is `"rgb_array"` or `"human"`; `width` and `height` are in pixels; `camera` is x, y and z from the body to the
-    camera in m. Other keyword arguments: `observation`, `task`, `xml_file`, `substeps`, `solver_iterations`, `self_collision`,
+    camera in m. Other keyword arguments: `observation`, `task`, `xml_file`, `control_step_s`, `substeps`, `self_collision`,
     and the weights, ranges and flags of Gymnasium's Humanoid-v5. README.md has a table.
 
     Raises `TypeError` for an unknown keyword and `ValueError` for an invalid value.
@@ -25,6 +25,7 @@ class HumanoidEnv(gymnasium.Env, EzPickle):
         spaces.check_render_mode(render_mode, self.metadata["render_modes"])
         self.render_mode = render_mode
         self._native = Humanoid(settings)
+        self.metadata = self.metadata | {"render_fps": spaces.render_fps(self._native)}
         self._renderer = Renderer(width, height, camera)
         self._window = Window(width, height, self.metadata["render_fps"]) if render_mode == "human" else None
         self.observation_space = spaces.observation_space(self._native)
@@ -46,7 +47,7 @@ class HumanoidEnv(gymnasium.Env, EzPickle):
         return observation, info
 
     def step(self, action):
-        """Does a control step; `action` is clipped to its range, as in MuJoCo."""
+        """Does a control step; the motors receive `action` clipped to its range, as in MuJoCo."""
         action = spaces.as_actions(action, self.action_space.shape, "action")
         observation, reward, terminated, info = self._native.step(action)
         if self._window is not None and self._window.is_due():

@@ -3,7 +3,7 @@
 import numpy as np
 from gymnasium.spaces import Box
 
-#: Control steps per second, rounded as in Gymnasium.
+#: Control steps per second by default, rounded as in Gymnasium.
 RENDER_FPS = 67
 
 #: Exclusive upper limit of episode seeds.
@@ -20,6 +20,11 @@ def action_space(native):
     """Returns the space of motor controls."""
     low, high = np.array(native.action_ranges, np.float32).reshape(-1, 2).T.copy()
     return Box(low, high, dtype=np.float32)
+
+
+def render_fps(native):
+    """Returns the control steps per second, rounded as in Gymnasium."""
+    return round(1 / native.control_step_s)
 
 
 def observation_structure(native, exclude_current_positions_from_observation=True, **_):

@@ -38,10 +38,11 @@ class HumanoidVectorEnv(VectorEnv):
         spaces.check_render_mode(render_mode, self.metadata["render_modes"])
         self.num_envs, self.render_mode = num_envs, render_mode
         self.autoreset_mode = AutoresetMode(autoreset_mode)
-        self.metadata = self.metadata | {"autoreset_mode": self.autoreset_mode}
         # In Gymnasium, -1 and None mean no limit.
         limit = max_episode_steps if max_episode_steps not in (None, -1) else 0
         self._native = Humanoids(num_envs, settings, limit, threads)
+        fps = spaces.render_fps(self._native)
+        self.metadata = self.metadata | {"autoreset_mode": self.autoreset_mode, "render_fps": fps}
         self._renderer = Renderer(width, height, camera)
         self.single_observation_space = spaces.observation_space(self._native)
         self.single_action_space = spaces.action_space(self._native)

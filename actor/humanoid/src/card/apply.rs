@@ -1,0 +1,329 @@
+//! A card applied to a model.
+
+use super::{HingeRule, RobotCard};
+use crate::error::ModelError;
+use crate::model::{Hinge, Model, Motor};
+
+/// Share of the greatest torque that one unit of an action asks for, at rest.
+const ACTION_SHARE: f64 = 0.25;
+/// Greatest change of a target, in units of an action: all of the torque.
+const ACTION_MAX: f64 = 4.0;
+/// Most rules, and most pairs of symmetry: a card comes from another machine, too.
+const RULES_MAX: usize = 4096;
+const PAIRS_MAX: usize = 64;
+/// Longest pattern of names (bytes).
+const PATTERN_BYTES_MAX: usize = 256;
+/// Largest magnitude of a number, and least stiffness other than 0: targets and torques must stay finite.
+const NUMBER_MAX: f64 = 1e6;
+const STIFFNESS_MIN: f64 = 1e-6;
+
+/// What a card says of a model, resolved.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Robot {
+    /// Links that carry the robot, as indices of [`Model::links`].
+    pub feet: Vec<usize>,
+    /// Names of a left and a right hinge, see [`RobotCard::symmetry`].
+    pub symmetry: Vec<[String; 2]>,
+    /// Position vector of the default pose.
+    pub default_position: Vec<f64>,
+    /// One per hinge, in the order of [`Model::hinges`].
+    pub hinges: Vec<HingeControl>,
+}
+
+/// Servo of one hinge.
+#[derive(Clone, Debug, PartialEq)]
+pub struct HingeControl {
+    /// Stiffness (N·m/rad).
+    pub kp: f64,
+    /// Damping (N·m·s/rad).
+    pub kd: f64,
+    /// Greatest torque (N·m).
+    pub effort_nm: f64,
+    /// Offset of the target per unit of an action (rad).
+    pub action_scale_rad: f64,
+    /// Whether the hinge keeps its default angle.
+    pub is_held: bool,
+}
+
+impl RobotCard {
+    /// Replaces the motors of a model by one servo for each hinge that is not held, in the order of the hinges, and sets
+    /// [`Model::robot`].
+    ///
+    /// # Errors
+    /// [`ModelError`] names a body, keyframe, hinge or pattern that the model does not have, or a number that is impossible.
+    pub fn apply(&self, model: &mut Model) -> Result<(), ModelError> {
+        let refuse = |problem: String| ModelError::Card(problem);
+        if let Some(base) = &self.base
+            && *base != model.links[0].name
+        {
+            return Err(refuse(format!("`base` is `{base}`, but the free joint belongs to `{}`", model.links[0].name)));
+        }
+        let feet: Result<Vec<usize>, ModelError> = self
+            .feet
+            .iter()
+            .map(|foot| {
+                let found = model.links.iter().position(|link| link.name == *foot);
+                found.ok_or_else(|| refuse(format!("`feet`: the model has no body `{foot}`")))
+            })
+            .collect();
+        self.check_bounds()?;
+        let mut position = self.position(model)?;
+        let rules = self.rules_of_hinges(&model.hinges)?;
+        self.check_symmetry(&model.hinges)?;
+        let (feet, symmetry) = (feet?, self.symmetry.clone());
+        let mut robot = Robot { feet, symmetry, default_position: Vec::new(), hinges: Vec::new() };
+        let mut motors = Vec::new();
+        for (index, rule) in rules.iter().enumerate() {
+            let control = control(model, index, rule)?;
+            let hinge = &mut model.hinges[index];
+            if let Some(angle_rad) = rule.default_rad
+                && hinge.overshoot_rad(angle_rad) > 1e-6
+            {
+                let range = format!("{:.4} to {:.4}", hinge.min_rad, hinge.max_rad);
+                return Err(refuse(format!(
+                    "hinge `{}`: `default_rad` is {angle_rad}, outside of its range, {range}",
+                    hinge.name
+                )));
+            }
+            let angle_rad = &mut position[7 + index];
+            // Keyframes may be a little outside.
+            *angle_rad = rule.default_rad.unwrap_or(*angle_rad).max(hinge.min_rad).min(hinge.max_rad);
+            hinge.armature_kgm2 = rule.armature_kgm2.unwrap_or(hinge.armature_kgm2);
+            if control.is_held {
+                (hinge.stiffness_nmprad, hinge.rest_rad) = (control.kp, *angle_rad);
+                hinge.damping_nmsprad += control.kd;
+            } else {
+                motors.push(servo(index, hinge, *angle_rad, &control));
+            }
+            robot.hinges.push(control);
+        }
+        if motors.is_empty() {
+            return Err(refuse("every hinge is held; a policy needs at least one that is not".to_owned()));
+        }
+        // Controls of keyframes belong to the motors of the text.
+        model.keyframes.iter_mut().for_each(|key| key.controls = vec![0.0; motors.len()]);
+        model.motors = motors;
+        robot.default_position = position;
+        model.robot = Some(robot);
+        Ok(())
+    }
+
+    fn check_bounds(&self) -> Result<(), ModelError> {
+        for (what, count, most) in
+            [("[[hinges]]", self.rules.len(), RULES_MAX), ("symmetry", self.symmetry.len(), PAIRS_MAX)]
+        {
+            if count > most {
+                return Err(ModelError::Card(format!("{what} has {count} entries, but at most {most} are supported")));
+            }
+        }
+        let patterns = self.rules.iter().map(|rule| &rule.names).chain(self.symmetry.iter().flatten());
+        match patterns.map(String::len).max() {
+            Some(longest) if longest > PATTERN_BYTES_MAX => {
+                let problem = format!("a name has {longest} bytes, but at most {PATTERN_BYTES_MAX} are supported");
+                Err(ModelError::Card(problem))
+            }
+            _ => Ok(()),
+        }
+    }
+
+    fn position(&self, model: &Model) -> Result<Vec<f64>, ModelError> {
+        let mut position = match &self.keyframe {
+            None => model.nominal_position(),
+            Some(name) => {
+                let found = model.keyframes.iter().find(|key| key.name == *name);
+                let known: Vec<&str> = model.keyframes.iter().map(|key| key.name.as_str()).collect();
+                let missing =
+                    || ModelError::Card(format!("the model has no keyframe `{name}`; it has: {}", known.join(", ")));
+                found.ok_or_else(missing)?.position.clone()
+            }
+        };
+        if let Some(height_m) = self.height_m {
+            if !(height_m.is_finite() && height_m > 0.0) {
+                return Err(ModelError::Card(format!("`height_m` is {height_m}, but must be above 0")));
+            }
+            position[2] = height_m;
+        }
+        Ok(position)
+    }
+
+    fn check_symmetry(&self, hinges: &[Hinge]) -> Result<(), ModelError> {
+        for pair @ [left, right] in &self.symmetry {
+            let mut of_left =
+                hinges.iter().filter_map(|hinge| counterpart(&hinge.name, pair).filter(|_| matches(left, &hinge.name)));
+            let first = of_left.next().ok_or_else(|| {
+                ModelError::Card(format!("symmetry [\"{left}\", \"{right}\"]: no hinge is named `{left}`"))
+            })?;
+            for image in std::iter::once(first).chain(of_left) {
+                if !hinges.iter().any(|hinge| hinge.name == image) {
+                    let problem = format!("symmetry [\"{left}\", \"{right}\"]: the model has no hinge `{image}`");
+                    return Err(ModelError::Card(problem));
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Returns one rule per hinge, merged from all that match it.
+    fn rules_of_hinges(&self, hinges: &[Hinge]) -> Result<Vec<HingeRule>, ModelError> {
+        let mut merged = vec![HingeRule::default(); hinges.len()];
+        for rule in &self.rules {
+            rule.check()?;
+            let mut is_used = false;
+            for (of_hinge, _) in merged.iter_mut().zip(hinges).filter(|(_, hinge)| matches(&rule.names, &hinge.name)) {
+                is_used = true;
+                let HingeRule { names, kp, kd, effort_nm, armature_kgm2, default_rad, action_scale_rad, held } =
+                    rule.clone();
+                *of_hinge = HingeRule {
+                    names,
+                    kp: kp.or(of_hinge.kp),
+                    kd: kd.or(of_hinge.kd),
+                    effort_nm: effort_nm.or(of_hinge.effort_nm),
+                    armature_kgm2: armature_kgm2.or(of_hinge.armature_kgm2),
+                    default_rad: default_rad.or(of_hinge.default_rad),
+                    action_scale_rad: action_scale_rad.or(of_hinge.action_scale_rad),
+                    held: held.or(of_hinge.held),
+                };
+            }
+            if !is_used {
+                let known: Vec<&str> = hinges.iter().map(|hinge| hinge.name.as_str()).collect();
+                let problem =
+                    format!("names = \"{}\" matches no hinge of the model; it has: {}", rule.names, known.join(", "));
+                return Err(ModelError::Card(problem));
+            }
+        }
+        Ok(merged)
+    }
+}
+
+impl HingeRule {
+    fn check(&self) -> Result<(), ModelError> {
+        for (key, value, least) in [
+            ("kp", self.kp, 0.0),
+            ("kd", self.kd, 0.0),
+            ("effort_nm", self.effort_nm, f64::MIN_POSITIVE),
+            ("armature_kgm2", self.armature_kgm2, 0.0),
+            ("default_rad", self.default_rad, f64::MIN),
+            ("action_scale_rad", self.action_scale_rad, f64::MIN_POSITIVE),
+        ] {
+            if let Some(value) = value.filter(|value| !(value.abs() <= NUMBER_MAX && *value >= least)) {
+                let wanted = match least {
+                    0.0 => "0 to 1e6",
+                    f64::MIN => "-1e6 to 1e6",
+                    _ => "above 0, up to 1e6",
+                };
+                return Err(ModelError::Card(format!(
+                    "hinges \"{}\": `{key}` is {value}, but must be {wanted}",
+                    self.names
+                )));
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Returns the servo of a hinge: of the card, or else of the model's motor.
+fn control(model: &Model, hinge: usize, rule: &HingeRule) -> Result<HingeControl, ModelError> {
+    let name = &model.hinges[hinge].name;
+    let missing =
+        |what: &str| ModelError::Card(format!("hinge `{name}` has no {what} in the model; give it in the card"));
+    let motor = model.motors.iter().find(|motor| motor.hinge == hinge);
+    let servo = motor.filter(|motor| motor.bias[1] != 0.0);
+    let gear = motor.map_or(1.0, |motor| motor.gear_nm);
+    let kp = rule.kp.or(servo.map(|servo| -servo.bias[1] * gear * gear)).ok_or_else(|| missing("servo: `kp`"))?;
+    let kd = rule.kd.or(servo.map(|servo| -servo.bias[2] * gear * gear)).ok_or_else(|| missing("servo: `kd`"))?;
+    let effort_nm =
+        rule.effort_nm.or_else(|| model.effort_nm(hinge)).ok_or_else(|| missing("limit of torque: `effort_nm`"))?;
+    if !(kp == 0.0 || (STIFFNESS_MIN..=NUMBER_MAX).contains(&kp)) {
+        return Err(ModelError::Card(format!("hinge `{name}`: `kp` is {kp}, but must be 0, or from 1e-6 to 1e6")));
+    }
+    if !(effort_nm > 0.0 && effort_nm <= NUMBER_MAX) {
+        return Err(ModelError::Card(format!(
+            "hinge `{name}`: its effort is {effort_nm} N·m; give `effort_nm`, above 0 and up to 1e6"
+        )));
+    }
+    if rule.action_scale_rad.is_none() && kp == 0.0 {
+        return Err(ModelError::Card(format!("hinge `{name}`: `kp` is 0, so give its `action_scale_rad`")));
+    }
+    let action_scale_rad = rule.action_scale_rad.unwrap_or(ACTION_SHARE * effort_nm / kp);
+    Ok(HingeControl { kp, kd, effort_nm, action_scale_rad, is_held: rule.held.unwrap_or(false) })
+}
+
+impl Model {
+    /// Returns the greatest torque that a hinge and its first motor allow (N·m); `None` if it is not limited.
+    #[must_use]
+    pub fn effort_nm(&self, hinge: usize) -> Option<f64> {
+        let motor = self.motors.iter().find(|motor| motor.hinge == hinge);
+        effort_nm(self, hinge, motor)
+    }
+}
+
+/// Returns the greatest torque that a hinge and its motor allow; `None` if it is not limited.
+fn effort_nm(model: &Model, hinge: usize, motor: Option<&Motor>) -> Option<f64> {
+    let greatest = |[low, high]: [f64; 2]| low.abs().max(high.abs());
+    let of_motor = motor.map_or(f64::INFINITY, |motor| {
+        let by_force = greatest(motor.force);
+        // The control of a plain motor is its force.
+        let by_control =
+            if motor.bias == [0.0; 3] { greatest(motor.control) * motor.gain.abs() } else { f64::INFINITY };
+        by_force.min(by_control) * motor.gear_nm.abs()
+    });
+    Some(greatest(model.hinges[hinge].torque_nm).min(of_motor)).filter(|effort_nm| effort_nm.is_finite())
+}
+
+/// Returns a position servo whose targets surround the default angle.
+fn servo(index: usize, hinge: &Hinge, default_rad: f64, control: &HingeControl) -> Motor {
+    let HingeControl { kp, kd, effort_nm, action_scale_rad, .. } = *control;
+    let most_rad = ACTION_MAX * action_scale_rad;
+    Motor {
+        name: hinge.name.clone(),
+        hinge: index,
+        gear_nm: 1.0,
+        length_per_rad: 1.0,
+        control: [default_rad - most_rad, default_rad + most_rad],
+        gain: kp,
+        bias: [0.0, -kp, -kd],
+        force: [-effort_nm, effort_nm],
+    }
+}
+
+/// Returns the name on the other side for a name that matches one of a pair of patterns, each with at most one `*`.
+pub(crate) fn counterpart(name: &str, [left, right]: &[String; 2]) -> Option<String> {
+    let swap = |from: &str, to: &str| match (from.split_once('*'), to.split_once('*')) {
+        (Some((before, after)), Some((start, end))) => {
+            let shared = name.strip_prefix(before)?.strip_suffix(after)?;
+            Some(format!("{start}{shared}{end}"))
+        }
+        _ => (from == name).then(|| to.to_owned()),
+    };
+    swap(left, right).or_else(|| swap(right, left))
+}
+
+/// Returns whether a name matches a pattern, in which `*` stands for any letters.
+pub(super) fn matches(pattern: &str, name: &str) -> bool {
+    let Some((first, rest)) = pattern.split_once('*') else { return pattern == name };
+    let Some(mut left) = name.strip_prefix(first) else { return false };
+    let (between, last) = rest.rsplit_once('*').unwrap_or(("", rest));
+    for part in between.split('*') {
+        // The first place leaves most for the other parts.
+        let Some(place) = left.find(part) else { return false };
+        left = &left[place + part.len()..];
+    }
+    left.ends_with(last)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::matches;
+
+    #[test]
+    fn a_star_stands_for_any_letters() {
+        for (pattern, name) in
+            [("a", "a"), ("*", ""), ("*_knee", "left_knee"), ("l*_k*e", "left_knee"), ("**é", "éé"), ("*", "a")]
+        {
+            assert!(matches(pattern, name), "{pattern} {name}");
+        }
+        for (pattern, name) in [("a", "ab"), ("", "a"), ("*_knee", "left_knee_joint"), ("l*t", "lef"), ("b*", "ab")] {
+            assert!(!matches(pattern, name), "{pattern} {name}");
+        }
+    }
+}

@@ -1,0 +1,132 @@
+//! Robot cards: what a controller needs to know of a robot beside its model file.
+//!
+//! A card is a TOML file:
+//!
+//! ```toml
+//! model = "scene.xml"           # relative to the card
+//! feet = ["left_foot", "right_foot"]
+//! height_m = 0.76               # of the root in the default pose
+//!
+//! [[hinges]]
+//! names = "*_knee_joint"        # `*` stands for any letters; later entries complete or replace earlier ones
+//! kp = 99.1                     # N·m/rad
+//! kd = 6.31                     # N·m·s/rad
+//! effort_nm = 139.0
+//! armature_kgm2 = 0.025
+//! default_rad = 0.3
+//! ```
+//!
+//! [`RobotCard::apply`] replaces the motors of a model by servos with these gains. A text with a card in it, see
+//! [`with_card`], needs no file.
+
+mod apply;
+mod draft;
+
+use roxmltree::Document;
+use serde::Deserialize;
+
+pub(crate) use self::apply::counterpart;
+pub use self::apply::{HingeControl, Robot};
+pub use self::draft::draft;
+use crate::error::ModelError;
+use crate::model::with_custom_text;
+
+/// Name of the `<text>` in `<custom>` that holds a card.
+pub(crate) const CARD_TEXT: &str = "treadmill_robot_card";
+
+/// Robot card as written.
+#[derive(Clone, Debug, Default, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct RobotCard {
+    /// Path of the model file, relative to the card; empty if the card is read with a model.
+    #[serde(default)]
+    pub model: String,
+    /// Body of the free joint, if it must be checked.
+    pub base: Option<String>,
+    /// Bodies that carry the robot.
+    #[serde(default)]
+    pub feet: Vec<String>,
+    /// Keyframe of the default pose; without it all hinges are at zero where no rule says otherwise.
+    pub keyframe: Option<String>,
+    /// Height of the root in the default pose (m); replaces that of the keyframe or text.
+    pub height_m: Option<f64>,
+    /// Names of a left and a right hinge, in which one `*` may stand for the letters that both share; for robots whose names do
+    /// not follow left and right.
+    #[serde(default)]
+    pub symmetry: Vec<[String; 2]>,
+    /// Rules about hinges.
+    #[serde(default, rename = "hinges")]
+    pub rules: Vec<HingeRule>,
+}
+
+/// Properties of all hinges whose name matches.
+#[derive(Clone, Debug, Default, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct HingeRule {
+    /// Name, in which `*` stands for any letters.
+    pub names: String,
+    /// Stiffness of the servo (N·m/rad).
+    pub kp: Option<f64>,
+    /// Damping of the servo (N·m·s/rad).
+    pub kd: Option<f64>,
+    /// Greatest torque (N·m).
+    pub effort_nm: Option<f64>,
+    /// Rotor inertia as seen at the hinge (kg·m²); replaces the model's.
+    pub armature_kgm2: Option<f64>,
+    /// Angle in the default pose (rad); replaces the keyframe's.
+    pub default_rad: Option<f64>,
+    /// Offset of the target per unit of an action (rad), at most four of which count; by default a quarter of effort ÷ kp.
+    pub action_scale_rad: Option<f64>,
+    /// Whether the hinge keeps its default angle, by its gains, and belongs to no action.
+    pub held: Option<bool>,
+}
+
+impl RobotCard {
+    /// Reads a card.
+    ///
+    /// # Errors
+    /// [`ModelError::Card`] with the line of the first mistake.
+    pub fn parse(text: &str) -> Result<Self, ModelError> {
+        toml::from_str(text).map_err(|why| ModelError::Card(why.to_string().trim_end().to_owned()))
+    }
+}
+
+/// Cards that come along, by name.
+pub const BUILT_IN: [(&str, &str); 4] = [
+    ("g1", include_str!("../../assets/robots/g1.toml")),
+    ("g1-29", include_str!("../../assets/robots/g1-29.toml")),
+    ("h1", include_str!("../../assets/robots/h1.toml")),
+    ("t1", include_str!("../../assets/robots/t1.toml")),
+];
+
+/// Returns a model text with the built-in card `name` in it.
+///
+/// # Errors
+/// [`ModelError::Card`] if there is no such card, or if the text has one.
+pub fn with_built_in(text: &str, name: &str) -> Result<String, ModelError> {
+    let Some((_, card)) = BUILT_IN.into_iter().find(|(known, _)| *known == name) else {
+        let known = BUILT_IN.map(|(known, _)| known).join(", ");
+        return Err(ModelError::Card(format!("there is no card `{name}`; allowed: {known}, or none")));
+    };
+    if text.contains(CARD_TEXT) {
+        return Err(ModelError::Card(format!(
+            "the model has a card of its own beside the card `{name}`; use one of them"
+        )));
+    }
+    with_card(text, card)
+}
+
+/// Returns a model text with a card in it.
+///
+/// # Errors
+/// If the text is not XML.
+pub(crate) fn with_card(text: &str, card: &str) -> Result<String, ModelError> {
+    with_custom_text(text, CARD_TEXT, card)
+}
+
+/// Returns the card in a model text, if there is one.
+pub(crate) fn in_document(document: &Document<'_>) -> Result<Option<RobotCard>, ModelError> {
+    let custom = document.root_element().children().filter(|node| node.has_tag_name("custom"));
+    let mut texts = custom.flat_map(|node| node.children()).filter(|node| node.attribute("name") == Some(CARD_TEXT));
+    texts.next().map(|node| RobotCard::parse(node.attribute("data").unwrap_or_default())).transpose()
+}

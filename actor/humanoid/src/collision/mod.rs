@@ -1,0 +1,190 @@
+//! What touches: places of contact between shapes, and between shapes and the ground.
+//!
+//! The pairs that can touch at all are known from the model. In every step, cheap tests for several worlds at once leave few
+//! of them: bounding spheres, and the distance of the axes of capsules. Spheres and capsules over a plane are solved in closed
+//! form. Everything else is a contact query of Rapier's collision detection (see `queries`).
+
+mod model;
+mod queries;
+
+use pulp::Simd;
+
+pub(crate) use self::model::{CollisionModel, PairNode};
+pub(crate) use self::queries::POINTS_MAX;
+use self::queries::{Found, Queries};
+use crate::dynamics::Posture;
+use crate::lanes::{LANES_MAX, Lanes, Mask, Vec3};
+
+/// Index of a pair, and of a contact point within the pair.
+pub(crate) type ContactKey = (u32, u32);
+
+/// Contact point of one pair in several worlds.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Contact<S: Simd> {
+    pub(crate) key: ContactKey,
+    /// Position relative to O (m).
+    pub(crate) point_m: Vec3<S>,
+    /// Unit vector towards the pair's first body.
+    pub(crate) normal: Vec3<S>,
+    /// Distance between the surfaces (m); negative where they overlap.
+    pub(crate) gap_m: Lanes<S>,
+}
+
+/// Contacts of one step, and workspace to find them.
+pub(crate) struct Collisions<S: Simd> {
+    /// In the order of pairs and points, so that the constraint solve always takes them in the same order.
+    pub(crate) contacts: Vec<Contact<S>>,
+    /// Centre of each shape, and half of the axis of capsules (m, relative to O).
+    centres_m: Vec<Vec3<S>>,
+    halves_m: Vec<Vec3<S>>,
+    queries: Queries,
+}
+
+/// Gap of a contact in the lanes where it does not exist (m).
+const ABSENT_M: f64 = 1e6;
+
+impl<S: Simd> Collisions<S> {
+    pub(crate) fn new(simd: S, model: &CollisionModel) -> Self {
+        let shapes = model.shapes.len();
+        Self {
+            contacts: Vec::with_capacity(32),
+            centres_m: vec![Vec3::zero(simd); shapes],
+            halves_m: vec![Vec3::zero(simd); shapes],
+            queries: Queries::default(),
+        }
+    }
+
+    /// Finds all contacts at a posture; `root_m` is the position of O in the world and `worlds` the number of lanes in use.
+    #[inline(always)]
+    pub(crate) fn find(&mut self, model: &CollisionModel, posture: &Posture<S>, root_m: &Vec3<S>, worlds: usize) {
+        self.contacts.clear();
+        for (index, shape) in model.shapes.iter().enumerate() {
+            let rotation = &posture.rotations[shape.body];
+            self.centres_m[index] = posture.origins_m[shape.body] + rotation.times_constant(&shape.centre_m);
+            if let Some(half_m) = &shape.half_m {
+                self.halves_m[index] = rotation.times_constant(half_m);
+            }
+        }
+        for (index, pair) in model.pairs.iter().enumerate() {
+            let key = index as u32;
+            let near = match pair.second {
+                None if model.is_flat() => {
+                    if model.shapes[pair.first].is_round {
+                        self.touch_plane(model, key, pair, root_m);
+                        continue;
+                    }
+                    self.is_low(model, pair, root_m)
+                }
+                None => self.is_low(model, pair, root_m),
+                Some(second) => self.is_near(model, pair, second),
+            };
+            if near.any() {
+                self.query(model, posture, root_m, key, pair, near, worlds);
+            }
+        }
+    }
+
+    /// Adds the contacts of a sphere or capsule with the plane at height 0.
+    #[inline(always)]
+    fn touch_plane(&mut self, model: &CollisionModel, key: u32, pair: &PairNode, root_m: &Vec3<S>) {
+        let shape = &model.shapes[pair.first];
+        let centre = self.centres_m[pair.first];
+        let zero = root_m.z.constant(0.0);
+        let normal = Vec3::new(zero, zero, zero.constant(1.0));
+        let half = self.halves_m[pair.first];
+        let ends = [centre + half, centre - half];
+        for (number, point) in ends[..if shape.half_m.is_some() { 2 } else { 1 }].iter().enumerate() {
+            let gap_m = root_m.z + point.z - shape.thickness_m;
+            if (gap_m - pair.margin_m).less_than(zero).any() {
+                let down = gap_m * 0.5 + shape.thickness_m;
+                let point_m = Vec3::new(point.x, point.y, point.z - down);
+                self.contacts.push(Contact { key: (key, number as u32), point_m, normal, gap_m });
+            }
+        }
+    }
+
+    /// Returns where a shape's bounding sphere reaches below the highest point of the ground.
+    #[inline(always)]
+    fn is_low(&self, model: &CollisionModel, pair: &PairNode, root_m: &Vec3<S>) -> Mask<S> {
+        let lowest = root_m.z + self.centres_m[pair.first].z - model.shapes[pair.first].radius_m;
+        lowest.less_than(lowest.constant(model.highest_m + pair.margin_m))
+    }
+
+    /// Returns where two shapes may touch: by their bounding spheres, then by their axes if both are round.
+    #[inline(always)]
+    fn is_near(&self, model: &CollisionModel, pair: &PairNode, second: usize) -> Mask<S> {
+        let first = pair.first;
+        let offset = self.centres_m[first] - self.centres_m[second];
+        let reach_m = model.shapes[first].radius_m + model.shapes[second].radius_m + pair.margin_m;
+        let near = offset.dot(&offset).less_than(offset.x.constant(reach_m * reach_m));
+        if !(near.any() && model.shapes[first].is_round && model.shapes[second].is_round) {
+            return near;
+        }
+        let squared = squared_distance(&offset, &self.halves_m[first], &self.halves_m[second]);
+        let reach_m = model.shapes[first].thickness_m + model.shapes[second].thickness_m + pair.margin_m;
+        near.and(squared.less_than(offset.x.constant(reach_m * reach_m)))
+    }
+
+    /// Adds the contacts that Rapier finds, world by world.
+    #[expect(clippy::too_many_arguments, reason = "one call site")]
+    fn query(
+        &mut self,
+        model: &CollisionModel,
+        posture: &Posture<S>,
+        root_m: &Vec3<S>,
+        key: u32,
+        pair: &PairNode,
+        near: Mask<S>,
+        worlds: usize,
+    ) {
+        let zero = root_m.z.constant(0.0);
+        let asked = near.select(zero.constant(1.0), zero);
+        let mut found = [[Found::default(); POINTS_MAX]; LANES_MAX];
+        let mut counts = [0; LANES_MAX];
+        for lane in 0..worlds.min(S::F64_LANES) {
+            if asked.lane(lane) == 0.0 {
+                continue;
+            }
+            let pose = |body: usize| (posture.rotations[body].lane(lane), posture.origins_m[body].lane(lane));
+            counts[lane] = self.queries.run(model, pair, pose, &root_m.lane(lane), &mut found[lane]);
+        }
+        for number in 0..counts.into_iter().max().unwrap_or(0) {
+            let vertical = Vec3::new(zero, zero, zero.constant(1.0));
+            let nowhere = Vec3::new(zero, zero, zero);
+            let mut contact = Contact {
+                key: (key, number as u32),
+                point_m: nowhere,
+                normal: vertical,
+                gap_m: zero.constant(ABSENT_M),
+            };
+            for (lane, points) in found.iter().enumerate().take(worlds).filter(|(lane, _)| number < counts[*lane]) {
+                let point = &points[number];
+                contact.point_m.set_lane(lane, &point.point_m);
+                contact.normal.set_lane(lane, &point.normal);
+                contact.gap_m.set_lane(lane, point.gap_m);
+            }
+            self.contacts.push(contact);
+        }
+    }
+}
+
+/// Returns the squared distance of two line segments with the given halves, whose centres differ by `offset`.
+///
+/// Formulas: C. Ericson, *Real-Time Collision Detection*, 2005, section 5.1.9, for centres instead of ends.
+#[inline(always)]
+fn squared_distance<S: Simd>(offset: &Vec3<S>, one: &Vec3<S>, other: &Vec3<S>) -> Lanes<S> {
+    let tiny = offset.x.constant(1e-12);
+    let (a, b, e) = (one.dot(one), one.dot(other), other.dot(other));
+    let (c, f) = (one.dot(offset), other.dot(offset));
+    let s = within_one((b * f - c * e) / (a * e - b * b).max(tiny));
+    let t = within_one((b * s + f) / e.max(tiny));
+    let s = within_one((b * t - c) / a.max(tiny));
+    let between = *offset + *one * s - *other * t;
+    between.dot(&between)
+}
+
+#[inline(always)]
+fn within_one<S: Simd>(number: Lanes<S>) -> Lanes<S> {
+    let one = number.constant(1.0);
+    number.min(one).max(-one)
+}

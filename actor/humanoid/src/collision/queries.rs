@@ -1,0 +1,195 @@
+//! Contact queries of Rapier's collision detection, for pairs without a closed form.
+//!
+//! Single precision suffices: places are relative to the root.
+
+use nalgebra::{Matrix3, Rotation3, UnitQuaternion, Vector3};
+use rapier3d::math::{Pose, Rotation, Vector};
+use rapier3d::parry::bounding_volume::BoundingVolume;
+use rapier3d::parry::query::{
+    ContactManifold, ContactManifoldsWorkspace, DefaultQueryDispatcher, PersistentQueryDispatcher,
+    details::NormalConstraints,
+};
+use rapier3d::parry::shape::Shape;
+
+use super::model::{CollisionModel, PairNode};
+
+/// Most contact points of one pair. Two convex shapes need four; a shape may touch several triangles of a height field, and
+/// then the deepest points count.
+pub(crate) const POINTS_MAX: usize = 8;
+/// Points of one pair that are closer than this (m) and have the same normal are one.
+const SAME_POINT_M: f64 = 1e-3;
+
+/// Coordinates beyond this (m), and those that are not finite, have no contacts: single precision cannot place them.
+const PLACE_MAX_M: f64 = 1e6;
+
+/// Contact point in one world.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Found {
+    /// Position relative to O (m).
+    pub(super) point_m: Vector3<f64>,
+    /// Unit vector towards the pair's first body.
+    pub(super) normal: Vector3<f64>,
+    pub(super) gap_m: f64,
+}
+
+/// Workspace of the queries.
+#[derive(Default)]
+pub(super) struct Queries {
+    manifolds: Vec<ContactManifold<(), ()>>,
+    single: ContactManifold<(), ()>,
+    workspace: Option<ContactManifoldsWorkspace>,
+}
+
+impl Queries {
+    /// Writes the contact points of a pair, deepest first, and returns their number. `pose` gives rotation and origin of a body
+    /// (m, relative to O), and `root_m` is the position of O in the world.
+    pub(super) fn run(
+        &mut self,
+        model: &CollisionModel,
+        pair: &PairNode,
+        pose: impl Fn(usize) -> (Matrix3<f64>, Vector3<f64>),
+        root_m: &Vector3<f64>,
+        found: &mut [Found; POINTS_MAX],
+    ) -> usize {
+        let placed = |shape: usize| {
+            let (rotation, origin) = pose(model.shapes[shape].body);
+            to_pose(&rotation, &origin) * model.shapes[shape].offset
+        };
+        let bodies = pair.bodies.iter().flatten();
+        let is_near = |vector: &Vector3<f64>| vector.iter().all(|part| part.abs() < PLACE_MAX_M);
+        if !is_near(root_m) || !bodies.copied().all(|body| is_near(&pose(body).1)) {
+            // The state is about to fail.
+            return 0;
+        }
+        let first = &model.shapes[pair.first];
+        let place = placed(pair.first);
+        let prediction = pair.margin_m as f32;
+        let mut points = Points { found, count: 0, margin_m: pair.margin_m };
+        match pair.second {
+            Some(second) => {
+                let other = placed(second);
+                self.collect(&other, &*model.shapes[second].shape, &place, &*first.shape, prediction, &mut points);
+            }
+            None => {
+                // A plane is the same everywhere, so that places stay near 0.
+                let away_m = if model.is_flat() { Vector3::new(0.0, 0.0, root_m.z) } else { *root_m };
+                let ground = Pose::from_parts(to_vector(&(model.ground_m - away_m)), model.ground_rotation);
+                match &model.height_field {
+                    None => self.collect(&ground, &*model.ground, &place, &*first.shape, prediction, &mut points),
+                    Some(field) => {
+                        let between = ground.inverse() * place;
+                        let near = first.shape.compute_aabb(&between).loosened(prediction.max(1e-3));
+                        let manifold = &mut self.single;
+                        field.map_elements_in_local_aabb(&near, &mut |index, triangle| {
+                            forget(manifold);
+                            // Without them, an edge between two triangles would push sideways.
+                            let normals = field.triangle_normal_constraints(index);
+                            let asked = DefaultQueryDispatcher.contact_manifold_convex_convex(
+                                &between,
+                                triangle,
+                                &*first.shape,
+                                normals.as_ref().map(|normals| normals as &dyn NormalConstraints),
+                                None,
+                                prediction,
+                                manifold,
+                            );
+                            if asked.is_ok() {
+                                points.take(&ground, manifold, true);
+                            }
+                        });
+                    }
+                }
+            }
+        }
+        points.count
+    }
+
+    fn collect(
+        &mut self,
+        pose: &Pose,
+        shape: &dyn Shape,
+        other_pose: &Pose,
+        other: &dyn Shape,
+        prediction: f32,
+        points: &mut Points<'_>,
+    ) {
+        self.manifolds.iter_mut().for_each(forget);
+        let between = pose.inverse() * *other_pose;
+        let Self { manifolds, workspace, .. } = self;
+        let asked = DefaultQueryDispatcher.contact_manifolds(&between, shape, other, prediction, manifolds, workspace);
+        if asked.is_ok() {
+            for manifold in &*manifolds {
+                points.take(pose, manifold, false);
+            }
+        }
+    }
+}
+
+/// Points of one pair so far, deepest first.
+struct Points<'a> {
+    found: &'a mut [Found; POINTS_MAX],
+    count: usize,
+    margin_m: f64,
+}
+
+impl Points<'_> {
+    /// Adds the points of a manifold whose first shape is at `pose`; the ground pushes upwards only.
+    fn take(&mut self, pose: &Pose, manifold: &ContactManifold<(), ()>, is_ground: bool) {
+        let normal = from_vector(pose.rotation * manifold.local_n1);
+        let norm = normal.norm();
+        if !(norm > 0.5 && norm < 2.0) || is_ground && normal.z <= 0.0 {
+            return;
+        }
+        let normal = normal / norm;
+        for contact in &manifold.points {
+            let gap_m = f64::from(contact.dist);
+            let point_m = from_vector(*pose * contact.local_p1) + normal * (gap_m / 2.0);
+            if gap_m < self.margin_m && point_m.iter().all(|part| part.is_finite()) {
+                self.insert(Found { point_m, normal, gap_m });
+            }
+        }
+    }
+
+    fn insert(&mut self, new: Found) {
+        let same =
+            |known: &Found| (known.point_m - new.point_m).norm() < SAME_POINT_M && known.normal.dot(&new.normal) > 0.99;
+        if let Some(known) = self.found[..self.count].iter_mut().find(|known| same(known)) {
+            if new.gap_m < known.gap_m {
+                *known = new;
+            }
+            return;
+        }
+        let place = self.found[..self.count].iter().position(|known| new.gap_m < known.gap_m).unwrap_or(self.count);
+        if place == POINTS_MAX {
+            return;
+        }
+        self.count = (self.count + 1).min(POINTS_MAX);
+        self.found[place..self.count].rotate_right(1);
+        self.found[place] = new;
+    }
+}
+
+/// Removes everything that Rapier would reuse: points, and normals, from which it starts its search.
+fn forget(manifold: &mut ContactManifold<(), ()>) {
+    manifold.clear();
+    (manifold.local_n1, manifold.local_n2) = (Vector::ZERO, Vector::ZERO);
+}
+
+fn to_pose(rotation: &Matrix3<f64>, origin_m: &Vector3<f64>) -> Pose {
+    let quaternion = UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(*rotation));
+    Pose::from_parts(to_vector(origin_m), to_rotation(&quaternion))
+}
+
+pub(super) fn to_vector(v: &Vector3<f64>) -> Vector {
+    Vector::new(v.x as f32, v.y as f32, v.z as f32)
+}
+
+pub(super) fn to_rotation(r: &UnitQuaternion<f64>) -> Rotation {
+    let q = r.quaternion();
+    // Rounding to single precision changes the norm by 1e-7, which would accumulate in products.
+    Rotation::from_xyzw(q.i as f32, q.j as f32, q.k as f32, q.w as f32).normalize()
+}
+
+fn from_vector(v: Vector) -> Vector3<f64> {
+    Vector3::new(f64::from(v.x), f64::from(v.y), f64::from(v.z))
+}

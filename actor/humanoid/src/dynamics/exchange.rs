@@ -1,0 +1,98 @@
+//! Exchange between the lanes of a group and its worlds.
+
+use nalgebra::Vector3;
+use pulp::Simd;
+
+use super::group::{Group, Worlds};
+use super::world::{BodyState, ContactLoad, Impulse, World};
+use crate::collision::CollisionModel;
+use crate::lanes::Lanes;
+
+/// Magnitude (m, rad, m/s or rad/s) from which a state counts as a fault, as in MuJoCo (`mjMAXVAL`).
+const NUMBER_MAX: f64 = 1e10;
+
+impl<S: Simd> Group<S> {
+    /// Copies states and parameters of the worlds into the lanes. Lanes without a world repeat the first one: left alone, they
+    /// would go on with bodies that have long fallen, whose many contacts take time.
+    pub(super) fn load(&mut self, worlds: Worlds<'_, '_>) {
+        self.worlds = worlds.iter().flatten().count();
+        let first = worlds[0].as_deref();
+        for (lane, world) in worlds.iter().take(S::F64_LANES).enumerate() {
+            let Some(world) = world.as_deref().or(first) else { return };
+            set_lane(&mut self.position, lane, &world.position);
+            set_lane(&mut self.velocity, lane, &world.velocity);
+            let parameters = &world.parameters;
+            for (index, body) in self.masses.iter_mut().enumerate() {
+                body.mass_kg.set_lane(lane, parameters.masses_kg[index]);
+                let own = &parameters.inertias_kgm2[index];
+                for (number, (row, column)) in
+                    body.inertia_kgm2.iter_mut().zip([(0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2)])
+                {
+                    number.set_lane(lane, own[(row, column)]);
+                }
+            }
+            for (index, (hinge, drive)) in self.forces.hinges.iter_mut().zip(&world.drives).enumerate() {
+                hinge.friction_nmsprad.set_lane(lane, parameters.damping_nmsprad[index]);
+                hinge.armature_kgm2.set_lane(lane, parameters.armature_kgm2[index]);
+                hinge.torque_nm.set_lane(lane, drive.torque_nm);
+                hinge.stiffness_nmprad.set_lane(lane, drive.stiffness_nmprad);
+                hinge.damping_nmsprad.set_lane(lane, drive.damping_nmsprad);
+                hinge.min_nm.set_lane(lane, drive.min_nm);
+                hinge.max_nm.set_lane(lane, drive.max_nm);
+            }
+            self.forces.gravity_mps2.set_lane(lane, &parameters.gravity_mps2);
+            self.constraints.friction_scale.set_lane(lane, parameters.friction_scale);
+        }
+    }
+
+    pub(super) fn store_bodies(&self, lane: usize, world: &mut World) {
+        for (index, body) in world.bodies.iter_mut().enumerate() {
+            *body = BodyState {
+                rotation: self.posture.rotations[index].lane(lane),
+                origin_m: self.posture.origins_m[index].lane(lane),
+                centre_m: self.posture.centres_m[index].lane(lane),
+                linear_mps: self.velocities[index].linear.lane(lane),
+                angular_radps: self.velocities[index].angular.lane(lane),
+            };
+        }
+    }
+
+    pub(super) fn store(&self, collision: &CollisionModel, worlds: Worlds<'_, '_>) {
+        for (lane, world) in worlds.iter_mut().flatten().enumerate() {
+            let mut numbers = self.position.iter().chain(&self.velocity);
+            world.has_failed = !numbers.all(|number| number.lane(lane).abs() < NUMBER_MAX);
+            if world.has_failed {
+                continue;
+            }
+            get_lane(&self.position, lane, &mut world.position);
+            get_lane(&self.velocity, lane, &mut world.velocity);
+            get_lane(&self.torques_nm, lane, &mut world.torques_nm);
+            self.store_bodies(lane, world);
+            for (impulse, sum) in world.link_impulses.iter_mut().zip(&self.impulses) {
+                *impulse = Impulse { linear_ns: sum.force.lane(lane), angular_nms: sum.moment.lane(lane) };
+            }
+            world.residual = self.constraints.residual.lane(lane);
+            world.contacts.clear();
+            let origin_m = self.middle_m.lane(lane);
+            for load in &self.loads {
+                let force_n = load.force_n.lane(lane);
+                if force_n != Vector3::zeros() {
+                    let at_m = origin_m + load.point_m.lane(lane);
+                    world.contacts.push(ContactLoad { links: collision.pairs[load.pair].links, at_m, force_n });
+                }
+            }
+        }
+    }
+}
+
+pub(super) fn set_lane<S: Simd>(lanes: &mut [Lanes<S>], lane: usize, numbers: &[f64]) {
+    for (lanes, number) in lanes.iter_mut().zip(numbers) {
+        lanes.set_lane(lane, *number);
+    }
+}
+
+fn get_lane<S: Simd>(lanes: &[Lanes<S>], lane: usize, numbers: &mut [f64]) {
+    for (number, lanes) in numbers.iter_mut().zip(lanes) {
+        *number = lanes.lane(lane);
+    }
+}

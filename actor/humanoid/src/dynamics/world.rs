@@ -1,0 +1,164 @@
+//! State and parameters of one world, as plain numbers, and their lanes.
+
+use nalgebra::{Matrix3, Vector3};
+use pulp::Simd;
+
+use crate::lanes::Lanes;
+use crate::model::Model;
+
+/// Contact points that a world has room for from the start; more of them allocate once.
+const CONTACTS_EXPECTED: usize = 64;
+
+/// One simulated robot: what the engine reads and writes.
+#[derive(Clone, Debug)]
+pub(crate) struct World {
+    /// Position vector: root x, y, z (m), root quaternion w, x, y, z, one angle per hinge (rad).
+    pub(crate) position: Vec<f64>,
+    /// Velocity vector: root velocity (m/s, world axes), root angular velocity (rad/s, root's axes), one rate per hinge (rad/s).
+    pub(crate) velocity: Vec<f64>,
+    pub(crate) parameters: Parameters,
+    /// Motors of each hinge.
+    pub(crate) drives: Vec<Drive>,
+    /// Total motor torque of each hinge in the last physics step (N·m).
+    pub(crate) torques_nm: Vec<f64>,
+    /// Bodies at `position` and `velocity`.
+    pub(crate) bodies: Vec<BodyState>,
+    /// Impulse of all contacts on each link during the last control step.
+    pub(crate) link_impulses: Vec<Impulse>,
+    /// Loaded contact points of the last physics step.
+    pub(crate) contacts: Vec<ContactLoad>,
+    /// Largest acceleration (m/s² or rad/s²) by which the last sweep of the constraint solve changed a constraint, over the
+    /// last control step.
+    pub(crate) residual: f64,
+    /// Whether the last control step gave a number that is not finite; it then changed nothing else.
+    pub(crate) has_failed: bool,
+}
+
+/// Quantities of a model that may differ from world to world.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Parameters {
+    pub(crate) masses_kg: Vec<f64>,
+    pub(crate) inertias_kgm2: Vec<Matrix3<f64>>,
+    pub(crate) damping_nmsprad: Vec<f64>,
+    pub(crate) armature_kgm2: Vec<f64>,
+    /// Factor on the friction coefficients of all contacts.
+    pub(crate) friction_scale: f64,
+    pub(crate) gravity_mps2: Vector3<f64>,
+}
+
+/// Motors of one hinge: torque = `torque_nm` − stiffness × angle − damping × rate, within limits.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) struct Drive {
+    pub(crate) torque_nm: f64,
+    pub(crate) stiffness_nmprad: f64,
+    pub(crate) damping_nmsprad: f64,
+    pub(crate) min_nm: f64,
+    pub(crate) max_nm: f64,
+}
+
+/// Pose and velocity of a rigid body; points are relative to the root's origin, velocities those of the centre of mass.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct BodyState {
+    pub(crate) rotation: Matrix3<f64>,
+    pub(crate) origin_m: Vector3<f64>,
+    pub(crate) centre_m: Vector3<f64>,
+    pub(crate) linear_mps: Vector3<f64>,
+    pub(crate) angular_radps: Vector3<f64>,
+}
+
+/// Force × time (N·s) and moment × time (N·m·s) about the whole robot's centre of mass, world axes.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Impulse {
+    pub(crate) linear_ns: Vector3<f64>,
+    pub(crate) angular_nms: Vector3<f64>,
+}
+
+/// Loaded contact point.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct ContactLoad {
+    /// Links; `None` is the ground.
+    pub(crate) links: [Option<usize>; 2],
+    /// Position (m, world).
+    pub(crate) at_m: Vector3<f64>,
+    /// Force on the first link (N).
+    pub(crate) force_n: Vector3<f64>,
+}
+
+/// Mass and inertia (xx, yy, zz, xy, xz, yz, in the body's axes) of one body in several worlds.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct BodyMasses<S: Simd> {
+    pub(crate) mass_kg: Lanes<S>,
+    pub(crate) inertia_kgm2: [Lanes<S>; 6],
+}
+
+impl World {
+    pub(crate) fn new(model: &Model) -> Self {
+        let hinges = model.hinges.len();
+        let body = BodyState {
+            rotation: Matrix3::identity(),
+            origin_m: Vector3::zeros(),
+            centre_m: Vector3::zeros(),
+            linear_mps: Vector3::zeros(),
+            angular_radps: Vector3::zeros(),
+        };
+        Self {
+            position: model.nominal_position(),
+            velocity: vec![0.0; model.velocity_size()],
+            parameters: Parameters::of(model),
+            drives: vec![Drive::default(); hinges],
+            torques_nm: vec![0.0; hinges],
+            bodies: vec![body; model.bodies.len()],
+            link_impulses: vec![Impulse::default(); model.links.len()],
+            contacts: Vec::with_capacity(CONTACTS_EXPECTED),
+            residual: 0.0,
+            has_failed: false,
+        }
+    }
+}
+
+impl Parameters {
+    fn of(model: &Model) -> Self {
+        Self {
+            masses_kg: model.bodies.iter().map(|body| body.mass_kg).collect(),
+            inertias_kgm2: model.bodies.iter().map(|body| body.inertia_kgm2).collect(),
+            damping_nmsprad: model.hinges.iter().map(|hinge| hinge.damping_nmsprad).collect(),
+            armature_kgm2: model.hinges.iter().map(|hinge| hinge.armature_kgm2).collect(),
+            friction_scale: 1.0,
+            gravity_mps2: model.gravity_mps2,
+        }
+    }
+
+    /// Copies the quantities of another world of the same model; allocates nothing.
+    pub(crate) fn copy_from(&mut self, other: &Self) {
+        let Self { masses_kg, inertias_kgm2, damping_nmsprad, armature_kgm2, friction_scale, gravity_mps2 } = self;
+        masses_kg.copy_from_slice(&other.masses_kg);
+        inertias_kgm2.copy_from_slice(&other.inertias_kgm2);
+        damping_nmsprad.copy_from_slice(&other.damping_nmsprad);
+        armature_kgm2.copy_from_slice(&other.armature_kgm2);
+        *friction_scale = other.friction_scale;
+        *gravity_mps2 = other.gravity_mps2;
+    }
+
+    /// Copies the quantities of a model with the same structure; allocates nothing.
+    pub(crate) fn set(&mut self, model: &Model, friction_scale: f64) {
+        for (index, body) in model.bodies.iter().enumerate() {
+            self.masses_kg[index] = body.mass_kg;
+            self.inertias_kgm2[index] = body.inertia_kgm2;
+        }
+        for (index, hinge) in model.hinges.iter().enumerate() {
+            self.damping_nmsprad[index] = hinge.damping_nmsprad;
+            self.armature_kgm2[index] = hinge.armature_kgm2;
+        }
+        self.friction_scale = friction_scale;
+        self.gravity_mps2 = model.gravity_mps2;
+    }
+}
+
+impl Drive {
+    /// Returns the torque (N·m) at an angle (rad) and rate (rad/s) of the hinge.
+    pub(crate) fn torque_at(&self, angle_rad: f64, rate_radps: f64) -> f64 {
+        (self.torque_nm - self.stiffness_nmprad * angle_rad - self.damping_nmsprad * rate_radps)
+            .max(self.min_nm)
+            .min(self.max_nm)
+    }
+}

@@ -1,0 +1,220 @@
+//! Convex hulls of vertices, and their mass properties.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use nalgebra::{Matrix3, Point3, Vector3};
+
+use super::inertia::MassProperties;
+
+/// Distance of a vertex from a face, relative to the extent of all vertices, up to which it lies in the face.
+const COPLANAR: f64 = 1e-9;
+/// Least thickness of a hull relative to its extent.
+const FLAT: f64 = 1e-6;
+/// Least squared sine of the angles between the faces at a corner.
+const SMOOTH: f64 = 1e-12;
+
+/// Distance from a simplified hull, relative to its extent, up to which corners are left out.
+const SIMPLE: f64 = 2e-3;
+/// Most corners of a simplified hull: contact queries visit each.
+pub(super) const CORNERS_MAX: usize = 64;
+
+/// Triangle of a hull; its normal points outwards.
+struct Face {
+    corners: [usize; 3],
+    normal: Vector3<f64>,
+    /// Position of its plane along the normal.
+    offset: f64,
+}
+
+impl Face {
+    fn new(points: &[Point3<f64>], corners: [usize; 3]) -> Self {
+        let [a, b, c] = corners.map(|corner| points[corner]);
+        let normal = (b - a).cross(&(c - a)).try_normalize(0.0).unwrap_or_else(Vector3::zeros);
+        Self { corners, normal, offset: normal.dot(&a.coords) }
+    }
+
+    /// Returns the distance of a point in front of the face.
+    fn distance(&self, point: &Point3<f64>) -> f64 {
+        self.normal.dot(&point.coords) - self.offset
+    }
+}
+
+/// Returns the faces of the convex hull as indices of vertices, counter-clockwise from outside; `None` if it is flat.
+pub(super) fn faces(points: &[Point3<f64>]) -> Option<Vec<[usize; 3]>> {
+    let extent = extent(points);
+    let first = first_tetrahedron(points, extent * FLAT)?;
+    let [a, b, c, d] = first;
+    let mut faces: Vec<Face> =
+        [[a, b, c], [a, d, b], [b, d, c], [c, d, a]].into_iter().map(|corners| Face::new(points, corners)).collect();
+    let nearest = extent * COPLANAR;
+    for (index, point) in points.iter().enumerate().filter(|(index, _)| !first.contains(index)) {
+        let mut edges = BTreeSet::new();
+        faces.retain(|face| {
+            let is_hidden = face.distance(point) <= nearest;
+            if !is_hidden {
+                let [a, b, c] = face.corners;
+                edges.extend([(a, b), (b, c), (c, a)]);
+            }
+            is_hidden
+        });
+        // The edges between removed and remaining faces surround the new ones.
+        let outline = edges.iter().filter(|(from, to)| !edges.contains(&(*to, *from)));
+        faces.extend(outline.map(|(from, to)| Face::new(points, [*from, *to, index])));
+    }
+    let corners: BTreeSet<usize> = faces.iter().flat_map(|face| face.corners).collect();
+    // Rounding can only spoil hulls of nearly coincident vertices; Euler's formula and distances detect it.
+    let is_closed = faces.len() + 4 == 2 * corners.len();
+    let contains_all = || {
+        faces.iter().all(|face| face.normal != Vector3::zeros())
+            && points.iter().all(|point| faces.iter().all(|face| face.distance(point) <= extent * FLAT))
+    };
+    (is_closed && contains_all()).then(|| faces.into_iter().map(|face| face.corners).collect())
+}
+
+/// Returns the corners of the convex hull, in their order; `None` if it is flat.
+pub(super) fn vertices(points: &[Point3<f64>]) -> Option<Vec<Point3<f64>>> {
+    // The normals around a corner span all three directions, unlike those around a point within a face or an edge.
+    let mut spans: BTreeMap<usize, Matrix3<f64>> = BTreeMap::new();
+    for corners in faces(points)? {
+        let normal = Face::new(points, corners).normal;
+        for corner in corners {
+            *spans.entry(corner).or_default() += normal * normal.transpose();
+        }
+    }
+    let is_corner = |span: &Matrix3<f64>| span.symmetric_eigenvalues().min() > SMOOTH;
+    Some(spans.iter().filter(|(_, span)| is_corner(span)).map(|(corner, _)| points[*corner]).collect())
+}
+
+/// Returns corners of the convex hull, such that all points are within [`SIMPLE`] of the hull of these corners, but at most
+/// [`CORNERS_MAX`]; `None` if it is flat. Each corner is the farthest outside of the hull of those before.
+///
+/// Unlike [`vertices`] it may be used for points that lie in a plane only up to rounding.
+pub(super) fn simplified(points: &[Point3<f64>]) -> Option<Vec<Point3<f64>>> {
+    let near = extent(points) * SIMPLE;
+    let mut corners: Vec<Point3<f64>> = first_tetrahedron(points, near)?.map(|index| points[index]).into();
+    let mut outside = points.to_vec();
+    while corners.len() < CORNERS_MAX {
+        let faces: Vec<Face> = faces(&corners)?.into_iter().map(|indices| Face::new(&corners, indices)).collect();
+        let distance = |point: &Point3<f64>| faces.iter().map(|face| face.distance(point)).fold(0.0, f64::max);
+        let mut farthest = (near, None);
+        // A growing hull keeps what is within.
+        outside.retain(|point| {
+            let distance = distance(point);
+            if distance > farthest.0 {
+                farthest = (distance, Some(*point));
+            }
+            distance > near
+        });
+        let Some(corner) = farthest.1 else { break };
+        corners.push(corner);
+    }
+    Some(corners)
+}
+
+/// Returns the mass properties of the convex hull, of uniform density (kg/m³); `None` if it is flat.
+pub(super) fn mass_properties(points: &[Point3<f64>], density_kgpm3: f64) -> Option<MassProperties> {
+    let faces = faces(points)?;
+    // Sums over the tetrahedra between each face and a point within.
+    let within = points[faces[0][0]];
+    let corners = || faces.iter().map(|face| face.map(|corner| points[corner] - within));
+    let volume = |[a, b, c]: &[Vector3<f64>; 3]| a.dot(&b.cross(c)) / 6.0;
+    let whole: f64 = corners().map(|corners| volume(&corners)).sum();
+    let first: Vector3<f64> =
+        corners().map(|corners| corners.iter().sum::<Vector3<f64>>() * (volume(&corners) / 4.0)).sum();
+    if whole <= 0.0 {
+        return None;
+    }
+    let centre = first / whole;
+    let second: Matrix3<f64> = corners()
+        .map(|corners| {
+            let share = volume(&corners) / 20.0;
+            let sum: Vector3<f64> = corners.iter().sum();
+            let squares: Matrix3<f64> = corners.iter().map(|corner| corner * corner.transpose()).sum();
+            (squares + sum * sum.transpose()) * share
+        })
+        .sum();
+    let about_centre = second - centre * centre.transpose() * whole;
+    Some(MassProperties {
+        mass_kg: whole * density_kgpm3,
+        centre_m: within + centre,
+        inertia_kgm2: (Matrix3::identity() * about_centre.trace() - about_centre) * density_kgpm3,
+    })
+}
+
+/// Returns the longest side of the box around all points.
+fn extent(points: &[Point3<f64>]) -> f64 {
+    let side = |axis: usize| {
+        let ends = points.iter().map(|point| point[axis]);
+        ends.clone().fold(f64::NEG_INFINITY, f64::max) - ends.fold(f64::INFINITY, f64::min)
+    };
+    (0..3).map(side).fold(0.0, f64::max)
+}
+
+/// Returns four vertices far from each other, the first three clockwise from the fourth; `None` if all are within
+/// `thickness` of a plane.
+fn first_tetrahedron(points: &[Point3<f64>], thickness: f64) -> Option<[usize; 4]> {
+    let farthest = |distance: &dyn Fn(&Point3<f64>) -> f64| {
+        let distances = points.iter().map(distance).enumerate();
+        let (index, distance) = distances.fold((0, 0.0), |best, next| if next.1 > best.1 { next } else { best });
+        (distance > thickness).then_some(index)
+    };
+    let a = *points.first()?;
+    let first = farthest(&|point| nalgebra::distance(&a, point))?;
+    let a = points[first];
+    let second = farthest(&|point| nalgebra::distance(&a, point))?;
+    let along = (points[second] - a).normalize();
+    let third = farthest(&|point| (point - a).cross(&along).norm())?;
+    let normal = along.cross(&(points[third] - a)).normalize();
+    let fourth = farthest(&|point| (point - a).dot(&normal).abs())?;
+    // Seen from the fourth, the face of the others must be turned away.
+    let is_above = (points[fourth] - a).dot(&normal) > 0.0;
+    Some(if is_above { [first, third, second, fourth] } else { [first, second, third, fourth] })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    #[test]
+    fn a_grid_of_points_is_a_box() {
+        // 5 × 4 × 3 points of a box of 2 m × 3 m × 4 m, most of them within faces and edges.
+        let points: Vec<Point3<f64>> = (0..60)
+            .map(|index| [f64::from(index % 5) / 2.0, f64::from(index / 5 % 4), 2.0 * f64::from(index / 20)].into())
+            .collect();
+        let body = mass_properties(&points, 10.0).expect("solid");
+        assert!((body.mass_kg - 240.0).abs() < 1e-9);
+        assert!((body.centre_m - Point3::new(1.0, 1.5, 2.0)).norm() < 1e-12);
+        let inertia = Matrix3::from_diagonal(&Vector3::new(500.0, 400.0, 260.0));
+        assert!((body.inertia_kgm2 - inertia).norm() < 1e-9, "{}", body.inertia_kgm2);
+        assert_eq!(vertices(&points).expect("solid").len(), 8);
+    }
+
+    #[test]
+    fn flat_and_missing_hulls_are_none() {
+        let flat = [[0.0, 0.0, 1.0], [1.0, 0.0, 1.0], [0.0, 1.0, 1.0], [1.0, 1.0, 1.0], [0.3, 0.4, 1.0 + 1e-8]];
+        assert!(faces(&flat.map(Point3::from)).is_none());
+        assert!(faces(&[]).is_none());
+        assert!(faces(&[Point3::origin(); 9]).is_none());
+        let line: Vec<Point3<f64>> = (0..9).map(|x| Point3::new(f64::from(x), 0.0, 0.0)).collect();
+        assert!(faces(&line).is_none());
+    }
+
+    proptest! {
+        #[test]
+        fn hulls_contain_all_points(points in prop::collection::vec(prop::array::uniform3(-4i8..4), 4..60)) {
+            let points: Vec<Point3<f64>> =
+                points.into_iter().map(|point| Point3::from(point.map(|entry| f64::from(entry) * 0.1))).collect();
+            // A grid has many coplanar, collinear and equal points.
+            let is_flat = first_tetrahedron(&points, 1e-6).is_none();
+            let Some(found) = faces(&points) else { prop_assert!(is_flat); return Ok(()); };
+            for corners in &found {
+                let face = Face::new(&points, *corners);
+                prop_assert!(points.iter().all(|point| face.distance(point) < 1e-8));
+            }
+            let again = vertices(&points).and_then(|points| mass_properties(&points, 1.0)).expect("solid");
+            let body = mass_properties(&points, 1.0).expect("solid");
+            prop_assert!((again.mass_kg - body.mass_kg).abs() < 1e-12);
+        }
+    }
+}

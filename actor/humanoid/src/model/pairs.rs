@@ -1,0 +1,221 @@
+//! Pairs of shapes that may touch, with the parameters of their contacts.
+//!
+//! Pairs and parameters are MuJoCo's: two geoms may touch by their bits, unless their bodies are equal, neighbours or
+//! excluded; a `<pair>` needs none of this and has parameters of its own.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use super::collision::{Exclusion, filters_match};
+use super::defaults::{Attribute, get};
+use super::geoms::{self, MARGIN_MAX_M};
+use super::softness::{Softness, SolverNumbers};
+use super::values::{amount, list_over, not_negative, number};
+use super::{Body, Shape};
+use crate::error::ModelError;
+
+/// Most pairs: they take 15 MB.
+pub const PAIRS_MAX: usize = 1 << 17;
+/// Least weight of a geom in MuJoCo's mixtures.
+const WEIGHT_MIN: f64 = 1e-15;
+
+/// A shape of a body.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct ShapeIndex {
+    /// Index in [`super::Model::bodies`].
+    pub body: usize,
+    /// Index in [`Body::shapes`].
+    pub shape: usize,
+}
+
+/// Two shapes, or a shape and the ground, that may touch.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Pair {
+    /// Shape; of two shapes the one that comes first in the model.
+    pub first: ShapeIndex,
+    /// Other shape; `None` is the ground.
+    pub second: Option<ShapeIndex>,
+    /// Friction coefficient; 0 without friction.
+    pub friction: f64,
+    /// Distance (m) below which the contact pushes.
+    pub margin_m: f64,
+    /// Softness of the contact.
+    pub softness: Softness,
+}
+
+/// Contact parameters of one geom.
+#[derive(Clone, Debug)]
+pub(super) struct ContactRules {
+    priority: i32,
+    solmix: f64,
+    solver: SolverNumbers,
+}
+
+impl ContactRules {
+    /// Reads the attributes that [`Shape`] does not hold.
+    pub(super) fn read(label: &str, priority: i32, attributes: &[Attribute]) -> Result<Self, ModelError> {
+        Ok(Self {
+            priority,
+            solmix: not_negative(label, "solmix", number(attributes, "solmix").unwrap_or(1.0))?,
+            solver: SolverNumbers::read(label, attributes, ["solref", "solimp"])?,
+        })
+    }
+
+    pub(super) fn softness(&self) -> Softness {
+        self.solver.softness()
+    }
+}
+
+/// Shape with its contact parameters and the index of its MJCF body; `None` is the world.
+#[derive(Clone, Copy)]
+pub(super) struct Party<'a> {
+    pub(super) shape: &'a Shape,
+    pub(super) rules: &'a ContactRules,
+    pub(super) origin: Option<usize>,
+}
+
+/// Everything that decides which shapes touch.
+pub(super) struct Source<'a> {
+    pub(super) bodies: &'a [Body],
+    /// Contact parameters and MJCF body of each shape, as `[body][shape]`.
+    pub(super) rules: &'a [Vec<(ContactRules, usize)>],
+    pub(super) ground: Party<'a>,
+    pub(super) exclusions: &'a [Exclusion],
+    /// Label and attributes of each `<pair>`.
+    pub(super) explicit: &'a [(String, Vec<Attribute>)],
+}
+
+impl<'a> Source<'a> {
+    /// Returns all pairs: those with the ground first, each kind in the order of the model.
+    pub(super) fn pairs(&self) -> Result<Vec<Pair>, ModelError> {
+        let explicit = self.read_explicit()?;
+        let excluded: BTreeSet<Exclusion> =
+            self.exclusions.iter().flat_map(|[one, other]| [[*one, *other], [*other, *one]]).collect();
+        let all: Vec<ShapeIndex> = self.shapes().map(|(index, _)| index).collect();
+        let on_ground = all.iter().map(|first| (*first, None));
+        let between = all
+            .iter()
+            .enumerate()
+            .flat_map(|(place, first)| all[place + 1..].iter().map(move |second| (*first, Some(*second))));
+        let mut pairs = Vec::new();
+        for (first, second) in on_ground.chain(between) {
+            let found = match explicit.get(&(first, second)) {
+                Some(pair) => Some(pair.clone()),
+                None => self.may_touch(first, second, &excluded).then(|| self.mixed(first, second)),
+            };
+            if pairs.len() == PAIRS_MAX && found.is_some() {
+                let problem = format!(
+                    "more than {PAIRS_MAX} pairs of shapes may touch; set contype and conaffinity of shapes that need \
+                     not touch each other"
+                );
+                return Err(ModelError::unsupported("contact", problem));
+            }
+            pairs.extend(found);
+        }
+        Ok(pairs)
+    }
+
+    fn shapes(&self) -> impl Iterator<Item = (ShapeIndex, &'a Shape)> {
+        self.bodies.iter().enumerate().flat_map(|(body, data)| {
+            data.shapes.iter().enumerate().map(move |(shape, data)| (ShapeIndex { body, shape }, data))
+        })
+    }
+
+    fn party(&self, index: Option<ShapeIndex>) -> Party<'a> {
+        let Some(ShapeIndex { body, shape }) = index else { return self.ground };
+        let (rules, origin) = &self.rules[body][shape];
+        Party { shape: &self.bodies[body].shapes[shape], rules, origin: Some(*origin) }
+    }
+
+    fn may_touch(&self, first: ShapeIndex, second: Option<ShapeIndex>, excluded: &BTreeSet<Exclusion>) -> bool {
+        let are_apart = second.is_none_or(|second| {
+            let (one, other) = (first.body, second.body);
+            one != other && self.bodies[one].parent != Some(other) && self.bodies[other].parent != Some(one)
+        });
+        let (one, other) = (self.party(Some(first)), self.party(second));
+        let bits = |shape: &Shape| [shape.contype, shape.conaffinity];
+        are_apart
+            && filters_match(bits(one.shape), bits(other.shape))
+            && (excluded.is_empty() || !excluded.contains(&[one.origin, other.origin]))
+    }
+
+    /// Returns a pair with the contact parameters of its two shapes mixed.
+    fn mixed(&self, first: ShapeIndex, second: Option<ShapeIndex>) -> Pair {
+        let (one, other) = (self.party(Some(first)), self.party(second));
+        let friction = |party: &Party<'_>| if party.shape.has_friction { party.shape.friction } else { 0.0 };
+        let (friction, solver) = match one.rules.priority.cmp(&other.rules.priority) {
+            std::cmp::Ordering::Greater => (friction(&one), one.rules.solver),
+            std::cmp::Ordering::Less => (friction(&other), other.rules.solver),
+            std::cmp::Ordering::Equal => {
+                // The coefficient of a shape without friction counts if the other one has friction.
+                let has_friction = one.shape.has_friction || other.shape.has_friction;
+                let friction = if has_friction { one.shape.friction.max(other.shape.friction) } else { 0.0 };
+                (friction, one.rules.solver.mixed(&other.rules.solver, share(one.rules.solmix, other.rules.solmix)))
+            }
+        };
+        let margin_m = one.shape.margin_m + other.shape.margin_m;
+        Pair { first, second, friction, margin_m, softness: solver.softness() }
+    }
+
+    fn read_explicit(&self) -> Result<BTreeMap<(ShapeIndex, Option<ShapeIndex>), Pair>, ModelError> {
+        let mut pairs = BTreeMap::new();
+        if self.explicit.is_empty() {
+            return Ok(pairs);
+        }
+        let mut places: BTreeMap<&str, Option<ShapeIndex>> =
+            self.shapes().map(|(index, shape)| (shape.name.as_str(), Some(index))).collect();
+        places.insert(&self.ground.shape.name, None);
+        for (label, attributes) in self.explicit {
+            let find = |side: &str| {
+                let name = get(attributes, side)
+                    .ok_or_else(|| ModelError::unsupported(label, format!("`{side}` is missing")))?;
+                places
+                    .get(name)
+                    .copied()
+                    .ok_or_else(|| ModelError::unsupported(label, format!("there is no geom `{name}`")))
+            };
+            let (first, second) = match (find("geom1")?, find("geom2")?) {
+                (Some(one), Some(other)) if one.body != other.body => (one.min(other), Some(one.max(other))),
+                (Some(one), None) | (None, Some(one)) => (one, None),
+                _ => return Err(ModelError::unsupported(label, "its geoms belong to one rigid body; remove the pair")),
+            };
+            let pair = explicit_pair(label, attributes, first, second)?;
+            if pairs.insert((first, second), pair).is_some() {
+                return Err(ModelError::unsupported(label, "there are two pairs of these geoms; remove one"));
+            }
+        }
+        Ok(pairs)
+    }
+}
+
+/// Returns the share of the first geom in a mixture.
+fn share(weight: f64, other: f64) -> f64 {
+    match (weight >= WEIGHT_MIN, other >= WEIGHT_MIN) {
+        (true, true) => weight / (weight + other),
+        (true, false) => 1.0,
+        (false, true) => 0.0,
+        (false, false) => 0.5,
+    }
+}
+
+/// Reads the parameters of a `<pair>`; missing ones have MJCF's defaults, not those of the geoms.
+fn explicit_pair(
+    label: &str,
+    attributes: &[Attribute],
+    first: ShapeIndex,
+    second: Option<ShapeIndex>,
+) -> Result<Pair, ModelError> {
+    let condim = get(attributes, "condim").unwrap_or("3");
+    let has_friction = geoms::has_friction(label, condim)?;
+    let [along, across] = list_over(attributes, "friction", [1.0, 1.0]);
+    if has_friction && along != across {
+        let expected = "two equal coefficients of sliding: friction that depends on the direction is not simulated";
+        return Err(ModelError::attribute(label, "friction", &format!("{along} {across}"), expected));
+    }
+    let margin_m = amount(label, attributes, "margin", "margin (m)")?;
+    if margin_m > 2.0 * MARGIN_MAX_M {
+        return Err(ModelError::quantity(label, "margin (m)", margin_m, "between 0 and 0.02"));
+    }
+    let friction = not_negative(label, "friction", along)?;
+    let softness = SolverNumbers::read(label, attributes, ["solref", "solimp"])?.softness();
+    Ok(Pair { first, second, friction: if has_friction { friction } else { 0.0 }, margin_m, softness })
+}

