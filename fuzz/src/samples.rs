@@ -43,6 +43,7 @@ fn state() -> ActorState {
         observations: vec![0.5; 4],
         past_actions: vec![0.0; 2],
         steps_to_push: vec![7; 2],
+        task: vec![0.5; 2],
         streams: vec![8; 24],
     }
 }

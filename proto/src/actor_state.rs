@@ -17,6 +17,8 @@ pub const GENERATOR_NUMBERS: usize = 4;
 pub const ENVIRONMENT_GENERATORS: usize = 3;
 /// Entries of [`ActorState::progress`] for one environment.
 pub const PROGRESS_NUMBERS: usize = 3;
+/// Largest number of a task's numbers per environment.
+const TASK_NUMBERS_MAX: usize = 16 * WIDTH_MAX as usize;
 /// Largest number of past action entries per environment.
 const PAST_ACTIONS_MAX: usize = 16 * WIDTH_MAX as usize;
 
@@ -61,12 +63,17 @@ impl ActorState {
                 return Err(Malformed::length(field, found, wanted));
             }
         }
+        if !self.task.len().is_multiple_of(envs) || self.task.len() / envs > TASK_NUMBERS_MAX {
+            let wanted = format!("at most {TASK_NUMBERS_MAX} for each of {envs} environments");
+            return Err(Malformed::length("actor_state.task", self.task.len(), wanted));
+        }
         if let Some(index) = self.episodes.iter().position(|begun| *begun == 0) {
             return Err(Malformed::field("actor_state.episodes", format!("0 at index {index}"), "1 or more"));
         }
         check_finite("actor_state.progress", self.progress.iter().copied())?;
         check_finite("actor_state.positions", self.positions.iter().copied())?;
         check_finite("actor_state.velocities", self.velocities.iter().copied())?;
+        check_finite("actor_state.task", self.task.iter().copied())?;
         planes::check_finite("actor_state.observations", &self.observations)?;
         planes::check_finite("actor_state.past_actions", &self.past_actions)
     }
@@ -91,6 +98,7 @@ pub(crate) mod tests {
             past_actions: vec![-1.0; 4 * envs],
             steps_to_push: vec![u32::MAX; envs],
             streams: vec![9; 12 * envs],
+            task: vec![0.25; envs],
         }
     }
 
@@ -102,14 +110,14 @@ pub(crate) mod tests {
         let read = ActorState::decode(&*bytes).unwrap();
         assert_eq!(read, state);
         assert!(read.velocities.iter().all(|number| number.is_sign_negative()));
-        // Name and start, 8 × (4 + 3 × (1 + 3 + 8 + 7 + 12)) + 4 × 3 × (1 + 2 + 4 + 1) bytes, and the tags of the fields.
-        assert!((872..920).contains(&bytes.len()), "{}", bytes.len());
+        // Name and start, 8 × (4 + 3 × (1 + 3 + 8 + 7 + 12 + 1)) + 4 × 3 × (1 + 2 + 4 + 1) bytes, and the tags of the fields.
+        assert!((896..946).contains(&bytes.len()), "{}", bytes.len());
     }
 
     #[test]
     fn the_error_names_the_bad_field() {
         type Corrupt = fn(&mut ActorState);
-        let cases: [(&str, Corrupt); 14] = [
+        let cases: [(&str, Corrupt); 16] = [
             ("actor_state.actor", |s| s.actor = "a/b".into()),
             ("actor_state.noise", |s| s.noise.truncate(1)),
             ("actor_state.episodes", |s| s.episodes.clear()),
@@ -124,6 +132,8 @@ pub(crate) mod tests {
             ("actor_state.past_actions", |s| s.past_actions.clear()),
             ("actor_state.steps_to_push", |s| s.steps_to_push.clear()),
             ("actor_state.streams", |s| s.streams.truncate(1)),
+            ("actor_state.task` is 1 numbers long", |s| s.task.truncate(1)),
+            ("actor_state.task` holds NaN", |s| s.task[2] = f64::NAN),
         ];
         for (part, corrupt) in cases {
             let mut state = sample("a", 3);

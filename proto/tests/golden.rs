@@ -28,6 +28,7 @@ fn actor_state() -> ActorState {
         past_actions: vec![0.25, -0.25],
         steps_to_push: vec![9, u32::MAX],
         streams: (0..24).collect(),
+        task: vec![],
     }
 }
 

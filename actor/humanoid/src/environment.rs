@@ -11,12 +11,11 @@ pub use self::saved::EpisodeState;
 pub use self::snapshot::EnvironmentSnapshot;
 use crate::config::EnvironmentConfig;
 use crate::error::{InputError, ModelError};
-use crate::info::{PerTendon, StepInfo};
+use crate::info::StepInfo;
 use crate::model::Model;
-use crate::observation::{Observation, Sensed};
 use crate::physics::{JointQuality, Physics};
-use crate::randomisation::Randomiser;
-use crate::task::{self, StepOutcome, Transition};
+use crate::randomisation::{Randomiser, SensorNoise};
+use crate::task::{HumanoidTask, ObservationTerm, Step, StepOutcome, Task};
 
 /// Reinforcement-learning environment of one humanoid.
 ///
@@ -25,9 +24,7 @@ use crate::task::{self, StepOutcome, Transition};
 pub struct Environment {
     config: EnvironmentConfig,
     physics: Physics,
-    observation: Observation,
-    /// State with sensor noise, if the observation shows more of it than positions and velocities.
-    sensed: Option<Sensed>,
+    task: Box<dyn Task>,
     randomiser: Randomiser,
     /// Seed of the episode; none before the first reset.
     seed: Option<u64>,
@@ -62,21 +59,20 @@ impl Environment {
         let mut physics = Physics::new(model, config)?;
         physics.set_state(&nominal_position, &nominal_velocity);
         let action_size = physics.model().motors.len();
-        let observation = Observation::new(config, physics.model());
-        let mut last_observation = vec![0.0; observation.size()];
-        observation.write(&physics, &mut last_observation);
-        let is_derived = config.randomisation.has_sensor_noise() && observation.has_derived_blocks();
+        let mut task: Box<dyn Task> = Box::new(HumanoidTask::new(config, &physics));
+        let mut last_observation = vec![0.0; task.terms().last().map_or(0, |term| term.range.end)];
+        let last_info = task.begin(0, &physics);
+        task.observe(&physics, &mut SensorNoise::none(), &mut last_observation);
         Ok(Self {
             config: config.clone(),
-            sensed: is_derived.then(|| Sensed::new(&physics)),
             seed: None,
-            randomiser: Randomiser::new(config, physics.model(), &observation),
+            randomiser: Randomiser::new(config, physics.model()),
             start_position: nominal_position.clone(),
             start_velocity: vec![0.0; physics.model().velocity_size()],
             controls: vec![0.0; action_size],
             action_ranges: physics.model().motors.iter().map(|motor| motor.control.map(|end| end as f32)).collect(),
-            last_info: reset_info(config, &physics),
-            observation,
+            last_info,
+            task,
             nominal_position,
             nominal_velocity,
             last_observation,
@@ -143,7 +139,7 @@ impl Environment {
         // `set_state` normalises the noisy quaternion.
         self.physics.set_state(&self.start_position, &self.start_velocity);
         self.episode_steps = 0;
-        self.last_info = reset_info(&self.config, &self.physics);
+        self.last_info = self.task.begin(seed, &self.physics);
         self.write_observation(observation);
     }
 
@@ -217,22 +213,8 @@ impl Environment {
         if self.physics.check_step().is_err() {
             return self.fault(observation);
         }
-        let before = self.centre_before;
-        let after = self.physics.centre_of_mass();
-        let position = self.physics.position();
-        let step = task::evaluate_step(
-            &self.config,
-            &Transition {
-                centre_before_m: [before.x, before.y],
-                centre_after_m: [after.x, after.y],
-                torso_m: [position[0], position[1], position[2]],
-                action: &self.action,
-                squared_contact_wrenches: self.physics.squared_contact_wrenches(),
-                tendon_length_rad: tendon_values(&self.physics, self.physics.joint_angles()),
-                tendon_velocity_radps: tendon_values(&self.physics, self.physics.joint_rates()),
-                episode_steps: self.episode_steps,
-            },
-        );
+        let step = Step { physics: &self.physics, action: &self.action, centre_before_m: self.centre_before };
+        let step = self.task.evaluate(&step).at(self.episode_steps, self.config.max_episode_steps);
         self.last_info = step.info;
         self.write_observation(observation);
         step
@@ -242,9 +224,9 @@ impl Environment {
     ///
     /// # Errors
     /// [`InputError`] if `observation` has the wrong length.
-    pub fn observe(&self, observation: &mut [f32]) -> Result<(), InputError> {
+    pub fn observe(&mut self, observation: &mut [f32]) -> Result<(), InputError> {
         self.check_observation(observation)?;
-        self.observation.write(&self.physics, observation);
+        self.task.observe(&self.physics, &mut SensorNoise::none(), observation);
         Ok(())
     }
 
@@ -254,10 +236,10 @@ impl Environment {
         &self.nominal_position
     }
 
-    /// Returns the layout of an observation.
+    /// Returns the terms of an observation, in order.
     #[must_use]
-    pub fn observation(&self) -> &Observation {
-        &self.observation
+    pub fn terms(&self) -> &[ObservationTerm] {
+        self.task.terms()
     }
 
     /// Returns the info of the last step or reset; see [`StepInfo::entries`] for Gymnasium's names.
@@ -282,11 +264,7 @@ impl Environment {
     }
 
     fn write_observation(&mut self, observation: &mut [f32]) {
-        self.observation.write(&self.physics, observation);
-        self.randomiser.add_sensor_noise(observation);
-        if let Some(sensed) = &mut self.sensed {
-            self.observation.write_sensed(&self.physics, sensed, observation);
-        }
+        self.task.observe(&self.physics, self.randomiser.sensors(), observation);
         self.last_observation.copy_from_slice(observation);
     }
 
@@ -332,23 +310,4 @@ fn start(model: &Model, keyframe: &str) -> Result<(Vec<f64>, Vec<f64>), ModelErr
 /// Draws a number from [−scale, scale).
 fn uniform_noise(random: &mut impl Rng, scale: f64) -> f64 {
     (2.0 * random.random::<f64>() - 1.0) * scale
-}
-
-fn tendon_values(physics: &Physics, hinges: &[f64]) -> PerTendon {
-    physics.model().tendons.iter().map(|tendon| tendon.sum_over(hinges)).collect()
-}
-
-/// Returns the info before an episode's first step.
-fn reset_info(config: &EnvironmentConfig, physics: &Physics) -> StepInfo {
-    let (position, centre) = (physics.position(), physics.centre_of_mass());
-    let [x_m, y_m] = task::info_position_m(config.task, [position[0], position[1]], [centre.x, centre.y]);
-    StepInfo {
-        x_position_m: x_m,
-        y_position_m: y_m,
-        distance_from_origin_m: x_m.hypot(y_m),
-        torso_height_m: position[2],
-        tendon_length_rad: tendon_values(physics, physics.joint_angles()),
-        tendon_velocity_radps: tendon_values(physics, physics.joint_rates()),
-        ..StepInfo::default()
-    }
 }

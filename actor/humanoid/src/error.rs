@@ -175,7 +175,7 @@ pub enum StateError {
 }
 
 /// Snapshot of another model or of other settings; the simulation is unchanged.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum SnapshotError {
     /// The models differ.
@@ -196,6 +196,9 @@ pub enum SnapshotError {
         /// Value here.
         found: String,
     },
+    /// The task refuses its own state.
+    #[error("the snapshot has no valid state of the task")]
+    Task(#[source] StateError),
 }
 
 impl ModelError {

@@ -9,9 +9,9 @@
 //!
 //! # Layout
 //! - [`environment`]: the entry point; episodes, resets, faults; steps of several environments together.
-//! - [`task`]: reward and end of an episode, as pure functions.
+//! - [`task`]: what is observed and rewarded, and when an episode ends.
 //! - [`info`]: a step in detail, under Gymnasium's names.
-//! - [`observation`]: numbers that the policy observes.
+//! - [`observation`]: observations of Gymnasium's tasks.
 //! - [`physics`]: named quantities of the simulated humanoid.
 //! - [`model`]: MJCF text → bodies, hinge chains, motors, pairs of shapes that may touch.
 //! - [`card`]: robot cards, which complete a model by servos and a default pose.
@@ -48,4 +48,5 @@ pub use info::{InfoValue, StepInfo};
 pub use model::{HUMANOID_XML, Model, mirror::Mirror, read_model_file};
 pub use observation::{OBSERVATION_SIZE_COMPACT, Observation};
 pub use physics::{ContactForce, JointQuality, Physics, PhysicsFault, PhysicsSnapshot, Variation};
-pub use task::StepOutcome;
+pub use randomisation::SensorNoise;
+pub use task::{ObservationTerm, StepOutcome, Task};

@@ -5,18 +5,58 @@
 
 use std::f64::consts::TAU;
 
-use nalgebra::{Quaternion, UnitQuaternion, Vector3};
+use nalgebra::Vector3;
 use rand::{Rng, RngExt, SeedableRng};
 use rand_distr::{Distribution, StandardNormal};
 use rand_xoshiro::Xoshiro256PlusPlus;
 
 use crate::config::{EnvironmentConfig, Randomisation};
 use crate::model::Model;
-use crate::observation::Observation;
 use crate::physics::{Physics, Variation};
 
-/// Position of the torso's quaternion in an observation, counted from the height; hinge angles, then velocities follow.
-const QUATERNION: std::ops::Range<usize> = 1..5;
+/// Noise of the sensors throughout an episode.
+#[derive(Clone)]
+pub struct SensorNoise {
+    position_std: f64,
+    velocity_std: f64,
+    random: Xoshiro256PlusPlus,
+}
+
+impl SensorNoise {
+    /// Returns exact sensors.
+    #[must_use]
+    pub fn none() -> Self {
+        Self { position_std: 0.0, velocity_std: 0.0, random: stream(0, "sensors") }
+    }
+
+    /// Returns whether the sensors are exact.
+    #[must_use]
+    pub fn is_off(&self) -> bool {
+        !(self.has_positions() || self.has_velocities())
+    }
+
+    /// Returns whether positions and angles have noise.
+    #[must_use]
+    pub fn has_positions(&self) -> bool {
+        self.position_std > 0.0
+    }
+
+    /// Returns whether velocities have noise.
+    #[must_use]
+    pub fn has_velocities(&self) -> bool {
+        self.velocity_std > 0.0
+    }
+
+    /// Draws the error of one position (m) or angle (rad).
+    pub fn position(&mut self) -> f64 {
+        self.position_std * normal(&mut self.random)
+    }
+
+    /// Draws the error of one velocity (m/s or rad/s).
+    pub fn velocity(&mut self) -> f64 {
+        self.velocity_std * normal(&mut self.random)
+    }
+}
 
 /// Randomises one environment; draws nothing if nothing is randomised. Only [`Self::new`] allocates.
 #[derive(Clone)]
@@ -25,11 +65,6 @@ pub(crate) struct Randomiser {
     control_step_s: f64,
     is_on: bool,
     variation: Variation,
-    /// Index of the torso's height in an observation.
-    height_index: usize,
-    /// Number of positions from there on; the velocities follow them.
-    positions: usize,
-    velocities: usize,
     /// Half of each motor's range of controls.
     half_ranges: Vec<f64>,
     /// Ring buffer of the last actions, `[delay + 1][motor]`.
@@ -40,14 +75,14 @@ pub(crate) struct Randomiser {
     /// Controls that reach the motors.
     delayed: Vec<f32>,
     steps_to_push: u32,
-    sensors: Xoshiro256PlusPlus,
+    sensors: SensorNoise,
     motors: Xoshiro256PlusPlus,
     pushes: Xoshiro256PlusPlus,
 }
 
 impl Randomiser {
-    /// Takes checked settings, a model and its observation; [`Self::begin_episode`] must precede all other calls.
-    pub(crate) fn new(config: &EnvironmentConfig, model: &Model, observation: &Observation) -> Self {
+    /// Takes checked settings and a model; [`Self::begin_episode`] must precede all other calls.
+    pub(crate) fn new(config: &EnvironmentConfig, model: &Model) -> Self {
         let settings = &config.randomisation;
         let slots = settings.action_delay_steps[1] as usize + 1;
         Self {
@@ -55,16 +90,17 @@ impl Randomiser {
             settings: settings.clone(),
             control_step_s: config.control_step_s,
             variation: Variation::none(model),
-            height_index: observation.height_index(),
-            positions: model.position_size() - 2,
-            velocities: model.velocity_size(),
             half_ranges: model.motors.iter().map(|motor| motor.control[1] / 2.0 - motor.control[0] / 2.0).collect(),
             past: vec![0.0; slots * model.motors.len()],
             newest: 0,
             delay_steps: 0,
             delayed: vec![0.0; model.motors.len()],
             steps_to_push: 0,
-            sensors: stream(0, "sensors"),
+            sensors: SensorNoise {
+                position_std: settings.sensor_noise_position,
+                velocity_std: settings.sensor_noise_velocity,
+                random: stream(0, "sensors"),
+            },
             motors: stream(0, "motors"),
             pushes: stream(0, "pushes"),
         }
@@ -88,7 +124,7 @@ impl Randomiser {
         self.delay_steps = stream(seed, "delay").random_range(delay_min..=delay_max) as usize;
         self.past.fill(0.0);
         self.newest = 0;
-        self.sensors = stream(seed, "sensors");
+        self.sensors.random = stream(seed, "sensors");
         self.motors = stream(seed, "motors");
         self.pushes = stream(seed, "pushes");
         self.schedule_push();
@@ -104,7 +140,7 @@ impl Randomiser {
     pub(crate) fn progress(&self) -> (Vec<f32>, u32, [Xoshiro256PlusPlus; 3]) {
         let oldest = (self.newest + 1) * self.delayed.len();
         let past = [&self.past[oldest..], &self.past[..oldest]].concat();
-        (past, self.steps_to_push, [self.sensors.clone(), self.motors.clone(), self.pushes.clone()])
+        (past, self.steps_to_push, [self.sensors.random.clone(), self.motors.clone(), self.pushes.clone()])
     }
 
     /// Restores the state of [`Self::progress`], after [`Self::begin_episode`] with the same seed.
@@ -113,7 +149,7 @@ impl Randomiser {
         self.newest = self.settings.action_delay_steps[1] as usize;
         self.steps_to_push = steps_to_push;
         let [sensors, motors, pushes] = streams;
-        self.sensors.clone_from(sensors);
+        self.sensors.random.clone_from(sensors);
         self.motors.clone_from(motors);
         self.pushes.clone_from(pushes);
     }
@@ -162,35 +198,9 @@ impl Randomiser {
         &self.delayed
     }
 
-    /// Adds sensor noise to the positions and velocities of an observation, except x and y.
-    ///
-    /// [`Observation::write_sensed`] then computes the other blocks from them.
-    pub(crate) fn add_sensor_noise(&mut self, observation: &mut [f32]) {
-        let observation = &mut observation[self.height_index..];
-        let std = self.settings.sensor_noise_position;
-        if std > 0.0 {
-            let height = 0..QUATERNION.start;
-            for index in height.chain(QUATERNION.end..self.positions) {
-                observation[index] += (std * normal(&mut self.sensors)) as f32;
-            }
-            let rotation = Vector3::from_fn(|_, _| std * normal(&mut self.sensors));
-            rotate(&mut observation[QUATERNION], rotation);
-        }
-        let std = self.settings.sensor_noise_velocity;
-        if std > 0.0 {
-            for entry in &mut observation[self.positions..][..self.velocities] {
-                *entry += (std * normal(&mut self.sensors)) as f32;
-            }
-        }
-    }
-}
-
-/// Rotates a quaternion w, x, y, z by a rotation vector (rad) in the body's frame, without changing its sign.
-fn rotate(entries: &mut [f32], rotation_rad: Vector3<f64>) {
-    let [w, x, y, z] = [0, 1, 2, 3].map(|index| f64::from(entries[index]));
-    let rotated = Quaternion::new(w, x, y, z) * UnitQuaternion::from_scaled_axis(rotation_rad).into_inner();
-    for (entry, part) in entries.iter_mut().zip([rotated.w, rotated.i, rotated.j, rotated.k]) {
-        *entry = part as f32;
+    /// Returns the noise of the sensors.
+    pub(crate) fn sensors(&mut self) -> &mut SensorNoise {
+        &mut self.sensors
     }
 }
 

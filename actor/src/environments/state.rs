@@ -24,6 +24,7 @@ pub fn save(shares: &[&Environments], noise: &seeds::Stream) -> Option<ActorStat
         state.observations.extend(episode.observation);
         state.past_actions.extend(episode.past_actions);
         state.steps_to_push.push(episode.steps_to_push);
+        state.task.extend(&episode.task);
         state.streams.extend(episode.streams.iter().flat_map(seeds::words));
     }
     Some(state)
@@ -69,6 +70,7 @@ impl Environments {
                 past_actions: row(&state.past_actions, env, state).to_vec(),
                 steps_to_push: state.steps_to_push[env],
                 streams: generators(row(&state.streams, env, state)),
+                task: row(&state.task, env, state).to_vec(),
             };
             slot.environment.resume_episode(&episode, observation).map_err(|error| error_chain(&error))?;
             slot.precision.round(observation);

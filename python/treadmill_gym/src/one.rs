@@ -11,7 +11,7 @@ use crate::{
 };
 
 /// Name and size of each block of an observation.
-type Blocks = Vec<(&'static str, usize)>;
+type Blocks = Vec<(String, usize)>;
 type Observed<'py> = Bound<'py, PyArray1<f64>>;
 
 /// One humanoid without a time limit.
@@ -97,5 +97,5 @@ impl Humanoid {
 
 /// Returns name and size of each block of an observation, in order.
 pub fn blocks(environment: &Environment) -> Blocks {
-    environment.observation().blocks().iter().map(|block| (block.name, block.range.len())).collect()
+    environment.terms().iter().map(|term| (term.name.clone(), term.range.len())).collect()
 }

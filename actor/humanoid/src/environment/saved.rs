@@ -2,7 +2,7 @@
 
 use rand_xoshiro::Xoshiro256PlusPlus;
 
-use super::{Environment, reset_info};
+use super::Environment;
 use crate::error::StateError;
 
 /// State of an episode between two control steps, apart from model and settings.
@@ -26,6 +26,8 @@ pub struct EpisodeState {
     pub steps_to_push: u32,
     /// Random streams of sensors, motors and pushes.
     pub streams: [Xoshiro256PlusPlus; 3],
+    /// State of the task, see [`crate::task::Task::save`].
+    pub task: Vec<f64>,
 }
 
 impl Environment {
@@ -46,6 +48,7 @@ impl Environment {
             past_actions,
             steps_to_push,
             streams,
+            task: self.task.save(),
         })
     }
 
@@ -63,13 +66,15 @@ impl Environment {
         self.physics.check_numbers(&state.position, &state.velocity)?;
         check("observation", &state.observation, self.observation_size())?;
         check("past actions", &state.past_actions, self.randomiser.past_size())?;
+        self.task.restore(&state.task)?;
         self.seed = Some(state.seed);
         self.randomiser.begin_episode(state.seed, &mut self.physics);
         self.randomiser.resume(&state.past_actions, state.steps_to_push, &state.streams);
         self.physics.resume_from(&state.position, &state.velocity);
         self.episode_steps = state.steps;
         self.last_observation.copy_from_slice(&state.observation);
-        self.last_info = reset_info(&self.config, &self.physics);
+        self.last_info = self.task.begin(state.seed, &self.physics);
+        self.task.restore(&state.task)?;
         observation.copy_from_slice(&state.observation);
         Ok(())
     }

@@ -13,6 +13,7 @@ pub struct EnvironmentSnapshot {
     config: EnvironmentConfig,
     physics: PhysicsSnapshot,
     randomiser: Randomiser,
+    task: Vec<f64>,
     seed: Option<u64>,
     last_observation: Vec<f32>,
     last_info: StepInfo,
@@ -28,6 +29,7 @@ impl Environment {
             config: self.config.clone(),
             physics: self.physics.snapshot(),
             randomiser: self.randomiser.clone(),
+            task: self.task.save(),
             seed: self.seed,
             last_observation: self.last_observation.clone(),
             last_info: self.last_info,
@@ -46,6 +48,7 @@ impl Environment {
             return Err(SnapshotError::Setting { setting, taken, found });
         }
         self.physics.restore(&snapshot.physics)?;
+        self.task.restore(&snapshot.task).map_err(SnapshotError::Task)?;
         self.randomiser.clone_from(&snapshot.randomiser);
         self.seed = snapshot.seed;
         self.last_observation.clone_from(&snapshot.last_observation);

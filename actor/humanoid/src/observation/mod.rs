@@ -35,34 +35,28 @@ use std::ops::Range;
 
 pub(crate) use self::sensed::Sensed;
 use self::spatial::{SpatialInertia, velocity_about};
-use nalgebra::Point3;
+use nalgebra::{Point3, Quaternion, UnitQuaternion, Vector3};
 
 use crate::config::{EnvironmentConfig, ObservationKind};
 use crate::dynamics::World;
 use crate::model::Model;
 use crate::physics::Physics;
+use crate::randomisation::SensorNoise;
+use crate::task::ObservationTerm;
 
 /// Length of the compact observation of [`crate::HUMANOID_XML`]: 22 position and 23 velocity numbers.
 pub const OBSERVATION_SIZE_COMPACT: usize = 45;
 
 /// Numbers of the position vector that can be excluded: x and y, because walking must not depend on them.
 const EXCLUDABLE: usize = 2;
+/// Position of the torso's quaternion, counted from the height; hinge angles, then velocities follow.
+const QUATERNION: Range<usize> = 1..5;
 /// Degrees of freedom of the root.
 const ROOT_FREEDOMS: usize = 6;
 /// Numbers of a link's inertia.
 const INERTIA_SIZE: usize = 10;
 /// Numbers of a link's velocity, and of the wrench on it.
 const SPATIAL_SIZE: usize = 6;
-
-/// Consecutive numbers of an observation with one meaning.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Block {
-    /// Name in Gymnasium's `observation_structure`.
-    pub name: &'static str,
-    /// Position in the observation.
-    pub range: Range<usize>,
-    quantity: Quantity,
-}
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Quantity {
@@ -85,11 +79,17 @@ struct View<'a> {
 /// Layout of an observation for one model.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Observation {
-    blocks: Vec<Block>,
+    /// Blocks under their names in Gymnasium's `observation_structure`.
+    terms: Vec<ObservationTerm>,
+    /// Quantity that each block shows.
+    quantities: Vec<Quantity>,
     /// Whether the blocks include zeros for the world and the root.
     has_world: bool,
-    /// Index of the torso's height.
+    /// Index of the torso's height; the other positions and the velocities follow it.
     height_index: usize,
+    /// Number of positions from the height on.
+    positions: usize,
+    velocities: usize,
 }
 
 impl Observation {
@@ -110,33 +110,40 @@ impl Observation {
             ("cfrc_ext", Quantity::Contacts, rows * SPATIAL_SIZE, all && config.include_cfrc_ext_in_observation),
         ];
         let mut end = 0;
-        let blocks = quantities
+        let (terms, quantities) = quantities
             .into_iter()
             .filter(|(.., included)| *included)
             .map(|(name, quantity, size, _)| {
                 let start = end;
                 end += size;
-                Block { name, range: start..end, quantity }
+                (ObservationTerm { name: name.to_owned(), range: start..end }, quantity)
             })
-            .collect();
-        Self { blocks, has_world, height_index: EXCLUDABLE - excluded }
+            .unzip();
+        Self {
+            terms,
+            quantities,
+            has_world,
+            height_index: EXCLUDABLE - excluded,
+            positions: model.position_size() - EXCLUDABLE,
+            velocities: model.velocity_size(),
+        }
     }
 
     /// Returns the length of the observation.
     #[must_use]
     pub fn size(&self) -> usize {
-        self.blocks.last().map_or(0, |block| block.range.end)
+        self.terms.last().map_or(0, |term| term.range.end)
     }
 
     /// Returns the blocks, in order.
     #[must_use]
-    pub fn blocks(&self) -> &[Block] {
-        &self.blocks
+    pub fn terms(&self) -> &[ObservationTerm] {
+        &self.terms
     }
 
-    /// Returns the index of the torso's height; the other positions and the velocities follow it.
-    pub(crate) fn height_index(&self) -> usize {
-        self.height_index
+    /// Returns quantity and position of each block, in order.
+    fn blocks(&self) -> impl Iterator<Item = (Quantity, Range<usize>)> {
+        self.quantities.iter().copied().zip(self.terms.iter().map(|term| term.range.clone()))
     }
 
     /// Writes an observation of the present state. Allocates nothing.
@@ -146,9 +153,9 @@ impl Observation {
     pub fn write(&self, physics: &Physics, observation: &mut [f32]) {
         assert_eq!(observation.len(), self.size(), "observation buffer has the wrong length");
         let view = View { physics, world: physics.world(), centre_m: physics.centre_of_mass(), sensed: None };
-        for block in &self.blocks {
-            let target = &mut observation[block.range.clone()];
-            match block.quantity {
+        for (quantity, range) in self.blocks() {
+            let target = &mut observation[range];
+            match quantity {
                 Quantity::Position => {
                     let position = physics.position();
                     copy(&position[position.len() - target.len()..], target);
@@ -159,11 +166,30 @@ impl Observation {
         }
     }
 
+    /// Adds sensor noise to the positions and velocities, except x and y; [`Self::write_sensed`] then computes the other blocks
+    /// from them.
+    pub(crate) fn add_noise(&self, noise: &mut SensorNoise, observation: &mut [f32]) {
+        let observation = &mut observation[self.height_index..];
+        if noise.has_positions() {
+            let height = 0..QUATERNION.start;
+            for index in height.chain(QUATERNION.end..self.positions) {
+                observation[index] += noise.position() as f32;
+            }
+            let rotation_rad = Vector3::from_fn(|_, _| noise.position());
+            rotate(&mut observation[QUATERNION], rotation_rad);
+        }
+        if noise.has_velocities() {
+            for entry in &mut observation[self.positions..][..self.velocities] {
+                *entry += noise.velocity() as f32;
+            }
+        }
+    }
+
     /// Computes all derived blocks again from the positions and velocities in `observation`, which have sensor noise.
     pub(crate) fn write_sensed(&self, physics: &Physics, sensed: &mut Sensed, observation: &mut [f32]) {
-        for block in &self.blocks {
-            let entries = &observation[block.range.clone()];
-            match block.quantity {
+        for (quantity, range) in self.blocks() {
+            let entries = &observation[range];
+            match quantity {
                 Quantity::Position => {
                     let excluded = sensed.position.len() - entries.len();
                     sensed.position[..excluded].copy_from_slice(&physics.position()[..excluded]);
@@ -176,14 +202,14 @@ impl Observation {
         sensed.update(physics);
         let view =
             View { physics, world: &sensed.world, centre_m: sensed.world.centre_of_mass(), sensed: Some(sensed) };
-        for block in &self.blocks {
-            self.write_derived(block.quantity, &view, &mut observation[block.range.clone()]);
+        for (quantity, range) in self.blocks() {
+            self.write_derived(quantity, &view, &mut observation[range]);
         }
     }
 
     /// Returns whether there is any block besides positions and velocities.
     pub(crate) fn has_derived_blocks(&self) -> bool {
-        self.blocks.iter().any(|block| !matches!(block.quantity, Quantity::Position | Quantity::Velocity))
+        self.quantities.iter().any(|quantity| !matches!(quantity, Quantity::Position | Quantity::Velocity))
     }
 
     /// Writes a block unless it is the positions or the velocities.
@@ -231,6 +257,15 @@ impl Observation {
             copy(moment.as_slice(), &mut row[..3]);
             copy(force.as_slice(), &mut row[3..]);
         }
+    }
+}
+
+/// Rotates a quaternion w, x, y, z by a rotation vector (rad) in the body's frame, without changing its sign.
+fn rotate(entries: &mut [f32], rotation_rad: Vector3<f64>) {
+    let [w, x, y, z] = [0, 1, 2, 3].map(|index| f64::from(entries[index]));
+    let rotated = Quaternion::new(w, x, y, z) * UnitQuaternion::from_scaled_axis(rotation_rad).into_inner();
+    for (entry, part) in entries.iter_mut().zip([rotated.w, rotated.i, rotated.j, rotated.k]) {
+        *entry = part as f32;
     }
 }
 

@@ -18,7 +18,7 @@ fn contact_rows(physics: &Physics) -> Vec<(Vector3<f64>, Vector3<f64>)> {
     let observation = Observation::new(&config(), physics.model());
     let mut numbers = vec![0.0; observation.size()];
     observation.write(physics, &mut numbers);
-    let range = observation.blocks().last().expect("cfrc_ext is the last block").range.clone();
+    let range = observation.terms().last().expect("cfrc_ext is the last block").range.clone();
     let vector = |part: &[f32]| Vector3::new(part[0].into(), part[1].into(), part[2].into());
     numbers[range].chunks_exact(6).map(|row| (vector(&row[..3]), vector(&row[3..]))).collect()
 }

@@ -9,7 +9,7 @@ fn plain() -> EnvironmentConfig {
 }
 
 /// Returns everything that can be read without a step.
-fn visible_state(environment: &Environment) -> String {
+fn visible_state(environment: &mut Environment) -> String {
     let mut observation = vec![0.0; environment.observation_size()];
     environment.observe(&mut observation).expect("the right length");
     let physics = environment.physics();
@@ -81,7 +81,7 @@ fn states_that_do_not_fit_are_refused_by_name_and_change_nothing() {
     play(&mut environment, 0, 20);
     let sound = environment.episode_state().expect("the environment was reset");
     play(&mut environment, 20, 25);
-    let untouched = visible_state(&environment);
+    let untouched = visible_state(&mut environment);
     type Change = fn(&mut EpisodeState);
     let changes: [(&str, Change); 7] = [
         ("position vector has the wrong length: 1 ", |s| s.position.truncate(1)),
@@ -98,7 +98,7 @@ fn states_that_do_not_fit_are_refused_by_name_and_change_nothing() {
         change(&mut state);
         let refusal: StateError = environment.resume_episode(&state, &mut observation).expect_err(part);
         assert!(refusal.to_string().contains(part), "{refusal}");
-        assert_eq!(untouched, visible_state(&environment));
+        assert_eq!(untouched, visible_state(&mut environment));
     }
     assert!(observation.iter().all(|entry| *entry == 7.0));
 }

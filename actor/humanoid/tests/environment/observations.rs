@@ -41,7 +41,7 @@ fn expected(kind: ObservationKind, states: &[State]) -> Vec<&[f32]> {
 }
 
 fn block(observation: &Observation, name: &str) -> std::ops::Range<usize> {
-    observation.blocks().iter().find(|block| block.name == name).expect("the block is there").range.clone()
+    observation.terms().iter().find(|block| block.name == name).expect("the block is there").range.clone()
 }
 
 #[test]
@@ -73,9 +73,9 @@ fn the_comparison_detects_flipped_signs_and_swapped_axes_in_every_block() {
         let right = observe(&config(kind), &states);
         let expected = expected(kind, &states);
         let observation = Observation::new(&config(kind), physics().model());
-        let names: Vec<&str> = observation.blocks().iter().map(|block| block.name).collect();
+        let names: Vec<&str> = observation.terms().iter().map(|block| &block.name[..]).collect();
         assert_eq!(names, ["qpos", "qvel", "cinert", "cvel", "qfrc_actuator", "cfrc_ext"]);
-        for block in observation.blocks() {
+        for block in observation.terms() {
             let mut tried = 0;
             for entry in block.range.clone() {
                 // The world's rows of v4 are zero.
@@ -150,7 +150,7 @@ fn each_flag_removes_only_its_block() {
         switch(&mut without);
         let out = block(&Observation::new(&config(V5), &model), name);
         assert_eq!(out.len(), size);
-        assert!(Observation::new(&without, &model).blocks().iter().all(|block| block.name != name));
+        assert!(Observation::new(&without, &model).terms().iter().all(|block| block.name != name));
         for (whole, part) in whole.iter().zip(observe(&without, &states)) {
             assert_eq!(part, [&whole[..out.start], &whole[out.end..]].concat(), "{name}");
         }
@@ -177,7 +177,7 @@ fn compact_is_the_beginning_of_v5() {
 fn a_reset_clears_torques_and_contacts() {
     let config = config(V5);
     let mut environment = Environment::new(&config, HUMANOID_XML).expect("valid");
-    let range = block(environment.observation(), "qfrc_actuator").start..environment.observation_size();
+    let range = block(&Observation::new(environment.config(), environment.physics().model()), "qfrc_actuator").start..environment.observation_size();
     let mut observation = vec![0.0; environment.observation_size()];
     environment.reset(1, &mut observation);
     for _ in 0..100 {

@@ -49,7 +49,7 @@ fn observed(environment: &mut Environment) -> [Vec<f32>; 2] {
 }
 
 fn block(environment: &Environment, name: &str) -> Option<std::ops::Range<usize>> {
-    environment.observation().blocks().iter().find(|block| block.name == name).map(|block| block.range.clone())
+    environment.terms().iter().find(|block| block.name == name).map(|block| block.range.clone())
 }
 
 #[test]

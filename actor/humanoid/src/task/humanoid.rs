@@ -1,11 +1,16 @@
-//! Reward and termination of Humanoid-v5 and -v4, as pure functions.
+//! Humanoid-v5 and -v4. Reward and end of an episode are pure functions.
 //!
 //! Formulas are those of Gymnasium's `humanoid_v5.py` and `humanoid_v4.py`. Version 4 differs in three points: it has no
 //! contact cost; if unhealthy steps end the episode, it pays for health on every step, including the last; its info has the
 //! position of the centre of mass instead of the torso's.
 
+use super::{Evaluation, ObservationTerm, Step, Task};
 use crate::config::{EnvironmentConfig, RewardTask};
 use crate::info::{PerTendon, StepInfo};
+use crate::model::Model;
+use crate::observation::{Observation, Sensed};
+use crate::physics::Physics;
+use crate::randomisation::SensorNoise;
 
 /// Quantities of one control step that reward and termination depend on.
 #[derive(Clone, Copy, Debug)]
@@ -24,23 +29,75 @@ pub struct Transition<'a> {
     pub tendon_length_rad: PerTendon,
     /// Velocity of each tendon after the step (rad/s).
     pub tendon_velocity_radps: PerTendon,
-    /// Control steps done in this episode, this one included.
-    pub episode_steps: u32,
 }
 
-/// Result of one control step.
-#[derive(Clone, Copy, Debug)]
-pub struct StepOutcome {
-    /// Reward of the step.
-    pub reward: f32,
-    /// Whether the task ended the episode: the value of its last state is 0.
-    pub terminated: bool,
-    /// Whether the time limit ended the episode: its last state keeps its value. Never together with `terminated`.
-    pub truncated: bool,
-    /// Whether the physics or the action was not finite; implies `terminated`.
-    pub fault: bool,
-    /// Details of the step.
-    pub info: StepInfo,
+/// Gymnasium's Humanoid-v5 or -v4.
+pub struct HumanoidTask {
+    config: EnvironmentConfig,
+    observation: Observation,
+    /// State with sensor noise, if the observation shows more of it than positions and velocities.
+    sensed: Option<Sensed>,
+}
+
+impl HumanoidTask {
+    /// Returns the task of a configuration for the model of a simulation.
+    #[must_use]
+    pub fn new(config: &EnvironmentConfig, physics: &Physics) -> Self {
+        let observation = Observation::new(config, physics.model());
+        let is_derived = config.randomisation.has_sensor_noise() && observation.has_derived_blocks();
+        Self { config: config.clone(), sensed: is_derived.then(|| Sensed::new(physics)), observation }
+    }
+}
+
+impl Task for HumanoidTask {
+    fn terms(&self) -> &[ObservationTerm] {
+        self.observation.terms()
+    }
+
+    fn begin(&mut self, _seed: u64, physics: &Physics) -> StepInfo {
+        let (position, centre) = (physics.position(), physics.centre_of_mass());
+        let [x_m, y_m] = info_position_m(self.config.task, [position[0], position[1]], [centre.x, centre.y]);
+        StepInfo {
+            x_position_m: x_m,
+            y_position_m: y_m,
+            distance_from_origin_m: x_m.hypot(y_m),
+            torso_height_m: position[2],
+            tendon_length_rad: tendon_values(physics.model(), physics.joint_angles()),
+            tendon_velocity_radps: tendon_values(physics.model(), physics.joint_rates()),
+            ..StepInfo::default()
+        }
+    }
+
+    fn evaluate(&mut self, step: &Step<'_>) -> Evaluation {
+        let Step { physics, action, centre_before_m: before } = *step;
+        let after = physics.centre_of_mass();
+        let position = physics.position();
+        let transition = Transition {
+            centre_before_m: [before.x, before.y],
+            centre_after_m: [after.x, after.y],
+            torso_m: [position[0], position[1], position[2]],
+            action,
+            squared_contact_wrenches: physics.squared_contact_wrenches(),
+            tendon_length_rad: tendon_values(physics.model(), physics.joint_angles()),
+            tendon_velocity_radps: tendon_values(physics.model(), physics.joint_rates()),
+        };
+        evaluate_step(&self.config, &transition)
+    }
+
+    fn observe(&mut self, physics: &Physics, noise: &mut SensorNoise, observation: &mut [f32]) {
+        self.observation.write(physics, observation);
+        if noise.is_off() {
+            return;
+        }
+        self.observation.add_noise(noise, observation);
+        if let Some(sensed) = &mut self.sensed {
+            self.observation.write_sensed(physics, sensed, observation);
+        }
+    }
+}
+
+fn tendon_values(model: &Model, hinges: &[f64]) -> PerTendon {
+    model.tendons.iter().map(|tendon| tendon.sum_over(hinges)).collect()
 }
 
 /// Returns whether a torso height (m) is healthy: strictly between the two bounds.
@@ -92,7 +149,7 @@ pub fn info_position_m(task: RewardTask, torso_m: [f64; 2], centre_m: [f64; 2]) 
 
 /// Computes reward, termination and info of one control step.
 #[must_use]
-pub fn evaluate_step(config: &EnvironmentConfig, transition: &Transition<'_>) -> StepOutcome {
+pub fn evaluate_step(config: &EnvironmentConfig, transition: &Transition<'_>) -> Evaluation {
     let [torso_x_m, torso_y_m, height_m] = transition.torso_m;
     let [x_m, y_m] = info_position_m(config.task, [torso_x_m, torso_y_m], transition.centre_after_m);
     let [x_velocity_mps, y_velocity_mps] =
@@ -112,15 +169,11 @@ pub fn evaluate_step(config: &EnvironmentConfig, transition: &Transition<'_>) ->
         reward_contact: -contact_cost(config, transition.squared_contact_wrenches),
         torso_height_m: height_m,
     };
-    let terminated = config.terminate_when_unhealthy && !healthy;
-    let out_of_time = config.max_episode_steps > 0 && transition.episode_steps >= config.max_episode_steps;
-    StepOutcome {
+    Evaluation {
         // The cost of huge controls exceeds single precision.
         reward: (info.reward_survive + info.reward_forward + info.reward_ctrl + info.reward_contact)
             .clamp(f32::MIN.into(), f32::MAX.into()) as f32,
-        terminated,
-        truncated: out_of_time && !terminated,
-        fault: false,
+        terminated: config.terminate_when_unhealthy && !healthy,
         info,
     }
 }
@@ -131,7 +184,7 @@ mod tests {
 
     const CONTROLS: [f32; 2] = [0.5, -0.25];
 
-    fn transition(height_m: f64, episode_steps: u32) -> Transition<'static> {
+    fn transition(height_m: f64) -> Transition<'static> {
         Transition {
             centre_before_m: [1.0, 2.0],
             centre_after_m: [1.03, 1.985],
@@ -140,13 +193,12 @@ mod tests {
             squared_contact_wrenches: 2.0e6,
             tendon_length_rad: [0.5, -0.5].into_iter().collect(),
             tendon_velocity_radps: [1.5, -1.5].into_iter().collect(),
-            episode_steps,
         }
     }
 
     #[test]
     fn reward_matches_the_sum_computed_by_hand() {
-        let step = evaluate_step(&EnvironmentConfig::default(), &transition(1.4, 1));
+        let step = evaluate_step(&EnvironmentConfig::default(), &transition(1.4));
         // 0.03 m in 0.015 s = 2 m/s; × 1.25 = 2.5. 0.1 × (0.25 + 0.0625) = 0.03125. 5e-7 × 2e6 = 1.
         assert!((step.info.x_velocity_mps - 2.0).abs() < 1e-9);
         assert!((step.info.y_velocity_mps + 1.0).abs() < 1e-9);
@@ -155,13 +207,13 @@ mod tests {
         assert!((step.info.reward_contact + 1.0).abs() < 1e-9);
         assert!((step.info.distance_from_origin_m - 5.0).abs() < 1e-12);
         assert!((f64::from(step.reward) - 6.468_75).abs() < 1e-6);
-        assert!(!step.terminated && !step.truncated && !step.fault);
+        assert!(!step.terminated);
     }
 
     #[test]
     fn the_velocity_follows_the_control_step() {
         let config = EnvironmentConfig { control_step_s: 0.03, ..EnvironmentConfig::default() };
-        let info = evaluate_step(&config, &transition(1.4, 1)).info;
+        let info = evaluate_step(&config, &transition(1.4)).info;
         assert!((info.x_velocity_mps - 1.0).abs() < 1e-9 && (info.y_velocity_mps + 0.5).abs() < 1e-9);
         assert!((info.reward_forward - 1.25).abs() < 1e-9);
     }
@@ -177,15 +229,15 @@ mod tests {
     #[test]
     fn huge_controls_leave_the_reward_finite() {
         let step =
-            evaluate_step(&EnvironmentConfig::default(), &Transition { action: &[f32::MAX], ..transition(1.4, 1) });
+            evaluate_step(&EnvironmentConfig::default(), &Transition { action: &[f32::MAX], ..transition(1.4) });
         assert!(step.reward == f32::MIN && step.info.reward_ctrl.is_finite());
     }
 
     #[test]
     fn v5_does_not_pay_for_health_on_an_unhealthy_last_step() {
         for height in [1.0, 0.9, 2.0, 2.5] {
-            let step = evaluate_step(&EnvironmentConfig::default(), &transition(height, 7));
-            assert!(step.terminated && !step.truncated, "height {height}");
+            let step = evaluate_step(&EnvironmentConfig::default(), &transition(height));
+            assert!(step.terminated, "height {height}");
             assert_eq!(step.info.reward_survive, 0.0);
             assert!((f64::from(step.reward) - 1.468_75).abs() < 1e-6);
         }
@@ -194,31 +246,9 @@ mod tests {
     #[test]
     fn without_termination_an_unhealthy_step_has_no_health_reward() {
         let config = EnvironmentConfig { terminate_when_unhealthy: false, ..EnvironmentConfig::default() };
-        let step = evaluate_step(&config, &transition(0.5, 7));
+        let step = evaluate_step(&config, &transition(0.5));
         assert!(!step.terminated);
         assert_eq!(step.info.reward_survive, 0.0);
-    }
-
-    #[test]
-    fn the_time_limit_truncates_the_last_step_and_none_before() {
-        let config = EnvironmentConfig { max_episode_steps: 10, ..EnvironmentConfig::default() };
-        assert!(!evaluate_step(&config, &transition(1.4, 9)).truncated);
-        let last = evaluate_step(&config, &transition(1.4, 10));
-        assert!(last.truncated && !last.terminated);
-        assert_eq!(last.info.reward_survive, 5.0);
-    }
-
-    #[test]
-    fn a_fall_on_the_last_step_terminates_and_does_not_truncate() {
-        let config = EnvironmentConfig { max_episode_steps: 10, ..EnvironmentConfig::default() };
-        let step = evaluate_step(&config, &transition(0.9, 10));
-        assert!(step.terminated && !step.truncated);
-    }
-
-    #[test]
-    fn no_time_limit_means_no_truncation() {
-        let config = EnvironmentConfig { max_episode_steps: 0, ..EnvironmentConfig::default() };
-        assert!(!evaluate_step(&config, &transition(1.4, u32::MAX)).truncated);
     }
 
     #[test]
@@ -238,7 +268,7 @@ mod tests {
     #[test]
     fn v4_pays_for_health_on_the_last_step_and_has_no_contact_cost() {
         let config = EnvironmentConfig { task: RewardTask::HumanoidV4, ..EnvironmentConfig::default() };
-        let step = evaluate_step(&config, &transition(0.9, 7));
+        let step = evaluate_step(&config, &transition(0.9));
         assert!(step.terminated);
         assert_eq!(step.info.reward_survive, 5.0);
         assert_eq!(step.info.reward_contact, 0.0);
@@ -246,15 +276,15 @@ mod tests {
         assert!((f64::from(step.reward) - 7.468_75).abs() < 1e-6);
 
         let lenient = EnvironmentConfig { terminate_when_unhealthy: false, ..config };
-        assert_eq!(evaluate_step(&lenient, &transition(0.9, 7)).info.reward_survive, 0.0);
-        assert_eq!(evaluate_step(&lenient, &transition(1.4, 7)).info.reward_survive, 5.0);
+        assert_eq!(evaluate_step(&lenient, &transition(0.9)).info.reward_survive, 0.0);
+        assert_eq!(evaluate_step(&lenient, &transition(1.4)).info.reward_survive, 5.0);
     }
 
     #[test]
     fn v5_reports_the_torso_and_v4_the_centre_of_mass() {
         let position = |task| {
             let info =
-                evaluate_step(&EnvironmentConfig { task, ..EnvironmentConfig::default() }, &transition(1.4, 7)).info;
+                evaluate_step(&EnvironmentConfig { task, ..EnvironmentConfig::default() }, &transition(1.4)).info;
             [info.x_position_m, info.y_position_m, info.distance_from_origin_m]
         };
         assert_eq!(position(RewardTask::HumanoidV5), [3.0, 4.0, 5.0]);
@@ -263,7 +293,7 @@ mod tests {
 
     #[test]
     fn info_has_the_tendons() {
-        let info = evaluate_step(&EnvironmentConfig::default(), &transition(1.4, 7)).info;
+        let info = evaluate_step(&EnvironmentConfig::default(), &transition(1.4)).info;
         assert_eq!(info.tendon_length_rad.as_slice(), [0.5, -0.5]);
         assert_eq!(info.tendon_velocity_radps.as_slice(), [1.5, -1.5]);
     }

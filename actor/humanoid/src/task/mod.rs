@@ -1,0 +1,142 @@
+//! Tasks: what the policy observes, what it is rewarded for, and when an episode ends.
+//!
+//! [`Environment`](crate::Environment) owns time, physics and randomisation. A [`Task`] turns named quantities of
+//! [`Physics`] into observations and rewards.
+//!
+//! # Layout
+//! - `humanoid`: Gymnasium's Humanoid-v5 and -v4.
+
+mod humanoid;
+
+use std::ops::Range;
+
+use nalgebra::Point3;
+
+pub use self::humanoid::{
+    HumanoidTask, Transition, contact_cost, control_cost, evaluate_step, health_reward, info_position_m, is_healthy,
+};
+use crate::error::StateError;
+use crate::info::StepInfo;
+use crate::physics::Physics;
+use crate::randomisation::SensorNoise;
+
+/// Consecutive numbers of an observation with one meaning.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct ObservationTerm {
+    /// Name; Gymnasium's in its tasks.
+    pub name: String,
+    /// Position in the observation.
+    pub range: Range<usize>,
+}
+
+/// A control step that the physics has simulated.
+#[derive(Clone, Copy)]
+pub struct Step<'a> {
+    /// Robot after the step.
+    pub physics: &'a Physics,
+    /// Action as given, one control per motor.
+    pub action: &'a [f32],
+    /// Centre of mass of the whole robot before the step (m, world frame).
+    pub centre_before_m: Point3<f64>,
+}
+
+/// Reward of a control step, and whether the task ends the episode.
+#[derive(Clone, Copy, Debug)]
+pub struct Evaluation {
+    /// Reward of the step.
+    pub reward: f32,
+    /// Whether the task ends the episode: the value of its last state is 0.
+    pub terminated: bool,
+    /// Details of the step.
+    pub info: StepInfo,
+}
+
+/// Result of one control step.
+#[derive(Clone, Copy, Debug)]
+pub struct StepOutcome {
+    /// Reward of the step.
+    pub reward: f32,
+    /// Whether the task ended the episode: the value of its last state is 0.
+    pub terminated: bool,
+    /// Whether the time limit ended the episode: its last state keeps its value. Never together with `terminated`.
+    pub truncated: bool,
+    /// Whether the physics or the action was not finite; implies `terminated`.
+    pub fault: bool,
+    /// Details of the step.
+    pub info: StepInfo,
+}
+
+/// What a robot must do.
+///
+/// For each episode the environment calls [`Self::begin`] and [`Self::observe`], and then for each control step
+/// [`Self::evaluate`] and [`Self::observe`]. The same calls must give the same results, bit for bit: random numbers come
+/// from the seed of [`Self::begin`] only.
+pub trait Task: Send {
+    /// Returns the terms of an observation, in order and without gaps.
+    fn terms(&self) -> &[ObservationTerm];
+
+    /// Begins an episode with the robot in its first state, and returns the info before the first step.
+    fn begin(&mut self, seed: u64, physics: &Physics) -> StepInfo;
+
+    /// Returns reward and end of a control step.
+    fn evaluate(&mut self, step: &Step<'_>) -> Evaluation;
+
+    /// Writes an observation of the present state with the noise of the sensors. Should not allocate.
+    fn observe(&mut self, physics: &Physics, noise: &mut SensorNoise, observation: &mut [f32]);
+
+    /// Returns everything that the rest of the episode depends on, apart from seed and physics, as finite numbers. Their count
+    /// is the same at all times.
+    fn save(&self) -> Vec<f64> {
+        Vec::new()
+    }
+
+    /// Restores the numbers of [`Self::save`], after [`Self::begin`] with the same seed.
+    ///
+    /// # Errors
+    /// [`StateError`] if the numbers are not those of such a task; the task is then unchanged.
+    fn restore(&mut self, numbers: &[f64]) -> Result<(), StateError> {
+        match numbers.len() {
+            0 => Ok(()),
+            found => Err(StateError::Length { what: "task", found, expected: 0 }),
+        }
+    }
+}
+
+impl Evaluation {
+    /// Returns the outcome of control step number `episode_steps` of an episode, which is truncated after `max_episode_steps`;
+    /// 0 means never.
+    #[must_use]
+    pub fn at(self, episode_steps: u32, max_episode_steps: u32) -> StepOutcome {
+        let is_out_of_time = max_episode_steps > 0 && episode_steps >= max_episode_steps;
+        let Self { reward, terminated, info } = self;
+        StepOutcome { reward, terminated, truncated: is_out_of_time && !terminated, fault: false, info }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn evaluation(terminated: bool) -> Evaluation {
+        Evaluation { reward: 5.0, terminated, info: StepInfo::default() }
+    }
+
+    #[test]
+    fn the_time_limit_truncates_the_last_step_and_none_before() {
+        assert!(!evaluation(false).at(9, 10).truncated);
+        let last = evaluation(false).at(10, 10);
+        assert!(last.truncated && !last.terminated);
+        assert_eq!(last.reward, 5.0);
+    }
+
+    #[test]
+    fn a_fall_on_the_last_step_terminates_and_does_not_truncate() {
+        let step = evaluation(true).at(10, 10);
+        assert!(step.terminated && !step.truncated);
+    }
+
+    #[test]
+    fn no_time_limit_means_no_truncation() {
+        assert!(!evaluation(false).at(u32::MAX, 0).truncated);
+    }
+}
