@@ -15,6 +15,9 @@ pub mod shared;
 
 use std::process::ExitCode;
 
+/// The environment, for own tasks.
+pub use treadmill_humanoid as humanoid;
+
 use clap::{CommandFactory, Parser, Subcommand};
 
 use crate::{
@@ -80,10 +83,15 @@ enum Command {
     Reference(manual::ReferenceArgs),
 }
 
-/// Runs the command named by the process's arguments, and returns the exit code.
+/// Runs the command named by the process's arguments, and returns the exit code. `own_tasks` are tasks of the calling program,
+/// under the names for `--task NAME`; see `examples/own_task.rs`.
 ///
 /// Call it first in `main`: it sets an environment variable, which is sound only while no other thread runs.
-pub fn main() -> ExitCode {
+///
+/// # Panics
+/// As [`humanoid::task::register_own_tasks`].
+pub fn main(own_tasks: &[(&'static str, humanoid::task::TaskBuilder)]) -> ExitCode {
+    humanoid::task::register_own_tasks(own_tasks);
     if !processor::is_supported() {
         return ExitCode::FAILURE;
     }

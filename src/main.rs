@@ -3,5 +3,5 @@
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
-    treadmill_rl::main()
+    treadmill_rl::main(&[])
 }

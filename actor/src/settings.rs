@@ -122,6 +122,7 @@ pub fn environment(config: &EnvConfig) -> EnvironmentConfig {
             EnvTask::HumanoidV5 | EnvTask::External => RewardTask::HumanoidV5,
             EnvTask::HumanoidV4 => RewardTask::HumanoidV4,
         },
+        own_task: config.own_task.clone(),
         forward_reward_weight: config.forward_reward_weight,
         ctrl_cost_weight: config.ctrl_cost_weight,
         contact_cost_weight: config.contact_cost_weight,

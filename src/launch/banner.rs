@@ -27,6 +27,7 @@ pub fn print_start(
     let verb = match (steps, config.is_external(), &config.task.name[..]) {
         (1.., ..) if prepared.origin.is_some() => format!("branching off at {} env steps", thousands(steps)),
         (1.., ..) => format!("resuming at {} env steps", thousands(steps)),
+        (0, false, _) if !config.env.own_task.is_empty() => format!("training `{}`", config.env.own_task),
         (0, false, _) => "training a humanoid to walk".to_string(),
         (0, true, "") => "training the task that its first actor registers".to_string(),
         (0, true, name) => format!("training `{name}`"),
@@ -75,7 +76,7 @@ pub fn actor_command(prepared: &Prepared, endpoint: &str, credentials: Option<&C
 fn goal(config: &Config, steps: u64) -> String {
     let (wanted, batch) = (config.run.steps, u64::from(config.ppo.batch));
     let left = wanted.saturating_sub(steps);
-    let goal = match config.is_external() {
+    let goal = match config.is_external() || !config.env.own_task.is_empty() {
         true => "to earn the task's rewards",
         false => "to go forward and not to fall",
     };

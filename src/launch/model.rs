@@ -90,8 +90,8 @@ pub fn mirror(config: &Config, text: &str) -> Result<Option<BatchMirror>, Usage>
         return Ok(None);
     }
     let refuse = |why: String| Usage(format!("`ppo.symmetry` is \"mirrored\", but {why}; allowed here: \"off\""));
-    if config.env.observation != EnvObservation::Compact {
-        return Err(refuse("only the observation \"compact\" has a mirror image".to_string()));
+    if config.env.observation != EnvObservation::Compact || !config.env.own_task.is_empty() {
+        return Err(refuse("only the observation \"compact\" of the built-in tasks has a mirror image".to_string()));
     }
     let environment = environment(config, text, None)?;
     let of_body = treadmill_humanoid::Mirror::of(environment.physics().model()).map_err(refuse)?;
@@ -113,7 +113,7 @@ pub fn check_same(config: &Config, run_text: &str, file: &Path) -> Result<(), Us
 /// Checks that the robot starts within the healthy range; otherwise every episode would end at once.
 fn check_height(env: &EnvConfig, height_m: f64, path: &Path) -> Result<(), Usage> {
     let [low_m, high_m] = env.healthy_z_range;
-    if !env.terminate_when_unhealthy || (low_m < height_m && height_m < high_m) {
+    if !env.own_task.is_empty() || !env.terminate_when_unhealthy || (low_m < height_m && height_m < high_m) {
         return Ok(());
     }
     Err(Usage(format!(

@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 use treadmill_config::{ConfigSource, EnvTask};
+use treadmill_humanoid::task;
 use treadmill_learner::checkpoint::Which;
 use treadmill_policy::device::DeviceKind;
 use treadmill_runtime::numbers::parse_count;
@@ -116,10 +117,13 @@ pub fn add_count(source: &mut ConfigSource, key: &str, count: u64) -> anyhow::Re
     Ok(source.value(key, count)?)
 }
 
-/// Returns the keys that `--task NAME` sets: the task, and its name if it is external.
+/// Returns the keys that `--task NAME` sets: the built-in task, that of this program, or the name of an external one.
 fn task_keys(name: &str) -> Result<Vec<(&'static str, toml::Value)>, Usage> {
     if EnvTask::NAMES.contains(&name) {
         return Ok(vec![("env.task", name.into())]);
+    }
+    if task::own_tasks().contains(&name) {
+        return Ok(vec![("env.own_task", name.into())]);
     }
     let ours = name.to_lowercase();
     if EnvTask::NAMES.contains(&ours.as_str()) {

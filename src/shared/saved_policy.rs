@@ -130,7 +130,11 @@ fn exported(state: &TrainingState) -> anyhow::Result<ExportedPolicy> {
         Some(task) => (external_action(&task), task.control_step_s),
         None => (motors(&Model::from_mjcf(&state.model_xml)?), config.env.control_step_s),
     };
-    let kind = if config.is_external() { EnvTask::External.name() } else { config.env.observation.name() };
+    let kind = match config.env.own_task.as_str() {
+        _ if config.is_external() => EnvTask::External.name(),
+        "" => config.env.observation.name(),
+        own_task => own_task,
+    };
     let (observation, mean, variance) =
         ObservationFacts::from_moments(kind, &state.observation_moments, config.policy.observation_clip as f32);
     Ok(ExportedPolicy {

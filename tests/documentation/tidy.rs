@@ -9,7 +9,7 @@ use std::{
 /// Most words of a page.
 const PAGE_WORDS_MAX: [(&str, usize); 2] = [("README.md", 1200), ("ARCHITECTURE.md", 2000)];
 /// Most words of all pages together, without `UNCOUNTED` and generated blocks.
-const ALL_WORDS_MAX: usize = 28_000;
+const ALL_WORDS_MAX: usize = 30_000;
 /// Pages that grow by themselves.
 const UNCOUNTED: [&str; 2] = ["docs/reference/", "CHANGELOG.md"];
 /// Beginnings of the first and the last line of a generated block.

@@ -3,6 +3,7 @@
 #[cfg(feature = "cuda")]
 mod cuda;
 mod evaluation;
+mod own_task;
 mod resume;
 #[path = "../support/mod.rs"]
 mod support;

@@ -44,6 +44,9 @@ pub enum ObservationKind {
 pub struct EnvironmentConfig {
     /// Task that determines rewards and info.
     pub task: RewardTask,
+    /// Name of a task that the program defines itself, which replaces `task`; empty means none. See
+    /// [`crate::task::register_own_tasks`].
+    pub own_task: String,
     /// Reward per m/s of forward speed of the centre of mass.
     pub forward_reward_weight: f64,
     /// Cost per unit of the sum of squared entries of the action; see [`crate::task::control_cost`].
@@ -91,6 +94,7 @@ impl Default for EnvironmentConfig {
         let PhysicsSettings { control_step_s, substeps, self_collision } = PhysicsSettings::default();
         Self {
             task: RewardTask::HumanoidV5,
+            own_task: String::new(),
             forward_reward_weight: 1.25,
             ctrl_cost_weight: 0.1,
             contact_cost_weight: 5e-7,
@@ -257,6 +261,7 @@ impl EnvironmentConfig {
             other,
             [
                 task,
+                own_task,
                 forward_reward_weight,
                 ctrl_cost_weight,
                 contact_cost_weight,

@@ -15,7 +15,7 @@ use crate::info::StepInfo;
 use crate::model::Model;
 use crate::physics::{JointQuality, Physics};
 use crate::randomisation::{Randomiser, SensorNoise};
-use crate::task::{HumanoidTask, ObservationTerm, Step, StepOutcome, Task};
+use crate::task::{self, ObservationTerm, Step, StepOutcome, Task};
 
 /// Reinforcement-learning environment of one humanoid.
 ///
@@ -59,7 +59,7 @@ impl Environment {
         let mut physics = Physics::new(model, config)?;
         physics.set_state(&nominal_position, &nominal_velocity);
         let action_size = physics.model().motors.len();
-        let mut task: Box<dyn Task> = Box::new(HumanoidTask::new(config, &physics));
+        let mut task = task::build(config, &physics)?;
         let mut last_observation = vec![0.0; task.terms().last().map_or(0, |term| term.range.end)];
         let last_info = task.begin(0, &physics);
         task.observe(&physics, &mut SensorNoise::none(), &mut last_observation);
@@ -140,7 +140,8 @@ impl Environment {
         self.physics.set_state(&self.start_position, &self.start_velocity);
         self.episode_steps = 0;
         self.last_info = self.task.begin(seed, &self.physics);
-        self.write_observation(observation);
+        self.task.observe(&self.physics, self.randomiser.sensors(), observation);
+        self.last_observation.copy_from_slice(observation);
     }
 
     /// Simulates one control step and writes the observation after it.
@@ -148,7 +149,7 @@ impl Environment {
     /// `action` has one control per motor, in actuator order. The motors receive it clamped to [`Self::action_ranges`], and
     /// perhaps delayed or disturbed by randomisation; the control cost is always that of `action` as given.
     ///
-    /// If the action or the physics is not finite, the step is a fault: terminated, reward 0, observation and `info` as
+    /// If the action, the physics, the reward or an entry of the observation is not finite, the step is a fault: terminated, reward 0, observation and `info` as
     /// before. Every further step until [`Self::reset`] is a fault too.
     ///
     /// # Panics
@@ -215,8 +216,13 @@ impl Environment {
         }
         let step = Step { physics: &self.physics, action: &self.action, centre_before_m: self.centre_before };
         let step = self.task.evaluate(&step).at(self.episode_steps, self.config.max_episode_steps);
+        self.task.observe(&self.physics, self.randomiser.sensors(), observation);
+        if !(step.reward.is_finite() && observation.iter().all(|number| number.is_finite())) {
+            self.physics.declare_faulty();
+            return self.fault(observation);
+        }
+        self.last_observation.copy_from_slice(observation);
         self.last_info = step.info;
-        self.write_observation(observation);
         step
     }
 
@@ -261,11 +267,6 @@ impl Environment {
 
     fn check_observation(&self, observation: &[f32]) -> Result<(), InputError> {
         InputError::check_length("observation buffer", observation.len(), self.observation_size())
-    }
-
-    fn write_observation(&mut self, observation: &mut [f32]) {
-        self.task.observe(&self.physics, self.randomiser.sensors(), observation);
-        self.last_observation.copy_from_slice(observation);
     }
 
     fn fault(&self, observation: &mut [f32]) -> StepOutcome {

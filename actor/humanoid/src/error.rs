@@ -67,6 +67,20 @@ pub enum ModelError {
         /// The model's keyframes.
         known: String,
     },
+    /// This program lacks the task.
+    #[error(
+        "env.own_task: this program has no task `{name}`; it has: {}. Start the program that defines it",
+        if known.is_empty() { "none" } else { known }
+    )]
+    UnknownTask {
+        /// Name in [`crate::EnvironmentConfig::own_task`].
+        name: String,
+        /// This program's own tasks.
+        known: String,
+    },
+    /// A task of the program itself does not fit the robot or its settings.
+    #[error("task: {0}")]
+    Task(String),
     /// A robot card is wrong, or does not fit its model.
     #[error("robot card: {0}")]
     Card(String),

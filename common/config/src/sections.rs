@@ -25,6 +25,8 @@ section! {
     EnvConfig as "env" {
         /// Task, which sets rewards and info. v4 has no contact cost, and adds the healthy reward also on the step that ends an episode. "external" is a task that actors in other languages register.
         task: EnvTask = EnvTask::HumanoidV5, "\"humanoid-v5\", \"humanoid-v4\" or \"external\"" => |_| true;
+        /// Name of a task that the program defines itself, in place of `env.task`; empty means none. See docs/guide/own-task.md.
+        own_task: String = String::new(), "at most 64 of the characters a-z, 0-9 and -" => |v| v.len() <= 64 && v.bytes().all(|letter| letter.is_ascii_lowercase() || letter.is_ascii_digit() || letter == b'-');
         /// Reward per m/s of forward velocity of the whole body's centre of mass.
         forward_reward_weight: f64 = 1.25, "a finite number" => |v| v.is_finite();
         /// Cost per squared unit of control, of the action as given.

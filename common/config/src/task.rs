@@ -41,10 +41,11 @@ impl Config {
         self.env.task == EnvTask::External
     }
 
-    /// Returns the name of the task; our own tasks begin with `treadmill/`.
+    /// Returns the name of the task; the built-in tasks begin with `treadmill/`.
     pub fn task_name(&self) -> String {
         match self.is_external() {
             true => self.task.name.clone(),
+            false if !self.env.own_task.is_empty() => self.env.own_task.clone(),
             false => format!("treadmill/{}", self.env.task.name()),
         }
     }
@@ -56,6 +57,9 @@ impl Config {
                 true => Ok(()),
                 false => refuse("task.name", show(&task.name), "nothing in [task] where env.task is not \"external\""),
             };
+        }
+        if !self.env.own_task.is_empty() {
+            return refuse("env.own_task", show(&self.env.own_task), "nothing where env.task is \"external\"");
         }
         if self.run.deterministic {
             let why = "false where env.task is \"external\": its actors do not draw from the run's seed";

@@ -91,7 +91,7 @@ impl Record {
     pub(crate) fn task(&self) -> String {
         let text =
             |key: &str| self.config.get(key).map(|value| value.trim_matches('"')).filter(|text| !text.is_empty());
-        text("task.name").or(text("env.task")).unwrap_or(ABSENT).to_string()
+        text("task.name").or(text("env.own_task")).or(text("env.task")).unwrap_or(ABSENT).to_string()
     }
 
     /// Returns whether the run is running, has all its steps, or was stopped before.

@@ -350,6 +350,11 @@ impl Physics {
         self.is_faulty
     }
 
+    /// Makes every further control step a fault until the next [`Self::set_state`].
+    pub(crate) fn declare_faulty(&mut self) {
+        self.is_faulty = true;
+    }
+
     /// Makes the root's velocity NaN, so that the next step faults; for tests.
     #[doc(hidden)]
     pub fn poison(&mut self) {

@@ -228,8 +228,7 @@ mod tests {
 
     #[test]
     fn huge_controls_leave_the_reward_finite() {
-        let step =
-            evaluate_step(&EnvironmentConfig::default(), &Transition { action: &[f32::MAX], ..transition(1.4) });
+        let step = evaluate_step(&EnvironmentConfig::default(), &Transition { action: &[f32::MAX], ..transition(1.4) });
         assert!(step.reward == f32::MIN && step.info.reward_ctrl.is_finite());
     }
 

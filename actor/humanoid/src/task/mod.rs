@@ -5,8 +5,10 @@
 //!
 //! # Layout
 //! - `humanoid`: Gymnasium's Humanoid-v5 and -v4.
+//! - `own`: tasks of the program that uses this crate.
 
 mod humanoid;
+mod own;
 
 use std::ops::Range;
 
@@ -15,6 +17,8 @@ use nalgebra::Point3;
 pub use self::humanoid::{
     HumanoidTask, Transition, contact_cost, control_cost, evaluate_step, health_reward, info_position_m, is_healthy,
 };
+pub(crate) use self::own::build;
+pub use self::own::{TaskBuilder, own_tasks, register_own_tasks};
 use crate::error::StateError;
 use crate::info::StepInfo;
 use crate::physics::Physics;
@@ -81,7 +85,8 @@ pub trait Task: Send {
     /// Returns reward and end of a control step.
     fn evaluate(&mut self, step: &Step<'_>) -> Evaluation;
 
-    /// Writes an observation of the present state with the noise of the sensors. Should not allocate.
+    /// Writes an observation of the present state with the noise of the sensors. Should not allocate. A number that is not
+    /// finite, here or in the reward, is a fault, as in [`Environment::step`](crate::Environment::step).
     fn observe(&mut self, physics: &Physics, noise: &mut SensorNoise, observation: &mut [f32]);
 
     /// Returns everything that the rest of the episode depends on, apart from seed and physics, as finite numbers. Their count

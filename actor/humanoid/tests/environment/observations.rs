@@ -177,7 +177,8 @@ fn compact_is_the_beginning_of_v5() {
 fn a_reset_clears_torques_and_contacts() {
     let config = config(V5);
     let mut environment = Environment::new(&config, HUMANOID_XML).expect("valid");
-    let range = block(&Observation::new(environment.config(), environment.physics().model()), "qfrc_actuator").start..environment.observation_size();
+    let range = block(&Observation::new(environment.config(), environment.physics().model()), "qfrc_actuator").start
+        ..environment.observation_size();
     let mut observation = vec![0.0; environment.observation_size()];
     environment.reset(1, &mut observation);
     for _ in 0..100 {

@@ -1,0 +1,58 @@
+//! Tasks that a program defines itself, by name.
+
+use std::sync::OnceLock;
+
+use super::{HumanoidTask, Task};
+use crate::config::EnvironmentConfig;
+use crate::error::ModelError;
+use crate::physics::Physics;
+
+/// Longest observation of a task.
+const OBSERVATION_MAX: usize = 4096;
+
+/// Builds a task for a simulation.
+pub type TaskBuilder = fn(&EnvironmentConfig, &Physics) -> Result<Box<dyn Task>, ModelError>;
+
+/// Tasks of this program, under the names that [`EnvironmentConfig::own_task`] has.
+static OWN_TASKS: OnceLock<Vec<(&'static str, TaskBuilder)>> = OnceLock::new();
+
+/// Registers the tasks of this program for all its environments. The program calls it once, before the first environment.
+///
+/// # Panics
+/// If it is called twice, or a name is not 1 to 64 of the characters a-z, 0-9 and -.
+pub fn register_own_tasks(tasks: &[(&'static str, TaskBuilder)]) {
+    for (name, _) in tasks {
+        let is_allowed = |letter: u8| letter.is_ascii_lowercase() || letter.is_ascii_digit() || letter == b'-';
+        let is_name = (1..=64).contains(&name.len()) && name.bytes().all(is_allowed);
+        assert!(is_name, "the task name `{name}` is not 1 to 64 of the characters a-z, 0-9 and -");
+    }
+    assert!(OWN_TASKS.set(tasks.to_vec()).is_ok(), "the program registers its tasks twice");
+}
+
+/// Returns the names of this program's own tasks.
+pub fn own_tasks() -> Vec<&'static str> {
+    OWN_TASKS.get().into_iter().flatten().map(|(name, _)| *name).collect()
+}
+
+/// Builds the task that a configuration selects.
+pub(crate) fn build(config: &EnvironmentConfig, physics: &Physics) -> Result<Box<dyn Task>, ModelError> {
+    let name = config.own_task.as_str();
+    if name.is_empty() {
+        return Ok(Box::new(HumanoidTask::new(config, physics)));
+    }
+    let Some((_, builder)) = OWN_TASKS.get().into_iter().flatten().find(|(known, _)| *known == name) else {
+        return Err(ModelError::UnknownTask { name: name.to_owned(), known: own_tasks().join(", ") });
+    };
+    let task = builder(config, physics)?;
+    let mut end = 0;
+    for term in task.terms() {
+        if term.range.start != end || term.range.is_empty() {
+            return Err(ModelError::Task(format!("the term `{}` of `{name}` does not begin at {end}", term.name)));
+        }
+        end = term.range.end;
+    }
+    match end {
+        1..=OBSERVATION_MAX => Ok(task),
+        _ => Err(ModelError::Task(format!("`{name}` observes {end} numbers; allowed: 1 to {OBSERVATION_MAX}"))),
+    }
+}
