@@ -40,7 +40,7 @@ fn a_task_of_the_program_is_trained_evaluated_and_exported() {
     assert!(stdout(&output).contains("46"), "{}", stdout(&output));
 
     let lacking = self::run(folder.path(), &["eval", run, "--episodes", "1"]);
-    assert_refused(&lacking, 2, &["this program has no task `squat`; it has: none"]);
+    assert_refused(&lacking, 1, &["this program has no task `squat`; it has: none"]);
     let unknown = own_task(folder.path(), &["train", "--set", "env.own_task=jump"]).output().unwrap();
     assert_refused(&unknown, 2, &["this program has no task `jump`; it has: squat"]);
 }
@@ -65,9 +65,9 @@ fn an_actor_without_the_task_is_refused_by_name() {
     let (folder, run) = folders();
     let args =
         ["learner", "--preset", "smoke", "--task", "squat", "--steps", ENDLESS, "--run-dir", run.to_str().unwrap()];
-    let _learner = Process::start(own_task(folder.path(), &args));
+    let _learner = Running::start(own_task(folder.path(), &args));
     let endpoint = await_that("the endpoint", || std::fs::read_to_string(run.join("endpoint.txt")).ok());
     let name = run.file_name().unwrap().to_str().unwrap();
     let actor = self::run(folder.path(), &["actor", "--connect", endpoint.trim(), "--run", name]);
-    assert_refused(&actor, 2, &["this program has no task `squat`"]);
+    assert_refused(&actor, 1, &["this program has no task `squat`"]);
 }
