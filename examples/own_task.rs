@@ -31,7 +31,7 @@ impl Squat {
         let mut terms: Vec<ObservationTerm> = Vec::new();
         for (name, size) in sizes {
             let start = terms.last().map_or(0, |term| term.range.end);
-            terms.push(ObservationTerm { name: name.to_owned(), range: start..start + size });
+            terms.push(ObservationTerm { name: name.to_owned(), range: start..start + size, is_privileged: false });
         }
         Ok(Box::new(Self { target_m: HEIGHTS_M[1], terms }))
     }

@@ -7,8 +7,6 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let files = protox::compile(schemas, ["schema"])?;
     prost_build::Config::new()
         .bytes(["."])
-        // Checkpoints contain it as well.
-        .type_attribute("treadmill.v1.ActorState", "#[derive(serde::Serialize, serde::Deserialize)]")
         .compile_fds(files)?;
     println!("cargo:rerun-if-changed=onnx");
     prost_build::Config::new().bytes(["."]).compile_fds(protox::compile(["onnx.proto"], ["onnx"])?)?;

@@ -63,7 +63,7 @@ pub async fn run(bus: Bus, options: EvaluatorOptions, shutdown: Shutdown) -> Res
 /// Plays the episodes of one policy; returns `None` after a request to stop.
 fn play(bundle: &PolicyBundle, evaluator: String, shutdown: &Shutdown) -> Result<Option<EvaluationReport>, ActorError> {
     let config = settings::read_simulated(bundle)?;
-    let mut environment = Environment::new(&settings::environment(&config.env), &bundle.model_xml)?;
+    let mut environment = Environment::new(&settings::environment(&config), &bundle.model_xml)?;
     let mut agent = PolicyAgent::of_bundle(bundle)?;
     let mut all = Evaluation::default();
     for episode in 0..config.eval.episodes {

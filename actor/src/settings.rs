@@ -1,16 +1,19 @@
 //! Reads the run's configuration and maps it to that of the environment.
 
 use treadmill_config::{
-    Config, ConfigSource, EnvConfig, EnvObservation, EnvTask, ObservationPrecision, RandomisationConfig, RolloutConfig,
-    is_key_of_actors,
+    Config, ConfigSource, EnvObservation, EnvTask, ObservationPrecision, RandomisationConfig, RewardsConfig,
+    RolloutConfig, VelocityConfig, is_key_of_actors,
 };
-use treadmill_humanoid::{EnvironmentConfig, ObservationKind, PHYSICS_VERSION, Randomisation, RewardTask};
+use treadmill_humanoid::{
+    EnvironmentConfig, ObservationKind, PHYSICS_VERSION, Randomisation, RewardTask,
+    config::{VelocityConfig as Velocity, VelocityRewards},
+};
 use treadmill_proto::{PolicyBundle, Precision, WIRE_VERSION, limits::fragment_envs_max};
 
 use crate::ActorError;
 
 /// Sections that actors need. Other sections may have values that only the learner's version knows.
-const SECTIONS: [&str; 5] = ["env", "task", "randomisation", "rollout", "bus"];
+const SECTIONS: [&str; 7] = ["env", "velocity", "rewards", "task", "randomisation", "rollout", "bus"];
 /// Keys of other sections that actors need.
 const KEYS: [&str; 5] = ["run.seed", "run.deterministic", "ppo.batch", "learner.mode", "eval.episodes"];
 /// Most unknown keys that a message names.
@@ -86,7 +89,7 @@ pub fn check_supported(run: &str, config: &Config) -> Result<(), ActorError> {
 
 /// Returns the configuration of a training environment: the task with the run's randomisation.
 pub fn training(config: &Config) -> EnvironmentConfig {
-    EnvironmentConfig { randomisation: randomisation(&config.randomisation), ..environment(&config.env) }
+    EnvironmentConfig { randomisation: randomisation(&config.randomisation), ..environment(config) }
 }
 
 /// Returns the precision of observations on the wire.
@@ -107,6 +110,7 @@ fn randomisation(config: &RandomisationConfig) -> Randomisation {
         gravity_scale: config.gravity_scale,
         sensor_noise_position: config.sensor_noise_position,
         sensor_noise_velocity: config.sensor_noise_velocity,
+        encoder_bias_rad: config.encoder_bias_rad,
         control_noise: config.control_noise,
         action_delay_steps: config.action_delay_steps,
         push_interval_s: config.push_interval_s,
@@ -115,11 +119,14 @@ fn randomisation(config: &RandomisationConfig) -> Randomisation {
 }
 
 /// Returns the configuration of an environment without randomisation.
-pub fn environment(config: &EnvConfig) -> EnvironmentConfig {
+pub fn environment(config: &Config) -> EnvironmentConfig {
+    let is_velocity = config.env.task == EnvTask::Velocity;
+    let velocity = is_velocity.then(|| velocity(&config.velocity, &config.rewards));
+    let config = &config.env;
     EnvironmentConfig {
         task: match config.task {
             // `check_supported` refuses external tasks.
-            EnvTask::HumanoidV5 | EnvTask::External => RewardTask::HumanoidV5,
+            EnvTask::HumanoidV5 | EnvTask::Velocity | EnvTask::External => RewardTask::HumanoidV5,
             EnvTask::HumanoidV4 => RewardTask::HumanoidV4,
         },
         own_task: config.own_task.clone(),
@@ -146,7 +153,45 @@ pub fn environment(config: &EnvConfig) -> EnvironmentConfig {
         control_step_s: config.control_step_s,
         substeps: config.substeps,
         self_collision: config.self_collision,
+        velocity,
         randomisation: Randomisation::default(),
+    }
+}
+
+fn velocity(config: &VelocityConfig, rewards: &RewardsConfig) -> Velocity {
+    Velocity {
+        lin_vel_x_mps: config.lin_vel_x_mps,
+        lin_vel_y_mps: config.lin_vel_y_mps,
+        ang_vel_z_radps: config.ang_vel_z_radps,
+        resampling_s: config.resampling_s,
+        standing_share: config.standing_share,
+        heading_share: config.heading_share,
+        gait_period_s: config.gait_period_s,
+        stance_share: config.stance_share,
+        swing_height_m: config.swing_height_m,
+        tracking_variance: config.tracking_variance,
+        fall_height_share: config.fall_height_share,
+        fall_tilt_rad: config.fall_tilt_rad,
+        history: config.history,
+        rewards: VelocityRewards {
+            track_linear_velocity: rewards.track_linear_velocity,
+            track_yaw_rate: rewards.track_yaw_rate,
+            alive: rewards.alive,
+            upright: rewards.upright,
+            base_height: rewards.base_height,
+            vertical_velocity: rewards.vertical_velocity,
+            roll_pitch_rate: rewards.roll_pitch_rate,
+            gait: rewards.gait,
+            feet_air_time: rewards.feet_air_time,
+            feet_clearance: rewards.feet_clearance,
+            feet_slip: rewards.feet_slip,
+            landing: rewards.landing,
+            pose: rewards.pose,
+            action_rate: rewards.action_rate,
+            joint_torque: rewards.joint_torque,
+            joint_acceleration: rewards.joint_acceleration,
+            joint_limits: rewards.joint_limits,
+        },
     }
 }
 
@@ -179,7 +224,7 @@ mod tests {
 
     #[test]
     fn configuration_and_environment_have_the_same_defaults() {
-        assert_eq!(environment(&EnvConfig::default()), EnvironmentConfig::default());
+        assert_eq!(environment(&Config::default()), EnvironmentConfig::default());
         assert_eq!(training(&Config::default()), EnvironmentConfig::default());
     }
 

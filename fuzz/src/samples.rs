@@ -1,7 +1,7 @@
 //! One valid message of each kind, small so that a mutated byte matters.
 
 use bytes::Bytes;
-use treadmill_config::{Config, EnvConfig, RandomisationConfig, TaskConfig};
+use treadmill_config::{Config, EnvConfig, RandomisationConfig, RewardsConfig, TaskConfig, VelocityConfig};
 use treadmill_humanoid::HUMANOID_XML;
 use treadmill_learner::checkpoint::{TrainingState, encoding};
 use treadmill_policy::{
@@ -225,6 +225,8 @@ pub fn exported() -> Vec<u8> {
         control_step_s: 0.015,
         env: EnvConfig::default(),
         randomisation: RandomisationConfig::default(),
+        velocity: VelocityConfig::default(),
+        rewards: RewardsConfig::default(),
         task: TaskConfig::default(),
         model_xml: "<mujoco/>".into(),
     }

@@ -1,6 +1,7 @@
 //! State of an actor at a fragment's end, from which a deterministic run resumes.
 
 use prost::Message;
+use serde::{Deserialize, Deserializer, Serialize, Serializer, de::Error};
 
 use crate::{
     Malformed, check_finite, check_size,
@@ -76,6 +77,19 @@ impl ActorState {
         check_finite("actor_state.task", self.task.iter().copied())?;
         planes::check_finite("actor_state.observations", &self.observations)?;
         planes::check_finite("actor_state.past_actions", &self.past_actions)
+    }
+}
+
+/// As the bytes of a message, so that checkpoints admit new fields.
+impl Serialize for ActorState {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        self.encode_to_vec().serialize(serializer)
+    }
+}
+
+impl<'de> Deserialize<'de> for ActorState {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        Self::decode(&*Vec::deserialize(deserializer)?).map_err(D::Error::custom)
     }
 }
 

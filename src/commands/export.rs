@@ -37,7 +37,7 @@ pub struct ExportArgs {
 /// Writes the files and prints what they contain.
 pub fn run(args: &ExportArgs) -> anyhow::Result<()> {
     let SavedPolicy { policy, origin, .. } = saved_policy::load(&args.run, args.checkpoint)?;
-    let config = saved_policy::trained_under(&policy);
+    let config = policy.config();
     if !config.is_external() {
         // Refuses a policy that `eval` would refuse.
         saved_policy::environment(&args.run, &policy, &config)?;

@@ -7,7 +7,7 @@ use std::{
 
 use clap::Args;
 use treadmill_actor::settings;
-use treadmill_config::{Config, ConfigSource, EnvConfig, EnvObservation, Symmetry};
+use treadmill_config::{Config, ConfigSource, EnvConfig, EnvObservation, EnvTask, Symmetry};
 use treadmill_humanoid::{Environment, HUMANOID_XML, Model, ModelError, card, read_model_file};
 use treadmill_ppo::{BatchMirror, IndexSwap};
 use treadmill_runtime::{error_chain, words::nearest_path};
@@ -20,7 +20,7 @@ pub struct ModelArgs {
     /// MJCF file or card of a robot other than the built-in humanoid; see docs/guide/robots.md.
     #[arg(long, value_name = "FILE")]
     pub model: Option<PathBuf>,
-    /// Set a key of [env] or [randomisation], as in env.substeps=5; may be repeated.
+    /// Set a key of [env], [velocity], [rewards] or [randomisation], as in env.substeps=5; may be repeated.
     #[arg(long, value_name = "KEY=VALUE")]
     pub set: Vec<String>,
 }
@@ -31,8 +31,8 @@ impl ModelArgs {
         let mut source = ConfigSource::default();
         source.text(&base.to_toml(), "the run's configuration")?;
         for pair in &self.set {
-            if !["env.", "randomisation."].iter().any(|section| pair.trim_start().starts_with(section)) {
-                let why = format!("`--set {pair}` has no effect here; allowed: keys of [env] and [randomisation]");
+            if !["env.", "velocity.", "rewards.", "randomisation."].iter().any(|section| pair.trim_start().starts_with(section)) {
+                let why = format!("`--set {pair}` has no effect here; allowed: keys of [env], [velocity], [rewards] and [randomisation]");
                 return Err(Usage(why).into());
             }
             source.set(pair)?;
@@ -66,8 +66,8 @@ pub fn text(file: Option<&Path>) -> Result<Cow<'static, str>, Usage> {
 pub fn environment(config: &Config, text: &str, file: Option<&Path>) -> Result<Environment, Usage> {
     if config.is_external() {
         return Err(Usage(
-            "config key `env.task` is \"external\", which this program does not simulate; allowed here: \"humanoid-v5\" or \
-             \"humanoid-v4\""
+            "config key `env.task` is \"external\", which this program does not simulate; allowed here: \"humanoid-v5\", \
+             \"humanoid-v4\" or \"velocity\""
                 .to_string(),
         ));
     }
@@ -90,8 +90,8 @@ pub fn mirror(config: &Config, text: &str) -> Result<Option<BatchMirror>, Usage>
         return Ok(None);
     }
     let refuse = |why: String| Usage(format!("`ppo.symmetry` is \"mirrored\", but {why}; allowed here: \"off\""));
-    if config.env.observation != EnvObservation::Compact || !config.env.own_task.is_empty() {
-        return Err(refuse("only the observation \"compact\" of the built-in tasks has a mirror image".to_string()));
+    if config.env.observation != EnvObservation::Compact || has_other_task(&config.env) {
+        return Err(refuse("only the observation \"compact\" of Gymnasium's tasks has a mirror image".to_string()));
     }
     let environment = environment(config, text, None)?;
     let of_body = treadmill_humanoid::Mirror::of(environment.physics().model()).map_err(refuse)?;
@@ -113,7 +113,7 @@ pub fn check_same(config: &Config, run_text: &str, file: &Path) -> Result<(), Us
 /// Checks that the robot starts within the healthy range; otherwise every episode would end at once.
 fn check_height(env: &EnvConfig, height_m: f64, path: &Path) -> Result<(), Usage> {
     let [low_m, high_m] = env.healthy_z_range;
-    if !env.own_task.is_empty() || !env.terminate_when_unhealthy || (low_m < height_m && height_m < high_m) {
+    if has_other_task(env) || !env.terminate_when_unhealthy || (low_m < height_m && height_m < high_m) {
         return Ok(());
     }
     Err(Usage(format!(
@@ -123,6 +123,11 @@ fn check_height(env: &EnvConfig, height_m: f64, path: &Path) -> Result<(), Usage
         0.7 * height_m,
         1.4 * height_m
     )))
+}
+
+/// Returns whether the task is none of Gymnasium's.
+fn has_other_task(env: &EnvConfig) -> bool {
+    env.task == EnvTask::Velocity || !env.own_task.is_empty()
 }
 
 /// Returns the error of a model that was read from `file` if given.

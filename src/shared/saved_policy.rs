@@ -72,17 +72,7 @@ pub fn load(run: &str, which: Option<Which>) -> anyhow::Result<SavedPolicy> {
     loaded.with_context(|| format!("`{run}` is not a usable policy"))
 }
 
-/// Returns the configuration that a policy was trained under, as far as episodes depend on it.
-pub fn trained_under(policy: &ExportedPolicy) -> Config {
-    Config {
-        env: policy.env.clone(),
-        randomisation: policy.randomisation.clone(),
-        task: policy.task.clone(),
-        ..Config::default()
-    }
-}
-
-/// Builds the environment of a policy under `config`, which was made from [`trained_under`].
+/// Builds the environment of a policy under `config`, which was made from [`ExportedPolicy::config`].
 ///
 /// # Errors
 /// If the task is external, or the model does not fit the policy.
@@ -132,6 +122,7 @@ fn exported(state: &TrainingState) -> anyhow::Result<ExportedPolicy> {
     };
     let kind = match config.env.own_task.as_str() {
         _ if config.is_external() => EnvTask::External.name(),
+        "" if config.env.task == EnvTask::Velocity => EnvTask::Velocity.name(),
         "" => config.env.observation.name(),
         own_task => own_task,
     };
@@ -147,6 +138,8 @@ fn exported(state: &TrainingState) -> anyhow::Result<ExportedPolicy> {
         control_step_s,
         task: config.task,
         env: config.env,
+        velocity: config.velocity,
+        rewards: config.rewards,
         randomisation: config.randomisation,
         model_xml: state.model_xml.clone(),
     })

@@ -4,7 +4,7 @@ use std::{path::PathBuf, process::Command};
 
 use crate::support::*;
 use serde_json::json;
-use treadmill_config::{EnvConfig, RandomisationConfig, TaskConfig};
+use treadmill_config::{EnvConfig, RandomisationConfig, RewardsConfig, TaskConfig, VelocityConfig};
 use treadmill_policy::{
     NetworkShape, Policy,
     exported::{ActionFacts, ExportedPolicy, ObservationFacts},
@@ -37,6 +37,8 @@ fn golden() -> serde_json::Value {
         control_step_s: 0.015,
         env: EnvConfig::default(),
         randomisation: RandomisationConfig::default(),
+        velocity: VelocityConfig::default(),
+        rewards: RewardsConfig::default(),
         task: TaskConfig::default(),
         model_xml: String::new(),
     };

@@ -23,7 +23,7 @@ impl Player {
     /// Loads the policy that RUN names.
     pub fn load(run: &str, which: Option<Which>) -> anyhow::Result<Self> {
         let policy = saved_policy::load(run, which)?.policy;
-        let mut config = saved_policy::trained_under(&policy);
+        let mut config = policy.config();
         config.randomisation = RandomisationConfig::default();
         let environment = saved_policy::environment(run, &policy, &config)?;
         Ok(Self { environment, agent: PolicyAgent::new(&policy)? })

@@ -2,9 +2,13 @@
 //!
 //! Weights, ranges and flags carry the names of the arguments of Gymnasium's environments.
 
+mod velocity;
+
 use std::{fmt::Debug, ops::RangeInclusive};
 
 use crate::error::ModelError;
+
+pub use self::velocity::{HISTORY_MAX, VelocityConfig, VelocityRewards};
 
 /// Accepted durations of a control step (s).
 const CONTROL_STEPS_S: RangeInclusive<f64> = 0.001..=0.1;
@@ -85,6 +89,8 @@ pub struct EnvironmentConfig {
     pub substeps: u32,
     /// See [`PhysicsSettings::self_collision`].
     pub self_collision: bool,
+    /// Settings of the velocity task, which replaces `task`; see [`crate::task::velocity`].
+    pub velocity: Option<VelocityConfig>,
     /// Randomisation of each episode; off by default.
     pub randomisation: Randomisation,
 }
@@ -114,6 +120,7 @@ impl Default for EnvironmentConfig {
             control_step_s,
             substeps,
             self_collision,
+            velocity: None,
             randomisation: Randomisation::default(),
         }
     }
@@ -163,6 +170,8 @@ pub struct Randomisation {
     pub sensor_noise_position: f64,
     /// Standard deviation of the noise on observed velocities (m/s, rad/s).
     pub sensor_noise_velocity: f64,
+    /// Largest constant error of each encoder in an episode (rad); only the velocity task observes with it.
+    pub encoder_bias_rad: f64,
     /// Standard deviation of the noise on each control, as a share of the largest control.
     pub control_noise: f64,
     /// Control steps after which an action reaches the motors; constant throughout an episode.
@@ -185,6 +194,7 @@ impl Default for Randomisation {
             gravity_scale: SAME,
             sensor_noise_position: 0.0,
             sensor_noise_velocity: 0.0,
+            encoder_bias_rad: 0.0,
             control_noise: 0.0,
             action_delay_steps: [0, 0],
             push_interval_s: [2.0, 5.0],
@@ -281,6 +291,7 @@ impl EnvironmentConfig {
                 control_step_s,
                 substeps,
                 self_collision,
+                velocity,
                 randomisation,
             ]
         )
@@ -355,6 +366,7 @@ impl Randomisation {
         for (setting, value) in [
             ("sensor_noise_position", self.sensor_noise_position),
             ("sensor_noise_velocity", self.sensor_noise_velocity),
+            ("encoder_bias_rad", self.encoder_bias_rad),
             ("control_noise", self.control_noise),
         ] {
             if !(0.0..=1.0).contains(&value) {

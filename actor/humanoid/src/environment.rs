@@ -248,6 +248,23 @@ impl Environment {
         self.task.terms()
     }
 
+    /// Returns the length of the end of an observation that only the critic sees, in training.
+    #[must_use]
+    pub fn privileged_size(&self) -> usize {
+        self.terms().iter().filter(|term| term.is_privileged).map(|term| term.range.len()).sum()
+    }
+
+    /// Returns the task.
+    #[must_use]
+    pub fn task(&self) -> &dyn Task {
+        &*self.task
+    }
+
+    /// Replaces the task's commands, see [`Task::steer`].
+    pub fn steer(&mut self, command: Option<[f64; 3]>) -> bool {
+        self.task.steer(command)
+    }
+
     /// Returns the info of the last step or reset; see [`StepInfo::entries`] for Gymnasium's names.
     #[must_use]
     pub fn info(&self) -> &StepInfo {

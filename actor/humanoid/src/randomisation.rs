@@ -65,8 +65,9 @@ pub(crate) struct Randomiser {
     control_step_s: f64,
     is_on: bool,
     variation: Variation,
-    /// Half of each motor's range of controls.
+    /// Half of each motor's range of controls, and its middle.
     half_ranges: Vec<f64>,
+    middles: Vec<f32>,
     /// Ring buffer of the last actions, `[delay + 1][motor]`.
     past: Vec<f32>,
     /// Index of the newest action in `past`.
@@ -91,6 +92,7 @@ impl Randomiser {
             control_step_s: config.control_step_s,
             variation: Variation::none(model),
             half_ranges: model.motors.iter().map(|motor| motor.control[1] / 2.0 - motor.control[0] / 2.0).collect(),
+            middles: model.motors.iter().map(|motor| f64::midpoint(motor.control[0], motor.control[1]) as f32).collect(),
             past: vec![0.0; slots * model.motors.len()],
             newest: 0,
             delay_steps: 0,
@@ -122,7 +124,7 @@ impl Randomiser {
 
         let [delay_min, delay_max] = settings.action_delay_steps;
         self.delay_steps = stream(seed, "delay").random_range(delay_min..=delay_max) as usize;
-        self.past.fill(0.0);
+        self.past.chunks_exact_mut(self.middles.len()).for_each(|action| action.copy_from_slice(&self.middles));
         self.newest = 0;
         self.sensors.random = stream(seed, "sensors");
         self.motors = stream(seed, "motors");
@@ -177,7 +179,7 @@ impl Randomiser {
         Some(Vector3::new(speed_mps * cos, speed_mps * sin, 0.0))
     }
 
-    /// Returns the controls that reach the motors in this control step: the delayed action (zeros before the first one
+    /// Returns the controls that reach the motors in this control step: the delayed action (middle of the ranges before the first one
     /// arrives), with noise. `controls` is the policy's action of this step. Called once per step.
     pub(crate) fn controls_reaching_motors<'a>(&'a mut self, controls: &'a [f32]) -> &'a [f32] {
         let size = controls.len();
@@ -205,7 +207,7 @@ impl Randomiser {
 }
 
 /// Draws a number from [low, high].
-fn uniform(random: &mut impl Rng, [low, high]: [f64; 2]) -> f64 {
+pub(crate) fn uniform(random: &mut impl Rng, [low, high]: [f64; 2]) -> f64 {
     low + (high - low) * random.random::<f64>()
 }
 
@@ -220,7 +222,7 @@ fn normal(random: &mut impl Rng) -> f64 {
 
 /// Returns the random stream `name` of an episode. The reset's noise uses the seed without a name, so it does not depend on
 /// what is randomised.
-fn stream(episode_seed: u64, name: &str) -> Xoshiro256PlusPlus {
+pub(crate) fn stream(episode_seed: u64, name: &str) -> Xoshiro256PlusPlus {
     // FNV-1a (Fowler, Noll, Vo; 64 bits) distinguishes the names; the generator's seeding mixes the result.
     let hash = name
         .bytes()

@@ -36,6 +36,8 @@ choice! {
         HumanoidV5 = "humanoid-v5",
         /// Humanoid-v4.
         HumanoidV4 = "humanoid-v4",
+        /// Walking at commanded velocities, for robots with a card.
+        Velocity = "velocity",
         /// Task that other programs simulate and register.
         External = "external",
     }

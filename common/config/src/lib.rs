@@ -21,7 +21,7 @@ pub use retired::is_retired;
 pub use section::{KeyDoc, Section, SectionDoc};
 pub use sections::{
     BusConfig, EnvConfig, EvaluationConfig, LearnerConfig, PolicyConfig, PpoConfig, RandomisationConfig, RolloutConfig,
-    RunConfig, TaskConfig,
+    RewardsConfig, RunConfig, TaskConfig, VelocityConfig,
 };
 pub use source::ConfigSource;
 pub use wire::is_key_of_actors;
@@ -34,6 +34,10 @@ pub struct Config {
     pub run: RunConfig,
     /// Humanoid task.
     pub env: EnvConfig,
+    /// Velocity task.
+    pub velocity: VelocityConfig,
+    /// Rewards of the velocity task.
+    pub rewards: RewardsConfig,
     /// External task. Omitted from TOML if unset, so that actors of versions without external tasks can read it.
     #[serde(skip_serializing_if = "TaskConfig::is_unset")]
     pub task: TaskConfig,
@@ -139,6 +143,8 @@ impl Config {
         vec![
             RunConfig::describe(),
             EnvConfig::describe(),
+            VelocityConfig::describe(),
+            RewardsConfig::describe(),
             TaskConfig::describe(),
             RandomisationConfig::describe(),
             RolloutConfig::describe(),
@@ -162,6 +168,8 @@ impl Config {
     pub fn check(&self) -> Result<(), ConfigError> {
         self.run.check()?;
         self.env.check()?;
+        self.velocity.check()?;
+        self.rewards.check()?;
         self.task.check()?;
         self.randomisation.check()?;
         self.rollout.check()?;

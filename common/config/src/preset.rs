@@ -2,6 +2,19 @@
 
 use super::ConfigError;
 
+/// Preset of a robot with a built-in card. An action of 1 is four units, so that exploration begins with 0.66 units.
+macro_rules! velocity {
+    ($card:literal) => {
+        concat!(
+            "[env]\ntask = \"velocity\"\nrobot = \"",
+            $card,
+            "\"\ncontrol_step_s = 0.02\nsubsteps = 5\nreset_noise_scale = 0.05\n\
+             [randomisation]\npush_interval_s = [5.0, 10.0]\npush_mps = [0.0, 0.5]\n\
+             [policy]\ninit_log_std = -1.8\n"
+        )
+    };
+}
+
 /// Names and TOML text of the presets.
 pub const PRESETS: &[(&str, &str)] = &[
     // The defaults.
@@ -23,6 +36,11 @@ pub const PRESETS: &[(&str, &str)] = &[
          [policy]\nhidden = [32, 32]\n[ppo]\nbatch = 512\nminibatch = 256\nepochs = 2\n\
          [learner]\ntable_every_updates = 4\n[bus]\nstats_every_ms = 500\n",
     ),
+    // Robots that follow velocity commands; each needs its model file.
+    ("g1", velocity!("g1")),
+    ("g1-29", velocity!("g1-29")),
+    ("h1", velocity!("h1")),
+    ("t1", velocity!("t1")),
     // The defaults with a randomised body and floor, for policies that must walk in another simulator.
     ("sim2sim", SIM2SIM),
 ];

@@ -23,8 +23,8 @@ section! {
 section! {
     /// Humanoid task, by default Gymnasium's Humanoid-v5. Keys have the names of Gymnasium's arguments.
     EnvConfig as "env" {
-        /// Task, which sets rewards and info. v4 has no contact cost, and adds the healthy reward also on the step that ends an episode. "external" is a task that actors in other languages register.
-        task: EnvTask = EnvTask::HumanoidV5, "\"humanoid-v5\", \"humanoid-v4\" or \"external\"" => |_| true;
+        /// Task, which sets rewards and info. v4 has no contact cost, and adds the healthy reward also on the step that ends an episode. "velocity" follows commands and has sections of its own, `[velocity]` and `[rewards]`. "external" is a task that actors in other languages register.
+        task: EnvTask = EnvTask::HumanoidV5, "\"humanoid-v5\", \"humanoid-v4\", \"velocity\" or \"external\"" => |_| true;
         /// Name of a task that the program defines itself, in place of `env.task`; empty means none. See docs/guide/own-task.md.
         own_task: String = String::new(), "at most 64 of the characters a-z, 0-9 and -" => |v| v.len() <= 64 && v.bytes().all(|letter| letter.is_ascii_lowercase() || letter.is_ascii_digit() || letter == b'-');
         /// Reward per m/s of forward velocity of the whole body's centre of mass.
@@ -71,6 +71,78 @@ section! {
 }
 
 section! {
+    /// Commands, gait and falls of the velocity task; see docs/guide/your-robot.md.
+    VelocityConfig as "velocity" {
+        /// Smallest and largest commanded forward velocity in m/s.
+        lin_vel_x_mps: [f64; 2] = [-0.5, 1.0], "[smallest, largest], -5 to 5" => |v| is_range(v, -5.0, 5.0);
+        /// Smallest and largest commanded velocity to the left in m/s.
+        lin_vel_y_mps: [f64; 2] = [-0.3, 0.3], "[smallest, largest], -5 to 5" => |v| is_range(v, -5.0, 5.0);
+        /// Smallest and largest commanded yaw rate, to the left, in rad/s.
+        ang_vel_z_radps: [f64; 2] = [-0.5, 0.5], "[smallest, largest], -5 to 5" => |v| is_range(v, -5.0, 5.0);
+        /// Shortest and longest time for which a command holds, in seconds.
+        resampling_s: [f64; 2] = [3.0, 8.0], "[shortest, longest], 0.1 to 1000" => |v| is_range(v, 0.1, 1000.0);
+        /// Share of the commands that say: stand.
+        standing_share: f64 = 0.1, "0 to 1" => |v| (0.0..=1.0).contains(v);
+        /// Share of the commands that give a heading, from whose error the yaw rate follows, instead of a yaw rate.
+        heading_share: f64 = 0.0, "0 to 1" => |v| (0.0..=1.0).contains(v);
+        /// Duration of one step of both feet in seconds.
+        gait_period_s: f64 = 0.8, "0.1 to 10" => |v| (0.1..=10.0).contains(v);
+        /// Share of the gait period for which a foot stands.
+        stance_share: f64 = 0.6, "0.05 to 0.95" => |v| (0.05..=0.95).contains(v);
+        /// Height to which a swinging foot is lifted, in metres.
+        swing_height_m: f64 = 0.08, "0 to 1" => |v| (0.0..=1.0).contains(v);
+        /// Squared error of a velocity at which its tracking reward falls to 1/e.
+        tracking_variance: f64 = 0.25, "0.0001 to 100" => |v| (1e-4..=100.0).contains(v);
+        /// Share of the standing height below which the robot has fallen.
+        fall_height_share: f64 = 0.6, "0 to 0.95" => |v| (0.0..=0.95).contains(v);
+        /// Tilt of the base above which the robot has fallen, in rad.
+        fall_tilt_rad: f64 = 1.0, "0.1 to 3.2" => |v| (0.1..=3.2).contains(v);
+        /// Number of observations, the present one included, that the policy sees together.
+        history: u32 = 1, "1 to 16" => |v| (1..=16).contains(v);
+    }
+}
+
+section! {
+    /// Weights of the velocity task's reward: the reward of a control step is the sum of weight times term. A weight of 0 switches a term off.
+    RewardsConfig as "rewards" {
+        /// exp(-e²/velocity.tracking_variance) of the error e of the horizontal velocity in the heading frame (m/s).
+        track_linear_velocity: f64 = 2.0, "a finite number" => |v| v.is_finite();
+        /// The same of the yaw rate (rad/s).
+        track_yaw_rate: f64 = 1.0, "a finite number" => |v| v.is_finite();
+        /// 1 in each step that is no fall.
+        alive: f64 = 0.5, "a finite number" => |v| v.is_finite();
+        /// Squared horizontal part of gravity's direction in the frame of the base.
+        upright: f64 = -2.0, "a finite number" => |v| v.is_finite();
+        /// Squared difference from the standing height (m²).
+        base_height: f64 = -20.0, "a finite number" => |v| v.is_finite();
+        /// Squared vertical velocity of the base (m²/s²).
+        vertical_velocity: f64 = -0.5, "a finite number" => |v| v.is_finite();
+        /// Squared roll and pitch rates of the base (rad²/s²).
+        roll_pitch_rate: f64 = -0.05, "a finite number" => |v| v.is_finite();
+        /// Share of the feet that stand when the gait says so, and swing when it says so.
+        gait: f64 = 0.5, "a finite number" => |v| v.is_finite();
+        /// Time in the air beyond 0.4 s, at each landing of a foot (s).
+        feet_air_time: f64 = 0.0, "a finite number" => |v| v.is_finite();
+        /// Squared difference of the swinging feet's heights from the gait's (m²).
+        feet_clearance: f64 = -20.0, "a finite number" => |v| v.is_finite();
+        /// Squared horizontal velocity of the feet that stand (m²/s²).
+        feet_slip: f64 = -0.2, "a finite number" => |v| v.is_finite();
+        /// Squared downward velocity of the foot that lands hardest (m²/s²).
+        landing: f64 = 0.0, "a finite number" => |v| v.is_finite();
+        /// Squared difference of the hinges from the default pose (rad²); hinges that swing the legs forwards count a tenth.
+        pose: f64 = -0.5, "a finite number" => |v| v.is_finite();
+        /// Squared change of the action from step to step, in units of the action.
+        action_rate: f64 = -0.01, "a finite number" => |v| v.is_finite();
+        /// Squared torques (N²m²).
+        joint_torque: f64 = -1e-5, "a finite number" => |v| v.is_finite();
+        /// Squared accelerations of the hinges (rad²/s⁴).
+        joint_acceleration: f64 = -2.5e-7, "a finite number" => |v| v.is_finite();
+        /// Angle beyond nine tenths of the hinges' ranges (rad).
+        joint_limits: f64 = -5.0, "a finite number" => |v| v.is_finite();
+    }
+}
+
+section! {
     /// External task, if `env.task` is `"external"`. Keys left at their defaults take the values that the first actor registers, and are then fixed for the run. The other keys of `[env]` and those of `[randomisation]` have no effect.
     TaskConfig as "task" {
         /// Name of the task, as its actors register it; empty takes the first registered one.
@@ -107,6 +179,8 @@ section! {
         sensor_noise_position: f64 = 0.0, "0 to 1" => |v| (0.0..=1.0).contains(v);
         /// Standard deviation of the noise on observed velocities (m/s, rad/s), likewise.
         sensor_noise_velocity: f64 = 0.0, "0 to 1" => |v| (0.0..=1.0).contains(v);
+        /// Largest constant error of each encoder in an episode (rad), which the velocity task observes.
+        encoder_bias_rad: f64 = 0.0, "0 to 1" => |v| (0.0..=1.0).contains(v);
         /// Standard deviation of the noise on each control, as a fraction of the largest control.
         control_noise: f64 = 0.0, "0 to 1" => |v| (0.0..=1.0).contains(v);
         /// Control steps until an action reaches the motors; constant during an episode.

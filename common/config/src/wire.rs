@@ -3,14 +3,14 @@
 use super::Config;
 
 /// Sections whose keys change what an actor simulates or sends.
-const SECTIONS: [&str; 3] = ["env", "randomisation", "rollout"];
+const SECTIONS: [&str; 5] = ["env", "velocity", "rewards", "randomisation", "rollout"];
 
 /// Keys of [`SECTIONS`] that were added after wire version 1, with the wire version that added each. The default of such a
 /// key means what older actors do.
 const ADDED: &[(&str, u32)] = &[];
 
 impl Config {
-    /// Returns the smallest wire version of actors that know every key of `[env]`, `[randomisation]` and `[rollout]` which
+    /// Returns the smallest wire version of actors that know every key of [`SECTIONS`] which
     /// differs from its default; 0 if every actor knows them.
     pub fn wire_version_min(&self) -> u32 {
         self.wire_version_of(ADDED)
@@ -71,7 +71,7 @@ mod tests {
     }
 
     #[test]
-    fn only_keys_of_three_sections_concern_actors() {
+    fn only_keys_of_some_sections_concern_actors() {
         assert!(is_key_of_actors("env.terrain") && is_key_of_actors("rollout.new"));
         assert!(!is_key_of_actors("ppo.new") && !is_key_of_actors("env") && !is_key_of_actors("environment.x"));
     }

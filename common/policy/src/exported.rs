@@ -16,7 +16,9 @@
 
 use safetensors::tensor::SafeTensors;
 use serde::{Deserialize, Serialize};
-use treadmill_config::{Config, ConfigError, EnvConfig, EnvTask, RandomisationConfig, TaskConfig};
+use treadmill_config::{
+    Config, ConfigError, EnvConfig, EnvTask, RandomisationConfig, RewardsConfig, TaskConfig, VelocityConfig,
+};
 use treadmill_proto::limits::{BUNDLE_BYTES_MAX, HIDDEN_LAYERS_MAX, WIDTH_MAX};
 
 use crate::{
@@ -101,6 +103,10 @@ pub struct ExportedPolicy {
     pub control_step_s: f64,
     /// Settings of the humanoid task.
     pub env: EnvConfig,
+    /// Settings of the velocity task; their defaults for other tasks.
+    pub velocity: VelocityConfig,
+    /// Rewards of the velocity task; their defaults for other tasks.
+    pub rewards: RewardsConfig,
     /// Randomisation in training.
     pub randomisation: RandomisationConfig,
     /// External task, if it is one.
@@ -145,6 +151,10 @@ struct Metadata {
     control_step_s: f64,
     #[serde(with = "treadmill_config::open_json")]
     env: EnvConfig,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    velocity: Option<VelocityConfig>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    rewards: Option<RewardsConfig>,
     randomisation: RandomisationConfig,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     task: Option<TaskConfig>,
@@ -185,6 +195,7 @@ impl ExportedPolicy {
     /// If the parts are inconsistent or not finite, so that the file could not be read again.
     pub fn to_bytes(&self) -> Result<Vec<u8>, ExportedError> {
         self.check()?;
+        let is_velocity = self.env.task == EnvTask::Velocity;
         let metadata = Metadata {
             format: FORMAT,
             network: Network {
@@ -196,6 +207,8 @@ impl ExportedPolicy {
             observation: self.observation.clone(),
             action: self.action.clone(),
             control_step_s: self.control_step_s,
+            velocity: is_velocity.then(|| self.velocity.clone()),
+            rewards: is_velocity.then(|| self.rewards.clone()),
             env: self.env.clone(),
             randomisation: self.randomisation.clone(),
             task: self.task.known().map(|_| self.task.clone()),
@@ -236,6 +249,8 @@ impl ExportedPolicy {
             action: metadata.action,
             control_step_s: metadata.control_step_s,
             env: metadata.env,
+            velocity: metadata.velocity.unwrap_or_default(),
+            rewards: metadata.rewards.unwrap_or_default(),
             randomisation: metadata.randomisation,
             task: metadata.task.unwrap_or_default(),
             model_xml: metadata.model_xml,
@@ -287,8 +302,19 @@ impl ExportedPolicy {
             let expected = "means, variances and a clip that give finite numbers".into();
             return Err(entry("observation", &format!("{:?}", self.observation), expected));
         }
-        let (env, randomisation, task) = (self.env.clone(), self.randomisation.clone(), self.task.clone());
-        Ok(Config { env, randomisation, task, ..Config::default() }.check()?)
+        Ok(self.config().check()?)
+    }
+
+    /// Returns the configuration that the policy was trained under, as far as episodes depend on it.
+    pub fn config(&self) -> Config {
+        Config {
+            env: self.env.clone(),
+            velocity: self.velocity.clone(),
+            rewards: self.rewards.clone(),
+            randomisation: self.randomisation.clone(),
+            task: self.task.clone(),
+            ..Config::default()
+        }
     }
 }
 

@@ -22,6 +22,8 @@ fn sample() -> ExportedPolicy {
         control_step_s: 0.015,
         env: EnvConfig { reset_noise_scale: 0.02, ..EnvConfig::default() },
         randomisation: RandomisationConfig { mass_scale: [0.9, 1.1], ..RandomisationConfig::default() },
+        velocity: VelocityConfig::default(),
+        rewards: RewardsConfig::default(),
         task: TaskConfig::default(),
         model_xml: "<mujoco/>".into(),
     }

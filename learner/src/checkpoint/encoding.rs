@@ -11,9 +11,9 @@ use super::CheckpointError;
 
 const MAGIC: &[u8; 8] = b"TREADMIL";
 /// Version of the format, raised whenever the state's fields change. bincode files do not describe themselves, so the types
-/// of the format before stay in a file of their own.
-pub const FORMAT: u32 = 5;
-/// Format with the same state and another checksum; still read.
+/// of earlier formats stay in files of their own.
+pub const FORMAT: u32 = 6;
+/// Newest format whose checksum is SHA-256.
 const FORMAT_SHA_256: u32 = 4;
 /// Oldest format that is still read.
 pub const FORMAT_OLDEST: u32 = 3;
@@ -55,15 +55,11 @@ pub fn checksum(format: u32, payload: &[u8]) -> [u8; CHECKSUM_BYTES] {
     checksum
 }
 
-/// Decodes the bytes of a file with a state `T`, or with a state `Before` of the oldest format.
+/// Returns format and encoded state of the bytes of a file.
 ///
 /// # Errors
-/// If the file is damaged or has another format version.
-pub fn decode<T, Before>(path: &str, bytes: &[u8]) -> Result<T, CheckpointError>
-where
-    T: DeserializeOwned + From<Before>,
-    Before: DeserializeOwned,
-{
+/// If the file is damaged or has a format that is not read.
+pub fn payload<'a>(path: &str, bytes: &'a [u8]) -> Result<(u32, &'a [u8]), CheckpointError> {
     let damaged = |why: String| CheckpointError::Damaged { path: path.to_string(), why };
     if bytes.len() < HEADER_BYTES {
         return Err(damaged(format!("it has {} bytes, fewer than its header", bytes.len())));
@@ -83,20 +79,21 @@ where
     if checksum(format, payload) != header[20..] {
         return Err(damaged("its checksum does not match its content".to_string()));
     }
-    match format {
-        FORMAT_OLDEST => decode_payload::<Before>(payload).map(T::from),
-        _ => decode_payload(payload),
-    }
-    .map_err(damaged)
+    Ok((format, payload))
 }
 
-fn decode_payload<T: DeserializeOwned>(payload: &[u8]) -> Result<T, String> {
+/// Decodes an encoded state.
+///
+/// # Errors
+/// If the bytes are not those of such a state.
+pub fn decode<T: DeserializeOwned>(path: &str, payload: &[u8]) -> Result<T, CheckpointError> {
     match payload.len() {
         length if length <= SMALL.0 => read::<T, { SMALL.1 }>(payload),
         length if length <= MEDIUM.0 => read::<T, { MEDIUM.1 }>(payload),
         length if length <= LARGE.0 => read::<T, { LARGE.1 }>(payload),
         _ => read::<T, STATE_BYTES_MAX>(payload),
     }
+    .map_err(|why| CheckpointError::Damaged { path: path.to_string(), why })
 }
 
 fn read<T: DeserializeOwned, const BYTES_MAX: usize>(payload: &[u8]) -> Result<T, String> {
@@ -111,47 +108,32 @@ mod tests {
 
     use super::*;
 
-    #[derive(Debug, PartialEq, Serialize, serde::Deserialize)]
-    struct Now(Vec<f32>, String, u64);
-
-    #[derive(Serialize, serde::Deserialize)]
-    struct Earlier(Vec<f32>, u64);
-
-    impl From<Earlier> for Now {
-        fn from(Earlier(numbers, count): Earlier) -> Self {
-            Self(numbers, String::new(), count)
-        }
-    }
-
     #[test]
     fn a_decoded_state_equals_the_encoded_one() {
-        let state = Now(vec![1.0, -0.5], "run".to_string(), 7);
-        assert_eq!(decode::<Now, Earlier>("x", &encode(&state).unwrap()).unwrap(), state);
-    }
-
-    /// Encodes a state with the header of an earlier format.
-    fn encode_as<T: Serialize>(format: u32, state: &T) -> Vec<u8> {
-        let mut bytes = encode(state).unwrap();
-        bytes[8..12].copy_from_slice(&format.to_le_bytes());
-        let checksum = checksum(format, &bytes[HEADER_BYTES..]);
-        bytes[20..HEADER_BYTES].copy_from_slice(&checksum);
-        bytes
+        let state = (vec![1.0_f32, -0.5], "run".to_string(), 7_u64);
+        let bytes = encode(&state).unwrap();
+        let (format, payload) = payload("x", &bytes).unwrap();
+        assert_eq!(format, FORMAT);
+        assert_eq!(decode::<(Vec<f32>, String, u64)>("x", payload).unwrap(), state);
     }
 
     #[test]
-    fn states_of_earlier_formats_are_read() {
-        let earlier = Earlier(vec![1.0, -0.5], 7);
-        let bytes = encode(&earlier).unwrap();
-        assert!(decode::<Now, Earlier>("x", &bytes).is_err(), "the header says the format of now");
-        let oldest = decode::<Now, Earlier>("x", &encode_as(FORMAT_OLDEST, &earlier)).unwrap();
-        assert_eq!(oldest, Now(vec![1.0, -0.5], String::new(), 7));
-        assert_eq!(decode::<Now, Earlier>("x", &encode_as(FORMAT_SHA_256, &oldest)).unwrap(), oldest);
+    fn earlier_checksums_are_checked() {
+        let mut bytes = encode(&vec![1u64; 20]).unwrap();
+        for format in [FORMAT_OLDEST, FORMAT_SHA_256] {
+            bytes[8..12].copy_from_slice(&format.to_le_bytes());
+            let sum = checksum(format, &bytes[HEADER_BYTES..]);
+            bytes[20..HEADER_BYTES].copy_from_slice(&sum);
+            assert_eq!(payload("x", &bytes).unwrap().0, format);
+            bytes[20] ^= 1;
+            assert!(payload("x", &bytes).is_err());
+        }
     }
 
     #[test]
     fn each_kind_of_damage_is_named() {
         let sound = encode(&vec![1u64; 20]).unwrap();
-        let why = |bytes: &[u8]| decode::<Vec<u64>, Vec<u64>>("here", bytes).unwrap_err().to_string();
+        let why = |bytes: &[u8]| payload("here", bytes).unwrap_err().to_string();
         assert!(why(&sound[..10]).contains("header"));
         assert!(why(&sound[..sound.len() - 3]).contains("truncated"));
         let mut flipped = sound.clone();
@@ -162,7 +144,7 @@ mod tests {
         assert!(why(&newer).contains("format 99"), "{}", why(&newer));
         let mut older = sound.clone();
         older[8] = 1;
-        assert!(why(&older).contains("format 1; this program reads formats 3 to 5"), "{}", why(&older));
+        assert!(why(&older).contains("format 1; this program reads formats 3 to 6"), "{}", why(&older));
         assert!(why(&[b'x'; 200]).contains("does not begin"));
     }
 
@@ -172,7 +154,7 @@ mod tests {
             let mut bytes = encode(&vec![3u64; 40]).unwrap();
             let at = at % bytes.len();
             bytes[at] ^= with;
-            prop_assert!(decode::<Vec<u64>, Vec<u64>>("x", &bytes).is_err());
+            prop_assert!(payload("x", &bytes).is_err());
         }
     }
 }

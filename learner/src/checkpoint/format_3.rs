@@ -3,12 +3,14 @@
 //! It shares the types that have not changed since. The golden file in `learner/tests/golden/` shows when one of them does.
 
 use serde::Deserialize;
-use treadmill_policy::{NetworkShape, normaliser::RunningMoments};
+use treadmill_policy::normaliser::RunningMoments;
 use treadmill_ppo::optimiser::OptimiserState;
-use treadmill_proto::ActorState;
 use treadmill_runtime::seeds::Stream;
 
-use super::{Counters, TrainingState};
+use super::{
+    Counters, TrainingState,
+    format_5::{ActorState, Shape},
+};
 use crate::{
     intake::{FragmentCounts, Ledger, Lineage},
     metrics::episodes::EpisodeWindow,
@@ -20,7 +22,7 @@ pub(super) struct State {
     run: String,
     config_toml: String,
     model_xml: String,
-    shape: NetworkShape,
+    shape: Shape,
     lineage: Lineage,
     parameters: Vec<f32>,
     optimiser: OptimiserState,
@@ -67,7 +69,7 @@ impl From<State> for TrainingState {
             run: state.run,
             config_toml: state.config_toml,
             model_xml: state.model_xml,
-            shape: state.shape,
+            shape: state.shape.into(),
             lineage: state.lineage,
             parameters: state.parameters,
             optimiser: state.optimiser,
@@ -99,7 +101,7 @@ impl From<State> for TrainingState {
             },
             best_return: state.best_return,
             best_is_evaluated: state.best_is_evaluated,
-            actor_state: state.actor_state,
+            actor_state: state.actor_state.map(Into::into),
             physics_version: 0,
         }
     }

@@ -8,6 +8,7 @@
 pub mod encoding;
 mod fallback;
 mod format_3;
+mod format_5;
 mod state;
 
 use std::{
@@ -176,7 +177,12 @@ pub fn load_file(path: &Path) -> Result<TrainingState, CheckpointError> {
 /// # Errors
 /// If the file is damaged or has another format.
 pub fn decode(path: &str, bytes: &[u8]) -> Result<TrainingState, CheckpointError> {
-    encoding::decode::<TrainingState, format_3::State>(path, bytes)
+    let (format, payload) = encoding::payload(path, bytes)?;
+    match format {
+        3 => encoding::decode::<format_3::State>(path, payload).map(Into::into),
+        4 | 5 => encoding::decode::<format_5::State>(path, payload).map(Into::into),
+        _ => encoding::decode(path, payload),
+    }
 }
 
 fn known(folder: &Path) -> String {

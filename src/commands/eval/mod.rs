@@ -180,7 +180,7 @@ fn prepare(args: &EvalArgs) -> anyhow::Result<Prepared> {
     };
     let _step = SlowStepNotice::begin(format!("loading the policy of {run}"));
     let SavedPolicy { policy, origin, .. } = saved_policy::load(run, args.checkpoint)?;
-    let config = configuration(args, saved_policy::trained_under(&policy))?;
+    let config = configuration(args, policy.config())?;
     let environment = match args.model.model.as_deref() {
         None => saved_policy::environment(run, &policy, &config)?,
         Some(file) => {

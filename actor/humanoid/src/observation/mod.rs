@@ -116,7 +116,7 @@ impl Observation {
             .map(|(name, quantity, size, _)| {
                 let start = end;
                 end += size;
-                (ObservationTerm { name: name.to_owned(), range: start..end }, quantity)
+                (ObservationTerm { name: name.to_owned(), range: start..end, is_privileged: false }, quantity)
             })
             .unzip();
         Self {

@@ -273,6 +273,13 @@ impl Physics {
         self.world.position[2]
     }
 
+    /// Returns the height of the ground at a place (m, world frame); 0 beyond the edges of a height field.
+    #[must_use]
+    pub fn ground_height_m(&self, x_m: f64, y_m: f64) -> f64 {
+        let field = self.model.ground.height_field.as_ref();
+        field.and_then(|field| field.height_at(x_m, y_m)).unwrap_or(0.0)
+    }
+
     /// Returns pose and velocity of a body, an index into [`Model::bodies`].
     ///
     /// # Panics

@@ -6,9 +6,11 @@
 //! # Layout
 //! - `humanoid`: Gymnasium's Humanoid-v5 and -v4.
 //! - `own`: tasks of the program that uses this crate.
+//! - [`velocity`]: walking at commanded velocities.
 
 mod humanoid;
 mod own;
+pub mod velocity;
 
 use std::ops::Range;
 
@@ -31,6 +33,8 @@ pub struct ObservationTerm {
     pub name: String,
     /// Position in the observation.
     pub range: Range<usize>,
+    /// Whether only the critic sees it, in training. Such terms come after all others.
+    pub is_privileged: bool,
 }
 
 /// A control step that the physics has simulated.
@@ -88,6 +92,18 @@ pub trait Task: Send {
     /// Writes an observation of the present state with the noise of the sensors. Should not allocate. A number that is not
     /// finite, here or in the reward, is a fault, as in [`Environment::step`](crate::Environment::step).
     fn observe(&mut self, physics: &Physics, noise: &mut SensorNoise, observation: &mut [f32]);
+
+    /// Returns the velocity that the robot is told to have, in its heading frame: forward and left (m/s), yaw rate (rad/s);
+    /// `None` if the task has no commands.
+    fn command(&self) -> Option<[f64; 3]> {
+        None
+    }
+
+    /// Replaces the task's own commands by one, also in later episodes; `None` ends that. Returns false if the task has no
+    /// commands.
+    fn steer(&mut self, _command: Option<[f64; 3]>) -> bool {
+        false
+    }
 
     /// Returns everything that the rest of the episode depends on, apart from seed and physics, as finite numbers. Their count
     /// is the same at all times.

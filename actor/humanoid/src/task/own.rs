@@ -2,7 +2,7 @@
 
 use std::sync::OnceLock;
 
-use super::{HumanoidTask, Task};
+use super::{HumanoidTask, Task, velocity::VelocityTask};
 use crate::config::EnvironmentConfig;
 use crate::error::ModelError;
 use crate::physics::Physics;
@@ -38,7 +38,10 @@ pub fn own_tasks() -> Vec<&'static str> {
 pub(crate) fn build(config: &EnvironmentConfig, physics: &Physics) -> Result<Box<dyn Task>, ModelError> {
     let name = config.own_task.as_str();
     if name.is_empty() {
-        return Ok(Box::new(HumanoidTask::new(config, physics)));
+        return Ok(match &config.velocity {
+            None => Box::new(HumanoidTask::new(config, physics)),
+            Some(velocity) => Box::new(VelocityTask::new(velocity, config, physics)?),
+        });
     }
     let Some((_, builder)) = OWN_TASKS.get().into_iter().flatten().find(|(known, _)| *known == name) else {
         return Err(ModelError::UnknownTask { name: name.to_owned(), known: own_tasks().join(", ") });

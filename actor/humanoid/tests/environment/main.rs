@@ -14,3 +14,4 @@ mod randomisation;
 mod sensor_noise;
 mod snapshots;
 mod support;
+mod velocity;

@@ -19,6 +19,7 @@ pub fn randomised() -> EnvironmentConfig {
             gravity_scale: [0.9, 1.1],
             sensor_noise_position: 0.01,
             sensor_noise_velocity: 0.05,
+            encoder_bias_rad: 0.0,
             control_noise: 0.05,
             action_delay_steps: [0, 3],
             push_interval_s: [0.1, 0.5],

@@ -1,0 +1,138 @@
+//! The velocity task, with a robot of 29 hinges and a card.
+
+use treadmill_humanoid::config::VelocityConfig;
+use treadmill_humanoid::{Environment, EnvironmentConfig, EpisodeState, Randomisation};
+
+const ROBOT_XML: &str = include_str!("../../assets/g1-like-servos.xml");
+const CARD: &str = "feet = ['left_foot', 'right_foot']\n[[hinges]]\nnames = '*'\neffort_nm = 60.0\n";
+/// Three angular velocities, gravity, command, 29 × (angle, rate, action), phase.
+const OF_POLICY: usize = 3 + 3 + 3 + 3 * 29 + 2;
+const OF_CRITIC: usize = 3 + 1 + 3 * 2;
+
+fn config(velocity: VelocityConfig) -> EnvironmentConfig {
+    let randomisation = Randomisation {
+        push_mps: [0.1, 0.5],
+        push_interval_s: [0.2, 0.4],
+        sensor_noise_position: 0.01,
+        encoder_bias_rad: 0.02,
+        action_delay_steps: [0, 2],
+        ..Randomisation::default()
+    };
+    EnvironmentConfig {
+        velocity: Some(velocity),
+        control_step_s: 0.02,
+        substeps: 5,
+        reset_noise_scale: 0.02,
+        randomisation,
+        ..EnvironmentConfig::default()
+    }
+}
+
+fn with_card(card: &str) -> String {
+    ROBOT_XML.replacen(
+        "</mujoco>",
+        &format!("<custom><text name=\"treadmill_robot_card\" data=\"{}\"/></custom></mujoco>", card.replace('\n', "&#10;")),
+        1,
+    )
+}
+
+fn environment(config: &EnvironmentConfig) -> Environment {
+    Environment::new(config, &with_card(CARD)).unwrap()
+}
+
+#[test]
+fn the_terms_have_the_fields_names_and_those_of_the_critic_come_last() {
+    for history in [1, 4] {
+        let environment = environment(&config(VelocityConfig { history, ..VelocityConfig::default() }));
+        let terms = environment.terms();
+        let names: Vec<&str> = terms[..7].iter().map(|term| &term.name[..]).collect();
+        let expected = "base_ang_vel projected_gravity velocity_commands joint_pos_rel joint_vel_rel last_action gait_phase";
+        assert_eq!(names.join(" "), expected);
+        let of_policy = terms.iter().filter(|term| !term.is_privileged).map(|term| term.range.end).max().unwrap();
+        assert_eq!(of_policy, OF_POLICY * history as usize);
+        assert!(terms.iter().filter(|term| term.is_privileged).all(|term| term.range.start >= of_policy));
+        assert_eq!(environment.observation_size(), of_policy + OF_CRITIC);
+        assert_eq!(environment.privileged_size(), OF_CRITIC);
+    }
+}
+
+#[test]
+fn a_history_holds_the_last_observations_and_begins_with_the_first_one() {
+    let mut environment = environment(&config(VelocityConfig { history: 3, ..VelocityConfig::default() }));
+    let mut row = vec![0.0; environment.observation_size()];
+    environment.reset(5, &mut row);
+    let part = |row: &[f32], index: usize| row[index * OF_POLICY..][..OF_POLICY].to_vec();
+    assert!(part(&row, 0) == part(&row, 2) && part(&row, 1) == part(&row, 2));
+    let first = part(&row, 2);
+    let action = environment.action_ranges().iter().map(|[low, high]| (low + high) / 2.0).collect::<Vec<f32>>();
+    environment.step(&action, &mut row);
+    assert!(part(&row, 1) == first && part(&row, 2) != first);
+    let second = part(&row, 2);
+    let mut again = row.clone();
+    environment.observe(&mut again).unwrap();
+    environment.step(&action, &mut row);
+    assert!(part(&row, 0) == first && part(&row, 1) == second, "an observation in between changes nothing");
+}
+
+#[test]
+fn an_episode_goes_on_exactly_from_its_saved_state() {
+    let config = config(VelocityConfig { history: 2, resampling_s: [0.1, 0.3], ..VelocityConfig::default() });
+    let (mut original, mut other) = (environment(&config), environment(&config));
+    let size = original.observation_size();
+    let (mut left, mut right) = (vec![0.0; size], vec![0.0; size]);
+    original.reset(9, &mut left);
+    let action_at = |step: usize, ranges: &[[f32; 2]]| -> Vec<f32> {
+        let share = |motor: usize| 0.05 * ((step * 7 + motor * 3) as f32).sin();
+        ranges.iter().enumerate().map(|(motor, [low, high])| (low + high) / 2.0 + (high - low) * share(motor)).collect()
+    };
+    for step in 0..25 {
+        original.step(&action_at(step, original.action_ranges().to_vec().as_slice()), &mut left);
+    }
+    let state: EpisodeState = original.episode_state().unwrap();
+    other.reset(1, &mut right);
+    other.resume_episode(&state, &mut right).unwrap();
+    assert!(left == right);
+    let mut commands = Vec::new();
+    for step in 25..70 {
+        let action = action_at(step, original.action_ranges());
+        let (expected, found) = (original.step(&action, &mut left), other.step(&action, &mut right));
+        assert_eq!(expected.reward.to_bits(), found.reward.to_bits(), "step {step}");
+        assert!(left.iter().zip(&right).all(|(left, right)| left.to_bits() == right.to_bits()), "step {step}");
+        commands.push(original.task().command().unwrap()[0].to_bits());
+        if expected.terminated {
+            break;
+        }
+    }
+    commands.dedup();
+    assert!(commands.len() > 2, "commands change on the way");
+}
+
+#[test]
+fn a_steered_robot_is_told_what_the_user_says_until_that_ends() {
+    let mut environment = environment(&config(VelocityConfig::default()));
+    let mut row = vec![0.0; environment.observation_size()];
+    assert!(environment.steer(Some([0.4, -0.1, 0.2])));
+    environment.reset(3, &mut row);
+    assert_eq!(row[6..9], [0.4, -0.1, 0.2]);
+    assert!(environment.steer(None));
+    environment.reset(3, &mut row);
+    assert_ne!(row[6..9], [0.4, -0.1, 0.2]);
+    let mut humanoid =
+        Environment::new(&EnvironmentConfig::default(), treadmill_humanoid::HUMANOID_XML).unwrap();
+    assert!(!humanoid.steer(Some([0.0; 3])), "Gymnasium's task has no commands");
+}
+
+#[test]
+fn what_the_task_needs_and_lacks_is_named() {
+    let refusal = |velocity: VelocityConfig, text: &str| {
+        Environment::new(&config(velocity), text).err().expect("a refusal").to_string()
+    };
+    let why = refusal(VelocityConfig::default(), ROBOT_XML);
+    assert!(why.contains("needs a robot card") && why.contains("env.robot"), "{why}");
+    let why = refusal(VelocityConfig::default(), &with_card("[[hinges]]\nnames = '*'\neffort_nm = 60.0\n"));
+    assert!(why.contains("needs two `feet`") && why.contains("it has 0"), "{why}");
+    let why = refusal(VelocityConfig { lin_vel_x_mps: [0.0, 9.0], ..VelocityConfig::default() }, &with_card(CARD));
+    assert!(why.contains("velocity.lin_vel_x_mps") && why.contains("[0.0, 9.0]") && why.contains("-5 to 5"), "{why}");
+    let why = refusal(VelocityConfig { history: 17, ..VelocityConfig::default() }, &with_card(CARD));
+    assert!(why.contains("velocity.history") && why.contains("17") && why.contains("1 to 16"), "{why}");
+}
