@@ -5,9 +5,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let schemas = ["policy", "rollout", "stats", "evaluation", "control", "task", "poses"]
         .map(|name| format!("schema/{name}.proto"));
     let files = protox::compile(schemas, ["schema"])?;
-    prost_build::Config::new()
-        .bytes(["."])
-        .compile_fds(files)?;
+    prost_build::Config::new().bytes(["."]).compile_fds(files)?;
     println!("cargo:rerun-if-changed=onnx");
     prost_build::Config::new().bytes(["."]).compile_fds(protox::compile(["onnx.proto"], ["onnx"])?)?;
     println!("cargo:rerun-if-changed=tensorboard");

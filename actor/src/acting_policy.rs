@@ -27,6 +27,7 @@ impl ActingPolicy {
             observation: bundle.observation_size as usize,
             action: bundle.action_size as usize,
             hidden: bundle.hidden.iter().map(|width| *width as usize).collect(),
+            privileged: bundle.privileged_size as usize,
         };
         let parameters = actor_from_safetensors(&bundle.weights, &shape);
         let parameters = parameters.map_err(|error| refuse(error_chain(&error)))?;

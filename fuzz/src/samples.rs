@@ -121,6 +121,7 @@ pub fn bundle() -> Vec<u8> {
         wire_version: 1,
         wire_version_min: 1,
         physics_version: 1,
+        privileged_size: 0,
     }
     .encode()
     .expect("a valid message")
@@ -205,7 +206,7 @@ pub fn metric() -> Vec<u8> {
 pub fn checkpoint() -> Vec<u8> {
     let mut config = Config::default();
     config.policy.hidden = vec![2];
-    let state = TrainingState::fresh(RUN, &config, "<mujoco/>", WIDTH as usize, 1, INCARNATION);
+    let state = TrainingState::fresh(RUN, &config, "<mujoco/>", WIDTH as usize, 0, 1, INCARNATION);
     // Without the header, which the target adds.
     encoding::encode(&state).expect("a valid message")[52..].to_vec()
 }
@@ -260,5 +261,5 @@ pub fn config() -> Vec<u8> {
 
 /// Returns the shape of the samples' network.
 pub fn shape() -> NetworkShape {
-    NetworkShape { observation: WIDTH as usize, action: 1, hidden: vec![2] }
+    NetworkShape { observation: WIDTH as usize, action: 1, hidden: vec![2], privileged: 0 }
 }

@@ -110,6 +110,8 @@ pub struct PolicyBundle {
     pub wire_version_min: u32,
     /// Version of the physics that this run trains with; 0 means 1, and has no meaning in runs of external tasks.
     pub physics_version: u32,
+    /// Last entries of an observation that only the critic sees.
+    pub privileged_size: u32,
 }
 
 impl PolicyBundle {
@@ -117,6 +119,10 @@ impl PolicyBundle {
         check_ident("run", &self.run)?;
         check_range("observation_size", self.observation_size, WIDTH_MAX)?;
         check_range("action_size", self.action_size, WIDTH_MAX)?;
+        if self.privileged_size >= self.observation_size {
+            let expected = format!("less than observation_size, which is {}", self.observation_size);
+            return Err(Malformed::field("privileged_size", self.privileged_size, expected));
+        }
         if self.hidden.is_empty() || self.hidden.len() > HIDDEN_LAYERS_MAX {
             return Err(Malformed::field("hidden", self.hidden.len(), format!("1 to {HIDDEN_LAYERS_MAX} layers")));
         }
@@ -169,6 +175,7 @@ impl PolicyBundle {
             wire_version: self.wire_version,
             wire_version_min: self.wire_version_min,
             physics_version: self.physics_version,
+            privileged_size: self.privileged_size,
         }
         .encode_to_vec();
         check_size(BUNDLE, bytes.len(), BUNDLE_BYTES_MAX)?;
@@ -206,6 +213,7 @@ impl PolicyBundle {
             wire_version: message.wire_version,
             wire_version_min: message.wire_version_min,
             physics_version: message.physics_version,
+            privileged_size: message.privileged_size,
         };
         bundle.check()?;
         Ok(bundle)
@@ -258,6 +266,7 @@ mod tests {
             wire_version: 2,
             wire_version_min: 1,
             physics_version: 3,
+            privileged_size: 1,
         }
     }
 

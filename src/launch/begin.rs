@@ -56,10 +56,11 @@ fn begin_built_in(command: RunCommand, new: &NewRunArgs, any: &AnyRunArgs, confi
     let environment = model::environment(&config, &text, any.model.as_deref())?;
     let mirror = model::mirror(&config, &text)?;
     let (observation, action) = (environment.observation_size(), environment.action_size());
+    let privileged = environment.privileged_size();
     if command == RunCommand::Train {
         check_fragments(&config, observation, action)?;
     }
-    let fresh = TrainingState::fresh("", &config, &text, observation, action, seeds::unique());
+    let fresh = TrainingState::fresh("", &config, &text, observation, privileged, action, seeds::unique());
     let mut state = TrainingState { physics_version: PHYSICS_VERSION, ..fresh };
     let init_from = InitFrom::read(new, any)?;
     let origin = init_from.as_ref().map(|from| from.copy_to(&mut state)).transpose()?;
@@ -104,7 +105,7 @@ fn branch_off(
         }
         let environment = model::environment(&config, &state.model_xml, None)?;
         let (size, wanted) = (environment.observation_size(), state.shape.observation);
-        if size != wanted {
+        if size != wanted || environment.privileged_size() != state.shape.privileged {
             let why = format!("`--fork`: this configuration has {size} observations, and the networks take {wanted}");
             return Err(Usage(why + "; keep env.observation").into());
         }

@@ -7,7 +7,7 @@ use std::{
 
 use clap::Args;
 use treadmill_actor::settings;
-use treadmill_config::{Config, ConfigSource, EnvConfig, EnvObservation, EnvTask, Symmetry};
+use treadmill_config::{Config, ConfigSource, EnvConfig, EnvTask, Symmetry};
 use treadmill_humanoid::{Environment, HUMANOID_XML, Model, ModelError, card, read_model_file};
 use treadmill_ppo::{BatchMirror, IndexSwap};
 use treadmill_runtime::{error_chain, words::nearest_path};
@@ -31,8 +31,13 @@ impl ModelArgs {
         let mut source = ConfigSource::default();
         source.text(&base.to_toml(), "the run's configuration")?;
         for pair in &self.set {
-            if !["env.", "velocity.", "rewards.", "randomisation."].iter().any(|section| pair.trim_start().starts_with(section)) {
-                let why = format!("`--set {pair}` has no effect here; allowed: keys of [env], [velocity], [rewards] and [randomisation]");
+            if !["env.", "velocity.", "rewards.", "randomisation."]
+                .iter()
+                .any(|section| pair.trim_start().starts_with(section))
+            {
+                let why = format!(
+                    "`--set {pair}` has no effect here; allowed: keys of [env], [velocity], [rewards] and [randomisation]"
+                );
                 return Err(Usage(why).into());
             }
             source.set(pair)?;
@@ -90,12 +95,14 @@ pub fn mirror(config: &Config, text: &str) -> Result<Option<BatchMirror>, Usage>
         return Ok(None);
     }
     let refuse = |why: String| Usage(format!("`ppo.symmetry` is \"mirrored\", but {why}; allowed here: \"off\""));
-    if config.env.observation != EnvObservation::Compact || has_other_task(&config.env) {
-        return Err(refuse("only the observation \"compact\" of Gymnasium's tasks has a mirror image".to_string()));
-    }
     let environment = environment(config, text, None)?;
     let of_body = treadmill_humanoid::Mirror::of(environment.physics().model()).map_err(refuse)?;
-    let observation = IndexSwap(of_body.observation(environment.observation_size()));
+    let Some(observation) = environment.task().mirrored(&of_body) else {
+        return Err(refuse(
+            "this observation has no mirror image; \"compact\" and the velocity task's have one".to_string(),
+        ));
+    };
+    let observation = IndexSwap(observation);
     Ok(Some(BatchMirror { observation, action: IndexSwap(of_body.action) }))
 }
 

@@ -80,7 +80,7 @@ impl Prepared {
         let (observation, action) = (task.observation_size as usize, task.action_size as usize);
         self.config.task = task.into();
         self.config.check()?;
-        let mut fresh = TrainingState::fresh(&self.run, &self.config, "", observation, action, seeds::unique());
+        let mut fresh = TrainingState::fresh(&self.run, &self.config, "", observation, 0, action, seeds::unique());
         self.origin = self.init_from.as_ref().map(|from| from.copy_to(&mut fresh)).transpose()?;
         self.state = Some(fresh);
         Ok(fs::write(self.folder.config(), self.config.to_toml())?)

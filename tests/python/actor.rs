@@ -20,7 +20,7 @@ fn python_folder() -> PathBuf {
 /// Returns the expected content of python/tests/golden.json: a small policy and its results for some observations.
 fn golden() -> serde_json::Value {
     let wavy = |count: usize, step: f32| (0..count).map(|i| (i as f32 * step).sin()).collect::<Vec<f32>>();
-    let shape = NetworkShape { observation: 4, action: 2, hidden: vec![5, 3] };
+    let shape = NetworkShape { observation: 4, action: 2, hidden: vec![5, 3], privileged: 0 };
     let mut parameters = wavy(shape.parameter_count(), 0.7);
     // One standard deviation within the allowed range, one beyond.
     parameters[shape.log_std()].copy_from_slice(&[-0.5, 2.5]);

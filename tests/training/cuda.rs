@@ -30,7 +30,7 @@ fn gpu() -> Option<Device> {
 }
 
 fn shape() -> NetworkShape {
-    NetworkShape { observation: 45, action: 17, hidden: vec![256, 128] }
+    NetworkShape { observation: 45, action: 17, hidden: vec![256, 128], privileged: 0 }
 }
 
 fn pool() -> Arc<rayon::ThreadPool> {

@@ -92,7 +92,11 @@ impl Randomiser {
             control_step_s: config.control_step_s,
             variation: Variation::none(model),
             half_ranges: model.motors.iter().map(|motor| motor.control[1] / 2.0 - motor.control[0] / 2.0).collect(),
-            middles: model.motors.iter().map(|motor| f64::midpoint(motor.control[0], motor.control[1]) as f32).collect(),
+            middles: model
+                .motors
+                .iter()
+                .map(|motor| f64::midpoint(motor.control[0], motor.control[1]) as f32)
+                .collect(),
             past: vec![0.0; slots * model.motors.len()],
             newest: 0,
             delay_steps: 0,

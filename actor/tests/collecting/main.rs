@@ -34,7 +34,7 @@ fn randomised(motor_scale: [f64; 2]) -> EnvironmentConfig {
 }
 
 fn policy(observation: usize) -> ActingPolicy {
-    let shape = NetworkShape { observation, action: 17, hidden: vec![8] };
+    let shape = NetworkShape { observation, action: 17, hidden: vec![8], privileged: 0 };
     let parameters = initial_parameters(&shape, -0.5, &mut seeds::stream(1, "test", &[]));
     let weights = to_safetensors(&shape, &parameters);
     ActingPolicy::new(&PolicyBundle {

@@ -20,8 +20,8 @@ pub use preset::{PRESETS, preset};
 pub use retired::is_retired;
 pub use section::{KeyDoc, Section, SectionDoc};
 pub use sections::{
-    BusConfig, EnvConfig, EvaluationConfig, LearnerConfig, PolicyConfig, PpoConfig, RandomisationConfig, RolloutConfig,
-    RewardsConfig, RunConfig, TaskConfig, VelocityConfig,
+    BusConfig, EnvConfig, EvaluationConfig, LearnerConfig, PolicyConfig, PpoConfig, RandomisationConfig, RewardsConfig,
+    RolloutConfig, RunConfig, TaskConfig, VelocityConfig,
 };
 pub use source::ConfigSource;
 pub use wire::is_key_of_actors;

@@ -166,6 +166,9 @@ struct Network {
     observation: usize,
     hidden: Vec<usize>,
     action: usize,
+    /// Last entries of an observation that only the critic sees.
+    #[serde(default, skip_serializing_if = "is_zero")]
+    privileged: usize,
     activation: String,
 }
 
@@ -202,6 +205,7 @@ impl ExportedPolicy {
                 observation: self.shape.observation,
                 hidden: self.shape.hidden.clone(),
                 action: self.shape.action,
+                privileged: self.shape.privileged,
                 activation: ACTIVATION.to_string(),
             },
             observation: self.observation.clone(),
@@ -237,8 +241,12 @@ impl ExportedPolicy {
         if network.activation != ACTIVATION {
             return Err(entry("network.activation", &network.activation, format!("\"{ACTIVATION}\"")));
         }
-        let shape =
-            NetworkShape { observation: network.observation, action: network.action, hidden: network.hidden.clone() };
+        let shape = NetworkShape {
+            observation: network.observation,
+            action: network.action,
+            hidden: network.hidden.clone(),
+            privileged: network.privileged,
+        };
         check_widths(&shape)?;
         let policy = Self {
             parameters: from_safetensors(bytes, &shape)?,
@@ -327,6 +335,11 @@ fn read_metadata(text: &str) -> Result<Metadata, ExportedError> {
     serde_json::from_str(text).map_err(unreadable)
 }
 
+/// Returns whether an entry can be left out, as files of before it did.
+fn is_zero(number: &usize) -> bool {
+    *number == 0
+}
+
 /// Checks the widths before anything is allocated for them.
 fn check_widths(shape: &NetworkShape) -> Result<(), ExportedError> {
     let layers = shape.hidden.len();
@@ -338,6 +351,10 @@ fn check_widths(shape: &NetworkShape) -> Result<(), ExportedError> {
         if !(1..=WIDTH_MAX as usize).contains(&width) {
             return Err(entry("network", &format!("a width of {width}"), format!("1 to {WIDTH_MAX}")));
         }
+    }
+    if shape.privileged >= shape.observation {
+        let expected = format!("less than network.observation, which is {}", shape.observation);
+        return Err(entry("network.privileged", &shape.privileged, expected));
     }
     if shape.parameter_count() > BUNDLE_BYTES_MAX / size_of::<f32>() {
         let count = format!("{} parameters", shape.parameter_count());

@@ -8,7 +8,7 @@ use safetensors::tensor::{Dtype, TensorView, serialize};
 use super::*;
 
 fn sample() -> ExportedPolicy {
-    let shape = NetworkShape { observation: 3, action: 2, hidden: vec![4] };
+    let shape = NetworkShape { observation: 3, action: 2, hidden: vec![4], privileged: 0 };
     let mut moments = RunningMoments::new(3);
     moments.update(&[1.0, 2.0, 3.0, 3.0, 2.0, 7.0], 3);
     let (observation, mean, variance) = ObservationFacts::from_moments("compact", &moments, 10.0);

@@ -49,6 +49,8 @@ struct Inner {
 /// One network's results of the forward pass, and its memory for the backward pass.
 #[derive(Debug, Default)]
 struct Buffers {
+    /// What the network sees, `[rows, input]`, if that is not all of the observations.
+    seen: Vec<f32>,
     activations: Vec<f32>,
     output: Vec<f32>,
     lanes: Vec<Lane>,
@@ -161,17 +163,27 @@ impl Inner {
         for (network, buffers) in self.networks.iter().zip(&mut *buffers) {
             buffers.activations.resize(rows * network.hidden(), 0.0);
             buffers.output.resize(rows * network.output(), 0.0);
+            let width = network.input();
+            let seen = if width == self.observation {
+                observations
+            } else {
+                buffers.seen.clear();
+                observations
+                    .chunks_exact(self.observation)
+                    .for_each(|row| buffers.seen.extend_from_slice(&row[..width]));
+                &buffers.seen
+            };
             let mut activations = &mut buffers.activations[..];
             let outputs = buffers.output.chunks_mut(CHUNK_ROWS * network.output());
-            for (input, output) in observations.chunks(CHUNK_ROWS * self.observation).zip(outputs) {
-                let chunk = input.len() / self.observation * network.hidden();
+            for (input, output) in seen.chunks(CHUNK_ROWS * width).zip(outputs) {
+                let chunk = input.len() / width * network.hidden();
                 let (activation, rest) = activations.split_at_mut(chunk);
                 tasks.push((network, input, activation, output));
                 activations = rest;
             }
         }
         self.for_each(tasks, |(network, input, activations, output)| {
-            let rows = input.len() / self.observation;
+            let rows = input.len() / network.input();
             network.forward(&parameters[network.range.clone()], input, rows, activations, output);
         });
         self.join_outputs(rows, buffers)
@@ -211,12 +223,14 @@ impl Inner {
         for (network, buffers) in self.networks.iter().zip(&mut *buffers) {
             buffers.lanes.resize_with(lanes, Lane::default);
             let activations = &buffers.activations[..];
+            let seen = if network.input() == self.observation { observations } else { &buffers.seen[..] };
             for (i, lane) in buffers.lanes.iter_mut().enumerate() {
-                tasks.push((network, column, i, lane, activations));
+                tasks.push((network, column, i, lane, seen, activations));
             }
             column += network.output();
         }
-        self.for_each(tasks, |(network, column, first, lane, activations)| {
+        self.for_each(tasks, |(network, column, first, lane, seen, activations)| {
+            let width = network.input();
             lane.gradient.resize(network.range.len(), 0.0);
             for chunk in (first..chunks).step_by(lanes) {
                 let (from, to) = (chunk * CHUNK_ROWS, rows.min((chunk + 1) * CHUNK_ROWS));
@@ -226,7 +240,7 @@ impl Inner {
                 }
                 network.backward(
                     &parameters[network.range.clone()],
-                    &observations[from * self.observation..to * self.observation],
+                    &seen[from * width..to * width],
                     to - from,
                     &activations[from * network.hidden()..to * network.hidden()],
                     &lane.output_gradient,

@@ -31,6 +31,7 @@ fn shapes_in_use() -> [NetworkShape; 2] {
         observation,
         action: 17,
         hidden,
+        privileged: 0,
     })
 }
 
@@ -53,7 +54,7 @@ fn run(forward: impl Fn(&Tensor, &Tensor) -> Result<Tensor>, shape: &NetworkShap
 #[test]
 fn output_and_gradient_agree_with_candles_operations() {
     let small = [(vec![16, 8], 33), (vec![4], 700), (vec![], 5), (vec![8, 8, 8], CHUNK_ROWS * LANES_MIN + 300)]
-        .map(|(hidden, rows)| (NetworkShape { observation: 7, action: 3, hidden }, rows));
+        .map(|(hidden, rows)| (NetworkShape { observation: 7, action: 3, hidden, privileged: 0 }, rows));
     for (shape, rows) in small.into_iter().chain(shapes_in_use().map(|shape| (shape, CHUNK_ROWS + 30))) {
         let networks = actor_critic(&shape, None);
         let fused = run(|p, x| networks.forward(p, x), &shape, rows);
@@ -135,7 +136,7 @@ fn actor_and_critic_alone_agree_with_both_together() -> Result<()> {
 
 #[test]
 fn the_number_of_threads_does_not_change_one_bit() {
-    let shape = NetworkShape { observation: 9, action: 4, hidden: vec![32, 16] };
+    let shape = NetworkShape { observation: 9, action: 4, hidden: vec![32, 16], privileged: 0 };
     let rows = CHUNK_ROWS * (LANES_MIN + 3) + 17;
     let alone = actor_critic(&shape, None);
     let expected = run(|p, x| alone.forward(p, x), &shape, rows);
@@ -153,14 +154,14 @@ fn every_chunk_has_its_own_lane_while_memory_allows() {
     }
     let (default, gymnasium) = (default.inner.lanes(100_000), gymnasium.inner.lanes(100_000));
     assert_eq!((default, gymnasium), (93, 29));
-    let huge = NetworkShape { observation: 4096, action: 17, hidden: vec![4096; 4] };
+    let huge = NetworkShape { observation: 4096, action: 17, hidden: vec![4096; 4], privileged: 0 };
     assert_eq!(actor_critic(&huge, None).inner.lanes(100_000), LANES_MIN);
 }
 
 #[test]
 fn chunks_that_share_a_lane_give_the_gradient_of_candles_operations() {
     // So large that the memory of lanes is for the fewest.
-    let shape = NetworkShape { observation: 2, action: 1, hidden: vec![1100, 1500] };
+    let shape = NetworkShape { observation: 2, action: 1, hidden: vec![1100, 1500], privileged: 0 };
     let networks = actor_critic(&shape, pool(2));
     let rows = CHUNK_ROWS * (LANES_MIN + 1) + 9;
     assert!(networks.inner.lanes(rows.div_ceil(CHUNK_ROWS)) < rows.div_ceil(CHUNK_ROWS));
@@ -173,7 +174,7 @@ fn chunks_that_share_a_lane_give_the_gradient_of_candles_operations() {
 
 #[test]
 fn reused_buffers_of_another_size_do_not_change_results() {
-    let shape = NetworkShape { observation: 5, action: 2, hidden: vec![8] };
+    let shape = NetworkShape { observation: 5, action: 2, hidden: vec![8], privileged: 0 };
     let networks = actor_critic(&shape, None);
     let fresh = |rows| {
         let networks = actor_critic(&shape, None);
@@ -187,7 +188,7 @@ fn reused_buffers_of_another_size_do_not_change_results() {
 
 #[test]
 fn two_forward_passes_before_one_backward_pass_do_not_disturb_each_other() -> Result<()> {
-    let shape = NetworkShape { observation: 5, action: 2, hidden: vec![8] };
+    let shape = NetworkShape { observation: 5, action: 2, hidden: vec![8], privileged: 0 };
     let networks = actor_critic(&shape, None);
     let expected = run(|p, x| networks.forward(p, x), &shape, 20);
     let twice = run(
@@ -205,7 +206,7 @@ fn two_forward_passes_before_one_backward_pass_do_not_disturb_each_other() -> Re
 
 #[test]
 fn tensors_of_another_shape_are_refused() -> Result<()> {
-    let shape = NetworkShape { observation: 5, action: 2, hidden: vec![8] };
+    let shape = NetworkShape { observation: 5, action: 2, hidden: vec![8], privileged: 0 };
     let networks = actor_critic(&shape, None);
     let parameters = Tensor::zeros(shape.parameter_count(), candle_core::DType::F32, &Device::Cpu)?;
     let wrong = Tensor::zeros((4, 6), candle_core::DType::F32, &Device::Cpu)?;

@@ -136,7 +136,7 @@ mod tests {
 
     #[test]
     fn means_and_values_agree_with_the_plain_networks_for_any_number_of_rows() -> Result<()> {
-        let shape = NetworkShape { observation: 3, action: 2, hidden: vec![8, 4] };
+        let shape = NetworkShape { observation: 3, action: 2, hidden: vec![8, 4], privileged: 0 };
         let parameters = initial_parameters(&shape, -0.5, &mut Xoshiro256PlusPlus::seed_from_u64(3));
         let policy = Policy::new(shape.clone(), parameters.clone()).expect("fresh parameters fit");
         assert_eq!(policy.log_std(), [-0.5; 2]);
@@ -158,7 +158,7 @@ mod tests {
 
     #[test]
     fn parameters_that_do_not_fit_are_refused() {
-        let shape = NetworkShape { observation: 3, action: 2, hidden: vec![4] };
+        let shape = NetworkShape { observation: 3, action: 2, hidden: vec![4], privileged: 0 };
         let count = shape.parameter_count();
         assert!(matches!(Policy::new(shape.clone(), vec![0.0; 5]), Err(ParameterError::Count { found: 5, .. })));
         let mut parameters = vec![0.0; count];

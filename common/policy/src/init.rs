@@ -91,7 +91,7 @@ mod tests {
         for (observation, action, hidden) in
             [(11, 4, vec![24, 16]), (45, 17, vec![256, 128]), (348, 17, vec![512, 256])]
         {
-            let shape = NetworkShape { observation, action, hidden };
+            let shape = NetworkShape { observation, action, hidden, privileged: 0 };
             let parameters = initial_parameters(&shape, -0.5, &mut Xoshiro256PlusPlus::seed_from_u64(1));
             for (network, last) in [shape.actor(), shape.critic()].iter().zip(gains) {
                 for (layer, gain) in network.iter().zip([hidden_gain, hidden_gain, last]) {
@@ -107,7 +107,7 @@ mod tests {
 
     #[test]
     fn one_wrong_sign_is_not_orthogonal() {
-        let shape = NetworkShape { observation: 11, action: 4, hidden: vec![24, 16] };
+        let shape = NetworkShape { observation: 11, action: 4, hidden: vec![24, 16], privileged: 0 };
         let parameters = initial_parameters(&shape, -0.5, &mut Xoshiro256PlusPlus::seed_from_u64(1));
         for layer in &shape.actor()[..2] {
             let mut weight = parameters[layer.weight()].to_vec();
@@ -120,7 +120,7 @@ mod tests {
 
     #[test]
     fn the_seed_decides_the_weights() {
-        let shape = NetworkShape { observation: 5, action: 2, hidden: vec![6] };
+        let shape = NetworkShape { observation: 5, action: 2, hidden: vec![6], privileged: 0 };
         let draw = |seed| initial_parameters(&shape, 0.0, &mut Xoshiro256PlusPlus::seed_from_u64(seed));
         assert_eq!(draw(7), draw(7));
         assert_ne!(draw(7), draw(8));

@@ -34,6 +34,11 @@ impl Mlp {
         Self { range: start..end, layers }
     }
 
+    /// Returns the width of the input.
+    pub(super) fn input(&self) -> usize {
+        self.layers.first().map_or(0, |layer| layer.input)
+    }
+
     /// Returns the width of the output.
     pub(super) fn output(&self) -> usize {
         self.layers.last().map_or(0, |layer| layer.output)
@@ -236,7 +241,7 @@ pub(crate) mod tests {
     #[test]
     fn the_gradient_agrees_with_finite_differences() {
         for hidden in [vec![], vec![4], vec![5, 3]] {
-            let shape = NetworkShape { observation: 3, action: 2, hidden };
+            let shape = NetworkShape { observation: 3, action: 2, hidden, privileged: 0 };
             let layers = shape.actor();
             let mlp = Mlp::new(layers.clone());
             let rows = 7;

@@ -59,12 +59,18 @@ mod tests {
 
     #[test]
     fn a_cpu_uses_the_fused_networks_and_they_agree_with_the_plain_ones() -> Result<()> {
-        let shape = NetworkShape { observation: 5, action: 3, hidden: vec![16, 8] };
-        let parameters = initial_parameters(&shape, -0.5, &mut Xoshiro256PlusPlus::seed_from_u64(3));
+        for privileged in [0, 2] {
+            check_agreement(&NetworkShape { observation: 5, action: 3, hidden: vec![16, 8], privileged })?;
+        }
+        Ok(())
+    }
+
+    fn check_agreement(shape: &NetworkShape) -> Result<()> {
+        let parameters = initial_parameters(shape, -0.5, &mut Xoshiro256PlusPlus::seed_from_u64(3));
         let parameters = Tensor::new(&parameters[..], &Device::Cpu)?;
         let observations = Tensor::from_vec((0..35).map(|i| (i as f32).sin()).collect(), (7, 5), &Device::Cpu)?;
         for (part, width) in [(NetworkPart::ActorCritic, 4), (NetworkPart::Actor, 3), (NetworkPart::Critic, 1)] {
-            let chosen = Networks::on(&Device::Cpu, &shape, part, None);
+            let chosen = Networks::on(&Device::Cpu, shape, part, None);
             assert!(matches!(chosen, Networks::Fused(_)));
             let fused = chosen.forward(&parameters, &observations)?;
             let plain = Networks::Plain(shape.clone(), part).forward(&parameters, &observations)?;

@@ -17,8 +17,8 @@ pub fn to_onnx(policy: &ExportedPolicy) -> Vec<u8> {
         ("control_step_s", policy.control_step_s.to_string()),
     ];
     OnnxPolicy {
-        mean: &normaliser.mean,
-        inverse_std: &normaliser.inverse_std,
+        mean: &normaliser.mean[..policy.shape.seen_by_actor()],
+        inverse_std: &normaliser.inverse_std[..policy.shape.seen_by_actor()],
         clip: normaliser.clip,
         layers: layers.iter().map(|dense| Layer { weight: part(dense.weight()), bias: part(dense.bias()) }).collect(),
         low: &policy.action.low,

@@ -18,7 +18,8 @@ pub fn actor_critic(shape: &NetworkShape, parameters: &Tensor, observations: &Te
     Tensor::cat(&[means, values], 1)
 }
 
-/// Applies one network to `observations`. Returns `[rows, outputs of the last layer]`.
+/// Applies one network to the first columns of `observations`, as many as its first layer takes. Returns `[rows, outputs of the
+/// last layer]`.
 ///
 /// # Errors
 /// If a tensor has the wrong shape.
@@ -29,7 +30,8 @@ pub fn network(layers: &[Dense], parameters: &Tensor, observations: &Tensor) -> 
         tensors.push(weight.reshape((layer.output, layer.input))?);
         tensors.push(parameters.narrow(0, layer.bias().start, layer.output)?);
     }
-    layered(&tensors, observations)
+    let seen = layers.first().map_or(0, |layer| layer.input);
+    layered(&tensors, &observations.narrow(1, 0, seen)?)
 }
 
 /// Applies one network, given weight and bias of each layer in turn. With leaves of their own, gradients have the size of their

@@ -11,6 +11,8 @@ pub struct NetworkShape {
     pub action: usize,
     /// Widths of the hidden layers of each network, from the first.
     pub hidden: Vec<usize>,
+    /// Last entries of an observation, which only the critic sees.
+    pub privileged: usize,
 }
 
 /// One tensor inside the flat parameter vector.
@@ -66,14 +68,20 @@ impl Dense {
 }
 
 impl NetworkShape {
-    /// Returns the layers of the actor; the last one outputs the action means.
+    /// Returns the layers of the actor, which sees the first [`Self::seen_by_actor`] entries of an observation; the last one
+    /// outputs the action means.
     pub fn actor(&self) -> Vec<Dense> {
-        self.dense_layers(0, self.action)
+        self.dense_layers(0, self.seen_by_actor(), self.action)
+    }
+
+    /// Returns the number of entries of an observation that the actor sees.
+    pub fn seen_by_actor(&self) -> usize {
+        self.observation.saturating_sub(self.privileged)
     }
 
     /// Returns the layers of the critic; the last one outputs the value.
     pub fn critic(&self) -> Vec<Dense> {
-        self.dense_layers(self.log_std().end, 1)
+        self.dense_layers(self.log_std().end, self.observation, 1)
     }
 
     /// Returns the range of the logarithms of the standard deviations, `[action]`, between the two networks.
@@ -102,9 +110,8 @@ impl NetworkShape {
         self.tensors().into_iter().filter(|tensor| tensor.offset < end).collect()
     }
 
-    fn dense_layers(&self, start: usize, last: usize) -> Vec<Dense> {
+    fn dense_layers(&self, start: usize, mut input: usize, last: usize) -> Vec<Dense> {
         let mut offset = start;
-        let mut input = self.observation;
         let widths = self.hidden.iter().copied().chain([last]);
         widths
             .map(|output| {
@@ -140,7 +147,7 @@ mod tests {
     use super::*;
 
     fn shape() -> NetworkShape {
-        NetworkShape { observation: 3, action: 2, hidden: vec![4, 5] }
+        NetworkShape { observation: 3, action: 2, hidden: vec![4, 5], privileged: 0 }
     }
 
     #[test]
@@ -149,6 +156,13 @@ mod tests {
         let critic = 4 * 3 + 4 + 5 * 4 + 5 + 5 + 1;
         assert_eq!(shape().parameter_count(), actor + 2 + critic);
         assert_eq!(shape().log_std(), actor..actor + 2);
+    }
+
+    #[test]
+    fn the_actor_lacks_weights_for_what_only_the_critic_sees() {
+        let shape = NetworkShape { privileged: 1, ..shape() };
+        assert_eq!((shape.actor()[0].input, shape.critic()[0].input), (2, 3));
+        assert_eq!(shape.parameter_count(), self::shape().parameter_count() - 4);
     }
 
     #[test]
@@ -169,7 +183,7 @@ mod tests {
 
     #[test]
     fn a_network_without_hidden_layers_is_one_dense_layer() {
-        let shape = NetworkShape { observation: 3, action: 2, hidden: vec![] };
+        let shape = NetworkShape { observation: 3, action: 2, hidden: vec![], privileged: 0 };
         assert_eq!(shape.actor(), [Dense { input: 3, output: 2, offset: 0 }]);
         assert_eq!(shape.parameter_count(), 8 + 2 + 4);
     }

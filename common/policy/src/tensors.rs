@@ -209,7 +209,7 @@ mod tests {
     use super::*;
 
     fn shape() -> NetworkShape {
-        NetworkShape { observation: 3, action: 2, hidden: vec![4] }
+        NetworkShape { observation: 3, action: 2, hidden: vec![4], privileged: 0 }
     }
 
     fn numbers() -> Vec<f32> {

@@ -193,7 +193,7 @@ mod tests {
 
     #[test]
     fn gather_returns_the_given_rows() -> Result<()> {
-        let shape = NetworkShape { observation: 2, action: 1, hidden: vec![] };
+        let shape = NetworkShape { observation: 2, action: 1, hidden: vec![], privileged: 0 };
         let batch = Batch {
             observations: vec![0.0, 1.0, 10.0, 11.0, 20.0, 21.0],
             actions: vec![0.5, 1.5, 2.5],

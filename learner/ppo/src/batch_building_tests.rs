@@ -13,7 +13,7 @@ const NEWEST: u64 = 0x5e31_645e_38a6_c541;
 const OLD: u64 = 0x00ea_63de_0efd_875e;
 
 fn shape() -> NetworkShape {
-    NetworkShape { observation: 3, action: 2, hidden: vec![8] }
+    NetworkShape { observation: 3, action: 2, hidden: vec![8], privileged: 0 }
 }
 
 fn policy(seed: u64) -> Policy {

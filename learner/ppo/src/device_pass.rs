@@ -106,7 +106,8 @@ impl DevicePass {
         let leaves = self.leaves()?;
         let (actor, others) = leaves.split_at(2 * self.shape.actor().len());
         let (log_std, critic) = others.split_first().expect("log_std follows the actor");
-        let (means, values) = (plain::layered(actor, observations)?, plain::layered(critic, observations)?);
+        let seen = observations.narrow(1, 0, self.shape.seen_by_actor())?;
+        let (means, values) = (plain::layered(actor, &seen)?, plain::layered(critic, observations)?);
         let loss = ppo_loss(&Tensor::cat(&[means, values], 1)?, log_std, minibatch, &self.config)?;
 
         let gradients = loss.total.backward()?;

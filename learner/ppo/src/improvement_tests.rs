@@ -28,7 +28,7 @@ struct World {
 
 impl World {
     fn new() -> Self {
-        let shape = NetworkShape { observation: 3, action: 2, hidden: vec![16, 8] };
+        let shape = NetworkShape { observation: 3, action: 2, hidden: vec![16, 8], privileged: 0 };
         let config = PpoConfig { minibatch: 64, epochs: 2, ..PpoConfig::default() };
         let parameters = init::initial_parameters(&shape, -0.5, &mut random(PARAMETER_SEED));
         let pool = Arc::new(rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("a thread starts"));

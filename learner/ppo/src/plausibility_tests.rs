@@ -202,7 +202,7 @@ fn largest_difference(shape: &NetworkShape, gain: f32, log_std: f32) -> f32 {
 #[test]
 fn the_tolerance_is_far_above_the_differences_between_computations() {
     for (observation, hidden) in [(45, vec![256, 128]), (348, vec![512, 256])] {
-        let shape = NetworkShape { observation, action: 17, hidden };
+        let shape = NetworkShape { observation, action: 17, hidden, privileged: 0 };
         // As at the start of a run, after long training, and with the smallest standard deviation that there can be.
         for (gain, log_std) in [(1.0, -0.5), (2.0, -1.5), (2.0, LOG_STD_MIN)] {
             let largest = largest_difference(&shape, gain, log_std);

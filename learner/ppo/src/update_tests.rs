@@ -15,7 +15,7 @@ fn rng(seed: u64) -> Xoshiro256PlusPlus {
 }
 
 fn shape() -> NetworkShape {
-    NetworkShape { observation: 4, action: 2, hidden: vec![16, 8] }
+    NetworkShape { observation: 4, action: 2, hidden: vec![16, 8], privileged: 0 }
 }
 
 fn config() -> PpoConfig {
@@ -23,8 +23,12 @@ fn config() -> PpoConfig {
 }
 
 fn updater(config: &PpoConfig, threads: usize) -> Updater {
-    let parameters = initial_parameters(&shape(), -0.5, &mut rng(1));
-    Updater::new(shape(), parameters, config, pool(threads)).expect("fresh parameters fit")
+    updater_of(&shape(), config, threads)
+}
+
+fn updater_of(shape: &NetworkShape, config: &PpoConfig, threads: usize) -> Updater {
+    let parameters = initial_parameters(shape, -0.5, &mut rng(1));
+    Updater::new(shape.clone(), parameters, config, pool(threads)).expect("fresh parameters fit")
 }
 
 fn pool(threads: usize) -> Arc<ThreadPool> {
@@ -33,7 +37,8 @@ fn pool(threads: usize) -> Arc<ThreadPool> {
 
 /// New updater with the state that a checkpoint keeps of another.
 fn restored(other: &Updater, learning_rate: f64) -> Updater {
-    let mut updater = Updater::new(shape(), other.parameters(), &other.config, pool(1)).expect("its parameters fit");
+    let (shape, parameters) = (other.shape().clone(), other.parameters());
+    let mut updater = Updater::new(shape, parameters, &other.config, pool(1)).expect("its parameters fit");
     updater.restore(other.optimiser().clone(), learning_rate).expect("its state fits");
     updater
 }
@@ -308,16 +313,22 @@ fn state_that_does_not_fit_is_refused() {
 /// Updater with the same parameters whose passes run as on a GPU, but on the CPU.
 fn on_device(other: &Updater) -> Updater {
     let mut updater = restored(other, other.learning_rate());
-    updater.networks = Networks::Plain(shape(), NetworkPart::ActorCritic);
-    updater.actor = Networks::Plain(shape(), NetworkPart::Actor);
+    updater.networks = Networks::Plain(other.shape().clone(), NetworkPart::ActorCritic);
+    updater.actor = Networks::Plain(other.shape().clone(), NetworkPart::Actor);
     updater
 }
 
 #[test]
 fn passes_on_a_device_equal_those_of_the_processor() {
+    for privileged in [0, 1] {
+        check_device(&NetworkShape { privileged, ..shape() });
+    }
+}
+
+fn check_device(shape: &NetworkShape) {
     // Clipped gradients, clipped ratios, means out of bounds, and an adapted learning rate take part.
     let config = PpoConfig { max_grad_norm: 0.1, entropy_coefficient: 1e-3, bounds_limit: 0.02, ..config() };
-    let mut fused = updater(&config, 1);
+    let mut fused = updater_of(shape, &config, 1);
     let mut device = on_device(&fused);
     for update in 0..5 {
         let batch = batch(&fused, 700, 8 + update);

@@ -79,7 +79,12 @@ impl UpdateFile {
 
     /// Runs the learner's update of the same parameters with the same batch.
     fn run(&self, case: &UpdateCase) -> (Updater, UpdateStats) {
-        let shape = NetworkShape { observation: self.observation, action: self.action, hidden: self.hidden.clone() };
+        let shape = NetworkShape {
+            observation: self.observation,
+            action: self.action,
+            hidden: self.hidden.clone(),
+            privileged: 0,
+        };
         let batch = Batch {
             observations: narrow(&self.batch.observations),
             actions: narrow(&self.batch.actions),

@@ -20,7 +20,7 @@ const SHUFFLE_SEED: u64 = 0x0d5a_574d_dbcd_853a;
 
 /// Trains with all rewards multiplied by `scale`. Returns the final parameters and the last explained variance.
 fn learnt(scale: f32) -> (Vec<f32>, f64) {
-    let shape = NetworkShape { observation: 3, action: 2, hidden: vec![16, 8] };
+    let shape = NetworkShape { observation: 3, action: 2, hidden: vec![16, 8], privileged: 0 };
     let config = PpoConfig { batch: STEPS * ENVS, minibatch: 64, ..PpoConfig::default() };
     let random = Xoshiro256PlusPlus::seed_from_u64;
     let parameters = init::initial_parameters(&shape, -0.5, &mut random(PARAMETER_SEED));

@@ -83,7 +83,7 @@ mod tests {
     use crate::checkpoint::{CheckpointWriter, Which, load};
 
     fn state(updates: u64) -> TrainingState {
-        let mut state = TrainingState::fresh("run", &Config::default(), "<mujoco/>", 2, 1, 1);
+        let mut state = TrainingState::fresh("run", &Config::default(), "<mujoco/>", 2, 0, 1, 1);
         state.counters.updates = updates;
         state
     }

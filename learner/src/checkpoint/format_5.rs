@@ -64,7 +64,7 @@ pub(super) struct ActorState {
 
 impl From<Shape> for NetworkShape {
     fn from(Shape { observation, action, hidden }: Shape) -> Self {
-        Self { observation, action, hidden }
+        Self { observation, action, hidden, privileged: 0 }
     }
 }
 

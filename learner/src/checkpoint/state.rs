@@ -99,11 +99,12 @@ impl TrainingState {
         config: &Config,
         model_xml: &str,
         observation: usize,
+        privileged: usize,
         action: usize,
         incarnation: u64,
     ) -> Self {
         let hidden = config.policy.hidden.iter().map(|width| *width as usize).collect();
-        let shape = NetworkShape { observation, action, hidden };
+        let shape = NetworkShape { observation, action, hidden, privileged };
         let seed = config.run.seed;
         let mut random = seeds::stream(seed, "initial-parameters", &[]);
         let parameters = init::initial_parameters(&shape, config.policy.init_log_std as f32, &mut random);
@@ -158,7 +159,7 @@ impl TrainingState {
         }
         let hidden = config.policy.hidden.iter().map(|width| *width as usize).collect();
         let (observation, action) = (task.observation_size as usize, task.action_size as usize);
-        let parameters = NetworkShape { observation, action, hidden }.parameter_count();
+        let parameters = NetworkShape { observation, action, hidden, privileged: 0 }.parameter_count();
         // The other half is for the statistics of observations and the texts.
         let parameters_max = BUNDLE_BYTES_MAX / 2 / size_of::<f32>();
         (parameters > parameters_max).then(|| {
@@ -264,6 +265,7 @@ impl TrainingState {
             wire_version: WIRE_VERSION,
             wire_version_min: config.wire_version_min(),
             physics_version: self.physics_version,
+            privileged_size: narrow(self.shape.privileged)?,
         })
     }
 }

@@ -36,7 +36,7 @@ impl std::fmt::Display for Widths {
 impl Widths {
     /// Returns networks of these widths with the humanoid's actions.
     pub fn shape(&self) -> NetworkShape {
-        NetworkShape { observation: self.0[0], action: ACTIONS, hidden: self.0[1..].to_vec() }
+        NetworkShape { observation: self.0[0], action: ACTIONS, hidden: self.0[1..].to_vec(), privileged: 0 }
     }
 }
 
@@ -61,7 +61,7 @@ mod tests {
             assert_eq!(text.parse::<Widths>().expect("widths").to_string(), text);
         }
         let shape = "348-512-256".parse::<Widths>().expect("widths").shape();
-        assert_eq!(shape, NetworkShape { observation: 348, action: 17, hidden: vec![512, 256] });
+        assert_eq!(shape, NetworkShape { observation: 348, action: 17, hidden: vec![512, 256], privileged: 0 });
     }
 
     #[test]

@@ -158,7 +158,7 @@ mod tests {
     use super::*;
 
     fn bundle(number: u64) -> PolicyBundle {
-        let shape = NetworkShape { observation: 3, action: 2, hidden: vec![8] };
+        let shape = NetworkShape { observation: 3, action: 2, hidden: vec![8], privileged: 0 };
         let mut random = seeds::stream(number, "test", &[]);
         let weights = to_safetensors(&shape, &initial_parameters(&shape, -0.5, &mut random));
         PolicyBundle {

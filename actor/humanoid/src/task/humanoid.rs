@@ -5,9 +5,10 @@
 //! position of the centre of mass instead of the torso's.
 
 use super::{Evaluation, ObservationTerm, Step, Task};
-use crate::config::{EnvironmentConfig, RewardTask};
+use crate::config::{EnvironmentConfig, ObservationKind, RewardTask};
 use crate::info::{PerTendon, StepInfo};
 use crate::model::Model;
+use crate::model::mirror::{Mirror, SignedPermutation};
 use crate::observation::{Observation, Sensed};
 use crate::physics::Physics;
 use crate::randomisation::SensorNoise;
@@ -66,6 +67,11 @@ impl Task for HumanoidTask {
             tendon_velocity_radps: tendon_values(physics.model(), physics.joint_rates()),
             ..StepInfo::default()
         }
+    }
+
+    fn mirrored(&self, robot: &Mirror) -> Option<SignedPermutation> {
+        let size = self.terms().last().map_or(0, |term| term.range.end);
+        (self.config.observation == ObservationKind::Compact).then(|| robot.observation(size))
     }
 
     fn evaluate(&mut self, step: &Step<'_>) -> Evaluation {

@@ -23,6 +23,7 @@ pub(crate) use self::own::build;
 pub use self::own::{TaskBuilder, own_tasks, register_own_tasks};
 use crate::error::StateError;
 use crate::info::StepInfo;
+use crate::model::mirror::{Mirror, SignedPermutation};
 use crate::physics::Physics;
 use crate::randomisation::SensorNoise;
 
@@ -103,6 +104,12 @@ pub trait Task: Send {
     /// commands.
     fn steer(&mut self, _command: Option<[f64; 3]>) -> bool {
         false
+    }
+
+    /// Returns the mirror image of an observation, with left and right exchanged, for a robot with this one; `None` if the task
+    /// has none.
+    fn mirrored(&self, _robot: &Mirror) -> Option<SignedPermutation> {
+        None
     }
 
     /// Returns everything that the rest of the episode depends on, apart from seed and physics, as finite numbers. Their count

@@ -1,7 +1,7 @@
 //! The velocity task, with a robot of 29 hinges and a card.
 
 use treadmill_humanoid::config::VelocityConfig;
-use treadmill_humanoid::{Environment, EnvironmentConfig, EpisodeState, Randomisation};
+use treadmill_humanoid::{Environment, EnvironmentConfig, EpisodeState, Mirror, Randomisation};
 
 const ROBOT_XML: &str = include_str!("../../assets/g1-like-servos.xml");
 const CARD: &str = "feet = ['left_foot', 'right_foot']\n[[hinges]]\nnames = '*'\neffort_nm = 60.0\n";
@@ -31,7 +31,10 @@ fn config(velocity: VelocityConfig) -> EnvironmentConfig {
 fn with_card(card: &str) -> String {
     ROBOT_XML.replacen(
         "</mujoco>",
-        &format!("<custom><text name=\"treadmill_robot_card\" data=\"{}\"/></custom></mujoco>", card.replace('\n', "&#10;")),
+        &format!(
+            "<custom><text name=\"treadmill_robot_card\" data=\"{}\"/></custom></mujoco>",
+            card.replace('\n', "&#10;")
+        ),
         1,
     )
 }
@@ -46,7 +49,8 @@ fn the_terms_have_the_fields_names_and_those_of_the_critic_come_last() {
         let environment = environment(&config(VelocityConfig { history, ..VelocityConfig::default() }));
         let terms = environment.terms();
         let names: Vec<&str> = terms[..7].iter().map(|term| &term.name[..]).collect();
-        let expected = "base_ang_vel projected_gravity velocity_commands joint_pos_rel joint_vel_rel last_action gait_phase";
+        let expected =
+            "base_ang_vel projected_gravity velocity_commands joint_pos_rel joint_vel_rel last_action gait_phase";
         assert_eq!(names.join(" "), expected);
         let of_policy = terms.iter().filter(|term| !term.is_privileged).map(|term| term.range.end).max().unwrap();
         assert_eq!(of_policy, OF_POLICY * history as usize);
@@ -117,8 +121,7 @@ fn a_steered_robot_is_told_what_the_user_says_until_that_ends() {
     assert!(environment.steer(None));
     environment.reset(3, &mut row);
     assert_ne!(row[6..9], [0.4, -0.1, 0.2]);
-    let mut humanoid =
-        Environment::new(&EnvironmentConfig::default(), treadmill_humanoid::HUMANOID_XML).unwrap();
+    let mut humanoid = Environment::new(&EnvironmentConfig::default(), treadmill_humanoid::HUMANOID_XML).unwrap();
     assert!(!humanoid.steer(Some([0.0; 3])), "Gymnasium's task has no commands");
 }
 
@@ -135,4 +138,43 @@ fn what_the_task_needs_and_lacks_is_named() {
     assert!(why.contains("velocity.lin_vel_x_mps") && why.contains("[0.0, 9.0]") && why.contains("-5 to 5"), "{why}");
     let why = refusal(VelocityConfig { history: 17, ..VelocityConfig::default() }, &with_card(CARD));
     assert!(why.contains("velocity.history") && why.contains("17") && why.contains("1 to 16"), "{why}");
+}
+
+#[test]
+fn the_mirror_image_of_an_observation_is_that_of_the_mirrored_robot() {
+    let config = EnvironmentConfig { randomisation: Randomisation::default(), ..config(VelocityConfig::default()) };
+    let (mut original, mut image) = (environment(&config), environment(&config));
+    let of_body = Mirror::of(original.physics().model()).unwrap();
+    let reflection = original.task().mirrored(&of_body).unwrap();
+    let mut row = vec![0.0; original.observation_size()];
+    original.reset(5, &mut row);
+    let action: Vec<f32> = original.action_ranges().iter().map(|[low, high]| low + 0.52 * (high - low)).collect();
+    for _ in 0..10 {
+        original.step(&action, &mut row);
+    }
+    original.steer(Some([0.4, 0.2, -0.3]));
+    original.observe(&mut row).unwrap();
+
+    let mut other = row.clone();
+    image.reset(5, &mut other);
+    image.steer(Some([0.4, -0.2, 0.3]));
+    let apply = |numbers: &[f64], by: &[(usize, f32)]| -> Vec<f64> {
+        by.iter().map(|(at, sign)| f64::from(*sign) * numbers[*at]).collect()
+    };
+    let (position, velocity) = (original.physics().position(), original.physics().velocity());
+    let (position, velocity) = (apply(position, &of_body.position), apply(velocity, &of_body.velocity));
+    image.physics_mut().set_state(&position, &velocity);
+    image.observe(&mut other).unwrap();
+    let expected: Vec<f32> = reflection.iter().map(|(at, sign)| sign * row[*at]).collect();
+    let is_compared = |name: &str| !["last_action", "gait_phase"].contains(&name) && !name.starts_with("feet_");
+    for term in original.terms().iter().filter(|term| is_compared(&term.name)) {
+        for at in term.range.clone() {
+            assert!((expected[at] - other[at]).abs() < 1e-5, "{}: {} {}", term.name, expected[at], other[at]);
+        }
+    }
+    let terms = original.terms();
+    let first = |name: &str| terms.iter().find(|term| term.name == name).unwrap().range.start;
+    assert_eq!(reflection[first("feet_contact")], (first("feet_contact") + 1, 1.0));
+    assert_eq!(reflection[first("gait_phase")], (first("gait_phase"), -1.0));
+    assert!((0..reflection.len()).all(|at| reflection[reflection[at].0].0 == at), "twice mirrored is the same");
 }

@@ -6,10 +6,12 @@
 //! # Layout
 //! - `command`: the schedule of commands.
 //! - `feet`: feet and gait.
+//! - `mirror`: mirror image of an observation.
 //! - `rewards`: the reward's terms.
 
 mod command;
 mod feet;
+mod mirror;
 mod rewards;
 
 use nalgebra::Vector3;
@@ -24,6 +26,7 @@ use crate::config::{EnvironmentConfig, VelocityConfig, VelocityRewards};
 use crate::error::{ModelError, StateError};
 use crate::info::StepInfo;
 use crate::model::Model;
+use crate::model::mirror::{Mirror, SignedPermutation};
 use crate::physics::Physics;
 use crate::randomisation::{SensorNoise, stream};
 
@@ -86,7 +89,10 @@ impl VelocityTask {
             );
         };
         let Ok(feet_links) = <[usize; FEET]>::try_from(&robot.feet[..]) else {
-            return refuse(&format!("needs two `feet` in the robot card, the left one first; it has {}", robot.feet.len()));
+            return refuse(&format!(
+                "needs two `feet` in the robot card, the left one first; it has {}",
+                robot.feet.len()
+            ));
         };
         let default = &robot.default_position;
         let motors: Vec<(usize, f64, f64)> = model
@@ -94,11 +100,8 @@ impl VelocityTask {
             .iter()
             .map(|motor| (motor.hinge, default[7 + motor.hinge], robot.hinges[motor.hinge].action_scale_rad))
             .collect();
-        let body = Body {
-            default_rad: default[7..].to_vec(),
-            pose_weights: pose_weights(physics),
-            height_m: default[2],
-        };
+        let body =
+            Body { default_rad: default[7..].to_vec(), pose_weights: pose_weights(physics), height_m: default[2] };
         let standing = |foot: usize| Foot::now(physics, feet_links[foot], 0.0).lift_m;
         let terms = observation_terms(velocity, motors.len());
         let of_policy = terms.iter().filter(|term| !term.is_privileged).map(|term| term.range.len()).sum();
@@ -216,8 +219,7 @@ impl Task for VelocityTask {
         self.actions.fill(0.0);
         self.actions_before.fill(0.0);
         self.rates_before_radps.copy_from_slice(physics.joint_rates());
-        self.feet =
-            std::array::from_fn(|foot| Foot::now(physics, self.feet_links[foot], self.feet_standing_m[foot]));
+        self.feet = std::array::from_fn(|foot| Foot::now(physics, self.feet_links[foot], self.feet_standing_m[foot]));
         self.past.fill(0.0);
         self.observed_step = None;
         self.terms_of_reward = VelocityRewards::default();
@@ -245,8 +247,8 @@ impl Task for VelocityTask {
         let (config, time_s, step_s) = (&self.config, self.time_s(), self.step_s);
         let mut terms =
             terms(config, physics.model(), &self.body, &self.command, &base, &self.feet, &hinges, time_s, step_s);
-        let has_fallen = base.height_m < config.fall_height_share * self.body.height_m
-            || base.tilt_rad() > config.fall_tilt_rad;
+        let has_fallen =
+            base.height_m < config.fall_height_share * self.body.height_m || base.tilt_rad() > config.fall_tilt_rad;
         terms.alive = f64::from(u8::from(!has_fallen));
         let reward = config.rewards.total(&terms);
         self.terms_of_reward = terms;
@@ -301,6 +303,10 @@ impl Task for VelocityTask {
         true
     }
 
+    fn mirrored(&self, robot: &Mirror) -> Option<SignedPermutation> {
+        Some(mirror::reflection(&self.terms, robot))
+    }
+
     fn save(&self) -> Vec<f64> {
         let mut numbers =
             vec![f64::from(self.drawn_index), f64::from(self.drawn_left_steps), f64::from(self.episode_steps)];
@@ -336,11 +342,8 @@ impl Task for VelocityTask {
         let (of_command, of_past) = rest.split_at(3);
         self.actions.copy_from_slice(of_actions);
         self.rates_before_radps.copy_from_slice(of_rates);
-        self.command = Command {
-            lin_vel_x_mps: of_command[0],
-            lin_vel_y_mps: of_command[1],
-            ang_vel_z_radps: of_command[2],
-        };
+        self.command =
+            Command { lin_vel_x_mps: of_command[0], lin_vel_y_mps: of_command[1], ang_vel_z_radps: of_command[2] };
         self.past.iter_mut().zip(of_past).for_each(|(number, saved)| *number = *saved as f32);
         self.observed_step = Some(self.episode_steps);
         Ok(())

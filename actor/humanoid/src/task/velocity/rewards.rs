@@ -105,8 +105,8 @@ pub fn terms(
     step_s: f64,
 ) -> VelocityRewards {
     let tracking = |error: f64| (-error / config.tracking_variance).exp();
-    let linear_error = (base.velocity_mps.x - command.lin_vel_x_mps).powi(2)
-        + (base.velocity_mps.y - command.lin_vel_y_mps).powi(2);
+    let linear_error =
+        (base.velocity_mps.x - command.lin_vel_x_mps).powi(2) + (base.velocity_mps.y - command.lin_vel_y_mps).powi(2);
     let yaw_error = (base.yaw_rate_radps - command.ang_vel_z_radps).powi(2);
     let squares = |numbers: &[f64]| numbers.iter().map(|number| number * number).sum::<f64>();
     let squared_difference = |pair: (&f64, &f64)| (pair.0 - pair.1).powi(2);
