@@ -48,6 +48,8 @@ pub struct EvaluationStep<'a> {
     pub info: &'a StepInfo,
     /// Body after the step.
     pub physics: &'a Physics,
+    /// Velocity that the task asks for, see [`treadmill_humanoid::Task::command`].
+    pub command: Option<[f64; 3]>,
     /// Result of the episode, after its last step.
     pub ended: Option<EpisodeResult>,
 }
@@ -128,6 +130,7 @@ pub fn evaluate(
                 total: result.return_sum,
                 info: environment.info(),
                 physics: environment.physics(),
+                command: environment.task().command(),
                 ended: has_ended.then_some(result),
             });
             if flow.is_break() {

@@ -7,7 +7,7 @@ use std::time::Duration;
 
 use tokio::{sync::mpsc, time::MissedTickBehavior};
 use treadmill_bus::{PosePublisher, Watched};
-use treadmill_humanoid::{Physics, StepInfo, physics::BodyMotion};
+use treadmill_humanoid::{Physics, StepInfo, physics::BodyMotion, task::velocity::BaseMotion};
 use treadmill_proto::{PolicyVersion, Pose, pose::BODY_NUMBERS};
 
 use crate::{environments::Environments, identity::ActorIdentity};
@@ -65,7 +65,7 @@ impl PoseSampler {
             step: first.step,
             time_s: f64::from(first.step) * first.environment.control_step_s(),
             distance_m: (physics.position()[0] - first.start_x_m) as f32,
-            ..body_pose(physics, first.environment.info())
+            ..body_pose(physics, first.environment.info(), first.environment.task().command())
         };
         // The queue is full, or its receiver is gone: drop the rest of the episode.
         if self.queue.try_send(pose).is_err() {
@@ -92,10 +92,13 @@ pub async fn publish(mut poses: mpsc::Receiver<Pose>, publisher: PosePublisher, 
     }
 }
 
-/// Returns position, motion and reward terms of a body. The caller adds names, numbers and times.
+/// Returns position, motion and reward terms of a body with this command. The caller adds names, numbers and times.
 #[must_use]
-pub fn body_pose(physics: &Physics, info: &StepInfo) -> Pose {
+pub fn body_pose(physics: &Physics, info: &StepInfo, command: Option<[f64; 3]>) -> Pose {
+    let narrow = |numbers: [f64; 3]| numbers.map(|number| number as f32).to_vec();
     Pose {
+        command: command.map(narrow).unwrap_or_default(),
+        base_velocity: command.map(|_| narrow(heading_velocity(physics))).unwrap_or_default(),
         bodies: physics.body_motions().flat_map(|motion| body_numbers(&motion)).collect(),
         contacts: contacts(physics),
         joint_torques_nm: physics.joint_torques_nm().iter().map(|torque| *torque as f32).collect(),
@@ -106,6 +109,13 @@ pub fn body_pose(physics: &Physics, info: &StepInfo) -> Pose {
         velocity_mps: info.x_velocity_mps as f32,
         ..Pose::default()
     }
+}
+
+/// Returns the velocity of the base in its heading frame: forward and left (m/s), yaw rate (rad/s).
+#[must_use]
+pub fn heading_velocity(physics: &Physics) -> [f64; 3] {
+    let base = BaseMotion::new(physics.position(), physics.velocity(), 0.0);
+    [base.velocity_mps.x, base.velocity_mps.y, base.yaw_rate_radps]
 }
 
 fn body_numbers(motion: &BodyMotion) -> [f32; BODY_NUMBERS] {

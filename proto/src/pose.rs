@@ -10,6 +10,8 @@ pub use wire::Pose;
 pub const BODY_NUMBERS: usize = 7;
 /// Numbers of one contact in [`Pose::contacts`]: a position and a force.
 pub const CONTACT_NUMBERS: usize = 6;
+/// Numbers of [`Pose::command`] and [`Pose::base_velocity`], if there are any.
+pub const COMMAND_NUMBERS: usize = 3;
 /// Longest episode (s), more than eleven days.
 const TIME_MAX_S: f64 = 1e6;
 /// Tolerance of a quaternion's length, larger than any rounding error.
@@ -42,6 +44,12 @@ impl Pose {
         if !self.contacts.len().is_multiple_of(CONTACT_NUMBERS) {
             let expected = format!("{CONTACT_NUMBERS} numbers for each contact");
             return Err(Malformed::length("contacts", self.contacts.len(), expected));
+        }
+        for (field, numbers) in [("command", &self.command), ("base_velocity", &self.base_velocity)] {
+            if !numbers.is_empty() && numbers.len() != COMMAND_NUMBERS {
+                return Err(Malformed::length(field, numbers.len(), format!("none or {COMMAND_NUMBERS}")));
+            }
+            check_finite(field, numbers)?;
         }
         let scalars = [
             ("reward_survive", self.reward_survive),
@@ -86,6 +94,8 @@ mod tests {
             joint_torques_nm: vec![-40.0],
             reward_survive: 5.0,
             velocity_mps: 1.5,
+            command: vec![0.5, 0.0, -0.2],
+            base_velocity: vec![0.4, 0.1, -0.1],
             ..Pose::default()
         }
     }
@@ -99,7 +109,7 @@ mod tests {
     #[test]
     fn encoding_and_decoding_name_the_bad_field() {
         type Corrupt = fn(&mut Pose);
-        let cases: [(&str, Corrupt); 13] = [
+        let cases: [(&str, Corrupt); 15] = [
             ("run", |pose| pose.run = "a/b".into()),
             ("actor", |pose| pose.actor.clear()),
             ("version", |pose| pose.version = None),
@@ -111,6 +121,8 @@ mod tests {
             ("`contacts` holds inf at index 5", |pose| pose.contacts[5] = f32::INFINITY),
             ("joint_torques_nm", |pose| pose.joint_torques_nm[0] = f32::NAN),
             ("reward_ctrl", |pose| pose.reward_ctrl = f32::NEG_INFINITY),
+            ("`command` is 2 numbers", |pose| pose.command.truncate(2)),
+            ("`base_velocity` holds NaN at index 1", |pose| pose.base_velocity[1] = f32::NAN),
             ("time_s", |pose| pose.time_s = -1.0),
             ("pose has", |pose| pose.joint_torques_nm = vec![0.0; POSE_BYTES_MAX / 4]),
         ];

@@ -37,6 +37,12 @@ pub struct ViewerArgs {
     /// Play in real time at this speed factor; by default all motion is sent at once.
     #[arg(long, value_name = "TIMES", value_parser = positive, conflicts_with = "live")]
     pub speed: Option<f64>,
+    /// MJCF file or card of the robot on this machine, whose visual meshes are shown instead of the colliding shapes.
+    #[arg(long, value_name = "FILE")]
+    pub model: Option<PathBuf>,
+    /// Steer the robot by keys and gamepad while it moves, in real time; for policies that follow commands.
+    #[arg(long, conflicts_with_all = ["live", "episodes"])]
+    pub steer: bool,
     /// Keep the camera still; by default it follows the torso.
     #[arg(long)]
     pub no_follow: bool,

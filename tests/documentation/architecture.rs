@@ -23,7 +23,7 @@ const DEPENDENTS: [(&str, &[&str]); 18] = [
     ("pulp", &["actor/humanoid"]),
     ("pyo3", &["python/treadmill_gym"]),
     ("rapier3d", &["actor/humanoid"]),
-    ("ratatui", &["."]),
+    ("ratatui", &[".", "watch"]),
     ("rerun", &["watch"]),
     ("toml", &[".", "actor/humanoid", "common/config"]),
     ("zenoh", &[". (dev)", "common/bus"]),

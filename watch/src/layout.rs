@@ -14,6 +14,8 @@ use rerun::{
     },
 };
 
+use crate::Shown;
+
 /// Paths of entities and names of timelines, shared by recorder and layout.
 pub mod paths {
     /// Root of all spatial entities.
@@ -30,6 +32,10 @@ pub mod paths {
     pub const POINTS: &str = "world/contacts/points";
     /// Terms of the reward.
     pub const REWARD: &str = "reward";
+    /// Arrows of the commanded and the actual velocity.
+    pub const ARROWS: &str = "world/velocities";
+    /// Commands, and the velocities that follow them.
+    pub const COMMANDS: &str = "commands";
     /// Velocity and distance.
     pub const VELOCITY: &str = "velocity";
     /// Hinge torques.
@@ -71,20 +77,15 @@ pub fn followed_m([x, y]: [f32; 2]) -> [[f32; 3]; 2] {
 }
 
 /// Sends the layout; if `follows`, the camera follows the robot.
-pub fn send(
-    recording: &RecordingStream,
-    follows: bool,
-    mode: PlayMode,
-    control_step_s: f64,
-) -> RecordingStreamResult<()> {
+pub fn send(recording: &RecordingStream, follows: bool, mode: PlayMode, shown: &Shown) -> RecordingStreamResult<()> {
     let space = ContainerLike::from(Spatial3DView::new("humanoid").with_origin(paths::WORLD));
     let space_path = path_of(&space);
     let curves = |name: &str, path: &str| ContainerLike::from(TimeSeriesView::new(name).with_origin(path));
-    let curves = [
-        curves("reward", paths::REWARD),
-        curves("velocity and distance", paths::VELOCITY),
-        curves("torques (N·m)", paths::TORQUES),
-    ];
+    let followed = match shown.has_commands {
+        true => curves("commands and velocities", paths::COMMANDS),
+        false => curves("velocity and distance", paths::VELOCITY),
+    };
+    let curves = [curves("reward", paths::REWARD), followed, curves("torques (N·m)", paths::TORQUES)];
     let curve_paths = curves.each_ref().map(path_of);
     let curves = Vertical::new(curves);
     let root = Horizontal::new([space, curves.into()]).with_column_shares([1.7, 1.0]);
@@ -106,7 +107,7 @@ pub fn send(
         eye = eye.with_tracking_entity(paths::FOLLOWED);
     }
     let grid = LineGrid3D::new().with_visible(false);
-    let visible_range = visible_range(control_step_s);
+    let visible_range = visible_range(shown.control_step_s);
     let mut properties: Vec<(EntityPath, &dyn AsComponents)> =
         vec![(space_path.clone() / "EyeControls3D", &eye), (space_path / "LineGrid3D", &grid)];
     properties

@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 use anyhow::Context;
 use treadmill_actor::settings;
 use treadmill_bus::{Bus, Feed, Role, fetch_policy, keys, observe};
-use treadmill_config::Config;
+use treadmill_config::{Config, EnvTask};
 use treadmill_humanoid::Model;
 use treadmill_proto::{PolicyBundle, Pose, ident::check_ident};
 use treadmill_rl::{
@@ -14,7 +14,7 @@ use treadmill_rl::{
 };
 use treadmill_runtime::{error_chain, shutdown::Shutdown};
 
-use crate::{scene_recorder::SceneRecorder, viewer_output::ViewerOutput};
+use crate::{Shown, scene_recorder::SceneRecorder, viewer_output::ViewerOutput};
 
 /// Most poses that wait to be drawn: those of 2 s.
 const POSE_QUEUE: usize = 64;
@@ -33,11 +33,10 @@ pub struct LiveOptions<'a> {
     pub for_s: Option<f64>,
 }
 
-/// Connects to the bus and records poses until Ctrl-C; `open` creates output and recorder for the run's robot
-/// and the duration of its control steps (s).
+/// Connects to the bus and records poses until Ctrl-C; `open` creates output and recorder for the run's robot.
 pub fn run(
     options: &LiveOptions,
-    open: impl FnOnce(&str, Model, f64) -> anyhow::Result<(ViewerOutput, SceneRecorder)>,
+    open: impl FnOnce(&str, Shown) -> anyhow::Result<(ViewerOutput, SceneRecorder)>,
 ) -> anyhow::Result<()> {
     if let Some(actor) = options.actor {
         check_ident("--actor", actor).map_err(|why| Usage(why.to_string()))?;
@@ -48,7 +47,9 @@ pub fn run(
         let bundle = fetch_bundle(link).await?;
         let config = read_config(&bundle)?;
         let model = Model::from_mjcf(&bundle.model_xml)?;
-        let (output, mut recorder) = open(&format!("{}, live", bundle.run), model, config.env.control_step_s)?;
+        let has_commands = config.env.task == EnvTask::Velocity;
+        let shown = Shown { model, control_step_s: config.env.control_step_s, has_commands };
+        let (output, mut recorder) = open(&format!("{}, live", bundle.run), shown)?;
         let mut poses = ActorPoses::open(&link.bus, &bundle.run, options.actor)?;
         say(&format!("waiting for an episode of {} to begin", options.actor.unwrap_or("an actor")));
         while !shutdown.asked() && options.for_s.is_none_or(|limit_s| recorder.shown_s() < limit_s) {

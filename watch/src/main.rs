@@ -4,6 +4,7 @@
 //!
 //! # Layout, in the order of the data
 //! - [`player`]: poses of a saved policy, from episodes played here.
+//! - [`steering`]: commands from keyboard and gamepad.
 //! - [`live`]: poses of a training actor, from the bus.
 //! - [`scene_recorder`]: logs a pose to Rerun: body, floor, trail, contacts, curves.
 //! - [`shapes`]: logs the model's shapes.
@@ -15,6 +16,7 @@ mod live;
 mod player;
 mod scene_recorder;
 mod shapes;
+mod steering;
 mod viewer_output;
 
 use std::{
@@ -23,7 +25,7 @@ use std::{
 };
 
 use clap::{CommandFactory, FromArgMatches, Parser};
-use treadmill_humanoid::Model;
+use treadmill_humanoid::{Model, model::visual_meshes};
 use treadmill_rl::{
     launch::{exit_code, exit_code::Usage, log},
     shared::viewer_args::{RUN_HELP, ViewerArgs},
@@ -57,7 +59,18 @@ fn play(view: &ViewerArgs) -> anyhow::Result<()> {
         return Err(Usage(why.to_string()).into());
     };
     let mut player = player::Player::load(run, view.checkpoint)?;
-    let (output, mut recorder) = set_up(view, run, player.model(), player.control_step_s(), PlayMode::Played)?;
+    let mode = if view.steer { PlayMode::Live } else { PlayMode::Played };
+    let shown =
+        Shown { model: player.model(), control_step_s: player.control_step_s(), has_commands: player.has_commands() };
+    let (output, mut recorder) = set_up(view, run, shown, mode)?;
+    let is_within = |shown_s: f64| view.for_s.is_none_or(|limit_s| shown_s < limit_s);
+    if view.steer {
+        player.steer(view.seed, view.speed.unwrap_or(1.0), |pose| {
+            recorder.show(pose)?;
+            Ok(is_within(recorder.shown_s()))
+        })?;
+        return output.finish(&Shutdown::default());
+    }
     let start = Instant::now();
     player.play(view.episodes, view.seed, |pose| {
         recorder.show(pose)?;
@@ -65,26 +78,33 @@ fn play(view: &ViewerArgs) -> anyhow::Result<()> {
             let due = Duration::from_secs_f64(recorder.shown_s() / speed);
             std::thread::sleep(due.saturating_sub(start.elapsed()));
         }
-        Ok(view.for_s.is_none_or(|limit_s| recorder.shown_s() < limit_s))
+        Ok(is_within(recorder.shown_s()))
     })?;
     output.finish(&Shutdown::default())
 }
 
 fn live(view: &ViewerArgs) -> anyhow::Result<()> {
     let options = live::LiveOptions { reach: &view.reach, actor: view.actor.as_deref(), for_s: view.for_s };
-    live::run(&options, |name, model, control_step_s| set_up(view, name, model, control_step_s, PlayMode::Live))
+    live::run(&options, |name, shown| set_up(view, name, shown, PlayMode::Live))
+}
+
+/// Robot and task that are shown.
+struct Shown {
+    model: Model,
+    control_step_s: f64,
+    has_commands: bool,
 }
 
 fn set_up(
     view: &ViewerArgs,
     name: &str,
-    model: Model,
-    control_step_s: f64,
+    shown: Shown,
     mode: PlayMode,
 ) -> anyhow::Result<(ViewerOutput, SceneRecorder)> {
     let output = ViewerOutput::open(&view.output, name, view.reach.network.insecure)?;
-    let recorder = SceneRecorder::new(output.recording().clone(), model);
-    layout::send(output.recording(), !view.no_follow, mode, control_step_s)?;
+    layout::send(output.recording(), !view.no_follow, mode, &shown)?;
+    let visuals = view.model.as_deref().map(visual_meshes).transpose()?.unwrap_or_default();
+    let recorder = SceneRecorder::new(output.recording().clone(), shown.model, visuals);
     recorder.set_up()?;
     Ok((output, recorder))
 }

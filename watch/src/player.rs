@@ -1,22 +1,33 @@
-//! Episodes of a saved policy, played as by `eval`: with its mean action, without randomisation.
+//! Episodes of a saved policy, played as by `eval`: with its mean action, without randomisation; or steered.
 
-use std::ops::ControlFlow;
+use std::{
+    ops::ControlFlow,
+    thread,
+    time::{Duration, Instant},
+};
 
 use treadmill_actor::{
-    agent::PolicyAgent,
+    agent::{Agent, PolicyAgent},
     evaluation::{EvaluationStep, evaluate},
     poses,
 };
-use treadmill_config::RandomisationConfig;
+use treadmill_config::{RandomisationConfig, VelocityConfig};
 use treadmill_humanoid::{Environment, Model};
 use treadmill_learner::checkpoint::Which;
 use treadmill_proto::Pose;
-use treadmill_rl::shared::saved_policy;
+use treadmill_rl::{
+    launch::{exit_code::Usage, output::say},
+    shared::saved_policy,
+};
+
+use crate::steering::{KEYS, Steering};
 
 /// A policy and its environment.
 pub struct Player {
     environment: Environment,
     agent: PolicyAgent,
+    /// Ranges of commands.
+    velocity: VelocityConfig,
 }
 
 impl Player {
@@ -26,7 +37,7 @@ impl Player {
         let mut config = policy.config();
         config.randomisation = RandomisationConfig::default();
         let environment = saved_policy::environment(run, &policy, &config)?;
-        Ok(Self { environment, agent: PolicyAgent::new(&policy)? })
+        Ok(Self { environment, agent: PolicyAgent::new(&policy)?, velocity: config.velocity })
     }
 
     /// Returns the robot's model.
@@ -37,6 +48,65 @@ impl Player {
     /// Returns the duration of a control step (s).
     pub fn control_step_s(&self) -> f64 {
         self.environment.control_step_s()
+    }
+
+    /// Returns whether the task has commands.
+    pub fn has_commands(&self) -> bool {
+        self.environment.task().command().is_some()
+    }
+
+    /// Plays in real time under the commands of keyboard and gamepad, until the key that ends or `show` returns false. A new
+    /// episode begins where one ends.
+    pub fn steer(
+        &mut self,
+        seed: u64,
+        speed: f64,
+        mut show: impl FnMut(&Pose) -> anyhow::Result<bool>,
+    ) -> anyhow::Result<()> {
+        if !self.has_commands() {
+            let why =
+                "--steer: this policy's task has no commands; steer one of a robot with a card, as of --preset g1";
+            return Err(Usage(why.to_owned()).into());
+        }
+        say(KEYS);
+        let mut steering = Steering::begin(&self.velocity)?;
+        let mut observation = vec![0.0; self.environment.observation_size()];
+        let mut action = vec![0.0; self.environment.action_size()];
+        let mut control = action.clone();
+        let (start, step_s) = (Instant::now(), self.control_step_s());
+        let mut played = 0;
+        for episode in 1.. {
+            self.environment.steer(Some([0.0; 3]));
+            self.environment.reset(seed.wrapping_add(episode), &mut observation);
+            let start_x_m = self.environment.physics().position()[0];
+            for step in 1.. {
+                let Some(command) = steering.command() else { return Ok(()) };
+                self.environment.steer(Some(command));
+                self.environment.observe(&mut observation)?;
+                self.agent.act(&observation, &mut action)?;
+                self.environment.action_from_shares(&action, &mut control);
+                let outcome = self.environment.step(&control, &mut observation);
+                let physics = self.environment.physics();
+                steering.show(poses::heading_velocity(physics));
+                let pose = Pose {
+                    episode,
+                    step,
+                    time_s: f64::from(step) * step_s,
+                    distance_m: (physics.position()[0] - start_x_m) as f32,
+                    ..poses::body_pose(physics, self.environment.info(), Some(command))
+                };
+                if !show(&pose)? {
+                    return Ok(());
+                }
+                played += 1;
+                let due = Duration::from_secs_f64(f64::from(played) * step_s / speed);
+                thread::sleep(due.saturating_sub(start.elapsed()));
+                if outcome.terminated || outcome.truncated {
+                    break;
+                }
+            }
+        }
+        Ok(())
     }
 
     /// Plays episodes and passes the pose of each step to `show`, until it returns false or an error.
@@ -65,6 +135,6 @@ fn pose(step: &EvaluationStep, start_x_m: f64, control_step_s: f64) -> Pose {
         step: step.step,
         time_s: f64::from(step.step) * control_step_s,
         distance_m: (step.physics.position()[0] - start_x_m) as f32,
-        ..poses::body_pose(step.physics, step.info)
+        ..poses::body_pose(step.physics, step.info, step.command)
     }
 }

@@ -6,10 +6,10 @@ use rerun::{
     Arrows3D, Boxes3D, Color, EntityPath, LineStrips3D, Points3D, RecordingStream, RecordingStreamResult, Scalars,
     SeriesLines, TextLog, Transform3D, ViewCoordinates, components::FillMode, datatypes::Quaternion,
 };
-use treadmill_humanoid::Model;
+use treadmill_humanoid::{Model, model::VisualMesh};
 use treadmill_proto::{
     Pose,
-    pose::{BODY_NUMBERS, CONTACT_NUMBERS},
+    pose::{BODY_NUMBERS, COMMAND_NUMBERS, CONTACT_NUMBERS},
 };
 
 use crate::{
@@ -32,6 +32,14 @@ const FLOOR: [u8; 3] = [62, 66, 71];
 const LINES: [u8; 3] = [98, 103, 110];
 const TRAIL: [u8; 3] = [240, 200, 60];
 const CONTACT: [u8; 3] = [235, 70, 70];
+const COMMANDED: [u8; 3] = [80, 200, 120];
+const ACTUAL: [u8; 3] = [90, 150, 240];
+/// Height of the arrows above the base (m), and length of that of 1 m/s (m).
+const ARROWS_ABOVE_M: f32 = 0.7;
+const ARROW_M: f32 = 0.8;
+/// Names of the curves of commands and velocities.
+const COMMAND_CURVES: [&str; 6] =
+    ["forward, commanded", "left, commanded", "turn, commanded", "forward m/s", "left m/s", "turn rad/s"];
 /// Names of the reward's curves.
 const REWARD_TERMS: [&str; 5] = ["reward", "forward", "healthy", "control", "contact"];
 
@@ -39,6 +47,8 @@ const REWARD_TERMS: [&str; 5] = ["reward", "forward", "healthy", "control", "con
 pub struct SceneRecorder {
     recording: RecordingStream,
     model: Model,
+    /// Shown instead of the shapes, if there are any.
+    visuals: Vec<VisualMesh>,
     bodies: Vec<EntityPath>,
     is_body_logged: bool,
     episode: Option<EpisodeKey>,
@@ -61,8 +71,8 @@ struct EpisodeKey {
 }
 
 impl SceneRecorder {
-    /// Creates a recorder for a robot.
-    pub fn new(recording: RecordingStream, model: Model) -> Self {
+    /// Creates a recorder for a robot, shown by these meshes if there are any.
+    pub fn new(recording: RecordingStream, model: Model, visuals: Vec<VisualMesh>) -> Self {
         let name = |(index, body): (usize, &treadmill_humanoid::model::Body)| {
             let name = if body.name.is_empty() { format!("body {index}") } else { body.name.clone() };
             EntityPath::from(vec![paths::WORLD.into(), paths::BODY.into(), name.into()])
@@ -71,6 +81,7 @@ impl SceneRecorder {
             bodies: model.bodies.iter().enumerate().map(name).collect(),
             recording,
             model,
+            visuals,
             is_body_logged: false,
             episode: None,
             start_s: 0.0,
@@ -98,6 +109,7 @@ impl SceneRecorder {
         }
         rec.log_static(paths::REWARD, &SeriesLines::new().with_names(REWARD_TERMS))?;
         rec.log_static(paths::VELOCITY, &SeriesLines::new().with_names(["forward m/s", "distance / 10 m"]))?;
+        rec.log_static(paths::COMMANDS, &SeriesLines::new().with_names(COMMAND_CURVES))?;
         let hinges = self.model.hinges.iter().map(|hinge| hinge.name.as_str());
         rec.log_static(paths::TORQUES, &SeriesLines::new().with_names(hinges))
     }
@@ -129,7 +141,10 @@ impl SceneRecorder {
         rec.set_time_sequence(paths::STEP, self.shown_step);
         if !self.is_body_logged {
             for (body, path) in self.bodies.iter().enumerate() {
-                shapes::log(&rec, path, &self.model, body)?;
+                match self.visuals.is_empty() {
+                    true => shapes::log(&rec, path, &self.model, body)?,
+                    false => shapes::log_visuals(&rec, path, &self.model, body, &self.visuals)?,
+                }
             }
             self.is_body_logged = true;
         }
@@ -156,11 +171,35 @@ impl SceneRecorder {
         let arrows = Arrows3D::from_vectors(forces).with_origins(points.clone());
         rec.log(paths::FORCES, &arrows.with_colors([colour(CONTACT)]).with_radii([0.012]))?;
         rec.log(paths::POINTS, &Points3D::new(points).with_colors([colour(CONTACT)]).with_radii([0.025]))?;
+        self.log_command(&rec, torso, pose)?;
         let terms = [pose.reward_forward, pose.reward_survive, pose.reward_ctrl, pose.reward_contact];
         let rewards = std::iter::once(terms.iter().sum()).chain(terms).map(f64::from);
         rec.log(paths::REWARD, &Scalars::new(rewards))?;
         rec.log(paths::VELOCITY, &Scalars::new([pose.velocity_mps, pose.distance_m / 10.0].map(f64::from)))?;
         rec.log(paths::TORQUES, &Scalars::new(pose.joint_torques_nm.iter().copied().map(f64::from)))
+    }
+
+    /// Logs arrows and curves of the commanded and the actual velocity, if the task has commands.
+    fn log_command(
+        &self,
+        rec: &RecordingStream,
+        [x, y, z, w, i, j, k]: &[f32; BODY_NUMBERS],
+        pose: &Pose,
+    ) -> RecordingStreamResult<()> {
+        if pose.command.len() != COMMAND_NUMBERS || pose.base_velocity.len() != COMMAND_NUMBERS {
+            return Ok(());
+        }
+        // Direction of the base's x axis on the ground.
+        let (sin, cos) = (2.0 * (i * j + w * k)).atan2(1.0 - 2.0 * (j * j + k * k)).sin_cos();
+        let in_world = |velocity: &[f32]| {
+            [cos * velocity[0] - sin * velocity[1], sin * velocity[0] + cos * velocity[1], 0.0]
+                .map(|part| ARROW_M * part)
+        };
+        let arrows = Arrows3D::from_vectors([in_world(&pose.command), in_world(&pose.base_velocity)]);
+        let above = [*x, *y, z + ARROWS_ABOVE_M];
+        let arrows = arrows.with_origins([above, [above[0], above[1], above[2] + 0.05]]);
+        rec.log(paths::ARROWS, &arrows.with_colors([colour(COMMANDED), colour(ACTUAL)]).with_radii([0.015]))?;
+        rec.log(paths::COMMANDS, &Scalars::new(pose.command.iter().chain(&pose.base_velocity).copied().map(f64::from)))
     }
 
     /// Starts a new episode after the previous one on the timelines.

@@ -1,13 +1,13 @@
 //! Logs a model's shapes to Rerun, once for each body, in its frame; and the height field of its ground.
 
-use nalgebra::{UnitQuaternion, Vector3};
+use nalgebra::{Point3, UnitQuaternion, Vector3};
 use rerun::{
     Boxes3D, Capsules3D, Color, Cylinders3D, Ellipsoids3D, EntityPath, EntityPathPart, Mesh3D, RecordingStream,
     RecordingStreamResult, components::FillMode, datatypes::Quaternion,
 };
 use treadmill_humanoid::{
     Model,
-    model::{Geometry, HeightField},
+    model::{Geometry, HeightField, VisualMesh},
 };
 use treadmill_render::scene;
 
@@ -60,6 +60,41 @@ pub fn log(recording: &RecordingStream, path: &EntityPath, model: &Model, body: 
         }
     }
     Ok(())
+}
+
+/// Logs the visual meshes of one body below its path.
+pub fn log_visuals(
+    recording: &RecordingStream,
+    path: &EntityPath,
+    model: &Model,
+    body: usize,
+    visuals: &[VisualMesh],
+) -> RecordingStreamResult<()> {
+    for (number, visual) in visuals.iter().enumerate() {
+        let link = model.links.iter().find(|link| link.name == visual.link);
+        let Some(link) = link.filter(|link| link.body == body) else { continue };
+        let pose = link.pose * visual.pose;
+        let [red, green, blue, _] = visual.colour.map(|share| (share * 255.0) as u8);
+        let place = |vertex: &[f32; 3]| array(&(pose * Point3::from(vertex.map(f64::from))).coords);
+        let mesh = Mesh3D::new(visual.vertices_m.iter().map(place))
+            .with_triangle_indices(visual.faces.iter().copied())
+            .with_vertex_normals(normals(visual).iter().map(|normal| array(&(pose.rotation * normal))))
+            .with_vertex_colors(vec![Color::from_rgb(red, green, blue); visual.vertices_m.len()]);
+        recording.log_static(path / EntityPathPart::new(format!("visual-{number}")), &mesh)?;
+    }
+    Ok(())
+}
+
+/// Returns the normal at each corner of a mesh: the sum of those of its triangles, weighted by their areas.
+fn normals(visual: &VisualMesh) -> Vec<Vector3<f64>> {
+    let corner = |index: u32| Vector3::from(visual.vertices_m[index as usize].map(f64::from));
+    let mut normals = vec![Vector3::zeros(); visual.vertices_m.len()];
+    for face in &visual.faces {
+        let [one, two, three] = face.map(corner);
+        let normal = (two - one).cross(&(three - one));
+        face.iter().for_each(|index| normals[*index as usize] += normal);
+    }
+    normals.iter().map(|normal: &Vector3<f64>| normal.try_normalize(0.0).unwrap_or(Vector3::z())).collect()
 }
 
 /// Logs a height field.

@@ -82,6 +82,58 @@ fn a_training_run_is_watched_live() {
 }
 
 #[test]
+fn a_robot_is_steered_by_letters() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let Some(mut command) = treadmill(folder.path()) else { return };
+    let model = Path::new(env!("CARGO_MANIFEST_DIR")).join("../actor/humanoid/assets/g1-like-servos.xml");
+    let card = format!(
+        "model = '{}'\nfeet = ['left_foot', 'right_foot']\n[[hinges]]\nnames = '*'\neffort_nm = 60.0\n",
+        model.display()
+    );
+    fs::write(folder.path().join("card.toml"), card).expect("a card");
+    command.args(["train", "--preset", "smoke", "--steps", "1024", "--model", "card.toml", "--run-dir", "run"]);
+    command.args(["--set", "env.task=velocity", "--set", "env.control_step_s=0.02", "--no-progress"]);
+    let trained = command.output().expect("it starts");
+    assert!(trained.status.success(), "{}", String::from_utf8_lossy(&trained.stderr));
+
+    let mut command = viewer(folder.path());
+    command.args(["run", "--steer", "--for-s", "1", "--speed", "20", "--rrd", "steered.rrd"]);
+    let letters = tempfile::NamedTempFile::new().expect("a file");
+    fs::write(letters.path(), "wwq").expect("letters");
+    command.stdin(fs::File::open(letters.path()).expect("letters"));
+    let output = command.output().expect("the viewer starts");
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    assert!(String::from_utf8_lossy(&output.stdout).contains("w s forward and back"));
+    let (rows, _) = read(&folder.path().join("steered.rrd"));
+    // 1 s in steps of 20 ms, perhaps in several episodes with gaps; one more row has the names of the curves.
+    let steps = rows["/world/velocities"];
+    assert!((20..=51).contains(&steps), "{rows:#?}");
+    assert_eq!(rows["/commands"], steps + 1, "{rows:#?}");
+}
+
+#[test]
+fn visual_meshes_replace_the_shapes() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    // A tetrahedron, in the frame of the humanoid's torso.
+    fs::write(
+        folder.path().join("part.obj"),
+        "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n",
+    )
+    .expect("a mesh");
+    let text = "<mujoco><asset><mesh name='part' file='part.obj' scale='0.1 0.1 0.1'/></asset><worldbody>\
+                <body name='torso'><geom type='mesh' mesh='part' contype='0' conaffinity='0' rgba='1 0 0 1'/>\
+                <geom type='mesh' mesh='part'/></body></worldbody></mujoco>";
+    fs::write(folder.path().join("seen.xml"), text).expect("a model");
+    let mut command = viewer(folder.path());
+    command.arg(policy()).args(["--episodes", "1", "--for-s", "0.3", "--rrd", "seen.rrd", "--model", "seen.xml"]);
+    let output = command.output().expect("the viewer starts");
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let (rows, _) = read(&folder.path().join("seen.rrd"));
+    assert_eq!(rows.get("/world/body/torso/visual-0"), Some(&1), "{rows:#?}");
+    assert!(!rows.keys().any(|path| path.contains("/shape-") || path.contains("visual-1")), "{rows:#?}");
+}
+
+#[test]
 fn invalid_arguments_are_refused_by_name() {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let refused = |args: &[&str], code: i32, parts: &[&str]| {
@@ -102,6 +154,8 @@ fn invalid_arguments_are_refused_by_name() {
     refused(&[policy, "--rrd", "absent/a.rrd"], 1, &["--rrd absent/a.rrd"]);
     refused(&[policy, "--speed", "0"], 2, &["--speed"]);
     refused(&[policy, "--actor", "a"], 2, &["--live"]);
+    refused(&[policy, "--steer", "--rrd", "a.rrd"], 2, &["--steer", "no commands", "--preset g1"]);
+    refused(&[policy, "--model", "absent.xml", "--rrd", "a.rrd"], 1, &["absent.xml"]);
     refused(&["--live", "--connect", "tcp/127.0.0.1:9", "--actor", "a/b"], 2, &["--actor", "a/b"]);
     refused(&["--live", "--connect", "tcp/127.0.0.1:9"], 1, &["no process listens at tcp/127.0.0.1:9"]);
     let taken = std::net::TcpListener::bind("127.0.0.1:0").expect("a port");

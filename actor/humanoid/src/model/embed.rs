@@ -20,7 +20,7 @@ use super::{HEIGHT_FIELD_SIDE_MAX, hull};
 use crate::error::ModelError;
 
 /// Largest file of a mesh or of heights.
-const FILE_BYTES_MAX: u64 = 64 << 20;
+pub(super) const FILE_BYTES_MAX: u64 = 64 << 20;
 
 /// Returns the text with the numbers of all files that motion depends on; `folder` is that of the outermost model file.
 ///
@@ -117,20 +117,20 @@ fn collect_needs<'a>(
 }
 
 /// Folder of a model's meshes and height fields.
-struct AssetFolder {
+pub(super) struct AssetFolder {
     path: PathBuf,
     are_paths_stripped: bool,
 }
 
 impl AssetFolder {
-    fn new(model: &Path, root: Node<'_, '_>) -> Self {
+    pub(super) fn new(model: &Path, root: Node<'_, '_>) -> Self {
         let setting = |name: &str| sections(root, "compiler").filter_map(|compiler| compiler.attribute(name)).last();
         // As in MuJoCo 4.0, `meshdir` is that of height fields, too, and precedes `assetdir`.
         let folder = setting("meshdir").or(setting("assetdir")).unwrap_or_default();
         Self { path: model.join(folder), are_paths_stripped: setting("strippath") == Some("true") }
     }
 
-    fn file(&self, name: &str) -> PathBuf {
+    pub(super) fn file(&self, name: &str) -> PathBuf {
         let given = Path::new(name);
         self.path.join(given.file_name().filter(|_| self.are_paths_stripped).map_or(given, Path::new))
     }

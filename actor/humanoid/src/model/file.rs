@@ -26,28 +26,41 @@ pub fn read_model_file(path: &Path) -> Result<String, ModelError> {
 }
 
 fn read_card_file(path: &Path) -> Result<String, ModelError> {
-    let text = read_text(path)?;
-    let name = RobotCard::parse(&text)?.model;
-    if name.is_empty() {
-        return Err(ModelError::Card("`model`, the path of the model file, is missing".to_owned()));
-    }
-    let model = path.parent().unwrap_or(Path::new("")).join(name);
-    if model.extension().is_some_and(|kind| kind.eq_ignore_ascii_case("toml")) {
-        return Err(ModelError::Card(format!("`model` is `{}`, but must be an MJCF file", model.display())));
-    }
-    let whole = card::with_card(&read_mjcf_file(&model)?, &text)?;
+    let whole = card::with_card(&read_mjcf_file(&mjcf_of(path)?)?, &read_text(path)?)?;
     check_length(whole.len() as u64)?;
     Ok(whole)
 }
 
-fn read_mjcf_file(path: &Path) -> Result<String, ModelError> {
+/// Returns the MJCF file that a robot card names, or that `path` is.
+pub(super) fn mjcf_of(path: &Path) -> Result<PathBuf, ModelError> {
+    let is_card = |path: &Path| path.extension().is_some_and(|kind| kind.eq_ignore_ascii_case("toml"));
+    if !is_card(path) {
+        return Ok(path.to_path_buf());
+    }
+    let name = RobotCard::parse(&read_text(path)?)?.model;
+    if name.is_empty() {
+        return Err(ModelError::Card("`model`, the path of the model file, is missing".to_owned()));
+    }
+    let model = path.parent().unwrap_or(Path::new("")).join(name);
+    match is_card(&model) {
+        true => Err(ModelError::Card(format!("`model` is `{}`, but must be an MJCF file", model.display()))),
+        false => Ok(model),
+    }
+}
+
+/// Returns the text of an MJCF file in which each `<include>` is replaced.
+pub(super) fn text_with_includes(path: &Path) -> Result<String, ModelError> {
     let folder = path.parent().unwrap_or(Path::new("")).to_path_buf();
-    let text = Reader { folder: folder.clone(), seen: Vec::new() }.read(path.to_path_buf())?;
+    Reader { folder, seen: Vec::new() }.read(path.to_path_buf())
+}
+
+fn read_mjcf_file(path: &Path) -> Result<String, ModelError> {
+    let text = text_with_includes(path)?;
     // The reader of the whole model reports other errors better.
     if !text.contains("file=") && !text.contains("file =") {
         return Ok(text);
     }
-    let text = embed::embed(&text, &folder)?;
+    let text = embed::embed(&text, path.parent().unwrap_or(Path::new("")))?;
     check_length(text.len() as u64)?;
     Ok(text)
 }

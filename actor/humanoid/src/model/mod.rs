@@ -24,6 +24,7 @@ mod pairs;
 mod softness;
 mod tendon;
 mod values;
+mod visual;
 mod vocabulary;
 mod xml;
 
@@ -42,6 +43,7 @@ pub use self::mjcf::{BODIES_MAX, HINGES_MAX, SHAPES_MAX};
 pub use self::pairs::{PAIRS_MAX, Pair, ShapeIndex};
 pub use self::softness::Softness;
 pub use self::tendon::TENDONS_MAX;
+pub use self::visual::{VisualMesh, visual_meshes};
 pub use self::xml::MODEL_BYTES_MAX;
 pub(crate) use self::xml::with_custom_text;
 use crate::card::Robot;
