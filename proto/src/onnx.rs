@@ -1,4 +1,4 @@
-//! Policy as an ONNX model: its input is raw observations, its output actions in the units of the motors.
+//! Policy as an ONNX model: its input is raw observations, its output actions between a lowest and a highest one.
 //!
 //! ```text
 //! observation ─ Sub mean ─ Mul 1/std ─ Clip ─ (Gemm ─ Elu)… ─ Gemm ─ Clip ±1 ─ Mul half ─ Add centre ─ action
@@ -39,6 +39,8 @@ pub struct OnnxPolicy<'a> {
     pub low: &'a [f32],
     /// `[action]`: action at policy output 1.
     pub high: &'a [f32],
+    /// What the model turns into what, for readers.
+    pub doc: &'a str,
     /// Names and values of the model's metadata.
     pub metadata: Vec<(String, String)>,
 }
@@ -81,7 +83,7 @@ impl OnnxPolicy<'_> {
             ir_version: IR_VERSION,
             producer_name: "treadmill".to_string(),
             producer_version: env!("CARGO_PKG_VERSION").to_string(),
-            doc_string: "raw observations to actions in the units of the motors".to_string(),
+            doc_string: self.doc.to_string(),
             opset_import: vec![wire::OperatorSetIdProto { domain: String::new(), version: OPERATORS }],
             graph: Some(wire::GraphProto {
                 node: graph.nodes,

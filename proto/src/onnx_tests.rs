@@ -48,6 +48,7 @@ fn actions_match_a_hand_computation() {
         ],
         low: &[-0.2],
         high: &[0.6],
+        doc: "c",
         metadata: vec![("treadmill.a".into(), "b".into())],
     };
     let model = policy.encode();

@@ -5,6 +5,7 @@ mod check;
 mod dashboard;
 mod eval;
 mod export;
+mod export_velocity;
 mod film;
 mod lifecycle;
 mod model;

@@ -2,12 +2,22 @@
 
 use treadmill_proto::onnx::{Layer, OnnxPolicy};
 
-use crate::exported::ExportedPolicy;
+use crate::exported::{ActionFacts, ExportedPolicy};
 
-/// Returns the bytes of an ONNX file: normalisation, the actor's layers and the range of each motor. Metadata entries
-/// `treadmill.*` name the observation, the motors and the duration of a control step.
+/// What a model has for the controller of a robot.
+#[derive(Clone, Debug)]
+pub struct ForController {
+    /// Largest action, in the unit of action of each joint; replaces the ranges of the motors.
+    pub action_limit: f32,
+    /// Metadata entries beside `treadmill.*`.
+    pub metadata: Vec<(String, String)>,
+}
+
+/// Returns the bytes of an ONNX file: normalisation, the actor's layers and the range of each action. Metadata entries
+/// `treadmill.*` name the observation, the motors and the duration of a control step. Actions are in the units of the motors,
+/// or in those of a controller.
 #[must_use]
-pub fn to_onnx(policy: &ExportedPolicy) -> Vec<u8> {
+pub fn to_onnx(policy: &ExportedPolicy, controller: Option<&ForController>) -> Vec<u8> {
     let normaliser = policy.normaliser();
     let part = |range: std::ops::Range<usize>| &policy.parameters[range];
     let layers = policy.shape.actor();
@@ -16,14 +26,26 @@ pub fn to_onnx(policy: &ExportedPolicy) -> Vec<u8> {
         ("action", policy.action.names.join(",")),
         ("control_step_s", policy.control_step_s.to_string()),
     ];
+    let metadata = metadata.map(|(key, value)| (format!("treadmill.{key}"), value)).into_iter();
+    let (low, high, doc) = match controller {
+        None => {
+            let ActionFacts { low, high, .. } = &policy.action;
+            (low.clone(), high.clone(), "raw observations to actions in the units of the motors")
+        }
+        Some(ForController { action_limit, .. }) => {
+            let high = vec![*action_limit; policy.shape.action];
+            (high.iter().map(|end| -end).collect(), high, "raw observations to actions in units of action_scale")
+        }
+    };
     OnnxPolicy {
         mean: &normaliser.mean[..policy.shape.seen_by_actor()],
         inverse_std: &normaliser.inverse_std[..policy.shape.seen_by_actor()],
         clip: normaliser.clip,
         layers: layers.iter().map(|dense| Layer { weight: part(dense.weight()), bias: part(dense.bias()) }).collect(),
-        low: &policy.action.low,
-        high: &policy.action.high,
-        metadata: metadata.map(|(key, value)| (format!("treadmill.{key}"), value)).to_vec(),
+        low: &low,
+        high: &high,
+        doc,
+        metadata: metadata.chain(controller.iter().flat_map(|of| of.metadata.clone())).collect(),
     }
     .encode()
 }

@@ -8,7 +8,7 @@ use crate::randomisation::{stream, uniform};
 /// Sum of the magnitudes (m/s and rad/s) below which a command says: stand.
 pub const STANDING_COMMAND: f64 = 0.1;
 /// Yaw rate per error of the heading (1/s).
-const HEADING_GAIN: f64 = 0.5;
+pub const HEADING_GAIN: f64 = 0.5;
 
 /// Velocity that the robot is told to have, in its heading frame.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

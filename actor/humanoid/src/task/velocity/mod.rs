@@ -18,7 +18,7 @@ use nalgebra::Vector3;
 use rand::RngExt;
 
 use self::command::Drawn;
-pub use self::command::{Command, STANDING_COMMAND};
+pub use self::command::{Command, HEADING_GAIN, STANDING_COMMAND};
 pub use self::feet::{FEET, Foot, Stride, stride};
 pub use self::rewards::{BaseMotion, Body, HingeMotion, terms};
 use super::{Evaluation, ObservationTerm, Step, Task};

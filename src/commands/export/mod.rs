@@ -1,4 +1,11 @@
 //! `treadmill export`: writes a trained policy as a file that other programs read.
+//!
+//! # Layout
+//! - `contract`: what a robot's controller must know of a policy of the velocity task.
+//! - `deploy`: the same as `deploy.yaml`, which Unitree's controllers read.
+
+mod contract;
+mod deploy;
 
 use std::path::{Path, PathBuf};
 
@@ -9,23 +16,28 @@ use treadmill_learner::checkpoint::Which;
 use treadmill_policy::onnx::to_onnx;
 use treadmill_runtime::atomic_file;
 
+use self::contract::Contract;
 use crate::{
-    launch::output::say,
+    launch::{exit_code::Usage, output::say},
     shared::saved_policy::{self, Origin, SavedPolicy},
 };
 
 /// Flags of `export`.
 #[derive(Args)]
-#[command(group(ArgGroup::new("files").args(["safetensors", "onnx"]).multiple(true).required(true)))]
+#[command(group(ArgGroup::new("files").args(["safetensors", "onnx", "deploy"]).multiple(true).required(true)))]
 pub struct ExportArgs {
     /// Run folder, name below runs/, bundle file, or a file that `export` wrote.
     run: String,
     /// Write weights, observation statistics and task as one safetensors file.
     #[arg(long, value_name = "FILE")]
     safetensors: Option<PathBuf>,
-    /// Write the policy as an ONNX model from raw observations to actions, normalisation included.
+    /// Write the policy as an ONNX model from raw observations to actions, normalisation included; for the velocity task with
+    /// its contract.
     #[arg(long, value_name = "FILE")]
     onnx: Option<PathBuf>,
+    /// Write gains, default pose, action scales and observation of the velocity task as deploy.yaml, for Unitree's controllers.
+    #[arg(long, value_name = "FILE")]
+    deploy: Option<PathBuf>,
     /// Checkpoint: best, latest, or the number of updates of a kept one; by default best if it exists.
     #[arg(long, value_name = "WHICH")]
     checkpoint: Option<Which>,
@@ -38,9 +50,17 @@ pub struct ExportArgs {
 pub fn run(args: &ExportArgs) -> anyhow::Result<()> {
     let SavedPolicy { policy, origin, .. } = saved_policy::load(&args.run, args.checkpoint)?;
     let config = policy.config();
-    if !config.is_external() {
+    let contract = match config.is_external() {
+        true => None,
         // Refuses a policy that `eval` would refuse.
-        saved_policy::environment(&args.run, &policy, &config)?;
+        false => Contract::new(&saved_policy::environment(&args.run, &policy, &config)?)?,
+    };
+    if contract.is_none() && args.deploy.is_some() {
+        let (run, task) = (&args.run, config.task_name());
+        let why = format!(
+            "--deploy needs a policy of the velocity task, and `{run}` was trained for `{task}`; leave --deploy out"
+        );
+        return Err(Usage(why).into());
     }
     // Also run for ONNX alone, because it checks that shapes match.
     let bytes = policy.to_bytes().with_context(|| format!("the policy of `{}` cannot be exported", args.run))?;
@@ -58,8 +78,14 @@ pub fn run(args: &ExportArgs) -> anyhow::Result<()> {
         written.push(write(path, &bytes, what)?);
     }
     if let Some(path) = &args.onnx {
-        let what = format!("{actor}, with normalisation and ranges of the motors, as ONNX");
-        written.push(write(path, &to_onnx(&policy), what)?);
+        let controller = contract.as_ref().map(Contract::for_controller).transpose()?;
+        let of_actions = if controller.is_some() { "the contract of its controller" } else { "ranges of the motors" };
+        let what = format!("{actor}, with normalisation and {of_actions}, as ONNX");
+        written.push(write(path, &to_onnx(&policy, controller.as_ref()), what)?);
+    }
+    if let (Some(path), Some(contract)) = (&args.deploy, &contract) {
+        let what = format!("{of}gains, default pose and observation for Unitree's controllers");
+        written.push(write(path, deploy::yaml(contract)?.as_bytes(), what)?);
     }
     if args.json {
         let files: Vec<_> = written.iter().map(|file| json!({"file": file.path, "bytes": file.bytes})).collect();

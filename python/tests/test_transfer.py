@@ -1,0 +1,403 @@
+"""Tests of the player of exported policies, with a small robot and a network whose action is known."""
+
+import contextlib
+import io
+import json
+import math
+import tempfile
+import unittest
+from pathlib import Path
+
+import numpy
+
+try:
+    import mujoco
+    import onnx
+    import onnxruntime  # noqa: F401: the player needs it
+except ImportError as why:
+    raise unittest.SkipTest(f"{why.name} is not installed") from why
+
+from treadmill_transfer import cli, errors
+from treadmill_transfer.commands import DrawnCommands, FileCommands, Pushes
+from treadmill_transfer.contract import Policy, read_contract
+from treadmill_transfer.controller import Controller, phase
+from treadmill_transfer.ground import Ground
+from treadmill_transfer.play import play_episode, summary
+from treadmill_transfer.robot import Robot, heading_velocity, substeps
+from treadmill_transfer.trace import TOLERANCES, compare
+
+# A box on a wide foot, with two hinged arms and a joint that no policy moves.
+ROBOT = """
+<mujoco>
+  <option timestep="0.004" integrator="implicitfast"/>
+  <worldbody>
+    FLOOR
+    <body name="base" pos="0 0 0.2">
+      <freejoint/>
+      <geom type="box" size="0.2 0.2 0.2" mass="10"/>
+      <body name="left" pos="0 0.3 0.1">
+        <joint name="left_arm" axis="0 1 0" damping="0"/>
+        <geom type="capsule" fromto="0 0 0 0 0 -0.2" size="0.03" mass="0.5" contype="0" conaffinity="0"/>
+      </body>
+      <body name="tail" pos="-0.3 0 0.1">
+        <joint name="tail" axis="0 1 0"/>
+        <geom type="capsule" fromto="0 0 0 0 0 -0.1" size="0.02" mass="0.1" contype="0" conaffinity="0"/>
+      </body>
+      <body name="right" pos="0 -0.3 0.1">
+        <joint name="right_arm" axis="0 1 0" damping="0"/>
+        <geom type="capsule" fromto="0 0 0 0 0 -0.2" size="0.03" mass="0.5" contype="0" conaffinity="0"/>
+      </body>
+    </body>
+  </worldbody>
+  <actuator><motor joint="left_arm"/><motor joint="tail"/></actuator>
+  <keyframe><key qpos="0 0 1 1 0 0 0 0 0 0" ctrl="1 2"/></keyframe>
+</mujoco>
+"""
+FLOOR = '<geom name="floor" type="plane" size="0 0 1"/>'
+TERMS = [
+    ("base_ang_vel", 3),
+    ("projected_gravity", 3),
+    ("velocity_commands", 3),
+    ("joint_pos_rel", 2),
+    ("joint_vel_rel", 2),
+    ("last_action", 2),
+    ("gait_phase", 2),
+]
+WIDTH = 17
+
+
+def contract(**changes):
+    """Returns the JSON object of a contract."""
+    joints = {
+        "joint_names": ["right_arm", "left_arm"],
+        "default_joint_pos": [0.2, 0.1],
+        "joint_stiffness": [20.0, 30.0],
+        "joint_damping": [1.0, 2.0],
+        "joint_effort": [5.0, 6.0],
+        "joint_armature": [0.01, 0.02],
+    }
+    held = {
+        "joint_names": ["tail"],
+        "default_joint_pos": [0.3],
+        "joint_stiffness": [10.0],
+        "joint_damping": [0.5],
+        "joint_effort": [3.0],
+        "joint_armature": [0.03],
+    }
+    return {
+        "format": 1,
+        "control_step_s": 0.02,
+        "substeps": 4,
+        **joints,
+        "action_scale": [0.1, 0.2],
+        "action_limit": 4.0,
+        "held_joints": held,
+        "base_body": "base",
+        "feet_bodies": ["left", "right"],
+        "default_base_height_m": 0.2,
+        "default_base_orientation_wxyz": [1.0, 0.0, 0.0, 0.0],
+        "observation": [{"name": name, "size": size, "unit": "", "frame": ""} for name, size in TERMS],
+        "history": {"frames": 2, "order": "oldest first"},
+        "gait_period_s": 0.8,
+        "standing_threshold": 0.1,
+        "commands": {
+            "lin_vel_x_mps": [-0.5, 1.0],
+            "lin_vel_y_mps": [-0.3, 0.3],
+            "ang_vel_z_radps": [-0.5, 0.5],
+            "resampling_s": [1.0, 2.0],
+            "standing_share": 0.2,
+            "heading_share": 0.3,
+            "heading_gain_per_s": 0.5,
+        },
+        "fall": {"height_m": 0.1, "tilt_rad": 1.0},
+        "push_interval_s": [0.5, 1.0],
+        "push_mps": [0.1, 0.2],
+        **changes,
+    }
+
+
+def network(path, terms, metadata=None):
+    """Writes an ONNX model whose action is clip(observation × weight, ±4), with so many entries of one frame as `weight`."""
+    weight = numpy.zeros((2 * WIDTH, 2), dtype=numpy.float32)
+    for entry, column, value in terms:
+        weight[entry, column] = value
+    helper, tensor = onnx.helper, onnx.numpy_helper.from_array
+    constants = [tensor(weight, "weight"), tensor(numpy.float32(-4.0), "low"), tensor(numpy.float32(4.0), "high")]
+    port = lambda name, width: helper.make_tensor_value_info(name, onnx.TensorProto.FLOAT, ["batch", width])  # noqa: E731
+    nodes = [
+        helper.make_node("MatMul", ["observation", "weight"], ["x"]),
+        helper.make_node("Clip", ["x", "low", "high"], ["action"]),
+    ]
+    graph = helper.make_graph(nodes, "policy", [port("observation", 2 * WIDTH)], [port("action", 2)], constants)
+    model = helper.make_model(graph, opset_imports=[helper.make_opsetid("", 13)], ir_version=7)
+    entries = {"treadmill.contract": json.dumps(contract())} if metadata is None else metadata
+    onnx.helper.set_model_props(model, entries)
+    onnx.save(model, path)
+    return path
+
+
+class TransferTest(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = Path(folder.name)
+        self.model = self.folder / "robot.xml"
+        self.model.write_text(ROBOT.replace("FLOOR", FLOOR))
+        # The newest frame's command moves the arms: x the first joint, y the second.
+        self.onnx = network(str(self.folder / "policy.onnx"), [(WIDTH + 6, 0, 1.0), (WIDTH + 7, 1, -50.0)])
+
+    def run_cli(self, *arguments):
+        """Returns exit code, standard output and standard error of a command line."""
+        out, err = io.StringIO(), io.StringIO()
+        with contextlib.redirect_stdout(out), contextlib.redirect_stderr(err):
+            try:
+                code = cli.main([str(argument) for argument in arguments])
+            except SystemExit as end:
+                code = end.code
+        return code, out.getvalue(), err.getvalue()
+
+    def test_servos_are_those_of_the_contract(self):
+        robot = Robot(self.model, read_contract(json.dumps(contract())))
+        model = robot.model
+        self.assertEqual([model.actuator(index).name for index in range(model.nu)], ["right_arm", "left_arm", "tail"])
+        self.assertEqual((robot.substeps, model.opt.timestep), (5, 0.004))
+        self.assertEqual(model.dof_armature[model.joint("tail").dofadr[0]], 0.03)
+        # Targets beyond reach: the limit of torque. At rest in the default pose: no torque.
+        robot.reset()
+        numpy.testing.assert_allclose(robot.data.actuator_force, 0.0, atol=1e-12)
+        robot.data.ctrl[:] = [9.0, 0.2, 0.0]
+        numpy.testing.assert_allclose(robot.torques_nm(), [5.0, 30.0 * 0.1], rtol=1e-9)
+        self.assertAlmostEqual(robot.data.actuator_force[2], -10.0 * 0.3)
+        robot.data.qvel[robot.model.joint("left_arm").dofadr[0]] = 0.5
+        self.assertAlmostEqual(robot.torques_nm()[1], 30.0 * 0.1 - 2.0 * 0.5)
+
+    def test_time_steps_divide_the_control_step(self):
+        self.assertEqual(substeps(0.02, 0.004), (5, 0.004))
+        self.assertEqual(substeps(0.02, 0.003), (7, 0.02 / 7))
+        self.assertEqual(substeps(0.02, 0.05), (1, 0.02))
+        self.assertEqual(substeps(0.02, 0.005, 0.002), (10, 0.002))
+
+    def test_observation_has_the_frames_of_the_contract(self):
+        policy = Policy(self.onnx)
+        robot, controller = Robot(self.model, policy.contract), Controller(policy)
+        robot.reset()
+        half = math.pi / 12.0
+        # Pitched forwards by 30°, turning, with moved arms: left first in the file, second in the contract.
+        robot.set_state(
+            numpy.array([0, 0, 1, math.cos(half), 0, math.sin(half), 0, 0.4, 0.3, 0.5]),
+            numpy.array([1, 2, 3, 0.1, 0.2, 0.3, 4, 5, 6]),
+        )
+        command = numpy.array([0.5, -0.25, 0.125])
+        first = controller.observe(robot, command)
+        expected = [0.1, 0.2, 0.3, 0.5, 0.0, -math.cos(2 * half), *command, 0.3, 0.3, 6.0, 4.0, 0.0, 0.0, 0.0, 1.0]
+        numpy.testing.assert_allclose(first, expected * 2, atol=1e-12)
+        targets = controller.taken(numpy.array([1.0, 9.0]))
+        numpy.testing.assert_allclose(targets, [0.2 + 0.1, 0.1 + 4.0 * 0.2])
+        second = controller.observe(robot, command)
+        numpy.testing.assert_allclose(second[:WIDTH], expected, atol=1e-12)
+        angle = 2.0 * math.pi * 0.02 / 0.8
+        numpy.testing.assert_allclose(second[WIDTH + 13 :], [1.0, 4.0, math.sin(angle), math.cos(angle)])
+        self.assertEqual(controller.entry_name(WIDTH + 12), "joint_vel_rel[left_arm]")
+        self.assertEqual(controller.entry_name(1), "base_ang_vel[1], 1 frames ago")
+        numpy.testing.assert_array_equal(phase(policy.contract, 10, [0.05, 0.0, 0.049]), [0.0, 0.0])
+        self.assertAlmostEqual(phase(policy.contract, 10, [0.05, 0.0, 0.051])[0], 1.0)
+
+    def test_velocity_is_seen_in_the_heading_frame(self):
+        cos, sin = math.cos(0.3), math.sin(0.3)
+        # Turned left by 90°, then pitched about its own left by 0.3.
+        turned = numpy.array([[0.0, -1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]])
+        rotation = turned @ numpy.array([[cos, 0.0, sin], [0.0, 1.0, 0.0], [-sin, 0.0, cos]])
+        found = heading_velocity(rotation, numpy.array([-0.2, 0.7, 5.0]), numpy.array([1.0, 2.0, 3.0]))
+        numpy.testing.assert_allclose(found, [0.7, 0.2, -sin + 3.0 * cos])
+
+    def test_windows_begin_a_second_after_a_change_and_contain_none(self):
+        self.assertEqual(errors.windows([0, 170], 330, 0.02), [(50, 100), (100, 150), (220, 270), (270, 320)])
+        self.assertEqual(errors.windows([0, 99, 198], 290, 0.02), [])
+
+    def test_errors_equal_values_by_hand(self):
+        velocities, commands = numpy.zeros((150, 3)), numpy.tile([0.4, 0.0, 0.2], (150, 1))
+        # Before the first window nothing counts. In a window means count, so that swaying cancels.
+        velocities[:50] = 9.0
+        velocities[50:100:2], velocities[51:100:2] = [0.7, 0.4, -0.1], [0.7, 0.4, 0.3]
+        velocities[100:150] = [0.4, -0.1, 0.2]
+        found = errors.window_errors(velocities, commands, [0], 0.02)
+        numpy.testing.assert_allclose(found, [[0.5, 0.1], [0.1, 0.0]], atol=1e-12)
+
+    def test_commands_are_resampled_within_their_ranges(self):
+        whole = read_contract(json.dumps(contract()))
+        schedule, changes, stands, seen = DrawnCommands(whole, numpy.random.default_rng(3)), [], 0, []
+        for step in range(20_000):
+            command, is_new = schedule.at(step, 0.4)
+            if is_new:
+                changes.append(step)
+                stands += not command.any()
+            seen.append(command)
+        low, high = numpy.min(seen, axis=0), numpy.max(seen, axis=0)
+        self.assertTrue((low >= whole.ranges[:, 0]).all() and (high <= whole.ranges[:, 1]).all())
+        self.assertTrue((high - low > 0.8 * (whole.ranges[:, 1] - whole.ranges[:, 0])).all())
+        held = numpy.diff(changes)
+        self.assertTrue(held.min() >= 50 and held.max() <= 100)
+        self.assertTrue(0.1 < stands / len(changes) < 0.3)
+
+    def test_a_heading_is_turned_to_the_short_way_round(self):
+        schedule = DrawnCommands(read_contract(json.dumps(contract(commands={**contract()["commands"], "heading_share": 1.0, "standing_share": 0.0}))), numpy.random.default_rng(1))
+        schedule.at(0, 0.0)
+        schedule._heading_rad = -3.0
+        command, is_new = schedule.at(1, 3.0)
+        self.assertFalse(is_new)
+        self.assertAlmostEqual(command[2], 0.5 * (2.0 * math.pi - 6.0))
+
+    def test_pushes_come_at_the_contracts_intervals(self):
+        whole = read_contract(json.dumps(contract()))
+        pushes = Pushes(whole, numpy.random.default_rng(5))
+        found = [(step, push) for step in range(2000) if (push := pushes.before(step)) is not None]
+        gaps = numpy.diff([0, *(step for step, _ in found)])
+        self.assertTrue(len(found) > 35 and gaps.min() >= 25 and gaps.max() <= 50)
+        speeds = [numpy.hypot(*push) for _, push in found]
+        self.assertTrue(min(speeds) >= 0.1 and max(speeds) <= 0.2)
+        self.assertIsNone(Pushes(read_contract(json.dumps(contract(push_mps=[0.0, 0.0]))), numpy.random.default_rng(5)).before(25))
+
+    def test_commands_of_a_file_begin_at_their_times(self):
+        rows = FileCommands([(0.1, numpy.array([1.0, 0.0, 0.0])), (0.2, numpy.array([1.0, 0.0, 0.0]))], 0.02)
+        found = [rows.at(step, 0.0) for step in range(12)]
+        self.assertEqual([step for step, (_, is_new) in enumerate(found) if is_new], [0, 5])
+        self.assertEqual([command[0] for command, _ in found], [0.0] * 5 + [1.0] * 7)
+
+    def test_an_episode_is_played_and_ends_with_a_fall(self):
+        policy = Policy(self.onnx)
+        robot, controller = Robot(self.model, policy.contract), Controller(policy)
+        rows = [(0.0, numpy.array([0.5, 0.02, 0.0]))]
+        episode = play_episode(robot, controller, 150, 1, 0, rows, pushes=False)
+        self.assertEqual((episode.steps, episode.fell, len(episode.errors)), (150, False, 2))
+        # It stands where it is, so its error is the command, and the arms are at their targets.
+        self.assertAlmostEqual(episode.errors[0][0], math.hypot(0.5, 0.02), delta=0.01)
+        numpy.testing.assert_allclose(controller.action, [0.5, -1.0], rtol=1e-6)
+        numpy.testing.assert_allclose(robot.angles_rad, [0.2 + 0.05, 0.1 - 0.2], atol=0.1)
+        again = play_episode(robot, controller, 150, 1, 0, rows, pushes=False)
+        self.assertEqual(again.distance_m, episode.distance_m)
+        pushed = [play_episode(robot, controller, 150, 1, 0) for _ in range(2)]
+        self.assertEqual(pushed[0].distance_m, pushed[1].distance_m)
+        self.assertNotEqual(pushed[0].distance_m, play_episode(robot, controller, 150, 2, 0).distance_m)
+        policy.contract.fall_height_m = 0.3
+        fallen = play_episode(robot, controller, 150, 1, 0)
+        self.assertEqual((fallen.steps, fallen.fell), (1, True))
+        both = summary([episode, fallen])
+        self.assertEqual((both["episodes"], both["falls"], both["length_mean"], both["windows"]), (2, 1, 75.5, 2))
+        self.assertAlmostEqual(both["velocity_error_mps"], episode.errors[:, 0].mean())
+        self.assertIsNone(summary([fallen])["velocity_error_mps"])
+
+    def test_a_ground_replaces_the_floor(self):
+        heights = numpy.array([[0.5, 0.5, 0.9], [0.5, 0.5, 0.9]])
+        ground = Ground(numpy.array([-1.0, 3.0]), numpy.array([-2.0, 2.0]), heights, numpy.array([[0.0, 0.0, 0.5, math.pi / 2]]))
+        for text in (ROBOT.replace("FLOOR", FLOOR), ROBOT.replace("FLOOR", "")):
+            self.model.write_text(text)
+            robot = Robot(self.model, read_contract(json.dumps(contract())), ground=ground)
+            robot.reset(ground.starts[0])
+            self.assertAlmostEqual(robot.position_m[2], 0.7)
+            self.assertAlmostEqual(robot.ground_m(), 0.5)
+            self.assertAlmostEqual(robot.heading_rad, math.pi / 2)
+            self.assertFalse(robot.has_fallen())
+            robot.step(robot.contract.joints.default_rad)
+            self.assertAlmostEqual(robot.position_m[2], 0.7, delta=0.005)
+            robot.position_m[0] = 2.0
+            self.assertAlmostEqual(robot.ground_m(), 0.7, delta=1e-6)
+
+    def test_a_trace_is_compared_boundary_by_boundary(self):
+        policy = Policy(self.onnx)
+        robot, controller = Robot(self.model, policy.contract), Controller(policy)
+        robot.reset()
+        lines, command = [], numpy.array([0.5, 0.02, 0.0])
+        for _ in range(4):
+            qpos, qvel = robot.state()
+            robot.set_state(qpos, qvel)
+            observation = controller.observe(robot, command)
+            action = controller.act(observation)
+            robot.step(controller.taken(action))
+            torque = numpy.zeros(3)
+            torque[robot.policy_hinges] = robot.torques_nm()
+            # The critic's part of an observation follows, and quaternions have two signs.
+            qpos[3:7] *= -1.0
+            lines.append({
+                "observation": numpy.append(observation, 7.0), "action": action / 4.0, "episode": 1,
+                "command": command, "qpos": qpos, "qvel": qvel, "torque": torque,
+            })  # fmt: skip
+        first, largest = compare(robot, controller, lines, TOLERANCES)
+        self.assertIsNone(first)
+        self.assertTrue(max(largest.values()) < 1e-6, largest)
+        for key, index, boundary, entry in [
+            ("observation", WIDTH + 1, "observation", "base_ang_vel[1]"),
+            ("action", 1, "action", "left_arm"),
+            ("torque", 2, "torque", "right_arm"),
+        ]:
+            changed = [dict(line) for line in lines]
+            changed[2][key] = lines[2][key].copy()
+            changed[2][key][index] += 50.0 if key == "torque" else 0.01
+            first, _ = compare(robot, controller, changed, TOLERANCES)
+            self.assertEqual((first["boundary"], first["step"], first["entry"]), (boundary, 3, entry))
+        changed = [dict(line) for line in lines]
+        changed[3]["qvel"] = lines[3]["qvel"] + numpy.eye(9)[6] * 5.0
+        first, _ = compare(robot, controller, changed, TOLERANCES)
+        self.assertEqual((first["boundary"], first["step"], first["entry"]), ("state", 3, "rate of left_arm"))
+        self.assertAlmostEqual(first["tolerance"], TOLERANCES["state"] / 0.02)
+
+        path = self.folder / "trace.jsonl"
+        as_text = lambda line: json.dumps({key: getattr(value, "tolist", lambda: value)() for key, value in line.items()})  # noqa: B023, E731
+        path.write_text("\n".join(map(as_text, changed)))
+        command_line = [self.onnx, "--model", self.model, "--trace", path]
+        code, out, _ = self.run_cli(*command_line)
+        self.assertEqual(code, 1)
+        self.assertIn("first difference: state at step 3 of episode 1, rate of left_arm", out)
+        code, out, _ = self.run_cli(*command_line, "--tolerance", "state=1", "--json")
+        # The changed rate is also seen in the next observation.
+        self.assertEqual((code, json.loads(out)["first_difference"]["boundary"]), (1, "observation"))
+        self.assertEqual(self.run_cli(*command_line, "--tolerance", "10")[0], 0)
+        path.write_text(as_text({**lines[0], "qpos": lines[0]["qpos"][1:]}))
+        code, _, err = self.run_cli(*command_line)
+        self.assertEqual(code, 2)
+        self.assertIn("trace.jsonl`, line 1: `qpos` has 9 numbers, but the model needs 10", err)
+
+    def test_the_last_line_is_one_json_object(self):
+        code, out, err = self.run_cli(self.onnx, "--model", self.model, "--episodes", 2, "--seconds", 3, "--json")
+        self.assertEqual((code, err), (0, ""))
+        result = json.loads(out.splitlines()[-1])
+        wanted = {"episodes", "falls", "velocity_error_mps", "yaw_rate_error_radps", "distance_mean_m", "length_mean"}
+        self.assertTrue(wanted <= set(result))
+        self.assertEqual((result["episodes"], result["length_mean"]), (2, 150.0))
+        code, out, _ = self.run_cli(self.onnx, "--model", self.model, "--episodes", 2, "--seconds", 3)
+        self.assertEqual(code, 0)
+        self.assertIn("velocity error", out)
+
+    def test_bad_input_is_named_in_one_line(self):
+        def refused(*parts, policy=self.onnx, model=self.model, more=()):
+            code, out, err = self.run_cli(policy, "--model", model, "--episodes", 1, "--seconds", 0.1, *more)
+            self.assertEqual((code, out, err.count("\n")), (2, "", 1), err)
+            for part in parts:
+                self.assertIn(part, err)
+
+        refused("nowhere.onnx", "no such file", "treadmill export", policy="nowhere.onnx")
+        refused("robot.xml", "not an ONNX model", policy=self.model)
+        foreign = network(str(self.folder / "foreign.onnx"), [], metadata={"a": "b"})
+        refused("foreign.onnx", "has no contract", policy=foreign)
+        network(foreign, [], metadata={"treadmill.contract": json.dumps(contract(format=2))})
+        refused("foreign.onnx", "`format` is 2", policy=foreign)
+        network(foreign, [], metadata={"treadmill.contract": json.dumps(contract(action_scale=[1.0]))})
+        refused("foreign.onnx", "`action_scale` is not a list of 2", policy=foreign)
+        network(foreign, [], metadata={"treadmill.contract": json.dumps(contract(observation=[{"name": "eyes", "size": 17}]))})
+        refused("`eyes`", policy=foreign)
+        refused("missing.xml", model="missing.xml")
+        self.model.write_text(ROBOT.replace("FLOOR", FLOOR).replace("right_arm", "right_hand"))
+        self.assertRaises(ValueError, mujoco.MjModel.from_xml_string, "<mujoco")
+        refused("robot.xml", "has no joint `right_arm`", "left_arm, tail, right_hand")
+        self.model.write_text(ROBOT.replace("FLOOR", FLOOR))
+        commands = self.folder / "commands.csv"
+        refused("commands.csv", more=("--commands", commands))
+        commands.write_text("time_s,vx,vy,yaw_rate\n0,0,0,0\n1,2,x,4\n")
+        refused("commands.csv", "line 3", "1,2,x,4", more=("--commands", commands))
+        refused("--timestep 0.003", "0.02", more=("--timestep", 0.003))
+        ground = self.folder / "ground.json"
+        ground.write_text('{"x_m": [0, 1]}')
+        refused("ground.json", "'y_m'", more=("--ground", ground))
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,185 @@
+"""What an exported policy says of the robot, its observation and its task."""
+
+import json
+import math
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy
+import onnxruntime
+
+ENTRY = "treadmill.contract"
+FORMAT = 1
+EXPORT = "export it with `treadmill export RUN --onnx FILE`"
+
+
+class TransferError(Exception):
+    """Input that cannot be used. The message is one line that names it."""
+
+
+@dataclass
+class Joints:
+    """Servos of joints, in one order."""
+
+    names: list
+    default_rad: numpy.ndarray
+    kp: numpy.ndarray
+    kd: numpy.ndarray
+    effort_nm: numpy.ndarray
+    armature_kgm2: numpy.ndarray
+
+
+@dataclass
+class Contract:
+    """Contract of format 1, checked."""
+
+    control_step_s: float
+    joints: Joints
+    action_scale: numpy.ndarray
+    action_limit: float
+    held: Joints
+    base_body: str
+    base_height_m: float
+    base_orientation_wxyz: numpy.ndarray
+    observation: list
+    history: int
+    gait_period_s: float
+    standing_threshold: float
+    ranges: numpy.ndarray
+    resampling_s: tuple
+    standing_share: float
+    heading_share: float
+    heading_gain_per_s: float
+    fall_height_m: float
+    fall_tilt_rad: float
+    push_interval_s: tuple
+    push_mps: tuple
+
+    @property
+    def width(self):
+        """Numbers of one observation, all frames together."""
+        return self.history * sum(size for _, size in self.observation)
+
+
+class Policy:
+    """Network of an ONNX file, and its contract."""
+
+    def __init__(self, path):
+        if not Path(path).is_file():
+            raise TransferError(f"cannot read the policy `{path}`: there is no such file; {EXPORT}")
+        try:
+            options = onnxruntime.SessionOptions()
+            # The networks are small: threads would only wait for each other.
+            options.intra_op_num_threads = 1
+            self._session = onnxruntime.InferenceSession(str(path), options, providers=["CPUExecutionProvider"])
+            metadata = self._session.get_modelmeta().custom_metadata_map
+        except Exception as why:  # noqa: BLE001: onnxruntime's errors have no common class
+            raise TransferError(f"`{path}` is not an ONNX model ({one_line(why)}); {EXPORT}") from why
+        if ENTRY not in metadata:
+            raise TransferError(f"`{path}` has no contract, its metadata lacks `{ENTRY}`: it is not a policy of the velocity task; {EXPORT}")
+        try:
+            self.contract = read_contract(metadata[ENTRY])
+        except TransferError as why:
+            raise TransferError(f"the contract of `{path}` cannot be used: {why}; {EXPORT}") from why
+        inputs, outputs = self._session.get_inputs(), self._session.get_outputs()
+        found = [inputs[0].shape[-1], outputs[0].shape[-1]]
+        wanted = [self.contract.width, len(self.contract.joints.names)]
+        if found != wanted:
+            raise TransferError(
+                f"`{path}` has {found[0]} inputs and {found[1]} outputs, its contract {wanted[0]} and {wanted[1]}; {EXPORT}"
+            )
+        self._input, self._output = inputs[0].name, outputs[0].name
+
+    def act(self, observation):
+        """Returns the action of a whole observation, in units of the action."""
+        batch = numpy.asarray(observation, dtype=numpy.float32)[None]
+        (action,) = self._session.run([self._output], {self._input: batch})
+        return action[0].astype(float)
+
+
+def one_line(why):
+    """Returns the first line of an error's text."""
+    return (str(why).strip().splitlines() or [type(why).__name__])[0]
+
+
+def read_contract(text):
+    """Returns the contract of a JSON text."""
+    try:
+        whole = json.loads(text)
+    except ValueError as why:
+        raise TransferError(f"it is not JSON ({why})") from why
+    fields = _Fields(whole, "")
+    if fields.get("format") != FORMAT:
+        raise TransferError(f"`format` is {whole['format']}, but this program reads {FORMAT}")
+    joints = _joints(fields)
+    scale = fields.numbers("action_scale", len(joints.names))
+    commands, history, fall = fields.part("commands"), fields.part("history"), fields.part("fall")
+    terms = fields.get("observation")
+    if not isinstance(terms, list) or not all(isinstance(term, dict) and {"name", "size"} <= set(term) for term in terms):
+        raise TransferError("`observation` is not a list of terms with `name` and `size`")
+    return Contract(
+        control_step_s=fields.number("control_step_s", above=0.0),
+        joints=joints,
+        action_scale=scale,
+        action_limit=fields.number("action_limit", above=0.0),
+        held=_joints(fields.part("held_joints")),
+        base_body=fields.get("base_body"),
+        base_height_m=fields.number("default_base_height_m", above=0.0),
+        base_orientation_wxyz=fields.numbers("default_base_orientation_wxyz", 4),
+        observation=[(term["name"], term["size"]) for term in terms],
+        history=int(history.number("frames", above=0.0)),
+        gait_period_s=fields.number("gait_period_s", above=0.0),
+        standing_threshold=fields.number("standing_threshold"),
+        ranges=numpy.array([commands.numbers(name, 2) for name in ("lin_vel_x_mps", "lin_vel_y_mps", "ang_vel_z_radps")]),
+        resampling_s=tuple(commands.numbers("resampling_s", 2)),
+        standing_share=commands.number("standing_share"),
+        heading_share=commands.number("heading_share"),
+        heading_gain_per_s=commands.number("heading_gain_per_s"),
+        fall_height_m=fall.number("height_m"),
+        fall_tilt_rad=fall.number("tilt_rad"),
+        push_interval_s=tuple(fields.numbers("push_interval_s", 2)),
+        push_mps=tuple(fields.numbers("push_mps", 2)),
+    )
+
+
+def _joints(fields):
+    names = fields.get("joint_names")
+    if not isinstance(names, list) or not all(isinstance(name, str) for name in names):
+        raise TransferError(f"`{fields.path}joint_names` is not a list of names")
+    keys = ("default_joint_pos", "joint_stiffness", "joint_damping", "joint_effort", "joint_armature")
+    return Joints(names, *(fields.numbers(key, len(names)) for key in keys))
+
+
+class _Fields:
+    """Fields of a JSON object, by whose path errors name them."""
+
+    def __init__(self, of, path):
+        if not isinstance(of, dict):
+            raise TransferError(f"`{path or 'contract'}` is not an object")
+        self._of, self.path = of, path
+
+    def get(self, key):
+        if key not in self._of:
+            raise TransferError(f"`{self.path}{key}` is missing")
+        return self._of[key]
+
+    def part(self, key):
+        return _Fields(self.get(key), f"{self.path}{key}.")
+
+    def number(self, key, above=None):
+        value = self.get(key)
+        is_number = isinstance(value, (int, float)) and not isinstance(value, bool) and math.isfinite(value)
+        if not is_number or (above is not None and value <= above):
+            wanted = "a finite number" if above is None else f"a number above {above:g}"
+            raise TransferError(f"`{self.path}{key}` is {value!r}, not {wanted}")
+        return float(value)
+
+    def numbers(self, key, count):
+        value = self.get(key)
+        try:
+            array = numpy.array(value, dtype=float)
+        except (TypeError, ValueError):
+            array = numpy.empty(0)
+        if array.shape != (count,) or not numpy.isfinite(array).all():
+            raise TransferError(f"`{self.path}{key}` is not a list of {count} finite numbers")
+        return array

@@ -1,0 +1,76 @@
+"""Controller of a robot: observations with their history, and targets of the joints."""
+
+import math
+
+import numpy
+
+from .contract import TransferError
+
+
+class Controller:
+    """Turns what sensors measure into targets, as on the robot."""
+
+    def __init__(self, policy):
+        self.policy, self.contract = policy, policy.contract
+        unknown = [name for name, _ in self.contract.observation if name not in _TERMS]
+        if unknown:
+            raise TransferError(f"the contract has the observation term `{unknown[0]}`, which this program does not know")
+        self.reset()
+
+    def reset(self):
+        """Begins an episode."""
+        self.steps = 0
+        self.action = numpy.zeros(len(self.contract.joints.names))
+        self._frames = None
+
+    def observe(self, robot, command):
+        """Returns the whole observation of the present state; once per control step."""
+        frame = numpy.concatenate([_TERMS[name](self, robot, command) for name, _ in self.contract.observation])
+        if self._frames is None:
+            self._frames = [frame] * self.contract.history
+        else:
+            self._frames = [*self._frames[1:], frame]
+        return numpy.concatenate(self._frames)
+
+    def act(self, observation):
+        """Returns the action of an observation, in units of the action."""
+        return self.policy.act(observation)
+
+    def taken(self, action):
+        """Notes an action as the last one and returns the joints' targets (rad)."""
+        limit = self.contract.action_limit
+        self.action = numpy.clip(action, -limit, limit)
+        self.steps += 1
+        return self.contract.joints.default_rad + self.contract.action_scale * self.action
+
+    def entry_name(self, index):
+        """Returns the name of an entry of the observation, such as `base_ang_vel[1]`."""
+        per_frame = self.contract.width // self.contract.history
+        age = self.contract.history - 1 - index // per_frame
+        index %= per_frame
+        for name, size in self.contract.observation:
+            if index < size:
+                break
+            index -= size
+        part = self.contract.joints.names[index] if size == len(self.contract.joints.names) else index
+        return f"{name}[{part}]" + (f", {age} frames ago" if age else "")
+
+
+def phase(contract, steps, command):
+    """Returns sine and cosine of the gait's phase after so many control steps; both 0 while the command says: stand."""
+    if math.hypot(command[0], command[1]) + abs(command[2]) < contract.standing_threshold:
+        return numpy.zeros(2)
+    angle = 2.0 * math.pi * steps * contract.control_step_s / contract.gait_period_s
+    return numpy.array([math.sin(angle), math.cos(angle)])
+
+
+# One function of (controller, robot, command) for each term.
+_TERMS = {
+    "base_ang_vel": lambda _, robot, __: robot.angular_radps,
+    "projected_gravity": lambda _, robot, __: -robot.rotation[2],
+    "velocity_commands": lambda _, __, command: command,
+    "joint_pos_rel": lambda self, robot, _: robot.angles_rad - self.contract.joints.default_rad,
+    "joint_vel_rel": lambda _, robot, __: robot.rates_radps,
+    "last_action": lambda self, _, __: self.action,
+    "gait_phase": lambda self, _, command: phase(self.contract, self.steps, command),
+}

@@ -1,0 +1,247 @@
+"""MuJoCo's model of a robot, as its file says, with the contract's servos."""
+
+import math
+
+import mujoco
+import numpy
+
+from .contract import TransferError, one_line
+from .ground import BASE_M
+
+_GEOMS = mujoco.mjtGeom
+# Height above everything, from which rays look down (m).
+_SKY_M = 1e3
+
+
+class Robot:
+    """Robot in MuJoCo, driven by targets of its policy's joints.
+
+    `timestep_s` replaces the file's time step, `ground` its floor.
+    """
+
+    def __init__(self, path, contract, timestep_s=None, ground=None):
+        self.contract = contract
+        try:
+            spec = mujoco.MjSpec.from_file(str(path))
+        except Exception as why:  # noqa: BLE001: MuJoCo raises several classes
+            raise TransferError(f"cannot read the model `{path}` ({one_line(why)})") from why
+        self.notes = []
+        _replace_servos(spec, path, contract)
+        _replace_floor(spec, ground, self.notes)
+        self.substeps, spec.option.timestep = substeps(contract.control_step_s, spec.option.timestep, timestep_s)
+        try:
+            self.model = spec.compile()
+        except ValueError as why:
+            raise TransferError(f"the model `{path}` does not compile with the contract's servos ({one_line(why)})") from why
+        self.data = mujoco.MjData(self.model)
+        self._find(path)
+
+    def _find(self, path):
+        model, contract = self.model, self.contract
+        self.base = model.body(contract.base_body).id
+        root = model.body_jntadr[self.base]
+        if root < 0 or model.jnt_type[root] != mujoco.mjtJoint.mjJNT_FREE:
+            raise TransferError(f"the body `{contract.base_body}` of the model `{path}` has no free joint")
+        self._root_q, self._root_v = model.jnt_qposadr[root], model.jnt_dofadr[root]
+
+        def places(names):
+            ids = [model.joint(name).id for name in names]
+            for name, joint in zip(names, ids):
+                if model.jnt_type[joint] != mujoco.mjtJoint.mjJNT_HINGE:
+                    raise TransferError(f"the joint `{name}` of the model `{path}` is no hinge")
+            return model.jnt_qposadr[ids], model.jnt_dofadr[ids]
+
+        self._q, self._v = places(contract.joints.names)
+        self._held_q, _ = places(contract.held.names)
+        hinges = [joint for joint in range(model.njnt) if model.jnt_type[joint] == mujoco.mjtJoint.mjJNT_HINGE]
+        # Names in the order of the file, as in a trace.
+        self.hinge_names = [model.joint(joint).name for joint in hinges]
+        self._all_q, self._all_v = model.jnt_qposadr[hinges], model.jnt_dofadr[hinges]
+        self.policy_hinges = [self.hinge_names.index(name) for name in contract.joints.names]
+        free = [name for name in self.hinge_names if name not in contract.joints.names + contract.held.names]
+        if free:
+            self.notes.append(f"joints without a servo, since the contract does not name them: {', '.join(free)}")
+        ground = {_GEOMS.mjGEOM_PLANE: [], _GEOMS.mjGEOM_HFIELD: []}
+        for geom in range(model.ngeom):
+            kind = _GEOMS(model.geom_type[geom])
+            if kind in ground and model.body_weldid[model.geom_bodyid[geom]] == 0:
+                ground[kind].append(geom)
+        self._planes, self._fields = ground[_GEOMS.mjGEOM_PLANE], ground[_GEOMS.mjGEOM_HFIELD]
+
+    def reset(self, start=(0.0, 0.0, 0.0, 0.0)):
+        """Puts the robot in its default pose, at `start`: x, y, height of the ground there (m), yaw (rad)."""
+        x, y, z, yaw = start
+        mujoco.mj_resetData(self.model, self.data)
+        qpos, contract = self.data.qpos, self.contract
+        turned = numpy.empty(4)
+        turn = numpy.array([math.cos(yaw / 2.0), 0.0, 0.0, math.sin(yaw / 2.0)])
+        mujoco.mju_mulQuat(turned, turn, contract.base_orientation_wxyz)
+        qpos[self._root_q : self._root_q + 7] = [x, y, z + contract.base_height_m, *turned]
+        qpos[self._q], qpos[self._held_q] = contract.joints.default_rad, contract.held.default_rad
+        self.data.ctrl[:] = numpy.concatenate([contract.joints.default_rad, contract.held.default_rad])
+        mujoco.mj_forward(self.model, self.data)
+
+    def set_state(self, qpos, qvel):
+        """Sets a state: root, then the hinges in the order of the file."""
+        mujoco.mj_resetData(self.model, self.data)
+        data, contract = self.data, self.contract
+        data.qpos[self._root_q : self._root_q + 7], data.qpos[self._all_q] = qpos[:7], qpos[7:]
+        data.qvel[self._root_v : self._root_v + 6], data.qvel[self._all_v] = qvel[:6], qvel[6:]
+        data.ctrl[len(contract.joints.names) :] = contract.held.default_rad
+        mujoco.mj_forward(self.model, data)
+
+    def state(self):
+        """Returns the position and velocity vectors, in the order of `set_state`."""
+        data = self.data
+        position = numpy.concatenate([data.qpos[self._root_q : self._root_q + 7], data.qpos[self._all_q]])
+        return position, numpy.concatenate([data.qvel[self._root_v : self._root_v + 6], data.qvel[self._all_v]])
+
+    def step(self, targets_rad):
+        """Simulates one control step with these targets of the policy's joints."""
+        self.data.ctrl[: len(targets_rad)] = targets_rad
+        mujoco.mj_step(self.model, self.data, self.substeps)
+
+    def torques_nm(self):
+        """Returns the torques of the policy's joints in the present state, with the targets of the last step."""
+        mujoco.mj_forward(self.model, self.data)
+        return self.data.actuator_force[: len(self.contract.joints.names)].copy()
+
+    def push(self, velocity_mps):
+        """Adds a horizontal velocity to the whole robot."""
+        self.data.qvel[self._root_v : self._root_v + 2] += velocity_mps
+
+    @property
+    def position_m(self):
+        """Position of the base."""
+        return self.data.qpos[self._root_q : self._root_q + 3]
+
+    @property
+    def rotation(self):
+        """Rotation matrix of the base."""
+        matrix = numpy.empty(9)
+        mujoco.mju_quat2Mat(matrix, self.data.qpos[self._root_q + 3 : self._root_q + 7])
+        return matrix.reshape(3, 3)
+
+    @property
+    def linear_mps(self):
+        """Velocity of the base's origin in the world frame."""
+        return self.data.qvel[self._root_v : self._root_v + 3]
+
+    @property
+    def angular_radps(self):
+        """Angular velocity of the base in its own frame."""
+        return self.data.qvel[self._root_v + 3 : self._root_v + 6]
+
+    @property
+    def angles_rad(self):
+        """Angles of the policy's joints."""
+        return self.data.qpos[self._q]
+
+    @property
+    def rates_radps(self):
+        """Rates of the policy's joints."""
+        return self.data.qvel[self._v]
+
+    @property
+    def heading_rad(self):
+        """Yaw of the base's x axis, projected to the ground."""
+        forward = self.rotation[:, 0]
+        return math.atan2(forward[1], forward[0])
+
+    def velocity_in_heading(self):
+        """Returns forward and left velocity in the heading frame (m/s) and yaw rate (rad/s)."""
+        return heading_velocity(self.rotation, self.linear_mps, self.angular_radps)
+
+    def ground_m(self):
+        """Returns the height of planes and height fields below the base; boxes and the like do not count."""
+        x, y, _ = self.position_m
+        heights = [self.data.geom_xpos[plane][2] for plane in self._planes]
+        for field in self._fields:
+            distance = mujoco.mj_rayHfield(self.model, self.data, field, numpy.array([x, y, _SKY_M]), numpy.array([0.0, 0.0, -1.0]))
+            if distance >= 0.0:
+                heights.append(_SKY_M - distance)
+        return max(heights, default=0.0)
+
+    def has_fallen(self):
+        """Returns whether the base is too low above the ground or too tilted."""
+        height_m = self.position_m[2] - self.ground_m()
+        tilt_rad = math.acos(min(1.0, max(-1.0, self.rotation[2, 2])))
+        return height_m < self.contract.fall_height_m or tilt_rad > self.contract.fall_tilt_rad
+
+
+def heading_velocity(rotation, linear_mps, angular_radps):
+    """Returns forward and left velocity in the heading frame, and yaw rate, from the world's velocity and the base's rates."""
+    heading = math.atan2(rotation[1, 0], rotation[0, 0])
+    cos, sin = math.cos(heading), math.sin(heading)
+    x, y = linear_mps[0], linear_mps[1]
+    return numpy.array([cos * x + sin * y, cos * y - sin * x, rotation[2] @ angular_radps])
+
+
+def substeps(control_step_s, file_s, wanted_s=None):
+    """Returns number and duration of the physics steps of a control step.
+
+    The duration is that of the file if it divides the control step, else the nearest one that does.
+    """
+    step_s = file_s if wanted_s is None else wanted_s
+    count = max(1, round(control_step_s / step_s)) if step_s > 0.0 else 1
+    if step_s > 0.0 and abs(count * step_s - control_step_s) < 1e-9:
+        return count, step_s
+    if wanted_s is not None:
+        raise TransferError(f"--timestep {wanted_s:g} does not divide the control step of {control_step_s:g} s; try {control_step_s / count:g}")
+    counts = {max(1, math.floor(control_step_s / step_s)), math.ceil(control_step_s / step_s)} if step_s > 0.0 else {1}
+    count = min(sorted(counts), key=lambda count: abs(control_step_s / count - step_s))
+    return count, control_step_s / count
+
+
+def _replace_servos(spec, path, contract):
+    # Keyframes hold controls of the file's actuators, and such sensors their forces.
+    actuator = mujoco.mjtObj.mjOBJ_ACTUATOR
+    for item in [*spec.keys, *spec.actuators, *(sensor for sensor in spec.sensors if sensor.objtype == actuator)]:
+        spec.delete(item)
+    if spec.body(contract.base_body) is None:
+        raise TransferError(f"the model `{path}` has no body `{contract.base_body}`, the base of the contract")
+    for joints in (contract.joints, contract.held):
+        for index, name in enumerate(joints.names):
+            joint = spec.joint(name)
+            if joint is None:
+                known = ", ".join(known.name for known in spec.joints if known.name)
+                raise TransferError(f"the model `{path}` has no joint `{name}` of the contract; it has: {known}")
+            joint.armature = joints.armature_kgm2[index]
+            kp, kd, effort_nm = joints.kp[index], joints.kd[index], joints.effort_nm[index]
+            servo = spec.add_actuator(
+                name=name,
+                target=name,
+                trntype=mujoco.mjtTrn.mjTRN_JOINT,
+                gaintype=mujoco.mjtGain.mjGAIN_FIXED,
+                biastype=mujoco.mjtBias.mjBIAS_AFFINE,
+                forcelimited=True,
+                forcerange=[-effort_nm, effort_nm],
+            )
+            servo.gainprm[0], servo.biasprm[1], servo.biasprm[2] = kp, -kp, -kd
+
+
+def _replace_floor(spec, ground, notes):
+    floors = [geom for geom in spec.geoms if geom.type in (_GEOMS.mjGEOM_PLANE, _GEOMS.mjGEOM_HFIELD)]
+    if ground is None:
+        if not floors:
+            spec.worldbody.add_geom(name="treadmill_floor", type=_GEOMS.mjGEOM_PLANE, size=[0.0, 0.0, 0.05])
+            notes.append("the model has no floor, so a plane was added")
+        return
+    low_m, high_m = ground.heights_m.min(), ground.heights_m.max()
+    # MuJoCo wants heights of 0 to 1 and a size above 0.
+    span_m = max(high_m - low_m, 1e-3)
+    (x_low, x_high), (y_low, y_high) = ground.x_m, ground.y_m
+    rows, columns = ground.heights_m.shape
+    spec.add_hfield(
+        name="treadmill_ground",
+        nrow=rows,
+        ncol=columns,
+        size=[(x_high - x_low) / 2.0, (y_high - y_low) / 2.0, span_m, BASE_M],
+        userdata=((ground.heights_m - low_m) / span_m).ravel(),
+    )
+    # In place of the first floor, whose name pairs of contacts may use.
+    for floor in floors[1:]:
+        spec.delete(floor)
+    field = floors[0] if floors else spec.worldbody.add_geom(name="treadmill_ground")
+    field.type, field.hfieldname, field.material = _GEOMS.mjGEOM_HFIELD, "treadmill_ground", ""
+    field.pos, field.quat = [(x_low + x_high) / 2.0, (y_low + y_high) / 2.0, low_m], [1.0, 0.0, 0.0, 0.0]

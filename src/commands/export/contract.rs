@@ -1,0 +1,213 @@
+//! Contract of a policy of the velocity task: what a robot's controller must know to play it.
+
+use anyhow::Context;
+use serde_json::{Value, json};
+use treadmill_humanoid::{
+    Environment, EnvironmentConfig,
+    card::Robot,
+    config::VelocityConfig,
+    task::velocity::{ACTION_MAX, HEADING_GAIN, STANDING_COMMAND},
+};
+use treadmill_policy::onnx::ForController;
+
+/// Version of the contract; raised if an old reader would misunderstand a new one.
+const FORMAT: u32 = 1;
+
+/// Unit and frame of each term that a policy can observe.
+const MEANINGS: [(&str, &str, &str); 7] = [
+    ("base_ang_vel", "rad/s", "base"),
+    ("projected_gravity", "1", "base"),
+    ("velocity_commands", "m/s, m/s, rad/s", "heading"),
+    ("joint_pos_rel", "rad", "joint"),
+    ("joint_vel_rel", "rad/s", "joint"),
+    ("last_action", "action_scale", "joint"),
+    ("gait_phase", "1", "sine and cosine"),
+];
+
+/// Servo of one hinge.
+#[derive(Clone)]
+pub(super) struct Joint {
+    pub name: String,
+    pub default_rad: f64,
+    pub kp: f64,
+    pub kd: f64,
+    pub effort_nm: f64,
+    pub armature_kgm2: f64,
+    pub action_scale_rad: f64,
+    /// Index among all hinges of the model file.
+    pub index: usize,
+}
+
+/// Term of one observation.
+pub(super) struct Term {
+    pub name: String,
+    pub size: usize,
+    unit: &'static str,
+    frame: &'static str,
+}
+
+/// What a controller must know.
+pub(super) struct Contract {
+    config: EnvironmentConfig,
+    pub velocity: VelocityConfig,
+    /// Joints of the policy, in the order of the action.
+    pub joints: Vec<Joint>,
+    /// Joints that stay at a default angle.
+    pub held: Vec<Joint>,
+    /// Terms of one observation, without those of the past and of the critic.
+    pub terms: Vec<Term>,
+    base: String,
+    feet: Vec<String>,
+    /// Default height and orientation of the base.
+    height_m: f64,
+    orientation_wxyz: Vec<f64>,
+}
+
+impl Contract {
+    /// Returns the contract of policies for an environment; `None` if its task is not the velocity task.
+    pub fn new(environment: &Environment) -> anyhow::Result<Option<Self>> {
+        let config = environment.config();
+        let (Some(velocity), "") = (&config.velocity, config.own_task.as_str()) else { return Ok(None) };
+        let model = environment.physics().model();
+        let robot: &Robot = model.robot.as_ref().context("the velocity task has no robot card")?;
+        let joint = |(index, control): (usize, &treadmill_humanoid::card::HingeControl)| Joint {
+            name: model.hinges[index].name.clone(),
+            default_rad: robot.default_position[7 + index],
+            kp: control.kp,
+            kd: control.kd,
+            effort_nm: control.effort_nm,
+            armature_kgm2: model.hinges[index].armature_kgm2,
+            action_scale_rad: control.action_scale_rad,
+            index,
+        };
+        let of = |is_held: bool| robot.hinges.iter().enumerate().filter(move |(_, hinge)| hinge.is_held == is_held);
+        Ok(Some(Self {
+            config: config.clone(),
+            velocity: velocity.clone(),
+            joints: of(false).map(joint).collect(),
+            held: of(true).map(joint).collect(),
+            terms: terms(environment, velocity.history as usize)?,
+            base: model.links[0].name.clone(),
+            feet: robot.feet.iter().map(|foot| model.links[*foot].name.clone()).collect(),
+            height_m: robot.default_position[2],
+            orientation_wxyz: robot.default_position[3..7].to_vec(),
+        }))
+    }
+
+    /// Returns the duration of a control step (s).
+    pub fn control_step_s(&self) -> f64 {
+        self.config.control_step_s
+    }
+
+    /// Returns the range of each joint's action, and its metadata under the names that mjlab uses.
+    pub fn for_controller(&self) -> anyhow::Result<ForController> {
+        let listed = |number: fn(&Joint) -> f64| -> String {
+            self.joints.iter().map(|joint| number(joint).to_string()).collect::<Vec<_>>().join(",")
+        };
+        let names = |names: Vec<&str>| names.join(",");
+        let metadata = [
+            ("joint_names", names(self.joints.iter().map(|joint| &joint.name[..]).collect())),
+            ("joint_stiffness", listed(|joint| joint.kp)),
+            ("joint_damping", listed(|joint| joint.kd)),
+            ("default_joint_pos", listed(|joint| joint.default_rad)),
+            ("action_scale", listed(|joint| joint.action_scale_rad)),
+            ("observation_names", names(self.terms.iter().map(|term| &term.name[..]).collect())),
+            ("observation_scales", names(vec!["1"; self.terms.len()])),
+            ("history", self.velocity.history.to_string()),
+            ("control_step_s", self.control_step_s().to_string()),
+            ("treadmill.contract", self.json().to_string()),
+        ];
+        if let Some(joint) = self.joints.iter().find(|joint| joint.name.contains(',')) {
+            anyhow::bail!("the joint `{}` has a comma in its name, which separates joints; rename it", joint.name);
+        }
+        let metadata = metadata.map(|(key, value)| (key.to_owned(), value)).to_vec();
+        Ok(ForController { action_limit: ACTION_MAX as f32, metadata })
+    }
+
+    /// Returns the whole contract.
+    fn json(&self) -> Value {
+        let Self { config, velocity, .. } = self;
+        let mut contract = lists(&self.joints);
+        contract["action_scale"] = self.joints.iter().map(|joint| joint.action_scale_rad).collect();
+        let terms: Vec<Value> = self
+            .terms
+            .iter()
+            .map(|Term { name, size, unit, frame }| json!({"name": name, "size": size, "unit": unit, "frame": frame}))
+            .collect();
+        for (key, value) in [
+            ("format", json!(FORMAT)),
+            ("control_step_s", json!(config.control_step_s)),
+            ("substeps", json!(config.substeps)),
+            ("action_limit", json!(ACTION_MAX)),
+            ("held_joints", lists(&self.held)),
+            ("base_body", json!(self.base)),
+            ("feet_bodies", json!(self.feet)),
+            ("default_base_height_m", json!(self.height_m)),
+            ("default_base_orientation_wxyz", json!(self.orientation_wxyz)),
+            ("observation", json!(terms)),
+            (
+                "history",
+                json!({
+                    "frames": velocity.history,
+                    "order": "oldest first",
+                    "layout": "whole frames, one after the other",
+                    "start": "the first observation of an episode fills all frames",
+                }),
+            ),
+            ("gait_period_s", json!(velocity.gait_period_s)),
+            ("standing_threshold", json!(STANDING_COMMAND)),
+            (
+                "commands",
+                json!({
+                    "lin_vel_x_mps": velocity.lin_vel_x_mps,
+                    "lin_vel_y_mps": velocity.lin_vel_y_mps,
+                    "ang_vel_z_radps": velocity.ang_vel_z_radps,
+                    "resampling_s": velocity.resampling_s,
+                    "standing_share": velocity.standing_share,
+                    "heading_share": velocity.heading_share,
+                    "heading_gain_per_s": HEADING_GAIN,
+                }),
+            ),
+            (
+                "fall",
+                json!({
+                    "height_m": velocity.fall_height_share * self.height_m,
+                    "tilt_rad": velocity.fall_tilt_rad,
+                }),
+            ),
+            ("push_interval_s", json!(config.randomisation.push_interval_s)),
+            ("push_mps", json!(config.randomisation.push_mps)),
+        ] {
+            contract[key] = value;
+        }
+        contract
+    }
+}
+
+/// Returns the lists of joints' properties, in the order of the joints.
+fn lists(joints: &[Joint]) -> Value {
+    let of = |number: fn(&Joint) -> f64| -> Vec<f64> { joints.iter().map(number).collect() };
+    json!({
+        "joint_names": joints.iter().map(|joint| &joint.name[..]).collect::<Vec<_>>(),
+        "default_joint_pos": of(|joint| joint.default_rad),
+        "joint_stiffness": of(|joint| joint.kp),
+        "joint_damping": of(|joint| joint.kd),
+        "joint_effort": of(|joint| joint.effort_nm),
+        "joint_armature": of(|joint| joint.armature_kgm2),
+    })
+}
+
+/// Returns the terms of one observation of the policy, the newest of `history`.
+fn terms(environment: &Environment, history: usize) -> anyhow::Result<Vec<Term>> {
+    let of_policy: Vec<_> = environment.terms().iter().filter(|term| !term.is_privileged).collect();
+    of_policy[..of_policy.len() / history]
+        .iter()
+        .map(|term| {
+            let meaning = MEANINGS.iter().find(|(name, ..)| *name == term.name);
+            let (_, unit, frame) = meaning.with_context(|| {
+                format!("the policy observes `{}`, whose meaning the contract cannot express", term.name)
+            })?;
+            Ok(Term { name: term.name.clone(), size: term.range.len(), unit, frame })
+        })
+        .collect()
+}
