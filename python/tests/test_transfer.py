@@ -280,7 +280,7 @@ class TransferTest(unittest.TestCase):
         self.assertNotEqual(pushed[0].distance_m, play_episode(robot, controller, 150, 2, 0).distance_m)
         policy.contract.fall_height_m = 0.3
         fallen = play_episode(robot, controller, 150, 1, 0)
-        self.assertEqual((fallen.steps, fallen.fell), (1, True))
+        self.assertEqual((fallen.steps, json.dumps(fallen.fell)), (1, "true"))
         both = summary([episode, fallen])
         self.assertEqual((both["episodes"], both["falls"], both["length_mean"], both["windows"]), (2, 1, 75.5, 2))
         self.assertAlmostEqual(both["velocity_error_mps"], episode.errors[:, 0].mean())

@@ -166,7 +166,7 @@ class Robot:
         """Returns whether the base is too low above the ground or too tilted."""
         height_m = self.position_m[2] - self.ground_m()
         tilt_rad = math.acos(min(1.0, max(-1.0, self.rotation[2, 2])))
-        return height_m < self.contract.fall_height_m or tilt_rad > self.contract.fall_tilt_rad
+        return bool(height_m < self.contract.fall_height_m or tilt_rad > self.contract.fall_tilt_rad)
 
 
 def heading_velocity(rotation, linear_mps, angular_radps):

@@ -64,7 +64,7 @@ pub fn run(args: &ExportArgs) -> anyhow::Result<()> {
     }
     // Also run for ONNX alone, because it checks that shapes match.
     let bytes = policy.to_bytes().with_context(|| format!("the policy of `{}` cannot be exported", args.run))?;
-    let widths: Vec<String> = [policy.shape.observation]
+    let widths: Vec<String> = [policy.shape.seen_by_actor()]
         .iter()
         .chain(&policy.shape.hidden)
         .chain([&policy.shape.action])
