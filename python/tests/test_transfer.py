@@ -240,7 +240,8 @@ class TransferTest(unittest.TestCase):
         self.assertTrue(0.1 < stands / len(changes) < 0.3)
 
     def test_a_heading_is_turned_to_the_short_way_round(self):
-        schedule = DrawnCommands(read_contract(json.dumps(contract(commands={**contract()["commands"], "heading_share": 1.0, "standing_share": 0.0}))), numpy.random.default_rng(1))
+        commands = {**contract()["commands"], "heading_share": 1.0, "standing_share": 0.0}
+        schedule = DrawnCommands(read_contract(json.dumps(contract(commands=commands))), numpy.random.default_rng(1))
         schedule.at(0, 0.0)
         schedule._heading_rad = -3.0
         command, is_new = schedule.at(1, 3.0)
@@ -341,7 +342,10 @@ class TransferTest(unittest.TestCase):
         self.assertAlmostEqual(first["tolerance"], TOLERANCES["state"] / 0.02)
 
         path = self.folder / "trace.jsonl"
-        as_text = lambda line: json.dumps({key: getattr(value, "tolist", lambda: value)() for key, value in line.items()})  # noqa: B023, E731
+
+        def as_text(line):
+            return json.dumps({key: numpy.asarray(value).tolist() for key, value in line.items()})
+
         path.write_text("\n".join(map(as_text, changed)))
         command_line = [self.onnx, "--model", self.model, "--trace", path]
         code, out, _ = self.run_cli(*command_line)

@@ -76,7 +76,8 @@ class Policy:
         except Exception as why:  # noqa: BLE001: onnxruntime's errors have no common class
             raise TransferError(f"`{path}` is not an ONNX model ({one_line(why)}); {EXPORT}") from why
         if ENTRY not in metadata:
-            raise TransferError(f"`{path}` has no contract, its metadata lacks `{ENTRY}`: it is not a policy of the velocity task; {EXPORT}")
+            why = f"its metadata lacks `{ENTRY}`: it is not a policy of the velocity task"
+            raise TransferError(f"`{path}` has no contract, {why}; {EXPORT}")
         try:
             self.contract = read_contract(metadata[ENTRY])
         except TransferError as why:

@@ -187,7 +187,8 @@ def substeps(control_step_s, file_s, wanted_s=None):
     if step_s > 0.0 and abs(count * step_s - control_step_s) < 1e-9:
         return count, step_s
     if wanted_s is not None:
-        raise TransferError(f"--timestep {wanted_s:g} does not divide the control step of {control_step_s:g} s; try {control_step_s / count:g}")
+        advice = f"try {control_step_s / count:g}"
+        raise TransferError(f"--timestep {wanted_s:g} does not divide the control step of {control_step_s:g} s; {advice}")
     counts = {max(1, math.floor(control_step_s / step_s)), math.ceil(control_step_s / step_s)} if step_s > 0.0 else {1}
     count = min(sorted(counts), key=lambda count: abs(control_step_s / count - step_s))
     return count, control_step_s / count
