@@ -85,9 +85,6 @@ pub enum ActorError {
     /// The network cannot be evaluated.
     #[error("the policy cannot be evaluated")]
     Inference(#[from] candle_core::Error),
-    /// The trace of an evaluation cannot be written.
-    #[error("the trace cannot be written")]
-    Trace(#[source] io::Error),
     /// A fragment failed its own checks.
     #[error("the fragment cannot be encoded")]
     Encoding(#[source] treadmill_proto::Malformed),

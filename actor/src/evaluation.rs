@@ -1,10 +1,16 @@
 //! Episodes without learning, and their statistics.
+//!
+//! # Layout
+//! - [`tracking`]: how well a robot follows its commands.
+
+pub mod tracking;
 
 use std::ops::ControlFlow;
 
 use treadmill_humanoid::{Environment, Physics, StepInfo};
 use treadmill_runtime::seeds;
 
+use self::tracking::{Tracker, Tracking, TrackingSample};
 use crate::{ActorError, agent::Agent};
 
 /// Result of one finished episode.
@@ -22,6 +28,8 @@ pub struct EpisodeResult {
     pub fell: bool,
     /// Whether the physics failed.
     pub fault: bool,
+    /// How well it followed its commands; none for tasks without commands.
+    pub tracking: Option<Tracking>,
 }
 
 /// Joint limit violations over every step of every episode.
@@ -33,6 +41,21 @@ pub struct JointReport {
     pub overshoot_max_rad: f64,
 }
 
+/// What the agent faced at the beginning of a step, and what it chose.
+#[derive(Clone, Copy)]
+pub struct StepStart<'a> {
+    /// Observation.
+    pub observation: &'a [f32],
+    /// Action: −1 is the lower end of a motor's range, 1 the upper one.
+    pub action: &'a [f32],
+    /// Position vector, see [`Physics::position`].
+    pub position: &'a [f64],
+    /// Velocity vector, see [`Physics::velocity`].
+    pub velocity: &'a [f64],
+    /// Command in the observation, see [`treadmill_humanoid::Task::command`].
+    pub command: Option<[f64; 3]>,
+}
+
 /// One step of an episode, passed to the callback of [`evaluate`].
 #[derive(Clone, Copy)]
 pub struct EvaluationStep<'a> {
@@ -40,6 +63,8 @@ pub struct EvaluationStep<'a> {
     pub episode: u32,
     /// Step within the episode, counted from 1.
     pub step: u32,
+    /// Beginning of the step.
+    pub start: StepStart<'a>,
     /// Reward of the step.
     pub reward: f32,
     /// Sum of rewards so far.
@@ -48,8 +73,6 @@ pub struct EvaluationStep<'a> {
     pub info: &'a StepInfo,
     /// Body after the step.
     pub physics: &'a Physics,
-    /// Velocity that the task asks for, see [`treadmill_humanoid::Task::command`].
-    pub command: Option<[f64; 3]>,
     /// Result of the episode, after its last step.
     pub ended: Option<EpisodeResult>,
 }
@@ -85,6 +108,11 @@ impl Evaluation {
     pub fn falls(&self) -> usize {
         self.episodes.iter().filter(|episode| episode.fell).count()
     }
+
+    /// Returns how well commands were followed in all episodes; `None` for tasks without commands.
+    pub fn tracking(&self) -> Option<Tracking> {
+        self.episodes.iter().filter_map(|episode| episode.tracking).reduce(Tracking::with)
+    }
 }
 
 /// Plays `episodes` episodes and calls `on_step` after every step, which may end the evaluation.
@@ -93,19 +121,51 @@ pub fn evaluate(
     agent: &mut dyn Agent,
     episodes: u32,
     seed: u64,
+    on_step: impl FnMut(EvaluationStep) -> ControlFlow<()>,
+) -> Result<Evaluation, ActorError> {
+    evaluate_commanded(environment, agent, episodes, seed, None, on_step)
+}
+
+/// As [`evaluate`]; with `command_at`, each episode follows the command that it returns for the time since the start (s).
+pub fn evaluate_commanded(
+    environment: &mut Environment,
+    agent: &mut dyn Agent,
+    episodes: u32,
+    seed: u64,
+    command_at: Option<&dyn Fn(f64) -> [f64; 3]>,
     mut on_step: impl FnMut(EvaluationStep) -> ControlFlow<()>,
 ) -> Result<Evaluation, ActorError> {
+    let control_step_s = environment.control_step_s();
     let mut observation = vec![0.0; environment.observation_size()];
     let mut action = vec![0.0; environment.action_size()];
     let mut control = action.clone();
+    let mut observed = observation.clone();
+    let (mut position, mut velocity) = (Vec::new(), Vec::new());
     let mut overshoots = Vec::new();
     let mut results = Vec::new();
     'evaluation: for episode in 0..episodes {
+        if let Some(command_at) = command_at {
+            environment.steer(Some(command_at(0.0)));
+        }
         environment.reset(seeds::derive(seed, "evaluation", &[episode.into()]), &mut observation);
         let start_x_m = environment.physics().position()[0];
         let mut result = EpisodeResult::default();
+        let mut tracker = environment.task().command().map(|_| Tracker::new(control_step_s));
+        let mut changes = None;
         loop {
             agent.act(&observation, &mut action)?;
+            observed.copy_from_slice(&observation);
+            position.clear();
+            position.extend_from_slice(environment.physics().position());
+            velocity.clear();
+            velocity.extend_from_slice(environment.physics().velocity());
+            let command = environment.task().command();
+            let changes_now = Some(environment.task().command_changes());
+            let is_new_command = std::mem::replace(&mut changes, changes_now) != changes_now;
+            if let Some(command_at) = command_at {
+                // The observation after this step shows it.
+                environment.steer(Some(command_at(f64::from(result.length + 1) * control_step_s)));
+            }
             environment.action_from_shares(&action, &mut control);
             let step = environment.step(&control, &mut observation);
             result.length += 1;
@@ -115,22 +175,34 @@ pub fn evaluate(
                 result.return_sum += f64::from(step.reward);
                 result.distance_m = environment.physics().position()[0] - start_x_m;
                 overshoots.push(environment.joint_quality().limit_overshoot_rad);
+                if let (Some(tracker), Some(command)) = (&mut tracker, command) {
+                    let sample = TrackingSample::of(environment.physics(), [position[0], position[1]]);
+                    let is_pushed = environment.was_pushed();
+                    tracker.record(&TrackingSample { command, is_new_command, is_pushed, ..sample });
+                }
             }
             let has_ended = step.terminated || step.truncated;
             if has_ended {
                 result.fell = step.terminated && !step.fault;
-                result.velocity_mps = result.distance_m / (f64::from(result.length) * environment.control_step_s());
+                result.velocity_mps = result.distance_m / (f64::from(result.length) * control_step_s);
+                result.tracking = tracker.as_ref().map(Tracker::sums);
                 agent.episode_ended();
                 results.push(result);
             }
             let flow = on_step(EvaluationStep {
                 episode: episode + 1,
                 step: result.length,
+                start: StepStart {
+                    observation: &observed,
+                    action: &action,
+                    position: &position,
+                    velocity: &velocity,
+                    command,
+                },
                 reward: step.reward,
                 total: result.return_sum,
                 info: environment.info(),
                 physics: environment.physics(),
-                command: environment.task().command(),
                 ended: has_ended.then_some(result),
             });
             if flow.is_break() {
@@ -140,6 +212,9 @@ pub fn evaluate(
                 break;
             }
         }
+    }
+    if command_at.is_some() {
+        environment.steer(None);
     }
     Ok(Evaluation { episodes: results, joints: joint_report(&mut overshoots) })
 }

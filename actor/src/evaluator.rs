@@ -74,6 +74,7 @@ fn play(bundle: &PolicyBundle, evaluator: String, shutdown: &Shutdown) -> Result
         let seed = config.run.seed.wrapping_add(u64::from(episode));
         all.episodes.extend(evaluate(&mut environment, &mut agent, 1, seed, |_| ControlFlow::Continue(()))?.episodes);
     }
+    let tracking = all.tracking();
     Ok(Some(EvaluationReport {
         run: bundle.run.clone(),
         evaluator,
@@ -85,5 +86,7 @@ fn play(bundle: &PolicyBundle, evaluator: String, shutdown: &Shutdown) -> Result
         distance_mean_m: all.mean(|episode| episode.distance_m),
         velocity_mean_mps: all.velocity_mean_mps(environment.control_step_s()),
         falls: all.falls() as u32,
+        velocity_error_mps: tracking.and_then(|tracking| tracking.velocity_error_mps()),
+        yaw_rate_error_radps: tracking.and_then(|tracking| tracking.yaw_rate_error_radps()),
     }))
 }

@@ -193,6 +193,8 @@ pub fn evaluation() -> Vec<u8> {
         distance_mean_m: 20.0,
         velocity_mean_mps: 1.3,
         falls: 1,
+        velocity_error_mps: Some(0.1),
+        yaw_rate_error_radps: Some(0.2),
     }
     .encode()
 }

@@ -29,6 +29,10 @@ pub struct EvaluationReport {
     pub velocity_mean_mps: f64,
     /// Episodes that ended with a fall.
     pub falls: u32,
+    /// Mean error of the base's horizontal velocity (m/s); only for tasks with commands.
+    pub velocity_error_mps: Option<f64>,
+    /// Mean error of the base's yaw rate (rad/s); only for tasks with commands.
+    pub yaw_rate_error_radps: Option<f64>,
 }
 
 impl EvaluationReport {
@@ -45,6 +49,8 @@ impl EvaluationReport {
             distance_mean_m: self.distance_mean_m,
             velocity_mean_mps: self.velocity_mean_mps,
             falls: self.falls,
+            velocity_error_mps: self.velocity_error_mps,
+            yaw_rate_error_radps: self.yaw_rate_error_radps,
         }
         .encode_to_vec()
     }
@@ -65,6 +71,8 @@ impl EvaluationReport {
         ] {
             check_finite(field, [value])?;
         }
+        check_finite("velocity_error_mps", message.velocity_error_mps)?;
+        check_finite("yaw_rate_error_radps", message.yaw_rate_error_radps)?;
         if message.episodes == 0 {
             return Err(Malformed::field("episodes", 0, "at least 1"));
         }
@@ -82,6 +90,8 @@ impl EvaluationReport {
             distance_mean_m: message.distance_mean_m,
             velocity_mean_mps: message.velocity_mean_mps,
             falls: message.falls,
+            velocity_error_mps: message.velocity_error_mps,
+            yaw_rate_error_radps: message.yaw_rate_error_radps,
         })
     }
 }
@@ -103,15 +113,21 @@ mod tests {
             distance_mean_m: 20.0,
             velocity_mean_mps: 1.3,
             falls: 1,
+            velocity_error_mps: Some(0.0),
+            yaw_rate_error_radps: Some(0.25),
         };
         assert_eq!(EvaluationReport::decode(&report.encode()), Ok(report.clone()));
-        let corruptions: [fn(&mut EvaluationReport); 6] = [
+        let without = EvaluationReport { velocity_error_mps: None, yaw_rate_error_radps: None, ..report.clone() };
+        assert_eq!(EvaluationReport::decode(&without.encode()), Ok(without));
+        let corruptions: [fn(&mut EvaluationReport); 8] = [
             |report| report.run = "a/b".into(),
             |report| report.evaluator = String::new(),
             |report| report.episodes = 0,
             |report| report.falls = 11,
             |report| report.return_mean = f64::NAN,
             |report| report.velocity_mean_mps = f64::INFINITY,
+            |report| report.velocity_error_mps = Some(f64::NAN),
+            |report| report.yaw_rate_error_radps = Some(f64::INFINITY),
         ];
         for corrupt in corruptions {
             let mut bad = report.clone();

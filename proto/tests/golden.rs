@@ -129,6 +129,8 @@ fn evaluation() -> EvaluationReport {
         distance_mean_m: 20.5,
         velocity_mean_mps: 1.375,
         falls: 1,
+        velocity_error_mps: None,
+        yaw_rate_error_radps: None,
     }
 }
 

@@ -1,7 +1,7 @@
 //! Coloured shapes of a body, at their poses.
 
-use nalgebra::Point3;
-use treadmill_humanoid::Physics;
+use nalgebra::{Isometry3, Point3, Vector3};
+use treadmill_humanoid::{Physics, model::Geometry};
 
 use crate::{
     solid::{Ball, Hit, Ray, Solid},
@@ -15,6 +15,8 @@ pub type Colour = [f64; 3];
 const LEFT: Colour = [0.93, 0.55, 0.24];
 const RIGHT: Colour = [0.18, 0.56, 0.60];
 const MIDDLE: Colour = [0.85, 0.83, 0.78];
+/// Radius of an arrow's shaft (m).
+const ARROW_RADIUS_M: f64 = 0.015;
 
 /// Coloured shapes above the ground.
 #[derive(Clone, Debug)]
@@ -44,6 +46,16 @@ impl Scene {
         }
         let bound = bound(&solids);
         Self { surface: Surface::new(model.ground.height_field.as_ref()), solids, bound }
+    }
+
+    /// Adds a horizontal arrow with a ball as its tip, from a point in the world.
+    pub fn add_arrow(&mut self, from_m: [f64; 3], along_m: [f64; 2], colour: Colour) {
+        let from_m = Point3::from(from_m);
+        let to_m = from_m + Vector3::new(along_m[0], along_m[1], 0.0);
+        let shaft = Geometry::Capsule { from_m, to_m, radius_m: ARROW_RADIUS_M };
+        let tip = Geometry::Sphere { centre_m: to_m, radius_m: 2.0 * ARROW_RADIUS_M };
+        self.solids.extend([shaft, tip].map(|part| (Solid::new(&part, &Isometry3::identity()), colour)));
+        self.bound = bound(&self.solids);
     }
 
     pub(crate) fn surface(&self) -> &Surface {

@@ -14,4 +14,5 @@ mod slips;
 #[path = "../support/mod.rs"]
 mod support;
 mod usage;
+mod velocity;
 mod watch;

@@ -60,6 +60,8 @@ fn forged_reports_are_ignored() {
             distance_mean_m: 100.0,
             velocity_mean_mps: 10.0,
             falls: 0,
+            velocity_error_mps: None,
+            yaw_rate_error_radps: None,
         };
         let timeout = std::time::Duration::from_secs(10);
         let answer = ask_for_evaluation(&bus, &report.run, "liar", Some(&report), timeout).await;

@@ -135,6 +135,6 @@ fn pose(step: &EvaluationStep, start_x_m: f64, control_step_s: f64) -> Pose {
         step: step.step,
         time_s: f64::from(step.step) * control_step_s,
         distance_m: (step.physics.position()[0] - start_x_m) as f32,
-        ..poses::body_pose(step.physics, step.info, step.command)
+        ..poses::body_pose(step.physics, step.info, step.start.command)
     }
 }

@@ -45,6 +45,7 @@ pub struct Environment {
     last_observation: Vec<f32>,
     last_info: StepInfo,
     episode_steps: u32,
+    was_pushed: bool,
 }
 
 impl Environment {
@@ -80,6 +81,7 @@ impl Environment {
             action: vec![0.0; action_size],
             centre_before: Point3::origin(),
             episode_steps: 0,
+            was_pushed: false,
         })
     }
 
@@ -139,6 +141,7 @@ impl Environment {
         // `set_state` normalises the noisy quaternion.
         self.physics.set_state(&self.start_position, &self.start_velocity);
         self.episode_steps = 0;
+        self.was_pushed = false;
         self.last_info = self.task.begin(seed, &self.physics);
         self.task.observe(&self.physics, self.randomiser.sensors(), observation);
         self.last_observation.copy_from_slice(observation);
@@ -188,7 +191,9 @@ impl Environment {
         for (control, (action, [low, high])) in self.controls.iter_mut().zip(action.iter().zip(&self.action_ranges)) {
             *control = action.clamp(*low, *high);
         }
-        if let Some(velocity_mps) = self.randomiser.due_push() {
+        let push_mps = self.randomiser.due_push();
+        self.was_pushed = push_mps.is_some();
+        if let Some(velocity_mps) = push_mps {
             self.physics.push(velocity_mps);
         }
         self.centre_before = self.physics.centre_of_mass();
@@ -269,6 +274,12 @@ impl Environment {
     #[must_use]
     pub fn info(&self) -> &StepInfo {
         &self.last_info
+    }
+
+    /// Returns whether a push of the randomisation began the last step; false before the first step of an episode.
+    #[must_use]
+    pub fn was_pushed(&self) -> bool {
+        self.was_pushed
     }
 
     /// Returns the settings.

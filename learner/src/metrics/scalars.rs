@@ -253,6 +253,8 @@ impl UpdateRecord<'_> {
             ("eval/fall_fraction", f64::from(report.falls) / f64::from(report.episodes)),
             ("eval/total_timesteps", *env_steps as f64),
         ]);
+        out.extend(report.velocity_error_mps.map(|error| ("eval/velocity_error", error)));
+        out.extend(report.yaw_rate_error_radps.map(|error| ("eval/yaw_rate_error", error)));
     }
 
     fn actors(&self, out: &mut Vec<(&str, f64)>) {

@@ -9,7 +9,8 @@ use std::{
 use anyhow::Context;
 use clap::{ArgGroup, Args};
 use treadmill_actor::evaluation::EvaluationStep;
-use treadmill_render::{Camera, Picture, Scene, film};
+use treadmill_humanoid::{Physics, task::velocity::BaseMotion};
+use treadmill_render::{Camera, Picture, Scene, film, scene::Colour};
 use treadmill_runtime::atomic_file;
 
 use super::film::Film;
@@ -73,6 +74,14 @@ fn seconds(text: &str) -> Result<f64, String> {
 
 /// Time constant (s) with which the camera follows the torso sideways.
 const FOLLOW_S: f64 = 0.5;
+
+/// Arrows of the commanded and of the actual velocity, the second one above the first.
+const ARROWS: [Colour; 2] = [[0.15, 0.70, 0.25], [0.15, 0.35, 0.85]];
+/// Length of an arrow per velocity (s).
+const ARROW_S: f64 = 0.7;
+/// Height of the arrows above the base, in heights of a standing base, and their distance (m).
+const ARROWS_ABOVE: f64 = 0.8;
+const ARROWS_APART_M: f64 = 0.06;
 
 /// Recorder of the episodes.
 pub struct Filming {
@@ -155,7 +164,11 @@ impl Filming {
             return Ok(());
         }
         let camera = Camera::beside(followed_m[0], followed_m[1]);
-        let picture = Picture::of(&Scene::of(step.physics), &camera, self.size);
+        let mut scene = Scene::of(step.physics);
+        if let Some(command) = step.start.command {
+            add_velocities(&mut scene, step.physics, command);
+        }
+        let picture = Picture::of(&scene, &camera, self.size);
         if let Some(film) = &mut self.film {
             film.add(&picture)?;
         }
@@ -184,6 +197,19 @@ impl Filming {
         }
         files.extend(self.png.map(|folder| folder.display().to_string()));
         Ok(format!("{} pictures of {}x{}: {}", self.taken, self.size.0, self.size.1, files.join(", ")))
+    }
+}
+
+/// Draws commanded and actual velocity above the robot.
+fn add_velocities(scene: &mut Scene, physics: &Physics, command: [f64; 3]) {
+    let (position, velocity) = (physics.position(), physics.velocity());
+    let (sin, cos) = BaseMotion::new(position, velocity, 0.0).heading_rad.sin_cos();
+    let commanded = [cos * command[0] - sin * command[1], sin * command[0] + cos * command[1]];
+    let standing_m = physics.model().robot.as_ref().map_or(1.0, |robot| robot.default_position[2]);
+    let mut from_m = [position[0], position[1], position[2] + ARROWS_ABOVE * standing_m];
+    for (velocity, colour) in [commanded, [velocity[0], velocity[1]]].into_iter().zip(ARROWS) {
+        scene.add_arrow(from_m, velocity.map(|part| part * ARROW_S), colour);
+        from_m[2] += ARROWS_APART_M;
     }
 }
 

@@ -1,19 +1,20 @@
-//! `treadmill eval`: plays episodes with a trained policy or a baseline; [`filming`] writes pictures of them.
+//! `treadmill eval`: plays episodes with a trained policy or a baseline.
+//!
+//! # Layout
+//! - [`command_file`]: commands that every episode follows.
+//! - [`trace`]: every step, as JSON.
+//! - [`filming`], [`film`]: pictures.
 
 use std::{
-    fs::File,
-    io::{BufWriter, Write},
     ops::ControlFlow,
     path::{Path, PathBuf},
 };
 
-use anyhow::Context;
 use clap::{Args, ValueEnum};
 use serde_json::json;
 use treadmill_actor::{
-    ActorError,
     agent::{Agent, PolicyAgent, PreferredActionAgent, RandomAgent},
-    evaluation::{EpisodeResult, Evaluation, EvaluationStep, evaluate},
+    evaluation::{EpisodeResult, Evaluation, EvaluationStep, evaluate_commanded, tracking::Tracking},
 };
 use treadmill_config::{Config, RandomisationConfig};
 use treadmill_humanoid::Environment;
@@ -21,10 +22,16 @@ use treadmill_learner::checkpoint::Which;
 use treadmill_policy::exported::ExportedPolicy;
 use treadmill_runtime::words::shown;
 
+mod command_file;
 mod film;
 mod filming;
+mod trace;
 
-use self::filming::{FilmArgs, Filming};
+use self::{
+    command_file::CommandFile,
+    filming::{FilmArgs, Filming},
+    trace::Trace,
+};
 use crate::{
     launch::{
         exit_code::Usage,
@@ -81,7 +88,10 @@ pub struct EvalArgs {
     /// Print the first and every N-th step of each episode; by default 100 for baselines, 0 (never) for the policy.
     #[arg(long, value_name = "N")]
     print_every: Option<u32>,
-    /// Write each observation with its action to a file, one JSON object per line.
+    /// Follow the commands of a file in every episode: lines of time_s,vx,vy,yaw_rate.
+    #[arg(long, value_name = "FILE")]
+    commands: Option<PathBuf>,
+    /// Write each observation with its action, state and torques to a file, one JSON object per line.
     #[arg(long, value_name = "FILE")]
     trace: Option<PathBuf>,
     #[command(flatten)]
@@ -96,12 +106,14 @@ pub struct EvalArgs {
 
 /// Plays the episodes and prints their results.
 pub fn run(args: EvalArgs) -> anyhow::Result<()> {
-    let Prepared { mut environment, agent, origin } = prepare(&args)?;
-    let mut agent = TracedAgent { agent, file: None };
-    if let Some(path) = &args.trace {
-        let file = File::create(path).with_context(|| format!("cannot write the trace `{}`", path.display()))?;
-        agent.file = Some(BufWriter::new(file));
+    let commands = args.commands.as_deref().map(CommandFile::read).transpose()?;
+    let Prepared { mut environment, mut agent, origin } = prepare(&args)?;
+    let has_commands = environment.task().command().is_some();
+    if let Some(path) = args.commands.as_ref().filter(|_| !has_commands) {
+        let why = "this task has no commands; leave --commands out, or play a policy of the velocity task";
+        return Err(Usage(format!("--commands {}: {why}", path.display())).into());
     }
+    let mut trace = args.trace.as_deref().map(Trace::create).transpose()?;
     let print_every = match (args.print_every, args.agent) {
         (Some(every), _) => every,
         (None, AgentKind::Policy) => 0,
@@ -112,13 +124,17 @@ pub fn run(args: EvalArgs) -> anyhow::Result<()> {
     let control_step_s = environment.control_step_s();
     let mut filming = args.film.begin(control_step_s)?;
     let notice = SlowStepNotice::begin(format!("playing episode 1 of {}", args.episodes));
-    let evaluation = evaluate(&mut environment, &mut agent, args.episodes, args.seed, |step| {
+    let command_at = commands.as_ref().map(|file| |time_s: f64| file.at(time_s));
+    let command_at = command_at.as_ref().map(|at| at as &dyn Fn(f64) -> [f64; 3]);
+    let (episodes, seed) = (args.episodes, args.seed);
+    let evaluation = evaluate_commanded(&mut environment, &mut *agent, episodes, seed, command_at, |step| {
         if step.step == 1 {
             notice.update(format!("playing episode {} of {}", step.episode, args.episodes));
         }
         if let Some(filming) = &mut filming {
             filming.record(&step);
         }
+        let is_traced = trace.as_mut().is_none_or(|trace| trace.record(&step));
         let mut is_read = true;
         if prints_steps && (step.step == 1 || step.step.is_multiple_of(print_every)) {
             let EvaluationStep { episode, step, reward, total, .. } = step;
@@ -127,13 +143,14 @@ pub fn run(args: EvalArgs) -> anyhow::Result<()> {
             ));
         }
         if prints_rows && let Some(played) = &step.ended {
-            is_read = (step.episode > 1 || say_to_reader(HEADINGS)) && say_to_reader(&row(step.episode, played));
+            is_read = (step.episode > 1 || say_to_reader(headings(has_commands)))
+                && say_to_reader(&row(step.episode, played));
         }
         // Files are completed although the table has no reader.
-        let is_wanted = is_read || args.trace.is_some() || filming.is_some();
+        let is_wanted = is_traced && (is_read || args.trace.is_some() || filming.is_some());
         if is_wanted { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
     })?;
-    agent.finish()?;
+    trace.map(Trace::finish).transpose()?;
     notice.update("finishing the pictures".to_string());
     let pictures = filming.map(Filming::finish).transpose()?;
     drop(notice);
@@ -141,7 +158,7 @@ pub fn run(args: EvalArgs) -> anyhow::Result<()> {
         say(&as_json(args.agent, origin, &evaluation, control_step_s));
     } else {
         if prints_steps {
-            say(HEADINGS);
+            say(headings(has_commands));
             (1..).zip(&evaluation.episodes).for_each(|(episode, played)| say(&row(episode, played)));
         }
         print_summary(&args, origin.as_ref(), &evaluation, control_step_s);
@@ -229,38 +246,15 @@ fn baseline(args: &EvalArgs, action_size: usize) -> Box<dyn Agent> {
     }
 }
 
-/// Agent whose observations and actions are written to a file.
-struct TracedAgent {
-    agent: Box<dyn Agent>,
-    file: Option<BufWriter<File>>,
+/// Headings of the table of episodes, without and with commands.
+const HEADINGS: [&str; 2] = [
+    "episode      return  length  distance m  velocity m/s  end",
+    "episode      return  length  distance m  velocity m/s  error m/s  error rad/s  end",
+];
+
+fn headings(has_commands: bool) -> &'static str {
+    HEADINGS[usize::from(has_commands)]
 }
-
-impl TracedAgent {
-    fn finish(&mut self) -> anyhow::Result<()> {
-        self.file.as_mut().map_or(Ok(()), |file| file.flush()).context("cannot write the trace")
-    }
-}
-
-impl Agent for TracedAgent {
-    fn act(&mut self, observation: &[f32], action: &mut [f32]) -> Result<(), ActorError> {
-        self.agent.act(observation, action)?;
-        if let Some(file) = &mut self.file {
-            let line = json!({"observation": observation, "action": action});
-            writeln!(file, "{line}").map_err(ActorError::Trace)?;
-        }
-        Ok(())
-    }
-
-    fn rewarded(&mut self, reward: f32) {
-        self.agent.rewarded(reward);
-    }
-
-    fn episode_ended(&mut self) {
-        self.agent.episode_ended();
-    }
-}
-
-const HEADINGS: &str = "episode      return  length  distance m  velocity m/s  end";
 
 fn row(episode: u32, played: &EpisodeResult) -> String {
     let end = match (played.fault, played.fell) {
@@ -268,20 +262,33 @@ fn row(episode: u32, played: &EpisodeResult) -> String {
         (_, true) => "fell",
         _ => "time limit",
     };
-    let EpisodeResult { return_sum, length, distance_m, velocity_mps, .. } = played;
-    format!("{episode:>7} {return_sum:>11.1} {length:>7} {distance_m:>11.2} {velocity_mps:>13.2}  {end}")
+    let EpisodeResult { return_sum, length, distance_m, velocity_mps, tracking, .. } = played;
+    let errors = tracking.map(|tracking| {
+        let (velocity, yaw_rate) = (number(tracking.velocity_error_mps()), number(tracking.yaw_rate_error_radps()));
+        format!(" {velocity:>10} {yaw_rate:>12}")
+    });
+    let errors = errors.unwrap_or_default();
+    format!("{episode:>7} {return_sum:>11.1} {length:>7} {distance_m:>11.2} {velocity_mps:>13.2}{errors}  {end}")
 }
 
 fn print_summary(args: &EvalArgs, origin: Option<&Origin>, evaluation: &Evaluation, control_step_s: f64) {
     say("");
     let from = origin.map(|origin| format!(" of {origin}")).unwrap_or_default();
     say(&format!("agent         {}{from}", args.agent.name()));
-    say(&format!("episodes      {}, {} of them ended with a fall", evaluation.episodes.len(), evaluation.falls()));
+    let (episodes, falls) = (evaluation.episodes.len(), evaluation.falls());
+    let share = match evaluation.tracking() {
+        Some(_) => format!(" ({:.0} %)", 100.0 * falls as f64 / episodes.max(1) as f64),
+        None => String::new(),
+    };
+    say(&format!("episodes      {episodes}, {falls} of them ended with a fall{share}"));
     let (mean, std) = (evaluation.mean(|played| played.return_sum), evaluation.return_std());
     say(&shown(&format!("return        {mean:.1} ± {std:.1}")));
     say(&format!("length        {:.1} steps", evaluation.mean(|played| f64::from(played.length))));
     say(&format!("distance      {:.2} m", evaluation.mean(|played| played.distance_m)));
     say(&format!("velocity      {:.2} m/s", evaluation.velocity_mean_mps(control_step_s)));
+    if let Some(tracking) = evaluation.tracking() {
+        print_tracking(&tracking);
+    }
     if args.verbose {
         let joints = &evaluation.joints;
         say(&format!(
@@ -291,10 +298,31 @@ fn print_summary(args: &EvalArgs, origin: Option<&Origin>, evaluation: &Evaluati
     }
 }
 
+fn print_tracking(tracking: &Tracking) {
+    match (tracking.velocity_error_mps(), tracking.yaw_rate_error_radps()) {
+        (Some(velocity), Some(yaw_rate)) => say(&format!(
+            "tracking      {velocity:.2} m/s, {yaw_rate:.2} rad/s off ({} windows of 1 s)",
+            tracking.windows
+        )),
+        _ => say("tracking      unknown: no command lasted for 2 s without a push or a fall"),
+    }
+    say(&format!(
+        "energy        {} J/m",
+        tracking.energy_per_metre_jpm().map_or("-".into(), |jpm| format!("{jpm:.0}"))
+    ));
+    say(&format!("foot slip     {} m/s", number(tracking.foot_slip_mps())));
+    say(&format!("pushes        {}", tracking.pushes));
+}
+
+/// Returns a number with two decimals, or a dash for none.
+fn number(value: Option<f64>) -> String {
+    value.map_or_else(|| "-".to_string(), |value| format!("{value:.2}"))
+}
+
 fn as_json(agent: AgentKind, origin: Option<Origin>, evaluation: &Evaluation, control_step_s: f64) -> String {
     let joints = &evaluation.joints;
     let (checkpoint, env_steps) = origin.map(|Origin { checkpoint, env_steps }| (checkpoint, env_steps)).unzip();
-    json!({
+    let mut fields = json!({
         "agent": agent.name(),
         "checkpoint": checkpoint,
         "checkpoint_env_steps": env_steps,
@@ -308,6 +336,14 @@ fn as_json(agent: AgentKind, origin: Option<Origin>, evaluation: &Evaluation, co
         "faults": evaluation.episodes.iter().filter(|played| played.fault).count(),
         "limit_overshoot_p999_rad": joints.overshoot_p999_rad,
         "limit_overshoot_max_rad": joints.overshoot_max_rad,
-    })
-    .to_string()
+    });
+    if let Some(tracking) = evaluation.tracking() {
+        fields["velocity_error_mps"] = json!(tracking.velocity_error_mps());
+        fields["yaw_rate_error_radps"] = json!(tracking.yaw_rate_error_radps());
+        fields["energy_per_metre_jpm"] = json!(tracking.energy_per_metre_jpm());
+        fields["foot_slip_mps"] = json!(tracking.foot_slip_mps());
+        fields["pushes"] = json!(tracking.pushes);
+        fields["windows"] = json!(tracking.windows);
+    }
+    fields.to_string()
 }

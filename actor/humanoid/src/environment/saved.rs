@@ -72,6 +72,7 @@ impl Environment {
         self.randomiser.resume(&state.past_actions, state.steps_to_push, &state.streams);
         self.physics.resume_from(&state.position, &state.velocity);
         self.episode_steps = state.steps;
+        self.was_pushed = false;
         self.last_observation.copy_from_slice(&state.observation);
         self.last_info = self.task.begin(state.seed, &self.physics);
         self.task.restore(&state.task)?;

@@ -54,6 +54,7 @@ impl Environment {
         self.last_observation.clone_from(&snapshot.last_observation);
         self.last_info = snapshot.last_info;
         self.episode_steps = snapshot.episode_steps;
+        self.was_pushed = false;
         Ok(())
     }
 }

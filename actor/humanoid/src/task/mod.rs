@@ -94,14 +94,14 @@ pub trait Task: Send {
     /// finite, here or in the reward, is a fault, as in [`Environment::step`](crate::Environment::step).
     fn observe(&mut self, physics: &Physics, noise: &mut SensorNoise, observation: &mut [f32]);
 
-    /// Returns the velocity that the robot is told to have, in its heading frame: forward and left (m/s), yaw rate (rad/s);
+    /// Returns the velocity that the robot is asked to have, in its heading frame: forward and left (m/s), yaw rate (rad/s);
     /// `None` if the task has no commands.
     fn command(&self) -> Option<[f64; 3]> {
         None
     }
 
     /// Replaces the task's own commands by one, also in later episodes; `None` ends that. Returns false if the task has no
-    /// commands.
+    /// commands. The reward of a step counts the command that the policy observed before it.
     fn steer(&mut self, _command: Option<[f64; 3]>) -> bool {
         false
     }
@@ -110,6 +110,12 @@ pub trait Task: Send {
     /// has none.
     fn mirrored(&self, _robot: &Mirror) -> Option<SignedPermutation> {
         None
+    }
+
+    /// Returns a count that grows with each command that replaces another one, whether drawn or given by [`Self::steer`]. A
+    /// command that changes continuously, such as a yaw rate towards a heading, remains one command.
+    fn command_changes(&self) -> u32 {
+        0
     }
 
     /// Returns everything that the rest of the episode depends on, apart from seed and physics, as finite numbers. Their count

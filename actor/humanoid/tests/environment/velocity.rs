@@ -125,6 +125,88 @@ fn a_steered_robot_is_told_what_the_user_says_until_that_ends() {
     assert!(!humanoid.steer(Some([0.0; 3])), "Gymnasium's task has no commands");
 }
 
+/// Returns the action in the middle of each range.
+fn middle(environment: &Environment) -> Vec<f32> {
+    environment.action_ranges().iter().map(|[low, high]| f32::midpoint(*low, *high)).collect()
+}
+
+#[test]
+fn a_step_is_rewarded_for_the_command_that_the_policy_observed_before_it() {
+    let config = config(VelocityConfig { resampling_s: [100.0, 100.0], ..VelocityConfig::default() });
+    let (mut steered, mut other) = (environment(&config), environment(&config));
+    let action = middle(&other);
+    let (mut left, mut right) = (vec![0.0; other.observation_size()], vec![0.0; other.observation_size()]);
+    for environment in [&mut steered, &mut other] {
+        environment.steer(Some([0.25, 0.0, 0.0]));
+        environment.reset(4, &mut left);
+    }
+    let changes = steered.task().command_changes();
+    steered.steer(Some([-1.0, 0.5, 0.0]));
+    assert_eq!(steered.task().command(), Some([-1.0, 0.5, 0.0]));
+    let mut step = || {
+        let rewards = (steered.step(&action, &mut left).reward, other.step(&action, &mut right).reward);
+        assert_eq!((&left[6..9], &right[6..9]), (&[-1.0, 0.5, 0.0][..], &[0.25, 0.0, 0.0][..]));
+        rewards
+    };
+    let (first, unsteered) = step();
+    assert_eq!(first.to_bits(), unsteered.to_bits());
+    let (second, unsteered) = step();
+    assert_ne!(second.to_bits(), unsteered.to_bits());
+    assert_eq!(steered.task().command_changes(), changes + 1);
+    steered.steer(Some([-1.0, 0.5, 0.0]));
+    assert_eq!(steered.task().command_changes(), changes + 1, "the same command again is no change");
+}
+
+#[test]
+fn a_drawn_command_is_a_change_and_a_turning_heading_is_none() {
+    let config = config(VelocityConfig {
+        resampling_s: [0.1, 0.1],
+        heading_share: 1.0,
+        standing_share: 0.0,
+        ..VelocityConfig::default()
+    });
+    let mut environment = environment(&config);
+    let mut row = vec![0.0; environment.observation_size()];
+    environment.reset(2, &mut row);
+    let action = middle(&environment);
+    let begin = environment.task().command_changes();
+    let mut yaw_rates = vec![environment.task().command().unwrap()[2]];
+    for step in 1..=12 {
+        environment.step(&action, &mut row);
+        assert_eq!(environment.task().command_changes() - begin, step / 5, "step {step}");
+        yaw_rates.push(environment.task().command().unwrap()[2]);
+    }
+    yaw_rates.dedup();
+    assert!(yaw_rates.len() > 3, "{yaw_rates:?}");
+}
+
+#[test]
+fn the_environment_says_which_steps_a_push_began() {
+    let mut environment = environment(&config(VelocityConfig { fall_tilt_rad: 3.2, ..VelocityConfig::default() }));
+    let mut row = vec![0.0; environment.observation_size()];
+    environment.reset(2, &mut row);
+    let action = middle(&environment);
+    let pushed: Vec<bool> = (0..60)
+        .map(|_| {
+            let before = environment.physics().velocity()[..2].to_vec();
+            environment.begin_step(&action);
+            let is_faster = environment.physics().velocity()[..2] != before[..];
+            Environment::step_together(&mut std::iter::once(&mut environment));
+            environment.finish_step(&mut row);
+            assert_eq!(environment.was_pushed(), is_faster);
+            is_faster
+        })
+        .collect();
+    let count = pushed.iter().filter(|is_pushed| **is_pushed).count();
+    assert!((2..=6).contains(&count), "every 10 to 20 steps: {pushed:?}");
+    let last = pushed.iter().rposition(|is_pushed| *is_pushed).unwrap();
+    environment.reset(2, &mut row);
+    (0..=last).for_each(|_| drop(environment.step(&action, &mut row)));
+    assert!(environment.was_pushed());
+    environment.reset(2, &mut row);
+    assert!(!environment.was_pushed());
+}
+
 #[test]
 fn what_the_task_needs_and_lacks_is_named() {
     let refusal = |velocity: VelocityConfig, text: &str| {

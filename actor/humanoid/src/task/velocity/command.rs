@@ -1,4 +1,4 @@
-//! Commands: what the robot is told to do, and for how long.
+//! Commands: what the robot is asked to do, and for how long.
 
 use rand::RngExt;
 
@@ -10,7 +10,7 @@ pub const STANDING_COMMAND: f64 = 0.1;
 /// Yaw rate per error of the heading (1/s).
 pub const HEADING_GAIN: f64 = 0.5;
 
-/// Velocity that the robot is told to have, in its heading frame.
+/// Velocity that the robot is asked to have, in its heading frame.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Command {
     /// Forward velocity (m/s).
@@ -22,7 +22,7 @@ pub struct Command {
 }
 
 impl Command {
-    /// Returns whether the robot is told to stand.
+    /// Returns whether the robot is asked to stand.
     #[must_use]
     pub fn stands(&self) -> bool {
         self.lin_vel_x_mps.hypot(self.lin_vel_y_mps) + self.ang_vel_z_radps.abs() < STANDING_COMMAND

@@ -42,8 +42,9 @@ impl Foot {
         }
     }
 
-    /// Returns the foot without a past.
-    pub(super) fn now(physics: &Physics, link: usize, standing_m: f64) -> Self {
+    /// Returns the foot on `link` without a past.
+    #[must_use]
+    pub fn now(physics: &Physics, link: usize, standing_m: f64) -> Self {
         let link_of = &physics.model().links[link];
         let body = physics.body_motion(link_of.body);
         let origin = body.pose * Point3::from(link_of.pose.translation.vector);

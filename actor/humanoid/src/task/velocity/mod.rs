@@ -61,6 +61,9 @@ pub struct VelocityTask {
     drawn: Drawn,
     drawn_left_steps: u32,
     command: Command,
+    /// Command of the last observation, for which the next step is rewarded.
+    observed: Command,
+    command_changes: u32,
     episode_steps: u32,
     actions: Vec<f64>,
     actions_before: Vec<f64>,
@@ -126,6 +129,8 @@ impl VelocityTask {
             drawn: Drawn::default(),
             drawn_left_steps: 0,
             command: Command::default(),
+            observed: Command::default(),
+            command_changes: 0,
             episode_steps: 0,
             feet: [Foot::default(); FEET],
             terms_of_reward: VelocityRewards::default(),
@@ -246,7 +251,7 @@ impl Task for VelocityTask {
         };
         let (config, time_s, step_s) = (&self.config, self.time_s(), self.step_s);
         let mut terms =
-            terms(config, physics.model(), &self.body, &self.command, &base, &self.feet, &hinges, time_s, step_s);
+            terms(config, physics.model(), &self.body, &self.observed, &base, &self.feet, &hinges, time_s, step_s);
         let has_fallen =
             base.height_m < config.fall_height_share * self.body.height_m || base.tilt_rad() > config.fall_tilt_rad;
         terms.alive = f64::from(u8::from(!has_fallen));
@@ -257,6 +262,7 @@ impl Task for VelocityTask {
         self.drawn_left_steps -= 1;
         if self.drawn_left_steps == 0 {
             self.draw(self.drawn_index + 1);
+            self.command_changes += u32::from(self.steered.is_none());
         }
         self.command = self.steered.unwrap_or_else(|| self.drawn.at(&self.config, base.heading_rad));
         let velocity = (physics.centre_of_mass() - step.centre_before_m) / step_s;
@@ -274,6 +280,7 @@ impl Task for VelocityTask {
         if !is_again {
             seen.rotate_left(width);
         }
+        self.observed = self.command;
         self.write_row(physics, noise, &mut seen[newest..]);
         if self.observed_step.is_none() {
             for row in 0..self.config.history as usize - 1 {
@@ -291,6 +298,10 @@ impl Task for VelocityTask {
         Some(self.command.numbers())
     }
 
+    fn command_changes(&self) -> u32 {
+        self.command_changes
+    }
+
     fn steer(&mut self, command: Option<[f64; 3]>) -> bool {
         self.steered = command.map(|[lin_vel_x_mps, lin_vel_y_mps, ang_vel_z_radps]| Command {
             lin_vel_x_mps,
@@ -298,6 +309,7 @@ impl Task for VelocityTask {
             ang_vel_z_radps,
         });
         if let Some(command) = self.steered {
+            self.command_changes += u32::from(command != self.command);
             self.command = command;
         }
         true
@@ -344,6 +356,7 @@ impl Task for VelocityTask {
         self.rates_before_radps.copy_from_slice(of_rates);
         self.command =
             Command { lin_vel_x_mps: of_command[0], lin_vel_y_mps: of_command[1], ang_vel_z_radps: of_command[2] };
+        self.observed = self.command;
         self.past.iter_mut().zip(of_past).for_each(|(number, saved)| *number = *saved as f32);
         self.observed_step = Some(self.episode_steps);
         Ok(())

@@ -1,0 +1,115 @@
+//! `eval` of policies that follow commands: tracking, `--commands`, `--randomised`, `--trace`.
+
+use std::{fs, path::Path};
+
+use serde_json::Value;
+
+use crate::support::*;
+
+const ROBOT_XML: &str = include_str!("../../actor/humanoid/assets/g1-like-servos.xml");
+const CARD: &str =
+    "model = 'robot.xml'\nfeet = ['left_foot', 'right_foot']\n[[hinges]]\nnames = '*'\neffort_nm = 60.0\n";
+const PUSHES: [&str; 4] =
+    ["--set", "randomisation.push_mps=[0.1, 0.2]", "--set", "randomisation.push_interval_s=[0.1, 0.2]"];
+/// Falls end nothing, so that episodes have complete windows.
+const NEVER_FALLS: [&str; 4] = ["--set", "velocity.fall_height_share=0", "--set", "velocity.fall_tilt_rad=3.2"];
+const FIELDS: [&str; 6] =
+    ["velocity_error_mps", "yaw_rate_error_radps", "energy_per_metre_jpm", "foot_slip_mps", "pushes", "windows"];
+
+/// Trains a few steps of the velocity task.
+fn train(folder: &Path, run: &Path) {
+    fs::write(folder.join("robot.xml"), ROBOT_XML).unwrap();
+    fs::write(folder.join("card.toml"), CARD).unwrap();
+    let args = ["train", "--preset", "smoke", "--steps", "512", "--actors", "1", "--model", "card.toml"];
+    let task = ["--set", "env.task=velocity", "--set", "env.control_step_s=0.02", "--set", "env.substeps=5"];
+    let output = run_with(folder, &[&args[..], &task, &PUSHES, &["--run-dir", run.to_str().unwrap()]]);
+    assert!(output.status.success(), "{}", stderr(&output));
+}
+
+fn run_with(folder: &Path, parts: &[&[&str]]) -> std::process::Output {
+    run(folder, &parts.concat())
+}
+
+fn numbers(value: &Value) -> Vec<f64> {
+    value.as_array().unwrap().iter().map(|number| number.as_f64().unwrap()).collect()
+}
+
+#[test]
+fn a_policy_that_follows_commands_is_measured_by_them() {
+    let (folder, run) = folders();
+    let folder = folder.path();
+    train(folder, &run);
+    let path = run.to_str().unwrap();
+    let eval = |more: &[&[&str]]| run_with(folder, &[&[&["eval", path, "--episodes", "2"][..]], more].concat());
+
+    // 151 steps: one second of waiting and two windows.
+    let three_s = ["--set", "env.max_episode_steps=151", "--set", "velocity.resampling_s=[10, 10]"];
+    let result = last_json(&eval(&[&three_s, &NEVER_FALLS, &["--json"]]));
+    assert_eq!(
+        (&result["windows"], &result["pushes"], &result["falls"]),
+        (&4.into(), &0.into(), &0.into()),
+        "{result}"
+    );
+    for field in &FIELDS[..4] {
+        assert!(result[field].as_f64().is_some_and(|number| number > 0.0), "{field} in {result}");
+    }
+    assert!(result["velocity_error_mps"].as_f64().unwrap() < 5.0, "{result}");
+    let text = stdout(&eval(&[&three_s, &NEVER_FALLS]));
+    for part in ["error m/s", "(0 %)", "tracking      ", "(4 windows of 1 s)", "energy        ", "foot slip     "] {
+        assert!(text.contains(part), "{part} in {text}");
+    }
+    assert!(text.lines().all(|line| line.chars().count() <= 100), "{text}");
+
+    // Pushes come more often than every second.
+    let pushed = last_json(&eval(&[&three_s, &NEVER_FALLS, &["--json", "--randomised"]]));
+    assert_eq!((&pushed["windows"], &pushed["velocity_error_mps"]), (&0.into(), &Value::Null), "{pushed}");
+    assert!(pushed["pushes"].as_u64().unwrap() >= 28, "{pushed}");
+    // Changes of command too.
+    let changing = ["--set", "velocity.resampling_s=[0.5, 1.9]"];
+    assert_eq!(last_json(&eval(&[&three_s, &NEVER_FALLS, &changing, &["--json"]]))["windows"], 0);
+
+    let humanoid = run_with(folder, &[&["eval", "--agent", "random", "--episodes", "1", "--json"]]);
+    assert!(FIELDS.iter().all(|field| last_json(&humanoid).get(field).is_none()), "a task without commands");
+}
+
+#[test]
+fn commands_come_from_a_file_and_every_step_is_traced() {
+    let (folder, run) = folders();
+    let folder = folder.path();
+    train(folder, &run);
+    let path = run.to_str().unwrap();
+    fs::write(folder.join("walk.csv"), "time_s,vx,vy,yaw_rate\n0,0.5,0,0\n0.1,-0.25,0.125,0.5 # turns\n").unwrap();
+    let limits = ["--set", "env.max_episode_steps=8", "--gif", "a.gif", "--size", "96x64"];
+    let args = ["eval", path, "--episodes", "2", "--json", "--trace", "trace.jsonl", "--commands", "walk.csv"];
+    let output = run_with(folder, &[&args, &limits, &NEVER_FALLS]);
+    assert!(output.status.success(), "{}", stderr(&output));
+    let lines = fs::read_to_string(folder.join("trace.jsonl")).unwrap();
+    let lines: Vec<Value> = lines.lines().map(|line| serde_json::from_str(line).unwrap()).collect();
+    assert_eq!(lines.len(), 16);
+    for (index, line) in lines.iter().enumerate() {
+        let (episode, step) = (index / 8 + 1, index % 8 + 1);
+        assert_eq!((&line["episode"], &line["step"]), (&episode.into(), &step.into()));
+        let sizes = ["action", "qpos", "qvel", "torque"].map(|key| numbers(&line[key]).len());
+        assert_eq!(sizes, [29, 36, 35, 29]);
+        // Step 6 begins after 0.1 s.
+        let expected = if step <= 5 { [0.5, 0.0, 0.0] } else { [-0.25, 0.125, 0.5] };
+        assert_eq!(numbers(&line["command"]), expected, "step {step}");
+        assert_eq!(numbers(&line["observation"])[6..9], expected, "the policy observes it in step {step}");
+    }
+    let height = |index: usize| numbers(&lines[index]["qpos"])[2];
+    assert!(height(0) != height(1) && (height(0) - height(8)).abs() < 0.2, "the state before each step");
+
+    let refused = |text: &str, parts: &[&str]| {
+        fs::write(folder.join("bad.csv"), text).unwrap();
+        let output = run_with(folder, &[&["eval", path, "--commands", "bad.csv"]]);
+        assert_refused(&output, 2, &[&["--commands bad.csv"], parts].concat());
+        assert_eq!(stderr(&output).trim().lines().count(), 1, "{}", stderr(&output));
+    };
+    refused("0,0,0,0\n1,0,0,5.5\n", &["line 2", "yaw_rate is 5.5", "-5 to 5"]);
+    refused("0,0,0,0\n1,0,0,0\n0.5,0,0,0\n", &["line 3", "time_s is 0.5", "after 1"]);
+    refused("", &["no command"]);
+    let missing = run_with(folder, &[&["eval", path, "--commands", "no.csv"]]);
+    assert_refused(&missing, 2, &["--commands no.csv", "cannot be read"]);
+    let without = run_with(folder, &[&["eval", "--agent", "random", "--commands", "walk.csv"]]);
+    assert_refused(&without, 2, &["--commands walk.csv", "no commands"]);
+}
