@@ -57,6 +57,7 @@ impl Task for Squat {
         Evaluation {
             reward: (1.0 + 4.0 * tracking - 0.5 * drift_mps - 0.1 * effort) as f32,
             terminated: height_m < FALLEN_M,
+            truncated: false,
             info: StepInfo { torso_height_m: height_m, ..StepInfo::default() },
         }
     }

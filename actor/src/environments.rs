@@ -302,12 +302,15 @@ impl EnvironmentSlot {
         self.flags = flags;
         self.last_observation.copy_from_slice(observation);
         let distance_m = progress.last_x_m - progress.start_x_m;
+        let difficulty = self.environment.task().difficulty();
         self.ended = Some(Episode {
             return_sum: progress.return_sum,
             length: progress.length,
             distance_m,
             velocity_mean_mps: distance_m / (f64::from(progress.length) * self.environment.control_step_s()),
             cause,
+            ground_level: difficulty.ground_level,
+            command_factor: difficulty.command_factor,
         });
         self.reset(seeds, observation);
     }

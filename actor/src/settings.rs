@@ -1,19 +1,19 @@
 //! Reads the run's configuration and maps it to that of the environment.
 
 use treadmill_config::{
-    Config, ConfigSource, EnvObservation, EnvTask, ObservationPrecision, RandomisationConfig, RewardsConfig,
-    RolloutConfig, VelocityConfig, is_key_of_actors,
+    Config, ConfigSource, EnvObservation, EnvTask, GroundConfig, ObservationPrecision, RandomisationConfig,
+    RewardsConfig, RolloutConfig, VelocityConfig, is_key_of_actors,
 };
 use treadmill_humanoid::{
     EnvironmentConfig, ObservationKind, PHYSICS_VERSION, Randomisation, RewardTask,
-    config::{VelocityConfig as Velocity, VelocityRewards},
+    config::{GroundKind, GroundSettings, StartLevel, VelocityConfig as Velocity, VelocityRewards},
 };
 use treadmill_proto::{PolicyBundle, Precision, WIRE_VERSION, limits::fragment_envs_max};
 
 use crate::ActorError;
 
 /// Sections that actors need. Other sections may have values that only the learner's version knows.
-const SECTIONS: [&str; 7] = ["env", "velocity", "rewards", "task", "randomisation", "rollout", "bus"];
+const SECTIONS: [&str; 8] = ["env", "velocity", "rewards", "ground", "task", "randomisation", "rollout", "bus"];
 /// Keys of other sections that actors need.
 const KEYS: [&str; 5] = ["run.seed", "run.deterministic", "ppo.batch", "learner.mode", "eval.episodes"];
 /// Most unknown keys that a message names.
@@ -87,8 +87,20 @@ pub fn check_supported(run: &str, config: &Config) -> Result<(), ActorError> {
     }
 }
 
-/// Returns the configuration of a training environment: the task with the run's randomisation.
+/// Returns the configuration of a training environment: the task with the run's randomisation and curricula.
 pub fn training(config: &Config) -> EnvironmentConfig {
+    let mut settings = randomised(config);
+    if let Some(velocity) = &mut settings.velocity {
+        velocity.command_curriculum = config.velocity.command_curriculum;
+    }
+    if config.ground.curriculum {
+        settings.ground.start = StartLevel::Rising(config.ground.start_level);
+    }
+    settings
+}
+
+/// Returns the configuration of an environment with the run's randomisation, whose episodes do not depend on earlier ones.
+pub fn randomised(config: &Config) -> EnvironmentConfig {
     EnvironmentConfig { randomisation: randomisation(&config.randomisation), ..environment(config) }
 }
 
@@ -118,8 +130,10 @@ fn randomisation(config: &RandomisationConfig) -> Randomisation {
     }
 }
 
-/// Returns the configuration of an environment without randomisation.
+/// Returns the configuration of an environment without randomisation and curricula: commands have their full ranges, and each
+/// episode draws its level of the ground's difficulty.
 pub fn environment(config: &Config) -> EnvironmentConfig {
+    let ground = ground(&config.ground);
     let is_velocity = config.env.task == EnvTask::Velocity;
     let velocity = is_velocity.then(|| velocity(&config.velocity, &config.rewards));
     let config = &config.env;
@@ -154,7 +168,28 @@ pub fn environment(config: &Config) -> EnvironmentConfig {
         substeps: config.substeps,
         self_collision: config.self_collision,
         velocity,
+        ground,
         randomisation: Randomisation::default(),
+    }
+}
+
+fn ground(config: &GroundConfig) -> GroundSettings {
+    GroundSettings {
+        // The names are checked.
+        kinds: config.kinds.iter().filter_map(|name| GroundKind::from_name(name)).collect(),
+        levels: config.levels,
+        tile_m: config.tile_m,
+        cell_m: config.cell_m,
+        slope_max: config.slope_max,
+        step_max_m: config.step_max_m,
+        rough_max_m: config.rough_max_m,
+        stone_gap_max_m: config.stone_gap_max_m,
+        stone_height_max_m: config.stone_height_max_m,
+        seed: config.seed,
+        start: match config.curriculum {
+            true => StartLevel::Drawn,
+            false => StartLevel::Fixed(config.start_level),
+        },
     }
 }
 
@@ -173,6 +208,8 @@ fn velocity(config: &VelocityConfig, rewards: &RewardsConfig) -> Velocity {
         fall_height_share: config.fall_height_share,
         fall_tilt_rad: config.fall_tilt_rad,
         history: config.history,
+        height_scan: config.height_scan,
+        command_curriculum: false,
         rewards: VelocityRewards {
             track_linear_velocity: rewards.track_linear_velocity,
             track_yaw_rate: rewards.track_yaw_rate,
@@ -224,8 +261,28 @@ mod tests {
 
     #[test]
     fn configuration_and_environment_have_the_same_defaults() {
-        assert_eq!(environment(&Config::default()), EnvironmentConfig::default());
+        let ground = GroundSettings { start: StartLevel::Rising(0), ..environment(&Config::default()).ground };
+        assert_eq!(EnvironmentConfig { ground, ..environment(&Config::default()) }, EnvironmentConfig::default());
         assert_eq!(training(&Config::default()), EnvironmentConfig::default());
+    }
+
+    #[test]
+    fn only_training_depends_on_earlier_episodes() {
+        let mut source = ConfigSource::default();
+        for pair in ["env.task=velocity", "velocity.command_curriculum=true", "ground.kinds=[\"stairs\", \"rough\"]"] {
+            source.set(pair).unwrap();
+        }
+        source.set("ground.start_level=3").unwrap();
+        let config = source.build().unwrap();
+        let of = |settings: EnvironmentConfig| (settings.ground.start, settings.velocity.unwrap().command_curriculum);
+        assert_eq!(of(training(&config)), (StartLevel::Rising(3), true));
+        assert_eq!(of(randomised(&config)), (StartLevel::Drawn, false));
+        assert_eq!(of(environment(&config)), (StartLevel::Drawn, false));
+        assert_eq!(training(&config).ground.kinds, [GroundKind::Stairs, GroundKind::Rough]);
+        source.set("ground.curriculum=false").unwrap();
+        let config = source.build().unwrap();
+        assert_eq!(of(training(&config)), (StartLevel::Fixed(3), true));
+        assert_eq!(of(environment(&config)), (StartLevel::Fixed(3), false));
     }
 
     #[test]

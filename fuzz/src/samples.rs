@@ -1,7 +1,9 @@
 //! One valid message of each kind, small so that a mutated byte matters.
 
 use bytes::Bytes;
-use treadmill_config::{Config, EnvConfig, RandomisationConfig, RewardsConfig, TaskConfig, VelocityConfig};
+use treadmill_config::{
+    Config, EnvConfig, GroundConfig, RandomisationConfig, RewardsConfig, TaskConfig, VelocityConfig,
+};
 use treadmill_humanoid::HUMANOID_XML;
 use treadmill_learner::checkpoint::{TrainingState, encoding};
 use treadmill_policy::{
@@ -72,6 +74,8 @@ fn fragment_message() -> Fragment {
             distance_m: 0.1,
             velocity_mean_mps: 3.0,
             cause: EndCause::TimeLimit,
+            ground_level: Some(1.0),
+            command_factor: Some(0.5),
         }],
         settled_through: 1,
         actor_state: None,
@@ -230,6 +234,7 @@ pub fn exported() -> Vec<u8> {
         randomisation: RandomisationConfig::default(),
         velocity: VelocityConfig::default(),
         rewards: RewardsConfig::default(),
+        ground: GroundConfig::default(),
         task: TaskConfig::default(),
         model_xml: "<mujoco/>".into(),
     }

@@ -54,6 +54,10 @@ pub struct Episode {
     pub velocity_mean_mps: f64,
     /// Cause of the end.
     pub cause: EndCause,
+    /// Level of the ground's difficulty, from 0; `None` where the task has no levels.
+    pub ground_level: Option<f64>,
+    /// Factor on the ranges of commands; `None` where the task has no such curriculum.
+    pub command_factor: Option<f64>,
 }
 
 /// Rollout fragment. Planes are time-major: entry `[t][n][i]` is at `((t * N) + n) * width + i`.
@@ -164,7 +168,8 @@ impl Fragment {
             return Err(Malformed::field("episodes", self.episodes.len(), format!("at most {rows}")));
         }
         for (index, episode) in self.episodes.iter().enumerate() {
-            let sum = episode.return_sum + episode.distance_m + episode.velocity_mean_mps;
+            let difficulty = episode.ground_level.unwrap_or(0.0) + episode.command_factor.unwrap_or(0.0);
+            let sum = episode.return_sum + episode.distance_m + episode.velocity_mean_mps + difficulty;
             if !sum.is_finite() {
                 return Err(Malformed::NotFinite { field: "episodes", index, value: format!("{episode:?}") });
             }
@@ -349,6 +354,8 @@ impl From<&Episode> for wire::Episode {
             distance_m: episode.distance_m,
             velocity_mean_mps: episode.velocity_mean_mps,
             cause: cause.into(),
+            ground_level: episode.ground_level,
+            command_factor: episode.command_factor,
         }
     }
 }
@@ -370,6 +377,8 @@ impl TryFrom<&wire::Episode> for Episode {
             distance_m: episode.distance_m,
             velocity_mean_mps: episode.velocity_mean_mps,
             cause,
+            ground_level: episode.ground_level,
+            command_factor: episode.command_factor,
         })
     }
 }

@@ -28,6 +28,8 @@ pub(crate) fn sample() -> Fragment {
             distance_m: 0.1,
             velocity_mean_mps: 3.0,
             cause: EndCause::TimeLimit,
+            ground_level: Some(3.0),
+            command_factor: None,
         }],
         settled_through: 1,
         actor_state: Some(state("a1", 3)),

@@ -58,6 +58,12 @@ pub struct EpisodeReport {
     pub velocity_mean_mps: f64,
     /// `fell`, `time_limit`, `non_finite` or `terminated`.
     pub cause: String,
+    /// Level of the ground's difficulty, from 0; absent where the task has no levels.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub ground_level: Option<f64>,
+    /// Factor on the ranges of commands; absent where the task has no such curriculum.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub command_factor: Option<f64>,
 }
 
 impl EpisodeReport {
@@ -71,6 +77,8 @@ impl EpisodeReport {
             distance_m: episode.distance_m,
             velocity_mean_mps: episode.velocity_mean_mps,
             cause: episode.cause.name().to_string(),
+            ground_level: episode.ground_level,
+            command_factor: episode.command_factor,
         }
     }
 
@@ -92,12 +100,23 @@ mod tests {
 
     #[test]
     fn an_episode_has_the_documented_form() {
-        let episode =
-            Episode { return_sum: 1.5, length: 2, distance_m: 0.25, velocity_mean_mps: 0.5, cause: EndCause::Fell };
+        let episode = Episode {
+            return_sum: 1.5,
+            length: 2,
+            distance_m: 0.25,
+            velocity_mean_mps: 0.5,
+            cause: EndCause::Fell,
+            ground_level: None,
+            command_factor: None,
+        };
         assert_eq!(
             serde_json::to_string(&EpisodeReport::new("r", "a", &episode)).unwrap(),
             r#"{"run":"r","actor":"a","return":1.5,"length":2,"distance_m":0.25,"velocity_mean_mps":0.5,"cause":"fell"}"#
         );
+        let on_ground = EpisodeReport::new("r", "a", &Episode { ground_level: Some(3.0), ..episode });
+        let text = serde_json::to_string(&on_ground).unwrap();
+        assert!(text.ends_with(r#""cause":"fell","ground_level":3.0}"#), "{text}");
+        assert_eq!(EpisodeReport::from_json(text.as_bytes()).unwrap(), on_ground);
     }
 
     #[test]

@@ -33,7 +33,15 @@ fn actor_state() -> ActorState {
 }
 
 fn fragment() -> Fragment {
-    let episode = |cause, length| Episode { return_sum: 12.5, length, distance_m: 0.1, velocity_mean_mps: 3.0, cause };
+    let episode = |cause, length| Episode {
+        return_sum: 12.5,
+        length,
+        distance_m: 0.1,
+        velocity_mean_mps: 3.0,
+        cause,
+        ground_level: None,
+        command_factor: None,
+    };
     Fragment {
         run: "walk-1".into(),
         actor: "actor-0".into(),

@@ -45,7 +45,7 @@ impl Scene {
             }
         }
         let bound = bound(&solids);
-        Self { surface: Surface::new(model.ground.height_field.as_ref()), solids, bound }
+        Self { surface: Surface::new(model.ground.height_field.as_deref()), solids, bound }
     }
 
     /// Adds a horizontal arrow with a ball as its tip, from a point in the world.

@@ -20,7 +20,7 @@ pub struct ModelArgs {
     /// MJCF file or card of a robot other than the built-in humanoid; see docs/guide/robots.md.
     #[arg(long, value_name = "FILE")]
     pub model: Option<PathBuf>,
-    /// Set a key of [env], [velocity], [rewards] or [randomisation], as in env.substeps=5; may be repeated.
+    /// Set a key of [env], [velocity], [rewards], [ground] or [randomisation], as in env.substeps=5; may be repeated.
     #[arg(long, value_name = "KEY=VALUE")]
     pub set: Vec<String>,
 }
@@ -31,12 +31,12 @@ impl ModelArgs {
         let mut source = ConfigSource::default();
         source.text(&base.to_toml(), "the run's configuration")?;
         for pair in &self.set {
-            if !["env.", "velocity.", "rewards.", "randomisation."]
+            if !["env.", "velocity.", "rewards.", "ground.", "randomisation."]
                 .iter()
                 .any(|section| pair.trim_start().starts_with(section))
             {
                 let why = format!(
-                    "`--set {pair}` has no effect here; allowed: keys of [env], [velocity], [rewards] and [randomisation]"
+                    "`--set {pair}` has no effect here; allowed: keys of [env], [velocity], [rewards], [ground] and [randomisation]"
                 );
                 return Err(Usage(why).into());
             }
@@ -76,7 +76,7 @@ pub fn environment(config: &Config, text: &str, file: Option<&Path>) -> Result<E
                 .to_string(),
         ));
     }
-    let environment = Environment::new(&settings::training(config), text).map_err(|why| in_file(file, &why))?;
+    let environment = Environment::new(&settings::randomised(config), text).map_err(|why| in_file(file, &why))?;
     if let Some(path) = file {
         check_height(&config.env, environment.nominal_position()[2], path)?;
     }

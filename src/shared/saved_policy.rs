@@ -85,7 +85,7 @@ pub fn environment(run: &str, policy: &ExportedPolicy, config: &Config) -> anyho
         ))
         .into());
     }
-    let environment = Environment::new(&settings::training(config), &policy.model_xml)
+    let environment = Environment::new(&settings::randomised(config), &policy.model_xml)
         .with_context(|| format!("cannot build the environment of `{run}`"))?;
     let found = environment.observation_size();
     let sizes = (policy.shape.observation, policy.shape.action);
@@ -140,6 +140,7 @@ fn exported(state: &TrainingState) -> anyhow::Result<ExportedPolicy> {
         env: config.env,
         velocity: config.velocity,
         rewards: config.rewards,
+        ground: config.ground,
         randomisation: config.randomisation,
         model_xml: state.model_xml.clone(),
     })

@@ -48,8 +48,15 @@ fn fragment(bundle: &PolicyBundle, sequence: u64) -> Fragment {
     let (steps, envs) = (64, 8);
     let rows = (steps * envs) as usize;
     let wavy = |count: usize| (0..count).map(|index| (index as f32 * 0.7).sin()).collect::<Vec<f32>>();
-    let episode =
-        Episode { return_sum: 1.0, length: 1, distance_m: 0.0, velocity_mean_mps: 0.0, cause: EndCause::Terminated };
+    let episode = Episode {
+        return_sum: 1.0,
+        length: 1,
+        distance_m: 0.0,
+        velocity_mean_mps: 0.0,
+        cause: EndCause::Terminated,
+        ground_level: None,
+        command_factor: None,
+    };
     let observations = wavy(rows * bundle.observation_size as usize);
     let actions = wavy(rows * bundle.action_size as usize);
     Fragment {

@@ -4,7 +4,7 @@ use std::{path::PathBuf, process::Command};
 
 use crate::support::*;
 use serde_json::json;
-use treadmill_config::{EnvConfig, RandomisationConfig, RewardsConfig, TaskConfig, VelocityConfig};
+use treadmill_config::{EnvConfig, GroundConfig, RandomisationConfig, RewardsConfig, TaskConfig, VelocityConfig};
 use treadmill_policy::{
     NetworkShape, Policy,
     exported::{ActionFacts, ExportedPolicy, ObservationFacts},
@@ -39,6 +39,7 @@ fn golden() -> serde_json::Value {
         randomisation: RandomisationConfig::default(),
         velocity: VelocityConfig::default(),
         rewards: RewardsConfig::default(),
+        ground: GroundConfig::default(),
         task: TaskConfig::default(),
         model_xml: String::new(),
     };

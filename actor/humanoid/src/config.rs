@@ -2,12 +2,14 @@
 //!
 //! Weights, ranges and flags carry the names of the arguments of Gymnasium's environments.
 
+mod ground;
 mod velocity;
 
 use std::{fmt::Debug, ops::RangeInclusive};
 
 use crate::error::ModelError;
 
+pub use self::ground::{GroundKind, GroundSettings, StartLevel};
 pub use self::velocity::{HISTORY_MAX, VelocityConfig, VelocityRewards};
 
 /// Accepted durations of a control step (s).
@@ -91,6 +93,8 @@ pub struct EnvironmentConfig {
     pub self_collision: bool,
     /// Settings of the velocity task, which replaces `task`; see [`crate::task::velocity`].
     pub velocity: Option<VelocityConfig>,
+    /// Ground that replaces the model's; by default none.
+    pub ground: GroundSettings,
     /// Randomisation of each episode; off by default.
     pub randomisation: Randomisation,
 }
@@ -121,6 +125,7 @@ impl Default for EnvironmentConfig {
             substeps,
             self_collision,
             velocity: None,
+            ground: GroundSettings::default(),
             randomisation: Randomisation::default(),
         }
     }
@@ -260,6 +265,7 @@ impl EnvironmentConfig {
                 }
             }
         }
+        self.ground.check(self.velocity.is_some() || !self.own_task.is_empty())?;
         self.randomisation.check(self.control_step_s)
     }
 
@@ -292,6 +298,7 @@ impl EnvironmentConfig {
                 substeps,
                 self_collision,
                 velocity,
+                ground,
                 randomisation,
             ]
         )

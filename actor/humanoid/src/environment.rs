@@ -12,7 +12,7 @@ pub use self::snapshot::EnvironmentSnapshot;
 use crate::config::EnvironmentConfig;
 use crate::error::{InputError, ModelError};
 use crate::info::StepInfo;
-use crate::model::Model;
+use crate::model::{Model, generated};
 use crate::physics::{JointQuality, Physics};
 use crate::randomisation::{Randomiser, SensorNoise};
 use crate::task::{self, ObservationTerm, Step, StepOutcome, Task};
@@ -20,7 +20,7 @@ use crate::task::{self, ObservationTerm, Step, StepOutcome, Task};
 /// Reinforcement-learning environment of one humanoid.
 ///
 /// The same seed and actions give the same observations and rewards, bit for bit, regardless of earlier episodes. That
-/// includes [`EnvironmentConfig::randomisation`]. [`Self::step`] does not allocate.
+/// includes [`EnvironmentConfig::randomisation`], but no curriculum, see [`Task::start`]. [`Self::step`] does not allocate.
 pub struct Environment {
     config: EnvironmentConfig,
     physics: Physics,
@@ -54,8 +54,11 @@ impl Environment {
     /// # Errors
     /// [`ModelError`] if the model or a setting cannot be simulated.
     pub fn new(config: &EnvironmentConfig, model_xml: &str) -> Result<Self, ModelError> {
-        let model = Model::from_mjcf(model_xml)?;
+        let mut model = Model::from_mjcf(model_xml)?;
         config.check()?;
+        if !config.ground.kinds.is_empty() {
+            model.ground.height_field = Some(generated(&config.ground)?);
+        }
         let (nominal_position, nominal_velocity) = start(&model, &config.keyframe)?;
         let mut physics = Physics::new(model, config)?;
         physics.set_state(&nominal_position, &nominal_velocity);
@@ -136,6 +139,7 @@ impl Environment {
         for (start, nominal) in self.start_velocity.iter_mut().zip(&self.nominal_velocity) {
             *start = nominal + uniform_noise(&mut random, scale);
         }
+        self.task.start(seed, &self.physics, &mut self.start_position);
         self.seed = Some(seed);
         self.randomiser.begin_episode(seed, &mut self.physics);
         // `set_state` normalises the noisy quaternion.

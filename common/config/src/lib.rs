@@ -20,8 +20,8 @@ pub use preset::{PRESETS, preset};
 pub use retired::is_retired;
 pub use section::{KeyDoc, Section, SectionDoc};
 pub use sections::{
-    BusConfig, EnvConfig, EvaluationConfig, LearnerConfig, PolicyConfig, PpoConfig, RandomisationConfig, RewardsConfig,
-    RolloutConfig, RunConfig, TaskConfig, VelocityConfig,
+    BusConfig, EnvConfig, EvaluationConfig, GroundConfig, LearnerConfig, PolicyConfig, PpoConfig, RandomisationConfig,
+    RewardsConfig, RolloutConfig, RunConfig, TaskConfig, VelocityConfig,
 };
 pub use source::ConfigSource;
 pub use wire::is_key_of_actors;
@@ -38,6 +38,8 @@ pub struct Config {
     pub velocity: VelocityConfig,
     /// Rewards of the velocity task.
     pub rewards: RewardsConfig,
+    /// Ground of the velocity task.
+    pub ground: GroundConfig,
     /// External task. Omitted from TOML if unset, so that actors of versions without external tasks can read it.
     #[serde(skip_serializing_if = "TaskConfig::is_unset")]
     pub task: TaskConfig,
@@ -145,6 +147,7 @@ impl Config {
             EnvConfig::describe(),
             VelocityConfig::describe(),
             RewardsConfig::describe(),
+            GroundConfig::describe(),
             TaskConfig::describe(),
             RandomisationConfig::describe(),
             RolloutConfig::describe(),
@@ -170,6 +173,7 @@ impl Config {
         self.env.check()?;
         self.velocity.check()?;
         self.rewards.check()?;
+        self.ground.check()?;
         self.task.check()?;
         self.randomisation.check()?;
         self.rollout.check()?;

@@ -39,6 +39,15 @@ pub const PRESETS: &[(&str, &str)] = &[
     // Robots that follow velocity commands; each needs its model file.
     ("g1", velocity!("g1")),
     ("g1-29", velocity!("g1-29")),
+    // The same on generated ground, which the policy sees.
+    (
+        "g1-rough",
+        concat!(
+            velocity!("g1"),
+            "[ground]\nkinds = [\"flat\", \"slope\", \"stairs\", \"rough\", \"stones\"]\n\
+             [velocity]\nheight_scan = true\ncommand_curriculum = true\n"
+        ),
+    ),
     ("h1", velocity!("h1")),
     ("t1", velocity!("t1")),
     // The defaults with a randomised body and floor, for policies that must walk in another simulator.

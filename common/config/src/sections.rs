@@ -99,6 +99,43 @@ section! {
         fall_tilt_rad: f64 = 1.0, "0.1 to 3.2" => |v| (0.1..=3.2).contains(v);
         /// Number of observations, the present one included, that the policy sees together.
         history: u32 = 1, "1 to 16" => |v| (1..=16).contains(v);
+        /// Whether the policy sees the heights of the ground around it: 11 x 7 points, 0.1 m apart, in its heading frame.
+        height_scan: bool = false, "true or false" => |_| true;
+        /// Whether the ranges of commands begin at 0.4 of their size in training, and grow with each environment's success.
+        command_curriculum: bool = false, "true or false" => |_| true;
+    }
+}
+
+/// Names of the kinds of ground.
+const GROUND_KINDS: [&str; 5] = ["flat", "slope", "stairs", "rough", "stones"];
+
+section! {
+    /// Ground of the velocity task that code makes: square tiles, a column for each kind and a row for each level of difficulty.
+    GroundConfig as "ground" {
+        /// Kinds of tiles; none leaves the model's own ground. Slopes and stairs rise from the start in the tile's middle and fall towards its rim.
+        kinds: Vec<String> = Vec::new(), "different names out of \"flat\", \"slope\", \"stairs\", \"rough\" and \"stones\"" => |v| v.iter().enumerate().all(|(index, kind)| GROUND_KINDS.contains(&kind.as_str()) && !v[..index].contains(kind));
+        /// Levels of difficulty, from level ground to the largest values below.
+        levels: u32 = 10, "1 to 20" => |v| (1..=20).contains(v);
+        /// Side of a tile in metres; at most 1024 heights must fit along each side of the ground.
+        tile_m: f64 = 8.0, "4 to 20" => |v| (4.0..=20.0).contains(v);
+        /// Distance between two heights in metres.
+        cell_m: f64 = 0.1, "0.05 to 0.5" => |v| (0.05..=0.5).contains(v);
+        /// Largest gradient of the slopes.
+        slope_max: f64 = 0.3, "0 to 1" => |v| (0.0..=1.0).contains(v);
+        /// Largest height of a stair in metres; stairs are 0.3 m deep.
+        step_max_m: f64 = 0.1, "0 to 0.3" => |v| (0.0..=0.3).contains(v);
+        /// Largest height and depth of rough ground in metres.
+        rough_max_m: f64 = 0.05, "0 to 0.3" => |v| (0.0..=0.3).contains(v);
+        /// Largest gap between two stones in metres; stones are 0.5 m wide, and gaps up to 0.3 m deep.
+        stone_gap_max_m: f64 = 0.3, "0 to 1" => |v| (0.0..=1.0).contains(v);
+        /// Largest height and depth of a stone in metres.
+        stone_height_max_m: f64 = 0.05, "0 to 0.3" => |v| (0.0..=0.3).contains(v);
+        /// Seed of rough ground and stones.
+        seed: u64 = 1, "0 to 9223372036854775807" => |v| *v <= i64::MAX as u64;
+        /// Whether each environment's level rises and falls with success in training, and evaluation draws one for each episode. Otherwise it is always ground.start_level.
+        curriculum: bool = true, "true or false" => |_| true;
+        /// Level of the first episodes, from 0.
+        start_level: u32 = 0, "0 to 19, below ground.levels" => |v| *v < 20;
     }
 }
 

@@ -3,7 +3,7 @@
 use super::Config;
 
 /// Sections whose keys change what an actor simulates or sends.
-const SECTIONS: [&str; 5] = ["env", "velocity", "rewards", "randomisation", "rollout"];
+const SECTIONS: [&str; 6] = ["env", "velocity", "rewards", "ground", "randomisation", "rollout"];
 
 /// Keys of [`SECTIONS`] that were added after wire version 1, with the wire version that added each. The default of such a
 /// key means what older actors do.

@@ -17,7 +17,8 @@
 use safetensors::tensor::SafeTensors;
 use serde::{Deserialize, Serialize};
 use treadmill_config::{
-    Config, ConfigError, EnvConfig, EnvTask, RandomisationConfig, RewardsConfig, TaskConfig, VelocityConfig,
+    Config, ConfigError, EnvConfig, EnvTask, GroundConfig, RandomisationConfig, RewardsConfig, TaskConfig,
+    VelocityConfig,
 };
 use treadmill_proto::limits::{BUNDLE_BYTES_MAX, HIDDEN_LAYERS_MAX, WIDTH_MAX};
 
@@ -107,6 +108,8 @@ pub struct ExportedPolicy {
     pub velocity: VelocityConfig,
     /// Rewards of the velocity task; their defaults for other tasks.
     pub rewards: RewardsConfig,
+    /// Generated ground of the task; its defaults without one.
+    pub ground: GroundConfig,
     /// Randomisation in training.
     pub randomisation: RandomisationConfig,
     /// External task, if it is one.
@@ -155,6 +158,8 @@ struct Metadata {
     velocity: Option<VelocityConfig>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     rewards: Option<RewardsConfig>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    ground: Option<GroundConfig>,
     randomisation: RandomisationConfig,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     task: Option<TaskConfig>,
@@ -213,6 +218,7 @@ impl ExportedPolicy {
             control_step_s: self.control_step_s,
             velocity: is_velocity.then(|| self.velocity.clone()),
             rewards: is_velocity.then(|| self.rewards.clone()),
+            ground: (self.ground != GroundConfig::default()).then(|| self.ground.clone()),
             env: self.env.clone(),
             randomisation: self.randomisation.clone(),
             task: self.task.known().map(|_| self.task.clone()),
@@ -259,6 +265,7 @@ impl ExportedPolicy {
             env: metadata.env,
             velocity: metadata.velocity.unwrap_or_default(),
             rewards: metadata.rewards.unwrap_or_default(),
+            ground: metadata.ground.unwrap_or_default(),
             randomisation: metadata.randomisation,
             task: metadata.task.unwrap_or_default(),
             model_xml: metadata.model_xml,
@@ -319,6 +326,7 @@ impl ExportedPolicy {
             env: self.env.clone(),
             velocity: self.velocity.clone(),
             rewards: self.rewards.clone(),
+            ground: self.ground.clone(),
             randomisation: self.randomisation.clone(),
             task: self.task.clone(),
             ..Config::default()

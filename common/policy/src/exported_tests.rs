@@ -24,6 +24,7 @@ fn sample() -> ExportedPolicy {
         randomisation: RandomisationConfig { mass_scale: [0.9, 1.1], ..RandomisationConfig::default() },
         velocity: VelocityConfig::default(),
         rewards: RewardsConfig::default(),
+        ground: GroundConfig::default(),
         task: TaskConfig::default(),
         model_xml: "<mujoco/>".into(),
     }

@@ -25,6 +25,11 @@ struct Entry {
     distance_m: f64,
     velocity_mean_mps: f64,
     fell: bool,
+    /// Not in checkpoints: after a resume, these means are those of newer episodes.
+    #[serde(skip)]
+    ground_level: Option<f64>,
+    #[serde(skip)]
+    command_factor: Option<f64>,
 }
 
 /// Means over the window.
@@ -40,6 +45,10 @@ pub struct EpisodeMeans {
     pub velocity_mean_mps: f64,
     /// Share of episodes that ended with a fall, or by termination in an external task.
     pub fall_fraction: f64,
+    /// Mean level of the ground's difficulty; `None` where the task has no levels.
+    pub ground_level: Option<f64>,
+    /// Mean factor on the ranges of commands; `None` where the task has no such curriculum.
+    pub command_factor: Option<f64>,
 }
 
 impl EpisodeWindow {
@@ -57,6 +66,8 @@ impl EpisodeWindow {
                 distance_m: episode.distance_m,
                 velocity_mean_mps: episode.velocity_mean_mps,
                 fell: matches!(episode.cause, EndCause::Fell | EndCause::Terminated),
+                ground_level: episode.ground_level,
+                command_factor: episode.command_factor,
             });
         }
     }
@@ -85,12 +96,18 @@ impl EpisodeWindow {
             return None;
         }
         let mean = |of: fn(&Entry) -> f64| self.recent.iter().map(of).sum::<f64>() / self.recent.len() as f64;
+        let known = |of: fn(&Entry) -> Option<f64>| {
+            let (sum, count) = self.recent.iter().filter_map(of).fold((0.0, 0.0), |(sum, n), one| (sum + one, n + 1.0));
+            (count > 0.0).then_some(sum / count)
+        };
         Some(EpisodeMeans {
             return_mean: mean(|entry| entry.return_sum),
             length_mean: mean(|entry| entry.length),
             distance_mean_m: mean(|entry| entry.distance_m),
             velocity_mean_mps: mean(|entry| entry.velocity_mean_mps),
             fall_fraction: mean(|entry| f64::from(u8::from(entry.fell))),
+            ground_level: known(|entry| entry.ground_level),
+            command_factor: known(|entry| entry.command_factor),
         })
     }
 }
@@ -100,7 +117,15 @@ mod tests {
     use super::*;
 
     fn episode(return_sum: f64, cause: EndCause) -> Episode {
-        Episode { return_sum, length: 10, distance_m: 2.0, velocity_mean_mps: 0.5, cause }
+        Episode {
+            return_sum,
+            length: 10,
+            distance_m: 2.0,
+            velocity_mean_mps: 0.5,
+            cause,
+            ground_level: None,
+            command_factor: None,
+        }
     }
 
     #[test]
@@ -114,6 +139,10 @@ mod tests {
         let means = window.means().unwrap();
         assert_eq!((means.return_mean, means.fall_fraction), (2.0, 0.5));
         assert_eq!((window.finished, window.faults), (150, 50));
+        assert_eq!((means.ground_level, means.command_factor), (None, None));
+        let on_ground = |level| Episode { ground_level: Some(level), ..episode(1.0, EndCause::Fell) };
+        window.extend(&[on_ground(2.0), on_ground(5.0)]);
+        assert_eq!(window.means().unwrap().ground_level, Some(3.5), "of those that have a level");
     }
 
     #[test]

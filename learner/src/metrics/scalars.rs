@@ -174,6 +174,8 @@ impl UpdateRecord<'_> {
                 ("rollout/velocity_mean_mps", means.velocity_mean_mps),
                 ("rollout/fall_fraction", means.fall_fraction),
             ]);
+            out.extend(means.ground_level.map(|level| ("rollout/ground_level", level)));
+            out.extend(means.command_factor.map(|factor| ("rollout/command_factor", factor)));
         }
         out.extend(self.history.distance_best_m.map(|best_m| ("rollout/distance_best_m", best_m)));
         out.push(("rollout/episodes", self.state.episodes.finished as f64));

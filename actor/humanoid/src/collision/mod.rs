@@ -4,6 +4,7 @@
 //! of them: bounding spheres, and the distance of the axes of capsules. Spheres and capsules over a plane are solved in closed
 //! form. Everything else is a contact query of Rapier's collision detection (see `queries`).
 
+mod field;
 mod model;
 mod queries;
 
@@ -103,11 +104,20 @@ impl<S: Simd> Collisions<S> {
         }
     }
 
-    /// Returns where a shape's bounding sphere reaches below the highest point of the ground.
+    /// Returns where a shape's bounding sphere reaches below the highest point of the ground near it.
     #[inline(always)]
     fn is_low(&self, model: &CollisionModel, pair: &PairNode, root_m: &Vec3<S>) -> Mask<S> {
-        let lowest = root_m.z + self.centres_m[pair.first].z - model.shapes[pair.first].radius_m;
-        lowest.less_than(lowest.constant(model.highest_m + pair.margin_m))
+        let (centre, radius_m) = (self.centres_m[pair.first], model.shapes[pair.first].radius_m);
+        let lowest = root_m.z + centre.z - radius_m;
+        let mut highest = lowest.constant(pair.margin_m);
+        if let Some(field) = &model.height_field {
+            let (x, y) = (root_m.x + centre.x, root_m.y + centre.y);
+            for lane in 0..S::F64_LANES {
+                let highest_m = field.highest_near_m(x.lane(lane), y.lane(lane), radius_m + pair.margin_m);
+                highest.set_lane(lane, highest_m + pair.margin_m);
+            }
+        }
+        lowest.less_than(highest)
     }
 
     /// Returns where two shapes may touch: by their bounding spheres, then by their axes if both are round.

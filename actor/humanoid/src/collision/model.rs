@@ -1,12 +1,13 @@
 //! Shapes of a model, and the pairs of them that can touch.
 
 use std::f64::consts::FRAC_PI_2;
+use std::sync::Arc;
 
 use nalgebra::{Isometry3, UnitQuaternion, Vector3};
 use rapier3d::math::{Pose, Rotation};
-use rapier3d::parry::shape::{HeightField, HeightFieldFlags, SharedShape};
-use rapier3d::parry::utils::Array2;
+use rapier3d::parry::shape::SharedShape;
 
+use super::field::FieldShape;
 use super::queries::{to_rotation, to_vector};
 use crate::dynamics::Structure;
 use crate::model::{Geometry, Model, Softness};
@@ -16,10 +17,8 @@ use crate::model::{Geometry, Model, Softness};
 pub(crate) struct CollisionModel {
     pub(crate) shapes: Vec<ShapeNode>,
     pub(crate) pairs: Vec<PairNode>,
-    /// Height of the highest point of the ground (m).
-    pub(super) highest_m: f64,
     pub(super) ground: SharedShape,
-    pub(super) height_field: Option<HeightField>,
+    pub(super) height_field: Option<Arc<FieldShape>>,
     /// Pose of the ground's shape in the world.
     pub(super) ground_m: Vector3<f64>,
     pub(super) ground_rotation: Rotation,
@@ -97,12 +96,8 @@ impl CollisionModel {
             }
         };
         let pairs = model.pairs.iter().filter(|pair| self_collision || pair.second.is_none()).map(pair).collect();
-        let height_field = model.ground.height_field.as_ref().map(height_field_of);
+        let height_field = model.ground.height_field.as_ref().map(FieldShape::of);
         let ground_m = model.ground.height_field.as_ref().map_or(Vector3::zeros(), |field| field.centre_m.coords);
-        let highest_m = match &model.ground.height_field {
-            Some(field) => ground_m.z + field.heights_m.iter().copied().fold(f64::NEG_INFINITY, f64::max),
-            None => 0.0,
-        };
         let ground_rotation = match &height_field {
             // The heights of Rapier's height fields are along y.
             Some(_) => to_rotation(&UnitQuaternion::from_axis_angle(&Vector3::x_axis(), FRAC_PI_2)),
@@ -111,7 +106,6 @@ impl CollisionModel {
         Self {
             shapes,
             pairs,
-            highest_m,
             ground: SharedShape::halfspace(rapier3d::math::Vector::Z),
             height_field,
             ground_m,
@@ -197,18 +191,4 @@ fn ball_points() -> impl Iterator<Item = Vector3<f64>> {
 
 fn to_pose(pose: &Isometry3<f64>) -> Pose {
     Pose::from_parts(to_vector(&pose.translation.vector), to_rotation(&pose.rotation))
-}
-
-fn height_field_of(field: &crate::model::HeightField) -> HeightField {
-    // Rapier's rows run along z, which the rotation of the ground turns into −y.
-    let mut heights = vec![0.0; field.rows * field.columns];
-    for row in 0..field.rows {
-        for column in 0..field.columns {
-            heights[(field.rows - 1 - row) + column * field.rows] =
-                field.heights_m[row * field.columns + column] as f32;
-        }
-    }
-    let size = rapier3d::math::Vector::new(2.0 * field.half_x_m as f32, 1.0, 2.0 * field.half_y_m as f32);
-    let heights = Array2::new(field.rows, field.columns, heights);
-    HeightField::with_flags(heights, size, HeightFieldFlags::FIX_INTERNAL_EDGES)
 }

@@ -77,6 +77,7 @@ impl Queries {
                 match &model.height_field {
                     None => self.collect(&ground, &*model.ground, &place, &*first.shape, prediction, &mut points),
                     Some(field) => {
+                        let field = &field.triangles;
                         let between = ground.inverse() * place;
                         let near = first.shape.compute_aabb(&between).loosened(prediction.max(1e-3));
                         let manifold = &mut self.single;

@@ -36,6 +36,10 @@ pub struct VelocityConfig {
     pub fall_tilt_rad: f64,
     /// Number of observations, the present one included, that the policy sees together.
     pub history: u32,
+    /// Whether the policy sees the heights of the ground around it.
+    pub height_scan: bool,
+    /// Whether the ranges of commands begin at 0.4 of their size and grow with the environment's success.
+    pub command_curriculum: bool,
     /// Weights of the reward's terms, per control step.
     pub rewards: VelocityRewards,
 }
@@ -56,6 +60,8 @@ impl Default for VelocityConfig {
             fall_height_share: 0.6,
             fall_tilt_rad: 1.0,
             history: 1,
+            height_scan: false,
+            command_curriculum: false,
             rewards: VelocityRewards::default(),
         }
     }
@@ -130,6 +136,17 @@ rewards! {
 }
 
 impl VelocityConfig {
+    /// Returns these settings with the ranges of commands times a factor.
+    pub(crate) fn with_commands_times(&self, factor: f64) -> Self {
+        let times = |range: [f64; 2]| range.map(|end| factor * end);
+        Self {
+            lin_vel_x_mps: times(self.lin_vel_x_mps),
+            lin_vel_y_mps: times(self.lin_vel_y_mps),
+            ang_vel_z_radps: times(self.ang_vel_z_radps),
+            ..self.clone()
+        }
+    }
+
     /// Rejects ranges that are empty or beyond what the task can command.
     pub(crate) fn check(&self) -> Result<(), ModelError> {
         for (setting, [low, high], [min, max], expected) in [

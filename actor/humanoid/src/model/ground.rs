@@ -1,5 +1,7 @@
 //! Ground: a level plane, or a height field.
 
+use std::sync::Arc;
+
 use nalgebra::Point3;
 
 use super::values::positive;
@@ -27,7 +29,7 @@ pub struct Ground {
     /// MJCF's `conaffinity`.
     pub conaffinity: u32,
     /// Surface; `None` is the plane z = 0.
-    pub height_field: Option<HeightField>,
+    pub height_field: Option<Arc<HeightField>>,
 }
 
 /// Surface over a level rectangle; there is no ground beyond its edges.
@@ -135,7 +137,7 @@ impl Model {
     /// [`ModelError`] if the field's size is out of range or a number is not finite; the model is unchanged.
     pub fn set_height_field(&mut self, field: HeightField) -> Result<(), ModelError> {
         field.check()?;
-        self.ground.height_field = Some(field);
+        self.ground.height_field = Some(Arc::new(field));
         Ok(())
     }
 }

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeSet;
 use std::ops::Range;
+use std::sync::Arc;
 
 use mjcf_rs::body::{Geom, GeomType, Joint, JointType};
 use nalgebra::{Isometry3, Matrix3, Point3, Quaternion, Translation3, UnitQuaternion, Vector3};
@@ -296,7 +297,7 @@ impl Reader {
                 contype: floor.contype,
                 conaffinity: floor.conaffinity,
                 name: floor.name,
-                height_field,
+                height_field: height_field.map(Arc::new),
             },
         };
         motors::resolve_damping_ratios(&mut model)?;

@@ -9,6 +9,7 @@ mod defaults;
 mod embed;
 mod file;
 mod flatten;
+mod generated_ground;
 mod geometry;
 mod geoms;
 mod ground;
@@ -35,6 +36,7 @@ use nalgebra::{Isometry3, Matrix3, Point3, Unit, Vector3};
 
 pub use self::assets::MESH_VERTICES_MAX;
 pub use self::file::read_model_file;
+pub(crate) use self::generated_ground::generated;
 pub use self::geometry::Geometry;
 pub use self::ground::{Ground, HEIGHT_FIELD_SIDE_MAX, HeightField};
 pub use self::joints::RootJoint;

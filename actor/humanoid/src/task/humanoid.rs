@@ -180,6 +180,7 @@ pub fn evaluate_step(config: &EnvironmentConfig, transition: &Transition<'_>) ->
         reward: (info.reward_survive + info.reward_forward + info.reward_ctrl + info.reward_contact)
             .clamp(f32::MIN.into(), f32::MAX.into()) as f32,
         terminated: config.terminate_when_unhealthy && !healthy,
+        truncated: false,
         info,
     }
 }

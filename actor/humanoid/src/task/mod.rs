@@ -56,8 +56,19 @@ pub struct Evaluation {
     pub reward: f32,
     /// Whether the task ends the episode: the value of its last state is 0.
     pub terminated: bool,
+    /// Whether the task ends the episode as a time limit does: its last state keeps its value.
+    pub truncated: bool,
     /// Details of the step.
     pub info: StepInfo,
+}
+
+/// How hard an episode is, where the task adapts that.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Difficulty {
+    /// Level of the ground's difficulty, from 0.
+    pub ground_level: Option<f64>,
+    /// Factor on the ranges of commands.
+    pub command_factor: Option<f64>,
 }
 
 /// Result of one control step.
@@ -67,7 +78,7 @@ pub struct StepOutcome {
     pub reward: f32,
     /// Whether the task ended the episode: the value of its last state is 0.
     pub terminated: bool,
-    /// Whether the time limit ended the episode: its last state keeps its value. Never together with `terminated`.
+    /// Whether a limit of time or place ended the episode: its last state keeps its value. Never together with `terminated`.
     pub truncated: bool,
     /// Whether the physics or the action was not finite; implies `terminated`.
     pub fault: bool,
@@ -77,12 +88,16 @@ pub struct StepOutcome {
 
 /// What a robot must do.
 ///
-/// For each episode the environment calls [`Self::begin`] and [`Self::observe`], and then for each control step
+/// For each episode the environment calls [`Self::start`], [`Self::begin`] and [`Self::observe`], and then for each control step
 /// [`Self::evaluate`] and [`Self::observe`]. The same calls must give the same results, bit for bit: random numbers come
-/// from the seed of [`Self::begin`] only.
+/// from the seed of the episode only.
 pub trait Task: Send {
     /// Returns the terms of an observation, in order and without gaps.
     fn terms(&self) -> &[ObservationTerm];
+
+    /// Changes the position at which a new episode starts, see [`Physics::position`]; its quaternion need not be normalised.
+    /// Only here a task may let the episodes before decide, by what [`Self::save`] holds.
+    fn start(&mut self, _seed: u64, _physics: &Physics, _position: &mut [f64]) {}
 
     /// Begins an episode with the robot in its first state, and returns the info before the first step.
     fn begin(&mut self, seed: u64, physics: &Physics) -> StepInfo;
@@ -118,6 +133,11 @@ pub trait Task: Send {
         0
     }
 
+    /// Returns how hard the present episode is.
+    fn difficulty(&self) -> Difficulty {
+        Difficulty::default()
+    }
+
     /// Returns everything that the rest of the episode depends on, apart from seed and physics, as finite numbers. Their count
     /// is the same at all times.
     fn save(&self) -> Vec<f64> {
@@ -142,8 +162,8 @@ impl Evaluation {
     #[must_use]
     pub fn at(self, episode_steps: u32, max_episode_steps: u32) -> StepOutcome {
         let is_out_of_time = max_episode_steps > 0 && episode_steps >= max_episode_steps;
-        let Self { reward, terminated, info } = self;
-        StepOutcome { reward, terminated, truncated: is_out_of_time && !terminated, fault: false, info }
+        let Self { reward, terminated, truncated, info } = self;
+        StepOutcome { reward, terminated, truncated: (truncated || is_out_of_time) && !terminated, fault: false, info }
     }
 }
 
@@ -152,7 +172,15 @@ mod tests {
     use super::*;
 
     fn evaluation(terminated: bool) -> Evaluation {
-        Evaluation { reward: 5.0, terminated, info: StepInfo::default() }
+        Evaluation { reward: 5.0, terminated, truncated: false, info: StepInfo::default() }
+    }
+
+    #[test]
+    fn a_task_can_truncate_and_a_fall_goes_before() {
+        let step = Evaluation { truncated: true, ..evaluation(false) }.at(1, 10);
+        assert!(step.truncated && !step.terminated);
+        let step = Evaluation { truncated: true, ..evaluation(true) }.at(1, 10);
+        assert!(step.terminated && !step.truncated);
     }
 
     #[test]

@@ -116,10 +116,10 @@ fn height_fields_are_mujocos() {
 
     let slope = HeightField::from_fn([3, 3], [1.0, 1.0], Point3::origin(), |x, _| 0.1 * x).expect("valid");
     model.set_height_field(slope.clone()).expect("valid");
-    assert_eq!(model.ground.height_field.as_ref(), Some(&slope));
+    assert_eq!(model.ground.height_field.as_deref(), Some(&slope));
     let broken = HeightField { heights_m: vec![0.0; 8], ..slope.clone() };
     assert!(model.set_height_field(broken).expect_err("eight heights").to_string().contains("one height"));
-    assert_eq!(model.ground.height_field, Some(slope), "it is unchanged");
+    assert_eq!(model.ground.height_field.as_deref(), Some(&slope), "it is unchanged");
 }
 
 #[test]

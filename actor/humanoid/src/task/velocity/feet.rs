@@ -42,12 +42,18 @@ impl Foot {
         }
     }
 
+    /// Returns where the frame of a foot is (m, world).
+    pub(super) fn origin_m(physics: &Physics, link: usize) -> Point3<f64> {
+        let link_of = &physics.model().links[link];
+        physics.body_motion(link_of.body).pose * Point3::from(link_of.pose.translation.vector)
+    }
+
     /// Returns the foot on `link` without a past.
     #[must_use]
     pub fn now(physics: &Physics, link: usize, standing_m: f64) -> Self {
         let link_of = &physics.model().links[link];
         let body = physics.body_motion(link_of.body);
-        let origin = body.pose * Point3::from(link_of.pose.translation.vector);
+        let origin = Self::origin_m(physics, link);
         let centre = body.pose * physics.model().bodies[link_of.body].centre_of_mass_m;
         let ground_m = physics.ground_height_m(origin.x, origin.y);
         Self {

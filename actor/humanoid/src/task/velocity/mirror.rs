@@ -1,6 +1,7 @@
 //! Mirror image of an observation, with left and right exchanged.
 
 use super::FEET;
+use super::scan::{SCAN_POINTS, opposite_point};
 use crate::model::mirror::{Mirror, SignedPermutation};
 use crate::task::ObservationTerm;
 
@@ -20,6 +21,7 @@ fn of_term(term: &ObservationTerm, mirror: &Mirror) -> SignedPermutation {
         "joint_pos_rel" | "joint_vel_rel" | "last_action" => {
             mirror.action.iter().map(|(at, sign)| (start + at, *sign)).collect()
         }
+        "height_scan" => (0..SCAN_POINTS).map(|point| (start + opposite_point(point), 1.0)).collect(),
         // Half a period later, each foot does what the other one did.
         "gait_phase" => signs(&[-1.0, -1.0]),
         "feet_contact" | "feet_air_time" | "feet_lift" => (0..FEET).rev().map(|foot| (start + foot, 1.0)).collect(),

@@ -5,30 +5,42 @@
 //!
 //! # Layout
 //! - `command`: the schedule of commands.
+//! - `curriculum`: difficulty of ground and commands.
 //! - `feet`: feet and gait.
 //! - `mirror`: mirror image of an observation.
+//! - `observation`: what policy and critic see.
 //! - `rewards`: the reward's terms.
+//! - `saved`: the task's state as numbers.
+//! - `scan`: the ground around the base.
 
 mod command;
+mod curriculum;
 mod feet;
 mod mirror;
+mod observation;
 mod rewards;
+mod saved;
+mod scan;
 
-use nalgebra::Vector3;
+use std::f64::consts::FRAC_PI_2;
+
 use rand::RngExt;
 
 use self::command::Drawn;
 pub use self::command::{Command, HEADING_GAIN, STANDING_COMMAND};
+use self::curriculum::Curriculum;
 pub use self::feet::{FEET, Foot, Stride, stride};
+use self::observation::observation_terms;
 pub use self::rewards::{BaseMotion, Body, HingeMotion, terms};
-use super::{Evaluation, ObservationTerm, Step, Task};
-use crate::config::{EnvironmentConfig, VelocityConfig, VelocityRewards};
+use self::scan::{SCAN_POINTS, ground_around};
+use super::{Difficulty, Evaluation, ObservationTerm, Step, Task};
+use crate::config::{EnvironmentConfig, GroundSettings, VelocityConfig, VelocityRewards};
 use crate::error::{ModelError, StateError};
 use crate::info::StepInfo;
 use crate::model::Model;
 use crate::model::mirror::{Mirror, SignedPermutation};
 use crate::physics::Physics;
-use crate::randomisation::{SensorNoise, stream};
+use crate::randomisation::{SensorNoise, stream, uniform};
 
 /// Largest action, in units of [`crate::card::HingeControl::action_scale_rad`].
 pub const ACTION_MAX: f64 = 4.0;
@@ -36,13 +48,20 @@ pub const ACTION_MAX: f64 = 4.0;
 const LATERAL_AXIS: f64 = 0.8;
 /// Weight of hinges that swing the legs forwards in the term `pose`.
 const SWING_POSE_WEIGHT: f64 = 0.1;
-/// Numbers of [`Task::save`] that do not depend on the robot: command number and steps, control steps of the episode, and
-/// five numbers of each foot.
-const SAVED: usize = 3 + 5 * FEET;
+/// Largest distance of a start from the middle of its tile, along x and along y (m).
+const START_M: f64 = 0.5;
+/// Distance from the edge of generated ground at which an episode ends (m).
+const EDGE_M: f64 = 1.0;
 
 /// Task of following velocity commands.
 pub struct VelocityTask {
     config: VelocityConfig,
+    /// The same with the present ranges of commands.
+    commanded: VelocityConfig,
+    /// Generated ground, if there is one.
+    ground: Option<GroundSettings>,
+    curriculum: Option<Curriculum>,
+    max_episode_steps: u32,
     step_s: f64,
     encoder_bias_rad: f64,
     terms: Vec<ObservationTerm>,
@@ -105,11 +124,20 @@ impl VelocityTask {
             .collect();
         let body =
             Body { default_rad: default[7..].to_vec(), pose_weights: pose_weights(physics), height_m: default[2] };
-        let standing = |foot: usize| Foot::now(physics, feet_links[foot], 0.0).lift_m;
-        let terms = observation_terms(velocity, motors.len());
+        let ground = (!config.ground.kinds.is_empty()).then(|| config.ground.clone());
+        let standing = |foot: usize| match &ground {
+            None => Foot::now(physics, feet_links[foot], 0.0).lift_m,
+            // It starts on ground at height 0.
+            Some(_) => Foot::origin_m(physics, feet_links[foot]).z,
+        };
+        let terms = observation_terms(velocity, motors.len(), ground.is_some());
         let of_policy = terms.iter().filter(|term| !term.is_privileged).map(|term| term.range.len()).sum();
-        Ok(Self {
+        let mut task = Self {
             feet_standing_m: std::array::from_fn(standing),
+            ground,
+            curriculum: Curriculum::new(config),
+            commanded: velocity.clone(),
+            max_episode_steps: config.max_episode_steps,
             actions: vec![0.0; motors.len()],
             actions_before: vec![0.0; motors.len()],
             encoder_errors_rad: vec![0.0; model.hinges.len()],
@@ -134,7 +162,9 @@ impl VelocityTask {
             episode_steps: 0,
             feet: [Foot::default(); FEET],
             terms_of_reward: VelocityRewards::default(),
-        })
+        };
+        task.scale_commands();
+        Ok(task)
     }
 
     /// Returns the terms of the last step's reward, without their weights.
@@ -143,14 +173,44 @@ impl VelocityTask {
         &self.terms_of_reward
     }
 
-    fn base(physics: &Physics) -> BaseMotion {
+    fn base(&self, physics: &Physics) -> BaseMotion {
         let position = physics.position();
-        BaseMotion::new(position, physics.velocity(), physics.ground_height_m(position[0], position[1]))
+        let mut base = BaseMotion::new(position, physics.velocity(), physics.ground_height_m(position[0], position[1]));
+        if self.ground.is_some() {
+            // Stairs and gaps just below the base say little about how it stands.
+            let around = ground_around(physics, [position[0], position[1]], base.heading_rad);
+            base.height_m = position[2] - around.sum::<f64>() / SCAN_POINTS as f64;
+        }
+        base
+    }
+
+    /// Adopts the curriculum's factor on the ranges of commands.
+    fn scale_commands(&mut self) {
+        if let Some(curriculum) = &self.curriculum {
+            self.commanded = self.config.with_commands_times(curriculum.factor());
+        }
+    }
+
+    /// Returns the share of the greatest reward for tracking that a step earned.
+    fn tracked_share(&self, terms: &VelocityRewards) -> f64 {
+        let [linear, yaw] = [self.config.rewards.track_linear_velocity, self.config.rewards.track_yaw_rate];
+        match linear + yaw {
+            sum if sum > 0.0 => (linear * terms.track_linear_velocity + yaw * terms.track_yaw_rate) / sum,
+            _ => terms.track_linear_velocity,
+        }
+    }
+
+    /// Returns whether the robot is so near to the edge of generated ground that it would soon fall off.
+    fn is_at_edge(&self, physics: &Physics) -> bool {
+        self.ground.as_ref().is_some_and(|ground| {
+            let halves_m = ground.halves_m();
+            physics.position()[..2].iter().zip(halves_m).any(|(place_m, half_m)| place_m.abs() > half_m - EDGE_M)
+        })
     }
 
     fn draw(&mut self, index: u32) {
         self.drawn_index = index;
-        self.drawn = Drawn::new(&self.config, self.step_s, self.seed, index);
+        self.drawn = Drawn::new(&self.commanded, self.step_s, self.seed, index);
         self.drawn_left_steps = self.drawn.steps;
     }
 
@@ -171,46 +231,28 @@ impl VelocityTask {
             ..StepInfo::default()
         }
     }
-
-    /// Writes what the policy observes now.
-    fn write_row(&self, physics: &Physics, noise: &mut SensorNoise, row: &mut [f32]) {
-        let base = Self::base(physics);
-        let mut numbers = row.iter_mut();
-        let mut write = |number: f64| *numbers.next().expect("the terms fill the row") = number as f32;
-        base.angular_radps.iter().for_each(|rate| write(rate + noise.velocity()));
-        base.gravity.iter().for_each(|part| write(part + noise.position()));
-        self.command.numbers().into_iter().for_each(&mut write);
-        for (hinge, default_rad, _) in &self.motors {
-            let error_rad = self.encoder_errors_rad[*hinge] + noise.position();
-            write(physics.joint_angles()[*hinge] - default_rad + error_rad);
-        }
-        for (hinge, _, _) in &self.motors {
-            write(physics.joint_rates()[*hinge] + noise.velocity());
-        }
-        self.actions.iter().for_each(|action| write(*action));
-        let (sin, cos) = match self.command.stands() {
-            true => (0.0, 0.0),
-            false => (std::f64::consts::TAU * self.time_s() / self.config.gait_period_s).sin_cos(),
-        };
-        [sin, cos].into_iter().for_each(write);
-    }
-
-    /// Writes what only the critic observes.
-    fn write_privileged(&self, physics: &Physics, row: &mut [f32]) {
-        let base = Self::base(physics);
-        let mut numbers = row.iter_mut();
-        let mut write = |number: f64| *numbers.next().expect("the terms fill the row") = number as f32;
-        base.velocity_mps.iter().for_each(|part| write(*part));
-        write(base.height_m);
-        self.feet.iter().for_each(|foot| write(f64::from(u8::from(foot.stands))));
-        self.feet.iter().for_each(|foot| write(foot.air_s));
-        self.feet.iter().for_each(|foot| write(foot.lift_m));
-    }
 }
 
 impl Task for VelocityTask {
     fn terms(&self) -> &[ObservationTerm] {
         &self.terms
+    }
+
+    fn start(&mut self, seed: u64, physics: &Physics, position: &mut [f64]) {
+        let Some(curriculum) = &mut self.curriculum else { return };
+        curriculum.begin_episode(seed);
+        let level = curriculum.level();
+        self.scale_commands();
+        let Some(ground) = &self.ground else { return };
+        let mut random = stream(seed, "start");
+        let middle_m = ground.tile_centre_m(level, random.random_range(0..ground.kinds.len()));
+        for (place_m, middle_m) in position.iter_mut().zip(middle_m) {
+            *place_m += middle_m + uniform(&mut random, [-START_M, START_M]);
+        }
+        position[2] += physics.ground_height_m(position[0], position[1]);
+        let (sin, cos) = uniform(&mut random, [-FRAC_PI_2, FRAC_PI_2]).sin_cos();
+        let [w, x, y, z] = [position[3], position[4], position[5], position[6]];
+        position[3..7].copy_from_slice(&[cos * w - sin * z, cos * x - sin * y, cos * y + sin * x, cos * z + sin * w]);
     }
 
     fn begin(&mut self, seed: u64, physics: &Physics) -> StepInfo {
@@ -219,7 +261,7 @@ impl Task for VelocityTask {
         let bias_rad = self.encoder_bias_rad;
         self.encoder_errors_rad.fill_with(|| (2.0 * encoders.random::<f64>() - 1.0) * bias_rad);
         self.draw(0);
-        self.command = self.steered.unwrap_or_else(|| self.drawn.at(&self.config, Self::base(physics).heading_rad));
+        self.command = self.steered.unwrap_or_else(|| self.drawn.at(&self.commanded, self.base(physics).heading_rad));
         self.episode_steps = 0;
         self.actions.fill(0.0);
         self.actions_before.fill(0.0);
@@ -241,7 +283,7 @@ impl Task for VelocityTask {
         for (foot, before) in self.feet.iter_mut().enumerate() {
             *before = before.after(physics, self.feet_links[foot], self.feet_standing_m[foot], self.step_s);
         }
-        let base = Self::base(physics);
+        let base = self.base(physics);
         let hinges = HingeMotion {
             angles_rad: physics.joint_angles(),
             rates_radps: physics.joint_rates(),
@@ -256,6 +298,13 @@ impl Task for VelocityTask {
             base.height_m < config.fall_height_share * self.body.height_m || base.tilt_rad() > config.fall_tilt_rad;
         terms.alive = f64::from(u8::from(!has_fallen));
         let reward = config.rewards.total(&terms);
+        let truncated = !has_fallen && self.is_at_edge(physics);
+        let is_last = truncated || self.max_episode_steps > 0 && self.episode_steps >= self.max_episode_steps;
+        let tracked = self.tracked_share(&terms);
+        if let Some(curriculum) = &mut self.curriculum {
+            let velocity_mps = [base.velocity_mps.x, base.velocity_mps.y];
+            curriculum.count(&self.command, velocity_mps, tracked, step_s, [has_fallen, is_last]);
+        }
         self.terms_of_reward = terms;
         self.rates_before_radps.copy_from_slice(physics.joint_rates());
 
@@ -264,10 +313,10 @@ impl Task for VelocityTask {
             self.draw(self.drawn_index + 1);
             self.command_changes += u32::from(self.steered.is_none());
         }
-        self.command = self.steered.unwrap_or_else(|| self.drawn.at(&self.config, base.heading_rad));
+        self.command = self.steered.unwrap_or_else(|| self.drawn.at(&self.commanded, base.heading_rad));
         let velocity = (physics.centre_of_mass() - step.centre_before_m) / step_s;
         let info = self.info(physics, [velocity.x, velocity.y], reward);
-        Evaluation { reward: reward as f32, terminated: has_fallen, info }
+        Evaluation { reward: reward as f32, terminated: has_fallen, truncated, info }
     }
 
     fn observe(&mut self, physics: &Physics, noise: &mut SensorNoise, observation: &mut [f32]) {
@@ -319,73 +368,17 @@ impl Task for VelocityTask {
         Some(mirror::reflection(&self.terms, robot))
     }
 
+    fn difficulty(&self) -> Difficulty {
+        self.curriculum.as_ref().map(Curriculum::difficulty).unwrap_or_default()
+    }
+
     fn save(&self) -> Vec<f64> {
-        let mut numbers =
-            vec![f64::from(self.drawn_index), f64::from(self.drawn_left_steps), f64::from(self.episode_steps)];
-        for foot in &self.feet {
-            numbers.push(f64::from(u8::from(foot.stands)));
-            numbers.push(foot.air_s);
-            numbers.extend(foot.velocity_mps.iter());
-        }
-        numbers.extend(&self.actions);
-        numbers.extend(&self.rates_before_radps);
-        numbers.extend(self.command.numbers());
-        numbers.extend(self.past.iter().map(|number| f64::from(*number)));
-        numbers
+        self.saved_numbers()
     }
 
     fn restore(&mut self, numbers: &[f64]) -> Result<(), StateError> {
-        let (actions, hinges) = (self.actions.len(), self.rates_before_radps.len());
-        let expected = SAVED + actions + hinges + 3 + self.past.len();
-        if numbers.len() != expected {
-            return Err(StateError::Length { what: "task", found: numbers.len(), expected });
-        }
-        let count = |number: f64| number as u32;
-        self.draw(count(numbers[0]));
-        self.drawn_left_steps = count(numbers[1]).clamp(1, self.drawn.steps);
-        self.episode_steps = count(numbers[2]);
-        for (foot, saved) in self.feet.iter_mut().zip(numbers[3..SAVED].as_chunks::<5>().0) {
-            foot.stands = saved[0] != 0.0;
-            foot.air_s = saved[1];
-            foot.velocity_mps = Vector3::new(saved[2], saved[3], saved[4]);
-        }
-        let (of_actions, rest) = numbers[SAVED..].split_at(actions);
-        let (of_rates, rest) = rest.split_at(hinges);
-        let (of_command, of_past) = rest.split_at(3);
-        self.actions.copy_from_slice(of_actions);
-        self.rates_before_radps.copy_from_slice(of_rates);
-        self.command =
-            Command { lin_vel_x_mps: of_command[0], lin_vel_y_mps: of_command[1], ang_vel_z_radps: of_command[2] };
-        self.observed = self.command;
-        self.past.iter_mut().zip(of_past).for_each(|(number, saved)| *number = *saved as f32);
-        self.observed_step = Some(self.episode_steps);
-        Ok(())
+        self.restore_numbers(numbers)
     }
-}
-
-/// Returns the terms of an observation: those of the policy, each with its history, then those of the critic alone.
-fn observation_terms(config: &VelocityConfig, actions: usize) -> Vec<ObservationTerm> {
-    let of_policy = [
-        ("base_ang_vel", 3),
-        ("projected_gravity", 3),
-        ("velocity_commands", 3),
-        ("joint_pos_rel", actions),
-        ("joint_vel_rel", actions),
-        ("last_action", actions),
-        ("gait_phase", 2),
-    ];
-    let of_critic =
-        [("base_lin_vel", 3), ("base_height", 1), ("feet_contact", FEET), ("feet_air_time", FEET), ("feet_lift", FEET)];
-    let history = config.history as usize;
-    let rows = (0..history).flat_map(|_| of_policy).map(|(name, size)| (name, size, false));
-    let mut end = 0;
-    rows.chain(of_critic.map(|(name, size)| (name, size, true)))
-        .map(|(name, size, is_privileged)| {
-            let start = end;
-            end += size;
-            ObservationTerm { name: name.to_owned(), range: start..end, is_privileged }
-        })
-        .collect()
 }
 
 /// Returns the weight of each hinge in the term `pose`, for a robot in the default pose.

@@ -1,0 +1,251 @@
+//! Curricula of one environment: its level of the ground's difficulty, and the ranges of its commands.
+
+use rand::RngExt;
+
+use super::command::Command;
+use crate::config::{EnvironmentConfig, StartLevel};
+use crate::randomisation::stream;
+use crate::task::Difficulty;
+
+/// Numbers of [`Curriculum::save`].
+pub(super) const CURRICULUM_SAVED: usize = 7;
+/// Share of the commanded way from which the level rises, and below which it falls.
+const RISE_SHARE: f64 = 0.7;
+const FALL_SHARE: f64 = 0.35;
+/// Commanded way from which an episode counts (m).
+const COUNTED_M: f64 = 2.0;
+/// First factor on the ranges of commands, and what success adds to it.
+const FACTOR_MIN: f64 = 0.4;
+const FACTOR_STEP: f64 = 0.1;
+/// Share of the greatest reward for tracking that is a success.
+const TRACKED_SHARE: f64 = 0.7;
+
+/// How an episode ended, if it has.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+enum EpisodeEnd {
+    #[default]
+    None,
+    Fall,
+    Limit,
+}
+
+/// How an episode has gone so far.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+struct Score {
+    commanded_m: f64,
+    /// Way in the direction of the commands.
+    covered_m: f64,
+    /// Sum over the steps of the share of the greatest reward for tracking.
+    tracked: f64,
+    steps: u32,
+    end: EpisodeEnd,
+}
+
+/// Present difficulty, and what the next one depends on.
+#[derive(Clone, Debug)]
+pub(super) struct Curriculum {
+    /// How to choose a level of the ground, and their number; `None` without levels.
+    ground: Option<(StartLevel, u32)>,
+    commands_grow: bool,
+    level: u32,
+    factor: f64,
+    score: Score,
+}
+
+impl Curriculum {
+    /// Returns the curriculum before the first episode; `None` if there is nothing to choose.
+    pub(super) fn new(config: &EnvironmentConfig) -> Option<Self> {
+        let ground = (!config.ground.kinds.is_empty()).then_some((config.ground.start, config.ground.levels));
+        let commands_grow = config.velocity.as_ref().is_some_and(|velocity| velocity.command_curriculum);
+        let level = match ground {
+            Some((StartLevel::Rising(level) | StartLevel::Fixed(level), _)) => level,
+            _ => 0,
+        };
+        let factor = if commands_grow { FACTOR_MIN } else { 1.0 };
+        let chosen = Self { ground, commands_grow, level, factor, score: Score::default() };
+        (ground.is_some() || commands_grow).then_some(chosen)
+    }
+
+    pub(super) fn level(&self) -> u32 {
+        self.level
+    }
+
+    /// Returns the factor on the ranges of commands.
+    pub(super) fn factor(&self) -> f64 {
+        self.factor
+    }
+
+    pub(super) fn difficulty(&self) -> Difficulty {
+        Difficulty {
+            ground_level: self.ground.map(|_| f64::from(self.level)),
+            command_factor: self.commands_grow.then_some(self.factor),
+        }
+    }
+
+    /// Chooses the difficulty of a new episode by its seed and by how the last one went.
+    pub(super) fn begin_episode(&mut self, seed: u64) {
+        let last = std::mem::take(&mut self.score);
+        let is_tracked = last.tracked > TRACKED_SHARE * f64::from(last.steps);
+        if self.commands_grow && last.end == EpisodeEnd::Limit && is_tracked {
+            self.factor = (self.factor + FACTOR_STEP).min(1.0);
+        }
+        let Some((start, levels)) = self.ground else { return };
+        let draw = || stream(seed, "ground-level").random_range(0..levels);
+        let counts = last.commanded_m > COUNTED_M && last.end != EpisodeEnd::None;
+        let share = last.covered_m / last.commanded_m;
+        let has_failed = last.end == EpisodeEnd::Fall || counts && share < FALL_SHARE;
+        self.level = match start {
+            StartLevel::Drawn => draw(),
+            StartLevel::Fixed(level) => level,
+            StartLevel::Rising(_) if has_failed => self.level.saturating_sub(1),
+            StartLevel::Rising(_) if !(counts && share >= RISE_SHARE) => self.level,
+            StartLevel::Rising(_) if self.level + 1 < levels => self.level + 1,
+            StartLevel::Rising(_) => draw(),
+        };
+    }
+
+    /// Counts a control step under `command`, in which the base moved at `velocity_mps` forwards and to the left. `tracked` is
+    /// the share of the greatest reward for tracking. A step that falls or reaches a limit is the last one that counts.
+    pub(super) fn count(
+        &mut self,
+        command: &Command,
+        velocity_mps: [f64; 2],
+        tracked: f64,
+        step_s: f64,
+        [has_fallen, is_at_limit]: [bool; 2],
+    ) {
+        let score = &mut self.score;
+        if score.end != EpisodeEnd::None {
+            return;
+        }
+        let [x, y, _] = command.numbers();
+        let speed_mps = x.hypot(y);
+        if speed_mps > 0.0 {
+            score.commanded_m += speed_mps * step_s;
+            score.covered_m += (velocity_mps[0] * x + velocity_mps[1] * y) / speed_mps * step_s;
+        }
+        score.tracked += tracked;
+        score.steps += 1;
+        score.end = match (has_fallen, is_at_limit) {
+            (true, _) => EpisodeEnd::Fall,
+            (_, true) => EpisodeEnd::Limit,
+            _ => EpisodeEnd::None,
+        };
+    }
+
+    pub(super) fn save(&self) -> [f64; CURRICULUM_SAVED] {
+        let Score { commanded_m, covered_m, tracked, steps, end } = self.score;
+        let end = f64::from(end as u8);
+        [f64::from(self.level), self.factor, commanded_m, covered_m, tracked, f64::from(steps), end]
+    }
+
+    pub(super) fn restore(&mut self, numbers: [f64; CURRICULUM_SAVED]) {
+        let [level, factor, commanded_m, covered_m, tracked, steps, end] = numbers;
+        self.level = (level as u32).min(self.ground.map_or(0, |(_, levels)| levels - 1));
+        self.factor = factor.clamp(if self.commands_grow { FACTOR_MIN } else { 1.0 }, 1.0);
+        let end = match end as u8 {
+            0 => EpisodeEnd::None,
+            1 => EpisodeEnd::Fall,
+            _ => EpisodeEnd::Limit,
+        };
+        self.score = Score { commanded_m, covered_m, tracked, steps: steps as u32, end };
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::config::{GroundKind, GroundSettings, VelocityConfig};
+
+    fn curriculum(start: StartLevel) -> Curriculum {
+        let ground = GroundSettings { kinds: vec![GroundKind::Slope], levels: 4, start, ..GroundSettings::default() };
+        let velocity = Some(VelocityConfig { command_curriculum: true, ..VelocityConfig::default() });
+        Curriculum::new(&EnvironmentConfig { ground, velocity, ..EnvironmentConfig::default() }).unwrap()
+    }
+
+    /// Plays 4 s at a command of 1 m/s to the left, of which `share` is covered, and begins the next episode.
+    fn play(curriculum: &mut Curriculum, share: f64, tracked: f64, has_fallen: bool, seed: u64) {
+        let command = Command { lin_vel_y_mps: 1.0, ..Command::default() };
+        for step in 1..=200 {
+            let ends = [has_fallen && step == 200, step == 200];
+            curriculum.count(&command, [5.0, share], tracked, 0.02, ends);
+        }
+        curriculum.begin_episode(seed);
+    }
+
+    #[test]
+    fn the_level_rises_with_the_way_covered_and_falls_with_falls() {
+        let mut rising = curriculum(StartLevel::Rising(1));
+        rising.begin_episode(1);
+        assert_eq!(rising.level(), 1, "the first episode");
+        for (share, has_fallen, level) in
+            [(0.71, false, 2), (0.69, false, 2), (0.36, false, 2), (0.34, false, 1), (0.9, true, 0), (0.1, false, 0)]
+        {
+            play(&mut rising, share, 0.0, has_fallen, 7);
+            assert_eq!(rising.level(), level, "{share} {has_fallen}");
+        }
+        // A short way says nothing, and neither does an episode without an end.
+        let command = Command { lin_vel_x_mps: 1.0, ..Command::default() };
+        rising.count(&command, [1.0, 0.0], 1.0, 1.9, [false, true]);
+        rising.begin_episode(2);
+        assert_eq!(rising.level(), 0);
+        rising.count(&command, [1.0, 0.0], 1.0, 10.0, [false, false]);
+        rising.begin_episode(3);
+        assert_eq!(rising.level(), 0);
+    }
+
+    #[test]
+    fn beyond_the_last_level_all_levels_are_drawn() {
+        let mut seen = [0; 4];
+        for seed in 0..200 {
+            let mut last = curriculum(StartLevel::Rising(3));
+            play(&mut last, 1.0, 1.0, false, seed);
+            seen[last.level() as usize] += 1;
+        }
+        assert!(seen.iter().all(|count| (30..=70).contains(count)), "{seen:?}");
+    }
+
+    #[test]
+    fn fixed_and_drawn_levels_do_not_depend_on_success() {
+        let mut fixed = curriculum(StartLevel::Fixed(2));
+        play(&mut fixed, 1.0, 1.0, false, 1);
+        assert_eq!(fixed.level(), 2);
+        let (mut one, mut other) = (curriculum(StartLevel::Drawn), curriculum(StartLevel::Drawn));
+        for seed in 0..20 {
+            play(&mut one, 1.0, 1.0, false, seed);
+            play(&mut other, 0.0, 0.0, true, seed);
+            assert_eq!(one.level(), other.level());
+        }
+    }
+
+    #[test]
+    fn commands_grow_with_success_and_never_shrink() {
+        let mut growing = curriculum(StartLevel::Fixed(0));
+        assert_eq!(growing.factor(), 0.4);
+        for (tracked, has_fallen, factor) in
+            [(0.69, false, 0.4), (0.9, true, 0.4), (0.71, false, 0.5), (0.0, true, 0.5)]
+        {
+            play(&mut growing, 0.0, tracked, has_fallen, 1);
+            assert!((growing.factor() - factor).abs() < 1e-12, "{tracked} {has_fallen}");
+        }
+        for _ in 0..10 {
+            play(&mut growing, 0.0, 1.0, false, 1);
+        }
+        assert_eq!(growing.factor(), 1.0);
+    }
+
+    #[test]
+    fn a_saved_curriculum_goes_on_as_it_was() {
+        let mut original = curriculum(StartLevel::Rising(2));
+        play(&mut original, 1.0, 1.0, false, 1);
+        let command = Command { lin_vel_x_mps: 1.0, ..Command::default() };
+        original.count(&command, [0.2, 0.0], 0.5, 4.0, [false, true]);
+        let mut other = curriculum(StartLevel::Rising(0));
+        other.restore(original.save());
+        assert_eq!(other.save(), original.save());
+        original.begin_episode(3);
+        other.begin_episode(3);
+        assert_eq!((other.level(), other.factor()), (2, 0.5));
+        assert_eq!(other.save(), original.save());
+    }
+}
