@@ -3,9 +3,11 @@
 //! # Layout
 //! - `contract`: what a robot's controller must know of a policy of the velocity task.
 //! - `deploy`: the same as `deploy.yaml`, which Unitree's controllers read.
+//! - `ground`: generated ground, for MuJoCo.
 
 mod contract;
 mod deploy;
+mod ground;
 
 use std::path::{Path, PathBuf};
 
@@ -24,7 +26,7 @@ use crate::{
 
 /// Flags of `export`.
 #[derive(Args)]
-#[command(group(ArgGroup::new("files").args(["safetensors", "onnx", "deploy"]).multiple(true).required(true)))]
+#[command(group(ArgGroup::new("files").args(["safetensors", "onnx", "deploy", "ground"]).multiple(true).required(true)))]
 pub struct ExportArgs {
     /// Run folder, name below runs/, bundle file, or a file that `export` wrote.
     run: String,
@@ -38,6 +40,9 @@ pub struct ExportArgs {
     /// Write gains, default pose, action scales and observation of the velocity task as deploy.yaml, for Unitree's controllers.
     #[arg(long, value_name = "FILE")]
     deploy: Option<PathBuf>,
+    /// Write the generated ground of the velocity task, for `python -m treadmill_transfer --ground FILE`.
+    #[arg(long, value_name = "FILE")]
+    ground: Option<PathBuf>,
     /// Checkpoint: best, latest, or the number of updates of a kept one; by default best if it exists.
     #[arg(long, value_name = "WHICH")]
     checkpoint: Option<Which>,
@@ -50,11 +55,18 @@ pub struct ExportArgs {
 pub fn run(args: &ExportArgs) -> anyhow::Result<()> {
     let SavedPolicy { policy, origin, .. } = saved_policy::load(&args.run, args.checkpoint)?;
     let config = policy.config();
-    let contract = match config.is_external() {
+    let environment = match config.is_external() {
         true => None,
         // Refuses a policy that `eval` would refuse.
-        false => Contract::new(&saved_policy::environment(&args.run, &policy, &config)?)?,
+        false => Some(saved_policy::environment(&args.run, &policy, &config)?),
     };
+    let contract = environment.as_ref().map(Contract::new).transpose()?.flatten();
+    let ground = environment.as_ref().and_then(ground::json);
+    if ground.is_none() && args.ground.is_some() {
+        let why =
+            format!("--ground needs a run with generated ground, and `{}` has none; leave --ground out", args.run);
+        return Err(Usage(why).into());
+    }
     if contract.is_none() && args.deploy.is_some() {
         let (run, task) = (&args.run, config.task_name());
         let why = format!(
@@ -86,6 +98,13 @@ pub fn run(args: &ExportArgs) -> anyhow::Result<()> {
     if let (Some(path), Some(contract)) = (&args.deploy, &contract) {
         let what = format!("{of}gains, default pose and observation for Unitree's controllers");
         written.push(write(path, deploy::yaml(contract)?.as_bytes(), what)?);
+    }
+    if let (Some(path), Some(ground)) = (&args.ground, &ground) {
+        written.push(write(
+            path,
+            ground.as_bytes(),
+            format!("{of}the generated ground and the starts on its hardest level"),
+        )?);
     }
     if args.json {
         let files: Vec<_> = written.iter().map(|file| json!({"file": file.path, "bytes": file.bytes})).collect();
