@@ -1,5 +1,7 @@
-//! The Python actor. Other tests use the scripts beside this file to read Treadmill's files in Python.
+//! The Python actor and the player of exported policies. Other tests use the scripts beside this file to read Treadmill's
+//! files in Python.
 
 mod actor;
 #[path = "../support/mod.rs"]
 mod support;
+mod transfer;
