@@ -117,6 +117,9 @@ fn randomisation(config: &RandomisationConfig) -> Randomisation {
         mass_scale: config.mass_scale,
         floor_friction_scale: config.floor_friction_scale,
         motor_scale: config.motor_scale,
+        kp_scale: config.kp_scale,
+        kd_scale: config.kd_scale,
+        com_offset_m: config.com_offset_m,
         damping_scale: config.damping_scale,
         armature_scale: config.armature_scale,
         gravity_scale: config.gravity_scale,
@@ -289,10 +292,13 @@ mod tests {
     fn configuration_and_environment_refuse_the_same_ranges() {
         let ends = [-1.0, 0.0, 0.015, 0.1, 1.0, 3.0, 10.0, 1000.0, f64::NAN];
         type Set = fn(&mut RandomisationConfig, [f64; 2]);
-        let keys: [Set; 9] = [
+        let keys: [Set; 12] = [
             |config, range| config.mass_scale = range,
             |config, range| config.floor_friction_scale = range,
             |config, range| config.motor_scale = range,
+            |config, range| config.kp_scale = range,
+            |config, range| config.kd_scale = range,
+            |config, [low, _]| config.com_offset_m = low,
             |config, range| config.damping_scale = range,
             |config, range| config.armature_scale = range,
             |config, range| config.gravity_scale = range,

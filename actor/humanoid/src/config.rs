@@ -164,6 +164,12 @@ pub struct Randomisation {
     pub floor_friction_scale: [f64; 2],
     /// Factor on the torque of each motor.
     pub motor_scale: [f64; 2],
+    /// Factor on the stiffness of each servo.
+    pub kp_scale: [f64; 2],
+    /// Factor on the damping of each servo.
+    pub kd_scale: [f64; 2],
+    /// Largest offset of the root body's centre of mass along each of its axes (m).
+    pub com_offset_m: f64,
     /// Factor on the viscous friction of each hinge.
     pub damping_scale: [f64; 2],
     /// Factor on the rotor inertia of each hinge.
@@ -194,6 +200,9 @@ impl Default for Randomisation {
             mass_scale: SAME,
             floor_friction_scale: SAME,
             motor_scale: SAME,
+            kp_scale: SAME,
+            kd_scale: SAME,
+            com_offset_m: 0.0,
             damping_scale: SAME,
             armature_scale: SAME,
             gravity_scale: SAME,
@@ -350,6 +359,8 @@ impl Randomisation {
             ("mass_scale", self.mass_scale, [0.1, 10.0], "between 0.1 and 10, the first not above the second"),
             ("floor_friction_scale", self.floor_friction_scale, [0.0, 10.0], factors),
             ("motor_scale", self.motor_scale, [0.0, 10.0], factors),
+            ("kp_scale", self.kp_scale, [0.0, 10.0], factors),
+            ("kd_scale", self.kd_scale, [0.0, 10.0], factors),
             ("damping_scale", self.damping_scale, [0.0, 10.0], factors),
             ("armature_scale", self.armature_scale, [0.0, 10.0], factors),
             ("gravity_scale", self.gravity_scale, [0.0, 10.0], factors),
@@ -374,6 +385,7 @@ impl Randomisation {
             ("sensor_noise_position", self.sensor_noise_position),
             ("sensor_noise_velocity", self.sensor_noise_velocity),
             ("encoder_bias_rad", self.encoder_bias_rad),
+            ("com_offset_m", self.com_offset_m),
             ("control_noise", self.control_noise),
         ] {
             if !(0.0..=1.0).contains(&value) {

@@ -120,6 +120,10 @@ impl Randomiser {
         let (settings, variation) = (&self.settings, &mut self.variation);
         uniform_each(seed, "mass", settings.mass_scale, &mut variation.mass_scale);
         uniform_each(seed, "motor", settings.motor_scale, &mut variation.motor_scale);
+        uniform_each(seed, "kp", settings.kp_scale, &mut variation.kp_scale);
+        uniform_each(seed, "kd", settings.kd_scale, &mut variation.kd_scale);
+        let offset_m = settings.com_offset_m;
+        uniform_each(seed, "com", [-offset_m, offset_m], variation.root_centre_offset_m.as_mut_slice());
         uniform_each(seed, "damping", settings.damping_scale, &mut variation.damping_scale);
         uniform_each(seed, "armature", settings.armature_scale, &mut variation.armature_scale);
         variation.floor_friction_scale = uniform(&mut stream(seed, "floor-friction"), settings.floor_friction_scale);

@@ -206,6 +206,12 @@ section! {
         floor_friction_scale: [f64; 2] = [1.0, 1.0], "[smallest, largest], 0 to 10" => |v| is_range(v, 0.0, 10.0);
         /// Factor on the torque of each motor.
         motor_scale: [f64; 2] = [1.0, 1.0], "[smallest, largest], 0 to 10" => |v| is_range(v, 0.0, 10.0);
+        /// Factor on the stiffness (kp) of each servo.
+        kp_scale: [f64; 2] = [1.0, 1.0], "[smallest, largest], 0 to 10" => |v| is_range(v, 0.0, 10.0);
+        /// Factor on the damping (kd) of each servo.
+        kd_scale: [f64; 2] = [1.0, 1.0], "[smallest, largest], 0 to 10" => |v| is_range(v, 0.0, 10.0);
+        /// Largest offset of the root body's centre of mass along each of its axes (m).
+        com_offset_m: f64 = 0.0, "0 to 1" => |v| (0.0..=1.0).contains(v);
         /// Factor on the viscous friction of each hinge.
         damping_scale: [f64; 2] = [1.0, 1.0], "[smallest, largest], 0 to 10" => |v| is_range(v, 0.0, 10.0);
         /// Factor on the rotor inertia of each hinge.

@@ -40,6 +40,7 @@ impl<S: Simd> Group<S> {
                 hinge.min_nm.set_lane(lane, drive.min_nm);
                 hinge.max_nm.set_lane(lane, drive.max_nm);
             }
+            self.posture.root_centre_m.set_lane(lane, &parameters.root_centre_m);
             self.forces.gravity_mps2.set_lane(lane, &parameters.gravity_mps2);
             self.constraints.friction_scale.set_lane(lane, parameters.friction_scale);
         }

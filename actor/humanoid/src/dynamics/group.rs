@@ -325,6 +325,7 @@ impl<S: Simd> Engine for Group<S> {
         for (lane, world) in worlds.iter().flatten().enumerate() {
             set_lane(&mut self.position, lane, &world.position);
             set_lane(&mut self.velocity, lane, &world.velocity);
+            self.posture.root_centre_m.set_lane(lane, &world.parameters.root_centre_m);
         }
         let simd = self.simd;
         simd.vectorize(Place(self, pass));

@@ -18,6 +18,8 @@ pub(crate) struct Posture<S: Simd> {
     pub(crate) origins_m: Vec<Vec3<S>>,
     /// Centre of mass of each body (m, relative to O).
     pub(crate) centres_m: Vec<Vec3<S>>,
+    /// Centre of mass of the root in its frame (m).
+    pub(crate) root_centre_m: Vec3<S>,
     /// Motion of each degree of freedom at unit rate.
     pub(crate) axes: Vec<Motion<S>>,
     /// Inertia of each body; filled by [`Self::update_inertia`].
@@ -35,6 +37,7 @@ impl<S: Simd> Posture<S> {
             rotations: vec![Mat3::identity(simd); bodies],
             origins_m: vec![Vec3::zero(simd); bodies],
             centres_m: vec![Vec3::zero(simd); bodies],
+            root_centre_m: Vec3::splat(simd, &structure.nodes[0].centre_m),
             axes,
             inertias: vec![Inertia::zero(simd); bodies],
         }
@@ -45,7 +48,7 @@ impl<S: Simd> Posture<S> {
     pub(crate) fn update_kinematics(&mut self, structure: &Structure, position: &[Lanes<S>]) {
         let root = rotation_of(&position[3..ROOT_POSITIONS]);
         self.rotations[0] = root;
-        self.centres_m[0] = root.times_constant(&structure.nodes[0].centre_m);
+        self.centres_m[0] = root.times(&self.root_centre_m);
         for (axis, column) in self.axes[3..ROOT_DOFS].iter_mut().zip(root.columns) {
             axis.angular = column;
         }

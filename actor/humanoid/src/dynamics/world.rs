@@ -39,6 +39,8 @@ pub(crate) struct World {
 pub(crate) struct Parameters {
     pub(crate) masses_kg: Vec<f64>,
     pub(crate) inertias_kgm2: Vec<Matrix3<f64>>,
+    /// Centre of mass of the root body in its frame (m).
+    pub(crate) root_centre_m: Vector3<f64>,
     pub(crate) damping_nmsprad: Vec<f64>,
     pub(crate) armature_kgm2: Vec<f64>,
     /// Factor on the friction coefficients of all contacts.
@@ -121,6 +123,7 @@ impl Parameters {
         Self {
             masses_kg: model.bodies.iter().map(|body| body.mass_kg).collect(),
             inertias_kgm2: model.bodies.iter().map(|body| body.inertia_kgm2).collect(),
+            root_centre_m: model.bodies[0].centre_of_mass_m.coords,
             damping_nmsprad: model.hinges.iter().map(|hinge| hinge.damping_nmsprad).collect(),
             armature_kgm2: model.hinges.iter().map(|hinge| hinge.armature_kgm2).collect(),
             friction_scale: 1.0,
@@ -130,9 +133,18 @@ impl Parameters {
 
     /// Copies the quantities of another world of the same model; allocates nothing.
     pub(crate) fn copy_from(&mut self, other: &Self) {
-        let Self { masses_kg, inertias_kgm2, damping_nmsprad, armature_kgm2, friction_scale, gravity_mps2 } = self;
+        let Self {
+            masses_kg,
+            inertias_kgm2,
+            root_centre_m,
+            damping_nmsprad,
+            armature_kgm2,
+            friction_scale,
+            gravity_mps2,
+        } = self;
         masses_kg.copy_from_slice(&other.masses_kg);
         inertias_kgm2.copy_from_slice(&other.inertias_kgm2);
+        *root_centre_m = other.root_centre_m;
         damping_nmsprad.copy_from_slice(&other.damping_nmsprad);
         armature_kgm2.copy_from_slice(&other.armature_kgm2);
         *friction_scale = other.friction_scale;
@@ -149,6 +161,7 @@ impl Parameters {
             self.damping_nmsprad[index] = hinge.damping_nmsprad;
             self.armature_kgm2[index] = hinge.armature_kgm2;
         }
+        self.root_centre_m = model.bodies[0].centre_of_mass_m.coords;
         self.friction_scale = friction_scale;
         self.gravity_mps2 = model.gravity_mps2;
     }

@@ -2,6 +2,8 @@
 
 use std::sync::Arc;
 
+use nalgebra::Vector3;
+
 use crate::dynamics::Parameters;
 use crate::model::Model;
 
@@ -16,6 +18,12 @@ pub struct Variation {
     pub armature_scale: Vec<f64>,
     /// On the torque of each motor.
     pub motor_scale: Vec<f64>,
+    /// On the stiffness of each servo; one per motor.
+    pub kp_scale: Vec<f64>,
+    /// On the damping of each servo; one per motor.
+    pub kd_scale: Vec<f64>,
+    /// Offset of the root body's centre of mass, in its frame (m).
+    pub root_centre_offset_m: Vector3<f64>,
     /// On the friction coefficients of the floor and of the links.
     pub floor_friction_scale: f64,
     /// On gravity.
@@ -31,6 +39,9 @@ impl Variation {
             damping_scale: vec![1.0; model.hinges.len()],
             armature_scale: vec![1.0; model.hinges.len()],
             motor_scale: vec![1.0; model.motors.len()],
+            kp_scale: vec![1.0; model.motors.len()],
+            kd_scale: vec![1.0; model.motors.len()],
+            root_centre_offset_m: Vector3::zeros(),
             floor_friction_scale: 1.0,
             gravity_scale: 1.0,
         }
@@ -50,13 +61,26 @@ impl Variation {
             let scale = self.mass_scale[link.body];
             link.mass_kg = nominal.mass_kg * scale;
             link.inertia_kgm2 = nominal.inertia_kgm2 * scale;
+            if link.body == 0 {
+                link.centre_of_mass_m = nominal.centre_of_mass_m + self.root_centre_offset_m;
+            }
         }
+        model.bodies[0].centre_of_mass_m = nominal.bodies[0].centre_of_mass_m + self.root_centre_offset_m;
         for (index, (hinge, nominal)) in model.hinges.iter_mut().zip(&nominal.hinges).enumerate() {
             hinge.damping_nmsprad = nominal.damping_nmsprad * self.damping_scale[index];
             hinge.armature_kgm2 = nominal.armature_kgm2 * self.armature_scale[index];
         }
-        for ((motor, nominal), scale) in model.motors.iter_mut().zip(&nominal.motors).zip(&self.motor_scale) {
-            motor.gear_nm = nominal.gear_nm * scale;
+        for (index, (motor, nominal)) in model.motors.iter_mut().zip(&nominal.motors).enumerate() {
+            let (kp_scale, kd_scale) = (self.kp_scale[index], self.kd_scale[index]);
+            let [constant, stiffness, damping] = nominal.bias;
+            motor.gear_nm = nominal.gear_nm * self.motor_scale[index];
+            motor.bias = [constant, stiffness * kp_scale, damping * kd_scale];
+            // The target of a servo acts through its stiffness, or else through its damping.
+            motor.gain = match (stiffness != 0.0, damping != 0.0) {
+                (true, _) => nominal.gain * kp_scale,
+                (false, true) => nominal.gain * kd_scale,
+                (false, false) => nominal.gain,
+            };
         }
         model.ground.friction = nominal.ground.friction * self.floor_friction_scale;
         model.gravity_mps2 = nominal.gravity_mps2 * self.gravity_scale;
@@ -85,7 +109,9 @@ impl VariableModel {
         assert_eq!(variation.mass_scale.len(), model.bodies.len(), "one mass scale per body is needed");
         assert_eq!(variation.damping_scale.len(), model.hinges.len(), "one damping scale per hinge is needed");
         assert_eq!(variation.armature_scale.len(), model.hinges.len(), "one armature scale per hinge is needed");
-        assert_eq!(variation.motor_scale.len(), model.motors.len(), "one motor scale per motor is needed");
+        for scales in [&variation.motor_scale, &variation.kp_scale, &variation.kd_scale] {
+            assert_eq!(scales.len(), model.motors.len(), "one scale per motor is needed");
+        }
         self.variation.clone_from(variation);
         self.is_due = true;
     }

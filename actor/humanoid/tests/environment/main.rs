@@ -8,6 +8,7 @@ mod episode_states;
 mod episodes;
 #[path = "../golden/mod.rs"]
 mod golden;
+mod ground;
 mod observations;
 mod physics_version;
 mod randomisation;

@@ -4,7 +4,7 @@ use treadmill_humanoid::config::VelocityConfig;
 use treadmill_humanoid::{Environment, EnvironmentConfig, EpisodeState, Mirror, Randomisation};
 
 const ROBOT_XML: &str = include_str!("../../assets/g1-like-servos.xml");
-const CARD: &str = "feet = ['left_foot', 'right_foot']\n[[hinges]]\nnames = '*'\neffort_nm = 60.0\n";
+pub(crate) const CARD: &str = "feet = ['left_foot', 'right_foot']\n[[hinges]]\nnames = '*'\neffort_nm = 60.0\n";
 /// Three angular velocities, gravity, command, 29 × (angle, rate, action), phase.
 const OF_POLICY: usize = 3 + 3 + 3 + 3 * 29 + 2;
 const OF_CRITIC: usize = 3 + 1 + 3 * 2;
@@ -16,6 +16,9 @@ fn config(velocity: VelocityConfig) -> EnvironmentConfig {
         sensor_noise_position: 0.01,
         encoder_bias_rad: 0.02,
         action_delay_steps: [0, 2],
+        kp_scale: [0.9, 1.1],
+        kd_scale: [0.8, 1.2],
+        com_offset_m: 0.03,
         ..Randomisation::default()
     };
     EnvironmentConfig {
@@ -28,7 +31,7 @@ fn config(velocity: VelocityConfig) -> EnvironmentConfig {
     }
 }
 
-fn with_card(card: &str) -> String {
+pub(crate) fn with_card(card: &str) -> String {
     ROBOT_XML.replacen(
         "</mujoco>",
         &format!(

@@ -97,6 +97,46 @@ fn the_floor_carries_the_varied_mass() {
 }
 
 #[test]
+fn the_centre_of_mass_moves_with_that_of_the_root() {
+    let mut body = physics(HUMANOID_XML);
+    let position = body.model().nominal_position();
+    let (share, offset_m) = (body.model().bodies[0].mass_kg / body.model().mass_kg(), Vector3::new(0.05, -0.02, 0.03));
+    body.set_state(&position, &STILL);
+    let before = body.centre_of_mass();
+    varied(&mut body, |variation| variation.root_centre_offset_m = offset_m);
+    body.set_state(&position, &STILL);
+    // The root is not turned.
+    let moved = body.centre_of_mass() - before;
+    assert!((moved - offset_m * share).norm() < 1e-12 && share > 0.1, "{moved} of {share}");
+}
+
+#[test]
+fn servos_push_by_their_varied_stiffness_and_damping() {
+    let xml = include_str!("../../assets/g1-like-servos.xml");
+    let mut body = physics(xml);
+    let hinges = body.model().hinges.len();
+    let (mut position, mut velocity) = (body.model().nominal_position(), vec![0.0; 6 + hinges]);
+    position[2] = 3.0;
+    let control = vec![0.02; body.model().motors.len()];
+    let mut torques = |kp_scale: f64, kd_scale: f64, rate_radps: f64| {
+        varied(&mut body, |variation| {
+            variation.kp_scale.fill(kp_scale);
+            variation.kd_scale.fill(kd_scale);
+        });
+        velocity[6..].fill(rate_radps);
+        body.set_state(&position, &velocity);
+        body.set_controls(&control).expect("finite");
+        body.joint_torques_nm().to_vec()
+    };
+    let (plain, stiff) = (torques(1.0, 1.0, 0.0), torques(1.5, 1.0, 0.0));
+    assert!(plain.iter().zip(&stiff).all(|(one, other)| (other - 1.5 * one).abs() < 1e-9), "{plain:?}, {stiff:?}");
+    let (moving, damped) = (torques(1.0, 1.0, 0.01), torques(1.0, 3.0, 0.01));
+    let tripled = |hinge: usize| plain[hinge] + 3.0 * (moving[hinge] - plain[hinge]);
+    assert!((0..hinges).all(|hinge| (damped[hinge] - tripled(hinge)).abs() < 1e-9), "{moving:?}, {damped:?}");
+    assert!(plain.iter().any(|torque_nm| *torque_nm > 0.1) && moving[0] != plain[0]);
+}
+
+#[test]
 fn a_heavier_body_is_harder_to_turn() {
     // The same torque on twice the mass, inertia and armature gives half the acceleration.
     let mut body = weightless();
