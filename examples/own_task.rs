@@ -8,7 +8,7 @@ use std::process::ExitCode;
 
 use treadmill_rl::humanoid::{
     EnvironmentConfig, ModelError, ObservationTerm, Physics, SensorNoise, StepInfo, Task,
-    task::{Evaluation, Step},
+    task::{Step, StepEvaluation},
 };
 
 /// Heights of the torso that an episode may ask for (m).
@@ -49,12 +49,12 @@ impl Task for Squat {
         StepInfo { torso_height_m: physics.torso_height_m(), ..StepInfo::default() }
     }
 
-    fn evaluate(&mut self, step: &Step<'_>) -> Evaluation {
+    fn evaluate(&mut self, step: &Step<'_>) -> StepEvaluation {
         let height_m = step.physics.torso_height_m();
         let effort: f64 = step.action.iter().map(|control| f64::from(*control).powi(2)).sum();
         let drift_mps = step.physics.centre_of_mass_velocity().xy().norm();
         let tracking = (-((height_m - self.target_m) / TOLERANCE_M).powi(2)).exp();
-        Evaluation {
+        StepEvaluation {
             reward: (1.0 + 4.0 * tracking - 0.5 * drift_mps - 0.1 * effort) as f32,
             terminated: height_m < FALLEN_M,
             truncated: false,

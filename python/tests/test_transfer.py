@@ -20,7 +20,7 @@ except ImportError as why:
 from treadmill_transfer import cli, errors
 from treadmill_transfer.commands import DrawnCommands, FileCommands, Pushes
 from treadmill_transfer.contract import Policy, read_contract
-from treadmill_transfer.controller import Controller, phase
+from treadmill_transfer.controller import Controller, height_scan, phase
 from treadmill_transfer.ground import Ground
 from treadmill_transfer.play import play_episode, summary
 from treadmill_transfer.robot import Robot, heading_velocity, substeps
@@ -100,6 +100,7 @@ def contract(**changes):
         "history": {"frames": 2, "order": "oldest first"},
         "gait_period_s": 0.8,
         "standing_threshold": 0.1,
+        "height_scan": {"points": [3, 1], "spacing_m": 0.5, "limit_m": 0.2},
         "commands": {
             "lin_vel_x_mps": [-0.5, 1.0],
             "lin_vel_y_mps": [-0.3, 0.3],
@@ -300,6 +301,11 @@ class TransferTest(unittest.TestCase):
             self.assertFalse(robot.has_fallen())
             robot.step(robot.contract.joints.default_rad)
             self.assertAlmostEqual(robot.position_m[2], 0.7, delta=0.005)
+            # Points half a metre apart along the heading, limited to 0.2 m.
+            robot.reset((1.0, 0.0, 0.5, 0.0))
+            numpy.testing.assert_allclose(height_scan(robot.contract, robot), [0.0, 0.0, 0.1], atol=1e-6)
+            robot.position_m[2] -= 0.15
+            numpy.testing.assert_allclose(height_scan(robot.contract, robot), [0.15, 0.15, 0.2], atol=1e-6)
             robot.position_m[0] = 2.0
             self.assertAlmostEqual(robot.ground_m(), 0.7, delta=1e-6)
 

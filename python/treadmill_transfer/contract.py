@@ -50,6 +50,9 @@ class Contract:
     standing_share: float
     heading_share: float
     heading_gain_per_s: float
+    scan_points: tuple
+    scan_spacing_m: float
+    scan_limit_m: float
     fall_height_m: float
     fall_tilt_rad: float
     push_interval_s: tuple
@@ -115,6 +118,7 @@ def read_contract(text):
     joints = _joints(fields)
     scale = fields.numbers("action_scale", len(joints.names))
     commands, history, fall = fields.part("commands"), fields.part("history"), fields.part("fall")
+    scan = fields.part("height_scan")
     terms = fields.get("observation")
     if not isinstance(terms, list) or not all(isinstance(term, dict) and {"name", "size"} <= set(term) for term in terms):
         raise TransferError("`observation` is not a list of terms with `name` and `size`")
@@ -136,6 +140,9 @@ def read_contract(text):
         standing_share=commands.number("standing_share"),
         heading_share=commands.number("heading_share"),
         heading_gain_per_s=commands.number("heading_gain_per_s"),
+        scan_points=tuple(int(count) for count in scan.numbers("points", 2)),
+        scan_spacing_m=scan.number("spacing_m", above=0.0),
+        scan_limit_m=scan.number("limit_m", above=0.0),
         fall_height_m=fall.number("height_m"),
         fall_tilt_rad=fall.number("tilt_rad"),
         push_interval_s=tuple(fields.numbers("push_interval_s", 2)),

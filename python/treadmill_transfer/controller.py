@@ -64,6 +64,18 @@ def phase(contract, steps, command):
     return numpy.array([math.sin(angle), math.cos(angle)])
 
 
+def height_scan(contract, robot):
+    """Returns how much higher the ground around the base is than where the robot would stand in the default pose (m)."""
+    (length, width), spacing_m, limit_m = contract.scan_points, contract.scan_spacing_m, contract.scan_limit_m
+    x, y, z = robot.position_m
+    cos, sin = math.cos(robot.heading_rad), math.sin(robot.heading_rad)
+    heights = []
+    for left in (spacing_m * (index - (width - 1) / 2.0) for index in range(width)):
+        for forward in (spacing_m * (index - (length - 1) / 2.0) for index in range(length)):
+            heights.append(robot.ground_m((x + cos * forward - sin * left, y + sin * forward + cos * left)))
+    return numpy.clip(numpy.array(heights) - (z - contract.base_height_m), -limit_m, limit_m)
+
+
 # One function of (controller, robot, command) for each term.
 _TERMS = {
     "base_ang_vel": lambda _, robot, __: robot.angular_radps,
@@ -73,4 +85,5 @@ _TERMS = {
     "joint_vel_rel": lambda _, robot, __: robot.rates_radps,
     "last_action": lambda self, _, __: self.action,
     "gait_phase": lambda self, _, command: phase(self.contract, self.steps, command),
+    "height_scan": lambda self, robot, _: height_scan(self.contract, robot),
 }

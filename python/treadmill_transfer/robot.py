@@ -152,9 +152,9 @@ class Robot:
         """Returns forward and left velocity in the heading frame (m/s) and yaw rate (rad/s)."""
         return heading_velocity(self.rotation, self.linear_mps, self.angular_radps)
 
-    def ground_m(self):
-        """Returns the height of planes and height fields below the base; boxes and the like do not count."""
-        x, y, _ = self.position_m
+    def ground_m(self, place=None):
+        """Returns the height of planes and height fields at a place, by default below the base; boxes and the like do not count."""
+        x, y = self.position_m[:2] if place is None else place
         heights = [self.data.geom_xpos[plane][2] for plane in self._planes]
         for field in self._fields:
             distance = mujoco.mj_rayHfield(self.model, self.data, field, numpy.array([x, y, _SKY_M]), numpy.array([0.0, 0.0, -1.0]))

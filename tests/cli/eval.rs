@@ -122,7 +122,7 @@ fn episodes_are_randomised_only_on_request() {
 
     let refused = |args: &[&str], parts: &[&str]| assert_refused(&self::run(folder.path(), args), 2, parts);
     refused(&["eval", "--agent", "random", "--randomised"], &["--randomised", "randomised nothing", "--set"]);
-    refused(&["eval", run_name, "--set", "ppo.gamma=0.5"], &["ppo.gamma=0.5", "[env] and [randomisation]"]);
+    refused(&["eval", run_name, "--set", "ppo.gamma=0.5"], &["ppo.gamma=0.5", "[env], [velocity]"]);
     refused(&["eval", run_name, "--set", "randomisation.push_mps=[3, 2]"], &["push_mps", "[smallest, largest]"]);
 }
 

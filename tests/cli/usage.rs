@@ -52,7 +52,11 @@ fn configuration_files_are_checked() {
     assert_refused(&with("[ppo\n"), 2, &["not valid TOML", "mine.toml"]);
     assert_refused(&train(&["--config", "no-such-file.toml"]), 2, &["no-such-file.toml"]);
     let output = self::run(folder.path(), &["train", "--preset", "stroll"]);
-    assert_refused(&output, 2, &["stroll", "walk, walk-v5obs, walk-v4obs, smoke, sim2sim"]);
+    assert_refused(
+        &output,
+        2,
+        &["stroll", "walk, walk-v5obs, walk-v4obs, smoke, g1, g1-29, g1-rough, h1, t1, sim2sim"],
+    );
 }
 
 #[test]

@@ -247,7 +247,7 @@ pub(crate) mod tests {
         assert!(message("ppo.epochs=-1").contains("is -1; allowed: 1 to 100"));
         assert!(
             message("nonsense.key=1")
-                .contains("allowed: run, env, task, randomisation, rollout, policy, ppo, learner, eval, bus")
+                .contains("allowed: run, env, velocity, rewards, ground, task, randomisation, rollout, policy, ppo, learner, eval, bus")
         );
         assert!(message("rollout.max_in_flight=2").contains("where learner.mode is \"sync\""));
         assert!(message("ppo.gamma=nan").contains("allowed: 0 to 1"));
@@ -311,7 +311,7 @@ pub(crate) mod tests {
         let message = set("env.task=humanoid-v6").unwrap_err().to_string();
         assert_eq!(
             message,
-            "config key `env.task` is \"humanoid-v6\"; allowed: \"humanoid-v5\", \"humanoid-v4\" or \"external\""
+            "config key `env.task` is \"humanoid-v6\"; allowed: \"humanoid-v5\", \"humanoid-v4\", \"velocity\" or \"external\""
         );
         assert!(set("env.observation=5").unwrap_err().to_string().contains("\"compact\""));
     }

@@ -9,7 +9,7 @@ use treadmill_runtime::seeds::Stream;
 
 use super::{
     Counters, TrainingState,
-    format_5::{ActorState, Shape},
+    format_5::{ActorState, Shape5},
 };
 use crate::{
     intake::{FragmentCounts, Ledger, Lineage},
@@ -18,11 +18,11 @@ use crate::{
 
 /// [`TrainingState`] in format 3.
 #[derive(Deserialize)]
-pub(super) struct State {
+pub(super) struct State3 {
     run: String,
     config_toml: String,
     model_xml: String,
-    shape: Shape,
+    shape: Shape5,
     lineage: Lineage,
     parameters: Vec<f32>,
     optimiser: OptimiserState,
@@ -62,8 +62,8 @@ struct RunCounters {
     resumes: u64,
 }
 
-impl From<State> for TrainingState {
-    fn from(state: State) -> Self {
+impl From<State3> for TrainingState {
+    fn from(state: State3) -> Self {
         let (counts, counters) = (state.fragment_counts, state.counters);
         Self {
             run: state.run,

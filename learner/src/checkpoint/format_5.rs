@@ -15,11 +15,11 @@ use crate::{
 
 /// [`TrainingState`] in formats 4 and 5.
 #[derive(Deserialize)]
-pub(super) struct State {
+pub(super) struct State5 {
     run: String,
     config_toml: String,
     model_xml: String,
-    shape: Shape,
+    shape: Shape5,
     lineage: Lineage,
     parameters: Vec<f32>,
     optimiser: OptimiserState,
@@ -39,7 +39,7 @@ pub(super) struct State {
 
 /// [`NetworkShape`] up to format 5.
 #[derive(Deserialize)]
-pub(super) struct Shape {
+pub(super) struct Shape5 {
     observation: usize,
     action: usize,
     hidden: Vec<usize>,
@@ -62,8 +62,8 @@ pub(super) struct ActorState {
     streams: Vec<u64>,
 }
 
-impl From<Shape> for NetworkShape {
-    fn from(Shape { observation, action, hidden }: Shape) -> Self {
+impl From<Shape5> for NetworkShape {
+    fn from(Shape5 { observation, action, hidden }: Shape5) -> Self {
         Self { observation, action, hidden, privileged: 0 }
     }
 }
@@ -88,8 +88,8 @@ impl From<ActorState> for treadmill_proto::ActorState {
     }
 }
 
-impl From<State> for TrainingState {
-    fn from(state: State) -> Self {
+impl From<State5> for TrainingState {
+    fn from(state: State5) -> Self {
         Self {
             run: state.run,
             config_toml: state.config_toml,

@@ -179,8 +179,8 @@ pub fn load_file(path: &Path) -> Result<TrainingState, CheckpointError> {
 pub fn decode(path: &str, bytes: &[u8]) -> Result<TrainingState, CheckpointError> {
     let (format, payload) = encoding::payload(path, bytes)?;
     match format {
-        3 => encoding::decode::<format_3::State>(path, payload).map(Into::into),
-        4 | 5 => encoding::decode::<format_5::State>(path, payload).map(Into::into),
+        3 => encoding::decode::<format_3::State3>(path, payload).map(Into::into),
+        4 | 5 => encoding::decode::<format_5::State5>(path, payload).map(Into::into),
         _ => encoding::decode(path, payload),
     }
 }

@@ -300,10 +300,9 @@ fn print_summary(args: &EvalArgs, origin: Option<&Origin>, evaluation: &Evaluati
 
 fn print_tracking(tracking: &Tracking) {
     match (tracking.velocity_error_mps(), tracking.yaw_rate_error_radps()) {
-        (Some(velocity), Some(yaw_rate)) => say(&format!(
-            "tracking      {velocity:.2} m/s, {yaw_rate:.2} rad/s off ({} windows of 1 s)",
-            tracking.windows
-        )),
+        (Some(velocity), Some(yaw_rate)) => {
+            say(&format!("tracking      {velocity:.2} m/s, {yaw_rate:.2} rad/s ({} windows of 1 s)", tracking.windows))
+        }
         _ => say("tracking      unknown: no command lasted for 2 s without a push or a fall"),
     }
     say(&format!(

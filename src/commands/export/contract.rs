@@ -6,7 +6,7 @@ use treadmill_humanoid::{
     Environment, EnvironmentConfig,
     card::Robot,
     config::VelocityConfig,
-    task::velocity::{ACTION_MAX, HEADING_GAIN, STANDING_COMMAND},
+    task::velocity::{ACTION_MAX, HEADING_GAIN, SCAN_GRID, SCAN_MAX_M, SCAN_SPACING_M, STANDING_COMMAND},
 };
 use treadmill_policy::onnx::ForController;
 
@@ -14,7 +14,7 @@ use treadmill_policy::onnx::ForController;
 const FORMAT: u32 = 1;
 
 /// Unit and frame of each term that a policy can observe.
-const MEANINGS: [(&str, &str, &str); 7] = [
+const MEANINGS: [(&str, &str, &str); 8] = [
     ("base_ang_vel", "rad/s", "base"),
     ("projected_gravity", "1", "base"),
     ("velocity_commands", "m/s, m/s, rad/s", "heading"),
@@ -22,6 +22,7 @@ const MEANINGS: [(&str, &str, &str); 7] = [
     ("joint_vel_rel", "rad/s", "joint"),
     ("last_action", "action_scale", "joint"),
     ("gait_phase", "1", "sine and cosine"),
+    ("height_scan", "m", "heading"),
 ];
 
 /// Servo of one hinge.
@@ -156,6 +157,16 @@ impl Contract {
             ),
             ("gait_period_s", json!(velocity.gait_period_s)),
             ("standing_threshold", json!(STANDING_COMMAND)),
+            (
+                "height_scan",
+                json!({
+                    "points": SCAN_GRID,
+                    "spacing_m": SCAN_SPACING_M,
+                    "limit_m": SCAN_MAX_M,
+                    "order": "rows from right to left, each from back to front, around the base",
+                    "value": "height of the ground above the base's height less its default height",
+                }),
+            ),
             (
                 "commands",
                 json!({

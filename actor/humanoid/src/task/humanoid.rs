@@ -4,7 +4,7 @@
 //! contact cost; if unhealthy steps end the episode, it pays for health on every step, including the last; its info has the
 //! position of the centre of mass instead of the torso's.
 
-use super::{Evaluation, ObservationTerm, Step, Task};
+use super::{ObservationTerm, Step, StepEvaluation, Task};
 use crate::config::{EnvironmentConfig, ObservationKind, RewardTask};
 use crate::info::{PerTendon, StepInfo};
 use crate::model::Model;
@@ -74,7 +74,7 @@ impl Task for HumanoidTask {
         (self.config.observation == ObservationKind::Compact).then(|| robot.observation(size))
     }
 
-    fn evaluate(&mut self, step: &Step<'_>) -> Evaluation {
+    fn evaluate(&mut self, step: &Step<'_>) -> StepEvaluation {
         let Step { physics, action, centre_before_m: before } = *step;
         let after = physics.centre_of_mass();
         let position = physics.position();
@@ -155,7 +155,7 @@ pub fn info_position_m(task: RewardTask, torso_m: [f64; 2], centre_m: [f64; 2]) 
 
 /// Computes reward, termination and info of one control step.
 #[must_use]
-pub fn evaluate_step(config: &EnvironmentConfig, transition: &Transition<'_>) -> Evaluation {
+pub fn evaluate_step(config: &EnvironmentConfig, transition: &Transition<'_>) -> StepEvaluation {
     let [torso_x_m, torso_y_m, height_m] = transition.torso_m;
     let [x_m, y_m] = info_position_m(config.task, [torso_x_m, torso_y_m], transition.centre_after_m);
     let [x_velocity_mps, y_velocity_mps] =
@@ -175,7 +175,7 @@ pub fn evaluate_step(config: &EnvironmentConfig, transition: &Transition<'_>) ->
         reward_contact: -contact_cost(config, transition.squared_contact_wrenches),
         torso_height_m: height_m,
     };
-    Evaluation {
+    StepEvaluation {
         // The cost of huge controls exceeds single precision.
         reward: (info.reward_survive + info.reward_forward + info.reward_ctrl + info.reward_contact)
             .clamp(f32::MIN.into(), f32::MAX.into()) as f32,

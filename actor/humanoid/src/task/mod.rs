@@ -51,7 +51,7 @@ pub struct Step<'a> {
 
 /// Reward of a control step, and whether the task ends the episode.
 #[derive(Clone, Copy, Debug)]
-pub struct Evaluation {
+pub struct StepEvaluation {
     /// Reward of the step.
     pub reward: f32,
     /// Whether the task ends the episode: the value of its last state is 0.
@@ -103,7 +103,7 @@ pub trait Task: Send {
     fn begin(&mut self, seed: u64, physics: &Physics) -> StepInfo;
 
     /// Returns reward and end of a control step.
-    fn evaluate(&mut self, step: &Step<'_>) -> Evaluation;
+    fn evaluate(&mut self, step: &Step<'_>) -> StepEvaluation;
 
     /// Writes an observation of the present state with the noise of the sensors. Should not allocate. A number that is not
     /// finite, here or in the reward, is a fault, as in [`Environment::step`](crate::Environment::step).
@@ -156,7 +156,7 @@ pub trait Task: Send {
     }
 }
 
-impl Evaluation {
+impl StepEvaluation {
     /// Returns the outcome of control step number `episode_steps` of an episode, which is truncated after `max_episode_steps`;
     /// 0 means never.
     #[must_use]
@@ -171,15 +171,15 @@ impl Evaluation {
 mod tests {
     use super::*;
 
-    fn evaluation(terminated: bool) -> Evaluation {
-        Evaluation { reward: 5.0, terminated, truncated: false, info: StepInfo::default() }
+    fn evaluation(terminated: bool) -> StepEvaluation {
+        StepEvaluation { reward: 5.0, terminated, truncated: false, info: StepInfo::default() }
     }
 
     #[test]
     fn a_task_can_truncate_and_a_fall_goes_before() {
-        let step = Evaluation { truncated: true, ..evaluation(false) }.at(1, 10);
+        let step = StepEvaluation { truncated: true, ..evaluation(false) }.at(1, 10);
         assert!(step.truncated && !step.terminated);
-        let step = Evaluation { truncated: true, ..evaluation(true) }.at(1, 10);
+        let step = StepEvaluation { truncated: true, ..evaluation(true) }.at(1, 10);
         assert!(step.terminated && !step.truncated);
     }
 

@@ -204,7 +204,9 @@ fn the_environment_says_which_steps_a_push_began() {
     assert!((2..=6).contains(&count), "every 10 to 20 steps: {pushed:?}");
     let last = pushed.iter().rposition(|is_pushed| *is_pushed).unwrap();
     environment.reset(2, &mut row);
-    (0..=last).for_each(|_| drop(environment.step(&action, &mut row)));
+    for _ in 0..=last {
+        environment.step(&action, &mut row);
+    }
     assert!(environment.was_pushed());
     environment.reset(2, &mut row);
     assert!(!environment.was_pushed());

@@ -31,9 +31,10 @@ pub use self::command::{Command, HEADING_GAIN, STANDING_COMMAND};
 use self::curriculum::Curriculum;
 pub use self::feet::{FEET, Foot, Stride, stride};
 use self::observation::observation_terms;
-pub use self::rewards::{BaseMotion, Body, HingeMotion, terms};
+pub use self::rewards::{BaseMotion, HingeMotion, Stance, terms};
+pub use self::scan::{SCAN_GRID, SCAN_MAX_M, SCAN_SPACING_M};
 use self::scan::{SCAN_POINTS, ground_around};
-use super::{Difficulty, Evaluation, ObservationTerm, Step, Task};
+use super::{Difficulty, ObservationTerm, Step, StepEvaluation, Task};
 use crate::config::{EnvironmentConfig, GroundSettings, VelocityConfig, VelocityRewards};
 use crate::error::{ModelError, StateError};
 use crate::info::StepInfo;
@@ -65,7 +66,7 @@ pub struct VelocityTask {
     step_s: f64,
     encoder_bias_rad: f64,
     terms: Vec<ObservationTerm>,
-    body: Body,
+    body: Stance,
     /// Links of the left and the right foot, and their heights in the default pose (m).
     feet_links: [usize; FEET],
     feet_standing_m: [f64; FEET],
@@ -123,7 +124,7 @@ impl VelocityTask {
             .map(|motor| (motor.hinge, default[7 + motor.hinge], robot.hinges[motor.hinge].action_scale_rad))
             .collect();
         let body =
-            Body { default_rad: default[7..].to_vec(), pose_weights: pose_weights(physics), height_m: default[2] };
+            Stance { default_rad: default[7..].to_vec(), pose_weights: pose_weights(physics), height_m: default[2] };
         let ground = (!config.ground.kinds.is_empty()).then(|| config.ground.clone());
         let standing = |foot: usize| match &ground {
             None => Foot::now(physics, feet_links[foot], 0.0).lift_m,
@@ -273,7 +274,7 @@ impl Task for VelocityTask {
         self.info(physics, [0.0; 2], 0.0)
     }
 
-    fn evaluate(&mut self, step: &Step<'_>) -> Evaluation {
+    fn evaluate(&mut self, step: &Step<'_>) -> StepEvaluation {
         let physics = step.physics;
         self.episode_steps = self.episode_steps.saturating_add(1);
         self.actions_before.copy_from_slice(&self.actions);
@@ -316,7 +317,7 @@ impl Task for VelocityTask {
         self.command = self.steered.unwrap_or_else(|| self.drawn.at(&self.commanded, base.heading_rad));
         let velocity = (physics.centre_of_mass() - step.centre_before_m) / step_s;
         let info = self.info(physics, [velocity.x, velocity.y], reward);
-        Evaluation { reward: reward as f32, terminated: has_fallen, truncated, info }
+        StepEvaluation { reward: reward as f32, terminated: has_fallen, truncated, info }
     }
 
     fn observe(&mut self, physics: &Physics, noise: &mut SensorNoise, observation: &mut [f32]) {

@@ -82,7 +82,7 @@ pub struct HingeMotion<'a> {
 
 /// What the terms depend on, beside the motion.
 #[derive(Clone, Debug)]
-pub struct Body {
+pub struct Stance {
     /// Angles of the default pose (rad).
     pub default_rad: Vec<f64>,
     /// Weight of each hinge in the term `pose`.
@@ -96,7 +96,7 @@ pub struct Body {
 pub fn terms(
     config: &VelocityConfig,
     model: &Model,
-    body: &Body,
+    body: &Stance,
     command: &Command,
     base: &BaseMotion,
     feet: &[Foot; FEET],
@@ -189,7 +189,7 @@ mod tests {
         (model.hinges[0].min_rad, model.hinges[0].max_rad) = (-1.0, 1.0);
         (model.hinges[1].min_rad, model.hinges[1].max_rad) = (f64::NEG_INFINITY, f64::INFINITY);
         let config = VelocityConfig { gait_period_s: 1.0, stance_share: 0.6, ..VelocityConfig::default() };
-        let body = Body { default_rad: vec![0.5, 0.0], pose_weights: vec![1.0, 0.1], height_m: 0.8 };
+        let body = Stance { default_rad: vec![0.5, 0.0], pose_weights: vec![1.0, 0.1], height_m: 0.8 };
         let command = Command { lin_vel_x_mps: 0.5, lin_vel_y_mps: 0.0, ang_vel_z_radps: 0.2 };
         let base = BaseMotion {
             height_m: 0.7,
