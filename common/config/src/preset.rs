@@ -9,7 +9,9 @@ macro_rules! velocity {
             "[env]\ntask = \"velocity\"\nrobot = \"",
             $card,
             "\"\ncontrol_step_s = 0.02\nsubsteps = 5\nreset_noise_scale = 0.05\n\
-             [randomisation]\npush_interval_s = [5.0, 10.0]\npush_mps = [0.0, 0.5]\n\
+             [randomisation]\nmass_scale = [0.9, 1.1]\nfloor_friction_scale = [0.6, 1.3]\nmotor_scale = [0.9, 1.1]\n\
+             sensor_noise_position = 0.01\nsensor_noise_velocity = 0.1\nencoder_bias_rad = 0.01\n\
+             action_delay_steps = [0, 1]\npush_interval_s = [5.0, 10.0]\npush_mps = [0.0, 0.5]\n\
              [policy]\ninit_log_std = -1.8\n"
         )
     };

@@ -92,7 +92,7 @@ section! {
         /// Height to which a swinging foot is lifted, in metres.
         swing_height_m: f64 = 0.08, "0 to 1" => |v| (0.0..=1.0).contains(v);
         /// Squared error of a velocity at which its tracking reward falls to 1/e.
-        tracking_variance: f64 = 0.25, "0.0001 to 100" => |v| (1e-4..=100.0).contains(v);
+        tracking_variance: f64 = 0.1, "0.0001 to 100" => |v| (1e-4..=100.0).contains(v);
         /// Share of the standing height below which the robot has fallen.
         fall_height_share: f64 = 0.6, "0 to 0.95" => |v| (0.0..=0.95).contains(v);
         /// Tilt of the base above which the robot has fallen, in rad.
@@ -147,7 +147,7 @@ section! {
         /// The same of the yaw rate (rad/s).
         track_yaw_rate: f64 = 1.0, "a finite number" => |v| v.is_finite();
         /// 1 in each step that is no fall.
-        alive: f64 = 0.5, "a finite number" => |v| v.is_finite();
+        alive: f64 = 0.3, "a finite number" => |v| v.is_finite();
         /// Squared horizontal part of gravity's direction in the frame of the base.
         upright: f64 = -2.0, "a finite number" => |v| v.is_finite();
         /// Squared difference from the standing height (m²).
@@ -156,12 +156,12 @@ section! {
         vertical_velocity: f64 = -0.5, "a finite number" => |v| v.is_finite();
         /// Squared roll and pitch rates of the base (rad²/s²).
         roll_pitch_rate: f64 = -0.05, "a finite number" => |v| v.is_finite();
-        /// Share of the feet that stand when the gait says so, and swing when it says so.
-        gait: f64 = 0.5, "a finite number" => |v| v.is_finite();
+        /// Share of the feet that stand or swing as the gait says, less the share of the others.
+        gait: f64 = 1.0, "a finite number" => |v| v.is_finite();
         /// Time in the air beyond 0.4 s, at each landing of a foot (s).
         feet_air_time: f64 = 0.0, "a finite number" => |v| v.is_finite();
         /// Squared difference of the swinging feet's heights from the gait's (m²).
-        feet_clearance: f64 = -20.0, "a finite number" => |v| v.is_finite();
+        feet_clearance: f64 = -150.0, "a finite number" => |v| v.is_finite();
         /// Squared horizontal velocity of the feet that stand (m²/s²).
         feet_slip: f64 = -0.2, "a finite number" => |v| v.is_finite();
         /// Squared downward velocity of the foot that lands hardest (m²/s²).

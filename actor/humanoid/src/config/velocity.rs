@@ -56,7 +56,7 @@ impl Default for VelocityConfig {
             gait_period_s: 0.8,
             stance_share: 0.6,
             swing_height_m: 0.08,
-            tracking_variance: 0.25,
+            tracking_variance: 0.1,
             fall_height_share: 0.6,
             fall_tilt_rad: 1.0,
             history: 1,
@@ -104,7 +104,7 @@ rewards! {
     /// The same of the yaw rate (rad/s).
     track_yaw_rate: 1.0,
     /// 1 in each step that is no fall.
-    alive: 0.5,
+    alive: 0.3,
     /// Squared horizontal part of gravity's direction in the base frame.
     upright: -2.0,
     /// Squared difference from the standing height (m²).
@@ -113,12 +113,12 @@ rewards! {
     vertical_velocity: -0.5,
     /// Squared roll and pitch rates of the base (rad²/s²).
     roll_pitch_rate: -0.05,
-    /// Share of the feet that stand when the gait says so, and swing when it says so.
-    gait: 0.5,
+    /// Share of the feet that stand or swing as the gait says, less the share of the others.
+    gait: 1.0,
     /// Time in the air beyond 0.4 s, at each landing of a foot (s).
     feet_air_time: 0.0,
     /// Squared difference of the swinging feet's heights from the gait's (m²).
-    feet_clearance: -20.0,
+    feet_clearance: -150.0,
     /// Squared horizontal velocity of the feet that stand (m²/s²).
     feet_slip: -0.2,
     /// Greatest downward velocity of a foot at its landing, squared (m²/s²).

@@ -22,7 +22,8 @@ pub(super) fn ground_around(physics: &Physics, [x_m, y_m]: [f64; 2], heading_rad
     let (sin, cos) = heading_rad.sin_cos();
     (0..SCAN_POINTS).map(move |index| {
         let offset_m = |number: usize, count: usize| SCAN_SPACING_M * (number as f64 - (count - 1) as f64 / 2.0);
-        let (forward, left) = (offset_m(index % SCAN_GRID[0], SCAN_GRID[0]), offset_m(index / SCAN_GRID[0], SCAN_GRID[1]));
+        let (forward, left) =
+            (offset_m(index % SCAN_GRID[0], SCAN_GRID[0]), offset_m(index / SCAN_GRID[0], SCAN_GRID[1]));
         physics.ground_height_m(x_m + cos * forward - sin * left, y_m + sin * forward + cos * left)
     })
 }
