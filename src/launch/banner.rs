@@ -4,7 +4,7 @@
 use std::net::SocketAddr;
 
 use treadmill_bus::Credentials;
-use treadmill_config::Config;
+use treadmill_config::{Config, EnvTask};
 use treadmill_learner::{checkpoint::TrainingState, training::TrainingSummary};
 use treadmill_runtime::{numbers::thousands, run_folder::RunFolder, words::quoted};
 
@@ -28,6 +28,7 @@ pub fn print_start(
         (1.., ..) if prepared.origin.is_some() => format!("branching off at {} env steps", thousands(steps)),
         (1.., ..) => format!("resuming at {} env steps", thousands(steps)),
         (0, false, _) if !config.env.own_task.is_empty() => format!("training `{}`", config.env.own_task),
+        (0, false, _) if config.env.task == EnvTask::Velocity => "training a robot to follow commands".to_string(),
         (0, false, _) => "training a humanoid to walk".to_string(),
         (0, true, "") => "training the task that its first actor registers".to_string(),
         (0, true, name) => format!("training `{name}`"),
@@ -76,9 +77,10 @@ pub fn actor_command(prepared: &Prepared, endpoint: &str, credentials: Option<&C
 fn goal(config: &Config, steps: u64) -> String {
     let (wanted, batch) = (config.run.steps, u64::from(config.ppo.batch));
     let left = wanted.saturating_sub(steps);
-    let goal = match config.is_external() || !config.env.own_task.is_empty() {
-        true => "to earn the task's rewards",
-        false => "to go forward and not to fall",
+    let goal = match config.env.task {
+        _ if config.is_external() || !config.env.own_task.is_empty() => "to earn the task's rewards",
+        EnvTask::Velocity => "to follow velocity commands and not to fall",
+        _ => "to go forward and not to fall",
     };
     let updates = left.div_ceil(batch.max(1));
     let (left, updates) = (thousands(left), thousands(updates));

@@ -165,6 +165,28 @@ fn built_in_cards_fit_the_files_of_several_projects() {
 }
 
 #[test]
+fn presets_train_their_robots_from_the_stock_files() {
+    let robots = robots();
+    for (preset, file) in [
+        ("g1", "unitree_g1/scene_mjx.xml"),
+        ("g1-29", "unitree_g1/scene_mjx.xml"),
+        ("g1-rough", "unitree_g1/scene_mjx.xml"),
+        ("h1", "unitree_h1/scene.xml"),
+        ("t1", "booster_t1/scene.xml"),
+    ] {
+        let Some((file, ..)) = robots.iter().find(|(path, ..)| path.ends_with(file)) else { continue };
+        let (folder, run) = folders();
+        let args = ["train", "--preset", preset, "--model", text(file), "--steps", "8192", "--json", "--no-progress"];
+        let trained = support::run(folder.path(), &[&args[..], &["--run-dir", text(&run)]].concat());
+        assert!(trained.status.success(), "{preset}: {}", stderr(&trained));
+        assert!(last_json(&trained)["env_steps"].as_u64() >= Some(8192), "{preset}");
+        let exported =
+            support::run(folder.path(), &["export", text(&run), "--onnx", "policy.onnx", "--deploy", "deploy.yaml"]);
+        assert!(exported.status.success(), "{preset}: {}", stderr(&exported));
+    }
+}
+
+#[test]
 fn masses_inertias_and_axes_are_mujocos() {
     let Some(mut python) = python_with("mujoco, numpy") else { return };
     let files = robots();
