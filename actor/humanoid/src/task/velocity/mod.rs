@@ -31,7 +31,7 @@ pub use self::command::{Command, HEADING_GAIN, STANDING_COMMAND};
 use self::curriculum::Curriculum;
 pub use self::feet::{FEET, Foot, Stride, stride};
 use self::observation::observation_terms;
-pub use self::rewards::{BaseMotion, HingeMotion, Stance, terms};
+pub use self::rewards::{BaseMotion, HingeMotion, RobotStep, Stance, terms};
 pub use self::scan::{SCAN_GRID, SCAN_MAX_M, SCAN_SPACING_M};
 use self::scan::{SCAN_POINTS, ground_around};
 use super::{Difficulty, ObservationTerm, Step, StepEvaluation, Task};
@@ -293,8 +293,9 @@ impl Task for VelocityTask {
             actions: [&self.actions, &self.actions_before],
         };
         let (config, time_s, step_s) = (&self.config, self.time_s(), self.step_s);
-        let mut terms =
-            terms(config, physics.model(), &self.body, &self.observed, &base, &self.feet, &hinges, time_s, step_s);
+        let command = self.observed;
+        let moved = RobotStep { command, base, feet: &self.feet, hinges, time_s, step_s };
+        let mut terms = terms(config, physics.model(), &self.body, &moved);
         let has_fallen =
             base.height_m < config.fall_height_share * self.body.height_m || base.tilt_rad() > config.fall_tilt_rad;
         terms.alive = f64::from(u8::from(!has_fallen));

@@ -91,19 +91,27 @@ pub struct Stance {
     pub height_m: f64,
 }
 
-/// Returns the reward's terms after a control step; `time_s` is that since the episode's start.
+/// A control step of the robot.
+#[derive(Clone, Copy, Debug)]
+pub struct RobotStep<'a> {
+    /// Command that it followed.
+    pub command: Command,
+    /// Base at its end.
+    pub base: BaseMotion,
+    /// Feet at its end.
+    pub feet: &'a [Foot; FEET],
+    /// Hinges at its end.
+    pub hinges: HingeMotion<'a>,
+    /// Time since the episode began (s).
+    pub time_s: f64,
+    /// Duration of the step (s).
+    pub step_s: f64,
+}
+
+/// Returns the reward's terms after a control step.
 #[must_use]
-pub fn terms(
-    config: &VelocityConfig,
-    model: &Model,
-    body: &Stance,
-    command: &Command,
-    base: &BaseMotion,
-    feet: &[Foot; FEET],
-    hinges: &HingeMotion<'_>,
-    time_s: f64,
-    step_s: f64,
-) -> VelocityRewards {
+pub fn terms(config: &VelocityConfig, model: &Model, body: &Stance, step: &RobotStep<'_>) -> VelocityRewards {
+    let RobotStep { command, base, feet, hinges, time_s, step_s } = *step;
     let tracking = |error: f64| (-error / config.tracking_variance).exp();
     let linear_error =
         (base.velocity_mps.x - command.lin_vel_x_mps).powi(2) + (base.velocity_mps.y - command.lin_vel_y_mps).powi(2);
@@ -221,7 +229,9 @@ mod tests {
             torques_nm: &[3.0, -4.0],
             actions: [&[1.0, -2.0], &[0.5, 0.0]],
         };
-        let found = terms(&config, &model, &body, &command, &base, &[left, right], &hinges, 0.8, 0.02);
+        let feet = [left, right];
+        let step = RobotStep { command, base, feet: &feet, hinges, time_s: 0.8, step_s: 0.02 };
+        let found = terms(&config, &model, &body, &step);
         for (name, found, expected) in [
             ("track_linear_velocity", found.track_linear_velocity, (-0.25_f64 / 0.25).exp()),
             ("track_yaw_rate", found.track_yaw_rate, (-1.0_f64).exp()),
@@ -249,7 +259,7 @@ mod tests {
         close(weights.total(&found), by_hand);
 
         let standing = Command::default();
-        let found = terms(&config, &model, &body, &standing, &base, &[left, right], &hinges, 0.8, 0.02);
+        let found = terms(&config, &model, &body, &RobotStep { command: standing, ..step });
         assert_eq!((found.gait, found.feet_clearance, found.feet_air_time), (0.0, 0.0, 0.0), "both feet must stand");
     }
 }
