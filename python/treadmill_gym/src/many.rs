@@ -73,7 +73,7 @@ impl Humanoids {
 
     /// Returns name and size of each block of an observation, in order.
     #[getter]
-    fn blocks(&self) -> Vec<(&'static str, usize)> {
+    fn blocks(&self) -> Vec<(String, usize)> {
         blocks(&self.slots[0].environment)
     }
 

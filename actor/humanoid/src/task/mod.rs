@@ -91,7 +91,7 @@ pub struct StepOutcome {
 /// For each episode the environment calls [`Self::start`], [`Self::begin`] and [`Self::observe`], and then for each control step
 /// [`Self::evaluate`] and [`Self::observe`]. The same calls must give the same results, bit for bit: random numbers come
 /// from the seed of the episode only.
-pub trait Task: Send {
+pub trait Task: Send + Sync {
     /// Returns the terms of an observation, in order and without gaps.
     fn terms(&self) -> &[ObservationTerm];
 
