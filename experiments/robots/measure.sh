@@ -18,7 +18,8 @@ pushes=(--set 'randomisation.push_mps=[0.0,0.5]' --set 'randomisation.push_inter
 if [ -e "$folder/config.toml" ]; then
     "$treadmill" train --resume "$folder" --steps "$steps" --json --no-progress
 else
-    "$treadmill" train --preset "$preset" --model "$model" --steps "$steps" --seed "$seed" --run-dir "$folder" --json --no-progress
+    "$treadmill" train --preset "$preset" --model "$model" --steps "$steps" --seed "$seed" --run-dir "$folder" \
+        --set ppo.symmetry=mirrored --json --no-progress
 fi
 "$treadmill" eval "$folder" --checkpoint latest --episodes 100 "${pushes[@]}" --json
 "$treadmill" export "$folder" --checkpoint latest --onnx "$folder/policy.onnx" --safetensors "$folder/policy.safetensors"
