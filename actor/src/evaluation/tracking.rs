@@ -3,10 +3,9 @@
 //! A change of command or a push starts a wait of one second. From then on the time is cut into windows of one second, until
 //! the next change or push. The error of a window is that of its mean velocity, so that the sway of each stride cancels.
 
-use treadmill_humanoid::{
-    Physics,
-    task::velocity::{BaseMotion, Foot},
-};
+use treadmill_humanoid::{Physics, task::velocity::Foot};
+
+use crate::poses::heading_velocity;
 
 /// Length of a window, and of the wait before the first one (s).
 const WINDOW_S: f64 = 1.0;
@@ -37,7 +36,6 @@ impl TrackingSample {
     #[must_use]
     pub fn of(physics: &Physics, from_m: [f64; 2]) -> Self {
         let position = physics.position();
-        let base = BaseMotion::new(position, physics.velocity(), 0.0);
         let powers = physics.joint_torques_nm().iter().zip(physics.joint_rates()).map(|(torque, rate)| torque * rate);
         let feet = physics.model().robot.iter().flat_map(|robot| &robot.feet);
         let standing = feet.map(|link| Foot::now(physics, *link, 0.0)).filter(|foot| foot.stands);
@@ -47,7 +45,7 @@ impl TrackingSample {
             count += 1;
         });
         Self {
-            motion: [base.velocity_mps.x, base.velocity_mps.y, base.yaw_rate_radps],
+            motion: heading_velocity(physics),
             power_w: powers.map(f64::abs).sum(),
             path_m: (position[0] - from_m[0]).hypot(position[1] - from_m[1]),
             slip_mps,

@@ -1,7 +1,6 @@
 //! Settings of generated ground.
 
-use std::fmt::Debug;
-
+use super::refuse;
 use crate::error::ModelError;
 use crate::model::HEIGHT_FIELD_SIDE_MAX;
 
@@ -175,8 +174,4 @@ impl GroundSettings {
             _ => Ok(()),
         }
     }
-}
-
-fn refuse(setting: &'static str, value: &dyn Debug, expected: &'static str) -> Result<(), ModelError> {
-    Err(ModelError::Setting { setting, value: format!("{value:?}"), expected })
 }

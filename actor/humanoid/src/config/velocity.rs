@@ -1,7 +1,6 @@
 //! Settings of the velocity task.
 
-use std::fmt::Debug;
-
+use super::refuse;
 use crate::error::ModelError;
 
 /// Most observations of the past in one observation.
@@ -181,8 +180,4 @@ impl VelocityConfig {
             None => Ok(()),
         }
     }
-}
-
-fn refuse(setting: &'static str, value: &dyn Debug, expected: &'static str) -> Result<(), ModelError> {
-    Err(ModelError::Setting { setting, value: format!("{value:?}"), expected })
 }

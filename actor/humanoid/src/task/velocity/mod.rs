@@ -93,7 +93,6 @@ pub struct VelocityTask {
     past: Vec<f32>,
     /// Control step of the newest of them; none before the first.
     observed_step: Option<u32>,
-    terms_of_reward: VelocityRewards,
 }
 
 impl VelocityTask {
@@ -162,16 +161,9 @@ impl VelocityTask {
             command_changes: 0,
             episode_steps: 0,
             feet: [Foot::default(); FEET],
-            terms_of_reward: VelocityRewards::default(),
         };
         task.scale_commands();
         Ok(task)
-    }
-
-    /// Returns the terms of the last step's reward, without their weights.
-    #[must_use]
-    pub fn terms_of_reward(&self) -> &VelocityRewards {
-        &self.terms_of_reward
     }
 
     fn base(&self, physics: &Physics) -> BaseMotion {
@@ -270,7 +262,6 @@ impl Task for VelocityTask {
         self.feet = std::array::from_fn(|foot| Foot::now(physics, self.feet_links[foot], self.feet_standing_m[foot]));
         self.past.fill(0.0);
         self.observed_step = None;
-        self.terms_of_reward = VelocityRewards::default();
         self.info(physics, [0.0; 2], 0.0)
     }
 
@@ -305,9 +296,8 @@ impl Task for VelocityTask {
         let tracked = self.tracked_share(&terms);
         if let Some(curriculum) = &mut self.curriculum {
             let velocity_mps = [base.velocity_mps.x, base.velocity_mps.y];
-            curriculum.count(&self.command, velocity_mps, tracked, step_s, [has_fallen, is_last]);
+            curriculum.count(&command, velocity_mps, tracked, step_s, [has_fallen, is_last]);
         }
-        self.terms_of_reward = terms;
         self.rates_before_radps.copy_from_slice(physics.joint_rates());
 
         self.drawn_left_steps -= 1;
