@@ -19,7 +19,7 @@ if [ -e "$folder/config.toml" ]; then
     "$treadmill" train --resume "$folder" --steps "$steps" --json --no-progress
 else
     "$treadmill" train --preset "$preset" --model "$model" --steps "$steps" --seed "$seed" --run-dir "$folder" \
-        --set ppo.symmetry=mirrored --json --no-progress
+        --json --no-progress
 fi
 "$treadmill" eval "$folder" --checkpoint latest --episodes 100 "${pushes[@]}" --json
 "$treadmill" export "$folder" --checkpoint latest --onnx "$folder/policy.onnx" --safetensors "$folder/policy.safetensors"

@@ -145,7 +145,7 @@ section! {
         /// exp(-e²/velocity.tracking_variance) of the error e of the horizontal velocity in the heading frame (m/s).
         track_linear_velocity: f64 = 2.0, "a finite number" => |v| v.is_finite();
         /// The same of the yaw rate (rad/s).
-        track_yaw_rate: f64 = 1.0, "a finite number" => |v| v.is_finite();
+        track_yaw_rate: f64 = 1.5, "a finite number" => |v| v.is_finite();
         /// 1 in each step that is no fall.
         alive: f64 = 0.3, "a finite number" => |v| v.is_finite();
         /// Squared horizontal part of gravity's direction in the frame of the base.
@@ -157,13 +157,13 @@ section! {
         /// Squared roll and pitch rates of the base (rad²/s²).
         roll_pitch_rate: f64 = -0.05, "a finite number" => |v| v.is_finite();
         /// Share of the feet that stand or swing as the gait says, less the share of the others.
-        gait: f64 = 1.0, "a finite number" => |v| v.is_finite();
+        gait: f64 = 1.5, "a finite number" => |v| v.is_finite();
         /// Time in the air beyond 0.4 s, at each landing of a foot (s).
         feet_air_time: f64 = 0.0, "a finite number" => |v| v.is_finite();
         /// Squared difference of the swinging feet's heights from the gait's (m²).
-        feet_clearance: f64 = -150.0, "a finite number" => |v| v.is_finite();
+        feet_clearance: f64 = -300.0, "a finite number" => |v| v.is_finite();
         /// Squared horizontal velocity of the feet that stand (m²/s²).
-        feet_slip: f64 = -0.2, "a finite number" => |v| v.is_finite();
+        feet_slip: f64 = -0.5, "a finite number" => |v| v.is_finite();
         /// Squared downward velocity of the foot that lands hardest (m²/s²).
         landing: f64 = 0.0, "a finite number" => |v| v.is_finite();
         /// Squared difference of the hinges from the default pose (rad²); hinges that swing the legs forwards count a tenth.

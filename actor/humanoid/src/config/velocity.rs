@@ -101,7 +101,7 @@ rewards! {
     /// exp(−e² ÷ variance), e the error of the horizontal velocity in the heading frame (m/s).
     track_linear_velocity: 2.0,
     /// The same of the yaw rate (rad/s).
-    track_yaw_rate: 1.0,
+    track_yaw_rate: 1.5,
     /// 1 in each step that is no fall.
     alive: 0.3,
     /// Squared horizontal part of gravity's direction in the base frame.
@@ -113,13 +113,13 @@ rewards! {
     /// Squared roll and pitch rates of the base (rad²/s²).
     roll_pitch_rate: -0.05,
     /// Share of the feet that stand or swing as the gait says, less the share of the others.
-    gait: 1.0,
+    gait: 1.5,
     /// Time in the air beyond 0.4 s, at each landing of a foot (s).
     feet_air_time: 0.0,
     /// Squared difference of the swinging feet's heights from the gait's (m²).
-    feet_clearance: -150.0,
+    feet_clearance: -300.0,
     /// Squared horizontal velocity of the feet that stand (m²/s²).
-    feet_slip: -0.2,
+    feet_slip: -0.5,
     /// Greatest downward velocity of a foot at its landing, squared (m²/s²).
     landing: 0.0,
     /// Squared difference of the hinges from the default pose (rad²); hinges that swing the legs forwards count a tenth.

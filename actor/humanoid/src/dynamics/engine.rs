@@ -9,9 +9,11 @@ use super::structure::Structure;
 use super::world::World;
 use crate::collision::CollisionModel;
 use crate::lanes::LANES_MAX;
+use crate::model::Solver;
 
-/// Sizes that a workspace depends on: bodies, degrees of freedom, their paths, coordinates, shapes, links.
-type Sizes = [usize; 6];
+/// What a workspace depends on: the solver, and the numbers of bodies, degrees of freedom, entries of their paths, coordinates,
+/// shapes and links.
+type Sizes = (Solver, [usize; 6]);
 
 thread_local! {
     /// Workspace of the last model that this thread simulated.
@@ -47,7 +49,7 @@ fn each_pass(
     worlds: &mut dyn Iterator<Item = &mut World>,
     run: impl Fn(&mut dyn Engine, Worlds<'_, '_>),
 ) {
-    let sizes = [
+    let numbers = [
         structure.nodes.len(),
         structure.dofs(),
         structure.path_entries(),
@@ -55,6 +57,7 @@ fn each_pass(
         collision.shapes.len(),
         structure.link_bodies.len(),
     ];
+    let sizes = (structure.solver, numbers);
     let count = worlds_per_pass();
     ENGINE.with_borrow_mut(|slot| {
         let engine = match slot {

@@ -171,6 +171,7 @@ impl<S: Simd> Group<S> {
     fn assemble_matrix(&mut self, pass: Pass<'_>) {
         self.forces.prepare(pass.structure, &self.middle, &self.velocity, pass.step_s);
         self.matrix.assemble(pass.structure, &self.posture, &self.forces.diagonal);
+        self.constraints.note_masses(&self.matrix);
         self.matrix.factor(pass.structure);
     }
 
@@ -214,6 +215,7 @@ impl<S: Simd> Group<S> {
             &self.collisions,
             &self.middle,
             &self.velocity,
+            &self.acceleration,
             pass.step_s,
         );
     }

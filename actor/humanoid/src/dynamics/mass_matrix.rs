@@ -67,6 +67,34 @@ impl<S: Simd> MassMatrix<S> {
         }
     }
 
+    /// Takes over the entries of another matrix of the same structure.
+    #[inline(always)]
+    pub(crate) fn copy_entries(&mut self, other: &Self) {
+        self.entries.copy_from_slice(&other.entries);
+    }
+
+    /// Returns the entries of a degree of freedom and its path.
+    #[inline(always)]
+    pub(crate) fn row(&self, structure: &Structure, dof: usize) -> &[Lanes<S>] {
+        &self.entries[structure.row(dof)]
+    }
+
+    /// Writes the product with a vector; requires that the matrix is not factored.
+    #[inline(always)]
+    pub(crate) fn times(&self, structure: &Structure, vector: &[Lanes<S>], product: &mut [Lanes<S>]) {
+        for i in 0..structure.dofs() {
+            let row = &self.entries[structure.row(i)];
+            let mut sum = row[row.len() - 1] * vector[i];
+            for (entry, j) in row[..row.len() - 1].iter().zip(structure.path(i)) {
+                let other = *j as usize;
+                sum = entry.mul_add(vector[other], sum);
+                product[other] = entry.mul_add(vector[i], product[other]);
+            }
+            // Only degrees of freedom further down add to it.
+            product[i] = sum;
+        }
+    }
+
     /// Factors in place: the entries become those of L, with the inverse of D on the diagonal.
     #[inline(always)]
     pub(crate) fn factor(&mut self, structure: &Structure) {

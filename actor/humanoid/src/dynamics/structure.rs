@@ -5,7 +5,7 @@ use std::ops::Range;
 use nalgebra::{Matrix3, Point3, Vector3};
 
 use super::responses::Responses;
-use crate::model::{Hinge, Model, Softness};
+use crate::model::{Hinge, Model, Softness, Solver};
 
 /// Degrees of freedom of the floating root: three translations (world axes), three rotations (root's axes).
 pub(crate) const ROOT_DOFS: usize = 6;
@@ -24,6 +24,8 @@ pub(crate) struct Structure {
     pub(crate) root_armature: f64,
     /// Hinges, then tendons, then the root, as far as they may have limits or dry friction.
     pub(crate) coordinates: Vec<Coordinate>,
+    /// Method that solves for the forces of constraints.
+    pub(crate) solver: Solver,
     /// Body of each link.
     pub(crate) link_bodies: Vec<usize>,
     /// Mean acceleration of each link per force on it, see [`Responses`] (1/kg).
@@ -153,6 +155,7 @@ impl Structure {
             root_damping: model.root.damping,
             root_armature: model.root.armature,
             coordinates: Vec::new(),
+            solver: model.solver,
             link_bodies,
             link_responses: Vec::new(),
             hinge_responses: Vec::new(),
@@ -222,8 +225,23 @@ impl Structure {
     }
 
     /// Returns the degrees of freedom that move a body, root first.
+    #[inline(always)]
     pub(crate) fn path_of_body(&self, body: usize) -> &[u32] {
         self.path(self.innermost_dofs[body] as usize)
+    }
+
+    /// Returns how many degrees of freedom move both bodies.
+    #[inline(always)]
+    pub(crate) fn common_dofs(&self, first: usize, second: usize) -> usize {
+        let pairs = self.path_of_body(first).iter().zip(self.path_of_body(second));
+        let mut common = 0;
+        for (one, other) in pairs {
+            if one != other {
+                break;
+            }
+            common += 1;
+        }
+        common
     }
 
     /// Returns the degrees of freedom from the root to this one, inclusive.

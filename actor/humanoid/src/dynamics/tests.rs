@@ -9,7 +9,7 @@ use super::world::World;
 use super::{advance, refresh, worlds_per_pass};
 use crate::collision::CollisionModel;
 use crate::lanes::LANES_MAX;
-use crate::model::{HUMANOID_XML, Model};
+use crate::model::{HUMANOID_XML, Model, Solver};
 
 const STEP_S: f64 = 0.015 / 4.0;
 
@@ -38,7 +38,12 @@ fn world(model: &Model, structure: &Structure, collision: &CollisionModel, numbe
 
 #[test]
 fn wide_and_single_lanes_agree() {
-    let model = humanoid();
+    for solver in [Solver::GaussSeidel, Solver::Newton] {
+        compare_wide_and_single_lanes(Model { solver, ..humanoid() });
+    }
+}
+
+fn compare_wide_and_single_lanes(model: Model) {
     let structure = Structure::new(&model);
     // Collisions between bodies are found in single precision, so they are left out.
     let collision = CollisionModel::new(&model, &structure, false);
@@ -68,6 +73,29 @@ fn wide_and_single_lanes_agree() {
         }
     }
     assert!(touched > 20, "{touched} worlds with contacts; {} lanes", worlds_per_pass());
+}
+
+#[test]
+fn both_solvers_find_the_same_motion() {
+    let models = [Solver::GaussSeidel, Solver::Newton].map(|solver| Model { solver, ..humanoid() });
+    let mut touched = 0;
+    let [sweeps, newton] = models.each_ref().map(|model| {
+        let structure = Structure::new(model);
+        let collision = CollisionModel::new(model, &structure, true);
+        let mut worlds: Vec<_> = (0..11).map(|number| world(model, &structure, &collision, number)).collect();
+        let pass = Pass { structure: &structure, collision: &collision, step_s: STEP_S };
+        for _ in 0..8 {
+            advance(pass, &mut worlds.iter_mut(), 4);
+            touched += worlds.iter().filter(|world| !world.contacts.is_empty()).count();
+        }
+        worlds
+    });
+    for (number, (one, other)) in sweeps.iter().zip(&newton).enumerate() {
+        for (index, (one, other)) in one.position.iter().zip(&other.position).enumerate() {
+            assert!((one - other).abs() < 1e-4, "world {number}, number {index}: {one} and {other}");
+        }
+    }
+    assert!(touched > 40, "{touched} worlds with contacts");
 }
 
 /// Steps all worlds, then the first one alone; returns the number of lanes that then differ from the first lane.

@@ -6,6 +6,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use roxmltree::Node;
 
+use super::Solver;
 use super::assets::Assets;
 use super::defaults::{ACTUATORS, Attribute, Classes, attributes_of, get};
 use super::vocabulary::{self, is_inert};
@@ -29,6 +30,7 @@ pub(super) struct Flat {
     pub(super) pairs: Vec<(String, Vec<Attribute>)>,
     pub(super) keys: Vec<(String, Vec<Attribute>)>,
     pub(super) assets: Assets,
+    pub(super) solver: Solver,
     pub(super) card: Option<RobotCard>,
 }
 
@@ -122,6 +124,13 @@ impl Writer {
                 "compiler" => self.read_compiler(node)?,
                 "asset" | "option" => {
                     vocabulary::check(tag, tag, &attributes_of(node))?;
+                    if let Some(solver) = node.attribute("solver") {
+                        self.flat.solver = match solver {
+                            "Newton" | "CG" => Solver::Newton,
+                            "PGS" => Solver::GaussSeidel,
+                            _ => return Err(ModelError::attribute(tag, "solver", solver, "Newton, CG or PGS")),
+                        };
+                    }
                     for child in elements(node) {
                         let kind = child.tag_name().name();
                         match kind {

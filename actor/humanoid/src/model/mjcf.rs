@@ -287,6 +287,7 @@ impl Reader {
             root,
             keyframes: Vec::new(),
             gravity_mps2: Vector3::from(source.option.gravity),
+            solver: self.flat.solver,
             robot: None,
             simplifications: self.simplifications,
             ground: Ground {

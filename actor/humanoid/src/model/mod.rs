@@ -54,6 +54,16 @@ use crate::error::ModelError;
 /// MJCF text of the built-in humanoid: 17 hinges, about 42 kg, masses and sizes of Humanoid-v5.
 pub const HUMANOID_XML: &str = include_str!("../../assets/humanoid.xml");
 
+/// Method that solves for the forces of contacts, limits and friction, as named by MJCF's `<option solver>`.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Solver {
+    /// Newton's method, MuJoCo's default; also for `CG`, which has the same solution.
+    #[default]
+    Newton,
+    /// Projected Gauss-Seidel sweeps, `PGS`: faster where few constraints act.
+    GaussSeidel,
+}
+
 /// Tree of rigid bodies on a floating root, moved by motors at its hinges.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Model {
@@ -77,6 +87,8 @@ pub struct Model {
     pub keyframes: Vec<Keyframe>,
     /// Acceleration of gravity (m/s²), world frame.
     pub gravity_mps2: Vector3<f64>,
+    /// Solver of constraints.
+    pub solver: Solver,
     /// What the robot's card says, if the text has one.
     pub robot: Option<Robot>,
     /// What is simulated more simply than the text says.
@@ -282,7 +294,8 @@ impl Model {
             .or_else(|| changed("motor", &self.motors, &other.motors, |motor| &motor.name))
             .or_else(|| changed("tendon", &self.tendons, &other.tendons, |tendon| &tendon.name))
             .or_else(|| {
-                (self != other).then(|| "ground, gravity, root joint, keyframes, card or collision rules".to_owned())
+                (self != other)
+                    .then(|| "ground, gravity, solver, root joint, keyframes, card or collision rules".to_owned())
             })
     }
 

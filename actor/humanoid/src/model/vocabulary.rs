@@ -51,12 +51,13 @@ const COMPILER: &Rules = &[
     ("exactmeshinertia convexhull", Inert),
 ];
 
-/// Solver settings of MuJoCo are inert: they do not apply to this crate's solver.
+/// Most solver settings of MuJoCo are inert: they do not apply to this crate's solvers.
 const OPTION: &Rules = &[
     ("gravity", Numbers(3, 3)),
     ("wind", Only("0 0 0")),
     ("density viscosity", Only("0")),
-    ("magnetic timestep apirate impratio integrator cone jacobian solver iterations tolerance", Inert),
+    ("solver", Word),
+    ("magnetic timestep apirate impratio integrator cone jacobian iterations tolerance", Inert),
     ("ls_iterations ls_tolerance noslip_iterations noslip_tolerance mpr_iterations mpr_tolerance", Inert),
     ("ccd_iterations ccd_tolerance sleep_tolerance sdf_iterations sdf_initpoints", Inert),
 ];

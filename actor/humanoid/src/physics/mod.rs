@@ -35,7 +35,7 @@ pub struct PhysicsFault;
 pub struct JointQuality {
     /// Largest angle by which a hinge is outside its range (rad).
     pub limit_overshoot_rad: f64,
-    /// Largest acceleration (m/s² or rad/s²) by which the last sweep of the constraint solve changed a constraint, over the last
+    /// Largest acceleration (m/s² or rad/s²) by which the last iteration of the constraint solve changed a constraint, over the last
     /// control step.
     pub residual: f64,
 }

@@ -1,7 +1,7 @@
 //! Masses, poses, hinges and motors of model texts, compared with MuJoCo's values for the same texts.
 
 use nalgebra::{Matrix3, Point3};
-use treadmill_humanoid::model::{Body, Geometry};
+use treadmill_humanoid::model::{Body, Geometry, Solver};
 use treadmill_humanoid::{HUMANOID_XML, Model};
 
 const G1_LIKE_XML: &str = include_str!("../../assets/g1-like.xml");
@@ -132,7 +132,7 @@ fn in_gymnasiums_notation() -> String {
         ),
         ("ctrlrange=\"-0.4 0.4\"", "ctrlrange=\"-.4 .4\""),
         (
-            "<option timestep=\"0.003\"/>",
+            "<option timestep=\"0.003\" solver=\"PGS\"/>",
             "<option integrator=\"RK4\" iterations=\"50\" solver=\"PGS\" timestep=\"0.003\"><!-- no flags --></option>\
              <size nkey=\"5\" nuser_geom=\"1\"/><visual><map fogend=\"5\" fogstart=\"3\"/></visual>\
              <asset><texture builtin=\"gradient\" height=\"10\" width=\"10\" type=\"skybox\"/>\
@@ -146,6 +146,17 @@ fn in_gymnasiums_notation() -> String {
         assert!(text.contains(from), "the model no longer contains {from}");
         text.replacen(from, to, 1)
     })
+}
+
+#[test]
+fn the_solver_is_newtons_unless_the_text_says_pgs() {
+    let solver =
+        |name: &str| Model::from_mjcf(&HUMANOID_XML.replacen("solver=\"PGS\"", name, 1)).map(|model| model.solver);
+    assert_eq!(solver("").unwrap(), Solver::Newton);
+    assert_eq!(solver("solver=\"CG\"").unwrap(), Solver::Newton);
+    assert_eq!(solver("solver=\"PGS\"").unwrap(), Solver::GaussSeidel);
+    let why = solver("solver=\"pgs\"").unwrap_err().to_string();
+    assert!(why.contains("solver") && why.contains("pgs") && why.contains("Newton, CG or PGS"), "{why}");
 }
 
 #[test]

@@ -5,7 +5,6 @@
 
 use pulp::Simd;
 
-use super::rows::Sweep;
 use super::softness::soft_row;
 use crate::collision::{Contact, ContactKey, PairNode};
 use crate::dynamics::mass_matrix::MassMatrix;
@@ -15,8 +14,6 @@ use crate::lanes::{Lanes, Mask, Vec3};
 
 /// Edges of a friction pyramid.
 pub(super) const EDGES: usize = 4;
-/// Passes over the edges of one contact for each sweep over all constraints.
-const EDGE_PASSES: usize = 3;
 
 /// Contact of a step.
 #[derive(Clone, Copy, Debug)]
@@ -24,23 +21,20 @@ pub(super) struct ContactConstraint<S: Simd> {
     /// Index into the pairs that can touch, and of the point within the pair.
     pub(super) key: ContactKey,
     /// First of its numbers, `[dof][direction]`.
-    start: usize,
+    pub(super) start: usize,
     /// Normal and tangents.
     pub(super) frame: [Vec3<S>; 3],
     pub(super) point_m: Vec3<S>,
-    edges: usize,
-    friction: Lanes<S>,
-    /// Accelerations along the three directions per force of each edge.
-    columns: [[Lanes<S>; 3]; EDGES],
+    pub(super) edges: usize,
+    pub(super) friction: Lanes<S>,
     /// Worlds in which it touches.
-    is_active: Mask<S>,
-    targets: [Lanes<S>; EDGES],
-    softness: Lanes<S>,
-    divisors: [Lanes<S>; EDGES],
+    pub(super) is_active: Mask<S>,
+    pub(super) targets: [Lanes<S>; EDGES],
+    pub(super) softness: Lanes<S>,
     pub(super) forces_n: [Lanes<S>; EDGES],
 }
 
-/// Numbers of all contacts' rows: `[contact][dof of its pair][direction]`, and workspace.
+/// Numbers of all contacts' rows, whitened or not: `[contact][dof of its pair][direction]`, and workspace.
 #[derive(Clone, Debug)]
 pub(super) struct ContactRows<S: Simd> {
     pub(super) numbers: Vec<[Lanes<S>; 3]>,
@@ -53,13 +47,13 @@ impl<S: Simd> ContactRows<S> {
         Self { numbers: Vec::with_capacity(16 * structure.dofs()), scratch: vec![[zero; 3]; structure.dofs()] }
     }
 
-    /// Adds the rows of a contact: rates of separation and sliding per rate of each degree of freedom.
+    /// Adds the rows of a contact: rates of separation and sliding per rate of each degree of freedom, whitened by `whitening`.
     #[inline(always)]
     fn push(
         &mut self,
         structure: &Structure,
         posture: &Posture<S>,
-        matrix: &MassMatrix<S>,
+        whitening: Option<&MassMatrix<S>>,
         pair: &PairNode,
         point_m: &Vec3<S>,
         frame: &[Vec3<S>; 3],
@@ -80,18 +74,20 @@ impl<S: Simd> ContactRows<S> {
                 }
             }
         }
-        matrix.whiten_rows(structure, pair.dofs.iter().map(|dof| *dof as usize), &mut self.scratch);
+        if let Some(matrix) = whitening {
+            matrix.whiten_rows(structure, pair.dofs.iter().map(|dof| *dof as usize), &mut self.scratch);
+        }
         for dof in &pair.dofs {
             self.numbers.push(self.scratch[*dof as usize]);
         }
     }
 
-    /// Returns the products of a contact's rows and a whitened vector.
+    /// Returns the products of a contact's rows and a vector.
     #[inline(always)]
-    fn products(&self, start: usize, dofs: &[u32], whitened: &[Lanes<S>]) -> [Lanes<S>; 3] {
-        let mut sums = [whitened[0].constant(0.0); 3];
+    pub(super) fn products(&self, start: usize, dofs: &[u32], vector: &[Lanes<S>]) -> [Lanes<S>; 3] {
+        let mut sums = [vector[0].constant(0.0); 3];
         for (row, dof) in self.numbers[start..start + dofs.len()].iter().zip(dofs) {
-            let entry = whitened[*dof as usize];
+            let entry = vector[*dof as usize];
             for (sum, number) in sums.iter_mut().zip(row) {
                 *sum = number.mul_add(entry, *sum);
             }
@@ -99,11 +95,11 @@ impl<S: Simd> ContactRows<S> {
         sums
     }
 
-    /// Adds forces along a contact's directions to whitened accelerations.
+    /// Adds forces along a contact's directions to generalised forces, or to whitened accelerations.
     #[inline(always)]
-    fn add(&self, start: usize, dofs: &[u32], forces: &[Lanes<S>; 3], whitened: &mut [Lanes<S>]) {
+    pub(super) fn add(&self, start: usize, dofs: &[u32], forces: &[Lanes<S>; 3], vector: &mut [Lanes<S>]) {
         for (row, dof) in self.numbers[start..start + dofs.len()].iter().zip(dofs) {
-            let entry = &mut whitened[*dof as usize];
+            let entry = &mut vector[*dof as usize];
             for (number, force) in row.iter().zip(forces) {
                 *entry = number.mul_add(*force, *entry);
             }
@@ -112,14 +108,14 @@ impl<S: Simd> ContactRows<S> {
 }
 
 impl<S: Simd> ContactConstraint<S> {
-    /// Adds the rows of a contact and returns its constraint; `start` holds whitened velocities.
+    /// Adds the rows of a contact and returns its constraint. `whitening` whitens the rows; `start_velocity` is whitened likewise.
     #[inline(always)]
     #[expect(clippy::too_many_arguments, reason = "the state of a step has many parts")]
     pub(super) fn new(
         rows: &mut ContactRows<S>,
         structure: &Structure,
         posture: &Posture<S>,
-        matrix: &MassMatrix<S>,
+        whitening: Option<&MassMatrix<S>>,
         pair: &PairNode,
         contact: &Contact<S>,
         friction_scale: Lanes<S>,
@@ -129,9 +125,8 @@ impl<S: Simd> ContactConstraint<S> {
     ) -> Self {
         let frame = frame(&contact.normal);
         let start = rows.numbers.len();
-        rows.push(structure, posture, matrix, pair, &contact.point_m, &frame);
+        rows.push(structure, posture, whitening, pair, &contact.point_m, &frame);
         let zero = contact.gap_m.constant(0.0);
-        let one = contact.gap_m.constant(1.0);
         let edges = if pair.friction > 0.0 { EDGES } else { 1 };
         let friction = friction_scale * pair.friction;
         let violation = contact.gap_m - pair.margin_m;
@@ -140,14 +135,6 @@ impl<S: Simd> ContactConstraint<S> {
         let square = friction * friction;
         let response =
             if edges == 1 { zero.constant(pair.response) } else { (square + 1.0) * square * (2.0 * pair.response) };
-        let mut own = [[zero; 3]; 3];
-        for row in &rows.numbers[start..] {
-            for (line, number) in own.iter_mut().zip(row) {
-                for (sum, other) in line.iter_mut().zip(row) {
-                    *sum = number.mul_add(*other, *sum);
-                }
-            }
-        }
         let rates = rows.products(start, &pair.dofs, start_velocity);
         let mut constraint = Self {
             key: contact.key,
@@ -156,11 +143,9 @@ impl<S: Simd> ContactConstraint<S> {
             point_m: contact.point_m,
             edges,
             friction,
-            columns: [[zero; 3]; EDGES],
             is_active: active,
             targets: [zero; EDGES],
             softness: zero,
-            divisors: [zero; EDGES],
             forces_n: *warm,
         };
         for force in &mut constraint.forces_n {
@@ -168,23 +153,17 @@ impl<S: Simd> ContactConstraint<S> {
         }
         for edge in 0..edges {
             let (tangent, slope) = constraint.slope(edge);
-            let mut column = [zero; 3];
-            for (number, line) in column.iter_mut().zip(&own) {
-                *number = slope.mul_add(line[tangent], line[0]);
-            }
             let rate = slope.mul_add(rates[tangent], rates[0]);
             let row = soft_row(&pair.softness, violation, rate, response, step_s);
-            constraint.columns[edge] = column;
             constraint.targets[edge] = row.target;
             constraint.softness = row.softness;
-            constraint.divisors[edge] = one / (slope.mul_add(column[tangent], column[0]) + row.softness);
         }
         constraint
     }
 
     /// Returns the tangent of an edge and its slope.
     #[inline(always)]
-    fn slope(&self, edge: usize) -> (usize, Lanes<S>) {
+    pub(super) fn slope(&self, edge: usize) -> (usize, Lanes<S>) {
         let friction = if self.edges == 1 { self.friction.constant(0.0) } else { self.friction };
         (1 + edge / 2, if edge.is_multiple_of(2) { friction } else { -friction })
     }
@@ -196,51 +175,19 @@ impl<S: Simd> ContactConstraint<S> {
         [(a + b) + (c + d), (a - b) * self.friction, (c - d) * self.friction]
     }
 
-    /// Adds the effect of the first guess to whitened accelerations.
+    /// Returns the force of an edge at accelerations along the three directions, of an edge with this stiffness, and its decrease
+    /// per acceleration along the edge.
     #[inline(always)]
-    pub(super) fn apply(&self, rows: &ContactRows<S>, pair: &PairNode, whitened: &mut [Lanes<S>]) {
-        rows.add(self.start, &pair.dofs, &self.force(), whitened);
-    }
-
-    /// Solves for the forces of the edges while all other constraints stay as they are.
-    #[inline(always)]
-    pub(super) fn update(
-        &mut self,
-        rows: &ContactRows<S>,
-        pair: &PairNode,
-        whitened: &mut [Lanes<S>],
-        sweep: &mut Sweep<S>,
-    ) {
-        let before = self.force();
-        let mut accelerations = rows.products(self.start, &pair.dofs, whitened);
-        let first = accelerations;
-        let zero = self.friction.constant(0.0);
-        let changing = sweep.running.and(self.is_active);
-        for _ in 0..EDGE_PASSES {
-            for edge in 0..self.edges {
-                let (tangent, slope) = self.slope(edge);
-                let along = slope.mul_add(accelerations[tangent], accelerations[0]);
-                let missing = self.targets[edge] - along - self.softness * self.forces_n[edge];
-                let wanted = missing.mul_add(self.divisors[edge], self.forces_n[edge]).max(zero);
-                let change = changing.keep(wanted - self.forces_n[edge]);
-                self.forces_n[edge] += change;
-                for (acceleration, response) in accelerations.iter_mut().zip(self.columns[edge]) {
-                    *acceleration = response.mul_add(change, *acceleration);
-                }
-            }
-            if self.edges == 1 {
-                break;
-            }
-        }
-        for (after, before) in accelerations.into_iter().zip(first) {
-            sweep.note_change(changing.keep(after - before));
-        }
-        sweep.note_effect(self.columns[0][0] * self.force()[0]);
-        let mut change = self.force();
-        for (after, before) in change.iter_mut().zip(before) {
-            *after = changing.keep(*after - before);
-        }
-        rows.add(self.start, &pair.dofs, &change, whitened);
+    pub(super) fn respond(
+        &self,
+        edge: usize,
+        stiffness: Lanes<S>,
+        accelerations: &[Lanes<S>; 3],
+    ) -> (Lanes<S>, Lanes<S>) {
+        let (tangent, slope) = self.slope(edge);
+        let missing = self.targets[edge] - slope.mul_add(accelerations[tangent], accelerations[0]);
+        let pushes = self.is_active.and(missing.constant(0.0).less_than(missing));
+        (pushes.keep(missing * stiffness), pushes.keep(stiffness))
     }
 }
 

@@ -2,48 +2,37 @@
 
 use pulp::Simd;
 
-use super::rows::{Rows, Sweep};
-use super::softness::soft_row;
+use super::softness::{SoftRow, soft_row};
 use crate::dynamics::forces::HingeForces;
-use crate::dynamics::mass_matrix::MassMatrix;
 use crate::dynamics::structure::Structure;
 use crate::lanes::{Lanes, Mask};
 
 /// Largest violation of a limit that counts (rad); absent limits are infinitely far.
 const LIMIT_MAX: f64 = 1e6;
 
-/// Constraints of one coordinate that share a row.
+/// Constraints of one coordinate, which share a row.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct CoordinateConstraint<S: Simd> {
     /// Index into [`Structure::coordinates`].
     pub(super) coordinate: usize,
-    /// First of its numbers in [`Rows`].
-    start: usize,
-    /// Acceleration per torque.
-    response: Lanes<S>,
     /// Limit that acts: 1 pushes to greater angles, −1 to smaller ones.
-    limit_sign: Lanes<S>,
+    pub(super) limit_sign: Lanes<S>,
     /// Where the limit is reached.
-    is_beyond: Mask<S>,
-    limit_target: Lanes<S>,
-    limit_softness: Lanes<S>,
-    limit_divisor: Lanes<S>,
+    pub(super) is_beyond: Mask<S>,
+    pub(super) limit: SoftRow<S>,
     pub(super) limit_nm: Lanes<S>,
-    loss_target: Lanes<S>,
-    loss_softness: Lanes<S>,
-    loss_divisor: Lanes<S>,
-    loss_max_nm: f64,
+    pub(super) loss: SoftRow<S>,
+    pub(super) loss_max_nm: f64,
     pub(super) loss_nm: Lanes<S>,
     /// Motor torque for no acceleration, its decrease per acceleration, and its limits.
-    is_servo: bool,
-    explicit_nm: Lanes<S>,
-    implicit_kgm2: Lanes<S>,
-    min_nm: Lanes<S>,
-    max_nm: Lanes<S>,
+    pub(super) is_servo: bool,
+    pub(super) explicit_nm: Lanes<S>,
+    pub(super) implicit_kgm2: Lanes<S>,
+    pub(super) min_nm: Lanes<S>,
+    pub(super) max_nm: Lanes<S>,
     /// Motor torque in the accelerations before the constraints, where its stiffness is not part of them.
-    base_nm: Lanes<S>,
-    is_base_stiff: Mask<S>,
-    servo_divisor: Lanes<S>,
+    pub(super) base_nm: Lanes<S>,
+    pub(super) is_base_stiff: Mask<S>,
     /// Torque added to the servo's to keep it within its limits.
     pub(super) servo_nm: Lanes<S>,
 }
@@ -56,9 +45,7 @@ pub(super) type CoordinateForces<S> = [Lanes<S>; 3];
 #[expect(clippy::too_many_arguments, reason = "the state of a step has many parts")]
 pub(super) fn prepare<S: Simd>(
     constraints: &mut Vec<CoordinateConstraint<S>>,
-    rows: &mut Rows<S>,
     structure: &Structure,
-    matrix: &MassMatrix<S>,
     hinges: &[HingeForces<S>],
     middle: &[Lanes<S>],
     velocity: &[Lanes<S>],
@@ -91,12 +78,6 @@ pub(super) fn prepare<S: Simd>(
         if !(beyond.any() || coordinate.friction_loss > 0.0 || saturates) {
             continue;
         }
-        let start = rows.numbers.len();
-        rows.push(structure, matrix, coordinate);
-        let mut response = zero;
-        for number in &rows.numbers[start..] {
-            response = number.mul_add(*number, response);
-        }
         let weight = zero.constant(coordinate.response);
         let limit = soft_row(
             &coordinate.limit_softness,
@@ -111,17 +92,11 @@ pub(super) fn prepare<S: Simd>(
         let implicit_kgm2 = servo.map_or(zero, |servo| servo.implicit_kgm2);
         constraints.push(CoordinateConstraint {
             coordinate: index,
-            start,
-            response,
             limit_sign: sign,
             is_beyond: beyond,
-            limit_target: limit.target,
-            limit_softness: limit.softness,
-            limit_divisor: one / (response + limit.softness),
+            limit,
             limit_nm: beyond.keep(limit_nm),
-            loss_target: loss.target,
-            loss_softness: loss.softness,
-            loss_divisor: one / (response + loss.softness),
+            loss,
             loss_max_nm: coordinate.friction_loss,
             loss_nm,
             is_servo: saturates,
@@ -131,7 +106,6 @@ pub(super) fn prepare<S: Simd>(
             max_nm: servo.map_or(zero, |servo| servo.max_nm),
             base_nm: servo.map_or(zero, |servo| servo.base_nm),
             is_base_stiff: zero.less_than(servo.map_or(zero, |servo| servo.base_kgm2)),
-            servo_divisor: one / implicit_kgm2.mul_add(response, one),
             servo_nm: zero,
         });
     }
@@ -140,59 +114,36 @@ pub(super) fn prepare<S: Simd>(
 impl<S: Simd> CoordinateConstraint<S> {
     /// Returns the total torque.
     #[inline(always)]
-    fn torque(&self) -> Lanes<S> {
+    pub(super) fn torque(&self) -> Lanes<S> {
         self.limit_nm * self.limit_sign + self.loss_nm + self.servo_nm
     }
 
-    /// Adds the effect of the first guess to whitened accelerations.
+    /// Returns the forces at an acceleration of the coordinate, of constraints with these stiffnesses (limit, friction loss), and
+    /// the decrease of their sum per acceleration.
     #[inline(always)]
-    pub(super) fn apply(&self, rows: &Rows<S>, structure: &Structure, whitened: &mut [Lanes<S>]) {
-        rows.add(self.start, &structure.coordinates[self.coordinate].dofs, self.torque(), whitened);
-    }
-
-    /// Solves for the torques while all other constraints stay as they are.
-    #[inline(always)]
-    pub(super) fn update(
-        &mut self,
-        rows: &Rows<S>,
-        structure: &Structure,
-        whitened: &mut [Lanes<S>],
-        sweep: &mut Sweep<S>,
-    ) {
-        let path = &structure.coordinates[self.coordinate].dofs;
-        let before = self.torque();
-        let start = rows.product(self.start, path, whitened);
-        let mut acceleration = start;
-        let zero = start.constant(0.0);
+    pub(super) fn respond(
+        &self,
+        [limit_stiffness, loss_stiffness]: [Lanes<S>; 2],
+        acceleration: Lanes<S>,
+    ) -> (CoordinateForces<S>, Lanes<S>) {
+        let zero = acceleration.constant(0.0);
+        let (mut loss_nm, mut servo_nm, mut decrease) = (zero, zero, zero);
         if self.is_servo {
-            let within = |torque: Lanes<S>| torque.min(self.max_nm).max(self.min_nm);
-            // A servo that was taken for unsaturated: what keeps it within its limits at the present acceleration. Taking its
-            // stiffness into account would be faster alone, but may diverge together with a contact.
             let free_nm = self.explicit_nm - self.implicit_kgm2 * acceleration;
-            let of_free = within(free_nm) - free_nm;
-            // A saturated one is a bounded soft constraint, whose torque changes the acceleration.
-            let without = acceleration - self.response * self.servo_nm;
-            let missing = self.explicit_nm - self.base_nm - self.implicit_kgm2 * without;
-            let of_saturated = within(missing.mul_add(self.servo_divisor, self.base_nm)) - self.base_nm;
-            let wanted = self.is_base_stiff.select(of_free, of_saturated);
-            let change = sweep.running.keep(wanted - self.servo_nm);
-            self.servo_nm += change;
-            acceleration = self.response.mul_add(change, acceleration);
+            let within_nm = free_nm.min(self.max_nm).max(self.min_nm);
+            servo_nm = within_nm - self.is_base_stiff.select(free_nm, self.base_nm);
+            // The accelerations before the constraints already know the stiffness of unsaturated servos.
+            decrease = within_nm.equals(free_nm).keep(self.implicit_kgm2) - self.is_base_stiff.keep(self.implicit_kgm2);
         }
         if self.loss_max_nm > 0.0 {
-            let missing = self.loss_target - acceleration - self.loss_softness * self.loss_nm;
-            let most = zero.constant(self.loss_max_nm);
-            let wanted = missing.mul_add(self.loss_divisor, self.loss_nm).min(most).max(-most);
-            let change = sweep.running.keep(wanted - self.loss_nm);
-            self.loss_nm += change;
-            acceleration = self.response.mul_add(change, acceleration);
+            let most_nm = zero.constant(self.loss_max_nm);
+            let free_nm = (self.loss.target - acceleration) * loss_stiffness;
+            loss_nm = free_nm.min(most_nm).max(-most_nm);
+            decrease += loss_nm.equals(free_nm).keep(loss_stiffness);
         }
-        let missing = self.limit_target - acceleration * self.limit_sign - self.limit_softness * self.limit_nm;
-        let wanted = missing.mul_add(self.limit_divisor, self.limit_nm).max(zero);
-        self.limit_nm += sweep.running.and(self.is_beyond).keep(wanted - self.limit_nm);
-        let change = self.torque() - before;
-        sweep.note_change(change * self.response);
-        sweep.note_effect(self.torque() * self.response);
-        rows.add(self.start, path, sweep.running.keep(change), whitened);
+        let missing = self.limit.target - acceleration * self.limit_sign;
+        let pushes = self.is_beyond.and(zero.less_than(missing));
+        decrease += pushes.keep(limit_stiffness);
+        ([pushes.keep(missing * limit_stiffness), loss_nm, servo_nm], decrease)
     }
 }

@@ -1,10 +1,15 @@
-//! Limits, friction losses, servos' torque limits and contacts, solved together by projected Gauss-Seidel sweeps.
+//! Limits, friction losses, servos' torque limits and contacts, solved together.
 //!
-//! Rows are whitened (see [`super::mass_matrix`]): a sweep works on accelerations in which every force acts by one row.
 //! The problem is MuJoCo's: soft one-sided constraints on accelerations, whose solution is unique.
+//!
+//! - `coordinates`, `contacts`, `softness`: the problem.
+//! - `newton` with `hessian`, `gauss_seidel` with `rows`: its solution, by the model's choice.
 
 mod contacts;
 mod coordinates;
+mod gauss_seidel;
+mod hessian;
+mod newton;
 mod rows;
 mod softness;
 
@@ -12,21 +17,16 @@ use pulp::Simd;
 
 use self::contacts::{ContactConstraint, ContactRows, EDGES};
 use self::coordinates::{CoordinateConstraint, CoordinateForces};
-use self::rows::{Rows, Sweep};
+use self::gauss_seidel::GaussSeidel;
+use self::hessian::DOFS_MAX;
+use self::newton::{Newton, Problem};
 use super::forces::Forces;
 use super::mass_matrix::MassMatrix;
 use super::posture::Posture;
 use super::structure::Structure;
 use crate::collision::{Collisions, ContactKey, PairNode};
 use crate::lanes::{Lanes, Vec3};
-
-/// Upper bound of the sweeps over all constraints.
-const SWEEPS_MAX: usize = 100;
-/// The sweeps end when one changes no acceleration by more than this share of the largest acceleration that a force of the
-/// constraints causes, or by more than [`SETTLED_MIN`].
-const SETTLED: f64 = 1e-4;
-/// Change of an acceleration (m/s² or rad/s²) that is always small enough.
-const SETTLED_MIN: f64 = 1e-3;
+use crate::model::Solver;
 
 /// Forces of a contact's edges in the step before.
 type WarmContact<S> = (ContactKey, [Lanes<S>; EDGES]);
@@ -36,8 +36,8 @@ type WarmContact<S> = (ContactKey, [Lanes<S>; EDGES]);
 pub(crate) struct Constraints<S: Simd> {
     coordinates: Vec<CoordinateConstraint<S>>,
     contacts: Vec<ContactConstraint<S>>,
-    rows: Rows<S>,
     contact_rows: ContactRows<S>,
+    method: Method<S>,
     /// Forces of the step before: first guesses.
     warm_coordinates: Vec<CoordinateForces<S>>,
     warm_contacts: Vec<WarmContact<S>>,
@@ -46,8 +46,15 @@ pub(crate) struct Constraints<S: Simd> {
     pub(crate) whitened: Vec<Lanes<S>>,
     /// Factor on all friction coefficients.
     pub(crate) friction_scale: Lanes<S>,
-    /// Largest change of an acceleration by the last sweep.
+    /// Largest change of an acceleration by the last sweep or iteration.
     pub(crate) residual: Lanes<S>,
+}
+
+/// Workspace of the chosen method.
+#[derive(Clone, Debug)]
+enum Method<S: Simd> {
+    Newton(Box<Newton<S>>),
+    GaussSeidel(GaussSeidel<S>),
 }
 
 /// Force of one contact point in several worlds.
@@ -67,8 +74,13 @@ impl<S: Simd> Constraints<S> {
         Self {
             coordinates: Vec::with_capacity(structure.coordinates.len()),
             contacts: Vec::with_capacity(16),
-            rows: Rows::new(simd, structure),
             contact_rows: ContactRows::new(simd, structure),
+            method: match structure.solver {
+                Solver::Newton if structure.dofs() <= DOFS_MAX => {
+                    Method::Newton(Box::new(Newton::new(simd, structure)))
+                }
+                _ => Method::GaussSeidel(GaussSeidel::new(simd, structure)),
+            },
             warm_coordinates: vec![[zero; 3]; structure.coordinates.len()],
             warm_contacts: Vec::with_capacity(16),
             start_velocity: vec![zero; structure.dofs()],
@@ -86,8 +98,16 @@ impl<S: Simd> Constraints<S> {
         self.residual = zero;
     }
 
+    /// Notes the mass matrix of a step before it is factored.
+    #[inline(always)]
+    pub(crate) fn note_masses(&mut self, matrix: &MassMatrix<S>) {
+        if let Method::Newton(newton) = &mut self.method {
+            newton.note_masses(matrix);
+        }
+    }
+
     /// Changes [`Self::whitened`] by all constraints. `middle` is the position in the middle of the step, where `posture` and
-    /// `matrix` are; `velocity` is that of its start.
+    /// `matrix` are; `velocity` is that of its start; `acceleration` is a guess.
     #[inline(always)]
     #[expect(clippy::too_many_arguments, reason = "the state of a step has many parts")]
     pub(crate) fn solve(
@@ -100,32 +120,29 @@ impl<S: Simd> Constraints<S> {
         collisions: &Collisions<S>,
         middle: &[Lanes<S>],
         velocity: &[Lanes<S>],
+        acceleration: &[Lanes<S>],
         step_s: f64,
     ) {
-        self.rows.numbers.clear();
-        coordinates::prepare(
-            &mut self.coordinates,
-            &mut self.rows,
-            structure,
-            matrix,
-            &forces.hinges,
-            middle,
-            velocity,
-            &self.warm_coordinates,
-            step_s,
-        );
+        let warm = &self.warm_coordinates;
+        coordinates::prepare(&mut self.coordinates, structure, &forces.hinges, middle, velocity, warm, step_s);
         self.contact_rows.numbers.clear();
         self.contacts.clear();
+        let whitening = match self.method {
+            Method::Newton(_) => None,
+            Method::GaussSeidel(_) => Some(matrix),
+        };
         if !collisions.contacts.is_empty() {
             self.start_velocity.copy_from_slice(velocity);
-            matrix.whiten(structure, &mut self.start_velocity);
+            if whitening.is_some() {
+                matrix.whiten(structure, &mut self.start_velocity);
+            }
             for contact in &collisions.contacts {
                 let warm = self.warm_of(contact.key);
                 let constraint = ContactConstraint::new(
                     &mut self.contact_rows,
                     structure,
                     posture,
-                    matrix,
+                    whitening,
                     &pairs[contact.key.0 as usize],
                     contact,
                     self.friction_scale,
@@ -136,7 +153,19 @@ impl<S: Simd> Constraints<S> {
                 self.contacts.push(constraint);
             }
         }
-        self.sweep_until_settled(structure, pairs);
+        if !(self.coordinates.is_empty() && self.contacts.is_empty()) {
+            let Self { coordinates, contacts, contact_rows: rows, method, whitened, .. } = self;
+            let residual = match method {
+                Method::Newton(newton) => {
+                    let problem = Problem { structure, pairs, matrix, coordinates, contacts, rows };
+                    newton.solve(problem, acceleration, whitened)
+                }
+                Method::GaussSeidel(sweeps) => {
+                    sweeps.solve(structure, pairs, matrix, coordinates, contacts, rows, whitened)
+                }
+            };
+            self.residual = self.residual.max(residual);
+        }
         let zero = self.residual.constant(0.0);
         self.warm_coordinates.fill([zero; 3]);
         for known in &self.coordinates {
@@ -157,40 +186,6 @@ impl<S: Simd> Constraints<S> {
             }
         }
         [self.residual.constant(0.0); EDGES]
-    }
-
-    #[inline(always)]
-    fn sweep_until_settled(&mut self, structure: &Structure, pairs: &[PairNode]) {
-        if self.coordinates.is_empty() && self.contacts.is_empty() {
-            return;
-        }
-        let Self { coordinates, contacts, rows, contact_rows, whitened, .. } = self;
-        for coordinate in &*coordinates {
-            coordinate.apply(rows, structure, whitened);
-        }
-        for contact in &*contacts {
-            contact.apply(contact_rows, &pairs[contact.key.0 as usize], whitened);
-        }
-        let zero = self.residual.constant(0.0);
-        let all = zero.less_than(zero.constant(1.0));
-        let mut sweep = Sweep { running: all, largest: zero, scale: zero };
-        let mut residual = zero;
-        for _ in 0..SWEEPS_MAX {
-            sweep.largest = zero;
-            for coordinate in &mut *coordinates {
-                coordinate.update(rows, structure, whitened, &mut sweep);
-            }
-            for contact in &mut *contacts {
-                contact.update(contact_rows, &pairs[contact.key.0 as usize], whitened, &mut sweep);
-            }
-            residual = sweep.running.select(sweep.largest, residual);
-            let settled = (sweep.scale * SETTLED).max(zero.constant(SETTLED_MIN));
-            sweep.running = sweep.running.and(settled.less_than(sweep.largest));
-            if !sweep.running.any() {
-                break;
-            }
-        }
-        self.residual = self.residual.max(residual);
     }
 
     /// Writes the forces of all contact points of the last solve.

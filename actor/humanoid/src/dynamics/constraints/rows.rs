@@ -4,39 +4,13 @@ use pulp::Simd;
 
 use crate::dynamics::mass_matrix::MassMatrix;
 use crate::dynamics::structure::{Coordinate, Structure};
-use crate::lanes::{Lanes, Mask};
+use crate::lanes::Lanes;
 
 /// Numbers of all rows of a step; a row has one number per degree of freedom that can move its constraint.
 #[derive(Clone, Debug)]
 pub(super) struct Rows<S: Simd> {
     pub(super) numbers: Vec<Lanes<S>>,
     scratch: Vec<[Lanes<S>; 1]>,
-}
-
-/// Progress of one sweep over all constraints.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Sweep<S: Simd> {
-    /// Worlds that are not settled yet. The others do not change any more, so that a world's result does not depend on how
-    /// long its neighbours take.
-    pub(super) running: Mask<S>,
-    /// Largest change of an acceleration.
-    pub(super) largest: Lanes<S>,
-    /// Largest acceleration that the force of a constraint gives to it.
-    pub(super) scale: Lanes<S>,
-}
-
-impl<S: Simd> Sweep<S> {
-    /// Notes a change of an acceleration.
-    #[inline(always)]
-    pub(super) fn note_change(&mut self, change: Lanes<S>) {
-        self.largest = self.largest.max(change.abs());
-    }
-
-    /// Notes the acceleration that the force of a constraint gives to it.
-    #[inline(always)]
-    pub(super) fn note_effect(&mut self, acceleration: Lanes<S>) {
-        self.scale = self.scale.max(acceleration.abs());
-    }
 }
 
 impl<S: Simd> Rows<S> {
