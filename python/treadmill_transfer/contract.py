@@ -44,7 +44,6 @@ class Contract:
     observation: list
     history: int
     gait_period_s: float
-    standing_threshold: float
     ranges: numpy.ndarray
     resampling_s: tuple
     standing_share: float
@@ -134,7 +133,6 @@ def read_contract(text):
         observation=[(term["name"], term["size"]) for term in terms],
         history=int(history.number("frames", above=0.0)),
         gait_period_s=fields.number("gait_period_s", above=0.0),
-        standing_threshold=fields.number("standing_threshold"),
         ranges=numpy.array([commands.numbers(name, 2) for name in ("lin_vel_x_mps", "lin_vel_y_mps", "ang_vel_z_radps")]),
         resampling_s=tuple(commands.numbers("resampling_s", 2)),
         standing_share=commands.number("standing_share"),

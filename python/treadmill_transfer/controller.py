@@ -56,10 +56,8 @@ class Controller:
         return f"{name}[{part}]" + (f", {age} frames ago" if age else "")
 
 
-def phase(contract, steps, command):
-    """Returns sine and cosine of the gait's phase after so many control steps; both 0 while the command says: stand."""
-    if math.hypot(command[0], command[1]) + abs(command[2]) < contract.standing_threshold:
-        return numpy.zeros(2)
+def phase(contract, steps):
+    """Returns sine and cosine of the gait's phase after so many control steps."""
     angle = 2.0 * math.pi * steps * contract.control_step_s / contract.gait_period_s
     return numpy.array([math.sin(angle), math.cos(angle)])
 
@@ -84,6 +82,6 @@ _TERMS = {
     "joint_pos_rel": lambda self, robot, _: robot.angles_rad - self.contract.joints.default_rad,
     "joint_vel_rel": lambda _, robot, __: robot.rates_radps,
     "last_action": lambda self, _, __: self.action,
-    "gait_phase": lambda self, _, command: phase(self.contract, self.steps, command),
+    "gait_phase": lambda self, _, __: phase(self.contract, self.steps),
     "height_scan": lambda self, robot, _: height_scan(self.contract, robot),
 }

@@ -124,10 +124,15 @@ pub fn print_end(folder: &RunFolder, summary: &TrainingSummary, command: &str) {
     let what = if summary.stopped { "stopped" } else { "done" };
     say(&format!("{what} after {} env steps; saved in {root}/checkpoints", thousands(steps)));
     if let Some(means) = summary.state.episodes.means() {
-        let farthest = summary.farthest_m.map(|m| format!("; farthest so far {m:.1} m")).unwrap_or_default();
+        let (end, farthest_m) = (means.length_mean, summary.history.farthest_m());
+        let farthest = farthest_m.map(|m| format!("; farthest so far {m:.1} m")).unwrap_or_default();
+        let (moved, best) = match summary.history.tracking_errors {
+            Some([velocity, yaw]) => (format!("errors of {velocity:.2} m/s and {yaw:.2} rad/s"), String::new()),
+            None => (format!("{:.1} m at {:.2} m/s", means.distance_mean_m, means.velocity_mean_mps), farthest),
+        };
         say(&format!(
-            "reached: return {:.0}, {:.1} m at {:.2} m/s, {:.0} steps until the end of an episode{farthest}",
-            means.return_mean, means.distance_mean_m, means.velocity_mean_mps, means.length_mean
+            "reached: return {:.0}, {moved}, {end:.0} steps until the end of an episode{best}",
+            means.return_mean
         ));
     }
     if summary.stopped {

@@ -139,7 +139,6 @@ fn check_metadata(model: &[u8]) {
         ("feet_bodies", json!(["left_foot", "right_foot"])),
         ("default_base_height_m", json!(0.75)),
         ("gait_period_s", json!(0.7)),
-        ("standing_threshold", json!(0.1)),
         ("push_mps", json!([0.1, 0.5])),
         ("push_interval_s", json!([2.0, 5.0])),
     ] {

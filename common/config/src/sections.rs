@@ -157,7 +157,7 @@ section! {
         /// Squared roll and pitch rates of the base (rad²/s²).
         roll_pitch_rate: f64 = -0.05, "a finite number" => |v| v.is_finite();
         /// Share of the feet that stand or swing as the gait says, less the share of the others.
-        gait: f64 = 1.5, "a finite number" => |v| v.is_finite();
+        gait: f64 = 2.0, "a finite number" => |v| v.is_finite();
         /// Time in the air beyond 0.4 s, at each landing of a foot (s).
         feet_air_time: f64 = 0.0, "a finite number" => |v| v.is_finite();
         /// Squared difference of the swinging feet's heights from the gait's (m²).

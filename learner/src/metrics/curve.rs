@@ -35,21 +35,51 @@ struct Panel {
     tag: &'static str,
     title: &'static str,
     axis: &'static str,
+    /// Returns the better of two values.
+    better: fn(f64, f64) -> f64,
     colour: RGBColor,
 }
 
+const RETURN: Panel = Panel {
+    tag: "rollout/ep_rew_mean",
+    title: "Return",
+    axis: "return per episode",
+    better: f64::max,
+    colour: RGBColor(31, 119, 180),
+};
+/// Panels of a task that goes forward.
 const PANELS: [Panel; 3] = [
-    Panel { tag: "rollout/ep_rew_mean", title: "Return", axis: "return per episode", colour: RGBColor(31, 119, 180) },
+    RETURN,
     Panel {
         tag: "rollout/distance_mean_m",
         title: "Distance",
         axis: "distance per episode [m]",
+        better: f64::max,
         colour: RGBColor(44, 140, 60),
     },
     Panel {
         tag: "rollout/velocity_mean_mps",
         title: "Velocity",
         axis: "mean velocity [m/s]",
+        better: f64::max,
+        colour: RGBColor(200, 80, 30),
+    },
+];
+/// Panels of a task that follows commands.
+const COMMANDED_PANELS: [Panel; 3] = [
+    RETURN,
+    Panel {
+        tag: "eval/velocity_error",
+        title: "Velocity error",
+        axis: "evaluated error [m/s]",
+        better: f64::min,
+        colour: RGBColor(44, 140, 60),
+    },
+    Panel {
+        tag: "eval/yaw_rate_error",
+        title: "Yaw rate error",
+        axis: "evaluated error [rad/s]",
+        better: f64::min,
         colour: RGBColor(200, 80, 30),
     },
 ];
@@ -83,15 +113,20 @@ pub enum CurveError {
     },
 }
 
-/// Draws the learning curve of a run: return, distance and velocity over environment steps, one panel below the
-/// other. A panel without points shows a note. The image replaces an older one atomically.
+/// Draws the learning curve of a run over environment steps, one panel below the other: return, distance and velocity, or the
+/// errors of evaluations where the task has commands. A panel without points shows a note. The image replaces an older one atomically.
 pub fn draw_curve(metrics_jsonl: &Path, png: &Path) -> Result<(), CurveError> {
     let read = |source| CurveError::Read { path: metrics_jsonl.to_path_buf(), source };
-    let curves = File::open(metrics_jsonl).and_then(read_curves).map_err(read)?;
+    let curves = |panels| File::open(metrics_jsonl).and_then(|file| read_curves(file, panels)).map_err(read);
+    let commanded = curves(&COMMANDED_PANELS)?;
+    let (panels, curves) = match commanded[1].is_empty() {
+        true => (&PANELS, curves(&PANELS)?),
+        false => (&COMMANDED_PANELS, commanded),
+    };
 
     let draw = |why: String| CurveError::Draw { path: png.to_path_buf(), why };
     let mut rgb = vec![0; 3 * SIZE.0 as usize * SIZE.1 as usize];
-    draw_panels(&curves, &mut rgb).map_err(|error| draw(error.to_string()))?;
+    draw_panels(panels, &curves, &mut rgb).map_err(|error| draw(error.to_string()))?;
     let bytes = encode_png(&rgb).map_err(|error| draw(error.to_string()))?;
     atomic_file::write(png, &bytes).map_err(|source| CurveError::Write { path: png.to_path_buf(), source })
 }
@@ -108,11 +143,11 @@ fn encode_png(rgb: &[u8]) -> Result<Vec<u8>, png::EncodingError> {
 /// Points (millions of steps, value) of each panel.
 type Curves = [Vec<(f64, f64)>; PANELS.len()];
 
-fn read_curves(file: File) -> io::Result<Curves> {
+fn read_curves(file: File, panels: &[Panel; 3]) -> io::Result<Curves> {
     let mut curves = Curves::default();
     for_each_metric(file, |metric, _| {
         let point = (metric.step as f64 / 1e6, metric.value);
-        if let Some(panel) = PANELS.iter().position(|panel| panel.tag == metric.tag)
+        if let Some(panel) = panels.iter().position(|panel| panel.tag == metric.tag)
             && point.0 <= DRAWABLE_MAX
             && point.1.abs() <= DRAWABLE_MAX
         {
@@ -126,7 +161,7 @@ fn read_curves(file: File) -> io::Result<Curves> {
 type DrawError<'a> = DrawingAreaErrorKind<<BitMapBackend<'a> as DrawingBackend>::ErrorType>;
 type Area<'a> = DrawingArea<BitMapBackend<'a>, Shift>;
 
-fn draw_panels<'a>(curves: &Curves, rgb: &'a mut [u8]) -> Result<(), DrawError<'a>> {
+fn draw_panels<'a>(panels: &[Panel; 3], curves: &Curves, rgb: &'a mut [u8]) -> Result<(), DrawError<'a>> {
     // The font is embedded, because a machine without a screen often has none. If registering it failed, drawing text
     // would return an error.
     let _ = register_font(FONT, FontStyle::Normal, dejavu::sans::regular());
@@ -134,7 +169,7 @@ fn draw_panels<'a>(curves: &Curves, rgb: &'a mut [u8]) -> Result<(), DrawError<'
     area.fill(&WHITE)?;
     let million_steps_max = curves.iter().flatten().map(|point| point.0).fold(0.0, f64::max);
     let million_steps = 0.0..if million_steps_max > 0.0 { million_steps_max } else { 1.0 };
-    for ((panel, points), area) in PANELS.iter().zip(curves).zip(area.split_evenly((PANELS.len(), 1))) {
+    for ((panel, points), area) in panels.iter().zip(curves).zip(area.split_evenly((panels.len(), 1))) {
         draw_panel(panel, points, million_steps.clone(), &area)?;
     }
     area.present()
@@ -185,12 +220,11 @@ fn draw_panel<'a>(
 }
 
 fn caption(panel: &Panel, points: &[(f64, f64)]) -> String {
-    let best = points.iter().map(|point| point.1).fold(f64::NEG_INFINITY, f64::max);
-    match points.last() {
-        Some(last) => {
+    match (points.last(), points.iter().map(|point| point.1).reduce(panel.better)) {
+        (Some(last), Some(best)) => {
             format!("{}: last {}, best {}", panel.title, format_number(last.1), format_number(best))
         }
-        None => panel.title.to_string(),
+        _ => panel.title.to_string(),
     }
 }
 

@@ -10,6 +10,8 @@ const POINTS_MAX: usize = 128;
 const RETURN_TAG: &str = "rollout/ep_rew_mean";
 const DISTANCE_TAG: &str = "rollout/distance_mean_m";
 const EVALUATED_TAG: &str = "eval/distance_mean_m";
+const VELOCITY_ERROR_TAG: &str = "eval/velocity_error";
+const YAW_RATE_ERROR_TAG: &str = "eval/yaw_rate_error";
 
 /// Return and distance after one update.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -32,11 +34,21 @@ pub struct History {
     pub distance_best_m: Option<f64>,
     /// Greatest mean distance of an evaluation, in metres.
     pub evaluated_best_m: Option<f64>,
+    /// Errors of the velocity (m/s) and the yaw rate (rad/s) in the last evaluation, of a task with commands.
+    pub tracking_errors: Option<[f64; 2]>,
 }
 
 impl Default for History {
     fn default() -> Self {
-        Self { points: Vec::new(), every: 1, seen: 0, last: None, distance_best_m: None, evaluated_best_m: None }
+        Self {
+            points: Vec::new(),
+            every: 1,
+            seen: 0,
+            last: None,
+            distance_best_m: None,
+            evaluated_best_m: None,
+            tracking_errors: None,
+        }
     }
 }
 
@@ -49,13 +61,15 @@ impl History {
             Err(why) if why.kind() == io::ErrorKind::NotFound => return Ok(history),
             Err(why) => return Err(why),
         };
-        let mut return_mean = None;
+        let (mut return_mean, mut velocity_error) = (None, None);
         for_each_metric(file, |metric, _| {
             match &metric.tag[..] {
                 RETURN_TAG => return_mean = Some(metric.value),
                 // In every update it comes after the return.
                 DISTANCE_TAG => history.add(return_mean.take(), Some(metric.value), None),
                 EVALUATED_TAG => history.add(None, None, Some(metric.value)),
+                VELOCITY_ERROR_TAG => velocity_error = Some(metric.value),
+                YAW_RATE_ERROR_TAG => history.note_tracking(velocity_error.take(), Some(metric.value)),
                 _ => {}
             }
             Ok(())
@@ -82,6 +96,12 @@ impl History {
         self.seen += 1;
     }
 
+    /// Notes the errors of an evaluation that has just ended, if the task has commands.
+    pub fn note_tracking(&mut self, velocity_error_mps: Option<f64>, yaw_rate_error_radps: Option<f64>) {
+        let errors = velocity_error_mps.zip(yaw_rate_error_radps).map(<[f64; 2]>::from);
+        self.tracking_errors = errors.or(self.tracking_errors);
+    }
+
     /// Iterates over the points from first to last, including the last update's.
     pub fn points(&self) -> impl Iterator<Item = Point> + Clone + '_ {
         let missing = self.last.filter(|last| self.points.last() != Some(last));
@@ -102,6 +122,16 @@ fn greater(best: Option<f64>, value: Option<f64>) -> Option<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn the_last_whole_evaluation_of_commands_counts() {
+        let mut history = History::default();
+        history.note_tracking(Some(0.3), Some(0.4));
+        history.note_tracking(Some(0.1), None);
+        assert_eq!(history.tracking_errors, Some([0.3, 0.4]));
+        history.note_tracking(Some(0.1), Some(0.2));
+        assert_eq!(history.tracking_errors, Some([0.1, 0.2]));
+    }
 
     #[test]
     fn a_long_run_keeps_few_points_including_the_first_and_the_last() {

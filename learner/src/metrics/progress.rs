@@ -230,7 +230,10 @@ fn line(env_steps: u64, total_steps: u64, speed: &str, scalars: &Scalars) -> Str
     let parts = [
         known("rollout/ep_rew_mean").map(|value| format!("return {}", rounded(value, 0))),
         known("rollout/ep_len_mean").map(|value| format!("length {}", rounded(value, 0))),
-        known("rollout/distance_mean_m").map(|value| format!("distance {} m", rounded(value, 1))),
+        match known("eval/velocity_error") {
+            Some(error) => Some(format!("velocity error {} m/s", rounded(error, 2))),
+            None => known("rollout/distance_mean_m").map(|value| format!("distance {} m", rounded(value, 1))),
+        },
         known("rollout/used_share").map(|value| format!("used {} %", rounded(100.0 * value, 0))),
     ];
     let parts: Vec<String> = parts.into_iter().flatten().collect();
@@ -239,7 +242,8 @@ fn line(env_steps: u64, total_steps: u64, speed: &str, scalars: &Scalars) -> Str
     format!("{now} of {total} steps ({percent:.1} %), {speed}{separator}{}", parts.join(", "))
 }
 
-/// Returns `return 310 → 620 (best 640) ▁▃▆█, distance 0.1 → 1.9 m ▁▂▅█`, or `None` before an episode ends.
+/// Returns `return 310 → 620 (best 640) ▁▃▆█, distance 0.1 → 1.9 m ▁▂▅█`, or `None` before an episode ends. Where the task
+/// has commands, the errors of the last evaluation stand for the distance.
 fn sparklines(history: &History, is_unicode: bool) -> Option<String> {
     let arrow = if is_unicode { '→' } else { '>' };
     let curve = |of: fn(&Point) -> f64, best: Option<f64>, decimals, unit: &str| {
@@ -250,8 +254,11 @@ fn sparklines(history: &History, is_unicode: bool) -> Option<String> {
         Some(format!("{first} {arrow} {now}{unit}{best} {}", sparkline(&values, SPARKLINE_WIDTH, is_unicode)))
     };
     let returns = curve(|point| point.return_mean, None, 0, "")?;
-    let distances = curve(|point| point.distance_m, history.farthest_m(), 1, " m")?;
-    Some(format!("return {returns}, distance {distances}"))
+    let moved = match history.tracking_errors {
+        Some([velocity, yaw]) => format!("errors {} m/s and {} rad/s", rounded(velocity, 2), rounded(yaw, 2)),
+        None => format!("distance {}", curve(|point| point.distance_m, history.farthest_m(), 1, " m")?),
+    };
+    Some(format!("return {returns}, {moved}"))
 }
 
 /// Rounds to `decimals`, without negative zero.

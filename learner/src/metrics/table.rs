@@ -26,6 +26,8 @@ const IMPORTANT: &[&str] = &[
     "rollout/used_share",
     "eval/mean_reward",
     "eval/distance_mean_m",
+    "eval/velocity_error",
+    "eval/yaw_rate_error",
     "actors/alive",
     "actors/idle_share",
     "time/fps",
@@ -37,9 +39,11 @@ const IMPORTANT: &[&str] = &[
     "train/std",
 ];
 
-/// Returns the most important metrics, in their own order.
+/// Returns the most important metrics, in their own order: errors instead of distances where the task has commands.
 pub fn important(scalars: &Scalars) -> Vec<(String, f64)> {
-    scalars.iter().filter(|(tag, _)| IMPORTANT.contains(&tag.as_str())).cloned().collect()
+    let is_commanded = scalars.iter().any(|(tag, _)| tag == "eval/velocity_error");
+    let shown = |tag: &str| IMPORTANT.contains(&tag) && !(is_commanded && tag.contains("distance"));
+    scalars.iter().filter(|(tag, _)| shown(tag)).cloned().collect()
 }
 
 /// Returns a boxed table with two columns and one block per group, the part of a tag before its first `/`. Groups, and
@@ -159,8 +163,19 @@ mod tests {
     fn a_table_of_important_metrics_fits_a_small_terminal() {
         let all: Vec<(String, f64)> =
             IMPORTANT.iter().chain(&["bus/accepted_mb"]).map(|tag| (tag.to_string(), 1.5)).collect();
-        let table = render_table(&important(&all));
-        assert!(table.lines().count() <= 25 && !table.contains("accepted_mb"), "{table}");
+        for all in [all.clone(), all.into_iter().filter(|(tag, _)| tag != "eval/velocity_error").collect()] {
+            let table = render_table(&important(&all));
+            assert!(table.lines().count() <= 25 && !table.contains("accepted_mb"), "{table}");
+        }
+    }
+
+    #[test]
+    fn errors_stand_for_distances_where_the_task_has_commands() {
+        let tags = ["rollout/distance_mean_m", "eval/velocity_error", "eval/distance_mean_m"];
+        let all: Vec<(String, f64)> = tags.iter().map(|tag| (tag.to_string(), 1.5)).collect();
+        let shown = |scalars| important(scalars).into_iter().map(|(tag, _)| tag).collect::<Vec<_>>();
+        assert_eq!(shown(&all), ["eval/velocity_error"]);
+        assert_eq!(shown(&all[..1].to_vec()), ["rollout/distance_mean_m"]);
     }
 
     #[test]

@@ -54,12 +54,12 @@ pub fn train(
     let (begun, steps_before) = (Instant::now(), state.counters.env_steps);
     let mut trainer = Trainer::start(bus, state, options, shutdown)?;
     let outcome = run(&mut trainer);
-    let (state, farthest_m, stopped) = trainer.finish(outcome)?;
+    let (state, history, stopped) = trainer.finish(outcome)?;
     Ok(TrainingSummary {
         wall_s: begun.elapsed().as_secs_f64(),
         env_steps: state.counters.env_steps - steps_before,
         stopped,
-        farthest_m,
+        history,
         state,
     })
 }

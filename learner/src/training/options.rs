@@ -8,7 +8,7 @@ use treadmill_runtime::run_folder::RunFolder;
 use super::heartbeat::Heartbeat;
 use crate::{
     checkpoint::TrainingState,
-    metrics::{ConsoleOptions, PrometheusMetrics},
+    metrics::{ConsoleOptions, History, PrometheusMetrics},
 };
 
 /// Inputs of training besides the initial state.
@@ -48,13 +48,13 @@ pub struct TrainingSummary {
     pub env_steps: u64,
     /// Whether shutdown was requested before the last step.
     pub stopped: bool,
-    /// Greatest mean distance of an evaluation or in training, in metres.
-    pub farthest_m: Option<f64>,
+    /// Returns, distances and errors so far.
+    pub history: History,
 }
 
 impl TrainingSummary {
     /// Summary of a start that has nothing left to do.
     pub fn finished(state: TrainingState) -> Self {
-        Self { state, wall_s: 0.0, env_steps: 0, stopped: false, farthest_m: None }
+        Self { state, wall_s: 0.0, env_steps: 0, stopped: false, history: History::default() }
     }
 }

@@ -122,6 +122,9 @@ impl Trainer {
         reporting.prometheus.set_actors(stats, state.lineage.newest());
         let (return_mean, distance_m) = state.episodes.means().map(|m| (m.return_mean, m.distance_mean_m)).unzip();
         reporting.history.add(return_mean, distance_m, evaluation.map(|result| result.report.distance_mean_m));
+        if let Some(EvaluationResult { report, .. }) = evaluation {
+            reporting.history.note_tracking(report.velocity_error_mps, report.yaw_rate_error_radps);
+        }
         let validator = &serving.intake.validator;
         let record = UpdateRecord {
             state,
@@ -154,11 +157,11 @@ impl Trainer {
     }
 
     /// Ends the run: answers waiting senders and writes the last logs. `outcome` is whether the run was stopped before its last
-    /// step. Returns the state, the greatest distance in metres, and the outcome.
+    /// step. Returns the state, what it has reached, and the outcome.
     pub(super) fn finish(
         mut self,
         outcome: Result<bool, TrainingError>,
-    ) -> Result<(TrainingState, Option<f64>, bool), TrainingError> {
+    ) -> Result<(TrainingState, History, bool), TrainingError> {
         self.serving.intake.stop(&self.state.lineage);
         let Reporting { background, history, ledger_report, .. } = self.reporting;
         let (mut report, written) = background.finish();
@@ -168,7 +171,7 @@ impl Trainer {
         // The ledger of the last checkpoint, without fragments accepted since.
         ledger_report::write(&ledger_report, &self.state.ledger)?;
         report.finish(&history)?;
-        Ok((self.state, history.farthest_m(), stopped))
+        Ok((self.state, history, stopped))
     }
 }
 

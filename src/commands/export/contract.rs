@@ -6,7 +6,7 @@ use treadmill_humanoid::{
     Environment, EnvironmentConfig,
     card::Robot,
     config::VelocityConfig,
-    task::velocity::{ACTION_MAX, HEADING_GAIN, SCAN_GRID, SCAN_MAX_M, SCAN_SPACING_M, STANDING_COMMAND},
+    task::velocity::{ACTION_MAX, HEADING_GAIN, SCAN_GRID, SCAN_MAX_M, SCAN_SPACING_M},
 };
 use treadmill_policy::onnx::ForController;
 
@@ -156,7 +156,6 @@ impl Contract {
                 }),
             ),
             ("gait_period_s", json!(velocity.gait_period_s)),
-            ("standing_threshold", json!(STANDING_COMMAND)),
             (
                 "height_scan",
                 json!({

@@ -61,7 +61,7 @@ pub fn run(args: &RobotArgs) -> anyhow::Result<()> {
     // Numbers of links and hinges are those with all hinges at zero.
     physics.set_state(&robot.nominal_position(), &vec![0.0; robot.velocity_size()]);
     if args.json {
-        say(&report::json(&physics, &text).to_string());
+        say(&report::json(&physics, &text, &args.file).to_string());
         return Ok(());
     }
     let lines = report::lines(&robot, &text, &args.file);

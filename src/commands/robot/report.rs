@@ -6,7 +6,7 @@ use serde_json::{Value, json};
 use treadmill_humanoid::{
     Mirror, Model, Physics,
     card::HingeControl,
-    model::{Geometry, Hinge, Motor},
+    model::{Geometry, Hinge, Motor, visual_meshes},
 };
 
 /// Returns the report of a model that was read from `file`.
@@ -50,13 +50,22 @@ pub fn lines(model: &Model, text: &str, file: &Path) -> String {
     for note in &model.simplifications {
         line("simplified", note.clone());
     }
-    let ignored: Vec<String> =
+    let mut ignored: Vec<String> =
         Model::ignored_elements(text).into_iter().map(|(tag, count)| format!("{count} <{tag}>")).collect();
+    let meshes = visual_mesh_count(file);
+    if meshes > 0 {
+        ignored.push(format!("{meshes} visual meshes, which `watch --model` shows"));
+    }
     if !ignored.is_empty() {
         line("ignored", ignored.join(", "));
     }
     lines.push('\n');
     lines + &table(model)
+}
+
+/// Counts the visual meshes of a model file; 0 if their files cannot be read, because nothing but a viewer needs them.
+fn visual_mesh_count(file: &Path) -> usize {
+    visual_meshes(file).map_or(0, |meshes| meshes.len())
 }
 
 /// Counts colliding shapes by kind.
@@ -153,7 +162,7 @@ impl HingeFacts {
 }
 
 /// Returns the report as JSON; poses are those of all hinges at zero, in the world.
-pub fn json(physics: &Physics, text: &str) -> Value {
+pub fn json(physics: &Physics, text: &str, file: &Path) -> Value {
     let model = physics.model();
     let links: Vec<Value> = model
         .links
@@ -208,5 +217,6 @@ pub fn json(physics: &Physics, text: &str) -> Value {
         "links": links,
         "simplified": model.simplifications,
         "ignored": Model::ignored_elements(text),
+        "visual_meshes": visual_mesh_count(file),
     })
 }

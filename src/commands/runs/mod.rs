@@ -89,12 +89,13 @@ fn as_json(record: &Record, changes: &BTreeMap<&str, &str>) -> String {
         "training_distance_m": record.training_distance_m,
         "training_return": record.training_return,
         "fall_fraction": record.fall_fraction,
+        "velocity_error_mps": record.velocity_error_mps,
         "config_differences": changes,
     })
     .to_string()
 }
 
-const HEADINGS: [&str; 8] = ["run", "task", "env steps", "best m", "return", "falls", "time", "state"];
+const HEADINGS: [&str; 8] = ["run", "task", "env steps", "reached", "return", "falls", "time", "state"];
 /// Longest name that is shown, so that a row fits into 100 columns.
 const NAME_CHARS_MAX: usize = 28;
 const TASK_CHARS_MAX: usize = 14;
@@ -107,8 +108,9 @@ fn print_table(records: &[Record], differences: Option<&[BTreeMap<&str, &str>]>)
         .iter()
         .map(|record| {
             // Without an evaluation, the distance in training, in brackets because exploration shortens it.
-            let evaluated = record.best_eval_distance_m.map(|metres| format!("{metres:.1}"));
-            let distance = evaluated.or_else(|| record.training_distance_m.map(|metres| format!("({metres:.1})")));
+            let tracked = record.velocity_error_mps.map(|error| format!("± {error:.2} m/s"));
+            let evaluated = tracked.or_else(|| record.best_eval_distance_m.map(|metres| format!("{metres:.1} m")));
+            let distance = evaluated.or_else(|| record.training_distance_m.map(|metres| format!("({metres:.1} m)")));
             [
                 shortened(&record.name, NAME_CHARS_MAX),
                 shortened(&record.task(), TASK_CHARS_MAX),

@@ -25,6 +25,9 @@ pub(crate) struct Record {
     pub(crate) training_distance_m: Option<f64>,
     pub(crate) training_return: Option<f64>,
     pub(crate) fall_fraction: Option<f64>,
+    /// Mean error of the velocity in the last evaluation of a task with commands (m/s). The least one says little: it is that of
+    /// robots that soon fall.
+    pub(crate) velocity_error_mps: Option<f64>,
     /// Whether a process trains it now.
     pub(crate) is_running: bool,
     /// Words that group runs.
@@ -79,6 +82,7 @@ impl Record {
             "rollout/ep_rew_mean" => self.training_return = Some(value),
             "rollout/distance_mean_m" => self.training_distance_m = Some(value),
             "rollout/fall_fraction" => self.fall_fraction = Some(value),
+            "eval/velocity_error" => self.velocity_error_mps = Some(value),
             "eval/distance_mean_m" if self.best_eval_distance_m.is_none_or(|best| value > best) => {
                 self.best_eval_distance_m = Some(value);
                 self.best_eval_at = metric["step"].as_u64();
@@ -131,6 +135,8 @@ mod tests {
             ("eval/distance_mean_m", 100, 3.0),
             ("eval/distance_mean_m", 200, 9.5),
             ("eval/distance_mean_m", 300, 4.0),
+            ("eval/velocity_error", 200, 0.2),
+            ("eval/velocity_error", 300, 0.3),
             ("time/total_timesteps", 300, 300.0),
             ("time/time_elapsed", 300, 2.0),
         ] {
@@ -139,6 +145,7 @@ mod tests {
         record.add_line("{\"tag\":\"time/total_times");
         assert_eq!((record.env_steps, record.best_eval_distance_m, record.best_eval_at), (300, Some(9.5), Some(200)));
         assert_eq!((record.env_steps_per_s(), record.distance_m()), (Some(150.0), 9.5));
+        assert_eq!(record.velocity_error_mps, Some(0.3));
         assert_eq!((record.training_return, record.config_value("a.b")), (None, ABSENT));
     }
 }

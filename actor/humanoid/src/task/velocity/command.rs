@@ -6,7 +6,7 @@ use crate::config::VelocityConfig;
 use crate::randomisation::{stream, uniform};
 
 /// Sum of the magnitudes (m/s and rad/s) below which a command says: stand.
-pub const STANDING_COMMAND: f64 = 0.1;
+const STANDING_COMMAND: f64 = 0.1;
 /// Yaw rate per error of the heading (1/s).
 pub const HEADING_GAIN: f64 = 0.5;
 

@@ -27,7 +27,7 @@ use std::f64::consts::FRAC_PI_2;
 use rand::RngExt;
 
 use self::command::Drawn;
-pub use self::command::{Command, HEADING_GAIN, STANDING_COMMAND};
+pub use self::command::{Command, HEADING_GAIN};
 use self::curriculum::Curriculum;
 pub use self::feet::{FEET, Foot, Stride, stride};
 use self::observation::observation_terms;

@@ -1,5 +1,7 @@
 //! Observation: its terms, and their numbers.
 
+use std::f64::consts::TAU;
+
 use super::feet::FEET;
 use super::rewards::BaseMotion;
 use super::scan::{SCAN_MAX_M, SCAN_POINTS, ground_around};
@@ -63,10 +65,7 @@ impl VelocityTask {
             write(physics.joint_rates()[*hinge] + noise.velocity());
         }
         self.actions.iter().for_each(|action| write(*action));
-        let (sin, cos) = match self.command.stands() {
-            true => (0.0, 0.0),
-            false => (std::f64::consts::TAU * self.time_s() / self.config.gait_period_s).sin_cos(),
-        };
+        let (sin, cos) = (TAU * self.time_s() / self.config.gait_period_s).sin_cos();
         [sin, cos].into_iter().for_each(&mut write);
         if self.config.height_scan {
             self.scanned(physics, &base).for_each(|height_m| write(height_m + noise.position()));

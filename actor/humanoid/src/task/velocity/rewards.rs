@@ -9,6 +9,8 @@ use crate::model::Model;
 
 /// Time in the air from which a landing is rewarded (s).
 const AIR_TIME_S: f64 = 0.4;
+/// Horizontal velocity below which a robot that is commanded to stand puts both feet down (m/s).
+const SLOW_MPS: f64 = 0.3;
 /// Share of a hinge's range, from its middle, beyond which it is near its limit.
 const SOFT_LIMIT_SHARE: f64 = 0.9;
 
@@ -119,7 +121,9 @@ pub fn terms(config: &VelocityConfig, model: &Model, body: &Stance, step: &Robot
     let squares = |numbers: &[f64]| numbers.iter().map(|number| number * number).sum::<f64>();
     let squared_difference = |pair: (&f64, &f64)| (pair.0 - pair.1).powi(2);
     let strides: [_; FEET] = std::array::from_fn(|foot| stride(config, time_s, foot));
-    let must_stand = |foot: usize| command.stands() || strides[foot].stands;
+    // A robot that is to stop steps until it is slow: feet that stop at once make it fall.
+    let is_to_stand = command.stands() && base.velocity_mps.xy().norm() < SLOW_MPS;
+    let must_stand = |foot: usize| is_to_stand || strides[foot].stands;
     let pairs = || (0..FEET).map(|foot| (foot, &feet[foot]));
     let posture = hinges.angles_rad.iter().zip(&body.default_rad).zip(&body.pose_weights);
     let limits = model.hinges.iter().zip(hinges.angles_rad).map(|(hinge, angle_rad)| {
@@ -258,8 +262,12 @@ mod tests {
             weights.entries().iter().zip(found.entries()).map(|((_, weight), (_, term))| weight * term).sum();
         close(weights.total(&found), by_hand);
 
-        let standing = Command::default();
-        let found = terms(&config, &model, &body, &RobotStep { command: standing, ..step });
+        let standing = RobotStep { command: Command::default(), ..step };
+        let found = terms(&config, &model, &body, &standing);
+        assert_eq!((found.gait, found.feet_air_time), (1.0, 0.0), "at 0.45 m/s the gait goes on");
+        close(found.feet_clearance, 0.0025);
+        let slow = BaseMotion { velocity_mps: Vector3::new(0.1, 0.2, 0.3), ..base };
+        let found = terms(&config, &model, &body, &RobotStep { base: slow, ..standing });
         assert_eq!((found.gait, found.feet_clearance, found.feet_air_time), (0.0, 0.0, 0.0), "both feet must stand");
     }
 }
