@@ -154,7 +154,9 @@ mod tests {
             let mut bytes = encode(&vec![3u64; 40]).unwrap();
             let at = at % bytes.len();
             bytes[at] ^= with;
-            prop_assert!(payload("x", &bytes).is_err());
+            // The checksum does not cover the format, which may become an older one that this program reads.
+            let is_known = at == 8 && (FORMAT_OLDEST..=FORMAT).contains(&u32::from(bytes[8]));
+            prop_assert!(is_known || payload("x", &bytes).is_err());
         }
     }
 }

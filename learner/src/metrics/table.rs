@@ -175,7 +175,7 @@ mod tests {
         let all: Vec<(String, f64)> = tags.iter().map(|tag| (tag.to_string(), 1.5)).collect();
         let shown = |scalars| important(scalars).into_iter().map(|(tag, _)| tag).collect::<Vec<_>>();
         assert_eq!(shown(&all), ["eval/velocity_error"]);
-        assert_eq!(shown(&all[..1].to_vec()), ["rollout/distance_mean_m"]);
+        assert_eq!(shown(&all[..1]), ["rollout/distance_mean_m"]);
     }
 
     #[test]

@@ -42,7 +42,6 @@ pub(super) type CoordinateForces<S> = [Lanes<S>; 3];
 
 /// Writes the constraints of all coordinates that may act.
 #[inline(always)]
-#[expect(clippy::too_many_arguments, reason = "the state of a step has many parts")]
 pub(super) fn prepare<S: Simd>(
     constraints: &mut Vec<CoordinateConstraint<S>>,
     structure: &Structure,

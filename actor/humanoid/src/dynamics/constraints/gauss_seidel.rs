@@ -4,11 +4,11 @@
 
 use pulp::Simd;
 
+use super::Problem;
 use super::contacts::{ContactConstraint, ContactRows, EDGES};
 use super::coordinates::CoordinateConstraint;
 use super::rows::Rows;
 use crate::collision::PairNode;
-use crate::dynamics::mass_matrix::MassMatrix;
 use crate::dynamics::structure::Structure;
 use crate::lanes::{Lanes, Mask};
 
@@ -88,17 +88,9 @@ impl<S: Simd> GaussSeidel<S> {
     /// Changes whitened accelerations and the forces by all constraints. Returns the largest change of an acceleration by the
     /// last sweep.
     #[inline(always)]
-    pub(super) fn solve(
-        &mut self,
-        structure: &Structure,
-        pairs: &[PairNode],
-        matrix: &MassMatrix<S>,
-        coordinates: &mut [CoordinateConstraint<S>],
-        contacts: &mut [ContactConstraint<S>],
-        contact_rows: &ContactRows<S>,
-        whitened: &mut [Lanes<S>],
-    ) -> Lanes<S> {
-        self.prepare(structure, pairs, matrix, coordinates, contacts, contact_rows);
+    pub(super) fn solve(&mut self, problem: Problem<'_, S>, whitened: &mut [Lanes<S>]) -> Lanes<S> {
+        self.prepare(&problem);
+        let Problem { structure, pairs, coordinates, contacts, rows: contact_rows, .. } = problem;
         let rows = &self.rows;
         for (constraint, response) in coordinates.iter().zip(&self.coordinates) {
             let path = &structure.coordinates[constraint.coordinate].dofs;
@@ -131,26 +123,17 @@ impl<S: Simd> GaussSeidel<S> {
 
     /// Computes the responses.
     #[inline(always)]
-    fn prepare(
-        &mut self,
-        structure: &Structure,
-        pairs: &[PairNode],
-        matrix: &MassMatrix<S>,
-        coordinates: &[CoordinateConstraint<S>],
-        contacts: &[ContactConstraint<S>],
-        contact_rows: &ContactRows<S>,
-    ) {
+    fn prepare(&mut self, problem: &Problem<'_, S>) {
         self.rows.numbers.clear();
         self.coordinates.clear();
-        for constraint in coordinates {
+        for (index, constraint) in problem.coordinates.iter().enumerate() {
             let start = self.rows.numbers.len();
-            self.rows.push(structure, matrix, &structure.coordinates[constraint.coordinate]);
+            self.rows.push(problem.structure, problem.matrix, problem.coordinate(index));
             self.coordinates.push(CoordinateResponse::new(constraint, start, &self.rows));
         }
         self.contacts.clear();
-        for contact in contacts {
-            let dofs = pairs[contact.key.0 as usize].dofs.len();
-            let rows = &contact_rows.numbers[contact.start..contact.start + dofs];
+        for (index, contact) in problem.contacts.iter().enumerate() {
+            let rows = &problem.rows.numbers[contact.start..contact.start + problem.dofs(index).len()];
             self.contacts.push(ContactResponse::new(contact, rows));
         }
     }

@@ -19,11 +19,11 @@ use self::contacts::{ContactConstraint, ContactRows, EDGES};
 use self::coordinates::{CoordinateConstraint, CoordinateForces};
 use self::gauss_seidel::GaussSeidel;
 use self::hessian::DOFS_MAX;
-use self::newton::{Newton, Problem};
+use self::newton::Newton;
 use super::forces::Forces;
 use super::mass_matrix::MassMatrix;
 use super::posture::Posture;
-use super::structure::Structure;
+use super::structure::{Coordinate, Structure};
 use crate::collision::{Collisions, ContactKey, PairNode};
 use crate::lanes::{Lanes, Vec3};
 use crate::model::Solver;
@@ -55,6 +55,30 @@ pub(crate) struct Constraints<S: Simd> {
 enum Method<S: Simd> {
     Newton(Box<Newton<S>>),
     GaussSeidel(GaussSeidel<S>),
+}
+
+/// Constraints of a step.
+struct Problem<'a, S: Simd> {
+    structure: &'a Structure,
+    pairs: &'a [PairNode],
+    /// Mass matrix, factored.
+    matrix: &'a MassMatrix<S>,
+    coordinates: &'a mut [CoordinateConstraint<S>],
+    contacts: &'a mut [ContactConstraint<S>],
+    /// Rows of the contacts, whitened for sweeps only.
+    rows: &'a ContactRows<S>,
+}
+
+impl<S: Simd> Problem<'_, S> {
+    #[inline(always)]
+    fn coordinate(&self, index: usize) -> &Coordinate {
+        &self.structure.coordinates[self.coordinates[index].coordinate]
+    }
+
+    #[inline(always)]
+    fn dofs(&self, contact: usize) -> &[u32] {
+        &self.pairs[self.contacts[contact].key.0 as usize].dofs
+    }
 }
 
 /// Force of one contact point in several worlds.
@@ -155,14 +179,10 @@ impl<S: Simd> Constraints<S> {
         }
         if !(self.coordinates.is_empty() && self.contacts.is_empty()) {
             let Self { coordinates, contacts, contact_rows: rows, method, whitened, .. } = self;
+            let problem = Problem { structure, pairs, matrix, coordinates, contacts, rows };
             let residual = match method {
-                Method::Newton(newton) => {
-                    let problem = Problem { structure, pairs, matrix, coordinates, contacts, rows };
-                    newton.solve(problem, acceleration, whitened)
-                }
-                Method::GaussSeidel(sweeps) => {
-                    sweeps.solve(structure, pairs, matrix, coordinates, contacts, rows, whitened)
-                }
+                Method::Newton(newton) => newton.solve(problem, acceleration, whitened),
+                Method::GaussSeidel(sweeps) => sweeps.solve(problem, whitened),
             };
             self.residual = self.residual.max(residual);
         }

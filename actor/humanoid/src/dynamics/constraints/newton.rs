@@ -6,8 +6,8 @@
 
 use pulp::Simd;
 
-use super::contacts::{ContactConstraint, ContactRows, EDGES};
-use super::coordinates::CoordinateConstraint;
+use super::Problem;
+use super::contacts::EDGES;
 use super::hessian::Hessian;
 use crate::collision::PairNode;
 use crate::dynamics::mass_matrix::MassMatrix;
@@ -19,7 +19,7 @@ const ITERATIONS_MAX: usize = 50;
 /// An acceleration is a solution if the next step would change it by less than this share of what the constraints change, in the
 /// norm of the kinetic energy, squared.
 const SETTLED: f64 = 1e-10;
-/// The same, absolute (W/s or kg·m²/s⁴).
+/// The same, absolute (kg·m²/s⁴).
 const SETTLED_MIN: f64 = 1e-8;
 /// Upper bound of the steps of a search along a line.
 const SEARCH_MAX: usize = 10;
@@ -64,30 +64,6 @@ struct ContactState<S: Simd> {
     changes: [Lanes<S>; 3],
     /// Decrease of the edges' forces per acceleration.
     decreases: [Lanes<S>; EDGES],
-}
-
-/// Constraints of a step.
-pub(super) struct Problem<'a, S: Simd> {
-    pub(super) structure: &'a Structure,
-    pub(super) pairs: &'a [PairNode],
-    /// Mass matrix, factored.
-    pub(super) matrix: &'a MassMatrix<S>,
-    pub(super) coordinates: &'a mut [CoordinateConstraint<S>],
-    pub(super) contacts: &'a mut [ContactConstraint<S>],
-    /// Rows of the contacts, not whitened.
-    pub(super) rows: &'a ContactRows<S>,
-}
-
-impl<S: Simd> Problem<'_, S> {
-    #[inline(always)]
-    fn coordinate(&self, index: usize) -> &Coordinate {
-        &self.structure.coordinates[self.coordinates[index].coordinate]
-    }
-
-    #[inline(always)]
-    fn dofs(&self, contact: usize) -> &[u32] {
-        &self.pairs[self.contacts[contact].key.0 as usize].dofs
-    }
 }
 
 impl<S: Simd> Newton<S> {
