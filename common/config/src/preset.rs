@@ -2,8 +2,8 @@
 
 use super::ConfigError;
 
-/// Preset of a robot with a built-in card. An action of 1 is four units, so that exploration begins with 0.66 units. Passes over
-/// mirrored batches cost less than the physics.
+/// Preset of a robot with a built-in card. An action of 1 is four units, so that exploration begins with 0.66 units. With fewer
+/// passes, or without mirror images, robots learn later.
 macro_rules! velocity {
     ($card:literal) => {
         concat!(

@@ -83,6 +83,7 @@ impl MeasurementPlan {
         };
         measurement.set_rates(&rates)?;
         measurement.wait_for_earlier_fragments()?;
+        measurement.wait_for_all_alive()?;
         measurement.wait_for_updates(WARMUP_UPDATES, self.warmup_s)?;
         let begin = measurement.mark()?;
         measurement.fleet.ask("forget")?;
@@ -184,6 +185,16 @@ impl Measurement {
             anyhow::ensure!(newest.elapsed() < UPDATE_TIMEOUT, "the learner made no update for {UPDATE_TIMEOUT:?}");
             std::thread::sleep(POLL);
         }
+    }
+
+    /// Waits until the learner has logged all actors as alive.
+    fn wait_for_all_alive(&mut self) -> anyhow::Result<()> {
+        let begun = Instant::now();
+        while self.alive_s.is_none() {
+            anyhow::ensure!(begun.elapsed() < UPDATE_TIMEOUT, "not all actors are alive after {UPDATE_TIMEOUT:?}");
+            self.wait_for_updates(1, 0.0)?;
+        }
+        Ok(())
     }
 
     /// Waits until no fragment of other rates is in flight.

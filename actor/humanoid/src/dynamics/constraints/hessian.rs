@@ -12,7 +12,7 @@ use crate::lanes::Lanes;
 /// Set of degrees of freedom.
 type Dofs = u128;
 
-/// Most degrees of freedom.
+/// Most degrees of freedom; larger models are solved by sweeps.
 pub(super) const DOFS_MAX: usize = Dofs::BITS as usize;
 
 /// Symmetric matrix, by rows up to the diagonal.
@@ -73,12 +73,7 @@ impl<S: Simd> Hessian<S> {
 
     /// Adds leftᵀ · right, a symmetric matrix over these degrees of freedom, which ascend.
     #[inline(always)]
-    pub(super) fn add_product<const ROWS: usize>(
-        &mut self,
-        dofs: &[u32],
-        left: &[[Lanes<S>; ROWS]],
-        right: &[[Lanes<S>; ROWS]],
-    ) {
+    pub(super) fn add_product(&mut self, dofs: &[u32], left: &[[Lanes<S>; 3]], right: &[[Lanes<S>; 3]]) {
         let mut before: Dofs = 0;
         for (index, dof) in dofs.iter().enumerate() {
             let row = *dof as usize;
@@ -197,7 +192,6 @@ mod tests {
         let structure = Structure::new(&model);
         let lanes = |number: f64| Lanes::splat(Scalar, number);
         let dofs = structure.dofs();
-        // A mass matrix with the tree's zeros: unit vectors over paths.
         let mut dense = DMatrix::zeros(dofs, dofs);
         let mut hessian = Hessian::new(Scalar, &structure);
         let position: Vec<_> = model.nominal_position().into_iter().map(lanes).collect();
@@ -218,10 +212,12 @@ mod tests {
             let mut wanted = dense.clone();
             for coupled in &couplings[..used] {
                 let numbers: Vec<f64> = coupled.iter().map(|dof| (f64::from(*dof) * 1.7).sin()).collect();
-                let left: Vec<_> = numbers.iter().map(|number| [lanes(100.0 * number)]).collect();
-                let right: Vec<_> = numbers.iter().map(|number| [lanes(*number)]).collect();
+                // Rows of which the second is twice, and the third three times the first.
+                let left: Vec<_> =
+                    numbers.iter().map(|number| [1.0, 2.0, 3.0].map(|row| lanes(row * number))).collect();
+                let right: Vec<_> = left.iter().map(|row| row.map(|number| number * 10.0)).collect();
                 hessian.add_product(coupled, &left, &right);
-                add_dense(&mut wanted, coupled, &numbers, 100.0);
+                add_dense(&mut wanted, coupled, &numbers, 140.0);
             }
             hessian.add(20, 9, lanes(0.1));
             wanted[(20, 9)] += 0.1;

@@ -38,7 +38,7 @@ pub(crate) struct Constraints<S: Simd> {
     contacts: Vec<ContactConstraint<S>>,
     contact_rows: ContactRows<S>,
     method: Method<S>,
-    /// Forces of the step before: first guesses.
+    /// Forces of the step before: first guesses of sweeps.
     warm_coordinates: Vec<CoordinateForces<S>>,
     warm_contacts: Vec<WarmContact<S>>,
     start_velocity: Vec<Lanes<S>>,
