@@ -21,12 +21,24 @@ fn status(folder: &Path) -> Value {
     last_json(&run(folder, &["status", "run", "--json"]))
 }
 
+/// Waits until fragments of both actors have been accepted, and returns the status that says so.
+fn await_both_actors(folder: &Path) -> Value {
+    await_that("two actors with accepted fragments", || {
+        let status = status(folder);
+        let actors = status["actors"].as_array().unwrap();
+        let is_working = |actor: &Value| actor["state"] == "alive" && actor["accepted"].as_u64() > Some(0);
+        (actors.len() == 2 && actors.iter().all(is_working)).then_some(status.clone())
+    })
+}
+
 #[test]
 fn a_run_can_be_paused_saved_changed_and_stopped() {
     let (folder, run) = folders();
     let folder = folder.path();
     let training = Running::start(endless(folder, &run, "train"));
     await_steps(&run, 1024);
+    // A run begins to learn before its second actor delivers.
+    await_both_actors(folder);
 
     assert!(done(folder, &["pause", "run"]).starts_with("paused after update"));
     assert!(done(folder, &["pause", "run"]).contains("paused already"));
@@ -51,13 +63,7 @@ fn a_run_can_be_paused_saved_changed_and_stopped() {
     assert!(done(folder, &["resume", "run"]).starts_with("resumed after update"));
     let steps = paused["env_steps"].as_u64().unwrap();
     await_steps(&run, steps + 2048);
-    let going = await_that("two actors with accepted fragments", || {
-        let status = status(folder);
-        let actors = status["actors"].as_array().unwrap();
-        let is_working = |actor: &Value| actor["state"] == "alive" && actor["accepted"].as_u64() > Some(0);
-        (actors.len() == 2 && actors.iter().all(is_working)).then_some(status.clone())
-    });
-    assert_eq!(going["phase"], "training");
+    assert_eq!(await_both_actors(folder)["phase"], "training");
 
     assert!(done(folder, &["stop", "run"]).starts_with("stopping"));
     let (ended, _) = training.wait();
