@@ -3,9 +3,12 @@
 use super::ConfigError;
 
 /// Preset of a robot with a built-in card. An action of 1 is four units, so that exploration begins with 0.66 units. With fewer
-/// passes, or without mirror images, robots learn later.
+/// passes, or without mirror images, robots learn later. A divergence adds up over the hinges, so more of them allow more of it.
 macro_rules! velocity {
     ($card:literal) => {
+        velocity!($card, "0.02")
+    };
+    ($card:literal, $target_kl:literal) => {
         concat!(
             "[env]\ntask = \"velocity\"\nrobot = \"",
             $card,
@@ -14,7 +17,9 @@ macro_rules! velocity {
              sensor_noise_position = 0.01\nsensor_noise_velocity = 0.1\nencoder_bias_rad = 0.01\n\
              action_delay_steps = [0, 1]\npush_interval_s = [5.0, 10.0]\npush_mps = [0.0, 0.5]\n\
              [policy]\ninit_log_std = -1.8\n\
-             [ppo]\nepochs = 5\nepochs_min = 2\nminibatch = 2048\ntarget_kl = 0.02\nsymmetry = \"mirrored\"\n"
+             [ppo]\nepochs = 5\nepochs_min = 2\nminibatch = 2048\ntarget_kl = ",
+            $target_kl,
+            "\nsymmetry = \"mirrored\"\n"
         )
     };
 }
@@ -42,7 +47,7 @@ pub const PRESETS: &[(&str, &str)] = &[
     ),
     // Robots that follow velocity commands; each needs its model file.
     ("g1", velocity!("g1")),
-    ("g1-29", velocity!("g1-29")),
+    ("g1-29", velocity!("g1-29", "0.04")),
     // The same on generated ground, which the policy sees.
     (
         "g1-rough",
