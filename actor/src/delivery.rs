@@ -203,6 +203,10 @@ impl Uploader {
             let is_silent = answer.is_none();
             let (pause, reason) = match answer {
                 None => (RETRY, "no learner answers".to_string()),
+                // Its acceptance would never become durable.
+                Some(receipt) if !self.policies.admits(receipt.version) => {
+                    (RETRY, "a learner answers that another one has overtaken".to_string())
+                }
                 Some(receipt) => {
                     if self.is_lost.swap(false, Ordering::Relaxed) {
                         (self.notify)("the learner answers again");

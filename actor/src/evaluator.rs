@@ -5,7 +5,7 @@ use std::{ops::ControlFlow, time::Duration};
 use treadmill_bus::{Assignment, Bus, ask_for_evaluation};
 use treadmill_humanoid::Environment;
 use treadmill_proto::{EvaluationReport, PolicyBundle};
-use treadmill_runtime::{error_chain, shutdown::Shutdown};
+use treadmill_runtime::{epoch::SeenEpoch, error_chain, shutdown::Shutdown};
 
 use crate::{
     ActorError,
@@ -32,7 +32,8 @@ pub struct EvaluatorOptions {
 
 /// Evaluates policies until a request to stop.
 pub async fn run(bus: Bus, options: EvaluatorOptions, shutdown: Shutdown) -> Result<(), ActorError> {
-    let Some(bundle) = join_run(&bus, options.run.as_deref(), &options.explain, &shutdown).await? else {
+    let epochs = SeenEpoch::default();
+    let Some(bundle) = join_run(&bus, options.run.as_deref(), &options.explain, &epochs, &shutdown).await? else {
         return Ok(());
     };
     settings::read_simulated(&bundle)?;

@@ -9,7 +9,7 @@ use std::{
 use tokio::sync::Mutex;
 use treadmill_bus::{Bus, BusError, FetchedPolicy, fetch_newer_policy, fetch_policy};
 use treadmill_proto::{PolicyAnnouncement, PolicyBundle, PolicyRequest, PolicyVersion};
-use treadmill_runtime::{error_chain, shutdown::Shutdown};
+use treadmill_runtime::{epoch::SeenEpoch, error_chain, shutdown::Shutdown};
 
 use crate::{ActorError, acting_policy::ActingPolicy};
 
@@ -26,6 +26,7 @@ pub async fn join_run(
     bus: &Bus,
     run: Option<&str>,
     explain: &Explain,
+    epochs: &SeenEpoch,
     shutdown: &Shutdown,
 ) -> Result<Option<PolicyBundle>, BusError> {
     let mut retries = 0u32;
@@ -34,8 +35,8 @@ pub async fn join_run(
             bundle = fetch_policy(bus, run, FETCH_TIMEOUT) => bundle?,
             () = shutdown.wait() => return Ok(None),
         };
-        if bundle.is_some() {
-            return Ok(bundle);
+        if let Some(bundle) = bundle.filter(|bundle| epochs.admits(&bundle.run, bundle.version.epoch)) {
+            return Ok(Some(bundle));
         }
         // The first retries are silent: the learner may just be starting.
         if retries % RETRIES_PER_WARNING == 5 {
@@ -64,6 +65,7 @@ pub struct PolicyFetcher {
     current: RwLock<Arc<ActingPolicy>>,
     /// Last announcement, whose checksum the weights of its version must have.
     announced: RwLock<Option<PolicyAnnouncement>>,
+    epochs: Arc<SeenEpoch>,
     fetching: Mutex<()>,
 }
 
@@ -80,7 +82,12 @@ pub enum Refresh {
 
 impl PolicyFetcher {
     /// Starts with the policy received on joining.
-    pub fn new(bus: Bus, requested_run: Option<String>, bundle: &PolicyBundle) -> Result<Self, ActorError> {
+    pub fn new(
+        bus: Bus,
+        requested_run: Option<String>,
+        bundle: &PolicyBundle,
+        epochs: Arc<SeenEpoch>,
+    ) -> Result<Self, ActorError> {
         Ok(Self {
             bus,
             run: bundle.run.clone(),
@@ -89,6 +96,7 @@ impl PolicyFetcher {
             physics_version: bundle.physics_version,
             current: RwLock::new(Arc::new(ActingPolicy::new(bundle)?)),
             announced: RwLock::new(None),
+            epochs,
             fetching: Mutex::new(()),
         })
     }
@@ -96,6 +104,11 @@ impl PolicyFetcher {
     /// Returns the policy in use.
     pub fn current(&self) -> Arc<ActingPolicy> {
         self.current.read().expect("no holder of this lock panics").clone()
+    }
+
+    /// Returns whether a version is of a learner that no other has overtaken, as far as this actor knows.
+    pub fn admits(&self, version: PolicyVersion) -> bool {
+        self.epochs.admits(&self.run, version.epoch)
     }
 
     /// Records an announcement. [`Self::refresh`] then fetches its version.
@@ -119,6 +132,10 @@ impl PolicyFetcher {
                 return Refresh::Unchanged;
             }
         };
+        if !self.epochs.admits(&bundle.run, bundle.version.epoch) {
+            tracing::warn!(epoch = bundle.version.epoch, "policy rejected: another learner has overtaken its learner");
+            return Refresh::Unchanged;
+        }
         let is_same_run = bundle.run == self.run && bundle.config_hash == self.config_hash;
         // A learner of another version may have resumed the run.
         if !is_same_run || bundle.physics_version != self.physics_version {

@@ -12,7 +12,7 @@ use tokio::task::JoinSet;
 use treadmill_bus::{Bus, PosePublisher, is_actor_present, keys, publish_dropping, token, watch_announcements};
 use treadmill_config::Config;
 use treadmill_proto::{ActorState, ActorStats, PolicyBundle, PolicyVersion, json::EpisodeReport};
-use treadmill_runtime::{machine, seeds, shutdown::Shutdown};
+use treadmill_runtime::{epoch::SeenEpoch, machine, seeds, shutdown::Shutdown};
 
 pub use options::{ActorSummary, WorkerOptions};
 
@@ -43,15 +43,16 @@ enum EndReason {
 /// Runs the actor until a request to stop; returns the summary of its last membership, if it joined a run.
 pub async fn run(bus: Bus, options: WorkerOptions, shutdown: Shutdown) -> Result<Option<ActorSummary>, ActorError> {
     let mut last = None;
+    let epochs = Arc::new(SeenEpoch::default());
     loop {
-        let Some(bundle) = join_run(&bus, options.run.as_deref(), &options.explain, &shutdown).await? else {
+        let Some(bundle) = join_run(&bus, options.run.as_deref(), &options.explain, &epochs, &shutdown).await? else {
             return Ok(last);
         };
         if !wait_for_name(&bus, &options, &bundle.run, &shutdown).await? {
             return Ok(last);
         }
         tracing::info!(actor = %options.name, run = %bundle.run, version = bundle.version.number, "joined the run");
-        let membership = Membership::new(&bus, &options, &bundle)?;
+        let membership = Membership::new(&bus, &options, &bundle, epochs.clone())?;
         let WorkerOptions { name, envs, .. } = &options;
         (options.notify)(&format!("joined run `{}` as `{name}` with {envs} environments", bundle.run));
         let reason = membership.run(&bundle, &shutdown).await?;
@@ -100,11 +101,16 @@ struct Membership<'a> {
 }
 
 impl<'a> Membership<'a> {
-    fn new(bus: &'a Bus, options: &'a WorkerOptions, bundle: &PolicyBundle) -> Result<Self, ActorError> {
+    fn new(
+        bus: &'a Bus,
+        options: &'a WorkerOptions,
+        bundle: &PolicyBundle,
+        epochs: Arc<SeenEpoch>,
+    ) -> Result<Self, ActorError> {
         let config = settings::read_simulated(bundle)?;
         let incarnation = seeds::unique();
         tracing::info!(incarnation, actor = %options.name, "new incarnation");
-        let policies = Arc::new(PolicyFetcher::new(bus.clone(), options.run.clone(), bundle)?);
+        let policies = Arc::new(PolicyFetcher::new(bus.clone(), options.run.clone(), bundle, epochs)?);
         let receipt_timeout = Duration::from_millis(config.bus.receipt_timeout_ms);
         let steps = settings::first_fragment_steps(bundle, &config, options.envs)?;
         let uploader = Uploader::new(bus.clone(), &bundle.run, &options.name, receipt_timeout, policies.clone(), steps);
@@ -196,8 +202,10 @@ impl<'a> Membership<'a> {
                     physics.give_credit();
                 }
                 Some(announced) = announcements.next() => {
-                    self.shared.policies.record_announcement(announced);
-                    self.refresh(Some(announced.version), &mut refreshes);
+                    if self.shared.policies.admits(announced.version) {
+                        self.shared.policies.record_announcement(announced);
+                        self.refresh(Some(announced.version), &mut refreshes);
+                    }
                 }
                 _ = poll_due.tick() => self.refresh(None, &mut refreshes),
                 Some(refresh) = refreshes.join_next() => {

@@ -29,7 +29,7 @@ pub const CONFIG_HASH: u64 = 11;
 pub const WIDTH: u32 = 2;
 
 fn version() -> PolicyVersion {
-    PolicyVersion { incarnation: INCARNATION, number: 1 }
+    PolicyVersion::new(INCARNATION, 1)
 }
 
 fn state() -> ActorState {

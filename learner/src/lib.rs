@@ -4,11 +4,13 @@
 //! - [`intake`]: validates fragments from the bus, sends receipts, and collects a batch.
 //! - [`training`]: the loop: collect, update, save, publish, log. The crate `treadmill-ppo` holds the mathematics.
 //! - [`checkpoint`]: the whole state of a run in one file.
+//! - [`leadership`]: who may write the state of a run that is in a store.
 //! - [`metrics`]: scalars and histograms, and their outputs.
 //!
 //! The loop runs on its own thread. Nothing here is async, and nothing depends on the actor's crates.
 
 pub mod checkpoint;
 pub mod intake;
+pub mod leadership;
 pub mod metrics;
 pub mod training;

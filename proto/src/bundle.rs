@@ -1,5 +1,7 @@
 //! Policy bundles of the learner and their announcements.
 
+use std::hash::{Hash, Hasher};
+
 use bytes::{Buf, Bytes};
 use prost::Message;
 use serde::{Deserialize, Serialize};
@@ -17,24 +19,50 @@ use crate::{
 /// Kind of message in errors.
 const BUNDLE: &str = "policy bundle";
 
-/// Version of a policy. Each update increments the number; each start of a learner draws a new incarnation.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
+/// Version of a policy. Each update increments the number; each start of a learner draws a new incarnation and gets a higher
+/// epoch. Incarnation and number identify it: senders of before there were epochs repeat it without one.
+#[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
 pub struct PolicyVersion {
     /// Learner process that made the policy.
     pub incarnation: u64,
     /// Updates since the run began.
     pub number: u64,
+    /// Term of that learner; 0 if unknown. It is no part of a checkpoint.
+    #[serde(skip)]
+    pub epoch: u64,
+}
+
+impl PolicyVersion {
+    /// Version of an unknown epoch.
+    #[must_use]
+    pub const fn new(incarnation: u64, number: u64) -> Self {
+        Self { incarnation, number, epoch: 0 }
+    }
+}
+
+impl PartialEq for PolicyVersion {
+    fn eq(&self, other: &Self) -> bool {
+        (self.incarnation, self.number) == (other.incarnation, other.number)
+    }
+}
+
+impl Eq for PolicyVersion {}
+
+impl Hash for PolicyVersion {
+    fn hash<H: Hasher>(&self, state: &mut H) {
+        (self.incarnation, self.number).hash(state);
+    }
 }
 
 impl From<PolicyVersion> for wire::PolicyVersion {
     fn from(version: PolicyVersion) -> Self {
-        Self { incarnation: version.incarnation, number: version.number }
+        Self { incarnation: version.incarnation, number: version.number, epoch: version.epoch }
     }
 }
 
 impl From<wire::PolicyVersion> for PolicyVersion {
     fn from(version: wire::PolicyVersion) -> Self {
-        Self { incarnation: version.incarnation, number: version.number }
+        Self { incarnation: version.incarnation, number: version.number, epoch: version.epoch }
     }
 }
 
@@ -249,7 +277,7 @@ mod tests {
     fn sample() -> PolicyBundle {
         PolicyBundle {
             run: "walk".into(),
-            version: PolicyVersion { incarnation: 1, number: 2 },
+            version: PolicyVersion::new(1, 2),
             observation_size: 2,
             action_size: 1,
             hidden: vec![4],
@@ -278,9 +306,17 @@ mod tests {
     }
 
     #[test]
+    fn an_epoch_travels_but_identifies_nothing() {
+        let version = PolicyVersion { epoch: 9, ..sample().version };
+        let announcement = PolicyAnnouncement { version, checksum: 5, actor_checksum: 6 };
+        assert_eq!(PolicyAnnouncement::decode(&announcement.encode()).unwrap().version.epoch, 9);
+        assert_eq!(version, sample().version);
+    }
+
+    #[test]
     fn an_announcement_agrees_with_the_announced_weights_only() {
         let announced = |version, checksum, actor_checksum| PolicyAnnouncement { version, checksum, actor_checksum };
-        let (version, other) = (sample().version, PolicyVersion { incarnation: 1, number: 3 });
+        let (version, other) = (sample().version, PolicyVersion::new(1, 3));
         assert!(announced(version, 5, 6).agrees_with(&sample()), "weights with the critic");
         assert!(announced(version, 4, 5).agrees_with(&sample()), "weights without the critic");
         assert!(!announced(version, 4, 6).agrees_with(&sample()));

@@ -105,7 +105,7 @@ mod tests {
         let report = EvaluationReport {
             run: "walk-1".into(),
             evaluator: "evaluator".into(),
-            version: PolicyVersion { incarnation: 3, number: 4 },
+            version: PolicyVersion::new(3, 4),
             episodes: 10,
             return_mean: 6000.0,
             return_std: 3.0,

@@ -9,7 +9,7 @@ pub(crate) fn sample() -> Fragment {
         actor: "a1".into(),
         actor_incarnation: 7,
         sequence: 3,
-        version: PolicyVersion { incarnation: 9, number: 4 },
+        version: PolicyVersion::new(9, 4),
         config_hash: 11,
         steps: 2,
         envs: 3,

@@ -77,7 +77,7 @@ pub use task::{Task, TaskReceipt, TaskRegistration};
 
 /// Version of the messages and of the configuration keys that actors know. Raised with each release that adds a field or
 /// a key on which actors depend.
-pub const WIRE_VERSION: u32 = 1;
+pub const WIRE_VERSION: u32 = 2;
 
 /// Refuses a message of more than `limit` bytes.
 fn check_size(what: &'static str, bytes: usize, limit: usize) -> Result<(), Malformed> {

@@ -130,7 +130,7 @@ impl PolicyPiece {
 mod tests {
     use super::*;
 
-    const VERSION: PolicyVersion = PolicyVersion { incarnation: 7, number: 3 };
+    const VERSION: PolicyVersion = PolicyVersion::new(7, 3);
 
     #[test]
     fn requests_and_pieces_round_trip() {

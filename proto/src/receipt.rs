@@ -107,7 +107,7 @@ mod tests {
             let receipt = Receipt {
                 outcome,
                 reason: "because".into(),
-                version: PolicyVersion { incarnation: 1, number: 2 },
+                version: PolicyVersion::new(1, 2),
                 durable_through: 3,
                 fragment_steps: 32,
             };

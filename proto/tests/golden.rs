@@ -11,7 +11,7 @@ use treadmill_proto::{
 };
 
 const GOLDEN: &str = include_str!("golden/messages-1.txt");
-const VERSION: PolicyVersion = PolicyVersion { incarnation: 0x0102_0304_0506_0708, number: 4 };
+const VERSION: PolicyVersion = PolicyVersion::new(0x0102_0304_0506_0708, 4);
 const ANNOUNCEMENT: PolicyAnnouncement = PolicyAnnouncement { version: VERSION, checksum: 5, actor_checksum: 0 };
 
 fn actor_state() -> ActorState {

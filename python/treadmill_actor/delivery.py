@@ -68,8 +68,8 @@ class DeliveryLedger:
 class Uploader:
     """Uploads the fragments of one actor process; thread-safe."""
 
-    def __init__(self, bus, run, actor, incarnation, receipt_timeout_s, stopping):
-        self.bus, self.run, self.actor = bus, run, actor
+    def __init__(self, bus, run, actor, incarnation, receipt_timeout_s, stopping, admits=lambda version: True):
+        self.bus, self.run, self.actor, self.admits = bus, run, actor, admits
         self.receipt_timeout_s, self.stopping = receipt_timeout_s, stopping
         self.lock = threading.Lock()
         self.ledger = DeliveryLedger(incarnation)
@@ -92,6 +92,9 @@ class Uploader:
                 with self.lock:
                     self.ledger.resent += 1
             receipt = self.bus.submit(self.run, self.actor, fragment, self.receipt_timeout_s)
+            # What an overtaken learner accepts never becomes durable.
+            if receipt is not None and not self.admits(receipt.version):
+                receipt = None
             outcome = "no receipt" if receipt is None else schema.OUTCOME_NAMES.get(receipt.outcome, "unspecified")
             pause_s = RETRY_S if receipt is None else RETRY_AFTER_S.get(outcome)
             if pause_s is None:

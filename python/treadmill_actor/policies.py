@@ -65,6 +65,15 @@ class Policies:
         #: Steps of a fragment as the newest bundle says; 0 if it leaves them open.
         self.fragment_steps = bundle.fragment_steps
         self.announced_version = None
+        #: Highest epoch of a learner of this run so far.
+        self.epoch = bundle.version.epoch
+
+    def admits(self, version):
+        """Notes a version's epoch. Returns False if another learner has overtaken its learner; 0 is unknown."""
+        if 0 < version.epoch < self.epoch:
+            return False
+        self.epoch = max(self.epoch, version.epoch)
+        return True
 
     @property
     def current(self):
@@ -83,6 +92,9 @@ class Policies:
                 receipt = self.bus.register(self.run, self.actor, self.task)
                 if receipt is not None and not receipt.accepted:
                     self.run_changed.set()
+                return
+            if not self.admits(bundle.version):
+                log.warning("policy of an overtaken learner rejected")
                 return
             if bundle.run != self.run or bundle.config_hash != self.config_hash:
                 self.run_changed.set()

@@ -30,7 +30,7 @@ MESSAGES, OUTCOMES, END_CAUSES = _messages()
 OUTCOME_NAMES = {number: name for name, number in OUTCOMES.items()}
 
 #: Version of the messages and of the configuration keys that this actor knows, as in the Rust crate `treadmill-proto`.
-WIRE_VERSION = 1
+WIRE_VERSION = 2
 
 ActorStats = MESSAGES["ActorStats"]
 Fragment = MESSAGES["Fragment"]

@@ -55,7 +55,13 @@ class Worker:
         # Ends the upload threads.
         leaving = threading.Event()
         self.uploader = Uploader(
-            self.bus, self.run, self.actor, bundle.version.incarnation, settings.receipt_timeout_s, leaving
+            self.bus,
+            self.run,
+            self.actor,
+            bundle.version.incarnation,
+            settings.receipt_timeout_s,
+            leaving,
+            policies.admits,
         )
         collector = Collector(
             self.environments, self.run, self.actor, incarnation, bundle.config_hash, (self.seed, incarnation)
@@ -63,8 +69,9 @@ class Worker:
         ended, announced = threading.Event(), threading.Event()
 
         def apply(version):
-            policies.announced_version = version
-            announced.set()
+            if policies.admits(version):
+                policies.announced_version = version
+                announced.set()
 
         token = self.bus.token(self.run, self.actor)
         subscriber = self.bus.announcements(self.run, apply)

@@ -5,7 +5,8 @@ use treadmill_bus::Role;
 
 use crate::{
     launch::{
-        host::{self, HostOptions},
+        durability::StoredRun,
+        host::{self, ActorProcesses, HostOptions},
         metrics_page::MetricsArgs,
         run_args::{AnyRunArgs, NewRunArgs},
         startup::{self, RunCommand},
@@ -30,6 +31,9 @@ pub struct LearnerArgs {
     /// Endpoint to listen on; may be repeated.
     #[arg(long, value_name = "ENDPOINT", default_value = "tcp/127.0.0.1:7447")]
     listen: Vec<String>,
+    /// Follow the run in --store, and lead it once its leader is gone.
+    #[arg(long, requires = "store")]
+    standby: bool,
     /// Endpoint of a router to join; may be repeated.
     #[arg(long, value_name = "ENDPOINT")]
     connect: Vec<String>,
@@ -38,9 +42,21 @@ pub struct LearnerArgs {
 /// Runs the learner until the run reaches its number of steps.
 pub fn run(args: LearnerArgs) -> anyhow::Result<()> {
     check_run(args.run.as_deref())?;
-    let options = args.network.options(Role::Learner, args.listen, args.connect)?;
+    let role = if args.standby { Role::Standby } else { Role::Learner };
+    let options = args.network.options(role, args.listen, args.connect)?;
     let metrics = args.metrics.listen()?;
+    if let Some(url) = &args.any.store {
+        let run = StoredRun {
+            command: RunCommand::Learner,
+            new: &args.new,
+            any: &args.any,
+            changes: &[],
+            name: args.run,
+            is_standby: args.standby,
+        };
+        return run.run(url, HostOptions { any: &args.any, bus: &options, actors: ActorProcesses::None, metrics });
+    }
     let mut start = startup::prepare(RunCommand::Learner, &args.new, &args.any, &[])?;
     args.run.map_or(Ok(()), |run| start.set_name(run))?;
-    host::run(start, HostOptions { any: &args.any, bus: &options, actors: None, metrics })
+    host::run(start, HostOptions { any: &args.any, bus: &options, actors: ActorProcesses::None, metrics })
 }

@@ -2,15 +2,15 @@
 
 use clap::Args;
 use treadmill_bus::Role;
-use treadmill_config::Config;
 
 use crate::{
     launch::{
+        durability::StoredRun,
         exit_code::Usage,
-        host::{self, HostOptions},
+        host::{self, ActorProcesses, HostOptions},
         metrics_page::MetricsArgs,
         run_args::{AnyRunArgs, NewRunArgs, changes},
-        startup::{self, RunCommand, Start},
+        startup::{self, RunCommand},
     },
     shared::network_args::NetworkArgs,
 };
@@ -51,15 +51,18 @@ pub fn run(args: TrainArgs) -> anyhow::Result<()> {
         }
         changes.push(("run.deterministic", true.into()));
     }
+    let actors = ActorProcesses::Beside(args.actors);
+    if let Some(url) = &args.any.store {
+        let run = StoredRun {
+            command: RunCommand::Train,
+            new: &args.new,
+            any: &args.any,
+            changes: &changes,
+            name: None,
+            is_standby: false,
+        };
+        return run.run(url, HostOptions { any: &args.any, bus: &options, actors, metrics });
+    }
     let start = startup::prepare(RunCommand::Train, &args.new, &args.any, &changes)?;
-    let actors = match &start {
-        Start::Ready(prepared, _) => processes(&prepared.config, args.actors),
-        Start::Finished(..) => 0,
-    };
-    host::run(start, HostOptions { any: &args.any, bus: &options, actors: Some(actors), metrics })
-}
-
-fn processes(config: &Config, flag: Option<u32>) -> u32 {
-    let wanted = flag.filter(|_| !config.run.deterministic).unwrap_or(config.rollout.actors);
-    startup::actor_processes(wanted, config.rollout.envs)
+    host::run(start, HostOptions { any: &args.any, bus: &options, actors, metrics })
 }

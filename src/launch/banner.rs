@@ -61,7 +61,10 @@ pub fn print_start(
     }
     let command = actors.map_or("learner", |_| "train");
     say("  stop      Ctrl-C once finishes the update and saves");
-    say(&format!("  resume    treadmill {command} --resume {root}"));
+    if let Some(url) = &prepared.store {
+        say(&format!("  state     in {url}; any learner with the same --store can take over"));
+    }
+    say(&format!("  resume    {}", prepared.resume_command(command)));
 }
 
 /// Returns the command that starts an actor of this run.
@@ -117,12 +120,15 @@ pub fn print_finished(folder: &RunFolder, state: &TrainingState, command: &str) 
     ));
 }
 
-/// Prints the result of the run and the commands to use next.
-pub fn print_end(folder: &RunFolder, summary: &TrainingSummary, command: &str) {
+/// Prints the result of the run and the commands to use next; `resumed_by` resumes the run, whose state is in the store
+/// `store`, or else in its folder.
+pub fn print_end(folder: &RunFolder, store: Option<&str>, summary: &TrainingSummary, resumed_by: &str) {
     let root = quoted(&folder.root().display().to_string());
     let steps = summary.state.counters.env_steps;
     let what = if summary.stopped { "stopped" } else { "done" };
-    say(&format!("{what} after {} env steps; saved in {root}/checkpoints", thousands(steps)));
+    let run = store.map_or(root, quoted);
+    let place = store.map_or_else(|| format!("{run}/checkpoints"), str::to_string);
+    say(&format!("{what} after {} env steps; saved in {place}", thousands(steps)));
     if let Some(means) = summary.state.episodes.means() {
         let (end, farthest_m) = (means.length_mean, summary.history.farthest_m());
         let farthest = farthest_m.map(|m| format!("; farthest so far {m:.1} m")).unwrap_or_default();
@@ -136,14 +142,14 @@ pub fn print_end(folder: &RunFolder, summary: &TrainingSummary, command: &str) {
         ));
     }
     if summary.stopped {
-        say_error(&format!("resume with: treadmill {command} --resume {root}"));
+        say_error(&format!("resume with: {resumed_by}"));
     } else {
-        say(&format!("train it further: treadmill {command} --resume {root} --steps {}", steps.saturating_mul(2)));
+        say(&format!("train it further: {resumed_by} --steps {}", steps.saturating_mul(2)));
     }
     if summary.state.model_xml.is_empty() {
-        say(&format!("take the policy elsewhere: treadmill export {root} --safetensors FILE"));
+        say(&format!("take the policy elsewhere: treadmill export {run} --safetensors FILE"));
     } else {
-        say(&format!("see how far it walks: treadmill eval {root} --episodes 1 --gif walk.gif"));
+        say(&format!("see how far it walks: treadmill eval {run} --episodes 1 --gif walk.gif"));
     }
     say("compare it with other runs: treadmill runs");
 }

@@ -67,7 +67,7 @@ fn begin_built_in(command: RunCommand, new: &NewRunArgs, any: &AnyRunArgs, confi
     let (folder, lock) = create_folder(new, new.preset())?;
     let run = folder.name().to_string();
     state.run.clone_from(&run);
-    let prepared = Prepared { config, folder, device, mirror, run, state: Some(state), init_from, origin };
+    let prepared = Prepared { config, folder, device, mirror, run, state: Some(state), init_from, origin, store: None };
     Ok(Start::Ready(Box::new(prepared), lock))
 }
 
@@ -81,7 +81,8 @@ fn begin_external(new: &NewRunArgs, any: &AnyRunArgs, config: Config) -> anyhow:
     let init_from = InitFrom::read(new, any)?;
     let (folder, lock) = create_folder(new, new.preset())?;
     let run = folder.name().to_string();
-    let mut prepared = Prepared { config, folder, device, mirror: None, run, state: None, init_from, origin: None };
+    let mut prepared =
+        Prepared { config, folder, device, mirror: None, run, state: None, init_from, origin: None, store: None };
     let set = known.map_or(Ok(()), |task| prepared.set_task(task));
     set.inspect_err(|_| prepared.folder.discard())?;
     Ok(Start::Ready(Box::new(prepared), lock))
@@ -117,7 +118,8 @@ fn branch_off(
     let (folder, lock) = create_folder(new, &prefix)?;
     let run = folder.name().to_string();
     state.run.clone_from(&run);
-    let prepared = Prepared { config, folder, device, mirror, run, state: Some(state), init_from: None, origin };
+    let prepared =
+        Prepared { config, folder, device, mirror, run, state: Some(state), init_from: None, origin, store: None };
     Ok(Start::Ready(Box::new(prepared), lock))
 }
 

@@ -1,6 +1,7 @@
 //! Hosts a learner in this process; for `train`, also starts actor processes.
 
 use std::{
+    net::SocketAddr,
     sync::{Arc, atomic::AtomicU64},
     time::Duration,
 };
@@ -9,8 +10,10 @@ use anyhow::Context;
 use serde_json::json;
 use tokio::sync::oneshot;
 use treadmill_bus::{Bus, BusOptions, TaskServer};
+use treadmill_config::Config;
 use treadmill_learner::{
     checkpoint::TrainingState,
+    leadership::Leadership,
     metrics::{ConsoleOptions, PrometheusMetrics, episodes::EpisodeMeans},
     training::{self, Heartbeat, TrainingError, TrainingOptions, TrainingSummary},
 };
@@ -37,16 +40,37 @@ pub struct HostOptions<'a> {
     pub any: &'a AnyRunArgs,
     /// Options of the bus.
     pub bus: &'a BusOptions,
-    /// Number of actor processes to start; `None` for `learner`, whose actors join by themselves.
-    pub actors: Option<u32>,
+    /// Actor processes to start.
+    pub actors: ActorProcesses,
     /// Socket of the metrics page.
     pub metrics: Option<MetricsListener>,
+}
+
+/// Actor processes that a command starts.
+#[derive(Clone, Copy, Debug)]
+pub enum ActorProcesses {
+    /// None, as `learner`: actors join by themselves.
+    None,
+    /// Those of `train`: as many as this flag says, or else the configuration.
+    Beside(Option<u32>),
+}
+
+impl ActorProcesses {
+    /// Returns how many there are for a configuration; `None` if they join by themselves.
+    fn count(self, config: &Config) -> Option<u32> {
+        let Self::Beside(flag) = self else { return None };
+        let wanted = flag.filter(|_| !config.run.deterministic).unwrap_or(config.rollout.actors);
+        Some(startup::actor_processes(wanted, config.rollout.envs))
+    }
 }
 
 impl HostOptions<'_> {
     /// Returns the command that this process runs.
     fn command(&self) -> &'static str {
-        self.actors.map_or("learner", |_| "train")
+        match self.actors {
+            ActorProcesses::None => "learner",
+            ActorProcesses::Beside(_) => "train",
+        }
     }
 }
 
@@ -55,75 +79,160 @@ pub fn run(start: Start, options: HostOptions) -> anyhow::Result<()> {
     let (prepared, mut lock) = match start {
         Start::Ready(prepared, lock) => (*prepared, lock),
         Start::Finished(folder, state) => {
-            banner::print_finished(&folder, &state, options.command());
-            if options.any.json {
-                say(&as_json(&TrainingSummary::finished(*state)));
-            }
+            print_finished(&folder, *state, &options);
             return Ok(());
         }
     };
     memory::keep_freed();
     let folder = prepared.folder.clone();
-    let outcome = async_runtime::run(run_until_done(prepared, &mut lock, options));
+    let outcome = async_runtime::run(async {
+        let mut host = Host::open(options).await?;
+        let outcome = host.lead(prepared, &mut lock, None).await;
+        host.close();
+        outcome
+    });
     if outcome.is_err() {
         folder.discard();
     }
     outcome
 }
 
-async fn run_until_done(mut prepared: Prepared, lock: &mut RunLock, options: HostOptions<'_>) -> anyhow::Result<()> {
-    let command = options.command();
-    let HostOptions { any, bus: bus_options, actors, metrics } = options;
-    let shutdown = Shutdown::default();
-    signals::listen(shutdown.clone(), "stopping after this update; press Ctrl-C again to stop at once")?;
-    let (bus, endpoints) = open_bus(bus_options, &prepared.folder).await?;
-    lock.set_endpoint(&endpoints.join(", ")).context("the lock of the run folder cannot be written")?;
-    let (prometheus, heartbeat) = (PrometheusMetrics::default(), Heartbeat::default());
-    let page =
-        metrics.map(|page| page.serve(prepared.run.clone(), prometheus.clone(), heartbeat.clone())).transpose()?;
-    banner::print_start(&prepared, &endpoints, bus_options.credentials.as_ref(), actors, page);
-    // Stays open during training, because actors that join later register their task too.
-    let Some(task_server) = wait_for_task(&bus, &mut prepared, &shutdown, &heartbeat).await? else {
-        bus.close();
-        say("stopped before any actor registered its task; nothing was trained");
-        return Ok(());
-    };
-
-    let restarts = Arc::new(AtomicU64::new(0));
-    let fleet = actors.map(|actors| fleet_options(&prepared, bus_options, &endpoints[0], actors)).transpose()?;
-    let folder = prepared.folder.clone();
-    let console = ConsoleOptions {
-        show_progress: !any.no_progress,
-        log_metrics: any.log_metrics,
-        actor_command: actors
-            .is_none()
-            .then(|| banner::actor_command(&prepared, &endpoints[0], bus_options.credentials.as_ref())),
-    };
-    let (state, training_options) = training_options(prepared, console, restarts.clone(), prometheus, heartbeat)?;
-    let trained = spawn_training(&bus, state, training_options, &shutdown)?;
-    let supervisor = fleet.map(|fleet| Supervisor::start(&fleet, restarts, shutdown));
-    let outcome = trained.await.context("the training thread panicked");
-    if let Some(supervisor) = supervisor {
-        let _step = SlowStepNotice::begin("waiting for the actors to end");
-        supervisor.stop().await?;
+/// Reports a run that has all its steps.
+pub fn print_finished(folder: &RunFolder, state: TrainingState, options: &HostOptions<'_>) {
+    banner::print_finished(folder, &state, options.command());
+    if options.any.json {
+        say(&as_json(&TrainingSummary::finished(state)));
     }
-    drop(task_server);
-    bus.close();
-    let summary = outcome??;
-    banner::print_end(&folder, &summary, command);
-    if any.json {
-        say(&as_json(&summary));
-    }
-    Ok(())
 }
 
-/// Opens the bus and writes its endpoints into the run folder.
-async fn open_bus(options: &BusOptions, folder: &RunFolder) -> anyhow::Result<(Bus, Vec<String>)> {
-    let options = options.clone();
-    let (bus, endpoints) = tokio::task::spawn_blocking(move || Bus::open_router(&options)).await??;
-    let text = endpoints.join("\n") + "\n";
-    atomic_file::write(&folder.endpoint(), text.as_bytes()).context("the endpoint cannot be written")?;
-    Ok((bus, endpoints))
+/// Learner process: its session, signals and metrics page, which outlast a leadership.
+pub struct Host<'a> {
+    options: HostOptions<'a>,
+    /// Session, which listens.
+    pub bus: Bus,
+    endpoints: Vec<String>,
+    /// Requested by a signal.
+    pub shutdown: Shutdown,
+    prometheus: PrometheusMetrics,
+    /// Progress, for the health check.
+    pub heartbeat: Heartbeat,
+    page: Option<SocketAddr>,
+}
+
+impl<'a> Host<'a> {
+    /// Opens the session and listens to signals.
+    ///
+    /// # Errors
+    /// If an endpoint is in use, or the system refuses.
+    pub async fn open(options: HostOptions<'a>) -> anyhow::Result<Self> {
+        let shutdown = Shutdown::default();
+        signals::listen(shutdown.clone(), "stopping after this update; press Ctrl-C again to stop at once")?;
+        let bus_options = options.bus.clone();
+        let (bus, endpoints) = tokio::task::spawn_blocking(move || Bus::open_router(&bus_options)).await??;
+        let (prometheus, heartbeat) = (PrometheusMetrics::default(), Heartbeat::default());
+        Ok(Self { options, bus, endpoints, shutdown, prometheus, heartbeat, page: None })
+    }
+
+    /// Flags and options of this process.
+    pub fn options(&self) -> &HostOptions<'a> {
+        &self.options
+    }
+
+    /// Endpoints on which the session listens.
+    pub fn endpoints(&self) -> &[String] {
+        &self.endpoints
+    }
+
+    /// Closes the session.
+    pub fn close(&self) {
+        self.bus.close();
+    }
+
+    /// Serves the metrics page, unless it is served already or not wanted.
+    pub fn serve_page(&mut self, run: &str) -> anyhow::Result<()> {
+        if let Some(page) = self.options.metrics.take() {
+            self.page = Some(page.serve(run.to_string(), self.prometheus.clone(), self.heartbeat.clone())?);
+        }
+        Ok(())
+    }
+
+    /// Leads a run until it is complete or stopped, or another learner leads.
+    ///
+    /// # Errors
+    /// If training fails; [`TrainingError::Leadership`] if another learner leads.
+    pub async fn lead(
+        &mut self,
+        mut prepared: Prepared,
+        lock: &mut RunLock,
+        leadership: Option<Leadership>,
+    ) -> anyhow::Result<()> {
+        let command = self.options.command();
+        let folder = prepared.folder.clone();
+        let text = self.endpoints.join("\n") + "\n";
+        atomic_file::write(&folder.endpoint(), text.as_bytes()).context("the endpoint cannot be written")?;
+        lock.set_endpoint(&self.endpoints.join(", ")).context("the lock of the run folder cannot be written")?;
+        self.serve_page(&prepared.run)?;
+        let (credentials, actors) =
+            (self.options.bus.credentials.as_ref(), self.options.actors.count(&prepared.config));
+        banner::print_start(&prepared, &self.endpoints, credentials, actors, self.page);
+        // Stays open during training, because actors that join later register their task too.
+        let Some(task_server) = wait_for_task(&self.bus, &mut prepared, &self.shutdown, &self.heartbeat).await? else {
+            say("stopped before any actor registered its task; nothing was trained");
+            return Ok(());
+        };
+        let restarts = Arc::new(AtomicU64::new(0));
+        let endpoint = &self.endpoints[0];
+        let fleet = actors.map(|actors| fleet_options(&prepared, self.options.bus, endpoint, actors)).transpose()?;
+        let console = ConsoleOptions {
+            show_progress: !self.options.any.no_progress,
+            log_metrics: self.options.any.log_metrics,
+            actor_command: actors.is_none().then(|| banner::actor_command(&prepared, endpoint, credentials)),
+        };
+        let epoch = leadership.as_ref().map_or(lock.epoch(), Leadership::epoch);
+        let (resumed_by, store) = (prepared.resume_command(command), prepared.store.clone());
+        let (state, training_options) = self.training_options(prepared, console, restarts.clone(), epoch)?;
+        let trained = spawn_training(&self.bus, state, leadership, training_options, &self.shutdown)?;
+        let supervisor = fleet.map(|fleet| Supervisor::start(&fleet, restarts, self.shutdown.clone()));
+        let outcome = trained.await.context("the training thread panicked");
+        if let Some(supervisor) = supervisor {
+            let _step = SlowStepNotice::begin("waiting for the actors to end");
+            supervisor.stop().await?;
+        }
+        drop(task_server);
+        let summary = outcome??;
+        banner::print_end(&folder, store.as_deref(), &summary, &resumed_by);
+        if self.options.any.json {
+            say(&as_json(&summary));
+        }
+        Ok(())
+    }
+
+    /// Returns the state to train from and the options of the training.
+    fn training_options(
+        &self,
+        prepared: Prepared,
+        console: ConsoleOptions,
+        restarts: Arc<AtomicU64>,
+        epoch: u64,
+    ) -> anyhow::Result<(TrainingState, TrainingOptions)> {
+        let Prepared { config, folder, device, mirror, state, .. } = prepared;
+        let state = state.context(NO_STATE)?;
+        let options = TrainingOptions {
+            folder,
+            epoch,
+            steps: config.run.steps,
+            device,
+            mirror,
+            console,
+            restarts,
+            prometheus: self.prometheus.clone(),
+            heartbeat: self.heartbeat.clone(),
+            command: startup::command_line(),
+            versions: startup::versions(&config),
+            action_names: model::action_names(&state.model_xml),
+        };
+        Ok((state, options))
+    }
 }
 
 /// Waits until the run's task is known, with heartbeats, because a learner that waits for its first actor is healthy. Returns
@@ -143,32 +252,6 @@ async fn wait_for_task(
             _ = beat.tick() => heartbeat.beat(),
         }
     }
-}
-
-/// Returns the state to train from and the options of the training.
-fn training_options(
-    prepared: Prepared,
-    console: ConsoleOptions,
-    restarts: Arc<AtomicU64>,
-    prometheus: PrometheusMetrics,
-    heartbeat: Heartbeat,
-) -> anyhow::Result<(TrainingState, TrainingOptions)> {
-    let Prepared { config, folder, device, mirror, state, .. } = prepared;
-    let state = state.context(NO_STATE)?;
-    let options = TrainingOptions {
-        folder,
-        steps: config.run.steps,
-        device,
-        mirror,
-        console,
-        restarts,
-        prometheus,
-        heartbeat,
-        command: startup::command_line(),
-        versions: startup::versions(&config),
-        action_names: model::action_names(&state.model_xml),
-    };
-    Ok((state, options))
 }
 
 /// Returns the options of the actor processes.
@@ -197,13 +280,14 @@ const NO_STATE: &str = "the task is known, but the run has no state";
 fn spawn_training(
     bus: &Bus,
     state: TrainingState,
+    leadership: Option<Leadership>,
     options: TrainingOptions,
     shutdown: &Shutdown,
 ) -> std::io::Result<oneshot::Receiver<Result<TrainingSummary, TrainingError>>> {
     let (sender, receiver) = oneshot::channel();
     let (bus, shutdown) = (bus.clone(), shutdown.clone());
     std::thread::Builder::new().name("training".to_string()).spawn(move || {
-        let _ = sender.send(training::train(&bus, state, &options, &shutdown));
+        let _ = sender.send(training::train(&bus, state, leadership, &options, &shutdown));
     })?;
     Ok(receiver)
 }

@@ -4,7 +4,7 @@
 //! - Before a run: `run_args` (flags), `startup` (from flags to a run that is ready), `begin` (a new run), `warm_start` (from another
 //!   run's policy or state), `resumption` (loads a saved run and compares the flags with it), `model` (the robot),
 //!   `external_task` (waits for the task that the first actor registers), `banner` (text printed before and after a run).
-//! - During a run: `host` (a learner with actors beside it), `supervisor` (restarts actor processes), `bus_client` (flags and
+//! - During a run: `host` (a learner with actors beside it), `durability` (a learner whose state is in a store), `supervisor` (restarts actor processes), `bus_client` (flags and
 //!   session of an actor or evaluator), `metrics_page` (metrics over HTTP).
 //! - The process: `async_runtime`, `familiar_flags` (hints for flags of other programs), `processor` (refuses one that is too
 //!   old), `memory` (allocator settings), [`exit_code`], [`signals`], [`log`], [`output`], [`slow_step`], [`terminal_screen`].
@@ -13,6 +13,7 @@ pub(crate) mod async_runtime;
 pub(crate) mod banner;
 pub(crate) mod begin;
 pub(crate) mod bus_client;
+pub(crate) mod durability;
 pub mod exit_code;
 pub(crate) mod external_task;
 pub(crate) mod familiar_flags;

@@ -5,7 +5,7 @@ use std::fs;
 use toml::Table;
 use treadmill_config::{Config, ConfigSource};
 use treadmill_humanoid::PHYSICS_VERSION;
-use treadmill_learner::checkpoint::{self, Which};
+use treadmill_learner::checkpoint::{self, TrainingState, Which};
 use treadmill_runtime::{numbers::thousands, run_folder::RunFolder, run_lock::RunLock, seeds};
 
 use crate::launch::{
@@ -33,7 +33,22 @@ pub fn resume(
     let _step = SlowStepNotice::begin(format!("loading the checkpoint of {}", folder.root().display()));
     // With --resume-or-start, the flag chooses the checkpoint to begin from.
     let which = any.checkpoint.filter(|_| any.resume.is_some()).unwrap_or(Which::Latest);
-    let mut state = checkpoint::load(&folder, which)?.state;
+    let state = checkpoint::load(&folder, which)?.state;
+    go_on(command, (folder, lock), state, new, any, changes)
+}
+
+/// Resumes a run from a state that was read from its store; `folder` is for the logs of this machine.
+///
+/// # Errors
+/// As [`resume`].
+pub fn go_on(
+    command: RunCommand,
+    (folder, lock): (RunFolder, RunLock),
+    mut state: TrainingState,
+    new: &NewRunArgs,
+    any: &AnyRunArgs,
+    changes: &[(&str, toml::Value)],
+) -> anyhow::Result<Start> {
     let mut config = state.config().map_err(anyhow::Error::msg)?;
     startup::check_external(command, &config, any)?;
     // Labels describe the run and may change at each start, as may the number of processes.
@@ -86,6 +101,7 @@ pub fn resume(
         state: Some(state),
         init_from: None,
         origin: None,
+        store: any.store.clone(),
     };
     Ok(Start::Ready(Box::new(prepared), lock))
 }

@@ -72,9 +72,21 @@ pub struct Prepared {
     pub init_from: Option<InitFrom>,
     /// Where its first state came from, if it is not fresh.
     pub origin: Option<String>,
+    /// URL of the store of its state, unless that is in its folder.
+    pub store: Option<String>,
 }
 
 impl Prepared {
+    /// Returns the command that resumes this run.
+    pub fn resume_command(&self, command: &str) -> String {
+        match &self.store {
+            Some(url) => format!("treadmill {command} --store {} --resume-or-start", words::quoted(url)),
+            None => {
+                format!("treadmill {command} --resume {}", words::quoted(&self.folder.root().display().to_string()))
+            }
+        }
+    }
+
     /// Sets the task of a new run and creates its state.
     pub fn set_task(&mut self, task: Task) -> anyhow::Result<()> {
         let (observation, action) = (task.observation_size as usize, task.action_size as usize);
@@ -106,21 +118,33 @@ pub fn prepare(
     any: &AnyRunArgs,
     changes: &[(&str, toml::Value)],
 ) -> anyhow::Result<Start> {
+    if any.resume_or_start && new.run_dir.is_none() {
+        let why = "--resume-or-start needs the folder of the run: pass --run-dir DIR, or --store URL".to_string();
+        return Err(Usage(why).into());
+    }
     let begun = new.run_dir.as_deref().filter(|root| any.resume_or_start && RunFolder::has_checkpoint(root));
     let saved = any.resume.clone().or(begun.map(|root| root.display().to_string()));
     let start = match saved {
         Some(run) => resumption::resume(command, &run, new, any, changes)?,
         None => begin::begin(command, new, any, changes)?,
     };
-    let Start::Ready(prepared, _) = &start else { return Ok(start) };
+    write_files(&start)?;
+    Ok(start)
+}
+
+/// Writes the files of a run that is ready, besides its state.
+///
+/// # Errors
+/// If its folder cannot be written; a new one is removed then.
+pub fn write_files(start: &Start) -> anyhow::Result<()> {
+    let Start::Ready(prepared, _) = start else { return Ok(()) };
     let stale = prepared.folder.remove_stale_files()?;
     if stale > 0 {
         tracing::info!(stale, "removed temporary files that a killed process left");
     }
     write_run_files(prepared)
         .inspect_err(|_| prepared.folder.discard())
-        .with_context(|| format!("cannot write to {}", prepared.folder.root().display()))?;
-    Ok(start)
+        .with_context(|| format!("cannot write to {}", prepared.folder.root().display()))
 }
 
 /// Sets what `run.deterministic` requires.

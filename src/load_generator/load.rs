@@ -312,7 +312,7 @@ fn deliver(
 /// Fetches each announced policy, and published ones whose announcement was lost. Reports the time of each.
 async fn follow(bus: &Bus, announcements: &Announcements, shared: &Shared, fetched: &Sender<(u64, f64)>) {
     let poll_interval = Duration::from_millis(BusConfig::default().policy_poll_ms);
-    let mut known = PolicyVersion { incarnation: workload::INCARNATION, number: 0 };
+    let mut known = PolicyVersion::new(workload::INCARNATION, 0);
     loop {
         let announced = tokio::time::timeout(poll_interval, announcements.next()).await;
         if announced.is_err() && shared.published.load(Ordering::Relaxed) == known.number {

@@ -40,7 +40,7 @@ pub(super) fn fragment(bytes: usize, precision: Precision) -> Result<(PreparedFr
         actor: "a".to_string(),
         actor_incarnation: ACTOR_INCARNATION,
         sequence: 1,
-        version: PolicyVersion { incarnation: INCARNATION, number: 0 },
+        version: PolicyVersion::new(INCARNATION, 0),
         config_hash: CONFIG_HASH,
         steps: STEPS,
         envs: envs as u32,
@@ -68,7 +68,7 @@ pub(super) fn bundles() -> [PolicyBundle; 2] {
     let weights = [to_safetensors(&shape, &parameters), actor_to_safetensors(&shape, &parameters)];
     weights.map(|weights| PolicyBundle {
         run: RUN.to_string(),
-        version: PolicyVersion { incarnation: INCARNATION, number: 0 },
+        version: PolicyVersion::new(INCARNATION, 0),
         observation_size: WIDTHS.0,
         action_size: WIDTHS.1,
         hidden: shape.hidden.iter().map(|width| *width as u32).collect(),

@@ -57,7 +57,7 @@ async fn a_refused_fragment_gets_a_receipt_with_the_reason_and_training_continue
     torn.truncate(torn.len() / 2);
     assert_eq!(send(&fixture.bus, torn).await.outcome, Outcome::Malformed);
 
-    let vanished = treadmill_proto::PolicyVersion { incarnation: 99, number: 1 };
+    let vanished = treadmill_proto::PolicyVersion::new(99, 1);
     let receipt = send(&fixture.bus, Fragment { version: vanished, ..good.clone() }.encode().unwrap()).await;
     assert_eq!(receipt.outcome, Outcome::Vanished);
 

@@ -21,7 +21,7 @@ fn bundle(number: u64) -> [PolicyBundle; 2] {
         let weights = Bytes::from(vec![number as u8; length]);
         PolicyBundle {
             run: "run".into(),
-            version: PolicyVersion { incarnation: 7, number },
+            version: PolicyVersion::new(7, number),
             observation_size: 1,
             action_size: 1,
             hidden: vec![1],
@@ -71,8 +71,8 @@ async fn fetch_with_all(clients: &[Bus], number: u64) {
     for bus in clients {
         let bus = bus.clone();
         fetches.spawn(async move {
-            let announced = Some(PolicyVersion { incarnation: 7, number });
-            let known = Some(PolicyVersion { incarnation: 7, number: number - 1 });
+            let announced = Some(PolicyVersion::new(7, number));
+            let known = Some(PolicyVersion::new(7, number - 1));
             let request = PolicyRequest { known, announced, config_hash: 9, offset: 0 };
             // Without a reply, the client does not know its router again yet.
             let fetched = loop {
@@ -121,7 +121,7 @@ async fn a_router_fetches_each_version_once_for_all_actors_behind_it() {
     // Actors that poll get a short answer, wherever it comes from.
     let before = server.served();
     for client in &clients {
-        let request = PolicyRequest { known: Some(PolicyVersion { incarnation: 7, number: 5 }), ..Default::default() };
+        let request = PolicyRequest { known: Some(PolicyVersion::new(7, 5)), ..Default::default() };
         let polled = fetch_newer_policy(client, "run", &request, TIMEOUT).await.unwrap();
         assert_eq!(polled, Some(FetchedPolicy::Unchanged));
     }

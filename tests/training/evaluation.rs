@@ -52,7 +52,7 @@ fn forged_reports_are_ignored() {
         let report = treadmill_proto::EvaluationReport {
             run: run.file_name().unwrap().to_str().unwrap().into(),
             evaluator: "liar".into(),
-            version: treadmill_proto::PolicyVersion { incarnation: 1, number: 1 },
+            version: treadmill_proto::PolicyVersion::new(1, 1),
             episodes: 10,
             return_mean: 1e9,
             return_std: 0.0,

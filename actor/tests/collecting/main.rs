@@ -39,7 +39,7 @@ fn policy(observation: usize) -> ActingPolicy {
     let weights = to_safetensors(&shape, &parameters);
     ActingPolicy::new(&PolicyBundle {
         run: "walk".into(),
-        version: PolicyVersion { incarnation: 3, number: 4 },
+        version: PolicyVersion::new(3, 4),
         observation_size: observation as u32,
         action_size: 17,
         hidden: vec![8],

@@ -11,7 +11,7 @@ use treadmill_proto::{PolicyVersion, Pose};
 
 use crate::identity;
 
-const VERSION: PolicyVersion = PolicyVersion { incarnation: 3, number: 4 };
+const VERSION: PolicyVersion = PolicyVersion::new(3, 4);
 const ENVS: usize = 2;
 
 struct Recording {

@@ -66,7 +66,7 @@ fn the_next_fragment_continues_where_the_last_one_ended() {
     assert_eq!((first.sequence, second.sequence, second.settled_through), (1, 2, 1));
     assert_eq!((first.steps, second.steps), (4, 6), "each fragment has the length that was asked for");
     assert_eq!((first.env_steps, second.env_steps), (12, 30));
-    assert_eq!(first.version, PolicyVersion { incarnation: 3, number: 4 });
+    assert_eq!(first.version, PolicyVersion::new(3, 4));
     // No episode ends within ten steps, so the second fragment begins with the last observation of the first.
     assert!(first.flags.iter().chain(&second.flags).all(|flags| *flags == 0));
     assert_eq!(first.last_observations, second.observations[..3 * 45]);

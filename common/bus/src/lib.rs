@@ -28,7 +28,7 @@ pub use flows::{
     policy_fetch::{FetchedPolicy, fetch_newer_policy, fetch_policy},
     policy_pieces::ServedPolicies,
     poses::PosePublisher,
-    presence::{Alive, AliveView, is_actor_present, live_runs, token},
+    presence::{Alive, AliveView, is_actor_present, is_any_actor_present, is_learner_present, live_runs, token},
     publications::publish_dropping,
     received::ReceivedFragment,
     rollouts::{IncomingFragment, RolloutIntake, submit},

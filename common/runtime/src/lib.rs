@@ -3,6 +3,7 @@
 //! # Layout
 //! - [`seeds`]: named random streams, derived from the run's seed.
 //! - [`run_folder`]: the folder with a run's files; [`run_lock`]: the right to write into it.
+//! - [`epoch`]: the terms of a run's learners.
 //! - [`atomic_file`]: writes a file atomically.
 //! - [`shutdown`]: stops every part of a process.
 //! - [`error_chain`]: an error message with its causes.
@@ -11,6 +12,7 @@
 //! - [`machine`]: facts about this machine, for benchmarks and status reports.
 
 pub mod atomic_file;
+pub mod epoch;
 mod error_chain;
 pub mod machine;
 pub mod numbers;

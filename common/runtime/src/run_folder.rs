@@ -7,6 +7,7 @@
 //!   versions.json         versions of this program, the toolchain's target and the machine
 //!   endpoint.txt          the learner's endpoint
 //!   lock.json             the process that writes into this folder
+//!   store.txt             the store of the run's state, if that is not in checkpoints/
 //!   model.xml             the humanoid
 //!   metrics.jsonl         one line per scalar
 //!   accounts.jsonl        one line per actor process
@@ -99,6 +100,30 @@ impl RunFolder {
         unreachable!("no file system holds 4 billion runs")
     }
 
+    /// Opens or creates the folder for what this machine logs of a run whose state is in a store: `run_dir`, or `runs/RUN`.
+    ///
+    /// # Errors
+    /// [`RunFolderError::Taken`] if it holds another run, [`RunFolderError::Io`] if the system refuses.
+    pub fn of_stored(run_dir: Option<&Path>, run: &str, store: &str) -> Result<Self, RunFolderError> {
+        let root = run_dir.map_or_else(|| Path::new("runs").join(run), Path::to_path_buf);
+        let folder = Self::at(&root);
+        let known = fs::read_to_string(folder.store()).unwrap_or_default();
+        if folder.is_used() && known.trim() != store {
+            return Err(RunFolderError::Taken { path: root.display().to_string() });
+        }
+        let folder = folder.prepare()?;
+        folder.set_store(store)?;
+        Ok(folder)
+    }
+
+    /// Writes the URL of the store of the run's state.
+    ///
+    /// # Errors
+    /// [`RunFolderError::Io`].
+    pub fn set_store(&self, store: &str) -> Result<(), RunFolderError> {
+        atomic_file::write(&self.store(), format!("{store}\n").as_bytes()).map_err(|source| self.io(source))
+    }
+
     /// Opens the folder of an existing run, by path or by name below `runs/`.
     pub fn open(run: &str) -> Result<Self, RunFolderError> {
         let given = Path::new(run);
@@ -140,7 +165,9 @@ impl RunFolder {
         }
         // What cannot be removed stays: the failed start is the error to report.
         let _ = self.remove_stale_files();
-        for name in ["config.toml", "command.txt", "versions.json", "model.xml", "endpoint.txt", "lock.json"] {
+        for name in
+            ["config.toml", "command.txt", "versions.json", "model.xml", "endpoint.txt", "lock.json", "store.txt"]
+        {
             let _ = fs::remove_file(self.root.join(name));
         }
         let _ = fs::remove_dir(self.checkpoints());
@@ -202,6 +229,11 @@ impl RunFolder {
         self.root.join("lock.json")
     }
 
+    /// Returns the path of the URL of the store.
+    pub fn store(&self) -> PathBuf {
+        self.root.join("store.txt")
+    }
+
     /// Returns the path of the learner's endpoint.
     pub fn endpoint(&self) -> PathBuf {
         self.root.join("endpoint.txt")
@@ -250,6 +282,17 @@ mod tests {
         fs::write(run.checkpoints().join("latest.bundle"), "state").unwrap();
         let again = RunFolder::create(Some(&root), "walk").unwrap_err().to_string();
         assert!(again.contains("--resume"), "{again}");
+    }
+
+    #[test]
+    fn a_folder_of_a_stored_run_is_not_mixed_with_another_run() {
+        let folder = tempfile::tempdir().unwrap();
+        let root = folder.path().join("walk");
+        let run = RunFolder::of_stored(Some(&root), "walk", "s3://box/walk").unwrap();
+        fs::write(run.metrics(), "{}").unwrap();
+        assert_eq!(RunFolder::of_stored(Some(&root), "walk", "s3://box/walk").unwrap(), run);
+        let refused = RunFolder::of_stored(Some(&root), "walk", "s3://box/other").unwrap_err();
+        assert!(matches!(refused, RunFolderError::Taken { .. }));
     }
 
     #[test]

@@ -11,7 +11,7 @@ use std::{
 use serde_json::{Value, json};
 
 use crate::{
-    machine,
+    epoch, machine,
     run_folder::{RunFolder, RunFolderError},
 };
 
@@ -28,6 +28,8 @@ pub struct Holder {
     pub host: String,
     /// Endpoint on which it listens, once it does.
     pub endpoint: String,
+    /// Its epoch; 0 if the lock's file does not say.
+    pub epoch: u64,
 }
 
 impl Holder {
@@ -37,7 +39,8 @@ impl Holder {
         let value: Value = serde_json::from_str(&text).unwrap_or_default();
         let text = |key: &str| value[key].as_str().unwrap_or_default().to_string();
         let pid = value["pid"].as_u64().and_then(|pid| u32::try_from(pid).ok());
-        Self { pid, host: text("host"), endpoint: text("endpoint") }
+        let epoch = value["epoch"].as_u64().unwrap_or_default();
+        Self { pid, host: text("host"), endpoint: text("endpoint"), epoch }
     }
 }
 
@@ -53,6 +56,7 @@ impl fmt::Display for Holder {
 #[derive(Debug)]
 pub struct RunLock {
     file: File,
+    epoch: u64,
 }
 
 impl RunLock {
@@ -63,7 +67,7 @@ impl RunLock {
     pub fn take(folder: &RunFolder) -> Result<Self, RunFolderError> {
         let io = |source| RunFolderError::Io { path: folder.root().display().to_string(), source };
         let open = OpenOptions::new().create(true).truncate(false).write(true).open(folder.lock());
-        let mut lock = Self { file: open.map_err(io)? };
+        let mut lock = Self { file: open.map_err(io)?, epoch: 0 };
         for attempt in 1.. {
             match lock.file.try_lock() {
                 Ok(()) => break,
@@ -75,8 +79,15 @@ impl RunLock {
                 Err(TryLockError::Error(source)) => return Err(io(source)),
             }
         }
+        lock.epoch = epoch::next(Holder::read(folder).epoch);
         lock.set_endpoint("").map_err(io)?;
         Ok(lock)
+    }
+
+    /// Returns the epoch of this process: higher than that of any before which had the lock.
+    #[must_use]
+    pub fn epoch(&self) -> u64 {
+        self.epoch
     }
 
     /// Writes the endpoint on which this process listens into the lock's file.
@@ -84,7 +95,8 @@ impl RunLock {
     /// # Errors
     /// The system's error.
     pub fn set_endpoint(&mut self, endpoint: &str) -> io::Result<()> {
-        let holder = json!({"pid": std::process::id(), "host": machine::host_name(), "endpoint": endpoint});
+        let (pid, host) = (std::process::id(), machine::host_name());
+        let holder = json!({"pid": pid, "host": host, "endpoint": endpoint, "epoch": self.epoch});
         // The same file, because the lock belongs to it.
         self.file.set_len(0)?;
         self.file.rewind()?;
@@ -109,6 +121,7 @@ mod tests {
         let run = RunFolder::create(Some(&folder.path().join("run")), "walk").unwrap();
         assert_eq!(holder(&run), None);
         let mut lock = RunLock::take(&run).unwrap();
+        let epoch = lock.epoch();
         assert!(RunLock::take(&run).unwrap_err().to_string().contains(&format!("process {}", std::process::id())));
         lock.set_endpoint("tcp/127.0.0.1:7").unwrap();
         let refused = RunLock::take(&run).unwrap_err().to_string();
@@ -116,7 +129,7 @@ mod tests {
         assert_eq!(holder(&run).unwrap().pid, Some(std::process::id()));
         drop(lock);
         assert_eq!(holder(&run), None);
-        drop(RunLock::take(&run).unwrap());
+        assert!(RunLock::take(&run).unwrap().epoch() > epoch, "each holder has a higher one");
     }
 
     #[test]

@@ -10,16 +10,19 @@ mod fallback;
 mod format_3;
 mod format_5;
 mod state;
+mod writer;
 
 use std::{
     fs, io,
     path::{Path, PathBuf},
 };
 
-use treadmill_runtime::{atomic_file, run_folder::RunFolder};
+use treadmill_runtime::run_folder::RunFolder;
+use treadmill_store::StoreError;
 
 use self::encoding::{FORMAT, FORMAT_OLDEST};
 pub use state::{Counters, TrainingState};
+pub use writer::CheckpointWriter;
 
 /// Selects a checkpoint of a run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -123,6 +126,9 @@ pub enum CheckpointError {
         /// Error of the system.
         source: io::Error,
     },
+    /// The store failed.
+    #[error(transparent)]
+    Store(#[from] StoreError),
     /// It cannot be read.
     #[error("cannot read checkpoint `{path}`; choose another one by --checkpoint")]
     Read {
@@ -166,9 +172,17 @@ pub fn load_file(path: &Path) -> Result<TrainingState, CheckpointError> {
         }
         Err(source) => return Err(CheckpointError::Read { path: name, source }),
     };
-    let state = decode(&name, &bytes)?;
-    state.config().map_err(|why| CheckpointError::Configuration { path: name.clone(), why })?;
-    state.check().map_err(|why| CheckpointError::Shape { path: name, why })?;
+    read(&name, &bytes)
+}
+
+/// Decodes and checks the bytes of a checkpoint; `name` stands in errors.
+///
+/// # Errors
+/// If they are damaged, or of a format or configuration that this version refuses.
+pub fn read(name: &str, bytes: &[u8]) -> Result<TrainingState, CheckpointError> {
+    let state = decode(name, bytes)?;
+    state.config().map_err(|why| CheckpointError::Configuration { path: name.to_string(), why })?;
+    state.check().map_err(|why| CheckpointError::Shape { path: name.to_string(), why })?;
     Ok(state)
 }
 
@@ -197,84 +211,4 @@ fn known(folder: &Path) -> String {
 
 fn numbered(number: u64) -> String {
     format!("{number:08}.bundle")
-}
-
-/// Writes the checkpoints of one run.
-#[derive(Clone, Debug)]
-pub struct CheckpointWriter {
-    folder: PathBuf,
-    every_updates: u64,
-    keep: usize,
-}
-
-impl CheckpointWriter {
-    /// Writer that also writes a numbered checkpoint every `every_updates` updates and keeps the last `keep`.
-    pub fn new(folder: &RunFolder, every_updates: u64, keep: usize) -> Self {
-        Self { folder: folder.checkpoints(), every_updates, keep }
-    }
-
-    /// Writes `latest.bundle`. Returns the encoded state.
-    pub fn save(&self, state: &TrainingState) -> Result<Vec<u8>, CheckpointError> {
-        let bytes = encoding::encode(state)?;
-        self.write("latest.bundle", &bytes)?;
-        Ok(bytes)
-    }
-
-    /// Whether a numbered checkpoint is due after this number of updates.
-    pub fn is_due(&self, updates: u64) -> bool {
-        self.keep > 0 && updates > 0 && updates.is_multiple_of(self.every_updates)
-    }
-
-    /// Writes an encoded state as the checkpoint of this number of updates, and removes surplus ones.
-    pub fn save_numbered(&self, updates: u64, bytes: &[u8]) -> Result<(), CheckpointError> {
-        self.write(&numbered(updates), bytes)?;
-        self.prune();
-        Ok(())
-    }
-
-    /// Changes how often numbered checkpoints are written, and how many are kept.
-    pub fn set_retention(&mut self, every_updates: u64, keep: usize) {
-        (self.every_updates, self.keep) = (every_updates, keep);
-    }
-
-    /// Copies the newest, which has `updates` updates, to a numbered checkpoint. Returns its path.
-    pub fn keep_newest(&self, updates: u64) -> Result<PathBuf, CheckpointError> {
-        let latest = self.latest();
-        let bytes =
-            fs::read(&latest).map_err(|source| CheckpointError::Read { path: latest.display().to_string(), source })?;
-        self.write(&numbered(updates), &bytes)?;
-        Ok(self.folder.join(numbered(updates)))
-    }
-
-    /// Writes an encoded state as `best.bundle`.
-    pub fn save_best(&self, bytes: &[u8]) -> Result<(), CheckpointError> {
-        self.write("best.bundle", bytes)
-    }
-
-    /// Path of the newest checkpoint.
-    pub fn latest(&self) -> PathBuf {
-        self.folder.join("latest.bundle")
-    }
-
-    fn write(&self, name: &str, bytes: &[u8]) -> Result<(), CheckpointError> {
-        let path = self.folder.join(name);
-        atomic_file::write(&path, bytes)
-            .map_err(|source| CheckpointError::Write { path: path.display().to_string(), source })
-    }
-
-    fn prune(&self) {
-        let mut numbers: Vec<u64> = fs::read_dir(&self.folder)
-            .into_iter()
-            .flatten()
-            .flatten()
-            .filter_map(|entry| entry.file_name().to_string_lossy().strip_suffix(".bundle")?.parse().ok())
-            .collect();
-        numbers.sort_unstable();
-        let surplus = numbers.len().saturating_sub(self.keep);
-        for number in &numbers[..surplus] {
-            if let Err(why) = fs::remove_file(self.folder.join(numbered(*number))) {
-                tracing::warn!(checkpoint = number, error = %why, "old checkpoint not removed");
-            }
-        }
-    }
 }

@@ -27,12 +27,17 @@ pub enum Descent {
 impl Lineage {
     /// Lineage of a new run.
     pub fn new(incarnation: u64) -> Self {
-        Self { branches: Vec::new(), newest: PolicyVersion { incarnation, number: 0 } }
+        Self { branches: Vec::new(), newest: PolicyVersion::new(incarnation, 0) }
     }
 
     /// Newest version.
     pub fn newest(&self) -> PolicyVersion {
         self.newest
+    }
+
+    /// Sets the epoch of the newest and all later versions.
+    pub fn set_epoch(&mut self, epoch: u64) {
+        self.newest.epoch = epoch;
     }
 
     /// Advances by one update.
@@ -70,7 +75,7 @@ mod tests {
     use super::*;
 
     fn version(incarnation: u64, number: u64) -> PolicyVersion {
-        PolicyVersion { incarnation, number }
+        PolicyVersion::new(incarnation, number)
     }
 
     #[test]

@@ -20,7 +20,7 @@ fn fragment(sequence: u64, number: u64) -> Fragment {
         actor: "a".into(),
         actor_incarnation: 2,
         sequence,
-        version: PolicyVersion { incarnation: 1, number },
+        version: PolicyVersion::new(1, number),
         config_hash: 5,
         steps: 1,
         envs: 1,
@@ -56,7 +56,7 @@ fn each_outcome_and_its_count() {
     assert_eq!(outcome(&mut validator, &fragment(1, 5), &lineage), Outcome::Duplicate);
     assert_eq!(outcome(&mut validator, &fragment(2, 4), &lineage), Outcome::Accepted);
     assert_eq!(outcome(&mut validator, &fragment(3, 3), &lineage), Outcome::TooOld);
-    let vanished = Fragment { version: PolicyVersion { incarnation: 9, number: 5 }, ..fragment(4, 5) };
+    let vanished = Fragment { version: PolicyVersion::new(9, 5), ..fragment(4, 5) };
     assert_eq!(outcome(&mut validator, &vanished, &lineage), Outcome::Vanished);
     let other_run = Fragment { run: "other".into(), ..fragment(5, 5) };
     assert_eq!(outcome(&mut validator, &other_run, &lineage), Outcome::Malformed);

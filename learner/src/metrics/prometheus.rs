@@ -139,10 +139,10 @@ fn row(line: &str) -> Option<(String, String)> {
 mod tests {
     use super::*;
 
-    const NEWEST: PolicyVersion = PolicyVersion { incarnation: 7, number: 12 };
+    const NEWEST: PolicyVersion = PolicyVersion::new(7, 12);
 
     fn stats(number: u64, incarnation: u64) -> ActorStats {
-        let version = Some(PolicyVersion { incarnation, number }.into());
+        let version = Some(PolicyVersion::new(incarnation, number).into());
         ActorStats { version, env_steps_per_s: 1500.5, envs: 8, ..Default::default() }
     }
 

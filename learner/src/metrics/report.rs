@@ -10,7 +10,7 @@ use treadmill_runtime::{error_chain, machine, shutdown::Shutdown};
 use super::{Console, CurveThread, EventWriter, Histogram, History, JsonLines, PrometheusMetrics, tensorboard::texts};
 use crate::{
     checkpoint::TrainingState,
-    training::{TrainingError, TrainingOptions, disk_full::wait_for_disk_space},
+    training::{TrainingError, TrainingOptions, waiting::wait_to_write},
 };
 
 /// Publishes a JSON object under one tag.
@@ -99,8 +99,8 @@ impl MetricsReport {
                 time_unix_s,
             })
             .collect();
-        wait_for_disk_space(shutdown, || self.lines.write(&metrics))?;
-        wait_for_disk_space(shutdown, || self.events.scalars(env_steps, time_unix_s, scalars))?;
+        wait_to_write(shutdown, || self.lines.write(&metrics))?;
+        wait_to_write(shutdown, || self.events.scalars(env_steps, time_unix_s, scalars))?;
         self.prometheus.set(metrics.iter().map(|metric| (metric.tag.as_str(), metric.value)));
         for metric in &metrics {
             self.publish(metric);
@@ -121,7 +121,7 @@ impl MetricsReport {
         shutdown: &Shutdown,
     ) -> std::io::Result<()> {
         let time_unix_s = machine::time_unix_s();
-        wait_for_disk_space(shutdown, || self.events.histograms(env_steps, time_unix_s, histograms))
+        wait_to_write(shutdown, || self.events.histograms(env_steps, time_unix_s, histograms))
     }
 
     /// Reports a long wait for experience on the console; `actors` are alive.

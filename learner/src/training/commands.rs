@@ -7,7 +7,7 @@ use treadmill_policy::NetworkShape;
 use treadmill_proto::{Command, ControlRequest, Phase, RunStatus};
 use treadmill_runtime::{error_chain, machine, numbers::thousands};
 
-use super::{Trainer, load_adaptation::LoadAdaptation};
+use super::{Trainer, TrainingError, load_adaptation::LoadAdaptation, serving::Serving};
 use crate::{checkpoint::TrainingState, intake::HorizonRule};
 
 /// Longest wait of a paused learner between two checks for shutdown.
@@ -48,12 +48,13 @@ pub(super) fn first_status(state: &TrainingState, env_steps_wanted: u64) -> RunS
 
 impl Trainer {
     /// Applies every queued command; while paused, waits for more.
-    pub(super) fn apply_commands(&mut self) {
+    pub(super) fn apply_commands(&mut self) -> Result<(), TrainingError> {
         while !self.shutdown.asked() {
             self.serving.heartbeat.beat();
             let timeout = if self.serving.paused { TICK } else { Duration::ZERO };
             let Some(pending) = self.serving.control.next(timeout) else {
                 if self.serving.paused {
+                    self.check_leadership()?;
                     self.publish_status_if_due();
                     continue;
                 }
@@ -66,6 +67,7 @@ impl Trainer {
             self.publish_status(false);
             self.serving.control.answer(pending, outcome);
         }
+        Ok(())
     }
 
     fn apply(&mut self, request: &ControlRequest) -> Result<String, String> {
@@ -82,10 +84,12 @@ impl Trainer {
                 Ok(format!("resumed after update {updates} ({env_steps} env steps)"))
             }
             Command::Checkpoint => {
-                let path = self.serving.checkpoints.keep_newest(updates).map_err(|why| error_chain(&why))?;
-                Ok(format!("the state after update {updates} ({env_steps} env steps) is saved as {}", path.display()))
+                let Serving { checkpoints, saved, .. } = &self.serving;
+                let place = checkpoints.save_kept(updates, saved).map_err(|why| error_chain(&why))?;
+                Ok(format!("the state after update {updates} ({env_steps} env steps) is saved as {place}"))
             }
             Command::Stop => {
+                self.is_stopped = true;
                 self.shutdown.ask();
                 Ok(format!("stopping; saved after update {updates} ({env_steps} env steps)"))
             }

@@ -5,7 +5,7 @@ use std::io;
 use treadmill_bus::BusError;
 use treadmill_ppo::UpdateError;
 
-use crate::{checkpoint::CheckpointError, metrics::CurveError};
+use crate::{checkpoint::CheckpointError, leadership::LeadershipError, metrics::CurveError};
 
 /// Why training stopped early.
 #[derive(Debug, thiserror::Error)]
@@ -16,6 +16,9 @@ pub enum TrainingError {
     /// The state could not be saved.
     #[error(transparent)]
     Checkpoint(#[from] CheckpointError),
+    /// Another learner has taken the run over, or the store failed.
+    #[error(transparent)]
+    Leadership(#[from] LeadershipError),
     /// A log could not be written.
     #[error("the logs of the run cannot be written")]
     Log(#[from] io::Error),

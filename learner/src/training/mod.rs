@@ -14,13 +14,12 @@
 //! - [`evaluation`]: schedules evaluations during training.
 //! - [`load_adaptation`]: adapts batch size and passes to the load.
 //! - [`heartbeat`]: heartbeat of the training thread.
-//! - [`disk_full`]: waits while the disk is full.
+//! - [`waiting`]: waits while the disk is full or the store fails.
 
 mod alarms;
 mod background;
 mod commands;
 pub mod control;
-pub mod disk_full;
 mod error;
 pub mod evaluation;
 pub mod heartbeat;
@@ -30,6 +29,7 @@ mod options;
 mod reporting;
 mod serving;
 mod start;
+pub mod waiting;
 
 use std::time::Instant;
 
@@ -42,17 +42,19 @@ pub use self::error::TrainingError;
 pub use self::heartbeat::Heartbeat;
 pub use self::options::{TrainingOptions, TrainingSummary};
 use self::{learning::Learning, reporting::Reporting, serving::Serving};
-use crate::{checkpoint::TrainingState, metrics::scalars::PhaseDurations};
+use crate::{checkpoint::TrainingState, leadership::Leadership, metrics::scalars::PhaseDurations};
 
-/// Trains until the run has all its steps or shutdown is requested. Blocks, so it needs its own thread.
+/// Trains until the run has all its steps or shutdown is requested. Blocks, so it needs its own thread. With `leadership`, the
+/// state is in a store; without, in the run's folder.
 pub fn train(
     bus: &Bus,
     state: TrainingState,
+    leadership: Option<Leadership>,
     options: &TrainingOptions,
     shutdown: &Shutdown,
 ) -> Result<TrainingSummary, TrainingError> {
     let (begun, steps_before) = (Instant::now(), state.counters.env_steps);
-    let mut trainer = Trainer::start(bus, state, options, shutdown)?;
+    let mut trainer = Trainer::start(bus, state, leadership, options, shutdown)?;
     let outcome = run(&mut trainer);
     let (state, history, stopped) = trainer.finish(outcome)?;
     Ok(TrainingSummary {
@@ -68,7 +70,7 @@ pub fn train(
 fn run(trainer: &mut Trainer) -> Result<bool, TrainingError> {
     while trainer.state.counters.env_steps < trainer.config.run.steps {
         let begun = Instant::now();
-        let Some(mut batch) = trainer.collect() else { return Ok(true) };
+        let Some(mut batch) = trainer.collect()? else { return Ok(true) };
         let collect = begun.elapsed();
         let stats = trainer.update(&mut batch.fragments)?;
         let update = begun.elapsed() - collect;
@@ -94,6 +96,8 @@ struct Trainer {
     state: TrainingState,
     config: Config,
     shutdown: Shutdown,
+    /// Whether an operator has stopped the run.
+    is_stopped: bool,
     learning: Learning,
     serving: Serving,
     reporting: Reporting,

@@ -15,6 +15,8 @@ use crate::{
 pub struct TrainingOptions {
     /// Folder of the run.
     pub folder: RunFolder,
+    /// Term of this learner: higher than that of any earlier learner of the run.
+    pub epoch: u64,
     /// Environment steps of the run after which this start ends. The saved configuration may have more.
     pub steps: u64,
     /// Device that computes the networks.

@@ -12,6 +12,7 @@ use std::{
 
 use treadmill_bus::StatsFeed;
 use treadmill_ppo::{AcceptedFragment, UpdateStats};
+use treadmill_runtime::error_chain;
 
 use super::{
     Trainer, TrainingError, TrainingOptions, alarms::Alarms, background::Background, evaluation::EvaluationResult,
@@ -19,6 +20,7 @@ use super::{
 use crate::{
     checkpoint::TrainingState,
     intake::ledger_report,
+    leadership::Status,
     metrics::{
         Efficiency, EfficiencyMeter, History, MetricsReport, PrometheusMetrics, histograms,
         scalars::{PhaseDurations, PolicyLag, ThroughputMeter, UpdateRecord},
@@ -108,7 +110,7 @@ impl Trainer {
         durations: PhaseDurations,
         evaluation: Option<&EvaluationResult>,
     ) -> Result<(), TrainingError> {
-        let Self { state, config, shutdown, learning, serving, reporting } = self;
+        let Self { state, config, shutdown, learning, serving, reporting, .. } = self;
         let alive = serving.intake.alive();
         let learnt = if update.is_some() { transitions(batch) } else { 0 };
         let effort = serving.intake.fleet.effort();
@@ -163,6 +165,7 @@ impl Trainer {
         outcome: Result<bool, TrainingError>,
     ) -> Result<(TrainingState, History, bool), TrainingError> {
         self.serving.intake.stop(&self.state.lineage);
+        self.end_leadership(&outcome);
         let Reporting { background, history, ledger_report, .. } = self.reporting;
         let (mut report, written) = background.finish();
         let outcome = outcome.and_then(|stopped| written.map(|()| stopped));
@@ -172,6 +175,21 @@ impl Trainer {
         ledger_report::write(&ledger_report, &self.state.ledger)?;
         report.finish(&history)?;
         Ok((self.state, history, stopped))
+    }
+}
+
+impl Trainer {
+    /// Says in the store why this learner leads no longer, so that a standby need not wait.
+    fn end_leadership(&mut self, outcome: &Result<bool, TrainingError>) {
+        let Some(leadership) = &mut self.serving.leadership else { return };
+        let status = match outcome {
+            Ok(false) => Status::Finished,
+            Ok(true) if self.is_stopped => Status::Stopped,
+            _ => Status::Released,
+        };
+        if let Err(why) = leadership.end(status) {
+            tracing::debug!(error = %error_chain(&why), "end of the leadership not written");
+        }
     }
 }
 

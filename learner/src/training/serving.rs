@@ -5,18 +5,19 @@ use std::time::{Duration, Instant};
 use bytes::Bytes;
 use treadmill_bus::{PolicyServer, PublishedPolicy};
 use treadmill_config::LearnerMode;
-use treadmill_runtime::error_chain;
+use treadmill_runtime::{error_chain, shutdown::Shutdown};
 
 use super::{
     Trainer, TrainingError, commands,
     control::ControlChannel,
-    disk_full::wait_for_disk_space,
     evaluation::{EvaluationResult, EvaluationScheduler},
     heartbeat::Heartbeat,
+    waiting::wait_to_write,
 };
 use crate::{
-    checkpoint::{CheckpointWriter, TrainingState},
+    checkpoint::{CheckpointWriter, TrainingState, encoding},
     intake::{BusFragmentSource, Collected, CollectedBatch, Intake},
+    leadership::Leadership,
 };
 
 /// Serving part of a [`Trainer`]: actors, evaluators and operators.
@@ -29,6 +30,10 @@ pub(super) struct Serving {
     /// Whether an operator has paused the run.
     pub(super) paused: bool,
     pub(super) checkpoints: CheckpointWriter,
+    /// Right to write the state, of a run in a store.
+    pub(super) leadership: Option<Leadership>,
+    /// Newest checkpoint, encoded.
+    pub(super) saved: Bytes,
     pub(super) heartbeat: Heartbeat,
     /// Time that the learner waited for the current batch.
     pub(super) waited: Duration,
@@ -36,10 +41,10 @@ pub(super) struct Serving {
 
 impl Trainer {
     /// Collects a batch and applies commands meanwhile. Returns `None` if shutdown is requested.
-    pub(super) fn collect(&mut self) -> Option<CollectedBatch> {
+    pub(super) fn collect(&mut self) -> Result<Option<CollectedBatch>, TrainingError> {
         self.serving.waited = Duration::ZERO;
         loop {
-            self.apply_commands();
+            self.apply_commands()?;
             let begun = Instant::now();
             let Serving { intake, control, .. } = &mut self.serving;
             let interrupt = || control.has_command() || control.since_status() >= commands::STATUS_EVERY;
@@ -48,8 +53,9 @@ impl Trainer {
             // Time in a pause does not count.
             self.serving.waited += begun.elapsed();
             match collected {
-                Collected::Batch(batch) => return Some(batch),
+                Collected::Batch(batch) => return Ok(Some(batch)),
                 Collected::Interrupted => {
+                    self.check_leadership()?;
                     self.publish_status_if_due();
                     let (waited, actors) = (self.serving.waited, self.serving.intake.alive().len());
                     self.reporting.background.submit(move |report| {
@@ -57,7 +63,7 @@ impl Trainer {
                         Ok(())
                     });
                 }
-                Collected::Stopped => return None,
+                Collected::Stopped => return Ok(None),
             }
         }
     }
@@ -71,7 +77,7 @@ impl Trainer {
         let state = &mut self.state;
         if !state.best_is_evaluated || state.best_return.is_none_or(|best| return_mean > best) {
             (state.best_return, state.best_is_evaluated) = (Some(return_mean), true);
-            wait_for_disk_space(&self.shutdown, || self.serving.checkpoints.save_best(&result.checkpoint))?;
+            wait_to_write(&self.shutdown, || self.serving.checkpoints.save_best(&result.checkpoint))?;
         }
         Ok(Some(result))
     }
@@ -86,11 +92,12 @@ impl Trainer {
         self.state.ledger.mark_durable();
         let best = self.best_in_training();
         self.state.best_return = best.or(self.state.best_return);
-        let checkpoints = &self.serving.checkpoints;
-        let saved = Bytes::from(wait_for_disk_space(&self.shutdown, || checkpoints.save(&self.state))?);
+        let Serving { checkpoints, leadership, .. } = &mut self.serving;
+        let saved = save_newest(&self.state, leadership.as_mut(), checkpoints, &self.shutdown)?;
         if best.is_some() {
-            wait_for_disk_space(&self.shutdown, || checkpoints.save_best(&saved))?;
+            wait_to_write(&self.shutdown, || checkpoints.save_best(&saved))?;
         }
+        self.serving.saved = saved.clone();
         self.serving.intake.validator.ledger.mark_durable();
         self.serving.heartbeat.beat();
         Ok(saved)
@@ -103,8 +110,13 @@ impl Trainer {
         if checkpoints.is_due(updates) {
             self.reporting
                 .background
-                .submit(move |_| Ok(wait_for_disk_space(&shutdown, || checkpoints.save_numbered(updates, &saved))?));
+                .submit(move |_| Ok(wait_to_write(&shutdown, || checkpoints.save_numbered(updates, &saved))?));
         }
+    }
+
+    /// Returns an error if another learner has taken the run over.
+    pub(super) fn check_leadership(&self) -> Result<(), TrainingError> {
+        self.serving.leadership.as_ref().map_or(Ok(()), |leadership| Ok(leadership.check()?))
     }
 
     /// Returns the return in training, if it is the best so far and no policy was evaluated yet. A few absurd returns must not
@@ -139,4 +151,19 @@ impl Trainer {
         }
         Ok(())
     }
+}
+
+/// Makes a state the newest of the run. Returns its bytes.
+pub(super) fn save_newest(
+    state: &TrainingState,
+    leadership: Option<&mut Leadership>,
+    checkpoints: &CheckpointWriter,
+    shutdown: &Shutdown,
+) -> Result<Bytes, TrainingError> {
+    let Some(leadership) = leadership else {
+        return Ok(wait_to_write(shutdown, || checkpoints.save(state))?.into());
+    };
+    let encoded = encoding::encode(state)?;
+    wait_to_write(shutdown, || leadership.save(&state.run, &state.counters, &encoded))?;
+    Ok(encoded.into())
 }

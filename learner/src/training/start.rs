@@ -10,12 +10,17 @@ use treadmill_config::Config;
 use treadmill_runtime::{error_chain, shutdown::Shutdown};
 
 use super::{
-    Trainer, TrainingError, TrainingOptions, commands, control::ControlChannel, disk_full::wait_for_disk_space,
-    evaluation::EvaluationScheduler, learning::Learning, reporting::Reporting, serving::Serving,
+    Trainer, TrainingError, TrainingOptions, commands,
+    control::ControlChannel,
+    evaluation::EvaluationScheduler,
+    learning::Learning,
+    reporting::Reporting,
+    serving::{Serving, save_newest},
 };
 use crate::{
     checkpoint::{CheckpointWriter, TrainingState},
     intake::{BusFragmentSource, ExpectedFragment, FleetPlan, FragmentValidator, HorizonRule, Intake},
+    leadership::Leadership,
     metrics::{History, MetricsReport},
 };
 
@@ -23,11 +28,13 @@ impl Trainer {
     /// Saves the state, then opens the logs and the flows on the bus.
     pub(super) fn start(
         bus: &Bus,
-        state: TrainingState,
+        mut state: TrainingState,
+        mut leadership: Option<Leadership>,
         options: &TrainingOptions,
         shutdown: &Shutdown,
     ) -> Result<Self, TrainingError> {
         let invalid = |why| TrainingError::State { why };
+        state.lineage.set_epoch(options.epoch);
         let mut config = state.config().map_err(invalid)?;
         config.run.steps = options.steps;
         let config_hash = state.config_hash(&config);
@@ -46,13 +53,14 @@ impl Trainer {
             physics_version: bundle.physics_version,
         };
         let learning = Learning::new(&state, &config, options)?;
-        let checkpoints = CheckpointWriter::new(
-            &options.folder,
-            config.learner.checkpoint_every_updates.into(),
-            config.learner.keep_checkpoints as usize,
-        );
+        let every_updates = config.learner.checkpoint_every_updates.into();
+        let keep = config.learner.keep_checkpoints as usize;
+        let checkpoints = match &leadership {
+            Some(leadership) => CheckpointWriter::in_store(leadership.store(), every_updates, keep),
+            None => CheckpointWriter::new(&options.folder, every_updates, keep),
+        };
         // Save this version before any actor can get it, so that a learner that dies now resumes from it.
-        wait_for_disk_space(shutdown, || checkpoints.save(&state))?;
+        let saved = save_newest(&state, leadership.as_mut(), &checkpoints, shutdown)?;
         let policy = PublishedPolicy::new(&bundle, &state.for_actors(&bundle));
         let policy = policy.map_err(|why| invalid(error_chain(&why)))?;
         let report = MetricsReport::open(bus, &state, &config, options)?;
@@ -73,11 +81,13 @@ impl Trainer {
             control,
             paused: false,
             checkpoints,
+            leadership,
+            saved,
             heartbeat: options.heartbeat.clone(),
             waited: Duration::ZERO,
         };
         let reporting = Reporting::new(report, history, stats, &state, options)?;
-        Ok(Self { state, config, shutdown: shutdown.clone(), learning, serving, reporting })
+        Ok(Self { state, config, shutdown: shutdown.clone(), is_stopped: false, learning, serving, reporting })
     }
 }
 

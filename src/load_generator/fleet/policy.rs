@@ -163,7 +163,7 @@ mod tests {
         let weights = to_safetensors(&shape, &initial_parameters(&shape, -0.5, &mut random));
         PolicyBundle {
             run: "run".to_string(),
-            version: PolicyVersion { incarnation: 1, number },
+            version: PolicyVersion::new(1, number),
             observation_size: 3,
             action_size: 2,
             hidden: vec![8],

@@ -209,6 +209,9 @@ impl<W> CachedRuns<W> {
     /// Records an announcement. The version is fetched at once if the run is in use.
     fn announce(&mut self, run: &str, announcement: PolicyAnnouncement, now: Instant) -> Steps<W> {
         let Some(entry) = self.runs.get_mut(run) else { return Steps::default() };
+        if entry.has_overtaken(announcement.version) {
+            return Steps::default();
+        }
         (entry.announced, entry.is_announcement_new) = (Some(announcement), true);
         let is_new = entry.version() != Some(announcement.version);
         let is_used = now.duration_since(entry.used) < IDLE;
@@ -286,6 +289,12 @@ impl<W> CachedRun<W> {
         self.cached.as_ref().map(|cached| cached.policy.version())
     }
 
+    /// Returns whether a version is of a learner that another one has overtaken, as far as this router has heard.
+    fn has_overtaken(&self, version: PolicyVersion) -> bool {
+        let known = [self.version(), self.announced.map(|announced| announced.version)];
+        version.epoch != 0 && known.into_iter().flatten().any(|known| known.epoch > version.epoch)
+    }
+
     /// Returns whether the cached policy is the newest, as far as this router and the requester have heard.
     fn is_newest(&self, cached: &CachedPolicy, heard_of: Option<PolicyVersion>, now: Instant) -> bool {
         let announced = self.announced.map(|announced| announced.version);
@@ -315,6 +324,10 @@ impl<W> CachedRun<W> {
     /// Stores a fetched policy. Returns whether it passed the checks.
     fn store(&mut self, run: &str, mut bundle: PolicyBundle) -> bool {
         let agrees = self.announced.is_none_or(|announced| announced.agrees_with(&bundle));
+        if self.has_overtaken(bundle.version) {
+            tracing::warn!(run, epoch = bundle.version.epoch, "policy rejected: its learner was overtaken");
+            return false;
+        }
         if bundle.run != run || !agrees || treadmill_runtime::seeds::checksum(&[&bundle.weights]) != bundle.checksum {
             tracing::warn!(run, version = bundle.version.number, "policy rejected: wrong run or checksum");
             return false;

@@ -2,8 +2,8 @@
 
 use super::{super::policy_pieces::tests::bundle, *};
 
-const OLD: PolicyVersion = PolicyVersion { incarnation: 7, number: 3 };
-const NEW: PolicyVersion = PolicyVersion { incarnation: 7, number: 4 };
+const OLD: PolicyVersion = PolicyVersion::new(7, 3);
+const NEW: PolicyVersion = PolicyVersion::new(7, 4);
 const JOINING: PolicyRequest = PolicyRequest { known: None, announced: None, config_hash: 0, offset: 0 };
 
 fn newer(version: PolicyVersion) -> Option<FetchedPolicy> {
@@ -109,12 +109,25 @@ fn a_restarted_learner_replaces_an_announced_version() {
     runs.announce("walk", announcement(NEW), now);
     runs.fetched("walk", newer(NEW), now);
     // It resumes from an older checkpoint and has announced nothing yet.
-    let restarted = PolicyVersion { incarnation: 8, number: 2 };
+    let restarted = PolicyVersion::new(8, 2);
     let request = PolicyRequest { announced: Some(restarted), ..JOINING };
     assert!(runs.request("walk", &request, 1, now).fetch.is_some());
     assert_eq!(answers(&runs.fetched("walk", newer(restarted), now)), [(1, restarted)]);
     let next = runs.request("walk", &JOINING, 2, now);
     assert_eq!((answers(&next), next.fetch), (vec![(2, restarted)], None));
+}
+
+#[test]
+fn an_overtaken_learner_is_not_listened_to() {
+    let (mut runs, now) = (CachedRuns::<u32>::default(), Instant::now());
+    let of = |epoch, number| PolicyVersion { epoch, ..PolicyVersion::new(epoch, number) };
+    runs.request("walk", &JOINING, 1, now);
+    runs.fetched("walk", newer(of(8, 4)), now);
+    assert_eq!(runs.announce("walk", announcement(of(7, 5)), now).fetch, None);
+    assert!(runs.announce("walk", announcement(of(8, 5)), now).fetch.is_some());
+    let steps = runs.fetched("walk", newer(of(7, 5)), now);
+    assert!(steps.answers.is_empty());
+    assert_eq!(runs.runs["walk"].version(), Some(of(8, 4)));
 }
 
 #[test]

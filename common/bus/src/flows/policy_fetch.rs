@@ -195,8 +195,8 @@ impl PartialPolicy {
 mod tests {
     use super::*;
 
-    const OLD: PolicyVersion = PolicyVersion { incarnation: 7, number: 3 };
-    const NEW: PolicyVersion = PolicyVersion { incarnation: 7, number: 4 };
+    const OLD: PolicyVersion = PolicyVersion::new(7, 3);
+    const NEW: PolicyVersion = PolicyVersion::new(7, 4);
 
     fn bundle(length: u32) -> Bytes {
         (0..length).map(|byte| byte as u8).collect::<Vec<_>>().into()

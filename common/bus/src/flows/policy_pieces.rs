@@ -162,7 +162,7 @@ fn send_pieces(requests: &Mutex<Receiver<(PieceReply, Arc<ActorPolicy>)>>, count
 pub(super) mod tests {
     use super::*;
 
-    pub(crate) const VERSION: PolicyVersion = PolicyVersion { incarnation: 7, number: 3 };
+    pub(crate) const VERSION: PolicyVersion = PolicyVersion::new(7, 3);
 
     pub(crate) fn bundle(version: PolicyVersion) -> PolicyBundle {
         let weights = Bytes::from(vec![version.number as u8; 100_000]);

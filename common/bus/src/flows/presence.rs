@@ -39,14 +39,34 @@ pub fn token(bus: &Bus, run: &str, actor: &str) -> Result<impl Send + Sync + use
 /// # Errors
 /// If the bus fails. No answer within `timeout` counts as no.
 pub async fn is_actor_present(bus: &Bus, run: &str, actor: &str, timeout: Duration) -> Result<bool, BusError> {
-    let query = bus.session.liveliness().get(keys::actor(run, actor)).timeout(timeout).wait();
-    let replies = query.map_err(BusError::flow("looking for an actor's token"))?;
+    is_present(bus, keys::actor(run, actor), timeout).await
+}
+
+async fn is_present(bus: &Bus, key: String, timeout: Duration) -> Result<bool, BusError> {
+    let query = bus.session.liveliness().get(key).timeout(timeout).wait();
+    let replies = query.map_err(BusError::flow("looking for a token"))?;
     while let Ok(reply) = replies.recv_async().await {
         if reply.result().is_ok() {
             return Ok(true);
         }
     }
     Ok(false)
+}
+
+/// Returns whether a learner of this run holds a token now.
+///
+/// # Errors
+/// If the bus fails. No answer within `timeout` counts as no.
+pub async fn is_learner_present(bus: &Bus, run: &str, timeout: Duration) -> Result<bool, BusError> {
+    is_present(bus, keys::learner(run), timeout).await
+}
+
+/// Returns whether any actor of this run holds a token now.
+///
+/// # Errors
+/// If the bus fails. No answer within `timeout` counts as no.
+pub async fn is_any_actor_present(bus: &Bus, run: &str, timeout: Duration) -> Result<bool, BusError> {
+    is_present(bus, keys::actor(run, "*"), timeout).await
 }
 
 /// Returns the names of the runs whose learners hold tokens now, in order.

@@ -14,6 +14,8 @@ use treadmill_proto::limits::{FRAGMENT_BYTES_MAX, POSE_BYTES_MAX, SMALL_BYTES_MA
 pub enum Role {
     /// Trains; may use every key.
     Learner,
+    /// Follows a run, and becomes its learner when that is gone; may use every key.
+    Standby,
     /// Forwards messages of other processes.
     Router,
     /// Simulates: reads policies; sends rollouts, statistics, episodes and poses.
@@ -28,14 +30,15 @@ pub enum Role {
 
 impl Role {
     /// All roles.
-    pub const ALL: [Self; 6] =
-        [Self::Learner, Self::Router, Self::Actor, Self::Evaluator, Self::Observer, Self::Operator];
+    pub const ALL: [Self; 7] =
+        [Self::Learner, Self::Standby, Self::Router, Self::Actor, Self::Evaluator, Self::Observer, Self::Operator];
 
     /// Returns the name, as in file names.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
             Self::Learner => "learner",
+            Self::Standby => "standby",
             Self::Router => "router",
             Self::Actor => "actor",
             Self::Evaluator => "evaluator",
@@ -53,7 +56,7 @@ impl Role {
     /// Returns whether others dial this role. Its certificate must then name the hosts it listens on.
     #[must_use]
     pub fn listens(self) -> bool {
-        matches!(self, Self::Learner | Self::Router)
+        matches!(self, Self::Learner | Self::Standby | Self::Router)
     }
 }
 
@@ -210,7 +213,7 @@ fn grants(role: Role) -> Vec<Grant> {
     ];
     let watch = [read_policy.clone(), query(STATUS), subscribe(PUBLIC), subscribe(COPIES), tokens].concat();
     match role {
-        Role::Learner | Role::Router => {
+        Role::Learner | Role::Standby | Role::Router => {
             vec![Grant { flows: BOTH, messages: EVERYTHING, keys: &["treadmill/**", "treadmill/*/@rollouts/*"] }]
         }
         Role::Actor => {

@@ -23,8 +23,8 @@ pub fn wanted(options: &BusOptions, role: Role) -> Option<(&'static str, &'stati
     // With --discover no endpoint is given, but there are certificates.
     let has_tls_endpoint = options.listen.iter().chain(&options.connect).any(|endpoint| endpoint.starts_with("tls/"));
     let value = match (has_tls_endpoint || options.credentials.is_some(), role) {
-        (true, Role::Learner | Role::Actor | Role::Evaluator | Role::Observer | Role::Operator) => ONE,
-        (_, Role::Learner | Role::Router) => MANY,
+        (true, Role::Learner | Role::Standby | Role::Actor | Role::Evaluator | Role::Observer | Role::Operator) => ONE,
+        (_, Role::Learner | Role::Standby | Role::Router) => MANY,
         (false, _) => return None,
     };
     std::env::var_os(VARIABLE).is_none().then_some((VARIABLE, value))

@@ -85,7 +85,7 @@ mod tests {
     #[test]
     fn a_status_has_living_recent_and_quarantined_actors() {
         let begun = Instant::now();
-        let version = |number| PolicyVersion { incarnation: 7, number };
+        let version = |number| PolicyVersion { incarnation: 7, number, epoch: 0 };
         let stats = |actor: &str, number| ActorStats {
             actor: actor.into(),
             version: Some(version(number)),
@@ -110,7 +110,7 @@ mod tests {
         assert!(statuses[1].quarantined && !statuses[1].alive);
         assert_eq!((statuses[2].alive, statuses[2].lag_versions), (false, Some(3)));
         assert_eq!((statuses[3].alive, statuses[3].lag_versions, statuses[3].since_contact_s), (true, None, None));
-        let successor = PolicyVersion { incarnation: 8, number: 12 };
+        let successor = PolicyVersion { incarnation: 8, number: 12, epoch: 0 };
         assert_eq!(actor_statuses(&alive, &last_stats, successor, &[], now)[0].lag_versions, None);
     }
 }

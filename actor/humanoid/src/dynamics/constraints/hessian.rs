@@ -192,7 +192,8 @@ mod tests {
     fn humanoid() -> (Structure, MassMatrix<Scalar>) {
         let model = Model::from_mjcf(HUMANOID_XML).unwrap();
         let structure = Structure::new(&model);
-        let position: Vec<_> = model.nominal_position().into_iter().map(|number| Lanes::splat(Scalar, number)).collect();
+        let position: Vec<_> =
+            model.nominal_position().into_iter().map(|number| Lanes::splat(Scalar, number)).collect();
         let mut posture = Posture::new(Scalar, &structure);
         posture.update_kinematics(&structure, &position);
         let mut masses = MassMatrix::new(Scalar, &structure);

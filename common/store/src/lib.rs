@@ -1,0 +1,191 @@
+//! Object store that keeps a run's durable state and decides who may write it.
+//!
+//! # Layout
+//! - Here: [`Store`], its operations and their errors.
+//! - `location`: a store's URL.
+//! - `folder`: objects as files of a folder, as on a network file system.
+//! - `remote`: S3, Google Cloud Storage and Azure, by the crate `object_store`.
+//! - [`simulated`]: objects in memory, with faults, for tests.
+
+mod error;
+mod folder;
+mod location;
+mod remote;
+pub mod simulated;
+
+use std::{fmt, sync::Arc};
+
+pub use self::error::StoreError;
+use self::{folder::Folder, location::Location, remote::Remote, simulated::SimulatedObjects};
+
+/// Version of an object's bytes, as its store names it.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Tag(String);
+
+/// Place with a run's objects. Clones share its connections.
+///
+/// All calls block: use them on threads of their own, never in an async task.
+#[derive(Clone, Debug)]
+pub struct Store {
+    name: Arc<str>,
+    objects: Objects,
+}
+
+#[derive(Clone, Debug)]
+enum Objects {
+    Folder(Arc<Folder>),
+    Remote(Arc<Remote>),
+    Simulated(SimulatedObjects),
+}
+
+impl Store {
+    /// Opens the store at a URL: `file:///…`, `s3://…`, `gs://…` or `az://…`. Credentials of a remote store come from the
+    /// environment, by the names that its own tools use, such as `AWS_ACCESS_KEY_ID`. No object is read or written.
+    ///
+    /// # Errors
+    /// If the URL names no store, contains credentials, or the environment lacks what the store requires.
+    pub fn open(url: &str) -> Result<Self, StoreError> {
+        let objects = match Location::parse(url)? {
+            Location::Folder(root) => Objects::Folder(Arc::new(Folder::new(root))),
+            Location::Remote(scheme, url) => Objects::Remote(Arc::new(Remote::open(scheme, &url)?)),
+        };
+        Ok(Self { name: url.trim_end_matches('/').into(), objects })
+    }
+
+    /// Store in memory.
+    #[must_use]
+    pub fn simulated(objects: &SimulatedObjects) -> Self {
+        Self { name: "memory".into(), objects: Objects::Simulated(objects.clone()) }
+    }
+
+    /// Writes an object, whatever was there.
+    ///
+    /// # Errors
+    /// If the store fails. The object may have been written all the same.
+    pub fn put(&self, name: &str, bytes: &[u8]) -> Result<(), StoreError> {
+        match &self.objects {
+            Objects::Folder(folder) => folder.put(name, bytes),
+            Objects::Remote(remote) => remote.put(name, bytes),
+            Objects::Simulated(objects) => objects.put(name, bytes),
+        }
+        .map_err(|why| self.named(why))
+    }
+
+    /// Reads an object and its tag.
+    ///
+    /// # Errors
+    /// [`StoreError::Missing`] if it does not exist, or if the store fails.
+    pub fn get(&self, name: &str) -> Result<(Vec<u8>, Tag), StoreError> {
+        match &self.objects {
+            Objects::Folder(folder) => folder.get(name),
+            Objects::Remote(remote) => remote.get(name),
+            Objects::Simulated(objects) => objects.get(name),
+        }
+        .map_err(|why| self.named(why))
+    }
+
+    /// Writes an object only if it still has the tag `last`, or with `None` only if it does not exist. Returns its new tag.
+    ///
+    /// # Errors
+    /// [`StoreError::Conflict`] if another writer was first. If the store fails otherwise, the object may have been written.
+    pub fn replace(&self, name: &str, bytes: &[u8], last: Option<&Tag>) -> Result<Tag, StoreError> {
+        match &self.objects {
+            Objects::Folder(folder) => folder.replace(name, bytes, last),
+            Objects::Remote(remote) => remote.replace(name, bytes, last),
+            Objects::Simulated(objects) => objects.replace(name, bytes, last),
+        }
+        .map_err(|why| self.named(why))
+    }
+
+    /// Deletes an object. It is no error if there is none.
+    ///
+    /// # Errors
+    /// If the store fails.
+    pub fn delete(&self, name: &str) -> Result<(), StoreError> {
+        match &self.objects {
+            Objects::Folder(folder) => folder.delete(name),
+            Objects::Remote(remote) => remote.delete(name),
+            Objects::Simulated(objects) => objects.delete(name),
+        }
+        .map_err(|why| self.named(why))
+    }
+
+    /// Returns the sorted names, relative to `folder`, of the objects directly in it.
+    ///
+    /// # Errors
+    /// If the store fails.
+    pub fn list(&self, folder: &str) -> Result<Vec<String>, StoreError> {
+        let mut names = match &self.objects {
+            Objects::Folder(objects) => objects.list(folder),
+            Objects::Remote(remote) => remote.list(folder),
+            Objects::Simulated(objects) => objects.list(folder),
+        }
+        .map_err(|why| self.named(why))?;
+        names.sort_unstable();
+        Ok(names)
+    }
+
+    fn named(&self, mut why: StoreError) -> StoreError {
+        why.set_store(&self.name);
+        why
+    }
+}
+
+impl fmt::Display for Store {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.name)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// What every kind of store must do.
+    fn check(store: &Store) {
+        assert!(matches!(store.get("manifest.json"), Err(StoreError::Missing { .. })));
+        assert_eq!(store.list("states").unwrap(), Vec::<String>::new());
+        let first = store.replace("manifest.json", b"one", None).unwrap();
+        assert!(matches!(store.replace("manifest.json", b"two", None), Err(StoreError::Conflict { .. })));
+        assert_eq!(store.get("manifest.json").unwrap(), (b"one".to_vec(), first.clone()));
+        let second = store.replace("manifest.json", b"two", Some(&first)).unwrap();
+        assert_ne!(first, second);
+        let refused = store.replace("manifest.json", b"three", Some(&first)).unwrap_err();
+        assert!(matches!(refused, StoreError::Conflict { .. }));
+        assert!(refused.to_string().contains("manifest.json"), "{refused}");
+        assert_eq!(store.get("manifest.json").unwrap(), (b"two".to_vec(), second));
+        store.put("states/2.bundle", b"b").unwrap();
+        store.put("states/1.bundle", b"a").unwrap();
+        store.put("states/1.bundle", b"c").unwrap();
+        assert_eq!(store.list("states").unwrap(), ["1.bundle", "2.bundle"]);
+        store.delete("states/2.bundle").unwrap();
+        store.delete("states/2.bundle").unwrap();
+        assert_eq!(store.list("states").unwrap(), ["1.bundle"]);
+        assert_eq!(store.get("states/1.bundle").unwrap().0, b"c");
+    }
+
+    #[test]
+    fn every_kind_keeps_its_promises() {
+        let folder = tempfile::tempdir().unwrap();
+        check(&Store::open(&format!("file://{}/run", folder.path().display())).unwrap());
+        check(&Store::simulated(&SimulatedObjects::default()));
+    }
+
+    #[test]
+    fn one_of_many_writers_wins_each_time() {
+        let folder = tempfile::tempdir().unwrap();
+        let store = Store::open(&format!("file://{}", folder.path().display())).unwrap();
+        let wins = |writer: usize| {
+            let won = |round: usize| {
+                let (name, text) = (format!("round-{round}"), format!("writer {writer}"));
+                usize::from(store.replace(&name, text.as_bytes(), None).is_ok())
+            };
+            (0..20).map(won).sum::<usize>()
+        };
+        let total: usize = std::thread::scope(|scope| {
+            let threads: Vec<_> = (0..4).map(|writer| scope.spawn(move || wins(writer))).collect();
+            threads.into_iter().map(|thread| thread.join().unwrap()).sum()
+        });
+        assert_eq!(total, 20);
+    }
+}

@@ -1,0 +1,181 @@
+//! Objects of a cloud's store.
+
+use std::{error::Error, time::Duration};
+
+use bytes::Bytes;
+use object_store::{
+    BackoffConfig, ObjectStore, ObjectStoreExt, PutMode, PutOptions, PutPayload, RetryConfig, UpdateVersion,
+    aws::AmazonS3Builder, azure::MicrosoftAzureBuilder, gcp::GoogleCloudStorageBuilder, path::Path,
+};
+use tokio::runtime::Runtime;
+use treadmill_runtime::error_chain;
+use url::Url;
+
+use crate::{StoreError, Tag, location::Scheme};
+
+/// Attempts after the first one. Callers wait and try again by themselves, and say so meanwhile.
+const RETRIES: usize = 1;
+/// Longest time in which an attempt may follow.
+const RETRY_TIMEOUT: Duration = Duration::from_secs(5);
+
+/// Objects below a path of a bucket.
+#[derive(Debug)]
+pub(crate) struct Remote {
+    scheme: Scheme,
+    objects: Box<dyn ObjectStore>,
+    root: Path,
+    /// `None` only while it is dropped.
+    runtime: Option<Runtime>,
+}
+
+impl Remote {
+    pub(crate) fn open(scheme: Scheme, url: &Url) -> Result<Self, StoreError> {
+        let settings =
+            |why: &dyn Error| StoreError::Settings { store: url.to_string(), why: without_secrets(&error_chain(why)) };
+        // Where the process has a provider already, it is the same one.
+        let _ = rustls::crypto::ring::default_provider().install_default();
+        let objects = client(scheme, url).map_err(|why| settings(&why))?;
+        let root = Path::from_url_path(url.path()).map_err(|why| settings(&why))?;
+        let runtime = tokio::runtime::Builder::new_multi_thread()
+            .worker_threads(1)
+            .max_blocking_threads(2)
+            .thread_name("store")
+            .enable_all()
+            .build()
+            .map_err(|why| settings(&why))?;
+        Ok(Self { scheme, objects, root, runtime: Some(runtime) })
+    }
+
+    pub(crate) fn put(&self, name: &str, bytes: &[u8]) -> Result<(), StoreError> {
+        let written = self.wait(self.objects.put(&self.path(name), payload(bytes)));
+        written.map(|_| ()).map_err(|why| failed(name, &why))
+    }
+
+    pub(crate) fn get(&self, name: &str) -> Result<(Vec<u8>, Tag), StoreError> {
+        let read = self.wait(async {
+            let found = self.objects.get(&self.path(name)).await?;
+            let (tag, version) = (found.meta.e_tag.clone(), found.meta.version.clone());
+            Ok((found.bytes().await?.to_vec(), tag, version))
+        });
+        let (bytes, tag, version) = read.map_err(|why| failed(name, &why))?;
+        Ok((bytes, self.tag(name, tag, version)?))
+    }
+
+    pub(crate) fn replace(&self, name: &str, bytes: &[u8], last: Option<&Tag>) -> Result<Tag, StoreError> {
+        let mode = last.map_or(PutMode::Create, |Tag(tag)| {
+            PutMode::Update(UpdateVersion { e_tag: Some(tag.clone()), version: Some(tag.clone()) })
+        });
+        let options = PutOptions { mode, ..PutOptions::default() };
+        let written = self.wait(self.objects.put_opts(&self.path(name), payload(bytes), options));
+        let written = written.map_err(|why| failed(name, &why))?;
+        self.tag(name, written.e_tag, written.version)
+    }
+
+    /// Returns what a condition names: Google's the version, the others' the ETag.
+    fn tag(&self, name: &str, tag: Option<String>, version: Option<String>) -> Result<Tag, StoreError> {
+        let named = if self.scheme == Scheme::GoogleCloud { version } else { tag };
+        named
+            .map(Tag)
+            .ok_or_else(|| StoreError::failed(name, "it names no version of an object, so no write is conditional"))
+    }
+
+    pub(crate) fn delete(&self, name: &str) -> Result<(), StoreError> {
+        match self.wait(self.objects.delete(&self.path(name))) {
+            Ok(()) | Err(object_store::Error::NotFound { .. }) => Ok(()),
+            Err(why) => Err(failed(name, &why)),
+        }
+    }
+
+    pub(crate) fn list(&self, folder: &str) -> Result<Vec<String>, StoreError> {
+        let listed = self.wait(self.objects.list_with_delimiter(Some(&self.path(folder))));
+        let objects = listed.map_err(|why| failed(folder, &why))?.objects;
+        Ok(objects.iter().filter_map(|object| object.location.filename().map(str::to_string)).collect())
+    }
+
+    fn path(&self, name: &str) -> Path {
+        name.split('/').fold(self.root.clone(), |path, part| path.join(part))
+    }
+
+    fn wait<T>(&self, work: impl Future<Output = Result<T, object_store::Error>>) -> Result<T, object_store::Error> {
+        self.runtime.as_ref().expect("only a drop takes it").block_on(work)
+    }
+}
+
+impl Drop for Remote {
+    fn drop(&mut self) {
+        // A plain drop waits, which panics in an async task.
+        if let Some(runtime) = self.runtime.take() {
+            runtime.shutdown_background();
+        }
+    }
+}
+
+/// Returns a client with the settings and credentials of the environment.
+fn client(scheme: Scheme, url: &Url) -> Result<Box<dyn ObjectStore>, object_store::Error> {
+    let (backoff, url) = (BackoffConfig::default(), url.as_str());
+    let retry = RetryConfig { backoff, max_retries: RETRIES, retry_timeout: RETRY_TIMEOUT };
+    Ok(match scheme {
+        Scheme::S3 => Box::new(AmazonS3Builder::from_env().with_url(url).with_retry(retry).build()?),
+        Scheme::GoogleCloud => Box::new(GoogleCloudStorageBuilder::from_env().with_url(url).with_retry(retry).build()?),
+        Scheme::Azure => Box::new(MicrosoftAzureBuilder::from_env().with_url(url).with_retry(retry).build()?),
+    })
+}
+
+fn payload(bytes: &[u8]) -> PutPayload {
+    Bytes::copy_from_slice(bytes).into()
+}
+
+fn failed(name: &str, why: &object_store::Error) -> StoreError {
+    match why {
+        object_store::Error::NotFound { .. } => StoreError::missing(name),
+        object_store::Error::AlreadyExists { .. } | object_store::Error::Precondition { .. } => {
+            StoreError::conflict(name)
+        }
+        _ => StoreError::failed(name, without_secrets(&error_chain(why))),
+    }
+}
+
+/// Removes the queries of URLs, where signatures are, and line breaks.
+fn without_secrets(text: &str) -> String {
+    let is_end = |c: char| c.is_whitespace() || matches!(c, ')' | '"' | '\'' | '>' | '`');
+    let mut shown = String::with_capacity(text.len());
+    let mut is_query = false;
+    for c in text.chars() {
+        is_query = (is_query || c == '?') && !is_end(c);
+        if !is_query {
+            shown.push(if c == '\n' { ' ' } else { c });
+        }
+    }
+    shown
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn signatures_are_not_shown() {
+        let text = "error for url (https://box.example/a?sig=secret&x=1): refused\nby it";
+        assert_eq!(without_secrets(text), "error for url (https://box.example/a): refused by it");
+    }
+
+    #[test]
+    fn a_store_that_is_away_is_an_error_without_credentials() {
+        // Nothing listens on this port of loopback.
+        let url = Url::parse("s3://bucket/walk").unwrap();
+        let builder = AmazonS3Builder::new()
+            .with_url(url.as_str())
+            .with_endpoint("http://127.0.0.1:9")
+            .with_allow_http(true)
+            .with_access_key_id("public")
+            .with_secret_access_key("secret")
+            .with_retry(RetryConfig { max_retries: 0, ..RetryConfig::default() });
+        let _ = rustls::crypto::ring::default_provider().install_default();
+        let runtime = tokio::runtime::Builder::new_multi_thread().worker_threads(1).enable_all().build().unwrap();
+        let root = Path::from_url_path(url.path()).unwrap();
+        let remote =
+            Remote { scheme: Scheme::S3, objects: Box::new(builder.build().unwrap()), root, runtime: Some(runtime) };
+        let why = remote.get("manifest.json").unwrap_err().to_string();
+        assert!(why.contains("manifest.json") && !why.contains("secret"), "{why}");
+    }
+}

@@ -1,0 +1,120 @@
+//! Writes the checkpoints of one run.
+
+use std::{fs, path::PathBuf};
+
+use treadmill_runtime::{atomic_file, run_folder::RunFolder};
+use treadmill_store::Store;
+
+use super::{CheckpointError, TrainingState, encoding, numbered};
+
+/// Name of the newest checkpoint in a folder.
+const LATEST: &str = "latest.bundle";
+/// Folder of checkpoints in a store.
+const IN_STORE: &str = "checkpoints";
+
+/// Writes the checkpoints of one run. In a store it writes the best and numbered ones; the newest belongs to
+/// [`Leadership`](crate::leadership::Leadership) there.
+#[derive(Clone, Debug)]
+pub struct CheckpointWriter {
+    place: Place,
+    every_updates: u64,
+    keep: usize,
+}
+
+#[derive(Clone, Debug)]
+enum Place {
+    Folder(PathBuf),
+    Store(Store),
+}
+
+impl CheckpointWriter {
+    /// Writer that also writes a numbered checkpoint every `every_updates` updates and keeps the last `keep`.
+    pub fn new(folder: &RunFolder, every_updates: u64, keep: usize) -> Self {
+        Self { place: Place::Folder(folder.checkpoints()), every_updates, keep }
+    }
+
+    /// The same in a store.
+    #[must_use]
+    pub fn in_store(store: &Store, every_updates: u64, keep: usize) -> Self {
+        Self { place: Place::Store(store.clone()), every_updates, keep }
+    }
+
+    /// Writes `latest.bundle`. Returns the encoded state.
+    pub fn save(&self, state: &TrainingState) -> Result<Vec<u8>, CheckpointError> {
+        let bytes = encoding::encode(state)?;
+        self.write(LATEST, &bytes)?;
+        Ok(bytes)
+    }
+
+    /// Whether a numbered checkpoint is due after this number of updates.
+    pub fn is_due(&self, updates: u64) -> bool {
+        self.keep > 0 && updates > 0 && updates.is_multiple_of(self.every_updates)
+    }
+
+    /// Writes an encoded state as the checkpoint of this number of updates, and removes surplus ones.
+    pub fn save_numbered(&self, updates: u64, bytes: &[u8]) -> Result<(), CheckpointError> {
+        self.save_kept(updates, bytes)?;
+        self.prune();
+        Ok(())
+    }
+
+    /// Writes an encoded state as the checkpoint of this number of updates. Returns its place.
+    pub fn save_kept(&self, updates: u64, bytes: &[u8]) -> Result<String, CheckpointError> {
+        self.write(&numbered(updates), bytes)?;
+        Ok(self.place_of(&numbered(updates)))
+    }
+
+    /// Changes how often numbered checkpoints are written, and how many are kept.
+    pub fn set_retention(&mut self, every_updates: u64, keep: usize) {
+        (self.every_updates, self.keep) = (every_updates, keep);
+    }
+
+    /// Writes an encoded state as `best.bundle`.
+    pub fn save_best(&self, bytes: &[u8]) -> Result<(), CheckpointError> {
+        self.write("best.bundle", bytes)
+    }
+
+    fn place_of(&self, name: &str) -> String {
+        match &self.place {
+            Place::Folder(folder) => folder.join(name).display().to_string(),
+            Place::Store(store) => format!("{store}/{IN_STORE}/{name}"),
+        }
+    }
+
+    fn write(&self, name: &str, bytes: &[u8]) -> Result<(), CheckpointError> {
+        match &self.place {
+            Place::Folder(folder) => atomic_file::write(&folder.join(name), bytes)
+                .map_err(|source| CheckpointError::Write { path: self.place_of(name), source }),
+            Place::Store(store) => Ok(store.put(&format!("{IN_STORE}/{name}"), bytes)?),
+        }
+    }
+
+    fn prune(&self) {
+        let names = match &self.place {
+            Place::Folder(folder) => fs::read_dir(folder)
+                .into_iter()
+                .flatten()
+                .flatten()
+                .map(|entry| entry.file_name().to_string_lossy().into_owned())
+                .collect(),
+            Place::Store(store) => store.list(IN_STORE).unwrap_or_default(),
+        };
+        let number = |name: &String| name.strip_suffix(".bundle")?.parse().ok();
+        let mut numbers: Vec<u64> = names.iter().filter_map(number).collect();
+        numbers.sort_unstable();
+        let surplus = numbers.len().saturating_sub(self.keep);
+        for number in &numbers[..surplus] {
+            if let Err(why) = self.remove(&numbered(*number)) {
+                tracing::warn!(checkpoint = number, error = %why, "old checkpoint not removed");
+            }
+        }
+    }
+
+    fn remove(&self, name: &str) -> Result<(), CheckpointError> {
+        match &self.place {
+            Place::Folder(folder) => fs::remove_file(folder.join(name))
+                .map_err(|source| CheckpointError::Write { path: self.place_of(name), source }),
+            Place::Store(store) => Ok(store.delete(&format!("{IN_STORE}/{name}"))?),
+        }
+    }
+}

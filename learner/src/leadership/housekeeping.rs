@@ -1,0 +1,105 @@
+//! Thread that removes old states and notices when another learner leads.
+
+use std::{
+    io,
+    sync::{
+        Arc, Mutex,
+        mpsc::{RecvTimeoutError, SyncSender, sync_channel},
+    },
+    thread::JoinHandle,
+    time::{Duration, Instant},
+};
+
+use treadmill_runtime::error_chain;
+use treadmill_store::{Store, StoreError};
+
+use super::{Manifest, read_manifest};
+
+/// Interval of reading the manifest.
+const READ_EVERY: Duration = Duration::from_secs(2);
+/// Newest states of a leader that are kept, so that a follower can read the one that it has found in the manifest.
+const KEPT: usize = 3;
+
+/// Handle to the thread.
+#[derive(Debug)]
+pub(super) struct Housekeeping {
+    saved: Option<SyncSender<()>>,
+    successor: Arc<Mutex<Option<Manifest>>>,
+    thread: Option<JoinHandle<()>>,
+}
+
+impl Housekeeping {
+    pub(super) fn start(store: &Store, epoch: u64, writer: u64) -> io::Result<Self> {
+        let (saved, events) = sync_channel(1);
+        let successor = Arc::new(Mutex::new(None));
+        let (store, found) = (store.clone(), successor.clone());
+        let work = move || {
+            let mut read = Instant::now();
+            let mut leads = false;
+            loop {
+                match events.recv_timeout(READ_EVERY.saturating_sub(read.elapsed())) {
+                    Ok(()) => {
+                        leads = true;
+                        if let Err(why) = remove_old_states(&store, epoch, writer) {
+                            tracing::debug!(error = %error_chain(&why), "old states not removed");
+                        }
+                    }
+                    Err(RecvTimeoutError::Timeout) => {}
+                    Err(RecvTimeoutError::Disconnected) => return,
+                }
+                if leads && read.elapsed() >= READ_EVERY {
+                    read = Instant::now();
+                    let own = format!("{writer:016x}");
+                    if let Ok(Some((manifest, _))) = read_manifest(&store)
+                        && manifest.writer != own
+                    {
+                        *found.lock().expect("no holder of this lock panics") = Some(manifest);
+                        return;
+                    }
+                }
+                if !leads {
+                    read = Instant::now();
+                }
+            }
+        };
+        let thread = std::thread::Builder::new().name("leadership".to_string()).spawn(work)?;
+        Ok(Self { saved: Some(saved), successor, thread: Some(thread) })
+    }
+
+    /// Lets the thread remove old states. A note that comes while it works is not kept: the next one does.
+    pub(super) fn note_saved(&self) {
+        if let Some(saved) = &self.saved {
+            let _ = saved.try_send(());
+        }
+    }
+
+    /// Returns the manifest of a learner that has overtaken this one.
+    pub(super) fn successor(&self) -> Option<Manifest> {
+        self.successor.lock().expect("no holder of this lock panics").clone()
+    }
+}
+
+impl Drop for Housekeeping {
+    fn drop(&mut self) {
+        self.saved = None;
+        if let Some(thread) = self.thread.take() {
+            // A panic of the thread has been printed; leadership itself does not depend on it.
+            let _ = thread.join();
+        }
+    }
+}
+
+/// Removes the states of lower epochs, and the older ones of this learner. States of higher epochs are a successor's.
+fn remove_old_states(store: &Store, epoch: u64, writer: u64) -> Result<(), StoreError> {
+    let own = format!("{epoch:012}-{writer:016x}-");
+    let (mut mine, others): (Vec<_>, Vec<_>) =
+        store.list("states")?.into_iter().partition(|name| name.starts_with(&own));
+    mine.truncate(mine.len().saturating_sub(KEPT));
+    let is_lower =
+        |name: &String| name.split('-').next().and_then(|text| text.parse().ok()).is_some_and(|of: u64| of < epoch);
+    let old = others.into_iter().filter(is_lower).chain(mine);
+    for name in old {
+        store.delete(&format!("states/{name}"))?;
+    }
+    Ok(())
+}

@@ -1,0 +1,163 @@
+//! Leaders and followers with a store in memory.
+
+use std::time::{Duration, Instant};
+
+use treadmill_runtime::seeds;
+use treadmill_store::{
+    Store,
+    simulated::{Fault, SimulatedObjects},
+};
+
+use super::{
+    Leadership, LeadershipError, MANIFEST, Manifest, Status,
+    follower::{Follower, Sight},
+    read_manifest,
+};
+use crate::checkpoint::Counters;
+
+const GONE: Sight = Sight { leader: false, actors: true };
+
+fn counters(updates: u64) -> Counters {
+    Counters { updates, ..Counters::default() }
+}
+
+fn lead(store: &Store) -> Leadership {
+    Leadership::simulated(store, read_manifest(store).unwrap().as_ref(), seeds::unique())
+}
+
+/// The same with the thread that removes old states.
+fn prepare(store: &Store) -> Leadership {
+    Leadership::prepare(store, read_manifest(store).unwrap().as_ref()).unwrap()
+}
+
+fn manifest(store: &Store) -> Manifest {
+    read_manifest(store).unwrap().unwrap().0
+}
+
+#[test]
+fn an_overtaken_leader_cannot_save_any_more() {
+    let store = Store::simulated(&SimulatedObjects::default());
+    let mut first = lead(&store);
+    first.save("walk", &counters(0), b"zero").unwrap();
+    first.save("walk", &counters(1), b"one").unwrap();
+    let mut second = lead(&store);
+    first.save("walk", &counters(2), b"two").unwrap();
+    assert!(
+        matches!(second.save("walk", &counters(1), b"late"), Err(LeadershipError::Overtaken { .. })),
+        "the first went on"
+    );
+    let mut third = lead(&store);
+    third.save("walk", &counters(2), b"two again").unwrap();
+    assert!(third.epoch() > first.epoch());
+    let why = first.save("walk", &counters(3), b"three").unwrap_err().to_string();
+    assert!(why.contains(&format!("epoch {}", third.epoch())), "{why}");
+    assert_eq!(manifest(&store).epoch, third.epoch());
+    assert_eq!(store.get(&manifest(&store).state).unwrap().0, b"two again");
+}
+
+#[test]
+fn a_save_whose_answer_was_lost_counts_once() {
+    let objects = SimulatedObjects::default();
+    let store = Store::simulated(&objects);
+    let mut leader = lead(&store);
+    leader.save("walk", &counters(0), b"zero").unwrap();
+    // The state arrives, the manifest too, and only its answer is lost.
+    objects.set_faults([None, Some(Fault::AnswerLost)]);
+    leader.save("walk", &counters(1), b"one").unwrap();
+    // Neither the answer arrives nor can the manifest be read: the same call again finds its own write.
+    objects.set_faults([None, Some(Fault::AnswerLost), Some(Fault::Lost)]);
+    assert!(matches!(leader.save("walk", &counters(2), b"two"), Err(LeadershipError::Store(_))));
+    leader.save("walk", &counters(2), b"two").unwrap();
+    assert_eq!(manifest(&store).updates, 2);
+    leader.save("walk", &counters(3), b"three").unwrap();
+    assert_eq!(manifest(&store).updates, 3);
+}
+
+#[test]
+fn a_store_that_is_down_is_no_loss_of_leadership() {
+    let objects = SimulatedObjects::default();
+    let store = Store::simulated(&objects);
+    let mut leader = lead(&store);
+    leader.save("walk", &counters(0), b"zero").unwrap();
+    objects.set_down(true);
+    assert!(matches!(leader.save("walk", &counters(1), b"one"), Err(LeadershipError::Store(_))));
+    objects.set_down(false);
+    leader.save("walk", &counters(1), b"one").unwrap();
+    assert_eq!(manifest(&store).updates, 1);
+}
+
+#[test]
+fn old_states_are_removed() {
+    let store = Store::simulated(&SimulatedObjects::default());
+    let mut first = prepare(&store);
+    for updates in 0..20 {
+        first.save("walk", &counters(updates), b"state").unwrap();
+    }
+    drop(first);
+    let mut second = prepare(&store);
+    second.save("walk", &counters(20), b"state").unwrap();
+    second.save("walk", &counters(21), b"state").unwrap();
+    // The thread works off what it was told before it ends.
+    drop(second);
+    let left = store.list("states").unwrap();
+    assert!((1..=4).contains(&left.len()), "{left:?}");
+    assert!(store.get(&manifest(&store).state).is_ok());
+}
+
+#[test]
+fn a_follower_takes_over_only_from_a_leader_that_is_gone() {
+    let store = Store::simulated(&SimulatedObjects::default());
+    let (mut follower, begun) = (Follower::new(&store), Instant::now());
+    let at = |ms: u64| begun + Duration::from_millis(ms);
+    follower.refresh(at(0)).unwrap();
+    assert!(follower.loaded().is_none() && !follower.is_due(GONE, at(9000)), "there is no run yet");
+    let mut leader = lead(&store);
+    leader.save("walk", &counters(0), b"zero").unwrap();
+    follower.refresh(at(10_000)).unwrap();
+    assert_eq!(follower.loaded().unwrap().state, b"zero");
+    let present = Sight { leader: true, ..GONE };
+    assert!(!follower.is_due(present, at(60_000)), "the leader waits");
+    assert!(!follower.is_due(GONE, at(60_000)) && !follower.is_due(GONE, at(60_900)));
+    leader.save("walk", &counters(1), b"one").unwrap();
+    follower.refresh(at(61_100)).unwrap();
+    assert!(!follower.is_due(GONE, at(61_100)), "the leader trains, only this follower cannot see it");
+    assert!(!follower.is_due(GONE, at(62_000)));
+    assert!(follower.is_due(GONE, at(62_100)));
+    assert_eq!(follower.loaded().unwrap().manifest.updates, 1);
+    let alone = Sight { leader: false, actors: false };
+    assert!(!follower.is_due(alone, at(62_100)), "three intervals of 51 s");
+    assert!(follower.is_due(alone, at(61_100 + 3 * 51_100)));
+}
+
+#[test]
+fn the_end_of_a_leadership_decides_what_follows() {
+    let store = Store::simulated(&SimulatedObjects::default());
+    for (status, is_due) in [(Status::Released, true), (Status::Stopped, false), (Status::Finished, false)] {
+        let mut leader = lead(&store);
+        leader.save("walk", &counters(0), b"zero").unwrap();
+        leader.end(status).unwrap();
+        let mut follower = Follower::new(&store);
+        follower.refresh(Instant::now()).unwrap();
+        assert_eq!(follower.is_due(GONE, Instant::now()), is_due, "{status:?}");
+    }
+}
+
+#[test]
+fn a_damaged_manifest_is_refused_with_its_field() {
+    let store = Store::simulated(&SimulatedObjects::default());
+    lead(&store).save("walk", &counters(0), b"zero").unwrap();
+    let sound = String::from_utf8(store.get(MANIFEST).unwrap().0).unwrap();
+    for (from, to, wanted) in [
+        ("\"format\": 1", "\"format\": 2", "`format` is 2"),
+        ("\"walk\"", "\"a/b\"", "run"),
+        ("states/", "../", "`state`"),
+        ("states/", "states/x/", "`state`"),
+        ("\"epoch\"", "\"epoc\"", "epoch"),
+        ("}", "", "EOF"),
+    ] {
+        assert!(sound.contains(from), "{sound}");
+        store.put(MANIFEST, sound.replace(from, to).as_bytes()).unwrap();
+        let why = read_manifest(&store).unwrap_err().to_string();
+        assert!(why.contains(wanted), "{to}: {why}");
+    }
+}

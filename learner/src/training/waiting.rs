@@ -1,0 +1,127 @@
+//! Waits while a disk is full or a store fails, so that a run does not lose what it has learnt.
+
+use std::{
+    error::Error,
+    io::{self, ErrorKind},
+    time::{Duration, Instant},
+};
+
+use treadmill_runtime::{error_chain, shutdown::Shutdown};
+use treadmill_store::StoreError;
+
+use crate::{checkpoint::CheckpointError, leadership::LeadershipError};
+
+/// Pause between two attempts.
+const RETRY: Duration = Duration::from_millis(500);
+/// Pause between two warnings.
+const WARN_EVERY: Duration = Duration::from_secs(30);
+
+/// Obstacle that may pass by itself.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Obstacle {
+    /// The disk or the quota is full.
+    DiskFull,
+    /// The store is slow, unreachable, full or read-only, or answers with an error.
+    Store,
+}
+
+/// Error whose cause may pass by itself.
+pub trait MayPass: Error {
+    /// Returns the cause, if it may pass.
+    fn obstacle(&self) -> Option<Obstacle>;
+}
+
+impl MayPass for io::Error {
+    fn obstacle(&self) -> Option<Obstacle> {
+        matches!(self.kind(), ErrorKind::StorageFull | ErrorKind::QuotaExceeded).then_some(Obstacle::DiskFull)
+    }
+}
+
+impl MayPass for StoreError {
+    fn obstacle(&self) -> Option<Obstacle> {
+        matches!(self, Self::Failed { .. }).then_some(Obstacle::Store)
+    }
+}
+
+impl MayPass for CheckpointError {
+    fn obstacle(&self) -> Option<Obstacle> {
+        match self {
+            Self::Write { source, .. } => source.obstacle(),
+            Self::Store(source) => source.obstacle(),
+            _ => None,
+        }
+    }
+}
+
+impl MayPass for LeadershipError {
+    fn obstacle(&self) -> Option<Obstacle> {
+        match self {
+            Self::Store(source) => source.obstacle(),
+            _ => None,
+        }
+    }
+}
+
+/// Calls `write` until the obstacle has passed or shutdown is requested. A `write` that fails must leave no partial output.
+pub fn wait_to_write<T, E: MayPass>(shutdown: &Shutdown, mut write: impl FnMut() -> Result<T, E>) -> Result<T, E> {
+    let mut warned: Option<Instant> = None;
+    loop {
+        let outcome = write();
+        let obstacle = outcome.as_ref().err().and_then(MayPass::obstacle);
+        if let (Err(why), Some(obstacle), false) = (&outcome, obstacle, shutdown.asked()) {
+            if warned.is_none_or(|warned| warned.elapsed() >= WARN_EVERY) {
+                let error = error_chain(why);
+                match obstacle {
+                    Obstacle::DiskFull => {
+                        tracing::warn!(%error, "the disk is full: training waits until there is room")
+                    }
+                    Obstacle::Store => tracing::warn!(%error, "the store fails: training waits until it answers"),
+                }
+                warned = Some(Instant::now());
+            }
+            std::thread::sleep(RETRY);
+            continue;
+        }
+        if warned.is_some() && outcome.is_ok() {
+            tracing::warn!("written: training continues");
+        }
+        return outcome;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn full() -> io::Error {
+        ErrorKind::StorageFull.into()
+    }
+
+    #[test]
+    fn only_what_may_pass_is_retried() {
+        let mut tries = 0;
+        let written = wait_to_write(&Shutdown::default(), || {
+            tries += 1;
+            if tries < 3 { Err(full()) } else { Ok(tries) }
+        });
+        assert_eq!(written.unwrap(), 3);
+        let refused =
+            wait_to_write(&Shutdown::default(), || Err::<(), _>(io::Error::from(ErrorKind::PermissionDenied)));
+        assert_eq!(refused.unwrap_err().kind(), ErrorKind::PermissionDenied);
+        let source = CheckpointError::Write { path: "latest.bundle".into(), source: full() };
+        assert_eq!(source.obstacle(), Some(Obstacle::DiskFull));
+    }
+
+    #[test]
+    fn a_shutdown_ends_the_wait() {
+        let shutdown = Shutdown::default();
+        let mut tries = 0;
+        let refused = wait_to_write(&shutdown, || {
+            tries += 1;
+            shutdown.ask();
+            Err::<(), _>(full())
+        });
+        assert_eq!(refused.unwrap_err().obstacle(), Some(Obstacle::DiskFull));
+        assert_eq!(tries, 1);
+    }
+}

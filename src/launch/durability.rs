@@ -1,0 +1,219 @@
+//! Runs a learner whose state is in a store: begins the run, or follows it and leads once its leader is gone.
+
+use std::time::{Duration, Instant};
+
+use anyhow::Context;
+use treadmill_bus::{is_any_actor_present, is_learner_present};
+use treadmill_learner::{
+    checkpoint,
+    leadership::{
+        Leadership, LeadershipError, Status,
+        follower::{Follower, Loaded, Sight},
+        read_manifest,
+    },
+    training::TrainingError,
+};
+use treadmill_runtime::{error_chain, numbers::thousands, run_folder::RunFolder, run_lock::RunLock};
+use treadmill_store::Store;
+
+use crate::launch::{
+    async_runtime, begin,
+    exit_code::Usage,
+    host::{self, Host, HostOptions},
+    memory,
+    output::{say, say_error},
+    resumption,
+    run_args::{AnyRunArgs, NewRunArgs},
+    startup::{self, RunCommand, Start},
+};
+
+/// Interval of reading the manifest and of looking for tokens.
+const POLL: Duration = Duration::from_millis(500);
+/// Longest wait for tokens.
+const SIGHT_TIMEOUT: Duration = Duration::from_millis(400);
+/// Pause between two warnings that the store fails.
+const WARN_EVERY: Duration = Duration::from_secs(30);
+
+/// Flags of a run in a store.
+pub struct StoredRun<'a> {
+    /// Command of this process.
+    pub command: RunCommand,
+    /// Flags of new runs.
+    pub new: &'a NewRunArgs,
+    /// Flags of new and resumed runs; `store` is given.
+    pub any: &'a AnyRunArgs,
+    /// Keys set by further flags.
+    pub changes: &'a [(&'static str, toml::Value)],
+    /// Name of a new run on the bus; by default that of its folder.
+    pub name: Option<String>,
+    /// Whether this process never begins a run.
+    pub is_standby: bool,
+}
+
+impl StoredRun<'_> {
+    /// Runs until the run is complete or stopped.
+    ///
+    /// # Errors
+    /// If flags are refused, or the store or the training fails.
+    pub fn run(&self, url: &str, options: HostOptions<'_>) -> anyhow::Result<()> {
+        let store = Store::open(url).map_err(|why| Usage(error_chain(&why)))?;
+        let last = read_manifest(&store)?;
+        if let Some((manifest, _)) = last.as_ref().filter(|_| !self.follows()) {
+            return Err(Usage(format!(
+                "--store {store}: it holds run `{}` at {} env steps already; continue it with --resume-or-start, follow it with \
+                 `treadmill learner --standby`, or choose another URL",
+                manifest.run,
+                thousands(manifest.env_steps)
+            ))
+            .into());
+        }
+        memory::keep_freed();
+        let begun = if last.is_none() && !self.is_standby { Some(self.begin(&store)?) } else { None };
+        async_runtime::run(async {
+            let mut host = Host::open(options).await?;
+            let outcome = self.serve(&store, &mut host, begun).await;
+            host.close();
+            outcome
+        })
+    }
+
+    /// Whether this process waits for the present leader to end.
+    fn follows(&self) -> bool {
+        self.is_standby || self.any.resume_or_start
+    }
+
+    /// Begins a new run.
+    fn begin(&self, store: &Store) -> anyhow::Result<Start> {
+        let mut start = begin::begin(self.command, self.new, self.any, self.changes)?;
+        if let Start::Ready(prepared, _) = &mut start {
+            prepared.store = Some(store.to_string());
+            prepared.folder.set_store(&store.to_string())?;
+        }
+        self.name.clone().map_or(Ok(()), |name| start.set_name(name))?;
+        startup::write_files(&start)?;
+        Ok(start)
+    }
+
+    /// Leads and follows in turn.
+    async fn serve(&self, store: &Store, host: &mut Host<'_>, begun: Option<Start>) -> anyhow::Result<()> {
+        if let Some(Start::Ready(prepared, mut lock)) = begun {
+            let folder = prepared.folder.clone();
+            let leadership = Leadership::prepare(store, None)?;
+            let led = host.lead(*prepared, &mut lock, Some(leadership)).await;
+            if led.is_err() {
+                folder.discard();
+            }
+            if !self.goes_on_after(&led) {
+                return led;
+            }
+        }
+        loop {
+            let Some(loaded) = self.follow(store, host).await? else { return Ok(()) };
+            let (prepared, mut lock) = match self.resume(store, &loaded)? {
+                Start::Ready(prepared, lock) => (*prepared, lock),
+                Start::Finished(folder, state) => {
+                    host::print_finished(&folder, *state, host.options());
+                    return Ok(());
+                }
+            };
+            let leadership = Leadership::prepare(store, Some(&(loaded.manifest, loaded.tag)))?;
+            let led = host.lead(prepared, &mut lock, Some(leadership)).await;
+            if !self.goes_on_after(&led) {
+                return led;
+            }
+        }
+    }
+
+    /// Returns whether this process follows again after it has led.
+    fn goes_on_after(&self, led: &anyhow::Result<()>) -> bool {
+        let Err(why) = led else { return false };
+        let is_overtaken = matches!(
+            why.downcast_ref::<TrainingError>(),
+            Some(TrainingError::Leadership(LeadershipError::Overtaken { .. }))
+        );
+        let goes_on = is_overtaken && self.follows() && self.command == RunCommand::Learner;
+        if goes_on {
+            say_error(&format!("{why}; following it from now on"));
+        }
+        goes_on
+    }
+
+    /// Follows the run until it is time to lead. Returns `None` if the run has ended or this process is to stop.
+    async fn follow(&self, store: &Store, host: &mut Host<'_>) -> anyhow::Result<Option<Loaded>> {
+        let mut follower = Follower::new(store);
+        let mut warned: Option<Instant> = None;
+        let mut is_known = false;
+        let listening = host.endpoints().join(", ");
+        say(&format!("following {store}, listening {listening}"));
+        while !host.shutdown.asked() {
+            host.heartbeat.beat();
+            let refreshed;
+            (follower, refreshed) = tokio::task::spawn_blocking(move || {
+                let refreshed = follower.refresh(Instant::now());
+                (follower, refreshed)
+            })
+            .await
+            .context("the thread that reads the store panicked")?;
+            match refreshed {
+                Ok(()) => {
+                    if let Some(Loaded { manifest, .. }) = follower.loaded() {
+                        if !is_known {
+                            let (run, steps) = (&manifest.run, thousands(manifest.env_steps));
+                            say(&format!(
+                                "run `{run}` is at {steps} env steps; process {} on host {} leads in epoch {}",
+                                manifest.pid, manifest.host, manifest.epoch
+                            ));
+                            host.serve_page(run)?;
+                            is_known = true;
+                        }
+                        match manifest.status {
+                            Status::Stopped | Status::Finished if self.is_standby => {
+                                say(&format!(
+                                    "run `{}` has ended at {} env steps",
+                                    manifest.run,
+                                    thousands(manifest.env_steps)
+                                ));
+                                return Ok(None);
+                            }
+                            Status::Stopped | Status::Finished => return Ok(follower.loaded().cloned()),
+                            Status::Training | Status::Released => {}
+                        }
+                        let run = manifest.run.clone();
+                        let sight = Sight {
+                            leader: is_learner_present(&host.bus, &run, SIGHT_TIMEOUT).await?,
+                            actors: is_any_actor_present(&host.bus, &run, SIGHT_TIMEOUT).await?,
+                        };
+                        if follower.is_due(sight, Instant::now()) {
+                            say(&format!("the leader of run `{run}` is gone: taking over"));
+                            return Ok(follower.loaded().cloned());
+                        }
+                    }
+                }
+                Err(LeadershipError::Store(why)) => {
+                    if warned.is_none_or(|warned| warned.elapsed() >= WARN_EVERY) {
+                        tracing::warn!(error = %error_chain(&why), "the store fails: trying again");
+                        warned = Some(Instant::now());
+                    }
+                }
+                Err(why) => return Err(why.into()),
+            }
+            tokio::select! {
+                () = tokio::time::sleep(POLL) => {}
+                () = host.shutdown.wait() => {}
+            }
+        }
+        Ok(None)
+    }
+
+    /// Prepares to go on from a state of the store.
+    fn resume(&self, store: &Store, loaded: &Loaded) -> anyhow::Result<Start> {
+        let name = format!("{store}/{}", loaded.manifest.state);
+        let state = checkpoint::read(&name, &loaded.state)?;
+        let folder = RunFolder::of_stored(self.new.run_dir.as_deref(), &state.run, &store.to_string())?;
+        let lock = RunLock::take(&folder)?;
+        let mut start = resumption::go_on(self.command, (folder, lock), state, self.new, self.any, self.changes)?;
+        self.name.clone().map_or(Ok(()), |name| start.set_name(name))?;
+        startup::write_files(&start)?;
+        Ok(start)
+    }
+}
