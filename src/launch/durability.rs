@@ -8,7 +8,7 @@ use treadmill_learner::{
     checkpoint,
     leadership::{
         Leadership, LeadershipError, Status,
-        follower::{Follower, Loaded, Sight},
+        follower::{LoadedState, Sight, StateFollower},
         read_manifest,
     },
     training::TrainingError,
@@ -139,8 +139,8 @@ impl StoredRun<'_> {
     }
 
     /// Follows the run until it is time to lead. Returns `None` if the run has ended or this process is to stop.
-    async fn follow(&self, store: &Store, host: &mut Host<'_>) -> anyhow::Result<Option<Loaded>> {
-        let mut follower = Follower::new(store);
+    async fn follow(&self, store: &Store, host: &mut Host<'_>) -> anyhow::Result<Option<LoadedState>> {
+        let mut follower = StateFollower::new(store);
         let mut warned: Option<Instant> = None;
         let mut is_known = false;
         let listening = host.endpoints().join(", ");
@@ -156,7 +156,7 @@ impl StoredRun<'_> {
             .context("the thread that reads the store panicked")?;
             match refreshed {
                 Ok(()) => {
-                    if let Some(Loaded { manifest, .. }) = follower.loaded() {
+                    if let Some(LoadedState { manifest, .. }) = follower.loaded() {
                         if !is_known {
                             let (run, steps) = (&manifest.run, thousands(manifest.env_steps));
                             say(&format!(
@@ -206,7 +206,7 @@ impl StoredRun<'_> {
     }
 
     /// Prepares to go on from a state of the store.
-    fn resume(&self, store: &Store, loaded: &Loaded) -> anyhow::Result<Start> {
+    fn resume(&self, store: &Store, loaded: &LoadedState) -> anyhow::Result<Start> {
         let name = format!("{store}/{}", loaded.manifest.state);
         let state = checkpoint::read(&name, &loaded.state)?;
         let folder = RunFolder::of_stored(self.new.run_dir.as_deref(), &state.run, &store.to_string())?;

@@ -137,6 +137,8 @@ fn check_agreement(saved: &Config, new: &NewRunArgs, changes: &[(&str, toml::Val
     }
     new.add_to(&mut source, changes)?;
     source.value("run.steps", i64::try_from(saved.run.steps)?)?;
+    // The number of processes may change at each start, also where a preset has another one.
+    source.value("rollout.actors", i64::from(saved.rollout.actors))?;
     let mut wanted = source.build()?;
     startup::complete(&mut wanted);
     let differences = differences(saved, &wanted)?;

@@ -3,18 +3,21 @@
 use treadmill_config::Config;
 use treadmill_humanoid::PHYSICS_VERSION;
 use treadmill_learner::{
-    checkpoint::{self, TrainingState, Which},
+    checkpoint::{TrainingState, Which},
     intake::{FragmentCounts, Ledger},
 };
 use treadmill_policy::normaliser::RunningMoments;
-use treadmill_runtime::{numbers::thousands, run_folder::RunFolder, seeds};
+use treadmill_runtime::{numbers::thousands, seeds};
 
 use crate::{
     launch::{
         exit_code::Usage,
         run_args::{AnyRunArgs, NewRunArgs},
     },
-    shared::saved_policy::{self, SavedPolicy},
+    shared::{
+        saved_policy::{self, SavedPolicy},
+        saved_run,
+    },
 };
 
 /// Policy that a new run begins with.
@@ -73,7 +76,7 @@ impl Fork {
     /// # Errors
     /// If there is no such run, or this program cannot continue it.
     pub fn read(from: &str, which: Option<Which>) -> anyhow::Result<Self> {
-        let loaded = checkpoint::load(&RunFolder::open(from)?, which.unwrap_or(Which::Latest))?;
+        let loaded = saved_run::load(from, which.unwrap_or(Which::Latest))?;
         let mut state = loaded.state;
         let origin = format!("`{from}`, checkpoint {}, {} steps", loaded.name, thousands(state.counters.env_steps));
         if !state.config().map_err(anyhow::Error::msg)?.is_external() {

@@ -2,6 +2,7 @@
 //!
 //! # Layout
 //! - [`saved_policy`]: the policy of a run, a checkpoint or an exported file.
+//! - [`saved_run`]: a checkpoint of a run in a folder or a store.
 //! - [`network_args`]: flags of the network.
 //! - [`learner_address`]: flags that locate a learner, and a session with it.
 //! - `existing_file`: reads a flag that names a file.
@@ -11,4 +12,5 @@ pub(crate) mod existing_file;
 pub mod learner_address;
 pub mod network_args;
 pub mod saved_policy;
+pub mod saved_run;
 pub mod viewer_args;

@@ -12,9 +12,9 @@ use treadmill_policy::{
     normaliser::RunningMoments,
 };
 use treadmill_proto::Task;
-use treadmill_runtime::{numbers::thousands, run_folder::RunFolder};
+use treadmill_runtime::numbers::thousands;
 
-use crate::launch::exit_code::Usage;
+use crate::{launch::exit_code::Usage, shared::saved_run};
 
 /// Policy that was read, and where it comes from.
 pub struct SavedPolicy {
@@ -41,7 +41,7 @@ impl fmt::Display for Origin {
     }
 }
 
-/// Reads the policy of a run's folder, of a bundle file or of an exported file. `which` selects a checkpoint of a folder; by
+/// Reads the policy of a run's folder or store, of a bundle file or of an exported file. `which` selects a checkpoint of a folder; by
 /// default the best if there is one, else the latest.
 ///
 /// # Errors
@@ -49,7 +49,7 @@ impl fmt::Display for Origin {
 pub fn load(run: &str, which: Option<Which>) -> anyhow::Result<SavedPolicy> {
     let path = Path::new(run);
     if !path.is_file() {
-        let Loaded { name, state } = checkpoint::load(&RunFolder::open(run)?, which.unwrap_or(Which::BestOrLatest))?;
+        let Loaded { name, state } = saved_run::load(run, which.unwrap_or(Which::BestOrLatest))?;
         return from_state(&state, name).with_context(|| format!("cannot use the policy of `{run}`"));
     }
     if which.is_some() {

@@ -23,4 +23,5 @@ mod security;
 mod silence;
 #[path = "../support/mod.rs"]
 mod support;
+mod takeover;
 mod versions;

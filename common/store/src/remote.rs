@@ -8,7 +8,6 @@ use object_store::{
     aws::AmazonS3Builder, azure::MicrosoftAzureBuilder, gcp::GoogleCloudStorageBuilder, path::Path,
 };
 use tokio::runtime::Runtime;
-use treadmill_runtime::error_chain;
 use url::Url;
 
 use crate::{StoreError, Tag, location::Scheme};
@@ -17,6 +16,9 @@ use crate::{StoreError, Tag, location::Scheme};
 const RETRIES: usize = 1;
 /// Longest time in which an attempt may follow.
 const RETRY_TIMEOUT: Duration = Duration::from_secs(5);
+
+/// Longest error that is shown, in characters: a store may answer with a whole page.
+const WORDS_MAX: usize = 600;
 
 /// Objects below a path of a bucket.
 #[derive(Debug)]
@@ -30,8 +32,7 @@ pub(crate) struct Remote {
 
 impl Remote {
     pub(crate) fn open(scheme: Scheme, url: &Url) -> Result<Self, StoreError> {
-        let settings =
-            |why: &dyn Error| StoreError::Settings { store: url.to_string(), why: without_secrets(&error_chain(why)) };
+        let settings = |why: &dyn Error| StoreError::Settings { store: url.to_string(), why: in_words(why) };
         // Where the process has a provider already, it is the same one.
         let _ = rustls::crypto::ring::default_provider().install_default();
         let objects = client(scheme, url).map_err(|why| settings(&why))?;
@@ -131,8 +132,22 @@ fn failed(name: &str, why: &object_store::Error) -> StoreError {
         object_store::Error::AlreadyExists { .. } | object_store::Error::Precondition { .. } => {
             StoreError::conflict(name)
         }
-        _ => StoreError::failed(name, without_secrets(&error_chain(why))),
+        _ => StoreError::failed(name, in_words(why)),
     }
+}
+
+/// Returns an error with those of its causes that it does not repeat by itself.
+fn in_words(why: &dyn Error) -> String {
+    let mut text = why.to_string();
+    let mut source = why.source();
+    while let Some(cause) = source {
+        let cause_text = cause.to_string();
+        if !text.contains(&cause_text) {
+            text = format!("{text}: {cause_text}");
+        }
+        source = cause.source();
+    }
+    without_secrets(&text).chars().take(WORDS_MAX).collect()
 }
 
 /// Removes the queries of URLs, where signatures are, and line breaks.

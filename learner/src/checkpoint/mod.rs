@@ -209,6 +209,15 @@ fn known(folder: &Path) -> String {
     }
 }
 
+/// Returns the name of a best or numbered checkpoint's object in a store.
+#[must_use]
+pub fn object(which: Which) -> String {
+    match which {
+        Which::Numbered(number) => format!("{}/{}", writer::IN_STORE, numbered(number)),
+        Which::Best | Which::Latest | Which::BestOrLatest => format!("{}/best.bundle", writer::IN_STORE),
+    }
+}
+
 fn numbered(number: u64) -> String {
     format!("{number:08}.bundle")
 }

@@ -10,7 +10,7 @@ use super::{CheckpointError, TrainingState, encoding, numbered};
 /// Name of the newest checkpoint in a folder.
 const LATEST: &str = "latest.bundle";
 /// Folder of checkpoints in a store.
-const IN_STORE: &str = "checkpoints";
+pub(super) const IN_STORE: &str = "checkpoints";
 
 /// Writes the checkpoints of one run. In a store it writes the best and numbered ones; the newest belongs to
 /// [`Leadership`](crate::leadership::Leadership) there.

@@ -25,7 +25,7 @@ pub struct Sight {
 
 /// Newest state that a follower has loaded.
 #[derive(Clone, Debug)]
-pub struct Loaded {
+pub struct LoadedState {
     /// Manifest that names it.
     pub manifest: Manifest,
     /// Tag of the manifest.
@@ -36,9 +36,9 @@ pub struct Loaded {
 
 /// Follows one run.
 #[derive(Debug)]
-pub struct Follower {
+pub struct StateFollower {
     store: Store,
-    loaded: Option<Loaded>,
+    loaded: Option<LoadedState>,
     /// When the manifest last changed, as this follower saw it.
     changed: Option<Instant>,
     /// Longest time between two changes.
@@ -47,8 +47,8 @@ pub struct Follower {
     missing_since: Option<Instant>,
 }
 
-impl Follower {
-    /// Follower of the run in `store`.
+impl StateFollower {
+    /// StateFollower of the run in `store`.
     #[must_use]
     pub fn new(store: &Store) -> Self {
         Self { store: store.clone(), loaded: None, changed: None, interval: Duration::ZERO, missing_since: None }
@@ -56,7 +56,7 @@ impl Follower {
 
     /// Returns the newest state that was loaded.
     #[must_use]
-    pub fn loaded(&self) -> Option<&Loaded> {
+    pub fn loaded(&self) -> Option<&LoadedState> {
         self.loaded.as_ref()
     }
 
@@ -83,7 +83,7 @@ impl Follower {
             self.interval = self.interval.max(now.duration_since(changed));
         }
         (self.changed, self.missing_since) = (Some(now), None);
-        self.loaded = Some(Loaded { manifest, tag, state });
+        self.loaded = Some(LoadedState { manifest, tag, state });
         Ok(())
     }
 

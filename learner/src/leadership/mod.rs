@@ -7,7 +7,7 @@
 //! - Here: [`Leadership`], which saves states.
 //! - [`manifest`]: [`Manifest`], which names the newest state and its leader.
 //! - `housekeeping`: thread that removes old states and notices a successor.
-//! - [`follower`]: [`Follower`](follower::Follower), which keeps the newest state loaded and decides when to take over.
+//! - [`follower`]: [`StateFollower`](follower::StateFollower), which keeps the newest state loaded and decides when to take over.
 
 pub mod follower;
 mod housekeeping;

@@ -10,7 +10,7 @@ use treadmill_store::{
 
 use super::{
     Leadership, LeadershipError, MANIFEST, Manifest, Status,
-    follower::{Follower, Sight},
+    follower::{Sight, StateFollower},
     read_manifest,
 };
 use crate::checkpoint::Counters;
@@ -97,7 +97,7 @@ fn old_states_are_removed() {
     let mut second = prepare(&store);
     second.save("walk", &counters(20), b"state").unwrap();
     second.save("walk", &counters(21), b"state").unwrap();
-    // The thread works off what it was told before it ends.
+    // The thread removes what is to be removed before it ends.
     drop(second);
     let left = store.list("states").unwrap();
     assert!((1..=4).contains(&left.len()), "{left:?}");
@@ -107,7 +107,7 @@ fn old_states_are_removed() {
 #[test]
 fn a_follower_takes_over_only_from_a_leader_that_is_gone() {
     let store = Store::simulated(&SimulatedObjects::default());
-    let (mut follower, begun) = (Follower::new(&store), Instant::now());
+    let (mut follower, begun) = (StateFollower::new(&store), Instant::now());
     let at = |ms: u64| begun + Duration::from_millis(ms);
     follower.refresh(at(0)).unwrap();
     assert!(follower.loaded().is_none() && !follower.is_due(GONE, at(9000)), "there is no run yet");
@@ -136,7 +136,7 @@ fn the_end_of_a_leadership_decides_what_follows() {
         let mut leader = lead(&store);
         leader.save("walk", &counters(0), b"zero").unwrap();
         leader.end(status).unwrap();
-        let mut follower = Follower::new(&store);
+        let mut follower = StateFollower::new(&store);
         follower.refresh(Instant::now()).unwrap();
         assert_eq!(follower.is_due(GONE, Instant::now()), is_due, "{status:?}");
     }

@@ -7,7 +7,7 @@ use treadmill_learner::{
     checkpoint::Counters,
     leadership::{
         Leadership, LeadershipError,
-        follower::{Follower, Sight},
+        follower::{Sight, StateFollower},
     },
 };
 use treadmill_store::Store;
@@ -55,13 +55,13 @@ pub struct Lead {
 /// One learner process.
 pub struct Learner {
     pub lead: Option<Lead>,
-    follower: Follower,
+    follower: StateFollower,
     pub is_frozen: bool,
 }
 
 impl Learner {
     pub fn new(store: &Store) -> Self {
-        Self { lead: None, follower: Follower::new(store), is_frozen: false }
+        Self { lead: None, follower: StateFollower::new(store), is_frozen: false }
     }
 
     /// Whether it has taken the lead, as far as it knows.
@@ -93,7 +93,7 @@ impl Learner {
                 true
             }
             Err(LeadershipError::Overtaken { .. }) => {
-                (self.lead, self.follower) = (None, Follower::new(store));
+                (self.lead, self.follower) = (None, StateFollower::new(store));
                 false
             }
             // The store fails: the learner waits.

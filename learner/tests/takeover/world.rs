@@ -118,7 +118,7 @@ impl World {
             learnt.sort_unstable();
             assert!(learnt.windows(2).all(|pair| pair[0] != pair[1]), "seed {seed}: learnt from twice: {learnt:?}");
             let lost: Vec<_> = actor.durable.iter().filter(|one| learnt.binary_search(one).is_err()).collect();
-            assert!(lost.is_empty(), "seed {seed}: actor {index} was told that {lost:?} are durable");
+            assert!(lost.is_empty(), "seed {seed}: {lost:?} of actor {index} were called durable");
             // Nothing is lost silently either: each fragment is learnt from, or the actor still has it.
             let newest = learnt.last().copied().unwrap_or(0);
             let is_known = |one: u64| {

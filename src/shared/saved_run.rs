@@ -1,0 +1,58 @@
+//! Checkpoint of a run that a RUN argument names: a folder, a name below `runs/`, or the URL of a store.
+
+use treadmill_learner::{
+    checkpoint::{self, Loaded, Which},
+    leadership::read_manifest,
+};
+use treadmill_runtime::{error_chain, run_folder::RunFolder};
+use treadmill_store::{Store, StoreError};
+
+use crate::launch::exit_code::Usage;
+
+/// Returns whether a RUN argument is the URL of a store.
+#[must_use]
+pub fn is_url(run: &str) -> bool {
+    run.contains("://")
+}
+
+/// Reads a checkpoint of a run. The folder of a run whose state is in a store leads to the store.
+///
+/// # Errors
+/// If there is no such run, or its checkpoint is missing or cannot be used.
+pub fn load(run: &str, which: Which) -> anyhow::Result<Loaded> {
+    if is_url(run) {
+        return load_stored(run, which);
+    }
+    let folder = RunFolder::open(run)?;
+    match std::fs::read_to_string(folder.store()) {
+        Ok(url) => load_stored(url.trim(), which),
+        Err(_) => Ok(checkpoint::load(&folder, which)?),
+    }
+}
+
+fn load_stored(url: &str, which: Which) -> anyhow::Result<Loaded> {
+    let store = Store::open(url).map_err(|why| Usage(error_chain(&why)))?;
+    let (name, object) = match which {
+        Which::Best => ("best".to_string(), checkpoint::object(which)),
+        Which::Numbered(number) => (number.to_string(), checkpoint::object(which)),
+        Which::Latest => return load_newest(&store),
+        Which::BestOrLatest => match load_stored(url, Which::Best) {
+            Err(why) if matches!(why.downcast_ref(), Some(StoreError::Missing { .. })) => return load_newest(&store),
+            other => return other,
+        },
+    };
+    let (bytes, _) = store.get(&object)?;
+    Ok(Loaded { state: checkpoint::read(&format!("{store}/{object}"), &bytes)?, name })
+}
+
+fn load_newest(store: &Store) -> anyhow::Result<Loaded> {
+    let Some((manifest, _)) = read_manifest(store)? else {
+        return Err(Usage(format!(
+            "the store `{store}` holds no run; begin one with `treadmill learner --store {store}`"
+        ))
+        .into());
+    };
+    let (bytes, _) = store.get(&manifest.state)?;
+    let state = checkpoint::read(&format!("{store}/{}", manifest.state), &bytes)?;
+    Ok(Loaded { state, name: "latest".to_string() })
+}

