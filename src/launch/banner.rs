@@ -109,11 +109,11 @@ fn tls_flag(credentials: &Credentials) -> String {
     format!(" --tls {}", quoted(&credentials.folder.display().to_string()))
 }
 
-/// Prints that a run has all its steps.
-pub fn print_finished(folder: &RunFolder, state: &TrainingState, command: &str) {
-    let (root, steps) = (quoted(&folder.root().display().to_string()), state.counters.env_steps);
+/// Prints that a run has all its steps; `resumed_by` resumes it.
+pub fn print_finished(state: &TrainingState, resumed_by: &str) {
+    let steps = state.counters.env_steps;
     say(&format!(
-        "run `{}` is finished: it has {} steps; go on with: treadmill {command} --resume {root} --steps {}",
+        "run `{}` is finished: it has {} steps; go on with: {resumed_by} --steps {}",
         state.run,
         thousands(steps),
         steps.saturating_mul(2)

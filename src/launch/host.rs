@@ -99,7 +99,8 @@ pub fn run(start: Start, options: HostOptions) -> anyhow::Result<()> {
 
 /// Reports a run that has all its steps.
 pub fn print_finished(folder: &RunFolder, state: TrainingState, options: &HostOptions<'_>) {
-    banner::print_finished(folder, &state, options.command());
+    let resumed_by = startup::resume_command(options.command(), folder, options.any.store.as_deref());
+    banner::print_finished(&state, &resumed_by);
     if options.any.json {
         say(&as_json(&TrainingSummary::finished(state)));
     }

@@ -79,12 +79,7 @@ pub struct Prepared {
 impl Prepared {
     /// Returns the command that resumes this run.
     pub fn resume_command(&self, command: &str) -> String {
-        match &self.store {
-            Some(url) => format!("treadmill {command} --store {} --resume-or-start", words::quoted(url)),
-            None => {
-                format!("treadmill {command} --resume {}", words::quoted(&self.folder.root().display().to_string()))
-            }
-        }
+        resume_command(command, &self.folder, self.store.as_deref())
     }
 
     /// Sets the task of a new run and creates its state.
@@ -96,6 +91,14 @@ impl Prepared {
         self.origin = self.init_from.as_ref().map(|from| from.copy_to(&mut fresh)).transpose()?;
         self.state = Some(fresh);
         Ok(fs::write(self.folder.config(), self.config.to_toml())?)
+    }
+}
+
+/// Returns the command that resumes the run of a folder, or of a store.
+pub fn resume_command(command: &str, folder: &RunFolder, store: Option<&str>) -> String {
+    match store {
+        Some(url) => format!("treadmill {command} --store {} --resume-or-start", words::quoted(url)),
+        None => format!("treadmill {command} --resume {}", words::quoted(&folder.root().display().to_string())),
     }
 }
 

@@ -70,6 +70,16 @@ fn unused_endpoint() -> String {
 const QUOTED_ENDPOINT: &str = "tcp/127.0.0.1:7447";
 
 #[test]
+fn a_store_holds_a_run_already() {
+    let folder = tempfile::tempdir().unwrap();
+    let url = format!("file://{}/store", folder.path().display());
+    let train = ["train", "--preset", "smoke", "--steps", "2048", "--actors", "1", "--store", &url, "--run-dir"];
+    assert!(run(folder.path(), &[&train[..], &["run"]].concat()).status.success());
+    let again = [&train[..], &["again"]].concat();
+    assert_error("The store holds a run already", folder.path(), &again, &[(&url, "file:///tmp/walk")]);
+}
+
+#[test]
 fn every_marked_heading_is_tested_here() {
     assert!(PAGE.len() >= 10);
     for (heading, quoted) in PAGE.iter() {

@@ -1,11 +1,15 @@
 //! `bench train`: speed of this binary's own `train` in a temporary folder.
 
-use std::process::{Command, Stdio};
+use std::{
+    fs,
+    path::Path,
+    process::{Command, Stdio},
+};
 
 use anyhow::Context;
 use clap::Args;
 use serde_json::{Value, json};
-use treadmill_runtime::machine;
+use treadmill_runtime::{machine, seeds};
 
 use super::{print_result, rounded};
 
@@ -18,21 +22,65 @@ pub struct BenchTrainArgs {
     /// Actor processes; by default one per core.
     #[arg(long)]
     actors: Option<u32>,
+    /// Train a second time with the state below this store, and report what that adds to a round.
+    #[arg(long, value_name = "URL")]
+    store: Option<String>,
     /// Print one JSON object.
     #[arg(long)]
     json: bool,
 }
 
+/// What one training took.
+struct Measured {
+    summary: Value,
+    /// Mean time of an update's checkpoint (ms).
+    checkpoint_ms: f64,
+    /// Mean time between two updates (ms).
+    round_ms: f64,
+}
+
 /// Runs the measurement and prints its result.
 pub fn run(args: &BenchTrainArgs) -> anyhow::Result<()> {
-    let folder = tempfile::tempdir().context("cannot create a temporary folder")?;
     let actors = args.actors.unwrap_or(machine::cores() as u32);
+    let Measured { summary, checkpoint_ms, round_ms } = train(args.steps, actors, None)?;
+    let number = |field: &str| summary[field].as_f64().with_context(|| format!("the summary has no `{field}`"));
+    let mut result = json!({
+        "env_steps_per_s": rounded(number("env_steps_per_s")?),
+        "actors": actors,
+        "cores": machine::cores(),
+        "cpu": machine::cpu_name(),
+        "workload": format!("preset walk, {} env steps, start of the actors included", summary["env_steps"]),
+        "wall_s": rounded(number("wall_s")?),
+        "round_ms": rounded(round_ms),
+        "checkpoint_ms": rounded(checkpoint_ms),
+        "checksum": format!("{} updates", summary["updates"]),
+    });
+    if let Some(url) = &args.store {
+        // A store may keep the run of an earlier benchmark.
+        let url = format!("{}/bench-{:016x}", url.trim_end_matches('/'), seeds::unique());
+        let stored = train(args.steps, actors, Some(&url))?;
+        result["store"] = url.into();
+        result["store_env_steps_per_s"] =
+            rounded(stored.summary["env_steps_per_s"].as_f64().unwrap_or_default()).into();
+        result["store_round_ms"] = rounded(stored.round_ms).into();
+        result["store_checkpoint_ms"] = rounded(stored.checkpoint_ms).into();
+        let added = (stored.checkpoint_ms - checkpoint_ms) / round_ms;
+        result["store_adds_to_round"] = ((added * 1e4).round() / 1e4).into();
+    }
+    print_result(&result, args.json);
+    Ok(())
+}
+
+fn train(steps: u64, actors: u32, store: Option<&str>) -> anyhow::Result<Measured> {
+    let folder = tempfile::tempdir().context("cannot create a temporary folder")?;
+    let run = folder.path().join("bench");
     let program = std::env::current_exe().context("the path of this program is unknown")?;
     let output = Command::new(program)
         .args(["train", "--no-progress", "--json"])
-        .args(["--steps", &args.steps.to_string(), "--actors", &actors.to_string()])
+        .args(["--steps", &steps.to_string(), "--actors", &actors.to_string()])
+        .args(store.into_iter().flat_map(|url| ["--store", url]))
         .arg("--run-dir")
-        .arg(folder.path().join("bench"))
+        .arg(&run)
         .stderr(Stdio::inherit())
         .output()
         .context("training cannot be started")?;
@@ -40,16 +88,17 @@ pub fn run(args: &BenchTrainArgs) -> anyhow::Result<()> {
     let text = String::from_utf8_lossy(&output.stdout);
     let summary: Value = serde_json::from_str(text.trim_end().lines().last().unwrap_or_default())
         .context("training ended without a summary")?;
-    let number = |field: &str| summary[field].as_f64().with_context(|| format!("the summary has no `{field}`"));
-    let result = json!({
-        "env_steps_per_s": rounded(number("env_steps_per_s")?),
-        "actors": actors,
-        "cores": machine::cores(),
-        "cpu": machine::cpu_name(),
-        "workload": format!("preset walk, {} env steps, start of the actors included", summary["env_steps"]),
-        "wall_s": rounded(number("wall_s")?),
-        "checksum": format!("{} updates", summary["updates"]),
-    });
-    print_result(&result, args.json);
-    Ok(())
+    let updates = summary["updates"].as_f64().context("the summary has no `updates`")?.max(1.0);
+    let wall_s = summary["wall_s"].as_f64().context("the summary has no `wall_s`")?;
+    let checkpoint_ms = 1e3 * mean(&run.join("metrics.jsonl"), "time/checkpoint_s")?;
+    Ok(Measured { summary, checkpoint_ms, round_ms: 1e3 * wall_s / updates })
+}
+
+/// Returns the mean of a scalar over a run.
+fn mean(metrics: &Path, tag: &str) -> anyhow::Result<f64> {
+    let text = fs::read_to_string(metrics).with_context(|| format!("cannot read {}", metrics.display()))?;
+    let lines = text.lines().filter_map(|line| serde_json::from_str::<Value>(line).ok());
+    let values: Vec<f64> = lines.filter(|line| line["tag"] == tag).filter_map(|line| line["value"].as_f64()).collect();
+    anyhow::ensure!(!values.is_empty(), "{} has no `{tag}`", metrics.display());
+    Ok(values.iter().sum::<f64>() / values.len() as f64)
 }

@@ -49,6 +49,7 @@ fn json_of(run: &RunStatus) -> serde_json::Value {
         "pid": run.pid,
         "program_version": run.program_version,
         "policy_version": version(run.version),
+        "epoch": run.version.map(|version| version.epoch),
         "env_steps": run.env_steps,
         "env_steps_wanted": run.env_steps_wanted,
         "env_steps_per_s": run.env_steps_per_s,

@@ -68,11 +68,12 @@ fn describe(out: &mut String, run: &RunStatus) -> std::fmt::Result {
     )?;
     writeln!(
         out,
-        "  updates    {}, the last {} ago; policy {:08x}:{}",
+        "  updates    {}, the last {} ago; policy {:08x}:{}{}",
         run.updates,
         seconds(run.since_update_s),
         version.incarnation as u32,
-        version.number
+        version.number,
+        if version.epoch > 0 { format!(", epoch {}", version.epoch) } else { String::new() }
     )?;
     if let (Some(return_mean), Some(distance_m), Some(velocity_mps)) =
         (run.return_mean, run.distance_mean_m, run.velocity_mean_mps)
