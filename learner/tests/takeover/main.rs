@@ -19,6 +19,7 @@ fn number(name: &str) -> Option<u64> {
 }
 
 #[test]
+#[expect(clippy::print_stdout, reason = "shows how much was simulated")]
 fn no_fault_of_learners_network_or_store_loses_or_doubles_what_is_durable() {
     let seeds = match number("TREADMILL_SIMULATION_SEED") {
         Some(seed) => seed..seed + 1,
