@@ -16,10 +16,10 @@ missing() {
 }
 
 if docker compose version >/dev/null 2>&1; then
-    docker compose -f docker-compose.yml --profile observability config -q
+    docker compose -f docker-compose.yml --profile observability --profile store config -q
     echo 'docker compose reads docker-compose.yml'
 elif command -v docker-compose >/dev/null; then
-    docker-compose -f docker-compose.yml --profile observability config -q
+    docker-compose -f docker-compose.yml --profile observability --profile store config -q
     echo 'docker-compose reads docker-compose.yml'
 else
     missing 'Compose v2 and docker-compose are missing: docker-compose.yml is NOT CHECKED.'

@@ -14,8 +14,10 @@ base=$(sed -n 's/^FROM \(debian:[^ ]*\)$/\1/p' "$here/Dockerfile")
 docker image inspect "$base" >/dev/null 2>&1 || docker pull -q "$base" 2>/dev/null || "$here/base-images.sh" runtime
 mkdir "$work/deploy"
 cp "$binary" "$work/treadmill"
+cp -L /etc/ssl/certs/ca-certificates.crt "$work"
 cp "$here"/*.sh "$work/deploy"
 sed -n '/^FROM debian:/,$p' "$here/Dockerfile" |
-    sed 's|COPY --from=build /src/target/release/treadmill|COPY treadmill|' >"$work/Dockerfile"
+    sed -e 's|COPY --from=build /src/target/release/treadmill|COPY treadmill|' \
+        -e 's|COPY --from=build /etc/ssl/certs/ca-certificates.crt|COPY ca-certificates.crt|' >"$work/Dockerfile"
 DOCKER_BUILDKIT=0 docker build -q -t "$tag" "$work"
 docker run --rm --network none "$tag" --version >/dev/null || { echo "$binary does not run on $base; build it there" >&2; exit 1; }

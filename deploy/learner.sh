@@ -7,10 +7,16 @@
 # TREADMILL_STEPS    environment steps in total; a higher value continues a finished run
 # TREADMILL_SEED     seed of every random stream
 # TREADMILL_SET      configuration keys, for example "ppo.batch=4096 learner.threads=2"
+# TREADMILL_STORE    URL of the store for the run's state; default: the run's folder. AWS_… as docs/operations/failover.md lists
 set -eu
 
 preset=${TREADMILL_PRESET:-walk}
 set -- learner --preset "$preset" --run-dir "/runs/${TREADMILL_RUN:-$preset}" --resume-or-start "$@"
+[ -z "${TREADMILL_STORE:-}" ] || set -- "$@" --store "$TREADMILL_STORE"
+# Compose passes what is not set as empty, which the store's client would take for a value.
+for name in AWS_ENDPOINT AWS_ALLOW_HTTP AWS_REGION AWS_ACCESS_KEY_ID AWS_SECRET_ACCESS_KEY; do
+    eval "[ -n \"\${$name:-}\" ] || unset $name"
+done
 [ -z "${TREADMILL_STEPS:-}" ] || set -- "$@" --steps "$TREADMILL_STEPS"
 [ -z "${TREADMILL_SEED:-}" ] || set -- "$@" --seed "$TREADMILL_SEED"
 # Split at blanks only, without file name patterns: values may contain brackets.

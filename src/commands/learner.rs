@@ -4,6 +4,7 @@ use clap::Args;
 use treadmill_bus::Role;
 
 use crate::{
+    diagnosis::certificates,
     launch::{
         durability::StoredRun,
         host::{self, ActorProcesses, HostOptions},
@@ -44,6 +45,7 @@ pub fn run(args: LearnerArgs) -> anyhow::Result<()> {
     check_run(args.run.as_deref())?;
     let role = if args.standby { Role::Standby } else { Role::Learner };
     let options = args.network.options(role, args.listen, args.connect)?;
+    certificates::check_own(options.credentials.as_ref())?;
     let metrics = args.metrics.listen()?;
     if let Some(url) = &args.any.store {
         let run = StoredRun {

@@ -5,6 +5,7 @@ use treadmill_bus::{Bus, PolicyCache, Role};
 use treadmill_runtime::shutdown::Shutdown;
 
 use crate::{
+    diagnosis::certificates,
     launch::{async_runtime, output::say, signals},
     shared::network_args::NetworkArgs,
 };
@@ -25,6 +26,7 @@ pub struct RouterArgs {
 /// Forwards messages until the process is asked to stop.
 pub fn run(args: RouterArgs) -> anyhow::Result<()> {
     let options = args.network.options(Role::Router, args.listen, args.connect)?;
+    certificates::check_own(options.credentials.as_ref())?;
     if options.credentials.is_some() {
         treadmill_bus::workarounds::one_core::keep_to_one_core();
     }

@@ -4,6 +4,7 @@ use clap::Args;
 use treadmill_bus::Role;
 
 use crate::{
+    diagnosis::certificates,
     launch::{
         durability::StoredRun,
         exit_code::Usage,
@@ -43,6 +44,7 @@ pub struct TrainArgs {
 /// Trains until the run reaches its number of steps.
 pub fn run(args: TrainArgs) -> anyhow::Result<()> {
     let options = args.network.options(Role::Learner, vec![args.listen], Vec::new())?;
+    certificates::check_own(options.credentials.as_ref())?;
     let metrics = args.metrics.listen()?;
     let mut changes = changes(&[("rollout.envs", args.envs), ("rollout.actors", args.actors)]);
     if args.deterministic {

@@ -12,7 +12,8 @@ use time::OffsetDateTime;
 use treadmill_bus::{Credentials, Role};
 use x509_parser::prelude::{FromDer, GeneralName, X509Certificate};
 
-use super::finding::Finding;
+use super::finding::{Finding, Severity};
+use crate::launch::exit_code::Usage;
 
 const NAME: &str = "certificates";
 
@@ -48,6 +49,19 @@ pub fn diagnose(folder: &Path) -> Vec<Finding> {
 /// Makes the finding for one role's certificate, as far as links depend on it.
 pub fn diagnose_role_in(folder: &Path, role: Role) -> Finding {
     authority(folder).and_then(|roots| diagnose_role(folder, role, &roots)).unwrap_or_else(|finding| finding)
+}
+
+/// Refuses a certificate of this process that no other side would accept. Zenoh would dial on in silence
+/// (eclipse-zenoh/zenoh#2720).
+///
+/// # Errors
+/// If a file is damaged, the certificate is expired or of another role or authority, or the key is another one's.
+pub fn check_own(credentials: Option<&Credentials>) -> Result<(), Usage> {
+    let finding = credentials.map(|own| diagnose_role_in(&own.folder, own.role));
+    match finding.filter(|finding| finding.severity == Severity::Problem) {
+        Some(Finding { seen, remedy, .. }) => Err(Usage(format!("--tls: {seen}; {}", remedy.unwrap_or_default()))),
+        None => Ok(()),
+    }
 }
 
 /// Reads the folder's authority; the error is the finding about it.

@@ -11,7 +11,7 @@ use treadmill_runtime::{machine, seeds, shutdown::Shutdown};
 
 use super::{async_runtime, exit_code::Usage, signals};
 use crate::{
-    diagnosis::Silence,
+    diagnosis::{Silence, certificates},
     shared::network_args::{NetworkArgs, check_run},
 };
 
@@ -76,6 +76,7 @@ pub fn with_session<W: Future<Output = Result<(), ActorError>>>(
     let run = client.run.clone();
     let where_to = network.where_to(&client.connect);
     let bus_options = network.options(role, Vec::new(), client.connect)?;
+    certificates::check_own(bus_options.credentials.as_ref())?;
     async_runtime::run(async {
         let shutdown = Shutdown::default();
         signals::listen(shutdown.clone(), "")?;

@@ -2,6 +2,8 @@
 
 use std::{fs, os::unix::fs::PermissionsExt, path::Path, process::Command};
 
+use treadmill_bus::Role;
+
 use crate::support::*;
 
 fn learner(folder: &Path, run: &Path) -> Command {
@@ -91,7 +93,7 @@ fn hosts_of_certificates_are_listed_added_and_kept() {
     assert!(text.contains("the learner's is valid until") && text.contains("for first.example"), "{text}");
     let (actor, learner) = (read("actor.crt"), read("learner.crt"));
     let text = certs(&["--host", "::0001"]);
-    assert!(text.contains("wrote certificates and keys of learner, router to certs"), "{text}");
+    assert!(text.contains("wrote certificates and keys of learner, standby, router to certs"), "{text}");
     assert!(text.contains("364 days more, for first.example ::1"), "{text}");
     assert!(read("actor.crt") == actor && read("learner.crt") != learner, "only roles that listen name hosts");
     let learner = read("learner.crt");
@@ -123,4 +125,27 @@ fn certificates_are_created_once_and_only_the_owner_can_read_keys() {
     fs::remove_file(folder.path().join("certs/actor.key")).unwrap();
     let args = ["actor", "--connect", "tls/127.0.0.1:1", "--tls", "certs"];
     assert_refused(&run(folder.path(), &args), 2, &["actor.key", "treadmill certs"]);
+}
+
+#[test]
+fn a_certificate_that_no_other_side_accepts_is_an_error_at_once() {
+    let (folder, _) = folders();
+    certs(folder.path(), &["certs"]);
+    let at = |name: &str| folder.path().join(name);
+    // Zenoh would dial on in silence.
+    let actor = ["actor", "--connect", "tls/127.0.0.1:1", "--tls"];
+    fs::create_dir(at("expired")).unwrap();
+    fs::copy(at("certs/ca.crt"), at("expired/ca.crt")).unwrap();
+    issue(Role::Actor, &at("certs"), &at("expired"), [-9, -1]);
+    assert_refused(&run(folder.path(), &[&actor[..], &["expired"]].concat()), 2, &["expired at", "--renew"]);
+    fs::copy(at("certs/observer.key"), at("certs/actor.key")).unwrap();
+    let refused = run(folder.path(), &[&actor[..], &["certs"]].concat());
+    assert_refused(&refused, 2, &["actor.key does not match", "copy both files"]);
+    fs::write(at("certs/router.crt"), "nonsense").unwrap();
+    let router = run(folder.path(), &["router", "--listen", "tls/127.0.0.1:0", "--tls", "certs"]);
+    assert_refused(&router, 2, &["router.crt is not a certificate"]);
+    fs::write(at("certs/learner.crt"), "nonsense").unwrap();
+    let train = run(folder.path(), &["train", "--preset", "smoke", "--tls", "certs", "--run-dir", "never"]);
+    assert_refused(&train, 2, &["learner.crt is not a certificate"]);
+    assert!(!at("never").exists());
 }

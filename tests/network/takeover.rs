@@ -233,6 +233,8 @@ mod s3 {
         let mut command = Command::new(program);
         command.current_dir(folder.path()).args(["server", "-s3", "-dir=data", "-ip=127.0.0.1", "-ip.bind=127.0.0.1"]);
         command.args(["-s3.config=s3.json", "-master.volumeSizeLimitMB=64", &format!("-s3.port={port}")]);
+        // Other services of it, which nothing here uses.
+        command.args(["-s3.port.iceberg=0", "-s3.port.lance=0"]);
         for (number, part) in (1..).zip(["master", "volume", "filer"]) {
             command.arg(format!("-{part}.port={}", free_port(number)));
         }
