@@ -20,6 +20,7 @@ use treadmill_humanoid::{HUMANOID_XML, Model, Physics, PhysicsSettings, card::Ro
 use treadmill_learner::{
     checkpoint::{decode as decode_checkpoint, encoding},
     intake::{ExpectedFragment, FragmentCounts, FragmentValidator, Ledger, Lineage},
+    leadership::Manifest,
 };
 use treadmill_policy::{exported::ExportedPolicy, from_safetensors, to_safetensors};
 use treadmill_proto::{
@@ -44,6 +45,7 @@ pub const TARGETS: &[(&str, Target, Sample, usize)] = &[
     ("policy_request", policy_request, samples::policy_request, 16),
     ("policy_piece", policy_piece, samples::policy_piece, 16),
     ("receipt", receipt, samples::receipt, 16),
+    ("manifest", manifest, samples::manifest, 16),
     ("stats", stats, samples::stats, 16),
     ("evaluation", evaluation, samples::evaluation, 16),
     ("pose", pose, samples::pose, 16),
@@ -123,6 +125,13 @@ pub fn policy_piece(data: &[u8]) {
 pub fn receipt(data: &[u8]) {
     if let Ok(receipt) = Receipt::decode(data) {
         assert_eq!(Receipt::decode(&receipt.encode()), Ok(receipt));
+    }
+}
+
+/// Decodes the manifest of a run in a store.
+pub fn manifest(data: &[u8]) {
+    if let Ok(manifest) = Manifest::decode(data) {
+        assert_eq!(Manifest::decode(&manifest.encode()), Ok(manifest));
     }
 }
 

@@ -5,7 +5,10 @@ use treadmill_config::{
     Config, EnvConfig, GroundConfig, RandomisationConfig, RewardsConfig, TaskConfig, VelocityConfig,
 };
 use treadmill_humanoid::HUMANOID_XML;
-use treadmill_learner::checkpoint::{TrainingState, encoding};
+use treadmill_learner::{
+    checkpoint::{TrainingState, encoding},
+    leadership::{Manifest, Status, manifest::FORMAT},
+};
 use treadmill_policy::{
     NetworkShape,
     exported::{ActionFacts, ExportedPolicy, ObservationFacts},
@@ -144,6 +147,24 @@ pub fn policy_request() -> Vec<u8> {
 /// Encodes a piece of a policy.
 pub fn policy_piece() -> Vec<u8> {
     PolicyPiece::cut(RUN, version(), &Bytes::from(bundle()), 3).encode()
+}
+
+/// Encodes a manifest.
+pub fn manifest() -> Vec<u8> {
+    Manifest {
+        format: FORMAT,
+        run: "walk".into(),
+        epoch: 7,
+        writer: "00ff".into(),
+        updates: 3,
+        env_steps: 4096,
+        state: "states/7-3.bundle".into(),
+        status: Status::Training,
+        host: "desk".into(),
+        pid: 12,
+        program_version: "0.1.0".into(),
+    }
+    .encode()
 }
 
 /// Encodes a receipt.

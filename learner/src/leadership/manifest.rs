@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 use treadmill_proto::ident::check_ident;
 
 /// Version of the manifest's format.
-pub(super) const FORMAT: u32 = 1;
+pub const FORMAT: u32 = 1;
 /// Largest manifest that is read, in bytes.
 const BYTES_MAX: usize = 64 << 10;
 
@@ -51,12 +51,16 @@ pub struct Manifest {
 
 impl Manifest {
     /// Encodes as JSON.
-    pub(super) fn encode(&self) -> Vec<u8> {
+    #[must_use]
+    pub fn encode(&self) -> Vec<u8> {
         serde_json::to_vec_pretty(self).expect("a manifest has only texts and numbers")
     }
 
-    /// Decodes and checks JSON.
-    pub(super) fn decode(bytes: &[u8]) -> Result<Self, String> {
+    /// Decodes and checks untrusted JSON.
+    ///
+    /// # Errors
+    /// What is wrong, with the field.
+    pub fn decode(bytes: &[u8]) -> Result<Self, String> {
         if bytes.len() > BYTES_MAX {
             return Err(format!("it has {} bytes; allowed: at most {BYTES_MAX}", bytes.len()));
         }
