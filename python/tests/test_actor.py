@@ -279,6 +279,17 @@ class DeliveryTest(unittest.TestCase):
         self.assertEqual((waits, uploader.ledger.resent, uploader.ledger.dropped_by_rule), ([0.2, 0.2, 0.2, 10.0], 4, 1))
 
 
+    def test_receipt_of_an_overtaken_learner_does_not_settle(self):
+        answers = [receipt("accepted"), receipt("accepted")]
+        answers[0].version.epoch, answers[1].version.epoch = 6, 7
+        bus = SimpleNamespace(submit=lambda *_: answers.pop(0))
+        stopping = SimpleNamespace(is_set=lambda: False, wait=lambda pause_s: None)
+        uploader = Uploader(bus, "run", "py", 1, 60.0, stopping, lambda version: version.epoch >= 7)
+        uploader.note_produced(1)
+        self.assertEqual(uploader.deliver(1, b"1").version.epoch, 7)
+        self.assertEqual((uploader.ledger.accepted, uploader.ledger.resent), (1, 1))
+
+
 class JoiningTest(unittest.TestCase):
     def bundle(self, config_hash=9):
         weight = np.zeros((2, 2), "<f4")
@@ -302,6 +313,17 @@ class JoiningTest(unittest.TestCase):
         policies = self.policies([self.bundle(config_hash=8)])
         policies.refresh()
         self.assertTrue(policies.run_changed.is_set())
+
+    def test_policy_of_an_overtaken_learner_is_ignored(self):
+        older, newer = self.bundle(), self.bundle()
+        newer.version.incarnation, newer.version.epoch = 3, 8
+        older.version.incarnation, older.version.epoch = 2, 7
+        policies = self.policies([newer, older])
+        policies.refresh()
+        policies.refresh()
+        self.assertEqual(policies.current[1].epoch, 8)
+        self.assertFalse(policies.admits(older.version))
+        self.assertTrue(policies.admits(schema.PolicyVersion()))
 
     def test_damaged_weights_are_ignored(self):
         damaged = self.bundle()

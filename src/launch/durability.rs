@@ -1,16 +1,10 @@
 //! Runs a learner whose state is in a store: begins the run, or follows it and leads once its leader is gone.
 
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
-use anyhow::Context;
-use treadmill_bus::{is_any_actor_present, is_learner_present};
 use treadmill_learner::{
     checkpoint,
-    leadership::{
-        Leadership, LeadershipError, Status,
-        follower::{LoadedState, Sight, StateFollower},
-        read_manifest,
-    },
+    leadership::{Leadership, LeadershipError, follower::LoadedState, read_manifest},
     training::TrainingError,
 };
 use treadmill_runtime::{error_chain, numbers::thousands, run_folder::RunFolder, run_lock::RunLock};
@@ -24,15 +18,12 @@ use crate::launch::{
     output::{say, say_error},
     resumption,
     run_args::{AnyRunArgs, NewRunArgs},
+    standby::{Standby, Step},
     startup::{self, RunCommand, Start},
 };
 
 /// Interval of reading the manifest and of looking for tokens.
 const POLL: Duration = Duration::from_millis(500);
-/// Longest wait for tokens.
-const SIGHT_TIMEOUT: Duration = Duration::from_millis(400);
-/// Pause between two warnings that the store fails.
-const WARN_EVERY: Duration = Duration::from_secs(30);
 
 /// Flags of a run in a store.
 pub struct StoredRun<'a> {
@@ -140,66 +131,13 @@ impl StoredRun<'_> {
 
     /// Follows the run until it is time to lead. Returns `None` if the run has ended or this process is to stop.
     async fn follow(&self, store: &Store, host: &mut Host<'_>) -> anyhow::Result<Option<LoadedState>> {
-        let mut follower = StateFollower::new(store);
-        let mut warned: Option<Instant> = None;
-        let mut is_known = false;
-        let listening = host.endpoints().join(", ");
-        say(&format!("following {store}, listening {listening}"));
+        let mut standby = Standby::new(store, self.is_standby);
+        say(&format!("following {store}, listening {}", host.endpoints().join(", ")));
         while !host.shutdown.asked() {
-            host.heartbeat.beat();
-            let refreshed;
-            (follower, refreshed) = tokio::task::spawn_blocking(move || {
-                let refreshed = follower.refresh(Instant::now());
-                (follower, refreshed)
-            })
-            .await
-            .context("the thread that reads the store panicked")?;
-            match refreshed {
-                Ok(()) => {
-                    if let Some(LoadedState { manifest, .. }) = follower.loaded() {
-                        if !is_known {
-                            let (run, steps) = (&manifest.run, thousands(manifest.env_steps));
-                            say(&format!(
-                                "run `{run}` is at {steps} env steps; process {} on host {} leads in epoch {}",
-                                manifest.pid, manifest.host, manifest.epoch
-                            ));
-                            host.serve_page(run)?;
-                            is_known = true;
-                        }
-                        match manifest.status {
-                            Status::Stopped | Status::Finished if self.is_standby => {
-                                say(&format!(
-                                    "run `{}` has ended at {} env steps",
-                                    manifest.run,
-                                    thousands(manifest.env_steps)
-                                ));
-                                return Ok(None);
-                            }
-                            Status::Stopped | Status::Finished => return Ok(follower.loaded().cloned()),
-                            Status::Training | Status::Released => {}
-                        }
-                        let run = manifest.run.clone();
-                        let sight = Sight {
-                            leader: is_learner_present(&host.bus, &run, SIGHT_TIMEOUT).await?,
-                            actors: is_any_actor_present(&host.bus, &run, SIGHT_TIMEOUT).await?,
-                        };
-                        if follower.is_due(sight, Instant::now()) {
-                            say(&format!("the leader of run `{run}` is gone: taking over"));
-                            return Ok(follower.loaded().cloned());
-                        }
-                    }
-                }
-                Err(LeadershipError::Store(why)) => {
-                    if warned.is_none_or(|warned| warned.elapsed() >= WARN_EVERY) {
-                        tracing::warn!(error = %error_chain(&why), "the store fails: trying again");
-                        warned = Some(Instant::now());
-                    }
-                }
-                Err(why) => return Err(why.into()),
-            }
-            tokio::select! {
-                () = tokio::time::sleep(POLL) => {}
-                () = host.shutdown.wait() => {}
+            match standby.poll(host).await? {
+                Step::Wait => host.pause(POLL).await,
+                Step::Lead => return Ok(standby.into_loaded()),
+                Step::End => return Ok(None),
             }
         }
         Ok(None)

@@ -144,6 +144,14 @@ impl<'a> Host<'a> {
         &self.endpoints
     }
 
+    /// Waits for this time, or until this process is to stop.
+    pub async fn pause(&self, time: Duration) {
+        tokio::select! {
+            () = tokio::time::sleep(time) => {}
+            () = self.shutdown.wait() => {}
+        }
+    }
+
     /// Closes the session.
     pub fn close(&self) {
         self.bus.close();

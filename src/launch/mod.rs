@@ -4,7 +4,8 @@
 //! - Before a run: `run_args` (flags), `startup` (from flags to a run that is ready), `begin` (a new run), `warm_start` (from another
 //!   run's policy or state), `resumption` (loads a saved run and compares the flags with it), `model` (the robot),
 //!   `external_task` (waits for the task that the first actor registers), `banner` (text printed before and after a run).
-//! - During a run: `host` (a learner with actors beside it), `durability` (a learner whose state is in a store), `supervisor` (restarts actor processes), `bus_client` (flags and
+//! - During a run: `host` (a learner with actors beside it), `durability` (a learner whose state is in a store), `standby`
+//!   (waits until it is time to lead), `supervisor` (restarts actor processes), `bus_client` (flags and
 //!   session of an actor or evaluator), `metrics_page` (metrics over HTTP).
 //! - The process: `async_runtime`, `familiar_flags` (hints for flags of other programs), `processor` (refuses one that is too
 //!   old), `memory` (allocator settings), [`exit_code`], [`signals`], [`log`], [`output`], [`slow_step`], [`terminal_screen`].
@@ -28,6 +29,7 @@ pub(crate) mod resumption;
 pub(crate) mod run_args;
 pub mod signals;
 pub mod slow_step;
+pub(crate) mod standby;
 pub(crate) mod startup;
 pub(crate) mod supervisor;
 pub mod terminal_screen;

@@ -2,6 +2,7 @@
 
 use std::time::{Duration, Instant};
 
+use bytes::Bytes;
 use treadmill_store::{Store, StoreError, Tag};
 
 use super::{LeadershipError, Manifest, Status, read_manifest};
@@ -31,11 +32,11 @@ pub struct LoadedState {
     /// Tag of the manifest.
     pub tag: Tag,
     /// Encoded state.
-    pub state: Vec<u8>,
+    pub state: Bytes,
 }
 
 /// Follows one run.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct StateFollower {
     store: Store,
     loaded: Option<LoadedState>,
@@ -52,6 +53,12 @@ impl StateFollower {
     #[must_use]
     pub fn new(store: &Store) -> Self {
         Self { store: store.clone(), loaded: None, changed: None, interval: Duration::ZERO, missing_since: None }
+    }
+
+    /// Returns the newest state that was loaded, by value.
+    #[must_use]
+    pub fn into_loaded(self) -> Option<LoadedState> {
+        self.loaded
     }
 
     /// Returns the newest state that was loaded.
@@ -73,7 +80,7 @@ impl StateFollower {
         let state = match known {
             Some(loaded) => loaded.state.clone(),
             None => match self.store.get(&manifest.state) {
-                Ok((state, _)) => state,
+                Ok((state, _)) => state.into(),
                 // The leader has removed it since: the manifest names a newer one.
                 Err(StoreError::Missing { .. }) => return Ok(()),
                 Err(why) => return Err(why.into()),

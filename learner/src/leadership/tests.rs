@@ -114,7 +114,7 @@ fn a_follower_takes_over_only_from_a_leader_that_is_gone() {
     let mut leader = lead(&store);
     leader.save("walk", &counters(0), b"zero").unwrap();
     follower.refresh(at(10_000)).unwrap();
-    assert_eq!(follower.loaded().unwrap().state, b"zero");
+    assert_eq!(follower.loaded().unwrap().state, b"zero"[..]);
     let present = Sight { leader: true, ..GONE };
     assert!(!follower.is_due(present, at(60_000)), "the leader waits");
     assert!(!follower.is_due(GONE, at(60_000)) && !follower.is_due(GONE, at(60_900)));

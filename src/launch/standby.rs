@@ -1,0 +1,113 @@
+//! Follows a run in a store, and says when to lead it.
+
+use std::time::{Duration, Instant};
+
+use anyhow::Context;
+use treadmill_bus::{BusError, is_any_actor_present, is_learner_present};
+use treadmill_learner::leadership::{
+    LeadershipError, Manifest, Status,
+    follower::{LoadedState, Sight, StateFollower},
+};
+use treadmill_runtime::{error_chain, numbers::thousands};
+use treadmill_store::Store;
+
+use crate::launch::{host::Host, output::say};
+
+/// Longest wait for tokens.
+const SIGHT_TIMEOUT: Duration = Duration::from_millis(400);
+/// Pause between two warnings that the store fails.
+const WARN_EVERY: Duration = Duration::from_secs(30);
+
+/// What to do after a poll.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Step {
+    /// Poll again.
+    Wait,
+    /// Lead from the state that is loaded.
+    Lead,
+    /// The run has ended.
+    End,
+}
+
+/// Learner that follows a run.
+pub struct Standby {
+    follower: StateFollower,
+    /// Whether a run that has ended also ends this process.
+    ends_with_run: bool,
+    /// Whether the run was reported.
+    is_known: bool,
+    warned: Option<Instant>,
+}
+
+impl Standby {
+    /// Follows the run in `store`.
+    pub fn new(store: &Store, ends_with_run: bool) -> Self {
+        Self { follower: StateFollower::new(store), ends_with_run, is_known: false, warned: None }
+    }
+
+    /// Returns the state that was loaded last.
+    pub fn into_loaded(self) -> Option<LoadedState> {
+        self.follower.into_loaded()
+    }
+
+    /// Reads the store and looks for the leader.
+    ///
+    /// # Errors
+    /// If the manifest is damaged or the bus fails. A store that fails is only reported.
+    pub async fn poll(&mut self, host: &mut Host<'_>) -> anyhow::Result<Step> {
+        host.heartbeat.beat();
+        match self.refresh().await? {
+            Ok(()) => {}
+            Err(LeadershipError::Store(why)) => {
+                if self.warned.is_none_or(|warned| warned.elapsed() >= WARN_EVERY) {
+                    tracing::warn!(error = %error_chain(&why), "the store fails: trying again");
+                    self.warned = Some(Instant::now());
+                }
+                return Ok(Step::Wait);
+            }
+            Err(why) => return Err(why.into()),
+        }
+        let Some(LoadedState { manifest, .. }) = self.follower.loaded() else { return Ok(Step::Wait) };
+        let (run, steps, status) = (manifest.run.clone(), thousands(manifest.env_steps), manifest.status);
+        if !self.is_known {
+            let Manifest { pid, host: leader, epoch, .. } = manifest;
+            say(&format!("run `{run}` is at {steps} env steps; process {pid} on host {leader} leads in epoch {epoch}"));
+            host.serve_page(&run)?;
+            self.is_known = true;
+        }
+        if matches!(status, Status::Stopped | Status::Finished) {
+            if !self.ends_with_run {
+                return Ok(Step::Lead);
+            }
+            say(&format!("run `{run}` has ended at {steps} env steps"));
+            return Ok(Step::End);
+        }
+        let sight = look(host, &run).await?;
+        if !self.follower.is_due(sight, Instant::now()) {
+            return Ok(Step::Wait);
+        }
+        say(&format!("the leader of run `{run}` is gone: taking over"));
+        Ok(Step::Lead)
+    }
+
+    /// Loads the newest state on a thread of its own, because the store blocks.
+    async fn refresh(&mut self) -> anyhow::Result<Result<(), LeadershipError>> {
+        let mut follower = self.follower.clone();
+        let work = move || {
+            let refreshed = follower.refresh(Instant::now());
+            (follower, refreshed)
+        };
+        let refreshed;
+        (self.follower, refreshed) =
+            tokio::task::spawn_blocking(work).await.context("the thread that reads the store panicked")?;
+        Ok(refreshed)
+    }
+}
+
+/// Looks for the tokens of leader and actors.
+async fn look(host: &Host<'_>, run: &str) -> Result<Sight, BusError> {
+    Ok(Sight {
+        leader: is_learner_present(&host.bus, run, SIGHT_TIMEOUT).await?,
+        actors: is_any_actor_present(&host.bus, run, SIGHT_TIMEOUT).await?,
+    })
+}
