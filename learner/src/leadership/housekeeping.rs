@@ -34,32 +34,27 @@ impl Housekeeping {
         let successor = Arc::new(Mutex::new(None));
         let (store, found) = (store.clone(), successor.clone());
         let work = move || {
+            // Until the first save, the manifest is the predecessor's.
+            let mut event = events.recv().map_err(|_| RecvTimeoutError::Disconnected);
             let mut read = Instant::now();
-            let mut leads = false;
             loop {
-                match events.recv_timeout(READ_EVERY.saturating_sub(read.elapsed())) {
+                match event {
                     Ok(()) => {
-                        leads = true;
                         if let Err(why) = remove_old_states(&store, epoch, writer) {
                             tracing::debug!(error = %error_chain(&why), "old states not removed");
                         }
                     }
-                    Err(RecvTimeoutError::Timeout) => {}
+                    // Rarely while saves succeed: they show by themselves that this learner leads.
+                    Err(RecvTimeoutError::Timeout) => {
+                        read = Instant::now();
+                        if let Some(manifest) = manifest_of_other(&store, writer) {
+                            *found.lock().expect("no holder of this lock panics") = Some(manifest);
+                            return;
+                        }
+                    }
                     Err(RecvTimeoutError::Disconnected) => return,
                 }
-                if leads && read.elapsed() >= READ_EVERY {
-                    read = Instant::now();
-                    let own = format!("{writer:016x}");
-                    if let Ok(Some((manifest, _))) = read_manifest(&store)
-                        && manifest.writer != own
-                    {
-                        *found.lock().expect("no holder of this lock panics") = Some(manifest);
-                        return;
-                    }
-                }
-                if !leads {
-                    read = Instant::now();
-                }
+                event = events.recv_timeout(READ_EVERY.saturating_sub(read.elapsed()));
             }
         };
         let thread = std::thread::Builder::new().name("leadership".to_string()).spawn(work)?;
@@ -87,6 +82,12 @@ impl Drop for Housekeeping {
             let _ = thread.join();
         }
     }
+}
+
+/// Returns the manifest, if another learner wrote it. A store that fails shows nothing.
+fn manifest_of_other(store: &Store, writer: u64) -> Option<Manifest> {
+    let (manifest, _) = read_manifest(store).ok()??;
+    (manifest.writer != format!("{writer:016x}")).then_some(manifest)
 }
 
 /// Removes the states of lower epochs, and the older ones of this learner. States of higher epochs are a successor's.
