@@ -13,7 +13,7 @@ set -eu
 preset=${TREADMILL_PRESET:-walk}
 set -- learner --preset "$preset" --run-dir "/runs/${TREADMILL_RUN:-$preset}" --resume-or-start "$@"
 [ -z "${TREADMILL_STORE:-}" ] || set -- "$@" --store "$TREADMILL_STORE"
-# Compose passes what is not set as empty, which the store's client would take for a value.
+# Compose passes unset variables as empty ones, which the client of the store would take for values.
 for name in AWS_ENDPOINT AWS_ALLOW_HTTP AWS_REGION AWS_ACCESS_KEY_ID AWS_SECRET_ACCESS_KEY; do
     eval "[ -n \"\${$name:-}\" ] || unset $name"
 done

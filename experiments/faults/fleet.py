@@ -256,7 +256,7 @@ def hosts(command, prefix):
     subprocess.run([str(HERE / "hosts.sh"), command, prefix], check=True)
 
 
-def certify(binary, folder):
-    names = [part for host in (*ADDRESSES.values(), "127.0.0.1") for part in ("--host", host)]
+def certify(binary, folder, addresses=tuple(ADDRESSES.values())):
+    names = [part for host in (*addresses, "127.0.0.1") for part in ("--host", host)]
     subprocess.run([str(binary), "certs", str(folder), *names], check=True, stdout=subprocess.DEVNULL)
     return folder.resolve()

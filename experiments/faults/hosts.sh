@@ -4,10 +4,10 @@
 #
 # Usage: hosts.sh up [PREFIX] | hosts.sh down [PREFIX]
 #
-# To run a program on a host: ip netns exec PREFIX-HOST PROGRAM. PREFIX defaults to `tm`.
+# To run a program on a host: ip netns exec PREFIX-HOST PROGRAM. PREFIX defaults to `tm`. The variable HOSTS replaces the hosts.
 set -eu
 prefix=${2:-tm}
-hosts="learner=10.77.0.1 router=10.77.0.2 actor1=10.77.0.11 actor2=10.77.0.12 observer=10.77.0.20"
+hosts=${HOSTS:-"learner=10.77.0.1 router=10.77.0.2 actor1=10.77.0.11 actor2=10.77.0.12 observer=10.77.0.20"}
 
 down() {
     for host in $hosts; do ip netns delete "$prefix-${host%%=*}" 2>/dev/null || true; done

@@ -66,11 +66,12 @@ def fill(folder):
     return filler
 
 
-def faked_clock(folder):
-    """Returns a command prefix that makes the clock adjustable by `set_clock`."""
+def faked_clock(folder, is_new=True):
+    """Returns a command prefix that makes the clock adjustable by `set_clock`; a clock that is not new keeps its offset."""
     if not FAKETIME:
         sys.exit("clock jumps need libfaketime: apt-get install faketime, or skip them with --only")
-    set_clock(folder, "+0")
+    if is_new:
+        set_clock(folder, "+0")
     settings = {
         "LD_PRELOAD": FAKETIME[0],
         "FAKETIME_TIMESTAMP_FILE": folder / "clock",

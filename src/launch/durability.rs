@@ -18,7 +18,7 @@ use crate::launch::{
     output::{say, say_error},
     resumption,
     run_args::{AnyRunArgs, NewRunArgs},
-    standby::{Standby, Step},
+    standby::{NextMove, Standby},
     startup::{self, RunCommand, Start},
 };
 
@@ -135,9 +135,9 @@ impl StoredRun<'_> {
         say(&format!("following {store}, listening {}", host.endpoints().join(", ")));
         while !host.shutdown.asked() {
             match standby.poll(host).await? {
-                Step::Wait => host.pause(POLL).await,
-                Step::Lead => return Ok(standby.into_loaded()),
-                Step::End => return Ok(None),
+                NextMove::Wait => host.pause(POLL).await,
+                NextMove::Lead => return Ok(standby.into_loaded()),
+                NextMove::End => return Ok(None),
             }
         }
         Ok(None)

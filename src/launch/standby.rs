@@ -3,24 +3,27 @@
 use std::time::{Duration, Instant};
 
 use anyhow::Context;
-use treadmill_bus::{BusError, is_any_actor_present, is_learner_present};
+use treadmill_bus::{BusError, is_any_actor_present, is_learner_present, statuses};
 use treadmill_learner::leadership::{
     LeadershipError, Manifest, Status,
-    follower::{LoadedState, Sight, StateFollower},
+    follower::{LeaderSight, LoadedState, Sight, StateFollower},
 };
+use treadmill_proto::wire;
 use treadmill_runtime::{error_chain, numbers::thousands};
 use treadmill_store::Store;
 
 use crate::launch::{host::Host, output::say};
 
 /// Longest wait for tokens.
-const SIGHT_TIMEOUT: Duration = Duration::from_millis(400);
+const TOKEN_TIMEOUT: Duration = Duration::from_millis(400);
+/// Longest wait for an answer of the leader.
+const ANSWER_TIMEOUT: Duration = Duration::from_millis(800);
 /// Pause between two warnings that the store fails.
 const WARN_EVERY: Duration = Duration::from_secs(30);
 
 /// What to do after a poll.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Step {
+pub enum NextMove {
     /// Poll again.
     Wait,
     /// Lead from the state that is loaded.
@@ -54,7 +57,7 @@ impl Standby {
     ///
     /// # Errors
     /// If the manifest is damaged or the bus fails. A store that fails is only reported.
-    pub async fn poll(&mut self, host: &mut Host<'_>) -> anyhow::Result<Step> {
+    pub async fn poll(&mut self, host: &mut Host<'_>) -> anyhow::Result<NextMove> {
         host.heartbeat.beat();
         match self.refresh().await? {
             Ok(()) => {}
@@ -63,31 +66,32 @@ impl Standby {
                     tracing::warn!(error = %error_chain(&why), "the store fails: trying again");
                     self.warned = Some(Instant::now());
                 }
-                return Ok(Step::Wait);
+                return Ok(NextMove::Wait);
             }
             Err(why) => return Err(why.into()),
         }
-        let Some(LoadedState { manifest, .. }) = self.follower.loaded() else { return Ok(Step::Wait) };
-        let (run, steps, status) = (manifest.run.clone(), thousands(manifest.env_steps), manifest.status);
+        let Some(LoadedState { manifest, .. }) = self.follower.loaded() else { return Ok(NextMove::Wait) };
+        let (run, epoch, status) = (manifest.run.clone(), manifest.epoch, manifest.status);
+        let steps = thousands(manifest.env_steps);
         if !self.is_known {
-            let Manifest { pid, host: leader, epoch, .. } = manifest;
+            let Manifest { pid, host: leader, .. } = manifest;
             say(&format!("run `{run}` is at {steps} env steps; process {pid} on host {leader} leads in epoch {epoch}"));
             host.serve_page(&run)?;
             self.is_known = true;
         }
         if matches!(status, Status::Stopped | Status::Finished) {
             if !self.ends_with_run {
-                return Ok(Step::Lead);
+                return Ok(NextMove::Lead);
             }
             say(&format!("run `{run}` has ended at {steps} env steps"));
-            return Ok(Step::End);
+            return Ok(NextMove::End);
         }
-        let sight = look(host, &run).await?;
+        let sight = look(host, &run, epoch).await?;
         if !self.follower.is_due(sight, Instant::now()) {
-            return Ok(Step::Wait);
+            return Ok(NextMove::Wait);
         }
         say(&format!("the leader of run `{run}` is gone: taking over"));
-        Ok(Step::Lead)
+        Ok(NextMove::Lead)
     }
 
     /// Loads the newest state on a thread of its own, because the store blocks.
@@ -104,10 +108,22 @@ impl Standby {
     }
 }
 
-/// Looks for the tokens of leader and actors.
-async fn look(host: &Host<'_>, run: &str) -> Result<Sight, BusError> {
-    Ok(Sight {
-        leader: is_learner_present(&host.bus, run, SIGHT_TIMEOUT).await?,
-        actors: is_any_actor_present(&host.bus, run, SIGHT_TIMEOUT).await?,
-    })
+/// Looks for the leader of this epoch and for actors.
+async fn look(host: &Host<'_>, run: &str, epoch: u64) -> Result<Sight, BusError> {
+    let has_token = is_learner_present(&host.bus, run, TOKEN_TIMEOUT).await?;
+    let leader = match has_token {
+        true if answers(host, run, epoch).await? => LeaderSight::Answers,
+        true => LeaderSight::Silent,
+        false => LeaderSight::Absent,
+    };
+    Ok(Sight { leader, actors: is_any_actor_present(&host.bus, run, TOKEN_TIMEOUT).await? })
+}
+
+/// Returns whether the leader of this epoch answers.
+async fn answers(host: &Host<'_>, run: &str, epoch: u64) -> Result<bool, BusError> {
+    // The bus may take longer than its own timeout while a link fails.
+    let asked = tokio::time::timeout(2 * ANSWER_TIMEOUT, statuses(&host.bus, Some(run), ANSWER_TIMEOUT)).await;
+    let replies = asked.unwrap_or(Ok(Vec::new()))?;
+    let of_leader = |version: Option<wire::PolicyVersion>| version.is_some_and(|version| version.epoch == epoch);
+    Ok(replies.into_iter().filter_map(|reply| reply.status).any(|status| of_leader(status.version)))
 }

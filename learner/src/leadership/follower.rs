@@ -7,19 +7,31 @@ use treadmill_store::{Store, StoreError, Tag};
 
 use super::{LeadershipError, Manifest, Status, read_manifest};
 
-/// Time without the leader's liveliness token and without progress after which a follower that sees actors takes over. The
-/// token itself goes only after the bus's lease of 4 s, unless the leader's connection ends.
+/// Time after which a follower takes over from a leader whose liveliness token it has seen to go, if there is no progress.
 const PATIENCE: Duration = Duration::from_secs(1);
-/// The same without actors in sight: the follower itself may be the one that is cut off.
-const PATIENCE_ALONE: Duration = Duration::from_secs(5);
-/// The same, in longest intervals between two states.
+/// The same for a leader that does not answer. Its token may stay for long: routers may repeat it to each other.
+const PATIENCE_SILENT: Duration = Duration::from_secs(4);
+/// The same without actors in sight: the follower itself may be the one that is cut off. Between these bounds it is this many of
+/// the longest intervals between two states.
+const PATIENCE_ALONE: (Duration, Duration) = (Duration::from_secs(5), Duration::from_secs(30));
 const PATIENCE_ALONE_INTERVALS: u32 = 3;
+
+/// What a follower sees of the leader.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum LeaderSight {
+    /// It answers.
+    Answers,
+    /// Its liveliness token is there, but it does not answer.
+    Silent,
+    /// Its token is not there.
+    Absent,
+}
 
 /// What a follower sees on the bus.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Sight {
-    /// Whether the leader's liveliness token is there.
-    pub leader: bool,
+    /// The leader.
+    pub leader: LeaderSight,
     /// Whether any actor's is.
     pub actors: bool,
 }
@@ -44,15 +56,24 @@ pub struct StateFollower {
     changed: Option<Instant>,
     /// Longest time between two changes.
     interval: Duration,
-    /// Since when the leader's token is missing without progress.
+    /// Since when the leader does not answer and makes no progress.
     missing_since: Option<Instant>,
+    /// Epoch of the last leader that has answered.
+    answered: Option<u64>,
 }
 
 impl StateFollower {
     /// StateFollower of the run in `store`.
     #[must_use]
     pub fn new(store: &Store) -> Self {
-        Self { store: store.clone(), loaded: None, changed: None, interval: Duration::ZERO, missing_since: None }
+        Self {
+            store: store.clone(),
+            loaded: None,
+            changed: None,
+            interval: Duration::ZERO,
+            missing_since: None,
+            answered: None,
+        }
     }
 
     /// Returns the newest state that was loaded, by value.
@@ -102,12 +123,18 @@ impl StateFollower {
             Status::Stopped | Status::Finished => return false,
             Status::Training => {}
         }
-        if sight.leader {
-            self.missing_since = None;
+        let epoch = loaded.manifest.epoch;
+        if sight.leader == LeaderSight::Answers {
+            (self.missing_since, self.answered) = (None, Some(epoch));
             return false;
         }
         let since = *self.missing_since.get_or_insert(now);
-        let alone = PATIENCE_ALONE.max(self.interval * PATIENCE_ALONE_INTERVALS);
-        now.duration_since(since) >= if sight.actors { PATIENCE } else { alone }
+        let patience = match (sight.actors, sight.leader) {
+            (false, _) => (self.interval * PATIENCE_ALONE_INTERVALS).clamp(PATIENCE_ALONE.0, PATIENCE_ALONE.1),
+            (true, LeaderSight::Absent) if self.answered == Some(epoch) => PATIENCE,
+            // A token that never came may still be on its way.
+            (true, _) => PATIENCE_SILENT,
+        };
+        now.duration_since(since) >= patience
     }
 }

@@ -10,12 +10,12 @@ use treadmill_store::{
 
 use super::{
     Leadership, LeadershipError, MANIFEST, Manifest, Status,
-    follower::{Sight, StateFollower},
+    follower::{LeaderSight, Sight, StateFollower},
     read_manifest,
 };
 use crate::checkpoint::Counters;
 
-const GONE: Sight = Sight { leader: false, actors: true };
+const GONE: Sight = Sight { leader: LeaderSight::Absent, actors: true };
 
 fn counters(updates: u64) -> Counters {
     Counters { updates, ..Counters::default() }
@@ -115,7 +115,7 @@ fn a_follower_takes_over_only_from_a_leader_that_is_gone() {
     leader.save("walk", &counters(0), b"zero").unwrap();
     follower.refresh(at(10_000)).unwrap();
     assert_eq!(follower.loaded().unwrap().state, b"zero"[..]);
-    let present = Sight { leader: true, ..GONE };
+    let present = Sight { leader: LeaderSight::Answers, ..GONE };
     assert!(!follower.is_due(present, at(60_000)), "the leader waits");
     assert!(!follower.is_due(GONE, at(60_000)) && !follower.is_due(GONE, at(60_900)));
     leader.save("walk", &counters(1), b"one").unwrap();
@@ -124,9 +124,15 @@ fn a_follower_takes_over_only_from_a_leader_that_is_gone() {
     assert!(!follower.is_due(GONE, at(62_000)));
     assert!(follower.is_due(GONE, at(62_100)));
     assert_eq!(follower.loaded().unwrap().manifest.updates, 1);
-    let alone = Sight { leader: false, actors: false };
-    assert!(!follower.is_due(alone, at(62_100)), "three intervals of 51 s");
-    assert!(follower.is_due(alone, at(61_100 + 3 * 51_100)));
+    let alone = Sight { leader: LeaderSight::Absent, actors: false };
+    assert!(!follower.is_due(alone, at(62_100)), "an interval was 51 s, so the longest patience counts");
+    assert!(!follower.is_due(alone, at(91_000)) && follower.is_due(alone, at(91_100)));
+    // A token that routers repeat, of a leader that does not answer.
+    leader.save("walk", &counters(2), b"two").unwrap();
+    follower.refresh(at(92_000)).unwrap();
+    let silent = Sight { leader: LeaderSight::Silent, actors: true };
+    assert!(!follower.is_due(silent, at(92_000)) && !follower.is_due(silent, at(95_900)));
+    assert!(follower.is_due(silent, at(96_000)));
 }
 
 #[test]

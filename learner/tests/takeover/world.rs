@@ -6,7 +6,11 @@ use std::{
 };
 
 use rand::RngExt;
-use treadmill_learner::leadership::{Leadership, follower::Sight, read_manifest};
+use treadmill_learner::leadership::{
+    Leadership,
+    follower::{LeaderSight, Sight},
+    read_manifest,
+};
 use treadmill_runtime::seeds::{self, Stream};
 use treadmill_store::{
     Store,
@@ -231,7 +235,12 @@ impl World {
                 return;
             }
             let others = (0..LEARNERS).filter(|other| *other != index);
-            let leader = others.into_iter().any(|other| self.tick - self.seen[other][index] < LEASE_TICKS);
+            let has_token = others.clone().any(|other| self.tick - self.seen[other][index] < LEASE_TICKS);
+            let leader = match has_token {
+                true if others.into_iter().any(|other| self.seen[other][index] == self.tick) => LeaderSight::Answers,
+                true => LeaderSight::Silent,
+                false => LeaderSight::Absent,
+            };
             let sight = Sight { leader, actors: self.actor_links[index].contains(&true) };
             let writer = self.next_writer();
             self.learners[index].follow(&store, sight, writer, now);

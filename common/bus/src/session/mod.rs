@@ -16,7 +16,7 @@ use zenoh::{Config, Session, Wait};
 use crate::{
     BusError,
     error::in_words,
-    workarounds::{close, discovery, free_port::with_free_port, open_files::check_open_files},
+    workarounds::{close, discovery, free_port::with_free_port, linger, open_files::check_open_files},
 };
 use access_rules::Credentials;
 
@@ -136,6 +136,7 @@ impl Bus {
     }
 
     fn open(settings: Config) -> Result<Self, BusError> {
+        linger::keep_off();
         let session = zenoh::open(settings).wait().map_err(|error| BusError::Open { why: in_words(&error) })?;
         Ok(Self { session })
     }

@@ -6,12 +6,14 @@
 //! - `discovery`: a client does not dial a discovered endpoint again.
 //! - `free_port`: Zenoh does not report which port it was given for port 0.
 //! - `close`: closing a session can block on a dead link (zenoh#2675).
+//! - `linger`: closing a link can block on a dead peer.
 //! - `kept_routes`: routes of undeclared keys are computed for each message.
 
 pub(crate) mod close;
 pub(crate) mod discovery;
 pub(crate) mod free_port;
 pub(crate) mod kept_routes;
+pub(crate) mod linger;
 pub mod one_core;
 pub(crate) mod open_files;
 pub mod threads;
