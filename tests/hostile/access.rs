@@ -203,13 +203,14 @@ fn clients_without_a_valid_certificate_are_refused_and_logged() {
     assert!(answers.is_none_or(|answers| answers.is_empty()));
     fleet.learner.wait_for("it has no certificate");
     for (certs, why) in [("others", "is from another authority"), ("expired", "has expired")] {
-        let stranger = Running::start(actor(folder, &fleet.endpoint, certs));
-        stranger.wait_for("no answer; retrying");
-        let line = fleet.learner.wait_for(why);
-        assert!(line.contains("connection rejected"), "{line}");
+        // An honest actor does not even try.
+        let honest = actor(folder, &fleet.endpoint, certs).output().unwrap();
+        assert_refused(&honest, 2, &["the actor's certificate"]);
         let as_actor = Attacker::join(&fleet.endpoint, "run", Some((&folder.join(certs), "actor")), SILENCE);
         let answers = as_actor.map(|client| client.ask("treadmill/run/policy/latest", vec![], SILENCE));
         assert!(answers.is_none_or(|answers| answers.is_empty()), "{certs}");
+        let line = fleet.learner.wait_for(why);
+        assert!(line.contains("connection rejected"), "{line}");
     }
     fleet.assert_trains();
     assert_eq!(last_value(&fleet.run, "actors/alive"), Some(1.0));
