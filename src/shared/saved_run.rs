@@ -9,18 +9,12 @@ use treadmill_store::{Store, StoreError};
 
 use crate::launch::exit_code::Usage;
 
-/// Returns whether a RUN argument is the URL of a store.
-#[must_use]
-pub fn is_url(run: &str) -> bool {
-    run.contains("://")
-}
-
 /// Reads a checkpoint of a run. The folder of a run whose state is in a store leads to the store.
 ///
 /// # Errors
 /// If there is no such run, or its checkpoint is missing or cannot be used.
 pub fn load(run: &str, which: Which) -> anyhow::Result<Loaded> {
-    if is_url(run) {
+    if run.contains("://") {
         return load_stored(run, which);
     }
     let folder = RunFolder::open(run)?;
@@ -33,8 +27,8 @@ pub fn load(run: &str, which: Which) -> anyhow::Result<Loaded> {
 fn load_stored(url: &str, which: Which) -> anyhow::Result<Loaded> {
     let store = Store::open(url).map_err(|why| Usage(error_chain(&why)))?;
     let (name, object) = match which {
-        Which::Best => ("best".to_string(), checkpoint::object(which)),
-        Which::Numbered(number) => (number.to_string(), checkpoint::object(which)),
+        Which::Best => ("best".to_string(), checkpoint::object(None)),
+        Which::Numbered(number) => (number.to_string(), checkpoint::object(Some(number))),
         Which::Latest => return load_newest(&store),
         Which::BestOrLatest => match load_stored(url, Which::Best) {
             Err(why) if matches!(why.downcast_ref(), Some(StoreError::Missing { .. })) => return load_newest(&store),

@@ -209,13 +209,10 @@ fn known(folder: &Path) -> String {
     }
 }
 
-/// Returns the name of a best or numbered checkpoint's object in a store.
+/// Returns the object of a numbered checkpoint in a store, or of the best one.
 #[must_use]
-pub fn object(which: Which) -> String {
-    match which {
-        Which::Numbered(number) => format!("{}/{}", writer::IN_STORE, numbered(number)),
-        Which::Best | Which::Latest | Which::BestOrLatest => format!("{}/best.bundle", writer::IN_STORE),
-    }
+pub fn object(number: Option<u64>) -> String {
+    format!("{}/{}", writer::IN_STORE, number.map_or_else(|| "best.bundle".to_string(), numbered))
 }
 
 fn numbered(number: u64) -> String {

@@ -63,7 +63,7 @@ pub struct StateFollower {
 }
 
 impl StateFollower {
-    /// StateFollower of the run in `store`.
+    /// Follower of the run in `store`.
     #[must_use]
     pub fn new(store: &Store) -> Self {
         Self {
