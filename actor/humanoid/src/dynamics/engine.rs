@@ -16,7 +16,7 @@ use crate::model::Solver;
 type Sizes = (Solver, [usize; 6]);
 
 thread_local! {
-    /// Workspace of the last model that this thread simulated.
+    /// Workspace of the last model that this thread simulated, for all models of its sizes: it remembers nothing else of them.
     static ENGINE: RefCell<Option<(Sizes, Box<dyn Engine>)>> = const { RefCell::new(None) };
 }
 

@@ -107,3 +107,68 @@ fn a_faulty_simulation_keeps_its_last_state() {
     Physics::step_together(&mut [&mut one, &mut other].into_iter());
     assert!(one.check_step().is_ok());
 }
+
+/// Four limbs of one hinge each, of which the last hangs from the limb before it or from the second one. Solved by Newton's method.
+fn limbs(is_in_chain: bool) -> Physics {
+    let limb = |name: &str, inner: &str| {
+        let aside_m = if name == "c" { 0.5 } else { 0.0 };
+        format!(
+            "<body pos=\"0.3 {aside_m} 0\"><joint name=\"{name}\" axis=\"0 1 0\" damping=\"0.1\"/>\
+             <geom type=\"capsule\" fromto=\"0 0 0 0.3 0 0\" size=\"0.05\"/>{inner}</body>"
+        )
+    };
+    // Paths to the root are 1, 2, 1, 2 hinges long, or 1, 2, 2, 1.
+    let limbs = if is_in_chain {
+        limb("a", &limb("b", "")) + &limb("c", &limb("d", ""))
+    } else {
+        limb("a", &(limb("b", "") + &limb("c", ""))) + &limb("d", "")
+    };
+    let text = format!(
+        "<mujoco><worldbody><geom name=\"floor\" type=\"plane\" size=\"1 1 1\"/><body pos=\"0 0 1\"><freejoint/>\
+         <geom type=\"sphere\" size=\"0.1\"/>{limbs}</body></worldbody><actuator><motor joint=\"a\" gear=\"1\" ctrlrange=\"-1 1\"/></actuator></mujoco>"
+    );
+    Physics::new(Model::from_mjcf(&text).expect("valid"), &EnvironmentConfig::default()).expect("valid")
+}
+
+/// The limbs at this height (m), with hinges that move.
+fn limbs_at(height_m: f64) -> Physics {
+    let mut physics = limbs(true);
+    let mut position = physics.model().nominal_position();
+    position[2] = height_m;
+    physics.set_state(&position, &[0.3; 10]);
+    physics
+}
+
+#[test]
+fn a_world_without_constraints_keeps_every_bit_beside_one_that_has_some() {
+    let [mut alone, mut flying, mut lying] = [50.0, 50.0, 0.1].map(limbs_at);
+    for physics in [&mut flying, &mut lying] {
+        physics.set_controls(&[0.5]).expect("finite");
+    }
+    for _ in 0..20 {
+        alone.step_only(&[0.5]).expect("finite");
+        Physics::step_together(&mut [&mut flying, &mut lying].into_iter());
+        assert!(flying.check_step().is_ok() && lying.check_step().is_ok());
+    }
+    assert!(lying.squared_contact_wrenches() > 0.0 && flying.squared_contact_wrenches() == 0.0);
+    assert_eq!(state(&flying), state(&alone));
+}
+
+#[test]
+fn another_model_of_the_same_size_leaves_nothing_behind() {
+    let fallen = |is_first_other: bool| {
+        let walk = move || {
+            if is_first_other {
+                limbs(false).step_only(&[0.5]).expect("finite");
+            }
+            let mut physics = limbs_at(0.1);
+            for _ in 0..20 {
+                physics.step_only(&[0.5]).expect("finite");
+            }
+            state(&physics)
+        };
+        // Workspaces belong to threads.
+        std::thread::spawn(walk).join().expect("no panic")
+    };
+    assert_eq!(fallen(true), fallen(false));
+}

@@ -15,6 +15,8 @@ const LIMIT_MAX: f64 = 1e6;
 pub(super) struct CoordinateConstraint<S: Simd> {
     /// Index into [`Structure::coordinates`].
     pub(super) coordinate: usize,
+    /// Worlds in which any of them may act.
+    pub(super) is_active: Mask<S>,
     /// Limit that acts: 1 pushes to greater angles, −1 to smaller ones.
     pub(super) limit_sign: Lanes<S>,
     /// Where the limit is reached.
@@ -54,6 +56,7 @@ pub(super) fn prepare<S: Simd>(
     constraints.clear();
     let zero = velocity[0].constant(0.0);
     let one = zero.constant(1.0);
+    let never = one.less_than(zero);
     for (index, coordinate) in structure.coordinates.iter().enumerate() {
         let (mut place, mut rate) = (zero, zero);
         for (dof, weight) in &coordinate.terms {
@@ -67,14 +70,13 @@ pub(super) fn prepare<S: Simd>(
         let violation = to_min.min(to_max) - coordinate.limit_margin;
         let beyond = violation.less_than(zero);
         let servo = coordinate.hinge.map(|hinge| &hinges[hinge]);
-        let saturates = match servo {
-            Some(servo) => {
-                servo.min_nm.abs().min(servo.max_nm.abs()).less_than(zero.constant(f64::MAX)).any()
-                    && zero.less_than(servo.implicit_kgm2).any()
-            }
-            None => false,
-        };
-        if !(beyond.any() || coordinate.friction_loss > 0.0 || saturates) {
+        let saturates = servo.map_or(never, |servo| {
+            let nearest_nm = servo.min_nm.abs().min(servo.max_nm.abs());
+            nearest_nm.less_than(zero.constant(f64::MAX)).and(zero.less_than(servo.implicit_kgm2))
+        });
+        let slips = if coordinate.friction_loss > 0.0 { zero.less_than(one) } else { never };
+        let active = beyond.or(saturates).or(slips);
+        if !active.any() {
             continue;
         }
         let weight = zero.constant(coordinate.response);
@@ -91,6 +93,7 @@ pub(super) fn prepare<S: Simd>(
         let implicit_kgm2 = servo.map_or(zero, |servo| servo.implicit_kgm2);
         constraints.push(CoordinateConstraint {
             coordinate: index,
+            is_active: active,
             limit_sign: sign,
             is_beyond: beyond,
             limit,
@@ -98,7 +101,7 @@ pub(super) fn prepare<S: Simd>(
             loss,
             loss_max_nm: coordinate.friction_loss,
             loss_nm,
-            is_servo: saturates,
+            is_servo: saturates.any(),
             explicit_nm: servo.map_or(zero, |servo| servo.explicit_nm),
             implicit_kgm2,
             min_nm: servo.map_or(zero, |servo| servo.min_nm),

@@ -22,7 +22,6 @@ pub(super) struct Hessian<S: Simd> {
     entries: Vec<Lanes<S>>,
     /// Columns of each row that are not 0, without the diagonal.
     columns: Vec<Dofs>,
-    tree: Vec<Dofs>,
     /// The columns of each row as a list, from the row's start on, after [`Self::factor`].
     lists: Vec<u32>,
 }
@@ -42,22 +41,23 @@ fn start(row: usize) -> usize {
 }
 
 impl<S: Simd> Hessian<S> {
+    /// Creates one for any structure with as many degrees of freedom.
     pub(super) fn new(simd: S, structure: &Structure) -> Self {
         let dofs = structure.dofs();
-        let above = |dof: usize| structure.path(dof).iter().filter(move |other| **other as usize != dof);
-        let tree: Vec<Dofs> = (0..dofs).map(|dof| above(dof).map(|other| 1 << *other).sum()).collect();
-        Self { entries: vec![Lanes::zero(simd); start(dofs)], columns: tree.clone(), tree, lists: vec![0; start(dofs)] }
+        Self { entries: vec![Lanes::zero(simd); start(dofs)], columns: vec![0; dofs], lists: vec![0; start(dofs)] }
     }
 
     /// Becomes the mass matrix, which is not factored.
     #[inline(always)]
     pub(super) fn begin(&mut self, structure: &Structure, masses: &MassMatrix<S>) {
-        self.columns.copy_from_slice(&self.tree);
         for dof in 0..structure.dofs() {
             let row = &mut self.entries[start(dof)..];
+            let mut columns: Dofs = 0;
             for (other, entry) in structure.path(dof).iter().zip(masses.row(structure, dof)) {
                 row[*other as usize] = *entry;
+                columns |= 1 << *other;
             }
+            self.columns[dof] = columns & !(1 << dof);
         }
     }
 

@@ -25,7 +25,7 @@ use super::mass_matrix::MassMatrix;
 use super::posture::Posture;
 use super::structure::{Coordinate, Structure};
 use crate::collision::{Collisions, ContactKey, PairNode};
-use crate::lanes::{Lanes, Vec3};
+use crate::lanes::{Lanes, Mask, Vec3};
 use crate::model::Solver;
 
 /// Forces of a contact's edges in the step before.
@@ -78,6 +78,19 @@ impl<S: Simd> Problem<'_, S> {
     #[inline(always)]
     fn dofs(&self, contact: usize) -> &[u32] {
         &self.pairs[self.contacts[contact].key.0 as usize].dofs
+    }
+
+    /// Returns the worlds that have a constraint; `number` is any.
+    #[inline(always)]
+    fn constrained(&self, number: Lanes<S>) -> Mask<S> {
+        let mut worlds = number.less_than(number);
+        for constraint in &*self.coordinates {
+            worlds = worlds.or(constraint.is_active);
+        }
+        for contact in &*self.contacts {
+            worlds = worlds.or(contact.is_active);
+        }
+        worlds
     }
 }
 

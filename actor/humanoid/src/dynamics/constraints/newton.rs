@@ -92,8 +92,8 @@ impl<S: Simd> Newton<S> {
         self.masses.copy_entries(matrix);
     }
 
-    /// Changes whitened accelerations and the forces by all constraints, beginning with the acceleration `start`. Returns the
-    /// largest change of an acceleration by the last iteration.
+    /// Changes whitened accelerations and the forces by all constraints, beginning with the acceleration `start`, in the worlds
+    /// that have constraints. Returns the largest change of an acceleration by the last iteration.
     #[inline(always)]
     pub(super) fn solve(
         &mut self,
@@ -103,10 +103,9 @@ impl<S: Simd> Newton<S> {
     ) -> Lanes<S> {
         let structure = problem.structure;
         self.begin(&problem, start, whitened);
-        let zero = whitened[0].constant(0.0);
-        let one = zero.constant(1.0);
-        let mut running = zero.less_than(one);
-        let mut residual = zero;
+        let constrained = problem.constrained(whitened[0]);
+        let mut running = constrained;
+        let mut residual = whitened[0].constant(0.0);
         for iteration in 0..=ITERATIONS_MAX {
             self.respond(&mut problem);
             running = running.and(self.is_unsettled(&problem));
@@ -119,13 +118,19 @@ impl<S: Simd> Newton<S> {
                 *step = -*gradient;
             }
             self.hessian.solve(&mut self.step);
+            for step in &mut self.step {
+                *step = running.keep(*step);
+            }
             self.masses.times(structure, &self.step, &mut self.inertial_step);
             self.note_changes(&problem);
-            let share = running.keep(self.search(&problem, running));
+            let share = self.search(&problem, running);
             residual = running.select(self.advance(share), residual);
         }
-        whitened.copy_from_slice(&self.acceleration);
-        problem.matrix.whiten(structure, whitened);
+        problem.matrix.whiten(structure, &mut self.acceleration);
+        for (number, solution) in whitened.iter_mut().zip(&self.acceleration) {
+            // Without constraints nothing changes, not even by rounding: neighbours that have some make no difference.
+            *number = constrained.select(*solution, *number);
+        }
         residual
     }
 
