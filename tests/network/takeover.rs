@@ -64,6 +64,14 @@ impl Fleet {
     }
 }
 
+/// Returns the newest of the manifest's versions.
+fn newest_manifest(folder: &Path) -> Value {
+    let entries = fs::read_dir(folder.join("store/manifest.json")).unwrap();
+    let number = |entry: fs::DirEntry| entry.file_name().to_str().and_then(|name| name.parse::<u64>().ok());
+    let newest = entries.filter_map(|entry| number(entry.unwrap())).max().expect("a version");
+    serde_json::from_slice(&fs::read(folder.join(format!("store/manifest.json/{newest}"))).unwrap()).unwrap()
+}
+
 fn steps_of(run: &Path) -> u64 {
     metrics(run).iter().map(|(_, step, _)| *step).max().expect("metrics")
 }
@@ -83,8 +91,7 @@ fn a_standby_takes_over_from_a_killed_leader_and_loses_at_most_one_update() {
     assert!(stop.status.success(), "{}", stderr(&stop));
     let (status, lines) = fleet.standby.wait();
     assert!(status.success(), "{lines:#?}");
-    let manifest = fs::read(fleet.folder.path().join("store/manifest.json")).unwrap();
-    let manifest: Value = serde_json::from_slice(&manifest).unwrap();
+    let manifest = newest_manifest(fleet.folder.path());
     assert_eq!(manifest["status"], "stopped");
     // The ledger of the whole run, over both learners, agrees with the actor's own count.
     let accounts = fs::read_to_string(fleet.folder.path().join("second/accounts.jsonl")).unwrap();
@@ -169,8 +176,8 @@ fn unusable_stores_are_refused_with_the_remedy() {
     let url = format!("file://{}/store", folder.path().display());
     let missing = run(folder.path(), &["eval", &url]);
     assert_refused(&missing, 2, &["holds no run", "treadmill learner --store"]);
-    fs::create_dir(folder.path().join("store")).unwrap();
-    fs::write(folder.path().join("store/manifest.json"), "{").unwrap();
+    fs::create_dir_all(folder.path().join("store/manifest.json")).unwrap();
+    fs::write(folder.path().join("store/manifest.json/1"), "{").unwrap();
     assert_refused(&learner(&["--store", &url, "--standby"]), 1, &["manifest", "choose another --store"]);
 }
 

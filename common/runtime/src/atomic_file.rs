@@ -1,4 +1,4 @@
-//! Writes a file atomically: to a temporary file that is synced, then renamed.
+//! Writes a file atomically: to a temporary file that is synced, then renamed or linked.
 
 use std::{
     fs::{self, File},
@@ -15,6 +15,22 @@ const SUFFIX: &str = ".tmp";
 /// # Errors
 /// The system's error, such as a full disk. The old file is untouched and the temporary one removed.
 pub fn write(path: &Path, bytes: &[u8]) -> io::Result<()> {
+    write_by(path, bytes, |temporary| fs::rename(temporary, path))
+}
+
+/// Creates `path` with `bytes`. A crash at any moment leaves no file or the whole one.
+///
+/// # Errors
+/// [`io::ErrorKind::AlreadyExists`] if there is a file, or the system's error, as of a file system without hard links.
+pub fn create(path: &Path, bytes: &[u8]) -> io::Result<()> {
+    write_by(path, bytes, |temporary| {
+        fs::hard_link(temporary, path)?;
+        fs::remove_file(temporary)
+    })
+}
+
+/// Writes a temporary file, which `publish` gives its name.
+fn write_by(path: &Path, bytes: &[u8], publish: impl FnOnce(&Path) -> io::Result<()>) -> io::Result<()> {
     let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
     let name = path.file_name().ok_or_else(|| io::Error::new(io::ErrorKind::InvalidInput, "the path names no file"))?;
     // Two threads may write the same file at the same time.
@@ -25,8 +41,8 @@ pub fn write(path: &Path, bytes: &[u8]) -> io::Result<()> {
         let mut file = File::create(&temporary)?;
         file.write_all(bytes)?;
         file.sync_all()?;
-        fs::rename(&temporary, path)?;
-        // The rename itself is durable only once the folder is.
+        publish(&temporary)?;
+        // The name itself is durable only once the folder is.
         File::open(folder)?.sync_all()
     })();
     if written.is_err() {
@@ -83,6 +99,22 @@ mod tests {
         write(&path, b"one").unwrap();
         write(&path, b"two").unwrap();
         assert_eq!(fs::read(&path).unwrap(), b"two");
+        assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1);
+    }
+
+    #[test]
+    fn only_one_of_many_creates_a_file() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("state");
+        let created: usize = std::thread::scope(|scope| {
+            let create = || match create(&path, &[7; 10_000]) {
+                Ok(()) => 1,
+                Err(why) => usize::from(why.kind() != io::ErrorKind::AlreadyExists) * 100,
+            };
+            let threads: Vec<_> = (0..8).map(|_| scope.spawn(create)).collect();
+            threads.into_iter().map(|thread| thread.join().unwrap()).sum()
+        });
+        assert_eq!((created, fs::read(&path).unwrap()), (1, vec![7; 10_000]));
         assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1);
     }
 

@@ -1,20 +1,13 @@
 //! Objects as files of a folder.
 
-use std::{
-    fs::{self, File, OpenOptions},
-    io,
-    path::PathBuf,
-};
+use std::{fs, io, path::PathBuf};
 
-use sha2::{Digest, Sha256};
 use treadmill_runtime::atomic_file;
 
-use crate::{StoreError, Tag};
+use crate::{StoreError, Tag, versions};
 
-/// File that a conditional write locks. On a network file system it needs one that passes locks on, as NFS 4 does.
-const LOCK: &str = ".lock";
-
-/// Folder of objects. A tag is the checksum of an object's bytes.
+/// Folder of objects. An object is a file, or a folder of versions if it is replaced on a condition; its tag is then the newest
+/// version's number, and empty otherwise.
 #[derive(Debug)]
 pub(crate) struct Folder {
     root: PathBuf,
@@ -30,25 +23,24 @@ impl Folder {
     }
 
     pub(crate) fn get(&self, name: &str) -> Result<(Vec<u8>, Tag), StoreError> {
-        let bytes = fs::read(self.root.join(name)).map_err(|why| StoreError::of_file(name, &why))?;
-        let tag = tag(&bytes);
-        Ok((bytes, tag))
+        let path = self.root.join(name);
+        let read = match path.is_dir() {
+            true => versions::read(&path).map(|(bytes, number)| (bytes, tag(number))),
+            false => fs::read(&path).map(|bytes| (bytes, Tag(String::new()))),
+        };
+        read.map_err(|why| StoreError::of_file(name, &why))
     }
 
     pub(crate) fn replace(&self, name: &str, bytes: &[u8], last: Option<&Tag>) -> Result<Tag, StoreError> {
-        let failed = |why: io::Error| StoreError::failed(name, why.to_string());
-        // The system gives the lock back when the process ends, however it ends.
-        let _lock = self.lock().map_err(failed)?;
-        let present = match self.get(name) {
-            Ok((_, tag)) => Some(tag),
-            Err(StoreError::Missing { .. }) => None,
-            Err(why) => return Err(why),
+        let last = match last {
+            Some(tag) => Some(tag.0.parse().map_err(|_| StoreError::conflict(name))?),
+            None => None,
         };
-        if present.as_ref() != last {
-            return Err(StoreError::conflict(name));
+        let added = versions::add(&self.root.join(name), bytes, last);
+        match added.map_err(|why| StoreError::failed(name, why.to_string()))? {
+            Some(number) => Ok(tag(number)),
+            None => Err(StoreError::conflict(name)),
         }
-        self.write(name, bytes).map_err(failed)?;
-        Ok(tag(bytes))
     }
 
     pub(crate) fn delete(&self, name: &str) -> Result<(), StoreError> {
@@ -65,7 +57,7 @@ impl Folder {
             Err(why) => return Err(StoreError::failed(folder, why.to_string())),
         };
         let names = entries.flatten().map(|entry| entry.file_name().to_string_lossy().into_owned());
-        Ok(names.filter(|name| !atomic_file::is_temporary(name) && name != LOCK).collect())
+        Ok(names.filter(|name| !atomic_file::is_temporary(name)).collect())
     }
 
     fn write(&self, name: &str, bytes: &[u8]) -> io::Result<()> {
@@ -73,15 +65,8 @@ impl Folder {
         fs::create_dir_all(path.parent().unwrap_or(&self.root))?;
         atomic_file::write(&path, bytes)
     }
-
-    fn lock(&self) -> io::Result<File> {
-        fs::create_dir_all(&self.root)?;
-        let file = OpenOptions::new().create(true).truncate(false).write(true).open(self.root.join(LOCK))?;
-        file.lock()?;
-        Ok(file)
-    }
 }
 
-fn tag(bytes: &[u8]) -> Tag {
-    Tag(Sha256::digest(bytes).iter().map(|byte| format!("{byte:02x}")).collect())
+fn tag(number: u64) -> Tag {
+    Tag(number.to_string())
 }

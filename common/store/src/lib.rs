@@ -3,7 +3,7 @@
 //! # Layout
 //! - Here: [`Store`], its operations and their errors.
 //! - `location`: a store's URL.
-//! - `folder`: objects as files of a folder, as on a network file system.
+//! - `folder` with `versions`: objects as files of a folder, as on a network file system.
 //! - `remote`: S3, Google Cloud Storage and Azure, by the crate `object_store`.
 //! - [`simulated`]: objects in memory, with faults, for tests.
 
@@ -12,6 +12,7 @@ mod folder;
 mod location;
 mod remote;
 pub mod simulated;
+mod versions;
 
 use std::{fmt, sync::Arc};
 
