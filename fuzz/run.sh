@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Fuzzes decoders with coverage, on the pinned toolchain:  fuzz/run.sh SECONDS [TARGET ...]
-# New inputs go to fuzz/corpus/TARGET, inputs that crash to fuzz/artifacts/TARGET/.
+# New inputs go to fuzz/corpus/TARGET, of these the few that cover more to fuzz/seeds/TARGET, which is committed, and inputs
+# that crash to fuzz/artifacts/TARGET/.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 seconds=${1:?usage: fuzz/run.sh SECONDS [TARGET ...]}
@@ -17,10 +18,13 @@ RUSTC_WORKSPACE_WRAPPER=$PWD/fuzz/instrument.sh "${coverage[@]}"
 "${build[@]}" --example seeds
 target/release/examples/seeds fuzz/corpus
 
+limits=(-max_len=65536 -rss_limit_mb=1024 -malloc_limit_mb=512 -timeout=20)
 for target in "${targets[@]}"; do
-    mkdir -p "fuzz/artifacts/$target"
+    corpus=(fuzz/corpus/"$target" fuzz/seeds/"$target")
+    mkdir -p "${corpus[@]}" "fuzz/artifacts/$target"
     echo "=== $target"
-    "target/release/$target" "fuzz/corpus/$target" -max_total_time="$seconds" -max_len=65536 -rss_limit_mb=1024 \
-        -malloc_limit_mb=512 -timeout=20 -artifact_prefix="fuzz/artifacts/$target/" -print_final_stats=1 2>&1 |
+    "target/release/$target" "${corpus[@]}" "${limits[@]}" -max_total_time="$seconds" \
+        -artifact_prefix="fuzz/artifacts/$target/" -print_final_stats=1 2>&1 |
         grep -v '^#[0-9]*[[:space:]]*\(NEW\|REDUCE\|pulse\|RELOAD\)'
+    "target/release/$target" -merge=1 "${limits[@]}" fuzz/seeds/"$target" fuzz/corpus/"$target" 2>&1 | tail -n 1
 done

@@ -166,7 +166,8 @@ class ChaosFleet(Fleet):
         """Returns the command line of SeaweedFS. It puts sockets into /tmp with names by port, so its disk is also its /tmp."""
         beside = pathlib.Path(sys.executable).with_name("weed")
         program = beside if beside.exists() else "weed"
-        limits = ["-master.volumeSizeLimitMB=64", "-volume.max=60", "-volume.minFreeSpace=1MiB", "-master.telemetry=false"]
+        # With free space to keep, it looks once a minute whether there is some again.
+        limits = ["-master.volumeSizeLimitMB=64", "-volume.max=60", "-volume.minFreeSpace=0", "-master.telemetry=false"]
         return [
             "unshare", "--mount", "sh", "-c", 'mount --bind "$1" /tmp && shift && exec "$@"', "sh", self.disk("store"),
             program, "server", "-s3", "-dir=/tmp", f"-ip={HOSTS['store']}", "-ip.bind=0.0.0.0", f"-s3.port={S3_PORT}",

@@ -11,7 +11,7 @@
 pub mod robots;
 pub mod samples;
 
-use std::{sync::Arc, time::Instant};
+use std::{fs, path::Path, sync::Arc, time::Instant};
 
 use bytes::Bytes;
 use treadmill_bus::admission::Admission;
@@ -58,6 +58,17 @@ pub const TARGETS: &[(&str, Target, Sample, usize)] = &[
     ("config", config, samples::config, 256),
     ("fragment_validator", fragment_validator, samples::fragment, 16),
 ];
+
+/// Returns the inputs in `seeds/TARGET`, which together cover what fuzzing has covered.
+///
+/// # Panics
+/// If they cannot be read.
+#[must_use]
+pub fn seeds_of(target: &str) -> Vec<Vec<u8>> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("seeds").join(target);
+    let Ok(entries) = fs::read_dir(folder) else { return Vec::new() };
+    entries.map(|entry| fs::read(entry.expect("an entry").path()).expect("a file")).collect()
+}
 
 /// Decodes a rollout fragment.
 pub fn fragment(data: &[u8]) {

@@ -4,7 +4,7 @@ use std::time::{Duration, Instant};
 
 use proptest::prelude::*;
 use proptest::test_runner::TestRunner;
-use treadmill_fuzz::robots::robot;
+use treadmill_fuzz::{robots::robot, seeds_of};
 
 #[test]
 fn no_robot_panics_or_depends_on_its_neighbours() {
@@ -27,4 +27,11 @@ fn no_robot_panics_or_depends_on_its_neighbours() {
         }
     }
     assert!(tried >= cases);
+}
+
+#[test]
+fn committed_seeds_depend_on_no_neighbours() {
+    let seeds = seeds_of("robot");
+    assert!(!seeds.is_empty());
+    seeds.iter().for_each(|seed| robot(seed));
 }

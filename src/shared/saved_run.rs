@@ -2,7 +2,7 @@
 
 use treadmill_learner::{
     checkpoint::{self, Loaded, Which},
-    leadership::read_manifest,
+    leadership::follower::{LoadedState, newest_state},
 };
 use treadmill_runtime::{error_chain, run_folder::RunFolder};
 use treadmill_store::{Store, StoreError};
@@ -40,13 +40,12 @@ fn load_stored(url: &str, which: Which) -> anyhow::Result<Loaded> {
 }
 
 fn load_newest(store: &Store) -> anyhow::Result<Loaded> {
-    let Some((manifest, _)) = read_manifest(store)? else {
+    let Some(LoadedState { manifest, state, .. }) = newest_state(store)? else {
         return Err(Usage(format!(
             "the store `{store}` holds no run; begin one with `treadmill learner --store {store}`"
         ))
         .into());
     };
-    let (bytes, _) = store.get(&manifest.state)?;
-    let state = checkpoint::read(&format!("{store}/{}", manifest.state), &bytes)?;
+    let state = checkpoint::read(&format!("{store}/{}", manifest.state), &state)?;
     Ok(Loaded { state, name: "latest".to_string() })
 }

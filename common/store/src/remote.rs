@@ -17,6 +17,11 @@ const RETRIES: usize = 1;
 /// Longest time in which an attempt may follow.
 const RETRY_TIMEOUT: Duration = Duration::from_secs(5);
 
+/// Longest wait for an answer. A connection that was cut off would wait longer, and go on late when it is back.
+const ANSWER_TIMEOUT: Duration = Duration::from_secs(5);
+/// Slowest transfer that is not taken for a cut-off one (bytes per second).
+const SPEED_MIN_BPS: u64 = 1 << 20;
+
 /// Longest error that is shown, in characters: a store may answer with a whole page.
 const WORDS_MAX: usize = 600;
 
@@ -26,6 +31,7 @@ pub(crate) struct Remote {
     scheme: Scheme,
     objects: Box<dyn ObjectStore>,
     root: Path,
+    answer_timeout: Duration,
     /// `None` only while it is dropped.
     runtime: Option<Runtime>,
 }
@@ -44,22 +50,19 @@ impl Remote {
             .enable_all()
             .build()
             .map_err(|why| settings(&why))?;
-        Ok(Self { scheme, objects, root, runtime: Some(runtime) })
+        Ok(Self { scheme, objects, root, answer_timeout: ANSWER_TIMEOUT, runtime: Some(runtime) })
     }
 
     pub(crate) fn put(&self, name: &str, bytes: &[u8]) -> Result<(), StoreError> {
-        let written = self.wait(self.objects.put(&self.path(name), payload(bytes)));
+        let written = self.wait(bytes.len() as u64, self.objects.put(&self.path(name), payload(bytes)));
         written.map(|_| ()).map_err(|why| failed(name, &why))
     }
 
     pub(crate) fn get(&self, name: &str) -> Result<(Vec<u8>, Tag), StoreError> {
-        let read = self.wait(async {
-            let found = self.objects.get(&self.path(name)).await?;
-            let (tag, version) = (found.meta.e_tag.clone(), found.meta.version.clone());
-            Ok((found.bytes().await?.to_vec(), tag, version))
-        });
-        let (bytes, tag, version) = read.map_err(|why| failed(name, &why))?;
-        Ok((bytes, self.tag(name, tag, version)?))
+        let found = self.wait(0, self.objects.get(&self.path(name))).map_err(|why| failed(name, &why))?;
+        let (tag, version) = (found.meta.e_tag.clone(), found.meta.version.clone());
+        let bytes = self.wait(found.meta.size, found.bytes()).map_err(|why| failed(name, &why))?;
+        Ok((bytes.to_vec(), self.tag(name, tag, version)?))
     }
 
     pub(crate) fn replace(&self, name: &str, bytes: &[u8], last: Option<&Tag>) -> Result<Tag, StoreError> {
@@ -67,7 +70,7 @@ impl Remote {
             PutMode::Update(UpdateVersion { e_tag: Some(tag.clone()), version: Some(tag.clone()) })
         });
         let options = PutOptions { mode, ..PutOptions::default() };
-        let written = self.wait(self.objects.put_opts(&self.path(name), payload(bytes), options));
+        let written = self.wait(bytes.len() as u64, self.objects.put_opts(&self.path(name), payload(bytes), options));
         let written = written.map_err(|why| failed(name, &why))?;
         self.tag(name, written.e_tag, written.version)
     }
@@ -81,14 +84,14 @@ impl Remote {
     }
 
     pub(crate) fn delete(&self, name: &str) -> Result<(), StoreError> {
-        match self.wait(self.objects.delete(&self.path(name))) {
+        match self.wait(0, self.objects.delete(&self.path(name))) {
             Ok(()) | Err(object_store::Error::NotFound { .. }) => Ok(()),
             Err(why) => Err(failed(name, &why)),
         }
     }
 
     pub(crate) fn list(&self, folder: &str) -> Result<Vec<String>, StoreError> {
-        let listed = self.wait(self.objects.list_with_delimiter(Some(&self.path(folder))));
+        let listed = self.wait(0, self.objects.list_with_delimiter(Some(&self.path(folder))));
         let objects = listed.map_err(|why| failed(folder, &why))?.objects;
         Ok(objects.iter().filter_map(|object| object.location.filename().map(str::to_string)).collect())
     }
@@ -97,8 +100,19 @@ impl Remote {
         name.split('/').fold(self.root.clone(), |path, part| path.join(part))
     }
 
-    fn wait<T>(&self, work: impl Future<Output = Result<T, object_store::Error>>) -> Result<T, object_store::Error> {
-        self.runtime.as_ref().expect("only a drop takes it").block_on(work)
+    /// Waits for work that transfers this many bytes. Gives up work that takes too long; it may take effect all the same.
+    fn wait<T>(
+        &self,
+        bytes: u64,
+        work: impl Future<Output = Result<T, object_store::Error>>,
+    ) -> Result<T, object_store::Error> {
+        let limit = self.answer_timeout + Duration::from_secs(bytes / SPEED_MIN_BPS);
+        let runtime = self.runtime.as_ref().expect("only a drop takes it");
+        let done = runtime.block_on(async { tokio::time::timeout(limit, work).await });
+        done.unwrap_or_else(|_| {
+            let why = format!("no answer within {} s", limit.as_secs());
+            Err(object_store::Error::Generic { store: "store", source: why.into() })
+        })
     }
 }
 
@@ -166,6 +180,8 @@ fn without_secrets(text: &str) -> String {
 
 #[cfg(test)]
 mod tests {
+    use std::net::{SocketAddr, TcpListener};
+
     use super::*;
 
     #[test]
@@ -174,23 +190,41 @@ mod tests {
         assert_eq!(without_secrets(text), "error for url (https://box.example/a): refused by it");
     }
 
-    #[test]
-    fn a_store_that_is_away_is_an_error_without_credentials() {
-        // Nothing listens on this port of loopback.
+    /// Objects of an S3 server at this address.
+    fn remote(address: SocketAddr) -> Remote {
         let url = Url::parse("s3://bucket/walk").unwrap();
         let builder = AmazonS3Builder::new()
             .with_url(url.as_str())
-            .with_endpoint("http://127.0.0.1:9")
+            .with_endpoint(format!("http://{address}"))
             .with_allow_http(true)
             .with_access_key_id("public")
             .with_secret_access_key("secret")
             .with_retry(RetryConfig { max_retries: 0, ..RetryConfig::default() });
         let _ = rustls::crypto::ring::default_provider().install_default();
         let runtime = tokio::runtime::Builder::new_multi_thread().worker_threads(1).enable_all().build().unwrap();
-        let root = Path::from_url_path(url.path()).unwrap();
-        let remote =
-            Remote { scheme: Scheme::S3, objects: Box::new(builder.build().unwrap()), root, runtime: Some(runtime) };
-        let why = remote.get("manifest.json").unwrap_err().to_string();
+        Remote {
+            scheme: Scheme::S3,
+            objects: Box::new(builder.build().unwrap()),
+            root: Path::from_url_path(url.path()).unwrap(),
+            answer_timeout: Duration::from_millis(500),
+            runtime: Some(runtime),
+        }
+    }
+
+    #[test]
+    fn a_store_that_is_away_is_an_error_without_credentials() {
+        // Nothing listens on this port of loopback.
+        let why = remote(([127, 0, 0, 1], 9).into()).get("manifest.json").unwrap_err().to_string();
         assert!(why.contains("manifest.json") && !why.contains("secret"), "{why}");
+    }
+
+    #[test]
+    fn a_store_that_does_not_answer_is_an_error() {
+        // The system accepts connections, and no program reads them.
+        let listener = TcpListener::bind("127.0.0.1:0").unwrap();
+        let remote = remote(listener.local_addr().unwrap());
+        for why in [remote.get("manifest.json").unwrap_err(), remote.put("states/1", b"state").unwrap_err()] {
+            assert!(why.to_string().contains("no answer within"), "{why}");
+        }
     }
 }

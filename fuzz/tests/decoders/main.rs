@@ -8,7 +8,7 @@ use proptest::{
     prelude::*,
     test_runner::{Config, TestRunner},
 };
-use treadmill_fuzz::{TARGETS, Target, samples};
+use treadmill_fuzz::{TARGETS, Target, samples, seeds_of};
 use treadmill_proto::limits::{BUNDLE_BYTES_MAX, FRAGMENT_BYTES_MAX, MODEL_BYTES_MAX, SMALL_BYTES_MAX};
 
 #[global_allocator]
@@ -121,6 +121,15 @@ fn mutated_samples_are_decoded_safely() {
             mutations.iter().for_each(|mutation| apply(&mut bytes, mutation));
             run_target(name, *target, *factor, &bytes);
         });
+    }
+}
+
+#[test]
+fn committed_seeds_are_decoded_safely() {
+    for (name, target, _, factor) in TARGETS {
+        let seeds = seeds_of(name);
+        assert!(!seeds.is_empty(), "{name}");
+        seeds.iter().for_each(|seed| run_target(name, *target, *factor, seed));
     }
 }
 

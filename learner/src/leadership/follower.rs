@@ -15,6 +15,8 @@ const PATIENCE_SILENT: Duration = Duration::from_secs(4);
 /// the longest intervals between two states.
 const PATIENCE_ALONE: (Duration, Duration) = (Duration::from_secs(5), Duration::from_secs(30));
 const PATIENCE_ALONE_INTERVALS: u32 = 3;
+/// Attempts to read a state before its leader removes it.
+const READS_MAX: usize = 10;
 
 /// What a follower sees of the leader.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -45,6 +47,24 @@ pub struct LoadedState {
     pub tag: Tag,
     /// Encoded state.
     pub state: Bytes,
+}
+
+/// Reads the newest state of a run, or `None` if the store holds none.
+///
+/// # Errors
+/// If the store fails, the manifest is damaged, or the state that it names is missing.
+pub fn newest_state(store: &Store) -> Result<Option<LoadedState>, LeadershipError> {
+    let mut missing = None;
+    for _ in 0..READS_MAX {
+        let Some((manifest, tag)) = read_manifest(store)? else { return Ok(None) };
+        match store.get(&manifest.state) {
+            Ok((state, _)) => return Ok(Some(LoadedState { manifest, tag, state: state.into() })),
+            // Its leader may have removed it since, and names a newer one.
+            Err(why @ StoreError::Missing { .. }) => missing = Some(why),
+            Err(why) => return Err(why.into()),
+        }
+    }
+    missing.map_or(Ok(None), |why| Err(why.into()))
 }
 
 /// Follows one run.
@@ -102,8 +122,11 @@ impl StateFollower {
             Some(loaded) => loaded.state.clone(),
             None => match self.store.get(&manifest.state) {
                 Ok((state, _)) => state.into(),
-                // The leader has removed it since: the manifest names a newer one.
-                Err(StoreError::Missing { .. }) => return Ok(()),
+                // The leader has removed it since, which is progress: the manifest names a newer one.
+                Err(StoreError::Missing { .. }) => {
+                    self.missing_since = None;
+                    return Ok(());
+                }
                 Err(why) => return Err(why.into()),
             },
         };

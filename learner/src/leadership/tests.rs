@@ -4,13 +4,13 @@ use std::time::{Duration, Instant};
 
 use treadmill_runtime::seeds;
 use treadmill_store::{
-    Store,
+    Store, StoreError,
     simulated::{Fault, SimulatedObjects},
 };
 
 use super::{
     Leadership, LeadershipError, MANIFEST, Manifest, Status,
-    follower::{LeaderSight, Sight, StateFollower},
+    follower::{LeaderSight, LoadedState, Sight, StateFollower, newest_state},
     read_manifest,
 };
 use crate::checkpoint::Counters;
@@ -166,4 +166,24 @@ fn a_damaged_manifest_is_refused_with_its_field() {
         let why = read_manifest(&store).unwrap_err().to_string();
         assert!(why.contains(wanted), "{to}: {why}");
     }
+}
+
+#[test]
+fn the_newest_state_is_read_while_its_leader_removes_old_ones() {
+    let store = Store::simulated(&SimulatedObjects::default());
+    assert!(newest_state(&store).unwrap().is_none());
+    let mut leader = prepare(&store);
+    leader.save("walk", &counters(0), b"0").unwrap();
+    std::thread::scope(|scope| {
+        let saving = scope.spawn(move || {
+            (1..2000u64)
+                .for_each(|updates| leader.save("walk", &counters(updates), updates.to_string().as_bytes()).unwrap());
+        });
+        while !saving.is_finished() {
+            let LoadedState { manifest, state, .. } = newest_state(&store).unwrap().expect("a state");
+            assert_eq!(state, manifest.updates.to_string());
+        }
+    });
+    store.delete(&manifest(&store).state).unwrap();
+    assert!(matches!(newest_state(&store), Err(LeadershipError::Store(StoreError::Missing { .. }))));
 }
