@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Fuzzes decoders with coverage, on the pinned toolchain:  fuzz/run.sh SECONDS [TARGET ...]
-# New inputs go to fuzz/corpus/TARGET, of these the few that cover more to fuzz/seeds/TARGET, which is committed, and inputs
+# New inputs go to fuzz/corpus/TARGET, of these the few that cover more lines to fuzz/seeds/TARGET, which is committed, and inputs
 # that crash to fuzz/artifacts/TARGET/.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
@@ -26,5 +26,5 @@ for target in "${targets[@]}"; do
     "target/release/$target" "${corpus[@]}" "${limits[@]}" -max_total_time="$seconds" \
         -artifact_prefix="fuzz/artifacts/$target/" -print_final_stats=1 2>&1 |
         grep -v '^#[0-9]*[[:space:]]*\(NEW\|REDUCE\|pulse\|RELOAD\)'
-    "target/release/$target" -merge=1 "${limits[@]}" fuzz/seeds/"$target" fuzz/corpus/"$target" 2>&1 | tail -n 1
+    "target/release/$target" -set_cover_merge=1 -use_counters=0 "${limits[@]}" fuzz/seeds/"$target" fuzz/corpus/"$target" 2>&1 | tail -n 1
 done

@@ -55,15 +55,15 @@ pub struct Dense {
 }
 
 impl Dense {
-    /// Returns the range of the weight.
+    /// Returns the range of the weight. Widths of any size are allowed, so that a count of parameters can be checked.
     pub fn weight(&self) -> std::ops::Range<usize> {
-        self.offset..self.offset + self.output * self.input
+        self.offset..self.offset.saturating_add(self.output.saturating_mul(self.input))
     }
 
     /// Returns the range of the bias.
     pub fn bias(&self) -> std::ops::Range<usize> {
-        let start = self.offset + self.output * self.input;
-        start..start + self.output
+        let start = self.weight().end;
+        start..start.saturating_add(self.output)
     }
 }
 
@@ -87,7 +87,7 @@ impl NetworkShape {
     /// Returns the range of the logarithms of the standard deviations, `[action]`, between the two networks.
     pub fn log_std(&self) -> std::ops::Range<usize> {
         let start = end_of(&self.actor());
-        start..start + self.action
+        start..start.saturating_add(self.action)
     }
 
     /// Returns the length of the flat parameter vector.
@@ -156,6 +156,14 @@ mod tests {
         let critic = 4 * 3 + 4 + 5 * 4 + 5 + 5 + 1;
         assert_eq!(shape().parameter_count(), actor + 2 + critic);
         assert_eq!(shape().log_std(), actor..actor + 2);
+    }
+
+    #[test]
+    fn widths_that_overflow_fit_no_parameters() {
+        for width in [usize::MAX, 1 << 63, 1 << 32] {
+            let shape = NetworkShape { observation: width, action: width, hidden: vec![width, width], privileged: 0 };
+            assert_eq!(shape.parameter_count(), usize::MAX);
+        }
     }
 
     #[test]
