@@ -26,5 +26,6 @@ for target in "${targets[@]}"; do
     "target/release/$target" "${corpus[@]}" "${limits[@]}" -max_total_time="$seconds" \
         -artifact_prefix="fuzz/artifacts/$target/" -print_final_stats=1 2>&1 |
         grep -v '^#[0-9]*[[:space:]]*\(NEW\|REDUCE\|pulse\|RELOAD\)'
-    "target/release/$target" -set_cover_merge=1 -use_counters=0 "${limits[@]}" fuzz/seeds/"$target" fuzz/corpus/"$target" 2>&1 | tail -n 1
+    "target/release/$target" -set_cover_merge=1 -use_counters=0 "${limits[@]}" \
+        fuzz/seeds/"$target" fuzz/corpus/"$target" 2>&1 | tail -n 1
 done

@@ -66,8 +66,10 @@ pub const TARGETS: &[(&str, Target, Sample, usize)] = &[
 #[must_use]
 pub fn seeds_of(target: &str) -> Vec<Vec<u8>> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("seeds").join(target);
-    let Ok(entries) = fs::read_dir(folder) else { return Vec::new() };
-    entries.map(|entry| fs::read(entry.expect("an entry").path()).expect("a file")).collect()
+    fs::read_dir(folder)
+        .expect("a folder of seeds")
+        .map(|entry| fs::read(entry.expect("an entry").path()).expect("a file"))
+        .collect()
 }
 
 /// Decodes a rollout fragment.

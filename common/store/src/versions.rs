@@ -10,7 +10,7 @@ use treadmill_runtime::atomic_file;
 const KEPT: u64 = 100;
 
 /// Returns the greatest number, or `None` without versions.
-pub(crate) fn newest(folder: &Path) -> io::Result<Option<u64>> {
+fn newest(folder: &Path) -> io::Result<Option<u64>> {
     Ok(numbers(folder)?.into_iter().max())
 }
 

@@ -16,7 +16,8 @@ use crate::model::Solver;
 type Sizes = (Solver, [usize; 6]);
 
 thread_local! {
-    /// Workspace of the last model that this thread simulated, for all models of its sizes: it remembers nothing else of them.
+    /// Workspace of the last model that this thread simulated. It depends on the model's sizes only, so the next model of the
+    /// same sizes uses it too.
     static ENGINE: RefCell<Option<(Sizes, Box<dyn Engine>)>> = const { RefCell::new(None) };
 }
 

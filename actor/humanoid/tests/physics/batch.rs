@@ -108,7 +108,7 @@ fn a_faulty_simulation_keeps_its_last_state() {
     assert!(one.check_step().is_ok());
 }
 
-/// Four limbs of one hinge each, of which the last hangs from the limb before it or from the second one. Solved by Newton's method.
+/// Four limbs of one hinge each, solved by Newton's method: b hangs from a and d from c, or b and c hang from a.
 fn limbs(is_in_chain: bool) -> Physics {
     let limb = |name: &str, inner: &str| {
         let aside_m = if name == "c" { 0.5 } else { 0.0 };
@@ -125,7 +125,8 @@ fn limbs(is_in_chain: bool) -> Physics {
     };
     let text = format!(
         "<mujoco><worldbody><geom name=\"floor\" type=\"plane\" size=\"1 1 1\"/><body pos=\"0 0 1\"><freejoint/>\
-         <geom type=\"sphere\" size=\"0.1\"/>{limbs}</body></worldbody><actuator><motor joint=\"a\" gear=\"1\" ctrlrange=\"-1 1\"/></actuator></mujoco>"
+         <geom type=\"sphere\" size=\"0.1\"/>{limbs}</body></worldbody><actuator>\
+         <motor joint=\"a\" gear=\"1\" ctrlrange=\"-1 1\"/></actuator></mujoco>"
     );
     Physics::new(Model::from_mjcf(&text).expect("valid"), &EnvironmentConfig::default()).expect("valid")
 }
