@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Trains with a standby learner and an object store while random faults happen at random times.
 
-Usage: chaos.py --out FOLDER [--seed N] [--minutes M] [--faults K] [--replay SCHEDULE] [--baseline]
+Usage: chaos.py --out FOLDER [--seed N] [--minutes M] [--faults K] [--replay SCHEDULE] [--baseline] [--keep-processes]
        chaos.py --out FOLDER --partitions 50
        chaos.py --table RESULT...
 
@@ -45,7 +45,7 @@ def schedule_of(arguments):
         return []
     drawn, seconds = random.Random(arguments.seed), 60 * arguments.minutes
     times = sorted(drawn.uniform(FIRST_S, max(FIRST_S, seconds - LAST_S)) for _ in range(arguments.faults))
-    return sorted((entry for at in times for entry in draw(drawn, at)), key=lambda entry: entry["at"])
+    return sorted((entry for at in times for entry in draw(drawn, at, arguments.keep_processes)), key=lambda entry: entry["at"])
 
 
 class Chaos:
@@ -222,6 +222,7 @@ def main():
     parser.add_argument("--replay", type=pathlib.Path, help="schedule.json of another run")
     parser.add_argument("--baseline", action="store_true", help="inject nothing")
     parser.add_argument("--partitions", type=int, default=0, help="cut the leader off the actors this often, instead of faults")
+    parser.add_argument("--keep-processes", action="store_true", help="only faults that end no process")
     parser.add_argument("--actor-cpu", type=float, help="part of a core for each actor; by default, all share a fifth")
     parser.add_argument("--table", type=pathlib.Path, nargs="+", metavar="RESULT", help="print rows of these result.json")
     arguments = parser.parse_args()

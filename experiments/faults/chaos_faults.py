@@ -17,6 +17,8 @@ from chaos_fleet import ACTOR_HOSTS, ACTOR_NAMES, DISK_MB, HOSTS, LEARNERS, NAME
 ACTOR_SIDE = tuple(f"host{number}" for number in range(1, ACTOR_HOSTS + 1))
 CERTIFICATE_S, DAY_S = 10, 86_400
 HOG_ROOM, HOG_BYTES = 4 << 20, 256 << 20
+# Kinds that end the process which they hit.
+ENDS_PROCESSES = ("kill", "host-down", "certificate", "memory", "disk-readonly", "upgrade")
 # Function, how it is drawn (targets, shortest and longest duration, parameters) and weight of each kind, by name.
 KINDS = {}
 
@@ -37,9 +39,11 @@ LEARNING = ("leader", "leader", "follower")
 BRIDGED = ("leader",) * 3 + ("follower", *ACTOR_SIDE)
 
 
-def draw(random, at):
-    """Returns a random fault at a time. A rolling upgrade has an entry for each process."""
-    name = random.choices(list(KINDS), [entry[1] for entry in KINDS.values()])[0]
+def draw(random, at, keep_processes=False):
+    """Returns a random fault at a time, of a kind that no process dies of if asked for. A rolling upgrade has an entry for each
+    process."""
+    names = [name for name in KINDS if not (keep_processes and name in ENDS_PROCESSES)]
+    name = random.choices(names, [KINDS[name][1] for name in names])[0]
     _, _, targets, (shortest, longest), parameters = KINDS[name]
     entry = {"at": round(at, 2), "kind": name, "target": random.choice(targets)}
     entry["duration"] = round(random.uniform(shortest, longest), 2)

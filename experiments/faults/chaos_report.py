@@ -4,12 +4,12 @@ import collections
 import json
 import statistics
 
+from chaos_faults import ENDS_PROCESSES
 from chaos_fleet import FRAGMENT, LEARNERS, NAMES
 from soak import slope
 
 # An update may be on its way to the store when a fault begins.
 SETTLED_S = 0.3
-ENDS_THE_LEADER = ("kill", "host-down", "certificate", "memory", "disk-readonly", "upgrade")
 SAMPLES_MIN, SPAN_MIN_H = 5, 0.1
 LINE_MAX = 90
 
@@ -95,7 +95,7 @@ def repeated(terms, logged):
 
 def progress_after(record, manifests):
     """Returns the seconds from a fault until the store had a newer update; after a leader's end, of the next leader."""
-    ends = record["is_leader_fault"] and record["kind"] in ENDS_THE_LEADER
+    ends = record["is_leader_fault"] and record["kind"] in ENDS_PROCESSES
     for one in manifests:
         is_late = one["at"] > record["began"] + SETTLED_S
         if is_late and one["updates"] > record["updates"] and not (ends and one["epoch"] == record["epoch"]):
@@ -121,7 +121,8 @@ def observed(folder):
 
 
 def growth(samples):
-    """Returns for each kind of process the largest growth of memory and descriptors per hour, of processes that lived long."""
+    """Returns for each kind of process the largest growth of memory and descriptors per hour, of processes that lived long, and
+    of memory in the last half of their lives."""
     series = collections.defaultdict(list)
     for at, name, pid, memory, files in samples:
         series[name, pid].append((at / 3600, memory, files))
@@ -131,8 +132,10 @@ def growth(samples):
         points = points[2:]
         if len(points) < SAMPLES_MIN or points[-1][0] - points[0][0] < SPAN_MIN_H:
             continue
-        row = found.setdefault(name.partition("-")[0], {"mb_per_h": [], "descriptors_per_h": [], "mb": []})
+        row = found.setdefault(name.partition("-")[0], collections.defaultdict(list))
         row["mb_per_h"].append(slope([(hour, memory) for hour, memory, _ in points]))
+        late = [(hour, 100 * memory / points[-1][1]) for hour, memory, _ in points[len(points) // 2 :]]
+        row["late_percent_per_h"].append(slope(late))
         row["descriptors_per_h"].append(slope([(hour, files) for hour, _, files in points]))
         row["mb"].append(points[-1][1])
     return {role: {key: round(max(values), 1) for key, values in row.items()} for role, row in found.items()}
@@ -216,5 +219,6 @@ def table(files):
     for role in sorted({name.partition("-")[0] for name in NAMES}):
         found = [result["growth"][role] for result in results if role in result["growth"]]
         rows.append(row(f"memory growth, {role} (MB/h)", [one["mb_per_h"] for one in found]))
+        rows.append(row(f"the same in the last half of a life, {role} (%/h)", [one["late_percent_per_h"] for one in found]))
         rows.append(row(f"descriptor growth, {role} (1/h)", [one["descriptors_per_h"] for one in found]))
     return "\n".join(rows)

@@ -53,8 +53,8 @@ pub const PRESETS: &[(&str, &str)] = &[
         "g1-rough",
         concat!(
             velocity!("g1"),
-            "[ground]\nkinds = [\"flat\", \"slope\", \"stairs\", \"rough\", \"stones\"]\n\
-             [velocity]\nheight_scan = true\ncommand_curriculum = true\n"
+            "[ground]\nkinds = [\"slope\", \"stairs\", \"rough\"]\n\
+             [velocity]\nheight_scan = true\nswing_height_m = 0.1\n"
         ),
     ),
     ("h1", velocity!("h1")),

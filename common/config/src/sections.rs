@@ -160,7 +160,7 @@ section! {
         gait: f64 = 2.0, "a finite number" => |v| v.is_finite();
         /// Time in the air beyond 0.4 s, at each landing of a foot (s).
         feet_air_time: f64 = 0.0, "a finite number" => |v| v.is_finite();
-        /// Squared difference of the swinging feet's heights from the gait's (m²).
+        /// Squared difference of the swinging feet's heights from the gait's (m²); on generated ground only of feet that are lower.
         feet_clearance: f64 = -300.0, "a finite number" => |v| v.is_finite();
         /// Squared horizontal velocity of the feet that stand (m²/s²).
         feet_slip: f64 = -0.5, "a finite number" => |v| v.is_finite();

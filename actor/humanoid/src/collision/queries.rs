@@ -2,6 +2,8 @@
 //!
 //! Single precision suffices: places are relative to the root.
 
+use std::f64::consts::TAU;
+
 use nalgebra::{Matrix3, Rotation3, UnitQuaternion, Vector3};
 use rapier3d::math::{Pose, Rotation, Vector};
 use rapier3d::parry::bounding_volume::BoundingVolume;
@@ -13,9 +15,11 @@ use rapier3d::parry::shape::Shape;
 
 use super::model::{CollisionModel, PairNode};
 
-/// Most contact points of one pair. Two convex shapes need four; a shape may touch several triangles of a height field, and
-/// then the deepest points count.
+/// Most contact points of one pair. Two convex shapes need four; a shape may touch many triangles of a height field, and then
+/// the deepest point counts, and those that lie farthest in seven horizontal directions: all corners of a sole are among them.
 pub(crate) const POINTS_MAX: usize = 8;
+/// Most points to choose from; beyond that, the deepest ones.
+const CANDIDATES_MAX: usize = 128;
 /// Points of one pair that are closer than this (m) and have the same normal are one.
 const SAME_POINT_M: f64 = 1e-3;
 
@@ -33,11 +37,25 @@ pub(super) struct Found {
 }
 
 /// Workspace of the queries.
-#[derive(Default)]
 pub(super) struct Queries {
     manifolds: Vec<ContactManifold<(), ()>>,
     single: ContactManifold<(), ()>,
+    candidates: Vec<Found>,
+    directions: [[f64; 2]; POINTS_MAX - 1],
     workspace: Option<ContactManifoldsWorkspace>,
+}
+
+impl Default for Queries {
+    fn default() -> Self {
+        let direction = |number: usize| (TAU * number as f64 / (POINTS_MAX - 1) as f64).sin_cos().into();
+        Self {
+            manifolds: Vec::new(),
+            single: ContactManifold::default(),
+            candidates: Vec::with_capacity(CANDIDATES_MAX),
+            directions: std::array::from_fn(direction),
+            workspace: None,
+        }
+    }
 }
 
 impl Queries {
@@ -64,7 +82,8 @@ impl Queries {
         let first = &model.shapes[pair.first];
         let place = placed(pair.first);
         let prediction = pair.margin_m as f32;
-        let mut points = Points { found, count: 0, margin_m: pair.margin_m };
+        let mut points = Points { candidates: std::mem::take(&mut self.candidates), margin_m: pair.margin_m };
+        points.candidates.clear();
         match pair.second {
             Some(second) => {
                 let other = placed(second);
@@ -102,7 +121,9 @@ impl Queries {
                 }
             }
         }
-        points.count
+        let count = points.choose(&self.directions, found);
+        self.candidates = points.candidates;
+        count
     }
 
     fn collect(
@@ -112,7 +133,7 @@ impl Queries {
         other_pose: &Pose,
         other: &dyn Shape,
         prediction: f32,
-        points: &mut Points<'_>,
+        points: &mut Points,
     ) {
         self.manifolds.iter_mut().for_each(forget);
         let between = pose.inverse() * *other_pose;
@@ -126,14 +147,13 @@ impl Queries {
     }
 }
 
-/// Points of one pair so far, deepest first.
-struct Points<'a> {
-    found: &'a mut [Found; POINTS_MAX],
-    count: usize,
+/// Points of one pair so far.
+struct Points {
+    candidates: Vec<Found>,
     margin_m: f64,
 }
 
-impl Points<'_> {
+impl Points {
     /// Adds the points of a manifold whose first shape is at `pose`; the ground pushes upwards only.
     fn take(&mut self, pose: &Pose, manifold: &ContactManifold<(), ()>, is_ground: bool) {
         let normal = from_vector(pose.rotation * manifold.local_n1);
@@ -154,19 +174,35 @@ impl Points<'_> {
     fn insert(&mut self, new: Found) {
         let same =
             |known: &Found| (known.point_m - new.point_m).norm() < SAME_POINT_M && known.normal.dot(&new.normal) > 0.99;
-        if let Some(known) = self.found[..self.count].iter_mut().find(|known| same(known)) {
+        if let Some(known) = self.candidates.iter_mut().find(|known| same(known)) {
             if new.gap_m < known.gap_m {
                 *known = new;
             }
-            return;
+        } else if self.candidates.len() < CANDIDATES_MAX {
+            self.candidates.push(new);
+        } else if let Some(shallowest) = self.candidates.iter_mut().max_by(|a, b| a.gap_m.total_cmp(&b.gap_m))
+            && new.gap_m < shallowest.gap_m
+        {
+            *shallowest = new;
         }
-        let place = self.found[..self.count].iter().position(|known| new.gap_m < known.gap_m).unwrap_or(self.count);
-        if place == POINTS_MAX {
-            return;
+    }
+
+    /// Writes the points that count, the deepest first, and returns their number.
+    fn choose(&mut self, directions: &[[f64; 2]; POINTS_MAX - 1], found: &mut [Found; POINTS_MAX]) -> usize {
+        let candidates = &mut self.candidates;
+        candidates.sort_by(|a, b| a.gap_m.total_cmp(&b.gap_m));
+        let mut counts = [true; CANDIDATES_MAX];
+        if candidates.len() > POINTS_MAX {
+            counts[1..].fill(false);
+            for [x, y] in directions {
+                let reach_m = |index: &usize| x * candidates[*index].point_m.x + y * candidates[*index].point_m.y;
+                // Of equals, the deepest.
+                let farthest = (0..candidates.len()).rev().max_by(|a, b| reach_m(a).total_cmp(&reach_m(b)));
+                counts[farthest.unwrap_or(0)] = true;
+            }
         }
-        self.count = (self.count + 1).min(POINTS_MAX);
-        self.found[place..self.count].rotate_right(1);
-        self.found[place] = new;
+        let counted = candidates.iter().zip(counts).filter(|(_, counts)| *counts);
+        found.iter_mut().zip(counted).map(|(place, (point, _))| *place = *point).count()
     }
 }
 

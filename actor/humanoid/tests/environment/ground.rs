@@ -278,7 +278,7 @@ fn carry(environment: &mut Environment, seed: u64, share: f64, falls: bool) {
 
 #[test]
 fn the_level_follows_success_and_goes_on_from_a_saved_state() {
-    let ground = settings(&[GroundKind::Flat, GroundKind::Rough], StartLevel::Rising(3));
+    let ground = settings(&[GroundKind::Rough], StartLevel::Rising(3));
     let velocity = VelocityConfig { command_curriculum: true, ..VelocityConfig::default() };
     let config = EnvironmentConfig { velocity: Some(velocity), max_episode_steps: 150, ..config(ground.clone()) };
     let mut original = environment(&config);

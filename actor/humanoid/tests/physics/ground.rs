@@ -164,3 +164,29 @@ fn a_flat_field_equals_the_plane() {
         }
     }
 }
+
+#[test]
+fn the_points_under_a_foot_span_its_sole() {
+    // Heights 5 and 10 cm apart: the sole lies on many triangles.
+    for sides in [[81, 81], [41, 41]] {
+        for number in 0..40 {
+            let (place, turn) = (0.01 * f64::from(number), 9 * number);
+            let mut model = Model::from_mjcf(&format!(
+                r#"<mujoco><worldbody><geom type="plane" size="1 1 1"/><body pos="{place} {place} 0.0085" euler="0 0 {turn}">
+                   <freejoint/><geom type="box" size="0.09 0.03 0.008" mass="2"/>{SPARE_HINGE}</body></worldbody>{SPARE_MOTOR}
+                   </mujoco>"#
+            ))
+            .expect("valid");
+            let field = HeightField::from_fn(sides, [4.0, 4.0], nalgebra::Point3::origin(), |_, _| 0.0).expect("valid");
+            model.set_height_field(field).expect("valid");
+            let mut foot = Physics::new(model, &treadmill_humanoid::EnvironmentConfig::default()).expect("valid");
+            advance(&mut foot, 20, &[0.0]);
+            let pose = foot.body_motion(0).pose;
+            for (x, y) in [(0.09, 0.03), (-0.09, 0.03), (0.09, -0.03), (-0.09, -0.03)] {
+                let apart_m = |at_m| pose.inverse() * at_m - nalgebra::Point3::new(x, y, -0.008);
+                let nearest_m = foot.contact_points().map(|point| apart_m(point.at_m).norm()).fold(1.0, f64::min);
+                assert!(nearest_m < 2e-3, "{sides:?} {turn}°: {nearest_m} m from a corner");
+            }
+        }
+    }
+}

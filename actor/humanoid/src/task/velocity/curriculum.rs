@@ -1,14 +1,16 @@
-//! Curricula of one environment: its level of the ground's difficulty, and the ranges of its commands.
+//! Curricula of one environment: its level of difficulty on each kind of ground, and the ranges of its commands.
 
 use rand::RngExt;
 
 use super::command::Command;
-use crate::config::{EnvironmentConfig, StartLevel};
+use crate::config::{EnvironmentConfig, GroundKind, StartLevel};
 use crate::randomisation::stream;
 use crate::task::Difficulty;
 
 /// Numbers of [`Curriculum::save`].
-pub(super) const CURRICULUM_SAVED: usize = 7;
+pub(super) const CURRICULUM_SAVED: usize = 7 + KINDS_MAX;
+/// Most kinds of tiles.
+const KINDS_MAX: usize = GroundKind::ALL.len();
 /// Share of the commanded way from which the level rises, and below which it falls.
 const RISE_SHARE: f64 = 0.7;
 const FALL_SHARE: f64 = 0.35;
@@ -47,7 +49,10 @@ pub(super) struct Curriculum {
     /// How to choose a level of the ground, and their number; `None` without levels.
     ground: Option<(StartLevel, u32)>,
     commands_grow: bool,
-    level: u32,
+    /// Level on each kind of tile; a kind that is harder than others does not hold them back.
+    levels: [u32; KINDS_MAX],
+    /// Kind of this episode's tile.
+    kind: usize,
     factor: f64,
     score: Score,
 }
@@ -62,12 +67,13 @@ impl Curriculum {
             _ => 0,
         };
         let factor = if commands_grow { FACTOR_MIN } else { 1.0 };
-        let chosen = Self { ground, commands_grow, level, factor, score: Score::default() };
+        let levels = [level; KINDS_MAX];
+        let chosen = Self { ground, commands_grow, levels, kind: 0, factor, score: Score::default() };
         (ground.is_some() || commands_grow).then_some(chosen)
     }
 
     pub(super) fn level(&self) -> u32 {
-        self.level
+        self.levels[self.kind]
     }
 
     /// Returns the factor on the ranges of commands.
@@ -77,13 +83,13 @@ impl Curriculum {
 
     pub(super) fn difficulty(&self) -> Difficulty {
         Difficulty {
-            ground_level: self.ground.map(|_| f64::from(self.level)),
+            ground_level: self.ground.map(|_| f64::from(self.level())),
             command_factor: self.commands_grow.then_some(self.factor),
         }
     }
 
-    /// Chooses the difficulty of a new episode by its seed and by how the last one went.
-    pub(super) fn begin_episode(&mut self, seed: u64) {
+    /// Chooses the difficulty of a new episode on this kind of tile by its seed and by how the last episodes went.
+    pub(super) fn begin_episode(&mut self, seed: u64, kind: usize) {
         let last = std::mem::take(&mut self.score);
         let is_tracked = last.tracked > TRACKED_SHARE * f64::from(last.steps);
         if self.commands_grow && last.end == EpisodeEnd::Limit && is_tracked {
@@ -94,14 +100,18 @@ impl Curriculum {
         let counts = last.commanded_m > COUNTED_M && last.end != EpisodeEnd::None;
         let share = last.covered_m / last.commanded_m;
         let has_failed = last.end == EpisodeEnd::Fall || counts && share < FALL_SHARE;
-        self.level = match start {
-            StartLevel::Drawn => draw(),
-            StartLevel::Fixed(level) => level,
-            StartLevel::Rising(_) if has_failed => self.level.saturating_sub(1),
-            StartLevel::Rising(_) if !(counts && share >= RISE_SHARE) => self.level,
-            StartLevel::Rising(_) if self.level + 1 < levels => self.level + 1,
-            StartLevel::Rising(_) => draw(),
-        };
+        let level = &mut self.levels[self.kind];
+        match start {
+            StartLevel::Rising(_) if has_failed => *level = level.saturating_sub(1),
+            StartLevel::Rising(_) if counts && share >= RISE_SHARE => {
+                *level = if *level + 1 < levels { *level + 1 } else { draw() };
+            }
+            StartLevel::Rising(_) | StartLevel::Fixed(_) | StartLevel::Drawn => {}
+        }
+        self.kind = kind;
+        if start == StartLevel::Drawn {
+            self.levels[kind] = draw();
+        }
     }
 
     /// Counts a control step under `command`, in which the base moved at `velocity_mps` forwards and to the left. `tracked` is
@@ -135,13 +145,19 @@ impl Curriculum {
 
     pub(super) fn save(&self) -> [f64; CURRICULUM_SAVED] {
         let Score { commanded_m, covered_m, tracked, steps, end } = self.score;
-        let end = f64::from(end as u8);
-        [f64::from(self.level), self.factor, commanded_m, covered_m, tracked, f64::from(steps), end]
+        let of_score = [commanded_m, covered_m, tracked, f64::from(steps), f64::from(end as u8)];
+        let mut numbers = self.levels.map(f64::from).into_iter().chain([self.kind as f64, self.factor]).chain(of_score);
+        std::array::from_fn(|_| numbers.next().expect("as many as are saved"))
     }
 
     pub(super) fn restore(&mut self, numbers: [f64; CURRICULUM_SAVED]) {
-        let [level, factor, commanded_m, covered_m, tracked, steps, end] = numbers;
-        self.level = (level as u32).min(self.ground.map_or(0, |(_, levels)| levels - 1));
+        let (levels, rest) = numbers.split_at(KINDS_MAX);
+        let &[kind, factor, commanded_m, covered_m, tracked, steps, end] = rest else { return };
+        let last = self.ground.map_or(0, |(_, levels)| levels - 1);
+        for (level, saved) in self.levels.iter_mut().zip(levels) {
+            *level = (*saved as u32).min(last);
+        }
+        self.kind = (kind as usize).min(KINDS_MAX - 1);
         self.factor = factor.clamp(if self.commands_grow { FACTOR_MIN } else { 1.0 }, 1.0);
         let end = match end as u8 {
             0 => EpisodeEnd::None,
@@ -170,13 +186,13 @@ mod tests {
             let ends = [has_fallen && step == 200, step == 200];
             curriculum.count(&command, [5.0, share], tracked, 0.02, ends);
         }
-        curriculum.begin_episode(seed);
+        curriculum.begin_episode(seed, 0);
     }
 
     #[test]
     fn the_level_rises_with_the_way_covered_and_falls_with_falls() {
         let mut rising = curriculum(StartLevel::Rising(1));
-        rising.begin_episode(1);
+        rising.begin_episode(1, 0);
         assert_eq!(rising.level(), 1, "the first episode");
         for (share, has_fallen, level) in
             [(0.71, false, 2), (0.69, false, 2), (0.36, false, 2), (0.34, false, 1), (0.9, true, 0), (0.1, false, 0)]
@@ -187,11 +203,23 @@ mod tests {
         // A short way says nothing, and neither does an episode without an end.
         let command = Command { lin_vel_x_mps: 1.0, ..Command::default() };
         rising.count(&command, [1.0, 0.0], 1.0, 1.9, [false, true]);
-        rising.begin_episode(2);
+        rising.begin_episode(2, 0);
         assert_eq!(rising.level(), 0);
         rising.count(&command, [1.0, 0.0], 1.0, 10.0, [false, false]);
-        rising.begin_episode(3);
+        rising.begin_episode(3, 0);
         assert_eq!(rising.level(), 0);
+    }
+
+    #[test]
+    fn each_kind_has_a_level_of_its_own() {
+        let mut rising = curriculum(StartLevel::Rising(1));
+        for (kind, next, has_fallen, level) in [(0, 2, false, 1), (2, 0, true, 2), (0, 2, false, 0), (2, 0, false, 3)] {
+            rising.kind = kind;
+            let command = Command { lin_vel_x_mps: 1.0, ..Command::default() };
+            rising.count(&command, [1.0, 0.0], 0.0, 4.0, [has_fallen, true]);
+            rising.begin_episode(1, next);
+            assert_eq!(rising.level(), level, "of kind {next} after kind {kind}");
+        }
     }
 
     #[test]
@@ -243,8 +271,8 @@ mod tests {
         let mut other = curriculum(StartLevel::Rising(0));
         other.restore(original.save());
         assert_eq!(other.save(), original.save());
-        original.begin_episode(3);
-        other.begin_episode(3);
+        original.begin_episode(3, 0);
+        other.begin_episode(3, 0);
         assert_eq!((other.level(), other.factor()), (2, 0.5));
         assert_eq!(other.save(), original.save());
     }

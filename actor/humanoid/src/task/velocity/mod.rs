@@ -122,9 +122,13 @@ impl VelocityTask {
             .iter()
             .map(|motor| (motor.hinge, default[7 + motor.hinge], robot.hinges[motor.hinge].action_scale_rad))
             .collect();
-        let body =
-            Stance { default_rad: default[7..].to_vec(), pose_weights: pose_weights(physics), height_m: default[2] };
         let ground = (!config.ground.kinds.is_empty()).then(|| config.ground.clone());
+        let body = Stance {
+            default_rad: default[7..].to_vec(),
+            pose_weights: pose_weights(physics),
+            height_m: default[2],
+            may_lift_higher: ground.is_some(),
+        };
         let standing = |foot: usize| match &ground {
             None => Foot::now(physics, feet_links[foot], 0.0).lift_m,
             // It starts on ground at height 0.
@@ -233,12 +237,13 @@ impl Task for VelocityTask {
 
     fn start(&mut self, seed: u64, physics: &Physics, position: &mut [f64]) {
         let Some(curriculum) = &mut self.curriculum else { return };
-        curriculum.begin_episode(seed);
+        let mut random = stream(seed, "start");
+        let kind = self.ground.as_ref().map_or(0, |ground| random.random_range(0..ground.kinds.len()));
+        curriculum.begin_episode(seed, kind);
         let level = curriculum.level();
         self.scale_commands();
         let Some(ground) = &self.ground else { return };
-        let mut random = stream(seed, "start");
-        let middle_m = ground.tile_centre_m(level, random.random_range(0..ground.kinds.len()));
+        let middle_m = ground.tile_centre_m(level, kind);
         for (place_m, middle_m) in position.iter_mut().zip(middle_m) {
             *place_m += middle_m + uniform(&mut random, [-START_M, START_M]);
         }

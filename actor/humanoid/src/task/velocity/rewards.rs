@@ -91,6 +91,8 @@ pub struct Stance {
     pub pose_weights: Vec<f64>,
     /// Height of the base in the default pose (m).
     pub height_m: f64,
+    /// Whether swinging feet may be higher than the gait wants, to reach the next stair.
+    pub may_lift_higher: bool,
 }
 
 /// A control step of the robot.
@@ -146,7 +148,9 @@ pub fn terms(config: &VelocityConfig, model: &Model, body: &Stance, step: &Robot
             .sum(),
         feet_clearance: pairs()
             .filter(|(foot, _)| !must_stand(*foot))
-            .map(|(index, foot)| (foot.lift_m - strides[index].lift_m).powi(2))
+            .map(|(index, foot)| foot.lift_m - strides[index].lift_m)
+            .filter(|above_m| *above_m < 0.0 || !body.may_lift_higher)
+            .map(|above_m| above_m.powi(2))
             .sum(),
         feet_slip: pairs().filter(|(_, foot)| foot.stands).map(|(_, foot)| foot.velocity_mps.xy().norm_squared()).sum(),
         landing: pairs().map(|(_, foot)| foot.landing_mps.powi(2)).fold(0.0, f64::max),
@@ -207,7 +211,8 @@ mod tests {
             tracking_variance: 0.25,
             ..VelocityConfig::default()
         };
-        let body = Stance { default_rad: vec![0.5, 0.0], pose_weights: vec![1.0, 0.1], height_m: 0.8 };
+        let body =
+            Stance { default_rad: vec![0.5, 0.0], pose_weights: vec![1.0, 0.1], height_m: 0.8, may_lift_higher: false };
         let command = Command { lin_vel_x_mps: 0.5, lin_vel_y_mps: 0.0, ang_vel_z_radps: 0.2 };
         let base = BaseMotion {
             height_m: 0.7,
@@ -261,6 +266,14 @@ mod tests {
         let by_hand: f64 =
             weights.entries().iter().zip(found.entries()).map(|((_, weight), (_, term))| weight * term).sum();
         close(weights.total(&found), by_hand);
+
+        let climbing = Stance { may_lift_higher: true, ..body.clone() };
+        for (lift_m, flat, of_ground) in [(0.03, 0.0025, 0.0025), (0.13, 0.0025, 0.0)] {
+            let feet = [Foot { lift_m, ..left }, right];
+            let step = RobotStep { feet: &feet, ..step };
+            close(terms(&config, &model, &body, &step).feet_clearance, flat);
+            close(terms(&config, &model, &climbing, &step).feet_clearance, of_ground);
+        }
 
         let standing = RobotStep { command: Command::default(), ..step };
         let found = terms(&config, &model, &body, &standing);
