@@ -122,7 +122,7 @@ section! {
         cell_m: f64 = 0.1, "0.05 to 0.5" => |v| (0.05..=0.5).contains(v);
         /// Largest gradient of the slopes.
         slope_max: f64 = 0.3, "0 to 1" => |v| (0.0..=1.0).contains(v);
-        /// Largest height of a stair in metres; stairs are 0.3 m deep.
+        /// Largest height of a stair in metres; stairs are 0.3 m deep, and rise along one cell.
         step_max_m: f64 = 0.1, "0 to 0.3" => |v| (0.0..=0.3).contains(v);
         /// Largest height and depth of rough ground in metres.
         rough_max_m: f64 = 0.05, "0 to 0.3" => |v| (0.0..=0.3).contains(v);

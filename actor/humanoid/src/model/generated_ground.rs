@@ -11,7 +11,7 @@ use crate::randomisation::{stream, uniform};
 
 /// Half of the side of the level place in the middle of a tile (m).
 const PLATFORM_HALF_M: f64 = 0.75;
-/// Depth of a stair (m).
+/// Depth of a stair's level part (m); the ground rises to the next one along a cell.
 const TREAD_M: f64 = 0.3;
 /// Side of a stone (m).
 const STONE_M: f64 = 0.5;
@@ -65,7 +65,9 @@ struct Tile {
     platform: usize,
     gradient: f64,
     step_m: f64,
-    tread: usize,
+    /// Depth of a stair with its riser, and number of stairs up to the top, which is as deep.
+    stair: usize,
+    stairs: usize,
     stone: usize,
     gap: usize,
     gap_depth_m: f64,
@@ -79,6 +81,7 @@ impl Tile {
     fn new(settings: &GroundSettings, kind: GroundKind, column: usize, level: u32) -> Self {
         let (share, half) = (settings.difficulty(level), settings.half_tile_cells());
         let cells = |length_m: f64| (length_m / settings.cell_m).round() as usize;
+        let (platform, stair) = ((PLATFORM_HALF_M / settings.cell_m).ceil() as usize, cells(TREAD_M).max(1) + 1);
         let (stone, gap) = (cells(STONE_M).max(1), cells(share * settings.stone_gap_max_m));
         let (largest_m, width) = match kind {
             GroundKind::Rough => (settings.rough_max_m, half * 2 / ROUGH_CELLS + 2),
@@ -92,10 +95,11 @@ impl Tile {
             kind,
             cell_m: settings.cell_m,
             half,
-            platform: (PLATFORM_HALF_M / settings.cell_m).ceil() as usize,
+            platform,
             gradient: share * settings.slope_max,
             step_m: share * settings.step_max_m,
-            tread: cells(TREAD_M).max(2),
+            stair,
+            stairs: half.saturating_sub(platform + stair - 1) / (2 * stair),
             stone,
             gap,
             gap_depth_m: share * GAP_DEPTH_MAX_M,
@@ -114,7 +118,7 @@ impl Tile {
         match self.kind {
             GroundKind::Flat => 0.0,
             GroundKind::Slope => self.gradient * (way as f64 * self.cell_m),
-            GroundKind::Stairs => self.step_m * (way / self.tread) as f64,
+            GroundKind::Stairs => self.step_m * (way / self.stair).min(self.stairs) as f64,
             GroundKind::Rough => self.rough_m(x, y),
             GroundKind::Stones => self.stone_m(x, y),
         }
