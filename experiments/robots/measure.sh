@@ -3,7 +3,8 @@
 #
 #   measure.sh PRESET MODEL STEPS SEED FOLDER
 #
-# PRESET is g1, g1-rough (measured on its hardest ground), g1-29, h1 or t1; MODEL the robot's stock MJCF file. A run in FOLDER that has begun is resumed.
+# PRESET is g1, g1-rough (measured on its hardest ground), g1-29, h1 or t1; MODEL the robot's stock MJCF file. A run in FOLDER
+# that has begun is resumed.
 #
 # TREADMILL   the program; by default target/release/treadmill
 # PYTHON      Python with mujoco and onnxruntime, and python/ of this repository installed; by default python3
