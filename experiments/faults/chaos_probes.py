@@ -54,7 +54,7 @@ class Observer:
     def __init__(self, out):
         self.out, self.highest, self.since = out, 0, 0.0
         self.acting = {}
-        self.counts = {"announcements": 0, "late": 0, "statistics": 0, "acts_on_lower": 0}
+        self.counts = {"announcements": 0, "late": 0, "statistics": 0, "overtaken_statistics": 0, "acts_on_lower": 0}
 
     def note(self, what, **fields):
         self.out.write(json.dumps({"at": time.time(), "what": what} | fields) + "\n")
@@ -73,11 +73,15 @@ class Observer:
         """Compares the epoch of an actor's policy with the highest that the same process had before."""
         self.counts["statistics"] += 1
         key, epoch = (stats.actor, stats.incarnation), stats.version.epoch
-        before = self.acting.get(key, 0)
+        before, env_steps = self.acting.get(key, (0, 0))
+        # A message on another way may overtake this one; its process had simulated more by then.
+        if stats.env_steps < env_steps:
+            self.counts["overtaken_statistics"] += 1
+            return
         if 0 < epoch < before:
             self.counts["acts_on_lower"] += 1
             self.note("acts_on_lower", actor=stats.actor, epoch=epoch, before=before)
-        self.acting[key] = max(epoch, before)
+        self.acting[key] = (max(epoch, before), stats.env_steps)
 
 
 def watch_bus(endpoint, certificates, actors, file):

@@ -115,7 +115,7 @@ def observed(folder):
         counts = [one for one in map(json.loads, file.read_text(encoding="utf-8").splitlines()) if one["what"] == "counts"]
         if counts:
             found["observers"] += 1
-            for key in ("announcements", "late", "statistics", "acts_on_lower"):
+            for key in ("announcements", "late", "statistics", "overtaken_statistics", "acts_on_lower"):
                 found[key] += counts[-1][key]
     return dict(found)
 
