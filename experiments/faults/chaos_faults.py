@@ -40,8 +40,7 @@ BRIDGED = ("leader",) * 3 + ("follower", *ACTOR_SIDE)
 
 
 def draw(random, at, keep_processes=False):
-    """Returns a random fault at a time, of a kind that no process dies of if asked for. A rolling upgrade has an entry for each
-    process."""
+    """Returns a random fault at a time; with `keep_processes` one that ends none. An upgrade has an entry for each process."""
     names = [name for name in KINDS if not (keep_processes and name in ENDS_PROCESSES)]
     name = random.choices(names, [KINDS[name][1] for name in names])[0]
     _, _, targets, (shortest, longest), parameters = KINDS[name]

@@ -42,7 +42,7 @@ impl GroundKind {
 /// Levels on which episodes start; levels count from 0.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum StartLevel {
-    /// This level at first; then one that rises and falls with the environment's success.
+    /// This level at first; then one for each kind, which rises and falls with the environment's success.
     Rising(u32),
     /// Always this level.
     Fixed(u32),
