@@ -1,10 +1,12 @@
 #!/usr/bin/env bash
 # Checks the files of this folder without starting anything: docker-compose.yml by Compose, Prometheus's files by promtool,
-# Kubernetes's by the schemas of several versions. Skips a check with a warning if its tool is missing.
+# Grafana's dashboard by Grafana's types, Kubernetes's files by the schemas of several versions. Skips a check with a warning if its
+# tool is missing.
 #
 #   deploy/check.sh
 #
 # TREADMILL_PROMTOOL              path of promtool
+# TREADMILL_PYTHON                Python with grafana-foundation-sdk (PyPI); by default python3
 # TREADMILL_KUBERNETES_VALIDATE   path of kubernetes-validate (PyPI)
 # TREADMILL_STRICT                not empty: a missing tool is a failure
 set -euo pipefail
@@ -31,6 +33,13 @@ if command -v "$promtool" >/dev/null; then
     "$promtool" test rules observability/alarms.test.yml
 else
     missing 'promtool is missing: the files of Prometheus are NOT CHECKED.'
+fi
+
+python=${TREADMILL_PYTHON:-python3}
+if "$python" -c 'import grafana_foundation_sdk' 2>/dev/null; then
+    "$python" observability/check_schema.py observability/grafana/dashboards/treadmill.json
+else
+    missing "$python lacks grafana-foundation-sdk: the dashboard is NOT CHECKED by Grafana's schema."
 fi
 
 validate=${TREADMILL_KUBERNETES_VALIDATE:-kubernetes-validate}
