@@ -25,7 +25,7 @@ pub struct VelocityConfig {
     pub gait_period_s: f64,
     /// Share of the gait period for which a foot stands.
     pub stance_share: f64,
-    /// Height to which a swinging foot is lifted (m).
+    /// Height to which a swinging foot is lifted above the highest ground within its reach (m).
     pub swing_height_m: f64,
     /// Squared error of a velocity (m²/s² or rad²/s²) at which its tracking reward falls to 1/e.
     pub tracking_variance: f64,

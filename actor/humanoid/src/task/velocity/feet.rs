@@ -1,6 +1,6 @@
 //! Feet: where they are, whether they stand, and what the gait wants of them.
 
-use std::f64::consts::PI;
+use std::f64::consts::{FRAC_PI_4, PI};
 
 use nalgebra::{Point3, Vector3};
 
@@ -11,12 +11,16 @@ use crate::physics::Physics;
 pub const FEET: usize = 2;
 /// Vertical contact force above which a foot stands (N).
 const STANDING_FORCE_N: f64 = 1.0;
+/// Distance from a foot's frame, which is above the heel, at which its toe reaches a stair before it (m).
+const REACH_M: f64 = 0.2;
 
 /// A foot after a control step.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Foot {
     /// Height of its frame above where it is when the robot stands in the default pose (m).
     pub lift_m: f64,
+    /// How much higher the ground within its reach is than below its frame (m); at least 0.
+    pub rise_m: f64,
     /// Velocity of its frame (m/s, world frame).
     pub velocity_mps: Vector3<f64>,
     /// Whether the ground carries it.
@@ -58,11 +62,20 @@ impl Foot {
         let ground_m = physics.ground_height_m(origin.x, origin.y);
         Self {
             lift_m: origin.z - ground_m - standing_m,
+            rise_m: highest_within_reach_m(physics, &origin).max(ground_m) - ground_m,
             velocity_mps: body.linear_mps + body.angular_radps.cross(&(origin - centre)),
             stands: physics.contact_wrench(link).0.z > STANDING_FORCE_N,
             ..Self::default()
         }
     }
+}
+
+/// Returns the highest of eight places of the ground around a foot (m, world).
+fn highest_within_reach_m(physics: &Physics, origin: &Point3<f64>) -> f64 {
+    let places = (0..8).map(|place| (FRAC_PI_4 * f64::from(place)).sin_cos());
+    places
+        .map(|(sin, cos)| physics.ground_height_m(origin.x + REACH_M * cos, origin.y + REACH_M * sin))
+        .fold(f64::NEG_INFINITY, f64::max)
 }
 
 /// What the gait wants of a foot.
@@ -75,14 +88,15 @@ pub struct Stride {
 }
 
 /// Returns what the gait wants of foot number `foot`, `time_s` after the episode's start: the feet alternate, each stands for
-/// [`VelocityConfig::stance_share`] of the period and then is lifted along half a period of a squared sine.
+/// [`VelocityConfig::stance_share`] of the period and then is lifted along half a period of a squared sine, in its middle by
+/// [`VelocityConfig::swing_height_m`] over ground that rises by `rise_m` within its reach.
 #[must_use]
-pub fn stride(config: &VelocityConfig, time_s: f64, foot: usize) -> Stride {
+pub fn stride(config: &VelocityConfig, time_s: f64, foot: usize, rise_m: f64) -> Stride {
     let phase = (time_s / config.gait_period_s + 0.5 * foot as f64).fract();
     let swing = (phase - config.stance_share) / (1.0 - config.stance_share);
     match swing < 0.0 {
         true => Stride { stands: true, lift_m: 0.0 },
-        false => Stride { stands: false, lift_m: config.swing_height_m * (PI * swing).sin().powi(2) },
+        false => Stride { stands: false, lift_m: (config.swing_height_m + rise_m) * (PI * swing).sin().powi(2) },
     }
 }
 
@@ -93,10 +107,11 @@ mod tests {
     #[test]
     fn the_feet_alternate_and_are_highest_in_the_middle_of_their_swing() {
         let config = VelocityConfig { gait_period_s: 1.0, stance_share: 0.6, ..VelocityConfig::default() };
-        assert_eq!(stride(&config, 0.3, 0), Stride { stands: true, lift_m: 0.0 });
-        let swing = stride(&config, 2.8, 0);
+        assert_eq!(stride(&config, 0.3, 0, 0.2), Stride { stands: true, lift_m: 0.0 });
+        let swing = stride(&config, 2.8, 0, 0.0);
         assert!(!swing.stands && (swing.lift_m - config.swing_height_m).abs() < 1e-9, "{swing:?}");
-        assert!((stride(&config, 2.7, 0).lift_m - config.swing_height_m / 2.0).abs() < 1e-9);
-        assert_eq!(stride(&config, 0.3, 1), stride(&config, 0.8, 0));
+        assert!((stride(&config, 2.7, 0, 0.0).lift_m - config.swing_height_m / 2.0).abs() < 1e-9);
+        assert!((stride(&config, 2.7, 0, 0.1).lift_m - (config.swing_height_m + 0.1) / 2.0).abs() < 1e-9);
+        assert_eq!(stride(&config, 0.3, 1, 0.0), stride(&config, 0.8, 0, 0.0));
     }
 }

@@ -122,7 +122,7 @@ pub fn terms(config: &VelocityConfig, model: &Model, body: &Stance, step: &Robot
     let yaw_error = (base.yaw_rate_radps - command.ang_vel_z_radps).powi(2);
     let squares = |numbers: &[f64]| numbers.iter().map(|number| number * number).sum::<f64>();
     let squared_difference = |pair: (&f64, &f64)| (pair.0 - pair.1).powi(2);
-    let strides: [_; FEET] = std::array::from_fn(|foot| stride(config, time_s, foot));
+    let strides: [_; FEET] = std::array::from_fn(|foot| stride(config, time_s, foot, feet[foot].rise_m));
     // A robot that is to stop steps until it is slow: feet that stop at once make it fall.
     let is_to_stand = command.stands() && base.velocity_mps.xy().norm() < SLOW_MPS;
     let must_stand = |foot: usize| is_to_stand || strides[foot].stands;
