@@ -1,10 +1,11 @@
 //! Writes a file atomically: to a temporary file that is synced, then renamed or linked.
 
 use std::{
-    fs::{self, File},
+    fs::{self, File, Metadata},
     io::{self, Write},
     path::Path,
     sync::atomic::{AtomicU64, Ordering},
+    time::Duration,
 };
 
 /// End of a temporary file's name.
@@ -57,23 +58,44 @@ pub fn is_temporary(name: &str) -> bool {
     writer(name).is_some()
 }
 
-/// Removes the temporary files that killed processes left in `folder`. Returns how many there were.
+/// Removes the temporary files that killed processes of this machine left in `folder`. Returns how many there were.
 ///
 /// # Errors
 /// The system's error. It is no error if another process removes a file meanwhile.
 pub fn remove_stale(folder: &Path) -> io::Result<usize> {
+    remove_temporary(folder, |writer, _| {
+        // Another command may write into this folder now. In a container, each process may have the number of the last one.
+        let is_running = writer != std::process::id() && Path::new("/proc").join(writer.to_string()).exists();
+        Ok(!is_running)
+    })
+}
+
+/// Removes the temporary files in `folder` that have not been written for `age`, for folders that several machines share. Returns
+/// how many there were.
+///
+/// # Errors
+/// As for [`remove_stale`].
+pub fn remove_older(folder: &Path, age: Duration) -> io::Result<usize> {
+    // A clock that went back makes a file look new, which only keeps it.
+    remove_temporary(folder, |_, file| Ok(file.modified()?.elapsed().is_ok_and(|since| since >= age)))
+}
+
+/// Removes the temporary files that `is_left` recognises by their writer and metadata.
+fn remove_temporary(folder: &Path, is_left: impl Fn(u32, &Metadata) -> io::Result<bool>) -> io::Result<usize> {
     let mut removed = 0;
     for entry in fs::read_dir(folder)? {
         let entry = entry?;
-        let name = entry.file_name();
-        let Some(writer) = writer(&name.to_string_lossy()) else { continue };
-        // Another command may write into this folder now. In a container, each process may have the number of the last one.
-        let is_running = writer != std::process::id() && Path::new("/proc").join(writer.to_string()).exists();
-        if is_running || !entry.file_type()?.is_file() {
-            continue;
-        }
-        match fs::remove_file(entry.path()) {
-            Ok(()) => removed += 1,
+        let Some(writer) = writer(&entry.file_name().to_string_lossy()) else { continue };
+        let remove = || -> io::Result<bool> {
+            let file = entry.metadata()?;
+            let is_left = file.is_file() && is_left(writer, &file)?;
+            if is_left {
+                fs::remove_file(entry.path())?;
+            }
+            Ok(is_left)
+        };
+        match remove() {
+            Ok(is_removed) => removed += usize::from(is_removed),
             Err(error) if error.kind() == io::ErrorKind::NotFound => {}
             Err(error) => return Err(error),
         }
@@ -90,6 +112,8 @@ fn writer(name: &str) -> Option<u32> {
 
 #[cfg(test)]
 mod tests {
+    use std::time::SystemTime;
+
     use super::*;
 
     #[test]
@@ -173,5 +197,18 @@ mod tests {
         }
         assert_eq!(remove_stale(folder.path()).unwrap(), 0);
         assert!(remove_stale(&folder.path().join("missing")).is_err());
+    }
+
+    #[test]
+    fn only_old_temporary_files_are_removed_whoever_wrote_them() {
+        let folder = tempfile::tempdir().unwrap();
+        let hour = Duration::from_secs(3600);
+        for (name, age) in [(".state.0.1.tmp", 2 * hour), (".state.1.1.tmp", hour / 2), ("state", 2 * hour)] {
+            let file = File::create(folder.path().join(name)).unwrap();
+            file.set_modified(SystemTime::now() - age).unwrap();
+        }
+        assert_eq!(remove_older(folder.path(), hour).unwrap(), 1);
+        assert!(!folder.path().join(".state.0.1.tmp").exists());
+        assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 2);
     }
 }

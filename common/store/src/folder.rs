@@ -1,10 +1,13 @@
 //! Objects as files of a folder.
 
-use std::{fs, io, path::PathBuf};
+use std::{fs, io, path::PathBuf, time::Duration};
 
 use treadmill_runtime::atomic_file;
 
 use crate::{StoreError, Tag, versions};
+
+/// Age from which a temporary file is a killed writer's: no write takes so long.
+const LEFT_AFTER: Duration = Duration::from_secs(3600);
 
 /// Folder of objects. An object is a file, or a folder of versions if it is replaced on a condition; its tag is then the newest
 /// version's number, and empty otherwise.
@@ -58,6 +61,13 @@ impl Folder {
         };
         let names = entries.flatten().map(|entry| entry.file_name().to_string_lossy().into_owned());
         Ok(names.filter(|name| !atomic_file::is_temporary(name)).collect())
+    }
+
+    pub(crate) fn remove_left(&self, name: &str) -> Result<(), StoreError> {
+        match atomic_file::remove_older(&self.root.join(name), LEFT_AFTER) {
+            Err(why) if why.kind() != io::ErrorKind::NotFound => Err(StoreError::failed(name, why.to_string())),
+            _ => Ok(()),
+        }
     }
 
     fn write(&self, name: &str, bytes: &[u8]) -> io::Result<()> {

@@ -126,6 +126,18 @@ impl Store {
         Ok(names)
     }
 
+    /// Removes what killed writers left unfinished beside the objects of a folder, or the versions of an object. Only a store of
+    /// files keeps such things.
+    ///
+    /// # Errors
+    /// If the store fails.
+    pub fn remove_left(&self, name: &str) -> Result<(), StoreError> {
+        match &self.objects {
+            Objects::Folder(folder) => folder.remove_left(name).map_err(|why| self.named(why)),
+            Objects::Remote(_) | Objects::Simulated(_) => Ok(()),
+        }
+    }
+
     fn named(&self, mut why: StoreError) -> StoreError {
         why.set_store(&self.name);
         why
@@ -140,6 +152,11 @@ impl fmt::Display for Store {
 
 #[cfg(test)]
 mod tests {
+    use std::{
+        fs,
+        time::{Duration, SystemTime},
+    };
+
     use super::*;
 
     /// What every kind of store must do.
@@ -170,6 +187,24 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         check(&Store::open(&format!("file://{}/run", folder.path().display())).unwrap());
         check(&Store::simulated(&SimulatedObjects::default()));
+    }
+
+    #[test]
+    fn unfinished_writes_are_removed_once_they_are_old() {
+        let folder = tempfile::tempdir().unwrap();
+        let store = Store::open(&format!("file://{}", folder.path().display())).unwrap();
+        store.remove_left("states").unwrap();
+        store.put("states/1.bundle", b"a").unwrap();
+        store.replace("manifest.json", b"one", None).unwrap();
+        for (name, age_s, stays) in [("states", 7200, false), ("manifest.json", 7200, false), ("states", 60, true)] {
+            let path = folder.path().join(name).join(".x.0.1.tmp");
+            let left = fs::File::create(&path).unwrap();
+            left.set_modified(SystemTime::now() - Duration::from_secs(age_s)).unwrap();
+            store.remove_left(name).unwrap();
+            assert_eq!(path.exists(), stays, "{name}");
+        }
+        assert_eq!(store.list("states").unwrap(), ["1.bundle"]);
+        assert_eq!(store.get("manifest.json").unwrap().0, b"one");
     }
 
     #[test]

@@ -13,7 +13,7 @@ use std::{
 use treadmill_runtime::error_chain;
 use treadmill_store::{Store, StoreError};
 
-use super::{Manifest, read_manifest};
+use super::{MANIFEST, Manifest, STATES, read_manifest};
 
 /// Interval of reading the manifest.
 const READ_EVERY: Duration = Duration::from_secs(2);
@@ -37,6 +37,11 @@ impl Housekeeping {
             // Until the first save, the manifest is the predecessor's.
             let mut event = events.recv().map_err(|_| RecvTimeoutError::Disconnected);
             let mut read = Instant::now();
+            for name in [STATES, MANIFEST] {
+                if let Err(why) = store.remove_left(name) {
+                    tracing::debug!(error = %error_chain(&why), "unfinished writes of killed learners not removed");
+                }
+            }
             loop {
                 match event {
                     Ok(()) => {
@@ -93,14 +98,13 @@ fn manifest_of_other(store: &Store, writer: u64) -> Option<Manifest> {
 /// Removes the states of lower epochs, and the older ones of this learner. States of higher epochs are a successor's.
 fn remove_old_states(store: &Store, epoch: u64, writer: u64) -> Result<(), StoreError> {
     let own = format!("{epoch:012}-{writer:016x}-");
-    let (mut mine, others): (Vec<_>, Vec<_>) =
-        store.list("states")?.into_iter().partition(|name| name.starts_with(&own));
+    let (mut mine, others): (Vec<_>, Vec<_>) = store.list(STATES)?.into_iter().partition(|name| name.starts_with(&own));
     mine.truncate(mine.len().saturating_sub(KEPT));
     let is_lower =
         |name: &String| name.split('-').next().and_then(|text| text.parse().ok()).is_some_and(|of: u64| of < epoch);
     let old = others.into_iter().filter(is_lower).chain(mine);
     for name in old {
-        store.delete(&format!("states/{name}"))?;
+        store.delete(&format!("{STATES}/{name}"))?;
     }
     Ok(())
 }

@@ -3,6 +3,8 @@
 use serde::{Deserialize, Serialize};
 use treadmill_proto::ident::check_ident;
 
+use super::STATES;
+
 /// Version of the manifest's format.
 pub const FORMAT: u32 = 1;
 /// Largest manifest that is read, in bytes.
@@ -69,9 +71,9 @@ impl Manifest {
             return Err(format!("`format` is {}; this version reads {FORMAT}", manifest.format));
         }
         check_ident("run", &manifest.run).map_err(|why| why.to_string())?;
-        let name = manifest.state.strip_prefix("states/").unwrap_or_default();
+        let name = manifest.state.strip_prefix(STATES).and_then(|rest| rest.strip_prefix('/')).unwrap_or_default();
         if name.is_empty() || name.contains('/') || name.starts_with('.') {
-            return Err(format!("`state` is `{}`; allowed: an object directly below states/", manifest.state));
+            return Err(format!("`state` is `{}`; allowed: an object directly below {STATES}/", manifest.state));
         }
         Ok(manifest)
     }

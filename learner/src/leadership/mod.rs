@@ -24,6 +24,8 @@ use crate::checkpoint::Counters;
 
 /// Name of the manifest.
 pub(crate) const MANIFEST: &str = "manifest.json";
+/// Folder of the states.
+const STATES: &str = "states";
 
 /// Error of leading or following a run.
 #[derive(Debug, thiserror::Error)]
@@ -133,7 +135,7 @@ impl Leadership {
     /// [`LeadershipError::Overtaken`] if another learner leads. After another error, the same call may be repeated.
     pub fn save(&mut self, run: &str, counters: &Counters, encoded: &[u8]) -> Result<(), LeadershipError> {
         self.check()?;
-        let name = format!("states/{:012}-{:016x}-{:010}.bundle", self.epoch, self.writer, counters.updates);
+        let name = format!("{STATES}/{:012}-{:016x}-{:010}.bundle", self.epoch, self.writer, counters.updates);
         self.store.put(&name, encoded)?;
         let manifest = Manifest {
             format: manifest::FORMAT,
