@@ -5,7 +5,6 @@ use std::sync::Arc;
 use nalgebra::Point3;
 use treadmill_humanoid::config::{GroundKind, GroundSettings, StartLevel, VelocityConfig};
 use treadmill_humanoid::model::{Geometry, HeightField};
-use treadmill_humanoid::task::velocity::Foot;
 use treadmill_humanoid::{Environment, EnvironmentConfig, HUMANOID_XML, Physics, Randomisation};
 
 use crate::velocity::{CARD, with_card};
@@ -252,30 +251,6 @@ fn the_scan_shows_the_ground_around_in_the_heading_frame() {
     assert!(observation[scans[2].range.clone()].iter().all(|height_m| *height_m == -1.0), "clipped");
     let blind = crate::ground::environment(&config(ground));
     assert_eq!(blind.terms().iter().filter(|term| term.name == "height_scan").count(), 1, "the critic's");
-}
-
-#[test]
-fn feet_feel_the_next_stair_within_their_reach() {
-    let ground = settings(&[GroundKind::Stairs], StartLevel::Fixed(9));
-    let mut environment = environment(&config(ground.clone()));
-    reset(&mut environment, 1);
-    let foot = environment.physics().model().robot.as_ref().unwrap().feet[0];
-    let mut position = environment.nominal_position().to_vec();
-    let still = vec![0.0; environment.physics().velocity().len()];
-    // Risers of 0.1 m are 1.1 to 1.2 m and 1.5 to 1.6 m from the middle.
-    for (way_m, rise_m) in [(0.6, 0.0), (0.95, 0.05), (1.05, 0.1), (1.15, 0.05), (1.25, 0.0), (1.45, 0.1)] {
-        let [x_m, y_m] = ground.tile_centre_m(9, 0);
-        for _ in 0..2 {
-            environment.physics_mut().set_state(&position, &still);
-            let physics = environment.physics();
-            let link = &physics.model().links[foot];
-            let origin = physics.body_motion(link.body).pose * Point3::from(link.pose.translation.vector);
-            position[0] += x_m + way_m - origin.x;
-            position[1] += y_m - origin.y;
-        }
-        let found_m = Foot::now(environment.physics(), foot, 0.0).rise_m;
-        assert!((found_m - rise_m).abs() < 1e-9, "{found_m} m at {way_m} m");
-    }
 }
 
 /// Plays an episode in which the robot is carried at `share` of the command, 1 m/s forwards, or falls at its end.

@@ -1,6 +1,7 @@
 //! The velocity task, with a robot of 29 hinges and a card.
 
-use treadmill_humanoid::config::VelocityConfig;
+use treadmill_humanoid::config::{GroundKind, GroundSettings, StartLevel, VelocityConfig};
+use treadmill_humanoid::task::velocity::Foot;
 use treadmill_humanoid::{Environment, EnvironmentConfig, EpisodeState, Mirror, Randomisation};
 
 const ROBOT_XML: &str = include_str!("../../assets/g1-like-servos.xml");
@@ -264,4 +265,29 @@ fn the_mirror_image_of_an_observation_is_that_of_the_mirrored_robot() {
     assert_eq!(reflection[first("feet_contact")], (first("feet_contact") + 1, 1.0));
     assert_eq!(reflection[first("gait_phase")], (first("gait_phase"), -1.0));
     assert!((0..reflection.len()).all(|at| reflection[reflection[at].0].0 == at), "twice mirrored is the same");
+}
+
+#[test]
+fn feet_feel_the_next_stair_within_their_reach() {
+    let stairs = vec![GroundKind::Stairs];
+    let ground = GroundSettings { kinds: stairs, start: StartLevel::Fixed(9), ..GroundSettings::default() };
+    let settings = EnvironmentConfig { ground: ground.clone(), ..config(VelocityConfig::default()) };
+    let mut environment = environment(&settings);
+    let foot = environment.physics().model().robot.as_ref().unwrap().feet[0];
+    let mut position = environment.nominal_position().to_vec();
+    let still = vec![0.0; environment.physics().velocity().len()];
+    // Risers of 0.1 m are 1.1 to 1.2 m and 1.5 to 1.6 m from the middle.
+    for (way_m, rise_m) in [(0.6, 0.0), (0.95, 0.05), (1.05, 0.1), (1.15, 0.05), (1.25, 0.0), (1.45, 0.1)] {
+        let [x_m, y_m] = ground.tile_centre_m(9, 0);
+        for _ in 0..2 {
+            environment.physics_mut().set_state(&position, &still);
+            let physics = environment.physics();
+            let link = &physics.model().links[foot];
+            let origin = physics.body_motion(link.body).pose * nalgebra::Point3::from(link.pose.translation.vector);
+            position[0] += x_m + way_m - origin.x;
+            position[1] += y_m - origin.y;
+        }
+        let found_m = Foot::now(environment.physics(), foot, 0.0).rise_m;
+        assert!((found_m - rise_m).abs() < 1e-9, "{found_m} m at {way_m} m");
+    }
 }
