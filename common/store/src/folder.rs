@@ -7,7 +7,7 @@ use treadmill_runtime::atomic_file;
 use crate::{StoreError, Tag, versions};
 
 /// Age from which a temporary file is a killed writer's: no write takes so long.
-const LEFT_AFTER: Duration = Duration::from_secs(3600);
+const UNFINISHED_AFTER: Duration = Duration::from_secs(3600);
 
 /// Folder of objects. An object is a file, or a folder of versions if it is replaced on a condition; its tag is then the newest
 /// version's number, and empty otherwise.
@@ -63,8 +63,8 @@ impl Folder {
         Ok(names.filter(|name| !atomic_file::is_temporary(name)).collect())
     }
 
-    pub(crate) fn remove_left(&self, name: &str) -> Result<(), StoreError> {
-        match atomic_file::remove_older(&self.root.join(name), LEFT_AFTER) {
+    pub(crate) fn remove_unfinished(&self, name: &str) -> Result<(), StoreError> {
+        match atomic_file::remove_older(&self.root.join(name), UNFINISHED_AFTER) {
             Err(why) if why.kind() != io::ErrorKind::NotFound => Err(StoreError::failed(name, why.to_string())),
             _ => Ok(()),
         }

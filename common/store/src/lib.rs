@@ -131,9 +131,9 @@ impl Store {
     ///
     /// # Errors
     /// If the store fails.
-    pub fn remove_left(&self, name: &str) -> Result<(), StoreError> {
+    pub fn remove_unfinished(&self, name: &str) -> Result<(), StoreError> {
         match &self.objects {
-            Objects::Folder(folder) => folder.remove_left(name).map_err(|why| self.named(why)),
+            Objects::Folder(folder) => folder.remove_unfinished(name).map_err(|why| self.named(why)),
             Objects::Remote(_) | Objects::Simulated(_) => Ok(()),
         }
     }
@@ -193,14 +193,14 @@ mod tests {
     fn unfinished_writes_are_removed_once_they_are_old() {
         let folder = tempfile::tempdir().unwrap();
         let store = Store::open(&format!("file://{}", folder.path().display())).unwrap();
-        store.remove_left("states").unwrap();
+        store.remove_unfinished("states").unwrap();
         store.put("states/1.bundle", b"a").unwrap();
         store.replace("manifest.json", b"one", None).unwrap();
         for (name, age_s, stays) in [("states", 7200, false), ("manifest.json", 7200, false), ("states", 60, true)] {
             let path = folder.path().join(name).join(".x.0.1.tmp");
             let left = fs::File::create(&path).unwrap();
             left.set_modified(SystemTime::now() - Duration::from_secs(age_s)).unwrap();
-            store.remove_left(name).unwrap();
+            store.remove_unfinished(name).unwrap();
             assert_eq!(path.exists(), stays, "{name}");
         }
         assert_eq!(store.list("states").unwrap(), ["1.bundle"]);

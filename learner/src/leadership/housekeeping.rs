@@ -38,7 +38,7 @@ impl Housekeeping {
             let mut event = events.recv().map_err(|_| RecvTimeoutError::Disconnected);
             let mut read = Instant::now();
             for name in [STATES, MANIFEST] {
-                if let Err(why) = store.remove_left(name) {
+                if let Err(why) = store.remove_unfinished(name) {
                     tracing::debug!(error = %error_chain(&why), "unfinished writes of killed learners not removed");
                 }
             }

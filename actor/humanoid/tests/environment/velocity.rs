@@ -279,6 +279,7 @@ fn feet_feel_the_next_stair_within_their_reach() {
     // Risers of 0.1 m are 1.1 to 1.2 m and 1.5 to 1.6 m from the middle.
     for (way_m, rise_m) in [(0.6, 0.0), (0.95, 0.05), (1.05, 0.1), (1.15, 0.05), (1.25, 0.0), (1.45, 0.1)] {
         let [x_m, y_m] = ground.tile_centre_m(9, 0);
+        // First to find the foot, then to put it there.
         for _ in 0..2 {
             environment.physics_mut().set_state(&position, &still);
             let physics = environment.physics();

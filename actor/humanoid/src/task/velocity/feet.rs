@@ -11,7 +11,7 @@ use crate::physics::Physics;
 pub const FEET: usize = 2;
 /// Vertical contact force above which a foot stands (N).
 const STANDING_FORCE_N: f64 = 1.0;
-/// Distance from a foot's frame, which is above the heel, at which its toe reaches a stair before it (m).
+/// Distance from a foot's frame within which its toe or its heel may meet a stair (m).
 const REACH_M: f64 = 0.2;
 
 /// A foot after a control step.
@@ -62,7 +62,7 @@ impl Foot {
         let ground_m = physics.ground_height_m(origin.x, origin.y);
         Self {
             lift_m: origin.z - ground_m - standing_m,
-            rise_m: highest_within_reach_m(physics, &origin).max(ground_m) - ground_m,
+            rise_m: (highest_within_reach_m(physics, &origin) - ground_m).max(0.0),
             velocity_mps: body.linear_mps + body.angular_radps.cross(&(origin - centre)),
             stands: physics.contact_wrench(link).0.z > STANDING_FORCE_N,
             ..Self::default()
@@ -70,7 +70,7 @@ impl Foot {
     }
 }
 
-/// Returns the highest of eight places of the ground around a foot (m, world).
+/// Returns the height of the highest of eight places on the ground around a foot (m, world).
 fn highest_within_reach_m(physics: &Physics, origin: &Point3<f64>) -> f64 {
     let places = (0..8).map(|place| (FRAC_PI_4 * f64::from(place)).sin_cos());
     places
