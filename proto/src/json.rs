@@ -95,6 +95,8 @@ impl EpisodeReport {
 
 #[cfg(test)]
 mod tests {
+    use proptest::prelude::*;
+
     use super::*;
     use crate::EndCause;
 
@@ -117,6 +119,16 @@ mod tests {
         let text = serde_json::to_string(&on_ground).unwrap();
         assert!(text.ends_with(r#""cause":"fell","ground_level":3.0}"#), "{text}");
         assert_eq!(EpisodeReport::from_json(text.as_bytes()).unwrap(), on_ground);
+    }
+
+    proptest! {
+        #[test]
+        fn numbers_are_read_as_they_were_written(bits: u64) {
+            let value = f64::from_bits(bits);
+            prop_assume!(value.is_finite());
+            let metric = Metric { run: "r".into(), tag: "a/b".into(), step: bits, value, time_unix_s: -value };
+            prop_assert_eq!(Metric::from_json(&metric.to_json()), Ok(metric));
+        }
     }
 
     #[test]
