@@ -306,6 +306,23 @@ class TransferTest(unittest.TestCase):
             numpy.testing.assert_allclose(height_scan(robot.contract, robot), [0.15, 0.15, 0.2], atol=1e-6)
             robot.position_m[0] = 2.0
             self.assertAlmostEqual(robot.ground_m(), 0.7, delta=1e-6)
+            # The three points are at 0.5, 0.5 and 0.6 m.
+            robot.contract.fall_height_m = 0.14
+            robot.position_m[0], robot.position_m[2] = 1.0, 0.65
+            self.assertTrue(robot.has_fallen())
+            robot.position_m[2] = 0.68
+            self.assertFalse(robot.has_fallen())
+
+    def test_an_episode_ends_without_a_fall_near_the_edge_of_a_ground(self):
+        ground = Ground(numpy.array([-4.0, 2.0]), numpy.array([-2.0, 2.0]), numpy.zeros((2, 2)), numpy.zeros((1, 4)))
+        policy = Policy(self.onnx)
+        robot, controller = Robot(self.model, policy.contract, ground=ground), Controller(policy)
+        for start, at_edge in [((0.9, 0.9), False), ((-2.9, -0.9), False), ((1.1, 0.0), True), ((0.0, -1.1), True), ((-3.1, 0.0), True)]:
+            robot.reset((*start, 0.0, 0.0))
+            self.assertEqual(robot.is_at_edge(), at_edge, start)
+        ended = play_episode(robot, controller, 150, 1, 0, pushes=False, start=(1.1, 0.0, 0.0, 0.0))
+        self.assertEqual((ended.steps, ended.fell), (1, False))
+        self.assertEqual(play_episode(robot, controller, 20, 1, 0, pushes=False).steps, 20)
 
     def test_a_trace_is_compared_boundary_by_boundary(self):
         policy = Policy(self.onnx)

@@ -64,14 +64,8 @@ def phase(contract, steps):
 
 def height_scan(contract, robot):
     """Returns how much higher the ground around the base is than where the robot would stand in the default pose (m)."""
-    (length, width), spacing_m, limit_m = contract.scan_points, contract.scan_spacing_m, contract.scan_limit_m
-    x, y, z = robot.position_m
-    cos, sin = math.cos(robot.heading_rad), math.sin(robot.heading_rad)
-    heights = []
-    for left in (spacing_m * (index - (width - 1) / 2.0) for index in range(width)):
-        for forward in (spacing_m * (index - (length - 1) / 2.0) for index in range(length)):
-            heights.append(robot.ground_m((x + cos * forward - sin * left, y + sin * forward + cos * left)))
-    return numpy.clip(numpy.array(heights) - (z - contract.base_height_m), -limit_m, limit_m)
+    stands_m, limit_m = robot.position_m[2] - contract.base_height_m, contract.scan_limit_m
+    return numpy.clip(robot.ground_around() - stands_m, -limit_m, limit_m)
 
 
 # One function of (controller, robot, command) for each term.

@@ -19,7 +19,8 @@ class Episode:
 
 
 def play_episode(robot, controller, steps, seed, index, rows=None, pushes=True, start=(0.0, 0.0, 0.0, 0.0), shown=None):
-    """Plays one episode of at most `steps` control steps; `seed` and `index` determine its random numbers.
+    """Plays one episode of at most `steps` control steps; `seed` and `index` determine its random numbers. Near the edge of a
+    given ground it ends without a fall.
 
     `rows` are commands of a file. `shown` is called after each step and returns whether to go on.
     """
@@ -43,7 +44,7 @@ def play_episode(robot, controller, steps, seed, index, rows=None, pushes=True, 
         velocities.append(robot.velocity_in_heading())
         commands.append(command)
         fell = robot.has_fallen() or not numpy.isfinite(robot.data.qpos).all()
-        if fell or (shown and not shown()):
+        if fell or robot.is_at_edge() or (shown and not shown()):
             break
     errors = window_errors(numpy.array(velocities), numpy.array(commands), events, contract.control_step_s)
     return Episode(len(velocities), fell, float(robot.position_m[0] - start_x), errors)

@@ -11,6 +11,8 @@ from .ground import BASE_M
 _GEOMS = mujoco.mjtGeom
 # Height above everything, from which rays look down (m).
 _SKY_M = 1e3
+# Distance from the edge of a given ground at which an episode ends, as in training (m).
+_EDGE_M = 1.0
 
 
 class Robot:
@@ -20,7 +22,7 @@ class Robot:
     """
 
     def __init__(self, path, contract, timestep_s=None, ground=None):
-        self.contract = contract
+        self.contract, self.ground = contract, ground
         try:
             spec = mujoco.MjSpec.from_file(str(path))
         except Exception as why:  # noqa: BLE001: MuJoCo raises several classes
@@ -162,9 +164,29 @@ class Robot:
                 heights.append(_SKY_M - distance)
         return max(heights, default=0.0)
 
+    def ground_around(self):
+        """Returns the heights of the ground at the contract's points: rows from the right to the left, each from the back to the front."""
+        (length, width), spacing_m = self.contract.scan_points, self.contract.scan_spacing_m
+        x, y, _ = self.position_m
+        cos, sin = math.cos(self.heading_rad), math.sin(self.heading_rad)
+        heights = []
+        for left in (spacing_m * (index - (width - 1) / 2.0) for index in range(width)):
+            for forward in (spacing_m * (index - (length - 1) / 2.0) for index in range(length)):
+                heights.append(self.ground_m((x + cos * forward - sin * left, y + sin * forward + cos * left)))
+        return numpy.array(heights)
+
+    def is_at_edge(self):
+        """Returns whether the base is so near to the edge of a given ground that it would soon fall off."""
+        if self.ground is None:
+            return False
+        place, limits = self.position_m[:2], numpy.array([self.ground.x_m, self.ground.y_m])
+        return bool((place < limits[:, 0] + _EDGE_M).any() or (place > limits[:, 1] - _EDGE_M).any())
+
     def has_fallen(self):
         """Returns whether the base is too low above the ground or too tilted."""
-        height_m = self.position_m[2] - self.ground_m()
+        # Stairs and gaps just below the base say little about how it stands.
+        ground_m = self.ground_m() if self.ground is None else self.ground_around().mean()
+        height_m = self.position_m[2] - ground_m
         tilt_rad = math.acos(min(1.0, max(-1.0, self.rotation[2, 2])))
         return bool(height_m < self.contract.fall_height_m or tilt_rad > self.contract.fall_tilt_rad)
 

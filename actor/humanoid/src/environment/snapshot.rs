@@ -48,6 +48,10 @@ impl Environment {
             return Err(SnapshotError::Setting { setting, taken, found });
         }
         self.physics.restore(&snapshot.physics)?;
+        if let Some(seed) = snapshot.seed {
+            // What a task draws from its episode's seed is not among the numbers that it saves.
+            let _ = self.task.begin(seed, &self.physics);
+        }
         self.task.restore(&snapshot.task).map_err(SnapshotError::Task)?;
         self.randomiser.clone_from(&snapshot.randomiser);
         self.seed = snapshot.seed;

@@ -11,7 +11,7 @@ use crate::task::Difficulty;
 pub(super) const CURRICULUM_SAVED: usize = 7 + KINDS_MAX;
 /// Most kinds of tiles.
 const KINDS_MAX: usize = GroundKind::ALL.len();
-/// Share of the commanded way from which the level rises, and below which it falls.
+/// Share of the commanded way from which level and commands rise, and below which the level falls.
 const RISE_SHARE: f64 = 0.7;
 const FALL_SHARE: f64 = 0.35;
 /// Commanded way from which an episode counts (m).
@@ -92,7 +92,9 @@ impl Curriculum {
     pub(super) fn begin_episode(&mut self, seed: u64, kind: usize) {
         let last = std::mem::take(&mut self.score);
         let is_tracked = last.tracked > TRACKED_SHARE * f64::from(last.steps);
-        if self.commands_grow && last.end == EpisodeEnd::Limit && is_tracked {
+        // Small commands are tracked well enough by standing still.
+        let has_walked = last.covered_m >= RISE_SHARE * last.commanded_m;
+        if self.commands_grow && last.end == EpisodeEnd::Limit && is_tracked && has_walked {
             self.factor = (self.factor + FACTOR_STEP).min(1.0);
         }
         let Some((start, levels)) = self.ground else { return };
@@ -250,14 +252,18 @@ mod tests {
     fn commands_grow_with_success_and_never_shrink() {
         let mut growing = curriculum(StartLevel::Fixed(0));
         assert_eq!(growing.factor(), 0.4);
-        for (tracked, has_fallen, factor) in
-            [(0.69, false, 0.4), (0.9, true, 0.4), (0.71, false, 0.5), (0.0, true, 0.5)]
-        {
-            play(&mut growing, 0.0, tracked, has_fallen, 1);
-            assert!((growing.factor() - factor).abs() < 1e-12, "{tracked} {has_fallen}");
+        for (share, tracked, has_fallen, factor) in [
+            (1.0, 0.69, false, 0.4),
+            (1.0, 0.9, true, 0.4),
+            (0.69, 0.9, false, 0.4),
+            (0.71, 0.71, false, 0.5),
+            (1.0, 0.0, true, 0.5),
+        ] {
+            play(&mut growing, share, tracked, has_fallen, 1);
+            assert!((growing.factor() - factor).abs() < 1e-12, "{share} {tracked} {has_fallen}");
         }
         for _ in 0..10 {
-            play(&mut growing, 0.0, 1.0, false, 1);
+            play(&mut growing, 1.0, 1.0, false, 1);
         }
         assert_eq!(growing.factor(), 1.0);
     }
