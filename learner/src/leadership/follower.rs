@@ -67,6 +67,18 @@ pub fn newest_state(store: &Store) -> Result<Option<LoadedState>, LeadershipErro
     missing.map_or(Ok(None), |why| Err(why.into()))
 }
 
+/// Since when a follower has seen the same at each look. A break begins each anew: a follower that was itself cut off, from bus or
+/// store, knows nothing of that time.
+#[derive(Clone, Copy, Debug, Default)]
+struct Since {
+    /// Actors, but no answer of the leader.
+    silent: Option<Instant>,
+    /// The same, and its token was not there, though it has answered before.
+    absent: Option<Instant>,
+    /// Neither actors nor the leader.
+    alone: Option<Instant>,
+}
+
 /// Follows one run.
 #[derive(Clone, Debug)]
 pub struct StateFollower {
@@ -76,8 +88,10 @@ pub struct StateFollower {
     changed: Option<Instant>,
     /// Longest time between two changes.
     interval: Duration,
-    /// Since when the leader does not answer and makes no progress.
-    missing_since: Option<Instant>,
+    /// Since when the leader is missed, without progress.
+    since: Since,
+    /// Tag of the last manifest whose state was not there.
+    stateless: Option<Tag>,
     /// Epoch of the last leader that has answered.
     answered: Option<u64>,
 }
@@ -91,7 +105,8 @@ impl StateFollower {
             loaded: None,
             changed: None,
             interval: Duration::ZERO,
-            missing_since: None,
+            since: Since::default(),
+            stateless: None,
             answered: None,
         }
     }
@@ -111,8 +126,16 @@ impl StateFollower {
     /// Loads the newest state if the manifest has changed. Without a manifest, nothing is loaded.
     ///
     /// # Errors
-    /// If the store fails or the manifest is damaged. What was loaded before stays.
+    /// If the store fails, the manifest is damaged, or it still names a state that was missing before. What was loaded stays.
     pub fn refresh(&mut self, now: Instant) -> Result<(), LeadershipError> {
+        let refreshed = self.load_newest(now);
+        if refreshed.is_err() {
+            self.since = Since::default();
+        }
+        refreshed
+    }
+
+    fn load_newest(&mut self, now: Instant) -> Result<(), LeadershipError> {
         let Some((manifest, tag)) = read_manifest(&self.store)? else { return Ok(()) };
         if self.loaded.as_ref().is_some_and(|loaded| loaded.tag == tag) {
             return Ok(());
@@ -123,8 +146,8 @@ impl StateFollower {
             None => match self.store.get(&manifest.state) {
                 Ok((state, _)) => state.into(),
                 // The leader has removed it since, which is progress: the manifest names a newer one.
-                Err(StoreError::Missing { .. }) => {
-                    self.missing_since = None;
+                Err(StoreError::Missing { .. }) if self.stateless.as_ref() != Some(&tag) => {
+                    (self.since, self.stateless) = (Since::default(), Some(tag));
                     return Ok(());
                 }
                 Err(why) => return Err(why.into()),
@@ -133,7 +156,7 @@ impl StateFollower {
         if let Some(changed) = self.changed {
             self.interval = self.interval.max(now.duration_since(changed));
         }
-        (self.changed, self.missing_since) = (Some(now), None);
+        (self.changed, self.since) = (Some(now), Since::default());
         self.loaded = Some(LoadedState { manifest, tag, state });
         Ok(())
     }
@@ -148,16 +171,21 @@ impl StateFollower {
         }
         let epoch = loaded.manifest.epoch;
         if sight.leader == LeaderSight::Answers {
-            (self.missing_since, self.answered) = (None, Some(epoch));
+            (self.since, self.answered) = (Since::default(), Some(epoch));
             return false;
         }
-        let since = *self.missing_since.get_or_insert(now);
-        let patience = match (sight.actors, sight.leader) {
-            (false, _) => (self.interval * PATIENCE_ALONE_INTERVALS).clamp(PATIENCE_ALONE.0, PATIENCE_ALONE.1),
-            (true, LeaderSight::Absent) if self.answered == Some(epoch) => PATIENCE,
-            // A token that never came may still be on its way.
-            (true, _) => PATIENCE_SILENT,
+        // A token that never came may still be on its way.
+        let is_absent = sight.leader == LeaderSight::Absent && self.answered == Some(epoch);
+        let begun = |is_seen: bool, since: Option<Instant>| is_seen.then(|| since.unwrap_or(now));
+        self.since = Since {
+            silent: begun(sight.actors, self.since.silent),
+            absent: begun(sight.actors && is_absent, self.since.absent),
+            alone: begun(!sight.actors, self.since.alone),
         };
-        now.duration_since(since) >= patience
+        let Since { silent, absent, alone } = self.since;
+        let patience_alone = (self.interval * PATIENCE_ALONE_INTERVALS).clamp(PATIENCE_ALONE.0, PATIENCE_ALONE.1);
+        [(silent, PATIENCE_SILENT), (absent, PATIENCE), (alone, patience_alone)]
+            .iter()
+            .any(|(since, patience)| since.is_some_and(|since| now.duration_since(since) >= *patience))
     }
 }

@@ -17,6 +17,10 @@ use super::{MANIFEST, Manifest, STATES, read_manifest};
 
 /// Interval of reading the manifest.
 const READ_EVERY: Duration = Duration::from_secs(2);
+/// Most states that are removed after a save.
+const REMOVED_MAX: usize = 32;
+/// Pause between two warnings. A store that fails for a while is warned of where training waits for it.
+const WARN_EVERY: Duration = Duration::from_secs(300);
 /// Newest states of a leader that are kept, so that a follower can read the one that it has found in the manifest.
 const KEPT: usize = 3;
 
@@ -36,7 +40,7 @@ impl Housekeeping {
         let work = move || {
             // Until the first save, the manifest is the predecessor's.
             let mut event = events.recv().map_err(|_| RecvTimeoutError::Disconnected);
-            let mut read = Instant::now();
+            let (mut read, mut warned) = (Instant::now(), None::<Instant>);
             for name in [STATES, MANIFEST] {
                 if let Err(why) = store.remove_unfinished(name) {
                     tracing::debug!(error = %error_chain(&why), "unfinished writes of killed learners not removed");
@@ -45,11 +49,13 @@ impl Housekeeping {
             loop {
                 match event {
                     Ok(()) => {
-                        if let Err(why) = remove_old_states(&store, epoch, writer) {
-                            tracing::debug!(error = %error_chain(&why), "old states not removed");
+                        if let Err(why) = remove_old_states(&store, epoch, writer)
+                            && warned.is_none_or(|warned| warned.elapsed() >= WARN_EVERY)
+                        {
+                            tracing::warn!(error = %error_chain(&why), "old states not removed: the store will fill up");
+                            warned = Some(Instant::now());
                         }
                     }
-                    // Rarely while saves succeed: they show by themselves that this learner leads.
                     Err(RecvTimeoutError::Timeout) => {
                         read = Instant::now();
                         if let Some(manifest) = manifest_of_other(&store, writer) {
@@ -66,7 +72,7 @@ impl Housekeeping {
         Ok(Self { saved: Some(saved), successor, thread: Some(thread) })
     }
 
-    /// Lets the thread remove old states. A note that comes while it works is not kept: the next one does.
+    /// Lets the thread remove old states. One note waits while it works; more are not needed.
     pub(super) fn note_saved(&self) {
         if let Some(saved) = &self.saved {
             let _ = saved.try_send(());
@@ -95,16 +101,15 @@ fn manifest_of_other(store: &Store, writer: u64) -> Option<Manifest> {
     (manifest.writer != format!("{writer:016x}")).then_some(manifest)
 }
 
-/// Removes the states of lower epochs, and the older ones of this learner. States of higher epochs are a successor's.
+/// Removes the states of lower epochs, and the older ones of this learner. States of higher epochs are a successor's. Returns the
+/// first error.
 fn remove_old_states(store: &Store, epoch: u64, writer: u64) -> Result<(), StoreError> {
     let own = format!("{epoch:012}-{writer:016x}-");
     let (mut mine, others): (Vec<_>, Vec<_>) = store.list(STATES)?.into_iter().partition(|name| name.starts_with(&own));
     mine.truncate(mine.len().saturating_sub(KEPT));
     let is_lower =
         |name: &String| name.split('-').next().and_then(|text| text.parse().ok()).is_some_and(|of: u64| of < epoch);
-    let old = others.into_iter().filter(is_lower).chain(mine);
-    for name in old {
-        store.delete(&format!("{STATES}/{name}"))?;
-    }
-    Ok(())
+    let old = mine.into_iter().chain(others.into_iter().filter(is_lower));
+    // One that cannot be removed must not keep the others; many must not delay everything else.
+    old.take(REMOVED_MAX).map(|name| store.delete(&format!("{STATES}/{name}"))).fold(Ok(()), Result::and)
 }

@@ -15,6 +15,8 @@ pub mod manifest;
 #[cfg(test)]
 mod tests;
 
+use std::time::{Duration, Instant};
+
 use treadmill_runtime::{epoch, machine, seeds};
 use treadmill_store::{Store, StoreError, Tag};
 
@@ -26,6 +28,8 @@ use crate::checkpoint::Counters;
 pub(crate) const MANIFEST: &str = "manifest.json";
 /// Folder of the states.
 const STATES: &str = "states";
+/// Pause between two attempts to end a leadership.
+const END_PAUSE: Duration = Duration::from_millis(500);
 
 /// Error of leading or following a run.
 #[derive(Debug, thiserror::Error)]
@@ -141,7 +145,7 @@ impl Leadership {
             format: manifest::FORMAT,
             run: run.to_string(),
             epoch: self.epoch,
-            writer: format!("{:016x}", self.writer),
+            writer: self.writer_name(),
             updates: counters.updates,
             env_steps: counters.env_steps,
             state: name,
@@ -155,14 +159,33 @@ impl Leadership {
         Ok(())
     }
 
-    /// Ends the leadership: says in the manifest why, so that standbys know at once.
+    /// Ends the leadership: says in the manifest why, so that standbys know at once. Tries again while the store fails, for
+    /// at most about `within`.
     ///
     /// # Errors
     /// As [`Self::save`].
-    pub fn end(&mut self, status: Status) -> Result<(), LeadershipError> {
-        match &self.manifest {
-            Some(manifest) => self.advance(Manifest { status, ..manifest.clone() }),
-            None => Ok(()),
+    pub fn end(&mut self, status: Status, within: Duration) -> Result<(), LeadershipError> {
+        let Some(manifest) = self.manifest.clone() else { return Ok(()) };
+        let begun = Instant::now();
+        loop {
+            match self.advance(Manifest { status, ..manifest.clone() }) {
+                Err(LeadershipError::Store(_)) if begun.elapsed() + END_PAUSE < within => {
+                    std::thread::sleep(END_PAUSE);
+                }
+                ended => return ended,
+            }
+        }
+    }
+
+    /// Returns an error if another learner leads by the store's manifest. Something else may lead as soon as this returns, so only
+    /// [`Self::save`] decides what counts.
+    ///
+    /// # Errors
+    /// [`LeadershipError::Overtaken`], or if the store fails.
+    pub fn confirm(&self) -> Result<(), LeadershipError> {
+        match read_manifest(&self.store)? {
+            Some((found, _)) if found.writer != self.writer_name() => Err(self.overtaken_by(&found)),
+            _ => Ok(()),
         }
     }
 
@@ -191,6 +214,10 @@ impl Leadership {
         };
         (self.tag, self.manifest) = (Some(tag), Some(manifest));
         Ok(())
+    }
+
+    fn writer_name(&self) -> String {
+        format!("{:016x}", self.writer)
     }
 
     fn overtaken_by(&self, successor: &Manifest) -> LeadershipError {

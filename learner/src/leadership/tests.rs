@@ -126,13 +126,92 @@ fn a_follower_takes_over_only_from_a_leader_that_is_gone() {
     assert_eq!(follower.loaded().unwrap().manifest.updates, 1);
     let alone = Sight { leader: LeaderSight::Absent, actors: false };
     assert!(!follower.is_due(alone, at(62_100)), "an interval was 51 s, so the longest patience counts");
-    assert!(!follower.is_due(alone, at(91_000)) && follower.is_due(alone, at(91_100)));
+    assert!(!follower.is_due(alone, at(92_000)) && follower.is_due(alone, at(92_100)));
     // A token that routers repeat, of a leader that does not answer.
     leader.save("walk", &counters(2), b"two").unwrap();
-    follower.refresh(at(92_000)).unwrap();
+    follower.refresh(at(93_000)).unwrap();
     let silent = Sight { leader: LeaderSight::Silent, actors: true };
-    assert!(!follower.is_due(silent, at(92_000)) && !follower.is_due(silent, at(95_900)));
-    assert!(follower.is_due(silent, at(96_000)));
+    assert!(!follower.is_due(silent, at(93_000)) && !follower.is_due(silent, at(96_900)));
+    assert!(follower.is_due(silent, at(97_000)));
+}
+
+#[test]
+fn a_follower_forgets_what_it_saw_before_it_was_cut_off() {
+    let objects = SimulatedObjects::default();
+    let store = Store::simulated(&objects);
+    lead(&store).save("walk", &counters(0), b"zero").unwrap();
+    let (mut follower, begun) = (StateFollower::new(&store), Instant::now());
+    let at = |ms: u64| begun + Duration::from_millis(ms);
+    follower.refresh(at(0)).unwrap();
+    let (answers, silent) =
+        (Sight { leader: LeaderSight::Answers, ..GONE }, Sight { leader: LeaderSight::Silent, ..GONE });
+    let alone = Sight { actors: false, ..GONE };
+    assert!(!follower.is_due(answers, at(0)));
+    assert!(!follower.is_due(silent, at(1000)) && !follower.is_due(silent, at(2500)), "it is busy");
+    assert!(!follower.is_due(GONE, at(3000)), "one look without its token");
+    assert!(!follower.is_due(alone, at(3500)) && !follower.is_due(alone, at(8000)), "cut off from the bus");
+    assert!(!follower.is_due(GONE, at(8500)), "just back");
+    objects.set_down(true);
+    assert!(follower.refresh(at(9000)).is_err());
+    objects.set_down(false);
+    follower.refresh(at(20_000)).unwrap();
+    assert!(!follower.is_due(GONE, at(20_000)), "cut off from the store");
+    assert!(!follower.is_due(GONE, at(20_900)) && follower.is_due(GONE, at(21_000)));
+}
+
+#[test]
+fn a_state_that_stays_missing_is_an_error() {
+    let store = Store::simulated(&SimulatedObjects::default());
+    let mut leader = lead(&store);
+    leader.save("walk", &counters(0), b"zero").unwrap();
+    store.delete(&manifest(&store).state).unwrap();
+    let mut follower = StateFollower::new(&store);
+    follower.refresh(Instant::now()).unwrap();
+    assert!(follower.loaded().is_none(), "its leader may have saved a newer one");
+    let why = follower.refresh(Instant::now()).unwrap_err();
+    assert!(matches!(&why, LeadershipError::Store(StoreError::Missing { .. })), "{why}");
+    leader.save("walk", &counters(1), b"one").unwrap();
+    follower.refresh(Instant::now()).unwrap();
+    assert_eq!(follower.loaded().unwrap().state, b"one"[..]);
+}
+
+#[test]
+fn the_end_is_written_once_the_store_answers_again() {
+    let objects = SimulatedObjects::default();
+    let store = Store::simulated(&objects);
+    let mut leader = lead(&store);
+    leader.save("walk", &counters(0), b"zero").unwrap();
+    // The write and the look at the manifest after it.
+    objects.set_faults([Some(Fault::Lost); 2]);
+    assert!(matches!(leader.end(Status::Released, Duration::ZERO), Err(LeadershipError::Store(_))));
+    objects.set_faults([Some(Fault::Lost); 2]);
+    leader.end(Status::Stopped, Duration::from_secs(3600)).unwrap();
+    assert_eq!(manifest(&store).status, Status::Stopped);
+}
+
+#[test]
+fn a_learner_that_was_overtaken_finds_out() {
+    let store = Store::simulated(&SimulatedObjects::default());
+    let mut first = lead(&store);
+    first.save("walk", &counters(0), b"zero").unwrap();
+    first.confirm().unwrap();
+    lead(&store).save("walk", &counters(0), b"zero").unwrap();
+    assert!(matches!(first.confirm(), Err(LeadershipError::Overtaken { .. })));
+}
+
+#[test]
+fn a_state_that_cannot_be_removed_does_not_keep_others() {
+    let folder = tempfile::tempdir().unwrap();
+    let store = Store::open(&format!("file://{}", folder.path().display())).unwrap();
+    // A folder is no object.
+    std::fs::create_dir_all(folder.path().join("states/0-backup")).unwrap();
+    let mut leader = prepare(&store);
+    for updates in 0..20 {
+        leader.save("walk", &counters(updates), b"state").unwrap();
+    }
+    drop(leader);
+    let left = store.list("states").unwrap();
+    assert!((2..=5).contains(&left.len()), "{left:?}");
 }
 
 #[test]
@@ -141,7 +220,7 @@ fn the_end_of_a_leadership_decides_what_follows() {
     for (status, is_due) in [(Status::Released, true), (Status::Stopped, false), (Status::Finished, false)] {
         let mut leader = lead(&store);
         leader.save("walk", &counters(0), b"zero").unwrap();
-        leader.end(status).unwrap();
+        leader.end(status, Duration::ZERO).unwrap();
         let mut follower = StateFollower::new(&store);
         follower.refresh(Instant::now()).unwrap();
         assert_eq!(follower.is_due(GONE, Instant::now()), is_due, "{status:?}");

@@ -5,12 +5,12 @@ use std::{collections::HashMap, time::Duration};
 use treadmill_bus::{Bus, keys, publish_dropping};
 use treadmill_config::Config;
 use treadmill_proto::json::Metric;
-use treadmill_runtime::{error_chain, machine, shutdown::Shutdown};
+use treadmill_runtime::{error_chain, machine};
 
 use super::{Console, CurveThread, EventWriter, Histogram, History, JsonLines, PrometheusMetrics, tensorboard::texts};
 use crate::{
     checkpoint::TrainingState,
-    training::{TrainingError, TrainingOptions, waiting::wait_to_write},
+    training::{TrainingError, TrainingOptions, waiting::Retry},
 };
 
 /// Publishes a JSON object under one tag.
@@ -85,7 +85,7 @@ impl MetricsReport {
         updates: u64,
         scalars: &[(String, f64)],
         history: &History,
-        shutdown: &Shutdown,
+        retry: &Retry,
     ) -> std::io::Result<()> {
         let time_unix_s = machine::time_unix_s();
         let metrics: Vec<Metric> = scalars
@@ -99,8 +99,8 @@ impl MetricsReport {
                 time_unix_s,
             })
             .collect();
-        wait_to_write(shutdown, || self.lines.write(&metrics))?;
-        wait_to_write(shutdown, || self.events.scalars(env_steps, time_unix_s, scalars))?;
+        retry.until_written(|| self.lines.write(&metrics))?;
+        retry.until_written(|| self.events.scalars(env_steps, time_unix_s, scalars))?;
         self.prometheus.set(metrics.iter().map(|metric| (metric.tag.as_str(), metric.value)));
         for metric in &metrics {
             self.publish(metric);
@@ -118,10 +118,10 @@ impl MetricsReport {
         &mut self,
         env_steps: u64,
         histograms: &[(String, Histogram)],
-        shutdown: &Shutdown,
+        retry: &Retry,
     ) -> std::io::Result<()> {
         let time_unix_s = machine::time_unix_s();
-        wait_to_write(shutdown, || self.events.histograms(env_steps, time_unix_s, histograms))
+        retry.until_written(|| self.events.histograms(env_steps, time_unix_s, histograms))
     }
 
     /// Reports a long wait for experience on the console; `actors` are alive.

@@ -8,7 +8,8 @@ use std::{
     time::{Duration, Instant},
 };
 
-/// Last beat of the training thread, which beats while it waits for fragments and after each part of an update.
+/// Last beat of the training thread, which beats while it waits for fragments, a disk or a store, and after each part of an
+/// update.
 #[derive(Clone, Debug)]
 pub struct Heartbeat {
     begun: Instant,
@@ -23,6 +24,11 @@ impl Default for Heartbeat {
 }
 
 impl Heartbeat {
+    #[cfg(test)]
+    pub(super) fn silent_for(silence: Duration) -> Self {
+        Self { begun: Instant::now() - silence, last_beat_ms: Arc::default() }
+    }
+
     /// Records a beat.
     pub fn beat(&self) {
         self.last_beat_ms.store(self.begun.elapsed().as_millis() as u64, Ordering::Relaxed);
@@ -40,7 +46,7 @@ mod tests {
 
     #[test]
     fn silence_lasts_until_the_next_beat() {
-        let heartbeat = Heartbeat { begun: Instant::now() - Duration::from_secs(1000), last_beat_ms: Arc::default() };
+        let heartbeat = Heartbeat::silent_for(Duration::from_secs(1000));
         let watched = heartbeat.clone();
         assert!(watched.silence() >= Duration::from_secs(1000));
         heartbeat.beat();

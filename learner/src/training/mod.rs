@@ -41,7 +41,7 @@ pub use self::commands::is_changeable;
 pub use self::error::TrainingError;
 pub use self::heartbeat::Heartbeat;
 pub use self::options::{TrainingOptions, TrainingSummary};
-use self::{learning::Learning, reporting::Reporting, serving::Serving};
+use self::{learning::Learning, reporting::Reporting, serving::Serving, waiting::Retry};
 use crate::{checkpoint::TrainingState, leadership::Leadership, metrics::scalars::PhaseDurations};
 
 /// Trains until the run has all its steps or shutdown is requested. Blocks, so it needs its own thread. With `leadership`, the
@@ -96,6 +96,7 @@ struct Trainer {
     state: TrainingState,
     config: Config,
     shutdown: Shutdown,
+    retry: Retry,
     /// Whether an operator has stopped the run.
     is_stopped: bool,
     learning: Learning,

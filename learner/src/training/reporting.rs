@@ -27,6 +27,9 @@ use crate::{
     },
 };
 
+/// Longest time for writing into the store why a leadership ended. A supervisor kills after a minute at the earliest.
+const END_WITHIN: Duration = Duration::from_secs(20);
+
 /// Reporting part of a [`Trainer`].
 pub(super) struct Reporting {
     pub(super) background: Background,
@@ -110,7 +113,7 @@ impl Trainer {
         durations: PhaseDurations,
         evaluation: Option<&EvaluationResult>,
     ) -> Result<(), TrainingError> {
-        let Self { state, config, shutdown, learning, serving, reporting, .. } = self;
+        let Self { state, config, retry, learning, serving, reporting, .. } = self;
         let alive = serving.intake.alive();
         let learnt = if update.is_some() { transitions(batch) } else { 0 };
         let effort = serving.intake.fleet.effort();
@@ -148,12 +151,12 @@ impl Trainer {
         let scalars = record.scalars();
         let updates = state.counters.updates;
         let histograms = histograms::is_due(updates).then(|| histograms::of(batch, &reporting.action_names));
-        let (history, shutdown) = (reporting.history.clone(), shutdown.clone());
+        let (history, retry) = (reporting.history.clone(), retry.clone());
         reporting.background.submit(move |report| {
             if let Some(histograms) = histograms {
-                report.log_histograms(env_steps, &histograms, &shutdown)?;
+                report.log_histograms(env_steps, &histograms, &retry)?;
             }
-            Ok(report.log(env_steps, updates, &scalars, &history, &shutdown)?)
+            Ok(report.log(env_steps, updates, &scalars, &history, &retry)?)
         });
         reporting.background.check()
     }
@@ -187,8 +190,14 @@ impl Trainer {
             Ok(true) if self.is_stopped => Status::Stopped,
             _ => Status::Released,
         };
-        if let Err(why) = leadership.end(status) {
-            tracing::debug!(error = %error_chain(&why), "end of the leadership not written");
+        // A standby finds out by itself that a learner is gone, but not that the run is to end.
+        let within = if status == Status::Released { Duration::ZERO } else { END_WITHIN };
+        match (leadership.end(status, within), status) {
+            (Ok(()), _) => {}
+            (Err(why), Status::Stopped) => {
+                tracing::warn!(error = %error_chain(&why), "the store does not know that the run was stopped: stop standbys, too");
+            }
+            (Err(why), _) => tracing::debug!(error = %error_chain(&why), "end of the leadership not written"),
         }
     }
 }

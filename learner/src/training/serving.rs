@@ -5,14 +5,14 @@ use std::time::{Duration, Instant};
 use bytes::Bytes;
 use treadmill_bus::{PolicyServer, PublishedPolicy};
 use treadmill_config::LearnerMode;
-use treadmill_runtime::{error_chain, shutdown::Shutdown};
+use treadmill_runtime::error_chain;
 
 use super::{
     Trainer, TrainingError, commands,
     control::ControlChannel,
     evaluation::{EvaluationResult, EvaluationScheduler},
     heartbeat::Heartbeat,
-    waiting::wait_to_write,
+    waiting::Retry,
 };
 use crate::{
     checkpoint::{CheckpointWriter, TrainingState, encoding},
@@ -77,7 +77,12 @@ impl Trainer {
         let state = &mut self.state;
         if !state.best_is_evaluated || state.best_return.is_none_or(|best| return_mean > best) {
             (state.best_return, state.best_is_evaluated) = (Some(return_mean), true);
-            wait_to_write(&self.shutdown, || self.serving.checkpoints.save_best(&result.checkpoint))?;
+            let Serving { checkpoints, leadership, .. } = &self.serving;
+            if let Some(leadership) = leadership {
+                // A learner that was frozen may have been overtaken without knowing: the best policy is the successor's then.
+                self.retry.until_written(|| leadership.confirm())?;
+            }
+            self.retry.until_written(|| checkpoints.save_best(&result.checkpoint))?;
         }
         Ok(Some(result))
     }
@@ -93,9 +98,9 @@ impl Trainer {
         let best = self.best_in_training();
         self.state.best_return = best.or(self.state.best_return);
         let Serving { checkpoints, leadership, .. } = &mut self.serving;
-        let saved = save_newest(&self.state, leadership.as_mut(), checkpoints, &self.shutdown)?;
+        let saved = save_newest(&self.state, leadership.as_mut(), checkpoints, &self.retry)?;
         if best.is_some() {
-            wait_to_write(&self.shutdown, || checkpoints.save_best(&saved))?;
+            self.retry.until_written(|| checkpoints.save_best(&saved))?;
         }
         self.serving.saved = saved.clone();
         self.serving.intake.validator.ledger.mark_durable();
@@ -105,12 +110,12 @@ impl Trainer {
 
     /// Keeps the checkpoint if a numbered one is due.
     pub(super) fn keep(&self, saved: Bytes) {
-        let (checkpoints, shutdown) = (self.serving.checkpoints.clone(), self.shutdown.clone());
+        let (checkpoints, retry) = (self.serving.checkpoints.clone(), self.retry.clone());
         let updates = self.state.counters.updates;
         if checkpoints.is_due(updates) {
             self.reporting
                 .background
-                .submit(move |_| Ok(wait_to_write(&shutdown, || checkpoints.save_numbered(updates, &saved))?));
+                .submit(move |_| Ok(retry.until_written(|| checkpoints.save_numbered(updates, &saved))?));
         }
     }
 
@@ -158,12 +163,12 @@ pub(super) fn save_newest(
     state: &TrainingState,
     leadership: Option<&mut Leadership>,
     checkpoints: &CheckpointWriter,
-    shutdown: &Shutdown,
+    retry: &Retry,
 ) -> Result<Bytes, TrainingError> {
     let Some(leadership) = leadership else {
-        return Ok(wait_to_write(shutdown, || checkpoints.save(state))?.into());
+        return Ok(retry.until_written(|| checkpoints.save(state))?.into());
     };
     let encoded = encoding::encode(state)?;
-    wait_to_write(shutdown, || leadership.save(&state.run, &state.counters, &encoded))?;
+    retry.until_written(|| leadership.save(&state.run, &state.counters, &encoded))?;
     Ok(encoded.into())
 }

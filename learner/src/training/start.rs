@@ -16,6 +16,7 @@ use super::{
     learning::Learning,
     reporting::Reporting,
     serving::{Serving, save_newest},
+    waiting::Retry,
 };
 use crate::{
     checkpoint::{CheckpointWriter, TrainingState},
@@ -60,7 +61,8 @@ impl Trainer {
             None => CheckpointWriter::new(&options.folder, every_updates, keep),
         };
         // Save this version before any actor can get it, so that a learner that dies now resumes from it.
-        let saved = save_newest(&state, leadership.as_mut(), &checkpoints, shutdown)?;
+        let retry = Retry { shutdown: shutdown.clone(), heartbeat: options.heartbeat.clone() };
+        let saved = save_newest(&state, leadership.as_mut(), &checkpoints, &retry)?;
         let policy = PublishedPolicy::new(&bundle, &state.for_actors(&bundle));
         let policy = policy.map_err(|why| invalid(error_chain(&why)))?;
         let report = MetricsReport::open(bus, &state, &config, options)?;
@@ -87,7 +89,7 @@ impl Trainer {
             waited: Duration::ZERO,
         };
         let reporting = Reporting::new(report, history, stats, &state, options)?;
-        Ok(Self { state, config, shutdown: shutdown.clone(), is_stopped: false, learning, serving, reporting })
+        Ok(Self { state, config, shutdown: shutdown.clone(), retry, is_stopped: false, learning, serving, reporting })
     }
 }
 

@@ -9,10 +9,11 @@ use std::{
 use treadmill_runtime::{error_chain, shutdown::Shutdown};
 use treadmill_store::StoreError;
 
+use super::Heartbeat;
 use crate::{checkpoint::CheckpointError, leadership::LeadershipError};
 
 /// Pause between two attempts.
-const RETRY: Duration = Duration::from_millis(500);
+const PAUSE: Duration = Duration::from_millis(500);
 /// Pause between two warnings.
 const WARN_EVERY: Duration = Duration::from_secs(30);
 
@@ -39,7 +40,8 @@ impl MayPass for io::Error {
 
 impl MayPass for StoreError {
     fn obstacle(&self) -> Option<Obstacle> {
-        matches!(self, Self::Failed { .. }).then_some(Obstacle::Store)
+        // A conflict without a successor is of two of this process's own requests: S3 refuses the second of two at the same time.
+        matches!(self, Self::Failed { .. } | Self::Conflict { .. }).then_some(Obstacle::Store)
     }
 }
 
@@ -62,30 +64,45 @@ impl MayPass for LeadershipError {
     }
 }
 
-/// Calls `write` until the obstacle has passed or shutdown is requested. A `write` that fails must leave no partial output.
-pub fn wait_to_write<T, E: MayPass>(shutdown: &Shutdown, mut write: impl FnMut() -> Result<T, E>) -> Result<T, E> {
-    let mut warned: Option<Instant> = None;
-    loop {
-        let outcome = write();
-        let obstacle = outcome.as_ref().err().and_then(MayPass::obstacle);
-        if let (Err(why), Some(obstacle), false) = (&outcome, obstacle, shutdown.asked()) {
-            if warned.is_none_or(|warned| warned.elapsed() >= WARN_EVERY) {
-                let error = error_chain(why);
-                match obstacle {
-                    Obstacle::DiskFull => {
-                        tracing::warn!(%error, "the disk is full: training waits until there is room")
+/// Repeats writes while an obstacle lasts.
+#[derive(Clone, Debug, Default)]
+pub struct Retry {
+    /// A request to stop ends the wait.
+    pub shutdown: Shutdown,
+    /// Beats meanwhile: who waits for a disk or a store is healthy, and a restart would lose the update that is not saved yet.
+    pub heartbeat: Heartbeat,
+}
+
+impl Retry {
+    /// Calls `write` until the obstacle has passed or shutdown is requested. A `write` that fails must leave no partial output.
+    ///
+    /// # Errors
+    /// That of the last call.
+    pub fn until_written<T, E: MayPass>(&self, mut write: impl FnMut() -> Result<T, E>) -> Result<T, E> {
+        let mut warned: Option<Instant> = None;
+        loop {
+            let outcome = write();
+            let obstacle = outcome.as_ref().err().and_then(MayPass::obstacle);
+            if let (Err(why), Some(obstacle), false) = (&outcome, obstacle, self.shutdown.asked()) {
+                if warned.is_none_or(|warned| warned.elapsed() >= WARN_EVERY) {
+                    let error = error_chain(why);
+                    match obstacle {
+                        Obstacle::DiskFull => {
+                            tracing::warn!(%error, "the disk is full: training waits until there is room")
+                        }
+                        Obstacle::Store => tracing::warn!(%error, "the store fails: training waits until it answers"),
                     }
-                    Obstacle::Store => tracing::warn!(%error, "the store fails: training waits until it answers"),
+                    warned = Some(Instant::now());
                 }
-                warned = Some(Instant::now());
+                self.heartbeat.beat();
+                std::thread::sleep(PAUSE);
+                continue;
             }
-            std::thread::sleep(RETRY);
-            continue;
+            if warned.is_some() && outcome.is_ok() {
+                tracing::warn!("written: training continues");
+            }
+            return outcome;
         }
-        if warned.is_some() && outcome.is_ok() {
-            tracing::warn!("written: training continues");
-        }
-        return outcome;
     }
 }
 
@@ -100,13 +117,13 @@ mod tests {
     #[test]
     fn only_what_may_pass_is_retried() {
         let mut tries = 0;
-        let written = wait_to_write(&Shutdown::default(), || {
+        let retry = Retry::default();
+        let written = retry.until_written(|| {
             tries += 1;
             if tries < 3 { Err(full()) } else { Ok(tries) }
         });
         assert_eq!(written.unwrap(), 3);
-        let refused =
-            wait_to_write(&Shutdown::default(), || Err::<(), _>(io::Error::from(ErrorKind::PermissionDenied)));
+        let refused = retry.until_written(|| Err::<(), _>(io::Error::from(ErrorKind::PermissionDenied)));
         assert_eq!(refused.unwrap_err().kind(), ErrorKind::PermissionDenied);
         let source = CheckpointError::Write { path: "latest.bundle".into(), source: full() };
         assert_eq!(source.obstacle(), Some(Obstacle::DiskFull));
@@ -114,14 +131,20 @@ mod tests {
 
     #[test]
     fn a_shutdown_ends_the_wait() {
-        let shutdown = Shutdown::default();
+        let retry = Retry::default();
         let mut tries = 0;
-        let refused = wait_to_write(&shutdown, || {
+        let refused = retry.until_written(|| {
             tries += 1;
-            shutdown.ask();
+            retry.shutdown.ask();
             Err::<(), _>(full())
         });
         assert_eq!(refused.unwrap_err().obstacle(), Some(Obstacle::DiskFull));
         assert_eq!(tries, 1);
+    }
+
+    #[test]
+    fn a_wait_beats() {
+        let retry = Retry { heartbeat: Heartbeat::silent_for(Duration::from_secs(1000)), ..Retry::default() };
+        retry.until_written(|| if retry.heartbeat.silence() > PAUSE * 100 { Err(full()) } else { Ok(()) }).unwrap();
     }
 }
