@@ -82,6 +82,9 @@ struct DeliveryState {
     newest: u64,
 }
 
+/// How often the pause before the next attempt doubles while the learner is busy.
+const BUSY_DOUBLINGS_MAX: u32 = 4;
+
 /// Action that a receipt asks for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum NextStep {
@@ -197,7 +200,7 @@ impl Uploader {
     }
 
     async fn send_until_settled(&self, bytes: &Bytes) -> Result<Receipt, BusError> {
-        let mut retries = 0u64;
+        let (mut retries, mut busy) = (0u64, 0u32);
         loop {
             let answer = submit(&self.bus, &self.run, &self.actor, bytes.clone(), self.receipt_timeout).await?;
             let is_silent = answer.is_none();
@@ -211,7 +214,9 @@ impl Uploader {
                     if self.is_lost.swap(false, Ordering::Relaxed) {
                         (self.notify)("the learner answers again");
                     }
-                    match next_step(receipt.outcome) {
+                    let step = next_step(receipt.outcome, busy);
+                    busy = if receipt.outcome == Outcome::Busy { busy + 1 } else { 0 };
+                    match step {
                         NextStep::Settle => return Ok(receipt),
                         NextStep::RetryAfter(pause) => (pause, receipt.reason),
                     }
@@ -245,12 +250,15 @@ impl DeliveryState {
     }
 }
 
-fn next_step(outcome: Outcome) -> NextStep {
+/// Returns what an outcome asks for, after `busy` attempts in a row that found the learner busy.
+fn next_step(outcome: Outcome, busy: u32) -> NextStep {
     match outcome {
         Outcome::Accepted | Outcome::Duplicate | Outcome::TooOld | Outcome::Vanished | Outcome::Malformed => {
             NextStep::Settle
         }
-        Outcome::Busy | Outcome::Stopping => NextStep::RetryAfter(RETRY),
+        // A learner that is paused or waits for its disk stays busy, and each attempt carries the whole fragment.
+        Outcome::Busy => NextStep::RetryAfter(RETRY * (1 << busy.min(BUSY_DOUBLINGS_MAX))),
+        Outcome::Stopping => NextStep::RetryAfter(RETRY),
         Outcome::Quarantined => NextStep::RetryAfter(QUARANTINE_RETRY),
     }
 }
@@ -288,10 +296,12 @@ mod tests {
     #[test]
     fn only_a_final_outcome_settles_a_fragment() {
         for outcome in [Outcome::Accepted, Outcome::Duplicate, Outcome::TooOld, Outcome::Vanished, Outcome::Malformed] {
-            assert_eq!(next_step(outcome), NextStep::Settle);
+            assert_eq!(next_step(outcome, 0), NextStep::Settle);
         }
         for outcome in [Outcome::Busy, Outcome::Stopping, Outcome::Quarantined] {
-            assert!(matches!(next_step(outcome), NextStep::RetryAfter(_)));
+            assert!(matches!(next_step(outcome, 0), NextStep::RetryAfter(_)));
         }
+        let pauses = [0, 1, 4, 5, u32::MAX].map(|busy| next_step(Outcome::Busy, busy));
+        assert_eq!(pauses, [1, 2, 16, 16, 16].map(|times| NextStep::RetryAfter(RETRY * times)));
     }
 }

@@ -162,7 +162,8 @@ impl PolicyFetcher {
 
     /// Replaces the policy of `version` with a newer one. Keeps it if the newer one is damaged.
     fn replace(&self, version: PolicyVersion, bundle: &PolicyBundle) -> Refresh {
-        if bundle.version == version {
+        // A router's cache may be behind what this actor got elsewhere.
+        if bundle.version == version || bundle.version.is_before(version) {
             return Refresh::Unchanged;
         }
         let announced = *self.announced.read().expect("no holder of this lock panics");

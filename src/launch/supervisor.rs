@@ -117,19 +117,26 @@ async fn keep_alive(fleet: &FleetOptions, role: Role, restarts: &AtomicU64, stop
     let mut failed_starts = 0;
     for restart in 0u64.. {
         let begun = Instant::now();
-        let mut child = spawn(fleet, role, restart)?;
-        // Taken out, because waiting for a child closes its standard input.
-        let stdin = child.stdin.take();
-        let status = tokio::select! {
-            status = child.wait() => status.context("an actor cannot be waited for")?,
-            () = stopping.wait() => return end(child, stdin).await,
+        let ended = match spawn(fleet, role, restart) {
+            Ok(mut child) => {
+                // Taken out, because waiting for a child closes its standard input.
+                let stdin = child.stdin.take();
+                tokio::select! {
+                    status = child.wait() => format!("ended with {}", status.context("an actor cannot be waited for")?),
+                    () = stopping.wait() => return end(child, stdin).await,
+                }
+            }
+            // The system may be short of memory or processes for a moment.
+            Err(why) => format!("cannot be started: {why:#}"),
         };
         failed_starts = if begun.elapsed() < FAILED_START { failed_starts + 1 } else { 0 };
         if failed_starts >= FAILED_STARTS_MAX {
-            anyhow::bail!("{role} ended {failed_starts} times in a row right after its start, last with {status}");
+            anyhow::bail!(
+                "{role} failed {failed_starts} times in a row right after its start; the last time it {ended}"
+            );
         }
         restarts.fetch_add(1, Ordering::Relaxed);
-        say_error(&format!("{role} ended with {status}; starting it again"));
+        say_error(&format!("{role} {ended}; starting it again"));
         let pause = (Duration::from_millis(100) * 2u32.saturating_pow(failed_starts)).min(BACKOFF_MAX);
         tokio::select! {
             () = tokio::time::sleep(pause) => {}
@@ -140,8 +147,7 @@ async fn keep_alive(fleet: &FleetOptions, role: Role, restarts: &AtomicU64, stop
 }
 
 fn spawn(fleet: &FleetOptions, role: Role, restart: u64) -> anyhow::Result<Child> {
-    let program = std::env::current_exe().context("this program's own path is unknown")?;
-    let mut command = Command::new(program);
+    let mut command = Command::new(own_program()?);
     match role {
         Role::Actor { index } => {
             // The first actors take the remainder.
@@ -169,7 +175,14 @@ fn spawn(fleet: &FleetOptions, role: Role, restart: u64) -> anyhow::Result<Child
         .process_group(0)
         .kill_on_drop(true)
         .spawn()
-        .with_context(|| format!("{role} cannot be started"))
+        .map_err(Into::into)
+}
+
+/// Returns the path of this program, also if its file was replaced after the start, as by an upgrade.
+fn own_program() -> anyhow::Result<PathBuf> {
+    let path = std::env::current_exe().context("this program's own path is unknown")?;
+    // Linux names a file that is gone as `PATH (deleted)`, and still has its content.
+    Ok(if path.exists() { path } else { PathBuf::from("/proc/self/exe") })
 }
 
 async fn end(mut child: Child, stdin: Option<ChildStdin>) -> anyhow::Result<()> {

@@ -84,6 +84,7 @@ impl Fork {
         }
         state.lineage.resume(seeds::unique());
         // Its own actors will deliver to it, and its own episodes decide what is best.
+        state.episodes.forget();
         (state.ledger, state.fragment_counts) = (Ledger::default(), FragmentCounts::default());
         (state.best_return, state.best_is_evaluated, state.actor_state) = (None, false, None);
         state.counters.resumes = 0;

@@ -55,6 +55,8 @@ fn a_run_can_be_paused_saved_changed_and_stopped() {
     assert_eq!(load_file(&path).unwrap().counters.updates, updates);
     let changed = done(folder, &["set", "ppo.learning_rate", "1e-4", "run"]);
     assert!(changed.contains("ppo.learning_rate is 0.0001, was 0.0003"), "{changed}");
+    let saved = load_file(&run.join("checkpoints/latest.bundle")).unwrap();
+    assert_eq!((saved.config().unwrap().ppo.learning_rate, saved.learning_rate), (1e-4, 1e-4), "also if it stops now");
     assert_refused(&control(folder, &["set", "rollout.envs", "3", "run"]), 2, &["`rollout.envs`", "ppo"]);
     assert_refused(&control(folder, &["set", "ppo.clip_range", "-1", "run"]), 2, &["`ppo.clip_range`", "-1"]);
     assert_refused(&control(folder, &["set", "ppo.clip", "1", "run"]), 2, &["`ppo.clip`"]);
@@ -78,6 +80,32 @@ fn a_run_can_be_paused_saved_changed_and_stopped() {
         1,
         &["no process trains `run` now", "treadmill train --resume run"],
     );
+}
+
+#[test]
+fn a_change_leaves_the_goal_of_this_start() {
+    let (folder, run) = folders();
+    let folder = folder.path();
+    let mut command = endless(folder, &run, "train");
+    command.args(["--set", "eval.every_steps=600000000"]);
+    let training = Running::start(command);
+    await_steps(&run, 512);
+    done(folder, &["stop", "run"]);
+    assert!(training.wait().0.success());
+    // A goal before the first evaluation, so that this start evaluates nothing.
+    let mut command = treadmill(folder);
+    command.args(["train", "--resume", "run", "--steps", "500000000"]);
+    let training = Running::start(command);
+    await_that("a learner that answers", || {
+        let asked = crate::support::run(folder, &["status", "run", "--json"]);
+        (asked.status.success() && last_json(&asked)["phase"] == "training").then_some(())
+    });
+    done(folder, &["set", "ppo.target_kl", "0.5", "run"]);
+    assert_eq!(status(folder)["env_steps_wanted"], 500_000_000);
+    done(folder, &["stop", "run"]);
+    assert!(training.wait().0.success());
+    let config = load_file(&run.join("checkpoints/latest.bundle")).unwrap().config().unwrap();
+    assert_eq!((config.run.steps, config.ppo.target_kl), (1_000_000_000, 0.5));
 }
 
 #[test]

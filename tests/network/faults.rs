@@ -32,6 +32,28 @@ fn a_killed_actor_is_restarted_and_counted() {
 }
 
 #[test]
+fn an_actor_is_restarted_after_the_program_was_replaced() {
+    let (folder, run) = folders();
+    let program = folder.path().join("treadmill");
+    fs::copy(env!("CARGO_BIN_EXE_treadmill"), &program).unwrap();
+    let given = endless(folder.path(), &run, "train");
+    let mut command = std::process::Command::new(&program);
+    command.args(given.get_args()).current_dir(folder.path()).stdin(Stdio::null());
+    let training = Running::start(command);
+    await_steps(&run, 512);
+    fs::remove_file(&program).unwrap();
+    let killed = children(training.pid(), "actor-0");
+    send_signal(killed[0], libc::SIGKILL);
+    await_that("another actor-0", || {
+        children(training.pid(), "actor-0").first().copied().filter(|pid| *pid != killed[0])
+    });
+    await_that("the count of restarts", || last_value(&run, "actors/restarts").filter(|restarts| *restarts == 1.0));
+    await_that("two actors", || last_value(&run, "actors/alive").filter(|alive| *alive == 2.0));
+    training.signal(libc::SIGINT);
+    assert!(training.wait().0.success());
+}
+
+#[test]
 fn actors_of_a_killed_train_exit() {
     let (folder, run) = folders();
     let training = Running::start(endless(folder.path(), &run, "train"));

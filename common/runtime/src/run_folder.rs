@@ -31,6 +31,8 @@ use crate::{
 
 /// Most runs that an error lists.
 const RUNS_LISTED_MAX: usize = 12;
+/// Files of a run that may as well be a user's.
+const OVERWRITTEN: [&str; 2] = ["config.toml", "model.xml"];
 
 /// Folder of a run.
 #[derive(Clone, Debug, PartialEq)]
@@ -67,6 +69,14 @@ pub enum RunFolderError {
         /// The other process.
         holder: Holder,
     },
+    /// A file that every run writes is there, and no run wrote it.
+    #[error("`{path}` has a file `{file}` that a run would replace; move it, or choose another --run-dir")]
+    Foreign {
+        /// The folder.
+        path: String,
+        /// The file.
+        file: &'static str,
+    },
     /// The system refused.
     #[error("the run folder `{path}` cannot be used; choose one that you may write to with --run-dir")]
     Io {
@@ -84,6 +94,11 @@ impl RunFolder {
             let folder = Self::at(root);
             if folder.is_used() {
                 return Err(RunFolderError::Taken { path: root.display().to_string() });
+            }
+            // The lock is the first file of a run.
+            if let Some(file) = OVERWRITTEN.into_iter().find(|name| !folder.lock().exists() && root.join(name).exists())
+            {
+                return Err(RunFolderError::Foreign { path: root.display().to_string(), file });
             }
             return folder.prepare();
         }
@@ -282,6 +297,19 @@ mod tests {
         fs::write(run.checkpoints().join("latest.bundle"), "state").unwrap();
         let again = RunFolder::create(Some(&root), "walk").unwrap_err().to_string();
         assert!(again.contains("--resume"), "{again}");
+    }
+
+    #[test]
+    fn a_users_file_is_not_replaced() {
+        let folder = tempfile::tempdir().unwrap();
+        let root = folder.path().join("run");
+        fs::create_dir(&root).unwrap();
+        fs::write(root.join("config.toml"), "# mine").unwrap();
+        let refused = RunFolder::create(Some(&root), "walk").unwrap_err().to_string();
+        assert!(refused.contains("`config.toml`") && refused.contains("--run-dir"), "{refused}");
+        // That of a start that was killed before its first checkpoint.
+        fs::write(root.join("lock.json"), "").unwrap();
+        RunFolder::create(Some(&root), "walk").unwrap();
     }
 
     #[test]

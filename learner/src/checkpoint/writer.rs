@@ -54,7 +54,7 @@ impl CheckpointWriter {
     /// Writes an encoded state as the checkpoint of this number of updates, and removes surplus ones.
     pub fn save_numbered(&self, updates: u64, bytes: &[u8]) -> Result<(), CheckpointError> {
         self.save_kept(updates, bytes)?;
-        self.prune();
+        self.prune(updates);
         Ok(())
     }
 
@@ -89,7 +89,8 @@ impl CheckpointWriter {
         }
     }
 
-    fn prune(&self) {
+    /// Removes the oldest numbered checkpoints up to this one. Later ones are of a branch that the run has left.
+    fn prune(&self, newest: u64) {
         let names = match &self.place {
             Place::Folder(folder) => fs::read_dir(folder)
                 .into_iter()
@@ -99,8 +100,8 @@ impl CheckpointWriter {
                 .collect(),
             Place::Store(store) => store.list(IN_STORE).unwrap_or_default(),
         };
-        let number = |name: &String| name.strip_suffix(".bundle")?.parse().ok();
-        let mut numbers: Vec<u64> = names.iter().filter_map(number).collect();
+        let number = |name: &String| name.strip_suffix(".bundle")?.parse::<u64>().ok();
+        let mut numbers: Vec<u64> = names.iter().filter_map(number).filter(|number| *number <= newest).collect();
         numbers.sort_unstable();
         let surplus = numbers.len().saturating_sub(self.keep);
         for number in &numbers[..surplus] {
@@ -116,5 +117,24 @@ impl CheckpointWriter {
                 .map_err(|source| CheckpointError::Write { path: self.place_of(name), source }),
             Place::Store(store) => Ok(store.delete(&format!("{IN_STORE}/{name}"))?),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn checkpoints_of_a_branch_that_was_left_stay_beside_those_of_the_new_one() {
+        let root = tempfile::tempdir().unwrap();
+        let folder = RunFolder::create(Some(&root.path().join("run")), "run").unwrap();
+        let writer = CheckpointWriter::new(&folder, 50, 3);
+        // The run goes back to a checkpoint before update 100.
+        for updates in [800, 850, 900, 100, 150, 200, 250] {
+            writer.save_numbered(updates, b"state").unwrap();
+        }
+        let left: Vec<u64> =
+            (0..1000).filter(|updates| folder.checkpoints().join(numbered(*updates)).exists()).collect();
+        assert_eq!(left, [150, 200, 250, 800, 850, 900]);
     }
 }

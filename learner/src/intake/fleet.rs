@@ -18,6 +18,9 @@ const NEWEST_WEIGHT: f64 = 0.5;
 /// Most actors.
 const ACTORS_MAX: usize = 4096;
 
+/// Longest simulation of one fragment that counts (s).
+const COLLECT_S_MAX: f64 = 86_400.0;
+
 /// What a fragment says about its sender's work.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Effort {
@@ -109,15 +112,16 @@ impl FleetPlan {
 
     /// Records a well-formed fragment, also if it came too late.
     pub(super) fn record(&mut self, actor: &str, effort: &Effort) {
-        self.effort.collect_s += effort.collect_s;
+        // What a sender claims must not spoil the sums for good.
+        self.effort.collect_s += effort.collect_s.clamp(0.0, COLLECT_S_MAX);
         let Some(known) = self.actors.get_mut(actor) else {
-            self.effort.env_steps += effort.transitions;
+            self.effort.env_steps = self.effort.env_steps.saturating_add(effort.transitions);
             if self.actors.len() < ACTORS_MAX {
                 self.actors.insert(actor.to_string(), Actor::new(effort, self.nominal));
             }
             return;
         };
-        self.effort.env_steps += known.simulated(effort);
+        self.effort.env_steps = self.effort.env_steps.saturating_add(known.simulated(effort));
         if known.incarnation != effort.incarnation {
             *known = Actor { speed: known.speed, steps: known.steps, ..Actor::new(effort, known.steps) };
             return;

@@ -140,18 +140,15 @@ impl StateFollower {
         if self.loaded.as_ref().is_some_and(|loaded| loaded.tag == tag) {
             return Ok(());
         }
-        let known = self.loaded.as_ref().filter(|loaded| loaded.manifest.state == manifest.state);
-        let state = match known {
-            Some(loaded) => loaded.state.clone(),
-            None => match self.store.get(&manifest.state) {
-                Ok((state, _)) => state.into(),
-                // The leader has removed it since, which is progress: the manifest names a newer one.
-                Err(StoreError::Missing { .. }) if self.stateless.as_ref() != Some(&tag) => {
-                    (self.since, self.stateless) = (Since::default(), Some(tag));
-                    return Ok(());
-                }
-                Err(why) => return Err(why.into()),
-            },
+        // Also if its name is known: `control set` writes a state again.
+        let state = match self.store.get(&manifest.state) {
+            Ok((state, _)) => state.into(),
+            // The leader has removed it since, which is progress: the manifest names a newer one.
+            Err(StoreError::Missing { .. }) if self.stateless.as_ref() != Some(&tag) => {
+                (self.since, self.stateless) = (Since::default(), Some(tag));
+                return Ok(());
+            }
+            Err(why) => return Err(why.into()),
         };
         if let Some(changed) = self.changed {
             self.interval = self.interval.max(now.duration_since(changed));

@@ -160,6 +160,17 @@ fn a_follower_forgets_what_it_saw_before_it_was_cut_off() {
 }
 
 #[test]
+fn a_state_that_is_written_again_is_read_again() {
+    let store = Store::simulated(&SimulatedObjects::default());
+    let (mut leader, mut follower) = (lead(&store), StateFollower::new(&store));
+    for state in ["one", "one with another setting"] {
+        leader.save("walk", &counters(1), state.as_bytes()).unwrap();
+        follower.refresh(Instant::now()).unwrap();
+        assert_eq!(follower.loaded().unwrap().state, state);
+    }
+}
+
+#[test]
 fn a_state_that_stays_missing_is_an_error() {
     let store = Store::simulated(&SimulatedObjects::default());
     let mut leader = lead(&store);

@@ -72,6 +72,11 @@ impl EpisodeWindow {
         }
     }
 
+    /// Empties the window; the counts stay.
+    pub fn forget(&mut self) {
+        self.recent.clear();
+    }
+
     /// Whether the window has [`WINDOW`] episodes.
     pub fn is_full(&self) -> bool {
         self.recent.len() == WINDOW
@@ -143,6 +148,8 @@ mod tests {
         let on_ground = |level| Episode { ground_level: Some(level), ..episode(1.0, EndCause::Fell) };
         window.extend(&[on_ground(2.0), on_ground(5.0)]);
         assert_eq!(window.means().unwrap().ground_level, Some(3.5), "of those that have a level");
+        window.forget();
+        assert_eq!((window.means(), window.is_full(), window.finished), (None, false, 152));
     }
 
     #[test]

@@ -7,7 +7,11 @@ use treadmill_policy::NetworkShape;
 use treadmill_proto::{Command, ControlRequest, Phase, RunStatus};
 use treadmill_runtime::{error_chain, machine, numbers::thousands};
 
-use super::{Trainer, TrainingError, load_adaptation::LoadAdaptation, serving::Serving};
+use super::{
+    Trainer, TrainingError,
+    load_adaptation::LoadAdaptation,
+    serving::{Serving, save_newest},
+};
 use crate::{checkpoint::TrainingState, intake::HorizonRule};
 
 /// Longest wait of a paused learner between two checks for shutdown.
@@ -103,7 +107,12 @@ impl Trainer {
         let mut source = ConfigSource::default();
         source.text(&self.state.config_toml, "the configuration of the run").map_err(|why| error_chain(&why))?;
         source.set(&format!("{key}={value}")).map_err(|why| error_chain(&why))?;
-        let changed = source.build().map_err(|why| error_chain(&why))?;
+        let mut changed = source.build().map_err(|why| error_chain(&why))?;
+        let saved_toml = changed.to_toml();
+        if key != "run.steps" {
+            // The goal of this start may be nearer than the one that is saved.
+            changed.run.steps = self.config.run.steps;
+        }
         if is_retired(key) {
             return Ok(format!("`{key}` no longer exists; every run behaves by its old default"));
         }
@@ -115,7 +124,7 @@ impl Trainer {
                 FIXED.join(", ")
             ));
         }
-        if self.serving.evaluation.is_none() && changed.evaluates() {
+        if key == "eval.every_steps" && self.serving.evaluation.is_none() && changed.evaluates() {
             let why = "`eval.every_steps` cannot be set, because the run was started without evaluation; start a new run \
                        with it";
             return Err(why.to_string());
@@ -139,8 +148,13 @@ impl Trainer {
         if let Some(evaluation) = &mut self.serving.evaluation {
             evaluation.set_every(changed.eval.every_steps, self.state.counters.env_steps);
         }
-        self.state.config_toml = changed.to_toml();
+        self.state.config_toml = saved_toml;
         self.config = changed;
+        self.state.learning_rate = self.learning.updater.learning_rate();
+        // A run that is stopped before its next update goes on with the change, too.
+        let Serving { checkpoints, leadership, .. } = &mut self.serving;
+        let saved = save_newest(&self.state, leadership.as_mut(), checkpoints, &self.retry);
+        self.serving.saved = saved.map_err(|why| error_chain(&why))?;
         let after = self.config.value_of(key);
         let from = self.state.counters.updates + 1;
         Ok(format!("{key} is {after}, was {before}, from update {from} on"))

@@ -8,11 +8,12 @@ use std::{
 use treadmill_proto::{Command, ControlReply, ControlRequest};
 use zenoh::{
     Wait,
+    bytes::ZBytes,
     qos::{CongestionControl, Priority},
     query::{Query, Queryable},
 };
 
-use crate::{Bus, BusError, keys};
+use crate::{Bus, BusError, admission::rate_limited_log::RateLimitedLog, keys};
 
 /// Requests that may wait. Further ones get no answer, and the client asks again.
 const QUEUE: usize = 256;
@@ -48,20 +49,22 @@ impl ControlServer {
     pub fn open(bus: &Bus, run: &str) -> Result<Self, BusError> {
         let (sender, queue) = sync_channel(QUEUE);
         let open = |key: String, may_command: bool| {
-            let sender = sender.clone();
+            let (sender, refusals) = (sender.clone(), RateLimitedLog::default());
             bus.session
                 .declare_queryable(key)
                 .callback(move |query: Query| {
-                    let payload = query.payload().map_or_else(Vec::new, |payload| payload.to_bytes().into_owned());
+                    let payload = query.payload().map(ZBytes::to_bytes).unwrap_or_default();
                     match ControlRequest::decode_checked(&payload) {
                         Ok(request) if may_command || request.command() == Command::Status => {
                             drop(sender.try_send(PendingRequest { request, query }));
                         }
                         Ok(request) => {
                             let command = request.command().as_str_name();
-                            tracing::warn!(command, key = %query.key_expr(), "command refused on the status key");
+                            refusals.emit(|| {
+                                tracing::warn!(command, key = %query.key_expr(), "command refused on the status key");
+                            });
                         }
-                        Err(error) => tracing::warn!(%error, "control request rejected"),
+                        Err(error) => refusals.emit(|| tracing::warn!(%error, "control request rejected")),
                     }
                 })
                 .wait()

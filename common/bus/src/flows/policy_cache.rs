@@ -197,7 +197,7 @@ impl<W> CachedRuns<W> {
     fn request(&mut self, run: &str, request: &PolicyRequest, waiter: W, now: Instant) -> Steps<W> {
         let Some(entry) = self.entry(run, now) else { return Steps::default() };
         entry.used = now;
-        if let Some(cached) = entry.cached.as_ref().filter(|cached| entry.is_newest(cached, request.announced, now)) {
+        if let Some(cached) = entry.cached.as_ref().filter(|cached| entry.is_newest(cached, request, now)) {
             return Steps { answers: vec![(waiter, cached.policy.clone())], fetch: None };
         }
         if entry.waiting.len() < WAITING_MAX {
@@ -296,10 +296,13 @@ impl<W> CachedRun<W> {
     }
 
     /// Returns whether the cached policy is the newest, as far as this router and the requester have heard.
-    fn is_newest(&self, cached: &CachedPolicy, heard_of: Option<PolicyVersion>, now: Instant) -> bool {
+    fn is_newest(&self, cached: &CachedPolicy, request: &PolicyRequest, now: Instant) -> bool {
+        let version = cached.policy.version();
         let announced = self.announced.map(|announced| announced.version);
         let is_fresh = self.checked.is_some_and(|checked| now.duration_since(checked) < FRESH);
-        is_fresh && [announced, heard_of].into_iter().flatten().all(|version| version == cached.policy.version())
+        let has = |other: PolicyVersion| other == version || other.is_before(version);
+        let is_behind = request.known.is_some_and(|known| version.is_before(known));
+        is_fresh && !is_behind && [announced, request.announced].into_iter().flatten().all(has)
     }
 
     /// Returns the question to the learner, unless one is under way.

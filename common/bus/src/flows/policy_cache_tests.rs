@@ -103,6 +103,21 @@ fn a_requester_that_heard_of_another_version_makes_the_cache_ask_once() {
 }
 
 #[test]
+fn a_cache_that_is_behind_its_requester_asks_and_one_that_is_ahead_does_not() {
+    let now = Instant::now();
+    let of_term = |version: PolicyVersion| PolicyVersion { epoch: 5, ..version };
+    let (old, new) = (of_term(OLD), of_term(NEW));
+    let mut runs = CachedRuns::default();
+    runs.request("walk", &JOINING, 0, now);
+    runs.fetched("walk", newer(old), now);
+    let ahead = PolicyRequest { known: Some(new), ..JOINING };
+    assert_eq!(answers(&runs.request("walk", &ahead, 1, now)), []);
+    assert_eq!(answers(&runs.fetched("walk", newer(new), now)), [(1, new)]);
+    let behind = PolicyRequest { announced: Some(old), ..JOINING };
+    assert_eq!(answers(&runs.request("walk", &behind, 2, now)), [(2, new)]);
+}
+
+#[test]
 fn a_restarted_learner_replaces_an_announced_version() {
     let now = Instant::now();
     let mut runs = warm(now);

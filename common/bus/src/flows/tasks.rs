@@ -13,7 +13,7 @@ use zenoh::{
 };
 
 use super::{first_valid, reply, start_thread};
-use crate::{Bus, BusError, keys};
+use crate::{Bus, BusError, admission::rate_limited_log::RateLimitedLog, keys};
 
 /// Registrations that may wait. Further ones get no answer, and the actor asks again.
 const QUEUE: usize = 64;
@@ -67,9 +67,10 @@ fn serve(
     objection: &Objection,
     accept: &SyncSender<Task>,
 ) {
+    let refusals = RateLimitedLog::default();
     for query in requests {
         let was_known = known.is_some();
-        let receipt = register(&query, run, &mut known, objection);
+        let receipt = register(&query, run, &mut known, objection, &refusals);
         if let Some(task) = known.as_ref().filter(|_| !was_known) {
             drop(accept.try_send(task.clone()));
         }
@@ -77,7 +78,13 @@ fn serve(
     }
 }
 
-fn register(query: &Query, run: &str, known: &mut Option<Task>, objection: &Objection) -> TaskReceipt {
+fn register(
+    query: &Query,
+    run: &str,
+    known: &mut Option<Task>,
+    objection: &Objection,
+    refusals: &RateLimitedLog,
+) -> TaskReceipt {
     let actor = keys::last_part(query.key_expr().as_str());
     let refusal = match read(query, run, actor) {
         Err(error) => Some(error.to_string()),
@@ -90,7 +97,7 @@ fn register(query: &Query, run: &str, known: &mut Option<Task>, objection: &Obje
         },
     };
     if let Some(error) = &refusal {
-        tracing::warn!(actor, %error, "registration refused");
+        refusals.emit(|| tracing::warn!(actor, %error, "registration refused"));
     }
     TaskReceipt { accepted: refusal.is_none(), reason: refusal.unwrap_or_default(), task: known.clone() }
 }

@@ -135,6 +135,7 @@ pub(super) fn sizes() -> Value {
         size_limit("evaluations", "query", "treadmill/*/evaluations/*", SMALL_BYTES_MAX),
         size_limit("policies", "query", "treadmill/*/policy/**", SMALL_BYTES_MAX),
         size_limit("control", "query", "treadmill/*/control", SMALL_BYTES_MAX),
+        size_limit("status", "query", "treadmill/*/status", SMALL_BYTES_MAX),
         size_limit("statistics", "put", "treadmill/*/actors/*/stats", STATS_BYTES_MAX),
         size_limit("episodes", "put", "treadmill/*/episodes/*", STATS_BYTES_MAX),
         size_limit("poses", "put", "treadmill/*/poses/*", POSE_BYTES_MAX),

@@ -10,8 +10,7 @@ pub fn check(endpoint: &str, insecure: bool, has_certificates: bool) -> Result<(
     let Some((protocol, rest)) = endpoint.split_once('/') else {
         return refuse("it has no protocol; write tcp/HOST:PORT");
     };
-    let address = rest.split(['?', '#']).next().unwrap_or(rest);
-    let Some((host, port)) = address.rsplit_once(':') else {
+    let Some((host, port)) = without_options(rest).0.rsplit_once(':') else {
         return refuse("it has no port; write tcp/HOST:PORT");
     };
     if host.is_empty() || port.parse::<u16>().is_err() {
@@ -37,9 +36,14 @@ fn is_loopback(host: &str) -> bool {
     bare == "localhost" || bare.parse::<IpAddr>().is_ok_and(|address| address.is_loopback())
 }
 
+/// Splits Zenoh's options, from `?` or `#` on, off an endpoint.
+pub(crate) fn without_options(endpoint: &str) -> (&str, &str) {
+    endpoint.split_at(endpoint.find(['?', '#']).unwrap_or(endpoint.len()))
+}
+
 /// Checks that the port of an endpoint is free, so that the error names it.
 pub fn check_free(endpoint: &str) -> Result<(), BusError> {
-    let address = endpoint.split_once('/').map_or(endpoint, |(_, address)| address);
+    let address = without_options(endpoint.split_once('/').map_or(endpoint, |(_, address)| address)).0;
     match TcpListener::bind(address) {
         Ok(_) => Ok(()),
         Err(error) => Err(BusError::Listen { endpoint: endpoint.to_string(), why: error.to_string() }),
@@ -74,5 +78,8 @@ mod tests {
         let free = with_free_port("tcp/127.0.0.1:0").unwrap();
         assert!(!free.ends_with(":0"));
         check_free(&free).unwrap();
+        let with_options = with_free_port("tls/127.0.0.1:0#tls_handshake_timeout_ms=5000").unwrap();
+        assert!(with_options.ends_with("#tls_handshake_timeout_ms=5000") && !with_options.contains(":0#"));
+        check_free(&with_options).unwrap();
     }
 }

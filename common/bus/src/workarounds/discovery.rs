@@ -14,6 +14,9 @@ use crate::{BusError, BusOptions};
 const ROUND: Duration = Duration::from_secs(3);
 /// Time to wait for further replies after the first: a learner and its routers reply together.
 const FURTHER_REPLIES: Duration = Duration::from_millis(300);
+/// Most endpoints that are found, and most that are refused, each with a line in the log. The refused ones are forgotten after a
+/// round with as many.
+const ENDPOINTS_MAX: usize = 64;
 
 /// Scouts until an acceptable endpoint is found. Returns all that were found in that round.
 pub(crate) fn find(settings: &Config, options: &BusOptions) -> Result<Vec<String>, BusError> {
@@ -23,9 +26,13 @@ pub(crate) fn find(settings: &Config, options: &BusOptions) -> Result<Vec<String
             .wait()
             .map_err(|error| BusError::Open { why: format!("multicast cannot be used: {error}") })?;
         let (mut found, mut until) = (Vec::new(), Instant::now() + ROUND);
-        while let Ok(Some(hello)) = replies.recv_timeout(until.saturating_duration_since(Instant::now())) {
+        while Instant::now() < until
+            && let Ok(Some(hello)) = replies.recv_timeout(until.saturating_duration_since(Instant::now()))
+        {
             for locator in hello.locators().iter().map(ToString::to_string) {
-                if found.contains(&locator) || refused.contains(&locator) {
+                let is_known = found.contains(&locator) || refused.contains(&locator);
+                // Any host may send any number of replies.
+                if is_known || found.len() == ENDPOINTS_MAX || refused.len() == ENDPOINTS_MAX {
                     continue;
                 }
                 match check_discovered(&locator, options) {
@@ -43,6 +50,9 @@ pub(crate) fn find(settings: &Config, options: &BusOptions) -> Result<Vec<String
         }
         if !found.is_empty() {
             return Ok(found);
+        }
+        if refused.len() == ENDPOINTS_MAX {
+            refused.clear();
         }
     }
 }

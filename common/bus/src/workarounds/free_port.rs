@@ -5,11 +5,12 @@
 
 use std::net::TcpListener;
 
-use crate::BusError;
+use crate::{BusError, session::endpoint::without_options};
 
 /// Replaces port 0 of an endpoint with a port that is free now; returns other endpoints unchanged.
 pub(crate) fn with_free_port(endpoint: &str) -> Result<String, BusError> {
-    let Some(prefix) = endpoint.strip_suffix(":0") else {
+    let (address, options) = without_options(endpoint);
+    let Some(prefix) = address.strip_suffix(":0") else {
         return Ok(endpoint.to_string());
     };
     let host = prefix.split_once('/').map_or(prefix, |(_, host)| host);
@@ -17,5 +18,5 @@ pub(crate) fn with_free_port(endpoint: &str) -> Result<String, BusError> {
         .and_then(|listener| listener.local_addr())
         .map_err(|error| BusError::Endpoint { endpoint: endpoint.to_string(), why: error.to_string() })?
         .port();
-    Ok(format!("{prefix}:{port}"))
+    Ok(format!("{prefix}:{port}{options}"))
 }
