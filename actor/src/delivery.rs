@@ -16,6 +16,8 @@ use treadmill_proto::{Outcome, Receipt};
 use crate::policy_fetcher::{PolicyFetcher, Refresh};
 
 const RETRY: Duration = Duration::from_millis(200);
+/// How often that pause doubles while the learner is busy.
+const BUSY_DOUBLINGS_MAX: u32 = 4;
 /// Pause of a quarantined sender before its next attempt.
 const QUARANTINE_RETRY: Duration = Duration::from_secs(10);
 /// Retries between two warnings about the same fragment.
@@ -81,9 +83,6 @@ struct DeliveryState {
     /// Highest sequence number.
     newest: u64,
 }
-
-/// How often the pause before the next attempt doubles while the learner is busy.
-const BUSY_DOUBLINGS_MAX: u32 = 4;
 
 /// Action that a receipt asks for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -13,6 +13,15 @@ fn actor(folder: &Path, endpoint: &str, name: &str) -> Running {
     Running::start(command)
 }
 
+/// Waits until another process has replaced the killed actor-0, then stops the training.
+fn await_restart(training: Running, run: &Path, killed: u32) {
+    await_that("another actor-0", || children(training.pid(), "actor-0").first().copied().filter(|pid| *pid != killed));
+    await_that("the count of restarts", || last_value(run, "actors/restarts").filter(|restarts| *restarts == 1.0));
+    await_that("two actors", || last_value(run, "actors/alive").filter(|alive| *alive == 2.0));
+    training.signal(libc::SIGINT);
+    assert!(training.wait().0.success());
+}
+
 #[test]
 fn a_killed_actor_is_restarted_and_counted() {
     let (folder, run) = folders();
@@ -22,13 +31,7 @@ fn a_killed_actor_is_restarted_and_counted() {
     assert_eq!(killed.len(), 1);
     send_signal(killed[0], libc::SIGKILL);
     training.wait_for("actor-0 ended");
-    await_that("another actor-0", || {
-        children(training.pid(), "actor-0").first().copied().filter(|pid| *pid != killed[0])
-    });
-    await_that("the count of restarts", || last_value(&run, "actors/restarts").filter(|restarts| *restarts == 1.0));
-    await_that("two actors", || last_value(&run, "actors/alive").filter(|alive| *alive == 2.0));
-    training.signal(libc::SIGINT);
-    assert!(training.wait().0.success());
+    await_restart(training, &run, killed[0]);
 }
 
 #[test]
@@ -44,13 +47,7 @@ fn an_actor_is_restarted_after_the_program_was_replaced() {
     fs::remove_file(&program).unwrap();
     let killed = children(training.pid(), "actor-0");
     send_signal(killed[0], libc::SIGKILL);
-    await_that("another actor-0", || {
-        children(training.pid(), "actor-0").first().copied().filter(|pid| *pid != killed[0])
-    });
-    await_that("the count of restarts", || last_value(&run, "actors/restarts").filter(|restarts| *restarts == 1.0));
-    await_that("two actors", || last_value(&run, "actors/alive").filter(|alive| *alive == 2.0));
-    training.signal(libc::SIGINT);
-    assert!(training.wait().0.success());
+    await_restart(training, &run, killed[0]);
 }
 
 #[test]

@@ -13,7 +13,7 @@ use std::{
 use treadmill_runtime::error_chain;
 use treadmill_store::{Store, StoreError};
 
-use super::{MANIFEST, Manifest, STATES, read_manifest};
+use super::{MANIFEST, Manifest, STATES, read_manifest, writer_name};
 
 /// Interval of reading the manifest.
 const READ_EVERY: Duration = Duration::from_secs(2);
@@ -98,7 +98,7 @@ impl Drop for Housekeeping {
 /// Returns the manifest, if another learner wrote it. A store that fails shows nothing.
 fn manifest_of_other(store: &Store, writer: u64) -> Option<Manifest> {
     let (manifest, _) = read_manifest(store).ok()??;
-    (manifest.writer != format!("{writer:016x}")).then_some(manifest)
+    (manifest.writer != writer_name(writer)).then_some(manifest)
 }
 
 /// Removes the states of lower epochs, and the older ones of this learner. States of higher epochs are a successor's. Returns the

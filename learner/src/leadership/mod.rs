@@ -79,6 +79,11 @@ pub fn read_manifest(store: &Store) -> Result<Option<(Manifest, Tag)>, Leadershi
     }
 }
 
+/// Returns the name of a writer in manifests.
+fn writer_name(writer: u64) -> String {
+    format!("{writer:016x}")
+}
+
 /// Right to write a run's state, for as long as no other learner advances the manifest.
 #[derive(Debug)]
 pub struct Leadership {
@@ -145,7 +150,7 @@ impl Leadership {
             format: manifest::FORMAT,
             run: run.to_string(),
             epoch: self.epoch,
-            writer: self.writer_name(),
+            writer: writer_name(self.writer),
             updates: counters.updates,
             env_steps: counters.env_steps,
             state: name,
@@ -184,7 +189,7 @@ impl Leadership {
     /// [`LeadershipError::Overtaken`], or if the store fails.
     pub fn confirm(&self) -> Result<(), LeadershipError> {
         match read_manifest(&self.store)? {
-            Some((found, _)) if found.writer != self.writer_name() => Err(self.overtaken_by(&found)),
+            Some((found, _)) if found.writer != writer_name(self.writer) => Err(self.overtaken_by(&found)),
             _ => Ok(()),
         }
     }
@@ -214,10 +219,6 @@ impl Leadership {
         };
         (self.tag, self.manifest) = (Some(tag), Some(manifest));
         Ok(())
-    }
-
-    fn writer_name(&self) -> String {
-        format!("{:016x}", self.writer)
     }
 
     fn overtaken_by(&self, successor: &Manifest) -> LeadershipError {
