@@ -285,7 +285,7 @@ fn the_level_follows_success_and_goes_on_from_a_saved_state() {
     let level = |environment: &Environment| environment.task().difficulty().ground_level.unwrap();
     let mut levels = Vec::new();
     for (seed, share, falls) in
-        [(1, 1.0, false), (2, 1.0, false), (3, 0.5, false), (4, 0.1, false), (5, 1.0, true), (6, 1.0, true)]
+        [(1, 1.0, false), (2, 1.0, false), (3, 0.45, false), (4, 0.1, false), (5, 1.0, true), (6, 1.0, true)]
     {
         carry(&mut original, seed, share, falls);
         levels.push(level(&original));
