@@ -24,6 +24,8 @@ pub struct Robot {
     pub feet: Vec<usize>,
     /// Names of a left and a right hinge, see [`RobotCard::symmetry`].
     pub symmetry: Vec<[String; 2]>,
+    /// Hinges in the order of the robot's motors, see [`RobotCard::motors`].
+    pub motors: Vec<String>,
     /// Position vector of the default pose.
     pub default_position: Vec<f64>,
     /// One per hinge, in the order of [`Model::hinges`].
@@ -43,6 +45,14 @@ pub struct HingeControl {
     pub action_scale_rad: f64,
     /// Whether the hinge keeps its default angle.
     pub is_held: bool,
+}
+
+impl Robot {
+    /// Returns the number of a hinge's motor in the robot's own software; `None` if the card does not say.
+    #[must_use]
+    pub fn motor_number(&self, hinge: &str) -> Option<usize> {
+        self.motors.iter().position(|name| name == hinge)
+    }
 }
 
 impl RobotCard {
@@ -70,8 +80,14 @@ impl RobotCard {
         let mut position = self.position(model)?;
         let rules = self.rules_of_hinges(&model.hinges)?;
         self.check_symmetry(&model.hinges)?;
-        let (feet, symmetry) = (feet?, self.symmetry.clone());
-        let mut robot = Robot { feet, symmetry, default_position: Vec::new(), hinges: Vec::new() };
+        self.check_motors(&model.hinges)?;
+        let mut robot = Robot {
+            feet: feet?,
+            symmetry: self.symmetry.clone(),
+            motors: self.motors.clone(),
+            default_position: Vec::new(),
+            hinges: Vec::new(),
+        };
         let mut motors = Vec::new();
         for (index, rule) in rules.iter().enumerate() {
             let control = control(model, index, rule)?;
@@ -109,9 +125,11 @@ impl RobotCard {
     }
 
     fn check_bounds(&self) -> Result<(), ModelError> {
-        for (what, count, most) in
-            [("[[hinges]]", self.rules.len(), RULES_MAX), ("symmetry", self.symmetry.len(), PAIRS_MAX)]
-        {
+        for (what, count, most) in [
+            ("[[hinges]]", self.rules.len(), RULES_MAX),
+            ("symmetry", self.symmetry.len(), PAIRS_MAX),
+            ("motors", self.motors.len(), RULES_MAX),
+        ] {
             if count > most {
                 return Err(ModelError::Card(format!("{what} has {count} entries, but at most {most} are supported")));
             }
@@ -158,6 +176,22 @@ impl RobotCard {
                     let problem = format!("symmetry [\"{left}\", \"{right}\"]: the model has no hinge `{image}`");
                     return Err(ModelError::Card(problem));
                 }
+            }
+        }
+        Ok(())
+    }
+
+    /// Checks that the motors, if there are any, name each hinge once.
+    fn check_motors(&self, hinges: &[Hinge]) -> Result<(), ModelError> {
+        let named = || self.motors.iter().filter(|name| !name.is_empty());
+        if let Some(unknown) = named().find(|name| !hinges.iter().any(|hinge| hinge.name == **name)) {
+            return Err(ModelError::Card(format!("`motors`: the model has no hinge `{unknown}`")));
+        }
+        for hinge in hinges.iter().filter(|_| !self.motors.is_empty()) {
+            let count = named().filter(|name| **name == hinge.name).count();
+            if count != 1 {
+                let problem = format!("`motors` names hinge `{}` {count} times; name each hinge once", hinge.name);
+                return Err(ModelError::Card(problem));
             }
         }
         Ok(())

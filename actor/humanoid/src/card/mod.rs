@@ -54,6 +54,10 @@ pub struct RobotCard {
     /// not follow left and right.
     #[serde(default)]
     pub symmetry: Vec<[String; 2]>,
+    /// Hinges in the order in which the robot's own software counts its motors, all of them, and `""` for a number without a
+    /// hinge; needed where that differs from the order of the model file.
+    #[serde(default)]
+    pub motors: Vec<String>,
     /// Rules about hinges.
     #[serde(default, rename = "hinges")]
     pub rules: Vec<HingeRule>,

@@ -2,6 +2,7 @@
 
 use std::sync::{Arc, Mutex, PoisonError, Weak};
 
+use nalgebra::Vector3;
 use rapier3d::parry::shape::{HeightField as Triangles, HeightFieldFlags};
 use rapier3d::parry::utils::Array2;
 
@@ -18,6 +19,7 @@ static FIELDS_IN_USE: Mutex<Vec<(Weak<HeightField>, Weak<FieldShape>)>> = Mutex:
 /// Triangles of a height field, and how high it is in places.
 pub(super) struct FieldShape {
     pub(super) triangles: Triangles,
+    heights: Arc<HeightField>,
     /// Height of the highest point (m, world).
     highest_m: f64,
     /// Corner of least x and y (m, world).
@@ -44,7 +46,7 @@ impl FieldShape {
         shape
     }
 
-    fn new(field: &HeightField) -> Self {
+    fn new(field: &Arc<HeightField>) -> Self {
         let corner_m = [field.centre_m.x - field.half_x_m, field.centre_m.y - field.half_y_m];
         let block_m = BLOCK_MIN_M.max(2.0 * field.half_x_m.max(field.half_y_m) / BLOCKS_MAX);
         let blocks = [field.half_x_m, field.half_y_m].map(|half_m| (2.0 * half_m / block_m).ceil().max(1.0) as usize);
@@ -68,12 +70,18 @@ impl FieldShape {
         }
         Self {
             triangles: triangles(field),
+            heights: field.clone(),
             highest_m: highest_m.iter().copied().fold(f64::NEG_INFINITY, f64::max),
             corner_m,
             block_m,
             blocks,
             highest_near_m: highest_m,
         }
+    }
+
+    /// Returns the height (m, world) and the upward unit normal of the ground at a place; `None` beyond the edges.
+    pub(super) fn surface_at(&self, x_m: f64, y_m: f64) -> Option<(f64, Vector3<f64>)> {
+        self.heights.surface_at(x_m, y_m)
     }
 
     /// Returns a height (m, world) which no ground exceeds within `radius_m` of a place.
@@ -115,7 +123,7 @@ mod tests {
         let height_m = |x: f64, y: f64| 0.2 * (3.0 * x).sin() * (2.0 * y).cos() + 0.05 * x;
         let centre_m = Point3::new(1.0, -2.0, 0.3);
         for sides in [[31, 57], [4, 6]] {
-            let field = HeightField::from_fn(sides, [3.0, 2.2], centre_m, height_m).unwrap();
+            let field = Arc::new(HeightField::from_fn(sides, [3.0, 2.2], centre_m, height_m).unwrap());
             let shape = FieldShape::new(&field);
             let (mut lower, mut places) = (0, 0);
             for (x_m, y_m) in

@@ -59,12 +59,15 @@ impl<S: Simd> Collisions<S> {
     #[inline(always)]
     pub(crate) fn find(&mut self, model: &CollisionModel, posture: &Posture<S>, root_m: &Vec3<S>, worlds: usize) {
         self.contacts.clear();
+        let zero = root_m.z.constant(0.0);
         for (index, shape) in model.shapes.iter().enumerate() {
             let rotation = &posture.rotations[shape.body];
             self.centres_m[index] = posture.origins_m[shape.body] + rotation.times_constant(&shape.centre_m);
-            if let Some(half_m) = &shape.half_m {
-                self.halves_m[index] = rotation.times_constant(half_m);
-            }
+            // Of a sphere it is 0, whatever model this workspace served before.
+            self.halves_m[index] = match &shape.half_m {
+                Some(half_m) => rotation.times_constant(half_m),
+                None => Vec3::new(zero, zero, zero),
+            };
         }
         for (index, pair) in model.pairs.iter().enumerate() {
             let key = index as u32;

@@ -11,7 +11,7 @@ use rapier3d::parry::query::{
     ContactManifold, ContactManifoldsWorkspace, DefaultQueryDispatcher, PersistentQueryDispatcher,
     details::NormalConstraints,
 };
-use rapier3d::parry::shape::Shape;
+use rapier3d::parry::shape::{ConvexPolyhedron, Shape};
 
 use super::model::{CollisionModel, PairNode};
 
@@ -94,9 +94,12 @@ impl Queries {
                 let away_m = if model.is_flat() { Vector3::new(0.0, 0.0, root_m.z) } else { *root_m };
                 let ground = Pose::from_parts(to_vector(&(model.ground_m - away_m)), model.ground_rotation);
                 match &model.height_field {
-                    None => self.collect(&ground, &*model.ground, &place, &*first.shape, prediction, &mut points),
-                    Some(field) => {
-                        let field = &field.triangles;
+                    None => match first.shape.as_convex_polyhedron() {
+                        Some(hull) => points.take_corners(hull, &place, |_| Some((-root_m.z, Vector3::z()))),
+                        None => self.collect(&ground, &*model.ground, &place, &*first.shape, prediction, &mut points),
+                    },
+                    Some(heights) => {
+                        let field = &heights.triangles;
                         let between = ground.inverse() * place;
                         let near = first.shape.compute_aabb(&between).loosened(prediction.max(1e-3));
                         let manifold = &mut self.single;
@@ -117,6 +120,12 @@ impl Queries {
                                 points.take(&ground, manifold, true);
                             }
                         });
+                        if let Some(hull) = first.shape.as_convex_polyhedron() {
+                            points.take_corners(hull, &place, |at_m| {
+                                let (height_m, normal) = heights.surface_at(root_m.x + at_m.x, root_m.y + at_m.y)?;
+                                Some((height_m - root_m.z, normal))
+                            });
+                        }
                     }
                 }
             }
@@ -167,6 +176,24 @@ impl Points {
             let point_m = from_vector(*pose * contact.local_p1) + normal * (gap_m / 2.0);
             if gap_m < self.margin_m && point_m.iter().all(|part| part.is_finite()) {
                 self.insert(Found { point_m, normal, gap_m });
+            }
+        }
+    }
+
+    /// Adds the corners of a hull that are near the ground: a face of Rapier's manifolds has at most four corners. `surface`
+    /// returns the ground's height (m, relative to O) and normal at a place (m, relative to O).
+    fn take_corners(
+        &mut self,
+        hull: &ConvexPolyhedron,
+        place: &Pose,
+        surface: impl Fn(&Vector3<f64>) -> Option<(f64, Vector3<f64>)>,
+    ) {
+        for corner in hull.points() {
+            let corner_m = from_vector(*place * *corner);
+            let Some((height_m, normal)) = surface(&corner_m) else { continue };
+            let gap_m = (corner_m.z - height_m) * normal.z;
+            if gap_m < self.margin_m {
+                self.insert(Found { point_m: corner_m - normal * (gap_m / 2.0), normal, gap_m });
             }
         }
     }

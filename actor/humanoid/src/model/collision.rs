@@ -1,7 +1,7 @@
 //! Which shapes may touch each other: MuJoCo's bits, and exclusions between bodies.
 
-/// Two MJCF bodies that never touch; `None` is the world.
-pub(super) type Exclusion = [Option<usize>; 2];
+/// Indices of two MJCF bodies that never touch; 0 is the world.
+pub(super) type Exclusion = [usize; 2];
 
 /// MuJoCo's rule: the `contype` of one shape shares a bit with the `conaffinity` of the other.
 pub(super) fn filters_match([contype, conaffinity]: [u32; 2], [other_type, other_affinity]: [u32; 2]) -> bool {

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use nalgebra::Point3;
+use nalgebra::{Point3, Vector3};
 
 use super::values::positive;
 use super::{Model, Softness};
@@ -81,19 +81,26 @@ impl HeightField {
     /// Returns the height (m) of the surface in the world; `None` beyond the edges.
     #[must_use]
     pub fn height_at(&self, x_m: f64, y_m: f64) -> Option<f64> {
+        Some(self.surface_at(x_m, y_m)?.0)
+    }
+
+    /// Returns the height (m, world) and the upward unit normal of the triangle at a place; `None` beyond the edges.
+    pub(crate) fn surface_at(&self, x_m: f64, y_m: f64) -> Option<(f64, Vector3<f64>)> {
         let (column, across) = cell(x_m - self.centre_m.x, self.half_x_m, self.columns)?;
         let (row, along) = cell(y_m - self.centre_m.y, self.half_y_m, self.rows)?;
         let corner =
             |rows: usize, columns: usize| self.heights_m.get((row + rows) * self.columns + column + columns).copied();
         let (near, far) = (corner(0, 0)?, corner(1, 1)?);
-        let above_m = if across >= along {
+        let (above_m, rises_m) = if across >= along {
             let side = corner(0, 1)?;
-            near + across * (side - near) + along * (far - side)
+            (near + across * (side - near) + along * (far - side), [side - near, far - side])
         } else {
             let side = corner(1, 0)?;
-            near + along * (side - near) + across * (far - side)
+            (near + along * (side - near) + across * (far - side), [far - side, side - near])
         };
-        Some(self.centre_m.z + above_m)
+        let cell_m = [2.0 * self.half_x_m / (self.columns - 1) as f64, 2.0 * self.half_y_m / (self.rows - 1) as f64];
+        let normal = Vector3::new(-rises_m[0] / cell_m[0], -rises_m[1] / cell_m[1], 1.0).normalize();
+        Some((self.centre_m.z + above_m, normal))
     }
 
     pub(super) fn check(&self) -> Result<(), ModelError> {

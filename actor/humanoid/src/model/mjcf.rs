@@ -2,18 +2,18 @@
 
 use std::collections::BTreeSet;
 use std::ops::Range;
-use std::sync::Arc;
 
-use mjcf_rs::body::{Geom, GeomType, Joint, JointType};
+use mjcf_rs::body::{Geom, Joint, JointType};
 use nalgebra::{Isometry3, Matrix3, Point3, Quaternion, Translation3, UnitQuaternion, Vector3};
 
 use super::defaults::get;
 use super::flatten::{Flat, flatten};
+use super::floor::Floor;
 use super::inertia::MassProperties;
 use super::pairs::{self, ContactRules, Party};
 use super::{
-    Body, Geometry, Ground, HeightField, Hinge, Link, Model, RootJoint, Shape, collision, geoms, inertia, joints,
-    keyframes, mass, motors, tendon,
+    Body, Geometry, Hinge, Link, Model, RootJoint, Shape, collision, geoms, inertia, joints, keyframes, mass, motors,
+    tendon,
 };
 use crate::error::ModelError;
 
@@ -23,6 +23,9 @@ pub const BODIES_MAX: usize = 512;
 pub const HINGES_MAX: usize = 1024;
 /// Most colliding shapes, so that all pairs of them can be compared.
 pub const SHAPES_MAX: usize = 4096;
+/// Most bodies of a text, and most geoms, whether they collide or not.
+const ALL_BODIES_MAX: usize = 4096;
+const GEOMS_MAX: usize = 8192;
 /// Most vertices of all hulls.
 const HULL_VERTICES_MAX: usize = 1 << 16;
 
@@ -32,17 +35,31 @@ pub(super) fn read(text: &str) -> Result<Model, ModelError> {
     let source = mjcf_rs::Model::from_str(&flat.text, ".").map_err(ModelError::Parse)?;
     let sides = flat.pairs.iter().flat_map(|(_, pair)| [get(pair, "geom1"), get(pair, "geom2")]);
     let paired = sides.flatten().map(str::to_owned).collect();
+    check_size(&source)?;
     let mut reader = Reader { flat, paired, ..Reader::default() };
     for (index, entry) in source.bodies.iter().enumerate() {
         match entry.parent {
             None => {
                 reader.placements.push(Placement { body: None, offset: Isometry3::identity() });
-                reader.read_world("the world", &entry.body.geoms, &Isometry3::identity())?;
+                reader.read_static(index, "the world", &entry.body.geoms, &Isometry3::identity())?;
             }
             Some(parent) => reader.read_body(index, parent, &entry.body, &source.compiler)?,
         }
     }
     reader.finish(&source)
+}
+
+/// Refuses texts that would take minutes to read.
+fn check_size(source: &mjcf_rs::Model) -> Result<(), ModelError> {
+    let geoms = source.bodies.iter().map(|entry| entry.body.geoms.len()).sum();
+    for (count, most, what) in
+        [(source.bodies.len(), ALL_BODIES_MAX, "bodies, static ones included"), (geoms, GEOMS_MAX, "geoms")]
+    {
+        if count > most {
+            return Err(ModelError::unsupported("worldbody", format!("it has {count} {what}, but may have {most}")));
+        }
+    }
+    Ok(())
 }
 
 /// Rigid body that an MJCF body belongs to, and its pose in that body; `None` is the world.
@@ -62,7 +79,7 @@ struct Reader {
     bodies: Vec<Body>,
     hinges: Vec<Hinge>,
     root: Option<RootJoint>,
-    floor: Option<(Shape, ContactRules, Option<HeightField>)>,
+    floor: Option<Floor>,
     /// Parts of each rigid body's mass.
     parts: Vec<Vec<MassProperties>>,
     /// Contact parameters and MJCF body of each shape, as `[body][shape]`.
@@ -75,34 +92,23 @@ struct Reader {
 }
 
 impl Reader {
-    /// Reads the geoms of a static body. Only a level floor may collide.
-    fn read_world(&mut self, body: &str, geoms: &[Geom], offset: &Isometry3<f64>) -> Result<(), ModelError> {
+    /// Reads the geoms of static MJCF body number `index`. Only one floor may collide.
+    fn read_static(
+        &mut self,
+        index: usize,
+        body: &str,
+        geoms: &[Geom],
+        offset: &Isometry3<f64>,
+    ) -> Result<(), ModelError> {
         for geom in geoms {
             let name = geom.name.as_deref().unwrap_or("geom");
             if !geoms::collides(geom, self.paired.contains(name)) {
                 continue;
             }
-            let pose = offset * isometry(&geom.pose);
-            let up = pose.rotation * Vector3::z();
-            let field = match (&geom.type_, &geom.hfield) {
-                (GeomType::Plane, _) if pose.translation.z.abs() <= 1e-9 && up.z >= 1.0 - 1e-9 => None,
-                (GeomType::Hfield, Some(field)) if pose.rotation.angle() <= 1e-9 => {
-                    Some(self.flat.assets.height_field(field, Point3::from(pose.translation.vector))?)
-                }
-                _ => {
-                    let problem = format!(
-                        "it belongs to {body}, which is static, but only a level plane at z = 0, or a height field that \
-                         is not turned, may collide there; a robot's root needs a free joint"
-                    );
-                    return Err(ModelError::unsupported(name, problem));
-                }
-            };
-            if self.floor.is_some() {
+            let floor = Floor::read(index, body, geom, offset, &self.flat)?;
+            if self.floor.replace(floor).is_some() {
                 return Err(ModelError::unsupported(name, "there may be only one floor"));
             }
-            let point = Geometry::Sphere { centre_m: Point3::origin(), radius_m: 0.0 };
-            let rules = ContactRules::read(name, geom.priority, self.flat.geom(name))?;
-            self.floor = Some((geoms::collision_shape(name, geom, point)?, rules, field));
         }
         Ok(())
     }
@@ -135,7 +141,7 @@ impl Reader {
             if compiler.set_total_mass > 0.0 && !(body.geoms.is_empty() && body.inertial.is_none()) {
                 return Err(ModelError::unsupported(&name, "with settotalmass there may be no static body"));
             }
-            return self.read_world(&format!("`{name}`"), &body.geoms, &placement.offset);
+            return self.read_static(index, &format!("`{name}`"), &body.geoms, &placement.offset);
         };
         let first_shape = self.bodies[owner].shapes.len();
         let mut geom_masses = Vec::new();
@@ -251,16 +257,16 @@ impl Reader {
             return Err(ModelError::unsupported(&hinge.name, problem));
         }
         self.compute_masses(source.compiler.set_total_mass)?;
-        let (floor, floor_rules, height_field) = match self.floor.take() {
+        let floor = match self.floor.take() {
             Some(floor) => floor,
             None => {
                 self.simplifications
                     .push("no floor in the file: a level plane at z = 0 with friction 1 is added".to_owned());
-                added_floor()?
+                Floor::added()?
             }
         };
-        let exclusions = self.read_exclusions(source)?;
-        let ground = Party { shape: &floor, rules: &floor_rules, origin: None };
+        let exclusions = Self::read_exclusions(source)?;
+        let ground = Party { shape: &floor.shape, rules: &floor.rules, origin: floor.body };
         let contacts = pairs::Source {
             bodies: &self.bodies,
             rules: &self.rules,
@@ -290,16 +296,7 @@ impl Reader {
             solver: self.flat.solver,
             robot: None,
             simplifications: self.simplifications,
-            ground: Ground {
-                friction: floor.friction,
-                has_friction: floor.has_friction,
-                margin_m: floor.margin_m,
-                softness: floor_rules.softness(),
-                contype: floor.contype,
-                conaffinity: floor.conaffinity,
-                name: floor.name,
-                height_field: height_field.map(Arc::new),
-            },
+            ground: floor.into_ground(),
         };
         motors::resolve_damping_ratios(&mut model)?;
         model.keyframes = keyframes::read(&model, &self.flat.keys)?;
@@ -337,11 +334,10 @@ impl Reader {
     }
 
     /// Returns pairs of MJCF bodies that never touch.
-    fn read_exclusions(&self, source: &mjcf_rs::Model) -> Result<Vec<collision::Exclusion>, ModelError> {
+    fn read_exclusions(source: &mjcf_rs::Model) -> Result<Vec<collision::Exclusion>, ModelError> {
         let find = |exclusion: &str, name: &str| match source.body_id_by_name(name) {
-            // A static body counts as the world.
-            Some(index) => Ok(self.placements[index].body.map(|_| index)),
-            None if name == "world" => Ok(None),
+            Some(index) => Ok(index),
+            None if name == "world" => Ok(0),
             None => Err(ModelError::unsupported(exclusion, format!("there is no body `{name}`"))),
         };
         let excludes = source.contact.excludes.iter();
@@ -352,20 +348,6 @@ impl Reader {
             })
             .collect()
     }
-}
-
-/// Returns the floor of a text without one, with MuJoCo's defaults.
-fn added_floor() -> Result<(Shape, ContactRules, Option<HeightField>), ModelError> {
-    let floor = Shape {
-        name: "floor".to_owned(),
-        geometry: Geometry::Sphere { centre_m: Point3::origin(), radius_m: 0.0 },
-        friction: 1.0,
-        has_friction: true,
-        margin_m: 0.0,
-        contype: 1,
-        conaffinity: 1,
-    };
-    Ok((floor, ContactRules::read("floor", 0, &[])?, None))
 }
 
 /// Returns the link of one MJCF body; `parts` are the parts of its mass.

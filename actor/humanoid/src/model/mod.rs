@@ -9,6 +9,7 @@ mod defaults;
 mod embed;
 mod file;
 mod flatten;
+mod floor;
 mod generated_ground;
 mod geometry;
 mod geoms;

@@ -189,6 +189,10 @@ impl Model {
             let [constant, per_length, per_velocity] = motor.bias;
             let force = motor.gain * f64::from(control).clamp(motor.control[0], motor.control[1]) + constant;
             let limits = sorted(motor.gear_nm * motor.force[0], motor.gear_nm * motor.force[1]);
+            if motor.gear_nm == 0.0 {
+                // Infinite limits times 0 are no limits.
+                continue;
+            }
             if per_length == 0.0 && per_velocity == 0.0 {
                 drive.torque_nm += (motor.gear_nm * force).clamp(limits[0], limits[1]);
             } else {

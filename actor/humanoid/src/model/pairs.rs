@@ -65,12 +65,12 @@ impl ContactRules {
     }
 }
 
-/// Shape with its contact parameters and the index of its MJCF body; `None` is the world.
+/// Shape with its contact parameters and the index of its MJCF body; 0 is the world.
 #[derive(Clone, Copy)]
 pub(super) struct Party<'a> {
     pub(super) shape: &'a Shape,
     pub(super) rules: &'a ContactRules,
-    pub(super) origin: Option<usize>,
+    pub(super) origin: usize,
 }
 
 /// Everything that decides which shapes touch.
@@ -123,7 +123,7 @@ impl<'a> Source<'a> {
     fn party(&self, index: Option<ShapeIndex>) -> Party<'a> {
         let Some(ShapeIndex { body, shape }) = index else { return self.ground };
         let (rules, origin) = &self.rules[body][shape];
-        Party { shape: &self.bodies[body].shapes[shape], rules, origin: Some(*origin) }
+        Party { shape: &self.bodies[body].shapes[shape], rules, origin: *origin }
     }
 
     fn may_touch(&self, first: ShapeIndex, second: Option<ShapeIndex>, excluded: &BTreeSet<Exclusion>) -> bool {

@@ -129,3 +129,19 @@ fn impossible_pairs_are_refused_by_name() {
     let walled = changed(&changed(TOUCH, "<worldbody>", wall), "geom2=\"floor\"", "geom2=\"wall\"");
     assert!(problem(&walled).contains("`wall`") && problem(&walled).contains("static"));
 }
+
+#[test]
+fn an_exclusion_holds_for_its_own_static_body_alone() {
+    let touches_floor = |excluded: &str, floor_is_in: &str| {
+        let floor = "<geom type=\"plane\" size=\"1 1 1\"/>";
+        let [of_world, of_table] = if floor_is_in == "world" { [floor, ""] } else { ["", floor] };
+        let model = Model::from_mjcf(&format!(
+            r#"<mujoco><worldbody>{of_world}<body name="table">{of_table}</body><body name="base"><freejoint/>
+               <geom size="0.1"/><body><joint name="j"/><geom size="0.1"/></body></body></worldbody>
+               <contact><exclude body1="{excluded}" body2="base"/></contact><actuator><motor joint="j"/></actuator></mujoco>"#
+        ));
+        model.expect("valid").pairs.iter().filter(|pair| pair.second.is_none()).count() == 2
+    };
+    assert!(touches_floor("table", "world") && touches_floor("world", "table"));
+    assert!(!touches_floor("world", "world") && !touches_floor("table", "table"));
+}

@@ -11,8 +11,14 @@ const BOX: &str = "type=\"box\" size=\"0.12 0.09 0.06\"";
 const LYING: &str = "type=\"cylinder\" fromto=\"0 -0.1 0 0 0.1 0\" size=\"0.09\"";
 const UPRIGHT: &str = "type=\"cylinder\" size=\"0.1 0.07\"";
 const HULL: &str = "type=\"mesh\" mesh=\"rock\"";
-const ROCK: &str = r#"<mesh name="rock" vertex="0.12 0.1 -0.06  -0.12 0.1 -0.06  -0.12 -0.1 -0.06  0.12 -0.1 -0.06
-    0.06 0.05 0.08  -0.06 0.05 0.08  -0.06 -0.05 0.08  0.06 -0.05 0.08"/>"#;
+const SOLE: &str = "type=\"mesh\" mesh=\"sole\"";
+/// A block that tapers upwards, and a prism over a regular octagon.
+const MESHES: &str = r#"<mesh name="rock" vertex="0.12 0.1 -0.06  -0.12 0.1 -0.06  -0.12 -0.1 -0.06  0.12 -0.1 -0.06
+    0.06 0.05 0.08  -0.06 0.05 0.08  -0.06 -0.05 0.08  0.06 -0.05 0.08"/>
+    <mesh name="sole" vertex="0.1109 0.0459 -0.04  0.0459 0.1109 -0.04  -0.0459 0.1109 -0.04  -0.1109 0.0459 -0.04
+    -0.1109 -0.0459 -0.04  -0.0459 -0.1109 -0.04  0.0459 -0.1109 -0.04  0.1109 -0.0459 -0.04
+    0.1109 0.0459 0.04  0.0459 0.1109 0.04  -0.0459 0.1109 0.04  -0.1109 0.0459 0.04
+    -0.1109 -0.0459 0.04  -0.0459 -0.1109 0.04  0.0459 -0.1109 0.04  0.1109 -0.0459 0.04"/>"#;
 
 /// Body of 2 kg above a field of 17 × 17 heights on 4 m × 4 m: `top_m` times the shape.
 fn above(shape: &str, place: [f64; 3], top_m: f64, height: impl Fn(f64, f64) -> f64) -> Physics {
@@ -23,7 +29,7 @@ fn above(shape: &str, place: [f64; 3], top_m: f64, height: impl Fn(f64, f64) -> 
     }
     let [x, y, z] = place;
     simulation(&format!(
-        r#"<mujoco><asset><hfield name="h" nrow="17" ncol="17" size="2 2 {top_m} 0.1" elevation="{elevation}"/>{ROCK}</asset>
+        r#"<mujoco><asset><hfield name="h" nrow="17" ncol="17" size="2 2 {top_m} 0.1" elevation="{elevation}"/>{MESHES}</asset>
            <worldbody><geom type="hfield" hfield="h" friction="1"/><body pos="{x} {y} {z}"><freejoint/>
            <geom {shape} mass="2"/>{SPARE_HINGE}</body></worldbody>{SPARE_MOTOR}</mujoco>"#
     ))
@@ -135,14 +141,15 @@ fn a_flat_field_equals_the_plane() {
     let humanoid = Model::from_mjcf(HUMANOID_XML).expect("valid");
     let pebble = |shape: &str| {
         Model::from_mjcf(&format!(
-            r#"<mujoco><asset>{ROCK}</asset><worldbody><geom type="plane" size="1 1 1"/><body pos="0.1 0.2 0.2"><freejoint/>
+            r#"<mujoco><asset>{MESHES}</asset><worldbody><geom type="plane" size="1 1 1"/><body pos="0.1 0.2 0.2"><freejoint/>
                <geom {shape} mass="2"/>{SPARE_HINGE}</body></worldbody>{SPARE_MOTOR}</mujoco>"#
         ))
         .expect("valid")
     };
     // Rapier computes in single precision, and a lying cylinder slowly rolls away.
     let tolerance = |shape| if shape == LYING { 0.03 } else { 2e-3 };
-    let bodies = [SPHERE, CAPSULE, BOX, LYING, UPRIGHT, HULL].map(|shape| (shape, pebble(shape), 40, tolerance(shape)));
+    let bodies =
+        [SPHERE, CAPSULE, BOX, LYING, UPRIGHT, HULL, SOLE].map(|shape| (shape, pebble(shape), 40, tolerance(shape)));
     for (name, model, steps, tolerance) in bodies.into_iter().chain([("humanoid", humanoid, 25, 5e-3)]) {
         let mut plane = Physics::new(model.clone(), &treadmill_humanoid::EnvironmentConfig::default()).expect("valid");
         let mut field_model = model;

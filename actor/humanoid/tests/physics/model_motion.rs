@@ -242,6 +242,26 @@ fn randomised_floor_friction_also_scales_the_shapes() {
 }
 
 #[test]
+fn a_floor_without_friction_and_motors_without_strength_are_simulated() {
+    let mut slippery = sliding_box("friction=\"0.8\"", "friction=\"0.8\"");
+    let mut variation = Variation::none(slippery.model());
+    variation.floor_friction_scale = 0.0;
+    slippery.set_variation(&variation);
+    let left = speed_left(slippery);
+    assert!((left - 2.0).abs() < 0.01, "{left} m/s");
+    for motor in ["<motor joint=\"j\" gear=\"5\"/>", "<position joint=\"j\" kp=\"50\" ctrlrange=\"-1 1\"/>"] {
+        let mut weak =
+            Physics::new(driven(motor, "").physics().model().clone(), &EnvironmentConfig::default()).expect("valid");
+        variation = Variation::none(weak.model());
+        variation.motor_scale[0] = 0.0;
+        weak.set_variation(&variation);
+        weak.set_state(&weak.model().nominal_position(), &[0.0; 7]);
+        weak.step_only(&[1.0]).expect("finite");
+        assert_eq!(weak.joint_torques_nm()[0], 0.0, "{motor}");
+    }
+}
+
+#[test]
 fn a_servo_reaches_and_keeps_its_target() {
     let mut environment = driven("<position joint=\"j\" kp=\"30\" kv=\"3\" ctrlrange=\"-1 1\"/>", "");
     let mut observation = vec![0.0; environment.observation_size()];

@@ -14,6 +14,8 @@ use crate::lanes::{Lanes, Mask, Vec3};
 
 /// Edges of a friction pyramid.
 pub(super) const EDGES: usize = 4;
+/// Least friction of a pyramid, as MuJoCo's `mjMINMU`: the edges of a flat one would be infinitely stiff.
+const FRICTION_MIN: f64 = 1e-5;
 
 /// Contact of a step.
 #[derive(Clone, Copy, Debug)]
@@ -128,7 +130,8 @@ impl<S: Simd> ContactConstraint<S> {
         rows.push(structure, posture, whitening, pair, &contact.point_m, &frame);
         let zero = contact.gap_m.constant(0.0);
         let edges = if pair.friction > 0.0 { EDGES } else { 1 };
-        let friction = friction_scale * pair.friction;
+        let least = if edges == 1 { 0.0 } else { FRICTION_MIN };
+        let friction = (friction_scale * pair.friction).max(zero.constant(least));
         let violation = contact.gap_m - pair.margin_m;
         let active = violation.less_than(zero);
         // MuJoCo's approximate response of an edge, and its softness for pyramids ("diagApprox", "makeImpedance").

@@ -1,0 +1,84 @@
+//! The floor: the only static geom that may collide.
+
+use std::sync::Arc;
+
+use mjcf_rs::body::{Geom, GeomType};
+use nalgebra::{Isometry3, Point3, Vector3};
+
+use super::flatten::Flat;
+use super::mjcf::isometry;
+use super::pairs::ContactRules;
+use super::{Geometry, Ground, HeightField, Shape, geoms};
+use crate::error::ModelError;
+
+/// Level plane or height field.
+pub(super) struct Floor {
+    pub(super) shape: Shape,
+    pub(super) rules: ContactRules,
+    height_field: Option<HeightField>,
+    /// Index of its MJCF body; 0 is the world.
+    pub(super) body: usize,
+}
+
+impl Floor {
+    /// Reads a colliding geom of static MJCF body number `body`, whose label is `label` and whose frame is at `offset`.
+    pub(super) fn read(
+        body: usize,
+        label: &str,
+        geom: &Geom,
+        offset: &Isometry3<f64>,
+        flat: &Flat,
+    ) -> Result<Self, ModelError> {
+        let name = geom.name.as_deref().unwrap_or("geom");
+        let pose = offset * isometry(&geom.pose);
+        let up = pose.rotation * Vector3::z();
+        let height_field = match (&geom.type_, &geom.hfield) {
+            (GeomType::Plane, _) if pose.translation.z.abs() <= 1e-9 && up.z >= 1.0 - 1e-9 => None,
+            (GeomType::Hfield, Some(field)) if pose.rotation.angle() <= 1e-9 => {
+                Some(flat.assets.height_field(field, Point3::from(pose.translation.vector))?)
+            }
+            _ => {
+                let problem = format!(
+                    "it belongs to {label}, which is static, but only a level plane at z = 0, or a height field that is \
+                     not turned, may collide there; a robot's root needs a free joint"
+                );
+                return Err(ModelError::unsupported(name, problem));
+            }
+        };
+        let rules = ContactRules::read(name, geom.priority, flat.geom(name))?;
+        Ok(Self { shape: geoms::collision_shape(name, geom, point())?, rules, height_field, body })
+    }
+
+    /// Returns the floor of a text without one, with MuJoCo's defaults.
+    pub(super) fn added() -> Result<Self, ModelError> {
+        let shape = Shape {
+            name: "floor".to_owned(),
+            geometry: point(),
+            friction: 1.0,
+            has_friction: true,
+            margin_m: 0.0,
+            contype: 1,
+            conaffinity: 1,
+        };
+        Ok(Self { shape, rules: ContactRules::read("floor", 0, &[])?, height_field: None, body: 0 })
+    }
+
+    pub(super) fn into_ground(self) -> Ground {
+        let Self { shape, rules, height_field, .. } = self;
+        Ground {
+            friction: shape.friction,
+            has_friction: shape.has_friction,
+            margin_m: shape.margin_m,
+            softness: rules.softness(),
+            contype: shape.contype,
+            conaffinity: shape.conaffinity,
+            name: shape.name,
+            height_field: height_field.map(Arc::new),
+        }
+    }
+}
+
+/// Returns a stand-in: pairs with the floor use its plane or heights.
+fn point() -> Geometry {
+    Geometry::Sphere { centre_m: Point3::origin(), radius_m: 0.0 }
+}
