@@ -1,12 +1,14 @@
 //! `treadmill router`: forwards messages at a site with many machines, and hands out policies to the actors behind it.
 
+use std::time::Duration;
+
 use clap::Args;
-use treadmill_bus::{Bus, PolicyCache, Role};
+use treadmill_bus::{PolicyCache, Role, SilentLearner};
 use treadmill_runtime::shutdown::Shutdown;
 
 use crate::{
     diagnosis::certificates,
-    launch::{async_runtime, output::say, signals},
+    launch::{async_runtime, output::say, router_session, signals},
     shared::network_args::NetworkArgs,
 };
 
@@ -23,6 +25,9 @@ pub struct RouterArgs {
     network: NetworkArgs,
 }
 
+/// Silence of a learner that is there after which the session is opened anew; doubled after each session without any answer.
+const PATIENCE: Duration = Duration::from_secs(15);
+const PATIENCE_MAX: Duration = Duration::from_secs(240);
 /// Forwards messages until the process is asked to stop.
 pub fn run(args: RouterArgs) -> anyhow::Result<()> {
     let options = args.network.options(Role::Router, args.listen, args.connect)?;
@@ -33,16 +38,26 @@ pub fn run(args: RouterArgs) -> anyhow::Result<()> {
     async_runtime::run(async {
         let shutdown = Shutdown::default();
         signals::listen(shutdown.clone(), "")?;
-        let dialled = options.connect.join(", ");
-        let (bus, endpoints) = tokio::task::spawn_blocking(move || Bus::open_router(&options)).await??;
+        let (mut bus, endpoints) = router_session::open(&options).await?;
         say(&format!("listening {}", endpoints.join(", ")));
-        if !dialled.is_empty() {
-            say(&format!("dialling  {dialled}, again after each loss"));
+        if !options.connect.is_empty() {
+            say(&format!("dialling  {}, again after each loss", options.connect.join(", ")));
         }
-        let cache = PolicyCache::open(&bus)?;
-        tokio::select! {
-            () = cache.serve() => {}
-            () = shutdown.wait() => {}
+        let mut patience = PATIENCE;
+        loop {
+            let cache = PolicyCache::open(&bus)?;
+            let silent = tokio::select! {
+                silent = cache.serve(patience) => silent,
+                () = shutdown.wait() => None,
+            };
+            let Some(SilentLearner { run, has_answers }) = silent else { break };
+            // After faults of the network Zenoh may lose the way of questions, though tokens arrive; a new session finds it.
+            tracing::warn!(run, "the learner is there, but its answers do not arrive; opening the session anew");
+            patience = if has_answers { PATIENCE } else { (2 * patience).min(PATIENCE_MAX) };
+            bus = tokio::select! {
+                bus = router_session::reopen(&bus, &options, &endpoints) => bus?,
+                () = shutdown.wait() => break,
+            };
         }
         bus.close();
         Ok(())

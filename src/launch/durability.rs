@@ -109,6 +109,7 @@ impl StoredRun<'_> {
             if !self.goes_on_after(&led) {
                 return led;
             }
+            host.begin_anew().await?;
         }
         loop {
             let Some(loaded) = self.follow(store, host).await? else { return Ok(()) };
@@ -124,6 +125,7 @@ impl StoredRun<'_> {
             if !self.goes_on_after(&led) {
                 return led;
             }
+            host.begin_anew().await?;
         }
     }
 

@@ -24,6 +24,7 @@ use super::{
     metrics_page::MetricsListener,
     model,
     output::say,
+    router_session,
     run_args::AnyRunArgs,
     signals,
     slow_step::SlowStepNotice,
@@ -128,8 +129,7 @@ impl<'a> Host<'a> {
     pub async fn open(options: HostOptions<'a>) -> anyhow::Result<Self> {
         let shutdown = Shutdown::default();
         signals::listen(shutdown.clone(), "stopping after this update; press Ctrl-C again to stop at once")?;
-        let bus_options = options.bus.clone();
-        let (bus, endpoints) = tokio::task::spawn_blocking(move || Bus::open_router(&bus_options)).await??;
+        let (bus, endpoints) = router_session::open(options.bus).await?;
         let (prometheus, heartbeat) = (PrometheusMetrics::default(), Heartbeat::default());
         Ok(Self { options, bus, endpoints, shutdown, prometheus, heartbeat, page: None })
     }
@@ -150,6 +150,18 @@ impl<'a> Host<'a> {
             () = tokio::time::sleep(time) => {}
             () = self.shutdown.wait() => {}
         }
+    }
+
+    /// Makes a learner that was overtaken like a new one: without the metrics of its time, and with a new session. A link that
+    /// another learner gave up, and that this one did not, would carry nothing
+    /// ([eclipse-zenoh/zenoh#2806](https://github.com/eclipse-zenoh/zenoh/issues/2806)).
+    ///
+    /// # Errors
+    /// If an endpoint was taken meanwhile, or the system refuses.
+    pub async fn begin_anew(&mut self) -> anyhow::Result<()> {
+        self.prometheus.clear();
+        self.bus = router_session::reopen(&self.bus, self.options.bus, &self.endpoints).await?;
+        Ok(())
     }
 
     /// Closes the session.

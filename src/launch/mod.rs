@@ -6,7 +6,7 @@
 //!   `external_task` (waits for the task that the first actor registers), `banner` (text printed before and after a run).
 //! - During a run: `host` (a learner with actors beside it), `durability` (a learner whose state is in a store), `standby`
 //!   (waits until it is time to lead), `supervisor` (restarts actor processes), `bus_client` (flags and
-//!   session of an actor or evaluator), `metrics_page` (metrics over HTTP).
+//!   session of an actor or evaluator), `router_session` (session of a learner or router), `metrics_page` (metrics over HTTP).
 //! - The process: `async_runtime`, `familiar_flags` (hints for flags of other programs), `processor` (refuses one that is too
 //!   old), `memory` (allocator settings), [`exit_code`], [`signals`], [`log`], [`output`], [`slow_step`], [`terminal_screen`].
 
@@ -26,6 +26,7 @@ pub(crate) mod model;
 pub mod output;
 pub(crate) mod processor;
 pub(crate) mod resumption;
+pub(crate) mod router_session;
 pub(crate) mod run_args;
 pub mod signals;
 pub mod slow_step;

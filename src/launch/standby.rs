@@ -55,13 +55,21 @@ pub struct Standby {
     ends_with_run: bool,
     /// Whether the run was reported.
     is_known: bool,
+    /// Whether the run was trained since this process follows it.
+    was_trained: bool,
     warnings: StoreWarnings,
 }
 
 impl Standby {
     /// Follows the run in `store`.
     pub fn new(store: &Store, ends_with_run: bool) -> Self {
-        Self { follower: StateFollower::new(store), ends_with_run, is_known: false, warnings: StoreWarnings::default() }
+        Self {
+            follower: StateFollower::new(store),
+            ends_with_run,
+            is_known: false,
+            was_trained: false,
+            warnings: StoreWarnings::default(),
+        }
     }
 
     /// Returns the state that was loaded last.
@@ -93,12 +101,14 @@ impl Standby {
             self.is_known = true;
         }
         if matches!(status, Status::Stopped | Status::Finished) {
-            if !self.ends_with_run {
+            // A run that was stopped before is to go on; one that is stopped now ends for all who follow it.
+            if !self.ends_with_run && !self.was_trained {
                 return Ok(NextMove::Lead);
             }
             say(&format!("run `{run}` has ended at {steps} env steps"));
             return Ok(NextMove::End);
         }
+        self.was_trained |= status == Status::Training;
         let sight = look(host, &run, epoch).await?;
         if !self.follower.is_due(sight, Instant::now()) {
             return Ok(NextMove::Wait);

@@ -90,7 +90,7 @@ impl Prepared {
         let mut fresh = TrainingState::fresh(&self.run, &self.config, "", observation, 0, action, seeds::unique());
         self.origin = self.init_from.as_ref().map(|from| from.copy_to(&mut fresh)).transpose()?;
         self.state = Some(fresh);
-        Ok(fs::write(self.folder.config(), self.config.to_toml())?)
+        Ok(atomic_file::write(&self.folder.config(), self.config.to_toml().as_bytes())?)
     }
 }
 

@@ -4,7 +4,8 @@ use std::{collections::BTreeMap, net::TcpListener, path::Path};
 
 use bytes::Bytes;
 use treadmill_bus::{
-    Bus, BusOptions, FetchedPolicy, PolicyServer, PublishedPolicy, ServedPolicies, fetch_newer_policy, fetch_policy,
+    Alive, Bus, BusOptions, FetchedPolicy, PolicyServer, PublishedPolicy, ServedPolicies, fetch_newer_policy,
+    fetch_policy,
 };
 use treadmill_proto::{PolicyBundle, PolicyRequest, PolicyVersion};
 use treadmill_runtime::seeds;
@@ -211,4 +212,31 @@ fn a_learner_sends_a_version_once_to_the_router_of_eight_actors() {
 #[test]
 fn access_rules_let_a_router_answer_for_the_learner() {
     assert_one_policy_per_version(true);
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn a_router_to_which_a_learners_answers_do_not_come_opens_its_session_anew() {
+    let (folder, _) = folders();
+    let listen = vec!["tcp/127.0.0.1:0".to_string()];
+    let (learner, connect) = Bus::open_router(&BusOptions { listen, ..BusOptions::default() }).unwrap();
+    let _token = Alive::watch(&learner, "run").unwrap();
+    let router_at = free_endpoint();
+    let router = router(folder.path(), &router_at, &connect[0]);
+    let client = tokio::task::spawn_blocking({
+        let options = BusOptions { connect: vec![router_at], ..BusOptions::default() };
+        move || Bus::open_client(&options).unwrap()
+    });
+    let client = client.await.unwrap();
+    let asking = tokio::spawn({
+        let client = client.clone();
+        async move { join_run(&client).await }
+    });
+    let line = tokio::task::spawn_blocking(move || (router.wait_for("opening the session anew"), router));
+    let (line, _router) = line.await.unwrap();
+    assert!(line.contains("run=\"run\""), "{line}");
+    let [_, for_actors] = bundle(1);
+    let _server = PolicyServer::open(&learner, published(1)).unwrap();
+    assert_eq!(asking.await.unwrap(), for_actors, "the client is behind the router again");
+    client.close();
+    learner.close();
 }

@@ -127,6 +127,35 @@ fn a_frozen_leader_steps_down_when_it_thaws() {
 }
 
 #[test]
+fn a_leader_that_was_overtaken_follows_with_a_new_session_and_ends_with_the_run() {
+    let folder = tempfile::tempdir().unwrap();
+    let url = format!("file://{}/store", folder.path().display());
+    let fleet = Fleet::start(&url, folder, |command| {
+        if !command.get_args().any(|flag| flag == "--standby") {
+            command.arg("--resume-or-start");
+        }
+    });
+    fleet.leader.signal(libc::SIGSTOP);
+    fleet.await_takeover();
+    fleet.leader.signal(libc::SIGCONT);
+    fleet.leader.wait_for("following it from now on");
+    // It listens where it listened before, and hears of the new leader by a link of its new session.
+    let endpoint = first_endpoint(&fleet.leader);
+    fleet.leader.wait_for("run `walk` is at");
+    let at = fleet.folder.path();
+    await_that("the status by way of the first", || {
+        run(at, &["status", "--connect", &endpoint, "--run", "walk"]).status.success().then_some(())
+    });
+    let stop = run(at, &["control", "stop", "second"]);
+    assert!(stop.status.success(), "{}", stderr(&stop));
+    for learner in [fleet.standby, fleet.leader] {
+        let (status, lines) = learner.wait();
+        assert!(status.success(), "{lines:#?}");
+    }
+    drop(fleet.actor);
+}
+
+#[test]
 fn a_store_that_fails_pauses_training_until_it_answers() {
     let folder = tempfile::tempdir().unwrap();
     let url = format!("file://{}/store", folder.path().display());

@@ -24,7 +24,7 @@ pub use flows::{
     evaluation::{Assignment, EvaluationServer, ask_for_evaluation},
     observer::{Feed, Message, MetricsFeed, observe},
     policies::{Announcements, PolicyServer, PublishedPolicy, watch_announcements},
-    policy_cache::PolicyCache,
+    policy_cache::{PolicyCache, SilentLearner},
     policy_fetch::{FetchedPolicy, fetch_newer_policy, fetch_policy},
     policy_pieces::ServedPolicies,
     poses::PosePublisher,

@@ -13,6 +13,7 @@ pub(crate) mod presence;
 pub(crate) mod publications;
 pub(crate) mod received;
 pub(crate) mod rollouts;
+mod silences;
 pub(crate) mod stats;
 pub(crate) mod tasks;
 pub(crate) mod watched;

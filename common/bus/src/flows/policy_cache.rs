@@ -20,6 +20,8 @@ use super::{
     policies::declare,
     policy_fetch::{FetchedPolicy, fetch_pieces},
     policy_pieces::{ActorPolicy, PieceReply, PieceServer, ServedPolicies},
+    presence::is_learner_present,
+    silences::{Outcome, Silences},
 };
 use crate::{Bus, BusError, keys};
 
@@ -33,6 +35,8 @@ const QUEUE: usize = 4096;
 const WAITING_MAX: usize = 4096;
 /// Longest wait for the learner.
 const FETCH_TIMEOUT: Duration = Duration::from_secs(10);
+/// Longest wait for the token of a learner that did not answer.
+const TOKEN_TIMEOUT: Duration = Duration::from_secs(1);
 /// Time after which the learner is asked whether a policy is still the newest, as announcements may be lost.
 const FRESH: Duration = Duration::from_secs(5);
 /// Shortest time between two questions about one run, whatever requesters claim to have heard of.
@@ -49,6 +53,15 @@ pub struct PolicyCache {
     pieces: PieceServer,
     _queryable: Queryable<()>,
     _subscriber: Subscriber<()>,
+}
+
+/// Learner that is there, but does not answer.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct SilentLearner {
+    /// Its run.
+    pub run: String,
+    /// Whether any learner has answered on this session.
+    pub has_answers: bool,
 }
 
 enum Event {
@@ -95,10 +108,11 @@ impl PolicyCache {
         self.pieces.served()
     }
 
-    /// Answers requests until it is dropped or the session is closed.
-    pub async fn serve(mut self) {
-        let mut runs = CachedRuns::default();
-        let mut fetches: JoinSet<(String, Option<FetchedPolicy>)> = JoinSet::new();
+    /// Answers requests until a learner that is there has been silent for as long as `patience`; `None` after the session is
+    /// closed.
+    pub async fn serve(mut self, patience: Duration) -> Option<SilentLearner> {
+        let (mut runs, mut silences) = (CachedRuns::default(), Silences::default());
+        let mut fetches: JoinSet<(String, Option<FetchedPolicy>, Outcome)> = JoinSet::new();
         loop {
             let steps = tokio::select! {
                 Some(event) = self.events.recv() => {
@@ -113,8 +127,13 @@ impl PolicyCache {
                         Event::Announced(run, announcement) => runs.announce(&run, announcement, Instant::now()),
                     }
                 }
-                Some(Ok((run, fetched))) = fetches.join_next() => runs.fetched(&run, fetched, Instant::now()),
-                else => return,
+                Some(Ok((run, fetched, outcome))) = fetches.join_next() => {
+                    if silences.record(&run, outcome, Instant::now()) >= patience {
+                        return Some(SilentLearner { run, has_answers: silences.has_answers });
+                    }
+                    runs.fetched(&run, fetched, Instant::now())
+                }
+                else => return None,
             };
             for (reply, policy) in steps.answers {
                 self.pieces.send(reply, policy);
@@ -128,7 +147,12 @@ impl PolicyCache {
                         tracing::warn!(run, %error, "policy not fetched");
                         None
                     });
-                    (run, fetched)
+                    let outcome = match fetched {
+                        Some(_) => Outcome::Answered,
+                        None if is_learner_present(&bus, &run, TOKEN_TIMEOUT).await.unwrap_or(false) => Outcome::Silent,
+                        None => Outcome::Absent,
+                    };
+                    (run, fetched, outcome)
                 });
             }
         }

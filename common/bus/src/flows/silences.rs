@@ -1,0 +1,81 @@
+//! Runs whose learners are there, by their tokens, but answer none of a router's questions.
+
+use std::{
+    collections::BTreeMap,
+    time::{Duration, Instant},
+};
+
+/// Runs that are counted at the same time.
+const RUNS_MAX: usize = 16;
+/// Least number of questions that say anything: the second one may come long after the first.
+const QUESTIONS_MIN: u32 = 3;
+
+/// How a question to a learner ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Outcome {
+    Answered,
+    /// No answer came in time, though the learner holds its token.
+    Silent,
+    /// No answer came, and there is no learner.
+    Absent,
+}
+
+/// Silence of the learners.
+#[derive(Debug, Default)]
+pub(super) struct Silences {
+    /// For each run, the questions in a row without an answer, and when the first of them ended.
+    unanswered: BTreeMap<String, (u32, Instant)>,
+    /// Whether any learner has answered.
+    pub(super) has_answers: bool,
+}
+
+impl Silences {
+    /// Records a question. Returns for how long a learner that is there has been silent; zero before the third question.
+    pub(super) fn record(&mut self, run: &str, outcome: Outcome, now: Instant) -> Duration {
+        self.has_answers |= outcome == Outcome::Answered;
+        if outcome != Outcome::Silent {
+            self.unanswered.remove(run);
+            return Duration::ZERO;
+        }
+        if self.unanswered.len() >= RUNS_MAX && !self.unanswered.contains_key(run) {
+            return Duration::ZERO;
+        }
+        let (count, since) = self.unanswered.entry(run.to_string()).or_insert((0, now));
+        *count += 1;
+        if *count < QUESTIONS_MIN { Duration::ZERO } else { now.duration_since(*since) }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn only_questions_in_a_row_to_a_learner_that_is_there_count() {
+        let (mut silences, begin) = (Silences::default(), Instant::now());
+        let mut record = |run: &str, outcome, second| {
+            let silence = silences.record(run, outcome, begin + Duration::from_secs(second));
+            (silence.as_secs(), silences.has_answers, silences.unanswered.len())
+        };
+        for (second, outcome, silence, has_answers) in [
+            (0, Outcome::Silent, 0, false),
+            // The next question may come late.
+            (100, Outcome::Silent, 0, false),
+            (101, Outcome::Silent, 101, false),
+            (102, Outcome::Absent, 0, false),
+            (103, Outcome::Silent, 0, false),
+            (108, Outcome::Answered, 0, true),
+            (110, Outcome::Silent, 0, true),
+            (115, Outcome::Silent, 0, true),
+            (120, Outcome::Silent, 10, true),
+        ] {
+            let found = record("walk", outcome, second);
+            assert_eq!((found.0, found.1), (silence, has_answers), "after {second} s");
+        }
+        assert_eq!(record("run", Outcome::Silent, 200).0, 0, "each run counts alone");
+        for run in 0..100 {
+            record(&run.to_string(), Outcome::Silent, 200);
+        }
+        assert_eq!(record("walk", Outcome::Silent, 121), (11, true, RUNS_MAX));
+    }
+}
