@@ -14,7 +14,7 @@ preset=${TREADMILL_PRESET:-walk}
 set -- learner --preset "$preset" --run-dir "/runs/${TREADMILL_RUN:-$preset}" --resume-or-start "$@"
 [ -z "${TREADMILL_STORE:-}" ] || set -- "$@" --store "$TREADMILL_STORE"
 # Compose passes unset variables as empty ones, which the client of the store would take for values.
-for name in AWS_ENDPOINT AWS_ALLOW_HTTP AWS_REGION AWS_ACCESS_KEY_ID AWS_SECRET_ACCESS_KEY; do
+for name in AWS_ENDPOINT AWS_ALLOW_HTTP AWS_REGION AWS_ACCESS_KEY_ID AWS_SECRET_ACCESS_KEY AWS_SESSION_TOKEN; do
     eval "[ -n \"\${$name:-}\" ] || unset $name"
 done
 [ -z "${TREADMILL_STEPS:-}" ] || set -- "$@" --steps "$TREADMILL_STEPS"

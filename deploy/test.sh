@@ -41,7 +41,7 @@ cleanup() {
         compose logs --no-color --tail 5 | cut -c1-300
     fi >&2
     [ -z "$scraper" ] || kill "$scraper"
-    [ -z "${composer:-}" ] || compose down -v --remove-orphans -t 1 >/dev/null 2>&1
+    [ -z "${composer:-}" ] || compose --profile store down -v --remove-orphans -t 1 >/dev/null 2>&1
     if [ -n "$engine" ]; then
         kill "$engine"
         wait "$engine"
@@ -270,7 +270,7 @@ say "stopped, saved at $saved steps, every container exited with 0; resumed"
 # --- a lost learner --------------------------------------------------------------------------------------------------------
 weed=$(dirname "$(command -v "$python")")/weed
 if [ -x "$weed" ]; then
-    compose down -v --remove-orphans -t 1 >/dev/null 2>&1
+    compose --profile store down -v --remove-orphans -t 1 >/dev/null 2>&1
     # The engine reaches no package registry, so the server comes from this machine.
     mkdir "$work/s3"
     cp "$weed" "$here/s3/serve.sh" "$work/s3"

@@ -4,7 +4,7 @@
 #   measure.sh PRESET MODEL STEPS SEED FOLDER
 #
 # PRESET is g1, g1-rough (measured on its hardest ground), g1-29, h1 or t1; MODEL the robot's stock MJCF file. A run in FOLDER
-# that has begun is resumed.
+# that has begun is resumed; one that is finished is only measured.
 #
 # TREADMILL   the program; by default target/release/treadmill
 # PYTHON      Python with mujoco and onnxruntime, and python/ of this repository installed; by default python3
@@ -21,12 +21,8 @@ if [ "$preset" = g1-rough ]; then
     ground=(--ground "$folder/ground.json")
 fi
 
-if [ -e "$folder/config.toml" ]; then
-    "$treadmill" train --resume "$folder" --steps "$steps" --json --no-progress
-else
-    "$treadmill" train --preset "$preset" --model "$model" --steps "$steps" --seed "$seed" --run-dir "$folder" \
-        --json --no-progress
-fi
+"$treadmill" train --preset "$preset" --model "$model" --steps "$steps" --seed "$seed" --run-dir "$folder" --resume-or-start \
+    --json --no-progress
 "$treadmill" eval "$folder" --checkpoint latest --episodes 100 "${settings[@]}" --json
 "$treadmill" export "$folder" --checkpoint latest --onnx "$folder/policy.onnx" --safetensors "$folder/policy.safetensors" "${ground[@]}"
 "$python" -m treadmill_transfer "$folder/policy.onnx" --model "$model" --episodes 100 "${ground[@]}" --json
