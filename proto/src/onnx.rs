@@ -1,10 +1,11 @@
 //! Policy as an ONNX model: its input is raw observations, its output actions between a lowest and a highest one.
 //!
 //! ```text
-//! observation ─ Sub mean ─ Mul 1/std ─ Clip ─ (Gemm ─ Elu)… ─ Gemm ─ Clip ±1 ─ Mul half ─ Add centre ─ action
+//! input ─ Sub mean ─ Mul 1/std ─ Clip ─ (Gemm ─ Elu)… ─ Gemm ─ Clip ±1 ─ Mul half ─ Add centre ─ output
 //! ```
 //!
-//! Operators are those of operator set 13, which current runtimes support. Input and output are `[batch, width]`.
+//! Operators are those of operator set 13, which current runtimes support. Input and output are `[batch, width]`, see
+//! [`Ports`].
 
 use prost::Message;
 
@@ -24,6 +25,24 @@ pub struct Layer<'a> {
     pub bias: &'a [f32],
 }
 
+/// Input and output of a model.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Ports {
+    /// Name of the input.
+    pub input: &'static str,
+    /// Name of the output.
+    pub output: &'static str,
+    /// Rows of both; `None` for any number.
+    pub batch: Option<i64>,
+}
+
+impl Ports {
+    /// Names of this project, for batches of any size.
+    pub const ANY_BATCH: Self = Self { input: "observation", output: "action", batch: None };
+    /// What the controllers of Unitree's `unitree_rl_lab` ask for.
+    pub const UNITREE: Self = Self { input: "obs", output: "actions", batch: Some(1) };
+}
+
 /// Policy to encode as a model.
 #[derive(Clone, Debug)]
 pub struct OnnxPolicy<'a> {
@@ -39,6 +58,8 @@ pub struct OnnxPolicy<'a> {
     pub low: &'a [f32],
     /// `[action]`: action at policy output 1.
     pub high: &'a [f32],
+    /// Input and output.
+    pub ports: Ports,
     /// What the model turns into what, for readers.
     pub doc: &'a str,
     /// Names and values of the model's metadata.
@@ -52,7 +73,8 @@ impl OnnxPolicy<'_> {
         let mut graph = Graph::default();
         graph.constant("observation_mean", &[self.mean.len()], self.mean);
         graph.constant("observation_inverse_std", &[self.inverse_std.len()], self.inverse_std);
-        let x = graph.node("Sub", &["observation", "observation_mean"], "centred", &[]);
+        let Ports { input, output, batch } = self.ports;
+        let x = graph.node("Sub", &[input, "observation_mean"], "centred", &[]);
         let x = graph.node("Mul", &[&x, "observation_inverse_std"], "scaled", &[]);
         let mut x = graph.clip(&x, "normalised", -self.clip, self.clip);
         for (number, Layer { weight, bias }) in self.layers.iter().enumerate() {
@@ -78,7 +100,7 @@ impl OnnxPolicy<'_> {
         graph.constant("action_half", &[half.len()], &half);
         graph.constant("action_centre", &[centre.len()], &centre);
         let x = graph.node("Mul", &[&x, "action_half"], "stretched", &[]);
-        graph.node("Add", &[&x, "action_centre"], "action", &[]);
+        graph.node("Add", &[&x, "action_centre"], output, &[]);
         let model = wire::ModelProto {
             ir_version: IR_VERSION,
             producer_name: "treadmill".to_string(),
@@ -89,8 +111,8 @@ impl OnnxPolicy<'_> {
                 node: graph.nodes,
                 name: "policy".to_string(),
                 initializer: graph.constants,
-                input: vec![port("observation", self.mean.len())],
-                output: vec![port("action", self.low.len())],
+                input: vec![port(input, batch, self.mean.len())],
+                output: vec![port(output, batch, self.low.len())],
             }),
             metadata_props: self
                 .metadata
@@ -139,9 +161,10 @@ impl Graph {
 }
 
 /// Returns an input or output of shape `[batch, width]`.
-fn port(name: &str, width: usize) -> wire::ValueInfoProto {
+fn port(name: &str, batch: Option<i64>, width: usize) -> wire::ValueInfoProto {
     use wire::tensor_shape_proto::{Dimension, dimension::Value};
-    let dim = [Value::DimParam("batch".to_string()), Value::DimValue(width as i64)];
+    let batch = batch.map_or_else(|| Value::DimParam("batch".to_string()), Value::DimValue);
+    let dim = [batch, Value::DimValue(width as i64)];
     let shape = wire::TensorShapeProto { dim: dim.map(|value| Dimension { value: Some(value) }).to_vec() };
     let tensor = wire::type_proto::Tensor { elem_type: FLOAT32, shape: Some(shape) };
     wire::ValueInfoProto {

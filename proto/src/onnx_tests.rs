@@ -48,6 +48,7 @@ fn actions_match_a_hand_computation() {
         ],
         low: &[-0.2],
         high: &[0.6],
+        ports: Ports::ANY_BATCH,
         doc: "c",
         metadata: vec![("treadmill.a".into(), "b".into())],
     };
@@ -65,4 +66,10 @@ fn actions_match_a_hand_computation() {
     use wire::tensor_shape_proto::dimension::Value;
     assert_eq!(dims[0].value, Some(Value::DimParam("batch".into())));
     assert_eq!(dims[1].value, Some(Value::DimValue(2)));
+    let fixed = OnnxPolicy { ports: Ports::UNITREE, ..policy }.encode();
+    assert_eq!(run(&fixed, &[100.0, -100.0]), [0.6]);
+    let graph = wire::ModelProto::decode(&fixed[..]).unwrap().graph.unwrap();
+    assert_eq!([&graph.input[0].name, &graph.output[0].name], ["obs", "actions"]);
+    let dims = &graph.input[0].r#type.clone().unwrap().tensor_type.unwrap().shape.unwrap().dim;
+    assert_eq!(dims[0].value, Some(Value::DimValue(1)));
 }

@@ -1,6 +1,7 @@
 """Tests of the forwarder with recording sinks."""
 
 import itertools
+import json
 import queue
 import sys
 import tempfile
@@ -10,6 +11,7 @@ from pathlib import Path
 from unittest import mock
 
 from treadmill_actor import forward
+from treadmill_actor.bus import read_metric
 
 
 def metric(run, tag, step, value=1.0):
@@ -45,6 +47,13 @@ class ForwardTest(unittest.TestCase):
         self.assertEqual(sinks["a"].logged, [("x", 1, 1.0), ("y", 2, 1.0)])
         self.assertEqual(sinks["b"].logged, [("x", 1, 2.0)])
         self.assertEqual((sinks["a"].video, sinks["b"].video), ("film.gif", "film.gif"))
+
+    def test_what_is_no_metric_is_dropped(self):
+        _, whole = metric("a", "x", 1)
+        self.assertEqual(read_metric(json.dumps(whole).encode()), whole)
+        wrong = [whole | {"step": None}, whole | {"tag": 3}, whole | {"value": True}, {}, [], 7, "run"]
+        for data in [b"", b"\xff", b"[" * 100_000, *(json.dumps(found).encode() for found in wrong)]:
+            self.assertIsNone(read_metric(data), data[:80])
 
     def test_restarted_learner_does_not_end_its_run(self):
         batches = [[metric("a", "x", 1), ("gone", "a")], [("begun", "a")], [], [metric("a", "x", 2)], [("gone", "a")], []]

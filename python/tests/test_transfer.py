@@ -7,6 +7,7 @@ import math
 import tempfile
 import unittest
 from pathlib import Path
+from unittest import mock
 
 import numpy
 
@@ -18,7 +19,7 @@ except ImportError as why:
     raise unittest.SkipTest(f"{why.name} is not installed") from why
 
 from treadmill_transfer import cli, errors
-from treadmill_transfer.commands import DrawnCommands, FileCommands, Pushes
+from treadmill_transfer.commands import DrawnCommands, FileCommands, Pushes, read_commands
 from treadmill_transfer.contract import Policy, read_contract
 from treadmill_transfer.controller import Controller, height_scan, phase
 from treadmill_transfer.ground import Ground
@@ -262,6 +263,27 @@ class TransferTest(unittest.TestCase):
         found = [rows.at(step, 0.0) for step in range(12)]
         self.assertEqual([step for step, (_, is_new) in enumerate(found) if is_new], [0, 5])
         self.assertEqual([command[0] for command, _ in found], [0.0] * 5 + [1.0] * 7)
+
+    def test_a_file_of_commands_may_have_comments(self):
+        path = self.folder / "commands.csv"
+        path.write_text("\ufefftime_s,vx,vy,yaw_rate\n# first\n0,1,0,0  # forwards\n\n2.5, 0,0,-0.5\n", encoding="utf-8")
+        rows = [(time_s, list(command)) for time_s, command in read_commands(path)]
+        self.assertEqual(rows, [(0.0, [1.0, 0.0, 0.0]), (2.5, [0.0, 0.0, -0.5])])
+
+    def test_a_state_that_diverges_is_a_fall(self):
+        policy = Policy(self.onnx)
+        robot, controller = Robot(self.model, policy.contract), Controller(policy)
+
+        def throw(velocity_mps):
+            robot.data.qvel[0] = 1e12
+
+        # Without it MuJoCo writes a log into the present folder.
+        mujoco.set_mju_user_warning(lambda _: None)
+        self.addCleanup(mujoco.set_mju_user_warning, None)
+        with mock.patch.object(robot, "push", throw):
+            episode = play_episode(robot, controller, 150, 1, 0)
+        self.assertTrue(episode.fell)
+        self.assertLess(episode.steps, 150)
 
     def test_an_episode_is_played_and_ends_with_a_fall(self):
         policy = Policy(self.onnx)

@@ -69,6 +69,17 @@ def configuration(connect, tls=None, role="actor"):
     return config
 
 
+def read_metric(data):
+    """Returns a metric, or None if the message is not one: on an open bus anybody may send."""
+    try:
+        metric = json.loads(data)
+        texts, numbers = [metric[key] for key in ("run", "tag")], [metric[key] for key in ("step", "value", "time_unix_s")]
+    except (ValueError, TypeError, LookupError, RecursionError):
+        return None
+    is_number = [isinstance(number, (int, float)) and not isinstance(number, bool) for number in numbers]
+    return metric if all(is_number) and all(isinstance(text, str) for text in texts) else None
+
+
 def observe(connect, tls, run, events):
     """Opens a session that puts ("metric", metric), ("begun", run) and ("gone", run) into an unbounded queue.
 
@@ -80,8 +91,9 @@ def observe(connect, tls, run, events):
     session = zenoh.open(configuration(connect, tls, "observer"))
 
     def receive_metric(sample):
-        if events.qsize() < QUEUED_METRICS_MAX:
-            events.put(("metric", json.loads(sample.payload.to_string())))
+        metric = read_metric(sample.payload.to_bytes())
+        if metric is not None and events.qsize() < QUEUED_METRICS_MAX:
+            events.put(("metric", metric))
 
     def receive_token(sample):
         name = str(sample.key_expr).split("/")[1]

@@ -58,8 +58,9 @@ class FileCommands:
 def read_commands(path):
     """Returns the rows of a CSV file with the lines time_s,vx,vy,yaw_rate; a line of names may come first."""
     try:
-        with open(path, encoding="utf-8", newline="") as file:
-            lines = [(number, line) for number, line in enumerate(csv.reader(file), start=1) if line and not line[0].startswith("#")]
+        with open(path, encoding="utf-8-sig", newline="") as file:
+            without_comments = (line.partition("#")[0].strip() for line in file)
+            lines = [(number, line) for number, line in enumerate(csv.reader(without_comments), start=1) if line]
     except (OSError, UnicodeDecodeError, csv.Error) as why:
         raise TransferError(f"cannot read the commands `{path}`: {getattr(why, 'strerror', None) or why}") from why
     if lines and lines[0][1][0].strip() == "time_s":

@@ -40,10 +40,10 @@ def play_episode(robot, controller, steps, seed, index, rows=None, pushes=True, 
             robot.push(push)
         if is_new or push is not None:
             events.append(step)
-        robot.step(controller.taken(action))
+        is_finite = robot.step(controller.taken(action))
         velocities.append(robot.velocity_in_heading())
         commands.append(command)
-        fell = robot.has_fallen() or not numpy.isfinite(robot.data.qpos).all()
+        fell = robot.has_fallen() or not is_finite
         if fell or robot.is_at_edge() or (shown and not shown()):
             break
     errors = window_errors(numpy.array(velocities), numpy.array(commands), events, contract.control_step_s)

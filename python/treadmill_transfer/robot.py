@@ -9,6 +9,7 @@ from .contract import TransferError, one_line
 from .ground import BASE_M
 
 _GEOMS = mujoco.mjtGeom
+_DIVERGED = (mujoco.mjtWarning.mjWARN_BADQPOS, mujoco.mjtWarning.mjWARN_BADQVEL, mujoco.mjtWarning.mjWARN_BADQACC)
 # Height above everything, from which rays look down (m).
 _SKY_M = 1e3
 # Distance from the edge of a given ground at which an episode ends, as in training (m).
@@ -99,9 +100,11 @@ class Robot:
         return position, numpy.concatenate([data.qvel[self._root_v : self._root_v + 6], data.qvel[self._all_v]])
 
     def step(self, targets_rad):
-        """Simulates one control step with these targets of the policy's joints."""
+        """Simulates one control step with these targets of the policy's joints. Returns whether the state stayed finite."""
         self.data.ctrl[: len(targets_rad)] = targets_rad
         mujoco.mj_step(self.model, self.data, self.substeps)
+        # MuJoCo puts a robot whose state diverged back to its start, and counts a warning.
+        return not any(self.data.warning[kind].number for kind in _DIVERGED)
 
     def torques_nm(self):
         """Returns the torques of the policy's joints in the present state, with the targets of the last step."""

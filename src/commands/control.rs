@@ -7,12 +7,15 @@ use treadmill_bus::{Role, command, statuses};
 use treadmill_proto::{Command, ControlReply, ControlRequest};
 
 use crate::{
+    commands::status::plain::printable,
     launch::{exit_code::Usage, output::say},
     shared::learner_address::{self, LearnerLink, ReachArgs},
 };
 
 /// Timeout of a command, which waits for the end of the current update.
 const DONE_TIMEOUT: Duration = Duration::from_secs(60);
+/// Most characters of a learner's answer.
+const TEXT_CHARS_MAX: usize = 2000;
 
 /// Flags of `control`.
 #[derive(Args)]
@@ -70,6 +73,8 @@ pub fn run(args: ControlArgs) -> anyhow::Result<()> {
         .await?
         .pop();
         let Some(ControlReply { done, text, .. }) = reply else { return Err(link.silence().await) };
+        // Another machine wrote it.
+        let text = printable(&text, TEXT_CHARS_MAX);
         if !done {
             return Err(Usage(text).into());
         }

@@ -22,6 +22,9 @@ use treadmill_rl::{
 
 use crate::steering::{KEYS, Steering};
 
+/// Most time by which a steered robot may be late and still catch up.
+const LATE_MAX: Duration = Duration::from_millis(100);
+
 /// A policy and its environment.
 pub struct Player {
     environment: Environment,
@@ -73,8 +76,8 @@ impl Player {
         let mut observation = vec![0.0; self.environment.observation_size()];
         let mut action = vec![0.0; self.environment.action_size()];
         let mut control = action.clone();
-        let (start, step_s) = (Instant::now(), self.control_step_s());
-        let mut played = 0;
+        let step_s = self.control_step_s();
+        let (mut due, step_duration) = (Instant::now(), Duration::from_secs_f64(step_s / speed));
         for episode in 1.. {
             self.environment.steer(Some([0.0; 3]));
             self.environment.reset(seed.wrapping_add(episode), &mut observation);
@@ -98,9 +101,10 @@ impl Player {
                 if !show(&pose)? {
                     return Ok(());
                 }
-                played += 1;
-                let due = Duration::from_secs_f64(f64::from(played) * step_s / speed);
-                thread::sleep(due.saturating_sub(start.elapsed()));
+                due += step_duration;
+                // After a stall it goes on from now: lost time played fast could not be steered.
+                due = due.max(Instant::now().checked_sub(LATE_MAX).unwrap_or(due));
+                thread::sleep(due.saturating_duration_since(Instant::now()));
                 if outcome.terminated || outcome.truncated {
                     break;
                 }

@@ -71,12 +71,14 @@ pub enum ConfigError {
         hint: String,
     },
     /// The value has the wrong type.
-    #[error("config key `{key}` is {value}, which is not of the right type; allowed: {allowed}")]
+    #[error("config key `{key}` is {value}, which is not {notation}; allowed: {allowed}")]
     Type {
         /// The key.
         key: String,
         /// The value as given.
         value: String,
+        /// How its values are written.
+        notation: &'static str,
         /// Allowed values.
         allowed: String,
     },
@@ -206,6 +208,13 @@ impl Config {
         self.check_observation()?;
         self.check_push_interval()?;
         self.check_task()?;
+        if !self.ground.kinds.is_empty() && self.ground.start_level >= self.ground.levels {
+            return refuse(
+                "ground.start_level",
+                self.ground.start_level.to_string(),
+                format!("below ground.levels, which is {}", self.ground.levels),
+            );
+        }
         if self.rollout.actors > self.rollout.envs {
             return refuse(
                 "rollout.actors",
@@ -289,7 +298,9 @@ pub(crate) fn refuse<T>(key: &str, value: impl Into<String>, allowed: impl Into<
 
 /// Reads a value in TOML notation.
 pub(crate) fn parse_value(text: &str) -> Option<toml::Value> {
-    format!("v = {text}").parse::<toml::Table>().ok()?.remove("v")
+    let mut table = format!("v = {text}").parse::<toml::Table>().ok()?;
+    // Another line would be another key.
+    table.remove("v").filter(|_| table.is_empty())
 }
 
 /// Returns a value in TOML notation.

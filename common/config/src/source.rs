@@ -64,8 +64,8 @@ impl ConfigSource {
             let entries = match value {
                 Value::Table(entries) => entries,
                 value if keys.iter().any(|known| section_of(known) == section) => {
-                    let (value, allowed) = (value.to_string(), "a table".to_string());
-                    return Err(ConfigError::Type { key: section, value, allowed });
+                    let (value, allowed) = (value.to_string(), "keys of this section".to_string());
+                    return Err(ConfigError::Type { key: section, value, notation: "a table", allowed });
                 }
                 _ => {
                     unknown.push(section);
@@ -162,8 +162,24 @@ fn convert(value: Value, known: &KeyDoc) -> Result<Value, ConfigError> {
         _ => Err(ConfigError::Type {
             key: known.key.clone(),
             value: value.to_string(),
+            notation: notation(known.kind),
             allowed: known.allowed.to_string(),
         }),
+    }
+}
+
+/// Returns how values of a type are written.
+fn notation(kind: &str) -> &'static str {
+    match kind {
+        "bool" => "true or false",
+        "f64" => "a number",
+        "u32" | "u64" => "a whole number",
+        "[f64; 2]" => "two numbers, as in [0.5, 1.0]",
+        "[u32; 2]" => "two whole numbers, as in [0, 1]",
+        "Vec<f64>" => "a list of numbers, as in [0.5, 1.0]",
+        "Vec<u32>" => "a list of whole numbers, as in [256, 128]",
+        "Vec<String>" => "a list of texts, as in [\"a\", \"b\"]",
+        _ => "a text in quotes",
     }
 }
 
@@ -283,7 +299,7 @@ pub(crate) mod tests {
         assert_eq!(set("env.keyframe=squat").unwrap().env.keyframe, "squat");
         assert!(Config::default().env.keyframe.is_empty());
         let message = set("env.keyframe=3").unwrap_err().to_string();
-        assert!(message.contains("`env.keyframe` is 3, which is not of the right type"), "{message}");
+        assert!(message.contains("`env.keyframe` is 3, which is not a text in quotes; allowed: "), "{message}");
         assert!(set(&format!("env.keyframe={}", "x".repeat(129))).is_err());
     }
 

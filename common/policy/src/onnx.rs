@@ -1,6 +1,6 @@
 //! Exports a policy as an ONNX model, for other programs.
 
-use treadmill_proto::onnx::{Layer, OnnxPolicy};
+use treadmill_proto::onnx::{Layer, OnnxPolicy, Ports};
 
 use crate::exported::{ActionFacts, ExportedPolicy};
 
@@ -9,6 +9,8 @@ use crate::exported::{ActionFacts, ExportedPolicy};
 pub struct ForController {
     /// Largest action, in the unit of action of each joint; replaces the ranges of the motors.
     pub action_limit: f32,
+    /// Input and output of the model.
+    pub ports: Ports,
     /// Metadata entries beside `treadmill.*`.
     pub metadata: Vec<(String, String)>,
 }
@@ -44,6 +46,7 @@ pub fn to_onnx(policy: &ExportedPolicy, controller: Option<&ForController>) -> V
         layers: layers.iter().map(|dense| Layer { weight: part(dense.weight()), bias: part(dense.bias()) }).collect(),
         low: &low,
         high: &high,
+        ports: controller.map_or(Ports::ANY_BATCH, |of| of.ports),
         doc,
         metadata: metadata.chain(controller.iter().flat_map(|of| of.metadata.clone())).collect(),
     }

@@ -153,14 +153,15 @@ impl Filming {
     fn take_picture(&mut self, step: &EvaluationStep) -> anyhow::Result<()> {
         let position = step.physics.position();
         let share = 1.0 - (-self.control_step_s / FOLLOW_S).exp();
-        let followed_m = self.followed_m.get_or_insert([position[0], position[1]]);
+        let mut followed_m = self.followed_m.unwrap_or([position[0], position[1]]);
         // Forward motion is followed without delay, because a runner would leave the picture.
         followed_m[0] = position[0];
         followed_m[1] += (position[1] - followed_m[1]) * share;
+        self.followed_m = Some(followed_m);
         let time_s = f64::from(step.step) * self.control_step_s;
-        let due_s = self.from_s + f64::from(self.taken_of_episode) / f64::from(self.fps);
-        // Takes the step nearest to the time at which the picture is due.
-        if time_s + self.control_step_s / 2.0 < due_s || due_s >= self.until_s {
+        // Takes the step nearest to the time at which a picture is due; several times if steps are longer than pictures.
+        let due = self.due_pictures(time_s);
+        if due == 0 {
             return Ok(());
         }
         let camera = Camera::beside(followed_m[0], followed_m[1]);
@@ -169,17 +170,26 @@ impl Filming {
             add_velocities(&mut scene, step.physics, command);
         }
         let picture = Picture::of(&scene, &camera, self.size);
-        if let Some(film) = &mut self.film {
-            film.add(&picture)?;
+        for _ in 0..due {
+            if let Some(film) = &mut self.film {
+                film.add(&picture)?;
+            }
+            if let Some(folder) = &self.png {
+                let path = folder.join(format!("{:05}.png", self.taken));
+                atomic_file::write(&path, &film::png(&picture)?)
+                    .with_context(|| format!("cannot write `{}`", path.display()))?;
+            }
+            self.taken += 1;
+            self.taken_of_episode += 1;
         }
-        if let Some(folder) = &self.png {
-            let path = folder.join(format!("{:05}.png", self.taken));
-            atomic_file::write(&path, &film::png(&picture)?)
-                .with_context(|| format!("cannot write `{}`", path.display()))?;
-        }
-        self.taken += 1;
-        self.taken_of_episode += 1;
         Ok(())
+    }
+
+    /// Returns how many pictures are due after the step at this time of the episode.
+    fn due_pictures(&self, time_s: f64) -> usize {
+        let due_s = |taken: u32| self.from_s + f64::from(taken) / f64::from(self.fps);
+        let is_due = |taken: &u32| due_s(*taken) <= time_s + self.control_step_s / 2.0 && due_s(*taken) < self.until_s;
+        (self.taken_of_episode..).take_while(is_due).count()
     }
 
     /// Completes the files and returns a line that describes them.

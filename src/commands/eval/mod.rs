@@ -213,12 +213,14 @@ fn prepare(args: &EvalArgs) -> anyhow::Result<Prepared> {
 fn configuration(args: &EvalArgs, mut config: Config) -> anyhow::Result<Config> {
     if !args.randomised {
         config.randomisation = RandomisationConfig::default();
-    } else if config.randomisation == RandomisationConfig::default() {
+    }
+    let config = args.model.config(&config)?;
+    if args.randomised && config.randomisation == RandomisationConfig::default() {
         let why = "--randomised plays as the run did in training, but the run randomised nothing; \
                    choose a randomisation, as in --set randomisation.push_mps=[0.5,0.5]";
         return Err(Usage(why.to_string()).into());
     }
-    args.model.config(&config)
+    Ok(config)
 }
 
 /// Tests that the model has as many observations and actions as the policy; the user must know that they mean the same.

@@ -9,6 +9,7 @@ use treadmill_humanoid::{
     task::velocity::{ACTION_MAX, HEADING_GAIN, SCAN_GRID, SCAN_MAX_M, SCAN_SPACING_M},
 };
 use treadmill_policy::onnx::ForController;
+use treadmill_proto::onnx::Ports;
 
 /// Version of the contract; raised if an old reader would misunderstand a new one.
 const FORMAT: u32 = 1;
@@ -35,8 +36,8 @@ pub(super) struct Joint {
     pub effort_nm: f64,
     pub armature_kgm2: f64,
     pub action_scale_rad: f64,
-    /// Index among all hinges of the model file.
-    pub index: usize,
+    /// Number of its motor in the robot's own software.
+    pub motor: usize,
 }
 
 /// Term of one observation.
@@ -79,7 +80,7 @@ impl Contract {
             effort_nm: control.effort_nm,
             armature_kgm2: model.hinges[index].armature_kgm2,
             action_scale_rad: control.action_scale_rad,
-            index,
+            motor: robot.motor_number(&model.hinges[index].name).unwrap_or(index),
         };
         let of = |is_held: bool| robot.hinges.iter().enumerate().filter(move |(_, hinge)| hinge.is_held == is_held);
         Ok(Some(Self {
@@ -101,7 +102,7 @@ impl Contract {
     }
 
     /// Returns the range of each joint's action, and its metadata under the names that mjlab uses.
-    pub fn for_controller(&self) -> anyhow::Result<ForController> {
+    pub fn for_controller(&self, ports: Ports) -> anyhow::Result<ForController> {
         let listed = |number: fn(&Joint) -> f64| -> String {
             self.joints.iter().map(|joint| number(joint).to_string()).collect::<Vec<_>>().join(",")
         };
@@ -122,7 +123,7 @@ impl Contract {
             anyhow::bail!("the joint `{}` has a comma in its name, which separates joints; rename it", joint.name);
         }
         let metadata = metadata.map(|(key, value)| (key.to_owned(), value)).to_vec();
-        Ok(ForController { action_limit: ACTION_MAX as f32, metadata })
+        Ok(ForController { action_limit: ACTION_MAX as f32, ports, metadata })
     }
 
     /// Returns the whole contract.

@@ -1,7 +1,8 @@
 //! `deploy.yaml`, which the controllers of Unitree's `unitree_rl_lab` read.
 //!
-//! Gains are in the robot's own order, which is that of the model file; all else is in the order of the action.
-//! `joint_ids_map` has the robot's index for each joint of the action. Unitree's loader wants every key, and `null` for none.
+//! Gains are in the order of the robot's motors, see `motors` of a robot card; all else is in the order of the action.
+//! `joint_ids_map` has the number of the motor for each joint of the action. Unitree's loader wants every key, and `null` for
+//! none.
 
 use std::fmt::Write;
 
@@ -12,8 +13,6 @@ use super::contract::{Contract, Joint};
 /// Returns the text of the file.
 pub(super) fn yaml(contract: &Contract) -> anyhow::Result<String> {
     let joints = &contract.joints;
-    let mut in_own_order: Vec<&Joint> = joints.iter().chain(&contract.held).collect();
-    in_own_order.sort_by_key(|joint| joint.index);
     let of = |number: fn(&Joint) -> f64| list(joints.iter().map(number));
     let offset = of(|joint| joint.default_rad);
     let names = joints.iter().map(|joint| serde_json::to_string(&joint.name)).collect::<Result<Vec<_>, _>>()?;
@@ -31,10 +30,10 @@ pub(super) fn yaml(contract: &Contract) -> anyhow::Result<String> {
          heading: null\n\
          actions:\n  JointPositionAction:\n    clip: [{clip}]\n    joint_names: [{names}]\n    scale: {scale}\n    \
          offset: {offset}\n    joint_ids: null\nobservations:\n",
-        ids = joints.iter().map(|joint| joint.index.to_string()).collect::<Vec<_>>().join(", "),
+        ids = joints.iter().map(|joint| joint.motor.to_string()).collect::<Vec<_>>().join(", "),
         step = contract.control_step_s(),
-        stiffness = list(in_own_order.iter().map(|joint| joint.kp)),
-        damping = list(in_own_order.iter().map(|joint| joint.kd)),
+        stiffness = by_motor(contract, |joint| joint.kp),
+        damping = by_motor(contract, |joint| joint.kd),
         x = list(velocity.lin_vel_x_mps),
         y = list(velocity.lin_vel_y_mps),
         yaw = list(velocity.ang_vel_z_radps),
@@ -60,6 +59,14 @@ pub(super) fn yaml(contract: &Contract) -> anyhow::Result<String> {
         text.push_str("  use_gym_history: true\n");
     }
     Ok(text)
+}
+
+/// Returns a number of each motor; 0 for motors without a joint.
+fn by_motor(contract: &Contract, number: fn(&Joint) -> f64) -> String {
+    let joints = || contract.joints.iter().chain(&contract.held);
+    let mut numbers = vec![0.0; joints().map(|joint| joint.motor + 1).max().unwrap_or(0)];
+    joints().for_each(|joint| numbers[joint.motor] = number(joint));
+    list(numbers)
 }
 
 /// Returns numbers as a YAML list.

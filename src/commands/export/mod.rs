@@ -16,6 +16,7 @@ use clap::{ArgGroup, Args};
 use serde_json::json;
 use treadmill_learner::checkpoint::Which;
 use treadmill_policy::onnx::to_onnx;
+use treadmill_proto::onnx::Ports;
 use treadmill_runtime::atomic_file;
 
 use self::contract::Contract;
@@ -34,7 +35,7 @@ pub struct ExportArgs {
     #[arg(long, value_name = "FILE")]
     safetensors: Option<PathBuf>,
     /// Write the policy as an ONNX model from raw observations to actions, normalisation included; for the velocity task with
-    /// its contract.
+    /// its contract. Beside --deploy its batch is 1, its input `obs` and its output `actions`, as Unitree's controllers want.
     #[arg(long, value_name = "FILE")]
     onnx: Option<PathBuf>,
     /// Write gains, default pose, action scales and observation of the velocity task as deploy.yaml, for Unitree's controllers.
@@ -74,6 +75,16 @@ pub fn run(args: &ExportArgs) -> anyhow::Result<()> {
         );
         return Err(Usage(why).into());
     }
+    if let (Some(contract), Some(_)) = (&contract, &args.deploy)
+        && contract.velocity.height_scan
+    {
+        let why = format!(
+            "--deploy: `{}` observes the heights of the ground (velocity.height_scan), which Unitree's controllers cannot; \
+             leave --deploy out",
+            args.run
+        );
+        return Err(Usage(why).into());
+    }
     // Also run for ONNX alone, because it checks that shapes match.
     let bytes = policy.to_bytes().with_context(|| format!("the policy of `{}` cannot be exported", args.run))?;
     let widths: Vec<String> = [policy.shape.seen_by_actor()]
@@ -90,7 +101,8 @@ pub fn run(args: &ExportArgs) -> anyhow::Result<()> {
         written.push(write(path, &bytes, what)?);
     }
     if let Some(path) = &args.onnx {
-        let controller = contract.as_ref().map(Contract::for_controller).transpose()?;
+        let ports = if args.deploy.is_some() { Ports::UNITREE } else { Ports::ANY_BATCH };
+        let controller = contract.as_ref().map(|contract| contract.for_controller(ports)).transpose()?;
         let of_actions = if controller.is_some() { "the contract of its controller" } else { "ranges of the motors" };
         let what = format!("{actor}, with normalisation and {of_actions}, as ONNX");
         written.push(write(path, &to_onnx(&policy, controller.as_ref()), what)?);

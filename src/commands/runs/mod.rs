@@ -14,7 +14,10 @@ use serde_json::json;
 use treadmill_runtime::{numbers::thousands, words::shown};
 
 use self::record::Record;
-use crate::launch::{exit_code::Usage, output::say};
+use crate::launch::{
+    exit_code::Usage,
+    output::{say, say_error},
+};
 
 /// Flags of `runs`.
 #[derive(Args)]
@@ -35,7 +38,11 @@ pub fn run(args: &RunsArgs) -> anyhow::Result<()> {
     let mut records = Vec::new();
     for path in &args.paths {
         for folder in runs_in(path)? {
-            records.push(Record::read(&folder)?);
+            match Record::read(&folder) {
+                Ok(record) => records.push(record),
+                // One damaged run must not hide the others.
+                Err(why) => say_error(&format!("left out: {why:#}")),
+            }
         }
     }
     if records.is_empty() {
@@ -149,7 +156,7 @@ fn print_table(records: &[Record], differences: Option<&[BTreeMap<&str, &str>]>)
         }
     }
     say("");
-    say("best m: mean distance of the best evaluation, in brackets that of the last training episodes.");
+    say("reached: mean distance of the best evaluation, in brackets that of the last training episodes.");
     say("return, falls: of the last training episodes.");
     if differences.is_none() && records.len() > 1 {
         say("Configuration keys that differ: treadmill runs --keys");

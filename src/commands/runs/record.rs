@@ -64,7 +64,7 @@ impl Record {
         let path = folder.join("metrics.jsonl");
         // A run that is just starting has no metrics.
         if let Ok(file) = File::open(&path) {
-            for line in BufReader::new(file).lines() {
+            for line in BufReader::new(file).split(b'\n') {
                 let line = line.with_context(|| format!("cannot read `{}`", path.display()))?;
                 record.add_line(&line);
             }
@@ -72,9 +72,9 @@ impl Record {
         Ok(record)
     }
 
-    /// Reads one line of metrics; ignores an incomplete line.
-    fn add_line(&mut self, line: &str) {
-        let Ok(metric) = serde_json::from_str::<Value>(line) else { return };
+    /// Reads one line of metrics; ignores a damaged one.
+    fn add_line(&mut self, line: &[u8]) {
+        let Ok(metric) = serde_json::from_slice::<Value>(line) else { return };
         let (Some(tag), Some(value)) = (metric["tag"].as_str(), metric["value"].as_f64()) else { return };
         match tag {
             "time/total_timesteps" => self.env_steps = value as u64,
@@ -140,9 +140,10 @@ mod tests {
             ("time/total_timesteps", 300, 300.0),
             ("time/time_elapsed", 300, 2.0),
         ] {
-            record.add_line(&serde_json::json!({"tag": tag, "step": step, "value": value}).to_string());
+            record.add_line(serde_json::json!({"tag": tag, "step": step, "value": value}).to_string().as_bytes());
         }
-        record.add_line("{\"tag\":\"time/total_times");
+        record.add_line(b"{\"tag\":\"time/total_times");
+        record.add_line(b"\xff\xfe");
         assert_eq!((record.env_steps, record.best_eval_distance_m, record.best_eval_at), (300, Some(9.5), Some(200)));
         assert_eq!((record.env_steps_per_s(), record.distance_m()), (Some(150.0), 9.5));
         assert_eq!(record.velocity_error_mps, Some(0.3));

@@ -19,7 +19,7 @@ mod json;
 mod keys;
 mod local;
 mod past;
-mod plain;
+pub mod plain;
 #[cfg(test)]
 mod samples;
 mod waiting;

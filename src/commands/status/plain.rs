@@ -54,9 +54,9 @@ fn describe(out: &mut String, run: &RunStatus) -> std::fmt::Result {
         "run `{}` {} on {} (process {}, version {})",
         run.run,
         phase(run),
-        run.host,
+        plain(&run.host),
         run.pid,
-        run.program_version
+        plain(&run.program_version)
     )?;
     writeln!(
         out,

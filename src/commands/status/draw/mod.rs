@@ -34,6 +34,7 @@ pub use self::theme::Theme;
 use super::{
     fleet::{Fleet, Run},
     keys::HELP,
+    plain::printable,
 };
 
 /// Smallest terminal that is supported.
@@ -45,6 +46,8 @@ const CURVES_HEIGHT_MIN: u16 = 18;
 const CURVES_HEIGHT_MAX: u16 = 24;
 /// Smallest height with a line above the table and one about fragments.
 const HEADINGS_HEIGHT_MIN: u16 = 14;
+/// Most characters of why no learner answers.
+const SILENCE_CHARS_MAX: usize = 2000;
 /// Most lines of alarms.
 const ALARM_LINES_MAX: u16 = 3;
 
@@ -73,7 +76,7 @@ pub fn draw(frame: &mut Frame, fleet: &mut Fleet, theme: &Theme, now: Instant) {
         }
         None => {
             let text = fleet.silence.as_deref().unwrap_or("asking the learners");
-            frame.render_widget(Paragraph::new(figures::plain(text)).wrap(Wrap { trim: true }), body);
+            frame.render_widget(Paragraph::new(printable(text, SILENCE_CHARS_MAX)).wrap(Wrap { trim: true }), body);
         }
     }
     let mut pieces = Pieces::new(keys.width);
