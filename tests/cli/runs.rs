@@ -44,6 +44,11 @@ fn runs_are_compared_by_results_and_configuration() {
     let other = lines.iter().find(|record| record["run"] == "other").unwrap();
     assert_eq!((&other["env_steps"], &other["config_differences"]["run.seed"]), (&1024.into(), &"7".into()));
     assert!(other["wall_s"].as_f64().unwrap() > 0.0);
+
+    fs::write(folder.path().join("runs/plain/config.toml"), "[").unwrap();
+    let output = run(folder.path(), &["runs"]);
+    assert!(output.status.success() && stdout(&output).contains("other"), "{}", stderr(&output));
+    assert!(stderr(&output).contains("left out: `runs/plain/config.toml`"), "{}", stderr(&output));
 }
 
 #[test]

@@ -35,16 +35,22 @@ pub struct RunsArgs {
 
 /// Reads and prints the runs, sorted by distance, farthest first.
 pub fn run(args: &RunsArgs) -> anyhow::Result<()> {
-    let mut records = Vec::new();
+    let (mut records, mut damaged) = (Vec::new(), Vec::new());
     for path in &args.paths {
         for folder in runs_in(path)? {
             match Record::read(&folder) {
                 Ok(record) => records.push(record),
-                // One damaged run must not hide the others.
-                Err(why) => say_error(&format!("left out: {why:#}")),
+                Err(why) => damaged.push(why),
             }
         }
     }
+    if records.is_empty()
+        && let Some(why) = damaged.pop()
+    {
+        return Err(why);
+    }
+    // One damaged run must not hide the others.
+    damaged.iter().for_each(|why| say_error(&format!("left out: {why:#}")));
     if records.is_empty() {
         let shown: Vec<_> = args.paths.iter().map(|path| format!("`{}`", path.display())).collect();
         return Err(Usage(format!("there is no run in {}; name a folder that contains one", shown.join(", "))).into());

@@ -155,6 +155,15 @@ fn names_of_the_sides_give_the_mirror_image() {
 }
 
 #[test]
+fn a_card_says_how_the_robots_software_numbers_its_motors() {
+    let order = "motors = [\"right_knee\", \"left_knee\", \"\", \"right_hip\", \"left_hip\"]\nheight_m";
+    let robot = applied(LEGS, &changed(CARD, "height_m", order)).expect("it fits").robot.expect("it has a card");
+    assert_eq!([robot.motor_number("left_hip"), robot.motor_number("left_knee")], [Some(4), Some(1)]);
+    let robot = applied(LEGS, CARD).expect("it fits").robot.expect("it has a card");
+    assert_eq!(robot.motor_number("left_hip"), None);
+}
+
+#[test]
 fn mistakes_in_a_card_are_named() {
     for (from, to, parts) in [
         ("names = \"*_knee\"", "names = \"*_ankle\"", &["*_ankle", "no hinge", "left_hip"][..]),
@@ -179,6 +188,9 @@ fn mistakes_in_a_card_are_named() {
         ("kp = 80.0", "held = true\nkp = 80.0", &["every hinge is held"]),
         ("height_m", "symmetry = [[\"up_*\", \"down_*\"]]\nheight_m", &["symmetry", "up_*"]),
         ("height_m", "symmetry = [[\"left_*\", \"down_*\"]]\nheight_m", &["symmetry", "down_hip"]),
+        ("height_m", "motors = [\"left_hop\"]\nheight_m", &["motors", "left_hop"]),
+        ("height_m", "motors = [\"left_hip\", \"\", \"left_hip\"]\nheight_m", &["motors", "`left_hip` 2 times"]),
+        ("height_m", "motors = [\"left_hip\"]\nheight_m", &["motors", "`left_knee` 0 times"]),
     ] {
         let why = applied(LEGS, &changed(CARD, from, to)).expect_err(to);
         assert!(parts.iter().all(|part| why.contains(part)), "`{to}`: {parts:?} are missing in: {why}");

@@ -21,7 +21,7 @@ use super::{
     policy_fetch::{FetchedPolicy, fetch_pieces},
     policy_pieces::{ActorPolicy, PieceReply, PieceServer, ServedPolicies},
     presence::is_learner_present,
-    silences::{Outcome, Silences},
+    silences::{Heard, Silences},
 };
 use crate::{Bus, BusError, keys};
 
@@ -112,7 +112,7 @@ impl PolicyCache {
     /// closed.
     pub async fn serve(mut self, patience: Duration) -> Option<SilentLearner> {
         let (mut runs, mut silences) = (CachedRuns::default(), Silences::default());
-        let mut fetches: JoinSet<(String, Option<FetchedPolicy>, Outcome)> = JoinSet::new();
+        let mut fetches: JoinSet<(String, Option<FetchedPolicy>, Heard)> = JoinSet::new();
         loop {
             let steps = tokio::select! {
                 Some(event) = self.events.recv() => {
@@ -148,9 +148,9 @@ impl PolicyCache {
                         None
                     });
                     let outcome = match fetched {
-                        Some(_) => Outcome::Answered,
-                        None if is_learner_present(&bus, &run, TOKEN_TIMEOUT).await.unwrap_or(false) => Outcome::Silent,
-                        None => Outcome::Absent,
+                        Some(_) => Heard::Answered,
+                        None if is_learner_present(&bus, &run, TOKEN_TIMEOUT).await.unwrap_or(false) => Heard::Silent,
+                        None => Heard::Absent,
                     };
                     (run, fetched, outcome)
                 });

@@ -12,7 +12,7 @@ const QUESTIONS_MIN: u32 = 3;
 
 /// How a question to a learner ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Outcome {
+pub(super) enum Heard {
     Answered,
     /// No answer came in time, though the learner holds its token.
     Silent,
@@ -31,9 +31,9 @@ pub(super) struct Silences {
 
 impl Silences {
     /// Records a question. Returns for how long a learner that is there has been silent; zero before the third question.
-    pub(super) fn record(&mut self, run: &str, outcome: Outcome, now: Instant) -> Duration {
-        self.has_answers |= outcome == Outcome::Answered;
-        if outcome != Outcome::Silent {
+    pub(super) fn record(&mut self, run: &str, outcome: Heard, now: Instant) -> Duration {
+        self.has_answers |= outcome == Heard::Answered;
+        if outcome != Heard::Silent {
             self.unanswered.remove(run);
             return Duration::ZERO;
         }
@@ -58,24 +58,24 @@ mod tests {
             (silence.as_secs(), silences.has_answers, silences.unanswered.len())
         };
         for (second, outcome, silence, has_answers) in [
-            (0, Outcome::Silent, 0, false),
+            (0, Heard::Silent, 0, false),
             // The next question may come late.
-            (100, Outcome::Silent, 0, false),
-            (101, Outcome::Silent, 101, false),
-            (102, Outcome::Absent, 0, false),
-            (103, Outcome::Silent, 0, false),
-            (108, Outcome::Answered, 0, true),
-            (110, Outcome::Silent, 0, true),
-            (115, Outcome::Silent, 0, true),
-            (120, Outcome::Silent, 10, true),
+            (100, Heard::Silent, 0, false),
+            (101, Heard::Silent, 101, false),
+            (102, Heard::Absent, 0, false),
+            (103, Heard::Silent, 0, false),
+            (108, Heard::Answered, 0, true),
+            (110, Heard::Silent, 0, true),
+            (115, Heard::Silent, 0, true),
+            (120, Heard::Silent, 10, true),
         ] {
             let found = record("walk", outcome, second);
             assert_eq!((found.0, found.1), (silence, has_answers), "after {second} s");
         }
-        assert_eq!(record("run", Outcome::Silent, 200).0, 0, "each run counts alone");
+        assert_eq!(record("run", Heard::Silent, 200).0, 0, "each run counts alone");
         for run in 0..100 {
-            record(&run.to_string(), Outcome::Silent, 200);
+            record(&run.to_string(), Heard::Silent, 200);
         }
-        assert_eq!(record("walk", Outcome::Silent, 121), (11, true, RUNS_MAX));
+        assert_eq!(record("walk", Heard::Silent, 121), (11, true, RUNS_MAX));
     }
 }
