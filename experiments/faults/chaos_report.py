@@ -71,10 +71,11 @@ def logged_updates(file):
 def takeover(fleet, before, after, logged):
     """Compares the last manifest of a term with the next term's log."""
     last, first = before[1], after[0]
-    resumed = None
-    for event in fleet.events:
-        if "resuming at" in event["line"] and event["pid"] == first["pid"] and event["at"] <= first["at"] + 1:
-            resumed = int("".join(filter(str.isdigit, event["line"].split("resuming at")[1].split(" env")[0])))
+    begins = [event for event in fleet.events if "resuming at" in event["line"] and event["pid"] == first["pid"]]
+    # A busy machine may read the line some time after the manifest.
+    begin = min(begins, key=lambda event: abs(event["at"] - first["at"]), default=None)
+    of_line = begin and begin["line"].split("resuming at")[1].split(" env")[0]
+    resumed = int("".join(filter(str.isdigit, of_line))) if of_line else None
     name = next((process.name for process in fleet.processes if process.child.pid == first["pid"]), None)
     # When the new leader had learnt from its first batch, unless its clock is wrong. Its first manifest repeats the last state.
     times = [at for at, _, number in logged.get(name, []) if number > first["updates"] and abs(at - first["at"]) < 60]

@@ -150,7 +150,15 @@ async fn an_actor_of_the_learner_gets_a_version_once() {
     let server = PolicyServer::open(&learner, published(1)).unwrap();
     let client = Bus::open_client(&BusOptions { connect, ..BusOptions::default() }).unwrap();
     assert_eq!(join_run(&client).await, bundle(1)[1]);
-    assert_eq!(fetch_policy(&client, None, TIMEOUT).await.unwrap(), Some(bundle(1)[1].clone()), "of the only run");
+    assert_eq!(fetch_policy(&client, None, TIMEOUT).await.unwrap(), None, "no learner holds a token");
+    let _token = Alive::watch(&learner, "run").unwrap();
+    let of_live_run = loop {
+        if let Some(bundle) = fetch_policy(&client, None, TIMEOUT).await.unwrap() {
+            break bundle;
+        }
+        tokio::task::yield_now().await;
+    };
+    assert_eq!(of_live_run, bundle(1)[1]);
     let before = server.served();
     server.publish(published(2));
     fetch_with_all(std::slice::from_ref(&client), 2).await;

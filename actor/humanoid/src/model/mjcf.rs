@@ -283,6 +283,7 @@ impl Reader {
         let autolimits = source.compiler.autolimits;
         let tendons = tendon::read(&source.tendons, &self.flat.tendons, &self.hinges, autolimits)?;
         let motors = motors::read(&source.actuators, &self.flat.actuators, &self.hinges, autolimits)?;
+        self.simplifications.extend(motors::shared_limits(&motors, &self.hinges));
         let mut model = Model {
             bodies: self.bodies,
             hinges: self.hinges,

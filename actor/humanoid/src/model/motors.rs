@@ -177,6 +177,18 @@ fn limits(
     }
 }
 
+/// Returns a note for each hinge on whose several motors the limits of a servo hold together.
+pub(super) fn shared_limits(motors: &[Motor], hinges: &[Hinge]) -> Vec<String> {
+    let of_hinge = |index: usize| motors.iter().filter(move |motor| motor.hinge == index);
+    let is_limited = |motor: &Motor| motor.bias[1..] != [0.0; 2] && motor.force.iter().any(|force| force.is_finite());
+    let shares = |index: &usize| of_hinge(*index).count() > 1 && of_hinge(*index).any(is_limited);
+    let note = |index: usize| {
+        let name = &hinges[index].name;
+        format!("joint `{name}`: the sum of its actuators has the limit of the narrowest servo, not each one its own")
+    };
+    (0..hinges.len()).filter(shares).map(note).collect()
+}
+
 impl Model {
     /// Writes the motors of each hinge for one control per motor. Clamps controls to [`Motor::control`].
     pub(crate) fn drives(&self, controls: &[f32], drives: &mut [Drive]) {

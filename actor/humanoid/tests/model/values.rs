@@ -238,3 +238,23 @@ fn a_motor_without_control_range_derives_it_from_its_limits() {
     assert_eq!(range_of("gear=\"-10\"", "actuatorfrcrange=\"-20 30\""), [-3.0, 2.0]);
     assert_eq!(range_of("gear=\"10\"", ""), [-1.0, 1.0]);
 }
+
+#[test]
+fn actuators_that_share_a_servos_limit_are_noted() {
+    let notes = |actuators: &str| {
+        let model = Model::from_mjcf(&format!(
+            r#"<mujoco><worldbody><geom type="plane" size="1 1 1"/><body><freejoint/><geom size="0.1"/><body>
+               <joint name="a"/><geom size="0.1"/><body><joint name="b"/><geom size="0.1"/></body></body></body></worldbody>
+               <actuator>{actuators}</actuator></mujoco>"#
+        ));
+        model.expect("valid").simplifications
+    };
+    let limited = r#"<position joint="a" kp="50" ctrlrange="-1 1" forcerange="-5 5"/>"#;
+    let damped = format!(r#"{limited}<velocity joint="a" kv="3" ctrlrange="-1 1"/>"#);
+    assert!(matches!(&notes(&damped)[..], [note] if note.contains("joint `a`") && note.contains("narrowest servo")));
+    let apart = format!(r#"{limited}<motor joint="b"/>"#);
+    let unlimited = r#"<position joint="a" kp="50" ctrlrange="-1 1"/><motor joint="a" forcerange="-5 5"/>"#;
+    for none in [limited, &apart[..], unlimited] {
+        assert_eq!(notes(none), [""; 0], "{none}");
+    }
+}

@@ -12,7 +12,7 @@ use zenoh::{
     query::Reply,
 };
 
-use super::first_valid;
+use super::{first_valid, presence::live_runs};
 use crate::{Bus, BusError, keys};
 
 /// Pieces that a requester asks for at once. The bus has space for them on an idle link, however slow it is.
@@ -33,17 +33,22 @@ pub enum FetchedPolicy {
     Newer(Box<PolicyBundle>),
 }
 
-/// Fetches the newest policy of `run`, or of the only run, with configuration and model but without the critic. `None` if no
-/// answer came; the learner may still be running.
+/// Fetches the newest policy of `run`, or of the first live run that answers, with configuration and model but without the
+/// critic. `None` if no answer came; the learner may still be running.
 pub async fn fetch_policy(bus: &Bus, run: Option<&str>, timeout: Duration) -> Result<Option<PolicyBundle>, BusError> {
-    let fetched = match run {
-        Some(run) => fetch_newer_policy(bus, run, &PolicyRequest::default(), timeout).await?,
-        None => ask_learner(bus, "*", &PolicyRequest::default(), timeout).await?,
+    // The token names the run: after faults of the network, Zenoh may lose the way of questions to all runs (`*`), while those
+    // to one run arrive.
+    let runs = match run {
+        Some(run) => vec![run.to_string()],
+        None => live_runs(bus, timeout).await?,
     };
-    Ok(fetched.and_then(|fetched| match fetched {
-        FetchedPolicy::Newer(bundle) => Some(*bundle),
-        FetchedPolicy::Unchanged => None,
-    }))
+    for run in runs {
+        let fetched = fetch_newer_policy(bus, &run, &PolicyRequest::default(), timeout).await?;
+        if let Some(FetchedPolicy::Newer(bundle)) = fetched {
+            return Ok(Some(*bundle));
+        }
+    }
+    Ok(None)
 }
 
 /// Fetches the policy of `run` if it is newer than the one in `request`: from the router that this client dialled, or else from
@@ -86,7 +91,7 @@ async fn ask_learner(
 /// Fetches all pieces from the server of `key`. `None` if it does not answer in time.
 pub(super) async fn fetch_pieces(
     bus: &Bus,
-    mut key: String,
+    key: String,
     request: &PolicyRequest,
     timeout: Duration,
 ) -> Result<Option<FetchedPolicy>, BusError> {
@@ -110,10 +115,6 @@ pub(super) async fn fetch_pieces(
         }
         if let Some(bundle) = partial.whole() {
             return Ok(decode(&partial, bundle).map(|bundle| FetchedPolicy::Newer(Box::new(bundle))));
-        }
-        if key.contains('*') {
-            // Several learners may answer; the remaining pieces are of the first.
-            key = keys::policy_pieces(&partial.run);
         }
         if Instant::now() >= deadline {
             return Ok(None);
