@@ -36,8 +36,7 @@ pub enum FetchedPolicy {
 /// Fetches the newest policy of `run`, or of the first live run that answers, with configuration and model but without the
 /// critic. `None` if no answer came; the learner may still be running.
 pub async fn fetch_policy(bus: &Bus, run: Option<&str>, timeout: Duration) -> Result<Option<PolicyBundle>, BusError> {
-    // The token names the run: after faults of the network, Zenoh may lose the way of questions to all runs (`*`), while those
-    // to one run arrive.
+    // The token names the run. A router answers questions to one run, and notices if a learner does not.
     let runs = match run {
         Some(run) => vec![run.to_string()],
         None => live_runs(bus, timeout).await?,
