@@ -7,9 +7,11 @@ use treadmill_bus::{Role, command, statuses};
 use treadmill_proto::{Command, ControlReply, ControlRequest};
 
 use crate::{
-    commands::status::plain::printable,
     launch::{exit_code::Usage, output::say},
-    shared::learner_address::{self, LearnerLink, ReachArgs},
+    shared::{
+        foreign_text::printable,
+        learner_address::{self, LearnerLink, ReachArgs},
+    },
 };
 
 /// Timeout of a command, which waits for the end of the current update.

@@ -6,9 +6,11 @@
 //! - [`network_args`]: flags of the network.
 //! - [`learner_address`]: flags that locate a learner, and a session with it.
 //! - `existing_file`: reads a flag that names a file.
+//! - `foreign_text`: makes text from another machine safe to print.
 //! - [`viewer_args`]: flags of `watch`.
 
 pub(crate) mod existing_file;
+pub(crate) mod foreign_text;
 pub mod learner_address;
 pub mod network_args;
 pub mod saved_policy;

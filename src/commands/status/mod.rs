@@ -19,7 +19,7 @@ mod json;
 mod keys;
 mod local;
 mod past;
-pub mod plain;
+mod plain;
 #[cfg(test)]
 mod samples;
 mod waiting;

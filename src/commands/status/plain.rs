@@ -5,6 +5,8 @@ use std::fmt::Write as _;
 use treadmill_proto::{ActorStatus, Phase, RunStatus};
 use treadmill_runtime::numbers::thousands;
 
+use crate::shared::foreign_text::printable;
+
 /// Longest name from another machine.
 const NAME_CHARS_MAX: usize = 24;
 /// Longest alarm.
@@ -143,15 +145,6 @@ fn line(out: &mut String, actor: &ActorStatus) -> std::fmt::Result {
 /// Returns up to 24 characters of text from other machines, without those that move the cursor or change direction.
 pub fn plain(text: &str) -> String {
     printable(text, NAME_CHARS_MAX)
-}
-
-/// Returns up to `chars_max` characters of text from other machines, as [`plain`] does.
-pub fn printable(text: &str, chars_max: usize) -> String {
-    let is_invisible = |c: char| {
-        c.is_control()
-            || matches!(c, '\u{ad}' | '\u{200b}'..='\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2060}'..='\u{206f}' | '\u{feff}')
-    };
-    text.chars().filter(|c| !is_invisible(*c)).take(chars_max).collect()
 }
 
 /// Returns the state of an actor in one word.

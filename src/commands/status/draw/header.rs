@@ -13,7 +13,7 @@ use super::{
     figures::{count, duration, known, number, percent, plain, short},
     pieces::{Pieces, shorten},
 };
-use crate::commands::status::{fleet::Run, plain::printable};
+use crate::{commands::status::fleet::Run, shared::foreign_text::printable};
 
 /// Time without an answer after which a run is shown as silent.
 const SILENT_AFTER: Duration = Duration::from_secs(6);

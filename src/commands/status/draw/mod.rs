@@ -34,8 +34,8 @@ pub use self::theme::Theme;
 use super::{
     fleet::{Fleet, Run},
     keys::HELP,
-    plain::printable,
 };
+use crate::shared::foreign_text::printable;
 
 /// Smallest terminal that is supported.
 const WIDTH_MIN: u16 = 40;
