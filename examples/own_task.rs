@@ -22,6 +22,8 @@ const TOLERANCE_M: f64 = 0.1;
 struct Squat {
     target_m: f64,
     terms: Vec<ObservationTerm>,
+    /// Terms of the last step's reward, for the logs.
+    earned: [(&'static str, f64); 4],
 }
 
 impl Squat {
@@ -33,7 +35,8 @@ impl Squat {
             let start = terms.last().map_or(0, |term| term.range.end);
             terms.push(ObservationTerm { name: name.to_owned(), range: start..start + size, is_privileged: false });
         }
-        Ok(Box::new(Self { target_m: HEIGHTS_M[1], terms }))
+        let earned = [("standing", 0.0), ("tracking", 0.0), ("drift", 0.0), ("effort", 0.0)];
+        Ok(Box::new(Self { target_m: HEIGHTS_M[1], terms, earned }))
     }
 }
 
@@ -54,12 +57,18 @@ impl Task for Squat {
         let effort: f64 = step.action.iter().map(|control| f64::from(*control).powi(2)).sum();
         let drift_mps = step.physics.centre_of_mass_velocity().xy().norm();
         let tracking = (-((height_m - self.target_m) / TOLERANCE_M).powi(2)).exp();
+        let terms = [1.0, 4.0 * tracking, -0.5 * drift_mps, -0.1 * effort];
+        self.earned.iter_mut().zip(terms).for_each(|((_, earned), term)| *earned = term);
         StepEvaluation {
-            reward: (1.0 + 4.0 * tracking - 0.5 * drift_mps - 0.1 * effort) as f32,
+            reward: terms.iter().sum::<f64>() as f32,
             terminated: height_m < FALLEN_M,
             truncated: false,
             info: StepInfo { torso_height_m: height_m, ..StepInfo::default() },
         }
+    }
+
+    fn reward_terms(&self, each: &mut dyn FnMut(&'static str, f64)) {
+        self.earned.iter().for_each(|(name, term)| each(name, *term));
     }
 
     fn observe(&mut self, physics: &Physics, noise: &mut SensorNoise, observation: &mut [f32]) {

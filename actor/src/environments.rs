@@ -55,6 +55,8 @@ pub struct Environments {
     observation_size: usize,
     action_size: usize,
     precision: Precision,
+    /// For each term of the reward, its name, and its sum over all environments and steps since it was last taken.
+    reward_sums: Vec<(&'static str, f64)>,
 }
 
 /// One environment with all outputs of its step.
@@ -118,6 +120,10 @@ impl Environments {
             .collect::<Result<Vec<_>, ModelError>>()?;
         let observation_size = slots.first().map_or(0, |slot| slot.environment.observation_size());
         let action_size = slots.first().map_or(0, |slot| slot.environment.action_size());
+        let mut reward_sums = Vec::new();
+        if let Some(first) = slots.first() {
+            first.environment.task().reward_terms(&mut |name, _| reward_sums.push((name, 0.0)));
+        }
         let mut environments = Self {
             slots,
             seeds: seeds.reset_seeds(),
@@ -125,6 +131,7 @@ impl Environments {
             observation_size,
             action_size,
             precision: Precision::F32,
+            reward_sums,
         };
         environments.reset();
         Ok(environments)
@@ -164,6 +171,7 @@ impl Environments {
             split.push(Self {
                 slots: rest.by_ref().take(share).collect(),
                 seeds: self.seeds.clone(),
+                reward_sums: self.reward_sums.clone(),
                 observations: rows.next().unwrap_or_default().to_vec(),
                 ..self
             });
@@ -215,7 +223,7 @@ impl Environments {
     /// If there are not as many actions as environments.
     pub fn step(&mut self, actions: &[f32], results: &mut StepResults) {
         assert_eq!(actions.len(), self.len() * self.action_size, "one action for each environment is needed");
-        let Self { slots, seeds, observations, .. } = self;
+        let Self { slots, seeds, observations, reward_sums, .. } = self;
         // Without environments both widths are 0, which is no chunk size.
         let (width, action_size) = (self.observation_size.max(1), self.action_size.max(1));
         // Environments of one chunk step in one pass.
@@ -227,10 +235,17 @@ impl Environments {
             }
             Environment::step_together(&mut slots.iter_mut().map(|slot| &mut slot.environment));
             for (slot, observation) in slots.iter_mut().zip(observations.chunks_exact_mut(width)) {
-                slot.finish_step(seeds, observation);
+                slot.finish_step(seeds, observation, reward_sums);
             }
         }
         results.collect(&mut self.slots);
+    }
+
+    /// Returns name and sum of each term of the reward, over all environments and steps since the last call. The terms of
+    /// failed steps do not count.
+    pub fn take_reward_sums(&mut self) -> Vec<(&'static str, f64)> {
+        let zeros = self.reward_sums.iter().map(|(name, _)| (*name, 0.0)).collect();
+        std::mem::replace(&mut self.reward_sums, zeros)
     }
 
     /// Makes the physics of one environment fail at the next step; for tests.
@@ -278,7 +293,7 @@ impl EnvironmentSlot {
         self.environment.begin_step(&self.control);
     }
 
-    fn finish_step(&mut self, seeds: &ResetSeeds, observation: &mut [f32]) {
+    fn finish_step(&mut self, seeds: &ResetSeeds, observation: &mut [f32], reward_sums: &mut [(&'static str, f64)]) {
         let step = self.environment.finish_step(observation);
         self.precision.round(observation);
         let progress = &mut self.progress;
@@ -289,6 +304,12 @@ impl EnvironmentSlot {
         if !step.fault {
             // Position of the torso: the task's info may measure another point.
             progress.last_x_m = self.environment.physics().position()[0];
+            let mut sums = reward_sums.iter_mut();
+            self.environment.task().reward_terms(&mut |_, term| {
+                if let Some((_, sum)) = sums.next() {
+                    *sum += term;
+                }
+            });
         }
         let (flags, cause) = match (step.fault, step.terminated, step.truncated) {
             (true, ..) => (TERMINATED, EndCause::NonFinite),

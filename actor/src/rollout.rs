@@ -7,7 +7,7 @@ use std::io;
 use rand_distr::{Distribution, StandardNormal};
 use rayon::{ThreadPool, ThreadPoolBuilder, prelude::*};
 use treadmill_humanoid::PHYSICS_VERSION;
-use treadmill_proto::{ActorState, Fragment, Precision, WIRE_VERSION};
+use treadmill_proto::{ActorState, Fragment, Precision, RewardTerm, WIRE_VERSION};
 use treadmill_runtime::{machine, seeds::Stream};
 
 use self::share::Share;
@@ -142,10 +142,22 @@ impl Collector {
         for t in 0..steps as usize {
             self.shares.iter().for_each(|share| share.append_step(t, &mut fragment));
         }
+        fragment.reward_terms = self.reward_terms(rows);
         if self.is_state_attached {
             fragment.actor_state = self.saved_state();
         }
         Ok(fragment)
+    }
+
+    /// Returns the terms of the reward as means over the `rows` transitions of a fragment. One that is not finite is left out.
+    fn reward_terms(&mut self, rows: usize) -> Vec<RewardTerm> {
+        let mut of_shares = self.shares.iter_mut().map(|share| share.environments.take_reward_sums());
+        let mut sums = of_shares.next().unwrap_or_default();
+        for others in of_shares {
+            sums.iter_mut().zip(others).for_each(|((_, sum), (_, more))| *sum += more);
+        }
+        let means = sums.into_iter().map(|(name, sum)| RewardTerm { name: name.to_owned(), mean: sum / rows as f64 });
+        means.filter(|term| term.mean.is_finite()).collect()
     }
 
     /// Returns the actor's state; if that is too large for a fragment, returns `None` and attaches no further ones.

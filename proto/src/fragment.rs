@@ -8,7 +8,9 @@ use crate::{
     ident::check_ident,
     limits::{ENVS_MAX, FRAGMENT_BYTES_MAX, SEQUENCE_MAX, STEPS_MAX, WIDTH_MAX},
     pieces::Cursor,
-    planes, scan, wire,
+    planes,
+    reward_term::{self, RewardTerm},
+    scan, wire,
 };
 
 /// Flag bit of a transition that ended the episode by a rule of the task.
@@ -109,6 +111,8 @@ pub struct Fragment {
     pub wire_version: u32,
     /// Version of the physics that the sender simulates; 0 means 1, and has no meaning in runs of external tasks.
     pub physics_version: u32,
+    /// Terms of the reward, as means over the transitions; empty if the task names none.
+    pub reward_terms: Vec<RewardTerm>,
 }
 
 impl Fragment {
@@ -157,6 +161,7 @@ impl Fragment {
         if !(self.collect_s.is_finite() && self.collect_s >= 0.0) {
             return Err(Malformed::field("collect_s", self.collect_s, "0 or more"));
         }
+        reward_term::check(&self.reward_terms)?;
         check_plane("observations", &self.observations, rows * self.observation_size as usize)?;
         check_plane("actions", &self.actions, rows * self.action_size as usize)?;
         check_plane("log_probs", &self.log_probs, rows)?;
@@ -224,6 +229,7 @@ impl Fragment {
             collect_s: self.collect_s,
             wire_version: self.wire_version,
             physics_version: self.physics_version,
+            reward_terms: self.reward_terms.clone(),
         };
         let bytes = message.encode_to_vec();
         check_size("fragment", bytes.len(), FRAGMENT_BYTES_MAX)?;
@@ -275,6 +281,7 @@ impl Fragment {
             collect_s: message.collect_s,
             wire_version: message.wire_version,
             physics_version: message.physics_version,
+            reward_terms: message.reward_terms,
         };
         fragment.check()?;
         Ok(fragment)
@@ -288,6 +295,7 @@ pub fn claimed_incarnation(beginning: &[u8]) -> Option<u64> {
 
 const INCARNATION_FIELD: u32 = 3;
 const EPISODES_FIELD: u32 = 17;
+const REWARD_TERMS_FIELD: u32 = 25;
 /// Observations, actions, log-probabilities, rewards and last observations.
 const PLANE_FIELDS: [u32; 5] = [11, 12, 13, 14, 16];
 /// Smallest size of one transition: an entry each of observation and action, log-probability, reward and flags.
@@ -303,15 +311,17 @@ struct Parts<'a> {
 impl<'a> Parts<'a> {
     fn of(message: Cursor<'a>) -> Result<Self, Malformed> {
         let mut parts = Self { planes: [Cursor::whole(&[]); _], others: Vec::new() };
-        let mut episodes = 0;
+        let (mut episodes, mut reward_terms) = (0, 0);
         scan::all("fragment", message, |field| {
             episodes += usize::from(field.number == EPISODES_FIELD);
+            reward_terms += usize::from(field.number == REWARD_TERMS_FIELD);
             match (PLANE_FIELDS.iter().position(|plane| *plane == field.number), field.bytes) {
                 // If a field occurs twice, protobuf uses the later one.
                 (Some(plane), Some(bytes)) => parts.planes[plane] = bytes,
                 _ => parts.others.put(field.encoded),
             }
         })?;
+        reward_term::check_count(reward_terms)?;
         // An episode has at least one transition, and takes far more bytes decoded than encoded.
         let (bytes, most) = (message.remaining(), message.remaining() / TRANSITION_BYTES_MIN);
         if episodes > most {

@@ -37,6 +37,7 @@ pub(crate) fn sample() -> Fragment {
         collect_s: 0.25,
         wire_version: 2,
         physics_version: 3,
+        reward_terms: vec![RewardTerm { name: "forward".into(), mean: 1.5 }],
     }
 }
 
@@ -136,6 +137,7 @@ fn the_error_names_the_bad_field() {
     assert!(refuse(|f| f.observations[3] = f32::NAN).contains("`observations` holds NaN at index 3"));
     assert!(refuse(|f| f.rewards.truncate(5)).contains("`rewards` is 5 numbers long; expected 6"));
     assert!(refuse(|f| f.flags[0] = 3).contains("`flags` is 3"));
+    assert!(refuse(|f| f.reward_terms[0].name = "a b".into()).contains("`reward_terms.name` is `a b`"));
     assert!(refuse(|f| f.episodes[0].return_sum = f64::INFINITY).contains("`episodes`"));
 }
 
@@ -151,6 +153,13 @@ fn many_empty_episodes_are_refused_before_decoding() {
     let episodes = [0x8a, 1, 0].repeat(FRAGMENT_BYTES_MAX / 3);
     let error = Fragment::decode(episodes).unwrap_err().to_string();
     assert!(error.contains("`episodes`") && error.contains("at most"), "{error}");
+}
+
+#[test]
+fn many_empty_reward_terms_are_refused_before_decoding() {
+    let terms = [0xca, 1, 0].repeat(FRAGMENT_BYTES_MAX / 3);
+    let error = Fragment::decode(terms).unwrap_err().to_string();
+    assert!(error.contains("`reward_terms` is") && error.contains("at most 64"), "{error}");
 }
 
 #[test]

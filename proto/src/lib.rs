@@ -37,6 +37,7 @@ pub mod pose;
 pub mod precision;
 pub mod prepared;
 pub mod receipt;
+pub mod reward_term;
 pub mod stats;
 pub mod task;
 
@@ -72,6 +73,7 @@ pub use pose::Pose;
 pub use precision::Precision;
 pub use prepared::{PreparedFragment, PreparedTransitions};
 pub use receipt::{Outcome, Receipt};
+pub use reward_term::RewardTerm;
 pub use stats::ActorStats;
 pub use task::{Task, TaskReceipt, TaskRegistration};
 

@@ -25,6 +25,8 @@ pub const SMALL_BYTES_MAX: usize = 64 << 10;
 pub const STATS_BYTES_MAX: usize = 4 << 10;
 /// Largest pose: about a thousand bodies with their contacts.
 pub const POSE_BYTES_MAX: usize = 64 << 10;
+/// Most terms of the reward in one fragment.
+pub const REWARD_TERMS_MAX: usize = 64;
 /// Largest sequence number; counting on from it never overflows.
 pub const SEQUENCE_MAX: u64 = u64::MAX >> 1;
 /// Largest status of a run: a few hundred bytes for each actor.

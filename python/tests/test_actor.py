@@ -219,10 +219,32 @@ class RolloutTest(unittest.TestCase):
 
     def test_non_finite_observation_ends_the_episode(self):
         environments = Environments(Count, "test/Count-v0", 1, 1)
-        environments.envs[0].step = lambda action: (np.array([np.nan, 7.0]), 1.0, False, False, {})
-        rewards, flags, cut_off, episodes = environments.step(np.zeros((1, 2), np.float32))
-        self.assertEqual((rewards[0], flags[0], cut_off, episodes[0]["cause"]), (0.0, 1, {}, "non_finite"))
-        self.assertTrue(np.isfinite(environments.observations).all())
+        # Fragments have single precision.
+        for observation, reward in ((np.nan, 1.0), (1e39, 1.0), (1.0, np.inf), (1.0, -1e40)):
+            environments.envs[0].step = lambda action: (np.array([observation, 7.0]), reward, False, False, {})
+            rewards, flags, cut_off, episodes = environments.step(np.zeros((1, 2), np.float32))
+            self.assertEqual((rewards[0], flags[0], cut_off, episodes[0]["cause"]), (0.0, 1, {}, "non_finite"))
+            self.assertTrue(np.isfinite(environments.observations).all())
+
+    def test_terms_of_the_reward_are_means_over_the_fragment(self):
+        environments = Environments(Count, "test/Count-v0", 2, 1)
+        for number, env in enumerate(environments.envs):
+            infos = {"reward_forward": 3.0 * number, "reward_ctrl": np.float32(-0.5), "reward_Bad": 1.0, "reward_text": "x"}
+            more = {"reward_endless": np.inf} | {f"reward_{index}": 1 for index in range(100)}
+            env.step = lambda action, info=infos | more: (np.array([1.0, 7.0]), 2.0, False, False, info)
+        collector = Collector(environments, "run", "py", 5, 9, 3)
+        for _ in range(2):
+            fragment, _ = collector.collect(linear(), schema.PolicyVersion(), 0, 4)
+            terms = [(term.name, term.mean) for term in schema.Fragment.FromString(fragment).reward_terms]
+            self.assertEqual(terms[:3], [("forward", 1.5), ("ctrl", -0.5), ("0", 1.0)])
+            self.assertEqual(len(terms), 63, "64 at most, and one is not finite")
+
+    def test_new_run_begins_with_new_episodes(self):
+        environments = Environments(Count, "test/Count-v0", 2, 1)
+        environments.step(np.zeros((2, 2), np.float32))
+        environments.reset()
+        self.assertEqual((environments.returns, environments.lengths), ([0.0, 0.0], [0, 0]))
+        np.testing.assert_allclose(environments.observations[:, 0], [0, 0])
 
     def test_fragment_is_shortened_to_the_limit(self):
         environments = Environments(lambda: Count(limit=1), "test/Count-v0", 2, 1)
@@ -231,15 +253,15 @@ class RolloutTest(unittest.TestCase):
         fragment, _ = collector.collect(linear(), schema.PolicyVersion(), 0, 4096)
         self.assertEqual(schema.Fragment.FromString(fragment).steps, 7)
         # Every step ends an episode here, which is the largest fragment of so many steps.
-        with mock.patch("treadmill_actor.rollout.FRAGMENT_BYTES_MAX", 8000):
+        with mock.patch("treadmill_actor.rollout.FRAGMENT_BYTES_MAX", 16_000):
             small = Collector(environments, "run", "py", 5, 9, 3)
         fragment, episodes = small.collect(linear(), schema.PolicyVersion(), 0, 4096)
         self.assertEqual((len(episodes), small.steps_max > 10), (2 * small.steps_max, True))
-        self.assertLessEqual(len(fragment), 8000)
+        self.assertLessEqual(len(fragment), 16_000)
 
     def test_too_many_environments_raise(self):
         environments = Environments(Count, "test/Count-v0", 2, 1)
-        with mock.patch("treadmill_actor.rollout.FRAGMENT_BYTES_MAX", 4200), self.assertRaisesRegex(TaskError, "fewer --envs"):
+        with mock.patch("treadmill_actor.rollout.FRAGMENT_BYTES_MAX", 12_300), self.assertRaisesRegex(TaskError, "fewer --envs"):
             Collector(environments, "run", "py", 5, 9, 3)
 
 
@@ -269,15 +291,15 @@ class DeliveryTest(unittest.TestCase):
         self.assertEqual(ledger.take_unsaved(2), {})
 
     def test_fragment_is_resent_until_settled(self):
-        answers = [None, receipt("busy"), receipt("stopping"), receipt("quarantined"), receipt("malformed")]
+        answers = [None, *[receipt("busy")] * 7, None, receipt("busy"), receipt("stopping"), receipt("quarantined"), receipt("malformed")]
         bus = SimpleNamespace(submit=lambda *_: answers.pop(0))
         waits = []
         stopping = SimpleNamespace(is_set=lambda: False, wait=waits.append)
         uploader = Uploader(bus, "run", "py", 1, 60.0, stopping)
         uploader.note_produced(1)
         self.assertEqual(uploader.deliver(1, b"1").outcome, schema.OUTCOMES["malformed"])
-        self.assertEqual((waits, uploader.ledger.resent, uploader.ledger.dropped_by_rule), ([0.2, 0.2, 0.2, 10.0], 4, 1))
-
+        self.assertEqual(waits, [0.2, 0.2, 0.4, 0.8, 1.6, 3.2, 3.2, 3.2, 0.2, 0.2, 0.2, 10.0])
+        self.assertEqual((uploader.ledger.resent, uploader.ledger.dropped_by_rule), (12, 1))
 
     def test_receipt_of_an_overtaken_learner_does_not_settle(self):
         answers = [receipt("accepted"), receipt("accepted")]
@@ -336,7 +358,7 @@ class JoiningTest(unittest.TestCase):
         """Returns what fetch_pieces makes of these answers, and the offsets that it asked for."""
         offsets = []
 
-        def ask(key, payload, priority):
+        def ask(key, payload, timeout_s, priority):
             offsets.append(schema.PolicyRequest.FromString(payload).offset)
             return answers.pop(0)
 

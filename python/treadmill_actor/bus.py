@@ -2,6 +2,8 @@
 
 import ipaddress
 import json
+import math
+import os
 import time
 from pathlib import Path
 
@@ -10,7 +12,11 @@ import zenoh
 from . import schema
 
 FETCH_TIMEOUT_S = 10.0
+#: Longest wait for the first piece of a policy, for which a router may ask the learner, and for each further one.
+FIRST_PIECE_TIMEOUT_S, PIECE_TIMEOUT_S = 5.0, 3.0
 PIECE_RETRY_S = 0.05
+#: Longest wait for a predecessor of the same name to go, and pause between two looks.
+NAME_TIMEOUT_S, NAME_RETRY_S = 15.0, 0.5
 MESSAGE_BYTES_MAX = 32 << 20
 QUEUED_METRICS_MAX = 100_000
 
@@ -51,6 +57,10 @@ def configuration(connect, tls=None, role="actor"):
         "transport/link/tx/keep_alive": 4,
         "transport/link/rx/max_message_size": MESSAGE_BYTES_MAX,
     }
+    if tls is not None or any(endpoint.startswith("tls/") for endpoint in connect):
+        # Zenoh reads and writes a TLS connection from two threads without a lock (eclipse-zenoh/zenoh#2557), which breaks links
+        # under load. It reads this variable when the first session opens.
+        os.environ.setdefault("ZENOH_RUNTIME", "(rx:(handover:tx))")
     if tls is not None:
         folder = Path(tls).resolve()
         certificate, key, authority = folder / f"{role}.crt", folder / f"{role}.key", folder / "ca.crt"
@@ -76,7 +86,7 @@ def read_metric(data):
         texts, numbers = [metric[key] for key in ("run", "tag")], [metric[key] for key in ("step", "value", "time_unix_s")]
     except (ValueError, TypeError, LookupError, RecursionError):
         return None
-    is_number = [isinstance(number, (int, float)) and not isinstance(number, bool) for number in numbers]
+    is_number = [isinstance(number, (int, float)) and not isinstance(number, bool) and math.isfinite(number) for number in numbers]
     return metric if all(is_number) and all(isinstance(text, str) for text in texts) else None
 
 
@@ -113,7 +123,8 @@ def fetch_pieces(ask, key, request):
     deadline = time.monotonic() + FETCH_TIMEOUT_S
     while time.monotonic() < deadline:
         request.offset = len(data)
-        answer = ask(key, request.SerializeToString(), priority=zenoh.Priority.DATA_HIGH)
+        timeout_s = FIRST_PIECE_TIMEOUT_S if first is None else PIECE_TIMEOUT_S
+        answer = ask(key, request.SerializeToString(), timeout_s, zenoh.Priority.DATA_HIGH)
         if answer is None:
             if first is None:
                 return None
@@ -195,6 +206,19 @@ class Bus:
             apply(schema.PolicyAnnouncement.FromString(sample.payload.to_bytes()).version)
 
         return self.session.declare_subscriber(f"treadmill/{run}/policy/version", receive)
+
+    def wait_for_name(self, run, actor, stopping):
+        """Waits until no other actor of this name is in the run; a predecessor may have ended without notice.
+
+        Raises BusError if another one stays.
+        """
+        deadline = time.monotonic() + NAME_TIMEOUT_S
+        token = f"treadmill/{run}/actors/{actor}"
+        while any(reply.ok is not None for reply in self.session.liveliness().get(token, timeout=2.0)):
+            if time.monotonic() > deadline:
+                raise BusError(f"an actor named `{actor}` is in the run `{run}` already; choose another --name")
+            if stopping.wait(NAME_RETRY_S):
+                return
 
     def token(self, run, actor):
         """Declares the liveliness token of the actor."""

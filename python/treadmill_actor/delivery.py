@@ -6,7 +6,8 @@ from dataclasses import dataclass, field
 
 from . import schema
 
-RETRY_S = 0.2
+#: First and longest pause before a fragment is resent. It doubles while the queue is full: each attempt carries the whole fragment.
+RETRY_S, RETRY_MAX_S = 0.2, 3.2
 QUARANTINE_RETRY_S = 10.0
 #: Pause before a fragment is resent, by outcome. Other outcomes settle the fragment.
 RETRY_AFTER_S = {"busy": RETRY_S, "stopping": RETRY_S, "quarantined": QUARANTINE_RETRY_S}
@@ -86,7 +87,7 @@ class Uploader:
 
     def deliver(self, sequence, fragment):
         """Sends one fragment until a receipt settles it. Returns the receipt, or None after a request to stop."""
-        tries = 0
+        tries = busy = 0
         while not self.stopping.is_set():
             if tries:
                 with self.lock:
@@ -107,6 +108,9 @@ class Uploader:
                 why = "no learner answers" if receipt is None else receipt.reason
                 log.warning("%s: %s; keeping fragments and retrying", self.actor, why)
             tries += 1
+            if outcome == "busy":
+                pause_s = min(RETRY_S * 2**busy, RETRY_MAX_S)
+            busy = min(busy + 1, 16) if outcome == "busy" else 0
             self.stopping.wait(pause_s)
         return None
 

@@ -99,7 +99,8 @@ class Policies:
             if bundle.run != self.run or bundle.config_hash != self.config_hash:
                 self.run_changed.set()
                 return
-            self.fragment_steps = bundle.fragment_steps
+            # A short answer, that the policy is unchanged, has none.
+            self.fragment_steps = bundle.fragment_steps or self.fragment_steps
             if bundle.version == self._current[1]:
                 return
             try:

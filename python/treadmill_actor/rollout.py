@@ -2,6 +2,8 @@
 
 import logging
 import math
+import numbers
+import re
 import time
 
 import numpy as np
@@ -11,8 +13,10 @@ from .task import TaskError, describe
 
 TERMINATED, TRUNCATED = 1, 2
 FRAGMENT_BYTES_MAX = 30 << 20
-#: Most bytes of a fragment's header, and of one episode in it.
-HEADER_BYTES, EPISODE_BYTES = 4096, 40
+#: Most bytes of a fragment's header with its terms of the reward, and of one episode in it.
+HEADER_BYTES, EPISODE_BYTES = 12_288, 40
+#: Terms of the reward in info, such as reward_forward, as Gymnasium's own environments have them.
+REWARD_TERM, REWARD_TERMS_MAX = re.compile(r"reward_([a-z0-9_]{1,64})"), 64
 log = logging.getLogger("treadmill_actor")
 
 
@@ -28,11 +32,18 @@ class Environments:
         self.lengths = [0] * count
         self.starts = [0.0] * count
         self.positions = [None] * count
+        #: Sum of each term of the reward over all environments and steps since the fragment began.
+        self.reward_sums = {}
         for index in range(count):
             self._reset(index, self.seeds[index])
 
     def __len__(self):
         return len(self.envs)
+
+    def reset(self):
+        """Begins new episodes: returns under the policy of another run do not count."""
+        for index in range(len(self)):
+            self._reset(index)
 
     def _reset(self, index, seed=None):
         observation, info = self.envs[index].reset(seed=seed)
@@ -54,12 +65,15 @@ class Environments:
             observation, reward, terminated, truncated, info = env.step(
                 commands[index].reshape(env.action_space.shape).astype(env.action_space.dtype, copy=False)
             )
+            # Beyond single precision, which fragments have, is a fault too.
             with np.errstate(over="ignore"):
                 self.observations[index] = np.ravel(observation)
-            fault = not (np.isfinite(self.observations[index]).all() and math.isfinite(reward))
+                fault = not (np.isfinite(self.observations[index]).all() and np.isfinite(np.float32(reward)))
             if fault:
                 # A numerical fault ends the episode with the last finite observation and reward 0.
                 self.observations[index], reward, terminated = before, 0.0, True
+            else:
+                self._add_reward_terms(info)
             rewards[index] = reward
             self.returns[index] += float(reward)
             self.lengths[index] += 1
@@ -74,6 +88,12 @@ class Environments:
             episodes.append(self._episode(index, cause))
             self._reset(index)
         return rewards, flags, cut_off, episodes
+
+    def _add_reward_terms(self, info):
+        for key, term in info.items():
+            name = REWARD_TERM.fullmatch(key)
+            if name and isinstance(term, numbers.Real):
+                self.reward_sums[name[1]] = self.reward_sums.get(name[1], 0.0) + float(term)
 
     def _episode(self, index, cause):
         """Returns the episode's summary. Distance comes from x_position in info, and is 0 without it."""
@@ -127,6 +147,7 @@ class Collector:
         log_probs, rewards = np.empty((steps, envs), np.float32), np.empty((steps, envs), np.float32)
         flags = np.empty((steps, envs), np.uint8)
         last_observations, episodes = [], []
+        environments.reward_sums.clear()
         for t in range(steps):
             normals = self.random.standard_normal((envs, task.action_size), dtype=np.float32)
             observations[t] = environments.observations
@@ -163,5 +184,8 @@ class Collector:
         )
         for episode in episodes:
             fragment.episodes.add(**{**episode, "cause": schema.END_CAUSES[episode["cause"]]})
+        for name, total in list(environments.reward_sums.items())[:REWARD_TERMS_MAX]:
+            if math.isfinite(total):
+                fragment.reward_terms.add(name=name, mean=total / (steps * envs))
         fragment.collect_s = time.monotonic() - begun
         return fragment.SerializeToString(), episodes

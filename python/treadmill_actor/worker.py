@@ -38,10 +38,15 @@ class Worker:
 
     def work(self, steps=None):
         """Joins and simulates for `steps` environment steps; joins again if the run changes."""
+        has_simulated = False
         while not self.stopping.is_set():
             bundle = join(self.bus, self.run, self.actor, self.environments.task, self.stopping)
             if bundle is None:
                 return
+            self.bus.wait_for_name(self.run, self.actor, self.stopping)
+            if has_simulated:
+                self.environments.reset()
+            has_simulated = True
             log.info("%s joined run `%s` at version %d", self.actor, self.run, bundle.version.number)
             if self._simulate_run(bundle, steps):
                 return

@@ -8,7 +8,7 @@ use treadmill_runtime::shutdown::Shutdown;
 
 use crate::{
     diagnosis::certificates,
-    launch::{async_runtime, output::say, router_session, signals},
+    launch::{async_runtime, memory, output::say, router_session, signals},
     shared::network_args::NetworkArgs,
 };
 
@@ -28,10 +28,14 @@ pub struct RouterArgs {
 /// Silence of a learner that is there after which the session is opened anew; doubled after each session without any answer.
 const PATIENCE: Duration = Duration::from_secs(15);
 const PATIENCE_MAX: Duration = Duration::from_secs(240);
+/// Time between the two sessions, in which actors that have another endpoint go there.
+const PAUSE: Duration = Duration::from_secs(2);
+
 /// Forwards messages until the process is asked to stop.
 pub fn run(args: RouterArgs) -> anyhow::Result<()> {
     let options = args.network.options(Role::Router, args.listen, args.connect)?;
     certificates::check_own(options.credentials.as_ref())?;
+    memory::use_one_arena();
     if options.credentials.is_some() {
         treadmill_bus::workarounds::one_core::keep_to_one_core();
     }
@@ -51,11 +55,12 @@ pub fn run(args: RouterArgs) -> anyhow::Result<()> {
                 () = shutdown.wait() => None,
             };
             let Some(SilentLearner { run, has_answers }) = silent else { break };
-            // After faults of the network Zenoh may lose the way of questions, though tokens arrive; a new session finds it.
+            // After faults of the network Zenoh may lose the way of questions, though tokens arrive. A new session may find it,
+            // and another router has it.
             tracing::warn!(run, "the learner is there, but its answers do not arrive; opening the session anew");
             patience = if has_answers { PATIENCE } else { (2 * patience).min(PATIENCE_MAX) };
             bus = tokio::select! {
-                bus = router_session::reopen(&bus, &options, &endpoints) => bus?,
+                bus = router_session::reopen(&bus, &options, &endpoints, PAUSE) => bus?,
                 () = shutdown.wait() => break,
             };
         }

@@ -9,7 +9,7 @@ use treadmill_bus::{Bus, Role};
 use treadmill_proto::ident::check_ident;
 use treadmill_runtime::{machine, seeds, shutdown::Shutdown};
 
-use super::{async_runtime, exit_code::Usage, signals};
+use super::{async_runtime, exit_code::Usage, memory, signals};
 use crate::{
     diagnosis::{Silence, certificates},
     shared::network_args::{NetworkArgs, check_run},
@@ -77,6 +77,7 @@ pub fn with_session<W: Future<Output = Result<(), ActorError>>>(
     let where_to = network.where_to(&client.connect);
     let bus_options = network.options(role, Vec::new(), client.connect)?;
     certificates::check_own(bus_options.credentials.as_ref())?;
+    memory::use_one_arena();
     async_runtime::run(async {
         let shutdown = Shutdown::default();
         signals::listen(shutdown.clone(), "")?;

@@ -20,8 +20,11 @@ pub async fn open_server(
     shutdown: &Shutdown,
 ) -> anyhow::Result<Option<TaskServer>> {
     let known = prepared.state.as_ref().map(TrainingState::task).transpose().map_err(anyhow::Error::msg)?;
-    let config = prepared.config.clone();
-    let objection = Box::new(move |task: &Task| TrainingState::objection(&config, task));
+    let (config, init_from) = (prepared.config.clone(), prepared.init_from.clone());
+    let objection = Box::new(move |task: &Task| {
+        let begins_with = || init_from.as_ref()?.objection(&TrainingState::shape_for(&config, task));
+        TrainingState::objection(&config, task).or_else(begins_with)
+    });
     let server = TaskServer::open(bus, &prepared.run, known, objection)?;
     if prepared.state.is_some() {
         return Ok(Some(server));

@@ -160,7 +160,7 @@ impl<'a> Host<'a> {
     /// If an endpoint was taken meanwhile, or the system refuses.
     pub async fn begin_anew(&mut self) -> anyhow::Result<()> {
         self.prometheus.clear();
-        self.bus = router_session::reopen(&self.bus, self.options.bus, &self.endpoints).await?;
+        self.bus = router_session::reopen(&self.bus, self.options.bus, &self.endpoints, Duration::ZERO).await?;
         Ok(())
     }
 

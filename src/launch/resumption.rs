@@ -33,7 +33,10 @@ pub fn resume(
     let _step = SlowStepNotice::begin(format!("loading the checkpoint of {}", folder.root().display()));
     // With --resume-or-start, the flag chooses the checkpoint to begin from.
     let which = any.checkpoint.filter(|_| any.resume.is_some()).unwrap_or(Which::Latest);
-    let state = checkpoint::load(&folder, which)?.state;
+    let mut state = checkpoint::load(&folder, which)?.state;
+    if let Ok(best) = checkpoint::load(&folder, Which::Best) {
+        state.adopt_best(&best.state);
+    }
     go_on(command, (folder, lock), state, new, any, changes)
 }
 

@@ -17,13 +17,14 @@ pub async fn open(options: &BusOptions) -> anyhow::Result<(Bus, Vec<String>)> {
     Ok(tokio::task::spawn_blocking(move || Bus::open_router(&options)).await??)
 }
 
-/// Closes a session and opens another one on the same endpoints; waits until they are free.
+/// Closes a session and opens another one on the same endpoints after a pause, as soon as they are free.
 ///
 /// # Errors
 /// As [`open`].
-pub async fn reopen(bus: &Bus, options: &BusOptions, endpoints: &[String]) -> anyhow::Result<Bus> {
+pub async fn reopen(bus: &Bus, options: &BusOptions, endpoints: &[String], pause: Duration) -> anyhow::Result<Bus> {
     let closed = bus.clone();
     tokio::task::spawn_blocking(move || closed.close()).await?;
+    tokio::time::sleep(pause).await;
     let options = BusOptions { listen: endpoints.to_vec(), ..options.clone() };
     let begin = Instant::now();
     loop {

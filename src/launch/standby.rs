@@ -114,6 +114,8 @@ impl Standby {
             return Ok(NextMove::Wait);
         }
         say(&format!("the leader of run `{run}` is gone: taking over"));
+        // The routes of a session that lost a leader in silence may not reach routers that join later.
+        host.begin_anew().await?;
         Ok(NextMove::Lead)
     }
 

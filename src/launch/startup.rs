@@ -102,6 +102,16 @@ pub fn resume_command(command: &str, folder: &RunFolder, store: Option<&str>) ->
     }
 }
 
+/// Returns the command that resumes the run of a folder, by the files there.
+pub fn resume_command_of(folder: &RunFolder) -> String {
+    let text = |path: PathBuf| fs::read_to_string(path).unwrap_or_default();
+    let config: toml::Table = text(folder.config()).parse().unwrap_or_default();
+    let task = config.get("env").and_then(|env| env.get("task")).and_then(toml::Value::as_str);
+    let command = if task == Some("external") { "learner" } else { "train" };
+    let store = text(folder.store());
+    resume_command(command, folder, Some(store.trim()).filter(|url| !url.is_empty()))
+}
+
 /// Command that a run is prepared for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum RunCommand {

@@ -6,7 +6,7 @@ use treadmill_learner::{
     checkpoint::{TrainingState, Which},
     intake::{FragmentCounts, Ledger},
 };
-use treadmill_policy::normaliser::RunningMoments;
+use treadmill_policy::{NetworkShape, exported::ExportedPolicy, normaliser::RunningMoments};
 use treadmill_runtime::{numbers::thousands, seeds};
 
 use crate::{
@@ -21,6 +21,7 @@ use crate::{
 };
 
 /// Policy that a new run begins with.
+#[derive(Clone)]
 pub struct InitFrom {
     from: String,
     saved: SavedPolicy,
@@ -37,21 +38,27 @@ impl InitFrom {
         Ok(Some(Self { from, saved }))
     }
 
+    /// Returns why a run with networks of this shape cannot begin with it, if so.
+    pub fn objection(&self, ours: &NetworkShape) -> Option<String> {
+        let Self { from, saved: SavedPolicy { policy: ExportedPolicy { shape: theirs, .. }, .. } } = self;
+        (theirs != ours).then(|| {
+            format!(
+                "`--init-from {from}`: its networks have {} observations, {} actions and hidden layers {:?}; those of this run \
+                 have {}, {} and {:?}; use the same robot, env.observation and policy.hidden",
+                theirs.observation, theirs.action, theirs.hidden, ours.observation, ours.action, ours.hidden
+            )
+        })
+    }
+
     /// Copies its weights and statistics into the state of a new run, whose counters remain. Returns what was copied.
     ///
     /// # Errors
     /// If its networks have another shape.
     pub fn copy_to(&self, state: &mut TrainingState) -> anyhow::Result<String> {
-        let Self { from, saved: SavedPolicy { policy, origin, return_moments } } = self;
-        let (theirs, ours) = (&policy.shape, &state.shape);
-        if theirs != ours {
-            return Err(Usage(format!(
-                "`--init-from {from}`: its networks have {} observations, {} actions and hidden layers {:?}; those of this run \
-                 have {}, {} and {:?}; use the same robot, env.observation and policy.hidden",
-                theirs.observation, theirs.action, theirs.hidden, ours.observation, ours.action, ours.hidden
-            ))
-            .into());
+        if let Some(why) = self.objection(&state.shape) {
+            return Err(Usage(why).into());
         }
+        let Self { from, saved: SavedPolicy { policy, origin, return_moments } } = self;
         let count = policy.observation.count;
         let m2 = policy.variance.iter().map(|variance| variance * count).collect();
         state.observation_moments = RunningMoments { count, mean: policy.mean.clone(), m2 };

@@ -10,7 +10,7 @@ use treadmill_runtime::{run_folder::RunFolder, run_lock::holder, words::quoted};
 
 use crate::{
     diagnosis::Silence,
-    launch::{async_runtime, exit_code::Usage, slow_step::SlowStepNotice},
+    launch::{async_runtime, exit_code::Usage, slow_step::SlowStepNotice, startup::resume_command_of},
     shared::network_args::{NetworkArgs, check_run},
 };
 
@@ -148,7 +148,7 @@ pub fn connect(
 ) -> anyhow::Result<()> {
     if let Some(folder) = reach.idle_folder() {
         let root = quoted(&folder.root().display().to_string());
-        anyhow::bail!("no process trains `{root}` now; go on with: treadmill train --resume {root}");
+        anyhow::bail!("no process trains `{root}` now; go on with: {}", resume_command_of(&folder));
     }
     let reach = match &reach.live_folders()[..] {
         [] => reach.clone(),

@@ -17,6 +17,7 @@ use treadmill_runtime::numbers::thousands;
 use crate::{launch::exit_code::Usage, shared::saved_run};
 
 /// Policy that was read, and where it comes from.
+#[derive(Clone)]
 pub struct SavedPolicy {
     /// The policy.
     pub policy: ExportedPolicy,

@@ -101,6 +101,23 @@ async fn a_task_needs_a_valid_name_and_may_be_as_large_as_the_networks_allow() {
 }
 
 #[tokio::test(flavor = "multi_thread")]
+async fn a_task_that_does_not_fit_the_first_policy_is_refused_and_the_learner_waits_on() {
+    let (folder, run) = folders();
+    let humanoid = folder.path().join("humanoid");
+    trained(folder.path(), &humanoid);
+    let more = ["--task", "external", "--steps", "1024", "--init-from", humanoid.to_str().unwrap()];
+    let training = learner(folder.path(), &run, &more);
+    let bus = join(&run);
+    let refused = register(&bus, "count-1", &task()).await;
+    assert!(!refused.accepted && refused.reason.contains("45 observations"), "{}", refused.reason);
+    let (low, high) = (vec![-1.0; 17], vec![1.0; 17]);
+    let fitting = Task { observation_size: 45, action_size: 17, action_low: low, action_high: high, ..task() };
+    let accepted = register(&bus, "count-1", &fitting).await;
+    assert!(accepted.accepted, "{}", accepted.reason);
+    training.wait_for("begins    with the policy of");
+}
+
+#[tokio::test(flavor = "multi_thread")]
 async fn the_first_registration_defines_the_task_and_others_must_match_it() {
     let (folder, run) = folders();
     let training = learner(folder.path(), &run, &["--task", "test/Count-v0", "--steps", "1024"]);

@@ -38,6 +38,47 @@ fn policies_are_evaluated_during_training() {
     let at = returns.iter().position(|(_, value)| *value == best).unwrap();
     let kept = load_file(&run.join("checkpoints/best.bundle")).unwrap();
     assert_eq!(kept.counters.env_steps as f64, evaluated[at].1);
+    assert_eq!(
+        (kept.best_is_evaluated, kept.best_return),
+        (true, latest.best_return),
+        "a run that goes on from it knows"
+    );
+}
+
+#[test]
+fn evaluations_longer_than_many_intervals_have_results() {
+    let (folder, run) = folders();
+    let mut command = endless(folder.path(), &run, "train");
+    // Each update is due, and one evaluation lasts for dozens of them.
+    command.args(["--set", "eval.every_steps=512", "--set", "eval.episodes=200"]);
+    let training = Running::start(command);
+    let results = || metrics(&run).iter().filter(|(tag, ..)| tag == "eval/mean_reward").count();
+    await_that("two evaluations", || (results() >= 2).then_some(()));
+    training.signal(libc::SIGINT);
+    assert!(training.wait().0.success());
+}
+
+#[test]
+fn a_run_that_goes_back_keeps_its_best_policy() {
+    let (folder, run) = folders();
+    let trained = |args: &[&str]| {
+        let trained = treadmill(folder.path()).args(["train", "--no-progress"]).args(args).output().unwrap();
+        assert!(trained.status.success(), "{}", stderr(&trained));
+    };
+    let often = ["--set", "eval.every_steps=1024", "--set", "eval.episodes=1"];
+    let name = run.to_str().unwrap();
+    trained(&[&["--preset", "smoke", "--steps", "20480", "--run-dir", name], &often[..]].concat());
+    // A policy better than any that follows.
+    let best_file = run.join("checkpoints/best.bundle");
+    let mut best = load_file(&best_file).unwrap();
+    (best.best_return, best.best_is_evaluated) = (Some(1e6), true);
+    let best = treadmill_learner::checkpoint::encoding::encode(&best).unwrap();
+    std::fs::write(&best_file, &best).unwrap();
+    trained(&["--resume", name, "--steps", "40960"]);
+    let results =
+        metrics(&run).into_iter().filter(|(tag, step, _)| tag == "eval/mean_reward" && *step > 20_480).count();
+    assert!(results > 0, "the resumed run evaluates");
+    assert!(std::fs::read(&best_file).unwrap() == best, "the best policy was replaced");
 }
 
 #[test]

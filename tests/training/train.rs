@@ -81,6 +81,7 @@ fn a_run_prints_its_banner_and_leaves_all_files() {
         "train/approx_kl",
         "train/explained_variance",
         "bus/policy_lag_mean",
+        "rewards/forward",
         "actors/alive",
     ] {
         assert!(metrics.iter().any(|(name, ..)| name == tag), "{tag}");
@@ -89,7 +90,11 @@ fn a_run_prints_its_banner_and_leaves_all_files() {
     assert_eq!(logged as u64, updates, "one line for each update");
     let documented = page("reference/metrics");
     for (tag, ..) in &metrics {
-        assert!(documented.contains(&format!("| `{tag}` |")), "docs/reference/metrics.md does not explain {tag}");
+        let explained = match tag.strip_prefix("rewards/") {
+            Some(term) => format!("`{term}`"),
+            None => format!("| `{tag}` |"),
+        };
+        assert!(documented.contains(&explained), "docs/reference/metrics.md does not explain {tag}");
     }
     assert_eq!(last_value(&run, "bus/policy_lag_max"), Some(0.0), "actors work in lock-step with the learner");
 }

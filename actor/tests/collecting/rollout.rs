@@ -151,6 +151,23 @@ fn threads_change_no_more_than_the_rounding_of_actions() {
 }
 
 #[test]
+fn the_terms_of_the_reward_add_up_to_its_mean_also_over_threads() {
+    let envs = worlds_per_pass() + 3;
+    for threads in [1, 2] {
+        let mut collector = collector(envs, &EnvironmentConfig::default()).with_threads(threads).unwrap();
+        for steps in [30, 50] {
+            let fragment = collector.collect(&policy(45), steps, 0).unwrap();
+            let names: Vec<&str> = fragment.reward_terms.iter().map(|term| &*term.name).collect();
+            assert_eq!(names, ["survive", "forward", "ctrl", "contact"]);
+            let mean =
+                fragment.rewards.iter().map(|reward| f64::from(*reward)).sum::<f64>() / (envs * steps as usize) as f64;
+            let sum: f64 = fragment.reward_terms.iter().map(|term| term.mean).sum();
+            assert!((sum - mean).abs() < 1e-5, "{sum} instead of {mean} on {threads} threads");
+        }
+    }
+}
+
+#[test]
 fn failed_physics_ends_the_episode_with_finite_numbers() {
     let mut environments = environments(2, &EnvironmentConfig::default());
     let mut results = StepResults::default();

@@ -96,7 +96,7 @@ impl From<State3> for TrainingState {
                 wall_s: counters.wall_s,
                 restarts: counters.restarts,
                 resumes: counters.resumes,
-                env_steps_simulated: 0,
+                env_steps_simulated: counters.env_steps,
                 env_steps_undone: 0,
             },
             best_return: state.best_return,

@@ -93,6 +93,15 @@ impl Counters {
 }
 
 impl TrainingState {
+    /// Adopts the return of the best policy that is saved, if that beats this state's own: a run that goes on from an older
+    /// checkpoint must not replace a better policy.
+    pub fn adopt_best(&mut self, saved: &Self) {
+        let rank = |state: &Self| (state.best_is_evaluated, state.best_return);
+        if rank(saved) > rank(self) {
+            (self.best_is_evaluated, self.best_return) = rank(saved);
+        }
+    }
+
     /// State of a new run.
     pub fn fresh(
         run: &str,
@@ -157,9 +166,7 @@ impl TrainingState {
         if !name.is_empty() && *name != task.name {
             return Some(format!("this run trains `{name}`; you registered {task}"));
         }
-        let hidden = config.policy.hidden.iter().map(|width| *width as usize).collect();
-        let (observation, action) = (task.observation_size as usize, task.action_size as usize);
-        let parameters = NetworkShape { observation, action, hidden, privileged: 0 }.parameter_count();
+        let parameters = Self::shape_for(config, task).parameter_count();
         // The other half is for the statistics of observations and the texts.
         let parameters_max = BUNDLE_BYTES_MAX / 2 / size_of::<f32>();
         (parameters > parameters_max).then(|| {
@@ -169,6 +176,13 @@ impl TrainingState {
                 config.policy.hidden
             )
         })
+    }
+
+    /// Returns the shape of the networks for an external task.
+    pub fn shape_for(config: &Config, task: &Task) -> NetworkShape {
+        let hidden = config.policy.hidden.iter().map(|width| *width as usize).collect();
+        let (observation, action) = (task.observation_size as usize, task.action_size as usize);
+        NetworkShape { observation, action, hidden, privileged: 0 }
     }
 
     /// Checks that the parts are consistent.

@@ -89,7 +89,8 @@ impl CheckpointWriter {
         }
     }
 
-    /// Removes the oldest numbered checkpoints up to this one. Later ones are of a branch that the run has left.
+    /// Removes the oldest checkpoints that were due, up to this one. Later ones are of a branch that the run has left, others
+    /// were asked for.
     fn prune(&self, newest: u64) {
         let names = match &self.place {
             Place::Folder(folder) => fs::read_dir(folder)
@@ -101,7 +102,8 @@ impl CheckpointWriter {
             Place::Store(store) => store.list(IN_STORE).unwrap_or_default(),
         };
         let number = |name: &String| name.strip_suffix(".bundle")?.parse::<u64>().ok();
-        let mut numbers: Vec<u64> = names.iter().filter_map(number).filter(|number| *number <= newest).collect();
+        let mut numbers: Vec<u64> =
+            names.iter().filter_map(number).filter(|n| *n <= newest && self.is_due(*n)).collect();
         numbers.sort_unstable();
         let surplus = numbers.len().saturating_sub(self.keep);
         for number in &numbers[..surplus] {
@@ -130,11 +132,12 @@ mod tests {
         let folder = RunFolder::create(Some(&root.path().join("run")), "run").unwrap();
         let writer = CheckpointWriter::new(&folder, 50, 3);
         // The run goes back to a checkpoint before update 100.
+        writer.save_kept(70, b"state").unwrap();
         for updates in [800, 850, 900, 100, 150, 200, 250] {
             writer.save_numbered(updates, b"state").unwrap();
         }
         let left: Vec<u64> =
             (0..1000).filter(|updates| folder.checkpoints().join(numbered(*updates)).exists()).collect();
-        assert_eq!(left, [150, 200, 250, 800, 850, 900]);
+        assert_eq!(left, [70, 150, 200, 250, 800, 850, 900], "and so does one that was asked for");
     }
 }

@@ -3,6 +3,7 @@
 //! # Layout
 //! - [`scalars`]: the scalars of each update; [`histograms`]: distributions of actions and lags.
 //! - [`episodes`]: the window of episodes for means.
+//! - [`reward_terms`]: [`RewardTerms`], the terms of the reward over a batch.
 //! - [`report`]: [`MetricsReport`], which writes to every output below.
 //! - [`progress`]: [`Console`], progress on standard output.
 //! - [`table`]: scalars as text, pure functions.
@@ -26,6 +27,7 @@ pub mod jsonl;
 pub mod progress;
 pub mod prometheus;
 pub mod report;
+pub mod reward_terms;
 pub mod scalars;
 pub mod sparkline;
 pub mod table;
@@ -39,6 +41,7 @@ pub use jsonl::JsonLines;
 pub use progress::{Console, ConsoleOptions};
 pub use prometheus::PrometheusMetrics;
 pub use report::MetricsReport;
+pub use reward_terms::RewardTerms;
 pub use tensorboard::{EventWriter, Histogram};
 
 use std::fs::File;

@@ -126,7 +126,12 @@ fn gauge(tag: &str) -> String {
 fn help(gauge: &str) -> &'static str {
     static HELP: LazyLock<HashMap<String, String>> =
         LazyLock::new(|| include_str!("../../../docs/reference/metrics.md").lines().filter_map(row).collect());
-    HELP.get(gauge).map_or("A metric of Treadmill", String::as_str)
+    let other = if gauge.starts_with("rewards_") {
+        "Mean of weight times this term of the reward over the batch"
+    } else {
+        "A metric of Treadmill"
+    };
+    HELP.get(gauge).map_or(other, String::as_str)
 }
 
 /// Parses a row of the page's tables: name of the gauge and help text.

@@ -128,6 +128,8 @@ pub struct UpdateRecord<'a> {
     pub update: Option<&'a UpdateStats>,
     /// Lag of the batch.
     pub lag: PolicyLag,
+    /// Tag and mean over the batch of each term of the reward.
+    pub reward_terms: Vec<(String, f64)>,
     /// Passes over the batch.
     pub epochs: u32,
     /// Durations of the phases.
@@ -162,7 +164,9 @@ impl UpdateRecord<'_> {
         self.bus(&mut out);
         self.actors(&mut out);
         self.eval(&mut out);
-        out.into_iter().map(|(tag, value)| (tag.to_string(), value)).collect()
+        let mut scalars: Vec<_> = out.into_iter().map(|(tag, value)| (tag.to_string(), value)).collect();
+        scalars.extend_from_slice(&self.reward_terms);
+        scalars
     }
 
     fn rollout(&self, out: &mut Vec<(&str, f64)>) {

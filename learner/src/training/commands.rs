@@ -5,7 +5,7 @@ use std::time::Duration;
 use treadmill_config::{ConfigSource, LearnerConfig, is_retired};
 use treadmill_policy::NetworkShape;
 use treadmill_proto::{Command, ControlRequest, Phase, RunStatus};
-use treadmill_runtime::{error_chain, machine, numbers::thousands};
+use treadmill_runtime::{atomic_file, error_chain, machine, numbers::thousands};
 
 use super::{
     Trainer, TrainingError,
@@ -155,6 +155,10 @@ impl Trainer {
         let Serving { checkpoints, leadership, .. } = &mut self.serving;
         let saved = save_newest(&self.state, leadership.as_mut(), checkpoints, &self.retry);
         self.serving.saved = saved.map_err(|why| error_chain(&why))?;
+        let file = &self.reporting.config_file;
+        if let Err(why) = atomic_file::write(file, self.state.config_toml.as_bytes()) {
+            tracing::warn!(file = %file.display(), error = %why, "the changed configuration cannot be written");
+        }
         let after = self.config.value_of(key);
         let from = self.state.counters.updates + 1;
         Ok(format!("{key} is {after}, was {before}, from update {from} on"))

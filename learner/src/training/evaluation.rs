@@ -6,8 +6,8 @@ use bytes::Bytes;
 use treadmill_bus::{Bus, BusError, EvaluationServer};
 use treadmill_proto::{EvaluationReport, PolicyVersion};
 
-/// Policies that wait for a result; older ones are dropped.
-const CANDIDATES_MAX: usize = 4;
+/// Most policies that evaluators may be playing at the same time, and the next one; the oldest ones are dropped.
+const CANDIDATES_MAX: usize = 8;
 
 /// Result of an evaluation.
 #[derive(Debug)]
@@ -57,11 +57,14 @@ impl EvaluationScheduler {
     /// Submits a policy for evaluation. `checkpoint` holds the same policy.
     pub fn submit(&mut self, version: PolicyVersion, bundle: Bytes, env_steps: u64, checkpoint: Bytes) {
         self.due_at_steps = next_due(self.every_steps, env_steps);
+        if !self.server.put(version, bundle) {
+            // No evaluator took it, so no result will come.
+            self.candidates.pop_back();
+        }
         if self.candidates.len() == CANDIDATES_MAX {
             self.candidates.pop_front();
         }
         self.candidates.push_back(Candidate { version, env_steps, checkpoint });
-        self.server.put(version, bundle);
     }
 
     /// Returns the next result of a submitted policy; each policy has at most one.

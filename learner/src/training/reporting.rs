@@ -22,7 +22,7 @@ use crate::{
     intake::ledger_report,
     leadership::Status,
     metrics::{
-        Efficiency, EfficiencyMeter, History, MetricsReport, PrometheusMetrics, histograms,
+        Efficiency, EfficiencyMeter, History, MetricsReport, PrometheusMetrics, RewardTerms, histograms,
         scalars::{PhaseDurations, PolicyLag, ThroughputMeter, UpdateRecord},
     },
 };
@@ -38,7 +38,10 @@ pub(super) struct Reporting {
     stats: StatsFeed,
     prometheus: PrometheusMetrics,
     ledger_report: PathBuf,
+    /// Configuration in the run folder.
+    pub(super) config_file: PathBuf,
     action_names: Vec<String>,
+    reward_terms: RewardTerms,
     throughput: ThroughputMeter,
     efficiency_meter: EfficiencyMeter,
     /// Efficiency of the fleet over the last updates.
@@ -71,7 +74,9 @@ impl Reporting {
             stats,
             prometheus: options.prometheus.clone(),
             ledger_report: options.folder.accounts(),
+            config_file: options.folder.config(),
             action_names: options.action_names.clone(),
+            reward_terms: RewardTerms::default(),
             throughput: ThroughputMeter::new(state.counters.env_steps),
             efficiency_meter: EfficiencyMeter::new(Instant::now()),
             efficiency: Efficiency::default(),
@@ -136,6 +141,7 @@ impl Trainer {
             config,
             update,
             lag,
+            reward_terms: reporting.reward_terms.of(batch),
             epochs: learning.load.epochs(),
             durations,
             evaluation,
@@ -174,9 +180,13 @@ impl Trainer {
         let outcome = outcome.and_then(|stopped| written.map(|()| stopped));
         report.end(outcome.as_ref().ok().copied());
         let stopped = outcome?;
-        // The ledger of the last checkpoint, without fragments accepted since.
-        ledger_report::write(&ledger_report, &self.state.ledger)?;
-        report.finish(&history)?;
+        // The ledger of the last checkpoint, without fragments accepted since. The run is saved, whatever becomes of these.
+        if let Err(why) = ledger_report::write(&ledger_report, &self.state.ledger) {
+            tracing::warn!(file = %ledger_report.display(), error = %error_chain(&why), "the accounts cannot be written");
+        }
+        if let Err(why) = report.finish(&history) {
+            tracing::warn!(error = %error_chain(&why), "the last logs cannot be written");
+        }
         Ok((self.state, history, stopped))
     }
 }

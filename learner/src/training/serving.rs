@@ -15,7 +15,7 @@ use super::{
     waiting::Retry,
 };
 use crate::{
-    checkpoint::{CheckpointWriter, TrainingState, encoding},
+    checkpoint::{self, CheckpointWriter, TrainingState, encoding},
     intake::{BusFragmentSource, Collected, CollectedBatch, Intake},
     leadership::Leadership,
 };
@@ -77,12 +77,16 @@ impl Trainer {
         let state = &mut self.state;
         if !state.best_is_evaluated || state.best_return.is_none_or(|best| return_mean > best) {
             (state.best_return, state.best_is_evaluated) = (Some(return_mean), true);
+            // The checkpoint is older than its result. A run that goes on from it must not forget how good it is.
+            let mut best = checkpoint::decode("the evaluated checkpoint", &result.checkpoint)?;
+            (best.best_return, best.best_is_evaluated) = (state.best_return, true);
+            let best = encoding::encode(&best)?;
             let Serving { checkpoints, leadership, .. } = &self.serving;
             if let Some(leadership) = leadership {
                 // A learner that was frozen may have been overtaken without knowing: the best policy is the successor's then.
                 self.retry.until_written(|| leadership.confirm())?;
             }
-            self.retry.until_written(|| checkpoints.save_best(&result.checkpoint))?;
+            self.retry.until_written(|| checkpoints.save_best(&best))?;
         }
         Ok(Some(result))
     }

@@ -33,13 +33,19 @@ pub struct LearnerRoute {
 }
 
 impl LearnerRoute {
-    /// Reads the route from the flags; returns `None` if they name no learner.
+    /// Reads the route from the flags, or takes the only run that is trained below `runs/`; returns `None` without both.
     pub fn of(reach: &ReachArgs) -> anyhow::Result<Option<Self>> {
-        let connect = reach.named_endpoints()?;
         check_run(reach.run.as_deref())?;
-        if connect.is_empty() && !reach.network.discover {
+        let live = match &reach.live_folders()[..] {
+            [run] => Some(run.clone()),
+            _ => None,
+        };
+        let reach = &ReachArgs { folder: live.or(reach.folder.clone()), ..reach.clone() };
+        let names_no_learner = reach.folder.is_none() && reach.run.is_none() && reach.connect.is_empty();
+        if names_no_learner && !reach.network.discover {
             return Ok(None);
         }
+        let connect = reach.endpoints()?;
         let options = reach.network.options(role(reach), Vec::new(), connect)?;
         Ok(Some(Self { options, run: reach.run.clone() }))
     }

@@ -150,9 +150,10 @@ pub fn run(args: EvalArgs) -> anyhow::Result<()> {
         let is_wanted = is_traced && (is_read || args.trace.is_some() || filming.is_some());
         if is_wanted { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
     })?;
-    trace.map(Trace::finish).transpose()?;
+    // The results are printed although a file cannot be written.
+    let traced = trace.map(Trace::finish).transpose();
     notice.update("finishing the pictures".to_string());
-    let pictures = filming.map(Filming::finish).transpose()?;
+    let pictures = filming.map(Filming::finish).transpose();
     drop(notice);
     if args.json {
         say(&as_json(args.agent, origin, &evaluation, control_step_s));
@@ -162,9 +163,9 @@ pub fn run(args: EvalArgs) -> anyhow::Result<()> {
             (1..).zip(&evaluation.episodes).for_each(|(episode, played)| say(&row(episode, played)));
         }
         print_summary(&args, origin.as_ref(), &evaluation, control_step_s);
-        pictures.iter().for_each(|line| say(&format!("pictures      {line}")));
+        pictures.iter().flatten().for_each(|line| say(&format!("pictures      {line}")));
     }
-    Ok(())
+    traced.and(pictures).map(drop)
 }
 
 /// What plays.

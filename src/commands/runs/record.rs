@@ -18,7 +18,7 @@ pub(crate) struct Record {
     pub(crate) folder: PathBuf,
     pub(crate) env_steps: u64,
     pub(crate) wall_s: f64,
-    /// Greatest mean distance of an evaluation, and the environment steps at which it was reached.
+    /// Greatest mean distance of an evaluation, and the environment steps that its policy had learnt from.
     pub(crate) best_eval_distance_m: Option<f64>,
     pub(crate) best_eval_at: Option<u64>,
     /// Means over the last training episodes.
@@ -85,7 +85,11 @@ impl Record {
             "eval/velocity_error" => self.velocity_error_mps = Some(value),
             "eval/distance_mean_m" if self.best_eval_distance_m.is_none_or(|best| value > best) => {
                 self.best_eval_distance_m = Some(value);
-                self.best_eval_at = metric["step"].as_u64();
+                self.best_eval_at = None;
+            }
+            // Follows the distance: the policy is older than its result.
+            "eval/total_timesteps" if self.best_eval_at.is_none() && self.best_eval_distance_m.is_some() => {
+                self.best_eval_at = Some(value as u64);
             }
             _ => {}
         }
@@ -133,8 +137,11 @@ mod tests {
         for (tag, step, value) in [
             ("time/total_timesteps", 100, 100.0),
             ("eval/distance_mean_m", 100, 3.0),
+            ("eval/total_timesteps", 100, 60.0),
             ("eval/distance_mean_m", 200, 9.5),
+            ("eval/total_timesteps", 200, 160.0),
             ("eval/distance_mean_m", 300, 4.0),
+            ("eval/total_timesteps", 300, 260.0),
             ("eval/velocity_error", 200, 0.2),
             ("eval/velocity_error", 300, 0.3),
             ("time/total_timesteps", 300, 300.0),
@@ -144,7 +151,7 @@ mod tests {
         }
         record.add_line(b"{\"tag\":\"time/total_times");
         record.add_line(b"\xff\xfe");
-        assert_eq!((record.env_steps, record.best_eval_distance_m, record.best_eval_at), (300, Some(9.5), Some(200)));
+        assert_eq!((record.env_steps, record.best_eval_distance_m, record.best_eval_at), (300, Some(9.5), Some(160)));
         assert_eq!((record.env_steps_per_s(), record.distance_m()), (Some(150.0), 9.5));
         assert_eq!(record.velocity_error_mps, Some(0.3));
         assert_eq!((record.training_return, record.config_value("a.b")), (None, ABSENT));

@@ -1,27 +1,27 @@
 //! Runs of this machine, by their folders.
 
 use serde_json::json;
-use treadmill_runtime::{numbers::thousands, words::quoted};
+use treadmill_runtime::numbers::thousands;
 
-use crate::{commands::runs::record::Record, shared::learner_address::ReachArgs};
+use crate::{commands::runs::record::Record, launch::startup::resume_command_of, shared::learner_address::ReachArgs};
 
 /// Run that no process trains.
 pub struct IdleRun {
     record: Record,
-    root: String,
+    resumed_by: String,
 }
 
 /// Returns the run whose folder `reach` names, if no process trains it.
 pub fn idle(reach: &ReachArgs) -> Option<anyhow::Result<IdleRun>> {
     let folder = reach.idle_folder()?;
-    let root = folder.root().display().to_string();
-    Some(Record::read(folder.root()).map(|record| IdleRun { record, root }))
+    let resumed_by = resume_command_of(&folder);
+    Some(Record::read(folder.root()).map(|record| IdleRun { record, resumed_by }))
 }
 
 impl IdleRun {
     /// Returns its results and how to go on, as text or as JSON.
     pub fn describe(&self, json: bool) -> String {
-        let (record, root) = (&self.record, quoted(&self.root));
+        let Self { record, resumed_by } = self;
         let distance_m = record.best_eval_distance_m.or(record.training_distance_m);
         if json {
             return json!({
@@ -37,7 +37,7 @@ impl IdleRun {
             |value: Option<f64>, decimals| value.map_or("unknown".to_string(), |v| format!("{v:.decimals$}"));
         format!(
             "run `{}` is {}: no process trains it\n  steps      {}\n  episodes   return {}, best distance {} m\n  \
-             resume     treadmill train --resume {root}",
+             resume     {resumed_by}",
             record.name,
             record.state(),
             thousands(record.env_steps),

@@ -70,7 +70,10 @@ pub fn run(args: StatusArgs) -> anyhow::Result<()> {
     if live.is_empty() {
         return show(&reach, json);
     }
-    live.into_iter().try_for_each(|folder| show(&ReachArgs { folder: Some(folder), ..reach.clone() }, json))
+    // One that does not answer must not hide the others.
+    let shown: Vec<_> =
+        live.into_iter().map(|folder| show(&ReachArgs { folder: Some(folder), ..reach.clone() }, json)).collect();
+    shown.into_iter().collect()
 }
 
 /// Asks the learners that `reach` names, and prints their statuses.

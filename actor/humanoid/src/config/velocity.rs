@@ -88,6 +88,11 @@ macro_rules! rewards {
                 vec![ $( (stringify!($name), self.$name), )* ]
             }
 
+            /// Calls `each` with the name of each term that has a weight, and weight × term.
+            pub fn weigh(&self, terms: &Self, each: &mut dyn FnMut(&'static str, f64)) {
+                $( if self.$name != 0.0 { each(stringify!($name), self.$name * terms.$name); } )*
+            }
+
             /// Returns Σ weight × term.
             #[must_use]
             pub fn total(&self, terms: &Self) -> f64 {

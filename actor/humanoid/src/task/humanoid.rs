@@ -38,6 +38,7 @@ pub struct HumanoidTask {
     observation: Observation,
     /// State with sensor noise, if the observation shows more of it than positions and velocities.
     sensed: Option<Sensed>,
+    last_info: StepInfo,
 }
 
 impl HumanoidTask {
@@ -46,7 +47,12 @@ impl HumanoidTask {
     pub fn new(config: &EnvironmentConfig, physics: &Physics) -> Self {
         let observation = Observation::new(config, physics.model());
         let is_derived = config.randomisation.has_sensor_noise() && observation.has_derived_blocks();
-        Self { config: config.clone(), sensed: is_derived.then(|| Sensed::new(physics)), observation }
+        Self {
+            config: config.clone(),
+            sensed: is_derived.then(|| Sensed::new(physics)),
+            observation,
+            last_info: StepInfo::default(),
+        }
     }
 }
 
@@ -87,7 +93,16 @@ impl Task for HumanoidTask {
             tendon_length_rad: tendon_values(physics.model(), physics.joint_angles()),
             tendon_velocity_radps: tendon_values(physics.model(), physics.joint_rates()),
         };
-        evaluate_step(&self.config, &transition)
+        let evaluation = evaluate_step(&self.config, &transition);
+        self.last_info = evaluation.info;
+        evaluation
+    }
+
+    fn reward_terms(&self, each: &mut dyn FnMut(&'static str, f64)) {
+        each("survive", self.last_info.reward_survive);
+        each("forward", self.last_info.reward_forward);
+        each("ctrl", self.last_info.reward_ctrl);
+        each("contact", self.last_info.reward_contact);
     }
 
     fn observe(&mut self, physics: &Physics, noise: &mut SensorNoise, observation: &mut [f32]) {

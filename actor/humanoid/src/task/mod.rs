@@ -105,6 +105,10 @@ pub trait Task: Send + Sync {
     /// Returns reward and end of a control step.
     fn evaluate(&mut self, step: &Step<'_>) -> StepEvaluation;
 
+    /// Calls `each` with the name and value of each term of the last step's reward; they add up to it. Names are 1 to 64 of the
+    /// characters a-z, 0-9 and _, and always the same ones in the same order. A task without them logs only its reward.
+    fn reward_terms(&self, _each: &mut dyn FnMut(&'static str, f64)) {}
+
     /// Writes an observation of the present state with the noise of the sensors. Should not allocate. A number that is not
     /// finite, here or in the reward, is a fault, as in [`Environment::step`](crate::Environment::step).
     fn observe(&mut self, physics: &Physics, noise: &mut SensorNoise, observation: &mut [f32]);

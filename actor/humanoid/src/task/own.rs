@@ -9,6 +9,8 @@ use crate::physics::Physics;
 
 /// Longest observation of a task.
 const OBSERVATION_MAX: usize = 4096;
+/// Most terms of a task's reward.
+const REWARD_TERMS_MAX: usize = 64;
 
 /// Builds a task for a simulation.
 pub type TaskBuilder = fn(&EnvironmentConfig, &Physics) -> Result<Box<dyn Task>, ModelError>;
@@ -54,8 +56,74 @@ pub(crate) fn build(config: &EnvironmentConfig, physics: &Physics) -> Result<Box
         }
         end = term.range.end;
     }
+    check_reward_terms(&*task)?;
     match end {
         1..=OBSERVATION_MAX => Ok(task),
         _ => Err(ModelError::Task(format!("`{name}` observes {end} numbers; allowed: 1 to {OBSERVATION_MAX}"))),
+    }
+}
+
+/// Rejects names of the reward's terms that cannot be tags of metrics.
+fn check_reward_terms(task: &dyn Task) -> Result<(), ModelError> {
+    let mut names: Vec<&str> = Vec::new();
+    task.reward_terms(&mut |name, _| names.push(name));
+    if names.len() > REWARD_TERMS_MAX {
+        return Err(ModelError::Task(format!("the reward has {} terms; allowed: {REWARD_TERMS_MAX}", names.len())));
+    }
+    let is_allowed = |letter: u8| letter.is_ascii_lowercase() || letter.is_ascii_digit() || letter == b'_';
+    for (index, name) in names.iter().enumerate() {
+        if !(1..=64).contains(&name.len()) || !name.bytes().all(is_allowed) || names[..index].contains(name) {
+            return Err(ModelError::Task(format!(
+                "the reward's term `{name}` needs a name of its own, of 1 to 64 of the characters a-z, 0-9 and _"
+            )));
+        }
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::info::StepInfo;
+    use crate::randomisation::SensorNoise;
+    use crate::task::{ObservationTerm, Step, StepEvaluation};
+
+    /// Task that only names the terms of its reward.
+    struct Rewarded(Vec<&'static str>);
+
+    impl Task for Rewarded {
+        fn terms(&self) -> &[ObservationTerm] {
+            &[]
+        }
+
+        fn begin(&mut self, _: u64, _: &Physics) -> StepInfo {
+            StepInfo::default()
+        }
+
+        fn evaluate(&mut self, _: &Step<'_>) -> StepEvaluation {
+            StepEvaluation { reward: 0.0, terminated: false, truncated: false, info: StepInfo::default() }
+        }
+
+        fn observe(&mut self, _: &Physics, _: &mut SensorNoise, _: &mut [f32]) {}
+
+        fn reward_terms(&self, each: &mut dyn FnMut(&'static str, f64)) {
+            self.0.iter().for_each(|name| each(name, 0.0));
+        }
+    }
+
+    #[test]
+    fn terms_of_the_reward_need_names_of_their_own() {
+        check_reward_terms(&Rewarded(vec!["height", "effort_2"])).unwrap();
+        check_reward_terms(&Rewarded(Vec::new())).unwrap();
+        for (names, named) in [
+            (vec!["height", "height"], "`height`"),
+            (vec!["height", "Effort"], "`Effort`"),
+            (vec!["a/b"], "`a/b`"),
+            (vec![""], "``"),
+            (vec!["height"; REWARD_TERMS_MAX + 1], "65 terms"),
+        ] {
+            let refused = check_reward_terms(&Rewarded(names)).unwrap_err().to_string();
+            assert!(refused.contains(named), "{refused}");
+        }
     }
 }

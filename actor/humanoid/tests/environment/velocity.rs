@@ -1,6 +1,6 @@
 //! The velocity task, with a robot of 29 hinges and a card.
 
-use treadmill_humanoid::config::{GroundKind, GroundSettings, StartLevel, VelocityConfig};
+use treadmill_humanoid::config::{GroundKind, GroundSettings, StartLevel, VelocityConfig, VelocityRewards};
 use treadmill_humanoid::task::velocity::Foot;
 use treadmill_humanoid::{Environment, EnvironmentConfig, EpisodeState, Mirror, Randomisation};
 
@@ -113,6 +113,30 @@ fn an_episode_goes_on_exactly_from_its_saved_state() {
     }
     commands.dedup();
     assert!(commands.len() > 2, "commands change on the way");
+}
+
+#[test]
+fn the_terms_of_a_reward_add_up_to_it() {
+    let rewards = VelocityRewards { landing: -1.0, feet_slip: 0.0, ..VelocityRewards::default() };
+    let velocity = config(VelocityConfig { rewards, ..VelocityConfig::default() });
+    let humanoid = EnvironmentConfig::default();
+    for (mut environment, wanted, missing) in [
+        (environment(&velocity), "landing", "feet_slip"),
+        (Environment::new(&humanoid, treadmill_humanoid::HUMANOID_XML).unwrap(), "forward", ""),
+    ] {
+        let mut row = vec![0.0; environment.observation_size()];
+        environment.reset(3, &mut row);
+        let action: Vec<f32> = environment.action_ranges().iter().map(|[low, high]| low + 0.6 * (high - low)).collect();
+        for step in 0..20 {
+            let reward = f64::from(environment.step(&action, &mut row).reward);
+            let mut terms = Vec::new();
+            environment.task().reward_terms(&mut |name, term| terms.push((name, term)));
+            let sum: f64 = terms.iter().map(|(_, term)| term).sum();
+            assert!((sum - reward).abs() < 1e-5 * reward.abs().max(1.0), "step {step}: {terms:?}, {reward}");
+            assert!(terms.iter().any(|(name, term)| *name == wanted && term.is_finite()));
+            assert!(terms.iter().all(|(name, _)| *name != missing), "terms without weight are no terms");
+        }
+    }
 }
 
 #[test]

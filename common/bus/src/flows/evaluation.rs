@@ -2,7 +2,7 @@
 
 use std::{
     sync::{
-        Arc, RwLock,
+        Arc, Mutex,
         mpsc::{Receiver, SyncSender, sync_channel},
     },
     time::Duration,
@@ -21,8 +21,15 @@ use crate::{Bus, BusError, admission::rate_limited_log::RateLimitedLog, keys};
 
 /// Requests, and reports, that may wait. Further requests get no answer, and the evaluator asks again.
 const QUEUE: usize = 64;
-/// Version and bundle of the policy to evaluate.
-type Candidate = RwLock<Option<(PolicyVersion, Bytes)>>;
+type Candidate = Mutex<Option<Offer>>;
+
+/// Policy to evaluate.
+struct Offer {
+    version: PolicyVersion,
+    bundle: Bytes,
+    /// Whether an evaluator has it.
+    is_handed_out: bool,
+}
 
 /// Hands out policies to evaluate and receives reports.
 pub struct EvaluationServer {
@@ -34,7 +41,7 @@ pub struct EvaluationServer {
 impl EvaluationServer {
     /// Starts the server, with no policy to evaluate yet.
     pub fn open(bus: &Bus, run: &str) -> Result<Self, BusError> {
-        let candidate = Arc::new(RwLock::new(None));
+        let candidate = Arc::new(Mutex::new(None));
         let (request_sender, requests) = sync_channel::<Query>(QUEUE);
         let (report_sender, reports) = sync_channel(QUEUE);
         start_thread("evaluation-server", {
@@ -50,9 +57,11 @@ impl EvaluationServer {
         Ok(Self { candidate, reports, _queryable: queryable })
     }
 
-    /// Replaces the policy to evaluate.
-    pub fn put(&self, version: PolicyVersion, bundle: Bytes) {
-        *self.candidate.write().expect("no holder of this lock panics") = Some((version, bundle));
+    /// Replaces the policy to evaluate. Returns whether an evaluator has the one before.
+    pub fn put(&self, version: PolicyVersion, bundle: Bytes) -> bool {
+        let offer = Offer { version, bundle, is_handed_out: false };
+        let before = self.candidate.lock().expect("no holder of this lock panics").replace(offer);
+        before.is_some_and(|before| before.is_handed_out)
     }
 
     /// Returns the next report that has arrived.
@@ -97,9 +106,11 @@ fn read_report(query: &Query, run: &str, rejections: &RateLimitedLog) -> Result<
 
 /// Replies with the policy to evaluate, or with nothing if there is none or the evaluator has just evaluated it.
 fn answer(query: &Query, candidate: &Candidate, evaluated: Option<PolicyVersion>) {
-    let candidate = candidate.read().expect("no holder of this lock panics").clone();
-    let bundle = match candidate {
-        Some((version, bundle)) if evaluated != Some(version) => bundle,
+    let bundle = match &mut *candidate.lock().expect("no holder of this lock panics") {
+        Some(offer) if evaluated != Some(offer.version) => {
+            offer.is_handed_out = true;
+            offer.bundle.clone()
+        }
         _ => Bytes::new(),
     };
     reply(query, bundle, "policy for evaluation");

@@ -31,6 +31,7 @@ pub use self::command::{Command, HEADING_GAIN};
 use self::curriculum::Curriculum;
 pub use self::feet::{FEET, Foot, Stride, stride};
 use self::observation::observation_terms;
+use self::rewards::pose_weights;
 pub use self::rewards::{BaseMotion, HingeMotion, RobotStep, Stance, terms};
 pub use self::scan::{SCAN_GRID, SCAN_MAX_M, SCAN_SPACING_M};
 use self::scan::{SCAN_POINTS, ground_around};
@@ -38,17 +39,12 @@ use super::{Difficulty, ObservationTerm, Step, StepEvaluation, Task};
 use crate::config::{EnvironmentConfig, GroundSettings, VelocityConfig, VelocityRewards};
 use crate::error::{ModelError, StateError};
 use crate::info::StepInfo;
-use crate::model::Model;
 use crate::model::mirror::{Mirror, SignedPermutation};
 use crate::physics::Physics;
 use crate::randomisation::{SensorNoise, stream, uniform};
 
 /// Largest action, in units of [`crate::card::HingeControl::action_scale_rad`].
 pub const ACTION_MAX: f64 = 4.0;
-/// Axes whose part along the base's left exceeds this swing a leg forwards, not sideways.
-const LATERAL_AXIS: f64 = 0.8;
-/// Weight of hinges that swing the legs forwards in the term `pose`.
-const SWING_POSE_WEIGHT: f64 = 0.1;
 /// Largest distance of a start from the middle of its tile, along x and along y (m).
 const START_M: f64 = 0.5;
 /// Distance from the edge of generated ground at which an episode ends (m).
@@ -89,6 +85,8 @@ pub struct VelocityTask {
     actions_before: Vec<f64>,
     rates_before_radps: Vec<f64>,
     feet: [Foot; FEET],
+    /// Terms of the last step's reward, without weights. Before the first step they mean nothing.
+    rewarded: VelocityRewards,
     /// Observations of the policy, the oldest first, `[history][row]`.
     past: Vec<f32>,
     /// Control step of the newest of them; none before the first.
@@ -165,6 +163,7 @@ impl VelocityTask {
             command_changes: 0,
             episode_steps: 0,
             feet: [Foot::default(); FEET],
+            rewarded: VelocityRewards::default(),
         };
         task.scale_commands();
         Ok(task)
@@ -296,6 +295,7 @@ impl Task for VelocityTask {
             base.height_m < config.fall_height_share * self.body.height_m || base.tilt_rad() > config.fall_tilt_rad;
         terms.alive = f64::from(u8::from(!has_fallen));
         let reward = config.rewards.total(&terms);
+        self.rewarded = terms;
         let truncated = !has_fallen && self.is_at_edge(physics);
         let is_last = truncated || self.max_episode_steps > 0 && self.episode_steps >= self.max_episode_steps;
         let tracked = self.tracked_share(&terms);
@@ -314,6 +314,10 @@ impl Task for VelocityTask {
         let velocity = (physics.centre_of_mass() - step.centre_before_m) / step_s;
         let info = self.info(physics, [velocity.x, velocity.y], reward);
         StepEvaluation { reward: reward as f32, terminated: has_fallen, truncated, info }
+    }
+
+    fn reward_terms(&self, each: &mut dyn FnMut(&'static str, f64)) {
+        self.config.rewards.weigh(&self.rewarded, each);
     }
 
     fn observe(&mut self, physics: &Physics, noise: &mut SensorNoise, observation: &mut [f32]) {
@@ -376,20 +380,4 @@ impl Task for VelocityTask {
     fn restore(&mut self, numbers: &[f64]) -> Result<(), StateError> {
         self.restore_numbers(numbers)
     }
-}
-
-/// Returns the weight of each hinge in the term `pose`, for a robot in the default pose.
-fn pose_weights(physics: &Physics) -> Vec<f64> {
-    let model: &Model = physics.model();
-    let base = physics.body_motion(0).pose.rotation;
-    let mut weights = vec![1.0; model.hinges.len()];
-    for (index, body) in model.bodies.iter().enumerate() {
-        let rotation = base.inverse() * physics.body_motion(index).pose.rotation;
-        for hinge in body.hinges.clone() {
-            if (rotation * model.hinges[hinge].axis).y.abs() > LATERAL_AXIS {
-                weights[hinge] = SWING_POSE_WEIGHT;
-            }
-        }
-    }
-    weights
 }

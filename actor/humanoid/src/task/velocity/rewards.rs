@@ -6,6 +6,7 @@ use super::command::Command;
 use super::feet::{FEET, Foot, stride};
 use crate::config::{VelocityConfig, VelocityRewards};
 use crate::model::Model;
+use crate::physics::Physics;
 
 /// Time in the air from which a landing is rewarded (s).
 const AIR_TIME_S: f64 = 0.4;
@@ -13,6 +14,10 @@ const AIR_TIME_S: f64 = 0.4;
 const SLOW_MPS: f64 = 0.3;
 /// Share of a hinge's range, from its middle, beyond which it is near its limit.
 const SOFT_LIMIT_SHARE: f64 = 0.9;
+/// Axes whose part along the base's left exceeds this swing a leg forwards, not sideways.
+const LATERAL_AXIS: f64 = 0.8;
+/// Weight of hinges that swing the legs forwards in the term `pose`.
+const SWING_POSE_WEIGHT: f64 = 0.1;
 
 /// Motion of the base.
 #[derive(Clone, Copy, Debug)]
@@ -165,6 +170,22 @@ pub fn terms(config: &VelocityConfig, model: &Model, body: &Stance, step: &Robot
             .sum(),
         joint_limits: limits.sum(),
     }
+}
+
+/// Returns the weight of each hinge in the term `pose`, for a robot in the default pose.
+pub(super) fn pose_weights(physics: &Physics) -> Vec<f64> {
+    let model = physics.model();
+    let base = physics.body_motion(0).pose.rotation;
+    let mut weights = vec![1.0; model.hinges.len()];
+    for (index, body) in model.bodies.iter().enumerate() {
+        let rotation = base.inverse() * physics.body_motion(index).pose.rotation;
+        for hinge in body.hinges.clone() {
+            if (rotation * model.hinges[hinge].axis).y.abs() > LATERAL_AXIS {
+                weights[hinge] = SWING_POSE_WEIGHT;
+            }
+        }
+    }
+    weights
 }
 
 #[cfg(test)]
