@@ -21,7 +21,6 @@ import json
 import os
 import pathlib
 import random
-import signal
 import subprocess
 import sys
 import time
@@ -172,7 +171,7 @@ def undisturbed(arguments, out):
     try:
         yield out / "fleet/manifests.jsonl"
     finally:
-        process.send_signal(signal.SIGINT)
+        process.terminate()
         process.wait()
 
 
