@@ -52,8 +52,8 @@ class ForwardTest(unittest.TestCase):
         _, whole = metric("a", "x", 1)
         self.assertEqual(read_metric(json.dumps(whole).encode()), whole)
         wrong = [whole | {"step": None}, whole | {"tag": 3}, whole | {"value": True}, {}, [], 7, "run"]
-        endless = b'{"run":"a","tag":"x","step":1,"value":1.0,"time_unix_s":1e999}'
-        for data in [b"", b"\xff", b"[" * 100_000, endless, *(json.dumps(found).encode() for found in wrong)]:
+        endless = [b'{"run":"a","tag":"x","step":1,"value":1.0,"time_unix_s":%s}' % time for time in (b"1e999", b"9" * 400, b"NaN")]
+        for data in [b"", b"\xff", b"[" * 100_000, *endless, *(json.dumps(found).encode() for found in wrong)]:
             self.assertIsNone(read_metric(data), data[:80])
 
     def test_restarted_learner_does_not_end_its_run(self):

@@ -2,8 +2,8 @@
 
 import ipaddress
 import json
-import math
 import os
+import sys
 import time
 from pathlib import Path
 
@@ -86,8 +86,11 @@ def read_metric(data):
         texts, numbers = [metric[key] for key in ("run", "tag")], [metric[key] for key in ("step", "value", "time_unix_s")]
     except (ValueError, TypeError, LookupError, RecursionError):
         return None
-    is_number = [isinstance(number, (int, float)) and not isinstance(number, bool) and math.isfinite(number) for number in numbers]
-    return metric if all(is_number) and all(isinstance(text, str) for text in texts) else None
+    is_number = [isinstance(number, (int, float)) and not isinstance(number, bool) for number in numbers]
+    if not all(is_number) or not all(isinstance(text, str) for text in texts):
+        return None
+    # Integers of JSON may be larger than any float.
+    return metric if all(-sys.float_info.max <= number <= sys.float_info.max for number in numbers) else None
 
 
 def observe(connect, tls, run, events):

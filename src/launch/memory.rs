@@ -3,8 +3,8 @@
 /// Makes the allocator use one arena.
 ///
 /// Each arena of GNU's allocator keeps the most that it ever held, and by default there are eight per core. Dozens of threads find
-/// ever other ones: actors and routers grew for hours, and two learners that led in turn by 35 MB with each takeover. Threads
-/// seldom wait for the one arena, because each has a cache of small pieces.
+/// ever other ones: actors and routers kept growing, and two learners that led in turn by 35 MB with each takeover. Training
+/// is as fast with one, because each thread has a cache of small pieces.
 pub fn use_one_arena() {
     #[cfg(all(target_os = "linux", target_env = "gnu"))]
     set(libc::M_ARENA_MAX, 1);

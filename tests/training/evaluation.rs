@@ -1,15 +1,22 @@
 //! Evaluation during training, and the best checkpoint chosen by it.
 
+use std::path::Path;
+
 use crate::support::*;
 use treadmill_bus::{Assignment, ask_for_evaluation};
 use treadmill_learner::checkpoint::load_file;
 
+/// Starts a run whose policies are evaluated often.
+fn evaluated(folder: &Path, run: &Path, every_steps: u32, episodes: u32) -> Running {
+    let mut command = endless(folder, run, "train");
+    command.args(["--set", &format!("eval.every_steps={every_steps}"), "--set", &format!("eval.episodes={episodes}")]);
+    Running::start(command)
+}
+
 #[test]
 fn policies_are_evaluated_during_training() {
     let (folder, run) = folders();
-    let mut command = endless(folder.path(), &run, "train");
-    command.args(["--set", "eval.every_steps=2048", "--set", "eval.episodes=3"]);
-    let training = Running::start(command);
+    let training = evaluated(folder.path(), &run, 2048, 3);
     let values = |tag: &str| -> Vec<(u64, f64)> {
         metrics(&run).into_iter().filter(|(name, ..)| name == tag).map(|(_, step, value)| (step, value)).collect()
     };
@@ -48,10 +55,8 @@ fn policies_are_evaluated_during_training() {
 #[test]
 fn evaluations_longer_than_many_intervals_have_results() {
     let (folder, run) = folders();
-    let mut command = endless(folder.path(), &run, "train");
     // Each update is due, and one evaluation lasts for dozens of them.
-    command.args(["--set", "eval.every_steps=512", "--set", "eval.episodes=200"]);
-    let training = Running::start(command);
+    let training = evaluated(folder.path(), &run, 512, 200);
     let results = || metrics(&run).iter().filter(|(tag, ..)| tag == "eval/mean_reward").count();
     await_that("two evaluations", || (results() >= 2).then_some(()));
     training.signal(libc::SIGINT);

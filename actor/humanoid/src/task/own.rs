@@ -9,7 +9,7 @@ use crate::physics::Physics;
 
 /// Longest observation of a task.
 const OBSERVATION_MAX: usize = 4096;
-/// Most terms of a task's reward.
+/// Most terms of a task's reward, equal to a fragment's limit.
 const REWARD_TERMS_MAX: usize = 64;
 
 /// Builds a task for a simulation.
@@ -24,11 +24,15 @@ static OWN_TASKS: OnceLock<Vec<(&'static str, TaskBuilder)>> = OnceLock::new();
 /// If it is called twice, or a name is not 1 to 64 of the characters a-z, 0-9 and -.
 pub fn register_own_tasks(tasks: &[(&'static str, TaskBuilder)]) {
     for (name, _) in tasks {
-        let is_allowed = |letter: u8| letter.is_ascii_lowercase() || letter.is_ascii_digit() || letter == b'-';
-        let is_name = (1..=64).contains(&name.len()) && name.bytes().all(is_allowed);
-        assert!(is_name, "the task name `{name}` is not 1 to 64 of the characters a-z, 0-9 and -");
+        assert!(is_name(name, b'-'), "the task name `{name}` is not 1 to 64 of the characters a-z, 0-9 and -");
     }
     assert!(OWN_TASKS.set(tasks.to_vec()).is_ok(), "the program registers its tasks twice");
+}
+
+/// Returns whether a name is 1 to 64 of the characters a-z, 0-9 and `separator`.
+fn is_name(name: &str, separator: u8) -> bool {
+    let is_allowed = |letter: u8| letter.is_ascii_lowercase() || letter.is_ascii_digit() || letter == separator;
+    (1..=64).contains(&name.len()) && name.bytes().all(is_allowed)
 }
 
 /// Returns the names of this program's own tasks.
@@ -70,9 +74,8 @@ fn check_reward_terms(task: &dyn Task) -> Result<(), ModelError> {
     if names.len() > REWARD_TERMS_MAX {
         return Err(ModelError::Task(format!("the reward has {} terms; allowed: {REWARD_TERMS_MAX}", names.len())));
     }
-    let is_allowed = |letter: u8| letter.is_ascii_lowercase() || letter.is_ascii_digit() || letter == b'_';
     for (index, name) in names.iter().enumerate() {
-        if !(1..=64).contains(&name.len()) || !name.bytes().all(is_allowed) || names[..index].contains(name) {
+        if !is_name(name, b'_') || names[..index].contains(name) {
             return Err(ModelError::Task(format!(
                 "the reward's term `{name}` needs a name of its own, of 1 to 64 of the characters a-z, 0-9 and _"
             )));
