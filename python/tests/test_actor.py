@@ -4,7 +4,6 @@ import json
 import sys
 import unittest
 from pathlib import Path
-from types import SimpleNamespace
 from unittest import mock
 
 import gymnasium
@@ -13,9 +12,6 @@ import numpy as np
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 
 from treadmill_actor import schema  # noqa: E402
-from treadmill_actor.bus import BusError, check_endpoint, fetch_pieces  # noqa: E402
-from treadmill_actor.delivery import DeliveryLedger, Uploader  # noqa: E402
-from treadmill_actor.policies import Policies  # noqa: E402
 from treadmill_actor.policy import HALF_LN_TAU, Policy, PolicyError, checksum, read_safetensors  # noqa: E402
 from treadmill_actor.rollout import Collector, Environments  # noqa: E402
 from treadmill_actor.settings import Settings  # noqa: E402
@@ -263,145 +259,6 @@ class RolloutTest(unittest.TestCase):
         environments = Environments(Count, "test/Count-v0", 2, 1)
         with mock.patch("treadmill_actor.rollout.FRAGMENT_BYTES_MAX", 12_300), self.assertRaisesRegex(TaskError, "fewer --envs"):
             Collector(environments, "run", "py", 5, 9, 3)
-
-
-def receipt(outcome, durable_through=0):
-    return schema.Receipt(outcome=schema.OUTCOMES[outcome], durable_through=durable_through)
-
-
-class DeliveryTest(unittest.TestCase):
-    def test_accepted_fragment_is_kept_until_durable(self):
-        ledger = DeliveryLedger(incarnation=1)
-        for sequence in (1, 2, 3):
-            ledger.note_produced(sequence)
-        ledger.settle(2, b"2", receipt("accepted"))
-        ledger.settle(1, b"1", receipt("too_old"))
-        self.assertEqual((list(ledger.kept), ledger.settled_through()), ([2], 1))
-        ledger.settle(3, b"3", receipt("duplicate", 2))
-        self.assertEqual((list(ledger.kept), ledger.settled_through()), ([3], 2))
-        self.assertEqual((ledger.produced, ledger.accepted, ledger.dropped_by_rule, len(ledger.in_flight)), (3, 2, 1, 0))
-
-    def test_new_incarnation_gets_unsaved_fragments(self):
-        ledger = DeliveryLedger(incarnation=1)
-        ledger.note_produced(1)
-        ledger.settle(1, b"1", receipt("accepted"))
-        self.assertEqual(ledger.take_unsaved(1), {})
-        self.assertEqual(ledger.take_unsaved(2), {1: b"1"})
-        self.assertEqual((ledger.accepted, ledger.resent, ledger.in_flight, ledger.settled_through()), (0, 1, {1}, 0))
-        self.assertEqual(ledger.take_unsaved(2), {})
-
-    def test_fragment_is_resent_until_settled(self):
-        answers = [None, *[receipt("busy")] * 7, None, receipt("busy"), receipt("stopping"), receipt("quarantined"), receipt("malformed")]
-        bus = SimpleNamespace(submit=lambda *_: answers.pop(0))
-        waits = []
-        stopping = SimpleNamespace(is_set=lambda: False, wait=waits.append)
-        uploader = Uploader(bus, "run", "py", 1, 60.0, stopping)
-        uploader.note_produced(1)
-        self.assertEqual(uploader.deliver(1, b"1").outcome, schema.OUTCOMES["malformed"])
-        self.assertEqual(waits, [0.2, 0.2, 0.4, 0.8, 1.6, 3.2, 3.2, 3.2, 0.2, 0.2, 0.2, 10.0])
-        self.assertEqual((uploader.ledger.resent, uploader.ledger.dropped_by_rule), (12, 1))
-
-    def test_receipt_of_an_overtaken_learner_does_not_settle(self):
-        answers = [receipt("accepted"), receipt("accepted")]
-        answers[0].version.epoch, answers[1].version.epoch = 6, 7
-        bus = SimpleNamespace(submit=lambda *_: answers.pop(0))
-        stopping = SimpleNamespace(is_set=lambda: False, wait=lambda pause_s: None)
-        uploader = Uploader(bus, "run", "py", 1, 60.0, stopping, lambda version: version.epoch >= 7)
-        uploader.note_produced(1)
-        self.assertEqual(uploader.deliver(1, b"1").version.epoch, 7)
-        self.assertEqual((uploader.ledger.accepted, uploader.ledger.resent), (1, 1))
-
-
-class JoiningTest(unittest.TestCase):
-    def bundle(self, config_hash=9):
-        weight = np.zeros((2, 2), "<f4")
-        header = {
-            "actor.0.weight": {"dtype": "F32", "shape": [2, 2], "data_offsets": [0, 16]},
-            "actor.0.bias": {"dtype": "F32", "shape": [2], "data_offsets": [16, 24]},
-            "log_std": {"dtype": "F32", "shape": [2], "data_offsets": [24, 32]},
-        }
-        text = json.dumps(header).encode()
-        weights = len(text).to_bytes(8, "little") + text + weight.tobytes() + bytes(16)
-        return schema.PolicyBundle(
-            run="run", config_hash=config_hash, weights=weights, checksum=checksum(weights), observation_clip=10.0,
-            observation_mean=bytes(8), observation_inverse_std=np.ones(2, "<f4").tobytes(),
-        )
-
-    def policies(self, answers, receipt=None):
-        bus = SimpleNamespace(fetch_policy=lambda *_: answers.pop(0), register=lambda *_: receipt)
-        return Policies(bus, self.bundle(), "py", None)
-
-    def test_new_configuration_sets_run_changed(self):
-        policies = self.policies([self.bundle(config_hash=8)])
-        policies.refresh()
-        self.assertTrue(policies.run_changed.is_set())
-
-    def test_policy_of_an_overtaken_learner_is_ignored(self):
-        older, newer = self.bundle(), self.bundle()
-        newer.version.incarnation, newer.version.epoch = 3, 8
-        older.version.incarnation, older.version.epoch = 2, 7
-        policies = self.policies([newer, older])
-        policies.refresh()
-        policies.refresh()
-        self.assertEqual(policies.current[1].epoch, 8)
-        self.assertFalse(policies.admits(older.version))
-        self.assertTrue(policies.admits(schema.PolicyVersion()))
-
-    def test_damaged_weights_are_ignored(self):
-        damaged = self.bundle()
-        damaged.version.number, damaged.checksum = 5, 1
-        policies = self.policies([damaged])
-        policies.refresh()
-        self.assertEqual((policies.current[1].number, policies.run_changed.is_set()), (0, False))
-
-    def fetched(self, answers):
-        """Returns what fetch_pieces makes of these answers, and the offsets that it asked for."""
-        offsets = []
-
-        def ask(key, payload, timeout_s, priority):
-            offsets.append(schema.PolicyRequest.FromString(payload).offset)
-            return answers.pop(0)
-
-        return fetch_pieces(ask, "key", schema.PolicyRequest(config_hash=9)), offsets
-
-    def test_pieces_make_up_the_bundle(self):
-        def piece(bundle, number, start, end=None):
-            data = bundle.SerializeToString()
-            version = schema.PolicyVersion(number=number)
-            total = len(data)
-            return schema.PolicyPiece(
-                run="run", version=version, total_bytes=total, offset=start, data=data[start:end]
-            ).SerializeToString()
-
-        old, new = self.bundle(), self.bundle(config_hash=8)
-        self.assertEqual(self.fetched([piece(old, 1, 0)]), (old, [0]))
-        # The second piece is lost once.
-        self.assertEqual(self.fetched([piece(old, 1, 0, 50), None, piece(old, 1, 50)]), (old, [0, 50, 50]))
-        # The server has a newer version by then.
-        answers = [piece(old, 1, 0, 50), piece(new, 2, 50), piece(new, 2, 0, 60), piece(new, 2, 60)]
-        self.assertEqual(self.fetched(answers), (new, [0, 50, 0, 60]))
-        self.assertEqual(self.fetched([None]), (None, [0]))
-
-    def test_short_answer_means_an_unchanged_policy(self):
-        unchanged = schema.PolicyPiece(run="run", version=schema.PolicyVersion(number=4)).SerializeToString()
-        bundle, _ = self.fetched([unchanged])
-        self.assertEqual((bundle.run, bundle.version.number, bundle.config_hash), ("run", 4, 9))
-
-    def test_task_is_registered_again_without_a_policy(self):
-        refused = self.policies([None], schema.TaskReceipt(accepted=False, reason="another task"))
-        refused.refresh()
-        self.assertTrue(refused.run_changed.is_set())
-        accepted = self.policies([None], schema.TaskReceipt(accepted=True))
-        accepted.refresh()
-        self.assertFalse(accepted.run_changed.is_set())
-
-    def test_plain_tcp_beyond_loopback_raises(self):
-        for fine in ("tcp/127.0.0.1:7447", "tcp/[::1]:1", "tcp/localhost:1", "tls/learner:7447"):
-            check_endpoint(fine, insecure=False)
-        check_endpoint("tcp/learner:7447", insecure=True)
-        for bad in ("tcp/learner:7447", "tcp/0.0.0.0:1", "udp/127.0.0.1:1", "tcp/learner"):
-            with self.assertRaises(BusError):
-                check_endpoint(bad, insecure=False)
 
 
 if __name__ == "__main__":

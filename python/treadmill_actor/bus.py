@@ -8,6 +8,7 @@ import time
 from pathlib import Path
 
 import zenoh
+from google.protobuf.message import DecodeError
 
 from . import schema
 
@@ -93,6 +94,14 @@ def read_metric(data):
     return metric if all(-sys.float_info.max <= number <= sys.float_info.max for number in numbers) else None
 
 
+def decoded(kind, data):
+    """Returns a message of this class, or None if `data` is None or no such message: on an open bus anybody may answer."""
+    try:
+        return None if data is None else kind.FromString(data)
+    except DecodeError:
+        return None
+
+
 def observe(connect, tls, run, events):
     """Opens a session that puts ("metric", metric), ("begun", run) and ("gone", run) into an unbounded queue.
 
@@ -127,13 +136,12 @@ def fetch_pieces(ask, key, request):
     while time.monotonic() < deadline:
         request.offset = len(data)
         timeout_s = FIRST_PIECE_TIMEOUT_S if first is None else PIECE_TIMEOUT_S
-        answer = ask(key, request.SerializeToString(), timeout_s, zenoh.Priority.DATA_HIGH)
-        if answer is None:
+        piece = decoded(schema.PolicyPiece, ask(key, request.SerializeToString(), timeout_s, zenoh.Priority.DATA_HIGH))
+        if piece is None:
             if first is None:
                 return None
             time.sleep(PIECE_RETRY_S)
             continue
-        piece = schema.PolicyPiece.FromString(answer)
         if piece.total_bytes == 0:
             return schema.PolicyBundle(run=piece.run, version=piece.version, config_hash=request.config_hash)
         if first is not None and piece.version != first.version:
@@ -145,7 +153,7 @@ def fetch_pieces(ask, key, request):
         first = first or piece
         data += piece.data
         if len(data) >= first.total_bytes:
-            return schema.PolicyBundle.FromString(data)
+            return decoded(schema.PolicyBundle, data)
     return None
 
 
@@ -178,8 +186,7 @@ class Bus:
         """Registers a task. Returns the receipt, or None if no learner answered."""
         registration = schema.TaskRegistration(run=run, actor=actor)
         task.fill(registration.task)
-        answer = self.ask(f"treadmill/{run}/tasks/{actor}", registration.SerializeToString())
-        return None if answer is None else schema.TaskReceipt.FromString(answer)
+        return decoded(schema.TaskReceipt, self.ask(f"treadmill/{run}/tasks/{actor}", registration.SerializeToString()))
 
     def fetch_policy(self, run, known=None, announced=None, config_hash=0):
         """Returns the newest policy bundle, or None if no learner answered.
@@ -194,19 +201,19 @@ class Bus:
             bundle = fetch_pieces(self.ask, f"treadmill/{run}/policy/pieces{node}", request)
             if bundle is not None:
                 return bundle
-        answer = self.ask(f"treadmill/{run}/policy/latest", priority=zenoh.Priority.DATA_HIGH)
-        return None if answer is None else schema.PolicyBundle.FromString(answer)
+        return decoded(schema.PolicyBundle, self.ask(f"treadmill/{run}/policy/latest", priority=zenoh.Priority.DATA_HIGH))
 
     def submit(self, run, actor, fragment, timeout_s):
         """Sends a fragment. Returns the receipt, or None without one: the fragment may or may not have arrived."""
-        answer = self.ask(f"treadmill/{run}/rollouts/{actor}", fragment, timeout_s)
-        return None if answer is None else schema.Receipt.FromString(answer)
+        return decoded(schema.Receipt, self.ask(f"treadmill/{run}/rollouts/{actor}", fragment, timeout_s))
 
     def announcements(self, run, apply):
         """Calls `apply` with each announced version, on a Zenoh thread: `apply` must not block."""
 
         def receive(sample):
-            apply(schema.PolicyAnnouncement.FromString(sample.payload.to_bytes()).version)
+            announcement = decoded(schema.PolicyAnnouncement, sample.payload.to_bytes())
+            if announcement is not None:
+                apply(announcement.version)
 
         return self.session.declare_subscriber(f"treadmill/{run}/policy/version", receive)
 

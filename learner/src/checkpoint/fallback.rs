@@ -9,8 +9,9 @@ use treadmill_runtime::error_chain;
 
 use super::{CheckpointError, TrainingState, load_file};
 
-/// Reads `wanted`. If it is damaged or missing, reads the sound checkpoint with the most updates in its folder, with a
-/// warning.
+/// Reads `wanted`. If it is damaged or missing, reads the newest sound checkpoint in its folder, with a warning: of those since
+/// the run was resumed last, the one with the most updates. A run that was resumed from an older checkpoint leaves later ones of
+/// the way that it did not take.
 ///
 /// # Errors
 /// As [`load_file`] if the file is sound but has another format or a refused configuration, or cannot be read;
@@ -25,8 +26,7 @@ pub(super) fn load_or_newest_sound(wanted: PathBuf) -> Result<(PathBuf, Training
     let mut newest: Option<(PathBuf, TrainingState)> = None;
     for path in bundles(folder).into_iter().filter(|path| *path != wanted) {
         match load_file(&path) {
-            Ok(state)
-                if newest.as_ref().is_some_and(|(_, newest)| newest.counters.updates >= state.counters.updates) => {}
+            Ok(state) if newest.as_ref().is_some_and(|(_, newest)| progress(newest) >= progress(&state)) => {}
             Ok(state) => newest = Some((path, state)),
             Err(why) => tried.push(describe(&path, &why)),
         }
@@ -40,6 +40,11 @@ pub(super) fn load_or_newest_sound(wanted: PathBuf) -> Result<(PathBuf, Training
         CheckpointError::Missing { .. } if tried.len() == 1 => Err(why),
         _ => Err(CheckpointError::NoneSound { tried: tried.join("; ") }),
     }
+}
+
+/// Returns what the newest checkpoint has the most of, the first number first.
+fn progress(state: &TrainingState) -> (u64, u64) {
+    (state.counters.resumes, state.counters.updates)
 }
 
 fn is_unsound(why: &CheckpointError) -> bool {
@@ -130,6 +135,18 @@ mod tests {
         assert_eq!(updates(&folder, Which::Latest), 4);
         spoil(&folder, "best.bundle");
         assert_eq!(updates(&folder, Which::BestOrLatest), 4, "`best` was not requested by name");
+    }
+
+    #[test]
+    fn checkpoints_that_a_resumed_run_left_do_not_replace_its_own() {
+        let at = tempfile::tempdir().unwrap();
+        let folder = saved(at.path());
+        let mut resumed = state(5);
+        resumed.counters.resumes = 1;
+        let saved = CheckpointWriter::new(&folder, 5, 9).save(&resumed).unwrap();
+        CheckpointWriter::new(&folder, 5, 9).save_numbered(5, &saved).unwrap();
+        spoil(&folder, "latest.bundle");
+        assert_eq!(updates(&folder, Which::Latest), 5, "after 6 updates the run went on from an older checkpoint");
     }
 
     #[test]

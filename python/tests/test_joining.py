@@ -1,0 +1,121 @@
+"""Policies and receipts that an actor fetches, with answers made up here."""
+
+import json
+import sys
+import unittest
+from pathlib import Path
+from types import SimpleNamespace
+
+import numpy as np
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
+
+from treadmill_actor import schema  # noqa: E402
+from treadmill_actor.bus import Bus, BusError, check_endpoint, fetch_pieces  # noqa: E402
+from treadmill_actor.policies import Policies  # noqa: E402
+from treadmill_actor.policy import checksum  # noqa: E402
+
+
+class JoiningTest(unittest.TestCase):
+    def bundle(self, config_hash=9):
+        weight = np.zeros((2, 2), "<f4")
+        header = {
+            "actor.0.weight": {"dtype": "F32", "shape": [2, 2], "data_offsets": [0, 16]},
+            "actor.0.bias": {"dtype": "F32", "shape": [2], "data_offsets": [16, 24]},
+            "log_std": {"dtype": "F32", "shape": [2], "data_offsets": [24, 32]},
+        }
+        text = json.dumps(header).encode()
+        weights = len(text).to_bytes(8, "little") + text + weight.tobytes() + bytes(16)
+        return schema.PolicyBundle(
+            run="run", config_hash=config_hash, weights=weights, checksum=checksum(weights), observation_clip=10.0,
+            observation_mean=bytes(8), observation_inverse_std=np.ones(2, "<f4").tobytes(),
+        )
+
+    def policies(self, answers, receipt=None):
+        bus = SimpleNamespace(fetch_policy=lambda *_: answers.pop(0), register=lambda *_: receipt)
+        return Policies(bus, self.bundle(), "py", None)
+
+    def test_new_configuration_sets_run_changed(self):
+        policies = self.policies([self.bundle(config_hash=8)])
+        policies.refresh()
+        self.assertTrue(policies.run_changed.is_set())
+
+    def test_policy_of_an_overtaken_learner_is_ignored(self):
+        older, newer = self.bundle(), self.bundle()
+        newer.version.incarnation, newer.version.epoch = 3, 8
+        older.version.incarnation, older.version.epoch = 2, 7
+        policies = self.policies([newer, older])
+        policies.refresh()
+        policies.refresh()
+        self.assertEqual(policies.current[1].epoch, 8)
+        self.assertFalse(policies.admits(older.version))
+        self.assertTrue(policies.admits(schema.PolicyVersion()))
+
+    def test_damaged_weights_are_ignored(self):
+        damaged = self.bundle()
+        damaged.version.number, damaged.checksum = 5, 1
+        policies = self.policies([damaged])
+        policies.refresh()
+        self.assertEqual((policies.current[1].number, policies.run_changed.is_set()), (0, False))
+
+    def fetched(self, answers):
+        """Returns what fetch_pieces makes of these answers, and the offsets that it asked for."""
+        offsets = []
+
+        def ask(key, payload, timeout_s, priority):
+            offsets.append(schema.PolicyRequest.FromString(payload).offset)
+            return answers.pop(0)
+
+        return fetch_pieces(ask, "key", schema.PolicyRequest(config_hash=9)), offsets
+
+    def test_pieces_make_up_the_bundle(self):
+        def piece(bundle, number, start, end=None):
+            data = bundle.SerializeToString()
+            version = schema.PolicyVersion(number=number)
+            total = len(data)
+            return schema.PolicyPiece(
+                run="run", version=version, total_bytes=total, offset=start, data=data[start:end]
+            ).SerializeToString()
+
+        old, new = self.bundle(), self.bundle(config_hash=8)
+        self.assertEqual(self.fetched([piece(old, 1, 0)]), (old, [0]))
+        # The second piece is lost once.
+        self.assertEqual(self.fetched([piece(old, 1, 0, 50), None, piece(old, 1, 50)]), (old, [0, 50, 50]))
+        # The server has a newer version by then.
+        answers = [piece(old, 1, 0, 50), piece(new, 2, 50), piece(new, 2, 0, 60), piece(new, 2, 60)]
+        self.assertEqual(self.fetched(answers), (new, [0, 50, 0, 60]))
+        self.assertEqual(self.fetched([None]), (None, [0]))
+        # Some other program answers once, then in place of the learner.
+        self.assertEqual(self.fetched([piece(old, 1, 0, 50), b"\xff", piece(old, 1, 50)]), (old, [0, 50, 50]))
+        self.assertEqual(self.fetched([b"\xff"]), (None, [0]))
+
+    def test_an_answer_that_is_no_message_is_none(self):
+        bus = Bus.__new__(Bus)
+        bus.ask = lambda *_, **__: b"\xff"
+        self.assertIsNone(bus.submit("run", "py", b"", 1.0))
+        self.assertIsNone(bus.register("run", "py", SimpleNamespace(fill=lambda task: None)))
+
+    def test_short_answer_means_an_unchanged_policy(self):
+        unchanged = schema.PolicyPiece(run="run", version=schema.PolicyVersion(number=4)).SerializeToString()
+        bundle, _ = self.fetched([unchanged])
+        self.assertEqual((bundle.run, bundle.version.number, bundle.config_hash), ("run", 4, 9))
+
+    def test_task_is_registered_again_without_a_policy(self):
+        refused = self.policies([None], schema.TaskReceipt(accepted=False, reason="another task"))
+        refused.refresh()
+        self.assertTrue(refused.run_changed.is_set())
+        accepted = self.policies([None], schema.TaskReceipt(accepted=True))
+        accepted.refresh()
+        self.assertFalse(accepted.run_changed.is_set())
+
+    def test_plain_tcp_beyond_loopback_raises(self):
+        for fine in ("tcp/127.0.0.1:7447", "tcp/[::1]:1", "tcp/localhost:1", "tls/learner:7447"):
+            check_endpoint(fine, insecure=False)
+        check_endpoint("tcp/learner:7447", insecure=True)
+        for bad in ("tcp/learner:7447", "tcp/0.0.0.0:1", "udp/127.0.0.1:1", "tcp/learner"):
+            with self.assertRaises(BusError):
+                check_endpoint(bad, insecure=False)
+
+
+if __name__ == "__main__":
+    unittest.main()
