@@ -32,7 +32,7 @@ fn main() -> Result<(), String> {
         let (_, flood) = known.ok_or(format!("unknown KIND `{kind}`"))?;
         let tls = certificates.as_deref().map(|folder| (folder, "actor"));
         let attacker = Attacker::join(&endpoint, &run, tls, TIMEOUT).ok_or("the learner refused the connection")?;
-        attacker.flood(*flood, "good", count, until)
+        attacker.flood(*flood, "good", count, until, &attacker.policy())
     };
     let wall_s = begun.elapsed().as_secs_f64();
     let line = format!("{{\"kind\":\"{kind}\",\"sent\":{sent},\"wall_s\":{wall_s:.3}}}\n");

@@ -4,7 +4,7 @@ use std::time::Duration;
 
 use clap::{Args, Subcommand};
 use treadmill_bus::{Role, command, statuses};
-use treadmill_proto::{Command, ControlReply, ControlRequest};
+use treadmill_proto::{Command, ControlReply, ControlRequest, RunStatus};
 
 use crate::{
     launch::{exit_code::Usage, output::say},
@@ -77,23 +77,36 @@ pub fn run(args: ControlArgs) -> anyhow::Result<()> {
         let Some(ControlReply { done, text, .. }) = reply else { return Err(link.silence().await) };
         // Another machine wrote it.
         let text = printable(&text, TEXT_CHARS_MAX);
-        if !done {
-            return Err(Usage(text).into());
+        match (done, request.command()) {
+            (true, _) => say(&text),
+            // The key or its value is refused.
+            (false, Command::Set) => return Err(Usage(text).into()),
+            (false, _) => anyhow::bail!(text),
         }
-        say(&text);
         Ok(())
     })
 }
 
-/// Returns the only run that answers, because a command is for one run.
+/// Returns the run whose folder was given, or the only one that answers: a command is for one run.
 async fn only_run(link: &LearnerLink) -> anyhow::Result<String> {
     let ask = async || statuses(&link.bus, None, learner_address::ANSWER_TIMEOUT).await;
     let replies = learner_address::retry_until_answered(ask).await?;
-    let mut runs: Vec<String> = replies.into_iter().filter_map(|reply| Some(reply.status?.run)).collect();
-    runs.sort();
-    match &runs[..] {
-        [] => Err(link.silence().await),
-        [run] => Ok(run.clone()),
-        _ => Err(Usage(format!("several runs answer there; choose one with --run: {}", runs.join(", "))).into()),
+    let names = |statuses: Vec<RunStatus>| {
+        let mut names: Vec<String> = statuses.into_iter().map(|status| status.run).collect();
+        names.sort();
+        names
+    };
+    let statuses = replies.into_iter().filter_map(|reply| reply.status);
+    let (wanted, others): (Vec<_>, Vec<_>) =
+        statuses.partition(|status| learner_address::is_of(link.holder.as_ref(), status));
+    match (&names(wanted)[..], &names(others)[..], &link.holder) {
+        ([run], ..) => Ok(run.clone()),
+        ([], [_, ..], Some(holder)) => {
+            Err(anyhow::anyhow!("the run is trained by {holder}, but only other learners answer at its endpoint"))
+        }
+        ([], ..) => Err(link.silence().await),
+        (runs, ..) => {
+            Err(Usage(format!("several runs answer there; choose one with --run: {}", runs.join(", "))).into())
+        }
     }
 }

@@ -133,7 +133,7 @@ fn check_height(env: &EnvConfig, height_m: f64, path: &Path) -> Result<(), Usage
 }
 
 /// Returns whether the task is none of Gymnasium's.
-fn has_other_task(env: &EnvConfig) -> bool {
+pub fn has_other_task(env: &EnvConfig) -> bool {
     env.task == EnvTask::Velocity || !env.own_task.is_empty()
 }
 

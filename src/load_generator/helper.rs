@@ -79,7 +79,7 @@ impl Drop for Helper {
 }
 
 /// Returns the command of this binary with `args`, at this nice value; the process is killed when this one ends.
-pub(super) fn command(args: &[String], nice: i32) -> anyhow::Result<Command> {
+pub(crate) fn command(args: &[String], nice: i32) -> anyhow::Result<Command> {
     let program = std::env::current_exe().context("this program's own path is unknown")?;
     let mut command = Command::new(program);
     command.args(args);

@@ -139,9 +139,14 @@ impl LoadStep<'_> {
             let now = host.ask("mark")?;
             let passed_s = number(&now, "at_s")? - number(since, "at_s")?;
             let accepted = number(&now, "accepted")? - number(since, "accepted")?;
-            if passed_s >= seconds && (accepted >= fragments || passed_s >= self.seconds * EXTENSION_MAX) {
+            if passed_s >= seconds && accepted >= fragments {
                 return Ok(now);
             }
+            anyhow::ensure!(
+                passed_s < self.seconds * EXTENSION_MAX,
+                "after {passed_s:.0} s only {accepted} of {fragments} fragments are accepted; raise --seconds, or lower \
+                 --actors, --fragment-mb or --pause-ms"
+            );
             std::thread::sleep(POLL_INTERVAL);
         }
     }

@@ -9,7 +9,7 @@
 //! - [`raw`]: plain TCP for comparison. [`usage`]: processor time and memory of this process.
 
 pub(crate) mod fleet;
-mod helper;
+pub(crate) mod helper;
 pub(crate) mod host;
 pub(crate) mod load;
 pub(crate) mod load_step;

@@ -5,8 +5,12 @@ use std::{fs, path::PathBuf, time::Duration};
 use anyhow::Context;
 use clap::Args;
 use treadmill_bus::{Bus, BusError, BusOptions, Role};
-use treadmill_proto::ControlReply;
-use treadmill_runtime::{run_folder::RunFolder, run_lock::holder, words::quoted};
+use treadmill_proto::{ControlReply, RunStatus};
+use treadmill_runtime::{
+    run_folder::RunFolder,
+    run_lock::{Holder, holder},
+    words::quoted,
+};
 
 use crate::{
     diagnosis::Silence,
@@ -32,7 +36,7 @@ pub struct ReachArgs {
     #[arg(value_name = "RUN", conflicts_with = "connect")]
     pub folder: Option<String>,
     /// Endpoint of the learner or of a router; may be repeated. By default that of the run that is trained below runs/, else
-    /// tcp/127.0.0.1:7447.
+    /// tcp/127.0.0.1:7447; `check` then asks no learner.
     #[arg(long, value_name = "ENDPOINT")]
     pub connect: Vec<String>,
     /// Name of the run on the bus; may be left out if there is only one.
@@ -56,6 +60,12 @@ impl ReachArgs {
         let folder = RunFolder::open(self.folder.as_ref()?).ok()?;
         // Runs of earlier versions have no lock, so they may be running.
         (folder.lock().exists() && holder(&folder).is_none()).then_some(folder)
+    }
+
+    /// Returns the process that trains the run whose folder was given.
+    #[must_use]
+    pub fn holder(&self) -> Option<Holder> {
+        holder(&RunFolder::open(self.folder.as_ref()?).ok()?)
     }
 
     /// Returns the folders below `runs/` of runs that are trained now, unless the flags name a run or a learner.
@@ -127,6 +137,8 @@ pub struct LearnerLink {
     pub bus: Bus,
     /// Name of the wanted run, if given.
     pub run: Option<String>,
+    /// Process that trains the wanted run, if its folder was given.
+    pub holder: Option<Holder>,
     options: BusOptions,
 }
 
@@ -135,6 +147,13 @@ impl LearnerLink {
     pub async fn silence(&self) -> anyhow::Error {
         Silence::of_run(&self.bus, &self.options, self.run.as_deref()).await.into()
     }
+}
+
+/// Returns whether a status is of this process; of any, where the process is not known. Several learners may be on one bus, and the
+/// endpoint in a folder that machines share may be one of another machine.
+pub fn is_of(holder: Option<&Holder>, status: &RunStatus) -> bool {
+    let Some(Holder { pid: Some(pid), host, .. }) = holder else { return true };
+    (*pid, host) == (status.pid, &status.host)
 }
 
 /// Joins the bus as an observer or operator, and runs `work` with the session.
@@ -158,7 +177,8 @@ pub fn connect(
     let options = reach.options(role)?;
     async_runtime::run(async {
         let step = SlowStepNotice::begin(format!("dialling {}", options.connect.join(", ")));
-        let link = LearnerLink { bus: dial(&options, reach.run.as_deref()).await?, run: reach.run.clone(), options };
+        let bus = dial(&options, reach.run.as_deref()).await?;
+        let link = LearnerLink { bus, run: reach.run.clone(), holder: reach.holder(), options };
         drop(step);
         let outcome = work(&link).await;
         link.bus.close();

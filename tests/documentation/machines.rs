@@ -5,6 +5,19 @@ use std::{path::Path, process::Command};
 
 use crate::support::*;
 
+/// Shell function that waits until two actors are in the run.
+const AWAIT_ACTORS: &str = r#"
+before=0
+await_actors() {
+    for _ in $(seq 240); do
+        if tail -n "+$((before + 1))" runs/walk/metrics.jsonl | grep '"tag":"actors/alive"' | tail -1 | grep -q '"value":2.0'; then
+            return
+        fi
+        sleep 0.5
+    done
+}
+"#;
+
 /// Returns the shell commands of a page.
 fn commands(page: &str) -> String {
     let blocks = page.split("```sh\n").skip(1).map(|rest| rest.split("```").next().unwrap());
@@ -34,13 +47,14 @@ fn the_guide_to_several_machines_works_as_printed() {
     // Names of hosts are unique, so that two of these tests can run at once. The trap removes them if a command fails.
     let prefix = format!("tm{}", std::process::id());
     let script = commands(&page)
-        // A test machine is busier than a reader's.
-        .replace("sleep 10", "sleep 20")
+        // Both actors are there, by the lines of the learner that runs now.
+        .replace("sleep 10", "await_actors")
+        .replace("\nwait\n", "\nwait\nbefore=$(wc -l < runs/walk/metrics.jsonl)\n")
         .replace("tm-", &format!("{prefix}-"))
         .replace("hosts.sh up", &format!("hosts.sh up {prefix}"))
         .replace("hosts.sh down", &format!("hosts.sh down {prefix}"));
     let script = format!(
-        "trap 'kill $(jobs -p) 2>/dev/null || true; experiments/faults/hosts.sh down {prefix}' EXIT\nset -eu\n{script}"
+        "{AWAIT_ACTORS}trap 'kill $(jobs -p) 2>/dev/null || true; experiments/faults/hosts.sh down {prefix}' EXIT\nset -eu\n{script}"
     );
     let binary = Path::new(env!("CARGO_BIN_EXE_treadmill")).parent().unwrap();
     let path = format!("{}:{}", binary.display(), std::env::var("PATH").unwrap());

@@ -230,7 +230,7 @@ fn a_renewed_certificate_is_accepted_and_a_certificate_for_another_host_is_not()
     command.args(["--listen", "tls/127.0.0.1:0", "--tls", "elsewhere"]);
     let _elsewhere = Running::start(command);
     let stranger = Running::start(actor(folder, &endpoint(&other), "elsewhere"));
-    stranger.wait_for("no answer; retrying");
+    stranger.wait_for("it is not for this name");
 }
 
 #[test]

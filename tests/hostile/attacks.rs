@@ -140,13 +140,13 @@ impl Attacker {
         let _ = self.session.put(key, payload).congestion_control(CongestionControl::Block).wait();
     }
 
-    /// Sends messages as fast as possible, at most `count` and only before `until`. Returns their number.
-    pub fn flood(&self, flood: Flood, victim: &str, count: u64, until: Instant) -> u64 {
-        let bundle = self.policy();
+    /// Sends messages as fast as possible, at most `count` and only before `until`; fragments are by the policy in `bundle`.
+    /// Returns their number.
+    pub fn flood(&self, flood: Flood, victim: &str, count: u64, until: Instant, bundle: &PolicyBundle) -> u64 {
         let noise: Bytes =
             (0..64 << 10).map(|i: u32| (i.wrapping_mul(2_654_435_761) >> 24) as u8).collect::<Vec<_>>().into();
-        let valid: Bytes = fragment(&bundle, "replayer", 1).encode().unwrap().into();
-        let nan: Bytes = corrupted(&bundle, victim, f32::NAN).into();
+        let valid: Bytes = fragment(bundle, "replayer", 1).encode().unwrap().into();
+        let nan: Bytes = corrupted(bundle, victim, f32::NAN).into();
         static NUMBER: AtomicU64 = AtomicU64::new(0);
         let mut sent = 0;
         while sent < count && Instant::now() < until {

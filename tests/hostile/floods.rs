@@ -198,14 +198,18 @@ fn finite_but_absurd_fragments_end_no_run_and_quarantine_their_sender() {
 fn flood(tls: bool) {
     let fleet = fleet(tls, &["eval.every_steps=4096"]);
     let before = resident_bytes(fleet.learner.pid());
+    let attackers = Flood::ALL.map(|(name, kind)| (name, kind, fleet.attacker()));
+    let bundle = attackers[0].2.policy();
     let until = Instant::now() + Duration::from_secs(3);
-    let sent: u64 = std::thread::scope(|scope| {
-        let threads = Flood::ALL.map(|(_, kind)| {
-            let attacker = fleet.attacker();
-            scope.spawn(move || attacker.flood(kind, "good", 200_000, until))
+    let sent = std::thread::scope(|scope| {
+        let threads = attackers.each_ref().map(|(name, kind, attacker)| {
+            let bundle = &bundle;
+            (*name, scope.spawn(move || attacker.flood(*kind, "good", 200_000, until, bundle)))
         });
-        threads.map(|thread| thread.join().unwrap()).iter().sum()
+        threads.map(|(name, thread)| (name, thread.join().unwrap()))
     });
+    assert!(sent.iter().all(|(_, sent)| *sent > 0), "{sent:?}");
+    let sent: u64 = sent.iter().map(|(_, sent)| sent).sum();
     assert!(sent > 1000, "{sent}");
     await_that("the count of rejected fragments", || {
         last_value(&fleet.run, "bus/fragments_turned_away").filter(|count| *count > 0.0)

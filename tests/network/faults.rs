@@ -174,6 +174,7 @@ fn a_second_actor_of_the_same_name_is_refused_and_a_successor_is_not() {
     };
     let first = actor();
     first.wait_for("joined run `run` as `twin` with 4 environments");
+    await_that("the actor is alive", || last_value(&run, "actors/alive").filter(|alive| *alive == 1.0));
     let (status, lines) = actor().wait();
     assert_eq!(status.code(), Some(1), "{lines:?}");
     assert!(lines.iter().any(|line| line.contains("an actor named `twin` is in the run `run` already")), "{lines:?}");
@@ -189,16 +190,25 @@ fn a_second_actor_of_the_same_name_is_refused_and_a_successor_is_not() {
     );
 }
 
+/// Lets a process go on even if the test fails; it would not see its parent's end.
+struct Thawed(u32);
+
+impl Drop for Thawed {
+    fn drop(&mut self) {
+        send_signal(self.0, libc::SIGCONT);
+    }
+}
+
 #[test]
 fn a_frozen_actor_does_not_delay_the_others() {
     let (folder, run) = folders();
     let training = Running::start(endless(folder.path(), &run, "train"));
     await_steps(&run, 1024);
-    let frozen = children(training.pid(), "actor-0");
-    send_signal(frozen[0], libc::SIGSTOP);
+    let frozen = Thawed(children(training.pid(), "actor-0")[0]);
+    send_signal(frozen.0, libc::SIGSTOP);
     let before = metrics(&run).last().unwrap().1;
     await_steps(&run, before + 10 * 512);
-    send_signal(frozen[0], libc::SIGCONT);
+    send_signal(frozen.0, libc::SIGCONT);
     let thawed = metrics(&run).last().unwrap().1;
     await_steps(&run, thawed + 10 * 512);
     training.signal(libc::SIGINT);

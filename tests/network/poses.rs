@@ -45,7 +45,8 @@ fn observers_see_episodes_from_their_start() {
         assert_eq!(pose.bodies.len(), 7 * model.bodies.len());
         assert_eq!(pose.joint_torques_nm.len(), model.hinges.len());
         if pose.episode == last.episode {
-            assert_eq!(pose.step, last.step + STRIDE, "no pose is missing");
+            // A full link may drop some.
+            assert!(pose.step > last.step && pose.step.is_multiple_of(STRIDE), "{} after {}", pose.step, last.step);
         } else {
             assert!(pose.episode > last.episode);
             assert_eq!(pose.step, 0);

@@ -154,7 +154,7 @@ fn slow_clients_delay_neither_others_nor_training() {
 fn a_stalled_training_thread_is_reported() {
     let (folder, run) = folders();
     // One update takes seconds, longer than the limit set for the page.
-    let long = ["ppo.batch=32768", "ppo.minibatch=512", "ppo.epochs=100", "ppo.target_kl=0"];
+    let long = ["ppo.batch=32768", "ppo.minibatch=512", "ppo.epochs=100", "ppo.target_kl=0", "policy.hidden=[256,128]"];
     let mut more = vec!["--stalled-after-s", "1"];
     more.extend(long.iter().flat_map(|pair| ["--set", pair]));
     let (_training, address) = train(folder.path(), &run, &more);

@@ -72,7 +72,7 @@ fn an_actor_of_another_authority_is_refused() {
     let mut command = treadmill(folder.path());
     command.args(["actor", "--envs", "4", "--tls", "others", "--connect", &endpoint]);
     let stranger = Running::start(command);
-    stranger.wait_for("no answer; retrying");
+    stranger.wait_for("it is of another authority");
     let mut command = treadmill(folder.path());
     command.args(["actor", "--envs", "4", "--tls", "certs", "--name", "friend", "--connect", &endpoint]);
     let _friend = Running::start(command);

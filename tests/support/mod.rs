@@ -218,16 +218,22 @@ pub fn page(path: &str) -> String {
     fs::read_to_string(&file).unwrap_or_else(|why| panic!("{}: {why}", file.display()))
 }
 
-/// Returns the Python of TREADMILL_PYTHON if it has these modules. Otherwise prints that the test is skipped.
+/// Reports a skipped test; panics with TREADMILL_STRICT=yes.
 #[allow(clippy::print_stderr, reason = "reports a skipped test")]
+pub fn skip(why: &str) {
+    assert!(std::env::var("TREADMILL_STRICT").as_deref() != Ok("yes"), "{why}");
+    eprintln!("SKIPPED: {why}");
+}
+
+/// Returns the Python of TREADMILL_PYTHON if it has these modules. Otherwise skips the test.
 pub fn python_with(modules: &str) -> Option<Command> {
     let Ok(python) = std::env::var("TREADMILL_PYTHON") else {
-        eprintln!("SKIPPED: set TREADMILL_PYTHON to a Python that has {modules}");
+        skip(&format!("set TREADMILL_PYTHON to a Python that has {modules}"));
         return None;
     };
     let import = format!("import {modules}");
     if !Command::new(&python).args(["-c", &import]).output().expect("Python starts").status.success() {
-        eprintln!("SKIPPED: {python} lacks one of {modules}");
+        skip(&format!("{python} lacks one of {modules}"));
         return None;
     }
     Some(Command::new(python))

@@ -66,23 +66,25 @@ fn evaluations_longer_than_many_intervals_have_results() {
 #[test]
 fn a_run_that_goes_back_keeps_its_best_policy() {
     let (folder, run) = folders();
-    let trained = |args: &[&str]| {
-        let trained = treadmill(folder.path()).args(["train", "--no-progress"]).args(args).output().unwrap();
-        assert!(trained.status.success(), "{}", stderr(&trained));
-    };
-    let often = ["--set", "eval.every_steps=1024", "--set", "eval.episodes=1"];
     let name = run.to_str().unwrap();
-    trained(&[&["--preset", "smoke", "--steps", "20480", "--run-dir", name], &often[..]].concat());
+    let args = ["train", "--no-progress", "--preset", "smoke", "--steps", "20480", "--run-dir", name];
+    let often = ["--set", "eval.every_steps=1024", "--set", "eval.episodes=1"];
+    let trained = self::run(folder.path(), &[&args[..], &often].concat());
+    assert!(trained.status.success(), "{}", stderr(&trained));
     // A policy better than any that follows.
     let best_file = run.join("checkpoints/best.bundle");
     let mut best = load_file(&best_file).unwrap();
     (best.best_return, best.best_is_evaluated) = (Some(1e6), true);
     let best = treadmill_learner::checkpoint::encoding::encode(&best).unwrap();
     std::fs::write(&best_file, &best).unwrap();
-    trained(&["--resume", name, "--steps", "40960"]);
-    let results =
-        metrics(&run).into_iter().filter(|(tag, step, _)| tag == "eval/mean_reward" && *step > 20_480).count();
-    assert!(results > 0, "the resumed run evaluates");
+    let mut resumed = treadmill(folder.path());
+    resumed.args(["train", "--no-progress", "--resume", name, "--steps", ENDLESS]);
+    let resumed = Running::start(resumed);
+    await_that("an evaluation of the resumed run", || {
+        metrics(&run).iter().any(|(tag, step, _)| tag == "eval/mean_reward" && *step > 20_480).then_some(())
+    });
+    resumed.signal(libc::SIGINT);
+    assert!(resumed.wait().0.success());
     assert!(std::fs::read(&best_file).unwrap() == best, "the best policy was replaced");
 }
 

@@ -35,10 +35,10 @@ fn a_run_prints_its_banner_and_leaves_all_files() {
         assert!(summary[field].is_f64(), "{field} in {summary}");
     }
     assert_eq!((&summary["run"], &summary["restarts"]), (&"run".into(), &0.into()));
-    // The second actor may join in the middle of a round, whose batch then holds more than 512 steps.
+    // An actor that is late, or joins in the middle of a round, leaves a batch with more than 512 steps.
     let (env_steps, updates) = (summary["env_steps"].as_u64().unwrap(), summary["updates"].as_u64().unwrap());
     assert!(
-        (8192..8192 + 1024).contains(&env_steps) && (14..=16).contains(&updates),
+        (8192..8192 + 1024).contains(&env_steps) && (8..=16).contains(&updates),
         "{env_steps} in {updates} updates"
     );
     let text = stdout(&output);
@@ -129,8 +129,12 @@ fn a_waiting_learner_reports_the_reason_and_progress_can_be_turned_off() {
     let mut command = treadmill(folder.path());
     command.args(["learner", "--preset", "smoke", "--listen", "tcp/127.0.0.1:0", "--run-dir", path]);
     let learner = Running::start(command);
-    let line = learner.wait_for("waiting for experience for 2s: no actor is connected");
-    assert!(line.contains("start one: treadmill actor --connect tcp/127.0.0.1:"), "{line}");
+    let line = learner.wait_for("s: no actor is connected");
+    assert!(
+        line.contains("waiting for experience for ")
+            && line.contains("start one: treadmill actor --connect tcp/127.0.0.1:"),
+        "{line}"
+    );
     learner.signal(libc::SIGTERM);
     assert!(learner.wait().0.success());
     let (quiet_folder, quiet) = folders();

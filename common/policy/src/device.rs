@@ -42,6 +42,15 @@ impl std::str::FromStr for DeviceKind {
 }
 
 impl DeviceKind {
+    /// Returns the name that a user gives.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Cpu => "cpu",
+            Self::Cuda => "cuda",
+        }
+    }
+
     /// Opens the device.
     ///
     /// # Errors

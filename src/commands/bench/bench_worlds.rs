@@ -2,7 +2,7 @@
 
 use std::thread;
 
-use treadmill_humanoid::{Environment, EnvironmentConfig, Physics, worlds_per_pass};
+use treadmill_humanoid::{Environment, EnvironmentConfig, Physics, task, worlds_per_pass};
 use treadmill_runtime::{machine, seeds};
 
 /// Number of humanoids, as many as an actor has: one alone would stay in the cache.
@@ -28,6 +28,11 @@ impl BenchWorld {
         self.resets += 1;
         self.environment.reset(seed, &mut self.observation);
     }
+}
+
+/// Returns whether the humanoid of one of Gymnasium's tasks fell.
+pub fn fell(config: &EnvironmentConfig, world: &BenchWorld) -> bool {
+    config.terminate_when_unhealthy && !task::is_healthy(config, world.environment.physics().torso_height_m())
 }
 
 /// [`WORLDS`] humanoids, each with a `T`.
@@ -64,7 +69,7 @@ impl<T: Send> BenchWorlds<T> {
         end: impl Fn(&mut BenchWorld, &mut T, bool) + Sync,
     ) {
         let (begin, end, pass) = (&begin, &end, worlds_per_pass());
-        let share = WORLDS.div_ceil(self.threads).next_multiple_of(pass);
+        let share = worlds_per_thread(self.threads);
         let step_share = |share: &mut [(BenchWorld, T)]| {
             for round in 0..rounds {
                 for chunk in share.chunks_mut(pass) {
@@ -91,6 +96,15 @@ impl<T: Send> BenchWorlds<T> {
     pub fn iter(&self) -> impl Iterator<Item = &(BenchWorld, T)> {
         self.worlds.iter()
     }
+}
+
+fn worlds_per_thread(threads: usize) -> usize {
+    WORLDS.div_ceil(threads).next_multiple_of(worlds_per_pass())
+}
+
+/// Returns how many of this many threads have worlds to step: each steps whole passes.
+pub fn busy_threads(threads: usize) -> usize {
+    WORLDS.div_ceil(worlds_per_thread(threads))
 }
 
 /// Returns the number of threads for a flag's value; 0 means one per core.

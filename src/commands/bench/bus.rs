@@ -36,7 +36,7 @@ pub struct BusArgs {
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=16))]
     in_flight: u32,
     /// Pause of each actor after a receipt, in place of simulation; 0 sends as fast as possible.
-    #[arg(long, value_name = "MS", default_value_t = 0)]
+    #[arg(long, value_name = "MS", default_value_t = 0, value_parser = clap::value_parser!(u64).range(0..=60_000))]
     pause_ms: u64,
     /// Precision of observations on the wire, as in rollout.observation_precision.
     #[arg(long, default_value = "f32", value_parser = ["f32", "f16"])]

@@ -4,20 +4,24 @@ use std::{thread, time::Instant};
 
 use clap::Args;
 use rand::RngExt;
-use serde_json::json;
+use serde_json::{Value, json};
 use treadmill_actor::{
     environments::{Environments, SeedSource, StepResults},
     settings,
 };
 use treadmill_config::Config;
-use treadmill_humanoid::{EnvironmentConfig, task};
+use treadmill_humanoid::{Environment, EnvironmentConfig};
+use treadmill_proto::EndCause;
 use treadmill_runtime::{machine, seeds};
 
 use super::{
-    bench_worlds::{self, BenchWorlds, WORLDS},
+    bench_worlds::{self, BenchWorlds, WORLDS, fell},
     print_result, quality, rounded,
 };
-use crate::launch::model::{self, ModelArgs};
+use crate::launch::{
+    exit_code::Usage,
+    model::{self, ModelArgs},
+};
 
 /// Number of random actions, which repeat; a multiple of [`WORLDS`].
 const ACTIONS: usize = 64 * WORLDS;
@@ -60,90 +64,120 @@ pub fn run(args: &EnvArgs) -> anyhow::Result<()> {
     // Reports errors of the model file.
     model::environment(&config, &text, file)?;
     let environment = settings::training(&config);
-    let threads = bench_worlds::threads(args.threads.into());
+    let threads = bench_worlds::busy_threads(bench_worlds::threads(args.threads.into()));
     let rounds = args.steps.div_ceil(WORLDS as u64).max(1);
+    let has_other_task = model::has_other_task(&config.env);
     let result = if args.quality {
+        if has_other_task {
+            return Err(
+                Usage("--quality: only Gymnasium's tasks have a healthy height; leave the task out".into()).into()
+            );
+        }
         quality::measure(&environment, &text, threads, rounds)?
     } else {
-        measure(&environment, &text, config.env.observation.name(), threads, rounds)?
+        let workload = Workload::new(&environment, &text, threads, rounds)?;
+        let mut result = workload.with_task(config.env.observation.name())?;
+        if !has_other_task {
+            // A body of another task has no height below which it is reset.
+            result["physics_only_steps_per_s"] = workload.physics_only()?.into();
+        }
+        result
     };
     print_result(&result, args.json);
     Ok(())
 }
 
-fn measure(
-    config: &EnvironmentConfig,
-    model_xml: &str,
-    observation_kind: &str,
+/// Random actions of [`WORLDS`] humanoids.
+struct Workload<'a> {
+    config: &'a EnvironmentConfig,
+    model_xml: &'a str,
     threads: usize,
     rounds: u64,
-) -> anyhow::Result<serde_json::Value> {
-    let seeds = SeedSource { run_seed: 1, actor: "bench".to_string(), start: 0 };
-    let environments = Environments::new(WORLDS, config, model_xml, seeds)?;
-    let mut random = seeds::stream(1, "bench-actions", &[]);
-    let (size, observation_size) = (environments.action_size(), environments.observation_size());
-    let actions: Vec<f32> = (0..ACTIONS * size).map(|_| random.random_range(-1.0..1.0)).collect();
-    let actions_of = |round: u64| {
+    action_size: usize,
+    actions: Vec<f32>,
+}
+
+impl<'a> Workload<'a> {
+    fn new(config: &'a EnvironmentConfig, model_xml: &'a str, threads: usize, rounds: u64) -> anyhow::Result<Self> {
+        let action_size = Environment::new(config, model_xml)?.action_size();
+        let mut random = seeds::stream(1, "bench-actions", &[]);
+        let actions = (0..ACTIONS * action_size).map(|_| random.random_range(-1.0..1.0)).collect();
+        Ok(Self { config, model_xml, threads, rounds, action_size, actions })
+    }
+
+    /// Returns the actions of all worlds in a round.
+    fn actions_of(&self, round: u64) -> &[f32] {
         let first = round as usize * WORLDS % ACTIONS;
-        &actions[first * size..][..WORLDS * size]
-    };
+        &self.actions[first * self.action_size..][..WORLDS * self.action_size]
+    }
 
-    // Like an actor, each thread steps a share of the environments.
-    let mut shares: Vec<_> = environments.split(threads).into_iter().map(|share| (share, 0u64, 0u64)).collect();
-    let begun = Instant::now();
-    thread::scope(|scope| {
-        for (share, sum, resets) in &mut shares {
-            scope.spawn(move || {
-                let mut stepped = StepResults::default();
-                for round in 0..rounds {
-                    share.step(&actions_of(round)[share.first_number() * size..][..share.len() * size], &mut stepped);
-                    // Whole numbers add up to the same in any order.
-                    *sum += stepped.rewards.iter().map(|reward| u64::from(reward.to_bits())).sum::<u64>();
-                    *resets += stepped.episodes.len() as u64;
-                }
-            });
-        }
-    });
-    let steps = rounds * WORLDS as u64;
-    let env_steps_per_s = steps as f64 / begun.elapsed().as_secs_f64();
-    let sum: u64 = shares.iter().map(|(_, sum, _)| sum).sum();
-    let resets: u64 = shares.iter().map(|(.., resets)| resets).sum();
-    let entries = shares.iter().flat_map(|(share, ..)| share.observations());
-    let observations: Vec<u8> = entries.flat_map(|entry| entry.to_le_bytes()).collect();
+    fn steps(&self) -> u64 {
+        self.rounds * WORLDS as u64
+    }
 
-    // The same actions without observation and reward. Bodies that fell are reset here too, because contact with the ground
-    // costs time.
-    let mut worlds = BenchWorlds::new(config, model_xml, threads, |_| vec![0.0f32; size])?;
-    let begun = Instant::now();
-    worlds.step(
-        rounds,
-        |round, world, controls| {
-            let action = &actions_of(round)[world.index * size..][..size];
-            world.environment.action_from_shares(action, controls);
-            // A failure shows after the step.
-            let _ = world.environment.physics_mut().set_controls(controls);
-        },
-        |world, _, failed| {
-            if failed || !task::is_healthy(config, world.environment.physics().torso_height_m()) {
-                world.reset();
+    fn with_task(&self, observation_kind: &str) -> anyhow::Result<Value> {
+        let seeds = SeedSource { run_seed: 1, actor: "bench".to_string(), start: 0 };
+        let environments = Environments::new(WORLDS, self.config, self.model_xml, seeds)?;
+        let (size, observation_size) = (self.action_size, environments.observation_size());
+        // Like an actor, each thread steps a share of the environments.
+        let mut shares: Vec<_> = environments.split(self.threads).into_iter().map(|share| (share, 0, 0, 0)).collect();
+        let begun = Instant::now();
+        thread::scope(|scope| {
+            for (share, sum, resets, faults) in &mut shares {
+                scope.spawn(move || {
+                    let mut stepped = StepResults::default();
+                    for round in 0..self.rounds {
+                        let actions = &self.actions_of(round)[share.first_number() * size..][..share.len() * size];
+                        share.step(actions, &mut stepped);
+                        // Whole numbers add up to the same in any order.
+                        *sum += stepped.rewards.iter().map(|reward| u64::from(reward.to_bits())).sum::<u64>();
+                        *resets += stepped.episodes.len() as u64;
+                        let faulty = stepped.episodes.iter().filter(|episode| episode.cause == EndCause::NonFinite);
+                        *faults += faulty.count() as u64;
+                    }
+                });
             }
-        },
-    );
-    let physics_only_steps_per_s = steps as f64 / begun.elapsed().as_secs_f64();
-    let faults: u64 = worlds.iter().map(|(world, _)| world.faults).sum();
-    // Each world was reset once before the first step.
-    let resets = resets + worlds.iter().map(|(world, _)| world.resets - 1).sum::<u64>();
+        });
+        let steps = self.steps();
+        let env_steps_per_s = steps as f64 / begun.elapsed().as_secs_f64();
+        let sum: u64 = shares.iter().map(|(_, sum, ..)| sum).sum();
+        let resets: u64 = shares.iter().map(|(_, _, resets, _)| resets).sum();
+        let faults: u64 = shares.iter().map(|(.., faults)| faults).sum();
+        let entries = shares.iter().flat_map(|(share, ..)| share.observations());
+        let observations: Vec<u8> = entries.flat_map(|entry| entry.to_le_bytes()).collect();
+        Ok(json!({
+            "env_steps_per_s": rounded(env_steps_per_s),
+            "observation": observation_size,
+            "observation_kind": observation_kind,
+            "control_step_s": self.config.control_step_s,
+            "threads": shares.len(),
+            "cpu": machine::cpu_name(),
+            "workload": format!("{WORLDS} humanoids, uniformly random actions, {steps} steps, {resets} resets"),
+            "faults": faults,
+            "checksum": format!("{:016x}", seeds::checksum(&[&sum.to_le_bytes(), &observations])),
+        }))
+    }
 
-    Ok(json!({
-        "env_steps_per_s": rounded(env_steps_per_s),
-        "physics_only_steps_per_s": rounded(physics_only_steps_per_s),
-        "observation": observation_size,
-        "observation_kind": observation_kind,
-        "control_step_s": config.control_step_s,
-        "threads": threads,
-        "cpu": machine::cpu_name(),
-        "workload": format!("{WORLDS} humanoids, uniformly random actions, {steps} steps each way, {resets} resets"),
-        "faults": faults,
-        "checksum": format!("{:016x}", seeds::checksum(&[&sum.to_le_bytes(), &observations])),
-    }))
+    /// Returns the steps per second of the same actions without observation and reward. Bodies that fell are reset here too,
+    /// because contact with the ground costs time.
+    fn physics_only(&self) -> anyhow::Result<f64> {
+        let size = self.action_size;
+        let mut worlds = BenchWorlds::new(self.config, self.model_xml, self.threads, |_| vec![0.0f32; size])?;
+        let begun = Instant::now();
+        worlds.step(
+            self.rounds,
+            |round, world, controls| {
+                let action = &self.actions_of(round)[world.index * size..][..size];
+                world.environment.action_from_shares(action, controls);
+                // A failure shows after the step.
+                let _ = world.environment.physics_mut().set_controls(controls);
+            },
+            |world, _, failed| {
+                if failed || fell(self.config, world) {
+                    world.reset();
+                }
+            },
+        );
+        Ok(rounded(self.steps() as f64 / begun.elapsed().as_secs_f64()))
+    }
 }

@@ -15,7 +15,10 @@ use super::print_result;
 use crate::{
     commands::certs,
     launch::exit_code::Usage,
-    load_generator::fleet::measure::{MeasurementPlan, PlayedRate},
+    load_generator::fleet::{
+        RUN,
+        measure::{MeasurementPlan, PlayedRate},
+    },
 };
 
 /// Least rate of an actor (environment steps per second).
@@ -105,6 +108,10 @@ pub fn run(args: &FleetArgs) -> anyhow::Result<()> {
     check(args)?;
     let temporary = tempfile::tempdir().context("cannot create a temporary folder")?;
     let folder = args.keep.as_deref().unwrap_or(temporary.path());
+    if folder.join(RUN).exists() {
+        let why = format!("--keep {}: it has the run of another measurement; name another folder", folder.display());
+        return Err(Usage(why).into());
+    }
     fs::create_dir_all(folder).with_context(|| format!("cannot create the folder `{}`", folder.display()))?;
     let mut result = plan(args, folder, temporary.path())?.measure()?;
     let more = json!({
@@ -140,6 +147,9 @@ fn check(args: &FleetArgs) -> Result<(), Usage> {
     }
     if let Some(factor) = args.slow.iter().find(|factor| !(0.001..=1.0).contains(*factor)) {
         return Err(Usage(format!("--slow is {factor}; allowed: 0.001 to 1")));
+    }
+    if let Some(pair) = args.set.iter().find(|pair| pair.starts_with("learner.mode=")) {
+        return Err(Usage(format!("--set {pair}: choose the mode with --mode")));
     }
     if args.slow.len() > args.actors as usize {
         return Err(Usage(format!("--slow is given {} times for {} actors", args.slow.len(), args.actors)));

@@ -2,11 +2,11 @@
 
 use rand::RngExt;
 use serde_json::json;
-use treadmill_humanoid::{EnvironmentConfig, task};
+use treadmill_humanoid::EnvironmentConfig;
 use treadmill_runtime::{machine, seeds};
 
 use super::{
-    bench_worlds::{BenchWorld, BenchWorlds, WORLDS},
+    bench_worlds::{BenchWorld, BenchWorlds, WORLDS, fell},
     quantiles::Quantiles,
 };
 
@@ -47,8 +47,7 @@ pub fn measure(
                 record.residual.add(quality.residual);
             }
             // Half of the worlds are reset after a fall; the others stay on the floor for a while.
-            let fell = !task::is_healthy(config, world.environment.physics().torso_height_m());
-            if failed || (fell && world.index.is_multiple_of(2)) || record.steps >= reset_after_steps {
+            if failed || (fell(config, world) && world.index.is_multiple_of(2)) || record.steps >= reset_after_steps {
                 record.steps = 0;
                 world.reset();
             }

@@ -1,17 +1,15 @@
 //! `bench train`: speed of this binary's own `train` in a temporary folder.
 
-use std::{
-    fs,
-    path::Path,
-    process::{Command, Stdio},
-};
+use std::{fs, path::Path, process::Stdio};
 
 use anyhow::Context;
 use clap::Args;
 use serde_json::{Value, json};
+use treadmill_config::Config;
 use treadmill_runtime::{machine, seeds};
 
 use super::{print_result, rounded};
+use crate::{launch::startup, load_generator::helper};
 
 /// Flags of `bench train`.
 #[derive(Args)]
@@ -41,7 +39,8 @@ struct Measured {
 
 /// Runs the measurement and prints its result.
 pub fn run(args: &BenchTrainArgs) -> anyhow::Result<()> {
-    let actors = args.actors.unwrap_or(machine::cores() as u32);
+    // Preset `walk` is the default configuration.
+    let actors = startup::actor_processes(args.actors.unwrap_or(0), Config::default().rollout.envs);
     let Measured { summary, checkpoint_ms, round_ms } = train(args.steps, actors, None)?;
     let number = |field: &str| summary[field].as_f64().with_context(|| format!("the summary has no `{field}`"));
     let mut result = json!({
@@ -74,9 +73,8 @@ pub fn run(args: &BenchTrainArgs) -> anyhow::Result<()> {
 fn train(steps: u64, actors: u32, store: Option<&str>) -> anyhow::Result<Measured> {
     let folder = tempfile::tempdir().context("cannot create a temporary folder")?;
     let run = folder.path().join("bench");
-    let program = std::env::current_exe().context("the path of this program is unknown")?;
-    let output = Command::new(program)
-        .args(["train", "--no-progress", "--json"])
+    let output = helper::command(&["train".to_string()], 0)?
+        .args(["--no-progress", "--json"])
         .args(["--steps", &steps.to_string(), "--actors", &actors.to_string()])
         .args(store.into_iter().flat_map(|url| ["--store", url]))
         .arg("--run-dir")

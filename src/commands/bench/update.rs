@@ -21,13 +21,13 @@ use super::{
 #[derive(Args)]
 pub struct UpdateArgs {
     /// Updates to measure, after one for warm-up.
-    #[arg(long, default_value_t = 10)]
+    #[arg(long, default_value_t = 10, value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
     updates: u32,
     /// Threads of the update; 0 means one per core.
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u16).range(0..=256))]
     threads: u16,
     /// Transitions per gradient step.
-    #[arg(long, default_value_t = 2048)]
+    #[arg(long, default_value_t = 2048, value_parser = clap::value_parser!(u32).range(1..=4_194_304))]
     minibatch: u32,
     /// Widths of actor and critic networks: observation, then hidden layers.
     #[arg(long, value_name = "WIDTHS", default_value = "45-256-128")]
@@ -45,8 +45,8 @@ pub fn run(args: &UpdateArgs) -> anyhow::Result<()> {
     memory::keep_freed();
     let device = args.device.open().map_err(|why| Usage(error_chain(&why)))?;
     let shape = args.network.shape();
-    let minibatch = args.minibatch.max(1);
-    let config = PpoConfig { minibatch, batch: minibatch.saturating_mul(4), ..PpoConfig::default() };
+    let minibatch = args.minibatch;
+    let config = PpoConfig { minibatch, batch: 4 * minibatch, ..PpoConfig::default() };
     let mut random = seeds::stream(1, "bench-update", &[]);
     let parameters = initial_parameters(&shape, -0.5, &mut random);
     let batch = random_batch(&shape, config.batch as usize, &mut random);
@@ -56,7 +56,7 @@ pub fn run(args: &UpdateArgs) -> anyhow::Result<()> {
     updater.update(&batch, &mut random)?;
     let begun = Instant::now();
     let mut samples = 0;
-    for _ in 0..args.updates.max(1) {
+    for _ in 0..args.updates {
         samples += updater.update(&batch, &mut random)?.samples;
     }
     let samples_per_s = samples as f64 / begun.elapsed().as_secs_f64();
@@ -64,6 +64,7 @@ pub fn run(args: &UpdateArgs) -> anyhow::Result<()> {
         "samples_per_s": rounded(samples_per_s),
         "minibatch": minibatch,
         "network": format!("{} actor and critic", args.network),
+        "device": args.device.name(),
         "threads": threads,
         "cpu": machine::cpu_name(),
         "workload": format!("{samples} samples: forward, loss, backward, gradient clipping, Adam"),

@@ -4,13 +4,13 @@ use std::{io, time::Duration};
 
 use treadmill_bus::{Bus, BusOptions, Credentials, Role, statuses};
 use treadmill_proto::{ControlReply, RunStatus};
-use treadmill_runtime::{error_chain, machine};
+use treadmill_runtime::{error_chain, machine, run_lock::Holder, words::quoted};
 
 use crate::{
     diagnosis::{self, finding::Finding, route},
-    launch::slow_step::SlowStepNotice,
+    launch::{slow_step::SlowStepNotice, startup::resume_command_of},
     shared::{
-        learner_address::{ANSWER_TIMEOUT, ReachArgs, retry_until_answered},
+        learner_address::{ANSWER_TIMEOUT, ReachArgs, is_of, retry_until_answered},
         network_args::check_run,
     },
 };
@@ -30,6 +30,22 @@ const SAME_VERSION: &str = "use the same version of Treadmill on all machines";
 pub struct LearnerRoute {
     options: BusOptions,
     run: Option<String>,
+    holder: Option<Holder>,
+}
+
+/// Returns why there is no learner to ask: no process trains the run whose folder was given, or several are trained below `runs/`.
+pub fn hindrance(reach: &ReachArgs) -> Option<Finding> {
+    if let Some(folder) = reach.idle_folder() {
+        let seen = format!("no process trains {} now", quoted(&folder.root().display().to_string()));
+        return Some(Finding::problem(NAME, seen, format!("go on with: {}", resume_command_of(&folder))));
+    }
+    match &reach.live_folders()[..] {
+        [] | [_] => None,
+        runs => {
+            let seen = format!("several runs are trained here: {}", runs.join(", "));
+            Some(Finding::note(NAME, seen, "name the one to check"))
+        }
+    }
 }
 
 impl LearnerRoute {
@@ -47,7 +63,7 @@ impl LearnerRoute {
         }
         let connect = reach.endpoints()?;
         let options = reach.network.options(role(reach), Vec::new(), connect)?;
-        Ok(Some(Self { options, run: reach.run.clone() }))
+        Ok(Some(Self { options, run: reach.run.clone(), holder: reach.holder() }))
     }
 
     /// Diagnoses each endpoint, and asks the learner if one of them is reachable.
@@ -112,7 +128,9 @@ impl LearnerRoute {
     /// Judges the answers of the wanted runs; returns nothing if none of them answered.
     fn assess(&self, replies: Vec<ControlReply>, now_unix_s: f64) -> Vec<Finding> {
         let statuses = replies.into_iter().filter_map(|reply| reply.status);
-        let wanted = statuses.filter(|status| self.run.as_ref().is_none_or(|run| *run == status.run));
+        let wanted = statuses.filter(|status| {
+            self.run.as_ref().is_none_or(|run| *run == status.run) && is_of(self.holder.as_ref(), status)
+        });
         wanted.flat_map(|status| [answers(&status), versions(&status), skew(&status, now_unix_s)]).collect()
     }
 }

@@ -65,8 +65,9 @@ pub fn run(args: CheckArgs) -> ExitCode {
 }
 
 fn diagnose(args: &CheckArgs) -> anyhow::Result<Vec<Finding>> {
+    let hindrance = learner::hindrance(&args.reach);
     // Comes first because it may set the threads of the bus through the environment.
-    let learner_route = learner::LearnerRoute::of(&args.reach)?;
+    let learner_route = if hindrance.is_none() { learner::LearnerRoute::of(&args.reach)? } else { None };
     let mut findings = vec![
         machine::cpu(),
         machine::disk(&args.run_dir),
@@ -77,6 +78,7 @@ fn diagnose(args: &CheckArgs) -> anyhow::Result<Vec<Finding>> {
     if let Some(folder) = &args.reach.network.tls {
         findings.extend(certificates::diagnose(folder));
     }
+    findings.extend(hindrance);
     if let Some(route) = learner_route {
         findings.extend(route.diagnose());
     }

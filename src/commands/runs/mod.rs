@@ -55,7 +55,10 @@ pub fn run(args: &RunsArgs) -> anyhow::Result<()> {
         let shown: Vec<_> = args.paths.iter().map(|path| format!("`{}`", path.display())).collect();
         return Err(Usage(format!("there is no run in {}; name a folder that contains one", shown.join(", "))).into());
     }
-    records.sort_by(|one, other| other.distance_m().total_cmp(&one.distance_m()));
+    records.sort_by(|one, other| {
+        let ((one, by), (other, to)) = (one.order(), other.order());
+        one.cmp(&other).then(by.total_cmp(&to))
+    });
     let differences = differences(&records);
     if args.json {
         records.iter().zip(&differences).for_each(|(record, changes)| say(&as_json(record, changes)));
@@ -162,7 +165,8 @@ fn print_table(records: &[Record], differences: Option<&[BTreeMap<&str, &str>]>)
         }
     }
     say("");
-    say("reached: mean distance of the best evaluation, in brackets that of the last training episodes.");
+    say("reached: mean distance of the best evaluation, in brackets that of the last training episodes;");
+    say("with commands (±) the mean velocity error of the last evaluation.");
     say("return, falls: of the last training episodes.");
     if differences.is_none() && records.len() > 1 {
         say("Configuration keys that differ: treadmill runs --keys");

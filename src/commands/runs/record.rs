@@ -112,9 +112,13 @@ impl Record {
         }
     }
 
-    /// Returns the best known distance.
-    pub(crate) fn distance_m(&self) -> f64 {
-        self.best_eval_distance_m.or(self.training_distance_m).unwrap_or(f64::NEG_INFINITY)
+    /// Returns a number by which runs are sorted, the best first: those with commands by their velocity error, then the others by
+    /// the best known distance.
+    pub(crate) fn order(&self) -> (bool, f64) {
+        match self.velocity_error_mps {
+            Some(error) => (false, error),
+            None => (true, -self.best_eval_distance_m.or(self.training_distance_m).unwrap_or(f64::NEG_INFINITY)),
+        }
     }
 
     /// Returns the mean speed over the whole run.
@@ -152,8 +156,9 @@ mod tests {
         record.add_line(b"{\"tag\":\"time/total_times");
         record.add_line(b"\xff\xfe");
         assert_eq!((record.env_steps, record.best_eval_distance_m, record.best_eval_at), (300, Some(9.5), Some(160)));
-        assert_eq!((record.env_steps_per_s(), record.distance_m()), (Some(150.0), 9.5));
-        assert_eq!(record.velocity_error_mps, Some(0.3));
+        assert_eq!((record.env_steps_per_s(), record.order()), (Some(150.0), (false, 0.3)));
+        record.velocity_error_mps = None;
+        assert_eq!(record.order(), (true, -9.5));
         assert_eq!((record.training_return, record.config_value("a.b")), (None, ABSENT));
     }
 }

@@ -128,7 +128,8 @@ fn follow_lines(reach: &ReachArgs, json: bool) -> anyhow::Result<()> {
 async fn ask(link: &LearnerLink) -> anyhow::Result<Vec<RunStatus>> {
     let ask = async || statuses(&link.bus, link.run.as_deref(), learner_address::ANSWER_TIMEOUT).await;
     let replies = learner_address::retry_until_answered(ask).await?;
-    let mut runs: Vec<RunStatus> = replies.into_iter().filter_map(|reply| reply.status).collect();
+    let is_wanted = |status: &RunStatus| learner_address::is_of(link.holder.as_ref(), status);
+    let mut runs: Vec<RunStatus> = replies.into_iter().filter_map(|reply| reply.status).filter(is_wanted).collect();
     if runs.is_empty() {
         return Err(link.silence().await);
     }

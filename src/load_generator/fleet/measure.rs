@@ -134,7 +134,7 @@ impl Measurement {
                 .to_vec();
         args.push(run.display().to_string());
         args.extend(plan.learner.iter().chain(&plan.network).cloned());
-        let learner = Process::learner(&args, &run, &plan.folder.join("learner.log"))?;
+        let learner = Process::learner(&args, &run, plan.folder.join("learner.log"))?;
         let routers: Vec<Process> = (0..plan.routers)
             .map(|_| Process::router(plan.listen, &learner.endpoint, &plan.network))
             .collect::<anyhow::Result<_>>()?;
@@ -182,6 +182,7 @@ impl Measurement {
             if updates > known {
                 (known, newest) = (updates, Instant::now());
             }
+            self.learner.check_runs()?;
             anyhow::ensure!(newest.elapsed() < UPDATE_TIMEOUT, "the learner made no update for {UPDATE_TIMEOUT:?}");
             std::thread::sleep(POLL);
         }

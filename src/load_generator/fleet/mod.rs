@@ -22,4 +22,4 @@ mod processes;
 mod run_metrics;
 
 /// Name of the run on the bus.
-const RUN: &str = "fleet";
+pub(crate) const RUN: &str = "fleet";

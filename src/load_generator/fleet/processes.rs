@@ -28,32 +28,40 @@ pub(super) struct Process {
     child: Child,
     /// Endpoint that it listens on.
     pub(super) endpoint: String,
+    /// What it is, for errors.
+    name: &'static str,
+    /// File that it writes to, if it does.
+    log: Option<PathBuf>,
 }
 
 impl Process {
     /// Starts a learner whose run folder is `run`; it writes to `log`.
-    pub(super) fn learner(args: &[String], run: &Path, log: &Path) -> anyhow::Result<Self> {
-        let log_file = File::create(log).with_context(|| format!("cannot create `{}`", log.display()))?;
+    pub(super) fn learner(args: &[String], run: &Path, log: PathBuf) -> anyhow::Result<Self> {
+        let log_file = File::create(&log).with_context(|| format!("cannot create `{}`", log.display()))?;
         let output = log_file.try_clone().context("the log cannot be shared")?;
         let mut command = command(args, 0)?;
         command.stdin(Stdio::null()).stdout(output).stderr(log_file);
-        let mut child = command.spawn().context("the learner cannot be started")?;
+        let child = command.spawn().context("the learner cannot be started")?;
+        let mut learner = Self { child, endpoint: String::new(), name: "the learner", log: Some(log) };
         let (file, begun) = (run.join("endpoint.txt"), Instant::now());
-        let endpoint = loop {
+        loop {
             match fs::read_to_string(&file) {
-                Ok(text) if text.ends_with('\n') => break text.trim().to_string(),
+                Ok(text) if text.ends_with('\n') => learner.endpoint = text.trim().to_string(),
                 _ => std::thread::sleep(POLL),
             }
-            if let Ok(Some(status)) = child.try_wait() {
-                let text = fs::read_to_string(log).unwrap_or_default();
-                anyhow::bail!(
-                    "the learner ended with {status}: {}",
-                    text.trim_end().lines().last().unwrap_or_default()
-                );
+            learner.check_runs()?;
+            if !learner.endpoint.is_empty() {
+                return Ok(learner);
             }
             anyhow::ensure!(begun.elapsed() < START_TIMEOUT, "the learner does not listen");
-        };
-        Ok(Self { child, endpoint })
+        }
+    }
+
+    /// Fails if the process has ended, with the last line that it wrote.
+    pub(super) fn check_runs(&mut self) -> anyhow::Result<()> {
+        let Some(status) = self.child.try_wait()? else { return Ok(()) };
+        let text = self.log.as_ref().and_then(|log| fs::read_to_string(log).ok()).unwrap_or_default();
+        anyhow::bail!("{} ended with {status}: {}", self.name, text.trim_end().lines().last().unwrap_or_default())
     }
 
     /// Starts a router that dials the learner at `to`.
@@ -69,7 +77,7 @@ impl Process {
         let endpoint = listening.strip_prefix("listening ").context("a router does not listen")?.trim().to_string();
         // Its other lines are read, so that it never waits for space in the pipe.
         std::thread::spawn(move || lines.for_each(drop));
-        Ok(Self { child, endpoint })
+        Ok(Self { child, endpoint, name: "a router", log: None })
     }
 
     /// Asks the process to stop and waits for its end.
@@ -79,12 +87,12 @@ impl Process {
         let begun = Instant::now();
         while begun.elapsed() < STOP_TIMEOUT {
             if let Some(status) = self.child.try_wait()? {
-                anyhow::ensure!(status.success(), "a process ended with {status}");
+                anyhow::ensure!(status.success(), "{} ended with {status}", self.name);
                 return Ok(());
             }
             std::thread::sleep(POLL);
         }
-        anyhow::bail!("a process does not stop")
+        anyhow::bail!("{} does not stop", self.name)
     }
 
     fn file(&self, name: &str) -> String {
