@@ -91,6 +91,24 @@ fn policy_measures_calls_and_does_the_same_work_each_time() {
 }
 
 #[test]
+fn sizes_that_would_fill_the_memory_are_refused() {
+    let (folder, _) = folders();
+    for minibatch in ["0", "4000000000"] {
+        let output = self::run(folder.path(), &["bench", "update", "--minibatch", minibatch]);
+        assert_refused(&output, 2, &["--minibatch", minibatch]);
+    }
+}
+
+#[test]
+fn a_fleet_refuses_a_kept_folder_and_a_second_mode() {
+    let (folder, _) = folders();
+    let fleet = |args: &[&str]| self::run(folder.path(), &[&["bench", "fleet"], args].concat());
+    std::fs::create_dir_all(folder.path().join("kept/fleet")).unwrap();
+    assert_refused(&fleet(&["--keep", "kept"]), 2, &["--keep kept", "name another folder"]);
+    assert_refused(&fleet(&["--set", "learner.mode=async"]), 2, &["learner.mode=async", "--mode"]);
+}
+
+#[test]
 fn invalid_networks_are_refused() {
     let (folder, _) = folders();
     for bench in ["update", "policy"] {

@@ -177,6 +177,14 @@ fn a_learner_is_found_by_its_folder_and_a_wrong_run_name_is_reported() {
 }
 
 #[test]
+fn a_run_that_no_process_trains_is_reported() {
+    let (folder, run_folder) = folders();
+    trained(folder.path(), &run_folder);
+    let output = check(folder.path(), &[run_folder.to_str().unwrap()]);
+    assert_problem(&output, "learner", &["no process trains", "train --resume"]);
+}
+
+#[test]
 fn a_learner_of_another_version_with_a_wrong_clock_is_reported() {
     let (folder, _) = folders();
     let options = BusOptions { listen: vec!["tcp/127.0.0.1:0".to_string()], ..BusOptions::default() };

@@ -32,6 +32,31 @@ fn await_both_actors(folder: &Path) -> Value {
 }
 
 #[test]
+fn a_command_reaches_the_run_whose_folder_was_given() {
+    let (folder, first) = folders();
+    let (folder, second) = (folder.path(), folder.path().join("second"));
+    let mut command = endless(folder, &first, "learner");
+    command.args(["--listen", "tcp/127.0.0.1:0"]);
+    let _first = Running::start(command);
+    let mut command = endless(folder, &second, "learner");
+    // On one bus with the first.
+    command.args(["--listen", "tcp/127.0.0.1:0", "--connect", &endpoint(&first)]);
+    let _second = Running::start(command);
+    let phase = |run: &str| last_json(&crate::support::run(folder, &["status", run, "--json"]))["phase"].clone();
+    await_that("both runs at one endpoint", || {
+        let both = crate::support::run(folder, &["status", "--connect", &endpoint(&second), "--json"]);
+        (stdout(&both).lines().count() == 2).then_some(())
+    });
+    assert!(done(folder, &["pause", "second"]).starts_with("paused"));
+    assert_eq!((phase("second"), phase("run")), ("paused".into(), "training".into()));
+    // A folder whose endpoint is that of another machine's learner.
+    std::fs::copy(first.join("endpoint.txt"), second.join("endpoint.txt")).unwrap();
+    std::fs::write(second.join("lock.json"), r#"{"pid": 1, "host": "elsewhere"}"#).unwrap();
+    assert_refused(&control(folder, &["stop", "second"]), 1, &["process 1 on host elsewhere", "only other learners"]);
+    assert_eq!(phase("run"), "training");
+}
+
+#[test]
 fn a_run_can_be_paused_saved_changed_and_stopped() {
     let (folder, run) = folders();
     let folder = folder.path();
