@@ -25,8 +25,9 @@ pub struct RouterArgs {
     network: NetworkArgs,
 }
 
-/// Silence of a learner that is there after which the session is opened anew; doubled after each session without any answer.
-const PATIENCE: Duration = Duration::from_secs(15);
+/// Silence of a learner after which the session is opened anew, longer than most takeovers; doubled after each session without
+/// any answer.
+const PATIENCE: Duration = Duration::from_secs(8);
 const PATIENCE_MAX: Duration = Duration::from_secs(240);
 /// Time between the two sessions, in which actors that have another endpoint go there.
 const PAUSE: Duration = Duration::from_secs(2);
@@ -47,17 +48,18 @@ pub fn run(args: RouterArgs) -> anyhow::Result<()> {
         if !options.connect.is_empty() {
             say(&format!("dialling  {}, again after each loss", options.connect.join(", ")));
         }
-        let mut patience = PATIENCE;
+        let (mut patience, mut expects_answers) = (PATIENCE, false);
         loop {
             let cache = PolicyCache::open(&bus)?;
             let silent = tokio::select! {
-                silent = cache.serve(patience) => silent,
+                silent = cache.serve(patience, expects_answers) => silent,
                 () = shutdown.wait() => None,
             };
             let Some(SilentLearner { run, has_answers }) = silent else { break };
-            // After faults of the network Zenoh may lose the way of questions, though tokens arrive. A new session may find it,
-            // and another router has it.
-            tracing::warn!(run, "the learner is there, but its answers do not arrive; opening the session anew");
+            // After faults of the network Zenoh may lose the way to the learner. A new session may find it, and another router
+            // has it.
+            tracing::warn!(run, "the link is there, but no answers of the learner arrive; opening the session anew");
+            expects_answers |= has_answers;
             patience = if has_answers { PATIENCE } else { (2 * patience).min(PATIENCE_MAX) };
             bus = tokio::select! {
                 bus = router_session::reopen(&bus, &options, &endpoints, PAUSE) => bus?,

@@ -35,6 +35,10 @@ use super::{
 /// Interval of heartbeats while a learner waits for its first actor.
 const HEARTBEAT_EVERY: Duration = Duration::from_secs(1);
 
+/// Pause between two sessions, so that neighbours forget the first one before the second one takes its index in their trees
+/// (`common/bus/src/flows/silences.rs`); they look every tenth of a second.
+const ANEW_PAUSE: Duration = Duration::from_millis(300);
+
 /// Options of a hosted learner.
 pub struct HostOptions<'a> {
     /// Flags of new and resumed runs.
@@ -160,7 +164,7 @@ impl<'a> Host<'a> {
     /// If an endpoint was taken meanwhile, or the system refuses.
     pub async fn begin_anew(&mut self) -> anyhow::Result<()> {
         self.prometheus.clear();
-        self.bus = router_session::reopen(&self.bus, self.options.bus, &self.endpoints, Duration::ZERO).await?;
+        self.bus = router_session::reopen(&self.bus, self.options.bus, &self.endpoints, ANEW_PAUSE).await?;
         Ok(())
     }
 

@@ -55,7 +55,7 @@ pub struct PolicyCache {
     _subscriber: Subscriber<()>,
 }
 
-/// Learner that is there, but does not answer.
+/// Learner that does not answer, though it should.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SilentLearner {
     /// Its run.
@@ -108,10 +108,10 @@ impl PolicyCache {
         self.pieces.served()
     }
 
-    /// Answers requests until a learner that is there has been silent for as long as `patience`; `None` after the session is
-    /// closed.
-    pub async fn serve(mut self, patience: Duration) -> Option<SilentLearner> {
-        let (mut runs, mut silences) = (CachedRuns::default(), Silences::default());
+    /// Answers requests until a learner has been silent for as long as `patience`; `None` after the session is closed. A learner
+    /// that cannot be reached is silent, too, if one has answered on this session, or before as `expects_answers` says.
+    pub async fn serve(mut self, patience: Duration, expects_answers: bool) -> Option<SilentLearner> {
+        let (mut runs, mut silences) = (CachedRuns::default(), Silences::new(expects_answers));
         let mut fetches: JoinSet<(String, Option<FetchedPolicy>, Heard)> = JoinSet::new();
         loop {
             let steps = tokio::select! {
@@ -150,6 +150,7 @@ impl PolicyCache {
                     let outcome = match fetched {
                         Some(_) => Heard::Answered,
                         None if is_learner_present(&bus, &run, TOKEN_TIMEOUT).await.unwrap_or(false) => Heard::Silent,
+                        None if is_linked(&bus) => Heard::Unreachable,
                         None => Heard::Absent,
                     };
                     (run, fetched, outcome)
@@ -157,6 +158,11 @@ impl PolicyCache {
             }
         }
     }
+}
+
+/// Returns whether this session has a link to a learner or another router.
+fn is_linked(bus: &Bus) -> bool {
+    bus.session.info().routers_zid().wait().next().is_some()
 }
 
 /// Returns the run in a key if its name is valid.
