@@ -36,7 +36,7 @@ use super::{
 const HEARTBEAT_EVERY: Duration = Duration::from_secs(1);
 
 /// Pause between two sessions, so that neighbours forget the first one before the second one takes its index in their trees
-/// (`common/bus/src/flows/silences.rs`); they look every tenth of a second.
+/// (`common/bus/src/workarounds/redial_pause.rs`).
 const ANEW_PAUSE: Duration = Duration::from_millis(300);
 
 /// Options of a hosted learner.

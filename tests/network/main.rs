@@ -11,6 +11,7 @@ mod accounts;
     reason = "the tests of hostile clients use the rest, with its sample fragment"
 )]
 mod attacks;
+mod broken_links;
 mod bus;
 mod control;
 mod copies;

@@ -1,9 +1,7 @@
 //! Runs whose learners are probably there, but answer none of a router's questions.
 //!
-//! A router of Zenoh 1.10 declares what it has to a neighbour that is new in its trees, and recognises neighbours by an index
-//! that is used again. If several links break at once and are back within a tenth of a second, as when the learner's network
-//! fails for a moment, most neighbours get nothing: they are linked, but have neither the learner's token nor a way to it,
-//! until something else changes. No upstream issue is known. A new session after a pause is declared to anew.
+//! Zenoh can lose what routers declared to each other (`workarounds/redial_pause.rs` has the commonest case). A new session after
+//! a pause is declared to anew.
 
 use std::{
     collections::BTreeMap,

@@ -16,7 +16,7 @@ use zenoh::{Config, Session, Wait};
 use crate::{
     BusError,
     error::in_words,
-    workarounds::{close, discovery, free_port::with_free_port, linger, open_files::check_open_files},
+    workarounds::{close, discovery, free_port::with_free_port, linger, open_files::check_open_files, redial_pause},
 };
 use access_rules::Credentials;
 
@@ -119,7 +119,11 @@ impl Bus {
         if !options.connect.is_empty() {
             dial(&mut settings, &options.connect)?;
         }
-        Ok((Self::open(settings)?, listen))
+        let bus = Self::open(settings)?;
+        if !options.connect.is_empty() {
+            redial_pause::install(&bus.session, &listen)?;
+        }
+        Ok((bus, listen))
     }
 
     /// Opens the session of a client, which dials until it is admitted.

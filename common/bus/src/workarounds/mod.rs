@@ -7,6 +7,7 @@
 //! - `free_port`: Zenoh does not report which port it was given for port 0.
 //! - `close`: closing a session can block on a dead link (zenoh#2675).
 //! - `linger`: closing a link can block on a dead peer.
+//! - `redial_pause`: routers lose each other's declarations when links break together and are dialled again at once.
 //! - `kept_routes`: routes of undeclared keys are computed for each message.
 
 pub(crate) mod close;
@@ -16,4 +17,5 @@ pub(crate) mod kept_routes;
 pub(crate) mod linger;
 pub mod one_core;
 pub(crate) mod open_files;
+pub(crate) mod redial_pause;
 pub mod threads;

@@ -1,0 +1,95 @@
+//! Links between routers that break together.
+
+use std::{
+    io,
+    net::{Shutdown, TcpListener, TcpStream},
+    sync::{
+        Arc, Mutex,
+        atomic::{AtomicBool, Ordering},
+    },
+    thread,
+    time::Duration,
+};
+
+use treadmill_bus::{Bus, BusOptions, ControlServer, statuses};
+use treadmill_proto::{ControlReply, RunStatus};
+
+use crate::support::*;
+
+const ROUTERS: usize = 5;
+const BREAKS: usize = 3;
+
+/// Forwards connections to an address until they are broken.
+struct Relay {
+    address: String,
+    open: Arc<Mutex<Vec<TcpStream>>>,
+}
+
+impl Relay {
+    fn start(to: String) -> Self {
+        let listener = TcpListener::bind("127.0.0.1:0").unwrap();
+        let address = listener.local_addr().unwrap().to_string();
+        let open: Arc<Mutex<Vec<TcpStream>>> = Arc::default();
+        let known = open.clone();
+        thread::spawn(move || {
+            for near in listener.incoming().map_while(Result::ok) {
+                let Ok(far) = TcpStream::connect(&to) else { continue };
+                for (from, to) in [(&near, &far), (&far, &near)] {
+                    let (mut from, mut to) = (from.try_clone().unwrap(), to.try_clone().unwrap());
+                    thread::spawn(move || {
+                        let _ = io::copy(&mut from, &mut to);
+                        let _ = to.shutdown(Shutdown::Both);
+                    });
+                }
+                known.lock().unwrap().extend([near, far]);
+            }
+        });
+        Self { address, open }
+    }
+
+    fn break_all(&self) {
+        self.open.lock().unwrap().drain(..).for_each(|stream| drop(stream.shutdown(Shutdown::Both)));
+    }
+}
+
+fn open(connect: Vec<String>) -> (Bus, Vec<String>) {
+    let listen = vec!["tcp/127.0.0.1:0".to_string()];
+    Bus::open_router(&BusOptions { listen, connect, ..BusOptions::default() }).unwrap()
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn routers_whose_links_break_together_find_the_learner_again() {
+    let (learner, endpoints) = open(Vec::new());
+    let (server, is_over) = (ControlServer::open(&learner, "run").unwrap(), Arc::new(AtomicBool::new(false)));
+    let ended = is_over.clone();
+    let answering = thread::spawn(move || {
+        while !ended.load(Ordering::Relaxed) {
+            let Some(inquiry) = server.next(Duration::from_millis(100)) else { continue };
+            let status = RunStatus { run: "run".to_string(), ..RunStatus::default() };
+            inquiry.answer("run", &ControlReply { done: true, text: String::new(), status: Some(status) });
+        }
+    });
+    let relay = Relay::start(endpoints[0].split_once('/').unwrap().1.to_string());
+    let routers: Vec<Bus> = (0..ROUTERS).map(|_| open(vec![format!("tcp/{}", relay.address)]).0).collect();
+    for round in 0..=BREAKS {
+        if round > 0 {
+            let links = relay.open.lock().unwrap().len();
+            relay.break_all();
+            await_that("all links anew", || (relay.open.lock().unwrap().len() == links).then_some(()));
+        }
+        for router in &routers {
+            let mut answers = Vec::new();
+            for _ in 0..60 {
+                answers = statuses(router, Some("run"), Duration::from_secs(5)).await.unwrap();
+                if !answers.is_empty() {
+                    break;
+                }
+                tokio::time::sleep(Duration::from_millis(500)).await;
+            }
+            assert_eq!(answers.len(), 1, "a router has lost the learner after break {round}");
+        }
+    }
+    is_over.store(true, Ordering::Relaxed);
+    answering.join().unwrap();
+    routers.iter().chain([&learner]).for_each(Bus::close);
+}
