@@ -70,10 +70,15 @@ class Chaos:
         time.sleep(TICK_S)
 
     def sample(self, now):
+        taken = []
         for name in NAMES:
             process = self.fleet.current[name]
             with contextlib.suppress(OSError):
-                self.samples.append((now, name, process.child.pid, memory_mb(process), descriptors(process)))
+                taken.append((now, name, process.child.pid, memory_mb(process), descriptors(process)))
+        self.samples += taken
+        # A run of hours may end before its result is written.
+        with (self.fleet.folder / "samples.jsonl").open("a", encoding="utf-8") as file:
+            file.writelines(json.dumps(each) + "\n" for each in taken)
 
     def begin(self, entry):
         """Begins a fault. One that cannot be injected is noted."""
