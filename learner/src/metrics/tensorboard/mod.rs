@@ -59,8 +59,8 @@ pub struct EventWriter {
 }
 
 impl EventWriter {
-    /// Creates a new file `events.out.tfevents.{seconds}.{host}.{process}.{count}` in `folder`. Removes the file that
-    /// holds how the run ended, because the run continues.
+    /// Creates a new file `events.out.tfevents.{seconds}.{host}.{process}.{count}` in `folder`, whose name comes after all
+    /// others. Removes the file that holds how the run ended, because the run continues.
     pub fn create(folder: &Path, time_unix_s: f64, host: &str) -> io::Result<Self> {
         for ended in event_files(folder)?.iter().filter(|path| path.to_string_lossy().ends_with(END_SUFFIX)) {
             fs::remove_file(ended)?;
@@ -69,7 +69,7 @@ impl EventWriter {
     }
 
     fn create_named(folder: &Path, time_unix_s: f64, host: &str, suffix: &str) -> io::Result<Self> {
-        let file = create_new(folder, time_unix_s as u64, host, suffix)?;
+        let file = create_new(folder, seconds_after_others(folder, time_unix_s as u64)?, host, suffix)?;
         let mut writer = Self { file, folder: folder.to_path_buf(), host: host.to_string() };
         writer.event(Event {
             wall_time: time_unix_s,
@@ -197,6 +197,16 @@ fn event_files(folder: &Path) -> io::Result<Vec<PathBuf>> {
         }
     }
     Ok(found)
+}
+
+/// Returns seconds for the name of a new file, which then comes after all others: TensorBoard reads files in the order of their
+/// names, and a run may be resumed within a second, or after its clock was set back.
+fn seconds_after_others(folder: &Path, seconds: u64) -> io::Result<u64> {
+    let seconds_of = |path: &PathBuf| -> Option<u64> {
+        path.file_name()?.to_str()?.strip_prefix(FILE_PREFIX)?.split('.').next()?.parse().ok()
+    };
+    let newest = event_files(folder)?.iter().filter_map(seconds_of).max();
+    Ok(newest.map_or(seconds, |newest| seconds.max(newest.saturating_add(1))))
 }
 
 fn has_in_head(file: &Path, part: &[u8]) -> io::Result<bool> {

@@ -98,6 +98,15 @@ fn writers_of_the_same_second_get_separate_files_in_order() {
 }
 
 #[test]
+fn a_new_file_comes_last_whatever_its_clock_and_process() {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("events.out.tfevents.0000000007.zebra.9.0000"), "").unwrap();
+    EventWriter::create(folder.path(), 6.0, "ant").unwrap();
+    let files = files(folder.path());
+    assert!(files[1].to_str().unwrap().contains(".0000000008.ant."), "{files:?}");
+}
+
+#[test]
 fn a_missing_folder_is_an_error() {
     let folder = tempfile::tempdir().unwrap();
     assert!(EventWriter::create(&folder.path().join("gone"), 1.0, "box").is_err());
