@@ -6,10 +6,7 @@ Usage: lost_declarations.py [--routers 5] [--rounds 5]
 One router serves a queryable. Others dial it by way of a relay, which breaks all links in each round; Zenoh redials them within
 milliseconds. A round's line has a `.` for each router that then gets an answer, and an `X` for each that gets none.
 
-Zenoh computes the trees of its network at most every tenth of a second (`TREES_COMPUTATION_DELAY_MS`), and declares what it has to
-nodes that are new among its children (`Network::compute_trees`). It compares indices of nodes, and a node that was removed leaves
-its index to the next one. So of routers that were removed and came back between two computations, it finds none new. Needs the
-Python package eclipse-zenoh.
+`common/bus/src/workarounds/redial_pause.rs` says why, and how Treadmill avoids it. Needs the Python package eclipse-zenoh.
 """
 
 import argparse

@@ -4,7 +4,7 @@ use std::time::Duration;
 
 use clap::{Args, Subcommand};
 use treadmill_bus::{Role, command, statuses};
-use treadmill_proto::{Command, ControlReply, ControlRequest, RunStatus};
+use treadmill_proto::{Command, ControlReply, ControlRequest};
 
 use crate::{
     launch::{exit_code::Usage, output::say},
@@ -91,22 +91,17 @@ pub fn run(args: ControlArgs) -> anyhow::Result<()> {
 async fn only_run(link: &LearnerLink) -> anyhow::Result<String> {
     let ask = async || statuses(&link.bus, None, learner_address::ANSWER_TIMEOUT).await;
     let replies = learner_address::retry_until_answered(ask).await?;
-    let names = |statuses: Vec<RunStatus>| {
-        let mut names: Vec<String> = statuses.into_iter().map(|status| status.run).collect();
-        names.sort();
-        names
-    };
     let statuses = replies.into_iter().filter_map(|reply| reply.status);
     let (wanted, others): (Vec<_>, Vec<_>) =
         statuses.partition(|status| learner_address::is_of(link.holder.as_ref(), status));
-    match (&names(wanted)[..], &names(others)[..], &link.holder) {
-        ([run], ..) => Ok(run.clone()),
-        ([], [_, ..], Some(holder)) => {
+    let mut runs: Vec<String> = wanted.into_iter().map(|status| status.run).collect();
+    runs.sort();
+    match (&runs[..], &link.holder) {
+        ([run], _) => Ok(run.clone()),
+        ([], Some(holder)) if !others.is_empty() => {
             Err(anyhow::anyhow!("the run is trained by {holder}, but only other learners answer at its endpoint"))
         }
-        ([], ..) => Err(link.silence().await),
-        (runs, ..) => {
-            Err(Usage(format!("several runs answer there; choose one with --run: {}", runs.join(", "))).into())
-        }
+        ([], _) => Err(link.silence().await),
+        _ => Err(Usage(format!("several runs answer there; choose one with --run: {}", runs.join(", "))).into()),
     }
 }

@@ -62,6 +62,14 @@ impl ReachArgs {
         (folder.lock().exists() && holder(&folder).is_none()).then_some(folder)
     }
 
+    /// Returns that no process trains the run whose folder was given, and the remedy.
+    #[must_use]
+    pub fn idleness(&self) -> Option<[String; 2]> {
+        let folder = self.idle_folder()?;
+        let root = quoted(&folder.root().display().to_string());
+        Some([format!("no process trains `{root}` now"), format!("go on with: {}", resume_command_of(&folder))])
+    }
+
     /// Returns the process that trains the run whose folder was given.
     #[must_use]
     pub fn holder(&self) -> Option<Holder> {
@@ -165,9 +173,8 @@ pub fn connect(
     role: Role,
     work: impl AsyncFnOnce(&LearnerLink) -> anyhow::Result<()>,
 ) -> anyhow::Result<()> {
-    if let Some(folder) = reach.idle_folder() {
-        let root = quoted(&folder.root().display().to_string());
-        anyhow::bail!("no process trains `{root}` now; go on with: {}", resume_command_of(&folder));
+    if let Some(idleness) = reach.idleness() {
+        anyhow::bail!(idleness.join("; "));
     }
     let reach = match &reach.live_folders()[..] {
         [] => reach.clone(),

@@ -6,17 +6,12 @@ use std::{
     os::unix::fs::PermissionsExt,
     path::Path,
     process::{Command, Output},
-    sync::{
-        Arc,
-        atomic::{AtomicBool, Ordering},
-    },
-    time::Duration,
 };
 
 use crate::support::*;
 use serde_json::Value;
-use treadmill_bus::{Bus, BusOptions, ControlServer, Role};
-use treadmill_proto::{ControlReply, RunStatus};
+use treadmill_bus::{Bus, BusOptions, Role};
+use treadmill_proto::RunStatus;
 use treadmill_runtime::machine;
 
 /// Returns the verdicts of the findings with this name, and their whole text.
@@ -189,26 +184,17 @@ fn a_learner_of_another_version_with_a_wrong_clock_is_reported() {
     let (folder, _) = folders();
     let options = BusOptions { listen: vec!["tcp/127.0.0.1:0".to_string()], ..BusOptions::default() };
     let (bus, endpoints) = Bus::open_router(&options).unwrap();
-    let server = ControlServer::open(&bus, "old").unwrap();
-    let is_over = Arc::new(AtomicBool::new(false));
-    let ended = Arc::clone(&is_over);
-    let answering = std::thread::spawn(move || {
-        while !ended.load(Ordering::Relaxed) {
-            let Some(inquiry) = server.next(Duration::from_millis(100)) else { continue };
-            let status = RunStatus {
-                run: "old".to_string(),
-                program_version: "0.0.1".to_string(),
-                time_unix_s: machine::time_unix_s() - 3600.0,
-                ..RunStatus::default()
-            };
-            inquiry.answer("old", &ControlReply { done: true, text: String::new(), status: Some(status) });
-        }
-    });
+    let status = RunStatus {
+        run: "old".to_string(),
+        program_version: "0.0.1".to_string(),
+        time_unix_s: machine::time_unix_s() - 3600.0,
+        ..RunStatus::default()
+    };
+    let server = StatusServer::start(&bus, status);
     let output = check(folder.path(), &["--connect", &endpoints[0]]);
     assert_problem(&output, "versions", &["0.0.1", env!("CARGO_PKG_VERSION"), "same version"]);
     assert_problem(&output, "clock skew", &["behind this one", "NTP"]);
-    is_over.store(true, Ordering::Relaxed);
-    answering.join().unwrap();
+    drop(server);
     bus.close();
 }
 

@@ -3,16 +3,13 @@
 use std::{
     io,
     net::{Shutdown, TcpListener, TcpStream},
-    sync::{
-        Arc, Mutex,
-        atomic::{AtomicBool, Ordering},
-    },
+    sync::{Arc, Mutex},
     thread,
     time::Duration,
 };
 
-use treadmill_bus::{Bus, BusOptions, ControlServer, statuses};
-use treadmill_proto::{ControlReply, RunStatus};
+use treadmill_bus::{Bus, BusOptions, statuses};
+use treadmill_proto::RunStatus;
 
 use crate::support::*;
 
@@ -60,15 +57,7 @@ fn open(connect: Vec<String>) -> (Bus, Vec<String>) {
 #[tokio::test(flavor = "multi_thread")]
 async fn routers_whose_links_break_together_find_the_learner_again() {
     let (learner, endpoints) = open(Vec::new());
-    let (server, is_over) = (ControlServer::open(&learner, "run").unwrap(), Arc::new(AtomicBool::new(false)));
-    let ended = is_over.clone();
-    let answering = thread::spawn(move || {
-        while !ended.load(Ordering::Relaxed) {
-            let Some(inquiry) = server.next(Duration::from_millis(100)) else { continue };
-            let status = RunStatus { run: "run".to_string(), ..RunStatus::default() };
-            inquiry.answer("run", &ControlReply { done: true, text: String::new(), status: Some(status) });
-        }
-    });
+    let server = StatusServer::start(&learner, RunStatus { run: "run".to_string(), ..RunStatus::default() });
     let relay = Relay::start(endpoints[0].split_once('/').unwrap().1.to_string());
     let routers: Vec<Bus> = (0..ROUTERS).map(|_| open(vec![format!("tcp/{}", relay.address)]).0).collect();
     for round in 0..=BREAKS {
@@ -89,7 +78,6 @@ async fn routers_whose_links_break_together_find_the_learner_again() {
             assert_eq!(answers.len(), 1, "a router has lost the learner after break {round}");
         }
     }
-    is_over.store(true, Ordering::Relaxed);
-    answering.join().unwrap();
+    drop(server);
     routers.iter().chain([&learner]).for_each(Bus::close);
 }

@@ -8,7 +8,11 @@ use std::{
     os::unix::fs::PermissionsExt,
     path::{Path, PathBuf},
     process::{Command, Output, Stdio},
-    sync::Once,
+    sync::{
+        Arc, Once,
+        atomic::{AtomicBool, Ordering},
+    },
+    thread::JoinHandle,
     time::Duration,
 };
 
@@ -17,8 +21,8 @@ pub use process::*;
 use rcgen::{CertificateParams, DnType, ExtendedKeyUsagePurpose, Issuer, KeyPair};
 use serde_json::Value;
 use time::OffsetDateTime;
-use treadmill_bus::{Bus, BusOptions, Credentials, Role, fetch_policy, submit, workarounds::threads};
-use treadmill_proto::{PolicyBundle, Receipt};
+use treadmill_bus::{Bus, BusOptions, ControlServer, Credentials, Role, fetch_policy, submit, workarounds::threads};
+use treadmill_proto::{ControlReply, PolicyBundle, Receipt, RunStatus};
 
 /// Longest wait for a condition, which only a broken program reaches.
 pub const TIMEOUT: Duration = Duration::from_secs(120);
@@ -110,6 +114,36 @@ pub fn join(run: &Path) -> Bus {
 pub fn join_as(role: Role, folder: &Path, run: &Path) -> Bus {
     let credentials = Some(Credentials { folder: folder.join("certs"), role });
     Bus::open_client(&BusOptions { connect: vec![endpoint(run)], credentials, ..BusOptions::default() }).unwrap()
+}
+
+/// Learner that only answers questions about its status, until it is dropped.
+pub struct StatusServer {
+    is_over: Arc<AtomicBool>,
+    answering: Option<JoinHandle<()>>,
+}
+
+impl StatusServer {
+    pub fn start(bus: &Bus, status: RunStatus) -> Self {
+        let server = ControlServer::open(bus, &status.run).unwrap();
+        let is_over = Arc::new(AtomicBool::new(false));
+        let ended = is_over.clone();
+        let reply = ControlReply { done: true, text: String::new(), status: Some(status.clone()) };
+        let answering = std::thread::spawn(move || {
+            while !ended.load(Ordering::Relaxed) {
+                if let Some(inquiry) = server.next(Duration::from_millis(100)) {
+                    inquiry.answer(&status.run, &reply);
+                }
+            }
+        });
+        Self { is_over, answering: Some(answering) }
+    }
+}
+
+impl Drop for StatusServer {
+    fn drop(&mut self) {
+        self.is_over.store(true, Ordering::Relaxed);
+        let _ = self.answering.take().map(JoinHandle::join);
+    }
 }
 
 /// Waits for the newest policy of the run `run`.

@@ -4,11 +4,11 @@ use std::{io, time::Duration};
 
 use treadmill_bus::{Bus, BusOptions, Credentials, Role, statuses};
 use treadmill_proto::{ControlReply, RunStatus};
-use treadmill_runtime::{error_chain, machine, run_lock::Holder, words::quoted};
+use treadmill_runtime::{error_chain, machine, run_lock::Holder};
 
 use crate::{
     diagnosis::{self, finding::Finding, route},
-    launch::{slow_step::SlowStepNotice, startup::resume_command_of},
+    launch::slow_step::SlowStepNotice,
     shared::{
         learner_address::{ANSWER_TIMEOUT, ReachArgs, is_of, retry_until_answered},
         network_args::check_run,
@@ -35,9 +35,8 @@ pub struct LearnerRoute {
 
 /// Returns why there is no learner to ask: no process trains the run whose folder was given, or several are trained below `runs/`.
 pub fn hindrance(reach: &ReachArgs) -> Option<Finding> {
-    if let Some(folder) = reach.idle_folder() {
-        let seen = format!("no process trains {} now", quoted(&folder.root().display().to_string()));
-        return Some(Finding::problem(NAME, seen, format!("go on with: {}", resume_command_of(&folder))));
+    if let Some([seen, remedy]) = reach.idleness() {
+        return Some(Finding::problem(NAME, seen, remedy));
     }
     match &reach.live_folders()[..] {
         [] | [_] => None,
