@@ -2,6 +2,7 @@
 
 use std::time::Duration;
 
+use tokio::task::block_in_place;
 use treadmill_learner::{
     checkpoint,
     leadership::{Leadership, LeadershipError, Manifest, follower::LoadedState, read_manifest},
@@ -48,35 +49,29 @@ impl StoredRun<'_> {
     /// If flags are refused, or the store or the training fails.
     pub fn run(&self, url: &str, options: HostOptions<'_>) -> anyhow::Result<()> {
         let store = Store::open(url).map_err(|why| Usage(error_chain(&why)))?;
-        let last = self.read_first(&store)?;
-        if let Some((manifest, _)) = last.as_ref().filter(|_| !self.follows()) {
-            return Err(Usage(format!(
-                "--store {store}: it holds run `{}` at {} env steps already; continue it with --resume-or-start, follow it with \
-                 `treadmill learner --standby`, or choose another URL",
-                manifest.run,
-                thousands(manifest.env_steps)
-            ))
-            .into());
-        }
         memory::keep_freed();
-        let begun = if last.is_none() && !self.is_standby { Some(self.begin(&store)?) } else { None };
         async_runtime::run(async {
             let mut host = Host::open(options).await?;
-            let outcome = self.serve(&store, &mut host, begun).await;
+            let outcome = self.serve(&store, &mut host).await;
             host.close();
             outcome
         })
     }
 
     /// Reads the manifest, if there is one. A learner that may follow waits for a store that fails, as it would later.
-    fn read_first(&self, store: &Store) -> Result<Option<(Manifest, Tag)>, LeadershipError> {
+    async fn read_first(&self, store: &Store, host: &Host<'_>) -> Result<Option<(Manifest, Tag)>, LeadershipError> {
         let mut warnings = StoreWarnings::default();
         loop {
-            match read_manifest(store) {
-                Err(LeadershipError::Store(why @ StoreError::Failed { .. })) if self.follows() => warnings.warn(&why),
+            host.heartbeat.beat();
+            match block_in_place(|| read_manifest(store)) {
+                Err(LeadershipError::Store(why @ StoreError::Failed { .. }))
+                    if self.follows() && !host.shutdown.asked() =>
+                {
+                    warnings.warn(&why);
+                }
                 read => return read,
             }
-            std::thread::sleep(POLL);
+            host.pause(POLL).await;
         }
     }
 
@@ -85,8 +80,26 @@ impl StoredRun<'_> {
         self.is_standby || self.any.resume_or_start
     }
 
-    /// Begins a new run.
-    fn begin(&self, store: &Store) -> anyhow::Result<Start> {
+    /// Begins a new run, unless the store holds one or this process only follows.
+    ///
+    /// # Errors
+    /// If the store holds a run, and this process may not follow.
+    async fn begin(&self, store: &Store, host: &Host<'_>) -> anyhow::Result<Option<Start>> {
+        match self.read_first(store, host).await? {
+            None if self.is_standby => Ok(None),
+            None => block_in_place(|| self.begin_new(store)).map(Some),
+            Some(_) if self.follows() => Ok(None),
+            Some((manifest, _)) => Err(Usage(format!(
+                "--store {store}: it holds run `{}` at {} env steps already; continue it with --resume-or-start, follow it with \
+                 `treadmill learner --standby`, or choose another URL",
+                manifest.run,
+                thousands(manifest.env_steps)
+            ))
+            .into()),
+        }
+    }
+
+    fn begin_new(&self, store: &Store) -> anyhow::Result<Start> {
         let mut start = begin::begin(self.command, self.new, self.any, self.changes)?;
         if let Start::Ready(prepared, _) = &mut start {
             prepared.store = Some(store.to_string());
@@ -98,8 +111,8 @@ impl StoredRun<'_> {
     }
 
     /// Leads and follows in turn.
-    async fn serve(&self, store: &Store, host: &mut Host<'_>, begun: Option<Start>) -> anyhow::Result<()> {
-        if let Some(Start::Ready(prepared, mut lock)) = begun {
+    async fn serve(&self, store: &Store, host: &mut Host<'_>) -> anyhow::Result<()> {
+        if let Some(Start::Ready(prepared, mut lock)) = self.begin(store, host).await? {
             let folder = prepared.folder.clone();
             let leadership = Leadership::prepare(store, None)?;
             let led = host.lead(*prepared, &mut lock, Some(leadership)).await;

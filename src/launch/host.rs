@@ -2,7 +2,7 @@
 
 use std::{
     net::SocketAddr,
-    sync::{Arc, atomic::AtomicU64},
+    sync::{Arc, OnceLock, atomic::AtomicU64},
     time::Duration,
 };
 
@@ -123,19 +123,23 @@ pub struct Host<'a> {
     /// Progress, for the health check.
     pub heartbeat: Heartbeat,
     page: Option<SocketAddr>,
+    /// Name of the run on the metrics page.
+    run: Arc<OnceLock<String>>,
 }
 
 impl<'a> Host<'a> {
-    /// Opens the session and listens to signals.
+    /// Opens the session, listens to signals, and serves the metrics page if it is wanted.
     ///
     /// # Errors
     /// If an endpoint is in use, or the system refuses.
-    pub async fn open(options: HostOptions<'a>) -> anyhow::Result<Self> {
+    pub async fn open(mut options: HostOptions<'a>) -> anyhow::Result<Self> {
         let shutdown = Shutdown::default();
         signals::listen(shutdown.clone(), "stopping after this update; press Ctrl-C again to stop at once")?;
         let (bus, endpoints) = router_session::open(options.bus).await?;
-        let (prometheus, heartbeat) = (PrometheusMetrics::default(), Heartbeat::default());
-        Ok(Self { options, bus, endpoints, shutdown, prometheus, heartbeat, page: None })
+        let (prometheus, heartbeat, run) = (PrometheusMetrics::default(), Heartbeat::default(), Arc::default());
+        let serve = |listener: MetricsListener| listener.serve(Arc::clone(&run), prometheus.clone(), heartbeat.clone());
+        let page = options.metrics.take().map(serve).transpose()?;
+        Ok(Self { options, bus, endpoints, shutdown, prometheus, heartbeat, page, run })
     }
 
     /// Flags and options of this process.
@@ -173,12 +177,9 @@ impl<'a> Host<'a> {
         self.bus.close();
     }
 
-    /// Serves the metrics page, unless it is served already or not wanted.
-    pub fn serve_page(&mut self, run: &str) -> anyhow::Result<()> {
-        if let Some(page) = self.options.metrics.take() {
-            self.page = Some(page.serve(run.to_string(), self.prometheus.clone(), self.heartbeat.clone())?);
-        }
-        Ok(())
+    /// Names the run on the metrics page, at the first call.
+    pub fn name_run(&self, run: &str) {
+        self.run.get_or_init(|| run.to_string());
     }
 
     /// Leads a run until it is complete or stopped, or another learner leads.
@@ -196,7 +197,7 @@ impl<'a> Host<'a> {
         let text = self.endpoints.join("\n") + "\n";
         atomic_file::write(&folder.endpoint(), text.as_bytes()).context("the endpoint cannot be written")?;
         lock.set_endpoint(&self.endpoints.join(", ")).context("the lock of the run folder cannot be written")?;
-        self.serve_page(&prepared.run)?;
+        self.name_run(&prepared.run);
         let (credentials, actors) =
             (self.options.bus.credentials.as_ref(), self.options.actors.count(&prepared.config));
         banner::print_start(&prepared, &self.endpoints, credentials, actors, self.page);

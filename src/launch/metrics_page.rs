@@ -3,7 +3,7 @@
 use std::{
     convert::Infallible,
     net::{SocketAddr, TcpListener},
-    sync::Arc,
+    sync::{Arc, OnceLock},
     time::Duration,
 };
 
@@ -75,7 +75,8 @@ pub struct MetricsListener {
 
 /// Content of the page.
 struct Page {
-    run: String,
+    /// Unset until the run is known, for instance while its store does not answer.
+    run: Arc<OnceLock<String>>,
     metrics: PrometheusMetrics,
     heartbeat: Heartbeat,
     stalled_after: Duration,
@@ -83,7 +84,12 @@ struct Page {
 
 impl MetricsListener {
     /// Serves the page for as long as the runtime lives, and returns its address.
-    pub fn serve(self, run: String, metrics: PrometheusMetrics, heartbeat: Heartbeat) -> anyhow::Result<SocketAddr> {
+    pub fn serve(
+        self,
+        run: Arc<OnceLock<String>>,
+        metrics: PrometheusMetrics,
+        heartbeat: Heartbeat,
+    ) -> anyhow::Result<SocketAddr> {
         let address = self.listener.local_addr()?;
         let listener = tokio::net::TcpListener::from_std(self.listener)?;
         let page = Arc::new(Page { run, metrics, heartbeat, stalled_after: self.stalled_after });
@@ -131,7 +137,7 @@ impl Page {
 
     fn metrics(&self) -> Response<Full<Bytes>> {
         let silence_s = self.heartbeat.silence().as_secs_f64();
-        let page = self.metrics.page(&self.run, &[("learner/silence_s", silence_s)]);
+        let page = self.metrics.page(self.run.get().map_or("", String::as_str), &[("learner/silence_s", silence_s)]);
         let mut response = text(StatusCode::OK, page);
         response.headers_mut().insert(CONTENT_TYPE, hyper::header::HeaderValue::from_static(prometheus::CONTENT_TYPE));
         response

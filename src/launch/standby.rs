@@ -97,7 +97,7 @@ impl Standby {
         if !self.is_known {
             let Manifest { pid, host: leader, .. } = manifest;
             say(&format!("run `{run}` is at {steps} env steps; process {pid} on host {leader} leads in epoch {epoch}"));
-            host.serve_page(&run)?;
+            host.name_run(&run);
             self.is_known = true;
         }
         if matches!(status, Status::Stopped | Status::Finished) {

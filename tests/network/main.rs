@@ -21,6 +21,7 @@ mod policies;
 mod poses;
 mod prometheus;
 mod security;
+mod several_learners;
 mod silence;
 #[path = "../support/mod.rs"]
 mod support;

@@ -1,10 +1,10 @@
 //! Learners that share a store: a standby takes over from one that is killed or frozen, and the other one steps down.
 
-use std::{ffi::CString, fs, path::Path, process::Command};
+use std::{ffi::CString, fs, net::TcpListener, path::Path, process::Command};
 
 use serde_json::Value;
 
-use crate::support::*;
+use crate::{prometheus, support::*};
 
 /// A leader, a standby and an actor that know both, with their folders in one.
 struct Fleet {
@@ -72,10 +72,6 @@ fn newest_manifest(folder: &Path) -> Value {
     serde_json::from_slice(&fs::read(folder.join(format!("store/manifest.json/{newest}"))).unwrap()).unwrap()
 }
 
-fn steps_of(run: &Path) -> u64 {
-    metrics(run).iter().map(|(_, step, _)| *step).max().expect("metrics")
-}
-
 #[test]
 fn a_standby_takes_over_from_a_killed_leader_and_loses_no_logged_update() {
     let folder = tempfile::tempdir().unwrap();
@@ -84,7 +80,7 @@ fn a_standby_takes_over_from_a_killed_leader_and_loses_no_logged_update() {
     fleet.leader.signal(libc::SIGKILL);
     let resumed = fleet.await_takeover();
     // Metrics are written after the state is durable.
-    let reached = steps_of(&fleet.run("first"));
+    let reached = last_step(&fleet.run("first"));
     assert!(resumed >= reached, "resumed at {resumed}, the first had logged {reached}");
     // An operator's stop ends the run, not only this learner.
     let stop = run(fleet.folder.path(), &["control", "stop", "second"]);
@@ -121,7 +117,7 @@ fn a_frozen_leader_steps_down_when_it_thaws() {
     let (status, lines) = fleet.leader.wait();
     let overtaken = lines.iter().any(|line| line.contains("another learner leads run `walk` in epoch"));
     assert!(status.code() == Some(1) && overtaken, "{lines:#?}");
-    let before = steps_of(&fleet.folder.path().join("second"));
+    let before = last_step(&fleet.folder.path().join("second"));
     await_steps(&fleet.folder.path().join("second"), before + 2048);
     drop((fleet.standby, fleet.actor));
 }
@@ -176,7 +172,7 @@ fn a_store_that_fails_pauses_training_until_it_answers() {
     fleet.leader.wait_for("the store fails: training waits until it answers");
     exchange(&states, &away);
     fleet.leader.wait_for("written: training continues");
-    let before = steps_of(&fleet.run("first"));
+    let before = last_step(&fleet.run("first"));
     await_steps(&fleet.run("first"), before + 2048);
     drop((fleet.leader, fleet.standby, fleet.actor));
 }
@@ -224,11 +220,16 @@ fn a_service_waits_for_a_store_that_fails_at_its_start() {
     let obstacle = folder.path().join("disk");
     fs::write(&obstacle, "a file").unwrap();
     let url = format!("file://{}/store", obstacle.display());
+    let page = TcpListener::bind("127.0.0.1:0").unwrap().local_addr().unwrap().to_string();
     let service = ["--preset", "smoke", "--steps", ENDLESS, "--listen", "tcp/127.0.0.1:0", "--resume-or-start"];
-    let waiting = Running::start(learner(folder.path(), &url, "first", &service));
+    let waiting =
+        Running::start(learner(folder.path(), &url, "first", &[&service[..], &["--prometheus", &page]].concat()));
     waiting.wait_for("the store fails: trying again");
+    assert_eq!(prometheus::get(&page, "/healthz"), Some((200, "ok\n".to_string())), "a learner that waits is healthy");
     fs::remove_file(&obstacle).unwrap();
     waiting.wait_for("listening ");
+    let (_, metrics) = prometheus::get(&page, "/metrics").expect("the page");
+    assert!(metrics.contains("run=\"first\""), "{metrics}");
 }
 
 mod s3 {

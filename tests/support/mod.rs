@@ -220,6 +220,11 @@ pub fn metrics(run: &Path) -> Vec<(String, u64, f64)> {
         .collect()
 }
 
+/// Returns the highest step of a run's metrics, or 0.
+pub fn last_step(run: &Path) -> u64 {
+    metrics(run).iter().map(|(_, step, _)| *step).max().unwrap_or(0)
+}
+
 /// Returns the last value of a tag.
 pub fn last_value(run: &Path, tag: &str) -> Option<f64> {
     metrics(run).into_iter().rev().find(|(name, ..)| name == tag).map(|(.., value)| value)
