@@ -146,10 +146,9 @@ class Chaos:
         # Both learners are up for a while, and then meet.
         self.wait(2)
         self.end_all()
-        healed = time.time()
 
         def follows():
-            found = [event for event in self.fleet.events if event["at"] >= healed - 2 and event["name"] == record["leader"]]
+            found = [event for event in self.fleet.events if event["at"] >= record["began"] and event["name"] == record["leader"]]
             return any("following it from now on" in event["line"] for event in found)
 
         if record["was_overtaken"]:

@@ -48,6 +48,10 @@ def watch_manifest(url, file):
             time.sleep(max(0.0, begun + POLL_S - time.time()))
 
 
+# Counts of an actor's statistics that never fall.
+COUNTS = ("env_steps", "episodes", "produced", "accepted", "dropped_by_rule", "resent")
+
+
 class Observer:
     """What a client on the actors' side hears: epochs of announcements, and of the policies with which actors act."""
 
@@ -73,15 +77,17 @@ class Observer:
         """Compares the epoch of an actor's policy with the highest that the same process had before."""
         self.counts["statistics"] += 1
         key, epoch = (stats.actor, stats.incarnation), stats.version.epoch
-        before, env_steps = self.acting.get(key, (0, 0))
-        # A message on another way may overtake this one; its process had simulated more by then.
-        if stats.env_steps < env_steps:
+        counts = [getattr(stats, name) for name in COUNTS]
+        before, known = self.acting.get(key, (0, [0] * len(COUNTS)))
+        # A message on another way may overtake this one; its process had counted more by then. One that waits for a learner makes
+        # no steps, but sends fragments again.
+        if any(now < then for now, then in zip(counts, known, strict=True)):
             self.counts["overtaken_statistics"] += 1
             return
         if 0 < epoch < before:
             self.counts["acts_on_lower"] += 1
-            self.note("acts_on_lower", actor=stats.actor, epoch=epoch, before=before)
-        self.acting[key] = (max(epoch, before), stats.env_steps)
+            self.note("acts_on_lower", actor=stats.actor, epoch=epoch, before=before, counts=counts, known=known)
+        self.acting[key] = (max(epoch, before), counts)
 
 
 def watch_bus(endpoint, certificates, actors, file):

@@ -4,6 +4,8 @@ use std::time::{Duration, Instant};
 
 use treadmill_bus::{Bus, BusOptions};
 
+use super::memory;
+
 /// Longest wait for the endpoints of a closed session to become free.
 const REOPEN_TIMEOUT: Duration = Duration::from_secs(10);
 const REOPEN_RETRY: Duration = Duration::from_millis(200);
@@ -17,7 +19,8 @@ pub async fn open(options: &BusOptions) -> anyhow::Result<(Bus, Vec<String>)> {
     Ok(tokio::task::spawn_blocking(move || Bus::open_router(&options)).await??)
 }
 
-/// Closes a session and opens another one on the same endpoints after a pause, as soon as they are free.
+/// Closes a session and opens another one on the same endpoints after a pause, as soon as they are free. Returns what the closed
+/// one left of memory to the system.
 ///
 /// # Errors
 /// As [`open`].
@@ -29,7 +32,10 @@ pub async fn reopen(bus: &Bus, options: &BusOptions, endpoints: &[String], pause
     let begin = Instant::now();
     loop {
         match open(&options).await {
-            Ok((bus, _)) => return Ok(bus),
+            Ok((bus, _)) => {
+                memory::return_freed();
+                return Ok(bus);
+            }
             Err(why) if begin.elapsed() > REOPEN_TIMEOUT => return Err(why),
             Err(why) => tracing::debug!(%why, "endpoints not free yet"),
         }
