@@ -23,6 +23,7 @@ mod prometheus;
 mod security;
 mod several_learners;
 mod silence;
+mod stepping_down;
 #[path = "../support/mod.rs"]
 mod support;
 mod takeover;

@@ -10,10 +10,12 @@ use zenoh::{
     Wait,
     bytes::ZBytes,
     qos::{CongestionControl, Priority},
-    query::{Query, Queryable},
+    query::Query,
 };
 
-use crate::{Bus, BusError, admission::rate_limited_log::RateLimitedLog, keys};
+use crate::{
+    Bus, BusError, admission::rate_limited_log::RateLimitedLog, keys, workarounds::kept_queryables::declare_queryable,
+};
 
 /// Requests that may wait. Further ones get no answer, and the client asks again.
 const QUEUE: usize = 256;
@@ -41,7 +43,6 @@ impl PendingRequest {
 /// Receives control requests on the learner's side.
 pub struct ControlServer {
     queue: Receiver<PendingRequest>,
-    _queryables: [Queryable<()>; 2],
 }
 
 impl ControlServer {
@@ -50,28 +51,26 @@ impl ControlServer {
         let (sender, queue) = sync_channel(QUEUE);
         let open = |key: String, may_command: bool| {
             let (sender, refusals) = (sender.clone(), RateLimitedLog::default());
-            bus.session
-                .declare_queryable(key)
-                .callback(move |query: Query| {
-                    let payload = query.payload().map(ZBytes::to_bytes).unwrap_or_default();
-                    match ControlRequest::decode_checked(&payload) {
-                        Ok(request) if may_command || request.command() == Command::Status => {
-                            drop(sender.try_send(PendingRequest { request, query }));
-                        }
-                        Ok(request) => {
-                            let command = request.command().as_str_name();
-                            refusals.emit(|| {
-                                tracing::warn!(command, key = %query.key_expr(), "command refused on the status key");
-                            });
-                        }
-                        Err(error) => refusals.emit(|| tracing::warn!(%error, "control request rejected")),
+            declare_queryable(&bus.session, key, move |query| {
+                let payload = query.payload().map(ZBytes::to_bytes).unwrap_or_default();
+                match ControlRequest::decode_checked(&payload) {
+                    Ok(request) if may_command || request.command() == Command::Status => {
+                        drop(sender.try_send(PendingRequest { request, query }));
                     }
-                })
-                .wait()
-                .map_err(BusError::flow("listening to commands"))
+                    Ok(request) => {
+                        let command = request.command().as_str_name();
+                        refusals.emit(|| {
+                            tracing::warn!(command, key = %query.key_expr(), "command refused on the status key");
+                        });
+                    }
+                    Err(error) => refusals.emit(|| tracing::warn!(%error, "control request rejected")),
+                }
+            })
+            .map_err(BusError::flow("listening to commands"))
         };
-        let queryables = [open(keys::control(run), true)?, open(keys::status(run), false)?];
-        Ok(Self { queue, _queryables: queryables })
+        open(keys::control(run), true)?;
+        open(keys::status(run), false)?;
+        Ok(Self { queue })
     }
 
     /// Returns the next request, or `None` if none comes within `timeout`.

@@ -11,13 +11,14 @@ use std::{
 use bytes::Bytes;
 use treadmill_proto::{EvaluationReport, PolicyBundle, PolicyVersion, ident::check_ident};
 use zenoh::{
-    Wait,
     qos::{CongestionControl, Priority},
-    query::{Query, Queryable},
+    query::Query,
 };
 
 use super::{first_valid, reply, start_thread};
-use crate::{Bus, BusError, admission::rate_limited_log::RateLimitedLog, keys};
+use crate::{
+    Bus, BusError, admission::rate_limited_log::RateLimitedLog, keys, workarounds::kept_queryables::declare_queryable,
+};
 
 /// Requests, and reports, that may wait. Further requests get no answer, and the evaluator asks again.
 const QUEUE: usize = 64;
@@ -35,7 +36,6 @@ struct Offer {
 pub struct EvaluationServer {
     candidate: Arc<Candidate>,
     reports: Receiver<EvaluationReport>,
-    _queryable: Queryable<()>,
 }
 
 impl EvaluationServer {
@@ -48,13 +48,10 @@ impl EvaluationServer {
             let (candidate, run) = (candidate.clone(), run.to_string());
             move || serve(requests, &run, &candidate, &report_sender)
         })?;
-        let queryable = bus
-            .session
-            .declare_queryable(keys::evaluations(run, "*"))
-            .callback(move |query| drop(request_sender.try_send(query)))
-            .wait()
+        let receive = move |query| drop(request_sender.try_send(query));
+        declare_queryable(&bus.session, keys::evaluations(run, "*"), receive)
             .map_err(BusError::flow("handing out policies for evaluation"))?;
-        Ok(Self { candidate, reports, _queryable: queryable })
+        Ok(Self { candidate, reports })
     }
 
     /// Replaces the policy to evaluate. Returns whether an evaluator has the one before.

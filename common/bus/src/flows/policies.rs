@@ -4,7 +4,7 @@
 //! get the whole bundle in one reply on `policy/latest`.
 
 use std::sync::{
-    Arc, Mutex, RwLock,
+    Arc, Mutex, RwLock, Weak,
     mpsc::{Receiver, sync_channel},
 };
 
@@ -15,7 +15,7 @@ use zenoh::{
     handlers::{RingChannel, RingChannelHandler},
     pubsub::{Publisher, Subscriber},
     qos::{CongestionControl, Priority},
-    query::{Query, Queryable},
+    query::Query,
     sample::Sample,
 };
 
@@ -23,7 +23,7 @@ use super::{
     policy_pieces::{ActorPolicy, PieceReply, PieceServer, ServedPolicies},
     reply_on, start_thread,
 };
-use crate::{Bus, BusError, keys};
+use crate::{Bus, BusError, keys, workarounds::kept_queryables::declare_queryable};
 
 /// Requests for a whole bundle that may wait for a thread. Further ones get no reply.
 const QUEUE: usize = 1024;
@@ -58,7 +58,6 @@ pub struct PolicyServer {
     current: Arc<RwLock<PublishedPolicy>>,
     pieces: PieceServer,
     announcer: Publisher<'static>,
-    _queryables: [Queryable<()>; 3],
 }
 
 impl PolicyServer {
@@ -68,19 +67,18 @@ impl PolicyServer {
         let current = Arc::new(RwLock::new(policy));
         let pieces = PieceServer::start()?;
         let serve_pieces = |key| {
-            let (current, pieces) = (current.clone(), pieces.clone());
+            let (current, pieces) = (Arc::downgrade(&current), pieces.clone());
             declare(bus, key, move |query| {
+                let Some(current) = current.upgrade() else { return };
                 let policy = current.read().expect("no holder of this lock panics").for_actors.clone();
                 if let Some(reply) = PieceReply::read(query) {
                     pieces.send(reply, policy);
                 }
             })
         };
-        let queryables = [
-            serve_pieces(keys::policy_pieces(&run))?,
-            serve_pieces(keys::policy_pieces_of(&run, &bus.session.zid().to_string()))?,
-            serve_bundles(bus, &run, &current)?,
-        ];
+        serve_pieces(keys::policy_pieces(&run))?;
+        serve_pieces(keys::policy_pieces_of(&run, &bus.session.zid().to_string()))?;
+        serve_bundles(bus, &run, &current)?;
         let announcer = bus
             .session
             .declare_publisher(keys::policy_version(&run))
@@ -88,7 +86,7 @@ impl PolicyServer {
             .priority(Priority::DataHigh)
             .wait()
             .map_err(BusError::flow("declaring the announcement"))?;
-        Ok(Self { current, pieces, announcer, _queryables: queryables })
+        Ok(Self { current, pieces, announcer })
     }
 
     /// Serves `policy` from now on, and announces it.
@@ -108,33 +106,32 @@ impl PolicyServer {
     }
 }
 
-/// Declares a queryable whose callback must not block.
+/// Declares a queryable that lasts as long as the session. Its callback must not block.
 pub(super) fn declare(
     bus: &Bus,
     key: String,
     callback: impl Fn(Query) + Send + Sync + 'static,
-) -> Result<Queryable<()>, BusError> {
-    let opened = bus.session.declare_queryable(key).callback(callback).wait();
-    opened.map_err(BusError::flow("serving policies"))
+) -> Result<(), BusError> {
+    declare_queryable(&bus.session, key, callback).map_err(BusError::flow("serving policies"))
 }
 
 /// Serves whole bundles on threads of their own. A large bundle may wait for space on a link, and pieces must not.
-fn serve_bundles(bus: &Bus, run: &str, current: &Arc<RwLock<PublishedPolicy>>) -> Result<Queryable<()>, BusError> {
+fn serve_bundles(bus: &Bus, run: &str, current: &Arc<RwLock<PublishedPolicy>>) -> Result<(), BusError> {
     let (sender, requests) = sync_channel::<Query>(QUEUE);
     let (key, requests) = (keys::policy_latest(run), Arc::new(Mutex::new(requests)));
     for number in 0..THREADS {
-        let (current, key, requests) = (current.clone(), key.clone(), requests.clone());
+        let (current, key, requests) = (Arc::downgrade(current), key.clone(), requests.clone());
         start_thread(&format!("policy-bundles-{number}"), move || send_bundles(&current, &key, &requests))?;
     }
     declare(bus, key, move |query| drop(sender.try_send(query)))
 }
 
-/// Answers requests until the queue is closed.
-fn send_bundles(current: &RwLock<PublishedPolicy>, key: &str, requests: &Mutex<Receiver<Query>>) {
+/// Answers requests until there is no policy, or the queue is closed.
+fn send_bundles(current: &Weak<RwLock<PublishedPolicy>>, key: &str, requests: &Mutex<Receiver<Query>>) {
     loop {
         // The lock is held only while waiting for a request, not while replying.
         let next = requests.lock().expect("no holder of this lock panics").recv();
-        let Ok(query) = next else { return };
+        let (Ok(query), Some(current)) = (next, current.upgrade()) else { return };
         let bundle = current.read().expect("no holder of this lock panics").bundle.clone();
         // The reply's key names the run even if the request did not.
         reply_on(&query, key, bundle, "policy bundle");

@@ -14,7 +14,7 @@ use std::{
 
 use tokio::{sync::mpsc, task::JoinSet};
 use treadmill_proto::{PolicyAnnouncement, PolicyBundle, PolicyRequest, PolicyVersion, ident::check_ident};
-use zenoh::{Wait, key_expr::KeyExpr, pubsub::Subscriber, query::Queryable};
+use zenoh::{Wait, key_expr::KeyExpr, pubsub::Subscriber};
 
 use super::{
     policies::declare,
@@ -51,7 +51,6 @@ pub struct PolicyCache {
     /// Whether an announcement found the queue full.
     missed: Arc<AtomicBool>,
     pieces: PieceServer,
-    _queryable: Queryable<()>,
     _subscriber: Subscriber<()>,
 }
 
@@ -74,7 +73,7 @@ impl PolicyCache {
     pub fn open(bus: &Bus) -> Result<Self, BusError> {
         let (sender, events) = mpsc::channel(QUEUE);
         let missed = Arc::<AtomicBool>::default();
-        let queryable = declare(bus, keys::policy_pieces_of("*", &bus.session.zid().to_string()), {
+        declare(bus, keys::policy_pieces_of("*", &bus.session.zid().to_string()), {
             let sender = sender.clone();
             move |query| {
                 let Some(run) = run_of(query.key_expr()) else { return };
@@ -99,7 +98,7 @@ impl PolicyCache {
             .wait()
             .map_err(BusError::flow("listening to announcements"))?;
         let (bus, pieces) = (bus.clone(), PieceServer::start()?);
-        Ok(Self { bus, events, missed, pieces, _queryable: queryable, _subscriber: subscriber })
+        Ok(Self { bus, events, missed, pieces, _subscriber: subscriber })
     }
 
     /// Returns what the actors behind this router got.

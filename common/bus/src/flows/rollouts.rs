@@ -12,10 +12,9 @@ use std::{
 use bytes::Bytes;
 use treadmill_proto::{Malformed, Outcome, PolicyVersion, Receipt, ident::check_ident, limits::FRAGMENT_BYTES_MAX};
 use zenoh::{
-    Wait,
     bytes::ZBytes,
     qos::{CongestionControl, Priority},
-    query::{Query, Queryable},
+    query::Query,
 };
 
 use super::{first_valid, received::incarnation_of, reply, start_thread};
@@ -23,6 +22,7 @@ use crate::{
     Bus, BusError, ReceivedFragment, RolloutCopies, Watched,
     admission::{Admission, AdmissionPermit, Refusal, rate_limited_log::RateLimitedLog},
     keys,
+    workarounds::kept_queryables::declare_queryable,
 };
 
 /// Bytes of fragments that may wait for the learner. Half-precision observations take twice their size in memory.
@@ -91,7 +91,6 @@ pub struct RolloutIntake {
     queue: Receiver<IncomingFragment>,
     receipts: ReceiptQueue,
     shared: Arc<AtomicU64>,
-    _queryable: Queryable<()>,
 }
 
 impl RolloutIntake {
@@ -121,13 +120,9 @@ impl RolloutIntake {
             rejection_log: RateLimitedLog::default(),
             quarantine_log: RateLimitedLog::default(),
         };
-        let queryable = bus
-            .session
-            .declare_queryable(keys::rollouts(run, "*"))
-            .callback(move |query| receiver.receive(query))
-            .wait()
+        declare_queryable(&bus.session, keys::rollouts(run, "*"), move |query| receiver.receive(query))
             .map_err(BusError::flow("taking rollouts"))?;
-        Ok(Self { queue, receipts, shared, _queryable: queryable })
+        Ok(Self { queue, receipts, shared })
     }
 
     /// Returns the counter of fragments that came through shared memory.
@@ -197,8 +192,8 @@ impl RolloutReceiver {
             queued_bytes: self.queued_bytes.clone(),
             permit: Some(permit),
         };
-        if let Err(TrySendError::Full(incoming) | TrySendError::Disconnected(incoming)) = self.queue.try_send(incoming)
-        {
+        // After the intake was closed there is no reply, as from no learner.
+        if let Err(TrySendError::Full(incoming)) = self.queue.try_send(incoming) {
             self.refuse(incoming.query.clone(), Outcome::Busy, "the intake is full".to_string());
         }
     }

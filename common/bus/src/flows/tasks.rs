@@ -6,14 +6,12 @@ use std::{
 };
 
 use treadmill_proto::{Malformed, Task, TaskReceipt, TaskRegistration, ident::check_ident, limits::TASK_BYTES_MAX};
-use zenoh::{
-    Wait,
-    bytes::ZBytes,
-    query::{Query, Queryable},
-};
+use zenoh::{bytes::ZBytes, query::Query};
 
 use super::{first_valid, reply, start_thread};
-use crate::{Bus, BusError, admission::rate_limited_log::RateLimitedLog, keys};
+use crate::{
+    Bus, BusError, admission::rate_limited_log::RateLimitedLog, keys, workarounds::kept_queryables::declare_queryable,
+};
 
 /// Registrations that may wait. Further ones get no answer, and the actor asks again.
 const QUEUE: usize = 64;
@@ -24,7 +22,6 @@ pub type Objection = Box<dyn Fn(&Task) -> Option<String> + Send + Sync>;
 /// Receives registrations of external tasks.
 pub struct TaskServer {
     accepted: Receiver<Task>,
-    _queryable: Queryable<()>,
 }
 
 impl TaskServer {
@@ -36,22 +33,18 @@ impl TaskServer {
             let run = run.to_string();
             move || serve(requests, &run, known, &objection, &accept)
         })?;
-        let queryable = bus
-            .session
-            .declare_queryable(keys::tasks(run, "*"))
-            .callback(move |query| {
-                let bytes = query.payload().map_or(0, ZBytes::len);
-                // Checked here, so that a large registration takes no place in the queue.
-                if bytes > TASK_BYTES_MAX {
-                    let error = Malformed::TooLarge { what: "task", bytes, limit: TASK_BYTES_MAX };
-                    let refusal = TaskReceipt { accepted: false, reason: error.to_string(), task: None };
-                    return reply(&query, refusal.to_bytes(), "task receipt");
-                }
-                drop(sender.try_send(query));
-            })
-            .wait()
-            .map_err(BusError::flow("taking registrations of tasks"))?;
-        Ok(Self { accepted, _queryable: queryable })
+        declare_queryable(&bus.session, keys::tasks(run, "*"), move |query| {
+            let bytes = query.payload().map_or(0, ZBytes::len);
+            // Checked here, so that a large registration takes no place in the queue.
+            if bytes > TASK_BYTES_MAX {
+                let error = Malformed::TooLarge { what: "task", bytes, limit: TASK_BYTES_MAX };
+                let refusal = TaskReceipt { accepted: false, reason: error.to_string(), task: None };
+                return reply(&query, refusal.to_bytes(), "task receipt");
+            }
+            drop(sender.try_send(query));
+        })
+        .map_err(BusError::flow("taking registrations of tasks"))?;
+        Ok(Self { accepted })
     }
 
     /// Returns the first accepted task, or `None` if none is accepted within `timeout`.

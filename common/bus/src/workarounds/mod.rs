@@ -8,11 +8,13 @@
 //! - `close`: closing a session can block on a dead link (zenoh#2675).
 //! - `linger`: closing a link can block on a dead peer.
 //! - `redial_pause`: routers lose each other's declarations when links break together and are dialled again at once.
+//! - `kept_queryables`: a router forgets to declare its queryables to new links after another one undeclared the same.
 //! - `kept_routes`: routes of undeclared keys are computed for each message.
 
 pub(crate) mod close;
 pub(crate) mod discovery;
 pub(crate) mod free_port;
+pub(crate) mod kept_queryables;
 pub(crate) mod kept_routes;
 pub(crate) mod linger;
 pub mod one_core;
