@@ -200,8 +200,12 @@ impl Uploader {
 
     async fn send_until_settled(&self, bytes: &Bytes) -> Result<Receipt, BusError> {
         let (mut retries, mut busy) = (0u64, 0u32);
+        let settles = |receipt: &Receipt| {
+            self.policies.admits(receipt.version) && next_step(receipt.outcome, 0) == NextStep::Settle
+        };
         loop {
-            let answer = submit(&self.bus, &self.run, &self.actor, bytes.clone(), self.receipt_timeout).await?;
+            let (run, actor) = (&self.run, &self.actor);
+            let answer = submit(&self.bus, run, actor, bytes.clone(), self.receipt_timeout, settles).await?;
             let is_silent = answer.is_none();
             let (pause, reason) = match answer {
                 None => (RETRY, "no learner answers".to_string()),

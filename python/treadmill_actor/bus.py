@@ -170,17 +170,22 @@ class Bus:
 
     def ask(self, key, payload=None, timeout_s=FETCH_TIMEOUT_S, priority=None):
         """Returns the first answer to a query as bytes, or None after the timeout."""
+        return next(self.answers(key, payload, timeout_s, priority), None)
+
+    def answers(self, key, payload=None, timeout_s=FETCH_TIMEOUT_S, priority=None):
+        """Yields the answers to a query as bytes. A learner that was overtaken may answer beside its successor, or stay silent."""
         replies = self.session.get(
             key,
             payload=payload,
             timeout=timeout_s,
+            # By default, Zenoh holds answers until all have come.
+            consolidation=zenoh.ConsolidationMode.NONE,
             priority=priority or zenoh.Priority.DATA,
             congestion_control=zenoh.CongestionControl.BLOCK,
         )
         for reply in replies:
             if reply.ok is not None:
-                return reply.ok.payload.to_bytes()
-        return None
+                yield reply.ok.payload.to_bytes()
 
     def register(self, run, actor, task):
         """Registers a task. Returns the receipt, or None if no learner answered."""
@@ -203,9 +208,17 @@ class Bus:
                 return bundle
         return decoded(schema.PolicyBundle, self.ask(f"treadmill/{run}/policy/latest", priority=zenoh.Priority.DATA_HIGH))
 
-    def submit(self, run, actor, fragment, timeout_s):
-        """Sends a fragment. Returns the receipt, or None without one: the fragment may or may not have arrived."""
-        return decoded(schema.Receipt, self.ask(f"treadmill/{run}/rollouts/{actor}", fragment, timeout_s))
+    def submit(self, run, actor, fragment, timeout_s, settles=lambda receipt: True):
+        """Sends a fragment. Returns the first receipt that `settles` accepts, or else the last one. None without any: the fragment
+        may or may not have arrived."""
+        last = None
+        for answer in self.answers(f"treadmill/{run}/rollouts/{actor}", fragment, timeout_s):
+            receipt = decoded(schema.Receipt, answer)
+            if receipt is not None:
+                last = receipt
+                if settles(receipt):
+                    break
+        return last
 
     def announcements(self, run, apply):
         """Calls `apply` with each announced version, on a Zenoh thread: `apply` must not block."""

@@ -85,6 +85,10 @@ class Uploader:
         with self.lock:
             return self.ledger.settled_through()
 
+    def settles(self, receipt):
+        """Returns whether a fragment with this receipt need not be sent again."""
+        return self.admits(receipt.version) and schema.OUTCOME_NAMES.get(receipt.outcome) not in RETRY_AFTER_S
+
     def deliver(self, sequence, fragment):
         """Sends one fragment until a receipt settles it. Returns the receipt, or None after a request to stop."""
         tries = busy = 0
@@ -92,7 +96,7 @@ class Uploader:
             if tries:
                 with self.lock:
                     self.ledger.resent += 1
-            receipt = self.bus.submit(self.run, self.actor, fragment, self.receipt_timeout_s)
+            receipt = self.bus.submit(self.run, self.actor, fragment, self.receipt_timeout_s, self.settles)
             # What an overtaken learner accepts never becomes durable.
             if receipt is not None and not self.admits(receipt.version):
                 receipt = None

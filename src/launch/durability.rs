@@ -157,7 +157,7 @@ impl StoredRun<'_> {
     }
 
     /// Follows the run until it is time to lead. Returns `None` if the run has ended or this process is to stop.
-    async fn follow(&self, store: &Store, host: &mut Host<'_>) -> anyhow::Result<Option<LoadedState>> {
+    async fn follow(&self, store: &Store, host: &Host<'_>) -> anyhow::Result<Option<LoadedState>> {
         let mut standby = Standby::new(store, self.is_standby);
         say(&format!("following {store}, listening {}", host.endpoints().join(", ")));
         while !host.shutdown.asked() {

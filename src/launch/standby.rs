@@ -81,7 +81,7 @@ impl Standby {
     ///
     /// # Errors
     /// If the manifest is damaged or the bus fails. A store that fails is only reported.
-    pub async fn poll(&mut self, host: &mut Host<'_>) -> anyhow::Result<NextMove> {
+    pub async fn poll(&mut self, host: &Host<'_>) -> anyhow::Result<NextMove> {
         host.heartbeat.beat();
         match self.refresh().await? {
             Ok(()) => {}
@@ -114,8 +114,6 @@ impl Standby {
             return Ok(NextMove::Wait);
         }
         say(&format!("the leader of run `{run}` is gone: taking over"));
-        // The routes of a session that lost a leader in silence may not reach routers that join later.
-        host.begin_anew().await?;
         Ok(NextMove::Lead)
     }
 

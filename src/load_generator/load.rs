@@ -280,7 +280,7 @@ fn deliver(
         let fragment = Bytes::from(own);
         let begun = Instant::now();
         loop {
-            let receipt = handle.block_on(submit(bus, workload::RUN, name, fragment.clone(), timeout));
+            let receipt = handle.block_on(submit(bus, workload::RUN, name, fragment.clone(), timeout, |_| true));
             let outcome = receipt.ok().flatten().map(|receipt| receipt.outcome);
             if outcome == Some(Outcome::Accepted)
                 && let Some(first) = first.take()

@@ -27,7 +27,7 @@ fn start() -> Fixture {
 async fn send(bus: &Bus, bytes: impl Into<Bytes>) -> Receipt {
     let bytes = bytes.into();
     loop {
-        if let Some(receipt) = submit(bus, "run", "stranger", bytes.clone(), TIMEOUT).await.unwrap() {
+        if let Some(receipt) = submit(bus, "run", "stranger", bytes.clone(), TIMEOUT, |_| true).await.unwrap() {
             return receipt;
         }
         tokio::task::yield_now().await;

@@ -1,9 +1,10 @@
 //! A learner that steps down, beside its successor.
 
-use std::time::Duration;
+use std::{sync::Arc, time::Duration};
 
-use treadmill_bus::{Bus, BusOptions, statuses};
-use treadmill_proto::RunStatus;
+use bytes::Bytes;
+use treadmill_bus::{Bus, BusOptions, RolloutCopies, RolloutIntake, admission::Admission, statuses, submit};
+use treadmill_proto::{Outcome, PolicyVersion, Receipt, RunStatus};
 
 use crate::support::*;
 
@@ -38,4 +39,49 @@ async fn routers_that_join_after_a_learner_stepped_down_find_its_successor() {
     await_answer(&late, "successor").await;
     drop(leading);
     [late, successor].iter().for_each(Bus::close);
+}
+
+/// Learner that takes fragments.
+fn intake(bus: &Bus) -> RolloutIntake {
+    let copies = RolloutCopies::open(bus, "run").unwrap();
+    RolloutIntake::open(bus, "run", 4, Arc::new(Admission::new(8, 4)), &copies).unwrap()
+}
+
+fn receipt(outcome: Outcome, epoch: u64) -> Receipt {
+    let version = PolicyVersion { epoch, ..PolicyVersion::default() };
+    Receipt { outcome, reason: String::new(), version, durable_through: 0, fragment_steps: 0 }
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn a_fragment_is_settled_by_the_successor_of_a_learner_that_is_silent_or_refuses() {
+    let (successor, endpoints) = open(&[]);
+    let (overtaken, _) = open(&endpoints);
+    let (leading, before) = (intake(&successor), intake(&overtaken));
+    let (actor, _) = open(&endpoints);
+    // Both get each fragment from the time when the actor's router knows both.
+    let mut sent = 0;
+    let mut next = || {
+        sent += 1;
+        let (actor, fragment) = (actor.clone(), Bytes::from(vec![sent]));
+        let settles = |receipt: &Receipt| receipt.version.epoch == 2 && receipt.outcome == Outcome::Accepted;
+        tokio::spawn(async move { submit(&actor, "run", "one", fragment, TIMEOUT, settles).await.unwrap() })
+    };
+    let mut silent = loop {
+        let settled = next();
+        let of_both = [&leading, &before].map(|intake| intake.next(Duration::from_secs(1)));
+        if let [Some(first), Some(mut second)] = of_both {
+            second.take();
+            first.answer(&receipt(Outcome::Accepted, 2));
+            let settled = settled.await.unwrap().expect("a receipt, though the other learner is silent");
+            assert_eq!((settled.outcome, settled.version.epoch), (Outcome::Accepted, 2));
+            break vec![second];
+        }
+    };
+    let settled = next();
+    let (first, second) = (leading.next(TIMEOUT).unwrap(), before.next(TIMEOUT).unwrap());
+    second.answer(&receipt(Outcome::Busy, 1));
+    first.answer(&receipt(Outcome::Accepted, 2));
+    assert_eq!(settled.await.unwrap().expect("a receipt").outcome, Outcome::Accepted);
+    silent.clear();
+    [actor, overtaken, successor].iter().for_each(Bus::close);
 }

@@ -45,7 +45,7 @@ pub fn treadmill(folder: &Path) -> Command {
 pub async fn deliver(bus: &Bus, actor: &str, fragment: Vec<u8>) -> Receipt {
     let fragment = Bytes::from(fragment);
     loop {
-        if let Some(receipt) = submit(bus, "run", actor, fragment.clone(), TIMEOUT).await.unwrap() {
+        if let Some(receipt) = submit(bus, "run", actor, fragment.clone(), TIMEOUT, |_| true).await.unwrap() {
             return receipt;
         }
         tokio::task::yield_now().await;

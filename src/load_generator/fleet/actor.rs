@@ -227,7 +227,7 @@ impl PlayedActor {
         let timeout = Duration::from_millis(self.shared.policies.config.bus.receipt_timeout_ms);
         loop {
             self.travel().await;
-            let receipt = submit(&self.bus, RUN, &self.name, bytes.clone(), timeout).await?;
+            let receipt = submit(&self.bus, RUN, &self.name, bytes.clone(), timeout, |_| true).await?;
             self.travel().await;
             let outcome = receipt.as_ref().map(|receipt| receipt.outcome);
             let pause = match (outcome, receipt) {

@@ -12,10 +12,10 @@ use bytes::Bytes;
 use treadmill_proto::{EvaluationReport, PolicyBundle, PolicyVersion, ident::check_ident};
 use zenoh::{
     qos::{CongestionControl, Priority},
-    query::Query,
+    query::{ConsolidationMode, Query},
 };
 
-use super::{first_valid, reply, start_thread};
+use super::{next_valid, reply, start_thread};
 use crate::{
     Bus, BusError, admission::rate_limited_log::RateLimitedLog, keys, workarounds::kept_queryables::declare_queryable,
 };
@@ -137,6 +137,7 @@ pub async fn ask_for_evaluation(
         .get(keys::evaluations(run, evaluator))
         .payload(report.map_or_else(Vec::new, EvaluationReport::encode))
         .timeout(timeout)
+        .consolidation(ConsolidationMode::None)
         .priority(Priority::DataLow)
         .congestion_control(CongestionControl::Block)
         .await
@@ -145,5 +146,5 @@ pub async fn ask_for_evaluation(
         true => Ok(Assignment::Nothing),
         false => PolicyBundle::decode(payload).map(|bundle| Assignment::Evaluate(Box::new(bundle))),
     };
-    Ok(first_valid(replies, "policy bundle", decode).await.unwrap_or(Assignment::NoAnswer))
+    Ok(next_valid(&replies, "policy bundle", decode).await.unwrap_or(Assignment::NoAnswer))
 }

@@ -9,10 +9,10 @@ use zenoh::{
     Wait,
     handlers::FifoChannelHandler,
     qos::{CongestionControl, Priority},
-    query::Reply,
+    query::{ConsolidationMode, Reply},
 };
 
-use super::{first_valid, presence::live_runs};
+use super::{next_valid, presence::live_runs};
 use crate::{Bus, BusError, keys};
 
 /// Pieces that a requester asks for at once. The bus has space for them on an idle link, however slow it is.
@@ -80,7 +80,7 @@ async fn ask_learner(
         return Ok(fetched);
     }
     let replies = get(bus, keys::policy_latest(run), Vec::new(), timeout)?;
-    let whole = first_valid(replies, "policy bundle", PolicyBundle::decode).await;
+    let whole = next_valid(&replies, "policy bundle", PolicyBundle::decode).await;
     Ok(whole.map(|bundle| match request.known == Some(bundle.version) {
         true => FetchedPolicy::Unchanged,
         false => FetchedPolicy::Newer(Box::new(bundle)),
@@ -105,7 +105,7 @@ pub(super) async fn fetch_pieces(
         }
         let mut is_lost = false;
         for replies in asked {
-            match first_valid(replies, "piece of a policy", PolicyPiece::decode).await {
+            match next_piece(&replies, request).await {
                 Some(piece) if piece.is_unchanged() => return Ok(Some(FetchedPolicy::Unchanged)),
                 Some(piece) => is_lost |= !partial.add(piece),
                 None if partial.run.is_empty() => return Ok(None),
@@ -124,11 +124,23 @@ pub(super) async fn fetch_pieces(
     }
 }
 
+/// Returns the next piece that is not of a learner which the requester knows as overtaken.
+async fn next_piece(replies: &FifoChannelHandler<Reply>, request: &PolicyRequest) -> Option<PolicyPiece> {
+    let epoch = [request.known, request.announced].into_iter().flatten().map(|version| version.epoch).max();
+    loop {
+        let piece = next_valid(replies, "piece of a policy", PolicyPiece::decode).await?;
+        if piece.version.epoch == 0 || Some(piece.version.epoch) >= epoch {
+            return Some(piece);
+        }
+    }
+}
+
 fn get(bus: &Bus, key: String, payload: Vec<u8>, timeout: Duration) -> Result<FifoChannelHandler<Reply>, BusError> {
     bus.session
         .get(key)
         .payload(payload)
         .timeout(timeout)
+        .consolidation(ConsolidationMode::None)
         .priority(Priority::DataHigh)
         .congestion_control(CongestionControl::Block)
         .wait()

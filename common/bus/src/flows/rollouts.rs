@@ -14,10 +14,10 @@ use treadmill_proto::{Malformed, Outcome, PolicyVersion, Receipt, ident::check_i
 use zenoh::{
     bytes::ZBytes,
     qos::{CongestionControl, Priority},
-    query::Query,
+    query::{ConsolidationMode, Query},
 };
 
-use super::{first_valid, received::incarnation_of, reply, start_thread};
+use super::{next_valid, received::incarnation_of, reply, start_thread};
 use crate::{
     Bus, BusError, ReceivedFragment, RolloutCopies, Watched,
     admission::{Admission, AdmissionPermit, Refusal, rate_limited_log::RateLimitedLog},
@@ -267,22 +267,32 @@ impl ReceiptQueue {
     }
 }
 
-/// Sends one encoded fragment and waits for its receipt. `None` if no receipt came: the fragment may have arrived or not.
+/// Sends one encoded fragment and waits for a receipt that `settles` it, as a learner that was overtaken may answer beside its
+/// successor. Without one, returns the last receipt. `None` if no receipt came: the fragment may have arrived or not.
 pub async fn submit(
     bus: &Bus,
     run: &str,
     actor: &str,
     fragment: Bytes,
     timeout: Duration,
+    settles: impl Fn(&Receipt) -> bool,
 ) -> Result<Option<Receipt>, BusError> {
     let replies = bus
         .session
         .get(keys::rollouts(run, actor))
         .payload(fragment)
         .timeout(timeout)
+        .consolidation(ConsolidationMode::None)
         .priority(Priority::Data)
         .congestion_control(CongestionControl::Block)
         .await
         .map_err(BusError::flow("sending a fragment"))?;
-    Ok(first_valid(replies, "receipt", |payload| Receipt::decode(&payload)).await)
+    let mut last = None;
+    while let Some(receipt) = next_valid(&replies, "receipt", |payload| Receipt::decode(&payload)).await {
+        if settles(&receipt) {
+            return Ok(Some(receipt));
+        }
+        last = Some(receipt);
+    }
+    Ok(last)
 }

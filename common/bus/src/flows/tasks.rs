@@ -6,9 +6,12 @@ use std::{
 };
 
 use treadmill_proto::{Malformed, Task, TaskReceipt, TaskRegistration, ident::check_ident, limits::TASK_BYTES_MAX};
-use zenoh::{bytes::ZBytes, query::Query};
+use zenoh::{
+    bytes::ZBytes,
+    query::{ConsolidationMode, Query},
+};
 
-use super::{first_valid, reply, start_thread};
+use super::{next_valid, reply, start_thread};
 use crate::{
     Bus, BusError, admission::rate_limited_log::RateLimitedLog, keys, workarounds::kept_queryables::declare_queryable,
 };
@@ -122,7 +125,8 @@ pub async fn register_task(
         .get(keys::tasks(&registration.run, &registration.actor))
         .payload(payload)
         .timeout(timeout)
+        .consolidation(ConsolidationMode::None)
         .await
         .map_err(BusError::flow("registering a task"))?;
-    Ok(first_valid(replies, "task receipt", |payload| TaskReceipt::decode_checked(&payload)).await)
+    Ok(next_valid(&replies, "task receipt", |payload| TaskReceipt::decode_checked(&payload)).await)
 }
