@@ -91,9 +91,17 @@ class JoiningTest(unittest.TestCase):
 
     def test_an_answer_that_is_no_message_is_none(self):
         bus = Bus.__new__(Bus)
-        bus.ask = lambda *_, **__: b"\xff"
+        bus.answers = lambda *_, **__: iter([b"\xff"])
         self.assertIsNone(bus.submit("run", "py", b"", 1.0))
         self.assertIsNone(bus.register("run", "py", SimpleNamespace(fill=lambda task: None)))
+
+    def test_a_fragment_is_settled_by_the_first_receipt_that_settles_it(self):
+        bus = Bus.__new__(Bus)
+        versions = [schema.PolicyVersion(epoch=epoch, number=1) for epoch in (1, 2, 3)]
+        bus.answers = lambda *_, **__: (schema.Receipt(version=version).SerializeToString() for version in versions)
+        for least, settling in ((2, 2), (9, 3)):
+            receipt = bus.submit("run", "py", b"", 1.0, lambda receipt, least=least: receipt.version.epoch >= least)
+            self.assertEqual(receipt.version.epoch, settling)
 
     def test_short_answer_means_an_unchanged_policy(self):
         unchanged = schema.PolicyPiece(run="run", version=schema.PolicyVersion(number=4)).SerializeToString()
