@@ -233,19 +233,21 @@ def main():
     kept = arguments.logs / "results.json"
     results = json.loads(kept.read_text()) if kept.exists() else {}
     load_before = os.getloadavg()[0]
+    commit = subprocess.run(["git", "rev-parse", "--short", "HEAD"], capture_output=True, text=True).stdout.strip()
     for row in rows:
         if arguments.only and not any(row.name.startswith(name) for name in arguments.only):
             continue
         results[row.name] = []
         for number in range(arguments.rounds):
             folder = arguments.logs / f"{row.name}-{int(time.time())}"
-            results[row.name].append(measure(binary, folder, row, arguments.seconds))
+            results[row.name].append(measure(binary, folder, row, arguments.seconds) | {"commit": commit})
             figures = ", ".join(f"{figure} {results[row.name][-1].get(figure)}" for figure, _, _ in row.targets)
             print(f"{row.name}, round {number + 1}: {figures}", flush=True)
         kept.write_text(json.dumps(results))
-    commit = subprocess.run(["git", "rev-parse", "--short", "HEAD"], capture_output=True, text=True).stdout.strip()
+    # Rows may be of earlier calls.
+    commits = dict.fromkeys(one.get("commit", "unknown") for rounds in results.values() for one in rounds)
     machine = next((one for rounds in results.values() for one in rounds if "cpu" in one), {})
-    text = [f"Treadmill {commit}; {machine.get('cpu', '?')}, {machine.get('cores', '?')} cores; load of the machine before: "
+    text = [f"Treadmill {', '.join(commits)}; {machine.get('cpu', '?')}, {machine.get('cores', '?')} cores; load of the machine before: "
             f"{load_before:.1f}. {arguments.rounds} rounds.", "", *table(rows, results)]
     if arguments.doc:
         report.replace(arguments.doc, "fleet.py", "\n".join(text))
