@@ -160,8 +160,8 @@ impl<'a> Host<'a> {
         }
     }
 
-    /// Makes a learner that was overtaken like a new one: without the metrics of its time, and with a new session. A link that
-    /// another learner gave up, and that this one did not, would carry nothing
+    /// Makes a learner that was overtaken like a new one: without the metrics of its time, and with a new session. The old one
+    /// would keep its queryables, and a link that another learner gave up, and that this one did not, would carry nothing
     /// ([eclipse-zenoh/zenoh#2806](https://github.com/eclipse-zenoh/zenoh/issues/2806)).
     ///
     /// # Errors
