@@ -37,7 +37,7 @@ const HEARTBEAT_EVERY: Duration = Duration::from_secs(1);
 
 /// Pause between two sessions, so that neighbours forget the first one before the second one takes its index in their trees
 /// (`common/bus/src/workarounds/redial_pause.rs`).
-const ANEW_PAUSE: Duration = Duration::from_millis(300);
+const ANEW_PAUSE: Duration = Duration::from_secs(1);
 
 /// Options of a hosted learner.
 pub struct HostOptions<'a> {
