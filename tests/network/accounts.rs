@@ -1,7 +1,7 @@
 //! Accounting under failures: whichever process dies or freezes, every produced fragment is learnt from once or dropped
 //! by rule, and training continues. The tests compare the final counts of actors with the learner's accounts.
 
-use std::{fs, net::TcpListener, path::Path};
+use std::{fs, path::Path};
 
 use crate::support::*;
 use serde_json::Value;
@@ -24,9 +24,7 @@ struct Fleet {
 impl Fleet {
     fn start() -> Self {
         let (folder, run) = folders();
-        // Both listeners exist at the same time, so that the ports differ.
-        let free = [(); 2].map(|()| TcpListener::bind("127.0.0.1:0").unwrap());
-        let [learner_at, router_at] = free.map(|listener| format!("tcp/{}", listener.local_addr().unwrap()));
+        let [learner_at, router_at] = free_endpoints("tcp");
         let mut fleet = Self { folder, run, learner_at, router_at, learner: None, router: None, actors: Vec::new() };
         fleet.start_learner();
         fleet.start_router();

@@ -8,7 +8,7 @@ use std::{
     time::Duration,
 };
 
-use treadmill_bus::{Bus, BusOptions, statuses};
+use treadmill_bus::{Bus, statuses};
 use treadmill_proto::RunStatus;
 
 use crate::support::*;
@@ -49,17 +49,12 @@ impl Relay {
     }
 }
 
-fn open(connect: Vec<String>) -> (Bus, Vec<String>) {
-    let listen = vec!["tcp/127.0.0.1:0".to_string()];
-    Bus::open_router(&BusOptions { listen, connect, ..BusOptions::default() }).unwrap()
-}
-
 #[tokio::test(flavor = "multi_thread")]
 async fn routers_whose_links_break_together_find_the_learner_again() {
-    let (learner, endpoints) = open(Vec::new());
+    let (learner, endpoints) = open_router(&[]);
     let server = StatusServer::start(&learner, RunStatus { run: "run".to_string(), ..RunStatus::default() });
     let relay = Relay::start(endpoints[0].split_once('/').unwrap().1.to_string());
-    let routers: Vec<Bus> = (0..ROUTERS).map(|_| open(vec![format!("tcp/{}", relay.address)]).0).collect();
+    let routers: Vec<Bus> = (0..ROUTERS).map(|_| open_router(&[format!("tcp/{}", relay.address)]).0).collect();
     for round in 0..=BREAKS {
         if round > 0 {
             let links = relay.open.lock().unwrap().len();

@@ -1,14 +1,11 @@
 //! Learners that share a store: behind a router with TLS as under Compose, and begun at the same time.
 
-use std::{net::TcpListener, path::Path, process::Command};
+use std::path::Path;
 
-use crate::support::*;
+use crate::{support::*, takeover};
 
-fn learner(folder: &Path, name: &str, more: &[&str]) -> Command {
-    let url = format!("file://{}/store", folder.display());
-    let mut command = treadmill(folder);
-    command.args(["learner", "--store", &url, "--run-dir", name, "--no-progress"]).args(more);
-    command
+fn learner(folder: &Path, name: &str, more: &[&str]) -> Running {
+    Running::start(takeover::learner(folder, &format!("file://{}/store", folder.display()), name, more))
 }
 
 fn start(folder: &Path, args: &[&str]) -> Running {
@@ -17,25 +14,19 @@ fn start(folder: &Path, args: &[&str]) -> Running {
     Running::start(command)
 }
 
-/// Returns free endpoints, which differ because all are taken at the same time.
-fn endpoints<const N: usize>(protocol: &str) -> [String; N] {
-    let taken = [(); N].map(|()| TcpListener::bind("127.0.0.1:0").unwrap());
-    taken.map(|listener| format!("{protocol}/{}", listener.local_addr().unwrap()))
-}
-
 #[test]
 fn actors_that_know_only_a_router_go_on_with_the_standby_over_tls() {
     let folder = tempfile::tempdir().unwrap();
     let at = folder.path();
     certs(at, &["authority", "--bundles", "certs", "--host", "127.0.0.1"]);
-    let [leading, following, routing] = &endpoints("tls");
+    let [leading, following, routing] = &free_endpoints("tls");
     let new = ["--preset", "smoke", "--steps", ENDLESS, "--run", "walk"];
     let to_leader = ["--listen", leading, "--tls", "certs/learner"];
-    let leader = Running::start(learner(at, "first", &[&to_leader[..], &new].concat()));
+    let leader = learner(at, "first", &[&to_leader[..], &new].concat());
     let _router = start(at, &["router", "--listen", routing, "--connect", leading, "--tls", "certs/router"]);
     await_that("the first manifest", || at.join("first/metrics.jsonl").exists().then_some(()));
     let to_standby = ["--standby", "--listen", following, "--connect", routing, "--tls", "certs/standby"];
-    let standby = Running::start(learner(at, "second", &to_standby));
+    let standby = learner(at, "second", &to_standby);
     let _actor = start(at, &["actor", "--envs", "8", "--connect", routing, "--tls", "certs/actor"]);
     await_steps(&at.join("first"), 4096);
     standby.wait_for("run `walk` is at");
@@ -49,10 +40,10 @@ fn of_learners_that_begin_a_run_at_the_same_time_one_leads_and_the_others_follow
     const NAMES: [&str; 3] = ["a", "b", "c"];
     let folder = tempfile::tempdir().unwrap();
     let at = folder.path();
-    let [routing] = &endpoints("tcp");
+    let [routing] = &free_endpoints("tcp");
     let new = ["--preset", "smoke", "--steps", ENDLESS, "--run", "walk", "--resume-or-start"];
     let joined = ["--listen", "tcp/127.0.0.1:0", "--connect", routing];
-    let learners = NAMES.map(|name| Running::start(learner(at, name, &[&joined[..], &new].concat())));
+    let learners = NAMES.map(|name| learner(at, name, &[&joined[..], &new].concat()));
     let _router = start(at, &["router", "--listen", routing]);
     let _actor = start(at, &["actor", "--envs", "8", "--connect", routing]);
     let leading = await_that("one that trains", || NAMES.iter().position(|name| last_step(&at.join(name)) > 4096));

@@ -3,15 +3,10 @@
 use std::{sync::Arc, time::Duration};
 
 use bytes::Bytes;
-use treadmill_bus::{Bus, BusOptions, RolloutCopies, RolloutIntake, admission::Admission, statuses, submit};
+use treadmill_bus::{Bus, RolloutCopies, RolloutIntake, admission::Admission, statuses, submit};
 use treadmill_proto::{Outcome, PolicyVersion, Receipt, RunStatus};
 
 use crate::support::*;
-
-fn open(connect: &[String]) -> (Bus, Vec<String>) {
-    let listen = vec!["tcp/127.0.0.1:0".to_string()];
-    Bus::open_router(&BusOptions { listen, connect: connect.to_vec(), ..BusOptions::default() }).unwrap()
-}
 
 /// Waits until a learner on this host answers.
 async fn await_answer(bus: &Bus, host: &str) {
@@ -28,14 +23,14 @@ async fn await_answer(bus: &Bus, host: &str) {
 #[tokio::test(flavor = "multi_thread")]
 async fn routers_that_join_after_a_learner_stepped_down_find_its_successor() {
     let on = |host: &str| RunStatus { run: "run".to_string(), host: host.to_string(), ..RunStatus::default() };
-    let (successor, endpoints) = open(&[]);
-    let (overtaken, _) = open(&endpoints);
+    let (successor, endpoints) = open_router(&[]);
+    let (overtaken, _) = open_router(&endpoints);
     let before = StatusServer::start(&overtaken, on("overtaken"));
     await_answer(&successor, "overtaken").await;
     let leading = StatusServer::start(&successor, on("successor"));
     drop(before);
     overtaken.close();
-    let (late, _) = open(&endpoints);
+    let (late, _) = open_router(&endpoints);
     await_answer(&late, "successor").await;
     drop(leading);
     [late, successor].iter().for_each(Bus::close);
@@ -54,10 +49,10 @@ fn receipt(outcome: Outcome, epoch: u64) -> Receipt {
 
 #[tokio::test(flavor = "multi_thread")]
 async fn a_fragment_is_settled_by_the_successor_of_a_learner_that_is_silent_or_refuses() {
-    let (successor, endpoints) = open(&[]);
-    let (overtaken, _) = open(&endpoints);
+    let (successor, endpoints) = open_router(&[]);
+    let (overtaken, _) = open_router(&endpoints);
     let (leading, before) = (intake(&successor), intake(&overtaken));
-    let (actor, _) = open(&endpoints);
+    let (actor, _) = open_router(&endpoints);
     // Both get each fragment from the time when the actor's router knows both.
     let mut sent = 0;
     let mut next = || {
@@ -66,7 +61,7 @@ async fn a_fragment_is_settled_by_the_successor_of_a_learner_that_is_silent_or_r
         let settles = |receipt: &Receipt| receipt.version.epoch == 2 && receipt.outcome == Outcome::Accepted;
         tokio::spawn(async move { submit(&actor, "run", "one", fragment, TIMEOUT, settles).await.unwrap() })
     };
-    let mut silent = loop {
+    let silent = loop {
         let settled = next();
         let of_both = [&leading, &before].map(|intake| intake.next(Duration::from_secs(1)));
         if let [Some(first), Some(mut second)] = of_both {
@@ -74,7 +69,7 @@ async fn a_fragment_is_settled_by_the_successor_of_a_learner_that_is_silent_or_r
             first.answer(&receipt(Outcome::Accepted, 2));
             let settled = settled.await.unwrap().expect("a receipt, though the other learner is silent");
             assert_eq!((settled.outcome, settled.version.epoch), (Outcome::Accepted, 2));
-            break vec![second];
+            break second;
         }
     };
     let settled = next();
@@ -82,6 +77,6 @@ async fn a_fragment_is_settled_by_the_successor_of_a_learner_that_is_silent_or_r
     second.answer(&receipt(Outcome::Busy, 1));
     first.answer(&receipt(Outcome::Accepted, 2));
     assert_eq!(settled.await.unwrap().expect("a receipt").outcome, Outcome::Accepted);
-    silent.clear();
+    drop(silent);
     [actor, overtaken, successor].iter().for_each(Bus::close);
 }

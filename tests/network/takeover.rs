@@ -16,7 +16,7 @@ struct Fleet {
 }
 
 /// Returns the command of a learner with a store.
-fn learner(folder: &Path, url: &str, name: &str, more: &[&str]) -> Command {
+pub fn learner(folder: &Path, url: &str, name: &str, more: &[&str]) -> Command {
     let mut command = treadmill(folder);
     command.args(["learner", "--store", url, "--run-dir", name, "--no-progress"]).args(more);
     command

@@ -5,6 +5,7 @@ mod process;
 
 use std::{
     fs,
+    net::TcpListener,
     os::unix::fs::PermissionsExt,
     path::{Path, PathBuf},
     process::{Command, Output, Stdio},
@@ -103,6 +104,18 @@ pub fn issue(role: Role, certs: &Path, out: &Path, [from, until]: [i64; 2]) {
     fs::write(certificate, params.signed_by(&pair, &authority).unwrap().pem()).unwrap();
     fs::write(&key, pair.serialize_pem()).unwrap();
     fs::set_permissions(&key, fs::Permissions::from_mode(0o600)).unwrap();
+}
+
+/// Returns free endpoints, which differ because all are taken at the same time.
+pub fn free_endpoints<const N: usize>(protocol: &str) -> [String; N] {
+    let taken = [(); N].map(|()| TcpListener::bind("127.0.0.1:0").unwrap());
+    taken.map(|listener| format!("{protocol}/{}", listener.local_addr().unwrap()))
+}
+
+/// Opens a router's session that listens, and returns its endpoints.
+pub fn open_router(connect: &[String]) -> (Bus, Vec<String>) {
+    let listen = vec!["tcp/127.0.0.1:0".to_string()];
+    Bus::open_router(&BusOptions { listen, connect: connect.to_vec(), ..BusOptions::default() }).unwrap()
 }
 
 /// Joins the bus of a run.
