@@ -7,7 +7,7 @@ use std::{
 };
 
 use tokio::sync::Mutex;
-use treadmill_bus::{Bus, BusError, FetchedPolicy, fetch_newer_policy, fetch_policy};
+use treadmill_bus::{Bus, BusError, FetchedPolicy, fetch_newer_policy, fetch_policy, is_behind_standby};
 use treadmill_proto::{PolicyAnnouncement, PolicyBundle, PolicyRequest, PolicyVersion};
 use treadmill_runtime::{epoch::SeenEpoch, error_chain, shutdown::Shutdown};
 
@@ -124,7 +124,7 @@ impl PolicyFetcher {
         if known == Some(version) {
             return Refresh::Unchanged;
         }
-        let bundle = match self.fetch(version, known).await {
+        let bundle = match self.fetch(known).await {
             Ok(Some(FetchedPolicy::Newer(bundle))) => bundle,
             Ok(Some(FetchedPolicy::Unchanged) | None) => return Refresh::Unchanged,
             Err(error) => {
@@ -144,14 +144,21 @@ impl PolicyFetcher {
         self.replace(version, &bundle)
     }
 
-    /// Asks for a policy newer than `version`; without configuration and model, which this actor has.
-    async fn fetch(
-        &self,
-        version: PolicyVersion,
-        announced: Option<PolicyVersion>,
-    ) -> Result<Option<FetchedPolicy>, BusError> {
-        let request = PolicyRequest { known: Some(version), announced, config_hash: self.config_hash, offset: 0 };
-        let fetched = fetch_newer_policy(&self.bus, &self.run, &request, FETCH_TIMEOUT).await?;
+    /// Returns whether the process that this actor dialled is a learner that follows.
+    ///
+    /// # Errors
+    /// If the bus fails.
+    pub async fn is_behind_standby(&self) -> Result<bool, BusError> {
+        is_behind_standby(&self.bus, &self.run, &self.request(None)).await
+    }
+
+    fn request(&self, announced: Option<PolicyVersion>) -> PolicyRequest {
+        PolicyRequest { known: Some(self.current().version), announced, config_hash: self.config_hash, offset: 0 }
+    }
+
+    /// Asks for a policy newer than the one in use; without configuration and model, which this actor has.
+    async fn fetch(&self, announced: Option<PolicyVersion>) -> Result<Option<FetchedPolicy>, BusError> {
+        let fetched = fetch_newer_policy(&self.bus, &self.run, &self.request(announced), FETCH_TIMEOUT).await?;
         if fetched.is_some() || self.requested_run.is_some() {
             return Ok(fetched);
         }

@@ -14,7 +14,7 @@ use treadmill_config::Config;
 use treadmill_proto::{ActorState, ActorStats, PolicyBundle, PolicyVersion, json::EpisodeReport};
 use treadmill_runtime::{epoch::SeenEpoch, machine, seeds, shutdown::Shutdown};
 
-pub use options::{ActorSummary, WorkerOptions};
+pub use options::{ActorSummary, BehindStandby, WorkerOptions};
 
 use self::physics_thread::{PhysicsThread, ProducedFragment, Progress, Shared};
 use crate::{
@@ -33,35 +33,53 @@ const TOKEN_TIMEOUT: Duration = Duration::from_secs(2);
 /// Longest wait for a predecessor of the same name to go: Zenoh gives up a silent link after ten seconds.
 const NAME_TIMEOUT: Duration = Duration::from_secs(15);
 const NAME_RETRY: Duration = Duration::from_millis(500);
+/// Interval of asking whether the endpoint is a standby's: a learner that leads may be overtaken.
+const PLACE_CHECK_EVERY: Duration = Duration::from_secs(10);
 
 /// Reason for which a membership in a run ended.
 enum EndReason {
     StopRequested,
     RunReplaced,
+    BehindStandby,
 }
 
-/// Runs the actor until a request to stop; returns the summary of its last membership, if it joined a run.
-pub async fn run(bus: Bus, options: WorkerOptions, shutdown: Shutdown) -> Result<Option<ActorSummary>, ActorError> {
+/// How an actor ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Ending {
+    /// It was asked to stop.
+    Stopped(Option<ActorSummary>),
+    /// Its endpoint is a standby's, which passes no fragments on.
+    BehindStandby,
+}
+
+/// Runs the actor until a request to stop; returns the summary of its last membership, if it joined a run. Also ends
+/// if its endpoint is a standby's and [`BehindStandby::End`] is chosen.
+pub async fn run(bus: &Bus, options: &WorkerOptions, shutdown: &Shutdown) -> Result<Ending, ActorError> {
     let mut last = None;
     let epochs = Arc::new(SeenEpoch::default());
     loop {
-        let Some(bundle) = join_run(&bus, options.run.as_deref(), &options.explain, &epochs, &shutdown).await? else {
-            return Ok(last);
+        let Some(bundle) = join_run(bus, options.run.as_deref(), &options.explain, &epochs, shutdown).await? else {
+            return Ok(Ending::Stopped(last));
         };
-        if !wait_for_name(&bus, &options, &bundle.run, &shutdown).await? {
-            return Ok(last);
+        if !wait_for_name(bus, options, &bundle.run, shutdown).await? {
+            return Ok(Ending::Stopped(last));
+        }
+        let membership = Membership::new(bus, options, &bundle, epochs.clone())?;
+        // Before anything is simulated, because it might not be delivered.
+        if options.behind_standby == BehindStandby::End && membership.shared.policies.is_behind_standby().await? {
+            return Ok(Ending::BehindStandby);
         }
         tracing::info!(actor = %options.name, run = %bundle.run, version = bundle.version.number, "joined the run");
-        let membership = Membership::new(&bus, &options, &bundle, epochs.clone())?;
-        let WorkerOptions { name, envs, .. } = &options;
+        let WorkerOptions { name, envs, .. } = options;
         (options.notify)(&format!("joined run `{}` as `{name}` with {envs} environments", bundle.run));
-        let reason = membership.run(&bundle, &shutdown).await?;
+        let reason = membership.run(&bundle, shutdown).await?;
         let summary = membership.summary();
         tracing::info!(actor = %options.name, run = %bundle.run, ?summary, "left the run");
         (options.notify)(&format!("left run `{}`: {}", bundle.run, summary.delivered()));
         last = Some(summary);
         match reason {
-            EndReason::StopRequested => return Ok(last),
+            EndReason::StopRequested => return Ok(Ending::Stopped(last)),
+            EndReason::BehindStandby => return Ok(Ending::BehindStandby),
             EndReason::RunReplaced => tracing::warn!(
                 actor = %options.name,
                 run = %bundle.run,
@@ -183,6 +201,7 @@ impl<'a> Membership<'a> {
         // Deliveries and fetches wait for answers, so they run as tasks: credit and a request to stop must not wait.
         let mut deliveries = JoinSet::new();
         let mut refreshes = JoinSet::new();
+        let (mut place_due, mut place_checks) = (tokio::time::interval(PLACE_CHECK_EVERY), JoinSet::new());
         let mut rate = RateMeter { since: Instant::now(), env_steps: 0 };
         loop {
             tokio::select! {
@@ -211,6 +230,20 @@ impl<'a> Membership<'a> {
                 Some(refresh) = refreshes.join_next() => {
                     if refresh.is_ok_and(|refresh| refresh == Refresh::OtherRun) {
                         return Ok(EndReason::RunReplaced);
+                    }
+                }
+                _ = place_due.tick(), if self.options.behind_standby != BehindStandby::Stay && place_checks.is_empty() => {
+                    let policies = self.shared.policies.clone();
+                    place_checks.spawn(async move { policies.is_behind_standby().await });
+                }
+                Some(checked) = place_checks.join_next() => {
+                    match (checked, self.options.behind_standby) {
+                        (Ok(Ok(true)), BehindStandby::End) => return Ok(EndReason::BehindStandby),
+                        (Ok(Ok(true)), _) => tracing::warn!(
+                            actor = %actor,
+                            "the endpoint is a standby's, which may not pass fragments on; add the leader's with --connect"
+                        ),
+                        _ => {}
                     }
                 }
                 _ = stats_due.tick() => publish_stats(self.stats(&mut rate).to_bytes()),

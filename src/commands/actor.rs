@@ -2,13 +2,13 @@
 
 use clap::Args;
 use serde_json::json;
-use treadmill_actor::worker::{self, ActorSummary, WorkerOptions};
+use treadmill_actor::worker::{self, ActorSummary, BehindStandby, Ending, WorkerOptions};
 use treadmill_bus::Role;
 use treadmill_runtime::seeds;
 
 use crate::{
     launch::{
-        bus_client::{ClientArgs, with_session},
+        bus_client::{ClientArgs, Next, with_session},
         output::say,
     },
     shared::network_args::NetworkArgs,
@@ -51,17 +51,25 @@ pub fn run(args: ActorArgs) -> anyhow::Result<()> {
         envs: args.envs,
         threads: args.threads,
         start: args.start_number.unwrap_or_else(seeds::unique),
+        behind_standby: match &args.client.connect[..] {
+            endpoints if !endpoints.iter().any(|endpoint| endpoint.starts_with("tls/")) => BehindStandby::Stay,
+            [_] => BehindStandby::Warn,
+            _ => BehindStandby::End,
+        },
         explain: args.client.explain(&args.network, Role::Actor)?,
         // The parent of a supervised actor reports to the user.
         notify: if args.client.until_stdin_closes { |_| {} } else { say },
     };
+    let (options, json) = (&options, args.json);
     with_session(args.client, &args.network, Role::Actor, |bus, shutdown| async move {
-        let name = options.name.clone();
-        let summary = worker::run(bus, options, shutdown).await?;
-        if let Some(summary) = summary.filter(|_| args.json) {
-            say(&as_json(&name, &summary));
+        let summary = match worker::run(&bus, options, &shutdown).await? {
+            Ending::BehindStandby => return Ok(Next::Move),
+            Ending::Stopped(summary) => summary,
+        };
+        if let Some(summary) = summary.filter(|_| json) {
+            say(&as_json(&options.name, &summary));
         }
-        Ok(())
+        Ok(Next::End)
     })
 }
 

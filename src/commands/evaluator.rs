@@ -5,7 +5,7 @@ use treadmill_actor::evaluator::{self, EvaluatorOptions};
 use treadmill_bus::Role;
 
 use crate::{
-    launch::bus_client::{ClientArgs, with_session},
+    launch::bus_client::{ClientArgs, Next, with_session},
     shared::network_args::NetworkArgs,
 };
 
@@ -25,5 +25,8 @@ pub fn run(args: EvaluatorArgs) -> anyhow::Result<()> {
         run: args.client.run()?,
         explain: args.client.explain(&args.network, Role::Evaluator)?,
     };
-    with_session(args.client, &args.network, Role::Evaluator, |bus, shutdown| evaluator::run(bus, options, shutdown))
+    with_session(args.client, &args.network, Role::Evaluator, |bus, shutdown| async {
+        evaluator::run(bus, options.clone(), shutdown).await?;
+        Ok(Next::End)
+    })
 }

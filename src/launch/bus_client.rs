@@ -5,7 +5,7 @@ use std::{io::Read, sync::Arc, time::Duration};
 use clap::{Args, builder::ArgPredicate};
 use tokio::task::spawn_blocking;
 use treadmill_actor::{ActorError, policy_fetcher::Explain};
-use treadmill_bus::{Bus, Role};
+use treadmill_bus::{Bus, BusOptions, Role};
 use treadmill_proto::ident::check_ident;
 use treadmill_runtime::{machine, seeds, shutdown::Shutdown};
 
@@ -66,16 +66,23 @@ impl ClientArgs {
     }
 }
 
+/// What to do after the work with a session.
+pub enum Next {
+    /// End.
+    End,
+    /// Work again with a session at the next endpoint.
+    Move,
+}
+
 /// Joins the bus as a client and runs `work` with the session. Returns early if the process is asked to stop while dialling.
-pub fn with_session<W: Future<Output = Result<(), ActorError>>>(
+pub fn with_session<W: Future<Output = Result<Next, ActorError>>>(
     client: ClientArgs,
     network: &NetworkArgs,
     role: Role,
-    work: impl FnOnce(Bus, Shutdown) -> W,
+    work: impl Fn(Bus, Shutdown) -> W,
 ) -> anyhow::Result<()> {
     let run = client.run.clone();
-    let where_to = network.where_to(&client.connect);
-    let bus_options = network.options(role, Vec::new(), client.connect)?;
+    let mut bus_options = network.options(role, Vec::new(), client.connect)?;
     certificates::check_own(bus_options.credentials.as_ref())?;
     memory::use_one_arena();
     async_runtime::run(async {
@@ -84,35 +91,57 @@ pub fn with_session<W: Future<Output = Result<(), ActorError>>>(
         if client.until_stdin_closes {
             stop_when_stdin_closes(shutdown.clone())?;
         }
-        let dialled = bus_options.clone();
-        let opened = spawn_blocking(move || Bus::open_client(&dialled));
-        tokio::pin!(opened);
-        // Dialling lasts until a peer answers, which may be never.
-        let mut warning = tokio::time::interval_at(tokio::time::Instant::now() + FIRST_WARNING, WARN_EVERY);
-        // A diagnosis may take longer than the interval.
-        warning.set_missed_tick_behavior(tokio::time::MissedTickBehavior::Delay);
-        let bus = loop {
-            tokio::select! {
-                bus = &mut opened => break bus??,
-                () = shutdown.wait() => return Ok(()),
-                _ = warning.tick() => {
-                    let (options, run) = (bus_options.clone(), run.clone());
-                    let silence = spawn_blocking(move || Silence::of_endpoints(&options, run.as_deref()));
-                    tokio::select! {
-                        bus = &mut opened => break bus??,
-                        () = shutdown.wait() => return Ok(()),
-                        silence = silence => {
-                            let cause = silence?.in_one_line();
-                            tracing::warn!(endpoints = %where_to, %cause, "no answer; retrying");
-                        }
+        loop {
+            let where_to = network.where_to(&bus_options.connect);
+            let Some(bus) = dial(&bus_options, run.as_deref(), &where_to, &shutdown).await? else { return Ok(()) };
+            let outcome = work(bus.clone(), shutdown.clone()).await;
+            bus.close();
+            match outcome? {
+                Next::End => return Ok(()),
+                Next::Move => {
+                    bus_options.connect.rotate_left(1);
+                    let next = bus_options.connect.join(", ");
+                    tracing::warn!(
+                        next,
+                        "the endpoint is a standby's, which may not pass fragments on; trying the next one"
+                    );
+                }
+            }
+        }
+    })
+}
+
+/// Opens a session. Returns `None` after a request to stop: dialling lasts until a peer answers, which may be never.
+async fn dial(
+    bus_options: &BusOptions,
+    run: Option<&str>,
+    where_to: &str,
+    shutdown: &Shutdown,
+) -> anyhow::Result<Option<Bus>> {
+    let dialled = bus_options.clone();
+    let opened = spawn_blocking(move || Bus::open_client(&dialled));
+    tokio::pin!(opened);
+    let mut warning = tokio::time::interval_at(tokio::time::Instant::now() + FIRST_WARNING, WARN_EVERY);
+    // A diagnosis may take longer than the interval.
+    warning.set_missed_tick_behavior(tokio::time::MissedTickBehavior::Delay);
+    loop {
+        tokio::select! {
+            bus = &mut opened => return Ok(Some(bus??)),
+            () = shutdown.wait() => return Ok(None),
+            _ = warning.tick() => {
+                let (options, run) = (bus_options.clone(), run.map(str::to_string));
+                let silence = spawn_blocking(move || Silence::of_endpoints(&options, run.as_deref()));
+                tokio::select! {
+                    bus = &mut opened => return Ok(Some(bus??)),
+                    () = shutdown.wait() => return Ok(None),
+                    silence = silence => {
+                        let cause = silence?.in_one_line();
+                        tracing::warn!(endpoints = where_to, %cause, "no answer; retrying");
                     }
                 }
             }
-        };
-        let outcome = work(bus.clone(), shutdown).await;
-        bus.close();
-        Ok(outcome?)
-    })
+        }
+    }
 }
 
 /// Returns the host's name with a random ending that makes it unique.

@@ -3,6 +3,7 @@
 use std::time::Duration;
 
 use tokio::task::block_in_place;
+use treadmill_bus::StandbyMark;
 use treadmill_learner::{
     checkpoint,
     leadership::{Leadership, LeadershipError, Manifest, follower::LoadedState, read_manifest},
@@ -159,6 +160,7 @@ impl StoredRun<'_> {
     /// Follows the run until it is time to lead. Returns `None` if the run has ended or this process is to stop.
     async fn follow(&self, store: &Store, host: &Host<'_>) -> anyhow::Result<Option<LoadedState>> {
         let mut standby = Standby::new(store, self.is_standby);
+        let _mark = StandbyMark::open(&host.bus)?;
         say(&format!("following {store}, listening {}", host.endpoints().join(", ")));
         while !host.shutdown.asked() {
             match standby.poll(host).await? {

@@ -113,8 +113,21 @@ impl Standby {
         if !self.follower.is_due(sight, Instant::now()) {
             return Ok(NextMove::Wait);
         }
-        say(&format!("the leader of run `{run}` is gone: taking over"));
+        if sight.leader != LeaderSight::Stalled {
+            say(&format!("the leader of run `{run}` is gone: taking over"));
+        } else if self.can_write().await? {
+            say(&format!("the leader of run `{run}` cannot save its state, but this learner can: taking over"));
+        } else {
+            return Ok(NextMove::Wait);
+        }
         Ok(NextMove::Lead)
+    }
+
+    /// Returns whether a trial write to the store succeeds.
+    async fn can_write(&self) -> anyhow::Result<bool> {
+        let follower = self.follower.clone();
+        let trial = tokio::task::spawn_blocking(move || follower.try_write());
+        trial.await.context("the thread that writes to the store panicked")
     }
 
     /// Loads the newest state on a thread of its own, because the store blocks.
@@ -137,18 +150,22 @@ async fn look(host: &Host<'_>, run: &str, epoch: u64) -> Result<Sight, BusError>
     let actors = is_any_actor_present(&host.bus, run, TOKEN_TIMEOUT).await?;
     let has_token = is_learner_present(&host.bus, run, TOKEN_TIMEOUT).await?;
     let leader = match has_token {
-        true if answers(host, run, epoch).await? => LeaderSight::Answers,
-        true => LeaderSight::Silent,
+        true => ask_leader(host, run, epoch).await?,
         false => LeaderSight::Absent,
     };
     Ok(Sight { leader, actors })
 }
 
-/// Returns whether the leader of this epoch answers.
-async fn answers(host: &Host<'_>, run: &str, epoch: u64) -> Result<bool, BusError> {
+/// Asks the leader of this epoch for its status.
+async fn ask_leader(host: &Host<'_>, run: &str, epoch: u64) -> Result<LeaderSight, BusError> {
     // The bus may take longer than its own timeout while a link fails.
     let asked = tokio::time::timeout(2 * ANSWER_TIMEOUT, statuses(&host.bus, Some(run), ANSWER_TIMEOUT)).await;
     let replies = asked.unwrap_or(Ok(Vec::new()))?;
     let of_leader = |version: Option<wire::PolicyVersion>| version.is_some_and(|version| version.epoch == epoch);
-    Ok(replies.into_iter().filter_map(|reply| reply.status).any(|status| of_leader(status.version)))
+    let status = replies.into_iter().filter_map(|reply| reply.status).find(|status| of_leader(status.version));
+    Ok(match status {
+        Some(status) if status.waits_for_storage => LeaderSight::Stalled,
+        Some(_) => LeaderSight::Answers,
+        None => LeaderSight::Silent,
+    })
 }

@@ -36,6 +36,34 @@ fn actors_that_know_only_a_router_go_on_with_the_standby_over_tls() {
 }
 
 #[test]
+fn an_actor_that_dials_a_standby_over_tls_moves_to_the_leader_and_back() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = folder.path();
+    certs(at, &["authority", "--bundles", "certs", "--host", "127.0.0.1"]);
+    let [leading, following] = &free_endpoints("tls");
+    let new = ["--preset", "smoke", "--steps", ENDLESS, "--run", "walk"];
+    let to_leader = ["--listen", leading, "--tls", "certs/learner", "--resume-or-start"];
+    let leader = learner(at, "first", &[&to_leader[..], &new].concat());
+    await_that("the first manifest", || at.join("first/metrics.jsonl").exists().then_some(()));
+    let to_standby = ["--standby", "--listen", following, "--connect", leading, "--tls", "certs/standby"];
+    let standby = learner(at, "second", &to_standby);
+    standby.wait_for("run `walk` is at");
+    let endpoints = ["--connect", following, "--connect", leading, "--tls", "certs/actor"];
+    let actor = start(at, &[&["actor", "--envs", "8"][..], &endpoints].concat());
+    actor.wait_for("the endpoint is a standby's");
+    await_steps(&at.join("first"), 4096);
+    // The other one leads then, and the first one follows on the same endpoint.
+    leader.signal(libc::SIGSTOP);
+    standby.wait_for("taking over");
+    await_steps(&at.join("second"), last_step(&at.join("first")) + 2048);
+    leader.signal(libc::SIGCONT);
+    leader.wait_for("following it from now on");
+    standby.signal(libc::SIGTERM);
+    leader.wait_for("taking over");
+    await_steps(&at.join("first"), last_step(&at.join("second")) + 2048);
+}
+
+#[test]
 fn of_learners_that_begin_a_run_at_the_same_time_one_leads_and_the_others_follow() {
     const NAMES: [&str; 3] = ["a", "b", "c"];
     let folder = tempfile::tempdir().unwrap();

@@ -10,6 +10,8 @@ use crate::{prometheus, support::*};
 struct Fleet {
     folder: tempfile::TempDir,
     url: String,
+    /// Endpoint of the leader.
+    leading: String,
     leader: Running,
     standby: Running,
     actor: Running,
@@ -27,8 +29,13 @@ fn first_endpoint(process: &Running) -> String {
 }
 
 impl Fleet {
-    /// Starts the fleet; `prepare` completes the environment of the learners.
+    /// Starts the fleet; `prepare` completes the commands of the learners.
     fn start(url: &str, folder: tempfile::TempDir, prepare: fn(&mut Command)) -> Self {
+        Self::start_with([url; 2], folder, prepare)
+    }
+
+    /// The same with the store's URL of each learner.
+    fn start_with([url, url_of_standby]: [&str; 2], folder: tempfile::TempDir, prepare: fn(&mut Command)) -> Self {
         let at = folder.path();
         let any = ["--listen", "tcp/127.0.0.1:0"];
         let new = ["--preset", "smoke", "--steps", ENDLESS, "--run", "walk"];
@@ -37,7 +44,8 @@ impl Fleet {
         let leader = Running::start(command);
         let leading = first_endpoint(&leader);
         await_that("the first manifest", || at.join("first").join("metrics.jsonl").exists().then_some(()));
-        let mut command = learner(at, url, "second", &[&any[..], &["--standby", "--connect", &leading]].concat());
+        let mut command =
+            learner(at, url_of_standby, "second", &[&any[..], &["--standby", "--connect", &leading]].concat());
         prepare(&mut command);
         let standby = Running::start(command);
         let following = first_endpoint(&standby);
@@ -46,7 +54,7 @@ impl Fleet {
         let actor = Running::start(command);
         await_steps(&at.join("first"), 4096);
         standby.wait_for("run `walk` is at");
-        Self { url: url.to_string(), folder, leader, standby, actor }
+        Self { url: url.to_string(), folder, leading, leader, standby, actor }
     }
 
     fn run(&self, name: &str) -> std::path::PathBuf {
@@ -161,15 +169,47 @@ fn exchange(one: &Path, other: &Path) {
 }
 
 #[test]
+fn a_standby_takes_over_from_a_leader_that_reaches_its_actors_but_not_the_store() {
+    let folder = tempfile::tempdir().unwrap();
+    let (store, mount) = (folder.path().join("store"), folder.path().join("mount"));
+    fs::create_dir(&store).unwrap();
+    std::os::unix::fs::symlink(&store, &mount).unwrap();
+    // The leader has a path of its own to the same store.
+    let urls = [&mount, &store].map(|path| format!("file://{}", path.display()));
+    let fleet = Fleet::start_with(urls.each_ref().map(String::as_str), folder, |command| {
+        if !command.get_args().any(|flag| flag == "--standby") {
+            command.arg("--resume-or-start");
+        }
+    });
+    let away = fleet.folder.path().join("away");
+    fs::write(&away, "").unwrap();
+    exchange(&mount, &away);
+    fleet.leader.wait_for("the store fails: training waits until it answers");
+    fleet.standby.wait_for("cannot save its state, but this learner can: taking over");
+    await_steps(&fleet.run("second"), last_step(&fleet.run("first")) + 2048);
+    exchange(&mount, &away);
+    fleet.leader.wait_for("following it from now on");
+    let before = last_step(&fleet.run("second"));
+    await_steps(&fleet.run("second"), before + 2048);
+    drop((fleet.leader, fleet.standby, fleet.actor));
+}
+
+#[test]
 fn a_store_that_fails_pauses_training_until_it_answers() {
     let folder = tempfile::tempdir().unwrap();
     let url = format!("file://{}/store", folder.path().display());
     let fleet = Fleet::start(&url, folder, |_| {});
+    let endpoint = fleet.leading.clone();
     let (states, away) = (fleet.folder.path().join("store/states"), fleet.folder.path().join("away"));
     // A file in its place: nothing can be written below it, not even by root.
     fs::write(&away, "").unwrap();
     exchange(&states, &away);
     fleet.leader.wait_for("the store fails: training waits until it answers");
+    await_that("the alarm", || {
+        let status = last_json(&run(fleet.folder.path(), &["status", "--connect", &endpoint, "--json"]));
+        let alarm = status["alarms"][0].as_str()?;
+        (status["waits_for_storage"] == true && alarm.contains("training waits")).then_some(())
+    });
     exchange(&states, &away);
     fleet.leader.wait_for("written: training continues");
     let before = last_step(&fleet.run("first"));

@@ -17,10 +17,23 @@ pub struct WorkerOptions {
     pub threads: Option<u32>,
     /// Number of this start, from which its random streams are derived.
     pub start: u64,
+    /// What to do if the endpoint is a standby's.
+    pub behind_standby: BehindStandby,
     /// Explains why the run does not answer.
     pub explain: Explain,
     /// Notifies the user when the actor joins, loses the learner, finds it again, or leaves.
     pub notify: fn(&str),
+}
+
+/// What an actor does whose endpoint is a standby's. With encrypted links, a standby may not pass fragments on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum BehindStandby {
+    /// Nothing: the standby passes everything on.
+    Stay,
+    /// Warns, because there is no other endpoint.
+    Warn,
+    /// Ends, so that the next endpoint can be tried.
+    End,
 }
 
 /// Final report of an actor on its membership in one run.

@@ -32,6 +32,7 @@ pub use flows::{
     publications::publish_dropping,
     received::ReceivedFragment,
     rollouts::{IncomingFragment, RolloutIntake, submit},
+    standby_mark::{StandbyMark, is_behind_standby},
     stats::StatsFeed,
     tasks::{Objection, TaskServer, register_task},
     watched::Watched,

@@ -7,14 +7,20 @@ use treadmill_store::{Store, StoreError, Tag};
 
 use super::{LeadershipError, Manifest, Status, read_manifest};
 
+/// Duration of a write from which on a leader says that it waits. A request to a store that is cut off fails only later.
+pub const STALLED_AFTER: Duration = Duration::from_secs(2);
 /// Time after which a follower takes over from a leader whose liveliness token it has seen to go, if there is no progress.
 const PATIENCE: Duration = Duration::from_secs(1);
 /// The same for a leader that does not answer. Its token may stay for long: routers may repeat it to each other.
 const PATIENCE_SILENT: Duration = Duration::from_secs(4);
+/// The same for a leader that says that it waits for a write.
+const PATIENCE_STALLED: Duration = Duration::from_secs(3);
 /// The same without actors in sight: the follower itself may be the one that is cut off. Between these bounds it is this many of
 /// the longest intervals between two states.
 const PATIENCE_ALONE: (Duration, Duration) = (Duration::from_secs(5), Duration::from_secs(30));
 const PATIENCE_ALONE_INTERVALS: u32 = 3;
+/// Object of a trial write, beside the states. By its epoch, a leader removes one that was left.
+const TRIAL: &str = "states/000000000000-trial";
 /// Attempts to read a state before its leader removes it.
 const READS_MAX: usize = 10;
 
@@ -23,6 +29,8 @@ const READS_MAX: usize = 10;
 pub enum LeaderSight {
     /// It answers.
     Answers,
+    /// It answers that it waits for its disk or its store.
+    Stalled,
     /// Its liveliness token is there, but it does not answer.
     Silent,
     /// Its token is not there.
@@ -71,6 +79,8 @@ pub fn newest_state(store: &Store) -> Result<Option<LoadedState>, LeadershipErro
 /// store, knows nothing of that time.
 #[derive(Clone, Copy, Debug, Default)]
 struct Since {
+    /// A leader that waits for a write.
+    stalled: Option<Instant>,
     /// Actors, but no answer of the leader.
     silent: Option<Instant>,
     /// The same, and its token was not there, though it has answered before.
@@ -158,6 +168,16 @@ impl StateFollower {
         Ok(())
     }
 
+    /// Returns whether this learner can write to the store, and faster than a stalled leader. The trial is a state's size, because
+    /// a full store may still take small objects. It is done before taking over from a leader that answers.
+    #[must_use]
+    pub fn try_write(&self) -> bool {
+        let Some(loaded) = &self.loaded else { return false };
+        let begun = Instant::now();
+        let written = self.store.put(TRIAL, &loaded.state).and_then(|()| self.store.delete(TRIAL));
+        written.is_ok() && begun.elapsed() < STALLED_AFTER
+    }
+
     /// Returns whether it is time to take over. Call it after each [`Self::refresh`] that succeeded.
     pub fn is_due(&mut self, sight: Sight, now: Instant) -> bool {
         let Some(loaded) = &self.loaded else { return false };
@@ -167,21 +187,22 @@ impl StateFollower {
             Status::Training => {}
         }
         let epoch = loaded.manifest.epoch;
-        if sight.leader == LeaderSight::Answers {
-            (self.since, self.answered) = (Since::default(), Some(epoch));
-            return false;
+        let is_missed = matches!(sight.leader, LeaderSight::Silent | LeaderSight::Absent);
+        if !is_missed {
+            self.answered = Some(epoch);
         }
         // A token that never came may still be on its way.
         let is_absent = sight.leader == LeaderSight::Absent && self.answered == Some(epoch);
         let begun = |is_seen: bool, since: Option<Instant>| is_seen.then(|| since.unwrap_or(now));
         self.since = Since {
-            silent: begun(sight.actors, self.since.silent),
-            absent: begun(sight.actors && is_absent, self.since.absent),
-            alone: begun(!sight.actors, self.since.alone),
+            stalled: begun(sight.leader == LeaderSight::Stalled, self.since.stalled),
+            silent: begun(is_missed && sight.actors, self.since.silent),
+            absent: begun(is_missed && sight.actors && is_absent, self.since.absent),
+            alone: begun(is_missed && !sight.actors, self.since.alone),
         };
-        let Since { silent, absent, alone } = self.since;
+        let Since { stalled, silent, absent, alone } = self.since;
         let patience_alone = (self.interval * PATIENCE_ALONE_INTERVALS).clamp(PATIENCE_ALONE.0, PATIENCE_ALONE.1);
-        [(silent, PATIENCE_SILENT), (absent, PATIENCE), (alone, patience_alone)]
+        [(stalled, PATIENCE_STALLED), (silent, PATIENCE_SILENT), (absent, PATIENCE), (alone, patience_alone)]
             .iter()
             .any(|(since, patience)| since.is_some_and(|since| now.duration_since(since) >= *patience))
     }

@@ -24,18 +24,34 @@ const WARN_EVERY: Duration = Duration::from_secs(300);
 /// Newest states of a leader that are kept, so that a follower can read the one that it has found in the manifest.
 const KEPT: usize = 3;
 
+/// Manifest of the learner that has overtaken this one, once it is known. Clones share it.
+#[derive(Clone, Debug, Default)]
+pub struct Successor(Arc<Mutex<Option<Manifest>>>);
+
+impl Successor {
+    /// Returns the manifest.
+    #[must_use]
+    pub fn manifest(&self) -> Option<Manifest> {
+        self.0.lock().expect("no holder of this lock panics").clone()
+    }
+
+    fn set(&self, manifest: Manifest) {
+        *self.0.lock().expect("no holder of this lock panics") = Some(manifest);
+    }
+}
+
 /// Handle to the thread.
 #[derive(Debug)]
 pub(super) struct Housekeeping {
     saved: Option<SyncSender<()>>,
-    successor: Arc<Mutex<Option<Manifest>>>,
+    pub(super) successor: Successor,
     thread: Option<JoinHandle<()>>,
 }
 
 impl Housekeeping {
     pub(super) fn start(store: &Store, epoch: u64, writer: u64) -> io::Result<Self> {
         let (saved, events) = sync_channel(1);
-        let successor = Arc::new(Mutex::new(None));
+        let successor = Successor::default();
         let (store, found) = (store.clone(), successor.clone());
         let work = move || {
             // Until the first save, the manifest is the predecessor's.
@@ -59,7 +75,7 @@ impl Housekeeping {
                     Err(RecvTimeoutError::Timeout) => {
                         read = Instant::now();
                         if let Some(manifest) = manifest_of_other(&store, writer) {
-                            *found.lock().expect("no holder of this lock panics") = Some(manifest);
+                            found.set(manifest);
                             return;
                         }
                     }
@@ -77,11 +93,6 @@ impl Housekeeping {
         if let Some(saved) = &self.saved {
             let _ = saved.try_send(());
         }
-    }
-
-    /// Returns the manifest of a learner that has overtaken this one.
-    pub(super) fn successor(&self) -> Option<Manifest> {
-        self.successor.lock().expect("no holder of this lock panics").clone()
     }
 }
 

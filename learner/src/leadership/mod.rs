@@ -6,7 +6,7 @@
 //! # Layout
 //! - Here: [`Leadership`], which saves states.
 //! - [`manifest`]: [`Manifest`], which names the newest state and its leader.
-//! - `housekeeping`: thread that removes old states and notices a successor.
+//! - `housekeeping`: thread that removes old states and notices a [`Successor`].
 //! - [`follower`]: [`StateFollower`](follower::StateFollower), which keeps the newest state loaded and decides when to take over.
 
 pub mod follower;
@@ -21,6 +21,7 @@ use treadmill_runtime::{epoch, machine, seeds};
 use treadmill_store::{Store, StoreError, Tag};
 
 use self::housekeeping::Housekeeping;
+pub use self::housekeeping::Successor;
 pub use self::manifest::{Manifest, Status};
 use crate::checkpoint::Counters;
 
@@ -137,6 +138,12 @@ impl Leadership {
         &self.store
     }
 
+    /// Returns what becomes known of a learner that overtakes this one.
+    #[must_use]
+    pub fn successor(&self) -> Successor {
+        self.housekeeping.as_ref().map(|housekeeping| housekeeping.successor.clone()).unwrap_or_default()
+    }
+
     /// Makes an encoded state of `run` the newest. When this returns, the state is durable, and no learner of a lower epoch
     /// can write any more.
     ///
@@ -201,7 +208,7 @@ impl Leadership {
     pub fn check(&self) -> Result<(), LeadershipError> {
         self.housekeeping
             .as_ref()
-            .and_then(Housekeeping::successor)
+            .and_then(|housekeeping| housekeeping.successor.manifest())
             .map_or(Ok(()), |successor| Err(self.overtaken_by(&successor)))
     }
 

@@ -136,6 +136,29 @@ fn a_follower_takes_over_only_from_a_leader_that_is_gone() {
 }
 
 #[test]
+fn a_follower_takes_over_from_a_leader_that_cannot_save() {
+    let objects = SimulatedObjects::default();
+    let store = Store::simulated(&objects);
+    let (mut leader, mut follower) = (lead(&store), StateFollower::new(&store));
+    leader.save("walk", &counters(0), b"zero").unwrap();
+    let begun = Instant::now();
+    let at = |ms: u64| begun + Duration::from_millis(ms);
+    let (answers, stalled) =
+        (Sight { leader: LeaderSight::Answers, ..GONE }, Sight { leader: LeaderSight::Stalled, ..GONE });
+    follower.refresh(at(0)).unwrap();
+    assert!(!follower.is_due(stalled, at(0)) && !follower.is_due(stalled, at(2900)));
+    assert!(!follower.is_due(answers, at(3000)) && !follower.is_due(stalled, at(4000)), "one write took long");
+    leader.save("walk", &counters(1), b"one").unwrap();
+    follower.refresh(at(6900)).unwrap();
+    assert!(!follower.is_due(stalled, at(7000)), "it has saved again");
+    assert!(!follower.is_due(stalled, at(9900)) && follower.is_due(stalled, at(10_000)));
+    assert_eq!(store.list("states").unwrap().len(), 2);
+    assert!(follower.try_write() && store.list("states").unwrap().len() == 2, "the trial leaves nothing");
+    objects.set_down(true);
+    assert!(!follower.try_write(), "the follower could not save either");
+}
+
+#[test]
 fn a_follower_forgets_what_it_saw_before_it_was_cut_off() {
     let objects = SimulatedObjects::default();
     let store = Store::simulated(&objects);

@@ -14,7 +14,7 @@
 //! - [`evaluation`]: schedules evaluations during training.
 //! - [`load_adaptation`]: adapts batch size and passes to the load.
 //! - [`heartbeat`]: heartbeat of the training thread.
-//! - [`waiting`]: waits while the disk is full or the store fails.
+//! - [`waiting`]: waits while the disk is full or the store fails; `pending_writes`: what it waits for.
 
 mod alarms;
 mod background;
@@ -26,6 +26,7 @@ pub mod heartbeat;
 mod learning;
 pub mod load_adaptation;
 mod options;
+mod pending_writes;
 mod reporting;
 mod serving;
 mod start;

@@ -14,6 +14,7 @@ use super::{
     control::ControlChannel,
     evaluation::EvaluationScheduler,
     learning::Learning,
+    pending_writes::PendingWrites,
     reporting::Reporting,
     serving::{Serving, save_newest},
     waiting::Retry,
@@ -61,7 +62,9 @@ impl Trainer {
             None => CheckpointWriter::new(&options.folder, every_updates, keep),
         };
         // Save this version before any actor can get it, so that a learner that dies now resumes from it.
-        let retry = Retry { shutdown: shutdown.clone(), heartbeat: options.heartbeat.clone() };
+        let (heartbeat, pending) = (options.heartbeat.clone(), PendingWrites::default());
+        let successor = leadership.as_ref().map(Leadership::successor).unwrap_or_default();
+        let retry = Retry { shutdown: shutdown.clone(), heartbeat, pending: pending.clone(), successor };
         let saved = save_newest(&state, leadership.as_mut(), &checkpoints, &retry)?;
         let policy = PublishedPolicy::new(&bundle, &state.for_actors(&bundle));
         let policy = policy.map_err(|why| invalid(error_chain(&why)))?;
@@ -70,7 +73,7 @@ impl Trainer {
         let history = History::read(&options.folder.metrics())?;
         let (intake, alive) = open_intake(bus, &state, &config, options, expected, fleet)?;
         let status = commands::first_status(&state, config.run.steps);
-        let control = ControlChannel::open(bus, status, alive.clone(), options.console.actor_command.clone())?;
+        let control = ControlChannel::open(bus, status, alive.clone(), options.console.actor_command.clone(), pending)?;
         let stats = StatsFeed::open(bus, &state.run, alive)?;
         let (every_steps, env_steps) = (config.eval.every_steps, state.counters.env_steps);
         let scheduler = config.evaluates().then(|| EvaluationScheduler::open(bus, &state.run, every_steps, env_steps));

@@ -9,8 +9,11 @@ use std::{
 use treadmill_runtime::{error_chain, shutdown::Shutdown};
 use treadmill_store::StoreError;
 
-use super::Heartbeat;
-use crate::{checkpoint::CheckpointError, leadership::LeadershipError};
+use super::{Heartbeat, pending_writes::PendingWrites};
+use crate::{
+    checkpoint::CheckpointError,
+    leadership::{LeadershipError, Successor},
+};
 
 /// Pause between two attempts.
 const PAUSE: Duration = Duration::from_millis(500);
@@ -71,21 +74,28 @@ pub struct Retry {
     pub shutdown: Shutdown,
     /// Beats meanwhile: who waits for a disk or a store is healthy, and a restart would lose the update that is not saved yet.
     pub heartbeat: Heartbeat,
+    /// Writes of this run in progress.
+    pub pending: PendingWrites,
+    /// A successor ends the wait, too: the run goes on without this learner.
+    pub successor: Successor,
 }
 
 impl Retry {
-    /// Calls `write` until the obstacle has passed or shutdown is requested. A `write` that fails must leave no partial output.
+    /// Calls `write` until the obstacle has passed, shutdown is requested, or another learner leads. A `write` that fails must leave no partial output.
     ///
     /// # Errors
     /// That of the last call.
     pub fn until_written<T, E: MayPass>(&self, mut write: impl FnMut() -> Result<T, E>) -> Result<T, E> {
         let mut warned: Option<Instant> = None;
+        let pending = self.pending.begin();
         loop {
             let outcome = write();
             let obstacle = outcome.as_ref().err().and_then(MayPass::obstacle);
-            if let (Err(why), Some(obstacle), false) = (&outcome, obstacle, self.shutdown.asked()) {
+            let goes_on = !self.shutdown.asked() && self.successor.manifest().is_none();
+            if let (Err(why), Some(obstacle), true) = (&outcome, obstacle, goes_on) {
+                let error = error_chain(why);
+                pending.record_error(&error);
                 if warned.is_none_or(|warned| warned.elapsed() >= WARN_EVERY) {
-                    let error = error_chain(why);
                     match obstacle {
                         Obstacle::DiskFull => {
                             tracing::warn!(%error, "the disk is full: training waits until there is room")

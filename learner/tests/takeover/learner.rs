@@ -7,7 +7,7 @@ use treadmill_learner::{
     checkpoint::Counters,
     leadership::{
         Leadership, LeadershipError,
-        follower::{Sight, StateFollower},
+        follower::{LeaderSight, Sight, StateFollower},
     },
 };
 use treadmill_store::Store;
@@ -72,7 +72,7 @@ impl Learner {
     /// Follows the run; prepares to lead if it is due. Returns the state from which it would go on.
     pub fn follow(&mut self, store: &Store, sight: Sight, writer: u64, now: Instant) -> Option<RunState> {
         self.follower.refresh(now).ok()?;
-        if !self.follower.is_due(sight, now) {
+        if !self.follower.is_due(sight, now) || sight.leader == LeaderSight::Stalled && !self.follower.try_write() {
             return None;
         }
         let loaded = self.follower.loaded()?.clone();

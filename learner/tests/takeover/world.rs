@@ -236,10 +236,13 @@ impl World {
             }
             let others = (0..LEARNERS).filter(|other| *other != index);
             let has_token = others.clone().any(|other| self.tick - self.seen[other][index] < LEASE_TICKS);
-            let leader = match has_token {
-                true if others.into_iter().any(|other| self.seen[other][index] == self.tick) => LeaderSight::Answers,
-                true => LeaderSight::Silent,
-                false => LeaderSight::Absent,
+            let answering = others.into_iter().find(|other| self.seen[*other][index] == self.tick);
+            let saves = |learner: usize| self.learners[learner].lead.as_ref().is_some_and(|lead| lead.is_saving);
+            let leader = match answering {
+                Some(leader) if saves(leader) => LeaderSight::Stalled,
+                Some(_) => LeaderSight::Answers,
+                None if has_token => LeaderSight::Silent,
+                None => LeaderSight::Absent,
             };
             let sight = Sight { leader, actors: self.actor_links[index].contains(&true) };
             let writer = self.next_writer();

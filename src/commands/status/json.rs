@@ -71,6 +71,7 @@ fn json_of(run: &RunStatus) -> serde_json::Value {
         "idle_share": run.idle_share,
         "undone_updates": run.undone_updates,
         "alarms": run.alarms,
+        "waits_for_storage": run.waits_for_storage,
         "actors": actors,
     })
 }

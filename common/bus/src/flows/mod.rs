@@ -14,6 +14,7 @@ pub(crate) mod publications;
 pub(crate) mod received;
 pub(crate) mod rollouts;
 mod silences;
+pub(crate) mod standby_mark;
 pub(crate) mod stats;
 pub(crate) mod tasks;
 pub(crate) mod watched;

@@ -2,7 +2,8 @@
 //!
 //! Learners and routers never wait for a requester that does not read its replies. Zenoh sends a reply with the congestion
 //! control of its request, so they replace that on arrival: where a link has no space for a reply, Zenoh drops it, and the
-//! requester asks again. A request that a router passes on waits for space again.
+//! requester asks again. A request that a router passes on waits for space again; not one that a learner with one thread for all
+//! links passes on, as that thread would wait for itself.
 
 pub mod access_rules;
 pub mod endpoint;
@@ -16,7 +17,9 @@ use zenoh::{Config, Session, Wait};
 use crate::{
     BusError,
     error::in_words,
-    workarounds::{close, discovery, free_port::with_free_port, linger, open_files::check_open_files, redial_pause},
+    workarounds::{
+        close, discovery, free_port::with_free_port, linger, open_files::check_open_files, redial_pause, threads,
+    },
 };
 use access_rules::Credentials;
 
@@ -100,14 +103,12 @@ impl Bus {
             insert(&mut settings, "access_control", access_rules::access())?;
         }
         insert(&mut settings, "low_pass_filter", access_rules::sizes())?;
-        insert(
-            &mut settings,
-            "qos/network",
-            json!([
-                {"messages": ["query"], "flows": ["ingress"], "overwrite": {"congestion_control": "drop"}},
-                {"messages": ["query"], "flows": ["egress"], "overwrite": {"congestion_control": "block"}},
-            ]),
-        )?;
+        let on = |flow: &str, congestion_control: &str| json!({"messages": ["query"], "flows": [flow], "overwrite": {"congestion_control": congestion_control}});
+        let mut rules = vec![on("ingress", "drop")];
+        if !threads::is_one() {
+            rules.push(on("egress", "block"));
+        }
+        insert(&mut settings, "qos/network", json!(rules))?;
         let endpoints: Vec<String> = listen.iter().map(|endpoint| with_handshake_timeout(endpoint)).collect();
         insert(&mut settings, "listen/endpoints", json!(endpoints))?;
         if options.discover {

@@ -30,6 +30,11 @@ pub fn wanted(options: &BusOptions, role: Role) -> Option<(&'static str, &'stati
     std::env::var_os(VARIABLE).is_none().then_some((VARIABLE, value))
 }
 
+/// Whether this process reads and writes all links on one thread, which therefore must not wait for space on a link.
+pub(crate) fn is_one() -> bool {
+    std::env::var(VARIABLE).is_ok_and(|value| value == ONE)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -19,6 +19,7 @@ use treadmill_bus::{AliveView, Bus, BusError, ControlServer, PendingRequest, Sta
 use treadmill_proto::{Command, ControlReply, RunStatus};
 use treadmill_runtime::machine;
 
+use super::pending_writes::PendingWrites;
 use roster::Roster;
 
 /// Commands that may be queued for the training thread.
@@ -33,6 +34,7 @@ struct StatusBoard {
     updated: Instant,
     quarantined: Vec<String>,
     roster: Roster,
+    pending: PendingWrites,
     /// Command that starts an actor, unless this process starts them itself.
     actor_command: Option<String>,
 }
@@ -57,12 +59,14 @@ impl ControlChannel {
         status: RunStatus,
         alive: AliveView,
         actor_command: Option<String>,
+        pending: PendingWrites,
     ) -> Result<Self, BusError> {
         let run = status.run.clone();
         let (server, feed) = (ControlServer::open(bus, &run)?, StatsFeed::open(bus, &run, alive.clone())?);
         let roster = Roster::new(alive);
         let (updated, quarantined) = (Instant::now(), Vec::new());
-        let board = Arc::new(Mutex::new(StatusBoard { run, status, updated, quarantined, roster, actor_command }));
+        let board = StatusBoard { run, status, updated, quarantined, roster, pending, actor_command };
+        let board = Arc::new(Mutex::new(board));
         let (sender, commands) = sync_channel(COMMANDS_MAX);
         let closed = Arc::new(AtomicBool::new(false));
         std::thread::Builder::new()
@@ -158,6 +162,10 @@ impl StatusBoard {
             actors: self.roster.actors(newest, &self.quarantined, Instant::now()),
             ..self.status.clone()
         };
+        if let Some(alarm) = self.pending.alarm(Instant::now()) {
+            status.waits_for_storage = true;
+            status.alarms.insert(0, alarm);
+        }
         if !status.actors.iter().any(|actor| actor.alive) {
             status.env_steps_per_s = 0.0;
             let command = self.actor_command.as_ref().map(|command| format!("; start one: {command}"));
