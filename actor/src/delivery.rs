@@ -203,9 +203,15 @@ impl Uploader {
         let settles = |receipt: &Receipt| {
             self.policies.admits(receipt.version) && next_step(receipt.outcome, 0) == NextStep::Settle
         };
+        let mut newest_epoch = self.policies.newest_epoch();
         loop {
             let (run, actor) = (&self.run, &self.actor);
-            let answer = submit(&self.bus, run, actor, bytes.clone(), self.receipt_timeout, settles).await?;
+            newest_epoch.mark_unchanged();
+            let answer = tokio::select! {
+                answer = submit(&self.bus, run, actor, bytes.clone(), self.receipt_timeout, settles) => answer?,
+                // The learner that it was sent to may be gone without a trace.
+                _ = newest_epoch.changed() => None,
+            };
             let is_silent = answer.is_none();
             let (pause, reason) = match answer {
                 None => (RETRY, "no learner answers".to_string()),

@@ -6,7 +6,7 @@ use std::{
     time::Duration,
 };
 
-use tokio::sync::Mutex;
+use tokio::sync::{Mutex, watch};
 use treadmill_bus::{Bus, BusError, FetchedPolicy, fetch_newer_policy, fetch_policy, is_behind_standby};
 use treadmill_proto::{PolicyAnnouncement, PolicyBundle, PolicyRequest, PolicyVersion};
 use treadmill_runtime::{epoch::SeenEpoch, error_chain, shutdown::Shutdown};
@@ -66,6 +66,8 @@ pub struct PolicyFetcher {
     /// Last announcement, whose checksum the weights of its version must have.
     announced: RwLock<Option<PolicyAnnouncement>>,
     epochs: Arc<SeenEpoch>,
+    /// Highest epoch so far.
+    newest_epoch: watch::Sender<u64>,
     fetching: Mutex<()>,
 }
 
@@ -97,6 +99,7 @@ impl PolicyFetcher {
             current: RwLock::new(Arc::new(ActingPolicy::new(bundle)?)),
             announced: RwLock::new(None),
             epochs,
+            newest_epoch: watch::Sender::new(bundle.version.epoch),
             fetching: Mutex::new(()),
         })
     }
@@ -108,7 +111,14 @@ impl PolicyFetcher {
 
     /// Returns whether a version is of a learner that no other has overtaken, as far as this actor knows.
     pub fn admits(&self, version: PolicyVersion) -> bool {
+        self.newest_epoch
+            .send_if_modified(|newest| version.epoch > std::mem::replace(newest, version.epoch.max(*newest)));
         self.epochs.admits(&self.run, version.epoch)
+    }
+
+    /// Returns the highest epoch so far. It changes when another learner has taken over.
+    pub fn newest_epoch(&self) -> watch::Receiver<u64> {
+        self.newest_epoch.subscribe()
     }
 
     /// Records an announcement. [`Self::refresh`] then fetches its version.

@@ -2,6 +2,7 @@
 
 use std::time::Duration;
 
+use anyhow::Context;
 use tokio::task::block_in_place;
 use treadmill_bus::StandbyMark;
 use treadmill_learner::{
@@ -52,8 +53,8 @@ impl StoredRun<'_> {
         let store = Store::open(url).map_err(|why| Usage(error_chain(&why)))?;
         memory::keep_freed();
         async_runtime::run(async {
-            let mut host = Host::open(options).await?;
-            let outcome = self.serve(&store, &mut host).await;
+            let host = Host::open(options).await?;
+            let outcome = self.serve(&store, &host).await;
             host.close();
             outcome
         })
@@ -111,36 +112,37 @@ impl StoredRun<'_> {
         Ok(start)
     }
 
-    /// Leads and follows in turn.
-    async fn serve(&self, store: &Store, host: &mut Host<'_>) -> anyhow::Result<()> {
-        if let Some(Start::Ready(prepared, mut lock)) = self.begin(store, host).await? {
-            let folder = prepared.folder.clone();
-            let leadership = Leadership::prepare(store, None)?;
-            let led = host.lead(*prepared, &mut lock, Some(leadership)).await;
-            if led.is_err() {
-                folder.discard();
-            }
-            if !self.goes_on_after(&led) {
-                return led;
-            }
-            host.begin_anew().await?;
-        }
-        loop {
-            let Some(loaded) = self.follow(store, host).await? else { return Ok(()) };
-            let (prepared, mut lock) = match self.resume(store, &loaded)? {
-                Start::Ready(prepared, lock) => (*prepared, lock),
-                Start::Finished(folder, state) => {
-                    host::print_finished(&folder, *state, host.options());
-                    return Ok(());
+    /// Begins the run or follows it, then leads. A learner that was overtaken starts anew.
+    async fn serve(&self, store: &Store, host: &Host<'_>) -> anyhow::Result<()> {
+        let led = match self.begin(store, host).await? {
+            Some(Start::Ready(prepared, mut lock)) => {
+                let folder = prepared.folder.clone();
+                let leadership = Leadership::prepare(store, None)?;
+                let led = host.lead(*prepared, &mut lock, Some(leadership)).await;
+                if led.is_err() {
+                    folder.discard();
                 }
-            };
-            let leadership = Leadership::prepare(store, Some(&(loaded.manifest, loaded.tag)))?;
-            let led = host.lead(prepared, &mut lock, Some(leadership)).await;
-            if !self.goes_on_after(&led) {
-                return led;
+                led
             }
-            host.begin_anew().await?;
+            _ => self.follow_and_lead(store, host).await,
+        };
+        match self.goes_on_after(&led) {
+            true => Err(host.restart()).context("the learner cannot start anew"),
+            false => led,
         }
+    }
+
+    async fn follow_and_lead(&self, store: &Store, host: &Host<'_>) -> anyhow::Result<()> {
+        let Some(loaded) = self.follow(store, host).await? else { return Ok(()) };
+        let (prepared, mut lock) = match self.resume(store, &loaded)? {
+            Start::Ready(prepared, lock) => (*prepared, lock),
+            Start::Finished(folder, state) => {
+                host::print_finished(&folder, *state, host.options());
+                return Ok(());
+            }
+        };
+        let leadership = Leadership::prepare(store, Some(&(loaded.manifest, loaded.tag)))?;
+        host.lead(prepared, &mut lock, Some(leadership)).await
     }
 
     /// Returns whether this process follows again after it has led.

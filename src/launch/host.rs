@@ -24,6 +24,7 @@ use super::{
     metrics_page::MetricsListener,
     model,
     output::say,
+    restart::restart,
     router_session,
     run_args::AnyRunArgs,
     signals,
@@ -35,9 +36,9 @@ use super::{
 /// Interval of heartbeats while a learner waits for its first actor.
 const HEARTBEAT_EVERY: Duration = Duration::from_secs(1);
 
-/// Pause between two sessions, so that neighbours forget the first one before the second one takes its index in their trees
+/// Pause after a restart, so that neighbours forget the first session before the second one takes its index in their trees
 /// (`common/bus/src/workarounds/redial_pause.rs`).
-const ANEW_PAUSE: Duration = Duration::from_secs(1);
+const RESTART_PAUSE: Duration = Duration::from_secs(1);
 
 /// Options of a hosted learner.
 pub struct HostOptions<'a> {
@@ -91,7 +92,7 @@ pub fn run(start: Start, options: HostOptions) -> anyhow::Result<()> {
     memory::keep_freed();
     let folder = prepared.folder.clone();
     let outcome = async_runtime::run(async {
-        let mut host = Host::open(options).await?;
+        let host = Host::open(options).await?;
         let outcome = host.lead(prepared, &mut lock, None).await;
         host.close();
         outcome
@@ -111,7 +112,7 @@ pub fn print_finished(folder: &RunFolder, state: TrainingState, options: &HostOp
     }
 }
 
-/// Learner process: its session, signals and metrics page, which outlast a leadership.
+/// Learner process: its session, signals and metrics page.
 pub struct Host<'a> {
     options: HostOptions<'a>,
     /// Session, which listens.
@@ -160,16 +161,14 @@ impl<'a> Host<'a> {
         }
     }
 
-    /// Makes a learner that was overtaken like a new one: without the metrics of its time, and with a new session. The old one
-    /// would keep its queryables, and a link that another learner gave up, and that this one did not, would carry nothing
-    /// ([eclipse-zenoh/zenoh#2806](https://github.com/eclipse-zenoh/zenoh/issues/2806)).
-    ///
-    /// # Errors
-    /// If an endpoint was taken meanwhile, or the system refuses.
-    pub async fn begin_anew(&mut self) -> anyhow::Result<()> {
-        self.prometheus.clear();
-        self.bus = router_session::reopen(&self.bus, self.options.bus, &self.endpoints, ANEW_PAUSE).await?;
-        Ok(())
+    /// Starts the program anew, for a learner that was overtaken. Its session would keep its queryables, and a link that another
+    /// learner gave up, and that this one did not, would carry nothing
+    /// ([eclipse-zenoh/zenoh#2806](https://github.com/eclipse-zenoh/zenoh/issues/2806)). A session that is closed can panic, and
+    /// then keeps its memory. Returns only if the system refuses.
+    pub fn restart(&self) -> std::io::Error {
+        let page = self.page.iter().map(SocketAddr::to_string).collect();
+        let pause_ms = RESTART_PAUSE.as_millis().to_string();
+        restart(&[("--listen", self.endpoints.clone()), ("--prometheus", page), ("--begin-after-ms", vec![pause_ms])])
     }
 
     /// Closes the session.
@@ -187,7 +186,7 @@ impl<'a> Host<'a> {
     /// # Errors
     /// If training fails; [`TrainingError::Leadership`] if another learner leads.
     pub async fn lead(
-        &mut self,
+        &self,
         mut prepared: Prepared,
         lock: &mut RunLock,
         leadership: Option<Leadership>,

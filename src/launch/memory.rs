@@ -24,8 +24,7 @@ pub fn keep_freed() {
 
 /// Returns freed memory to the system, wherever it lies.
 ///
-/// What a learner that was overtaken leaves free gets gaps, because its new session takes pieces of it. So its next leadership
-/// would find no room for large tensors, and take another 12 to 20 MB from the system at some takeovers.
+/// What a closed session leaves free gets gaps, because the next one takes pieces of it.
 pub fn return_freed() {
     #[cfg(all(target_os = "linux", target_env = "gnu"))]
     // SAFETY: malloc_trim takes a number of bytes to keep, and has no preconditions.

@@ -8,7 +8,7 @@
 //!   (waits until it is time to lead), `supervisor` (restarts actor processes), `bus_client` (flags and
 //!   session of an actor or evaluator), `router_session` (session of a learner or router), `metrics_page` (metrics over HTTP).
 //! - The process: `async_runtime`, `familiar_flags` (hints for flags of other programs), `processor` (refuses one that is too
-//!   old), `memory` (allocator settings), [`exit_code`], [`signals`], [`log`], [`output`], [`slow_step`], [`terminal_screen`].
+//!   old), `memory` (allocator settings), `restart` (starts the program anew), [`exit_code`], [`signals`], [`log`], [`output`], [`slow_step`], [`terminal_screen`].
 
 pub(crate) mod async_runtime;
 pub(crate) mod banner;
@@ -25,6 +25,7 @@ pub(crate) mod metrics_page;
 pub(crate) mod model;
 pub mod output;
 pub(crate) mod processor;
+pub(crate) mod restart;
 pub(crate) mod resumption;
 pub(crate) mod router_session;
 pub(crate) mod run_args;

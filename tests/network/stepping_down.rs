@@ -3,8 +3,14 @@
 use std::{sync::Arc, time::Duration};
 
 use bytes::Bytes;
+use treadmill_actor::{
+    delivery::{PendingFragment, Uploader},
+    policy_fetcher::PolicyFetcher,
+};
 use treadmill_bus::{Bus, RolloutCopies, RolloutIntake, admission::Admission, statuses, submit};
-use treadmill_proto::{Outcome, PolicyVersion, Receipt, RunStatus};
+use treadmill_policy::{NetworkShape, actor_to_safetensors};
+use treadmill_proto::{Outcome, PolicyBundle, PolicyVersion, Receipt, RunStatus};
+use treadmill_runtime::seeds;
 
 use crate::support::*;
 
@@ -79,4 +85,43 @@ async fn a_fragment_is_settled_by_the_successor_of_a_learner_that_is_silent_or_r
     assert_eq!(settled.await.unwrap().expect("a receipt").outcome, Outcome::Accepted);
     drop(silent);
     [actor, overtaken, successor].iter().for_each(Bus::close);
+}
+
+/// Policy of the smallest network.
+fn bundle() -> PolicyBundle {
+    let shape = NetworkShape { observation: 1, action: 1, hidden: vec![1], privileged: 0 };
+    let weights: Bytes = actor_to_safetensors(&shape, &vec![0.0; shape.parameter_count()]).into();
+    PolicyBundle {
+        run: "run".into(),
+        version: PolicyVersion { epoch: 1, ..PolicyVersion::default() },
+        observation_size: 1,
+        action_size: 1,
+        hidden: vec![1],
+        checksum: seeds::checksum(&[&weights]),
+        weights,
+        observation_mean: vec![0.0],
+        observation_inverse_std: vec![1.0],
+        ..PolicyBundle::default()
+    }
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn a_fragment_is_sent_again_as_soon_as_another_learner_leads() {
+    let (learner, endpoints) = open_router(&[]);
+    let (actor, _) = open_router(&endpoints);
+    let intake = intake(&learner);
+    let policies = Arc::new(PolicyFetcher::new(actor.clone(), Some("run".into()), &bundle(), Arc::default()).unwrap());
+    let an_hour = Duration::from_secs(3600);
+    let uploader = Uploader::new(actor.clone(), "run", "one", an_hour, policies.clone(), 1);
+    uploader.register(1);
+    let fragment = PendingFragment { sequence: 1, bytes: Bytes::from_static(b"fragment") };
+    let delivered = tokio::spawn(async move { uploader.deliver(fragment).await.map(|_| uploader.counts()) });
+    let mut unanswered = intake.next(TIMEOUT).expect("the fragment");
+    unanswered.take();
+    assert!(policies.admits(PolicyVersion { epoch: 2, ..PolicyVersion::default() }));
+    intake.next(TIMEOUT).expect("the fragment again").answer(&receipt(Outcome::Accepted, 2));
+    let counts = delivered.await.unwrap().unwrap();
+    assert_eq!((counts.accepted, counts.resent), (1, 1));
+    drop(unanswered);
+    [actor, learner].iter().for_each(Bus::close);
 }

@@ -35,7 +35,7 @@ impl Successor {
         self.0.lock().expect("no holder of this lock panics").clone()
     }
 
-    fn set(&self, manifest: Manifest) {
+    pub(crate) fn set(&self, manifest: Manifest) {
         *self.0.lock().expect("no holder of this lock panics") = Some(manifest);
     }
 }

@@ -52,11 +52,6 @@ struct Newest {
 }
 
 impl PrometheusMetrics {
-    /// Forgets all values.
-    pub fn clear(&self) {
-        *self.lock() = Newest::default();
-    }
-
     /// Sets scalars; others keep their value.
     pub fn set<'a>(&self, scalars: impl IntoIterator<Item = (&'a str, f64)>) {
         let mut newest = self.lock();

@@ -56,7 +56,8 @@ pub fn train(
 ) -> Result<TrainingSummary, TrainingError> {
     let (begun, steps_before) = (Instant::now(), state.counters.env_steps);
     let mut trainer = Trainer::start(bus, state, leadership, options, shutdown)?;
-    let outcome = run(&mut trainer);
+    // A successor ends every wait, so whatever failed then is not the cause.
+    let outcome = run(&mut trainer).map_err(|why| trainer.check_leadership().err().unwrap_or(why));
     let (state, history, stopped) = trainer.finish(outcome)?;
     Ok(TrainingSummary {
         wall_s: begun.elapsed().as_secs_f64(),

@@ -164,9 +164,7 @@ impl Trainer {
             }
             Ok(report.log(env_steps, updates, &scalars, &history, &retry)?)
         });
-        // First, because a successor also ends the wait for a full disk, whose error is not the cause.
-        self.check_leadership()?;
-        self.reporting.background.check()
+        reporting.background.check()
     }
 
     /// Ends the run: answers waiting senders and writes the last logs. `outcome` is whether the run was stopped before its last

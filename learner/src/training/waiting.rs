@@ -118,7 +118,13 @@ impl Retry {
 
 #[cfg(test)]
 mod tests {
+    use treadmill_store::{Store, simulated::SimulatedObjects};
+
     use super::*;
+    use crate::{
+        checkpoint::Counters,
+        leadership::{Leadership, read_manifest},
+    };
 
     fn full() -> io::Error {
         ErrorKind::StorageFull.into()
@@ -150,6 +156,21 @@ mod tests {
         });
         assert_eq!(refused.unwrap_err().obstacle(), Some(Obstacle::DiskFull));
         assert_eq!(tries, 1);
+    }
+
+    #[test]
+    fn a_successor_ends_the_wait() {
+        let store = Store::simulated(&SimulatedObjects::default());
+        Leadership::simulated(&store, None, 1).save("walk", &Counters::default(), b"state").unwrap();
+        let (retry, mut tries) = (Retry::default(), 0);
+        let refused = retry.until_written(|| {
+            tries += 1;
+            if tries == 2 {
+                retry.successor.set(read_manifest(&store).unwrap().expect("that of the successor").0);
+            }
+            Err::<(), _>(full())
+        });
+        assert_eq!((refused.unwrap_err().obstacle(), tries), (Some(Obstacle::DiskFull), 2));
     }
 
     #[test]

@@ -61,9 +61,9 @@ pub struct PolicyServer {
 }
 
 impl PolicyServer {
-    /// Starts to serve `policy`.
+    /// Starts to serve `policy`, and announces it: a learner that takes over must be heard before it has learnt anything.
     pub fn open(bus: &Bus, policy: PublishedPolicy) -> Result<Self, BusError> {
-        let run = policy.for_actors.run().to_string();
+        let (run, announcement) = (policy.for_actors.run().to_string(), policy.announcement.encode());
         let current = Arc::new(RwLock::new(policy));
         let pieces = PieceServer::start()?;
         let serve_pieces = |key| {
@@ -86,13 +86,19 @@ impl PolicyServer {
             .priority(Priority::DataHigh)
             .wait()
             .map_err(BusError::flow("declaring the announcement"))?;
-        Ok(Self { current, pieces, announcer })
+        let server = Self { current, pieces, announcer };
+        server.announce(announcement);
+        Ok(server)
     }
 
     /// Serves `policy` from now on, and announces it.
     pub fn publish(&self, policy: PublishedPolicy) {
         let announcement = policy.announcement.encode();
         *self.current.write().expect("no holder of this lock panics") = policy;
+        self.announce(announcement);
+    }
+
+    fn announce(&self, announcement: Vec<u8>) {
         if let Err(error) = self.announcer.put(announcement).wait() {
             // Receipts carry the version, too, and actors poll now and then.
             tracing::debug!(%error, "policy announcement not sent");

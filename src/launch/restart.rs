@@ -1,0 +1,45 @@
+//! Starts this program anew in the same process.
+
+use std::{env, ffi::OsString, io, os::unix::process::CommandExt, process::Command};
+
+/// Replaces this program by a new start of itself with the same arguments, except that each flag of `values` gets these values.
+/// Links, memory and threads of the present start end with it, whatever their state. Returns only if the system refuses.
+pub fn restart(values: &[(&str, Vec<String>)]) -> io::Error {
+    let mut arguments = env::args_os();
+    let name = arguments.next().unwrap_or_default();
+    // Also if the file of the program was replaced meanwhile.
+    let program = if cfg!(target_os = "linux") { Ok("/proc/self/exe".into()) } else { env::current_exe() };
+    program.map_or_else(|why| why, |program| Command::new(program).arg0(name).args(replaced(arguments, values)).exec())
+}
+
+fn replaced(arguments: impl Iterator<Item = OsString>, values: &[(&str, Vec<String>)]) -> Vec<OsString> {
+    let mut kept = Vec::new();
+    let mut is_value = false;
+    for argument in arguments {
+        let text = argument.to_string_lossy();
+        let is_flag = values.iter().any(|(flag, _)| text == *flag);
+        let has_value =
+            values.iter().any(|(flag, _)| text.strip_prefix(flag).is_some_and(|rest| rest.starts_with('=')));
+        if !is_value && !is_flag && !has_value {
+            kept.push(argument);
+        }
+        is_value = is_flag && !is_value;
+    }
+    let added =
+        values.iter().flat_map(|(flag, values)| values.iter().map(move |value| format!("{flag}={value}").into()));
+    kept.into_iter().chain(added).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn flags_get_their_new_values_and_others_stay() {
+        let old = ["learner", "--listen", "tcp/h:0", "--store", "file:///s", "--listen=tcp/h:1", "--listener", "-v"];
+        let values = [("--listen", vec!["tcp/h:5".to_string(), "tcp/h:1".to_string()]), ("--prometheus", Vec::new())];
+        let new = replaced(old.into_iter().map(OsString::from), &values);
+        let wanted = ["learner", "--store", "file:///s", "--listener", "-v", "--listen=tcp/h:5", "--listen=tcp/h:1"];
+        assert_eq!(new, wanted.map(OsString::from));
+    }
+}
