@@ -9,9 +9,11 @@ use std::{
 };
 
 use tokio::task::JoinSet;
-use treadmill_bus::{Bus, PosePublisher, is_actor_present, keys, publish_dropping, token, watch_announcements};
+use treadmill_bus::{
+    Bus, PosePublisher, is_actor_present, keys, publish_dropping, statuses, token, watch_announcements,
+};
 use treadmill_config::Config;
-use treadmill_proto::{ActorState, ActorStats, PolicyBundle, PolicyVersion, json::EpisodeReport};
+use treadmill_proto::{ActorState, ActorStats, PolicyBundle, PolicyVersion, RunStatus, json::EpisodeReport};
 use treadmill_runtime::{epoch::SeenEpoch, machine, seeds, shutdown::Shutdown};
 
 pub use options::{ActorSummary, BehindStandby, WorkerOptions};
@@ -94,11 +96,15 @@ pub async fn run(bus: &Bus, options: &WorkerOptions, shutdown: &Shutdown) -> Res
 /// request to stop.
 ///
 /// # Errors
-/// [`ActorError::NameTaken`] if another one stays.
+/// [`ActorError::NameTaken`] if another one stays and the learner hears of it.
 async fn wait_for_name(bus: &Bus, options: &WorkerOptions, run: &str, shutdown: &Shutdown) -> Result<bool, ActorError> {
     let begun = Instant::now();
     while is_actor_present(bus, run, &options.name, TOKEN_TIMEOUT).await? {
         if begun.elapsed() > NAME_TIMEOUT {
+            if is_heard(bus, run, &options.name).await? == Some(false) {
+                tracing::warn!(actor = %options.name, "the token of an actor of this name is there, but it sends nothing: joining");
+                return Ok(true);
+            }
             return Err(ActorError::NameTaken { run: run.to_string(), name: options.name.clone() });
         }
         tokio::select! {
@@ -107,6 +113,16 @@ async fn wait_for_name(bus: &Bus, options: &WorkerOptions, run: &str, shutdown: 
         }
     }
     Ok(true)
+}
+
+/// Returns whether the learner has heard of an actor of this name lately. Routers were seen to keep the token of a killed actor for
+/// minutes, so the token alone proves nothing. `None` if no learner answers.
+async fn is_heard(bus: &Bus, run: &str, name: &str) -> Result<Option<bool>, ActorError> {
+    let replies = statuses(bus, Some(run), TOKEN_TIMEOUT).await?;
+    let newest =
+        replies.into_iter().filter_map(|reply| reply.status).max_by_key(|status| status.version.map(|it| it.epoch));
+    let heard_s = |status: RunStatus| status.actors.into_iter().find(|actor| actor.name == name)?.since_contact_s;
+    Ok(newest.map(|status| heard_s(status).is_some_and(|seconds| seconds < NAME_TIMEOUT.as_secs_f64())))
 }
 
 /// Membership of an actor in one run, from joining to leaving.

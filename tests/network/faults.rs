@@ -201,6 +201,21 @@ impl Drop for Thawed {
 }
 
 #[test]
+fn a_token_that_routers_keep_of_a_killed_actor_is_no_obstacle() {
+    let (folder, run) = folders();
+    let mut learner = endless(folder.path(), &run, "learner");
+    learner.args(["--listen", "tcp/127.0.0.1:0"]);
+    let _learner = Running::start(learner);
+    let endpoint = endpoint(&run);
+    let bus = join(&run);
+    // No actor with this name sends anything.
+    let _kept = treadmill_bus::token(&bus, "run", "one").unwrap();
+    let actor = actor(folder.path(), &endpoint, "one");
+    actor.wait_for("the token of an actor of this name is there, but it sends nothing");
+    actor.wait_for("joined run");
+}
+
+#[test]
 fn a_frozen_actor_does_not_delay_the_others() {
     let (folder, run) = folders();
     let training = Running::start(endless(folder.path(), &run, "train"));

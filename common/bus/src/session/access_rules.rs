@@ -18,7 +18,7 @@ pub enum Role {
     Standby,
     /// Forwards messages of other processes.
     Router,
-    /// Simulates: reads policies; sends rollouts, statistics, episodes and poses.
+    /// Simulates: reads policies and the status; sends rollouts, statistics, episodes and poses.
     Actor,
     /// Evaluates: reads policies, sends reports.
     Evaluator,
@@ -229,7 +229,9 @@ fn grants(role: Role) -> Vec<Grant> {
                 Grant { flows: OUT, messages: &["liveliness_token", "reply"], keys: ACTORS },
             ];
             let deliver = query(&["treadmill/*/rollouts/*", "treadmill/*/tasks/*"]);
-            [read_policy, deliver, publish, learners].concat()
+            // Whether the learner hears of an actor whose name is taken.
+            let status = query(STATUS);
+            [read_policy, deliver, publish, status, learners].concat()
         }
         Role::Evaluator => [read_policy, query(&["treadmill/*/evaluations/*"]), learners].concat(),
         Role::Observer => watch,
