@@ -111,8 +111,11 @@ impl PolicyFetcher {
 
     /// Returns whether a version is of a learner that no other has overtaken, as far as this actor knows.
     pub fn admits(&self, version: PolicyVersion) -> bool {
-        self.newest_epoch
-            .send_if_modified(|newest| version.epoch > std::mem::replace(newest, version.epoch.max(*newest)));
+        self.newest_epoch.send_if_modified(|newest| {
+            let is_newer = version.epoch > *newest;
+            *newest = version.epoch.max(*newest);
+            is_newer
+        });
         self.epochs.admits(&self.run, version.epoch)
     }
 

@@ -26,9 +26,9 @@ impl PendingWrites {
         let waited = now.duration_since(longest.begun);
         (waited >= STALLED_AFTER).then(|| {
             let why = longest.error.as_deref().unwrap_or("the disk or the store does not answer");
+            let seconds = waited.as_secs();
             format!(
-                "training waits for a write since {} s and goes on by itself once it succeeds: {why}",
-                waited.as_secs()
+                "training waits for a write that began {seconds} s ago, and goes on by itself once it succeeds: {why}"
             )
         })
     }

@@ -1,6 +1,6 @@
 //! Lets actors find out that they dialled a learner that only follows.
 //!
-//! With encrypted links such a learner passes small messages on, but no fragments: it has one thread for all links
+//! With encrypted links such a learner passes small messages on, but drops large fragments: it has one thread for all links
 //! ([`crate::workarounds::threads`]), which cannot wait for space on one of them. So actors look for another way to the leader.
 
 use std::{sync::Arc, time::Duration};

@@ -103,10 +103,10 @@ impl Bus {
             insert(&mut settings, "access_control", access_rules::access())?;
         }
         insert(&mut settings, "low_pass_filter", access_rules::sizes())?;
-        let on = |flow: &str, congestion_control: &str| json!({"messages": ["query"], "flows": [flow], "overwrite": {"congestion_control": congestion_control}});
-        let mut rules = vec![on("ingress", "drop")];
+        let rule = |flow: &str, control: &str| json!({"messages": ["query"], "flows": [flow], "overwrite": {"congestion_control": control}});
+        let mut rules = vec![rule("ingress", "drop")];
         if !threads::is_one() {
-            rules.push(on("egress", "block"));
+            rules.push(rule("egress", "block"));
         }
         insert(&mut settings, "qos/network", json!(rules))?;
         let endpoints: Vec<String> = listen.iter().map(|endpoint| with_handshake_timeout(endpoint)).collect();
