@@ -2,13 +2,14 @@
 
 use std::time::Duration;
 
+use anyhow::Context;
 use clap::Args;
 use treadmill_bus::{PolicyCache, Role, SilentLearner};
 use treadmill_runtime::shutdown::Shutdown;
 
 use crate::{
     diagnosis::certificates,
-    launch::{async_runtime, memory, output::say, router_session, signals},
+    launch::{async_runtime, memory, output::say, restart::restart, router_session, signals},
     shared::network_args::NetworkArgs,
 };
 
@@ -23,17 +24,27 @@ pub struct RouterArgs {
     connect: Vec<String>,
     #[command(flatten)]
     network: NetworkArgs,
+    /// Time until the session is opened (ms).
+    #[arg(long, hide = true, default_value_t = 0, value_parser = clap::value_parser!(u64).range(0..=60_000))]
+    begin_after_ms: u64,
+    /// Silence of a learner after which the router starts anew (s).
+    #[arg(long, hide = true, default_value_t = PATIENCE_S, value_parser = clap::value_parser!(u64).range(1..=PATIENCE_MAX_S))]
+    patience_s: u64,
+    /// Whether a learner has answered before.
+    #[arg(long, hide = true, default_value_t = false, action = clap::ArgAction::Set)]
+    expects_answers: bool,
 }
 
-/// Silence of a learner after which the session is opened anew, longer than most takeovers; doubled after each session without
-/// any answer.
-const PATIENCE: Duration = Duration::from_secs(8);
-const PATIENCE_MAX: Duration = Duration::from_secs(240);
+/// Silence of a learner after which the router starts anew, longer than most takeovers; doubled after each start without any
+/// answer.
+const PATIENCE_S: u64 = 8;
+const PATIENCE_MAX_S: u64 = 240;
 /// Time between the two sessions, in which actors that have another endpoint go there.
-const PAUSE: Duration = Duration::from_secs(2);
+const PAUSE_MS: u64 = 2000;
 
 /// Forwards messages until the process is asked to stop.
 pub fn run(args: RouterArgs) -> anyhow::Result<()> {
+    std::thread::sleep(Duration::from_millis(args.begin_after_ms));
     let options = args.network.options(Role::Router, args.listen, args.connect)?;
     certificates::check_own(options.credentials.as_ref())?;
     memory::use_one_arena();
@@ -43,30 +54,30 @@ pub fn run(args: RouterArgs) -> anyhow::Result<()> {
     async_runtime::run(async {
         let shutdown = Shutdown::default();
         signals::listen(shutdown.clone(), "")?;
-        let (mut bus, endpoints) = router_session::open(&options).await?;
+        let (bus, endpoints) = router_session::open(&options).await?;
         say(&format!("listening {}", endpoints.join(", ")));
         if !options.connect.is_empty() {
             say(&format!("dialling  {}, again after each loss", options.connect.join(", ")));
         }
-        let (mut patience, mut expects_answers) = (PATIENCE, false);
-        loop {
-            let cache = PolicyCache::open(&bus)?;
-            let silent = tokio::select! {
-                silent = cache.serve(patience, expects_answers) => silent,
-                () = shutdown.wait() => None,
-            };
-            let Some(SilentLearner { run, has_answers }) = silent else { break };
-            // After faults of the network Zenoh may lose the way to the learner. A new session may find it, and another router
-            // has it.
-            tracing::warn!(run, "the link is there, but no answers of the learner arrive; opening the session anew");
-            expects_answers |= has_answers;
-            patience = if has_answers { PATIENCE } else { (2 * patience).min(PATIENCE_MAX) };
-            bus = tokio::select! {
-                bus = router_session::reopen(&bus, &options, &endpoints, PAUSE) => bus?,
-                () = shutdown.wait() => break,
-            };
-        }
-        bus.close();
-        Ok(())
+        let cache = PolicyCache::open(&bus)?;
+        let silent = tokio::select! {
+            silent = cache.serve(Duration::from_secs(args.patience_s), args.expects_answers) => silent,
+            () = shutdown.wait() => None,
+        };
+        let Some(SilentLearner { run, has_answers }) = silent else {
+            bus.close();
+            return Ok(());
+        };
+        // After faults of the network Zenoh may lose the way to the learner. A new session may find it, and another router has it.
+        // A session that is closed can panic, and then keeps its memory.
+        tracing::warn!(run, "the link is there, but no answers of the learner arrive; starting anew");
+        let patience_s = if has_answers { PATIENCE_S } else { (2 * args.patience_s).min(PATIENCE_MAX_S) };
+        let why = restart(&[
+            ("--listen", endpoints),
+            ("--begin-after-ms", vec![PAUSE_MS.to_string()]),
+            ("--patience-s", vec![patience_s.to_string()]),
+            ("--expects-answers", vec![(args.expects_answers | has_answers).to_string()]),
+        ]);
+        Err(why).context("the router cannot start anew")
     })
 }

@@ -22,17 +22,6 @@ pub fn keep_freed() {
     }
 }
 
-/// Returns freed memory to the system, wherever it lies.
-///
-/// What a closed session leaves free gets gaps, because the next one takes pieces of it.
-pub fn return_freed() {
-    #[cfg(all(target_os = "linux", target_env = "gnu"))]
-    // SAFETY: malloc_trim takes a number of bytes to keep, and has no preconditions.
-    unsafe {
-        libc::malloc_trim(0)
-    };
-}
-
 #[cfg(all(target_os = "linux", target_env = "gnu"))]
 fn set(parameter: i32, value: i32) {
     // SAFETY: mallopt takes two numbers and has no preconditions; a refused value changes nothing.

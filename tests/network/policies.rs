@@ -223,7 +223,7 @@ fn access_rules_let_a_router_answer_for_the_learner() {
 }
 
 #[tokio::test(flavor = "multi_thread")]
-async fn a_router_to_which_a_learners_answers_do_not_come_opens_its_session_anew() {
+async fn a_router_to_which_a_learners_answers_do_not_come_starts_anew() {
     let (folder, _) = folders();
     let listen = vec!["tcp/127.0.0.1:0".to_string()];
     let (learner, connect) = Bus::open_router(&BusOptions { listen, ..BusOptions::default() }).unwrap();
@@ -239,7 +239,7 @@ async fn a_router_to_which_a_learners_answers_do_not_come_opens_its_session_anew
         let client = client.clone();
         async move { join_run(&client).await }
     });
-    let line = tokio::task::spawn_blocking(move || (router.wait_for("opening the session anew"), router));
+    let line = tokio::task::spawn_blocking(move || (router.wait_for("starting anew"), router));
     let (line, _router) = line.await.unwrap();
     assert!(line.contains("run=\"run\""), "{line}");
     let _server = PolicyServer::open(&learner, published(1)).unwrap();
