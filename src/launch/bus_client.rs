@@ -136,7 +136,7 @@ async fn dial(
                     () = shutdown.wait() => return Ok(None),
                     silence = silence => {
                         let cause = silence?.in_one_line();
-                        tracing::warn!(endpoints = where_to, %cause, "no answer; retrying");
+                        tracing::warn!(endpoints = %where_to, %cause, "no answer; retrying");
                     }
                 }
             }
