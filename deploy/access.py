@@ -147,15 +147,15 @@ for opened in [actor, observer, evaluator]:
     assert answers(opened, f"treadmill/{run}/policy/latest"), "no policy"
 print("reads the policy: actor, observer, evaluator")
 
-# Only operators may send commands; observers may read the status. In proto/schema/control.proto, field 1 is the command.
+# Only operators may send commands; observers and actors may read the status. In proto/schema/control.proto, field 1 is the command.
 STATUS, CHECKPOINT = b"\x08\x01", b"\x08\x04"
 assert answers(session("operator"), f"treadmill/{run}/control", CHECKPOINT), "an operator gets a receipt"
 for opened in [actor, observer, evaluator]:
     assert not answers(opened, f"treadmill/{run}/control", CHECKPOINT)
 print("sends commands: operator; not: actor, observer, evaluator")
-assert answers(observer, f"treadmill/{run}/status", STATUS), "an observer gets the status"
-for opened in [actor, evaluator]:
-    assert not answers(opened, f"treadmill/{run}/status", STATUS)
-print("reads the status: observer; not: actor, evaluator")
+for opened in [observer, actor]:
+    assert answers(opened, f"treadmill/{run}/status", STATUS), "no status"
+assert not answers(evaluator, f"treadmill/{run}/status", STATUS)
+print("reads the status: observer, actor; not: evaluator")
 sys.stdout.flush()
 os._exit(0)
