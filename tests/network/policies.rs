@@ -17,7 +17,8 @@ const CLIENTS: usize = 8;
 /// Larger than a piece, so that several are needed.
 const WEIGHTS: usize = 200_000;
 
-fn bundle(number: u64) -> [PolicyBundle; 2] {
+/// Returns a bundle of one observation and one action: whole, and for actors. Its weights are no network.
+pub fn bundle(number: u64) -> [PolicyBundle; 2] {
     [2 * WEIGHTS, WEIGHTS].map(|length| {
         let weights = Bytes::from(vec![number as u8; length]);
         PolicyBundle {

@@ -12,7 +12,7 @@ use treadmill_policy::{NetworkShape, actor_to_safetensors};
 use treadmill_proto::{Outcome, PolicyBundle, PolicyVersion, Receipt, RunStatus};
 use treadmill_runtime::seeds;
 
-use crate::support::*;
+use crate::{policies, support::*};
 
 /// Waits until a learner on this host answers.
 async fn await_answer(bus: &Bus, host: &str) {
@@ -87,22 +87,12 @@ async fn a_fragment_is_settled_by_the_successor_of_a_learner_that_is_silent_or_r
     [actor, overtaken, successor].iter().for_each(Bus::close);
 }
 
-/// Policy of the smallest network.
+/// Policy of the smallest network, which an actor can load.
 fn bundle() -> PolicyBundle {
     let shape = NetworkShape { observation: 1, action: 1, hidden: vec![1], privileged: 0 };
     let weights: Bytes = actor_to_safetensors(&shape, &vec![0.0; shape.parameter_count()]).into();
-    PolicyBundle {
-        run: "run".into(),
-        version: PolicyVersion { epoch: 1, ..PolicyVersion::default() },
-        observation_size: 1,
-        action_size: 1,
-        hidden: vec![1],
-        checksum: seeds::checksum(&[&weights]),
-        weights,
-        observation_mean: vec![0.0],
-        observation_inverse_std: vec![1.0],
-        ..PolicyBundle::default()
-    }
+    let [_, for_actors] = policies::bundle(1);
+    PolicyBundle { checksum: seeds::checksum(&[&weights]), weights, ..for_actors }
 }
 
 #[tokio::test(flavor = "multi_thread")]
