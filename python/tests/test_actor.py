@@ -160,6 +160,12 @@ class TaskTest(unittest.TestCase):
         task = describe(env, "test/Count-v0")
         np.testing.assert_allclose(task.to_env(np.float32([[0.5, 9]])), [[0.5, 1]])
 
+    def test_entries_with_one_end_stay_inside_it(self):
+        env = Count()
+        env.action_space = gymnasium.spaces.Box(np.float32([3, -np.inf]), np.float32([np.inf, 5]))
+        task = describe(env, "test/Count-v0")
+        np.testing.assert_allclose(task.to_env(np.float32([[-1, -1], [9, 9]])), [[3, 3], [5, 5]])
+
 
 class RolloutTest(unittest.TestCase):
     def collect(self, steps, **ends):

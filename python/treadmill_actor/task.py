@@ -52,9 +52,12 @@ def describe(env, name):
     if not _NAME.match(name):
         raise TaskError(f"`{name}` is not a task name; allowed: 1 to 128 of the characters a-z, A-Z, 0-9, _ - . : and /")
     low, high = (np.asarray(end, np.float64).ravel() for end in (env.action_space.low, env.action_space.high))
-    # An unbounded entry uses -1 and 1.
-    bounded = np.isfinite(low) & np.isfinite(high)
-    low, high = np.where(bounded, low, -1.0), np.where(bounded, high, 1.0)
+    # Where an end is missing the range is 2 wide, so that it holds no action outside the Box: -1 to 1 without any end.
+    low_given, high_given = np.isfinite(low), np.isfinite(high)
+    low, high = (
+        np.where(low_given, low, np.where(high_given, high - 2.0, -1.0)),
+        np.where(high_given, high, np.where(low_given, low + 2.0, 1.0)),
+    )
     dt = getattr(env.unwrapped, "dt", 0.0)
     return Task(
         name=name,

@@ -28,6 +28,8 @@ pub(crate) struct Fleet {
 
 pub(crate) fn fleet(tls: bool, settings: &[&str]) -> Fleet {
     bus_on_one_thread();
+    // Clients of all tests together have more connections than most systems allow a program at first.
+    rlimit::increase_nofile_limit(4096).expect("a limit on open files");
     let (folder, run) = folders();
     let mut command = endless(folder.path(), &run, "learner");
     for setting in settings {
