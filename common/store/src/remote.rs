@@ -25,6 +25,15 @@ const SPEED_MIN_BPS: u64 = 1 << 20;
 /// Longest error that is shown, in characters: a store may answer with a whole page.
 const WORDS_MAX: usize = 600;
 
+/// Codes of S3, Google and Azure for a bucket that does not exist.
+const NO_BUCKET_CODES: [&str; 2] = ["NoSuchBucket", "ContainerNotFound"];
+const NO_BUCKET: &str = "its bucket does not exist; create it, or correct the URL or the endpoint";
+
+/// Address at which a cloud gives its machines credentials. Without credentials in the environment they are asked for there.
+const MACHINE_CREDENTIALS: &str = "169.254.169.254";
+const NO_CREDENTIALS: &str = "neither the environment nor this machine has credentials; set the store's variables, as \
+                              docs/operations/failover.md lists them: ";
+
 /// Objects below a path of a bucket.
 #[derive(Debug)]
 pub(crate) struct Remote {
@@ -55,7 +64,7 @@ impl Remote {
 
     pub(crate) fn put(&self, name: &str, bytes: &[u8]) -> Result<(), StoreError> {
         let written = self.wait(bytes.len() as u64, self.objects.put(&self.path(name), payload(bytes)));
-        written.map(|_| ()).map_err(|why| failed(name, &why))
+        written.map(|_| ()).map_err(|why| not_written(name, &why))
     }
 
     pub(crate) fn get(&self, name: &str) -> Result<(Vec<u8>, Tag), StoreError> {
@@ -71,7 +80,7 @@ impl Remote {
         });
         let options = PutOptions { mode, ..PutOptions::default() };
         let written = self.wait(bytes.len() as u64, self.objects.put_opts(&self.path(name), payload(bytes), options));
-        let written = written.map_err(|why| failed(name, &why))?;
+        let written = written.map_err(|why| not_written(name, &why))?;
         self.tag(name, written.e_tag, written.version)
     }
 
@@ -140,9 +149,23 @@ fn payload(bytes: &[u8]) -> PutPayload {
     Bytes::copy_from_slice(bytes).into()
 }
 
+/// A write does not need the object, so what it does not find is the bucket.
+fn not_written(name: &str, why: &object_store::Error) -> StoreError {
+    match why {
+        object_store::Error::NotFound { .. } => StoreError::failed(name, NO_BUCKET),
+        _ => failed(name, why),
+    }
+}
+
 fn failed(name: &str, why: &object_store::Error) -> StoreError {
     match why {
-        object_store::Error::NotFound { .. } => StoreError::missing(name),
+        object_store::Error::NotFound { source, .. } => {
+            let answer = in_words(source.as_ref());
+            match NO_BUCKET_CODES.iter().any(|code| answer.contains(code)) {
+                true => StoreError::failed(name, NO_BUCKET),
+                false => StoreError::missing(name),
+            }
+        }
         object_store::Error::AlreadyExists { .. } | object_store::Error::Precondition { .. } => {
             StoreError::conflict(name)
         }
@@ -160,6 +183,9 @@ fn in_words(why: &dyn Error) -> String {
             text = format!("{text}: {cause_text}");
         }
         source = cause.source();
+    }
+    if text.contains(MACHINE_CREDENTIALS) {
+        text.insert_str(0, NO_CREDENTIALS);
     }
     without_secrets(&text).chars().take(WORDS_MAX).collect()
 }
@@ -180,7 +206,10 @@ fn without_secrets(text: &str) -> String {
 
 #[cfg(test)]
 mod tests {
-    use std::net::{SocketAddr, TcpListener};
+    use std::{
+        io::{Read, Write},
+        net::{SocketAddr, TcpListener},
+    };
 
     use super::*;
 
@@ -209,6 +238,33 @@ mod tests {
             answer_timeout: Duration::from_millis(500),
             runtime: Some(runtime),
         }
+    }
+
+    #[test]
+    fn a_bucket_that_does_not_exist_is_an_error_and_not_a_missing_object() {
+        let listener = TcpListener::bind("127.0.0.1:0").unwrap();
+        let remote = remote(listener.local_addr().unwrap());
+        std::thread::spawn(move || {
+            for code in ["NoSuchKey", "NoSuchBucket", ""] {
+                let mut client = listener.accept().unwrap().0;
+                let mut request = [0; 4096];
+                assert_ne!(client.read(&mut request).unwrap(), 0);
+                let body = format!("<Error><Code>{code}</Code></Error>");
+                let head = format!("HTTP/1.1 404 Not Found\r\nConnection: close\r\nContent-Length: {}", body.len());
+                client.write_all(format!("{head}\r\n\r\n{body}").as_bytes()).unwrap();
+            }
+        });
+        assert!(matches!(remote.get("manifest.json"), Err(StoreError::Missing { .. })));
+        for why in [remote.get("manifest.json").unwrap_err(), remote.put("states/1", b"state").unwrap_err()] {
+            assert!(why.to_string().contains("bucket does not exist"), "{why}");
+        }
+    }
+
+    #[test]
+    fn missing_credentials_are_named() {
+        let asked = "Error performing PUT http://169.254.169.254/latest/api/token: connect timed out";
+        assert!(in_words(&std::io::Error::other(asked)).starts_with("neither the environment nor this machine"));
+        assert!(!in_words(&std::io::Error::other("refused")).contains("credentials"));
     }
 
     #[test]
