@@ -2,9 +2,13 @@
 
 import itertools
 import json
+import os
 import queue
+import socket
+import subprocess
 import sys
 import tempfile
+import threading
 import types
 import unittest
 from pathlib import Path
@@ -38,7 +42,7 @@ class ForwardTest(unittest.TestCase):
         waiting, sinks = queue.Queue(), {}
         for event in events:
             waiting.put(event)
-        forward.forward(waiting, lambda name: sinks.setdefault(name, RecordingRun()), lambda: "film.gif", gone_s=0.0)
+        forward.forward(waiting, lambda name: sinks.setdefault(name, RecordingRun()), lambda: "film.gif", threading.Event(), gone_s=0.0)
         return sinks
 
     def test_runs_are_logged_apart_and_end_with_a_video(self):
@@ -69,8 +73,19 @@ class ForwardTest(unittest.TestCase):
             mock.patch.object(forward, "take_batch", lambda *_: batches.pop(0)),
             mock.patch.object(forward.time, "monotonic", lambda: next(clock)),
         ):
-            forward.forward(None, open_run, lambda: None, gone_s=6.0)
+            forward.forward(None, open_run, lambda: None, threading.Event(), gone_s=6.0)
         self.assertEqual([run.logged for run in opened], [[("x", 1, 1.0), ("x", 2, 1.0)]])
+
+    def test_a_signal_ends_it_while_no_learner_answers(self):
+        with tempfile.TemporaryDirectory() as folder, socket.create_server(("127.0.0.1", 0)) as listener:
+            Path(folder, "mlflow.py").touch()
+            paths = os.pathsep.join([folder, str(Path(forward.__file__).parents[1])])
+            command = [sys.executable, "-m", "treadmill_actor.forward", "mlflow", "--connect"]
+            command.append(f"tcp/127.0.0.1:{listener.getsockname()[1]}")
+            with subprocess.Popen(command, env=os.environ | {"PYTHONPATH": paths}) as process:
+                listener.accept()
+                process.terminate()
+                self.assertEqual(process.wait(timeout=60), 0)
 
     def test_wandb_gets_metrics_of_one_step_together(self):
         wandb = mock.MagicMock()

@@ -3,7 +3,9 @@
 import ipaddress
 import json
 import os
+import queue
 import sys
+import threading
 import time
 from pathlib import Path
 
@@ -100,6 +102,31 @@ def decoded(kind, data):
         return None if data is None else kind.FromString(data)
     except DecodeError:
         return None
+
+
+def dialled(open_session, stopping):
+    """Returns what `open_session` returns, or None after a request to stop. Raises BusError if it raises.
+
+    Zenoh blocks until a learner or router answers, and signals do not end that; so it dials on a thread of its own.
+    """
+    opened = queue.Queue()
+
+    def dial():
+        try:
+            opened.put((open_session(), None))
+        except Exception as why:  # noqa: BLE001: raised again in the calling thread
+            opened.put((None, why))
+
+    threading.Thread(target=dial, daemon=True).start()
+    while not stopping.is_set():
+        try:
+            session, why = opened.get(timeout=0.1)
+        except queue.Empty:
+            continue
+        if why is not None:
+            raise BusError(str(why)) from why
+        return session
+    return None
 
 
 def observe(connect, tls, run, events):

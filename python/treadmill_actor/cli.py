@@ -4,7 +4,6 @@ import argparse
 import importlib
 import json
 import logging
-import queue
 import re
 import signal
 import socket
@@ -13,7 +12,7 @@ import threading
 
 import gymnasium
 
-from .bus import Bus, BusError, check_endpoint
+from .bus import Bus, BusError, check_endpoint, dialled
 from .policies import JoinRefused
 from .rollout import Environments
 from .task import TaskError
@@ -51,28 +50,6 @@ def parser():
     return flags
 
 
-def open_bus(connect, tls, stopping):
-    """Opens a session; retries until a learner or router answers. Returns None after a request to stop."""
-    opened = queue.Queue()
-
-    def dial():
-        try:
-            opened.put(Bus(connect, tls))
-        except Exception as why:  # noqa: BLE001: raised again in the calling thread
-            opened.put(why)
-
-    threading.Thread(target=dial, daemon=True).start()
-    while not stopping.is_set():
-        try:
-            answer = opened.get(timeout=0.1)
-        except queue.Empty:
-            continue
-        if isinstance(answer, Bus):
-            return answer
-        raise BusError(str(answer)) from answer
-    return None
-
-
 def main(arguments=None):
     """Runs the actor until a signal or --steps ends it. Returns the exit code."""
     args = parser().parse_args(arguments)
@@ -106,7 +83,7 @@ def main(arguments=None):
             task.action_size,
             "distance from x_position" if task.has_position else "no x_position in info, so distance is 0",
         )
-        bus = open_bus(connect, args.tls, stopping)
+        bus = dialled(lambda: Bus(connect, args.tls), stopping)
         if bus is None:
             return 0
         worker = Worker(bus, args.run, name, environments, seed, stopping)

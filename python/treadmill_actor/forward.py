@@ -11,9 +11,11 @@ import argparse
 import importlib
 import queue
 import shutil
+import signal
 import subprocess
 import sys
 import tempfile
+import threading
 import time
 from pathlib import Path
 
@@ -97,14 +99,14 @@ def take_batch(events, timeout_s):
     return batch
 
 
-def forward(events, open_run, make_video, gone_s=GONE_S):
-    """Logs metrics until every run that began has ended.
+def forward(events, open_run, make_video, stopping, gone_s=GONE_S):
+    """Logs metrics until every run that began has ended, or until a request to stop.
 
     `events` holds ("metric", metric), ("begun", run) and ("gone", run). `open_run(name)` returns a sink.
     """
     sinks, gone_since = {}, {}
     try:
-        while True:
+        while not stopping.is_set():
             batch = take_batch(events, 0.2)
             for kind, value in batch:
                 if kind == "gone":
@@ -123,8 +125,6 @@ def forward(events, open_run, make_video, gone_s=GONE_S):
                     sinks.pop(name).finish(make_video())
                     if not sinks:
                         return
-    except KeyboardInterrupt:
-        pass
     finally:
         for sink in sinks.values():
             sink.finish(make_video())
@@ -155,13 +155,15 @@ def main():
     flags.add_argument("--tracking-uri", help="of MLflow, for example sqlite:///mlflow.db, or a server's address")
     flags.add_argument("--treadmill", default="treadmill", help="program that films the policy")
     args = flags.parse_args()
-    events = queue.Queue()
+    events, stopping = queue.Queue(), threading.Event()
+    for number in (signal.SIGINT, signal.SIGTERM):
+        signal.signal(number, lambda *_: stopping.set())
     try:
         importlib.import_module(args.to)
         folder, run, connect = address(args.run, args.connect)
         for endpoint in connect:
             bus.check_endpoint(endpoint, args.insecure)
-        session = bus.observe(connect, args.tls, run, events)
+        session = bus.dialled(lambda: bus.observe(connect, args.tls, run, events), stopping)
     except ImportError:
         print(f"error: {args.to} is not installed: pip install {args.to}", file=sys.stderr)
         return 2
@@ -173,8 +175,10 @@ def main():
         print(f"forwarding run `{name}` to {args.to}", flush=True)
         return MlflowRun(name, args.project, args.tracking_uri) if args.to == "mlflow" else WandbRun(name, args.project)
 
+    if session is None:
+        return 0
     with session, tempfile.TemporaryDirectory() as target:
-        forward(events, open_run, lambda: folder and film(folder, target, args.treadmill))
+        forward(events, open_run, lambda: folder and film(folder, target, args.treadmill), stopping)
     return 0
 
 
