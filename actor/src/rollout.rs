@@ -7,7 +7,7 @@ use std::io;
 use rand_distr::{Distribution, StandardNormal};
 use rayon::{ThreadPool, ThreadPoolBuilder, prelude::*};
 use treadmill_humanoid::PHYSICS_VERSION;
-use treadmill_proto::{ActorState, Fragment, Precision, RewardTerm, WIRE_VERSION};
+use treadmill_proto::{ActorState, Fragment, Precision, RewardTerm, WIRE_VERSION, limits::fragment_steps_max};
 use treadmill_runtime::{machine, seeds::Stream};
 
 use self::share::Share;
@@ -101,9 +101,10 @@ impl Collector {
         self.precision
     }
 
-    /// Collects the next fragment, of `steps` control steps. Fragments up to `settled_through` will not be sent again.
+    /// Collects the next fragment, of `steps` control steps, or as many as a message holds. Fragments up to `settled_through` will not be sent again.
     pub fn collect(&mut self, policy: &ActingPolicy, steps: u32, settled_through: u64) -> Result<Fragment, ActorError> {
         let Self { envs, observation_size, action_size, .. } = *self;
+        let steps = steps.min(fragment_steps_max(envs, observation_size, action_size));
         let rows = steps as usize * envs;
         self.sequence += 1;
         self.env_steps += rows as u64;

@@ -10,7 +10,8 @@ use std::{
 
 use tokio::task::JoinSet;
 use treadmill_bus::{
-    Bus, PosePublisher, is_actor_present, keys, publish_dropping, statuses, token, watch_announcements,
+    Bus, PosePublisher, is_actor_present, keys, newest_of_each_run, publish_dropping, statuses, token,
+    watch_announcements,
 };
 use treadmill_config::Config;
 use treadmill_proto::{ActorState, ActorStats, PolicyBundle, PolicyVersion, RunStatus, json::EpisodeReport};
@@ -119,8 +120,7 @@ async fn wait_for_name(bus: &Bus, options: &WorkerOptions, run: &str, shutdown: 
 /// minutes, so the token alone proves nothing. `None` if no learner answers.
 async fn is_heard(bus: &Bus, run: &str, name: &str) -> Result<Option<bool>, ActorError> {
     let replies = statuses(bus, Some(run), TOKEN_TIMEOUT).await?;
-    let newest =
-        replies.into_iter().filter_map(|reply| reply.status).max_by_key(|status| status.version.map(|it| it.epoch));
+    let newest = newest_of_each_run(replies).pop();
     let heard_s = |status: RunStatus| status.actors.into_iter().find(|actor| actor.name == name)?.since_contact_s;
     Ok(newest.map(|status| heard_s(status).is_some_and(|seconds| seconds < NAME_TIMEOUT.as_secs_f64())))
 }

@@ -2,13 +2,23 @@
 
 /// Largest encoded fragment, below the bus's limit of 32 MiB per message.
 pub const FRAGMENT_BYTES_MAX: usize = 30 << 20;
+/// Bytes of a fragment's observations, actions, log-probabilities, rewards, flags and last observations. The rest is for the header
+/// and for finished episodes.
+const PLANES_BYTES_MAX: usize = FRAGMENT_BYTES_MAX - FRAGMENT_BYTES_MAX / 64;
 /// Returns the most environments of a fragment of `steps` steps with observations and actions of these widths.
 #[must_use]
 pub fn fragment_envs_max(steps: u32, observation: usize, action: usize) -> usize {
-    // Observation, action, log-probability, reward and flags of each step, and one last observation.
-    let env_bytes = steps as usize * (4 * (observation + action + 2) + 1) + 4 * observation;
-    // The rest is for the header and for finished episodes.
-    (FRAGMENT_BYTES_MAX - FRAGMENT_BYTES_MAX / 64) / env_bytes
+    PLANES_BYTES_MAX / (steps as usize * step_bytes(observation, action) + 4 * observation)
+}
+/// Returns the most steps of a fragment of `envs` environments, at least one.
+#[must_use]
+pub fn fragment_steps_max(envs: usize, observation: usize, action: usize) -> u32 {
+    let of_env = (PLANES_BYTES_MAX / envs.max(1)).saturating_sub(4 * observation);
+    (of_env / step_bytes(observation, action)).clamp(1, STEPS_MAX as usize) as u32
+}
+/// Observation, action, log-probability, reward and flags.
+fn step_bytes(observation: usize, action: usize) -> usize {
+    4 * (observation + action + 2) + 1
 }
 /// Largest encoded policy bundle.
 pub const BUNDLE_BYTES_MAX: usize = 30 << 20;
@@ -47,3 +57,16 @@ pub const TASK_BYTES_MAX: usize = SMALL_BYTES_MAX + 2 * 8 * WIDTH_MAX as usize;
 pub const TASK_NAME_CHARS_MAX: usize = 128;
 /// Longest run or actor name.
 pub const IDENT_CHARS_MAX: usize = 64;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn most_steps_and_most_environments_agree() {
+        // (30 MiB - 1/64) / 1000 = 30 965 bytes: one observation of 180 and 119 steps of 257.
+        assert_eq!(fragment_steps_max(1000, 45, 17), 119);
+        assert!(fragment_envs_max(119, 45, 17) >= 1000 && fragment_envs_max(120, 45, 17) < 1000);
+        assert_eq!((fragment_steps_max(1, 1, 1), fragment_steps_max(usize::MAX, 45, 17)), (STEPS_MAX, 1));
+    }
+}

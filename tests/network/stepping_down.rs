@@ -7,9 +7,11 @@ use treadmill_actor::{
     delivery::{PendingFragment, Uploader},
     policy_fetcher::PolicyFetcher,
 };
-use treadmill_bus::{Bus, RolloutCopies, RolloutIntake, admission::Admission, statuses, submit};
+use treadmill_bus::{
+    Bus, RolloutCopies, RolloutIntake, admission::Admission, command, newest_of_each_run, statuses, submit,
+};
 use treadmill_policy::{NetworkShape, actor_to_safetensors};
-use treadmill_proto::{Outcome, PolicyBundle, PolicyVersion, Receipt, RunStatus};
+use treadmill_proto::{Command, ControlRequest, Outcome, PolicyBundle, PolicyVersion, Receipt, RunStatus, wire};
 use treadmill_runtime::seeds;
 
 use crate::{policies, support::*};
@@ -40,6 +42,35 @@ async fn routers_that_join_after_a_learner_stepped_down_find_its_successor() {
     await_answer(&late, "successor").await;
     drop(leading);
     [late, successor].iter().for_each(Bus::close);
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn a_learner_that_was_overtaken_hides_no_answer_of_its_successor() {
+    let of_epoch = |epoch| {
+        let version = Some(wire::PolicyVersion { epoch, ..wire::PolicyVersion::default() });
+        RunStatus { run: "run".to_string(), version, ..RunStatus::default() }
+    };
+    let (router, endpoints) = open_router(&[]);
+    let (beside, _) = open_router(&endpoints);
+    let servers = [(&router, 7), (&beside, 8)].map(|(bus, epoch)| StatusServer::start(bus, of_epoch(epoch)));
+    let (client, _) = open_router(&endpoints);
+    let epoch = |status: &RunStatus| status.version.unwrap().epoch;
+    let mut epochs = Vec::new();
+    for _ in 0..20 {
+        let replies = statuses(&client, Some("run"), TIMEOUT).await.unwrap();
+        assert!(newest_of_each_run(replies.clone()).len() <= 1);
+        epochs = replies.iter().filter_map(|reply| reply.status.as_ref()).map(epoch).collect();
+        if epochs.len() > 1 {
+            break;
+        }
+        tokio::time::sleep(Duration::from_millis(100)).await;
+    }
+    epochs.sort_unstable();
+    assert_eq!(epochs, [7, 8]);
+    let reply = command(&client, "run", &ControlRequest::plain(Command::Pause), TIMEOUT).await.unwrap().unwrap();
+    assert_eq!(epoch(&reply.status.unwrap()), 8);
+    drop(servers);
+    [client, beside, router].iter().for_each(Bus::close);
 }
 
 /// Learner that takes fragments.

@@ -19,7 +19,7 @@ pub mod workarounds;
 pub use admission::tls_rejections::log_tls_rejections;
 pub use error::BusError;
 pub use flows::{
-    control::{ControlServer, PendingRequest, command, statuses},
+    control::{ControlServer, PendingRequest, command, newest_of_each_run, statuses},
     copies::RolloutCopies,
     evaluation::{Assignment, EvaluationServer, ask_for_evaluation},
     observer::{Feed, Message, MetricsFeed, observe},

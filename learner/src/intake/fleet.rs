@@ -117,13 +117,16 @@ impl FleetPlan {
         let Some(known) = self.actors.get_mut(actor) else {
             self.effort.env_steps = self.effort.env_steps.saturating_add(effort.transitions);
             if self.actors.len() < ACTORS_MAX {
-                self.actors.insert(actor.to_string(), Actor::new(effort, self.nominal));
+                let steps = self.rule.first(self.nominal, effort.envs);
+                self.actors.insert(actor.to_string(), Actor::new(effort, steps));
             }
             return;
         };
         self.effort.env_steps = self.effort.env_steps.saturating_add(known.simulated(effort));
         if known.incarnation != effort.incarnation {
-            *known = Actor { speed: known.speed, steps: known.steps, ..Actor::new(effort, known.steps) };
+            // A restarted process may have other environments.
+            let steps = self.rule.fitting(known.steps, effort.envs);
+            *known = Actor { speed: known.speed, ..Actor::new(effort, steps) };
             return;
         }
         known.counted = known.counted.max(effort.counted);
@@ -220,6 +223,18 @@ mod tests {
         assert_eq!(fleet.plan(&names), ["a7"]);
         assert_eq!(fleet.steps("a7"), 70, "half the speed, by the mean of 1.07 s and 3 s: 8192 / 8 / 7.5 / 2");
         assert!(fleet.steps("a0") > 128, "the others fill the batch");
+    }
+
+    #[test]
+    fn a_large_actor_gets_short_fragments_before_the_first_plan() {
+        let large = |incarnation| Effort { envs: 1000, transitions: 8000, ..effort(incarnation, 8000, 1.0) };
+        let mut fleet = fleet();
+        fleet.record("large", &large(1));
+        fleet.record("grows", &effort(1, 80, 1.0));
+        assert_eq!((fleet.steps("large"), fleet.steps("grows")), (8, 128));
+        fleet.record("grows", &large(2));
+        // 30 MiB by 437 bytes and 1000 environments.
+        assert_eq!(fleet.steps("grows"), 71);
     }
 
     #[test]

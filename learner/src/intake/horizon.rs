@@ -76,6 +76,21 @@ impl HorizonRule {
         steps.min(STEPS_MAX as usize) as u32
     }
 
+    /// Returns the horizon of an actor with `envs` environments that no plan has had yet, where others have `steps`: its fragment
+    /// is at most a batch, and fits into a message.
+    pub fn first(&self, steps: u32, envs: usize) -> u32 {
+        match self.pinned {
+            0 => self.fitting(steps.min((self.batch / envs.max(1)) as u32), envs),
+            _ => steps,
+        }
+    }
+
+    /// Returns at most as many of these steps as fit into a message, though not fewer than the shortest horizon.
+    pub fn fitting(&self, steps: u32, envs: usize) -> u32 {
+        let longest = self.fragment_rows_max / envs.max(1);
+        (steps as usize).min(longest).max(STEPS_MIN) as u32
+    }
+
     /// Returns every member's horizon. Together they deliver at least [`Self::round_rows`].
     pub fn horizons<'a>(&self, fleet: &BTreeMap<&'a str, Member>) -> BTreeMap<&'a str, u32> {
         let envs: usize = fleet.values().map(|member| member.envs).sum();

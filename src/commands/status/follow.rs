@@ -6,7 +6,7 @@ use std::{
     time::{Duration, Instant},
 };
 
-use treadmill_bus::{Bus, BusOptions, MetricsFeed, statuses};
+use treadmill_bus::{Bus, BusOptions, MetricsFeed, newest_of_each_run, statuses};
 use treadmill_proto::{RunStatus, json::Metric};
 use treadmill_runtime::error_chain;
 
@@ -73,8 +73,7 @@ impl Follower {
     async fn poll_statuses(&mut self) -> Result<(), Closed> {
         match statuses(&self.bus, self.reach.run.as_deref(), learner_address::ANSWER_TIMEOUT).await {
             Ok(replies) if !replies.is_empty() => {
-                let answers = replies.into_iter().filter_map(|reply| reply.status).collect();
-                self.send(News::Answers(answers))?;
+                self.send(News::Answers(newest_of_each_run(replies)))?;
                 self.load_past().await
             }
             Ok(_) => {

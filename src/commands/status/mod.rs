@@ -27,8 +27,8 @@ mod waiting;
 use std::time::Duration;
 
 use clap::Args;
-use treadmill_bus::{Role, statuses};
-use treadmill_proto::RunStatus;
+use treadmill_bus::{Role, newest_of_each_run, statuses};
+use treadmill_proto::{ControlReply, RunStatus};
 
 use self::waiting::Waiting;
 use crate::{
@@ -128,11 +128,12 @@ fn follow_lines(reach: &ReachArgs, json: bool) -> anyhow::Result<()> {
 async fn ask(link: &LearnerLink) -> anyhow::Result<Vec<RunStatus>> {
     let ask = async || statuses(&link.bus, link.run.as_deref(), learner_address::ANSWER_TIMEOUT).await;
     let replies = learner_address::retry_until_answered(ask).await?;
-    let is_wanted = |status: &RunStatus| learner_address::is_of(link.holder.as_ref(), status);
-    let mut runs: Vec<RunStatus> = replies.into_iter().filter_map(|reply| reply.status).filter(is_wanted).collect();
+    let is_wanted = |reply: &ControlReply| {
+        reply.status.as_ref().is_some_and(|status| learner_address::is_of(link.holder.as_ref(), status))
+    };
+    let runs = newest_of_each_run(replies.into_iter().filter(is_wanted));
     if runs.is_empty() {
         return Err(link.silence().await);
     }
-    runs.sort_by(|a, b| a.run.cmp(&b.run));
     Ok(runs)
 }

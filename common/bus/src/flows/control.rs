@@ -1,16 +1,17 @@
 //! Control requests: a learner answers status requests and takes commands.
 
 use std::{
+    collections::BTreeMap,
     sync::mpsc::{Receiver, sync_channel},
     time::Duration,
 };
 
-use treadmill_proto::{Command, ControlReply, ControlRequest};
+use treadmill_proto::{Command, ControlReply, ControlRequest, RunStatus};
 use zenoh::{
     Wait,
     bytes::ZBytes,
     qos::{CongestionControl, Priority},
-    query::Query,
+    query::{ConsolidationMode, Query},
 };
 
 use crate::{
@@ -79,19 +80,37 @@ impl ControlServer {
     }
 }
 
-/// Returns the status of `run`, or of every run that answers.
+/// Returns the status of every learner of `run`, or of all runs, that answers. Beside its successor, one that was overtaken may
+/// answer.
 pub async fn statuses(bus: &Bus, run: Option<&str>, timeout: Duration) -> Result<Vec<ControlReply>, BusError> {
     ask(bus, keys::status(run.unwrap_or("*")), &ControlRequest::plain(Command::Status), timeout).await
 }
 
-/// Sends a command to the learner of `run`. `None` if no answer came.
+/// Returns one status for each run, in the order of their names: that of the newest epoch.
+pub fn newest_of_each_run(replies: impl IntoIterator<Item = ControlReply>) -> Vec<RunStatus> {
+    let mut runs = BTreeMap::<String, RunStatus>::new();
+    for status in replies.into_iter().filter_map(|reply| reply.status) {
+        let known = runs.get(&status.run);
+        if known.is_none_or(|known| epoch(known) <= epoch(&status)) {
+            runs.insert(status.run.clone(), status);
+        }
+    }
+    runs.into_values().collect()
+}
+
+fn epoch(status: &RunStatus) -> u64 {
+    status.version.map_or(0, |version| version.epoch)
+}
+
+/// Sends a command to the learners of `run`, and returns the answer of the newest epoch. `None` if no answer came.
 pub async fn command(
     bus: &Bus,
     run: &str,
     request: &ControlRequest,
     timeout: Duration,
 ) -> Result<Option<ControlReply>, BusError> {
-    Ok(ask(bus, keys::control(run), request, timeout).await?.pop())
+    let replies = ask(bus, keys::control(run), request, timeout).await?;
+    Ok(replies.into_iter().max_by_key(|reply| reply.status.as_ref().map(epoch)))
 }
 
 async fn ask(
@@ -105,6 +124,8 @@ async fn ask(
         .get(key)
         .payload(request.to_bytes())
         .timeout(timeout)
+        // By default, Zenoh keeps only one of the learners' answers.
+        .consolidation(ConsolidationMode::None)
         .priority(Priority::InteractiveHigh)
         .congestion_control(CongestionControl::Block)
         .await
