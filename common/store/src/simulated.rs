@@ -1,7 +1,8 @@
-//! Objects in memory, with faults, for tests.
+//! Objects in memory, with faults, for tests. As on S3, an object's tag depends on its bytes alone.
 
 use std::{
     collections::{BTreeMap, VecDeque},
+    hash::{DefaultHasher, Hash, Hasher},
     sync::{Arc, Mutex, MutexGuard},
 };
 
@@ -26,8 +27,7 @@ pub struct SimulatedObjects {
 
 #[derive(Debug, Default)]
 struct Shared {
-    objects: BTreeMap<String, (Vec<u8>, u64)>,
-    writes: u64,
+    objects: BTreeMap<String, Vec<u8>>,
     is_down: bool,
     faults: VecDeque<Option<Fault>>,
 }
@@ -51,26 +51,25 @@ impl SimulatedObjects {
 
     pub(crate) fn put(&self, name: &str, bytes: &[u8]) -> Result<(), StoreError> {
         self.run(name, |shared| {
-            shared.write(name, bytes);
+            shared.objects.insert(name.to_string(), bytes.to_vec());
             Ok(())
         })
     }
 
     pub(crate) fn get(&self, name: &str) -> Result<(Vec<u8>, Tag), StoreError> {
         self.run(name, |shared| {
-            let (bytes, write) = shared.objects.get(name).ok_or_else(|| StoreError::missing(name))?;
-            Ok((bytes.clone(), Tag(write.to_string())))
+            let bytes = shared.objects.get(name).ok_or_else(|| StoreError::missing(name))?;
+            Ok((bytes.clone(), tag(bytes)))
         })
     }
 
     pub(crate) fn replace(&self, name: &str, bytes: &[u8], last: Option<&Tag>) -> Result<Tag, StoreError> {
         self.run(name, |shared| {
-            let present = shared.objects.get(name).map(|(_, write)| Tag(write.to_string()));
-            if present.as_ref() != last {
+            if shared.objects.get(name).map(|present| tag(present)).as_ref() != last {
                 return Err(StoreError::conflict(name));
             }
-            shared.write(name, bytes);
-            Ok(Tag(shared.writes.to_string()))
+            shared.objects.insert(name.to_string(), bytes.to_vec());
+            Ok(tag(bytes))
         })
     }
 
@@ -112,9 +111,8 @@ impl SimulatedObjects {
     }
 }
 
-impl Shared {
-    fn write(&mut self, name: &str, bytes: &[u8]) {
-        self.writes += 1;
-        self.objects.insert(name.to_string(), (bytes.to_vec(), self.writes));
-    }
+fn tag(bytes: &[u8]) -> Tag {
+    let mut hasher = DefaultHasher::new();
+    bytes.hash(&mut hasher);
+    Tag(hasher.finish().to_string())
 }

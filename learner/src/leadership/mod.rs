@@ -96,6 +96,9 @@ pub struct Leadership {
     tag: Option<Tag>,
     /// Manifest that this learner wrote last.
     manifest: Option<Manifest>,
+    /// States that this learner has saved. It is part of their names: a store may derive tags from an object's bytes, so that a
+    /// manifest that names a new state must differ from the last one.
+    saves: u64,
     /// `None` in simulations.
     housekeeping: Option<Housekeeping>,
 }
@@ -122,6 +125,7 @@ impl Leadership {
             writer,
             tag: last.map(|(_, tag)| tag.clone()),
             manifest: None,
+            saves: 0,
             housekeeping: None,
         }
     }
@@ -151,7 +155,8 @@ impl Leadership {
     /// [`LeadershipError::Overtaken`] if another learner leads. After another error, the same call may be repeated.
     pub fn save(&mut self, run: &str, counters: &Counters, encoded: &[u8]) -> Result<(), LeadershipError> {
         self.check()?;
-        let name = format!("{STATES}/{:012}-{:016x}-{:010}.bundle", self.epoch, self.writer, counters.updates);
+        let Self { epoch, writer, saves, .. } = *self;
+        let name = format!("{STATES}/{epoch:012}-{writer:016x}-{:010}-{saves:010}.bundle", counters.updates);
         self.store.put(&name, encoded)?;
         let manifest = Manifest {
             format: manifest::FORMAT,
@@ -167,6 +172,7 @@ impl Leadership {
             program_version: env!("CARGO_PKG_VERSION").to_string(),
         };
         self.advance(manifest)?;
+        self.saves += 1;
         self.housekeeping.iter().for_each(Housekeeping::note_saved);
         Ok(())
     }
@@ -220,6 +226,11 @@ impl Leadership {
             // The write, or one whose answer was lost, may have taken effect all the same.
             Err(why) => match read_manifest(&self.store)? {
                 Some((found, tag)) if found == manifest => tag,
+                // An earlier write of this learner whose answer was lost.
+                Some((found, tag)) if found.writer == manifest.writer && Some(&tag) != self.tag.as_ref() => {
+                    self.tag = Some(tag);
+                    return self.advance(manifest);
+                }
                 Some((found, tag)) if Some(&tag) != self.tag.as_ref() => return Err(self.overtaken_by(&found)),
                 _ => return Err(why.into()),
             },

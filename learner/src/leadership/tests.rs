@@ -71,6 +71,11 @@ fn a_save_whose_answer_was_lost_counts_once() {
     assert_eq!(manifest(&store).updates, 2);
     leader.save("walk", &counters(3), b"three").unwrap();
     assert_eq!(manifest(&store).updates, 3);
+    // The call after that is another one.
+    objects.set_faults([None, Some(Fault::AnswerLost), Some(Fault::Lost)]);
+    assert!(matches!(leader.save("walk", &counters(4), b"four"), Err(LeadershipError::Store(_))));
+    leader.save("walk", &counters(5), b"five").unwrap();
+    assert_eq!(store.get(&manifest(&store).state).unwrap().0, b"five");
 }
 
 #[test]
