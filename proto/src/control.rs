@@ -46,9 +46,18 @@ impl ControlRequest {
 }
 
 impl ControlReply {
-    /// Encodes as protobuf.
+    /// Encodes as protobuf, without the last actors if the status would be too large.
     pub fn to_bytes(&self) -> Vec<u8> {
-        self.encode_to_vec()
+        let excess = self.encoded_len().saturating_sub(STATUS_BYTES_MAX);
+        let Some(status) = self.status.as_ref().filter(|_| excess > 0) else { return self.encode_to_vec() };
+        let mut kept = status.actors.clone();
+        let mut removed = 0;
+        while removed < excess
+            && let Some(actor) = kept.pop()
+        {
+            removed += actor.encoded_len();
+        }
+        Self { status: Some(RunStatus { actors: kept, ..status.clone() }), ..self.clone() }.encode_to_vec()
     }
 
     /// Decodes and checks untrusted protobuf bytes.
@@ -81,6 +90,16 @@ mod tests {
         assert!(ControlRequest::decode_checked(&unknown.to_bytes()).is_err());
         let long = ControlRequest::set("ppo.target_kl", &"9".repeat(CONTROL_VALUE_CHARS_MAX + 1));
         assert!(ControlRequest::decode_checked(&long.to_bytes()).unwrap_err().to_string().contains("`value`"));
+    }
+
+    #[test]
+    fn a_status_of_too_many_actors_ends_with_fewer() {
+        let actors = (0..100_000).map(|i| ActorStatus { name: format!("{i:060}"), ..ActorStatus::default() }).collect();
+        let status = RunStatus { run: "walk-1".into(), actors, ..RunStatus::default() };
+        let reply = ControlReply { status: Some(status.clone()), ..ControlReply::default() };
+        let kept = ControlReply::decode_checked(&reply.to_bytes()).unwrap().status.unwrap().actors;
+        assert!(kept.len() > 60_000, "4 MiB by 64 bytes: {}", kept.len());
+        assert_eq!(kept[..], status.actors[..kept.len()]);
     }
 
     #[test]

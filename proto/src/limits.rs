@@ -33,6 +33,8 @@ pub const MODEL_BYTES_MAX: usize = 4 << 20;
 pub const SMALL_BYTES_MAX: usize = 64 << 10;
 /// Largest statistics message of an actor.
 pub const STATS_BYTES_MAX: usize = 4 << 10;
+/// Largest text in it: the longest name of a host.
+pub const STATS_TEXT_BYTES_MAX: usize = 253;
 /// Largest pose: about a thousand bodies with their contacts.
 pub const POSE_BYTES_MAX: usize = 64 << 10;
 /// Most terms of the reward in one fragment.

@@ -2,7 +2,12 @@
 
 use prost::Message;
 
-use crate::{Malformed, check_finite, check_size, ident::check_ident, limits::STATS_BYTES_MAX, wire};
+use crate::{
+    Malformed, check_finite, check_size,
+    ident::check_ident,
+    limits::{STATS_BYTES_MAX, STATS_TEXT_BYTES_MAX},
+    wire,
+};
 
 pub use wire::ActorStats;
 
@@ -13,6 +18,12 @@ impl ActorStats {
         let stats = Self::decode(bytes).map_err(Malformed::undecodable("statistics"))?;
         check_ident("actor", &stats.actor)?;
         check_finite("env_steps_per_s", [stats.env_steps_per_s])?;
+        for (field, text) in [("host", &stats.host), ("program_version", &stats.program_version)] {
+            if text.len() > STATS_TEXT_BYTES_MAX {
+                let expected = format!("at most {STATS_TEXT_BYTES_MAX} bytes");
+                return Err(Malformed::field(field, format!("{} bytes long", text.len()), expected));
+            }
+        }
         Ok(stats)
     }
 
@@ -32,6 +43,8 @@ mod tests {
         assert_eq!(ActorStats::decode_checked(&stats.to_bytes()).unwrap(), stats);
         let bad = ActorStats { actor: "A/B".into(), ..Default::default() };
         assert!(ActorStats::decode_checked(&bad.to_bytes()).is_err());
+        let bad = ActorStats { host: "h".repeat(STATS_TEXT_BYTES_MAX + 1), ..stats.clone() };
+        assert!(ActorStats::decode_checked(&bad.to_bytes()).unwrap_err().to_string().contains("`host`"));
         let bad = ActorStats { env_steps_per_s: f64::NAN, ..stats };
         assert!(ActorStats::decode_checked(&bad.to_bytes()).is_err());
     }

@@ -126,7 +126,8 @@ impl StoredRun<'_> {
             }
             _ => self.follow_and_lead(store, host).await,
         };
-        match self.goes_on_after(&led) {
+        // Restarting would forget a request to stop.
+        match !host.shutdown.asked() && self.goes_on_after(&led) {
             true => Err(host.restart()).context("the learner cannot start anew"),
             false => led,
         }
@@ -134,7 +135,7 @@ impl StoredRun<'_> {
 
     async fn follow_and_lead(&self, store: &Store, host: &Host<'_>) -> anyhow::Result<()> {
         let Some(loaded) = self.follow(store, host).await? else { return Ok(()) };
-        let (prepared, mut lock) = match self.resume(store, &loaded)? {
+        let (prepared, mut lock) = match block_in_place(|| self.resume(store, &loaded))? {
             Start::Ready(prepared, lock) => (*prepared, lock),
             Start::Finished(folder, state) => {
                 host::print_finished(&folder, *state, host.options());
@@ -177,7 +178,14 @@ impl StoredRun<'_> {
     /// Prepares to go on from a state of the store.
     fn resume(&self, store: &Store, loaded: &LoadedState) -> anyhow::Result<Start> {
         let name = format!("{store}/{}", loaded.manifest.state);
-        let state = checkpoint::read(&name, &loaded.state)?;
+        let mut state = checkpoint::read(&name, &loaded.state)?;
+        // Its leader may have been lost between the best policy and the next state.
+        let best = checkpoint::object(None);
+        if let Ok((bytes, _)) = store.get(&best)
+            && let Ok(best) = checkpoint::read(&best, &bytes)
+        {
+            state.adopt_best(&best);
+        }
         let folder = RunFolder::of_stored(self.new.run_dir.as_deref(), &state.run, &store.to_string())?;
         let lock = RunLock::take(&folder)?;
         let mut start = resumption::go_on(self.command, (folder, lock), state, self.new, self.any, self.changes)?;

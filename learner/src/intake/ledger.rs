@@ -4,7 +4,8 @@ use std::collections::{BTreeMap, BTreeSet, btree_map::Entry};
 
 use serde::{Deserialize, Serialize};
 
-/// Actor processes that are kept; beyond this, the one that was silent longest is removed.
+/// Actor processes that are kept. Beyond this, the one that was silent longest is removed, and first those of which nothing was
+/// accepted: a sender of many such fragments must not push the others out.
 const ACTORS_MAX: usize = 4096;
 /// Sequence numbers beyond a gap that are kept for each process. A wider gap is skipped, because a sender keeps fewer
 /// fragments: the pending ones and those of a batch.
@@ -205,9 +206,12 @@ impl Ledger {
         }
     }
 
+    /// Removes a process other than the present one if there are too many.
     fn remove_oldest(&mut self) {
         if self.processes.len() > ACTORS_MAX {
-            let oldest = self.processes.iter().min_by_key(|(_, mark)| mark.last_seen).map(|(key, _)| key.clone());
+            let others = self.processes.iter().filter(|(_, mark)| mark.last_seen != self.clock);
+            let oldest = others.min_by_key(|(_, mark)| (mark.account.accepted > 0, mark.last_seen));
+            let oldest = oldest.map(|(key, _)| key.clone());
             if let Some(mark) = oldest.and_then(|key| self.processes.remove(&key)) {
                 self.forgotten.add(&mark.account);
             }
@@ -354,6 +358,25 @@ mod tests {
         assert_eq!(ledger.total().accepted, ACTORS_MAX as u64 + 50, "its account stays");
         (0..AHEAD_MAX as u64 + 50).for_each(|i| ledger.accept("b", 1, 2 + 2 * i));
         assert!(ledger.processes[&("b".to_string(), 1)].ahead.len() <= AHEAD_MAX);
+    }
+
+    #[test]
+    fn senders_of_which_nothing_is_accepted_push_no_other_out() {
+        let mut ledger = Ledger::default();
+        ledger.accept("honest", 1, 1);
+        for incarnation in 0..2 * ACTORS_MAX as u64 {
+            ledger.look_up("flood", incarnation, 1, 0);
+            ledger.insert("flood", incarnation, 1, LedgerEntry::Dropped(DropRule::TooOld), 8);
+            assert!(ledger.contains("flood", incarnation, 1));
+        }
+        assert_eq!(ledger.processes.len(), ACTORS_MAX);
+        assert!(ledger.contains("honest", 1, 1));
+        // A process of which nothing was accepted yet keeps what it settled.
+        (0..ACTORS_MAX as u64).for_each(|incarnation| ledger.accept("a", incarnation, 1));
+        ledger.look_up("late", 1, 8, 7);
+        ledger.accept("late", 1, 8);
+        ledger.mark_durable();
+        assert_eq!(ledger.durable_through("late", 1), 8);
     }
 
     proptest! {

@@ -99,9 +99,12 @@ impl StragglerPolicy {
                 self.count_missing();
             }
         }
-        let passed = now.duration_since(self.begun);
-        let share = passed / self.delivered.len() as u32;
-        self.deadline = Some(now + share.max(passed / WAIT_DIVISOR).max(WAIT_MIN));
+        // A sender that was not awaited must not hold the round open.
+        if was_missing || self.deadline.is_none() {
+            let passed = now.duration_since(self.begun);
+            let share = passed / self.delivered.len() as u32;
+            self.deadline = Some(now + share.max(passed / WAIT_DIVISOR).max(WAIT_MIN));
+        }
     }
 
     /// Whether the round is over: every awaited actor has delivered or is late.
@@ -213,6 +216,20 @@ mod tests {
             assert_eq!(policy.is_round_over(at(start + 9)), !is_awaited, "{start}");
             policy.record_delivery("slow", at(start + 9));
         }
+    }
+
+    #[test]
+    fn senders_that_are_not_awaited_do_not_prolong_a_round() {
+        let begun = Instant::now();
+        let at = |tenths: u64| begun + Duration::from_millis(100 * tenths);
+        let mut policy = StragglerPolicy::new(begun);
+        policy.set_alive(names(&["a", "ghost"]));
+        policy.record_delivery("a", at(9));
+        for tenths in 10..18 {
+            policy.record_delivery("a", at(tenths));
+            policy.record_delivery(&format!("without token {tenths}"), at(tenths));
+        }
+        assert!(!policy.is_round_over(at(18)) && policy.is_round_over(at(19)));
     }
 
     #[test]
