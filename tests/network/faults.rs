@@ -51,6 +51,21 @@ fn an_actor_is_restarted_after_the_program_was_replaced() {
 }
 
 #[test]
+fn fragments_of_a_large_actor_fit_into_messages() {
+    let (folder, run) = folders();
+    let mut learner = treadmill(folder.path());
+    learner.args(["learner", "--run-dir", run.to_str().unwrap(), "--listen", "tcp/127.0.0.1:0"]);
+    let learner = Running::start(learner);
+    let mut large = treadmill(folder.path());
+    // 128 steps, the horizon of 64 environments, would be 33 MB.
+    large.args(["actor", "--connect", &endpoint(&run), "--envs", "1000", "--name", "large"]);
+    let large = Running::start(large);
+    await_steps(&run, 30_000);
+    assert!(is_running(large.pid()));
+    drop((large, learner));
+}
+
+#[test]
 fn actors_of_a_killed_train_exit() {
     let (folder, run) = folders();
     let training = Running::start(endless(folder.path(), &run, "train"));
