@@ -115,6 +115,11 @@ fn run() -> ExitCode {
         }
     };
     log::begin("");
+    // Training goes on without its output.
+    let is_service = matches!(
+        command,
+        Command::Train(_) | Command::Learner(_) | Command::Actor(_) | Command::Evaluator(_) | Command::Router(_)
+    );
     let done = match command {
         Command::Train(args) => train::run(args),
         Command::Learner(args) => learner::run(args),
@@ -131,7 +136,10 @@ fn run() -> ExitCode {
         Command::Router(args) => router::run(args),
         Command::Certs(args) => certs::run(&args),
         Command::Bench(args) => bench::run(args),
-        Command::Check(args) => return check::run(args),
+        Command::Check(args) => {
+            let verdict = check::run(args);
+            return output::check_written().map_or_else(|why| exit_code::exit_code(Err(why)), |()| verdict);
+        }
         Command::Completions(args) => {
             manual::completions(&args, Cli::command());
             Ok(())
@@ -142,5 +150,5 @@ fn run() -> ExitCode {
             Ok(())
         }
     };
-    exit_code::exit_code(done)
+    exit_code::exit_code(done.and_then(|()| if is_service { Ok(()) } else { output::check_written() }))
 }

@@ -51,7 +51,7 @@ pub fn run(args: ActorArgs) -> anyhow::Result<()> {
         envs: args.envs,
         threads: args.threads,
         start: args.start_number.unwrap_or_else(seeds::unique),
-        behind_standby: match &args.client.connect[..] {
+        behind_standby: match &args.client.endpoints(&args.network)[..] {
             endpoints if !endpoints.iter().any(|endpoint| endpoint.starts_with("tls/")) => BehindStandby::Stay,
             [_] => BehindStandby::Warn,
             _ => BehindStandby::End,

@@ -32,8 +32,8 @@ const LOCAL_HOSTS: [&str; 3] = ["localhost", "127.0.0.1", "::1"];
 pub struct CertsArgs {
     /// Folder to write to.
     folder: PathBuf,
-    /// Name or address at which the learner or a router is dialled; may be repeated. New certificates have localhost, 127.0.0.1
-    /// and ::1 by default; existing ones keep their hosts and get the new ones.
+    /// Name or address at which the learner or a router is dialled; may be repeated. New certificates also have localhost,
+    /// 127.0.0.1 and ::1; existing ones keep their hosts and get the new ones.
     #[arg(long, value_name = "HOST")]
     host: Vec<String>,
     /// Days until the certificates of the roles expire; the authority's own lasts ten times as long.
@@ -106,17 +106,17 @@ pub fn make(args: &CertsArgs) -> anyhow::Result<Vec<&'static str>> {
     Ok(made)
 }
 
-/// Returns the hosts of a new certificate: those of the old one, then the given ones; this machine's if there are none.
+/// Returns the hosts of a new certificate: those of the old one, or this machine's, then the given ones.
 fn hosts(old: &[String], given: &[String]) -> Vec<String> {
     // An address has several spellings.
     let spelled = |host: &String| host.parse::<IpAddr>().map_or_else(|_| host.clone(), |address| address.to_string());
-    let mut hosts = old.to_vec();
+    let mut hosts = if old.is_empty() { LOCAL_HOSTS.map(String::from).to_vec() } else { old.to_vec() };
     for host in given.iter().map(spelled) {
         if !hosts.contains(&host) {
             hosts.push(host);
         }
     }
-    if hosts.is_empty() { LOCAL_HOSTS.map(String::from).to_vec() } else { hosts }
+    hosts
 }
 
 /// Writes the files that one role needs into `own`; unchanged files are not written.

@@ -31,8 +31,8 @@ pub struct LearnerArgs {
     /// Name of the run on the bus; by default the name of its folder.
     #[arg(long, value_name = "NAME")]
     run: Option<String>,
-    /// Endpoint to listen on; may be repeated.
-    #[arg(long, value_name = "ENDPOINT", default_value = "tcp/127.0.0.1:7447")]
+    /// Endpoint to listen on; may be repeated. By default port 7447 on loopback, as tls/ with --tls and else tcp/.
+    #[arg(long, value_name = "ENDPOINT")]
     listen: Vec<String>,
     /// Follow the run in --store, and lead it once its leader is gone.
     #[arg(long, requires = "store")]
@@ -50,7 +50,7 @@ pub fn run(args: LearnerArgs) -> anyhow::Result<()> {
     check_run(args.run.as_deref())?;
     std::thread::sleep(Duration::from_millis(args.begin_after_ms));
     let role = if args.standby { Role::Standby } else { Role::Learner };
-    let options = args.network.options(role, args.listen, args.connect)?;
+    let options = args.network.listening_options(role, args.listen, args.connect)?;
     certificates::check_own(options.credentials.as_ref())?;
     let metrics = args.metrics.listen()?;
     if let Some(url) = &args.any.store {

@@ -16,8 +16,8 @@ use crate::{
 /// Flags of `router`.
 #[derive(Args)]
 pub struct RouterArgs {
-    /// Endpoint to listen on; may be repeated.
-    #[arg(long, value_name = "ENDPOINT", default_value = "tcp/127.0.0.1:7447")]
+    /// Endpoint to listen on; may be repeated. By default port 7447 on loopback, as tls/ with --tls and else tcp/.
+    #[arg(long, value_name = "ENDPOINT")]
     listen: Vec<String>,
     /// Endpoint of the learner, or of a router on the way to it; may be repeated.
     #[arg(long, value_name = "ENDPOINT")]
@@ -45,7 +45,7 @@ const PAUSE_MS: u64 = 2000;
 /// Forwards messages until the process is asked to stop.
 pub fn run(args: RouterArgs) -> anyhow::Result<()> {
     std::thread::sleep(Duration::from_millis(args.begin_after_ms));
-    let options = args.network.options(Role::Router, args.listen, args.connect)?;
+    let options = args.network.listening_options(Role::Router, args.listen, args.connect)?;
     certificates::check_own(options.credentials.as_ref())?;
     memory::use_one_arena();
     if options.credentials.is_some() {

@@ -37,13 +37,14 @@ pub struct TrainArgs {
     #[arg(long)]
     envs: Option<u32>,
     /// Endpoint to listen on; by default a free port on loopback, which is written to the run's folder.
-    #[arg(long, value_name = "ENDPOINT", default_value = "tcp/127.0.0.1:0")]
-    listen: String,
+    #[arg(long, value_name = "ENDPOINT")]
+    listen: Option<String>,
 }
 
 /// Trains until the run reaches its number of steps.
 pub fn run(args: TrainArgs) -> anyhow::Result<()> {
-    let options = args.network.options(Role::Learner, vec![args.listen], Vec::new())?;
+    let listen = args.listen.unwrap_or_else(|| args.network.loopback(0));
+    let options = args.network.options(Role::Learner, vec![listen], Vec::new())?;
     certificates::check_own(options.credentials.as_ref())?;
     let metrics = args.metrics.listen()?;
     let mut changes = changes(&[("rollout.envs", args.envs), ("rollout.actors", args.actors)]);

@@ -4,17 +4,13 @@ use treadmill_config::{Config, ConfigSource, LearnerMode, RolloutConfig};
 use treadmill_humanoid::PHYSICS_VERSION;
 use treadmill_learner::checkpoint::TrainingState;
 use treadmill_proto::limits::fragment_envs_max;
-use treadmill_runtime::{
-    run_folder::{RunFolder, RunFolderError},
-    run_lock::RunLock,
-    seeds,
-};
+use treadmill_runtime::{run_folder::RunFolder, run_lock::RunLock, seeds};
 
 use crate::launch::{
     exit_code::Usage,
     model,
     run_args::{AnyRunArgs, NewRunArgs, add_count},
-    startup::{Prepared, RunCommand, Start, actor_processes, check_external, complete, open_device},
+    startup::{Prepared, RunCommand, Start, actor_processes, check_external, check_not_stored, complete, open_device},
     warm_start::{Fork, InitFrom},
 };
 
@@ -64,7 +60,7 @@ fn begin_built_in(command: RunCommand, new: &NewRunArgs, any: &AnyRunArgs, confi
     let mut state = TrainingState { physics_version: PHYSICS_VERSION, ..fresh };
     let init_from = InitFrom::read(new, any)?;
     let origin = init_from.as_ref().map(|from| from.copy_to(&mut state)).transpose()?;
-    let (folder, lock) = create_folder(new, new.preset())?;
+    let (folder, lock) = create_folder(new, any, new.preset())?;
     let run = folder.name().to_string();
     state.run.clone_from(&run);
     let prepared = Prepared { config, folder, device, mirror, run, state: Some(state), init_from, origin, store: None };
@@ -79,7 +75,7 @@ fn begin_external(new: &NewRunArgs, any: &AnyRunArgs, config: Config) -> anyhow:
         return Err(Usage(why).into());
     }
     let init_from = InitFrom::read(new, any)?;
-    let (folder, lock) = create_folder(new, new.preset())?;
+    let (folder, lock) = create_folder(new, any, new.preset())?;
     let run = folder.name().to_string();
     let mut prepared =
         Prepared { config, folder, device, mirror: None, run, state: None, init_from, origin: None, store: None };
@@ -115,7 +111,7 @@ fn branch_off(
             check_fragments(&config, size, state.shape.action)?;
         }
     }
-    let (folder, lock) = create_folder(new, &prefix)?;
+    let (folder, lock) = create_folder(new, any, &prefix)?;
     let run = folder.name().to_string();
     state.run.clone_from(&run);
     let prepared =
@@ -123,9 +119,15 @@ fn branch_off(
     Ok(Start::Ready(Box::new(prepared), lock))
 }
 
-fn create_folder(new: &NewRunArgs, prefix: &str) -> Result<(RunFolder, RunLock), RunFolderError> {
+fn create_folder(new: &NewRunArgs, any: &AnyRunArgs, prefix: &str) -> anyhow::Result<(RunFolder, RunLock)> {
+    if let (Some(root), None) = (&new.run_dir, &any.store)
+        && let Ok(folder) = RunFolder::open(&root.to_string_lossy())
+        && folder.root() == root
+    {
+        check_not_stored(&folder)?;
+    }
     let folder = RunFolder::create(new.run_dir.as_deref(), prefix)?;
-    RunLock::take(&folder).map(|lock| (folder, lock))
+    Ok(RunLock::take(&folder).map(|lock| (folder, lock))?)
 }
 
 /// Refuses actors with more environments than a fragment holds.

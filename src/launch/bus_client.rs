@@ -2,7 +2,7 @@
 
 use std::{io::Read, sync::Arc, time::Duration};
 
-use clap::{Args, builder::ArgPredicate};
+use clap::Args;
 use tokio::task::spawn_blocking;
 use treadmill_actor::{ActorError, policy_fetcher::Explain};
 use treadmill_bus::{Bus, BusOptions, Role};
@@ -12,7 +12,7 @@ use treadmill_runtime::{machine, seeds, shutdown::Shutdown};
 use super::{async_runtime, exit_code::Usage, memory, signals};
 use crate::{
     diagnosis::{Silence, certificates},
-    shared::network_args::{NetworkArgs, check_run},
+    shared::network_args::{DEFAULT_PORT, NetworkArgs, check_run},
 };
 
 /// Time without an answer before the first warning: the learner may still be starting.
@@ -22,14 +22,10 @@ const WARN_EVERY: Duration = Duration::from_secs(10);
 /// Flags of an actor or an evaluator.
 #[derive(Args)]
 pub struct ClientArgs {
-    /// Endpoint of the learner or of a router; may be repeated.
-    #[arg(
-        long,
-        value_name = "ENDPOINT",
-        default_value = "tcp/127.0.0.1:7447",
-        default_value_if("discover", ArgPredicate::IsPresent, None)
-    )]
-    pub connect: Vec<String>,
+    /// Endpoint of the learner or of a router; may be repeated. By default port 7447 on loopback, as tls/ with --tls and else tcp/;
+    /// none with --discover.
+    #[arg(long, value_name = "ENDPOINT")]
+    connect: Vec<String>,
     /// The run to join; may be left out if there is only one.
     #[arg(long, value_name = "NAME")]
     run: Option<String>,
@@ -49,6 +45,14 @@ impl ClientArgs {
         Ok(name)
     }
 
+    /// Returns the endpoints to dial: those given, or the default.
+    pub fn endpoints(&self, network: &NetworkArgs) -> Vec<String> {
+        match self.connect.is_empty() && !network.discover {
+            true => vec![network.loopback(DEFAULT_PORT)],
+            false => self.connect.clone(),
+        }
+    }
+
     /// Returns the run to join, if given.
     pub fn run(&self) -> Result<Option<String>, Usage> {
         check_run(self.run.as_deref())?;
@@ -57,7 +61,7 @@ impl ClientArgs {
 
     /// Returns a function that finds out why the run does not answer a process of this role.
     pub fn explain(&self, network: &NetworkArgs, role: Role) -> anyhow::Result<Explain> {
-        let options = network.options(role, Vec::new(), self.connect.clone())?;
+        let options = network.options(role, Vec::new(), self.endpoints(network))?;
         let run = self.run.clone();
         Ok(Arc::new(move |bus| {
             let (options, run) = (options.clone(), run.clone());
@@ -82,7 +86,7 @@ pub fn with_session<W: Future<Output = Result<Next, ActorError>>>(
     work: impl Fn(Bus, Shutdown) -> W,
 ) -> anyhow::Result<()> {
     let run = client.run.clone();
-    let mut bus_options = network.options(role, Vec::new(), client.connect)?;
+    let mut bus_options = network.options(role, Vec::new(), client.endpoints(network))?;
     certificates::check_own(bus_options.credentials.as_ref())?;
     memory::use_one_arena();
     async_runtime::run(async {

@@ -33,6 +33,8 @@ use super::{
     supervisor::{FleetOptions, Supervisor},
 };
 
+use crate::shared::learner_address::on_this_machine;
+
 /// Interval of heartbeats while a learner waits for its first actor.
 const HEARTBEAT_EVERY: Duration = Duration::from_secs(1);
 
@@ -288,7 +290,7 @@ fn fleet_options(
 ) -> anyhow::Result<FleetOptions> {
     let state = prepared.state.as_ref().context(NO_STATE)?;
     Ok(FleetOptions {
-        endpoint: endpoint.to_string(),
+        endpoint: on_this_machine(endpoint),
         tls: bus_options.credentials.as_ref().map(|credentials| credentials.folder.clone()),
         shared_memory: bus_options.shared_memory,
         run: state.run.clone(),

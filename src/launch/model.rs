@@ -51,6 +51,11 @@ pub fn completed(config: &Config, file: Option<&Path>) -> Result<Cow<'static, st
     let text = text(file)?;
     match config.env.robot.as_str() {
         "" => Ok(text),
+        // The cards that come along are of other robots than the built-in humanoid.
+        name if file.is_none() => Err(Usage(format!(
+            "config key `env.robot` is `{name}`, and the file of that robot is missing; name it: --model FILE \
+             (docs/guide/your-robot.md says where it is from)"
+        ))),
         name => Ok(Cow::Owned(card::with_built_in(&text, name).map_err(|why| Usage(format!("env.robot: {why}")))?)),
     }
 }

@@ -1,9 +1,10 @@
 //! Lines on standard output and standard error. A closed stream is ignored, because a reader that goes away must not stop
-//! training. Also the log's writer, which buffers while a dashboard uses the terminal.
+//! training; other errors of standard output are kept for the end. Also the log's writer, which buffers while a dashboard uses
+//! the terminal.
 
 use std::{
     io::{self, IsTerminal, Write},
-    sync::Mutex,
+    sync::{Mutex, OnceLock},
 };
 
 /// Most bytes of the log that are buffered.
@@ -12,14 +13,29 @@ const HELD_BYTES_MAX: usize = 16 << 10;
 /// Log since buffering began; `None` while the log is written directly.
 static HELD: Mutex<Option<Vec<u8>>> = Mutex::new(None);
 
+/// First error of standard output other than a reader that has gone away.
+static LOST: OnceLock<io::Error> = OnceLock::new();
+
 /// Prints a line on standard output.
 pub fn say(line: &str) {
-    let _ = writeln!(std::io::stdout().lock(), "{line}");
+    say_to_reader(line);
 }
 
-/// Prints a line on standard output. Returns false if its reader has gone away.
+/// Prints a line on standard output. Returns false if it cannot be written.
 pub fn say_to_reader(line: &str) -> bool {
-    !writeln!(io::stdout().lock(), "{line}").is_err_and(|why| why.kind() == io::ErrorKind::BrokenPipe)
+    let Err(why) = writeln!(io::stdout().lock(), "{line}") else { return true };
+    if why.kind() != io::ErrorKind::BrokenPipe {
+        let _ = LOST.set(why);
+    }
+    false
+}
+
+/// Returns an error if a line could not be written, as on a full disk.
+///
+/// # Errors
+/// The first one.
+pub fn check_written() -> anyhow::Result<()> {
+    LOST.get().map_or(Ok(()), |why| Err(anyhow::anyhow!("standard output cannot be written: {why}")))
 }
 
 /// Prints a line on standard error.

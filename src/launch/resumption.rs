@@ -28,6 +28,7 @@ pub fn resume(
     changes: &[(&str, toml::Value)],
 ) -> anyhow::Result<Start> {
     let folder = RunFolder::open(run)?;
+    startup::check_not_stored(&folder)?;
     check_folder(&folder, new)?;
     let lock = RunLock::take(&folder)?;
     let _step = SlowStepNotice::begin(format!("loading the checkpoint of {}", folder.root().display()));

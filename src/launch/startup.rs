@@ -112,6 +112,19 @@ pub fn resume_command_of(folder: &RunFolder) -> String {
     resume_command(command, folder, Some(store.trim()).filter(|url| !url.is_empty()))
 }
 
+/// Refuses the folder of a run whose state is in a store, where a checkpoint in the folder is wanted.
+pub fn check_not_stored(folder: &RunFolder) -> Result<(), Usage> {
+    let is_stored = fs::read_to_string(folder.store()).is_ok_and(|url| !url.trim().is_empty());
+    match is_stored && !RunFolder::has_checkpoint(folder.root()) {
+        true => Err(Usage(format!(
+            "the state of the run in `{}` is in a store; continue it with `{}`",
+            folder.root().display(),
+            resume_command_of(folder)
+        ))),
+        false => Ok(()),
+    }
+}
+
 /// Command that a run is prepared for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum RunCommand {

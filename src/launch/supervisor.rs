@@ -166,7 +166,9 @@ fn spawn(fleet: &FleetOptions, role: Role, restart: u64) -> anyhow::Result<Child
         command.arg("--shared-memory");
     }
     command
-        .args(["--connect", &fleet.endpoint, "--run", &fleet.run, "--name", &role.to_string()])
+        .args(["--connect", &fleet.endpoint, "--name", &role.to_string()])
+        // The name may begin with a hyphen.
+        .arg(format!("--run={}", fleet.run))
         .args(["--until-stdin-closes", "--insecure"])
         // Only this process holds it open, so it closes when this process ends for any reason.
         .stdin(Stdio::piped())

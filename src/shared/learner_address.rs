@@ -15,11 +15,9 @@ use treadmill_runtime::{
 use crate::{
     diagnosis::Silence,
     launch::{async_runtime, exit_code::Usage, slow_step::SlowStepNotice, startup::resume_command_of},
-    shared::network_args::{NetworkArgs, check_run},
+    shared::network_args::{DEFAULT_PORT, NetworkArgs, check_run},
 };
 
-/// Endpoint of a learner by default.
-const DEFAULT_ENDPOINT: &str = "tcp/127.0.0.1:7447";
 /// Time without an answer after which the way to the endpoints is examined, and further time for an answer if it is free.
 const DIAGNOSE_AFTER: Duration = Duration::from_secs(1);
 const DIAL_TIMEOUT: Duration = Duration::from_secs(4);
@@ -36,7 +34,7 @@ pub struct ReachArgs {
     #[arg(value_name = "RUN", conflicts_with = "connect")]
     pub folder: Option<String>,
     /// Endpoint of the learner or of a router; may be repeated. By default that of the run that is trained below runs/, else
-    /// tcp/127.0.0.1:7447; `check` then asks no learner.
+    /// port 7447 on loopback, as tls/ with --tls and else tcp/; `check` then asks no learner.
     #[arg(long, value_name = "ENDPOINT")]
     pub connect: Vec<String>,
     /// Name of the run on the bus; may be left out if there is only one.
@@ -100,9 +98,7 @@ impl ReachArgs {
             let file = folder.endpoint();
             let text = std::fs::read_to_string(&file)
                 .with_context(|| format!("cannot read the endpoint of the run in `{}`", file.display()))?;
-            // A learner that listens on all interfaces also listens on loopback.
-            let here = |line: &str| line.replace("/0.0.0.0:", "/127.0.0.1:").replace("/[::]:", "/[::1]:");
-            connect.extend(text.lines().next().map(here));
+            connect.extend(text.lines().next().map(on_this_machine));
         }
         Ok(connect)
     }
@@ -114,7 +110,7 @@ impl ReachArgs {
     pub fn endpoints(&self) -> anyhow::Result<Vec<String>> {
         let mut connect = self.named_endpoints()?;
         if connect.is_empty() && !self.network.discover {
-            connect.push(DEFAULT_ENDPOINT.to_string());
+            connect.push(self.network.loopback(DEFAULT_PORT));
         }
         Ok(connect)
     }
@@ -137,6 +133,12 @@ impl ReachArgs {
             options => options,
         }
     }
+}
+
+/// Returns the endpoint at which a listener of this machine is dialled: one on all interfaces is also on loopback.
+#[must_use]
+pub fn on_this_machine(endpoint: &str) -> String {
+    endpoint.replace("/0.0.0.0:", "/127.0.0.1:").replace("/[::]:", "/[::1]:")
 }
 
 /// Session with the bus where a learner should be.

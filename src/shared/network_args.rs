@@ -37,7 +37,16 @@ pub struct NetworkArgs {
     pub zenoh_config: Option<PathBuf>,
 }
 
+/// Port of a learner or router by default.
+pub const DEFAULT_PORT: u16 = 7447;
+
 impl NetworkArgs {
+    /// Returns the endpoint on loopback with this port, encrypted if there are certificates.
+    #[must_use]
+    pub fn loopback(&self, port: u16) -> String {
+        format!("{}/127.0.0.1:{port}", if self.tls.is_some() { "tls" } else { "tcp" })
+    }
+
     /// Returns the options of the bus. Called before anything is written, so that a refused endpoint leaves nothing behind, and
     /// before any thread starts, because it may set an environment variable.
     ///
@@ -70,6 +79,22 @@ impl NetworkArgs {
             unsafe { std::env::set_var(name, value) };
         }
         Ok(options)
+    }
+
+    /// The same for a learner or router, which listens on loopback by default.
+    ///
+    /// # Errors
+    /// As [`Self::options`].
+    pub fn listening_options(
+        &self,
+        role: Role,
+        mut listen: Vec<String>,
+        connect: Vec<String>,
+    ) -> anyhow::Result<BusOptions> {
+        if listen.is_empty() {
+            listen.push(self.loopback(DEFAULT_PORT));
+        }
+        self.options(role, listen, connect)
     }
 
     /// Returns the endpoints and discovery as text for messages.

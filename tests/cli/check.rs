@@ -253,7 +253,7 @@ fn a_failed_handshake_reports_which_side_does_not_trust_the_other() {
     }
     certs(folder.path(), &["named", "--host", "learner.example"]);
     let renamed = run_folder.with_extension("renamed");
-    let _renamed = learner(folder.path(), &renamed, &["--listen", "tls/127.0.0.1:0", "--tls", "named"]);
+    let _renamed = learner(folder.path(), &renamed, &["--listen", "tls/127.0.0.2:0", "--tls", "named"]);
     let refused = check_with("certs", &self::endpoint(&renamed));
     assert_problem(&refused, "handshake", &["not for this name", "--host NAME"]);
     // This machine trusts the learner's authority, but not the other way round.

@@ -101,6 +101,26 @@ fn plain_text_beyond_loopback_needs_a_flag() {
 }
 
 #[test]
+fn output_that_cannot_be_written_is_a_failure() {
+    let (folder, _) = folders();
+    let mut command = treadmill(folder.path());
+    let full = std::fs::File::options().write(true).open("/dev/full").unwrap();
+    let output = command.arg("config").stdout(full).output().unwrap();
+    assert_refused(&output, 1, &["standard output cannot be written", "No space left"]);
+    let mut command = treadmill(folder.path());
+    let mut reader_left = command.arg("config").stdout(std::process::Stdio::piped()).spawn().unwrap();
+    drop(reader_left.stdout.take());
+    assert!(reader_left.wait().unwrap().success());
+}
+
+#[test]
+fn a_preset_of_a_robot_names_the_missing_file() {
+    let (folder, _) = folders();
+    let args = ["train", "--preset", "g1"];
+    assert_refused(&self::run(folder.path(), &args), 2, &["`env.robot` is `g1`", "--model FILE", "your-robot.md"]);
+}
+
+#[test]
 fn help_and_version_are_printed() {
     let (folder, _) = folders();
     for command in ["train", "learner", "actor", "eval", "export", "bench"] {

@@ -63,6 +63,20 @@ fn an_encrypted_router_runs_on_one_core() {
 }
 
 #[test]
+fn a_training_with_certificates_needs_no_further_flag() {
+    let (folder, path) = folders();
+    assert!(run(folder.path(), &["certs", "certs", "--host", "learner.example"]).status.success());
+    for listen in [&[][..], &["--listen", "tls/0.0.0.0:0"]] {
+        let run_dir = path.with_extension(listen.len().to_string());
+        let args = ["train", "--preset", "smoke", "--steps", "1024", "--tls", "certs", "--run-dir"];
+        let trained = run(folder.path(), &[&args, &[run_dir.to_str().unwrap()][..], listen].concat());
+        assert!(trained.status.success(), "{listen:?}: {}", stderr(&trained));
+    }
+    let plain = ["router", "--tls", "certs", "--listen", "tcp/127.0.0.1:0"];
+    assert_refused(&run(folder.path(), &plain), 2, &["tcp/127.0.0.1:0", "write tls/127.0.0.1:0"]);
+}
+
+#[test]
 fn an_actor_of_another_authority_is_refused() {
     let (folder, run) = folders();
     certs(folder.path(), &["certs"]);
@@ -90,18 +104,21 @@ fn hosts_of_certificates_are_listed_added_and_kept() {
     };
     let read = |name: &str| fs::read(folder.path().join("certs").join(name)).unwrap();
     let text = certs(&["--host", "first.example"]);
-    assert!(text.contains("the learner's is valid until") && text.contains("for first.example"), "{text}");
+    assert!(
+        text.contains("the learner's is valid until") && text.contains("for localhost 127.0.0.1 ::1 first.example"),
+        "{text}"
+    );
     let (actor, learner) = (read("actor.crt"), read("learner.crt"));
-    let text = certs(&["--host", "::0001"]);
+    let text = certs(&["--host", "2001:db8::0001"]);
     assert!(text.contains("wrote certificates and keys of learner, standby, router to certs"), "{text}");
-    assert!(text.contains("364 days more, for first.example ::1"), "{text}");
+    assert!(text.contains("364 days more, for localhost 127.0.0.1 ::1 first.example 2001:db8::1"), "{text}");
     assert!(read("actor.crt") == actor && read("learner.crt") != learner, "only roles that listen name hosts");
     let learner = read("learner.crt");
-    let text = certs(&["--host", "::1"]);
-    assert!(text.contains("nothing to do") && text.contains("for first.example ::1"), "{text}");
+    let text = certs(&["--host", "::0001", "--host", "2001:db8::1"]);
+    assert!(text.contains("nothing to do") && text.contains("first.example 2001:db8::1"), "{text}");
     assert_eq!(read("learner.crt"), learner);
     let text = certs(&["--renew", "--days", "30"]);
-    assert!(text.contains("29 days more, for first.example ::1"), "{text}");
+    assert!(text.contains("29 days more, for localhost 127.0.0.1 ::1 first.example 2001:db8::1"), "{text}");
     assert!(read("actor.crt") != actor && read("learner.crt") != learner);
 }
 

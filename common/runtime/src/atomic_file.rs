@@ -11,12 +11,35 @@ use std::{
 /// End of a temporary file's name.
 const SUFFIX: &str = ".tmp";
 
-/// Writes `bytes` to `path`. A crash at any moment leaves either the old file or the new one.
+/// Writes `bytes` to `path`, or to the file that it is a link to. A crash at any moment leaves either the old file or the new one.
+/// A device or a pipe is written directly.
 ///
 /// # Errors
 /// The system's error, such as a full disk. The old file is untouched and the temporary one removed.
 pub fn write(path: &Path, bytes: &[u8]) -> io::Result<()> {
-    write_by(path, bytes, |temporary| fs::rename(temporary, path))
+    match destination(path) {
+        Destination::Stream(mut stream) => stream.write_all(bytes),
+        Destination::File(path) => write_by(&path, bytes, |temporary| fs::rename(temporary, &path)),
+    }
+}
+
+/// Where a path leads.
+#[derive(Debug)]
+pub enum Destination {
+    /// To a file, or to none yet: its path without links.
+    File(PathBuf),
+    /// To a device or a pipe, which a new file must not replace.
+    Stream(File),
+}
+
+/// Returns where a path leads.
+#[must_use]
+pub fn destination(path: &Path) -> Destination {
+    let is_stream = fs::metadata(path).is_ok_and(|found| !found.is_file() && !found.is_dir());
+    match is_stream.then(|| File::options().write(true).open(path)) {
+        Some(Ok(stream)) => Destination::Stream(stream),
+        _ => Destination::File(fs::canonicalize(path).unwrap_or_else(|_| path.to_path_buf())),
+    }
 }
 
 /// Creates `path` with `bytes`. A crash at any moment leaves no file or the whole one.
@@ -135,6 +158,21 @@ mod tests {
         write(&path, b"two").unwrap();
         assert_eq!(fs::read(&path).unwrap(), b"two");
         assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1);
+    }
+
+    #[test]
+    fn a_write_follows_links_and_replaces_no_device() {
+        let folder = tempfile::tempdir().unwrap();
+        let [link, file] = ["link", "file"].map(|name| folder.path().join(name));
+        fs::write(&file, b"one").unwrap();
+        std::os::unix::fs::symlink("file", &link).unwrap();
+        write(&link, b"two").unwrap();
+        assert!(link.is_symlink() && fs::read(&file).unwrap() == b"two");
+        // Not the device itself: a fault would replace it for the whole system.
+        let device = folder.path().join("device");
+        std::os::unix::fs::symlink("/dev/null", &device).unwrap();
+        write(&device, b"three").unwrap();
+        assert!(device.is_symlink() && !fs::metadata(&device).unwrap().is_file());
     }
 
     #[test]

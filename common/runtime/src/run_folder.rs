@@ -154,6 +154,8 @@ impl RunFolder {
         let name: String = base
             .chars()
             .map(|c| if c.is_ascii_lowercase() || c.is_ascii_digit() || c == '_' || c == '-' { c } else { '-' })
+            // A name that begins with a hyphen would be taken for a flag.
+            .skip_while(|c| *c == '-')
             .take(64)
             .collect();
         let name = if check_ident("run", &name).is_ok() { name } else { "run".to_string() };
@@ -339,6 +341,15 @@ mod tests {
         fs::write(run.checkpoints().join("latest.bundle"), "state").unwrap();
         run.discard();
         assert!(run.checkpoints().join("latest.bundle").exists());
+    }
+
+    #[test]
+    fn names_are_made_from_folders() {
+        for (folder, name) in
+            [("Walk 1", "walk-1"), ("über", "ber"), (".hidden", "hidden"), ("--x-", "x-"), ("テスト", "run")]
+        {
+            assert_eq!(RunFolder::at(Path::new(folder)).name(), name);
+        }
     }
 
     #[test]

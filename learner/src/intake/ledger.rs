@@ -4,8 +4,8 @@ use std::collections::{BTreeMap, BTreeSet, btree_map::Entry};
 
 use serde::{Deserialize, Serialize};
 
-/// Actor processes that are kept. Beyond this, the one that was silent longest is removed, and first those of which nothing was
-/// accepted: a sender of many such fragments must not push the others out.
+/// Actor processes that are kept. Beyond this, the one that was silent longest is removed, and first those without accepted
+/// fragments: a sender of many fragments that are dropped must not push the others out.
 const ACTORS_MAX: usize = 4096;
 /// Sequence numbers beyond a gap that are kept for each process. A wider gap is skipped, because a sender keeps fewer
 /// fragments: the pending ones and those of a batch.
@@ -361,7 +361,7 @@ mod tests {
     }
 
     #[test]
-    fn senders_of_which_nothing_is_accepted_push_no_other_out() {
+    fn senders_without_accepted_fragments_push_no_other_out() {
         let mut ledger = Ledger::default();
         ledger.accept("honest", 1, 1);
         for incarnation in 0..2 * ACTORS_MAX as u64 {
@@ -371,7 +371,7 @@ mod tests {
         }
         assert_eq!(ledger.processes.len(), ACTORS_MAX);
         assert!(ledger.contains("honest", 1, 1));
-        // A process of which nothing was accepted yet keeps what it settled.
+        // A process without accepted fragments keeps what it settled.
         (0..ACTORS_MAX as u64).for_each(|incarnation| ledger.accept("a", incarnation, 1));
         ledger.look_up("late", 1, 8, 7);
         ledger.accept("late", 1, 8);

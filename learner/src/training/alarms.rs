@@ -3,6 +3,7 @@
 use std::time::{Duration, Instant};
 
 use treadmill_bus::admission::rate_limited_log::RateLimitedLog;
+use treadmill_config::{Config, LearnerMode};
 
 use crate::{intake::Rejections, metrics::Efficiency};
 
@@ -23,22 +24,24 @@ pub(super) struct Alarms {
 
 impl Alarms {
     /// Records the efficiency after an update. `late` fragments were too old, in this run.
-    pub(super) fn record_efficiency(&mut self, efficiency: Efficiency, late: u64, undone: u64) {
+    pub(super) fn record_efficiency(&mut self, efficiency: Efficiency, late: u64, undone: u64, config: &Config) {
         let wasted = efficiency.used_share.filter(|share| *share < USED_SHARE_MIN);
+        let remedy = if late > 0 || undone == 0 { remedy(config) } else { "the log says why updates were undone" };
         if let Some(used_share) = wasted {
             self.log.emit(|| {
                 tracing::warn!(
                     used_share,
                     too_old = late,
                     undone_updates = undone,
-                    "simulated steps are not learnt from; set rollout.fragment_steps = 0, or learner.mode = \"async\""
+                    remedy,
+                    "simulated steps are not learnt from"
                 );
             });
         }
         self.waste = wasted.map(|share| {
             format!(
-                "{:.0} % of the simulated steps are learnt from ({late} fragments were too old, {undone} updates undone); in \
-                 a new run, set rollout.fragment_steps = 0, or learner.mode = \"async\"",
+                "{:.0} % of the simulated steps are learnt from ({late} fragments were too old, {undone} updates undone): \
+                 {remedy}",
                 100.0 * share
             )
         });
@@ -63,6 +66,15 @@ impl Alarms {
     }
 }
 
+/// Returns what makes fewer fragments too old.
+fn remedy(config: &Config) -> &'static str {
+    match (config.rollout.fragment_steps, config.learner.mode) {
+        (1.., _) => "in a new run, set rollout.fragment_steps = 0",
+        (0, LearnerMode::Sync) => "in a new run, set learner.mode = \"async\"",
+        (0, LearnerMode::Async) => "set learner.max_policy_lag higher",
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -71,7 +83,9 @@ mod tests {
     fn each_alarm_says_what_to_do_and_ends() {
         let (mut alarms, mut rejections, now) = (Alarms::default(), Rejections::default(), Instant::now());
         assert!(alarms.texts(&rejections, now).is_empty());
-        alarms.record_efficiency(Efficiency { used_share: Some(0.64), idle_share: None }, 12, 0);
+        let (wasteful, mut config) = (Efficiency { used_share: Some(0.64), idle_share: None }, Config::default());
+        config.rollout.fragment_steps = 128;
+        alarms.record_efficiency(wasteful, 12, 0, &config);
         alarms.record_undone("the loss is not finite", now);
         rejections.record("bad", "`rewards` is absurd", now);
         let texts = alarms.texts(&rejections, now);
@@ -82,7 +96,12 @@ mod tests {
             "{}",
             texts[2]
         );
-        alarms.record_efficiency(Efficiency { used_share: Some(0.97), idle_share: None }, 12, 0);
+        alarms.record_efficiency(Efficiency { used_share: Some(0.97), idle_share: None }, 12, 0, &config);
         assert!(alarms.texts(&rejections, now + LASTS).is_empty());
+        (config.rollout.fragment_steps, config.learner.mode) = (0, LearnerMode::Async);
+        for (late, undone, wanted) in [(12, 8, "learner.max_policy_lag"), (0, 8, "why updates were undone")] {
+            alarms.record_efficiency(wasteful, late, undone, &config);
+            assert!(alarms.texts(&rejections, now + LASTS)[0].contains(wanted), "{wanted}");
+        }
     }
 }

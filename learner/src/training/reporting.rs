@@ -124,7 +124,7 @@ impl Trainer {
         let effort = serving.intake.fleet.effort();
         reporting.efficiency = reporting.efficiency_meter.mark(Instant::now(), learnt, effort, alive.len());
         let (too_old, undone) = (serving.intake.validator.counts.too_old, state.counters.undone_updates);
-        reporting.alarms.record_efficiency(reporting.efficiency, too_old, undone);
+        reporting.alarms.record_efficiency(reporting.efficiency, too_old, undone, config);
         let env_steps = state.counters.env_steps;
         let (throughput, lag) = (reporting.throughput.mark(env_steps, serving.waited), PolicyLag::of(batch));
         (reporting.env_steps_per_s, reporting.lag_mean) = (throughput.env_steps_per_s, lag.mean);

@@ -10,6 +10,7 @@ use std::{
 use anyhow::{Context, bail};
 use tempfile::{NamedTempFile, TempPath};
 use treadmill_render::{Gif, Picture};
+use treadmill_runtime::atomic_file::{Destination, destination};
 
 use super::filming::Size;
 use crate::launch::exit_code::Usage;
@@ -122,8 +123,15 @@ fn text_of(messages: &mut NamedTempFile) -> String {
     if read.is_err() || text.trim().is_empty() { "it gave no reason".to_string() } else { text.trim().to_string() }
 }
 
-/// Gives a temporary file its name and permissions 0644.
+/// Gives a temporary file its name and permissions 0644, or writes it to a device or a pipe of this name.
 fn keep(file: TempPath, path: &Path) -> anyhow::Result<()> {
+    let path = match destination(path) {
+        Destination::File(path) => path,
+        Destination::Stream(mut stream) => {
+            io::copy(&mut fs::File::open(&file)?, &mut stream)?;
+            return Ok(());
+        }
+    };
     #[cfg(unix)]
     {
         use std::os::unix::fs::PermissionsExt;

@@ -9,7 +9,10 @@ mod contract;
 mod deploy;
 mod ground;
 
-use std::path::{Path, PathBuf};
+use std::{
+    collections::BTreeSet,
+    path::{Path, PathBuf},
+};
 
 use anyhow::Context;
 use clap::{ArgGroup, Args};
@@ -83,6 +86,12 @@ pub fn run(args: &ExportArgs) -> anyhow::Result<()> {
              leave --deploy out",
             args.run
         );
+        return Err(Usage(why).into());
+    }
+    let given = [&args.onnx, &args.safetensors, &args.deploy, &args.ground].into_iter().flatten();
+    let mut paths = BTreeSet::new();
+    if let Some(path) = given.into_iter().find(|path| !paths.insert(*path)) {
+        let why = format!("`{}` is named for two files; name each apart", path.display());
         return Err(Usage(why).into());
     }
     // Also run for ONNX alone, because it checks that shapes match.

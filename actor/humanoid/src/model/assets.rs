@@ -8,7 +8,7 @@ use roxmltree::Node;
 
 use super::defaults::{Attribute, Classes, attributes_of, get};
 use super::ground::HeightField;
-use super::values::{list_over, number, positive};
+use super::values::{length, list_over, number};
 use super::vocabulary::{self, numbers};
 use super::{HEIGHT_FIELD_SIDE_MAX, hull};
 use crate::error::ModelError;
@@ -96,7 +96,7 @@ impl Assets {
             ("greatest height (m)", top_m),
             ("depth of the base (m)", base_m),
         ] {
-            positive(&label, what, size_m)?;
+            length(&label, what, size_m)?;
         }
         let heights_m = match get(attributes, "elevation").and_then(numbers) {
             None => vec![0.0; rows * columns],

@@ -6,7 +6,7 @@ use nalgebra::{Isometry3, Point3, Rotation3, UnitQuaternion, Vector3};
 use super::assets::Assets;
 use super::inertia::{self, MassProperties};
 use super::mjcf::isometry;
-use super::values::{not_negative, positive};
+use super::values::{length, not_negative};
 use super::{Geometry, Shape};
 use crate::error::ModelError;
 
@@ -114,7 +114,7 @@ fn geometry(name: &str, geom: &Geom, offset: &Isometry3<f64>, assets: &Assets) -
     if matches!(geom.type_, GeomType::Mesh | GeomType::Hfield | GeomType::Sdf) || geom.mesh.is_some() {
         return Ok(None);
     }
-    let size = |index: usize, what: &'static str| positive(name, what, geom.size[index]);
+    let size = |index: usize, what: &'static str| length(name, what, geom.size[index]);
     if let Some(ends) = geom.fromto {
         return between_ends(name, geom, &ends, offset).map(Some);
     }
@@ -144,11 +144,11 @@ fn between_ends(name: &str, geom: &Geom, ends: &[f64; 6], offset: &Isometry3<f64
         let problem = "`fromto` is in the body's frame: remove position, orientation and <frame>";
         return Err(ModelError::unsupported(name, problem));
     }
-    let radius_m = positive(name, "radius (m)", geom.size[0])?;
+    let radius_m = length(name, "radius (m)", geom.size[0])?;
     let [ax, ay, az, bx, by, bz] = *ends;
     let (from_m, to_m) = (offset * Point3::new(ax, ay, az), offset * Point3::new(bx, by, bz));
     let axis = to_m - from_m;
-    let half_length_m = positive(name, "half length (m)", axis.norm() / 2.0)?;
+    let half_length_m = length(name, "half length (m)", axis.norm() / 2.0)?;
     let turn = Rotation3::rotation_between(&Vector3::z(), &(offset.rotation.inverse() * axis))
         .unwrap_or_else(|| Rotation3::from_axis_angle(&Vector3::x_axis(), std::f64::consts::PI));
     let rotation = offset.rotation * UnitQuaternion::from_rotation_matrix(&turn);

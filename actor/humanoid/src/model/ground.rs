@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use nalgebra::{Point3, Vector3};
 
-use super::values::positive;
+use super::values::length;
 use super::{Model, Softness};
 use crate::error::ModelError;
 
@@ -112,8 +112,8 @@ impl HeightField {
         if !self.heights_m.iter().chain(self.centre_m.iter()).all(|number| number.is_finite()) {
             return wrong("its heights and its centre must be finite");
         }
-        positive("height field", "half length along x (m)", self.half_x_m)?;
-        positive("height field", "half length along y (m)", self.half_y_m)?;
+        length("height field", "half length along x (m)", self.half_x_m)?;
+        length("height field", "half length along y (m)", self.half_y_m)?;
         Ok(())
     }
 }

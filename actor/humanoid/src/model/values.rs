@@ -23,11 +23,13 @@ pub(super) fn amount(label: &str, attributes: &[Attribute], name: &str, what: &'
     not_negative(label, what, number(attributes, name).unwrap_or(0.0))
 }
 
-pub(super) fn positive(element: &str, what: &'static str, value: f64) -> Result<f64, ModelError> {
-    if value.is_finite() && value > 0.0 {
-        Ok(value)
-    } else {
-        Err(ModelError::quantity(element, what, value, "finite and above 0"))
+/// Longest length that collision detection computes without a fault, with a wide margin (m).
+const LENGTH_MAX_M: f64 = 1e6;
+
+pub(super) fn length(element: &str, what: &'static str, metres: f64) -> Result<f64, ModelError> {
+    match metres > 0.0 && metres <= LENGTH_MAX_M {
+        true => Ok(metres),
+        false => Err(ModelError::quantity(element, what, metres, "above 0 and at most 1000 km")),
     }
 }
 

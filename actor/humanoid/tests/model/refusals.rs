@@ -52,6 +52,7 @@ fn errors_in_the_built_in_text_name_the_element() {
         ("<joint name=\"root\" type=\"free\"", "<joint name=\"root\" type=\"ball\"", "torso"),
         ("range=\"-75 30\"", "range=\"30 -75\"", "abdomen_y"),
         ("size=\"0.09\"", "size=\"-0.09\"", "head"),
+        ("size=\"0.09\"", "size=\"1e19\"", "head"),
         ("joint=\"left_elbow\" gear", "joint=\"left_wing\" gear", "left_elbow"),
         ("<motor name=\"abdomen_x\"", "<position name=\"abdomen_x\"", "abdomen_x"),
         ("type=\"plane\"", "type=\"plane\" pos=\"0 0 1\"", "floor"),

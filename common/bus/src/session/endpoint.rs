@@ -31,6 +31,17 @@ pub fn check(endpoint: &str, insecure: bool, has_certificates: bool) -> Result<(
     }
 }
 
+/// Refuses plain text where certificates decide what a client may do.
+pub fn check_encrypted(endpoint: &str) -> Result<(), BusError> {
+    match endpoint.strip_prefix("tcp/") {
+        None => Ok(()),
+        Some(address) => Err(BusError::Endpoint {
+            endpoint: endpoint.to_string(),
+            why: format!("with --tls, clients without a certificate may do nothing; write tls/{address}"),
+        }),
+    }
+}
+
 fn is_loopback(host: &str) -> bool {
     let bare = host.trim_start_matches('[').trim_end_matches(']');
     bare == "localhost" || bare.parse::<IpAddr>().is_ok_and(|address| address.is_loopback())
@@ -64,6 +75,9 @@ mod tests {
         assert!(refused("tcp/0.0.0.0:7447").contains("--insecure"));
         assert!(refused("tls/learner:7447").contains("--tls DIR"));
         assert!(check("tcp/0.0.0.0:7447", true, false).is_ok());
+        let why = check_encrypted("tcp/127.0.0.1:7447").unwrap_err().to_string();
+        assert!(why.contains("write tls/127.0.0.1:7447"), "{why}");
+        assert!(check_encrypted("tls/127.0.0.1:7447").is_ok());
         for bad in ["learner:7447", "tcp/learner", "tcp/:1", "tcp/h:99999", "udp/127.0.0.1:1"] {
             assert!(check(bad, true, true).is_err(), "{bad}");
         }

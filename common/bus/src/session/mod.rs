@@ -67,6 +67,9 @@ impl BusOptions {
     /// Checks the endpoints and the limit on open files.
     pub fn check(&self) -> Result<(), BusError> {
         self.listen.iter().chain(&self.connect).try_for_each(|given| self.check_endpoint(given))?;
+        if self.credentials.is_some() {
+            self.listen.iter().try_for_each(|given| endpoint::check_encrypted(given))?;
+        }
         check_open_files()
     }
 
