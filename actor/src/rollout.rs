@@ -101,7 +101,8 @@ impl Collector {
         self.precision
     }
 
-    /// Collects the next fragment, of `steps` control steps, or as many as a message holds. Fragments up to `settled_through` will not be sent again.
+    /// Collects the next fragment, of `steps` control steps, or as many as a message holds. Fragments up to `settled_through` will
+    /// not be sent again.
     pub fn collect(&mut self, policy: &ActingPolicy, steps: u32, settled_through: u64) -> Result<Fragment, ActorError> {
         let Self { envs, observation_size, action_size, .. } = *self;
         let steps = steps.min(fragment_steps_max(envs, observation_size, action_size));
