@@ -1,7 +1,9 @@
 """Tests without a learner or a simulator: `python -m unittest discover -s python/tests`."""
 
 import json
+import queue
 import sys
+import threading
 import unittest
 from pathlib import Path
 from unittest import mock
@@ -16,6 +18,7 @@ from treadmill_actor.policy import HALF_LN_TAU, Policy, PolicyError, checksum, r
 from treadmill_actor.rollout import Collector, Environments  # noqa: E402
 from treadmill_actor.settings import Settings  # noqa: E402
 from treadmill_actor.task import TaskError, describe  # noqa: E402
+from treadmill_actor.worker import Worker  # noqa: E402
 
 GOLDEN = Path(__file__).with_name("golden.json")
 
@@ -146,6 +149,17 @@ class TaskTest(unittest.TestCase):
         task.fill(message.task)
         self.assertEqual((list(message.task.action_low), message.task.observation_size), ([-3.0, 0.0], 2))
 
+    def test_actions_stay_inside_the_box(self):
+        env = Count()
+        actions = np.float32([[-1, 1], [-0.3, 0.7], [9, 0]])
+        for dtype, largest in ((np.float16, "6e4"), (np.float32, "3.4e38"), (np.float64, "1e308"), (np.longdouble, "1e308")):
+            for high in ("0.1", "1", largest):
+                env.action_space = gymnasium.spaces.Box(-dtype(high), dtype(high), (2,), dtype)
+                commands = describe(env, "test/Count-v0").to_env(actions)
+                self.assertTrue(all(map(env.action_space.contains, commands)), (commands, env.action_space))
+                shares = np.clip(np.float64(actions), -1, 1)
+                np.testing.assert_allclose(np.float64(commands / dtype(high)), shares, rtol=max(np.finfo(dtype).eps, 1e-15))
+
     def test_unsupported_space_and_name_raise(self):
         env = Count()
         env.action_space = gymnasium.spaces.Discrete(3)
@@ -240,6 +254,46 @@ class RolloutTest(unittest.TestCase):
             terms = [(term.name, term.mean) for term in schema.Fragment.FromString(fragment).reward_terms]
             self.assertEqual(terms[:3], [("forward", 1.5), ("ctrl", -0.5), ("0", 1.0)])
             self.assertEqual(len(terms), 63, "64 at most, and one is not finite")
+
+    def test_distance_is_from_the_first_to_the_last_position(self):
+        def distance(at_reset, at_step):
+            environments = Environments(lambda: Count(fall=3), "test/Count-v0", 1, 1)
+            [env] = environments.envs
+            first, step = env.reset()[0], env.step
+            env.reset = lambda seed=None: (first, at_reset)
+            env.step = lambda action: (*step(action)[:4], at_step)
+            environments.reset()
+            env.count, positions = 0, iter((5.0, 6.0, 8.0))
+            for position in positions:
+                at_step.update({key: make(position) for key, make in kinds.items()})
+                episodes = environments.step(np.zeros((1, 2), np.float32))[3]
+            return episodes[0]["distance_m"]
+
+        kinds = {"x_position": float}
+        self.assertEqual(distance({"x_position": 4}, {}), 4.0)
+        # Gymnasium's older MuJoCo environments have none after a reset.
+        self.assertEqual(distance({}, {}), 3.0)
+        kinds = {"x_position": lambda position: np.array([position], np.float32)}
+        self.assertEqual(distance({"x_position": np.array(4.0)}, {}), 4.0)
+        kinds = {"x_position": lambda position: np.array([position, 0.0]), 7: float, ("reward_x",): float}
+        self.assertEqual(distance({"x_position": "here"}, {}), 0.0)
+
+    def test_a_stop_drops_the_fragment(self):
+        stopping, outbox = threading.Event(), queue.Queue()
+        environments = Environments(Count, "test/Count-v0", 2, 1)
+        worker = Worker(None, "run", "py", environments, 1, stopping)
+        worker.uploader = mock.Mock(**{"settled_through.return_value": 0})
+        policies = mock.Mock(current=(linear(), schema.PolicyVersion()), fragment_steps=0)
+        policies.run_changed.is_set.return_value = False
+        settings = Settings.of(schema.PolicyBundle(config_toml=config()))
+        collector = Collector(environments, "run", "py", 5, 9, 3)
+        [_, last] = environments.envs
+        step = last.step
+        last.step = lambda action: last.count == 2 and stopping.set() or step(action)
+        self.assertTrue(worker._simulate(collector, settings, policies, threading.Semaphore(1), outbox, None, None))
+        self.assertEqual([len(env.seen) for env in environments.envs], [3, 3])
+        self.assertTrue(outbox.empty())
+        worker.uploader.note_produced.assert_not_called()
 
     def test_new_run_begins_with_new_episodes(self):
         environments = Environments(Count, "test/Count-v0", 2, 1)

@@ -2,16 +2,19 @@
 
 import json
 import sys
+import threading
 import unittest
 from pathlib import Path
 from types import SimpleNamespace
+from unittest import mock
 
 import numpy as np
+import zenoh
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 
-from treadmill_actor import schema  # noqa: E402
-from treadmill_actor.bus import Bus, BusError, check_endpoint, fetch_pieces  # noqa: E402
+from treadmill_actor import bus, schema  # noqa: E402
+from treadmill_actor.bus import Bus, BusError, check_endpoint, dialled, fetch_pieces  # noqa: E402
 from treadmill_actor.policies import Policies  # noqa: E402
 from treadmill_actor.policy import checksum  # noqa: E402
 
@@ -116,13 +119,48 @@ class JoiningTest(unittest.TestCase):
         accepted.refresh()
         self.assertFalse(accepted.run_changed.is_set())
 
-    def test_plain_tcp_beyond_loopback_raises(self):
-        for fine in ("tcp/127.0.0.1:7447", "tcp/[::1]:1", "tcp/localhost:1", "tls/learner:7447"):
-            check_endpoint(fine, insecure=False)
-        check_endpoint("tcp/learner:7447", insecure=True)
-        for bad in ("tcp/learner:7447", "tcp/0.0.0.0:1", "udp/127.0.0.1:1", "tcp/learner"):
-            with self.assertRaises(BusError):
-                check_endpoint(bad, insecure=False)
+    def test_endpoints_are_checked(self):
+        for fine in ("tcp/127.0.0.1:7447", "tcp/[::1]:1", "tcp/localhost:65535", "tls/learner:7447", "tls/learner:1?a=b#c=d:e"):
+            check_endpoint(fine, insecure=False, tls="certs")
+        check_endpoint("tcp/learner:7447", insecure=True, tls=None)
+        refused = [
+            ("plain tcp", ["tcp/learner:7447", "tcp/0.0.0.0:1"]),
+            ("1 to 65535", ["udp/127.0.0.1:1", "tcp/learner", "tcp/:1", "127.0.0.1:1"]),
+            ("1 to 65535", [f"tcp/127.0.0.1:{port}" for port in ("", "x", "0", "-1", "65536", "99999")]),
+            ("--tls DIR", ["tls/learner:7447"]),
+        ]
+        for message, endpoints in refused:
+            for endpoint in endpoints:
+                with self.subTest(endpoint), self.assertRaisesRegex(BusError, f"^endpoint `{endpoint}`.*{message}"):
+                    check_endpoint(endpoint, insecure=False, tls=None)
+
+    def test_an_endpoint_that_does_not_answer_is_logged(self):
+        warned, stopping = threading.Event(), threading.Event()
+
+        def open_session():
+            warned.wait(60)
+            return "session"
+
+        # The learner starts after the second warning.
+        log = mock.Mock(**{"warning.side_effect": lambda *_: log.warning.call_count == 2 and warned.set()})
+        with mock.patch.multiple(bus, FIRST_WARNING_S=0.0, WARN_EVERY_S=0.0, log=log):
+            self.assertEqual(dialled(open_session, ["tcp/a:1", "tcp/b:2"], stopping), "session")
+        text, *fields = log.warning.call_args.args
+        self.assertEqual(text % tuple(fields), "no answer from tcp/a:1, tcp/b:2; retrying")
+
+    def test_a_closed_session_has_no_answers(self):
+        learner = Bus.__new__(Bus)
+        learner.session = mock.Mock(**{"get.side_effect": zenoh.ZError("session closed"), "is_closed.return_value": True})
+        self.assertEqual(list(learner.answers("key")), [])
+        learner.session.is_closed.return_value = False
+        with self.assertRaises(zenoh.ZError):
+            list(learner.answers("key"))
+
+    def test_a_learner_that_stands_still_does_not_fail_the_close(self):
+        learner = Bus.__new__(Bus)
+        learner.session = mock.Mock(**{"close.side_effect": zenoh.ZError("close operation timed out!")})
+        learner.close()
+        learner.session.close.assert_called_once()
 
 
 if __name__ == "__main__":

@@ -4,6 +4,9 @@ import contextlib
 import io
 import json
 import math
+import os
+import subprocess
+import sys
 import tempfile
 import unittest
 from pathlib import Path
@@ -306,6 +309,17 @@ class TransferTest(unittest.TestCase):
         code, out, _ = self.run_cli(self.onnx, "--model", self.model, "--episodes", 2, "--seconds", 3)
         self.assertEqual(code, 0)
         self.assertIn("velocity error", out)
+
+    @unittest.skipUnless(sys.platform == "linux", "other systems always have a display")
+    def test_a_missing_display_is_named_in_one_line(self):
+        # Without the check, the viewer ends the process.
+        command = [sys.executable, "-m", "treadmill_transfer", self.onnx, "--model", str(self.model), "--view", "--json"]
+        environment = {name: value for name, value in os.environ.items() if name not in ("DISPLAY", "WAYLAND_DISPLAY")}
+        done = subprocess.run(
+            command, env=environment | {"PYTHONPATH": str(Path(cli.__file__).parents[1])}, capture_output=True, text=True, check=False
+        )
+        self.assertEqual((done.returncode, done.stdout, done.stderr.count("\n")), (2, "", 1), done.stderr)
+        self.assertRegex(done.stderr, "^error: --view cannot open a window .*DISPLAY.*; leave it out")
 
     def test_bad_input_is_named_in_one_line(self):
         def refused(*parts, policy=self.onnx, model=self.model, more=()):

@@ -10,6 +10,7 @@ Modules, in the order of the data:
     bus        Zenoh session, queries and publishers
     schema     protobuf messages of proto/schema
     settings   configuration keys that an actor needs
+    signals    Ctrl-C and SIGTERM
     cli        command line
     forward    forwards metrics to MLflow or Weights & Biases; no actor
 """

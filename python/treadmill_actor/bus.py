@@ -1,9 +1,12 @@
 """Zenoh session of an actor; no other module imports zenoh. docs/guide/external-tasks.md describes each key."""
 
+import contextlib
 import ipaddress
 import json
+import logging
 import os
 import queue
+import re
 import sys
 import threading
 import time
@@ -22,18 +25,28 @@ PIECE_RETRY_S = 0.05
 NAME_TIMEOUT_S, NAME_RETRY_S = 15.0, 0.5
 MESSAGE_BYTES_MAX = 32 << 20
 QUEUED_METRICS_MAX = 100_000
+#: Time without an answer before the first warning, as the learner may be starting, and between further ones.
+FIRST_WARNING_S, WARN_EVERY_S = 1.0, 10.0
+#: Protocol, host, port and Zenoh's options.
+ENDPOINT = re.compile(r"(tcp|tls)/([^?#]+):([0-9]{1,5})([?#].*)?")
+log = logging.getLogger("treadmill_actor")
 
 
 class BusError(Exception):
     """An endpoint, a certificate or the session is unusable."""
 
 
-def check_endpoint(endpoint, insecure):
-    """Raises BusError for a malformed endpoint, and for plain tcp beyond loopback without `insecure`."""
-    protocol, _, address = endpoint.partition("/")
-    host = address.rpartition(":")[0].strip("[]")
-    if protocol not in ("tcp", "tls") or not host:
-        raise BusError(f"endpoint `{endpoint}` is not valid; write tcp/HOST:PORT or tls/HOST:PORT")
+def check_endpoint(endpoint, insecure, tls):
+    """Raises BusError for a malformed endpoint, plain tcp beyond loopback without `insecure`, and tls without the folder `tls`."""
+    parts = ENDPOINT.fullmatch(endpoint)
+    if not parts or not 1 <= int(parts[3]) <= 65_535:
+        raise BusError(f"endpoint `{endpoint}` is not valid; write tcp/HOST:PORT or tls/HOST:PORT with a port from 1 to 65535")
+    protocol, host = parts[1], parts[2].strip("[]")
+    if protocol == "tls" and tls is None:
+        raise BusError(
+            f"endpoint `{endpoint}`: links to it are encrypted, and --tls is missing; name the folder with this machine's "
+            "certificates: --tls DIR (`treadmill certs DIR` makes them)"
+        )
     try:
         is_loopback = host == "localhost" or ipaddress.ip_address(host).is_loopback
     except ValueError:
@@ -104,10 +117,11 @@ def decoded(kind, data):
         return None
 
 
-def dialled(open_session, stopping):
+def dialled(open_session, endpoints, stopping):
     """Returns what `open_session` returns, or None after a request to stop. Raises BusError if it raises.
 
-    Zenoh blocks until a learner or router answers, and signals do not end that; so it dials on a thread of its own.
+    Zenoh blocks until a learner or router answers, without a message, and signals do not end that; so it dials on a thread of
+    its own.
     """
     opened = queue.Queue()
 
@@ -118,10 +132,14 @@ def dialled(open_session, stopping):
             opened.put((None, why))
 
     threading.Thread(target=dial, daemon=True).start()
+    warn_at = time.monotonic() + FIRST_WARNING_S
     while not stopping.is_set():
         try:
             session, why = opened.get(timeout=0.1)
         except queue.Empty:
+            if time.monotonic() >= warn_at:
+                log.warning("no answer from %s; retrying", ", ".join(endpoints))
+                warn_at = time.monotonic() + WARN_EVERY_S
             continue
         if why is not None:
             raise BusError(str(why)) from why
@@ -193,7 +211,9 @@ class Bus:
 
     def close(self):
         """Closes the session."""
-        self.session.close()
+        # Zenoh gives up if the other end stands still.
+        with contextlib.suppress(zenoh.ZError):
+            self.session.close()
 
     def ask(self, key, payload=None, timeout_s=FETCH_TIMEOUT_S, priority=None):
         """Returns the first answer to a query as bytes, or None after the timeout."""
@@ -201,15 +221,21 @@ class Bus:
 
     def answers(self, key, payload=None, timeout_s=FETCH_TIMEOUT_S, priority=None):
         """Yields the answers to a query as bytes. A learner that was overtaken may answer beside its successor, or stay silent."""
-        replies = self.session.get(
-            key,
-            payload=payload,
-            timeout=timeout_s,
-            # By default, Zenoh holds answers until all have come.
-            consolidation=zenoh.ConsolidationMode.NONE,
-            priority=priority or zenoh.Priority.DATA,
-            congestion_control=zenoh.CongestionControl.BLOCK,
-        )
+        try:
+            replies = self.session.get(
+                key,
+                payload=payload,
+                timeout=timeout_s,
+                # By default, Zenoh holds answers until all have come.
+                consolidation=zenoh.ConsolidationMode.NONE,
+                priority=priority or zenoh.Priority.DATA,
+                congestion_control=zenoh.CongestionControl.BLOCK,
+            )
+        except zenoh.ZError:
+            # At the end, a thread may still ask.
+            if self.session.is_closed():
+                return
+            raise
         for reply in replies:
             if reply.ok is not None:
                 yield reply.ok.payload.to_bytes()

@@ -5,7 +5,6 @@ import importlib
 import json
 import logging
 import re
-import signal
 import socket
 import sys
 import threading
@@ -15,9 +14,13 @@ import gymnasium
 from .bus import Bus, BusError, check_endpoint, dialled
 from .policies import JoinRefused
 from .rollout import Environments
+from .signals import request_stop
 from .task import TaskError
 from .worker import Worker, unique
 
+NUMBER_MAX = 2**63 - 1
+#: Exit code after Ctrl-C while environments are built: 128 + SIGINT, the convention of shells.
+EXIT_AT_ONCE = 130
 _IDENT = re.compile(r"[a-z0-9_-]{1,64}\Z")
 
 
@@ -28,26 +31,57 @@ def ident(text):
     return text
 
 
+def whole(low, high):
+    """Returns a function that reads a whole number from `low` to `high`."""
+
+    def read(text):
+        if not re.fullmatch("[0-9]{1,20}", text) or not low <= int(text) <= high:
+            raise argparse.ArgumentTypeError(f"`{text}` is not a whole number from {low} to {high}")
+        return int(text)
+
+    return read
+
+
+def keywords(text):
+    """Returns a JSON object as a dictionary."""
+    try:
+        read = json.loads(text)
+    except ValueError:
+        read = None
+    if not isinstance(read, dict):
+        raise argparse.ArgumentTypeError(f"`{text}` is not a JSON object; write it as '{{\"NAME\": VALUE}}'")
+    return read
+
+
 def parser():
     """Returns the argument parser."""
-    flags = argparse.ArgumentParser(prog="treadmill_actor", description="Runs a Gymnasium environment for a Treadmill run.")
+    what = "Runs a Gymnasium environment for a Treadmill run. Ctrl-C ends it, a second one at once."
+    flags = argparse.ArgumentParser(prog="treadmill_actor", description=what)
     flags.add_argument("--env", required=True, metavar="ID", help="Gymnasium ID, for example Humanoid-v5")
     flags.add_argument("--run", required=True, type=ident, metavar="NAME", help="run to join")
     flags.add_argument(
         "--connect", action="append", metavar="ENDPOINT", help="learner or router; default tcp/127.0.0.1:7447; repeatable"
     )
-    flags.add_argument("--envs", type=int, default=8, metavar="N", help="environments of this actor; default 8")
+    flags.add_argument("--envs", type=whole(1, 65_536), default=8, metavar="N", help="environments of this actor; default 8")
     flags.add_argument("--name", type=ident, help="unique actor name; default: host name and a random number")
     flags.add_argument(
         "--import", dest="modules", action="append", default=[], metavar="MODULE", help="imported first; registers the environment"
     )
-    flags.add_argument("--kwargs", type=json.loads, default={}, metavar="JSON", help="arguments for gymnasium.make")
+    flags.add_argument("--kwargs", type=keywords, default={}, metavar="JSON", help="arguments for gymnasium.make")
     flags.add_argument("--task", metavar="NAME", help="task name; default gymnasium/ID")
     flags.add_argument("--tls", metavar="DIR", help="certificate folder made by `treadmill certs`")
     flags.add_argument("--insecure", action="store_true", help="allow plain tcp beyond loopback; any host can forge it")
-    flags.add_argument("--seed", type=int, help="seed of resets and exploration; default: random")
-    flags.add_argument("--steps", type=int, help="end after this many environment steps")
+    flags.add_argument("--seed", type=whole(0, NUMBER_MAX), help="seed of resets and exploration; default: random")
+    flags.add_argument("--steps", type=whole(1, NUMBER_MAX), help="end after this many environment steps")
     return flags
+
+
+def make(env, kwargs):
+    """Returns an environment. Raises TaskError for unknown arguments."""
+    try:
+        return gymnasium.make(env, **kwargs)
+    except TypeError as why:
+        raise TaskError(f"{why}; correct --kwargs {json.dumps(kwargs)}") from why
 
 
 def main(arguments=None):
@@ -55,35 +89,32 @@ def main(arguments=None):
     args = parser().parse_args(arguments)
     logging.basicConfig(level=logging.INFO, format="%(asctime)s %(levelname)s %(message)s", stream=sys.stderr)
     log = logging.getLogger("treadmill_actor")
-    if not 1 <= args.envs <= 65_536:
-        parser().error(f"argument --envs: {args.envs} is not 1 to 65536")
     name = args.name or re.sub(r"[^a-z0-9]", "-", socket.gethostname().lower())[:40] + f"-py-{unique() & 0xFFFFFFFF:08x}"
     seed = args.seed if args.seed is not None else unique()
     stopping = threading.Event()
-    for number in (signal.SIGINT, signal.SIGTERM):
-        signal.signal(number, lambda *_: stopping.set())
     environments = bus = None
     connect = args.connect or ["tcp/127.0.0.1:7447"]
     try:
         for endpoint in connect:
-            check_endpoint(endpoint, args.insecure)
+            check_endpoint(endpoint, args.insecure, args.tls)
     except BusError as why:
         parser().error(str(why))
     try:
         for module in args.modules:
             importlib.import_module(module)
         label = args.task or f"gymnasium/{args.env.rsplit(':', 1)[-1]}"
-        environments = Environments(lambda: gymnasium.make(args.env, **args.kwargs), label, args.envs, seed)
+        environments = Environments(lambda: make(args.env, args.kwargs), label, args.envs, seed)
+        # Until here a signal ends the process: environments may take long to build.
+        request_stop(stopping)
         task = environments.task
         log.info(
-            "%s runs `%s`: %d observations, %d actions; %s",
+            "%s runs `%s`: %d observations, %d actions; distance from x_position in info, else 0",
             name,
             task.name,
             task.observation_size,
             task.action_size,
-            "distance from x_position" if task.has_position else "no x_position in info, so distance is 0",
         )
-        bus = dialled(lambda: Bus(connect, args.tls), stopping)
+        bus = dialled(lambda: Bus(connect, args.tls), connect, stopping)
         if bus is None:
             return 0
         worker = Worker(bus, args.run, name, environments, seed, stopping)
@@ -94,6 +125,8 @@ def main(arguments=None):
     except (JoinRefused, TaskError, BusError, ImportError, gymnasium.error.Error) as why:
         print(f"error: {why}", file=sys.stderr)
         return 1
+    except KeyboardInterrupt:
+        return EXIT_AT_ONCE
     finally:
         if environments is not None:
             environments.close()

@@ -4,20 +4,21 @@
     python -m treadmill_actor.forward wandb walk --connect tls/HOST:7447 --tls certs
 
 Keeps the name, environment step and time of each metric. A run ends when its learner has been gone for ten seconds; then the best
-policy of a folder is filmed by `treadmill eval`. Ctrl-C ends all runs.
+policy of a folder is filmed by `treadmill eval`. Ctrl-C ends all runs; a second one ends the process at once.
 """
 
 import argparse
 import importlib
 import queue
 import shutil
-import signal
 import subprocess
 import sys
 import tempfile
 import threading
 import time
 from pathlib import Path
+
+from .signals import request_stop
 
 GONE_S = 10.0
 """Time without a learner after which a run has ended: a learner that restarts is back sooner."""
@@ -156,14 +157,13 @@ def main():
     flags.add_argument("--treadmill", default="treadmill", help="program that films the policy")
     args = flags.parse_args()
     events, stopping = queue.Queue(), threading.Event()
-    for number in (signal.SIGINT, signal.SIGTERM):
-        signal.signal(number, lambda *_: stopping.set())
+    request_stop(stopping)
     try:
         importlib.import_module(args.to)
         folder, run, connect = address(args.run, args.connect)
         for endpoint in connect:
-            bus.check_endpoint(endpoint, args.insecure)
-        session = bus.dialled(lambda: bus.observe(connect, args.tls, run, events), stopping)
+            bus.check_endpoint(endpoint, args.insecure, args.tls)
+        session = bus.dialled(lambda: bus.observe(connect, args.tls, run, events), connect, stopping)
     except ImportError:
         print(f"error: {args.to} is not installed: pip install {args.to}", file=sys.stderr)
         return 2

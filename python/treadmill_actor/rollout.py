@@ -2,14 +2,13 @@
 
 import logging
 import math
-import numbers
 import re
 import time
 
 import numpy as np
 
 from . import schema
-from .task import TaskError, describe
+from .task import TaskError, describe, number
 
 TERMINATED, TRUNCATED = 1, 2
 FRAGMENT_BYTES_MAX = 30 << 20
@@ -30,7 +29,8 @@ class Environments:
         self.observations = np.zeros((count, self.task.observation_size), np.float32)
         self.returns = [0.0] * count
         self.lengths = [0] * count
-        self.starts = [0.0] * count
+        #: First and last x_position of each episode; None without one.
+        self.starts = [None] * count
         self.positions = [None] * count
         #: Sum of each term of the reward over all environments and steps since the fragment began.
         self.reward_sums = {}
@@ -51,9 +51,7 @@ class Environments:
         if not np.isfinite(self.observations[index]).all():
             raise TaskError(f"the first observation of `{self.task.name}` is not finite")
         self.returns[index], self.lengths[index] = 0.0, 0
-        position = info.get("x_position")
-        self.task.has_position |= position is not None
-        self.starts[index], self.positions[index] = (position or 0.0), position
+        self.starts[index] = self.positions[index] = number(info.get("x_position"))
 
     def step(self, actions):
         """Steps all environments. Returns rewards, flags, last observations of truncated episodes, and finished episodes."""
@@ -62,9 +60,7 @@ class Environments:
         cut_off, episodes = {}, []
         for index, env in enumerate(self.envs):
             before = self.observations[index].copy()
-            observation, reward, terminated, truncated, info = env.step(
-                commands[index].reshape(env.action_space.shape).astype(env.action_space.dtype, copy=False)
-            )
+            observation, reward, terminated, truncated, info = env.step(commands[index].reshape(env.action_space.shape))
             # Beyond single precision, which fragments have, is a fault too.
             with np.errstate(over="ignore"):
                 self.observations[index] = np.ravel(observation)
@@ -77,7 +73,12 @@ class Environments:
             rewards[index] = reward
             self.returns[index] += float(reward)
             self.lengths[index] += 1
-            self.positions[index] = info.get("x_position", self.positions[index])
+            position = number(info.get("x_position"))
+            if position is not None:
+                self.positions[index] = position
+                # Some environments have it in the infos of steps only.
+                if self.starts[index] is None:
+                    self.starts[index] = position
             if not (terminated or truncated):
                 continue
             # Terminated takes precedence: there is no next state to bootstrap from.
@@ -90,15 +91,15 @@ class Environments:
         return rewards, flags, cut_off, episodes
 
     def _add_reward_terms(self, info):
-        for key, term in info.items():
-            name = REWARD_TERM.fullmatch(key)
-            if name and isinstance(term, numbers.Real):
-                self.reward_sums[name[1]] = self.reward_sums.get(name[1], 0.0) + float(term)
+        for key, value in info.items():
+            name, term = isinstance(key, str) and REWARD_TERM.fullmatch(key), number(value)
+            if name and term is not None:
+                self.reward_sums[name[1]] = self.reward_sums.get(name[1], 0.0) + term
 
     def _episode(self, index, cause):
         """Returns the episode's summary. Distance comes from x_position in info, and is 0 without it."""
         position = self.positions[index]
-        distance = float(position) - float(self.starts[index]) if position is not None else 0.0
+        distance = position - self.starts[index] if position is not None else 0.0
         if not math.isfinite(distance):
             distance = 0.0
         duration = self.lengths[index] * self.task.control_step_s
@@ -137,8 +138,11 @@ class Collector:
                 f"{FRAGMENT_BYTES_MAX >> 20} MiB; use fewer --envs"
             )
 
-    def collect(self, policy, version, settled_through, steps):
-        """Returns the next fragment of `steps` steps, or as many as fit, encoded, and its finished episodes."""
+    def collect(self, policy, version, settled_through, steps, is_stopping=lambda: False):
+        """Returns the next fragment of `steps` steps, or as many as fit, encoded, and its finished episodes.
+
+        Returns None, without a fragment, once `is_stopping()` is true: a step of some environments takes seconds.
+        """
         begun = time.monotonic()
         environments, task = self.environments, self.environments.task
         steps, envs = min(steps, self.steps_max), len(environments)
@@ -149,6 +153,8 @@ class Collector:
         last_observations, episodes = [], []
         environments.reward_sums.clear()
         for t in range(steps):
+            if is_stopping():
+                return None
             normals = self.random.standard_normal((envs, task.action_size), dtype=np.float32)
             observations[t] = environments.observations
             actions[t], log_probs[t] = policy.sample(observations[t], normals)

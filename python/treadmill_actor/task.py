@@ -1,5 +1,6 @@
 """Describes a Gymnasium environment to the learner: name, sizes, action ranges."""
 
+import numbers
 import re
 from dataclasses import dataclass
 
@@ -13,6 +14,13 @@ class TaskError(Exception):
     """The environment or its configuration is unusable."""
 
 
+def number(value):
+    """Returns an entry of info as a float if it is a real number or an array of one, else None."""
+    if isinstance(value, np.ndarray) and value.size == 1:
+        value = value.item()
+    return float(value) if isinstance(value, numbers.Real) else None
+
+
 @dataclass
 class Task:
     """Description of one environment."""
@@ -23,15 +31,19 @@ class Task:
     low: np.ndarray
     high: np.ndarray
     control_step_s: float
-    has_position: bool
+    #: Action space.
+    box: gymnasium.spaces.Box
 
     def to_env(self, actions):
         """Maps policy actions to the environment's Box: -1 is the lower bound, 1 the upper one; clips the rest.
 
-        Fragments hold the unclipped policy actions.
+        Returns rows of the Box's dtype. Fragments hold the unclipped policy actions.
         """
-        shares = np.clip(actions, -1.0, 1.0)
-        return (self.low + (shares + 1.0) * 0.5 * (self.high - self.low)).astype(np.float32)
+        shares = (np.clip(np.asarray(actions, np.float64), -1.0, 1.0) + 1.0) / 2.0
+        # The difference of the bounds may overflow.
+        commands = self.low * (1.0 - shares) + self.high * shares
+        # Rounding must not leave the Box.
+        return np.clip(commands.astype(self.box.dtype), self.box.low.ravel(), self.box.high.ravel())
 
     def fill(self, message):
         """Copies the description into the Task message of a registration."""
@@ -66,5 +78,5 @@ def describe(env, name):
         low=low,
         high=high,
         control_step_s=float(dt) if isinstance(dt, (int, float)) and 0 < dt < 1e3 else 0.0,
-        has_position=False,
+        box=env.action_space,
     )

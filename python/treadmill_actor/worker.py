@@ -129,7 +129,11 @@ class Worker:
             policy, version = policies.current
             length = settings.next_fragment_steps(self.receipt_steps, policies.fragment_steps)
             before = collector.env_steps
-            fragment, episodes = collector.collect(policy, version, self.uploader.settled_through(), length)
+            settled = self.uploader.settled_through()
+            collected = collector.collect(policy, version, settled, length, self.stopping.is_set)
+            if collected is None:
+                break
+            fragment, episodes = collected
             self.uploader.note_produced(collector.sequence)
             outbox.put((collector.sequence, fragment))
             self.env_steps += collector.env_steps - before

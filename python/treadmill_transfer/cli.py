@@ -6,6 +6,7 @@ import json
 import math
 import sys
 import time
+import warnings
 
 from .commands import read_commands
 from .contract import Policy, TransferError
@@ -149,8 +150,14 @@ def played(args, robot, controller, rows, ground):
 def open_viewer(robot):
     """Opens MuJoCo's viewer."""
     try:
+        import glfw
         import mujoco.viewer
 
+        # Without a display, the viewer ends the process. On macOS, MuJoCo itself starts GLFW.
+        with warnings.catch_warnings(action="ignore"):
+            has_display = sys.platform == "darwin" or glfw.init()
+        if not has_display:
+            raise RuntimeError(glfw.get_error()[1].decode())
         return mujoco.viewer.launch_passive(robot.model, robot.data)
     except Exception as why:  # noqa: BLE001: no window, no OpenGL
         raise TransferError(f"--view cannot open a window ({why}); leave it out") from why

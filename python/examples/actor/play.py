@@ -15,7 +15,7 @@ import numpy as np
 sys.path.insert(0, str(Path(__file__).resolve().parents[2]))
 
 from treadmill_actor.policy import Policy  # noqa: E402
-from treadmill_actor.task import describe  # noqa: E402
+from treadmill_actor.task import describe, number  # noqa: E402
 
 flags = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
 flags.add_argument("policy", type=Path)
@@ -36,15 +36,18 @@ if (task.observation_size, task.action_size) != (policy.observation_size, policy
 returns, lengths, distances = [], [], []
 for episode in range(args.episodes):
     observation, info = env.reset(seed=args.seed + episode)
-    start = info.get("x_position", 0.0)
+    positions = [number(info.get("x_position"))]
     total, length, over = 0.0, 0, False
     while not over:
         actions = task.to_env(policy.means(np.float32(observation).reshape(1, -1)))
         observation, reward, terminated, truncated, info = env.step(actions[0].reshape(env.action_space.shape))
+        positions.append(number(info.get("x_position")))
         total, length, over = total + float(reward), length + 1, terminated or truncated
     returns.append(total)
     lengths.append(length)
-    distances.append(info.get("x_position", 0.0) - start)
+    # Some environments have none after a reset, or none at all.
+    known = [position for position in positions if position is not None] or [0.0]
+    distances.append(known[-1] - known[0])
 print(
     f"return {np.mean(returns):.1f} ± {np.std(returns):.1f}, length {np.mean(lengths):.1f}, "
     f"distance {np.mean(distances):.2f} m, {args.episodes} episodes"

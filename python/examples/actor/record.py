@@ -21,7 +21,7 @@ import zenoh
 sys.path.insert(0, str(Path(__file__).resolve().parents[2]))
 
 from treadmill_actor import schema  # noqa: E402
-from treadmill_actor.bus import configuration  # noqa: E402
+from treadmill_actor.bus import configuration, dialled  # noqa: E402
 
 
 def arrays(fragment):
@@ -61,9 +61,10 @@ def main():
     flags.add_argument("--count", type=int, help="end after this many fragments")
     args = flags.parse_args()
     args.folder.mkdir(parents=True, exist_ok=True)
-    config = configuration(args.connect or ["tcp/127.0.0.1:7447"], args.tls, role="observer")
+    connect = args.connect or ["tcp/127.0.0.1:7447"]
+    config = configuration(connect, args.tls, role="observer")
     written, done = 0, threading.Event()
-    with zenoh.open(config) as session:
+    with dialled(lambda: zenoh.open(config), connect, done) as session:
         # If the disk is slower than the run, the ring drops the oldest copies.
         copies = session.declare_subscriber(
             f"treadmill/{args.run}/@rollouts/{args.actor}", zenoh.handlers.RingChannel(64)

@@ -50,7 +50,7 @@ class HumanoidVecEnv(VecEnv):
             for index in np.flatnonzero(over):
                 self.reset_infos[index] = rows[index]
                 rows[index] = ends[index] | {"terminal_observation": infos["final_obs"][index]}
-        for row, truncated in zip(rows, truncations.tolist(), strict=True):
+        for row, truncated in zip(rows, (truncations & ~terminations).tolist(), strict=True):
             row["TimeLimit.truncated"] = truncated
         return observations, rewards.astype(np.float32), over, rows
 

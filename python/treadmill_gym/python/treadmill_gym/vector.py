@@ -39,8 +39,8 @@ class HumanoidVectorEnv(VectorEnv):
         self.num_envs, self.render_mode = num_envs, render_mode
         self.autoreset_mode = AutoresetMode(autoreset_mode)
         # In Gymnasium, -1 and None mean no limit.
-        limit = max_episode_steps if max_episode_steps not in (None, -1) else 0
-        self._native = Humanoids(num_envs, settings, limit, threads)
+        self._limit = max_episode_steps if max_episode_steps not in (None, -1) else 0
+        self._native = Humanoids(num_envs, settings, self._limit, threads)
         fps = spaces.render_fps(self._native)
         self.metadata = self.metadata | {"autoreset_mode": self.autoreset_mode, "render_fps": fps}
         self._renderer = Renderer(width, height, camera)
@@ -54,6 +54,7 @@ class HumanoidVectorEnv(VectorEnv):
         self._seeds = np.zeros(num_envs, np.uint64)
         self._observations = np.zeros(self.observation_space.shape)
         self._over = np.zeros(num_envs, np.bool_)
+        self._lengths = np.zeros(num_envs, np.int64)
 
     @property
     def threads(self):
@@ -95,7 +96,7 @@ class HumanoidVectorEnv(VectorEnv):
             self._generator(index, seeds[index])
         self._draw_seeds(mask)
         infos = self._native.reset(mask, self._seeds, self._observations)
-        self._over[mask] = False
+        self._over[mask], self._lengths[mask] = False, 0
         return self._observations.copy(), infos
 
     def step(self, actions):
@@ -109,6 +110,10 @@ class HumanoidVectorEnv(VectorEnv):
             waiting = np.flatnonzero(resets).tolist()
             raise ValueError(f'episodes {waiting} are over: restart them with reset(options={{"reset_mask": ...}})')
         observations, rewards, terminations, truncations, infos = self._native.step(actions, resets, self._seeds)
+        # A fall in the last step of an episode is both in Gymnasium, but only a termination in the native module.
+        self._lengths = np.where(resets, 0, self._lengths + 1)
+        if self._limit:
+            truncations |= self._lengths == self._limit
         over = terminations | truncations
         if self.autoreset_mode is AutoresetMode.SAME_STEP and over.any():
             self._restart(over, observations, infos)
@@ -134,6 +139,7 @@ class HumanoidVectorEnv(VectorEnv):
             values[over], mask[over] = 0, False
         self._draw_seeds(over)
         restarted = self._native.reset(over, self._seeds, observations)
+        self._lengths[over] = 0
         for name in [name for name in restarted if not name.startswith("_")]:
             infos[name][over], infos[f"_{name}"][over] = restarted[name][over], True
         # If all episodes are over, some entries may have no rows left.
