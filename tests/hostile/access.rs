@@ -227,7 +227,7 @@ fn a_renewed_certificate_is_accepted_and_a_certificate_for_another_host_is_not()
     let mut command = treadmill(folder);
     let other = folder.join("other");
     command.args(["learner", "--preset", "smoke", "--steps", "4096", "--run-dir", other.to_str().unwrap()]);
-    command.args(["--listen", "tls/127.0.0.1:0", "--tls", "elsewhere"]);
+    command.args(["--listen", "tls/127.0.0.2:0", "--tls", "elsewhere"]);
     let _elsewhere = Running::start(command);
     let stranger = Running::start(actor(folder, &endpoint(&other), "elsewhere"));
     stranger.wait_for("it is not for this name");
