@@ -45,9 +45,10 @@ gymnasium.register("Env-v0", Env)
 
 class FlagsTest(unittest.TestCase):
     def run_cli(self, *flags):
-        """Returns exit code and standard error of an actor with these flags."""
+        """Returns exit code and standard error of an actor with these flags, which must not dial."""
         err = io.StringIO()
-        with contextlib.redirect_stderr(err), mock.patch("logging.basicConfig"):
+        patches = mock.patch.object(cli, "dialled", lambda *_: None), mock.patch("logging.basicConfig")
+        with contextlib.redirect_stderr(err), patches[0], patches[1]:
             try:
                 code = cli.main(["--env", "Pendulum-v1", "--run", "gym", *flags])
             except SystemExit as end:
@@ -83,6 +84,8 @@ class SignalsTest(unittest.TestCase):
         self.addCleanup(folder.cleanup)
         self.folder = folder.name
         Path(self.folder, "blocking.py").write_text(ENVIRONMENT)
+        # Background jobs of a shell ignore Ctrl-C, and so would the processes that they start.
+        self.addCleanup(signal.signal, signal.SIGINT, signal.signal(signal.SIGINT, signal.SIG_DFL))
         # It accepts connections, and does not answer.
         self.learner = socket.create_server(("127.0.0.1", 0))
         self.addCleanup(self.learner.close)

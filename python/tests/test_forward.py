@@ -112,11 +112,11 @@ class ForwardTest(unittest.TestCase):
     def test_folder_names_its_endpoint(self):
         with tempfile.TemporaryDirectory() as folder:
             with self.assertRaises(ValueError):
-                forward.address(folder, None)
+                forward.address(folder, None, None)
             Path(folder, "endpoint.txt").write_text("tcp/0.0.0.0:5\ntcp/other:1\n")
-            self.assertEqual(forward.address(folder, None), (Path(folder), "*", ["tcp/127.0.0.1:5"]))
-            self.assertEqual(forward.address("walk", None), (None, "walk", ["tcp/127.0.0.1:7447"]))
-            self.assertEqual(forward.address("walk", ["tls/h:1"]), (None, "walk", ["tls/h:1"]))
+            self.assertEqual(forward.address(folder, None, None), (Path(folder), "*", ["tcp/127.0.0.1:5"]))
+            self.assertEqual(forward.address("walk", None, "tcp/h:1"), (None, "walk", ["tcp/h:1"]))
+            self.assertEqual(forward.address("walk", ["tls/h:1"], "tcp/h:1"), (None, "walk", ["tls/h:1"]))
 
     def test_missing_program_means_no_video(self):
         self.assertIsNone(forward.film("runs/walk-1", "/tmp", program="/no/such/treadmill"))

@@ -14,7 +14,7 @@ import zenoh
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 
 from treadmill_actor import bus, schema  # noqa: E402
-from treadmill_actor.bus import Bus, BusError, check_endpoint, dialled, fetch_pieces  # noqa: E402
+from treadmill_actor.bus import Bus, BusError, check_endpoint, default_endpoint, dialled, fetch_pieces  # noqa: E402
 from treadmill_actor.policies import Policies  # noqa: E402
 from treadmill_actor.policy import checksum  # noqa: E402
 
@@ -119,6 +119,9 @@ class JoiningTest(unittest.TestCase):
         accepted.refresh()
         self.assertFalse(accepted.run_changed.is_set())
 
+    def test_the_default_endpoint_is_encrypted_with_certificates(self):
+        self.assertEqual((default_endpoint("certs"), default_endpoint(None)), ("tls/127.0.0.1:7447", "tcp/127.0.0.1:7447"))
+
     def test_endpoints_are_checked(self):
         for fine in ("tcp/127.0.0.1:7447", "tcp/[::1]:1", "tcp/localhost:65535", "tls/learner:7447", "tls/learner:1?a=b#c=d:e"):
             check_endpoint(fine, insecure=False, tls="certs")
@@ -145,6 +148,7 @@ class JoiningTest(unittest.TestCase):
         log = mock.Mock(**{"warning.side_effect": lambda *_: log.warning.call_count == 2 and warned.set()})
         with mock.patch.multiple(bus, FIRST_WARNING_S=0.0, WARN_EVERY_S=0.0, log=log):
             self.assertEqual(dialled(open_session, ["tcp/a:1", "tcp/b:2"], stopping), "session")
+        self.assertTrue(warned.is_set())
         text, *fields = log.warning.call_args.args
         self.assertEqual(text % tuple(fields), "no answer from tcp/a:1, tcp/b:2; retrying")
 

@@ -315,9 +315,8 @@ class TransferTest(unittest.TestCase):
         # Without the check, the viewer ends the process.
         command = [sys.executable, "-m", "treadmill_transfer", self.onnx, "--model", str(self.model), "--view", "--json"]
         environment = {name: value for name, value in os.environ.items() if name not in ("DISPLAY", "WAYLAND_DISPLAY")}
-        done = subprocess.run(
-            command, env=environment | {"PYTHONPATH": str(Path(cli.__file__).parents[1])}, capture_output=True, text=True, check=False
-        )
+        environment["PYTHONPATH"] = str(Path(cli.__file__).parents[1])
+        done = subprocess.run(command, env=environment, capture_output=True, text=True, check=False)
         self.assertEqual((done.returncode, done.stdout, done.stderr.count("\n")), (2, "", 1), done.stderr)
         self.assertRegex(done.stderr, "^error: --view cannot open a window .*DISPLAY.*; leave it out")
 

@@ -36,6 +36,11 @@ class BusError(Exception):
     """An endpoint, a certificate or the session is unusable."""
 
 
+def default_endpoint(tls):
+    """Returns where a learner or router of this machine listens by default, with the certificates in `tls` or without."""
+    return f"{'tls' if tls is not None else 'tcp'}/127.0.0.1:7447"
+
+
 def check_endpoint(endpoint, insecure, tls):
     """Raises BusError for a malformed endpoint, plain tcp beyond loopback without `insecure`, and tls without the folder `tls`."""
     parts = ENDPOINT.fullmatch(endpoint)

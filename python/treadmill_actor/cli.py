@@ -11,7 +11,7 @@ import threading
 
 import gymnasium
 
-from .bus import Bus, BusError, check_endpoint, dialled
+from .bus import Bus, BusError, check_endpoint, default_endpoint, dialled
 from .policies import JoinRefused
 from .rollout import Environments
 from .signals import request_stop
@@ -60,7 +60,7 @@ def parser():
     flags.add_argument("--env", required=True, metavar="ID", help="Gymnasium ID, for example Humanoid-v5")
     flags.add_argument("--run", required=True, type=ident, metavar="NAME", help="run to join")
     flags.add_argument(
-        "--connect", action="append", metavar="ENDPOINT", help="learner or router; default tcp/127.0.0.1:7447; repeatable"
+        "--connect", action="append", metavar="ENDPOINT", help="learner or router; default port 7447 on loopback; repeatable"
     )
     flags.add_argument("--envs", type=whole(1, 65_536), default=8, metavar="N", help="environments of this actor; default 8")
     flags.add_argument("--name", type=ident, help="unique actor name; default: host name and a random number")
@@ -93,7 +93,7 @@ def main(arguments=None):
     seed = args.seed if args.seed is not None else unique()
     stopping = threading.Event()
     environments = bus = None
-    connect = args.connect or ["tcp/127.0.0.1:7447"]
+    connect = args.connect or [default_endpoint(args.tls)]
     try:
         for endpoint in connect:
             check_endpoint(endpoint, args.insecure, args.tls)

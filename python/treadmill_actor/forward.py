@@ -131,13 +131,13 @@ def forward(events, open_run, make_video, stopping, gone_s=GONE_S):
             sink.finish(make_video())
 
 
-def address(run, connect):
+def address(run, connect, default):
     """Returns folder, run and endpoints that the arguments name; a folder holds the endpoint of its learner."""
     folder = next((path for path in (Path(run), Path("runs") / run) if (path / "endpoint.txt").is_file()), None)
     if connect or not folder:
         if "/" in run:
             raise ValueError(f"`{run}` is neither a run's folder with endpoint.txt nor a run's name")
-        return None, run, connect or ["tcp/127.0.0.1:7447"]
+        return None, run, connect or [default]
     endpoint = (folder / "endpoint.txt").read_text().partition("\n")[0]
     return folder, "*", [endpoint.replace("/0.0.0.0:", "/127.0.0.1:").replace("/[::]:", "/[::1]:")]
 
@@ -149,7 +149,7 @@ def main():
     flags = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     flags.add_argument("to", choices=["mlflow", "wandb"])
     flags.add_argument("run", nargs="?", default="*", help="folder of a run, or its name on the bus; default all")
-    flags.add_argument("--connect", action="append", help="endpoint of the learner or a router; default tcp/127.0.0.1:7447")
+    flags.add_argument("--connect", action="append", help="endpoint of the learner or a router; default port 7447 on loopback")
     flags.add_argument("--tls", help="folder with ca.crt, observer.crt and observer.key")
     flags.add_argument("--insecure", action="store_true", help="allow plain tcp beyond loopback")
     flags.add_argument("--project", default="treadmill", help="project or experiment that the runs belong to")
@@ -160,7 +160,7 @@ def main():
     request_stop(stopping)
     try:
         importlib.import_module(args.to)
-        folder, run, connect = address(args.run, args.connect)
+        folder, run, connect = address(args.run, args.connect, bus.default_endpoint(args.tls))
         for endpoint in connect:
             bus.check_endpoint(endpoint, args.insecure, args.tls)
         session = bus.dialled(lambda: bus.observe(connect, args.tls, run, events), connect, stopping)

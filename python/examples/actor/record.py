@@ -21,7 +21,7 @@ import zenoh
 sys.path.insert(0, str(Path(__file__).resolve().parents[2]))
 
 from treadmill_actor import schema  # noqa: E402
-from treadmill_actor.bus import configuration, dialled  # noqa: E402
+from treadmill_actor.bus import configuration, default_endpoint, dialled  # noqa: E402
 
 
 def arrays(fragment):
@@ -61,7 +61,7 @@ def main():
     flags.add_argument("--count", type=int, help="end after this many fragments")
     args = flags.parse_args()
     args.folder.mkdir(parents=True, exist_ok=True)
-    connect = args.connect or ["tcp/127.0.0.1:7447"]
+    connect = args.connect or [default_endpoint(args.tls)]
     config = configuration(connect, args.tls, role="observer")
     written, done = 0, threading.Event()
     with dialled(lambda: zenoh.open(config), connect, done) as session:

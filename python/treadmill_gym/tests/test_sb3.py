@@ -97,6 +97,14 @@ class Vectorised(unittest.TestCase):
                 self.assertEqual(sorted(one), sorted(other))
         self.assertEqual(ends, {True, False})
 
+    def test_a_fall_in_the_last_step_is_no_time_limit(self):
+        from treadmill_gym.sb3 import HumanoidVecEnv
+
+        env = HumanoidVecEnv(2, max_episode_steps=1, healthy_z_range=(5.0, 6.0))
+        env.reset()
+        _, _, over, infos = env.step(np.zeros((2, 17), np.float32))
+        self.assertEqual((over.tolist(), [info["TimeLimit.truncated"] for info in infos]), ([True] * 2, [False] * 2))
+
     def test_ppo_trains_on_it(self):
         from stable_baselines3 import PPO
         from stable_baselines3.common.vec_env import VecMonitor

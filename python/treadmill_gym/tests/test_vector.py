@@ -69,6 +69,17 @@ class Alike(unittest.TestCase):
         self.play(AutoresetMode.NEXT_STEP, 30, terminate_when_unhealthy=False, max_episode_steps=5)
         self.play(AutoresetMode.SAME_STEP, 30, terminate_when_unhealthy=False, max_episode_steps=5)
 
+    def test_a_fall_in_the_last_step_is_terminated_and_truncated(self):
+        for mode in AutoresetMode:
+            with self.subTest(mode=mode):
+                # Always too low: each first step is a fall.
+                self.play(mode, 30, healthy_z_range=(5.0, 6.0), max_episode_steps=1)
+                self.play(mode, 30, healthy_z_range=(5.0, 6.0), max_episode_steps=2)
+        env = gymnasium.make_vec(ID, 2, healthy_z_range=(5.0, 6.0), max_episode_steps=1)
+        env.reset(seed=1)
+        results = env.step(np.zeros((2, 17), np.float32))
+        self.assertEqual((results[2].tolist(), results[3].tolist()), ([True] * 2, [True] * 2))
+
     def test_spaces_and_metadata(self):
         ours, theirs = both(3)
         for name in ("observation_space", "action_space", "single_observation_space", "single_action_space", "num_envs"):
