@@ -9,6 +9,8 @@ from gymnasium.vector import AutoresetMode
 import treadmill_gym  # noqa: F401  registers the environment
 
 ID = "treadmill/Humanoid-v0"
+#: Heights that hold the nominal start, which noise always misses: the first step of each episode is a fall.
+TOO_NARROW = (1.399999, 1.400001)
 
 
 def both(count, mode=AutoresetMode.NEXT_STEP, threads=2, **keywords):
@@ -72,10 +74,9 @@ class Alike(unittest.TestCase):
     def test_a_fall_in_the_last_step_is_terminated_and_truncated(self):
         for mode in AutoresetMode:
             with self.subTest(mode=mode):
-                # Always too low: each first step is a fall.
-                self.play(mode, 30, healthy_z_range=(5.0, 6.0), max_episode_steps=1)
-                self.play(mode, 30, healthy_z_range=(5.0, 6.0), max_episode_steps=2)
-        env = gymnasium.make_vec(ID, 2, healthy_z_range=(5.0, 6.0), max_episode_steps=1)
+                self.play(mode, 30, healthy_z_range=TOO_NARROW, max_episode_steps=1)
+                self.play(mode, 30, healthy_z_range=TOO_NARROW, max_episode_steps=2)
+        env = gymnasium.make_vec(ID, 2, healthy_z_range=TOO_NARROW, max_episode_steps=1)
         env.reset(seed=1)
         results = env.step(np.zeros((2, 17), np.float32))
         self.assertEqual((results[2].tolist(), results[3].tolist()), ([True] * 2, [True] * 2))
