@@ -11,7 +11,7 @@ nvidia-smi --query-gpu=name,driver_version --format=csv,noheader
 cargo build --release --features cuda
 cargo test --release --features cuda --test training cuda
 
-for network in 45-256-128 348-512-256; do
+for network in 45-256-128 45-512-512 348-512-256; do
     for minibatch in 2048 16384; do
         target/release/treadmill bench update --device cuda --network "$network" --minibatch "$minibatch" --json
         python3 experiments/accelerator/torch_update.py "$network" "$minibatch"

@@ -21,7 +21,7 @@ import report
 
 
 def train(binary, folder, seed, steps, way):
-    """Trains one run. Returns its speed, and the steps and seconds from the start of the program until an evaluation reached 10 m."""
+    """Trains one run. Returns its speed, and steps and seconds from the program's start until an evaluation reached 10 m."""
     begun = time.time()
     command = [binary, "train", "--seed", str(seed), "--steps", str(steps), "--run-dir", str(folder), "--json", "--no-progress"]
     subprocess.run([*command, *shlex.split(way)], check=True, stdout=subprocess.DEVNULL)

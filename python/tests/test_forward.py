@@ -42,7 +42,8 @@ class ForwardTest(unittest.TestCase):
         waiting, sinks = queue.Queue(), {}
         for event in events:
             waiting.put(event)
-        forward.forward(waiting, lambda name: sinks.setdefault(name, RecordingRun()), lambda: "film.gif", threading.Event(), gone_s=0.0)
+        stopping = threading.Event()
+        forward.forward(waiting, lambda name: sinks.setdefault(name, RecordingRun()), lambda: "film.gif", stopping, gone_s=0.0)
         return sinks
 
     def test_runs_are_logged_apart_and_end_with_a_video(self):

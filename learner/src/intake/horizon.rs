@@ -87,8 +87,11 @@ impl HorizonRule {
 
     /// Returns at most as many of these steps as fit into a message, though not fewer than the shortest horizon.
     pub fn fitting(&self, steps: u32, envs: usize) -> u32 {
-        let longest = self.fragment_rows_max / envs.max(1);
-        (steps as usize).min(longest).max(STEPS_MIN) as u32
+        (steps as usize).min(self.longest(envs)).max(STEPS_MIN) as u32
+    }
+
+    fn longest(&self, envs: usize) -> usize {
+        self.fragment_rows_max / envs.max(1)
     }
 
     /// Returns every member's horizon. Together they deliver at least [`Self::round_rows`].
@@ -100,7 +103,7 @@ impl HorizonRule {
             if self.pinned > 0 {
                 return nominal;
             }
-            let longest = (FACTOR_MAX * nominal as usize).min(self.fragment_rows_max / member.envs.max(1));
+            let longest = (FACTOR_MAX * nominal as usize).min(self.longest(member.envs));
             let steps = (share * member.speed).ceil() as usize;
             steps.clamp(STEPS_MIN, longest.clamp(STEPS_MIN, STEPS_MAX as usize)) as u32
         };

@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet, btree_map::Entry};
 use serde::{Deserialize, Serialize};
 
 /// Actor processes that are kept. Beyond this, the one that was silent longest is removed, and first those without accepted
-/// fragments: a sender of many fragments that are dropped must not push the others out.
+/// fragments. So a sender of many fragments that are dropped pushes no other out.
 const ACTORS_MAX: usize = 4096;
 /// Sequence numbers beyond a gap that are kept for each process. A wider gap is skipped, because a sender keeps fewer
 /// fragments: the pending ones and those of a batch.

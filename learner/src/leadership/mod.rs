@@ -96,8 +96,8 @@ pub struct Leadership {
     tag: Option<Tag>,
     /// Manifest that this learner wrote last.
     manifest: Option<Manifest>,
-    /// States that this learner has saved. It is part of their names: a store may derive tags from an object's bytes, so that a
-    /// manifest that names a new state must differ from the last one.
+    /// Number of states that this learner has saved, which is part of their names. A store may derive tags from an object's bytes,
+    /// so each manifest must differ from the last one.
     saves: u64,
     /// `None` in simulations.
     housekeeping: Option<Housekeeping>,
