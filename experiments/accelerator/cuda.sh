@@ -14,7 +14,7 @@ cargo test --release --features cuda --test training cuda
 for network in 45-256-128 45-512-512 348-512-256; do
     for minibatch in 2048 16384; do
         target/release/treadmill bench update --device cuda --network "$network" --minibatch "$minibatch" --json
-        python3 experiments/accelerator/torch_update.py "$network" "$minibatch"
+        python3 -m experiments.accelerator.torch_update "$network" "$minibatch"
     done
 done
 

@@ -5,15 +5,12 @@ Usage: torch_update.py 45-256-128 2048
 """
 
 import json
-import pathlib
 import sys
 import time
 
 import torch
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "learning"))
-
-import torch_ppo
+from experiments.learning import torch_ppo
 
 UPDATES = 10
 

@@ -25,11 +25,11 @@ import subprocess
 import sys
 import time
 
-import chaos_report
-from chaos_faults import KINDS, draw, resolve
-from chaos_fleet import ACTOR_HOSTS, HOSTS, NAMES, ChaosFleet, disks
-from fleet import HERE, certify, clean_up_on_signal, hosts
-from soak import descriptors, memory_mb
+from experiments.faults import chaos_report
+from experiments.faults.chaos_faults import KINDS, draw, resolve
+from experiments.faults.chaos_fleet import ACTOR_HOSTS, HOSTS, NAMES, ChaosFleet, disks
+from experiments.faults.fleet import HERE, certify, clean_up_on_signal, hosts
+from experiments.faults.soak import descriptors, memory_mb
 
 TICK_S, WARM_UP_S, UNDISTURBED_S = 0.05, 8, 10
 FIRST_S, LAST_S = 3, 25
@@ -169,7 +169,7 @@ def undisturbed(arguments, out):
     if not arguments.beside:
         yield None
         return
-    command = [sys.executable, __file__, "--baseline", "--out", out, "--binary", arguments.binary]
+    command = [sys.executable, "-m", __spec__.name, "--baseline", "--out", out, "--binary", arguments.binary]
     command += ["--minutes", 2 * arguments.minutes, "--actor-cpu", paced(arguments.actor_cpu)]
     process = subprocess.Popen([str(part) for part in command], stdout=subprocess.DEVNULL)
     try:

@@ -11,8 +11,8 @@ import subprocess
 import sys
 import time
 
-import links
-from chaos_fleet import ACTOR_HOSTS, ACTOR_NAMES, DISK_MB, HOSTS, LEARNERS, NAMES, ROUTERS, host_of
+from experiments.faults import links
+from experiments.faults.chaos_fleet import ACTOR_HOSTS, ACTOR_NAMES, DISK_MB, HOSTS, LEARNERS, NAMES, ROUTERS, host_of
 
 ACTOR_SIDE = tuple(f"host{number}" for number in range(1, ACTOR_HOSTS + 1))
 CERTIFICATE_S, DAY_S = 10, 86_400

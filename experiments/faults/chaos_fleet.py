@@ -14,8 +14,8 @@ import sys
 import threading
 import time
 
-import links
-from fleet import HERE, PORT, Fleet, Process
+from experiments.faults import links
+from experiments.faults.fleet import PORT, Fleet, Process
 
 ACTOR_HOSTS, ACTORS = 5, 16
 HOSTS = {"leader": "10.77.0.1", "standby": "10.77.0.2", "store": "10.77.0.3"}
@@ -230,7 +230,8 @@ class ChaosFleet(Fleet):
     def probe(self, host, kind, *arguments):
         """Starts a helper on a host, without a control group."""
         *arguments, file = arguments
-        command = ["ip", "netns", "exec", f"{self.prefix}-{host}", sys.executable, str(HERE / "chaos_probes.py"), kind]
+        command = ["ip", "netns", "exec", f"{self.prefix}-{host}", sys.executable]
+        command += ["-m", "experiments.faults.chaos_probes", kind]
         environment = os.environ | {"ZENOH_RUNTIME": "(rx:(handover:tx))"}
         with (self.folder / f"probe-{file}.err").open("ab") as err:
             complete = [*command, *arguments, str(self.folder / file)]

@@ -9,7 +9,6 @@ Watchers append a JSON object per line to FILE. The second one needs the Python 
 
 import heapq
 import json
-import pathlib
 import random
 import select
 import socket
@@ -91,7 +90,6 @@ class Observer:
 
 
 def watch_bus(endpoint, certificates, actors, file):
-    sys.path.append(str(pathlib.Path(__file__).resolve().parents[2] / "python"))
     from treadmill_actor import bus, schema
 
     if "epoch" not in schema.PolicyVersion.DESCRIPTOR.fields_by_name:

@@ -4,9 +4,9 @@ import collections
 import json
 import statistics
 
-from chaos_faults import ENDS_PROCESSES
-from chaos_fleet import FRAGMENT, LEARNERS, NAMES
-from soak import slope
+from experiments.faults.chaos_faults import ENDS_PROCESSES
+from experiments.faults.chaos_fleet import FRAGMENT, LEARNERS, NAMES
+from experiments.faults.soak import slope
 
 # An update may be on its way to the store when a fault begins.
 SETTLED_S = 0.3

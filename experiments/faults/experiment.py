@@ -2,7 +2,7 @@
 
 import time
 
-from fleet import FRAGMENT
+from experiments.faults.fleet import FRAGMENT
 
 ACTORS = ("actor-1", "actor-2")
 BEFORE_S, AFTER_S = 10, 12

@@ -5,9 +5,9 @@ import random
 import threading
 import time
 
-import links
-from fleet import FRAGMENT
-from experiment import ACTORS
+from experiments.faults import links
+from experiments.faults.experiment import ACTORS
+from experiments.faults.fleet import FRAGMENT
 
 FAULT_S, RESTART_S = 12, 1
 # Title, function and options of each fault, by name.

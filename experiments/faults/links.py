@@ -9,7 +9,7 @@ import shutil
 import subprocess
 import sys
 
-from fleet import ADDRESSES, PORT
+from experiments.faults.fleet import ADDRESSES, PORT
 
 CHUNK_BYTES, CHUNKS_IN_FLIGHT = 1 << 16, 4096
 FAKETIME = sorted(pathlib.Path("/usr/lib").glob("*/faketime/libfaketimeMT.so.1"))
@@ -99,7 +99,7 @@ def relays(fleet):
     set_delay(fleet.folder, 0)
     started = []
     for host in ("actor1", "actor2"):
-        command = [sys.executable, __file__, str(fleet.folder / "delay"), ADDRESSES["router"], str(PORT)]
+        command = [sys.executable, "-m", "experiments.faults.links", str(fleet.folder / "delay"), ADDRESSES["router"], str(PORT)]
         started.append(subprocess.Popen(["ip", "netns", "exec", f"{fleet.prefix}-{host}", *command]))
     try:
         yield f"tls/127.0.0.1:{PORT}"

@@ -17,7 +17,7 @@ import random
 import sys
 import time
 
-from fleet import FRAGMENT, Fleet, certify, clean_up_on_signal, hosts
+from experiments.faults.fleet import FRAGMENT, Fleet, certify, clean_up_on_signal, hosts
 
 SAMPLE_S = 2
 EVENT_S = (4, 12)

@@ -18,11 +18,10 @@ import pathlib
 import shutil
 import sys
 
-import links
-import table
-from fleet import FRAGMENT, Fleet, certify, clean_up_on_signal, endpoint, hosts
-from injections import FAULTS
-from experiment import ACTORS, Experiment, NotPossible
+from experiments.faults import links, table
+from experiments.faults.experiment import ACTORS, Experiment, NotPossible
+from experiments.faults.fleet import FRAGMENT, Fleet, certify, clean_up_on_signal, endpoint, hosts
+from experiments.faults.injections import FAULTS
 
 
 def run_one(arguments, name, certificates):

@@ -3,8 +3,8 @@
 import json
 import sys
 
-from fleet import FRAGMENT
-from injections import FAULTS
+from experiments.faults.fleet import FRAGMENT
+from experiments.faults.injections import FAULTS
 
 
 def curve(fleet):

@@ -5,7 +5,7 @@ A case is {"qpos": [24], "qvel": [23], "actions": [T, 17]} in MuJoCo's conventio
 
 import numpy as np
 
-import body
+from experiments.fidelity import body
 
 _MODEL = body.load()
 _LOW, _HIGH = _MODEL.jnt_range[1:].T

@@ -20,9 +20,8 @@ import tomllib
 
 import numpy as np
 
-import body
-import cases
-import report
+from experiments import report
+from experiments.fidelity import body, cases
 
 SEED = 1
 STEPS = {0.15: 10, 0.3: 20, 0.5: 33}

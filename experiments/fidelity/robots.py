@@ -20,7 +20,7 @@ import tempfile
 import mujoco
 import numpy as np
 
-import report
+from experiments import report
 
 SEED = 1
 CASES = 40

@@ -24,8 +24,8 @@ import sys
 import gymnasium
 import numpy as np
 
-import report
-from policy import Policy
+from experiments import report
+from experiments.fidelity.policy import Policy
 
 REPOSITORY = pathlib.Path(__file__).resolve().parents[2]
 TOLERANCE = 1e-5

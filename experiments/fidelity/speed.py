@@ -18,7 +18,7 @@ import pathlib
 import statistics
 import sys
 
-import peers
+from experiments import peers
 
 HERE = pathlib.Path(__file__).resolve().parent
 REPOSITORY = HERE.parents[1]
@@ -80,8 +80,8 @@ def main():
     peers.enter(arguments.peers, arguments.training)
 
     # These modules need the peers.
-    import report
-    import speed_rows
+    from experiments import report
+    from experiments.fidelity import speed_rows
 
     allowed = sorted(os.sched_getaffinity(0))
     cores = [int(core) for core in arguments.cores.split(",")] if arguments.cores else allowed[:2]

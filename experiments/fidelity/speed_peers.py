@@ -10,7 +10,7 @@ import mujoco
 import mujoco.rollout
 import numpy as np
 
-import body
+from experiments.fidelity import body
 
 RESET_NOISE = 0.01
 FULL_PHYSICS = mujoco.mjtState.mjSTATE_FULLPHYSICS

@@ -15,10 +15,9 @@ import typing
 
 import mujoco
 
-import body
-import measure as fidelity
-import report
-import speed_peers
+from experiments import report
+from experiments.fidelity import body, speed_peers
+from experiments.fidelity import measure as fidelity
 
 HEALTHY_M = (1.0, 2.0)
 ROBOT_REASON = "the row of the servo robot is left out"

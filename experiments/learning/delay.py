@@ -13,10 +13,8 @@ import json
 import pathlib
 import signal
 import statistics
-import sys
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "faults"))
-from links import forward
+from experiments.faults.links import forward
 
 
 async def listen(port, delay_s):

@@ -13,15 +13,12 @@ thread, so that parallel runs do not disturb each other. Compare steps, not time
 import argparse
 import json
 import pathlib
-import statistics
 import shutil
+import statistics
 import sys
 
-import search
-
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "fidelity"))
-
-import report
+from experiments import report
+from experiments.learning import search
 
 # Environment steps after which the distance is tabulated.
 CHECKPOINTS = (4_000_000, 8_000_000)

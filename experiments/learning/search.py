@@ -18,9 +18,7 @@ import statistics
 import subprocess
 import sys
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "fidelity"))
-
-import report
+from experiments import report
 
 OBSERVE_V5 = ["env.observation=gymnasium-v5"]
 LEAVE_OUT = {name: f"env.include_{name}_in_observation=false" for name in ("cinert", "cvel", "qfrc_actuator", "cfrc_ext")}

@@ -21,13 +21,11 @@ import sys
 
 HERE = pathlib.Path(__file__).resolve().parent
 REPOSITORY = HERE.parents[1]
-sys.path.insert(0, str(HERE.parent / "fidelity"))
-
 import torch
 
-import report
-import speed_peers
-import torch_ppo
+from experiments import report
+from experiments.fidelity import speed_peers
+from experiments.learning import torch_ppo
 
 SMALL, LARGE = (45, 256, 128), (348, 512, 256)
 MINIBATCH, ROWS = 2048, 64

@@ -12,12 +12,9 @@ import pathlib
 import shlex
 import statistics
 import subprocess
-import sys
 import time
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "fidelity"))
-
-import report
+from experiments import report
 
 
 def train(binary, folder, seed, steps, way):

@@ -19,9 +19,7 @@ import subprocess
 import sys
 import time
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "fidelity"))
-
-import report
+from experiments import report
 
 MODES = ["sync", "async"]
 # The update has one core, and the played actors the other one.

@@ -14,11 +14,8 @@ import os
 import pathlib
 import statistics
 import subprocess
-import sys
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "fidelity"))
-
-import report
+from experiments import report
 
 TRANSPORTS = {"TCP": [], "mutual TLS": ["--tls"], "shared memory": ["--shared-memory"]}
 # Field, heading, decimals.

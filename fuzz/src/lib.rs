@@ -11,9 +11,11 @@
 pub mod robots;
 pub mod samples;
 
-use std::{fs, path::Path, sync::Arc, time::Instant};
+use std::{fs::File, io::Read, path::Path, sync::Arc, time::Instant};
 
 use bytes::Bytes;
+use flate2::read::GzDecoder;
+use tar::Archive;
 use treadmill_bus::admission::Admission;
 use treadmill_config::{Config, ConfigSource};
 use treadmill_humanoid::{HUMANOID_XML, Model, Physics, PhysicsSettings, card::RobotCard};
@@ -59,17 +61,21 @@ pub const TARGETS: &[(&str, Target, Sample, usize)] = &[
     ("fragment_validator", fragment_validator, samples::fragment, 16),
 ];
 
-/// Returns the inputs in `seeds/TARGET`, which together cover what fuzzing has covered.
+/// Returns the inputs in `seeds/TARGET.tar.gz`, which together cover what fuzzing has covered.
 ///
 /// # Panics
 /// If they cannot be read.
 #[must_use]
 pub fn seeds_of(target: &str) -> Vec<Vec<u8>> {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("seeds").join(target);
-    fs::read_dir(folder)
-        .expect("a folder of seeds")
-        .map(|entry| fs::read(entry.expect("an entry").path()).expect("a file"))
-        .collect()
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("seeds/{target}.tar.gz"));
+    let mut archive = Archive::new(GzDecoder::new(File::open(path).expect("an archive of seeds")));
+    let files = archive.entries().expect("an archive").map(|entry| entry.expect("an entry"));
+    let seeds = files.filter(|entry| entry.header().entry_type().is_file()).map(|mut entry| {
+        let mut seed = Vec::new();
+        entry.read_to_end(&mut seed).expect("a whole file");
+        seed
+    });
+    seeds.collect()
 }
 
 /// Decodes a rollout fragment.
