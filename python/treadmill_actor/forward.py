@@ -77,7 +77,7 @@ class WandbRun:
 def film(folder, target, program="treadmill"):
     """Films one episode of the run in `folder`. Returns the file below `target`, or None with a message."""
     video = Path(target) / ("policy.mp4" if shutil.which("ffmpeg") else "policy.gif")
-    command = [program, "eval", str(folder), "--episodes", "1", "--gif", str(video)]
+    command = [program, "eval", str(folder), "--episodes", "1", "--film", str(video)]
     try:
         done = subprocess.run(command, capture_output=True, text=True, check=False)
         problem = done.stderr.strip() if done.returncode else None

@@ -11,8 +11,9 @@ use crate::{
         durability::StoredRun,
         host::{self, ActorProcesses, HostOptions},
         metrics_page::MetricsArgs,
+        prepared::RunCommand,
         run_args::{AnyRunArgs, NewRunArgs},
-        startup::{self, RunCommand},
+        startup,
     },
     shared::network_args::{NetworkArgs, check_run},
 };

@@ -10,8 +10,9 @@ use crate::{
         exit_code::Usage,
         host::{self, ActorProcesses, HostOptions},
         metrics_page::MetricsArgs,
+        prepared::RunCommand,
         run_args::{AnyRunArgs, NewRunArgs, changes},
-        startup::{self, RunCommand},
+        startup,
     },
     shared::network_args::NetworkArgs,
 };

@@ -10,7 +10,7 @@ use treadmill_runtime::{numbers::thousands, run_folder::RunFolder, words::quoted
 
 use crate::launch::{
     output::{say, say_error},
-    startup::Prepared,
+    prepared::{Prepared, RunSetup},
 };
 
 /// Prints the banner of a run. `actors` is the number of actor processes that this process starts, `page` the metrics page.
@@ -21,11 +21,12 @@ pub fn print_start(
     actors: Option<u32>,
     page: Option<SocketAddr>,
 ) {
-    let Prepared { config, folder, state, run, .. } = prepared;
+    let Prepared { setup, state } = prepared;
+    let RunSetup { config, folder, run, .. } = setup;
     let root = quoted(&folder.root().display().to_string());
-    let steps = state.as_ref().map_or(0, |state| state.counters.env_steps);
+    let steps = state.known().map_or(0, |state| state.counters.env_steps);
     let verb = match (steps, config.is_external(), &config.task.name[..]) {
-        (1.., ..) if prepared.origin.is_some() => format!("branching off at {} env steps", thousands(steps)),
+        (1.., ..) if setup.origin.is_some() => format!("branching off at {} env steps", thousands(steps)),
         (1.., ..) => format!("resuming at {} env steps", thousands(steps)),
         (0, false, _) if !config.env.own_task.is_empty() => format!("training `{}`", config.env.own_task),
         (0, false, _) if config.env.task == EnvTask::Velocity => "training a robot to follow commands".to_string(),
@@ -35,17 +36,16 @@ pub fn print_start(
     };
     say(&format!("run `{run}`: {verb}"));
     say(&format!("  learns    {}", goal(config, steps)));
-    if let Some(origin) = &prepared.origin {
+    if let Some(origin) = &setup.origin {
         say(&format!("  begins    with the policy of {origin}"));
     }
     say(&format!("  files     {root}  (curves: tensorboard --logdir {root}, or {root}/learning_curve.png)"));
     match actors {
         Some(1) => say("  actors    1 process beside this one"),
         Some(actors) => say(&format!("  actors    {actors} processes beside this one")),
-        None => say(&format!(
-            "  actors    none yet; start some by: {}",
-            actor_command(prepared, &endpoints[0], credentials)
-        )),
+        None => {
+            say(&format!("  actors    none yet; start some by: {}", actor_command(setup, &endpoints[0], credentials)))
+        }
     }
     say(&format!("  listening {}", endpoints.join(", ")));
     let tls = credentials.map(tls_flag).unwrap_or_default();
@@ -54,26 +54,26 @@ pub fn print_start(
         say(&format!(
             "            treadmill watch --live {root}{tls}  (the humanoid in a browser; without --live a replay)"
         ));
-        say(&format!("  film      treadmill eval {root} --episodes 1 --gif walk.gif, also while it trains"));
+        say(&format!("  film      treadmill eval {root} --episodes 1 --film walk.gif, also while it trains"));
     }
     if let Some(address) = page {
         say(&format!("  metrics   http://{address}/metrics"));
     }
     let command = actors.map_or("learner", |_| "train");
     say("  stop      Ctrl-C once finishes the update and saves");
-    if let Some(url) = &prepared.store {
+    if let Some(url) = &setup.store {
         say(&format!("  state     in {url}; any learner with the same --store can take over"));
     }
-    say(&format!("  resume    {}", prepared.resume_command(command)));
+    say(&format!("  resume    {}", setup.resume_command(command)));
 }
 
 /// Returns the command that starts an actor of this run.
-pub fn actor_command(prepared: &Prepared, endpoint: &str, credentials: Option<&Credentials>) -> String {
-    let command = match prepared.config.is_external() {
+pub fn actor_command(setup: &RunSetup, endpoint: &str, credentials: Option<&Credentials>) -> String {
+    let command = match setup.config.is_external() {
         true => "python -m treadmill_actor --env NAME",
         false => "treadmill actor",
     };
-    format!("{command} --connect {} --run {}", connect_flags(endpoint, credentials), prepared.run)
+    format!("{command} --connect {} --run {}", connect_flags(endpoint, credentials), setup.run)
 }
 
 /// Returns the goal and the number of steps to it. The progress display adds the remaining time.
@@ -149,7 +149,7 @@ pub fn print_end(folder: &RunFolder, store: Option<&str>, summary: &TrainingSumm
     if summary.state.model_xml.is_empty() {
         say(&format!("take the policy elsewhere: treadmill export {run} --safetensors FILE"));
     } else {
-        say(&format!("see how far it walks: treadmill eval {run} --episodes 1 --gif walk.gif"));
+        say(&format!("see how far it walks: treadmill eval {run} --episodes 1 --film walk.gif"));
     }
     say("compare it with other runs: treadmill runs");
 }

@@ -9,8 +9,11 @@ use treadmill_runtime::{run_folder::RunFolder, run_lock::RunLock, seeds};
 use crate::launch::{
     exit_code::Usage,
     model,
+    prepared::{
+        FirstState, Prepared, RunCommand, RunSetup, Start, actor_processes, check_external, check_not_stored, complete,
+        open_device,
+    },
     run_args::{AnyRunArgs, NewRunArgs, add_count},
-    startup::{Prepared, RunCommand, Start, actor_processes, check_external, check_not_stored, complete, open_device},
     warm_start::{Fork, InitFrom},
 };
 
@@ -63,8 +66,8 @@ fn begin_built_in(command: RunCommand, new: &NewRunArgs, any: &AnyRunArgs, confi
     let (folder, lock) = create_folder(new, any, new.preset())?;
     let run = folder.name().to_string();
     state.run.clone_from(&run);
-    let prepared = Prepared { config, folder, device, mirror, run, state: Some(state), init_from, origin, store: None };
-    Ok(Start::Ready(Box::new(prepared), lock))
+    let setup = RunSetup { config, folder, device, mirror, run, origin, store: None };
+    Ok(ready(setup, FirstState::Known(Box::new(state)), lock))
 }
 
 /// Begins a run whose task an actor registers; it has no state until then, unless the configuration knows the task.
@@ -77,11 +80,19 @@ fn begin_external(new: &NewRunArgs, any: &AnyRunArgs, config: Config) -> anyhow:
     let init_from = InitFrom::read(new, any)?;
     let (folder, lock) = create_folder(new, any, new.preset())?;
     let run = folder.name().to_string();
-    let mut prepared =
-        Prepared { config, folder, device, mirror: None, run, state: None, init_from, origin: None, store: None };
-    let set = known.map_or(Ok(()), |task| prepared.set_task(task));
-    set.inspect_err(|_| prepared.folder.discard())?;
-    Ok(Start::Ready(Box::new(prepared), lock))
+    let mut setup = RunSetup { config, folder, device, mirror: None, run, origin: None, store: None };
+    let state = match known {
+        Some(task) => {
+            let fresh = setup.set_task(task, init_from.as_ref()).inspect_err(|_| setup.folder.discard())?;
+            FirstState::Known(Box::new(fresh))
+        }
+        None => FirstState::AwaitsTask(init_from.map(Box::new)),
+    };
+    Ok(ready(setup, state, lock))
+}
+
+fn ready(setup: RunSetup, state: FirstState, lock: RunLock) -> Start {
+    Start::Ready(Box::new(Prepared { setup, state }), lock)
 }
 
 /// Begins a run with the learning state of another one.
@@ -114,9 +125,8 @@ fn branch_off(
     let (folder, lock) = create_folder(new, any, &prefix)?;
     let run = folder.name().to_string();
     state.run.clone_from(&run);
-    let prepared =
-        Prepared { config, folder, device, mirror, run, state: Some(state), init_from: None, origin, store: None };
-    Ok(Start::Ready(Box::new(prepared), lock))
+    let setup = RunSetup { config, folder, device, mirror, run, origin, store: None };
+    Ok(ready(setup, FirstState::Known(Box::new(state)), lock))
 }
 
 fn create_folder(new: &NewRunArgs, any: &AnyRunArgs, prefix: &str) -> anyhow::Result<(RunFolder, RunLock)> {

@@ -19,10 +19,11 @@ use crate::launch::{
     host::{self, Host, HostOptions},
     memory,
     output::{say, say_error},
+    prepared::{RunCommand, Start},
     resumption,
     run_args::{AnyRunArgs, NewRunArgs},
     standby::{NextMove, Standby, StoreWarnings},
-    startup::{self, RunCommand, Start},
+    startup,
 };
 
 /// Interval of reading the manifest and of looking for tokens.
@@ -104,8 +105,8 @@ impl StoredRun<'_> {
     fn begin_new(&self, store: &Store) -> anyhow::Result<Start> {
         let mut start = begin::begin(self.command, self.new, self.any, self.changes)?;
         if let Start::Ready(prepared, _) = &mut start {
-            prepared.store = Some(store.to_string());
-            prepared.folder.set_store(&store.to_string())?;
+            prepared.setup.store = Some(store.to_string());
+            prepared.setup.folder.set_store(&store.to_string())?;
         }
         self.name.clone().map_or(Ok(()), |name| start.set_name(name))?;
         startup::write_files(&start)?;
@@ -116,7 +117,7 @@ impl StoredRun<'_> {
     async fn serve(&self, store: &Store, host: &Host<'_>) -> anyhow::Result<()> {
         let led = match self.begin(store, host).await? {
             Some(Start::Ready(prepared, mut lock)) => {
-                let folder = prepared.folder.clone();
+                let folder = prepared.setup.folder.clone();
                 let leadership = Leadership::prepare(store, None)?;
                 let led = host.lead(*prepared, &mut lock, Some(leadership)).await;
                 if led.is_err() {

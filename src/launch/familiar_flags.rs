@@ -16,7 +16,7 @@ const FAMILIAR: &[(&[&str], &str)] = &[
     (&["--log-dir", "--logdir", "--output", "--out", "--save-dir", "--exp-name", "--name"], "--run-dir DIR"),
     (&["--load", "--load-run", "--load_run", "--restore"], "--resume RUN"),
     (&["--cuda", "--gpu"], "--device cuda"),
-    (&["--headless", "--render", "--video"], "`treadmill eval RUN --gif FILE` or `treadmill watch RUN`"),
+    (&["--headless", "--render", "--video"], "`treadmill eval RUN --film FILE` or `treadmill watch RUN`"),
 ];
 
 /// Returns a hint for the unknown flag that `error` reports.

@@ -24,12 +24,13 @@ use super::{
     metrics_page::MetricsListener,
     model,
     output::say,
+    prepared::{self, FirstState, Prepared, RunSetup, Start},
     restart::restart,
     router_session,
     run_args::AnyRunArgs,
     signals,
     slow_step::SlowStepNotice,
-    startup::{self, Prepared, Start},
+    startup,
     supervisor::{FleetOptions, Supervisor},
 };
 
@@ -68,7 +69,7 @@ impl ActorProcesses {
     fn count(self, config: &Config) -> Option<u32> {
         let Self::Beside(flag) = self else { return None };
         let wanted = flag.filter(|_| !config.run.deterministic).unwrap_or(config.rollout.actors);
-        Some(startup::actor_processes(wanted, config.rollout.envs))
+        Some(prepared::actor_processes(wanted, config.rollout.envs))
     }
 }
 
@@ -92,7 +93,7 @@ pub fn run(start: Start, options: HostOptions) -> anyhow::Result<()> {
         }
     };
     memory::keep_freed();
-    let folder = prepared.folder.clone();
+    let folder = prepared.setup.folder.clone();
     let outcome = async_runtime::run(async {
         let host = Host::open(options).await?;
         let outcome = host.lead(prepared, &mut lock, None).await;
@@ -107,7 +108,7 @@ pub fn run(start: Start, options: HostOptions) -> anyhow::Result<()> {
 
 /// Reports a run that has all its steps.
 pub fn print_finished(folder: &RunFolder, state: TrainingState, options: &HostOptions<'_>) {
-    let resumed_by = startup::resume_command(options.command(), folder, options.any.store.as_deref());
+    let resumed_by = prepared::resume_command(options.command(), folder, options.any.store.as_deref());
     banner::print_finished(&state, &resumed_by);
     if options.any.json {
         say(&as_json(&TrainingSummary::finished(state)));
@@ -189,35 +190,38 @@ impl<'a> Host<'a> {
     /// If training fails; [`TrainingError::Leadership`] if another learner leads.
     pub async fn lead(
         &self,
-        mut prepared: Prepared,
+        prepared: Prepared,
         lock: &mut RunLock,
         leadership: Option<Leadership>,
     ) -> anyhow::Result<()> {
         let command = self.options.command();
-        let folder = prepared.folder.clone();
+        let folder = prepared.setup.folder.clone();
         let text = self.endpoints.join("\n") + "\n";
         atomic_file::write(&folder.endpoint(), text.as_bytes()).context("the endpoint cannot be written")?;
         lock.set_endpoint(&self.endpoints.join(", ")).context("the lock of the run folder cannot be written")?;
-        self.name_run(&prepared.run);
+        self.name_run(&prepared.setup.run);
         let (credentials, actors) =
-            (self.options.bus.credentials.as_ref(), self.options.actors.count(&prepared.config));
+            (self.options.bus.credentials.as_ref(), self.options.actors.count(&prepared.setup.config));
         banner::print_start(&prepared, &self.endpoints, credentials, actors, self.page);
         // Stays open during training, because actors that join later register their task too.
-        let Some(task_server) = wait_for_task(&self.bus, &mut prepared, &self.shutdown, &self.heartbeat).await? else {
+        let Prepared { mut setup, state } = prepared;
+        let known = wait_for_task(&self.bus, &mut setup, state, &self.shutdown, &self.heartbeat).await?;
+        let Some((task_server, state)) = known else {
             say("stopped before any actor registered its task; nothing was trained");
             return Ok(());
         };
         let restarts = Arc::new(AtomicU64::new(0));
         let endpoint = &self.endpoints[0];
-        let fleet = actors.map(|actors| fleet_options(&prepared, self.options.bus, endpoint, actors)).transpose()?;
+        let fleet = actors.map(|actors| fleet_options(&setup, &state, self.options.bus, endpoint, actors));
         let console = ConsoleOptions {
             show_progress: !self.options.any.no_progress,
             log_metrics: self.options.any.log_metrics,
-            actor_command: actors.is_none().then(|| banner::actor_command(&prepared, endpoint, credentials)),
+            actor_command: actors.is_none().then(|| banner::actor_command(&setup, endpoint, credentials)),
         };
         let epoch = leadership.as_ref().map_or(lock.epoch(), Leadership::epoch);
-        let (resumed_by, store) = (prepared.resume_command(command), prepared.store.clone());
-        let (state, training_options) = self.training_options(prepared, console, restarts.clone(), epoch)?;
+        let (resumed_by, store) = (setup.resume_command(command), setup.store.clone());
+        let action_names = model::action_names(&state.model_xml);
+        let training_options = self.training_options(setup, action_names, console, restarts.clone(), epoch);
         let trained = spawn_training(&self.bus, state, leadership, training_options, &self.shutdown)?;
         let supervisor = fleet.map(|fleet| Supervisor::start(&fleet, restarts, self.shutdown.clone()));
         let outcome = trained.await.context("the training thread panicked");
@@ -234,17 +238,17 @@ impl<'a> Host<'a> {
         Ok(())
     }
 
-    /// Returns the state to train from and the options of the training.
+    /// Returns the options of the training.
     fn training_options(
         &self,
-        prepared: Prepared,
+        setup: RunSetup,
+        action_names: Vec<String>,
         console: ConsoleOptions,
         restarts: Arc<AtomicU64>,
         epoch: u64,
-    ) -> anyhow::Result<(TrainingState, TrainingOptions)> {
-        let Prepared { config, folder, device, mirror, state, .. } = prepared;
-        let state = state.context(NO_STATE)?;
-        let options = TrainingOptions {
+    ) -> TrainingOptions {
+        let RunSetup { config, folder, device, mirror, .. } = setup;
+        TrainingOptions {
             folder,
             epoch,
             steps: config.run.steps,
@@ -256,9 +260,8 @@ impl<'a> Host<'a> {
             heartbeat: self.heartbeat.clone(),
             command: startup::command_line(),
             versions: startup::versions(&config),
-            action_names: model::action_names(&state.model_xml),
-        };
-        Ok((state, options))
+            action_names,
+        }
     }
 }
 
@@ -266,16 +269,17 @@ impl<'a> Host<'a> {
 /// `None` after a request to stop.
 async fn wait_for_task(
     bus: &Bus,
-    prepared: &mut Prepared,
+    setup: &mut RunSetup,
+    state: FirstState,
     shutdown: &Shutdown,
     heartbeat: &Heartbeat,
-) -> anyhow::Result<Option<TaskServer>> {
-    let opening = external_task::open_server(bus, prepared, shutdown);
+) -> anyhow::Result<Option<(TaskServer, TrainingState)>> {
+    let opening = external_task::open_server(bus, setup, state, shutdown);
     tokio::pin!(opening);
     let mut beat = tokio::time::interval(HEARTBEAT_EVERY);
     loop {
         tokio::select! {
-            task_server = &mut opening => return task_server,
+            known = &mut opening => return known,
             _ = beat.tick() => heartbeat.beat(),
         }
     }
@@ -283,25 +287,23 @@ async fn wait_for_task(
 
 /// Returns the options of the actor processes.
 fn fleet_options(
-    prepared: &Prepared,
+    setup: &RunSetup,
+    state: &TrainingState,
     bus_options: &BusOptions,
     endpoint: &str,
     actors: u32,
-) -> anyhow::Result<FleetOptions> {
-    let state = prepared.state.as_ref().context(NO_STATE)?;
-    Ok(FleetOptions {
+) -> FleetOptions {
+    FleetOptions {
         endpoint: on_this_machine(endpoint),
         tls: bus_options.credentials.as_ref().map(|credentials| credentials.folder.clone()),
         shared_memory: bus_options.shared_memory,
         run: state.run.clone(),
         actors,
-        envs: prepared.config.rollout.envs,
-        evaluates: prepared.config.evaluates(),
+        envs: setup.config.rollout.envs,
+        evaluates: setup.config.evaluates(),
         starts_before: state.counters.resumes,
-    })
+    }
 }
-
-const NO_STATE: &str = "the task is known, but the run has no state";
 
 /// Starts the training thread. Its result arrives in the channel, which closes early if the thread panics.
 fn spawn_training(

@@ -1,7 +1,7 @@
 //! Starting and hosting a run, and process-wide services of every command.
 //!
 //! # Layout
-//! - Before a run: `run_args` (flags), `startup` (from flags to a run that is ready), `begin` (a new run), `warm_start` (from another
+//! - Before a run: `run_args` (flags), `startup` (from flags to a run that is ready), `prepared` (that run), `begin` (a new run), `warm_start` (from another
 //!   run's policy or state), `resumption` (loads a saved run and compares the flags with it), `model` (the robot),
 //!   `external_task` (waits for the task that the first actor registers), `banner` (text printed before and after a run).
 //! - During a run: `host` (a learner with actors beside it), `durability` (a learner whose state is in a store), `standby`
@@ -24,6 +24,7 @@ pub(crate) mod memory;
 pub(crate) mod metrics_page;
 pub(crate) mod model;
 pub mod output;
+pub(crate) mod prepared;
 pub(crate) mod processor;
 pub(crate) mod restart;
 pub(crate) mod resumption;

@@ -11,9 +11,9 @@ use treadmill_runtime::{numbers::thousands, run_folder::RunFolder, run_lock::Run
 use crate::launch::{
     exit_code::Usage,
     model,
+    prepared::{self, FirstState, Prepared, RunCommand, RunSetup, Start},
     run_args::{AnyRunArgs, NewRunArgs},
     slow_step::SlowStepNotice,
-    startup::{self, Prepared, RunCommand, Start},
 };
 
 /// Resumes `run`, a folder or a name below `runs/`. `changes` are keys set by flags of the command.
@@ -28,7 +28,7 @@ pub fn resume(
     changes: &[(&str, toml::Value)],
 ) -> anyhow::Result<Start> {
     let folder = RunFolder::open(run)?;
-    startup::check_not_stored(&folder)?;
+    prepared::check_not_stored(&folder)?;
     check_folder(&folder, new)?;
     let lock = RunLock::take(&folder)?;
     let _step = SlowStepNotice::begin(format!("loading the checkpoint of {}", folder.root().display()));
@@ -54,7 +54,7 @@ pub fn go_on(
     changes: &[(&str, toml::Value)],
 ) -> anyhow::Result<Start> {
     let mut config = state.config().map_err(anyhow::Error::msg)?;
-    startup::check_external(command, &config, any)?;
+    prepared::check_external(command, &config, any)?;
     // Labels describe the run and may change at each start, as may the number of processes.
     let saved_run = config.run.clone();
     for (key, value) in new.labels() {
@@ -66,7 +66,7 @@ pub fn go_on(
     let has_new_labels = config.run != saved_run;
     let kept: Vec<_> = changes.iter().filter(|(key, _)| *key != "rollout.actors").cloned().collect();
     check_agreement(&config, new, &kept)?;
-    let device = startup::open_device(&config, any.device)?;
+    let device = prepared::open_device(&config, any.device)?;
     if !config.is_external() {
         state.adopt_physics(PHYSICS_VERSION).map_err(anyhow::Error::msg)?;
     }
@@ -96,18 +96,10 @@ pub fn go_on(
     state.lineage.resume(seeds::unique());
     state.counters.resumes += 1;
     let mirror = model::mirror(&config, &state.model_xml)?;
-    let prepared = Prepared {
-        config,
-        folder,
-        device,
-        mirror,
-        run: state.run.clone(),
-        state: Some(state),
-        init_from: None,
-        origin: None,
-        store: any.store.clone(),
-    };
-    Ok(Start::Ready(Box::new(prepared), lock))
+    let (run, store) = (state.run.clone(), any.store.clone());
+    let setup = RunSetup { config, folder, device, mirror, run, origin: None, store };
+    let state = FirstState::Known(Box::new(state));
+    Ok(Start::Ready(Box::new(Prepared { setup, state }), lock))
 }
 
 fn too_few(folder: &RunFolder, steps: u64, reached: u64, saved: u64) -> Usage {
@@ -144,7 +136,7 @@ fn check_agreement(saved: &Config, new: &NewRunArgs, changes: &[(&str, toml::Val
     // The number of processes may change at each start, also where a preset has another one.
     source.value("rollout.actors", i64::from(saved.rollout.actors))?;
     let mut wanted = source.build()?;
-    startup::complete(&mut wanted);
+    prepared::complete(&mut wanted);
     let differences = differences(saved, &wanted)?;
     if differences.is_empty() {
         return Ok(());
@@ -181,7 +173,7 @@ mod tests {
         source.preset("smoke").unwrap();
         saved.iter().for_each(|pair| source.set(pair).unwrap());
         let mut saved = source.build().unwrap();
-        startup::complete(&mut saved);
+        prepared::complete(&mut saved);
         let new = NewRunArgs {
             preset: Some("smoke".to_string()),
             set: given.iter().map(ToString::to_string).collect(),

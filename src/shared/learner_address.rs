@@ -6,15 +6,11 @@ use anyhow::Context;
 use clap::Args;
 use treadmill_bus::{Bus, BusError, BusOptions, Role};
 use treadmill_proto::{ControlReply, RunStatus};
-use treadmill_runtime::{
-    run_folder::RunFolder,
-    run_lock::{Holder, holder},
-    words::quoted,
-};
+use treadmill_runtime::{holder::Holder, run_folder::RunFolder, run_lock::holder, words::quoted};
 
 use crate::{
     diagnosis::Silence,
-    launch::{async_runtime, exit_code::Usage, slow_step::SlowStepNotice, startup::resume_command_of},
+    launch::{async_runtime, exit_code::Usage, prepared::resume_command_of, slow_step::SlowStepNotice},
     shared::network_args::{DEFAULT_PORT, NetworkArgs, check_run},
 };
 

@@ -1,4 +1,4 @@
-//! `eval --gif` and `--png`: pictures without a window.
+//! `eval --film` and `--png`: pictures without a window.
 
 use std::{fs, os::unix::fs::PermissionsExt, path::Path};
 
@@ -35,7 +35,8 @@ fn pixels(path: &Path) -> (u32, u32, Vec<u8>) {
 #[test]
 fn an_episode_becomes_an_animation_and_single_pictures() {
     let (folder, _) = folders();
-    let args = ["eval", "--agent", "random", "--episodes", "2", "--gif", "a.gif", "--png", "frames", "--size", "96x64"];
+    let args =
+        ["eval", "--agent", "random", "--episodes", "2", "--film", "a.gif", "--png", "frames", "--size", "96x64"];
     let output = run(folder.path(), &[&args[..], &["--fps", "20", "--json"]].concat());
     assert!(output.status.success(), "{}", stderr(&output));
     assert_eq!(stdout(&output).lines().count(), 1, "--json is one line");
@@ -63,7 +64,7 @@ fn an_episode_becomes_an_animation_and_single_pictures() {
 fn the_film_can_start_later_and_end_earlier() {
     let (folder, _) = folders();
     let film = |name: &str, more: &[&str]| {
-        let args = ["eval", "--agent", "random", "--episodes", "1", "--size", "64x48", "--fps", "50", "--gif", name];
+        let args = ["eval", "--agent", "random", "--episodes", "1", "--size", "64x48", "--fps", "50", "--film", name];
         let output = run(folder.path(), &[&args[..], more].concat());
         assert!(output.status.success(), "{}", stderr(&output));
         assert!(stdout(&output).contains("pictures of 64x48"), "{}", stdout(&output));
@@ -79,7 +80,7 @@ fn the_film_can_start_later_and_end_earlier() {
 fn every_episode_is_shown_at_25_pictures_per_second() {
     let (folder, _) = folders();
     let film = |episodes: &str, name: &str| {
-        let args = ["eval", "--agent", "random", "--episodes", episodes, "--size", "64x48", "--gif", name, "--json"];
+        let args = ["eval", "--agent", "random", "--episodes", episodes, "--size", "64x48", "--film", name, "--json"];
         let output = run(folder.path(), &args);
         assert!(output.status.success(), "{}", stderr(&output));
         let steps = last_json(&output)["length_mean"].as_f64().unwrap() * episodes.parse::<f64>().unwrap();
@@ -97,9 +98,9 @@ fn a_video_is_written_by_ffmpeg() {
     let film = |path: &str| {
         let mut command = treadmill(folder.path());
         command.env("PATH", path).args(["eval", "--agent", "random", "--episodes", "1", "--size", "64x48"]);
-        command.args(["--gif", "a.mp4"]).output().unwrap()
+        command.args(["--film", "a.mp4"]).output().unwrap()
     };
-    assert_refused(&film("/nowhere"), 2, &["--gif a.mp4", "ffmpeg", "not installed", ".gif"]);
+    assert_refused(&film("/nowhere"), 2, &["--film a.mp4", "ffmpeg", "not installed", ".gif"]);
     // A program that copies its input into the file that its last argument names.
     let tools = folder.path().join("tools");
     let install = |text: &str| {
@@ -131,11 +132,11 @@ fn unwritable_outputs_and_invalid_flags_are_refused() {
     fs::create_dir(folder.path().join("full")).unwrap();
     fs::write(folder.path().join("full/a"), "x").unwrap();
     refused(&["--png", "full"], 2, &["--png full", "not empty"]);
-    refused(&["--gif", "absent/a.gif"], 1, &["--gif absent/a.gif"]);
-    refused(&["--gif", "a.gif", "--size", "9x9"], 2, &["--size", "320x240"]);
-    refused(&["--gif", "a.gif", "--fps", "0"], 2, &["--fps"]);
-    refused(&["--fps", "10"], 2, &["--gif"]);
-    refused(&["--gif", "a.avi"], 2, &["--gif a.avi", ".gif or .mp4"]);
-    refused(&["--gif", "a.gif", "--from-s", "3000"], 2, &["--from-s 3000", "every episode ended before"]);
+    refused(&["--film", "absent/a.gif"], 1, &["--film absent/a.gif"]);
+    refused(&["--film", "a.gif", "--size", "9x9"], 2, &["--size", "320x240"]);
+    refused(&["--film", "a.gif", "--fps", "0"], 2, &["--fps"]);
+    refused(&["--fps", "10"], 2, &["--film"]);
+    refused(&["--film", "a.avi"], 2, &["--film a.avi", ".gif or .mp4"]);
+    refused(&["--film", "a.gif", "--from-s", "3000"], 2, &["--from-s 3000", "every episode ended before"]);
     assert!(!folder.path().join("a.gif").exists());
 }

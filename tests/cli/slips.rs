@@ -33,8 +33,8 @@ fn ignored_and_impossible_flags_are_refused() {
     let refused = |args: &[&str], parts: &[&str]| assert_refused(&run(folder, args), 2, parts);
     refused(&["train", "--deterministic", "--actors", "4"], &["--deterministic runs one actor", "leave --actors out"]);
     refused(&["certs", "certs", "--host", "bad host!"], &["--host bad host!", "neither a host's name nor an address"]);
-    let film = ["eval", "--agent", "random", "--episodes", "1", "--gif", "films/walk.gif"];
-    assert_refused(&run(folder, &film), 1, &["--gif films/walk.gif", "the folder `films` does not exist"]);
+    let film = ["eval", "--agent", "random", "--episodes", "1", "--film", "films/walk.gif"];
+    assert_refused(&run(folder, &film), 1, &["--film films/walk.gif", "the folder `films` does not exist"]);
     fs::write(folder.join("file"), "").unwrap();
     assert_refused(
         &run(folder, &["train", "--run-dir", "file"]),

@@ -79,7 +79,7 @@ fn commands_come_from_a_file_and_every_step_is_traced() {
     train(folder, &run);
     let path = run.to_str().unwrap();
     fs::write(folder.join("walk.csv"), "time_s,vx,vy,yaw_rate\n0,0.5,0,0\n0.1,-0.25,0.125,0.5 # turns\n").unwrap();
-    let limits = ["--set", "env.max_episode_steps=8", "--gif", "a.gif", "--size", "96x64"];
+    let limits = ["--set", "env.max_episode_steps=8", "--film", "a.gif", "--size", "96x64"];
     let args = ["eval", path, "--episodes", "2", "--json", "--trace", "trace.jsonl", "--commands", "walk.csv"];
     let output = run_with(folder, &[&args, &limits, &NEVER_FALLS]);
     assert!(output.status.success(), "{}", stderr(&output));

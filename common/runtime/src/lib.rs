@@ -2,7 +2,7 @@
 //!
 //! # Layout
 //! - [`seeds`]: named random streams, derived from the run's seed.
-//! - [`run_folder`]: the folder with a run's files; [`run_lock`]: the right to write into it.
+//! - [`run_folder`]: the folder with a run's files; [`run_lock`]: the right to write into it; [`holder`]: who has it.
 //! - [`epoch`]: the terms of a run's learners.
 //! - [`atomic_file`]: writes a file atomically.
 //! - [`shutdown`]: stops every part of a process.
@@ -14,6 +14,7 @@
 pub mod atomic_file;
 pub mod epoch;
 mod error_chain;
+pub mod holder;
 pub mod machine;
 pub mod numbers;
 pub mod run_folder;

@@ -25,7 +25,7 @@ use treadmill_proto::ident::check_ident;
 
 use crate::{
     atomic_file,
-    run_lock::Holder,
+    holder::Holder,
     words::{nearest, nearest_path, quoted},
 };
 

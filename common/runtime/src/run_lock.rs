@@ -1,56 +1,24 @@
 //! Lock of a run's folder: one process at a time writes into it.
 
 use std::{
-    fmt,
     fs::{File, OpenOptions, TryLockError},
     io::{self, Seek, Write},
     thread,
     time::Duration,
 };
 
-use serde_json::{Value, json};
+use serde_json::json;
 
 use crate::{
-    epoch, machine,
+    epoch,
+    holder::Holder,
+    machine,
     run_folder::{RunFolder, RunFolderError},
 };
 
 /// Attempts to take the lock, because [`holder`] takes it for a moment to see whether it is free.
 const ATTEMPTS: u32 = 4;
 const RETRY: Duration = Duration::from_millis(25);
-
-/// Process that writes into a run's folder.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Holder {
-    /// Its number; `None` if the lock's file does not say.
-    pub pid: Option<u32>,
-    /// Its host.
-    pub host: String,
-    /// Endpoint on which it listens, once it does.
-    pub endpoint: String,
-    /// Its epoch; 0 if the lock's file does not say.
-    pub epoch: u64,
-}
-
-impl Holder {
-    fn read(folder: &RunFolder) -> Self {
-        // The holder may be writing it now.
-        let text = std::fs::read_to_string(folder.lock()).unwrap_or_default();
-        let value: Value = serde_json::from_str(&text).unwrap_or_default();
-        let text = |key: &str| value[key].as_str().unwrap_or_default().to_string();
-        let pid = value["pid"].as_u64().and_then(|pid| u32::try_from(pid).ok());
-        let epoch = value["epoch"].as_u64().unwrap_or_default();
-        Self { pid, host: text("host"), endpoint: text("endpoint"), epoch }
-    }
-}
-
-impl fmt::Display for Holder {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Some(pid) = self.pid else { return write!(f, "another process") };
-        write!(f, "process {pid} on host {}", self.host)?;
-        if self.endpoint.is_empty() { Ok(()) } else { write!(f, ", which listens on {}", self.endpoint) }
-    }
-}
 
 /// Right to write into a run's folder. The system takes it back when the process ends, however it ends.
 #[derive(Debug)]
@@ -73,13 +41,13 @@ impl RunLock {
                 Ok(()) => break,
                 Err(TryLockError::WouldBlock) if attempt < ATTEMPTS => thread::sleep(RETRY),
                 Err(TryLockError::WouldBlock) => {
-                    let (path, holder) = (folder.root().display().to_string(), Holder::read(folder));
+                    let (path, holder) = (folder.root().display().to_string(), Holder::read(&folder.lock()));
                     return Err(RunFolderError::InUse { path, holder });
                 }
                 Err(TryLockError::Error(source)) => return Err(io(source)),
             }
         }
-        lock.epoch = epoch::next(Holder::read(folder).epoch);
+        lock.epoch = epoch::next(Holder::read(&folder.lock()).epoch);
         lock.set_endpoint("").map_err(io)?;
         Ok(lock)
     }
@@ -108,7 +76,7 @@ impl RunLock {
 #[must_use]
 pub fn holder(folder: &RunFolder) -> Option<Holder> {
     let file = File::open(folder.lock()).ok()?;
-    matches!(file.try_lock_shared(), Err(TryLockError::WouldBlock)).then(|| Holder::read(folder))
+    matches!(file.try_lock_shared(), Err(TryLockError::WouldBlock)).then(|| Holder::read(&folder.lock()))
 }
 
 #[cfg(test)]

@@ -9,7 +9,7 @@ use treadmill_config::Config;
 use treadmill_runtime::{machine, seeds};
 
 use super::{print_result, rounded};
-use crate::{launch::startup, load_generator::helper};
+use crate::{launch::prepared, load_generator::helper};
 
 /// Flags of `bench train`.
 #[derive(Args)]
@@ -40,7 +40,7 @@ struct Measured {
 /// Runs the measurement and prints its result.
 pub fn run(args: &BenchTrainArgs) -> anyhow::Result<()> {
     // Preset `walk` is the default configuration.
-    let actors = startup::actor_processes(args.actors.unwrap_or(0), Config::default().rollout.envs);
+    let actors = prepared::actor_processes(args.actors.unwrap_or(0), Config::default().rollout.envs);
     let Measured { summary, checkpoint_ms, round_ms } = train(args.steps, actors, None)?;
     let number = |field: &str| summary[field].as_f64().with_context(|| format!("the summary has no `{field}`"));
     let mut result = json!({

@@ -4,7 +4,7 @@ use std::{io, time::Duration};
 
 use treadmill_bus::{Bus, BusOptions, Credentials, Role, statuses};
 use treadmill_proto::{ControlReply, RunStatus};
-use treadmill_runtime::{error_chain, machine, run_lock::Holder};
+use treadmill_runtime::{error_chain, holder::Holder, machine};
 
 use crate::{
     diagnosis::{self, finding::Finding, route},

@@ -5,6 +5,7 @@ use std::{
     io::{self, BufWriter, Read, Seek, Write},
     path::{Path, PathBuf},
     process::{Child, Command, Stdio},
+    str::FromStr,
 };
 
 use anyhow::{Context, bail};
@@ -12,11 +13,35 @@ use tempfile::{NamedTempFile, TempPath};
 use treadmill_render::{Gif, Picture};
 use treadmill_runtime::atomic_file::{Destination, destination};
 
-use super::filming::Size;
 use crate::launch::exit_code::Usage;
 
 /// Longest part of ffmpeg's messages that is shown.
 const MESSAGE_BYTES_MAX: u64 = 2000;
+
+/// Width and height of a picture, in pixels.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Size {
+    /// Pixels in a row.
+    pub width: u32,
+    /// Rows.
+    pub height: u32,
+}
+
+impl FromStr for Size {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let sides = text
+            .split_once(['x', 'X', '×'])
+            .and_then(|(width, height)| Some((width.parse().ok()?, height.parse().ok()?)));
+        match sides {
+            Some((width, height)) if (16..=4096).contains(&width) && (16..=4096).contains(&height) => {
+                Ok(Self { width, height })
+            }
+            _ => Err("expected width and height of 16 to 4096 pixels each, as in 320x240".to_string()),
+        }
+    }
+}
 
 /// Animation under way. It gets its name when it is complete.
 pub struct Film {
@@ -39,14 +64,14 @@ impl Film {
         let is_mp4 = match extension.as_str() {
             "gif" => false,
             "mp4" => true,
-            _ => return Err(Usage(format!("--gif {}: the name must end in .gif or .mp4", path.display())).into()),
+            _ => return Err(Usage(format!("--film {}: the name must end in .gif or .mp4", path.display())).into()),
         };
         let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
         if !folder.is_dir() {
-            anyhow::bail!("--gif {}: the folder `{}` does not exist", path.display(), folder.display());
+            anyhow::bail!("--film {}: the folder `{}` does not exist", path.display(), folder.display());
         }
         let file = NamedTempFile::new_in(folder)
-            .with_context(|| format!("--gif {}: the folder is not writable", path.display()))?;
+            .with_context(|| format!("--film {}: the folder is not writable", path.display()))?;
         let encoder = match is_mp4 {
             false => Encoder::Gif(Box::new(Gif::new(BufWriter::new(file), f64::from(fps)))),
             true => open_ffmpeg(path, file.into_temp_path(), size, fps)?,
@@ -56,7 +81,7 @@ impl Film {
 
     /// Appends a picture.
     pub fn add(&mut self, picture: &Picture) -> anyhow::Result<()> {
-        let context = || format!("--gif {}", self.path.display());
+        let context = || format!("--film {}", self.path.display());
         match &mut self.encoder {
             Encoder::Gif(gif) => gif.add(picture).with_context(context),
             Encoder::Mp4 { process, messages, .. } => {
@@ -70,7 +95,7 @@ impl Film {
     /// Completes the animation and returns its name and size.
     pub fn finish(self) -> anyhow::Result<String> {
         let Self { path, encoder } = self;
-        let context = || format!("--gif {}", path.display());
+        let context = || format!("--film {}", path.display());
         let file = match encoder {
             Encoder::Gif(gif) => {
                 let written = gif.finish().with_context(context)?.into_inner().map_err(|why| why.into_error());
@@ -111,7 +136,7 @@ fn open_ffmpeg(path: &Path, file: TempPath, size: Size, fps: u32) -> anyhow::Res
         Err(why) if why.kind() == io::ErrorKind::NotFound => {
             let why =
                 "an MP4 needs the program ffmpeg, which is not installed; install it, or name a file that ends in .gif";
-            Err(Usage(format!("--gif {}: {why}", path.display())).into())
+            Err(Usage(format!("--film {}: {why}", path.display())).into())
         }
         Err(why) => Err(why).context("ffmpeg cannot be started"),
     }
@@ -139,4 +164,17 @@ fn keep(file: TempPath, path: &Path) -> anyhow::Result<()> {
     }
     file.persist(path)?;
     Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn size_is_two_numbers_in_bounds() {
+        assert_eq!("640x480".parse(), Ok(Size { width: 640, height: 480 }));
+        for wrong in ["640", "640x", "x480", "0x100", "5000x100", "-1x100", "640x480x3", "1e2x100"] {
+            assert!(wrong.parse::<Size>().unwrap_err().contains("320x240"), "{wrong}");
+        }
+    }
 }

@@ -1,9 +1,8 @@
-//! Pictures of an evaluation, for `eval --gif` and `eval --png`.
+//! Pictures of an evaluation, for `eval --film` and `eval --png`.
 
 use std::{
     fs,
     path::{Path, PathBuf},
-    str::FromStr,
 };
 
 use anyhow::Context;
@@ -13,16 +12,16 @@ use treadmill_humanoid::{Physics, task::velocity::BaseMotion};
 use treadmill_render::{Camera, Picture, Scene, film, scene::Colour};
 use treadmill_runtime::atomic_file;
 
-use super::film::Film;
+use super::film::{Film, Size};
 use crate::launch::exit_code::Usage;
 
 /// Flags of pictures.
 #[derive(Args)]
-#[command(group(ArgGroup::new("pictures").args(["gif", "png"]).multiple(true)))]
+#[command(group(ArgGroup::new("pictures").args(["film", "png"]).multiple(true)))]
 pub struct FilmArgs {
     /// Write all episodes as an animation, a GIF, or a video if FILE ends in .mp4 (needs ffmpeg); needs no window and no GPU.
-    #[arg(long, value_name = "FILE")]
-    gif: Option<PathBuf>,
+    #[arg(long, visible_alias = "gif", value_name = "FILE")]
+    film: Option<PathBuf>,
     /// Write the pictures of all episodes to a folder, as 00000.png, 00001.png, ...
     #[arg(long, value_name = "FOLDER")]
     png: Option<PathBuf>,
@@ -38,31 +37,6 @@ pub struct FilmArgs {
     /// Show this many seconds of each episode; by default until it ends.
     #[arg(long, value_name = "S", requires = "pictures", value_parser = seconds)]
     seconds: Option<f64>,
-}
-
-/// Width and height of a picture, in pixels.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Size {
-    /// Pixels in a row.
-    pub width: u32,
-    /// Rows.
-    pub height: u32,
-}
-
-impl FromStr for Size {
-    type Err = String;
-
-    fn from_str(text: &str) -> Result<Self, String> {
-        let sides = text
-            .split_once(['x', 'X', '×'])
-            .and_then(|(width, height)| Some((width.parse().ok()?, height.parse().ok()?)));
-        match sides {
-            Some((width, height)) if (16..=4096).contains(&width) && (16..=4096).contains(&height) => {
-                Ok(Self { width, height })
-            }
-            _ => Err("expected width and height of 16 to 4096 pixels each, as in 320x240".to_string()),
-        }
-    }
 }
 
 fn seconds(text: &str) -> Result<f64, String> {
@@ -103,10 +77,10 @@ pub struct Filming {
 impl FilmArgs {
     /// Opens the outputs; returns `None` if no pictures are wanted.
     pub fn begin(&self, control_step_s: f64) -> anyhow::Result<Option<Filming>> {
-        if self.gif.is_none() && self.png.is_none() {
+        if self.film.is_none() && self.png.is_none() {
             return Ok(None);
         }
-        let film = self.gif.as_deref().map(|path| Film::open(path, self.size, self.fps)).transpose()?;
+        let film = self.film.as_deref().map(|path| Film::open(path, self.size, self.fps)).transpose()?;
         if let Some(folder) = &self.png {
             make_empty(folder)?;
         }
@@ -220,18 +194,5 @@ fn add_velocities(scene: &mut Scene, physics: &Physics, command: [f64; 3]) {
     for (velocity, colour) in [commanded, [velocity[0], velocity[1]]].into_iter().zip(ARROWS) {
         scene.add_arrow(from_m, velocity.map(|part| part * ARROW_S), colour);
         from_m[2] += ARROWS_APART_M;
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn size_is_two_numbers_in_bounds() {
-        assert_eq!("640x480".parse(), Ok(Size { width: 640, height: 480 }));
-        for wrong in ["640", "640x", "x480", "0x100", "5000x100", "-1x100", "640x480x3", "1e2x100"] {
-            assert!(wrong.parse::<Size>().unwrap_err().contains("320x240"), "{wrong}");
-        }
     }
 }

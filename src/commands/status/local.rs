@@ -3,7 +3,7 @@
 use serde_json::json;
 use treadmill_runtime::numbers::thousands;
 
-use crate::{commands::runs::record::Record, launch::startup::resume_command_of, shared::learner_address::ReachArgs};
+use crate::{commands::runs::record::Record, launch::prepared::resume_command_of, shared::learner_address::ReachArgs};
 
 /// Run that no process trains.
 pub struct IdleRun {
