@@ -49,14 +49,14 @@ fn format_3_decodes_to_the_same_values() {
 
     // Sums over the exported tensors, and their first numbers.
     let sum = |numbers: &[f32]| numbers.iter().map(|number| f64::from(*number)).sum::<f64>();
-    let squares: f64 = state.parameters.iter().map(|number| f64::from(*number).powi(2)).sum();
-    assert!((sum(&state.parameters) - -9.967_506_070_213_858).abs() < 1e-9);
+    let squares: f64 = state.ppo.parameters().iter().map(|number| f64::from(*number).powi(2)).sum();
+    assert!((sum(state.ppo.parameters()) - -9.967_506_070_213_858).abs() < 1e-9);
     assert!((squares - 13.352_255_335_171_14).abs() < 1e-9);
-    assert_eq!(state.parameters[0], 0.160_846_59);
-    assert!((sum(&state.parameters[state.shape.log_std()]) - -8.568_487_852_811_813).abs() < 1e-9);
-    assert_eq!((state.learning_rate, state.optimiser.step), (1e-3, 40));
-    assert_eq!(state.observation_moments.count, 640.0);
-    assert_eq!(state.observation_moments.mean[..2], [1.391_954_989_545_047_4, 0.999_697_638_582_438_3]);
+    assert_eq!(state.ppo.parameters()[0], 0.160_846_59);
+    assert!((sum(&state.ppo.parameters()[state.shape.log_std()]) - -8.568_487_852_811_813).abs() < 1e-9);
+    assert_eq!((state.ppo.learning_rate(), state.ppo.gradient_steps()), (1e-3, 40));
+    assert_eq!(state.ppo.observation_moments().count, 640.0);
+    assert_eq!(state.ppo.observation_moments().mean[..2], [1.391_954_989_545_047_4, 0.999_697_638_582_438_3]);
     let actor = state.actor_state.as_ref().unwrap();
     assert_eq!((&actor.actor[..], actor.envs()), ("actor-0", 2));
 

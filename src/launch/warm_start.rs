@@ -61,10 +61,8 @@ impl InitFrom {
         let Self { from, saved: SavedPolicy { policy, origin, return_moments } } = self;
         let count = policy.observation.count;
         let m2 = policy.variance.iter().map(|variance| variance * count).collect();
-        state.observation_moments = RunningMoments { count, mean: policy.mean.clone(), m2 };
-        state.parameters.clone_from(&policy.parameters);
-        // An exported file has none: the critic then learns the scale of returns anew.
-        state.value_moments = return_moments.clone().unwrap_or_else(|| RunningMoments::new(1));
+        let observation_moments = RunningMoments { count, mean: policy.mean.clone(), m2 };
+        state.ppo.begin_with(&state.shape, &policy.parameters, observation_moments, return_moments.clone());
         Ok(origin.as_ref().map_or_else(|| format!("`{from}`"), |origin| format!("`{from}`, {origin}")))
     }
 }
@@ -115,11 +113,9 @@ impl Fork {
             .into());
         }
         let before = state.config().map_err(anyhow::Error::msg)?;
-        if before.ppo.learning_rate != config.ppo.learning_rate {
-            state.learning_rate = config.ppo.learning_rate;
-        }
+        state.ppo.fork(&before.ppo, &config.ppo);
         if before.run.seed != config.run.seed {
-            state.shuffle = seeds::stream(config.run.seed, "shuffle", &[]);
+            state.ppo.set_shuffle(seeds::stream(config.run.seed, "shuffle", &[]));
         }
         state.config_toml = config.to_toml();
         state.check().map_err(|why| Usage(format!("`--fork`: the new configuration does not fit: {why}")))?;

@@ -112,7 +112,7 @@ pub fn environment(run: &str, policy: &ExportedPolicy, config: &Config) -> anyho
 
 fn from_state(state: &TrainingState, checkpoint: String) -> anyhow::Result<SavedPolicy> {
     let origin = Some(Origin { checkpoint, env_steps: state.counters.env_steps });
-    Ok(SavedPolicy { policy: exported(state)?, origin, return_moments: Some(state.value_moments.clone()) })
+    Ok(SavedPolicy { policy: exported(state)?, origin, return_moments: Some(state.ppo.value_moments().clone()) })
 }
 
 fn exported(state: &TrainingState) -> anyhow::Result<ExportedPolicy> {
@@ -128,10 +128,10 @@ fn exported(state: &TrainingState) -> anyhow::Result<ExportedPolicy> {
         own_task => own_task,
     };
     let (observation, mean, variance) =
-        ObservationFacts::from_moments(kind, &state.observation_moments, config.policy.observation_clip as f32);
+        ObservationFacts::from_moments(kind, state.ppo.observation_moments(), config.policy.observation_clip as f32);
     Ok(ExportedPolicy {
         shape: state.shape.clone(),
-        parameters: state.parameters.clone(),
+        parameters: state.ppo.parameters().to_vec(),
         observation,
         mean,
         variance,

@@ -81,7 +81,11 @@ fn a_run_can_be_paused_saved_changed_and_stopped() {
     let changed = done(folder, &["set", "ppo.learning_rate", "1e-4", "run"]);
     assert!(changed.contains("ppo.learning_rate is 0.0001, was 0.0003"), "{changed}");
     let saved = load_file(&run.join("checkpoints/latest.bundle")).unwrap();
-    assert_eq!((saved.config().unwrap().ppo.learning_rate, saved.learning_rate), (1e-4, 1e-4), "also if it stops now");
+    assert_eq!(
+        (saved.config().unwrap().ppo.learning_rate, saved.ppo.learning_rate()),
+        (1e-4, 1e-4),
+        "also if it stops now"
+    );
     assert_refused(&control(folder, &["set", "rollout.envs", "3", "run"]), 2, &["`rollout.envs`", "ppo"]);
     assert_refused(&control(folder, &["set", "ppo.clip_range", "-1", "run"]), 2, &["`ppo.clip_range`", "-1"]);
     assert_refused(&control(folder, &["set", "ppo.clip", "1", "run"]), 2, &["`ppo.clip`"]);

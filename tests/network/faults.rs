@@ -126,7 +126,7 @@ fn a_killed_learner_is_resumed_while_its_actors_wait() {
 
     let after = load_file(&run.join("checkpoints/latest.bundle")).unwrap();
     assert!(after.counters.env_steps >= saved.counters.env_steps + 4096);
-    assert_eq!(after.optimiser.step, after.counters.gradient_steps, "no gradient step is lost");
+    assert_eq!(after.ppo.gradient_steps(), after.counters.gradient_steps, "no gradient step is lost");
     // Every accepted fragment of 4 environments and 64 steps was learnt from, exactly once.
     assert_eq!(after.counters.env_steps, after.fragment_counts.accepted * 4 * 64);
     assert_eq!(after.fragment_counts.malformed, 0);

@@ -11,7 +11,7 @@ use treadmill_policy::{
     gaussian,
     init::initial_parameters,
 };
-use treadmill_ppo::{Batch, Updater};
+use treadmill_ppo::{Batch, Ppo, PpoOptions, PpoState};
 use treadmill_runtime::{error_chain, seeds};
 
 const ROWS: usize = 4096;
@@ -86,9 +86,11 @@ fn an_update_on_a_gpu_is_that_of_the_processor() {
     let batch = batch(&mut random);
     let config = PpoConfig { batch: ROWS as u32, ..PpoConfig::default() };
     let [there, here] = [&device, &Device::Cpu].map(|device| {
-        let mut updater = Updater::on(device, shape(), parameters.clone(), &config, pool()).unwrap();
-        let stats = updater.update(&batch, &mut seeds::stream(3, "order", &[])).unwrap();
-        (updater.parameters(), stats)
+        let options =
+            PpoOptions { shape: shape(), device: device.clone(), pool: pool(), mirror: None, observation_clip: 10.0 };
+        let mut state = PpoState::new(&shape(), parameters.clone(), seeds::stream(3, "order", &[]), &config);
+        let stats = Ppo::new(options, &config).update(&mut state, &batch, config.epochs).unwrap();
+        (state.parameters().to_vec(), stats)
     });
     assert!(largest_error(&here.0, &parameters) > 1e-2, "the parameters changed");
     assert!(largest_error(&there.0, &here.0) < 1e-3);

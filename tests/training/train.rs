@@ -156,13 +156,13 @@ fn training_works_with_the_full_observations_of_gymnasium() {
         assert_eq!(state.shape.observation, size);
         assert!(state.config_toml.contains(&format!("task = \"{task}\"")));
         assert_eq!(state.counters.updates, 6);
-        assert!(state.parameters.iter().all(|parameter| parameter.is_finite()));
+        assert!(state.ppo.parameters().iter().all(|parameter| parameter.is_finite()));
         for tag in ["train/value_loss", "train/approx_kl", "rollout/ep_rew_mean"] {
             assert!(last_value(&run, tag).unwrap().is_finite(), "{preset} {tag}");
         }
         assert_eq!(last_value(&run, "train/undone_updates"), Some(0.0), "{preset}");
         // Masses and the world's rows are constant; their variance is zero, and the normaliser handles that.
-        let variances = state.observation_moments.variance();
+        let variances = state.ppo.observation_moments().variance();
         assert!(variances.iter().filter(|variance| **variance < 1e-12).count() >= 13, "{preset}");
         assert!(variances.iter().all(|variance| variance.is_finite()));
         // The best policy may be an earlier one.
@@ -208,7 +208,7 @@ fn the_same_seed_gives_the_same_weights_bit_for_bit() {
         let args = [&["--deterministic", "--seed", seed, "--steps", "2048"], more].concat();
         let output = smoke(folder.path(), &run, &args);
         assert!(output.status.success(), "{}", stderr(&output));
-        load_file(&run.join("checkpoints/latest.bundle")).unwrap().parameters
+        load_file(&run.join("checkpoints/latest.bundle")).unwrap().ppo.parameters().to_vec()
     };
     let first = weights("7", &[]);
     assert_eq!(first, weights("7", &[]));
@@ -230,8 +230,8 @@ fn resume_restores_all_state() {
     assert!(output.status.success(), "{}", stderr(&output));
     let after = load_file(&run.join("checkpoints/latest.bundle")).unwrap();
     assert_eq!((before.counters.env_steps, after.counters.env_steps), (4096, 8192));
-    assert_eq!(after.optimiser.step, 2 * before.optimiser.step);
-    assert_eq!(after.observation_moments.count, 2.0 * before.observation_moments.count);
+    assert_eq!(after.ppo.gradient_steps(), 2 * before.ppo.gradient_steps());
+    assert_eq!(after.ppo.observation_moments().count, 2.0 * before.ppo.observation_moments().count);
     assert_eq!(after.counters.updates, 16);
     assert_eq!(after.fragment_counts.accepted, 2 * before.fragment_counts.accepted);
     assert!(after.episodes.finished > before.episodes.finished);

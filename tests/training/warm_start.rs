@@ -31,22 +31,23 @@ fn a_run_begins_with_weights_and_statistics_of_another_one_and_new_counters() {
     let smoke = ["--preset", "smoke"];
     let from = [&smoke[..], &["--init-from", "run", "--checkpoint", "latest", "--seed", "5"]].concat();
     let (ours, _) = first_state(folder, "warm", &from);
-    assert_eq!(ours.parameters, theirs.parameters);
-    assert_eq!(ours.value_moments, theirs.value_moments);
+    let (ours_ppo, theirs_ppo) = (&ours.ppo, &theirs.ppo);
+    assert_eq!(ours_ppo.parameters(), theirs_ppo.parameters());
+    assert_eq!(ours_ppo.value_moments(), theirs_ppo.value_moments());
     assert_eq!((ours.counters.env_steps, ours.counters.updates, &ours.run[..]), (0, 0, "warm"));
-    assert_eq!(ours.observation_moments.count, theirs.observation_moments.count);
-    assert_eq!(ours.observation_moments.mean, theirs.observation_moments.mean);
-    for (ours, theirs) in ours.observation_moments.m2.iter().zip(&theirs.observation_moments.m2) {
+    let (ours, theirs_moments) = (ours_ppo.observation_moments(), theirs_ppo.observation_moments());
+    assert_eq!((ours.count, &ours.mean), (theirs_moments.count, &theirs_moments.mean));
+    for (ours, theirs) in ours.m2.iter().zip(&theirs_moments.m2) {
         assert!((ours - theirs).abs() <= 1e-9 * theirs.abs(), "{ours} {theirs}");
     }
-    assert!(ours.optimiser.first_moment.iter().all(|moment| *moment == 0.0));
+    assert_eq!(ours_ppo.gradient_steps(), 0);
 
     // A file of `export` has no statistics of returns.
     let exported = run(folder, &["export", "run", "--checkpoint", "latest", "--safetensors", "policy.safetensors"]);
     assert!(exported.status.success(), "{}", stderr(&exported));
     let from = [&smoke[..], &["--init-from", "policy.safetensors"]].concat();
     let (ours, _) = first_state(folder, "exported", &from);
-    assert_eq!((ours.parameters, ours.value_moments.count), (theirs.parameters, 0.0));
+    assert_eq!((ours.ppo.parameters(), ours.ppo.value_moments().count), (theirs.ppo.parameters(), 0.0));
 
     let train = |args: &[&str]| run(folder, &[&["train", "--preset", "smoke", "--run-dir", "other"], args].concat());
     let parts = ["--init-from run", "policy.hidden"];
@@ -67,8 +68,8 @@ fn a_fork_goes_on_in_a_folder_of_its_own_with_other_keys() {
     let args = ["--fork", "run", "--set", "ppo.epochs=3", "--set", "ppo.learning_rate=7e-5", "--steps", ENDLESS];
     let (ours, _) = first_state(folder, "branch", &args);
     assert_eq!((ours.counters.env_steps, ours.counters.updates, &ours.run[..]), (steps, updates, "branch"));
-    assert_eq!((&ours.parameters, &ours.optimiser), (&theirs.parameters, &theirs.optimiser));
-    assert_eq!(ours.learning_rate, 7e-5);
+    assert_eq!(ours.ppo.parameters(), theirs.ppo.parameters());
+    assert_eq!((ours.ppo.gradient_steps(), ours.ppo.learning_rate()), (theirs.ppo.gradient_steps(), 7e-5));
     let config = ours.config().unwrap();
     assert_eq!((config.ppo.epochs, config.ppo.batch), (3, theirs.config().unwrap().ppo.batch));
     assert_eq!(latest(&run_folder), theirs, "the forked run is unchanged");

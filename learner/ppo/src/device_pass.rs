@@ -13,7 +13,8 @@ use crate::{
     loss::{Minibatch, ppo_loss},
     measures::PolicyShift,
     optimiser::{BETA_1, BETA_2, EPSILON, bias_corrections},
-    update::{PassSums, UpdateError, UpdaterState, check_finite},
+    state::PpoState,
+    update::{PassSums, UpdateError, check_finite},
 };
 
 /// Sums of one pass: the loss and its four parts, the gradient's norm, and the number of clipped ratios.
@@ -39,7 +40,7 @@ impl DevicePass {
         shape: &NetworkShape,
         config: &PpoConfig,
         device: &Device,
-        state: &UpdaterState,
+        state: &PpoState,
     ) -> Result<Self> {
         let matrix = |plane: &[f32], width| Tensor::from_slice(plane, (batch.len(), width), device);
         let vector = |numbers: &[f32]| Tensor::from_slice(numbers, numbers.len(), device);
@@ -67,7 +68,7 @@ impl DevicePass {
         order: &[u32],
         actor: &Networks,
         shift: &PolicyShift,
-        state: &mut UpdaterState,
+        state: &mut PpoState,
     ) -> std::result::Result<PassSums, UpdateError> {
         let order = Tensor::from_slice(order, order.len(), &self.device)?;
         let gathered = |plane: &Tensor| plane.index_select(&order, 0);
@@ -150,7 +151,7 @@ impl DevicePass {
         sums: &Tensor,
         means: &Tensor,
         shift: &PolicyShift,
-        state: &mut UpdaterState,
+        state: &mut PpoState,
     ) -> std::result::Result<PassSums, UpdateError> {
         let joined = Tensor::cat(&[&self.parameters, &self.first_moment, &self.second_moment, sums, means], D::Minus1)?;
         let numbers = joined.to_vec1::<f32>()?;

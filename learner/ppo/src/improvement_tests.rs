@@ -18,12 +18,10 @@ fn random(seed: u64) -> Xoshiro256PlusPlus {
     Xoshiro256PlusPlus::seed_from_u64(seed)
 }
 
-/// A learner's state.
+/// A learner.
 struct World {
-    updater: Updater,
-    observation_moments: RunningMoments,
-    value_moments: RunningMoments,
-    shuffle: Xoshiro256PlusPlus,
+    ppo: Ppo,
+    state: PpoState,
 }
 
 impl World {
@@ -32,12 +30,10 @@ impl World {
         let config = PpoConfig { minibatch: 64, epochs: 2, ..PpoConfig::default() };
         let parameters = init::initial_parameters(&shape, -0.5, &mut random(PARAMETER_SEED));
         let pool = Arc::new(rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("a thread starts"));
-        Self {
-            updater: Updater::new(shape, parameters, &config, pool).expect("they fit"),
-            observation_moments: RunningMoments::new(3),
-            value_moments: RunningMoments::new(1),
-            shuffle: random(SHUFFLE_SEED),
-        }
+        let state = PpoState::new(&shape, parameters, random(SHUFFLE_SEED), &config);
+        let device = treadmill_policy::device::Device::Cpu;
+        let options = PpoOptions { shape, device, pool, mirror: None, observation_clip: 10.0 };
+        Self { ppo: Ppo::new(options, &config), state }
     }
 
     /// World after updates from good fragments.
@@ -62,9 +58,9 @@ impl World {
             |count: usize| -> Vec<f32> { (0..count).map(|_| StandardNormal.sample(&mut random)).collect() };
         let (observations, noise, last_observations) =
             (normals(rows * 3), normals(rows * 2), normals(ENVS as usize * 3));
-        let policy = self.updater.policy().expect("its own parameters fit");
+        let policy = self.ppo.policy(&self.state).expect("its own parameters fit");
         let mut normalised = observations.clone();
-        Normaliser::from_moments(&self.observation_moments, 10.0).apply(&mut normalised);
+        Normaliser::from_moments(&self.state.observation_moments, 10.0).apply(&mut normalised);
         let mut means = vec![0.0; rows * 2];
         policy.means(&normalised, rows, &mut means).expect("candle runs");
         let mut actions = vec![0.0; rows * 2];
@@ -89,25 +85,13 @@ impl World {
     }
 
     fn learn(&mut self, fragments: &mut Vec<AcceptedFragment>) -> Improvement {
-        let mut improver = Improver {
-            updater: &mut self.updater,
-            observation_moments: &mut self.observation_moments,
-            value_moments: &mut self.value_moments,
-            mirror: None,
-            observation_clip: 10.0,
-        };
-        let prepared = improver.prepare(fragments).expect("candle runs");
-        improver.improve(2, fragments, prepared, &mut self.shuffle)
+        let prepared = self.ppo.prepare(&self.state, fragments).expect("candle runs");
+        self.ppo.improve(&mut self.state, 2, fragments, prepared)
     }
 
     #[track_caller]
     fn assert_same(&self, other: &Self) {
-        assert_eq!(self.updater.parameters(), other.updater.parameters());
-        assert_eq!(self.updater.optimiser(), other.updater.optimiser());
-        assert_eq!(self.updater.learning_rate(), other.updater.learning_rate());
-        assert_eq!(self.observation_moments, other.observation_moments);
-        assert_eq!(self.value_moments, other.value_moments);
-        assert_eq!(self.shuffle, other.shuffle);
+        assert_eq!(self.state, other.state);
     }
 }
 
@@ -168,17 +152,17 @@ fn absurd_observations_change_little() {
         assert_eq!(improvement.rejected, []);
         improvement.result.expect("it is finite");
     }
-    assert_eq!(with.observation_moments, without.observation_moments);
+    assert_eq!(with.state.observation_moments, without.state.observation_moments);
 
     // An actor that sees absurd numbers and acts on them, as the policy says.
     let mut world = World::trained();
-    let before = world.observation_moments.clone();
+    let before = world.state.observation_moments.clone();
     let mut fragments = world.fragments(8, 9);
-    let policy = world.updater.policy().expect("its own parameters fit");
+    let policy = world.ppo.policy(&world.state).expect("its own parameters fit");
     let fragment = &mut fragments[2].fragment;
     fragment.observations[5] = 1e30;
     let mut seen = fragment.observations[3..6].to_vec();
-    Normaliser::from_moments(&world.observation_moments, 10.0).apply(&mut seen);
+    Normaliser::from_moments(&world.state.observation_moments, 10.0).apply(&mut seen);
     let mut mean = [0.0; 2];
     policy.means(&seen, 1, &mut mean).expect("candle runs");
     fragment.actions[2..4].copy_from_slice(&mean);
@@ -187,11 +171,15 @@ fn absurd_observations_change_little() {
     assert_eq!(improvement.rejected, []);
     improvement.result.expect("it is finite");
     // 512 rows join 1,536; one of them is 20 standard deviations away.
-    assert!((world.observation_moments.mean[2] - before.mean[2]).abs() < 0.1, "{:?}", world.observation_moments);
     assert!(
-        (world.observation_moments.variance()[2] - before.variance()[2]).abs() < 0.4,
+        (world.state.observation_moments.mean[2] - before.mean[2]).abs() < 0.1,
         "{:?}",
-        world.observation_moments
+        world.state.observation_moments
+    );
+    assert!(
+        (world.state.observation_moments.variance()[2] - before.variance()[2]).abs() < 0.4,
+        "{:?}",
+        world.state.observation_moments
     );
 }
 
@@ -213,17 +201,10 @@ fn a_fragment_that_makes_an_update_infinite_is_found() {
     let mut eight = with.fragments(8, 9);
     let mut seven = without.fragments(8, 9);
     seven.remove(5);
-    let mut improver = Improver {
-        updater: &mut with.updater,
-        observation_moments: &mut with.observation_moments,
-        value_moments: &mut with.value_moments,
-        mirror: None,
-        observation_clip: 10.0,
-    };
-    let mut prepared = improver.prepare(&mut eight).expect("candle runs");
+    let mut prepared = with.ppo.prepare(&with.state, &mut eight).expect("candle runs");
     prepared.batch.returns[5 * (STEPS * ENVS) as usize] = 3e30;
     eight[5].fragment.rewards[0] = 3e38;
-    let improvement = improver.improve(2, &mut eight, prepared, &mut with.shuffle);
+    let improvement = with.ppo.improve(&mut with.state, 2, &mut eight, prepared);
     let expected = without.learn(&mut seven);
     assert_eq!(improvement.result.expect("seven are good"), expected.result.expect("seven are good"));
     let [(fragment, Implausible::NonFinite)] = &improvement.rejected[..] else { panic!("{:?}", improvement.rejected) };
@@ -235,13 +216,13 @@ fn a_fragment_that_makes_an_update_infinite_is_found() {
 fn an_update_that_is_infinite_for_every_fragment_is_undone_and_names_no_sender() {
     let (mut world, mut untouched) = (World::trained(), World::trained());
     for world in [&mut world, &mut untouched] {
-        world.updater.set_learning_rate(1e300);
+        world.state.learning_rate = 1e300;
     }
     let mut fragments = world.fragments(8, 9);
     let improvement = world.learn(&mut fragments);
     assert!(matches!(improvement.result, Err(UpdateError::NonFinite { .. })));
     assert_eq!((improvement.rejected.len(), fragments.len()), (0, 8));
-    assert_ne!(world.shuffle, untouched.shuffle);
-    untouched.shuffle = world.shuffle.clone();
+    assert_ne!(world.state.shuffle, untouched.state.shuffle);
+    untouched.state.shuffle = world.state.shuffle.clone();
     world.assert_same(&untouched);
 }

@@ -4,13 +4,14 @@
 //!
 //! # Layout, to be read in this order
 //! - [`gae`]: generalised advantage estimation, a pure function.
-//! - [`improvement`]: [`Improver`] takes fragments in and leaves an improved policy and new running statistics.
+//! - [`state`]: [`PpoState`], which learning continues from.
+//! - [`improvement`]: takes fragments and leaves an improved policy and new running statistics.
 //! - [`batch_building`]: turns accepted fragments into the batch of one update.
 //! - [`plausibility`]: finds fragments whose numbers cannot be what an actor observed.
 //! - [`batch`]: the batch itself, and its minibatches.
 //! - [`loss`]: the loss, from top to bottom, in Candle's operations.
 //! - `fused_loss`: the same loss as one operation, for a CPU.
-//! - [`update`]: [`Updater`] runs epochs of gradient steps, and restores the old parameters when one fails.
+//! - [`update`]: [`Ppo`] runs epochs of gradient steps, and restores the old parameters when one fails.
 //! - `device_pass`: the same epochs on a GPU.
 //! - [`optimiser`]: Adam and gradient clipping over one flat slice.
 //! - [`measures`]: KL divergence, clip fraction, explained variance, and the adaptive learning rate.
@@ -27,12 +28,14 @@ pub mod measures;
 pub mod mirror;
 pub mod optimiser;
 pub mod plausibility;
+pub mod state;
 pub mod update;
 
 pub use batch::Batch;
 pub use batch_building::{AcceptedFragment, BuiltBatch, RejectedFragment, build_batch};
-pub use improvement::{Improvement, Improver, PreparedBatch};
+pub use improvement::{Improvement, PreparedBatch};
 pub use measures::{adapt_learning_rate, explained_variance};
 pub use mirror::{BatchMirror, IndexSwap};
 pub use plausibility::Implausible;
-pub use update::{UpdateError, UpdateStats, Updater, UpdaterError};
+pub use state::PpoState;
+pub use update::{Ppo, PpoOptions, UpdateError, UpdateStats};

@@ -3,38 +3,43 @@
 use std::sync::Arc;
 
 use candle_core::{Device, Tensor, Var};
-use rand::Rng;
 use rayon::ThreadPool;
 use treadmill_config::PpoConfig;
 use treadmill_policy::gaussian::clamp_log_std;
-use treadmill_policy::{NetworkPart, NetworkShape, Networks, ParameterError, Policy, check_parameters};
+use treadmill_policy::{NetworkPart, NetworkShape, Networks, ParameterError, Policy};
 
 use crate::{
     batch::{Batch, minibatches, shuffle, weighted_advantages},
     device_pass::DevicePass,
     fused_loss::fused_ppo_loss,
     measures::{PolicyShift, adapt_learning_rate, explained_variance},
-    optimiser::{OptimiserState, clip_factor, global_norm},
+    mirror::BatchMirror,
+    optimiser::{clip_factor, global_norm},
+    state::PpoState,
 };
 
-/// Improves the parameters, batch after batch.
+/// What learning needs beside its state.
 #[derive(Clone, Debug)]
-pub struct Updater {
-    shape: NetworkShape,
-    config: PpoConfig,
-    networks: Networks,
-    actor: Networks,
-    device: Device,
-    pool: Arc<ThreadPool>,
-    state: UpdaterState,
+pub struct PpoOptions {
+    /// Shape of the networks.
+    pub shape: NetworkShape,
+    /// Device of the networks. On a GPU, the whole update runs there.
+    pub device: Device,
+    /// Threads of the update on a CPU; the results do not depend on their number.
+    pub pool: Arc<ThreadPool>,
+    /// Mirror for `ppo.symmetry`.
+    pub mirror: Option<BatchMirror>,
+    /// Limit of normalised observations.
+    pub observation_clip: f32,
 }
 
-/// State that an update changes, restored when the update fails.
+/// Proximal policy optimisation: improves a [`PpoState`] batch by batch.
 #[derive(Clone, Debug)]
-pub(crate) struct UpdaterState {
-    pub(crate) parameters: Vec<f32>,
-    pub(crate) optimiser: OptimiserState,
-    pub(crate) learning_rate: f64,
+pub struct Ppo {
+    pub(crate) options: PpoOptions,
+    pub(crate) config: PpoConfig,
+    networks: Networks,
+    actor: Networks,
 }
 
 /// Sums over the rows of one pass, and the divergence after it.
@@ -109,186 +114,84 @@ pub enum UpdateError {
     Parameters(#[from] ParameterError),
 }
 
-/// Why an updater cannot start from the given parameters or state.
-#[derive(Debug, thiserror::Error)]
-pub enum UpdaterError {
-    /// The parameters do not fit the network.
-    #[error("the parameters cannot be used")]
-    Parameters(#[from] ParameterError),
-    /// The optimiser's state does not fit the network.
-    #[error("the optimiser's state holds {found} numbers, the network has {expected} parameters")]
-    Optimiser {
-        /// Length of the moments.
-        found: usize,
-        /// Parameters of the network.
-        expected: usize,
-    },
-}
-
-impl Updater {
-    /// Updater of `parameters` with a fresh optimiser. The update runs on the threads of `pool`, or on the calling
-    /// thread if `pool` has only one; the results do not depend on the number of threads.
-    ///
-    /// # Errors
-    /// If the parameters do not fit the shape or are not finite.
-    pub fn new(
-        shape: NetworkShape,
-        parameters: Vec<f32>,
-        config: &PpoConfig,
-        pool: Arc<ThreadPool>,
-    ) -> Result<Self, UpdaterError> {
-        Self::on(&Device::Cpu, shape, parameters, config, pool)
+impl Ppo {
+    /// Returns the algorithm with its settings.
+    pub fn new(options: PpoOptions, config: &PpoConfig) -> Self {
+        let PpoOptions { shape, device, pool, .. } = &options;
+        let networks = Networks::on(device, shape, NetworkPart::ActorCritic, Some(pool.clone()));
+        let actor = Networks::on(device, shape, NetworkPart::Actor, Some(pool.clone()));
+        Self { networks, actor, options, config: config.clone() }
     }
 
-    /// Same as [`Self::new`], on `device`. On a GPU, the whole update runs there.
-    ///
-    /// # Errors
-    /// As for [`Self::new`].
-    pub fn on(
-        device: &Device,
-        shape: NetworkShape,
-        mut parameters: Vec<f32>,
-        config: &PpoConfig,
-        pool: Arc<ThreadPool>,
-    ) -> Result<Self, UpdaterError> {
-        check_parameters(&shape, &parameters)?;
-        clamp_log_std(&mut parameters[shape.log_std()]);
-        let optimiser = OptimiserState::new(parameters.len());
-        let networks = Networks::on(device, &shape, NetworkPart::ActorCritic, Some(pool.clone()));
-        let actor = Networks::on(device, &shape, NetworkPart::Actor, Some(pool.clone()));
-        let state = UpdaterState { parameters, optimiser, learning_rate: config.learning_rate };
-        Ok(Self { shape, config: config.clone(), networks, actor, device: device.clone(), pool, state })
-    }
-
-    /// Continues from another updater's `optimiser` and `learning_rate`.
-    ///
-    /// # Errors
-    /// If the optimiser's state does not fit the shape; nothing is changed then.
-    pub fn restore(&mut self, optimiser: OptimiserState, learning_rate: f64) -> Result<(), UpdaterError> {
-        let expected = self.state.parameters.len();
-        for moment in [&optimiser.first_moment, &optimiser.second_moment] {
-            if moment.len() != expected {
-                return Err(UpdaterError::Optimiser { found: moment.len(), expected });
-            }
-        }
-        (self.state.optimiser, self.state.learning_rate) = (optimiser, learning_rate);
-        Ok(())
-    }
-
-    /// Shape of the networks.
-    pub fn shape(&self) -> &NetworkShape {
-        &self.shape
-    }
-
-    /// Settings.
-    pub fn config(&self) -> &PpoConfig {
-        &self.config
-    }
-
-    /// Parameters as one flat vector.
-    pub fn parameters(&self) -> Vec<f32> {
-        self.state.parameters.clone()
-    }
-
-    /// State of Adam.
-    pub fn optimiser(&self) -> &OptimiserState {
-        &self.state.optimiser
-    }
-
-    /// Current learning rate.
-    pub fn learning_rate(&self) -> f64 {
-        self.state.learning_rate
-    }
-
-    /// Sets the learning rate, which adaptation then changes.
-    pub fn set_learning_rate(&mut self, learning_rate: f64) {
-        self.state.learning_rate = learning_rate;
-    }
-
-    /// Replaces the settings; the adapted learning rate stays.
+    /// Replaces the settings.
     pub fn set_config(&mut self, config: &PpoConfig) {
         self.config = config.clone();
     }
 
-    /// Current policy, which evaluates many rows on the threads of the update.
+    /// Returns the policy of a state, which evaluates many rows on the threads of the update.
     ///
     /// # Errors
-    /// If Candle fails.
-    pub fn policy(&self) -> Result<Policy, ParameterError> {
-        Policy::with_pool(self.shape.clone(), self.parameters(), self.pool.clone(), &self.device)
+    /// If the parameters do not fit the shape or are not finite.
+    pub fn policy(&self, state: &PpoState) -> Result<Policy, ParameterError> {
+        let PpoOptions { shape, device, pool, .. } = &self.options;
+        Policy::with_pool(shape.clone(), state.parameters.clone(), pool.clone(), device)
     }
 
-    /// Takes `epochs` passes over the batch, in an order drawn from `rng`.
+    /// Takes `epochs` passes over a batch, in an order drawn from the state's random stream.
     ///
     /// # Errors
-    /// If the batch does not fit, or a loss, gradient or parameter is not finite; nothing is changed then.
-    pub fn update(&mut self, batch: &Batch, rng: &mut impl Rng) -> Result<UpdateStats, UpdateError> {
-        self.update_in_epochs(self.config.epochs, batch, rng)
-    }
-
-    /// Same as [`Self::update`], with the given number of passes.
-    ///
-    /// # Errors
-    /// As for [`Self::update`].
-    pub fn update_in_epochs(
-        &mut self,
-        epochs: u32,
-        batch: &Batch,
-        rng: &mut impl Rng,
-    ) -> Result<UpdateStats, UpdateError> {
+    /// If the batch does not fit, or a loss, gradient or parameter is not finite. Then only the random stream has changed.
+    pub fn update(&self, state: &mut PpoState, batch: &Batch, epochs: u32) -> Result<UpdateStats, UpdateError> {
         if batch.is_empty() {
             return Err(UpdateError::Empty);
         }
-        if let Some((field, found, expected)) = batch.wrong_length(&self.shape) {
+        if let Some((field, found, expected)) = batch.wrong_length(&self.options.shape) {
             return Err(UpdateError::Length { field, found, expected });
         }
         if let Some(what) = batch.non_finite() {
             return Err(UpdateError::NonFinite { what });
         }
-        let before = self.state.clone();
-        let result = self.run_epochs(epochs, batch, rng);
+        let before = state.clone();
+        let result = self.run_epochs(state, batch, epochs);
         if result.is_err() {
-            self.state = before;
+            *state = PpoState { shuffle: state.shuffle.clone(), ..before };
         }
         result
     }
 
-    fn run_epochs(&mut self, epochs: u32, batch: &Batch, rng: &mut impl Rng) -> Result<UpdateStats, UpdateError> {
+    fn run_epochs(&self, state: &mut PpoState, batch: &Batch, epochs: u32) -> Result<UpdateStats, UpdateError> {
+        let PpoOptions { shape, device, pool, .. } = &self.options;
         let advantages = weighted_advantages(batch);
         let mut order: Vec<u32> = (0..batch.len() as u32).collect();
-        let log_std = &self.state.parameters[self.shape.log_std()];
-        let shift = PolicyShift::new(batch, &self.shape, log_std, &self.device)?;
+        let shift = PolicyShift::new(batch, shape, &state.parameters[shape.log_std()], device)?;
         let mut on_device = match &self.networks {
             Networks::Fused(_) => None,
-            Networks::Plain(..) => {
-                Some(DevicePass::upload(batch, &advantages, &self.shape, &self.config, &self.device, &self.state)?)
-            }
+            Networks::Plain(..) => Some(DevicePass::upload(batch, &advantages, shape, &self.config, device, state)?),
         };
         let mut stats = UpdateStats {
             explained_variance: explained_variance(&batch.values, &batch.returns),
             ..UpdateStats::default()
         };
         for _ in 0..epochs {
-            shuffle(&mut order, rng);
+            shuffle(&mut order, &mut state.shuffle);
             let sums = match &mut on_device {
-                Some(pass) => pass.run(&order, &self.actor, &shift, &mut self.state)?,
+                Some(pass) => pass.run(&order, &self.actor, &shift, state)?,
                 None => {
                     // On a thread of the pool, so that the others wait for its next task and are not woken for each.
-                    let pool = Arc::clone(&self.pool);
-                    pool.install(|| self.pass(batch, &order, &advantages, &shift))?
+                    pool.install(|| self.pass(state, batch, &order, &advantages, &shift))?
                 }
             };
             stats.add(&sums, &order, self.config.minibatch_rows(order.len()));
-            self.state.learning_rate = adapt_learning_rate(self.state.learning_rate, sums.divergence, &self.config);
+            state.learning_rate = adapt_learning_rate(state.learning_rate, sums.divergence, &self.config);
         }
-        let log_std = &self.state.parameters[self.shape.log_std()];
-        stats.finish(log_std, self.state.learning_rate);
+        stats.finish(&state.parameters[shape.log_std()], state.learning_rate);
         Ok(stats)
     }
 
     /// Takes one pass over the batch on the CPU.
     fn pass(
-        &mut self,
+        &self,
+        state: &mut PpoState,
         batch: &Batch,
         order: &[u32],
         advantages: &[f32],
@@ -296,30 +199,31 @@ impl Updater {
     ) -> Result<PassSums, UpdateError> {
         let mut sums = PassSums::default();
         for range in minibatches(order.len(), self.config.minibatch_rows(order.len())) {
-            self.gradient_step(batch, &order[range], advantages, &mut sums)?;
+            self.gradient_step(state, batch, &order[range], advantages, &mut sums)?;
         }
-        let parameters = &self.state.parameters;
+        let parameters = &state.parameters;
         check_finite(parameters.iter().all(|p| p.is_finite()), "parameter vector")?;
-        let tensor = Tensor::from_slice(parameters, parameters.len(), &self.device)?;
+        let tensor = Tensor::from_slice(parameters, parameters.len(), &self.options.device)?;
         let means = shift.new_means(&self.actor, &tensor)?.flatten_all()?.to_vec1::<f32>()?;
-        sums.divergence = shift.divergence(&means, &parameters[self.shape.log_std()]);
+        sums.divergence = shift.divergence(&means, &parameters[self.options.shape.log_std()]);
         check_finite(sums.divergence.is_finite(), "divergence from the old policy")?;
         Ok(sums)
     }
 
     /// Forward, loss, backward, clipping, Adam. Adds the rows' contributions to `sums`.
     fn gradient_step(
-        &mut self,
+        &self,
+        state: &mut PpoState,
         batch: &Batch,
         rows: &[u32],
         advantages: &[f32],
         sums: &mut PassSums,
     ) -> Result<(), UpdateError> {
-        let (observations, minibatch) = batch.gather(rows, advantages, &self.shape, &self.device)?;
+        let (observations, minibatch) = batch.gather(rows, advantages, &self.options.shape, &self.options.device)?;
         // A separate leaf: Candle's gradient of a slice of the flat vector would be as long as the vector.
-        let log_std_range = self.shape.log_std();
-        let log_std = leaf(&self.state.parameters[log_std_range.clone()], &self.device)?;
-        let parameters = leaf(&self.state.parameters, &self.device)?;
+        let log_std_range = self.options.shape.log_std();
+        let log_std = leaf(&state.parameters[log_std_range.clone()], &self.options.device)?;
+        let parameters = leaf(&state.parameters, &self.options.device)?;
 
         let output = self.networks.forward(&parameters, &observations)?;
         let (total, parts) = fused_ppo_loss(&output, &log_std, minibatch, &self.config)?;
@@ -332,7 +236,7 @@ impl Updater {
         let norm = global_norm(&gradient);
         check_finite(norm.is_finite(), "gradient")?;
 
-        let UpdaterState { parameters, optimiser, learning_rate } = &mut self.state;
+        let PpoState { parameters, optimiser, learning_rate, .. } = state;
         optimiser.apply(parameters, &gradient, clip_factor(norm, self.config.max_grad_norm), *learning_rate);
         clamp_log_std(&mut parameters[log_std_range]);
 

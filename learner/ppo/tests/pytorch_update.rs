@@ -10,8 +10,8 @@ use golden::{GoldenMismatch, compare, config, flipped, narrow, read};
 use rand::RngExt;
 use rand_xoshiro::{Xoshiro256PlusPlus, rand_core::SeedableRng};
 use serde::Deserialize;
-use treadmill_policy::NetworkShape;
-use treadmill_ppo::{Batch, UpdateStats, Updater};
+use treadmill_policy::{NetworkShape, device::Device};
+use treadmill_ppo::{Batch, Ppo, PpoOptions, PpoState, UpdateStats};
 
 /// Relative to the parameters' root mean square, 0.3, or to their size. Each gradient step moves them by about 1e-3.
 const PARAMETER_TOLERANCE: f64 = 1e-5;
@@ -78,7 +78,7 @@ impl UpdateFile {
     }
 
     /// Runs the learner's update of the same parameters with the same batch.
-    fn run(&self, case: &UpdateCase) -> (Updater, UpdateStats) {
+    fn run(&self, case: &UpdateCase) -> (PpoState, UpdateStats) {
         let shape = NetworkShape {
             observation: self.observation,
             action: self.action,
@@ -96,19 +96,20 @@ impl UpdateFile {
             values: narrow(&self.batch.values),
         };
         let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("a thread starts");
-        let mut updater = Updater::new(shape, narrow(&self.parameters), &config(&case.config), Arc::new(pool))
-            .expect("the parameters fit");
-        let stats =
-            updater.update(&batch, &mut Xoshiro256PlusPlus::seed_from_u64(case.seed)).expect("the batch is sound");
-        (updater, stats)
+        let (config, random) = (config(&case.config), Xoshiro256PlusPlus::seed_from_u64(case.seed));
+        let mut state = PpoState::new(&shape, narrow(&self.parameters), random, &config);
+        let options =
+            PpoOptions { shape, device: Device::Cpu, pool: Arc::new(pool), mirror: None, observation_clip: 10.0 };
+        let stats = Ppo::new(options, &config).update(&mut state, &batch, config.epochs).expect("the batch is sound");
+        (state, stats)
     }
 
     fn compare(&self, case: &UpdateCase) -> std::result::Result<(), GoldenMismatch> {
-        let (updater, stats) = self.run(case);
+        let (state, stats) = self.run(case);
         assert_eq!(stats.gradient_steps, case.gradient_steps);
-        compare("parameters", &updater.parameters(), &case.parameters, PARAMETER_TOLERANCE)?;
-        compare("first moment", &updater.optimiser().first_moment, &case.first_moment, 1e-4)?;
-        compare("second moment", &updater.optimiser().second_moment, &case.second_moment, 1e-4)?;
+        compare("parameters", state.parameters(), &case.parameters, PARAMETER_TOLERANCE)?;
+        compare("first moment", &state.optimiser().first_moment, &case.first_moment, 1e-4)?;
+        compare("second moment", &state.optimiser().second_moment, &case.second_moment, 1e-4)?;
         for (what, found) in [
             ("policy_loss", stats.policy_loss),
             ("value_loss", stats.value_loss),

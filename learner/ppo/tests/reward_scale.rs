@@ -6,10 +6,12 @@ use rand_distr::{Distribution, StandardNormal};
 use rand_xoshiro::{Xoshiro256PlusPlus, rand_core::SeedableRng};
 use treadmill_config::PpoConfig;
 use treadmill_policy::{
-    NetworkShape, gaussian, init,
+    NetworkShape,
+    device::Device,
+    gaussian, init,
     normaliser::{Normaliser, RunningMoments},
 };
-use treadmill_ppo::{AcceptedFragment, Updater, build_batch};
+use treadmill_ppo::{AcceptedFragment, Ppo, PpoOptions, PpoState, build_batch};
 use treadmill_proto::Fragment;
 
 const STEPS: u32 = 32;
@@ -25,12 +27,13 @@ fn learnt(scale: f32) -> (Vec<f32>, f64) {
     let random = Xoshiro256PlusPlus::seed_from_u64;
     let parameters = init::initial_parameters(&shape, -0.5, &mut random(PARAMETER_SEED));
     let pool = Arc::new(rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("a thread starts"));
-    let mut updater = Updater::new(shape, parameters, &config, pool).expect("they fit");
-    let (mut noise_random, mut shuffle_random) = (random(NOISE_SEED), random(SHUFFLE_SEED));
+    let mut state = PpoState::new(&shape, parameters, random(SHUFFLE_SEED), &config);
+    let ppo = Ppo::new(PpoOptions { shape, device: Device::Cpu, pool, mirror: None, observation_clip: 10.0 }, &config);
+    let mut noise_random = random(NOISE_SEED);
     let mut value_moments = RunningMoments::new(1);
     let mut explained = 0.0;
     for _ in 0..20 {
-        let policy = updater.policy().expect("its own parameters fit");
+        let policy = ppo.policy(&state).expect("its own parameters fit");
         let rows = (STEPS * ENVS) as usize;
         let mut normals =
             |count: usize| -> Vec<f32> { (0..count).map(|_| StandardNormal.sample(&mut noise_random)).collect() };
@@ -64,9 +67,9 @@ fn learnt(scale: f32) -> (Vec<f32>, f64) {
         let normaliser = Normaliser::identity(3, 10.0);
         let built = build_batch(&accepted, &policy, &normaliser, &mut value_moments, None, &config).expect("it fits");
         assert_eq!(built.rejected, []);
-        explained = updater.update(&built.batch, &mut shuffle_random).expect("finite").explained_variance;
+        explained = ppo.update(&mut state, &built.batch, config.epochs).expect("finite").explained_variance;
     }
-    (updater.parameters(), explained)
+    (state.parameters().to_vec(), explained)
 }
 
 #[test]

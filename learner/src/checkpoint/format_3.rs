@@ -3,9 +3,7 @@
 //! It shares the types that have not changed since. The golden file in `learner/tests/golden/` shows when one of them does.
 
 use serde::Deserialize;
-use treadmill_policy::normaliser::RunningMoments;
-use treadmill_ppo::optimiser::OptimiserState;
-use treadmill_runtime::seeds::Stream;
+use treadmill_ppo::PpoState;
 
 use super::{
     Counters, TrainingState,
@@ -24,12 +22,7 @@ pub(super) struct State3 {
     model_xml: String,
     shape: Shape5,
     lineage: Lineage,
-    parameters: Vec<f32>,
-    optimiser: OptimiserState,
-    learning_rate: f64,
-    observation_moments: RunningMoments,
-    value_moments: RunningMoments,
-    shuffle: Stream,
+    ppo: PpoState,
     ledger: Ledger,
     fragment_counts: Counts,
     episodes: EpisodeWindow,
@@ -71,12 +64,7 @@ impl From<State3> for TrainingState {
             model_xml: state.model_xml,
             shape: state.shape.into(),
             lineage: state.lineage,
-            parameters: state.parameters,
-            optimiser: state.optimiser,
-            learning_rate: state.learning_rate,
-            observation_moments: state.observation_moments,
-            value_moments: state.value_moments,
-            shuffle: state.shuffle,
+            ppo: state.ppo,
             ledger: state.ledger,
             fragment_counts: FragmentCounts {
                 accepted: counts.accepted,

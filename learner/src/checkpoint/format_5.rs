@@ -3,9 +3,8 @@
 //! It shares the types that have not changed since. The golden file in `learner/tests/golden/` shows when one of them does.
 
 use serde::Deserialize;
-use treadmill_policy::{NetworkShape, normaliser::RunningMoments};
-use treadmill_ppo::optimiser::OptimiserState;
-use treadmill_runtime::seeds::Stream;
+use treadmill_policy::NetworkShape;
+use treadmill_ppo::PpoState;
 
 use super::{Counters, TrainingState};
 use crate::{
@@ -21,12 +20,7 @@ pub(super) struct State5 {
     model_xml: String,
     shape: Shape5,
     lineage: Lineage,
-    parameters: Vec<f32>,
-    optimiser: OptimiserState,
-    learning_rate: f64,
-    observation_moments: RunningMoments,
-    value_moments: RunningMoments,
-    shuffle: Stream,
+    ppo: PpoState,
     ledger: Ledger,
     fragment_counts: FragmentCounts,
     episodes: EpisodeWindow,
@@ -96,12 +90,7 @@ impl From<State5> for TrainingState {
             model_xml: state.model_xml,
             shape: state.shape.into(),
             lineage: state.lineage,
-            parameters: state.parameters,
-            optimiser: state.optimiser,
-            learning_rate: state.learning_rate,
-            observation_moments: state.observation_moments,
-            value_moments: state.value_moments,
-            shuffle: state.shuffle,
+            ppo: state.ppo,
             ledger: state.ledger,
             fragment_counts: state.fragment_counts,
             episodes: state.episodes,

@@ -2,16 +2,10 @@
 
 use serde::{Deserialize, Serialize};
 use treadmill_config::{Config, ConfigSource, EvaluationConfig, LearnerConfig, PpoConfig, RunConfig};
-use treadmill_policy::{
-    NetworkShape, init,
-    normaliser::{Normaliser, RunningMoments},
-};
-use treadmill_ppo::optimiser::OptimiserState;
+use treadmill_policy::{NetworkShape, init, normaliser::Normaliser};
+use treadmill_ppo::PpoState;
 use treadmill_proto::{ActorState, PolicyBundle, Task, WIRE_VERSION, limits::BUNDLE_BYTES_MAX};
-use treadmill_runtime::{
-    error_chain,
-    seeds::{self, Stream},
-};
+use treadmill_runtime::{error_chain, seeds};
 
 use crate::{
     intake::{FragmentCounts, Ledger, Lineage},
@@ -31,18 +25,8 @@ pub struct TrainingState {
     pub shape: NetworkShape,
     /// Versions that this state descends from; the newest is its own.
     pub lineage: Lineage,
-    /// Actor, log standard deviations and critic, in [`NetworkShape`]'s order.
-    pub parameters: Vec<f32>,
-    /// Adam's moments and step count.
-    pub optimiser: OptimiserState,
-    /// Current learning rate, after adaptation.
-    pub learning_rate: f64,
-    /// Statistics of raw observations.
-    pub observation_moments: RunningMoments,
-    /// Statistics of scaled returns.
-    pub value_moments: RunningMoments,
-    /// Random stream that shuffles minibatches.
-    pub shuffle: Stream,
+    /// Policy, optimiser and running statistics.
+    pub ppo: PpoState,
     /// Handled fragments.
     pub ledger: Ledger,
     /// Counts of fragments by outcome.
@@ -122,11 +106,7 @@ impl TrainingState {
             config_toml: config.to_toml(),
             model_xml: model_xml.to_string(),
             lineage: Lineage::new(incarnation),
-            optimiser: OptimiserState::new(parameters.len()),
-            learning_rate: config.ppo.learning_rate,
-            observation_moments: RunningMoments::new(observation),
-            value_moments: RunningMoments::new(1),
-            shuffle: seeds::stream(seed, "shuffle", &[]),
+            ppo: PpoState::new(&shape, parameters, seeds::stream(seed, "shuffle", &[]), &config.ppo),
             ledger: Ledger::default(),
             fragment_counts: FragmentCounts::default(),
             episodes: EpisodeWindow::default(),
@@ -135,7 +115,6 @@ impl TrainingState {
             best_is_evaluated: false,
             actor_state: None,
             physics_version: 0,
-            parameters,
             shape,
         }
     }
@@ -187,18 +166,7 @@ impl TrainingState {
 
     /// Checks that the parts are consistent.
     pub fn check(&self) -> Result<(), String> {
-        let count = self.shape.parameter_count();
-        let lengths = [
-            ("parameters", self.parameters.len(), count),
-            ("first moments", self.optimiser.first_moment.len(), count),
-            ("second moments", self.optimiser.second_moment.len(), count),
-            ("observation means", self.observation_moments.mean.len(), self.shape.observation),
-        ];
-        for (what, found, wanted) in lengths {
-            if found != wanted {
-                return Err(format!("it has {found} {what}, but its network {:?} needs {wanted}", self.shape));
-            }
-        }
+        self.ppo.check(&self.shape)?;
         let config = self.config()?;
         if let Some(task) = config.task.known()
             && (task.observation_size as usize, task.action_size as usize)
@@ -250,15 +218,16 @@ impl TrainingState {
 
     /// Returns a bundle with the weights of the actor only, which is what actors need.
     pub fn for_actors(&self, bundle: &PolicyBundle) -> PolicyBundle {
-        let weights = treadmill_policy::actor_to_safetensors(&self.shape, &self.parameters);
+        let weights = treadmill_policy::actor_to_safetensors(&self.shape, self.ppo.parameters());
         PolicyBundle { checksum: seeds::checksum(&[&weights]), weights: weights.into(), ..bundle.clone() }
     }
 
     /// Policy bundle with actor and critic, without [`Self::actor_state`], which is added on resume. `config` is the parsed
     /// configuration and `config_hash` its hash: bundles are too frequent to compute either.
     pub fn bundle(&self, config: &Config, config_hash: u64) -> Result<PolicyBundle, String> {
-        let weights = treadmill_policy::to_safetensors(&self.shape, &self.parameters);
-        let normaliser = Normaliser::from_moments(&self.observation_moments, config.policy.observation_clip as f32);
+        let weights = treadmill_policy::to_safetensors(&self.shape, self.ppo.parameters());
+        let normaliser =
+            Normaliser::from_moments(self.ppo.observation_moments(), config.policy.observation_clip as f32);
         let narrow = |size: usize| u32::try_from(size).map_err(|why| why.to_string());
         Ok(PolicyBundle {
             run: self.run.clone(),

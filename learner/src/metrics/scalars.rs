@@ -222,7 +222,7 @@ impl UpdateRecord<'_> {
             ("train/clip_range", self.config.ppo.clip_range),
             ("train/batch", self.lag.transitions),
             ("train/epochs", f64::from(self.epochs)),
-            ("train/learning_rate", self.state.learning_rate),
+            ("train/learning_rate", self.state.ppo.learning_rate()),
             ("train/n_updates", counters.gradient_steps as f64),
             ("train/undone_updates", counters.undone_updates as f64),
         ]);

@@ -130,11 +130,8 @@ impl Trainer {
             return Err(why.to_string());
         }
         let before = self.config.value_of(key);
-        if key == "ppo.learning_rate" {
-            // Replaces the adapted rate.
-            self.learning.updater.set_learning_rate(changed.ppo.learning_rate);
-        }
-        self.learning.updater.set_config(&changed.ppo);
+        self.state.ppo.adopt_key(key, &changed.ppo);
+        self.learning.ppo.set_config(&changed.ppo);
         self.learning.load = LoadAdaptation::new(&changed);
         let NetworkShape { observation, action, .. } = self.state.shape;
         self.serving.intake.fleet.set_rule(HorizonRule::new(&changed, observation, action));
@@ -150,7 +147,6 @@ impl Trainer {
         }
         self.state.config_toml = saved_toml;
         self.config = changed;
-        self.state.learning_rate = self.learning.updater.learning_rate();
         // A run that is stopped before its next update goes on with the change, too.
         let Serving { checkpoints, leadership, .. } = &mut self.serving;
         let saved = save_newest(&self.state, leadership.as_mut(), checkpoints, &self.retry);

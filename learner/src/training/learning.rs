@@ -7,7 +7,7 @@ use std::{
 };
 
 use treadmill_config::Config;
-use treadmill_ppo::{AcceptedFragment, BatchMirror, Improvement, Improver, UpdateError, UpdateStats, Updater};
+use treadmill_ppo::{AcceptedFragment, Improvement, Ppo, PpoOptions, UpdateError, UpdateStats};
 use treadmill_runtime::{error_chain, machine};
 
 use super::{Trainer, TrainingError, TrainingOptions, load_adaptation::LoadAdaptation};
@@ -15,8 +15,7 @@ use crate::checkpoint::TrainingState;
 
 /// Learning part of a [`Trainer`].
 pub(super) struct Learning {
-    pub(super) updater: Updater,
-    mirror: Option<BatchMirror>,
+    pub(super) ppo: Ppo,
     pub(super) load: LoadAdaptation,
     undone_in_a_row: u32,
     /// Duration of the last update's gradient steps.
@@ -24,7 +23,7 @@ pub(super) struct Learning {
 }
 
 impl Learning {
-    /// Continues with the parameters and the optimiser of `state`.
+    /// Starts the threads of the update.
     pub(super) fn new(
         state: &TrainingState,
         config: &Config,
@@ -40,17 +39,16 @@ impl Learning {
             .thread_name(|index| format!("update-{index}"))
             .build()
             .map_err(|why| invalid(&why))?;
-        let parameters = state.parameters.clone();
-        let mut updater = Updater::on(&options.device, state.shape.clone(), parameters, &config.ppo, Arc::new(pool))
-            .map_err(|why| invalid(&why))?;
-        updater.restore(state.optimiser.clone(), state.learning_rate).map_err(|why| invalid(&why))?;
-        Ok(Self {
-            updater,
+        let ppo_options = PpoOptions {
+            shape: state.shape.clone(),
+            device: options.device.clone(),
+            pool: Arc::new(pool),
             mirror: options.mirror.clone(),
-            load: LoadAdaptation::new(config),
-            undone_in_a_row: 0,
-            learn: Duration::ZERO,
-        })
+            observation_clip: config.policy.observation_clip as f32,
+        };
+        let ppo = Ppo::new(ppo_options, &config.ppo);
+        ppo.policy(&state.ppo).map_err(|why| invalid(&why))?;
+        Ok(Self { ppo, load: LoadAdaptation::new(config), undone_in_a_row: 0, learn: Duration::ZERO })
     }
 }
 
@@ -63,16 +61,9 @@ impl Trainer {
     ) -> Result<Option<UpdateStats>, TrainingError> {
         let Self { state, learning, config, reporting, .. } = self;
         let epochs = learning.load.epochs();
-        let mut improver = Improver {
-            updater: &mut learning.updater,
-            observation_moments: &mut state.observation_moments,
-            value_moments: &mut state.value_moments,
-            mirror: learning.mirror.as_ref(),
-            observation_clip: config.policy.observation_clip as f32,
-        };
-        let prepared = improver.prepare(fragments).map_err(TrainingError::Inference)?;
+        let prepared = learning.ppo.prepare(&state.ppo, fragments).map_err(TrainingError::Inference)?;
         let begun = Instant::now();
-        let Improvement { result, rejected } = improver.improve(epochs, fragments, prepared, &mut state.shuffle);
+        let Improvement { result, rejected } = learning.ppo.improve(&mut state.ppo, epochs, fragments, prepared);
         learning.learn = begun.elapsed();
         let validator = &mut self.serving.intake.validator;
         for (fragment, why) in &rejected {
@@ -107,10 +98,7 @@ impl Trainer {
 
     /// Advances the state by the update from `fragments`, also if it was undone.
     pub(super) fn advance(&mut self, fragments: &[AcceptedFragment], is_undone: bool) {
-        let (state, updater) = (&mut self.state, &self.learning.updater);
-        state.parameters = updater.parameters();
-        state.optimiser = updater.optimiser().clone();
-        state.learning_rate = updater.learning_rate();
+        let state = &mut self.state;
         state.lineage.advance();
         state.counters.updates += 1;
         for AcceptedFragment { fragment, .. } in fragments {

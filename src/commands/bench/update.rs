@@ -6,7 +6,7 @@ use clap::Args;
 use serde_json::json;
 use treadmill_config::PpoConfig;
 use treadmill_policy::{NetworkShape, device::DeviceKind, gaussian, init::initial_parameters};
-use treadmill_ppo::{Batch, Updater};
+use treadmill_ppo::{Batch, Ppo, PpoOptions, PpoState};
 use treadmill_runtime::{error_chain, machine, seeds};
 
 use crate::launch::{exit_code::Usage, memory};
@@ -52,12 +52,14 @@ pub fn run(args: &UpdateArgs) -> anyhow::Result<()> {
     let batch = random_batch(&shape, config.batch as usize, &mut random);
     let threads = bench_worlds::threads(args.threads.into());
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build()?;
-    let mut updater = Updater::on(&device, shape, parameters, &config, Arc::new(pool))?;
-    updater.update(&batch, &mut random)?;
+    let mut state = PpoState::new(&shape, parameters, random, &config);
+    let options = PpoOptions { shape, device, pool: Arc::new(pool), mirror: None, observation_clip: 10.0 };
+    let ppo = Ppo::new(options, &config);
+    ppo.update(&mut state, &batch, config.epochs)?;
     let begun = Instant::now();
     let mut samples = 0;
     for _ in 0..args.updates {
-        samples += updater.update(&batch, &mut random)?.samples;
+        samples += ppo.update(&mut state, &batch, config.epochs)?.samples;
     }
     let samples_per_s = samples as f64 / begun.elapsed().as_secs_f64();
     let result = json!({
@@ -68,7 +70,7 @@ pub fn run(args: &UpdateArgs) -> anyhow::Result<()> {
         "threads": threads,
         "cpu": machine::cpu_name(),
         "workload": format!("{samples} samples: forward, loss, backward, gradient clipping, Adam"),
-        "checksum": network::checksum(&updater.parameters()),
+        "checksum": network::checksum(state.parameters()),
     });
     print_result(&result, args.json);
     Ok(())

@@ -1,0 +1,133 @@
+//! State that learning continues from.
+
+use rand_xoshiro::Xoshiro256PlusPlus;
+use serde::{Deserialize, Serialize};
+use treadmill_config::PpoConfig;
+use treadmill_policy::{NetworkShape, gaussian::clamp_log_std, normaliser::RunningMoments};
+
+use crate::optimiser::OptimiserState;
+
+/// Policy, optimiser and running statistics. A checkpoint stores it as one field, and a resumed run continues from it exactly.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct PpoState {
+    /// Actor, log standard deviations and critic, in [`NetworkShape`]'s order.
+    pub(crate) parameters: Vec<f32>,
+    pub(crate) optimiser: OptimiserState,
+    /// Current learning rate, after adaptation.
+    pub(crate) learning_rate: f64,
+    /// Statistics of raw observations.
+    pub(crate) observation_moments: RunningMoments,
+    /// Statistics of scaled returns.
+    pub(crate) value_moments: RunningMoments,
+    /// Random stream that shuffles minibatches.
+    pub(crate) shuffle: Xoshiro256PlusPlus,
+}
+
+impl PpoState {
+    /// Returns the state of a new run with the given parameters. Minibatches follow the random stream `shuffle`.
+    ///
+    /// # Panics
+    /// If the parameters do not fit the shape.
+    pub fn new(
+        shape: &NetworkShape,
+        mut parameters: Vec<f32>,
+        shuffle: Xoshiro256PlusPlus,
+        config: &PpoConfig,
+    ) -> Self {
+        clamp_log_std(&mut parameters[shape.log_std()]);
+        Self {
+            optimiser: OptimiserState::new(parameters.len()),
+            learning_rate: config.learning_rate,
+            observation_moments: RunningMoments::new(shape.observation),
+            value_moments: RunningMoments::new(1),
+            parameters,
+            shuffle,
+        }
+    }
+
+    /// Checks that the parts fit networks of this shape.
+    ///
+    /// # Errors
+    /// The first part that does not fit.
+    pub fn check(&self, shape: &NetworkShape) -> Result<(), String> {
+        let count = shape.parameter_count();
+        let lengths = [
+            ("parameters", self.parameters.len(), count),
+            ("first moments", self.optimiser.first_moment.len(), count),
+            ("second moments", self.optimiser.second_moment.len(), count),
+            ("observation means", self.observation_moments.mean.len(), shape.observation),
+        ];
+        match lengths.into_iter().find(|(_, found, wanted)| found != wanted) {
+            None => Ok(()),
+            Some((what, found, wanted)) => {
+                Err(format!("it has {found} {what}, but its network {shape:?} needs {wanted}"))
+            }
+        }
+    }
+
+    /// Returns actor, log standard deviations and critic as one flat vector.
+    pub fn parameters(&self) -> &[f32] {
+        &self.parameters
+    }
+
+    /// Returns the statistics of raw observations.
+    pub fn observation_moments(&self) -> &RunningMoments {
+        &self.observation_moments
+    }
+
+    /// Returns the statistics of scaled returns.
+    pub fn value_moments(&self) -> &RunningMoments {
+        &self.value_moments
+    }
+
+    /// Returns the current learning rate, after adaptation.
+    pub fn learning_rate(&self) -> f64 {
+        self.learning_rate
+    }
+
+    /// Returns the state of Adam.
+    pub fn optimiser(&self) -> &OptimiserState {
+        &self.optimiser
+    }
+
+    /// Returns the gradient steps taken.
+    pub fn gradient_steps(&self) -> u64 {
+        self.optimiser.step
+    }
+
+    /// Replaces the policy of a new run. Without `value_moments`, the critic learns the scale of returns anew.
+    ///
+    /// # Panics
+    /// If the parameters do not fit the shape.
+    pub fn begin_with(
+        &mut self,
+        shape: &NetworkShape,
+        parameters: &[f32],
+        observation_moments: RunningMoments,
+        value_moments: Option<RunningMoments>,
+    ) {
+        self.parameters = parameters.to_vec();
+        clamp_log_std(&mut self.parameters[shape.log_std()]);
+        self.observation_moments = observation_moments;
+        self.value_moments = value_moments.unwrap_or_else(|| RunningMoments::new(1));
+    }
+
+    /// Replaces the random stream that shuffles minibatches.
+    pub fn set_shuffle(&mut self, shuffle: Xoshiro256PlusPlus) {
+        self.shuffle = shuffle;
+    }
+
+    /// Adopts the settings of a fork: another initial learning rate replaces the adapted one.
+    pub fn fork(&mut self, before: &PpoConfig, config: &PpoConfig) {
+        if before.learning_rate != config.learning_rate {
+            self.learning_rate = config.learning_rate;
+        }
+    }
+
+    /// Adopts the setting that was changed by its key during the run: `ppo.learning_rate` replaces the adapted learning rate.
+    pub fn adopt_key(&mut self, key: &str, config: &PpoConfig) {
+        if key == "ppo.learning_rate" {
+            self.learning_rate = config.learning_rate;
+        }
+    }
+}
