@@ -4,7 +4,7 @@
 //! new among its children (`Network::compute_trees`). It recognises nodes by an index, which a removed node leaves to the next
 //! one. Zenoh dials a broken link again at once. So if several links break together, nodes are removed and back between two
 //! computations, and most of them get nothing: they are linked, but know neither the learner's token nor a way to it, until
-//! something else changes. `experiments/faults/lost_declarations.py` shows it. No upstream issue is known. Delete when Zenoh
+//! something else changes. `findings/zenoh_redial_loses_answers.sh` shows it. No upstream issue is known. Delete when Zenoh
 //! compares nodes by their identity.
 //!
 //! Zenoh removes a link on a thread that may block, and calls listeners before it dials again.
