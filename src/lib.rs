@@ -86,7 +86,7 @@ enum Command {
 /// Runs the command named by the process's arguments, and returns the exit code. `own_tasks` are tasks of the calling program,
 /// under the names for `--task NAME`; see `examples/own_task.rs`.
 ///
-/// Call it first in `main`: it sets an environment variable, which is sound only while no other thread runs.
+/// Call it first in `main`: commands on the bus set an environment variable, which is sound only while no other thread runs.
 ///
 /// # Panics
 /// As [`humanoid::task::register_own_tasks`].
@@ -101,10 +101,6 @@ pub fn main(own_tasks: &[(&'static str, humanoid::task::TaskBuilder)]) -> ExitCo
 /// Runs the command. Never part of [`main`], where the compiler would use instructions before they are known to exist.
 #[inline(never)]
 fn run() -> ExitCode {
-    // By default, Candle runs larger element-wise operations on threads of its own. They spin while waiting and take cores
-    // from physics and update.
-    // SAFETY: no other thread runs yet, so none accesses the environment.
-    unsafe { std::env::set_var("CANDLE_NUM_THREADS", "1") };
     let command = match Cli::try_parse() {
         Ok(cli) => cli.command,
         Err(error) => {

@@ -84,7 +84,7 @@ pub enum ActorError {
     },
     /// The network cannot be evaluated.
     #[error("the policy cannot be evaluated")]
-    Inference(#[from] candle_core::Error),
+    Inference(#[from] treadmill_policy::TensorError),
     /// A fragment failed its own checks.
     #[error("the fragment cannot be encoded")]
     Encoding(#[source] treadmill_proto::Malformed),

@@ -10,7 +10,7 @@ use std::{
 /// hostile clients need Zenoh itself.
 const DEPENDENTS: [(&str, &[&str]); 19] = [
     ("bincode", &["learner"]),
-    ("candle-core", &["actor", "common/policy", "learner", "learner/ppo"]),
+    ("candle-core", &["common/policy", "learner/ppo"]),
     ("candle-nn", &["common/policy", "learner/ppo"]),
     ("gemm", &["common/policy"]),
     ("libfuzzer-sys", &["fuzz"]),

@@ -2,26 +2,23 @@
 
 use std::sync::Arc;
 
-use candle_core::{Device, Result, Storage, Tensor};
+use candle_core::{Device, Result, Tensor};
 use rayon::ThreadPool;
 
-use super::{NetworkPart, NetworkShape, Networks, ParameterError, check_parameters};
+use super::{Dense, Mlp, NetworkShape, ParameterError, check_parameters, plain};
 
-/// Rows per application of the networks on one thread or on a GPU; bounds the memory for activations.
+/// Rows per application of the networks on a GPU; bounds the memory for activations.
 const ROWS_AT_ONCE: usize = 4096;
-/// Rows per application of the networks for each further thread: four of the chunks that threads share.
-const ROWS_PER_THREAD: usize = 1024;
 
 /// Networks with their parameters, for evaluation only.
 #[derive(Clone, Debug)]
 pub struct Policy {
     shape: NetworkShape,
     parameters: Vec<f32>,
-    tensor: Tensor,
-    device: Device,
-    actor: Networks,
-    critic: Networks,
-    rows_at_once: usize,
+    /// Threads that share many rows on a CPU.
+    pool: Option<Arc<ThreadPool>>,
+    /// Parameters on a GPU.
+    on_gpu: Option<Tensor>,
 }
 
 impl Policy {
@@ -30,7 +27,8 @@ impl Policy {
     /// # Errors
     /// If the parameters do not fit the shape or are not finite.
     pub fn new(shape: NetworkShape, parameters: Vec<f32>) -> std::result::Result<Self, ParameterError> {
-        Self::build(shape, parameters, None, &Device::Cpu)
+        check_parameters(&shape, &parameters)?;
+        Ok(Self { shape, parameters, pool: None, on_gpu: None })
     }
 
     /// Returns a policy on `device`. On a CPU, the threads of `pool` share many rows, with the same results.
@@ -43,22 +41,10 @@ impl Policy {
         pool: Arc<ThreadPool>,
         device: &Device,
     ) -> std::result::Result<Self, ParameterError> {
-        Self::build(shape, parameters, Some(pool), device)
-    }
-
-    fn build(
-        shape: NetworkShape,
-        parameters: Vec<f32>,
-        pool: Option<Arc<ThreadPool>>,
-        device: &Device,
-    ) -> std::result::Result<Self, ParameterError> {
-        check_parameters(&shape, &parameters)?;
-        let tensor = Tensor::from_slice(&parameters, parameters.len(), device)?;
-        let threads = pool.as_ref().map_or(1, |pool| pool.current_num_threads());
-        let actor = Networks::on(device, &shape, NetworkPart::Actor, pool.clone());
-        let critic = Networks::on(device, &shape, NetworkPart::Critic, pool);
-        let rows_at_once = ROWS_AT_ONCE.max(threads * ROWS_PER_THREAD);
-        Ok(Self { shape, parameters, tensor, device: device.clone(), actor, critic, rows_at_once })
+        let policy = Self::new(shape, parameters)?;
+        let upload = || Tensor::from_slice(&policy.parameters, policy.parameters.len(), device);
+        let on_gpu = if device.is_cpu() { None } else { Some(upload()?) };
+        Ok(Self { pool: Some(pool), on_gpu, ..policy })
     }
 
     /// Returns the shape of the networks.
@@ -84,7 +70,7 @@ impl Policy {
     /// # Panics
     /// If a slice does not hold `rows` rows.
     pub fn means(&self, observations: &[f32], rows: usize, means: &mut [f32]) -> Result<()> {
-        self.apply(&self.actor, self.shape.action, observations, rows, means)
+        self.apply(self.shape.actor(), observations, rows, means)
     }
 
     /// Returns the critic's values, `[rows]`, for normalised `observations`, `[rows, observation]`.
@@ -96,32 +82,23 @@ impl Policy {
     /// If `observations` does not hold `rows` rows.
     pub fn values(&self, observations: &[f32], rows: usize) -> Result<Vec<f32>> {
         let mut values = vec![0.0; rows];
-        self.apply(&self.critic, 1, observations, rows, &mut values)?;
+        self.apply(self.shape.critic(), observations, rows, &mut values)?;
         Ok(values)
     }
 
-    fn apply(
-        &self,
-        networks: &Networks,
-        width: usize,
-        observations: &[f32],
-        rows: usize,
-        output: &mut [f32],
-    ) -> Result<()> {
+    fn apply(&self, layers: Vec<Dense>, observations: &[f32], rows: usize, output: &mut [f32]) -> Result<()> {
         let columns = self.shape.observation;
+        let width = layers.last().map_or(0, |layer| layer.output);
         assert_eq!(observations.len(), rows * columns, "observations do not hold {rows} rows of {columns}");
         assert_eq!(output.len(), rows * width, "the output does not hold {rows} rows of {width}");
-        let inputs = observations.chunks(self.rows_at_once * columns);
-        for (input, output) in inputs.zip(output.chunks_mut(self.rows_at_once * width)) {
-            let input = Tensor::from_slice(input, (input.len() / columns, columns), &self.device)?;
-            let result = networks.forward(&self.tensor, &input)?;
-            let (storage, _) = result.storage_and_layout();
-            if let Storage::Cpu(numbers) = &*storage {
-                output.copy_from_slice(numbers.as_slice()?);
-                continue;
-            }
-            drop(storage);
-            output.copy_from_slice(&result.flatten_all()?.to_vec1()?);
+        let Some(parameters) = &self.on_gpu else {
+            Mlp::new(layers).evaluate(&self.parameters, observations, columns, output, self.pool.as_deref());
+            return Ok(());
+        };
+        let inputs = observations.chunks(ROWS_AT_ONCE * columns);
+        for (input, output) in inputs.zip(output.chunks_mut(ROWS_AT_ONCE * width)) {
+            let input = Tensor::from_slice(input, (input.len() / columns, columns), parameters.device())?;
+            output.copy_from_slice(&plain::network(&layers, parameters, &input)?.flatten_all()?.to_vec1()?);
         }
         Ok(())
     }
@@ -131,16 +108,22 @@ impl Policy {
 mod tests {
     use super::*;
     use crate::init::initial_parameters;
-    use crate::plain;
+    use crate::mlp::CHUNK_ROWS;
     use rand_xoshiro::{Xoshiro256PlusPlus, rand_core::SeedableRng};
 
     #[test]
     fn means_and_values_agree_with_the_plain_networks_for_any_number_of_rows() -> Result<()> {
-        let shape = NetworkShape { observation: 3, action: 2, hidden: vec![8, 4], privileged: 0 };
+        for privileged in [0, 1] {
+            check_agreement(NetworkShape { observation: 3, action: 2, hidden: vec![8, 4], privileged })?;
+        }
+        Ok(())
+    }
+
+    fn check_agreement(shape: NetworkShape) -> Result<()> {
         let parameters = initial_parameters(&shape, -0.5, &mut Xoshiro256PlusPlus::seed_from_u64(3));
         let policy = Policy::new(shape.clone(), parameters.clone()).expect("fresh parameters fit");
         assert_eq!(policy.log_std(), [-0.5; 2]);
-        for rows in [1, 5, ROWS_AT_ONCE + 3] {
+        for rows in [1, 5, 4 * CHUNK_ROWS + 3] {
             let observations: Vec<f32> = (0..rows * 3).map(|i| (i as f32 * 0.37).sin() * 3.0).collect();
             let mut means = vec![0.0; rows * 2];
             policy.means(&observations, rows, &mut means)?;
@@ -154,6 +137,21 @@ mod tests {
             }
         }
         Ok(())
+    }
+
+    #[test]
+    fn the_number_of_threads_does_not_change_one_bit() {
+        let shape = NetworkShape { observation: 9, action: 4, hidden: vec![32, 16], privileged: 0 };
+        let parameters = initial_parameters(&shape, -0.5, &mut Xoshiro256PlusPlus::seed_from_u64(3));
+        let rows = 5 * CHUNK_ROWS + 17;
+        let observations: Vec<f32> = (0..rows * 9).map(|i| (i as f32 * 0.37).sin() * 3.0).collect();
+        let alone = Policy::new(shape.clone(), parameters.clone()).expect("they fit");
+        let expected = alone.values(&observations, rows).expect("no device");
+        for threads in [1, 2, 3, 7] {
+            let pool = Arc::new(rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads start"));
+            let policy = Policy::with_pool(shape.clone(), parameters.clone(), pool, &Device::Cpu).expect("they fit");
+            assert_eq!(policy.values(&observations, rows).expect("no device"), expected, "{threads} threads");
+        }
     }
 
     #[test]

@@ -9,10 +9,8 @@
 //! - `init`: orthogonal initialisation.
 //! - `gaussian`: log-probability, sampling and entropy of actions.
 //! - `elementwise`: vectorised loops for biases and ELU.
-//! - `kernel`: forward and backward pass of one network over one chunk of rows.
-//! - `fused`: both networks as one Candle operation with its own gradient, for CPUs.
-//! - `plain`: the same networks from Candle's operations, for GPUs and as the reference of tests.
-//! - `networks`: [`Networks`], which chooses between the two.
+//! - `mlp`: [`Mlp`], forward and backward pass of one network on slices, for CPUs.
+//! - [`plain`]: the same networks from Candle's operations, for GPUs and as the reference of tests.
 //! - `inference`: [`Policy`], which actors evaluate.
 //! - `moments`: running mean and variance of observations and returns.
 //! - `normaliser`: normalisation by them.
@@ -22,22 +20,21 @@
 pub mod device;
 mod elementwise;
 pub mod exported;
-mod fused;
 pub mod gaussian;
 mod inference;
 pub mod init;
-mod kernel;
+mod mlp;
 mod moments;
-mod networks;
 pub mod normaliser;
 pub mod onnx;
 pub mod plain;
 mod shape;
 mod tensors;
 
-pub use fused::FusedNetworks;
+/// Error of the tensor library, which only networks on a GPU use.
+pub use candle_core::Error as TensorError;
 pub use inference::Policy;
-pub use networks::{NetworkPart, Networks};
+pub use mlp::{CHUNK_ROWS, Mlp, Tape};
 pub use shape::{Dense, NamedTensor, NetworkShape};
 pub use tensors::{
     ParameterError, actor_from_safetensors, actor_to_safetensors, check_parameters, from_safetensors, to_safetensors,

@@ -1,6 +1,4 @@
-//! Networks from Candle's own operations and gradients, for any device.
-//!
-//! They are several times slower than `fused` on a CPU; the tests of `fused` use them as the reference.
+//! Networks from Candle's own operations and gradients: on a GPU, and as the reference of tests.
 
 use candle_core::{Result, Tensor};
 use candle_nn::{Activation, Linear, Module};

@@ -2,11 +2,8 @@
 
 use std::ops::Range;
 
-use candle_core::{Device, Result, Tensor};
 use rand::{Rng, RngExt};
 use treadmill_policy::NetworkShape;
-
-use crate::fused_loss::MinibatchRows;
 
 /// `S` transitions, in any order.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -70,25 +67,6 @@ impl Batch {
         ]
         .into_iter()
         .find_map(|(name, numbers)| numbers.iter().any(|number| !number.is_finite()).then_some(name))
-    }
-
-    /// Returns the observations of the given rows, `[B, observation]`, and their other fields, on `device`.
-    /// `advantages` are the normalised ones.
-    pub(crate) fn gather(
-        &self,
-        rows: &[u32],
-        advantages: &[f32],
-        shape: &NetworkShape,
-        device: &Device,
-    ) -> Result<(Tensor, MinibatchRows)> {
-        let minibatch = MinibatchRows {
-            actions: picked(&self.actions, shape.action, rows),
-            log_probs: picked(&self.log_probs, 1, rows),
-            advantages: picked(advantages, 1, rows),
-            returns: picked(&self.returns, 1, rows),
-        };
-        let observations = picked(&self.observations, shape.observation, rows);
-        Ok((Tensor::from_vec(observations, (rows.len(), shape.observation), device)?, minibatch))
     }
 }
 
@@ -192,7 +170,7 @@ mod tests {
     }
 
     #[test]
-    fn gather_returns_the_given_rows() -> Result<()> {
+    fn fields_of_another_length_or_with_infinite_numbers_are_named() {
         let shape = NetworkShape { observation: 2, action: 1, hidden: vec![], privileged: 0 };
         let batch = Batch {
             observations: vec![0.0, 1.0, 10.0, 11.0, 20.0, 21.0],
@@ -205,17 +183,11 @@ mod tests {
             values: vec![0.0; 3],
         };
         assert_eq!(batch.wrong_length(&shape), None);
-        let (observations, minibatch) = batch.gather(&[2, 0], &[4.0, 5.0, 6.0], &shape, &Device::Cpu)?;
-        assert_eq!(observations.to_vec2::<f32>()?, [[20.0, 21.0], [0.0, 1.0]]);
-        assert_eq!(minibatch.actions, [2.5, 0.5]);
-        assert_eq!(minibatch.log_probs, [-3.0, -1.0]);
-        assert_eq!(minibatch.advantages, [6.0, 4.0]);
-        assert_eq!(minibatch.returns, [9.0, 7.0]);
+        assert_eq!(picked(&batch.observations, 2, &[2, 0]), [20.0, 21.0, 0.0, 1.0]);
         let short = Batch { actions: vec![0.5], ..batch };
         assert_eq!(short.wrong_length(&shape), Some(("actions", 1, 3)));
         assert_eq!(short.non_finite(), None);
         let infinite = Batch { values: vec![0.0, f32::INFINITY, 0.0], ..short };
         assert_eq!(infinite.non_finite(), Some("batch's values"));
-        Ok(())
     }
 }

@@ -6,7 +6,7 @@
 use candle_core::{D, DType, Device, Result, Tensor, Var};
 use treadmill_config::PpoConfig;
 use treadmill_policy::gaussian::{LOG_STD_MAX, LOG_STD_MIN};
-use treadmill_policy::{NamedTensor, NetworkShape, Networks, plain};
+use treadmill_policy::{NamedTensor, NetworkShape, plain};
 
 use crate::{
     batch::{Batch, minibatches},
@@ -14,7 +14,7 @@ use crate::{
     measures::PolicyShift,
     optimiser::{BETA_1, BETA_2, EPSILON, bias_corrections},
     state::PpoState,
-    update::{PassSums, UpdateError, check_finite},
+    update_stats::{PassSums, UpdateError, check_finite},
 };
 
 /// Sums of one pass: the loss and its four parts, the gradient's norm, and the number of clipped ratios.
@@ -27,6 +27,8 @@ pub(crate) struct DevicePass {
     device: Device,
     observations: Tensor,
     rows: Minibatch,
+    /// Observations that measure the divergence.
+    shift_observations: Tensor,
     parameters: Tensor,
     first_moment: Tensor,
     second_moment: Tensor,
@@ -37,6 +39,7 @@ impl DevicePass {
     pub(crate) fn upload(
         batch: &Batch,
         advantages: &[f32],
+        shift: &PolicyShift,
         shape: &NetworkShape,
         config: &PpoConfig,
         device: &Device,
@@ -56,6 +59,7 @@ impl DevicePass {
             device: device.clone(),
             observations: matrix(&batch.observations, shape.observation)?,
             rows,
+            shift_observations: vector(&shift.observations)?.reshape(((), shape.observation))?,
             parameters: vector(&state.parameters)?,
             first_moment: vector(&state.optimiser.first_moment)?,
             second_moment: vector(&state.optimiser.second_moment)?,
@@ -66,7 +70,6 @@ impl DevicePass {
     pub(crate) fn run(
         &mut self,
         order: &[u32],
-        actor: &Networks,
         shift: &PolicyShift,
         state: &mut PpoState,
     ) -> std::result::Result<PassSums, UpdateError> {
@@ -93,7 +96,7 @@ impl DevicePass {
             let corrections = bias_corrections(state.optimiser.step, state.learning_rate);
             sums = (sums + self.gradient_step(&part(&observations)?, &minibatch, corrections)?)?;
         }
-        let means = shift.new_means(actor, &self.parameters)?.flatten_all()?;
+        let means = plain::network(&self.shape.actor(), &self.parameters, &self.shift_observations)?.flatten_all()?;
         self.read_back(&sums, &means, shift, state)
     }
 

@@ -11,7 +11,8 @@ use crate::{
     batch_building::{AcceptedFragment, BuiltBatch, build_batch},
     plausibility::Implausible,
     state::PpoState,
-    update::{Ppo, PpoOptions, UpdateError, UpdateStats},
+    update::{Ppo, PpoOptions},
+    update_stats::{UpdateError, UpdateStats},
 };
 
 /// Batch that is ready for gradient steps.

@@ -9,10 +9,12 @@
 //! - [`batch_building`]: turns accepted fragments into the batch of one update.
 //! - [`plausibility`]: finds fragments whose numbers cannot be what an actor observed.
 //! - [`batch`]: the batch itself, and its minibatches.
-//! - [`loss`]: the loss, from top to bottom, in Candle's operations.
-//! - `fused_loss`: the same loss as one operation, for a CPU.
+//! - [`loss`]: the loss, from top to bottom, in Candle's operations: on a GPU, and as the reference of tests.
+//! - `loss_gradient`: the same loss and its gradient on slices.
+//! - `gradient_step`: forward, loss, backward, clip, Adam on slices.
+//! - `device_pass`: the same in Candle's operations on a GPU.
 //! - [`update`]: [`Ppo`] runs epochs of gradient steps, and restores the old parameters when one fails.
-//! - `device_pass`: the same epochs on a GPU.
+//! - `update_stats`: what an update reports, or why it was undone.
 //! - [`optimiser`]: Adam and gradient clipping over one flat slice.
 //! - [`measures`]: KL divergence, clip fraction, explained variance, and the adaptive learning rate.
 //! - [`mirror`]: swaps left and right in observations and actions.
@@ -20,16 +22,18 @@
 pub mod batch;
 pub mod batch_building;
 mod device_pass;
-mod fused_loss;
 pub mod gae;
+mod gradient_step;
 pub mod improvement;
 pub mod loss;
+mod loss_gradient;
 pub mod measures;
 pub mod mirror;
 pub mod optimiser;
 pub mod plausibility;
 pub mod state;
 pub mod update;
+mod update_stats;
 
 pub use batch::Batch;
 pub use batch_building::{AcceptedFragment, BuiltBatch, RejectedFragment, build_batch};
@@ -38,4 +42,5 @@ pub use measures::{adapt_learning_rate, explained_variance};
 pub use mirror::{BatchMirror, IndexSwap};
 pub use plausibility::Implausible;
 pub use state::PpoState;
-pub use update::{Ppo, PpoOptions, UpdateError, UpdateStats};
+pub use update::{Ppo, PpoOptions};
+pub use update_stats::{UpdateError, UpdateStats};

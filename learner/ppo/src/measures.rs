@@ -1,8 +1,8 @@
 //! Measures of an update, and the adaptive learning rate.
 
-use candle_core::{Device, Result, Tensor};
+use rayon::ThreadPool;
 use treadmill_config::PpoConfig;
-use treadmill_policy::{NetworkShape, Networks, gaussian};
+use treadmill_policy::{Mlp, NetworkShape, gaussian};
 
 use crate::batch::{Batch, picked};
 
@@ -18,26 +18,30 @@ const GOLDEN: f64 = 0.618_033_988_749_894_9;
 /// With 1,024 rows the standard error of the mean is about 3 % of it, and the learning rate changes at a factor of 2.
 #[derive(Debug)]
 pub(crate) struct PolicyShift {
-    observations: Tensor,
+    observation: usize,
+    /// Observations of the rows, `[rows, observation]`.
+    pub(crate) observations: Vec<f32>,
     old_means: Vec<f32>,
     old_log_std: Vec<f32>,
 }
 
 impl PolicyShift {
     /// Measure against the policy that the update starts from, whose means the batch has.
-    pub(crate) fn new(batch: &Batch, shape: &NetworkShape, old_log_std: &[f32], device: &Device) -> Result<Self> {
+    pub(crate) fn new(batch: &Batch, shape: &NetworkShape, old_log_std: &[f32]) -> Self {
         let rows = spread_rows(batch.len());
-        let observations = picked(&batch.observations, shape.observation, &rows);
-        Ok(Self {
-            observations: Tensor::from_vec(observations, (rows.len(), shape.observation), device)?,
+        Self {
+            observation: shape.observation,
+            observations: picked(&batch.observations, shape.observation, &rows),
             old_means: picked(&batch.means, shape.action, &rows),
             old_log_std: old_log_std.to_vec(),
-        })
+        }
     }
 
-    /// Returns the means of the new policy, `[rows, action]`, which [`Self::divergence`] takes.
-    pub(crate) fn new_means(&self, actor: &Networks, parameters: &Tensor) -> Result<Tensor> {
-        actor.forward(parameters, &self.observations)
+    /// Returns the means of the new policy, `[rows, action]`.
+    pub(crate) fn means_of(&self, actor: &Mlp, parameters: &[f32], pool: &ThreadPool) -> Vec<f32> {
+        let mut means = vec![0.0; self.old_means.len()];
+        actor.evaluate(parameters, &self.observations, self.observation, &mut means, Some(pool));
+        means
     }
 
     /// Returns the Kullback–Leibler divergence from the old to the new policy in nats, in closed form.

@@ -20,7 +20,7 @@ pub struct TrainingOptions {
     /// Environment steps of the run after which this start ends. The saved configuration may have more.
     pub steps: u64,
     /// Device that computes the networks.
-    pub device: candle_core::Device,
+    pub device: treadmill_policy::device::Device,
     /// Mirror for `ppo.symmetry`.
     pub mirror: Option<BatchMirror>,
     /// What the console shows.

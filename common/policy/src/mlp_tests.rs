@@ -1,0 +1,171 @@
+//! Networks on slices against finite differences in double precision, and against Candle's operations and autograd.
+
+use candle_core::{Device, Result, Tensor, Var};
+
+use super::*;
+use crate::{NetworkShape, plain};
+
+#[test]
+fn products_follow_the_strides() {
+    let left = [1.0, 2.0, 3.0, 4.0, 5.0, 6.0];
+    let mut product = [0.0; 4];
+    let left = Matrix::row_major(&left, 3);
+    multiply([2, 2, 3], left, left.transposed(), &mut product, false);
+    assert_eq!(product, [14.0, 32.0, 32.0, 77.0]);
+    multiply([2, 2, 3], left, left.transposed(), &mut product, true);
+    assert_eq!(product, [28.0, 64.0, 64.0, 154.0]);
+}
+
+#[test]
+#[should_panic(expected = "matrix sizes")]
+fn a_matrix_that_is_too_small_is_refused() {
+    let data = [0.0; 5];
+    multiply([2, 1, 3], Matrix::row_major(&data, 3), Matrix::row_major(&data, 1), &mut [0.0; 2], false);
+}
+
+fn wave(count: usize, step: f64) -> Vec<f32> {
+    (0..count).map(|i| ((i as f64 + 1.0) * step).sin() as f32 * 0.6).collect()
+}
+
+/// Returns parameters that keep the outputs of wide layers near 1.
+fn parameters(shape: &NetworkShape) -> Vec<f32> {
+    let widest = shape.hidden.iter().copied().max().unwrap_or(1).max(shape.observation);
+    let scale = (16.0 / widest as f32).sqrt().min(1.0);
+    wave(shape.parameter_count(), 0.71).iter().map(|p| p * scale).collect()
+}
+
+/// Returns the networks of the presets, for the compact and Gymnasium's observation.
+fn shapes_in_use() -> [NetworkShape; 2] {
+    [(45, vec![256, 128]), (348, vec![512, 256])].map(|(observation, hidden)| NetworkShape {
+        observation,
+        action: 17,
+        hidden,
+        privileged: 0,
+    })
+}
+
+/// Returns the actor and the critic.
+fn networks(shape: &NetworkShape) -> [Vec<Dense>; 2] {
+    [shape.actor(), shape.critic()]
+}
+
+/// Returns output and parameter gradient of `Σ c · output + output²`, with `c` different for every element.
+fn on_slices(layers: &[Dense], flat: &[f32], observations: &[f32], columns: usize) -> [Vec<f32>; 2] {
+    let mlp = Mlp::new(layers.to_vec());
+    let mut tape = Tape::default();
+    mlp.gather(observations, columns, 0..observations.len() / columns, &mut tape);
+    mlp.forward(flat, &mut tape);
+    let slope = |(output, c): (&f32, f32)| c + 2.0 * output;
+    tape.gradient = tape.output.iter().zip(wave(tape.output.len(), 0.3)).map(slope).collect();
+    let output = tape.output.clone();
+    let mut gradient = vec![0.0; mlp.range().len()];
+    mlp.backward(flat, &mut tape, &mut gradient);
+    [output, gradient]
+}
+
+/// Returns the same by Candle's operations and automatic differentiation.
+fn by_candle(layers: &[Dense], flat: &[f32], observations: &[f32], columns: usize) -> Result<[Vec<f32>; 2]> {
+    let parameters = Var::from_slice(flat, flat.len(), &Device::Cpu)?;
+    let rows = Tensor::from_slice(observations, (observations.len() / columns, columns), &Device::Cpu)?;
+    let output = plain::network(layers, &parameters, &rows)?;
+    let weights = Tensor::from_vec(wave(output.elem_count(), 0.3), output.shape(), &Device::Cpu)?;
+    let gradients = ((&output * weights)? + output.sqr()?)?.sum_all()?.backward()?;
+    let gradient = gradients.get(&parameters).expect("the parameters take part").to_vec1::<f32>()?;
+    Ok([output.flatten_all()?.to_vec1()?, gradient[Mlp::new(layers.to_vec()).range()].to_vec()])
+}
+
+#[test]
+fn output_and_gradient_agree_with_candles_operations() -> Result<()> {
+    let small = [(vec![16, 8], 33), (vec![4], 250), (vec![], 5), (vec![8, 8, 8], CHUNK_ROWS)]
+        .map(|(hidden, rows)| (NetworkShape { observation: 7, action: 3, hidden, privileged: 2 }, rows));
+    for (shape, rows) in small.into_iter().chain(shapes_in_use().map(|shape| (shape, CHUNK_ROWS))) {
+        let (flat, observations) = (parameters(&shape), wave(rows * shape.observation, 1.37));
+        for layers in networks(&shape) {
+            let found = on_slices(&layers, &flat, &observations, shape.observation);
+            let expected = by_candle(&layers, &flat, &observations, shape.observation)?;
+            for (found, expected) in found.iter().zip(&expected) {
+                let largest = expected.iter().fold(0.0_f32, |largest, number| largest.max(number.abs()));
+                assert_eq!(found.len(), expected.len());
+                for (i, (a, b)) in found.iter().zip(expected).enumerate() {
+                    assert!((a - b).abs() < 1e-5 * largest, "{shape:?} {i}: {a} {b}");
+                }
+            }
+        }
+    }
+    Ok(())
+}
+
+/// Returns the output of a network for one row in f64, straight from the definition.
+fn exact_output(layers: &[Dense], parameters: &[f64], row: &[f64]) -> Vec<f64> {
+    let mut row = row.to_vec();
+    for (i, layer) in layers.iter().enumerate() {
+        let (weight, bias) = (&parameters[layer.weight()], &parameters[layer.bias()]);
+        row = (0..layer.output)
+            .map(|o| bias[o] + (0..layer.input).map(|k| weight[o * layer.input + k] * row[k]).sum::<f64>())
+            .map(|z| if i + 1 == layers.len() || z > 0.0 { z } else { z.exp_m1() })
+            .collect();
+    }
+    row
+}
+
+#[test]
+fn the_gradient_agrees_with_finite_differences() {
+    const ROWS: usize = 3;
+    let small = [vec![], vec![4], vec![5, 3]];
+    let small = small.map(|hidden| NetworkShape { observation: 3, action: 2, hidden, privileged: 0 });
+    for shape in small.into_iter().chain(shapes_in_use()) {
+        let (flat, observations) = (parameters(&shape), wave(ROWS * shape.observation, 1.37));
+        let wide = |numbers: &[f32]| numbers.iter().map(|x| f64::from(*x)).collect::<Vec<_>>();
+        let (mut p, x) = (wide(&flat), wide(&observations));
+        for layers in networks(&shape) {
+            let [_, gradient] = on_slices(&layers, &flat, &observations, shape.observation);
+            let weights = wide(&wave(ROWS * layers[layers.len() - 1].output, 0.3));
+            let loss = |p: &[f64]| -> f64 {
+                let outputs = x.chunks_exact(shape.observation).flat_map(|row| exact_output(&layers, p, row));
+                outputs.zip(&weights).map(|(output, c)| c * output + output * output).sum()
+            };
+            for range in layers.iter().flat_map(|layer| [layer.weight(), layer.bias()]) {
+                for i in [range.start, range.start + range.len() / 2, range.end - 1] {
+                    let centre = p[i];
+                    let mut at = |step: f64| {
+                        p[i] = centre + step;
+                        let loss = loss(&p);
+                        p[i] = centre;
+                        loss
+                    };
+                    let expected = (at(1e-5) - at(-1e-5)) / 2e-5;
+                    let found = f64::from(gradient[i - layers[0].offset]);
+                    assert!((found - expected).abs() < 1e-4 * expected.abs().max(0.1), "{i}: {found} {expected}");
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn a_tape_that_is_used_again_gives_the_same_bits_and_gradients_add_up() {
+    let shape = NetworkShape { observation: 5, action: 2, hidden: vec![8], privileged: 0 };
+    let (mlp, flat, observations) = (Mlp::new(shape.actor()), parameters(&shape), wave(300 * 5, 1.37));
+    let mut used = Tape::default();
+    for rows in [256, 10, 200, 1] {
+        let mut fresh = Tape::default();
+        let [again, first] = [&mut used, &mut fresh].map(|tape| {
+            mlp.gather(&observations, 5, 0..rows, tape);
+            mlp.forward(&flat, tape);
+            tape.gradient.clone_from(&tape.output);
+            let mut gradient = vec![0.0; mlp.range().len()];
+            mlp.backward(&flat, tape, &mut gradient);
+            (gradient, tape.output.clone())
+        });
+        assert_eq!(again, first, "{rows} rows");
+    }
+    let mut twice = vec![0.0; mlp.range().len()];
+    for _ in 0..2 {
+        used.gradient.clone_from(&used.output);
+        mlp.backward(&flat, &mut used, &mut twice);
+    }
+    used.gradient.clone_from(&used.output);
+    let mut once = vec![0.0; mlp.range().len()];
+    mlp.backward(&flat, &mut used, &mut once);
+    assert!(twice.iter().zip(once).all(|(twice, once)| (twice - 2.0 * once).abs() < 1e-5));
+}

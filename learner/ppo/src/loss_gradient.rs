@@ -1,0 +1,207 @@
+//! Loss of [`crate::loss`] and its gradient in closed form, on plain slices. Actor and critic have separate parts of the loss.
+
+use treadmill_config::PpoConfig;
+use treadmill_policy::gaussian::HALF_LN_TAU;
+
+use crate::{batch::Batch, loss::LOG_RATIO_MAX};
+
+/// Parts of the loss, summed over rows, before their coefficients; see [`crate::loss::Loss`].
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct LossSums {
+    pub(crate) policy: f64,
+    pub(crate) value: f64,
+    pub(crate) bounds: f64,
+    /// Rows whose probability ratio is outside the clip range.
+    pub(crate) clipped: f64,
+}
+
+/// What all rows of one gradient step share.
+pub(crate) struct LossTerms<'a> {
+    batch: &'a Batch,
+    /// Normalised advantages of the whole batch, times their weights.
+    advantages: &'a [f32],
+    config: &'a PpoConfig,
+    /// `1 / σ²` of each action.
+    precision: Vec<f32>,
+    /// Sum over actions of `ln σ + ½ ln 2π`.
+    constant: f32,
+    /// Part of each row in a mean over the minibatch.
+    share: f32,
+}
+
+impl<'a> LossTerms<'a> {
+    /// Returns the terms of a minibatch of so many rows.
+    pub(crate) fn new(
+        batch: &'a Batch,
+        advantages: &'a [f32],
+        config: &'a PpoConfig,
+        log_std: &[f32],
+        rows: usize,
+    ) -> Self {
+        let precision = log_std.iter().map(|log_std| (-2.0 * log_std).exp()).collect();
+        let constant = log_std.iter().sum::<f32>() + HALF_LN_TAU * log_std.len() as f32;
+        Self { batch, advantages, config, precision, constant, share: 1.0 / rows as f32 }
+    }
+
+    /// Returns the entropy of the policy in nats.
+    pub(crate) fn entropy(&self) -> f64 {
+        f64::from(self.constant) + 0.5 * self.precision.len() as f64
+    }
+
+    /// Returns the total loss of a minibatch of `rows` rows from the sums over them.
+    pub(crate) fn total(&self, sums: &LossSums, rows: usize) -> f64 {
+        let (c, mean) = (self.config, |sum: f64| sum / rows as f64);
+        mean(sums.policy) + c.value_coefficient * mean(sums.value) - c.entropy_coefficient * self.entropy()
+            + c.bounds_coefficient * mean(sums.bounds)
+    }
+
+    /// Clipped surrogate and bounds of the given rows. Writes their gradient by the action means, `[rows, A]`, and adds that by
+    /// `log_std` without the entropy's.
+    pub(crate) fn policy(
+        &self,
+        rows: &[u32],
+        means: &[f32],
+        gradient: &mut Vec<f32>,
+        log_std_gradient: &mut [f64],
+        sums: &mut LossSums,
+    ) {
+        let actions = self.precision.len();
+        let clip = self.config.clip_range as f32;
+        let limit = self.config.bounds_limit as f32;
+        let bounds_slope = (2.0 * self.config.bounds_coefficient) as f32 * self.share;
+        gradient.clear();
+        for (row, means) in rows.iter().map(|row| *row as usize).zip(means.chunks_exact(actions)) {
+            let taken = &self.batch.actions[row * actions..][..actions];
+            let mut distance = 0.0;
+            for ((action, mean), precision) in taken.iter().zip(means).zip(&self.precision) {
+                distance += (action - mean) * (action - mean) * precision;
+            }
+            let log_ratio = -0.5 * distance - self.constant - self.batch.log_probs[row];
+            let ratio = log_ratio.min(LOG_RATIO_MAX as f32).exp();
+            let advantage = self.advantages[row];
+            let (gain, clipped_gain) = (ratio * advantage, ratio.clamp(1.0 - clip, 1.0 + clip) * advantage);
+            sums.policy -= f64::from(gain.min(clipped_gain));
+            sums.clipped += f64::from(u8::from((ratio - 1.0).abs() > clip));
+            // The derivative of the ratio is the ratio. Where the clipped gain is smaller, it is constant.
+            let moves = gain <= clipped_gain && log_ratio < LOG_RATIO_MAX as f32;
+            let slope = if moves { -gain * self.share } else { 0.0 };
+            for (index, mean) in means.iter().enumerate() {
+                let difference = taken[index] - mean;
+                let pull = difference * self.precision[index];
+                let excess = mean - mean.clamp(-limit, limit);
+                gradient.push(slope * pull + bounds_slope * excess);
+                log_std_gradient[index] += f64::from(slope * (difference * pull - 1.0));
+                sums.bounds += f64::from(excess * excess);
+            }
+        }
+    }
+
+    /// Half the squared error of the values of the given rows. Writes its gradient by the values, `[rows]`.
+    pub(crate) fn value(&self, rows: &[u32], values: &[f32], gradient: &mut Vec<f32>, sums: &mut LossSums) {
+        let slope = self.config.value_coefficient as f32 * self.share;
+        gradient.clear();
+        for (row, value) in rows.iter().zip(values) {
+            let error = value - self.batch.returns[*row as usize];
+            sums.value += f64::from(error * error) * 0.5;
+            gradient.push(slope * error);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use candle_core::{Device, Tensor, Var};
+    use proptest::prelude::*;
+
+    use super::*;
+    use crate::loss::{Minibatch, ppo_loss};
+
+    fn numbers(tensor: &Tensor) -> Vec<f32> {
+        tensor.flatten_all().and_then(|tensor| tensor.to_vec1()).expect("numbers")
+    }
+
+    fn close(one: &[f32], other: &[f32]) -> bool {
+        one.len() == other.len()
+            && one.iter().zip(other).all(|(a, b)| (a - b).abs() <= 1e-5 * (1.0 + a.abs() + b.abs()))
+    }
+
+    #[test]
+    fn a_row_outside_the_clip_range_counts_and_pushes_only_back() {
+        // σ = 1, means 0, ratios 2, 1 and 1/2; the gradient of a mean is −advantage × ratio × action ÷ rows.
+        let base = -HALF_LN_TAU;
+        let batch = Batch {
+            actions: vec![1.0; 3],
+            log_probs: [2.0_f32, 1.0, 0.5].map(|ratio| base - 0.5 - ratio.ln()).to_vec(),
+            ..Batch::default()
+        };
+        let config = PpoConfig::default();
+        let terms = LossTerms::new(&batch, &[1.0, 3.0, 1.0], &config, &[0.0], 3);
+        let (mut gradient, mut log_std_gradient, mut sums) = (Vec::new(), [0.0], LossSums::default());
+        terms.policy(&[0, 1, 2], &[0.0; 3], &mut gradient, &mut log_std_gradient, &mut sums);
+        assert_eq!(sums.clipped, 2.0);
+        assert!(close(&gradient, &[0.0, -1.0, -0.5 / 3.0]), "{gradient:?}");
+        // Actions at one standard deviation say nothing about it.
+        assert!(log_std_gradient[0].abs() < 1e-6);
+        assert!((sums.policy + 1.2 + 3.0 + 0.5).abs() < 1e-6);
+    }
+
+    proptest! {
+        #[test]
+        fn loss_and_gradient_equal_those_of_candles_operations(
+            count in 1_usize..12,
+            actions in 1_usize..5,
+            seed in proptest::collection::vec(-1.5_f32..1.5, 200),
+            coefficients in (0.0..0.1_f64, 0.0..1.0_f64, 0.1..2.0_f64, 0.05..0.5_f64, 0.3..1.5_f64),
+        ) {
+            let mut seed = seed.into_iter().cycle();
+            let mut take = |length: usize| seed.by_ref().take(length).collect::<Vec<f32>>();
+            let (means, values, log_std, advantages) = (take(count * actions), take(count), take(actions), take(count));
+            let batch = Batch {
+                actions: take(count * actions),
+                log_probs: take(count).iter().map(|log_prob| 2.0 * log_prob - actions as f32).collect(),
+                returns: take(count),
+                ..Batch::default()
+            };
+            let (entropy_coefficient, bounds_coefficient, value_coefficient, clip_range, bounds_limit) = coefficients;
+            let config = PpoConfig {
+                entropy_coefficient, bounds_coefficient, value_coefficient, clip_range, bounds_limit, ..PpoConfig::default()
+            };
+            let leaf = |numbers: &[f32], width| Var::from_slice(numbers, (numbers.len() / width, width), &Device::Cpu);
+            let leaf = |numbers: &[f32], width| leaf(numbers, width).expect("a tensor");
+            let vector = |numbers: &[f32]| Tensor::new(numbers, &Device::Cpu).expect("a tensor");
+            let minibatch = Minibatch {
+                actions: leaf(&batch.actions, actions).into_inner(),
+                log_probs: vector(&batch.log_probs),
+                advantages: vector(&advantages),
+                returns: vector(&batch.returns),
+            };
+            let leaves = [leaf(&means, actions), leaf(&values, 1), leaf(&log_std, actions)];
+            let output = Tensor::cat(&[leaves[0].as_tensor(), leaves[1].as_tensor()], 1).expect("as many rows");
+            let flat = leaves[2].flatten_all().expect("a tensor");
+            let wanted = ppo_loss(&output, &flat, &minibatch, &config).expect("the loss");
+
+            let rows: Vec<u32> = (0..count as u32).collect();
+            let terms = LossTerms::new(&batch, &advantages, &config, &log_std, count);
+            let (mut by_mean, mut by_value, mut sums) = (Vec::new(), Vec::new(), LossSums::default());
+            let mut by_log_std = vec![-entropy_coefficient; actions];
+            terms.policy(&rows, &means, &mut by_mean, &mut by_log_std, &mut sums);
+            terms.value(&rows, &values, &mut by_value, &mut sums);
+            let mean = |sum: f64| sum / count as f64;
+            for (found, wanted) in [
+                (terms.total(&sums, count), &wanted.total), (mean(sums.policy), &wanted.policy),
+                (mean(sums.value), &wanted.value), (terms.entropy(), &wanted.entropy), (mean(sums.bounds), &wanted.bounds),
+            ] {
+                prop_assert!(close(&[found as f32], &numbers(wanted)), "{found} {wanted}");
+            }
+            let ratios = numbers(&wanted.log_ratio);
+            let clipped = ratios.iter().filter(|ratio| (ratio.exp() - 1.0).abs() > config.clip_range as f32);
+            prop_assert_eq!(sums.clipped, clipped.count() as f64);
+            let gradients = wanted.total.backward().expect("a gradient");
+            let by_log_std: Vec<f32> = by_log_std.iter().map(|sum| *sum as f32).collect();
+            for (leaf, found) in leaves.iter().zip([by_mean, by_value, by_log_std]) {
+                let wanted = numbers(gradients.get(leaf).expect("a gradient"));
+                prop_assert!(close(&found, &wanted), "{found:?} {wanted:?}");
+            }
+        }
+    }
+}

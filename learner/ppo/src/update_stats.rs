@@ -1,0 +1,114 @@
+//! Result of an update: its statistics, or why it was undone.
+
+use treadmill_policy::ParameterError;
+
+use crate::batch::minibatches;
+
+/// Sums over the rows of one pass, and the divergence after it.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct PassSums {
+    pub(crate) policy_loss: f64,
+    pub(crate) value_loss: f64,
+    pub(crate) entropy: f64,
+    pub(crate) bounds_loss: f64,
+    pub(crate) grad_norm: f64,
+    pub(crate) clipped: f64,
+    pub(crate) divergence: f64,
+}
+
+/// Statistics of an update: means over all gradient steps, weighted by rows, unless stated otherwise.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct UpdateStats {
+    /// Clipped surrogate; negative if the policy improves.
+    pub policy_loss: f64,
+    /// Half the mean squared error of the normalised values.
+    pub value_loss: f64,
+    /// Entropy of the policy in nats, summed over actions.
+    pub entropy: f64,
+    /// Squared excess of action means over the limit, summed over actions.
+    pub bounds_loss: f64,
+    /// KL divergence in nats from the policy that the update started from to that after the last epoch, in closed form over a
+    /// sample of the rows.
+    pub approx_kl: f64,
+    /// Share of rows whose probability ratio is outside the clip range.
+    pub clip_fraction: f64,
+    /// Share of the variance of the returns that the values before the update explain.
+    pub explained_variance: f64,
+    /// Euclidean norm of the gradient before clipping.
+    pub grad_norm: f64,
+    /// Learning rate after the update.
+    pub learning_rate: f64,
+    /// Standard deviation of the actions after the update, mean over actions.
+    pub std: f64,
+    /// Gradient steps taken.
+    pub gradient_steps: u64,
+    /// Rows evaluated and differentiated: batch times epochs.
+    pub samples: u64,
+}
+
+/// Why an update was undone. The updater's state is restored, the random stream's is not.
+#[derive(Debug, thiserror::Error)]
+pub enum UpdateError {
+    /// The batch holds no transition.
+    #[error("the batch is empty")]
+    Empty,
+    /// A field of the batch has the wrong length.
+    #[error("{field} of the batch has {found} numbers, expected {expected}")]
+    Length {
+        /// Name of the field.
+        field: &'static str,
+        /// Its length.
+        found: usize,
+        /// Length that fits the network and the other fields.
+        expected: usize,
+    },
+    /// A number became infinite or not a number.
+    #[error("the {what} is not finite")]
+    NonFinite {
+        /// Quantity that is not finite, such as the loss.
+        what: &'static str,
+    },
+    /// Candle failed.
+    #[error("the tensor library failed")]
+    Tensor(#[from] candle_core::Error),
+    /// The parameters cannot be evaluated.
+    #[error("the parameters cannot be used")]
+    Parameters(#[from] ParameterError),
+}
+
+impl UpdateStats {
+    /// Adds the sums of one pass over rows in the given order.
+    pub(crate) fn add(&mut self, sums: &PassSums, order: &[u32], minibatch: usize) {
+        self.policy_loss += sums.policy_loss;
+        self.value_loss += sums.value_loss;
+        self.entropy += sums.entropy;
+        self.bounds_loss += sums.bounds_loss;
+        self.grad_norm += sums.grad_norm;
+        self.clip_fraction += sums.clipped;
+        self.approx_kl = sums.divergence;
+        self.gradient_steps += minibatches(order.len(), minibatch).count() as u64;
+        self.samples += order.len() as u64;
+    }
+
+    /// Converts sums to means.
+    pub(crate) fn finish(&mut self, log_std: &[f32], learning_rate: f64) {
+        let samples = self.samples.max(1) as f64;
+        for sum in [
+            &mut self.policy_loss,
+            &mut self.value_loss,
+            &mut self.entropy,
+            &mut self.bounds_loss,
+            &mut self.grad_norm,
+            &mut self.clip_fraction,
+        ] {
+            *sum /= samples;
+        }
+        self.std = log_std.iter().map(|l| f64::from(*l).exp()).sum::<f64>() / log_std.len() as f64;
+        self.learning_rate = learning_rate;
+    }
+}
+
+/// Returns an error with the name of the quantity unless it is finite.
+pub(crate) fn check_finite(is_finite: bool, what: &'static str) -> Result<(), UpdateError> {
+    if is_finite { Ok(()) } else { Err(UpdateError::NonFinite { what }) }
+}
