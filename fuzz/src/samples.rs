@@ -1,9 +1,7 @@
 //! One valid message of each kind, small so that a mutated byte matters.
 
 use bytes::Bytes;
-use treadmill_config::{
-    Config, EnvConfig, GroundConfig, RandomisationConfig, RewardsConfig, TaskConfig, VelocityConfig,
-};
+use treadmill_config::Config;
 use treadmill_humanoid::HUMANOID_XML;
 use treadmill_learner::{
     checkpoint::{TrainingState, encoding},
@@ -252,12 +250,7 @@ pub fn exported() -> Vec<u8> {
         variance,
         action: ActionFacts { names: vec!["hip".into()], low: vec![-0.4], high: vec![0.4] },
         control_step_s: 0.015,
-        env: EnvConfig::default(),
-        randomisation: RandomisationConfig::default(),
-        velocity: VelocityConfig::default(),
-        rewards: RewardsConfig::default(),
-        ground: GroundConfig::default(),
-        task: TaskConfig::default(),
+        settings: Config::default().episodes_toml(),
         model_xml: "<mujoco/>".into(),
     }
     .to_bytes()

@@ -58,7 +58,7 @@ impl InitFrom {
         if let Some(why) = self.objection(&state.shape) {
             return Err(Usage(why).into());
         }
-        let Self { from, saved: SavedPolicy { policy, origin, return_moments } } = self;
+        let Self { from, saved: SavedPolicy { policy, origin, return_moments, .. } } = self;
         let count = policy.observation.count;
         let m2 = policy.variance.iter().map(|variance| variance * count).collect();
         let observation_moments = RunningMoments { count, mean: policy.mean.clone(), m2 };

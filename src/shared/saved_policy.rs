@@ -4,7 +4,7 @@ use std::{fmt, fs, path::Path};
 
 use anyhow::Context;
 use treadmill_actor::settings;
-use treadmill_config::{Config, EnvTask};
+use treadmill_config::{Config, ConfigSource, EnvTask};
 use treadmill_humanoid::{Environment, Model};
 use treadmill_learner::checkpoint::{self, Loaded, TrainingState, Which, encoding};
 use treadmill_policy::{
@@ -21,6 +21,8 @@ use crate::{launch::exit_code::Usage, shared::saved_run};
 pub struct SavedPolicy {
     /// The policy.
     pub policy: ExportedPolicy,
+    /// Configuration that it was trained under, as far as episodes depend on it.
+    pub config: Config,
     /// Its checkpoint; `None` for a file that `export` wrote.
     pub origin: Option<Origin>,
     /// Statistics of returns, by which its critic is scaled; `None` for a file that `export` wrote.
@@ -68,12 +70,15 @@ pub fn load(run: &str, which: Option<Which>) -> anyhow::Result<SavedPolicy> {
         return Err(Usage(why).into());
     } else {
         let policy = ExportedPolicy::from_bytes(&bytes).map_err(anyhow::Error::from);
-        policy.map(|policy| SavedPolicy { policy, origin: None, return_moments: None })
+        policy.and_then(|policy| {
+            let config = configuration(&policy)?;
+            Ok(SavedPolicy { policy, config, origin: None, return_moments: None })
+        })
     };
     loaded.with_context(|| format!("`{run}` is not a usable policy"))
 }
 
-/// Builds the environment of a policy under `config`, which was made from [`ExportedPolicy::config`].
+/// Builds the environment of a policy under `config`, which was made from [`SavedPolicy::config`].
 ///
 /// # Errors
 /// If the task is external, or the model does not fit the policy.
@@ -112,7 +117,21 @@ pub fn environment(run: &str, policy: &ExportedPolicy, config: &Config) -> anyho
 
 fn from_state(state: &TrainingState, checkpoint: String) -> anyhow::Result<SavedPolicy> {
     let origin = Some(Origin { checkpoint, env_steps: state.counters.env_steps });
-    Ok(SavedPolicy { policy: exported(state)?, origin, return_moments: Some(state.ppo.value_moments().clone()) })
+    let policy = exported(state)?;
+    let (config, return_moments) = (configuration(&policy)?, Some(state.ppo.value_moments().clone()));
+    Ok(SavedPolicy { policy, config, origin, return_moments })
+}
+
+/// Reads the settings that a policy carries.
+fn configuration(policy: &ExportedPolicy) -> anyhow::Result<Config> {
+    let mut source = ConfigSource::default();
+    let parsed = source.text(&policy.settings, "the settings of the policy").and_then(|()| source.build());
+    let config = parsed.context("its environment settings cannot be used")?;
+    if !config.is_external() && policy.control_step_s != config.env.control_step_s {
+        let (found, wanted) = (policy.control_step_s, config.env.control_step_s);
+        anyhow::bail!("its metadata entry `control_step_s` is {found}; expected env.control_step_s, which is {wanted}");
+    }
+    Ok(config)
 }
 
 fn exported(state: &TrainingState) -> anyhow::Result<ExportedPolicy> {
@@ -137,12 +156,7 @@ fn exported(state: &TrainingState) -> anyhow::Result<ExportedPolicy> {
         variance,
         action,
         control_step_s,
-        task: config.task,
-        env: config.env,
-        velocity: config.velocity,
-        rewards: config.rewards,
-        ground: config.ground,
-        randomisation: config.randomisation,
+        settings: config.episodes_toml(),
         model_xml: state.model_xml.clone(),
     })
 }

@@ -4,7 +4,7 @@ use std::{path::PathBuf, process::Command};
 
 use crate::support::*;
 use serde_json::json;
-use treadmill_config::{EnvConfig, GroundConfig, RandomisationConfig, RewardsConfig, TaskConfig, VelocityConfig};
+use treadmill_config::Config;
 use treadmill_policy::{
     NetworkShape, Policy,
     exported::{ActionFacts, ExportedPolicy, ObservationFacts},
@@ -35,12 +35,7 @@ fn golden() -> serde_json::Value {
         variance,
         action: ActionFacts { names: vec!["a".into(), "b".into()], low: vec![-0.4; 2], high: vec![0.4; 2] },
         control_step_s: 0.015,
-        env: EnvConfig::default(),
-        randomisation: RandomisationConfig::default(),
-        velocity: VelocityConfig::default(),
-        rewards: RewardsConfig::default(),
-        ground: GroundConfig::default(),
-        task: TaskConfig::default(),
+        settings: Config::default().episodes_toml(),
         model_xml: String::new(),
     };
     let (rows, observations) = (6, wavy(24, 0.9).iter().map(|x| x * 60.0).collect::<Vec<_>>());

@@ -17,7 +17,7 @@ use treadmill_learner::checkpoint::Which;
 use treadmill_proto::Pose;
 use treadmill_rl::{
     launch::{exit_code::Usage, output::say},
-    shared::saved_policy,
+    shared::saved_policy::{self, SavedPolicy},
 };
 
 use crate::steering::{KEYS, Steering};
@@ -36,8 +36,7 @@ pub struct Player {
 impl Player {
     /// Loads the policy that RUN names.
     pub fn load(run: &str, which: Option<Which>) -> anyhow::Result<Self> {
-        let policy = saved_policy::load(run, which)?.policy;
-        let mut config = policy.config();
+        let SavedPolicy { policy, mut config, .. } = saved_policy::load(run, which)?;
         config.randomisation = RandomisationConfig::default();
         let environment = saved_policy::environment(run, &policy, &config)?;
         Ok(Self { environment, agent: PolicyAgent::new(&policy)?, velocity: config.velocity })

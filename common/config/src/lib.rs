@@ -3,7 +3,6 @@
 //! Precedence, lowest first: defaults in code, preset, file, `--set`, the command's own flags.
 
 mod choices;
-pub mod open_json;
 mod preset;
 mod retired;
 mod section;
@@ -288,6 +287,14 @@ impl Config {
     /// Returns the configuration as TOML with every key; `[task]` only if it is set.
     pub fn to_toml(&self) -> String {
         toml::to_string(self).expect("a checked config is plain tables of plain values")
+    }
+
+    /// Returns the sections that decide the episodes of a policy as TOML. An exported policy carries them.
+    pub fn episodes_toml(&self) -> String {
+        const SECTIONS: [&str; 6] = ["env", "velocity", "rewards", "ground", "randomisation", "task"];
+        let mut table = toml::Table::try_from(self).expect("a checked config is plain tables of plain values");
+        table.retain(|section, _| SECTIONS.contains(&section));
+        toml::to_string(&table).expect("a checked config is plain tables of plain values")
     }
 }
 

@@ -8,18 +8,13 @@
 //! | `observation.mean`, `observation.variance` | F64, `[observation]` | moments of the raw observations |
 //!
 //! The metadata key `treadmill` holds everything else as one JSON object with keys in a fixed order. The file holds no time,
-//! path or name of the run, so equal policies give equal bytes. Infinite ends of a range are the strings `"inf"` and `"-inf"`,
-//! because JSON has no such numbers.
+//! path or name of the run, so equal policies give equal bytes. Its entry `settings` holds the environment's settings as TOML.
 //!
 //! To act: `x = clip((observation − mean) / √(variance + variance_epsilon), ± clip)`; the actor's layers with ELU between
 //! them; `action = clip(mean, ± 1)`, scaled from [−1, 1] to [low, high].
 
 use safetensors::tensor::SafeTensors;
 use serde::{Deserialize, Serialize};
-use treadmill_config::{
-    Config, ConfigError, EnvConfig, EnvTask, GroundConfig, RandomisationConfig, RewardsConfig, TaskConfig,
-    VelocityConfig,
-};
 use treadmill_proto::limits::{BUNDLE_BYTES_MAX, HIDDEN_LAYERS_MAX, WIDTH_MAX};
 
 use crate::{
@@ -77,9 +72,6 @@ pub enum ExportedError {
         /// Accepted values.
         expected: String,
     },
-    /// The environment's settings are invalid.
-    #[error("its environment settings cannot be used")]
-    Config(#[from] ConfigError),
     /// A tensor is missing, misshapen or not finite.
     #[error("its tensors cannot be used")]
     Parameters(#[from] ParameterError),
@@ -100,20 +92,10 @@ pub struct ExportedPolicy {
     pub variance: Vec<f64>,
     /// Meaning of actions.
     pub action: ActionFacts,
-    /// Duration of one control step (s).
+    /// Duration of one control step (s); 0 if it is unknown, for an external task.
     pub control_step_s: f64,
-    /// Settings of the humanoid task.
-    pub env: EnvConfig,
-    /// Settings of the velocity task; their defaults for other tasks.
-    pub velocity: VelocityConfig,
-    /// Rewards of the velocity task; their defaults for other tasks.
-    pub rewards: RewardsConfig,
-    /// Generated ground of the task; its defaults without one.
-    pub ground: GroundConfig,
-    /// Randomisation in training.
-    pub randomisation: RandomisationConfig,
-    /// External task, if it is one.
-    pub task: TaskConfig,
+    /// Settings of the environment as TOML, which only the environment interprets.
+    pub settings: String,
     /// Humanoid as MJCF; empty for an external task.
     pub model_xml: String,
 }
@@ -152,17 +134,7 @@ struct Metadata {
     observation: ObservationFacts,
     action: ActionFacts,
     control_step_s: f64,
-    #[serde(with = "treadmill_config::open_json")]
-    env: EnvConfig,
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    velocity: Option<VelocityConfig>,
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    rewards: Option<RewardsConfig>,
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    ground: Option<GroundConfig>,
-    randomisation: RandomisationConfig,
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    task: Option<TaskConfig>,
+    settings: String,
     model_xml: String,
 }
 
@@ -203,7 +175,6 @@ impl ExportedPolicy {
     /// If the parts are inconsistent or not finite, so that the file could not be read again.
     pub fn to_bytes(&self) -> Result<Vec<u8>, ExportedError> {
         self.check()?;
-        let is_velocity = self.env.task == EnvTask::Velocity;
         let metadata = Metadata {
             format: FORMAT,
             network: Network {
@@ -216,12 +187,7 @@ impl ExportedPolicy {
             observation: self.observation.clone(),
             action: self.action.clone(),
             control_step_s: self.control_step_s,
-            velocity: is_velocity.then(|| self.velocity.clone()),
-            rewards: is_velocity.then(|| self.rewards.clone()),
-            ground: (self.ground != GroundConfig::default()).then(|| self.ground.clone()),
-            env: self.env.clone(),
-            randomisation: self.randomisation.clone(),
-            task: self.task.known().map(|_| self.task.clone()),
+            settings: self.settings.clone(),
             model_xml: self.model_xml.clone(),
         };
         let text =
@@ -262,12 +228,7 @@ impl ExportedPolicy {
             observation: metadata.observation,
             action: metadata.action,
             control_step_s: metadata.control_step_s,
-            env: metadata.env,
-            velocity: metadata.velocity.unwrap_or_default(),
-            rewards: metadata.rewards.unwrap_or_default(),
-            ground: metadata.ground.unwrap_or_default(),
-            randomisation: metadata.randomisation,
-            task: metadata.task.unwrap_or_default(),
+            settings: metadata.settings,
             model_xml: metadata.model_xml,
         };
         policy.check()?;
@@ -305,32 +266,14 @@ impl ExportedPolicy {
                 return Err(entry("action.low", &low, format!("finite and below action.high, which is {high}")));
             }
         }
-        let unknown = self.env.task == EnvTask::External && self.control_step_s == 0.0;
-        if !(self.control_step_s.is_finite() && self.control_step_s > 0.0 || unknown) {
-            return Err(entry("control_step_s", &self.control_step_s, "a number above 0".into()));
-        }
-        if self.env.task != EnvTask::External && self.control_step_s != self.env.control_step_s {
-            let expected = format!("env.control_step_s, which is {}", self.env.control_step_s);
-            return Err(entry("control_step_s", &self.control_step_s, expected));
+        if !(self.control_step_s.is_finite() && self.control_step_s >= 0.0) {
+            return Err(entry("control_step_s", &self.control_step_s, "a number of at least 0".into()));
         }
         if !self.normaliser().is_valid(inputs) {
             let expected = "means, variances and a clip that give finite numbers".into();
             return Err(entry("observation", &format!("{:?}", self.observation), expected));
         }
-        Ok(self.config().check()?)
-    }
-
-    /// Returns the configuration that the policy was trained under, as far as episodes depend on it.
-    pub fn config(&self) -> Config {
-        Config {
-            env: self.env.clone(),
-            velocity: self.velocity.clone(),
-            rewards: self.rewards.clone(),
-            ground: self.ground.clone(),
-            randomisation: self.randomisation.clone(),
-            task: self.task.clone(),
-            ..Config::default()
-        }
+        Ok(())
     }
 }
 
@@ -343,7 +286,7 @@ fn read_metadata(text: &str) -> Result<Metadata, ExportedError> {
     serde_json::from_str(text).map_err(unreadable)
 }
 
-/// Returns whether an entry can be left out, as files of before it did.
+/// Returns whether an entry can be left out.
 fn is_zero(number: &usize) -> bool {
     *number == 0
 }

@@ -20,12 +20,7 @@ fn sample() -> ExportedPolicy {
         variance,
         action: ActionFacts { names: vec!["hip".into(), "knee".into()], low: vec![-0.4; 2], high: vec![0.4; 2] },
         control_step_s: 0.015,
-        env: EnvConfig { reset_noise_scale: 0.02, ..EnvConfig::default() },
-        randomisation: RandomisationConfig { mass_scale: [0.9, 1.1], ..RandomisationConfig::default() },
-        velocity: VelocityConfig::default(),
-        rewards: RewardsConfig::default(),
-        ground: GroundConfig::default(),
-        task: TaskConfig::default(),
+        settings: "[env]\nreset_noise_scale = 0.02\nhealthy_z_range = [1.0, inf]\n".into(),
         model_xml: "<mujoco/>".into(),
     }
 }
@@ -108,27 +103,9 @@ fn other_files_are_refused_with_their_kind() {
 }
 
 #[test]
-fn a_file_of_an_earlier_version_has_its_control_step() {
-    let older = with_metadata(|metadata| {
-        let env = metadata["env"].as_object_mut().unwrap();
-        env.remove("control_step_s").unwrap();
-        env.remove("keyframe").unwrap();
-        env.insert("solver_iterations".into(), 4.into());
-    });
-    assert_eq!(ExportedPolicy::from_bytes(&older).unwrap(), sample());
-}
-
-#[test]
-fn another_control_step_survives() {
-    let env = EnvConfig { control_step_s: 0.02, ..EnvConfig::default() };
-    let policy = ExportedPolicy { control_step_s: 0.02, env, ..sample() };
-    assert_eq!(ExportedPolicy::from_bytes(&policy.to_bytes().unwrap()).unwrap(), policy);
-}
-
-#[test]
 fn invalid_metadata_is_named() {
     type Change = fn(&mut serde_json::Value);
-    let cases: [(Change, &[&str]); 14] = [
+    let cases: [(Change, &[&str]); 12] = [
         (|m| m["format"] = 2.into(), &["format 2", "reads format 1"]),
         (|m| *m = "text".into(), &["metadata", "cannot be read"]),
         (|m| m["network"]["activation"] = "tanh".into(), &["network.activation", "tanh", "elu"]),
@@ -140,9 +117,7 @@ fn invalid_metadata_is_named() {
         (|m| m["observation"]["clip"] = (-1.0).into(), &["observation", "clip"]),
         (|m| m["action"]["names"] = vec!["hip"].into(), &["action.names", "1 long", "2"]),
         (|m| m["action"]["low"] = vec![0.4, 0.4].into(), &["action.low", "0.4", "below action.high"]),
-        (|m| m["env"]["substeps"] = 0.into(), &["env.substeps", "is 0", "1 to 50"]),
-        (|m| m["control_step_s"] = 0.02.into(), &["control_step_s", "is 0.02", "env.control_step_s, which is 0.015"]),
-        (|m| m["env"]["control_step_s"] = 0.5.into(), &["control_step_s", "is 0.015", "which is 0.5"]),
+        (|m| m["control_step_s"] = (-0.1).into(), &["control_step_s", "is -0.1", "at least 0"]),
     ];
     for (change, parts) in cases {
         let text = refusal(&with_metadata(change));

@@ -197,8 +197,8 @@ fn prepare(args: &EvalArgs) -> anyhow::Result<Prepared> {
         return Ok(Prepared { environment, agent: baseline(args, action_size), origin: None });
     };
     let _step = SlowStepNotice::begin(format!("loading the policy of {run}"));
-    let SavedPolicy { policy, origin, .. } = saved_policy::load(run, args.checkpoint)?;
-    let config = configuration(args, policy.config())?;
+    let SavedPolicy { policy, config, origin, .. } = saved_policy::load(run, args.checkpoint)?;
+    let config = configuration(args, config)?;
     let environment = match args.model.model.as_deref() {
         None => saved_policy::environment(run, &policy, &config)?,
         Some(file) => {

@@ -57,8 +57,7 @@ pub struct ExportArgs {
 
 /// Writes the files and prints what they contain.
 pub fn run(args: &ExportArgs) -> anyhow::Result<()> {
-    let SavedPolicy { policy, origin, .. } = saved_policy::load(&args.run, args.checkpoint)?;
-    let config = policy.config();
+    let SavedPolicy { policy, config, origin, .. } = saved_policy::load(&args.run, args.checkpoint)?;
     let environment = match config.is_external() {
         true => None,
         // Refuses a policy that `eval` would refuse.
