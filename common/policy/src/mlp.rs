@@ -3,7 +3,7 @@
 //! Hidden layers are ELU, the last layer is linear. With `Z = H Wᵀ + b` for each layer, the gradients are
 //! `dW = dZᵀ H`, `db = Σ_rows dZ` and `dH = dZ W` (Rumelhart, Hinton & Williams 1986).
 
-use std::ops::Range;
+use std::{cell::RefCell, ops::Range};
 
 use gemm::{Parallelism, gemm};
 use rayon::{ThreadPool, prelude::*};
@@ -37,6 +37,11 @@ pub struct Tape {
     pub gradient: Vec<f32>,
     /// Gradient by the input of a layer.
     below: Vec<f32>,
+}
+
+thread_local! {
+    /// Tape of this thread's evaluations, so that an actor allocates nothing in a control step.
+    static TAPE: RefCell<Tape> = RefCell::default();
 }
 
 impl Mlp {
@@ -92,15 +97,18 @@ impl Mlp {
         add_bias(&mut tape.output, &parameters[last.bias()]);
     }
 
-    /// Adds the gradient of the parameters to `gradient`, which is as long as [`Self::range`]. The tape holds the forward pass
-    /// and the gradient by its output.
-    pub fn backward(&self, flat: &[f32], tape: &mut Tape, gradient: &mut [f32]) {
+    /// Computes the gradient of the parameters, which is as long as [`Self::range`]. The tape holds the forward pass and the
+    /// gradient by its output. With `accumulate` the result is added to `gradient`, otherwise it replaces it.
+    pub fn backward(&self, flat: &[f32], tape: &mut Tape, gradient: &mut [f32], accumulate: bool) {
         let parameters = &flat[self.range()];
         let Tape { input, activations, gradient: above, below, .. } = tape;
         let rows = input.len() / self.input();
         let mut end = activations.len();
         for (i, layer) in self.layers.iter().enumerate().rev() {
             let bias_gradient = &mut gradient[layer.bias()];
+            if !accumulate {
+                bias_gradient.fill(0.0);
+            }
             if i + 1 == self.layers.len() {
                 add_column_sums(above, bias_gradient);
             } else {
@@ -112,7 +120,7 @@ impl Mlp {
             let above_rows = Matrix::row_major(above, layer.output);
             let seen = Matrix::row_major(seen, layer.input);
             let sizes = [layer.output, layer.input, rows];
-            multiply(sizes, above_rows.transposed(), seen, &mut gradient[layer.weight()], true);
+            multiply(sizes, above_rows.transposed(), seen, &mut gradient[layer.weight()], accumulate);
             if i > 0 {
                 below.resize(rows * layer.input, 0.0);
                 let weight = Matrix::row_major(&parameters[layer.weight()], layer.input);
@@ -125,21 +133,19 @@ impl Mlp {
     /// Evaluates the network for every row of `plane`, `[rows, columns]`, into `output`, `[rows, output]`. The threads of
     /// `pool` share the rows, with the same results.
     pub fn evaluate(&self, flat: &[f32], plane: &[f32], columns: usize, output: &mut [f32], pool: Option<&ThreadPool>) {
-        let chunk = |tape: &mut Tape, (rows, output): (&[f32], &mut [f32])| {
-            self.gather(rows, columns, 0..rows.len() / columns, tape);
-            self.forward(flat, tape);
-            output.copy_from_slice(&tape.output);
+        let chunk = |(rows, output): (&[f32], &mut [f32])| {
+            TAPE.with_borrow_mut(|tape| {
+                self.gather(rows, columns, 0..rows.len() / columns, tape);
+                self.forward(flat, tape);
+                output.copy_from_slice(&tape.output);
+            });
         };
         let (input_size, output_size) = (CHUNK_ROWS * columns, CHUNK_ROWS * self.output());
         match pool {
             Some(pool) => pool.install(|| {
-                let chunks = plane.par_chunks(input_size).zip(output.par_chunks_mut(output_size));
-                chunks.for_each_init(Tape::default, chunk);
+                plane.par_chunks(input_size).zip(output.par_chunks_mut(output_size)).for_each(chunk);
             }),
-            None => {
-                let mut tape = Tape::default();
-                plane.chunks(input_size).zip(output.chunks_mut(output_size)).for_each(|rows| chunk(&mut tape, rows));
-            }
+            None => plane.chunks(input_size).zip(output.chunks_mut(output_size)).for_each(chunk),
         }
     }
 }

@@ -58,8 +58,8 @@ fn on_slices(layers: &[Dense], flat: &[f32], observations: &[f32], columns: usiz
     let slope = |(output, c): (&f32, f32)| c + 2.0 * output;
     tape.gradient = tape.output.iter().zip(wave(tape.output.len(), 0.3)).map(slope).collect();
     let output = tape.output.clone();
-    let mut gradient = vec![0.0; mlp.range().len()];
-    mlp.backward(flat, &mut tape, &mut gradient);
+    let mut gradient = vec![f32::NAN; mlp.range().len()];
+    mlp.backward(flat, &mut tape, &mut gradient, false);
     [output, gradient]
 }
 
@@ -154,7 +154,7 @@ fn a_tape_that_is_used_again_gives_the_same_bits_and_gradients_add_up() {
             mlp.forward(&flat, tape);
             tape.gradient.clone_from(&tape.output);
             let mut gradient = vec![0.0; mlp.range().len()];
-            mlp.backward(&flat, tape, &mut gradient);
+            mlp.backward(&flat, tape, &mut gradient, false);
             (gradient, tape.output.clone())
         });
         assert_eq!(again, first, "{rows} rows");
@@ -162,10 +162,10 @@ fn a_tape_that_is_used_again_gives_the_same_bits_and_gradients_add_up() {
     let mut twice = vec![0.0; mlp.range().len()];
     for _ in 0..2 {
         used.gradient.clone_from(&used.output);
-        mlp.backward(&flat, &mut used, &mut twice);
+        mlp.backward(&flat, &mut used, &mut twice, true);
     }
     used.gradient.clone_from(&used.output);
     let mut once = vec![0.0; mlp.range().len()];
-    mlp.backward(&flat, &mut used, &mut once);
+    mlp.backward(&flat, &mut used, &mut once, false);
     assert!(twice.iter().zip(once).all(|(twice, once)| (twice - 2.0 * once).abs() < 1e-5));
 }

@@ -131,7 +131,7 @@ impl<'a> CpuPass<'a> {
         actor_lanes.resize_with(lanes, Lane::default);
         critic_lanes.resize_with(lanes, Lane::default);
 
-        let gather = |network: &Mlp, rows: &[u32], tape: &mut Tape| {
+        let evaluate = |network: &Mlp, rows: &[u32], tape: &mut Tape| {
             let rows = rows.iter().map(|row| *row as usize);
             network.gather(&batch.observations, shape.observation, rows, tape);
             network.forward(parameters, tape);
@@ -139,19 +139,19 @@ impl<'a> CpuPass<'a> {
         let actor_lane = |(number, lane): (usize, &mut Lane)| {
             lane.begin(actor, shape.action);
             let Lane { tape, gradient, log_std_gradient, sums } = lane;
-            for rows in lane_rows(number) {
-                gather(actor, rows, tape);
+            for (index, rows) in lane_rows(number).enumerate() {
+                evaluate(actor, rows, tape);
                 terms.policy(rows, &tape.output, &mut tape.gradient, log_std_gradient, sums);
-                actor.backward(parameters, tape, gradient);
+                actor.backward(parameters, tape, gradient, index > 0);
             }
         };
         let critic_lane = |(number, lane): (usize, &mut Lane)| {
             lane.begin(critic, 0);
             let Lane { tape, gradient, sums, .. } = lane;
-            for rows in lane_rows(number) {
-                gather(critic, rows, tape);
+            for (index, rows) in lane_rows(number).enumerate() {
+                evaluate(critic, rows, tape);
                 terms.value(rows, &tape.output, &mut tape.gradient, sums);
-                critic.backward(parameters, tape, gradient);
+                critic.backward(parameters, tape, gradient, index > 0);
             }
         };
         rayon::join(
@@ -177,9 +177,8 @@ impl<'a> CpuPass<'a> {
 }
 
 impl Lane {
-    /// Begins a gradient step.
+    /// Begins a gradient step. The first chunk replaces the gradient of the networks.
     fn begin(&mut self, network: &Mlp, actions: usize) {
-        self.gradient.clear();
         self.gradient.resize(network.range().len(), 0.0);
         self.log_std_gradient.clear();
         self.log_std_gradient.resize(actions, 0.0);
