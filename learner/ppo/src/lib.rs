@@ -11,9 +11,9 @@
 //! - [`batch`]: the batch itself, and its minibatches.
 //! - [`loss`]: the loss, from top to bottom, in Candle's operations: on a GPU, and as the reference of tests.
 //! - `loss_gradient`: the same loss and its gradient on slices.
-//! - `gradient_step`: forward, loss, backward, clip, Adam on slices.
-//! - `device_pass`: the same in Candle's operations on a GPU.
-//! - [`update`]: [`Ppo`] runs epochs of gradient steps, and restores the old parameters when one fails.
+//! - `slice_gradient`: gather, forward, loss, backward on slices.
+//! - `tensor_gradient`: the same in Candle's operations: on a GPU, and as the reference of tests.
+//! - [`update`]: [`Ppo`] runs epochs of gradient steps, and restores the old state when one fails.
 //! - `update_stats`: what an update reports, or why it was undone.
 //! - [`optimiser`]: Adam and gradient clipping over one flat slice.
 //! - [`measures`]: KL divergence, clip fraction, explained variance, and the adaptive learning rate.
@@ -21,9 +21,7 @@
 
 pub mod batch;
 pub mod batch_building;
-mod device_pass;
 pub mod gae;
-mod gradient_step;
 pub mod improvement;
 pub mod loss;
 mod loss_gradient;
@@ -31,7 +29,9 @@ pub mod measures;
 pub mod mirror;
 pub mod optimiser;
 pub mod plausibility;
+mod slice_gradient;
 pub mod state;
+mod tensor_gradient;
 pub mod update;
 mod update_stats;
 

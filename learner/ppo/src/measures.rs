@@ -18,9 +18,8 @@ const GOLDEN: f64 = 0.618_033_988_749_894_9;
 /// With 1,024 rows the standard error of the mean is about 3 % of it, and the learning rate changes at a factor of 2.
 #[derive(Debug)]
 pub(crate) struct PolicyShift {
-    observation: usize,
-    /// Observations of the rows, `[rows, observation]`.
-    pub(crate) observations: Vec<f32>,
+    shape: NetworkShape,
+    observations: Vec<f32>,
     old_means: Vec<f32>,
     old_log_std: Vec<f32>,
 }
@@ -30,23 +29,19 @@ impl PolicyShift {
     pub(crate) fn new(batch: &Batch, shape: &NetworkShape, old_log_std: &[f32]) -> Self {
         let rows = spread_rows(batch.len());
         Self {
-            observation: shape.observation,
             observations: picked(&batch.observations, shape.observation, &rows),
             old_means: picked(&batch.means, shape.action, &rows),
             old_log_std: old_log_std.to_vec(),
+            shape: shape.clone(),
         }
     }
 
-    /// Returns the means of the new policy, `[rows, action]`.
-    pub(crate) fn means_of(&self, actor: &Mlp, parameters: &[f32], pool: &ThreadPool) -> Vec<f32> {
+    /// Returns the Kullback–Leibler divergence from the old policy to that of `parameters` in nats, in closed form.
+    pub(crate) fn divergence(&self, parameters: &[f32], pool: &ThreadPool) -> f64 {
         let mut means = vec![0.0; self.old_means.len()];
-        actor.evaluate(parameters, &self.observations, self.observation, &mut means, Some(pool));
-        means
-    }
-
-    /// Returns the Kullback–Leibler divergence from the old to the new policy in nats, in closed form.
-    pub(crate) fn divergence(&self, new_means: &[f32], new_log_std: &[f32]) -> f64 {
-        gaussian::kl_divergence(&self.old_means, &self.old_log_std, new_means, new_log_std)
+        let actor = Mlp::new(self.shape.actor());
+        actor.evaluate(parameters, &self.observations, self.shape.observation, &mut means, Some(pool));
+        gaussian::kl_divergence(&self.old_means, &self.old_log_std, &means, &parameters[self.shape.log_std()])
     }
 }
 

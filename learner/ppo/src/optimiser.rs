@@ -6,9 +6,9 @@
 use multiversion::multiversion;
 use serde::{Deserialize, Serialize};
 
-pub(crate) const BETA_1: f64 = 0.9;
-pub(crate) const BETA_2: f64 = 0.999;
-pub(crate) const EPSILON: f64 = 1e-8;
+const BETA_1: f64 = 0.9;
+const BETA_2: f64 = 0.999;
+const EPSILON: f64 = 1e-8;
 
 /// State of Adam. Together with the learning rate, a resumed run continues from it exactly.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]

@@ -4,16 +4,22 @@ use std::sync::Arc;
 
 use rayon::ThreadPool;
 use treadmill_config::PpoConfig;
-use treadmill_policy::{NetworkShape, ParameterError, Policy, device::Device};
+use treadmill_policy::{
+    NetworkShape, ParameterError, Policy,
+    device::Device,
+    gaussian::{self, clamp_log_std},
+};
 
 use crate::{
-    batch::{Batch, shuffle, weighted_advantages},
-    device_pass::DevicePass,
-    gradient_step::CpuPass,
+    batch::{Batch, minibatches, shuffle, weighted_advantages},
+    loss_gradient::LossSums,
     measures::{PolicyShift, adapt_learning_rate, explained_variance},
     mirror::BatchMirror,
+    optimiser::{clip_factor, global_norm},
+    slice_gradient::SliceGradient,
     state::PpoState,
-    update_stats::{UpdateError, UpdateStats},
+    tensor_gradient::TensorGradient,
+    update_stats::{UpdateError, UpdateStats, check_finite},
 };
 
 /// What learning needs beside its state.
@@ -21,7 +27,7 @@ use crate::{
 pub struct PpoOptions {
     /// Shape of the networks.
     pub shape: NetworkShape,
-    /// Device of the networks. On a GPU, the whole update runs there.
+    /// Device that computes gradients and values.
     pub device: Device,
     /// Threads of the update on a CPU; the results do not depend on their number.
     pub pool: Arc<ThreadPool>,
@@ -84,28 +90,62 @@ impl Ppo {
     fn run_epochs(&self, state: &mut PpoState, batch: &Batch, epochs: u32) -> Result<UpdateStats, UpdateError> {
         let (PpoOptions { shape, device, pool, .. }, config) = (&self.options, &self.config);
         let advantages = weighted_advantages(batch);
-        let mut order: Vec<u32> = (0..batch.len() as u32).collect();
-        let shift = PolicyShift::new(batch, shape, &state.parameters[shape.log_std()]);
         let mut on_device = match self.is_on_device {
-            true => Some(DevicePass::upload(batch, &advantages, &shift, shape, config, device, state)?),
+            true => Some(TensorGradient::upload(batch, &advantages, shape, config, device)?),
             false => None,
         };
-        let mut on_cpu = CpuPass::new(batch, &advantages, shape, config, pool);
+        let mut on_slices = SliceGradient::new(batch, &advantages, shape, config);
+        let mut compute_gradient = |rows: &[u32], parameters: &[f32], gradient: &mut [f32]| match &mut on_device {
+            Some(tensors) => tensors.compute(rows, parameters, gradient).map_err(UpdateError::from),
+            None => Ok(on_slices.compute(rows, parameters, gradient)),
+        };
+
+        let mut order: Vec<u32> = (0..batch.len() as u32).collect();
+        let mut gradient = vec![0.0; shape.parameter_count()];
+        let shift = PolicyShift::new(batch, shape, &state.parameters[shape.log_std()]);
         let mut stats = UpdateStats {
             explained_variance: explained_variance(&batch.values, &batch.returns),
             ..UpdateStats::default()
         };
         for _ in 0..epochs {
             shuffle(&mut order, &mut state.shuffle);
-            let sums = match &mut on_device {
-                Some(pass) => pass.run(&order, &shift, state)?,
-                None => on_cpu.run(&order, &shift, state)?,
-            };
-            stats.add(&sums, &order, config.minibatch_rows(order.len()));
-            state.learning_rate = adapt_learning_rate(state.learning_rate, sums.divergence, config);
+            // On a thread of the pool, so that the others wait for its next task and are not woken for each.
+            pool.install(|| -> Result<(), UpdateError> {
+                for range in minibatches(order.len(), config.minibatch_rows(order.len())) {
+                    let rows = &order[range];
+                    let loss = compute_gradient(rows, &state.parameters, &mut gradient)?;
+                    self.step(state, rows.len(), &loss, &gradient, &mut stats)?;
+                }
+                Ok(())
+            })?;
+            check_finite(state.parameters.iter().all(|p| p.is_finite()), "parameter vector")?;
+            stats.approx_kl = shift.divergence(&state.parameters, pool);
+            check_finite(stats.approx_kl.is_finite(), "divergence from the old policy")?;
+            state.learning_rate = adapt_learning_rate(state.learning_rate, stats.approx_kl, config);
         }
         stats.finish(&state.parameters[shape.log_std()], state.learning_rate);
         Ok(stats)
+    }
+
+    /// Takes the step of a gradient: clipping, then Adam.
+    fn step(
+        &self,
+        state: &mut PpoState,
+        rows: usize,
+        loss: &LossSums,
+        gradient: &[f32],
+        stats: &mut UpdateStats,
+    ) -> Result<(), UpdateError> {
+        let PpoState { parameters, optimiser, learning_rate, .. } = state;
+        let log_std = self.options.shape.log_std();
+        stats.add(rows, loss, gaussian::entropy(&parameters[log_std.clone()]));
+        check_finite((loss.policy + loss.value + loss.bounds).is_finite(), "loss")?;
+        let norm = global_norm(gradient);
+        check_finite(norm.is_finite(), "gradient")?;
+        stats.grad_norm += rows as f64 * norm;
+        optimiser.apply(parameters, gradient, clip_factor(norm, self.config.max_grad_norm), *learning_rate);
+        clamp_log_std(&mut parameters[log_std]);
+        Ok(())
     }
 }
 

@@ -2,19 +2,7 @@
 
 use treadmill_policy::ParameterError;
 
-use crate::batch::minibatches;
-
-/// Sums over the rows of one pass, and the divergence after it.
-#[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct PassSums {
-    pub(crate) policy_loss: f64,
-    pub(crate) value_loss: f64,
-    pub(crate) entropy: f64,
-    pub(crate) bounds_loss: f64,
-    pub(crate) grad_norm: f64,
-    pub(crate) clipped: f64,
-    pub(crate) divergence: f64,
-}
+use crate::loss_gradient::LossSums;
 
 /// Statistics of an update: means over all gradient steps, weighted by rows, unless stated otherwise.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -77,17 +65,15 @@ pub enum UpdateError {
 }
 
 impl UpdateStats {
-    /// Adds the sums of one pass over rows in the given order.
-    pub(crate) fn add(&mut self, sums: &PassSums, order: &[u32], minibatch: usize) {
-        self.policy_loss += sums.policy_loss;
-        self.value_loss += sums.value_loss;
-        self.entropy += sums.entropy;
-        self.bounds_loss += sums.bounds_loss;
-        self.grad_norm += sums.grad_norm;
-        self.clip_fraction += sums.clipped;
-        self.approx_kl = sums.divergence;
-        self.gradient_steps += minibatches(order.len(), minibatch).count() as u64;
-        self.samples += order.len() as u64;
+    /// Adds the loss of one gradient step.
+    pub(crate) fn add(&mut self, rows: usize, loss: &LossSums, entropy: f32) {
+        self.policy_loss += loss.policy;
+        self.value_loss += loss.value;
+        self.bounds_loss += loss.bounds;
+        self.clip_fraction += loss.clipped;
+        self.entropy += rows as f64 * f64::from(entropy);
+        self.gradient_steps += 1;
+        self.samples += rows as u64;
     }
 
     /// Converts sums to means.

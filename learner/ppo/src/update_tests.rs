@@ -7,7 +7,6 @@ use treadmill_policy::init::initial_parameters;
 
 use super::*;
 use crate::batch::normalised;
-use crate::gradient_step::tests::{ByCandle, by_candle};
 
 fn rng(seed: u64) -> Xoshiro256PlusPlus {
     Xoshiro256PlusPlus::seed_from_u64(seed)
@@ -85,17 +84,14 @@ fn batch(updater: &Updater, rows: usize, seed: u64) -> Batch {
     batch
 }
 
-/// Policy loss, value loss and total loss of the whole batch under the updater's parameters.
-fn losses(updater: &Updater, batch: &Batch) -> [f64; 3] {
-    let loss = loss_by_candle(updater, batch).loss;
-    [loss.policy, loss.value, loss.total].map(|part| part.to_scalar::<f64>().expect("a scalar"))
-}
-
-/// Loss of the whole batch and its gradient under the updater's parameters.
-fn loss_by_candle(updater: &Updater, batch: &Batch) -> ByCandle {
+/// Policy loss and value loss of the whole batch under the updater's parameters, and the gradient of the total.
+fn losses(updater: &Updater, batch: &Batch) -> ([f64; 2], Vec<f32>) {
+    let Ppo { options: PpoOptions { shape, .. }, config, .. } = &updater.ppo;
     let rows: Vec<u32> = (0..batch.len() as u32).collect();
-    let (advantages, of) = (normalised(&batch.advantages), (updater.shape(), &updater.ppo.config));
-    by_candle(batch, &advantages, &rows, of, &updater.state.parameters).expect("candle runs")
+    let mut gradient = vec![0.0; shape.parameter_count()];
+    let tensors = TensorGradient::upload(batch, &normalised(&batch.advantages), shape, config, &Device::Cpu);
+    let loss = tensors.and_then(|t| t.compute(&rows, &updater.state.parameters, &mut gradient)).expect("candle runs");
+    ([loss.policy, loss.value].map(|sum| sum / rows.len() as f64), gradient)
 }
 
 /// Asserts that only the random streams may differ.
@@ -108,9 +104,9 @@ fn assert_same(a: &Updater, b: &Updater) {
 fn an_update_lowers_both_losses_and_returns_its_statistics() {
     let mut updater = updater(&config(), 1);
     let batch = batch(&updater, 1000, 2);
-    let before = losses(&updater, &batch);
+    let (before, _) = losses(&updater, &batch);
     let stats = updater.update(&batch, 3).expect("a sound batch");
-    let after = losses(&updater, &batch);
+    let (after, _) = losses(&updater, &batch);
     for (before, after) in before.iter().zip(after) {
         assert!(after < before - 0.005, "{before} {after}");
     }
@@ -147,15 +143,15 @@ fn one_gradient_step_equals_that_of_candles_operations() {
     let config = PpoConfig { minibatch: 600, epochs: 1, target_kl: 0.0, max_grad_norm: 0.1, ..PpoConfig::default() };
     let mut updater = updater(&config, 1);
     let batch = batch(&updater, 600, 2);
-    let gradient = loss_by_candle(&updater, &batch).gradient;
-    let norm = gradient.iter().map(|g| g.powi(2)).sum::<f64>().sqrt();
+    let (_, gradient) = losses(&updater, &batch);
+    let norm = gradient.iter().map(|g| f64::from(*g).powi(2)).sum::<f64>().sqrt();
 
     let start = updater.state.parameters.clone();
     let stats = updater.update(&batch, 3).expect("a sound batch");
     assert!((stats.grad_norm - norm).abs() < 1e-5 * norm && norm > 0.1, "{} {norm}", stats.grad_norm);
     // After one step from zero the first moment is a tenth of the clipped gradient.
     for (moment, gradient) in updater.state.optimiser.first_moment.iter().zip(&gradient) {
-        let expected = 0.1 * gradient * (0.1 / norm);
+        let expected = 0.1 * f64::from(*gradient) * (0.1 / norm);
         assert!((f64::from(*moment) - expected).abs() < 1e-7, "{moment} {expected}");
     }
     let moved = updater.state.parameters.iter().zip(&start).filter(|(new, old)| new != old).count();
@@ -319,7 +315,7 @@ fn state_that_does_not_fit_is_refused() {
     assert!(matches!(updater.ppo.policy(&updater.state), Err(ParameterError::NonFinite { .. })));
 }
 
-/// Updater with the same parameters whose passes run as on a GPU, but on the CPU.
+/// Updater with the same parameters whose gradients are computed as on a GPU, but on the CPU.
 fn on_device(other: &Updater) -> Updater {
     let mut updater = other.clone();
     updater.ppo.is_on_device = true;
@@ -327,7 +323,7 @@ fn on_device(other: &Updater) -> Updater {
 }
 
 #[test]
-fn passes_on_a_device_equal_those_of_the_processor() {
+fn updates_on_a_device_equal_those_on_slices() {
     for privileged in [0, 1] {
         check_device(&NetworkShape { privileged, ..shape() });
     }
@@ -363,29 +359,4 @@ fn check_device(shape: &NetworkShape) {
         assert!(largest(&a.first_moment, &b.first_moment) < 1e-5);
         assert!(largest(&a.second_moment, &b.second_moment) < 1e-5);
     }
-}
-
-#[test]
-fn passes_on_a_device_with_a_non_finite_number_are_undone() {
-    let fused = updater(&config(), 1);
-    let batch = batch(&fused, 700, 8);
-    let huge = Batch { returns: vec![3e30; 700], ..batch.clone() };
-    let mut device = on_device(&fused);
-    let error = device.update(&huge, 9).expect_err("its square is infinite");
-    assert!(matches!(error, UpdateError::NonFinite { what: "loss" }), "{error}");
-    assert_same(&device, &fused);
-    device.state.learning_rate = 1e300;
-    let before = device.clone();
-    let error = device.update(&batch, 9).expect_err("an infinite step");
-    assert!(matches!(error, UpdateError::NonFinite { .. }), "{error}");
-    assert_same(&device, &before);
-}
-
-#[test]
-fn the_standard_deviation_keeps_its_range_on_a_device() {
-    let config = PpoConfig { entropy_coefficient: 100.0, learning_rate: 1.0, target_kl: 0.0, ..config() };
-    let fused = updater(&config, 1);
-    let mut device = on_device(&fused);
-    device.update(&batch(&fused, 700, 8), 9).expect("a sound batch");
-    assert_eq!(device.policy().log_std(), [LOG_STD_MAX; 2]);
 }

@@ -1,0 +1,130 @@
+//! Gradient of the loss on a processor, on plain slices: gather, forward, loss, backward.
+//!
+//! **Results do not depend on the number of threads.** The rows of a minibatch are divided into chunks of [`CHUNK_ROWS`].
+//! Chunk `c` adds its gradient to lane `c mod L`, where `L` follows from the number of rows. Each lane processes its chunks in
+//! order, and lanes are summed in order.
+
+use rayon::prelude::*;
+use treadmill_config::PpoConfig;
+use treadmill_policy::{CHUNK_ROWS, Mlp, NetworkShape, Tape};
+
+use crate::{
+    batch::Batch,
+    loss_gradient::{LossSums, LossTerms},
+};
+
+/// Memory of all lanes in bytes. Every chunk has a lane of its own up to 47 chunks (12,032 rows) of networks of 256 and 128, so
+/// that as many threads find work.
+const LANE_BYTES_MAX: usize = 128 << 20;
+/// Fewest lanes that the memory is divided into.
+const LANES_MIN: usize = 8;
+/// Parameters whose sum over lanes is one task.
+const SUM_PARAMETERS: usize = 8192;
+
+/// Batch of one update, and memory for its gradients.
+pub(crate) struct SliceGradient<'a> {
+    batch: &'a Batch,
+    /// Normalised advantages, times their weights.
+    advantages: &'a [f32],
+    config: &'a PpoConfig,
+    shape: &'a NetworkShape,
+    actor: Mlp,
+    critic: Mlp,
+    /// Most partial gradients per network.
+    lanes_max: usize,
+    actor_lanes: Vec<Lane>,
+    critic_lanes: Vec<Lane>,
+}
+
+/// Partial gradient of one network, and the memory to compute it.
+#[derive(Default)]
+struct Lane {
+    tape: Tape,
+    gradient: Vec<f32>,
+    /// Gradient by `log_std`, which belongs to the actor.
+    log_std_gradient: Vec<f64>,
+    sums: LossSums,
+}
+
+impl<'a> SliceGradient<'a> {
+    pub(crate) fn new(batch: &'a Batch, advantages: &'a [f32], shape: &'a NetworkShape, config: &'a PpoConfig) -> Self {
+        let (actor, critic) = (Mlp::new(shape.actor()), Mlp::new(shape.critic()));
+        let lane = |network: &Mlp| network.range().len() + CHUNK_ROWS * network.tape_width();
+        let lane_bytes = size_of::<f32>() * (lane(&actor) + lane(&critic));
+        let lanes_max = LANES_MIN.max(LANE_BYTES_MAX / lane_bytes);
+        let (actor_lanes, critic_lanes) = (Vec::new(), Vec::new());
+        Self { batch, advantages, config, shape, actor, critic, lanes_max, actor_lanes, critic_lanes }
+    }
+
+    /// Computes the flat gradient of the loss over the given rows, on the threads of the pool that calls it. Returns the loss.
+    pub(crate) fn compute(&mut self, rows: &[u32], parameters: &[f32], gradient: &mut [f32]) -> LossSums {
+        let Self { batch, shape, actor, critic, actor_lanes, critic_lanes, config, .. } = self;
+        let log_std = shape.log_std();
+        let terms = LossTerms::new(batch, self.advantages, config, &parameters[log_std.clone()], rows.len());
+        let lanes = rows.len().div_ceil(CHUNK_ROWS).min(self.lanes_max);
+        let chunks_of = |lane: usize| rows.chunks(CHUNK_ROWS).skip(lane).step_by(lanes).enumerate();
+        actor_lanes.resize_with(lanes, Lane::default);
+        critic_lanes.resize_with(lanes, Lane::default);
+
+        let evaluate = |network: &Mlp, rows: &[u32], tape: &mut Tape| {
+            let rows = rows.iter().map(|row| *row as usize);
+            network.gather(&batch.observations, shape.observation, rows, tape);
+            network.forward(parameters, tape);
+        };
+        let actor_lane = |(number, lane): (usize, &mut Lane)| {
+            let Lane { tape, gradient, log_std_gradient, sums } = lane.begin(actor, shape.action);
+            for (index, rows) in chunks_of(number) {
+                evaluate(actor, rows, tape);
+                terms.policy(rows, &tape.output, &mut tape.gradient, log_std_gradient, sums);
+                actor.backward(parameters, tape, gradient, index > 0);
+            }
+        };
+        let critic_lane = |(number, lane): (usize, &mut Lane)| {
+            let Lane { tape, gradient, sums, .. } = lane.begin(critic, 0);
+            for (index, rows) in chunks_of(number) {
+                evaluate(critic, rows, tape);
+                terms.value(rows, &tape.output, &mut tape.gradient, sums);
+                critic.backward(parameters, tape, gradient, index > 0);
+            }
+        };
+        rayon::join(
+            || actor_lanes.par_iter_mut().enumerate().with_max_len(1).for_each(actor_lane),
+            || critic_lanes.par_iter_mut().enumerate().with_max_len(1).for_each(critic_lane),
+        );
+
+        sum_gradients(actor_lanes, &mut gradient[actor.range()]);
+        sum_gradients(critic_lanes, &mut gradient[critic.range()]);
+        for (index, target) in gradient[log_std].iter_mut().enumerate() {
+            let sum = actor_lanes.iter().map(|lane| lane.log_std_gradient[index]).sum::<f64>();
+            *target = (sum - config.entropy_coefficient) as f32;
+        }
+        actor_lanes.iter().chain(&*critic_lanes).map(|lane| lane.sums).sum()
+    }
+}
+
+impl Lane {
+    /// Begins a gradient. Its first chunk replaces the gradient of the network.
+    fn begin(&mut self, network: &Mlp, actions: usize) -> &mut Self {
+        self.gradient.resize(network.range().len(), 0.0);
+        self.log_std_gradient.clear();
+        self.log_std_gradient.resize(actions, 0.0);
+        self.sums = LossSums::default();
+        self
+    }
+}
+
+/// Sums the partial gradients of one network.
+fn sum_gradients(lanes: &[Lane], gradient: &mut [f32]) {
+    gradient.par_chunks_mut(SUM_PARAMETERS).enumerate().for_each(|(part, target)| {
+        let start = part * SUM_PARAMETERS;
+        target.fill(0.0);
+        for lane in lanes {
+            let parts = &lane.gradient[start..start + target.len()];
+            target.iter_mut().zip(parts).for_each(|(sum, part)| *sum += part);
+        }
+    });
+}
+
+#[cfg(test)]
+#[path = "slice_gradient_tests.rs"]
+mod tests;
