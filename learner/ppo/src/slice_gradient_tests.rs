@@ -17,8 +17,7 @@ fn experience(shape: &NetworkShape, rows: usize) -> (Batch, Vec<f32>) {
     let actions: Vec<f32> = normals(rows * shape.action).iter().map(|a| a * 0.7).collect();
     let action_rows = actions.chunks_exact(shape.action);
     let log_std = vec![-0.4; shape.action];
-    let log_prob =
-        |action: &[f32]| log_probability(action, &vec![0.0; action.len()], &log_std);
+    let log_prob = |action: &[f32]| log_probability(action, &vec![0.0; action.len()], &log_std);
     let batch = Batch {
         observations: normals(rows * shape.observation),
         log_probs: action_rows.map(log_prob).collect(),
