@@ -345,6 +345,6 @@ mod tests {
 
     #[test]
     fn every_readable_model_fits_into_a_bundle() {
-        assert_eq!(treadmill_humanoid::model::MODEL_BYTES_MAX, treadmill_proto::limits::MODEL_BYTES_MAX);
+        assert_eq!(treadmill_humanoid::mjcf::MODEL_BYTES_MAX, treadmill_proto::limits::MODEL_BYTES_MAX);
     }
 }

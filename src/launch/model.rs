@@ -8,7 +8,7 @@ use std::{
 use clap::Args;
 use treadmill_actor::settings;
 use treadmill_config::{Config, ConfigSource, EnvConfig, EnvTask, Symmetry};
-use treadmill_humanoid::{Environment, HUMANOID_XML, Model, ModelError, card, read_model_file};
+use treadmill_humanoid::{Environment, HUMANOID_XML, Model, ModelError, mjcf, read_model_file};
 use treadmill_ppo::{BatchMirror, IndexSwap};
 use treadmill_runtime::{error_chain, words::nearest_path};
 
@@ -56,7 +56,7 @@ pub fn completed(config: &Config, file: Option<&Path>) -> Result<Cow<'static, st
             "config key `env.robot` is `{name}`, and the file of that robot is missing; name it: --model FILE \
              (docs/guide/your-robot.md says where it is from)"
         ))),
-        name => Ok(Cow::Owned(card::with_built_in(&text, name).map_err(|why| Usage(format!("env.robot: {why}")))?)),
+        name => Ok(Cow::Owned(mjcf::with_built_in(&text, name).map_err(|why| Usage(format!("env.robot: {why}")))?)),
     }
 }
 

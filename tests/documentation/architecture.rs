@@ -8,13 +8,12 @@ use std::{
 
 /// Third-party crates, and the only folders whose packages may depend on them; "(dev)" marks dev-dependencies. The tests of
 /// hostile clients need Zenoh itself.
-const DEPENDENTS: [(&str, &[&str]); 19] = [
+const DEPENDENTS: [(&str, &[&str]); 18] = [
     ("bincode", &["learner"]),
     ("candle-core", &["common/policy", "learner/ppo"]),
     ("candle-nn", &["common/policy", "learner/ppo"]),
     ("gemm", &["common/policy"]),
     ("libfuzzer-sys", &["fuzz"]),
-    ("mjcf-rs", &["actor/humanoid"]),
     ("numpy", &["python/treadmill_gym"]),
     ("object_store", &["common/store"]),
     ("prometheus-client", &["learner"]),

@@ -25,7 +25,7 @@ use std::{
 };
 
 use clap::{CommandFactory, FromArgMatches, Parser};
-use treadmill_humanoid::{Model, model::visual_meshes};
+use treadmill_humanoid::{Model, mjcf::visual_meshes};
 use treadmill_rl::{
     launch::{exit_code, exit_code::Usage, log},
     shared::viewer_args::{RUN_HELP, ViewerArgs},

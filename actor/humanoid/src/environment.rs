@@ -12,10 +12,11 @@ pub use self::snapshot::EnvironmentSnapshot;
 use crate::config::EnvironmentConfig;
 use crate::error::{InputError, ModelError};
 use crate::info::StepInfo;
-use crate::model::{Model, generated};
+use crate::model::Model;
 use crate::physics::{JointQuality, Physics};
 use crate::randomisation::{Randomiser, SensorNoise};
 use crate::task::{self, ObservationTerm, Step, StepOutcome, Task};
+use crate::terrain;
 
 /// Reinforcement-learning environment of one humanoid.
 ///
@@ -57,7 +58,7 @@ impl Environment {
         let mut model = Model::from_mjcf(model_xml)?;
         config.check()?;
         if !config.ground.kinds.is_empty() {
-            model.ground.height_field = Some(generated(&config.ground)?);
+            model.ground.height_field = Some(terrain::generated(&config.ground)?);
         }
         let (nominal_position, nominal_velocity) = start(&model, &config.keyframe)?;
         let mut physics = Physics::new(model, config)?;

@@ -7,9 +7,8 @@ use std::path::PathBuf;
 #[non_exhaustive]
 pub enum ModelError {
     /// The text is not valid MJCF.
-    // Not a `#[source]`: its message repeats its own cause.
-    #[error("the model text is not valid MJCF: {0}")]
-    Parse(mjcf_rs::ParseError),
+    #[error("the model text is not valid MJCF: XML parse error: {0}")]
+    Parse(roxmltree::Error),
     /// The MJCF uses a feature that this environment does not simulate.
     #[error("model element `{element}`: {problem}")]
     Unsupported {
@@ -30,7 +29,7 @@ pub enum ModelError {
         /// Accepted values.
         expected: String,
     },
-    /// The text exceeds [`crate::model::MODEL_BYTES_MAX`].
+    /// The text exceeds [`crate::mjcf::MODEL_BYTES_MAX`].
     #[error("the model text has {bytes} bytes, but the limit is {limit}")]
     TooLarge {
         /// Length of the text.

@@ -13,8 +13,10 @@
 //! - [`info`]: a step in detail, under Gymnasium's names.
 //! - [`observation`]: observations of Gymnasium's tasks.
 //! - [`physics`]: named quantities of the simulated humanoid.
-//! - [`model`]: MJCF text → bodies, hinge chains, motors, pairs of shapes that may touch.
+//! - [`model`]: bodies, hinge chains, motors, pairs of shapes that may touch.
+//! - [`mjcf`]: MJCF text → model.
 //! - [`card`]: robot cards, which complete a model by servos and a default pose.
+//! - `terrain`: generated ground.
 //! - `dynamics`: motion of articulated bodies with their constraints.
 //! - `collision`: contact points; the only module of the workspace that names Rapier.
 //! - `lanes`: numbers of several worlds side by side.
@@ -30,6 +32,7 @@ pub mod config;
 pub mod environment;
 pub mod error;
 pub mod info;
+pub mod mjcf;
 pub mod model;
 pub mod observation;
 pub mod physics;
@@ -39,13 +42,15 @@ mod collision;
 mod dynamics;
 mod lanes;
 mod randomisation;
+mod terrain;
 
 pub use config::{EnvironmentConfig, ObservationKind, PHYSICS_VERSION, PhysicsSettings, Randomisation, RewardTask};
 pub use dynamics::worlds_per_pass;
 pub use environment::{Environment, EnvironmentSnapshot, EpisodeState};
 pub use error::{InputError, ModelError, SnapshotError, StateError};
 pub use info::{InfoValue, StepInfo};
-pub use model::{HUMANOID_XML, Model, mirror::Mirror, read_model_file};
+pub use mjcf::{HUMANOID_XML, read_model_file};
+pub use model::{Model, mirror::Mirror};
 pub use observation::{OBSERVATION_SIZE_COMPACT, Observation};
 pub use physics::{ContactForce, JointQuality, Physics, PhysicsFault, PhysicsSnapshot, Variation};
 pub use randomisation::SensorNoise;

@@ -4,8 +4,8 @@ use anyhow::Context;
 use serde_json::{Value, json};
 use treadmill_humanoid::{
     Environment, EnvironmentConfig,
-    card::Robot,
     config::VelocityConfig,
+    model::{HingeControl, Robot},
     task::velocity::{ACTION_MAX, HEADING_GAIN, SCAN_GRID, SCAN_MAX_M, SCAN_SPACING_M},
 };
 use treadmill_policy::onnx::ForController;
@@ -72,7 +72,7 @@ impl Contract {
         let (Some(velocity), "") = (&config.velocity, config.own_task.as_str()) else { return Ok(None) };
         let model = environment.physics().model();
         let robot: &Robot = model.robot.as_ref().context("the velocity task has no robot card")?;
-        let joint = |(index, control): (usize, &treadmill_humanoid::card::HingeControl)| Joint {
+        let joint = |(index, control): (usize, &HingeControl)| Joint {
             name: model.hinges[index].name.clone(),
             default_rad: robot.default_position[7 + index],
             kp: control.kp,

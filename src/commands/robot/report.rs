@@ -5,8 +5,8 @@ use std::{collections::BTreeMap, fmt::Write, path::Path};
 use serde_json::{Value, json};
 use treadmill_humanoid::{
     Mirror, Model, Physics,
-    card::HingeControl,
-    model::{Geometry, Hinge, Motor, visual_meshes},
+    mjcf::visual_meshes,
+    model::{Geometry, Hinge, HingeControl, Motor},
 };
 
 /// Returns the report of a model that was read from `file`.

@@ -2,7 +2,7 @@
 
 use super::{HingeRule, RobotCard};
 use crate::error::ModelError;
-use crate::model::{Hinge, Model, Motor};
+use crate::model::{Hinge, HingeControl, Model, Motor, Robot, counterpart};
 
 /// Share of the greatest torque that one unit of an action asks for, at rest.
 const ACTION_SHARE: f64 = 0.25;
@@ -16,44 +16,6 @@ const PATTERN_BYTES_MAX: usize = 256;
 /// Largest magnitude of a number, and least stiffness other than 0: targets and torques must stay finite.
 const NUMBER_MAX: f64 = 1e6;
 const STIFFNESS_MIN: f64 = 1e-6;
-
-/// What a card says of a model, resolved.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Robot {
-    /// Links that carry the robot, as indices of [`Model::links`].
-    pub feet: Vec<usize>,
-    /// Names of a left and a right hinge, see [`RobotCard::symmetry`].
-    pub symmetry: Vec<[String; 2]>,
-    /// Hinges in the order of the robot's motors, see [`RobotCard::motors`].
-    pub motors: Vec<String>,
-    /// Position vector of the default pose.
-    pub default_position: Vec<f64>,
-    /// One per hinge, in the order of [`Model::hinges`].
-    pub hinges: Vec<HingeControl>,
-}
-
-/// Servo of one hinge.
-#[derive(Clone, Debug, PartialEq)]
-pub struct HingeControl {
-    /// Stiffness (N·m/rad).
-    pub kp: f64,
-    /// Damping (N·m·s/rad).
-    pub kd: f64,
-    /// Greatest torque (N·m).
-    pub effort_nm: f64,
-    /// Offset of the target per unit of an action (rad).
-    pub action_scale_rad: f64,
-    /// Whether the hinge keeps its default angle.
-    pub is_held: bool,
-}
-
-impl Robot {
-    /// Returns the number of a hinge's motor in the robot's own software; `None` if the card does not say.
-    #[must_use]
-    pub fn motor_number(&self, hinge: &str) -> Option<usize> {
-        self.motors.iter().position(|name| name == hinge)
-    }
-}
 
 impl RobotCard {
     /// Replaces the motors of a model by one servo for each hinge that is not held, in the order of the hinges, and sets
@@ -282,28 +244,6 @@ fn control(model: &Model, hinge: usize, rule: &HingeRule) -> Result<HingeControl
     Ok(HingeControl { kp, kd, effort_nm, action_scale_rad, is_held: rule.held.unwrap_or(false) })
 }
 
-impl Model {
-    /// Returns the greatest torque that a hinge and its first motor allow (N·m); `None` if it is not limited.
-    #[must_use]
-    pub fn effort_nm(&self, hinge: usize) -> Option<f64> {
-        let motor = self.motors.iter().find(|motor| motor.hinge == hinge);
-        effort_nm(self, hinge, motor)
-    }
-}
-
-/// Returns the greatest torque that a hinge and its motor allow; `None` if it is not limited.
-fn effort_nm(model: &Model, hinge: usize, motor: Option<&Motor>) -> Option<f64> {
-    let greatest = |[low, high]: [f64; 2]| low.abs().max(high.abs());
-    let of_motor = motor.map_or(f64::INFINITY, |motor| {
-        let by_force = greatest(motor.force);
-        // The control of a plain motor is its force.
-        let by_control =
-            if motor.bias == [0.0; 3] { greatest(motor.control) * motor.gain.abs() } else { f64::INFINITY };
-        by_force.min(by_control) * motor.gear_nm.abs()
-    });
-    Some(greatest(model.hinges[hinge].torque_nm).min(of_motor)).filter(|effort_nm| effort_nm.is_finite())
-}
-
 /// Returns a position servo whose targets surround the default angle.
 fn servo(index: usize, hinge: &Hinge, default_rad: f64, control: &HingeControl) -> Motor {
     let HingeControl { kp, kd, effort_nm, action_scale_rad, .. } = *control;
@@ -318,18 +258,6 @@ fn servo(index: usize, hinge: &Hinge, default_rad: f64, control: &HingeControl) 
         bias: [0.0, -kp, -kd],
         force: [-effort_nm, effort_nm],
     }
-}
-
-/// Returns the name on the other side for a name that matches one of a pair of patterns, each with at most one `*`.
-pub(crate) fn counterpart(name: &str, [left, right]: &[String; 2]) -> Option<String> {
-    let swap = |from: &str, to: &str| match (from.split_once('*'), to.split_once('*')) {
-        (Some((before, after)), Some((start, end))) => {
-            let shared = name.strip_prefix(before)?.strip_suffix(after)?;
-            Some(format!("{start}{shared}{end}"))
-        }
-        _ => (from == name).then(|| to.to_owned()),
-    };
-    swap(left, right).or_else(|| swap(right, left))
 }
 
 /// Returns whether a name matches a pattern, in which `*` stands for any letters.

@@ -16,23 +16,16 @@
 //! default_rad = 0.3
 //! ```
 //!
-//! [`RobotCard::apply`] replaces the motors of a model by servos with these gains. A text with a card in it, see
-//! [`with_card`], needs no file.
+//! [`RobotCard::apply`] replaces the motors of a model by servos with these gains. A model text may hold its card, see
+//! [`crate::mjcf`].
 
 mod apply;
 mod draft;
 
-use roxmltree::Document;
 use serde::Deserialize;
 
-pub(crate) use self::apply::counterpart;
-pub use self::apply::{HingeControl, Robot};
 pub use self::draft::draft;
 use crate::error::ModelError;
-use crate::model::with_custom_text;
-
-/// Name of the `<text>` in `<custom>` that holds a card.
-pub(crate) const CARD_TEXT: &str = "treadmill_robot_card";
 
 /// Robot card as written.
 #[derive(Clone, Debug, Default, PartialEq, Deserialize)]
@@ -103,34 +96,14 @@ pub const BUILT_IN: [(&str, &str); 4] = [
     ("t1", include_str!("../../assets/robots/t1.toml")),
 ];
 
-/// Returns a model text with the built-in card `name` in it.
+/// Returns the built-in card of a name.
 ///
 /// # Errors
-/// [`ModelError::Card`] if there is no such card, or if the text has one.
-pub fn with_built_in(text: &str, name: &str) -> Result<String, ModelError> {
-    let Some((_, card)) = BUILT_IN.into_iter().find(|(known, _)| *known == name) else {
+/// [`ModelError::Card`] names the cards that there are.
+pub fn built_in(name: &str) -> Result<&'static str, ModelError> {
+    let found = BUILT_IN.into_iter().find(|(known, _)| *known == name);
+    found.map(|(_, card)| card).ok_or_else(|| {
         let known = BUILT_IN.map(|(known, _)| known).join(", ");
-        return Err(ModelError::Card(format!("there is no card `{name}`; allowed: {known}, or none")));
-    };
-    if text.contains(CARD_TEXT) {
-        return Err(ModelError::Card(format!(
-            "the model has a card of its own beside the card `{name}`; use one of them"
-        )));
-    }
-    with_card(text, card)
-}
-
-/// Returns a model text with a card in it.
-///
-/// # Errors
-/// If the text is not XML.
-pub(crate) fn with_card(text: &str, card: &str) -> Result<String, ModelError> {
-    with_custom_text(text, CARD_TEXT, card)
-}
-
-/// Returns the card in a model text, if there is one.
-pub(crate) fn in_document(document: &Document<'_>) -> Result<Option<RobotCard>, ModelError> {
-    let custom = document.root_element().children().filter(|node| node.has_tag_name("custom"));
-    let mut texts = custom.flat_map(|node| node.children()).filter(|node| node.attribute("name") == Some(CARD_TEXT));
-    texts.next().map(|node| RobotCard::parse(node.attribute("data").unwrap_or_default())).transpose()
+        ModelError::Card(format!("there is no card `{name}`; allowed: {known}, or none"))
+    })
 }

@@ -9,7 +9,8 @@ use super::world::World;
 use super::{advance, refresh, worlds_per_pass};
 use crate::collision::CollisionModel;
 use crate::lanes::LANES_MAX;
-use crate::model::{HUMANOID_XML, Model, Solver};
+use crate::mjcf::HUMANOID_XML;
+use crate::model::{Model, Solver};
 
 const STEP_S: f64 = 0.015 / 4.0;
 

@@ -168,6 +168,40 @@ impl Parameters {
 }
 
 impl Drive {
+    /// Writes the motors of each hinge of a model for one control per motor. Clamps controls to [`Motor::control`].
+    ///
+    /// [`Motor::control`]: crate::model::Motor::control
+    pub(crate) fn write(model: &Model, controls: &[f32], drives: &mut [Self]) {
+        for (drive, hinge) in drives.iter_mut().zip(&model.hinges) {
+            let [min_nm, max_nm] = hinge.torque_nm;
+            *drive = Self { min_nm, max_nm, ..Self::default() };
+        }
+        for (motor, &control) in model.motors.iter().zip(controls) {
+            let drive = &mut drives[motor.hinge];
+            let [constant, per_length, per_velocity] = motor.bias;
+            let force = motor.gain * f64::from(control).clamp(motor.control[0], motor.control[1]) + constant;
+            let limits = motor.force.map(|force| motor.gear_nm * force);
+            let limits = [limits[0].min(limits[1]), limits[0].max(limits[1])];
+            if motor.gear_nm == 0.0 {
+                // Infinite limits times 0 are no limits.
+                continue;
+            }
+            if per_length == 0.0 && per_velocity == 0.0 {
+                drive.torque_nm += (motor.gear_nm * force).clamp(limits[0], limits[1]);
+            } else {
+                drive.torque_nm += motor.gear_nm * force;
+                drive.stiffness_nmprad -= motor.gear_nm * motor.length_per_rad * per_length;
+                drive.damping_nmsprad -= motor.gear_nm * motor.length_per_rad * per_velocity;
+                // A hinge rarely has several servos; their limits then hold for the sum.
+                drive.min_nm = drive.min_nm.max(limits[0]);
+                drive.max_nm = drive.max_nm.min(limits[1]);
+            }
+        }
+        for drive in drives.iter_mut().filter(|drive| drive.stiffness_nmprad == 0.0 && drive.damping_nmsprad == 0.0) {
+            drive.torque_nm = drive.torque_nm.max(drive.min_nm).min(drive.max_nm);
+        }
+    }
+
     /// Returns the torque (N·m) at an angle (rad) and rate (rad/s) of the hinge.
     pub(crate) fn torque_at(&self, angle_rad: f64, rate_radps: f64) -> f64 {
         (self.torque_nm - self.stiffness_nmprad * angle_rad - self.damping_nmsprad * rate_radps)

@@ -4,8 +4,8 @@ use std::sync::Arc;
 
 use nalgebra::{Point3, Vector3};
 
-use super::values::length;
-use super::{Model, Softness};
+use super::quantity::length;
+use super::softness::Softness;
 use crate::error::ModelError;
 
 /// Most rows, and most columns, of a height field.
@@ -103,7 +103,7 @@ impl HeightField {
         Some((self.centre_m.z + above_m, normal))
     }
 
-    pub(super) fn check(&self) -> Result<(), ModelError> {
+    pub(crate) fn check(&self) -> Result<(), ModelError> {
         check_sides(self.rows, self.columns)?;
         let wrong = |problem: &str| Err(ModelError::unsupported("height field", problem));
         if self.heights_m.len() != self.rows * self.columns {
@@ -135,18 +135,6 @@ fn check_sides(rows: usize, columns: usize) -> Result<(), ModelError> {
     }
     let problem = format!("{rows} rows and {columns} columns; both must be 2 to {HEIGHT_FIELD_SIDE_MAX}");
     Err(ModelError::unsupported("height field", problem))
-}
-
-impl Model {
-    /// Replaces the surface of the ground. Its friction, softness and pairs remain.
-    ///
-    /// # Errors
-    /// [`ModelError`] if the field's size is out of range or a number is not finite; the model is unchanged.
-    pub fn set_height_field(&mut self, field: HeightField) -> Result<(), ModelError> {
-        field.check()?;
-        self.ground.height_field = Some(Arc::new(field));
-        Ok(())
-    }
 }
 
 #[cfg(test)]

@@ -3,7 +3,7 @@
 use nalgebra::{Isometry3, Point3, Vector3};
 
 use super::Model;
-use crate::card::counterpart;
+use super::robot::counterpart;
 
 /// For each entry of a mirrored vector, the index and the sign of the original entry that it holds.
 pub type SignedPermutation = Vec<(usize, f32)>;

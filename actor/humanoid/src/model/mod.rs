@@ -1,59 +1,35 @@
-//! Robot as data: bodies, hinges and motors, independent of the physics engine.
+//! Robot as data: bodies, hinges and motors, independent of texts and of the physics engine.
 //!
-//! [`Model::from_mjcf`] reads MJCF text; [`crate::physics`] builds a world from the model.
-//! Lengths are metres, angles radians, masses kilograms.
+//! [`crate::mjcf`] reads a model from text, [`crate::card`] edits it, and [`crate::physics`] builds a world from it. Lengths are
+//! metres, angles radians, masses kilograms.
 
-mod assets;
-mod collision;
-mod defaults;
-mod embed;
-mod file;
-mod flatten;
-mod floor;
-mod generated_ground;
 mod geometry;
-mod geoms;
 mod ground;
-mod hull;
-mod inertia;
-mod joints;
-mod keyframes;
-mod mass;
+pub(crate) mod hull;
+pub(crate) mod inertia;
 pub mod mirror;
-mod mjcf;
-mod motors;
-mod pairs;
+mod pair;
+mod quantity;
+mod robot;
 mod softness;
-mod tendon;
-mod values;
-mod visual;
-mod vocabulary;
-mod xml;
 
-use std::collections::BTreeMap;
 use std::ops::Range;
+use std::sync::Arc;
 
 use nalgebra::{Isometry3, Matrix3, Point3, Unit, Vector3};
 
-pub use self::assets::MESH_VERTICES_MAX;
-pub use self::file::read_model_file;
-pub(crate) use self::generated_ground::generated;
 pub use self::geometry::Geometry;
 pub use self::ground::{Ground, HEIGHT_FIELD_SIDE_MAX, HeightField};
-pub use self::joints::RootJoint;
-pub use self::keyframes::{KEYFRAMES_MAX, Keyframe};
-pub use self::mjcf::{BODIES_MAX, HINGES_MAX, SHAPES_MAX};
-pub use self::pairs::{PAIRS_MAX, Pair, ShapeIndex};
+pub use self::pair::{Pair, ShapeIndex};
+pub(crate) use self::quantity::{length, not_negative};
+pub(crate) use self::robot::counterpart;
+pub use self::robot::{HingeControl, Robot};
 pub use self::softness::Softness;
-pub use self::tendon::TENDONS_MAX;
-pub use self::visual::{VisualMesh, visual_meshes};
-pub use self::xml::MODEL_BYTES_MAX;
-pub(crate) use self::xml::with_custom_text;
-use crate::card::Robot;
+pub(crate) use self::softness::SolverNumbers;
 use crate::error::ModelError;
 
-/// MJCF text of the built-in humanoid: 17 hinges, about 42 kg, masses and sizes of Humanoid-v5.
-pub const HUMANOID_XML: &str = include_str!("../../assets/humanoid.xml");
+/// Most tendons; a bound because every step's info holds their lengths without allocating.
+pub const TENDONS_MAX: usize = 16;
 
 /// Method that solves for the forces of contacts, limits and friction, as named by MJCF's `<option solver>`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -178,6 +154,21 @@ pub struct Shape {
     pub conaffinity: u32,
 }
 
+/// Free joint of the root: forces that act alike on each of its six degrees of freedom.
+///
+/// These are the root's velocity along the world's axes (m, N, kg) and its rate about its own axes (rad, N·m, kg·m²).
+#[derive(Clone, Debug, PartialEq)]
+pub struct RootJoint {
+    /// Viscous friction (N·s/m and N·m·s/rad).
+    pub damping: f64,
+    /// Greatest force of dry friction (N and N·m).
+    pub friction_loss: f64,
+    /// Softness of the dry friction.
+    pub friction_softness: Softness,
+    /// Additional inertia (kg and kg·m²).
+    pub armature: f64,
+}
+
 /// One hinge of the chain between a body and its parent.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Hinge {
@@ -249,36 +240,28 @@ pub struct Motor {
     pub force: [f64; 2],
 }
 
+/// State and controls under a name.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Keyframe {
+    /// Name in the text.
+    pub name: String,
+    /// Position vector; the root's quaternion has length 1. Without `qpos` that of the text's pose.
+    pub position: Vec<f64>,
+    /// Velocity vector; without `qvel` 0.
+    pub velocity: Vec<f64>,
+    /// One control per motor, as in the text; without `ctrl` 0.
+    pub controls: Vec<f64>,
+}
+
 impl Model {
-    /// Reads a model from MJCF text, and applies the card in it.
-    ///
-    /// docs/guide/robots.md lists the accepted MJCF. Any other element or attribute that motion depends on is refused.
-    /// No file is opened; [`read_model_file`] inserts included files.
+    /// Replaces the surface of the ground. Its friction, softness and pairs remain.
     ///
     /// # Errors
-    /// [`ModelError`] names the first element that cannot be simulated.
-    pub fn from_mjcf(text: &str) -> Result<Self, ModelError> {
-        let model = Self::without_motors(text)?;
-        if model.motors.is_empty() {
-            let problem = "the model needs at least one motor; a robot card gives it servos, and `treadmill robot FILE` drafts \
-                           that card";
-            return Err(ModelError::unsupported("actuator", problem));
-        }
-        Ok(model)
-    }
-
-    /// As [`Self::from_mjcf`], but motors may be missing: a card is to add them.
-    ///
-    /// # Errors
-    /// As there.
-    pub fn without_motors(text: &str) -> Result<Self, ModelError> {
-        mjcf::read(text)
-    }
-
-    /// Returns the kinds of elements of a text that no motion depends on, with their counts.
-    #[must_use]
-    pub fn ignored_elements(text: &str) -> BTreeMap<String, usize> {
-        vocabulary::ignored(text)
+    /// [`ModelError`] if the field's size is out of range or a number is not finite; the model is unchanged.
+    pub fn set_height_field(&mut self, field: HeightField) -> Result<(), ModelError> {
+        field.check()?;
+        self.ground.height_field = Some(Arc::new(field));
+        Ok(())
     }
 
     /// Returns a description of the first part that differs from another model.
@@ -333,5 +316,20 @@ impl Model {
         position[..3].copy_from_slice(root.translation.vector.as_slice());
         position[3..7].copy_from_slice(&[quaternion.w, quaternion.i, quaternion.j, quaternion.k]);
         position
+    }
+
+    /// Returns the greatest torque that a hinge and its first motor allow (N·m); `None` if it is not limited.
+    #[must_use]
+    pub fn effort_nm(&self, hinge: usize) -> Option<f64> {
+        let greatest = |[low, high]: [f64; 2]| low.abs().max(high.abs());
+        let motor = self.motors.iter().find(|motor| motor.hinge == hinge);
+        let of_motor = motor.map_or(f64::INFINITY, |motor| {
+            let by_force = greatest(motor.force);
+            // The control of a plain motor is its force.
+            let by_control =
+                if motor.bias == [0.0; 3] { greatest(motor.control) * motor.gain.abs() } else { f64::INFINITY };
+            by_force.min(by_control) * motor.gear_nm.abs()
+        });
+        Some(greatest(self.hinges[hinge].torque_nm).min(of_motor)).filter(|effort_nm| effort_nm.is_finite())
     }
 }

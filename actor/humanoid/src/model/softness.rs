@@ -1,10 +1,6 @@
-//! Compliance of contacts, limits and dry friction, from MJCF's `solref` and `solimp`.
+//! Compliance of contacts, limits and dry friction, from the numbers of MJCF's `solref` and `solimp`.
 //!
 //! Formulas: "Solver parameters" in the "Computation" chapter of MuJoCo's documentation.
-
-use super::values::list_over;
-use crate::error::ModelError;
-use crate::model::defaults::Attribute;
 
 /// Bounds of MuJoCo's impedances.
 const IMPEDANCE_RANGE: [f64; 2] = [0.0001, 0.9999];
@@ -38,9 +34,9 @@ impl Default for Softness {
 
 /// MJCF's `solref` and `solimp` as written; those of two geoms are mixed before MuJoCo's bounds apply.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct SolverNumbers {
-    solref: [f64; 2],
-    solimp: [f64; 5],
+pub(crate) struct SolverNumbers {
+    pub(crate) solref: [f64; 2],
+    pub(crate) solimp: [f64; 5],
 }
 
 impl Default for SolverNumbers {
@@ -50,20 +46,14 @@ impl Default for SolverNumbers {
 }
 
 impl SolverNumbers {
-    /// Reads the attributes of the given names; `names` are those of `solref` and `solimp`.
-    pub(super) fn read(label: &str, attributes: &[Attribute], names: [&str; 2]) -> Result<Self, ModelError> {
-        let solref = list_over(attributes, names[0], SOLREF);
-        let [first, second] = solref;
-        if (first > 0.0) != (second > 0.0) || first.abs().max(second.abs()) > SOLREF_MAX {
-            let expected = "two numbers above 0 (time constant in s, damping ratio), or two that are not (−stiffness, \
-                            −damping), up to 1e12";
-            return Err(ModelError::attribute(label, names[0], &format!("{first} {second}"), expected));
-        }
-        Ok(Self { solref, solimp: list_over(attributes, names[1], SOLIMP) })
+    /// Returns whether `solref` has one of its two formats: time constant and damping ratio above 0, or neither above 0.
+    pub(crate) fn is_consistent(&self) -> bool {
+        let [first, second] = self.solref;
+        (first > 0.0) == (second > 0.0) && first.abs().max(second.abs()) <= SOLREF_MAX
     }
 
     /// Returns the mixture of two geoms; `share` is that of the first one.
-    pub(super) fn mixed(&self, other: &Self, share: f64) -> Self {
+    pub(crate) fn mixed(&self, other: &Self, share: f64) -> Self {
         fn mix<const N: usize>(one: &[f64; N], other: &[f64; N], mixed: impl Fn(f64, f64) -> f64) -> [f64; N] {
             std::array::from_fn(|index| mixed(one[index], other[index]))
         }
@@ -77,7 +67,7 @@ impl SolverNumbers {
     }
 
     /// Returns the softness of these numbers, within MuJoCo's bounds.
-    pub(super) fn softness(&self) -> Softness {
+    pub(crate) fn softness(&self) -> Softness {
         let [least, most] = IMPEDANCE_RANGE;
         let [start, end, width, midpoint, power] = self.solimp;
         let end = end.clamp(least, most);
@@ -98,11 +88,6 @@ impl SolverNumbers {
 mod tests {
     use super::*;
 
-    fn numbers(solref: &str, solimp: &str) -> Result<SolverNumbers, ModelError> {
-        let attributes = [("solref", solref), ("solimp", solimp)].map(|(name, value)| (name.into(), value.into()));
-        SolverNumbers::read("part", &attributes, ["solref", "solimp"])
-    }
-
     #[test]
     fn the_default_is_a_critically_damped_spring() {
         let default = Softness::default();
@@ -114,8 +99,8 @@ mod tests {
 
     #[test]
     fn mixed_numbers_have_mujocos_stiffness_and_damping() {
-        let one = numbers("0.05 0.5", "0.8 0.9 0.002 0.4 3").expect("valid");
-        let other = numbers("0.03 2", "0.7 0.95 0.01 0.6 1.5").expect("valid");
+        let one = SolverNumbers { solref: [0.05, 0.5], solimp: [0.8, 0.9, 0.002, 0.4, 3.0] };
+        let other = SolverNumbers { solref: [0.03, 2.0], solimp: [0.7, 0.95, 0.01, 0.6, 1.5] };
         let softness = one.mixed(&other, 0.75).softness();
         // MuJoCo 4.0's `efc_KBIP` of a contact between geoms with these numbers and `solmix` 3 and 1.
         assert!((softness.stiffness - 774.627_873_431_365).abs() < 1e-8);
@@ -126,21 +111,13 @@ mod tests {
 
     #[test]
     fn direct_numbers_win_and_bounds_are_mujocos() {
-        let direct = numbers("-500 -20", "0.9").expect("valid");
+        let direct = SolverNumbers { solref: [-500.0, -20.0], ..SolverNumbers::default() };
         let softness = direct.mixed(&SolverNumbers::default(), 0.5).softness();
         // MuJoCo 4.0's `efc_KBIP` for geoms with `solref` -500 -20 and 0.02 1.
         assert!((softness.stiffness - 554.016_620_498_615).abs() < 1e-9);
         assert!((softness.damping - 21.052_631_578_947).abs() < 1e-9);
-        let odd = numbers("0 0", "0.99999 -1 -1 2 0.5").expect("valid").softness();
+        let odd = SolverNumbers { solref: [0.0; 2], solimp: [0.999_99, -1.0, -1.0, 2.0, 0.5] }.softness();
         assert_eq!((odd.stiffness, odd.damping), (0.0, 0.0));
         assert_eq!(odd.impedance, [0.9999, 0.0001, 0.0, 0.9999, 1.0]);
-    }
-
-    #[test]
-    fn mixed_formats_are_refused_by_name() {
-        for wrong in ["-100", "0.02 -1", "0 1", "0.02 0", "1e13 1"] {
-            let message = numbers(wrong, "0.9").expect_err(wrong).to_string();
-            assert!(message.contains("`solref`") && message.contains("time constant"), "{message}");
-        }
     }
 }

@@ -21,7 +21,7 @@ use self::variation::VariableModel;
 pub use self::variation::Variation;
 use crate::collision::CollisionModel;
 use crate::config::PhysicsSettings;
-use crate::dynamics::{self, Impulse, Pass, ROOT_DOFS, ROOT_POSITIONS, Structure, World};
+use crate::dynamics::{self, Drive, Impulse, Pass, ROOT_DOFS, ROOT_POSITIONS, Structure, World};
 use crate::error::ModelError;
 use crate::model::Model;
 
@@ -164,7 +164,7 @@ impl Physics {
     /// Updates the motors' torques from controls and state.
     fn update_torques(&mut self) {
         let World { drives, torques_nm, position, velocity, .. } = &mut self.world;
-        self.model.drives(&self.controls, drives);
+        Drive::write(&self.model, &self.controls, drives);
         for (hinge, (torque_nm, drive)) in torques_nm.iter_mut().zip(&*drives).enumerate() {
             *torque_nm = drive.torque_at(position[ROOT_POSITIONS + hinge], velocity[ROOT_DOFS + hinge]);
         }

@@ -177,7 +177,8 @@ mod tests {
 
     use super::*;
     use crate::dynamics::{Posture, ROOT_DOFS};
-    use crate::model::{HUMANOID_XML, Model};
+    use crate::mjcf::HUMANOID_XML;
+    use crate::model::Model;
 
     /// Adds left · rightᵀ of these degrees of freedom to a dense matrix, for a product that is symmetric.
     fn add_dense(dense: &mut DMatrix<f64>, dofs: &[u32], numbers: &[f64], weight: f64) {

@@ -43,7 +43,7 @@ use crate::model::mirror::{Mirror, SignedPermutation};
 use crate::physics::Physics;
 use crate::randomisation::{SensorNoise, stream, uniform};
 
-/// Largest action, in units of [`crate::card::HingeControl::action_scale_rad`].
+/// Largest action, in units of [`crate::model::HingeControl::action_scale_rad`].
 pub const ACTION_MAX: f64 = 4.0;
 /// Largest distance of a start from the middle of its tile, along x and along y (m).
 const START_M: f64 = 0.5;

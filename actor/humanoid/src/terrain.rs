@@ -4,9 +4,9 @@ use std::sync::{Arc, Mutex, PoisonError, Weak};
 
 use nalgebra::Point3;
 
-use super::HeightField;
 use crate::config::{GroundKind, GroundSettings};
 use crate::error::ModelError;
+use crate::model::HeightField;
 use crate::randomisation::{stream, uniform};
 
 /// Half of the side of the level place in the middle of a tile (m).

@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use roxmltree::{Document, Node};
 
-use super::defaults::Attribute;
+use super::element::Attribute;
 use crate::error::ModelError;
 
 /// Longest model text (bytes); a humanoid of primitive shapes takes a few thousand bytes.
@@ -33,7 +33,7 @@ pub(super) fn parse(text: &str) -> Result<Document<'_>, ModelError> {
     if nesting(text) > DEPTH_MAX {
         return Err(ModelError::unsupported("mujoco", format!("elements are nested more than {DEPTH_MAX} deep")));
     }
-    Document::parse(text).map_err(|why| ModelError::Parse(why.into()))
+    Document::parse(text).map_err(ModelError::Parse)
 }
 
 /// Returns the outermost sections of a kind.
@@ -46,8 +46,8 @@ pub(super) fn elements<'a, 'text>(node: Node<'a, 'text>) -> impl Iterator<Item =
     node.children().filter(Node::is_element)
 }
 
-/// Writes an opening tag.
-pub(super) fn open(text: &mut String, tag: &str, attributes: &[Attribute]) {
+/// Writes an element without content.
+pub(super) fn write(text: &mut String, tag: &str, attributes: &[Attribute]) {
     let _ = write!(text, "<{tag}");
     for (name, value) in attributes {
         let _ = write!(text, " {name}=\"");
@@ -64,26 +64,7 @@ pub(super) fn open(text: &mut String, tag: &str, attributes: &[Attribute]) {
         }
         text.push('"');
     }
-    text.push('>');
-}
-
-/// Writes a closing tag.
-pub(super) fn close(text: &mut String, tag: &str) {
-    let _ = writeln!(text, "</{tag}>");
-}
-
-/// Returns a model text with a `<custom>` section that holds one more `<text>`.
-pub(crate) fn with_custom_text(text: &str, name: &str, data: &str) -> Result<String, ModelError> {
-    let document = parse_model(text)?;
-    let root = document.root_element().range();
-    let end = text[..root.end].rfind("</").unwrap_or(root.end);
-    let attributes = [("name", name), ("data", data)].map(|(name, value)| (name.to_owned(), value.to_owned()));
-    let mut custom = String::new();
-    open(&mut custom, "custom", &[]);
-    open(&mut custom, "text", &attributes);
-    close(&mut custom, "text");
-    close(&mut custom, "custom");
-    Ok([&text[..end], &custom, &text[end..]].concat())
+    let _ = writeln!(text, "></{tag}>");
 }
 
 /// Returns the nesting depth of elements; meaningless for a text that is not well-formed.

@@ -2,14 +2,14 @@
 
 use std::sync::Arc;
 
-use mjcf_rs::body::{Geom, GeomType};
 use nalgebra::{Isometry3, Point3, Vector3};
 
-use super::flatten::Flat;
-use super::mjcf::isometry;
+use super::assets::Assets;
+use super::element::Element;
+use super::geoms;
 use super::pairs::ContactRules;
-use super::{Geometry, Ground, HeightField, Shape, geoms};
 use crate::error::ModelError;
+use crate::model::{Geometry, Ground, HeightField, Shape};
 
 /// Level plane or height field.
 pub(super) struct Floor {
@@ -21,36 +21,32 @@ pub(super) struct Floor {
 }
 
 impl Floor {
-    /// Reads a colliding geom of static MJCF body number `body`, whose label is `label` and whose frame is at `offset`.
+    /// Reads a colliding geom of static MJCF body number `body`, whose label is `owner`; `pose` is that in the world.
     pub(super) fn read(
         body: usize,
-        label: &str,
-        geom: &Geom,
-        offset: &Isometry3<f64>,
-        flat: &Flat,
+        owner: &str,
+        geom: &Element,
+        pose: &Isometry3<f64>,
+        assets: &Assets,
     ) -> Result<Self, ModelError> {
-        let name = geom.name.as_deref().unwrap_or("geom");
-        let pose = offset * isometry(&geom.pose);
         let up = pose.rotation * Vector3::z();
-        let height_field = match (&geom.type_, &geom.hfield) {
-            (GeomType::Plane, _) if pose.translation.z.abs() <= 1e-9 && up.z >= 1.0 - 1e-9 => None,
-            (GeomType::Hfield, Some(field)) if pose.rotation.angle() <= 1e-9 => {
-                Some(flat.assets.height_field(field, Point3::from(pose.translation.vector))?)
+        let height_field = match (geoms::kind(geom), geom.get("hfield")) {
+            ("plane", _) if pose.translation.z.abs() <= 1e-9 && up.z >= 1.0 - 1e-9 => None,
+            ("hfield", Some(field)) if pose.rotation.angle() <= 1e-9 => {
+                Some(assets.height_field(field, Point3::from(pose.translation.vector))?)
             }
             _ => {
-                let problem = format!(
-                    "it belongs to {label}, which is static, but only a level plane at z = 0, or a height field that is \
+                return Err(geom.refused(format!(
+                    "it belongs to {owner}, which is static, but only a level plane at z = 0, or a height field that is \
                      not turned, may collide there; a robot's root needs a free joint"
-                );
-                return Err(ModelError::unsupported(name, problem));
+                )));
             }
         };
-        let rules = ContactRules::read(name, geom.priority, flat.geom(name))?;
-        Ok(Self { shape: geoms::collision_shape(name, geom, point())?, rules, height_field, body })
+        Ok(Self { shape: geoms::collision_shape(geom, point())?, rules: ContactRules::read(geom)?, height_field, body })
     }
 
     /// Returns the floor of a text without one, with MuJoCo's defaults.
-    pub(super) fn added() -> Result<Self, ModelError> {
+    pub(super) fn added() -> Self {
         let shape = Shape {
             name: "floor".to_owned(),
             geometry: point(),
@@ -60,7 +56,7 @@ impl Floor {
             contype: 1,
             conaffinity: 1,
         };
-        Ok(Self { shape, rules: ContactRules::read("floor", 0, &[])?, height_field: None, body: 0 })
+        Self { shape, rules: ContactRules::default(), height_field: None, body: 0 }
     }
 
     pub(super) fn into_ground(self) -> Ground {

@@ -1,25 +1,24 @@
 //! Supported MJCF elements and attributes, and the values that each may have.
 //!
-//! Everything else is refused, because `mjcf-rs` silently ignores unknown names. Names and defaults are those of MuJoCo's
-//! XML reference (<https://mujoco.readthedocs.io/en/stable/XMLreference.html>).
+//! Everything else is refused. Names and defaults are those of MuJoCo's XML reference
+//! (<https://mujoco.readthedocs.io/en/stable/XMLreference.html>).
 
-use std::collections::BTreeMap;
-
-use roxmltree::Node;
-
-use super::defaults::{Attribute, get};
-use super::xml;
-use super::{HEIGHT_FIELD_SIDE_MAX, MESH_VERTICES_MAX};
-use crate::card::CARD_TEXT;
+use super::element::{Element, numbers};
 use crate::error::ModelError;
+use crate::model::HEIGHT_FIELD_SIDE_MAX;
+
+/// Most vertices of a mesh.
+const MESH_VERTICES_MAX: usize = 4096;
 
 /// Values that an attribute may have.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum AttributeRule {
     /// Anything: no motion depends on it.
     Inert,
-    /// A name or keyword, checked where it is used.
+    /// A name, checked where it is used.
     Word,
+    /// One of these keywords, separated by `|`.
+    Choice(&'static str),
     /// Finite numbers; smallest and largest count.
     Numbers(usize, usize),
     /// Whole numbers; smallest and largest count.
@@ -28,7 +27,11 @@ pub(super) enum AttributeRule {
     Only(&'static str),
 }
 
-use AttributeRule::{Inert, Numbers, Only, Whole, Word};
+use AttributeRule::{Choice, Inert, Numbers, Only, Whole, Word};
+
+/// Keywords of flags.
+const BOOLEAN: AttributeRule = Choice("true|false|1|0");
+const LIMITED: AttributeRule = Choice("true|false|auto|1|0");
 
 /// Attribute names, separated by spaces, and their common rule.
 type Rules = [(&'static str, AttributeRule)];
@@ -42,13 +45,15 @@ const PLACE: &Rules =
 const NAMED: &Rules = &[("name class", Word), ("group", Whole(1, 1)), ("user", Inert)];
 
 const COMPILER: &Rules = &[
-    ("autolimits balanceinertia angle eulerseq inertiafromgeom", Word),
+    ("autolimits balanceinertia strippath discardvisual exactmeshinertia convexhull", BOOLEAN),
+    ("angle", Choice("degree|radian")),
+    ("inertiafromgeom", Choice("true|false|auto")),
+    ("eulerseq", Word),
     ("boundmass boundinertia settotalmass", Numbers(1, 1)),
     ("coordinate", Only("local")),
     ("inertiagrouprange", Whole(2, 2)),
     ("alignfree", Only("false")),
-    ("strippath fitaabb meshdir texturedir assetdir discardvisual usethread fusestatic saveinertial", Inert),
-    ("exactmeshinertia convexhull", Inert),
+    ("fitaabb meshdir texturedir assetdir usethread fusestatic saveinertial", Inert),
 ];
 
 /// Most solver settings of MuJoCo are inert: they do not apply to this crate's solvers.
@@ -56,8 +61,9 @@ const OPTION: &Rules = &[
     ("gravity", Numbers(3, 3)),
     ("wind", Only("0 0 0")),
     ("density viscosity", Only("0")),
-    ("solver", Word),
-    ("magnetic timestep apirate impratio integrator cone jacobian iterations tolerance", Inert),
+    ("solver", Choice("Newton|CG|PGS")),
+    ("timestep", Numbers(1, 1)),
+    ("magnetic apirate impratio integrator cone jacobian iterations tolerance", Inert),
     ("ls_iterations ls_tolerance noslip_iterations noslip_tolerance mpr_iterations mpr_tolerance", Inert),
     ("ccd_iterations ccd_tolerance sleep_tolerance sdf_iterations sdf_initpoints", Inert),
 ];
@@ -76,7 +82,8 @@ const BODY: &Rules =
 const INERTIAL: &Rules = &[("mass", Numbers(1, 1)), ("diaginertia", Numbers(3, 3)), ("fullinertia", Numbers(6, 6))];
 
 const JOINT: &Rules = &[
-    ("type limited actuatorfrclimited", Word),
+    ("type", Choice("hinge|free|slide|ball")),
+    ("limited actuatorfrclimited", LIMITED),
     ("pos axis", Numbers(3, 3)),
     ("springdamper", Only("0 0")),
     ("range actuatorfrcrange", Numbers(2, 2)),
@@ -90,7 +97,8 @@ const JOINT: &Rules = &[
 const FREEJOINT: &Rules = &[("name", Word), ("group", Inert), ("align", Only("false|auto"))];
 
 const GEOM: &Rules = &[
-    ("type mesh hfield", Word),
+    ("type", Choice("plane|hfield|sphere|capsule|ellipsoid|cylinder|box|mesh|sdf")),
+    ("mesh hfield", Word),
     ("size friction", Numbers(1, 3)),
     ("fromto", Numbers(6, 6)),
     ("mass density margin solmix", Numbers(1, 1)),
@@ -101,11 +109,13 @@ const GEOM: &Rules = &[
     ("solimp", Numbers(1, 5)),
     // No effect without a fluid.
     ("fluidshape fluidcoef", Inert),
-    ("fitscale material rgba", Inert),
+    ("rgba", Numbers(4, 4)),
+    ("fitscale material", Inert),
 ];
 
 const ACTUATOR: &Rules = &[
-    ("joint ctrllimited forcelimited", Word),
+    ("joint", Word),
+    ("ctrllimited forcelimited", LIMITED),
     ("gear", Numbers(1, 6)),
     ("ctrlrange forcerange", Numbers(2, 2)),
     ("actlimited", Only("false|auto")),
@@ -126,7 +136,7 @@ const GENERAL: &Rules = &[
 
 /// Only tendons without stiffness, friction and motor are accepted.
 const FIXED: &Rules = &[
-    ("limited", Word),
+    ("limited", LIMITED),
     ("stiffness damping frictionloss armature", Only("0")),
     ("range", Numbers(2, 2)),
     ("solreflimit", Numbers(1, 2)),
@@ -200,36 +210,16 @@ pub(super) fn rules(tag: &str) -> Option<&'static [&'static Rules]> {
     })
 }
 
+/// Returns whether an outermost element is a section that the simulation reads.
+pub(super) fn is_section(tag: &str) -> bool {
+    "compiler option default asset worldbody contact tendon actuator keyframe".split(' ').any(|section| section == tag)
+}
+
 /// Returns whether an element, with its content, never affects motion.
 pub(super) fn is_inert(tag: &str) -> bool {
     "size visual statistic custom sensor texture material light camera site lengthrange numeric text"
         .split(' ')
         .any(|inert| inert == tag)
-}
-
-/// Returns the kinds of elements in a text that the simulation ignores, with their counts: of those within each other only the
-/// outermost. Empty if the text is not XML.
-pub(super) fn ignored(text: &str) -> BTreeMap<String, usize> {
-    fn count(node: Node<'_, '_>, found: &mut BTreeMap<String, usize>) {
-        for child in xml::elements(node) {
-            let tag = child.tag_name().name();
-            let is_card = tag == "custom" && child.children().any(|text| text.attribute("name") == Some(CARD_TEXT));
-            match is_inert(tag) {
-                true if is_card => {}
-                true if matches!(tag, "sensor" | "custom") => {
-                    *found.entry(tag.to_owned()).or_default() += xml::elements(child).count();
-                }
-                true => *found.entry(tag.to_owned()).or_default() += 1,
-                false if tag == "default" => {}
-                false => count(child, found),
-            }
-        }
-    }
-    let mut found = BTreeMap::new();
-    if let Ok(document) = xml::parse(text) {
-        count(document.root_element(), &mut found);
-    }
-    found
 }
 
 /// Returns the rule of one attribute.
@@ -238,27 +228,20 @@ pub(super) fn rule(tag: &str, attribute: &str) -> Option<AttributeRule> {
     rules(tag)?.iter().copied().flatten().find(has_attribute).map(|(_, rule)| *rule)
 }
 
-/// Refuses unknown attributes, invalid values, and several orientations.
-pub(super) fn check(label: &str, tag: &str, attributes: &[Attribute]) -> Result<(), ModelError> {
-    for (name, value) in attributes {
+/// Refuses unknown attributes, invalid values, and several orientations; `tag` has the rules.
+pub(super) fn check(tag: &str, element: &Element) -> Result<(), ModelError> {
+    for (name, value) in &element.attributes {
         let rule = rule(tag, name)
-            .ok_or_else(|| ModelError::unsupported(label, format!("attribute `{name}` of <{tag}> is not supported")))?;
-        if let Err(expected) = allowed(rule, value) {
-            return Err(ModelError::attribute(label, name, value, expected));
-        }
+            .ok_or_else(|| element.refused(format!("attribute `{name}` of <{tag}> is not supported")))?;
+        allowed(rule, value).map_err(|expected| element.wrong(name, expected))?;
     }
-    let mut turned = ORIENTATIONS.into_iter().filter(|name| get(attributes, name).is_some());
+    let mut turned = ORIENTATIONS.into_iter().filter(|name| element.get(name).is_some());
     if let (Some(first), Some(second)) = (turned.next(), turned.next()) {
-        return Err(ModelError::unsupported(label, format!("give either `{first}` or `{second}`, not both")));
+        return Err(element.refused(format!("give either `{first}` or `{second}`, not both")));
     }
-    for name in ["quat", "axisangle", "xyaxes", "zaxis", "axis"] {
-        // The first three numbers of `axisangle` are the axis.
-        let vanishes = |value: &str| numbers(value).is_some_and(|all| all[..3].iter().all(|number| *number == 0.0));
-        if let Some(value) = get(attributes, name)
-            && vanishes(value)
-            && (name != "quat" || numbers(value).is_some_and(|all| all[3] == 0.0))
-        {
-            return Err(ModelError::attribute(label, name, value, "a direction other than zero"));
+    for (name, count) in [("quat", 4), ("axisangle", 3), ("xyaxes", 3), ("zaxis", 3), ("axis", 3)] {
+        if element.list(name).is_some_and(|all| all[..count].iter().all(|number| *number == 0.0)) {
+            return Err(element.wrong(name, "a direction other than zero"));
         }
     }
     Ok(())
@@ -283,14 +266,19 @@ pub(super) fn allowed(rule: AttributeRule, value: &str) -> Result<(), String> {
                 _ => Err(several(least, most, "whole")),
             }
         }
+        Choice(choices) if choices.split('|').any(|choice| choice == value) => Ok(()),
+        Choice(choices) => Err(listed(choices.trim_end_matches("|1|0"))),
         Only(choices) if choices.split('|').any(|choice| same(choice, value)) => Ok(()),
-        Only(choices) => Err(format!("{}; anything else is not simulated", choices.replace('|', " or "))),
+        Only(choices) => Err(format!("{}; anything else is not simulated", listed(choices))),
     }
 }
 
-/// Returns the numbers of a list; `None` if an entry is not a finite number.
-pub(super) fn numbers(value: &str) -> Option<Vec<f64>> {
-    value.split_whitespace().map(|token| token.parse::<f64>().ok().filter(|number| number.is_finite())).collect()
+/// Returns choices as a list: `a, b or c`.
+fn listed(choices: &str) -> String {
+    match choices.rsplit_once('|') {
+        Some((first, last)) => format!("{} or {last}", first.replace('|', ", ")),
+        None => choices.to_owned(),
+    }
 }
 
 /// Returns whether two values are equal: as numbers if they are numbers, where `found` may omit the last ones.
@@ -324,9 +312,9 @@ mod tests {
     #[test]
     fn an_element_has_at_most_one_orientation_and_no_zero_axis() {
         let check = |pairs: &[(&str, &str)]| {
-            let attributes: Vec<Attribute> =
-                pairs.iter().map(|(name, value)| ((*name).to_owned(), (*value).to_owned())).collect();
-            super::check("part", "body", &attributes).map_err(|why| why.to_string())
+            let attributes = pairs.iter().map(|(name, value)| ((*name).to_owned(), (*value).to_owned())).collect();
+            let part = Element { tag: "body".to_owned(), label: "part".to_owned(), attributes };
+            super::check("body", &part).map_err(|why| why.to_string())
         };
         assert!(check(&[("pos", "0 0 0"), ("quat", "0 0 0 1")]).is_ok());
         assert!(check(&[("quat", "1 0 0 0"), ("euler", "0 0 0")]).unwrap_err().contains("not both"));

@@ -1,66 +1,63 @@
-//! Files that a model names, written into its text: convex hulls of meshes, and height fields.
+//! Files that a model names, written into its text: included texts, convex hulls of meshes, and height fields.
 //!
 //! A text without files is all that another machine needs. Meshes that neither collide nor give mass stay as they are: the
 //! simulation ignores them.
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::ops::Range;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
-use mesh_loader::Loader;
 use nalgebra::Point3;
 use png::{BitDepth, ColorType, Transformations};
-use roxmltree::Node;
+use roxmltree::{Document, Node};
 
-use super::defaults::{Attribute, Classes, attributes_of, get};
-use super::file::read_bytes;
-use super::values::number;
+use super::card_text::with_card;
+use super::defaults::Classes;
+use super::element::{Attribute, Element};
+use super::files::{self, AssetFiles};
 use super::xml::{self, elements, sections};
-use super::{HEIGHT_FIELD_SIDE_MAX, hull};
 use crate::error::ModelError;
+use crate::model::{HEIGHT_FIELD_SIDE_MAX, hull};
 
-/// Largest file of a mesh or of heights.
-pub(super) const FILE_BYTES_MAX: u64 = 64 << 20;
-
-/// Returns the text with the numbers of all files that motion depends on; `folder` is that of the outermost model file.
+/// Reads a model file and replaces each `<include>` by the content of its file.
+///
+/// As in MuJoCo, paths of included files are relative to the outermost file, and no file is included twice. Of the other files
+/// that the model names, those that motion depends on are written into the text: hulls of meshes, and height fields.
+///
+/// A robot card, a file that ends in `.toml`, gives the text of its model with the card in it.
 ///
 /// # Errors
-/// [`ModelError`] names the file that is missing, too long, or of another format.
-pub(super) fn embed(text: &str, folder: &Path) -> Result<String, ModelError> {
-    let document = xml::parse(text)?;
-    let root = document.root_element();
-    let mut classes = Classes::default();
-    for node in sections(root, "default") {
-        classes.read_main(node)?;
-    }
-    let wanted = wanted(root, &classes)?;
-    let folder = AssetFolder::new(folder, root);
-    let mut replaced: Vec<(Range<usize>, &str, Vec<Attribute>)> = Vec::new();
-    for asset in sections(root, "asset").flat_map(elements) {
-        let tag = asset.tag_name().name();
-        let attributes = match tag {
-            "mesh" => classes.with_defaults(asset, None, tag)?,
-            "hfield" => attributes_of(asset),
-            _ => continue,
-        };
-        let Some(file) = get(&attributes, "file").filter(|file| !file.is_empty()) else { continue };
-        let stem = || Path::new(file).file_stem().map(|stem| stem.to_string_lossy().into_owned());
-        let Some(name) = get(&attributes, "name").map(str::to_owned).or_else(stem) else { continue };
-        let Some(is_mass) = wanted.get(&(tag, name.clone())) else { continue };
-        let path = folder.file(file);
-        let numbers = if tag == "mesh" { mesh(&name, &path, &attributes, *is_mass)? } else { heights(&name, &path)? };
-        let mut own = attributes_of(asset);
-        own.retain(|(attribute, _)| !["name", "file", "nrow", "ncol", "content_type"].contains(&attribute.as_str()));
-        own.insert(0, ("name".to_owned(), name));
-        own.extend(numbers);
-        replaced.push((asset.range(), tag, own));
-    }
+/// [`ModelError`] names the file that is missing or too long, or the text that is not XML.
+pub fn read_model_file(path: &Path) -> Result<String, ModelError> {
+    let model = files::mjcf_of(path)?;
+    let text = files::text_with_includes(&model)?;
+    let document = xml::parse(&text)?;
+    let embedded = match document.descendants().any(|node| node.has_attribute("file")) {
+        true => embed(&document, files::folder_of(&model))?,
+        false => text,
+    };
+    let whole = if files::is_card(path) { with_card(&embedded, &files::read_text(path)?)? } else { embedded };
+    files::check_length(whole.len() as u64)?;
+    Ok(whole)
+}
+
+/// Returns the text with the numbers of all files that motion depends on; `folder` is that of the outermost model file.
+fn embed(document: &Document<'_>, folder: &Path) -> Result<String, ModelError> {
+    let text = document.input_text();
+    let found = AssetFiles::of(document, folder)?;
+    let wanted = wanted(document.root_element(), &found.classes)?;
     let (mut whole, mut done) = (String::with_capacity(text.len()), 0);
-    for (range, tag, attributes) in replaced {
-        whole.push_str(&text[done..range.start]);
-        xml::open(&mut whole, tag, &attributes);
-        xml::close(&mut whole, tag);
-        done = range.end;
+    for (node, asset) in &found.assets {
+        let (tag, name) = (node.tag_name().name(), &asset.label);
+        let Some(path) = found.path_of(asset) else { continue };
+        let Some(is_mass) = wanted.get(&(tag, name.clone())) else { continue };
+        let numbers = if tag == "mesh" { mesh(asset, &path, *is_mass)? } else { heights(name, &path)? };
+        let mut own = Element::of(*node, tag).attributes;
+        own.retain(|(attribute, _)| !["name", "file", "nrow", "ncol", "content_type"].contains(&attribute.as_str()));
+        own.insert(0, ("name".to_owned(), name.clone()));
+        own.extend(numbers);
+        whole.push_str(&text[done..node.range().start]);
+        xml::write(&mut whole, tag, &own);
+        done = node.range().end;
     }
     whole.push_str(&text[done..]);
     Ok(whole)
@@ -77,14 +74,13 @@ fn wanted(root: Node<'_, '_>, classes: &Classes) -> Result<Needs, ModelError> {
     let mut found = Needs::new();
     for world in sections(root, "worldbody") {
         collect_needs(world, None, true, &mut |geom, class, has_inertia| {
-            let attributes = classes.with_defaults(geom, class, geom.attribute("name").unwrap_or("geom"))?;
-            let is_zero = |name: &str| number(&attributes, name).is_some_and(|value| value == 0.0);
+            let element = classes.with_defaults(geom, class, geom.attribute("name").unwrap_or("geom"))?;
+            let is_zero = |name: &str| element.number(name).is_some_and(|value| value == 0.0);
             let is_paired = geom.attribute("name").is_some_and(|name| paired.contains(name));
             let collides = is_paired || !(is_zero("contype") && is_zero("conaffinity"));
-            let is_mass =
-                !(has_inertia || is_zero("mass") || (get(&attributes, "mass").is_none() && is_zero("density")));
+            let is_mass = !(has_inertia || is_zero("mass") || (element.get("mass").is_none() && is_zero("density")));
             for (tag, is_needed) in [("mesh", collides || is_mass), ("hfield", collides)] {
-                if let Some(asset) = get(&attributes, tag).filter(|_| is_needed) {
+                if let Some(asset) = element.get(tag).filter(|_| is_needed) {
                     *found.entry((tag, asset.to_owned())).or_default() |= is_mass;
                 }
             }
@@ -116,40 +112,15 @@ fn collect_needs<'a>(
     Ok(())
 }
 
-/// Folder of a model's meshes and height fields.
-pub(super) struct AssetFolder {
-    path: PathBuf,
-    are_paths_stripped: bool,
-}
-
-impl AssetFolder {
-    pub(super) fn new(model: &Path, root: Node<'_, '_>) -> Self {
-        let setting = |name: &str| sections(root, "compiler").filter_map(|compiler| compiler.attribute(name)).last();
-        // As in MuJoCo 4.0, `meshdir` is that of height fields, too, and precedes `assetdir`.
-        let folder = setting("meshdir").or(setting("assetdir")).unwrap_or_default();
-        Self { path: model.join(folder), are_paths_stripped: setting("strippath") == Some("true") }
-    }
-
-    pub(super) fn file(&self, name: &str) -> PathBuf {
-        let given = Path::new(name);
-        self.path.join(given.file_name().filter(|_| self.are_paths_stripped).map_or(given, Path::new))
-    }
-}
-
 /// Returns the corners of a mesh's convex hull as attributes.
-fn mesh(name: &str, path: &Path, attributes: &[Attribute], is_mass: bool) -> Result<Vec<Attribute>, ModelError> {
-    let label = format!("mesh `{name}`");
-    let is_known =
-        path.extension().is_some_and(|kind| kind.eq_ignore_ascii_case("stl") || kind.eq_ignore_ascii_case("obj"));
-    if !is_known {
+fn mesh(asset: &Element, path: &Path, is_mass: bool) -> Result<Vec<Attribute>, ModelError> {
+    let label = format!("mesh `{}`", asset.label);
+    if !files::is_mesh(path) {
         let problem =
             format!("`{}` is neither STL nor OBJ; convert it, or collide with primitive shapes", path.display());
         return Err(ModelError::unsupported(&label, problem));
     }
-    let bytes = read_bytes(path, FILE_BYTES_MAX)?;
-    let scene = Loader::default()
-        .load_from_slice(&bytes, path)
-        .map_err(|why| ModelError::unsupported(&label, format!("`{}` cannot be read: {why}", path.display())))?;
+    let scene = files::read_mesh(&asset.label, path)?;
     let vertices = scene.meshes.iter().flat_map(|mesh| &mesh.vertices);
     let mut points: Vec<[f32; 3]> =
         vertices.copied().filter(|vertex| vertex.iter().all(|entry| entry.is_finite())).collect();
@@ -166,7 +137,7 @@ fn mesh(name: &str, path: &Path, attributes: &[Attribute], is_mass: bool) -> Res
     let numbers: Vec<String> =
         corners.iter().flat_map(|corner| corner.iter()).map(|entry| (*entry as f32).to_string()).collect();
     let mut found = vec![("vertex".to_owned(), numbers.join(" "))];
-    if is_mass && get(attributes, "inertia") != Some("convex") {
+    if is_mass && asset.get("inertia") != Some("convex") {
         // Marks that the mass is not that of the hull.
         found.push(("face".to_owned(), "0 1 2".to_owned()));
     }
@@ -177,7 +148,7 @@ fn mesh(name: &str, path: &Path, attributes: &[Attribute], is_mass: bool) -> Res
 fn heights(name: &str, path: &Path) -> Result<Vec<Attribute>, ModelError> {
     let label = format!("height field `{name}`");
     let refuse = |why: String| ModelError::unsupported(&label, format!("`{}`: {why}", path.display()));
-    let bytes = read_bytes(path, FILE_BYTES_MAX)?;
+    let bytes = files::read_bytes(path)?;
     let mut decoder = png::Decoder::new(std::io::Cursor::new(bytes));
     decoder.set_transformations(Transformations::EXPAND | Transformations::STRIP_16);
     let mut reader = decoder.read_info().map_err(|why| refuse(format!("it is not a PNG file: {why}")))?;

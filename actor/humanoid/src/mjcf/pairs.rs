@@ -5,42 +5,18 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::collision::{Exclusion, filters_match};
-use super::defaults::{Attribute, get};
+use super::element::Element;
 use super::geoms::{self, MARGIN_MAX_M};
-use super::softness::{Softness, SolverNumbers};
-use super::values::{amount, list_over, not_negative, number};
-use super::{Body, Shape};
 use crate::error::ModelError;
+use crate::model::{Body, Pair, Shape, ShapeIndex, Softness, SolverNumbers, not_negative};
 
 /// Most pairs: they take 15 MB.
-pub const PAIRS_MAX: usize = 1 << 17;
+const PAIRS_MAX: usize = 1 << 17;
 /// Least weight of a geom in MuJoCo's mixtures.
 const WEIGHT_MIN: f64 = 1e-15;
 
-/// A shape of a body.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub struct ShapeIndex {
-    /// Index in [`super::Model::bodies`].
-    pub body: usize,
-    /// Index in [`Body::shapes`].
-    pub shape: usize,
-}
-
-/// Two shapes, or a shape and the ground, that may touch.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Pair {
-    /// Shape; of two shapes the one that comes first in the model.
-    pub first: ShapeIndex,
-    /// Other shape; `None` is the ground.
-    pub second: Option<ShapeIndex>,
-    /// Friction coefficient; 0 without friction.
-    pub friction: f64,
-    /// Distance (m) below which the contact pushes.
-    pub margin_m: f64,
-    /// Softness of the contact.
-    pub softness: Softness,
-}
+/// Indices of two MJCF bodies that never touch; 0 is the world.
+pub(super) type Exclusion = [usize; 2];
 
 /// Contact parameters of one geom.
 #[derive(Clone, Debug)]
@@ -50,13 +26,19 @@ pub(super) struct ContactRules {
     solver: SolverNumbers,
 }
 
+impl Default for ContactRules {
+    fn default() -> Self {
+        Self { priority: 0, solmix: 1.0, solver: SolverNumbers::default() }
+    }
+}
+
 impl ContactRules {
     /// Reads the attributes that [`Shape`] does not hold.
-    pub(super) fn read(label: &str, priority: i32, attributes: &[Attribute]) -> Result<Self, ModelError> {
+    pub(super) fn read(geom: &Element) -> Result<Self, ModelError> {
         Ok(Self {
-            priority,
-            solmix: not_negative(label, "solmix", number(attributes, "solmix").unwrap_or(1.0))?,
-            solver: SolverNumbers::read(label, attributes, ["solref", "solimp"])?,
+            priority: geom.whole("priority", 0)?,
+            solmix: not_negative(&geom.label, "solmix", geom.number("solmix").unwrap_or(1.0))?,
+            solver: geom.softness(["solref", "solimp"])?,
         })
     }
 
@@ -80,8 +62,8 @@ pub(super) struct Source<'a> {
     pub(super) rules: &'a [Vec<(ContactRules, usize)>],
     pub(super) ground: Party<'a>,
     pub(super) exclusions: &'a [Exclusion],
-    /// Label and attributes of each `<pair>`.
-    pub(super) explicit: &'a [(String, Vec<Attribute>)],
+    /// Each `<pair>`.
+    pub(super) explicit: &'a [Element],
 }
 
 impl<'a> Source<'a> {
@@ -164,27 +146,28 @@ impl<'a> Source<'a> {
         let mut places: BTreeMap<&str, Option<ShapeIndex>> =
             self.shapes().map(|(index, shape)| (shape.name.as_str(), Some(index))).collect();
         places.insert(&self.ground.shape.name, None);
-        for (label, attributes) in self.explicit {
+        for element in self.explicit {
             let find = |side: &str| {
-                let name = get(attributes, side)
-                    .ok_or_else(|| ModelError::unsupported(label, format!("`{side}` is missing")))?;
-                places
-                    .get(name)
-                    .copied()
-                    .ok_or_else(|| ModelError::unsupported(label, format!("there is no geom `{name}`")))
+                let name = element.get(side).ok_or_else(|| element.refused(format!("`{side}` is missing")))?;
+                places.get(name).copied().ok_or_else(|| element.refused(format!("there is no geom `{name}`")))
             };
             let (first, second) = match (find("geom1")?, find("geom2")?) {
                 (Some(one), Some(other)) if one.body != other.body => (one.min(other), Some(one.max(other))),
                 (Some(one), None) | (None, Some(one)) => (one, None),
-                _ => return Err(ModelError::unsupported(label, "its geoms belong to one rigid body; remove the pair")),
+                _ => return Err(element.refused("its geoms belong to one rigid body; remove the pair")),
             };
-            let pair = explicit_pair(label, attributes, first, second)?;
+            let pair = explicit_pair(element, first, second)?;
             if pairs.insert((first, second), pair).is_some() {
-                return Err(ModelError::unsupported(label, "there are two pairs of these geoms; remove one"));
+                return Err(element.refused("there are two pairs of these geoms; remove one"));
             }
         }
         Ok(pairs)
     }
+}
+
+/// MuJoCo's rule: the `contype` of one shape shares a bit with the `conaffinity` of the other.
+fn filters_match([contype, conaffinity]: [u32; 2], [other_type, other_affinity]: [u32; 2]) -> bool {
+    contype & other_affinity != 0 || other_type & conaffinity != 0
 }
 
 /// Returns the share of the first geom in a mixture.
@@ -198,24 +181,32 @@ fn share(weight: f64, other: f64) -> f64 {
 }
 
 /// Reads the parameters of a `<pair>`; missing ones have MJCF's defaults, not those of the geoms.
-fn explicit_pair(
-    label: &str,
-    attributes: &[Attribute],
-    first: ShapeIndex,
-    second: Option<ShapeIndex>,
-) -> Result<Pair, ModelError> {
-    let condim = get(attributes, "condim").unwrap_or("3");
-    let has_friction = geoms::has_friction(label, condim)?;
-    let [along, across] = list_over(attributes, "friction", [1.0, 1.0]);
+fn explicit_pair(element: &Element, first: ShapeIndex, second: Option<ShapeIndex>) -> Result<Pair, ModelError> {
+    let has_friction = geoms::has_friction(element)?;
+    let [along, across] = element.list_over("friction", [1.0, 1.0]);
     if has_friction && along != across {
         let expected = "two equal coefficients of sliding: friction that depends on the direction is not simulated";
-        return Err(ModelError::attribute(label, "friction", &format!("{along} {across}"), expected));
+        return Err(ModelError::attribute(&element.label, "friction", &format!("{along} {across}"), expected));
     }
-    let margin_m = amount(label, attributes, "margin", "margin (m)")?;
+    let margin_m = element.amount("margin", "margin (m)")?;
     if margin_m > 2.0 * MARGIN_MAX_M {
-        return Err(ModelError::quantity(label, "margin (m)", margin_m, "between 0 and 0.02"));
+        return Err(ModelError::quantity(&element.label, "margin (m)", margin_m, "between 0 and 0.02"));
     }
-    let friction = not_negative(label, "friction", along)?;
-    let softness = SolverNumbers::read(label, attributes, ["solref", "solimp"])?.softness();
+    let friction = not_negative(&element.label, "friction", along)?;
+    let softness = element.softness(["solref", "solimp"])?.softness();
     Ok(Pair { first, second, friction: if has_friction { friction } else { 0.0 }, margin_m, softness })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn either_shapes_affinity_is_enough() {
+        assert!(filters_match([1, 1], [1, 1]));
+        assert!(filters_match([1, 0], [0, 1]) && filters_match([0, 1], [1, 0]));
+        assert!(!filters_match([1, 0], [1, 0]));
+        assert!(!filters_match([0, 0], [3, 3]));
+        assert!(filters_match([2, 1], [4, 6]));
+    }
 }

@@ -1,22 +1,13 @@
 //! Default classes, merged into the attributes of each element as in MuJoCo.
-//!
-//! `mjcf-rs` ignores unknown classes, and drops a default position from an element that gives only its orientation.
-//! It therefore reads a text in which defaults are already filled in.
 
 use std::collections::{BTreeMap, BTreeSet};
 
 use roxmltree::Node;
 
+use super::element::{Attribute, Element};
 use super::vocabulary::{self, AttributeRule, is_inert};
+use super::xml;
 use crate::error::ModelError;
-
-/// Name and value of an attribute.
-pub(super) type Attribute = (String, String);
-
-/// Returns the value of an attribute.
-pub(super) fn get<'a>(attributes: &'a [Attribute], name: &str) -> Option<&'a str> {
-    attributes.iter().find(|(found, _)| found == name).map(|(_, value)| value.as_str())
-}
 
 /// Class of elements that name none.
 const MAIN: &str = "main";
@@ -35,8 +26,15 @@ pub(super) struct Classes {
 }
 
 impl Classes {
+    /// Reads all classes of a text.
+    pub(super) fn of(root: Node<'_, '_>) -> Result<Self, ModelError> {
+        let mut classes = Self::default();
+        xml::sections(root, "default").try_for_each(|node| classes.read_main(node))?;
+        Ok(classes)
+    }
+
     /// Reads an outermost `<default>`; there may be several.
-    pub(super) fn read_main(&mut self, node: Node<'_, '_>) -> Result<(), ModelError> {
+    fn read_main(&mut self, node: Node<'_, '_>) -> Result<(), ModelError> {
         if let Some(name) = node.attribute("class")
             && name != MAIN
         {
@@ -69,23 +67,20 @@ impl Classes {
             if vocabulary::rules(tag).is_none() {
                 return Err(ModelError::unsupported(&label, format!("<{tag}> is not supported")));
             }
-            let attributes = attributes_of(child);
-            for (attribute, value) in &attributes {
-                let rule = vocabulary::rule(tag, attribute).ok_or_else(|| {
-                    ModelError::unsupported(&label, format!("attribute `{attribute}` of <{tag}> is not supported"))
-                })?;
+            let element = Element::of(child, &label);
+            for (attribute, value) in &element.attributes {
+                let rule = vocabulary::rule(tag, attribute)
+                    .ok_or_else(|| element.refused(format!("attribute `{attribute}` of <{tag}> is not supported")))?;
                 // A value that is not simulated is refused at the elements that inherit it, if any.
-                if !matches!(rule, AttributeRule::Only(_))
-                    && let Err(expected) = vocabulary::allowed(rule, value)
-                {
-                    return Err(ModelError::attribute(&label, attribute, value, expected));
+                if !matches!(rule, AttributeRule::Only(_) | AttributeRule::Choice(_)) {
+                    vocabulary::allowed(rule, value).map_err(|expected| element.wrong(attribute, expected))?;
                 }
             }
             if ACTUATORS.contains(&tag) {
                 self.actuators.insert(tag.to_owned());
             }
             let before = class.remove(tag).unwrap_or_default();
-            class.insert(tag.to_owned(), merge(tag, before, attributes));
+            class.insert(tag.to_owned(), merge(tag, before, element.attributes));
         }
         for child in nested {
             let name = child
@@ -100,20 +95,19 @@ impl Classes {
         Ok(())
     }
 
-    /// Returns an element's attributes merged over its class's defaults; `ambient` is its body's `childclass`.
+    /// Returns an element with its class's defaults; `ambient` is its body's `childclass`.
     pub(super) fn with_defaults(
         &self,
         node: Node<'_, '_>,
         ambient: Option<&str>,
-        label: &str,
-    ) -> Result<Vec<Attribute>, ModelError> {
-        let tag = node.tag_name().name();
+        label: impl Into<String>,
+    ) -> Result<Element, ModelError> {
+        let mut element = Element::of(node, label);
         let name = node.attribute("class").or(ambient).unwrap_or(MAIN);
-        let under = match self.class(name, label)?.and_then(|class| class.get(tag)) {
-            Some(attributes) => attributes.clone(),
-            None => Vec::new(),
-        };
-        Ok(merge(tag, under, attributes_of(node)))
+        if let Some(under) = self.class(name, &element.label)?.and_then(|class| class.get(&element.tag)) {
+            element.attributes = merge(&element.tag, under.clone(), element.attributes);
+        }
+        Ok(element)
     }
 
     /// Returns the class of a name; `None` for [`MAIN`] in a text without defaults.
@@ -125,11 +119,6 @@ impl Classes {
             found => Ok(found),
         }
     }
-}
-
-/// Returns an element's attributes without defaults.
-pub(super) fn attributes_of(node: Node<'_, '_>) -> Vec<Attribute> {
-    node.attributes().map(|attribute| (attribute.name().to_owned(), attribute.value().to_owned())).collect()
 }
 
 /// Attributes of servos that set the same quantity.
@@ -170,13 +159,10 @@ mod tests {
     use super::*;
     use roxmltree::Document;
 
-    /// Returns the attributes of the element named `part` in a text, defaults included.
-    fn attributes_of_part(text: &str) -> Result<Vec<Attribute>, ModelError> {
+    /// Returns the element named `part` of a text, defaults included.
+    fn part_of(text: &str) -> Result<Element, ModelError> {
         let document = Document::parse(text).expect("well-formed");
-        let mut classes = Classes::default();
-        for node in document.root_element().children().filter(|node| node.has_tag_name("default")) {
-            classes.read_main(node)?;
-        }
+        let classes = Classes::of(document.root_element())?;
         let part = document.descendants().find(|node| node.attribute("name") == Some("part")).expect("a part");
         classes.with_defaults(part, Some("leg"), "part")
     }
@@ -189,18 +175,18 @@ mod tests {
               <geom pos="1 2 3" size="0.1 0.2 0.3" friction="0.5"/>
             </default>
             <geom name="part" size="0.4"/></mujoco>"#;
-        let part = attributes_of_part(text).expect("valid");
+        let part = part_of(text).expect("valid");
         // The element gives one size of three; position and orientation come from different classes.
-        assert_eq!(get(&part, "size"), Some("0.4 0.2 0.3"));
-        assert_eq!((get(&part, "pos"), get(&part, "quat")), (Some("1 2 3"), Some("0 1 0 0")));
-        assert_eq!(get(&part, "mass"), None);
-        let foot = attributes_of_part(&text.replace("name=\"part\"", "name=\"part\" class=\"foot\"")).expect("valid");
-        assert_eq!((get(&foot, "mass"), get(&foot, "pos")), (Some("2"), Some("1 2 3")));
+        assert_eq!(part.get("size"), Some("0.4 0.2 0.3"));
+        assert_eq!((part.get("pos"), part.get("quat")), (Some("1 2 3"), Some("0 1 0 0")));
+        assert_eq!(part.get("mass"), None);
+        let foot = part_of(&text.replace("name=\"part\"", "name=\"part\" class=\"foot\"")).expect("valid");
+        assert_eq!((foot.get("mass"), foot.get("pos")), (Some("2"), Some("1 2 3")));
     }
 
     #[test]
     fn missing_duplicate_and_nameless_classes_are_refused() {
-        let problem = |text: &str| attributes_of_part(text).expect_err("refused").to_string();
+        let problem = |text: &str| part_of(text).expect_err("refused").to_string();
         assert!(problem("<mujoco><geom name='part'/></mujoco>").contains("class=\"leg\""));
         let twice =
             "<mujoco><default><default class='leg'/><default class='leg'/></default><geom name='part'/></mujoco>";

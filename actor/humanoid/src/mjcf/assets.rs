@@ -6,22 +6,18 @@ use std::collections::BTreeMap;
 use nalgebra::{Isometry3, Point3, Quaternion, UnitQuaternion, Vector3};
 use roxmltree::Node;
 
-use super::defaults::{Attribute, Classes, attributes_of, get};
-use super::ground::HeightField;
-use super::values::{length, list_over, number};
-use super::vocabulary::{self, numbers};
-use super::{HEIGHT_FIELD_SIDE_MAX, hull};
+use super::defaults::Classes;
+use super::element::Element;
+use super::vocabulary;
 use crate::error::ModelError;
-
-/// Most vertices of a mesh.
-pub const MESH_VERTICES_MAX: usize = 4096;
+use crate::model::{HEIGHT_FIELD_SIDE_MAX, HeightField, hull, length};
 
 /// Assets of a text, by name.
 #[derive(Debug, Default)]
 pub(super) struct Assets {
     /// Meshes with vertices in the text.
     meshes: BTreeMap<String, Mesh>,
-    height_fields: BTreeMap<String, Vec<Attribute>>,
+    height_fields: BTreeMap<String, Element>,
 }
 
 #[derive(Debug)]
@@ -40,15 +36,16 @@ impl Assets {
         let Some(name) = node.attribute("name") else { return Ok(()) };
         let label = format!("{} `{name}`", if tag == "mesh" { tag } else { "height field" });
         let is_new = if tag == "mesh" {
-            let attributes = classes.with_defaults(node, None, &label)?;
-            let Some(vertices) = get(&attributes, "vertex") else { return Ok(()) };
-            vocabulary::check(&label, tag, &attributes)?;
-            let mesh = read_mesh(&label, vertices, &attributes)?;
-            self.meshes.insert(name.to_owned(), mesh).is_none()
+            let element = classes.with_defaults(node, None, label.as_str())?;
+            if element.get("vertex").is_none() {
+                return Ok(());
+            }
+            vocabulary::check(tag, &element)?;
+            self.meshes.insert(name.to_owned(), read_mesh(&element)?).is_none()
         } else {
-            let attributes = attributes_of(node);
-            vocabulary::check(&label, tag, &attributes)?;
-            self.height_fields.insert(name.to_owned(), attributes).is_none()
+            let element = Element::of(node, label.as_str());
+            vocabulary::check(tag, &element)?;
+            self.height_fields.insert(name.to_owned(), element).is_none()
         };
         if is_new { Ok(()) } else { Err(ModelError::unsupported(&label, "there are two of this name")) }
     }
@@ -72,38 +69,39 @@ impl Assets {
 
     /// Returns the height field of a level geom at `centre_m`.
     pub(super) fn height_field(&self, name: &str, centre_m: Point3<f64>) -> Result<HeightField, ModelError> {
-        let label = format!("height field `{name}`");
-        let attributes = self.height_fields.get(name);
-        let attributes = attributes.ok_or_else(|| ModelError::unsupported(&label, "there is no such <hfield>"))?;
-        if get(attributes, "file").is_some() {
+        let field = self
+            .height_fields
+            .get(name)
+            .ok_or_else(|| ModelError::unsupported(&format!("height field `{name}`"), "there is no such <hfield>"))?;
+        if field.get("file").is_some() {
             let problem = "the numbers of its file are missing: they are read with a model file, but not from a text; write \
                            them into `elevation`";
-            return Err(ModelError::unsupported(&label, problem));
+            return Err(field.refused(problem));
         }
         let count = |side: &str| {
-            let count = number(attributes, side).unwrap_or(0.0);
+            let count = field.number(side).unwrap_or(0.0);
             if (2.0..=HEIGHT_FIELD_SIDE_MAX as f64).contains(&count) {
                 return Ok(count as usize);
             }
             let expected = format!("a whole number from 2 to {HEIGHT_FIELD_SIDE_MAX}");
-            Err(ModelError::attribute(&label, side, &count.to_string(), expected))
+            Err(ModelError::attribute(&field.label, side, &count.to_string(), expected))
         };
         let (rows, columns) = (count("nrow")?, count("ncol")?);
-        let [half_x_m, half_y_m, top_m, base_m] = list_over(attributes, "size", [0.0; 4]);
+        let [half_x_m, half_y_m, top_m, base_m] = field.list_over("size", [0.0; 4]);
         for (what, size_m) in [
             ("half length along x (m)", half_x_m),
             ("half length along y (m)", half_y_m),
             ("greatest height (m)", top_m),
             ("depth of the base (m)", base_m),
         ] {
-            length(&label, what, size_m)?;
+            length(&field.label, what, size_m)?;
         }
-        let heights_m = match get(attributes, "elevation").and_then(numbers) {
+        let heights_m = match field.list("elevation") {
             None => vec![0.0; rows * columns],
             Some(given) if given.len() == rows * columns => scaled(&given, columns, top_m),
             Some(given) => {
                 let problem = format!("`elevation` has {} numbers instead of {rows} × {columns}", given.len());
-                return Err(ModelError::unsupported(&label, problem));
+                return Err(field.refused(problem));
             }
         };
         let field = HeightField { rows, columns, half_x_m, half_y_m, centre_m, heights_m };
@@ -112,28 +110,28 @@ impl Assets {
     }
 }
 
-fn read_mesh(label: &str, vertices: &str, attributes: &[Attribute]) -> Result<Mesh, ModelError> {
-    let given = numbers(vertices).unwrap_or_default();
+fn read_mesh(mesh: &Element) -> Result<Mesh, ModelError> {
+    let given = mesh.list("vertex").unwrap_or_default();
     if !given.len().is_multiple_of(3) {
         let problem = format!("`vertex` has {} numbers, but needs three for each vertex", given.len());
-        return Err(ModelError::unsupported(label, problem));
+        return Err(mesh.refused(problem));
     }
-    let [w, x, y, z] = list_over(attributes, "refquat", [1.0, 0.0, 0.0, 0.0]);
+    let [w, x, y, z] = mesh.list_over("refquat", [1.0, 0.0, 0.0, 0.0]);
     let turn = UnitQuaternion::try_new(Quaternion::new(w, x, y, z), 1e-9)
-        .ok_or_else(|| ModelError::unsupported(label, "`refquat` must not be zero"))?;
-    let place = Vector3::from(list_over(attributes, "refpos", [0.0; 3]));
+        .ok_or_else(|| mesh.refused("`refquat` must not be zero"))?;
+    let place = Vector3::from(mesh.list_over("refpos", [0.0; 3]));
     let reference = Isometry3::from_parts(place.into(), turn);
-    let scale = Vector3::from(list_over(attributes, "scale", [1.0; 3]));
+    let scale = Vector3::from(mesh.list_over("scale", [1.0; 3]));
     let placed = |vertex: &[f64]| {
         let vertex = Point3::new(vertex[0], vertex[1], vertex[2]);
         Point3::from(reference.inverse_transform_point(&vertex).coords.component_mul(&scale))
     };
     let vertices: Vec<Point3<f64>> = given.chunks_exact(3).map(placed).collect();
     if !vertices.iter().flat_map(|vertex| vertex.iter()).all(|entry| entry.abs() < 1e6) {
-        return Err(ModelError::unsupported(label, "its vertices are more than 1000 km away; check `scale`"));
+        return Err(mesh.refused("its vertices are more than 1000 km away; check `scale`"));
     }
-    let has_faces = get(attributes, "face").is_some();
-    Ok(Mesh { vertices, hull: OnceCell::new(), is_convex: !has_faces || get(attributes, "inertia") == Some("convex") })
+    let is_convex = mesh.get("face").is_none() || mesh.get("inertia") == Some("convex");
+    Ok(Mesh { vertices, hull: OnceCell::new(), is_convex })
 }
 
 /// Returns elevations as heights from 0 to `top_m`. The first row of the text is that of the greatest y.

@@ -1,32 +1,28 @@
 //! Mass of an MJCF body: from its `<inertial>` element or its geoms, by the rules of `<compiler>`.
 
-use mjcf_rs::body::{InertiaSpec, Inertial};
-use mjcf_rs::compiler::{Compiler, InertiaFromGeom};
 use nalgebra::{Isometry3, Matrix3, Point3, SymmetricEigen, Vector3};
 
-use super::inertia::{self, MassProperties};
-use super::mjcf::isometry;
+use super::element::Element;
+use super::tree::{BodyNode, Compiler};
 use crate::error::ModelError;
+use crate::model::inertia::{self, MassProperties};
+use crate::model::not_negative;
 
 /// Relative tolerance of the triangle inequality of principal inertias, since numbers in texts are rounded.
 const TRIANGLE_TOLERANCE: f64 = 1e-3;
 
 /// Returns the mass properties of one MJCF body's parts, in the frame of its rigid body; `geoms` are its geoms' masses.
 pub(super) fn parts_of_body(
-    name: &str,
+    body: &BodyNode,
     geoms: Vec<MassProperties>,
-    inertial: Option<&Inertial>,
     offset: &Isometry3<f64>,
     compiler: &Compiler,
 ) -> Result<Vec<MassProperties>, ModelError> {
-    let explicit = match compiler.inertia_from_geom {
-        InertiaFromGeom::True => inertial.filter(|_| geoms.is_empty()),
-        InertiaFromGeom::False | InertiaFromGeom::Auto => inertial,
-    };
-    if let Some(inertial) = explicit {
-        return Ok(vec![read_inertial(name, inertial, offset, compiler)?]);
+    let ignores_inertial = compiler.inertia_from_geoms == Some(true) && !geoms.is_empty();
+    if let Some((inertial, pose)) = body.inertial.as_ref().filter(|_| !ignores_inertial) {
+        return Ok(vec![read_inertial(&body.name, inertial, &(offset * pose.isometry()), compiler)?]);
     }
-    let parts = if compiler.inertia_from_geom == InertiaFromGeom::False { Vec::new() } else { geoms };
+    let parts = if compiler.inertia_from_geoms == Some(false) { Vec::new() } else { geoms };
     if compiler.bound_mass <= 0.0 && compiler.bound_inertia <= 0.0 {
         return Ok(parts);
     }
@@ -34,29 +30,23 @@ pub(super) fn parts_of_body(
 }
 
 /// Returns whether geoms may count for the mass of a body.
-pub(super) fn uses_geoms(inertial: Option<&Inertial>, compiler: &Compiler) -> bool {
-    match compiler.inertia_from_geom {
-        InertiaFromGeom::True => true,
-        InertiaFromGeom::False => false,
-        InertiaFromGeom::Auto => inertial.is_none(),
-    }
+pub(super) fn uses_geoms(body: &BodyNode, compiler: &Compiler) -> bool {
+    compiler.inertia_from_geoms.unwrap_or(body.inertial.is_none())
 }
 
 fn read_inertial(
     name: &str,
-    inertial: &Inertial,
-    offset: &Isometry3<f64>,
+    inertial: &Element,
+    pose: &Isometry3<f64>,
     compiler: &Compiler,
 ) -> Result<MassProperties, ModelError> {
-    let mass_kg = super::values::not_negative(name, "mass (kg)", inertial.mass)?;
-    let pose = offset * isometry(&inertial.pose);
-    let (mut principal, axes) = match inertial.inertia {
-        InertiaSpec::Diagonal([x, y, z]) => (Vector3::new(x, y, z), Matrix3::identity()),
-        InertiaSpec::Full([xx, yy, zz, xy, xz, yz]) => {
-            let full = Matrix3::new(xx, xy, xz, xy, yy, yz, xz, yz, zz);
-            let principal = SymmetricEigen::new(full);
-            (principal.eigenvalues, principal.eigenvectors)
-        }
+    let mass_kg = not_negative(name, "mass (kg)", inertial.number("mass").unwrap_or(0.0))?;
+    let (mut principal, axes) = if inertial.get("fullinertia").is_some() {
+        let [xx, yy, zz, xy, xz, yz] = inertial.list_over("fullinertia", [0.0; 6]);
+        let principal = SymmetricEigen::new(Matrix3::new(xx, xy, xz, xy, yy, yz, xz, yz, zz));
+        (principal.eigenvalues, principal.eigenvectors)
+    } else {
+        (Vector3::from(inertial.list_over("diaginertia", [0.0; 3])), Matrix3::identity())
     };
     if principal.min() < 0.0 {
         return Err(ModelError::quantity(name, "least principal inertia (kg·m²)", principal.min(), "not negative"));
@@ -64,7 +54,7 @@ fn read_inertial(
     principal.apply(|value| *value = value.max(compiler.bound_inertia));
     let slack = 2.0 * principal.max() - principal.sum();
     if slack > TRIANGLE_TOLERANCE * principal.max() {
-        if !compiler.balance_inertia {
+        if !compiler.balances_inertia {
             let problem = "one principal inertia is larger than the sum of the other two, which is physically impossible; \
                            correct it, or set balanceinertia=\"true\" in <compiler>";
             return Err(ModelError::unsupported(name, problem));

@@ -1,0 +1,41 @@
+//! Keyframes: named states with controls.
+
+use super::element::{Element, numbers};
+use crate::error::ModelError;
+use crate::model::{Keyframe, Model};
+
+/// Most keyframes.
+const KEYFRAMES_MAX: usize = 1024;
+
+/// Reads the keyframes of a model.
+pub(super) fn read(model: &Model, keys: &[Element]) -> Result<Vec<Keyframe>, ModelError> {
+    if keys.len() > KEYFRAMES_MAX {
+        let problem = format!("there are {} keyframes, but at most {KEYFRAMES_MAX} are supported", keys.len());
+        return Err(ModelError::unsupported("keyframe", problem));
+    }
+    keys.iter().map(|key| read_key(model, key)).collect()
+}
+
+fn read_key(model: &Model, key: &Element) -> Result<Keyframe, ModelError> {
+    let list = |attribute: &str, default: Vec<f64>| {
+        let Some(text) = key.get(attribute) else { return Ok(default) };
+        let list = numbers(text).ok_or_else(|| key.wrong(attribute, "finite numbers"))?;
+        if list.len() == default.len() {
+            return Ok(list);
+        }
+        let problem = format!("`{attribute}` has {} numbers, but the model needs {}", list.len(), default.len());
+        Err(key.refused(problem))
+    };
+    let mut position = list("qpos", model.nominal_position())?;
+    let length = position[3..7].iter().map(|entry| entry * entry).sum::<f64>().sqrt();
+    if !(length.is_finite() && length > 1e-6) {
+        return Err(key.refused("the quaternion in `qpos`, its entries 4 to 7, must not be zero"));
+    }
+    position[3..7].iter_mut().for_each(|entry| *entry /= length);
+    Ok(Keyframe {
+        name: key.label.clone(),
+        position,
+        velocity: list("qvel", vec![0.0; model.velocity_size()])?,
+        controls: list("ctrl", vec![0.0; model.motors.len()])?,
+    })
+}
