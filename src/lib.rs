@@ -5,12 +5,10 @@
 //! - `diagnosis`: why no learner answers, for `check` and for every other command.
 //! - [`launch`]: starting and hosting a run; exit codes, signals, log and output of every command.
 //! - [`shared`]: saved policies, and flags common to several commands and the viewer.
-//! - `load_generator`: processes of `bench bus` and `bench fleet`, which simulate a learner or many actors.
 
 mod commands;
 mod diagnosis;
 pub mod launch;
-mod load_generator;
 pub mod shared;
 
 use std::process::ExitCode;

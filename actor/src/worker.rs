@@ -223,9 +223,9 @@ impl<'a> Membership<'a> {
             tokio::select! {
                 () = shutdown.wait() => return Ok(EndReason::StopRequested),
                 produced = physics.next() => {
-                    let ProducedFragment { pending, episodes } = produced?;
+                    let ProducedFragment { first, episodes } = produced?;
                     let uploader = self.shared.uploader.clone();
-                    deliveries.spawn(async move { uploader.deliver(pending).await });
+                    deliveries.spawn(async move { uploader.deliver(first).await });
                     for episode in &episodes {
                         publish_episode(EpisodeReport::new(run, actor, episode).to_json());
                     }

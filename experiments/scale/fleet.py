@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
 """Measures a learner with real updates among played actors and writes the table of docs/results/scale.md.
 
-    cargo build --release
-    python3 experiments/scale/fleet.py target/release/treadmill --logs /tmp/fleet --doc docs/results/scale.md
+    cargo build --release && cargo build --release -p treadmill-bench
+    python3 -m experiments.scale.fleet target/release/treadmill --logs /tmp/fleet --doc docs/results/scale.md
 
-Each row is a scenario of `treadmill bench fleet`, or five real actors. `--only NAME` runs the scenarios whose name begins with
+Each row is a scenario of `treadmill-bench fleet`, or five real actors. `--only NAME` runs the scenarios whose name begins with
 NAME and keeps the other rows of the last run, which are in the folder of --logs. `--quick` measures fewer numbers of actors.
 """
 
@@ -31,7 +31,7 @@ USED = ("used_share", 0.97, 0.995)
 
 
 class Scenario:
-    """Row of the table: flags of `bench fleet`, and figures with their least and aimed values."""
+    """Row of the table: flags of `treadmill-bench fleet`, and figures with their least and aimed values."""
 
     def __init__(self, name, mode, title, args, targets):
         self.name, self.mode, self.title, self.args = name, mode, title, args
@@ -58,11 +58,10 @@ def scenarios(quick):
         rows.append(Scenario(f"thousand-{mode}", mode, title, thousand, targets))
     for transport, flags in [("TCP", []), ("mutual TLS", ["--tls"])]:
         for routers in [0, 2]:
-            for delay in [0, 20]:
-                path = f"{routers} routers" if routers else "direct"
-                name = f"link-{'tls' if flags else 'tcp'}-{routers}-{delay}"
-                args = [*fleet("sync", 5), *flags, "--routers", str(routers), "--delay-ms", str(delay)]
-                rows.append(Scenario(name, "sync", f"5 actors, {transport}, {path}, {delay} ms", args, [USED]))
+            path = f"{routers} routers" if routers else "direct"
+            name = f"link-{'tls' if flags else 'tcp'}-{routers}"
+            args = [*fleet("sync", 5), *flags, "--routers", str(routers)]
+            rows.append(Scenario(name, "sync", f"5 actors, {transport}, {path}", args, [USED]))
     for mode in MODES:
         title = f"{REAL_ACTORS} real actors of 32 environments on this machine"
         rows.append(Scenario(f"real-{mode}", mode, title, None, [USED]))
@@ -74,9 +73,9 @@ def fleet(mode, actors, load=0.8):
 
 
 def bench(binary, folder, args, seconds):
-    """Runs `bench fleet`; its folder keeps run, log and result."""
+    """Runs `treadmill-bench fleet`; its folder keeps run, log and result."""
     folder.mkdir(parents=True)
-    command = [binary, "bench", "fleet", "--json", "--keep", str(folder), "--seconds", str(seconds), *args]
+    command = [pathlib.Path(binary).with_name("treadmill-bench"), "fleet", "--json", "--keep", str(folder), "--seconds", str(seconds), *args]
     done = subprocess.run(command, capture_output=True, text=True)
     (folder / "stderr.log").write_text(done.stderr)
     if done.returncode != 0:

@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
 """Measures the bus over each transport and writes the table of docs/results/scale.md.
 
-    cargo build --release
-    python3 experiments/scale/measure.py target/release/treadmill --doc docs/results/scale.md
+    cargo build --release && cargo build --release -p treadmill-bench
+    python3 -m experiments.scale.measure target/release/treadmill --doc docs/results/scale.md
 
-Transports take turns within a round, and `treadmill bench bus` measures raw TCP before and after each number of actors, so that
+Transports take turns within a round, and `treadmill-bench bus` measures raw TCP before and after each number of actors, so that
 other load affects all alike. The table shows the median over rounds, with minimum and maximum.
 """
 
@@ -36,7 +36,7 @@ COLUMNS = [
 
 
 def measure(binary, transport, arguments):
-    command = [binary, "bench", "bus", "--json", *TRANSPORTS[transport]]
+    command = [pathlib.Path(binary).with_name("treadmill-bench"), "bus", "--json", *TRANSPORTS[transport]]
     command += ["--actors", arguments.actors, "--seconds", str(arguments.seconds)]
     command += ["--pause-ms", str(arguments.pause_ms)]
     done = subprocess.run(command, capture_output=True, text=True, check=True)

@@ -4,12 +4,13 @@ Needs: cargo build --release; Linux with `ss`.
 
 Usage: routers.py [BINARY] [--routers 10] [--actors 10] [--versions 8]
 
-Starts the learner and the played actors of `treadmill bench bus`, and routers between them. The policy has one megabyte. Prints the
+Starts the learner and the played actors of `treadmill-bench bus`, and routers between them. The policy has one megabyte. Prints the
 bytes on the learner's connections from the announcement until every actor has the version, and the time until the last one has it.
 """
 
 import argparse
 import json
+import pathlib
 import re
 import socket
 import statistics
@@ -55,7 +56,8 @@ def main():
     parser.add_argument("--actors", type=int, default=10, help="actors behind each router")
     parser.add_argument("--versions", type=int, default=8)
     options = parser.parse_args()
-    learner = Process(options.binary, "bench", "bus-host", "--listen", "tcp/127.0.0.1:0")
+    bench = pathlib.Path(options.binary).with_name("treadmill-bench")
+    learner = Process(bench, "bus-host", "--listen", "tcp/127.0.0.1:0")
     endpoint = json.loads(learner.receive())["endpoint"]
     processes, loads = [learner], []
     try:
@@ -65,7 +67,7 @@ def main():
             processes[-1].receive()
             flags = ["--first", number * options.actors, "--actors", options.actors, "--in-flight", 1]
             flags += ["--fragment-bytes", 20_000, "--pause-ms", 100, "--precision", "f32"]
-            loads.append(Process(options.binary, "bench", "bus-load", "--connect", at, *map(str, flags)))
+            loads.append(Process(bench, "bus-load", "--connect", at, *map(str, flags)))
             processes.append(loads[-1])
         for load in loads:
             load.receive()

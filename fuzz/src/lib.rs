@@ -18,10 +18,11 @@ use flate2::read::GzDecoder;
 use tar::Archive;
 use treadmill_bus::admission::Admission;
 use treadmill_config::{Config, ConfigSource};
+use treadmill_experience::{ledger::Ledger, lineage::Lineage};
 use treadmill_humanoid::{HUMANOID_XML, Model, Physics, PhysicsSettings, card::RobotCard};
 use treadmill_learner::{
     checkpoint::{decode as decode_checkpoint, encoding},
-    intake::{ExpectedFragment, FragmentCounts, FragmentValidator, Ledger, Lineage},
+    intake::{ExpectedFragment, FragmentCounts, FragmentValidator},
     leadership::Manifest,
 };
 use treadmill_policy::{exported::ExportedPolicy, from_safetensors, to_safetensors};

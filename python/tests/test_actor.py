@@ -293,7 +293,7 @@ class RolloutTest(unittest.TestCase):
         self.assertTrue(worker._simulate(collector, settings, policies, threading.Semaphore(1), outbox, None, None))
         self.assertEqual([len(env.seen) for env in environments.envs], [3, 3])
         self.assertTrue(outbox.empty())
-        worker.uploader.note_produced.assert_not_called()
+        worker.uploader.produce.assert_not_called()
 
     def test_new_run_begins_with_new_episodes(self):
         environments = Environments(Count, "test/Count-v0", 2, 1)

@@ -119,7 +119,7 @@ def main(arguments=None):
             return 0
         worker = Worker(bus, args.run, name, environments, seed, stopping)
         worker.work(args.steps)
-        counts = worker.uploader.ledger.outcomes if worker.uploader else {}
+        counts = worker.uploader.delivery.outcomes if worker.uploader else {}
         log.info("%s ended after %d env steps; receipts: %s", name, worker.env_steps, counts)
         return 0
     except (JoinRefused, TaskError, BusError, ImportError, gymnasium.error.Error) as why:

@@ -134,7 +134,7 @@ class Worker:
             if collected is None:
                 break
             fragment, episodes = collected
-            self.uploader.note_produced(collector.sequence)
+            self.uploader.produce(collector.sequence, fragment)
             outbox.put((collector.sequence, fragment))
             self.env_steps += collector.env_steps - before
             self.episodes += len(episodes)
@@ -164,7 +164,7 @@ class Worker:
     def _report(self, publisher, policies, incarnation, every_s, ended):
         steps_before, since = self.env_steps, time.monotonic()
         while not ended.wait(every_s):
-            now, ledger = time.monotonic(), self.uploader.ledger
+            now, delivery = time.monotonic(), self.uploader.delivery
             rate, since = (self.env_steps - steps_before) / max(now - since, 1e-9), now
             steps_before = self.env_steps
             stats = schema.ActorStats(
@@ -178,12 +178,12 @@ class Worker:
                 env_steps=self.env_steps,
                 episodes=self.episodes,
                 faults=self.faults,
-                produced=ledger.produced,
-                accepted=ledger.accepted,
-                dropped_by_rule=ledger.dropped_by_rule,
-                in_flight=len(ledger.in_flight),
-                resent=ledger.resent,
-                awaiting_durability=len(ledger.kept),
+                produced=delivery.produced,
+                accepted=delivery.accepted,
+                dropped_by_rule=delivery.dropped_by_rule,
+                in_flight=len(delivery.pending),
+                resent=delivery.resent,
+                awaiting_durability=len(delivery.kept),
                 resident_bytes=resident_bytes(),
                 program_version=f"python {__version__}",
             )

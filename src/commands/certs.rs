@@ -47,19 +47,6 @@ pub struct CertsArgs {
     bundles: Option<PathBuf>,
 }
 
-impl CertsArgs {
-    /// Returns flags for certificates that serve processes of this machine for one day.
-    pub fn for_this_machine(folder: &Path) -> Self {
-        Self {
-            folder: folder.to_path_buf(),
-            host: vec!["localhost".to_string(), "127.0.0.1".to_string()],
-            days: 1,
-            renew: false,
-            bundles: None,
-        }
-    }
-}
-
 /// Creates the missing files, and prints what the folder contains.
 pub fn run(args: &CertsArgs) -> anyhow::Result<()> {
     let folder = &args.folder;

@@ -7,20 +7,21 @@
 //! - During a run: `host` (a learner with actors beside it), `durability` (a learner whose state is in a store), `standby`
 //!   (waits until it is time to lead), `supervisor` (restarts actor processes), `bus_client` (flags and
 //!   session of an actor or evaluator), `router_session` (session of a learner or router), `metrics_page` (metrics over HTTP).
-//! - The process: `async_runtime`, `familiar_flags` (hints for flags of other programs), `processor` (refuses one that is too
-//!   old), `memory` (allocator settings), `restart` (starts the program anew), [`exit_code`], [`signals`], [`log`], [`output`], [`slow_step`], [`terminal_screen`].
+//! - The process: `async_runtime`, [`child`] (processes that end with this one), `familiar_flags` (hints for flags of other programs), `processor` (refuses one that is too
+//!   old), [`memory`] (allocator settings), `restart` (starts the program anew), [`exit_code`], [`signals`], [`log`], [`output`], [`slow_step`], [`terminal_screen`].
 
 pub(crate) mod async_runtime;
 pub(crate) mod banner;
 pub(crate) mod begin;
 pub(crate) mod bus_client;
+pub mod child;
 pub(crate) mod durability;
 pub mod exit_code;
 pub(crate) mod external_task;
 pub(crate) mod familiar_flags;
 pub(crate) mod host;
 pub mod log;
-pub(crate) mod memory;
+pub mod memory;
 pub(crate) mod metrics_page;
 pub(crate) mod model;
 pub mod output;

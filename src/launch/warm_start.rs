@@ -1,10 +1,11 @@
 //! First state of a run that begins with another one's policy, or branches off from another run.
 
 use treadmill_config::Config;
+use treadmill_experience::ledger::Ledger;
 use treadmill_humanoid::PHYSICS_VERSION;
 use treadmill_learner::{
     checkpoint::{TrainingState, Which},
-    intake::{FragmentCounts, Ledger},
+    intake::FragmentCounts,
 };
 use treadmill_policy::{NetworkShape, exported::ExportedPolicy, normaliser::RunningMoments};
 use treadmill_runtime::{numbers::thousands, seeds};

@@ -29,11 +29,12 @@ const DEPENDENTS: [(&str, &[&str]); 18] = [
     ("zenoh", &[". (dev)", "common/bus"]),
 ];
 /// Packages of the workspace on which no other depends, and those on which few do.
-const OWN_DEPENDENTS: [(&str, &[&str]); 5] = [
+const OWN_DEPENDENTS: [(&str, &[&str]); 6] = [
+    ("treadmill-bench", &[]),
     ("treadmill-store", &[".", "learner"]),
     ("treadmill-fuzz", &[]),
     ("treadmill-gym", &[]),
-    ("treadmill-rl", &["watch"]),
+    ("treadmill-rl", &["bench", "watch"]),
     ("treadmill-watch", &[]),
 ];
 /// This file names what it searches for.
@@ -111,9 +112,9 @@ fn all_dependencies(packages: &BTreeMap<String, Package>, package: &str) -> BTre
 /// Every Rust source but this one, with its path from the root.
 fn sources() -> Vec<(String, String)> {
     let mut found = Vec::new();
-    for folder in
-        ["src", "proto", "common", "actor", "learner", "render", "watch", "python", "fuzz", "tests", "examples"]
-    {
+    for folder in [
+        "src", "proto", "common", "actor", "learner", "render", "bench", "watch", "python", "fuzz", "tests", "examples",
+    ] {
         collect(&root().join(folder), &mut found);
     }
     let named = found.into_iter().map(|path| {
@@ -217,9 +218,9 @@ fn the_gymnasium_environment_depends_only_on_humanoid_and_render() {
 }
 
 #[test]
-fn viewer_fuzz_targets_and_python_package_are_not_default_members() {
+fn viewer_bench_fuzz_targets_and_python_package_are_not_default_members() {
     let mut expected = members("members");
-    expected.retain(|member| !["watch", "fuzz", "python/treadmill_gym"].contains(&&**member));
+    expected.retain(|member| !["bench", "watch", "fuzz", "python/treadmill_gym"].contains(&&**member));
     let mut found = members("default-members");
     found.retain(|member| member != ".");
     assert_eq!(found, expected);
@@ -242,7 +243,9 @@ fn the_image_has_every_member_of_the_workspace() {
 fn the_mathematics_does_no_io_and_reads_no_clock() {
     let impure = ["std::fs", "std::io", "std::net", "Instant", "SystemTime", "tokio::", "rand::rng"];
     let sources = sources();
-    for prefix in ["learner/ppo/src/", "actor/humanoid/src/task/", "common/policy/src/gaussian.rs"] {
+    for prefix in
+        ["learner/ppo/src/", "actor/humanoid/src/task/", "common/policy/src/gaussian.rs", "common/experience/src/"]
+    {
         let mut pure = sources.iter().filter(|(name, _)| name.starts_with(prefix)).peekable();
         assert!(pure.peek().is_some(), "{prefix} does not exist");
         for (name, text) in pure {

@@ -3,10 +3,7 @@
 use std::{sync::Arc, time::Duration};
 
 use bytes::Bytes;
-use treadmill_actor::{
-    delivery::{PendingFragment, Uploader},
-    policy_fetcher::PolicyFetcher,
-};
+use treadmill_actor::{delivery::Uploader, policy_fetcher::PolicyFetcher};
 use treadmill_bus::{
     Bus, RolloutCopies, RolloutIntake, admission::Admission, command, newest_of_each_run, statuses, submit,
 };
@@ -134,8 +131,7 @@ async fn a_fragment_is_sent_again_as_soon_as_another_learner_leads() {
     let policies = Arc::new(PolicyFetcher::new(actor.clone(), Some("run".into()), &bundle(), Arc::default()).unwrap());
     let an_hour = Duration::from_secs(3600);
     let uploader = Uploader::new(actor.clone(), "run", "one", an_hour, policies.clone(), 1);
-    uploader.register(1);
-    let fragment = PendingFragment { sequence: 1, bytes: Bytes::from_static(b"fragment") };
+    let fragment = uploader.produced(1, Bytes::from_static(b"fragment"));
     let delivered = tokio::spawn(async move { uploader.deliver(fragment).await.map(|_| uploader.counts()) });
     let mut unanswered = intake.next(TIMEOUT).expect("the fragment");
     unanswered.take();

@@ -2,7 +2,9 @@
 
 use treadmill_runtime::numbers::thousands;
 
-use crate::{delivery::DeliveryCounts, policy_fetcher::Explain};
+use treadmill_experience::delivery::DeliveryCounts;
+
+use crate::policy_fetcher::Explain;
 
 /// Options of an actor process.
 #[derive(Clone)]

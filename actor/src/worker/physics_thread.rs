@@ -11,21 +11,17 @@ use std::{
 };
 
 use tokio::sync::mpsc;
+use treadmill_experience::delivery::Attempt;
 use treadmill_proto::{EndCause, Episode, Fragment, Precision};
 
-use crate::{
-    ActorError,
-    delivery::{PendingFragment, Uploader},
-    policy_fetcher::PolicyFetcher,
-    rollout::Collector,
-};
+use crate::{ActorError, delivery::Uploader, policy_fetcher::PolicyFetcher, rollout::Collector};
 
 /// Capacity of the channel to the uploader: the most credit that `rollout.max_in_flight` allows.
 const CHANNEL_FRAGMENTS: usize = 2;
 
-/// Encoded fragment with the episodes that ended in it.
+/// First attempt to deliver a fragment, with the episodes that ended in it.
 pub(super) struct ProducedFragment {
-    pub(super) pending: PendingFragment,
+    pub(super) first: Attempt,
     pub(super) episodes: Vec<Episode>,
 }
 
@@ -98,8 +94,7 @@ fn collect_fragments(
         let begun = Instant::now();
         let produced = collector.collect(&policy, steps, settled_through).and_then(|mut fragment| {
             fragment.collect_s = begun.elapsed().as_secs_f64();
-            shared.uploader.register(fragment.sequence);
-            encode(fragment, collector.precision(), &shared.progress)
+            encode(fragment, collector.precision(), shared)
         });
         let failed = produced.is_err();
         if sender.blocking_send(produced).is_err() || failed {
@@ -108,14 +103,13 @@ fn collect_fragments(
     }
 }
 
-fn encode(fragment: Fragment, precision: Precision, progress: &Progress) -> Result<ProducedFragment, ActorError> {
-    let bytes = fragment.encode_as(precision).map_err(ActorError::Encoding)?.into();
+fn encode(fragment: Fragment, precision: Precision, shared: &Shared) -> Result<ProducedFragment, ActorError> {
+    let bytes = fragment.encode_as(precision).map_err(ActorError::Encoding)?;
+    let Shared { progress, uploader, .. } = shared;
     progress.env_steps.fetch_add(fragment.transitions() as u64, Ordering::Relaxed);
     progress.episodes.fetch_add(fragment.episodes.len() as u64, Ordering::Relaxed);
     let faults = fragment.episodes.iter().filter(|episode| episode.cause == EndCause::NonFinite).count();
     progress.faults.fetch_add(faults as u64, Ordering::Relaxed);
-    Ok(ProducedFragment {
-        pending: PendingFragment { sequence: fragment.sequence, bytes },
-        episodes: fragment.episodes,
-    })
+    let first = uploader.produced(fragment.sequence, bytes.into());
+    Ok(ProducedFragment { first, episodes: fragment.episodes })
 }

@@ -3,16 +3,14 @@
 //! It shares the types that have not changed since. The golden file in `learner/tests/golden/` shows when one of them does.
 
 use serde::Deserialize;
+use treadmill_experience::{ledger::Ledger, lineage::Lineage};
 use treadmill_ppo::PpoState;
 
 use super::{
     Counters, TrainingState,
     format_5::{ActorState, Shape5},
 };
-use crate::{
-    intake::{FragmentCounts, Ledger, Lineage},
-    metrics::episodes::EpisodeWindow,
-};
+use crate::{intake::FragmentCounts, metrics::episodes::EpisodeWindow};
 
 /// [`TrainingState`] in format 3.
 #[derive(Deserialize)]

@@ -3,14 +3,12 @@
 //! It shares the types that have not changed since. The golden file in `learner/tests/golden/` shows when one of them does.
 
 use serde::Deserialize;
+use treadmill_experience::{ledger::Ledger, lineage::Lineage};
 use treadmill_policy::NetworkShape;
 use treadmill_ppo::PpoState;
 
 use super::{Counters, TrainingState};
-use crate::{
-    intake::{FragmentCounts, Ledger, Lineage},
-    metrics::episodes::EpisodeWindow,
-};
+use crate::{intake::FragmentCounts, metrics::episodes::EpisodeWindow};
 
 /// [`TrainingState`] in formats 4 and 5.
 #[derive(Deserialize)]

@@ -2,15 +2,13 @@
 
 use serde::{Deserialize, Serialize};
 use treadmill_config::{Config, ConfigSource, EvaluationConfig, LearnerConfig, PpoConfig, RunConfig};
+use treadmill_experience::{ledger::Ledger, lineage::Lineage};
 use treadmill_policy::{NetworkShape, init, normaliser::Normaliser};
 use treadmill_ppo::PpoState;
 use treadmill_proto::{ActorState, PolicyBundle, Task, WIRE_VERSION, limits::BUNDLE_BYTES_MAX};
 use treadmill_runtime::{error_chain, seeds};
 
-use crate::{
-    intake::{FragmentCounts, Ledger, Lineage},
-    metrics::episodes::EpisodeWindow,
-};
+use crate::{intake::FragmentCounts, metrics::episodes::EpisodeWindow};
 
 /// Whole state of a run. Adding or removing a field requires a new [`super::encoding::FORMAT`].
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

@@ -3,9 +3,8 @@
 use std::{fmt::Write, io, path::Path};
 
 use serde_json::json;
+use treadmill_experience::ledger::{ActorProcess, Ledger};
 use treadmill_runtime::atomic_file;
-
-use super::{ActorProcess, Ledger};
 
 /// Replaces the file with one line for each process.
 pub fn write(path: &Path, ledger: &Ledger) -> io::Result<()> {

@@ -19,17 +19,13 @@
 //! - `source`: [`FragmentSource`], where fragments come from.
 //! - `validator`: [`FragmentValidator`], which accepts or rejects a fragment.
 //! - `fleet`: [`FleetPlan`], the actors' environments, speeds, horizons and effort; `horizon`: the rule for horizons.
-//! - `ledger`: [`Ledger`], the handled fragments of every actor process.
-//! - [`ledger_report`]: the ledger as a file.
-//! - `lineage`: [`Lineage`], the policy versions that the newest descends from.
+//! - [`ledger_report`]: the ledger of handled fragments as a file.
 //! - `rejections`: [`Rejections`], the senders of rejected fragments.
 //! - `straggler`: limits the wait for stragglers.
 
 mod fleet;
 mod horizon;
-mod ledger;
 pub mod ledger_report;
-mod lineage;
 mod rejections;
 mod source;
 mod straggler;
@@ -41,6 +37,7 @@ use std::{
 };
 
 use treadmill_config::LearnerMode;
+use treadmill_experience::lineage::{Descent, Lineage};
 use treadmill_ppo::AcceptedFragment;
 use treadmill_proto::{Outcome, Receipt};
 use treadmill_runtime::shutdown::Shutdown;
@@ -48,8 +45,6 @@ use treadmill_runtime::shutdown::Shutdown;
 use fleet::Effort;
 pub use fleet::{FleetEffort, FleetPlan};
 pub use horizon::HorizonRule;
-pub use ledger::{Account, ActorProcess, DropRule, KnownFragment, Ledger, LedgerEntry};
-pub use lineage::{Descent, Lineage};
 pub use rejections::{Rejection, Rejections};
 pub use source::{BusFragmentSource, FragmentSource};
 use straggler::StragglerPolicy;

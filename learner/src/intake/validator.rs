@@ -7,14 +7,14 @@ use treadmill_bus::{
     ReceivedFragment,
     admission::{Admission, Sender, rate_limited_log::RateLimitedLog},
 };
+use treadmill_experience::{
+    ledger::{DropRule, KnownFragment, Ledger, LedgerEntry},
+    lineage::{Descent, Lineage},
+};
 use treadmill_ppo::{AcceptedFragment, Implausible};
 use treadmill_proto::{Fragment, Malformed, Outcome, Receipt};
 
-use super::{
-    ledger::{DropRule, KnownFragment, Ledger, LedgerEntry},
-    lineage::{Descent, Lineage},
-    rejections::Rejections,
-};
+use super::rejections::Rejections;
 
 /// Properties that every fragment of a run must have.
 #[derive(Clone, Debug)]

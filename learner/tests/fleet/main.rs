@@ -10,9 +10,9 @@ use proptest::prelude::*;
 use rand::RngExt;
 use treadmill_bus::admission::Admission;
 use treadmill_config::{Config, LearnerMode};
+use treadmill_experience::{ledger::Ledger, lineage::Lineage};
 use treadmill_learner::intake::{
-    BatchSize, Collected, ExpectedFragment, FleetPlan, FragmentCounts, FragmentValidator, HorizonRule, Intake, Ledger,
-    Lineage,
+    BatchSize, Collected, ExpectedFragment, FleetPlan, FragmentCounts, FragmentValidator, HorizonRule, Intake,
 };
 use treadmill_runtime::seeds;
 use world::{FleetSettings, FleetWorld, MemoryFragmentSource, Shared};
@@ -155,7 +155,7 @@ impl Learner {
         for actor in &world.actors {
             for sequence in 1..=actor.newest {
                 let id = (actor.name.clone(), actor.incarnation, sequence);
-                let outstanding = actor.pending.contains_key(&sequence) || actor.kept.contains_key(&sequence);
+                let outstanding = actor.delivery.pending().chain(actor.delivery.kept()).any(|open| open == sequence);
                 let (learnt, dropped) = (self.saved.learnt.contains(&id), actor.dropped.contains(&sequence));
                 prop_assert!(learnt || dropped || outstanding, "{id:?} is lost");
                 prop_assert!(!dropped || world.dropped.contains(&id), "{id:?} was never dropped");
@@ -208,6 +208,7 @@ fn cases() -> impl Strategy<Value = Case> {
                 in_flight,
                 loss_percent,
                 delay_ms,
+                forgets_accepted: false,
             },
             mode: if is_sync { LearnerMode::Sync } else { LearnerMode::Async },
             max_policy_lag,
@@ -217,6 +218,19 @@ fn cases() -> impl Strategy<Value = Case> {
             actor_deaths_percent: deaths.1,
         }
     })
+}
+
+#[test]
+fn the_simulation_finds_an_actor_that_forgets_what_may_not_be_durable() {
+    // A learner that dies in every other round loses what it had accepted since its last checkpoint.
+    let mut case = throughput::pinned(LearnerMode::Async, &[100.0; 3], 3);
+    case.fleet.forgets_accepted = true;
+    let mut learner = Learner::new(&case);
+    let is_found = (0..30).any(|round| {
+        learner.round(round % 2 == 1).expect("the fleet goes on");
+        learner.check_fragments().is_err()
+    });
+    assert!(is_found, "a planted fault was not found");
 }
 
 proptest! {

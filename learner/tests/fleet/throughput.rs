@@ -20,6 +20,21 @@ struct Measured {
     simulated: f64,
 }
 
+/// Network without losses, with actors that need `step_ms` for a control step of `envs` environments.
+pub fn fleet(step_ms: &[f64], envs: u32) -> FleetSettings {
+    FleetSettings {
+        seed: 1,
+        step_ms: step_ms.to_vec(),
+        envs,
+        steps: 1,
+        pinned_steps: 0,
+        in_flight: 1,
+        loss_percent: 0,
+        delay_ms: 4,
+        forgets_accepted: false,
+    }
+}
+
 /// Fleet of actors that need `step_ms` for a control step, with horizons fitted by the learner.
 fn case(mode: LearnerMode, step_ms: &[f64], update_each: Duration) -> Case {
     let size = match mode {
@@ -28,15 +43,13 @@ fn case(mode: LearnerMode, step_ms: &[f64], update_each: Duration) -> Case {
     };
     let in_flight = if mode == LearnerMode::Sync { 1 } else { 2 };
     let steps = (BATCH.transitions as u32 / (step_ms.len() as u32 * ENVS)).clamp(8, 128);
-    let step_ms = step_ms.to_vec();
-    let fleet =
-        FleetSettings { seed: 1, step_ms, envs: ENVS, steps, pinned_steps: 0, in_flight, loss_percent: 0, delay_ms: 4 };
+    let fleet = FleetSettings { steps, in_flight, ..fleet(step_ms, ENVS) };
     let (max_policy_lag, update) = (8, (Duration::from_millis(10), update_each));
     Case { fleet, mode, max_policy_lag, size, update, learner_deaths_percent: 0, actor_deaths_percent: 0 }
 }
 
 /// Fleet of actors that need `fragment_ms` for a fragment of one transition; a batch has `size` of them.
-fn pinned(mode: LearnerMode, fragment_ms: &[f64], size: usize) -> Case {
+pub fn pinned(mode: LearnerMode, fragment_ms: &[f64], size: usize) -> Case {
     let automatic = case(mode, fragment_ms, Duration::ZERO);
     let fleet = FleetSettings { envs: 1, steps: 1, pinned_steps: 1, in_flight: 1, ..automatic.fleet };
     let transitions_max = if mode == LearnerMode::Sync { usize::MAX } else { size };

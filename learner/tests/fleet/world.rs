@@ -15,6 +15,7 @@ use std::{
 
 use bytes::Bytes;
 use rand::RngExt;
+use treadmill_experience::delivery::{self, Action, Attempt, Delivery};
 use treadmill_proto::{Fragment, Outcome, PolicyVersion, Receipt};
 use treadmill_runtime::{
     seeds::{self, Stream},
@@ -24,7 +25,6 @@ use treadmill_runtime::{
 pub use source::{MemoryFragment, MemoryFragmentSource};
 
 const RECEIPT_TIMEOUT: Duration = Duration::from_secs(60);
-const RETRY: Duration = Duration::from_millis(200);
 
 /// Properties of the fleet.
 #[derive(Clone, Debug)]
@@ -44,14 +44,17 @@ pub struct FleetSettings {
     pub loss_percent: u32,
     /// Longest delay of a message in milliseconds.
     pub delay_ms: u64,
+    /// Plants a fault in the delivery of each actor: it forgets fragments once they are accepted.
+    pub forgets_accepted: bool,
 }
 
-/// Event of the fleet. `Again` sends a fragment again, because no receipt came or the learner was busy.
+/// Event of the fleet. An attempt to deliver a fragment is on its way once its pause is over, and fails if no receipt comes.
 enum Event {
     Simulated { actor: usize, incarnation: u64, steps: u32 },
     Request { actor: usize, incarnation: u64, sequence: u64, payload: Bytes },
     Answer { actor: usize, incarnation: u64, sequence: u64, receipt: Receipt },
-    Again { actor: usize, incarnation: u64, sequence: u64, attempt: u64 },
+    Attempt { actor: usize, incarnation: u64, attempt: Attempt },
+    Timeout { actor: usize, incarnation: u64, sequence: u64, number: u64 },
     Announcement { actor: usize, version: PolicyVersion },
 }
 
@@ -60,13 +63,11 @@ pub struct Actor {
     pub name: String,
     pub incarnation: u64,
     pub newest: u64,
-    /// Pending fragments, with the number of the last attempt.
-    pub pending: BTreeMap<u64, (Bytes, u64)>,
-    /// Accepted, but perhaps not durable.
-    pub kept: BTreeMap<u64, Bytes>,
+    pub delivery: Delivery,
+    /// Number of the last attempt for each pending fragment.
+    attempts: BTreeMap<u64, u64>,
     pub dropped: BTreeSet<u64>,
     version: PolicyVersion,
-    learner: u64,
     credit: u32,
     is_simulating: bool,
     /// Control steps of the next fragment.
@@ -83,11 +84,13 @@ impl Actor {
             name,
             incarnation,
             newest: 0,
-            pending: BTreeMap::new(),
-            kept: BTreeMap::new(),
+            delivery: match settings.forgets_accepted {
+                false => Delivery::new(version.incarnation),
+                true => Delivery::new(version.incarnation).with_fault(),
+            },
+            attempts: BTreeMap::new(),
             dropped: BTreeSet::new(),
             version,
-            learner: version.incarnation,
             credit: settings.in_flight,
             is_simulating: false,
             steps: settings.steps,
@@ -209,18 +212,20 @@ impl FleetWorld {
         let mut world = shared.borrow_mut();
         match event {
             Event::Simulated { actor, incarnation, steps } if world.actors[actor].incarnation == incarnation => {
-                world.deliver(actor, steps);
+                world.produce(actor, steps);
             }
             Event::Request { actor, incarnation, sequence, payload } if world.is_learner_up => {
                 let name = world.actors[actor].name.clone();
                 let fragment = MemoryFragment { world: shared.clone(), actor, name, incarnation, sequence, payload };
                 world.queue.push_back(fragment);
             }
-            Event::Again { actor, incarnation, sequence, attempt } => {
+            Event::Attempt { actor, incarnation, attempt } if world.actors[actor].incarnation == incarnation => {
+                world.submit(actor, attempt);
+            }
+            Event::Timeout { actor, incarnation, sequence, number } => {
                 let process = &world.actors[actor];
-                let is_open = process.pending.get(&sequence).is_some_and(|(_, last)| *last == attempt);
-                if process.incarnation == incarnation && is_open {
-                    world.submit(actor, sequence);
+                if process.incarnation == incarnation && process.attempts.get(&sequence) == Some(&number) {
+                    world.deliver(actor, delivery::Event::Silent { sequence });
                 }
             }
             Event::Answer { actor, incarnation, sequence, receipt }
@@ -250,48 +255,59 @@ impl FleetWorld {
         Duration::from_secs_f64(self.settings.step_ms[actor] * f64::from(steps) / 1e3)
     }
 
-    fn deliver(&mut self, actor: usize, steps: u32) {
+    fn produce(&mut self, actor: usize, steps: u32) {
         let (envs, collect_s) = (self.settings.envs, self.simulation(actor, steps).as_secs_f64());
         let process = &mut self.actors[actor];
         process.is_simulating = false;
         process.newest += 1;
-        let open = [process.pending.keys().next(), process.kept.keys().next()].into_iter().flatten().min();
-        let settled_through = open.map_or(process.newest - 1, |first| first - 1);
         process.env_steps += u64::from(steps * envs);
+        let settled_through = process.delivery.settled_through();
         let fragment = Fragment { collect_s, ..fragment(process, steps, envs, settled_through) };
-        let sequence = process.newest;
-        let payload = fragment.encode().expect("a sound fragment").into();
-        process.pending.insert(sequence, (payload, 0));
-        self.submit(actor, sequence);
+        let bytes = fragment.encode().expect("a sound fragment").into();
+        let first = process.delivery.produce(process.newest, bytes);
+        self.submit(actor, first);
         self.simulate(actor);
     }
 
-    fn submit(&mut self, actor: usize, sequence: u64) {
-        let process = &mut self.actors[actor];
+    /// Hands an event to an actor's delivery, and does what it asks for.
+    fn deliver(&mut self, actor: usize, event: delivery::Event) {
+        let incarnation = self.actors[actor].incarnation;
+        for action in self.actors[actor].delivery.handle(event) {
+            match action {
+                Action::Send(attempt) => self.after(attempt.pause, Event::Attempt { actor, incarnation, attempt }),
+                Action::Settled { sequence } => drop(self.actors[actor].attempts.remove(&sequence)),
+                Action::Warn { .. } | Action::Lost { .. } | Action::Found => {}
+            }
+        }
+    }
+
+    fn submit(&mut self, actor: usize, Attempt { sequence, bytes, .. }: Attempt) {
+        self.counter += 1;
+        let (process, number) = (&mut self.actors[actor], self.counter);
         let incarnation = process.incarnation;
-        let Some((payload, attempt)) = process.pending.get_mut(&sequence) else { return };
-        *attempt += 1;
-        let (payload, attempt) = (payload.clone(), *attempt);
-        self.after(RECEIPT_TIMEOUT, Event::Again { actor, incarnation, sequence, attempt });
-        self.send(Event::Request { actor, incarnation, sequence, payload });
+        process.attempts.insert(sequence, number);
+        self.after(RECEIPT_TIMEOUT, Event::Timeout { actor, incarnation, sequence, number });
+        self.send(Event::Request { actor, incarnation, sequence, payload: bytes });
     }
 
     fn apply_receipt(&mut self, actor: usize, sequence: u64, receipt: &Receipt) {
         let process = &mut self.actors[actor];
-        let incarnation = process.incarnation;
-        let Some((payload, attempt)) = process.pending.get(&sequence).cloned() else { return };
+        let is_open = |process: &Actor| process.delivery.pending().any(|pending| pending == sequence);
+        if !is_open(process) {
+            return;
+        }
         match receipt.outcome {
-            Outcome::Busy | Outcome::Stopping => {
-                return self.after(RETRY, Event::Again { actor, incarnation, sequence, attempt });
-            }
-            Outcome::Accepted | Outcome::Duplicate => drop(process.kept.insert(sequence, payload)),
             Outcome::TooOld | Outcome::Vanished => drop(process.dropped.insert(sequence)),
             Outcome::Malformed | Outcome::Quarantined => panic!("refused: {}", receipt.reason),
+            _ => {}
         }
-        process.pending.remove(&sequence);
-        process.kept.retain(|kept, _| *kept > receipt.durable_through);
+        self.deliver(actor, delivery::Event::Answered { sequence, receipt: receipt.clone() });
+        let process = &mut self.actors[actor];
+        if is_open(process) {
+            return;
+        }
+        process.steps = receipt.fragment_steps;
         self.refresh(actor, receipt.version);
-        self.actors[actor].steps = receipt.fragment_steps;
         // Fragments that are sent again to a new learner have returned their credit before.
         let process = &mut self.actors[actor];
         process.credit = (process.credit + 1).min(self.settings.in_flight);
@@ -299,15 +315,8 @@ impl FleetWorld {
     }
 
     fn refresh(&mut self, actor: usize, version: PolicyVersion) {
-        let process = &mut self.actors[actor];
-        process.version = version;
-        if process.learner != version.incarnation {
-            process.learner = version.incarnation;
-            let again: Vec<u64> = process.kept.keys().copied().collect();
-            let kept = std::mem::take(&mut process.kept);
-            process.pending.extend(kept.into_iter().map(|(sequence, payload)| (sequence, (payload, 0))));
-            again.into_iter().for_each(|sequence| self.submit(actor, sequence));
-        }
+        self.actors[actor].version = version;
+        self.deliver(actor, delivery::Event::Adopted { incarnation: version.incarnation });
     }
 }
 

@@ -1,67 +1,67 @@
-//! Actor of the simulation: sends fragments until a receipt settles them, and keeps them until they are durable.
+//! Actor of the simulation: the shipped delivery, and what a learner called durable.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 
-use treadmill_runtime::epoch::SeenEpoch;
+use bytes::Bytes;
+use treadmill_experience::delivery::{Delivery, Event};
+use treadmill_proto::{Outcome, PolicyVersion, Receipt};
 
-/// Name of the run.
-pub const RUN: &str = "walk";
 /// Fragments that may be pending at once.
 const CREDIT: usize = 2;
 
-/// Receipt of a learner.
-#[derive(Clone, Copy, Debug)]
-pub struct Receipt {
-    pub epoch: u64,
-    pub durable_through: u64,
-}
-
 /// One actor process.
-#[derive(Default)]
 pub struct Actor {
-    seen: SeenEpoch,
-    /// Epoch of the policy in use.
+    pub delivery: Delivery,
+    /// Epoch of the policy in use, which stands for the learner's incarnation too.
     pub acting: u64,
     newest: u64,
-    pub pending: BTreeSet<u64>,
-    /// Accepted fragments that may not be durable, with the epoch of the learner that accepted each.
-    pub kept: BTreeMap<u64, u64>,
     /// Fragments that a learner called durable.
     pub durable: BTreeSet<u64>,
 }
 
+impl Default for Actor {
+    fn default() -> Self {
+        Self { delivery: Delivery::new(0), acting: 0, newest: 0, durable: BTreeSet::new() }
+    }
+}
+
 impl Actor {
-    /// Takes an announcement or a receipt's version. A learner of a higher epoch gets again what may not be durable.
+    /// Takes an announcement or a receipt's version. Returns false if a higher epoch was heard of before.
     pub fn hear(&mut self, epoch: u64) -> bool {
-        if !self.seen.admits(RUN, epoch) {
+        if !self.delivery.admits(epoch) {
             return false;
         }
         assert!(epoch >= self.acting, "the actor acts on epoch {epoch} after {}", self.acting);
-        if epoch > self.acting {
-            self.acting = epoch;
-            self.pending.extend(std::mem::take(&mut self.kept).into_keys());
-        }
+        self.acting = epoch;
+        // The learner takes all that is pending, so what is to be sent needs no message here.
+        self.delivery.handle(Event::Adopted { incarnation: epoch });
         true
     }
 
     /// Simulates one fragment, if there is credit.
     pub fn simulate(&mut self) {
-        if self.pending.len() < CREDIT {
+        if self.delivery.pending().count() < CREDIT {
             self.newest += 1;
-            self.pending.insert(self.newest);
+            self.delivery.produce(self.newest, Bytes::new());
         }
     }
 
-    /// Takes the receipt of a fragment.
-    pub fn take(&mut self, sequence: u64, receipt: Receipt) {
-        if !self.hear(receipt.epoch) || !self.pending.remove(&sequence) {
+    /// Takes the receipt of a fragment that a learner of this epoch accepted.
+    pub fn take(&mut self, sequence: u64, epoch: u64, durable_through: u64) {
+        if !self.hear(epoch) || !self.delivery.pending().any(|pending| pending == sequence) {
             return;
         }
-        self.kept.insert(sequence, receipt.epoch);
-        let durable: Vec<u64> = self.kept.keys().copied().filter(|kept| *kept <= receipt.durable_through).collect();
-        for sequence in durable {
-            self.kept.remove(&sequence);
-            self.durable.insert(sequence);
-        }
+        let before: BTreeSet<u64> = self.delivery.kept().chain([sequence]).collect();
+        let version = PolicyVersion { epoch, ..PolicyVersion::new(epoch, 0) };
+        let receipt =
+            Receipt { outcome: Outcome::Accepted, reason: String::new(), version, durable_through, fragment_steps: 0 };
+        self.delivery.handle(Event::Answered { sequence, receipt });
+        let kept: BTreeSet<u64> = self.delivery.kept().collect();
+        self.durable.extend(before.difference(&kept));
+    }
+
+    /// Returns whether the actor still has a fragment.
+    pub fn has(&self, sequence: u64) -> bool {
+        self.delivery.pending().chain(self.delivery.kept()).any(|open| open == sequence)
     }
 }

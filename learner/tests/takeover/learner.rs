@@ -12,7 +12,8 @@ use treadmill_learner::{
 };
 use treadmill_store::Store;
 
-use super::actor::RUN;
+/// Name of the run.
+const RUN: &str = "walk";
 
 /// State of a run: what it has learnt from.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]

@@ -18,7 +18,7 @@ use treadmill_store::{
 };
 
 use super::{
-    actor::{Actor, Receipt},
+    actor::Actor,
     learner::{Lead, Learner, RunState},
 };
 
@@ -125,9 +125,7 @@ impl World {
             assert!(lost.is_empty(), "seed {seed}: {lost:?} of actor {index} were called durable");
             // Nothing is lost silently either: each fragment is learnt from, or the actor still has it.
             let newest = learnt.last().copied().unwrap_or(0);
-            let is_known = |one: u64| {
-                learnt.binary_search(&one).is_ok() || actor.pending.contains(&one) || actor.kept.contains_key(&one)
-            };
+            let is_known = |one: u64| learnt.binary_search(&one).is_ok() || actor.has(one);
             assert!((1..=newest).all(is_known), "seed {seed}: a fragment of actor {index} has vanished");
         }
     }
@@ -303,14 +301,14 @@ impl World {
             if !self.actor_links[index][actor] {
                 continue;
             }
-            let pending: Vec<u64> = self.actors[actor].pending.iter().copied().collect();
+            let pending: Vec<u64> = self.actors[actor].delivery.pending().collect();
             for sequence in pending {
                 if !state.learnt[actor].contains(&sequence) {
                     batch.push((actor, sequence));
                 }
                 // Every fifth answer is lost.
                 if self.random.random_range(0..5) > 0 {
-                    self.actors[actor].take(sequence, Receipt { epoch, durable_through: durable.through(actor) });
+                    self.actors[actor].take(sequence, epoch, durable.through(actor));
                 }
             }
         }

@@ -9,7 +9,7 @@ use treadmill_config::Config;
 use treadmill_runtime::{machine, seeds};
 
 use super::{print_result, rounded};
-use crate::{launch::prepared, load_generator::helper};
+use crate::launch::{child, prepared};
 
 /// Flags of `bench train`.
 #[derive(Args)]
@@ -73,8 +73,9 @@ pub fn run(args: &BenchTrainArgs) -> anyhow::Result<()> {
 fn train(steps: u64, actors: u32, store: Option<&str>) -> anyhow::Result<Measured> {
     let folder = tempfile::tempdir().context("cannot create a temporary folder")?;
     let run = folder.path().join("bench");
-    let output = helper::command(&["train".to_string()], 0)?
-        .args(["--no-progress", "--json"])
+    let program = std::env::current_exe().context("this program's own path is unknown")?;
+    let output = child::command(&program, 0)
+        .args(["train", "--no-progress", "--json"])
         .args(["--steps", &steps.to_string(), "--actors", &actors.to_string()])
         .args(store.into_iter().flat_map(|url| ["--store", url]))
         .arg("--run-dir")

@@ -1,26 +1,24 @@
-//! `bench bus`: the bus under the load of several numbers of actors; `load_generator` has the processes.
+//! The bus under the load of several numbers of actors.
 
 use std::{path::Path, time::Duration};
 
 use anyhow::Context;
 use clap::Args;
 use serde_json::{Value, json};
+use treadmill_rl::launch::{exit_code::Usage, output::say};
 use treadmill_runtime::machine;
 
-use super::print_result;
 use crate::{
-    commands::certs,
-    launch::{exit_code::Usage, output::say},
-    load_generator::{
-        load_step::{self, LoadStep, Measured},
-        raw::{self, Raw},
-    },
+    helper,
+    load_step::{self, LoadStep, Measured},
+    print_result,
+    raw::{self, Raw},
 };
 
 /// Duration of each measurement of raw TCP.
 const RAW_DURATION: Duration = Duration::from_secs(1);
 
-/// Flags of `bench bus`.
+/// Flags of `bus`.
 #[derive(Args)]
 pub struct BusArgs {
     /// Numbers of actors, measured one after the other.
@@ -99,8 +97,7 @@ pub fn run(args: &BusArgs) -> anyhow::Result<()> {
 fn network(args: &BusArgs, folder: &Path) -> anyhow::Result<Vec<String>> {
     let mut flags = Vec::new();
     if args.tls {
-        certs::make(&certs::CertsArgs::for_this_machine(folder))?;
-        flags.extend(["--tls".to_string(), folder.display().to_string()]);
+        flags.extend(helper::certify(folder)?);
     }
     if args.shared_memory {
         flags.push("--shared-memory".to_string());

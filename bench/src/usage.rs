@@ -1,7 +1,7 @@
 //! Processor time and memory of this process.
 
 /// Returns the processor time of all threads in seconds, user and system mode.
-pub(super) fn cpu_s() -> f64 {
+pub fn cpu_s() -> f64 {
     // SAFETY: an all-zero rusage is a valid value, and the call writes nothing else.
     let used = unsafe {
         let mut used: libc::rusage = std::mem::zeroed();
@@ -13,12 +13,12 @@ pub(super) fn cpu_s() -> f64 {
 }
 
 /// Returns the peak of resident memory in MB; zero if unknown.
-pub(super) fn resident_max_mb() -> f64 {
+pub fn resident_max_mb() -> f64 {
     status_mb("VmHWM:")
 }
 
 /// Returns the resident shared memory in MB.
-pub(super) fn shared_mb() -> f64 {
+pub fn shared_mb() -> f64 {
     status_mb("RssShmem:")
 }
 
@@ -30,13 +30,7 @@ fn status_mb(entry: &str) -> f64 {
 }
 
 /// Raises the limit of open files to the maximum, for hundreds of connections.
-pub(super) fn allow_many_connections() {
-    // SAFETY: both calls only access the struct that they are given.
-    unsafe {
-        let mut limit = libc::rlimit { rlim_cur: 0, rlim_max: 0 };
-        if libc::getrlimit(libc::RLIMIT_NOFILE, &mut limit) == 0 {
-            limit.rlim_cur = limit.rlim_max;
-            libc::setrlimit(libc::RLIMIT_NOFILE, &limit);
-        }
-    }
+pub fn allow_many_connections() {
+    // A lower limit shows as an error of the connection.
+    let _ = rlimit::increase_nofile_limit(u64::MAX);
 }

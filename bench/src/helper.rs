@@ -2,7 +2,7 @@
 
 use std::{
     io::{BufRead, BufReader, Write},
-    os::unix::process::CommandExt,
+    path::{Path, PathBuf},
     process::{Child, ChildStdin, Command, Stdio},
     sync::mpsc::{Receiver, channel},
     time::Duration,
@@ -10,12 +10,13 @@ use std::{
 
 use anyhow::Context;
 use serde_json::Value;
+use treadmill_rl::launch::child;
 
 /// Longest wait for an answer; a process that takes longer is broken.
 const ANSWER_TIMEOUT: Duration = Duration::from_secs(240);
 
 /// Child process of this binary, which ends with this one.
-pub(super) struct Helper {
+pub struct Helper {
     name: String,
     child: Child,
     input: Option<ChildStdin>,
@@ -23,10 +24,11 @@ pub(super) struct Helper {
 }
 
 impl Helper {
-    /// Starts `treadmill bench` with `args`, at this nice value.
-    pub(super) fn start(args: &[String], nice: i32) -> anyhow::Result<Self> {
+    /// Starts this program with `args`, at this nice value.
+    pub fn start(args: &[String], nice: i32) -> anyhow::Result<Self> {
         let name = args.first().cloned().unwrap_or_default();
-        let mut child = command(&[&["bench".to_string()], args].concat(), nice)?
+        let mut child = child::command(&own_path()?, nice)
+            .args(args)
             // The child ends when this closes.
             .stdin(Stdio::piped())
             .stdout(Stdio::piped())
@@ -45,19 +47,19 @@ impl Helper {
     }
 
     /// Sends a command.
-    pub(super) fn send(&mut self, line: &str) -> anyhow::Result<()> {
+    pub fn send(&mut self, line: &str) -> anyhow::Result<()> {
         let input = self.input.as_mut().context("standard input is piped")?;
         writeln!(input, "{line}").and_then(|()| input.flush()).with_context(|| format!("{} is gone", self.name))
     }
 
     /// Returns the next answer.
-    pub(super) fn receive(&mut self) -> anyhow::Result<Value> {
+    pub fn receive(&mut self) -> anyhow::Result<Value> {
         let line = self.lines.recv_timeout(ANSWER_TIMEOUT).with_context(|| format!("{} does not answer", self.name))?;
         serde_json::from_str(&line).with_context(|| format!("{} answered `{line}`", self.name))
     }
 
     /// Sends a command and returns the answer.
-    pub(super) fn ask(&mut self, line: &str) -> anyhow::Result<Value> {
+    pub fn ask(&mut self, line: &str) -> anyhow::Result<Value> {
         self.send(line)?;
         self.receive()
     }
@@ -78,31 +80,34 @@ impl Drop for Helper {
     }
 }
 
-/// Returns the command of this binary with `args`, at this nice value; the process is killed when this one ends.
-pub(crate) fn command(args: &[String], nice: i32) -> anyhow::Result<Command> {
-    let program = std::env::current_exe().context("this program's own path is unknown")?;
-    let mut command = Command::new(program);
+/// Returns the command of the program `treadmill` beside this one with `args`, at this nice value.
+pub fn treadmill(args: &[String], nice: i32) -> anyhow::Result<Command> {
+    let program = own_path()?.with_file_name("treadmill");
+    anyhow::ensure!(program.exists(), "{} does not exist; run: cargo build --release", program.display());
+    let mut command = child::command(&program, nice);
     command.args(args);
-    // SAFETY: between fork and exec, nice and prctl are allowed, and they access no memory here.
-    unsafe {
-        command.pre_exec(move || {
-            // Fails only for negative values.
-            libc::nice(nice);
-            match libc::prctl(libc::PR_SET_PDEATHSIG, libc::SIGKILL) {
-                0 => Ok(()),
-                _ => Err(std::io::Error::last_os_error()),
-            }
-        });
-    }
     Ok(command)
 }
 
+/// Makes certificates for this machine in `folder`, and returns the flags that use them.
+pub fn certify(folder: &Path) -> anyhow::Result<[String; 2]> {
+    let folder = folder.display().to_string();
+    let args = ["certs", &folder, "--host", "localhost", "--host", "127.0.0.1", "--days", "1"].map(str::to_string);
+    let made = treadmill(&args, 0)?.stdout(Stdio::null()).status().context("certificates cannot be made")?;
+    anyhow::ensure!(made.success(), "making certificates ended with {made}");
+    Ok(["--tls".to_string(), folder])
+}
+
+fn own_path() -> anyhow::Result<PathBuf> {
+    std::env::current_exe().context("this program's own path is unknown")
+}
+
 /// Returns a number of an answer.
-pub(super) fn number(answer: &Value, field: &str) -> anyhow::Result<f64> {
+pub fn number(answer: &Value, field: &str) -> anyhow::Result<f64> {
     answer[field].as_f64().with_context(|| format!("`{field}` is missing in {answer}"))
 }
 
 /// Returns the numbers of a list.
-pub(super) fn numbers(list: &Value) -> impl Iterator<Item = f64> + '_ {
+pub fn numbers(list: &Value) -> impl Iterator<Item = f64> + '_ {
     list.as_array().into_iter().flatten().filter_map(Value::as_f64)
 }

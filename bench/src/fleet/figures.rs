@@ -10,47 +10,47 @@ use super::{
     run_metrics::LoggedUpdate,
 };
 use crate::{
-    commands::bench::rounded,
-    load_generator::load_step::{ms, quantile, share},
+    load_step::{ms, quantile, share},
+    rounded,
 };
 
 /// Counts right after an update.
-pub(super) struct Mark {
+pub struct Mark {
     /// Updates so far.
-    pub(super) updates: usize,
-    pub(super) tally: Tally,
-    pub(super) at: Instant,
-    pub(super) fleet_cpu_s: f64,
-    pub(super) learner_cpu_s: f64,
-    pub(super) routers_cpu_s: f64,
+    pub updates: usize,
+    pub tally: Tally,
+    pub at: Instant,
+    pub fleet_cpu_s: f64,
+    pub learner_cpu_s: f64,
+    pub routers_cpu_s: f64,
     /// Processor time of the training thread.
-    pub(super) training_thread_s: Option<f64>,
-    pub(super) sent_bytes: Option<HashMap<String, u64>>,
+    pub training_thread_s: Option<f64>,
+    pub sent_bytes: Option<HashMap<String, u64>>,
 }
 
 /// Sources of the figures.
-pub(super) struct Figures<'a> {
-    pub(super) rates: &'a [f64],
-    pub(super) envs: u32,
+pub struct Figures<'a> {
+    pub rates: &'a [f64],
+    pub envs: u32,
     /// Speed of the update before the measurement, if it was measured.
-    pub(super) calibrated: Option<f64>,
-    pub(super) joined_s: f64,
-    pub(super) alive_s: Option<f64>,
-    pub(super) bundle_bytes: f64,
-    pub(super) begin: Mark,
-    pub(super) end: Mark,
+    pub calibrated: Option<f64>,
+    pub joined_s: f64,
+    pub alive_s: Option<f64>,
+    pub bundle_bytes: f64,
+    pub begin: Mark,
+    pub end: Mark,
     /// Sorted.
-    pub(super) times: Times,
+    pub times: Times,
     /// After the actors have stopped.
-    pub(super) final_tally: Tally,
-    pub(super) learner_resident_max_mb: f64,
+    pub final_tally: Tally,
+    pub learner_resident_max_mb: f64,
     /// Of the whole run.
-    pub(super) updates: &'a [LoggedUpdate],
+    pub updates: &'a [LoggedUpdate],
 }
 
 impl Figures<'_> {
     /// Returns all figures by name.
-    pub(super) fn to_json(&self) -> anyhow::Result<Value> {
+    pub fn to_json(&self) -> anyhow::Result<Value> {
         let mut all = serde_json::Map::new();
         for part in [self.training()?, self.fragments()?, self.cost()?] {
             all.extend(part.as_object().cloned().unwrap_or_default());
@@ -171,7 +171,7 @@ impl Figures<'_> {
 }
 
 /// Returns the environment steps of these updates per second of update.
-pub(super) fn update_rate(updates: &[LoggedUpdate]) -> f64 {
+pub fn update_rate(updates: &[LoggedUpdate]) -> f64 {
     let sum = |tag: &str| updates.iter().map(|update| update.value(tag)).sum::<f64>();
     sum("train/batch") / sum("time/update_s").max(1e-9)
 }

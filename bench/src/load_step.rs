@@ -5,11 +5,11 @@ use std::time::Duration;
 use anyhow::Context;
 use serde_json::{Value, json};
 
-use super::{
+use crate::{
     helper::{Helper, number, numbers},
     raw::Raw,
+    rounded,
 };
-use crate::commands::bench::rounded;
 
 /// Most processes that the actors are spread over.
 const LOAD_PROCESSES: u32 = 4;
@@ -19,24 +19,24 @@ const EXTENSION_MAX: f64 = 6.0;
 const POLL_INTERVAL: Duration = Duration::from_millis(50);
 
 /// Parameters of a measurement.
-pub(crate) struct LoadStep<'a> {
-    pub(crate) actors: u32,
-    pub(crate) seconds: f64,
-    pub(crate) fragment_bytes: usize,
-    pub(crate) in_flight: u32,
-    pub(crate) pause_ms: u64,
-    pub(crate) precision: &'a str,
-    pub(crate) broadcasts: u32,
-    pub(crate) endpoint: &'a str,
-    pub(crate) network: &'a [String],
+pub struct LoadStep<'a> {
+    pub actors: u32,
+    pub seconds: f64,
+    pub fragment_bytes: usize,
+    pub in_flight: u32,
+    pub pause_ms: u64,
+    pub precision: &'a str,
+    pub broadcasts: u32,
+    pub endpoint: &'a str,
+    pub network: &'a [String],
 }
 
 /// Result of a measurement.
-pub(crate) struct Measured {
+pub struct Measured {
     actors: u32,
-    pub(crate) fragment_bytes: u64,
-    pub(crate) bundle_bytes: u64,
-    pub(crate) checksum: String,
+    pub fragment_bytes: u64,
+    pub bundle_bytes: u64,
+    pub checksum: String,
     fragments: f64,
     in_place: f64,
     elapsed_s: f64,
@@ -57,7 +57,7 @@ pub(crate) struct Measured {
 
 impl LoadStep<'_> {
     /// Starts the processes and measures.
-    pub(crate) fn measure(&self) -> anyhow::Result<Measured> {
+    pub fn measure(&self) -> anyhow::Result<Measured> {
         let strings = |args: &[&str]| args.iter().map(|arg| (*arg).to_string()).collect::<Vec<_>>();
         let mut host =
             Helper::start(&[strings(&["bus-host", "--listen", self.endpoint]), self.network.to_vec()].concat(), 0)?;
@@ -203,7 +203,7 @@ impl Measured {
     }
 
     /// Returns all figures by name.
-    pub(crate) fn fields(&self, raw: Raw) -> Value {
+    pub fn fields(&self, raw: Raw) -> Value {
         let (fragments, gb) = (self.fragments.max(1.0), (self.megabytes() / 1e3).max(1e-9));
         let cpu_s_per_gb = (self.learner_cpu_s + self.actors_cpu_s) / gb;
         json!({
@@ -237,7 +237,7 @@ impl Measured {
     }
 
     /// Returns the row of the table.
-    pub(crate) fn row(&self, raw: Raw) -> String {
+    pub fn row(&self, raw: Raw) -> String {
         let fields = self.fields(raw);
         COLUMNS.map(|(field, _, width)| format!("{:>width$}", fields[field].to_string())).join(" ")
     }
@@ -259,22 +259,22 @@ const COLUMNS: [(&str, &str, usize); 11] = [
 ];
 
 /// Returns the head of the table.
-pub(crate) fn heading() -> String {
+pub fn heading() -> String {
     COLUMNS.map(|(_, heading, width)| format!("{heading:>width$}")).join(" ")
 }
 
 /// Rounds milliseconds to two decimals.
-pub(super) fn ms(value: f64) -> f64 {
+pub fn ms(value: f64) -> f64 {
     (value * 100.0).round() / 100.0
 }
 
 /// Rounds ratios and costs to three decimals.
-pub(super) fn share(value: f64) -> f64 {
+pub fn share(value: f64) -> f64 {
     (value * 1000.0).round() / 1000.0
 }
 
 /// Returns a quantile of sorted numbers by rank; zero if there are none.
-pub(super) fn quantile(sorted: &[f64], share: f64) -> f64 {
+pub fn quantile(sorted: &[f64], share: f64) -> f64 {
     let rank = (share * sorted.len() as f64).ceil() as usize;
     sorted.get(rank.max(1) - 1).copied().unwrap_or(0.0)
 }

@@ -1,4 +1,26 @@
-//! `bench fleet`: a real learner with real updates among played actors; `load_generator::fleet` has the processes.
+//! Played fleet: a real learner with real updates among actors that do not simulate.
+//!
+//! A played actor behaves on the bus as a real one does, by the same delivery. It does not simulate: a fragment is ready when a
+//! real actor of the given rate would have finished it.
+//!
+//! # Layout
+//! - Here: flags and the result.
+//! - [`actors`]: process of many played actors. [`actor`]: one of them.
+//! - [`pace`]: time that simulation takes. [`policy`]: transitions under each policy version. [`counts`]: what became of them.
+//! - [`processes`]: learner and routers as child processes, and their use of the machine.
+//! - [`run_metrics`]: follows the learner's metrics.
+//! - [`measure`]: starts the processes, sets the rates and marks the measured window.
+//! - [`figures`]: figures of the measured window.
+
+mod actor;
+pub mod actors;
+mod counts;
+mod figures;
+mod measure;
+mod pace;
+mod policy;
+mod processes;
+mod run_metrics;
 
 use std::{
     fs,
@@ -9,23 +31,19 @@ use std::{
 use anyhow::Context;
 use clap::Args;
 use serde_json::json;
+use treadmill_rl::launch::exit_code::Usage;
 use treadmill_runtime::machine;
 
-use super::print_result;
-use crate::{
-    commands::certs,
-    launch::exit_code::Usage,
-    load_generator::fleet::{
-        RUN,
-        measure::{MeasurementPlan, PlayedRate},
-    },
-};
+use self::measure::{MeasurementPlan, PlayedRate};
+use crate::{helper, print_result};
 
+/// Name of the run on the bus.
+pub const RUN: &str = "fleet";
 /// Least rate of an actor (environment steps per second).
 const RATE_MIN: f64 = 0.01;
 const RATE_MAX: f64 = 1e9;
 
-/// Flags of `bench fleet`.
+/// Flags of `fleet`.
 #[derive(Args)]
 pub struct FleetArgs {
     /// Played actors.
@@ -49,9 +67,6 @@ pub struct FleetArgs {
     /// Routers that the actors' sessions are spread over; 0 lets them dial the learner.
     #[arg(long, value_name = "R", default_value_t = 0, value_parser = clap::value_parser!(u32).range(0..=100))]
     routers: u32,
-    /// Delay of every message of a played actor in one direction.
-    #[arg(long, value_name = "MS", default_value_t = 0, value_parser = clap::value_parser!(u64).range(0..=10_000))]
-    delay_ms: u64,
     /// Encrypt every link, with temporary certificates.
     #[arg(long)]
     tls: bool,
@@ -117,7 +132,6 @@ pub fn run(args: &FleetArgs) -> anyhow::Result<()> {
     let more = json!({
         "mode": args.mode,
         "routers": args.routers,
-        "delay_ms": args.delay_ms,
         "transport": if args.tls { "mutual tls" } else { "tcp" },
         "settings": args.set.join(" "),
         "cores": machine::cores(),
@@ -160,9 +174,7 @@ fn check(args: &FleetArgs) -> Result<(), Usage> {
 fn plan(args: &FleetArgs, folder: &Path, temporary: &Path) -> anyhow::Result<MeasurementPlan> {
     let mut network = Vec::new();
     if args.tls {
-        let certificates = temporary.join("certs");
-        certs::make(&certs::CertsArgs::for_this_machine(&certificates))?;
-        network.extend(["--tls".to_string(), certificates.display().to_string()]);
+        network.extend(helper::certify(&temporary.join("certs"))?);
     }
     let mut learner = vec!["--preset".to_string(), args.preset.clone()];
     for pair in std::iter::once(&format!("learner.mode={}", args.mode)).chain(&args.set) {
@@ -178,7 +190,6 @@ fn plan(args: &FleetArgs, folder: &Path, temporary: &Path) -> anyhow::Result<Mea
         slow: args.slow.clone(),
         routers: args.routers as usize,
         processes: args.processes as usize,
-        delay_ms: args.delay_ms,
         calibrate_s: args.calibrate_s,
         warmup_s: args.warmup_s,
         seconds: args.seconds,

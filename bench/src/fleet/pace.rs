@@ -4,32 +4,32 @@ use std::time::{Duration, Instant};
 
 /// Simulation clock of one played actor. It runs in ideal time: a timer that fires late delays no later simulation.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Pace {
+pub struct Pace {
     /// End of the newest simulation.
     free_at: Instant,
 }
 
 impl Pace {
     /// Returns the clock of an actor that can simulate from `now` on.
-    pub(super) fn new(now: Instant) -> Self {
+    pub fn new(now: Instant) -> Self {
         Self { free_at: now }
     }
 
     /// Returns when the next simulation begins: the previous one is finished then, and the credit is there.
-    pub(super) fn begin(&self, credit_at: Instant) -> Instant {
+    pub fn begin(&self, credit_at: Instant) -> Instant {
         self.free_at.max(credit_at)
     }
 
     /// Returns when a simulation is finished that began at `begun`. `rate` is in environment steps per second; infinity takes
     /// no time.
-    pub(super) fn finish(&mut self, begun: Instant, env_steps: u64, rate: f64) -> Instant {
+    pub fn finish(&mut self, begun: Instant, env_steps: u64, rate: f64) -> Instant {
         self.free_at = begun + duration(env_steps, rate);
         self.free_at
     }
 }
 
 /// Returns the time that `env_steps` take.
-pub(super) fn duration(env_steps: u64, rate: f64) -> Duration {
+pub fn duration(env_steps: u64, rate: f64) -> Duration {
     Duration::from_secs_f64(env_steps as f64 / rate)
 }
 

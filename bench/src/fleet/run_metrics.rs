@@ -25,25 +25,25 @@ const REQUIRED: [&str; 9] = [
 
 /// Scalars of one update.
 #[derive(Clone, Debug, Default)]
-pub(super) struct LoggedUpdate {
+pub struct LoggedUpdate {
     /// Environment steps of the run so far.
-    pub(super) env_steps: u64,
+    pub env_steps: u64,
     values: HashMap<String, f64>,
 }
 
 impl LoggedUpdate {
     #[cfg(test)]
-    pub(super) fn of(env_steps: u64, values: &[(&str, f64)]) -> Self {
+    pub fn of(env_steps: u64, values: &[(&str, f64)]) -> Self {
         Self { env_steps, values: values.iter().map(|(tag, value)| ((*tag).to_string(), *value)).collect() }
     }
 
     /// Returns the value of a tag.
-    pub(super) fn get(&self, tag: &str) -> Option<f64> {
+    pub fn get(&self, tag: &str) -> Option<f64> {
         self.values.get(tag).copied()
     }
 
     /// Returns the value of a tag that every update has.
-    pub(super) fn value(&self, tag: &str) -> f64 {
+    pub fn value(&self, tag: &str) -> f64 {
         self.get(tag).unwrap_or(0.0)
     }
 
@@ -53,7 +53,7 @@ impl LoggedUpdate {
 }
 
 /// Updates of a run, read from `metrics.jsonl`.
-pub(super) struct RunMetrics {
+pub struct RunMetrics {
     path: PathBuf,
     read: u64,
     /// Beginning of a line that is not complete.
@@ -63,12 +63,12 @@ pub(super) struct RunMetrics {
 
 impl RunMetrics {
     /// Follows a file that may not exist yet.
-    pub(super) fn follow(path: PathBuf) -> Self {
+    pub fn follow(path: PathBuf) -> Self {
         Self { path, read: 0, rest: Vec::new(), updates: Vec::new() }
     }
 
     /// Reads the lines written since the last call. Returns the complete updates.
-    pub(super) fn poll(&mut self) -> anyhow::Result<&[LoggedUpdate]> {
+    pub fn poll(&mut self) -> anyhow::Result<&[LoggedUpdate]> {
         if let Ok(mut file) = File::open(&self.path) {
             let unreadable = || format!("cannot read `{}`", self.path.display());
             file.seek(SeekFrom::Start(self.read)).with_context(unreadable)?;

@@ -1,23 +1,22 @@
 //! Messages to send: one fragment of random numbers under every actor's name, and policies of a given size.
 
-use treadmill_policy::{actor_to_safetensors, init::initial_parameters, to_safetensors};
+use rand_distr::{Distribution, StandardNormal};
+use treadmill_policy::{NetworkShape, actor_to_safetensors, init::initial_parameters, to_safetensors};
 use treadmill_proto::{Fragment, Malformed, PolicyBundle, PolicyVersion, Precision, PreparedFragment};
 use treadmill_runtime::seeds;
 
-use crate::commands::bench::network::{self, Widths};
-
 /// Name of the run on the bus.
-pub(super) const RUN: &str = "bench";
+pub const RUN: &str = "bench";
 /// Hash in place of that of a configuration, which does not matter here.
-pub(super) const CONFIG_HASH: u64 = 1;
+pub const CONFIG_HASH: u64 = 1;
 /// Incarnation of every actor. Admission control reads it from the first bytes, where the prepared fragment has it.
-pub(super) const ACTOR_INCARNATION: u64 = 1;
+pub const ACTOR_INCARNATION: u64 = 1;
 /// Incarnation of the learner in every policy version.
-pub(super) const INCARNATION: u64 = 1;
+pub const INCARNATION: u64 = 1;
 /// Sizes of an observation and an action of the compact humanoid.
-pub(super) const WIDTHS: (u32, u32) = (45, 17);
-/// Widths of networks whose bundle takes one megabyte.
-const NETWORK: &str = "45-448-224";
+pub const WIDTHS: (u32, u32) = (45, 17);
+/// Hidden layers of networks whose bundle takes one megabyte.
+const HIDDEN: [usize; 2] = [448, 224];
 /// Control steps of a fragment, the default.
 const STEPS: u32 = 128;
 /// Bytes of one transition, and of the last observation of each environment.
@@ -26,7 +25,7 @@ const BYTES: (usize, usize) = (257, 180);
 const HALF_BYTES: (usize, usize) = (167, 90);
 
 /// Returns a fragment of about `bytes` bytes, and its number of transitions.
-pub(super) fn fragment(bytes: usize, precision: Precision) -> Result<(PreparedFragment, usize), Malformed> {
+pub fn fragment(bytes: usize, precision: Precision) -> Result<(PreparedFragment, usize), Malformed> {
     let (transition, last) = match precision {
         Precision::F32 => BYTES,
         Precision::F16 => HALF_BYTES,
@@ -34,7 +33,7 @@ pub(super) fn fragment(bytes: usize, precision: Precision) -> Result<(PreparedFr
     let envs = (bytes / (STEPS as usize * transition + last)).max(1);
     let rows = STEPS as usize * envs;
     let mut random = seeds::stream(1, "bench-bus", &[]);
-    let mut numbers = |width: u32, rows: usize| network::normals(width as usize * rows, &mut random);
+    let mut numbers = |width: u32, rows: usize| normals(width as usize * rows, &mut random);
     let mut fragment = Fragment {
         run: RUN.to_string(),
         actor: "a".to_string(),
@@ -62,8 +61,9 @@ pub(super) fn fragment(bytes: usize, precision: Precision) -> Result<(PreparedFr
 }
 
 /// Returns the first policy, whole and as actors get it; others differ only in their number.
-pub(super) fn bundles() -> [PolicyBundle; 2] {
-    let shape = NETWORK.parse::<Widths>().expect("widths").shape();
+pub fn bundles() -> [PolicyBundle; 2] {
+    let (observation, action) = (WIDTHS.0 as usize, WIDTHS.1 as usize);
+    let shape = NetworkShape { observation, action, hidden: HIDDEN.to_vec(), privileged: 0 };
     let parameters = initial_parameters(&shape, -0.5, &mut seeds::stream(1, "bench-bus", &[1]));
     let weights = [to_safetensors(&shape, &parameters), actor_to_safetensors(&shape, &parameters)];
     weights.map(|weights| PolicyBundle {
@@ -81,4 +81,15 @@ pub(super) fn bundles() -> [PolicyBundle; 2] {
         model_xml: treadmill_humanoid::HUMANOID_XML.to_string(),
         ..PolicyBundle::default()
     })
+}
+
+/// Draws standard normal numbers.
+pub fn normals(count: usize, random: &mut seeds::Stream) -> Vec<f32> {
+    (0..count).map(|_| StandardNormal.sample(random)).collect()
+}
+
+/// Returns the checksum of numbers as text.
+pub fn checksum(numbers: &[f32]) -> String {
+    let bytes: Vec<u8> = numbers.iter().flat_map(|number| number.to_le_bytes()).collect();
+    format!("{:016x}", seeds::checksum(&[&bytes]))
 }

@@ -9,7 +9,7 @@ use treadmill_policy::gaussian;
 use treadmill_proto::{Fragment, PolicyBundle, PolicyVersion, Precision, PreparedTransitions};
 use treadmill_runtime::seeds;
 
-use crate::commands::bench::network;
+use crate::workload;
 
 /// Transitions that are evaluated for each version; larger fragments repeat them.
 const ROWS: usize = 1024;
@@ -34,7 +34,7 @@ struct Material {
 impl Material {
     fn draw(bundle: &PolicyBundle, precision: Precision) -> Self {
         let mut random = seeds::stream(1, "bench-fleet", &[]);
-        let mut normals = |width: u32| network::normals(ROWS * width as usize, &mut random);
+        let mut normals = |width: u32| workload::normals(ROWS * width as usize, &mut random);
         let mut material = Self {
             observations: normals(bundle.observation_size),
             last_observations: normals(bundle.observation_size),
@@ -49,7 +49,7 @@ impl Material {
 }
 
 /// Policy version with its transitions.
-pub(super) struct PlayedPolicy {
+pub struct PlayedPolicy {
     bundle: PolicyBundle,
     material: Arc<Material>,
     transitions: OnceLock<Result<PreparedTransitions, String>>,
@@ -57,22 +57,22 @@ pub(super) struct PlayedPolicy {
 
 impl PlayedPolicy {
     /// Returns the version.
-    pub(super) fn version(&self) -> PolicyVersion {
+    pub fn version(&self) -> PolicyVersion {
         self.bundle.version
     }
 
     /// Returns the control steps of a fragment of an actor without a receipt; 0 means as the configuration says.
-    pub(super) fn fragment_steps(&self) -> u32 {
+    pub fn fragment_steps(&self) -> u32 {
         self.bundle.fragment_steps
     }
 
     /// Returns whether [`Self::transitions`] answers at once.
-    pub(super) fn is_prepared(&self) -> bool {
+    pub fn is_prepared(&self) -> bool {
         self.transitions.get().is_some()
     }
 
     /// Returns the transitions. The first call evaluates the networks; others wait for it.
-    pub(super) fn transitions(&self) -> anyhow::Result<&PreparedTransitions> {
+    pub fn transitions(&self) -> anyhow::Result<&PreparedTransitions> {
         let transitions = self.transitions.get_or_init(|| self.prepare().map_err(|why| format!("{why:#}")));
         transitions.as_ref().map_err(|why| anyhow::anyhow!("policy {}: {why}", self.bundle.version.number))
     }
@@ -114,8 +114,8 @@ impl PlayedPolicy {
 }
 
 /// Newest policies of a process: its actors share them, so that each version is evaluated once.
-pub(super) struct PlayedPolicies {
-    pub(super) config: Config,
+pub struct PlayedPolicies {
+    pub config: Config,
     config_hash: u64,
     material: Arc<Material>,
     newest: Mutex<Vec<Arc<PlayedPolicy>>>,
@@ -123,7 +123,7 @@ pub(super) struct PlayedPolicies {
 
 impl PlayedPolicies {
     /// Begins with the run of `bundle`.
-    pub(super) fn new(bundle: &PolicyBundle) -> anyhow::Result<Self> {
+    pub fn new(bundle: &PolicyBundle) -> anyhow::Result<Self> {
         let mut source = ConfigSource::default();
         source.text(&bundle.config_toml, "the configuration of the run")?;
         let config = source.build()?;
@@ -136,7 +136,7 @@ impl PlayedPolicies {
     }
 
     /// Returns the policy of a bundle that an actor fetched.
-    pub(super) fn get(&self, bundle: PolicyBundle) -> anyhow::Result<Arc<PlayedPolicy>> {
+    pub fn get(&self, bundle: PolicyBundle) -> anyhow::Result<Arc<PlayedPolicy>> {
         anyhow::ensure!(bundle.config_hash == self.config_hash, "the learner trains another run");
         let mut newest = self.newest.lock().ok().context("a thread panicked")?;
         if let Some(known) = newest.iter().find(|known| known.version() == bundle.version) {

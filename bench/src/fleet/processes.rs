@@ -11,7 +11,7 @@ use std::{
 
 use anyhow::Context;
 
-use crate::load_generator::helper::command;
+use crate::helper::treadmill;
 
 /// Longest wait until a learner listens.
 const START_TIMEOUT: Duration = Duration::from_secs(60);
@@ -19,15 +19,15 @@ const START_TIMEOUT: Duration = Duration::from_secs(60);
 const STOP_TIMEOUT: Duration = Duration::from_secs(30);
 const POLL: Duration = Duration::from_millis(20);
 /// Nice value of routers and played actors, so that the learner has the machine as if they ran elsewhere.
-pub(super) const NICE: i32 = 19;
+pub const NICE: i32 = 19;
 /// Name of the learner's thread that collects, updates and saves.
 const TRAINING_THREAD: &str = "training";
 
 /// Child process of this binary, which ends with this one.
-pub(super) struct Process {
+pub struct Process {
     child: Child,
     /// Endpoint that it listens on.
-    pub(super) endpoint: String,
+    pub endpoint: String,
     /// What it is, for errors.
     name: &'static str,
     /// File that it writes to, if it does.
@@ -36,10 +36,10 @@ pub(super) struct Process {
 
 impl Process {
     /// Starts a learner whose run folder is `run`; it writes to `log`.
-    pub(super) fn learner(args: &[String], run: &Path, log: PathBuf) -> anyhow::Result<Self> {
+    pub fn learner(args: &[String], run: &Path, log: PathBuf) -> anyhow::Result<Self> {
         let log_file = File::create(&log).with_context(|| format!("cannot create `{}`", log.display()))?;
         let output = log_file.try_clone().context("the log cannot be shared")?;
-        let mut command = command(args, 0)?;
+        let mut command = treadmill(args, 0)?;
         command.stdin(Stdio::null()).stdout(output).stderr(log_file);
         let child = command.spawn().context("the learner cannot be started")?;
         let mut learner = Self { child, endpoint: String::new(), name: "the learner", log: Some(log) };
@@ -58,16 +58,16 @@ impl Process {
     }
 
     /// Fails if the process has ended, with the last line that it wrote.
-    pub(super) fn check_runs(&mut self) -> anyhow::Result<()> {
+    pub fn check_runs(&mut self) -> anyhow::Result<()> {
         let Some(status) = self.child.try_wait()? else { return Ok(()) };
         let text = self.log.as_ref().and_then(|log| fs::read_to_string(log).ok()).unwrap_or_default();
         anyhow::bail!("{} ended with {status}: {}", self.name, text.trim_end().lines().last().unwrap_or_default())
     }
 
     /// Starts a router that dials the learner at `to`.
-    pub(super) fn router(listen: &str, to: &str, network: &[String]) -> anyhow::Result<Self> {
+    pub fn router(listen: &str, to: &str, network: &[String]) -> anyhow::Result<Self> {
         let args = ["router", "--listen", listen, "--connect", to].map(str::to_string);
-        let mut child = command(&[&args, network].concat(), NICE)?
+        let mut child = treadmill(&[&args, network].concat(), NICE)?
             .stdin(Stdio::null())
             .stdout(Stdio::piped())
             .spawn()
@@ -81,7 +81,7 @@ impl Process {
     }
 
     /// Asks the process to stop and waits for its end.
-    pub(super) fn stop(&mut self) -> anyhow::Result<()> {
+    pub fn stop(&mut self) -> anyhow::Result<()> {
         // SAFETY: kill takes two numbers and accesses no memory. The child was not waited for, so its number is its own.
         unsafe { libc::kill(self.child.id() as i32, libc::SIGTERM) };
         let begun = Instant::now();
@@ -100,7 +100,7 @@ impl Process {
     }
 
     /// Returns the processor time of all threads in seconds.
-    pub(super) fn cpu_s(&self) -> f64 {
+    pub fn cpu_s(&self) -> f64 {
         let stat = self.file("stat");
         // The name, in brackets, may contain spaces. User and system time are fields 14 and 15 of the line.
         let fields: Vec<&str> = stat.rsplit(')').next().unwrap_or_default().split_whitespace().collect();
@@ -111,7 +111,7 @@ impl Process {
     }
 
     /// Returns the peak of resident memory in MB.
-    pub(super) fn resident_max_mb(&self) -> f64 {
+    pub fn resident_max_mb(&self) -> f64 {
         let status = self.file("status");
         let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:")).unwrap_or_default();
         let kib: Option<f64> = line.trim().trim_end_matches("kB").trim().parse().ok();
@@ -119,7 +119,7 @@ impl Process {
     }
 
     /// Returns the processor time of the learner's training thread in seconds. `None` if the kernel does not count it.
-    pub(super) fn training_thread_s(&self) -> Option<f64> {
+    pub fn training_thread_s(&self) -> Option<f64> {
         let tasks = fs::read_dir(format!("/proc/{}/task", self.child.id())).ok()?;
         let is_training =
             |task: &PathBuf| fs::read_to_string(task.join("comm")).is_ok_and(|name| name.trim() == TRAINING_THREAD);
@@ -131,7 +131,7 @@ impl Process {
 
     /// Returns the bytes that the process has sent over each connection to its endpoint, by the other end's address. `None` if
     /// this machine has no program `ss`.
-    pub(super) fn sent_bytes(&self) -> Option<HashMap<String, u64>> {
+    pub fn sent_bytes(&self) -> Option<HashMap<String, u64>> {
         let port = self.endpoint.rsplit(':').next()?;
         let output = Command::new("ss").args(["-tinH", "sport", "=", &format!(":{port}")]).output().ok()?;
         output.status.success().then(|| sent_by_peer(&String::from_utf8_lossy(&output.stdout)))

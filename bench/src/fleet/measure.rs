@@ -15,7 +15,7 @@ use super::{
     processes::{NICE, Process},
     run_metrics::{LoggedUpdate, RunMetrics},
 };
-use crate::load_generator::helper::{Helper, number, numbers};
+use crate::helper::{Helper, number, numbers};
 
 /// More environment steps than any measurement trains.
 const ENDLESS: &str = "1000000000000";
@@ -32,7 +32,7 @@ const MARK_ATTEMPTS: u32 = 20;
 
 /// Rate of every played actor.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum PlayedRate {
+pub enum PlayedRate {
     /// Environment steps per second of each actor.
     Fixed(f64),
     /// The sum of all rates is this multiple of the update's own speed, which is measured first.
@@ -40,26 +40,25 @@ pub(crate) enum PlayedRate {
 }
 
 /// Parameters of a measurement.
-pub(crate) struct MeasurementPlan {
-    pub(crate) actors: usize,
-    pub(crate) envs: u32,
-    pub(crate) rate: PlayedRate,
+pub struct MeasurementPlan {
+    pub actors: usize,
+    pub envs: u32,
+    pub rate: PlayedRate,
     /// Factors on the rates of the last actors.
-    pub(crate) slow: Vec<f64>,
-    pub(crate) routers: usize,
-    pub(crate) processes: usize,
-    pub(crate) delay_ms: u64,
-    pub(crate) calibrate_s: f64,
-    pub(crate) warmup_s: f64,
-    pub(crate) seconds: f64,
+    pub slow: Vec<f64>,
+    pub routers: usize,
+    pub processes: usize,
+    pub calibrate_s: f64,
+    pub warmup_s: f64,
+    pub seconds: f64,
     /// Flags of the learner: preset and configuration keys.
-    pub(crate) learner: Vec<String>,
+    pub learner: Vec<String>,
     /// Endpoint of every listening process, with port 0.
-    pub(crate) listen: &'static str,
+    pub listen: &'static str,
     /// Network flags of every process.
-    pub(crate) network: Vec<String>,
+    pub network: Vec<String>,
     /// Folder of the run and the learner's log.
-    pub(crate) folder: PathBuf,
+    pub folder: PathBuf,
 }
 
 impl MeasurementPlan {
@@ -70,7 +69,7 @@ impl MeasurementPlan {
     }
 
     /// Starts the processes, measures, stops them, and returns all figures by name.
-    pub(crate) fn measure(&self) -> anyhow::Result<Value> {
+    pub fn measure(&self) -> anyhow::Result<Value> {
         let mut measurement = Measurement::start(self)?;
         let (rates, calibrated) = match self.rate {
             PlayedRate::Fixed(rate) => (self.factors().iter().map(|factor| factor * rate).collect::<Vec<_>>(), None),
@@ -265,12 +264,7 @@ impl PlayedFleet {
         let mut processes = Vec::new();
         for size in &sizes {
             let mut args = vec!["fleet-actors".to_string()];
-            for (flag, value) in [
-                ("--first", first as u64),
-                ("--actors", *size as u64),
-                ("--envs", plan.envs.into()),
-                ("--delay-ms", plan.delay_ms),
-            ] {
+            for (flag, value) in [("--first", first as u64), ("--actors", *size as u64), ("--envs", plan.envs.into())] {
                 args.extend([flag.to_string(), value.to_string()]);
             }
             args.extend(endpoints.iter().flat_map(|endpoint| ["--connect".to_string(), (*endpoint).to_string()]));

@@ -13,11 +13,11 @@ use anyhow::Context;
 use bytes::Bytes;
 use tokio::{
     sync::{mpsc, watch},
-    task::JoinSet,
     time::sleep,
 };
 use treadmill_bus::{Announcements, Bus, fetch_policy, keys, publish_dropping, submit, token, watch_announcements};
 use treadmill_config::RolloutConfig;
+use treadmill_experience::delivery::{Attempt, Event};
 use treadmill_proto::{ActorStats, Fragment, Outcome, PolicyVersion, Receipt};
 use treadmill_runtime::{machine, seeds};
 
@@ -29,10 +29,8 @@ use super::{
 };
 
 const FETCH_TIMEOUT: Duration = Duration::from_secs(10);
-/// Pause before a retry, as in an actor.
+/// Pause before the policy is asked for again.
 const RETRY: Duration = Duration::from_millis(200);
-/// Pause of a quarantined sender before its next attempt, as in an actor.
-const QUARANTINE_RETRY: Duration = Duration::from_secs(10);
 /// Most credits that an actor holds, as `rollout.max_in_flight` allows.
 const CREDITS_MAX: usize = 2;
 /// Policies that an actor remembers: a simulation may have begun a moment before the newest arrived.
@@ -40,7 +38,7 @@ const POLICIES_MAX: usize = 4;
 
 /// What the actors of a process are to do.
 #[derive(Clone, Debug, Default)]
-pub(super) enum Order {
+pub enum Order {
     /// Hold the first credits.
     #[default]
     Wait,
@@ -52,21 +50,19 @@ pub(super) enum Order {
 
 /// Parts that the actors of a process share.
 #[derive(Clone)]
-pub(super) struct FleetShared {
-    pub(super) policies: Arc<PlayedPolicies>,
-    pub(super) order: watch::Receiver<Order>,
+pub struct FleetShared {
+    pub policies: Arc<PlayedPolicies>,
+    pub order: watch::Receiver<Order>,
     /// First error of any actor.
-    pub(super) failure: Arc<Mutex<Option<String>>>,
-    pub(super) envs: u32,
-    /// Delay of every message in one direction.
-    pub(super) delay: Duration,
+    pub failure: Arc<Mutex<Option<String>>>,
+    pub envs: u32,
 }
 
 /// Policy with the time of its arrival.
 type Arrived = (Instant, Arc<PlayedPolicy>);
 
 /// Actor that does not simulate.
-pub(super) struct PlayedActor {
+pub struct PlayedActor {
     shared: FleetShared,
     bus: Bus,
     /// Number within the process, for its rate.
@@ -83,16 +79,18 @@ pub(super) struct PlayedActor {
 
 impl PlayedActor {
     /// Joins the run: fetches the policy, declares the token and starts the actor's tasks.
-    pub(super) async fn join(shared: FleetShared, bus: Bus, index: usize, name: String) -> anyhow::Result<Arc<Self>> {
+    pub async fn join(shared: FleetShared, bus: Bus, index: usize, name: String) -> anyhow::Result<Arc<Self>> {
         let policy = loop {
-            if let Some(bundle) = fetch(&bus, shared.delay).await? {
+            if let Some(bundle) = fetch_policy(&bus, Some(RUN), FETCH_TIMEOUT).await? {
                 break shared.policies.get(bundle)?;
             }
             sleep(RETRY).await;
         };
+        let learner = policy.version().incarnation;
         let policies = Mutex::new(VecDeque::from([(Instant::now(), policy)]));
         let incarnation = seeds::unique();
-        let (fetching, steps_asked, counts) = (tokio::sync::Mutex::default(), AtomicU32::new(0), Mutex::default());
+        let (fetching, steps_asked) = (tokio::sync::Mutex::default(), AtomicU32::new(0));
+        let counts = Mutex::new(ActorCounts::new(learner));
         let actor = Arc::new(Self { shared, bus, index, name, incarnation, policies, fetching, steps_asked, counts });
         let (token, announcements) = (token(&actor.bus, RUN, &actor.name)?, watch_announcements(&actor.bus, RUN)?);
         actor.spawn({
@@ -108,7 +106,7 @@ impl PlayedActor {
     }
 
     /// Returns the counts, which the actor shares with its tasks.
-    pub(super) fn counts(&self) -> MutexGuard<'_, ActorCounts> {
+    pub fn counts(&self) -> MutexGuard<'_, ActorCounts> {
         self.counts.lock().expect("no holder of this lock panics")
     }
 
@@ -205,45 +203,39 @@ impl PlayedActor {
         credit: &mpsc::Sender<Instant>,
     ) -> anyhow::Result<()> {
         let bytes = Bytes::from(policy.transitions()?.encode(header)?);
+        let first = self.counts().begin_delivery(header.sequence, bytes);
         keep_time(&mut self.counts().times.late_ms, ready.elapsed());
         let begun = Instant::now();
-        let receipt = self.send_until_settled(&bytes).await?;
-        // A real actor keeps the bytes until they are durable; here only their number is kept.
-        drop(bytes);
+        let receipt = self.send_until_settled(first).await?;
         anyhow::ensure!(receipt.outcome != Outcome::Malformed, "the learner rejects a fragment: {}", receipt.reason);
-        {
-            let mut counts = self.counts();
-            keep_time(&mut counts.times.receipts_ms, begun.elapsed());
-            counts.settle(header.sequence, &receipt);
-        }
+        keep_time(&mut self.counts().times.receipts_ms, begun.elapsed());
         self.steps_asked.store(receipt.fragment_steps, Ordering::Relaxed);
         self.refresh(Some(receipt.version)).await?;
+        let adopted = Event::Adopted { incarnation: self.newest_policy().version().incarnation };
+        let again = self.counts().handle(adopted);
+        for attempt in again {
+            self.send_until_settled(attempt).await?;
+        }
         // The channel has space for every credit.
         let _ = credit.try_send(Instant::now());
         Ok(())
     }
 
-    async fn send_until_settled(&self, bytes: &Bytes) -> anyhow::Result<Receipt> {
+    async fn send_until_settled(&self, first: Attempt) -> anyhow::Result<Receipt> {
         let timeout = Duration::from_millis(self.shared.policies.config.bus.receipt_timeout_ms);
+        let mut next = first;
         loop {
-            self.travel().await;
-            let receipt = submit(&self.bus, RUN, &self.name, bytes.clone(), timeout, |_| true).await?;
-            self.travel().await;
-            let outcome = receipt.as_ref().map(|receipt| receipt.outcome);
-            let pause = match (outcome, receipt) {
-                (None | Some(Outcome::Busy | Outcome::Stopping), _) => RETRY,
-                (Some(Outcome::Quarantined), _) => QUARANTINE_RETRY,
-                (Some(_), receipt) => return receipt.context("an outcome comes with its receipt"),
-            };
+            let Attempt { sequence, bytes, pause } = next;
             sleep(pause).await;
-            self.counts().resend(outcome);
-        }
-    }
-
-    /// Waits for the time that a message takes on the network.
-    async fn travel(&self) {
-        if !self.shared.delay.is_zero() {
-            sleep(self.shared.delay).await;
+            let receipt = submit(&self.bus, RUN, &self.name, bytes, timeout, |_| true).await?;
+            let event = match &receipt {
+                Some(receipt) => Event::Answered { sequence, receipt: receipt.clone() },
+                None => Event::Silent { sequence },
+            };
+            match (self.counts().handle(event).pop(), receipt) {
+                (Some(attempt), _) => next = attempt,
+                (None, receipt) => return receipt.context("only a receipt settles a fragment"),
+            }
         }
     }
 
@@ -255,20 +247,12 @@ impl PlayedActor {
         let mut stats_due = tokio::time::interval(Duration::from_millis(config.stats_every_ms));
         let publish_stats = publish_dropping(&self.bus, keys::stats(RUN, &self.name))?;
         let (mut since, mut env_steps) = (Instant::now(), 0);
-        let mut announced = JoinSet::new();
         // Announcements and polls start no fetch while another one of theirs is under way, as in an actor.
         let mut asked = None;
         loop {
             tokio::select! {
-                Some(announcement) = announcements.next() => {
-                    let delay = self.shared.delay;
-                    announced.spawn(async move {
-                        sleep(delay).await;
-                        announcement.version
-                    });
-                }
-                Some(version) = announced.join_next() => if asked.is_none() {
-                    asked = Some(Box::pin(self.refresh(version.ok())));
+                Some(announcement) = announcements.next() => if asked.is_none() {
+                    asked = Some(Box::pin(self.refresh(Some(announcement.version))));
                 },
                 _ = poll_due.tick() => if asked.is_none() {
                     asked = Some(Box::pin(self.refresh(None)));
@@ -296,7 +280,7 @@ impl PlayedActor {
             return Ok(());
         }
         let begun = Instant::now();
-        let Some(bundle) = fetch(&self.bus, self.shared.delay).await? else { return Ok(()) };
+        let Some(bundle) = fetch_policy(&self.bus, Some(RUN), FETCH_TIMEOUT).await? else { return Ok(()) };
         keep_time(&mut self.counts().times.fetches_ms, begun.elapsed());
         if bundle.version != version {
             let policy = self.shared.policies.get(bundle)?;
@@ -332,18 +316,6 @@ impl PlayedActor {
             ..ActorStats::default()
         }
     }
-}
-
-/// Fetches the newest policy; request and reply each take `delay`.
-async fn fetch(bus: &Bus, delay: Duration) -> anyhow::Result<Option<treadmill_proto::PolicyBundle>> {
-    if !delay.is_zero() {
-        sleep(delay).await;
-    }
-    let bundle = fetch_policy(bus, Some(RUN), FETCH_TIMEOUT).await?;
-    if !delay.is_zero() {
-        sleep(delay).await;
-    }
-    Ok(bundle)
 }
 
 /// Waits until the actors are to stop.

@@ -11,6 +11,10 @@ use clap::Args;
 use serde_json::{Value, json};
 use tokio::{runtime::Runtime, sync::watch};
 use treadmill_bus::{Bus, BusOptions, Role, fetch_policy};
+use treadmill_rl::{
+    launch::{memory, output::say},
+    shared::network_args::NetworkArgs,
+};
 
 use super::{
     RUN,
@@ -18,11 +22,7 @@ use super::{
     counts::Tally,
     policy::PlayedPolicies,
 };
-use crate::{
-    launch::{memory, output::say},
-    load_generator::usage,
-    shared::network_args::NetworkArgs,
-};
+use crate::usage;
 
 const FETCH_TIMEOUT: Duration = Duration::from_secs(10);
 /// Pause before the policy is asked for again.
@@ -49,9 +49,6 @@ pub struct PlayedActorsArgs {
     /// Environments of each actor.
     #[arg(long)]
     envs: u32,
-    /// Delay of every message in one direction.
-    #[arg(long)]
-    delay_ms: u64,
     #[command(flatten)]
     network: NetworkArgs,
 }
@@ -78,7 +75,6 @@ pub fn run(args: &PlayedActorsArgs) -> anyhow::Result<()> {
         order: received,
         failure: failure.clone(),
         envs: args.envs,
-        delay: Duration::from_millis(args.delay_ms),
     };
     let actors = join(args, &options, &runtime, &shared)?;
     let joined_s = begun.elapsed().as_secs_f64();

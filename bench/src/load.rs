@@ -21,14 +21,15 @@ use treadmill_bus::{
     watch_announcements,
 };
 use treadmill_config::BusConfig;
+use treadmill_experience::delivery::{Action, Delivery, Event};
 use treadmill_proto::{Outcome, PolicyRequest, PolicyVersion, Precision, PreparedFragment};
-use treadmill_runtime::machine;
-
-use super::{usage, workload};
-use crate::{
+use treadmill_rl::{
     launch::{memory, output::say},
     shared::network_args::NetworkArgs,
 };
+use treadmill_runtime::machine;
+
+use crate::{usage, workload};
 
 const FETCH_TIMEOUT: Duration = Duration::from_secs(10);
 /// Longest wait for the first accepted fragment of every actor.
@@ -261,7 +262,7 @@ fn join(
     Ok(senders)
 }
 
-/// Sends one fragment after the other, each until it is answered. `first` gets a message at the first accepted one.
+/// Sends one fragment after the other, each until it is settled. `first` gets a message at the first accepted one.
 fn deliver(
     shared: &Shared,
     bus: &Bus,
@@ -277,11 +278,17 @@ fn deliver(
     while shared.phase() != Phase::Stopped {
         let number = sequence.fetch_add(1, Ordering::Relaxed);
         shared.prepared.rename(&mut own, name, incarnation, number);
-        let fragment = Bytes::from(own);
+        // One for each fragment: the prepared bytes are reused, so none is kept until it is durable.
+        let mut delivery = Delivery::new(workload::INCARNATION);
         let begun = Instant::now();
-        loop {
-            let receipt = handle.block_on(submit(bus, workload::RUN, name, fragment.clone(), timeout, |_| true));
-            let outcome = receipt.ok().flatten().map(|receipt| receipt.outcome);
+        let mut next = Some(delivery.produce(number, Bytes::from(own)));
+        let mut fragment = Bytes::new();
+        while let Some(attempt) = next.take() {
+            std::thread::sleep(attempt.pause);
+            fragment = attempt.bytes;
+            let answer = handle.block_on(submit(bus, workload::RUN, name, fragment.clone(), timeout, |_| true));
+            let receipt = answer.ok().flatten();
+            let outcome = receipt.as_ref().map(|receipt| receipt.outcome);
             if outcome == Some(Outcome::Accepted)
                 && let Some(first) = first.take()
             {
@@ -296,11 +303,16 @@ fn deliver(
                     Some(_) => outcomes.refused += 1,
                 }
             }
-            match outcome {
-                Some(Outcome::Busy) | None if shared.phase() != Phase::Stopped => std::thread::sleep(RETRY),
-                _ => break,
-            }
+            let event = match receipt {
+                Some(receipt) => Event::Answered { sequence: number, receipt },
+                None => Event::Silent { sequence: number },
+            };
+            next = delivery.handle(event).into_iter().find_map(|action| match action {
+                Action::Send(attempt) if shared.phase() != Phase::Stopped => Some(attempt),
+                _ => None,
+            });
         }
+        drop(delivery);
         // Reuses the memory, unless the bus still holds it.
         own = Vec::from(fragment);
         if !shared.pause.is_zero() {

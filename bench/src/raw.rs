@@ -8,19 +8,19 @@ use std::{
 
 use anyhow::Context;
 
-use super::usage;
+use crate::usage;
 
 /// Measurement of plain TCP.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Raw {
-    pub(crate) mb_per_s: f64,
+pub struct Raw {
+    pub mb_per_s: f64,
     /// Of both ends together.
-    pub(crate) cpu_s_per_gb: f64,
+    pub cpu_s_per_gb: f64,
 }
 
 impl Raw {
     /// Returns the mean of two measurements.
-    pub(crate) fn mean(self, other: Self) -> Self {
+    pub fn mean(self, other: Self) -> Self {
         Self {
             mb_per_s: (self.mb_per_s + other.mb_per_s) / 2.0,
             cpu_s_per_gb: (self.cpu_s_per_gb + other.cpu_s_per_gb) / 2.0,
@@ -29,7 +29,7 @@ impl Raw {
 }
 
 /// Sends messages of this size for `duration`. The receiver reads each into the same buffer.
-pub(crate) fn measure(message_bytes: usize, duration: Duration) -> anyhow::Result<Raw> {
+pub fn measure(message_bytes: usize, duration: Duration) -> anyhow::Result<Raw> {
     let listener = TcpListener::bind("127.0.0.1:0").context("no port on loopback")?;
     let address = listener.local_addr().context("no address on loopback")?;
     let (cpu_before, begun) = (usage::cpu_s(), Instant::now());

@@ -13,21 +13,21 @@ use treadmill_bus::{
     Alive, Bus, PolicyServer, PublishedPolicy, Role, RolloutCopies, RolloutIntake, ServedPolicies, admission::Admission,
 };
 use treadmill_config::{Config, LearnerMode};
+use treadmill_experience::{ledger::Ledger, lineage::Lineage};
 use treadmill_learner::intake::{
     BatchSize, BusFragmentSource, Collected, ExpectedFragment, FleetPlan, FragmentCounts, FragmentValidator,
-    HorizonRule, Intake, Ledger, Lineage,
+    HorizonRule, Intake,
 };
 use treadmill_learner::training::Heartbeat;
 use treadmill_ppo::AcceptedFragment;
 use treadmill_proto::{Fragment, PolicyBundle};
-use treadmill_runtime::{machine, shutdown::Shutdown};
-
-use super::{usage, workload};
-use crate::{
-    commands::bench::network,
+use treadmill_rl::{
     launch::{memory, output::say},
     shared::network_args::NetworkArgs,
 };
+use treadmill_runtime::{machine, shutdown::Shutdown};
+
+use crate::{usage, workload};
 
 /// Accepted fragments between two marks of durability, which stand for checkpoints.
 const DURABLE_EVERY: u64 = 64;
@@ -131,7 +131,7 @@ fn accept_fragments(mut intake: Intake<BusFragmentSource>, progress: &Mutex<Prog
 
 fn checksum(AcceptedFragment { fragment, .. }: &AcceptedFragment) -> String {
     let Fragment { observations, actions, log_probs, rewards, last_observations, .. } = fragment;
-    network::checksum(&[&observations[..], actions, log_probs, rewards, last_observations].concat())
+    workload::checksum(&[&observations[..], actions, log_probs, rewards, last_observations].concat())
 }
 
 fn mark(progress: &Progress, begun: Instant, shared: u64, served: ServedPolicies) -> Value {
