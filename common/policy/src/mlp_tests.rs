@@ -1,9 +1,8 @@
-//! Networks on slices against finite differences in double precision, and against Candle's operations and autograd.
-
-use candle_core::{Device, Result, Tensor, Var};
+//! Networks on slices against finite differences in double precision. The tests of `treadmill-ppo` compare them with Candle's
+//! automatic differentiation.
 
 use super::*;
-use crate::{NetworkShape, plain};
+use crate::NetworkShape;
 
 #[test]
 fn products_follow_the_strides() {
@@ -61,38 +60,6 @@ fn on_slices(layers: &[Dense], flat: &[f32], observations: &[f32], columns: usiz
     let mut gradient = vec![f32::NAN; mlp.range().len()];
     mlp.backward(flat, &mut tape, &mut gradient, false);
     [output, gradient]
-}
-
-/// Returns the same by Candle's operations and automatic differentiation.
-fn by_candle(layers: &[Dense], flat: &[f32], observations: &[f32], columns: usize) -> Result<[Vec<f32>; 2]> {
-    let parameters = Var::from_slice(flat, flat.len(), &Device::Cpu)?;
-    let rows = Tensor::from_slice(observations, (observations.len() / columns, columns), &Device::Cpu)?;
-    let output = plain::network(layers, &parameters, &rows)?;
-    let weights = Tensor::from_vec(wave(output.elem_count(), 0.3), output.shape(), &Device::Cpu)?;
-    let gradients = ((&output * weights)? + output.sqr()?)?.sum_all()?.backward()?;
-    let gradient = gradients.get(&parameters).expect("the parameters take part").to_vec1::<f32>()?;
-    Ok([output.flatten_all()?.to_vec1()?, gradient[Mlp::new(layers.to_vec()).range()].to_vec()])
-}
-
-#[test]
-fn output_and_gradient_agree_with_candles_operations() -> Result<()> {
-    let small = [(vec![16, 8], 33), (vec![4], 250), (vec![], 5), (vec![8, 8, 8], CHUNK_ROWS)]
-        .map(|(hidden, rows)| (NetworkShape { observation: 7, action: 3, hidden, privileged: 2 }, rows));
-    for (shape, rows) in small.into_iter().chain(shapes_in_use().map(|shape| (shape, CHUNK_ROWS))) {
-        let (flat, observations) = (parameters(&shape), wave(rows * shape.observation, 1.37));
-        for layers in networks(&shape) {
-            let found = on_slices(&layers, &flat, &observations, shape.observation);
-            let expected = by_candle(&layers, &flat, &observations, shape.observation)?;
-            for (found, expected) in found.iter().zip(&expected) {
-                let largest = expected.iter().fold(0.0_f32, |largest, number| largest.max(number.abs()));
-                assert_eq!(found.len(), expected.len());
-                for (i, (a, b)) in found.iter().zip(expected).enumerate() {
-                    assert!((a - b).abs() < 1e-5 * largest, "{shape:?} {i}: {a} {b}");
-                }
-            }
-        }
-    }
-    Ok(())
 }
 
 /// Returns the output of a network for one row in f64, straight from the definition.

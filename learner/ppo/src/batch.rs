@@ -37,36 +37,30 @@ impl Batch {
         self.returns.is_empty()
     }
 
+    /// Returns name, numbers and width of each field.
+    fn fields(&self, shape: &NetworkShape) -> [(&'static str, &[f32], usize); 8] {
+        [
+            ("batch's observations", &self.observations, shape.observation),
+            ("batch's actions", &self.actions, shape.action),
+            ("batch's means", &self.means, shape.action),
+            ("batch's log-probabilities", &self.log_probs, 1),
+            ("batch's weights", &self.weights, 1),
+            ("batch's advantages", &self.advantages, 1),
+            ("batch's returns", &self.returns, 1),
+            ("batch's values", &self.values, 1),
+        ]
+    }
+
     /// Returns the first field with a wrong length, its length, and the expected length.
     pub(crate) fn wrong_length(&self, shape: &NetworkShape) -> Option<(&'static str, usize, usize)> {
-        let rows = self.len();
-        [
-            ("observations", self.observations.len(), rows * shape.observation),
-            ("actions", self.actions.len(), rows * shape.action),
-            ("means", self.means.len(), rows * shape.action),
-            ("log_probs", self.log_probs.len(), rows),
-            ("weights", self.weights.len(), rows),
-            ("advantages", self.advantages.len(), rows),
-            ("values", self.values.len(), rows),
-        ]
-        .into_iter()
-        .find(|(_, found, expected)| found != expected)
+        let lengths = self.fields(shape).map(|(name, numbers, width)| (name, numbers.len(), self.len() * width));
+        lengths.into_iter().find(|(_, found, expected)| found != expected)
     }
 
     /// Returns the name of a field with a number that is infinite or NaN.
-    pub(crate) fn non_finite(&self) -> Option<&'static str> {
-        [
-            ("batch's observations", &self.observations),
-            ("batch's actions", &self.actions),
-            ("batch's means", &self.means),
-            ("batch's log-probabilities", &self.log_probs),
-            ("batch's weights", &self.weights),
-            ("batch's advantages", &self.advantages),
-            ("batch's returns", &self.returns),
-            ("batch's values", &self.values),
-        ]
-        .into_iter()
-        .find_map(|(name, numbers)| numbers.iter().any(|number| !number.is_finite()).then_some(name))
+    pub(crate) fn non_finite(&self, shape: &NetworkShape) -> Option<&'static str> {
+        let is_bad = |numbers: &[f32]| numbers.iter().any(|number| !number.is_finite());
+        self.fields(shape).into_iter().find_map(|(name, numbers, _)| is_bad(numbers).then_some(name))
     }
 }
 
@@ -185,9 +179,9 @@ mod tests {
         assert_eq!(batch.wrong_length(&shape), None);
         assert_eq!(picked(&batch.observations, 2, &[2, 0]), [20.0, 21.0, 0.0, 1.0]);
         let short = Batch { actions: vec![0.5], ..batch };
-        assert_eq!(short.wrong_length(&shape), Some(("actions", 1, 3)));
-        assert_eq!(short.non_finite(), None);
+        assert_eq!(short.wrong_length(&shape), Some(("batch's actions", 1, 3)));
+        assert_eq!(short.non_finite(&shape), None);
         let infinite = Batch { values: vec![0.0, f32::INFINITY, 0.0], ..short };
-        assert_eq!(infinite.non_finite(), Some("batch's values"));
+        assert_eq!(infinite.non_finite(&shape), Some("batch's values"));
     }
 }

@@ -1,7 +1,5 @@
 //! One bad fragment among good ones changes nothing.
 
-use std::sync::Arc;
-
 use rand_distr::{Distribution, StandardNormal};
 use rand_xoshiro::{Xoshiro256PlusPlus, rand_core::SeedableRng};
 use treadmill_config::PpoConfig;
@@ -29,10 +27,8 @@ impl World {
         let shape = NetworkShape { observation: 3, action: 2, hidden: vec![16, 8], privileged: 0 };
         let config = PpoConfig { minibatch: 64, epochs: 2, ..PpoConfig::default() };
         let parameters = init::initial_parameters(&shape, -0.5, &mut random(PARAMETER_SEED));
-        let pool = Arc::new(rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("a thread starts"));
         let state = PpoState::new(&shape, parameters, random(SHUFFLE_SEED), &config);
-        let device = treadmill_policy::device::Device::Cpu;
-        let options = PpoOptions { shape, device, pool, mirror: None, observation_clip: 10.0 };
+        let options = PpoOptions::on_cpu(shape, 1).expect("a thread starts");
         Self { ppo: Ppo::new(options, &config), state }
     }
 

@@ -111,20 +111,7 @@ impl<'a> LossTerms<'a> {
 
 #[cfg(test)]
 mod tests {
-    use candle_core::{Device, Tensor, Var};
-    use proptest::prelude::*;
-
     use super::*;
-    use crate::loss::{Minibatch, ppo_loss};
-
-    fn numbers(tensor: &Tensor) -> Vec<f32> {
-        tensor.flatten_all().and_then(|tensor| tensor.to_vec1()).expect("numbers")
-    }
-
-    fn close(one: &[f32], other: &[f32]) -> bool {
-        one.len() == other.len()
-            && one.iter().zip(other).all(|(a, b)| (a - b).abs() <= 1e-5 * (1.0 + a.abs() + b.abs()))
-    }
 
     #[test]
     fn a_row_outside_the_clip_range_counts_and_pushes_only_back() {
@@ -140,68 +127,11 @@ mod tests {
         let (mut gradient, mut log_std_gradient, mut sums) = (Vec::new(), [0.0], LossSums::default());
         terms.policy(&[0, 1, 2], &[0.0; 3], &mut gradient, &mut log_std_gradient, &mut sums);
         assert_eq!(sums.clipped, 2.0);
-        assert!(close(&gradient, &[0.0, -1.0, -0.5 / 3.0]), "{gradient:?}");
+        for (found, expected) in gradient.iter().zip([0.0, -1.0, -0.5 / 3.0]) {
+            assert!((found - expected).abs() < 1e-6, "{gradient:?}");
+        }
         // Actions at one standard deviation say nothing about it.
         assert!(log_std_gradient[0].abs() < 1e-6);
         assert!((sums.policy + 1.2 + 3.0 + 0.5).abs() < 1e-6);
-    }
-
-    proptest! {
-        #[test]
-        fn loss_and_gradient_equal_those_of_candles_operations(
-            count in 1_usize..12,
-            actions in 1_usize..5,
-            seed in proptest::collection::vec(-1.5_f32..1.5, 200),
-            coefficients in (0.0..0.1_f64, 0.0..1.0_f64, 0.1..2.0_f64, 0.05..0.5_f64, 0.3..1.5_f64),
-        ) {
-            let mut seed = seed.into_iter().cycle();
-            let mut take = |length: usize| seed.by_ref().take(length).collect::<Vec<f32>>();
-            let (means, values, log_std, advantages) = (take(count * actions), take(count), take(actions), take(count));
-            let batch = Batch {
-                actions: take(count * actions),
-                log_probs: take(count).iter().map(|log_prob| 2.0 * log_prob - actions as f32).collect(),
-                returns: take(count),
-                ..Batch::default()
-            };
-            let (entropy_coefficient, bounds_coefficient, value_coefficient, clip_range, bounds_limit) = coefficients;
-            let config = PpoConfig {
-                entropy_coefficient, bounds_coefficient, value_coefficient, clip_range, bounds_limit, ..PpoConfig::default()
-            };
-            let leaf = |numbers: &[f32], width| Var::from_slice(numbers, (numbers.len() / width, width), &Device::Cpu);
-            let leaf = |numbers: &[f32], width| leaf(numbers, width).expect("a tensor");
-            let vector = |numbers: &[f32]| Tensor::new(numbers, &Device::Cpu).expect("a tensor");
-            let minibatch = Minibatch {
-                actions: leaf(&batch.actions, actions).into_inner(),
-                log_probs: vector(&batch.log_probs),
-                advantages: vector(&advantages),
-                returns: vector(&batch.returns),
-            };
-            let leaves = [leaf(&means, actions), leaf(&values, 1), leaf(&log_std, actions)];
-            let output = Tensor::cat(&[leaves[0].as_tensor(), leaves[1].as_tensor()], 1).expect("as many rows");
-            let flat = leaves[2].flatten_all().expect("a tensor");
-            let wanted = ppo_loss(&output, &flat, &minibatch, &config).expect("the loss");
-
-            let rows: Vec<u32> = (0..count as u32).collect();
-            let terms = LossTerms::new(&batch, &advantages, &config, &log_std, count);
-            let (mut by_mean, mut by_value, mut sums) = (Vec::new(), Vec::new(), LossSums::default());
-            let mut by_log_std = vec![-entropy_coefficient; actions];
-            terms.policy(&rows, &means, &mut by_mean, &mut by_log_std, &mut sums);
-            terms.value(&rows, &values, &mut by_value, &mut sums);
-            let mean = |sum: f64| sum / count as f64;
-            for (found, wanted) in
-                [(sums.policy, &wanted.policy), (sums.value, &wanted.value), (sums.bounds, &wanted.bounds)]
-            {
-                prop_assert!(close(&[mean(found) as f32], &numbers(wanted)), "{found} {wanted}");
-            }
-            let ratios = numbers(&wanted.log_ratio);
-            let clipped = ratios.iter().filter(|ratio| (ratio.exp() - 1.0).abs() > config.clip_range as f32);
-            prop_assert_eq!(sums.clipped, clipped.count() as f64);
-            let gradients = wanted.total.backward().expect("a gradient");
-            let by_log_std: Vec<f32> = by_log_std.iter().map(|sum| *sum as f32).collect();
-            for (leaf, found) in leaves.iter().zip([by_mean, by_value, by_log_std]) {
-                let wanted = numbers(gradients.get(leaf).expect("a gradient"));
-                prop_assert!(close(&found, &wanted), "{found:?} {wanted:?}");
-            }
-        }
     }
 }

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use rayon::ThreadPool;
+use rayon::{ThreadPool, ThreadPoolBuildError, ThreadPoolBuilder};
 use treadmill_config::PpoConfig;
 use treadmill_policy::{
     NetworkShape, ParameterError, Policy,
@@ -35,6 +35,18 @@ pub struct PpoOptions {
     pub mirror: Option<BatchMirror>,
     /// Limit of normalised observations.
     pub observation_clip: f32,
+}
+
+impl PpoOptions {
+    /// Returns options for a CPU, without a mirror.
+    ///
+    /// # Errors
+    /// If the threads cannot be started.
+    pub fn on_cpu(shape: NetworkShape, threads: usize) -> Result<Self, ThreadPoolBuildError> {
+        let name = |index| format!("update-{index}");
+        let pool = ThreadPoolBuilder::new().num_threads(threads).thread_name(name).build()?;
+        Ok(Self { shape, device: Device::Cpu, pool: Arc::new(pool), mirror: None, observation_clip: 10.0 })
+    }
 }
 
 /// Proximal policy optimisation: improves a [`PpoState`] batch by batch.
@@ -76,7 +88,7 @@ impl Ppo {
         if let Some((field, found, expected)) = batch.wrong_length(&self.options.shape) {
             return Err(UpdateError::Length { field, found, expected });
         }
-        if let Some(what) = batch.non_finite() {
+        if let Some(what) = batch.non_finite(&self.options.shape) {
             return Err(UpdateError::NonFinite { what });
         }
         let before = state.clone();

@@ -41,7 +41,7 @@ pub enum UpdateError {
     #[error("the batch is empty")]
     Empty,
     /// A field of the batch has the wrong length.
-    #[error("{field} of the batch has {found} numbers, expected {expected}")]
+    #[error("the {field} hold {found} numbers, expected {expected}")]
     Length {
         /// Name of the field.
         field: &'static str,

@@ -7,8 +7,9 @@ mod golden;
 use std::collections::BTreeMap;
 
 use candle_core::{Device, Result, Tensor, Var};
-use golden::{GoldenMismatch, compare, config, flipped, narrow, read};
+use golden::{GoldenMismatch, compare, flipped, narrow, read};
 use serde::Deserialize;
+use treadmill_config::PpoConfig;
 use treadmill_policy::normaliser::{Normaliser, RunningMoments, ScalarNormaliser};
 use treadmill_ppo::{
     gae::{self, Steps},
@@ -78,7 +79,7 @@ fn advantages_equal_those_of_n_step_returns() {
 
 #[derive(Clone, Deserialize)]
 struct LossFile {
-    config: BTreeMap<String, f64>,
+    config: PpoConfig,
     output: Vec<f64>,
     log_std: Vec<f64>,
     actions: Vec<f64>,
@@ -104,7 +105,7 @@ impl LossFile {
                 advantages: tensor(&self.advantages)?,
                 returns: tensor(&self.returns)?,
             };
-            let loss = ppo_loss(&output, &log_std, &minibatch, &config(&self.config))?;
+            let loss = ppo_loss(&output, &log_std, &minibatch, &self.config)?;
             let gradients = loss.total.backward()?;
             let of = |leaf: &Var| gradients.get(leaf).expect("takes part").flatten_all()?.to_vec1::<f32>();
             Ok((loss.log_ratio.to_vec1::<f32>()?, of(&output)?, of(&log_std)?, loss))

@@ -4,13 +4,14 @@
 
 mod golden;
 
-use std::{collections::BTreeMap, sync::Arc};
+use std::collections::BTreeMap;
 
-use golden::{GoldenMismatch, compare, config, flipped, narrow, read};
+use golden::{GoldenMismatch, compare, flipped, narrow, read};
 use rand::RngExt;
 use rand_xoshiro::{Xoshiro256PlusPlus, rand_core::SeedableRng};
 use serde::Deserialize;
-use treadmill_policy::{NetworkShape, device::Device};
+use treadmill_config::PpoConfig;
+use treadmill_policy::NetworkShape;
 use treadmill_ppo::{Batch, Ppo, PpoOptions, PpoState, UpdateStats};
 
 /// Relative to the parameters' root mean square, 0.3, or to their size. Each gradient step moves them by about 1e-3.
@@ -63,7 +64,7 @@ struct BatchFile {
 
 #[derive(Clone, Deserialize)]
 struct UpdateCase {
-    config: BTreeMap<String, f64>,
+    config: PpoConfig,
     seed: u64,
     gradient_steps: u64,
     stats: BTreeMap<String, f64>,
@@ -95,12 +96,10 @@ impl UpdateFile {
             returns: narrow(&self.batch.returns),
             values: narrow(&self.batch.values),
         };
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("a thread starts");
-        let (config, random) = (config(&case.config), Xoshiro256PlusPlus::seed_from_u64(case.seed));
-        let mut state = PpoState::new(&shape, narrow(&self.parameters), random, &config);
-        let options =
-            PpoOptions { shape, device: Device::Cpu, pool: Arc::new(pool), mirror: None, observation_clip: 10.0 };
-        let stats = Ppo::new(options, &config).update(&mut state, &batch, config.epochs).expect("the batch is sound");
+        let (config, random) = (&case.config, Xoshiro256PlusPlus::seed_from_u64(case.seed));
+        let mut state = PpoState::new(&shape, narrow(&self.parameters), random, config);
+        let options = PpoOptions::on_cpu(shape, 1).expect("a thread starts");
+        let stats = Ppo::new(options, config).update(&mut state, &batch, config.epochs).expect("the batch is sound");
         (state, stats)
     }
 
@@ -156,8 +155,8 @@ fn a_whole_update_equals_that_of_pytorch() {
     // The case covers clipped ratios, bounds, clipped gradients and an adapted learning rate.
     let stats = &case.stats;
     assert!(case.gradient_steps > 10 && stats["clip_fraction"] > 0.1 && stats["bounds_loss"] > 0.01, "{stats:?}");
-    assert!(stats["grad_norm"] > case.config["max_grad_norm"], "gradients are clipped: {stats:?}");
-    assert!(stats["learning_rate"] < case.config["learning_rate"] / 2.0, "it was divided by 1.5 twice: {stats:?}");
+    assert!(stats["grad_norm"] > case.config.max_grad_norm, "gradients are clipped: {stats:?}");
+    assert!(stats["learning_rate"] < case.config.learning_rate / 2.0, "it was divided by 1.5 twice: {stats:?}");
 
     for (what, wrong) in [
         ("parameter", UpdateFile { parameters: flipped(&file.parameters), ..file.clone() }),
@@ -180,7 +179,7 @@ fn a_whole_update_equals_that_of_pytorch() {
 fn an_update_with_a_rising_learning_rate_equals_that_of_pytorch() {
     let file = UpdateFile::read();
     let case = &file.rising;
-    assert_eq!(case.stats["learning_rate"], case.config["learning_rate_max"]);
+    assert_eq!(case.stats["learning_rate"], case.config.learning_rate_max);
     file.compare(case).expect("the same update");
     // With another learning rate the results differ.
     file.compare(&UpdateCase { config: file.whole.config.clone(), ..case.clone() }).expect_err("another learning rate");

@@ -1,14 +1,10 @@
 //! Learning does not depend on the units of rewards.
 
-use std::sync::Arc;
-
 use rand_distr::{Distribution, StandardNormal};
 use rand_xoshiro::{Xoshiro256PlusPlus, rand_core::SeedableRng};
 use treadmill_config::PpoConfig;
 use treadmill_policy::{
-    NetworkShape,
-    device::Device,
-    gaussian, init,
+    NetworkShape, gaussian, init,
     normaliser::{Normaliser, RunningMoments},
 };
 use treadmill_ppo::{AcceptedFragment, Ppo, PpoOptions, PpoState, build_batch};
@@ -26,9 +22,8 @@ fn learnt(scale: f32) -> (Vec<f32>, f64) {
     let config = PpoConfig { batch: STEPS * ENVS, minibatch: 64, ..PpoConfig::default() };
     let random = Xoshiro256PlusPlus::seed_from_u64;
     let parameters = init::initial_parameters(&shape, -0.5, &mut random(PARAMETER_SEED));
-    let pool = Arc::new(rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("a thread starts"));
     let mut state = PpoState::new(&shape, parameters, random(SHUFFLE_SEED), &config);
-    let ppo = Ppo::new(PpoOptions { shape, device: Device::Cpu, pool, mirror: None, observation_clip: 10.0 }, &config);
+    let ppo = Ppo::new(PpoOptions::on_cpu(shape, 1).expect("a thread starts"), &config);
     let mut noise_random = random(NOISE_SEED);
     let mut value_moments = RunningMoments::new(1);
     let mut explained = 0.0;

@@ -2,7 +2,6 @@
 
 use std::{
     error::Error,
-    sync::Arc,
     time::{Duration, Instant},
 };
 
@@ -34,17 +33,11 @@ impl Learning {
             0 => machine::cores(),
             threads => threads as usize,
         };
-        let pool = rayon::ThreadPoolBuilder::new()
-            .num_threads(threads)
-            .thread_name(|index| format!("update-{index}"))
-            .build()
-            .map_err(|why| invalid(&why))?;
         let ppo_options = PpoOptions {
-            shape: state.shape.clone(),
             device: options.device.clone(),
-            pool: Arc::new(pool),
             mirror: options.mirror.clone(),
             observation_clip: config.policy.observation_clip as f32,
+            ..PpoOptions::on_cpu(state.shape.clone(), threads).map_err(|why| invalid(&why))?
         };
         let ppo = Ppo::new(ppo_options, &config.ppo);
         ppo.policy(&state.ppo).map_err(|why| invalid(&why))?;

@@ -1,6 +1,6 @@
 //! `bench update`: an update on random experience, with forward and backward pass, gradient clipping and Adam.
 
-use std::{sync::Arc, time::Instant};
+use std::time::Instant;
 
 use clap::Args;
 use serde_json::json;
@@ -51,9 +51,8 @@ pub fn run(args: &UpdateArgs) -> anyhow::Result<()> {
     let parameters = initial_parameters(&shape, -0.5, &mut random);
     let batch = random_batch(&shape, config.batch as usize, &mut random);
     let threads = bench_worlds::threads(args.threads.into());
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build()?;
     let mut state = PpoState::new(&shape, parameters, random, &config);
-    let options = PpoOptions { shape, device, pool: Arc::new(pool), mirror: None, observation_clip: 10.0 };
+    let options = PpoOptions { device, ..PpoOptions::on_cpu(shape, threads)? };
     let ppo = Ppo::new(options, &config);
     ppo.update(&mut state, &batch, config.epochs)?;
     let begun = Instant::now();

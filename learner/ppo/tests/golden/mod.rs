@@ -1,9 +1,6 @@
 //! Results of PyTorch and numpy, written by `make.py`, and their comparison with the learner's.
 
-use std::collections::BTreeMap;
-
 use serde::de::DeserializeOwned;
-use treadmill_config::PpoConfig;
 
 /// Parses one of the files.
 pub fn read<T: DeserializeOwned>(text: &str) -> T {
@@ -55,31 +52,4 @@ pub fn compare<N: Copy + Into<f64>>(
         }
     }
     Ok(())
-}
-
-/// Returns the default configuration with the values that a file gives by name.
-pub fn config(given: &BTreeMap<String, f64>) -> PpoConfig {
-    let mut config = PpoConfig::default();
-    for (name, number) in given {
-        let field = match name.as_str() {
-            "clip_range" => &mut config.clip_range,
-            "value_coefficient" => &mut config.value_coefficient,
-            "entropy_coefficient" => &mut config.entropy_coefficient,
-            "bounds_coefficient" => &mut config.bounds_coefficient,
-            "bounds_limit" => &mut config.bounds_limit,
-            "max_grad_norm" => &mut config.max_grad_norm,
-            "learning_rate" => &mut config.learning_rate,
-            "learning_rate_min" => &mut config.learning_rate_min,
-            "learning_rate_max" => &mut config.learning_rate_max,
-            "target_kl" => &mut config.target_kl,
-            "minibatch" | "epochs" => {
-                let field = if name == "epochs" { &mut config.epochs } else { &mut config.minibatch };
-                *field = *number as u32;
-                continue;
-            }
-            other => panic!("the configuration has no field {other}"),
-        };
-        *field = *number;
-    }
-    config
 }
