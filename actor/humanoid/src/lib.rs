@@ -17,6 +17,7 @@
 //! - [`mjcf`]: MJCF text → model.
 //! - [`card`]: robot cards, which complete a model by servos and a default pose.
 //! - `terrain`: generated ground.
+//! - `articulation`: a model as a tree of bodies: paths, poses, mass matrix.
 //! - `dynamics`: motion of articulated bodies with their constraints.
 //! - `collision`: contact points; the only module of the workspace that names Rapier.
 //! - `lanes`: numbers of several worlds side by side.
@@ -38,6 +39,7 @@ pub mod observation;
 pub mod physics;
 pub mod task;
 
+mod articulation;
 mod collision;
 mod dynamics;
 mod lanes;

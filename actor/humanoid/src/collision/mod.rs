@@ -4,6 +4,7 @@
 //! of them: bounding spheres, and the distance of the axes of capsules. Spheres and capsules over a plane are solved in closed
 //! form. Everything else is a contact query of Rapier's collision detection (see `queries`).
 
+mod convert;
 mod field;
 mod model;
 mod queries;
@@ -13,7 +14,7 @@ use pulp::Simd;
 pub(crate) use self::model::{CollisionModel, PairNode};
 pub(crate) use self::queries::POINTS_MAX;
 use self::queries::{Found, Queries};
-use crate::dynamics::Posture;
+use crate::articulation::Posture;
 use crate::lanes::{LANES_MAX, Lanes, Mask, Vec3};
 
 /// Index of a pair, and of a contact point within the pair.

@@ -7,9 +7,9 @@ use nalgebra::{Isometry3, UnitQuaternion, Vector3};
 use rapier3d::math::{Pose, Rotation};
 use rapier3d::parry::shape::SharedShape;
 
+use super::convert::{to_rotation, to_vector};
 use super::field::FieldShape;
-use super::queries::{to_rotation, to_vector};
-use crate::dynamics::Structure;
+use crate::articulation::Structure;
 use crate::model::{Geometry, Model, Softness};
 
 /// Shapes, ground, and pairs of a model.
@@ -58,7 +58,7 @@ pub(crate) struct PairNode {
     pub(crate) softness: Softness,
     /// Degrees of freedom that move either body, with their paths, in ascending order.
     pub(crate) dofs: Vec<u32>,
-    /// Approximate acceleration of the gap per force (1/kg), see [`crate::dynamics::Structure::link_responses`].
+    /// Approximate acceleration of the gap per force (1/kg), see [`crate::articulation::Structure::link_responses`].
     pub(crate) response: f64,
 }
 

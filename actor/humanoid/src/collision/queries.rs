@@ -4,8 +4,8 @@
 
 use std::f64::consts::TAU;
 
-use nalgebra::{Matrix3, Rotation3, UnitQuaternion, Vector3};
-use rapier3d::math::{Pose, Rotation, Vector};
+use nalgebra::{Matrix3, Vector3};
+use rapier3d::math::{Pose, Vector};
 use rapier3d::parry::bounding_volume::BoundingVolume;
 use rapier3d::parry::query::{
     ContactManifold, ContactManifoldsWorkspace, DefaultQueryDispatcher, PersistentQueryDispatcher,
@@ -13,6 +13,7 @@ use rapier3d::parry::query::{
 };
 use rapier3d::parry::shape::{ConvexPolyhedron, Shape};
 
+use super::convert::{from_vector, to_pose, to_vector};
 use super::model::{CollisionModel, PairNode};
 
 /// Most contact points of one pair. Two convex shapes need four; a shape may touch many triangles of a height field, and then
@@ -237,23 +238,4 @@ impl Points {
 fn forget(manifold: &mut ContactManifold<(), ()>) {
     manifold.clear();
     (manifold.local_n1, manifold.local_n2) = (Vector::ZERO, Vector::ZERO);
-}
-
-fn to_pose(rotation: &Matrix3<f64>, origin_m: &Vector3<f64>) -> Pose {
-    let quaternion = UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(*rotation));
-    Pose::from_parts(to_vector(origin_m), to_rotation(&quaternion))
-}
-
-pub(super) fn to_vector(v: &Vector3<f64>) -> Vector {
-    Vector::new(v.x as f32, v.y as f32, v.z as f32)
-}
-
-pub(super) fn to_rotation(r: &UnitQuaternion<f64>) -> Rotation {
-    let q = r.quaternion();
-    // Rounding to single precision changes the norm by 1e-7, which would accumulate in products.
-    Rotation::from_xyzw(q.i as f32, q.j as f32, q.k as f32, q.w as f32).normalize()
-}
-
-fn from_vector(v: Vector) -> Vector3<f64> {
-    Vector3::new(f64::from(v.x), f64::from(v.y), f64::from(v.z))
 }

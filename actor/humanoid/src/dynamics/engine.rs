@@ -4,9 +4,10 @@ use std::cell::RefCell;
 
 use pulp::{Arch, Simd, WithSimd};
 
-use super::group::{Engine, Group, Pass, Worlds};
-use super::structure::Structure;
+use super::group::{Group, Pass, Worlds};
+use super::steps::Engine;
 use super::world::World;
+use crate::articulation::Structure;
 use crate::collision::CollisionModel;
 use crate::lanes::LANES_MAX;
 use crate::model::Solver;

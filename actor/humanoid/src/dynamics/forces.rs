@@ -2,9 +2,7 @@
 
 use pulp::Simd;
 
-use super::mass_matrix::MassMatrix;
-use super::posture::Posture;
-use super::structure::{ROOT_DOFS, ROOT_POSITIONS, Structure};
+use crate::articulation::{MassMatrix, Posture, ROOT_DOFS, ROOT_POSITIONS, Structure};
 use crate::lanes::{Force, Lanes, Motion, Vec3};
 
 /// Motors and passive forces of one hinge during a step, linear in the acceleration of the hinge.

@@ -5,8 +5,7 @@
 
 use pulp::Simd;
 
-use super::posture::Posture;
-use super::structure::Structure;
+use crate::articulation::{Posture, ROOT_DOFS, Structure};
 use crate::lanes::{Force, Inertia, Motion, Vec3};
 
 /// Momentum of a robot, and its inertia.
@@ -64,8 +63,5 @@ impl<S: Simd> Momentum<S> {
 pub(crate) fn is_free(structure: &Structure) -> bool {
     structure.root_damping == 0.0
         && structure.root_armature == 0.0
-        && structure
-            .coordinates
-            .iter()
-            .all(|coordinate| coordinate.terms.iter().all(|(dof, _)| *dof >= super::ROOT_DOFS))
+        && structure.coordinates.iter().all(|coordinate| coordinate.terms.iter().all(|(dof, _)| *dof >= ROOT_DOFS))
 }

@@ -2,11 +2,11 @@
 
 use pulp::{Arch, Scalar, Simd, WithSimd};
 
-use super::group::{Engine, Group, Pass};
-use super::responses::Responses;
-use super::structure::Structure;
+use super::group::{Group, Pass};
+use super::steps::Engine;
 use super::world::World;
 use super::{advance, refresh, worlds_per_pass};
+use crate::articulation::{Responses, Structure};
 use crate::collision::CollisionModel;
 use crate::lanes::LANES_MAX;
 use crate::mjcf::HUMANOID_XML;

@@ -1,9 +1,7 @@
-//! State and parameters of one world, as plain numbers, and their lanes.
+//! State and parameters of one world, as plain numbers.
 
 use nalgebra::{Matrix3, Vector3};
-use pulp::Simd;
 
-use crate::lanes::Lanes;
 use crate::model::Model;
 
 /// Contact points that a world has room for from the start; more of them allocate once.
@@ -84,13 +82,6 @@ pub(crate) struct ContactLoad {
     pub(crate) at_m: Vector3<f64>,
     /// Force on the first link (N).
     pub(crate) force_n: Vector3<f64>,
-}
-
-/// Mass and inertia (xx, yy, zz, xy, xz, yz, in the body's axes) of one body in several worlds.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct BodyMasses<S: Simd> {
-    pub(crate) mass_kg: Lanes<S>,
-    pub(crate) inertia_kgm2: [Lanes<S>; 6],
 }
 
 impl World {

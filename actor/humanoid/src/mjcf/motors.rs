@@ -2,7 +2,7 @@
 
 use super::defaults::REPLACED;
 use super::element::Element;
-use crate::dynamics::Structure;
+use crate::articulation::Structure;
 use crate::error::ModelError;
 use crate::model::{Hinge, Model, Motor, not_negative};
 

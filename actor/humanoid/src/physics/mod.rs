@@ -19,9 +19,10 @@ pub use self::motion::BodyMotion;
 pub use self::snapshot::PhysicsSnapshot;
 use self::variation::VariableModel;
 pub use self::variation::Variation;
+use crate::articulation::{ROOT_DOFS, ROOT_POSITIONS, Structure};
 use crate::collision::CollisionModel;
 use crate::config::PhysicsSettings;
-use crate::dynamics::{self, Drive, Impulse, Pass, ROOT_DOFS, ROOT_POSITIONS, Structure, World};
+use crate::dynamics::{self, Drive, Impulse, Pass, World};
 use crate::error::ModelError;
 use crate::model::Model;
 

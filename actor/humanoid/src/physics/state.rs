@@ -1,8 +1,8 @@
 //! Checks of states that come from outside.
 
 use super::Physics;
+use crate::articulation::{ROOT_DOFS, ROOT_POSITIONS};
 use crate::config::HINGE_TOLERANCE_RAD;
-use crate::dynamics::{ROOT_DOFS, ROOT_POSITIONS};
 use crate::error::StateError;
 
 /// Accepted norms of the root's quaternion, which is then normalised.

@@ -6,10 +6,8 @@
 use pulp::Simd;
 
 use super::softness::soft_row;
+use crate::articulation::{MassMatrix, Posture, ROOT_DOFS, Structure};
 use crate::collision::{Contact, ContactKey, PairNode};
-use crate::dynamics::mass_matrix::MassMatrix;
-use crate::dynamics::posture::Posture;
-use crate::dynamics::structure::{ROOT_DOFS, Structure};
 use crate::lanes::{Lanes, Mask, Vec3};
 
 /// Edges of a friction pyramid.

@@ -3,8 +3,8 @@
 use pulp::Simd;
 
 use super::softness::{SoftRow, soft_row};
+use crate::articulation::Structure;
 use crate::dynamics::forces::HingeForces;
-use crate::dynamics::structure::Structure;
 use crate::lanes::{Lanes, Mask};
 
 /// Largest violation of a limit that counts (rad); absent limits are infinitely far.

@@ -8,8 +8,8 @@ use super::Problem;
 use super::contacts::{ContactConstraint, ContactRows, EDGES};
 use super::coordinates::CoordinateConstraint;
 use super::rows::Rows;
+use crate::articulation::Structure;
 use crate::collision::PairNode;
-use crate::dynamics::structure::Structure;
 use crate::lanes::{Lanes, Mask};
 
 /// Upper bound of the sweeps over all constraints.

@@ -5,8 +5,7 @@
 
 use pulp::Simd;
 
-use crate::dynamics::mass_matrix::MassMatrix;
-use crate::dynamics::structure::Structure;
+use crate::articulation::{MassMatrix, Structure};
 use crate::lanes::Lanes;
 
 /// Set of degrees of freedom.
@@ -176,7 +175,7 @@ mod tests {
     use pulp::Scalar;
 
     use super::*;
-    use crate::dynamics::{Posture, ROOT_DOFS};
+    use crate::articulation::{Posture, ROOT_DOFS};
     use crate::mjcf::HUMANOID_XML;
     use crate::model::Model;
 

@@ -9,9 +9,8 @@ use pulp::Simd;
 use super::Problem;
 use super::contacts::EDGES;
 use super::hessian::Hessian;
+use crate::articulation::{Coordinate, MassMatrix, Structure};
 use crate::collision::PairNode;
-use crate::dynamics::mass_matrix::MassMatrix;
-use crate::dynamics::structure::{Coordinate, Structure};
 use crate::lanes::{Lanes, Mask};
 
 /// Upper bound of the iterations.

@@ -2,8 +2,7 @@
 
 use pulp::Simd;
 
-use crate::dynamics::mass_matrix::MassMatrix;
-use crate::dynamics::structure::{Coordinate, Structure};
+use crate::articulation::{Coordinate, MassMatrix, Structure};
 use crate::lanes::Lanes;
 
 /// Numbers of all rows of a step; a row has one number per degree of freedom that can move its constraint.

@@ -6,8 +6,14 @@ use nalgebra::Vector3;
 use pulp::Simd;
 
 use super::structure::{Axis, ROOT_DOFS, ROOT_POSITIONS, Structure};
-use super::world::BodyMasses;
 use crate::lanes::{Inertia, Lanes, Mat3, Motion, Vec3};
+
+/// Mass and inertia (xx, yy, zz, xy, xz, yz, in the body's axes) of one body in several worlds.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct BodyMasses<S: Simd> {
+    pub(crate) mass_kg: Lanes<S>,
+    pub(crate) inertia_kgm2: [Lanes<S>; 6],
+}
 
 /// Poses, joint axes and inertias of a tree at one position.
 #[derive(Clone, Debug)]

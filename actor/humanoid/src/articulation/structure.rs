@@ -4,7 +4,6 @@ use std::ops::Range;
 
 use nalgebra::{Matrix3, Point3, Vector3};
 
-use super::responses::Responses;
 use crate::model::{Hinge, Model, Softness, Solver};
 
 /// Degrees of freedom of the floating root: three translations (world axes), three rotations (root's axes).
@@ -28,9 +27,9 @@ pub(crate) struct Structure {
     pub(crate) solver: Solver,
     /// Body of each link.
     pub(crate) link_bodies: Vec<usize>,
-    /// Mean acceleration of each link per force on it, see [`Responses`] (1/kg).
+    /// Mean acceleration of each link per force on it, see [`super::responses`] (1/kg).
     pub(crate) link_responses: Vec<f64>,
-    /// Acceleration of each hinge per torque, see [`Responses`] (1/(kg·m²)).
+    /// Acceleration of each hinge per torque, see [`super::responses`] (1/(kg·m²)).
     pub(crate) hinge_responses: Vec<f64>,
     /// Last degree of freedom that moves each body.
     innermost_dofs: Vec<u32>,
@@ -86,7 +85,7 @@ pub(crate) struct Coordinate {
     /// Greatest force of dry friction (N·m).
     pub(crate) friction_loss: f64,
     pub(crate) friction_softness: Softness,
-    /// Acceleration per force, see [`Responses`].
+    /// Acceleration per force, see [`super::responses`].
     pub(crate) response: f64,
 }
 
@@ -118,7 +117,8 @@ fn offset_from_hinge_before(model: &Model, hinge: usize) -> Option<Vector3<f64>>
 }
 
 impl Structure {
-    pub(crate) fn new(model: &Model) -> Self {
+    /// Returns bodies and paths, without what [`super::responses`] adds.
+    pub(crate) fn without_responses(model: &Model) -> Self {
         let nodes: Vec<Node> = model
             .bodies
             .iter()
@@ -149,7 +149,7 @@ impl Structure {
             .collect();
         let (paths, path_starts, innermost_dofs) = build_paths(&nodes, model.hinges.len());
         let link_bodies = model.links.iter().map(|link| link.body).collect();
-        let mut structure = Self {
+        Self {
             nodes,
             hinges,
             root_damping: model.root.damping,
@@ -162,66 +162,7 @@ impl Structure {
             innermost_dofs,
             paths,
             path_starts,
-        };
-        let mut responses = Responses::new(model, &structure);
-        structure.coordinates = structure.coordinates_of(model, &responses);
-        structure.link_responses = responses.links;
-        structure.hinge_responses = responses.dofs.split_off(ROOT_DOFS);
-        structure
-    }
-
-    fn coordinates_of(&self, model: &Model, responses: &Responses) -> Vec<Coordinate> {
-        let none = Coordinate {
-            terms: Vec::new(),
-            dofs: Vec::new(),
-            hinge: None,
-            min: f64::NEG_INFINITY,
-            max: f64::INFINITY,
-            limit_margin: 0.0,
-            limit_softness: Softness::default(),
-            friction_loss: 0.0,
-            friction_softness: Softness::default(),
-            response: 0.0,
-        };
-        let hinges = model.hinges.iter().enumerate().map(|(index, hinge)| Coordinate {
-            terms: vec![(ROOT_DOFS + index, 1.0)],
-            hinge: Some(index),
-            min: hinge.min_rad,
-            max: hinge.max_rad,
-            limit_margin: hinge.limit_margin_rad,
-            limit_softness: hinge.limit_softness,
-            friction_loss: hinge.friction_loss_nm,
-            friction_softness: hinge.friction_softness,
-            response: responses.dofs[ROOT_DOFS + index],
-            ..none.clone()
-        });
-        let tendons = model.tendons.iter().zip(&responses.tendons).filter_map(|(tendon, response)| {
-            let [min, max] = tendon.range?;
-            Some(Coordinate {
-                terms: tendon.terms.iter().map(|(hinge, weight)| (ROOT_DOFS + hinge, *weight)).collect(),
-                min,
-                max,
-                limit_margin: tendon.limit_margin,
-                limit_softness: tendon.limit_softness,
-                response: *response,
-                ..none.clone()
-            })
-        });
-        let root = (0..ROOT_DOFS).filter(|_| model.root.friction_loss > 0.0).map(|dof| Coordinate {
-            terms: vec![(dof, 1.0)],
-            friction_loss: model.root.friction_loss,
-            friction_softness: model.root.friction_softness,
-            // MuJoCo takes the mean of translations and of rotations.
-            response: responses.dofs[dof / 3 * 3..][..3].iter().sum::<f64>() / 3.0,
-            ..none.clone()
-        });
-        let mut all: Vec<Coordinate> = hinges.chain(tendons).chain(root).collect();
-        for coordinate in &mut all {
-            coordinate.dofs = coordinate.terms.iter().flat_map(|(dof, _)| self.path(*dof)).copied().collect();
-            coordinate.dofs.sort_unstable();
-            coordinate.dofs.dedup();
         }
-        all
     }
 
     /// Returns the degrees of freedom that move a body, root first.

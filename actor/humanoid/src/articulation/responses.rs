@@ -6,11 +6,75 @@ use nalgebra::Vector3;
 use pulp::Scalar;
 
 use super::mass_matrix::MassMatrix;
-use super::posture::Posture;
-use super::structure::{ROOT_DOFS, Structure};
-use super::world::BodyMasses;
+use super::posture::{BodyMasses, Posture};
+use super::structure::{Coordinate, ROOT_DOFS, Structure};
 use crate::lanes::{Lanes, Vec3};
-use crate::model::Model;
+use crate::model::{Model, Softness};
+
+impl Structure {
+    pub(crate) fn new(model: &Model) -> Self {
+        let mut structure = Self::without_responses(model);
+        let mut responses = Responses::new(model, &structure);
+        structure.coordinates = structure.coordinates_of(model, &responses);
+        structure.link_responses = responses.links;
+        structure.hinge_responses = responses.dofs.split_off(ROOT_DOFS);
+        structure
+    }
+
+    fn coordinates_of(&self, model: &Model, responses: &Responses) -> Vec<Coordinate> {
+        let none = Coordinate {
+            terms: Vec::new(),
+            dofs: Vec::new(),
+            hinge: None,
+            min: f64::NEG_INFINITY,
+            max: f64::INFINITY,
+            limit_margin: 0.0,
+            limit_softness: Softness::default(),
+            friction_loss: 0.0,
+            friction_softness: Softness::default(),
+            response: 0.0,
+        };
+        let hinges = model.hinges.iter().enumerate().map(|(index, hinge)| Coordinate {
+            terms: vec![(ROOT_DOFS + index, 1.0)],
+            hinge: Some(index),
+            min: hinge.min_rad,
+            max: hinge.max_rad,
+            limit_margin: hinge.limit_margin_rad,
+            limit_softness: hinge.limit_softness,
+            friction_loss: hinge.friction_loss_nm,
+            friction_softness: hinge.friction_softness,
+            response: responses.dofs[ROOT_DOFS + index],
+            ..none.clone()
+        });
+        let tendons = model.tendons.iter().zip(&responses.tendons).filter_map(|(tendon, response)| {
+            let [min, max] = tendon.range?;
+            Some(Coordinate {
+                terms: tendon.terms.iter().map(|(hinge, weight)| (ROOT_DOFS + hinge, *weight)).collect(),
+                min,
+                max,
+                limit_margin: tendon.limit_margin,
+                limit_softness: tendon.limit_softness,
+                response: *response,
+                ..none.clone()
+            })
+        });
+        let root = (0..ROOT_DOFS).filter(|_| model.root.friction_loss > 0.0).map(|dof| Coordinate {
+            terms: vec![(dof, 1.0)],
+            friction_loss: model.root.friction_loss,
+            friction_softness: model.root.friction_softness,
+            // MuJoCo takes the mean of translations and of rotations.
+            response: responses.dofs[dof / 3 * 3..][..3].iter().sum::<f64>() / 3.0,
+            ..none.clone()
+        });
+        let mut all: Vec<Coordinate> = hinges.chain(tendons).chain(root).collect();
+        for coordinate in &mut all {
+            coordinate.dofs = coordinate.terms.iter().flat_map(|(dof, _)| self.path(*dof)).copied().collect();
+            coordinate.dofs.sort_unstable();
+            coordinate.dofs.dedup();
+        }
+        all
+    }
+}
 
 /// Responses of a model at its nominal pose.
 #[derive(Clone, Debug, Default)]
