@@ -2,7 +2,9 @@
 
 pub mod state;
 
-use treadmill_humanoid::{Environment, EnvironmentConfig, ModelError, worlds_per_pass};
+use treadmill_humanoid::{
+    Environment, EnvironmentConfig, ModelError, VectorEnvironment, environment::Slot, task::StepOutcome,
+};
 use treadmill_proto::{
     EndCause, Episode, Precision,
     fragment::{TERMINATED, TRUNCATED},
@@ -47,23 +49,19 @@ impl ResetSeeds {
     }
 }
 
-/// Vector of N environments.
+/// N environments with their episodes.
 pub struct Environments {
-    slots: Vec<EnvironmentSlot>,
+    vector: VectorEnvironment<Results>,
     seeds: ResetSeeds,
-    observations: Vec<f32>,
-    observation_size: usize,
-    action_size: usize,
     precision: Precision,
     /// For each term of the reward, its name, and its sum over all environments and steps since it was last taken.
     reward_sums: Vec<(&'static str, f64)>,
 }
 
-/// One environment with all outputs of its step.
-struct EnvironmentSlot {
+/// Episode of one environment, with all outputs of its step.
+struct Results {
+    /// Number of the environment among all of the actor.
     env: usize,
-    environment: Environment,
-    precision: Precision,
     progress: EpisodeProgress,
     control: Vec<f32>,
     reward: f32,
@@ -115,42 +113,37 @@ impl Environments {
         model_xml: &str,
         seeds: SeedSource,
     ) -> Result<Self, ModelError> {
-        let slots = (0..count)
-            .map(|env| Ok(EnvironmentSlot::new(env, Environment::new(config, model_xml)?)))
-            .collect::<Result<Vec<_>, ModelError>>()?;
-        let observation_size = slots.first().map_or(0, |slot| slot.environment.observation_size());
-        let action_size = slots.first().map_or(0, |slot| slot.environment.action_size());
+        let results = |env, environment: &Environment| Results {
+            env,
+            progress: EpisodeProgress::default(),
+            control: vec![0.0; environment.action_size()],
+            reward: 0.0,
+            flags: 0,
+            ended: None,
+            last_observation: vec![0.0; environment.observation_size()],
+        };
+        let vector = VectorEnvironment::new(count, || Environment::new(config, model_xml), results)?;
         let mut reward_sums = Vec::new();
-        if let Some(first) = slots.first() {
+        if let Some(first) = vector.slots().first() {
             first.environment.task().reward_terms(&mut |name, _| reward_sums.push((name, 0.0)));
         }
-        let mut environments = Self {
-            slots,
-            seeds: seeds.reset_seeds(),
-            observations: vec![0.0; count * observation_size],
-            observation_size,
-            action_size,
-            precision: Precision::F32,
-            reward_sums,
-        };
+        let mut environments = Self { vector, seeds: seeds.reset_seeds(), precision: Precision::F32, reward_sums };
         environments.reset();
         Ok(environments)
     }
 
     /// Resets all environments to their first episodes.
     fn reset(&mut self) {
-        let rows = self.observations.chunks_exact_mut(self.observation_size.max(1));
-        for (slot, observation) in self.slots.iter_mut().zip(rows) {
-            slot.progress = EpisodeProgress::default();
-            slot.reset(&self.seeds, observation);
+        for (slot, observation) in self.vector.rows() {
+            slot.kept.progress = EpisodeProgress::default();
+            begin_episode(slot, &self.seeds, self.precision, observation);
         }
     }
 
     /// Rounds every observation before the policy sees it, so that the learner receives the same numbers.
     pub fn with_precision(mut self, precision: Precision) -> Self {
         self.precision = precision;
-        self.slots.iter_mut().for_each(|slot| slot.precision = precision);
-        precision.round(&mut self.observations);
+        self.vector.rows().for_each(|(_, observation)| precision.round(observation));
         self
     }
 
@@ -161,57 +154,45 @@ impl Environments {
 
     /// Divides the environments, in their order, into at most this many shares that can step on different threads. All but
     /// the last have whole passes of the physics.
-    pub fn split(mut self, shares: usize) -> Vec<Self> {
-        let chunk = worlds_per_pass();
-        let share = self.len().div_ceil(shares.max(1)).next_multiple_of(chunk).max(chunk);
-        let mut rest = std::mem::take(&mut self.slots).into_iter().peekable();
-        let mut rows = self.observations.chunks(share * self.observation_size.max(1));
-        let mut split = Vec::new();
-        while rest.peek().is_some() {
-            split.push(Self {
-                slots: rest.by_ref().take(share).collect(),
-                seeds: self.seeds.clone(),
-                reward_sums: self.reward_sums.clone(),
-                observations: rows.next().unwrap_or_default().to_vec(),
-                ..self
-            });
-        }
-        split
+    pub fn split(self, shares: usize) -> Vec<Self> {
+        let Self { vector, seeds, precision, reward_sums } = self;
+        let share = |vector| Self { vector, seeds: seeds.clone(), precision, reward_sums: reward_sums.clone() };
+        vector.split(shares).into_iter().map(share).collect()
     }
 
     /// Returns N.
     pub fn len(&self) -> usize {
-        self.slots.len()
+        self.vector.slots().len()
     }
 
     /// Returns the number of the first environment among all of the actor.
     pub fn first_number(&self) -> usize {
-        self.slots.first().map_or(0, |slot| slot.env)
+        self.vector.slots().first().map_or(0, |slot| slot.kept.env)
     }
 
     /// Returns whether N is 0.
     pub fn is_empty(&self) -> bool {
-        self.slots.is_empty()
+        self.vector.slots().is_empty()
     }
 
     /// Returns the number of entries in one observation.
     pub fn observation_size(&self) -> usize {
-        self.observation_size
+        self.vector.observation_size()
     }
 
     /// Returns the number of entries in one action.
     pub fn action_size(&self) -> usize {
-        self.action_size
+        self.vector.action_size()
     }
 
     /// Returns the present observations, `[N][observation]`; after an episode's end, the first one of the next episode.
     pub fn observations(&self) -> &[f32] {
-        &self.observations
+        self.vector.observations()
     }
 
     /// Returns the first environment, which observers see.
     pub fn first(&self) -> Option<EnvironmentView<'_>> {
-        let EnvironmentSlot { progress, environment, .. } = self.slots.first()?;
+        let Slot { kept: Results { progress, .. }, environment } = self.vector.slots().first()?;
         let EpisodeProgress { number: episode, length: step, start_x_m, .. } = *progress;
         Some(EnvironmentView { episode, step, start_x_m, environment })
     }
@@ -222,23 +203,28 @@ impl Environments {
     /// # Panics
     /// If there are not as many actions as environments.
     pub fn step(&mut self, actions: &[f32], results: &mut StepResults) {
-        assert_eq!(actions.len(), self.len() * self.action_size, "one action for each environment is needed");
-        let Self { slots, seeds, observations, reward_sums, .. } = self;
-        // Without environments both widths are 0, which is no chunk size.
-        let (width, action_size) = (self.observation_size.max(1), self.action_size.max(1));
-        // Environments of one chunk step in one pass.
-        let chunk = worlds_per_pass();
-        let rows = observations.chunks_mut(chunk * width).zip(actions.chunks(chunk * action_size));
-        for (slots, (observations, actions)) in slots.chunks_mut(chunk).zip(rows) {
-            for (slot, action) in slots.iter_mut().zip(actions.chunks_exact(action_size)) {
-                slot.begin_step(action);
-            }
-            Environment::step_together(&mut slots.iter_mut().map(|slot| &mut slot.environment));
-            for (slot, observation) in slots.iter_mut().zip(observations.chunks_exact_mut(width)) {
-                slot.finish_step(seeds, observation, reward_sums);
-            }
+        let action_size = self.action_size();
+        assert_eq!(actions.len(), self.len() * action_size, "one action for each environment is needed");
+        let Self { vector, seeds, precision, reward_sums } = self;
+        results.clear();
+        for pass in vector.passes() {
+            pass.step(
+                |index, Slot { environment, kept }| {
+                    environment.action_from_shares(&actions[index * action_size..][..action_size], &mut kept.control);
+                    environment.begin_step(&kept.control);
+                    true
+                },
+                |_, slot, observation, outcome| {
+                    if let Some(step) = outcome {
+                        finish_step(slot, &step, *precision, observation, reward_sums);
+                        if slot.kept.ended.is_some() {
+                            begin_episode(slot, seeds, *precision, observation);
+                        }
+                    }
+                    results.add(&mut slot.kept);
+                },
+            );
         }
-        results.collect(&mut self.slots);
     }
 
     /// Returns name and sum of each term of the reward, over all environments and steps since the last call. The terms of
@@ -251,97 +237,88 @@ impl Environments {
     /// Makes the physics of one environment fail at the next step; for tests.
     #[doc(hidden)]
     pub fn poison(&mut self, env: usize) {
-        self.slots[env].environment.physics_mut().poison();
+        let slot = self.vector.rows().nth(env).expect("there is this environment").0;
+        slot.environment.physics_mut().poison();
     }
 }
 
 impl StepResults {
-    /// Moves the outputs of all environments here, in their order.
-    fn collect(&mut self, slots: &mut [EnvironmentSlot]) {
+    fn clear(&mut self) {
         self.rewards.clear();
         self.flags.clear();
         self.truncated_observations.clear();
         self.episodes.clear();
-        for slot in slots {
-            self.rewards.push(slot.reward);
-            self.flags.push(slot.flags);
-            if slot.flags & TRUNCATED != 0 {
-                self.truncated_observations.extend_from_slice(&slot.last_observation);
-            }
-            self.episodes.extend(slot.ended.take());
+    }
+
+    /// Moves the outputs of an environment here.
+    fn add(&mut self, results: &mut Results) {
+        self.rewards.push(results.reward);
+        self.flags.push(results.flags);
+        if results.flags & TRUNCATED != 0 {
+            self.truncated_observations.extend_from_slice(&results.last_observation);
         }
+        self.episodes.extend(results.ended.take());
     }
 }
 
-impl EnvironmentSlot {
-    fn new(env: usize, environment: Environment) -> Self {
-        Self {
-            env,
-            progress: EpisodeProgress::default(),
-            control: vec![0.0; environment.action_size()],
-            reward: 0.0,
-            flags: 0,
-            ended: None,
-            last_observation: vec![0.0; environment.observation_size()],
-            precision: Precision::F32,
-            environment,
-        }
-    }
-
-    fn begin_step(&mut self, action: &[f32]) {
-        self.environment.action_from_shares(action, &mut self.control);
-        self.environment.begin_step(&self.control);
-    }
-
-    fn finish_step(&mut self, seeds: &ResetSeeds, observation: &mut [f32], reward_sums: &mut [(&'static str, f64)]) {
-        let step = self.environment.finish_step(observation);
-        self.precision.round(observation);
-        let progress = &mut self.progress;
-        progress.length += 1;
-        // The reward of a step whose physics failed is meaningless.
-        self.reward = if step.fault { 0.0 } else { step.reward };
-        progress.return_sum += f64::from(self.reward);
-        if !step.fault {
-            // Position of the torso: the task's info may measure another point.
-            progress.last_x_m = self.environment.physics().position()[0];
-            let mut sums = reward_sums.iter_mut();
-            self.environment.task().reward_terms(&mut |_, term| {
-                if let Some((_, sum)) = sums.next() {
-                    *sum += term;
-                }
-            });
-        }
-        let (flags, cause) = match (step.fault, step.terminated, step.truncated) {
-            (true, ..) => (TERMINATED, EndCause::NonFinite),
-            (_, true, _) => (TERMINATED, EndCause::Fell),
-            (_, _, true) => (TRUNCATED, EndCause::TimeLimit),
-            _ => {
-                self.flags = 0;
-                return;
+/// Notes the outcome of a step, and the episode if it ended.
+fn finish_step(
+    Slot { environment, kept }: &mut Slot<Results>,
+    step: &StepOutcome,
+    precision: Precision,
+    observation: &mut [f32],
+    reward_sums: &mut [(&'static str, f64)],
+) {
+    precision.round(observation);
+    let progress = &mut kept.progress;
+    progress.length += 1;
+    // The reward of a step whose physics failed is meaningless.
+    kept.reward = if step.fault { 0.0 } else { step.reward };
+    progress.return_sum += f64::from(kept.reward);
+    if !step.fault {
+        // Position of the torso: the task's info may measure another point.
+        progress.last_x_m = environment.physics().position()[0];
+        let mut sums = reward_sums.iter_mut();
+        environment.task().reward_terms(&mut |_, term| {
+            if let Some((_, sum)) = sums.next() {
+                *sum += term;
             }
-        };
-        self.flags = flags;
-        self.last_observation.copy_from_slice(observation);
-        let distance_m = progress.last_x_m - progress.start_x_m;
-        let difficulty = self.environment.task().difficulty();
-        self.ended = Some(Episode {
-            return_sum: progress.return_sum,
-            length: progress.length,
-            distance_m,
-            velocity_mean_mps: distance_m / (f64::from(progress.length) * self.environment.control_step_s()),
-            cause,
-            ground_level: difficulty.ground_level,
-            command_factor: difficulty.command_factor,
         });
-        self.reset(seeds, observation);
     }
+    let (flags, cause) = match (step.fault, step.terminated, step.truncated) {
+        (true, ..) => (TERMINATED, EndCause::NonFinite),
+        (_, true, _) => (TERMINATED, EndCause::Fell),
+        (_, _, true) => (TRUNCATED, EndCause::TimeLimit),
+        _ => {
+            kept.flags = 0;
+            return;
+        }
+    };
+    kept.flags = flags;
+    kept.last_observation.copy_from_slice(observation);
+    let distance_m = progress.last_x_m - progress.start_x_m;
+    let difficulty = environment.task().difficulty();
+    kept.ended = Some(Episode {
+        return_sum: progress.return_sum,
+        length: progress.length,
+        distance_m,
+        velocity_mean_mps: distance_m / (f64::from(progress.length) * environment.control_step_s()),
+        cause,
+        ground_level: difficulty.ground_level,
+        command_factor: difficulty.command_factor,
+    });
+}
 
-    fn reset(&mut self, seeds: &ResetSeeds, observation: &mut [f32]) {
-        let number = self.progress.number;
-        self.environment.reset(seeds.of(self.env, number), observation);
-        self.precision.round(observation);
-        let x_m = self.environment.physics().position()[0];
-        self.progress =
-            EpisodeProgress { number: number + 1, start_x_m: x_m, last_x_m: x_m, ..EpisodeProgress::default() };
-    }
+/// Begins the next episode of an environment.
+fn begin_episode(
+    Slot { environment, kept }: &mut Slot<Results>,
+    seeds: &ResetSeeds,
+    precision: Precision,
+    observation: &mut [f32],
+) {
+    let number = kept.progress.number;
+    environment.reset(seeds.of(kept.env, number), observation);
+    precision.round(observation);
+    let x_m = environment.physics().position()[0];
+    kept.progress = EpisodeProgress { number: number + 1, start_x_m: x_m, last_x_m: x_m, ..EpisodeProgress::default() };
 }

@@ -2,6 +2,7 @@
 
 mod saved;
 mod snapshot;
+mod vector;
 
 use nalgebra::Point3;
 use rand::{Rng, RngExt, SeedableRng};
@@ -9,6 +10,7 @@ use rand_xoshiro::Xoshiro256PlusPlus;
 
 pub use self::saved::EpisodeState;
 pub use self::snapshot::EnvironmentSnapshot;
+pub use self::vector::{EnvironmentPass, Slot, VectorEnvironment};
 use crate::config::EnvironmentConfig;
 use crate::error::{InputError, ModelError};
 use crate::info::StepInfo;

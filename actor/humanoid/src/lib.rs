@@ -48,7 +48,7 @@ mod terrain;
 
 pub use config::{EnvironmentConfig, ObservationKind, PHYSICS_VERSION, PhysicsSettings, Randomisation, RewardTask};
 pub use dynamics::worlds_per_pass;
-pub use environment::{Environment, EnvironmentSnapshot, EpisodeState};
+pub use environment::{Environment, EnvironmentSnapshot, EpisodeState, VectorEnvironment};
 pub use error::{InputError, ModelError, SnapshotError, StateError};
 pub use info::{InfoValue, StepInfo};
 pub use mjcf::{HUMANOID_XML, read_model_file};

@@ -14,8 +14,8 @@ use super::{Environments, EpisodeProgress, ResetSeeds};
 pub fn save(shares: &[&Environments], noise: &seeds::Stream) -> Option<ActorState> {
     let ResetSeeds { actor, start, .. } = shares.first()?.seeds.clone();
     let mut state = ActorState { actor, start, noise: seeds::words(noise).to_vec(), ..ActorState::default() };
-    for slot in shares.iter().flat_map(|share| &share.slots) {
-        let (episode, progress) = (slot.environment.episode_state()?, &slot.progress);
+    for slot in shares.iter().flat_map(|share| share.vector.slots()) {
+        let (episode, progress) = (slot.environment.episode_state()?, &slot.kept.progress);
         state.episodes.push(progress.number);
         state.lengths.push(episode.steps);
         state.progress.extend([progress.return_sum, progress.start_x_m, progress.last_x_m]);
@@ -57,9 +57,8 @@ impl Environments {
         // Further episodes take their seeds from the start at which the state was saved.
         let mut seeds = self.seeds.clone();
         seeds.start = state.start;
-        let rows = self.slots.iter_mut().zip(self.observations.chunks_exact_mut(self.observation_size.max(1)));
-        for (slot, observation) in rows {
-            let env = slot.env;
+        for (slot, observation) in self.vector.rows() {
+            let env = slot.kept.env;
             let number = state.episodes[env];
             let episode = EpisodeState {
                 seed: seeds.of(env, number - 1),
@@ -73,9 +72,9 @@ impl Environments {
                 task: row(&state.task, env, state).to_vec(),
             };
             slot.environment.resume_episode(&episode, observation).map_err(|error| error_chain(&error))?;
-            slot.precision.round(observation);
+            self.precision.round(observation);
             let [return_sum, start_x_m, last_x_m] = entries::<PROGRESS_NUMBERS, f64>(&state.progress, env);
-            slot.progress = EpisodeProgress { number, length: episode.steps, return_sum, start_x_m, last_x_m };
+            slot.kept.progress = EpisodeProgress { number, length: episode.steps, return_sum, start_x_m, last_x_m };
         }
         self.seeds = seeds;
         Ok(())

@@ -7,7 +7,11 @@ use pyo3::{
     types::PyDict,
 };
 use rayon::{ThreadPool, ThreadPoolBuilder, prelude::*};
-use treadmill_humanoid::{Environment, Physics, RewardTask, StepInfo, worlds_per_pass};
+use treadmill_humanoid::{
+    Environment, Physics, RewardTask, VectorEnvironment,
+    environment::{EnvironmentPass, Slot},
+    worlds_per_pass,
+};
 
 use crate::{
     info::{self, FAULT, Moment},
@@ -24,14 +28,13 @@ const THREADS_MAX: u32 = 1024;
 /// Several humanoids with the same settings. Arrays are `[N]` or `[N, …]`.
 #[pyclass(module = "treadmill_gym._native")]
 pub struct Humanoids {
-    slots: Vec<Slot>,
+    vector: VectorEnvironment<Seen>,
     pool: Option<ThreadPool>,
 }
 
-/// One environment and all results of its step, so that threads share no data.
-struct Slot {
-    environment: Environment,
-    observation: Vec<f32>,
+/// What a caller sees of an environment beside its observation.
+#[derive(Clone, Copy, Default)]
+struct Seen {
     followed: Followed,
     result: StepResult,
 }
@@ -67,26 +70,26 @@ impl Humanoids {
         let threads = Keyword { name: "threads", value: threads }.whole(0..=THREADS_MAX)? as usize;
         let max_episode_steps = Keyword { name: "max_episode_steps", value: max_episode_steps }.whole(0..=u32::MAX)?;
         let settings = EnvironmentSettings::read(keywords, max_episode_steps)?;
-        let slots = (0..count).map(|_| Ok(Slot::new(settings.environment()?))).collect::<PyResult<_>>()?;
-        Ok(Self { slots, pool: pool(threads, count)? })
+        let vector = VectorEnvironment::new(count, || settings.environment(), |_, _| Seen::default())?;
+        Ok(Self { vector, pool: pool(threads, count)? })
     }
 
     /// Returns name and size of each block of an observation, in order.
     #[getter]
     fn blocks(&self) -> Vec<(String, usize)> {
-        blocks(&self.slots[0].environment)
+        blocks(&self.first())
     }
 
     /// Returns the smallest and largest control of each motor.
     #[getter]
     fn action_ranges(&self) -> Vec<[f32; 2]> {
-        self.slots[0].environment.action_ranges().to_vec()
+        self.first().action_ranges().to_vec()
     }
 
     /// Returns the duration of a step (s).
     #[getter]
     fn control_step_s(&self) -> f64 {
-        self.slots[0].environment.control_step_s()
+        self.first().control_step_s()
     }
 
     /// Returns the number of threads that step the environments.
@@ -104,23 +107,27 @@ impl Humanoids {
         mut observations: PyReadwriteArray2<'py, f64>,
     ) -> PyResult<Bound<'py, PyDict>> {
         let (mask, seeds) = (mask.as_slice()?, seeds.as_slice()?);
-        let count = self.slots.len();
+        let (count, width) = (self.vector.slots().len(), self.vector.observation_size());
         let rows = observations.as_slice_mut()?;
         check_sizes(&[("mask", mask.len(), count), ("seeds", seeds.len(), count)])?;
-        check_sizes(&[("observations", rows.len(), count * self.width())])?;
-        let width = self.width();
-        let Self { slots, pool } = self;
+        check_sizes(&[("observations", rows.len(), count * width)])?;
         py.detach(|| {
-            for_each_pass(pool.as_ref(), slots, rows, width, |first, slots, rows| {
-                for (index, (slot, row)) in slots.iter_mut().zip(rows.chunks_exact_mut(width)).enumerate() {
-                    if mask[first + index] {
-                        slot.reset(seeds[first + index], row);
-                    }
-                }
+            self.for_each_pass(rows, |pass, rows| {
+                let first = pass.first;
+                pass.step(
+                    |_, _| false,
+                    |index, slot, observation, _| {
+                        if mask[index] {
+                            reset(slot, seeds[index], observation);
+                            copy(observation, &mut rows[(index - first) * width..]);
+                        }
+                    },
+                );
             });
         });
-        let infos = self.slots.iter().zip(mask);
-        let infos: Vec<_> = infos.map(|(slot, &is_reset)| is_reset.then(|| (slot.info(), Moment::Reset))).collect();
+        let infos = self.vector.slots().iter().zip(mask);
+        let infos: Vec<_> =
+            infos.map(|(slot, &is_reset)| is_reset.then(|| (slot.environment.info(), Moment::Reset))).collect();
         info::columns(py, &infos, self.task())
     }
 
@@ -134,41 +141,51 @@ impl Humanoids {
         seeds: PyReadonlyArray1<'py, u64>,
     ) -> PyResult<Stepped<'py>> {
         let (actions, resets, seeds) = (actions.as_slice()?, resets.as_slice()?, seeds.as_slice()?);
-        let (count, width, action_size) = (self.slots.len(), self.width(), self.slots[0].environment.action_size());
+        let (count, width) = (self.vector.slots().len(), self.vector.observation_size());
+        let action_size = self.vector.action_size();
         check_sizes(&[("resets", resets.len(), count), ("seeds", seeds.len(), count)])?;
         check_sizes(&[("actions", actions.len(), count * action_size)])?;
         check_finite(actions, resets, action_size)?;
         let observations = PyArray2::zeros(py, [count, width], false);
         let mut writable = observations.readwrite();
         let rows = writable.as_slice_mut()?;
-        let Self { slots, pool } = self;
         py.detach(|| {
-            for_each_pass(pool.as_ref(), slots, rows, width, |first, slots, rows| {
-                let resets = &resets[first..];
-                for (index, slot) in slots.iter_mut().enumerate().filter(|(index, _)| !resets[*index]) {
-                    slot.environment.begin_step(&actions[(first + index) * action_size..][..action_size]);
-                }
-                let stepping = slots.iter_mut().zip(resets).filter(|(_, is_reset)| !**is_reset);
-                Environment::step_together(&mut stepping.map(|(slot, _)| &mut slot.environment));
-                for (index, (slot, row)) in slots.iter_mut().zip(rows.chunks_exact_mut(width)).enumerate() {
-                    match resets[index] {
-                        true => slot.reset(seeds[first + index], row),
-                        false => slot.finish_step(row),
-                    }
-                }
+            self.for_each_pass(rows, |pass, rows| {
+                let first = pass.first;
+                pass.step(
+                    |index, slot| {
+                        if !resets[index] {
+                            slot.environment.begin_step(&actions[index * action_size..][..action_size]);
+                        }
+                        !resets[index]
+                    },
+                    |index, slot, observation, outcome| {
+                        match outcome {
+                            None => reset(slot, seeds[index], observation),
+                            Some(step) => {
+                                let Slot { environment, kept } = slot;
+                                kept.followed.update(environment.physics(), environment.control_step_s());
+                                let (terminated, truncated, fault) = (step.terminated, step.truncated, step.fault);
+                                kept.result = StepResult { reward: step.reward.into(), terminated, truncated, fault };
+                            }
+                        }
+                        copy(observation, &mut rows[(index - first) * width..]);
+                    },
+                );
             });
         });
         drop(writable);
         let moment = |is_reset| if is_reset { Moment::Reset } else { Moment::Step };
-        let infos: Vec<_> =
-            self.slots.iter().zip(resets).map(|(slot, &reset)| Some((slot.info(), moment(reset)))).collect();
+        let slots = self.vector.slots();
+        let infos = slots.iter().zip(resets).map(|(slot, &reset)| Some((slot.environment.info(), moment(reset))));
+        let infos: Vec<_> = infos.collect();
         let infos = info::columns(py, &infos, self.task())?;
-        let faults: Vec<bool> = self.slots.iter().map(|slot| slot.result.fault).collect();
+        let faults: Vec<bool> = slots.iter().map(|slot| slot.kept.result.fault).collect();
         if faults.contains(&true) {
             infos.set_item(FAULT, PyArray1::from_slice(py, &faults))?;
             infos.set_item(format!("_{FAULT}"), PyArray1::from_vec(py, faults))?;
         }
-        let results = || self.slots.iter().map(|slot| slot.result);
+        let results = || slots.iter().map(|slot| slot.kept.result);
         Ok((
             observations,
             PyArray1::from_iter(py, results().map(|result| result.reward)),
@@ -182,46 +199,41 @@ impl Humanoids {
 impl Humanoids {
     /// Returns the body of one environment and the point that the camera follows.
     pub fn view(&self, index: usize) -> Option<(&Physics, Followed)> {
-        self.slots.get(index).map(|slot| (slot.environment.physics(), slot.followed))
+        self.vector.slots().get(index).map(|slot| (slot.environment.physics(), slot.kept.followed))
     }
 
-    fn width(&self) -> usize {
-        self.slots[0].observation.len()
+    fn first(&self) -> &Environment {
+        &self.vector.slots()[0].environment
     }
 
     fn task(&self) -> RewardTask {
-        self.slots[0].environment.config().task
+        self.first().config().task
+    }
+
+    /// Calls `act` with every pass, and its rows of the observations, on all threads.
+    fn for_each_pass(&mut self, rows: &mut [f64], act: impl Fn(EnvironmentPass<'_, Seen>, &mut [f64]) + Sync) {
+        let width = worlds_per_pass() * self.vector.observation_size();
+        let passes = self.vector.passes().zip(rows.chunks_mut(width));
+        match &self.pool {
+            None => passes.for_each(|(pass, rows)| act(pass, rows)),
+            Some(pool) => {
+                let passes: Vec<_> = passes.collect();
+                // Several passes at a time would leave threads idle at the end of each step.
+                pool.install(|| passes.into_par_iter().with_max_len(1).for_each(|(pass, rows)| act(pass, rows)));
+            }
+        }
     }
 }
 
-impl Slot {
-    fn new(environment: Environment) -> Self {
-        let observation = vec![0.0; environment.observation_size()];
-        Self { environment, observation, followed: Followed::default(), result: StepResult::default() }
-    }
+/// Starts the episode of a seed.
+fn reset(Slot { environment, kept }: &mut Slot<Seen>, seed: u64, observation: &mut [f32]) {
+    environment.reset(seed, observation);
+    kept.followed.reset(environment.physics());
+    kept.result = StepResult::default();
+}
 
-    fn info(&self) -> &StepInfo {
-        self.environment.info()
-    }
-
-    fn reset(&mut self, seed: u64, row: &mut [f64]) {
-        self.environment.reset(seed, &mut self.observation);
-        self.followed.reset(self.environment.physics());
-        self.result = StepResult::default();
-        self.copy_observation(row);
-    }
-
-    fn finish_step(&mut self, row: &mut [f64]) {
-        let step = self.environment.finish_step(&mut self.observation);
-        self.followed.update(self.environment.physics(), self.environment.control_step_s());
-        let (terminated, truncated, fault) = (step.terminated, step.truncated, step.fault);
-        self.result = StepResult { reward: step.reward.into(), terminated, truncated, fault };
-        self.copy_observation(row);
-    }
-
-    fn copy_observation(&self, row: &mut [f64]) {
-        row.iter_mut().zip(&self.observation).for_each(|(slot, &number)| *slot = number.into());
-    }
+fn copy(observation: &[f32], row: &mut [f64]) {
+    row.iter_mut().zip(observation).for_each(|(place, &number)| *place = number.into());
 }
 
 /// Starts a pool if there is more than one thread. Rayon's global pool would have no threads in a forked process.
@@ -235,29 +247,6 @@ fn pool(threads: usize, count: usize) -> PyResult<Option<ThreadPool>> {
             .build()
             .map(Some)
             .map_err(|why| PyRuntimeError::new_err(format!("cannot start {threads} threads: {why}"))),
-    }
-}
-
-/// Calls `act` with every few slots that step in one pass, the index of the first, and their rows of the observations.
-fn for_each_pass(
-    pool: Option<&ThreadPool>,
-    slots: &mut [Slot],
-    rows: &mut [f64],
-    width: usize,
-    act: impl Fn(usize, &mut [Slot], &mut [f64]) + Sync,
-) {
-    let count = worlds_per_pass();
-    match pool {
-        None => {
-            let chunks = slots.chunks_mut(count).zip(rows.chunks_mut(count * width));
-            chunks.enumerate().for_each(|(index, (slots, rows))| act(index * count, slots, rows));
-        }
-        Some(pool) => pool.install(|| {
-            let chunks = slots.par_chunks_mut(count).zip(rows.par_chunks_mut(count * width));
-            // Several chunks at a time would leave threads idle at the end of each step.
-            let chunks = chunks.with_max_len(1).enumerate();
-            chunks.for_each(|(index, (slots, rows))| act(index * count, slots, rows));
-        }),
     }
 }
 
