@@ -101,7 +101,7 @@ fn the_file_alone_determines_the_actions() {
     let facts: Value = serde_json::from_str(text).unwrap();
     assert_eq!(facts["action"]["names"][0], "abdomen_y");
     assert_eq!(facts["action"]["high"][16], 0.4);
-    assert_eq!(facts["env"]["healthy_reward"], 5.0);
+    assert!(facts["settings"].as_str().unwrap().contains("healthy_reward = 5.0"));
 
     let args = ["eval", file.to_str().unwrap(), "--episodes", "1", "--trace", trace.to_str().unwrap()];
     assert!(self::run(folder.path(), &args).status.success());

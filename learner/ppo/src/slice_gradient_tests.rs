@@ -85,9 +85,8 @@ fn the_gradient_equals_that_of_candles_operations() {
     let small = [(vec![16, 8], 0, 33), (vec![4], 2, 700), (vec![8; 3], 1, 256)];
     let small =
         small.map(|(hidden, privileged, rows)| (NetworkShape { observation: 7, action: 3, hidden, privileged }, rows));
-    let presets = [(45, vec![256, 128]), (348, vec![512, 256])].map(|(observation, hidden)| {
-        (NetworkShape { observation, action: 17, hidden, privileged: 0 }, CHUNK_ROWS + 30)
-    });
+    let presets = [(45, vec![256, 128], CHUNK_ROWS + 30), (348, vec![512, 256], 40)]
+        .map(|(observation, hidden, rows)| (NetworkShape { observation, action: 17, hidden, privileged: 0 }, rows));
     for (shape, rows) in small.into_iter().chain(presets) {
         let loss = check(&shape, rows, None, &config(), 7);
         assert!(loss.clipped > 0.0 && loss.bounds > 0.0, "{loss:?}");

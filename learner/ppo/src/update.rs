@@ -43,8 +43,8 @@ impl PpoOptions {
     /// # Errors
     /// If the threads cannot be started.
     pub fn on_cpu(shape: NetworkShape, threads: usize) -> Result<Self, ThreadPoolBuildError> {
-        let name = |index| format!("update-{index}");
-        let pool = ThreadPoolBuilder::new().num_threads(threads).thread_name(name).build()?;
+        let builder = ThreadPoolBuilder::new().thread_name(|index| format!("update-{index}"));
+        let pool = builder.num_threads(threads).build()?;
         Ok(Self { shape, device: Device::Cpu, pool: Arc::new(pool), mirror: None, observation_clip: 10.0 })
     }
 }
