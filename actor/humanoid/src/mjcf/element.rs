@@ -31,8 +31,8 @@ impl Element {
         self.attributes.iter().find(|(found, _)| found == name).map(|(_, value)| value.as_str())
     }
 
-    /// Returns a name, or "" without the attribute.
-    pub(super) fn name(&self, attribute: &str) -> String {
+    /// Returns the text of an attribute, or "" without it.
+    pub(super) fn text(&self, attribute: &str) -> String {
         self.get(attribute).unwrap_or_default().to_owned()
     }
 

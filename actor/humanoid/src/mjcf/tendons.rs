@@ -21,7 +21,7 @@ pub(super) fn read(
 
 fn read_fixed(tendon: &Element, terms: &[Element], hinges: &[Hinge], autolimits: bool) -> Result<Tendon, ModelError> {
     let read_term = |term: &Element| {
-        let joint = term.name("joint");
+        let joint = term.text("joint");
         let hinge = hinges.iter().position(|hinge| hinge.name == joint);
         let hinge = hinge.ok_or_else(|| term.refused(format!("`{joint}` is not a hinge of this model")))?;
         Ok((hinge, term.number("coef").unwrap_or(1.0)))
@@ -31,7 +31,7 @@ fn read_fixed(tendon: &Element, terms: &[Element], hinges: &[Hinge], autolimits:
         return Err(tendon.refused("a fixed tendon needs at least one joint"));
     }
     Ok(Tendon {
-        name: tendon.name("name"),
+        name: tendon.text("name"),
         terms,
         range: tendon.range("range", "limited", autolimits)?,
         limit_softness: tendon.softness(["solreflimit", "solimplimit"])?.softness(),

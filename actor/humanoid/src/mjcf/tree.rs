@@ -332,7 +332,7 @@ impl Builder {
             }
             let term = Element::of(node, tendon.label.as_str());
             vocabulary::check("term", &term)?;
-            let joint = term.name("joint");
+            let joint = term.text("joint");
             if !self.names.contains(&("joint", joint.clone())) {
                 return Err(term.refused(format!("there is no joint `{joint}`")));
             }
