@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
 """Injects one fault after another into a training fleet and measures the cost.
 
-Usage: suite.py TREADMILL FOLDER [--only NAME...] [--older TREADMILL] [--mode sync|async] [--table FILE]
+Usage: suite.py TREADMILL FOLDER [--only NAME...] [--older TREADMILL] [--mode sync|async] [--csv FILE]
 
 Hosts are network namespaces on a bridge (hosts.sh), links use mutual TLS, and actors connect through a router. Each fault has its
 own run: the fleet trains, is disturbed, recovers with no help except restarts of ended processes, and stops. Then the script
-compares the actors' counts with the learner's. Prints a row per fault. --table writes the rows of all results in FOLDER between
-the markers of FILE; with --only, some faults can be repeated. Exits with 1 if a fragment was lost silently or trained on twice, or
+compares the actors' counts with the learner's. Prints a row per fault. --csv writes the rows of all results in FOLDER; with
+--only, some faults can be repeated. Exits with 1 if a fragment was lost silently or trained on twice, or
 if the fleet did not recover. Needs root, iproute2, iptables and, for clock jumps, Debian's `faketime`; no Python packages.
 """
 
@@ -18,6 +18,7 @@ import pathlib
 import shutil
 import sys
 
+from experiments import report
 from experiments.faults import links, table
 from experiments.faults.experiment import ACTORS, Experiment, NotPossible
 from experiments.faults.fleet import FRAGMENT, Fleet, certify, clean_up_on_signal, endpoint, hosts
@@ -83,7 +84,7 @@ def main():
     parser.add_argument("--only", nargs="+", choices=sorted(FAULTS), default=list(FAULTS))
     parser.add_argument("--older", type=lambda path: pathlib.Path(path).resolve(), help="binary of the previous version")
     parser.add_argument("--mode", choices=("sync", "async"), default="sync", help="mode of the learner")
-    parser.add_argument("--table", type=pathlib.Path, help="page whose generated part is replaced")
+    parser.add_argument("--csv", type=pathlib.Path, help="file for the rows of all results in FOLDER")
     arguments = parser.parse_args()
     clean_up_on_signal()
     arguments.treadmill, arguments.folder = arguments.treadmill.resolve(), arguments.folder.resolve()
@@ -107,8 +108,9 @@ def main():
         failed = failed or bool(wrong)
         for text in wrong:
             print(f"{name}: {text}", file=sys.stderr, flush=True)
-    if arguments.table:
-        table.put(arguments.table, table.HEAD + "".join(row + "\n" for row in table.results(arguments.folder).values()))
+    if arguments.csv:
+        text = table.HEAD + "".join(row + "\n" for row in table.results(arguments.folder).values())
+        report.write_csv(arguments.csv, text, report.commit(), report.cpu_model())
     sys.exit(1 if failed else 0)
 
 

@@ -1,13 +1,12 @@
-"""Measures Treadmill's humanoid against MuJoCo's and writes the tables of docs/results/fidelity.md.
+"""Measures Treadmill's humanoid against MuJoCo's and writes the tables.
 
 Needs: pip install "gymnasium[mujoco]" numpy
        cargo build --release && cargo build --release -p treadmill-humanoid --example open_loop
 
-Usage: measure.py [--json OUT.json] [--compare BASELINE.json] [--rapier BINARY] [--doc docs/results/fidelity.md]
+Usage: measure.py [--json OUT.json] [--compare BASELINE.json] [--csv FILE.csv]
 
 All simulators get the same states and actions. The reference is Gymnasium's Humanoid-v5 file in MuJoCo by RK4, 5 steps of 3 ms.
-Beside each step size of Treadmill stands MuJoCo's Euler integrator with the same steps. `--rapier` adds rows of Rapier's own
-multibody; rapier_multibody/ builds its binary.
+Beside each step size of Treadmill stands MuJoCo's Euler integrator with the same steps.
 """
 
 import argparse
@@ -30,15 +29,10 @@ REFERENCE = "MuJoCo, RK4, 5 × 3 ms"
 # Name in the tables, integrator, time step (s).
 OTHERS = [("MuJoCo, RK4, 30 × 0.5 ms", "RK4", 0.0005), ("MuJoCo, implicitfast, 5 × 3 ms", "implicitfast", 0.003)]
 PERTURBED = "MuJoCo, RK4, 5 × 3 ms, start changed by up to 1e-4"
-# Name in the tables, settings of rapier_multibody/.
-RAPIER = [
-    ("Rapier multibody, 5 × 3 ms, 4 iterations", {"substeps": 5, "solver_iterations": 4}),
-    ("Rapier multibody, 5 × 3 ms, 1 iteration", {"substeps": 5, "solver_iterations": 1}),
-]
 
 
 class OpenLoop:
-    """Runs a binary that plays cases: the example `open_loop`, or rapier_multibody's."""
+    """Runs the example `open_loop`, which plays cases."""
 
     def __init__(self, binary, folder):
         self.binary, self.folder = binary, folder
@@ -88,7 +82,7 @@ def euler(substeps):
 class Candidates:
     """Rows of the tables: name → function that plays cases. The first row is Treadmill's default."""
 
-    def __init__(self, treadmill, rapier, default_substeps):
+    def __init__(self, treadmill, default_substeps):
         self.treadmill = treadmill
         self.default = f"Treadmill, {step_name(default_substeps)} (default)"
         self.rows, self.pairs = {}, {}
@@ -100,8 +94,6 @@ class Candidates:
             self.pairs[step_name(substeps)] = (name, euler_name(substeps))
         for name, integrator, timestep_s in OTHERS:
             self.rows[name] = mujoco(integrator, timestep_s)
-        for name, config in RAPIER if rapier else []:
-            self.rows[name] = lambda given, config=config, **options: rapier(given, config, **options)
 
     def keep(self, names):
         """Drops all other rows."""
@@ -232,7 +224,7 @@ def measure(candidates):
     played, standing_s = random_cases(), (0.15, 0.3, 0.5)
     flights = played["flights"]
     return {
-        "made": report.circumstances(body.REPOSITORY),
+        "made": report.circumstances(),
         "flight_free": rollouts(candidates, flights, (0.15,), contact=False, limits=False),
         "flight_limits": rollouts(candidates, flights, (0.15,), contact=False, limits=True),
         "drop_zero": rollouts(candidates, played["drops_zero"], standing_s, contact=True, limits=True),
@@ -254,26 +246,23 @@ def main():
     built = body.REPOSITORY / "target/release"
     parser.add_argument("--open-loop", type=pathlib.Path, default=built / "examples/open_loop", help="the built example")
     parser.add_argument("--treadmill", type=pathlib.Path, default=built / "treadmill", help="the built binary")
-    parser.add_argument("--rapier", type=pathlib.Path, help="binary of rapier_multibody/, for its rows")
     parser.add_argument("--json", type=pathlib.Path, help="file for all numbers")
     parser.add_argument("--compare", type=pathlib.Path, help="numbers of an earlier version, shown in rows 'before'")
-    parser.add_argument("--doc", type=pathlib.Path, help="page whose generated part is replaced")
+    parser.add_argument("--csv", type=pathlib.Path, help="file for the table")
     arguments = parser.parse_args()
-    for binary in filter(None, (arguments.open_loop, arguments.treadmill, arguments.rapier)):
+    for binary in filter(None, (arguments.open_loop, arguments.treadmill)):
         if not binary.exists():
             sys.exit(f"{binary} does not exist; the first lines of --help say how to build it")
     before = json.loads(arguments.compare.read_text(encoding="utf-8")) if arguments.compare else None
     with tempfile.TemporaryDirectory() as folder:
-        treadmill, rapier = [
-            OpenLoop(binary, pathlib.Path(folder)) if binary else None for binary in (arguments.open_loop, arguments.rapier)
-        ]
-        result = measure(Candidates(treadmill, rapier, default_substeps(arguments.treadmill)))
+        treadmill = OpenLoop(arguments.open_loop, pathlib.Path(folder))
+        result = measure(Candidates(treadmill, default_substeps(arguments.treadmill)))
     if arguments.json:
         report.write_json(arguments.json, result)
     text = report.fidelity(result, before)
     print(text)
-    if arguments.doc:
-        report.replace(arguments.doc, "measure.py", text)
+    if arguments.csv:
+        report.write_csv(arguments.csv, text, report.commit(), report.cpu_model())
 
 
 if __name__ == "__main__":

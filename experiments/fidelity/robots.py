@@ -4,7 +4,7 @@ Needs: pip install mujoco numpy
        cargo build --release && cargo build --release -p treadmill-humanoid --example open_loop
        cargo test --release --test shipped_robots      # installs the files
 
-Usage: robots.py target/release/treadmill [--robots target/tmp/shipped-robots] [--doc docs/results/fidelity.md]
+Usage: robots.py target/release/treadmill [--robots target/tmp/shipped-robots] [--csv FILE.csv]
 
 Treadmill reads each file with the card that it drafts for it; MuJoCo reads the same file with its actuators replaced by the
 card's servos. Targets are drawn every 20 ms, up to 0.2 rad from the default pose, less where the greatest torque asks for less. The reference is MuJoCo with steps of 0.2 ms.
@@ -140,12 +140,11 @@ def rows(name, robot, open_loop):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    repository = pathlib.Path(__file__).resolve().parents[2]
-    built = repository / "target"
+    built = pathlib.Path(__file__).resolve().parents[2] / "target"
     parser.add_argument("treadmill", type=pathlib.Path, help="the built binary")
     parser.add_argument("--robots", type=pathlib.Path, default=built / "tmp/shipped-robots", help="installed packages")
     parser.add_argument("--open-loop", type=pathlib.Path, default=built / "release/examples/open_loop")
-    parser.add_argument("--doc", type=pathlib.Path)
+    parser.add_argument("--csv", type=pathlib.Path)
     arguments = parser.parse_args()
     header = ["", "joint angles (rad), in the air", "root (m), in the air", "joint angles (rad), standing", "root (m), standing"]
     table = []
@@ -154,11 +153,11 @@ def main():
             robot = Robot(arguments.treadmill.resolve(), arguments.robots.resolve() / file, pathlib.Path(folder))
             table += rows(name, robot, arguments.open_loop)
     packages = ("mujoco", "numpy")
-    made = report.made_by(report.circumstances(repository, packages), packages)
+    made = report.made_by(report.circumstances(packages), packages)
     text = f"{made} {CASES} cases; mean / 95th percentile of the error after {STEPS * CONTROL_STEP_S:g} s.\n\n{report.table(header, table)}"
     print(text)
-    if arguments.doc:
-        report.replace(arguments.doc, "robots.py", text)
+    if arguments.csv:
+        report.write_csv(arguments.csv, text, report.commit(), report.cpu_model())
 
 
 if __name__ == "__main__":

@@ -4,7 +4,7 @@ Needs: pip install "gymnasium[mujoco]" numpy
        treadmill export RUN --safetensors policy.safetensors
 
 Usage: sim2sim.py policy.safetensors [--episodes 20] [--seed 0] [--json OUT.json] [--trace OUT.jsonl]
-                  [--treadmill target/release/treadmill] [--doc docs/results/fidelity.md]
+                  [--treadmill target/release/treadmill] [--csv FILE.csv]
        sim2sim.py policy.safetensors --check TRACE.jsonl     # made by `treadmill eval policy.safetensors --trace TRACE.jsonl`
 
 --random plays uniformly random actions instead. --check compares this script's actions with Treadmill's for the same
@@ -125,7 +125,7 @@ def main():
     parser.add_argument("--trace", type=pathlib.Path, help="file for all steps, one JSON object per line")
     parser.add_argument("--json", type=pathlib.Path, help="file for the results")
     parser.add_argument("--treadmill", type=pathlib.Path, help="the binary, to play in Treadmill too")
-    parser.add_argument("--doc", type=pathlib.Path, help="page whose generated part is replaced")
+    parser.add_argument("--csv", type=pathlib.Path, help="file for the table")
     arguments = parser.parse_args()
     try:
         policy = Policy(arguments.policy)
@@ -161,15 +161,15 @@ def main():
         results.append(summary(agent, played, control_step_s))
     if trace:
         trace.close()
-    made = report.circumstances(REPOSITORY)
+    made = report.circumstances()
     count = policy.facts["observation"]["count"]
     origin = f"Observation `{policy.kind}`, statistics over {count / 1e6:.1f} M environment steps. {report.made_by(made)}"
     text = f"{origin} Mean over {arguments.episodes} episodes (minimum to maximum).\n\n{table(results)}"
     print(text)
     if arguments.json:
         report.write_json(arguments.json, {"made": made, "results": results})
-    if arguments.doc:
-        report.replace(arguments.doc, "sim2sim.py", text)
+    if arguments.csv:
+        report.write_csv(arguments.csv, text, report.commit(), report.cpu_model())
 
 
 if __name__ == "__main__":

@@ -1,11 +1,11 @@
-"""Compares Treadmill's speed with its peers' in one run and writes the speed table of docs/results/fidelity.md.
+"""Compares Treadmill's speed with its peers' in one run and writes the speed table.
 
 Needs: cargo build --release && cargo build --release -p treadmill-humanoid --example open_loop
 The script installs the peers into a virtual environment of its own, target/peers: MuJoCo, Gymnasium, EnvPool, and with
 `--training` PyTorch and Stable-Baselines3.
 
-Usage: speed.py target/release/treadmill [--pairs 10] [--training] [--rapier BINARY] [--json OUT.json]
-                                         [--doc docs/results/fidelity.md]
+Usage: speed.py target/release/treadmill [--pairs 10] [--training] [--json OUT.json]
+                                         [--csv FILE.csv]
 
 Each pair runs Treadmill and its peer in turn on the same cores; every second pair reverses the order. A row is the median of
 the pairs' ratios, with their quartiles. All rows take turns, so that changes of the machine's speed affect all. Actions are
@@ -63,7 +63,6 @@ def main():
     parser.add_argument("--steps", type=int, default=100_000, help="of Treadmill, per row and pair")
     parser.add_argument("--rows", help="keys of the rows to measure, separated by commas; default: all")
     parser.add_argument("--open-loop", type=pathlib.Path, default=release / "examples/open_loop", help="for state errors")
-    parser.add_argument("--rapier", type=pathlib.Path, help="binary of rapier_multibody/, for its rows")
     robot = REPOSITORY / "actor/humanoid/assets/g1-like-servos.xml"
     parser.add_argument("--robot", type=pathlib.Path, default=robot, help="MJCF file of a servo robot on a height field")
     parser.add_argument("--robot-healthy", default="0.5,1.1", help="heights of its root (m) outside which it is reset")
@@ -73,7 +72,7 @@ def main():
     parser.add_argument("--cores", help="two cores to use, for example 0,1; default: the first allowed ones")
     parser.add_argument("--peers", type=pathlib.Path, default=peers.FOLDER, help="virtual environment of the peers")
     parser.add_argument("--json", type=pathlib.Path, help="file for all numbers")
-    parser.add_argument("--doc", type=pathlib.Path, help="page whose generated part is replaced")
+    parser.add_argument("--csv", type=pathlib.Path, help="file for the table")
     arguments = parser.parse_args()
     if not arguments.treadmill.exists():
         sys.exit(f"{arguments.treadmill} does not exist; run: cargo build --release")
@@ -95,15 +94,15 @@ def main():
     walks = speed_rows.times_to_10_m(context)
 
     packages = ("mujoco", "gymnasium", "envpool", "numpy") + (("stable-baselines3", "torch") if arguments.training else ())
-    made = report.circumstances(REPOSITORY, packages)
+    made = report.circumstances(packages)
     lead = f"{report.made_by(made, packages)} {arguments.pairs} pairs per row; load of the machine before: {load:.1f}."
     text = "\n".join([f"{lead}\n", table(rows, found, report), *speed_rows.notes(context, errors, walks)])
     print(text)
     if arguments.json:
         keys = {"made": made, "load": load, "pairs": found, "state_errors_rad": errors, "seconds_to_10_m": walks}
         report.write_json(arguments.json, keys)
-    if arguments.doc:
-        report.replace(arguments.doc, "speed.py", text)
+    if arguments.csv:
+        report.write_csv(arguments.csv, text, report.commit(), report.cpu_model())
 
 
 if __name__ == "__main__":

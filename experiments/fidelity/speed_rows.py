@@ -81,15 +81,6 @@ class Context:
             sys.exit(f"{' '.join(map(str, command))} failed: {result}")
         return result[key]
 
-    def rapier(self, iterations):
-        """Returns the speed of Rapier's multibody."""
-        steps = max(self.arguments.steps // 50, 640)
-        command = [self.arguments.rapier, "--speed", body.TREADMILL_XML, "--steps", steps]
-        result = self.output([*command, "--set", f"solver_iterations={iterations}"], self.one)
-        if isinstance(result, str):
-            sys.exit(f"{self.arguments.rapier} failed: {result}")
-        return result["steps_per_s"]
-
     @functools.cache
     def rollouts(self, integrator, substeps):
         """Returns MuJoCo's humanoid with these steps."""
@@ -133,9 +124,6 @@ def rows(context):
     else:
         print("only one core: the rows of two threads are left out", file=sys.stderr)
     found += robot_rows(context)
-    for iterations in (4, 1) if context.arguments.rapier else ():
-        against = f"Rapier's multibody, 5 × 3 ms, iterations: {iterations}"
-        found.append(Row(f"rapier_{iterations}", label, against, ours_physics, functools.partial(context.rapier, iterations)))
     if context.arguments.training:
         train = functools.partial(context.bench, env, cores=context.two, what="train")
         peer = context.on(context.two, speed_peers.stable_baselines, 20_480, len(context.two))

@@ -3,7 +3,7 @@
 
 Usage: environments.py target/release/treadmill FOLDER [--envs 64 512 4096] [--seeds 1 2 3] [--steps 8000000] [--jobs 2]
                        [--set KEY=VALUE ...] [--label NAME]
-       environments.py FOLDER --doc docs/results/scale.md
+       environments.py FOLDER --csv FILE.csv
 
 The first form trains the runs that FOLDER lacks, under the automatic rules for horizons, batches and minibatches; `--set` changes
 settings of a variant that `--label` names. The second form tabulates all runs. Every run has one actor process and one update
@@ -102,7 +102,7 @@ def main():
     parser.add_argument("--jobs", type=int, default=2, help="parallel runs")
     parser.add_argument("--set", action="append", default=[], metavar="KEY=VALUE", dest="changes")
     parser.add_argument("--label", default="automatic", help="name of the variant")
-    parser.add_argument("--doc", type=pathlib.Path, help="page whose generated part is replaced")
+    parser.add_argument("--csv", type=pathlib.Path, help="file for the table")
     arguments = parser.parse_args()
     *binary, root = arguments.paths
     if binary:
@@ -112,8 +112,8 @@ def main():
         search.run_all(train_one, runs, arguments.jobs)
     text = table(root)
     print(text)
-    if arguments.doc:
-        report.replace(arguments.doc, "environments.py", text)
+    if arguments.csv:
+        report.write_csv(arguments.csv, text, report.commit(), report.cpu_model())
 
 
 if __name__ == "__main__":

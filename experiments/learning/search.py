@@ -2,7 +2,7 @@
 """Searches for settings that learn to walk sooner: trains each candidate on several seeds and tabulates the results.
 
 Usage: search.py target/release/treadmill FOLDER [--only NAME ...] [--seeds 1 2 3] [--steps 4000000] [--jobs 2]
-       search.py FOLDER --doc docs/results/search.md
+       search.py FOLDER --csv FILE.csv
 
 The first form trains the runs that FOLDER lacks; the second tabulates all its runs. Every 200 000 steps, a run is evaluated on ten
 deterministic episodes of at most 15 s. Each run has one actor process and one update thread, so two parallel runs use two cores.
@@ -177,7 +177,7 @@ def main():
     parser.add_argument("--seeds", nargs="+", type=int, default=[1, 2, 3])
     parser.add_argument("--steps", type=int, default=4_000_000)
     parser.add_argument("--jobs", type=int, default=2, help="parallel runs")
-    parser.add_argument("--doc", type=pathlib.Path, help="page whose generated part is replaced")
+    parser.add_argument("--csv", type=pathlib.Path, help="file for the table")
     arguments = parser.parse_args()
     *binary, root = arguments.paths
     if binary:
@@ -186,8 +186,8 @@ def main():
         run_all(lambda name, seed: train(binary[0], root, name, seed, arguments.steps), runs, arguments.jobs)
     text = table(root)
     print(text)
-    if arguments.doc:
-        report.replace(arguments.doc, "search.py", text)
+    if arguments.csv:
+        report.write_csv(arguments.csv, text, report.commit(), report.cpu_model())
 
 
 if __name__ == "__main__":

@@ -3,7 +3,7 @@
 Needs: pip install torch stable-baselines3 "gymnasium[mujoco]" numpy
        cargo build --release
 
-Usage: speed.py target/release/treadmill [--rounds 5] [--without-training] [--json OUT.json] [--doc docs/results/README.md]
+Usage: speed.py target/release/treadmill [--rounds 5] [--without-training] [--json OUT.json] [--csv FILE.csv]
 
 Each round runs both sides of every comparison; odd rounds reverse the order, and a ratio belongs to one round. Update and
 inference use one core and thread; the two-thread update and training use two cores. torch_ppo.py has PyTorch's side.
@@ -145,21 +145,21 @@ def main():
     parser.add_argument("--without-training", action="store_true", help="measure only update and inference")
     parser.add_argument("--cores", help="two cores to use, for example 0,1; default: the first allowed ones")
     parser.add_argument("--json", type=pathlib.Path, help="file for all numbers")
-    parser.add_argument("--doc", type=pathlib.Path, help="page whose generated part is replaced")
+    parser.add_argument("--csv", type=pathlib.Path, help="file for the table")
     arguments = parser.parse_args()
     allowed = sorted(os.sched_getaffinity(0))
     cores = [int(core) for core in arguments.cores.split(",")] if arguments.cores else allowed
     load = os.getloadavg()[0]
     measures = sides(arguments, set(cores[:1]), set(cores[:2]))
     rounds = [one_round(measures, number) for number in range(arguments.rounds)]
-    made = report.circumstances(REPOSITORY, PACKAGES, SOURCES)
+    made = report.circumstances(PACKAGES, SOURCES)
     lead = f"{report.made_by(made, PACKAGES)} {len(rounds)} rounds; load of the machine before: {load:.1f}."
     text = f"{lead}\n\n{table(rounds)}"
     print(text)
     if arguments.json:
         report.write_json(arguments.json, {"made": made, "load": load, "rounds": rounds})
-    if arguments.doc:
-        report.replace(arguments.doc, "speed.py", text)
+    if arguments.csv:
+        report.write_csv(arguments.csv, text, report.commit(), report.cpu_model())
 
 
 if __name__ == "__main__":

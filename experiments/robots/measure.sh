@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Trains a robot to follow velocity commands and measures its policy here and in MuJoCo: the rows of docs/results/robots.md.
+# Trains a robot to follow velocity commands and measures its policy here and in MuJoCo: the rows of robots.csv.
 #
 #   measure.sh PRESET MODEL STEPS SEED FOLDER
 #

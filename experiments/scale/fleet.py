@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""Measures a learner with real updates among played actors and writes the table of docs/results/scale.md.
+"""Measures a learner with real updates among played actors and writes the table.
 
     cargo build --release && cargo build --release -p treadmill-bench
-    python3 -m experiments.scale.fleet target/release/treadmill --logs /tmp/fleet --doc docs/results/scale.md
+    python3 -m experiments.scale.fleet target/release/treadmill --logs /tmp/fleet --csv FILE.csv
 
 Each row is a scenario of `treadmill-bench fleet`, or five real actors. `--only NAME` runs the scenarios whose name begins with
 NAME and keeps the other rows of the last run, which are in the folder of --logs. `--quick` measures fewer numbers of actors.
@@ -221,7 +221,7 @@ def main():
     parser.add_argument("--quick", action="store_true", help="measure fewer numbers of actors")
     parser.add_argument("--seconds", type=float, default=30, help="length of each measurement; real actors take twice as long")
     parser.add_argument("--rounds", type=int, default=1)
-    parser.add_argument("--doc", type=pathlib.Path, help="page whose generated part is replaced")
+    parser.add_argument("--csv", type=pathlib.Path, help="file for the table")
     arguments = parser.parse_args()
     binary = str(pathlib.Path(arguments.binary).resolve())
     rows = scenarios(arguments.quick)
@@ -246,8 +246,8 @@ def main():
     machine = next((one for rounds in results.values() for one in rounds if "cpu" in one), {})
     text = [f"Treadmill {', '.join(commits)}; {machine.get('cpu', '?')}, {machine.get('cores', '?')} cores; load of the machine before: "
             f"{load_before:.1f}. {arguments.rounds} rounds.", "", *table(rows, results)]
-    if arguments.doc:
-        report.replace(arguments.doc, "fleet.py", "\n".join(text))
+    if arguments.csv:
+        report.write_csv(arguments.csv, "\n".join(text), report.commit(), report.cpu_model())
     print("\n".join(text))
 
 

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""Measures the bus over each transport and writes the table of docs/results/scale.md.
+"""Measures the bus over each transport and writes the table.
 
     cargo build --release && cargo build --release -p treadmill-bench
-    python3 -m experiments.scale.measure target/release/treadmill --doc docs/results/scale.md
+    python3 -m experiments.scale.measure target/release/treadmill --csv FILE.csv
 
 Transports take turns within a round, and `treadmill-bench bus` measures raw TCP before and after each number of actors, so that
 other load affects all alike. The table shows the median over rounds, with minimum and maximum.
@@ -67,7 +67,7 @@ def main():
     parser.add_argument("--actors", default="1,10,50,100,200")
     parser.add_argument("--seconds", type=float, default=5.0)
     parser.add_argument("--pause-ms", type=int, default=0)
-    parser.add_argument("--doc", type=pathlib.Path, help="page whose generated part is replaced")
+    parser.add_argument("--csv", type=pathlib.Path, help="file for the table")
     arguments = parser.parse_args()
     load_before, results = os.getloadavg()[0], {transport: [] for transport in TRANSPORTS}
     for number in range(arguments.rounds):
@@ -89,8 +89,8 @@ def main():
         "",
         *table(results, arguments.actors.split(",")),
     ]
-    if arguments.doc:
-        report.replace(arguments.doc, "measure.py", "\n".join(text))
+    if arguments.csv:
+        report.write_csv(arguments.csv, "\n".join(text), report.commit(), report.cpu_model())
     print("\n".join(text))
 
 

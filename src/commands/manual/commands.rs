@@ -1,68 +1,73 @@
 //! Page of all commands and flags, generated from clap's definitions.
 
-use std::fmt::Write as _;
+use std::collections::{BTreeMap, BTreeSet};
 
 use clap::{Arg, ArgAction, Command};
 
-use super::{cell, heading};
+use super::heading;
 
 /// Arguments of every command.
 const COMMON: [&str; 2] = ["help", "version"];
 
-/// Returns the page.
+/// Returns the page. An argument that several commands have alike is described once, under the first heading.
 pub fn page(program: Command) -> String {
     let mut program = program.disable_help_subcommand(true);
     program.build();
+    let mut counts = BTreeMap::new();
+    count(&program, &mut counts);
+    let shared: BTreeSet<String> = counts.into_iter().filter(|(_, count)| *count > 1).map(|(line, _)| line).collect();
     let mut page = heading("Commands", "the definitions of the command line");
     page += "\n`treadmill COMMAND --help` and the pages of `treadmill man FOLDER` have the same text.\n";
-    page += "Every command has `--help`; `treadmill --version` prints the version.\n";
-    // Writing into a string cannot fail.
-    let _ = describe(&mut page, &program);
+    page += "\n## Shared arguments\n\nCommands below name those that they have.\n\n";
+    shared.iter().for_each(|line| page += line);
+    describe(&mut page, &program, &shared);
     page
 }
 
-fn describe(page: &mut String, command: &Command) -> std::fmt::Result {
-    let name = command.get_display_name().unwrap_or_else(|| command.get_name()).replace('-', " ");
-    writeln!(page, "\n## {name}\n")?;
-    let about = command.get_long_about().or_else(|| command.get_about());
-    writeln!(page, "{}\n", about.map(ToString::to_string).unwrap_or_default())?;
-    let usage = command.clone().render_usage().to_string();
-    writeln!(page, "```text\n{}\n```", usage.trim_start_matches("Usage:").trim())?;
-    let subcommands: Vec<&Command> = command.get_subcommands().filter(|command| !command.is_hide_set()).collect();
-    if !subcommands.is_empty() {
-        writeln!(page, "\n| command | does |\n|---|---|")?;
-        for subcommand in &subcommands {
-            let does = subcommand.get_about().map(ToString::to_string).unwrap_or_default();
-            let name = format!("{name} {}", subcommand.get_name());
-            writeln!(page, "| [`{name}`](#{}) | {} |", name.replace(' ', "-"), cell(&does))?;
-        }
+/// Counts the commands that have each argument, by its line.
+fn count(command: &Command, counts: &mut BTreeMap<String, usize>) {
+    for argument in shown(command) {
+        *counts.entry(line(argument)).or_default() += 1;
     }
-    arguments(page, command)?;
-    subcommands.into_iter().try_for_each(|subcommand| describe(page, subcommand))
+    command.get_subcommands().filter(|command| !command.is_hide_set()).for_each(|command| count(command, counts));
 }
 
-fn arguments(page: &mut String, command: &Command) -> std::fmt::Result {
-    let mut arguments: Vec<&Arg> = command
-        .get_arguments()
-        .filter(|argument| !argument.is_hide_set() && !COMMON.contains(&argument.get_id().as_str()))
-        .collect();
-    if arguments.is_empty() {
-        return Ok(());
+fn describe(page: &mut String, command: &Command, shared: &BTreeSet<String>) {
+    let name = command.get_display_name().unwrap_or_else(|| command.get_name()).replace('-', " ");
+    let about = command.get_long_about().or_else(|| command.get_about());
+    *page += &format!("\n## {name}\n\n{}\n", about.map(ToString::to_string).unwrap_or_default());
+    let (known, own): (Vec<_>, Vec<_>) = shown(command).partition(|argument| shared.contains(&line(argument)));
+    let known: Vec<String> = known.into_iter().map(|argument| format!("`{}`", name_of(argument))).collect();
+    if !known.is_empty() {
+        *page += &format!("\nShared: {}.\n", known.join(", "));
     }
+    if !own.is_empty() {
+        *page += "\n";
+        own.into_iter().for_each(|argument| *page += &line(argument));
+    }
+    command
+        .get_subcommands()
+        .filter(|command| !command.is_hide_set())
+        .for_each(|command| describe(page, command, shared));
+}
+
+/// Returns the arguments that the page has, positional ones first.
+fn shown(command: &Command) -> impl Iterator<Item = &Arg> {
+    let is_shown = |argument: &&Arg| !argument.is_hide_set() && !COMMON.contains(&argument.get_id().as_str());
+    let mut arguments: Vec<&Arg> = command.get_arguments().filter(is_shown).collect();
     arguments.sort_by_key(|argument| !argument.is_positional());
-    writeln!(page, "\n| argument | default | what it does |\n|---|---|---|")?;
-    for argument in arguments {
-        let help = argument.get_long_help().or_else(|| argument.get_help()).map(ToString::to_string);
-        writeln!(
-            page,
-            "| `{}` | {} | {}{} |",
-            cell(&usage(argument)),
-            default(argument),
-            cell(&help.unwrap_or_default()),
-            choices(argument)
-        )?;
-    }
-    Ok(())
+    arguments.into_iter()
+}
+
+/// Returns the line of an argument.
+fn line(argument: &Arg) -> String {
+    let help = argument.get_long_help().or_else(|| argument.get_help()).map(ToString::to_string);
+    format!("- `{}`{}: {}{}\n", usage(argument), default(argument), help.unwrap_or_default(), choices(argument))
+}
+
+/// Returns the name of an argument without its values.
+fn name_of(argument: &Arg) -> String {
+    argument.get_long().map_or_else(|| usage(argument), |long| format!("--{long}"))
 }
 
 /// Returns an argument as the user types it.
@@ -87,7 +92,7 @@ fn default(argument: &Arg) -> String {
         }
         _ => Vec::new(),
     };
-    if values.is_empty() { "–".to_string() } else { values.join(", ") }
+    if values.is_empty() { String::new() } else { format!(" (default {})", values.join(", ")) }
 }
 
 /// Returns a sentence with the possible values of an enumeration.

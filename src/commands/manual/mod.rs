@@ -87,19 +87,3 @@ fn heading(title: &str, made_from: &str) -> String {
          TREADMILL_WRITE_REFERENCE=1 cargo test --release --test documentation reference -->\n"
     )
 }
-
-/// Formats text for a cell of a Markdown table: on one line, with `|` and `<` escaped.
-fn cell(text: &str) -> String {
-    let words: Vec<&str> = text.split_whitespace().collect();
-    words.join(" ").replace('|', "\\|").replace('<', "\\<")
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_cell_stays_one_cell() {
-        assert_eq!(cell("a | b\n  c <d>"), "a \\| b c \\<d>");
-    }
-}
