@@ -189,16 +189,12 @@ pub fn json(data: &[u8]) {
 
 /// Decodes a checkpoint: the bytes as a file, and the bytes as the content of a file with a valid header and checksum.
 pub fn checkpoint(data: &[u8]) {
-    let wrapped = [encoding::FORMAT_OLDEST, encoding::FORMAT].map(|format| {
-        let mut wrapped = encoding::encode(&()).expect("the unit value can be encoded");
-        wrapped.truncate(8);
-        wrapped.extend(format.to_le_bytes());
-        wrapped.extend((data.len() as u64).to_le_bytes());
-        wrapped.extend(encoding::checksum(format, data));
-        wrapped.extend(data);
-        wrapped
-    });
-    for bytes in [data, &wrapped[0], &wrapped[1]] {
+    let mut wrapped = encoding::encode(&()).expect("the unit value can be encoded");
+    wrapped.truncate(12);
+    wrapped.extend((data.len() as u64).to_le_bytes());
+    wrapped.extend(encoding::checksum(data));
+    wrapped.extend(data);
+    for bytes in [data, &wrapped] {
         let Ok(state) = decode_checkpoint("a file", bytes) else { continue };
         if let Ok(config) = state.check().and_then(|()| state.config()) {
             drop(state.bundle(&config, 0));

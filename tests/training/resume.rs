@@ -185,27 +185,27 @@ fn a_resumed_run_removes_the_temporary_files_of_killed_processes() {
 }
 
 #[test]
-fn a_run_of_format_3_resumes_and_one_of_a_newer_physics_is_refused() {
+fn an_older_physics_begins_new_episodes_and_a_newer_one_is_refused() {
     let (folder, run) = folders();
+    begin(folder.path(), &run, 1, &[]);
     let latest_path = run.join("checkpoints/latest.bundle");
-    fs::create_dir_all(run.join("checkpoints")).unwrap();
-    fs::write(&latest_path, include_bytes!("../../learner/tests/golden/format-3.bundle")).unwrap();
-    // It has ten updates of 64 steps each.
-    let more = ["train", "--resume", run.to_str().unwrap(), "--steps", "768"];
-    let output = self::run(folder.path(), &more);
-    assert!(output.status.success(), "{}", stderr(&output));
-    assert_eq!(stderr(&output).contains("newer physics"), PHYSICS_VERSION > 1, "{}", stderr(&output));
-    assert_eq!(u32::from(fs::read(&latest_path).unwrap()[8]), encoding::FORMAT);
+    let more = |updates: u64| {
+        let steps = (updates * BATCH).to_string();
+        self::run(folder.path(), &["train", "--resume", run.to_str().unwrap(), "--steps", &steps])
+    };
     let mut state = latest(&run);
-    assert_eq!((state.counters.updates, state.counters.env_steps, state.counters.resumes), (12, 768, 1));
-    assert_eq!(state.physics_version, PHYSICS_VERSION);
-    assert!(state.actor_state.is_some());
+    state.physics_version = PHYSICS_VERSION - 1;
+    fs::write(&latest_path, encoding::encode(&state).unwrap()).unwrap();
+    let output = more(2);
+    assert!(output.status.success() && stderr(&output).contains("newer physics"), "{}", stderr(&output));
+    let mut state = latest(&run);
+    assert_eq!((state.physics_version, state.counters.updates), (PHYSICS_VERSION, 2));
 
     state.physics_version = PHYSICS_VERSION + 1;
     fs::write(&latest_path, encoding::encode(&state).unwrap()).unwrap();
     let (ours, theirs) =
         (format!("simulates physics {PHYSICS_VERSION}"), format!("has physics {}", PHYSICS_VERSION + 1));
-    assert_refused(&self::run(folder.path(), &more), 1, &[&ours, &theirs, "versions.json"]);
+    assert_refused(&more(3), 1, &[&ours, &theirs, "versions.json"]);
 }
 
 #[test]

@@ -1,25 +1,17 @@
 //! File format of a checkpoint: magic, format version, length, checksum, then the state in bincode.
 //!
 //! Only this file names bincode, which is unmaintained (RUSTSEC-2025-0141) and pinned to 2.0.1. To replace it: raise
-//! [`FORMAT`], encode the state by another serde format below, and keep [`decode`]'s branches for earlier formats.
+//! [`FORMAT`], and encode the state by another serde format below.
 
 use serde::{Serialize, de::DeserializeOwned};
-use sha2::{Digest, Sha256};
 use treadmill_runtime::error_chain;
 
 use super::CheckpointError;
 
 const MAGIC: &[u8; 8] = b"TREADMIL";
-/// Version of the format, raised whenever the state's fields change. bincode files do not describe themselves, so the types
-/// of earlier formats stay in files of their own.
-pub const FORMAT: u32 = 7;
-/// Newest format whose checksum does not cover the format.
-const FORMAT_UNCHECKED: u32 = 6;
-/// Newest format whose checksum is SHA-256.
-const FORMAT_SHA_256: u32 = 4;
-/// Oldest format that is still read.
-pub const FORMAT_OLDEST: u32 = 3;
-const CHECKSUM_BYTES: usize = 32;
+/// Version of the format, raised whenever the state's fields change: bincode files do not describe themselves.
+pub const FORMAT: u32 = 8;
+const CHECKSUM_BYTES: usize = 4;
 const HEADER_BYTES: usize = 8 + 4 + 8 + CHECKSUM_BYTES;
 /// Steps of (largest payload, memory that decoding it may take), in bytes, so that a wrong length inside cannot claim
 /// all memory. There are steps because bincode's limits are constants.
@@ -41,28 +33,21 @@ pub fn encode<T: Serialize>(state: &T) -> Result<Vec<u8>, CheckpointError> {
     bytes.extend_from_slice(MAGIC);
     bytes.extend_from_slice(&FORMAT.to_le_bytes());
     bytes.extend_from_slice(&(payload.len() as u64).to_le_bytes());
-    bytes.extend_from_slice(&checksum(FORMAT, &payload));
+    bytes.extend_from_slice(&checksum(&payload));
     bytes.extend_from_slice(&payload);
     Ok(bytes)
 }
 
-/// Returns the checksum of a payload, and of the format since format 7: a damaged one may be an older one that is read. Actors
-/// wait while it is computed, so it is CRC-32C followed by zeros since format 5, and was SHA-256 before.
-pub fn checksum(format: u32, payload: &[u8]) -> [u8; CHECKSUM_BYTES] {
-    if format <= FORMAT_SHA_256 {
-        return Sha256::digest(payload).into();
-    }
-    let mut checksum = [0; CHECKSUM_BYTES];
-    let seed = if format <= FORMAT_UNCHECKED { 0 } else { crc32c::crc32c(&format.to_le_bytes()) };
-    checksum[..4].copy_from_slice(&crc32c::crc32c_append(seed, payload).to_le_bytes());
-    checksum
+/// Returns the checksum of format and payload, CRC-32C: actors wait while it is computed.
+pub fn checksum(payload: &[u8]) -> [u8; CHECKSUM_BYTES] {
+    crc32c::crc32c_append(crc32c::crc32c(&FORMAT.to_le_bytes()), payload).to_le_bytes()
 }
 
-/// Returns format and encoded state of the bytes of a file.
+/// Returns the encoded state in the bytes of a file.
 ///
 /// # Errors
-/// If the file is damaged or has a format that is not read.
-pub fn payload<'a>(path: &str, bytes: &'a [u8]) -> Result<(u32, &'a [u8]), CheckpointError> {
+/// If the file is damaged or has another format.
+pub fn payload<'a>(path: &str, bytes: &'a [u8]) -> Result<&'a [u8], CheckpointError> {
     let damaged = |why: String| CheckpointError::Damaged { path: path.to_string(), why };
     if bytes.len() < HEADER_BYTES {
         return Err(damaged(format!("it has {} bytes, fewer than its header", bytes.len())));
@@ -72,17 +57,17 @@ pub fn payload<'a>(path: &str, bytes: &'a [u8]) -> Result<(u32, &'a [u8]), Check
         return Err(damaged("it does not begin like a checkpoint".to_string()));
     }
     let format = u32::from_le_bytes(header[8..12].try_into().expect("four bytes"));
-    if !(FORMAT_OLDEST..=FORMAT).contains(&format) {
+    if format != FORMAT {
         return Err(CheckpointError::Format { path: path.to_string(), found: format });
     }
     let length = u64::from_le_bytes(header[12..20].try_into().expect("eight bytes"));
     if length != payload.len() as u64 {
         return Err(damaged(format!("it is truncated to {} of {length} bytes of state", payload.len())));
     }
-    if checksum(format, payload) != header[20..] {
+    if checksum(payload) != header[20..] {
         return Err(damaged("its checksum does not match its content".to_string()));
     }
-    Ok((format, payload))
+    Ok(payload)
 }
 
 /// Decodes an encoded state.
@@ -115,32 +100,8 @@ mod tests {
     fn a_decoded_state_equals_the_encoded_one() {
         let state = (vec![1.0_f32, -0.5], "run".to_string(), 7_u64);
         let bytes = encode(&state).unwrap();
-        let (format, payload) = payload("x", &bytes).unwrap();
-        assert_eq!(format, FORMAT);
+        let payload = payload("x", &bytes).unwrap();
         assert_eq!(decode::<(Vec<f32>, String, u64)>("x", payload).unwrap(), state);
-    }
-
-    #[test]
-    fn earlier_checksums_are_checked() {
-        let mut bytes = encode(&vec![1u64; 20]).unwrap();
-        for format in [FORMAT_OLDEST, FORMAT_SHA_256, FORMAT_UNCHECKED] {
-            bytes[8..12].copy_from_slice(&format.to_le_bytes());
-            let sum = checksum(format, &bytes[HEADER_BYTES..]);
-            bytes[20..HEADER_BYTES].copy_from_slice(&sum);
-            assert_eq!(payload("x", &bytes).unwrap().0, format);
-            bytes[20] ^= 1;
-            assert!(payload("x", &bytes).is_err());
-        }
-    }
-
-    #[test]
-    fn a_format_that_became_another_one_is_detected() {
-        let sound = encode(&vec![1u64; 20]).unwrap();
-        for format in FORMAT_OLDEST..FORMAT {
-            let mut bytes = sound.clone();
-            bytes[8..12].copy_from_slice(&format.to_le_bytes());
-            assert!(payload("x", &bytes).is_err(), "format {format}");
-        }
     }
 
     #[test]
@@ -157,7 +118,7 @@ mod tests {
         assert!(why(&newer).contains("format 99"), "{}", why(&newer));
         let mut older = sound.clone();
         older[8] = 1;
-        assert!(why(&older).contains("format 1; this program reads formats 3 to 7"), "{}", why(&older));
+        assert!(why(&older).contains("format 1; this program reads format 8"), "{}", why(&older));
         assert!(why(&[b'x'; 200]).contains("does not begin"));
     }
 

@@ -7,8 +7,6 @@
 
 pub mod encoding;
 mod fallback;
-mod format_3;
-mod format_5;
 mod state;
 mod writer;
 
@@ -20,7 +18,7 @@ use std::{
 use treadmill_runtime::run_folder::RunFolder;
 use treadmill_store::StoreError;
 
-use self::encoding::{FORMAT, FORMAT_OLDEST};
+use self::encoding::FORMAT;
 pub use state::{Counters, TrainingState};
 pub use writer::CheckpointWriter;
 
@@ -81,7 +79,7 @@ pub enum CheckpointError {
     },
     /// Another version of this program wrote it.
     #[error(
-        "checkpoint `{path}` has format {found}; this program reads formats {FORMAT_OLDEST} to {FORMAT}: continue with the \
+        "checkpoint `{path}` has format {found}; this program reads format {FORMAT}: continue with the \
          version that wrote it, named in versions.json in the run's folder"
     )]
     Format {
@@ -191,12 +189,7 @@ pub fn read(name: &str, bytes: &[u8]) -> Result<TrainingState, CheckpointError> 
 /// # Errors
 /// If the file is damaged or has another format.
 pub fn decode(path: &str, bytes: &[u8]) -> Result<TrainingState, CheckpointError> {
-    let (format, payload) = encoding::payload(path, bytes)?;
-    match format {
-        3 => encoding::decode::<format_3::State3>(path, payload).map(Into::into),
-        4 | 5 => encoding::decode::<format_5::State5>(path, payload).map(Into::into),
-        _ => encoding::decode(path, payload),
-    }
+    encoding::decode(path, encoding::payload(path, bytes)?)
 }
 
 fn known(folder: &Path) -> String {
