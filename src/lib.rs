@@ -81,8 +81,8 @@ enum Command {
     Reference(manual::ReferenceArgs),
 }
 
-/// Runs the command named by the process's arguments, and returns the exit code. `own_tasks` are tasks of the calling program,
-/// under the names for `--task NAME`; see `examples/own_task.rs`.
+/// Runs the command named by the process's arguments, and returns the exit code. `own_tasks` are tasks of the calling
+/// program, under the names for `--task NAME`; see `examples/own_task.rs`.
 ///
 /// Call it first in `main`: commands on the bus set an environment variable, which is sound only while no other thread runs.
 ///

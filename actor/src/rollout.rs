@@ -59,8 +59,8 @@ impl Collector {
     }
 
     /// Divides the environments among at most this many threads; 0 means one per core. Their number
-    /// changes only the rounding of action means, as matrix products of fewer rows may add in another order. A pose sampler is
-    /// added afterwards.
+    /// changes only the rounding of action means, as matrix products of fewer rows may add in another order. A pose
+    /// sampler is added afterwards.
     pub fn with_threads(mut self, threads: usize) -> Result<Self, ActorError> {
         let threads = if threads == 0 { machine::cores() } else { threads };
         let shares = self.shares.into_iter().flat_map(|share| share.environments.split(threads));
@@ -101,8 +101,8 @@ impl Collector {
         self.precision
     }
 
-    /// Collects the next fragment, of `steps` control steps, or as many as a message holds. Fragments up to `settled_through` will
-    /// not be sent again.
+    /// Collects the next fragment, of `steps` control steps, or as many as a message holds. Fragments up to
+    /// `settled_through` will not be sent again.
     pub fn collect(&mut self, policy: &ActingPolicy, steps: u32, settled_through: u64) -> Result<Fragment, ActorError> {
         let Self { envs, observation_size, action_size, .. } = *self;
         let steps = steps.min(fragment_steps_max(envs, observation_size, action_size));
@@ -151,7 +151,8 @@ impl Collector {
         Ok(fragment)
     }
 
-    /// Returns the terms of the reward as means over the `rows` transitions of a fragment. One that is not finite is left out.
+    /// Returns the terms of the reward as means over the `rows` transitions of a fragment. One that is not finite is
+    /// left out.
     fn reward_terms(&mut self, rows: usize) -> Vec<RewardTerm> {
         let mut of_shares = self.shares.iter_mut().map(|share| share.environments.take_reward_sums());
         let mut sums = of_shares.next().unwrap_or_default();

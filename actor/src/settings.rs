@@ -57,7 +57,8 @@ fn is_needed(key: &str) -> bool {
     KEYS.contains(&key) || key.split_once('.').is_some_and(|(section, _)| SECTIONS.contains(&section))
 }
 
-/// Returns the control steps of the first fragment of an actor with `envs` environments. Every receipt says those of the next.
+/// Returns the control steps of the first fragment of an actor with `envs` environments. Every receipt says those of
+/// the next.
 ///
 /// # Errors
 /// If such a fragment is too large for the bus.
@@ -133,8 +134,8 @@ fn randomisation(config: &RandomisationConfig) -> Randomisation {
     }
 }
 
-/// Returns the configuration of an environment without randomisation and curricula: commands have their full ranges, and each
-/// episode draws its level of the ground's difficulty.
+/// Returns the configuration of an environment without randomisation and curricula: commands have their full ranges,
+/// and each episode draws its level of the ground's difficulty.
 pub fn environment(config: &Config) -> EnvironmentConfig {
     let ground = ground(&config.ground);
     let is_velocity = config.env.task == EnvTask::Velocity;

@@ -116,8 +116,8 @@ async fn wait_for_name(bus: &Bus, options: &WorkerOptions, run: &str, shutdown: 
     Ok(true)
 }
 
-/// Returns whether the learner has heard of an actor of this name lately. Routers were seen to keep the token of a killed actor for
-/// minutes, so the token alone proves nothing. `None` if no learner answers.
+/// Returns whether the learner has heard of an actor of this name lately. Routers were seen to keep the token of a
+/// killed actor for minutes, so the token alone proves nothing. `None` if no learner answers.
 async fn is_heard(bus: &Bus, run: &str, name: &str) -> Result<Option<bool>, ActorError> {
     let replies = statuses(bus, Some(run), TOKEN_TIMEOUT).await?;
     let newest = newest_of_each_run(replies).pop();

@@ -1,4 +1,5 @@
-//! Many simulated actors in one process. Each has its own session and connection, sends prepared fragments and fetches policies.
+//! Many simulated actors in one process. Each has its own session and connection, sends prepared fragments and fetches
+//! policies.
 
 use std::{
     io::BufRead,
@@ -99,8 +100,8 @@ struct Shared {
     published: AtomicU64,
 }
 
-/// Sends fragments until standard input ends. Commands: `send`, answered once a fragment of every actor was accepted; `measure`;
-/// `stop`; and `expect N` before policy N is published.
+/// Sends fragments until standard input ends. Commands: `send`, answered once a fragment of every actor was accepted;
+/// `measure`; `stop`; and `expect N` before policy N is published.
 pub fn run(args: &LoadArgs) -> anyhow::Result<()> {
     memory::keep_freed();
     usage::allow_many_connections();
@@ -168,7 +169,8 @@ impl Load {
         }
     }
 
-    /// Waits until a fragment of every actor was accepted: before that an actor is a newcomer, which admission control limits.
+    /// Waits until a fragment of every actor was accepted: before that an actor is a newcomer, which admission control
+    /// limits.
     fn wait_for_first_fragments(&self) -> Value {
         let deadline = Instant::now() + FIRST_FRAGMENTS_TIMEOUT;
         let actors = std::iter::from_fn(|| {

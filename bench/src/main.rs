@@ -5,8 +5,8 @@
 //!   number of actors and measures them: [`host`] has the learner's intake, [`load`] simulates actors.
 //! - [`fleet`]: a real learner with real updates among played actors.
 //! - [`helper`]: starts these processes and exchanges lines with them.
-//! - [`workload`]: the fragment and the policies that `bus` sends; [`raw`]: plain TCP for comparison; [`usage`]: processor time
-//!   and memory of this process.
+//! - [`workload`]: the fragment and the policies that `bus` sends; [`raw`]: plain TCP for comparison; [`usage`]:
+//!   processor time and memory of this process.
 
 mod bus;
 mod fleet;

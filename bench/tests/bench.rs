@@ -73,8 +73,8 @@ fn bus_reports_the_bytes_of_a_transition() {
         let small = ["--actors", "1", "--seconds", "0.2", "--fragment-mb", "0.2", "--broadcasts", "1"];
         bench(&[&["bus", "--precision", precision][..], &small].concat())["bytes_per_transition"].as_f64().unwrap()
     };
-    // 45 observations, 17 actions, log-probability and reward as floats, a byte of flags, and 1/128 of the last observation of
-    // each environment. The rest is the fragment's header.
+    // 45 observations, 17 actions, log-probability and reward as floats, a byte of flags, and 1/128 of the last
+    // observation of each environment. The rest is the fragment's header.
     let ours = 4.0 * (45.0 + 17.0 + 2.0) + 1.0 + 4.0 * 45.0 / 128.0;
     let (full, half) = (bytes("f32"), bytes("f16"));
     assert!((ours..ours + 0.2).contains(&full), "{full}");

@@ -124,7 +124,8 @@ pub(crate) mod tests {
         let read = ActorState::decode(&*bytes).unwrap();
         assert_eq!(read, state);
         assert!(read.velocities.iter().all(|number| number.is_sign_negative()));
-        // Name and start, 8 × (4 + 3 × (1 + 3 + 8 + 7 + 12 + 1)) + 4 × 3 × (1 + 2 + 4 + 1) bytes, and the tags of the fields.
+        // Name and start, 8 × (4 + 3 × (1 + 3 + 8 + 7 + 12 + 1)) + 4 × 3 × (1 + 2 + 4 + 1) bytes, and the tags of the
+        // fields.
         assert!((896..946).contains(&bytes.len()), "{}", bytes.len());
     }
 

@@ -2,8 +2,8 @@
 
 /// Largest encoded fragment, below the bus's limit of 32 MiB per message.
 pub const FRAGMENT_BYTES_MAX: usize = 30 << 20;
-/// Bytes of a fragment's observations, actions, log-probabilities, rewards, flags and last observations. The rest is for the header
-/// and for finished episodes.
+/// Bytes of a fragment's observations, actions, log-probabilities, rewards, flags and last observations. The rest is
+/// for the header and for finished episodes.
 const PLANES_BYTES_MAX: usize = FRAGMENT_BYTES_MAX - FRAGMENT_BYTES_MAX / 64;
 /// Returns the most environments of a fragment of `steps` steps with observations and actions of these widths.
 #[must_use]
@@ -22,8 +22,8 @@ fn step_bytes(observation: usize, action: usize) -> usize {
 }
 /// Largest encoded policy bundle.
 pub const BUNDLE_BYTES_MAX: usize = 30 << 20;
-/// Largest piece of a policy bundle. With its header it fits into one batch of the bus, which has 32 to 64 KiB depending on the
-/// link.
+/// Largest piece of a policy bundle. With its header it fits into one batch of the bus, which has 32 to 64 KiB
+/// depending on the link.
 pub const PIECE_BYTES_MAX: usize = 30_000;
 /// Largest encoded state of an actor, which is part of fragments and bundles.
 pub const ACTOR_STATE_BYTES_MAX: usize = 8 << 20;

@@ -34,8 +34,8 @@ pub(crate) fn check_bytes(field: &'static str, bytes: Cursor<'_>, count: usize, 
 
 /// Refuses infinities and NaN; the error names the first.
 pub(crate) fn check_finite(field: &'static str, numbers: &[f32]) -> Result<(), Malformed> {
-    // Exactly infinities and NaN have an exponent of all ones. Comparing bits needs no branches and no order, so the compiler
-    // vectorises it.
+    // Exactly infinities and NaN have an exponent of all ones. Comparing bits needs no branches and no order, so the
+    // compiler vectorises it.
     const EXPONENT: u32 = 0x7f80_0000;
     let bad = |number: &f32| u32::from(number.to_bits() & EXPONENT == EXPONENT);
     if numbers.iter().fold(0, |found, number| found | bad(number)) == 0 {

@@ -51,8 +51,8 @@ impl PreparedTransitions {
         Ok(Self { message: wire::Fragment::decode(encoded).map_err(Malformed::undecodable("fragment"))? })
     }
 
-    /// Returns an encoded fragment with the sender, numbers and size of `header`; its planes repeat the prepared transitions.
-    /// Run, version, configuration and widths are those of the prepared ones.
+    /// Returns an encoded fragment with the sender, numbers and size of `header`; its planes repeat the prepared
+    /// transitions. Run, version, configuration and widths are those of the prepared ones.
     pub fn encode(&self, header: &Fragment) -> Result<Vec<u8>, Malformed> {
         check_range("steps", header.steps, limits::STEPS_MAX)?;
         check_range("envs", header.envs, limits::ENVS_MAX)?;

@@ -1,7 +1,8 @@
 //! Compatibility: old messages decode to the same values, and default fields do not change the encoding.
 //!
-//! `golden/messages-N.txt` holds one message a line, as an earlier version encoded it: its name and its bytes in hexadecimal.
-//! Lines are added, never changed. With `TREADMILL_WRITE_GOLDEN=FILE`, the test writes the messages of this version.
+//! `golden/messages-N.txt` holds one message a line, as an earlier version encoded it: its name and its bytes in
+//! hexadecimal. Lines are added, never changed. With `TREADMILL_WRITE_GOLDEN=FILE`, the test writes the messages of
+//! this version.
 
 use bytes::Bytes;
 use treadmill_proto::{

@@ -68,8 +68,8 @@ pub fn run(args: RouterArgs) -> anyhow::Result<()> {
             bus.close();
             return Ok(());
         };
-        // After faults of the network Zenoh may lose the way to the learner. A new session may find it, and another router has it.
-        // A session that is closed can panic, and then keeps its memory.
+        // After faults of the network Zenoh may lose the way to the learner. A new session may find it, and another
+        // router has it. A session that is closed can panic, and then keeps its memory.
         tracing::warn!(run, "the link is there, but no answers of the learner arrive; starting anew");
         let patience_s = if has_answers { PATIENCE_S } else { (2 * args.patience_s).min(PATIENCE_MAX_S) };
         let why = restart(&[

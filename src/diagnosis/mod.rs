@@ -49,8 +49,9 @@ impl Silence {
         Self::of_route(options, run).unwrap_or_else(|| Self::new(no_peer(options), options, run))
     }
 
-    /// Finds what stands on the way to an endpoint of `options`: the bus dials them in order, each until it answers. `None` if
-    /// nothing is found, or if discovery may find others. Blocks its thread, at most some seconds for each endpoint.
+    /// Finds what stands on the way to an endpoint of `options`: the bus dials them in order, each until it answers.
+    /// `None` if nothing is found, or if discovery may find others. Blocks its thread, at most some seconds for each
+    /// endpoint.
     #[must_use]
     pub fn of_route(options: &BusOptions, run: Option<&str>) -> Option<Self> {
         if options.discover {

@@ -1,5 +1,5 @@
-//! Text that `train` and `learner` print: before a run its goal, files and commands to watch, stop and resume it; after a run its
-//! result and the next commands.
+//! Text that `train` and `learner` print: before a run its goal, files and commands to watch, stop and resume it; after
+//! a run its result and the next commands.
 
 use std::net::SocketAddr;
 

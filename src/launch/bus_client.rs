@@ -22,8 +22,8 @@ const WARN_EVERY: Duration = Duration::from_secs(10);
 /// Flags of an actor or an evaluator.
 #[derive(Args)]
 pub struct ClientArgs {
-    /// Endpoint of the learner or of a router; may be repeated. By default port 7447 on loopback, as tls/ with --tls and else tcp/;
-    /// none with --discover.
+    /// Endpoint of the learner or of a router; may be repeated. By default port 7447 on loopback, as tls/ with --tls
+    /// and else tcp/; none with --discover.
     #[arg(long, value_name = "ENDPOINT")]
     connect: Vec<String>,
     /// The run to join; may be left out if there is only one.

@@ -15,8 +15,8 @@ use crate::launch::{
 /// Interval at which the wait for a task checks for a request to stop.
 const POLL_INTERVAL: Duration = Duration::from_millis(100);
 
-/// Opens the server where actors register. If the run's task is unknown, waits until an actor registers it. Returns the server
-/// and the run's state, or `None` after a request to stop.
+/// Opens the server where actors register. If the run's task is unknown, waits until an actor registers it. Returns the
+/// server and the run's state, or `None` after a request to stop.
 pub async fn open_server(
     bus: &Bus,
     setup: &mut RunSetup,

@@ -164,10 +164,10 @@ impl<'a> Host<'a> {
         }
     }
 
-    /// Starts the program anew, for a learner that was overtaken. Its session would keep its queryables, and a link that another
-    /// learner gave up, and that this one did not, would carry nothing
-    /// ([eclipse-zenoh/zenoh#2806](https://github.com/eclipse-zenoh/zenoh/issues/2806)). A session that is closed can panic, and
-    /// then keeps its memory. Returns only if the system refuses.
+    /// Starts the program anew, for a learner that was overtaken. Its session would keep its queryables, and a link
+    /// that another learner gave up, and that this one did not, would carry nothing
+    /// ([eclipse-zenoh/zenoh#2806](https://github.com/eclipse-zenoh/zenoh/issues/2806)). A session that is closed can
+    /// panic, and then keeps its memory. Returns only if the system refuses.
     pub fn restart(&self) -> std::io::Error {
         let page = self.page.iter().map(SocketAddr::to_string).collect();
         let pause_ms = RESTART_PAUSE.as_millis().to_string();
@@ -265,8 +265,8 @@ impl<'a> Host<'a> {
     }
 }
 
-/// Waits until the run's task is known, with heartbeats, because a learner that waits for its first actor is healthy. Returns
-/// `None` after a request to stop.
+/// Waits until the run's task is known, with heartbeats, because a learner that waits for its first actor is healthy.
+/// Returns `None` after a request to stop.
 async fn wait_for_task(
     bus: &Bus,
     setup: &mut RunSetup,

@@ -2,9 +2,9 @@
 
 /// Makes the allocator use one arena.
 ///
-/// Each arena of GNU's allocator keeps the most that it ever held, and by default there are eight per core. Dozens of threads find
-/// ever other ones: actors and routers kept growing, and two learners that led in turn by 35 MB with each takeover. Training
-/// is as fast with one, because each thread has a cache of small pieces.
+/// Each arena of GNU's allocator keeps the most that it ever held, and by default there are eight per core. Dozens of
+/// threads find ever other ones: actors and routers kept growing, and two learners that led in turn by 35 MB with each
+/// takeover. Training is as fast with one, because each thread has a cache of small pieces.
 pub fn use_one_arena() {
     #[cfg(all(target_os = "linux", target_env = "gnu"))]
     set(libc::M_ARENA_MAX, 1);
@@ -12,8 +12,9 @@ pub fn use_one_arena() {
 
 /// Makes the allocator keep freed memory instead of returning it to the system, in one arena.
 ///
-/// A gradient step allocates and frees dozens of tensors of some hundred kilobytes. By default, GNU's allocator asks the system
-/// for each, and the system clears the pages. That took a tenth of an update's time on one thread, and more on several.
+/// A gradient step allocates and frees dozens of tensors of some hundred kilobytes. By default, GNU's allocator asks
+/// the system for each, and the system clears the pages. That took a tenth of an update's time on one thread, and more
+/// on several.
 pub fn keep_freed() {
     use_one_arena();
     #[cfg(all(target_os = "linux", target_env = "gnu"))]

@@ -1,14 +1,17 @@
 //! Starting and hosting a run, and process-wide services of every command.
 //!
 //! # Layout
-//! - Before a run: `run_args` (flags), `startup` (from flags to a run that is ready), `prepared` (that run), `begin` (a new run), `warm_start` (from another
-//!   run's policy or state), `resumption` (loads a saved run and compares the flags with it), `model` (the robot),
-//!   `external_task` (waits for the task that the first actor registers), `banner` (text printed before and after a run).
+//! - Before a run: `run_args` (flags), `startup` (from flags to a run that is ready), `prepared` (that run), `begin` (a
+//!   new run), `warm_start` (from another run's policy or state), `resumption` (loads a saved run and compares the
+//!   flags with it), `model` (the robot), `external_task` (waits for the task that the first actor registers), `banner`
+//!   (text printed before and after a run).
 //! - During a run: `host` (a learner with actors beside it), `durability` (a learner whose state is in a store), `standby`
 //!   (waits until it is time to lead), `supervisor` (restarts actor processes), `bus_client` (flags and
-//!   session of an actor or evaluator), `router_session` (session of a learner or router), `metrics_page` (metrics over HTTP).
-//! - The process: `async_runtime`, [`child`] (processes that end with this one), `familiar_flags` (hints for flags of other programs), `processor` (refuses one that is too
-//!   old), [`memory`] (allocator settings), `restart` (starts the program anew), [`exit_code`], [`signals`], [`log`], [`output`], [`slow_step`], [`terminal_screen`].
+//!   session of an actor or evaluator), `router_session` (session of a learner or router), `metrics_page` (metrics over
+//!   HTTP).
+//! - The process: `async_runtime`, [`child`] (processes that end with this one), `familiar_flags` (hints for flags of
+//!   other programs), `processor` (refuses one that is too old), [`memory`] (allocator settings), `restart` (starts the
+//!   program anew), [`exit_code`], [`signals`], [`log`], [`output`], [`slow_step`], [`terminal_screen`].
 
 pub(crate) mod async_runtime;
 pub(crate) mod banner;

@@ -1,6 +1,6 @@
 //! Lines on standard output and standard error. A closed stream is ignored, because a reader that goes away must not stop
-//! training; other errors of standard output are kept for the end. Also the log's writer, which buffers while a dashboard uses
-//! the terminal.
+//! training; other errors of standard output are kept for the end. Also the log's writer, which buffers while a
+//! dashboard uses the terminal.
 
 use std::{
     io::{self, IsTerminal, Write},

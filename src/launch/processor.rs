@@ -6,8 +6,8 @@
 
 /// Returns whether this processor has all instructions that the program was compiled for; else prints those it lacks.
 ///
-/// The compiler may use vector instructions here, too, to move larger values. So the code moves none: it only reads registers,
-/// and writes text that exists already. `deploy/release.sh` runs it on emulated processors.
+/// The compiler may use vector instructions here, too, to move larger values. So the code moves none: it only reads
+/// registers, and writes text that exists already. `deploy/release.sh` runs it on emulated processors.
 #[cfg(all(target_arch = "x86_64", target_feature = "avx2"))]
 #[inline(never)]
 pub(crate) fn is_supported() -> bool {

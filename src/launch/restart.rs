@@ -2,8 +2,9 @@
 
 use std::{env, ffi::OsString, io, os::unix::process::CommandExt, process::Command};
 
-/// Replaces this program by a new start of itself with the same arguments, except that each flag of `values` gets these values.
-/// Links, memory and threads of the present start end with it, whatever their state. Returns only if the system refuses.
+/// Replaces this program by a new start of itself with the same arguments, except that each flag of `values` gets these
+/// values. Links, memory and threads of the present start end with it, whatever their state. Returns only if the system
+/// refuses.
 pub fn restart(values: &[(&str, Vec<String>)]) -> io::Error {
     let mut arguments = env::args_os();
     let name = arguments.next().unwrap_or_default();

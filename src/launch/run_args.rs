@@ -87,15 +87,16 @@ pub struct AnyRunArgs {
     /// Resume this run: its folder, or its name below runs/.
     #[arg(long, value_name = "RUN", group = "saved")]
     pub resume: Option<String>,
-    /// Resume the run in --run-dir if it has a checkpoint, else begin it: one command line for a service. With --store, resume
-    /// the run there once no other learner leads it.
+    /// Resume the run in --run-dir if it has a checkpoint, else begin it: one command line for a service. With --store,
+    /// resume the run there once no other learner leads it.
     #[arg(long, conflicts_with = "resume")]
     pub resume_or_start: bool,
     /// Keep the run's state in this store instead of the run's folder: file:///FOLDER, s3://BUCKET/PATH, gs://BUCKET/PATH or
     /// az://CONTAINER/PATH. Credentials come from the environment (see docs/operations/failover.md).
     #[arg(long, value_name = "URL", conflicts_with_all = ["resume", "fork", "init_from"])]
     pub store: Option<String>,
-    /// MJCF file or card of a robot other than the built-in humanoid (see docs/guide/robots.md); a resumed run keeps its own.
+    /// MJCF file or card of a robot other than the built-in humanoid (see docs/guide/robots.md); a resumed run keeps
+    /// its own.
     #[arg(long, value_name = "FILE")]
     pub model: Option<PathBuf>,
     /// Checkpoint to resume, fork or begin from: latest, best, or the number of updates of a kept one.

@@ -29,7 +29,8 @@ pub struct InitFrom {
 }
 
 impl InitFrom {
-    /// Reads the run, checkpoint or exported file that the flags name; of a run, by default the best checkpoint if there is one.
+    /// Reads the run, checkpoint or exported file that the flags name; of a run, by default the best checkpoint if
+    /// there is one.
     ///
     /// # Errors
     /// If there is no such policy.

@@ -1,6 +1,7 @@
 //! Text that another machine wrote, for the terminal.
 
-/// Returns up to `chars_max` characters of text from another machine, without those that move the cursor or change direction.
+/// Returns up to `chars_max` characters of text from another machine, without those that move the cursor or change
+/// direction.
 pub fn printable(text: &str, chars_max: usize) -> String {
     let is_invisible = |c: char| {
         c.is_control()

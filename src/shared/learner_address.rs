@@ -155,8 +155,8 @@ impl LearnerLink {
     }
 }
 
-/// Returns whether a status is of this process; of any, where the process is not known. Several learners may be on one bus, and the
-/// endpoint in a folder that machines share may be one of another machine.
+/// Returns whether a status is of this process; of any, where the process is not known. Several learners may be on one
+/// bus, and the endpoint in a folder that machines share may be one of another machine.
 pub fn is_of(holder: Option<&Holder>, status: &RunStatus) -> bool {
     let Some(Holder { pid: Some(pid), host, .. }) = holder else { return true };
     (*pid, host) == (status.pid, &status.host)

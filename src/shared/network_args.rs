@@ -47,8 +47,8 @@ impl NetworkArgs {
         format!("{}/127.0.0.1:{port}", if self.tls.is_some() { "tls" } else { "tcp" })
     }
 
-    /// Returns the options of the bus. Called before anything is written, so that a refused endpoint leaves nothing behind, and
-    /// before any thread starts, because it may set an environment variable.
+    /// Returns the options of the bus. Called before anything is written, so that a refused endpoint leaves nothing
+    /// behind, and before any thread starts, because it may set an environment variable.
     ///
     /// # Errors
     /// If an endpoint is refused or certificates are missing.

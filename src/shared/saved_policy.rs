@@ -44,8 +44,8 @@ impl fmt::Display for Origin {
     }
 }
 
-/// Reads the policy of a run's folder or store, of a bundle file or of an exported file. `which` selects a checkpoint of a folder; by
-/// default the best if there is one, else the latest.
+/// Reads the policy of a run's folder or store, of a bundle file or of an exported file. `which` selects a checkpoint
+/// of a folder; by default the best if there is one, else the latest.
 ///
 /// # Errors
 /// If there is no such run or file, its policy cannot be used, or `which` selects a checkpoint of a file.

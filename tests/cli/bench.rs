@@ -33,19 +33,6 @@ fn env_measures_steps_with_and_without_observation() {
 }
 
 #[test]
-fn env_measures_how_far_joints_exceed_their_limits() {
-    let one = bench(&["env", "--quality", "--steps", "6400"]);
-    let overshoot = |name: &str| one[format!("limit_overshoot_{name}_rad")].as_f64().expect("a number");
-    let ordered = [overshoot("p50"), overshoot("p99"), overshoot("p999"), overshoot("max")];
-    assert!(ordered.is_sorted() && ordered[0] >= 0.0 && ordered[3].is_finite(), "{ordered:?}");
-    assert_eq!((&one["faults"], &one["steps"]), (&0.into(), &6400.into()));
-    let residuals = ["p50", "p99", "max"].map(|name| one[format!("residual_{name}")].as_f64().expect("a number"));
-    assert!(residuals.is_sorted() && residuals[2] < 10.0, "{residuals:?} m/s² or rad/s²");
-    let two = bench(&["env", "--quality", "--steps", "6400", "--threads", "2"]);
-    assert_eq!(one["checksum"], two["checksum"]);
-}
-
-#[test]
 fn env_ignores_a_retired_key_with_a_notice() {
     let (folder, _) = folders();
     let given = ["bench", "env", "--steps", "64", "--json", "--set", "env.solver_iterations=4"];

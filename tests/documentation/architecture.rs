@@ -96,7 +96,8 @@ fn dependents(packages: &BTreeMap<String, Package>, name: &str) -> BTreeSet<Stri
     found.collect()
 }
 
-/// Every crate that `package` depends on: its own dependencies of all kinds, and those of the workspace's packages among them.
+/// Every crate that `package` depends on: its own dependencies of all kinds, and those of the workspace's packages
+/// among them.
 fn all_dependencies(packages: &BTreeMap<String, Package>, package: &str) -> BTreeSet<String> {
     let mut pending: Vec<&String> =
         packages[package].dependencies.iter().chain(&packages[package].dev_dependencies).collect();

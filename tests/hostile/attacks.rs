@@ -66,8 +66,8 @@ impl Flood {
 }
 
 impl Attacker {
-    /// Joins the bus of `run`. Uses TLS if given a folder of certificates and a role; an empty role shows no certificate. Returns
-    /// `None` if the session is not open within `timeout`.
+    /// Joins the bus of `run`. Uses TLS if given a folder of certificates and a role; an empty role shows no
+    /// certificate. Returns `None` if the session is not open within `timeout`.
     pub fn join(endpoint: &str, run: &str, tls: Option<(&Path, &str)>, timeout: Duration) -> Option<Self> {
         let mut config = Config::default();
         let mut set = |key: &str, value: serde_json::Value| config.insert_json5(key, &value.to_string()).unwrap();

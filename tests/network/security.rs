@@ -35,8 +35,8 @@ fn a_fleet_with_certificates_trains_through_a_router() {
 fn an_encrypted_router_runs_on_one_core() {
     let (folder, _) = folders();
     certs(folder.path(), &["certs"]);
-    // Returns for every thread of the bus the number of its cores and its scheduling policy. Threads that read and write links
-    // exist after the first link.
+    // Returns for every thread of the bus the number of its cores and its scheduling policy. Threads that read and
+    // write links exist after the first link.
     let threads = |args: &[&str]| {
         let mut command = treadmill(folder.path());
         command.arg("router").args(args);

@@ -297,8 +297,8 @@ mod s3 {
         program.exists().then_some(program)
     }
 
-    /// Returns the first of many candidates, different ones for each process, that is free. They are below the ports that the
-    /// system gives to clients, where a connection without a listener may end at itself.
+    /// Returns the first of many candidates, different ones for each process, that is free. They are below the ports
+    /// that the system gives to clients, where a connection without a listener may end at itself.
     fn free_port(number: u16) -> u16 {
         let first = 11_000 + (std::process::id() % 1_000) as u16 * 10 + number;
         // The server's gRPC port is 10,000 above.

@@ -66,8 +66,9 @@ pub fn endless(folder: &Path, run: &Path, command: &str) -> Command {
     started
 }
 
-/// Makes clients in this process use one thread, as Treadmill's own do over TLS: otherwise a flood can corrupt the memory of its
-/// sender, which is this process (`common/bus/src/workarounds/threads.rs`). Must be called before the first client opens.
+/// Makes clients in this process use one thread, as Treadmill's own do over TLS: otherwise a flood can corrupt the
+/// memory of its sender, which is this process (`common/bus/src/workarounds/threads.rs`). Must be called before the
+/// first client opens.
 pub fn bus_on_one_thread() {
     static SET: Once = Once::new();
     SET.call_once(|| {

@@ -159,8 +159,8 @@ impl Environment {
     /// `action` has one control per motor, in actuator order. The motors receive it clamped to [`Self::action_ranges`], and
     /// perhaps delayed or disturbed by randomisation; the control cost is always that of `action` as given.
     ///
-    /// If the action, the physics, the reward or an entry of the observation is not finite, the step is a fault: terminated, reward 0, observation and `info` as
-    /// before. Every further step until [`Self::reset`] is a fault too.
+    /// If the action, the physics, the reward or an entry of the observation is not finite, the step is a fault:
+    /// terminated, reward 0, observation and `info` as before. Every further step until [`Self::reset`] is a fault too.
     ///
     /// # Panics
     /// If `action` or `observation` has the wrong length.
@@ -212,8 +212,8 @@ impl Environment {
         let _ = self.physics.set_controls(controls);
     }
 
-    /// Simulates the begun step of several environments with the same model and settings. The result of each is the same, bit
-    /// for bit, as if it had stepped alone; the machine simulates [`crate::worlds_per_pass`] of them at once.
+    /// Simulates the begun step of several environments with the same model and settings. The result of each is the
+    /// same, bit for bit, as if it had stepped alone; the machine simulates [`crate::worlds_per_pass`] of them at once.
     pub fn step_together(environments: &mut dyn Iterator<Item = &mut Self>) {
         Physics::step_together(&mut environments.map(|environment| &mut environment.physics));
     }

@@ -187,8 +187,8 @@ impl Randomiser {
         Some(Vector3::new(speed_mps * cos, speed_mps * sin, 0.0))
     }
 
-    /// Returns the controls that reach the motors in this control step: the delayed action (middle of the ranges before the first one
-    /// arrives), with noise. `controls` is the policy's action of this step. Called once per step.
+    /// Returns the controls that reach the motors in this control step: the delayed action (middle of the ranges before
+    /// the first one arrives), with noise. `controls` is the policy's action of this step. Called once per step.
     pub(crate) fn controls_reaching_motors<'a>(&'a mut self, controls: &'a [f32]) -> &'a [f32] {
         let size = controls.len();
         let slots = self.settings.action_delay_steps[1] as usize + 1;

@@ -7,10 +7,11 @@ use treadmill_runtime::{error_chain, seeds};
 
 use super::{Environments, EpisodeProgress, ResetSeeds};
 
-/// Saves all shares of an actor's environments, in their order, and the stream of exploration noise. Environments that continue
-/// from the result behave, bit for bit, as these do.
+/// Saves all shares of an actor's environments, in their order, and the stream of exploration noise. Environments that
+/// continue from the result behave, bit for bit, as these do.
 ///
-/// Returns `None` if an environment has faulted since its reset, which cannot happen between calls of [`Environments::step`].
+/// Returns `None` if an environment has faulted since its reset, which cannot happen between calls of
+/// [`Environments::step`].
 pub fn save(shares: &[&Environments], noise: &seeds::Stream) -> Option<ActorState> {
     let ResetSeeds { actor, start, .. } = shares.first()?.seeds.clone();
     let mut state = ActorState { actor, start, noise: seeds::words(noise).to_vec(), ..ActorState::default() };

@@ -32,7 +32,8 @@ pub struct TrackingSample {
 }
 
 impl TrackingSample {
-    /// Returns the sample of a robot after a step that began with its base at `from_m`; command, change and push are default.
+    /// Returns the sample of a robot after a step that began with its base at `from_m`; command, change and push are
+    /// default.
     #[must_use]
     pub fn of(physics: &Physics, from_m: [f64; 2]) -> Self {
         let position = physics.position();

@@ -53,9 +53,9 @@ pub struct PlayedActorsArgs {
     network: NetworkArgs,
 }
 
-/// Joins, then plays until standard input ends. Every command is answered with the counts: `rates R,R,…` in environment steps
-/// per second, or `inf`; `mark`; `stop`, once no fragment is in flight. `forget` also drops the measured times, and `times`
-/// returns them.
+/// Joins, then plays until standard input ends. Every command is answered with the counts: `rates R,R,…` in environment
+/// steps per second, or `inf`; `mark`; `stop`, once no fragment is in flight. `forget` also drops the measured times,
+/// and `times` returns them.
 pub fn run(args: &PlayedActorsArgs) -> anyhow::Result<()> {
     memory::keep_freed();
     usage::allow_many_connections();

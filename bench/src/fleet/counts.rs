@@ -205,7 +205,8 @@ impl ActorCounts {
         self.delivery.counts().awaiting_durability
     }
 
-    /// Returns the highest number up to which every fragment is durable or dropped. A fragment that is not encoded yet is open.
+    /// Returns the highest number up to which every fragment is durable or dropped. A fragment that is not encoded yet
+    /// is open.
     pub fn settled_through(&self) -> u64 {
         let unsent = self.pending.keys().next().map_or(self.newest, |first| first - 1);
         unsent.min(self.delivery.settled_through())

@@ -1,12 +1,13 @@
 //! Played fleet: a real learner with real updates among actors that do not simulate.
 //!
-//! A played actor behaves on the bus as a real one does, by the same delivery. It does not simulate: a fragment is ready when a
-//! real actor of the given rate would have finished it.
+//! A played actor behaves on the bus as a real one does, by the same delivery. It does not simulate: a fragment is
+//! ready when a real actor of the given rate would have finished it.
 //!
 //! # Layout
 //! - Here: flags and the result.
 //! - [`actors`]: process of many played actors. [`actor`]: one of them.
-//! - [`pace`]: time that simulation takes. [`policy`]: transitions under each policy version. [`counts`]: what became of them.
+//! - [`pace`]: time that simulation takes. [`policy`]: transitions under each policy version. [`counts`]: what became
+//!   of them.
 //! - [`processes`]: learner and routers as child processes, and their use of the machine.
 //! - [`run_metrics`]: follows the learner's metrics.
 //! - [`measure`]: starts the processes, sets the rates and marks the measured window.

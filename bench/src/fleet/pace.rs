@@ -20,8 +20,8 @@ impl Pace {
         self.free_at.max(credit_at)
     }
 
-    /// Returns when a simulation is finished that began at `begun`. `rate` is in environment steps per second; infinity takes
-    /// no time.
+    /// Returns when a simulation is finished that began at `begun`. `rate` is in environment steps per second; infinity
+    /// takes no time.
     pub fn finish(&mut self, begun: Instant, env_steps: u64, rate: f64) -> Instant {
         self.free_at = begun + duration(env_steps, rate);
         self.free_at

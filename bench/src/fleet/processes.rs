@@ -129,8 +129,8 @@ impl Process {
         Some(ran_ns / 1e9)
     }
 
-    /// Returns the bytes that the process has sent over each connection to its endpoint, by the other end's address. `None` if
-    /// this machine has no program `ss`.
+    /// Returns the bytes that the process has sent over each connection to its endpoint, by the other end's address.
+    /// `None` if this machine has no program `ss`.
     pub fn sent_bytes(&self) -> Option<HashMap<String, u64>> {
         let port = self.endpoint.rsplit(':').next()?;
         let output = Command::new("ss").args(["-tinH", "sport", "=", &format!(":{port}")]).output().ok()?;

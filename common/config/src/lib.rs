@@ -262,8 +262,8 @@ impl Config {
         }
     }
 
-    /// Returns whether policies are evaluated during training: the run must last for one evaluation, and the task must not be
-    /// external.
+    /// Returns whether policies are evaluated during training: the run must last for one evaluation, and the task must
+    /// not be external.
     pub fn evaluates(&self) -> bool {
         !self.is_external() && (1..=self.run.steps).contains(&self.eval.every_steps)
     }

@@ -2,8 +2,9 @@
 
 use super::ConfigError;
 
-/// Preset of a robot with a built-in card. An action of 1 is four units, so that exploration begins with 0.66 units. With fewer
-/// passes, or without mirror images, robots learn later. A divergence adds up over the hinges, so more of them allow more of it.
+/// Preset of a robot with a built-in card. An action of 1 is four units, so that exploration begins with 0.66 units.
+/// With fewer passes, or without mirror images, robots learn later. A divergence adds up over the hinges, so more of
+/// them allow more of it.
 macro_rules! velocity {
     ($card:literal) => {
         velocity!($card, "0.02")

@@ -119,8 +119,8 @@ impl Pending {
     }
 }
 
-/// State of every fragment of one actor process in one run. Bounded: credit limits the pending fragments, and each update makes
-/// the kept ones durable, so these are at most a batch plus the pending ones.
+/// State of every fragment of one actor process in one run. Bounded: credit limits the pending fragments, and each
+/// update makes the kept ones durable, so these are at most a batch plus the pending ones.
 #[derive(Clone, Debug, Default)]
 pub struct Delivery {
     /// Highest epoch heard of; 0 if none.
@@ -149,8 +149,8 @@ impl Delivery {
         Self { forgets_accepted: true, ..self }
     }
 
-    /// Takes a fragment that was produced, whose number within this process is one more than the last one's. Returns the first
-    /// attempt to deliver it.
+    /// Takes a fragment that was produced, whose number within this process is one more than the last one's. Returns
+    /// the first attempt to deliver it.
     pub fn produce(&mut self, sequence: u64, bytes: Bytes) -> Attempt {
         self.counts.produced += 1;
         self.newest = self.newest.max(sequence);
@@ -251,7 +251,8 @@ impl Delivery {
         actions
     }
 
-    /// Sends accepted fragments again to another learner, which has only the durable ones and recognises them by their number.
+    /// Sends accepted fragments again to another learner, which has only the durable ones and recognises them by their
+    /// number.
     fn adopted(&mut self, incarnation: u64) -> Vec<Action> {
         if incarnation == std::mem::replace(&mut self.incarnation, incarnation) {
             return Vec::new();
@@ -273,8 +274,8 @@ pub fn settles(outcome: Outcome) -> bool {
     pause_after(outcome, 0).is_none()
 }
 
-/// Returns the pause before the next attempt, after `busy` attempts in a row that found the learner busy; `None` if the outcome
-/// settles the fragment.
+/// Returns the pause before the next attempt, after `busy` attempts in a row that found the learner busy; `None` if the
+/// outcome settles the fragment.
 fn pause_after(outcome: Outcome, busy: u32) -> Option<Duration> {
     match outcome {
         Outcome::Accepted | Outcome::Duplicate | Outcome::TooOld | Outcome::Vanished | Outcome::Malformed => None,

@@ -219,8 +219,8 @@ impl Ledger {
     }
 
     /// Records that the sender will not send any number up to `through` again. Otherwise a number that an earlier
-    /// learner dropped by rule, and that this ledger never saw, would stop the watermark for good. Returns whether the process
-    /// is new, too.
+    /// learner dropped by rule, and that this ledger never saw, would stop the watermark for good. Returns whether the
+    /// process is new, too.
     fn settle(&mut self, actor: &str, incarnation: u64, through: u64) -> (&mut Watermark, bool) {
         self.clock += 1;
         let entry = self.processes.entry((actor.to_string(), incarnation));

@@ -1,5 +1,6 @@
-//! Accounts of experience on its way from an actor to a learner, as state machines: events in, actions out. Nothing here does
-//! input or output, reads a clock or starts a thread, so the shipped programs and the simulations in tests run the same code.
+//! Accounts of experience on its way from an actor to a learner, as state machines: events in, actions out. Nothing
+//! here does input or output, reads a clock or starts a thread, so the shipped programs and the simulations in tests
+//! run the same code.
 //!
 //! # Layout, in the order of the data
 //! - [`delivery`]: an actor's fragments, from produced to durable.

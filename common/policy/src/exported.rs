@@ -8,7 +8,8 @@
 //! | `observation.mean`, `observation.variance` | F64, `[observation]` | moments of the raw observations |
 //!
 //! The metadata key `treadmill` holds everything else as one JSON object with keys in a fixed order. The file holds no time,
-//! path or name of the run, so equal policies give equal bytes. Its entry `settings` holds the environment's settings as TOML.
+//! path or name of the run, so equal policies give equal bytes. Its entry `settings` holds the environment's settings
+//! as TOML.
 //!
 //! To act: `x = clip((observation − mean) / √(variance + variance_epsilon), ± clip)`; the actor's layers with ELU between
 //! them; `action = clip(mean, ± 1)`, scaled from [−1, 1] to [low, high].

@@ -1,7 +1,7 @@
 //! Orthogonal initialisation of the networks.
 //!
-//! Saxe, McClelland & Ganguli 2014, arXiv:1312.6120, with the gains of Engstrom et al. 2020, arXiv:2005.12729. The last actor
-//! layer has a gain of 0.01 (Andrychowicz et al. 2021, arXiv:2006.05990), so that the first actions are near 0.
+//! Saxe, McClelland & Ganguli 2014, arXiv:1312.6120, with the gains of Engstrom et al. 2020, arXiv:2005.12729. The last
+//! actor layer has a gain of 0.01 (Andrychowicz et al. 2021, arXiv:2006.05990), so that the first actions are near 0.
 
 use rand::Rng;
 use rand_distr::{Distribution, StandardNormal};
@@ -32,7 +32,8 @@ fn fill_network(layers: &[Dense], last_gain: f64, parameters: &mut [f32], rng: &
     }
 }
 
-/// Returns a random `[rows, columns]` matrix, row-major. Its rows are orthonormal, or its columns if there are fewer of them.
+/// Returns a random `[rows, columns]` matrix, row-major. Its rows are orthonormal, or its columns if there are fewer of
+/// them.
 fn orthogonal(rows: usize, columns: usize, rng: &mut impl Rng) -> Vec<f64> {
     let (count, length) = (rows.min(columns), rows.max(columns));
     let mut basis: Vec<Vec<f64>> = Vec::with_capacity(count);

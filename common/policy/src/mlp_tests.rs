@@ -1,5 +1,5 @@
-//! Networks on slices against finite differences in double precision. The tests of `treadmill-ppo` compare them with Candle's
-//! automatic differentiation.
+//! Networks on slices against finite differences in double precision. The tests of `treadmill-ppo` compare them with
+//! Candle's automatic differentiation.
 
 use super::*;
 use crate::NetworkShape;

@@ -2,12 +2,12 @@
 
 use serde::{Deserialize, Serialize};
 
-/// Rows that the moments count at most. Beyond them, older rows lose weight: by 1/e over as many new rows. So moments follow a
-/// run that changes, and a run of fewer steps has the moments of all its rows.
+/// Rows that the moments count at most. Beyond them, older rows lose weight: by 1/e over as many new rows. So moments
+/// follow a run that changes, and a run of fewer steps has the moments of all its rows.
 pub const ROWS_REMEMBERED: f64 = 2e7;
-/// Distance from the centre in standard deviations to which a number is clamped before it is added. A normaliser that clips at
-/// 10 shows the networks nothing beyond it. One number among `n` changes the mean by at most 20 σ / n and the variance by at
-/// most 400 σ² / n.
+/// Distance from the centre in standard deviations to which a number is clamped before it is added. A normaliser that
+/// clips at 10 shows the networks nothing beyond it. One number among `n` changes the mean by at most 20 σ / n and the
+/// variance by at most 400 σ² / n.
 const OUTLIER_STDS: f64 = 20.0;
 /// Parts of a batch whose spreads are compared. The lower median of so many is right while half of the rows are.
 const GROUPS: usize = 16;
@@ -39,8 +39,8 @@ impl RunningMoments {
         self.update_parts(&[rows], width);
     }
 
-    /// Adds the rows of a batch that stand in several parts, each `[n, width]`. They must be finite, because the moments would
-    /// keep NaN and infinity for ever.
+    /// Adds the rows of a batch that stand in several parts, each `[n, width]`. They must be finite, because the
+    /// moments would keep NaN and infinity for ever.
     ///
     /// Outliers are clamped first. A column's centre is its mean, its scale the standard deviation or, if it is larger, the
     /// spread of the batch around the centre: the lower median over sixteen groups of rows. So a shift of most rows is

@@ -1,7 +1,7 @@
 //! Normalisation by running mean and variance.
 //!
-//! [`RunningMoments`] is the learner's running state. [`Normaliser`] is the fixed function that is published with each policy
-//! version, so that a rollout uses the statistics of its version.
+//! [`RunningMoments`] is the learner's running state. [`Normaliser`] is the fixed function that is published with each
+//! policy version, so that a rollout uses the statistics of its version.
 
 use serde::{Deserialize, Serialize};
 

@@ -16,8 +16,8 @@ pub struct ForController {
 }
 
 /// Returns the bytes of an ONNX file: normalisation, the actor's layers and the range of each action. Metadata entries
-/// `treadmill.*` name the observation, the motors and the duration of a control step. Actions are in the units of the motors,
-/// or in those of a controller.
+/// `treadmill.*` name the observation, the motors and the duration of a control step. Actions are in the units of the
+/// motors, or in those of a controller.
 #[must_use]
 pub fn to_onnx(policy: &ExportedPolicy, controller: Option<&ForController>) -> Vec<u8> {
     let normaliser = policy.normaliser();

@@ -16,8 +16,8 @@ pub fn actor_critic(shape: &NetworkShape, parameters: &Tensor, observations: &Te
     Tensor::cat(&[means, values], 1)
 }
 
-/// Applies one network to the first columns of `observations`, as many as its first layer takes. Returns `[rows, outputs of the
-/// last layer]`.
+/// Applies one network to the first columns of `observations`, as many as its first layer takes. Returns `[rows,
+/// outputs of the last layer]`.
 ///
 /// # Errors
 /// If a tensor has the wrong shape.
@@ -32,8 +32,8 @@ pub fn network(layers: &[Dense], parameters: &Tensor, observations: &Tensor) -> 
     layered(&tensors, &observations.narrow(1, 0, seen)?)
 }
 
-/// Applies one network, given weight and bias of each layer in turn. With leaves of their own, gradients have the size of their
-/// layer; the gradient of a slice would have that of the flat vector.
+/// Applies one network, given weight and bias of each layer in turn. With leaves of their own, gradients have the size
+/// of their layer; the gradient of a slice would have that of the flat vector.
 ///
 /// # Errors
 /// If a tensor has the wrong shape.

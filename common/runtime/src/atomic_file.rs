@@ -11,8 +11,8 @@ use std::{
 /// End of a temporary file's name.
 const SUFFIX: &str = ".tmp";
 
-/// Writes `bytes` to `path`, or to the file that it is a link to. A crash at any moment leaves either the old file or the new one.
-/// A device or a pipe is written directly.
+/// Writes `bytes` to `path`, or to the file that it is a link to. A crash at any moment leaves either the old file or
+/// the new one. A device or a pipe is written directly.
 ///
 /// # Errors
 /// The system's error, such as a full disk. The old file is untouched and the temporary one removed.
@@ -104,8 +104,8 @@ pub fn remove_stale(folder: &Path) -> io::Result<usize> {
     })
 }
 
-/// Removes the temporary files in `folder` that have not been written for `age`, for folders that several machines share. Returns
-/// how many there were.
+/// Removes the temporary files in `folder` that have not been written for `age`, for folders that several machines
+/// share. Returns how many there were.
 ///
 /// # Errors
 /// As for [`remove_stale`].

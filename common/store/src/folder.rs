@@ -9,8 +9,8 @@ use crate::{StoreError, Tag, versions};
 /// Age from which a temporary file is a killed writer's: no write takes so long.
 const UNFINISHED_AFTER: Duration = Duration::from_secs(3600);
 
-/// Folder of objects. An object is a file, or a folder of versions if it is replaced on a condition; its tag is then the newest
-/// version's number, and empty otherwise.
+/// Folder of objects. An object is a file, or a folder of versions if it is replaced on a condition; its tag is then
+/// the newest version's number, and empty otherwise.
 #[derive(Debug)]
 pub(crate) struct Folder {
     root: PathBuf,

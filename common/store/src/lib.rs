@@ -126,8 +126,8 @@ impl Store {
         Ok(names)
     }
 
-    /// Removes what killed writers left unfinished beside the objects of a folder, or the versions of an object. Only a store of
-    /// files keeps such things.
+    /// Removes what killed writers left unfinished beside the objects of a folder, or the versions of an object. Only a
+    /// store of files keeps such things.
     ///
     /// # Errors
     /// If the store fails.

@@ -147,8 +147,8 @@ fn payload(bytes: &[u8]) -> PutPayload {
     Bytes::copy_from_slice(bytes).into()
 }
 
-/// A write does not need the object, so what it does not find is the bucket. Reads do not distinguish the two: some servers create
-/// a bucket with its first object.
+/// A write does not need the object, so what it does not find is the bucket. Reads do not distinguish the two: some
+/// servers create a bucket with its first object.
 fn not_written(name: &str, why: &object_store::Error) -> StoreError {
     match why {
         object_store::Error::NotFound { .. } => StoreError::failed(name, NO_BUCKET),

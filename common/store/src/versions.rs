@@ -6,7 +6,8 @@ use std::{fs, io, path::Path};
 
 use treadmill_runtime::atomic_file;
 
-/// Versions that stay: readers and writers that are slow, or whose network file system shows them an old list, still find them.
+/// Versions that stay: readers and writers that are slow, or whose network file system shows them an old list, still
+/// find them.
 const KEPT: u64 = 100;
 
 /// Returns the greatest number, or `None` without versions.

@@ -4,8 +4,9 @@
 //! All observations, including those of a fragment that lags, are normalised by the newest policy's statistics:
 //! networks and statistics together are the policy that the update improves.
 //!
-//! The networks evaluate all fragments in one call, on the threads of the policy's pool. The rest runs on the calling thread,
-//! because it is little: for 8,192 rows the networks take 33 ms on one thread, normalisation 0.2 ms, everything else 1.5 ms.
+//! The networks evaluate all fragments in one call, on the threads of the policy's pool. The rest runs on the calling
+//! thread, because it is little: for 8,192 rows the networks take 33 ms on one thread, normalisation 0.2 ms, everything
+//! else 1.5 ms.
 
 use candle_core::Result;
 use treadmill_config::PpoConfig;
@@ -152,7 +153,8 @@ impl BatchBuilder<'_> {
 
     /// Returns a batch of normalised observations and actions, with the newest policy's means and log-probabilities.
     ///
-    /// At lag 0 these equal the claimed log-probabilities within rounding, so that the ratios of the first gradient step are 1.
+    /// At lag 0 these equal the claimed log-probabilities within rounding, so that the ratios of the first gradient
+    /// step are 1.
     fn with_actions(&self, observations: Vec<f32>, actions: Vec<f32>) -> Result<Batch> {
         let log_std = self.policy.log_std();
         let mut means = vec![0.0; actions.len()];
@@ -163,7 +165,8 @@ impl BatchBuilder<'_> {
         Ok(Batch { observations, actions, means, log_probs, ..Batch::default() })
     }
 
-    /// Estimates advantages and returns of one fragment, in units of scaled rewards. Takes its values of true last observations.
+    /// Estimates advantages and returns of one fragment, in units of scaled rewards. Takes its values of true last
+    /// observations.
     fn advantages(
         &self,
         fragment: &Fragment,

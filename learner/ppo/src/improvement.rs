@@ -65,8 +65,8 @@ impl Ppo {
 
     /// Takes `epochs` passes over the batch that was prepared from `accepted`, then adds it to the running statistics.
     ///
-    /// If a number becomes infinite or NaN, the fragments that cause it are removed from `accepted`, and the update is that of
-    /// the others, as if the removed ones had not come.
+    /// If a number becomes infinite or NaN, the fragments that cause it are removed from `accepted`, and the update is
+    /// that of the others, as if the removed ones had not come.
     pub fn improve(
         &self,
         state: &mut PpoState,
@@ -99,8 +99,8 @@ impl Ppo {
         Improvement { result, rejected }
     }
 
-    /// Returns the indices of the fragments from which alone an update is not finite. Returns none if that is so for all: then
-    /// the fault is the learner's.
+    /// Returns the indices of the fragments from which alone an update is not finite. Returns none if that is so for
+    /// all: then the fault is the learner's.
     fn causes(&self, state: &PpoState, accepted: &[AcceptedFragment]) -> Vec<usize> {
         let Ok(policy) = self.policy(state) else { return Vec::new() };
         let fails = |index: &usize| {

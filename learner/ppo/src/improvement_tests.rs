@@ -91,8 +91,8 @@ impl World {
     }
 }
 
-/// Learns from eight fragments, the sixth of which is changed, and from the other seven in an equal world. Returns the reason
-/// why the sixth was rejected.
+/// Learns from eight fragments, the sixth of which is changed, and from the other seven in an equal world. Returns the
+/// reason why the sixth was rejected.
 #[track_caller]
 fn assert_left_out(start: fn() -> World, spoil: impl Fn(&mut AcceptedFragment)) -> Implausible {
     let (mut with, mut without) = (start(), start());

@@ -7,8 +7,8 @@ use candle_nn::loss::mse;
 use treadmill_config::PpoConfig;
 use treadmill_policy::gaussian::HALF_LN_TAU;
 
-/// Largest logarithm of a probability ratio. The loss is clipped long before; a larger one would make the exponential infinite,
-/// and its product with a weight of 0 not a number.
+/// Largest logarithm of a probability ratio. The loss is clipped long before; a larger one would make the exponential
+/// infinite, and its product with a weight of 0 not a number.
 pub const LOG_RATIO_MAX: f64 = 20.0;
 
 /// Transitions of one gradient step, without the observations, which the networks have evaluated.

@@ -1,4 +1,5 @@
-//! Loss of [`crate::loss`] and its gradient in closed form, on plain slices. Actor and critic have separate parts of the loss.
+//! Loss of [`crate::loss`] and its gradient in closed form, on plain slices. Actor and critic have separate parts of
+//! the loss.
 
 use std::iter::Sum;
 
@@ -56,8 +57,8 @@ impl<'a> LossTerms<'a> {
         Self { batch, advantages, config, precision, constant, share: 1.0 / rows as f32 }
     }
 
-    /// Clipped surrogate and bounds of the given rows. Writes their gradient by the action means, `[rows, A]`, and adds that by
-    /// `log_std` without the entropy's.
+    /// Clipped surrogate and bounds of the given rows. Writes their gradient by the action means, `[rows, A]`, and adds
+    /// that by `log_std` without the entropy's.
     pub(crate) fn policy(
         &self,
         rows: &[u32],

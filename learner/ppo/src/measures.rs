@@ -6,14 +6,15 @@ use treadmill_policy::{Mlp, NetworkShape, gaussian};
 
 use crate::batch::{Batch, picked};
 
-/// Rows that the divergence is measured on. Over a batch of 8,192 rows, a forward pass of the actor would take 17 ms of the 105 ms
-/// of a pass (networks of 256 and 128, one thread). Over these rows it takes 2 ms, with networks of 512 and 256 9 ms of 500 ms.
+/// Rows that the divergence is measured on. Over a batch of 8,192 rows, a forward pass of the actor would take 17 ms of
+/// the 105 ms of a pass (networks of 256 and 128, one thread). Over these rows it takes 2 ms, with networks of 512 and
+/// 256 9 ms of 500 ms.
 const KL_ROWS: usize = 1024;
 /// Fractional part of the golden ratio: its multiples modulo 1 fill the interval evenly and share no period with the batch.
 const GOLDEN: f64 = 0.618_033_988_749_894_9;
 
-/// Measures how far passes over a batch move the policy, on up to [`KL_ROWS`] rows: all rows of a small batch, or rows spread
-/// evenly over a larger one, the same after every pass.
+/// Measures how far passes over a batch move the policy, on up to [`KL_ROWS`] rows: all rows of a small batch, or rows
+/// spread evenly over a larger one, the same after every pass.
 ///
 /// With 1,024 rows the standard error of the mean is about 3 % of it, and the learning rate changes at a factor of 2.
 #[derive(Debug)]

@@ -1,7 +1,7 @@
 //! Finds fragments whose numbers are finite but cannot be what an actor observed, so that one bad actor harms no update.
 //!
-//! The bounds are far beyond what an honest actor sends. They find faults and attacks that would make an update infinite, not
-//! data that is merely wrong.
+//! The bounds are far beyond what an honest actor sends. They find faults and attacks that would make an update
+//! infinite, not data that is merely wrong.
 
 use treadmill_policy::{
     gaussian::{HALF_LN_TAU, LOG_STD_MAX, LOG_STD_MIN},
@@ -18,10 +18,11 @@ pub const LOG_PROB_TOLERANCE: f32 = 0.1;
 /// Allowed difference in addition, as a fraction of the log-probability: rounding grows with the number of actions.
 pub const LOG_PROB_TOLERANCE_RELATIVE: f32 = 1e-4;
 /// Largest squared distance of an action from its mean, in squared standard deviations, is this plus twice the number of
-/// actions. For one action that is 20 standard deviations; for `A` actions the expected square is `A`, its deviation `√(2A)`.
+/// actions. For one action that is 20 standard deviations; for `A` actions the expected square is `A`, its deviation
+/// `√(2A)`.
 pub const SQUARED_DISTANCE_MAX: f32 = 400.0;
-/// Largest scaled reward, return or advantage, in units of the returns' running scale (standard deviation plus absolute mean),
-/// or of the batch's median fragment if that is larger.
+/// Largest scaled reward, return or advantage, in units of the returns' running scale (standard deviation plus absolute
+/// mean), or of the batch's median fragment if that is larger.
 pub const SCALES_MAX: f64 = 1e6;
 /// Largest scaled reward, return or advantage in any case: squares and sums stay finite in single precision.
 pub const MAGNITUDE_MAX: f64 = 1e15;

@@ -1,8 +1,8 @@
 //! Gradient of the loss on a processor, on plain slices: gather, forward, loss, backward.
 //!
 //! **Results do not depend on the number of threads.** The rows of a minibatch are divided into chunks of [`CHUNK_ROWS`].
-//! Chunk `c` adds its gradient to lane `c mod L`, where `L` follows from the number of rows. Each lane processes its chunks in
-//! order, and lanes are summed in order.
+//! Chunk `c` adds its gradient to lane `c mod L`, where `L` follows from the number of rows. Each lane processes its
+//! chunks in order, and lanes are summed in order.
 
 use rayon::prelude::*;
 use treadmill_config::PpoConfig;
@@ -13,8 +13,8 @@ use crate::{
     loss_gradient::{LossSums, LossTerms},
 };
 
-/// Memory of all lanes in bytes. Every chunk has a lane of its own up to 47 chunks (12,032 rows) of networks of 256 and 128, so
-/// that as many threads find work.
+/// Memory of all lanes in bytes. Every chunk has a lane of its own up to 47 chunks (12,032 rows) of networks of 256 and
+/// 128, so that as many threads find work.
 const LANE_BYTES_MAX: usize = 128 << 20;
 /// Fewest lanes that the memory is divided into.
 const LANES_MIN: usize = 8;
@@ -56,7 +56,8 @@ impl<'a> SliceGradient<'a> {
         Self { batch, advantages, config, shape, actor, critic, lanes_max, actor_lanes, critic_lanes }
     }
 
-    /// Computes the flat gradient of the loss over the given rows, on the threads of the pool that calls it. Returns the loss.
+    /// Computes the flat gradient of the loss over the given rows, on the threads of the pool that calls it. Returns
+    /// the loss.
     pub(crate) fn compute(&mut self, rows: &[u32], parameters: &[f32], gradient: &mut [f32]) -> LossSums {
         let Self { batch, shape, actor, critic, actor_lanes, critic_lanes, config, .. } = self;
         let log_std = shape.log_std();

@@ -7,7 +7,8 @@ use treadmill_policy::{NetworkShape, gaussian::clamp_log_std, normaliser::Runnin
 
 use crate::optimiser::OptimiserState;
 
-/// Policy, optimiser and running statistics. A checkpoint stores it as one field, and a resumed run continues from it exactly.
+/// Policy, optimiser and running statistics. A checkpoint stores it as one field, and a resumed run continues from it
+/// exactly.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct PpoState {
     /// Actor, log standard deviations and critic, in [`NetworkShape`]'s order.
@@ -124,7 +125,8 @@ impl PpoState {
         }
     }
 
-    /// Adopts the setting that was changed by its key during the run: `ppo.learning_rate` replaces the adapted learning rate.
+    /// Adopts the setting that was changed by its key during the run: `ppo.learning_rate` replaces the adapted learning
+    /// rate.
     pub fn adopt_key(&mut self, key: &str, config: &PpoConfig) {
         if key == "ppo.learning_rate" {
             self.learning_rate = config.learning_rate;

@@ -37,7 +37,8 @@ impl<'a> TensorGradient<'a> {
         Ok(Self { shape, config, observations: matrix(&batch.observations, shape.observation)?, rows })
     }
 
-    /// Computes the flat gradient of the loss over the given rows. Returns the loss. One transfer brings both from the device.
+    /// Computes the flat gradient of the loss over the given rows. Returns the loss. One transfer brings both from the
+    /// device.
     pub(crate) fn compute(&self, rows: &[u32], parameters: &[f32], gradient: &mut [f32]) -> Result<LossSums> {
         let device = self.observations.device();
         let index = Tensor::new(rows, device)?;

@@ -15,8 +15,8 @@ pub struct UpdateStats {
     pub entropy: f64,
     /// Squared excess of action means over the limit, summed over actions.
     pub bounds_loss: f64,
-    /// KL divergence in nats from the policy that the update started from to that after the last epoch, in closed form over a
-    /// sample of the rows.
+    /// KL divergence in nats from the policy that the update started from to that after the last epoch, in closed form
+    /// over a sample of the rows.
     pub approx_kl: f64,
     /// Share of rows whose probability ratio is outside the clip range.
     pub clip_fraction: f64,

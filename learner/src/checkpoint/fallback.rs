@@ -9,9 +9,9 @@ use treadmill_runtime::error_chain;
 
 use super::{CheckpointError, TrainingState, load_file};
 
-/// Reads `wanted`. If it is damaged or missing, reads the newest sound checkpoint in its folder, with a warning: of those since
-/// the run was resumed last, the one with the most updates. A run that was resumed from an older checkpoint leaves later ones of
-/// the way that it did not take.
+/// Reads `wanted`. If it is damaged or missing, reads the newest sound checkpoint in its folder, with a warning: of
+/// those since the run was resumed last, the one with the most updates. A run that was resumed from an older checkpoint
+/// leaves later ones of the way that it did not take.
 ///
 /// # Errors
 /// As [`load_file`] if the file is sound but has another format or a refused configuration, or cannot be read;

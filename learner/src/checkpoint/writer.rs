@@ -89,8 +89,8 @@ impl CheckpointWriter {
         }
     }
 
-    /// Removes the oldest checkpoints that were due, up to this one. Later ones are of a branch that the run has left, others
-    /// were asked for.
+    /// Removes the oldest checkpoints that were due, up to this one. Later ones are of a branch that the run has left,
+    /// others were asked for.
     fn prune(&self, newest: u64) {
         let names = match &self.place {
             Place::Folder(folder) => fs::read_dir(folder)

@@ -8,11 +8,11 @@ use std::collections::BTreeMap;
 use treadmill_config::{Config, RolloutConfig};
 use treadmill_proto::limits::{FRAGMENT_BYTES_MAX, STEPS_MAX};
 
-/// Horizon below which advantages lose more by their bias than small batches gain. Beyond the number of environments that fill
-/// a batch with it, batches grow, and horizons shrink with the fourth root of that number.
+/// Horizon below which advantages lose more by their bias than small batches gain. Beyond the number of environments
+/// that fill a batch with it, batches grow, and horizons shrink with the fourth root of that number.
 const NOMINAL_KNEE: f64 = 32.0;
-/// Growth of the batch from which on horizons shrink in proportion to the number of environments instead: more policies that act
-/// in turn teach more than longer fragments of each.
+/// Growth of the batch from which on horizons shrink in proportion to the number of environments instead: more policies
+/// that act in turn teach more than longer fragments of each.
 const GROWTH_MAX: f64 = 4.0;
 /// Shortest horizon of any actor.
 const STEPS_MIN: usize = RolloutConfig::STEPS_MIN as usize;
@@ -76,8 +76,8 @@ impl HorizonRule {
         steps.min(STEPS_MAX as usize) as u32
     }
 
-    /// Returns the horizon of an actor with `envs` environments that no plan has had yet, where others have `steps`: its fragment
-    /// is at most a batch, and fits into a message.
+    /// Returns the horizon of an actor with `envs` environments that no plan has had yet, where others have `steps`:
+    /// its fragment is at most a batch, and fits into a message.
     pub fn first(&self, steps: u32, envs: usize) -> u32 {
         match self.pinned {
             0 => self.fitting(steps.min((self.batch / envs.max(1)) as u32), envs),

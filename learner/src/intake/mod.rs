@@ -7,10 +7,10 @@
 //! delivered one, or the stragglers' time is up. A batch needs one or more rounds. The learner owes the receipts of a round
 //! until it begins the next, after the last round of a batch under a new policy.
 //!
-//! In mode [`LearnerMode::Async`], the learner answers accepted fragments at once. A batch waits for as many transitions as one
-//! fragment of every live actor has, from any senders: with smaller batches, the policy would change many times while an
-//! actor simulates, and most experience would be too old. Fragments that find the batch full wait for the next one, and so do
-//! their senders.
+//! In mode [`LearnerMode::Async`], the learner answers accepted fragments at once. A batch waits for as many
+//! transitions as one fragment of every live actor has, from any senders: with smaller batches, the policy would change
+//! many times while an actor simulates, and most experience would be too old. Fragments that find the batch full wait
+//! for the next one, and so do their senders.
 //!
 //! A fragment's stages here: received, accepted, batch. *Incoming* is a received fragment that waits for its receipt.
 //!

@@ -15,8 +15,8 @@ const PATIENCE: Duration = Duration::from_secs(1);
 const PATIENCE_SILENT: Duration = Duration::from_secs(4);
 /// The same for a leader that says that it waits for a write.
 const PATIENCE_STALLED: Duration = Duration::from_secs(3);
-/// The same without actors in sight: the follower itself may be the one that is cut off. Between these bounds it is this many of
-/// the longest intervals between two states.
+/// The same without actors in sight: the follower itself may be the one that is cut off. Between these bounds it is
+/// this many of the longest intervals between two states.
 const PATIENCE_ALONE: (Duration, Duration) = (Duration::from_secs(5), Duration::from_secs(30));
 const PATIENCE_ALONE_INTERVALS: u32 = 3;
 /// Object of a trial write, beside the states. By its epoch, a leader removes one that was left.
@@ -75,8 +75,8 @@ pub fn newest_state(store: &Store) -> Result<Option<LoadedState>, LeadershipErro
     missing.map_or(Ok(None), |why| Err(why.into()))
 }
 
-/// Since when a follower has seen the same at each look. A break begins each anew: a follower that was itself cut off, from bus or
-/// store, knows nothing of that time.
+/// Since when a follower has seen the same at each look. A break begins each anew: a follower that was itself cut off,
+/// from bus or store, knows nothing of that time.
 #[derive(Clone, Copy, Debug, Default)]
 struct Since {
     /// A leader that waits for a write.
@@ -136,7 +136,8 @@ impl StateFollower {
     /// Loads the newest state if the manifest has changed. Without a manifest, nothing is loaded.
     ///
     /// # Errors
-    /// If the store fails, the manifest is damaged, or it still names a state that was missing before. What was loaded stays.
+    /// If the store fails, the manifest is damaged, or it still names a state that was missing before. What was loaded
+    /// stays.
     pub fn refresh(&mut self, now: Instant) -> Result<(), LeadershipError> {
         let refreshed = self.load_newest(now);
         if refreshed.is_err() {
@@ -168,8 +169,9 @@ impl StateFollower {
         Ok(())
     }
 
-    /// Returns whether this learner can write to the store, and faster than a stalled leader. The trial is a state's size, because
-    /// a full store may still take small objects. It is done before taking over from a leader that answers.
+    /// Returns whether this learner can write to the store, and faster than a stalled leader. The trial is a state's
+    /// size, because a full store may still take small objects. It is done before taking over from a leader that
+    /// answers.
     #[must_use]
     pub fn try_write(&self) -> bool {
         let Some(loaded) = &self.loaded else { return false };

@@ -112,8 +112,8 @@ fn manifest_of_other(store: &Store, writer: u64) -> Option<Manifest> {
     (manifest.writer != writer_name(writer)).then_some(manifest)
 }
 
-/// Removes the states of lower epochs, and the older ones of this learner. States of higher epochs are a successor's. Returns the
-/// first error.
+/// Removes the states of lower epochs, and the older ones of this learner. States of higher epochs are a successor's.
+/// Returns the first error.
 fn remove_old_states(store: &Store, epoch: u64, writer: u64) -> Result<(), StoreError> {
     let own = format!("{epoch:012}-{writer:016x}-");
     let (mut mine, others): (Vec<_>, Vec<_>) = store.list(STATES)?.into_iter().partition(|name| name.starts_with(&own));

@@ -1,13 +1,14 @@
 //! Leadership of a run whose state is in a store: the store decides who may write it.
 //!
-//! After each update, the leader writes its state as a new object, then advances the manifest to it by a conditional write. A
-//! learner that was overtaken fails at that write, and steps down before it announces anything.
+//! After each update, the leader writes its state as a new object, then advances the manifest to it by a conditional
+//! write. A learner that was overtaken fails at that write, and steps down before it announces anything.
 //!
 //! # Layout
 //! - Here: [`Leadership`], which saves states.
 //! - [`manifest`]: [`Manifest`], which names the newest state and its leader.
 //! - `housekeeping`: thread that removes old states and notices a [`Successor`].
-//! - [`follower`]: [`StateFollower`](follower::StateFollower), which keeps the newest state loaded and decides when to take over.
+//! - [`follower`]: [`StateFollower`](follower::StateFollower), which keeps the newest state loaded and decides when to
+//!   take over.
 
 pub mod follower;
 mod housekeeping;
@@ -96,8 +97,8 @@ pub struct Leadership {
     tag: Option<Tag>,
     /// Manifest that this learner wrote last.
     manifest: Option<Manifest>,
-    /// Number of states that this learner has saved, which is part of their names. A store may derive tags from an object's bytes,
-    /// so each manifest must differ from the last one.
+    /// Number of states that this learner has saved, which is part of their names. A store may derive tags from an
+    /// object's bytes, so each manifest must differ from the last one.
     saves: u64,
     /// `None` in simulations.
     housekeeping: Option<Housekeeping>,
@@ -195,8 +196,8 @@ impl Leadership {
         }
     }
 
-    /// Returns an error if another learner leads by the store's manifest. Something else may lead as soon as this returns, so only
-    /// [`Self::save`] decides what counts.
+    /// Returns an error if another learner leads by the store's manifest. Something else may lead as soon as this
+    /// returns, so only [`Self::save`] decides what counts.
     ///
     /// # Errors
     /// [`LeadershipError::Overtaken`], or if the store fails.

@@ -113,8 +113,9 @@ pub enum CurveError {
     },
 }
 
-/// Draws the learning curve of a run over environment steps, one panel below the other: return, distance and velocity, or the
-/// errors of evaluations where the task has commands. A panel without points shows a note. The image replaces an older one atomically.
+/// Draws the learning curve of a run over environment steps, one panel below the other: return, distance and velocity,
+/// or the errors of evaluations where the task has commands. A panel without points shows a note. The image replaces an
+/// older one atomically.
 pub fn draw_curve(metrics_jsonl: &Path, png: &Path) -> Result<(), CurveError> {
     let read = |source| CurveError::Read { path: metrics_jsonl.to_path_buf(), source };
     let curves = |panels| File::open(metrics_jsonl).and_then(|file| read_curves(file, panels)).map_err(read);

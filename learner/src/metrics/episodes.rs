@@ -82,9 +82,9 @@ impl EpisodeWindow {
         self.recent.len() == WINDOW
     }
 
-    /// Returns the mean return of the middle half of the window, from the first to the third quartile. Up to a quarter of the
-    /// episodes with absurd returns do not move it out of the range of the others. `None` before the window is full, or if the
-    /// mean is not finite.
+    /// Returns the mean return of the middle half of the window, from the first to the third quartile. Up to a quarter
+    /// of the episodes with absurd returns do not move it out of the range of the others. `None` before the window is
+    /// full, or if the mean is not finite.
     pub fn middle_return_mean(&self) -> Option<f64> {
         if !self.is_full() {
             return None;

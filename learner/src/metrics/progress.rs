@@ -110,8 +110,8 @@ impl Console {
         }
     }
 
-    /// Shows an update: on a terminal the bar with sparklines, at intervals a table; elsewhere a line after the first update,
-    /// then at intervals.
+    /// Shows an update: on a terminal the bar with sparklines, at intervals a table; elsewhere a line after the first
+    /// update, then at intervals.
     pub fn progress(&mut self, env_steps: u64, scalars: &Scalars, history: &History) {
         self.progress_at(env_steps, scalars, history, self.started.elapsed());
     }

@@ -46,8 +46,8 @@ impl Learning {
 }
 
 impl Trainer {
-    /// Updates the parameters from the fragments of a batch. Implausible fragments are reported and removed. Returns `None` if
-    /// the update was undone.
+    /// Updates the parameters from the fragments of a batch. Implausible fragments are reported and removed. Returns
+    /// `None` if the update was undone.
     pub(super) fn update(
         &mut self,
         fragments: &mut Vec<AcceptedFragment>,

@@ -17,8 +17,8 @@ pub struct LoadAdaptation {
 }
 
 impl LoadAdaptation {
-    /// Adaptation within the configured bounds. In mode `sync`, a batch holds all that the fleet delivers, and the passes are
-    /// fixed.
+    /// Adaptation within the configured bounds. In mode `sync`, a batch holds all that the fleet delivers, and the
+    /// passes are fixed.
     pub fn new(config: &Config) -> Self {
         let (transitions, epochs) = (config.ppo.batch as usize, config.ppo.epochs);
         let (transitions_max, epochs_min) = match config.learner.mode {

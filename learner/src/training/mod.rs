@@ -45,8 +45,8 @@ pub use self::options::{TrainingOptions, TrainingSummary};
 use self::{learning::Learning, reporting::Reporting, serving::Serving, waiting::Retry};
 use crate::{checkpoint::TrainingState, leadership::Leadership, metrics::scalars::PhaseDurations};
 
-/// Trains until the run has all its steps or shutdown is requested. Blocks, so it needs its own thread. With `leadership`, the
-/// state is in a store; without, in the run's folder.
+/// Trains until the run has all its steps or shutdown is requested. Blocks, so it needs its own thread. With
+/// `leadership`, the state is in a store; without, in the run's folder.
 pub fn train(
     bus: &Bus,
     state: TrainingState,

@@ -167,8 +167,8 @@ impl Trainer {
         reporting.background.check()
     }
 
-    /// Ends the run: answers waiting senders and writes the last logs. `outcome` is whether the run was stopped before its last
-    /// step. Returns the state, what it has reached, and the outcome.
+    /// Ends the run: answers waiting senders and writes the last logs. `outcome` is whether the run was stopped before
+    /// its last step. Returns the state, what it has reached, and the outcome.
     pub(super) fn finish(
         mut self,
         outcome: Result<bool, TrainingError>,

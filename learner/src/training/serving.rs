@@ -83,7 +83,8 @@ impl Trainer {
             let best = encoding::encode(&best)?;
             let Serving { checkpoints, leadership, .. } = &self.serving;
             if let Some(leadership) = leadership {
-                // A learner that was frozen may have been overtaken without knowing: the best policy is the successor's then.
+                // A learner that was frozen may have been overtaken without knowing: the best policy is the successor's
+                // then.
                 self.retry.until_written(|| leadership.confirm())?;
             }
             self.retry.until_written(|| checkpoints.save_best(&best))?;
@@ -91,7 +92,8 @@ impl Trainer {
         Ok(Some(result))
     }
 
-    /// Writes the checkpoint and returns its bytes. Actors wait for it, so that no version is announced that a crash could undo.
+    /// Writes the checkpoint and returns its bytes. Actors wait for it, so that no version is announced that a crash
+    /// could undo.
     pub(super) fn save(&mut self) -> Result<Bytes, TrainingError> {
         let validator = &mut self.serving.intake.validator;
         validator.count_unread();
@@ -128,8 +130,8 @@ impl Trainer {
         self.serving.leadership.as_ref().map_or(Ok(()), |leadership| Ok(leadership.check()?))
     }
 
-    /// Returns the return in training, if it is the best so far and no policy was evaluated yet. A few absurd returns must not
-    /// make a policy the best for ever.
+    /// Returns the return in training, if it is the best so far and no policy was evaluated yet. A few absurd returns
+    /// must not make a policy the best for ever.
     fn best_in_training(&self) -> Option<f64> {
         let TrainingState { episodes, best_is_evaluated, best_return, .. } = &self.state;
         if *best_is_evaluated {

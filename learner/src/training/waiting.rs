@@ -43,7 +43,8 @@ impl MayPass for io::Error {
 
 impl MayPass for StoreError {
     fn obstacle(&self) -> Option<Obstacle> {
-        // A conflict without a successor is of two of this process's own requests: S3 refuses the second of two at the same time.
+        // A conflict without a successor is of two of this process's own requests: S3 refuses the second of two at the
+        // same time.
         matches!(self, Self::Failed { .. } | Self::Conflict { .. }).then_some(Obstacle::Store)
     }
 }
@@ -72,7 +73,8 @@ impl MayPass for LeadershipError {
 pub struct Retry {
     /// A request to stop ends the wait.
     pub shutdown: Shutdown,
-    /// Beats meanwhile: who waits for a disk or a store is healthy, and a restart would lose the update that is not saved yet.
+    /// Beats meanwhile: who waits for a disk or a store is healthy, and a restart would lose the update that is not
+    /// saved yet.
     pub heartbeat: Heartbeat,
     /// Writes of this run in progress.
     pub pending: PendingWrites,
@@ -81,7 +83,8 @@ pub struct Retry {
 }
 
 impl Retry {
-    /// Calls `write` until the obstacle has passed, shutdown is requested, or another learner leads. A `write` that fails must leave no partial output.
+    /// Calls `write` until the obstacle has passed, shutdown is requested, or another learner leads. A `write` that
+    /// fails must leave no partial output.
     ///
     /// # Errors
     /// That of the last call.

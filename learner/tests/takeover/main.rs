@@ -1,7 +1,8 @@
 //! Learners that fail, freeze and are cut off while they share a store, with actors that follow the protocol.
 //!
-//! Whatever happens, no actor acts on a lower epoch after a higher one, no overtaken learner announces a version, nothing that
-//! was called durable is lost or learnt from twice, and once the network is sound again one learner goes on.
+//! Whatever happens, no actor acts on a lower epoch after a higher one, no overtaken learner announces a version,
+//! nothing that was called durable is lost or learnt from twice, and once the network is sound again one learner goes
+//! on.
 //!
 //! `TREADMILL_SIMULATION_SEEDS=100000` tries more seeds, `TREADMILL_SIMULATION_SEED=17` replays one.
 

@@ -60,7 +60,8 @@ impl<T: Send> BenchWorlds<T> {
         Ok(Self { worlds, threads })
     }
 
-    /// Steps the physics of all worlds `rounds` times, each thread a share of them. `begin` sets the controls of a world in a round; `end`
+    /// Steps the physics of all worlds `rounds` times, each thread a share of them. `begin` sets the controls of a
+    /// world in a round; `end`
     /// learns whether its physics failed.
     pub fn step(
         &mut self,
@@ -90,11 +91,6 @@ impl<T: Send> BenchWorlds<T> {
                 scope.spawn(|| step_share(share));
             }
         });
-    }
-
-    /// Iterates over all worlds in order.
-    pub fn iter(&self) -> impl Iterator<Item = &(BenchWorld, T)> {
-        self.worlds.iter()
     }
 }
 

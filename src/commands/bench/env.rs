@@ -16,12 +16,9 @@ use treadmill_runtime::{machine, seeds};
 
 use super::{
     bench_worlds::{self, BenchWorlds, WORLDS, fell},
-    print_result, quality, rounded,
+    print_result, rounded,
 };
-use crate::launch::{
-    exit_code::Usage,
-    model::{self, ModelArgs},
-};
+use crate::launch::model::{self, ModelArgs};
 
 /// Number of random actions, which repeat; a multiple of [`WORLDS`].
 const ACTIONS: usize = 64 * WORLDS;
@@ -40,9 +37,6 @@ pub struct EnvArgs {
     observation: Option<String>,
     #[command(flatten)]
     model: ModelArgs,
-    /// Measure errors of joint limits under the largest torques in random directions, instead of speed.
-    #[arg(long)]
-    quality: bool,
     /// Print one JSON object.
     #[arg(long)]
     json: bool,
@@ -67,22 +61,12 @@ pub fn run(args: &EnvArgs) -> anyhow::Result<()> {
     let threads = bench_worlds::busy_threads(bench_worlds::threads(args.threads.into()));
     let rounds = args.steps.div_ceil(WORLDS as u64).max(1);
     let has_other_task = model::has_other_task(&config.env);
-    let result = if args.quality {
-        if has_other_task {
-            return Err(
-                Usage("--quality: only Gymnasium's tasks have a healthy height; leave the task out".into()).into()
-            );
-        }
-        quality::measure(&environment, &text, threads, rounds)?
-    } else {
-        let workload = Workload::new(&environment, &text, threads, rounds)?;
-        let mut result = workload.with_task(config.env.observation.name())?;
-        if !has_other_task {
-            // A body of another task has no height below which it is reset.
-            result["physics_only_steps_per_s"] = workload.physics_only()?.into();
-        }
-        result
-    };
+    let workload = Workload::new(&environment, &text, threads, rounds)?;
+    let mut result = workload.with_task(config.env.observation.name())?;
+    if !has_other_task {
+        // A body of another task has no height below which it is reset.
+        result["physics_only_steps_per_s"] = workload.physics_only()?.into();
+    }
     print_result(&result, args.json);
     Ok(())
 }

@@ -1,7 +1,7 @@
 //! `treadmill bench`: measures speed. Each benchmark prints its workload and a checksum of its result.
 //!
 //! # Layout
-//! - [`env`]: environment steps; [`quality`]: errors of joints and limits instead, counted by [`quantiles`].
+//! - [`env`]: environment steps.
 //! - [`update`], [`policy`]: learner's update and actor's inference; [`network`]: their networks and inputs.
 //! - [`train`]: a whole training run.
 //! - [`bench_worlds`]: humanoids that are stepped on several threads.
@@ -10,8 +10,6 @@ mod bench_worlds;
 mod env;
 mod network;
 mod policy;
-mod quality;
-mod quantiles;
 mod train;
 mod update;
 
@@ -28,7 +26,7 @@ pub struct BenchArgs {
 
 #[derive(Subcommand)]
 enum Benchmark {
-    /// Environment steps per second without a policy, or errors of joint limits.
+    /// Environment steps per second without a policy.
     Env(env::EnvArgs),
     /// Minibatch samples per second of the update.
     Update(update::UpdateArgs),

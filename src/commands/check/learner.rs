@@ -33,7 +33,8 @@ pub struct LearnerRoute {
     holder: Option<Holder>,
 }
 
-/// Returns why there is no learner to ask: no process trains the run whose folder was given, or several are trained below `runs/`.
+/// Returns why there is no learner to ask: no process trains the run whose folder was given, or several are trained
+/// below `runs/`.
 pub fn hindrance(reach: &ReachArgs) -> Option<Finding> {
     if let Some([seen, remedy]) = reach.idleness() {
         return Some(Finding::problem(NAME, seen, remedy));

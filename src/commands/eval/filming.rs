@@ -19,7 +19,8 @@ use crate::launch::exit_code::Usage;
 #[derive(Args)]
 #[command(group(ArgGroup::new("pictures").args(["film", "png"]).multiple(true)))]
 pub struct FilmArgs {
-    /// Write all episodes as an animation, a GIF, or a video if FILE ends in .mp4 (needs ffmpeg); needs no window and no GPU.
+    /// Write all episodes as an animation, a GIF, or a video if FILE ends in .mp4 (needs ffmpeg); needs no window and
+    /// no GPU.
     #[arg(long, visible_alias = "gif", value_name = "FILE")]
     film: Option<PathBuf>,
     /// Write the pictures of all episodes to a folder, as 00000.png, 00001.png, ...

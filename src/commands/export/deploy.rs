@@ -1,8 +1,8 @@
 //! `deploy.yaml`, which the controllers of Unitree's `unitree_rl_lab` read.
 //!
 //! Gains are in the order of the robot's motors, see `motors` of a robot card; all else is in the order of the action.
-//! `joint_ids_map` has the number of the motor for each joint of the action. Unitree's loader wants every key, and `null` for
-//! none.
+//! `joint_ids_map` has the number of the motor for each joint of the action. Unitree's loader wants every key, and
+//! `null` for none.
 
 use std::fmt::Write;
 

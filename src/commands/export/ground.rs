@@ -5,8 +5,8 @@ use std::f64::consts::FRAC_PI_2;
 use serde_json::json;
 use treadmill_humanoid::Environment;
 
-/// Returns heights, extent and the starts on the hardest level, in four directions on each kind of tile; `None` if the ground is
-/// the model's own.
+/// Returns heights, extent and the starts on the hardest level, in four directions on each kind of tile; `None` if the
+/// ground is the model's own.
 pub(super) fn json(environment: &Environment) -> Option<String> {
     let settings = &environment.config().ground;
     let field = environment.physics().model().ground.height_field.as_ref().filter(|_| !settings.kinds.is_empty())?;

@@ -37,11 +37,13 @@ pub struct ExportArgs {
     /// Write weights, observation statistics and task as one safetensors file.
     #[arg(long, value_name = "FILE")]
     safetensors: Option<PathBuf>,
-    /// Write the policy as an ONNX model from raw observations to actions, normalisation included; for the velocity task with
-    /// its contract. Beside --deploy its batch is 1, its input `obs` and its output `actions`, as Unitree's controllers want.
+    /// Write the policy as an ONNX model from raw observations to actions, normalisation included; for the velocity
+    /// task with its contract. Beside --deploy its batch is 1, its input `obs` and its output `actions`, as Unitree's
+    /// controllers want.
     #[arg(long, value_name = "FILE")]
     onnx: Option<PathBuf>,
-    /// Write gains, default pose, action scales and observation of the velocity task as deploy.yaml, for Unitree's controllers.
+    /// Write gains, default pose, action scales and observation of the velocity task as deploy.yaml, for Unitree's
+    /// controllers.
     #[arg(long, value_name = "FILE")]
     deploy: Option<PathBuf>,
     /// Write the generated ground of the velocity task, for `python -m treadmill_transfer --ground FILE`.

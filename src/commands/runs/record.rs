@@ -25,8 +25,8 @@ pub(crate) struct Record {
     pub(crate) training_distance_m: Option<f64>,
     pub(crate) training_return: Option<f64>,
     pub(crate) fall_fraction: Option<f64>,
-    /// Mean error of the velocity in the last evaluation of a task with commands (m/s). The least one says little: it is that of
-    /// robots that soon fall.
+    /// Mean error of the velocity in the last evaluation of a task with commands (m/s). The least one says little: it
+    /// is that of robots that soon fall.
     pub(crate) velocity_error_mps: Option<f64>,
     /// Whether a process trains it now.
     pub(crate) is_running: bool,
@@ -112,8 +112,8 @@ impl Record {
         }
     }
 
-    /// Returns a number by which runs are sorted, the best first: those with commands by their velocity error, then the others by
-    /// the best known distance.
+    /// Returns a number by which runs are sorted, the best first: those with commands by their velocity error, then the
+    /// others by the best known distance.
     pub(crate) fn order(&self) -> (bool, f64) {
         match self.velocity_error_mps {
             Some(error) => (false, error),

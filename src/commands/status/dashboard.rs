@@ -15,7 +15,7 @@ use super::{
     draw::{self, Theme},
     fleet::Fleet,
     follow::{Follower, NEWS_QUEUED_MAX, News},
-    keys::{self, Action},
+    keys::{self, KeyAction},
 };
 use crate::{
     launch::terminal_screen::TerminalScreen,
@@ -77,7 +77,7 @@ fn show(news: &Receiver<News>, shutdown: &Shutdown) -> anyhow::Result<()> {
         let mut timeout = TICK;
         while event::poll(timeout).context(UNUSABLE)? {
             match keys::action(&event::read().context(UNUSABLE)?, fleet.shows_help) {
-                Some(Action::Quit) => return Ok(()),
+                Some(KeyAction::Quit) => return Ok(()),
                 Some(action) => fleet.act(action),
                 None => {}
             }

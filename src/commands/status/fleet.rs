@@ -6,7 +6,7 @@ use treadmill_proto::{ActorStatus, RunStatus, json::Metric};
 
 use super::{
     history::{Curve, Rate},
-    keys::Action,
+    keys::KeyAction,
 };
 
 /// Most runs that are kept; further ones are ignored.
@@ -226,22 +226,22 @@ impl Fleet {
     }
 
     /// Applies the action of a key, except for quitting.
-    pub fn act(&mut self, action: Action) {
+    pub fn act(&mut self, action: KeyAction) {
         let page = self.visible_rows.max(1);
         match action {
-            Action::Help => self.shows_help = !self.shows_help,
-            Action::Back => self.shows_help = false,
-            Action::NextRun | Action::PreviousRun if self.runs.is_empty() => {}
-            Action::NextRun => self.select((self.selected + 1) % self.runs.len()),
-            Action::PreviousRun => self.select((self.selected + self.runs.len() - 1) % self.runs.len()),
-            Action::Order => self.order = self.order.next(),
-            Action::Up => self.scroll = self.scroll.saturating_sub(1),
-            Action::Down => self.scroll += 1,
-            Action::PageUp => self.scroll = self.scroll.saturating_sub(page),
-            Action::PageDown => self.scroll += page,
-            Action::First => self.scroll = 0,
-            Action::Last => self.scroll = usize::MAX / 2,
-            Action::Quit => {}
+            KeyAction::Help => self.shows_help = !self.shows_help,
+            KeyAction::Back => self.shows_help = false,
+            KeyAction::NextRun | KeyAction::PreviousRun if self.runs.is_empty() => {}
+            KeyAction::NextRun => self.select((self.selected + 1) % self.runs.len()),
+            KeyAction::PreviousRun => self.select((self.selected + self.runs.len() - 1) % self.runs.len()),
+            KeyAction::Order => self.order = self.order.next(),
+            KeyAction::Up => self.scroll = self.scroll.saturating_sub(1),
+            KeyAction::Down => self.scroll += 1,
+            KeyAction::PageUp => self.scroll = self.scroll.saturating_sub(page),
+            KeyAction::PageDown => self.scroll += page,
+            KeyAction::First => self.scroll = 0,
+            KeyAction::Last => self.scroll = usize::MAX / 2,
+            KeyAction::Quit => {}
         }
         self.show(self.visible_rows);
     }

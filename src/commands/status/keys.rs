@@ -2,9 +2,9 @@
 
 use ratatui::crossterm::event::{Event, KeyCode, KeyEventKind, KeyModifiers};
 
-/// Action of a key.
+/// What a key does.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Action {
+pub enum KeyAction {
     /// Quits.
     Quit,
     /// Shows or hides the help.
@@ -43,27 +43,27 @@ pub const HELP: [(&str, &str); 7] = [
 ];
 
 /// Returns the action of an event; `shows_help` is true while the help is shown.
-pub fn action(event: &Event, shows_help: bool) -> Option<Action> {
+pub fn action(event: &Event, shows_help: bool) -> Option<KeyAction> {
     let Event::Key(key) = event else { return None };
     if key.kind == KeyEventKind::Release {
         return None;
     }
     if key.modifiers.contains(KeyModifiers::CONTROL) {
-        return matches!(key.code, KeyCode::Char('c' | 'd')).then_some(Action::Quit);
+        return matches!(key.code, KeyCode::Char('c' | 'd')).then_some(KeyAction::Quit);
     }
     match key.code {
-        KeyCode::Esc if shows_help => Some(Action::Back),
-        KeyCode::Char('q') | KeyCode::Esc => Some(Action::Quit),
-        KeyCode::Char('?' | 'h') => Some(Action::Help),
-        KeyCode::Tab => Some(Action::NextRun),
-        KeyCode::BackTab => Some(Action::PreviousRun),
-        KeyCode::Char('s') => Some(Action::Order),
-        KeyCode::Up | KeyCode::Char('k') => Some(Action::Up),
-        KeyCode::Down | KeyCode::Char('j') => Some(Action::Down),
-        KeyCode::PageUp | KeyCode::Char('b') => Some(Action::PageUp),
-        KeyCode::PageDown | KeyCode::Char('f' | ' ') => Some(Action::PageDown),
-        KeyCode::Home | KeyCode::Char('g') => Some(Action::First),
-        KeyCode::End | KeyCode::Char('G') => Some(Action::Last),
+        KeyCode::Esc if shows_help => Some(KeyAction::Back),
+        KeyCode::Char('q') | KeyCode::Esc => Some(KeyAction::Quit),
+        KeyCode::Char('?' | 'h') => Some(KeyAction::Help),
+        KeyCode::Tab => Some(KeyAction::NextRun),
+        KeyCode::BackTab => Some(KeyAction::PreviousRun),
+        KeyCode::Char('s') => Some(KeyAction::Order),
+        KeyCode::Up | KeyCode::Char('k') => Some(KeyAction::Up),
+        KeyCode::Down | KeyCode::Char('j') => Some(KeyAction::Down),
+        KeyCode::PageUp | KeyCode::Char('b') => Some(KeyAction::PageUp),
+        KeyCode::PageDown | KeyCode::Char('f' | ' ') => Some(KeyAction::PageDown),
+        KeyCode::Home | KeyCode::Char('g') => Some(KeyAction::First),
+        KeyCode::End | KeyCode::Char('G') => Some(KeyAction::Last),
         _ => None,
     }
 }
@@ -74,7 +74,7 @@ mod tests {
 
     use super::*;
 
-    fn pressed(code: KeyCode, modifiers: KeyModifiers, shows_help: bool) -> Option<Action> {
+    fn pressed(code: KeyCode, modifiers: KeyModifiers, shows_help: bool) -> Option<KeyAction> {
         action(&Event::Key(KeyEvent::new(code, modifiers)), shows_help)
     }
 
@@ -84,11 +84,11 @@ mod tests {
         for (code, modifiers) in
             [(KeyCode::Char('q'), plain), (KeyCode::Esc, plain), (KeyCode::Char('c'), KeyModifiers::CONTROL)]
         {
-            assert_eq!(pressed(code, modifiers, false), Some(Action::Quit), "{code:?}");
+            assert_eq!(pressed(code, modifiers, false), Some(KeyAction::Quit), "{code:?}");
         }
         assert_eq!(pressed(KeyCode::Char('c'), plain, false), None);
-        assert_eq!(pressed(KeyCode::Esc, plain, true), Some(Action::Back), "Esc first closes the help");
-        assert_eq!(pressed(KeyCode::Char('G'), KeyModifiers::SHIFT, false), Some(Action::Last));
+        assert_eq!(pressed(KeyCode::Esc, plain, true), Some(KeyAction::Back), "Esc first closes the help");
+        assert_eq!(pressed(KeyCode::Char('G'), KeyModifiers::SHIFT, false), Some(KeyAction::Last));
         assert_eq!(action(&Event::Resize(1, 1), false), None);
     }
 }

@@ -15,8 +15,8 @@ pub struct Waiting {
 }
 
 impl Waiting {
-    /// Returns the flags of a run that may be asked, as soon as there is one: the one that `reach` names, or the first one below
-    /// `runs/`.
+    /// Returns the flags of a run that may be asked, as soon as there is one: the one that `reach` names, or the first
+    /// one below `runs/`.
     pub fn for_run(&mut self, reach: &ReachArgs) -> ReachArgs {
         loop {
             let folder = reach.live_folders().into_iter().next();

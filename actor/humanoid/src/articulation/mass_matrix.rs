@@ -4,8 +4,8 @@
 //! zeros of independent branches).
 //!
 //! *Whitened* velocities are u = D^½ L v; the kinetic energy is |u|²/2. An impulse along a direction with Jacobian J changes
-//! u by the whitened row D^−½ L^−ᵀ Jᵀ. The product of that row with u is the rate along the direction. So one row serves both
-//! purposes and needs only half of a solution. The same holds for accelerations and forces.
+//! u by the whitened row D^−½ L^−ᵀ Jᵀ. The product of that row with u is the rate along the direction. So one row
+//! serves both purposes and needs only half of a solution. The same holds for accelerations and forces.
 
 use pulp::Simd;
 
@@ -15,8 +15,8 @@ use crate::lanes::{Inertia, Lanes};
 
 /// Symmetric matrix over the degrees of freedom with the zeros of a tree.
 ///
-/// Row k holds the entries of k and its path, from the root to k. The path of each of these degrees of freedom is a prefix of
-/// k's path, so inner loops run over aligned slices.
+/// Row k holds the entries of k and its path, from the root to k. The path of each of these degrees of freedom is a
+/// prefix of k's path, so inner loops run over aligned slices.
 #[derive(Clone, Debug)]
 pub(crate) struct MassMatrix<S: Simd> {
     entries: Vec<Lanes<S>>,

@@ -60,15 +60,15 @@ pub(crate) struct Node {
 #[derive(Clone, Debug)]
 pub(crate) struct HingeNode {
     pub(crate) axis: Axis,
-    /// From the point on the axis of the body's hinge before to that on this axis, in the body's frame (m); `None` if both are
-    /// one point, or this is the body's first hinge.
+    /// From the point on the axis of the body's hinge before to that on this axis, in the body's frame (m); `None` if
+    /// both are one point, or this is the body's first hinge.
     pub(crate) offset_m: Option<Vector3<f64>>,
     pub(crate) stiffness_nmprad: f64,
     pub(crate) rest_rad: f64,
 }
 
-/// Sum of degrees of freedom with weights that may have limits and dry friction: a hinge, a tendon, or a degree of freedom of
-/// the root.
+/// Sum of degrees of freedom with weights that may have limits and dry friction: a hinge, a tendon, or a degree of
+/// freedom of the root.
 #[derive(Clone, Debug)]
 pub(crate) struct Coordinate {
     /// Degrees of freedom with weights.

@@ -27,7 +27,8 @@ struct Numbers {
     is_proposed: bool,
 }
 
-/// Returns a card for a model whose file is `file`. It keeps the servos of the model; where there are none it proposes gains.
+/// Returns a card for a model whose file is `file`. It keeps the servos of the model; where there are none it proposes
+/// gains.
 #[must_use]
 pub fn draft(model: &Model, file: &str) -> String {
     let mut card = String::new();

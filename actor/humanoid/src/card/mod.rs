@@ -43,8 +43,8 @@ pub struct RobotCard {
     pub keyframe: Option<String>,
     /// Height of the root in the default pose (m); replaces that of the keyframe or text.
     pub height_m: Option<f64>,
-    /// Names of a left and a right hinge, in which one `*` may stand for the letters that both share; for robots whose names do
-    /// not follow left and right.
+    /// Names of a left and a right hinge, in which one `*` may stand for the letters that both share; for robots whose
+    /// names do not follow left and right.
     #[serde(default)]
     pub symmetry: Vec<[String; 2]>,
     /// Hinges in the order in which the robot's own software counts its motors, all of them, and `""` for a number without a

@@ -1,8 +1,8 @@
 //! What touches: places of contact between shapes, and between shapes and the ground.
 //!
 //! The pairs that can touch at all are known from the model. In every step, cheap tests for several worlds at once leave few
-//! of them: bounding spheres, and the distance of the axes of capsules. Spheres and capsules over a plane are solved in closed
-//! form. Everything else is a contact query of Rapier's collision detection (see `queries`).
+//! of them: bounding spheres, and the distance of the axes of capsules. Spheres and capsules over a plane are solved in
+//! closed form. Everything else is a contact query of Rapier's collision detection (see `queries`).
 
 mod convert;
 mod field;

@@ -16,8 +16,9 @@ use rapier3d::parry::shape::{ConvexPolyhedron, Shape};
 use super::convert::{from_vector, to_pose, to_vector};
 use super::model::{CollisionModel, PairNode};
 
-/// Most contact points of one pair. Two convex shapes need four; a shape may touch many triangles of a height field, and then
-/// the deepest point counts, and those that lie farthest in seven horizontal directions: all corners of a sole are among them.
+/// Most contact points of one pair. Two convex shapes need four; a shape may touch many triangles of a height field,
+/// and then the deepest point counts, and those that lie farthest in seven horizontal directions: all corners of a sole
+/// are among them.
 pub(crate) const POINTS_MAX: usize = 8;
 /// Most points to choose from; beyond that, the deepest ones.
 const CANDIDATES_MAX: usize = 128;
@@ -60,8 +61,8 @@ impl Default for Queries {
 }
 
 impl Queries {
-    /// Writes the contact points of a pair, deepest first, and returns their number. `pose` gives rotation and origin of a body
-    /// (m, relative to O), and `root_m` is the position of O in the world.
+    /// Writes the contact points of a pair, deepest first, and returns their number. `pose` gives rotation and origin
+    /// of a body (m, relative to O), and `root_m` is the position of O in the world.
     pub(super) fn run(
         &mut self,
         model: &CollisionModel,

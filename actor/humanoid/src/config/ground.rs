@@ -50,8 +50,8 @@ pub enum StartLevel {
     Drawn,
 }
 
-/// Generated ground: square tiles with a border around them. Kinds follow each other along y, levels of difficulty along x. The
-/// border, the rims of the tiles and the places to start in their middles are level.
+/// Generated ground: square tiles with a border around them. Kinds follow each other along y, levels of difficulty
+/// along x. The border, the rims of the tiles and the places to start in their middles are level.
 #[derive(Clone, Debug, PartialEq)]
 pub struct GroundSettings {
     /// Kinds of tiles; none leaves the model's ground.

@@ -121,7 +121,8 @@ rewards! {
     gait: 2.0,
     /// Time in the air beyond 0.4 s, at each landing of a foot (s).
     feet_air_time: 0.0,
-    /// Squared difference of the swinging feet's heights from the gait's (m²); on generated ground only of feet that are lower.
+    /// Squared difference of the swinging feet's heights from the gait's (m²); on generated ground only of feet that
+    /// are lower.
     feet_clearance: -300.0,
     /// Squared horizontal velocity of the feet that stand (m²/s²).
     feet_slip: -0.5,

@@ -12,13 +12,13 @@ use crate::collision::CollisionModel;
 use crate::lanes::LANES_MAX;
 use crate::model::Solver;
 
-/// What a workspace depends on: the solver, and the numbers of bodies, degrees of freedom, entries of their paths, coordinates,
-/// shapes and links.
+/// What a workspace depends on: the solver, and the numbers of bodies, degrees of freedom, entries of their paths,
+/// coordinates, shapes and links.
 type Sizes = (Solver, [usize; 6]);
 
 thread_local! {
-    /// Workspace of the last model that this thread simulated. It depends on the model's sizes only, so the next model of the
-    /// same sizes uses it too.
+    /// Workspace of the last model that this thread simulated. It depends on the model's sizes only, so the next model
+    /// of the same sizes uses it too.
     static ENGINE: RefCell<Option<(Sizes, Box<dyn Engine>)>> = const { RefCell::new(None) };
 }
 

@@ -12,8 +12,8 @@ use crate::lanes::Lanes;
 const NUMBER_MAX: f64 = 1e10;
 
 impl<S: Simd> Group<S> {
-    /// Copies states and parameters of the worlds into the lanes. Lanes without a world repeat the first one: left alone, they
-    /// would go on with bodies that have long fallen, whose many contacts take time.
+    /// Copies states and parameters of the worlds into the lanes. Lanes without a world repeat the first one: left
+    /// alone, they would go on with bodies that have long fallen, whose many contacts take time.
     pub(super) fn load(&mut self, worlds: Worlds<'_, '_>) {
         self.worlds = worlds.iter().flatten().count();
         let first = worlds[0].as_deref();

@@ -20,8 +20,8 @@ pub(crate) struct HingeForces<S: Simd> {
     pub(crate) explicit_nm: Lanes<S>,
     /// Decrease of the motor torque per acceleration of the hinge (kg·m²).
     pub(crate) implicit_kgm2: Lanes<S>,
-    /// Motor torque and its decrease per acceleration without the forces of constraints. Where `explicit_nm` is beyond the limits
-    /// they are that limit and 0: a servo that is saturated has no stiffness.
+    /// Motor torque and its decrease per acceleration without the forces of constraints. Where `explicit_nm` is beyond
+    /// the limits they are that limit and 0: a servo that is saturated has no stiffness.
     pub(crate) base_nm: Lanes<S>,
     pub(crate) base_kgm2: Lanes<S>,
     /// Spring and viscous friction of the present step without the hinge's acceleration (N·m).
@@ -81,8 +81,8 @@ impl<S: Simd> Forces<S> {
 
     /// Computes the hinges' forces for a step that starts at `velocity` and has `middle` as the position of its middle.
     ///
-    /// Forces are those of the middle: an acceleration a adds a·step/2 to the rate and a·step²/4 to the angle there. These parts
-    /// are implicit: they belong to the mass matrix, so that the step is stable at any stiffness.
+    /// Forces are those of the middle: an acceleration a adds a·step/2 to the rate and a·step²/4 to the angle there.
+    /// These parts are implicit: they belong to the mass matrix, so that the step is stable at any stiffness.
     #[inline(always)]
     pub(crate) fn prepare(&mut self, structure: &Structure, middle: &[Lanes<S>], velocity: &[Lanes<S>], step_s: f64) {
         let root = structure.root_armature + structure.root_damping * step_s / 2.0;

@@ -1,7 +1,7 @@
 //! Linear and angular momentum of a whole robot, which only gravity and the ground change.
 //!
-//! Time stepping conserves momentum only approximately. A correction of the root's state restores it exactly, which costs less
-//! than finer steps.
+//! Time stepping conserves momentum only approximately. A correction of the root's state restores it exactly, which
+//! costs less than finer steps.
 
 use pulp::Simd;
 

@@ -19,8 +19,8 @@ pub(crate) trait Engine {
     fn refresh(&mut self, pass: Pass<'_>, worlds: Worlds<'_, '_>);
 }
 
-/// Parts of a step as operations that `pulp` compiles for the machine's registers: everything that computes with lanes must be
-/// inlined into one of them.
+/// Parts of a step as operations that `pulp` compiles for the machine's registers: everything that computes with lanes
+/// must be inlined into one of them.
 macro_rules! parts {
     ($($part:ident => $method:ident),*) => { $(
         struct $part<'a, S: Simd>(&'a mut Group<S>, Pass<'a>);

@@ -12,7 +12,8 @@ const CONTACTS_EXPECTED: usize = 64;
 pub(crate) struct World {
     /// Position vector: root x, y, z (m), root quaternion w, x, y, z, one angle per hinge (rad).
     pub(crate) position: Vec<f64>,
-    /// Velocity vector: root velocity (m/s, world axes), root angular velocity (rad/s, root's axes), one rate per hinge (rad/s).
+    /// Velocity vector: root velocity (m/s, world axes), root angular velocity (rad/s, root's axes), one rate per hinge
+    /// (rad/s).
     pub(crate) velocity: Vec<f64>,
     pub(crate) parameters: Parameters,
     /// Motors of each hinge.

@@ -89,8 +89,8 @@ impl<S: Simd> Inertia<S> {
         Self { mass_kg: Lanes::zero(simd), first_moment: Vec3::zero(simd), about_origin: [Lanes::zero(simd); 6] }
     }
 
-    /// Combines mass, centre (m, relative to O), orientation, and inertia about the centre in the body's axes: xx, yy, zz, xy,
-    /// xz, yz (kg·m²).
+    /// Combines mass, centre (m, relative to O), orientation, and inertia about the centre in the body's axes: xx, yy,
+    /// zz, xy, xz, yz (kg·m²).
     #[inline(always)]
     pub(crate) fn new(mass_kg: Lanes<S>, centre_m: &Vec3<S>, rotation: &Mat3<S>, own: &[Lanes<S>; 6]) -> Self {
         let first_moment = *centre_m * mass_kg;

@@ -20,8 +20,9 @@ use crate::model::{HEIGHT_FIELD_SIDE_MAX, hull};
 
 /// Reads a model file and replaces each `<include>` by the content of its file.
 ///
-/// As in MuJoCo, paths of included files are relative to the outermost file, and no file is included twice. Of the other files
-/// that the model names, those that motion depends on are written into the text: hulls of meshes, and height fields.
+/// As in MuJoCo, paths of included files are relative to the outermost file, and no file is included twice. Of the
+/// other files that the model names, those that motion depends on are written into the text: hulls of meshes, and
+/// height fields.
 ///
 /// A robot card, a file that ends in `.toml`, gives the text of its model with the card in it.
 ///

@@ -1,7 +1,8 @@
 //! MJCF text → [`Model`].
 //!
-//! A text is all that another machine needs: [`read_model_file`] writes included files, hulls of meshes and height fields into it.
-//! docs/guide/robots.md lists the accepted MJCF. Any other element or attribute that motion depends on is refused by name.
+//! A text is all that another machine needs: [`read_model_file`] writes included files, hulls of meshes and height
+//! fields into it. docs/guide/robots.md lists the accepted MJCF. Any other element or attribute that motion depends on
+//! is refused by name.
 //!
 //! - `xml`: parsing with bounds, and writing.
 //! - `element`, `vocabulary`, `defaults`, `pose`: attributes, their allowed values, default classes, and orientations.

@@ -28,7 +28,8 @@ pub(super) fn resolve_damping_ratios(model: &mut Model) -> Result<(), ModelError
     Ok(())
 }
 
-/// Reads one actuator. A damping ratio is returned as positive `bias[2]`, as in MuJoCo; [`resolve_damping_ratios`] must follow.
+/// Reads one actuator. A damping ratio is returned as positive `bias[2]`, as in MuJoCo; [`resolve_damping_ratios`] must
+/// follow.
 pub(super) fn read(actuator: &Element, hinges: &[Hinge], autolimits: bool) -> Result<Motor, ModelError> {
     let name = actuator.label.clone();
     let hinge = hinges.iter().position(|hinge| Some(hinge.name.as_str()) == actuator.get("joint"));

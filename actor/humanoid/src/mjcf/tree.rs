@@ -133,7 +133,8 @@ pub(super) fn read(document: &Document<'_>) -> Result<Tree, ModelError> {
     Ok(tree)
 }
 
-/// Returns the kinds of elements that the simulation ignores, with their counts: of those within each other only the outermost.
+/// Returns the kinds of elements that the simulation ignores, with their counts: of those within each other only the
+/// outermost.
 pub(super) fn ignored(root: Node<'_, '_>) -> BTreeMap<String, usize> {
     fn count(node: Node<'_, '_>, found: &mut BTreeMap<String, usize>) {
         for child in elements(node) {

@@ -28,8 +28,8 @@ pub struct VisualMesh {
     pub colour: [f64; 4],
 }
 
-/// Reads the visual meshes of an MJCF file or a robot card. Meshes that are turned by other attributes than `quat`, or whose file
-/// has another format than STL and OBJ, are left out.
+/// Reads the visual meshes of an MJCF file or a robot card. Meshes that are turned by other attributes than `quat`, or
+/// whose file has another format than STL and OBJ, are left out.
 ///
 /// # Errors
 /// [`ModelError`] names the file that is missing or unreadable.

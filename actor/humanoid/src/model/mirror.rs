@@ -8,7 +8,8 @@ use super::robot::counterpart;
 /// For each entry of a mirrored vector, the index and the sign of the original entry that it holds.
 pub type SignedPermutation = Vec<(usize, f32)>;
 
-/// Greatest distance of a hinge from the mirror image of its counterpart (m), and least cosine between their axes: files round.
+/// Greatest distance of a hinge from the mirror image of its counterpart (m), and least cosine between their axes:
+/// files round.
 const APART_MAX_M: f64 = 5e-3;
 const COSINE_MIN: f64 = 1.0 - 1e-4;
 

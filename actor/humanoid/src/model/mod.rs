@@ -1,7 +1,7 @@
 //! Robot as data: bodies, hinges and motors, independent of texts and of the physics engine.
 //!
-//! [`crate::mjcf`] reads a model from text, [`crate::card`] edits it, and [`crate::physics`] builds a world from it. Lengths are
-//! metres, angles radians, masses kilograms.
+//! [`crate::mjcf`] reads a model from text, [`crate::card`] edits it, and [`crate::physics`] builds a world from it.
+//! Lengths are metres, angles radians, masses kilograms.
 
 mod geometry;
 mod ground;
@@ -219,7 +219,8 @@ impl Hinge {
 
 /// Motor or servo: torque = gear × force, force = gain × control + bias · (1, length, velocity).
 ///
-/// Length and velocity are angle and rate of the hinge times [`Motor::length_per_rad`]. A plain motor has gain 1 and no bias.
+/// Length and velocity are angle and rate of the hinge times [`Motor::length_per_rad`]. A plain motor has gain 1 and no
+/// bias.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Motor {
     /// Name in the text.

@@ -10,8 +10,8 @@
 //! | `cfrc_ext` | 6 per link | moment x, y, z (N·m), force x, y, z (N) of the link's contacts |
 //!
 //! Links are in the model text's order: 13 for the built-in humanoid. `cinert`, `cvel` and `cfrc_ext` are in world axes and
-//! about the *centre*, the whole humanoid's centre of mass: the offset is from the centre to the link's centre of mass, and the
-//! velocity is that of the link's material point at the centre.
+//! about the *centre*, the whole humanoid's centre of mass: the offset is from the centre to the link's centre of mass,
+//! and the velocity is that of the link's material point at the centre.
 //!
 //! | [`ObservationKind`] | blocks | humanoid |
 //! |---|---|---|
@@ -25,8 +25,8 @@
 //! while MuJoCo's are those at its end.
 //!
 //! With sensor noise, `qpos` and `qvel` are noisy, and all other blocks are computed from these noisy numbers: `cinert` and
-//! `cvel` at the sensed state, `qfrc_actuator` as the torques of the present controls there, `cfrc_ext` as exact forces in the
-//! frames of the links, which are turned to their sensed orientations. No entry shows what a noisy sensor hides.
+//! `cvel` at the sensed state, `qfrc_actuator` as the torques of the present controls there, `cfrc_ext` as exact forces
+//! in the frames of the links, which are turned to their sensed orientations. No entry shows what a noisy sensor hides.
 
 mod sensed;
 mod spatial;
@@ -166,8 +166,8 @@ impl Observation {
         }
     }
 
-    /// Adds sensor noise to the positions and velocities, except x and y; [`Self::write_sensed`] then computes the other blocks
-    /// from them.
+    /// Adds sensor noise to the positions and velocities, except x and y; [`Self::write_sensed`] then computes the
+    /// other blocks from them.
     pub(crate) fn add_noise(&self, noise: &mut SensorNoise, observation: &mut [f32]) {
         let observation = &mut observation[self.height_index..];
         if noise.has_positions() {

@@ -36,8 +36,8 @@ pub struct PhysicsFault;
 pub struct JointQuality {
     /// Largest angle by which a hinge is outside its range (rad).
     pub limit_overshoot_rad: f64,
-    /// Largest acceleration (m/s² or rad/s²) by which the last iteration of the constraint solve changed a constraint, over the last
-    /// control step.
+    /// Largest acceleration (m/s² or rad/s²) by which the last iteration of the constraint solve changed a constraint,
+    /// over the last control step.
     pub residual: f64,
 }
 
@@ -206,10 +206,12 @@ impl Physics {
         self.check_step()
     }
 
-    /// Simulates one control step of several simulations with the controls that each has; those with a fault stay as they are.
+    /// Simulates one control step of several simulations with the controls that each has; those with a fault stay as
+    /// they are.
     ///
-    /// The result of each is the same, bit for bit, as if it had stepped alone. All must have the same model and settings. The
-    /// machine simulates [`crate::worlds_per_pass`] of them at once. [`Self::check_step`] must follow for each.
+    /// The result of each is the same, bit for bit, as if it had stepped alone. All must have the same model and
+    /// settings. The machine simulates [`crate::worlds_per_pass`] of them at once. [`Self::check_step`] must follow for
+    /// each.
     // Not generic, so that the engine is compiled once, at this crate's level of optimisation.
     pub fn step_together(simulations: &mut dyn Iterator<Item = &mut Self>) {
         let mut simulations = simulations.filter(|physics| !physics.is_faulty);
@@ -311,8 +313,8 @@ impl Physics {
         self.world.mean_over_mass(|body| body.linear_mps)
     }
 
-    /// Returns the mean contact force (N) on one link during the last control step, and its moment about the whole humanoid's
-    /// centre of mass (N·m), in the world frame.
+    /// Returns the mean contact force (N) on one link during the last control step, and its moment about the whole
+    /// humanoid's centre of mass (N·m), in the world frame.
     ///
     /// # Panics
     /// If there is no such link.

@@ -130,9 +130,10 @@ pub fn is_healthy(config: &EnvironmentConfig, torso_height_m: f64) -> bool {
 
 /// Returns the cost of an action: weight × Σ control².
 ///
-/// It charges the controls as given, even beyond the motors' ranges, because Gymnasium does: MuJoCo clamps only the copy that
-/// moves the motors, and `control_cost` of `humanoid_v5.py` sums over `data.ctrl`. Policies of this project never pay more
-/// than the ranges allow: as in Stable-Baselines3, their actions are clipped before (`Environment::action_from_shares`).
+/// It charges the controls as given, even beyond the motors' ranges, because Gymnasium does: MuJoCo clamps only the
+/// copy that moves the motors, and `control_cost` of `humanoid_v5.py` sums over `data.ctrl`. Policies of this project
+/// never pay more than the ranges allow: as in Stable-Baselines3, their actions are clipped before
+/// (`Environment::action_from_shares`).
 #[must_use]
 pub fn control_cost(config: &EnvironmentConfig, action: &[f32]) -> f64 {
     let sum: f64 = action.iter().map(|&control| f64::from(control).powi(2)).sum();
@@ -242,7 +243,8 @@ mod tests {
 
     #[test]
     fn controls_beyond_their_range_cost_what_they_cost_in_gymnasium() {
-        // `reward_ctrl` of gymnasium.make("Humanoid-v5").step(action), with Gymnasium 1.4.0 and MuJoCo 4.0.0; v4 gives the same.
+        // `reward_ctrl` of gymnasium.make("Humanoid-v5").step(action), with Gymnasium 1.4.0 and MuJoCo 4.0.0; v4 gives
+        // the same.
         let action: [f32; 17] = std::array::from_fn(|motor| (0.1 * (-1f64).powi(motor as i32) * motor as f64) as f32);
         let cost = control_cost(&EnvironmentConfig::default(), &action);
         assert!((cost - 1.496_000_005_394_221).abs() < 1e-12, "{cost}");

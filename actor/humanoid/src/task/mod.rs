@@ -88,9 +88,9 @@ pub struct StepOutcome {
 
 /// What a robot must do.
 ///
-/// For each episode the environment calls [`Self::start`], [`Self::begin`] and [`Self::observe`], and then for each control step
-/// [`Self::evaluate`] and [`Self::observe`]. The same calls must give the same results, bit for bit: random numbers come
-/// from the seed of the episode only.
+/// For each episode the environment calls [`Self::start`], [`Self::begin`] and [`Self::observe`], and then for each
+/// control step [`Self::evaluate`] and [`Self::observe`]. The same calls must give the same results, bit for bit:
+/// random numbers come from the seed of the episode only.
 pub trait Task: Send + Sync {
     /// Returns the terms of an observation, in order and without gaps.
     fn terms(&self) -> &[ObservationTerm];
@@ -105,8 +105,9 @@ pub trait Task: Send + Sync {
     /// Returns reward and end of a control step.
     fn evaluate(&mut self, step: &Step<'_>) -> StepEvaluation;
 
-    /// Calls `each` with the name and value of each term of the last step's reward; they add up to it. Names are 1 to 64 of the
-    /// characters a-z, 0-9 and _, and always the same ones in the same order. A task without them logs only its reward.
+    /// Calls `each` with the name and value of each term of the last step's reward; they add up to it. Names are 1 to
+    /// 64 of the characters a-z, 0-9 and _, and always the same ones in the same order. A task without them logs only
+    /// its reward.
     fn reward_terms(&self, _each: &mut dyn FnMut(&'static str, f64)) {}
 
     /// Writes an observation of the present state with the noise of the sensors. Should not allocate. A number that is not
@@ -125,8 +126,8 @@ pub trait Task: Send + Sync {
         false
     }
 
-    /// Returns the mirror image of an observation, with left and right exchanged, for a robot with this one; `None` if the task
-    /// has none.
+    /// Returns the mirror image of an observation, with left and right exchanged, for a robot with this one; `None` if
+    /// the task has none.
     fn mirrored(&self, _robot: &Mirror) -> Option<SignedPermutation> {
         None
     }
@@ -142,8 +143,8 @@ pub trait Task: Send + Sync {
         Difficulty::default()
     }
 
-    /// Returns everything that the rest of the episode depends on, apart from seed and physics, as finite numbers. Their count
-    /// is the same at all times.
+    /// Returns everything that the rest of the episode depends on, apart from seed and physics, as finite numbers.
+    /// Their count is the same at all times.
     fn save(&self) -> Vec<f64> {
         Vec::new()
     }
@@ -161,8 +162,8 @@ pub trait Task: Send + Sync {
 }
 
 impl StepEvaluation {
-    /// Returns the outcome of control step number `episode_steps` of an episode, which is truncated after `max_episode_steps`;
-    /// 0 means never.
+    /// Returns the outcome of control step number `episode_steps` of an episode, which is truncated after
+    /// `max_episode_steps`; 0 means never.
     #[must_use]
     pub fn at(self, episode_steps: u32, max_episode_steps: u32) -> StepOutcome {
         let is_out_of_time = max_episode_steps > 0 && episode_steps >= max_episode_steps;

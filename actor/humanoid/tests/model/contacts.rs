@@ -99,7 +99,8 @@ fn forty_limbs_have_all_their_pairs() {
     let limb = "<body><joint/><geom size=\"0.02\"/></body>".repeat(40);
     let text = changed(TOUCH, "<body name=\"right\"", &format!("{limb}<body name=\"right\""));
     let model = Model::from_mjcf(&text).expect("more than 31 bodies");
-    // Each limb touches floor, thigh, sole, shin and the other limbs, but not its parent's trunk; heel and lump differ in bits.
+    // Each limb touches floor, thigh, sole, shin and the other limbs, but not its parent's trunk; heel and lump differ
+    // in bits.
     assert_eq!(model.pairs.len(), 9 + 40 * 4 + 40 * 39 / 2);
 }
 

@@ -110,8 +110,8 @@ fn nothing_touches_at_the_start() {
     assert_eq!(physics.squared_contact_wrenches(), 0.0);
 }
 
-/// A posture away from all limits, and the rate (rad/s) that each motor at control 0.2 adds to its hinge in one control step:
-/// measured with MuJoCo 3 on Humanoid-v5 without gravity and contacts.
+/// A posture away from all limits, and the rate (rad/s) that each motor at control 0.2 adds to its hinge in one control
+/// step: measured with MuJoCo 3 on Humanoid-v5 without gravity and contacts.
 const POSTURE: [f64; 17] =
     [0.1, -0.2, 0.1, -0.1, -0.2, -0.5, -0.6, -0.1, -0.2, -0.5, -0.6, 0.1, -0.2, -0.3, 0.1, -0.2, -0.3];
 const MUJOCO_RATE_CHANGE: [f64; 17] = [

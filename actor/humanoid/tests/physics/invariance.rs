@@ -21,8 +21,8 @@ fn controls(step: u32) -> [f32; 17] {
     std::array::from_fn(|motor| 0.3 * ((step * 31 + motor as u32 * 17) as f32).sin())
 }
 
-/// Largest difference between the change of momentum (N·s and N·m·s) in a control step and the impulses of gravity and of the
-/// reported contacts, and the number of steps with contacts.
+/// Largest difference between the change of momentum (N·s and N·m·s) in a control step and the impulses of gravity and
+/// of the reported contacts, and the number of steps with contacts.
 fn unexplained(body: &mut Physics, steps: u32) -> ([f64; 2], u32) {
     let (mut worst, mut touched) = ([0.0f64; 2], 0);
     let weight = Vector3::new(0.0, 0.0, -GRAVITY_MPS2 * body.model().mass_kg());

@@ -276,8 +276,8 @@ fn a_servo_reaches_and_keeps_its_target() {
 
 #[test]
 fn a_very_stiff_servo_holds_its_target_without_oscillation() {
-    // A cube of 8 kg and 0.2 m side has 8 × 0.04 / 6 kg·m² about its middle. An explicit step of 7.5 ms would be unstable above
-    // this inertia divided by the step; the servo is ten times as stiff.
+    // A cube of 8 kg and 0.2 m side has 8 × 0.04 / 6 kg·m² about its middle. An explicit step of 7.5 ms would be
+    // unstable above this inertia divided by the step; the servo is ten times as stiff.
     let kv = 10.0 * 8.0 * 0.04 / 6.0 / (CONTROL_STEP_S / 2.0);
     let kp = kv / (CONTROL_STEP_S / 2.0);
     let servo = format!("<position joint=\"j\" kp=\"{kp}\" kv=\"{kv}\" ctrlrange=\"-1 1\"/>");

@@ -19,7 +19,8 @@ use std::{
 pub const QUARANTINE: Duration = Duration::from_secs(60);
 /// Senders whose history is kept; the one that was silent longest is forgotten first.
 const SENDERS_MAX: usize = 4096;
-/// Fragments of one proven sender that may wait. An actor has at most two in flight, each resent once if its receipt is lost.
+/// Fragments of one proven sender that may wait. An actor has at most two in flight, each resent once if its receipt is
+/// lost.
 const WAITING_PER_SENDER_MAX: usize = 8;
 /// Unproven senders may fill this fraction of the queue: one in this many places.
 const NEWCOMERS_SHARE: usize = 4;
@@ -199,8 +200,8 @@ impl Admission {
         true
     }
 
-    /// Records an accepted fragment that the learner did not learn from, as many as malformed ones in a row lead to quarantine.
-    /// Returns whether this one did.
+    /// Records an accepted fragment that the learner did not learn from, as many as malformed ones in a row lead to
+    /// quarantine. Returns whether this one did.
     pub fn record_implausible(&self, sender: &Sender, now: Instant) -> bool {
         let mut state = self.state();
         let failures = state.failures_of(sender, self.quarantine_after, now);

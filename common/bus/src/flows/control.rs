@@ -80,8 +80,8 @@ impl ControlServer {
     }
 }
 
-/// Returns the status of every learner of `run`, or of all runs, that answers. Beside its successor, one that was overtaken may
-/// answer.
+/// Returns the status of every learner of `run`, or of all runs, that answers. Beside its successor, one that was
+/// overtaken may answer.
 pub async fn statuses(bus: &Bus, run: Option<&str>, timeout: Duration) -> Result<Vec<ControlReply>, BusError> {
     ask(bus, keys::status(run.unwrap_or("*")), &ControlRequest::plain(Command::Status), timeout).await
 }

@@ -52,8 +52,8 @@ fn reply_on(query: &Query, key: &str, payload: impl Into<ZBytes>, what: &'static
 
 /// Returns the next valid reply to a query, or `None` if none came in time. Logs invalid replies as `what`.
 ///
-/// The query must ask for replies as they come. By default, Zenoh holds the reply of one learner until all have answered, and a
-/// learner that was overtaken may be silent.
+/// The query must ask for replies as they come. By default, Zenoh holds the reply of one learner until all have
+/// answered, and a learner that was overtaken may be silent.
 async fn next_valid<T>(
     replies: &FifoChannelHandler<Reply>,
     what: &'static str,

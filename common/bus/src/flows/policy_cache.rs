@@ -1,7 +1,8 @@
 //! Policies in a router: fetches each version once and answers for the actors behind it.
 //!
-//! A router is asked on a key of its own, `treadmill/{run}/policy/pieces/{node}`. Zenoh would pass a request on a shared key to
-//! the router *and* to the learner, because it chooses the best server in each region of the network separately.
+//! A router is asked on a key of its own, `treadmill/{run}/policy/pieces/{node}`. Zenoh would pass a request on a
+//! shared key to the router *and* to the learner, because it chooses the best server in each region of the network
+//! separately.
 
 use std::{
     collections::HashMap,
@@ -107,8 +108,9 @@ impl PolicyCache {
         self.pieces.served()
     }
 
-    /// Answers requests until a learner has been silent for as long as `patience`; `None` after the session is closed. A learner
-    /// that cannot be reached is silent, too, if one has answered on this session, or before as `expects_answers` says.
+    /// Answers requests until a learner has been silent for as long as `patience`; `None` after the session is closed.
+    /// A learner that cannot be reached is silent, too, if one has answered on this session, or before as
+    /// `expects_answers` says.
     pub async fn serve(mut self, patience: Duration, expects_answers: bool) -> Option<SilentLearner> {
         let (mut runs, mut silences) = (CachedRuns::default(), Silences::new(expects_answers));
         let mut fetches: JoinSet<(String, Option<FetchedPolicy>, Heard)> = JoinSet::new();

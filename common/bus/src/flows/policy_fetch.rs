@@ -50,8 +50,8 @@ pub async fn fetch_policy(bus: &Bus, run: Option<&str>, timeout: Duration) -> Re
     Ok(None)
 }
 
-/// Fetches the policy of `run` if it is newer than the one in `request`: from the router that this client dialled, or else from
-/// the learner. `None` if no answer came.
+/// Fetches the policy of `run` if it is newer than the one in `request`: from the router that this client dialled, or
+/// else from the learner. `None` if no answer came.
 pub async fn fetch_newer_policy(
     bus: &Bus,
     run: &str,

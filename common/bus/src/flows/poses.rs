@@ -1,7 +1,7 @@
 //! Poses for viewers, published only while a subscriber exists.
 //!
-//! They travel on `treadmill/{run}/poses/{actor}`. The actor first checks whether a subscriber exists, which costs one read of
-//! a flag. A slow link loses poses and delays nothing.
+//! They travel on `treadmill/{run}/poses/{actor}`. The actor first checks whether a subscriber exists, which costs one
+//! read of a flag. A slow link loses poses and delays nothing.
 
 use zenoh::{
     Wait,

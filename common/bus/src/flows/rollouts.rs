@@ -51,7 +51,8 @@ pub struct IncomingFragment {
 }
 
 impl IncomingFragment {
-    /// Queues the receipt, which frees the sender's credit; never waits. A sender without a receipt sends the fragment again.
+    /// Queues the receipt, which frees the sender's credit; never waits. A sender without a receipt sends the fragment
+    /// again.
     pub fn answer(self, receipt: &Receipt) {
         self.receipts.offer(self.query.clone(), receipt);
     }
@@ -267,8 +268,9 @@ impl ReceiptQueue {
     }
 }
 
-/// Sends one encoded fragment and waits for a receipt that `settles` it, as a learner that was overtaken may answer beside its
-/// successor. Without one, returns the last receipt. `None` if no receipt came: the fragment may have arrived or not.
+/// Sends one encoded fragment and waits for a receipt that `settles` it, as a learner that was overtaken may answer
+/// beside its successor. Without one, returns the last receipt. `None` if no receipt came: the fragment may have
+/// arrived or not.
 pub async fn submit(
     bus: &Bus,
     run: &str,

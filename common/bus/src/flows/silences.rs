@@ -1,7 +1,7 @@
 //! Runs whose learners are probably there, but answer none of a router's questions.
 //!
-//! Zenoh can lose what routers declare to each other (`workarounds/` has the known cases). A new session after a pause is declared
-//! to anew.
+//! Zenoh can lose what routers declare to each other (`workarounds/` has the known cases). A new session after a pause
+//! is declared to anew.
 
 use std::{
     collections::BTreeMap,

@@ -1,7 +1,8 @@
 //! Lets actors find out that they dialled a learner that only follows.
 //!
 //! With encrypted links such a learner passes small messages on, but drops large fragments: it has one thread for all links
-//! ([`crate::workarounds::threads`]), which cannot wait for space on one of them. So actors look for another way to the leader.
+//! ([`crate::workarounds::threads`]), which cannot wait for space on one of them. So actors look for another way to the
+//! leader.
 
 use std::{sync::Arc, time::Duration};
 
@@ -37,8 +38,8 @@ impl StandbyMark {
     }
 }
 
-/// Returns whether the process that this client dialled is a learner that follows. `request` names the policy that the client has,
-/// so that a router or the leader need not send it.
+/// Returns whether the process that this client dialled is a learner that follows. `request` names the policy that the
+/// client has, so that a router or the leader need not send it.
 ///
 /// # Errors
 /// If the bus fails.

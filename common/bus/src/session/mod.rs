@@ -2,8 +2,8 @@
 //!
 //! Learners and routers never wait for a requester that does not read its replies. Zenoh sends a reply with the congestion
 //! control of its request, so they replace that on arrival: where a link has no space for a reply, Zenoh drops it, and the
-//! requester asks again. A request that a router passes on waits for space again; not one that a learner with one thread for all
-//! links passes on, as that thread would wait for itself.
+//! requester asks again. A request that a router passes on waits for space again; not one that a learner with one
+//! thread for all links passes on, as that thread would wait for itself.
 
 pub mod access_rules;
 pub mod endpoint;
@@ -25,8 +25,8 @@ use access_rules::Credentials;
 
 /// Largest message that is reassembled, in bytes; above every limit of our own formats.
 const MESSAGE_BYTES_MAX: usize = 32 << 20;
-/// Silence after which a peer counts as gone; each side announces its own. It is not part of the run's configuration, because
-/// a client opens its session before it has that.
+/// Silence after which a peer counts as gone; each side announces its own. It is not part of the run's configuration,
+/// because a client opens its session before it has that.
 const LEASE_MS: u64 = 4000;
 /// Smallest message that uses shared memory.
 pub(crate) const SHARED_BYTES_MIN: usize = 64 << 10;

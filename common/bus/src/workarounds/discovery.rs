@@ -14,8 +14,8 @@ use crate::{BusError, BusOptions};
 const ROUND: Duration = Duration::from_secs(3);
 /// Time to wait for further replies after the first: a learner and its routers reply together.
 const FURTHER_REPLIES: Duration = Duration::from_millis(300);
-/// Most endpoints that are found, and most that are refused, each with a line in the log. The refused ones are forgotten after a
-/// round with as many.
+/// Most endpoints that are found, and most that are refused, each with a line in the log. The refused ones are
+/// forgotten after a round with as many.
 const ENDPOINTS_MAX: usize = 64;
 
 /// Scouts until an acceptable endpoint is found. Returns all that were found in that round.

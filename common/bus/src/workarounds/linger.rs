@@ -1,12 +1,13 @@
 //! Closes links at once, whatever their other end does.
 //!
-//! Zenoh sets `SO_LINGER` of each link to 10 s. Closing a link whose other end is cut off then blocks the closing thread until
-//! that time is over, and with it all other links of a process that has one thread for them ([`super::threads`]). No upstream
-//! issue is known. Delete when Zenoh has a setting for it.
+//! Zenoh sets `SO_LINGER` of each link to 10 s. Closing a link whose other end is cut off then blocks the closing
+//! thread until that time is over, and with it all other links of a process that has one thread for them
+//! ([`super::threads`]). No upstream issue is known. Delete when Zenoh has a setting for it.
 //!
-//! Zenoh does not hand out its sockets, and its time is a constant of its build (`option_env!` in `zenoh-link-tcp`), which the
-//! shortest value, 1 s, would make a wait for each dead peer in turn. So a thread looks for sockets with exactly Zenoh's time;
-//! nothing else here sets that option. A learner with 8 actors (18 sockets) spent 0.3 ms of processor time a second on it.
+//! Zenoh does not hand out its sockets, and its time is a constant of its build (`option_env!` in `zenoh-link-tcp`),
+//! which the shortest value, 1 s, would make a wait for each dead peer in turn. So a thread looks for sockets with
+//! exactly Zenoh's time; nothing else here sets that option. A learner with 8 actors (18 sockets) spent 0.3 ms of
+//! processor time a second on it.
 
 use std::sync::Once;
 
@@ -55,8 +56,8 @@ mod linux {
     /// Time that Zenoh sets.
     pub(super) const ZENOH_S: libc::c_int = 10;
 
-    /// Clears the option of a socket that has it from Zenoh. Any other file at this number, which may have been closed meanwhile,
-    /// refuses.
+    /// Clears the option of a socket that has it from Zenoh. Any other file at this number, which may have been closed
+    /// meanwhile, refuses.
     pub(super) fn take_back(file: libc::c_int) {
         let mut option = libc::linger { l_onoff: 0, l_linger: 0 };
         let mut size = mem::size_of::<libc::linger>() as libc::socklen_t;

@@ -1,7 +1,7 @@
 //! Checks the limit on open files before Zenoh starts.
 //!
-//! Zenoh's threads panic if they cannot open a file, and callers that wait for them hang. No upstream issue is known; raising
-//! the limit is eclipse-zenoh/zenoh#2673. Delete when opening a session returns an error instead.
+//! Zenoh's threads panic if they cannot open a file, and callers that wait for them hang. No upstream issue is known;
+//! raising the limit is eclipse-zenoh/zenoh#2673. Delete when opening a session returns an error instead.
 
 use crate::BusError;
 

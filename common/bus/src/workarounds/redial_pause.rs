@@ -1,11 +1,11 @@
 //! Waits before a broken link is dialled again.
 //!
-//! A router of Zenoh computes the trees of its network at most every tenth of a second, and declares what it has to nodes that are
-//! new among its children (`Network::compute_trees`). It recognises nodes by an index, which a removed node leaves to the next
-//! one. Zenoh dials a broken link again at once. So if several links break together, nodes are removed and back between two
-//! computations, and most of them get nothing: they are linked, but know neither the learner's token nor a way to it, until
-//! something else changes. `findings/zenoh_redial_loses_answers.sh` shows it. No upstream issue is known. Delete when Zenoh
-//! compares nodes by their identity.
+//! A router of Zenoh computes the trees of its network at most every tenth of a second, and declares what it has to
+//! nodes that are new among its children (`Network::compute_trees`). It recognises nodes by an index, which a removed
+//! node leaves to the next one. Zenoh dials a broken link again at once. So if several links break together, nodes are
+//! removed and back between two computations, and most of them get nothing: they are linked, but know neither the
+//! learner's token nor a way to it, until something else changes. `findings/zenoh_redial_loses_answers.sh` shows it. No
+//! upstream issue is known. Delete when Zenoh compares nodes by their identity.
 //!
 //! Zenoh removes a link on a thread that may block, and calls listeners before it dials again.
 

@@ -199,8 +199,8 @@ fn event_files(folder: &Path) -> io::Result<Vec<PathBuf>> {
     Ok(found)
 }
 
-/// Returns seconds for the name of a new file, which then comes after all others: TensorBoard reads files in the order of their
-/// names, and a run may be resumed within a second, or after its clock was set back.
+/// Returns seconds for the name of a new file, which then comes after all others: TensorBoard reads files in the order
+/// of their names, and a run may be resumed within a second, or after its clock was set back.
 fn seconds_after_others(folder: &Path, seconds: u64) -> io::Result<u64> {
     let seconds_of = |path: &PathBuf| -> Option<u64> {
         path.file_name()?.to_str()?.strip_prefix(FILE_PREFIX)?.split('.').next()?.parse().ok()

@@ -9,7 +9,7 @@ use treadmill_proto::{Phase, RunStatus, json::Metric};
 use super::*;
 use crate::commands::status::{
     fleet::{LAGS, tags},
-    keys::Action,
+    keys::KeyAction,
     samples,
 };
 
@@ -104,22 +104,22 @@ fn two_hundred_actors_can_be_scrolled_and_ordered() {
     let now = Instant::now();
     let mut fleet = fleet(&[samples::run("walk-1", 200)], now);
     assert_shows(&screen(&mut fleet, 80, 24), &["actor-0 ", "1–7 of 200"]);
-    fleet.act(Action::PageDown);
-    fleet.act(Action::Down);
+    fleet.act(KeyAction::PageDown);
+    fleet.act(KeyAction::Down);
     assert_shows(&screen(&mut fleet, 80, 24), &["9–15 of 200"]);
-    fleet.act(Action::Last);
-    fleet.act(Action::Down);
+    fleet.act(KeyAction::Last);
+    fleet.act(KeyAction::Down);
     let last = screen(&mut fleet, 80, 24);
     assert_shows(&last, &["actor-99 ", "194–200 of 200"]);
-    fleet.act(Action::PageUp);
+    fleet.act(KeyAction::PageUp);
     assert_shows(&screen(&mut fleet, 80, 24), &["187–193 of 200"]);
-    fleet.act(Action::First);
-    fleet.act(Action::Order);
-    fleet.act(Action::Order);
+    fleet.act(KeyAction::First);
+    fleet.act(KeyAction::Order);
+    fleet.act(KeyAction::Order);
     let laggards = screen(&mut fleet, 80, 24);
     assert_shows(&laggards, &["by lag", "actor-103 ", "actor-107 ", "1–7 of 200"]);
     // Actors that leave while they are shown leave no gap.
-    fleet.act(Action::Last);
+    fleet.act(KeyAction::Last);
     fleet.apply_statuses(vec![samples::run("walk-1", 2)], now);
     assert_shows(&screen(&mut fleet, 80, 24), &["1–2 of 2", "actor-0"]);
 }
@@ -129,13 +129,13 @@ fn tab_selects_runs_and_new_runs_keep_the_selection() {
     let now = Instant::now();
     let mut fleet = fleet(&[samples::run("run-b", 1), samples::run("run-d", 2)], now);
     assert_shows(&screen(&mut fleet, 80, 24), &["run-b", "run 1 of 2"]);
-    fleet.act(Action::NextRun);
+    fleet.act(KeyAction::NextRun);
     assert_shows(&screen(&mut fleet, 80, 24), &["run-d", "run 2 of 2"]);
     fleet.apply_statuses(vec![samples::run("run-a", 1), samples::run("run-c", 1)], now);
     assert_shows(&screen(&mut fleet, 80, 24), &["run-d", "run 4 of 4"]);
-    fleet.act(Action::NextRun);
+    fleet.act(KeyAction::NextRun);
     assert_shows(&screen(&mut fleet, 80, 24), &["run-a", "run 1 of 4"]);
-    fleet.act(Action::PreviousRun);
+    fleet.act(KeyAction::PreviousRun);
     assert_shows(&screen(&mut fleet, 80, 24), &["run-d"]);
 }
 
@@ -168,12 +168,12 @@ fn alarms_are_shown_below_the_progress() {
 fn help_lists_keys_and_small_terminals_show_the_size_needed() {
     let now = Instant::now();
     let mut fleet = fleet(&[samples::run("walk-1", 2)], now);
-    fleet.act(Action::Help);
+    fleet.act(KeyAction::Help);
     for (width, height) in [(40, 10), (80, 24), (200, 60)] {
         let screen = screen(&mut fleet, width, height);
         HELP.iter().for_each(|(keys, what)| assert_shows(&screen, &[keys, what]));
     }
-    fleet.act(Action::Back);
+    fleet.act(KeyAction::Back);
     assert!(!screen(&mut fleet, 80, 24).contains("Shift-Tab"));
     assert_shows(&screen(&mut fleet, 39, 24), &["This needs 40×10", "39×24"]);
     assert_shows(&screen(&mut fleet, 80, 9), &["This needs 40×10", "80×9"]);
@@ -192,7 +192,7 @@ fn theme_without_colours_uses_none() {
         assert_eq!(colours(false), 0);
         assert!(colours(true) > 0);
     }
-    fleet.act(Action::Help);
+    fleet.act(KeyAction::Help);
 }
 
 proptest! {
@@ -215,9 +215,9 @@ proptest! {
             }
         }
         if shows_help {
-            fleet.act(Action::Help);
+            fleet.act(KeyAction::Help);
         }
-        for action in [Action::Last, Action::NextRun, Action::Order, Action::PageDown] {
+        for action in [KeyAction::Last, KeyAction::NextRun, KeyAction::Order, KeyAction::PageDown] {
             let buffer = draw_to_buffer(&mut fleet, width, height, true, now);
             for cell in &buffer.content {
                 let moves = cell.symbol().chars().any(|c| c.is_control() || ('\u{202a}'..='\u{202e}').contains(&c));

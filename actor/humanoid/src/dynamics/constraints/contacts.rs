@@ -1,7 +1,7 @@
 //! Contacts with friction as MuJoCo's pyramids.
 //!
-//! The force of a contact with friction is a sum of non-negative forces along the four edges n ± μ t₁, n ± μ t₂ of a pyramid.
-//! Each edge is a soft one-sided constraint.
+//! The force of a contact with friction is a sum of non-negative forces along the four edges n ± μ t₁, n ± μ t₂ of a
+//! pyramid. Each edge is a soft one-sided constraint.
 
 use pulp::Simd;
 
@@ -47,7 +47,8 @@ impl<S: Simd> ContactRows<S> {
         Self { numbers: Vec::with_capacity(16 * structure.dofs()), scratch: vec![[zero; 3]; structure.dofs()] }
     }
 
-    /// Adds the rows of a contact: rates of separation and sliding per rate of each degree of freedom, whitened by `whitening`.
+    /// Adds the rows of a contact: rates of separation and sliding per rate of each degree of freedom, whitened by
+    /// `whitening`.
     #[inline(always)]
     fn push(
         &mut self,
@@ -108,7 +109,8 @@ impl<S: Simd> ContactRows<S> {
 }
 
 impl<S: Simd> ContactConstraint<S> {
-    /// Adds the rows of a contact and returns its constraint. `whitening` whitens the rows; `start_velocity` is whitened likewise.
+    /// Adds the rows of a contact and returns its constraint. `whitening` whitens the rows; `start_velocity` is
+    /// whitened likewise.
     #[inline(always)]
     #[expect(clippy::too_many_arguments, reason = "the state of a step has many parts")]
     pub(super) fn new(
@@ -176,8 +178,8 @@ impl<S: Simd> ContactConstraint<S> {
         [(a + b) + (c + d), (a - b) * self.friction, (c - d) * self.friction]
     }
 
-    /// Returns the force of an edge at accelerations along the three directions, of an edge with this stiffness, and its decrease
-    /// per acceleration along the edge.
+    /// Returns the force of an edge at accelerations along the three directions, of an edge with this stiffness, and
+    /// its decrease per acceleration along the edge.
     #[inline(always)]
     pub(super) fn respond(
         &self,

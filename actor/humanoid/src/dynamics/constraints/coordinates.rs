@@ -120,8 +120,8 @@ impl<S: Simd> CoordinateConstraint<S> {
         self.limit_nm * self.limit_sign + self.loss_nm + self.servo_nm
     }
 
-    /// Returns the forces at an acceleration of the coordinate, of constraints with these stiffnesses (limit, friction loss), and
-    /// the decrease of their sum per acceleration.
+    /// Returns the forces at an acceleration of the coordinate, of constraints with these stiffnesses (limit, friction
+    /// loss), and the decrease of their sum per acceleration.
     #[inline(always)]
     pub(super) fn respond(
         &self,

@@ -1,6 +1,7 @@
 //! Solution by projected Gauss-Seidel sweeps, as MuJoCo's `solver="PGS"`.
 //!
-//! Rows are whitened (see [`crate::dynamics::mass_matrix`]): a sweep works on accelerations in which every force acts by one row.
+//! Rows are whitened (see [`crate::dynamics::mass_matrix`]): a sweep works on accelerations in which every force acts
+//! by one row.
 
 use pulp::Simd;
 
@@ -85,8 +86,8 @@ impl<S: Simd> GaussSeidel<S> {
         }
     }
 
-    /// Changes whitened accelerations and the forces by all constraints. Returns the largest change of an acceleration by the
-    /// last sweep.
+    /// Changes whitened accelerations and the forces by all constraints. Returns the largest change of an acceleration
+    /// by the last sweep.
     #[inline(always)]
     pub(super) fn solve(&mut self, problem: Problem<'_, S>, whitened: &mut [Lanes<S>]) -> Lanes<S> {
         self.prepare(&problem);
@@ -172,8 +173,8 @@ impl<S: Simd> CoordinateResponse<S> {
         let zero = acceleration.constant(0.0);
         if constraint.is_servo {
             let within = |torque: Lanes<S>| torque.min(constraint.max_nm).max(constraint.min_nm);
-            // A servo that was taken for unsaturated: what keeps it within its limits at the present acceleration. Taking its
-            // stiffness into account would be faster alone, but may diverge together with a contact.
+            // A servo that was taken for unsaturated: what keeps it within its limits at the present acceleration.
+            // Taking its stiffness into account would be faster alone, but may diverge together with a contact.
             let free_nm = constraint.explicit_nm - constraint.implicit_kgm2 * acceleration;
             let of_free = within(free_nm) - free_nm;
             // A saturated one is a bounded soft constraint, whose torque changes the acceleration.

@@ -1,7 +1,7 @@
 //! Sparse symmetric matrix: mass matrix plus what constraints add.
 //!
-//! Without constraints between branches of the kinematic tree, it has the tree's zeros, and the factorisation from the leaves to
-//! the root keeps them (Featherstone 2008, table 6.3). What couples branches fills in as much as it must.
+//! Without constraints between branches of the kinematic tree, it has the tree's zeros, and the factorisation from the
+//! leaves to the root keeps them (Featherstone 2008, table 6.3). What couples branches fills in as much as it must.
 
 use pulp::Simd;
 

@@ -141,8 +141,8 @@ impl<S: Simd> Constraints<S> {
         }
     }
 
-    /// Changes [`Self::whitened`] by all constraints. `middle` is the position in the middle of the step, where `posture` and
-    /// `matrix` are; `velocity` is that of its start; `acceleration` is a guess.
+    /// Changes [`Self::whitened`] by all constraints. `middle` is the position in the middle of the step, where
+    /// `posture` and `matrix` are; `velocity` is that of its start; `acceleration` is a guess.
     #[inline(always)]
     #[expect(clippy::too_many_arguments, reason = "the state of a step has many parts")]
     pub(crate) fn solve(

@@ -15,8 +15,8 @@ use crate::lanes::{Lanes, Mask};
 
 /// Upper bound of the iterations.
 const ITERATIONS_MAX: usize = 50;
-/// An acceleration is a solution if the next step would change it by less than this share of what the constraints change, in the
-/// norm of the kinetic energy, squared.
+/// An acceleration is a solution if the next step would change it by less than this share of what the constraints
+/// change, in the norm of the kinetic energy, squared.
 const SETTLED: f64 = 1e-10;
 /// The same, absolute (kg·m²/s⁴).
 const SETTLED_MIN: f64 = 1e-8;
@@ -91,8 +91,8 @@ impl<S: Simd> Newton<S> {
         self.masses.copy_entries(matrix);
     }
 
-    /// Changes whitened accelerations and the forces by all constraints, beginning with the acceleration `start`, in the worlds
-    /// that have constraints. Returns the largest change of an acceleration by the last iteration.
+    /// Changes whitened accelerations and the forces by all constraints, beginning with the acceleration `start`, in
+    /// the worlds that have constraints. Returns the largest change of an acceleration by the last iteration.
     #[inline(always)]
     pub(super) fn solve(
         &mut self,

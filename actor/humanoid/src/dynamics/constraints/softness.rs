@@ -1,7 +1,7 @@
 //! Softness of constraints, as in MuJoCo ("Computation" chapter of its documentation, solver parameters).
 //!
-//! A constraint violated by r (negative: beyond the limit) that separates at rate v wants the acceleration −b v − k d(r) r. It
-//! resists the share d(r) of the force against it.
+//! A constraint violated by r (negative: beyond the limit) that separates at rate v wants the acceleration −b v − k
+//! d(r) r. It resists the share d(r) of the force against it.
 
 use pulp::Simd;
 

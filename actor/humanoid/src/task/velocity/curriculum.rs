@@ -114,8 +114,9 @@ impl Curriculum {
         }
     }
 
-    /// Counts a control step under `command`, in which the base moved at `velocity_mps` forwards and to the left. `tracked` is
-    /// the share of the greatest reward for tracking. A step that falls or reaches a limit is the last one that counts.
+    /// Counts a control step under `command`, in which the base moved at `velocity_mps` forwards and to the left.
+    /// `tracked` is the share of the greatest reward for tracking. A step that falls or reaches a limit is the last one
+    /// that counts.
     pub(super) fn count(
         &mut self,
         command: &Command,

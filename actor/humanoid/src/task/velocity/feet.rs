@@ -87,9 +87,9 @@ pub struct Stride {
     pub lift_m: f64,
 }
 
-/// Returns what the gait wants of foot number `foot`, `time_s` after the episode's start: the feet alternate, each stands for
-/// [`VelocityConfig::stance_share`] of the period and then is lifted along half a period of a squared sine, in its middle by
-/// [`VelocityConfig::swing_height_m`] over ground that rises by `rise_m` within its reach.
+/// Returns what the gait wants of foot number `foot`, `time_s` after the episode's start: the feet alternate, each
+/// stands for [`VelocityConfig::stance_share`] of the period and then is lifted along half a period of a squared sine,
+/// in its middle by [`VelocityConfig::swing_height_m`] over ground that rises by `rise_m` within its reach.
 #[must_use]
 pub fn stride(config: &VelocityConfig, time_s: f64, foot: usize, rise_m: f64) -> Stride {
     let phase = (time_s / config.gait_period_s + 0.5 * foot as f64).fract();

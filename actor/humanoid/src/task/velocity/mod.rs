@@ -1,7 +1,7 @@
 //! Velocity task: the robot follows commanded velocities on its feet.
 //!
-//! For robots with a card, see [`crate::card`]: actions are targets of servos around the default pose. Names of terms are those
-//! of Isaac Lab and mjlab.
+//! For robots with a card, see [`crate::card`]: actions are targets of servos around the default pose. Names of terms
+//! are those of Isaac Lab and mjlab.
 //!
 //! # Layout
 //! - `command`: the schedule of commands.

@@ -37,8 +37,8 @@ pub struct BaseMotion {
 }
 
 impl BaseMotion {
-    /// Returns the motion of a base with these position and velocity vectors, see [`crate::Physics::position`], over ground of
-    /// this height.
+    /// Returns the motion of a base with these position and velocity vectors, see [`crate::Physics::position`], over
+    /// ground of this height.
     #[must_use]
     pub fn new(position: &[f64], velocity: &[f64], ground_m: f64) -> Self {
         let rotation = UnitQuaternion::new_unchecked(nalgebra::Quaternion::new(

@@ -16,8 +16,8 @@ pub(super) fn opposite_point(index: usize) -> usize {
     (SCAN_GRID[1] - 1 - index / SCAN_GRID[0]) * SCAN_GRID[0] + index % SCAN_GRID[0]
 }
 
-/// Returns the heights of the ground (m, world) around a place: rows from the right to the left of this heading, each from the
-/// back to the front.
+/// Returns the heights of the ground (m, world) around a place: rows from the right to the left of this heading, each
+/// from the back to the front.
 pub(super) fn ground_around(physics: &Physics, [x_m, y_m]: [f64; 2], heading_rad: f64) -> impl Iterator<Item = f64> {
     let (sin, cos) = heading_rad.sin_cos();
     (0..SCAN_POINTS).map(move |index| {
