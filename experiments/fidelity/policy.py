@@ -5,6 +5,7 @@ Needs: pip install numpy
 
 import json
 import struct
+import tomllib
 
 import numpy as np
 
@@ -38,7 +39,7 @@ class Policy:
         if self.facts["format"] != 1 or self.facts["network"]["activation"] != "elu":
             raise ValueError(f"{path} has format {self.facts['format']}; this script reads only format 1 with ELU")
         self.kind = self.facts["observation"]["kind"]
-        self.env = self.facts.get("env", {})
+        self.env = tomllib.loads(self.facts["settings"]).get("env", {})
         self.clip = np.float32(self.facts["observation"]["clip"])
         spread = np.sqrt(tensors["observation.variance"] + self.facts["observation"]["variance_epsilon"])
         self.mean, self.scale = tensors["observation.mean"].astype(np.float32), (1 / spread).astype(np.float32)

@@ -16,8 +16,7 @@ pub use self::velocity::{HISTORY_MAX, VelocityConfig, VelocityRewards};
 const CONTROL_STEPS_S: RangeInclusive<f64> = 0.001..=0.1;
 
 /// Version of the simulation. Raised whenever the same state, action and settings give another next state, observation,
-/// reward or end of an episode, so that one run never mixes two of them. `tests/environment/physics_version.rs` holds
-/// it to that.
+/// reward or end of an episode. `tests/environment/physics_version.rs` holds it to that.
 pub const PHYSICS_VERSION: u32 = 6;
 
 /// How far outside its range a hinge may be set (rad). In the nominal pose of Humanoid-v5 the knees are 2° beyond the end
