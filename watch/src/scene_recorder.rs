@@ -6,7 +6,7 @@ use rerun::{
     Arrows3D, Boxes3D, Color, EntityPath, LineStrips3D, Points3D, RecordingStream, RecordingStreamResult, Scalars,
     SeriesLines, TextLog, Transform3D, ViewCoordinates, components::FillMode, datatypes::Quaternion,
 };
-use treadmill_humanoid::{Model, model::VisualMesh};
+use treadmill_humanoid::{Model, mjcf::VisualMesh};
 use treadmill_proto::{
     Pose,
     pose::{BODY_NUMBERS, COMMAND_NUMBERS, CONTACT_NUMBERS},

@@ -7,7 +7,8 @@ use rerun::{
 };
 use treadmill_humanoid::{
     Model,
-    model::{Geometry, HeightField, VisualMesh},
+    mjcf::VisualMesh,
+    model::{Geometry, HeightField},
 };
 use treadmill_render::scene;
 
