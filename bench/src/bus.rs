@@ -5,13 +5,15 @@ use std::{path::Path, time::Duration};
 use anyhow::Context;
 use clap::Args;
 use serde_json::{Value, json};
-use treadmill_rl::launch::{exit_code::Usage, output::say};
+use treadmill_rl::launch::{
+    exit_code::Usage,
+    output::{say, say_result},
+};
 use treadmill_runtime::machine;
 
 use crate::{
     helper,
     load_step::{self, LoadStep, Measured},
-    print_result,
     raw::{self, Raw},
 };
 
@@ -89,7 +91,7 @@ pub fn run(args: &BusArgs) -> anyhow::Result<()> {
         steps.push((measured, raw.mean(after)));
         raw = after;
     }
-    print_result(&result(args, &steps)?, args.json);
+    say_result(&result(args, &steps)?, args.json);
     Ok(())
 }
 

@@ -21,7 +21,7 @@ mod workload;
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
-use treadmill_rl::launch::{exit_code, log, output::say};
+use treadmill_rl::launch::{exit_code, log};
 
 /// Measures Treadmill's bus and learner. Needs the program `treadmill` in the same folder.
 #[derive(Parser)]
@@ -88,17 +88,6 @@ fn main() -> ExitCode {
         Benchmark::FleetActors(args) => fleet::actors::run(&args),
     };
     exit_code::exit_code(outcome)
-}
-
-/// Prints the result as one JSON object or as lines of text.
-fn print_result(result: &serde_json::Value, json: bool) {
-    if json {
-        return say(&result.to_string());
-    }
-    for (name, value) in result.as_object().into_iter().flatten() {
-        let value = value.as_str().map_or_else(|| value.to_string(), str::to_string);
-        say(&format!("{name:<24} {value}"));
-    }
 }
 
 /// Rounds to one decimal.

@@ -21,6 +21,17 @@ pub fn say(line: &str) {
     say_to_reader(line);
 }
 
+/// Prints the result of a measurement as one JSON object, or as lines of text.
+pub fn say_result(result: &serde_json::Value, json: bool) {
+    if json {
+        return say(&result.to_string());
+    }
+    for (name, value) in result.as_object().into_iter().flatten() {
+        let value = value.as_str().map_or_else(|| value.to_string(), str::to_string);
+        say(&format!("{name:<24} {value}"));
+    }
+}
+
 /// Prints a line on standard output. Returns false if it cannot be written.
 pub fn say_to_reader(line: &str) -> bool {
     let Err(why) = writeln!(io::stdout().lock(), "{line}") else { return true };

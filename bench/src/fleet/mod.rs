@@ -32,11 +32,11 @@ use std::{
 use anyhow::Context;
 use clap::Args;
 use serde_json::json;
-use treadmill_rl::launch::exit_code::Usage;
+use treadmill_rl::launch::{exit_code::Usage, output::say_result};
 use treadmill_runtime::machine;
 
 use self::measure::{MeasurementPlan, PlayedRate};
-use crate::{helper, print_result};
+use crate::helper;
 
 /// Name of the run on the bus.
 pub const RUN: &str = "fleet";
@@ -145,7 +145,7 @@ pub fn run(args: &FleetArgs) -> anyhow::Result<()> {
     });
     let fields = result.as_object_mut().context("figures are an object")?;
     fields.extend(more.as_object().cloned().unwrap_or_default());
-    print_result(&result, args.json);
+    say_result(&result, args.json);
     Ok(())
 }
 

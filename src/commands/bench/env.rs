@@ -16,9 +16,12 @@ use treadmill_runtime::{machine, seeds};
 
 use super::{
     bench_worlds::{self, BenchWorlds, WORLDS, fell},
-    print_result, rounded,
+    rounded,
 };
-use crate::launch::model::{self, ModelArgs};
+use crate::launch::{
+    model::{self, ModelArgs},
+    output::say_result,
+};
 
 /// Number of random actions, which repeat; a multiple of [`WORLDS`].
 const ACTIONS: usize = 64 * WORLDS;
@@ -67,7 +70,7 @@ pub fn run(args: &EnvArgs) -> anyhow::Result<()> {
         // A body of another task has no height below which it is reset.
         result["physics_only_steps_per_s"] = workload.physics_only()?.into();
     }
-    print_result(&result, args.json);
+    say_result(&result, args.json);
     Ok(())
 }
 

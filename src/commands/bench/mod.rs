@@ -15,8 +15,6 @@ mod update;
 
 use clap::{Args, Subcommand};
 
-use crate::launch::output::say;
-
 /// Flags of `bench`.
 #[derive(Args)]
 pub struct BenchArgs {
@@ -43,17 +41,6 @@ pub fn run(args: BenchArgs) -> anyhow::Result<()> {
         Benchmark::Update(args) => update::run(&args),
         Benchmark::Policy(args) => policy::run(&args),
         Benchmark::Train(args) => train::run(&args),
-    }
-}
-
-/// Prints the result as one JSON object or as lines of text.
-fn print_result(result: &serde_json::Value, json: bool) {
-    if json {
-        return say(&result.to_string());
-    }
-    for (name, value) in result.as_object().into_iter().flatten() {
-        let value = value.as_str().map_or_else(|| value.to_string(), str::to_string);
-        say(&format!("{name:<24} {value}"));
     }
 }
 

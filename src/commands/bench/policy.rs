@@ -7,9 +7,11 @@ use serde_json::json;
 use treadmill_policy::{Policy, init::initial_parameters};
 use treadmill_runtime::{machine, seeds};
 
+use crate::launch::output::say_result;
+
 use super::{
     network::{self, Widths},
-    print_result, rounded,
+    rounded,
 };
 
 /// Calls before the clock starts.
@@ -57,6 +59,6 @@ pub fn run(args: &PolicyArgs) -> anyhow::Result<()> {
         "workload": format!("{} calls with {rows} normalised observations: action means", args.calls),
         "checksum": network::checksum(&means),
     });
-    print_result(&result, args.json);
+    say_result(&result, args.json);
     Ok(())
 }

@@ -8,8 +8,8 @@ use serde_json::{Value, json};
 use treadmill_config::Config;
 use treadmill_runtime::{machine, seeds};
 
-use super::{print_result, rounded};
-use crate::launch::{child, prepared};
+use super::rounded;
+use crate::launch::{child, output::say_result, prepared};
 
 /// Flags of `bench train`.
 #[derive(Args)]
@@ -66,7 +66,7 @@ pub fn run(args: &BenchTrainArgs) -> anyhow::Result<()> {
         let added = (stored.checkpoint_ms - checkpoint_ms) / round_ms;
         result["store_adds_to_round"] = ((added * 1e4).round() / 1e4).into();
     }
-    print_result(&result, args.json);
+    say_result(&result, args.json);
     Ok(())
 }
 

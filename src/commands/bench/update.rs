@@ -9,12 +9,12 @@ use treadmill_policy::{NetworkShape, device::DeviceKind, gaussian, init::initial
 use treadmill_ppo::{Batch, Ppo, PpoOptions, PpoState};
 use treadmill_runtime::{error_chain, machine, seeds};
 
-use crate::launch::{exit_code::Usage, memory};
+use crate::launch::{exit_code::Usage, memory, output::say_result};
 
 use super::{
     bench_worlds,
     network::{self, Widths},
-    print_result, rounded,
+    rounded,
 };
 
 /// Flags of `bench update`.
@@ -71,7 +71,7 @@ pub fn run(args: &UpdateArgs) -> anyhow::Result<()> {
         "workload": format!("{samples} samples: forward, loss, backward, gradient clipping, Adam"),
         "checksum": network::checksum(state.parameters()),
     });
-    print_result(&result, args.json);
+    say_result(&result, args.json);
     Ok(())
 }
 
