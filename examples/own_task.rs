@@ -7,7 +7,7 @@
 use std::process::ExitCode;
 
 use treadmill_rl::humanoid::{
-    EnvironmentConfig, ModelError, ObservationTerm, Physics, SensorNoise, StepInfo, Task,
+    EnvironmentConfig, ModelError, ObservationTerm, Physics, SensorNoise, Task,
     task::{Step, StepEvaluation},
 };
 
@@ -45,11 +45,10 @@ impl Task for Squat {
         &self.terms
     }
 
-    fn begin(&mut self, seed: u64, physics: &Physics) -> StepInfo {
+    fn begin(&mut self, seed: u64, _physics: &Physics) {
         // Seeds are uniform: their upper 53 bits are a number between 0 and 1.
         let share = (seed >> 11) as f64 / (1_u64 << 53) as f64;
         self.target_m = HEIGHTS_M[0] + share * (HEIGHTS_M[1] - HEIGHTS_M[0]);
-        StepInfo { torso_height_m: physics.torso_height_m(), ..StepInfo::default() }
     }
 
     fn evaluate(&mut self, step: &Step<'_>) -> StepEvaluation {
@@ -59,12 +58,7 @@ impl Task for Squat {
         let tracking = (-((height_m - self.target_m) / TOLERANCE_M).powi(2)).exp();
         let terms = [1.0, 4.0 * tracking, -0.5 * drift_mps, -0.1 * effort];
         self.earned.iter_mut().zip(terms).for_each(|((_, earned), term)| *earned = term);
-        StepEvaluation {
-            reward: terms.iter().sum::<f64>() as f32,
-            terminated: height_m < FALLEN_M,
-            truncated: false,
-            info: StepInfo { torso_height_m: height_m, ..StepInfo::default() },
-        }
+        StepEvaluation { reward: terms.iter().sum::<f64>() as f32, terminated: height_m < FALLEN_M, truncated: false }
     }
 
     fn reward_terms(&self, each: &mut dyn FnMut(&'static str, f64)) {

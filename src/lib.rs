@@ -87,18 +87,18 @@ enum Command {
 /// Call it first in `main`: commands on the bus set an environment variable, which is sound only while no other thread runs.
 ///
 /// # Panics
-/// As [`humanoid::task::register_own_tasks`].
+/// As [`humanoid::TaskRegistry::new`].
 pub fn main(own_tasks: &[(&'static str, humanoid::task::TaskBuilder)]) -> ExitCode {
-    humanoid::task::register_own_tasks(own_tasks);
+    let tasks = humanoid::TaskRegistry::new(own_tasks);
     if !processor::is_supported() {
         return ExitCode::FAILURE;
     }
-    run()
+    run(&tasks)
 }
 
 /// Runs the command. Never part of [`main`], where the compiler would use instructions before they are known to exist.
 #[inline(never)]
-fn run() -> ExitCode {
+fn run(tasks: &humanoid::TaskRegistry) -> ExitCode {
     let command = match Cli::try_parse() {
         Ok(cli) => cli.command,
         Err(error) => {
@@ -115,13 +115,13 @@ fn run() -> ExitCode {
         Command::Train(_) | Command::Learner(_) | Command::Actor(_) | Command::Evaluator(_) | Command::Router(_)
     );
     let done = match command {
-        Command::Train(args) => train::run(args),
-        Command::Learner(args) => learner::run(args),
-        Command::Actor(args) => actor::run(args),
-        Command::Evaluator(args) => evaluator::run(args),
-        Command::Eval(args) => eval::run(args),
+        Command::Train(args) => train::run(args, tasks),
+        Command::Learner(args) => learner::run(args, tasks),
+        Command::Actor(args) => actor::run(args, tasks),
+        Command::Evaluator(args) => evaluator::run(args, tasks),
+        Command::Eval(args) => eval::run(args, tasks),
         Command::Watch(_) => watch::run(),
-        Command::Export(args) => export::run(&args),
+        Command::Export(args) => export::run(&args, tasks),
         Command::Robot(args) => robot::run(&args),
         Command::Runs(args) => runs::run(&args),
         Command::Status(args) => status::run(args),
@@ -129,7 +129,7 @@ fn run() -> ExitCode {
         Command::Config(args) => config::run(&args),
         Command::Router(args) => router::run(args),
         Command::Certs(args) => certs::run(&args),
-        Command::Bench(args) => bench::run(args),
+        Command::Bench(args) => bench::run(args, tasks),
         Command::Check(args) => {
             let verdict = check::run(args);
             return output::check_written().map_or_else(|why| exit_code::exit_code(Err(why)), |()| verdict);

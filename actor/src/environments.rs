@@ -3,7 +3,7 @@
 pub mod state;
 
 use treadmill_humanoid::{
-    Environment, EnvironmentConfig, ModelError, VectorEnvironment, environment::Slot, task::StepOutcome,
+    Environment, EnvironmentConfig, ModelError, TaskRegistry, VectorEnvironment, environment::Slot, task::StepOutcome,
 };
 use treadmill_proto::{
     EndCause, Episode, Precision,
@@ -109,6 +109,7 @@ impl Environments {
     /// Creates and resets `count` environments.
     pub fn new(
         count: usize,
+        tasks: &TaskRegistry,
         config: &EnvironmentConfig,
         model_xml: &str,
         seeds: SeedSource,
@@ -122,7 +123,7 @@ impl Environments {
             ended: None,
             last_observation: vec![0.0; environment.observation_size()],
         };
-        let vector = VectorEnvironment::new(count, || Environment::new(config, model_xml), results)?;
+        let vector = VectorEnvironment::new(count, || tasks.environment(config, model_xml), results)?;
         let mut reward_sums = Vec::new();
         if let Some(first) = vector.slots().first() {
             first.environment.task().reward_terms(&mut |name, _| reward_sums.push((name, 0.0)));

@@ -7,7 +7,7 @@ pub mod tracking;
 
 use std::ops::ControlFlow;
 
-use treadmill_humanoid::{Environment, Physics, StepInfo};
+use treadmill_humanoid::Environment;
 use treadmill_runtime::seeds;
 
 use self::tracking::{Tracker, Tracking, TrackingSample};
@@ -69,10 +69,8 @@ pub struct EvaluationStep<'a> {
     pub reward: f32,
     /// Sum of rewards so far.
     pub total: f64,
-    /// Details of the step.
-    pub info: &'a StepInfo,
-    /// Body after the step.
-    pub physics: &'a Physics,
+    /// Environment after the step.
+    pub environment: &'a Environment,
     /// Result of the episode, after its last step.
     pub ended: Option<EpisodeResult>,
 }
@@ -201,8 +199,7 @@ pub fn evaluate_commanded(
                 },
                 reward: step.reward,
                 total: result.return_sum,
-                info: environment.info(),
-                physics: environment.physics(),
+                environment,
                 ended: has_ended.then_some(result),
             });
             if flow.is_break() {

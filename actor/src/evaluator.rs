@@ -3,7 +3,7 @@
 use std::{ops::ControlFlow, time::Duration};
 
 use treadmill_bus::{Assignment, Bus, ask_for_evaluation};
-use treadmill_humanoid::Environment;
+use treadmill_humanoid::TaskRegistry;
 use treadmill_proto::{EvaluationReport, PolicyBundle};
 use treadmill_runtime::{epoch::SeenEpoch, error_chain, shutdown::Shutdown};
 
@@ -12,7 +12,7 @@ use crate::{
     agent::PolicyAgent,
     evaluation::{Evaluation, evaluate},
     policy_fetcher::{Explain, join_run},
-    settings,
+    settings::RunSettings,
 };
 
 const ANSWER_TIMEOUT: Duration = Duration::from_secs(10);
@@ -26,6 +26,8 @@ pub struct EvaluatorOptions {
     pub run: Option<String>,
     /// Name of the evaluator.
     pub name: String,
+    /// Tasks that this program can simulate.
+    pub tasks: TaskRegistry,
     /// Explains why the run does not answer.
     pub explain: Explain,
 }
@@ -36,7 +38,7 @@ pub async fn run(bus: Bus, options: EvaluatorOptions, shutdown: Shutdown) -> Res
     let Some(bundle) = join_run(&bus, options.run.as_deref(), &options.explain, &epochs, &shutdown).await? else {
         return Ok(());
     };
-    settings::read_simulated(&bundle)?;
+    RunSettings::simulated(&bundle)?;
     let run = bundle.run;
     let mut report = None;
     while !shutdown.asked() {
@@ -45,8 +47,8 @@ pub async fn run(bus: Bus, options: EvaluatorOptions, shutdown: Shutdown) -> Res
             () = shutdown.wait() => return Ok(()),
         };
         if let Assignment::Evaluate(bundle) = assignment {
-            let (name, stop) = (options.name.clone(), shutdown.clone());
-            let result = tokio::task::spawn_blocking(move || play(&bundle, name, &stop)).await;
+            let (name, tasks, stop) = (options.name.clone(), options.tasks.clone(), shutdown.clone());
+            let result = tokio::task::spawn_blocking(move || play(&bundle, name, &tasks, &stop)).await;
             match result.map_err(ActorError::Evaluation)? {
                 Ok(finished) => report = finished,
                 // The next policy may be sound, so the evaluator continues.
@@ -62,17 +64,22 @@ pub async fn run(bus: Bus, options: EvaluatorOptions, shutdown: Shutdown) -> Res
 }
 
 /// Plays the episodes of one policy; returns `None` after a request to stop.
-fn play(bundle: &PolicyBundle, evaluator: String, shutdown: &Shutdown) -> Result<Option<EvaluationReport>, ActorError> {
-    let config = settings::read_simulated(bundle)?;
-    let mut environment = Environment::new(&settings::environment(&config), &bundle.model_xml)?;
+fn play(
+    bundle: &PolicyBundle,
+    evaluator: String,
+    tasks: &TaskRegistry,
+    shutdown: &Shutdown,
+) -> Result<Option<EvaluationReport>, ActorError> {
+    let settings = RunSettings::simulated(bundle)?;
+    let mut environment = tasks.environment(&settings.environment.plain(), &bundle.model_xml)?;
     let mut agent = PolicyAgent::of_bundle(bundle)?;
     let mut all = Evaluation::default();
-    for episode in 0..config.eval.episodes {
+    for episode in 0..settings.eval.episodes {
         if shutdown.asked() {
             return Ok(None);
         }
         // Every policy starts from the same states, so that differences between policies are their own.
-        let seed = config.run.seed.wrapping_add(u64::from(episode));
+        let seed = settings.run.seed.wrapping_add(u64::from(episode));
         all.episodes.extend(evaluate(&mut environment, &mut agent, 1, seed, |_| ControlFlow::Continue(()))?.episodes);
     }
     let tracking = all.tracking();

@@ -7,7 +7,7 @@ use std::time::Duration;
 
 use tokio::{sync::mpsc, time::MissedTickBehavior};
 use treadmill_bus::{PosePublisher, Watched};
-use treadmill_humanoid::{Physics, StepInfo, physics::BodyMotion, task::velocity::BaseMotion};
+use treadmill_humanoid::{Environment, Physics, StepInfo, physics::BodyMotion, task::velocity::BaseMotion};
 use treadmill_proto::{PolicyVersion, Pose, pose::BODY_NUMBERS};
 
 use crate::{environments::Environments, identity::ActorIdentity};
@@ -65,7 +65,7 @@ impl PoseSampler {
             step: first.step,
             time_s: f64::from(first.step) * first.environment.control_step_s(),
             distance_m: (physics.position()[0] - first.start_x_m) as f32,
-            ..body_pose(physics, first.environment.info(), first.environment.task().command())
+            ..body_pose(first.environment, first.environment.task().command())
         };
         // The queue is full, or its receiver is gone: drop the rest of the episode.
         if self.queue.try_send(pose).is_err() {
@@ -94,7 +94,14 @@ pub async fn publish(mut poses: mpsc::Receiver<Pose>, publisher: PosePublisher, 
 
 /// Returns position, motion and reward terms of a body with this command. The caller adds names, numbers and times.
 #[must_use]
-pub fn body_pose(physics: &Physics, info: &StepInfo, command: Option<[f64; 3]>) -> Pose {
+pub fn body_pose(environment: &Environment, command: Option<[f64; 3]>) -> Pose {
+    let physics = environment.physics();
+    // The message has Gymnasium's terms of the reward; of another task, the second one holds the whole reward.
+    let mut reward = 0.0;
+    environment.task().reward_terms(&mut |_, term| reward += term);
+    let x_velocity_mps = physics.centre_of_mass_velocity().x;
+    let other = StepInfo { reward_forward: reward, x_velocity_mps, ..StepInfo::default() };
+    let info = environment.info().copied().unwrap_or(other);
     let narrow = |numbers: [f64; 3]| numbers.map(|number| number as f32).to_vec();
     Pose {
         command: command.map(narrow).unwrap_or_default(),

@@ -13,7 +13,6 @@ use treadmill_bus::{
     Bus, PosePublisher, is_actor_present, keys, newest_of_each_run, publish_dropping, statuses, token,
     watch_announcements,
 };
-use treadmill_config::Config;
 use treadmill_proto::{ActorState, ActorStats, PolicyBundle, PolicyVersion, RunStatus, json::EpisodeReport};
 use treadmill_runtime::{epoch::SeenEpoch, machine, seeds, shutdown::Shutdown};
 
@@ -28,7 +27,7 @@ use crate::{
     policy_fetcher::{PolicyFetcher, Refresh, join_run},
     poses::{self, PoseSampler},
     rollout::Collector,
-    settings,
+    settings::RunSettings,
 };
 
 /// Longest wait for the answer whether an actor of this name is in the run.
@@ -129,7 +128,7 @@ async fn is_heard(bus: &Bus, run: &str, name: &str) -> Result<Option<bool>, Acto
 struct Membership<'a> {
     bus: &'a Bus,
     options: &'a WorkerOptions,
-    config: Config,
+    settings: RunSettings,
     identity: ActorIdentity,
     shared: Shared,
 }
@@ -141,12 +140,12 @@ impl<'a> Membership<'a> {
         bundle: &PolicyBundle,
         epochs: Arc<SeenEpoch>,
     ) -> Result<Self, ActorError> {
-        let config = settings::read_simulated(bundle)?;
+        let settings = RunSettings::simulated(bundle)?;
         let incarnation = seeds::unique();
         tracing::info!(incarnation, actor = %options.name, "new incarnation");
         let policies = Arc::new(PolicyFetcher::new(bus.clone(), options.run.clone(), bundle, epochs)?);
-        let receipt_timeout = Duration::from_millis(config.bus.receipt_timeout_ms);
-        let steps = settings::first_fragment_steps(bundle, &config, options.envs)?;
+        let receipt_timeout = Duration::from_millis(settings.bus.receipt_timeout_ms);
+        let steps = settings.first_fragment_steps(bundle, options.envs)?;
         let uploader = Uploader::new(bus.clone(), &bundle.run, &options.name, receipt_timeout, policies.clone(), steps);
         let uploader = uploader.with_notices(options.notify);
         let identity = ActorIdentity {
@@ -156,36 +155,36 @@ impl<'a> Membership<'a> {
             config_hash: bundle.config_hash,
         };
         let shared = Shared { policies, uploader: Arc::new(uploader), progress: Arc::new(Progress::default()) };
-        Ok(Self { bus, options, config, identity, shared })
+        Ok(Self { bus, options, settings, identity, shared })
     }
 
     async fn run(&self, bundle: &PolicyBundle, shutdown: &Shutdown) -> Result<EndReason, ActorError> {
         let publisher = PosePublisher::open(self.bus, &self.identity.run, &self.identity.actor)?;
         let (sampler, poses) = PoseSampler::new(publisher.watched(), self.identity.clone());
         let collector = self.collector(bundle)?.with_pose_sampler(sampler);
-        let in_flight = self.config.fragments_in_flight();
+        let in_flight = self.settings.fragments_in_flight;
         let mut physics = PhysicsThread::start(collector, self.shared.clone(), in_flight)?;
         let _token = token(self.bus, &self.identity.run, &self.identity.actor)?;
         // The set aborts its task when it is dropped.
         let mut pose_task = JoinSet::new();
-        pose_task.spawn(poses::publish(poses, publisher, self.config.env.control_step_s));
+        pose_task.spawn(poses::publish(poses, publisher, self.settings.environment.env.control_step_s));
         let reason = self.deliver_until_end(&mut physics, shutdown).await?;
         physics.stop().await?;
         Ok(reason)
     }
 
     fn collector(&self, bundle: &PolicyBundle) -> Result<Collector, ActorError> {
-        let (config, options) = (&self.config, self.options);
-        let seeds = SeedSource { run_seed: config.run.seed, actor: options.name.clone(), start: options.start };
+        let (settings, options) = (&self.settings, self.options);
+        let seeds = SeedSource { run_seed: settings.run.seed, actor: options.name.clone(), start: options.start };
         let noise = seeds.noise();
         // The number of threads may change the rounding of actions.
-        let threads = match config.run.deterministic {
+        let threads = match settings.run.deterministic {
             true => 1,
-            false => options.threads.unwrap_or(config.rollout.threads) as usize,
+            false => options.threads.unwrap_or(settings.rollout.threads) as usize,
         };
         let environments =
-            Environments::new(options.envs as usize, &settings::training(config), &bundle.model_xml, seeds)?;
-        let environments = environments.with_precision(settings::precision(config));
+            Environments::new(options.envs as usize, &options.tasks, &settings.environment, &bundle.model_xml, seeds)?;
+        let environments = environments.with_precision(settings.precision());
         let wanted = (bundle.observation_size as usize, bundle.action_size as usize);
         let found = (environments.observation_size(), environments.action_size());
         if wanted != found {
@@ -193,7 +192,7 @@ impl<'a> Membership<'a> {
             return Err(ActorError::Bundle { number: bundle.version.number, why });
         }
         let mut collector = Collector::new(environments, noise, self.identity.clone()).with_threads(threads)?;
-        if config.run.deterministic {
+        if settings.run.deterministic {
             collector.attach_state();
         }
         if let Some(state) = &bundle.actor_state {
@@ -212,7 +211,7 @@ impl<'a> Membership<'a> {
         let announcements = watch_announcements(self.bus, run)?;
         let publish_episode = publish_dropping(self.bus, keys::episodes(run, actor))?;
         let publish_stats = publish_dropping(self.bus, keys::stats(run, actor))?;
-        let mut stats_due = tokio::time::interval(Duration::from_millis(self.config.bus.stats_every_ms));
+        let mut stats_due = tokio::time::interval(Duration::from_millis(self.settings.bus.stats_every_ms));
         let mut poll_due = tokio::time::interval(self.poll_interval());
         // Deliveries and fetches wait for answers, so they run as tasks: credit and a request to stop must not wait.
         let mut deliveries = JoinSet::new();
@@ -270,7 +269,7 @@ impl<'a> Membership<'a> {
     /// Returns the interval of polling for a policy, with jitter: actors that joined together do not poll together.
     fn poll_interval(&self) -> Duration {
         let jitter = 0.8 + 0.4 * (self.identity.incarnation % 1000) as f64 / 1000.0;
-        Duration::from_secs_f64(self.config.bus.policy_poll_ms as f64 / 1e3 * jitter)
+        Duration::from_secs_f64(self.settings.bus.policy_poll_ms as f64 / 1e3 * jitter)
     }
 
     /// Starts to fetch the newest policy, unless a fetch is under way.

@@ -8,7 +8,7 @@ use std::{
 };
 
 use treadmill_actor::environments::{Environments, SeedSource, StepResults};
-use treadmill_humanoid::{Environment, EnvironmentConfig, HUMANOID_XML};
+use treadmill_humanoid::{EnvConfig, Environment, EnvironmentConfig, HUMANOID_XML, TaskRegistry};
 use treadmill_runtime::seeds;
 
 struct CountingAllocator;
@@ -51,7 +51,11 @@ const STEPS: u64 = 200;
 
 /// Returns a configuration whose episodes end by time alone, so that bare physics can be reset in the same steps.
 fn config() -> EnvironmentConfig {
-    EnvironmentConfig { terminate_when_unhealthy: false, max_episode_steps: EPISODE_STEPS, ..Default::default() }
+    EnvironmentConfig::from(EnvConfig {
+        terminate_when_unhealthy: false,
+        max_episode_steps: EPISODE_STEPS,
+        ..EnvConfig::default()
+    })
 }
 
 /// Returns an action in units of the action range.
@@ -84,7 +88,8 @@ fn bare_physics() -> u64 {
 
 fn environments() -> u64 {
     let seeds = SeedSource { run_seed: 5, actor: "a".into(), start: 0 };
-    let mut environments = Environments::new(ENVS, &config(), HUMANOID_XML, seeds).expect("valid");
+    let mut environments =
+        Environments::new(ENVS, &TaskRegistry::default(), &config(), HUMANOID_XML, seeds).expect("valid");
     let (mut results, mut actions) = (StepResults::default(), [0.0; 17 * ENVS]);
     let mut play = |steps: std::ops::Range<u64>| {
         for step in steps {

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use treadmill_humanoid::{EnvironmentConfig, Model, Physics};
+use treadmill_humanoid::{EnvConfig, EnvironmentConfig, Model, Physics};
 
 /// Control steps of each robot.
 const STEPS: usize = 12;
@@ -62,11 +62,11 @@ impl Draws<'_> {
 pub fn robot(data: &[u8]) {
     let mut draws = Draws(data);
     let Ok(model) = Model::from_mjcf(&text(&mut draws)) else { return };
-    let config = EnvironmentConfig {
+    let config = EnvironmentConfig::from(EnvConfig {
         substeps: 1 + draws.below(4) as u32,
         control_step_s: [0.001, 0.015, 0.1][draws.below(3)],
-        ..EnvironmentConfig::default()
-    };
+        ..EnvConfig::default()
+    });
     let new = || Physics::new(model.clone(), &config).expect("a model that loads can be simulated");
     let mut together: Vec<Physics> = (0..WORLDS).map(|_| new()).collect();
     let mut alone = new();

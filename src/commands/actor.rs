@@ -4,6 +4,7 @@ use clap::Args;
 use serde_json::json;
 use treadmill_actor::worker::{self, ActorSummary, BehindStandby, Ending, WorkerOptions};
 use treadmill_bus::Role;
+use treadmill_humanoid::TaskRegistry;
 use treadmill_runtime::seeds;
 
 use crate::{
@@ -39,7 +40,7 @@ pub struct ActorArgs {
 }
 
 /// Runs the actor until it is asked to stop.
-pub fn run(args: ActorArgs) -> anyhow::Result<()> {
+pub fn run(args: ActorArgs, tasks: &TaskRegistry) -> anyhow::Result<()> {
     if args.nice > 0 {
         // Set before other threads start, because each inherits it. Failure is harmless.
         // SAFETY: the call takes a number and accesses no memory of this process.
@@ -48,6 +49,7 @@ pub fn run(args: ActorArgs) -> anyhow::Result<()> {
     let options = WorkerOptions {
         name: args.client.name()?,
         run: args.client.run()?,
+        tasks: tasks.clone(),
         envs: args.envs,
         threads: args.threads,
         start: args.start_number.unwrap_or_else(seeds::unique),

@@ -47,7 +47,7 @@ pub fn run(args: &ConfigArgs) -> anyhow::Result<()> {
     let values: Table = text.parse()?;
     let keys = wanted(args.key.as_deref())?;
     for (number, key) in keys.iter().enumerate() {
-        let value = value_of(&values, &key.key);
+        let value = value_of(&values, key.key);
         if args.json {
             say(&as_json(key, &value));
         } else {
@@ -78,7 +78,7 @@ fn value_of(values: &Table, key: &str) -> String {
 }
 
 fn explained(key: &KeyDoc, value: &str) -> String {
-    let live = if is_changeable(&key.key) { "yes, by `treadmill control set`" } else { "no" };
+    let live = if is_changeable(key.key) { "yes, by `treadmill control set`" } else { "no" };
     let KeyDoc { key, doc, default, allowed, .. } = key;
     format!("{key} = {value}\n  meaning  {doc}\n  default  {default}\n  allowed  {allowed}\n  live     {live}")
 }
@@ -90,7 +90,7 @@ fn as_json(key: &KeyDoc, value: &str) -> String {
         "default": key.default,
         "allowed": key.allowed,
         "meaning": key.doc,
-        "live": is_changeable(&key.key),
+        "live": is_changeable(key.key),
     })
     .to_string()
 }

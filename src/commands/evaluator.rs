@@ -3,6 +3,7 @@
 use clap::Args;
 use treadmill_actor::evaluator::{self, EvaluatorOptions};
 use treadmill_bus::Role;
+use treadmill_humanoid::TaskRegistry;
 
 use crate::{
     launch::bus_client::{ClientArgs, Next, with_session},
@@ -19,10 +20,11 @@ pub struct EvaluatorArgs {
 }
 
 /// Evaluates until it is asked to stop.
-pub fn run(args: EvaluatorArgs) -> anyhow::Result<()> {
+pub fn run(args: EvaluatorArgs, tasks: &TaskRegistry) -> anyhow::Result<()> {
     let options = EvaluatorOptions {
         name: args.client.name()?,
         run: args.client.run()?,
+        tasks: tasks.clone(),
         explain: args.client.explain(&args.network, Role::Evaluator)?,
     };
     with_session(args.client, &args.network, Role::Evaluator, |bus, shutdown| async {

@@ -4,6 +4,7 @@ use std::time::Duration;
 
 use clap::Args;
 use treadmill_bus::Role;
+use treadmill_humanoid::TaskRegistry;
 
 use crate::{
     diagnosis::certificates,
@@ -11,7 +12,7 @@ use crate::{
         durability::StoredRun,
         host::{self, ActorProcesses, HostOptions},
         metrics_page::MetricsArgs,
-        prepared::RunCommand,
+        prepared::{Launcher, RunCommand},
         run_args::{AnyRunArgs, NewRunArgs},
         startup,
     },
@@ -47,7 +48,8 @@ pub struct LearnerArgs {
 }
 
 /// Runs the learner until the run reaches its number of steps.
-pub fn run(args: LearnerArgs) -> anyhow::Result<()> {
+pub fn run(args: LearnerArgs, tasks: &TaskRegistry) -> anyhow::Result<()> {
+    let launcher = Launcher { command: RunCommand::Learner, tasks };
     check_run(args.run.as_deref())?;
     std::thread::sleep(Duration::from_millis(args.begin_after_ms));
     let role = if args.standby { Role::Standby } else { Role::Learner };
@@ -56,7 +58,7 @@ pub fn run(args: LearnerArgs) -> anyhow::Result<()> {
     let metrics = args.metrics.listen()?;
     if let Some(url) = &args.any.store {
         let run = StoredRun {
-            command: RunCommand::Learner,
+            launcher,
             new: &args.new,
             any: &args.any,
             changes: &[],
@@ -65,7 +67,7 @@ pub fn run(args: LearnerArgs) -> anyhow::Result<()> {
         };
         return run.run(url, HostOptions { any: &args.any, bus: &options, actors: ActorProcesses::None, metrics });
     }
-    let mut start = startup::prepare(RunCommand::Learner, &args.new, &args.any, &[])?;
+    let mut start = startup::prepare(launcher, &args.new, &args.any, &[])?;
     args.run.map_or(Ok(()), |run| start.set_name(run))?;
     host::run(start, HostOptions { any: &args.any, bus: &options, actors: ActorProcesses::None, metrics })
 }

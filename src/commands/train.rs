@@ -2,6 +2,7 @@
 
 use clap::Args;
 use treadmill_bus::Role;
+use treadmill_humanoid::TaskRegistry;
 
 use crate::{
     diagnosis::certificates,
@@ -10,7 +11,7 @@ use crate::{
         exit_code::Usage,
         host::{self, ActorProcesses, HostOptions},
         metrics_page::MetricsArgs,
-        prepared::RunCommand,
+        prepared::{Launcher, RunCommand},
         run_args::{AnyRunArgs, NewRunArgs, changes},
         startup,
     },
@@ -43,7 +44,8 @@ pub struct TrainArgs {
 }
 
 /// Trains until the run reaches its number of steps.
-pub fn run(args: TrainArgs) -> anyhow::Result<()> {
+pub fn run(args: TrainArgs, tasks: &TaskRegistry) -> anyhow::Result<()> {
+    let launcher = Launcher { command: RunCommand::Train, tasks };
     let listen = args.listen.unwrap_or_else(|| args.network.loopback(0));
     let options = args.network.options(Role::Learner, vec![listen], Vec::new())?;
     certificates::check_own(options.credentials.as_ref())?;
@@ -57,16 +59,10 @@ pub fn run(args: TrainArgs) -> anyhow::Result<()> {
     }
     let actors = ActorProcesses::Beside(args.actors);
     if let Some(url) = &args.any.store {
-        let run = StoredRun {
-            command: RunCommand::Train,
-            new: &args.new,
-            any: &args.any,
-            changes: &changes,
-            name: None,
-            is_standby: false,
-        };
+        let run =
+            StoredRun { launcher, new: &args.new, any: &args.any, changes: &changes, name: None, is_standby: false };
         return run.run(url, HostOptions { any: &args.any, bus: &options, actors, metrics });
     }
-    let start = startup::prepare(RunCommand::Train, &args.new, &args.any, &changes)?;
+    let start = startup::prepare(launcher, &args.new, &args.any, &changes)?;
     host::run(start, HostOptions { any: &args.any, bus: &options, actors, metrics })
 }

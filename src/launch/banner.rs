@@ -4,7 +4,7 @@
 use std::net::SocketAddr;
 
 use treadmill_bus::Credentials;
-use treadmill_config::{Config, EnvTask};
+use treadmill_config::{ChosenTask, Config};
 use treadmill_learner::{checkpoint::TrainingState, training::TrainingSummary};
 use treadmill_runtime::{numbers::thousands, run_folder::RunFolder, words::quoted};
 
@@ -25,14 +25,13 @@ pub fn print_start(
     let RunSetup { config, folder, run, .. } = setup;
     let root = quoted(&folder.root().display().to_string());
     let steps = state.known().map_or(0, |state| state.counters.env_steps);
-    let verb = match (steps, config.is_external(), &config.task.name[..]) {
+    let verb = match (steps, config.env.chosen_task(), &config.task.name[..]) {
         (1.., ..) if setup.origin.is_some() => format!("branching off at {} env steps", thousands(steps)),
         (1.., ..) => format!("resuming at {} env steps", thousands(steps)),
-        (0, false, _) if !config.env.own_task.is_empty() => format!("training `{}`", config.env.own_task),
-        (0, false, _) if config.env.task == EnvTask::Velocity => "training a robot to follow commands".to_string(),
-        (0, false, _) => "training a humanoid to walk".to_string(),
-        (0, true, "") => "training the task that its first actor registers".to_string(),
-        (0, true, name) => format!("training `{name}`"),
+        (0, ChosenTask::HumanoidV5 | ChosenTask::HumanoidV4, _) => "training a humanoid to walk".to_string(),
+        (0, ChosenTask::Velocity, _) => "training a robot to follow commands".to_string(),
+        (0, ChosenTask::External, "") => "training the task that its first actor registers".to_string(),
+        (0, ChosenTask::External | ChosenTask::Own(_), _) => format!("training `{}`", config.task_name()),
     };
     say(&format!("run `{run}`: {verb}"));
     say(&format!("  learns    {}", goal(config, steps)));
@@ -80,10 +79,10 @@ pub fn actor_command(setup: &RunSetup, endpoint: &str, credentials: Option<&Cred
 fn goal(config: &Config, steps: u64) -> String {
     let (wanted, batch) = (config.run.steps, u64::from(config.ppo.batch));
     let left = wanted.saturating_sub(steps);
-    let goal = match config.env.task {
-        _ if config.is_external() || !config.env.own_task.is_empty() => "to earn the task's rewards",
-        EnvTask::Velocity => "to follow velocity commands and not to fall",
-        _ => "to go forward and not to fall",
+    let goal = match config.env.chosen_task() {
+        ChosenTask::External | ChosenTask::Own(_) => "to earn the task's rewards",
+        ChosenTask::Velocity => "to follow velocity commands and not to fall",
+        ChosenTask::HumanoidV5 | ChosenTask::HumanoidV4 => "to go forward and not to fall",
     };
     let updates = left.div_ceil(batch.max(1));
     let (left, updates) = (thousands(left), thousands(updates));

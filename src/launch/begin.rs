@@ -10,8 +10,8 @@ use crate::launch::{
     exit_code::Usage,
     model,
     prepared::{
-        FirstState, Prepared, RunCommand, RunSetup, Start, actor_processes, check_external, check_not_stored, complete,
-        open_device,
+        FirstState, Launcher, Prepared, RunCommand, RunSetup, Start, actor_processes, check_external, check_not_stored,
+        complete, open_device,
     },
     run_args::{AnyRunArgs, NewRunArgs, add_count},
     warm_start::{Fork, InitFrom},
@@ -22,7 +22,7 @@ use crate::launch::{
 /// # Errors
 /// If flags or configuration are refused, or the folder cannot be created.
 pub fn begin(
-    command: RunCommand,
+    launcher: Launcher<'_>,
     new: &NewRunArgs,
     any: &AnyRunArgs,
     changes: &[(&str, toml::Value)],
@@ -33,30 +33,30 @@ pub fn begin(
         Some(fork) => source.text(&fork.state.config_toml, "the configuration of the forked run")?,
         None => source.preset(new.preset())?,
     }
-    if command == RunCommand::Learner && fork.is_none() {
+    if launcher.command == RunCommand::Learner && fork.is_none() {
         // Its actors are on other machines, and do not wait for the update.
         source.value("learner.mode", LearnerMode::Async.name())?;
     }
-    new.add_to(&mut source, changes)?;
+    new.add_to(&mut source, launcher.tasks, changes)?;
     any.steps.map_or(Ok(()), |steps| add_count(&mut source, "run.steps", steps))?;
     let mut config = source.build()?;
     complete(&mut config);
-    check_external(command, &config, any)?;
+    check_external(launcher.command, &config, any)?;
     match fork {
-        Some(fork) => branch_off(command, new, any, config, fork),
+        Some(fork) => branch_off(launcher, new, any, config, fork),
         None if config.is_external() => begin_external(new, any, config),
-        None => begin_built_in(command, new, any, config),
+        None => begin_built_in(launcher, new, any, config),
     }
 }
 
-fn begin_built_in(command: RunCommand, new: &NewRunArgs, any: &AnyRunArgs, config: Config) -> anyhow::Result<Start> {
+fn begin_built_in(launcher: Launcher<'_>, new: &NewRunArgs, any: &AnyRunArgs, config: Config) -> anyhow::Result<Start> {
     let device = open_device(&config, any.device)?;
     let text = model::completed(&config, any.model.as_deref())?;
-    let environment = model::environment(&config, &text, any.model.as_deref())?;
-    let mirror = model::mirror(&config, &text)?;
+    let environment = model::environment(launcher.tasks, &config, &text, any.model.as_deref())?;
+    let mirror = model::mirror(launcher.tasks, &config, &text)?;
     let (observation, action) = (environment.observation_size(), environment.action_size());
     let privileged = environment.privileged_size();
-    if command == RunCommand::Train {
+    if launcher.command == RunCommand::Train {
         check_fragments(&config, observation, action)?;
     }
     let fresh = TrainingState::fresh("", &config, &text, observation, privileged, action, seeds::unique());
@@ -97,7 +97,7 @@ fn ready(setup: RunSetup, state: FirstState, lock: RunLock) -> Start {
 
 /// Begins a run with the learning state of another one.
 fn branch_off(
-    command: RunCommand,
+    launcher: Launcher<'_>,
     new: &NewRunArgs,
     any: &AnyRunArgs,
     config: Config,
@@ -111,14 +111,14 @@ fn branch_off(
         if let Some(file) = &any.model {
             model::check_same(&config, &state.model_xml, file)?;
         }
-        let environment = model::environment(&config, &state.model_xml, None)?;
+        let environment = model::environment(launcher.tasks, &config, &state.model_xml, None)?;
         let (size, wanted) = (environment.observation_size(), state.shape.observation);
         if size != wanted || environment.privileged_size() != state.shape.privileged {
             let why = format!("`--fork`: this configuration has {size} observations, and the networks take {wanted}");
             return Err(Usage(why + "; keep env.observation").into());
         }
-        mirror = model::mirror(&config, &state.model_xml)?;
-        if command == RunCommand::Train {
+        mirror = model::mirror(launcher.tasks, &config, &state.model_xml)?;
+        if launcher.command == RunCommand::Train {
             check_fragments(&config, size, state.shape.action)?;
         }
     }

@@ -19,7 +19,7 @@ use crate::launch::{
     host::{self, Host, HostOptions},
     memory,
     output::{say, say_error},
-    prepared::{RunCommand, Start},
+    prepared::{Launcher, RunCommand, Start},
     resumption,
     run_args::{AnyRunArgs, NewRunArgs},
     standby::{NextMove, Standby, StoreWarnings},
@@ -31,8 +31,8 @@ const POLL: Duration = Duration::from_millis(500);
 
 /// Flags of a run in a store.
 pub struct StoredRun<'a> {
-    /// Command of this process.
-    pub command: RunCommand,
+    /// This process.
+    pub launcher: Launcher<'a>,
     /// Flags of new runs.
     pub new: &'a NewRunArgs,
     /// Flags of new and resumed runs; `store` is given.
@@ -103,7 +103,7 @@ impl StoredRun<'_> {
     }
 
     fn begin_new(&self, store: &Store) -> anyhow::Result<Start> {
-        let mut start = begin::begin(self.command, self.new, self.any, self.changes)?;
+        let mut start = begin::begin(self.launcher, self.new, self.any, self.changes)?;
         if let Start::Ready(prepared, _) = &mut start {
             prepared.setup.store = Some(store.to_string());
             prepared.setup.folder.set_store(&store.to_string())?;
@@ -154,7 +154,7 @@ impl StoredRun<'_> {
             why.downcast_ref::<TrainingError>(),
             Some(TrainingError::Leadership(LeadershipError::Overtaken { .. }))
         );
-        let goes_on = is_overtaken && self.follows() && self.command == RunCommand::Learner;
+        let goes_on = is_overtaken && self.follows() && self.launcher.command == RunCommand::Learner;
         if goes_on {
             say_error(&format!("{why}; following it from now on"));
         }
@@ -189,7 +189,7 @@ impl StoredRun<'_> {
         }
         let folder = RunFolder::of_stored(self.new.run_dir.as_deref(), &state.run, &store.to_string())?;
         let lock = RunLock::take(&folder)?;
-        let mut start = resumption::go_on(self.command, (folder, lock), state, self.new, self.any, self.changes)?;
+        let mut start = resumption::go_on(self.launcher, (folder, lock), state, self.new, self.any, self.changes)?;
         self.name.clone().map_or(Ok(()), |name| start.set_name(name))?;
         startup::write_files(&start)?;
         Ok(start)

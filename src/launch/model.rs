@@ -6,9 +6,8 @@ use std::{
 };
 
 use clap::Args;
-use treadmill_actor::settings;
-use treadmill_config::{Config, ConfigSource, EnvConfig, EnvTask, Symmetry};
-use treadmill_humanoid::{Environment, HUMANOID_XML, Model, ModelError, mjcf, read_model_file};
+use treadmill_config::{ChosenTask, Config, ConfigSource, EnvConfig, Symmetry};
+use treadmill_humanoid::{Environment, HUMANOID_XML, Model, ModelError, TaskRegistry, mjcf, read_model_file};
 use treadmill_ppo::{BatchMirror, IndexSwap};
 use treadmill_runtime::{error_chain, words::nearest_path};
 
@@ -73,7 +72,12 @@ pub fn text(file: Option<&Path>) -> Result<Cow<'static, str>, Usage> {
 }
 
 /// Builds the environment of a model text, which was read from `file` if given.
-pub fn environment(config: &Config, text: &str, file: Option<&Path>) -> Result<Environment, Usage> {
+pub fn environment(
+    tasks: &TaskRegistry,
+    config: &Config,
+    text: &str,
+    file: Option<&Path>,
+) -> Result<Environment, Usage> {
     if config.is_external() {
         return Err(Usage(
             "config key `env.task` is \"external\", which this program does not simulate; allowed here: \"humanoid-v5\", \
@@ -81,7 +85,8 @@ pub fn environment(config: &Config, text: &str, file: Option<&Path>) -> Result<E
                 .to_string(),
         ));
     }
-    let environment = Environment::new(&settings::randomised(config), text).map_err(|why| in_file(file, &why))?;
+    let environment =
+        tasks.environment(&config.environment().without_curricula(), text).map_err(|why| in_file(file, &why))?;
     if let Some(path) = file {
         check_height(&config.env, environment.nominal_position()[2], path)?;
     }
@@ -95,12 +100,12 @@ pub fn action_names(text: &str) -> Vec<String> {
 }
 
 /// Returns the mirror for `ppo.symmetry`.
-pub fn mirror(config: &Config, text: &str) -> Result<Option<BatchMirror>, Usage> {
+pub fn mirror(tasks: &TaskRegistry, config: &Config, text: &str) -> Result<Option<BatchMirror>, Usage> {
     if config.ppo.symmetry == Symmetry::Off {
         return Ok(None);
     }
     let refuse = |why: String| Usage(format!("`ppo.symmetry` is \"mirrored\", but {why}; allowed here: \"off\""));
-    let environment = environment(config, text, None)?;
+    let environment = environment(tasks, config, text, None)?;
     let of_body = treadmill_humanoid::Mirror::of(environment.physics().model()).map_err(refuse)?;
     let Some(observation) = environment.task().mirrored(&of_body) else {
         return Err(refuse(
@@ -139,7 +144,7 @@ fn check_height(env: &EnvConfig, height_m: f64, path: &Path) -> Result<(), Usage
 
 /// Returns whether the task is none of Gymnasium's.
 pub fn has_other_task(env: &EnvConfig) -> bool {
-    env.task == EnvTask::Velocity || !env.own_task.is_empty()
+    matches!(env.chosen_task(), ChosenTask::Velocity | ChosenTask::Own(_))
 }
 
 /// Returns the error of a model that was read from `file` if given.

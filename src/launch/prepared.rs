@@ -3,6 +3,7 @@
 use std::{fs, path::PathBuf};
 
 use treadmill_config::{Config, LearnerMode};
+use treadmill_humanoid::TaskRegistry;
 use treadmill_learner::checkpoint::TrainingState;
 use treadmill_policy::device::{Device, DeviceKind};
 use treadmill_ppo::BatchMirror;
@@ -138,6 +139,15 @@ pub fn check_not_stored(folder: &RunFolder) -> Result<(), Usage> {
         ))),
         false => Ok(()),
     }
+}
+
+/// Program that prepares a run: its command, and the tasks that it can simulate.
+#[derive(Clone, Copy, Debug)]
+pub struct Launcher<'a> {
+    /// Command.
+    pub command: RunCommand,
+    /// Tasks.
+    pub tasks: &'a TaskRegistry,
 }
 
 /// Command that a run is prepared for.

@@ -4,14 +4,14 @@ use std::fs;
 
 use toml::Table;
 use treadmill_config::{Config, ConfigSource};
-use treadmill_humanoid::PHYSICS_VERSION;
+use treadmill_humanoid::{PHYSICS_VERSION, TaskRegistry};
 use treadmill_learner::checkpoint::{self, TrainingState, Which};
 use treadmill_runtime::{numbers::thousands, run_folder::RunFolder, run_lock::RunLock, seeds};
 
 use crate::launch::{
     exit_code::Usage,
     model,
-    prepared::{self, FirstState, Prepared, RunCommand, RunSetup, Start},
+    prepared::{self, FirstState, Launcher, Prepared, RunSetup, Start},
     run_args::{AnyRunArgs, NewRunArgs},
     slow_step::SlowStepNotice,
 };
@@ -21,7 +21,7 @@ use crate::launch::{
 /// # Errors
 /// If flags differ from the saved run, another process has it, or its checkpoint cannot be used.
 pub fn resume(
-    command: RunCommand,
+    launcher: Launcher<'_>,
     run: &str,
     new: &NewRunArgs,
     any: &AnyRunArgs,
@@ -38,7 +38,7 @@ pub fn resume(
     if let Ok(best) = checkpoint::load(&folder, Which::Best) {
         state.adopt_best(&best.state);
     }
-    go_on(command, (folder, lock), state, new, any, changes)
+    go_on(launcher, (folder, lock), state, new, any, changes)
 }
 
 /// Resumes a run from a state that was read from its store; `folder` is for the logs of this machine.
@@ -46,7 +46,7 @@ pub fn resume(
 /// # Errors
 /// As [`resume`].
 pub fn go_on(
-    command: RunCommand,
+    launcher: Launcher<'_>,
     (folder, lock): (RunFolder, RunLock),
     mut state: TrainingState,
     new: &NewRunArgs,
@@ -54,7 +54,7 @@ pub fn go_on(
     changes: &[(&str, toml::Value)],
 ) -> anyhow::Result<Start> {
     let mut config = state.config().map_err(anyhow::Error::msg)?;
-    prepared::check_external(command, &config, any)?;
+    prepared::check_external(launcher.command, &config, any)?;
     // Labels describe the run and may change at each start, as may the number of processes.
     let saved_run = config.run.clone();
     for (key, value) in new.labels() {
@@ -65,7 +65,7 @@ pub fn go_on(
     }
     let has_new_labels = config.run != saved_run;
     let kept: Vec<_> = changes.iter().filter(|(key, _)| *key != "rollout.actors").cloned().collect();
-    check_agreement(&config, new, &kept)?;
+    check_agreement(&config, new, launcher.tasks, &kept)?;
     let device = prepared::open_device(&config, any.device)?;
     if !config.is_external() {
         state.adopt_physics(PHYSICS_VERSION).map_err(anyhow::Error::msg)?;
@@ -90,12 +90,11 @@ pub fn go_on(
     }
     config.run.steps = saved.max(goal);
     config.check()?;
-    // Without retired keys, so that actors need not know them.
     state.config_toml = config.to_toml();
     config.run.steps = goal;
     state.lineage.resume(seeds::unique());
     state.counters.resumes += 1;
-    let mirror = model::mirror(&config, &state.model_xml)?;
+    let mirror = model::mirror(launcher.tasks, &config, &state.model_xml)?;
     let (run, store) = (state.run.clone(), any.store.clone());
     let setup = RunSetup { config, folder, device, mirror, run, origin: None, store };
     let state = FirstState::Known(Box::new(state));
@@ -125,13 +124,18 @@ fn check_folder(folder: &RunFolder, new: &NewRunArgs) -> Result<(), Usage> {
 }
 
 /// Refuses flags of new runs that would change the saved configuration. The goal is not among them: only `--steps` sets it.
-fn check_agreement(saved: &Config, new: &NewRunArgs, changes: &[(&str, toml::Value)]) -> anyhow::Result<()> {
+fn check_agreement(
+    saved: &Config,
+    new: &NewRunArgs,
+    tasks: &TaskRegistry,
+    changes: &[(&str, toml::Value)],
+) -> anyhow::Result<()> {
     let mut source = ConfigSource::default();
     source.text(&saved.to_toml(), "the saved configuration")?;
     if let Some(preset) = &new.preset {
         source.preset(preset)?;
     }
-    new.add_to(&mut source, changes)?;
+    new.add_to(&mut source, tasks, changes)?;
     source.value("run.steps", i64::try_from(saved.run.steps)?)?;
     // The number of processes may change at each start, also where a preset has another one.
     source.value("rollout.actors", i64::from(saved.rollout.actors))?;
@@ -179,7 +183,7 @@ mod tests {
             set: given.iter().map(ToString::to_string).collect(),
             ..NewRunArgs::default()
         };
-        check_agreement(&saved, &new, &[]).err().map(|why| why.to_string())
+        check_agreement(&saved, &new, &TaskRegistry::default(), &[]).err().map(|why| why.to_string())
     }
 
     #[test]

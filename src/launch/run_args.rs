@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 use treadmill_config::{ConfigSource, EnvTask};
-use treadmill_humanoid::task;
+use treadmill_humanoid::TaskRegistry;
 use treadmill_learner::checkpoint::Which;
 use treadmill_policy::device::DeviceKind;
 use treadmill_runtime::numbers::parse_count;
@@ -54,14 +54,19 @@ impl NewRunArgs {
     }
 
     /// Adds the file, the keys and the task, in this order, then `changes`, which are keys of other flags, and the seed.
-    pub fn add_to(&self, source: &mut ConfigSource, changes: &[(&str, toml::Value)]) -> anyhow::Result<()> {
+    pub fn add_to(
+        &self,
+        source: &mut ConfigSource,
+        tasks: &TaskRegistry,
+        changes: &[(&str, toml::Value)],
+    ) -> anyhow::Result<()> {
         if let Some(file) = &self.config {
             source.file(file)?;
         }
         for pair in &self.set {
             source.set(pair)?;
         }
-        let task = self.task.as_deref().map(task_keys).transpose()?;
+        let task = self.task.as_deref().map(|name| task_keys(name, tasks)).transpose()?;
         for (key, value) in task.unwrap_or_default().iter().chain(changes) {
             source.value(key, value.clone())?;
         }
@@ -124,11 +129,11 @@ pub fn add_count(source: &mut ConfigSource, key: &str, count: u64) -> anyhow::Re
 }
 
 /// Returns the keys that `--task NAME` sets: the built-in task, that of this program, or the name of an external one.
-fn task_keys(name: &str) -> Result<Vec<(&'static str, toml::Value)>, Usage> {
+fn task_keys(name: &str, tasks: &TaskRegistry) -> Result<Vec<(&'static str, toml::Value)>, Usage> {
     if EnvTask::NAMES.contains(&name) {
         return Ok(vec![("env.task", name.into())]);
     }
-    if task::own_tasks().contains(&name) {
+    if tasks.own_names().contains(&name) {
         return Ok(vec![("env.own_task", name.into())]);
     }
     let ours = name.to_lowercase();

@@ -13,7 +13,7 @@ use treadmill_runtime::{atomic_file, machine, run_folder::RunFolder, words};
 use crate::launch::{
     begin,
     exit_code::Usage,
-    prepared::{Prepared, RunCommand, RunSetup, Start},
+    prepared::{Launcher, Prepared, RunSetup, Start},
     resumption,
     run_args::{AnyRunArgs, NewRunArgs},
 };
@@ -23,7 +23,7 @@ use crate::launch::{
 /// # Errors
 /// If flags or configuration are refused, another process has the run, or its folder cannot be read or written.
 pub fn prepare(
-    command: RunCommand,
+    launcher: Launcher<'_>,
     new: &NewRunArgs,
     any: &AnyRunArgs,
     changes: &[(&str, toml::Value)],
@@ -35,8 +35,8 @@ pub fn prepare(
     let begun = new.run_dir.as_deref().filter(|root| any.resume_or_start && RunFolder::has_checkpoint(root));
     let saved = any.resume.clone().or(begun.map(|root| root.display().to_string()));
     let start = match saved {
-        Some(run) => resumption::resume(command, &run, new, any, changes)?,
-        None => begin::begin(command, new, any, changes)?,
+        Some(run) => resumption::resume(launcher, &run, new, any, changes)?,
+        None => begin::begin(launcher, new, any, changes)?,
     };
     write_files(&start)?;
     Ok(start)

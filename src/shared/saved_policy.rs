@@ -3,9 +3,8 @@
 use std::{fmt, fs, path::Path};
 
 use anyhow::Context;
-use treadmill_actor::settings;
-use treadmill_config::{Config, ConfigSource, EnvTask};
-use treadmill_humanoid::{Environment, Model};
+use treadmill_config::{ChosenTask, Config, ConfigSource};
+use treadmill_humanoid::{Environment, Model, TaskRegistry};
 use treadmill_learner::checkpoint::{self, Loaded, TrainingState, Which, encoding};
 use treadmill_policy::{
     exported::{ActionFacts, ExportedPolicy, ObservationFacts},
@@ -82,7 +81,12 @@ pub fn load(run: &str, which: Option<Which>) -> anyhow::Result<SavedPolicy> {
 ///
 /// # Errors
 /// If the task is external, or the model does not fit the policy.
-pub fn environment(run: &str, policy: &ExportedPolicy, config: &Config) -> anyhow::Result<Environment> {
+pub fn environment(
+    tasks: &TaskRegistry,
+    run: &str,
+    policy: &ExportedPolicy,
+    config: &Config,
+) -> anyhow::Result<Environment> {
     if config.is_external() {
         return Err(Usage(format!(
             "`{run}` was trained for the task `{}`, which this program does not simulate; export the policy with \
@@ -91,7 +95,8 @@ pub fn environment(run: &str, policy: &ExportedPolicy, config: &Config) -> anyho
         ))
         .into());
     }
-    let environment = Environment::new(&settings::randomised(config), &policy.model_xml)
+    let environment = tasks
+        .environment(&config.environment().without_curricula(), &policy.model_xml)
         .with_context(|| format!("cannot build the environment of `{run}`"))?;
     let found = environment.observation_size();
     let sizes = (policy.shape.observation, policy.shape.action);
@@ -140,11 +145,10 @@ fn exported(state: &TrainingState) -> anyhow::Result<ExportedPolicy> {
         Some(task) => (external_action(&task), task.control_step_s),
         None => (motors(&Model::from_mjcf(&state.model_xml)?), config.env.control_step_s),
     };
-    let kind = match config.env.own_task.as_str() {
-        _ if config.is_external() => EnvTask::External.name(),
-        "" if config.env.task == EnvTask::Velocity => EnvTask::Velocity.name(),
-        "" => config.env.observation.name(),
-        own_task => own_task,
+    let kind = match config.env.chosen_task() {
+        ChosenTask::HumanoidV5 | ChosenTask::HumanoidV4 => config.env.observation.name(),
+        ChosenTask::Velocity | ChosenTask::External => config.env.task.name(),
+        ChosenTask::Own(name) => name,
     };
     let (observation, mean, variance) =
         ObservationFacts::from_moments(kind, state.ppo.observation_moments(), config.policy.observation_clip as f32);

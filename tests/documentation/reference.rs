@@ -39,7 +39,7 @@ fn every_configuration_key_is_in_the_reference() {
     let page = assert_generated("configuration");
     for key in Config::keys() {
         let begin = format!("- `{} = {}` ({}): ", key.key, key.default, key.allowed);
-        let row = page.lines().find(|line| line.starts_with(&begin)).expect(&key.key);
+        let row = page.lines().find(|line| line.starts_with(&begin)).expect(key.key);
         assert!(row.contains(key.doc), "{row}");
     }
     assert!(page.contains("\n- `ppo.target_kl = 0.048` (0 or more): ") && page.contains("*Live.*"), "{page}");

@@ -3,9 +3,9 @@
 use std::time::{Duration, Instant};
 
 use anyhow::Context;
-use treadmill_actor::settings;
+use treadmill_actor::settings::RunSettings;
 use treadmill_bus::{Bus, Feed, Role, fetch_policy, keys, observe};
-use treadmill_config::{Config, EnvTask};
+use treadmill_config::EnvTask;
 use treadmill_humanoid::Model;
 use treadmill_proto::{PolicyBundle, Pose, ident::check_ident};
 use treadmill_rl::{
@@ -45,10 +45,10 @@ pub fn run(
         let shutdown = Shutdown::default();
         signals::listen(shutdown.clone(), "").context("signals cannot be caught")?;
         let bundle = fetch_bundle(link).await?;
-        let config = read_config(&bundle)?;
+        let settings = RunSettings::shown(&bundle).context("the run cannot be watched")?;
         let model = Model::from_mjcf(&bundle.model_xml)?;
-        let has_commands = config.env.task == EnvTask::Velocity;
-        let shown = Shown { model, control_step_s: config.env.control_step_s, has_commands };
+        let has_commands = settings.environment.env.task == EnvTask::Velocity;
+        let shown = Shown { model, control_step_s: settings.environment.env.control_step_s, has_commands };
         let (output, mut recorder) = open(&format!("{}, live", bundle.run), shown)?;
         let mut poses = ActorPoses::open(&link.bus, &bundle.run, options.actor)?;
         say(&format!("waiting for an episode of {} to begin", options.actor.unwrap_or("an actor")));
@@ -79,13 +79,6 @@ async fn fetch_bundle(link: &LearnerLink) -> anyhow::Result<PolicyBundle> {
         }
         tokio::time::sleep(POLL_INTERVAL).await;
     }
-}
-
-/// Reads a run's configuration; refuses a task that this program does not simulate.
-fn read_config(bundle: &PolicyBundle) -> anyhow::Result<Config> {
-    let config = settings::read_config(bundle)?;
-    settings::check_supported(&bundle.run, &config).context("the run cannot be watched")?;
-    Ok(config)
 }
 
 /// Poses of one actor at a time.

@@ -12,7 +12,7 @@ use treadmill_actor::{
     poses,
 };
 use treadmill_config::{RandomisationConfig, VelocityConfig};
-use treadmill_humanoid::{Environment, Model};
+use treadmill_humanoid::{Environment, Model, TaskRegistry};
 use treadmill_learner::checkpoint::Which;
 use treadmill_proto::Pose;
 use treadmill_rl::{
@@ -38,7 +38,7 @@ impl Player {
     pub fn load(run: &str, which: Option<Which>) -> anyhow::Result<Self> {
         let SavedPolicy { policy, mut config, .. } = saved_policy::load(run, which)?;
         config.randomisation = RandomisationConfig::default();
-        let environment = saved_policy::environment(run, &policy, &config)?;
+        let environment = saved_policy::environment(&TaskRegistry::default(), run, &policy, &config)?;
         Ok(Self { environment, agent: PolicyAgent::new(&policy)?, velocity: config.velocity })
     }
 
@@ -95,7 +95,7 @@ impl Player {
                     step,
                     time_s: f64::from(step) * step_s,
                     distance_m: (physics.position()[0] - start_x_m) as f32,
-                    ..poses::body_pose(physics, self.environment.info(), Some(command))
+                    ..poses::body_pose(&self.environment, Some(command))
                 };
                 if !show(&pose)? {
                     return Ok(());
@@ -123,7 +123,7 @@ impl Player {
         let mut shown = Ok(true);
         evaluate(&mut self.environment, &mut self.agent, episodes, seed, |step| {
             if step.step == 1 {
-                start_x_m = step.physics.position()[0];
+                start_x_m = step.environment.physics().position()[0];
             }
             shown = show(&pose(&step, start_x_m, control_step_s));
             if matches!(shown, Ok(true)) { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
@@ -137,7 +137,7 @@ fn pose(step: &EvaluationStep, start_x_m: f64, control_step_s: f64) -> Pose {
         episode: step.episode.into(),
         step: step.step,
         time_s: f64::from(step.step) * control_step_s,
-        distance_m: (step.physics.position()[0] - start_x_m) as f32,
-        ..poses::body_pose(step.physics, step.info, step.start.command)
+        distance_m: (step.environment.physics().position()[0] - start_x_m) as f32,
+        ..poses::body_pose(step.environment, step.start.command)
     }
 }

@@ -4,6 +4,8 @@ mod saved;
 mod snapshot;
 mod vector;
 
+use std::any::Any;
+
 use nalgebra::Point3;
 use rand::{Rng, RngExt, SeedableRng};
 use rand_xoshiro::Xoshiro256PlusPlus;
@@ -17,7 +19,7 @@ use crate::info::StepInfo;
 use crate::model::Model;
 use crate::physics::{JointQuality, Physics};
 use crate::randomisation::{Randomiser, SensorNoise};
-use crate::task::{self, ObservationTerm, Step, StepOutcome, Task};
+use crate::task::{HumanoidTask, ObservationTerm, Step, StepOutcome, Task, TaskRegistry};
 use crate::terrain;
 
 /// Reinforcement-learning environment of one humanoid.
@@ -46,29 +48,39 @@ pub struct Environment {
     action_ranges: Vec<[f32; 2]>,
     /// Last observation; a fault returns it again.
     last_observation: Vec<f32>,
-    last_info: StepInfo,
+    /// Info of the last sound step or reset, if the task is one of Gymnasium's.
+    last_info: Option<StepInfo>,
     episode_steps: u32,
     was_pushed: bool,
 }
 
 impl Environment {
-    /// Builds an environment for a model text (see [`Model::from_mjcf`]), in the nominal pose.
+    /// Builds an environment with a built-in task for a model text (see [`Model::from_mjcf`]), in the nominal pose.
     ///
     /// # Errors
     /// [`ModelError`] if the model or a setting cannot be simulated.
     pub fn new(config: &EnvironmentConfig, model_xml: &str) -> Result<Self, ModelError> {
+        Self::with_tasks(config, model_xml, &TaskRegistry::default())
+    }
+
+    /// As [`Self::new`], also for the tasks of a program; see [`TaskRegistry::environment`].
+    pub(crate) fn with_tasks(
+        config: &EnvironmentConfig,
+        model_xml: &str,
+        tasks: &TaskRegistry,
+    ) -> Result<Self, ModelError> {
         let mut model = Model::from_mjcf(model_xml)?;
         config.check()?;
         if !config.ground.kinds.is_empty() {
             model.ground.height_field = Some(terrain::generated(&config.ground)?);
         }
-        let (nominal_position, nominal_velocity) = start(&model, &config.keyframe)?;
+        let (nominal_position, nominal_velocity) = start(&model, &config.env.keyframe)?;
         let mut physics = Physics::new(model, config)?;
         physics.set_state(&nominal_position, &nominal_velocity);
         let action_size = physics.model().motors.len();
-        let mut task = task::build(config, &physics)?;
+        let mut task = tasks.build(config, &physics)?;
         let mut last_observation = vec![0.0; task.terms().last().map_or(0, |term| term.range.end)];
-        let last_info = task.begin(0, &physics);
+        task.begin(0, &physics);
         task.observe(&physics, &mut SensorNoise::none(), &mut last_observation);
         Ok(Self {
             config: config.clone(),
@@ -78,7 +90,7 @@ impl Environment {
             start_velocity: vec![0.0; physics.model().velocity_size()],
             controls: vec![0.0; action_size],
             action_ranges: physics.model().motors.iter().map(|motor| motor.control.map(|end| end as f32)).collect(),
-            last_info,
+            last_info: gymnasium_info(&*task),
             task,
             nominal_position,
             nominal_velocity,
@@ -106,7 +118,7 @@ impl Environment {
     /// Returns the duration of one step (s).
     #[must_use]
     pub fn control_step_s(&self) -> f64 {
-        self.config.control_step_s
+        self.config.env.control_step_s
     }
 
     /// Returns the lowest and highest control of each motor (units of control); motors receive actions clamped to them.
@@ -135,7 +147,7 @@ impl Environment {
     pub fn reset(&mut self, seed: u64, observation: &mut [f32]) {
         self.check_observation(observation).unwrap_or_else(|why| panic!("{why}"));
         let mut random = Xoshiro256PlusPlus::seed_from_u64(seed);
-        let scale = self.config.reset_noise_scale;
+        let scale = self.config.env.reset_noise_scale;
         for (start, nominal) in self.start_position.iter_mut().zip(&self.nominal_position) {
             *start = nominal + uniform_noise(&mut random, scale);
         }
@@ -149,7 +161,8 @@ impl Environment {
         self.physics.set_state(&self.start_position, &self.start_velocity);
         self.episode_steps = 0;
         self.was_pushed = false;
-        self.last_info = self.task.begin(seed, &self.physics);
+        self.task.begin(seed, &self.physics);
+        self.last_info = gymnasium_info(&*self.task);
         self.task.observe(&self.physics, self.randomiser.sensors(), observation);
         self.last_observation.copy_from_slice(observation);
     }
@@ -227,14 +240,14 @@ impl Environment {
             return self.fault(observation);
         }
         let step = Step { physics: &self.physics, action: &self.action, centre_before_m: self.centre_before };
-        let step = self.task.evaluate(&step).at(self.episode_steps, self.config.max_episode_steps);
+        let step = self.task.evaluate(&step).at(self.episode_steps, self.config.env.max_episode_steps);
         self.task.observe(&self.physics, self.randomiser.sensors(), observation);
         if !(step.reward.is_finite() && observation.iter().all(|number| number.is_finite())) {
             self.physics.declare_faulty();
             return self.fault(observation);
         }
         self.last_observation.copy_from_slice(observation);
-        self.last_info = step.info;
+        self.last_info = gymnasium_info(&*self.task);
         step
     }
 
@@ -277,10 +290,17 @@ impl Environment {
         self.task.steer(command)
     }
 
-    /// Returns the info of the last step or reset; see [`StepInfo::entries`] for Gymnasium's names.
+    /// Returns the info of the last step or reset; `None` if the task is none of Gymnasium's.
     #[must_use]
-    pub fn info(&self) -> &StepInfo {
-        &self.last_info
+    pub fn info(&self) -> Option<&StepInfo> {
+        self.last_info.as_ref()
+    }
+
+    /// Truncates episodes after this many control steps; 0 means never.
+    #[must_use]
+    pub fn with_max_episode_steps(mut self, max_episode_steps: u32) -> Self {
+        self.config.env.max_episode_steps = max_episode_steps;
+        self
     }
 
     /// Returns whether a push of the randomisation began the last step; false before the first step of an episode.
@@ -306,7 +326,7 @@ impl Environment {
 
     fn fault(&self, observation: &mut [f32]) -> StepOutcome {
         observation.copy_from_slice(&self.last_observation);
-        StepOutcome { reward: 0.0, terminated: true, truncated: false, fault: true, info: self.last_info }
+        StepOutcome { reward: 0.0, terminated: true, truncated: false, fault: true }
     }
 
     /// Returns the simulation.
@@ -326,6 +346,12 @@ impl Environment {
     pub fn joint_quality(&self) -> JointQuality {
         self.physics.joint_quality()
     }
+}
+
+/// Returns the info of a task of Gymnasium's.
+fn gymnasium_info(task: &dyn Task) -> Option<StepInfo> {
+    let task: &dyn Any = task;
+    task.downcast_ref().map(HumanoidTask::info)
 }
 
 /// Returns the state at which episodes start: that of a keyframe, or the nominal pose at rest for an empty name.

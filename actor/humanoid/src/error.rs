@@ -2,6 +2,8 @@
 
 use std::path::PathBuf;
 
+use crate::config::ConfigError;
+
 /// Model or setting that cannot be simulated.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
@@ -61,7 +63,7 @@ pub enum ModelError {
     /// The configuration names a keyframe that the model does not have.
     #[error("env.keyframe: the model has no keyframe `{name}`; it has: {}", if known.is_empty() { "none" } else { known })]
     Keyframe {
-        /// Name in [`crate::EnvironmentConfig::keyframe`].
+        /// Name in [`crate::config::EnvConfig::keyframe`].
         name: String,
         /// The model's keyframes.
         known: String,
@@ -72,7 +74,7 @@ pub enum ModelError {
         if known.is_empty() { "none" } else { known }
     )]
     UnknownTask {
-        /// Name in [`crate::EnvironmentConfig::own_task`].
+        /// Name in [`crate::config::EnvConfig::own_task`].
         name: String,
         /// This program's own tasks.
         known: String,
@@ -84,15 +86,8 @@ pub enum ModelError {
     #[error("robot card: {0}")]
     Card(String),
     /// A setting of the environment is out of range.
-    #[error("environment setting `{setting}` is {value}, but must be {expected}")]
-    Setting {
-        /// Field of [`crate::EnvironmentConfig`].
-        setting: &'static str,
-        /// Value found.
-        value: String,
-        /// Accepted values.
-        expected: &'static str,
-    },
+    #[error(transparent)]
+    Setting(#[from] ConfigError),
 }
 
 /// Rejected action or buffer; the environment is unchanged.
@@ -202,8 +197,8 @@ pub enum SnapshotError {
         "the snapshot was taken with `{setting}` = {taken}, but here it is {found}; restore it under the same settings"
     )]
     Setting {
-        /// Field of [`crate::EnvironmentConfig`].
-        setting: &'static str,
+        /// Key in [`crate::EnvironmentConfig`].
+        setting: String,
         /// Value in the snapshot.
         taken: String,
         /// Value here.

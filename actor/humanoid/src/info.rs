@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use crate::config::RewardTask;
+use crate::config::EnvTask;
 use crate::model::TENDONS_MAX;
 
 /// One number per tendon of a model, without allocation.
@@ -38,10 +38,10 @@ impl fmt::Debug for PerTendon {
     }
 }
 
-/// Details of one control step.
+/// Details of one control step of Gymnasium's tasks.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct StepInfo {
-    /// Position along x (m): of the torso, or with [`RewardTask::HumanoidV4`] of the whole humanoid's centre of mass.
+    /// Position along x (m): of the torso, or with [`EnvTask::HumanoidV4`] of the whole humanoid's centre of mass.
     pub x_position_m: f64,
     /// Position along y (m), of the same point.
     pub y_position_m: f64,
@@ -61,10 +61,8 @@ pub struct StepInfo {
     pub reward_forward: f64,
     /// Negative cost of the controls.
     pub reward_ctrl: f64,
-    /// Negative cost of contacts; always 0 with [`RewardTask::HumanoidV4`].
+    /// Negative cost of contacts; always 0 with [`EnvTask::HumanoidV4`].
     pub reward_contact: f64,
-    /// Height of the torso (m). Neither Gymnasium's info nor [`Self::entries`] has it.
-    pub torso_height_m: f64,
 }
 
 /// Value of one entry of Gymnasium's `info`.
@@ -117,19 +115,13 @@ const V4: [Entry; 9] = [
 
 impl StepInfo {
     /// Returns the `info` of Gymnasium's `step` for this task, in Gymnasium's order.
-    pub fn entries(&self, task: RewardTask) -> impl Iterator<Item = (&'static str, InfoValue<'_>)> {
-        self.select(match task {
-            RewardTask::HumanoidV5 => &V5,
-            RewardTask::HumanoidV4 => &V4,
-        })
+    pub fn entries(&self, task: EnvTask) -> impl Iterator<Item = (&'static str, InfoValue<'_>)> {
+        self.select(if task == EnvTask::HumanoidV4 { &V4[..] } else { &V5[..] })
     }
 
     /// Returns the `info` of Gymnasium's `reset` for this task.
-    pub fn reset_entries(&self, task: RewardTask) -> impl Iterator<Item = (&'static str, InfoValue<'_>)> {
-        self.select(match task {
-            RewardTask::HumanoidV5 => &V5[..V5_RESET],
-            RewardTask::HumanoidV4 => &[],
-        })
+    pub fn reset_entries(&self, task: EnvTask) -> impl Iterator<Item = (&'static str, InfoValue<'_>)> {
+        self.select(if task == EnvTask::HumanoidV4 { &[] } else { &V5[..V5_RESET] })
     }
 
     fn select(&self, entries: &'static [Entry]) -> impl Iterator<Item = (&'static str, InfoValue<'_>)> {
@@ -154,7 +146,6 @@ mod tests {
             reward_forward: 11.0,
             reward_ctrl: 12.0,
             reward_contact: 13.0,
-            torso_height_m: 14.0,
         }
     }
 
@@ -175,14 +166,14 @@ mod tests {
             ("reward_ctrl", Number(12.0)),
             ("reward_contact", Number(13.0)),
         ];
-        assert_eq!(info.entries(RewardTask::HumanoidV5).collect::<Vec<_>>(), expected);
-        assert_eq!(info.reset_entries(RewardTask::HumanoidV5).collect::<Vec<_>>(), expected[..5]);
+        assert_eq!(info.entries(EnvTask::HumanoidV5).collect::<Vec<_>>(), expected);
+        assert_eq!(info.reset_entries(EnvTask::HumanoidV5).collect::<Vec<_>>(), expected[..5]);
     }
 
     #[test]
     fn v4_entries_are_gymnasiums_with_none_on_reset() {
         let info = info();
-        let names: Vec<_> = info.entries(RewardTask::HumanoidV4).collect();
+        let names: Vec<_> = info.entries(EnvTask::HumanoidV4).collect();
         let number = |name| (name, InfoValue::Number(info.reward_forward));
         assert_eq!(names[0], number("reward_linvel"));
         assert_eq!(names[1], ("reward_quadctrl", InfoValue::Number(12.0)));
@@ -190,7 +181,7 @@ mod tests {
         assert_eq!(names[8], number("forward_reward"));
         let rest: Vec<_> = names[3..8].iter().map(|(name, _)| *name).collect();
         assert_eq!(rest, ["x_position", "y_position", "distance_from_origin", "x_velocity", "y_velocity"]);
-        assert_eq!(info.reset_entries(RewardTask::HumanoidV4).count(), 0);
+        assert_eq!(info.reset_entries(EnvTask::HumanoidV4).count(), 0);
     }
 
     #[test]

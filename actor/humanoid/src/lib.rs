@@ -46,7 +46,9 @@ mod lanes;
 mod randomisation;
 mod terrain;
 
-pub use config::{EnvironmentConfig, ObservationKind, PHYSICS_VERSION, PhysicsSettings, Randomisation, RewardTask};
+pub use config::{
+    EnvConfig, EnvObservation, EnvTask, EnvironmentConfig, PHYSICS_VERSION, PhysicsSettings, RandomisationConfig,
+};
 pub use dynamics::worlds_per_pass;
 pub use environment::{Environment, EnvironmentSnapshot, EpisodeState, VectorEnvironment};
 pub use error::{InputError, ModelError, SnapshotError, StateError};
@@ -56,4 +58,4 @@ pub use model::{Model, mirror::Mirror};
 pub use observation::{OBSERVATION_SIZE_COMPACT, Observation};
 pub use physics::{ContactForce, JointQuality, Physics, PhysicsFault, PhysicsSnapshot, Variation};
 pub use randomisation::SensorNoise;
-pub use task::{ObservationTerm, StepOutcome, Task};
+pub use task::{ObservationTerm, StepOutcome, Task, TaskRegistry};

@@ -10,7 +10,7 @@ use rand::{Rng, RngExt, SeedableRng};
 use rand_distr::{Distribution, StandardNormal};
 use rand_xoshiro::Xoshiro256PlusPlus;
 
-use crate::config::{EnvironmentConfig, Randomisation};
+use crate::config::{EnvironmentConfig, RandomisationConfig};
 use crate::model::Model;
 use crate::physics::{Physics, Variation};
 
@@ -61,7 +61,7 @@ impl SensorNoise {
 /// Randomises one environment; draws nothing if nothing is randomised. Only [`Self::new`] allocates.
 #[derive(Clone)]
 pub(crate) struct Randomiser {
-    settings: Randomisation,
+    settings: RandomisationConfig,
     control_step_s: f64,
     is_on: bool,
     variation: Variation,
@@ -89,7 +89,7 @@ impl Randomiser {
         Self {
             is_on: settings.is_on(),
             settings: settings.clone(),
-            control_step_s: config.control_step_s,
+            control_step_s: config.env.control_step_s,
             variation: Variation::none(model),
             half_ranges: model.motors.iter().map(|motor| motor.control[1] / 2.0 - motor.control[0] / 2.0).collect(),
             middles: model

@@ -1,10 +1,10 @@
-//! Heights of generated ground, see [`GroundSettings`].
+//! Heights of generated ground, see [`GroundConfig`].
 
 use std::sync::{Arc, Mutex, PoisonError, Weak};
 
 use nalgebra::Point3;
 
-use crate::config::{GroundKind, GroundSettings};
+use crate::config::{GroundConfig, GroundKind};
 use crate::error::ModelError;
 use crate::model::HeightField;
 use crate::randomisation::{stream, uniform};
@@ -21,12 +21,12 @@ const GAP_DEPTH_MAX_M: f64 = 0.3;
 const ROUGH_CELLS: usize = 2;
 
 /// Fields in use, so that all environments of this process share them.
-static FIELDS_IN_USE: Mutex<Vec<(GroundSettings, Weak<HeightField>)>> = Mutex::new(Vec::new());
+static FIELDS_IN_USE: Mutex<Vec<(GroundConfig, Weak<HeightField>)>> = Mutex::new(Vec::new());
 
 /// Returns the height field of checked settings; the same one for the same settings while it is in use.
-pub(crate) fn generated(settings: &GroundSettings) -> Result<Arc<HeightField>, ModelError> {
-    let start = GroundSettings::default().start;
-    let settings = GroundSettings { start, ..settings.clone() };
+pub(crate) fn generated(settings: &GroundConfig) -> Result<Arc<HeightField>, ModelError> {
+    let GroundConfig { curriculum, start_level, .. } = GroundConfig::default();
+    let settings = GroundConfig { curriculum, start_level, ..settings.clone() };
     let mut in_use = FIELDS_IN_USE.lock().unwrap_or_else(PoisonError::into_inner);
     in_use.retain(|(_, field)| field.strong_count() > 0);
     if let Some(field) = in_use.iter().find(|(known, _)| *known == settings).and_then(|(_, field)| field.upgrade()) {
@@ -37,7 +37,7 @@ pub(crate) fn generated(settings: &GroundSettings) -> Result<Arc<HeightField>, M
     Ok(field)
 }
 
-fn generate(settings: &GroundSettings) -> Result<HeightField, ModelError> {
+fn generate(settings: &GroundConfig) -> Result<HeightField, ModelError> {
     let ([rows, columns], [half_x_m, half_y_m]) = (settings.sides(), settings.halves_m());
     let (half, border) = (settings.half_tile_cells(), settings.border_cells());
     let mut heights_m = vec![0.0; rows * columns];
@@ -78,7 +78,7 @@ struct Tile {
 }
 
 impl Tile {
-    fn new(settings: &GroundSettings, kind: GroundKind, column: usize, level: u32) -> Self {
+    fn new(settings: &GroundConfig, kind: GroundKind, column: usize, level: u32) -> Self {
         let (share, half) = (settings.difficulty(level), settings.half_tile_cells());
         let cells = |length_m: f64| (length_m / settings.cell_m).round() as usize;
         let (platform, stair) = ((PLATFORM_HALF_M / settings.cell_m).ceil() as usize, cells(TREAD_M).max(1) + 1);

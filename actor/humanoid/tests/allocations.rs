@@ -8,7 +8,7 @@ use std::{
 };
 
 use treadmill_humanoid::{
-    Environment, EnvironmentConfig, HUMANOID_XML, ObservationKind, Randomisation, RewardTask, Variation,
+    EnvConfig, EnvObservation, EnvTask, Environment, EnvironmentConfig, HUMANOID_XML, RandomisationConfig, Variation,
 };
 
 struct CountingAllocator;
@@ -52,9 +52,9 @@ fn action(step: u64) -> [f32; 17] {
 }
 
 /// Allocations of physics alone in a reset, with a variation if the episode is randomised, and in [`STEPS`] steps.
-fn physics_alone(randomisation: Randomisation) -> [u64; 2] {
+fn physics_alone(randomisation: RandomisationConfig) -> [u64; 2] {
     let is_varied = randomisation.is_on();
-    let mut environment = environment(Randomisation::default());
+    let mut environment = environment(RandomisationConfig::default());
     let mut observation = vec![0.0; environment.observation_size()];
     let position = environment.physics().model().nominal_position();
     let physics = environment.physics_mut();
@@ -78,19 +78,22 @@ fn physics_alone(randomisation: Randomisation) -> [u64; 2] {
     [reset, steps]
 }
 
-fn environment(randomisation: Randomisation) -> Environment {
+fn environment(randomisation: RandomisationConfig) -> Environment {
     let config = EnvironmentConfig {
-        terminate_when_unhealthy: false,
+        env: EnvConfig {
+            terminate_when_unhealthy: false,
+            // The most expensive observation.
+            observation: EnvObservation::GymnasiumV4,
+            ..EnvConfig::default()
+        },
         randomisation,
-        // The most expensive observation.
-        observation: ObservationKind::GymnasiumV4,
         ..EnvironmentConfig::default()
     };
     Environment::new(&config, HUMANOID_XML).expect("valid")
 }
 
 /// Allocations of the whole environment in a reset and in [`STEPS`] steps.
-fn whole_environment(randomisation: Randomisation) -> [u64; 2] {
+fn whole_environment(randomisation: RandomisationConfig) -> [u64; 2] {
     let mut environment = environment(randomisation);
     let mut observation = vec![0.0; environment.observation_size()];
     environment.step(&[0.0; 17], &mut observation);
@@ -98,7 +101,7 @@ fn whole_environment(randomisation: Randomisation) -> [u64; 2] {
     let steps = counted(|| {
         for step in 0..STEPS {
             let step = environment.step(&action(step), &mut observation);
-            assert!(!step.fault && step.info.entries(RewardTask::HumanoidV5).count() == 11);
+            assert!(!step.fault && environment.info().unwrap().entries(EnvTask::HumanoidV5).count() == 11);
         }
     });
     [reset, steps]
@@ -107,16 +110,16 @@ fn whole_environment(randomisation: Randomisation) -> [u64; 2] {
 #[test]
 fn the_environment_allocates_no_more_than_its_physics() {
     // These settings leave the motion unchanged but for a known delay, so that physics does the same work.
-    let disturbed = Randomisation {
+    let disturbed = RandomisationConfig {
         sensor_noise_position: 0.01,
         sensor_noise_velocity: 0.01,
         action_delay_steps: [2, 2],
         push_mps: [0.0, 0.5],
         push_interval_s: [1000.0, 1000.0],
-        ..Randomisation::default()
+        ..RandomisationConfig::default()
     };
     assert!(counted(|| drop(environment(disturbed.clone()))) > 0, "allocations are counted");
-    for randomisation in [Randomisation::default(), disturbed] {
+    for randomisation in [RandomisationConfig::default(), disturbed] {
         let [alone, found] = [physics_alone(randomisation.clone()), whole_environment(randomisation)];
         // Buffers of each thread grow with the contacts that it has met.
         let more = found.iter().zip(alone).map(|(found, alone)| found.saturating_sub(alone)).max();

@@ -1,8 +1,8 @@
 //! Options of an actor process, and its final report.
 
-use treadmill_runtime::numbers::thousands;
-
 use treadmill_experience::delivery::DeliveryCounts;
+use treadmill_humanoid::TaskRegistry;
+use treadmill_runtime::numbers::thousands;
 
 use crate::policy_fetcher::Explain;
 
@@ -13,6 +13,8 @@ pub struct WorkerOptions {
     pub run: Option<String>,
     /// Name of the actor.
     pub name: String,
+    /// Tasks that this program can simulate.
+    pub tasks: TaskRegistry,
     /// Number of environments.
     pub envs: u32,
     /// Threads that step the environments; 0 means one per core. Overrides the run's `rollout.threads`.

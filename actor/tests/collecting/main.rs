@@ -6,7 +6,7 @@ mod rollout;
 mod state;
 
 use treadmill_actor::{acting_policy::ActingPolicy, identity::ActorIdentity};
-use treadmill_humanoid::{EnvironmentConfig, Randomisation};
+use treadmill_humanoid::{EnvConfig, EnvironmentConfig, RandomisationConfig};
 use treadmill_policy::{NetworkShape, init::initial_parameters, to_safetensors};
 use treadmill_proto::{PolicyBundle, PolicyVersion};
 use treadmill_runtime::seeds;
@@ -18,8 +18,8 @@ fn identity(actor: &str) -> ActorIdentity {
 /// Returns a configuration with every kind of randomisation, whose episodes end in every way within a few steps.
 fn randomised(motor_scale: [f64; 2]) -> EnvironmentConfig {
     EnvironmentConfig {
-        max_episode_steps: 25,
-        randomisation: Randomisation {
+        env: EnvConfig { max_episode_steps: 25, ..EnvConfig::default() },
+        randomisation: RandomisationConfig {
             mass_scale: [0.8, 1.2],
             motor_scale,
             sensor_noise_position: 0.01,
@@ -27,7 +27,7 @@ fn randomised(motor_scale: [f64; 2]) -> EnvironmentConfig {
             action_delay_steps: [0, 2],
             push_interval_s: [0.1, 0.2],
             push_mps: [0.1, 2.0],
-            ..Randomisation::default()
+            ..RandomisationConfig::default()
         },
         ..EnvironmentConfig::default()
     }

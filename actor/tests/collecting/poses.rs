@@ -6,7 +6,7 @@ use treadmill_actor::{
     poses::{PoseSampler, stride},
 };
 use treadmill_bus::Watched;
-use treadmill_humanoid::{EnvironmentConfig, HUMANOID_XML, Model};
+use treadmill_humanoid::{EnvConfig, EnvironmentConfig, HUMANOID_XML, Model, TaskRegistry};
 use treadmill_proto::{PolicyVersion, Pose};
 
 use crate::identity;
@@ -25,7 +25,7 @@ struct Recording {
 impl Recording {
     fn begin(config: &EnvironmentConfig) -> Self {
         let seeds = SeedSource { run_seed: 1, actor: "a".into(), start: 0 };
-        let environments = Environments::new(ENVS, config, HUMANOID_XML, seeds).unwrap();
+        let environments = Environments::new(ENVS, &TaskRegistry::default(), config, HUMANOID_XML, seeds).unwrap();
         let watched = Watched::default();
         let (sampler, poses) = PoseSampler::new(watched.clone(), identity("a"));
         Self { environments, results: StepResults::default(), sampler, watched, poses }
@@ -50,7 +50,8 @@ fn moments(poses: &[Pose]) -> Vec<(u64, u32)> {
 
 #[test]
 fn without_observers_nothing_is_recorded() {
-    let mut recording = Recording::begin(&EnvironmentConfig { max_episode_steps: 7, ..EnvironmentConfig::default() });
+    let mut recording =
+        Recording::begin(&EnvironmentConfig::from(EnvConfig { max_episode_steps: 7, ..EnvConfig::default() }));
     recording.step(20);
     assert!(recording.recorded().is_empty());
     // An observer that subscribes in the middle of the third episode gets the fourth from its start.
@@ -64,7 +65,8 @@ fn without_observers_nothing_is_recorded() {
 
 #[test]
 fn an_episode_is_recorded_whole_and_drained_before_the_next() {
-    let mut recording = Recording::begin(&EnvironmentConfig { max_episode_steps: 7, ..EnvironmentConfig::default() });
+    let mut recording =
+        Recording::begin(&EnvironmentConfig::from(EnvConfig { max_episode_steps: 7, ..EnvConfig::default() }));
     recording.watched.set(true);
     recording.step(40);
     let whole = |episode| [0, 2, 4, 6].map(|step| (episode, step));
@@ -75,7 +77,8 @@ fn an_episode_is_recorded_whole_and_drained_before_the_next() {
 
 #[test]
 fn poses_follow_the_control_step() {
-    let config = EnvironmentConfig { control_step_s: 0.01, max_episode_steps: 7, ..EnvironmentConfig::default() };
+    let config =
+        EnvironmentConfig::from(EnvConfig { control_step_s: 0.01, max_episode_steps: 7, ..EnvConfig::default() });
     let mut recording = Recording::begin(&config);
     recording.watched.set(true);
     recording.step(14);
@@ -86,7 +89,8 @@ fn poses_follow_the_control_step() {
 
 #[test]
 fn a_pose_repeats_the_state_of_the_physics() {
-    let mut recording = Recording::begin(&EnvironmentConfig { max_episode_steps: 9, ..EnvironmentConfig::default() });
+    let mut recording =
+        Recording::begin(&EnvironmentConfig::from(EnvConfig { max_episode_steps: 9, ..EnvConfig::default() }));
     recording.watched.set(true);
     recording.step(13);
     let poses = recording.recorded();
@@ -112,8 +116,11 @@ fn a_pose_repeats_the_state_of_the_physics() {
 
 #[test]
 fn the_queue_of_a_long_episode_is_bounded() {
-    let config =
-        EnvironmentConfig { max_episode_steps: 5000, terminate_when_unhealthy: false, ..EnvironmentConfig::default() };
+    let config = EnvironmentConfig::from(EnvConfig {
+        max_episode_steps: 5000,
+        terminate_when_unhealthy: false,
+        ..EnvConfig::default()
+    });
     let mut recording = Recording::begin(&config);
     recording.step(4999);
     recording.watched.set(true);

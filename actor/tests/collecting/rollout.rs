@@ -4,7 +4,7 @@ use treadmill_actor::{
     environments::{Environments, SeedSource, StepResults},
     rollout::Collector,
 };
-use treadmill_humanoid::{EnvironmentConfig, HUMANOID_XML, worlds_per_pass};
+use treadmill_humanoid::{EnvConfig, EnvironmentConfig, HUMANOID_XML, TaskRegistry, worlds_per_pass};
 use treadmill_policy::gaussian;
 use treadmill_proto::{
     EndCause, Fragment, PolicyVersion, Precision,
@@ -16,7 +16,7 @@ use crate::{identity, policy};
 
 fn environments(count: usize, config: &EnvironmentConfig) -> Environments {
     let seeds = SeedSource { run_seed: 1, actor: "a".into(), start: 0 };
-    Environments::new(count, config, HUMANOID_XML, seeds).unwrap()
+    Environments::new(count, &TaskRegistry::default(), config, HUMANOID_XML, seeds).unwrap()
 }
 
 fn collector(envs: usize, config: &EnvironmentConfig) -> Collector {
@@ -31,7 +31,7 @@ fn row(plane: &[f32], t: usize, n: usize, envs: usize, width: usize) -> &[f32] {
 #[test]
 fn the_learner_receives_exactly_the_numbers_that_the_policy_saw() {
     let (envs, steps) = (3, 8);
-    let config = EnvironmentConfig { max_episode_steps: 5, ..EnvironmentConfig::default() };
+    let config = EnvironmentConfig::from(EnvConfig { max_episode_steps: 5, ..EnvConfig::default() });
     for precision in [Precision::F32, Precision::F16] {
         let environments = environments(envs, &config).with_precision(precision);
         let mut collector = Collector::new(environments, seeds::stream(1, "noise", &[]), identity("a"));
@@ -74,7 +74,7 @@ fn the_next_fragment_continues_where_the_last_one_ended() {
 
 #[test]
 fn a_time_limit_is_truncation_with_the_true_last_observation() {
-    let config = EnvironmentConfig { max_episode_steps: 3, ..EnvironmentConfig::default() };
+    let config = EnvironmentConfig::from(EnvConfig { max_episode_steps: 3, ..EnvConfig::default() });
     let fragment = collector(2, &config).collect(&policy(45), 7, 0).unwrap();
     fragment.check().unwrap();
     let flags: Vec<u8> = fragment.flags.iter().step_by(2).copied().collect();
@@ -117,7 +117,7 @@ fn the_same_seeds_give_the_same_fragment() {
 #[test]
 fn threads_change_no_more_than_the_rounding_of_actions() {
     let envs = 2 * worlds_per_pass() + 3;
-    let config = EnvironmentConfig { max_episode_steps: 2, ..EnvironmentConfig::default() };
+    let config = EnvironmentConfig::from(EnvConfig { max_episode_steps: 2, ..EnvConfig::default() });
     let policy = policy(45);
     let collect = |threads: usize| {
         let mut collector = collector(envs, &config).with_threads(threads).unwrap();

@@ -4,7 +4,7 @@ use treadmill_actor::{
     environments::{Environments, SeedSource},
     rollout::Collector,
 };
-use treadmill_humanoid::{EnvironmentConfig, HUMANOID_XML, ObservationKind};
+use treadmill_humanoid::{EnvConfig, EnvObservation, EnvironmentConfig, HUMANOID_XML, TaskRegistry};
 use treadmill_proto::{Fragment, Precision, fragment::TRUNCATED};
 
 use crate::{identity, policy, randomised};
@@ -20,7 +20,9 @@ fn collector(
 ) -> Collector {
     let seeds = SeedSource { run_seed: 1, actor: name.into(), start };
     let noise = seeds.noise();
-    let environments = Environments::new(envs, config, HUMANOID_XML, seeds).unwrap().with_precision(precision);
+    let environments = Environments::new(envs, &TaskRegistry::default(), config, HUMANOID_XML, seeds)
+        .unwrap()
+        .with_precision(precision);
     let mut collector = Collector::new(environments, noise, identity(name)).with_threads(threads).unwrap();
     collector.attach_state();
     collector
@@ -34,7 +36,10 @@ fn comparable(fragment: Fragment) -> Fragment {
 
 #[test]
 fn a_successor_continues_from_the_bytes_of_any_fragment() {
-    let randomised = || EnvironmentConfig { observation: ObservationKind::GymnasiumV5, ..randomised([0.8, 1.2]) };
+    let randomised = || EnvironmentConfig {
+        env: EnvConfig { observation: EnvObservation::GymnasiumV5, ..randomised([0.8, 1.2]).env.clone() },
+        ..randomised([0.8, 1.2])
+    };
     let cases = [
         (EnvironmentConfig::default(), 45, Precision::F32),
         (randomised(), 348, Precision::F32),

@@ -5,8 +5,8 @@ use std::path::Path;
 use toml::{Table, Value};
 
 use super::{
-    Config, ConfigError, KeyDoc, choices, is_retired, parse_value, preset, refuse, retired,
-    unknown_key::{is_replaced, section_of, unknown},
+    Config, ConfigError, KeyDoc, parse_value, preset,
+    unknown_key::{section_of, unknown},
 };
 
 /// Collects configuration; later sources override earlier ones.
@@ -74,9 +74,7 @@ impl ConfigSource {
             };
             for (name, value) in entries {
                 let key = format!("{section}.{name}");
-                // Keys of earlier versions are known too, and are refused where they would have an effect.
-                let is_known = is_retired(&key) || is_replaced(&key) || keys.iter().any(|known| known.key == key);
-                match is_known {
+                match keys.iter().any(|known| known.key == key) {
                     false => unknown.push(key),
                     true if is_needed(&key) => self.put(&key, value, &keys)?,
                     true => {}
@@ -109,11 +107,8 @@ impl ConfigSource {
     }
 
     fn put(&mut self, key: &str, value: Value, keys: &[KeyDoc]) -> Result<(), ConfigError> {
-        if retired::ignores(key, &value)? {
-            return Ok(());
-        }
         let known = keys.iter().find(|known| known.key == key).ok_or_else(|| unknown(key, keys))?;
-        let value = convert(value, known)?;
+        let value = known.convert(&value)?;
         let (section, name) = key.split_once('.').expect("every known key has a section");
         self.table
             .entry(section)
@@ -128,64 +123,6 @@ impl ConfigSource {
 fn parse(text: &str, origin: &str) -> Result<Table, ConfigError> {
     text.parse()
         .map_err(|error: toml::de::Error| ConfigError::Syntax { origin: origin.to_string(), why: error.to_string() })
-}
-
-/// Converts a value to the key's type if that loses nothing, such as `1` to `1.0` and `8e6` to `8000000`.
-fn convert(value: Value, known: &KeyDoc) -> Result<Value, ConfigError> {
-    let out_of_range = |value: String| refuse(&known.key, value, known.allowed);
-    let whole = |number: f64| number.fract() == 0.0 && number.abs() < 9e15;
-    match (known.kind, &value) {
-        ("bool", Value::Boolean(_)) | ("f64", Value::Float(_)) => Ok(value),
-        ("f64", Value::Integer(number)) => Ok(Value::Float(*number as f64)),
-        ("u32" | "u64", Value::Float(number)) if whole(*number) => convert(Value::Integer(*number as i64), known),
-        ("u32", Value::Integer(number)) if u32::try_from(*number).is_err() => out_of_range(number.to_string()),
-        ("u64", Value::Integer(number)) if *number < 0 => out_of_range(number.to_string()),
-        ("u32" | "u64", Value::Integer(_)) => Ok(value),
-        ("Vec<u32>", Value::Array(items))
-            if items.iter().all(|item| item.as_integer().is_some_and(|item| u32::try_from(item).is_ok())) =>
-        {
-            Ok(value)
-        }
-        ("[f64; 2]" | "[u32; 2]", Value::Array(items)) if items.len() == 2 => {
-            let kind = if known.kind == "[f64; 2]" { "f64" } else { "u32" };
-            convert_items(items, kind, known)
-        }
-        ("Vec<f64>", Value::Array(items)) => convert_items(items, "f64", known),
-        ("Vec<String>", Value::Array(items)) => convert_items(items, "String", known),
-        ("String", Value::String(_)) => Ok(value),
-        (kind, Value::String(name)) if choices::names(kind).is_some() => {
-            match choices::names(kind).is_some_and(|names| names.contains(&name.as_str())) {
-                true => Ok(value),
-                false => out_of_range(value.to_string()),
-            }
-        }
-        _ => Err(ConfigError::Type {
-            key: known.key.clone(),
-            value: value.to_string(),
-            notation: notation(known.kind),
-            allowed: known.allowed.to_string(),
-        }),
-    }
-}
-
-/// Returns how values of a type are written.
-fn notation(kind: &str) -> &'static str {
-    match kind {
-        "bool" => "true or false",
-        "f64" => "a number",
-        "u32" | "u64" => "a whole number",
-        "[f64; 2]" => "two numbers, as in [0.5, 1.0]",
-        "[u32; 2]" => "two whole numbers, as in [0, 1]",
-        "Vec<f64>" => "a list of numbers, as in [0.5, 1.0]",
-        "Vec<u32>" => "a list of whole numbers, as in [256, 128]",
-        "Vec<String>" => "a list of texts, as in [\"a\", \"b\"]",
-        _ => "a text in quotes",
-    }
-}
-
-fn convert_items(items: &[Value], kind: &'static str, known: &KeyDoc) -> Result<Value, ConfigError> {
-    let known = KeyDoc { kind, ..known.clone() };
-    items.iter().map(|item| convert(item.clone(), &known)).collect::<Result<_, _>>().map(Value::Array)
 }
 
 #[cfg(test)]
@@ -234,18 +171,16 @@ pub(crate) mod tests {
             Ok::<_, ConfigError>((source.build()?, unknown))
         };
         let newer = "later = 1\n[env]\nsubsteps = 5\nterrain = \"rough\"\n[env.deep]\nx = 1\n[weather]\nwind_mps = 3.0\n\
-                     [ppo]\nminibatch = -7\nalgorithm = \"ppo2\"\n[rollout]\nstale_versions = [0, 0]\n";
+                     [ppo]\nminibatch = -7\nalgorithm = \"ppo2\"\n";
         let (config, unknown) = read(newer).unwrap();
         assert_eq!(unknown, ["env.deep", "env.terrain", "later", "ppo.algorithm", "weather.wind_mps"]);
         let mut wanted = Config::default();
         wanted.env.substeps = 5;
-        assert_eq!(config, wanted, "`ppo.minibatch` is not needed, and `rollout.stale_versions` has its old default");
+        assert_eq!(config, wanted, "`ppo.minibatch` is not needed");
         let message = |text: &str| read(text).unwrap_err().to_string();
         assert!(message("[env]\ntask = \"humanoid-v6\"").contains("`env.task` is \"humanoid-v6\""));
         assert!(message("[env]\nsubsteps = \"many\"").contains("`env.substeps` is \"many\""));
         assert!(message("[rollout]\nenvs = 0").contains("`rollout.envs` is 0"));
-        assert!(message("[rollout]\nnoise_correlation = 0.5").contains("no longer exists"));
-        assert!(message("[env]\nhealthy_z_min_m = 0.8").contains("`env.healthy_z_range`"));
         assert!(message("[env").contains("the run is not valid TOML"));
         assert!(message("env = 3").contains("`env` is 3"));
         // The program's own reading of files refuses the same keys.

@@ -2,7 +2,7 @@
 
 use treadmill_proto::Task;
 
-use super::{Config, ConfigError, EnvTask, Symmetry, TaskConfig, refuse, show};
+use super::{ChosenTask, Config, ConfigError, EnvTask, Symmetry, TaskConfig, refuse, show};
 
 impl TaskConfig {
     pub(super) fn is_unset(&self) -> bool {
@@ -43,10 +43,10 @@ impl Config {
 
     /// Returns the name of the task; the built-in tasks begin with `treadmill/`.
     pub fn task_name(&self) -> String {
-        match self.is_external() {
-            true => self.task.name.clone(),
-            false if !self.env.own_task.is_empty() => self.env.own_task.clone(),
-            false => format!("treadmill/{}", self.env.task.name()),
+        match self.env.chosen_task() {
+            ChosenTask::External => self.task.name.clone(),
+            ChosenTask::Own(name) => name.to_string(),
+            _ => format!("treadmill/{}", self.env.task.name()),
         }
     }
 

@@ -185,23 +185,4 @@ mod tests {
         fs::write(path, bytes).unwrap();
         assert!(load(&folder, Which::Latest).unwrap_err().to_string().contains("format 1"));
     }
-
-    #[test]
-    fn retired_keys_are_accepted_only_at_their_old_default() {
-        let at = tempfile::tempdir().unwrap();
-        let folder = saved(at.path());
-        let save = |key: &str| {
-            let mut state = state(8);
-            state.config_toml = state.config_toml.replacen("[rollout]\n", &format!("[rollout]\n{key}\n"), 1);
-            CheckpointWriter::new(&folder, 2, 9).save(&state).unwrap();
-            load(&folder, Which::Latest).map(|loaded| loaded.state).map_err(|why| error_chain(&why))
-        };
-        let read = save("noise_correlation = 0.0\nstale_versions = [0, 0]").unwrap();
-        assert!(read.config_toml.contains("stale_versions"));
-        assert_eq!((read.counters.updates, read.config()), (8, Ok(Config::default())));
-        let hash = |state: &TrainingState| state.config_hash(&state.config().unwrap());
-        assert_eq!(hash(&read), hash(&state(8)));
-        let why = save("noise_correlation = 0.5").unwrap_err();
-        assert!(why.contains("`rollout.noise_correlation` is 0.5") && why.contains("latest.bundle"), "{why}");
-    }
 }

@@ -244,7 +244,8 @@ impl TrainingState {
             actor_state: None,
             fragment_steps: 0,
             wire_version: WIRE_VERSION,
-            wire_version_min: config.wire_version_min(),
+            // Actors of every version know every key that exists; a release that adds one raises this.
+            wire_version_min: 0,
             physics_version: self.physics_version,
             privileged_size: narrow(self.shape.privileged)?,
         })

@@ -2,7 +2,7 @@
 
 use std::time::Duration;
 
-use treadmill_config::{ConfigSource, LearnerConfig, is_retired};
+use treadmill_config::{ConfigSource, LearnerConfig};
 use treadmill_policy::NetworkShape;
 use treadmill_proto::{Command, ControlRequest, Phase, RunStatus};
 use treadmill_runtime::{atomic_file, error_chain, machine, numbers::thousands};
@@ -112,9 +112,6 @@ impl Trainer {
         if key != "run.steps" {
             // The goal of this start may be nearer than the one that is saved.
             changed.run.steps = self.config.run.steps;
-        }
-        if is_retired(key) {
-            return Ok(format!("`{key}` no longer exists; every run behaves by its old default"));
         }
         if !is_changeable(key) {
             return Err(format!(

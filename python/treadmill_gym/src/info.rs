@@ -2,7 +2,7 @@
 
 use numpy::{PyArray1, PyArray2, ndarray::Array2};
 use pyo3::{prelude::*, types::PyDict};
-use treadmill_humanoid::{InfoValue, RewardTask, StepInfo};
+use treadmill_humanoid::{EnvTask, InfoValue, StepInfo};
 
 /// Key of a step that could not be simulated; present on such steps only, and not one of Gymnasium's.
 pub const FAULT: &str = "fault";
@@ -20,7 +20,7 @@ pub enum Moment {
 pub fn dictionary<'py>(
     py: Python<'py>,
     info: &StepInfo,
-    task: RewardTask,
+    task: EnvTask,
     moment: Moment,
 ) -> PyResult<Bound<'py, PyDict>> {
     let dictionary = PyDict::new(py);
@@ -38,7 +38,7 @@ pub fn dictionary<'py>(
 pub fn columns<'py>(
     py: Python<'py>,
     rows: &[Option<(&StepInfo, Moment)>],
-    task: RewardTask,
+    task: EnvTask,
 ) -> PyResult<Bound<'py, PyDict>> {
     let columns = PyDict::new(py);
     // Names and sizes are the same for all environments.
@@ -75,7 +75,7 @@ pub fn columns<'py>(
 }
 
 /// Returns the number of entries of an info; a reset has the first ones of a step.
-fn count(info: &StepInfo, task: RewardTask, moment: Moment) -> usize {
+fn count(info: &StepInfo, task: EnvTask, moment: Moment) -> usize {
     match moment {
         Moment::Reset => info.reset_entries(task).count(),
         Moment::Step => usize::MAX,

@@ -8,7 +8,7 @@ use pyo3::{
 };
 use rayon::{ThreadPool, ThreadPoolBuilder, prelude::*};
 use treadmill_humanoid::{
-    Environment, Physics, RewardTask, VectorEnvironment,
+    EnvTask, Environment, Physics, VectorEnvironment,
     environment::{EnvironmentPass, Slot},
     worlds_per_pass,
 };
@@ -126,8 +126,9 @@ impl Humanoids {
             });
         });
         let infos = self.vector.slots().iter().zip(mask);
-        let infos: Vec<_> =
-            infos.map(|(slot, &is_reset)| is_reset.then(|| (slot.environment.info(), Moment::Reset))).collect();
+        let infos: Vec<_> = infos
+            .map(|(slot, &is_reset)| slot.environment.info().filter(|_| is_reset).map(|info| (info, Moment::Reset)))
+            .collect();
         info::columns(py, &infos, self.task())
     }
 
@@ -177,7 +178,7 @@ impl Humanoids {
         drop(writable);
         let moment = |is_reset| if is_reset { Moment::Reset } else { Moment::Step };
         let slots = self.vector.slots();
-        let infos = slots.iter().zip(resets).map(|(slot, &reset)| Some((slot.environment.info(), moment(reset))));
+        let infos = slots.iter().zip(resets).map(|(slot, &reset)| Some((slot.environment.info()?, moment(reset))));
         let infos: Vec<_> = infos.collect();
         let infos = info::columns(py, &infos, self.task())?;
         let faults: Vec<bool> = slots.iter().map(|slot| slot.kept.result.fault).collect();
@@ -206,8 +207,8 @@ impl Humanoids {
         &self.vector.slots()[0].environment
     }
 
-    fn task(&self) -> RewardTask {
-        self.first().config().task
+    fn task(&self) -> EnvTask {
+        self.first().config().env.task
     }
 
     /// Calls `act` with every pass, and its rows of the observations, on all threads.

@@ -91,7 +91,8 @@ impl Humanoid {
     }
 
     fn info<'py>(&self, py: Python<'py>, moment: Moment) -> PyResult<Bound<'py, PyDict>> {
-        info::dictionary(py, self.environment.info(), self.environment.config().task, moment)
+        let info = self.environment.info().copied().unwrap_or_default();
+        info::dictionary(py, &info, self.environment.config().env.task, moment)
     }
 }
 

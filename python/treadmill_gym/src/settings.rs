@@ -7,27 +7,22 @@ use pyo3::{
     prelude::*,
     types::{PyBool, PyDict},
 };
-use treadmill_humanoid::{
-    Environment, EnvironmentConfig, HUMANOID_XML, ModelError, ObservationKind, RewardTask, read_model_file,
-};
+use treadmill_humanoid::{Environment, HUMANOID_XML, ModelError, read_model_file};
+use treadmill_settings::{ConfigError, EnvConfig, EnvObservation, EnvTask, EnvironmentConfig, KeyDoc, Section};
 
-/// All keywords, for the error about an unknown one.
-const KEYWORDS: &str = "contact_cost_range, contact_cost_weight, control_step_s, ctrl_cost_weight, \
-    exclude_current_positions_from_observation, forward_reward_weight, frame_skip, healthy_reward, healthy_z_range, \
-    include_cfrc_ext_in_observation, include_cinert_in_observation, include_cvel_in_observation, \
-    include_qfrc_actuator_in_observation, keyframe, observation, reset_noise_scale, self_collision, substeps, \
-    task, terminate_when_unhealthy, xml_file";
+/// Keys of `[env]` that are no keywords: Gymnasium counts the steps of an episode, and has no tasks and cards of ours.
+const NO_KEYWORDS: [&str; 3] = ["max_episode_steps", "own_task", "robot"];
 
 /// Gymnasium's name of its own model file, which stands for the built-in model here.
 const BUILT_IN: &str = "humanoid.xml";
 /// Accepted `frame_skip`: with Gymnasium's time step, it gives the default control step.
 const FRAME_SKIP: u32 = 5;
-/// Accepted `substeps`.
-const REPEATS: RangeInclusive<u32> = 1..=1000;
 
 /// Settings and model of an environment.
 pub struct EnvironmentSettings {
     config: EnvironmentConfig,
+    /// Control steps after which an episode is truncated; 0 means never.
+    max_episode_steps: u32,
     model_xml: String,
     /// Path of the model file; `None` for the built-in model.
     file: Option<String>,
@@ -39,53 +34,34 @@ impl EnvironmentSettings {
     /// # Errors
     /// `TypeError` for an unknown keyword, `ValueError` for an invalid value, `OSError` for an unreadable model file.
     pub fn read(keywords: &Bound<'_, PyDict>, max_episode_steps: u32) -> PyResult<Self> {
-        let mut config = EnvironmentConfig {
-            observation: ObservationKind::GymnasiumV5,
-            max_episode_steps,
-            ..EnvironmentConfig::default()
-        };
+        let keys = EnvConfig::describe().keys.into_iter().filter(|key| !NO_KEYWORDS.contains(&key.name()));
+        let keys: Vec<KeyDoc> = keys.collect();
+        let mut env = toml::Table::from_iter([("observation".to_owned(), EnvObservation::GymnasiumV5.name().into())]);
         let mut file = None;
         for (name, value) in keywords.iter() {
             let name: String = name.extract()?;
             let keyword = Keyword { name: &name, value };
             match name.as_str() {
-                "task" => config.task = keyword.choice(&TASKS)?,
-                "observation" => config.observation = keyword.choice(&OBSERVATIONS)?,
-                "forward_reward_weight" => config.forward_reward_weight = keyword.number()?,
-                "ctrl_cost_weight" => config.ctrl_cost_weight = keyword.number()?,
-                "contact_cost_weight" => config.contact_cost_weight = keyword.number()?,
-                "contact_cost_range" => config.contact_cost_range = keyword.range()?,
-                "healthy_reward" => config.healthy_reward = keyword.number()?,
-                "terminate_when_unhealthy" => config.terminate_when_unhealthy = keyword.flag()?,
-                "healthy_z_range" => config.healthy_z_range = keyword.range()?,
-                "reset_noise_scale" => config.reset_noise_scale = keyword.number()?,
-                "exclude_current_positions_from_observation" => {
-                    config.exclude_current_positions_from_observation = keyword.flag()?;
-                }
-                "include_cinert_in_observation" => config.include_cinert_in_observation = keyword.flag()?,
-                "include_cvel_in_observation" => config.include_cvel_in_observation = keyword.flag()?,
-                "include_qfrc_actuator_in_observation" => {
-                    config.include_qfrc_actuator_in_observation = keyword.flag()?
-                }
-                "include_cfrc_ext_in_observation" => config.include_cfrc_ext_in_observation = keyword.flag()?,
-                "keyframe" => config.keyframe = keyword.text()?,
-                "control_step_s" => config.control_step_s = keyword.number()?,
-                "substeps" => config.substeps = keyword.whole(REPEATS)?,
-                "self_collision" => config.self_collision = keyword.flag()?,
                 "frame_skip" => keyword.frame_skip()?,
                 "xml_file" => file = keyword.file()?,
                 _ => {
-                    let why =
-                        format!("unknown keyword argument `{name}`; accepted, besides those of pictures: {KEYWORDS}");
-                    return Err(PyTypeError::new_err(why));
+                    let key = keys.iter().find(|key| key.name() == name).ok_or_else(|| unknown(&name, &keys))?;
+                    env.insert(name.clone(), keyword.setting(key)?);
                 }
             }
         }
+        let env: EnvConfig = env.try_into().map_err(|why: toml::de::Error| PyValueError::new_err(why.to_string()))?;
+        if !matches!(env.task, EnvTask::HumanoidV5 | EnvTask::HumanoidV4) {
+            let why = format!("task is '{}', but must be 'humanoid-v5' or 'humanoid-v4'", env.task.name());
+            return Err(PyValueError::new_err(why));
+        }
+        let config = EnvironmentConfig::from(env);
+        config.check().map_err(|why| refused_setting(&why))?;
         let model_xml = match &file {
             Some(path) => read_model_file(Path::new(path)).map_err(|why| refusal(&why, Some(path)))?,
             None => HUMANOID_XML.to_owned(),
         };
-        Ok(Self { config, model_xml, file })
+        Ok(Self { config, max_episode_steps, model_xml, file })
     }
 
     /// Builds one environment.
@@ -96,8 +72,8 @@ impl EnvironmentSettings {
         let file = self.file.as_deref();
         let environment = Environment::new(&self.config, &self.model_xml).map_err(|why| refusal(&why, file))?;
         let height_m = environment.nominal_position()[2];
-        let [low_m, high_m] = self.config.healthy_z_range;
-        if self.config.terminate_when_unhealthy && !(low_m < height_m && height_m < high_m) {
+        let [low_m, high_m] = self.config.env.healthy_z_range;
+        if self.config.env.terminate_when_unhealthy && !(low_m < height_m && height_m < high_m) {
             return Err(PyValueError::new_err(format!(
                 "healthy_z_range is ({low_m}, {high_m}), but the robot starts with its root at {height_m} m, so every \
                  episode would end at once; use healthy_z_range=({:.2}, {:.2}), for example",
@@ -105,17 +81,28 @@ impl EnvironmentSettings {
                 1.4 * height_m
             )));
         }
-        Ok(environment)
+        Ok(environment.with_max_episode_steps(self.max_episode_steps))
     }
 }
 
-const TASKS: [(&str, RewardTask); 2] =
-    [("humanoid-v5", RewardTask::HumanoidV5), ("humanoid-v4", RewardTask::HumanoidV4)];
-const OBSERVATIONS: [(&str, ObservationKind); 3] = [
-    ("gymnasium-v5", ObservationKind::GymnasiumV5),
-    ("gymnasium-v4", ObservationKind::GymnasiumV4),
-    ("compact", ObservationKind::Compact),
-];
+/// Returns the error about an unknown keyword.
+fn unknown(name: &str, keys: &[KeyDoc]) -> PyErr {
+    let mut accepted: Vec<&str> = keys.iter().map(KeyDoc::name).chain(["frame_skip", "xml_file"]).collect();
+    accepted.sort_unstable();
+    let accepted = accepted.join(", ");
+    PyTypeError::new_err(format!("unknown keyword argument `{name}`; accepted, besides those of pictures: {accepted}"))
+}
+
+/// Returns the error about a setting, by the name of its keyword.
+fn refused_setting(why: &ConfigError) -> PyErr {
+    PyValueError::new_err(match why {
+        ConfigError::Value { key, value, allowed } => {
+            let name = key.rsplit('.').next().unwrap_or(key);
+            format!("{name} is {value}, but must be {allowed}")
+        }
+        why => why.to_string(),
+    })
+}
 
 /// Keyword argument.
 pub struct Keyword<'a, 'py> {
@@ -132,17 +119,13 @@ impl Keyword<'_, '_> {
         PyValueError::new_err(format!("{} is {value}, but must be {expected}", self.name))
     }
 
-    fn number(&self) -> PyResult<f64> {
-        let number = (!self.value.is_instance_of::<PyBool>()).then(|| self.value.extract().ok()).flatten();
-        number.ok_or_else(|| self.refuse("a number"))
-    }
-
-    fn range(&self) -> PyResult<[f64; 2]> {
-        self.value.extract().map_err(|_| self.refuse("two numbers, the lower and the upper limit"))
-    }
-
-    fn flag(&self) -> PyResult<bool> {
-        self.value.extract().map_err(|_| self.refuse("True or False"))
+    /// Returns the value of a setting.
+    fn setting(&self, key: &KeyDoc) -> PyResult<toml::Value> {
+        let value = as_toml(&self.value).ok_or_else(|| self.refuse(key.notation))?;
+        key.convert(&value).map_err(|why| match why {
+            ConfigError::Value { .. } => self.refuse(key.allowed),
+            _ => self.refuse(&format!("{}; allowed: {}", key.notation, key.allowed)),
+        })
     }
 
     /// Returns a whole number in a range.
@@ -154,25 +137,13 @@ impl Keyword<'_, '_> {
             .ok_or_else(|| self.refuse(&format!("a whole number between {low} and {high}")))
     }
 
-    fn choice<T: Copy>(&self, choices: &[(&str, T)]) -> PyResult<T> {
-        let text: Option<String> = self.value.extract().ok();
-        choices.iter().find(|(name, _)| text.as_deref() == Some(*name)).map(|(_, choice)| *choice).ok_or_else(|| {
-            let names: Vec<_> = choices.iter().map(|(name, _)| format!("'{name}'")).collect();
-            self.refuse(&format!("one of {}", names.join(", ")))
-        })
-    }
-
     fn frame_skip(&self) -> PyResult<()> {
-        match self.whole(REPEATS) {
+        match self.whole(1..=1000) {
             Ok(FRAME_SKIP) => Ok(()),
             _ => Err(self.refuse(&format!(
                 "{FRAME_SKIP}: `control_step_s` sets the duration of a step, `substeps` its number of physics steps"
             ))),
         }
-    }
-
-    fn text(&self) -> PyResult<String> {
-        self.value.extract().map_err(|_| self.refuse("a text"))
     }
 
     /// Returns the path of a model file; `None` for the built-in model.
@@ -182,6 +153,24 @@ impl Keyword<'_, '_> {
         let path = path.ok_or_else(|| self.refuse("the path of an MJCF file"))?;
         Ok((path != BUILT_IN).then_some(path))
     }
+}
+
+/// Returns a Python value in TOML; `None` if TOML has no such value.
+fn as_toml(value: &Bound<'_, PyAny>) -> Option<toml::Value> {
+    if let Ok(flag) = value.extract::<bool>() {
+        return Some(flag.into());
+    }
+    if let Ok(whole) = value.extract::<i64>() {
+        return Some(whole.into());
+    }
+    if let Ok(number) = value.extract::<f64>() {
+        return Some(number.into());
+    }
+    if let Ok(text) = value.extract::<String>() {
+        return Some(text.into());
+    }
+    let items: Vec<Bound<'_, PyAny>> = value.extract().ok()?;
+    items.iter().map(as_toml).collect::<Option<_>>().map(toml::Value::Array)
 }
 
 /// Returns the Python exception for a model error, with its causes.
@@ -195,6 +184,7 @@ fn refusal(why: &ModelError, file: Option<&str>) -> PyErr {
             PyFileNotFoundError::new_err(message)
         }
         ModelError::File { .. } => PyOSError::new_err(message),
+        ModelError::Setting(why) => refused_setting(why),
         _ => PyValueError::new_err(message),
     }
 }

@@ -2,7 +2,7 @@
 
 use std::thread;
 
-use treadmill_humanoid::{Environment, EnvironmentConfig, Physics, task, worlds_per_pass};
+use treadmill_humanoid::{Environment, EnvironmentConfig, Physics, TaskRegistry, task, worlds_per_pass};
 use treadmill_runtime::{machine, seeds};
 
 /// Number of humanoids, as many as an actor has: one alone would stay in the cache.
@@ -32,7 +32,7 @@ impl BenchWorld {
 
 /// Returns whether the humanoid of one of Gymnasium's tasks fell.
 pub fn fell(config: &EnvironmentConfig, world: &BenchWorld) -> bool {
-    config.terminate_when_unhealthy && !task::is_healthy(config, world.environment.physics().torso_height_m())
+    config.env.terminate_when_unhealthy && !task::is_healthy(&config.env, world.environment.physics().torso_height_m())
 }
 
 /// [`WORLDS`] humanoids, each with a `T`.
@@ -44,13 +44,14 @@ pub struct BenchWorlds<T> {
 impl<T: Send> BenchWorlds<T> {
     /// Creates and resets all; `state` creates the `T` of a world.
     pub fn new(
+        tasks: &TaskRegistry,
         config: &EnvironmentConfig,
         model_xml: &str,
         threads: usize,
         state: impl Fn(usize) -> T,
     ) -> anyhow::Result<Self> {
         let world = |index| -> anyhow::Result<(BenchWorld, T)> {
-            let environment = Environment::new(config, model_xml)?;
+            let environment = tasks.environment(config, model_xml)?;
             let observation = vec![0.0; environment.observation_size()];
             let mut world = BenchWorld { index, environment, resets: 0, faults: 0, observation };
             world.reset();

@@ -5,12 +5,9 @@ use std::{thread, time::Instant};
 use clap::Args;
 use rand::RngExt;
 use serde_json::{Value, json};
-use treadmill_actor::{
-    environments::{Environments, SeedSource, StepResults},
-    settings,
-};
+use treadmill_actor::environments::{Environments, SeedSource, StepResults};
 use treadmill_config::Config;
-use treadmill_humanoid::{Environment, EnvironmentConfig};
+use treadmill_humanoid::{EnvironmentConfig, TaskRegistry};
 use treadmill_proto::EndCause;
 use treadmill_runtime::{machine, seeds};
 
@@ -54,17 +51,17 @@ impl EnvArgs {
 }
 
 /// Runs the measurement and prints its result.
-pub fn run(args: &EnvArgs) -> anyhow::Result<()> {
+pub fn run(args: &EnvArgs, tasks: &TaskRegistry) -> anyhow::Result<()> {
     let config = args.config()?;
     let file = args.model.model.as_deref();
     let text = model::completed(&config, file)?;
     // Reports errors of the model file.
-    model::environment(&config, &text, file)?;
-    let environment = settings::training(&config);
+    model::environment(tasks, &config, &text, file)?;
+    let environment = config.environment();
     let threads = bench_worlds::busy_threads(bench_worlds::threads(args.threads.into()));
     let rounds = args.steps.div_ceil(WORLDS as u64).max(1);
     let has_other_task = model::has_other_task(&config.env);
-    let workload = Workload::new(&environment, &text, threads, rounds)?;
+    let workload = Workload::new(tasks, &environment, &text, threads, rounds)?;
     let mut result = workload.with_task(config.env.observation.name())?;
     if !has_other_task {
         // A body of another task has no height below which it is reset.
@@ -76,6 +73,7 @@ pub fn run(args: &EnvArgs) -> anyhow::Result<()> {
 
 /// Random actions of [`WORLDS`] humanoids.
 struct Workload<'a> {
+    tasks: &'a TaskRegistry,
     config: &'a EnvironmentConfig,
     model_xml: &'a str,
     threads: usize,
@@ -85,11 +83,17 @@ struct Workload<'a> {
 }
 
 impl<'a> Workload<'a> {
-    fn new(config: &'a EnvironmentConfig, model_xml: &'a str, threads: usize, rounds: u64) -> anyhow::Result<Self> {
-        let action_size = Environment::new(config, model_xml)?.action_size();
+    fn new(
+        tasks: &'a TaskRegistry,
+        config: &'a EnvironmentConfig,
+        model_xml: &'a str,
+        threads: usize,
+        rounds: u64,
+    ) -> anyhow::Result<Self> {
+        let action_size = tasks.environment(config, model_xml)?.action_size();
         let mut random = seeds::stream(1, "bench-actions", &[]);
         let actions = (0..ACTIONS * action_size).map(|_| random.random_range(-1.0..1.0)).collect();
-        Ok(Self { config, model_xml, threads, rounds, action_size, actions })
+        Ok(Self { tasks, config, model_xml, threads, rounds, action_size, actions })
     }
 
     /// Returns the actions of all worlds in a round.
@@ -104,7 +108,7 @@ impl<'a> Workload<'a> {
 
     fn with_task(&self, observation_kind: &str) -> anyhow::Result<Value> {
         let seeds = SeedSource { run_seed: 1, actor: "bench".to_string(), start: 0 };
-        let environments = Environments::new(WORLDS, self.config, self.model_xml, seeds)?;
+        let environments = Environments::new(WORLDS, self.tasks, self.config, self.model_xml, seeds)?;
         let (size, observation_size) = (self.action_size, environments.observation_size());
         // Like an actor, each thread steps a share of the environments.
         let mut shares: Vec<_> = environments.split(self.threads).into_iter().map(|share| (share, 0, 0, 0)).collect();
@@ -136,7 +140,7 @@ impl<'a> Workload<'a> {
             "env_steps_per_s": rounded(env_steps_per_s),
             "observation": observation_size,
             "observation_kind": observation_kind,
-            "control_step_s": self.config.control_step_s,
+            "control_step_s": self.config.env.control_step_s,
             "threads": shares.len(),
             "cpu": machine::cpu_name(),
             "workload": format!("{WORLDS} humanoids, uniformly random actions, {steps} steps, {resets} resets"),
@@ -149,7 +153,8 @@ impl<'a> Workload<'a> {
     /// because contact with the ground costs time.
     fn physics_only(&self) -> anyhow::Result<f64> {
         let size = self.action_size;
-        let mut worlds = BenchWorlds::new(self.config, self.model_xml, self.threads, |_| vec![0.0f32; size])?;
+        let mut worlds =
+            BenchWorlds::new(self.tasks, self.config, self.model_xml, self.threads, |_| vec![0.0f32; size])?;
         let begun = Instant::now();
         worlds.step(
             self.rounds,

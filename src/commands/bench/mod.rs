@@ -14,6 +14,7 @@ mod train;
 mod update;
 
 use clap::{Args, Subcommand};
+use treadmill_humanoid::TaskRegistry;
 
 /// Flags of `bench`.
 #[derive(Args)]
@@ -35,9 +36,9 @@ enum Benchmark {
 }
 
 /// Runs one benchmark.
-pub fn run(args: BenchArgs) -> anyhow::Result<()> {
+pub fn run(args: BenchArgs, tasks: &TaskRegistry) -> anyhow::Result<()> {
     match args.benchmark {
-        Benchmark::Env(args) => env::run(&args),
+        Benchmark::Env(args) => env::run(&args, tasks),
         Benchmark::Update(args) => update::run(&args),
         Benchmark::Policy(args) => policy::run(&args),
         Benchmark::Train(args) => train::run(&args),

@@ -126,7 +126,7 @@ impl Filming {
     }
 
     fn take_picture(&mut self, step: &EvaluationStep) -> anyhow::Result<()> {
-        let position = step.physics.position();
+        let position = step.environment.physics().position();
         let share = 1.0 - (-self.control_step_s / FOLLOW_S).exp();
         let mut followed_m = self.followed_m.unwrap_or([position[0], position[1]]);
         // Forward motion is followed without delay, because a runner would leave the picture.
@@ -140,9 +140,9 @@ impl Filming {
             return Ok(());
         }
         let camera = Camera::beside(followed_m[0], followed_m[1]);
-        let mut scene = Scene::of(step.physics);
+        let mut scene = Scene::of(step.environment.physics());
         if let Some(command) = step.start.command {
-            add_velocities(&mut scene, step.physics, command);
+            add_velocities(&mut scene, step.environment.physics(), command);
         }
         let picture = Picture::of(&scene, &camera, self.size);
         for _ in 0..due {

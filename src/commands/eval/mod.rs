@@ -17,7 +17,7 @@ use treadmill_actor::{
     evaluation::{EpisodeResult, Evaluation, EvaluationStep, evaluate_commanded, tracking::Tracking},
 };
 use treadmill_config::{Config, RandomisationConfig};
-use treadmill_humanoid::Environment;
+use treadmill_humanoid::{Environment, TaskRegistry};
 use treadmill_learner::checkpoint::Which;
 use treadmill_policy::exported::ExportedPolicy;
 use treadmill_runtime::words::shown;
@@ -105,9 +105,9 @@ pub struct EvalArgs {
 }
 
 /// Plays the episodes and prints their results.
-pub fn run(args: EvalArgs) -> anyhow::Result<()> {
+pub fn run(args: EvalArgs, tasks: &TaskRegistry) -> anyhow::Result<()> {
     let commands = args.commands.as_deref().map(CommandFile::read).transpose()?;
-    let Prepared { mut environment, mut agent, origin } = prepare(&args)?;
+    let Prepared { mut environment, mut agent, origin } = prepare(&args, tasks)?;
     let has_commands = environment.task().command().is_some();
     if let Some(path) = args.commands.as_ref().filter(|_| !has_commands) {
         let why = "this task has no commands; leave --commands out, or play a policy of the velocity task";
@@ -176,7 +176,7 @@ struct Prepared {
     origin: Option<Origin>,
 }
 
-fn prepare(args: &EvalArgs) -> anyhow::Result<Prepared> {
+fn prepare(args: &EvalArgs, tasks: &TaskRegistry) -> anyhow::Result<Prepared> {
     let is_policy = matches!(args.agent, AgentKind::Policy);
     let Some(run) = args.run.as_ref().filter(|_| is_policy) else {
         if is_policy {
@@ -192,7 +192,7 @@ fn prepare(args: &EvalArgs) -> anyhow::Result<Prepared> {
         }
         let config = configuration(args, Config::default())?;
         let file = args.model.model.as_deref();
-        let environment = model::environment(&config, &model::completed(&config, file)?, file)?;
+        let environment = model::environment(tasks, &config, &model::completed(&config, file)?, file)?;
         let action_size = environment.action_size();
         return Ok(Prepared { environment, agent: baseline(args, action_size), origin: None });
     };
@@ -200,9 +200,9 @@ fn prepare(args: &EvalArgs) -> anyhow::Result<Prepared> {
     let SavedPolicy { policy, config, origin, .. } = saved_policy::load(run, args.checkpoint)?;
     let config = configuration(args, config)?;
     let environment = match args.model.model.as_deref() {
-        None => saved_policy::environment(run, &policy, &config)?,
+        None => saved_policy::environment(tasks, run, &policy, &config)?,
         Some(file) => {
-            let environment = model::environment(&config, &model::completed(&config, Some(file))?, Some(file))?;
+            let environment = model::environment(tasks, &config, &model::completed(&config, Some(file))?, Some(file))?;
             check_fits(&policy, &environment, file)?;
             environment
         }

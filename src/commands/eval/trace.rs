@@ -60,7 +60,7 @@ fn line(step: &EvaluationStep) -> serde_json::Value {
         line["command"] = json!(command);
     }
     if !step.ended.is_some_and(|played| played.fault) {
-        line["torque"] = json!(step.physics.joint_torques_nm());
+        line["torque"] = json!(step.environment.physics().joint_torques_nm());
     }
     line
 }

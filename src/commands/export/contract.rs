@@ -4,27 +4,15 @@ use anyhow::Context;
 use serde_json::{Value, json};
 use treadmill_humanoid::{
     Environment, EnvironmentConfig,
-    config::VelocityConfig,
+    config::ChosenTask,
     model::{HingeControl, Robot},
-    task::velocity::{ACTION_MAX, HEADING_GAIN, SCAN_GRID, SCAN_MAX_M, SCAN_SPACING_M},
+    task::velocity::{ACTION_MAX, HEADING_GAIN, SCAN_GRID, SCAN_MAX_M, SCAN_SPACING_M, TERMS, TermRow},
 };
 use treadmill_policy::onnx::ForController;
 use treadmill_proto::onnx::Ports;
 
 /// Version of the contract; raised if an old reader would misunderstand a new one.
 const FORMAT: u32 = 1;
-
-/// Unit and frame of each term that a policy can observe.
-const MEANINGS: [(&str, &str, &str); 8] = [
-    ("base_ang_vel", "rad/s", "base"),
-    ("projected_gravity", "1", "base"),
-    ("velocity_commands", "m/s, m/s, rad/s", "heading"),
-    ("joint_pos_rel", "rad", "joint"),
-    ("joint_vel_rel", "rad/s", "joint"),
-    ("last_action", "action_scale", "joint"),
-    ("gait_phase", "1", "sine and cosine"),
-    ("height_scan", "m", "heading"),
-];
 
 /// Servo of one hinge.
 #[derive(Clone)]
@@ -42,16 +30,13 @@ pub(super) struct Joint {
 
 /// Term of one observation.
 pub(super) struct Term {
-    pub name: String,
+    pub row: &'static TermRow,
     pub size: usize,
-    unit: &'static str,
-    frame: &'static str,
 }
 
 /// What a controller must know.
 pub(super) struct Contract {
-    config: EnvironmentConfig,
-    pub velocity: VelocityConfig,
+    pub config: EnvironmentConfig,
     /// Joints of the policy, in the order of the action.
     pub joints: Vec<Joint>,
     /// Joints that stay at a default angle.
@@ -69,7 +54,9 @@ impl Contract {
     /// Returns the contract of policies for an environment; `None` if its task is not the velocity task.
     pub fn new(environment: &Environment) -> anyhow::Result<Option<Self>> {
         let config = environment.config();
-        let (Some(velocity), "") = (&config.velocity, config.own_task.as_str()) else { return Ok(None) };
+        if config.env.chosen_task() != ChosenTask::Velocity {
+            return Ok(None);
+        }
         let model = environment.physics().model();
         let robot: &Robot = model.robot.as_ref().context("the velocity task has no robot card")?;
         let joint = |(index, control): (usize, &HingeControl)| Joint {
@@ -85,10 +72,9 @@ impl Contract {
         let of = |is_held: bool| robot.hinges.iter().enumerate().filter(move |(_, hinge)| hinge.is_held == is_held);
         Ok(Some(Self {
             config: config.clone(),
-            velocity: velocity.clone(),
             joints: of(false).map(joint).collect(),
             held: of(true).map(joint).collect(),
-            terms: terms(environment, velocity.history as usize)?,
+            terms: terms(environment)?,
             base: model.links[0].name.clone(),
             feet: robot.feet.iter().map(|foot| model.links[*foot].name.clone()).collect(),
             height_m: robot.default_position[2],
@@ -98,7 +84,7 @@ impl Contract {
 
     /// Returns the duration of a control step (s).
     pub fn control_step_s(&self) -> f64 {
-        self.config.control_step_s
+        self.config.env.control_step_s
     }
 
     /// Returns the range of each joint's action, and its metadata under the names that mjlab uses.
@@ -113,9 +99,9 @@ impl Contract {
             ("joint_damping", listed(|joint| joint.kd)),
             ("default_joint_pos", listed(|joint| joint.default_rad)),
             ("action_scale", listed(|joint| joint.action_scale_rad)),
-            ("observation_names", names(self.terms.iter().map(|term| &term.name[..]).collect())),
+            ("observation_names", names(self.terms.iter().map(|term| term.row.name).collect())),
             ("observation_scales", names(vec!["1"; self.terms.len()])),
-            ("history", self.velocity.history.to_string()),
+            ("history", self.config.velocity.history.to_string()),
             ("control_step_s", self.control_step_s().to_string()),
             ("treadmill.contract", self.json().to_string()),
         ];
@@ -128,18 +114,20 @@ impl Contract {
 
     /// Returns the whole contract.
     fn json(&self) -> Value {
-        let Self { config, velocity, .. } = self;
+        let EnvironmentConfig { env, velocity, randomisation, .. } = &self.config;
         let mut contract = lists(&self.joints);
         contract["action_scale"] = self.joints.iter().map(|joint| joint.action_scale_rad).collect();
         let terms: Vec<Value> = self
             .terms
             .iter()
-            .map(|Term { name, size, unit, frame }| json!({"name": name, "size": size, "unit": unit, "frame": frame}))
+            .map(|Term { row: TermRow { name, unit, frame, .. }, size }| {
+                json!({"name": name, "size": size, "unit": unit, "frame": frame})
+            })
             .collect();
         for (key, value) in [
             ("format", json!(FORMAT)),
-            ("control_step_s", json!(config.control_step_s)),
-            ("substeps", json!(config.substeps)),
+            ("control_step_s", json!(env.control_step_s)),
+            ("substeps", json!(env.substeps)),
             ("action_limit", json!(ACTION_MAX)),
             ("held_joints", lists(&self.held)),
             ("base_body", json!(self.base)),
@@ -186,8 +174,8 @@ impl Contract {
                     "tilt_rad": velocity.fall_tilt_rad,
                 }),
             ),
-            ("push_interval_s", json!(config.randomisation.push_interval_s)),
-            ("push_mps", json!(config.randomisation.push_mps)),
+            ("push_interval_s", json!(randomisation.push_interval_s)),
+            ("push_mps", json!(randomisation.push_mps)),
         ] {
             contract[key] = value;
         }
@@ -208,17 +196,16 @@ fn lists(joints: &[Joint]) -> Value {
     })
 }
 
-/// Returns the terms of one observation of the policy, the newest of `history`.
-fn terms(environment: &Environment, history: usize) -> anyhow::Result<Vec<Term>> {
+/// Returns the terms of one observation of the policy, the newest of its history.
+fn terms(environment: &Environment) -> anyhow::Result<Vec<Term>> {
     let of_policy: Vec<_> = environment.terms().iter().filter(|term| !term.is_privileged).collect();
-    of_policy[..of_policy.len() / history]
+    of_policy[..of_policy.len() / environment.config().velocity.history as usize]
         .iter()
         .map(|term| {
-            let meaning = MEANINGS.iter().find(|(name, ..)| *name == term.name);
-            let (_, unit, frame) = meaning.with_context(|| {
-                format!("the policy observes `{}`, whose meaning the contract cannot express", term.name)
-            })?;
-            Ok(Term { name: term.name.clone(), size: term.range.len(), unit, frame })
+            let row = TERMS.iter().find(|row| row.name == term.name);
+            let row =
+                row.with_context(|| format!("the policy observes `{}`, which is no term of the task", term.name))?;
+            Ok(Term { row, size: term.range.len() })
         })
         .collect()
 }

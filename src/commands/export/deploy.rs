@@ -23,7 +23,7 @@ pub(super) fn yaml(contract: &Contract) -> anyhow::Result<String> {
             list([joint.default_rad - most_rad, joint.default_rad + most_rad])
         })
         .collect();
-    let velocity = &contract.velocity;
+    let velocity = &contract.config.velocity;
     let mut text = format!(
         "joint_ids_map: [{ids}]\nstep_dt: {step:?}\nstiffness: {stiffness}\ndamping: {damping}\ndefault_joint_pos: {offset}\n\
          commands:\n  base_velocity:\n    ranges:\n      lin_vel_x: {x}\n      lin_vel_y: {y}\n      ang_vel_z: {yaw}\n      \
@@ -42,12 +42,8 @@ pub(super) fn yaml(contract: &Contract) -> anyhow::Result<String> {
         scale = of(|joint| joint.action_scale_rad),
     );
     for term in &contract.terms {
-        let params = match term.name.as_str() {
-            "velocity_commands" => "{command_name: base_velocity}".to_owned(),
-            "gait_phase" => format!("{{period: {:?}}}", velocity.gait_period_s),
-            _ => "{}".to_owned(),
-        };
-        let (name, ones) = (&term.name, list(vec![1.0; term.size]));
+        let (name, params) = (term.row.name, (term.row.deploy_params)(velocity));
+        let ones = list(vec![1.0; term.size]);
         writeln!(
             text,
             "  {name}:\n    params: {params}\n    clip: null\n    scale: {ones}\n    history_length: {}",

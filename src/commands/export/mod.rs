@@ -17,6 +17,7 @@ use std::{
 use anyhow::Context;
 use clap::{ArgGroup, Args};
 use serde_json::json;
+use treadmill_humanoid::TaskRegistry;
 use treadmill_learner::checkpoint::Which;
 use treadmill_policy::onnx::to_onnx;
 use treadmill_proto::onnx::Ports;
@@ -58,12 +59,12 @@ pub struct ExportArgs {
 }
 
 /// Writes the files and prints what they contain.
-pub fn run(args: &ExportArgs) -> anyhow::Result<()> {
+pub fn run(args: &ExportArgs, tasks: &TaskRegistry) -> anyhow::Result<()> {
     let SavedPolicy { policy, config, origin, .. } = saved_policy::load(&args.run, args.checkpoint)?;
     let environment = match config.is_external() {
         true => None,
         // Refuses a policy that `eval` would refuse.
-        false => Some(saved_policy::environment(&args.run, &policy, &config)?),
+        false => Some(saved_policy::environment(tasks, &args.run, &policy, &config)?),
     };
     let contract = environment.as_ref().map(Contract::new).transpose()?.flatten();
     let ground = environment.as_ref().and_then(ground::json);
@@ -80,7 +81,7 @@ pub fn run(args: &ExportArgs) -> anyhow::Result<()> {
         return Err(Usage(why).into());
     }
     if let (Some(contract), Some(_)) = (&contract, &args.deploy)
-        && contract.velocity.height_scan
+        && contract.config.velocity.height_scan
     {
         let why = format!(
             "--deploy: `{}` observes the heights of the ground (velocity.height_scan), which Unitree's controllers cannot; \

@@ -14,7 +14,7 @@ pub fn page() -> String {
     for section in Config::sections() {
         page += &format!("\n## [{}]\n\n{}\n\n", section.name, section.about);
         for KeyDoc { key, doc, default, allowed, .. } in section.keys {
-            let live = if is_changeable(&key) { " *Live.*" } else { "" };
+            let live = if is_changeable(key) { " *Live.*" } else { "" };
             page += &format!("- `{key} = {default}` ({allowed}): {doc}{live}\n");
         }
     }

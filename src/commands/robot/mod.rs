@@ -5,7 +5,6 @@ mod report;
 use std::path::PathBuf;
 
 use clap::Args;
-use treadmill_actor::settings;
 use treadmill_config::Config;
 use treadmill_humanoid::{Model, Physics, card};
 use treadmill_render::{Camera, Picture, Scene, film};
@@ -45,7 +44,7 @@ pub fn run(args: &RobotArgs) -> anyhow::Result<()> {
     let text = model::completed(&config, Some(&args.file))?;
     let robot = Model::without_motors(&text).map_err(|why| model::in_file(Some(&args.file), &why))?;
     let is_card = robot.robot.is_some();
-    let config = settings::training(&config);
+    let config = config.environment();
     let mut physics = Physics::new(robot.clone(), &config).map_err(|why| model::in_file(Some(&args.file), &why))?;
     let position = match (&robot.robot, robot.keyframes.first()) {
         (Some(card), _) => card.default_position.clone(),

@@ -2,7 +2,7 @@
 
 use rand_xoshiro::Xoshiro256PlusPlus;
 
-use super::Environment;
+use super::{Environment, gymnasium_info};
 use crate::error::StateError;
 
 /// State of an episode between two control steps, apart from model and settings.
@@ -74,7 +74,8 @@ impl Environment {
         self.episode_steps = state.steps;
         self.was_pushed = false;
         self.last_observation.copy_from_slice(&state.observation);
-        self.last_info = self.task.begin(state.seed, &self.physics);
+        self.task.begin(state.seed, &self.physics);
+        self.last_info = gymnasium_info(&*self.task);
         self.task.restore(&state.task)?;
         observation.copy_from_slice(&state.observation);
         Ok(())

@@ -16,7 +16,7 @@ pub struct EnvironmentSnapshot {
     task: Vec<f64>,
     seed: Option<u64>,
     last_observation: Vec<f32>,
-    last_info: StepInfo,
+    last_info: Option<StepInfo>,
     episode_steps: u32,
 }
 
@@ -50,7 +50,7 @@ impl Environment {
         self.physics.restore(&snapshot.physics)?;
         if let Some(seed) = snapshot.seed {
             // What a task draws from its episode's seed is not among the numbers that it saves.
-            let _ = self.task.begin(seed, &self.physics);
+            self.task.begin(seed, &self.physics);
         }
         self.task.restore(&snapshot.task).map_err(SnapshotError::Task)?;
         self.randomiser.clone_from(&snapshot.randomiser);

@@ -63,7 +63,7 @@ impl Mirror {
         Ok(Self { position: with_root(&root_position, &hinges), velocity: with_root(&root_velocity, &hinges), action })
     }
 
-    /// Returns the reflection of a [`crate::ObservationKind::Compact`] observation with `size` entries: positions, possibly
+    /// Returns the reflection of a [`crate::EnvObservation::Compact`] observation with `size` entries: positions, possibly
     /// without the first ones, then velocities.
     #[must_use]
     pub fn observation(&self, size: usize) -> SignedPermutation {

@@ -13,7 +13,7 @@
 //! about the *centre*, the whole humanoid's centre of mass: the offset is from the centre to the link's centre of mass,
 //! and the velocity is that of the link's material point at the centre.
 //!
-//! | [`ObservationKind`] | blocks | humanoid |
+//! | [`EnvObservation`] | blocks | humanoid |
 //! |---|---|---|
 //! | `Compact` | `qpos`, `qvel` | 45 |
 //! | `GymnasiumV5` | all; each of the last four can be excluded | 348 |
@@ -37,12 +37,11 @@ pub(crate) use self::sensed::Sensed;
 use self::spatial::{SpatialInertia, velocity_about};
 use nalgebra::{Point3, Quaternion, UnitQuaternion, Vector3};
 
-use crate::config::{EnvironmentConfig, ObservationKind};
+use crate::config::{EnvConfig, EnvObservation};
 use crate::dynamics::World;
 use crate::model::Model;
 use crate::physics::Physics;
 use crate::randomisation::SensorNoise;
-use crate::task::ObservationTerm;
 
 /// Length of the compact observation of [`crate::HUMANOID_XML`]: 22 position and 23 velocity numbers.
 pub const OBSERVATION_SIZE_COMPACT: usize = 45;
@@ -57,6 +56,17 @@ const ROOT_FREEDOMS: usize = 6;
 const INERTIA_SIZE: usize = 10;
 /// Numbers of a link's velocity, and of the wrench on it.
 const SPATIAL_SIZE: usize = 6;
+
+/// Consecutive numbers of an observation with one meaning.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct ObservationTerm {
+    /// Name; Gymnasium's in its tasks.
+    pub name: String,
+    /// Position in the observation.
+    pub range: Range<usize>,
+    /// Whether only the critic sees it, in training. Such terms come after all others.
+    pub is_privileged: bool,
+}
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Quantity {
@@ -95,9 +105,9 @@ pub struct Observation {
 impl Observation {
     /// Returns the layout that a configuration selects.
     #[must_use]
-    pub fn new(config: &EnvironmentConfig, model: &Model) -> Self {
-        let has_world = config.observation == ObservationKind::GymnasiumV4;
-        let all = config.observation != ObservationKind::Compact;
+    pub fn new(config: &EnvConfig, model: &Model) -> Self {
+        let has_world = config.observation == EnvObservation::GymnasiumV4;
+        let all = config.observation != EnvObservation::Compact;
         let rows = model.links.len() + usize::from(has_world);
         let excluded = if config.exclude_current_positions_from_observation { EXCLUDABLE } else { 0 };
         let torques = model.hinges.len() + if has_world { ROOT_FREEDOMS } else { 0 };

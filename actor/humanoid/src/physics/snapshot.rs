@@ -42,7 +42,7 @@ impl Physics {
     /// # Errors
     /// [`SnapshotError`] if the model or the settings differ; the state is then unchanged.
     pub fn restore(&mut self, snapshot: &PhysicsSnapshot) -> Result<(), SnapshotError> {
-        if let Some((setting, taken, found)) = snapshot.settings.difference(&self.settings) {
+        if let Some((setting, taken, found)) = snapshot.settings.difference(self.settings) {
             return Err(SnapshotError::Setting { setting, taken, found });
         }
         let (taken, found) = (&snapshot.variable.nominal, &self.variable.nominal);

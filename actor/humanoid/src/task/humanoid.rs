@@ -5,7 +5,7 @@
 //! position of the centre of mass instead of the torso's.
 
 use super::{ObservationTerm, Step, StepEvaluation, Task};
-use crate::config::{EnvironmentConfig, ObservationKind, RewardTask};
+use crate::config::{EnvConfig, EnvObservation, EnvTask, EnvironmentConfig};
 use crate::info::{PerTendon, StepInfo};
 use crate::model::Model;
 use crate::model::mirror::{Mirror, SignedPermutation};
@@ -34,25 +34,30 @@ pub struct Transition<'a> {
 
 /// Gymnasium's Humanoid-v5 or -v4.
 pub struct HumanoidTask {
-    config: EnvironmentConfig,
+    config: EnvConfig,
     observation: Observation,
     /// State with sensor noise, if the observation shows more of it than positions and velocities.
     sensed: Option<Sensed>,
-    last_info: StepInfo,
+    info: StepInfo,
 }
 
 impl HumanoidTask {
     /// Returns the task of a configuration for the model of a simulation.
     #[must_use]
     pub fn new(config: &EnvironmentConfig, physics: &Physics) -> Self {
-        let observation = Observation::new(config, physics.model());
+        let observation = Observation::new(&config.env, physics.model());
         let is_derived = config.randomisation.has_sensor_noise() && observation.has_derived_blocks();
         Self {
-            config: config.clone(),
+            config: config.env.clone(),
             sensed: is_derived.then(|| Sensed::new(physics)),
             observation,
-            last_info: StepInfo::default(),
+            info: StepInfo::default(),
         }
+    }
+
+    /// Returns the info of the last step or reset.
+    pub(crate) fn info(&self) -> StepInfo {
+        self.info
     }
 }
 
@@ -61,23 +66,22 @@ impl Task for HumanoidTask {
         self.observation.terms()
     }
 
-    fn begin(&mut self, _seed: u64, physics: &Physics) -> StepInfo {
+    fn begin(&mut self, _seed: u64, physics: &Physics) {
         let (position, centre) = (physics.position(), physics.centre_of_mass());
         let [x_m, y_m] = info_position_m(self.config.task, [position[0], position[1]], [centre.x, centre.y]);
-        StepInfo {
+        self.info = StepInfo {
             x_position_m: x_m,
             y_position_m: y_m,
             distance_from_origin_m: x_m.hypot(y_m),
-            torso_height_m: position[2],
             tendon_length_rad: tendon_values(physics.model(), physics.joint_angles()),
             tendon_velocity_radps: tendon_values(physics.model(), physics.joint_rates()),
             ..StepInfo::default()
-        }
+        };
     }
 
     fn mirrored(&self, robot: &Mirror) -> Option<SignedPermutation> {
         let size = self.terms().last().map_or(0, |term| term.range.end);
-        (self.config.observation == ObservationKind::Compact).then(|| robot.observation(size))
+        (self.config.observation == EnvObservation::Compact).then(|| robot.observation(size))
     }
 
     fn evaluate(&mut self, step: &Step<'_>) -> StepEvaluation {
@@ -93,16 +97,16 @@ impl Task for HumanoidTask {
             tendon_length_rad: tendon_values(physics.model(), physics.joint_angles()),
             tendon_velocity_radps: tendon_values(physics.model(), physics.joint_rates()),
         };
-        let evaluation = evaluate_step(&self.config, &transition);
-        self.last_info = evaluation.info;
+        let (evaluation, info) = evaluate_step(&self.config, &transition);
+        self.info = info;
         evaluation
     }
 
     fn reward_terms(&self, each: &mut dyn FnMut(&'static str, f64)) {
-        each("survive", self.last_info.reward_survive);
-        each("forward", self.last_info.reward_forward);
-        each("ctrl", self.last_info.reward_ctrl);
-        each("contact", self.last_info.reward_contact);
+        each("survive", self.info.reward_survive);
+        each("forward", self.info.reward_forward);
+        each("ctrl", self.info.reward_ctrl);
+        each("contact", self.info.reward_contact);
     }
 
     fn observe(&mut self, physics: &Physics, noise: &mut SensorNoise, observation: &mut [f32]) {
@@ -123,7 +127,7 @@ fn tendon_values(model: &Model, hinges: &[f64]) -> PerTendon {
 
 /// Returns whether a torso height (m) is healthy: strictly between the two bounds.
 #[must_use]
-pub fn is_healthy(config: &EnvironmentConfig, torso_height_m: f64) -> bool {
+pub fn is_healthy(config: &EnvConfig, torso_height_m: f64) -> bool {
     let [low, high] = config.healthy_z_range;
     low < torso_height_m && torso_height_m < high
 }
@@ -135,43 +139,40 @@ pub fn is_healthy(config: &EnvironmentConfig, torso_height_m: f64) -> bool {
 /// never pay more than the ranges allow: as in Stable-Baselines3, their actions are clipped before
 /// (`Environment::action_from_shares`).
 #[must_use]
-pub fn control_cost(config: &EnvironmentConfig, action: &[f32]) -> f64 {
+pub fn control_cost(config: &EnvConfig, action: &[f32]) -> f64 {
     let sum: f64 = action.iter().map(|&control| f64::from(control).powi(2)).sum();
     config.ctrl_cost_weight * sum
 }
 
 /// Returns the cost of a step's contact forces: weight × Σ (force² + moment²), clamped to its range; 0 in Humanoid-v4.
 #[must_use]
-pub fn contact_cost(config: &EnvironmentConfig, squared_contact_wrenches: f64) -> f64 {
+pub fn contact_cost(config: &EnvConfig, squared_contact_wrenches: f64) -> f64 {
     let [low, high] = config.contact_cost_range;
     match config.task {
-        RewardTask::HumanoidV5 => (config.contact_cost_weight * squared_contact_wrenches).max(low).min(high),
-        RewardTask::HumanoidV4 => 0.0,
+        EnvTask::HumanoidV4 => 0.0,
+        _ => (config.contact_cost_weight * squared_contact_wrenches).max(low).min(high),
     }
 }
 
 /// Returns the reward for the posture at the end of a step.
 #[must_use]
-pub fn health_reward(config: &EnvironmentConfig, healthy: bool) -> f64 {
-    let rewarded = match config.task {
-        RewardTask::HumanoidV5 => healthy,
-        RewardTask::HumanoidV4 => healthy || config.terminate_when_unhealthy,
-    };
-    if rewarded { config.healthy_reward } else { 0.0 }
+pub fn health_reward(config: &EnvConfig, healthy: bool) -> f64 {
+    if healthy || (config.task == EnvTask::HumanoidV4 && config.terminate_when_unhealthy) {
+        config.healthy_reward
+    } else {
+        0.0
+    }
 }
 
 /// Returns the position in the info: x and y (m) of the torso, or in Humanoid-v4 of the centre of mass.
 #[must_use]
-pub fn info_position_m(task: RewardTask, torso_m: [f64; 2], centre_m: [f64; 2]) -> [f64; 2] {
-    match task {
-        RewardTask::HumanoidV5 => torso_m,
-        RewardTask::HumanoidV4 => centre_m,
-    }
+pub fn info_position_m(task: EnvTask, torso_m: [f64; 2], centre_m: [f64; 2]) -> [f64; 2] {
+    if task == EnvTask::HumanoidV4 { centre_m } else { torso_m }
 }
 
 /// Computes reward, termination and info of one control step.
 #[must_use]
-pub fn evaluate_step(config: &EnvironmentConfig, transition: &Transition<'_>) -> StepEvaluation {
+pub fn evaluate_step(config: &EnvConfig, transition: &Transition<'_>) -> (StepEvaluation, StepInfo) {
     let [torso_x_m, torso_y_m, height_m] = transition.torso_m;
     let [x_m, y_m] = info_position_m(config.task, [torso_x_m, torso_y_m], transition.centre_after_m);
     let [x_velocity_mps, y_velocity_mps] =
@@ -189,16 +190,15 @@ pub fn evaluate_step(config: &EnvironmentConfig, transition: &Transition<'_>) ->
         reward_forward: config.forward_reward_weight * x_velocity_mps,
         reward_ctrl: -control_cost(config, transition.action),
         reward_contact: -contact_cost(config, transition.squared_contact_wrenches),
-        torso_height_m: height_m,
     };
-    StepEvaluation {
+    let evaluation = StepEvaluation {
         // The cost of huge controls exceeds single precision.
         reward: (info.reward_survive + info.reward_forward + info.reward_ctrl + info.reward_contact)
             .clamp(f32::MIN.into(), f32::MAX.into()) as f32,
         terminated: config.terminate_when_unhealthy && !healthy,
         truncated: false,
-        info,
-    }
+    };
+    (evaluation, info)
 }
 
 #[cfg(test)]
@@ -221,22 +221,22 @@ mod tests {
 
     #[test]
     fn reward_matches_the_sum_computed_by_hand() {
-        let step = evaluate_step(&EnvironmentConfig::default(), &transition(1.4));
+        let (step, info) = evaluate_step(&EnvConfig::default(), &transition(1.4));
         // 0.03 m in 0.015 s = 2 m/s; × 1.25 = 2.5. 0.1 × (0.25 + 0.0625) = 0.03125. 5e-7 × 2e6 = 1.
-        assert!((step.info.x_velocity_mps - 2.0).abs() < 1e-9);
-        assert!((step.info.y_velocity_mps + 1.0).abs() < 1e-9);
-        assert!((step.info.reward_forward - 2.5).abs() < 1e-9);
-        assert!((step.info.reward_ctrl + 0.031_25).abs() < 1e-9);
-        assert!((step.info.reward_contact + 1.0).abs() < 1e-9);
-        assert!((step.info.distance_from_origin_m - 5.0).abs() < 1e-12);
+        assert!((info.x_velocity_mps - 2.0).abs() < 1e-9);
+        assert!((info.y_velocity_mps + 1.0).abs() < 1e-9);
+        assert!((info.reward_forward - 2.5).abs() < 1e-9);
+        assert!((info.reward_ctrl + 0.031_25).abs() < 1e-9);
+        assert!((info.reward_contact + 1.0).abs() < 1e-9);
+        assert!((info.distance_from_origin_m - 5.0).abs() < 1e-12);
         assert!((f64::from(step.reward) - 6.468_75).abs() < 1e-6);
         assert!(!step.terminated);
     }
 
     #[test]
     fn the_velocity_follows_the_control_step() {
-        let config = EnvironmentConfig { control_step_s: 0.03, ..EnvironmentConfig::default() };
-        let info = evaluate_step(&config, &transition(1.4)).info;
+        let config = EnvConfig { control_step_s: 0.03, ..EnvConfig::default() };
+        let info = evaluate_step(&config, &transition(1.4)).1;
         assert!((info.x_velocity_mps - 1.0).abs() < 1e-9 && (info.y_velocity_mps + 0.5).abs() < 1e-9);
         assert!((info.reward_forward - 1.25).abs() < 1e-9);
     }
@@ -246,77 +246,76 @@ mod tests {
         // `reward_ctrl` of gymnasium.make("Humanoid-v5").step(action), with Gymnasium 1.4.0 and MuJoCo 4.0.0; v4 gives
         // the same.
         let action: [f32; 17] = std::array::from_fn(|motor| (0.1 * (-1f64).powi(motor as i32) * motor as f64) as f32);
-        let cost = control_cost(&EnvironmentConfig::default(), &action);
+        let cost = control_cost(&EnvConfig::default(), &action);
         assert!((cost - 1.496_000_005_394_221).abs() < 1e-12, "{cost}");
     }
 
     #[test]
     fn huge_controls_leave_the_reward_finite() {
-        let step = evaluate_step(&EnvironmentConfig::default(), &Transition { action: &[f32::MAX], ..transition(1.4) });
-        assert!(step.reward == f32::MIN && step.info.reward_ctrl.is_finite());
+        let (step, info) = evaluate_step(&EnvConfig::default(), &Transition { action: &[f32::MAX], ..transition(1.4) });
+        assert!(step.reward == f32::MIN && info.reward_ctrl.is_finite());
     }
 
     #[test]
     fn v5_does_not_pay_for_health_on_an_unhealthy_last_step() {
         for height in [1.0, 0.9, 2.0, 2.5] {
-            let step = evaluate_step(&EnvironmentConfig::default(), &transition(height));
+            let (step, info) = evaluate_step(&EnvConfig::default(), &transition(height));
             assert!(step.terminated, "height {height}");
-            assert_eq!(step.info.reward_survive, 0.0);
+            assert_eq!(info.reward_survive, 0.0);
             assert!((f64::from(step.reward) - 1.468_75).abs() < 1e-6);
         }
     }
 
     #[test]
     fn without_termination_an_unhealthy_step_has_no_health_reward() {
-        let config = EnvironmentConfig { terminate_when_unhealthy: false, ..EnvironmentConfig::default() };
-        let step = evaluate_step(&config, &transition(0.5));
+        let config = EnvConfig { terminate_when_unhealthy: false, ..EnvConfig::default() };
+        let (step, info) = evaluate_step(&config, &transition(0.5));
         assert!(!step.terminated);
-        assert_eq!(step.info.reward_survive, 0.0);
+        assert_eq!(info.reward_survive, 0.0);
     }
 
     #[test]
     fn contact_cost_stays_within_its_range() {
-        let config = EnvironmentConfig::default();
+        let config = EnvConfig::default();
         assert!((contact_cost(&config, 2.0e7) - 10.0).abs() < 1e-12);
         assert!((contact_cost(&config, 1.0e12) - 10.0).abs() < 1e-12);
         assert!((contact_cost(&config, 1.0e7) - 5.0).abs() < 1e-12);
         assert_eq!(contact_cost(&config, 0.0), 0.0);
-        let narrow = EnvironmentConfig { contact_cost_range: [0.25, 0.5], ..config.clone() };
+        let narrow = EnvConfig { contact_cost_range: [0.25, 0.5], ..config.clone() };
         assert_eq!(contact_cost(&narrow, 0.0), 0.25);
         assert_eq!(contact_cost(&narrow, 1.0e7), 0.5);
-        let open = EnvironmentConfig { contact_cost_range: [0.0, f64::INFINITY], ..config };
+        let open = EnvConfig { contact_cost_range: [0.0, f64::INFINITY], ..config };
         assert!((contact_cost(&open, 1.0e9) - 500.0).abs() < 1e-9);
     }
 
     #[test]
     fn v4_pays_for_health_on_the_last_step_and_has_no_contact_cost() {
-        let config = EnvironmentConfig { task: RewardTask::HumanoidV4, ..EnvironmentConfig::default() };
-        let step = evaluate_step(&config, &transition(0.9));
+        let config = EnvConfig { task: EnvTask::HumanoidV4, ..EnvConfig::default() };
+        let (step, info) = evaluate_step(&config, &transition(0.9));
         assert!(step.terminated);
-        assert_eq!(step.info.reward_survive, 5.0);
-        assert_eq!(step.info.reward_contact, 0.0);
+        assert_eq!(info.reward_survive, 5.0);
+        assert_eq!(info.reward_contact, 0.0);
         // 2.5 for going forward, 5 for health, 0.03125 for control.
         assert!((f64::from(step.reward) - 7.468_75).abs() < 1e-6);
 
-        let lenient = EnvironmentConfig { terminate_when_unhealthy: false, ..config };
-        assert_eq!(evaluate_step(&lenient, &transition(0.9)).info.reward_survive, 0.0);
-        assert_eq!(evaluate_step(&lenient, &transition(1.4)).info.reward_survive, 5.0);
+        let lenient = EnvConfig { terminate_when_unhealthy: false, ..config };
+        assert_eq!(evaluate_step(&lenient, &transition(0.9)).1.reward_survive, 0.0);
+        assert_eq!(evaluate_step(&lenient, &transition(1.4)).1.reward_survive, 5.0);
     }
 
     #[test]
     fn v5_reports_the_torso_and_v4_the_centre_of_mass() {
         let position = |task| {
-            let info =
-                evaluate_step(&EnvironmentConfig { task, ..EnvironmentConfig::default() }, &transition(1.4)).info;
+            let info = evaluate_step(&(EnvConfig { task, ..EnvConfig::default() }), &transition(1.4)).1;
             [info.x_position_m, info.y_position_m, info.distance_from_origin_m]
         };
-        assert_eq!(position(RewardTask::HumanoidV5), [3.0, 4.0, 5.0]);
-        assert_eq!(position(RewardTask::HumanoidV4), [1.03, 1.985, 1.03f64.hypot(1.985)]);
+        assert_eq!(position(EnvTask::HumanoidV5), [3.0, 4.0, 5.0]);
+        assert_eq!(position(EnvTask::HumanoidV4), [1.03, 1.985, 1.03f64.hypot(1.985)]);
     }
 
     #[test]
     fn info_has_the_tendons() {
-        let info = evaluate_step(&EnvironmentConfig::default(), &transition(1.4)).info;
+        let info = evaluate_step(&EnvConfig::default(), &transition(1.4)).1;
         assert_eq!(info.tendon_length_rad.as_slice(), [0.5, -0.5]);
         assert_eq!(info.tendon_velocity_radps.as_slice(), [1.5, -1.5]);
     }

@@ -5,38 +5,26 @@
 //!
 //! # Layout
 //! - `humanoid`: Gymnasium's Humanoid-v5 and -v4.
-//! - `own`: tasks of the program that uses this crate.
+//! - `registry`: builds the task that a configuration selects, also those of the program that uses this crate.
 //! - [`velocity`]: walking at commanded velocities.
 
 mod humanoid;
-mod own;
+mod registry;
 pub mod velocity;
 
-use std::ops::Range;
+use std::any::Any;
 
 use nalgebra::Point3;
 
 pub use self::humanoid::{
     HumanoidTask, Transition, contact_cost, control_cost, evaluate_step, health_reward, info_position_m, is_healthy,
 };
-pub(crate) use self::own::build;
-pub use self::own::{TaskBuilder, own_tasks, register_own_tasks};
+pub use self::registry::{TaskBuilder, TaskRegistry};
 use crate::error::StateError;
-use crate::info::StepInfo;
 use crate::model::mirror::{Mirror, SignedPermutation};
+pub use crate::observation::ObservationTerm;
 use crate::physics::Physics;
 use crate::randomisation::SensorNoise;
-
-/// Consecutive numbers of an observation with one meaning.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct ObservationTerm {
-    /// Name; Gymnasium's in its tasks.
-    pub name: String,
-    /// Position in the observation.
-    pub range: Range<usize>,
-    /// Whether only the critic sees it, in training. Such terms come after all others.
-    pub is_privileged: bool,
-}
 
 /// A control step that the physics has simulated.
 #[derive(Clone, Copy)]
@@ -58,8 +46,6 @@ pub struct StepEvaluation {
     pub terminated: bool,
     /// Whether the task ends the episode as a time limit does: its last state keeps its value.
     pub truncated: bool,
-    /// Details of the step.
-    pub info: StepInfo,
 }
 
 /// How hard an episode is, where the task adapts that.
@@ -82,8 +68,6 @@ pub struct StepOutcome {
     pub truncated: bool,
     /// Whether the physics or the action was not finite; implies `terminated`.
     pub fault: bool,
-    /// Details of the step.
-    pub info: StepInfo,
 }
 
 /// What a robot must do.
@@ -91,7 +75,7 @@ pub struct StepOutcome {
 /// For each episode the environment calls [`Self::start`], [`Self::begin`] and [`Self::observe`], and then for each
 /// control step [`Self::evaluate`] and [`Self::observe`]. The same calls must give the same results, bit for bit:
 /// random numbers come from the seed of the episode only.
-pub trait Task: Send + Sync {
+pub trait Task: Any + Send + Sync {
     /// Returns the terms of an observation, in order and without gaps.
     fn terms(&self) -> &[ObservationTerm];
 
@@ -99,8 +83,8 @@ pub trait Task: Send + Sync {
     /// Only here a task may let the episodes before decide, by what [`Self::save`] holds.
     fn start(&mut self, _seed: u64, _physics: &Physics, _position: &mut [f64]) {}
 
-    /// Begins an episode with the robot in its first state, and returns the info before the first step.
-    fn begin(&mut self, seed: u64, physics: &Physics) -> StepInfo;
+    /// Begins an episode with the robot in its first state.
+    fn begin(&mut self, seed: u64, physics: &Physics);
 
     /// Returns reward and end of a control step.
     fn evaluate(&mut self, step: &Step<'_>) -> StepEvaluation;
@@ -167,8 +151,8 @@ impl StepEvaluation {
     #[must_use]
     pub fn at(self, episode_steps: u32, max_episode_steps: u32) -> StepOutcome {
         let is_out_of_time = max_episode_steps > 0 && episode_steps >= max_episode_steps;
-        let Self { reward, terminated, truncated, info } = self;
-        StepOutcome { reward, terminated, truncated: (truncated || is_out_of_time) && !terminated, fault: false, info }
+        let Self { reward, terminated, truncated } = self;
+        StepOutcome { reward, terminated, truncated: (truncated || is_out_of_time) && !terminated, fault: false }
     }
 }
 
@@ -177,7 +161,7 @@ mod tests {
     use super::*;
 
     fn evaluation(terminated: bool) -> StepEvaluation {
-        StepEvaluation { reward: 5.0, terminated, truncated: false, info: StepInfo::default() }
+        StepEvaluation { reward: 5.0, terminated, truncated: false }
     }
 
     #[test]

@@ -1,6 +1,6 @@
 //! The duration of a control step: motion, speeds, pushes and contact forces follow it.
 
-use treadmill_humanoid::{Environment, EnvironmentConfig, HUMANOID_XML, ModelError, Randomisation};
+use treadmill_humanoid::{EnvConfig, Environment, EnvironmentConfig, HUMANOID_XML, ModelError, RandomisationConfig};
 
 use crate::support::{environment, reset};
 
@@ -8,12 +8,12 @@ const GRAVITY_MPS2: f64 = 9.81;
 
 /// Settings without start noise, end or control cost.
 fn settings(control_step_s: f64) -> EnvironmentConfig {
-    EnvironmentConfig {
+    EnvironmentConfig::from(EnvConfig {
         control_step_s,
         reset_noise_scale: 0.0,
         terminate_when_unhealthy: false,
-        ..EnvironmentConfig::default()
-    }
+        ..EnvConfig::default()
+    })
 }
 
 /// Environment in which the humanoid is high above the floor and at rest.
@@ -54,7 +54,8 @@ fn speeds_are_per_second() {
         velocity[..2].copy_from_slice(&[3.0, -2.0]);
         environment.physics_mut().set_state(&position, &velocity);
         let mut observation = vec![0.0; environment.observation_size()];
-        let info = environment.step(&[0.0; 17], &mut observation).info;
+        environment.step(&[0.0; 17], &mut observation);
+        let info = environment.info().unwrap();
         assert!((info.x_velocity_mps - 3.0).abs() < 1e-6, "{control_step_s} s: {info:?}");
         assert!((info.y_velocity_mps + 2.0).abs() < 1e-6, "{control_step_s} s: {info:?}");
         assert!((info.reward_forward - 3.75).abs() < 1e-6);
@@ -86,7 +87,7 @@ fn contact_forces_carry_the_weight_with_any_control_step() {
 fn pushes_come_at_the_same_time_with_any_control_step() {
     for (control_step_s, steps) in [(0.01, 30), (0.015, 20), (0.03, 10), (0.1, 3)] {
         let randomisation =
-            Randomisation { push_interval_s: [0.3, 0.3], push_mps: [0.8, 0.8], ..Randomisation::default() };
+            RandomisationConfig { push_interval_s: [0.3, 0.3], push_mps: [0.8, 0.8], ..RandomisationConfig::default() };
         let mut environment = environment(&EnvironmentConfig { randomisation, ..settings(control_step_s) });
         let mut observation = reset(&mut environment, 1);
         let mut position = environment.physics().position().to_vec();
@@ -119,7 +120,7 @@ fn snapshots_do_not_fit_another_control_step() {
 
 #[test]
 fn a_keyframe_that_the_model_lacks_is_refused_by_name() {
-    let config = EnvironmentConfig { keyframe: "squat".into(), ..EnvironmentConfig::default() };
+    let config = EnvironmentConfig::from(EnvConfig { keyframe: "squat".into(), ..EnvConfig::default() });
     let error = Environment::new(&config, HUMANOID_XML).err().expect("refused");
     assert!(matches!(&error, ModelError::Keyframe { name, .. } if name == "squat"));
     assert_eq!(error.to_string(), "env.keyframe: the model has no keyframe `squat`; it has: none");

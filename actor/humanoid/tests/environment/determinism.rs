@@ -2,18 +2,18 @@
 
 use std::{env, fs, path::Path, process::Command, thread};
 
-use treadmill_humanoid::{Environment, EnvironmentConfig, HUMANOID_XML, ObservationKind};
+use treadmill_humanoid::{EnvConfig, EnvObservation, Environment, EnvironmentConfig, HUMANOID_XML};
 
 const STEPS: u32 = 500;
 /// File to which the child process of a test writes its checksum.
 const CHECKSUM_FILE: &str = "TREADMILL_TEST_CHECKSUM_FILE";
 
 fn environment() -> Environment {
-    let config = EnvironmentConfig {
-        observation: ObservationKind::GymnasiumV5,
+    let config = EnvironmentConfig::from(EnvConfig {
+        observation: EnvObservation::GymnasiumV5,
         terminate_when_unhealthy: false,
-        ..EnvironmentConfig::default()
-    };
+        ..EnvConfig::default()
+    });
     Environment::new(&config, HUMANOID_XML).expect("valid")
 }
 

@@ -1,11 +1,11 @@
 //! Saved episode states: an episode resumes bit for bit, and states that do not fit are refused.
 
-use treadmill_humanoid::{Environment, EnvironmentConfig, EpisodeState, StateError};
+use treadmill_humanoid::{EnvConfig, Environment, EnvironmentConfig, EpisodeState, StateError};
 
 use crate::support::{environment, play, randomised, reset};
 
 fn plain() -> EnvironmentConfig {
-    EnvironmentConfig { terminate_when_unhealthy: false, ..EnvironmentConfig::default() }
+    EnvironmentConfig::from(EnvConfig { terminate_when_unhealthy: false, ..EnvConfig::default() })
 }
 
 /// Returns everything that can be read without a step.

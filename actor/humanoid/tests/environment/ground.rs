@@ -3,26 +3,36 @@
 use std::sync::Arc;
 
 use nalgebra::Point3;
-use treadmill_humanoid::config::{GroundKind, GroundSettings, StartLevel, VelocityConfig};
+use treadmill_humanoid::config::{GroundConfig, GroundKind, VelocityConfig};
 use treadmill_humanoid::model::{Geometry, HeightField};
-use treadmill_humanoid::{Environment, EnvironmentConfig, HUMANOID_XML, Physics, Randomisation};
+use treadmill_humanoid::{
+    EnvConfig, EnvTask, Environment, EnvironmentConfig, HUMANOID_XML, Physics, RandomisationConfig,
+};
 
 use crate::velocity::{CARD, with_card};
 
 const ALL: [GroundKind; 5] =
     [GroundKind::Flat, GroundKind::Slope, GroundKind::Stairs, GroundKind::Rough, GroundKind::Stones];
 
-fn settings(kinds: &[GroundKind], start: StartLevel) -> GroundSettings {
-    GroundSettings { kinds: kinds.to_vec(), start, ..GroundSettings::default() }
+fn settings(kinds: &[GroundKind], start_level: u32) -> GroundConfig {
+    GroundConfig { kinds: kinds.to_vec(), start_level, ..GroundConfig::default() }
 }
 
-fn config(ground: GroundSettings) -> EnvironmentConfig {
+/// The same with a level that does not change.
+fn fixed(kinds: &[GroundKind], start_level: u32) -> GroundConfig {
+    GroundConfig { curriculum: false, ..settings(kinds, start_level) }
+}
+
+fn config(ground: GroundConfig) -> EnvironmentConfig {
     EnvironmentConfig {
-        velocity: Some(VelocityConfig::default()),
+        env: EnvConfig {
+            task: EnvTask::Velocity,
+            control_step_s: 0.02,
+            substeps: 5,
+            reset_noise_scale: 0.0,
+            ..EnvConfig::default()
+        },
         ground,
-        control_step_s: 0.02,
-        substeps: 5,
-        reset_noise_scale: 0.0,
         ..EnvironmentConfig::default()
     }
 }
@@ -49,8 +59,8 @@ fn standing(environment: &Environment) -> Vec<f32> {
 }
 
 /// Ground of all kinds, and the height at a place relative to the middle of a tile.
-fn tiles() -> (GroundSettings, impl Fn(u32, GroundKind, f64, f64) -> f64) {
-    let settings = settings(&ALL, StartLevel::Fixed(0));
+fn tiles() -> (GroundConfig, impl Fn(u32, GroundKind, f64, f64) -> f64) {
+    let settings = fixed(&ALL, 0);
     let (of_tile, field) = (settings.clone(), Arc::clone(field(&environment(&config(settings.clone())))));
     let height_m = move |level: u32, kind: GroundKind, x_m: f64, y_m: f64| {
         let column = ALL.iter().position(|known| *known == kind).unwrap();
@@ -62,7 +72,7 @@ fn tiles() -> (GroundSettings, impl Fn(u32, GroundKind, f64, f64) -> f64) {
 
 #[test]
 fn the_field_has_a_tile_for_each_kind_and_level_and_a_border() {
-    let environment = environment(&config(settings(&ALL, StartLevel::Fixed(0))));
+    let environment = environment(&config(fixed(&ALL, 0)));
     let field = field(&environment);
     // Ten levels and five kinds of 8 m, 4 m around them, and heights 0.1 m apart.
     assert_eq!((field.columns, field.rows), (881, 481));
@@ -155,7 +165,7 @@ fn rough_ground_and_stones_stay_within_their_bounds_and_fill_them() {
 
 #[test]
 fn the_seed_alone_decides_about_heights_and_environments_share_them() {
-    let of_seed = |seed: u64| config(GroundSettings { seed, ..settings(&ALL, StartLevel::Rising(0)) });
+    let of_seed = |seed: u64| config(GroundConfig { seed, ..settings(&ALL, 0) });
     let environments: Vec<Environment> = (0..64).map(|_| environment(&of_seed(7))).collect();
     assert!(environments.iter().all(|other| Arc::ptr_eq(field(other), field(&environments[0]))));
     let kept = field(&environments[0]).heights_m.clone();
@@ -196,7 +206,7 @@ fn robots_start_standing_on_their_tile_and_every_heading_occurs() {
     let mut quadrants = [0; 4];
     for kind in ALL {
         for level in [0, 9] {
-            let settings = settings(&[kind], StartLevel::Fixed(level));
+            let settings = fixed(&[kind], level);
             let mut environment = environment(&config(settings.clone()));
             for number in 0..6 {
                 let seed = number * 100 + 10 * u64::from(level) + kind as u64;
@@ -221,9 +231,9 @@ fn robots_start_standing_on_their_tile_and_every_heading_occurs() {
 
 #[test]
 fn the_scan_shows_the_ground_around_in_the_heading_frame() {
-    let ground = settings(&[GroundKind::Slope], StartLevel::Fixed(9));
+    let ground = fixed(&[GroundKind::Slope], 9);
     let velocity = VelocityConfig { height_scan: true, history: 2, ..VelocityConfig::default() };
-    let mut environment = environment(&EnvironmentConfig { velocity: Some(velocity), ..config(ground.clone()) });
+    let mut environment = environment(&EnvironmentConfig { velocity, ..config(ground.clone()) });
     let scans: Vec<_> = environment.terms().iter().filter(|term| term.name == "height_scan").cloned().collect();
     assert_eq!(scans.iter().map(|term| term.is_privileged).collect::<Vec<_>>(), [false, false, true]);
     assert!(scans.iter().all(|term| term.range.len() == 77));
@@ -262,7 +272,7 @@ fn carry(environment: &mut Environment, seed: u64, share: f64, falls: bool) {
     for step in 1.. {
         let mut velocity = vec![0.0; environment.physics().velocity().len()];
         let mut position = start.clone();
-        let is_last = step == environment.config().max_episode_steps;
+        let is_last = step == environment.config().env.max_episode_steps;
         position[2] += if falls && is_last { -0.5 } else { 0.0 };
         velocity[..3].copy_from_slice((forward * share).as_slice());
         environment.physics_mut().set_state(&position, &velocity);
@@ -277,9 +287,13 @@ fn carry(environment: &mut Environment, seed: u64, share: f64, falls: bool) {
 
 #[test]
 fn the_level_follows_success_and_goes_on_from_a_saved_state() {
-    let ground = settings(&[GroundKind::Rough], StartLevel::Rising(3));
+    let ground = settings(&[GroundKind::Rough], 3);
     let velocity = VelocityConfig { command_curriculum: true, ..VelocityConfig::default() };
-    let config = EnvironmentConfig { velocity: Some(velocity), max_episode_steps: 150, ..config(ground.clone()) };
+    let config = EnvironmentConfig {
+        env: EnvConfig { max_episode_steps: 150, ..config(ground.clone()).env.clone() },
+        velocity,
+        ..config(ground.clone())
+    };
     let mut original = environment(&config);
     original.steer(Some([1.0, 0.0, 0.0]));
     let level = |environment: &Environment| environment.task().difficulty().ground_level.unwrap();
@@ -325,7 +339,7 @@ fn the_level_follows_success_and_goes_on_from_a_saved_state() {
 
 #[test]
 fn an_episode_ends_like_a_time_limit_near_the_edge() {
-    let ground = settings(&[GroundKind::Flat], StartLevel::Fixed(9));
+    let ground = fixed(&[GroundKind::Flat], 9);
     let mut environment = environment(&config(ground));
     let mut observation = reset(&mut environment, 1);
     let action = standing(&environment);
@@ -344,12 +358,12 @@ fn an_episode_ends_like_a_time_limit_near_the_edge() {
 fn the_curriculum_of_commands_begins_with_small_ones() {
     let velocity = VelocityConfig { command_curriculum: true, standing_share: 0.0, ..VelocityConfig::default() };
     let config = EnvironmentConfig {
-        velocity: Some(velocity),
-        randomisation: Randomisation::default(),
-        ..config(GroundSettings::default())
+        velocity,
+        randomisation: RandomisationConfig::default(),
+        ..config(GroundConfig::default())
     };
     let mut environment =
-        environment(&EnvironmentConfig { ground: settings(&[GroundKind::Flat], StartLevel::Drawn), ..config });
+        environment(&EnvironmentConfig { has_curricula: false, ground: settings(&[GroundKind::Flat], 0), ..config });
     let (mut fastest, mut levels) = (0.0f64, Vec::new());
     for seed in 0..100 {
         reset(&mut environment, seed);
@@ -365,14 +379,14 @@ fn the_curriculum_of_commands_begins_with_small_ones() {
 #[test]
 fn ground_that_cannot_be_made_is_refused() {
     let refusal = |config: &EnvironmentConfig, xml: &str| Environment::new(config, xml).err().unwrap().to_string();
-    let large = GroundSettings { tile_m: 12.0, ..settings(&ALL, StartLevel::Rising(0)) };
+    let large = GroundConfig { tile_m: 12.0, ..settings(&ALL, 0) };
     let why = refusal(&config(large), &with_card(CARD));
     assert!(why.contains("ground.tile_m") && why.contains("12") && why.contains("larger cells"), "{why}");
-    let why = refusal(&config(settings(&ALL, StartLevel::Fixed(10))), &with_card(CARD));
+    let why = refusal(&config(fixed(&ALL, 10)), &with_card(CARD));
     assert!(why.contains("ground.start_level") && why.contains("10"), "{why}");
-    let gymnasium = EnvironmentConfig { velocity: None, ..config(settings(&ALL, StartLevel::Rising(0))) };
+    let gymnasium = EnvironmentConfig { env: EnvConfig::default(), ..config(settings(&ALL, 0)) };
     let why = refusal(&gymnasium, HUMANOID_XML);
     assert!(why.contains("ground.kinds") && why.contains("velocity task"), "{why}");
-    let steep = GroundSettings { slope_max: f64::NAN, ..settings(&ALL, StartLevel::Rising(0)) };
+    let steep = GroundConfig { slope_max: f64::NAN, ..settings(&ALL, 0) };
     assert!(refusal(&config(steep), &with_card(CARD)).contains("ground.slope_max"));
 }

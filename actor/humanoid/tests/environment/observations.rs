@@ -2,14 +2,14 @@
 
 use crate::golden::{State, compare, states};
 use treadmill_humanoid::{
-    Environment, EnvironmentConfig, HUMANOID_XML, Model, Observation, ObservationKind, Physics, RewardTask, task,
+    EnvConfig, EnvObservation, EnvTask, Environment, EnvironmentConfig, HUMANOID_XML, Model, Observation, Physics, task,
 };
 
-const V5: ObservationKind = ObservationKind::GymnasiumV5;
-const V4: ObservationKind = ObservationKind::GymnasiumV4;
+const V5: EnvObservation = EnvObservation::GymnasiumV5;
+const V4: EnvObservation = EnvObservation::GymnasiumV4;
 
-fn config(observation: ObservationKind) -> EnvironmentConfig {
-    EnvironmentConfig { observation, ..EnvironmentConfig::default() }
+fn config(observation: EnvObservation) -> EnvironmentConfig {
+    EnvironmentConfig::from(EnvConfig { observation, ..EnvConfig::default() })
 }
 
 fn physics() -> Physics {
@@ -26,7 +26,7 @@ fn set_state(physics: &mut Physics, state: &State) {
 /// Returns our observation of every golden state.
 fn observe(config: &EnvironmentConfig, states: &[State]) -> Vec<Vec<f32>> {
     let mut physics = physics();
-    let observation = Observation::new(config, physics.model());
+    let observation = Observation::new(&config.env, physics.model());
     let rows = states.iter().map(|state| {
         set_state(&mut physics, state);
         let mut row = vec![f32::NAN; observation.size()];
@@ -36,7 +36,7 @@ fn observe(config: &EnvironmentConfig, states: &[State]) -> Vec<Vec<f32>> {
     rows.collect()
 }
 
-fn expected(kind: ObservationKind, states: &[State]) -> Vec<&[f32]> {
+fn expected(kind: EnvObservation, states: &[State]) -> Vec<&[f32]> {
     states.iter().map(|state| if kind == V4 { &state.v4[..] } else { &state.v5[..] }).collect()
 }
 
@@ -57,7 +57,7 @@ fn every_entry_equals_gymnasiums() {
 #[test]
 fn no_entry_is_zero_in_all_golden_states() {
     let states = states();
-    let observation = Observation::new(&config(V5), physics().model());
+    let observation = Observation::new(&config(V5).env, physics().model());
     for entry in 0..observation.size() {
         assert!(states.iter().any(|state| state.v5[entry] != 0.0), "entry {entry} is always zero");
     }
@@ -72,7 +72,7 @@ fn the_comparison_detects_flipped_signs_and_swapped_axes_in_every_block() {
     for kind in [V5, V4] {
         let right = observe(&config(kind), &states);
         let expected = expected(kind, &states);
-        let observation = Observation::new(&config(kind), physics().model());
+        let observation = Observation::new(&config(kind).env, physics().model());
         let names: Vec<&str> = observation.terms().iter().map(|block| &block.name[..]).collect();
         assert_eq!(names, ["qpos", "qvel", "cinert", "cvel", "qfrc_actuator", "cfrc_ext"]);
         for block in observation.terms() {
@@ -106,7 +106,7 @@ fn contact_cost_and_tendons_equal_gymnasiums() {
     let mut charged = 0;
     for state in &states {
         set_state(&mut physics, state);
-        let cost = task::contact_cost(&EnvironmentConfig::default(), physics.squared_contact_wrenches());
+        let cost = task::contact_cost(&EnvConfig::default(), physics.squared_contact_wrenches());
         assert!((cost - state.contact_cost).abs() <= 1e-3 * state.contact_cost, "{cost}, {}", state.contact_cost);
         charged += u32::from(cost > 0.0);
         for (index, tendon) in physics.model().tendons.iter().enumerate() {
@@ -123,9 +123,12 @@ fn contact_cost_and_tendons_equal_gymnasiums() {
 #[test]
 fn sizes_equal_gymnasiums() {
     let model = Model::from_mjcf(HUMANOID_XML).expect("valid");
-    let size = |config: &EnvironmentConfig| Observation::new(config, &model).size();
-    let with_place = |kind| EnvironmentConfig { exclude_current_positions_from_observation: false, ..config(kind) };
-    for (kind, expected) in [(ObservationKind::Compact, 45), (V5, 348), (V4, 376)] {
+    let size = |config: &EnvironmentConfig| Observation::new(&config.env, &model).size();
+    let with_place = |kind| EnvironmentConfig {
+        env: EnvConfig { exclude_current_positions_from_observation: false, ..config(kind).env.clone() },
+        ..config(kind)
+    };
+    for (kind, expected) in [(EnvObservation::Compact, 45), (V5, 348), (V4, 376)] {
         assert_eq!(size(&config(kind)), expected);
         assert_eq!(size(&with_place(kind)), expected + 2);
         let environment = Environment::new(&config(kind), HUMANOID_XML).expect("valid");
@@ -137,10 +140,10 @@ fn sizes_equal_gymnasiums() {
 fn each_flag_removes_only_its_block() {
     type Switch = fn(&mut EnvironmentConfig);
     let cases: [(&str, usize, Switch); 4] = [
-        ("cinert", 130, |c| c.include_cinert_in_observation = false),
-        ("cvel", 78, |c| c.include_cvel_in_observation = false),
-        ("qfrc_actuator", 17, |c| c.include_qfrc_actuator_in_observation = false),
-        ("cfrc_ext", 78, |c| c.include_cfrc_ext_in_observation = false),
+        ("cinert", 130, |c| c.env.include_cinert_in_observation = false),
+        ("cvel", 78, |c| c.env.include_cvel_in_observation = false),
+        ("qfrc_actuator", 17, |c| c.env.include_qfrc_actuator_in_observation = false),
+        ("cfrc_ext", 78, |c| c.env.include_cfrc_ext_in_observation = false),
     ];
     let states = states();
     let model = Model::from_mjcf(HUMANOID_XML).expect("valid");
@@ -148,14 +151,17 @@ fn each_flag_removes_only_its_block() {
     for (name, size, switch) in cases {
         let mut without = config(V5);
         switch(&mut without);
-        let out = block(&Observation::new(&config(V5), &model), name);
+        let out = block(&Observation::new(&config(V5).env, &model), name);
         assert_eq!(out.len(), size);
-        assert!(Observation::new(&without, &model).terms().iter().all(|block| block.name != name));
+        assert!(Observation::new(&without.env, &model).terms().iter().all(|block| block.name != name));
         for (whole, part) in whole.iter().zip(observe(&without, &states)) {
             assert_eq!(part, [&whole[..out.start], &whole[out.end..]].concat(), "{name}");
         }
     }
-    let place = EnvironmentConfig { exclude_current_positions_from_observation: false, ..config(V5) };
+    let place = EnvironmentConfig {
+        env: EnvConfig { exclude_current_positions_from_observation: false, ..config(V5).env.clone() },
+        ..config(V5)
+    };
     for ((state, whole), placed) in states.iter().zip(&whole).zip(observe(&place, &states)) {
         assert!((f64::from(placed[0]) - state.position[0]).abs() < 1e-5);
         assert!((f64::from(placed[1]) - state.position[1]).abs() < 1e-5);
@@ -166,8 +172,7 @@ fn each_flag_removes_only_its_block() {
 #[test]
 fn compact_is_the_beginning_of_v5() {
     let states = states();
-    for (compact, whole) in
-        observe(&config(ObservationKind::Compact), &states).iter().zip(observe(&config(V5), &states))
+    for (compact, whole) in observe(&config(EnvObservation::Compact), &states).iter().zip(observe(&config(V5), &states))
     {
         assert_eq!(compact[..], whole[..45]);
     }
@@ -177,8 +182,8 @@ fn compact_is_the_beginning_of_v5() {
 fn a_reset_clears_torques_and_contacts() {
     let config = config(V5);
     let mut environment = Environment::new(&config, HUMANOID_XML).expect("valid");
-    let range = block(&Observation::new(environment.config(), environment.physics().model()), "qfrc_actuator").start
-        ..environment.observation_size();
+    let range = block(&Observation::new(&environment.config().env, environment.physics().model()), "qfrc_actuator")
+        .start..environment.observation_size();
     let mut observation = vec![0.0; environment.observation_size()];
     environment.reset(1, &mut observation);
     for _ in 0..100 {
@@ -205,18 +210,17 @@ fn observe_repeats_the_observation_of_the_last_step() {
 
 #[test]
 fn each_task_has_its_own_info() {
-    for (task, names, on_reset) in [(RewardTask::HumanoidV5, 11, 5), (RewardTask::HumanoidV4, 9, 0)] {
-        let config = EnvironmentConfig { task, ..EnvironmentConfig::default() };
+    for (task, names, on_reset) in [(EnvTask::HumanoidV5, 11, 5), (EnvTask::HumanoidV4, 9, 0)] {
+        let config = EnvironmentConfig::from(EnvConfig { task, ..EnvConfig::default() });
         let mut environment = Environment::new(&config, HUMANOID_XML).expect("valid");
         let mut observation = vec![0.0; environment.observation_size()];
         environment.reset(4, &mut observation);
-        assert_eq!(environment.info().reset_entries(task).count(), on_reset);
-        let step = environment.step(&[0.1; 17], &mut observation);
-        assert_eq!(step.info, *environment.info());
-        assert_eq!(step.info.entries(task).count(), names);
+        assert_eq!(environment.info().unwrap().reset_entries(task).count(), on_reset);
+        environment.step(&[0.1; 17], &mut observation);
+        assert_eq!(environment.info().unwrap().entries(task).count(), names);
         let (position, centre) = (environment.physics().position(), environment.physics().centre_of_mass());
-        let x_m = if task == RewardTask::HumanoidV5 { position[0] } else { centre.x };
-        assert_eq!(step.info.x_position_m, x_m);
+        let x_m = if task == EnvTask::HumanoidV5 { position[0] } else { centre.x };
+        assert_eq!(environment.info().unwrap().x_position_m, x_m);
         // −1 × hip + 1 × knee, left before right.
         let hinge = |name: &str| {
             let model = environment.physics().model();
@@ -225,8 +229,10 @@ fn each_task_has_its_own_info() {
         };
         for (index, side) in ["left", "right"].into_iter().enumerate() {
             let (hip, knee) = (hinge(&format!("{side}_hip_y")), hinge(&format!("{side}_knee")));
-            assert!((step.info.tendon_length_rad.as_slice()[index] - (knee.0 - hip.0)).abs() < 1e-12);
-            assert!((step.info.tendon_velocity_radps.as_slice()[index] - (knee.1 - hip.1)).abs() < 1e-12);
+            assert!((environment.info().unwrap().tendon_length_rad.as_slice()[index] - (knee.0 - hip.0)).abs() < 1e-12);
+            assert!(
+                (environment.info().unwrap().tendon_velocity_radps.as_slice()[index] - (knee.1 - hip.1)).abs() < 1e-12
+            );
         }
     }
 }

@@ -1,8 +1,9 @@
 //! A change of the simulation requires another `PHYSICS_VERSION`.
 
-use treadmill_humanoid::config::{GroundKind, GroundSettings, StartLevel, VelocityConfig};
+use treadmill_humanoid::config::{GroundConfig, GroundKind, VelocityConfig};
 use treadmill_humanoid::{
-    Environment, EnvironmentConfig, HUMANOID_XML, ObservationKind, PHYSICS_VERSION, Randomisation, RewardTask,
+    EnvConfig, EnvObservation, EnvTask, Environment, EnvironmentConfig, HUMANOID_XML, PHYSICS_VERSION,
+    RandomisationConfig,
 };
 
 use crate::support::{randomised, reset};
@@ -30,12 +31,12 @@ const GOLDEN: (u32, [[f64; 3]; 6]) = (
 type Scene = (EnvironmentConfig, u64, String);
 
 fn scenes() -> [Scene; 6] {
-    let v4 = EnvironmentConfig {
-        task: RewardTask::HumanoidV4,
-        observation: ObservationKind::GymnasiumV4,
-        ..EnvironmentConfig::default()
-    };
-    let v5 = EnvironmentConfig { observation: ObservationKind::GymnasiumV5, ..EnvironmentConfig::default() };
+    let v4 = EnvironmentConfig::from(EnvConfig {
+        task: EnvTask::HumanoidV4,
+        observation: EnvObservation::GymnasiumV4,
+        ..EnvConfig::default()
+    });
+    let v5 = EnvironmentConfig::from(EnvConfig { observation: EnvObservation::GymnasiumV5, ..EnvConfig::default() });
     let default = EnvironmentConfig::default();
     // Newton's method solves for the forces of constraints, dry friction among them.
     let by_newton = HUMANOID_XML
@@ -43,9 +44,10 @@ fn scenes() -> [Scene; 6] {
         .replace("<joint type=\"hinge\"", "<joint type=\"hinge\" frictionloss=\"1\"");
     assert_ne!(by_newton, HUMANOID_XML);
     let ground =
-        GroundSettings { kinds: vec![GroundKind::Stairs], start: StartLevel::Fixed(9), ..GroundSettings::default() };
-    let velocity = Some(VelocityConfig { height_scan: true, ..VelocityConfig::default() });
-    let walking = EnvironmentConfig { velocity, ground, ..EnvironmentConfig::default() };
+        GroundConfig { kinds: vec![GroundKind::Stairs], curriculum: false, start_level: 9, ..GroundConfig::default() };
+    let velocity = VelocityConfig { height_scan: true, ..VelocityConfig::default() };
+    let env = EnvConfig { task: EnvTask::Velocity, ..EnvConfig::default() };
+    let walking = EnvironmentConfig { env, velocity, ground, ..EnvironmentConfig::default() };
     let humanoid = || HUMANOID_XML.to_owned();
     [
         (default.clone(), 1, humanoid()),
@@ -102,7 +104,10 @@ fn another_simulation_has_another_version() {
 fn rounding_errors_stay_within_the_tolerance() {
     for (config, seed, text) in scenes() {
         // Rounding errors of single precision are of the size of 1e-7, and this moves the start by about as much.
-        let moved = EnvironmentConfig { reset_noise_scale: config.reset_noise_scale + 1e-7, ..config.clone() };
+        let moved = EnvironmentConfig {
+            env: EnvConfig { reset_noise_scale: config.env.reset_noise_scale + 1e-7, ..config.env.clone() },
+            ..config.clone()
+        };
         let (before, after) = (sums(&(config, seed, text.clone())), sums(&(moved, seed, text)));
         assert!(before != after && is_close(&after, &before), "{before:?}, {after:?}");
     }
@@ -113,11 +118,11 @@ fn small_changes_of_the_simulation_exceed_the_tolerance() {
     let scene = |config: EnvironmentConfig| (config, 1, HUMANOID_XML.to_owned());
     let before = sums(&scene(EnvironmentConfig::default()));
     assert!(is_close(&before, &before));
-    let gravity = Randomisation { gravity_scale: [1.002; 2], ..Randomisation::default() };
-    let damping = Randomisation { damping_scale: [1.02; 2], ..Randomisation::default() };
+    let gravity = RandomisationConfig { gravity_scale: [1.002; 2], ..RandomisationConfig::default() };
+    let damping = RandomisationConfig { damping_scale: [1.02; 2], ..RandomisationConfig::default() };
     let changed = [
-        EnvironmentConfig { substeps: 3, ..EnvironmentConfig::default() },
-        EnvironmentConfig { healthy_reward: 5.01, ..EnvironmentConfig::default() },
+        EnvironmentConfig::from(EnvConfig { substeps: 3, ..EnvConfig::default() }),
+        EnvironmentConfig::from(EnvConfig { healthy_reward: 5.01, ..EnvConfig::default() }),
         EnvironmentConfig { randomisation: gravity, ..EnvironmentConfig::default() },
         EnvironmentConfig { randomisation: damping, ..EnvironmentConfig::default() },
     ];

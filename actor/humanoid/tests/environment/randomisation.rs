@@ -1,31 +1,34 @@
 //! Randomised episodes: the ranges of drawn quantities, and their effects on motion, actions and observations.
 
-use treadmill_humanoid::{Environment, EnvironmentConfig, HUMANOID_XML, Randomisation};
+use treadmill_humanoid::{EnvConfig, Environment, EnvironmentConfig, HUMANOID_XML, RandomisationConfig};
 
 use crate::support::episode_bits;
 
 const SIZE: usize = 45;
 
-fn environment(randomisation: Randomisation) -> Environment {
+fn environment(randomisation: RandomisationConfig) -> Environment {
     let config = EnvironmentConfig { randomisation, ..EnvironmentConfig::default() };
     Environment::new(&config, HUMANOID_XML).expect("valid")
 }
 
 /// Environment without gravity, start noise, contacts or end, in which only randomisation acts.
-fn floating(randomisation: Randomisation) -> Environment {
+fn floating(randomisation: RandomisationConfig) -> Environment {
     let config = EnvironmentConfig {
+        env: EnvConfig {
+            reset_noise_scale: 0.0,
+            terminate_when_unhealthy: false,
+            max_episode_steps: 0,
+            ..EnvConfig::default()
+        },
         randomisation,
-        reset_noise_scale: 0.0,
-        terminate_when_unhealthy: false,
-        max_episode_steps: 0,
         ..EnvironmentConfig::default()
     };
     let xml = HUMANOID_XML.replace("<option ", "<option gravity=\"0 0 0\" ");
     Environment::new(&config, &xml).expect("valid")
 }
 
-fn everything() -> Randomisation {
-    Randomisation {
+fn everything() -> RandomisationConfig {
+    RandomisationConfig {
         mass_scale: [0.8, 1.2],
         floor_friction_scale: [0.5, 1.5],
         motor_scale: [0.8, 1.2],
@@ -45,7 +48,7 @@ fn everything() -> Randomisation {
     }
 }
 
-fn first_observation(randomisation: Randomisation, seed: u64) -> [f32; SIZE] {
+fn first_observation(randomisation: RandomisationConfig, seed: u64) -> [f32; SIZE] {
     let mut observation = [0.0; SIZE];
     environment(randomisation).reset(seed, &mut observation);
     observation
@@ -67,29 +70,33 @@ fn an_episode_depends_on_its_seed_only() {
     episode_bits(&mut used, 4, 2);
     assert_eq!(fresh, episode_bits(&mut used, 7, 120));
     assert_ne!(fresh, episode_bits(&mut used, 8, 120));
-    assert_ne!(fresh, episode_bits(&mut environment(Randomisation::default()), 7, 120));
+    assert_ne!(fresh, episode_bits(&mut environment(RandomisationConfig::default()), 7, 120));
 }
 
 #[test]
 fn randomisation_without_effect_leaves_every_bit_unchanged() {
-    let plain = episode_bits(&mut environment(Randomisation::default()), 7, 100);
-    let never = Randomisation { push_interval_s: [1000.0, 1000.0], push_mps: [1.0, 1.0], ..Randomisation::default() };
+    let plain = episode_bits(&mut environment(RandomisationConfig::default()), 7, 100);
+    let never = RandomisationConfig {
+        push_interval_s: [1000.0, 1000.0],
+        push_mps: [1.0, 1.0],
+        ..RandomisationConfig::default()
+    };
     assert!(never.is_on());
     assert_eq!(plain, episode_bits(&mut environment(never), 7, 100));
 }
 
 #[test]
 fn a_drawn_quantity_does_not_depend_on_other_randomisation() {
-    let noise = || Randomisation { sensor_noise_position: 0.01, ..Randomisation::default() };
+    let noise = || RandomisationConfig { sensor_noise_position: 0.01, ..RandomisationConfig::default() };
     let plain = first_observation(noise(), 3);
-    let beside = Randomisation { sensor_noise_velocity: 0.0, ..everything() };
+    let beside = RandomisationConfig { sensor_noise_velocity: 0.0, ..everything() };
     assert_eq!(plain, first_observation(beside, 3));
-    let drawn = |randomisation: Randomisation| {
+    let drawn = |randomisation: RandomisationConfig| {
         let mut environment = environment(randomisation);
         environment.reset(3, &mut [0.0; SIZE]);
         environment.physics().model().bodies.iter().map(|body| body.mass_kg).collect::<Vec<f64>>()
     };
-    let masses = Randomisation { mass_scale: [0.8, 1.2], ..Randomisation::default() };
+    let masses = RandomisationConfig { mass_scale: [0.8, 1.2], ..RandomisationConfig::default() };
     assert_eq!(drawn(masses), drawn(everything()));
 }
 
@@ -141,16 +148,18 @@ fn each_episode_draws_a_new_body_from_the_whole_ranges() {
 
 #[test]
 fn a_delayed_action_acts_later_but_its_cost_counts_at_once() {
-    for delay in 0..=Randomisation::DELAY_MAX_STEPS {
-        let mut delayed = environment(Randomisation { action_delay_steps: [delay, delay], ..Randomisation::default() });
-        let mut plain = environment(Randomisation::default());
+    for delay in 0..=RandomisationConfig::DELAY_MAX_STEPS {
+        let mut delayed =
+            environment(RandomisationConfig { action_delay_steps: [delay, delay], ..RandomisationConfig::default() });
+        let mut plain = environment(RandomisationConfig::default());
         let (mut seen, mut expected) = ([0.0; SIZE], [0.0; SIZE]);
         for seed in [5, 6] {
             delayed.reset(seed, &mut seen);
             plain.reset(seed, &mut expected);
             let action = |step: u32| [0.02 * (step % 20) as f32; 17];
             for step in 0..12 {
-                let info = delayed.step(&action(step + 1), &mut seen).info;
+                delayed.step(&action(step + 1), &mut seen);
+                let info = delayed.info().unwrap();
                 let arrived = (step + 1).checked_sub(delay).map_or([0.0; 17], action);
                 plain.step(&arrived, &mut expected);
                 assert_eq!(seen, expected, "delay {delay}, step {step}");
@@ -163,7 +172,8 @@ fn a_delayed_action_acts_later_but_its_cost_counts_at_once() {
 
 #[test]
 fn delays_are_drawn_from_the_whole_range() {
-    let mut environment = floating(Randomisation { action_delay_steps: [1, 3], ..Randomisation::default() });
+    let mut environment =
+        floating(RandomisationConfig { action_delay_steps: [1, 3], ..RandomisationConfig::default() });
     let mut count = [0; 5];
     for seed in 0..60 {
         environment.reset(seed, &mut [0.0; SIZE]);
@@ -178,7 +188,8 @@ fn delays_are_drawn_from_the_whole_range() {
 
 #[test]
 fn a_bad_action_is_an_immediate_fault_despite_a_delay() {
-    let mut environment = environment(Randomisation { action_delay_steps: [3, 3], ..Randomisation::default() });
+    let mut environment =
+        environment(RandomisationConfig { action_delay_steps: [3, 3], ..RandomisationConfig::default() });
     let mut observation = [0.0; SIZE];
     environment.reset(1, &mut observation);
     for bad in [f32::INFINITY, f32::NAN] {
@@ -193,8 +204,12 @@ fn a_bad_action_is_an_immediate_fault_despite_a_delay() {
 
 #[test]
 fn sensor_noise_has_its_width_and_affects_observations_only() {
-    let noise = Randomisation { sensor_noise_position: 0.02, sensor_noise_velocity: 0.3, ..Randomisation::default() };
-    let (mut noisy, mut plain) = (floating(noise), floating(Randomisation::default()));
+    let noise = RandomisationConfig {
+        sensor_noise_position: 0.02,
+        sensor_noise_velocity: 0.3,
+        ..RandomisationConfig::default()
+    };
+    let (mut noisy, mut plain) = (floating(noise), floating(RandomisationConfig::default()));
     let (mut seen, mut truth) = ([0.0; SIZE], [0.0; SIZE]);
     let mut samples = vec![Vec::new(); SIZE];
     for seed in 0..300 {
@@ -207,7 +222,7 @@ fn sensor_noise_has_its_width_and_affects_observations_only() {
             let norm: f32 = seen[1..5].iter().map(|part| part * part).sum();
             assert!((norm - 1.0).abs() < 1e-5, "a quaternion of norm {norm}");
             let (step, same) = (noisy.step(&[0.1; 17], &mut seen), plain.step(&[0.1; 17], &mut truth));
-            assert_eq!((step.reward, step.info), (same.reward, same.info), "the simulation is the same");
+            assert_eq!((step.reward, noisy.info()), (same.reward, plain.info()), "the simulation is the same");
         }
     }
     for (index, samples) in samples.iter().enumerate() {
@@ -238,12 +253,15 @@ fn a_fault_repeats_the_last_noisy_observation() {
 
 #[test]
 fn every_observation_kind_has_the_same_noise_on_positions_and_velocities() {
-    use treadmill_humanoid::ObservationKind::{Compact, GymnasiumV4, GymnasiumV5};
-    let noise = Randomisation { sensor_noise_position: 0.02, sensor_noise_velocity: 0.3, ..Randomisation::default() };
+    use treadmill_humanoid::EnvObservation::{Compact, GymnasiumV4, GymnasiumV5};
+    let noise = RandomisationConfig {
+        sensor_noise_position: 0.02,
+        sensor_noise_velocity: 0.3,
+        ..RandomisationConfig::default()
+    };
     let seen = |observation, exclude_current_positions_from_observation, randomisation| {
         let config = EnvironmentConfig {
-            observation,
-            exclude_current_positions_from_observation,
+            env: EnvConfig { observation, exclude_current_positions_from_observation, ..EnvConfig::default() },
             randomisation,
             ..EnvironmentConfig::default()
         };
@@ -255,7 +273,8 @@ fn every_observation_kind_has_the_same_noise_on_positions_and_velocities() {
     let expected = seen(Compact, true, noise.clone());
     for kind in [Compact, GymnasiumV5, GymnasiumV4] {
         for (skipped, excluded) in [(0, true), (2, false)] {
-            let (noisy, plain) = (seen(kind, excluded, noise.clone()), seen(kind, excluded, Randomisation::default()));
+            let (noisy, plain) =
+                (seen(kind, excluded, noise.clone()), seen(kind, excluded, RandomisationConfig::default()));
             assert_eq!(noisy[..skipped], plain[..skipped], "x and y have no noise");
             assert_eq!(noisy[skipped..skipped + SIZE], expected[..], "{kind:?}: the same noise on the same numbers");
         }
@@ -264,13 +283,13 @@ fn every_observation_kind_has_the_same_noise_on_positions_and_velocities() {
 
 #[test]
 fn control_noise_has_its_width_at_the_motors_and_no_cost() {
-    let mut environment = floating(Randomisation { control_noise: 0.1, ..Randomisation::default() });
+    let mut environment = floating(RandomisationConfig { control_noise: 0.1, ..RandomisationConfig::default() });
     environment.reset(1, &mut [0.0; SIZE]);
     let motors = environment.physics().model().motors.clone();
     let mut samples = vec![Vec::new(); motors.len()];
     for _ in 0..1500 {
-        let step = environment.step(&[0.0; 17], &mut [0.0; SIZE]);
-        assert_eq!(step.info.reward_ctrl, 0.0);
+        environment.step(&[0.0; 17], &mut [0.0; SIZE]);
+        assert_eq!(environment.info().unwrap().reward_ctrl, 0.0);
         for (samples, motor) in samples.iter_mut().zip(&motors) {
             samples.push(environment.physics().joint_torques_nm()[motor.hinge] / motor.gear_nm);
         }
@@ -283,7 +302,8 @@ fn control_noise_has_its_width_at_the_motors_and_no_cost() {
 
 #[test]
 fn pushes_come_at_their_interval_with_their_speed_in_any_direction() {
-    let pushes = Randomisation { push_interval_s: [0.3, 0.3], push_mps: [0.8, 0.8], ..Randomisation::default() };
+    let pushes =
+        RandomisationConfig { push_interval_s: [0.3, 0.3], push_mps: [0.8, 0.8], ..RandomisationConfig::default() };
     let mut environment = floating(pushes);
     let mut directions = Vec::new();
     for seed in 0..20 {
@@ -314,7 +334,7 @@ fn pushes_come_at_their_interval_with_their_speed_in_any_direction() {
 #[test]
 fn invalid_ranges_are_refused() {
     let config = EnvironmentConfig {
-        randomisation: Randomisation { damping_scale: [2.0, 1.0], ..Randomisation::default() },
+        randomisation: RandomisationConfig { damping_scale: [2.0, 1.0], ..RandomisationConfig::default() },
         ..EnvironmentConfig::default()
     };
     let error = Environment::new(&config, HUMANOID_XML).err().expect("refused").to_string();

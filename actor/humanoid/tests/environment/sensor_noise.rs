@@ -1,9 +1,9 @@
 //! Sensor noise reaches every entry of an observation that depends on a noisy quantity.
 
 use treadmill_humanoid::{
-    Environment, EnvironmentConfig, HUMANOID_XML,
-    ObservationKind::{Compact, GymnasiumV4, GymnasiumV5},
-    Randomisation,
+    EnvConfig,
+    EnvObservation::{Compact, GymnasiumV4, GymnasiumV5},
+    Environment, EnvironmentConfig, HUMANOID_XML, RandomisationConfig,
 };
 
 const NOISE: [f64; 2] = [0.02, 0.3];
@@ -16,17 +16,16 @@ fn with_servos() -> String {
 }
 
 fn environment(
-    observation: treadmill_humanoid::ObservationKind,
+    observation: treadmill_humanoid::EnvObservation,
     xml: &str,
     [position, velocity]: [f64; 2],
 ) -> Environment {
     let config = EnvironmentConfig {
-        observation,
-        terminate_when_unhealthy: false,
-        randomisation: Randomisation {
+        env: EnvConfig { observation, terminate_when_unhealthy: false, ..EnvConfig::default() },
+        randomisation: RandomisationConfig {
             sensor_noise_position: position,
             sensor_noise_velocity: velocity,
-            ..Randomisation::default()
+            ..RandomisationConfig::default()
         },
         ..EnvironmentConfig::default()
     };
@@ -136,9 +135,8 @@ fn without_noise_every_bit_is_exact() {
     for kind in [Compact, GymnasiumV5, GymnasiumV4] {
         // Other randomisation is on.
         let config = EnvironmentConfig {
-            observation: kind,
-            terminate_when_unhealthy: false,
-            randomisation: Randomisation { mass_scale: [0.8, 1.2], ..Randomisation::default() },
+            env: EnvConfig { observation: kind, terminate_when_unhealthy: false, ..EnvConfig::default() },
+            randomisation: RandomisationConfig { mass_scale: [0.8, 1.2], ..RandomisationConfig::default() },
             ..EnvironmentConfig::default()
         };
         for mut environment in

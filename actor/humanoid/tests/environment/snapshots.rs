@@ -2,13 +2,16 @@
 
 use rand::{RngExt, SeedableRng};
 use rand_xoshiro::Xoshiro256PlusPlus;
-use treadmill_humanoid::{Environment, EnvironmentConfig, HUMANOID_XML, Model, Physics, Randomisation, SnapshotError};
+use treadmill_humanoid::{
+    EnvConfig, Environment, EnvironmentConfig, HUMANOID_XML, Model, Physics, RandomisationConfig, SnapshotError,
+};
 
 use crate::support::{environment, play, randomised, reset};
 
 #[test]
 fn an_episode_continues_from_a_snapshot_bit_for_bit() {
-    for config in [EnvironmentConfig { terminate_when_unhealthy: false, ..EnvironmentConfig::default() }, randomised()]
+    for config in
+        [EnvironmentConfig::from(EnvConfig { terminate_when_unhealthy: false, ..EnvConfig::default() }), randomised()]
     {
         let mut original = environment(&config);
         let mut other = environment(&config);
@@ -143,17 +146,18 @@ fn snapshots_of_other_models_and_settings_are_refused_by_name() {
     play(&mut original, 0, 10);
     let snapshot = original.snapshot();
 
-    let mut finer = environment(&EnvironmentConfig { substeps: 3, ..config.clone() });
+    let mut finer =
+        environment(&EnvironmentConfig { env: EnvConfig { substeps: 3, ..config.env.clone() }, ..config.clone() });
     let untouched = reset(&mut finer, 4);
     let refusal = finer.restore(&snapshot).expect_err("other substeps");
-    let wanted = SnapshotError::Setting { setting: "substeps", taken: "4".into(), found: "3".into() };
+    let wanted = SnapshotError::Setting { setting: "env.substeps".into(), taken: "4".into(), found: "3".into() };
     assert_eq!(refusal, wanted);
     assert!(refusal.to_string().contains("`substeps` = 4, but here it is 3"), "{refusal}");
     let mut seen = vec![0.0; finer.observation_size()];
     finer.observe(&mut seen).expect("the right length");
     assert_eq!(seen, untouched, "a refusal must change nothing");
 
-    let randomisation = Randomisation { push_mps: [0.0, 1.0], ..Randomisation::default() };
+    let randomisation = RandomisationConfig { push_mps: [0.0, 1.0], ..RandomisationConfig::default() };
     let result = environment(&EnvironmentConfig { randomisation, ..config.clone() }).restore(&snapshot);
     assert!(result.expect_err("other pushes").to_string().contains("`randomisation`"));
 
@@ -179,9 +183,9 @@ fn snapshots_of_other_models_and_settings_are_refused_by_name() {
     let plain = Physics::new(model.clone(), &config).expect("valid").snapshot();
     type Change = fn(&mut EnvironmentConfig);
     let changes: [(&str, Change); 3] = [
-        ("substeps", |c| c.substeps = 3),
-        ("control_step_s", |c| c.control_step_s = 0.02),
-        ("self_collision", |c| c.self_collision = false),
+        ("env.substeps", |c| c.env.substeps = 3),
+        ("env.control_step_s", |c| c.env.control_step_s = 0.02),
+        ("env.self_collision", |c| c.env.self_collision = false),
     ];
     for (name, change) in changes {
         let mut changed = config.clone();
@@ -190,6 +194,6 @@ fn snapshots_of_other_models_and_settings_are_refused_by_name() {
         assert!(refusal.to_string().contains(name), "{refusal}");
     }
     // Physics ignores settings that motion does not depend on.
-    let other_task = EnvironmentConfig { healthy_reward: 1.0, ..config };
+    let other_task = EnvironmentConfig { env: EnvConfig { healthy_reward: 1.0, ..config.env.clone() }, ..config };
     assert!(Physics::new(model, &other_task).expect("valid").restore(&plain).is_ok());
 }

@@ -2,15 +2,20 @@
 
 use rand::{RngExt, SeedableRng};
 use rand_xoshiro::Xoshiro256PlusPlus;
-use treadmill_humanoid::{Environment, EnvironmentConfig, HUMANOID_XML, ObservationKind, Randomisation};
+use treadmill_humanoid::{
+    EnvConfig, EnvObservation, Environment, EnvironmentConfig, HUMANOID_XML, RandomisationConfig,
+};
 
 /// Settings with contact forces in the observation and all randomisation.
 pub fn randomised() -> EnvironmentConfig {
     EnvironmentConfig {
-        observation: ObservationKind::GymnasiumV5,
-        terminate_when_unhealthy: false,
-        max_episode_steps: 400,
-        randomisation: Randomisation {
+        env: EnvConfig {
+            observation: EnvObservation::GymnasiumV5,
+            terminate_when_unhealthy: false,
+            max_episode_steps: 400,
+            ..EnvConfig::default()
+        },
+        randomisation: RandomisationConfig {
             mass_scale: [0.8, 1.2],
             floor_friction_scale: [0.5, 1.5],
             motor_scale: [0.8, 1.2],

@@ -1,8 +1,10 @@
 //! The velocity task, with a robot of 29 hinges and a card.
 
-use treadmill_humanoid::config::{GroundKind, GroundSettings, StartLevel, VelocityConfig, VelocityRewards};
+use treadmill_humanoid::config::{GroundConfig, GroundKind, RewardsConfig, VelocityConfig};
 use treadmill_humanoid::task::velocity::Foot;
-use treadmill_humanoid::{Environment, EnvironmentConfig, EpisodeState, Mirror, Randomisation};
+use treadmill_humanoid::{
+    EnvConfig, EnvTask, Environment, EnvironmentConfig, EpisodeState, Mirror, RandomisationConfig,
+};
 
 const ROBOT_XML: &str = include_str!("../../assets/g1-like-servos.xml");
 pub(crate) const CARD: &str = "feet = ['left_foot', 'right_foot']\n[[hinges]]\nnames = '*'\neffort_nm = 60.0\n";
@@ -11,7 +13,7 @@ const OF_POLICY: usize = 3 + 3 + 3 + 3 * 29 + 2;
 const OF_CRITIC: usize = 3 + 1 + 3 * 2;
 
 fn config(velocity: VelocityConfig) -> EnvironmentConfig {
-    let randomisation = Randomisation {
+    let randomisation = RandomisationConfig {
         push_mps: [0.1, 0.5],
         push_interval_s: [0.2, 0.4],
         sensor_noise_position: 0.01,
@@ -20,13 +22,17 @@ fn config(velocity: VelocityConfig) -> EnvironmentConfig {
         kp_scale: [0.9, 1.1],
         kd_scale: [0.8, 1.2],
         com_offset_m: 0.03,
-        ..Randomisation::default()
+        ..RandomisationConfig::default()
     };
     EnvironmentConfig {
-        velocity: Some(velocity),
-        control_step_s: 0.02,
-        substeps: 5,
-        reset_noise_scale: 0.02,
+        env: EnvConfig {
+            task: EnvTask::Velocity,
+            control_step_s: 0.02,
+            substeps: 5,
+            reset_noise_scale: 0.02,
+            ..EnvConfig::default()
+        },
+        velocity,
         randomisation,
         ..EnvironmentConfig::default()
     }
@@ -117,8 +123,8 @@ fn an_episode_goes_on_exactly_from_its_saved_state() {
 
 #[test]
 fn the_terms_of_a_reward_add_up_to_it() {
-    let rewards = VelocityRewards { landing: -1.0, feet_slip: 0.0, ..VelocityRewards::default() };
-    let velocity = config(VelocityConfig { rewards, ..VelocityConfig::default() });
+    let rewards = RewardsConfig { landing: -1.0, feet_slip: 0.0, ..RewardsConfig::default() };
+    let velocity = EnvironmentConfig { rewards, ..config(VelocityConfig::default()) };
     let humanoid = EnvironmentConfig::default();
     for (mut environment, wanted, missing) in [
         (environment(&velocity), "landing", "feet_slip"),
@@ -277,7 +283,8 @@ fn what_the_task_needs_and_lacks_is_named() {
 
 #[test]
 fn the_mirror_image_of_an_observation_is_that_of_the_mirrored_robot() {
-    let config = EnvironmentConfig { randomisation: Randomisation::default(), ..config(VelocityConfig::default()) };
+    let config =
+        EnvironmentConfig { randomisation: RandomisationConfig::default(), ..config(VelocityConfig::default()) };
     let (mut original, mut image) = (environment(&config), environment(&config));
     let of_body = Mirror::of(original.physics().model()).unwrap();
     let reflection = original.task().mirrored(&of_body).unwrap();
@@ -317,7 +324,7 @@ fn the_mirror_image_of_an_observation_is_that_of_the_mirrored_robot() {
 #[test]
 fn feet_feel_the_next_stair_within_their_reach() {
     let stairs = vec![GroundKind::Stairs];
-    let ground = GroundSettings { kinds: stairs, start: StartLevel::Fixed(9), ..GroundSettings::default() };
+    let ground = GroundConfig { kinds: stairs, curriculum: false, start_level: 9, ..GroundConfig::default() };
     let settings = EnvironmentConfig { ground: ground.clone(), ..config(VelocityConfig::default()) };
     let mut environment = environment(&settings);
     let foot = environment.physics().model().robot.as_ref().unwrap().feet[0];

@@ -1,7 +1,7 @@
 //! Robot cards: what they change in a model, drafts, and mistakes.
 
 use treadmill_humanoid::card::{RobotCard, draft};
-use treadmill_humanoid::{Environment, EnvironmentConfig, Mirror, Model};
+use treadmill_humanoid::{EnvConfig, Environment, EnvironmentConfig, Mirror, Model};
 
 use crate::support::changed;
 
@@ -75,7 +75,7 @@ fn a_held_hinge_is_no_part_of_an_action_and_keeps_its_angle() {
     assert_eq!(model.motors.iter().map(|motor| motor.hinge).collect::<Vec<_>>(), [0, 1, 2]);
     let hinge = &model.hinges[3];
     assert_eq!((hinge.stiffness_nmprad, hinge.rest_rad, hinge.damping_nmsprad), (4000.0, 0.7, 100.0));
-    let config = EnvironmentConfig { healthy_z_range: [0.1, 5.0], ..EnvironmentConfig::default() };
+    let config = EnvironmentConfig::from(EnvConfig { healthy_z_range: [0.1, 5.0], ..EnvConfig::default() });
     let text = text_with(&card);
     let mut environment = Environment::new(&config, &text).expect("valid");
     assert_eq!(environment.action_size(), 3);

@@ -1,7 +1,7 @@
 //! Physics of the humanoid: mass, fall, contacts, motors.
 
 use nalgebra::Vector3;
-use treadmill_humanoid::{EnvironmentConfig, HUMANOID_XML, Model, Physics};
+use treadmill_humanoid::{EnvConfig, EnvironmentConfig, HUMANOID_XML, Model, Physics};
 
 use crate::CONTROL_STEP_S;
 
@@ -154,7 +154,7 @@ fn every_motor_turns_its_hinge_in_the_right_direction() {
 
 #[test]
 fn with_fine_steps_the_dynamics_match_mujoco() {
-    let config = EnvironmentConfig { substeps: 15, ..EnvironmentConfig::default() };
+    let config = EnvironmentConfig::from(EnvConfig { substeps: 15, ..EnvConfig::default() });
     for (motor, (change, reference)) in rate_changes(&config).iter().zip(MUJOCO_RATE_CHANGE).enumerate() {
         let ratio = change / reference;
         assert!((0.87..1.1).contains(&ratio), "motor {motor}: {change} rad/s, {ratio} of MuJoCo's");
@@ -196,7 +196,7 @@ fn self_collision_can_be_switched_off() {
     position[2] = 5.0;
     position[10] = 0.5;
     let squared_force = |self_collision| {
-        let config = EnvironmentConfig { self_collision, ..EnvironmentConfig::default() };
+        let config = EnvironmentConfig::from(EnvConfig { self_collision, ..EnvConfig::default() });
         let mut physics = physics(&weightless_xml(), &config);
         physics.set_state(&position, &[0.0; 23]);
         physics.step_only(&IDLE).expect("finite");

@@ -1,7 +1,7 @@
 //! A box on the floor: basic checks of the contact solver.
 
 use nalgebra::{UnitQuaternion, Vector3};
-use treadmill_humanoid::{EnvironmentConfig, Model, Physics};
+use treadmill_humanoid::{EnvConfig, EnvironmentConfig, Model, Physics};
 
 const GRAVITY_MPS2: f64 = 9.81;
 const MASS_KG: f64 = 3.0;
@@ -15,7 +15,7 @@ fn flat_box(friction: f64, substeps: u32) -> Physics {
            <inertial pos="0 0 0" mass="1e-6" diaginertia="1e-9 1e-9 1e-9"/></body>
            </body></worldbody><actuator><motor joint="j"/></actuator></mujoco>"#
     );
-    let config = EnvironmentConfig { substeps, ..EnvironmentConfig::default() };
+    let config = EnvironmentConfig::from(EnvConfig { substeps, ..EnvConfig::default() });
     Physics::new(Model::from_mjcf(&text).expect("valid"), &config).expect("valid")
 }
 

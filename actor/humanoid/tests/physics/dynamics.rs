@@ -3,7 +3,7 @@
 use nalgebra::{UnitQuaternion, Vector3};
 use rand::{RngExt, SeedableRng};
 use rand_xoshiro::Xoshiro256PlusPlus;
-use treadmill_humanoid::{EnvironmentConfig, HUMANOID_XML, Mirror, Model, Physics};
+use treadmill_humanoid::{EnvConfig, EnvironmentConfig, HUMANOID_XML, Mirror, Model, Physics};
 
 use crate::CONTROL_STEP_S;
 
@@ -23,7 +23,7 @@ const WITHOUT_FRICTION: [(&str, &str); 2] = [("damping=\"5\"", "damping=\"0\""),
 
 /// Physics without self-collision, for states far above the floor.
 fn flying(xml: &str, substeps: u32) -> Physics {
-    let config = EnvironmentConfig { substeps, self_collision: false, ..EnvironmentConfig::default() };
+    let config = EnvironmentConfig::from(EnvConfig { substeps, self_collision: false, ..EnvConfig::default() });
     Physics::new(Model::from_mjcf(xml).expect("valid"), &config).expect("valid")
 }
 

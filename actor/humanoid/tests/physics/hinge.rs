@@ -1,6 +1,6 @@
 //! One hinge between two bodies, compared with the closed form of its motion.
 
-use treadmill_humanoid::{EnvironmentConfig, Model, Physics};
+use treadmill_humanoid::{EnvConfig, EnvironmentConfig, Model, Physics};
 
 use crate::CONTROL_STEP_S;
 
@@ -18,7 +18,7 @@ fn pair(joint: &str, substeps: u32) -> Physics {
            <body><joint name="j" axis="0 1 0" {joint}/><inertial pos="0 0 0" mass="1" diaginertia="0.02 0.02 0.02"/></body>
            </body></worldbody><actuator><motor joint="j" ctrlrange="-10 10"/></actuator></mujoco>"#
     );
-    let config = EnvironmentConfig { substeps, ..EnvironmentConfig::default() };
+    let config = EnvironmentConfig::from(EnvConfig { substeps, ..EnvConfig::default() });
     Physics::new(Model::from_mjcf(&text).expect("valid"), &config).expect("valid")
 }
 

@@ -1,7 +1,7 @@
 //! Laws that hold with contacts: momentum, and independence of the place and of a constant velocity.
 
 use nalgebra::Vector3;
-use treadmill_humanoid::{EnvironmentConfig, HUMANOID_XML, Model, Physics};
+use treadmill_humanoid::{EnvConfig, EnvironmentConfig, HUMANOID_XML, Model, Physics};
 
 use crate::CONTROL_STEP_S;
 use crate::dynamics::momentum;
@@ -13,7 +13,7 @@ fn humanoid(changes: &[(&str, &str)], substeps: u32) -> Physics {
         assert!(text.contains(from), "{from}");
         text.replace(from, to)
     });
-    let config = EnvironmentConfig { substeps, ..EnvironmentConfig::default() };
+    let config = EnvironmentConfig::from(EnvConfig { substeps, ..EnvConfig::default() });
     Physics::new(Model::from_mjcf(&text).expect("valid"), &config).expect("valid")
 }
 

@@ -1,6 +1,6 @@
 //! Motion of other models: collision rules, friction, margins, motor ranges, servos.
 
-use treadmill_humanoid::{Environment, EnvironmentConfig, Model, Physics, Variation};
+use treadmill_humanoid::{EnvConfig, Environment, EnvironmentConfig, Model, Physics, Variation};
 
 use crate::CONTROL_STEP_S;
 
@@ -283,7 +283,7 @@ fn a_very_stiff_servo_holds_its_target_without_oscillation() {
     let servo = format!("<position joint=\"j\" kp=\"{kp}\" kv=\"{kv}\" ctrlrange=\"-1 1\"/>");
     let text = driven_model(&servo, "armature=\"0.01\"");
     for (substeps, armature_scale) in [(1, 1.0), (2, 1.0), (4, 1.0), (4, 0.01), (4, 0.0)] {
-        let config = EnvironmentConfig { substeps, ..EnvironmentConfig::default() };
+        let config = EnvironmentConfig::from(EnvConfig { substeps, ..EnvConfig::default() });
         let mut physics = Physics::new(Model::from_mjcf(&text).expect("valid"), &config).expect("valid");
         let mut variation = Variation::none(physics.model());
         variation.armature_scale[0] = armature_scale;
@@ -317,7 +317,7 @@ fn another_body_has_its_own_sizes() {
 
 #[test]
 fn the_robot_of_29_hinges_stands_and_survives_random_actions() {
-    let config = EnvironmentConfig { healthy_z_range: [0.5, 1.1], ..EnvironmentConfig::default() };
+    let config = EnvironmentConfig::from(EnvConfig { healthy_z_range: [0.5, 1.1], ..EnvConfig::default() });
     let mut environment = Environment::new(&config, G1_LIKE_XML).expect("valid");
     assert_eq!((environment.observation_size(), environment.action_size()), (69, 29));
     let mut observation = vec![0.0; environment.observation_size()];

@@ -6,7 +6,7 @@ use treadmill_config::{Config, RunConfig};
 pub fn configuration(config: &Config) -> String {
     let mut text = String::from("| key | value | default |\n|---|---|---|\n");
     for key in Config::keys() {
-        let value = config.value_of(&key.key);
+        let value = config.value_of(key.key);
         // Configurations omit empty values, too.
         if value.is_empty() {
             continue;

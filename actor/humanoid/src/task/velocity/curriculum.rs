@@ -3,14 +3,14 @@
 use rand::RngExt;
 
 use super::command::Command;
-use crate::config::{EnvironmentConfig, GroundKind, StartLevel};
+use crate::config::{EnvironmentConfig, GroundKind};
 use crate::randomisation::stream;
 use crate::task::Difficulty;
 
 /// Numbers of [`Curriculum::save`].
 pub(super) const CURRICULUM_SAVED: usize = 7 + KINDS_MAX;
 /// Most kinds of tiles.
-const KINDS_MAX: usize = GroundKind::ALL.len();
+const KINDS_MAX: usize = GroundKind::NAMES.len();
 /// Share of the commanded way from which the level rises, and below which it falls.
 const RISE_SHARE: f64 = 0.5;
 const FALL_SHARE: f64 = 0.35;
@@ -22,6 +22,17 @@ const FACTOR_STEP: f64 = 0.1;
 /// Share of the greatest reward for tracking, and of the commanded way, from which the commands grow.
 const TRACKED_SHARE: f64 = 0.7;
 const WALKED_SHARE: f64 = 0.7;
+
+/// How an episode's level of the ground is chosen.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum LevelChoice {
+    /// One for each kind, which rises and falls with the environment's success.
+    Rising,
+    /// Always the first one.
+    Fixed,
+    /// Each episode draws one.
+    Drawn,
+}
 
 /// How an episode ended, if it has.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -48,7 +59,7 @@ struct Score {
 #[derive(Clone, Debug)]
 pub(super) struct Curriculum {
     /// How to choose a level of the ground, and their number; `None` without levels.
-    ground: Option<(StartLevel, u32)>,
+    ground: Option<(LevelChoice, u32)>,
     commands_grow: bool,
     /// Level on each kind of tile; a kind that is harder than others does not hold them back.
     levels: [u32; KINDS_MAX],
@@ -61,12 +72,14 @@ pub(super) struct Curriculum {
 impl Curriculum {
     /// Returns the curriculum before the first episode; `None` if there is nothing to choose.
     pub(super) fn new(config: &EnvironmentConfig) -> Option<Self> {
-        let ground = (!config.ground.kinds.is_empty()).then_some((config.ground.start, config.ground.levels));
-        let commands_grow = config.velocity.as_ref().is_some_and(|velocity| velocity.command_curriculum);
-        let level = match ground {
-            Some((StartLevel::Rising(level) | StartLevel::Fixed(level), _)) => level,
-            _ => 0,
+        let choice = match (config.ground.curriculum, config.has_curricula) {
+            (true, true) => LevelChoice::Rising,
+            (true, false) => LevelChoice::Drawn,
+            (false, _) => LevelChoice::Fixed,
         };
+        let ground = (!config.ground.kinds.is_empty()).then_some((choice, config.ground.levels));
+        let commands_grow = config.has_curricula && config.velocity.command_curriculum;
+        let level = if choice == LevelChoice::Drawn { 0 } else { config.ground.start_level };
         let factor = if commands_grow { FACTOR_MIN } else { 1.0 };
         let levels = [level; KINDS_MAX];
         let chosen = Self { ground, commands_grow, levels, kind: 0, factor, score: Score::default() };
@@ -98,18 +111,18 @@ impl Curriculum {
         if self.commands_grow && last.end == EpisodeEnd::Limit && is_tracked && has_walked {
             self.factor = (self.factor + FACTOR_STEP).min(1.0);
         }
-        let Some((start, levels)) = self.ground else { return };
+        let Some((choice, levels)) = self.ground else { return };
         let counts = last.commanded_m > COUNTED_M && last.end != EpisodeEnd::None;
         let share = last.covered_m / last.commanded_m;
         let has_failed = last.end == EpisodeEnd::Fall || counts && share < FALL_SHARE;
         let level = &mut self.levels[self.kind];
-        match start {
-            StartLevel::Rising(_) if has_failed => *level = level.saturating_sub(1),
-            StartLevel::Rising(_) if counts && share >= RISE_SHARE => *level = (*level + 1).min(levels - 1),
-            StartLevel::Rising(_) | StartLevel::Fixed(_) | StartLevel::Drawn => {}
+        match choice {
+            LevelChoice::Rising if has_failed => *level = level.saturating_sub(1),
+            LevelChoice::Rising if counts && share >= RISE_SHARE => *level = (*level + 1).min(levels - 1),
+            LevelChoice::Rising | LevelChoice::Fixed | LevelChoice::Drawn => {}
         }
         self.kind = kind;
-        if start == StartLevel::Drawn {
+        if choice == LevelChoice::Drawn {
             self.levels[kind] = stream(seed, "ground-level").random_range(0..levels);
         }
     }
@@ -172,12 +185,15 @@ impl Curriculum {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::config::{GroundKind, GroundSettings, VelocityConfig};
+    use crate::config::{GroundConfig, GroundKind, VelocityConfig};
 
-    fn curriculum(start: StartLevel) -> Curriculum {
-        let ground = GroundSettings { kinds: vec![GroundKind::Slope], levels: 4, start, ..GroundSettings::default() };
-        let velocity = Some(VelocityConfig { command_curriculum: true, ..VelocityConfig::default() });
-        Curriculum::new(&EnvironmentConfig { ground, velocity, ..EnvironmentConfig::default() }).unwrap()
+    fn curriculum(choice: LevelChoice, start_level: u32) -> Curriculum {
+        let curriculum = choice != LevelChoice::Fixed;
+        let kinds = vec![GroundKind::Slope];
+        let ground = GroundConfig { kinds, levels: 4, curriculum, start_level, ..GroundConfig::default() };
+        let velocity = VelocityConfig { command_curriculum: true, ..VelocityConfig::default() };
+        let has_curricula = choice != LevelChoice::Drawn;
+        Curriculum::new(&EnvironmentConfig { has_curricula, ground, velocity, ..EnvironmentConfig::default() }).unwrap()
     }
 
     /// Plays 4 s at a command of 1 m/s to the left, of which `share` is covered, and begins the next episode.
@@ -192,7 +208,7 @@ mod tests {
 
     #[test]
     fn the_level_rises_with_the_way_covered_and_falls_with_falls() {
-        let mut rising = curriculum(StartLevel::Rising(1));
+        let mut rising = curriculum(LevelChoice::Rising, 1);
         rising.begin_episode(1, 0);
         assert_eq!(rising.level(), 1, "the first episode");
         for (share, has_fallen, level) in
@@ -213,7 +229,7 @@ mod tests {
 
     #[test]
     fn each_kind_has_a_level_of_its_own() {
-        let mut rising = curriculum(StartLevel::Rising(1));
+        let mut rising = curriculum(LevelChoice::Rising, 1);
         for (kind, next, has_fallen, level) in [(0, 2, false, 1), (2, 0, true, 2), (0, 2, false, 0), (2, 0, false, 3)] {
             rising.kind = kind;
             let command = Command { lin_vel_x_mps: 1.0, ..Command::default() };
@@ -225,7 +241,7 @@ mod tests {
 
     #[test]
     fn success_on_the_last_level_stays_there() {
-        let mut last = curriculum(StartLevel::Rising(2));
+        let mut last = curriculum(LevelChoice::Rising, 2);
         for (share, level) in [(1.0, 3), (1.0, 3), (0.1, 2)] {
             play(&mut last, share, 1.0, false, 1);
             assert_eq!(last.level(), level, "{share}");
@@ -234,10 +250,10 @@ mod tests {
 
     #[test]
     fn fixed_and_drawn_levels_do_not_depend_on_success() {
-        let mut fixed = curriculum(StartLevel::Fixed(2));
+        let mut fixed = curriculum(LevelChoice::Fixed, 2);
         play(&mut fixed, 1.0, 1.0, false, 1);
         assert_eq!(fixed.level(), 2);
-        let (mut one, mut other) = (curriculum(StartLevel::Drawn), curriculum(StartLevel::Drawn));
+        let (mut one, mut other) = (curriculum(LevelChoice::Drawn, 0), curriculum(LevelChoice::Drawn, 0));
         for seed in 0..20 {
             play(&mut one, 1.0, 1.0, false, seed);
             play(&mut other, 0.0, 0.0, true, seed);
@@ -247,7 +263,7 @@ mod tests {
 
     #[test]
     fn commands_grow_with_success_and_never_shrink() {
-        let mut growing = curriculum(StartLevel::Fixed(0));
+        let mut growing = curriculum(LevelChoice::Fixed, 0);
         assert_eq!(growing.factor(), 0.4);
         for (share, tracked, has_fallen, factor) in [
             (1.0, 0.69, false, 0.4),
@@ -267,11 +283,11 @@ mod tests {
 
     #[test]
     fn a_saved_curriculum_goes_on_as_it_was() {
-        let mut original = curriculum(StartLevel::Rising(2));
+        let mut original = curriculum(LevelChoice::Rising, 2);
         play(&mut original, 1.0, 1.0, false, 1);
         let command = Command { lin_vel_x_mps: 1.0, ..Command::default() };
         original.count(&command, [0.2, 0.0], 0.5, 4.0, [false, true]);
-        let mut other = curriculum(StartLevel::Rising(0));
+        let mut other = curriculum(LevelChoice::Rising, 0);
         other.restore(original.save());
         assert_eq!(other.save(), original.save());
         original.begin_episode(3, 0);

@@ -7,7 +7,6 @@
 //! - `command`: the schedule of commands.
 //! - `curriculum`: difficulty of ground and commands.
 //! - `feet`: feet and gait.
-//! - `mirror`: mirror image of an observation.
 //! - `observation`: what policy and critic see.
 //! - `rewards`: the reward's terms.
 //! - `saved`: the task's state as numbers.
@@ -16,7 +15,6 @@
 mod command;
 mod curriculum;
 mod feet;
-mod mirror;
 mod observation;
 mod rewards;
 mod saved;
@@ -30,15 +28,15 @@ use self::command::Drawn;
 pub use self::command::{Command, HEADING_GAIN};
 use self::curriculum::Curriculum;
 pub use self::feet::{FEET, Foot, Stride, stride};
-use self::observation::observation_terms;
+use self::observation::Layout;
+pub use self::observation::{TERMS, TermRow};
 use self::rewards::pose_weights;
-pub use self::rewards::{BaseMotion, HingeMotion, RobotStep, Stance, terms};
+pub use self::rewards::{BaseMotion, HingeMotion, RobotStep, Stance};
 pub use self::scan::{SCAN_GRID, SCAN_MAX_M, SCAN_SPACING_M};
 use self::scan::{SCAN_POINTS, ground_around};
 use super::{Difficulty, ObservationTerm, Step, StepEvaluation, Task};
-use crate::config::{EnvironmentConfig, GroundSettings, VelocityConfig, VelocityRewards};
+use crate::config::{EnvironmentConfig, GroundConfig, REWARD_TERMS, RewardTerms, RewardsConfig, VelocityConfig};
 use crate::error::{ModelError, StateError};
-use crate::info::StepInfo;
 use crate::model::mirror::{Mirror, SignedPermutation};
 use crate::physics::Physics;
 use crate::randomisation::{SensorNoise, stream, uniform};
@@ -53,15 +51,16 @@ const EDGE_M: f64 = 1.0;
 /// Task of following velocity commands.
 pub struct VelocityTask {
     config: VelocityConfig,
-    /// The same with the present ranges of commands.
+    weights: RewardsConfig,
+    /// The settings with the present ranges of commands.
     commanded: VelocityConfig,
     /// Generated ground, if there is one.
-    ground: Option<GroundSettings>,
+    ground: Option<GroundConfig>,
     curriculum: Option<Curriculum>,
     max_episode_steps: u32,
     step_s: f64,
     encoder_bias_rad: f64,
-    terms: Vec<ObservationTerm>,
+    layout: Layout,
     body: Stance,
     /// Links of the left and the right foot, and their heights in the default pose (m).
     feet_links: [usize; FEET],
@@ -85,8 +84,8 @@ pub struct VelocityTask {
     actions_before: Vec<f64>,
     rates_before_radps: Vec<f64>,
     feet: [Foot; FEET],
-    /// Terms of the last step's reward, without weights. Before the first step they mean nothing.
-    rewarded: VelocityRewards,
+    /// Terms of the last step's reward, without weights; 0 before the first step.
+    rewarded: [f64; REWARD_TERMS],
     /// Observations of the policy, the oldest first, `[history][row]`.
     past: Vec<f32>,
     /// Control step of the newest of them; none before the first.
@@ -98,8 +97,8 @@ impl VelocityTask {
     ///
     /// # Errors
     /// [`ModelError`] if the robot has no card with two feet.
-    pub fn new(velocity: &VelocityConfig, config: &EnvironmentConfig, physics: &Physics) -> Result<Self, ModelError> {
-        velocity.check()?;
+    pub fn new(config: &EnvironmentConfig, physics: &Physics) -> Result<Self, ModelError> {
+        let velocity = &config.velocity;
         let model = physics.model();
         let refuse = |problem: &str| Err(ModelError::Task(format!("the velocity task {problem}")));
         let Some(robot) = &model.robot else {
@@ -132,24 +131,24 @@ impl VelocityTask {
             // It starts on ground at height 0.
             Some(_) => Foot::origin_m(physics, feet_links[foot]).z,
         };
-        let terms = observation_terms(velocity, motors.len(), ground.is_some());
-        let of_policy = terms.iter().filter(|term| !term.is_privileged).map(|term| term.range.len()).sum();
+        let layout = Layout::new(config, motors.len());
         let mut task = Self {
             feet_standing_m: std::array::from_fn(standing),
             ground,
             curriculum: Curriculum::new(config),
             commanded: velocity.clone(),
-            max_episode_steps: config.max_episode_steps,
+            max_episode_steps: config.env.max_episode_steps,
             actions: vec![0.0; motors.len()],
             actions_before: vec![0.0; motors.len()],
             encoder_errors_rad: vec![0.0; model.hinges.len()],
             encoder_bias_rad: config.randomisation.encoder_bias_rad,
             rates_before_radps: vec![0.0; model.hinges.len()],
-            past: vec![0.0; of_policy],
+            past: vec![0.0; layout.of_policy()],
             observed_step: None,
             config: velocity.clone(),
-            step_s: config.control_step_s,
-            terms,
+            weights: config.rewards.clone(),
+            step_s: config.env.control_step_s,
+            layout,
             body,
             feet_links,
             motors,
@@ -163,7 +162,7 @@ impl VelocityTask {
             command_changes: 0,
             episode_steps: 0,
             feet: [Foot::default(); FEET],
-            rewarded: VelocityRewards::default(),
+            rewarded: [0.0; REWARD_TERMS],
         };
         task.scale_commands();
         Ok(task)
@@ -183,16 +182,20 @@ impl VelocityTask {
     /// Adopts the curriculum's factor on the ranges of commands.
     fn scale_commands(&mut self) {
         if let Some(curriculum) = &self.curriculum {
-            self.commanded = self.config.with_commands_times(curriculum.factor());
+            let times = |range: [f64; 2]| range.map(|end| curriculum.factor() * end);
+            let VelocityConfig { lin_vel_x_mps, lin_vel_y_mps, ang_vel_z_radps, .. } = self.config;
+            self.commanded.lin_vel_x_mps = times(lin_vel_x_mps);
+            self.commanded.lin_vel_y_mps = times(lin_vel_y_mps);
+            self.commanded.ang_vel_z_radps = times(ang_vel_z_radps);
         }
     }
 
     /// Returns the share of the greatest reward for tracking that a step earned.
-    fn tracked_share(&self, terms: &VelocityRewards) -> f64 {
-        let [linear, yaw] = [self.config.rewards.track_linear_velocity, self.config.rewards.track_yaw_rate];
+    fn tracked_share(&self, step: &RobotStep<'_>) -> f64 {
+        let RewardsConfig { track_linear_velocity: linear, track_yaw_rate: yaw, .. } = self.weights;
         match linear + yaw {
-            sum if sum > 0.0 => (linear * terms.track_linear_velocity + yaw * terms.track_yaw_rate) / sum,
-            _ => terms.track_linear_velocity,
+            sum if sum > 0.0 => (linear * step.track_linear_velocity() + yaw * step.track_yaw_rate()) / sum,
+            _ => step.track_linear_velocity(),
         }
     }
 
@@ -213,25 +216,11 @@ impl VelocityTask {
     fn time_s(&self) -> f64 {
         f64::from(self.episode_steps) * self.step_s
     }
-
-    fn info(&self, physics: &Physics, centre_velocity_mps: [f64; 2], reward: f64) -> StepInfo {
-        let position = physics.position();
-        StepInfo {
-            x_position_m: position[0],
-            y_position_m: position[1],
-            distance_from_origin_m: position[0].hypot(position[1]),
-            x_velocity_mps: centre_velocity_mps[0],
-            y_velocity_mps: centre_velocity_mps[1],
-            reward_forward: reward,
-            torso_height_m: physics.torso_height_m(),
-            ..StepInfo::default()
-        }
-    }
 }
 
 impl Task for VelocityTask {
     fn terms(&self) -> &[ObservationTerm] {
-        &self.terms
+        &self.layout.terms
     }
 
     fn start(&mut self, seed: u64, physics: &Physics, position: &mut [f64]) {
@@ -252,7 +241,7 @@ impl Task for VelocityTask {
         position[3..7].copy_from_slice(&[cos * w - sin * z, cos * x - sin * y, cos * y + sin * x, cos * z + sin * w]);
     }
 
-    fn begin(&mut self, seed: u64, physics: &Physics) -> StepInfo {
+    fn begin(&mut self, seed: u64, physics: &Physics) {
         self.seed = seed;
         let mut encoders = stream(seed, "encoders");
         let bias_rad = self.encoder_bias_rad;
@@ -264,9 +253,9 @@ impl Task for VelocityTask {
         self.actions_before.fill(0.0);
         self.rates_before_radps.copy_from_slice(physics.joint_rates());
         self.feet = std::array::from_fn(|foot| Foot::now(physics, self.feet_links[foot], self.feet_standing_m[foot]));
+        self.rewarded = [0.0; REWARD_TERMS];
         self.past.fill(0.0);
         self.observed_step = None;
-        self.info(physics, [0.0; 2], 0.0)
     }
 
     fn evaluate(&mut self, step: &Step<'_>) -> StepEvaluation {
@@ -287,18 +276,28 @@ impl Task for VelocityTask {
             torques_nm: physics.joint_torques_nm(),
             actions: [&self.actions, &self.actions_before],
         };
-        let (config, time_s, step_s) = (&self.config, self.time_s(), self.step_s);
-        let command = self.observed;
-        let moved = RobotStep { command, base, feet: &self.feet, hinges, time_s, step_s };
-        let mut terms = terms(config, physics.model(), &self.body, &moved);
+        let (config, step_s, command) = (&self.config, self.step_s, self.observed);
         let has_fallen =
             base.height_m < config.fall_height_share * self.body.height_m || base.tilt_rad() > config.fall_tilt_rad;
-        terms.alive = f64::from(u8::from(!has_fallen));
-        let reward = config.rewards.total(&terms);
+        let moved = RobotStep {
+            config,
+            model: physics.model(),
+            body: &self.body,
+            command,
+            base,
+            feet: &self.feet,
+            hinges,
+            time_s: self.time_s(),
+            step_s,
+            has_fallen,
+        };
+        let tracked = self.tracked_share(&moved);
+        let terms = moved.values();
+        let weighted = self.weights.weights().into_iter().zip(terms);
+        let reward = weighted.fold(0.0, |sum, (weight, term)| sum + weight * term);
         self.rewarded = terms;
         let truncated = !has_fallen && self.is_at_edge(physics);
         let is_last = truncated || self.max_episode_steps > 0 && self.episode_steps >= self.max_episode_steps;
-        let tracked = self.tracked_share(&terms);
         if let Some(curriculum) = &mut self.curriculum {
             let velocity_mps = [base.velocity_mps.x, base.velocity_mps.y];
             curriculum.count(&command, velocity_mps, tracked, step_s, [has_fallen, is_last]);
@@ -311,13 +310,12 @@ impl Task for VelocityTask {
             self.command_changes += u32::from(self.steered.is_none());
         }
         self.command = self.steered.unwrap_or_else(|| self.drawn.at(&self.commanded, base.heading_rad));
-        let velocity = (physics.centre_of_mass() - step.centre_before_m) / step_s;
-        let info = self.info(physics, [velocity.x, velocity.y], reward);
-        StepEvaluation { reward: reward as f32, terminated: has_fallen, truncated, info }
+        StepEvaluation { reward: reward as f32, terminated: has_fallen, truncated }
     }
 
     fn reward_terms(&self, each: &mut dyn FnMut(&'static str, f64)) {
-        self.config.rewards.weigh(&self.rewarded, each);
+        let terms = RewardsConfig::NAMES.into_iter().zip(self.weights.weights()).zip(self.rewarded);
+        terms.filter(|((_, weight), _)| *weight != 0.0).for_each(|((name, weight), term)| each(name, weight * term));
     }
 
     fn observe(&mut self, physics: &Physics, noise: &mut SensorNoise, observation: &mut [f32]) {
@@ -331,7 +329,7 @@ impl Task for VelocityTask {
             seen.rotate_left(width);
         }
         self.observed = self.command;
-        self.write_row(physics, noise, &mut seen[newest..]);
+        self.write_frame(false, physics, noise, &mut seen[newest..]);
         if self.observed_step.is_none() {
             for row in 0..self.config.history as usize - 1 {
                 seen.copy_within(newest.., row * width);
@@ -341,7 +339,7 @@ impl Task for VelocityTask {
             self.past.copy_from_slice(seen);
             self.observed_step = Some(self.episode_steps);
         }
-        self.write_privileged(physics, hidden);
+        self.write_frame(true, physics, noise, hidden);
     }
 
     fn command(&self) -> Option<[f64; 3]> {
@@ -366,7 +364,7 @@ impl Task for VelocityTask {
     }
 
     fn mirrored(&self, robot: &Mirror) -> Option<SignedPermutation> {
-        Some(mirror::reflection(&self.terms, robot))
+        Some(self.layout.mirrored(robot))
     }
 
     fn difficulty(&self) -> Difficulty {

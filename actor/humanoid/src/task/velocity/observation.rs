@@ -1,97 +1,239 @@
-//! Observation: its terms, and their numbers.
+//! Observation: one row for each term, with all that is known of it.
 
 use std::f64::consts::TAU;
 
 use super::feet::FEET;
 use super::rewards::BaseMotion;
-use super::scan::{SCAN_MAX_M, SCAN_POINTS, ground_around};
+use super::scan::{SCAN_MAX_M, SCAN_POINTS, ground_around, opposite_point};
 use super::{ObservationTerm, VelocityTask};
-use crate::config::VelocityConfig;
+use crate::config::{EnvironmentConfig, VelocityConfig};
+use crate::model::mirror::{Mirror, SignedPermutation};
 use crate::physics::Physics;
 use crate::randomisation::SensorNoise;
 
-/// Heights of the ground around the base.
-const SCAN: (&str, usize) = ("height_scan", SCAN_POINTS);
+/// Term of the observation.
+#[derive(Clone, Copy, Debug)]
+pub struct TermRow {
+    /// Name, as in Isaac Lab and mjlab.
+    pub name: &'static str,
+    /// Unit of its entries.
+    pub unit: &'static str,
+    /// Frame of its entries.
+    pub frame: &'static str,
+    /// Returns its parameters in `deploy.yaml`.
+    pub deploy_params: fn(&VelocityConfig) -> String,
+    /// Whether only the critic sees it.
+    is_privileged: bool,
+    entries: Entries,
+    is_observed: fn(&EnvironmentConfig) -> bool,
+    write: Write,
+}
 
-/// Returns the terms of an observation: those of the policy, each with its history, then those of the critic alone.
-pub(super) fn observation_terms(config: &VelocityConfig, actions: usize, has_ground: bool) -> Vec<ObservationTerm> {
-    let of_policy = [
-        ("base_ang_vel", 3),
-        ("projected_gravity", 3),
-        ("velocity_commands", 3),
-        ("joint_pos_rel", actions),
-        ("joint_vel_rel", actions),
-        ("last_action", actions),
-        ("gait_phase", 2),
-        SCAN,
-    ];
-    let of_critic = [
-        ("base_lin_vel", 3),
-        ("base_height", 1),
-        ("feet_contact", FEET),
-        ("feet_air_time", FEET),
-        ("feet_lift", FEET),
-        SCAN,
-    ];
-    let with_scan = |terms: usize, has_scan: bool| terms - usize::from(!has_scan);
-    let of_policy = &of_policy[..with_scan(of_policy.len(), config.height_scan)];
-    let of_critic = &of_critic[..with_scan(of_critic.len(), has_ground)];
-    let history = config.history as usize;
-    let rows = (0..history).flat_map(|_| of_policy).map(|term| (term, false));
-    let mut end = 0;
-    rows.chain(of_critic.iter().map(|term| (term, true)))
-        .map(|((name, size), is_privileged)| {
+/// Passes the entries of a term to the last argument, in order.
+type Write = fn(&View<'_>, &mut SensorNoise, &mut dyn FnMut(f64));
+
+/// Entries of a term: their number and their mirror image, with left and right exchanged.
+#[derive(Clone, Copy, Debug)]
+enum Entries {
+    /// Entries that keep their places, and are multiplied by these signs.
+    Signs(&'static [f32]),
+    /// One for each joint of the action.
+    Joints,
+    /// One for each foot; the feet exchange places.
+    Feet,
+    /// Heights of the ground around the base.
+    Scan,
+}
+
+impl Entries {
+    fn count(self, joints: usize) -> usize {
+        match self {
+            Self::Signs(signs) => signs.len(),
+            Self::Joints => joints,
+            Self::Feet => FEET,
+            Self::Scan => SCAN_POINTS,
+        }
+    }
+
+    /// Returns the mirror image of entries that begin at `start`, for a robot with this one.
+    fn mirrored(self, start: usize, robot: &Mirror) -> SignedPermutation {
+        match self {
+            Self::Signs(signs) => signs.iter().enumerate().map(|(at, sign)| (start + at, *sign)).collect(),
+            Self::Joints => robot.action.iter().map(|(at, sign)| (start + at, *sign)).collect(),
+            Self::Feet => (0..FEET).rev().map(|foot| (start + foot, 1.0)).collect(),
+            Self::Scan => (0..SCAN_POINTS).map(|point| (start + opposite_point(point), 1.0)).collect(),
+        }
+    }
+}
+
+impl TermRow {
+    /// Returns a term that the policy observes.
+    const fn new(name: &'static str, unit: &'static str, frame: &'static str, entries: Entries, write: Write) -> Self {
+        Self {
+            name,
+            unit,
+            frame,
+            deploy_params: |_| "{}".to_owned(),
+            is_privileged: false,
+            entries,
+            is_observed: |_| true,
+            write,
+        }
+    }
+
+    /// Shows the term to the critic only.
+    const fn privileged(self) -> Self {
+        Self { is_privileged: true, ..self }
+    }
+
+    /// Leaves the term out of some configurations.
+    const fn only_if(self, is_observed: fn(&EnvironmentConfig) -> bool) -> Self {
+        Self { is_observed, ..self }
+    }
+
+    const fn with_deploy_params(self, deploy_params: fn(&VelocityConfig) -> String) -> Self {
+        Self { deploy_params, ..self }
+    }
+}
+
+/// Terms in their order: those of the policy, then those of the critic alone. Vectors keep their sign along x and z in the
+/// mirror; angular velocities are pseudo-vectors and keep it along y.
+pub const TERMS: [TermRow; 14] = [
+    TermRow::new("base_ang_vel", "rad/s", "base", Entries::Signs(&[-1.0, 1.0, -1.0]), |view, noise, write| {
+        view.base.angular_radps.iter().for_each(|rate| write(rate + noise.velocity()));
+    }),
+    TermRow::new("projected_gravity", "1", "base", Entries::Signs(&[1.0, -1.0, 1.0]), |view, noise, write| {
+        view.base.gravity.iter().for_each(|part| write(part + noise.position()));
+    }),
+    TermRow::new(
+        "velocity_commands",
+        "m/s, m/s, rad/s",
+        "heading",
+        Entries::Signs(&[1.0, -1.0, -1.0]),
+        |view, _, write| view.task.command.numbers().into_iter().for_each(write),
+    )
+    .with_deploy_params(|_| "{command_name: base_velocity}".to_owned()),
+    TermRow::new("joint_pos_rel", "rad", "joint", Entries::Joints, |view, noise, write| {
+        for (hinge, default_rad, _) in &view.task.motors {
+            let error_rad = view.task.encoder_errors_rad[*hinge] + noise.position();
+            write(view.physics.joint_angles()[*hinge] - default_rad + error_rad);
+        }
+    }),
+    TermRow::new("joint_vel_rel", "rad/s", "joint", Entries::Joints, |view, noise, write| {
+        for (hinge, _, _) in &view.task.motors {
+            write(view.physics.joint_rates()[*hinge] + noise.velocity());
+        }
+    }),
+    TermRow::new("last_action", "action_scale", "joint", Entries::Joints, |view, _, write| {
+        view.task.actions.iter().copied().for_each(write);
+    }),
+    // Half a period later, each foot does what the other one did.
+    TermRow::new("gait_phase", "1", "sine and cosine", Entries::Signs(&[-1.0, -1.0]), |view, _, write| {
+        let (sin, cos) = (TAU * view.task.time_s() / view.task.config.gait_period_s).sin_cos();
+        [sin, cos].into_iter().for_each(write);
+    })
+    .with_deploy_params(|config| format!("{{period: {:?}}}", config.gait_period_s)),
+    TermRow::new("height_scan", "m", "heading", Entries::Scan, |view, noise, write| {
+        view.scanned().for_each(|height_m| write(height_m + noise.position()));
+    })
+    .only_if(|config| config.velocity.height_scan),
+    TermRow::new("base_lin_vel", "m/s", "heading", Entries::Signs(&[1.0, -1.0, 1.0]), |view, _, write| {
+        view.base.velocity_mps.iter().copied().for_each(write);
+    })
+    .privileged(),
+    TermRow::new("base_height", "m", "world", Entries::Signs(&[1.0]), |view, _, write| write(view.base.height_m))
+        .privileged(),
+    TermRow::new("feet_contact", "1", "foot", Entries::Feet, |view, _, write| {
+        view.task.feet.iter().for_each(|foot| write(f64::from(u8::from(foot.stands))));
+    })
+    .privileged(),
+    TermRow::new("feet_air_time", "s", "foot", Entries::Feet, |view, _, write| {
+        view.task.feet.iter().for_each(|foot| write(foot.air_s));
+    })
+    .privileged(),
+    TermRow::new("feet_lift", "m", "foot", Entries::Feet, |view, _, write| {
+        view.task.feet.iter().for_each(|foot| write(foot.lift_m));
+    })
+    .privileged(),
+    TermRow::new("height_scan", "m", "heading", Entries::Scan, |view, _, write| view.scanned().for_each(write))
+        .privileged()
+        .only_if(|config| !config.ground.kinds.is_empty()),
+];
+
+/// What the terms show.
+struct View<'a> {
+    task: &'a VelocityTask,
+    physics: &'a Physics,
+    base: BaseMotion,
+}
+
+impl View<'_> {
+    /// Returns how much higher the ground around the base is than where the robot would stand in the default pose (m).
+    fn scanned(&self) -> impl Iterator<Item = f64> {
+        let position = self.physics.position();
+        let standing_m = position[2] - self.task.body.height_m;
+        ground_around(self.physics, [position[0], position[1]], self.base.heading_rad)
+            .map(move |ground_m| (ground_m - standing_m).clamp(-SCAN_MAX_M, SCAN_MAX_M))
+    }
+}
+
+/// Terms of an observation: those of the policy, once for each frame of the history, then those of the critic alone.
+pub(super) struct Layout {
+    rows: Vec<&'static TermRow>,
+    /// The rows with their places.
+    pub terms: Vec<ObservationTerm>,
+    history: usize,
+}
+
+impl Layout {
+    /// Returns the layout that a configuration selects, for a number of joints.
+    pub fn new(config: &EnvironmentConfig, joints: usize) -> Self {
+        let history = config.velocity.history as usize;
+        let observed = |is_privileged: bool| {
+            TERMS.iter().filter(move |row| row.is_privileged == is_privileged && (row.is_observed)(config))
+        };
+        let rows: Vec<_> = (0..history).flat_map(|_| observed(false)).chain(observed(true)).collect();
+        let mut end = 0;
+        let place = |row: &&TermRow| {
             let start = end;
-            end += size;
-            ObservationTerm { name: (*name).to_owned(), range: start..end, is_privileged }
-        })
-        .collect()
+            end += row.entries.count(joints);
+            ObservationTerm { name: row.name.to_owned(), range: start..end, is_privileged: row.is_privileged }
+        };
+        Self { terms: rows.iter().map(place).collect(), rows, history }
+    }
+
+    /// Returns the number of entries that the policy observes.
+    pub fn of_policy(&self) -> usize {
+        self.terms.iter().filter(|term| !term.is_privileged).map(|term| term.range.len()).sum()
+    }
+
+    /// Returns the mirror image of an observation, for a robot with this one.
+    pub fn mirrored(&self, robot: &Mirror) -> SignedPermutation {
+        let placed = self.rows.iter().zip(&self.terms);
+        placed.flat_map(|(row, term)| row.entries.mirrored(term.range.start, robot)).collect()
+    }
+
+    /// Returns the rows of one frame of the policy, or of the critic alone.
+    fn frame(&self, is_privileged: bool) -> &[&'static TermRow] {
+        let of_policy = self.rows.iter().filter(|row| !row.is_privileged).count();
+        if is_privileged { &self.rows[of_policy..] } else { &self.rows[..of_policy / self.history] }
+    }
 }
 
 impl VelocityTask {
-    /// Writes what the policy observes now.
-    pub(super) fn write_row(&self, physics: &Physics, noise: &mut SensorNoise, row: &mut [f32]) {
-        let base = self.base(physics);
-        let mut numbers = row.iter_mut();
-        let mut write = |number: f64| *numbers.next().expect("the terms fill the row") = number as f32;
-        base.angular_radps.iter().for_each(|rate| write(rate + noise.velocity()));
-        base.gravity.iter().for_each(|part| write(part + noise.position()));
-        self.command.numbers().into_iter().for_each(&mut write);
-        for (hinge, default_rad, _) in &self.motors {
-            let error_rad = self.encoder_errors_rad[*hinge] + noise.position();
-            write(physics.joint_angles()[*hinge] - default_rad + error_rad);
+    /// Writes what the policy observes now, or what only the critic observes. Does not allocate.
+    pub(super) fn write_frame(
+        &self,
+        is_privileged: bool,
+        physics: &Physics,
+        noise: &mut SensorNoise,
+        frame: &mut [f32],
+    ) {
+        let view = View { task: self, physics, base: self.base(physics) };
+        let mut numbers = frame.iter_mut();
+        let mut write = |number: f64| *numbers.next().expect("the terms fill the frame") = number as f32;
+        for row in self.layout.frame(is_privileged) {
+            (row.write)(&view, noise, &mut write);
         }
-        for (hinge, _, _) in &self.motors {
-            write(physics.joint_rates()[*hinge] + noise.velocity());
-        }
-        self.actions.iter().for_each(|action| write(*action));
-        let (sin, cos) = (TAU * self.time_s() / self.config.gait_period_s).sin_cos();
-        [sin, cos].into_iter().for_each(&mut write);
-        if self.config.height_scan {
-            self.scanned(physics, &base).for_each(|height_m| write(height_m + noise.position()));
-        }
-    }
-
-    /// Writes what only the critic observes.
-    pub(super) fn write_privileged(&self, physics: &Physics, row: &mut [f32]) {
-        let base = self.base(physics);
-        let mut numbers = row.iter_mut();
-        let mut write = |number: f64| *numbers.next().expect("the terms fill the row") = number as f32;
-        base.velocity_mps.iter().for_each(|part| write(*part));
-        write(base.height_m);
-        self.feet.iter().for_each(|foot| write(f64::from(u8::from(foot.stands))));
-        self.feet.iter().for_each(|foot| write(foot.air_s));
-        self.feet.iter().for_each(|foot| write(foot.lift_m));
-        if self.ground.is_some() {
-            self.scanned(physics, &base).for_each(&mut write);
-        }
-    }
-
-    /// Returns how much higher the ground around the base is than where the robot would stand in the default pose (m).
-    fn scanned(&self, physics: &Physics, base: &BaseMotion) -> impl Iterator<Item = f64> {
-        let position = physics.position();
-        let standing_m = position[2] - self.body.height_m;
-        ground_around(physics, [position[0], position[1]], base.heading_rad)
-            .map(move |ground_m| (ground_m - standing_m).clamp(-SCAN_MAX_M, SCAN_MAX_M))
     }
 }

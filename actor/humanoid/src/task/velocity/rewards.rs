@@ -3,8 +3,8 @@
 use nalgebra::{UnitQuaternion, Vector3};
 
 use super::command::Command;
-use super::feet::{FEET, Foot, stride};
-use crate::config::{VelocityConfig, VelocityRewards};
+use super::feet::{FEET, Foot, Stride, stride};
+use crate::config::{RewardTerms, VelocityConfig};
 use crate::model::Model;
 use crate::physics::Physics;
 
@@ -103,6 +103,12 @@ pub struct Stance {
 /// A control step of the robot.
 #[derive(Clone, Copy, Debug)]
 pub struct RobotStep<'a> {
+    /// Settings of the task.
+    pub config: &'a VelocityConfig,
+    /// Robot.
+    pub model: &'a Model,
+    /// Its default pose.
+    pub body: &'a Stance,
     /// Command that it followed.
     pub command: Command,
     /// Base at its end.
@@ -115,60 +121,117 @@ pub struct RobotStep<'a> {
     pub time_s: f64,
     /// Duration of the step (s).
     pub step_s: f64,
+    /// Whether the robot has fallen.
+    pub has_fallen: bool,
 }
 
-/// Returns the reward's terms after a control step.
-#[must_use]
-pub fn terms(config: &VelocityConfig, model: &Model, body: &Stance, step: &RobotStep<'_>) -> VelocityRewards {
-    let RobotStep { command, base, feet, hinges, time_s, step_s } = *step;
-    let tracking = |error: f64| (-error / config.tracking_variance).exp();
-    let linear_error =
-        (base.velocity_mps.x - command.lin_vel_x_mps).powi(2) + (base.velocity_mps.y - command.lin_vel_y_mps).powi(2);
-    let yaw_error = (base.yaw_rate_radps - command.ang_vel_z_radps).powi(2);
-    let squares = |numbers: &[f64]| numbers.iter().map(|number| number * number).sum::<f64>();
-    let squared_difference = |pair: (&f64, &f64)| (pair.0 - pair.1).powi(2);
-    let strides: [_; FEET] = std::array::from_fn(|foot| stride(config, time_s, foot, feet[foot].rise_m));
-    // A robot that is to stop steps until it is slow: feet that stop at once make it fall.
-    let is_to_stand = command.stands() && base.velocity_mps.xy().norm() < SLOW_MPS;
-    let must_stand = |foot: usize| is_to_stand || strides[foot].stands;
-    let pairs = || (0..FEET).map(|foot| (foot, &feet[foot]));
-    let posture = hinges.angles_rad.iter().zip(&body.default_rad).zip(&body.pose_weights);
-    let limits = model.hinges.iter().zip(hinges.angles_rad).map(|(hinge, angle_rad)| {
-        let (centre_rad, half_rad) = (hinge.centre_rad(), SOFT_LIMIT_SHARE * (hinge.max_rad - hinge.min_rad) / 2.0);
-        ((angle_rad - centre_rad).abs() - half_rad).max(0.0)
-    });
-    VelocityRewards {
-        track_linear_velocity: tracking(linear_error),
-        track_yaw_rate: tracking(yaw_error),
-        alive: 1.0,
-        upright: base.gravity.x.powi(2) + base.gravity.y.powi(2),
-        base_height: (base.height_m - body.height_m).powi(2),
-        vertical_velocity: base.velocity_mps.z.powi(2),
-        roll_pitch_rate: base.angular_radps.x.powi(2) + base.angular_radps.y.powi(2),
-        gait: pairs().map(|(foot, sensed)| if sensed.stands == must_stand(foot) { 1.0 } else { -1.0 }).sum::<f64>()
-            / FEET as f64,
-        feet_air_time: pairs()
-            .filter(|(_, foot)| foot.landed_after_s > 0.0 && !command.stands())
-            .map(|(_, foot)| foot.landed_after_s - AIR_TIME_S)
-            .sum(),
-        feet_clearance: pairs()
-            .filter(|(foot, _)| !must_stand(*foot))
-            .map(|(index, foot)| foot.lift_m - strides[index].lift_m)
-            .filter(|above_m| *above_m < 0.0 || !body.may_lift_higher)
+impl RobotStep<'_> {
+    /// Returns exp(−squared error ÷ variance).
+    fn tracking(&self, squared_error: f64) -> f64 {
+        (-squared_error / self.config.tracking_variance).exp()
+    }
+
+    fn numbered_feet(&self) -> impl Iterator<Item = (usize, &Foot)> {
+        self.feet.iter().enumerate()
+    }
+
+    fn stride(&self, foot: usize) -> Stride {
+        stride(self.config, self.time_s, foot, self.feet[foot].rise_m)
+    }
+
+    /// Returns whether a foot must stand. A robot that is to stop steps until it is slow: feet that stop at once make it
+    /// fall.
+    fn must_stand(&self, foot: usize) -> bool {
+        self.command.stands() && self.base.velocity_mps.xy().norm() < SLOW_MPS || self.stride(foot).stands
+    }
+}
+
+impl RewardTerms for RobotStep<'_> {
+    fn track_linear_velocity(&self) -> f64 {
+        let (velocity_mps, command) = (self.base.velocity_mps, self.command);
+        self.tracking(
+            (velocity_mps.x - command.lin_vel_x_mps).powi(2) + (velocity_mps.y - command.lin_vel_y_mps).powi(2),
+        )
+    }
+
+    fn track_yaw_rate(&self) -> f64 {
+        self.tracking((self.base.yaw_rate_radps - self.command.ang_vel_z_radps).powi(2))
+    }
+
+    fn alive(&self) -> f64 {
+        f64::from(u8::from(!self.has_fallen))
+    }
+
+    fn upright(&self) -> f64 {
+        self.base.gravity.x.powi(2) + self.base.gravity.y.powi(2)
+    }
+
+    fn base_height(&self) -> f64 {
+        (self.base.height_m - self.body.height_m).powi(2)
+    }
+
+    fn vertical_velocity(&self) -> f64 {
+        self.base.velocity_mps.z.powi(2)
+    }
+
+    fn roll_pitch_rate(&self) -> f64 {
+        self.base.angular_radps.x.powi(2) + self.base.angular_radps.y.powi(2)
+    }
+
+    fn gait(&self) -> f64 {
+        let follows = |(foot, sensed): (usize, &Foot)| if sensed.stands == self.must_stand(foot) { 1.0 } else { -1.0 };
+        self.numbered_feet().map(follows).sum::<f64>() / FEET as f64
+    }
+
+    fn feet_air_time(&self) -> f64 {
+        let landed = self.feet.iter().filter(|foot| foot.landed_after_s > 0.0 && !self.command.stands());
+        landed.map(|foot| foot.landed_after_s - AIR_TIME_S).sum()
+    }
+
+    fn feet_clearance(&self) -> f64 {
+        self.numbered_feet()
+            .filter(|(foot, _)| !self.must_stand(*foot))
+            .map(|(index, foot)| foot.lift_m - self.stride(index).lift_m)
+            .filter(|above_m| *above_m < 0.0 || !self.body.may_lift_higher)
             .map(|above_m| above_m.powi(2))
-            .sum(),
-        feet_slip: pairs().filter(|(_, foot)| foot.stands).map(|(_, foot)| foot.velocity_mps.xy().norm_squared()).sum(),
-        landing: pairs().map(|(_, foot)| foot.landing_mps.powi(2)).fold(0.0, f64::max),
-        pose: posture.map(|((angle_rad, default_rad), weight)| weight * (angle_rad - default_rad).powi(2)).sum(),
-        action_rate: hinges.actions[0].iter().zip(hinges.actions[1]).map(squared_difference).sum(),
-        joint_torque: squares(hinges.torques_nm),
-        joint_acceleration: hinges
-            .rates_radps
-            .iter()
-            .zip(hinges.rates_before_radps)
-            .map(|(now, before)| ((now - before) / step_s).powi(2))
-            .sum(),
-        joint_limits: limits.sum(),
+            .sum()
+    }
+
+    fn feet_slip(&self) -> f64 {
+        self.feet.iter().filter(|foot| foot.stands).map(|foot| foot.velocity_mps.xy().norm_squared()).sum()
+    }
+
+    fn landing(&self) -> f64 {
+        self.feet.iter().map(|foot| foot.landing_mps.powi(2)).fold(0.0, f64::max)
+    }
+
+    fn pose(&self) -> f64 {
+        let posture = self.hinges.angles_rad.iter().zip(&self.body.default_rad).zip(&self.body.pose_weights);
+        posture.map(|((angle_rad, default_rad), weight)| weight * (angle_rad - default_rad).powi(2)).sum()
+    }
+
+    fn action_rate(&self) -> f64 {
+        let [now, before] = self.hinges.actions;
+        now.iter().zip(before).map(|(now, before)| (now - before).powi(2)).sum()
+    }
+
+    fn joint_torque(&self) -> f64 {
+        self.hinges.torques_nm.iter().map(|torque_nm| torque_nm * torque_nm).sum()
+    }
+
+    fn joint_acceleration(&self) -> f64 {
+        let rates_radps = self.hinges.rates_radps.iter().zip(self.hinges.rates_before_radps);
+        rates_radps.map(|(now, before)| ((now - before) / self.step_s).powi(2)).sum()
+    }
+
+    fn joint_limits(&self) -> f64 {
+        let angles_rad = self.model.hinges.iter().zip(self.hinges.angles_rad);
+        angles_rad
+            .map(|(hinge, angle_rad)| {
+                let half_rad = SOFT_LIMIT_SHARE * (hinge.max_rad - hinge.min_rad) / 2.0;
+                ((angle_rad - hinge.centre_rad()).abs() - half_rad).max(0.0)
+            })
+            .sum()
     }
 }
 
@@ -193,6 +256,7 @@ mod tests {
     use std::f64::consts::FRAC_PI_2;
 
     use super::*;
+    use crate::config::RewardsConfig;
     use crate::mjcf::HUMANOID_XML;
 
     fn close(found: f64, expected: f64) {
@@ -260,48 +324,58 @@ mod tests {
             actions: [&[1.0, -2.0], &[0.5, 0.0]],
         };
         let feet = [left, right];
-        let step = RobotStep { command, base, feet: &feet, hinges, time_s: 0.8, step_s: 0.02 };
-        let found = terms(&config, &model, &body, &step);
-        for (name, found, expected) in [
-            ("track_linear_velocity", found.track_linear_velocity, (-0.25_f64 / 0.25).exp()),
-            ("track_yaw_rate", found.track_yaw_rate, (-1.0_f64).exp()),
-            ("alive", found.alive, 1.0),
-            ("upright", found.upright, 0.36),
-            ("base_height", found.base_height, 0.01),
-            ("vertical_velocity", found.vertical_velocity, 0.09),
-            ("roll_pitch_rate", found.roll_pitch_rate, 5.0),
-            ("gait", found.gait, 1.0),
-            ("feet_air_time", found.feet_air_time, 0.1),
-            ("feet_clearance", found.feet_clearance, 0.0025),
-            ("feet_slip", found.feet_slip, 0.25),
-            ("landing", found.landing, 0.04),
-            ("pose", found.pose, 0.2025 + 0.4),
-            ("action_rate", found.action_rate, 0.25 + 4.0),
-            ("joint_torque", found.joint_torque, 25.0),
-            ("joint_acceleration", found.joint_acceleration, 2500.0 + 10_000.0),
-            ("joint_limits", found.joint_limits, 0.05),
-        ] {
+        let step = RobotStep {
+            config: &config,
+            model: &model,
+            body: &body,
+            command,
+            base,
+            feet: &feet,
+            hinges,
+            time_s: 0.8,
+            step_s: 0.02,
+            has_fallen: false,
+        };
+        let expected = [
+            ("track_linear_velocity", (-0.25_f64 / 0.25).exp()),
+            ("track_yaw_rate", (-1.0_f64).exp()),
+            ("alive", 1.0),
+            ("upright", 0.36),
+            ("base_height", 0.01),
+            ("vertical_velocity", 0.09),
+            ("roll_pitch_rate", 5.0),
+            ("gait", 1.0),
+            ("feet_air_time", 0.1),
+            ("feet_clearance", 0.0025),
+            ("feet_slip", 0.25),
+            ("landing", 0.04),
+            ("pose", 0.2025 + 0.4),
+            ("action_rate", 0.25 + 4.0),
+            ("joint_torque", 25.0),
+            ("joint_acceleration", 2500.0 + 10_000.0),
+            ("joint_limits", 0.05),
+        ];
+        for ((found, name), (expected_name, expected)) in
+            step.values().into_iter().zip(RewardsConfig::NAMES).zip(expected)
+        {
+            assert_eq!(name, expected_name);
             assert!((found - expected).abs() < 1e-9, "{name}: {found} instead of {expected}");
         }
-        let weights = VelocityRewards::default();
-        let by_hand: f64 =
-            weights.entries().iter().zip(found.entries()).map(|((_, weight), (_, term))| weight * term).sum();
-        close(weights.total(&found), by_hand);
+        assert_eq!(RobotStep { has_fallen: true, ..step }.alive(), 0.0);
 
         let climbing = Stance { may_lift_higher: true, ..body.clone() };
         for (lift_m, flat, of_ground) in [(0.03, 0.0025, 0.0025), (0.13, 0.0025, 0.0)] {
             let feet = [Foot { lift_m, ..left }, right];
             let step = RobotStep { feet: &feet, ..step };
-            close(terms(&config, &model, &body, &step).feet_clearance, flat);
-            close(terms(&config, &model, &climbing, &step).feet_clearance, of_ground);
+            close(step.feet_clearance(), flat);
+            close(RobotStep { body: &climbing, ..step }.feet_clearance(), of_ground);
         }
 
         let standing = RobotStep { command: Command::default(), ..step };
-        let found = terms(&config, &model, &body, &standing);
-        assert_eq!((found.gait, found.feet_air_time), (1.0, 0.0), "at 0.45 m/s the gait goes on");
-        close(found.feet_clearance, 0.0025);
+        assert_eq!((standing.gait(), standing.feet_air_time()), (1.0, 0.0), "at 0.45 m/s the gait goes on");
+        close(standing.feet_clearance(), 0.0025);
         let slow = BaseMotion { velocity_mps: Vector3::new(0.1, 0.2, 0.3), ..base };
-        let found = terms(&config, &model, &body, &RobotStep { base: slow, ..standing });
-        assert_eq!((found.gait, found.feet_clearance, found.feet_air_time), (0.0, 0.0, 0.0), "both feet must stand");
+        let slow = RobotStep { base: slow, ..standing };
+        assert_eq!((slow.gait(), slow.feet_clearance(), slow.feet_air_time()), (0.0, 0.0, 0.0), "both feet must stand");
     }
 }

@@ -2,21 +2,43 @@
 //!
 //! It generates the struct, its `Default`, the key table for error messages and documentation, and the check of every value.
 
-use super::ConfigError;
+use super::{ConfigError, Misfit};
 
 /// Description of a configuration key.
 #[derive(Clone, Debug)]
 pub struct KeyDoc {
     /// Dotted name, as in `--set`.
-    pub key: String,
-    /// One line of documentation.
+    pub key: &'static str,
+    /// One paragraph of documentation.
     pub doc: &'static str,
-    /// Rust name of the value's type.
-    pub kind: &'static str,
+    /// How its values are written.
+    pub notation: &'static str,
     /// Default in TOML notation.
     pub default: String,
     /// Allowed values.
     pub allowed: &'static str,
+    /// Converts a TOML value to the key's type, see [`crate::Value::convert`].
+    pub convert: fn(&toml::Value) -> Result<toml::Value, Misfit>,
+}
+
+impl KeyDoc {
+    /// Returns the name within the section.
+    #[must_use]
+    pub fn name(&self) -> &'static str {
+        self.key.split_once('.').map_or(self.key, |(_, name)| name)
+    }
+
+    /// Converts a value to the key's type if that loses nothing, such as `1` to `1.0` and `8e6` to `8000000`.
+    ///
+    /// # Errors
+    /// [`ConfigError::Type`] or [`ConfigError::Value`] for a value of another type.
+    pub fn convert(&self, value: &toml::Value) -> Result<toml::Value, ConfigError> {
+        let (key, allowed) = (self.key.to_string(), self.allowed.to_string());
+        (self.convert)(value).map_err(|misfit| match misfit {
+            Misfit::Type { value, notation } => ConfigError::Type { key, value, notation, allowed },
+            Misfit::Range { value } => ConfigError::Value { key, value, allowed },
+        })
+    }
 }
 
 /// Description of a section.
@@ -34,14 +56,8 @@ pub struct SectionDoc {
 pub trait Section: Default {
     /// Name of the TOML table.
     const NAME: &'static str;
-    /// Subject of the section.
-    const ABOUT: &'static str;
-    /// Returns the keys of this section.
-    fn keys() -> Vec<KeyDoc>;
     /// Returns the description of this section.
-    fn describe() -> SectionDoc {
-        SectionDoc { name: Self::NAME, about: Self::ABOUT, keys: Self::keys() }
-    }
+    fn describe() -> SectionDoc;
     /// Checks each value by itself.
     ///
     /// # Errors
@@ -50,18 +66,19 @@ pub trait Section: Default {
 }
 
 /// Declares a section: `/// doc` `key: type = default, "allowed values" => check;`.
+#[macro_export]
 macro_rules! section {
     (
-        #[doc = $about:literal]
+        $( #[doc = $about:literal] )+
         $name:ident as $table:literal {
-            $( #[doc = $doc:literal] $field:ident : $kind:ty = $default:expr, $allowed:literal => $check:expr; )*
+            $( $( #[doc = $doc:literal] )+ $field:ident : $kind:ty = $default:expr, $allowed:literal => $check:expr; )*
         }
     ) => {
-        #[doc = $about]
+        $( #[doc = $about] )+
         #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
         #[serde(default, deny_unknown_fields)]
         pub struct $name {
-            $( #[doc = $doc] pub $field: $kind, )*
+            $( $( #[doc = $doc] )+ pub $field: $kind, )*
         }
 
         impl Default for $name {
@@ -72,17 +89,18 @@ macro_rules! section {
 
         impl $crate::Section for $name {
             const NAME: &'static str = $table;
-            const ABOUT: &'static str = $about.trim_ascii();
 
-            fn keys() -> Vec<$crate::KeyDoc> {
+            fn describe() -> $crate::SectionDoc {
                 let defaults = Self::default();
-                vec![ $( $crate::KeyDoc {
-                    key: concat!($table, ".", stringify!($field)).to_string(),
-                    doc: $doc.trim(),
-                    kind: stringify!($kind),
+                let keys = vec![ $( $crate::KeyDoc {
+                    key: concat!($table, ".", stringify!($field)),
+                    doc: concat!($( $doc ),+).trim(),
+                    notation: <$kind as $crate::Value>::NOTATION,
                     default: $crate::show(&defaults.$field),
                     allowed: $allowed,
-                }, )* ]
+                    convert: <$kind as $crate::Value>::convert,
+                }, )* ];
+                $crate::SectionDoc { name: $table, about: concat!($( $about ),+).trim(), keys }
             }
 
             fn check(&self) -> Result<(), $crate::ConfigError> {
@@ -98,4 +116,3 @@ macro_rules! section {
         }
     };
 }
-pub(super) use section;
