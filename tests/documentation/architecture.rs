@@ -25,7 +25,7 @@ const DEPENDENTS: [(&str, &[&str]); 18] = [
     ("rapier3d", &["actor/humanoid"]),
     ("ratatui", &[".", "watch"]),
     ("rerun", &["watch"]),
-    ("toml", &[".", "actor/humanoid", "common/config"]),
+    ("toml", &[".", "actor/humanoid", "common/config", "common/settings", "python/treadmill_gym"]),
     ("zenoh", &[". (dev)", "common/bus"]),
 ];
 /// Packages of the workspace on which no other depends, and those on which few do.
@@ -196,11 +196,11 @@ fn ppo_does_not_depend_on_zenoh_and_does_not_name_tokio() {
 }
 
 #[test]
-fn the_humanoid_depends_on_no_package_of_the_workspace_and_not_on_zenoh_tokio_or_candle() {
+fn the_humanoid_depends_only_on_the_settings_and_not_on_zenoh_tokio_or_candle() {
     let packages = packages();
     for name in all_dependencies(&packages, "treadmill-humanoid") {
         let is_foreign = ["zenoh", "tokio", "candle"].iter().any(|foreign| name.starts_with(foreign));
-        assert!(!packages.contains_key(&name) && !is_foreign, "{name}");
+        assert!(!is_foreign && (name == "treadmill-settings" || !packages.contains_key(&name)), "{name}");
     }
 }
 
@@ -217,10 +217,10 @@ fn learner_and_actor_do_not_depend_on_each_other() {
 }
 
 #[test]
-fn the_gymnasium_environment_depends_only_on_humanoid_and_render() {
+fn the_gymnasium_environment_depends_only_on_humanoid_render_and_settings() {
     let packages = packages();
     let ours = packages["treadmill-gym"].dependencies.iter().filter(|name| packages.contains_key(*name));
-    assert_eq!(ours.collect::<Vec<_>>(), ["treadmill-humanoid", "treadmill-render"]);
+    assert_eq!(ours.collect::<Vec<_>>(), ["treadmill-humanoid", "treadmill-render", "treadmill-settings"]);
 }
 
 #[test]

@@ -5,6 +5,7 @@ mod architecture;
 #[allow(dead_code, reason = "the tests of hostile clients use the rest")]
 mod attacks;
 mod machines;
+mod recipes;
 mod reference;
 #[path = "../support/mod.rs"]
 mod support;

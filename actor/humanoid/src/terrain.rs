@@ -4,9 +4,9 @@ use std::sync::{Arc, Mutex, PoisonError, Weak};
 
 use nalgebra::Point3;
 
-use crate::config::{GroundConfig, GroundKind};
+use crate::config::{ConfigError, GroundConfig, GroundKind};
 use crate::error::ModelError;
-use crate::model::HeightField;
+use crate::model::{HEIGHT_FIELD_SIDE_MAX, HeightField};
 use crate::randomisation::{stream, uniform};
 
 /// Half of the side of the level place in the middle of a tile (m).
@@ -38,6 +38,14 @@ pub(crate) fn generated(settings: &GroundConfig) -> Result<Arc<HeightField>, Mod
 }
 
 fn generate(settings: &GroundConfig) -> Result<HeightField, ModelError> {
+    if settings.sides().into_iter().any(|side| side > HEIGHT_FIELD_SIDE_MAX) {
+        let allowed = format!(
+            "so small that the tiles and their border have at most {HEIGHT_FIELD_SIDE_MAX} heights along each side; take \
+             smaller tiles, fewer levels or larger cells"
+        );
+        let (key, value) = ("ground.tile_m".to_owned(), settings.tile_m.to_string());
+        return Err(ConfigError::Value { key, value, allowed }.into());
+    }
     let ([rows, columns], [half_x_m, half_y_m]) = (settings.sides(), settings.halves_m());
     let (half, border) = (settings.half_tile_cells(), settings.border_cells());
     let mut heights_m = vec![0.0; rows * columns];

@@ -3,8 +3,8 @@
 //! # Layout
 //! - `section`: the macro that declares a section, and what it generates.
 //! - `value`: types of values, and the macro that declares a choice of names.
-//! - [`environment`]: sections that decide the episodes of an environment. The environment itself, the configuration of a run
-//!   and the Python package read them here.
+//! - [`environment`]: sections that decide the episodes of an environment. The environment itself, the configuration of a
+//!   run and the Python package read them here.
 
 pub mod environment;
 mod error;
@@ -13,7 +13,7 @@ mod value;
 
 pub use environment::{
     ChosenTask, EnvConfig, EnvObservation, EnvTask, EnvironmentConfig, GroundConfig, GroundKind, REWARD_TERMS,
-    RandomisationConfig, RewardTerms, RewardsConfig, VelocityConfig,
+    RandomisationConfig, RewardFunctions, RewardsConfig, VelocityConfig,
 };
 pub use error::ConfigError;
 pub use section::{KeyDoc, Section, SectionDoc};

@@ -89,7 +89,7 @@ impl RobotCard {
 }
 
 /// Cards that come along, by name.
-pub const BUILT_IN: [(&str, &str); 4] = [
+pub const BUILT_IN: &[(&str, &str)] = &[
     ("g1", include_str!("../../assets/robots/g1.toml")),
     ("g1-29", include_str!("../../assets/robots/g1-29.toml")),
     ("h1", include_str!("../../assets/robots/h1.toml")),
@@ -101,9 +101,9 @@ pub const BUILT_IN: [(&str, &str); 4] = [
 /// # Errors
 /// [`ModelError::Card`] names the cards that there are.
 pub fn built_in(name: &str) -> Result<&'static str, ModelError> {
-    let found = BUILT_IN.into_iter().find(|(known, _)| *known == name);
-    found.map(|(_, card)| card).ok_or_else(|| {
-        let known = BUILT_IN.map(|(known, _)| known).join(", ");
+    let found = BUILT_IN.iter().find(|(known, _)| *known == name);
+    found.map(|(_, card)| *card).ok_or_else(|| {
+        let known = BUILT_IN.iter().map(|(known, _)| *known).collect::<Vec<_>>().join(", ");
         ModelError::Card(format!("there is no card `{name}`; allowed: {known}, or none"))
     })
 }

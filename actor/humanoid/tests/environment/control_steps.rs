@@ -106,7 +106,7 @@ fn pushes_come_at_the_same_time_with_any_control_step() {
 fn durations_out_of_range_are_refused() {
     for bad in [0.0, 0.0009, 0.101, -0.015, f64::NAN, f64::INFINITY] {
         let error = Environment::new(&settings(bad), HUMANOID_XML).err().expect("refused").to_string();
-        assert!(error.contains("`control_step_s`") && error.contains("between 0.001 and 0.1 s"), "{error}");
+        assert!(error.contains("`env.control_step_s`") && error.contains("0.001 to 0.1"), "{error}");
     }
 }
 
@@ -115,7 +115,7 @@ fn snapshots_do_not_fit_another_control_step() {
     let mut short = environment(&settings(0.015));
     reset(&mut short, 1);
     let refusal = environment(&settings(0.02)).restore(&short.snapshot()).expect_err("another control step");
-    assert!(refusal.to_string().contains("`control_step_s` = 0.015, but here it is 0.02"), "{refusal}");
+    assert!(refusal.to_string().contains("`env.control_step_s` = 0.015, but here it is 0.02"), "{refusal}");
 }
 
 #[test]

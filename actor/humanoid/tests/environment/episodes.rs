@@ -192,7 +192,7 @@ fn quantile(samples: &mut [f64], fraction: f64) -> f64 {
 fn joints_hold_under_maximal_random_torques() {
     let mut environment = environment(&EnvironmentConfig::from(EnvConfig {
         terminate_when_unhealthy: false,
-        max_episode_steps: 0,
+        max_episode_steps: 1_000_000,
         ..EnvConfig::default()
     }));
     let mut random = Xoshiro256PlusPlus::seed_from_u64(11);

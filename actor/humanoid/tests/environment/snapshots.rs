@@ -152,7 +152,7 @@ fn snapshots_of_other_models_and_settings_are_refused_by_name() {
     let refusal = finer.restore(&snapshot).expect_err("other substeps");
     let wanted = SnapshotError::Setting { setting: "env.substeps".into(), taken: "4".into(), found: "3".into() };
     assert_eq!(refusal, wanted);
-    assert!(refusal.to_string().contains("`substeps` = 4, but here it is 3"), "{refusal}");
+    assert!(refusal.to_string().contains("`env.substeps` = 4, but here it is 3"), "{refusal}");
     let mut seen = vec![0.0; finer.observation_size()];
     finer.observe(&mut seen).expect("the right length");
     assert_eq!(seen, untouched, "a refusal must change nothing");

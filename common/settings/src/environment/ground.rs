@@ -56,8 +56,8 @@ section! {
     }
 }
 
-/// Tiles with a border around them: kinds follow each other along y, levels of difficulty along x. The border, the rims of the
-/// tiles and the places to start in their middles are level.
+/// Tiles with a border around them: kinds follow each other along y, levels of difficulty along x. The border, the rims of
+/// the tiles and the places to start in their middles are level.
 impl GroundConfig {
     /// Returns half the cells along a side of a tile; a tile is rounded to twice a whole number of cells.
     #[must_use]

@@ -13,7 +13,7 @@ use serde::{Deserialize, Serialize};
 pub use self::env::{ChosenTask, EnvConfig, EnvObservation, EnvTask, is_task_name};
 pub use self::ground::{GroundConfig, GroundKind};
 pub use self::randomisation::RandomisationConfig;
-pub use self::rewards::{REWARD_TERMS, RewardTerms, RewardsConfig};
+pub use self::rewards::{REWARD_TERMS, RewardFunctions, RewardsConfig};
 pub use self::velocity::VelocityConfig;
 use super::{ConfigError, Section, SectionDoc, refuse, show};
 
@@ -153,5 +153,65 @@ impl EnvironmentConfig {
             }),
             (value, other) => (value != other).then(|| (section.clone(), value.to_string(), other.to_string())),
         })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn refusal(change: impl FnOnce(&mut EnvironmentConfig)) -> String {
+        let mut config = EnvironmentConfig::default();
+        change(&mut config);
+        config.check().expect_err("refused").to_string()
+    }
+
+    #[test]
+    fn defaults_are_allowed_and_each_bad_value_is_named() {
+        EnvironmentConfig::default().check().unwrap();
+        let v4_without_velocities = |config: &mut EnvironmentConfig| {
+            config.env.observation = EnvObservation::GymnasiumV4;
+            config.env.include_cvel_in_observation = false;
+        };
+        assert!(refusal(v4_without_velocities).contains("`env.include_cvel_in_observation` is false"));
+        assert!(refusal(|config| config.env.substeps = 0).contains("`env.substeps` is 0; allowed: 1 to 1000"));
+        assert!(refusal(|config| config.rewards.gait = f64::NAN).contains("`rewards.gait` is nan"));
+        assert!(refusal(|config| config.velocity.history = 17).contains("`velocity.history` is 17; allowed: 1 to 16"));
+        assert!(refusal(|config| config.randomisation.mass_scale = [0.0, 1.0]).contains("`randomisation.mass_scale`"));
+        let pushes = refusal(|config| {
+            config.env.control_step_s = 0.05;
+            config.randomisation.push_interval_s = [0.04, 1.0];
+        });
+        assert!(pushes.contains("`randomisation.push_interval_s` is [0.04, 1.0]"), "{pushes}");
+    }
+
+    #[test]
+    fn ground_needs_a_task_that_starts_on_it_and_a_level_of_its_own() {
+        let with_kinds = |task, start_level| {
+            let mut config = EnvironmentConfig::from(EnvConfig { task, ..EnvConfig::default() });
+            config.ground = GroundConfig { kinds: vec![GroundKind::Stairs], start_level, ..GroundConfig::default() };
+            config.check().map_err(|why| why.to_string())
+        };
+        with_kinds(EnvTask::Velocity, 9).unwrap();
+        assert!(with_kinds(EnvTask::Velocity, 10).unwrap_err().contains("below ground.levels, which is 10"));
+        assert!(with_kinds(EnvTask::HumanoidV5, 0).unwrap_err().contains("`ground.kinds` is [\"stairs\"]"));
+    }
+
+    #[test]
+    fn the_first_difference_is_named_with_both_values() {
+        let (here, mut there) = (EnvironmentConfig::default(), EnvironmentConfig::default());
+        assert_eq!(here.difference(&there), None);
+        there.rewards.gait = 3.0;
+        assert_eq!(here.difference(&there), Some(("rewards.gait".into(), "2.0".into(), "3.0".into())));
+        assert_eq!(here.clone().plain().difference(&here).unwrap().0, "has_curricula");
+    }
+
+    #[test]
+    fn an_own_task_goes_before_the_built_in_one() {
+        let env = EnvConfig { own_task: "squat".into(), task: EnvTask::Velocity, ..EnvConfig::default() };
+        assert_eq!(env.chosen_task(), ChosenTask::Own("squat"));
+        assert!(
+            is_task_name("squat-2") && !is_task_name("") && !is_task_name("Squat") && !is_task_name(&"x".repeat(65))
+        );
     }
 }

@@ -17,7 +17,7 @@ macro_rules! rewards {
         pub const REWARD_TERMS: usize = [$(stringify!($name)),*].len();
 
         /// Terms of the reward for a control step, without weights.
-        pub trait RewardTerms {
+        pub trait RewardFunctions {
             $( $(#[doc = $doc])+ fn $name(&self) -> f64; )*
 
             /// Returns all terms, in the order of [`RewardsConfig::NAMES`].
@@ -58,7 +58,8 @@ rewards! {
     gait = 2.0;
     /// Time in the air beyond 0.4 s, at each landing of a foot (s).
     feet_air_time = 0.0;
-    /// Squared difference of the swinging feet's heights from the gait's (m²); on generated ground only of feet that are lower.
+    /// Squared difference of the swinging feet's heights from the gait's (m²); on generated ground only of feet that are
+    /// lower.
     feet_clearance = -300.0;
     /// Squared horizontal velocity of the feet that stand (m²/s²).
     feet_slip = -0.5;

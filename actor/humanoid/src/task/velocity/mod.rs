@@ -35,7 +35,7 @@ pub use self::rewards::{BaseMotion, HingeMotion, RobotStep, Stance};
 pub use self::scan::{SCAN_GRID, SCAN_MAX_M, SCAN_SPACING_M};
 use self::scan::{SCAN_POINTS, ground_around};
 use super::{Difficulty, ObservationTerm, Step, StepEvaluation, Task};
-use crate::config::{EnvironmentConfig, GroundConfig, REWARD_TERMS, RewardTerms, RewardsConfig, VelocityConfig};
+use crate::config::{EnvironmentConfig, GroundConfig, REWARD_TERMS, RewardFunctions, RewardsConfig, VelocityConfig};
 use crate::error::{ModelError, StateError};
 use crate::model::mirror::{Mirror, SignedPermutation};
 use crate::physics::Physics;

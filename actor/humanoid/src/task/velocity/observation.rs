@@ -98,7 +98,7 @@ impl TermRow {
 
 /// Terms in their order: those of the policy, then those of the critic alone. Vectors keep their sign along x and z in the
 /// mirror; angular velocities are pseudo-vectors and keep it along y.
-pub const TERMS: [TermRow; 14] = [
+pub const TERMS: &[TermRow] = &[
     TermRow::new("base_ang_vel", "rad/s", "base", Entries::Signs(&[-1.0, 1.0, -1.0]), |view, noise, write| {
         view.base.angular_radps.iter().for_each(|rate| write(rate + noise.velocity()));
     }),

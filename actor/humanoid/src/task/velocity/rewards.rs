@@ -4,7 +4,7 @@ use nalgebra::{UnitQuaternion, Vector3};
 
 use super::command::Command;
 use super::feet::{FEET, Foot, Stride, stride};
-use crate::config::{RewardTerms, VelocityConfig};
+use crate::config::{RewardFunctions, VelocityConfig};
 use crate::model::Model;
 use crate::physics::Physics;
 
@@ -146,7 +146,7 @@ impl RobotStep<'_> {
     }
 }
 
-impl RewardTerms for RobotStep<'_> {
+impl RewardFunctions for RobotStep<'_> {
     fn track_linear_velocity(&self) -> f64 {
         let (velocity_mps, command) = (self.base.velocity_mps, self.command);
         self.tracking(
