@@ -6,6 +6,7 @@
 //! `learner.checkpoint_every_updates`; the last `learner.keep_checkpoints` are kept.
 
 pub mod encoding;
+pub mod episodes;
 mod fallback;
 mod state;
 mod writer;
@@ -19,6 +20,8 @@ use treadmill_runtime::run_folder::RunFolder;
 use treadmill_store::StoreError;
 
 use self::encoding::FORMAT;
+use crate::waiting::{MayPass, Obstacle};
+pub use episodes::{EpisodeMeans, EpisodeWindow};
 pub use state::{Counters, TrainingState};
 pub use writer::CheckpointWriter;
 
@@ -135,6 +138,16 @@ pub enum CheckpointError {
         /// Error of the system.
         source: io::Error,
     },
+}
+
+impl MayPass for CheckpointError {
+    fn obstacle(&self) -> Option<Obstacle> {
+        match self {
+            Self::Write { source, .. } => source.obstacle(),
+            Self::Store(source) => source.obstacle(),
+            _ => None,
+        }
+    }
 }
 
 /// Reads one checkpoint of a run. If the newest is requested and unsound, reads the newest sound one with a warning.

@@ -8,7 +8,8 @@ use treadmill_ppo::PpoState;
 use treadmill_proto::{ActorState, PolicyBundle, Task, WIRE_VERSION, limits::BUNDLE_BYTES_MAX};
 use treadmill_runtime::{error_chain, seeds};
 
-use crate::{intake::FragmentCounts, metrics::episodes::EpisodeWindow};
+use super::EpisodeWindow;
+use crate::intake::FragmentCounts;
 
 /// Whole state of a run. Adding or removing a field requires a new [`super::encoding::FORMAT`].
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

@@ -7,11 +7,11 @@ use std::{
 
 use treadmill_config::Config;
 use treadmill_ppo::{AcceptedFragment, UpdateStats};
-use treadmill_proto::ActorStats;
+use treadmill_proto::{ActorStats, EvaluationReport};
 use treadmill_runtime::machine;
 
 use super::{Efficiency, History};
-use crate::{checkpoint::TrainingState, training::evaluation::EvaluationResult};
+use crate::checkpoint::TrainingState;
 
 /// Durations of the phases of one update.
 #[derive(Clone, Copy, Debug, Default)]
@@ -134,8 +134,8 @@ pub struct UpdateRecord<'a> {
     pub epochs: u32,
     /// Durations of the phases.
     pub durations: PhaseDurations,
-    /// Result of an evaluation that has just ended.
-    pub evaluation: Option<&'a EvaluationResult>,
+    /// Report of an evaluation that has just ended, and the environment steps that its policy has learnt from.
+    pub evaluation: Option<(&'a EvaluationReport, u64)>,
     /// History of the run, including this update.
     pub history: &'a History,
     /// Throughput of the last updates.
@@ -248,7 +248,7 @@ impl UpdateRecord<'_> {
     }
 
     fn eval(&self, out: &mut Vec<(&str, f64)>) {
-        let Some(EvaluationResult { report, env_steps, .. }) = self.evaluation else { return };
+        let Some((report, env_steps)) = self.evaluation else { return };
         out.extend([
             ("eval/mean_reward", report.return_mean),
             ("eval/std_reward", report.return_std),
@@ -257,7 +257,7 @@ impl UpdateRecord<'_> {
             ("eval/distance_best_m", self.history.evaluated_best_m.unwrap_or(report.distance_mean_m)),
             ("eval/velocity_mean_mps", report.velocity_mean_mps),
             ("eval/fall_fraction", f64::from(report.falls) / f64::from(report.episodes)),
-            ("eval/total_timesteps", *env_steps as f64),
+            ("eval/total_timesteps", env_steps as f64),
         ]);
         out.extend(report.velocity_error_mps.map(|error| ("eval/velocity_error", error)));
         out.extend(report.yaw_rate_error_radps.map(|error| ("eval/yaw_rate_error", error)));

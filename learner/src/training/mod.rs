@@ -13,8 +13,6 @@
 //! - [`control`]: queues commands for the training thread and answers status requests.
 //! - [`evaluation`]: schedules evaluations during training.
 //! - [`load_adaptation`]: adapts batch size and passes to the load.
-//! - [`heartbeat`]: heartbeat of the training thread.
-//! - [`waiting`]: waits while the disk is full or the store fails; `pending_writes`: what it waits for.
 
 mod alarms;
 mod background;
@@ -22,15 +20,12 @@ mod commands;
 pub mod control;
 mod error;
 pub mod evaluation;
-pub mod heartbeat;
 mod learning;
 pub mod load_adaptation;
 mod options;
-mod pending_writes;
 mod reporting;
 mod serving;
 mod start;
-pub mod waiting;
 
 use std::time::Instant;
 
@@ -40,10 +35,9 @@ use treadmill_runtime::shutdown::Shutdown;
 
 pub use self::commands::is_changeable;
 pub use self::error::TrainingError;
-pub use self::heartbeat::Heartbeat;
 pub use self::options::{TrainingOptions, TrainingSummary};
-use self::{learning::Learning, reporting::Reporting, serving::Serving, waiting::Retry};
-use crate::{checkpoint::TrainingState, leadership::Leadership, metrics::scalars::PhaseDurations};
+use self::{learning::Learning, reporting::Reporting, serving::Serving};
+use crate::{checkpoint::TrainingState, leadership::Leadership, metrics::scalars::PhaseDurations, waiting::Retry};
 
 /// Trains until the run has all its steps or shutdown is requested. Blocks, so it needs its own thread. With
 /// `leadership`, the state is in a store; without, in the run's folder.

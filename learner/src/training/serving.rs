@@ -11,13 +11,12 @@ use super::{
     Trainer, TrainingError, commands,
     control::ControlChannel,
     evaluation::{EvaluationResult, EvaluationScheduler},
-    heartbeat::Heartbeat,
-    waiting::Retry,
 };
 use crate::{
     checkpoint::{self, CheckpointWriter, TrainingState, encoding},
     intake::{BusFragmentSource, Collected, CollectedBatch, Intake},
     leadership::Leadership,
+    waiting::{Heartbeat, Retry},
 };
 
 /// Serving part of a [`Trainer`]: actors, evaluators and operators.

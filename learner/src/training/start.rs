@@ -14,16 +14,15 @@ use super::{
     control::ControlChannel,
     evaluation::EvaluationScheduler,
     learning::Learning,
-    pending_writes::PendingWrites,
     reporting::Reporting,
     serving::{Serving, save_newest},
-    waiting::Retry,
 };
 use crate::{
     checkpoint::{CheckpointWriter, TrainingState},
     intake::{BusFragmentSource, ExpectedFragment, FleetPlan, FragmentValidator, HorizonRule, Intake},
     leadership::Leadership,
     metrics::{History, MetricsReport},
+    waiting::{PendingWrites, Retry},
 };
 
 impl Trainer {
@@ -63,17 +62,18 @@ impl Trainer {
         };
         // Save this version before any actor can get it, so that a learner that dies now resumes from it.
         let (heartbeat, pending) = (options.heartbeat.clone(), PendingWrites::default());
-        let successor = leadership.as_ref().map(Leadership::successor).unwrap_or_default();
-        let retry = Retry { shutdown: shutdown.clone(), heartbeat, pending: pending.clone(), successor };
+        let overtaken = leadership.as_ref().map(Leadership::overtaken).unwrap_or_default();
+        let retry = Retry { shutdown: shutdown.clone(), heartbeat, pending: pending.clone(), overtaken };
         let saved = save_newest(&state, leadership.as_mut(), &checkpoints, &retry)?;
         let policy = PublishedPolicy::new(&bundle, &state.for_actors(&bundle));
         let policy = policy.map_err(|why| invalid(error_chain(&why)))?;
-        let report = MetricsReport::open(bus, &state, &config, options)?;
+        let report = MetricsReport::open(bus, &options.folder, &state, &config, &options.report)?;
         // `MetricsReport::open` has removed lines newer than the checkpoint.
         let history = History::read(&options.folder.metrics())?;
         let (intake, alive) = open_intake(bus, &state, &config, options, expected, fleet)?;
         let status = commands::first_status(&state, config.run.steps);
-        let control = ControlChannel::open(bus, status, alive.clone(), options.console.actor_command.clone(), pending)?;
+        let control =
+            ControlChannel::open(bus, status, alive.clone(), options.report.console.actor_command.clone(), pending)?;
         let stats = StatsFeed::open(bus, &state.run, alive)?;
         let (every_steps, env_steps) = (config.eval.every_steps, state.counters.env_steps);
         let scheduler = config.evaluates().then(|| EvaluationScheduler::open(bus, &state.run, every_steps, env_steps));
