@@ -4,7 +4,7 @@ use treadmill_config::Config;
 use treadmill_experience::ledger::Ledger;
 use treadmill_humanoid::PHYSICS_VERSION;
 use treadmill_learner::{
-    checkpoint::{TrainingState, Which},
+    checkpoint::{CheckpointChoice, TrainingState},
     intake::FragmentCounts,
 };
 use treadmill_policy::{NetworkShape, exported::ExportedPolicy, normaliser::RunningMoments};
@@ -82,8 +82,8 @@ impl Fork {
     ///
     /// # Errors
     /// If there is no such run, or this program cannot continue it.
-    pub fn read(from: &str, which: Option<Which>) -> anyhow::Result<Self> {
-        let loaded = saved_run::load(from, which.unwrap_or(Which::Latest))?;
+    pub fn read(from: &str, which: Option<CheckpointChoice>) -> anyhow::Result<Self> {
+        let loaded = saved_run::load(from, which.unwrap_or(CheckpointChoice::Latest))?;
         let mut state = loaded.state;
         let origin = format!("`{from}`, checkpoint {}, {} steps", loaded.name, thousands(state.counters.env_steps));
         if !state.config().map_err(anyhow::Error::msg)?.is_external() {

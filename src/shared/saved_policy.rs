@@ -6,7 +6,7 @@ use anyhow::Context;
 use treadmill_actor::settings;
 use treadmill_config::{Config, ConfigSource, EnvTask};
 use treadmill_humanoid::{Environment, Model};
-use treadmill_learner::checkpoint::{self, Loaded, TrainingState, Which, encoding};
+use treadmill_learner::checkpoint::{self, CheckpointChoice, Loaded, TrainingState, encoding};
 use treadmill_policy::{
     exported::{ActionFacts, ExportedPolicy, ObservationFacts},
     normaliser::RunningMoments,
@@ -49,10 +49,10 @@ impl fmt::Display for Origin {
 ///
 /// # Errors
 /// If there is no such run or file, its policy cannot be used, or `which` selects a checkpoint of a file.
-pub fn load(run: &str, which: Option<Which>) -> anyhow::Result<SavedPolicy> {
+pub fn load(run: &str, which: Option<CheckpointChoice>) -> anyhow::Result<SavedPolicy> {
     let path = Path::new(run);
     if !path.is_file() {
-        let Loaded { name, state } = saved_run::load(run, which.unwrap_or(Which::BestOrLatest))?;
+        let Loaded { name, state } = saved_run::load(run, which.unwrap_or(CheckpointChoice::BestOrLatest))?;
         return from_state(&state, name).with_context(|| format!("cannot use the policy of `{run}`"));
     }
     if which.is_some() {

@@ -27,7 +27,7 @@ pub use writer::CheckpointWriter;
 
 /// Selects a checkpoint of a run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Which {
+pub enum CheckpointChoice {
     /// The newest.
     Latest,
     /// `best.bundle`.
@@ -38,7 +38,7 @@ pub enum Which {
     BestOrLatest,
 }
 
-impl std::str::FromStr for Which {
+impl std::str::FromStr for CheckpointChoice {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {
@@ -154,15 +154,15 @@ impl MayPass for CheckpointError {
 ///
 /// # Errors
 /// If the requested checkpoint is missing, unsound, or of another format, and there is no fallback.
-pub fn load(folder: &RunFolder, which: Which) -> Result<Loaded, CheckpointError> {
+pub fn load(folder: &RunFolder, which: CheckpointChoice) -> Result<Loaded, CheckpointError> {
     let checkpoints = folder.checkpoints();
     let (best, latest) = (checkpoints.join("best.bundle"), checkpoints.join("latest.bundle"));
     let exactly = |path: PathBuf| load_file(&path).map(|state| (path, state));
     let (path, state) = match which {
-        Which::Best => exactly(best),
-        Which::Numbered(number) => exactly(checkpoints.join(numbered(number))),
-        Which::BestOrLatest if best.exists() => fallback::load_or_newest_sound(best),
-        Which::Latest | Which::BestOrLatest => fallback::load_or_newest_sound(latest),
+        CheckpointChoice::Best => exactly(best),
+        CheckpointChoice::Numbered(number) => exactly(checkpoints.join(numbered(number))),
+        CheckpointChoice::BestOrLatest if best.exists() => fallback::load_or_newest_sound(best),
+        CheckpointChoice::Latest | CheckpointChoice::BestOrLatest => fallback::load_or_newest_sound(latest),
     }?;
     Ok(Loaded { name: name_of(&path), state })
 }
