@@ -8,6 +8,7 @@ use treadmill_learner::{
     intake::FragmentCounts,
 };
 use treadmill_policy::{NetworkShape, exported::ExportedPolicy, normaliser::RunningMoments};
+use treadmill_ppo::TrainedPolicy;
 use treadmill_runtime::{numbers::thousands, seeds};
 
 use crate::{
@@ -64,7 +65,8 @@ impl InitFrom {
         let count = policy.observation.count;
         let m2 = policy.variance.iter().map(|variance| variance * count).collect();
         let observation_moments = RunningMoments { count, mean: policy.mean.clone(), m2 };
-        state.ppo.begin_with(&state.shape, &policy.parameters, observation_moments, return_moments.clone());
+        let (parameters, value_moments) = (policy.parameters.clone(), return_moments.clone());
+        state.ppo.begin_with(&state.shape, TrainedPolicy { parameters, observation_moments, value_moments });
         Ok(origin.as_ref().map_or_else(|| format!("`{from}`"), |origin| format!("`{from}`, {origin}")))
     }
 }

@@ -11,6 +11,7 @@ use treadmill_policy::{
     exported::{ActionFacts, ExportedPolicy, ObservationFacts},
     normaliser::RunningMoments,
 };
+use treadmill_ppo::TrainedPolicy;
 use treadmill_proto::Task;
 use treadmill_runtime::numbers::thousands;
 
@@ -117,8 +118,10 @@ pub fn environment(run: &str, policy: &ExportedPolicy, config: &Config) -> anyho
 
 fn from_state(state: &TrainingState, checkpoint: String) -> anyhow::Result<SavedPolicy> {
     let origin = Some(Origin { checkpoint, env_steps: state.counters.env_steps });
-    let policy = exported(state)?;
-    let (config, return_moments) = (configuration(&policy)?, Some(state.ppo.value_moments().clone()));
+    let trained = state.ppo.trained_policy();
+    let return_moments = trained.value_moments.clone();
+    let policy = exported(state, trained)?;
+    let config = configuration(&policy)?;
     Ok(SavedPolicy { policy, config, origin, return_moments })
 }
 
@@ -134,7 +137,7 @@ fn configuration(policy: &ExportedPolicy) -> anyhow::Result<Config> {
     Ok(config)
 }
 
-fn exported(state: &TrainingState) -> anyhow::Result<ExportedPolicy> {
+fn exported(state: &TrainingState, trained: TrainedPolicy) -> anyhow::Result<ExportedPolicy> {
     let config = state.config().map_err(anyhow::Error::msg)?;
     let (action, control_step_s) = match config.task.known() {
         Some(task) => (external_action(&task), task.control_step_s),
@@ -147,10 +150,10 @@ fn exported(state: &TrainingState) -> anyhow::Result<ExportedPolicy> {
         own_task => own_task,
     };
     let (observation, mean, variance) =
-        ObservationFacts::from_moments(kind, state.ppo.observation_moments(), config.policy.observation_clip as f32);
+        ObservationFacts::from_moments(kind, &trained.observation_moments, config.policy.observation_clip as f32);
     Ok(ExportedPolicy {
         shape: state.shape.clone(),
-        parameters: state.ppo.parameters().to_vec(),
+        parameters: trained.parameters,
         observation,
         mean,
         variance,

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use treadmill_config::PpoConfig;
 use treadmill_policy::{NetworkShape, gaussian::clamp_log_std, normaliser::RunningMoments};
 
-use crate::optimiser::OptimiserState;
+use crate::{optimiser::OptimiserState, trained_policy::TrainedPolicy};
 
 /// Policy, optimiser and running statistics. A checkpoint stores it as one field, and a resumed run continues from it
 /// exactly.
@@ -96,21 +96,24 @@ impl PpoState {
         self.optimiser.step
     }
 
+    /// Returns the policy.
+    pub fn trained_policy(&self) -> TrainedPolicy {
+        TrainedPolicy {
+            parameters: self.parameters.clone(),
+            observation_moments: self.observation_moments.clone(),
+            value_moments: Some(self.value_moments.clone()),
+        }
+    }
+
     /// Replaces the policy of a new run. Without `value_moments`, the critic learns the scale of returns anew.
     ///
     /// # Panics
     /// If the parameters do not fit the shape.
-    pub fn begin_with(
-        &mut self,
-        shape: &NetworkShape,
-        parameters: &[f32],
-        observation_moments: RunningMoments,
-        value_moments: Option<RunningMoments>,
-    ) {
-        self.parameters = parameters.to_vec();
+    pub fn begin_with(&mut self, shape: &NetworkShape, policy: TrainedPolicy) {
+        self.parameters = policy.parameters;
         clamp_log_std(&mut self.parameters[shape.log_std()]);
-        self.observation_moments = observation_moments;
-        self.value_moments = value_moments.unwrap_or_else(|| RunningMoments::new(1));
+        self.observation_moments = policy.observation_moments;
+        self.value_moments = policy.value_moments.unwrap_or_else(|| RunningMoments::new(1));
     }
 
     /// Replaces the random stream that shuffles minibatches.

@@ -5,8 +5,7 @@ use std::{
     time::{Duration, Instant},
 };
 
-use treadmill_config::Config;
-use treadmill_ppo::{AcceptedFragment, UpdateStats};
+use treadmill_ppo::{AcceptedFragment, PpoGauges, UpdateStats};
 use treadmill_proto::{ActorStats, EvaluationReport};
 use treadmill_runtime::machine;
 
@@ -22,11 +21,11 @@ pub struct PhaseDurations {
     pub update: Duration,
     /// Gradient steps alone.
     pub learn: Duration,
-    /// Writing the checkpoint.
+    /// Updating the state and writing the checkpoint.
     pub checkpoint: Duration,
-    /// From the end of the update until the new policy is announced.
+    /// Encoding and announcing the new policy, and releasing the receipts.
     pub publish: Duration,
-    /// Work of the training thread besides the update, since the last update was logged.
+    /// Work of the training thread besides the update: logging the last one, validating, saving and publishing.
     pub serial: Duration,
 }
 
@@ -122,8 +121,8 @@ impl ThroughputMeter {
 pub struct UpdateRecord<'a> {
     /// State after the update.
     pub state: &'a TrainingState,
-    /// Configuration.
-    pub config: &'a Config,
+    /// Settings and adapted values of the algorithm.
+    pub gauges: PpoGauges,
     /// Statistics of the update; `None` if it was undone.
     pub update: Option<&'a UpdateStats>,
     /// Lag of the batch.
@@ -219,10 +218,10 @@ impl UpdateRecord<'_> {
         }
         let counters = &self.state.counters;
         out.extend([
-            ("train/clip_range", self.config.ppo.clip_range),
+            ("train/clip_range", self.gauges.clip_range),
             ("train/batch", self.lag.transitions),
             ("train/epochs", f64::from(self.epochs)),
-            ("train/learning_rate", self.state.ppo.learning_rate()),
+            ("train/learning_rate", self.gauges.learning_rate),
             ("train/n_updates", counters.gradient_steps as f64),
             ("train/undone_updates", counters.undone_updates as f64),
         ]);
