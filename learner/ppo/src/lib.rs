@@ -51,5 +51,5 @@ pub use plausibility::Implausible;
 pub use settings::BatchSize;
 pub use state::PpoState;
 pub use trained_policy::TrainedPolicy;
-pub use update::{Ppo, PpoGauges, PpoOptions};
+pub use update::{Ppo, PpoOptions};
 pub use update_stats::{UpdateError, UpdateStats};

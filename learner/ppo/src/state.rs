@@ -71,16 +71,6 @@ impl PpoState {
         &self.parameters
     }
 
-    /// Returns the statistics of raw observations.
-    pub fn observation_moments(&self) -> &RunningMoments {
-        &self.observation_moments
-    }
-
-    /// Returns the statistics of scaled returns.
-    pub fn value_moments(&self) -> &RunningMoments {
-        &self.value_moments
-    }
-
     /// Returns the current learning rate, after adaptation.
     pub fn learning_rate(&self) -> f64 {
         self.learning_rate

@@ -49,15 +49,6 @@ impl PpoOptions {
     }
 }
 
-/// Settings and adapted values that are logged with each update.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct PpoGauges {
-    /// Largest distance of a probability ratio from 1 that the loss rewards.
-    pub clip_range: f64,
-    /// Learning rate after the update.
-    pub learning_rate: f64,
-}
-
 /// Proximal policy optimisation: improves a [`PpoState`] batch by batch.
 #[derive(Clone, Debug)]
 pub struct Ppo {
@@ -77,9 +68,9 @@ impl Ppo {
         self.config = config.clone();
     }
 
-    /// Returns what is logged with each update that leaves `state`.
-    pub fn gauges(&self, state: &PpoState) -> PpoGauges {
-        PpoGauges { clip_range: self.config.clip_range, learning_rate: state.learning_rate }
+    /// Returns the largest distance of a probability ratio from 1 that the loss rewards.
+    pub fn clip_range(&self) -> f64 {
+        self.config.clip_range
     }
 
     /// Returns the policy of a state, which evaluates many rows on the threads of the update.

@@ -5,7 +5,7 @@ use std::{
     time::{Duration, Instant},
 };
 
-use treadmill_ppo::{AcceptedFragment, PpoGauges, UpdateStats};
+use treadmill_ppo::{AcceptedFragment, UpdateStats};
 use treadmill_proto::{ActorStats, EvaluationReport};
 use treadmill_runtime::machine;
 
@@ -121,8 +121,8 @@ impl ThroughputMeter {
 pub struct UpdateRecord<'a> {
     /// State after the update.
     pub state: &'a TrainingState,
-    /// Settings and adapted values of the algorithm.
-    pub gauges: PpoGauges,
+    /// Largest distance of a probability ratio from 1 that the loss rewards.
+    pub clip_range: f64,
     /// Statistics of the update; `None` if it was undone.
     pub update: Option<&'a UpdateStats>,
     /// Lag of the batch.
@@ -218,10 +218,10 @@ impl UpdateRecord<'_> {
         }
         let counters = &self.state.counters;
         out.extend([
-            ("train/clip_range", self.gauges.clip_range),
+            ("train/clip_range", self.clip_range),
             ("train/batch", self.lag.transitions),
             ("train/epochs", f64::from(self.epochs)),
-            ("train/learning_rate", self.gauges.learning_rate),
+            ("train/learning_rate", self.state.ppo.learning_rate()),
             ("train/n_updates", counters.gradient_steps as f64),
             ("train/undone_updates", counters.undone_updates as f64),
         ]);

@@ -4,8 +4,7 @@ use std::time::{Duration, Instant};
 
 use treadmill_config::Config;
 use treadmill_ppo::{
-    BatchSize, Implausible, Improvement, LoadAdaptation, Ppo, PpoGauges, PpoOptions, PpoState, TrainedPolicy,
-    UpdateError, UpdateStats,
+    Implausible, Improvement, LoadAdaptation, Ppo, PpoOptions, PpoState, TrainedPolicy, UpdateError, UpdateStats,
 };
 use treadmill_proto::Fragment;
 use treadmill_runtime::{error_chain, machine};
@@ -15,8 +14,8 @@ use crate::{checkpoint::TrainingState, intake::CollectedBatch};
 
 /// Learning part of a trainer: called with a batch, it returns a policy.
 pub(super) struct Learning {
-    ppo: Ppo,
-    load: LoadAdaptation,
+    pub(super) ppo: Ppo,
+    pub(super) load: LoadAdaptation,
     undone_in_a_row: u32,
 }
 
@@ -43,9 +42,6 @@ impl Update {
 
 impl Learning {
     /// Starts the threads of the update.
-    ///
-    /// # Errors
-    /// If a thread cannot be started, or the state's parameters cannot be used.
     pub(super) fn new(
         state: &TrainingState,
         config: &Config,
@@ -74,20 +70,7 @@ impl Learning {
         self.load = LoadAdaptation::new(&config.ppo, config.learner.mode);
     }
 
-    /// Returns the size of the next batch.
-    pub(super) fn batch_size(&self) -> BatchSize {
-        self.load.batch_size()
-    }
-
-    /// Returns what is logged with each update that leaves `state`.
-    pub(super) fn gauges(&self, state: &PpoState) -> PpoGauges {
-        self.ppo.gauges(state)
-    }
-
     /// Updates the policy from the fragments of a batch, without those that are implausible.
-    ///
-    /// # Errors
-    /// If the networks cannot be evaluated.
     pub(super) fn update(&mut self, state: &mut PpoState, batch: &mut CollectedBatch) -> Result<Update, TrainingError> {
         let epochs = self.load.epochs();
         let prepared = self.ppo.prepare(state, &mut batch.fragments).map_err(TrainingError::Inference)?;
@@ -99,9 +82,6 @@ impl Learning {
     }
 
     /// Counts the updates in a row that were undone by a fault of the learner, and logs why.
-    ///
-    /// # Errors
-    /// If there are `undone_max`.
     pub(super) fn check_undone(&mut self, update: Update, undone_max: u32) -> Result<Update, TrainingError> {
         match update.result {
             Ok(_) => self.undone_in_a_row = 0,

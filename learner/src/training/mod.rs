@@ -94,12 +94,7 @@ fn run(trainer: &mut Trainer) -> Result<bool, TrainingError> {
         let serial = log + validate + checkpoint + publish;
         let learn = update.learn;
         let durations = PhaseDurations { collect, update: updating, learn, checkpoint, publish, serial };
-        trainer.log(&Round {
-            fragments: &batch.fragments,
-            update: &update,
-            evaluation: evaluation.as_ref(),
-            durations,
-        })?;
+        trainer.log(&Round { batch, update, evaluation, durations })?;
         trainer.publish_status(true);
     }
     Ok(false)
@@ -141,7 +136,7 @@ impl Trainer {
         self.serving.waited = Duration::ZERO;
         loop {
             self.apply_commands()?;
-            match self.serving.collect(self.learning.batch_size(), &self.state.lineage, &self.shutdown) {
+            match self.serving.collect(self.learning.load.batch_size(), &self.state.lineage, &self.shutdown) {
                 Collected::Batch(batch) => return Ok(Some(batch)),
                 Collected::Interrupted => {
                     self.serving.storage.check_leadership()?;
@@ -183,8 +178,7 @@ impl Trainer {
     }
 
     /// Logs a round.
-    fn log(&mut self, round: &Round<'_>) -> Result<(), TrainingError> {
-        let gauges = self.learning.gauges(&self.state.ppo);
-        self.reporting.log(&self.state, &self.config, &self.serving, gauges, round)
+    fn log(&mut self, round: &Round) -> Result<(), TrainingError> {
+        self.reporting.log(&self.state, &self.config, &self.learning, &self.serving, round)
     }
 }

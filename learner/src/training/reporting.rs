@@ -12,16 +12,15 @@ use std::{
 
 use treadmill_bus::StatsFeed;
 use treadmill_config::Config;
-use treadmill_ppo::{AcceptedFragment, PpoGauges};
 use treadmill_runtime::atomic_file;
 
 use super::{
-    Serving, TrainingError, TrainingOptions, Update, alarms::Alarms, background::Background,
+    Learning, Serving, TrainingError, TrainingOptions, Update, alarms::Alarms, background::Background,
     evaluation::EvaluationResult,
 };
 use crate::{
     checkpoint::{Counters, TrainingState},
-    intake::FleetEffort,
+    intake::{CollectedBatch, FleetEffort},
     metrics::{
         Efficiency, EfficiencyMeter, History, MetricsReport, PrometheusMetrics, RewardTerms, histograms,
         scalars::{PhaseDurations, PolicyLag, ThroughputMeter, UpdateRecord},
@@ -30,12 +29,11 @@ use crate::{
 };
 
 /// What is logged of a round.
-pub(super) struct Round<'a> {
-    /// Fragments that were learnt from.
-    pub(super) fragments: &'a [AcceptedFragment],
-    pub(super) update: &'a Update,
+pub(super) struct Round {
+    pub(super) batch: CollectedBatch,
+    pub(super) update: Update,
     /// Evaluation that has ended during the round.
-    pub(super) evaluation: Option<&'a EvaluationResult>,
+    pub(super) evaluation: Option<EvaluationResult>,
     pub(super) durations: PhaseDurations,
 }
 
@@ -131,18 +129,15 @@ impl Reporting {
     }
 
     /// Logs a round.
-    ///
-    /// # Errors
-    /// If the log of an earlier one could not be written.
     pub(super) fn log(
         &mut self,
         state: &TrainingState,
         config: &Config,
+        learning: &Learning,
         serving: &Serving,
-        gauges: PpoGauges,
-        round: &Round<'_>,
+        Round { batch, update, evaluation, durations }: &Round,
     ) -> Result<(), TrainingError> {
-        let Round { fragments, update, evaluation, durations } = *round;
+        let fragments = &batch.fragments;
         let (validator, alive) = (&serving.intake.validator, serving.intake.alive());
         let lag = PolicyLag::of(fragments);
         let learnt = match &update.result {
@@ -158,19 +153,19 @@ impl Reporting {
         let stats = self.stats.newest();
         self.prometheus.set_actors(stats, state.lineage.newest());
         let (return_mean, distance_m) = state.episodes.means().map(|m| (m.return_mean, m.distance_mean_m)).unzip();
-        self.history.add(return_mean, distance_m, evaluation.map(|result| result.report.distance_mean_m));
+        self.history.add(return_mean, distance_m, evaluation.as_ref().map(|result| result.report.distance_mean_m));
         if let Some(EvaluationResult { report, .. }) = evaluation {
             self.history.note_tracking(report.velocity_error_mps, report.yaw_rate_error_radps);
         }
         let record = UpdateRecord {
             state,
-            gauges,
+            clip_range: learning.ppo.clip_range(),
             update: update.stats(),
             lag,
             reward_terms: self.reward_terms.of(fragments),
             epochs: update.epochs,
-            durations,
-            evaluation: evaluation.map(|result| (&result.report, result.env_steps)),
+            durations: *durations,
+            evaluation: evaluation.as_ref().map(|result| (&result.report, result.env_steps)),
             history: &self.history,
             throughput,
             stats,

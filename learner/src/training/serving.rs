@@ -42,9 +42,6 @@ pub(super) struct Serving {
 impl Serving {
     /// Opens the flows on the bus and publishes the policy of a state that `storage` has saved. Also returns the
     /// statistics of actors.
-    ///
-    /// # Errors
-    /// If the bus refuses, or the state cannot be used.
     pub(super) fn open(
         bus: &Bus,
         state: &TrainingState,
@@ -121,9 +118,6 @@ impl Serving {
     }
 
     /// Takes the next evaluation result; a policy that is the best so far is saved as `best`.
-    ///
-    /// # Errors
-    /// If it cannot be saved, or another learner leads.
     pub(super) fn take_evaluation(
         &mut self,
         state: &mut TrainingState,
@@ -146,9 +140,6 @@ impl Serving {
     }
 
     /// Writes the checkpoint. Actors wait for it, so that no version is announced that a crash could undo.
-    ///
-    /// # Errors
-    /// If it cannot be saved, or another learner leads.
     pub(super) fn save(&mut self, state: &mut TrainingState) -> Result<(), TrainingError> {
         let validator = &mut self.intake.validator;
         validator.count_unread();
@@ -159,16 +150,13 @@ impl Serving {
         let is_best = state.adopt_best_in_training();
         self.storage.save(state)?;
         if is_best {
-            self.storage.save_best(self.storage.saved())?;
+            self.storage.save_best(&self.storage.saved)?;
         }
         self.intake.validator.ledger.mark_durable();
         Ok(())
     }
 
     /// Publishes a policy whose state is saved, releases the receipts, and submits it for evaluation if one is due.
-    ///
-    /// # Errors
-    /// If the policy cannot be encoded.
     pub(super) fn publish(
         &mut self,
         policy: &TrainedPolicy,
@@ -186,7 +174,7 @@ impl Serving {
         if let Some(evaluation) = &mut self.evaluation
             && evaluation.is_due(env_steps)
         {
-            evaluation.submit(state.lineage.newest(), encoded, env_steps, self.storage.saved().clone());
+            evaluation.submit(state.lineage.newest(), encoded, env_steps, self.storage.saved.clone());
         }
         Ok(())
     }

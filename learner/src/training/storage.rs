@@ -23,14 +23,11 @@ pub(super) struct Storage {
     leadership: Option<Leadership>,
     retry: Retry,
     /// Newest checkpoint, encoded.
-    saved: Bytes,
+    pub(super) saved: Bytes,
 }
 
 impl Storage {
     /// Saves a first state.
-    ///
-    /// # Errors
-    /// If it cannot be saved.
     pub(super) fn open(
         state: &TrainingState,
         config: &Config,
@@ -55,9 +52,6 @@ impl Storage {
     }
 
     /// Makes a state the newest of the run.
-    ///
-    /// # Errors
-    /// If it cannot be saved, or another learner leads.
     pub(super) fn save(&mut self, state: &TrainingState) -> Result<(), TrainingError> {
         let Self { checkpoints, leadership, retry, saved } = self;
         let encoded = match leadership {
@@ -72,23 +66,12 @@ impl Storage {
         Ok(())
     }
 
-    /// Returns the newest checkpoint, encoded.
-    pub(super) fn saved(&self) -> &Bytes {
-        &self.saved
-    }
-
     /// Saves an encoded state as the best one.
-    ///
-    /// # Errors
-    /// If it cannot be saved.
     pub(super) fn save_best(&self, state: &[u8]) -> Result<(), TrainingError> {
         Ok(self.retry.until_written(|| self.checkpoints.save_best(state))?)
     }
 
     /// Saves the newest checkpoint under the number of updates, as an operator asked. Returns its place.
-    ///
-    /// # Errors
-    /// If it cannot be saved now.
     pub(super) fn save_kept(&self, updates: u64) -> Result<String, CheckpointError> {
         self.checkpoints.save_kept(updates, &self.saved)
     }
@@ -102,17 +85,11 @@ impl Storage {
     }
 
     /// Returns an error if another learner is known to have taken the run over.
-    ///
-    /// # Errors
-    /// [`TrainingError::Leadership`].
     pub(super) fn check_leadership(&self) -> Result<(), TrainingError> {
         self.leadership.as_ref().map_or(Ok(()), |leadership| Ok(leadership.check()?))
     }
 
     /// Reads in the store that this learner still leads. One that was frozen may have been overtaken without knowing.
-    ///
-    /// # Errors
-    /// If another learner leads, or the store fails.
     pub(super) fn confirm_leadership(&self) -> Result<(), TrainingError> {
         let Some(leadership) = &self.leadership else { return Ok(()) };
         Ok(self.retry.until_written(|| leadership.confirm())?)
