@@ -134,7 +134,7 @@ impl PolicyFetcher {
         // An announcement and a receipt name the same version at nearly the same time; only one of them fetches it.
         let _one_at_a_time = self.fetching.lock().await;
         let version = self.current().version;
-        if known == Some(version) {
+        if known.is_some_and(|known| known.names_same_policy(version)) {
             return Refresh::Unchanged;
         }
         let bundle = match self.fetch(known).await {
@@ -183,7 +183,7 @@ impl PolicyFetcher {
     /// Replaces the policy of `version` with a newer one. Keeps it if the newer one is damaged.
     fn replace(&self, version: PolicyVersion, bundle: &PolicyBundle) -> Refresh {
         // A router's cache may be behind what this actor got elsewhere.
-        if bundle.version == version || bundle.version.is_before(version) {
+        if bundle.version.names_same_policy(version) || bundle.version.is_before(version) {
             return Refresh::Unchanged;
         }
         let announced = *self.announced.read().expect("no holder of this lock panics");

@@ -18,7 +18,7 @@ use treadmill_learner::intake::{
     BatchSize, BusFragmentSource, Collected, ExpectedFragment, FleetPlan, FragmentCounts, FragmentValidator,
     HorizonRule, Intake,
 };
-use treadmill_learner::training::Heartbeat;
+use treadmill_learner::waiting::Heartbeat;
 use treadmill_ppo::AcceptedFragment;
 use treadmill_proto::{Fragment, PolicyBundle};
 use treadmill_rl::{

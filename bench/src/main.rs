@@ -62,9 +62,9 @@ enum Benchmark {
     /// `idle_share`: time in which actors wait for credit / all their time. `send_late_p99_ms`: time from the end of a
     /// simulation to its send; it is large if the played actors lack processor time.
     ///
-    /// `checkpoint_ms`: saving the state. `publish_ms`: from the end of the update until the new policy is announced,
-    /// which includes that. `serial_ms`: all work of the training thread per update outside the update, without waiting
-    /// for fragments (time/serial_s). `training_thread_cpu_ms`: all processor time of that thread per update. Routers
+    /// `checkpoint_ms`: saving the state. `publish_ms`: encoding and announcing the policy, releasing the receipts.
+    /// `serial_ms`: all work of the training thread per update outside the update, without waiting for fragments
+    /// (time/serial_s). `training_thread_cpu_ms`: all processor time of that thread per update. Routers
     /// and played actors have the lowest priority, so that the learner has the machine as if they ran elsewhere.
     ///
     /// `learner_sent_mb_per_version`: bytes that the learner sent over all connections, by the counters of the program

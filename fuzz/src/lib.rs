@@ -197,7 +197,7 @@ pub fn checkpoint(data: &[u8]) {
     for bytes in [data, &wrapped] {
         let Ok(state) = decode_checkpoint("a file", bytes) else { continue };
         if let Ok(config) = state.check().and_then(|()| state.config()) {
-            drop(state.bundle(&config, 0));
+            drop(state.bundle(&state.ppo.trained_policy(), &config, 0));
         }
         let encoded = encoding::encode(&state).expect("what was decoded can be encoded");
         // NaN is not equal to itself, so bytes are compared.

@@ -1,7 +1,5 @@
 //! Policy bundles of the learner and their announcements.
 
-use std::hash::{Hash, Hasher};
-
 use bytes::{Buf, Bytes};
 use prost::Message;
 use serde::{Deserialize, Serialize};
@@ -20,8 +18,8 @@ use crate::{
 const BUNDLE: &str = "policy bundle";
 
 /// Version of a policy. Each update increments the number; each start of a learner draws a new incarnation and gets a higher
-/// epoch. Incarnation and number identify it: senders of before there were epochs repeat it without one.
-#[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
+/// epoch.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub struct PolicyVersion {
     /// Learner process that made the policy.
     pub incarnation: u64,
@@ -39,25 +37,18 @@ impl PolicyVersion {
         Self { incarnation, number, epoch: 0 }
     }
 
+    /// Whether both name the same policy, which incarnation and number identify: senders of before there were epochs repeat
+    /// a version without one.
+    #[must_use]
+    pub const fn names_same_policy(self, other: Self) -> bool {
+        self.incarnation == other.incarnation && self.number == other.number
+    }
+
     /// Whether this version is certainly older than the other one: of a lower term, or of a lower number in the same term.
     #[must_use]
     pub const fn is_before(self, other: Self) -> bool {
         let is_known = self.epoch != 0 && other.epoch != 0;
         is_known && (self.epoch < other.epoch || self.epoch == other.epoch && self.number < other.number)
-    }
-}
-
-impl PartialEq for PolicyVersion {
-    fn eq(&self, other: &Self) -> bool {
-        (self.incarnation, self.number) == (other.incarnation, other.number)
-    }
-}
-
-impl Eq for PolicyVersion {}
-
-impl Hash for PolicyVersion {
-    fn hash<H: Hasher>(&self, state: &mut H) {
-        (self.incarnation, self.number).hash(state);
     }
 }
 
@@ -102,7 +93,8 @@ impl PolicyAnnouncement {
     /// Returns whether `bundle` is of another version or has the announced weights, with or without the critic.
     #[must_use]
     pub fn agrees_with(&self, bundle: &PolicyBundle) -> bool {
-        self.version != bundle.version || [self.checksum, self.actor_checksum].contains(&bundle.checksum)
+        !self.version.names_same_policy(bundle.version)
+            || [self.checksum, self.actor_checksum].contains(&bundle.checksum)
     }
 }
 
@@ -322,11 +314,14 @@ mod tests {
     }
 
     #[test]
-    fn an_epoch_travels_but_identifies_nothing() {
+    fn an_epoch_travels_but_does_not_identify_a_policy() {
         let version = PolicyVersion { epoch: 9, ..sample().version };
         let announcement = PolicyAnnouncement { version, checksum: 5, actor_checksum: 6 };
         assert_eq!(PolicyAnnouncement::decode(&announcement.encode()).unwrap().version.epoch, 9);
-        assert_eq!(version, sample().version);
+        assert!(version != sample().version && version.names_same_policy(sample().version));
+        for other in [PolicyVersion::new(8, version.number), PolicyVersion::new(version.incarnation, 8)] {
+            assert!(!version.names_same_policy(PolicyVersion { epoch: 9, ..other }));
+        }
     }
 
     #[test]

@@ -6,6 +6,7 @@ use std::net::SocketAddr;
 use treadmill_bus::Credentials;
 use treadmill_config::{ChosenTask, Config};
 use treadmill_learner::{checkpoint::TrainingState, training::TrainingSummary};
+use treadmill_ppo::BatchSize;
 use treadmill_runtime::{numbers::thousands, run_folder::RunFolder, words::quoted};
 
 use crate::launch::{
@@ -77,7 +78,7 @@ pub fn actor_command(setup: &RunSetup, endpoint: &str, credentials: Option<&Cred
 
 /// Returns the goal and the number of steps to it. The progress display adds the remaining time.
 fn goal(config: &Config, steps: u64) -> String {
-    let (wanted, batch) = (config.run.steps, u64::from(config.ppo.batch));
+    let (wanted, batch) = (config.run.steps, BatchSize::of(&config.ppo).transitions as u64);
     let left = wanted.saturating_sub(steps);
     let goal = match config.env.chosen_task() {
         ChosenTask::External | ChosenTask::Own(_) => "to earn the task's rewards",

@@ -12,10 +12,11 @@ use tokio::sync::oneshot;
 use treadmill_bus::{Bus, BusOptions, TaskServer};
 use treadmill_config::Config;
 use treadmill_learner::{
-    checkpoint::TrainingState,
+    checkpoint::{EpisodeMeans, TrainingState},
     leadership::Leadership,
-    metrics::{ConsoleOptions, PrometheusMetrics, episodes::EpisodeMeans},
-    training::{self, Heartbeat, TrainingError, TrainingOptions, TrainingSummary},
+    metrics::{ConsoleOptions, PrometheusMetrics, ReportOptions},
+    training::{self, TrainingError, TrainingOptions, TrainingSummary},
+    waiting::Heartbeat,
 };
 use treadmill_runtime::{atomic_file, run_folder::RunFolder, run_lock::RunLock, shutdown::Shutdown};
 
@@ -254,12 +255,14 @@ impl<'a> Host<'a> {
             steps: config.run.steps,
             device,
             mirror,
-            console,
+            report: ReportOptions {
+                console,
+                prometheus: self.prometheus.clone(),
+                command: startup::command_line(),
+                versions: startup::versions(&config),
+            },
             restarts,
-            prometheus: self.prometheus.clone(),
             heartbeat: self.heartbeat.clone(),
-            command: startup::command_line(),
-            versions: startup::versions(&config),
             action_names,
         }
     }

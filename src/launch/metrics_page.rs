@@ -16,7 +16,7 @@ use hyper_util::rt::TokioIo;
 use tokio::sync::Semaphore;
 use treadmill_learner::{
     metrics::{PrometheusMetrics, prometheus},
-    training::Heartbeat,
+    waiting::Heartbeat,
 };
 
 use crate::launch::exit_code::Usage;

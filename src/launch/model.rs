@@ -6,9 +6,9 @@ use std::{
 };
 
 use clap::Args;
-use treadmill_config::{ChosenTask, Config, ConfigSource, EnvConfig, Symmetry};
+use treadmill_config::{ChosenTask, Config, ConfigSource, EnvConfig};
 use treadmill_humanoid::{Environment, HUMANOID_XML, Model, ModelError, TaskRegistry, mjcf, read_model_file};
-use treadmill_ppo::{BatchMirror, IndexSwap};
+use treadmill_ppo::{BatchMirror, IndexSwap, settings::needs_mirror};
 use treadmill_runtime::{error_chain, words::nearest_path};
 
 use crate::launch::exit_code::Usage;
@@ -101,7 +101,7 @@ pub fn action_names(text: &str) -> Vec<String> {
 
 /// Returns the mirror for `ppo.symmetry`.
 pub fn mirror(tasks: &TaskRegistry, config: &Config, text: &str) -> Result<Option<BatchMirror>, Usage> {
-    if config.ppo.symmetry == Symmetry::Off {
+    if !needs_mirror(&config.ppo) {
         return Ok(None);
     }
     let refuse = |why: String| Usage(format!("`ppo.symmetry` is \"mirrored\", but {why}; allowed here: \"off\""));

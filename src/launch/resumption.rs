@@ -5,7 +5,7 @@ use std::fs;
 use toml::Table;
 use treadmill_config::{Config, ConfigSource};
 use treadmill_humanoid::{PHYSICS_VERSION, TaskRegistry};
-use treadmill_learner::checkpoint::{self, TrainingState, Which};
+use treadmill_learner::checkpoint::{self, CheckpointChoice, TrainingState};
 use treadmill_runtime::{numbers::thousands, run_folder::RunFolder, run_lock::RunLock, seeds};
 
 use crate::launch::{
@@ -33,9 +33,9 @@ pub fn resume(
     let lock = RunLock::take(&folder)?;
     let _step = SlowStepNotice::begin(format!("loading the checkpoint of {}", folder.root().display()));
     // With --resume-or-start, the flag chooses the checkpoint to begin from.
-    let which = any.checkpoint.filter(|_| any.resume.is_some()).unwrap_or(Which::Latest);
+    let which = any.checkpoint.filter(|_| any.resume.is_some()).unwrap_or(CheckpointChoice::Latest);
     let mut state = checkpoint::load(&folder, which)?.state;
-    if let Ok(best) = checkpoint::load(&folder, Which::Best) {
+    if let Ok(best) = checkpoint::load(&folder, CheckpointChoice::Best) {
         state.adopt_best(&best.state);
     }
     go_on(launcher, (folder, lock), state, new, any, changes)

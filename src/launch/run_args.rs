@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 use treadmill_config::{ConfigSource, EnvTask};
 use treadmill_humanoid::TaskRegistry;
-use treadmill_learner::checkpoint::Which;
+use treadmill_learner::checkpoint::CheckpointChoice;
 use treadmill_policy::device::DeviceKind;
 use treadmill_runtime::numbers::parse_count;
 
@@ -106,7 +106,7 @@ pub struct AnyRunArgs {
     pub model: Option<PathBuf>,
     /// Checkpoint to resume, fork or begin from: latest, best, or the number of updates of a kept one.
     #[arg(long, value_name = "WHICH", requires = "saved")]
-    pub checkpoint: Option<Which>,
+    pub checkpoint: Option<CheckpointChoice>,
     /// Device for the networks: cpu, or cuda in a build with that feature.
     #[arg(long, value_name = "DEVICE", default_value = "cpu")]
     pub device: DeviceKind,

@@ -4,10 +4,11 @@ use treadmill_config::Config;
 use treadmill_experience::ledger::Ledger;
 use treadmill_humanoid::PHYSICS_VERSION;
 use treadmill_learner::{
-    checkpoint::{TrainingState, Which},
+    checkpoint::{CheckpointChoice, TrainingState},
     intake::FragmentCounts,
 };
 use treadmill_policy::{NetworkShape, exported::ExportedPolicy, normaliser::RunningMoments};
+use treadmill_ppo::TrainedPolicy;
 use treadmill_runtime::{numbers::thousands, seeds};
 
 use crate::{
@@ -64,7 +65,8 @@ impl InitFrom {
         let count = policy.observation.count;
         let m2 = policy.variance.iter().map(|variance| variance * count).collect();
         let observation_moments = RunningMoments { count, mean: policy.mean.clone(), m2 };
-        state.ppo.begin_with(&state.shape, &policy.parameters, observation_moments, return_moments.clone());
+        let (parameters, value_moments) = (policy.parameters.clone(), return_moments.clone());
+        state.ppo.begin_with(&state.shape, TrainedPolicy { parameters, observation_moments, value_moments });
         Ok(origin.as_ref().map_or_else(|| format!("`{from}`"), |origin| format!("`{from}`, {origin}")))
     }
 }
@@ -82,8 +84,8 @@ impl Fork {
     ///
     /// # Errors
     /// If there is no such run, or this program cannot continue it.
-    pub fn read(from: &str, which: Option<Which>) -> anyhow::Result<Self> {
-        let loaded = saved_run::load(from, which.unwrap_or(Which::Latest))?;
+    pub fn read(from: &str, which: Option<CheckpointChoice>) -> anyhow::Result<Self> {
+        let loaded = saved_run::load(from, which.unwrap_or(CheckpointChoice::Latest))?;
         let mut state = loaded.state;
         let origin = format!("`{from}`, checkpoint {}, {} steps", loaded.name, thousands(state.counters.env_steps));
         if !state.config().map_err(anyhow::Error::msg)?.is_external() {

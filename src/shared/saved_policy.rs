@@ -5,11 +5,12 @@ use std::{fmt, fs, path::Path};
 use anyhow::Context;
 use treadmill_config::{ChosenTask, Config, ConfigSource};
 use treadmill_humanoid::{Environment, Model, TaskRegistry};
-use treadmill_learner::checkpoint::{self, Loaded, TrainingState, Which, encoding};
+use treadmill_learner::checkpoint::{self, CheckpointChoice, Loaded, TrainingState, encoding};
 use treadmill_policy::{
     exported::{ActionFacts, ExportedPolicy, ObservationFacts},
     normaliser::RunningMoments,
 };
+use treadmill_ppo::TrainedPolicy;
 use treadmill_proto::Task;
 use treadmill_runtime::numbers::thousands;
 
@@ -48,10 +49,10 @@ impl fmt::Display for Origin {
 ///
 /// # Errors
 /// If there is no such run or file, its policy cannot be used, or `which` selects a checkpoint of a file.
-pub fn load(run: &str, which: Option<Which>) -> anyhow::Result<SavedPolicy> {
+pub fn load(run: &str, which: Option<CheckpointChoice>) -> anyhow::Result<SavedPolicy> {
     let path = Path::new(run);
     if !path.is_file() {
-        let Loaded { name, state } = saved_run::load(run, which.unwrap_or(Which::BestOrLatest))?;
+        let Loaded { name, state } = saved_run::load(run, which.unwrap_or(CheckpointChoice::BestOrLatest))?;
         return from_state(&state, name).with_context(|| format!("cannot use the policy of `{run}`"));
     }
     if which.is_some() {
@@ -122,8 +123,10 @@ pub fn environment(
 
 fn from_state(state: &TrainingState, checkpoint: String) -> anyhow::Result<SavedPolicy> {
     let origin = Some(Origin { checkpoint, env_steps: state.counters.env_steps });
-    let policy = exported(state)?;
-    let (config, return_moments) = (configuration(&policy)?, Some(state.ppo.value_moments().clone()));
+    let trained = state.ppo.trained_policy();
+    let return_moments = trained.value_moments.clone();
+    let policy = exported(state, trained)?;
+    let config = configuration(&policy)?;
     Ok(SavedPolicy { policy, config, origin, return_moments })
 }
 
@@ -139,7 +142,7 @@ fn configuration(policy: &ExportedPolicy) -> anyhow::Result<Config> {
     Ok(config)
 }
 
-fn exported(state: &TrainingState) -> anyhow::Result<ExportedPolicy> {
+fn exported(state: &TrainingState, trained: TrainedPolicy) -> anyhow::Result<ExportedPolicy> {
     let config = state.config().map_err(anyhow::Error::msg)?;
     let (action, control_step_s) = match config.task.known() {
         Some(task) => (external_action(&task), task.control_step_s),
@@ -151,10 +154,10 @@ fn exported(state: &TrainingState) -> anyhow::Result<ExportedPolicy> {
         ChosenTask::Own(name) => name,
     };
     let (observation, mean, variance) =
-        ObservationFacts::from_moments(kind, state.ppo.observation_moments(), config.policy.observation_clip as f32);
+        ObservationFacts::from_moments(kind, &trained.observation_moments, config.policy.observation_clip as f32);
     Ok(ExportedPolicy {
         shape: state.shape.clone(),
-        parameters: state.ppo.parameters().to_vec(),
+        parameters: trained.parameters,
         observation,
         mean,
         variance,

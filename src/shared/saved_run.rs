@@ -1,7 +1,7 @@
 //! Checkpoint of a run that a RUN argument names: a folder, a name below `runs/`, or the URL of a store.
 
 use treadmill_learner::{
-    checkpoint::{self, Loaded, Which},
+    checkpoint::{self, CheckpointChoice, Loaded},
     leadership::follower::{LoadedState, newest_state},
 };
 use treadmill_runtime::{error_chain, run_folder::RunFolder};
@@ -13,7 +13,7 @@ use crate::launch::exit_code::Usage;
 ///
 /// # Errors
 /// If there is no such run, or its checkpoint is missing or cannot be used.
-pub fn load(run: &str, which: Which) -> anyhow::Result<Loaded> {
+pub fn load(run: &str, which: CheckpointChoice) -> anyhow::Result<Loaded> {
     if run.contains("://") {
         return load_stored(run, which);
     }
@@ -24,13 +24,13 @@ pub fn load(run: &str, which: Which) -> anyhow::Result<Loaded> {
     }
 }
 
-fn load_stored(url: &str, which: Which) -> anyhow::Result<Loaded> {
+fn load_stored(url: &str, which: CheckpointChoice) -> anyhow::Result<Loaded> {
     let store = Store::open(url).map_err(|why| Usage(error_chain(&why)))?;
     let (name, object) = match which {
-        Which::Best => ("best".to_string(), checkpoint::object(None)),
-        Which::Numbered(number) => (number.to_string(), checkpoint::object(Some(number))),
-        Which::Latest => return load_newest(&store),
-        Which::BestOrLatest => match load_stored(url, Which::Best) {
+        CheckpointChoice::Best => ("best".to_string(), checkpoint::object(None)),
+        CheckpointChoice::Numbered(number) => (number.to_string(), checkpoint::object(Some(number))),
+        CheckpointChoice::Latest => return load_newest(&store),
+        CheckpointChoice::BestOrLatest => match load_stored(url, CheckpointChoice::Best) {
             Err(why) if matches!(why.downcast_ref(), Some(StoreError::Missing { .. })) => return load_newest(&store),
             other => return other,
         },

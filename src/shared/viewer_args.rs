@@ -6,7 +6,7 @@ use std::{
 };
 
 use clap::Args;
-use treadmill_learner::checkpoint::Which;
+use treadmill_learner::checkpoint::CheckpointChoice;
 
 use crate::shared::learner_address::ReachArgs;
 
@@ -27,7 +27,7 @@ pub struct ViewerArgs {
     pub for_s: Option<f64>,
     /// Checkpoint: best, latest, or the number of updates of a kept one; by default best if it exists.
     #[arg(long, value_name = "WHICH", conflicts_with = "live")]
-    pub checkpoint: Option<Which>,
+    pub checkpoint: Option<CheckpointChoice>,
     /// Episodes to play; 0 shows the empty scene.
     #[arg(long, default_value_t = 3, value_parser = clap::value_parser!(u32).range(..=1000), conflicts_with = "live")]
     pub episodes: u32,

@@ -4,6 +4,7 @@ mod architecture;
 #[path = "../hostile/attacks.rs"]
 #[allow(dead_code, reason = "the tests of hostile clients use the rest")]
 mod attacks;
+mod circles;
 mod machines;
 mod recipes;
 mod reference;

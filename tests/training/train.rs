@@ -162,7 +162,7 @@ fn training_works_with_the_full_observations_of_gymnasium() {
         }
         assert_eq!(last_value(&run, "train/undone_updates"), Some(0.0), "{preset}");
         // Masses and the world's rows are constant; their variance is zero, and the normaliser handles that.
-        let variances = state.ppo.observation_moments().variance();
+        let variances = state.ppo.trained_policy().observation_moments.variance();
         assert!(variances.iter().filter(|variance| **variance < 1e-12).count() >= 13, "{preset}");
         assert!(variances.iter().all(|variance| variance.is_finite()));
         // The best policy may be an earlier one.
@@ -231,7 +231,8 @@ fn resume_restores_all_state() {
     let after = load_file(&run.join("checkpoints/latest.bundle")).unwrap();
     assert_eq!((before.counters.env_steps, after.counters.env_steps), (4096, 8192));
     assert_eq!(after.ppo.gradient_steps(), 2 * before.ppo.gradient_steps());
-    assert_eq!(after.ppo.observation_moments().count, 2.0 * before.ppo.observation_moments().count);
+    let [before_count, after_count] = [&before, &after].map(|s| s.ppo.trained_policy().observation_moments.count);
+    assert_eq!(after_count, 2.0 * before_count);
     assert_eq!(after.counters.updates, 16);
     assert_eq!(after.fragment_counts.accepted, 2 * before.fragment_counts.accepted);
     assert!(after.episodes.finished > before.episodes.finished);

@@ -31,23 +31,24 @@ fn a_run_begins_with_weights_and_statistics_of_another_one_and_new_counters() {
     let smoke = ["--preset", "smoke"];
     let from = [&smoke[..], &["--init-from", "run", "--checkpoint", "latest", "--seed", "5"]].concat();
     let (ours, _) = first_state(folder, "warm", &from);
-    let (ours_ppo, theirs_ppo) = (&ours.ppo, &theirs.ppo);
-    assert_eq!(ours_ppo.parameters(), theirs_ppo.parameters());
-    assert_eq!(ours_ppo.value_moments(), theirs_ppo.value_moments());
+    let (our_policy, their_policy) = (ours.ppo.trained_policy(), theirs.ppo.trained_policy());
+    assert_eq!(our_policy.parameters, their_policy.parameters);
+    assert_eq!(our_policy.value_moments, their_policy.value_moments);
+    assert_eq!(ours.ppo.gradient_steps(), 0);
     assert_eq!((ours.counters.env_steps, ours.counters.updates, &ours.run[..]), (0, 0, "warm"));
-    let (ours, theirs_moments) = (ours_ppo.observation_moments(), theirs_ppo.observation_moments());
-    assert_eq!((ours.count, &ours.mean), (theirs_moments.count, &theirs_moments.mean));
+    let (ours, theirs_moments) = (our_policy.observation_moments, their_policy.observation_moments);
+    assert_eq!((ours.count, ours.mean), (theirs_moments.count, theirs_moments.mean));
     for (ours, theirs) in ours.m2.iter().zip(&theirs_moments.m2) {
         assert!((ours - theirs).abs() <= 1e-9 * theirs.abs(), "{ours} {theirs}");
     }
-    assert_eq!(ours_ppo.gradient_steps(), 0);
 
     // A file of `export` has no statistics of returns.
     let exported = run(folder, &["export", "run", "--checkpoint", "latest", "--safetensors", "policy.safetensors"]);
     assert!(exported.status.success(), "{}", stderr(&exported));
     let from = [&smoke[..], &["--init-from", "policy.safetensors"]].concat();
     let (ours, _) = first_state(folder, "exported", &from);
-    assert_eq!((ours.ppo.parameters(), ours.ppo.value_moments().count), (theirs.ppo.parameters(), 0.0));
+    let ours = ours.ppo.trained_policy();
+    assert_eq!((&ours.parameters[..], ours.value_moments.unwrap().count), (theirs.ppo.parameters(), 0.0));
 
     let train = |args: &[&str]| run(folder, &[&["train", "--preset", "smoke", "--run-dir", "other"], args].concat());
     let parts = ["--init-from run", "policy.hidden"];

@@ -13,7 +13,7 @@ use treadmill_actor::{
 };
 use treadmill_config::{RandomisationConfig, VelocityConfig};
 use treadmill_humanoid::{Environment, Model, TaskRegistry};
-use treadmill_learner::checkpoint::Which;
+use treadmill_learner::checkpoint::CheckpointChoice;
 use treadmill_proto::Pose;
 use treadmill_rl::{
     launch::{exit_code::Usage, output::say},
@@ -35,7 +35,7 @@ pub struct Player {
 
 impl Player {
     /// Loads the policy that RUN names.
-    pub fn load(run: &str, which: Option<Which>) -> anyhow::Result<Self> {
+    pub fn load(run: &str, which: Option<CheckpointChoice>) -> anyhow::Result<Self> {
         let SavedPolicy { policy, mut config, .. } = saved_policy::load(run, which)?;
         config.randomisation = RandomisationConfig::default();
         let environment = saved_policy::environment(&TaskRegistry::default(), run, &policy, &config)?;

@@ -276,13 +276,13 @@ impl PlayedActor {
     async fn refresh(&self, known: Option<PolicyVersion>) -> anyhow::Result<()> {
         let _one_at_a_time = self.fetching.lock().await;
         let version = self.newest_policy().version();
-        if known == Some(version) {
+        if known.is_some_and(|known| known.names_same_policy(version)) {
             return Ok(());
         }
         let begun = Instant::now();
         let Some(bundle) = fetch_policy(&self.bus, Some(RUN), FETCH_TIMEOUT).await? else { return Ok(()) };
         keep_time(&mut self.counts().times.fetches_ms, begun.elapsed());
-        if bundle.version != version {
+        if !bundle.version.names_same_policy(version) {
             let policy = self.shared.policies.get(bundle)?;
             let mut policies = self.policies.lock().expect("no holder of this lock panics");
             policies.push_back((Instant::now(), policy));

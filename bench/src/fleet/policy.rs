@@ -139,7 +139,7 @@ impl PlayedPolicies {
     pub fn get(&self, bundle: PolicyBundle) -> anyhow::Result<Arc<PlayedPolicy>> {
         anyhow::ensure!(bundle.config_hash == self.config_hash, "the learner trains another run");
         let mut newest = self.newest.lock().ok().context("a thread panicked")?;
-        if let Some(known) = newest.iter().find(|known| known.version() == bundle.version) {
+        if let Some(known) = newest.iter().find(|known| known.version().names_same_policy(bundle.version)) {
             return Ok(known.clone());
         }
         let material = self.material.clone();

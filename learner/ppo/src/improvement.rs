@@ -11,6 +11,7 @@ use crate::{
     batch_building::{AcceptedFragment, BuiltBatch, build_batch},
     plausibility::Implausible,
     state::PpoState,
+    trained_policy::TrainedPolicy,
     update::{Ppo, PpoOptions},
     update_stats::{UpdateError, UpdateStats},
 };
@@ -27,6 +28,8 @@ pub struct PreparedBatch {
 /// Result of an improvement.
 #[derive(Debug)]
 pub struct Improvement {
+    /// Policy after the update.
+    pub policy: TrainedPolicy,
     /// Statistics of the update, or why it was undone. If it was undone, policy and running statistics are unchanged.
     pub result: Result<UpdateStats, UpdateError>,
     /// Fragments that the learner did not learn from.
@@ -64,6 +67,7 @@ impl Ppo {
     }
 
     /// Takes `epochs` passes over the batch that was prepared from `accepted`, then adds it to the running statistics.
+    /// Returns the policy.
     ///
     /// If a number becomes infinite or NaN, the fragments that cause it are removed from `accepted`, and the update is
     /// that of the others, as if the removed ones had not come.
@@ -96,7 +100,7 @@ impl Ppo {
             let parts: Vec<&[f32]> = accepted.iter().map(|accepted| &accepted.fragment.observations[..]).collect();
             state.observation_moments.update_parts(&parts, self.options.shape.observation);
         }
-        Improvement { result, rejected }
+        Improvement { policy: state.trained_policy(), result, rejected }
     }
 
     /// Returns the indices of the fragments from which alone an update is not finite. Returns none if that is so for

@@ -5,7 +5,7 @@
 //! # Layout, to be read in this order
 //! - [`gae`]: generalised advantage estimation, a pure function.
 //! - [`state`]: [`PpoState`], which learning continues from.
-//! - [`improvement`]: takes fragments and leaves an improved policy and new running statistics.
+//! - [`improvement`]: takes fragments, and returns an improved policy with new running statistics.
 //! - [`batch_building`]: turns accepted fragments into the batch of one update.
 //! - [`plausibility`]: finds fragments whose numbers cannot be what an actor observed.
 //! - [`batch`]: the batch itself, and its minibatches.
@@ -18,29 +18,38 @@
 //! - [`optimiser`]: Adam and gradient clipping over one flat slice.
 //! - [`measures`]: KL divergence, clip fraction, explained variance, and the adaptive learning rate.
 //! - [`mirror`]: swaps left and right in observations and actions.
+//! - [`load_adaptation`]: adapts batch size and passes to the load.
+//! - [`settings`]: what the rest of the learner asks of the settings.
+//! - `trained_policy`: policy that an update leaves.
 
 pub mod batch;
 pub mod batch_building;
 pub mod gae;
 pub mod improvement;
+pub mod load_adaptation;
 pub mod loss;
 mod loss_gradient;
 pub mod measures;
 pub mod mirror;
 pub mod optimiser;
 pub mod plausibility;
+pub mod settings;
 mod slice_gradient;
 pub mod state;
 mod tensor_gradient;
+mod trained_policy;
 pub mod update;
 mod update_stats;
 
 pub use batch::Batch;
 pub use batch_building::{AcceptedFragment, BuiltBatch, RejectedFragment, build_batch};
 pub use improvement::{Improvement, PreparedBatch};
+pub use load_adaptation::LoadAdaptation;
 pub use measures::{adapt_learning_rate, explained_variance};
 pub use mirror::{BatchMirror, IndexSwap};
 pub use plausibility::Implausible;
+pub use settings::BatchSize;
 pub use state::PpoState;
+pub use trained_policy::TrainedPolicy;
 pub use update::{Ppo, PpoOptions};
 pub use update_stats::{UpdateError, UpdateStats};

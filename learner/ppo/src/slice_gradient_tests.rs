@@ -66,7 +66,8 @@ fn check(shape: &NetworkShape, rows: usize, lanes_max: Option<usize>, config: &P
         for tensor in shape.tensors() {
             let expected = &expected[tensor.range()];
             let largest = expected.iter().fold(0.0_f32, |largest, number| largest.max(number.abs()));
-            assert!(largest > 0.0, "{} takes part", tensor.name);
+            // Few rows may all be outside the clip range.
+            assert!(largest > 0.0 || rows < 12, "{} takes part", tensor.name);
             for (found, expected) in found[tensor.range()].iter().zip(expected) {
                 let off = (found - expected).abs();
                 assert!(

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use treadmill_config::PpoConfig;
 use treadmill_policy::{NetworkShape, gaussian::clamp_log_std, normaliser::RunningMoments};
 
-use crate::optimiser::OptimiserState;
+use crate::{optimiser::OptimiserState, trained_policy::TrainedPolicy};
 
 /// Policy, optimiser and running statistics. A checkpoint stores it as one field, and a resumed run continues from it
 /// exactly.
@@ -71,16 +71,6 @@ impl PpoState {
         &self.parameters
     }
 
-    /// Returns the statistics of raw observations.
-    pub fn observation_moments(&self) -> &RunningMoments {
-        &self.observation_moments
-    }
-
-    /// Returns the statistics of scaled returns.
-    pub fn value_moments(&self) -> &RunningMoments {
-        &self.value_moments
-    }
-
     /// Returns the current learning rate, after adaptation.
     pub fn learning_rate(&self) -> f64 {
         self.learning_rate
@@ -96,21 +86,24 @@ impl PpoState {
         self.optimiser.step
     }
 
+    /// Returns the policy.
+    pub fn trained_policy(&self) -> TrainedPolicy {
+        TrainedPolicy {
+            parameters: self.parameters.clone(),
+            observation_moments: self.observation_moments.clone(),
+            value_moments: Some(self.value_moments.clone()),
+        }
+    }
+
     /// Replaces the policy of a new run. Without `value_moments`, the critic learns the scale of returns anew.
     ///
     /// # Panics
     /// If the parameters do not fit the shape.
-    pub fn begin_with(
-        &mut self,
-        shape: &NetworkShape,
-        parameters: &[f32],
-        observation_moments: RunningMoments,
-        value_moments: Option<RunningMoments>,
-    ) {
-        self.parameters = parameters.to_vec();
+    pub fn begin_with(&mut self, shape: &NetworkShape, policy: TrainedPolicy) {
+        self.parameters = policy.parameters;
         clamp_log_std(&mut self.parameters[shape.log_std()]);
-        self.observation_moments = observation_moments;
-        self.value_moments = value_moments.unwrap_or_else(|| RunningMoments::new(1));
+        self.observation_moments = policy.observation_moments;
+        self.value_moments = policy.value_moments.unwrap_or_else(|| RunningMoments::new(1));
     }
 
     /// Replaces the random stream that shuffles minibatches.

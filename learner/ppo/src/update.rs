@@ -68,6 +68,11 @@ impl Ppo {
         self.config = config.clone();
     }
 
+    /// Returns the largest distance of a probability ratio from 1 that the loss rewards.
+    pub fn clip_range(&self) -> f64 {
+        self.config.clip_range
+    }
+
     /// Returns the policy of a state, which evaluates many rows on the threads of the update.
     ///
     /// # Errors

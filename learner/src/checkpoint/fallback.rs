@@ -85,7 +85,7 @@ mod tests {
     use treadmill_runtime::run_folder::RunFolder;
 
     use super::*;
-    use crate::checkpoint::{CheckpointWriter, Which, load};
+    use crate::checkpoint::{CheckpointChoice, CheckpointWriter, load};
 
     fn state(updates: u64) -> TrainingState {
         let mut state = TrainingState::fresh("run", &Config::default(), "<mujoco/>", 2, 0, 1, 1);
@@ -117,7 +117,7 @@ mod tests {
         fs::write(path, bytes).unwrap();
     }
 
-    fn updates(folder: &RunFolder, which: Which) -> u64 {
+    fn updates(folder: &RunFolder, which: CheckpointChoice) -> u64 {
         load(folder, which).unwrap().state.counters.updates
     }
 
@@ -125,16 +125,16 @@ mod tests {
     fn the_sound_checkpoint_with_the_most_updates_replaces_a_damaged_one() {
         let at = tempfile::tempdir().unwrap();
         let folder = saved(at.path());
-        assert_eq!(updates(&folder, Which::Latest), 7);
-        assert_eq!(updates(&folder, Which::BestOrLatest), 3);
+        assert_eq!(updates(&folder, CheckpointChoice::Latest), 7);
+        assert_eq!(updates(&folder, CheckpointChoice::BestOrLatest), 3);
         spoil(&folder, "latest.bundle");
-        assert_eq!(updates(&folder, Which::Latest), 6);
+        assert_eq!(updates(&folder, CheckpointChoice::Latest), 6);
         spoil(&folder, "00000006.bundle");
-        assert_eq!(updates(&folder, Which::Latest), 4);
+        assert_eq!(updates(&folder, CheckpointChoice::Latest), 4);
         fs::remove_file(folder.checkpoints().join("latest.bundle")).unwrap();
-        assert_eq!(updates(&folder, Which::Latest), 4);
+        assert_eq!(updates(&folder, CheckpointChoice::Latest), 4);
         spoil(&folder, "best.bundle");
-        assert_eq!(updates(&folder, Which::BestOrLatest), 4, "`best` was not requested by name");
+        assert_eq!(updates(&folder, CheckpointChoice::BestOrLatest), 4, "`best` was not requested by name");
     }
 
     #[test]
@@ -146,14 +146,20 @@ mod tests {
         let saved = CheckpointWriter::new(&folder, 5, 9).save(&resumed).unwrap();
         CheckpointWriter::new(&folder, 5, 9).save_numbered(5, &saved).unwrap();
         spoil(&folder, "latest.bundle");
-        assert_eq!(updates(&folder, Which::Latest), 5, "after 6 updates the run went on from an older checkpoint");
+        assert_eq!(
+            updates(&folder, CheckpointChoice::Latest),
+            5,
+            "after 6 updates the run went on from an older checkpoint"
+        );
     }
 
     #[test]
     fn a_requested_checkpoint_is_not_replaced_by_another() {
         let at = tempfile::tempdir().unwrap();
         let folder = saved(at.path());
-        for (name, which) in [("best.bundle", Which::Best), ("00000004.bundle", Which::Numbered(4))] {
+        for (name, which) in
+            [("best.bundle", CheckpointChoice::Best), ("00000004.bundle", CheckpointChoice::Numbered(4))]
+        {
             spoil(&folder, name);
             let why = error_chain(&load(&folder, which).unwrap_err());
             assert!(why.contains(name) && why.contains("checksum") && why.contains("--checkpoint"), "{why}");
@@ -167,12 +173,12 @@ mod tests {
         for path in bundles(&folder.checkpoints()) {
             spoil(&folder, &path.file_name().unwrap().to_string_lossy());
         }
-        let why = load(&folder, Which::Latest).unwrap_err().to_string();
+        let why = load(&folder, CheckpointChoice::Latest).unwrap_err().to_string();
         for name in ["latest", "best", "00000002", "00000004", "00000006"] {
             assert!(why.contains(&format!("{name}.bundle` is damaged")), "{why}");
         }
         let empty = RunFolder::create(Some(&at.path().join("empty")), "x").unwrap();
-        assert!(load(&empty, Which::Latest).unwrap_err().to_string().contains("has saved none yet"));
+        assert!(load(&empty, CheckpointChoice::Latest).unwrap_err().to_string().contains("has saved none yet"));
     }
 
     #[test]
@@ -183,6 +189,6 @@ mod tests {
         let mut bytes = fs::read(&path).unwrap();
         bytes[8] = 1;
         fs::write(path, bytes).unwrap();
-        assert!(load(&folder, Which::Latest).unwrap_err().to_string().contains("format 1"));
+        assert!(load(&folder, CheckpointChoice::Latest).unwrap_err().to_string().contains("format 1"));
     }
 }

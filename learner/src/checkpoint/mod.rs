@@ -6,6 +6,7 @@
 //! `learner.checkpoint_every_updates`; the last `learner.keep_checkpoints` are kept.
 
 pub mod encoding;
+pub mod episodes;
 mod fallback;
 mod state;
 mod writer;
@@ -19,12 +20,14 @@ use treadmill_runtime::run_folder::RunFolder;
 use treadmill_store::StoreError;
 
 use self::encoding::FORMAT;
+use crate::waiting::{MayPass, Obstacle};
+pub use episodes::{EpisodeMeans, EpisodeWindow};
 pub use state::{Counters, TrainingState};
 pub use writer::CheckpointWriter;
 
 /// Selects a checkpoint of a run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Which {
+pub enum CheckpointChoice {
     /// The newest.
     Latest,
     /// `best.bundle`.
@@ -35,7 +38,7 @@ pub enum Which {
     BestOrLatest,
 }
 
-impl std::str::FromStr for Which {
+impl std::str::FromStr for CheckpointChoice {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {
@@ -137,19 +140,29 @@ pub enum CheckpointError {
     },
 }
 
+impl MayPass for CheckpointError {
+    fn obstacle(&self) -> Option<Obstacle> {
+        match self {
+            Self::Write { source, .. } => source.obstacle(),
+            Self::Store(source) => source.obstacle(),
+            _ => None,
+        }
+    }
+}
+
 /// Reads one checkpoint of a run. If the newest is requested and unsound, reads the newest sound one with a warning.
 ///
 /// # Errors
 /// If the requested checkpoint is missing, unsound, or of another format, and there is no fallback.
-pub fn load(folder: &RunFolder, which: Which) -> Result<Loaded, CheckpointError> {
+pub fn load(folder: &RunFolder, which: CheckpointChoice) -> Result<Loaded, CheckpointError> {
     let checkpoints = folder.checkpoints();
     let (best, latest) = (checkpoints.join("best.bundle"), checkpoints.join("latest.bundle"));
     let exactly = |path: PathBuf| load_file(&path).map(|state| (path, state));
     let (path, state) = match which {
-        Which::Best => exactly(best),
-        Which::Numbered(number) => exactly(checkpoints.join(numbered(number))),
-        Which::BestOrLatest if best.exists() => fallback::load_or_newest_sound(best),
-        Which::Latest | Which::BestOrLatest => fallback::load_or_newest_sound(latest),
+        CheckpointChoice::Best => exactly(best),
+        CheckpointChoice::Numbered(number) => exactly(checkpoints.join(numbered(number))),
+        CheckpointChoice::BestOrLatest if best.exists() => fallback::load_or_newest_sound(best),
+        CheckpointChoice::Latest | CheckpointChoice::BestOrLatest => fallback::load_or_newest_sound(latest),
     }?;
     Ok(Loaded { name: name_of(&path), state })
 }

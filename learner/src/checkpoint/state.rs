@@ -4,11 +4,12 @@ use serde::{Deserialize, Serialize};
 use treadmill_config::{Config, ConfigSource, EvaluationConfig, LearnerConfig, PpoConfig, RunConfig};
 use treadmill_experience::{ledger::Ledger, lineage::Lineage};
 use treadmill_policy::{NetworkShape, init, normaliser::Normaliser};
-use treadmill_ppo::PpoState;
+use treadmill_ppo::{AcceptedFragment, PpoState, TrainedPolicy, UpdateStats};
 use treadmill_proto::{ActorState, PolicyBundle, Task, WIRE_VERSION, limits::BUNDLE_BYTES_MAX};
 use treadmill_runtime::{error_chain, seeds};
 
-use crate::{intake::FragmentCounts, metrics::episodes::EpisodeWindow};
+use super::EpisodeWindow;
+use crate::intake::FragmentCounts;
 
 /// Whole state of a run. Adding or removing a field requires a new [`super::encoding::FORMAT`].
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -82,6 +83,33 @@ impl TrainingState {
         if rank(saved) > rank(self) {
             (self.best_is_evaluated, self.best_return) = rank(saved);
         }
+    }
+
+    /// Adopts the return in training, if it is the best so far and no policy was evaluated yet. Returns whether it is. A few
+    /// absurd returns must not make a policy the best for ever.
+    pub fn adopt_best_in_training(&mut self) -> bool {
+        let return_mean = self.episodes.middle_return_mean().filter(|_| !self.best_is_evaluated);
+        let best = return_mean.filter(|mean| self.best_return.is_none_or(|best| *mean > best));
+        self.best_return = best.or(self.best_return);
+        best.is_some()
+    }
+
+    /// Advances by the update from `fragments`; `stats` are `None` if it was undone.
+    pub fn advance(&mut self, fragments: &[AcceptedFragment], stats: Option<&UpdateStats>) {
+        self.lineage.advance();
+        let counters = &mut self.counters;
+        counters.updates += 1;
+        let transitions = fragments.iter().map(|accepted| accepted.fragment.transitions() as u64).sum::<u64>();
+        counters.env_steps += transitions;
+        match stats {
+            Some(stats) => counters.gradient_steps += stats.gradient_steps,
+            None => {
+                counters.undone_updates += 1;
+                counters.env_steps_undone += transitions;
+            }
+        }
+        fragments.iter().for_each(|accepted| self.episodes.extend(&accepted.fragment.episodes));
+        self.actor_state = fragments.last().and_then(|accepted| accepted.fragment.actor_state.clone());
     }
 
     /// State of a new run.
@@ -215,17 +243,19 @@ impl TrainingState {
     }
 
     /// Returns a bundle with the weights of the actor only, which is what actors need.
-    pub fn for_actors(&self, bundle: &PolicyBundle) -> PolicyBundle {
-        let weights = treadmill_policy::actor_to_safetensors(&self.shape, self.ppo.parameters());
+    pub fn for_actors(&self, policy: &TrainedPolicy, bundle: &PolicyBundle) -> PolicyBundle {
+        let weights = treadmill_policy::actor_to_safetensors(&self.shape, &policy.parameters);
         PolicyBundle { checksum: seeds::checksum(&[&weights]), weights: weights.into(), ..bundle.clone() }
     }
 
-    /// Policy bundle with actor and critic, without [`Self::actor_state`], which is added on resume. `config` is the parsed
-    /// configuration and `config_hash` its hash: bundles are too frequent to compute either.
-    pub fn bundle(&self, config: &Config, config_hash: u64) -> Result<PolicyBundle, String> {
-        let weights = treadmill_policy::to_safetensors(&self.shape, self.ppo.parameters());
-        let normaliser =
-            Normaliser::from_moments(self.ppo.observation_moments(), config.policy.observation_clip as f32);
+    /// Returns the bundle of this state's policy with actor and critic, without [`Self::actor_state`], which is added on
+    /// resume. `config` is the parsed configuration and `config_hash` its hash: bundles are too frequent to compute either.
+    ///
+    /// # Errors
+    /// If a size is too large.
+    pub fn bundle(&self, policy: &TrainedPolicy, config: &Config, config_hash: u64) -> Result<PolicyBundle, String> {
+        let weights = treadmill_policy::to_safetensors(&self.shape, &policy.parameters);
+        let normaliser = Normaliser::from_moments(&policy.observation_moments, config.policy.observation_clip as f32);
         let narrow = |size: usize| u32::try_from(size).map_err(|why| why.to_string());
         Ok(PolicyBundle {
             run: self.run.clone(),

@@ -6,6 +6,7 @@
 use std::collections::BTreeMap;
 
 use treadmill_config::{Config, RolloutConfig};
+use treadmill_ppo::BatchSize;
 use treadmill_proto::limits::{FRAGMENT_BYTES_MAX, STEPS_MAX};
 
 /// Horizon below which advantages lose more by their bias than small batches gain. Beyond the number of environments
@@ -44,12 +45,13 @@ pub struct HorizonRule {
 impl HorizonRule {
     /// Rule for a run whose observations and actions have these sizes.
     pub fn new(config: &Config, observation: usize, action: usize) -> Self {
+        let BatchSize { transitions, transitions_max } = BatchSize::of(&config.ppo);
         // Observation, action, log-probability, reward and flags. A truncated transition has a second observation.
         let row_bytes = 4 * (2 * observation + action + 2) + 1;
         Self {
             pinned: config.rollout.fragment_steps as usize,
-            batch: config.ppo.batch as usize,
-            batch_max: config.ppo.batch.max(config.ppo.batch_max) as usize,
+            batch: transitions,
+            batch_max: transitions_max,
             fragment_rows_max: FRAGMENT_BYTES_MAX / row_bytes,
         }
     }

@@ -39,6 +39,7 @@ use std::{
 use treadmill_config::LearnerMode;
 use treadmill_experience::lineage::{Descent, Lineage};
 use treadmill_ppo::AcceptedFragment;
+pub use treadmill_ppo::BatchSize;
 use treadmill_proto::{Outcome, Receipt};
 use treadmill_runtime::shutdown::Shutdown;
 
@@ -72,7 +73,7 @@ pub struct Intake<S: FragmentSource> {
     /// Fragments of the next batch so far, and their transitions.
     accepted: Vec<AcceptedFragment>,
     transitions: usize,
-    /// Time in which no fragment was there to take.
+    /// Time in which no fragment was there to take, since it was last asked for.
     idle: Duration,
 }
 
@@ -91,15 +92,6 @@ pub enum Collected {
 struct OwedReceipt<I> {
     incoming: I,
     incarnation: u64,
-}
-
-/// Size of a batch.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct BatchSize {
-    /// Transitions that the intake waits for.
-    pub transitions: usize,
-    /// Transitions from which on it takes no further fragment.
-    pub transitions_max: usize,
 }
 
 /// Fragments of one update.
@@ -131,9 +123,9 @@ impl<S: FragmentSource> Intake<S> {
         }
     }
 
-    /// Returns the time in which no fragment was there to take, since the learner started.
-    pub fn idle(&self) -> Duration {
-        self.idle
+    /// Returns the time in which no fragment was there to take, since the last call.
+    pub fn take_idle(&mut self) -> Duration {
+        std::mem::take(&mut self.idle)
     }
 
     /// Returns the names of the actors that are alive.

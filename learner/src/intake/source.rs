@@ -8,7 +8,7 @@ use std::{
 use treadmill_bus::{Alive, IncomingFragment, ReceivedFragment, RolloutCopies, RolloutIntake};
 use treadmill_proto::{PolicyVersion, Receipt};
 
-use crate::training::Heartbeat;
+use crate::waiting::Heartbeat;
 
 /// Source of fragments, of the names of living actors, and of the time.
 pub trait FragmentSource {

@@ -6,9 +6,8 @@ use bytes::Bytes;
 use treadmill_store::{Store, StoreError, Tag};
 
 use super::{LeadershipError, Manifest, Status, read_manifest};
+use crate::waiting::STALLED_AFTER;
 
-/// Duration of a write from which on a leader says that it waits. A request to a store that is cut off fails only later.
-pub const STALLED_AFTER: Duration = Duration::from_secs(2);
 /// Time after which a follower takes over from a leader whose liveliness token it has seen to go, if there is no progress.
 const PATIENCE: Duration = Duration::from_secs(1);
 /// The same for a leader that does not answer. Its token may stay for long: routers may repeat it to each other.

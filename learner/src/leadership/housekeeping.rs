@@ -3,7 +3,8 @@
 use std::{
     io,
     sync::{
-        Arc, Mutex,
+        Arc, OnceLock,
+        atomic::{AtomicBool, Ordering},
         mpsc::{RecvTimeoutError, SyncSender, sync_channel},
     },
     thread::JoinHandle,
@@ -24,35 +25,22 @@ const WARN_EVERY: Duration = Duration::from_secs(300);
 /// Newest states of a leader that are kept, so that a follower can read the one that it has found in the manifest.
 const KEPT: usize = 3;
 
-/// Manifest of the learner that has overtaken this one, once it is known. Clones share it.
-#[derive(Clone, Debug, Default)]
-pub struct Successor(Arc<Mutex<Option<Manifest>>>);
-
-impl Successor {
-    /// Returns the manifest.
-    #[must_use]
-    pub fn manifest(&self) -> Option<Manifest> {
-        self.0.lock().expect("no holder of this lock panics").clone()
-    }
-
-    pub(crate) fn set(&self, manifest: Manifest) {
-        *self.0.lock().expect("no holder of this lock panics") = Some(manifest);
-    }
-}
-
 /// Handle to the thread.
 #[derive(Debug)]
 pub(super) struct Housekeeping {
     saved: Option<SyncSender<()>>,
-    pub(super) successor: Successor,
+    /// Manifest of the learner that has overtaken this one, once it is known.
+    pub(super) successor: Arc<OnceLock<Manifest>>,
+    /// Whether `successor` is known.
+    pub(super) overtaken: Arc<AtomicBool>,
     thread: Option<JoinHandle<()>>,
 }
 
 impl Housekeeping {
     pub(super) fn start(store: &Store, epoch: u64, writer: u64) -> io::Result<Self> {
         let (saved, events) = sync_channel(1);
-        let successor = Successor::default();
-        let (store, found) = (store.clone(), successor.clone());
+        let (successor, overtaken) = (Arc::new(OnceLock::new()), Arc::new(AtomicBool::new(false)));
+        let (store, found, is_found) = (store.clone(), successor.clone(), overtaken.clone());
         let work = move || {
             // Until the first save, the manifest is the predecessor's.
             let mut event = events.recv().map_err(|_| RecvTimeoutError::Disconnected);
@@ -75,8 +63,9 @@ impl Housekeeping {
                     Err(RecvTimeoutError::Timeout) => {
                         read = Instant::now();
                         if let Some(manifest) = manifest_of_other(&store, writer) {
-                            found.set(manifest);
-                            return;
+                            // Only here is it set, and once.
+                            let _ = found.set(manifest);
+                            return is_found.store(true, Ordering::Release);
                         }
                     }
                     Err(RecvTimeoutError::Disconnected) => return,
@@ -85,7 +74,7 @@ impl Housekeeping {
             }
         };
         let thread = std::thread::Builder::new().name("leadership".to_string()).spawn(work)?;
-        Ok(Self { saved: Some(saved), successor, thread: Some(thread) })
+        Ok(Self { saved: Some(saved), successor, overtaken, thread: Some(thread) })
     }
 
     /// Lets the thread remove old states. One note waits while it works; more are not needed.

@@ -6,7 +6,7 @@
 //! # Layout
 //! - Here: [`Leadership`], which saves states.
 //! - [`manifest`]: [`Manifest`], which names the newest state and its leader.
-//! - `housekeeping`: thread that removes old states and notices a [`Successor`].
+//! - `housekeeping`: thread that removes old states and notices a successor.
 //! - [`follower`]: [`StateFollower`](follower::StateFollower), which keeps the newest state loaded and decides when to
 //!   take over.
 
@@ -16,15 +16,20 @@ pub mod manifest;
 #[cfg(test)]
 mod tests;
 
-use std::time::{Duration, Instant};
+use std::{
+    sync::{Arc, atomic::AtomicBool},
+    time::{Duration, Instant},
+};
 
 use treadmill_runtime::{epoch, machine, seeds};
 use treadmill_store::{Store, StoreError, Tag};
 
 use self::housekeeping::Housekeeping;
-pub use self::housekeeping::Successor;
 pub use self::manifest::{Manifest, Status};
-use crate::checkpoint::Counters;
+use crate::{
+    checkpoint::Counters,
+    waiting::{MayPass, Obstacle},
+};
 
 /// Name of the manifest.
 pub(crate) const MANIFEST: &str = "manifest.json";
@@ -63,6 +68,15 @@ pub enum LeadershipError {
     /// The store failed.
     #[error(transparent)]
     Store(#[from] StoreError),
+}
+
+impl MayPass for LeadershipError {
+    fn obstacle(&self) -> Option<Obstacle> {
+        match self {
+            Self::Store(source) => source.obstacle(),
+            _ => None,
+        }
+    }
 }
 
 /// Reads the manifest of a store, if there is one, and its tag.
@@ -143,10 +157,10 @@ impl Leadership {
         &self.store
     }
 
-    /// Returns what becomes known of a learner that overtakes this one.
+    /// Returns a flag that is set once another learner is known to lead.
     #[must_use]
-    pub fn successor(&self) -> Successor {
-        self.housekeeping.as_ref().map(|housekeeping| housekeeping.successor.clone()).unwrap_or_default()
+    pub fn overtaken(&self) -> Arc<AtomicBool> {
+        self.housekeeping.as_ref().map(|housekeeping| housekeeping.overtaken.clone()).unwrap_or_default()
     }
 
     /// Makes an encoded state of `run` the newest. When this returns, the state is durable, and no learner of a lower epoch
@@ -215,8 +229,8 @@ impl Leadership {
     pub fn check(&self) -> Result<(), LeadershipError> {
         self.housekeeping
             .as_ref()
-            .and_then(|housekeeping| housekeeping.successor.manifest())
-            .map_or(Ok(()), |successor| Err(self.overtaken_by(&successor)))
+            .and_then(|housekeeping| housekeeping.successor.get())
+            .map_or(Ok(()), |successor| Err(self.overtaken_by(successor)))
     }
 
     /// Replaces the manifest by a conditional write.

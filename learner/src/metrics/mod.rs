@@ -2,7 +2,6 @@
 //!
 //! # Layout
 //! - [`scalars`]: the scalars of each update; [`histograms`]: distributions of actions and lags.
-//! - [`episodes`]: the window of episodes for means.
 //! - [`reward_terms`]: [`RewardTerms`], the terms of the reward over a batch.
 //! - [`report`]: [`MetricsReport`], which writes to every output below.
 //! - [`progress`]: [`Console`], progress on standard output.
@@ -20,7 +19,6 @@
 pub mod curve;
 pub mod curve_thread;
 mod efficiency;
-pub mod episodes;
 pub mod histograms;
 pub mod history;
 pub mod jsonl;
@@ -40,7 +38,7 @@ pub use history::History;
 pub use jsonl::JsonLines;
 pub use progress::{Console, ConsoleOptions};
 pub use prometheus::PrometheusMetrics;
-pub use report::MetricsReport;
+pub use report::{MetricsReport, ReportOptions};
 pub use reward_terms::RewardTerms;
 pub use tensorboard::{EventWriter, Histogram};
 

@@ -1,20 +1,33 @@
 //! Writes each scalar to every output: console, TensorBoard, `metrics.jsonl`, bus and Prometheus.
 
-use std::{collections::HashMap, time::Duration};
+use std::{collections::HashMap, io, time::Duration};
 
 use treadmill_bus::{Bus, keys, publish_dropping};
 use treadmill_config::Config;
 use treadmill_proto::json::Metric;
-use treadmill_runtime::{error_chain, machine};
+use treadmill_runtime::{error_chain, machine, run_folder::RunFolder};
 
-use super::{Console, CurveThread, EventWriter, Histogram, History, JsonLines, PrometheusMetrics, tensorboard::texts};
-use crate::{
-    checkpoint::TrainingState,
-    training::{TrainingError, TrainingOptions, waiting::Retry},
+use super::{
+    Console, ConsoleOptions, CurveError, CurveThread, EventWriter, Histogram, History, JsonLines, PrometheusMetrics,
+    tensorboard::texts,
 };
+use crate::{checkpoint::TrainingState, waiting::Retry};
 
 /// Publishes a JSON object under one tag.
 type Publish = Box<dyn Fn(Vec<u8>) + Send>;
+
+/// Options of [`MetricsReport`].
+#[derive(Clone, Debug, Default)]
+pub struct ReportOptions {
+    /// What the console shows.
+    pub console: ConsoleOptions,
+    /// Newest values for Prometheus.
+    pub prometheus: PrometheusMetrics,
+    /// Command line of this process, for TensorBoard.
+    pub command: String,
+    /// Names and values of versions and machine, for TensorBoard.
+    pub versions: Vec<(String, String)>,
+}
 
 /// All outputs of scalars and histograms.
 pub struct MetricsReport {
@@ -30,14 +43,17 @@ pub struct MetricsReport {
 }
 
 impl MetricsReport {
-    /// Opens the logs. For a resumed run, removes lines that are newer than the checkpoint.
+    /// Opens the logs in the run's folder. For a resumed run, removes lines that are newer than the checkpoint.
+    ///
+    /// # Errors
+    /// If a log cannot be written.
     pub fn open(
         bus: &Bus,
+        folder: &RunFolder,
         state: &TrainingState,
         config: &Config,
-        options: &TrainingOptions,
-    ) -> Result<Self, TrainingError> {
-        let folder = options.folder.clone();
+        options: &ReportOptions,
+    ) -> io::Result<Self> {
         let (now, env_steps) = (machine::time_unix_s(), state.counters.env_steps);
         if folder.metrics().exists() {
             JsonLines::truncate_after(&folder.metrics(), env_steps)?;
@@ -86,7 +102,7 @@ impl MetricsReport {
         scalars: &[(String, f64)],
         history: &History,
         retry: &Retry,
-    ) -> std::io::Result<()> {
+    ) -> io::Result<()> {
         let time_unix_s = machine::time_unix_s();
         let metrics: Vec<Metric> = scalars
             .iter()
@@ -119,7 +135,7 @@ impl MetricsReport {
         env_steps: u64,
         histograms: &[(String, Histogram)],
         retry: &Retry,
-    ) -> std::io::Result<()> {
+    ) -> io::Result<()> {
         let time_unix_s = machine::time_unix_s();
         retry.until_written(|| self.events.histograms(env_steps, time_unix_s, histograms))
     }
@@ -154,8 +170,11 @@ impl MetricsReport {
     }
 
     /// Finishes the console output and draws the learning curve.
-    pub fn finish(&mut self, history: &History) -> Result<(), TrainingError> {
+    ///
+    /// # Errors
+    /// If the curve cannot be drawn.
+    pub fn finish(&mut self, history: &History) -> Result<(), CurveError> {
         self.console.finish(history);
-        Ok(self.curve.finish()?)
+        self.curve.finish()
     }
 }

@@ -5,13 +5,12 @@ use std::{
     time::{Duration, Instant},
 };
 
-use treadmill_config::Config;
 use treadmill_ppo::{AcceptedFragment, UpdateStats};
-use treadmill_proto::ActorStats;
+use treadmill_proto::{ActorStats, EvaluationReport};
 use treadmill_runtime::machine;
 
 use super::{Efficiency, History};
-use crate::{checkpoint::TrainingState, training::evaluation::EvaluationResult};
+use crate::checkpoint::TrainingState;
 
 /// Durations of the phases of one update.
 #[derive(Clone, Copy, Debug, Default)]
@@ -22,11 +21,11 @@ pub struct PhaseDurations {
     pub update: Duration,
     /// Gradient steps alone.
     pub learn: Duration,
-    /// Writing the checkpoint.
+    /// Updating the state and writing the checkpoint.
     pub checkpoint: Duration,
-    /// From the end of the update until the new policy is announced.
+    /// Encoding and announcing the new policy, and releasing the receipts.
     pub publish: Duration,
-    /// Work of the training thread besides the update, since the last update was logged.
+    /// Work of the training thread besides the update: logging the last one, validating, saving and publishing.
     pub serial: Duration,
 }
 
@@ -122,8 +121,8 @@ impl ThroughputMeter {
 pub struct UpdateRecord<'a> {
     /// State after the update.
     pub state: &'a TrainingState,
-    /// Configuration.
-    pub config: &'a Config,
+    /// Largest distance of a probability ratio from 1 that the loss rewards.
+    pub clip_range: f64,
     /// Statistics of the update; `None` if it was undone.
     pub update: Option<&'a UpdateStats>,
     /// Lag of the batch.
@@ -134,8 +133,8 @@ pub struct UpdateRecord<'a> {
     pub epochs: u32,
     /// Durations of the phases.
     pub durations: PhaseDurations,
-    /// Result of an evaluation that has just ended.
-    pub evaluation: Option<&'a EvaluationResult>,
+    /// Report of an evaluation that has just ended, and the environment steps that its policy has learnt from.
+    pub evaluation: Option<(&'a EvaluationReport, u64)>,
     /// History of the run, including this update.
     pub history: &'a History,
     /// Throughput of the last updates.
@@ -219,7 +218,7 @@ impl UpdateRecord<'_> {
         }
         let counters = &self.state.counters;
         out.extend([
-            ("train/clip_range", self.config.ppo.clip_range),
+            ("train/clip_range", self.clip_range),
             ("train/batch", self.lag.transitions),
             ("train/epochs", f64::from(self.epochs)),
             ("train/learning_rate", self.state.ppo.learning_rate()),
@@ -248,7 +247,7 @@ impl UpdateRecord<'_> {
     }
 
     fn eval(&self, out: &mut Vec<(&str, f64)>) {
-        let Some(EvaluationResult { report, env_steps, .. }) = self.evaluation else { return };
+        let Some((report, env_steps)) = self.evaluation else { return };
         out.extend([
             ("eval/mean_reward", report.return_mean),
             ("eval/std_reward", report.return_std),
@@ -257,7 +256,7 @@ impl UpdateRecord<'_> {
             ("eval/distance_best_m", self.history.evaluated_best_m.unwrap_or(report.distance_mean_m)),
             ("eval/velocity_mean_mps", report.velocity_mean_mps),
             ("eval/fall_fraction", f64::from(report.falls) / f64::from(report.episodes)),
-            ("eval/total_timesteps", *env_steps as f64),
+            ("eval/total_timesteps", env_steps as f64),
         ]);
         out.extend(report.velocity_error_mps.map(|error| ("eval/velocity_error", error)));
         out.extend(report.yaw_rate_error_radps.map(|error| ("eval/yaw_rate_error", error)));

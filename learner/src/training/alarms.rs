@@ -4,6 +4,8 @@ use std::time::{Duration, Instant};
 
 use treadmill_bus::admission::rate_limited_log::RateLimitedLog;
 use treadmill_config::{Config, LearnerMode};
+use treadmill_ppo::{UpdateError, UpdateStats};
+use treadmill_runtime::error_chain;
 
 use crate::{intake::Rejections, metrics::Efficiency};
 
@@ -47,8 +49,16 @@ impl Alarms {
         });
     }
 
-    /// Records an undone update.
-    pub(super) fn record_undone(&mut self, why: &str, now: Instant) {
+    /// Records an update. One without a plausible fragment is an alarm about its senders, not about itself.
+    pub(super) fn record_update(&mut self, result: &Result<UpdateStats, UpdateError>, now: Instant) {
+        if let Err(why) = result
+            && !matches!(why, UpdateError::Empty)
+        {
+            self.record_undone(&error_chain(why), now);
+        }
+    }
+
+    fn record_undone(&mut self, why: &str, now: Instant) {
         let text = format!("an update was undone: {why}; if fragments caused it, the log names their senders");
         self.undone = Some((now, text));
     }

@@ -1,23 +1,16 @@
-//! Applies control commands and publishes the run's status.
+//! Applies control commands.
 
 use std::time::Duration;
 
-use treadmill_config::{ConfigSource, LearnerConfig};
-use treadmill_policy::NetworkShape;
-use treadmill_proto::{Command, ControlRequest, Phase, RunStatus};
-use treadmill_runtime::{atomic_file, error_chain, machine, numbers::thousands};
+use treadmill_config::{Config, ConfigError, ConfigSource};
+use treadmill_ppo::settings;
+use treadmill_proto::{Command, ControlRequest};
+use treadmill_runtime::{error_chain, numbers::thousands};
 
-use super::{
-    Trainer, TrainingError,
-    load_adaptation::LoadAdaptation,
-    serving::{Serving, save_newest},
-};
-use crate::{checkpoint::TrainingState, intake::HorizonRule};
+use super::{Trainer, TrainingError};
 
 /// Longest wait of a paused learner between two checks for shutdown.
 const TICK: Duration = Duration::from_millis(50);
-/// Longest interval between two publications of the status while the learner waits.
-pub(super) const STATUS_EVERY: Duration = Duration::from_secs(1);
 
 /// Keys outside `[ppo]` that may change during a run, because no actor depends on them.
 const CHANGEABLE: &[&str] = &[
@@ -28,37 +21,21 @@ const CHANGEABLE: &[&str] = &[
     "learner.table_every_updates",
     "learner.undone_max",
 ];
-/// Keys of `[ppo]` that cannot change during a run.
-const FIXED: &[&str] = &["ppo.symmetry"];
 
 /// Whether a key of the configuration may change during a run.
 pub fn is_changeable(key: &str) -> bool {
-    CHANGEABLE.contains(&key) || key.starts_with("ppo.") && !FIXED.contains(&key)
-}
-
-/// Returns the status of a run before its first update.
-pub(super) fn first_status(state: &TrainingState, env_steps_wanted: u64) -> RunStatus {
-    RunStatus {
-        run: state.run.clone(),
-        phase: Phase::Training.into(),
-        version: Some(state.lineage.newest().into()),
-        host: machine::host_name(),
-        pid: std::process::id(),
-        program_version: env!("CARGO_PKG_VERSION").to_string(),
-        env_steps_wanted,
-        ..RunStatus::default()
-    }
+    CHANGEABLE.contains(&key) || settings::is_changeable(key)
 }
 
 impl Trainer {
     /// Applies every queued command; while paused, waits for more.
     pub(super) fn apply_commands(&mut self) -> Result<(), TrainingError> {
         while !self.shutdown.asked() {
-            self.serving.heartbeat.beat();
-            let timeout = if self.serving.paused { TICK } else { Duration::ZERO };
+            self.heartbeat.beat();
+            let timeout = if self.is_paused { TICK } else { Duration::ZERO };
             let Some(pending) = self.serving.control.next(timeout) else {
-                if self.serving.paused {
-                    self.check_leadership()?;
+                if self.is_paused {
+                    self.serving.storage.check_leadership()?;
                     self.publish_status_if_due();
                     continue;
                 }
@@ -77,19 +54,18 @@ impl Trainer {
     fn apply(&mut self, request: &ControlRequest) -> Result<String, String> {
         let (updates, env_steps) = (self.state.counters.updates, thousands(self.state.counters.env_steps));
         match request.command() {
-            Command::Pause if self.serving.paused => Ok(format!("paused already, after update {updates}")),
+            Command::Pause if self.is_paused => Ok(format!("paused already, after update {updates}")),
             Command::Pause => {
-                self.serving.paused = true;
+                self.is_paused = true;
                 Ok(format!("paused after update {updates} ({env_steps} env steps); actors keep their fragments"))
             }
-            Command::Resume if !self.serving.paused => Ok("the run is not paused".to_string()),
+            Command::Resume if !self.is_paused => Ok("the run is not paused".to_string()),
             Command::Resume => {
-                self.serving.paused = false;
+                self.is_paused = false;
                 Ok(format!("resumed after update {updates} ({env_steps} env steps)"))
             }
             Command::Checkpoint => {
-                let Serving { checkpoints, saved, .. } = &self.serving;
-                let place = checkpoints.save_kept(updates, saved).map_err(|why| error_chain(&why))?;
+                let place = self.serving.storage.save_kept(updates).map_err(|why| error_chain(&why))?;
                 Ok(format!("the state after update {updates} ({env_steps} env steps) is saved as {place}"))
             }
             Command::Stop => {
@@ -102,103 +78,55 @@ impl Trainer {
         }
     }
 
-    /// Changes one key and every part that depends on it.
+    /// Changes one key.
     fn set(&mut self, key: &str, value: &str) -> Result<String, String> {
-        let mut source = ConfigSource::default();
-        source.text(&self.state.config_toml, "the configuration of the run").map_err(|why| error_chain(&why))?;
-        source.set(&format!("{key}={value}")).map_err(|why| error_chain(&why))?;
-        let mut changed = source.build().map_err(|why| error_chain(&why))?;
-        let saved_toml = changed.to_toml();
-        if key != "run.steps" {
-            // The goal of this start may be nearer than the one that is saved.
-            changed.run.steps = self.config.run.steps;
-        }
-        if !is_changeable(key) {
-            return Err(format!(
-                "`{key}` cannot be changed during the run, because actors or the state depend on it; changeable are {}, and \
-                 the keys of [ppo] other than {}",
-                CHANGEABLE.join(", "),
-                FIXED.join(", ")
-            ));
-        }
-        if key == "eval.every_steps" && self.serving.evaluation.is_none() && changed.evaluates() {
-            let why = "`eval.every_steps` cannot be set, because the run was started without evaluation; start a new run \
-                       with it";
-            return Err(why.to_string());
-        }
+        let changed = changed(&self.state.config_toml, key, value).map_err(|why| error_chain(&why))?;
+        self.objection(key, &changed).map_or(Ok(()), Err)?;
         let before = self.config.value_of(key);
-        self.state.ppo.adopt_key(key, &changed.ppo);
-        self.learning.ppo.set_config(&changed.ppo);
-        self.learning.load = LoadAdaptation::new(&changed);
-        let NetworkShape { observation, action, .. } = self.state.shape;
-        self.serving.intake.fleet.set_rule(HorizonRule::new(&changed, observation, action));
-        let LearnerConfig { checkpoint_every_updates, keep_checkpoints, .. } = changed.learner;
-        self.serving.checkpoints.set_retention(checkpoint_every_updates.into(), keep_checkpoints as usize);
-        let for_report = changed.clone();
-        self.reporting.background.submit(move |report| {
-            report.set_config(&for_report);
-            Ok(())
-        });
-        if let Some(evaluation) = &mut self.serving.evaluation {
-            evaluation.set_every(changed.eval.every_steps, self.state.counters.env_steps);
-        }
-        self.state.config_toml = saved_toml;
-        self.config = changed;
-        // A run that is stopped before its next update goes on with the change, too.
-        let Serving { checkpoints, leadership, .. } = &mut self.serving;
-        let saved = save_newest(&self.state, leadership.as_mut(), checkpoints, &self.retry);
-        self.serving.saved = saved.map_err(|why| error_chain(&why))?;
-        let file = &self.reporting.config_file;
-        if let Err(why) = atomic_file::write(file, self.state.config_toml.as_bytes()) {
-            tracing::warn!(file = %file.display(), error = %why, "the changed configuration cannot be written");
-        }
+        self.adopt(key, changed).map_err(|why| error_chain(&why))?;
         let after = self.config.value_of(key);
         let from = self.state.counters.updates + 1;
         Ok(format!("{key} is {after}, was {before}, from update {from} on"))
     }
 
-    /// Publishes the status if [`STATUS_EVERY`] has passed since the last time.
-    pub(super) fn publish_status_if_due(&mut self) {
-        if self.serving.control.since_status() >= STATUS_EVERY {
-            self.publish_status(false);
+    /// Returns why a key cannot be changed, if so.
+    fn objection(&self, key: &str, changed: &Config) -> Option<String> {
+        if !is_changeable(key) {
+            return Some(format!(
+                "`{key}` cannot be changed during the run, because actors or the state depend on it; changeable are {}, and \
+                 the keys of [ppo] other than {}",
+                CHANGEABLE.join(", "),
+                settings::FIXED_KEYS.join(", ")
+            ));
         }
+        let is_late = key == "eval.every_steps" && !self.serving.evaluates() && changed.evaluates();
+        is_late.then(|| {
+            "`eval.every_steps` cannot be set, because the run was started without evaluation; start a new run with it"
+                .to_string()
+        })
     }
 
-    /// Publishes the status; `is_update` right after an update.
-    pub(super) fn publish_status(&mut self, is_update: bool) {
-        let (state, validator) = (&self.state, &self.serving.intake.validator);
-        let (means, counts) = (state.episodes.means(), validator.counts);
-        let phase = match (self.shutdown.asked(), self.serving.paused) {
-            (true, _) => Phase::Stopping,
-            (false, true) => Phase::Paused,
-            (false, false) => Phase::Training,
-        };
-        let status = RunStatus {
-            phase: phase.into(),
-            env_steps: state.counters.env_steps,
-            updates: state.counters.updates,
-            wall_s: state.counters.wall_s,
-            env_steps_per_s: self.reporting.env_steps_per_s,
-            return_mean: means.map(|means| means.return_mean),
-            length_mean: means.map(|means| means.length_mean),
-            distance_mean_m: means.map(|means| means.distance_mean_m),
-            velocity_mean_mps: means.map(|means| means.velocity_mean_mps),
-            policy_lag_mean: self.reporting.lag_mean,
-            resident_bytes: machine::resident_bytes(),
-            accepted: counts.accepted,
-            accepted_bytes: validator.accepted_bytes,
-            duplicate: counts.duplicate,
-            too_old: counts.too_old,
-            vanished: counts.vanished,
-            malformed: counts.malformed,
-            quarantined: counts.quarantined,
-            used_share: self.reporting.efficiency.used_share,
-            idle_share: self.reporting.efficiency.idle_share,
-            undone_updates: state.counters.undone_updates,
-            alarms: self.reporting.alarms.texts(&validator.rejections, std::time::Instant::now()),
-            ..first_status(state, self.config.run.steps)
-        };
-        let quarantined = validator.quarantined(std::time::Instant::now());
-        self.serving.control.set_status(status, quarantined, is_update);
+    /// Lets every part adopt a configuration in which `key` has changed, and saves it.
+    fn adopt(&mut self, key: &str, changed: Config) -> Result<(), TrainingError> {
+        let Self { state, config, learning, serving, reporting, .. } = self;
+        state.config_toml = changed.to_toml();
+        // The goal of this start may be nearer than the one that is saved.
+        let steps = if key == "run.steps" { changed.run.steps } else { config.run.steps };
+        *config = changed;
+        config.run.steps = steps;
+        learning.set_config(&mut state.ppo, key, config);
+        serving.set_config(state, config);
+        // A run that is stopped before its next update goes on with the change, too.
+        serving.storage.save(state)?;
+        reporting.set_config(state, config);
+        Ok(())
     }
+}
+
+/// Returns the configuration `toml` with another value of `key`.
+fn changed(toml: &str, key: &str, value: &str) -> Result<Config, ConfigError> {
+    let mut source = ConfigSource::default();
+    source.text(toml, "the configuration of the run")?;
+    source.set(&format!("{key}={value}"))?;
+    source.build()
 }

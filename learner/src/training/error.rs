@@ -5,7 +5,7 @@ use std::io;
 use treadmill_bus::BusError;
 use treadmill_ppo::UpdateError;
 
-use crate::{checkpoint::CheckpointError, leadership::LeadershipError, metrics::CurveError};
+use crate::{checkpoint::CheckpointError, leadership::LeadershipError};
 
 /// Why training stopped early.
 #[derive(Debug, thiserror::Error)]
@@ -39,7 +39,4 @@ pub enum TrainingError {
         /// What is wrong.
         why: String,
     },
-    /// The learning curve could not be drawn.
-    #[error(transparent)]
-    Curve(#[from] CurveError),
 }

@@ -70,7 +70,8 @@ impl EvaluationScheduler {
     /// Returns the next result of a submitted policy; each policy has at most one.
     pub fn next_result(&mut self) -> Option<EvaluationResult> {
         while let Some(report) = self.server.next_report() {
-            let known = self.candidates.iter().position(|candidate| candidate.version == report.version);
+            let known =
+                self.candidates.iter().position(|candidate| candidate.version.names_same_policy(report.version));
             if let Some(Candidate { env_steps, checkpoint, .. }) = known.and_then(|at| self.candidates.remove(at)) {
                 return Some(EvaluationResult { report, env_steps, checkpoint });
             }

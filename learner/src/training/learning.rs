@@ -1,24 +1,43 @@
-//! Updates the parameters from a batch.
+//! Updates the policy from a batch.
 
-use std::{
-    error::Error,
-    time::{Duration, Instant},
-};
+use std::time::{Duration, Instant};
 
 use treadmill_config::Config;
-use treadmill_ppo::{AcceptedFragment, Improvement, Ppo, PpoOptions, UpdateError, UpdateStats};
+use treadmill_ppo::{
+    Implausible, Improvement, LoadAdaptation, Ppo, PpoOptions, PpoState, TrainedPolicy, UpdateError, UpdateStats,
+};
+use treadmill_proto::Fragment;
 use treadmill_runtime::{error_chain, machine};
 
-use super::{Trainer, TrainingError, TrainingOptions, load_adaptation::LoadAdaptation};
-use crate::checkpoint::TrainingState;
+use super::{TrainingError, TrainingOptions};
+use crate::{checkpoint::TrainingState, intake::CollectedBatch};
 
-/// Learning part of a [`Trainer`].
+/// Learning part of a trainer: called with a batch, it returns a policy.
 pub(super) struct Learning {
     pub(super) ppo: Ppo,
     pub(super) load: LoadAdaptation,
     undone_in_a_row: u32,
-    /// Duration of the last update's gradient steps.
+}
+
+/// Result of an update.
+pub(super) struct Update {
+    /// Policy after the update.
+    pub(super) policy: TrainedPolicy,
+    /// Statistics, or why the update was undone.
+    pub(super) result: Result<UpdateStats, UpdateError>,
+    /// Implausible fragments, which were removed from the batch.
+    pub(super) rejected: Vec<(Fragment, Implausible)>,
+    /// Passes over the batch.
+    pub(super) epochs: u32,
+    /// Duration of the gradient steps.
     pub(super) learn: Duration,
+}
+
+impl Update {
+    /// Returns the statistics; `None` if the update was undone.
+    pub(super) fn stats(&self) -> Option<&UpdateStats> {
+        self.result.as_ref().ok()
+    }
 }
 
 impl Learning {
@@ -28,7 +47,7 @@ impl Learning {
         config: &Config,
         options: &TrainingOptions,
     ) -> Result<Self, TrainingError> {
-        let invalid = |why: &dyn Error| TrainingError::State { why: error_chain(why) };
+        let invalid = |why: &dyn std::error::Error| TrainingError::State { why: error_chain(why) };
         let threads = match config.learner.threads {
             0 => machine::cores(),
             threads => threads as usize,
@@ -41,68 +60,45 @@ impl Learning {
         };
         let ppo = Ppo::new(ppo_options, &config.ppo);
         ppo.policy(&state.ppo).map_err(|why| invalid(&why))?;
-        Ok(Self { ppo, load: LoadAdaptation::new(config), undone_in_a_row: 0, learn: Duration::ZERO })
+        Ok(Self { ppo, load: LoadAdaptation::new(&config.ppo, config.learner.mode), undone_in_a_row: 0 })
     }
-}
 
-impl Trainer {
-    /// Updates the parameters from the fragments of a batch. Implausible fragments are reported and removed. Returns
-    /// `None` if the update was undone.
-    pub(super) fn update(
-        &mut self,
-        fragments: &mut Vec<AcceptedFragment>,
-    ) -> Result<Option<UpdateStats>, TrainingError> {
-        let Self { state, learning, config, reporting, .. } = self;
-        let epochs = learning.load.epochs();
-        let prepared = learning.ppo.prepare(&state.ppo, fragments).map_err(TrainingError::Inference)?;
+    /// Adopts a configuration in which `key` has changed.
+    pub(super) fn set_config(&mut self, state: &mut PpoState, key: &str, config: &Config) {
+        state.adopt_key(key, &config.ppo);
+        self.ppo.set_config(&config.ppo);
+        self.load = LoadAdaptation::new(&config.ppo, config.learner.mode);
+    }
+
+    /// Updates the policy from the fragments of a batch, without those that are implausible.
+    pub(super) fn update(&mut self, state: &mut PpoState, batch: &mut CollectedBatch) -> Result<Update, TrainingError> {
+        let epochs = self.load.epochs();
+        let prepared = self.ppo.prepare(state, &mut batch.fragments).map_err(TrainingError::Inference)?;
         let begun = Instant::now();
-        let Improvement { result, rejected } = learning.ppo.improve(&mut state.ppo, epochs, fragments, prepared);
-        learning.learn = begun.elapsed();
-        let validator = &mut self.serving.intake.validator;
-        for (fragment, why) in &rejected {
-            validator.report_implausible(fragment, why, Instant::now());
-        }
-        fragments.iter().for_each(|accepted| validator.report_learnt(&accepted.fragment));
-        self.serving.heartbeat.beat();
-        match result {
-            Ok(stats) => {
-                learning.undone_in_a_row = 0;
-                state.counters.gradient_steps += stats.gradient_steps;
-                Ok(Some(stats))
-            }
+        let Improvement { policy, result, rejected } = self.ppo.improve(state, epochs, &mut batch.fragments, prepared);
+        let learn = begun.elapsed();
+        self.load.adapt(batch.has_backlog);
+        Ok(Update { policy, result, rejected, epochs, learn })
+    }
+
+    /// Counts the updates in a row that were undone by a fault of the learner, and logs why.
+    pub(super) fn check_undone(&mut self, update: Update, undone_max: u32) -> Result<Update, TrainingError> {
+        match update.result {
+            Ok(_) => self.undone_in_a_row = 0,
             // The senders are at fault, so this does not end the run.
             Err(UpdateError::Empty) => {
-                tracing::warn!(rejected = rejected.len(), "update undone: no fragment of the batch is plausible");
-                state.counters.undone_updates += 1;
-                Ok(None)
+                let rejected = update.rejected.len();
+                tracing::warn!(rejected, "update undone: no fragment of the batch is plausible");
             }
             Err(source) => {
                 tracing::warn!(error = %error_chain(&source), "update undone");
-                reporting.alarms.record_undone(&error_chain(&source), Instant::now());
-                learning.undone_in_a_row += 1;
-                state.counters.undone_updates += 1;
-                if learning.undone_in_a_row >= config.learner.undone_max {
-                    return Err(TrainingError::Undone { updates: learning.undone_in_a_row, source });
+                self.undone_in_a_row += 1;
+                if self.undone_in_a_row >= undone_max {
+                    return Err(TrainingError::Undone { updates: self.undone_in_a_row, source });
                 }
-                Ok(None)
+                return Ok(Update { result: Err(source), ..update });
             }
         }
-    }
-
-    /// Advances the state by the update from `fragments`, also if it was undone.
-    pub(super) fn advance(&mut self, fragments: &[AcceptedFragment], is_undone: bool) {
-        let state = &mut self.state;
-        state.lineage.advance();
-        state.counters.updates += 1;
-        for AcceptedFragment { fragment, .. } in fragments {
-            state.counters.env_steps += fragment.transitions() as u64;
-            state.counters.env_steps_undone += if is_undone { fragment.transitions() as u64 } else { 0 };
-            state.episodes.extend(&fragment.episodes);
-        }
-        state.actor_state = fragments.last().and_then(|accepted| accepted.fragment.actor_state.clone());
-        state.counters.env_steps_simulated =
-            self.reporting.simulated_before + self.serving.intake.fleet.effort().env_steps;
-        state.counters.wall_s = self.reporting.wall_s();
-        state.counters.restarts = self.reporting.restarts();
+        Ok(update)
     }
 }

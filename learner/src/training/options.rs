@@ -5,10 +5,10 @@ use std::sync::{Arc, atomic::AtomicU64};
 use treadmill_ppo::BatchMirror;
 use treadmill_runtime::run_folder::RunFolder;
 
-use super::heartbeat::Heartbeat;
 use crate::{
     checkpoint::TrainingState,
-    metrics::{ConsoleOptions, History, PrometheusMetrics},
+    metrics::{History, ReportOptions},
+    waiting::Heartbeat,
 };
 
 /// Inputs of training besides the initial state.
@@ -23,18 +23,12 @@ pub struct TrainingOptions {
     pub device: treadmill_policy::device::Device,
     /// Mirror for `ppo.symmetry`.
     pub mirror: Option<BatchMirror>,
-    /// What the console shows.
-    pub console: ConsoleOptions,
+    /// Outputs of metrics.
+    pub report: ReportOptions,
     /// Actor processes that the supervisor has restarted.
     pub restarts: Arc<AtomicU64>,
-    /// Newest values for Prometheus.
-    pub prometheus: PrometheusMetrics,
     /// Heartbeat of the training thread.
     pub heartbeat: Heartbeat,
-    /// Command line of this process, for TensorBoard.
-    pub command: String,
-    /// Names and values of versions and machine, for TensorBoard.
-    pub versions: Vec<(String, String)>,
     /// Names of an action's entries; entries without a name are shown by their number.
     pub action_names: Vec<String>,
 }

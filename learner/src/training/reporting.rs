@@ -11,35 +11,44 @@ use std::{
 };
 
 use treadmill_bus::StatsFeed;
-use treadmill_ppo::{AcceptedFragment, UpdateStats};
-use treadmill_runtime::error_chain;
+use treadmill_config::Config;
+use treadmill_runtime::atomic_file;
 
 use super::{
-    Trainer, TrainingError, TrainingOptions, alarms::Alarms, background::Background, evaluation::EvaluationResult,
+    Learning, Serving, TrainingError, TrainingOptions, Update, alarms::Alarms, background::Background,
+    evaluation::EvaluationResult,
 };
 use crate::{
-    checkpoint::TrainingState,
-    intake::ledger_report,
-    leadership::Status,
+    checkpoint::{Counters, TrainingState},
+    intake::{CollectedBatch, FleetEffort},
     metrics::{
         Efficiency, EfficiencyMeter, History, MetricsReport, PrometheusMetrics, RewardTerms, histograms,
         scalars::{PhaseDurations, PolicyLag, ThroughputMeter, UpdateRecord},
     },
+    waiting::Retry,
 };
 
-/// Longest time for writing into the store why a leadership ended. A supervisor kills after a minute at the earliest.
-const END_WITHIN: Duration = Duration::from_secs(20);
+/// What is logged of a round.
+pub(super) struct Round {
+    pub(super) batch: CollectedBatch,
+    pub(super) update: Update,
+    /// Evaluation that has ended during the round.
+    pub(super) evaluation: Option<EvaluationResult>,
+    pub(super) durations: PhaseDurations,
+}
 
-/// Reporting part of a [`Trainer`].
+/// Reporting part of a trainer.
 pub(super) struct Reporting {
     pub(super) background: Background,
     /// Return and distance over the run.
     pub(super) history: History,
     stats: StatsFeed,
     prometheus: PrometheusMetrics,
-    ledger_report: PathBuf,
+    retry: Retry,
+    /// Account of every actor process, in the run folder.
+    pub(super) ledger_report: PathBuf,
     /// Configuration in the run folder.
-    pub(super) config_file: PathBuf,
+    config_file: PathBuf,
     action_names: Vec<String>,
     reward_terms: RewardTerms,
     throughput: ThroughputMeter,
@@ -50,10 +59,8 @@ pub(super) struct Reporting {
     restarts: Arc<AtomicU64>,
     restarts_before: u64,
     /// Environment steps that actors had counted when this process started.
-    pub(super) simulated_before: u64,
+    simulated_before: u64,
     begun: Instant,
-    /// When the last round was logged, and how long the intake had been idle then.
-    last_round: (Instant, Duration),
     wall_before_s: f64,
     pub(super) env_steps_per_s: f64,
     /// Mean lag of the last batch.
@@ -67,12 +74,14 @@ impl Reporting {
         stats: StatsFeed,
         state: &TrainingState,
         options: &TrainingOptions,
+        retry: Retry,
     ) -> io::Result<Self> {
         Ok(Self {
             background: Background::start(report)?,
             history,
             stats,
-            prometheus: options.prometheus.clone(),
+            prometheus: options.report.prometheus.clone(),
+            retry,
             ledger_report: options.folder.accounts(),
             config_file: options.folder.config(),
             action_names: options.action_names.clone(),
@@ -85,70 +94,82 @@ impl Reporting {
             restarts_before: state.counters.restarts,
             simulated_before: state.counters.env_steps_simulated,
             begun: Instant::now(),
-            last_round: (Instant::now(), Duration::ZERO),
             wall_before_s: state.counters.wall_s,
             env_steps_per_s: 0.0,
             lag_mean: 0.0,
         })
     }
 
-    /// Seconds of training over the whole run.
-    pub(super) fn wall_s(&self) -> f64 {
-        self.wall_before_s + self.begun.elapsed().as_secs_f64()
+    /// Adopts a changed configuration, and writes that of the state into the run folder.
+    pub(super) fn set_config(&self, state: &TrainingState, config: &Config) {
+        let config = config.clone();
+        self.background.submit(move |report| {
+            report.set_config(&config);
+            Ok(())
+        });
+        let file = &self.config_file;
+        if let Err(why) = atomic_file::write(file, state.config_toml.as_bytes()) {
+            tracing::warn!(file = %file.display(), error = %why, "the changed configuration cannot be written");
+        }
     }
 
-    /// Returns the work of the training thread besides the update, since the last call. `idle` is that of the intake so far.
-    pub(super) fn serial(&mut self, update: Duration, idle: Duration) -> Duration {
-        let (last, idle_before) = std::mem::replace(&mut self.last_round, (Instant::now(), idle));
-        self.last_round.0.duration_since(last).saturating_sub(update + (idle - idle_before))
+    /// Sets what the run has cost so far: time, restarts of actor processes, and the steps that they have simulated.
+    pub(super) fn advance(&self, counters: &mut Counters, effort: FleetEffort) {
+        counters.env_steps_simulated = self.simulated_before + effort.env_steps;
+        counters.wall_s = self.wall_before_s + self.begun.elapsed().as_secs_f64();
+        counters.restarts = self.restarts_before + self.restarts.load(Ordering::Relaxed);
     }
 
-    /// Restarts of actor processes over the whole run.
-    pub(super) fn restarts(&self) -> u64 {
-        self.restarts_before + self.restarts.load(Ordering::Relaxed)
+    /// Shows a long wait for experience on the console; `actors` are alive.
+    pub(super) fn show_wait(&self, waited: Duration, actors: usize) {
+        self.background.submit(move |report| {
+            report.show_wait(waited, actors);
+            Ok(())
+        });
     }
-}
 
-impl Trainer {
-    /// Logs one update.
+    /// Logs a round.
     pub(super) fn log(
         &mut self,
-        update: Option<&UpdateStats>,
-        batch: &[AcceptedFragment],
-        durations: PhaseDurations,
-        evaluation: Option<&EvaluationResult>,
+        state: &TrainingState,
+        config: &Config,
+        learning: &Learning,
+        serving: &Serving,
+        Round { batch, update, evaluation, durations }: &Round,
     ) -> Result<(), TrainingError> {
-        let Self { state, config, retry, learning, serving, reporting, .. } = self;
-        let alive = serving.intake.alive();
-        let learnt = if update.is_some() { transitions(batch) } else { 0 };
-        let effort = serving.intake.fleet.effort();
-        reporting.efficiency = reporting.efficiency_meter.mark(Instant::now(), learnt, effort, alive.len());
-        let (too_old, undone) = (serving.intake.validator.counts.too_old, state.counters.undone_updates);
-        reporting.alarms.record_efficiency(reporting.efficiency, too_old, undone, config);
+        let fragments = &batch.fragments;
+        let (validator, alive) = (&serving.intake.validator, serving.intake.alive());
+        let lag = PolicyLag::of(fragments);
+        let learnt = match &update.result {
+            Ok(_) => fragments.iter().map(|accepted| accepted.fragment.transitions() as u64).sum(),
+            Err(_) => 0,
+        };
+        self.efficiency =
+            self.efficiency_meter.mark(Instant::now(), learnt, serving.intake.fleet.effort(), alive.len());
+        self.alarms.record_efficiency(self.efficiency, validator.counts.too_old, state.counters.undone_updates, config);
         let env_steps = state.counters.env_steps;
-        let (throughput, lag) = (reporting.throughput.mark(env_steps, serving.waited), PolicyLag::of(batch));
-        (reporting.env_steps_per_s, reporting.lag_mean) = (throughput.env_steps_per_s, lag.mean);
-        let stats = reporting.stats.newest();
-        reporting.prometheus.set_actors(stats, state.lineage.newest());
+        let throughput = self.throughput.mark(env_steps, serving.waited);
+        (self.env_steps_per_s, self.lag_mean) = (throughput.env_steps_per_s, lag.mean);
+        let stats = self.stats.newest();
+        self.prometheus.set_actors(stats, state.lineage.newest());
         let (return_mean, distance_m) = state.episodes.means().map(|m| (m.return_mean, m.distance_mean_m)).unzip();
-        reporting.history.add(return_mean, distance_m, evaluation.map(|result| result.report.distance_mean_m));
+        self.history.add(return_mean, distance_m, evaluation.as_ref().map(|result| result.report.distance_mean_m));
         if let Some(EvaluationResult { report, .. }) = evaluation {
-            reporting.history.note_tracking(report.velocity_error_mps, report.yaw_rate_error_radps);
+            self.history.note_tracking(report.velocity_error_mps, report.yaw_rate_error_radps);
         }
-        let validator = &serving.intake.validator;
         let record = UpdateRecord {
             state,
-            config,
-            update,
+            clip_range: learning.ppo.clip_range(),
+            update: update.stats(),
             lag,
-            reward_terms: reporting.reward_terms.of(batch),
-            epochs: learning.load.epochs(),
-            durations,
-            evaluation,
-            history: &reporting.history,
+            reward_terms: self.reward_terms.of(fragments),
+            epochs: update.epochs,
+            durations: *durations,
+            evaluation: evaluation.as_ref().map(|result| (&result.report, result.env_steps)),
+            history: &self.history,
             throughput,
             stats,
-            efficiency: reporting.efficiency,
+            efficiency: self.efficiency,
             alive,
             quarantined: validator.quarantined(Instant::now()).len(),
             turned_away: validator.turned_away,
@@ -156,62 +177,14 @@ impl Trainer {
         };
         let scalars = record.scalars();
         let updates = state.counters.updates;
-        let histograms = histograms::is_due(updates).then(|| histograms::of(batch, &reporting.action_names));
-        let (history, retry) = (reporting.history.clone(), retry.clone());
-        reporting.background.submit(move |report| {
+        let histograms = histograms::is_due(updates).then(|| histograms::of(fragments, &self.action_names));
+        let (history, retry) = (self.history.clone(), self.retry.clone());
+        self.background.submit(move |report| {
             if let Some(histograms) = histograms {
                 report.log_histograms(env_steps, &histograms, &retry)?;
             }
             Ok(report.log(env_steps, updates, &scalars, &history, &retry)?)
         });
-        reporting.background.check()
+        self.background.check()
     }
-
-    /// Ends the run: answers waiting senders and writes the last logs. `outcome` is whether the run was stopped before
-    /// its last step. Returns the state, what it has reached, and the outcome.
-    pub(super) fn finish(
-        mut self,
-        outcome: Result<bool, TrainingError>,
-    ) -> Result<(TrainingState, History, bool), TrainingError> {
-        self.serving.intake.stop(&self.state.lineage);
-        self.end_leadership(&outcome);
-        let Reporting { background, history, ledger_report, .. } = self.reporting;
-        let (mut report, written) = background.finish();
-        let outcome = outcome.and_then(|stopped| written.map(|()| stopped));
-        report.end(outcome.as_ref().ok().copied());
-        let stopped = outcome?;
-        // The ledger of the last checkpoint, without fragments accepted since. The run is saved, whatever becomes of these.
-        if let Err(why) = ledger_report::write(&ledger_report, &self.state.ledger) {
-            tracing::warn!(file = %ledger_report.display(), error = %error_chain(&why), "the accounts cannot be written");
-        }
-        if let Err(why) = report.finish(&history) {
-            tracing::warn!(error = %error_chain(&why), "the last logs cannot be written");
-        }
-        Ok((self.state, history, stopped))
-    }
-}
-
-impl Trainer {
-    /// Says in the store why this learner leads no longer, so that a standby need not wait.
-    fn end_leadership(&mut self, outcome: &Result<bool, TrainingError>) {
-        let Some(leadership) = &mut self.serving.leadership else { return };
-        let status = match outcome {
-            Ok(false) => Status::Finished,
-            Ok(true) if self.is_stopped => Status::Stopped,
-            _ => Status::Released,
-        };
-        // A standby finds out by itself that a learner is gone, but not that the run is to end.
-        let within = if status == Status::Released { Duration::ZERO } else { END_WITHIN };
-        match (leadership.end(status, within), status) {
-            (Ok(()), _) => {}
-            (Err(why), Status::Stopped) => {
-                tracing::warn!(error = %error_chain(&why), "the store does not know that the run was stopped: stop standbys, too");
-            }
-            (Err(why), _) => tracing::debug!(error = %error_chain(&why), "end of the leadership not written"),
-        }
-    }
-}
-
-fn transitions(batch: &[AcceptedFragment]) -> u64 {
-    batch.iter().map(|accepted| accepted.fragment.transitions() as u64).sum()
 }

@@ -1,180 +1,198 @@
-//! Collects batches, saves checkpoints, publishes policies, and takes evaluation results.
+//! Collects batches, saves and publishes policies, and takes evaluation results.
 
-use std::time::{Duration, Instant};
+use std::{
+    sync::Arc,
+    time::{Duration, Instant},
+};
 
-use bytes::Bytes;
-use treadmill_bus::{PolicyServer, PublishedPolicy};
-use treadmill_config::LearnerMode;
-use treadmill_runtime::error_chain;
+use treadmill_bus::{
+    Alive, Bus, PolicyServer, PublishedPolicy, RolloutCopies, RolloutIntake, StatsFeed, admission::Admission,
+};
+use treadmill_config::{Config, LearnerMode};
+use treadmill_experience::lineage::Lineage;
+use treadmill_ppo::{AcceptedFragment, BatchSize, Implausible, TrainedPolicy};
+use treadmill_proto::Fragment;
+use treadmill_runtime::{error_chain, shutdown::Shutdown};
 
 use super::{
-    Trainer, TrainingError, commands,
+    TrainingError, TrainingOptions,
     control::ControlChannel,
     evaluation::{EvaluationResult, EvaluationScheduler},
-    heartbeat::Heartbeat,
-    waiting::Retry,
+    status,
+    storage::Storage,
 };
 use crate::{
-    checkpoint::{self, CheckpointWriter, TrainingState, encoding},
-    intake::{BusFragmentSource, Collected, CollectedBatch, Intake},
-    leadership::Leadership,
+    checkpoint::{self, TrainingState, encoding},
+    intake::{BusFragmentSource, Collected, ExpectedFragment, FleetPlan, FragmentValidator, HorizonRule, Intake},
+    waiting::PendingWrites,
 };
 
-/// Serving part of a [`Trainer`]: actors, evaluators and operators.
+/// Serving part of a trainer: actors, evaluators and operators.
 pub(super) struct Serving {
     pub(super) intake: Intake<BusFragmentSource>,
-    pub(super) policies: PolicyServer,
+    policies: PolicyServer,
     /// Evaluation during training, if it is configured.
-    pub(super) evaluation: Option<EvaluationScheduler>,
+    evaluation: Option<EvaluationScheduler>,
     pub(super) control: ControlChannel,
-    /// Whether an operator has paused the run.
-    pub(super) paused: bool,
-    pub(super) checkpoints: CheckpointWriter,
-    /// Right to write the state, of a run in a store.
-    pub(super) leadership: Option<Leadership>,
-    /// Newest checkpoint, encoded.
-    pub(super) saved: Bytes,
-    pub(super) heartbeat: Heartbeat,
-    /// Time that the learner waited for the current batch.
+    pub(super) storage: Storage,
+    /// Time that the learner waited for the current batch. Time in a pause does not count.
     pub(super) waited: Duration,
 }
 
-impl Trainer {
-    /// Collects a batch and applies commands meanwhile. Returns `None` if shutdown is requested.
-    pub(super) fn collect(&mut self) -> Result<Option<CollectedBatch>, TrainingError> {
-        self.serving.waited = Duration::ZERO;
-        loop {
-            self.apply_commands()?;
-            let begun = Instant::now();
-            let Serving { intake, control, .. } = &mut self.serving;
-            let interrupt = || control.has_command() || control.since_status() >= commands::STATUS_EVERY;
-            let size = self.learning.load.batch_size();
-            let collected = intake.collect(size, &self.state.lineage, &self.shutdown, interrupt);
-            // Time in a pause does not count.
-            self.serving.waited += begun.elapsed();
-            match collected {
-                Collected::Batch(batch) => return Ok(Some(batch)),
-                Collected::Interrupted => {
-                    self.check_leadership()?;
-                    self.publish_status_if_due();
-                    let (waited, actors) = (self.serving.waited, self.serving.intake.alive().len());
-                    self.reporting.background.submit(move |report| {
-                        report.show_wait(waited, actors);
-                        Ok(())
-                    });
-                }
-                Collected::Stopped => return Ok(None),
-            }
+impl Serving {
+    /// Opens the flows on the bus and publishes the policy of a state that `storage` has saved. Also returns the
+    /// statistics of actors.
+    pub(super) fn open(
+        bus: &Bus,
+        state: &TrainingState,
+        config: &Config,
+        options: &TrainingOptions,
+        storage: Storage,
+        pending: PendingWrites,
+    ) -> Result<(Self, StatsFeed), TrainingError> {
+        let config_hash = state.config_hash(config);
+        let rule = HorizonRule::new(config, state.shape.observation, state.shape.action);
+        let fleet = FleetPlan::new(rule, config.rollout.envs as usize);
+        let policy = published(state, &state.ppo.trained_policy(), config, config_hash, fleet.nominal(), true)?;
+
+        let capacity = config.learner.intake_fragments as usize;
+        let admission = Arc::new(Admission::new(config.learner.quarantine_after, capacity));
+        let expected = ExpectedFragment {
+            run: state.run.clone(),
+            config_hash,
+            observation_size: state.shape.observation as u32,
+            action_size: state.shape.action as u32,
+            max_policy_lag: config.policy_lag_allowed().into(),
+            physics_version: state.physics_version,
+        };
+        let validator =
+            FragmentValidator::new(expected, admission.clone(), state.ledger.clone(), state.fragment_counts);
+        let copies = RolloutCopies::open(bus, &state.run)?;
+        let queue = RolloutIntake::open(bus, &state.run, capacity, admission, &copies)?;
+        let alive = Alive::watch(bus, &state.run)?;
+        let view = alive.view();
+        let source = BusFragmentSource::new(queue, alive, copies, options.heartbeat.clone());
+        let intake = Intake::new(source, config.learner.mode, validator, fleet);
+
+        let (status, actor_command) = (status::first(state, config), options.report.console.actor_command.clone());
+        let control = ControlChannel::open(bus, status, view.clone(), actor_command, pending)?;
+        let stats = StatsFeed::open(bus, &state.run, view)?;
+        let (every_steps, env_steps) = (config.eval.every_steps, state.counters.env_steps);
+        let scheduler = config.evaluates().then(|| EvaluationScheduler::open(bus, &state.run, every_steps, env_steps));
+        let evaluation = scheduler.transpose()?;
+        let policies = PolicyServer::open(bus, policy)?;
+        Ok((Self { intake, policies, evaluation, control, storage, waited: Duration::ZERO }, stats))
+    }
+
+    /// Adopts a changed configuration.
+    pub(super) fn set_config(&mut self, state: &TrainingState, config: &Config) {
+        self.intake.fleet.set_rule(HorizonRule::new(config, state.shape.observation, state.shape.action));
+        self.storage.set_config(config);
+        if let Some(evaluation) = &mut self.evaluation {
+            evaluation.set_every(config.eval.every_steps, state.counters.env_steps);
         }
     }
 
+    /// Whether evaluators can get policies.
+    pub(super) fn evaluates(&self) -> bool {
+        self.evaluation.is_some()
+    }
+
+    /// Collects a batch until it is complete, a command is queued, the status is due, or shutdown is requested.
+    pub(super) fn collect(&mut self, size: BatchSize, lineage: &Lineage, shutdown: &Shutdown) -> Collected {
+        let begun = Instant::now();
+        let Self { intake, control, .. } = self;
+        let interrupt = || control.has_command() || control.since_status() >= status::EVERY;
+        let collected = intake.collect(size, lineage, shutdown, interrupt);
+        self.waited += begun.elapsed();
+        collected
+    }
+
+    /// Records which fragments of a batch were learnt from. The others were removed from it.
+    pub(super) fn report_learnt(&mut self, rejected: &[(Fragment, Implausible)], learnt: &[AcceptedFragment]) {
+        let validator = &mut self.intake.validator;
+        for (fragment, why) in rejected {
+            validator.report_implausible(fragment, why, Instant::now());
+        }
+        learnt.iter().for_each(|accepted| validator.report_learnt(&accepted.fragment));
+    }
+
     /// Takes the next evaluation result; a policy that is the best so far is saved as `best`.
-    pub(super) fn take_evaluation(&mut self) -> Result<Option<EvaluationResult>, TrainingError> {
-        let Some(result) = self.serving.evaluation.as_mut().and_then(EvaluationScheduler::next_result) else {
+    pub(super) fn take_evaluation(
+        &mut self,
+        state: &mut TrainingState,
+    ) -> Result<Option<EvaluationResult>, TrainingError> {
+        let Some(result) = self.evaluation.as_mut().and_then(EvaluationScheduler::next_result) else {
             return Ok(None);
         };
         let return_mean = result.report.return_mean;
-        let state = &mut self.state;
         if !state.best_is_evaluated || state.best_return.is_none_or(|best| return_mean > best) {
             (state.best_return, state.best_is_evaluated) = (Some(return_mean), true);
             // The checkpoint is older than its result. A run that goes on from it must not forget how good it is.
             let mut best = checkpoint::decode("the evaluated checkpoint", &result.checkpoint)?;
             (best.best_return, best.best_is_evaluated) = (state.best_return, true);
             let best = encoding::encode(&best)?;
-            let Serving { checkpoints, leadership, .. } = &self.serving;
-            if let Some(leadership) = leadership {
-                // A learner that was frozen may have been overtaken without knowing: the best policy is the successor's
-                // then.
-                self.retry.until_written(|| leadership.confirm())?;
-            }
-            self.retry.until_written(|| checkpoints.save_best(&best))?;
+            // If another learner leads, the best policy is its own.
+            self.storage.confirm_leadership()?;
+            self.storage.save_best(&best)?;
         }
         Ok(Some(result))
     }
 
-    /// Writes the checkpoint and returns its bytes. Actors wait for it, so that no version is announced that a crash
-    /// could undo.
-    pub(super) fn save(&mut self) -> Result<Bytes, TrainingError> {
-        let validator = &mut self.serving.intake.validator;
+    /// Writes the checkpoint. Actors wait for it, so that no version is announced that a crash could undo.
+    pub(super) fn save(&mut self, state: &mut TrainingState) -> Result<(), TrainingError> {
+        let validator = &mut self.intake.validator;
         validator.count_unread();
-        self.state.fragment_counts = validator.counts;
-        self.state.ledger = validator.ledger.clone();
+        state.fragment_counts = validator.counts;
+        state.ledger = validator.ledger.clone();
         // Once this state is written, everything accepted so far is durable.
-        self.state.ledger.mark_durable();
-        let best = self.best_in_training();
-        self.state.best_return = best.or(self.state.best_return);
-        let Serving { checkpoints, leadership, .. } = &mut self.serving;
-        let saved = save_newest(&self.state, leadership.as_mut(), checkpoints, &self.retry)?;
-        if best.is_some() {
-            self.retry.until_written(|| checkpoints.save_best(&saved))?;
+        state.ledger.mark_durable();
+        let is_best = state.adopt_best_in_training();
+        self.storage.save(state)?;
+        if is_best {
+            self.storage.save_best(&self.storage.saved)?;
         }
-        self.serving.saved = saved.clone();
-        self.serving.intake.validator.ledger.mark_durable();
-        self.serving.heartbeat.beat();
-        Ok(saved)
+        self.intake.validator.ledger.mark_durable();
+        Ok(())
     }
 
-    /// Keeps the checkpoint if a numbered one is due.
-    pub(super) fn keep(&self, saved: Bytes) {
-        let (checkpoints, retry) = (self.serving.checkpoints.clone(), self.retry.clone());
-        let updates = self.state.counters.updates;
-        if checkpoints.is_due(updates) {
-            self.reporting
-                .background
-                .submit(move |_| Ok(retry.until_written(|| checkpoints.save_numbered(updates, &saved))?));
+    /// Publishes a policy whose state is saved, releases the receipts, and submits it for evaluation if one is due.
+    pub(super) fn publish(
+        &mut self,
+        policy: &TrainedPolicy,
+        state: &TrainingState,
+        config: &Config,
+    ) -> Result<(), TrainingError> {
+        let config_hash = self.intake.validator.config_hash();
+        let published = published(state, policy, config, config_hash, self.intake.fleet.nominal(), false)?;
+        let encoded = published.bundle();
+        self.policies.publish(published);
+        if config.learner.mode == LearnerMode::Sync {
+            self.intake.begin_round(&state.lineage);
         }
-    }
-
-    /// Returns an error if another learner has taken the run over.
-    pub(super) fn check_leadership(&self) -> Result<(), TrainingError> {
-        self.serving.leadership.as_ref().map_or(Ok(()), |leadership| Ok(leadership.check()?))
-    }
-
-    /// Returns the return in training, if it is the best so far and no policy was evaluated yet. A few absurd returns
-    /// must not make a policy the best for ever.
-    fn best_in_training(&self) -> Option<f64> {
-        let TrainingState { episodes, best_is_evaluated, best_return, .. } = &self.state;
-        if *best_is_evaluated {
-            return None;
-        }
-        let return_mean = episodes.middle_return_mean()?;
-        best_return.is_none_or(|best| return_mean > best).then_some(return_mean)
-    }
-
-    /// Publishes the new policy and submits it for evaluation if one is due. `saved` is its checkpoint.
-    pub(super) fn publish(&mut self, saved: &Bytes) -> Result<(), TrainingError> {
-        let invalid = |why| TrainingError::State { why };
-        let mut bundle =
-            self.state.bundle(&self.config, self.serving.intake.validator.config_hash()).map_err(invalid)?;
-        bundle.fragment_steps = self.serving.intake.fleet.nominal();
-        let policy = PublishedPolicy::new(&bundle, &self.state.for_actors(&bundle));
-        let policy = policy.map_err(|why| invalid(error_chain(&why)))?;
-        let encoded = policy.bundle();
-        self.serving.policies.publish(policy);
-        if self.config.learner.mode == LearnerMode::Sync {
-            self.serving.intake.begin_round(&self.state.lineage);
-        }
-        let env_steps = self.state.counters.env_steps;
-        if let Some(evaluation) = &mut self.serving.evaluation
+        let env_steps = state.counters.env_steps;
+        if let Some(evaluation) = &mut self.evaluation
             && evaluation.is_due(env_steps)
         {
-            evaluation.submit(bundle.version, encoded, env_steps, saved.clone());
+            evaluation.submit(state.lineage.newest(), encoded, env_steps, self.storage.saved.clone());
         }
         Ok(())
     }
 }
 
-/// Makes a state the newest of the run. Returns its bytes.
-pub(super) fn save_newest(
+/// Encodes a policy of a state. The first one of a learner has the state of a deterministic run's only actor: one that
+/// joins later must not repeat steps that were learnt from.
+fn published(
     state: &TrainingState,
-    leadership: Option<&mut Leadership>,
-    checkpoints: &CheckpointWriter,
-    retry: &Retry,
-) -> Result<Bytes, TrainingError> {
-    let Some(leadership) = leadership else {
-        return Ok(retry.until_written(|| checkpoints.save(state))?.into());
-    };
-    let encoded = encoding::encode(state)?;
-    retry.until_written(|| leadership.save(&state.run, &state.counters, &encoded))?;
-    Ok(encoded.into())
+    policy: &TrainedPolicy,
+    config: &Config,
+    config_hash: u64,
+    fragment_steps: u32,
+    is_first: bool,
+) -> Result<PublishedPolicy, TrainingError> {
+    let invalid = |why| TrainingError::State { why };
+    let mut bundle = state.bundle(policy, config, config_hash).map_err(invalid)?;
+    bundle.actor_state = state.actor_state.clone().filter(|_| is_first);
+    bundle.fragment_steps = fragment_steps;
+    PublishedPolicy::new(&bundle, &state.for_actors(policy, &bundle)).map_err(|why| invalid(error_chain(&why)))
 }

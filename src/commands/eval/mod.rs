@@ -18,7 +18,7 @@ use treadmill_actor::{
 };
 use treadmill_config::{Config, RandomisationConfig};
 use treadmill_humanoid::{Environment, TaskRegistry};
-use treadmill_learner::checkpoint::Which;
+use treadmill_learner::checkpoint::CheckpointChoice;
 use treadmill_policy::exported::ExportedPolicy;
 use treadmill_runtime::words::shown;
 
@@ -79,7 +79,7 @@ pub struct EvalArgs {
     agent: AgentKind,
     /// Checkpoint: best, latest, or the number of updates of a kept one; by default best if it exists.
     #[arg(long, value_name = "WHICH")]
-    checkpoint: Option<Which>,
+    checkpoint: Option<CheckpointChoice>,
     /// Randomise the episodes as in training; by default they are never randomised.
     #[arg(long)]
     randomised: bool,

@@ -18,7 +18,7 @@ use anyhow::Context;
 use clap::{ArgGroup, Args};
 use serde_json::json;
 use treadmill_humanoid::TaskRegistry;
-use treadmill_learner::checkpoint::Which;
+use treadmill_learner::checkpoint::CheckpointChoice;
 use treadmill_policy::onnx::to_onnx;
 use treadmill_proto::onnx::Ports;
 use treadmill_runtime::atomic_file;
@@ -52,7 +52,7 @@ pub struct ExportArgs {
     ground: Option<PathBuf>,
     /// Checkpoint: best, latest, or the number of updates of a kept one; by default best if it exists.
     #[arg(long, value_name = "WHICH")]
-    checkpoint: Option<Which>,
+    checkpoint: Option<CheckpointChoice>,
     /// Print only one JSON object.
     #[arg(long)]
     json: bool,

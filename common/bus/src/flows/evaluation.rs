@@ -104,7 +104,7 @@ fn read_report(query: &Query, run: &str, rejections: &RateLimitedLog) -> Result<
 /// Replies with the policy to evaluate, or with nothing if there is none or the evaluator has just evaluated it.
 fn answer(query: &Query, candidate: &Candidate, evaluated: Option<PolicyVersion>) {
     let bundle = match &mut *candidate.lock().expect("no holder of this lock panics") {
-        Some(offer) if evaluated != Some(offer.version) => {
+        Some(offer) if !evaluated.is_some_and(|evaluated| evaluated.names_same_policy(offer.version)) => {
             offer.is_handed_out = true;
             offer.bundle.clone()
         }

@@ -244,7 +244,7 @@ impl<W> CachedRuns<W> {
             return Steps::default();
         }
         (entry.announced, entry.is_announcement_new) = (Some(announcement), true);
-        let is_new = entry.version() != Some(announcement.version);
+        let is_new = !entry.has(announcement.version);
         let is_used = now.duration_since(entry.used) < IDLE;
         Steps { answers: Vec::new(), fetch: if is_new && is_used { entry.begin_fetch(run, now) } else { None } }
     }
@@ -270,7 +270,7 @@ impl<W> CachedRuns<W> {
             entry.announced = None;
         }
         // An announcement that came during the fetch may be newer than what was fetched.
-        let is_outdated = entry.announced.is_some_and(|announced| Some(announced.version) != entry.version());
+        let is_outdated = entry.announced.is_some_and(|announced| !entry.has(announced.version));
         if is_outdated && entry.fetches < FETCHES_MAX {
             let fetches = std::mem::take(&mut entry.fetches);
             let fetch = entry.begin_fetch(run, now);
@@ -320,6 +320,10 @@ impl<W> CachedRun<W> {
         self.cached.as_ref().map(|cached| cached.policy.version())
     }
 
+    fn has(&self, version: PolicyVersion) -> bool {
+        self.version().is_some_and(|cached| cached.names_same_policy(version))
+    }
+
     /// Returns whether a version is of a learner that another one has overtaken, as far as this router has heard.
     fn has_overtaken(&self, version: PolicyVersion) -> bool {
         let known = [self.version(), self.announced.map(|announced| announced.version)];
@@ -331,7 +335,7 @@ impl<W> CachedRun<W> {
         let version = cached.policy.version();
         let announced = self.announced.map(|announced| announced.version);
         let is_fresh = self.checked.is_some_and(|checked| now.duration_since(checked) < FRESH);
-        let has = |other: PolicyVersion| other == version || other.is_before(version);
+        let has = |other: PolicyVersion| other.names_same_policy(version) || other.is_before(version);
         let is_behind = request.known.is_some_and(|known| version.is_before(known));
         is_fresh && !is_behind && [announced, request.announced].into_iter().flatten().all(has)
     }

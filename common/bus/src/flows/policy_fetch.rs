@@ -81,7 +81,7 @@ async fn ask_learner(
     }
     let replies = get(bus, keys::policy_latest(run), Vec::new(), timeout)?;
     let whole = next_valid(&replies, "policy bundle", PolicyBundle::decode).await;
-    Ok(whole.map(|bundle| match request.known == Some(bundle.version) {
+    Ok(whole.map(|bundle| match request.known.is_some_and(|known| known.names_same_policy(bundle.version)) {
         true => FetchedPolicy::Unchanged,
         false => FetchedPolicy::Newer(Box::new(bundle)),
     }))
@@ -151,7 +151,7 @@ fn get(bus: &Bus, key: String, payload: Vec<u8>, timeout: Duration) -> Result<Fi
 fn decode(partial: &PartialPolicy, bundle: Bytes) -> Option<PolicyBundle> {
     let run = &partial.run;
     match PolicyBundle::decode(bundle) {
-        Ok(bundle) if bundle.run == *run && Some(bundle.version) == partial.version => return Some(bundle),
+        Ok(bundle) if bundle.run == *run && partial.is_of(bundle.version) => return Some(bundle),
         Ok(_) => tracing::warn!(run, "policy rejected: it is not the one that its pieces name"),
         Err(error) => tracing::warn!(run, %error, "policy rejected"),
     }
@@ -170,6 +170,10 @@ struct PartialPolicy {
 }
 
 impl PartialPolicy {
+    fn is_of(&self, version: PolicyVersion) -> bool {
+        self.version.is_some_and(|own| own.names_same_policy(version))
+    }
+
     /// Returns where the missing pieces begin; only the beginning, as long as nothing is there.
     fn missing(&self) -> impl Iterator<Item = usize> + use<> {
         let (start, end) = (self.bytes.len(), self.total.max(1));
@@ -179,7 +183,7 @@ impl PartialPolicy {
     /// Appends a piece. Returns whether it was the next one. If the server has a newer version by now, begins again.
     fn add(&mut self, piece: PolicyPiece) -> bool {
         let is_first = self.version.is_none();
-        if !is_first && self.version != Some(piece.version) {
+        if !is_first && !self.is_of(piece.version) {
             *self = Self { run: piece.run, version: None, ..Self::default() };
             return false;
         }

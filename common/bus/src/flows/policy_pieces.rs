@@ -59,7 +59,7 @@ impl ActorPolicy {
 
     /// Returns the piece that a requester gets.
     pub(super) fn piece(&self, request: &PolicyRequest) -> PolicyPiece {
-        if request.known == Some(self.version) {
+        if request.known.is_some_and(|known| known.names_same_policy(self.version)) {
             return PolicyPiece::unchanged(&self.run, self.version);
         }
         let bundle = if request.config_hash == self.config_hash { &self.update } else { &self.for_joining };

@@ -19,7 +19,7 @@ use treadmill_bus::{AliveView, Bus, BusError, ControlServer, PendingRequest, Sta
 use treadmill_proto::{Command, ControlReply, RunStatus};
 use treadmill_runtime::machine;
 
-use super::pending_writes::PendingWrites;
+use crate::waiting::PendingWrites;
 use roster::Roster;
 
 /// Commands that may be queued for the training thread.

@@ -5,7 +5,7 @@ use std::{
     time::Instant,
 };
 
-use crate::leadership::follower::STALLED_AFTER;
+use super::STALLED_AFTER;
 
 /// Writes in progress. Clones share them.
 #[derive(Clone, Debug, Default)]

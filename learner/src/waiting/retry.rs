@@ -3,17 +3,17 @@
 use std::{
     error::Error,
     io::{self, ErrorKind},
+    sync::{
+        Arc,
+        atomic::{AtomicBool, Ordering},
+    },
     time::{Duration, Instant},
 };
 
 use treadmill_runtime::{error_chain, shutdown::Shutdown};
 use treadmill_store::StoreError;
 
-use super::{Heartbeat, pending_writes::PendingWrites};
-use crate::{
-    checkpoint::CheckpointError,
-    leadership::{LeadershipError, Successor},
-};
+use super::{Heartbeat, PendingWrites};
 
 /// Pause between two attempts.
 const PAUSE: Duration = Duration::from_millis(500);
@@ -49,37 +49,18 @@ impl MayPass for StoreError {
     }
 }
 
-impl MayPass for CheckpointError {
-    fn obstacle(&self) -> Option<Obstacle> {
-        match self {
-            Self::Write { source, .. } => source.obstacle(),
-            Self::Store(source) => source.obstacle(),
-            _ => None,
-        }
-    }
-}
-
-impl MayPass for LeadershipError {
-    fn obstacle(&self) -> Option<Obstacle> {
-        match self {
-            Self::Store(source) => source.obstacle(),
-            _ => None,
-        }
-    }
-}
-
 /// Repeats writes while an obstacle lasts.
 #[derive(Clone, Debug, Default)]
 pub struct Retry {
     /// A request to stop ends the wait.
     pub shutdown: Shutdown,
-    /// Beats meanwhile: who waits for a disk or a store is healthy, and a restart would lose the update that is not
-    /// saved yet.
+    /// Beats meanwhile: waiting for a disk or the store does not count as a stall, and a restart would lose the update
+    /// that is not saved yet.
     pub heartbeat: Heartbeat,
     /// Writes of this run in progress.
     pub pending: PendingWrites,
-    /// A successor ends the wait, too: the run goes on without this learner.
-    pub successor: Successor,
+    /// Whether another learner leads, which also ends the wait: the run goes on without this one.
+    pub overtaken: Arc<AtomicBool>,
 }
 
 impl Retry {
@@ -94,7 +75,7 @@ impl Retry {
         loop {
             let outcome = write();
             let obstacle = outcome.as_ref().err().and_then(MayPass::obstacle);
-            let goes_on = !self.shutdown.asked() && self.successor.manifest().is_none();
+            let goes_on = !self.shutdown.asked() && !self.overtaken.load(Ordering::Relaxed);
             if let (Err(why), Some(obstacle), true) = (&outcome, obstacle, goes_on) {
                 let error = error_chain(why);
                 pending.record_error(&error);
@@ -121,13 +102,7 @@ impl Retry {
 
 #[cfg(test)]
 mod tests {
-    use treadmill_store::{Store, simulated::SimulatedObjects};
-
     use super::*;
-    use crate::{
-        checkpoint::Counters,
-        leadership::{Leadership, read_manifest},
-    };
 
     fn full() -> io::Error {
         ErrorKind::StorageFull.into()
@@ -144,8 +119,6 @@ mod tests {
         assert_eq!(written.unwrap(), 3);
         let refused = retry.until_written(|| Err::<(), _>(io::Error::from(ErrorKind::PermissionDenied)));
         assert_eq!(refused.unwrap_err().kind(), ErrorKind::PermissionDenied);
-        let source = CheckpointError::Write { path: "latest.bundle".into(), source: full() };
-        assert_eq!(source.obstacle(), Some(Obstacle::DiskFull));
     }
 
     #[test]
@@ -163,13 +136,11 @@ mod tests {
 
     #[test]
     fn a_successor_ends_the_wait() {
-        let store = Store::simulated(&SimulatedObjects::default());
-        Leadership::simulated(&store, None, 1).save("walk", &Counters::default(), b"state").unwrap();
         let (retry, mut tries) = (Retry::default(), 0);
         let refused = retry.until_written(|| {
             tries += 1;
             if tries == 2 {
-                retry.successor.set(read_manifest(&store).unwrap().expect("that of the successor").0);
+                retry.overtaken.store(true, Ordering::Relaxed);
             }
             Err::<(), _>(full())
         });

@@ -3,9 +3,9 @@
 //! If fragments queue although the learner never waits, it first takes larger batches, then makes fewer passes over
 //! each. Actors wait for their receipts only after that.
 
-use treadmill_config::{Config, LearnerMode};
+use treadmill_config::{LearnerMode, PpoConfig};
 
-use crate::intake::{BatchSize, CollectedBatch};
+use crate::settings::BatchSize;
 
 /// Size of the next batch and passes over it.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -19,13 +19,13 @@ pub struct LoadAdaptation {
 impl LoadAdaptation {
     /// Adaptation within the configured bounds. In mode `sync`, a batch holds all that the fleet delivers, and the
     /// passes are fixed.
-    pub fn new(config: &Config) -> Self {
-        let (transitions, epochs) = (config.ppo.batch as usize, config.ppo.epochs);
-        let (transitions_max, epochs_min) = match config.learner.mode {
-            LearnerMode::Sync => (usize::MAX, epochs),
-            LearnerMode::Async => (transitions.max(config.ppo.batch_max as usize), epochs.min(config.ppo.epochs_min)),
+    pub fn new(config: &PpoConfig, mode: LearnerMode) -> Self {
+        let (size, epochs) = (BatchSize::of(config), config.epochs);
+        let (batch_size, epochs_min) = match mode {
+            LearnerMode::Sync => (BatchSize { transitions_max: usize::MAX, ..size }, epochs),
+            LearnerMode::Async => (size, epochs.min(config.epochs_min)),
         };
-        Self { batch_size: BatchSize { transitions, transitions_max }, epochs, epochs_min, epochs_max: epochs }
+        Self { batch_size, epochs, epochs_min, epochs_max: epochs }
     }
 
     /// Size of the next batch.
@@ -38,9 +38,9 @@ impl LoadAdaptation {
         self.epochs
     }
 
-    /// Adapts to a batch: one pass less if there is a backlog, else one more, within the bounds.
-    pub fn adapt(&mut self, batch: &CollectedBatch) {
-        let epochs = if batch.has_backlog { self.epochs - 1 } else { self.epochs + 1 };
+    /// Adapts to a batch: one pass less if more fragments wait than it has room for, else one more, within the bounds.
+    pub fn adapt(&mut self, has_backlog: bool) {
+        let epochs = if has_backlog { self.epochs - 1 } else { self.epochs + 1 };
         self.epochs = epochs.clamp(self.epochs_min, self.epochs_max);
     }
 }
@@ -50,15 +50,12 @@ mod tests {
     use super::*;
 
     fn load(mode: LearnerMode, epochs_min: u32) -> LoadAdaptation {
-        let mut config = Config::default();
-        config.learner.mode = mode;
-        (config.ppo.batch, config.ppo.batch_max) = (100, 250);
-        (config.ppo.epochs, config.ppo.epochs_min) = (5, epochs_min);
-        LoadAdaptation::new(&config)
+        let config = PpoConfig { batch: 100, batch_max: 250, epochs: 5, epochs_min, ..PpoConfig::default() };
+        LoadAdaptation::new(&config, mode)
     }
 
     fn adapt(load: &mut LoadAdaptation, has_backlog: bool) -> u32 {
-        load.adapt(&CollectedBatch { fragments: Vec::new(), has_backlog });
+        load.adapt(has_backlog);
         load.epochs()
     }
 
