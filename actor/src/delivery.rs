@@ -9,7 +9,7 @@ use std::{
 };
 
 use bytes::Bytes;
-use treadmill_bus::{Bus, BusError, submit};
+use treadmill_bus::{Bus, BusError, actor::submit};
 use treadmill_experience::delivery::{Action, Attempt, Delivery, DeliveryCounts, Event, settles};
 use treadmill_proto::{Outcome, Receipt};
 

@@ -10,7 +10,8 @@ use anyhow::Context;
 use clap::Args;
 use serde_json::{Value, json};
 use treadmill_bus::{
-    Alive, Bus, PolicyServer, PublishedPolicy, Role, RolloutCopies, RolloutIntake, ServedPolicies, admission::Admission,
+    Bus, Role,
+    learner::{Admission, Alive, PolicyServer, PublishedPolicy, RolloutCopies, RolloutIntake, ServedPolicies},
 };
 use treadmill_config::{Config, LearnerMode};
 use treadmill_experience::{ledger::Ledger, lineage::Lineage};

@@ -18,8 +18,8 @@ use clap::Args;
 use serde_json::{Value, json};
 use tokio::runtime::{Handle, Runtime};
 use treadmill_bus::{
-    Announcements, Bus, BusOptions, FetchedPolicy, Role, fetch_newer_policy, fetch_policy, submit, token,
-    watch_announcements,
+    Bus, BusOptions, Role,
+    actor::{Announcements, FetchedPolicy, fetch_newer_policy, fetch_policy, submit, token, watch_announcements},
 };
 use treadmill_config::BusConfig;
 use treadmill_experience::delivery::{Action, Delivery, Event};

@@ -16,7 +16,7 @@ use std::{fs::File, io::Read, path::Path, sync::Arc, time::Instant};
 use bytes::Bytes;
 use flate2::read::GzDecoder;
 use tar::Archive;
-use treadmill_bus::admission::Admission;
+use treadmill_bus::learner::Admission;
 use treadmill_config::{Config, ConfigSource};
 use treadmill_experience::{ledger::Ledger, lineage::Lineage};
 use treadmill_humanoid::{HUMANOID_XML, Model, Physics, PhysicsSettings, card::RobotCard};

@@ -4,7 +4,7 @@ use std::time::Duration;
 
 use anyhow::Context;
 use tokio::task::block_in_place;
-use treadmill_bus::StandbyMark;
+use treadmill_bus::learner::StandbyMark;
 use treadmill_learner::{
     checkpoint,
     leadership::{Leadership, LeadershipError, Manifest, follower::LoadedState, read_manifest},

@@ -6,7 +6,7 @@ pub mod sample;
 use crate::support::*;
 use bytes::Bytes;
 use serde_json::Value;
-use treadmill_bus::{Bus, observe, submit};
+use treadmill_bus::{Bus, actor::submit, observer::observe};
 use treadmill_proto::{Fragment, Outcome, Receipt};
 
 /// Run that trains until the end of the test, and a client of its bus.

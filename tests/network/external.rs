@@ -3,7 +3,7 @@
 use std::{fs, path::Path, process::Command};
 
 use crate::{bus::sample::log_probs, support::*};
-use treadmill_bus::{Bus, Role, register_task};
+use treadmill_bus::{Bus, Role, actor::register_task};
 use treadmill_config::ConfigSource;
 use treadmill_learner::checkpoint::load_file;
 use treadmill_proto::{

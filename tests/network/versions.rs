@@ -9,7 +9,10 @@ use std::{
 use crate::{attacks::Attacker, support::*};
 use toml::{Table, Value};
 use treadmill_actor::acting_policy::ActingPolicy;
-use treadmill_bus::{Bus, BusOptions, RolloutCopies, RolloutIntake, admission::Admission};
+use treadmill_bus::{
+    Bus, BusOptions,
+    learner::{Admission, RolloutCopies, RolloutIntake},
+};
 use treadmill_humanoid::PHYSICS_VERSION;
 use treadmill_policy::gaussian;
 use treadmill_proto::{Fragment, Outcome, PolicyBundle, Receipt, WIRE_VERSION, fragment::TERMINATED};
@@ -71,7 +74,7 @@ impl NextLearner {
         let rollouts = RolloutIntake::open(&bus, "run", 4, Arc::new(Admission::new(8, 4)), &copies).unwrap();
         let client = Attacker::join(&endpoints[0], "run", None, TIMEOUT).unwrap();
         let bundle = Arc::new(Mutex::new(bundle));
-        client.serve("treadmill/run/policy/latest", bundle.clone());
+        client.serve_policy(bundle.clone());
         Self { bundle, rollouts, endpoint: endpoints[0].clone(), bus, _client: client }
     }
 
@@ -131,7 +134,7 @@ async fn an_actor_refuses_what_it_must_not_ignore_by_name() {
     for command in ["actor", "evaluator"] {
         refused(command, other_physics.clone(), 1, &[&wanted, "use the same version of treadmill"]);
     }
-    // A key with an effect that older actors do not know.
+    // A key with an effect that this version does not know.
     let newer = PolicyBundle { wire_version_min: WIRE_VERSION + 1, ..bundle.clone() };
     let needed = format!("wire version {}", WIRE_VERSION + 1);
     refused(
@@ -183,11 +186,11 @@ async fn send(bus: &Bus, fragment: &Fragment) -> Receipt {
 }
 
 #[tokio::test(flavor = "multi_thread")]
-async fn a_learner_accepts_fragments_of_the_version_before_and_the_next_but_no_other_physics() {
+async fn a_learner_accepts_fragments_of_other_wire_versions_but_of_no_other_physics() {
     let (folder, run) = folders();
     let _learner = learner(folder.path(), &run);
     let bus = join(&run);
-    // Senders of before there were versions do not set the version of the wire.
+    // A sender that does not set the version of the wire is accepted, too.
     for (sequence, wire_version) in [(1, 0), (2, WIRE_VERSION + 1)] {
         let physics_version = PHYSICS_VERSION;
         let bundle = policy(&bus).await;
@@ -196,7 +199,6 @@ async fn a_learner_accepts_fragments_of_the_version_before_and_the_next_but_no_o
         assert_eq!(receipt.version.number, sequence, "one update for each");
     }
     let bundle = policy(&bus).await;
-    // A sender of before there were versions of the physics has the first one.
     for physics_version in [0, PHYSICS_VERSION + 1] {
         let receipt = send(&bus, &Fragment { physics_version, ..fragment(&bundle, 3) }).await;
         assert_eq!(receipt.outcome, Outcome::Malformed);

@@ -15,7 +15,10 @@ use tokio::{
     sync::{mpsc, watch},
     time::sleep,
 };
-use treadmill_bus::{Announcements, Bus, fetch_policy, keys, publish_dropping, submit, token, watch_announcements};
+use treadmill_bus::{
+    Bus,
+    actor::{Announcements, fetch_policy, publish_stats, submit, token, watch_announcements},
+};
 use treadmill_config::RolloutConfig;
 use treadmill_experience::delivery::{Attempt, Event};
 use treadmill_proto::{ActorStats, Fragment, Outcome, PolicyVersion, Receipt};
@@ -245,7 +248,7 @@ impl PlayedActor {
         let jitter = 0.8 + 0.4 * (self.incarnation % 1000) as f64 / 1000.0;
         let mut poll_due = tokio::time::interval(Duration::from_secs_f64(config.policy_poll_ms as f64 / 1e3 * jitter));
         let mut stats_due = tokio::time::interval(Duration::from_millis(config.stats_every_ms));
-        let publish_stats = publish_dropping(&self.bus, keys::stats(RUN, &self.name))?;
+        let publish_stats = publish_stats(&self.bus, RUN, &self.name)?;
         let (mut since, mut env_steps) = (Instant::now(), 0);
         // Announcements and polls start no fetch while another one of theirs is under way, as in an actor.
         let mut asked = None;

@@ -10,7 +10,7 @@ use anyhow::Context;
 use clap::Args;
 use serde_json::{Value, json};
 use tokio::{runtime::Runtime, sync::watch};
-use treadmill_bus::{Bus, BusOptions, Role, fetch_policy};
+use treadmill_bus::{Bus, BusOptions, Role, actor::fetch_policy};
 use treadmill_rl::{
     launch::{memory, output::say},
     shared::network_args::NetworkArgs,

@@ -3,7 +3,7 @@
 use std::time::{Duration, Instant};
 
 use bytes::Bytes;
-use treadmill_bus::{PolicyServer, PublishedPolicy};
+use treadmill_bus::learner::{PolicyServer, PublishedPolicy};
 use treadmill_config::LearnerMode;
 use treadmill_runtime::error_chain;
 

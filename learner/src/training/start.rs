@@ -3,8 +3,8 @@
 use std::{sync::Arc, time::Duration};
 
 use treadmill_bus::{
-    Alive, AliveView, Bus, BusError, PolicyServer, PublishedPolicy, RolloutCopies, RolloutIntake, StatsFeed,
-    admission::Admission,
+    Bus, BusError,
+    learner::{Admission, Alive, AliveView, PolicyServer, PublishedPolicy, RolloutCopies, RolloutIntake, StatsFeed},
 };
 use treadmill_config::Config;
 use treadmill_runtime::{error_chain, shutdown::Shutdown};
