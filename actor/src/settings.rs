@@ -26,8 +26,7 @@ const NAMED_MAX: usize = 8;
 pub fn read_simulated(bundle: &PolicyBundle) -> Result<Config, ActorError> {
     let config = read_config(bundle)?;
     check_supported(&bundle.run, &config)?;
-    // Runs of before there were versions have physics 1.
-    match bundle.physics_version.max(1) {
+    match bundle.physics_version {
         PHYSICS_VERSION => Ok(config),
         theirs => Err(ActorError::OtherPhysics { run: bundle.run.clone(), theirs }),
     }
@@ -63,15 +62,10 @@ fn is_needed(key: &str) -> bool {
 /// # Errors
 /// If such a fragment is too large for the bus.
 pub(crate) fn first_fragment_steps(bundle: &PolicyBundle, config: &Config, envs: u32) -> Result<u32, ActorError> {
-    let steps = match (bundle.fragment_steps, config.rollout.fragment_steps) {
-        // Of a learner that says nothing.
-        (0, 0) => RolloutConfig::STEPS_MAX,
-        (0, steps) | (steps, _) => steps,
-    };
     let steps = match config.rollout.fragment_steps {
         // The learner does not know this actor yet, whose first fragment alone may fill a batch.
-        0 => steps.min((config.ppo.batch / envs.max(1)).max(RolloutConfig::STEPS_MIN)),
-        _ => steps,
+        0 => bundle.fragment_steps.min((config.ppo.batch / envs.max(1)).max(RolloutConfig::STEPS_MIN)),
+        steps => steps,
     };
     let envs_max = fragment_envs_max(steps, bundle.observation_size as usize, bundle.action_size as usize);
     if envs as usize > envs_max {
@@ -248,13 +242,11 @@ mod tests {
     fn the_first_fragment_holds_at_most_a_batch() {
         let mut config = Config::default();
         let sizes = PolicyBundle { observation_size: 45, action_size: 17, ..PolicyBundle::default() };
-        let mut bundle = PolicyBundle { fragment_steps: 64, ..sizes };
+        let bundle = PolicyBundle { fragment_steps: 64, ..sizes };
         let steps = |bundle: &PolicyBundle, config: &Config, envs| first_fragment_steps(bundle, config, envs).unwrap();
         assert_eq!(steps(&bundle, &config, 32), 64);
         assert_eq!(steps(&bundle, &config, 512), 16);
         assert_eq!(steps(&bundle, &config, 10_000), 8);
-        bundle.fragment_steps = 0;
-        assert_eq!(steps(&bundle, &config, 32), 128, "of a learner that says nothing");
         config.rollout.fragment_steps = 24;
         assert_eq!(steps(&bundle, &config, 4096), 24, "as configured");
         config.rollout.fragment_steps = 32;

@@ -85,7 +85,6 @@ class SettingsTest(unittest.TestCase):
             ("max_in_flight = 0", "", "`rollout.max_in_flight` is None"),
             ("fragment_steps = 32", "fragment_steps = 5000", "`rollout.fragment_steps` is 5000; allowed: 0 to 4096"),
             ("policy_poll_ms = 10000", 'policy_poll_ms = "auto"', "`bus.policy_poll_ms` is 'auto'"),
-            ("max_in_flight = 0", "max_in_flight = 0\nnoise_correlation = 0.5", "`rollout.noise_correlation` is 0.5"),
         ]
         for known, future, message in cases:
             with self.assertRaisesRegex(TaskError, message):

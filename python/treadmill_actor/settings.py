@@ -31,13 +31,6 @@ class Settings:
                 f"{WIRE_VERSION}; use the learner's version of treadmill_actor"
             )
         config = tomllib.loads(bundle.config_toml)
-        # An older learner may have sent the retired key.
-        correlation = config.get("rollout", {}).get("noise_correlation", 0.0)
-        if correlation != 0.0:
-            raise TaskError(
-                f"config key `rollout.noise_correlation` is {correlation}, but the key no longer exists; start a run "
-                "without it, or use the learner's version of treadmill_actor"
-            )
         mode = _choice(config, "learner.mode", ("sync", "async"))
         in_flight = _choice(config, "rollout.max_in_flight", (0, 1, 2))
         steps = _choice(config, "rollout.fragment_steps", range(FRAGMENT_STEPS_MAX + 1))

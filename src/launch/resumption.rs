@@ -90,7 +90,6 @@ pub fn go_on(
     }
     config.run.steps = saved.max(goal);
     config.check()?;
-    // Without retired keys, so that actors need not know them.
     state.config_toml = config.to_toml();
     config.run.steps = goal;
     state.lineage.resume(seeds::unique());

@@ -33,17 +33,6 @@ fn env_measures_steps_with_and_without_observation() {
 }
 
 #[test]
-fn env_ignores_a_retired_key_with_a_notice() {
-    let (folder, _) = folders();
-    let given = ["bench", "env", "--steps", "64", "--json", "--set", "env.solver_iterations=4"];
-    let output = self::run(folder.path(), &given);
-    assert!(output.status.success(), "{}", stderr(&output));
-    let notice = stderr(&output);
-    assert!(notice.contains("retired") && notice.contains("env.solver_iterations"), "{notice}");
-    assert_eq!(last_json(&output)["faults"], 0);
-}
-
-#[test]
 fn env_refuses_a_key_that_does_not_exist() {
     let (folder, _) = folders();
     let output = self::run(folder.path(), &["bench", "env", "--set", "env.substep=4"]);

@@ -26,11 +26,6 @@ fn invalid_configuration_is_refused_with_key_value_and_allowed_values() {
     let range = train(&["--set", "env.contact_cost_range=[3, 1]"]);
     assert_refused(&range, 2, &["env.contact_cost_range", "[3.0, 1.0]", "the first not above the second"]);
     assert_refused(&train(&["--set", "env.task=humanoid-v3"]), 2, &["env.task", "humanoid-v3", "\"humanoid-v4\""]);
-    assert_refused(
-        &train(&["--set", "rollout.noise_correlation=1"]),
-        2,
-        &["rollout.noise_correlation", "is 1", "remove the key"],
-    );
     let mirrored = train(&["--set", "ppo.symmetry=mirrored", "--set", "env.observation=gymnasium-v5"]);
     assert_refused(&mirrored, 2, &["`ppo.symmetry`", "\"mirrored\"", "\"compact\"", "\"off\""]);
     assert_refused(&train(&["--steps", "0"]), 2, &["run.steps", "is 0"]);
