@@ -61,7 +61,7 @@ fn is_needed(key: &str) -> bool {
 ///
 /// # Errors
 /// If such a fragment is too large for the bus.
-pub(crate) fn first_fragment_steps(bundle: &PolicyBundle, config: &Config, envs: u32) -> Result<u32, ActorError> {
+pub fn first_fragment_steps(bundle: &PolicyBundle, config: &Config, envs: u32) -> Result<u32, ActorError> {
     let steps = match config.rollout.fragment_steps {
         // The learner does not know this actor yet, whose first fragment alone may fill a batch.
         0 => bundle.fragment_steps.min((config.ppo.batch / envs.max(1)).max(RolloutConfig::STEPS_MIN)),

@@ -4,7 +4,7 @@
 //! - [`wire`]: structures generated from `schema/*.proto`.
 //! - [`fragment`]: rollout fragments, checked on both sides.
 //! - [`precision`]: precision of observations on the wire.
-//! - [`prepared`]: one encoded fragment sent under many names, and transitions that fragments of any size repeat.
+//! - [`prepared`]: one encoded fragment sent under many names.
 //! - [`bundle`]: policy bundles and their announcements.
 //! - [`policy_pieces`]: conditional requests for the newest policy, answered in pieces.
 //! - [`actor_state`]: complete state of an actor, for deterministic runs.
@@ -73,7 +73,7 @@ pub use fragment::{EndCause, Episode, Fragment};
 pub use policy_pieces::{PolicyPiece, PolicyRequest};
 pub use pose::Pose;
 pub use precision::Precision;
-pub use prepared::{PreparedFragment, PreparedTransitions};
+pub use prepared::PreparedFragment;
 pub use receipt::{Outcome, Receipt};
 pub use reward_term::RewardTerm;
 pub use stats::ActorStats;

@@ -20,7 +20,8 @@ pub fn restart(values: &[(&str, Vec<String>)], pause: Duration) -> io::Error {
     let mut arguments = env::args_os();
     let name = arguments.next().unwrap_or_default();
     // Also if the file of the program was replaced meanwhile.
-    let program = if cfg!(target_os = "linux") { Ok("/proc/self/exe".into()) } else { env::current_exe().map(Into::into) };
+    let program =
+        if cfg!(target_os = "linux") { Ok("/proc/self/exe".into()) } else { env::current_exe().map(Into::into) };
     let pause = format!("{} {}", process::id(), pause.as_millis());
     let command = |program: OsString| {
         Command::new(program).arg0(name).args(replaced(arguments, values)).env(VARIABLE, pause).exec()
